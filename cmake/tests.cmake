@@ -1,0 +1,17 @@
+# One test program per folder of tests/, from every *_test.cc in it; each TEST is a ctest case.
+include(GoogleTest)
+file(GLOB test_folders RELATIVE ${CMAKE_SOURCE_DIR}/tests ${CMAKE_SOURCE_DIR}/tests/*)
+foreach(folder IN LISTS test_folders)
+  file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${folder}/*_test.cc)
+  if(test_sources)
+    add_executable(test_${folder} ${test_sources})
+    target_link_libraries(test_${folder} PRIVATE ${AMBRIG_FOLDERS} GTest::gmock_main)
+    target_compile_definitions(test_${folder} PRIVATE AMBRIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+                               AMBRIG_BINARY="$<TARGET_FILE:ambrig>")
+    add_dependencies(test_${folder} ambrig)
+    gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
+  endif()
+endforeach()
+find_package(Python3 COMPONENTS Interpreter REQUIRED)
+add_test(NAME layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py
+         WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

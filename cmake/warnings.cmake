@@ -1,0 +1,9 @@
+# Warnings are errors (-Wrestrict misfires on std::string in g++ 12); floating-point contraction is off so that results do not depend on the inliner.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-restrict -ffp-contract=off)
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(AMBRIG_SANITIZE "" CACHE STRING "comma separated sanitizers, e.g. address,undefined")
+if(AMBRIG_SANITIZE)
+  add_compile_options(-fsanitize=${AMBRIG_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${AMBRIG_SANITIZE})
+  add_compile_definitions(AMBRIG_SANITIZED)
+endif()

@@ -1,0 +1,31 @@
+#pragma once
+/// A record: channels on one uniform time base. What a run writes and what a rig's data logger
+/// wrote are the same thing (docs/formats: "Record").
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace ambrig {
+
+struct Channel {
+  std::string name;  // "A.x", "A.i1", "bus" ...
+  std::string unit;  // SI inside
+  std::vector<double> samples;
+};
+
+struct Record {
+  double rate = 0;   // [Hz]
+  double start = 0;  // [s], time of the first row
+  std::vector<Channel> channels;
+
+  std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
+  double TimeAt(std::size_t row) const { return start + static_cast<double>(row) / rate; }
+  /// nullptr when absent.
+  const Channel* Find(std::string_view name) const {
+    for (const Channel& c : channels)
+      if (c.name == name) return &c;
+    return nullptr;
+  }
+};
+
+}  // namespace ambrig
