@@ -1,0 +1,431 @@
+#include "actuators/stator_lanes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/errors.h"
+
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(AMBRIG_SANITIZED)
+// The same arithmetic in wider registers where the machine has them: same bits, no contraction.
+#define AMBRIG_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define AMBRIG_WIDE
+#endif
+
+namespace ambrig {
+
+namespace {
+
+/// What one sample's update reads and writes; pointers into a StatorLanes.
+struct Kernel {
+  const double *n, *c, *inverse_l, *half_rh, *leakage, *g0, *dg;
+  double *lambda, *i, *phi, *sum;
+};
+
+inline double Clamp(double x, double h) { return x < 0 ? 0 : (x > h ? h : x); }
+
+/// Solves the circuit for the trapezoid targets λ*; every lane written out (engine.md).
+template <Coupling kCoupling>
+[[gnu::always_inline]] inline void Solve(const Kernel& s, const double* target, double fraction) {
+  double g[kLanes], m[kLanes];
+  for (int j = 0; j < kLanes; ++j) g[j] = s.g0[j] + s.dg[j] * fraction;
+  for (int j = 0; j < kLanes; ++j) m[j] = s.c[j] * target[j];
+  if constexpr (kCoupling == Coupling::kFloatingRotor) {
+    double gm[kLanes];
+    for (int j = 0; j < kLanes; ++j) gm[j] = g[j] * m[j];
+    const double top = ((gm[0] + gm[4]) + (gm[2] + gm[6])) + ((gm[1] + gm[5]) + (gm[3] + gm[7]));
+    const double sum = ((g[0] + g[4]) + (g[2] + g[6])) + ((g[1] + g[5]) + (g[3] + g[7]));
+    const double U = top / sum;
+    for (int j = 0; j < kLanes; ++j) s.phi[j] = gm[j] - g[j] * U;
+  } else if constexpr (kCoupling == Coupling::kSides) {
+    for (int j = 0; j < kLanes; j += 2) s.phi[j] = s.phi[j + 1] = g[j] * (m[j] + m[j + 1]);
+  } else {
+    for (int j = 0; j < kLanes; ++j) s.phi[j] = g[j] * m[j];
+  }
+  for (int j = 0; j < kLanes; ++j) s.i[j] = s.inverse_l[j] * (target[j] - s.n[j] * s.phi[j]);
+  for (int j = 0; j < kLanes; ++j) s.lambda[j] = s.n[j] * s.phi[j] + s.leakage[j] * s.i[j];
+}
+
+template <Coupling kCoupling>
+[[gnu::always_inline]] inline void Targets(const Kernel& s, const VoltagePattern& p, const double* v,
+                                           double t, double h, double* target) {
+  // v: the three voltages per lane; ∫v dt over [t, t + h] from the two edges.
+  for (int j = 0; j < kLanes; ++j) {
+    const double a = Clamp(p.t1.v[j] - t, h), b = Clamp(p.t2.v[j] - t, h);
+    const double volt_seconds =
+        v[2 * kLanes + j] * h + (v[kLanes + j] - v[2 * kLanes + j]) * b + (v[j] - v[kLanes + j]) * a;
+    target[j] = s.lambda[j] + volt_seconds - s.half_rh[j] * s.i[j];
+  }
+}
+
+/// Runs samples from k while nothing needs attention; returns the index of the sample whose
+/// solution has a negative current (its targets are left in `target`), or `count`.
+template <Coupling kCoupling>
+[[gnu::always_inline]] inline int Run(const Kernel& s, const VoltagePattern& p, const double* v,
+                                      double h, int k, int count, double floor, Lane* samples,
+                                      double* target) {
+  const double per = 1.0 / count;
+  for (; k < count; ++k) {
+    for (int j = 0; j < kLanes; ++j) samples[k].v[j] = s.i[j];
+    Targets<kCoupling>(s, p, v, k * h, h, target);
+    Solve<kCoupling>(s, target, (k + 1) * per);
+    double least = 0;
+    for (int j = 0; j < kLanes; ++j) least = s.i[j] < least ? s.i[j] : least;
+    if (least < floor) return k;
+    for (int j = 0; j < kLanes; ++j) s.sum[j] += s.phi[j] * s.phi[j];
+  }
+  return k;
+}
+
+AMBRIG_WIDE int RunRadial(const Kernel& s, const VoltagePattern& p, const double* v, double h, int k,
+                          int count, double floor, Lane* samples, double* target) {
+  return Run<Coupling::kFloatingRotor>(s, p, v, h, k, count, floor, samples, target);
+}
+AMBRIG_WIDE int RunSides(const Kernel& s, const VoltagePattern& p, const double* v, double h, int k,
+                         int count, double floor, Lane* samples, double* target) {
+  return Run<Coupling::kSides>(s, p, v, h, k, count, floor, samples, target);
+}
+AMBRIG_WIDE int RunSeparate(const Kernel& s, const VoltagePattern& p, const double* v, double h, int k,
+                            int count, double floor, Lane* samples, double* target) {
+  return Run<Coupling::kNone>(s, p, v, h, k, count, floor, samples, target);
+}
+
+void SolveOnce(Coupling coupling, const Kernel& s, const double* target, double fraction) {
+  switch (coupling) {
+    case Coupling::kFloatingRotor: return Solve<Coupling::kFloatingRotor>(s, target, fraction);
+    case Coupling::kSides: return Solve<Coupling::kSides>(s, target, fraction);
+    case Coupling::kNone: return Solve<Coupling::kNone>(s, target, fraction);
+  }
+}
+
+/// Whether the switches of lane j are closed at time t of the period, and where the pattern stands.
+int SegmentAt(const VoltagePattern& p, int j, double t) { return t < p.t1[j] ? 0 : (t < p.t2[j] ? 1 : 2); }
+
+}  // namespace
+
+void StatorLanes::UpdateConductance(int j) {
+  c_[j] = n[j] * inverse_l_[j];
+  const auto own = [&](int lane) { return n[lane] * n[lane] * inverse_l_[lane]; };
+  const int other = j ^ 1;
+  const double nc = coupling == Coupling::kSides ? own(j) + own(other) : own(j);
+  const auto set = [&](int lane) {
+    g0_[lane] = 1 / (rel0_[lane] + nc);
+    dg_[lane] = 1 / (rel1_[lane] + nc) - g0_[lane];
+  };
+  set(j);
+  if (coupling == Coupling::kSides) set(other);
+}
+
+void StatorLanes::Block(int j) {
+  blocked[j] = true;
+  inverse_l_[j] = 0;
+  UpdateConductance(j);
+}
+
+void StatorLanes::Unblock(int j) {
+  if (open[j] || n[j] == 0) return;
+  blocked[j] = false;
+  inverse_l_[j] = 1 / (leakage[j] + half_rh_[j]);
+  UpdateConductance(j);
+}
+
+void StatorLanes::SetStep(double h) {
+  h_ = h;
+  any_short = false;
+  for (int j = 0; j < kLanes; ++j) {
+    const bool inert = j >= coils || open[j] || n[j] == 0;
+    half_rh_[j] = inert ? 0 : 0.5 * resistance[j] * h;
+    if (inert) blocked[j] = true;
+    inverse_l_[j] = blocked[j] ? 0 : 1 / (leakage[j] + half_rh_[j]);
+    if (n2[j] != 0) {
+      any_short = true;
+      // Exponentially fitted: exact for the loop's own decay R/L, stable however stiff.
+      const double a = resistance2[j] * h / leakage2[j];
+      theta2_[j] = a < 1e-3 ? 0.5 + a / 12 : 1 / -std::expm1(-a) - 1 / a;
+    }
+  }
+}
+
+void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int samples_per_period) {
+  x0_ = x0;
+  y0_ = y0;
+  x1_ = x1;
+  y1_ = y1;
+  per_period_ = samples_per_period;
+  for (int j = 0; j < kLanes; ++j) {
+    rel0_[j] = reluctance.Value(GapAt(j, x0, y0));
+    rel1_[j] = reluctance.Value(GapAt(j, x1, y1));
+    const double slope = reluctance.Slope(0.5 * (GapAt(j, x0, y0) + GapAt(j, x1, y1)));
+    weight_[j] = (coupling == Coupling::kSides && j % 2 == 1) || j >= coils ? 0 : 0.5 * slope;
+    sum_[j] = 0;
+    start_sq_[j] = phi[j] * phi[j];
+  }
+  for (int j = 0; j < kLanes; ++j) UpdateConductance(j);
+}
+
+void StatorLanes::EndPeriod() {
+  // Trapezoid over the samples: half of the first and of the last.
+  fx = fy = 0;
+  for (int j = 0; j < kLanes; ++j) {
+    const double mean = (sum_[j] + 0.5 * (start_sq_[j] - phi[j] * phi[j])) / per_period_;
+    fx += weight_[j] * direction_x[j] * mean;
+    fy += weight_[j] * direction_y[j] * mean;
+  }
+}
+
+void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
+                            double y1, int samples_per_period) {
+  BeginPeriod(x0, y0, x1, y1, samples_per_period);
+  double v[3 * kLanes];
+  for (int q = 0; q < 3; ++q)
+    for (int j = 0; j < kLanes; ++j) v[q * kLanes + j] = pattern.gain[q][j] * bus + pattern.drop[q][j];
+  const Kernel s{n.v, c_.v, inverse_l_.v, half_rh_.v, leakage.v, g0_.v, dg_.v, lambda.v, i.v, phi.v, sum_.v};
+  const auto run = coupling == Coupling::kFloatingRotor ? RunRadial
+                   : coupling == Coupling::kSides       ? RunSides
+                                                        : RunSeparate;
+  const double floor = unipolar ? 0 : -kInfinity;
+  const auto unblock_driven = [&](double t) {
+    for (int j = 0; j < coils; ++j)
+      if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0)) Unblock(j);
+  };
+  unblock_driven(0);
+  Lane target;
+  int k = 0;
+  while ((k = run(s, pattern, v, h_, k, per_period_, floor, samples, target.v)) < per_period_) {
+    // Some diodes block within sample k: take those coils out and solve the sample again.
+    for (int round = 0; round < kLanes; ++round) {
+      bool any = false;
+      for (int j = 0; j < coils; ++j)
+        if (i[j] < 0) {
+          Block(j);
+          any = true;
+        }
+      if (!any) break;
+      SolveOnce(coupling, s, target.v, (k + 1.0) / per_period_);
+    }
+    for (int j = 0; j < kLanes; ++j) sum_[j] += phi[j] * phi[j];
+    ++k;
+    if (k < per_period_) unblock_driven(k * h_);
+  }
+  EndPeriod();
+}
+
+void StatorLanes::SolveGeneral(const Lane& target, const Lane& target2, double h) {
+  Lane c2, inverse2, drop, slope;
+  for (int j = 0; j < kLanes; ++j)
+    if (n2[j] != 0) {
+      inverse2[j] = 1 / (leakage2[j] + theta2_[j] * resistance2[j] * h);
+      c2[j] = n2[j] * inverse2[j];
+    }
+  const int rounds = laws.empty() ? 1 : 12;
+  for (int round = 0; round < rounds; ++round) {
+    Lane g, m;
+    for (int j = 0; j < kLanes; ++j) {
+      drop[j] = slope[j] = 0;
+      for (const FluxLaw* law : laws) {
+        double d = 0, s = 0;
+        if (j < coils) law->Drop(j, phi[j], h, &d, &s);
+        drop[j] += d;
+        slope[j] += s;
+      }
+      m[j] = c_[j] * target[j] + c2[j] * target2[j] - (drop[j] - slope[j] * phi[j]);
+      g[j] = rel_[j] + n[j] * c_[j] + n2[j] * c2[j] + slope[j];
+    }
+    double change = 0, size = 0, U = 0;
+    Lane fresh;
+    if (coupling == Coupling::kFloatingRotor) {
+      double top = 0, sum = 0;
+      for (int j = 0; j < kLanes; ++j) {
+        top += m[j] / g[j];
+        sum += 1 / g[j];
+      }
+      U = top / sum;
+    }
+    for (int j = 0; j < kLanes; ++j) {
+      double next;
+      if (coupling == Coupling::kSides) {
+        const int o = j ^ 1;
+        // One core, two windings: its iron counts once, in the even lane's terms.
+        const int e = j & ~1;
+        const double winding = n[j] * c_[j] + n[o] * c_[o] + n2[j] * c2[j] + n2[o] * c2[o];
+        next = (c_[j] * target[j] + c_[o] * target[o] + c2[j] * target2[j] + c2[o] * target2[o] -
+                (drop[e] - slope[e] * phi[e])) /
+               (rel_[e] + winding + slope[e]);
+      } else {
+        next = (m[j] - U) / g[j];
+      }
+      change = std::max(change, std::abs(next - phi[j]));
+      size = std::max(size, std::abs(next));
+      fresh[j] = next;
+    }
+    phi = fresh;
+    if (change <= 1e-10 * size + 1e-18) break;
+  }
+  for (int j = 0; j < kLanes; ++j) {
+    i[j] = inverse_l_[j] * (target[j] - n[j] * phi[j]);
+    if (n2[j] != 0) i2[j] = inverse2[j] * (target2[j] - n2[j] * phi[j]);
+  }
+}
+
+void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
+  const double t = k * h_, fraction = (k + 1.0) / per_period_;
+  samples[k] = i;
+  Lane target, target2;
+  const Lane i_start = i;
+  for (int j = 0; j < kLanes; ++j) {
+    rel_[j] = rel0_[j] + (rel1_[j] - rel0_[j]) * fraction;
+    const double edge[4] = {0, pattern.t1[j], std::max(pattern.t1[j], pattern.t2[j]), kInfinity};
+    double volt_seconds = 0;
+    for (int q = 0; q < 3; ++q) {
+      const double span = Clamp(edge[q + 1] - t, h_) - (q == 0 ? 0 : Clamp(edge[q] - t, h_));
+      if (span <= 0) continue;
+      if (blocked[j] && j < coils && !open[j] && (!unipolar || pattern.gain[q][j] > 0)) Unblock(j);
+      if (!blocked[j]) volt_seconds += span * (pattern.gain[q][j] * bus + pattern.drop[q][j]);
+    }
+    target[j] = lambda[j] + volt_seconds - half_rh_[j] * i[j];
+    if (n2[j] != 0) target2[j] = lambda2[j] - (1 - theta2_[j]) * resistance2[j] * h_ * i2[j];
+  }
+  for (int round = 0; round <= kLanes; ++round) {
+    SolveGeneral(target, target2, h_);
+    bool any = false;
+    for (int j = 0; unipolar && j < coils; ++j)
+      if (i[j] < 0) {
+        Block(j);
+        any = true;
+      }
+    if (!any) break;
+  }
+  bus_current_ = 0;
+  for (int j = 0; j < kLanes; ++j) {
+    lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
+    if (n2[j] != 0) lambda2[j] = n2[j] * phi[j] + leakage2[j] * i2[j];
+    for (FluxLaw* law : laws)
+      if (j < coils && (coupling != Coupling::kSides || j % 2 == 0)) law->Commit(j, phi[j], h_);
+    sum_[j] += phi[j] * phi[j];
+    const double edge[4] = {0, pattern.t1[j], std::max(pattern.t1[j], pattern.t2[j]), kInfinity};
+    for (int q = 0; q < 3; ++q) {
+      const double a = q == 0 ? 0 : Clamp(edge[q] - t, h_), b = Clamp(edge[q + 1] - t, h_);
+      if (b > a)
+        bus_current_ += pattern.gain[q][j] * (b - a) / h_ * (i_start[j] + (i[j] - i_start[j]) * 0.5 * (a + b) / h_);
+    }
+  }
+}
+
+void StatorLanes::Refresh(double x, double y) {
+  // Same as a solve with no voltage and no time: currents that carry the present linkages.
+  const double h = h_;
+  for (int j = 0; j < kLanes; ++j) rel_[j] = reluctance.Value(GapAt(j, x, y));
+  const Lane keep_half = half_rh_, keep_resistance2 = resistance2, keep_inverse = inverse_l_;
+  for (int j = 0; j < kLanes; ++j) {
+    half_rh_[j] = 0;
+    resistance2[j] = 0;
+    inverse_l_[j] = blocked[j] ? 0 : 1 / leakage[j];
+    c_[j] = n[j] * inverse_l_[j];
+  }
+  SolveGeneral(lambda, lambda2, 0);
+  half_rh_ = keep_half;
+  resistance2 = keep_resistance2;
+  inverse_l_ = keep_inverse;
+  for (int j = 0; j < kLanes; ++j) {
+    c_[j] = n[j] * inverse_l_[j];
+    if (blocked[j]) i[j] = 0;
+    lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
+  }
+  h_ = h;
+}
+
+void StatorLanes::Settle(const Lane& currents, double x, double y) {
+  // Linear start, then the iron laws' own fixed point at the given currents.
+  Lane drop;
+  for (int j = 0; j < kLanes; ++j) {
+    i[j] = j < coils && !open[j] ? currents[j] : 0;
+    i2[j] = 0;
+    rel_[j] = reluctance.Value(GapAt(j, x, y));
+    phi[j] = 0;
+  }
+  for (int round = 0; round < (laws.empty() ? 1 : 200); ++round) {
+    Lane g, m, slope;
+    double top = 0, sum = 0;
+    for (int j = 0; j < kLanes; ++j) {
+      drop[j] = slope[j] = 0;
+      for (const FluxLaw* law : laws) {
+        double d = 0, s = 0;
+        if (j < coils) law->Drop(j, phi[j], kInfinity, &d, &s);
+        drop[j] += d;
+        slope[j] += s;
+      }
+      const double mmf = coupling == Coupling::kSides ? n[j] * i[j] + n[j ^ 1] * i[j ^ 1] : n[j] * i[j];
+      m[j] = mmf - (drop[j] - slope[j] * phi[j]);
+      g[j] = 1 / (rel_[j] + slope[j]);
+      top += g[j] * m[j];
+      sum += g[j];
+    }
+    const double U = coupling == Coupling::kFloatingRotor ? top / sum : 0;
+    double change = 0;
+    for (int j = 0; j < kLanes; ++j) {
+      const double next = g[j] * (m[j] - U);
+      change = std::max(change, std::abs(next - phi[j]));
+      phi[j] = next;
+    }
+    if (change < 1e-16) break;
+  }
+  for (int j = 0; j < kLanes; ++j) {
+    for (FluxLaw* law : laws)
+      if (j < coils) law->Settle(j, phi[j]);
+    lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
+    lambda2[j] = n2[j] * phi[j];
+    blocked[j] = j >= coils || open[j] || n[j] == 0 || (unipolar && i[j] <= 0);
+  }
+  SetStep(h_);
+}
+
+void StatorLanes::Break(int j, double x, double y) {
+  open[j] = true;
+  blocked[j] = true;
+  half_rh_[j] = 0;
+  inverse_l_[j] = 0;
+  i[j] = 0;
+  Refresh(x, y);
+  SetStep(h_);
+}
+
+void StatorLanes::ShortTurns(int j, double s, double r, double x, double y) {
+  // The current of every turn is continuous; leakage scales with turns squared.
+  const double turns = n[j], leak = leakage[j], coil_resistance = resistance[j];
+  n[j] = (1 - s) * turns;
+  leakage[j] = (1 - s) * (1 - s) * leak;
+  resistance[j] = (1 - s) * coil_resistance;
+  if (std::isfinite(r)) {
+    n2[j] = s * turns;
+    leakage2[j] = s * s * leak;
+    resistance2[j] = s * coil_resistance + r;
+    i2[j] = i[j];
+    lambda2[j] = n2[j] * phi[j] + leakage2[j] * i2[j];
+  }
+  lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
+  SetStep(h_);
+  Refresh(x, y);
+}
+
+void StatorLanes::Force(double x, double y, double* out_x, double* out_y) const {
+  *out_x = *out_y = 0;
+  for (int j = 0; j < coils; ++j) {
+    if (coupling == Coupling::kSides && j % 2 == 1) continue;
+    const double pull = 0.5 * reluctance.Slope(GapAt(j, x, y)) * phi[j] * phi[j];
+    *out_x += pull * direction_x[j];
+    *out_y += pull * direction_y[j];
+  }
+}
+
+double StatorLanes::FieldEnergy(double x, double y) const {
+  double w = 0;
+  for (int j = 0; j < coils; ++j) {
+    w += 0.5 * leakage[j] * i[j] * i[j];
+    if (n2[j] != 0) w += 0.5 * leakage2[j] * i2[j] * i2[j];
+    if (coupling == Coupling::kSides && j % 2 == 1) continue;
+    w += 0.5 * reluctance.Value(GapAt(j, x, y)) * phi[j] * phi[j];
+  }
+  return w;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,129 @@
+#pragma once
+/// The lockstep update of up to eight coils of one bearing, one lane each.
+///
+/// State is the linkage λ of each driven winding. With leakage L_l per coil the circuit is solved
+/// pole by pole (Norton form), so the inverse of the diagonal-plus-rank-one L costs O(8):
+///
+///   λ* = λ + ∫v dt - (R h/2) i                 trapezoid; ∫v exact, the switching edge included
+///   φ (1/P + n c) = c λ* - U,   c = n/(L_l + R h/2)
+///   i = (λ* - n φ)/(L_l + R h/2),   λ = n φ + L_l i
+///
+/// n is the signed number of turns. U is the rotor's potential: Σφ = 0 over the poles (radial), the
+/// two windings of a side share a core (thrust), or none (opposed magnets). A coil whose diodes
+/// block (off, i = 0) has c = 0: it carries no current and its linkage follows the others' flux.
+/// Because every λ depends on its own voltage only, blocking inside a step leaves no error.
+///
+/// Source: shared/design/physics.md sections 2, 3, 6; engine.md.
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "actuators/flux_law.h"
+#include "core/base/parameters.h"
+
+namespace ambrig {
+
+inline constexpr int kLanes = 8;
+
+/// One value per lane, aligned for vector loads.
+struct alignas(64) Lane {
+  double v[kLanes] = {};
+  double& operator[](int j) { return v[j]; }
+  double operator[](int j) const { return v[j]; }
+};
+
+enum class Coupling { kFloatingRotor, kSides, kNone };
+
+/// How the voltage of every coil runs over one switching period: v0 until t1, v1 until t2, then v2.
+/// Each voltage is gain * bus + drop; `on` tells which of the three closes the switches.
+struct VoltagePattern {
+  Lane t1, t2;           // [s] from the start of the period
+  Lane gain[3], drop[3]; // [-], [V]
+};
+
+/// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it.
+struct GapReluctance {
+  double per_metre = 0;   // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]
+  double iron_path = 0;   // [m] added to the gap (effect iron-reluctance)
+  double fringing = 0;    // area grows as 1 + fringing g/gap0 (effect fringing)
+  double gap0 = 1;        // [m]
+  double offset = 0;      // [1/H] constant part (opposed magnets: g_c)
+  double Value(double g) const { return per_metre * (g / (1 + fringing * g / gap0) + iron_path) + offset; }
+  double Slope(double g) const {
+    const double a = 1 + fringing * g / gap0;
+    return per_metre / (a * a);
+  }
+};
+
+class StatorLanes {
+ public:
+  Coupling coupling = Coupling::kFloatingRotor;
+  int coils = kLanes;
+  // Parameters by lane. Lanes beyond `coils` stay inert (no turns, blocked).
+  Lane n, leakage, resistance;   // signed turns, [H], [ohm]
+  Lane direction_x, direction_y; // of the pull: cos γ, sin γ (thrust: z along x)
+  Lane gap_offset;               // g = gap_offset - x dx - y dy  [m]
+  GapReluctance reluctance;
+  std::vector<FluxLaw*> laws;    // iron laws, empty for ideal iron
+  // Shorted turns: a second winding per pole that nobody drives. n2 = 0 where there is none.
+  bool any_short = false;
+  Lane n2, leakage2, resistance2, lambda2, i2;
+  std::array<bool, kLanes> open{};       // broken for good
+  bool unipolar = true;                  // two-quadrant bridges: i >= 0
+
+  // State.
+  Lane lambda, i, phi;                   // [Wb], [A], [Wb]
+  std::array<bool, kLanes> blocked{};
+
+  // Results of the last period.
+  Lane samples[64];                      // i at the ADC instants k = 0..n-1 [A]
+  double fx = 0, fy = 0;                 // mean force [N]
+
+  void SetStep(double h);                // [s] between ADC samples
+  /// Sets currents and linkages of a standing start at (x, y).
+  void Settle(const Lane& currents, double x, double y);
+  /// Recomputes currents and flux from the linkages after a parameter changed (fault).
+  void Refresh(double x, double y);
+  /// Coil j breaks: its current is gone, the other linkages stay.
+  void Break(int j, double x, double y);
+  /// A fraction s of coil j's turns is shorted through r [ohm] (infinite: bypassed).
+  void ShortTurns(int j, double s, double r, double x, double y);
+
+  /// One switching period of `samples_per_period` steps while the gap moves from (x0, y0) to
+  /// (x1, y1); constant bus, ideal iron, no shorted turns: the fast path.
+  void RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
+                 double y1, int samples_per_period);
+
+  /// The general path, one sample at a time: any flux law, shorted turns, moving bus, late edges.
+  void BeginPeriod(double x0, double y0, double x1, double y1, int samples_per_period);
+  void StepSample(const VoltagePattern& pattern, double bus, int k);
+  void EndPeriod();
+  /// Mean current drawn from the bus over sample k [A] (general path).
+  double bus_current() const { return bus_current_; }
+
+  bool NeedsGeneralPath() const { return any_short || !laws.empty(); }
+  /// Instantaneous force at the present flux.
+  void Force(double x, double y, double* out_x, double* out_y) const;
+  double FieldEnergy(double x, double y) const;  // [J], ideal iron
+
+ private:
+  double GapAt(int j, double x, double y) const {
+    return gap_offset[j] - x * direction_x[j] - y * direction_y[j];
+  }
+  void UpdateConductance(int j);
+  void Block(int j);
+  void Unblock(int j);
+  void SolveGeneral(const Lane& target, const Lane& target2, double h_mean);
+
+  double h_ = 0;
+  Lane half_rh_, inverse_l_, c_;        // R h/2, 1/(L_l + R h/2) (0 when blocked), n * inverse_l
+  Lane rel0_, rel1_, g0_, dg_;          // reluctance at both ends, conductance and its change
+  Lane weight_, sum_, start_sq_;        // force weight, sums of φ²
+  double x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;
+  int per_period_ = 18;
+  Lane theta2_;                         // implicitness of the shorted loop
+  Lane rel_;
+  double bus_current_ = 0;
+};
+
+}  // namespace ambrig

@@ -1,0 +1,141 @@
+#pragma once
+/// The moving side of the rig: rigid rotor with gyroscopics, bending modes of the free shaft,
+/// auxiliary bearings with races and mounts, a compliant base, and any force terms.
+///
+///   m x'' = Fx                 It alpha'' + Ip Omega beta'  = Mx
+///   m y'' = Fy                 It beta''  - Ip Omega alpha' = My
+///   m z'' = Fz                 theta' = Omega (prescribed, or Ip Omega' = Mz)
+///
+/// A radial force at z gives Mx = -z fy, My = z fx; the shaft centre there sits at
+/// (x + z beta, y - z alpha). On a moving base the coordinates are relative to the base, so gaps
+/// and readings need no correction; the rotor feels minus the base's acceleration.
+/// Source: shared/design/physics.md sections 1 and 8.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/base/parameters.h"
+#include "rotor/auxiliary_bearing.h"
+#include "rotor/force_term.h"
+#include "rotor/speed_profile.h"
+
+namespace ambrig {
+
+struct RotorParameters {
+  double mass = kRequired;
+  double inertia_transverse = kRequired;
+  double inertia_polar = kRequired;
+  double journal_radius = kRequired;
+};
+
+inline constexpr Field<RotorParameters> kRotorFields[] = {
+    {"mass", &RotorParameters::mass, "kg", 1e-6, 1e6, "m"},
+    {"inertia_transverse", &RotorParameters::inertia_transverse, "kg m2", 1e-12, 1e6,
+     "It, about the centre of mass"},
+    {"inertia_polar", &RotorParameters::inertia_polar, "kg m2", 0, 1e6, "Ip, about the spin axis"},
+    {"journal_radius", &RotorParameters::journal_radius, "m", 1e-4, 10,
+     "at the auxiliary bearings"},
+};
+
+/// One bending mode, mass normalised: eta'' + 2 zeta w eta' + w² eta = gain(z) f in both planes.
+struct BendingMode {
+  double omega = 0;          // [rad/s]
+  double damping = 0;        // zeta [-]
+  double gyroscopic = 0;     // [-] coupling of the two planes: ± g Omega eta'
+  std::vector<std::pair<double, double>> shape;  // (z [m], gain [kg^-1/2]), interpolated linearly
+  double rotating_damping = 0;                   // [1/s] internal: -d (eta' - i Omega eta)
+  double Gain(double z) const;
+};
+
+/// An auxiliary bearing in the model; its optional mount and race own coordinates.
+struct AuxiliaryPlane {
+  std::string name;
+  PlaneMap map;
+  AuxiliaryParameters parameters;
+  int mount_dof = -1, race_dof = -1;
+};
+
+/// Displacement of the shaft's surface from its axis (bow): moves gaps, journals and readings.
+class SurfaceTerm {
+ public:
+  virtual ~SurfaceTerm() = default;
+  virtual void Add(const MotionState& state, double z, double* dx, double* dy) const = 0;
+};
+
+/// An external force of the scenario: between start and stop, at z. [N], [m], [s]
+struct ExternalLoad {
+  PlaneMap map;
+  double fx = 0, fy = 0, fz = 0;
+  double start = 0, stop = 0;
+};
+
+class RotorModel {
+ public:
+  RotorModel(const RotorParameters& parameters, const std::array<double, 3>& gravity);
+
+  // Assembly; every mode must be added before the planes.
+  void AddBendingMode(const BendingMode& mode);
+  PlaneMap MakePlane(double z) const;
+  void AddAuxiliary(const std::string& name, double z, const AuxiliaryParameters& p);
+  void SetAxialStop(const AuxiliaryParameters& p) { axial_ = p; has_axial_ = true; }
+  void SetBase(double mass, double stiffness, double damping);
+  void AddLoad(double z, double fx, double fy, double fz, double start, double stop);
+  void SetSpeed(const SpeedProfile& profile, double free_from = kInfinity);
+
+  std::vector<std::unique_ptr<ForceTerm>> terms;
+  std::vector<std::unique_ptr<SurfaceTerm>> surface;
+  bool axial_free = false;  // false without a thrust bearing: z stays put
+
+  /// Fills theta, Omega of `s` at its time t if the speed is prescribed there.
+  void SetSpin(MotionState& s) const;
+  /// Advances by dt under constant magnetic forces `Q` (and what they push on the stator).
+  void Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const;
+  /// Accelerations at `s`.
+  void Accelerations(const MotionState& s, const DofVector& Q, double stator_x, double stator_y,
+                     DofVector& a, double* torque) const;
+  /// Shaft centre (with bow) at a plane. [m]
+  void Position(const MotionState& s, const PlaneMap& plane, double* x, double* y) const;
+  /// Largest penetration over the auxiliary bearings [m]; negative: the least clearance left.
+  double Penetration(const MotionState& s, std::size_t plane) const;
+  double AxialPenetration(const MotionState& s) const;
+  bool NearContact(const MotionState& s, double horizon) const;
+  /// Rotor at rest on its auxiliary bearings. Needs two of them, or one and no tilt.
+  void Rest(MotionState& s) const;
+  /// Base at the deflection under the static load that the stator carries.
+  void SettleBase(MotionState& s, double stator_x, double stator_y) const;
+  /// Kinetic energy plus elastic energy of contacts, modes, base [J]; gravity's potential included.
+  double Energy(const MotionState& s) const;
+
+  int dof() const { return dof_; }
+  const RotorParameters& parameters() const { return p_; }
+  RotorParameters& parameters() { return p_; }
+  const std::array<double, 3>& gravity() const { return g_; }
+  const std::vector<AuxiliaryPlane>& auxiliaries() const { return aux_; }
+  std::vector<AuxiliaryPlane>& auxiliaries() { return aux_; }
+  const SpeedProfile& speed() const { return speed_; }
+  double free_from() const { return free_from_; }
+  bool SpeedIsFree(double t) const { return t >= free_from_; }
+  bool HasLoads() const { return !loads_.empty(); }
+
+ private:
+  int NewDof(double mass);
+  double StiffnessRate(const MotionState& s) const;
+  void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const;
+
+  RotorParameters p_;
+  std::array<double, 3> g_;
+  int dof_ = 5;
+  std::array<double, kMaxDof> inverse_mass_{};
+  std::vector<BendingMode> modes_;
+  std::vector<int> mode_dof_;
+  std::vector<AuxiliaryPlane> aux_;
+  AuxiliaryParameters axial_;
+  bool has_axial_ = false;
+  int base_dof_ = -1;
+  double base_mass_ = 0, base_stiffness_ = 0, base_damping_ = 0;
+  std::vector<ExternalLoad> loads_;
+  SpeedProfile speed_;
+  double free_from_ = kInfinity;
+};
+
+}  // namespace ambrig

@@ -1,0 +1,23 @@
+#pragma once
+/// Prescribed spin speed: piecewise linear Omega(t), theta(0) = 0; before the first and after the
+/// last point the speed is constant. Source: shared/design/formats.md.
+#include <vector>
+
+namespace ambrig {
+
+class SpeedProfile {
+ public:
+  SpeedProfile() : SpeedProfile({{0.0, 0.0}}) {}
+  /// Rows (t [s], Omega [rad/s]) with increasing t. A step is written as two rows 1 us apart.
+  explicit SpeedProfile(const std::vector<std::vector<double>>& rows);
+  double Speed(double t) const;         // [rad/s]
+  double Angle(double t) const;         // [rad], unwrapped, 0 at t = 0
+  double Acceleration(double t) const;  // [rad/s2]
+  double end() const { return t_.back(); }
+
+ private:
+  std::size_t Segment(double t) const;
+  std::vector<double> t_, w_, angle_;
+};
+
+}  // namespace ambrig
