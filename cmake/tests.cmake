@@ -5,7 +5,7 @@ foreach(folder IN LISTS test_folders)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${folder}/*_test.cc)
   if(test_sources)
     add_executable(test_${folder} ${test_sources})
-    target_link_libraries(test_${folder} PRIVATE ${AMBRIG_FOLDERS} GTest::gmock_main)
+    target_link_libraries(test_${folder} PRIVATE ambrig_app ${AMBRIG_FOLDERS} GTest::gmock_main)
     target_compile_definitions(test_${folder} PRIVATE AMBRIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                AMBRIG_BINARY="$<TARGET_FILE:ambrig>")
     add_dependencies(test_${folder} ambrig)
