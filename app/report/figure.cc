@@ -161,10 +161,18 @@ void AddBand(Figure& figure, int panel, const std::string& name, std::span<const
   edge.color = color + "/50";
   edge.width = 0.8;
   edge.legend = false;
-  AddPoints(figure, panel, name, {{x.begin(), x.end()}, {low.begin(), low.end()}}, edge);
+  Points below, above;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (!std::isfinite(low[i]) || !std::isfinite(high[i])) continue;
+    below.x.push_back(x[i]);
+    below.y.push_back(low[i]);
+    above.y.push_back(high[i]);
+  }
+  above.x = below.x;
+  AddPoints(figure, panel, name, below, edge);
   figure.traces.back()["hoverinfo"] = "skip";
   edge.legend = true;
-  AddPoints(figure, panel, name, {{x.begin(), x.end()}, {high.begin(), high.end()}}, edge);
+  AddPoints(figure, panel, name, above, edge);
   figure.traces.back()["fill"] = "tonexty";
   figure.traces.back()["fillcolor"] = color + "/22";
   figure.traces.back()["hoverinfo"] = "skip";

@@ -59,7 +59,8 @@ void AddLine(Figure& figure, int panel, const std::string& name, std::span<const
 /// Decimated so that the greatest excursion stays.
 void AddOrbit(Figure& figure, int panel, const std::string& name, std::span<const double> x,
               std::span<const double> y, const Style& style = {});
-/// Shaded between low(x) and high(x): an expected band. Not decimated.
+/// Shaded between low(x) and high(x): an expected band. Not decimated; where an edge is NaN the shade
+/// runs straight to the next point.
 void AddBand(Figure& figure, int panel, const std::string& name, std::span<const double> x,
              std::span<const double> low, std::span<const double> high,
              const std::string& color = "@green");

@@ -1,0 +1,142 @@
+#include "app/report/run_report.h"
+
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+
+#include "core/base/errors.h"
+#include "tests/app/demo_run.h"
+
+namespace ambrig {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+namespace fs = std::filesystem;
+
+class RunReport : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { html_ = new std::string(MakeRunReport(demo::Run()).Html()); }
+  static void TearDownTestSuite() { delete html_; }
+  static std::string* html_;
+};
+std::string* RunReport::html_ = nullptr;
+
+std::size_t Count(const std::string& text, const std::string& what) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+// Our own markup, without the two scripts' source (the library names addresses in comments).
+std::string WithoutScripts(const std::string& html) {
+  std::string out;
+  std::size_t at = 0;
+  for (std::size_t begin = html.find("<script>"); begin != std::string::npos;
+       begin = html.find("<script>", at)) {
+    out += html.substr(at, begin - at);
+    at = html.find("</script>", begin);
+  }
+  return out + html.substr(at);
+}
+
+TEST_F(RunReport, LoadsNothingFromOutside) {
+  const std::string own = WithoutScripts(*html_);
+  EXPECT_THAT(own, Not(HasSubstr("http://")));
+  EXPECT_THAT(own, Not(HasSubstr("https://")));
+  EXPECT_THAT(own, Not(HasSubstr("@import")));
+  EXPECT_THAT(own, Not(HasSubstr("<link")));
+  EXPECT_THAT(own, Not(HasSubstr("src=")));
+  EXPECT_THAT(own, HasSubstr("default-src 'none'"));
+  const std::regex link("href=\"([^\"]*)\"");
+  for (auto it = std::sregex_iterator(own.begin(), own.end(), link);
+       it != std::sregex_iterator(); ++it)
+    EXPECT_EQ((*it)[1].str().front(), '#');
+  EXPECT_GT(html_->size(), 1'000'000u) << "the plotting library is inside";
+}
+
+TEST_F(RunReport, HasEverySection) {
+  for (const char* section : {"What happened", "Timeline", "Expectations", "Orbits", "Positions",
+                              "Coil currents", "Fault detection", "All coils", "The stator",
+                              "Further channels", "What was run"})
+    EXPECT_EQ(Count(*html_, std::string(">") + section + "</h"), 1u) << section;
+  EXPECT_EQ(Count(*html_, "<figure id="), 12u);
+  EXPECT_EQ(Count(*html_, "<figcaption>"), 12u);
+  EXPECT_THAT(*html_, HasSubstr("+400\u00a0µs"));
+  EXPECT_THAT(*html_, HasSubstr("# a &lt; b &amp; c"));
+}
+
+// A "<" in data must not be able to end the data block.
+TEST(RunReportEscapes, DataCannotLeaveItsScript) {
+  RunReportData d = demo::Run();
+  d.name = "</title><b>";
+  d.channels[0].name = "</script><script>alert(1)</script>";
+  const std::string html = MakeRunReport(d).Html();
+  EXPECT_THAT(html, Not(HasSubstr("alert(1)</script>")));
+  EXPECT_THAT(html, Not(HasSubstr("</title><b>")));
+}
+
+TEST(RunReportParts, EmptyRunGivesAReportWithoutFigures) {
+  RunReportData d;
+  d.name = "nothing";
+  const std::string html = MakeRunReport(d).Html();
+  EXPECT_EQ(Count(html, "<figure id="), 0u);
+  EXPECT_THAT(html, HasSubstr("What happened"));
+}
+
+TEST(RunReportParts, HealthyRunHasNoFaultFigures) {
+  RunReportData d = demo::Run();
+  d.events.clear();
+  d.samples.clear();
+  d.slopes.clear();
+  const std::string html = MakeRunReport(d).Html();
+  EXPECT_THAT(html, Not(HasSubstr("Fault detection</h2>")));
+  EXPECT_THAT(html, Not(HasSubstr("after the fault")));
+}
+
+TEST(RunReportParts, UnwritablePathIsOneLineAndLeavesNothing) {
+  const fs::path folder = fs::path(testing::TempDir()) / "report_taken";
+  fs::create_directories(folder);
+  try {
+    WriteRunReport(RunReportData{}, folder);
+    FAIL() << "a folder is not a file";
+  } catch (const InputError& e) {
+    EXPECT_EQ(std::string(e.what()), folder.string() + ": cannot be written: Is a directory");
+  }
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+// The page as a browser builds it: every figure drawn, no error on the console.
+TEST_F(RunReport, DrawsEveryFigureInABrowser) {
+  if (std::system("command -v chromium > /dev/null 2>&1") != 0) GTEST_SKIP() << "no chromium";
+  const fs::path folder = fs::path(testing::TempDir()) / "ambrig_report_browser";
+  fs::create_directories(folder);
+  const fs::path page = folder / "run.html";
+  WriteRunReport(demo::Run(), page);
+  const std::string command =
+      "chromium --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking "
+      "--disable-component-update --disable-sync --user-data-dir=" + (folder / "profile").string() +
+      " --window-size=1300,14000 --virtual-time-budget=8000 --enable-logging=stderr --dump-dom file://" +
+      page.string() + " 2> " + (folder / "console.txt").string();
+  FILE* pipe = popen(command.c_str(), "r");
+  ASSERT_NE(pipe, nullptr);
+  std::string dom;
+  std::array<char, 65536> buffer{};
+  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    dom.append(buffer.data(), n);
+  ASSERT_EQ(WEXITSTATUS(pclose(pipe)), 0);
+  EXPECT_EQ(Count(WithoutScripts(dom), "class=\"plot-container plotly\""), 12u);
+  std::ifstream file(folder / "console.txt");
+  const std::string console{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(console, Not(HasSubstr("CONSOLE"))) << console;
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace ambrig
