@@ -137,6 +137,7 @@ void StatorLanes::SetStep(double h) {
     half_rh_[j] = inert ? 0 : 0.5 * resistance[j] * h;
     if (inert) blocked[j] = true;
     inverse_l_[j] = blocked[j] ? 0 : 1 / (leakage[j] + half_rh_[j]);
+    c_[j] = n[j] * inverse_l_[j];
     if (n2[j] != 0) {
       any_short = true;
       // Exponentially fitted: exact for the loop's own decay R/L, stable however stiff.

@@ -76,7 +76,7 @@ class StatorLanes {
   std::array<bool, kLanes> blocked{};
 
   // Results of the last period.
-  Lane samples[64];                      // i at the ADC instants k = 0..n-1 [A]
+  Lane samples[160];                     // i at the start of every step [A]
   double fx = 0, fy = 0;                 // mean force [N]
 
   void SetStep(double h);                // [s] between ADC samples

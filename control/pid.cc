@@ -1,0 +1,39 @@
+#include "control/pid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ambrig {
+
+double PidStep(const PidParameters& p, double Ts, double y, double r, double excitation, PidState& s) {
+  const double e = r - y;
+  const double a = p.derivative_time_constant > 0 ? std::exp(-Ts / p.derivative_time_constant) : 0;
+  if (!s.started) s.last = y;
+  s.started = true;
+  s.derivative = a * s.derivative + (1 - a) * (y - s.last) / Ts;
+  s.last = y;
+  const double raw = p.kp * e - p.kd * s.derivative + s.integral + excitation;
+  const bool pushes_out = (raw > p.f_max && e > 0) || (raw < -p.f_max && e < 0);
+  if (!pushes_out) s.integral += p.ki * Ts * e;
+  return std::clamp(raw, -p.f_max, p.f_max);
+}
+
+DecentralisedPid::DecentralisedPid(std::vector<PidParameters> axes, double Ts)
+    : axes_(std::move(axes)), states_(axes_.size()), Ts_(Ts) {}
+
+void DecentralisedPid::Step(const std::vector<double>& y, const std::vector<double>& r,
+                            const std::vector<double>& excitation, double, std::vector<double>& f) {
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    f[k] = PidStep(axes_[k], Ts_, y[k], r[k], excitation[k], states_[k]);
+}
+
+void DecentralisedPid::Hold(const std::vector<double>& force, const std::vector<double>& y) {
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    states_[k] = PidState{};
+    states_[k].integral = force[k];
+    states_[k].last = y[k];
+    states_[k].started = true;
+  }
+}
+
+}  // namespace ambrig

@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "effects/effect.h"
+
+namespace ambrig {
+
+/// Every effect, one line each in catalogue.cc.
+const std::vector<EffectDescription>& Catalogue();
+/// nullptr when there is none of that name.
+const EffectDescription* FindEffect(const std::string& id);
+
+}  // namespace ambrig

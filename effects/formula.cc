@@ -1,0 +1,7 @@
+#include "effects/formula.h"
+
+namespace ambrig {
+
+void ReadFormula(const TomlTable& table, EffectInstance&) { table.Fail("", "formula"); }
+
+}  // namespace ambrig

@@ -1,0 +1,76 @@
+#pragma once
+/// The true rig, assembled: every block with the seams that effects and faults may use.
+/// Built by scenarios/rig.cc from parameters; the controller never sees it.
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "actuators/adc.h"
+#include "actuators/amplifier.h"
+#include "actuators/flux_law.h"
+#include "actuators/stator_lanes.h"
+#include "rotor/position_sensor.h"
+#include "rotor/rotor_model.h"
+
+namespace ambrig {
+
+/// What a coil-voltage term may depend on.
+struct CoilCircumstance {
+  double t = 0, current = 0, bus = 0, x = 0, y = 0;
+};
+
+/// Seam: extra voltage [V] in series with one coil, constant over a switching period.
+class VoltageTerm {
+ public:
+  virtual ~VoltageTerm() = default;
+  virtual double Voltage(const CoilCircumstance& c) const = 0;
+};
+
+/// Copper that warms up: R = R20 (1 + 0.00393 dT), tau dT' = rise P - dT.
+struct CopperHeating {
+  double rise_per_watt = 0;  // [K/W], 0: none
+  double time_constant = 1;  // [s]
+  std::array<double, kLanes> dT{};
+};
+
+struct BearingPlant {
+  std::string name;
+  double z = 0;                  // [m]
+  bool thrust = false, opposed = false;
+  StatorLanes lanes;
+  PlaneMap plane;                // where the magnets pull
+  PositionSensor sensor;
+  std::array<BridgeImperfection, kLanes> bridge{};
+  std::array<CurrentSensor, kLanes> current_sensor{};
+  std::vector<std::unique_ptr<FluxLaw>> laws;
+  std::vector<std::unique_ptr<VoltageTerm>> voltage[kLanes];
+  CopperHeating heating;
+  Lane base_resistance;          // before heating
+  double offset_x = 0, offset_y = 0;  // magnetic centre against the sensor's zero [m]
+};
+
+/// The supply at the amplifiers: stiff, or a source resistance feeding a capacitance.
+struct BusSupply {
+  double source = 0;         // [V]
+  double resistance = 0;     // [ohm], 0: stiff
+  double capacitance = 0;    // [F]
+  double voltage = 0;        // state [V]
+  bool stiff() const { return resistance <= 0; }
+};
+
+struct Plant {
+  explicit Plant(RotorModel rotor_model) : rotor(std::move(rotor_model)) {}
+  RotorModel rotor;
+  std::vector<BearingPlant> bearings;
+  BusSupply bus;
+  double loop_delay = 0;     // [s] set-points reach the current loops this much later
+
+  BearingPlant* Find(const std::string& name) {
+    for (BearingPlant& b : bearings)
+      if (b.name == name) return &b;
+    return nullptr;
+  }
+};
+
+}  // namespace ambrig

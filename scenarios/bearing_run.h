@@ -1,0 +1,35 @@
+#pragma once
+/// Working state of one bearing inside the switching engine.
+#include <array>
+
+#include "scenarios/measurement.h"
+#include "scenarios/switching_engine.h"
+
+namespace ambrig {
+
+struct SwitchingEngine::BearingRun {
+  std::size_t index = 0;
+  BearingPlant* plant = nullptr;
+  std::size_t first_axis = 0, axes = 2;
+  int auxiliary = -1;              // index among the rotor's auxiliary planes
+  VoltagePattern pattern;
+  std::array<CoilVoltage, kLanes> voltage;
+  MeasurementSettings measurement;
+  bool plain_sensors = true;
+  Lane adc[64];                    // measured samples of the last period [A]
+  Lane mean, mean_square, largest; // of the measured; of the true samples [A], [A²], [A]
+  double x = 0, y = 0;             // magnetic position at the start of the period [m]
+  double x_next = 0, y_next = 0;   // predicted for its end
+  double fx = 0, fy = 0;           // mean force of the last period [N]
+  double true_x = 0, true_y = 0;   // shaft centre at the plane, start of the period [m]
+  std::array<bool, kLanes> faulty{};
+};
+
+/// Set-points on their way to the current loops.
+struct SwitchingEngine::PendingSetPoints {
+  double due = 0;                  // [s]
+  std::vector<Lane> values;        // per bearing
+  bool recorded = false;           // the record's s channels already show them
+};
+
+}  // namespace ambrig

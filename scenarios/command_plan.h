@@ -1,0 +1,27 @@
+#pragma once
+/// The commanded signals of a scenario, sampled once on the controller's and the amplifiers' clocks,
+/// so that many runs of one scenario do not evaluate the same sines again.
+#include <vector>
+
+#include "scenarios/scenario.h"
+
+namespace ambrig {
+
+struct CommandPlan {
+  CommandPlan(const RigParameters& rig, const Scenario& scenario);
+
+  struct Signal {
+    int index;                   // axis (of the rig) or coil (of the bearing)
+    int bearing;                 // -1 for axes
+    std::vector<double> values;  // per controller tick or per switching period, from t = 0
+  };
+  std::vector<Signal> force, reference, current, duty;
+
+  static double At(const Signal& s, long long k) {
+    if (s.values.empty()) return 0;
+    const long long last = static_cast<long long>(s.values.size()) - 1;
+    return s.values[static_cast<std::size_t>(k < 0 ? 0 : (k > last ? last : k))];
+  }
+};
+
+}  // namespace ambrig

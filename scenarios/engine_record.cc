@@ -1,0 +1,66 @@
+/// Rows of the record: what the controller knows at the start of a period (formats.md "Record").
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/math/noise.h"
+#include "scenarios/bearing_run.h"
+#include "scenarios/switching_engine.h"
+
+namespace ambrig {
+
+void SwitchingEngine::CreateChannels() {
+  const double rate = options_.record_rate > 0 ? options_.record_rate : scenario_.record_rate;
+  const double per_period = rate * T_;
+  if (per_period > 1 + 1e-9) {
+    row_samples_ = static_cast<int>(std::lround(samples_ / per_period));
+  } else {
+    row_periods_ = static_cast<int>(std::lround(1 / per_period));
+  }
+  recorder_.emplace(rate, 0.0);
+  const auto rows = static_cast<std::size_t>(std::ceil(scenario_.duration * rate)) + 1;
+  const auto add = [&](const std::string& name, const char* unit) {
+    channel_.push_back(recorder_->Add(name, unit, rows));
+  };
+  for (const BearingParameters& b : rig_.bearings)
+    for (const std::string& axis : b.Axes()) add(axis, "m");
+  for (const BearingParameters& b : rig_.bearings) {
+    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.i{}", b.name, j), "A");
+    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.s{}", b.name, j), "A");
+    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.d{}", b.name, j), "-");
+    if (clamped_) {
+      add(b.kind == BearingKind::kThrust ? b.name + ".fz" : b.name + ".fx", "N");
+      if (b.kind == BearingKind::kRadial) add(b.name + ".fy", "N");
+    } else {
+      add(b.kind == BearingKind::kThrust ? "r.z" : b.name + ".r.x", "m");
+      if (b.kind == BearingKind::kRadial) add(b.name + ".r.y", "m");
+    }
+  }
+  add("omega", "rad/s");
+  add("theta", "rad");
+  add("bus", "V");
+}
+
+void SwitchingEngine::RecordRow(long long n, int sample) {
+  const double inside = sample * T_ / samples_, t = static_cast<double>(n) * T_ + inside;
+  std::size_t c = 0;
+  const auto put = [&](double value) { recorder_->Put(channel_[c++], value); };
+  const bool at_tick = sample == 0 && controller_on_ && n % M_ == 0;
+  for (std::size_t a = 0; a < readings_.size(); ++a) put(at_tick ? readings_[a] : NoisyReading(a, n));
+  for (BearingRun& b : bearings_) {
+    const BearingControl& k = control_[b.index];
+    for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b.adc[sample][j] : k.feedback[j]);
+    for (int j = 0; j < k.coils; ++j) put(k.set_point[j]);
+    for (int j = 0; j < k.coils; ++j) put(k.duty[j]);
+    put(clamped_ ? b.fx : b.true_x);
+    if (b.axes > 1) put(clamped_ ? b.fy : b.true_y);
+  }
+  put(plant_.rotor.SpeedIsFree(t) ? motion_.Omega : scenario_.speed.Speed(t));
+  put(plant_.rotor.SpeedIsFree(t) ? motion_.theta + motion_.Omega * inside : scenario_.speed.Angle(t));
+  double bus = plant_.bus.voltage;
+  if (scenario_.noise && rig_.amplifier.bus_noise > 0)
+    bus += rig_.amplifier.bus_noise * Normal(scenario_.seed, 300, static_cast<std::uint64_t>(n * samples_ + sample));
+  put(bus);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,99 @@
+/// Events and figures of a run: orbit, contact, touchdown, drop, currents, copper loss.
+/// Source: shared/design/physics.md section 8 (verdict terms), formats.md `ambrig run --json`.
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/bearing_run.h"
+#include "scenarios/switching_engine.h"
+
+namespace ambrig {
+
+void SwitchingEngine::Event(const std::string& kind, const std::string& target, const std::string& fault_class,
+                            double fraction, double t) {
+  result_.events.push_back({t < 0 ? std::max(motion_.t, 0.0) : t, kind, target, fault_class, fraction});
+}
+
+void SwitchingEngine::Watch(long long n) {
+  RunMetrics& m = result_.metrics;
+  const bool late = motion_.t > 0.9 * scenario_.duration;
+  for (BearingRun& b : bearings_) {
+    CurrentStatistics(b.plant->lanes.samples, samples_, &b.mean_square, &b.largest);
+    for (int j = 0; j < b.plant->lanes.coils; ++j) {
+      loss_sum_ += b.plant->lanes.resistance[j] * b.mean_square[j];
+      m.peak_current = std::max(m.peak_current, b.largest[j]);
+    }
+    if (clamped_) continue;
+    const double orbit = std::hypot(b.true_x, b.true_y);
+    double& most = m.max_orbit[b.plant->name];
+    most = std::max(most, orbit);
+    if (late) m.late_orbit = std::max(m.late_orbit, orbit);
+  }
+  const RotorModel& rotor = plant_.rotor;
+  for (std::size_t k = 0; !clamped_ && k <= rotor.auxiliaries().size(); ++k) {
+    const bool axial = k == rotor.auxiliaries().size();
+    const double depth = axial ? rotor.AxialPenetration(motion_) : rotor.Penetration(motion_, k);
+    if (!std::isfinite(depth)) continue;
+    const std::string name = axial ? "z" : rotor.auxiliaries()[k].name;
+    const bool first = n == 0 && k == 0;
+    m.min_clearance_left = first ? -depth : std::min(m.min_clearance_left, -depth);
+    double& since = contact_since_[k];
+    if (depth > 0 && since < 0) {
+      since = motion_.t;
+      if (scenario_.start != StartState::kResting || motion_.t > T_ * 1.5) {
+        if (!result_.touchdown || result_.events.back().kind != "touchdown") Event("touchdown", name);
+        result_.touchdown = true;
+      }
+    } else if (depth <= 0 && since >= 0) {
+      m.longest_contact = std::max(m.longest_contact, motion_.t - since);
+      since = -1;
+      Event("lift_off", name);
+    }
+    if (since >= 0 && !result_.drop && motion_.t - since > scenario_.drop_limit) {
+      result_.drop = true;
+      Event("drop", name);
+    }
+  }
+  if (!options_.supervisor) return;
+  measurement_.period = n;
+  measurement_.t = static_cast<double>(n) * T_;
+  measurement_.samples = samples_;
+  measurement_.readings = &readings_;
+  measurement_.reading_time = reading_time_;
+  measurement_.bearings.clear();
+  for (const BearingRun& b : bearings_)
+    measurement_.bearings.push_back({b.adc, &control_[b.index].duty, plant_.bus.voltage});
+  const std::size_t before = result_.events.size();
+  options_.supervisor->AfterPeriod(measurement_, control_, result_.events);
+  if (options_.snapshots && result_.events.size() > before) Snapshot(result_.events.back().kind);
+}
+
+void SwitchingEngine::Snapshot(const std::string& label) {
+  for (const BearingRun& b : bearings_) {
+    if (b.plant->thrust) continue;
+    FluxSnapshot s;
+    s.t = std::max(motion_.t, 0.0);
+    s.bearing = b.plant->name;
+    s.label = label;
+    for (int j = 0; j < b.plant->lanes.coils; ++j) {
+      s.flux.push_back(b.plant->lanes.phi[j]);
+      s.current.push_back(b.plant->lanes.i[j]);
+    }
+    s.x = b.true_x;
+    s.y = b.true_y;
+    result_.snapshots.push_back(std::move(s));
+  }
+}
+
+void SwitchingEngine::Verdict() {
+  RunMetrics& m = result_.metrics;
+  m.copper_loss = periods_ > 0 ? loss_sum_ / static_cast<double>(periods_) : 0;
+  for (double since : contact_since_) {
+    if (since < 0) continue;
+    m.longest_contact = std::max(m.longest_contact, motion_.t - since);
+    if (!result_.drop) Event("drop", "rotor");
+    result_.drop = true;  // in contact at the end of the run
+  }
+  if (options_.snapshots) Snapshot("end of the run");
+}
+
+}  // namespace ambrig

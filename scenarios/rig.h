@@ -1,0 +1,23 @@
+#pragma once
+/// Assembly: a plant (the true rig) from parameters and the effects named in the rig file.
+#include "effects/plant.h"
+#include "scenarios/rig_file.h"
+
+namespace ambrig {
+
+/// Effects whose parameters are all null are dropped, so that null means the same bits.
+Plant BuildPlant(const RigParameters& rig);
+
+/// Targets that effects of this rig may have.
+EffectTargets TargetsOfEffects(const RigParameters& rig);
+
+/// Nominal force constant k of a bearing: f = k c0 v. [N/A²]
+double ForceConstant(const BearingParameters& b);
+/// Bias current c0 of a bearing. [A]
+double BiasCurrent(const RigParameters& rig, const BearingParameters& b);
+/// PID of a bearing's axes.
+const PidParameters& PidOf(const RigParameters& rig, const BearingParameters& b);
+/// Bearing forces (fx, fy) that carry the rotor's weight, one per bearing. [N]
+std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig);
+
+}  // namespace ambrig

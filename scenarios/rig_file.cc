@@ -1,0 +1,288 @@
+#include "scenarios/rig_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "scenarios/rig.h"
+
+namespace ambrig {
+
+namespace {
+
+void ReadSensor(const TomlTable& bearing, BearingParameters& b, std::vector<Tolerance>* tolerances) {
+  const auto t = bearing.Table("sensor");
+  if (!t) bearing.Fail("sensor", "is missing, allowed: { z = m, noise = m }");
+  if (b.kind == BearingKind::kThrust) b.sensor.z = 0;
+  if (b.kind == BearingKind::kOpposed && !std::isfinite(b.sensor.z)) b.sensor.z = b.z;
+  t->Read(b.sensor, kSensorFields, tolerances);
+  t->RejectUnknownKeys();
+}
+
+void ReadAuxiliary(const TomlTable& bearing, BearingParameters& b, double gap) {
+  const auto t = bearing.Table("auxiliary");
+  if (t) {
+    AuxiliaryParameters p = b.auxiliary.value_or(AuxiliaryParameters{});
+    t->Read(p, kAuxiliaryFields);
+    t->RejectUnknownKeys();
+    b.auxiliary = p;
+    if (p.clearance >= gap)
+      t->Fail("clearance", fmt::format("= {} m, allowed: smaller than the gap of {} m (the rotor would "
+                                       "touch the poles first)", p.clearance, gap));
+  } else if (b.auxiliary && b.auxiliary->clearance >= gap) {
+    bearing.Fail("gap", fmt::format("= {} m, allowed: larger than the auxiliary clearance of {} m", gap,
+                                    b.auxiliary->clearance));
+  }
+}
+
+void CheckWinding(const TomlTable& t, const std::string& winding) {
+  if (winding.size() != kPoles || winding.find_first_not_of("NS") != std::string::npos)
+    t.Fail("winding", fmt::format("= \"{}\", allowed: eight letters N or S, e.g. NSNSNSNS", winding));
+}
+
+double Gap(const BearingParameters& b) {
+  return b.kind == BearingKind::kRadial ? b.radial.gap
+         : b.kind == BearingKind::kThrust ? b.thrust.gap : b.opposed.gap;
+}
+
+void ReadStator(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
+  switch (b.kind) {
+    case BearingKind::kRadial: {
+      const long long poles = t.Integer("poles", kPoles);
+      if (poles != kPoles) t.Fail("poles", fmt::format("= {}, allowed: 8", poles));
+      b.radial.winding = t.String("winding", b.radial.winding);
+      CheckWinding(t, b.radial.winding);
+      t.Read(b.radial, kRadialStatorFields, tolerances);
+      break;
+    }
+    case BearingKind::kThrust: t.Read(b.thrust, kThrustStatorFields, tolerances); break;
+    case BearingKind::kOpposed: t.Read(b.opposed, kOpposedStatorFields, tolerances); break;
+  }
+}
+
+PidParameters ReadPid(const TomlTable& t) {
+  PidParameters p;
+  t.Read(p, kPidFields);
+  return p;
+}
+
+BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const RigParameters& rig,
+                              std::vector<Tolerance>& tolerances) {
+  BearingParameters b;
+  const std::string like = t.String("like", "");
+  if (!like.empty()) {
+    const BearingParameters* other = rig.Find(like);
+    if (!other) {
+      std::string known;
+      for (const auto& k : rig.bearings) known += (known.empty() ? "" : ", ") + k.name;
+      t.Fail("like", fmt::format("= \"{}\", allowed: a bearing with its own values: {}", like, known));
+    }
+    b = *other;
+    const std::string from = "bearings." + like + ".", to = "bearings." + name + ".";
+    const std::vector<Tolerance> all = tolerances;
+    for (const Tolerance& k : all)
+      if (k.path.starts_with(from) && !t.Has(k.path.substr(from.size())))
+        tolerances.push_back({to + k.path.substr(from.size()), k.sd});
+  }
+  b.name = name;
+  const char* kinds = "radial, thrust, opposed";
+  const std::string fallback = like.empty() ? "radial"
+                               : b.kind == BearingKind::kRadial ? "radial"
+                               : b.kind == BearingKind::kThrust ? "thrust" : "opposed";
+  const std::string kind = t.Choice("kind", fallback, kinds);
+  b.kind = kind == "radial" ? BearingKind::kRadial : kind == "thrust" ? BearingKind::kThrust : BearingKind::kOpposed;
+  if (b.kind == BearingKind::kRadial) {
+    b.z = t.Number("z", like.empty() ? kRequired : b.z);
+    if (!(std::abs(b.z) <= 100)) t.Fail("z", "is missing or not in -100 to 100 m (bearing plane)");
+  } else {
+    b.z = t.Number("z", 0);
+  }
+  ReadStator(t, b, &tolerances);
+  if (like.empty() || t.Has("sensor")) ReadSensor(t, b, &tolerances);
+  ReadAuxiliary(t, b, Gap(b));
+  if (const auto c = t.Table("controller")) {
+    b.controller = ReadPid(*c);
+    c->RejectUnknownKeys();
+  }
+  t.RejectUnknownKeys();
+  return b;
+}
+
+void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
+  AmplifierParameters& a = rig.amplifier;
+  const std::string m = t.Choice("modulation", "bi-state", "bi-state, tri-state, chopper, ideal");
+  a.modulation = m == "bi-state" ? Modulation::kBiState : m == "tri-state" ? Modulation::kTriState
+                 : m == "chopper" ? Modulation::kChopper : Modulation::kIdeal;
+  t.Read(a, kAmplifierFields, &rig.tolerances);
+  const auto limits = t.Numbers("duty_limits", {a.duty_min, a.duty_max});
+  if (limits.size() != 2 || !(limits[0] >= -1 && limits[0] < limits[1] && limits[1] <= 1))
+    t.Fail("duty_limits", "allowed: [min, max] with min < max, within 0 to 1");
+  a.duty_min = limits[0];
+  a.duty_max = limits[1];
+  if (a.duty_min < 0 && m != "ideal") t.Fail("duty_limits", "allowed: 0 to 1 for a switching bridge");
+  for (const char* key : {"adc_samples_per_period", "adc_bits", "quadrants"}) {
+    const double v = t.Number(key, 2);
+    if (v != std::floor(v)) t.Fail(key, fmt::format("= {}, allowed: an integer", v));
+  }
+  if (a.quadrants == 3) t.Fail("quadrants", "= 3, allowed: 2 or 4");
+  if (a.i_max > a.adc_range)
+    t.Fail("i_max", fmt::format("= {} A, allowed: at most adc_range = {} A", a.i_max, a.adc_range));
+  t.RejectUnknownKeys();
+}
+
+void ReadController(const TomlTable& t, RigParameters& rig) {
+  rig.controller.kind = t.Choice("kind", "pid", "pid");
+  t.Read(rig.controller, kControllerFields);
+  rig.controller.pid = ReadPid(t);
+  const double periods = rig.amplifier.switching_frequency / rig.controller.rate;
+  if (std::abs(periods - std::round(periods)) > 1e-9 * periods || periods < 0.5)
+    t.Fail("rate", fmt::format("= {} Hz, allowed: the switching frequency of {} Hz over an integer",
+                               rig.controller.rate, rig.amplifier.switching_frequency));
+  t.RejectUnknownKeys();
+}
+
+void ReadRotor(const TomlTable& t, RigParameters& rig) {
+  rig.rotor_kind = t.Choice("kind", "rigid", "rigid, point");
+  if (rig.rotor_kind == "point") {
+    rig.rotor.inertia_transverse = 1;
+    rig.rotor.inertia_polar = 0;
+    rig.rotor.journal_radius = 0.01;
+  }
+  t.Read(rig.rotor, kRotorFields, &rig.tolerances);
+  t.RejectUnknownKeys();
+  if (rig.rotor.inertia_polar > 2 * rig.rotor.inertia_transverse)
+    t.Fail("inertia_polar", fmt::format("= {} kg m2, allowed: at most twice inertia_transverse = {} (no "
+                                        "body has more)", rig.rotor.inertia_polar, rig.rotor.inertia_transverse));
+}
+
+void ReadBearings(const TomlTable& root, RigParameters& rig) {
+  const auto all = root.Table("bearings");
+  if (!all) root.Fail("bearings", "is missing, allowed: tables [bearings.A], [bearings.B], [bearings.Z]");
+  std::vector<std::string> names = all->Keys(), later;
+  for (int pass = 0; pass < 2; ++pass)  // those that are `like` another come after it
+    for (const std::string& name : names) {
+      const TomlTable t = *all->Table(name);
+      if (t.Has("like") == (pass == 1)) rig.bearings.push_back(ReadBearing(t, name, rig, rig.tolerances));
+    }
+  std::sort(rig.bearings.begin(), rig.bearings.end(),
+            [](const auto& a, const auto& b) { return std::tie(a.kind, a.name) < std::tie(b.kind, b.name); });
+  int radial = 0, thrust = 0, opposed = 0;
+  for (const auto& b : rig.bearings) {
+    (b.kind == BearingKind::kRadial ? radial : b.kind == BearingKind::kThrust ? thrust : opposed)++;
+    for (const auto& other : rig.bearings)
+      if (&b != &other && b.kind == BearingKind::kRadial && other.kind == BearingKind::kRadial && b.z == other.z)
+        all->Table(b.name)->Fail("z", fmt::format("= {} m, allowed: another plane than bearing {}", b.z, other.name));
+  }
+  if (opposed == 0 && radial < 2) all->Fail("", "a rigid rotor needs at least two radial bearings");
+  if (opposed > 0 && (radial + thrust > 0 || opposed > 1 || rig.rotor_kind != "point"))
+    all->Fail("", "an opposed bearing stands alone, with rotor.kind = \"point\"");
+  if (thrust > 1) all->Fail("", "at most one thrust bearing");
+}
+
+RigParameters Read(const TomlTable& root) {
+  RigParameters rig;
+  rig.file = root.file();
+  rig.name = root.String("name", "rig");
+  const auto g = root.Numbers("gravity", {0, -9.81, 0});
+  if (g.size() != 3) root.Fail("gravity", "allowed: [gx, gy, gz] in m/s2");
+  rig.gravity = {g[0], g[1], g[2]};
+  const auto section = [&](const char* key) {
+    const auto t = root.Table(key);
+    if (!t) root.Fail(key, fmt::format("is missing, allowed: a table [{}]", key));
+    return *t;
+  };
+  ReadRotor(section("rotor"), rig);
+  ReadAmplifier(section("amplifier"), rig);
+  ReadController(section("controller"), rig);
+  ReadBearings(root, rig);
+  const EffectTargets known = TargetsOfEffects(rig);
+  for (const TomlTable& t : root.Tables("effect")) rig.effects.push_back(ReadEffect(t, known));
+  root.RejectUnknownKeys();
+  return rig;
+}
+
+/// Calls visit(section, struct reference, fields) for every numeric table of the rig.
+template <class Rig, class Visit>
+void VisitTables(Rig& rig, const Visit& visit) {
+  visit("rotor", rig.rotor, kRotorFields);
+  visit("amplifier", rig.amplifier, kAmplifierFields);
+  visit("controller", rig.controller, kControllerFields);
+  visit("controller", rig.controller.pid, kPidFields);
+  for (auto& b : rig.bearings) {
+    const std::string section = "bearings." + b.name;
+    if (b.kind == BearingKind::kRadial) visit(section, b.radial, kRadialStatorFields);
+    if (b.kind == BearingKind::kThrust) visit(section, b.thrust, kThrustStatorFields);
+    if (b.kind == BearingKind::kOpposed) visit(section, b.opposed, kOpposedStatorFields);
+    visit(section + ".sensor", b.sensor, kSensorFields);
+    if (b.auxiliary) visit(section + ".auxiliary", *b.auxiliary, kAuxiliaryFields);
+    if (b.controller) visit(section + ".controller", *b.controller, kPidFields);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> BearingParameters::Axes() const {
+  if (kind == BearingKind::kThrust) return {"z"};
+  if (kind == BearingKind::kOpposed) return {name + ".x"};
+  return {name + ".x", name + ".y"};
+}
+
+const BearingParameters* RigParameters::Find(const std::string& bearing) const {
+  for (const auto& b : bearings)
+    if (b.name == bearing) return &b;
+  return nullptr;
+}
+
+int RigParameters::periods_per_control() const {
+  return static_cast<int>(std::lround(amplifier.switching_frequency / controller.rate));
+}
+
+RigParameters ReadRig(const std::string& file) { return Read(TomlTable::FromFile(file)); }
+RigParameters ReadRigText(const std::string& text, const std::string& file_name) {
+  return Read(TomlTable::FromText(text, file_name));
+}
+
+double* ParameterAt(RigParameters& rig, const std::string& path) {
+  double* found = nullptr;
+  VisitTables(rig, [&](const std::string& section, auto& p, const auto& fields) {
+    for (const auto& f : fields)
+      if (path == section + "." + std::string(f.key)) found = &(p.*f.at);
+  });
+  return found;
+}
+
+bool ParameterRange(const RigParameters& rig, const std::string& path, double* lo, double* hi,
+                    std::string* unit) {
+  bool found = false;
+  VisitTables(rig, [&](const std::string& section, auto&, const auto& fields) {
+    for (const auto& f : fields)
+      if (path == section + "." + std::string(f.key)) {
+        *lo = f.lo;
+        *hi = f.hi;
+        *unit = f.unit;
+        found = true;
+      }
+  });
+  return found;
+}
+
+std::vector<ParameterRow> RigParameterRows() {
+  std::vector<ParameterRow> rows;
+  const auto add = [&](const std::string& section, const auto& fields) {
+    for (const auto& f : fields)
+      rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo, f.hi});
+  };
+  add("[rotor]", kRotorFields);
+  add("[amplifier]", kAmplifierFields);
+  add("[controller]", kControllerFields);
+  add("[controller]", kPidFields);
+  add("[bearings.A] kind = \"radial\"", kRadialStatorFields);
+  add("[bearings.Z] kind = \"thrust\"", kThrustStatorFields);
+  add("[bearings.M] kind = \"opposed\"", kOpposedStatorFields);
+  add("[bearings.A.sensor]", kSensorFields);
+  add("[bearings.A.auxiliary]", kAuxiliaryFields);
+  return rows;
+}
+
+}  // namespace ambrig

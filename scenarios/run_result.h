@@ -1,0 +1,58 @@
+#pragma once
+/// What a run gives back: the record, what happened when, and the figures of the verdict.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/record/record.h"
+
+namespace ambrig {
+
+struct RunEvent {
+  double t = 0;             // [s]
+  std::string kind;         // fault | detected | classified | redistributed | alarm_cleared | touchdown | lift_off | drop
+  std::string target;       // "A.coil3", "A"
+  std::string fault_class;  // "open", ...
+  double fraction = 0;      // of shorted turns
+};
+
+struct RunMetrics {
+  std::map<std::string, double> max_orbit;      // per bearing, from t = 0 [m]
+  double min_clearance_left = 0;                // [m], negative: penetration
+  double peak_current = 0;                      // [A]
+  double copper_loss = 0;                       // mean over the run [W]
+  double detection_delay = -1;                  // worst over the faults [s], -1: none
+  double redistribution_delay = -1;             // from the fault [s]
+  double false_alarms = 0;
+  double coil_periods = 0;                      // healthy coil-periods watched
+  double real_time_factor = 0;
+  double late_orbit = 0;                        // largest orbit of the last tenth of the run [m]
+  double longest_contact = 0;                   // [s]
+};
+
+/// Fluxes and shaft position of one bearing at an instant, for the report's drawing.
+struct FluxSnapshot {
+  double t = 0;
+  std::string bearing, label;
+  std::vector<double> flux, current;  // per pole [Wb], [A]
+  double x = 0, y = 0;                // [m]
+};
+
+/// Slope of one coil against what the detector expects, one row per switching period.
+struct SlopeTrace {
+  std::string coil;
+  std::vector<double> t, slope, low, high;  // [s], [A/s]
+};
+
+struct RunResult {
+  Record record;
+  std::vector<RunEvent> events;
+  RunMetrics metrics;
+  bool touchdown = false, drop = false;
+  std::vector<FluxSnapshot> snapshots;
+  std::vector<SlopeTrace> slopes;
+  std::vector<std::string> notes;
+};
+
+}  // namespace ambrig

@@ -1,0 +1,258 @@
+#include "scenarios/scenario.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace ambrig {
+
+namespace {
+
+std::string Join(const std::vector<std::string>& names) {
+  std::string out;
+  for (const auto& n : names) out += (out.empty() ? "" : ", ") + n;
+  return out;
+}
+
+struct Targets {
+  std::vector<std::string> axes, coils, planes, bearings;
+};
+
+Targets TargetsOfRig(const RigParameters& rig) {
+  Targets t;
+  for (const auto& b : rig.bearings) {
+    for (const auto& a : b.Axes()) t.axes.push_back(a);
+    for (int j = 1; j <= b.coils(); ++j) t.coils.push_back(fmt::format("{}.coil{}", b.name, j));
+    if (b.kind != BearingKind::kThrust) t.planes.push_back(b.name);
+    t.bearings.push_back(b.name);
+  }
+  return t;
+}
+
+std::string DirectoryOf(const std::string& file) {
+  const auto parent = std::filesystem::path(file).parent_path().string();
+  return parent.empty() ? "." : parent;
+}
+
+double PositiveTime(const TomlTable& t, const char* key, double fallback) {
+  const double v = t.Number(key, fallback);
+  if (!(v > 0 && v <= 1e5)) t.Fail(key, fmt::format("= {} s, allowed: above 0 to 1e5 s", v));
+  return v;
+}
+
+void ReadSpeed(const TomlTable& root, Scenario& s) {
+  const auto t = root.Table("speed");
+  if (!t) return;
+  const auto rows = t->Rows("profile");
+  if (rows.empty()) t->Fail("profile", "is missing, allowed: [[t, Omega], ...] in s and rad/s");
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (rows[k].size() != 2)
+      t->Fail("profile", fmt::format("row {} has {} entries, allowed: [t, Omega]", k + 1, rows[k].size()));
+    if (k > 0 && rows[k][0] <= rows[k - 1][0])
+      t->Fail("profile", fmt::format("row {} goes back in time: t = {} s after {} s, allowed: increasing t",
+                                     k + 1, rows[k][0], rows[k - 1][0]));
+    if (std::abs(rows[k][1]) > 1e5)
+      t->Fail("profile", fmt::format("row {}: Omega = {} rad/s, allowed: -1e5 to 1e5", k + 1, rows[k][1]));
+  }
+  s.speed = SpeedProfile(rows);
+  s.speed_free_from = t->Number("free_from", kInfinity);
+  t->RejectUnknownKeys();
+}
+
+void ReadStart(const TomlTable& root, const Targets& targets, const RigParameters& rig, Scenario& s) {
+  const auto t = root.Table("start");
+  if (!t) return;
+  const std::string state = t->Choice("state", "levitated", "levitated, resting, clamped");
+  s.start = state == "levitated" ? StartState::kLevitated
+            : state == "resting" ? StartState::kResting : StartState::kClamped;
+  if (const auto p = t->Table("position")) {
+    if (s.start != StartState::kClamped) t->Fail("position", "is only allowed with state = \"clamped\"");
+    for (const auto& key : p->Keys()) {
+      const BearingParameters* b = rig.Find(key);
+      if (!b) p->Fail(key, "is no bearing, allowed: " + Join(targets.bearings));
+      std::vector<double> xy = p->IsNumber(key) ? std::vector<double>{p->Number(key), 0.0} : p->Numbers(key);
+      if (xy.size() == 1) xy.push_back(0);
+      if (xy.size() != 2) p->Fail(key, "allowed: [x, y] in m");
+      const double gap = b->kind == BearingKind::kRadial ? b->radial.gap
+                         : b->kind == BearingKind::kThrust ? b->thrust.gap : kInfinity;
+      if (std::hypot(xy[0], xy[1]) >= gap)
+        p->Fail(key, fmt::format("= [{}, {}] m, allowed: inside the gap of {} m", xy[0], xy[1], gap));
+      s.clamp[key] = {xy[0], xy[1]};
+    }
+  }
+  t->RejectUnknownKeys();
+}
+
+void ReadExcitations(const TomlTable& root, const Targets& targets, Scenario& s) {
+  for (const TomlTable& t : root.Tables("excitation")) {
+    Excitation e = ReadExcitation(t, DirectoryOf(s.file), s.duration);
+    const bool coil = e.port == "current" || e.port == "duty";
+    const auto& allowed = coil ? targets.coils : targets.axes;
+    if (std::find(allowed.begin(), allowed.end(), e.target) == allowed.end())
+      t.Fail("target", fmt::format("= \"{}\" on port {}, allowed: {}", e.target, e.port, Join(allowed)));
+    s.excitations.push_back(e);
+  }
+}
+
+void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameters& rig, Scenario& s) {
+  for (const TomlTable& t : root.Tables("load")) {
+    LoadSpec l;
+    if (t.Has("plane") == t.Has("z")) t.Fail("plane", "allowed: either plane = \"A\" or z = m");
+    if (t.Has("plane")) {
+      const std::string plane = t.String("plane");
+      const BearingParameters* b = rig.Find(plane);
+      if (!b) t.Fail("plane", fmt::format("= \"{}\", allowed: {}", plane, Join(targets.bearings)));
+      l.z = b->z;
+      l.axial = b->kind == BearingKind::kThrust;
+    } else {
+      l.z = t.Number("z");
+    }
+    const auto f = t.IsNumber("force") ? std::vector<double>{t.Number("force")} : t.Numbers("force");
+    if (f.empty() || f.size() > 3) t.Fail("force", "allowed: [fx, fy] or [fx, fy, fz] in N");
+    if (l.axial && f.size() == 1) {
+      l.fz = f[0];
+    } else {
+      l.fx = f[0];
+      l.fy = f.size() > 1 ? f[1] : 0;
+      l.fz = f.size() > 2 ? f[2] : 0;
+    }
+    l.start = t.Number("start", 0);
+    l.stop = t.Number("stop", s.duration);
+    if (!(l.stop > l.start)) t.Fail("stop", fmt::format("= {} s, allowed: later than start = {} s", l.stop, l.start));
+    t.RejectUnknownKeys();
+    s.loads.push_back(l);
+  }
+}
+
+struct FaultKind {
+  const char* kind;
+  const char* target;      // coil | axis | rig
+  const char* parameters;  // comma separated
+};
+constexpr FaultKind kFaultKinds[] = {
+    {"open", "coil", ""},
+    {"partial-short", "coil", "fraction, short_resistance"},
+    {"amplifier-off", "coil", ""},
+    {"switch-stuck-on", "coil", ""},
+    {"current-sensor", "coil", "gain, offset, stuck"},
+    {"position-sensor", "axis", "offset, stuck, lost"},
+    {"bus-sag", "rig", "voltage, duration"},
+};
+
+void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
+  std::string kinds;
+  for (const FaultKind& k : kFaultKinds) kinds += (kinds.empty() ? "" : ", ") + std::string(k.kind);
+  for (const TomlTable& t : root.Tables("fault")) {
+    FaultSpec f;
+    f.where = t.Where();
+    f.time = t.Number("time");
+    if (!(f.time >= 0 && f.time < s.duration))
+      t.Fail("time", fmt::format("= {} s, allowed: 0 to below the duration of {} s", f.time, s.duration));
+    f.kind = t.Choice("kind", "", kinds);
+    f.target = t.String("target", f.kind == "bus-sag" ? "rig" : "");
+    const FaultKind& spec =
+        *std::find_if(std::begin(kFaultKinds), std::end(kFaultKinds), [&](const auto& k) { return f.kind == k.kind; });
+    const std::vector<std::string> allowed = spec.target == std::string("coil") ? targets.coils
+                                             : spec.target == std::string("axis")
+                                                 ? targets.axes
+                                                 : std::vector<std::string>{"rig"};
+    if (std::find(allowed.begin(), allowed.end(), f.target) == allowed.end())
+      t.Fail("target", fmt::format("= \"{}\" with kind {}, allowed: {}", f.target, f.kind, Join(allowed)));
+    if (const auto p = t.Table("parameters")) {
+      for (const auto& key : p->Keys()) {
+        const std::string list = spec.parameters;
+        if (list.find(key) == std::string::npos)
+          p->Fail(key, fmt::format("unknown key, allowed with kind {}: {}", f.kind, list.empty() ? "none" : list));
+        f.parameters[key] = p->IsBool(key) ? p->Bool(key, false) : p->Number(key);
+        if (std::isnan(f.parameters[key])) p->Fail(key, "= nan, allowed: a number");
+      }
+    }
+    if (f.kind == "partial-short") {
+      const double fraction = f.Get("fraction", -1), r = f.Get("short_resistance", kInfinity);
+      if (!(fraction > 0 && fraction < 1))
+        t.Fail("parameters", fmt::format("fraction = {}, allowed: above 0 to below 1 (share of the turns)", fraction));
+      if (!(r >= 0)) t.Fail("parameters", fmt::format("short_resistance = {} ohm, allowed: 0 or more, or inf", r));
+    }
+    t.RejectUnknownKeys();
+    s.faults.push_back(f);
+  }
+  std::stable_sort(s.faults.begin(), s.faults.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+}
+
+void ReadExpect(const TomlTable& root, Scenario& s) {
+  const auto t = root.Table("expect");
+  if (!t) return;
+  const auto number = [&](const char* key, std::optional<double>& out) {
+    if (t->Has(key)) out = t->Number(key);
+  };
+  const auto flag = [&](const char* key, std::optional<bool>& out) {
+    if (t->Has(key)) out = t->Bool(key, false);
+  };
+  number("detected_within", s.expect.detected_within);
+  number("max_orbit", s.expect.max_orbit);
+  number("max_false_alarms", s.expect.max_false_alarms);
+  number("rests_within", s.expect.rests_within);
+  flag("touchdown", s.expect.touchdown);
+  flag("drop", s.expect.drop);
+  flag("redistributed", s.expect.redistributed);
+  if (t->Has("classified"))
+    s.expect.classified = t->Choice("classified", "", "open, partial-short, amplifier-off, switch-stuck-on, "
+                                                      "current-sensor, position-sensor, bus-sag");
+  t->RejectUnknownKeys();
+}
+
+void CheckRate(const TomlTable& root, const RigParameters& rig, double rate) {
+  const double pwm = rig.amplifier.switching_frequency, k = rig.amplifier.adc_samples_per_period;
+  const double slow = pwm / rate, fast = rate / pwm;
+  const auto whole = [](double v) { return std::abs(v - std::round(v)) < 1e-6 * v && v > 0.5; };
+  if (whole(slow) || (whole(fast) && whole(k / fast))) return;
+  root.Fail("record_rate", fmt::format("= {} Hz, allowed: the switching frequency {} Hz over an integer, or times "
+                                       "a divisor of {} samples a period", rate, pwm, k));
+}
+
+Scenario Read(const TomlTable& root, const RigParameters& rig) {
+  Scenario s;
+  s.file = root.file();
+  s.name = root.String("name", std::filesystem::path(s.file).stem().string());
+  s.rig_file = root.String("rig", "rig.toml");
+  s.duration = PositiveTime(root, "duration", kRequired);
+  s.record_rate = root.Number("record_rate", rig.controller.rate);
+  if (!(s.record_rate > 0)) root.Fail("record_rate", fmt::format("= {} Hz, allowed: above 0", s.record_rate));
+  CheckRate(root, rig, s.record_rate);
+  const long long seed = root.Integer("seed", 1);
+  if (seed < 0) root.Fail("seed", fmt::format("= {}, allowed: 0 or more", seed));
+  s.seed = static_cast<std::uint64_t>(seed);
+  s.noise = root.Bool("noise", true);
+  s.fault_tolerant = root.Bool("fault_tolerance", true);
+  s.drop_limit = PositiveTime(root, "drop_limit", 0.1);
+  const Targets targets = TargetsOfRig(rig);
+  ReadStart(root, targets, rig, s);
+  ReadSpeed(root, s);
+  ReadExcitations(root, targets, s);
+  ReadLoads(root, targets, rig, s);
+  ReadFaults(root, targets, s);
+  ReadExpect(root, s);
+  root.RejectUnknownKeys();
+  return s;
+}
+
+}  // namespace
+
+Scenario ReadScenario(const std::string& file, const RigParameters& rig) {
+  return Read(TomlTable::FromFile(file), rig);
+}
+Scenario ReadScenarioText(const std::string& text, const std::string& file, const RigParameters& rig) {
+  return Read(TomlTable::FromText(text, file), rig);
+}
+
+std::string RigOfScenario(const std::string& file) {
+  const TomlTable root = TomlTable::FromFile(file);
+  const std::string rig = root.String("rig", "rig.toml");
+  return rig.starts_with('/') ? rig : DirectoryOf(file) + "/" + rig;
+}
+
+bool HasExpectations(const std::string& file) { return TomlTable::FromFile(file).Table("expect").has_value(); }
+
+}  // namespace ambrig

@@ -1,0 +1,75 @@
+#pragma once
+/// One run of the rig: NAME.toml. Source: shared/design/formats.md.
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/excitation.h"
+#include "rotor/speed_profile.h"
+#include "scenarios/rig_file.h"
+
+namespace ambrig {
+
+struct FaultSpec {
+  double time = 0;
+  std::string target;  // "A.coil3", "A.x", "rig"
+  std::string kind;    // open | partial-short | amplifier-off | switch-stuck-on | current-sensor | position-sensor | bus-sag
+  std::map<std::string, double> parameters;
+  std::string where;
+
+  double Get(const std::string& key, double fallback) const {
+    const auto it = parameters.find(key);
+    return it == parameters.end() ? fallback : it->second;
+  }
+};
+
+struct LoadSpec {
+  double z = 0;
+  bool axial = false;
+  double fx = 0, fy = 0, fz = 0;
+  double start = 0, stop = 0;
+};
+
+enum class StartState { kLevitated, kResting, kClamped };
+
+/// What makes a scenario a regression test; absent keys are not checked.
+struct Expectation {
+  std::optional<double> detected_within;  // [s]
+  std::optional<std::string> classified;
+  std::optional<bool> touchdown, drop, redistributed;
+  std::optional<double> max_orbit;        // [m]
+  std::optional<double> max_false_alarms; // [-]
+  std::optional<double> rests_within;     // [m], orbit over the last tenth of the run
+  bool any() const {
+    return detected_within || classified || touchdown || drop || redistributed || max_orbit ||
+           max_false_alarms || rests_within;
+  }
+};
+
+struct Scenario {
+  std::string name, file, rig_file;
+  double duration = 0, record_rate = 0;
+  std::uint64_t seed = 1;
+  bool noise = true;
+  bool fault_tolerant = true;  // detection and redistribution act
+  StartState start = StartState::kLevitated;
+  std::map<std::string, std::array<double, 2>> clamp;
+  SpeedProfile speed;
+  double speed_free_from = kInfinity;
+  std::vector<Excitation> excitations;
+  std::vector<LoadSpec> loads;
+  std::vector<FaultSpec> faults;
+  double drop_limit = 0.1;  // [s] longest contact that is not yet a drop
+  Expectation expect;
+};
+
+/// @throws InputError with file:line. The rig is needed to check targets.
+Scenario ReadScenario(const std::string& file, const RigParameters& rig);
+Scenario ReadScenarioText(const std::string& text, const std::string& file, const RigParameters& rig);
+/// Rig file that a scenario names, as a path relative to the working directory.
+std::string RigOfScenario(const std::string& file);
+bool HasExpectations(const std::string& file);
+
+}  // namespace ambrig

@@ -1,0 +1,442 @@
+#include "scenarios/switching_engine.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/noise.h"
+#include "scenarios/bearing_run.h"
+
+namespace ambrig {
+
+namespace {
+/// Noise streams: one per channel family, then the bearing or axis.
+enum Stream : std::uint32_t { kCurrentNoise = 100, kReadingNoise = 200, kBusNoise = 300 };
+constexpr double kLevitatedWarmUp = 0.25, kClampedWarmUp = 0.03;  // [s], physics.md section 3
+constexpr double kTiny = 1e-10;                                   // [s] instants equal to rounding
+}  // namespace
+
+SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scenario, const EngineOptions& options)
+    : rig_(rig), scenario_(scenario), options_(options), plant_(BuildPlant(rig_)) {
+  if (options_.commands) {
+    commands_ = options_.commands;
+  } else {
+    own_commands_ = std::make_unique<CommandPlan>(rig_, scenario_);
+    commands_ = own_commands_.get();
+  }
+  T_ = 1 / rig_.amplifier.switching_frequency;
+  samples_ = rig_.samples_per_period();
+  Require(options_.substeps >= 1 && samples_ * options_.substeps <= 160, "at most 160 steps in a period");
+  h_ = T_ / samples_;
+  M_ = rig_.periods_per_control();
+  periods_ = static_cast<long long>(std::ceil(scenario_.duration / T_ - 1e-6));
+  plant_.rotor.SetSpeed(scenario_.speed, scenario_.speed_free_from);
+  for (const LoadSpec& l : scenario_.loads) plant_.rotor.AddLoad(l.z, l.fx, l.fy, l.fz, l.start, l.stop);
+  std::vector<PidParameters> axes;
+  std::size_t axis = 0;
+  int auxiliary = 0;
+  for (std::size_t k = 0; k < rig_.bearings.size(); ++k) {
+    const BearingParameters& p = rig_.bearings[k];
+    BearingRun b;
+    b.index = k;
+    b.plant = &plant_.bearings[k];
+    b.first_axis = axis;
+    b.axes = p.Axes().size();
+    axis += b.axes;
+    if (p.auxiliary && p.kind == BearingKind::kRadial) b.auxiliary = auxiliary++;
+    b.measurement = {samples_, p.coils(), scenario_.noise, rig_.amplifier.current_noise,
+                     Quantiser(rig_.amplifier.adc_bits, rig_.amplifier.adc_range)};
+    for (const CurrentSensor& s : b.plant->current_sensor)
+      if (s.gain != 1 || s.offset != 0) b.plain_sensors = false;
+    b.plant->lanes.SetStep(h_ / options_.substeps);
+    bearings_.push_back(std::move(b));
+    for (std::size_t a = 0; a < p.Axes().size(); ++a) axes.push_back(PidOf(rig_, p));
+    BearingControl c;
+    c.name = p.name;
+    c.coils = p.coils();
+    c.amplifier.fill(PowerAmplifier(rig_.amplifier));
+    c.map.k = ForceConstant(p);
+    c.map.c0 = BiasCurrent(rig_, p);
+    c.map.i_max = rig_.amplifier.i_max;
+    c.map.unipolar = rig_.amplifier.quadrants < 3;
+    for (int j = 0; j < c.coils; ++j) {
+      c.map.W(j, 0) = p.kind == BearingKind::kOpposed && c.coils == 1 ? 0 : 1;
+      c.map.W(j, 1) = b.plant->lanes.direction_x[j];
+      c.map.W(j, 2) = b.plant->lanes.direction_y[j];
+      if (p.kind == BearingKind::kOpposed && c.coils == 1) c.map.W(j, 0) = 1;
+    }
+    control_.push_back(c);
+  }
+  controller_ = std::make_unique<DecentralisedPid>(axes, T_ * M_);
+  for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axis, 0.0);
+  contact_since_.assign(plant_.rotor.auxiliaries().size() + 1, -1);
+}
+
+RunResult SwitchingEngine::Run() {
+  Start();
+  if (options_.record) CreateChannels();
+  for (long long n = -warm_; n < periods_; ++n) {
+    if ((n & 255) == 0) {
+      if (options_.stop && options_.stop->load()) throw Interrupted();
+      if (options_.progress) options_.progress(static_cast<double>(n + warm_) / static_cast<double>(periods_ + warm_));
+    }
+    Period(n);
+  }
+  Verdict();
+  if (recorder_) result_.record = recorder_->Take();
+  if (options_.supervisor) options_.supervisor->Finish(result_);
+  return std::move(result_);
+}
+
+void SwitchingEngine::Start() {
+  switch (scenario_.start) {
+    case StartState::kLevitated: StartLevitated(); break;
+    case StartState::kClamped: StartClamped(); break;
+    case StartState::kResting: StartResting(); break;
+  }
+  plant_.rotor.SetSpin(motion_);
+  for (BearingRun& b : bearings_) {
+    plant_.rotor.Position(motion_, b.plant->plane, &b.true_x, &b.true_y);
+    b.x = b.true_x - b.plant->offset_x;
+    b.y = b.true_y - b.plant->offset_y;
+    b.plant->lanes.Settle(control_[b.index].set_point, b.x, b.y);
+    b.plant->lanes.Force(b.x, b.y, &b.fx, &b.fy);
+    control_[b.index].feedback = control_[b.index].set_point;
+    control_[b.index].commanded = control_[b.index].set_point;
+  }
+}
+
+void SwitchingEngine::StartLevitated() {
+  warm_ = std::llround(kLevitatedWarmUp / T_ / M_) * M_;
+  motion_.t = -static_cast<double>(warm_) * T_;
+  const auto shares = WeightShares(rig_);
+  double fx = 0, fy = 0;
+  for (BearingRun& b : bearings_) {
+    const auto& f = shares[b.index];
+    force_[b.first_axis] = f[0];
+    if (b.axes > 1) force_[b.first_axis + 1] = f[1];
+    BearingControl& c = control_[b.index];
+    const auto set = c.map.SetPoints(f[0], b.axes > 1 ? f[1] : 0);
+    for (int j = 0; j < c.coils; ++j) {
+      c.set_point[j] = set[j];
+      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(set[j], b.plant->base_resistance[j]);
+    }
+    if (b.axes > 1) {
+      fx += f[0];
+      fy += f[1];
+    }
+  }
+  controller_->Hold(force_, readings_);
+  plant_.rotor.SettleBase(motion_, fx, fy);
+}
+
+void SwitchingEngine::StartClamped() {
+  warm_ = std::llround(kClampedWarmUp / T_);
+  clamped_ = true;
+  controller_on_ = false;
+  motion_.t = -static_cast<double>(warm_) * T_;
+  // Two planes fix the rigid rotor: solve for the coordinates that put the centres where told.
+  double sz = 0, szz = 0, n = 0, sx = 0, sy = 0, szx = 0, szy = 0;
+  for (const BearingRun& b : bearings_) {
+    const auto it = scenario_.clamp.find(b.plant->name);
+    const std::array<double, 2> at = it == scenario_.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    if (b.plant->thrust) {
+      motion_.q[2] = at[0];
+    } else if (b.plant->opposed) {
+      const double a = rig_.bearings[b.index].opposed.angle_deg * kPi / 180;
+      motion_.q[0] = at[0] * std::cos(a);
+      motion_.q[1] = at[0] * std::sin(a);
+    } else {
+      const double z = b.plant->z;
+      n += 1;
+      sz += z;
+      szz += z * z;
+      sx += at[0];
+      sy += at[1];
+      szx += z * at[0];
+      szy += z * at[1];
+    }
+  }
+  if (n > 1) {
+    const double det = n * szz - sz * sz;
+    motion_.q[0] = (szz * sx - sz * szx) / det;
+    motion_.q[1] = (szz * sy - sz * szy) / det;
+    motion_.q[4] = (n * szx - sz * sx) / det;
+    motion_.q[3] = -(n * szy - sz * sy) / det;
+  }
+  for (const CommandPlan::Signal& s : commands_->current)
+    control_[static_cast<std::size_t>(s.bearing)].set_point[s.index] += CommandPlan::At(s, 0);
+  for (BearingRun& b : bearings_) {
+    BearingControl& c = control_[b.index];
+    for (int j = 0; j < c.coils; ++j)
+      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(c.set_point[j], b.plant->base_resistance[j]);
+  }
+}
+
+void SwitchingEngine::StartResting() {
+  warm_ = 0;
+  first_period_of_rest_ = true;
+  motion_.t = 0;
+  plant_.rotor.Rest(motion_);
+  for (BearingControl& c : control_) {
+    c.set_point = Lane{};
+    for (PowerAmplifier& a : c.amplifier) a.ResetToLowerLimit();
+  }
+}
+
+void SwitchingEngine::Period(long long n) {
+  motion_.t = static_cast<double>(n) * T_;
+  plant_.rotor.SetSpin(motion_);
+  ReadSensors();
+  ApplySetPoints(n);
+  if (controller_on_ && n % M_ == 0) ControlTick(n);
+  if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) {
+    CurrentLoops(n);  // the row shows this period's duty
+    RecordRow(n, 0);
+  } else {
+    CurrentLoops(n);
+  }
+  RunMagnetics(n);
+  Measure(n);
+  if (n >= 0 && recorder_ && row_samples_ > 0)
+    for (int k = 0; k < samples_; k += row_samples_) RecordRow(n, k);
+  for (BearingRun& b : bearings_) control_[b.index].feedback = b.mean;
+  MoveRotor(n);
+  if (n >= 0) Watch(n);
+}
+
+void SwitchingEngine::ReadSensors() {
+  for (BearingRun& b : bearings_) {
+    PositionSensor& s = b.plant->sensor;
+    double x, y;
+    plant_.rotor.Position(motion_, s.map, &x, &y);
+    for (const auto& map : s.maps) map->Map(motion_, &x, &y);
+    s.reading[0] = x;
+    s.reading[1] = y;
+  }
+}
+
+double SwitchingEngine::NoisyReading(std::size_t axis, long long n) const {
+  for (const BearingRun& b : bearings_) {
+    if (axis < b.first_axis || axis >= b.first_axis + b.axes) continue;
+    const PositionSensor& s = b.plant->sensor;
+    const std::size_t side = axis - b.first_axis;
+    double reading = s.reading[side];
+    if (scenario_.noise && s.noise > 0)
+      reading += s.noise * Normal(scenario_.seed, kReadingNoise + static_cast<std::uint32_t>(axis),
+                                  static_cast<std::uint64_t>(n + (1LL << 40)));
+    return s.fault[side].Apply(reading);
+  }
+  return 0;
+}
+
+void SwitchingEngine::ControlTick(long long n) {
+  const long long tick = n / M_;
+  for (std::size_t a = 0; a < readings_.size(); ++a) {
+    readings_[a] = NoisyReading(a, n);
+    reference_[a] = excitation_[a] = 0;
+  }
+  reading_time_ = motion_.t;
+  for (BearingRun& b : bearings_)
+    for (std::size_t side = 0; side < b.axes; ++side)
+      if (!b.plant->sensor.fault[side].stuck) b.plant->sensor.fault[side].held = readings_[b.first_axis + side];
+  if (tick >= 0) {
+    for (const auto& s : commands_->reference) reference_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, tick);
+    for (const auto& s : commands_->force) excitation_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, tick);
+  }
+  controller_->Step(readings_, reference_, excitation_, motion_.Omega, force_);
+  PendingSetPoints next;
+  next.due = motion_.t + M_ * T_;
+  next.values.resize(control_.size());
+  for (const BearingRun& b : bearings_) {
+    const auto set = control_[b.index].map.SetPoints(force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0);
+    for (int j = 0; j < kLanes; ++j) next.values[b.index][j] = set[j];
+  }
+  pending_.push_back(std::move(next));
+}
+
+void SwitchingEngine::ApplySetPoints(long long n) {
+  const double t = static_cast<double>(n) * T_ + kTiny;
+  std::size_t done = 0;
+  for (PendingSetPoints& p : pending_) {
+    if (p.due > t) break;
+    if (!p.recorded)
+      for (std::size_t k = 0; k < control_.size(); ++k) control_[k].set_point = p.values[k];
+    p.recorded = true;
+    if (p.due + plant_.loop_delay > t) break;
+    for (std::size_t k = 0; k < control_.size(); ++k) control_[k].commanded = p.values[k];
+    ++done;
+  }
+  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(done));
+}
+
+void SwitchingEngine::CurrentLoops(long long n) {
+  std::vector<Lane>& target = loop_target_;  // kept: no allocation in the loop
+  target.resize(control_.size());
+  for (std::size_t k = 0; k < control_.size(); ++k) target[k] = clamped_ ? Lane{} : control_[k].commanded;
+  const long long at = n < 0 ? (clamped_ ? 0 : -1) : n;
+  if (at >= 0)
+    for (const auto& s : commands_->current)
+      target[static_cast<std::size_t>(s.bearing)][s.index] += CommandPlan::At(s, at);
+  for (BearingRun& b : bearings_) {
+    BearingControl& c = control_[b.index];
+    if (clamped_) c.set_point = target[b.index];
+    for (int j = 0; j < c.coils; ++j) {
+      const auto lane = static_cast<std::size_t>(j);
+      double d = first_period_of_rest_ ? rig_.amplifier.duty_min
+                                       : c.amplifier[lane].CurrentLoop(target[b.index][j], c.feedback[j]);
+      if (c.disabled[lane]) d = 0;
+      c.duty[j] = d;
+    }
+  }
+  first_period_of_rest_ = false;
+  if (at >= 0)
+    for (const auto& s : commands_->duty)
+      control_[static_cast<std::size_t>(s.bearing)].duty[s.index] =
+          std::clamp(CommandPlan::At(s, at), std::min(0.0, rig_.amplifier.duty_min), 1.0);
+  for (BearingRun& b : bearings_) {
+    const BearingControl& c = control_[b.index];
+    for (int j = 0; j < c.coils; ++j) {
+      const auto lane = static_cast<std::size_t>(j);
+      BridgeImperfection bridge = b.plant->bridge[lane];
+      for (const auto& term : b.plant->voltage[lane])
+        bridge.voltage_offset += term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y});
+      const CoilVoltage v = c.amplifier[lane].Pattern(c.duty[j], bridge);
+      b.pattern.t1[j] = v.t1;
+      b.pattern.t2[j] = v.t2;
+      for (int q = 0; q < 3; ++q) {
+        b.pattern.gain[q][j] = v.gain[q];
+        b.pattern.drop[q][j] = v.drop[q];
+      }
+    }
+  }
+}
+
+void SwitchingEngine::RunMagnetics(long long n) {
+  for (BearingRun& b : bearings_) {
+    b.x_next = b.x;
+    b.y_next = b.y;
+    if (clamped_) continue;
+    // Where the plane will be at the end of the period: constant acceleration.
+    MotionState ahead = motion_;
+    ahead.t += T_;
+    for (int d = 0; d < plant_.rotor.dof(); ++d) {
+      const auto c = static_cast<std::size_t>(d);
+      ahead.q[c] += T_ * (motion_.v[c] + 0.5 * T_ * acceleration_[c]);
+    }
+    ahead.theta += T_ * motion_.Omega;
+    plant_.rotor.Position(ahead, b.plant->plane, &b.x_next, &b.y_next);
+    b.x_next -= b.plant->offset_x;
+    b.y_next -= b.plant->offset_y;
+  }
+  const double end = motion_.t + T_;
+  std::vector<const FaultSpec*>& due = due_faults_;
+  due.clear();
+  while (n >= 0 && next_fault_ < scenario_.faults.size() && scenario_.faults[next_fault_].time < end - kTiny)
+    due.push_back(&scenario_.faults[next_fault_++]);
+  bool general = options_.force_general_path || !due.empty() || !plant_.bus.stiff() || bus_restore_at_ < end;
+  for (const BearingRun& b : bearings_) {
+    general = general || b.plant->lanes.NeedsGeneralPath();
+    for (const BridgeImperfection& bridge : b.plant->bridge) general = general || bridge.dead_time > 0;
+  }
+  const int steps = samples_ * options_.substeps;
+  if (general) {
+    RunSamplesInLockstep(n, due);
+  } else {
+    for (BearingRun& b : bearings_)
+      b.plant->lanes.RunPeriod(b.pattern, plant_.bus.voltage, b.x, b.y, b.x_next, b.y_next, steps);
+  }
+  for (BearingRun& b : bearings_) {
+    b.fx = b.plant->lanes.fx;
+    b.fy = b.plant->lanes.fy;
+  }
+}
+
+void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due) {
+  const int steps = samples_ * options_.substeps;
+  const double h = T_ / steps, start = static_cast<double>(n) * T_;
+  for (BearingRun& b : bearings_) b.plant->lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
+  std::size_t done = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double t = start + k * h;
+    while (done < due.size() && due[done]->time < t + 0.5 * h) {
+      Inject(*due[done]);
+      ++done;
+    }
+    double drawn = 0;
+    for (BearingRun& b : bearings_) {
+      b.plant->lanes.StepSample(b.pattern, plant_.bus.voltage, k);
+      drawn += b.plant->lanes.bus_current();
+    }
+    if (!plant_.bus.stiff()) {
+      const BusSupply& bus = plant_.bus;
+      const double settled = bus.source - bus.resistance * drawn;
+      const double keep = bus.capacitance > 0 ? std::exp(-h / (bus.resistance * bus.capacitance)) : 0;
+      plant_.bus.voltage = settled + (bus.voltage - settled) * keep;
+    }
+    if (t + h > bus_restore_at_) {
+      plant_.bus.source = rig_.amplifier.bus_voltage;
+      if (plant_.bus.stiff()) plant_.bus.voltage = plant_.bus.source;
+      bus_restore_at_ = kInfinity;
+    }
+  }
+  for (; done < due.size(); ++done) Inject(*due[done]);
+  for (BearingRun& b : bearings_) b.plant->lanes.EndPeriod();
+}
+
+void SwitchingEngine::Measure(long long n) {
+  for (BearingRun& b : bearings_) {
+    if (options_.substeps > 1)
+      for (int k = 1; k < samples_; ++k) b.plant->lanes.samples[k] = b.plant->lanes.samples[k * options_.substeps];
+    MeasureCurrents(b.measurement, b.plant->lanes.samples, b.plant->current_sensor.data(), b.plain_sensors,
+                    scenario_.seed, kCurrentNoise + static_cast<std::uint32_t>(b.index),
+                    static_cast<std::uint64_t>(n + (1LL << 40)), b.adc, &b.mean);
+  }
+}
+
+void SwitchingEngine::MoveRotor(long long n) {
+  HeatCopper();
+  for (BearingRun& b : bearings_) {
+    b.x = b.x_next;
+    b.y = b.y_next;
+  }
+  if (clamped_) return;
+  DofVector Q{};
+  double sx = 0, sy = 0;
+  for (const BearingRun& b : bearings_) {
+    b.plant->plane.AddForce(b.fx, b.fy, Q);
+    if (b.plant->thrust) continue;
+    sx += b.fx;
+    sy += b.fy;
+  }
+  const DofVector v_before = motion_.v;
+  plant_.rotor.Step(motion_, Q, sx, sy, T_);
+  motion_.t = static_cast<double>(n + 1) * T_;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(plant_.rotor.dof()); ++d)
+    acceleration_[d] = (motion_.v[d] - v_before[d]) / T_;
+  for (BearingRun& b : bearings_) {
+    plant_.rotor.Position(motion_, b.plant->plane, &b.true_x, &b.true_y);
+    b.x = b.true_x - b.plant->offset_x;
+    b.y = b.true_y - b.plant->offset_y;
+    if (!std::isfinite(b.x) || !std::isfinite(b.y))
+      throw std::runtime_error(fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t));
+  }
+}
+
+void SwitchingEngine::HeatCopper() {
+  for (BearingRun& b : bearings_) {
+    CopperHeating& heat = b.plant->heating;
+    if (heat.rise_per_watt <= 0 || motion_.t < 0) continue;
+    StatorLanes& lanes = b.plant->lanes;
+    for (int j = 0; j < lanes.coils; ++j) {
+      double& dT = heat.dT[static_cast<std::size_t>(j)];
+      const double power = lanes.resistance[j] * b.mean_square[j];
+      dT += T_ / heat.time_constant * (heat.rise_per_watt * power - dT);
+      lanes.resistance[j] = b.plant->base_resistance[j] * (1 + 0.00393 * dT);
+    }
+    lanes.SetStep(T_ / samples_ / options_.substeps);
+  }
+}
+
+}  // namespace ambrig

@@ -1,0 +1,101 @@
+#pragma once
+/// The fast engine: lockstep samples at the ADC rate with the exact switching edge inside a sample,
+/// one period of all bearings, then one step of the rotor, then the controller's clock.
+/// Timing: shared/design/physics.md sections 3 and 4. Structure: docs/theory/engine.md.
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "control/position_controller.h"
+#include "scenarios/command_plan.h"
+#include "scenarios/measurement.h"
+#include "scenarios/recorder.h"
+#include "scenarios/rig.h"
+#include "scenarios/run_result.h"
+#include "scenarios/supervisor.h"
+
+namespace ambrig {
+
+struct EngineOptions {
+  double record_rate = 0;                          // 0: the scenario's
+  bool record = true;
+  bool snapshots = false;
+  bool force_general_path = false;                 // tests: the slow path must give the same record
+  int substeps = 1;                                // tests of convergence: finer steps inside a sample
+  const CommandPlan* commands = nullptr;           // shared between runs of one scenario
+  Supervisor* supervisor = nullptr;
+  std::function<void(double)> progress;            // fraction done
+  const std::atomic<bool>* stop = nullptr;         // set: throw Interrupted
+};
+
+class SwitchingEngine {
+ public:
+  SwitchingEngine(const RigParameters& rig, const Scenario& scenario, const EngineOptions& options);
+  RunResult Run();
+
+ private:
+  struct BearingRun;
+  struct PendingSetPoints;
+
+  void Start();
+  void StartLevitated();
+  void StartClamped();
+  void StartResting();
+  void Period(long long n);
+  void ReadSensors();
+  void ControlTick(long long n);
+  void ApplySetPoints(long long n);
+  void CurrentLoops(long long n);
+  void RunMagnetics(long long n);
+  void RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due);
+  void Measure(long long n);
+  void MoveRotor(long long n);
+  void Watch(long long n);
+  void Inject(const FaultSpec& fault);
+  void InjectCoil(const FaultSpec& fault, BearingRun& b, int coil);
+  void BusAt(double t);
+  void CreateChannels();
+  void RecordRow(long long n, int sample);
+  void HeatCopper();
+  void Snapshot(const std::string& label);
+  void Verdict();
+  double NoisyReading(std::size_t axis, long long n) const;
+  void Event(const std::string& kind, const std::string& target, const std::string& fault_class = "",
+             double fraction = 0, double t = -1);
+
+  RigParameters rig_;
+  const Scenario& scenario_;
+  EngineOptions options_;
+  std::unique_ptr<CommandPlan> own_commands_;
+  const CommandPlan* commands_;
+
+  Plant plant_;
+  MotionState motion_;
+  DofVector acceleration_{};
+  std::vector<BearingRun> bearings_;
+  std::vector<BearingControl> control_;
+  std::unique_ptr<PositionController> controller_;
+  std::vector<double> readings_, reference_, excitation_, force_;  // per axis
+  std::vector<PendingSetPoints> pending_;
+  double reading_time_ = 0;
+
+  double T_ = 0, h_ = 0;     // switching period, ADC sample [s]
+  int M_ = 1, samples_ = 18; // periods per controller period, ADC samples per period
+  bool first_period_of_rest_ = false, clamped_ = false, controller_on_ = true;
+  long long warm_ = 0, periods_ = 0;
+  std::size_t next_fault_ = 0;
+  double bus_restore_at_ = kInfinity;
+  std::vector<Lane> loop_target_;
+  std::vector<const FaultSpec*> due_faults_;
+
+  std::optional<Recorder> recorder_;
+  int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples
+  std::vector<std::size_t> channel_;
+  RunResult result_;
+  std::vector<double> contact_since_;
+  double loss_sum_ = 0;
+  PeriodMeasurement measurement_;
+};
+
+}  // namespace ambrig
