@@ -99,17 +99,21 @@ void AddConsistentMass(const ShaftElement& e, const BeamTheory& theory, const Sh
   });
 }
 
-/// Mass to the ends so that total and centre of mass stay; section inertia likewise.
+/// Mass to the ends so that total and centre of mass stay; each half turns with its node as a rigid piece.
 void AddLumpedMass(const ShaftElement& e, const BeamTheory& theory, PlaneElement& out) {
-  Quadrature(e.length, [&](double s, double weight) {
+  const auto add = [&](double s, double weight) {
     const CrossSection c = SectionAt(e, theory, s);
     const double t = s / e.length;
+    const double arm = t < 0.5 ? s : e.length - s;
+    if (theory.rotary_inertia) out.M(t < 0.5 ? 1 : 3, t < 0.5 ? 1 : 3) += weight * c.rhoA * arm * arm;
     for (const auto& [end, share] : {std::pair{0, 1 - t}, std::pair{2, t}}) {
       out.M(end, end) += weight * c.rhoA * share;
       if (theory.rotary_inertia) out.M(end + 1, end + 1) += weight * c.rhoI * share;
       if (theory.gyroscopic) out.J(end + 1, end + 1) += 2 * weight * c.rhoI * share;
     }
-  });
+  };
+  Quadrature(e.length / 2, add);
+  Quadrature(e.length / 2, [&](double s, double weight) { add(e.length / 2 + s, weight); });
 }
 
 }  // namespace

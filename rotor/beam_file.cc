@@ -1,0 +1,173 @@
+#include "rotor/beam_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <map>
+
+#include "rotor/beam_mesh.h"
+#include "rotor/ross_file.h"
+
+namespace ambrig {
+namespace {
+
+using Materials = std::map<std::string, Material>;
+
+Materials ReadMaterials(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
+  Materials out{{"steel", {2.11e11, 7810, 0.29926}},
+                {"aluminium", {7.0e10, 2700, 0.33}},
+                {"titanium", {1.14e11, 4430, 0.34}}};
+  const auto table = rotor.Table("materials");
+  if (!table) return out;
+  for (const std::string& name : table->Keys()) {
+    const TomlTable row = *table->Table(name);
+    Material m;
+    row.Read(m, kMaterialFields, tolerances);
+    row.RejectUnknownKeys();
+    out[name] = m;
+  }
+  return out;
+}
+
+/// `material = "name"`, overridden by E, rho, nu given beside it.
+Material ReadMaterial(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances,
+                      bool mass_only) {
+  Material m;
+  if (mass_only) m.E = kMaterialFields[0].hi;  // carries nothing; any value passes the check
+  if (row.Has("material")) {
+    std::string names;
+    for (const auto& [name, unused] : materials) names += (names.empty() ? "" : ", ") + name;
+    m = materials.at(row.Choice("material", "", names));
+  }
+  row.Read(m, kMaterialFields, tolerances);
+  return m;
+}
+
+ShaftSection ReadSection(const TomlTable& row, const Materials& materials, bool stiff, double z0,
+                         std::vector<Tolerance>* tolerances) {
+  ShaftSection s;
+  s.stiff = stiff;
+  s.name = row.String("name", "");
+  s.z0 = stiff ? row.Number("z0", z0) : row.Number("z0");
+  s.od_right = row.Number("od_right", row.Number("od"));
+  s.id_right = row.Number("id_right", row.Number("id", 0.0));
+  row.Read(s, kShaftSectionFields, tolerances);
+  s.material = ReadMaterial(row, materials, tolerances, !stiff);
+  row.RejectUnknownKeys();
+  const std::string problem = SectionProblem(s);
+  if (!problem.empty()) row.Fail("id", problem);
+  return s;
+}
+
+Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances) {
+  Disk d;
+  if (row.Has("width")) {
+    for (const char* key : {"mass", "inertia_diametral", "inertia_polar"})
+      if (row.Has(key)) row.Fail(key, "is given beside width, allowed: either mass and inertias or width, od, id");
+    const double width = row.Number("width"), od = row.Number("od"), id = row.Number("id", 0.0);
+    if (!(width > 0)) row.Fail("width", fmt::format("{} m, allowed above 0", NumberText(width)));
+    if (!(id >= 0 && od > id)) row.Fail("od", fmt::format("{} m, allowed above id = {} m", NumberText(od), NumberText(id)));
+    d = DiskFromGeometry(0, width, id, od, ReadMaterial(row, materials, tolerances, true).rho);
+    d.z = kRequired;
+  }
+  row.Read(d, kDiskFields, tolerances);
+  d.name = row.String("name", "");
+  row.RejectUnknownKeys();
+  // A body's own second moments: Ip <= Id_1 + Id_2.
+  if (d.inertia_polar > 2 * d.inertia_diametral * (1 + 1e-9))
+    row.Fail("inertia_polar", fmt::format("{} kg m2, allowed up to twice inertia_diametral = {} kg m2",
+                                          NumberText(d.inertia_polar), NumberText(d.inertia_diametral)));
+  return d;
+}
+
+SpringSupport ReadSupport(const TomlTable& row, std::vector<Tolerance>* tolerances) {
+  SpringSupport s = IsotropicSupport(kRequired, row.Number("k", 0.0), row.Number("c", 0.0));
+  row.Read(s, kSpringSupportFields, tolerances);
+  s.name = row.String("name", "");
+  row.RejectUnknownKeys();
+  return s;
+}
+
+int ReadCount(const TomlTable& rotor, const char* key, int fallback, int lo, int hi) {
+  const long long n = rotor.Integer(key, fallback);
+  if (n < lo || n > hi) rotor.Fail(key, fmt::format("{}, allowed {} to {}", n, lo, hi));
+  return static_cast<int>(n);
+}
+
+BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
+  const bool lumped = rotor.Choice("mass", "consistent", "consistent, lumped") == "lumped";
+  t.mass = lumped ? MassKind::kLumped : MassKind::kConsistent;
+  t.shear = rotor.Bool("shear", t.shear);
+  t.rotary_inertia = rotor.Bool("rotary_inertia", t.rotary_inertia);
+  t.gyroscopic = rotor.Bool("gyroscopic", t.gyroscopic);
+  const char* now = t.coefficient == ShearCoefficient::kHutchinson ? "hutchinson" : "cowper";
+  const bool hutchinson = rotor.Choice("shear_coefficient", now, "cowper, hutchinson") == "hutchinson";
+  t.coefficient = hutchinson ? ShearCoefficient::kHutchinson : ShearCoefficient::kCowper;
+  return t;
+}
+
+std::vector<double> ReadDamping(const TomlTable& rotor, int modes) {
+  std::vector<double> zeta;
+  if (rotor.IsArray("modal_damping"))
+    zeta = rotor.Numbers("modal_damping");
+  else
+    zeta = {rotor.Number("modal_damping", 0.0)};
+  if (zeta.size() != 1 && static_cast<int>(zeta.size()) != modes)
+    rotor.Fail("modal_damping", fmt::format("{} values, allowed: one, or one per mode ({})", zeta.size(), modes));
+  for (double z : zeta)
+    if (!(z >= 0 && z < 1)) rotor.Fail("modal_damping", fmt::format("{}, allowed 0 to below 1", NumberText(z)));
+  return zeta;
+}
+
+void ReadTables(const TomlTable& rotor, BeamDefinition& d, std::vector<Tolerance>* tolerances) {
+  const Materials materials = ReadMaterials(rotor, tolerances);
+  double z = 0;
+  for (const TomlTable& row : rotor.Tables("section")) {
+    d.sections.push_back(ReadSection(row, materials, true, z, tolerances));
+    z = d.sections.back().z0 + d.sections.back().length;
+  }
+  for (const TomlTable& row : rotor.Tables("sleeve"))
+    d.sections.push_back(ReadSection(row, materials, false, 0, tolerances));
+  for (const TomlTable& row : rotor.Tables("disk")) d.disks.push_back(ReadDisk(row, materials, tolerances));
+  for (const TomlTable& row : rotor.Tables("support")) d.supports.push_back(ReadSupport(row, tolerances));
+  for (double station : rotor.Numbers("stations", {})) d.stations.push_back(station);
+}
+
+BeamDefinition FromRoss(const TomlTable& rotor) {
+  if (rotor.Has("section")) rotor.Fail("section", "is given beside ross_file, allowed: one of them");
+  const std::filesystem::path file = rotor.String("ross_file");
+  const std::filesystem::path folder = std::filesystem::path(rotor.file()).parent_path();
+  return ReadRoss((file.is_absolute() ? file : folder / file).string()).definition;
+}
+
+}  // namespace
+
+BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
+  rotor.Choice("kind", "beam", "beam");
+  BeamFile out;
+  BeamDefinition& d = out.definition;
+  const bool ross = rotor.Has("ross_file");
+  if (ross) d = FromRoss(rotor);
+  ReadTables(rotor, d, tolerances);
+  if (d.sections.empty()) rotor.Fail("section", "is missing, allowed: tables, each written [[rotor.section]]");
+  d.theory = ReadTheory(rotor, d.theory);
+  d.elements_per_section = ReadCount(rotor, "elements_per_section", ross ? 1 : 4, 1, 1000);
+  out.modes = ReadCount(rotor, "modes", 2, 0, 100);
+  out.modal_damping = ReadDamping(rotor, out.modes);
+  BeamMesh mesh;
+  try {
+    mesh = MakeMesh(d);
+  } catch (const InputError& e) {
+    rotor.Fail("", e.what());
+  }
+  const int available = 2 * static_cast<int>(mesh.z.size()) - 2;
+  if (out.modes > available)
+    rotor.Fail("modes", fmt::format("{}, allowed 0 to {} with these elements", out.modes, available));
+  return out;
+}
+
+ReducedRotor BuildReduced(const BeamFile& file) {
+  return Reduce(BuildBeam(file.definition), file.modes, file.modal_damping);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,34 @@
+#pragma once
+/// The rotor file of ROSS (petrobras/ross, `Rotor.save` and `Rotor.load` of versions 1 and 2): TOML or
+/// JSON, one table "Class_tag" per element. Read: shaft elements (L, idl, odl, idr, odr, n, alpha, beta,
+/// material; several at one n are layers), disk elements (n, m, Id, Ip), bearings and seals with
+/// coefficients kxx, cxx, ... over `frequency` [rad/s]. Magnetic bearings become planes (ambrig has its
+/// own), and elements without a counterpart are named, never dropped silently. ROSS's axes are ours.
+/// A sleeve is written as a shaft element of E = 1 Pa and read back as one: ROSS has no other way to say
+/// mass without stiffness along a shaft. ROSS knows no lumped mass, so that choice is not in the file.
+#include <string>
+#include <vector>
+
+#include "rotor/beam.h"
+
+namespace ambrig {
+
+struct RossPlane {
+  std::string name;
+  double z = 0;
+};
+
+struct RossRotor {
+  BeamDefinition definition;
+  std::vector<RossPlane> magnetic_bearings;
+  std::vector<std::string> ignored;  // "PointMass_housing": elements not modelled here
+};
+
+/// Speed-dependent coefficients are taken at `speed` [rad/s], linear between entries.
+/// @throws InputError naming file, element and key.
+RossRotor ReadRoss(const std::string& file, double speed = 0);
+
+/// By extension .toml or .json. @throws InputError when the file cannot be written.
+void WriteRoss(const BeamDefinition& definition, const std::string& file);
+
+}  // namespace ambrig

@@ -1,0 +1,101 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "rotor/beam_mesh.h"
+#include "rotor/ross_file.h"
+
+namespace ambrig {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kSleeveE = 1.0;  // [Pa]; E > 0 because ROSS derives Poisson's ratio from E and G_s
+
+Json MaterialTable(const ShaftSection& s) {
+  const double E = s.stiff ? s.material.E : kSleeveE;
+  return {{"name", s.stiff ? "shaft" : "sleeve"},
+          {"rho", s.material.rho},
+          {"E", E},
+          {"G_s", E / (2 * (1 + s.material.nu))},
+          {"color", s.stiff ? "#525252" : "#b0b0b0"}};
+}
+
+Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std::string& tag) {
+  return {{"L", s.length}, {"idl", s.id}, {"odl", s.od}, {"idr", s.id_right}, {"odr", s.od_right},
+          {"n", node}, {"axial_force", 0}, {"torque", 0}, {"shear_effects", t.shear},
+          {"rotary_inertia", t.rotary_inertia}, {"gyroscopic", t.gyroscopic},
+          {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
+          {"tag", tag}, {"alpha", s.damping_mass}, {"beta", s.damping_stiffness},
+          {"material", MaterialTable(s)}};
+}
+
+Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
+  Json table = {{"n", node}, {"tag", tag}, {"color", "#355d7a"}, {"scale_factor", 1}};
+  const auto set = [&](const char* key, double value) { table[key] = Json::array({value}); };
+  set("kxx", s.kxx), set("kxy", s.kxy), set("kyx", s.kyx), set("kyy", s.kyy);
+  set("cxx", s.cxx), set("cxy", s.cxy), set("cyx", s.cyx), set("cyy", s.cyy);
+  for (const char* zero : {"kzz", "czz", "mxx", "mxy", "myx", "myy", "mzz"}) set(zero, 0.0);
+  return table;
+}
+
+std::string Tag(const std::string& name, const char* kind, int count) {
+  return name.empty() ? fmt::format("{} {}", kind, count) : name;
+}
+
+Json RotorTables(const BeamDefinition& d) {
+  const BeamMesh mesh = MakeMesh(d);
+  BeamRotor nodes;
+  nodes.z = mesh.z;
+  Json root = {{"ross_version", "2.3.0"}, {"parameters", Json::object()}};
+  int count = 0;
+  for (std::size_t i = 0; i < mesh.elements.size(); ++i)
+    for (const ShaftSection& layer : mesh.elements[i].layers) {
+      const std::string tag = fmt::format("Shaft Element {}", count++);
+      root["ShaftElement_" + tag] = ShaftTable(layer, d.theory, static_cast<int>(i), tag);
+    }
+  count = 0;
+  for (const Disk& disk : d.disks) {
+    const std::string tag = Tag(disk.name, "Disk", count++);
+    root["DiskElement_" + tag] = {{"n", NodeAt(nodes, disk.z)}, {"m", disk.mass},
+                                  {"Id", disk.inertia_diametral}, {"Ip", disk.inertia_polar},
+                                  {"tag", tag}, {"scale_factor", 1.0}, {"color", "Firebrick"}};
+  }
+  count = 0;
+  for (const SpringSupport& s : d.supports) {
+    const std::string tag = Tag(s.name, "Bearing", count++);
+    root["BearingElement_" + tag] = BearingTable(s, NodeAt(nodes, s.z), tag);
+  }
+  return root;
+}
+
+/// JSON strings and numbers are TOML values too; json.dump gives the shortest text that reads back.
+void WriteTable(std::ostream& out, const std::string& header, const Json& table) {
+  out << "\n[" << header << "]\n";
+  for (const auto& [key, value] : table.items())
+    if (!value.is_object()) out << key << " = " << value.dump() << "\n";
+  for (const auto& [key, value] : table.items())
+    if (value.is_object()) WriteTable(out, header + "." + key, value);
+}
+
+void WriteToml(std::ostream& out, const Json& root) {
+  out << "ross_version = " << root.at("ross_version").dump() << "\n";
+  for (const auto& [key, table] : root.items())
+    if (table.is_object()) WriteTable(out, Json(key).dump(), table);
+}
+
+}  // namespace
+
+void WriteRoss(const BeamDefinition& definition, const std::string& file) {
+  const Json root = RotorTables(definition);
+  std::ofstream out(file, std::ios::binary);
+  if (file.size() > 5 && file.substr(file.size() - 5) == ".json")
+    out << root.dump(4) << "\n";
+  else
+    WriteToml(out, root);
+  out.flush();
+  if (!out) throw InputError(fmt::format("{}: cannot write the file", file));
+}
+
+}  // namespace ambrig
