@@ -14,8 +14,9 @@ namespace {
 constexpr double kLargestEntry = 50;  // of an acceptable W, healthy 1
 constexpr double kSolved = 1e-9;      // equation error
 constexpr double kFeasible = 1e-6;    // of a search's result, before it is polished
-constexpr double kCapacityKept = 0.9995;
-constexpr double kErrorWeight = 20;  // of the error of a linearised W at the disc's edge
+constexpr double kCapacityKept = 0.9999;
+constexpr double kErrorWeight = 20;  // of the error of a linearised W at the disc's edge, ...
+constexpr double kErrorWeightForReach = 2;  // ... and while its largest disc is searched
 
 /// Counter-based uniform and normal numbers (SplitMix64): start n is the same for any order.
 class Draws {
@@ -104,29 +105,50 @@ class Solver {
   Distribution Solve() {
     const SolvabilityClass cls = Classify(p_);
     if (LiveCount(p_) == 0) return Describe(p_, cls, DistributionMatrix::Zero());
-    if (cls == SolvabilityClass::kExact) {
-      if (const auto W = Best(12)) return Describe(p_, cls, *W);
-      p_.quadrants = 4;  // no W with currents of one sign: say so through `unipolar`
-      const auto W = Best(12);
-      p_.quadrants = 2;
-      if (W) return Describe(p_, cls, *W);
-    }
-    if (cls != SolvabilityClass::kNone)
-      if (const auto W = Best(6)) return Describe(p_, cls, *W);
-    const auto W = Best(0);
-    return Describe(p_, cls, W ? *W : DistributionMatrix::Zero());
+    if (cls == SolvabilityClass::kExact) return Describe(p_, cls, ExactOrFurther());
+    if (cls == SolvabilityClass::kLinearised)
+      if (const auto W = Linearised()) return Describe(p_, cls, *W);
+    return Describe(p_, cls, Best(0).value_or(DistributionMatrix::Zero()));
   }
 
   double FluxCapacityFound() {
-    DistributionProgram program(p_, forms_, 12, {.T = 1, .bias = 1e-4, .control = 1e-4});
+    DistributionProgram program(p_, forms_, 12, {.T = 1, .bias = 1e-5, .control = 1e-5});
     program.BoundFluxes();
     double best = 0;
-    for (const Candidate& c : Multistart(program, 12, false))
-      best = std::max(best, FluxCapacity(forms_, c.W));
+    const DistributionOptions given = o_;
+    o_.starts *= 3;  // the flux bounds have many narrow optima
+    const std::vector<Candidate> found = Multistart(program, 12, false);
+    o_ = given;
+    for (const Candidate& c : found) best = std::max(best, FluxCapacity(forms_, c.W));
     return best;
   }
 
  private:
+  DistributionMatrix ExactOrFurther() const {
+    const auto exact = Best(12);
+    const double rho = exact ? WorkingDisc(p_, *exact) : 0;
+    if (o_.policy == DistributionPolicy::kControl && rho < o_.rho_needed) {
+      const auto linearised = Best(6);
+      if (linearised && WorkingDisc(p_, *linearised) >= o_.rho_needed) return *linearised;
+    }
+    if (exact) return *exact;
+    return AnySign().Best(12).value_or(DistributionMatrix::Zero());
+  }
+
+  /// Nothing for kControl when currents of one sign cannot do it: the least error serves better
+  /// there than currents that the amplifiers would clip.
+  std::optional<DistributionMatrix> Linearised() const {
+    const auto W = Best(6);
+    return W || o_.policy == DistributionPolicy::kControl ? W : AnySign().Best(6);
+  }
+
+  /// The same bearing with currents of any sign; the figure `unipolar` tells.
+  Solver AnySign() const {
+    RedistributionProblem p = p_;
+    p.quadrants = 4;
+    return Solver(p, o_);
+  }
+
   std::vector<Candidate> Multistart(const DistributionProgram& program, int equations,
                                     bool positive) const {
     std::vector<Candidate> found;
@@ -140,8 +162,8 @@ class Solver {
 
   /// Largest capacity first; for the capacity T is minimised with the disc |v| <= c0.
   std::vector<Candidate> ByCapacity(int equations) const {
-    DistributionProgram::Weights weights{.T = 1, .bias = 1e-4, .control = 1e-4};
-    if (equations < 12) weights.error = kErrorWeight;
+    DistributionProgram::Weights weights{.T = 1, .bias = 1e-5, .control = 1e-5};
+    if (equations < 12) weights.error = equations == 6 ? kErrorWeightForReach : kErrorWeight;
     DistributionProgram program(p_, forms_, equations, weights);
     program.BoundCurrents(1);
     std::vector<Candidate> found = Multistart(program, equations, p_.quadrants == 2);
@@ -156,7 +178,7 @@ class Solver {
                                       const std::vector<Candidate>& candidates) const {
     DistributionProgram::Weights weights{
         .stiffness = 1, .bias = o_.bias_weight, .control = o_.control_weight};
-    if (equations < 12) weights.error = kErrorWeight * rho * rho;
+    if (equations < 12) weights.error = kErrorWeight * (equations == 6 ? rho * rho : 1);
     DistributionProgram program(p_, forms_, equations, weights);
     program.BoundCurrents(rho, p_.i_max / p_.c0);
     std::optional<Candidate> best;
@@ -178,7 +200,8 @@ class Solver {
     const double rho_best = WorkingDisc(p_, widest);
     double rho = kCapacityKept * rho_best;
     if (o_.policy == DistributionPolicy::kControl)
-      rho = std::max(o_.capacity_share * rho_best, std::min(o_.rho_floor, 0.9 * rho_best));
+      rho = std::max(equations == 12 ? o_.capacity_share * rho_best : 0,
+                     std::min(o_.rho_floor, 0.9 * rho_best));  // linearised: the less, the truer
     std::vector<Candidate> starts;
     for (const Candidate& c : found)
       if (starts.size() < 24 && WorkingDisc(p_, WidestDisc(p_, c.W)) >= 0.99 * rho)

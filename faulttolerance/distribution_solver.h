@@ -27,9 +27,10 @@ struct DistributionOptions {
   DistributionPolicy policy = DistributionPolicy::kControl;
   double capacity_share = 0.6;   // kControl: of the best rho, kept as working disc
   double rho_floor = 0.5;        // kControl: at least this disc if 0.9 of the best rho allows it
+  double rho_needed = 0.35;      // kControl: an exact W with less gives way to a linearised one
   double bias_weight = 0.05;     // of |b|^2/8 against largest stiffness, healthy 1: copper loss
   double control_weight = 0.05;  // of (|wx|^2 + |wy|^2)/8, healthy 1: voltage for a force's slew
-  int starts = 96;               // of the search for capacity
+  int starts = 128;              // of the search for capacity
   std::uint64_t seed = 1;
 };
 
@@ -48,8 +49,11 @@ struct Distribution {
 /// Class of the set of live coils alone; turns left and winding do not change it.
 SolvabilityClass Classify(const RedistributionProblem& problem);
 
-/// The healthy bearing has its conventional W; a set that is not exactly solvable gets the best
-/// linearised W, and one that is not even that the W of least error: `cls` and `residual` tell.
+/// The healthy bearing has its conventional W. A set that is not exactly solvable gets the best
+/// linearised W, and one that is not even that, the W of least error: `cls` and `residual` tell.
+/// Two quadrants, where currents of one sign cannot do what the class allows: kCapacity gives a W
+/// with negative currents (unipolar = false), kControl the W of least error within the bounds; and
+/// kControl gives up exactness when only a linearised W reaches rho_needed.
 Distribution SolveDistribution(const RedistributionProblem& problem,
                                const DistributionOptions& options = {});
 

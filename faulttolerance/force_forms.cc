@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/math/constants.h"
 
 namespace ambrig {
 namespace {
@@ -59,7 +60,7 @@ RedistributionProblem MakeRedistributionProblem(double first_angle, const char* 
 }
 
 double ForceFactor(const RedistributionProblem& p) {
-  return 4 * kVacuumPermeability * p.turns * p.turns * p.pole_area / (p.gap * p.gap);
+  return 4 * kMu0 * p.turns * p.turns * p.pole_area / (p.gap * p.gap);
 }
 
 ForceForms MakeForceForms(const RedistributionProblem& p) {

@@ -22,8 +22,6 @@ using Coils = Eigen::Vector<double, 8>;
 using CoilForm = Eigen::Matrix<double, 8, 8>;
 using DistributionMatrix = Eigen::Matrix<double, 8, 3>;  // rows [b, wx, wy], without unit
 
-inline constexpr double kVacuumPermeability = 1.25663706212e-6;  // H/m
-
 /// The bearing whose currents are to be distributed, and what its amplifiers can give.
 struct RedistributionProblem {
   Coils angle = Coils::Zero();       // gamma_j [rad]
