@@ -236,6 +236,12 @@ Distribution SolveDistribution(const RedistributionProblem& problem,
                                const DistributionOptions& options) {
   if ((problem.turns_left.array() == 1).all())
     return Describe(problem, SolvabilityClass::kExact, HealthyDistribution(problem));
+  if (options.policy == DistributionPolicy::kControl && (problem.turns_left.array() > 0).all()) {
+    const DistributionMatrix same_flux =
+        problem.turns_left.cwiseInverse().asDiagonal() * HealthyDistribution(problem);
+    if (WorkingDisc(problem, same_flux) >= options.rho_same_flux)
+      return Describe(problem, SolvabilityClass::kExact, same_flux);
+  }
   return Solver(problem, options).Solve();
 }
 
@@ -247,6 +253,11 @@ Distribution Describe(const RedistributionProblem& problem, SolvabilityClass cls
   d.W = W;
   d.residual = EquationErrors(forms, W).cwiseAbs().maxCoeff();
   d.rho = WorkingDisc(problem, W);
+  if ((W.col(0).array() < 0).any()) {
+    RedistributionProblem any_sign = problem;
+    any_sign.quadrants = 4;
+    d.rho = WorkingDisc(any_sign, W);
+  }
   d.unipolar = d.rho > 0 &&
                (W.col(0).array() >= d.rho * W.rightCols(2).rowwise().norm().array() - 1e-12).all();
   d.capacity_flux = FluxCapacity(forms, W);

@@ -28,6 +28,7 @@ struct DistributionOptions {
   double capacity_share = 0.6;   // kControl: of the best rho, kept as working disc
   double rho_floor = 0.5;        // kControl: at least this disc if 0.9 of the best rho allows it
   double rho_needed = 0.35;      // kControl: an exact W with less gives way to a linearised one
+  double rho_same_flux = 0.8;    // kControl, partial shorts: keep the healthy fluxes down to this
   double bias_weight = 0.05;     // of |b|^2/8 against largest stiffness, healthy 1: copper loss
   double control_weight = 0.05;  // of (|wx|^2 + |wy|^2)/8, healthy 1: voltage for a force's slew
   int starts = 128;              // of the search for capacity
@@ -37,9 +38,9 @@ struct DistributionOptions {
 struct Distribution {
   SolvabilityClass cls = SolvabilityClass::kNone;
   DistributionMatrix W = DistributionMatrix::Zero();
-  double residual = 0;          // largest of the 12 equations' errors over k/2
-  double rho = 0;               // currents within range on |v| <= rho c0
-  bool unipolar = false;        // no current negative there, and rho > 0
+  double residual = 0;    // largest of the 12 equations' errors over k/2
+  double rho = 0;         // currents within range on |v| <= rho c0 (i_max alone when not unipolar)
+  bool unipolar = false;  // no current negative there, and rho > 0
   double capacity_flux = 0;     // of this W over the healthy bearing, flux limit per pole
   double capacity_current = 0;  // of this W over the healthy bearing, i_max (and sign)
   Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  // dF/dx at v = 0 [N/m], never negative

@@ -22,8 +22,9 @@ std::uint64_t Hash(const RedistributionProblem& p, const DistributionOptions& o)
   std::string text = fmt::format("{} {} {} {} {} {} {}", kVersion, p.turns, p.pole_area, p.gap,
                                  p.c0, p.i_max, p.quadrants);
   for (int j = 0; j < 8; ++j) text += fmt::format(" {} {}", p.angle[j], p.sign[j]);
-  text += fmt::format(" {} {} {} {} {} {} {} {}", static_cast<int>(o.policy), o.capacity_share,
-                      o.rho_floor, o.rho_needed, o.bias_weight, o.control_weight, o.starts, o.seed);
+  text += fmt::format(" {} {} {} {} {} {} {} {} {}", static_cast<int>(o.policy), o.capacity_share,
+                      o.rho_floor, o.rho_needed, o.rho_same_flux, o.bias_weight, o.control_weight,
+                      o.starts, o.seed);
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   return hash;
