@@ -73,6 +73,8 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
   contact_since_.assign(plant_.rotor.auxiliaries().size() + 1, -1);
 }
 
+SwitchingEngine::~SwitchingEngine() = default;
+
 RunResult SwitchingEngine::Run() {
   Start();
   if (options_.record) CreateChannels();

@@ -32,6 +32,7 @@ struct EngineOptions {
 class SwitchingEngine {
  public:
   SwitchingEngine(const RigParameters& rig, const Scenario& scenario, const EngineOptions& options);
+  ~SwitchingEngine();
   RunResult Run();
 
  private:
