@@ -1,5 +1,5 @@
-// Draws the figures of a report: colours for light, dark and paper, drawing only when a figure
-// comes into view, everything before printing.
+// Draws the figures of a report, one after the other so that the page stays alive; colours for light,
+// dark and paper.
 (function () {
   "use strict";
   const kLight = {
@@ -36,25 +36,30 @@
     const axis = {
       gridcolor: colors.faint, zerolinecolor: colors.faint, linecolor: colors.muted,
       tickcolor: colors.muted, ticks: "outside", ticklen: 4, showline: true, mirror: true,
-      title: { standoff: 8 }, exponentformat: "SI", separatethousands: true,
+      title: { standoff: 8 }, exponentformat: "SI",
     };
     const out = Object.assign({
       paper_bgcolor: "rgba(0,0,0,0)", plot_bgcolor: "rgba(0,0,0,0)", hovermode: "closest",
       hoverlabel: { bgcolor: colors.paper, font: { color: colors.ink } },
       font: { family: "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif", size: 12, color: colors.ink },
+      modebar: { bgcolor: "rgba(0,0,0,0)", color: colors.muted, activecolor: colors.blue },
       legend: { orientation: "h", x: 0, xanchor: "left", yref: "container", y: 0, yanchor: "bottom" },
     }, layout);
     for (const key of Object.keys(out)) {
       if (!/^[xy]axis\d*$/.test(key)) continue;
       const title = Object.assign({}, axis.title, out[key].title);
-      out[key] = Object.assign({}, axis, out[key], { title: title });
+      const own = key.charAt(0) === "y" ? { automargin: true } : {};
+      out[key] = Object.assign({}, axis, own, out[key], { title: title });
     }
     if (width) out.width = width;
     return out;
   }
 
   const config = {
-    responsive: true, displaylogo: false, modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+    responsive: true, displaylogo: false,
+    // A report stays where it is: no button may offer to upload its data.
+    showSendToCloud: false, showEditInChartStudio: false,
+    modeBarButtonsToRemove: ["sendChartToCloud", "sendDataToCloud", "select2d", "lasso2d", "autoScale2d"],
     toImageButtonOptions: { format: "svg", filename: document.title },
   };
   const drawn = new Set();
@@ -70,12 +75,12 @@
   }
 
   const figures = Array.from(document.querySelectorAll("figure"));
-  const seen = new IntersectionObserver((entries) => {
-    for (const e of entries) {
-      if (e.isIntersecting && !drawn.has(e.target)) draw(e.target);
-    }
-  }, { rootMargin: "600px" });
-  figures.forEach((f) => seen.observe(f));
+  function drawFrom(k) {
+    if (k >= figures.length) return;
+    if (!drawn.has(figures[k])) draw(figures[k]);
+    window.setTimeout(drawFrom, 0, k + 1);
+  }
+  drawFrom(0);
   dark.addEventListener("change", () => drawn.forEach(draw));
   window.addEventListener("beforeprint", () => {
     paper = true;

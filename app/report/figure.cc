@@ -22,10 +22,12 @@ std::string AxisKey(char letter, int panel) {
 // Times at 450 kHz after some seconds need nine digits; what is drawn upwards needs five.
 constexpr int kXDigits = 10, kYDigits = 5;
 
-json LineStyle(const Style& s) { return {{"color", s.color}, {"width", s.width}, {"dash", s.dash}}; }
+json LineStyle(const Style& s) {
+  return {{"color", s.color}, {"width", s.width}, {"dash", s.dash}};
+}
 
 json Trace(int panel, const std::string& name, const Style& style) {
-  json t = {{"type", "scatter"}, {"name", name},         {"xaxis", XRef(panel)},
+  json t = {{"type", "scatter"},    {"name", name},        {"xaxis", XRef(panel)},
             {"yaxis", YRef(panel)}, {"legendgroup", name}, {"showlegend", style.legend}};
   t["mode"] = style.markers ? "markers" : "lines";
   if (style.markers)
@@ -42,12 +44,6 @@ void AddPoints(Figure& figure, int panel, const std::string& name, const Points&
   t["x"] = Numbers(points.x, kXDigits);
   t["y"] = Numbers(points.y, kYDigits);
   figure.traces.push_back(std::move(t));
-}
-
-void AddShape(Figure& figure, json shape) { figure.layout["shapes"].push_back(std::move(shape)); }
-
-json Annotation(const std::string& text, const std::string& color, int size) {
-  return {{"text", text}, {"showarrow", false}, {"font", {{"color", color}, {"size", size}}}};
 }
 
 }  // namespace
@@ -95,7 +91,8 @@ Figure MakeFigure(std::string caption, const Grid& grid) {
   figure.layout = {{"margin", {{"l", 68}, {"r", 18}, {"t", top}, {"b", bottom}}},
                    {"shapes", json::array()},
                    {"annotations", json::array()}};
-  const double dx = grid.columns > 1 ? 0.09 / grid.columns * 2 : 0;
+  // Room for the numbers and titles of y; many columns have numbers only.
+  const double dx = grid.columns == 1 ? 0 : grid.columns <= 3 ? 0.085 : 0.045;
   const double width = (1 - dx * (grid.columns - 1)) / grid.columns;
   for (int p = 0; p < figure.panels; ++p) {
     const int row = p / grid.columns, column = p % grid.columns;
@@ -109,9 +106,15 @@ Figure MakeFigure(std::string caption, const Grid& grid) {
     if (grid.shared_x && row > 0) x["matches"] = XRef(column);
     if (grid.shared_x && row + 1 < grid.rows) x["showticklabels"] = false;
     if (static_cast<std::size_t>(p) < grid.titles.size() && !grid.titles[p].empty()) {
-      json title = Annotation("<b>" + grid.titles[p] + "</b>", "@ink", 12);
-      title.update({{"xref", XRef(p) + " domain"}, {"yref", YRef(p) + " domain"}, {"x", 0},
-                    {"y", 1}, {"xanchor", "left"}, {"yanchor", "bottom"}});
+      json title = {{"text", "<b>" + grid.titles[p] + "</b>"},
+                    {"showarrow", false},
+                    {"font", {{"color", "@ink"}, {"size", 12}}}};
+      title.update({{"xref", XRef(p) + " domain"},
+                    {"yref", YRef(p) + " domain"},
+                    {"x", 0},
+                    {"y", 1},
+                    {"xanchor", "left"},
+                    {"yanchor", "bottom"}});
       figure.layout["annotations"].push_back(title);
     }
   }
@@ -196,7 +199,8 @@ void AddHistogram(Figure& figure, int panel, const std::string& name,
                   std::span<const double> values, int bins, const std::string& color) {
   Require(bins > 0, "bins > 0");
   std::vector<double> finite;
-  std::ranges::copy_if(values, std::back_inserter(finite), [](double v) { return std::isfinite(v); });
+  std::ranges::copy_if(values, std::back_inserter(finite),
+                       [](double v) { return std::isfinite(v); });
   if (finite.empty()) return;
   const auto [low, high] = std::ranges::minmax(finite);
   const double width = high > low ? (high - low) / bins : 1.0;
@@ -223,91 +227,23 @@ void AddHeatmap(Figure& figure, int panel, const std::vector<std::string>& colum
   Require(values.size() == rows.size(), "a heatmap row per name");
   json z = json::array();
   for (const auto& row : values) z.push_back(Numbers(row));
-  json trace = {{"type", "heatmap"},
-                {"x", columns},
-                {"y", rows},
-                {"z", z},
-                {"xaxis", XRef(panel)},
-                {"yaxis", YRef(panel)},
-                {"colorscale", "@sequential"},
-                {"xgap", 1},
-                {"ygap", 1},
-                {"colorbar", {{"title", {{"text", bar_title}, {"side", "right"}}}, {"thickness", 12}}}};
+  json trace = {
+      {"type", "heatmap"},
+      {"x", columns},
+      {"y", rows},
+      {"z", z},
+      {"xaxis", XRef(panel)},
+      {"yaxis", YRef(panel)},
+      {"colorscale", "@sequential"},
+      {"xgap", 1},
+      {"ygap", 1},
+      {"colorbar", {{"title", {{"text", bar_title}, {"side", "right"}}}, {"thickness", 12}}}};
   if (print > 0) trace["texttemplate"] = fmt::format("%{{z:.{}~g}}", print);
   figure.traces.push_back(std::move(trace));
   json& y = figure.layout[AxisKey('y', panel)];
   y["autorange"] = "reversed";  // first row on top, as in a table
   y["automargin"] = true;
   y["type"] = figure.layout[AxisKey('x', panel)]["type"] = "category";
-}
-
-void AddCircle(Figure& figure, int panel, double x, double y, double radius,
-               const std::string& line, const std::string& fill, double width,
-               const std::string& dash) {
-  json shape = {{"type", "circle"},       {"xref", XRef(panel)},  {"yref", YRef(panel)},
-                {"x0", x - radius},       {"x1", x + radius},     {"y0", y - radius},
-                {"y1", y + radius},       {"layer", "below"},
-                {"line", {{"color", line}, {"width", width}, {"dash", dash}}}};
-  if (!fill.empty()) shape["fillcolor"] = fill;
-  AddShape(figure, std::move(shape));
-}
-
-void AddText(Figure& figure, int panel, double x, double y, const std::string& text,
-             const std::string& color, int size) {
-  json a = Annotation(text, color, size);
-  a.update({{"xref", XRef(panel)}, {"yref", YRef(panel)}, {"x", x}, {"y", y}});
-  figure.layout["annotations"].push_back(std::move(a));
-}
-
-void AddRegion(Figure& figure, int panel, double x0, double x1, const std::string& label,
-               const std::string& color) {
-  AddShape(figure, {{"type", "rect"}, {"xref", XRef(panel)}, {"yref", YRef(panel) + " domain"},
-                    {"x0", x0}, {"x1", x1}, {"y0", 0}, {"y1", 1}, {"layer", "below"},
-                    {"fillcolor", color}, {"line", {{"width", 0}}}});
-  json a = Annotation(label, "@ink", 11);
-  a.update({{"xref", XRef(panel)}, {"yref", YRef(panel) + " domain"}, {"x", (x0 + x1) / 2},
-            {"y", 1}, {"yanchor", "top"}});
-  figure.layout["annotations"].push_back(std::move(a));
-}
-
-void AddLevel(Figure& figure, int panel, double y, const std::string& label,
-              const std::string& color) {
-  AddShape(figure, {{"type", "line"}, {"xref", XRef(panel) + " domain"}, {"yref", YRef(panel)},
-                    {"x0", 0}, {"x1", 1}, {"y0", y}, {"y1", y},
-                    {"line", {{"color", color}, {"width", 1.2}, {"dash", "dash"}}}});
-  if (label.empty()) return;
-  json a = Annotation(label, color, 11);
-  a.update({{"xref", XRef(panel) + " domain"}, {"yref", YRef(panel)}, {"x", 1}, {"y", y},
-            {"xanchor", "right"}, {"yanchor", "bottom"}});
-  figure.layout["annotations"].push_back(std::move(a));
-}
-
-void AddMarks(Figure& figure, std::span<const Mark> marks, std::array<double, 2> range) {
-  std::vector<Mark> inside;
-  std::ranges::copy_if(marks, std::back_inserter(inside),
-                       [&](const Mark& m) { return m.x >= range[0] && m.x <= range[1]; });
-  std::ranges::stable_sort(inside, {}, &Mark::x);
-  for (const Mark& m : inside)
-    for (int p = 0; p < figure.panels; ++p)
-      AddShape(figure, {{"type", "line"}, {"xref", XRef(p)}, {"yref", YRef(p) + " domain"},
-                        {"x0", m.x}, {"x1", m.x}, {"y0", 0}, {"y1", 1},
-                        {"line", {{"color", m.color}, {"width", 1.4}, {"dash", "dot"}}}});
-  // One label for what is closer than a short word is wide.
-  const double near = 0.11 * (range[1] - range[0]);
-  int group = 0;
-  for (std::size_t i = 0; i < inside.size(); ++group) {
-    std::string text = fmt::format("{}", inside[i].label);
-    std::size_t end = i + 1;
-    for (; end < inside.size() && inside[end].x - inside[end - 1].x < near; ++end)
-      if (!text.ends_with(inside[end].label)) text += " · " + inside[end].label;
-    const bool right_half = inside[i].x > 0.5 * (range[0] + range[1]);
-    json a = Annotation(text, inside[i].color, 11);
-    a.update({{"xref", "x"}, {"yref", "y domain"}, {"x", inside[right_half ? end - 1 : i].x},
-              {"y", 1}, {"yanchor", "bottom"}, {"xanchor", right_half ? "right" : "left"},
-              {"yshift", 13 * (group % 2)}});  // neighbours on two levels
-    figure.layout["annotations"].push_back(std::move(a));
-    i = end;
-  }
 }
 
 }  // namespace ambrig

@@ -3,9 +3,9 @@
 ///
 /// A figure is a grid of panels (numbered from 0, row by row) with one caption in words. Values are
 /// given in the unit that the axis title names. Colours are names that the page resolves for light,
-/// dark and paper: "@blue @orange @green @red @purple @sky @brown @gray @ink @muted @faint", with an
-/// alpha in per cent after a slash: "@blue/20". The first eight are distinguishable for colour-blind
-/// readers; lines beyond four differ in dash too (SeriesStyle).
+/// dark and paper: "@blue @orange @green @red @purple @sky @brown @gray @ink @muted @faint", with
+/// an alpha in per cent after a slash: "@blue/20". The first eight are distinguishable for
+/// colour-blind readers; lines beyond four differ in dash too (SeriesStyle).
 #include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -27,19 +27,19 @@ struct Figure {
 
 struct Grid {
   int rows = 1, columns = 1;
-  bool shared_x = true;              // panels of one column zoom together, x numbers at the bottom
-  std::vector<std::string> titles;   // one per panel, may be empty
-  int panel_height = 0;              // [px]; 0: 320 for one row, else 190
+  bool shared_x = true;             // panels of one column zoom together, x numbers at the bottom
+  std::vector<std::string> titles;  // one per panel, may be empty
+  int panel_height = 0;             // [px]; 0: 320 for one row, else 190
 };
 
 struct Style {
   std::string color = "@blue";
-  double width = 1.5;        // [px]
+  double width = 1.5;          // [px]
   std::string dash = "solid";  // "dash", "dot"
-  bool markers = false;      // points instead of a line
-  bool steps = false;        // held until the next point
+  bool markers = false;        // points instead of a line
+  bool steps = false;          // held until the next point
   bool legend = true;
-  double size = 5;           // of markers [px]
+  double size = 5;  // of markers [px]
 };
 /// The k-th line of a figure: blue, orange, green, purple solid, then the same dashed.
 Style SeriesStyle(int k);
@@ -59,8 +59,8 @@ void AddLine(Figure& figure, int panel, const std::string& name, std::span<const
 /// Decimated so that the greatest excursion stays.
 void AddOrbit(Figure& figure, int panel, const std::string& name, std::span<const double> x,
               std::span<const double> y, const Style& style = {});
-/// Shaded between low(x) and high(x): an expected band. Not decimated; where an edge is NaN the shade
-/// runs straight to the next point.
+/// Shaded between low(x) and high(x): an expected band. Not decimated; where an edge is NaN the
+/// shade runs straight to the next point.
 void AddBand(Figure& figure, int panel, const std::string& name, std::span<const double> x,
              std::span<const double> low, std::span<const double> high,
              const std::string& color = "@green");

@@ -54,7 +54,8 @@ std::string FormatSi(double value, std::string_view unit, int digits) {
                                                               "k", "M", "G", "T"};
   // Rounded first, so that 999.96e-6 becomes 1 mm and not 1000 um.
   const double rounded = std::stod(fmt::format("{:.{}e}", value, digits - 1));
-  const int group = std::clamp(static_cast<int>(std::floor(std::log10(std::abs(rounded)) / 3)), -4, 4);
+  const int group =
+      std::clamp(static_cast<int>(std::floor(std::log10(std::abs(rounded)) / 3)), -4, 4);
   return Plain(rounded / std::pow(10.0, 3 * group), digits) + gap +
          std::string(kPrefix[static_cast<std::size_t>(group + 4)]) + std::string(unit);
 }
@@ -64,12 +65,23 @@ std::string HtmlEscape(std::string_view text) {
   out.reserve(text.size());
   for (const char c : text) {
     switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
     }
   }
   return out;
@@ -83,7 +95,8 @@ std::string InlineMarkup(std::string_view text) {
       const std::size_t end = out.find(mark, at + mark.size());
       if (end == std::string::npos) return;
       // "2 * 3 * 4" is arithmetic: a mark opens only before and closes only after a word.
-      const bool opens = out[at + mark.size()] != ' ' && out[end - 1] != ' ' && end > at + mark.size();
+      const bool opens =
+          out[at + mark.size()] != ' ' && out[end - 1] != ' ' && end > at + mark.size();
       if (!opens) {
         at += mark.size();
         continue;

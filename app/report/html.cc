@@ -14,22 +14,29 @@
 namespace ambrig {
 namespace {
 
-constexpr std::string_view kHead = R"(<!DOCTYPE html>
+constexpr std::string_view kHead =
+    R"(<!DOCTYPE html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; )"
-                                   R"(script-src 'unsafe-inline'; img-src data: blob:; font-src data:">
+    R"(script-src 'unsafe-inline'; img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'">
 )";
+
+constexpr int kLegendHeight = 28;  // [px], of the 84 below a figure (MakeFigure)
 
 const char* StyleName(Verdict kind) {
   switch (kind) {
-    case Verdict::kOk: return "ok";
-    case Verdict::kWarn: return "warn";
-    case Verdict::kFail: return "fail";
-    case Verdict::kInfo: break;
+    case Verdict::kOk:
+      return "ok";
+    case Verdict::kWarn:
+      return "warn";
+    case Verdict::kFail:
+      return "fail";
+    case Verdict::kInfo:
+      break;
   }
   return "info";
 }
@@ -40,7 +47,8 @@ bool LooksNumeric(std::string_view text) {
   // "3 of 8" and "2.1 mm" are numbers to a reader's eye, "3dof-rotor" is not.
   const std::size_t end = text.find_first_not_of("0123456789.,");
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) != 0 &&
-         (end == std::string_view::npos || std::isalpha(static_cast<unsigned char>(text[end])) == 0);
+         (end == std::string_view::npos ||
+          std::isalpha(static_cast<unsigned char>(text[end])) == 0);
 }
 
 std::vector<std::string> Lines(std::string_view text) {
@@ -51,6 +59,19 @@ std::vector<std::string> Lines(std::string_view text) {
     at = end + 1;
   }
   return lines;
+}
+
+// One line needs no legend, its axis says what it is; the room below is given back.
+Figure WithLegendWhenNeeded(Figure figure) {
+  const auto named = std::ranges::count_if(
+      figure.traces, [](const auto& trace) { return trace.value("showlegend", true); });
+  figure.layout["showlegend"] = named > 1;
+  nlohmann::json& bottom = figure.layout["margin"]["b"];
+  if (named <= 1 && bottom.get<double>() >= kLegendHeight * 2) {
+    bottom = bottom.get<double>() - kLegendHeight;
+    figure.height -= kLegendHeight;
+  }
+  return figure;
 }
 
 // JSON inside <script>: "<" may not appear, or "</script>" in a caption would end it.
@@ -76,8 +97,8 @@ void HtmlReport::Heading(std::string_view text, int level) {
   Require(level == 2 || level == 3, "heading level 2 or 3");
   const std::string id = fmt::format("s{}", ++sections_);
   body_ += fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", level, id, InlineMarkup(text));
-  contents_ += fmt::format("<li class=\"l{}\"><a href=\"#{}\">{}</a></li>\n", level, id,
-                           InlineMarkup(text));
+  contents_ +=
+      fmt::format("<li class=\"l{}\"><a href=\"#{}\">{}</a></li>\n", level, id, InlineMarkup(text));
 }
 
 void HtmlReport::Text(std::string_view text) {
@@ -110,8 +131,8 @@ void HtmlReport::Verdict(enum Verdict kind, std::string_view text) {
 void HtmlReport::KeyValues(const std::vector<std::pair<std::string, std::string>>& pairs) {
   body_ += "<dl class=\"keys\">\n";
   for (const auto& [key, value] : pairs)
-    body_ += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", InlineMarkup(key),
-                         InlineMarkup(value));
+    body_ +=
+        fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", InlineMarkup(key), InlineMarkup(value));
   body_ += "</dl>\n";
 }
 
@@ -144,7 +165,8 @@ void HtmlReport::BeginDetails(std::string_view summary) {
 
 void HtmlReport::EndDetails() { body_ += "</details>\n"; }
 
-void HtmlReport::AddFigure(const Figure& figure) {
+void HtmlReport::AddFigure(const Figure& given) {
+  const Figure figure = WithLegendWhenNeeded(given);
   const int number = ++figures_;
   const std::string narrow =
       figure.narrow > 0 ? fmt::format(";max-width:{:.0f}px", figure.narrow) : std::string();
@@ -206,8 +228,9 @@ std::string HtmlReport::Html() const {
                      HtmlEscape(title_), contents_);
   out += fmt::format("<header><h1>{}</h1><p class=\"subtitle\">{}</p></header>\n",
                      InlineMarkup(title_), InlineMarkup(subtitle_));
-  out += "<noscript><p class=\"verdict warn\">The figures need JavaScript; it is inside this file, "
-         "nothing is loaded.</p></noscript>\n";
+  out +=
+      "<noscript><p class=\"verdict warn\">The figures need JavaScript; it is inside this file, "
+      "nothing is loaded.</p></noscript>\n";
   out += body_;
   out += "</main>\n<script>";
   out += PlotlyJs();

@@ -1,6 +1,6 @@
 #pragma once
-/// One self-contained HTML file: text, tables and figures with the plotting library inside it. Works
-/// offline, in light, dark and print; its content policy forbids it to load anything.
+/// One self-contained HTML file: text, tables and figures with the plotting library inside it.
+/// Works offline, in light, dark and print; its content policy forbids it to load anything.
 #include <filesystem>
 #include <initializer_list>
 #include <string>
@@ -51,8 +51,8 @@ class HtmlReport {
                   const std::string& y_title, const std::vector<Series>& series,
                   std::span<const Mark> marks = {});
   void Heatmap(const std::string& caption, const std::vector<std::string>& columns,
-               const std::vector<std::string>& rows,
-               const std::vector<std::vector<double>>& values, const std::string& bar_title);
+               const std::vector<std::string>& rows, const std::vector<std::vector<double>>& values,
+               const std::string& bar_title);
   /// Orbits inside a clearance circle.
   void OrbitPlot(const std::string& caption, const std::string& unit, double clearance,
                  const std::vector<Series>& orbits);

@@ -30,9 +30,9 @@ std::string Minutes(double seconds) {
 std::string ProgressText(double fraction, double elapsed, int width) {
   const double done = std::isnan(fraction) ? 0.0 : std::clamp(fraction, 0.0, 1.0);
   const int full = static_cast<int>(done * width);
-  std::string text = fmt::format("[{}{}] {:3.0f} %", std::string(static_cast<std::size_t>(full), '#'),
-                                 std::string(static_cast<std::size_t>(width - full), '-'),
-                                 std::floor(100 * done));
+  std::string text =
+      fmt::format("[{}{}] {:3.0f} %", std::string(static_cast<std::size_t>(full), '#'),
+                  std::string(static_cast<std::size_t>(width - full), '-'), std::floor(100 * done));
   // Before two per cent or half a second the estimate is noise.
   if (done >= 1)
     text += "  " + Minutes(elapsed);
@@ -45,7 +45,10 @@ Progress::Progress(std::string title)
     : Progress(std::move(title), STDERR_FILENO, ::isatty(STDERR_FILENO) == 1) {}
 
 Progress::Progress(std::string title, int file, bool draw)
-    : title_(std::move(title)), file_(file), draw_(draw), begin_(Clock::now()),
+    : title_(std::move(title)),
+      file_(file),
+      draw_(draw),
+      begin_(Clock::now()),
       next_(begin_.time_since_epoch().count()) {}
 
 Progress::~Progress() { Clear(); }

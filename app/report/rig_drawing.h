@@ -1,6 +1,6 @@
 #pragma once
-/// The cross-section of a radial bearing at an instant: yoke, poles coloured by their flux, coils by
-/// their current, the shaft displaced within the clearance circle. A schematic: angles are true,
+/// The cross-section of a radial bearing at an instant: yoke, poles coloured by their flux, coils
+/// by their current, the shaft displaced within the clearance circle. A schematic: angles are true,
 /// radii are not, and the displacement is drawn in proportion to the clearance.
 #include <span>
 #include <string>

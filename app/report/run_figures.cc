@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "app/report/format.h"
 #include "app/report/rig_drawing.h"
@@ -73,10 +74,11 @@ struct Stage {
 std::vector<Stage> Stages(const RunStages& s) {
   if (!s.fault) return {{"whole run", "@blue", s.whole[0], s.whole[1]}};
   if (!s.reaction)
-    return {{"before the fault", "@blue", s.whole[0], *s.fault},
-            {"after the fault", "@red", *s.fault, s.whole[1]}};
-  return {{"before the fault", "@blue", s.whole[0], *s.fault},
-          {"after the reaction", "@green", *s.reaction, s.whole[1]},
+    return {{"after the fault", "@red", *s.fault, s.whole[1]},
+            {"before the fault", "@blue", s.whole[0], *s.fault}};
+  // Drawn in this order: the long steady part lies below, the short one on top.
+  return {{"after the reaction", "@green", *s.reaction, s.whole[1]},
+          {"before the fault", "@blue", s.whole[0], *s.fault},
           {"fault to reaction", "@red", *s.fault, *s.reaction}};
 }
 
@@ -107,7 +109,8 @@ RunStages FindStages(const RunReportData& data) {
       s.fault = e.t;
       s.coil = e.target;
     }
-    const bool reaction = e.kind == "detected" || e.kind == "classified" || e.kind == "redistributed";
+    const bool reaction =
+        e.kind == "detected" || e.kind == "classified" || e.kind == "redistributed";
     // Later faults have reactions of their own; the window is for the first.
     if (reaction && s.fault && e.t >= *s.fault && e.t < *s.fault + 0.05) s.reaction = e.t;
   }
@@ -119,16 +122,17 @@ RunStages FindStages(const RunReportData& data) {
 
 std::vector<Mark> EventMarks(const RunReportData& data, double t0, double factor) {
   static const std::map<std::string, const char*> kColors = {
-      {"fault", "@red"},         {"detected", "@orange"},  {"classified", "@purple"},
-      {"redistributed", "@green"}, {"touchdown", "@red"},    {"drop", "@red"},
-      {"lift_off", "@sky"},      {"alarm_cleared", "@gray"}};
+      {"fault", "@red"},           {"detected", "@orange"},   {"classified", "@purple"},
+      {"redistributed", "@green"}, {"touchdown", "@red"},     {"drop", "@red"},
+      {"lift_off", "@sky"},        {"alarm_cleared", "@gray"}};
   std::vector<Mark> marks;
   for (const ReportEvent& e : data.events) {
     const auto color = kColors.find(e.kind);
     std::string label = e.kind;
     std::ranges::replace(label, '_', ' ');
     if (e.kind == "fault" && !e.target.empty()) label += " " + e.target;
-    marks.push_back({(e.t - t0) * factor, label, color == kColors.end() ? "@muted" : color->second});
+    marks.push_back(
+        {(e.t - t0) * factor, label, color == kColors.end() ? "@muted" : color->second});
   }
   return marks;
 }
@@ -150,7 +154,8 @@ Figure OrbitFigure(const RunReportData& data, const RunStages& stages) {
   grid.shared_x = false;
   grid.panel_height = 360;
   std::string caption =
-      "Path of the shaft's centre in each radial bearing. The dashed circle is the clearance of the "
+      "Path of the shaft's centre in each radial bearing. The dashed circle is the clearance of "
+      "the "
       "auxiliary bearing: beyond it the shaft touches.";
   if (close_up) caption += " Below, the same paths enlarged.";
   Figure figure = MakeFigure(caption, grid);
@@ -202,28 +207,32 @@ Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zo
   grid.panel_height = 240;
   grid.rows = static_cast<int>(data.bearings.size());
   for (const ReportBearing& b : data.bearings) grid.titles.push_back("bearing " + b.name);
-  std::string caption = zoom ? "Coil currents round the fault: the faulty coil's falls or changes its "
-                               "ripple, the others take over."
-                             : "Coil currents over the whole run.";
+  std::string caption =
+      zoom ? "Coil currents round the fault: the faulty coil's falls or changes its "
+             "ripple, the others take over."
+           : "Coil currents over the whole run.";
   if (!stages.coil.empty()) caption += " The faulty coil is drawn bold.";
   Figure figure = MakeFigure(caption, grid);
   const Cut cut = MakeCut(data, stages, zoom, Rows(data));
+  std::set<std::string> named;
   for (int p = 0; p < grid.rows; ++p) {
     const ReportBearing& b = data.bearings[static_cast<std::size_t>(p)];
     for (std::size_t j = 0; j < b.currents.size(); ++j) {
       Style style = SeriesStyle(static_cast<int>(j));
-      style.legend = p == 0;
+      std::string name = fmt::format("coil {}", j + 1);
+      const std::string full_name = fmt::format("{}{}", b.name, j + 1);
       style.width = 1.2;
-      if (fmt::format("{}{}", b.name, j + 1) == stages.coil) {
-        style.color = "@red";
-        style.dash = "solid";
-        style.width = 3;
+      if (full_name == stages.coil) {
+        style = {.color = "@red", .width = 3};
+        name = full_name + " (faulty)";
       }
-      AddLine(figure, p, fmt::format("coil {}", j + 1), cut.t, cut.Of(b.currents[j]), style);
+      // One legend for all panels; dashes mean something only where a line can be followed.
+      style.legend = named.insert(name).second;
+      if (!zoom) style.dash = "solid";
+      AddLine(figure, p, name, cut.t, cut.Of(b.currents[j]), style);
     }
     SetAxes(figure, p, cut.title, "current [A]", cut.range);
   }
-  // One legend for both panels names the coil, not its bearing; the bold line has its own colour.
   AddMarks(figure, EventMarks(data, cut.t0, cut.factor), cut.range);
   return figure;
 }
@@ -241,7 +250,15 @@ Figure ChannelFigure(const RunReportData& data) {
     Style style;
     style.legend = false;
     AddLine(figure, p, c.name, t, Scaled(c.samples, unit.factor), style);
-    SetAxes(figure, p, "time [s]", InUnit(c.name, unit));
+    std::optional<std::array<double, 2>> y_range;
+    if (!c.samples.empty()) {
+      const auto [low, high] = std::ranges::minmax(c.samples);
+      const double middle = 0.5 * (low + high) * unit.factor;
+      // A constant is drawn as one, not as the last bits of its noise.
+      if (high - low <= 1e-3 * std::abs(high) && middle != 0)
+        y_range = {middle - 0.05 * std::abs(middle), middle + 0.05 * std::abs(middle)};
+    }
+    SetAxes(figure, p, "time [s]", InUnit(c.name, unit), {}, y_range);
     if (!t.empty()) range = {t.front(), t.back()};
   }
   AddMarks(figure, EventMarks(data), range);
@@ -267,8 +284,10 @@ Figure SnapshotFigure(const RunReportData& data) {
     views.push_back(std::move(view));
   }
   return StatorFigure(
-      "The bearing in cross-section at chosen instants. Poles are coloured by their flux (blue: into "
-      "the rotor, orange: out of it), coils at the poles' sides by their current (green); the deeper, "
+      "The bearing in cross-section at chosen instants. Poles are coloured by their flux (blue: "
+      "into "
+      "the rotor, orange: out of it), coils at the poles' sides by their current (green); the "
+      "deeper, "
       "the larger. A faulty coil is dotted red. The shaft's displacement is drawn in proportion to "
       "the clearance (dashed): shown in the middle, how far the centre has moved.",
       views);

@@ -15,7 +15,8 @@ void AddExpectations(HtmlReport& report, const RunReportData& data) {
   report.Heading("Expectations", 3);
   std::vector<std::vector<Cell>> rows;
   for (const ReportExpect& e : data.expect)
-    rows.push_back({e.key, e.wanted, e.got, Cell(e.met ? "✓ met" : "✗ not met", e.met ? "ok" : "fail")});
+    rows.push_back(
+        {e.key, e.wanted, e.got, Cell(e.met ? "✓ met" : "✗ not met", e.met ? "ok" : "fail")});
   report.Table({"expectation", "wanted", "got", ""}, rows, "From the scenario's [expect].");
 }
 
@@ -31,9 +32,14 @@ void AddTimeline(HtmlReport& report, const RunReportData& data, const RunStages&
     std::string kind = e.kind;
     std::ranges::replace(kind, '_', ' ');
     const bool after = stages.fault && e.t >= *stages.fault;
-    rows.push_back({fmt::format("{:.6f}", e.t),
-                    Cell(after ? "+" + FormatSi(e.t - *stages.fault, "s") : "", "muted"),
-                    Cell(kind, bad ? "fail" : good ? "ok" : ""), e.target, e.text});
+    rows.push_back(
+        {fmt::format("{:.6f}", e.t),
+         Cell(after ? (e.t > *stages.fault ? "+" : "") + FormatSi(e.t - *stages.fault, "s") : "",
+              "muted"),
+         Cell(kind, bad    ? "fail"
+                    : good ? "ok"
+                           : ""),
+         e.target, e.text});
   }
   report.Table({"time [s]", "after the fault", "event", "where", "what"}, rows);
 }
@@ -45,7 +51,8 @@ void AddDetection(HtmlReport& report, const RunReportData& data, const RunStages
   report.Text(
       "In every switching period the bus voltage drives the coil's current up and down in nearly "
       "straight lines; their slope is voltage over inductance. A broken or partly shorted coil has "
-      "another slope than the *nominal* rig would have at the sensed position, voltage and currents.");
+      "another slope than the *nominal* rig would have at the sensed position, voltage and "
+      "currents.");
   if (stage_figure) report.AddFigure(*stage_figure);
   if (!data.samples.empty()) report.AddFigure(SampleFigure(data));
   if (data.slopes.empty()) return;
@@ -62,7 +69,8 @@ void AddSources(HtmlReport& report, const RunReportData& data) {
   if (data.scenario_toml.empty() && data.rig_toml.empty()) return;
   report.Heading("What was run");
   report.Text("Every parameter as resolved, defaults included: enough to run it again.");
-  for (const auto& [name, text] : {std::pair("Scenario", &data.scenario_toml), {"Rig", &data.rig_toml}}) {
+  for (const auto& [name, text] :
+       {std::pair("Scenario", &data.scenario_toml), {"Rig", &data.rig_toml}}) {
     if (text->empty()) continue;
     report.BeginDetails(name);
     report.Code(*text);

@@ -56,9 +56,9 @@ Points Decimate(std::span<const double> x, std::span<const double> y, std::size_
   return KeepExtremes(x, y, max_points, [y](std::size_t i) { return y[i]; });
 }
 
-Points DecimateOrbit(std::span<const double> x, std::span<const double> y,
-                     std::size_t max_points) {
-  return KeepExtremes(x, y, max_points, [x, y](std::size_t i) { return x[i] * x[i] + y[i] * y[i]; });
+Points DecimateOrbit(std::span<const double> x, std::span<const double> y, std::size_t max_points) {
+  return KeepExtremes(x, y, max_points,
+                      [x, y](std::size_t i) { return x[i] * x[i] + y[i] * y[i]; });
 }
 
 std::vector<double> UniformTime(double start, double rate, std::size_t count) {

@@ -51,9 +51,11 @@ std::optional<Figure> StageFigure(const RunReportData& data, const RunStages& st
   for (const ReportBearing& b : data.bearings)
     for (std::size_t j = 0; j < b.currents.size(); ++j) {
       if (fmt::format("{}{}", b.name, j + 1) != stages.coil) continue;
-      Figure figure = MakeFigure(fmt::format(
-          "Current of the faulty coil {} in its stages: A normal, B faulty and not yet compensated, "
-          "C fault-tolerant. (Paper: figures 12 and 17.)", stages.coil));
+      Figure figure =
+          MakeFigure(fmt::format("Current of the faulty coil {} in its stages: A normal, B faulty "
+                                 "and not yet compensated, "
+                                 "C fault-tolerant. (Paper: figures 12 and 17.)",
+                                 stages.coil));
       std::vector<double> t = UniformTime(data.start, data.rate, b.currents[j].size());
       const double from = stages.window[0], to = stages.window[1];
       const auto first = std::ranges::lower_bound(t, from) - t.begin();
@@ -87,9 +89,11 @@ Figure SampleFigure(const RunReportData& data) {
   grid.panel_height = 260;
   for (const ReportSamples& s : data.samples) grid.titles.push_back(s.coil + ", " + s.stage);
   Figure figure = MakeFigure(
-      "Samples of the current converter during a few switching periods: the slope is fitted to them. "
+      "Samples of the current converter during a few switching periods: the slope is fitted to "
+      "them. "
       "A healthy coil rises and falls in straight lines; an open one carries nothing; a partly "
-      "shorted one is steeper. (Paper: figures 13 and 18.)", grid);
+      "shorted one is steeper. (Paper: figures 13 and 18.)",
+      grid);
   for (int p = 0; p < static_cast<int>(data.samples.size()); ++p) {
     const ReportSamples& s = data.samples[static_cast<std::size_t>(p)];
     std::vector<double> t(s.t);
@@ -118,10 +122,12 @@ Figure SlopeFigure(const ReportSlope& s, const RunReportData& data, const RunSta
   grid.rows = s.flag.empty() ? 1 : 2;
   grid.panel_height = s.flag.empty() ? 320 : 210;
   Figure figure = MakeFigure(
-      fmt::format("Slope of the current of {} in every switching period, against the band expected of "
-                  "a healthy coil at this position, voltage and current. {}(Paper: figures 14, 15, "
-                  "19 and 20.)", s.coil,
-                  s.flag.empty() ? "" : "Below, the detector's flag: 1 from its alarm on. "), grid);
+      fmt::format(
+          "Slope of the current of {} in every switching period, against the band expected of "
+          "a healthy coil at this position, voltage and current. {}(Paper: figures 14, 15, "
+          "19 and 20.)",
+          s.coil, s.flag.empty() ? "" : "Below, the detector's flag: 1 from its alarm on. "),
+      grid);
   const DisplayUnit unit = SlopeUnit(s);
   AddSlope(figure, 0, s, stages, unit.factor, true);
   const std::vector<double> t = AfterFault(s.t, stages);
@@ -144,19 +150,24 @@ Figure SlopeFigure(const ReportSlope& s, const RunReportData& data, const RunSta
 std::optional<Figure> SlopeHistogram(const ReportSlope& s, const RunStages& stages) {
   std::vector<double> error;
   for (std::size_t k = 0; k < s.t.size(); ++k)
-    if (!stages.fault || s.t[k] < *stages.fault) error.push_back(s.slope[k] - 0.5 * (s.low[k] + s.high[k]));
+    if (!stages.fault || s.t[k] < *stages.fault)
+      error.push_back(s.slope[k] - 0.5 * (s.low[k] + s.high[k]));
   std::erase_if(error, [](double e) { return !std::isfinite(e); });
   if (error.size() < 30) return {};
   Figure figure = MakeFigure(fmt::format(
-      "How far the measured slope of {} lies from the middle of its expected band while the coil is "
+      "How far the measured slope of {} lies from the middle of its expected band while the coil "
+      "is "
       "healthy: {} periods. The band must be wider than this, and a fault farther away. (Paper: "
-      "figure 11.)", s.coil, error.size()));
+      "figure 11.)",
+      s.coil, error.size()));
   figure.narrow = 640;
-  const int bins = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(error.size()))), 8, 60);
+  const int bins =
+      std::clamp(static_cast<int>(std::sqrt(static_cast<double>(error.size()))), 8, 60);
   const DisplayUnit unit = ChooseUnit(LargestSize(error), "A/s");
   AddHistogram(figure, 0, s.coil, Scaled(error, unit.factor), bins);
   figure.traces.back()["showlegend"] = false;
-  SetAxes(figure, 0, fmt::format("slope minus expectation [{}]", unit.name), "switching periods [-]");
+  SetAxes(figure, 0, fmt::format("slope minus expectation [{}]", unit.name),
+          "switching periods [-]");
   return figure;
 }
 
@@ -169,7 +180,8 @@ Figure SlopeGrid(const RunReportData& data, const RunStages& stages) {
   for (const ReportSlope& s : data.slopes) grid.titles.push_back(s.coil);
   Figure figure = MakeFigure(
       "Slopes of all coils against their expected bands. In a coupled stator one fault moves the "
-      "slopes of healthy coils too; the expectation follows, so only the faulty coil leaves its band.",
+      "slopes of healthy coils too; the expectation follows, so only the faulty coil leaves its "
+      "band.",
       grid);
   const DisplayUnit unit = SlopeUnit(data.slopes.front());
   std::array<double, 2> range{};

@@ -54,17 +54,18 @@ TEST_F(RunReport, LoadsNothingFromOutside) {
   EXPECT_THAT(own, Not(HasSubstr("<link")));
   EXPECT_THAT(own, Not(HasSubstr("src=")));
   EXPECT_THAT(own, HasSubstr("default-src 'none'"));
+  EXPECT_THAT(*html_, HasSubstr("showSendToCloud: false"));
   const std::regex link("href=\"([^\"]*)\"");
-  for (auto it = std::sregex_iterator(own.begin(), own.end(), link);
-       it != std::sregex_iterator(); ++it)
+  for (auto it = std::sregex_iterator(own.begin(), own.end(), link); it != std::sregex_iterator();
+       ++it)
     EXPECT_EQ((*it)[1].str().front(), '#');
   EXPECT_GT(html_->size(), 1'000'000u) << "the plotting library is inside";
 }
 
 TEST_F(RunReport, HasEverySection) {
-  for (const char* section : {"What happened", "Timeline", "Expectations", "Orbits", "Positions",
-                              "Coil currents", "Fault detection", "All coils", "The stator",
-                              "Further channels", "What was run"})
+  for (const char* section :
+       {"What happened", "Timeline", "Expectations", "Orbits", "Positions", "Coil currents",
+        "Fault detection", "All coils", "The stator", "Further channels", "What was run"})
     EXPECT_EQ(Count(*html_, std::string(">") + section + "</h"), 1u) << section;
   EXPECT_EQ(Count(*html_, "<figure id="), 12u);
   EXPECT_EQ(Count(*html_, "<figcaption>"), 12u);
@@ -120,9 +121,12 @@ TEST_F(RunReport, DrawsEveryFigureInABrowser) {
   const fs::path page = folder / "run.html";
   WriteRunReport(demo::Run(), page);
   const std::string command =
-      "chromium --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking "
-      "--disable-component-update --disable-sync --user-data-dir=" + (folder / "profile").string() +
-      " --window-size=1300,14000 --virtual-time-budget=8000 --enable-logging=stderr --dump-dom file://" +
+      "chromium --headless --no-sandbox --disable-gpu --no-first-run "
+      "--disable-background-networking "
+      "--disable-component-update --disable-sync --user-data-dir=" +
+      (folder / "profile").string() +
+      " --window-size=1300,14000 --virtual-time-budget=8000 --enable-logging=stderr --dump-dom "
+      "file://" +
       page.string() + " 2> " + (folder / "console.txt").string();
   FILE* pipe = popen(command.c_str(), "r");
   ASSERT_NE(pipe, nullptr);
@@ -131,7 +135,8 @@ TEST_F(RunReport, DrawsEveryFigureInABrowser) {
   for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
     dom.append(buffer.data(), n);
   ASSERT_EQ(WEXITSTATUS(pclose(pipe)), 0);
-  EXPECT_EQ(Count(WithoutScripts(dom), "class=\"plot-container plotly\""), 12u);
+  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), 12u);
+  EXPECT_THAT(dom, Not(testing::ContainsRegex("data-title=\"[^\"]*([Cc]loud|[Ss]hare)")));
   std::ifstream file(folder / "console.txt");
   const std::string console{std::istreambuf_iterator<char>(file), {}};
   EXPECT_THAT(console, Not(HasSubstr("CONSOLE"))) << console;
