@@ -1,6 +1,7 @@
 #pragma once
 /// A record: channels on one uniform time base. What a run writes and what a rig's data logger
 /// wrote are the same thing (docs/formats: "Record").
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,9 @@ struct Channel {
 struct Record {
   double rate = 0;   // [Hz]
   double start = 0;  // [s], time of the first row
-  std::vector<Channel> channels;
+  std::vector<Channel> channels = {};
+  std::map<std::string, std::string> attributes = {};  // of the whole record, e.g. its parameters
+  std::vector<std::string> notes = {};  // what a reader left out, one line each; never written
 
   std::size_t rows() const { return channels.empty() ? 0 : channels.front().samples.size(); }
   double TimeAt(std::size_t row) const { return start + static_cast<double>(row) / rate; }

@@ -1,0 +1,21 @@
+#pragma once
+/// Records as HDF5 files: one 1-D dataset per channel with string attribute `unit`; root attributes
+/// `rate` [Hz], `start` [s] and any further texts. The only file that knows the HDF5 library.
+#include <string>
+
+#include "core/record/record.h"
+
+namespace ambrig {
+
+/// Datasets of any number type; those in groups are named with dots ("A/x" is "A.x"); a dataset t
+/// or time serves as the time base. NaN is kept. What is not a vector of numbers is left out with a
+/// note.
+/// @throws InputError, one line that names the file: not HDF5, damaged, no rate, unequal lengths
+/// ...
+Record ReadHdf5(const std::string& path);
+
+/// Double precision, compressed; same record, same bytes. The file appears complete or not at all.
+/// @throws InputError
+void WriteHdf5(const Record& record, const std::string& path);
+
+}  // namespace ambrig

@@ -1,0 +1,30 @@
+#pragma once
+/// What every reader does once its channels are in memory: find the time base, check the lengths.
+#include <string>
+#include <vector>
+
+#include "core/record/record.h"
+
+namespace ambrig {
+
+struct TimeBase {
+  double rate;   // [Hz]
+  double start;  // [s]
+};
+
+/// Rate and start of equidistant times t [s]: t_k = start + k / rate, each within `tolerance`
+/// periods (default: what a time column of few digits needs).
+/// @throws InputError "WHERE: row 17: ...", rows counted from 1 plus `header_rows`.
+TimeBase UniformTimeBase(const std::vector<double>& t, const std::string& where,
+                         std::size_t header_rows = 0, double tolerance = 0.1);
+
+/// At least one channel, equal lengths, no name twice, a positive finite rate, a finite start.
+/// @throws InputError starting with `where`: the name of the file, "cannot write NAME" ...
+void CheckRecord(const Record& record, const std::string& where);
+
+/// What every reader does last. A channel t or time (unit s, ms, us) is the time base, not a
+/// signal: removes it, takes rate and start from it where rate is 0, otherwise checks that they
+/// agree. Then CheckRecord. @throws InputError starting with `where`.
+void FinishRecord(Record& record, const std::string& where, std::size_t header_rows = 0);
+
+}  // namespace ambrig
