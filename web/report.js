@@ -43,7 +43,7 @@
       hoverlabel: { bgcolor: colors.paper, font: { color: colors.ink } },
       font: { family: "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif", size: 12, color: colors.ink },
       modebar: { bgcolor: "rgba(0,0,0,0)", color: colors.muted, activecolor: colors.blue },
-      legend: { orientation: "h", x: 0, xanchor: "left", yref: "container", y: 0, yanchor: "bottom" },
+      legend: { orientation: "h", x: 0, xanchor: "left", yref: "container", y: 0, yanchor: "bottom", font: { size: 11 } },
     }, layout);
     for (const key of Object.keys(out)) {
       if (!/^[xy]axis\d*$/.test(key)) continue;

@@ -92,7 +92,7 @@ Figure MakeFigure(std::string caption, const Grid& grid) {
                    {"shapes", json::array()},
                    {"annotations", json::array()}};
   // Room for the numbers and titles of y; many columns have numbers only.
-  const double dx = grid.columns == 1 ? 0 : grid.columns <= 3 ? 0.085 : 0.045;
+  const double dx = grid.columns == 1 ? 0 : grid.columns <= 3 ? 0.11 : 0.045;
   const double width = (1 - dx * (grid.columns - 1)) / grid.columns;
   for (int p = 0; p < figure.panels; ++p) {
     const int row = p / grid.columns, column = p % grid.columns;

@@ -8,7 +8,7 @@
 #include "app/report/assets.h"
 #include "app/report/format.h"
 #include "app/report/series.h"
-#include "app/report/write_file.h"
+#include "core/base/atomic_file.h"
 #include "core/base/errors.h"
 
 namespace ambrig {
@@ -70,6 +70,10 @@ Figure WithLegendWhenNeeded(Figure figure) {
   if (named <= 1 && bottom.get<double>() >= kLegendHeight * 2) {
     bottom = bottom.get<double>() - kLegendHeight;
     figure.height -= kLegendHeight;
+  }
+  if (named > 7) {  // wraps into a second line on paper
+    bottom = bottom.get<double>() + 20;
+    figure.height += 20;
   }
   return figure;
 }
@@ -241,7 +245,10 @@ std::string HtmlReport::Html() const {
 }
 
 void HtmlReport::Write(const std::filesystem::path& path) const {
-  WriteFileAtomically(path, Html());
+  std::error_code folder;
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), folder);
+  if (folder) ThrowCannotWrite(path.string(), folder.value());
+  WriteFileAtomically(path.string(), Html());
 }
 
 }  // namespace ambrig

@@ -65,6 +65,9 @@ double Peak(const ReportBearing& b, std::size_t begin, std::size_t size) {
   return std::sqrt(r2);
 }
 
+constexpr const char* kCoilColors[] = {"@blue", "@orange", "@green", "@purple",
+                                       "@sky",  "@brown",  "@gray",  "@ink"};
+
 struct Stage {
   const char* name;
   const char* color;
@@ -226,9 +229,10 @@ Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zo
         style = {.color = "@red", .width = 3};
         name = full_name + " (faulty)";
       }
-      // One legend for all panels; dashes mean something only where a line can be followed.
+      // Dashes mean something only where a line can be followed.
+      if (!zoom && full_name != stages.coil) style = {.color = kCoilColors[j % 8], .width = 1};
+      // One legend for all panels.
       style.legend = named.insert(name).second;
-      if (!zoom) style.dash = "solid";
       AddLine(figure, p, name, cut.t, cut.Of(b.currents[j]), style);
     }
     SetAxes(figure, p, cut.title, "current [A]", cut.range);

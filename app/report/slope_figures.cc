@@ -37,7 +37,7 @@ void AddSlope(Figure& figure, int panel, const ReportSlope& s, const RunStages& 
   }
   Style style;
   style.markers = true;
-  style.size = 3.5;
+  style.size = 4;
   style.legend = legend;
   AddLine(figure, panel, "measured, inside", t, Scaled(in, factor), style);
   style.color = "@red";

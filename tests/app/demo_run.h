@@ -1,6 +1,6 @@
 #pragma once
-/// A made-up run for the report's tests: not physics, only shaped like it. Coil A3 opens at 1.0 s, is
-/// detected after 0.28 ms, currents are redistributed after 0.4 ms.
+/// A made-up run for the report's tests: not physics, only shaped like it. Coil A3 opens at 1.0 s,
+/// is detected after 0.28 ms, currents are redistributed after 0.4 ms.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -14,7 +14,9 @@ inline constexpr double kFault = 1.0, kDetected = 1.00028, kRedistributed = 1.00
 inline constexpr double kTwoPi = 2 * std::numbers::pi;
 
 // Repeatable scatter in [-1, 1] without a generator.
-inline double Scatter(std::size_t k) { return 2 * std::fmod(0.5 + 0.754877666 * static_cast<double>(k), 1.0) - 1; }
+inline double Scatter(std::size_t k) {
+  return 2 * std::fmod(0.5 + 0.754877666 * static_cast<double>(k), 1.0) - 1;
+}
 
 inline ReportBearing Bearing(const std::string& name, double rate, std::size_t rows) {
   ReportBearing b;
@@ -25,7 +27,8 @@ inline ReportBearing Bearing(const std::string& name, double rate, std::size_t r
   for (int j = 0; j < 8; ++j) b.pole_angles.push_back(kTwoPi * (0.0625 + j / 8.0));
   for (std::size_t k = 0; k < rows; ++k) {
     const double t = static_cast<double>(k) / rate, after = t - kFault;
-    const double jump = after > 0 && faulty ? 36e-6 * std::exp(-after / 0.02) * std::sin(90 * after * 3) : 0;
+    const double jump =
+        after > 0 && faulty ? 36e-6 * std::exp(-after / 0.02) * std::sin(90 * after * 3) : 0;
     b.x.push_back(9e-6 * std::cos(kTwoPi * 25 * t) + 0.3e-6 * Scatter(k) + 0.6 * jump);
     b.y.push_back(9e-6 * std::sin(kTwoPi * 25 * t) + 0.3e-6 * Scatter(k + 7) - jump);
     for (int j = 0; j < 8; ++j) {
@@ -33,7 +36,8 @@ inline ReportBearing Bearing(const std::string& name, double rate, std::size_t r
       if (faulty && j == 2 && after > 0) i = 0;
       if (faulty && j != 2 && t > kRedistributed)
         i += 0.25 * (j % 2 == 0 ? 1 : -1) * (1 - std::exp(-(t - kRedistributed) / 1e-3));
-      b.currents[static_cast<std::size_t>(j)].push_back(i + 0.01 * Scatter(k + static_cast<std::size_t>(j)));
+      b.currents[static_cast<std::size_t>(j)].push_back(
+          i + 0.01 * Scatter(k + static_cast<std::size_t>(j)));
     }
   }
   return b;
@@ -61,12 +65,14 @@ inline ReportSamples Samples(const std::string& stage, double t0, double mean, d
   for (std::size_t k = 0; k < 72; ++k) {
     const double phase = std::fmod(static_cast<double>(k) / 18.0, 1.0);
     s.t.push_back(t0 + static_cast<double>(k) / 450e3);
-    s.i.push_back(mean + slope * 40e-6 * (phase < 0.5 ? phase - 0.25 : 0.75 - phase) + 0.002 * Scatter(k));
+    s.i.push_back(mean + slope * 40e-6 * (phase < 0.5 ? phase - 0.25 : 0.75 - phase) +
+                  0.002 * Scatter(k));
   }
   return s;
 }
 
-inline ReportSnapshot Snapshot(const std::string& label, double t, bool failed, double x, double y) {
+inline ReportSnapshot Snapshot(const std::string& label, double t, bool failed, double x,
+                               double y) {
   ReportSnapshot s{"A", label, t, {}, {}, {}, x, y};
   for (int j = 0; j < 8; ++j) {
     const double sense = j % 2 == 0 ? 1 : -1;
@@ -84,12 +90,19 @@ inline RunReportData Run() {
   d.description = "Coil A3 breaks at **1500 rpm**; the rest of the stator must carry the rotor.";
   d.subtitle = "switching fidelity · seed 7 · made-up data of a test";
   d.verdict = Verdict::kOk;
-  d.verdict_text = "The rotor stayed up: A3 open, detected after 0.28 ms, redistributed after 0.4 ms, no touchdown.";
-  d.metrics = {{"largest orbit A", FormatSi(38.2e-6, "m")}, {"largest orbit B", FormatSi(9.4e-6, "m")},
-               {"clearance left", "75 %"}, {"peak current", FormatSi(1.92, "A")},
-               {"copper loss", FormatSi(14.1, "W")}, {"detection delay", FormatSi(0.28e-3, "s")},
-               {"false alarms", "0"}, {"coil periods", FormatNumber(1e6)}};
-  d.expect = {{"detected_within", "2 ms", "0.28 ms", true}, {"max_orbit", "30 µm", "38.2 µm", false}};
+  d.verdict_text =
+      "The rotor stayed up: A3 open, detected after 0.28 ms, redistributed after 0.4 ms, no "
+      "touchdown.";
+  d.metrics = {{"largest orbit A", FormatSi(38.2e-6, "m")},
+               {"largest orbit B", FormatSi(9.4e-6, "m")},
+               {"clearance left", "75 %"},
+               {"peak current", FormatSi(1.92, "A")},
+               {"copper loss", FormatSi(14.1, "W")},
+               {"detection delay", FormatSi(0.28e-3, "s")},
+               {"false alarms", "0"},
+               {"coil periods", FormatNumber(1e6)}};
+  d.expect = {{"detected_within", "2 ms", "0.28 ms", true},
+              {"max_orbit", "30 µm", "38.2 µm", false}};
   d.events = {{kFault, "fault", "A3", "open coil"},
               {kDetected, "detected", "A3", "slope outside its band in 7 of 10 periods"},
               {1.00032, "classified", "A3", "open"},

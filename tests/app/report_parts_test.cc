@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <random>
 #include <thread>
 
@@ -14,7 +12,6 @@
 #include "app/report/html.h"
 #include "app/report/progress.h"
 #include "app/report/series.h"
-#include "app/report/write_file.h"
 
 namespace ambrig {
 namespace {
@@ -146,17 +143,6 @@ TEST(Html, TextBlocksAndTable) {
   EXPECT_THAT(html, HasSubstr("<td class=\" num\">1.5 mm</td>"));
   EXPECT_THAT(html, HasSubstr("<td class=\"fail \">bad</td>"));
   EXPECT_THAT(html, HasSubstr("<td class=\" \">3dof</td>"));
-}
-
-TEST(WriteFile, ReplacesWholeAndLeavesNoTemporary) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "ambrig_write_file";
-  std::filesystem::remove_all(folder);
-  WriteFileAtomically(folder / "deep" / "a.txt", "one");
-  WriteFileAtomically(folder / "deep" / "a.txt", "two");
-  std::ifstream in(folder / "deep" / "a.txt");
-  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), "two");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "deep"), {}), 1);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(ProgressBar, TextAndTimeLeft) {

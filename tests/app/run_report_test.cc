@@ -108,7 +108,7 @@ TEST(RunReportParts, UnwritablePathIsOneLineAndLeavesNothing) {
     WriteRunReport(RunReportData{}, folder);
     FAIL() << "a folder is not a file";
   } catch (const InputError& e) {
-    EXPECT_EQ(std::string(e.what()), folder.string() + ": cannot be written: Is a directory");
+    EXPECT_EQ(std::string(e.what()), "cannot write " + folder.string() + ": Is a directory");
   }
   EXPECT_TRUE(fs::is_empty(folder));
 }
