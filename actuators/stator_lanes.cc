@@ -16,87 +16,119 @@ namespace ambrig {
 
 namespace {
 
+/// Eight lanes as one value; the compiler splits it over the registers that it has.
+using V = double __attribute__((vector_size(8 * sizeof(double))));
+
+[[gnu::always_inline]] inline V Load(const double* p) {
+  V v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+[[gnu::always_inline]] inline void Store(double* p, const V& v) { __builtin_memcpy(p, &v, sizeof v); }
+[[gnu::always_inline]] inline double Sum(const V& v) {
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
 /// What one sample's update reads and writes; pointers into a StatorLanes.
 struct Kernel {
   const double *n, *c, *inverse_l, *half_rh, *leakage, *g0, *dg;
   double *lambda, *i, *phi, *sum;
 };
 
-inline double Clamp(double x, double h) { return x < 0 ? 0 : (x > h ? h : x); }
+/// One period's pattern, ready for the loop: volt-seconds of a sample from its two edges.
+struct Edges {
+  const double *t1, *t2, *v;  // v: three voltages, eight lanes each
+  double h;
+};
 
-/// Solves the circuit for the trapezoid targets λ*; every lane written out (engine.md).
+/// Flux that carries the targets λ*; `inverse_sum` is 1/Σg (radial only).
 template <Coupling kCoupling>
-[[gnu::always_inline]] inline void Solve(const Kernel& s, const double* target, double fraction) {
-  double g[kLanes], m[kLanes];
-  for (int j = 0; j < kLanes; ++j) g[j] = s.g0[j] + s.dg[j] * fraction;
-  for (int j = 0; j < kLanes; ++j) m[j] = s.c[j] * target[j];
+[[gnu::always_inline]] inline V Flux(const V& g, const V& m, double inverse_sum) {
+  const V gm = g * m;
   if constexpr (kCoupling == Coupling::kFloatingRotor) {
-    double gm[kLanes];
-    for (int j = 0; j < kLanes; ++j) gm[j] = g[j] * m[j];
-    const double top = ((gm[0] + gm[4]) + (gm[2] + gm[6])) + ((gm[1] + gm[5]) + (gm[3] + gm[7]));
-    const double sum = ((g[0] + g[4]) + (g[2] + g[6])) + ((g[1] + g[5]) + (g[3] + g[7]));
-    const double U = top / sum;
-    for (int j = 0; j < kLanes; ++j) s.phi[j] = gm[j] - g[j] * U;
+    return gm - g * (Sum(gm) * inverse_sum);
   } else if constexpr (kCoupling == Coupling::kSides) {
-    for (int j = 0; j < kLanes; j += 2) s.phi[j] = s.phi[j + 1] = g[j] * (m[j] + m[j + 1]);
+    const V other = {m[1], m[0], m[3], m[2], m[5], m[4], m[7], m[6]};
+    return g * (m + other);
   } else {
-    for (int j = 0; j < kLanes; ++j) s.phi[j] = g[j] * m[j];
-  }
-  for (int j = 0; j < kLanes; ++j) s.i[j] = s.inverse_l[j] * (target[j] - s.n[j] * s.phi[j]);
-  for (int j = 0; j < kLanes; ++j) s.lambda[j] = s.n[j] * s.phi[j] + s.leakage[j] * s.i[j];
-}
-
-template <Coupling kCoupling>
-[[gnu::always_inline]] inline void Targets(const Kernel& s, const VoltagePattern& p, const double* v,
-                                           double t, double h, double* target) {
-  // v: the three voltages per lane; ∫v dt over [t, t + h] from the two edges.
-  for (int j = 0; j < kLanes; ++j) {
-    const double a = Clamp(p.t1.v[j] - t, h), b = Clamp(p.t2.v[j] - t, h);
-    const double volt_seconds =
-        v[2 * kLanes + j] * h + (v[kLanes + j] - v[2 * kLanes + j]) * b + (v[j] - v[kLanes + j]) * a;
-    target[j] = s.lambda[j] + volt_seconds - s.half_rh[j] * s.i[j];
+    return gm;
   }
 }
 
 /// Runs samples from k while nothing needs attention; returns the index of the sample whose
 /// solution has a negative current (its targets are left in `target`), or `count`.
 template <Coupling kCoupling>
-[[gnu::always_inline]] inline int Run(const Kernel& s, const VoltagePattern& p, const double* v,
-                                      double h, int k, int count, double floor, Lane* samples,
-                                      double* target) {
+[[gnu::always_inline]] inline int Run(const Kernel& s, const Edges& e, int k, int count, double floor,
+                                      Lane* samples, double* target) {
+  const V n = Load(s.n), c = Load(s.c), inverse_l = Load(s.inverse_l), half_rh = Load(s.half_rh);
+  const V leakage = Load(s.leakage), g0 = Load(s.g0), dg = Load(s.dg);
+  const V t1 = Load(e.t1), t2 = Load(e.t2);
+  const V v2h = Load(e.v + 2 * kLanes) * e.h;
+  const V step1 = Load(e.v) - Load(e.v + kLanes), step2 = Load(e.v + kLanes) - Load(e.v + 2 * kLanes);
+  const V zero = {}, h = zero + e.h;
+  V lambda = Load(s.lambda), i = Load(s.i), phi = Load(s.phi), sum = Load(s.sum);
   const double per = 1.0 / count;
   for (; k < count; ++k) {
-    for (int j = 0; j < kLanes; ++j) samples[k].v[j] = s.i[j];
-    Targets<kCoupling>(s, p, v, k * h, h, target);
-    Solve<kCoupling>(s, target, (k + 1) * per);
+    Store(samples[k].v, i);
+    const double t = k * e.h;
+    V a = t1 - t, b = t2 - t;
+    a = a < zero ? zero : a;
+    a = a > h ? h : a;
+    b = b < zero ? zero : b;
+    b = b > h ? h : b;
+    const V wanted = lambda + ((v2h + step2 * b) + step1 * a) - half_rh * i;
+    const V g = g0 + dg * ((k + 1) * per);
+    phi = Flux<kCoupling>(g, c * wanted, kCoupling == Coupling::kFloatingRotor ? 1 / Sum(g) : 0);
+    i = inverse_l * (wanted - n * phi);
+    lambda = n * phi + leakage * i;
     double least = 0;
-    for (int j = 0; j < kLanes; ++j) least = s.i[j] < least ? s.i[j] : least;
-    if (least < floor) return k;
-    for (int j = 0; j < kLanes; ++j) s.sum[j] += s.phi[j] * s.phi[j];
+    for (int j = 0; j < kLanes; ++j) least = i[j] < least ? i[j] : least;
+    if (least < floor) {
+      Store(target, wanted);
+      break;
+    }
+    sum += phi * phi;
   }
+  Store(s.lambda, lambda);
+  Store(s.i, i);
+  Store(s.phi, phi);
+  Store(s.sum, sum);
   return k;
 }
 
-AMBRIG_WIDE int RunRadial(const Kernel& s, const VoltagePattern& p, const double* v, double h, int k,
-                          int count, double floor, Lane* samples, double* target) {
-  return Run<Coupling::kFloatingRotor>(s, p, v, h, k, count, floor, samples, target);
+AMBRIG_WIDE int RunRadial(const Kernel& s, const Edges& e, int k, int count, double floor, Lane* samples,
+                          double* target) {
+  return Run<Coupling::kFloatingRotor>(s, e, k, count, floor, samples, target);
 }
-AMBRIG_WIDE int RunSides(const Kernel& s, const VoltagePattern& p, const double* v, double h, int k,
-                         int count, double floor, Lane* samples, double* target) {
-  return Run<Coupling::kSides>(s, p, v, h, k, count, floor, samples, target);
+AMBRIG_WIDE int RunSides(const Kernel& s, const Edges& e, int k, int count, double floor, Lane* samples,
+                         double* target) {
+  return Run<Coupling::kSides>(s, e, k, count, floor, samples, target);
 }
-AMBRIG_WIDE int RunSeparate(const Kernel& s, const VoltagePattern& p, const double* v, double h, int k,
-                            int count, double floor, Lane* samples, double* target) {
-  return Run<Coupling::kNone>(s, p, v, h, k, count, floor, samples, target);
+AMBRIG_WIDE int RunSeparate(const Kernel& s, const Edges& e, int k, int count, double floor, Lane* samples,
+                            double* target) {
+  return Run<Coupling::kNone>(s, e, k, count, floor, samples, target);
+}
+
+/// The same solution for one sample, after coils were taken out of it.
+template <Coupling kCoupling>
+void SolveOnce(const Kernel& s, const double* target, double fraction) {
+  const V g = Load(s.g0) + Load(s.dg) * fraction, wanted = Load(target);
+  const V phi = Flux<kCoupling>(g, Load(s.c) * wanted, 1 / Sum(g));
+  const V i = Load(s.inverse_l) * (wanted - Load(s.n) * phi);
+  Store(s.phi, phi);
+  Store(s.i, i);
+  Store(s.lambda, Load(s.n) * phi + Load(s.leakage) * i);
 }
 
 void SolveOnce(Coupling coupling, const Kernel& s, const double* target, double fraction) {
   switch (coupling) {
-    case Coupling::kFloatingRotor: return Solve<Coupling::kFloatingRotor>(s, target, fraction);
-    case Coupling::kSides: return Solve<Coupling::kSides>(s, target, fraction);
-    case Coupling::kNone: return Solve<Coupling::kNone>(s, target, fraction);
+    case Coupling::kFloatingRotor: return SolveOnce<Coupling::kFloatingRotor>(s, target, fraction);
+    case Coupling::kSides: return SolveOnce<Coupling::kSides>(s, target, fraction);
+    case Coupling::kNone: return SolveOnce<Coupling::kNone>(s, target, fraction);
   }
 }
+
+double Clamp(double x, double h) { return x < 0 ? 0 : (x > h ? h : x); }
 
 /// Whether the switches of lane j are closed at time t of the period, and where the pattern stands.
 int SegmentAt(const VoltagePattern& p, int j, double t) { return t < p.t1[j] ? 0 : (t < p.t2[j] ? 1 : 2); }
@@ -177,7 +209,7 @@ void StatorLanes::EndPeriod() {
 void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
                             double y1, int samples_per_period) {
   BeginPeriod(x0, y0, x1, y1, samples_per_period);
-  double v[3 * kLanes];
+  alignas(64) double v[3 * kLanes];
   for (int q = 0; q < 3; ++q)
     for (int j = 0; j < kLanes; ++j) v[q * kLanes + j] = pattern.gain[q][j] * bus + pattern.drop[q][j];
   const Kernel s{n.v, c_.v, inverse_l_.v, half_rh_.v, leakage.v, g0_.v, dg_.v, lambda.v, i.v, phi.v, sum_.v};
@@ -192,7 +224,8 @@ void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0
   unblock_driven(0);
   Lane target;
   int k = 0;
-  while ((k = run(s, pattern, v, h_, k, per_period_, floor, samples, target.v)) < per_period_) {
+  const Edges edges{pattern.t1.v, pattern.t2.v, v, h_};
+  while ((k = run(s, edges, k, per_period_, floor, samples, target.v)) < per_period_) {
     // Some diodes block within sample k: take those coils out and solve the sample again.
     for (int round = 0; round < kLanes; ++round) {
       bool any = false;
