@@ -60,6 +60,10 @@ ShaftSection ReadSection(const TomlTable& row, const Materials& materials, bool 
 }
 
 Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances) {
+  // Both spellings first: a misspelt `width` must not end as a missing mass.
+  for (const char* key : {"z", "mass", "inertia_diametral", "inertia_polar", "width", "od", "id", "material", "rho", "name"})
+    row.Has(key);
+  row.RejectUnknownKeys();
   Disk d;
   if (row.Has("width")) {
     for (const char* key : {"mass", "inertia_diametral", "inertia_polar"})
@@ -72,7 +76,6 @@ Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tole
   }
   row.Read(d, kDiskFields, tolerances);
   d.name = row.String("name", "");
-  row.RejectUnknownKeys();
   // A body's own second moments: Ip <= Id_1 + Id_2.
   if (d.inertia_polar > 2 * d.inertia_diametral * (1 + 1e-9))
     row.Fail("inertia_polar", fmt::format("{} kg m2, allowed up to twice inertia_diametral = {} kg m2",

@@ -226,7 +226,10 @@ RossRotor ReadRoss(const std::string& file, double speed) {
     }
   }
   // Tables come sorted by name; along the shaft is how people read them.
+  const auto along = [](const auto& a, const auto& b) { return a.z < b.z; };
   std::stable_sort(d.sections.begin(), d.sections.end(), [](const auto& a, const auto& b) { return a.z0 < b.z0; });
+  std::stable_sort(d.disks.begin(), d.disks.end(), along);
+  std::stable_sort(d.supports.begin(), d.supports.end(), along);
   return out;
 }
 

@@ -40,8 +40,12 @@ Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
   return table;
 }
 
-std::string Tag(const std::string& name, const char* kind, int count) {
-  return name.empty() ? fmt::format("{} {}", kind, count) : name;
+/// A tag that no table of this kind has yet: two elements of one name must not become one.
+std::string Tag(const Json& root, const std::string& table, const std::string& name) {
+  std::string tag = name;
+  for (int count = 0; tag.empty() || root.contains(table + tag); ++count)
+    tag = fmt::format("{} {}", name.empty() ? table.substr(0, table.find("Element")) : name, count);
+  return tag;
 }
 
 Json RotorTables(const BeamDefinition& d) {
@@ -55,16 +59,14 @@ Json RotorTables(const BeamDefinition& d) {
       const std::string tag = fmt::format("Shaft Element {}", count++);
       root["ShaftElement_" + tag] = ShaftTable(layer, d.theory, static_cast<int>(i), tag);
     }
-  count = 0;
   for (const Disk& disk : d.disks) {
-    const std::string tag = Tag(disk.name, "Disk", count++);
+    const std::string tag = Tag(root, "DiskElement_", disk.name);
     root["DiskElement_" + tag] = {{"n", NodeAt(nodes, disk.z)}, {"m", disk.mass},
                                   {"Id", disk.inertia_diametral}, {"Ip", disk.inertia_polar},
                                   {"tag", tag}, {"scale_factor", 1.0}, {"color", "Firebrick"}};
   }
-  count = 0;
   for (const SpringSupport& s : d.supports) {
-    const std::string tag = Tag(s.name, "Bearing", count++);
+    const std::string tag = Tag(root, "BearingElement_", s.name);
     root["BearingElement_" + tag] = BearingTable(s, NodeAt(nodes, s.z), tag);
   }
   return root;
