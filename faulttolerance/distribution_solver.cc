@@ -14,7 +14,8 @@ namespace {
 constexpr double kLargestEntry = 50;  // of an acceptable W, healthy 1
 constexpr double kSolved = 1e-9;      // equation error
 constexpr double kFeasible = 1e-6;    // of a search's result, before it is polished
-constexpr double kCapacityKept = 0.9999;
+constexpr double kCapacityKept = 0.99998;
+constexpr double kHop = 0.07;        // of the largest entry, once to three times
 constexpr double kErrorWeight = 20;  // of the error of a linearised W at the disc's edge, ...
 constexpr double kErrorWeightForReach = 2;  // ... and while its largest disc is searched
 
@@ -115,10 +116,7 @@ class Solver {
     DistributionProgram program(p_, forms_, 12, {.T = 1, .bias = 1e-5, .control = 1e-5});
     program.BoundFluxes();
     double best = 0;
-    const DistributionOptions given = o_;
-    o_.starts *= 3;  // the flux bounds have many narrow optima
-    const std::vector<Candidate> found = Multistart(program, 12, false);
-    o_ = given;
+    const std::vector<Candidate> found = Multistart(program, 12, false, 4 * o_.starts);
     for (const Candidate& c : found) best = std::max(best, FluxCapacity(forms_, c.W));
     return best;
   }
@@ -149,13 +147,24 @@ class Solver {
     return Solver(p, o_);
   }
 
+  /// From random starts, then from disturbed copies of the best so far; best first.
   std::vector<Candidate> Multistart(const DistributionProgram& program, int equations,
-                                    bool positive) const {
+                                    bool positive, int starts) const {
     std::vector<Candidate> found;
-    for (int start = 0; start < o_.starts; ++start) {
-      SmallVector x = program.FromMatrix(RandomMatrix(o_.seed, start, positive));
+    const auto search = [&](const DistributionMatrix& from) {
+      SmallVector x = program.FromMatrix(from);
       if (equations > 0) SolveEquations(program, x, kLargestEntry, 100);
-      if (const auto c = Search(program, program.ToMatrix(x))) found.push_back(*c);
+      const auto c = Search(program, program.ToMatrix(x));
+      if (!c) return;
+      const auto worse = [](const Candidate& a, const Candidate& b) {
+        return a.objective < b.objective;
+      };
+      found.insert(std::upper_bound(found.begin(), found.end(), *c, worse), *c);
+    };
+    for (int start = 0; start < starts; ++start) search(RandomMatrix(o_.seed, start, positive));
+    for (int hop = 0; hop < starts && !found.empty(); ++hop) {
+      const DistributionMatrix noise = RandomMatrix(o_.seed, starts + hop, false);
+      search(found[0].W + kHop * (1 + hop % 3) * found[0].W.cwiseAbs().maxCoeff() * noise);
     }
     return found;
   }
@@ -166,11 +175,8 @@ class Solver {
     if (equations < 12) weights.error = equations == 6 ? kErrorWeightForReach : kErrorWeight;
     DistributionProgram program(p_, forms_, equations, weights);
     program.BoundCurrents(1);
-    std::vector<Candidate> found = Multistart(program, equations, p_.quadrants == 2);
-    std::stable_sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-      return a.objective < b.objective;
-    });
-    return found;
+    const bool positive = p_.quadrants == 2;  // signs free: far more optima
+    return Multistart(program, equations, positive, positive ? o_.starts : 5 * o_.starts);
   }
 
   /// The least stiff W with the disc |v| <= rho c0, from the candidates and from new starts.
@@ -183,13 +189,14 @@ class Solver {
     program.BoundCurrents(rho, p_.i_max / p_.c0);
     std::optional<Candidate> best;
     const auto keep = [&](const std::optional<Candidate>& c) {
-      if (c && WorkingDisc(p_, c->W) >= rho * (1 - 1e-5) &&
+      if (c && WorkingDisc(p_, c->W) >= rho * (1 - 1e-6) &&
           (!best || c->objective < best->objective))
         best = c;
     };
     for (const Candidate& c : candidates) keep(Search(program, WidestDisc(p_, c.W)));
     if (o_.policy == DistributionPolicy::kControl)
-      for (const Candidate& c : Multistart(program, equations, p_.quadrants == 2)) keep(c);
+      for (const Candidate& c : Multistart(program, equations, p_.quadrants == 2, o_.starts / 2))
+        keep(c);
     return best;
   }
 

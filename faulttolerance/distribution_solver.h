@@ -31,7 +31,7 @@ struct DistributionOptions {
   double rho_same_flux = 0.8;    // kControl, partial shorts: keep the healthy fluxes down to this
   double bias_weight = 0.05;     // of |b|^2/8 against largest stiffness, healthy 1: copper loss
   double control_weight = 0.05;  // of (|wx|^2 + |wy|^2)/8, healthy 1: voltage for a force's slew
-  int starts = 128;              // of the search for capacity
+  int starts = 64;               // of a search, and as many from its disturbed best
   std::uint64_t seed = 1;
 };
 
