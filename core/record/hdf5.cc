@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <mutex>
 #include <new>
 #include <optional>
 #include <set>
@@ -20,16 +19,12 @@ namespace {
 constexpr hsize_t kMaxRows = hsize_t{1} << 31;  // a damaged header must not ask for all memory
 constexpr hsize_t kChunkRows = 1 << 14;
 
-/// The library may be built without thread safety, and prints errors unless told not to.
+/// One thread at a time; and the library prints errors unless told not to.
 class Library {
  public:
-  Library() : lock_(Mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+  Library() : lock_(Hdf5Mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
 
  private:
-  static std::mutex& Mutex() {
-    static std::mutex mutex;
-    return mutex;
-  }
   std::scoped_lock<std::mutex> lock_;
 };
 
@@ -285,6 +280,11 @@ void CheckWritable(const Record& record, const std::string& where) {
 }
 
 }  // namespace
+
+std::mutex& Hdf5Mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
 
 Record ReadHdf5(const std::string& path) try {
   Record record;

@@ -1,6 +1,7 @@
 #pragma once
 /// Records as HDF5 files: one 1-D dataset per channel with string attribute `unit`; root attributes
 /// `rate` [Hz], `start` [s] and any further texts. The only file that knows the HDF5 library.
+#include <mutex>
 #include <string>
 
 #include "core/record/record.h"
@@ -17,5 +18,9 @@ Record ReadHdf5(const std::string& path);
 /// Double precision, compressed; same record, same bytes. The file appears complete or not at all.
 /// @throws InputError
 void WriteHdf5(const Record& record, const std::string& path);
+
+/// Held during every use of the HDF5 library, which may be built without thread safety; the MAT
+/// reader needs it too (v7.3 files are HDF5).
+std::mutex& Hdf5Mutex();
 
 }  // namespace ambrig

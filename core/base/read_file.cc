@@ -1,0 +1,29 @@
+#include "core/base/read_file.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "core/base/errors.h"
+
+namespace ambrig {
+
+std::string ReadFile(const std::string& path, std::size_t limit) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) throw InputError(path + ": no such file");
+  if (std::filesystem::is_directory(path, error)) throw InputError(path + ": is a folder");
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw InputError(path + ": " + std::generic_category().message(errno));
+  std::string text;
+  char block[1 << 16];
+  while (text.size() < limit && in) {  // also pipes, which have no size
+    in.read(block, static_cast<std::streamsize>(std::min(sizeof block, limit - text.size())));
+    text.append(block, static_cast<std::size_t>(in.gcount()));
+  }
+  return text;
+}
+
+}  // namespace ambrig

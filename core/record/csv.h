@@ -1,0 +1,27 @@
+#pragma once
+/// Records as text: a header such as `t [s],A.x [um],bus` and one row per sample. The separator
+/// (tab, semicolon or comma) is the header's; with the first two a decimal comma is understood.
+/// An empty cell is NaN. Lines that start with # before the header are comments.
+#include <map>
+#include <string>
+
+#include "core/record/record.h"
+
+namespace ambrig {
+
+struct CsvOptions {
+  std::map<std::string, std::string> units = {};  // column -> unit, instead of the header's
+  double rate = 0;                                // [Hz], of a file without a column t or time
+  double start = 0;                               // [s]
+};
+
+/// Units as in the file (core/base/units.h converts).
+/// @throws InputError "FILE:LINE:COLUMN: ..." for what is no number, "FILE: row N: ..." for a time
+/// that is not uniform (rows are lines of the file).
+Record ReadCsv(const std::string& path, const CsvOptions& options = {});
+
+/// Shortest text of each number that reads back as the same double. Attributes are not written.
+/// @throws InputError
+void WriteCsv(const Record& record, const std::string& path);
+
+}  // namespace ambrig

@@ -1,0 +1,20 @@
+#pragma once
+/// Records as MATLAB files, through libmatio (the only file that knows it).
+///
+/// One variable per channel, a vector of any number type; scalars `rate` [Hz] and `start` [s], or a
+/// vector t or time. As a MATLAB name has no dots: A_x (one capital, underscore) is "A.x", and the
+/// fields of a struct A are "A.x", "A.y". An optional struct `units` holds texts: units.A_x = 'um'.
+#include <string>
+
+#include "core/record/record.h"
+
+namespace ambrig {
+
+/// v5 (also compressed) and v7.3. Other variables are left out with a note.
+/// @throws InputError, one line that names the file.
+Record ReadMat(const std::string& path);
+
+/// Version 5, uncompressed. Attributes are not written. @throws InputError
+void WriteMat(const Record& record, const std::string& path);
+
+}  // namespace ambrig
