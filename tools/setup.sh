@@ -21,7 +21,7 @@ packages=(
 for option in "$@"; do
   case "$option" in
     --tests) packages+=(chromium slurm-wlm slurm-wlm-basic-plugins munge) ;;
-    --tidy) packages+=(clang-format clang-tidy) ;;
+    --tidy) packages+=(clang-format clang-tidy-16) ;;
     -h | --help) sed -n '2,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown option $option (allowed: --tests, --tidy)" >&2; exit 2 ;;
   esac

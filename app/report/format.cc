@@ -54,8 +54,7 @@ std::string FormatSi(double value, std::string_view unit, int digits) {
                                                               "k", "M", "G", "T"};
   // Rounded first, so that 999.96e-6 becomes 1 mm and not 1000 um.
   const double rounded = std::stod(fmt::format("{:.{}e}", value, digits - 1));
-  const int group =
-      std::clamp(static_cast<int>(std::floor(std::log10(std::abs(rounded)) / 3)), -4, 4);
+  const double group = std::clamp(std::floor(std::log10(std::abs(rounded)) / 3), -4.0, 4.0);
   return Plain(rounded / std::pow(10.0, 3 * group), digits) + gap +
          std::string(kPrefix[static_cast<std::size_t>(group + 4)]) + std::string(unit);
 }
