@@ -102,6 +102,8 @@ Plant BuildPlant(const RigParameters& rig) {
   for (const EffectInstance& e : rig.effects)
     if (!e.IsNull()) live.emplace_back(FindEffect(e.name), &e);
   for (const BendingMode& mode : rig.modes) plant.rotor.AddBendingMode(mode);
+  for (const BearingParameters& b : rig.bearings)
+    if (b.kind == BearingKind::kRadial) plant.planes.emplace_back(b.name, b.z);
   for (const auto& [description, instance] : live)
     if (description->shape) description->shape(*instance, plant);
   plant.bus.source = plant.bus.voltage = rig.amplifier.bus_voltage;

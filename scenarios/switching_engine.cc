@@ -303,7 +303,7 @@ void SwitchingEngine::CurrentLoops(long long n) {
       const auto lane = static_cast<std::size_t>(j);
       BridgeImperfection bridge = b.plant->bridge[lane];
       for (const auto& term : b.plant->voltage[lane])
-        bridge.voltage_offset += term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y});
+        bridge.voltage_offset += term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y, &motion_});
       const CoilVoltage v = c.amplifier[lane].Pattern(c.duty[j], bridge);
       b.pattern.t1[j] = v.t1;
       b.pattern.t2[j] = v.t2;

@@ -1,0 +1,39 @@
+#pragma once
+/// The commands of `ambrig`: each one parses its options, calls, prints. Exit codes: 0 done, 1 an
+/// expectation is not met, 2 wrong input, 3 an error of the program, 130 interrupted.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace ambrig {
+
+/// Set by Ctrl-C; every long work looks at it.
+extern std::atomic<bool> interrupted;
+
+/// Options that every command has.
+struct CommonOptions {
+  std::string json, html;
+  void AddTo(CLI::App& command);
+  /// Writes the JSON if asked for (temporary name, then renamed).
+  void WriteJson(const nlohmann::ordered_json& document) const;
+};
+
+/// A command's work; returns the exit code.
+using Work = std::function<int()>;
+
+void AddRun(CLI::App& app, Work& work);
+void AddCheck(CLI::App& app, Work& work);
+void AddRedistribute(CLI::App& app, Work& work);
+void AddEffects(CLI::App& app, Work& work);
+void AddCompare(CLI::App& app, Work& work);
+void AddExplain(CLI::App& app, Work& work);
+void AddAdopt(CLI::App& app, Work& work);
+void AddHide(CLI::App& app, Work& work);
+
+/// 1 for a yes, else 0; terminal colours only on a terminal.
+bool ColourTerminal();
+std::string Coloured(const std::string& text, const char* colour);  // "green" | "red" | "yellow" | "bold"
+
+}  // namespace ambrig

@@ -1,0 +1,133 @@
+/// ambrig run: simulate scenarios; timeline, record, JSON, report.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "app/commands/commands.h"
+#include "app/report/progress.h"
+#include "app/report/run_json.h"
+#include "app/report/run_report_data.h"
+#include "core/base/atomic_file.h"
+#include "core/record/csv.h"
+#include "core/record/hdf5.h"
+#include "scenarios/simulate.h"
+
+namespace ambrig {
+
+namespace {
+
+struct RunOptions {
+  CommonOptions common;
+  std::vector<std::string> scenarios;
+  std::string out = "out", fidelity = "switching";
+  double rate = 0;
+  bool csv = false, quiet = false, no_html = false;
+};
+
+std::string Slurp(const std::string& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+void PrintTimeline(const Scenario& scenario, const RunResult& result, const std::vector<ExpectResult>& expect) {
+  fmt::print("{}\n", Coloured(scenario.name, "bold"));
+  std::size_t shown = 0, contacts = 0;
+  for (const RunEvent& e : result.events) {
+    const bool contact = e.kind == "touchdown" || e.kind == "lift_off";
+    if (contact && ++contacts > 12) continue;  // a bouncing rotor would fill the screen
+    fmt::print("  {:>11.4f} ms  {:<14} {:<10} {}\n", e.t * 1e3, e.kind, e.target, EventText(e));
+    ++shown;
+  }
+  if (contacts > 12) fmt::print("  ... and {} more contacts\n", contacts - 12);
+  if (shown == 0) fmt::print("  no events\n");
+  const RunMetrics& m = result.metrics;
+  for (const auto& [name, orbit] : m.max_orbit) fmt::print("  peak orbit {}       {:8.2f} um\n", name, orbit * 1e6);
+  if (!m.max_orbit.empty()) fmt::print("  clearance left     {:8.2f} um\n", m.min_clearance_left * 1e6);
+  fmt::print("  peak current       {:8.3f} A\n  copper loss        {:8.2f} W\n", m.peak_current, m.copper_loss);
+  if (m.coil_periods > 0)
+    fmt::print("  false alarms       {:8.0f} in {:.3g} healthy coil-periods\n", m.false_alarms, m.coil_periods);
+  fmt::print("  speed              {:8.1f} x real time\n", m.real_time_factor);
+  for (const std::string& note : result.notes) fmt::print("  note: {}\n", note);
+  for (const ExpectResult& e : expect)
+    fmt::print("  expect {:<18} wanted {:<14} got {:<14} {}\n", e.key, e.wanted, e.got,
+               e.met ? Coloured("met", "green") : Coloured("NOT MET", "red"));
+  fmt::print("  verdict            {}\n", result.drop        ? Coloured("rotor dropped", "red")
+                                          : result.touchdown ? Coloured("touched down, did not drop", "yellow")
+                                                             : Coloured("rotor stayed up", "green"));
+}
+
+int RunOne(const std::string& file, const RunOptions& options, nlohmann::ordered_json& all) {
+  const RigParameters rig = ReadRig(RigOfScenario(file));
+  const Scenario scenario = ReadScenario(file, rig);
+  Progress progress(scenario.name);
+  SimulateOptions simulate;
+  simulate.fidelity = FidelityByName(options.fidelity);
+  simulate.record_rate = options.rate;
+  simulate.for_report = true;
+  simulate.stop = &interrupted;
+  simulate.progress = [&](double f) { progress.Update(f); };
+  RunResult result = Simulate(rig, scenario, simulate);
+  progress.Clear();
+  const auto expect = CheckExpectations(scenario, result);
+  const std::filesystem::path stem = std::filesystem::path(options.out) / std::filesystem::path(file).stem();
+  std::error_code error;
+  std::filesystem::create_directories(options.out, error);
+  if (error) throw InputError(fmt::format("cannot write {}: {}", options.out, error.message()));
+  result.record.attributes["scenario"] = Slurp(file);
+  result.record.attributes["rig"] = Slurp(rig.file);
+  result.record.attributes["fidelity"] = options.fidelity;
+  WriteHdf5(result.record, stem.string() + ".h5");
+  if (options.csv) WriteCsv(result.record, stem.string() + ".csv");
+  const auto json = RunJson(scenario, result, expect);
+  WriteFileAtomically(stem.string() + ".json", json.dump(2) + "\n");
+  if (!options.no_html) {
+    const RunReportData data = MakeRunReportData(rig, scenario, result, expect, options.fidelity);
+    WriteRunReport(data, stem.string() + ".html");
+    if (!options.common.html.empty()) WriteRunReport(data, options.common.html);
+  }
+  if (!options.quiet) {
+    PrintTimeline(scenario, result, expect);
+    fmt::print("  written            {}.h5 .json{}{}\n", stem.string(), options.csv ? " .csv" : "",
+               options.no_html ? "" : fmt::format(", report {}.html", stem.string()));
+  }
+  all.push_back(json);
+  return AllMet(expect) ? 0 : 1;
+}
+
+}  // namespace
+
+void AddRun(CLI::App& app, Work& work) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command = app.add_subcommand("run", "simulate scenarios: timeline, record, report");
+  command->add_option("scenario", options->scenarios, "scenario files (TOML)")->required();
+  command->add_option("--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")->capture_default_str();
+  command->add_option("--rate", options->rate, "rows of the record per second [Hz] (default: the scenario's)");
+  command->add_option("--fidelity", options->fidelity, "switching | reference | averaged")->capture_default_str();
+  command->add_flag("--csv", options->csv, "also write the record as NAME.csv");
+  command->add_flag("--no-report", options->no_html, "no NAME.html");
+  command->add_flag("--quiet", options->quiet, "print nothing");
+  options->common.AddTo(*command);
+  command->footer("Example:\n  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml --out out --csv\n"
+                  "Exit code 1 when an [expect] of a scenario is not met.");
+  command->callback([options, &work] {
+    work = [options] {
+      nlohmann::ordered_json all = nlohmann::ordered_json::array();
+      int code = 0;
+      std::set<std::string> stems;
+      for (const std::string& file : options->scenarios) {
+        if (!stems.insert(std::filesystem::path(file).stem().string()).second)
+          throw InputError(fmt::format("{}: another scenario of that file name would be overwritten", file));
+        code = std::max(code, RunOne(file, *options, all));
+      }
+      options->common.WriteJson(all.size() == 1 ? all[0] : all);
+      return code;
+    };
+  });
+}
+
+}  // namespace ambrig

@@ -1,0 +1,69 @@
+#include "scenarios/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "scenarios/switching_engine.h"
+
+namespace ambrig {
+
+namespace {
+
+RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const SimulateOptions& options) {
+  EngineOptions engine;
+  engine.record_rate = options.record_rate;
+  engine.snapshots = options.for_report;
+  engine.progress = options.progress;
+  engine.stop = options.stop;
+  return SwitchingEngine(rig, scenario, engine).Run();
+}
+
+}  // namespace
+
+Fidelity FidelityByName(const std::string& name) {
+  if (name == "switching") return Fidelity::kSwitching;
+  if (name == "reference") return Fidelity::kReference;
+  if (name == "averaged") return Fidelity::kAveraged;
+  throw InputError(fmt::format("--fidelity = {}, allowed: switching, reference, averaged", name));
+}
+
+RunResult Simulate(const RigParameters& rig, const Scenario& scenario, const SimulateOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  RunResult result;
+  switch (options.fidelity) {
+    case Fidelity::kSwitching: result = RunSwitching(rig, scenario, options); break;
+    default: throw InputError("only the switching fidelity is here");
+  }
+  std::stable_sort(result.events.begin(), result.events.end(),
+                   [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
+  JudgeDetection(scenario, result);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;
+  return result;
+}
+
+void JudgeDetection(const Scenario& scenario, RunResult& result) {
+  RunMetrics& m = result.metrics;
+  m.detection_delay = m.redistribution_delay = -1;
+  for (const FaultSpec& fault : scenario.faults) {
+    double detected = kInfinity, redistributed = kInfinity;
+    for (const RunEvent& e : result.events) {
+      if (e.t < fault.time) continue;
+      if (e.kind == "detected" && e.target == fault.target) detected = std::min(detected, e.t);
+      if (e.kind == "redistributed") redistributed = std::min(redistributed, e.t);
+    }
+    if (std::isfinite(detected)) m.detection_delay = std::max(m.detection_delay, detected - fault.time);
+    if (std::isfinite(redistributed)) m.redistribution_delay = std::max(m.redistribution_delay, redistributed - fault.time);
+  }
+  m.false_alarms = 0;
+  for (const RunEvent& e : result.events) {
+    if (e.kind != "detected") continue;
+    bool real = false;
+    for (const FaultSpec& fault : scenario.faults) real = real || (fault.target == e.target && e.t >= fault.time);
+    if (!real) m.false_alarms += 1;
+  }
+}
+
+}  // namespace ambrig
