@@ -205,7 +205,7 @@ void SwitchingEngine::Period(long long n) {
     for (int k = 0; k < samples_; k += row_samples_) RecordRow(n, k);
   for (BearingRun& b : bearings_) control_[b.index].feedback = b.mean;
   MoveRotor(n);
-  if (n >= 0) Watch(n);
+  if (n >= 0 && options_.watch) Watch(n);
 }
 
 void SwitchingEngine::ReadSensors() {
@@ -431,6 +431,7 @@ void SwitchingEngine::HeatCopper() {
     CopperHeating& heat = b.plant->heating;
     if (heat.rise_per_watt <= 0 || motion_.t < 0) continue;
     StatorLanes& lanes = b.plant->lanes;
+    CurrentStatistics(lanes.samples, samples_, &b.mean_square, &b.largest);
     for (int j = 0; j < lanes.coils; ++j) {
       double& dT = heat.dT[static_cast<std::size_t>(j)];
       const double power = lanes.resistance[j] * b.mean_square[j];

@@ -21,6 +21,7 @@ struct EngineOptions {
   double record_rate = 0;                          // 0: the scenario's
   bool record = true;
   bool snapshots = false;
+  bool watch = true;                               // events and figures of the verdict
   bool force_general_path = false;                 // tests: the slow path must give the same record
   int substeps = 1;                                // tests of convergence: finer steps inside a sample
   const CommandPlan* commands = nullptr;           // shared between runs of one scenario
