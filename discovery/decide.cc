@@ -1,0 +1,36 @@
+#include "discovery/decide.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+namespace {
+constexpr double kAgrees = 1.05;        // ratio on unseen records that counts as the floor
+constexpr double kGood = 1.5;           // discovery.md: what an effect of the catalogue should reach
+constexpr double kMostExplained = 0.9;  // of the squared error above the floor
+}  // namespace
+
+double ExplainedShare(double before, double after) {
+  const double excess = before * before - 1;
+  return excess <= 0 ? 0 : std::clamp((before * before - after * after) / excess, 0.0, 1.0);
+}
+
+bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round) {
+  const double b = before.ratio_validate, a = after.ratio_validate;
+  if (!after.converged || score_gain < 20) return false;
+  // Unseen records decide: the error must fall by more than integrators differ (1 % of the floor's
+  // power), and by a good part of what is left; a second effect by more than a law's own detail.
+  const double fall = b * b - a * a;
+  if (fall < 0.015 + 0.01 * round) return false;
+  return ExplainedShare(b, a) > (round == 0 ? 0.25 : 0.35);
+}
+
+std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted) {
+  if (any_adopted) return final_ratio < kGood || ExplainedShare(base, final_ratio) > kMostExplained ? "effect" : "unknown";
+  if (base < kAgrees * 1.05) return nominal < kAgrees ? "none" : "parameters";
+  // Parameters explain all but a trace of a large misfit, and nothing else helps.
+  if (base < kGood && ExplainedShare(nominal, base) > kMostExplained) return "parameters";
+  return "unknown";
+}
+
+}  // namespace ambrig

@@ -1,0 +1,17 @@
+#pragma once
+/// When an effect is believed, and what the verdict is.
+#include "discovery/fit.h"
+
+namespace ambrig {
+
+/// Share of the error above the floor that a better model removes on unseen records, 0 to 1.
+double ExplainedShare(double ratio_before, double ratio_after);
+
+/// Whether the step from `before` to `after` (one more effect) is more than chance and more than a
+/// patch: `round` counts the effects adopted before it.
+bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round);
+
+/// "effect", "parameters", "none" or "unknown" from the ratios on unseen records.
+std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted);
+
+}  // namespace ambrig

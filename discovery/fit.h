@@ -1,0 +1,31 @@
+#pragma once
+/// Maximum-a-posteriori fit of a hypothesis to the fit records: errors over the noise floor, rig
+/// parameters under their Gaussian prior, bounds kept (Ceres, Levenberg-Marquardt). The door to Ceres.
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "discovery/residual.h"
+
+namespace ambrig {
+
+struct FitOptions {
+  int iterations = 8;
+  double effective = 1;                 // independent numbers among the residuals
+  const Eigen::MatrixXd* base_jacobian = nullptr;  // its first columns: the rig parameters, reused
+};
+
+struct FitResult {
+  Hypothesis hypothesis;                // at the optimum
+  std::vector<double> predicted, residual;
+  std::vector<double> sd;               // of the free parameters, their own units
+  double ratio_fit = 0, ratio_validate = 0;
+  bool converged = false;
+  std::vector<std::string> warnings;    // at a bound, without influence, strongly correlated
+  Eigen::MatrixXd jacobian;             // of prediction/floor, a column per free parameter
+};
+
+/// A fit that finds no better point says so (`converged` false), it never passes for a result.
+FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options);
+
+}  // namespace ambrig
