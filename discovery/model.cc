@@ -17,15 +17,17 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
     FreeParameter p;
     p.path = t.path;
     const double* at = ParameterAt(h.rig, t.path);
-    if (!at) continue;  // a tolerance of something that no table holds (an effect's)
-    p.value = p.start = *at;
+    if (!at || t.sd <= 0) continue;
+    p.value = p.start = *at;  // the prior's mean; a calibration found earlier is where the fit starts
     p.sd = p.step = t.sd;
     std::string unit;
     ParameterRange(rig, t.path, &p.lo, &p.hi, &unit);
     p.lo = std::max(p.lo, p.value - 8 * t.sd);
     p.hi = std::min(p.hi, p.value + 8 * t.sd);
     h.free.push_back(p);
+    if (!std::isnan(t.fitted)) h.Set(h.free.size() - 1, t.fitted);
   }
+  for (Tolerance& t : h.rig.tolerances) t.fitted = kRequired;  // now in the values
   return h;
 }
 
@@ -122,6 +124,7 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.commands = plans_[record].get();
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.watch = false;
+  options.nominal = &case_.rig;
   options.stop = stop;
   ++runs;
   return SwitchingEngine(h.rig, scenario, options).Run().record;

@@ -83,7 +83,7 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
     const std::vector<Tolerance> all = tolerances;
     for (const Tolerance& k : all)
       if (k.path.starts_with(from) && !t.Has(k.path.substr(from.size())))
-        tolerances.push_back({to + k.path.substr(from.size()), k.sd});
+        tolerances.push_back({to + k.path.substr(from.size()), k.sd, kRequired});
   }
   b.name = name;
   const char* kinds = "radial, thrust, opposed";
@@ -241,6 +241,13 @@ int RigParameters::periods_per_control() const {
 RigParameters ReadRig(const std::string& file) { return Read(TomlTable::FromFile(file)); }
 RigParameters ReadRigText(const std::string& text, const std::string& file_name) {
   return Read(TomlTable::FromText(text, file_name));
+}
+
+RigParameters TrueRig(const RigParameters& rig) {
+  RigParameters out = rig;
+  for (const Tolerance& t : rig.tolerances)
+    if (double* at = std::isnan(t.fitted) ? nullptr : ParameterAt(out, t.path)) *at = t.fitted;
+  return out;
 }
 
 double* ParameterAt(RigParameters& rig, const std::string& path) {

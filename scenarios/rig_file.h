@@ -97,6 +97,9 @@ struct RigParameters {
 RigParameters ReadRig(const std::string& file);
 RigParameters ReadRigText(const std::string& text, const std::string& file_name);
 
+/// The rig with its calibrated values in place of the drawing's: what the plant is built from.
+RigParameters TrueRig(const RigParameters& rig);
+
 /// The number behind a path such as "rotor.mass" or "bearings.A.gap"; nullptr when there is none.
 double* ParameterAt(RigParameters& rig, const std::string& path);
 /// Its range from the parameter table.

@@ -18,7 +18,8 @@ constexpr double kTiny = 1e-10;                                   // [s] instant
 }  // namespace
 
 SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scenario, const EngineOptions& options)
-    : rig_(rig), scenario_(scenario), options_(options), plant_(BuildPlant(rig_)) {
+    : rig_(TrueRig(rig)), nominal_(options.nominal ? *options.nominal : rig), scenario_(scenario), options_(options),
+      plant_(BuildPlant(rig_)) {
   if (options_.commands) {
     commands_ = options_.commands;
   } else {
@@ -56,7 +57,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
     c.name = p.name;
     c.coils = p.coils();
     c.amplifier.fill(PowerAmplifier(rig_.amplifier));
-    c.map.k = ForceConstant(p);
+    c.map.k = ForceConstant(nominal_.bearings[k]);
     c.map.c0 = BiasCurrent(rig_, p);
     c.map.i_max = rig_.amplifier.i_max;
     c.map.unipolar = rig_.amplifier.quadrants < 3;
@@ -92,7 +93,9 @@ RunResult SwitchingEngine::Run() {
 }
 
 void SwitchingEngine::Start() {
-  switch (scenario_.start) {
+  if (options_.forced) {
+    StartForced();
+  } else switch (scenario_.start) {
     case StartState::kLevitated: StartLevitated(); break;
     case StartState::kClamped: StartClamped(); break;
     case StartState::kResting: StartResting(); break;
@@ -191,6 +194,7 @@ void SwitchingEngine::Period(long long n) {
   motion_.t = static_cast<double>(n) * T_;
   plant_.rotor.SetSpin(motion_);
   ReadSensors();
+  if (options_.forced) FollowData(n);
   ApplySetPoints(n);
   if (controller_on_ && n % M_ == 0) ControlTick(n);
   if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) {
@@ -276,14 +280,14 @@ void SwitchingEngine::ApplySetPoints(long long n) {
 void SwitchingEngine::CurrentLoops(long long n) {
   std::vector<Lane>& target = loop_target_;  // kept: no allocation in the loop
   target.resize(control_.size());
-  for (std::size_t k = 0; k < control_.size(); ++k) target[k] = clamped_ ? Lane{} : control_[k].commanded;
+  for (std::size_t k = 0; k < control_.size(); ++k) target[k] = clamped_ && !options_.forced ? Lane{} : control_[k].commanded;
   const long long at = n < 0 ? (clamped_ ? 0 : -1) : n;
-  if (at >= 0)
+  if (at >= 0 && !(options_.forced && clamped_start_))
     for (const auto& s : commands_->current)
       target[static_cast<std::size_t>(s.bearing)][s.index] += CommandPlan::At(s, at);
   for (BearingRun& b : bearings_) {
     BearingControl& c = control_[b.index];
-    if (clamped_) c.set_point = target[b.index];
+    if (clamped_ && !options_.forced) c.set_point = target[b.index];
     for (int j = 0; j < c.coils; ++j) {
       const auto lane = static_cast<std::size_t>(j);
       double d = first_period_of_rest_ ? rig_.amplifier.duty_min
@@ -319,6 +323,10 @@ void SwitchingEngine::RunMagnetics(long long n) {
   for (BearingRun& b : bearings_) {
     b.x_next = b.x;
     b.y_next = b.y;
+    if (options_.forced) {
+      ForcedPosition(b, motion_.t + T_, &b.x_next, &b.y_next);
+      continue;
+    }
     if (clamped_) continue;
     // Where the plane will be at the end of the period: constant acceleration.
     MotionState ahead = motion_;

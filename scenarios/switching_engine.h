@@ -24,6 +24,8 @@ struct EngineOptions {
   bool watch = true;                               // events and figures of the verdict
   bool force_general_path = false;                 // tests: the slow path must give the same record
   int substeps = 1;                                // tests of convergence: finer steps inside a sample
+  const RigParameters* nominal = nullptr;          // what the controller believes; default: the rig file's values
+  const Record* forced = nullptr;                  // measured set-points and readings drive the coils; no rotor
   const CommandPlan* commands = nullptr;           // shared between runs of one scenario
   Supervisor* supervisor = nullptr;
   std::function<void(double)> progress;            // fraction done
@@ -44,6 +46,9 @@ class SwitchingEngine {
   void StartLevitated();
   void StartClamped();
   void StartResting();
+  void StartForced();
+  void FollowData(long long n);
+  void ForcedPosition(const BearingRun& b, double t, double* x, double* y) const;
   void Period(long long n);
   void ReadSensors();
   void ControlTick(long long n);
@@ -66,7 +71,8 @@ class SwitchingEngine {
   void Event(const std::string& kind, const std::string& target, const std::string& fault_class = "",
              double fraction = 0, double t = -1);
 
-  RigParameters rig_;
+  RigParameters rig_;      // true values
+  RigParameters nominal_;  // the controller's
   const Scenario& scenario_;
   EngineOptions options_;
   std::unique_ptr<CommandPlan> own_commands_;
@@ -85,6 +91,7 @@ class SwitchingEngine {
   double T_ = 0, h_ = 0;     // switching period, ADC sample [s]
   int M_ = 1, samples_ = 18; // periods per controller period, ADC samples per period
   bool first_period_of_rest_ = false, clamped_ = false, controller_on_ = true;
+  bool clamped_start_ = false;  // forced runs: the set-points already hold the coils' excitations
   long long warm_ = 0, periods_ = 0;
   std::size_t next_fault_ = 0;
   double bus_restore_at_ = kInfinity;

@@ -119,13 +119,13 @@ bool TomlTable::IsArray(std::string_view key) const {
   return n && n->is_array();
 }
 
-double TomlTable::NumberOr(std::string_view key, double fallback, double* sd) const {
+double TomlTable::NumberOr(std::string_view key, double fallback, double* sd, double* fitted) const {
   if (sd) *sd = 0;
   const toml::node* n = node_->Get(key);
   if (!n) return fallback;
   if (const auto* t = n->as_table()) {
     for (const auto& [k, v] : *t)
-      if (k.str() != "value" && k.str() != "sd")
+      if (k.str() != "value" && k.str() != "sd" && !(fitted && k.str() == "fitted"))
         throw InputError(fmt::format("{}.{}: unknown key, allowed: value, sd", Where(key), k.str()));
     const auto* value = t->get("value");
     if (!value || !value->is_number())
@@ -135,6 +135,11 @@ double TomlTable::NumberOr(std::string_view key, double fallback, double* sd) co
           !std::isfinite(s->value<double>().value()))
         throw InputError(fmt::format("{}.sd = {}, allowed: a number of 0 or more", Where(key), Text(*s)));
       if (sd) *sd = s->value<double>().value();
+    }
+    if (const auto* f = t->get("fitted"); f && fitted) {
+      if (!f->is_number() || !std::isfinite(f->value<double>().value()))
+        throw InputError(fmt::format("{}.fitted = {}, allowed: a number", Where(key), Text(*f)));
+      *fitted = f->value<double>().value();
     }
     return value->value<double>().value();
   }

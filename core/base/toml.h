@@ -13,10 +13,12 @@
 
 namespace ambrig {
 
-/// One `{ value, sd }` of a file: the one-sigma knowledge of a parameter.
+/// One `{ value, sd }` of a file: the one-sigma knowledge of a parameter. `fitted` is what a
+/// calibration found (`ambrig adopt` writes it): the plant has it, the controller keeps `value`.
 struct Tolerance {
-  std::string path;  // "rotor.mass", "bearings.A.gap"
-  double sd = 0;     // same unit as the value
+  std::string path;          // "rotor.mass", "bearings.A.gap"
+  double sd = 0;             // same unit as the value
+  double fitted = kRequired; // nan: not calibrated
 };
 
 /// A TOML table (or the file's root) with its place in the file. Keys that were asked for are
@@ -64,10 +66,10 @@ class TomlTable {
   template <class P, std::size_t n>
   void Read(P& p, const Field<P> (&fields)[n], std::vector<Tolerance>* tolerances = nullptr) const {
     for (const Field<P>& f : fields) {
-      double sd = 0;
-      p.*f.at = NumberOr(f.key, p.*f.at, &sd);
-      if (sd > 0 && tolerances)
-        tolerances->push_back({(path().empty() ? "" : path() + ".") + std::string(f.key), sd});
+      double sd = 0, fitted = kRequired;
+      p.*f.at = NumberOr(f.key, p.*f.at, &sd, &fitted);
+      if ((sd > 0 || !std::isnan(fitted)) && tolerances)
+        tolerances->push_back({(path().empty() ? "" : path() + ".") + std::string(f.key), sd, fitted});
     }
     CheckRanges(p, fields, [&](std::string_view key) { return Where(key); });
   }
@@ -79,7 +81,7 @@ class TomlTable {
 
  private:
   struct Node;
-  double NumberOr(std::string_view key, double fallback, double* sd) const;
+  double NumberOr(std::string_view key, double fallback, double* sd, double* fitted = nullptr) const;
   explicit TomlTable(std::shared_ptr<const Node> node);
   std::shared_ptr<const Node> node_;
 };
