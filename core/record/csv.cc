@@ -173,7 +173,8 @@ class CsvReader {
   }
 
   void Finish(std::size_t header_row) {
-    const bool timed = record_.Find("t") != nullptr || record_.Find("time") != nullptr;
+    const bool timed = std::any_of(record_.channels.begin(), record_.channels.end(),
+                                   [](const Channel& c) { return IsTimeName(c.name); });
     record_.rate = timed ? 0 : options_.rate;
     record_.start = timed ? 0 : options_.start;
     FinishRecord(record_, path_, header_row);

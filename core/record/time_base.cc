@@ -10,6 +10,10 @@
 
 namespace ambrig {
 
+bool IsTimeName(std::string_view name) {
+  return name == "t" || name == "time" || name == "t_s" || name == "time_s";
+}
+
 TimeBase UniformTimeBase(const std::vector<double>& t, const std::string& where,
                          std::size_t header_rows, double tolerance) {
   if (t.size() < 2) throw InputError(where + ": a time column needs at least two rows");
@@ -43,7 +47,7 @@ TimeBase UniformTimeBase(const std::vector<double>& t, const std::string& where,
 namespace {
 
 void TakeTimeChannel(Record& record, const std::string& where, std::size_t header_rows) {
-  const auto is_time = [](const Channel& c) { return c.name == "t" || c.name == "time"; };
+  const auto is_time = [](const Channel& c) { return IsTimeName(c.name); };
   const auto it = std::find_if(record.channels.begin(), record.channels.end(), is_time);
   if (it == record.channels.end()) return;
   Channel time = std::move(*it);

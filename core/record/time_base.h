@@ -1,11 +1,15 @@
 #pragma once
 /// What every reader does once its channels are in memory: find the time base, check the lengths.
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/record/record.h"
 
 namespace ambrig {
+
+/// t, time, and with their unit in the name t_s, time_s.
+bool IsTimeName(std::string_view name);
 
 struct TimeBase {
   double rate;   // [Hz]
@@ -22,7 +26,7 @@ TimeBase UniformTimeBase(const std::vector<double>& t, const std::string& where,
 /// @throws InputError starting with `where`: the name of the file, "cannot write NAME" ...
 void CheckRecord(const Record& record, const std::string& where);
 
-/// What every reader does last. A channel t or time (unit s, ms, us) is the time base, not a
+/// What every reader does last. A channel of times (unit s, ms, us) is the time base, not a
 /// signal: removes it, takes rate and start from it where rate is 0, otherwise checks that they
 /// agree. Then CheckRecord. @throws InputError starting with `where`.
 void FinishRecord(Record& record, const std::string& where, std::size_t header_rows = 0);

@@ -47,9 +47,10 @@ TEST_F(Csv, HeaderGivesNamesUnitsAndTime) {
 }
 
 TEST_F(Csv, SeparatorIsTheHeaders) {
-  for (const char* text : {"t[s],z[m]\n0,1\n1,2.5", "t[s];z[m]\r\n0;1\r\n1;2,5\r\n",
-                           "# made by a logger\n\"t [s]\"\t\"z [m]\"\n0\t1\n1\t2.5\n\n",
-                           "\xef\xbb\xbftime[s] , z [m]\n 0 , 1\n 1, 2.5 \n"}) {
+  for (const char* text :
+       {"t[s],z[m]\n0,1\n1,2.5", "t_s,z [m]\n0,1\n1,2.5\n", "t[s];z[m]\r\n0;1\r\n1;2,5\r\n",
+        "# made by a logger\n\"t [s]\"\t\"z [m]\"\n0\t1\n1\t2.5\n\n",
+        "\xef\xbb\xbftime[s] , z [m]\n 0 , 1\n 1, 2.5 \n"}) {
     const Record r = Read(text);
     EXPECT_EQ(r.rate, 1.0) << text;
     ASSERT_NE(r.Find("z"), nullptr) << text;
