@@ -31,6 +31,9 @@ int Main(int argc, char** argv) {
   ambrig::AddCheck(app, work);
   ambrig::AddRedistribute(app, work);
   ambrig::AddEffects(app, work);
+  ambrig::AddCompare(app, work);
+  ambrig::AddExplain(app, work);
+  ambrig::AddAdopt(app, work);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

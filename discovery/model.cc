@@ -28,6 +28,13 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
     if (!std::isnan(t.fitted)) h.Set(h.free.size() - 1, t.fitted);
   }
   for (Tolerance& t : h.rig.tolerances) t.fitted = kRequired;  // now in the values
+  // A formula that the user wrote is there to be fitted.
+  const std::vector<EffectInstance> own = std::move(h.rig.effects);
+  h.rig.effects.clear();
+  for (const EffectInstance& e : own) {
+    if (e.name == "formula") h.AddEffect(e);
+    else h.rig.effects.push_back(e);
+  }
   return h;
 }
 

@@ -1,0 +1,96 @@
+/// ambrig explain: which physical effect is missing.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/commands/commands.h"
+#include "app/report/discovery_json.h"
+#include "app/report/discovery_report.h"
+#include "app/report/progress.h"
+
+namespace ambrig {
+
+namespace {
+
+struct ExplainCommand {
+  CommonOptions common;
+  std::string file;
+  int candidates = 6;
+};
+
+std::string ParametersText(const EffectInstance& e) {
+  std::string text;
+  for (std::size_t k = 0; k < e.table.size(); ++k)
+    text += fmt::format("{}{} = {:.4g}{}{}", k == 0 ? "" : ", ", e.table[k].name, e.values[k],
+                        k < e.sd.size() && e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "", e.table[k].unit == "-" ? "" : " " + e.table[k].unit);
+  return text;
+}
+
+void Print(const Explanation& e) {
+  fmt::print("error over the noise floor on unseen records: rig file {:.3f}, parameters fitted {:.3f}, final {:.3f}\n",
+             e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate);
+  fmt::print("{:>4} {:<24} {:<10} {:>6} {:>9} {:>9}  parameters\n", "", "effect", "target", "prob.", "fit", "unseen");
+  for (std::size_t k = 0; k < e.ranking.size(); ++k) {
+    const RankedEffect& r = e.ranking[k];
+    fmt::print("{:>4} {:<24} {:<10} {:>6.3f} {:>9.3f} {:>9.3f}  {}\n", k + 1, r.effect.name, r.effect.target, r.probability, r.fit.ratio_fit,
+               r.fit.ratio_validate, ParametersText(r.effect));
+  }
+  if (!e.second_round.empty()) {
+    fmt::print("after adopting the first:\n");
+    for (std::size_t k = 0; k < e.second_round.size() && k < 3; ++k) {
+      const RankedEffect& r = e.second_round[k];
+      fmt::print("{:>4} {:<24} {:<10} {:>6.3f} {:>9.3f} {:>9.3f}  {}\n", k + 1, r.effect.name, r.effect.target, r.probability, r.fit.ratio_fit,
+                 r.fit.ratio_validate, ParametersText(r.effect));
+    }
+  }
+  fmt::print("verdict: {}\n", Coloured(e.verdict, e.verdict == "unknown" ? "yellow" : "green"));
+  for (const EffectInstance& a : e.adopted) fmt::print("  adopted {} at {}: {}\n", a.name, a.target, ParametersText(a));
+  for (const std::string& s : e.parameter_shifts) fmt::print("  parameter {}\n", s);
+  for (const Confusable& c : e.confusable) fmt::print("  {} or {}: to tell them apart, measure: {}\n", c.first, c.second, c.record);
+  for (const std::string& w : e.warnings) fmt::print("  warning: {}\n", w);
+  if (e.verdict == "unknown") {
+    fmt::print("  {}\n", e.unexplained.text);
+    if (!e.unexplained.formula.empty())
+      fmt::print("  a law to try in the rig file ([[effect]] name = \"formula\"): {}\n", e.unexplained.formula);
+  }
+  fmt::print("{} record simulations in {:.1f} s\n", e.runs, e.seconds);
+}
+
+int RunExplain(const ExplainCommand& o) {
+  const Case c = ReadCase(o.file);
+  for (const std::string& note : c.notes) fmt::print("data: {}\n", note);
+  Explanation e;
+  {
+    Progress progress("explain");
+    ExplainOptions options;
+    options.candidates = o.candidates;
+    options.stop = &interrupted;
+    options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
+    if (!o.common.json.empty())
+      options.checkpoint = [&](const Explanation& partial) {
+        nlohmann::ordered_json j = ExplainJson(partial);
+        j["verdict"] = "unfinished";
+        o.common.WriteJson(j);
+      };
+    e = Explain(c, options);
+  }
+  Print(e);
+  o.common.WriteJson(ExplainJson(e));
+  if (!o.common.html.empty()) WriteExplainReport(c, e, o.common.html);
+  return 0;
+}
+
+}  // namespace
+
+void AddExplain(CLI::App& app, Work& work) {
+  auto options = std::make_shared<ExplainCommand>();
+  CLI::App* command = app.add_subcommand("explain", "which effect is missing: ranked, with evidence");
+  command->add_option("case", options->file, "case file (TOML)")->required();
+  command->add_option("--candidates", options->candidates, "effects fitted in full per round")->capture_default_str()->check(CLI::Range(1, 60));
+  options->common.AddTo(*command);
+  command->footer("Example:\n  ambrig explain case.toml --json answer.json --html answer.html\n"
+                  "Intermediate results are written to the JSON file as they come (verdict \"unfinished\").");
+  command->callback([options, &work] { work = [options] { return RunExplain(*options); }; });
+}
+
+}  // namespace ambrig

@@ -1,0 +1,212 @@
+#include "discovery/blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "control/pid.h"
+#include "discovery/floor.h"
+#include "discovery/residual_force.h"
+#include "scenarios/rig.h"
+#include "scenarios/switching_engine.h"
+
+namespace ambrig {
+
+namespace {
+
+struct Mean {
+  double sum = 0, n = 0;
+  void Add(double error) {
+    if (!std::isfinite(error)) return;
+    sum += error * error;
+    n += 1;
+  }
+  double Rms() const { return n > 0 ? std::sqrt(sum / n) : 0; }
+};
+
+void Put(BlockErrors& out, const std::string& block, const Mean& mean) {
+  if (mean.n > 0) out[block] = mean.Rms();
+}
+
+/// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
+void ControllerBlock(const RigParameters& nominal, const CaseRecord& record, BlockErrors& out) {
+  const Record& d = record.data;
+  if (record.scenario.start == StartState::kClamped || std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate) return;
+  Mean error;
+  for (const BearingParameters& b : nominal.bearings) {
+    if (b.kind != BearingKind::kRadial) continue;
+    const Channel *y[2] = {d.Find(b.name + ".x"), d.Find(b.name + ".y")}, *s[kPoles];
+    bool complete = y[0] && y[1];
+    for (int j = 0; j < kPoles; ++j) complete = (s[j] = d.Find(fmt::format("{}.s{}", b.name, j + 1))) && complete;
+    if (!complete) continue;
+    const RadialStator stator(b.radial);
+    const PidParameters& pid = PidOf(nominal, b);
+    const double Ts = 1 / nominal.controller.rate, kc = ForceConstant(b) * BiasCurrent(nominal, b);
+    for (int side = 0; side < 2; ++side) {
+      const CoilVector& direction = side == 0 ? stator.cosine() : stator.sine();
+      const auto force = [&](std::size_t k) {  // f = k c0 v, v by projection on the healthy W
+        double v = 0;
+        for (int j = 0; j < kPoles; ++j) v += direction[j] * s[j]->samples[k] / 4;
+        return kc * v;
+      };
+      PidState state;
+      const std::string axis = b.Axes()[static_cast<std::size_t>(side)];
+      const std::size_t settle = 30;  // the derivative's memory
+      double offset = 0;
+      std::vector<double> errors;
+      for (std::size_t k = 0; k + 1 < d.rows(); ++k) {
+        const double t = d.TimeAt(k) + 1e-10;
+        double r = 0, f = 0;
+        for (const Excitation& e : record.scenario.excitations) {
+          if (e.target != axis) continue;
+          (e.port == "reference" ? r : f) += e.Value(t);
+        }
+        const double out_force = PidStep(pid, Ts, y[side]->samples[k], r, f, state);
+        errors.push_back(force(k + 1) - out_force);
+        if (k == settle) {  // start the integral where the data stand
+          state.integral += errors.back();
+          offset = 0;
+        }
+      }
+      double mean = 0;
+      for (std::size_t k = settle + 1; k < errors.size(); ++k) mean += errors[k] - offset;
+      mean /= std::max<double>(1, static_cast<double>(errors.size()) - static_cast<double>(settle) - 1);
+      for (std::size_t k = settle + 1; k < errors.size(); ++k) error.Add((errors[k] - mean) / kc);
+    }
+  }
+  Put(out, "controller", error);
+}
+
+void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const CaseRecord& record, BlockErrors& out) {
+  const Record& d = record.data;
+  bool readings = true, set_points = false;
+  for (const BearingParameters& b : rig.bearings) {
+    for (const auto& axis : b.Axes()) readings = readings && d.Find(axis);
+    set_points = set_points || d.Find(b.name + ".s1");
+  }
+  if (!set_points || (!readings && record.scenario.start != StartState::kClamped)) return;
+  Record forced = d;
+  if (!readings)
+    for (const BearingParameters& b : rig.bearings) {
+      const auto it = record.scenario.clamp.find(b.name);
+      const auto at = it == record.scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+      for (std::size_t side = 0; side < b.Axes().size(); ++side)
+        if (!forced.Find(b.Axes()[side])) forced.channels.push_back({b.Axes()[side], "m", std::vector<double>(d.rows(), at[side])});
+    }
+  Scenario scenario = record.scenario;
+  scenario.noise = false;
+  EngineOptions options;
+  options.forced = &forced;
+  options.nominal = &nominal;
+  options.watch = false;
+  options.record_rate = RecordRateFor(rig, d.rate);
+  const Record simulated = SwitchingEngine(rig, scenario, options).Run().record;
+  if (std::abs(simulated.rate - d.rate) > 1e-6 * d.rate) return;
+  const auto shift = static_cast<std::size_t>(std::lround(d.start * d.rate));
+  const std::size_t settle = std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(0.004 * d.rate));
+  Mean error;
+  for (const BearingParameters& b : rig.bearings)
+    for (int j = 1; j <= b.coils(); ++j) {
+      const Channel *m = d.Find(fmt::format("{}.i{}", b.name, j)), *p = simulated.Find(fmt::format("{}.i{}", b.name, j));
+      if (!m || !p) continue;
+      for (std::size_t k = settle; k < d.rows() && k + shift < p->samples.size(); ++k) error.Add(m->samples[k] - p->samples[k + shift]);
+    }
+  Put(out, "coil", error);
+}
+
+void ForceAndSensorBlocks(const RigParameters& rig, const CaseRecord& record, BlockErrors& out) {
+  if (record.scenario.start != StartState::kClamped) return;
+  const Record& d = record.data;
+  Mean force, sensor;
+  for (const BearingParameters& b : rig.bearings) {
+    const auto it = record.scenario.clamp.find(b.name);
+    const std::array<double, 2> at = it == record.scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    const Channel *fx = d.Find(b.name + ".fx"), *fy = d.Find(b.name + ".fy");
+    const Channel* current[kPoles] = {};
+    bool complete = b.kind == BearingKind::kRadial && fx && fy;
+    for (int j = 0; complete && j < kPoles; ++j) complete = (current[j] = d.Find(fmt::format("{}.i{}", b.name, j + 1))) != nullptr;
+    if (complete) {
+      const RadialStator stator(b.radial);
+      for (std::size_t k = 0; k < d.rows(); ++k) {
+        CoilVector i;
+        for (int j = 0; j < kPoles; ++j) i[j] = current[j]->samples[k];
+        const Eigen::Vector2d f = stator.Force({at[0], at[1]}, i);
+        force.Add(fx->samples[k] - f.x());
+        force.Add(fy->samples[k] - f.y());
+      }
+    }
+    if (b.kind != BearingKind::kRadial) continue;
+    // The reading of a rigid, held shaft at the sensor's own plane.
+    const BearingParameters* other = nullptr;
+    for (const auto& o : rig.bearings)
+      if (o.kind == BearingKind::kRadial && o.name != b.name) other = &o;
+    if (!other) continue;
+    const auto ot = record.scenario.clamp.find(other->name);
+    const std::array<double, 2> far = ot == record.scenario.clamp.end() ? std::array<double, 2>{0, 0} : ot->second;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Channel* y = d.Find(b.Axes()[side]);
+      if (!y) continue;
+      const double held = at[side] + (far[side] - at[side]) * (b.sensor.z - b.z) / (other->z - b.z);
+      for (double v : y->samples) sensor.Add(v - held);
+    }
+  }
+  Put(out, "force", force);
+  Put(out, "sensor", sensor);
+}
+
+void RotorBlock(const RigParameters& rig, const CaseRecord& record, BlockErrors& out) {
+  const auto f = EstimateResidualForce(rig, record, 400);
+  if (!f) return;
+  Mean error;
+  const std::size_t edge = static_cast<std::size_t>(0.004 * record.data.rate);
+  for (const auto& p : f->planes)
+    for (std::size_t k = edge; k + edge < p.fx.size(); ++k) {
+      error.Add(p.fx[k]);
+      error.Add(p.fy[k]);
+    }
+  Put(out, "rotor", error);
+}
+
+}  // namespace
+
+BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const CaseRecord& record) {
+  BlockErrors out;
+  ControllerBlock(nominal, record, out);
+  CoilBlock(rig, nominal, record, out);
+  ForceAndSensorBlocks(rig, record, out);
+  RotorBlock(rig, record, out);
+  return out;
+}
+
+BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record) {
+  const CaseRecord& r = model.data().records[record];
+  Hypothesis noisy = h;
+  noisy.rig = WithCaseNoise(h.rig, model.data().noise);
+  CaseRecord own = r;
+  const Record simulated = model.Simulated(noisy, record, true, 21);
+  // The model's own noisy record, cut to the rows and channels of the data.
+  const auto shift = static_cast<std::size_t>(std::lround(r.data.start * simulated.rate));
+  const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(simulated.rate / r.data.rate)));
+  for (Channel& c : own.data.channels) {
+    const Channel* s = simulated.Find(c.name);
+    if (!s) continue;
+    for (std::size_t k = 0; k < c.samples.size(); ++k) {
+      const std::size_t at = shift + k * stride;
+      if (at < s->samples.size()) c.samples[k] = s->samples[at];
+    }
+    const auto it = model.data().noise.find(c.name);
+    if (it != model.data().noise.end() && c.name.find(".f") != std::string::npos)
+      for (std::size_t k = 0; k < c.samples.size(); ++k) c.samples[k] += it->second * (k % 2 == 0 ? 1 : -1);
+  }
+  const BlockErrors measured = BlockRms(h.rig, model.data().rig, r), floor = BlockRms(h.rig, model.data().rig, own);
+  BlockErrors out;
+  for (const auto& [block, rms] : measured) {
+    const auto it = floor.find(block);
+    const double least = block == "controller" ? 1e-4 : block == "coil" ? 1e-4 : block == "sensor" ? 1e-8 : 1e-3;
+    out[block] = rms / std::max(least, it == floor.end() ? 0 : it->second);
+  }
+  return out;
+}
+
+}  // namespace ambrig

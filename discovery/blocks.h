@@ -1,0 +1,22 @@
+#pragma once
+/// Each part of the model fed with measured inputs, so that an error shows where it arises:
+///   controller  measured readings -> set-points          coil   measured set-points, readings -> currents
+///   force       measured currents -> load cell (clamped)  rotor  measured currents and readings -> missing force
+///   sensor      the held position -> readings (clamped)
+/// A block's ratio is its rms error over that of a noisy run of the model itself.
+#include <map>
+#include <string>
+
+#include "discovery/model.h"
+
+namespace ambrig {
+
+using BlockErrors = std::map<std::string, double>;
+
+/// Rms error of every block that this record can tell.
+BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const CaseRecord& record);
+
+/// Errors of the data over errors of the model's own noisy record.
+BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record);
+
+}  // namespace ambrig
