@@ -1,0 +1,97 @@
+#pragma once
+/// Fault detection for the coupled coils of one bearing, once per switching period, from nominal
+/// parameters and measurements alone.
+///
+/// Watching: residuals e [V] of both phases of every coil (period_slopes.h) over their expected
+/// size s (ADC noise, tolerances of gap and leakage, position) go into CUSUMs
+///   G <- max(0, G + min(|z|, 12) - 2.5),  z = e/s,      alarm at G > 9,
+/// for on, off and (z_on - z_off)/√2, the signature of an inductance that changed. One gross
+/// residual is enough; noise alone needs e^-40. A step of the linkage between two periods, where no
+/// phase sees it, raises the alarm when it is beyond 12 s.
+/// Slow adaptation: leakage and gap of the bearing are learned from the residuals (Bayes, prior from
+/// the maker's tolerances), and s follows each coil's own long-term residual.
+/// Examining: after an alarm the raw samples of the last periods are tested against all fault
+/// hypotheses (coil_examination.h) until one is certain or the alarm is cleared.
+/// Afterwards the model knows the fault (masked coil, fewer turns) and watching goes on.
+///
+/// A residual counts only where its equation holds: at least 4 samples in the phase, no current at
+/// zero in the off phase (diodes block), no clipped ADC, a known bus and position.
+#include <array>
+#include <vector>
+
+#include "fdd/diagnosis.h"
+#include "fdd/period_slopes.h"
+
+namespace ambrig {
+
+struct DetectorSettings {
+  SamplingSettings sampling;
+  double current_noise = 0.004;    // [A rms] per sample, quantisation included
+  double adc_limit = 10;           // [A] larger readings are clipped
+  double gap_sd = 0.01;            // relative
+  double leakage_sd = 2e-5;        // [H]
+  double voltage_sd = 0.2;         // bus, drops [V]
+  double drift = 2.5, threshold = 9, cap = 12;
+};
+
+/// One period as kept for an examination.
+struct KeptPeriod {
+  MeasuredPeriod in;
+  std::array<Lane, 64> adc;
+  Lane duty;
+};
+
+class BearingDetector {
+ public:
+  enum class Coil { kHealthy, kLost, kShort, kUnknownMmf };
+  struct Alarm {
+    bool raised = false;           // in this period, for `coil`
+    bool cleared = false;
+    int coil = -1;
+    Diagnosis diagnosis;           // cls other than kNone: decided in this period
+  };
+
+  BearingDetector(const LinkageModel& model, const DetectorSettings& settings);
+
+  Alarm Period(const MeasuredPeriod& in);
+  /// Nothing is concluded from the next periods (a switch-over of currents, a start).
+  void Pause(int periods) { paused_ = periods; }
+
+  /// Expected on-phase slope of a healthy coil given everything else that was measured, and the
+  /// half-width of its band [A/s]; from the last period.
+  void Band(int coil, double* slope, double* expected, double* half_width) const;
+  const PeriodSlopes& slopes() const { return slopes_; }
+  const Lane& z(int phase) const { return z_[phase]; }
+  Coil state(int j) const { return state_[static_cast<std::size_t>(j)]; }
+  double leakage_error() const { return theta_[0]; }  // learned [H]
+  double gap_error() const { return theta_[1]; }      // learned, relative
+
+ private:
+  void Residuals(const MeasuredPeriod& in);
+  void Cusum();
+  void StepBetweenPeriods(const Lane& last_linkage, const Lane& last_off, const MeasuredPeriod& in);
+  void Learn();
+  void Keep(const MeasuredPeriod& in);
+  int Suspect() const;
+  Diagnosis Examine();
+  void Accept(const Diagnosis& d, bool closed_loop);
+
+  LinkageModel model_;
+  DetectorSettings s_;
+  PeriodSlopes slopes_;
+  Lane e_[2], sd_[2], z_[2];              // corrected residual, its expected size, their ratio
+  std::array<bool, kLanes> valid_[2];
+  Lane G_[3], size_[2];                   // CUSUMs; long-term mean of |z|
+  double theta_[2] = {0, 0};              // learned errors: leakage [H], gap (relative)
+  double info_[3] = {0, 0, 0}, pull_[2] = {0, 0};
+  std::array<double, 65> slope_variance_{};
+  std::array<Coil, kLanes> state_{};
+  std::array<bool, kLanes> unknown_mmf_{};
+  bool any_unknown_ = false;
+  std::vector<KeptPeriod> ring_;
+  long long count_ = 0, alarm_at_ = -1;
+  int paused_ = 8, suspect_ = -1;
+  bool follows_ = false;                  // the previous period is known
+};
+
+}  // namespace ambrig

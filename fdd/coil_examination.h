@@ -1,0 +1,33 @@
+#pragma once
+/// Which fault explains the last periods of one suspected coil? A likelihood-ratio test between
+/// hypotheses, each on the coil's own voltage equation, with the flux through its pole taken from
+/// the other coils (no use of the suspect's current), so that a false sensor and a winding with
+/// fewer turns are told apart:
+///
+///   F = slope of N phi_j  from Σ phi = 0 and  N dphi_k/dt = v_k - R i_k - L_l di_k/dt, k != j
+///   healthy          e = 0                       (nominal residual)
+///   open             i = 0
+///   amplifier off    e = v_off - v_on in the on phase, until the current has decayed to zero
+///   switch stuck on  e = v_on - v_off in the off phase
+///   partial short    a F + a² L_l di/dt + a R i = v,  a = 1 - s;  for bypassed and closed loops
+///   current sensor   F + c (L_l di/dt + R i) = v,     c = 1/gain, any;
+///                    or a reading that stands still;  or all well, but after a step of the reading
+///
+/// Costs are sums of squares over their variances plus a penalty per free quantity.
+#include <vector>
+
+#include "fdd/bearing_detector.h"
+
+namespace ambrig {
+
+struct Examination {
+  Diagnosis diagnosis;     // kNone: healthy again
+  bool decided = false;    // the best is ahead of all others by a margin
+  bool closed_loop = false;  // partial short whose shorted turns carry a current
+};
+
+/// `periods`: oldest first, the onset among them; `last`: decide now whatever the margin.
+Examination ExamineCoil(const LinkageModel& model, const DetectorSettings& settings,
+                        const std::vector<const KeptPeriod*>& periods, int coil, bool last);
+
+}  // namespace ambrig

@@ -1,0 +1,63 @@
+#include "fdd/position_monitor.h"
+
+#include <cmath>
+
+namespace ambrig {
+
+namespace {
+constexpr int kEqualReadings = 6, kDifferentReadings = 50;
+}
+
+void PositionMonitor::Read(double t, const std::vector<double>& readings) {
+  if (t <= last_ && count_ > 0) return;
+  step_ = t - last_;
+  last_ = t;
+  ++count_;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    Axis& a = axes_[k];
+    const double y = readings[k];
+    if (count_ > 1) {
+      a.equal = y == a.y[0] ? a.equal + 1 : 0;
+      if (a.equal == 0) ++a.different;
+    }
+    const double predicted = 3 * a.y[0] - 3 * a.y[1] + a.y[2];
+    const bool jumped = count_ > 4 && std::abs(y - predicted) > jump_;
+    const bool held = a.different > kDifferentReadings && a.equal >= kEqualReadings;
+    if (!a.faulty && (jumped || held)) {
+      a.faulty = true;
+      if (new_fault_ < 0) new_fault_ = static_cast<int>(k);
+    }
+    a.y[2] = a.y[1];
+    a.y[1] = a.y[0];
+    a.y[0] = y;
+  }
+}
+
+double PositionMonitor::At(std::size_t k, double t) const {
+  const double* y = axes_[k].y;
+  if (count_ < 3 || step_ <= 0) return y[0];
+  const double u = (t - last_) / step_;  // in controller periods
+  return y[0] + u * (1.5 * y[0] - 2 * y[1] + 0.5 * y[2]) + u * u * (0.5 * y[0] - y[1] + 0.5 * y[2]);
+}
+
+int PositionMonitor::TakeNewFault() {
+  const int k = new_fault_;
+  new_fault_ = -1;
+  return k;
+}
+
+std::vector<double> PlaneWeights(const std::vector<double>& sensor_z, double z) {
+  double n = 0, s = 0, ss = 0;
+  for (double zk : sensor_z) {
+    n += 1;
+    s += zk;
+    ss += zk * zk;
+  }
+  const double det = n * ss - s * s;
+  std::vector<double> w;
+  for (double zk : sensor_z)
+    w.push_back(det > 1e-12 * (ss + 1e-12) ? (ss - s * zk + z * (n * zk - s)) / det : 1 / n);
+  return w;
+}
+
+}  // namespace ambrig

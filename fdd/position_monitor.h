@@ -1,0 +1,50 @@
+#pragma once
+/// Shaft positions at the bearing planes between and after the controller's readings, and faults of
+/// the position sensors.
+///
+/// Readings y of one sensor plane come once per controller period; three of them give the parabola
+/// that is followed until the next one (whirl: ω² r t²/2 would be missed by a straight line). A rigid
+/// shaft connects the sensor planes: radial position at z is the least-squares line through all
+/// planes, the identity for a single one.
+/// Faulty axis: a step that no force could make (`jump`, against the parabola), or the very same
+/// reading again and again after readings that were never equal.
+#include <vector>
+
+namespace ambrig {
+
+struct SensedPlane {
+  double z = 0;                        // [m]
+  int x_axis = 0, y_axis = 0;          // index of the readings
+};
+
+class PositionMonitor {
+ public:
+  PositionMonitor() = default;
+  /// `jump`: largest credible departure from the parabola within one period [m].
+  PositionMonitor(std::size_t axes, double jump) : axes_(axes), jump_(jump) {}
+
+  /// New readings of time t [s]; the same t again is ignored.
+  void Read(double t, const std::vector<double>& readings);
+  /// Position of axis `a` at time t [m].
+  double At(std::size_t a, double t) const;
+  bool ready(double t) const { return count_ >= 3 && t - last_ < 6 * step_; }
+  bool faulty(std::size_t a) const { return axes_[a].faulty; }
+  /// Axis that became faulty with the last Read, -1: none.
+  int TakeNewFault();
+
+ private:
+  struct Axis {
+    double y[3] = {0, 0, 0};           // newest first
+    int equal = 0, different = 0;
+    bool faulty = false;
+  };
+  std::vector<Axis> axes_;
+  double jump_ = 3e-5, last_ = -1, step_ = 0;
+  long long count_ = 0;
+  int new_fault_ = -1;
+};
+
+/// Weights w of the planes so that the position at z is Σ w_k y_k.
+std::vector<double> PlaneWeights(const std::vector<double>& sensor_z, double z);
+
+}  // namespace ambrig

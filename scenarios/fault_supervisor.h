@@ -1,0 +1,70 @@
+#pragma once
+/// Fault tolerance of a rig at run time: one detector per bearing (fdd/), built from the nominal rig,
+/// then redistribution of the currents (faulttolerance/) over the coils that are left.
+///
+/// After a diagnosis of a coil fault, in the same period:
+///   - a lost coil (open, amplifier, switch, sensor) is disabled; a partial short keeps 1 - s turns
+///   - W of the bearing's failure set replaces the map: the next set-points use it, the force
+///     command of the position loop stays as it is (bumpless in force)
+///   - every amplifier's integral is moved by what its new current needs (bumpless in voltage)
+/// Thrust bearings: the winding that is left on a side carries the missing ampere-turns.
+#include <deque>
+#include <map>
+#include <memory>
+
+#include "faulttolerance/redistribution_table.h"
+#include "fdd/bearing_detector.h"
+#include "fdd/position_monitor.h"
+#include "scenarios/rig_file.h"
+#include "scenarios/supervisor.h"
+
+namespace ambrig {
+
+struct FaultSupervisorOptions {
+  bool redistribute = true;
+  bool slopes = false;        // slope traces round the first alarm, for the report
+  std::string cache_dir;      // of the redistribution tables; empty: memory only
+};
+
+class FaultSupervisor : public Supervisor {
+ public:
+  FaultSupervisor(const RigParameters& nominal, const FaultSupervisorOptions& options);
+  ~FaultSupervisor() override;
+
+  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
+                   std::vector<RunEvent>& events) override;
+  /// Adds the slope traces and the number of coil-periods watched.
+  void Finish(RunResult& result) override;
+
+  double coil_periods() const { return coil_periods_; }
+  const BearingDetector& detector(std::size_t bearing) const;
+
+ private:
+  struct Watched;
+  void WatchBus(double t, double bus, std::vector<RunEvent>& events);
+  void WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events);
+  void WatchBearing(std::size_t k, const PeriodMeasurement& m, std::vector<BearingControl>& control,
+                    std::vector<RunEvent>& events);
+  void Redistribute(Watched& w, const Diagnosis& d, BearingControl& control, std::vector<RunEvent>& events);
+  void TraceSlopes(double t);
+
+  const RigParameters rig_;
+  FaultSupervisorOptions options_;
+  double T_ = 0, last_bus_ = 0, sensor_doubt_ = 0;  // [s], [V], [V]
+  bool bus_sagged_ = false;
+  std::vector<std::string> axis_names_;
+  PositionMonitor positions_;
+  std::vector<std::unique_ptr<Watched>> watched_;
+  double coil_periods_ = 0;
+
+  struct SlopeRow {
+    double t = 0;
+    std::vector<std::array<Lane, 3>> bearings;  // slope, expected, half-width
+  };
+  std::deque<SlopeRow> rows_;
+  double first_alarm_ = -1;
+  std::size_t alarm_bearing_ = 0;
+  int alarm_coil_ = 0;
+};
+
+}  // namespace ambrig
