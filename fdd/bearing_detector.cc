@@ -12,6 +12,8 @@ constexpr int kRing = 20;             // periods kept
 constexpr double kFewest = 4;         // samples of a phase that counts
 constexpr double kZeroCurrent = 0.03; // [A] below: the diodes may block
 constexpr int kLongestExamination = 12;
+constexpr double kDoubt = 3;           // tolerances count this many times
+constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
 constexpr double kForget = 1.0 / 500, kSizeRate = 1.0 / 200;  // per period
 }  // namespace
 
@@ -21,6 +23,19 @@ BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettin
     slope_variance_[n] = SlopeVariance(static_cast<double>(n), s_.sampling.step);
   for (Lane& size : size_)
     for (int j = 0; j < kLanes; ++j) size[j] = 0.8;  // mean of |z| of a normal variable
+  Solve();
+}
+
+void BearingDetector::Solve() {
+  const double leak = 1 / (s_.leakage_sd * s_.leakage_sd), gap = 1 / (s_.gap_sd * s_.gap_sd);
+  const double p0 = info_[0] + leak, p1 = info_[2] + gap;
+  const double det = p0 * p1 - info_[1] * info_[1];
+  theta_[0] = std::clamp((p1 * pull_[0] - info_[1] * pull_[1]) / det, -5 * s_.leakage_sd, 5 * s_.leakage_sd);
+  theta_[1] = std::clamp((p0 * pull_[1] - info_[1] * pull_[0]) / det, -5 * s_.gap_sd, 5 * s_.gap_sd);
+  // Covariance of what is left; in e the regressors are -di and flux.
+  doubt_[0] = kDoubt * kDoubt * p1 / det + kLeastLeakage * kLeastLeakage / leak;
+  doubt_[1] = -2 * kDoubt * kDoubt * info_[1] / det;
+  doubt_[2] = kDoubt * kDoubt * p0 / det + kLeastGap * kLeastGap / gap;
 }
 
 void BearingDetector::Keep(const MeasuredPeriod& in) {
@@ -46,9 +61,10 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
       const double flux = p.linkage[j] - model_.leakage[j] * p.current[j];
       const double own = model_.SelfInductance(j, slopes_.P, radial ? slopes_.total : 1);
       const double noise = own * s_.current_noise;
-      const double gap = s_.gap_sd * flux, leak = s_.leakage_sd * p.current[j];
+      const double di = p.current[j];
       const double variance = noise * noise * slope_variance_[static_cast<std::size_t>(p.samples[j])] +
-                              gap * gap + leak * leak + s_.voltage_sd * s_.voltage_sd + in.extra_sd * in.extra_sd;
+                              doubt_[0] * di * di - doubt_[1] * di * flux + doubt_[2] * flux * flux +
+                              s_.voltage_sd * s_.voltage_sd + in.extra_sd * in.extra_sd;
       e_[q][j] = p.residual[j] + theta_[0] * p.current[j] - theta_[1] * flux;
       sd_[q][j] = std::sqrt(variance) * std::clamp(size_[q][j] / 0.8, 1.0, 5.0);
       z_[q][j] = e_[q][j] / sd_[q][j];
@@ -62,7 +78,7 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
   }
 }
 
-void BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_off, const MeasuredPeriod& in) {
+void BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
   const double h = s_.sampling.step;
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
   for (int j = 0; j < model_.coils; ++j) {
@@ -71,7 +87,7 @@ void BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& l
     if (in.adc[0][j] < kZeroCurrent) continue;
     const double own = model_.SelfInductance(j, slopes_.P, radial ? slopes_.total : 1);
     const double sd = 1.4 * own * s_.current_noise / h + 1;
-    if (std::abs((slopes_.first[j] - last_linkage[j]) / h - last_off[j]) > s_.cap * sd) G_[0][j] += 2 * s_.threshold;
+    if (std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) > s_.cap * sd) G_[0][j] += 2 * s_.threshold;
   }
 }
 
@@ -109,22 +125,25 @@ void BearingDetector::Learn() {
   info_[2] += a11 - kForget * info_[2];
   pull_[0] += b0 - kForget * pull_[0];
   pull_[1] += b1 - kForget * pull_[1];
-  const double p0 = info_[0] + 1 / (s_.leakage_sd * s_.leakage_sd), p1 = info_[2] + 1 / (s_.gap_sd * s_.gap_sd);
-  const double det = p0 * p1 - info_[1] * info_[1];
-  theta_[0] = std::clamp((p1 * pull_[0] - info_[1] * pull_[1]) / det, -5 * s_.leakage_sd, 5 * s_.leakage_sd);
-  theta_[1] = std::clamp((p0 * pull_[1] - info_[1] * pull_[0]) / det, -5 * s_.gap_sd, 5 * s_.gap_sd);
+  Solve();
 }
 
-int BearingDetector::Suspect() const {
-  int worst = -1;
-  double most = 0;
+LinkageModel BearingDetector::LearnedModel() const {
+  LinkageModel m = model_;
+  for (int j = 0; j < m.coils; ++j) m.leakage[j] += theta_[0];
+  m.reluctance.per_metre /= 1 - theta_[1];
+  m.reluctance.offset /= 1 - theta_[1];
+  return m;
+}
+
+int BearingDetector::Largest() const {
+  int worst = 0;
+  double most = -1;
   for (int j = 0; j < model_.coils; ++j) {
-    const auto lane = static_cast<std::size_t>(j);
-    if (G_[0][j] + G_[1][j] + G_[2][j] <= 0) continue;
     double size = 0;
     for (int q = 0; q < 2; ++q)
-      if (valid_[q][lane]) size += std::abs(e_[q][j]);
-    if (size > most) {
+      if (valid_[q][static_cast<std::size_t>(j)]) size += std::abs(e_[q][j]);
+    if (G_[0][j] + G_[1][j] + G_[2][j] > 0 && size > most) {
       most = size;
       worst = j;
     }
@@ -132,10 +151,57 @@ int BearingDetector::Suspect() const {
   return worst;
 }
 
+int BearingDetector::Suspect(const std::vector<const KeptPeriod*>& periods, bool* clear) const {
+  *clear = true;
+  if (model_.coupling != Coupling::kFloatingRotor) return Largest();
+  const LinkageModel m = LearnedModel();
+  int best = Largest();
+  double least = 1e30, next = 1e30;
+  for (int j = 0; j < m.coils; ++j) {
+    if (state_[static_cast<std::size_t>(j)] == Coil::kLost || unknown_mmf_[static_cast<std::size_t>(j)]) continue;
+    std::array<bool, kLanes> excluded = unknown_mmf_;
+    excluded[static_cast<std::size_t>(j)] = true;
+    double cost = 0;
+    for (const KeptPeriod* p : periods) {
+      PeriodSlopes now;
+      ComputePeriodSlopesUnknownMmf(m, s_.sampling, p->in, excluded, &now);
+      for (int q = 0; q < 2; ++q)
+        for (int k = 0; k < m.coils; ++k) {
+          const auto lane = static_cast<std::size_t>(k);
+          if (excluded[lane] || state_[lane] == Coil::kLost || now.phase[q].samples[k] < kFewest) continue;
+          const PhaseSlopes& a = now.phase[q];
+          const double e = a.residual[k];
+          if (a.least[k] < kZeroCurrent && (q == 1 || (a.mean[k] < 2 * kZeroCurrent && e > 0))) continue;
+          cost += std::min(e * e, 900.0);  // [V²]
+        }
+    }
+    next = std::min(next, std::max(cost, least));
+    if (cost < least) {
+      least = cost;
+      best = j;
+    }
+  }
+  *clear = next > 2 * least;
+  return best;
+}
+
+std::vector<const KeptPeriod*> BearingDetector::LastPeriods(long long n) const {
+  std::vector<const KeptPeriod*> out;
+  for (long long k = std::max(0LL, count_ - n); k < count_; ++k)
+    out.push_back(&ring_[static_cast<std::size_t>(k % kRing)]);
+  return out;
+}
+
 BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   Alarm out;
   Keep(in);
-  const Lane last_linkage = slopes_.last, last_off = slopes_.phase[1].voltage;
+  const Lane last_linkage = slopes_.last;
+  Lane last_voltage;  // mean between the last sample and the end of the period
+  for (int j = 0; j < model_.coils; ++j) {
+    const double h = s_.sampling.step;
+    const double on = std::clamp(slopes_.edge[j] - (s_.sampling.samples - 1) * h, 0.0, h) / h;
+    last_voltage[j] = on * slopes_.phase[0].voltage[j] + (1 - on) * slopes_.phase[1].voltage[j];
+  }
   Residuals(in);
   const bool follows = follows_;
   follows_ = in.comparable && !any_unknown_;
@@ -145,7 +211,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   }
   if (alarm_at_ < 0) {
     if (in.comparable) Cusum();
-    if (in.comparable && follows && !any_unknown_) StepBetweenPeriods(last_linkage, last_off, in);
+    if (in.comparable && follows && !any_unknown_) StepBetweenPeriods(last_linkage, last_voltage, in);
     bool alarm = false, calm = in.comparable;
     for (int q = 0; q < 3; ++q)
       for (int j = 0; j < model_.coils; ++j) {
@@ -154,17 +220,18 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
       }
     if (calm) Learn();
     if (!alarm) return out;
-    suspect_ = Suspect();
-    if (suspect_ < 0)
-      for (int j = 0; j < model_.coils; ++j)
-        if (std::max({G_[0][j], G_[1][j], G_[2][j]}) > s_.threshold) suspect_ = j;
     alarm_at_ = count_;
-    out.raised = true;
-    out.coil = suspect_;
+    bool clear = false;
+    suspect_ = Suspect(LastPeriods(2), &clear);
+    raised_ = out.raised = clear;
+    out.coil = clear ? suspect_ : -1;
     return out;
   }
   const Diagnosis d = Examine();
-  out.coil = suspect_;
+  // A fault late in a period shows its coil only in the next one.
+  if (!raised_ && (suspect_clear_ || d.cls != FaultClass::kNone || count_ - alarm_at_ >= 2))
+    raised_ = out.raised = true;
+  out.coil = raised_ ? suspect_ : -1;
   const bool given_up = count_ - alarm_at_ >= kLongestExamination;
   if (d.cls != FaultClass::kNone) {
     out.diagnosis = d;
@@ -179,11 +246,10 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
 }
 
 Diagnosis BearingDetector::Examine() {
-  std::vector<const KeptPeriod*> periods;
-  const long long first = std::max(0LL, count_ - kRing);
-  for (long long n = first; n < count_; ++n) periods.push_back(&ring_[static_cast<std::size_t>(n % kRing)]);
+  const std::vector<const KeptPeriod*> periods = LastPeriods(kRing);
+  suspect_ = Suspect(LastPeriods(count_ - alarm_at_), &suspect_clear_);
   const bool last = count_ - alarm_at_ >= kLongestExamination;
-  const Examination x = ExamineCoil(model_, s_, periods, suspect_, last);
+  const Examination x = ExamineCoil(LearnedModel(), s_, periods, suspect_, last);
   if (!x.decided || x.diagnosis.cls == FaultClass::kNone) return {};
   Diagnosis d = x.diagnosis;
   d.time = periods.back()->in.t + s_.sampling.step * s_.sampling.samples;

@@ -9,7 +9,8 @@
 /// residual is enough; noise alone needs e^-40. A step of the linkage between two periods, where no
 /// phase sees it, raises the alarm when it is beyond 12 s.
 /// Slow adaptation: leakage and gap of the bearing are learned from the residuals (Bayes, prior from
-/// the maker's tolerances), and s follows each coil's own long-term residual.
+/// the maker's tolerances; what is not learned yet widens s), and s follows each coil's long-term residual.
+/// Suspect: the coil without whose current all other coils obey their equations best.
 /// Examining: after an alarm the raw samples of the last periods are tested against all fault
 /// hypotheses (coil_examination.h) until one is certain or the alarm is cleared.
 /// Afterwards the model knows the fault (masked coil, fewer turns) and watching goes on.
@@ -69,10 +70,16 @@ class BearingDetector {
  private:
   void Residuals(const MeasuredPeriod& in);
   void Cusum();
-  void StepBetweenPeriods(const Lane& last_linkage, const Lane& last_off, const MeasuredPeriod& in);
+  void StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage,
+                          const MeasuredPeriod& in);
   void Learn();
   void Keep(const MeasuredPeriod& in);
-  int Suspect() const;
+  void Solve();
+  LinkageModel LearnedModel() const;
+  int Largest() const;  // coil of the largest residual
+  /// Coil without whose current all other coils' equations hold best; `clear`: by far.
+  int Suspect(const std::vector<const KeptPeriod*>& periods, bool* clear) const;
+  std::vector<const KeptPeriod*> LastPeriods(long long n) const;
   Diagnosis Examine();
   void Accept(const Diagnosis& d, bool closed_loop);
 
@@ -84,6 +91,7 @@ class BearingDetector {
   Lane G_[3], size_[2];                   // CUSUMs; long-term mean of |z|
   double theta_[2] = {0, 0};              // learned errors: leakage [H], gap (relative)
   double info_[3] = {0, 0, 0}, pull_[2] = {0, 0};
+  double doubt_[3] = {0, 0, 0};           // of e: di², -di flux, flux² terms of its variance
   std::array<double, 65> slope_variance_{};
   std::array<Coil, kLanes> state_{};
   std::array<bool, kLanes> unknown_mmf_{};
@@ -91,6 +99,7 @@ class BearingDetector {
   std::vector<KeptPeriod> ring_;
   long long count_ = 0, alarm_at_ = -1;
   int paused_ = 8, suspect_ = -1;
+  bool raised_ = false, suspect_clear_ = false;
   bool follows_ = false;                  // the previous period is known
 };
 

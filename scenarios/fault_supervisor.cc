@@ -78,6 +78,7 @@ struct FaultSupervisor::Watched {
   std::unique_ptr<BearingDetector> detector;
   std::unique_ptr<RedistributionTable> table;
   Coils turns_left = Coils::Ones();
+  int alarmed = -1;                         // coil that the alarm was raised for
 
   void Position(const PositionMonitor& p, double t, double* x, double* y) const {
     *x = *y = 0;
@@ -177,6 +178,12 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, st
   if (alarm.coil < 0) return;
   const double t = m.t + T_;
   const std::string name = CoilName(w.bearing->name, alarm.coil);
+  if (alarm.raised) w.alarmed = alarm.coil;
+  if (alarm.diagnosis.cls != FaultClass::kNone && alarm.coil != w.alarmed) {
+    if (w.alarmed >= 0) events.push_back({t, "alarm_cleared", CoilName(w.bearing->name, w.alarmed), "", 0});
+    events.push_back({t, "detected", name, "", 0});
+  }
+  if (alarm.diagnosis.cls != FaultClass::kNone || alarm.cleared) w.alarmed = -1;
   if (alarm.raised) {
     events.push_back({t, "detected", name, "", 0});
     if (first_alarm_ < 0) {
