@@ -14,7 +14,8 @@ constexpr double kZeroCurrent = 0.03; // [A] below: the diodes may block
 constexpr int kLongestExamination = 12;
 constexpr double kDoubt = 3;           // tolerances count this many times
 constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
-constexpr double kForget = 1.0 / 500, kSizeRate = 1.0 / 200;  // per period
+constexpr int kLearnEvery = 4;         // periods
+constexpr double kForget = kLearnEvery / 500.0, kSizeRate = kLearnEvery / 200.0;
 }  // namespace
 
 BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettings& settings)
@@ -111,7 +112,7 @@ void BearingDetector::Learn() {
       const PhaseSlopes& p = slopes_.phase[q];
       const double size = std::min(std::abs(z_[q][j]), 4.0);
       size_[q][j] += kSizeRate * (size - size_[q][j]);
-      const double w = 1 / (sd_[q][j] * sd_[q][j]);
+      const double w = kLearnEvery / (sd_[q][j] * sd_[q][j]);
       const double x0 = -p.current[j], x1 = p.linkage[j] - model_.leakage[j] * p.current[j];
       const double e = p.residual[j];
       a00 += w * x0 * x0;
@@ -218,7 +219,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
         alarm = alarm || G_[q][j] > s_.threshold;
         calm = calm && G_[q][j] < 1.5;
       }
-    if (calm) Learn();
+    if (calm && count_ % kLearnEvery == 0) Learn();
     if (!alarm) return out;
     alarm_at_ = count_;
     bool clear = false;

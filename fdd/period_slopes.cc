@@ -17,12 +17,13 @@ struct Sums {
   Lane first, last;  // linkage
 };
 
+/// `inverse_sum`: 1/Σ P, radial only.
 template <Coupling kCoupling>
 [[gnu::always_inline]] inline LaneVector Linkage(const LaneVector& n, const LaneVector& leakage, const LaneVector& P,
-                                                 const LaneVector& i) {
+                                                 const LaneVector& i, double inverse_sum) {
   const LaneVector mmf = n * i;
   if constexpr (kCoupling == Coupling::kFloatingRotor)
-    return n * P * (mmf - Sum(P * mmf) / Sum(P)) + leakage * i;
+    return n * P * (mmf - Sum(P * mmf) * inverse_sum) + leakage * i;
   else if constexpr (kCoupling == Coupling::kSides)
     return n * P * (mmf + Partner(mmf)) + leakage * i;
   else
@@ -36,10 +37,13 @@ template <Coupling kCoupling>
   const LaneVector p0 = Load(P0.v), dp = (Load(P1.v) - p0) / (0.0 * p0 + count);
   const LaneVector zero = {}, far = zero + 1e30;
   LaneVector y_on = zero, ky_on = zero, y = zero, ky = zero, i_on = zero, ki_on = zero, is = zero, ki = zero;
+  double inverse_sum[64];
+  const double sum0 = Sum(p0), dsum = Sum(dp);
+  for (int k = 0; k < count; ++k) inverse_sum[k] = 1 / (sum0 + dsum * k);
   LaneVector least_on = far, least_off = far, largest = -far;
   for (int k = 0; k < count; ++k) {
     const LaneVector at = zero + static_cast<double>(k), i = Load(adc[k].v);
-    const LaneVector lambda = Linkage<kCoupling>(n, leakage, p0 + dp * at, i);
+    const LaneVector lambda = Linkage<kCoupling>(n, leakage, p0 + dp * at, i, inverse_sum[k]);
     if (k == 0) Store(s->first.v, lambda);
     if (k == count - 1) Store(s->last.v, lambda);
     const auto on = on_count > at;
@@ -83,18 +87,13 @@ AMBRIG_WIDE void AccumulateSeparate(const LinkageModel& m, const Lane& on, const
   Accumulate<Coupling::kNone>(m, on, P0, P1, adc, count, s);
 }
 
-/// Slope over n samples whose first index is `first`, from Σ y and Σ k y.
-double Slope(double n, double first, double y, double ky, double step) {
-  if (n < 2) return 0;
-  return (ky - (first + 0.5 * (n - 1)) * y) * 12 / (n * (n * n - 1) * step);
-}
-
 void Bridges(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out) {
   PhaseSlopes &on = out->phase[0], &off = out->phase[1];
+  const double per_step = (1 + 1e-12) / s.step;
   for (int j = 0; j < m.coils; ++j) {
     const BridgeVoltage v = VoltageOf(*s.amplifier, (*in.duty)[j], in.bus);
     // Sample k lies in the on phase when k h <= edge; the edge itself belongs to both.
-    const double count = v.edge <= 0 ? 0 : std::min<double>(std::floor(v.edge / s.step * (1 + 1e-12)) + 1, s.samples);
+    const double count = v.edge <= 0 ? 0 : std::min(static_cast<int>(v.edge * per_step) + 1, s.samples);
     on.samples[j] = count;
     off.samples[j] = s.samples - count;
     out->edge[j] = v.edge;
@@ -103,24 +102,43 @@ void Bridges(const LinkageModel& m, const SamplingSettings& s, const MeasuredPer
   }
 }
 
+/// Per lane of one phase: 1/n, middle index and 12/(n (n²-1) h), 0 below two samples.
+struct Regression {
+  Lane inverse_n, middle, scale;
+};
+
+[[gnu::always_inline]] inline void Fit(const Regression& r, const Lane& resistance, const LaneVector& y,
+                                       const LaneVector& ky, const LaneVector& i, const LaneVector& ki,
+                                       PhaseSlopes* out) {
+  const LaneVector middle = Load(r.middle.v), scale = Load(r.scale.v);
+  const LaneVector linkage = (ky - middle * y) * scale, mean = i * Load(r.inverse_n.v);
+  Store(out->linkage.v, linkage);
+  Store(out->current.v, (ki - middle * i) * scale);
+  Store(out->mean.v, mean);
+  Store(out->residual.v, linkage + Load(resistance.v) * mean - Load(out->voltage.v));
+}
+
+AMBRIG_WIDE void FitBoth(const LinkageModel& m, const Regression* r, const Sums& s, PeriodSlopes* out) {
+  const LaneVector y = Load(s.y_on.v), ky = Load(s.ky_on.v), i = Load(s.i_on.v), ki = Load(s.ki_on.v);
+  Fit(r[0], m.resistance, y, ky, i, ki, &out->phase[0]);
+  Fit(r[1], m.resistance, Load(s.y.v) - y, Load(s.ky.v) - ky, Load(s.i.v) - i, Load(s.ki.v) - ki, &out->phase[1]);
+}
+
 void Finish(const LinkageModel& m, const SamplingSettings& s, const Sums& sum, PeriodSlopes* out) {
-  PhaseSlopes &on = out->phase[0], &off = out->phase[1];
+  Regression r[2];
   out->largest = sum.largest;
   out->first = sum.first;
   out->last = sum.last;
-  on.least = sum.least_on;
-  off.least = sum.least_off;
-  for (int j = 0; j < m.coils; ++j) {
-    const double a = on.samples[j], b = off.samples[j], i_off = sum.i[j] - sum.i_on[j];
-    on.linkage[j] = Slope(a, 0, sum.y_on[j], sum.ky_on[j], s.step);
-    off.linkage[j] = Slope(b, a, sum.y[j] - sum.y_on[j], sum.ky[j] - sum.ky_on[j], s.step);
-    on.current[j] = Slope(a, 0, sum.i_on[j], sum.ki_on[j], s.step);
-    off.current[j] = Slope(b, a, i_off, sum.ki[j] - sum.ki_on[j], s.step);
-    on.mean[j] = a > 0 ? sum.i_on[j] / a : 0;
-    off.mean[j] = b > 0 ? i_off / b : 0;
-    on.residual[j] = on.linkage[j] + m.resistance[j] * on.mean[j] - on.voltage[j];
-    off.residual[j] = off.linkage[j] + m.resistance[j] * off.mean[j] - off.voltage[j];
-  }
+  out->phase[0].least = sum.least_on;
+  out->phase[1].least = sum.least_off;
+  for (int q = 0; q < 2; ++q)
+    for (int j = 0; j < m.coils; ++j) {
+      const double n = out->phase[q].samples[j];
+      r[q].inverse_n[j] = n > 0 ? 1 / n : 0;
+      r[q].scale[j] = n < 2 ? 0 : 12 / (n * (n * n - 1) * s.step);
+      r[q].middle[j] = 0.5 * (n - 1) + (q == 0 ? 0 : out->phase[0].samples[j]);
+    }
+  FitBoth(m, r, sum, out);
 }
 
 /// Permeances at both ends, mean and sum for the middle.
