@@ -26,8 +26,9 @@ bool EffectInstance::IsNull() const {
   bool any_switch = false;
   for (std::size_t k = 0; k < table.size(); ++k) {
     const bool is_switch =
-        !d || d->off_when_null.empty() ||
-        std::find(d->off_when_null.begin(), d->off_when_null.end(), table[k].name) != d->off_when_null.end();
+        table[k].has_null &&
+        (!d || d->off_when_null.empty() ||
+        std::find(d->off_when_null.begin(), d->off_when_null.end(), table[k].name) != d->off_when_null.end());
     if (!is_switch) continue;
     any_switch = true;
     if (values[k] != table[k].null_value) return false;

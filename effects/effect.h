@@ -20,6 +20,7 @@ struct EffectParameter {
   double lo = -kInfinity, hi = kInfinity;        // possible
   double typical_lo = 0, typical_hi = 0;         // usual size (of the magnitude for signed ones)
   std::string doc;
+  bool has_null = true;                          // false: a formula's parameter that never switches it off
 };
 
 /// Names that a rig offers as targets.

@@ -18,6 +18,7 @@ namespace ambrig {
 /// What a coil-voltage term may depend on.
 struct CoilCircumstance {
   double t = 0, current = 0, bus = 0, x = 0, y = 0;
+  const MotionState* motion = nullptr;
 };
 
 /// Seam: extra voltage [V] in series with one coil, constant over a switching period.
@@ -28,7 +29,7 @@ class VoltageTerm {
 };
 
 /// Copper that warms up: R = R20 (1 + 0.00393 dT), tau dT' = rise P - dT.
-struct CopperHeating {
+struct CoilHeating {
   double rise_per_watt = 0;  // [K/W], 0: none
   double time_constant = 1;  // [s]
   std::array<double, kLanes> dT{};
@@ -45,7 +46,7 @@ struct BearingPlant {
   std::array<CurrentSensor, kLanes> current_sensor{};
   std::vector<std::unique_ptr<FluxLaw>> laws;
   std::vector<std::unique_ptr<VoltageTerm>> voltage[kLanes];
-  CopperHeating heating;
+  CoilHeating heating;
   Lane base_resistance;          // before heating
   double offset_x = 0, offset_y = 0;  // magnetic centre against the sensor's zero [m]
 };
@@ -63,7 +64,11 @@ struct Plant {
   explicit Plant(RotorModel rotor_model) : rotor(std::move(rotor_model)) {}
   RotorModel rotor;
   std::vector<BearingPlant> bearings;
-  BusSupply bus;
+  /// (bearing, z) of every radial bearing, known before the bearings are built (shape hooks).
+  std::vector<std::pair<std::string, double>> planes;
+  /// The bus lives on the heap: a formula keeps its address while the plant moves.
+  std::unique_ptr<BusSupply> bus_place = std::make_unique<BusSupply>();
+  BusSupply& bus = *bus_place;
   double loop_delay = 0;     // [s] set-points reach the current loops this much later
 
   BearingPlant* Find(const std::string& name) {

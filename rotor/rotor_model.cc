@@ -61,6 +61,18 @@ void RotorModel::AddAuxiliary(const std::string& name, double z, const Auxiliary
   aux_.push_back(plane);
 }
 
+void RotorModel::SetMount(std::size_t k, double stiffness, double damping, double mass) {
+  AuxiliaryPlane& plane = aux_[k];
+  plane.parameters.mount_stiffness = stiffness;
+  plane.parameters.mount_damping = damping;
+  plane.parameters.mount_mass = mass;
+  if (plane.mount_dof < 0) {
+    plane.mount_dof = NewDof(mass);
+    NewDof(mass);
+  }
+  inverse_mass_[U(plane.mount_dof)] = inverse_mass_[U(plane.mount_dof) + 1] = 1 / mass;
+}
+
 void RotorModel::SetBase(double mass, double stiffness, double damping) {
   base_mass_ = mass;
   base_stiffness_ = stiffness;
@@ -88,7 +100,16 @@ void RotorModel::SetSpin(MotionState& s) const {
 void RotorModel::Position(const MotionState& s, const PlaneMap& plane, double* x, double* y) const {
   *x = plane.X(s.q);
   *y = plane.Y(s.q);
-  for (const auto& term : surface) term->Add(s, plane.z, x, y);
+  if (surface.empty()) return;
+  double dx = 0, dy = 0;
+  for (const auto& term : surface) term->Add(s, plane.z, &dx, &dy);
+  for (std::size_t k = 0; k < static_cast<std::size_t>(plane.count); ++k) {
+    // Seen as the plane sees a shift of the rotor: along one axis by an opposed pair, not by a thrust bearing.
+    if (plane.dof[k] > 1) continue;
+    const double shift = plane.dof[k] == 0 ? dx : dy;
+    *x += plane.wx[k] * shift;
+    *y += plane.wy[k] * shift;
+  }
 }
 
 void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double stator_x, double stator_y,
@@ -143,8 +164,9 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   double ax = f.base_ax, ay = f.base_ay;
   if (base_dof_ >= 0) {
     const std::size_t d = U(base_dof_);
-    a[d] = (-base_stiffness_ * s.q[d] - base_damping_ * s.v[d] - f.stator_x) / base_mass_;
-    a[d + 1] = (-base_stiffness_ * s.q[d + 1] - base_damping_ * s.v[d + 1] - f.stator_y) / base_mass_;
+    // Relative to the floor, which may itself accelerate.
+    a[d] = (-base_stiffness_ * s.q[d] - base_damping_ * s.v[d] - f.stator_x) / base_mass_ - f.base_ax;
+    a[d + 1] = (-base_stiffness_ * s.q[d + 1] - base_damping_ * s.v[d + 1] - f.stator_y) / base_mass_ - f.base_ay;
     ax += a[d];
     ay += a[d + 1];
   }
@@ -231,6 +253,17 @@ bool RotorModel::NearContact(const MotionState& s, double horizon) const {
   return has_axial_ && axial_free && AxialPenetration(s) + horizon * std::abs(s.v[2]) > -1e-7;
 }
 
+double RotorModel::MountRate() const {
+  // Fastest rate [1/s] of a mount on its own: it rings on after the contact has ended.
+  double rate = 0;
+  for (const AuxiliaryPlane& aux : aux_) {
+    if (aux.mount_dof < 0) continue;
+    const AuxiliaryParameters& p = aux.parameters;
+    rate = std::max({rate, std::sqrt(p.mount_stiffness / p.mount_mass), p.mount_damping / p.mount_mass});
+  }
+  return rate;
+}
+
 double RotorModel::StiffnessRate(const MotionState& s) const {
   // Fastest rate [1/s] among the contacts: impact, regularised friction on journal and race, mounts.
   double rate = 0;
@@ -258,7 +291,7 @@ double RotorModel::StiffnessRate(const MotionState& s) const {
 }
 
 void RotorModel::Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const {
-  int pieces = 1;
+  int pieces = std::clamp(static_cast<int>(std::ceil(dt * MountRate())), 1, 400);
   if (NearContact(s, 2 * dt)) {
     // Fine enough that an impact is resolved to nanometres and no friction rate is unstable.
     pieces = std::clamp(static_cast<int>(std::ceil(dt * StiffnessRate(s) / 0.02)), 4, 400);

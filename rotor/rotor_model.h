@@ -78,6 +78,8 @@ class RotorModel {
   PlaneMap MakePlane(double z) const;
   void AddAuxiliary(const std::string& name, double z, const AuxiliaryParameters& p);
   void SetAxialStop(const AuxiliaryParameters& p) { axial_ = p; has_axial_ = true; }
+  /// Puts the race of auxiliary plane `k` on a mount (or changes the mount it has).
+  void SetMount(std::size_t k, double stiffness, double damping, double mass);
   void SetBase(double mass, double stiffness, double damping);
   void AddLoad(double z, double fx, double fy, double fz, double start, double stop);
   void SetSpeed(const SpeedProfile& profile, double free_from = kInfinity);
@@ -107,6 +109,8 @@ class RotorModel {
   double Energy(const MotionState& s) const;
 
   int dof() const { return dof_; }
+  const std::vector<BendingMode>& modes() const { return modes_; }
+  bool HasBase() const { return base_dof_ >= 0; }
   const RotorParameters& parameters() const { return p_; }
   RotorParameters& parameters() { return p_; }
   const std::array<double, 3>& gravity() const { return g_; }
@@ -120,6 +124,7 @@ class RotorModel {
  private:
   int NewDof(double mass);
   double StiffnessRate(const MotionState& s) const;
+  double MountRate() const;
   void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const;
 
   RotorParameters p_;

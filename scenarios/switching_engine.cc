@@ -436,7 +436,7 @@ void SwitchingEngine::MoveRotor(long long n) {
 
 void SwitchingEngine::HeatCopper() {
   for (BearingRun& b : bearings_) {
-    CopperHeating& heat = b.plant->heating;
+    CoilHeating& heat = b.plant->heating;
     if (heat.rise_per_watt <= 0 || motion_.t < 0) continue;
     StatorLanes& lanes = b.plant->lanes;
     CurrentStatistics(lanes.samples, samples_, &b.mean_square, &b.largest);
