@@ -87,6 +87,7 @@ class Explainer {
     FitOptions o;
     o.effective = out_.effective;
     o.base_jacobian = jacobian;
+    o.iterations = 5;
     return Fit(model_, start, o);
   }
 
@@ -100,7 +101,8 @@ class Explainer {
   }
 
   bool Finished(const FitResult& now) const {
-    return now.ratio_validate < 1.012 && now.ratio_fit < 1.012 && WorstRatio(model_, now.residual, Which::kAll) < 1.12;
+    // Nothing that an effect could still win: see WorthAdopting.
+    return now.ratio_validate * now.ratio_validate < 1.015 || (now.ratio_validate < 1.012 && now.ratio_fit < 1.012);
   }
 
   int Parameters(const FitResult& fit) const {
@@ -118,14 +120,14 @@ class Explainer {
     ScreenOptions screen;
     screen.effective = out_.effective;
     screen.progress = [&](double f, const std::string& text) { Progress(from + 0.6 * share * f, "screening " + text); };
-    const std::vector<Candidate> candidates = Screen(model_, now, screen);
+    const std::vector<Candidate> candidates = Screen(model_, now, screen, bank_);
     if (round == 0) out_.screened = candidates;
     std::vector<RankedEffect> ranking;
     const double here = ScoreOf(now);
     for (std::size_t k = 0; k < candidates.size() && static_cast<int>(ranking.size()) < options_.candidates; ++k) {
       const Candidate& c = candidates[k];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
-      if (c.score > here && ranking.size() >= 3) break;
+      if (c.score > here && (ranking.size() >= 2 || round > 0)) break;
       Progress(from + share * (0.6 + 0.4 * static_cast<double>(k) / options_.candidates), "fitting " + c.effect.name + " at " + c.effect.target);
       Hypothesis h = now.hypothesis;
       h.AddEffect(c.effect);
@@ -220,6 +222,7 @@ class Explainer {
   CaseModel model_;
   RigParameters rig_;
   Explanation out_;
+  SignatureBank bank_;
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ struct Explanation {
 };
 
 struct ExplainOptions {
-  int candidates = 6;          // fitted in full per round
+  int candidates = 5;          // fitted in full per round
   int rounds = 3;
   std::function<void(double, const std::string&)> progress;
   std::function<void(const Explanation&)> checkpoint;  // results as they come

@@ -17,6 +17,30 @@ namespace {
 
 using Eigen::Index;
 
+constexpr std::size_t kStride = 5;  // rows between those that the screening looks at
+
+/// Rows of the flat vectors that take part, fit records first.
+struct Rows {
+  std::vector<std::size_t> at;
+  std::vector<double> floor;
+  Index fit = 0;  // the first so many belong to fit records
+
+  explicit Rows(const CaseModel& model) {
+    for (const Which which : {Which::kFit, Which::kValidate}) {
+      for (const Target& t : model.targets()) {
+        if (!Counts(model, t, which)) continue;
+        for (std::size_t k = t.first; k < t.first + t.count; k += kStride)
+          if (model.ok()[k]) {
+            at.push_back(k);
+            floor.push_back(t.floor);
+          }
+      }
+      if (which == Which::kFit) fit = static_cast<Index>(at.size());
+    }
+  }
+  Index size() const { return static_cast<Index>(at.size()); }
+};
+
 /// Gram matrices of [columns of the free parameters, residual] on the fit and on the unseen records.
 struct Gram {
   Eigen::MatrixXd fit, validate;
@@ -25,23 +49,33 @@ struct Gram {
 class Screener {
  public:
   Screener(const CaseModel& model, const FitResult& base, const ScreenOptions& options)
-      : model_(model), base_(base), options_(options), nb_(base.jacobian.cols()) {
-    columns_.resize(static_cast<Index>(model.size()), nb_ + 1);
-    columns_.leftCols(nb_) = base.jacobian;
-    columns_.col(nb_) = Eigen::Map<const Eigen::VectorXd>(base.residual.data(), static_cast<Index>(base.residual.size()));
-    for (const Target& t : model.targets()) {
-      double n = 0;
-      for (std::size_t k = t.first; k < t.first + t.count; ++k) n += model.ok()[k];
-      (Counts(model, t, Which::kFit) ? n_fit_ : n_validate_) += n;
+      : model_(model), base_(base), options_(options), rows_(model), nb_(base.jacobian.cols()) {
+    columns_.resize(rows_.size(), nb_ + 1);
+    for (Index k = 0; k < rows_.size(); ++k) {
+      const auto row = static_cast<Index>(rows_.at[static_cast<std::size_t>(k)]);
+      columns_.row(k).head(nb_) = base.jacobian.row(row);
+      columns_(k, nb_) = base.residual[static_cast<std::size_t>(row)];
     }
+    n_fit_ = static_cast<double>(rows_.fit);
+    n_validate_ = static_cast<double>(rows_.size() - rows_.fit);
     own_ = Products(columns_, columns_);
   }
 
+  /// Change of the prediction over the floor, on the rows that take part.
+  Eigen::VectorXf Signature(const std::vector<double>& predicted) const {
+    Eigen::VectorXf out(rows_.size());
+    for (Index k = 0; k < rows_.size(); ++k) {
+      const std::size_t row = rows_.at[static_cast<std::size_t>(k)];
+      out(k) = static_cast<float>((predicted[row] - base_.predicted[row]) / rows_.floor[static_cast<std::size_t>(k)]);
+    }
+    return out;
+  }
+
   /// The best linear explanation of the residual by the group's signatures.
-  Candidate Judge(const ProbeGroup& group, const std::vector<std::vector<double>>& predicted) const {
-    const auto m = static_cast<Index>(predicted.size());
-    Eigen::MatrixXd D(static_cast<Index>(model_.size()), m);
-    for (Index c = 0; c < m; ++c) FillSignature(predicted[static_cast<std::size_t>(c)], D.col(c));
+  Candidate Judge(const ProbeGroup& group, const std::vector<Eigen::VectorXf>& signatures) const {
+    const auto m = static_cast<Index>(signatures.size());
+    Eigen::MatrixXd D(rows_.size(), m);
+    for (Index c = 0; c < m; ++c) D.col(c) = signatures[static_cast<std::size_t>(c)].cast<double>();
     const Gram with = Products(columns_, D), among = Products(D, D);
     const Gram all = {Assemble(own_.fit, with.fit, among.fit), Assemble(own_.validate, with.validate, among.validate)};
     Eigen::VectorXd best;
@@ -53,7 +87,7 @@ class Screener {
       const Eigen::VectorXd c = Solve(all.fit, weight, m, group.linear, scale);
       const double fit = std::sqrt(std::max(0.0, c.dot(all.fit * c)) / std::max(1.0, n_fit_));
       const double validate = n_validate_ > 0 ? std::sqrt(std::max(0.0, c.dot(all.validate * c)) / n_validate_) : fit;
-      const double score = Score(model_, fit, validate, options_.effective, ParametersOf(group));
+      const double score = Score(model_, fit, validate, options_.effective, static_cast<int>(group.probes[0].table.size()));
       if (score >= best_score) continue;
       best_score = score;
       best = c;
@@ -64,22 +98,9 @@ class Screener {
   }
 
  private:
-  int ParametersOf(const ProbeGroup& g) const { return static_cast<int>(g.probes[0].table.size()); }
-
-  void FillSignature(const std::vector<double>& predicted, Eigen::Ref<Eigen::VectorXd> column) const {
-    for (const Target& t : model_.targets())
-      for (std::size_t k = t.first; k < t.first + t.count; ++k)
-        column(static_cast<Index>(k)) = model_.ok()[k] ? (predicted[k] - base_.predicted[k]) / t.floor : 0;
-  }
-
   Gram Products(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) const {
-    Gram g = {Eigen::MatrixXd::Zero(a.cols(), b.cols()), Eigen::MatrixXd::Zero(a.cols(), b.cols())};
-    for (const Target& t : model_.targets()) {
-      const auto first = static_cast<Index>(t.first), count = static_cast<Index>(t.count);
-      (Counts(model_, t, Which::kFit) ? g.fit : g.validate).noalias() +=
-          a.middleRows(first, count).transpose() * b.middleRows(first, count);
-    }
-    return g;
+    const Index rest = rows_.size() - rows_.fit;
+    return {a.topRows(rows_.fit).transpose() * b.topRows(rows_.fit), a.bottomRows(rest).transpose() * b.bottomRows(rest)};
   }
 
   static Eigen::MatrixXd Assemble(const Eigen::MatrixXd& own, const Eigen::MatrixXd& with, const Eigen::MatrixXd& among) {
@@ -142,6 +163,7 @@ class Screener {
   const CaseModel& model_;
   const FitResult& base_;
   const ScreenOptions& options_;
+  Rows rows_;
   Index nb_;
   Eigen::MatrixXd columns_;  // rig columns and the residual
   Gram own_;
@@ -182,67 +204,100 @@ double Score(const CaseModel& model, double ratio_fit, double ratio_validate, do
          parameters * std::log(effective);
 }
 
-std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base, const ScreenOptions& options) {
-  struct Job {
-    ProbeGroup group;
-    Candidate result;
-    bool fine = false;
-  };
-  std::vector<Job> jobs;
-  const EffectTargets targets = TargetsOfEffects(model.data().rig);
-  for (const EffectDescription& d : Catalogue()) {
-    if (CannotShow(d, model)) continue;
-    for (const std::string& target : TargetsOf(d, targets)) {
-      bool present = false;
-      for (const EffectInstance& e : base.hypothesis.rig.effects) present = present || (e.name == d.id && e.target == target);
-      if (present) continue;
-      for (ProbeGroup& g : ProbesOf(d, target, model, base.residual)) jobs.push_back({std::move(g), {}, false});
-    }
-  }
-  const Screener screener(model, base, options);
+struct SignatureBank::Entry {
+  ProbeGroup group;                       // only the probes that the rotor survived
+  std::vector<Eigen::VectorXf> columns;
+};
+SignatureBank::SignatureBank() : entries_(std::make_unique<std::vector<Entry>>()) {}
+SignatureBank::~SignatureBank() = default;
+
+namespace {
+
+bool SeeksFrequency(const EffectDescription& d) {
+  return std::any_of(d.parameters.begin(), d.parameters.end(), [](const EffectParameter& p) { return p.name == "frequency"; });
+}
+
+/// Simulates the groups' probes chunk by chunk and puts their signatures into the bank.
+void Simulate(const CaseModel& model, const FitResult& base, const Screener& screener, std::vector<ProbeGroup> groups,
+              const ScreenOptions& options, double from, double to, SignatureBank& bank) {
   constexpr std::size_t kChunk = 16;  // predictions of a chunk are in memory together
-  for (std::size_t first = 0; first < jobs.size();) {
+  for (std::size_t first = 0; first < groups.size();) {
     std::vector<Hypothesis> all;
     std::size_t last = first;
-    while (last < jobs.size() && (last == first || all.size() + jobs[last].group.probes.size() <= kChunk)) {
-      for (const EffectInstance& e : jobs[last].group.probes) {
+    while (last < groups.size() && (last == first || all.size() + groups[last].probes.size() <= kChunk)) {
+      for (const EffectInstance& e : groups[last].probes) {
         all.push_back(base.hypothesis);
         all.back().rig.effects.push_back(e);
       }
       ++last;
     }
     if (options.progress)
-      options.progress(static_cast<double>(first) / static_cast<double>(jobs.size()), jobs[first].group.probes[0].name);
+      options.progress(from + (to - from) * static_cast<double>(first) / static_cast<double>(groups.size()), groups[first].probes[0].name);
     const auto runs = model.PredictAll(all);
     std::size_t at = 0;
     for (; first < last; ++first) {
-      Job& job = jobs[first];
-      std::vector<std::vector<double>> predicted;
-      ProbeGroup usable = job.group;
-      usable.probes.clear();
-      usable.rows.clear();
-      for (std::size_t k = 0; k < job.group.probes.size(); ++k, ++at) {
+      SignatureBank::Entry entry;
+      entry.group.linear = groups[first].linear;
+      for (std::size_t k = 0; k < groups[first].probes.size(); ++k, ++at) {
         if (!runs[at]) continue;
-        predicted.push_back(*runs[at]);
-        usable.probes.push_back(job.group.probes[k]);
-        if (job.group.linear) usable.rows.push_back(job.group.rows[k]);
+        entry.columns.push_back(screener.Signature(*runs[at]));
+        entry.group.probes.push_back(groups[first].probes[k]);
+        if (entry.group.linear) entry.group.rows.push_back(groups[first].rows[k]);
       }
-      if (predicted.empty()) continue;
-      job.result = screener.Judge(usable, predicted);
-      job.fine = std::isfinite(job.result.score);
+      if (!entry.columns.empty()) bank.entries().push_back(std::move(entry));
     }
   }
-  // The best size of every (effect, target).
-  std::vector<Candidate> out;
-  for (const Job& job : jobs) {
-    if (!job.fine) continue;
-    auto same = std::find_if(out.begin(), out.end(), [&](const Candidate& c) {
-      return c.effect.name == job.result.effect.name && c.effect.target == job.result.effect.target;
+}
+
+/// Probes of one kind of target (coils or the others) that the bank does not hold yet.
+std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& base, bool coils, bool again) {
+  std::vector<ProbeGroup> groups;
+  const EffectTargets targets = TargetsOfEffects(model.data().rig);
+  for (const EffectDescription& d : Catalogue()) {
+    if (CannotShow(d, model) || (again && !SeeksFrequency(d))) continue;
+    for (const std::string& target : TargetsOf(d, targets)) {
+      if ((target.find(".coil") != std::string::npos) != coils) continue;
+      for (ProbeGroup& g : ProbesOf(d, target, model, base.residual)) groups.push_back(std::move(g));
+    }
+  }
+  return groups;
+}
+
+void Rank(const FitResult& base, const Screener& screener, SignatureBank& bank, std::vector<Candidate>& out) {
+  out.clear();
+  for (const SignatureBank::Entry& entry : bank.entries()) {
+    const EffectInstance& e = entry.group.probes[0];
+    const bool present = std::any_of(base.hypothesis.rig.effects.begin(), base.hypothesis.rig.effects.end(),
+                                     [&](const EffectInstance& o) { return o.name == e.name && o.target == e.target; });
+    if (present) continue;
+    Candidate c = screener.Judge(entry.group, entry.columns);
+    if (!std::isfinite(c.score)) continue;
+    auto same = std::find_if(out.begin(), out.end(), [&](const Candidate& o) {
+      return o.effect.name == c.effect.name && o.effect.target == c.effect.target;
     });
-    if (same == out.end()) out.push_back(job.result);
-    else if (job.result.score < same->score) *same = job.result;
+    if (same == out.end()) out.push_back(std::move(c));
+    else if (c.score < same->score) *same = std::move(c);
   }
   std::stable_sort(out.begin(), out.end(), [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+}
+
+}  // namespace
+
+std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base, const ScreenOptions& options,
+                              SignatureBank& bank) {
+  const Screener screener(model, base, options);
+  const bool again = !bank.entries().empty();
+  std::vector<Candidate> out;
+  Simulate(model, base, screener, GroupsToRun(model, base, false, again), options, 0, 0.7, bank);
+  Rank(base, screener, bank, out);
+  if (again) return out;
+  // Single coils are many; they are tried where nothing else explains nearly all.
+  const double excess = base.ratio_validate * base.ratio_validate - 1;
+  const double left = out.empty() ? excess : out[0].ratio_validate * out[0].ratio_validate - 1;
+  if (left > 0.12 * excess) {
+    Simulate(model, base, screener, GroupsToRun(model, base, true, false), options, 0.7, 1, bank);
+    Rank(base, screener, bank, out);
+  }
   return out;
 }
 

@@ -4,6 +4,7 @@
 /// are fitted beside it under their prior (linear), and what is left on the fit and on the unseen
 /// records ranks it.
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,21 @@ struct Candidate {
   double ratio_fit = 0, ratio_validate = 0;  // predicted by the linear step
 };
 
+struct ProbeGroup;
+
+/// Signatures of probes once simulated, on every few rows of the data: a later round ranks the same
+/// effects against a new residual without simulating them again.
+class SignatureBank {
+ public:
+  SignatureBank();
+  ~SignatureBank();
+  struct Entry;
+  std::vector<Entry>& entries() { return *entries_; }
+
+ private:
+  std::unique_ptr<std::vector<Entry>> entries_;
+};
+
 struct ScreenOptions {
   double effective = 1;
   std::function<void(double, const std::string&)> progress;
@@ -27,7 +43,10 @@ struct ScreenOptions {
 double Score(const CaseModel& model, double ratio_fit, double ratio_validate, double effective, int parameters);
 
 /// Every (effect, target) that these records could show, best first. `base` is the fit so far.
-std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base, const ScreenOptions& options);
+/// Fills the bank; what stands in it already is not simulated again, save for effects that look for a
+/// frequency in the residual.
+std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base, const ScreenOptions& options,
+                              SignatureBank& bank);
 
 /// Frequencies at which the residual of a plane's readings stands out: coherent over the records
 /// (same phase in each) and incoherent. [Hz]

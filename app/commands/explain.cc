@@ -15,7 +15,7 @@ namespace {
 struct ExplainCommand {
   CommonOptions common;
   std::string file;
-  int candidates = 6;
+  int candidates = 5;
 };
 
 std::string ParametersText(const EffectInstance& e) {
