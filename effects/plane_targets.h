@@ -1,0 +1,63 @@
+#pragma once
+/// What a plane ("A", "z") or axis ("A.x", "z") target means, and the order of the maps on a sensor.
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "effects/effect.h"
+#include "effects/plant.h"
+
+namespace ambrig {
+
+/// The bearing of a plane or axis; "z" is the thrust bearing.
+BearingPlant& TargetPlane(const EffectInstance& effect, Plant& plant);
+/// Side of the sensor that an axis target names: 0 for "A.x" and "z", 1 for "A.y".
+int TargetSide(const EffectInstance& effect);
+/// The auxiliary bearing at the target plane. @throws InputError when the rig has none there.
+std::size_t TargetAuxiliary(const EffectInstance& effect, const Plant& plant);
+
+/// A point fixed to the rotor at (c, s) for theta = 0, seen by the stator at the angle `order` theta.
+struct Turned {
+  double x, y;
+};
+Turned Turn(double c, double s, double angle);
+
+/// Readings pass the maps in this order, whatever the order in the rig file:
+///   surface -> sensor axes -> gain -> offset -> electronics -> what cables pick up -> formulas
+enum class ReadingStage { kSurface, kAxes, kGain, kOffset, kElectronics, kPickUp, kFormula };
+
+/// A reading map that knows its place.
+class StagedMap : public ReadingMap {
+ public:
+  explicit StagedMap(ReadingStage stage) : stage_(stage) {}
+  ReadingStage stage() const { return stage_; }
+
+ private:
+  ReadingStage stage_;
+};
+
+void InsertMap(PositionSensor& sensor, std::unique_ptr<StagedMap> map);
+
+/// Wraps a function (state, x*, y*) as the map of one stage.
+template <class F>
+void AddMap(PositionSensor& sensor, ReadingStage stage, F f) {
+  struct Wrapped final : StagedMap {
+    Wrapped(ReadingStage s, F function) : StagedMap(s), f(std::move(function)) {}
+    void Map(const MotionState& state, double* x, double* y) override { f(state, x, y); }
+    F f;
+  };
+  InsertMap(sensor, std::make_unique<Wrapped>(stage, std::move(f)));
+}
+
+/// Wraps a function (state, forces&) as a force term of the rotor.
+template <class F>
+void AddForceTerm(Plant& plant, F f) {
+  struct Wrapped final : ForceTerm {
+    explicit Wrapped(F function) : f(std::move(function)) {}
+    void Add(const MotionState& state, RotorForces& forces) const override { f(state, forces); }
+    F f;
+  };
+  plant.rotor.terms.push_back(std::make_unique<Wrapped>(std::move(f)));
+}
+
+}  // namespace ambrig

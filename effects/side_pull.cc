@@ -1,0 +1,38 @@
+/// Unbalanced magnetic pull of a motor (or a magnet coupling):  f = k r  along the displacement, a
+/// negative stiffness; the stator feels the opposite. k = pi R L B²/(2 mu0 g) (facts.md 5.4).
+#include "effects/effects_motion.h"
+#include "effects/plane_targets.h"
+
+namespace ambrig {
+
+EffectDescription SidePull() {
+  EffectDescription d;
+  d.id = "side-pull";
+  d.title = "Side pull of a motor";
+  d.physics =
+      "The motor's field pulls the rotor further the way it has moved: a negative stiffness at one\n"
+      "plane, independent of the bearing's currents.";
+  d.target = TargetKind::kPlaneOrZ;
+  d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 1e4, 5e5, "k of f = k r; > 0 destabilises"}};
+  d.off_when_null = {"stiffness"};
+  d.shows_in = "force excitation at low frequency; reference steps; static currents off centre";
+  d.confused_with = "gap of that bearing (its negative stiffness grows with the bias), sensor-gain";
+  d.apply = [](const EffectInstance& e, Plant& plant) {
+    const BearingPlant& b = TargetPlane(e, plant);
+    const PlaneMap map = b.plane;
+    const double k = e.Value("stiffness");
+    const bool radial = !b.thrust;
+    AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
+      // Along its one axis at an opposed pair (weights cos, sin), along z at a thrust bearing.
+      const double fx = k * map.X(m.q), fy = k * map.Y(m.q);
+      DofVector before = forces.Q;
+      map.AddForce(fx, fy, forces.Q);
+      if (!radial) return;
+      forces.stator_x += forces.Q[0] - before[0];
+      forces.stator_y += forces.Q[1] - before[1];
+    });
+  };
+  return d;
+}
+
+}  // namespace ambrig
