@@ -3,31 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actuators/lane_vector.h"
 #include "core/base/errors.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(AMBRIG_SANITIZED)
-// The same arithmetic in wider registers where the machine has them: same bits, no contraction.
-#define AMBRIG_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define AMBRIG_WIDE
-#endif
 
 namespace ambrig {
 
 namespace {
 
-/// Eight lanes as one value; the compiler splits it over the registers that it has.
-using V = double __attribute__((vector_size(8 * sizeof(double))));
-
-[[gnu::always_inline]] inline V Load(const double* p) {
-  V v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-[[gnu::always_inline]] inline void Store(double* p, const V& v) { __builtin_memcpy(p, &v, sizeof v); }
-[[gnu::always_inline]] inline double Sum(const V& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-}
+using V = LaneVector;
 
 /// What one sample's update reads and writes; pointers into a StatorLanes.
 struct Kernel {
@@ -48,8 +31,7 @@ template <Coupling kCoupling>
   if constexpr (kCoupling == Coupling::kFloatingRotor) {
     return gm - g * (Sum(gm) * inverse_sum);
   } else if constexpr (kCoupling == Coupling::kSides) {
-    const V other = {m[1], m[0], m[3], m[2], m[5], m[4], m[7], m[6]};
-    return g * (m + other);
+    return g * (m + Partner(m));
   } else {
     return gm;
   }
@@ -128,8 +110,6 @@ void SolveOnce(Coupling coupling, const Kernel& s, const double* target, double 
   }
 }
 
-double Clamp(double x, double h) { return x < 0 ? 0 : (x > h ? h : x); }
-
 /// Whether the switches of lane j are closed at time t of the period, and where the pattern stands.
 int SegmentAt(const VoltagePattern& p, int j, double t) { return t < p.t1[j] ? 0 : (t < p.t2[j] ? 1 : 2); }
 
@@ -164,6 +144,11 @@ void StatorLanes::Unblock(int j) {
 void StatorLanes::SetStep(double h) {
   h_ = h;
   any_short = false;
+  affine_laws_ = true;
+  for (FluxLaw* law : laws) {
+    law->SetStep(h);
+    affine_laws_ = affine_laws_ && law->linear();
+  }
   for (int j = 0; j < kLanes; ++j) {
     const bool inert = j >= coils || open[j] || n[j] == 0;
     half_rh_[j] = inert ? 0 : 0.5 * resistance[j] * h;
@@ -244,107 +229,6 @@ void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0
   EndPeriod();
 }
 
-void StatorLanes::SolveGeneral(const Lane& target, const Lane& target2, double h) {
-  Lane c2, inverse2, drop, slope;
-  for (int j = 0; j < kLanes; ++j)
-    if (n2[j] != 0) {
-      inverse2[j] = 1 / (leakage2[j] + theta2_[j] * resistance2[j] * h);
-      c2[j] = n2[j] * inverse2[j];
-    }
-  const int rounds = laws.empty() ? 1 : 12;
-  for (int round = 0; round < rounds; ++round) {
-    Lane g, m;
-    for (int j = 0; j < kLanes; ++j) {
-      drop[j] = slope[j] = 0;
-      for (const FluxLaw* law : laws) {
-        double d = 0, s = 0;
-        if (j < coils) law->Drop(j, phi[j], h, &d, &s);
-        drop[j] += d;
-        slope[j] += s;
-      }
-      m[j] = c_[j] * target[j] + c2[j] * target2[j] - (drop[j] - slope[j] * phi[j]);
-      g[j] = rel_[j] + n[j] * c_[j] + n2[j] * c2[j] + slope[j];
-    }
-    double change = 0, size = 0, U = 0;
-    Lane fresh;
-    if (coupling == Coupling::kFloatingRotor) {
-      double top = 0, sum = 0;
-      for (int j = 0; j < kLanes; ++j) {
-        top += m[j] / g[j];
-        sum += 1 / g[j];
-      }
-      U = top / sum;
-    }
-    for (int j = 0; j < kLanes; ++j) {
-      double next;
-      if (coupling == Coupling::kSides) {
-        const int o = j ^ 1;
-        // One core, two windings: its iron counts once, in the even lane's terms.
-        const int e = j & ~1;
-        const double winding = n[j] * c_[j] + n[o] * c_[o] + n2[j] * c2[j] + n2[o] * c2[o];
-        next = (c_[j] * target[j] + c_[o] * target[o] + c2[j] * target2[j] + c2[o] * target2[o] -
-                (drop[e] - slope[e] * phi[e])) /
-               (rel_[e] + winding + slope[e]);
-      } else {
-        next = (m[j] - U) / g[j];
-      }
-      change = std::max(change, std::abs(next - phi[j]));
-      size = std::max(size, std::abs(next));
-      fresh[j] = next;
-    }
-    phi = fresh;
-    if (change <= 1e-10 * size + 1e-18) break;
-  }
-  for (int j = 0; j < kLanes; ++j) {
-    i[j] = inverse_l_[j] * (target[j] - n[j] * phi[j]);
-    if (n2[j] != 0) i2[j] = inverse2[j] * (target2[j] - n2[j] * phi[j]);
-  }
-}
-
-void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
-  const double t = k * h_, fraction = (k + 1.0) / per_period_;
-  samples[k] = i;
-  Lane target, target2;
-  const Lane i_start = i;
-  for (int j = 0; j < kLanes; ++j) {
-    rel_[j] = rel0_[j] + (rel1_[j] - rel0_[j]) * fraction;
-    const double edge[4] = {0, pattern.t1[j], std::max(pattern.t1[j], pattern.t2[j]), kInfinity};
-    double volt_seconds = 0;
-    for (int q = 0; q < 3; ++q) {
-      const double span = Clamp(edge[q + 1] - t, h_) - (q == 0 ? 0 : Clamp(edge[q] - t, h_));
-      if (span <= 0) continue;
-      if (blocked[j] && j < coils && !open[j] && (!unipolar || pattern.gain[q][j] > 0)) Unblock(j);
-      if (!blocked[j]) volt_seconds += span * (pattern.gain[q][j] * bus + pattern.drop[q][j]);
-    }
-    target[j] = lambda[j] + volt_seconds - half_rh_[j] * i[j];
-    if (n2[j] != 0) target2[j] = lambda2[j] - (1 - theta2_[j]) * resistance2[j] * h_ * i2[j];
-  }
-  for (int round = 0; round <= kLanes; ++round) {
-    SolveGeneral(target, target2, h_);
-    bool any = false;
-    for (int j = 0; unipolar && j < coils; ++j)
-      if (i[j] < 0) {
-        Block(j);
-        any = true;
-      }
-    if (!any) break;
-  }
-  bus_current_ = 0;
-  for (int j = 0; j < kLanes; ++j) {
-    lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
-    if (n2[j] != 0) lambda2[j] = n2[j] * phi[j] + leakage2[j] * i2[j];
-    for (FluxLaw* law : laws)
-      if (j < coils && (coupling != Coupling::kSides || j % 2 == 0)) law->Commit(j, phi[j], h_);
-    sum_[j] += phi[j] * phi[j];
-    const double edge[4] = {0, pattern.t1[j], std::max(pattern.t1[j], pattern.t2[j]), kInfinity};
-    for (int q = 0; q < 3; ++q) {
-      const double a = q == 0 ? 0 : Clamp(edge[q] - t, h_), b = Clamp(edge[q + 1] - t, h_);
-      if (b > a)
-        bus_current_ += pattern.gain[q][j] * (b - a) / h_ * (i_start[j] + (i[j] - i_start[j]) * 0.5 * (a + b) / h_);
-    }
-  }
-}
-
 void StatorLanes::Refresh(double x, double y) {
   // Same as a solve with no voltage and no time: currents that carry the present linkages.
   const double h = h_;
@@ -356,7 +240,7 @@ void StatorLanes::Refresh(double x, double y) {
     inverse_l_[j] = blocked[j] ? 0 : 1 / leakage[j];
     c_[j] = n[j] * inverse_l_[j];
   }
-  SolveGeneral(lambda, lambda2, 0);
+  SolveGeneral(lambda, lambda2);
   half_rh_ = keep_half;
   resistance2 = keep_resistance2;
   inverse_l_ = keep_inverse;
@@ -370,7 +254,6 @@ void StatorLanes::Refresh(double x, double y) {
 
 void StatorLanes::Settle(const Lane& currents, double x, double y) {
   // Linear start, then the iron laws' own fixed point at the given currents.
-  Lane drop;
   for (int j = 0; j < kLanes; ++j) {
     i[j] = j < coils && !open[j] ? currents[j] : 0;
     i2[j] = 0;
@@ -378,16 +261,10 @@ void StatorLanes::Settle(const Lane& currents, double x, double y) {
     phi[j] = 0;
   }
   for (int round = 0; round < (laws.empty() ? 1 : 200); ++round) {
-    Lane g, m, slope;
+    Lane g, m, drop, slope;
     double top = 0, sum = 0;
+    for (const FluxLaw* law : laws) law->Steady(phi, &drop, &slope);
     for (int j = 0; j < kLanes; ++j) {
-      drop[j] = slope[j] = 0;
-      for (const FluxLaw* law : laws) {
-        double d = 0, s = 0;
-        if (j < coils) law->Drop(j, phi[j], kInfinity, &d, &s);
-        drop[j] += d;
-        slope[j] += s;
-      }
       const double mmf = coupling == Coupling::kSides ? n[j] * i[j] + n[j ^ 1] * i[j ^ 1] : n[j] * i[j];
       m[j] = mmf - (drop[j] - slope[j] * phi[j]);
       g[j] = 1 / (rel_[j] + slope[j]);
@@ -403,9 +280,8 @@ void StatorLanes::Settle(const Lane& currents, double x, double y) {
     }
     if (change < 1e-16) break;
   }
+  for (FluxLaw* law : laws) law->Settle(phi);
   for (int j = 0; j < kLanes; ++j) {
-    for (FluxLaw* law : laws)
-      if (j < coils) law->Settle(j, phi[j]);
     lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
     lambda2[j] = n2[j] * phi[j];
     blocked[j] = j >= coils || open[j] || n[j] == 0 || (unipolar && i[j] <= 0);

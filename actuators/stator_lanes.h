@@ -19,18 +19,10 @@
 #include <vector>
 
 #include "actuators/flux_law.h"
+#include "actuators/lane.h"
 #include "core/base/parameters.h"
 
 namespace ambrig {
-
-inline constexpr int kLanes = 8;
-
-/// One value per lane, aligned for vector loads.
-struct alignas(64) Lane {
-  double v[kLanes] = {};
-  double& operator[](int j) { return v[j]; }
-  double operator[](int j) const { return v[j]; }
-};
 
 enum class Coupling { kFloatingRotor, kSides, kNone };
 
@@ -113,7 +105,9 @@ class StatorLanes {
   void UpdateConductance(int j);
   void Block(int j);
   void Unblock(int j);
-  void SolveGeneral(const Lane& target, const Lane& target2, double h_mean);
+  /// Flux and currents that carry the targets λ* (and λ2* of shorted turns); Newton over the laws.
+  void SolveGeneral(const Lane& target, const Lane& target2);
+  void UnblockDriven(const VoltagePattern& pattern, double bus, double t, Lane* target);
 
   double h_ = 0;
   Lane half_rh_, inverse_l_, c_;        // R h/2, 1/(L_l + R h/2) (0 when blocked), n * inverse_l
@@ -124,6 +118,7 @@ class StatorLanes {
   Lane theta2_;                         // implicitness of the shorted loop
   Lane rel_;
   double bus_current_ = 0;
+  bool affine_laws_ = true;             // one round of Newton is exact
 };
 
 }  // namespace ambrig

@@ -1,9 +1,28 @@
 #include "effects/catalogue.h"
 
+#include "effects/effects_magnetic.h"
+
 namespace ambrig {
 
+/// The one written list, in the order of docs/effects.md.
 const std::vector<EffectDescription>& Catalogue() {
-  static const std::vector<EffectDescription> all = {};
+  static const std::vector<EffectDescription> all = {
+      IronReluctance(),
+      Saturation(),
+      Hysteresis(),
+      EddyCurrents(),
+      Fringing(),
+      MagneticOffset(),
+      TurnMismatch(),
+      CopperHeating(),
+      BusImpedance(),
+      FreewheelDrop(),
+      AmplifierOffset(),
+      DeadTime(),
+      CurrentSensorGain(),
+      CurrentSensorOffset(),
+      LoopDelay(),
+  };
   return all;
 }
 

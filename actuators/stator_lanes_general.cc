@@ -1,0 +1,164 @@
+/// The general path of the lanes, one sample at a time: iron laws, shorted turns, a moving bus,
+/// switching edges anywhere. For ideal iron it gives what the fast path gives.
+#include <algorithm>
+#include <cmath>
+
+#include "actuators/lane_vector.h"
+#include "actuators/stator_lanes.h"
+
+namespace ambrig {
+
+namespace {
+
+using V = LaneVector;
+
+constexpr int kMostRounds = 30;       // Newton over the iron laws
+constexpr double kConverged = 1e-8;   // [-] change of a round; what is left after it is its square
+
+/// Time from the start of the sample to a switching edge, within [0, h].
+[[gnu::always_inline]] inline V Within(const V& edge, double t, double h) {
+  const V zero = {}, end = zero + h;
+  V a = edge - t;
+  a = a < zero ? zero : a;
+  return a > end ? end : a;
+}
+
+struct Edges {
+  const VoltagePattern* pattern;
+  double bus, t, h;
+};
+
+/// λ* = λ + ∫v dt - (R h/2) i
+AMBRIG_WIDE void Targets(const Edges& e, const double* lambda, const double* half_rh, const double* i,
+                         double* target) {
+  const VoltagePattern& p = *e.pattern;
+  const V a = Within(Load(p.t1.v), e.t, e.h), b0 = Within(Load(p.t2.v), e.t, e.h);
+  const V b = b0 < a ? a : b0;
+  const V v0 = Load(p.gain[0].v) * e.bus + Load(p.drop[0].v);
+  const V v1 = Load(p.gain[1].v) * e.bus + Load(p.drop[1].v);
+  const V v2 = Load(p.gain[2].v) * e.bus + Load(p.drop[2].v);
+  Store(target, Load(lambda) + ((v2 * e.h + (v1 - v2) * b) + (v0 - v1) * a) - Load(half_rh) * Load(i));
+}
+
+/// Mean current drawn from the bus: ∫ gain i dt / h with i linear over the sample.
+AMBRIG_WIDE double Drawn(const Edges& e, const double* before, const double* after) {
+  const VoltagePattern& p = *e.pattern;
+  const V a = Within(Load(p.t1.v), e.t, e.h), b0 = Within(Load(p.t2.v), e.t, e.h);
+  const V b = b0 < a ? a : b0;
+  const double per = 1 / e.h;
+  const V i0 = Load(before), rise = (Load(after) - i0) * (0.5 * per);
+  const V at_a = a * per * (i0 + rise * a), at_b = b * per * (i0 + rise * b), at_h = i0 + rise * e.h;
+  const V g1 = Load(p.gain[1].v), g2 = Load(p.gain[2].v);
+  return Sum(Load(p.gain[0].v) * at_a + g1 * (at_b - at_a) + g2 * (at_h - at_b));
+}
+
+/// MMF and self-conductance of the windings: Σ c λ* and Σ n c, over both of a shared core.
+AMBRIG_WIDE void Windings(Coupling coupling, const double* c, const double* n, const double* target,
+                          double* mmf, double* own) {
+  V m = Load(mmf) + Load(c) * Load(target), w = Load(own) + Load(n) * Load(c);
+  if (coupling == Coupling::kSides) {
+    m = m + Partner(m);
+    w = w + Partner(w);
+  }
+  Store(mmf, m);
+  Store(own, w);
+}
+
+/// One round of Newton: φ from MMF, reluctance and the iron's tangent. Returns the largest change
+/// over the largest flux.
+AMBRIG_WIDE double Round(Coupling coupling, const double* mmf, const double* reluctance,
+                         const double* drop, const double* slope, double* phi) {
+  const V old = Load(phi), s = Load(slope);
+  const V m = Load(mmf) - (Load(drop) - s * old);
+  const V g = 1.0 / (Load(reluctance) + s);
+  V next = g * m;
+  if (coupling == Coupling::kFloatingRotor) next = next - g * (Sum(next) / Sum(g));
+  Store(phi, next);
+  double change = 0, size = 1e-12;
+  for (int j = 0; j < kLanes; ++j) {
+    change = std::max(change, std::abs(next[j] - old[j]));
+    size = std::max(size, std::abs(next[j]));
+  }
+  return change / size;
+}
+
+AMBRIG_WIDE void Currents(const double* inverse_l, const double* n, const double* target, const double* phi,
+                          double* i) {
+  Store(i, Load(inverse_l) * (Load(target) - Load(n) * Load(phi)));
+}
+
+AMBRIG_WIDE void Take(const double* n, const double* leakage, const double* phi, const double* i,
+                      double* lambda, double* sum) {
+  const V p = Load(phi);
+  Store(lambda, Load(n) * p + Load(leakage) * Load(i));
+  Store(sum, Load(sum) + p * p);
+}
+
+}  // namespace
+
+void StatorLanes::SolveGeneral(const Lane& target, const Lane& target2) {
+  Lane inverse2, mmf, own;
+  for (int j = 0; any_short && j < kLanes; ++j) {
+    if (n2[j] == 0) continue;
+    inverse2[j] = 1 / (leakage2[j] + theta2_[j] * resistance2[j] * h_);
+    mmf[j] = n2[j] * inverse2[j] * target2[j];
+    own[j] = n2[j] * n2[j] * inverse2[j];
+  }
+  Windings(coupling, c_.v, n.v, target.v, mmf.v, own.v);
+  for (int j = 0; j < kLanes; ++j) own[j] += rel_[j];
+  const int rounds = affine_laws_ ? 1 : kMostRounds;
+  for (int round = 0; round < rounds; ++round) {
+    Lane drop, slope;
+    for (const FluxLaw* law : laws) law->Drop(phi, &drop, &slope);
+    if (Round(coupling, mmf.v, own.v, drop.v, slope.v, phi.v) < kConverged) break;
+  }
+  Currents(inverse_l_.v, n.v, target.v, phi.v, i.v);
+  for (int j = 0; any_short && j < kLanes; ++j)
+    if (n2[j] != 0) i2[j] = inverse2[j] * (target2[j] - n2[j] * phi[j]);
+}
+
+void StatorLanes::UnblockDriven(const VoltagePattern& p, double bus, double t, Lane* target) {
+  // A blocked coil is an open circuit until its switches close: only what follows counts.
+  for (int j = 0; j < coils; ++j) {
+    if (!blocked[j] || open[j]) continue;
+    const double edge[4] = {t, p.t1[j], std::max(p.t1[j], p.t2[j]), t + h_};
+    double volt_seconds = 0;
+    for (int q = 0; q < 3; ++q) {
+      const double span = std::min(edge[q + 1], t + h_) - std::max(edge[q], t);
+      if (span <= 0) continue;
+      if (blocked[j] && (!unipolar || p.gain[q][j] > 0)) Unblock(j);
+      if (!blocked[j]) volt_seconds += span * (p.gain[q][j] * bus + p.drop[q][j]);
+    }
+    (*target)[j] = lambda[j] + volt_seconds - half_rh_[j] * i[j];
+  }
+}
+
+void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
+  const double fraction = (k + 1.0) / per_period_;
+  const Edges edges{&pattern, bus, k * h_, h_};
+  samples[k] = i;
+  const Lane& start = samples[k];
+  for (int j = 0; j < kLanes; ++j) rel_[j] = rel0_[j] + (rel1_[j] - rel0_[j]) * fraction;
+  Lane target, target2;
+  Targets(edges, lambda.v, half_rh_.v, i.v, target.v);
+  UnblockDriven(pattern, bus, edges.t, &target);
+  for (int j = 0; any_short && j < kLanes; ++j)
+    if (n2[j] != 0) target2[j] = lambda2[j] - (1 - theta2_[j]) * resistance2[j] * h_ * i2[j];
+  for (int round = 0; round <= kLanes; ++round) {
+    SolveGeneral(target, target2);
+    bool any = false;
+    for (int j = 0; unipolar && j < coils; ++j)
+      if (i[j] < 0) {
+        Block(j);
+        any = true;
+      }
+    if (!any) break;
+  }
+  Take(n.v, leakage.v, phi.v, i.v, lambda.v, sum_.v);
+  for (int j = 0; any_short && j < kLanes; ++j)
+    if (n2[j] != 0) lambda2[j] = n2[j] * phi[j] + leakage2[j] * i2[j];
+  for (FluxLaw* law : laws) law->Commit(phi);
+  bus_current_ = Drawn(edges, start.v, i.v);
+}
+
+}  // namespace ambrig

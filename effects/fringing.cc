@@ -1,0 +1,26 @@
+/// Flux that bulges out of the gap: pole area A (1 + coefficient g/g0), so
+/// R(g) = g / (mu0 A (1 + coefficient g/g0)) and the pull is (1/2) phi² dR/dg.
+#include "effects/coil_targets.h"
+#include "effects/effects_magnetic.h"
+
+namespace ambrig {
+
+EffectDescription Fringing() {
+  EffectDescription d;
+  d.id = "fringing";
+  d.title = "Fringing of the gap field";
+  d.physics =
+      "Flux bulges out at the pole's edges, so the pole acts as if its area grew with the gap:\n"
+      "A (1 + coefficient g/g0). Force falls less steeply with the gap than 1/g³.";
+  d.target = TargetKind::kBearing;
+  d.parameters = {{"coefficient", "-", 0, -0.5, 2, 0.01, 0.15, "growth of the area per nominal gap"}};
+  d.off_when_null = {"coefficient"};
+  d.shows_in = "clamped current steps at several rotor positions";
+  d.confused_with = "a larger pole area, more turns; told apart by how force and slope depend on position";
+  d.apply = [](const EffectInstance& e, Plant& plant) {
+    TargetBearing(e, plant).lanes.reluctance.fringing = e.Value("coefficient");
+  };
+  return d;
+}
+
+}  // namespace ambrig
