@@ -65,7 +65,7 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
       const double di = p.current[j];
       const double variance = noise * noise * slope_variance_[static_cast<std::size_t>(p.samples[j])] +
                               doubt_[0] * di * di - doubt_[1] * di * flux + doubt_[2] * flux * flux +
-                              s_.voltage_sd * s_.voltage_sd + in.extra_sd * in.extra_sd;
+                              s_.voltage_sd * s_.voltage_sd;
       e_[q][j] = p.residual[j] + theta_[0] * p.current[j] - theta_[1] * flux;
       sd_[q][j] = std::sqrt(variance) * std::clamp(size_[q][j] / 0.8, 1.0, 5.0);
       z_[q][j] = e_[q][j] / sd_[q][j];
@@ -79,17 +79,23 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
   }
 }
 
-void BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
+int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
   const double h = s_.sampling.step;
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
+  int largest = -1;
+  double most = s_.cap;
   for (int j = 0; j < model_.coils; ++j) {
     const auto lane = static_cast<std::size_t>(j);
-    if (!valid_[0][lane] && !valid_[1][lane]) continue;
-    if (in.adc[0][j] < kZeroCurrent) continue;
+    const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]);
+    if (step < s_.cap || (!valid_[0][lane] && !valid_[1][lane]) || in.adc[0][j] < kZeroCurrent) continue;
     const double own = model_.SelfInductance(j, slopes_.P, radial ? slopes_.total : 1);
     const double sd = 1.4 * own * s_.current_noise / h + 1;
-    if (std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) > s_.cap * sd) G_[0][j] += 2 * s_.threshold;
+    if (step < most * sd) continue;
+    most = step / sd;
+    largest = j;
   }
+  if (largest >= 0) G_[0][largest] += 2 * s_.threshold;
+  return largest;
 }
 
 void BearingDetector::Cusum() {
@@ -182,7 +188,7 @@ int BearingDetector::Suspect(const std::vector<const KeptPeriod*>& periods, bool
       best = j;
     }
   }
-  *clear = next > 2 * least;
+  *clear = next > 2 * least + 20;  // [V²]: above the noise of two periods
   return best;
 }
 
@@ -212,7 +218,8 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   }
   if (alarm_at_ < 0) {
     if (in.comparable) Cusum();
-    if (in.comparable && follows && !any_unknown_) StepBetweenPeriods(last_linkage, last_voltage, in);
+    int stepped = -1;
+    if (in.comparable && follows && !any_unknown_) stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
     bool alarm = false, calm = in.comparable;
     for (int q = 0; q < 3; ++q)
       for (int j = 0; j < model_.coils; ++j) {
@@ -224,6 +231,10 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
     alarm_at_ = count_;
     bool clear = false;
     suspect_ = Suspect(LastPeriods(2), &clear);
+    if (stepped >= 0 && !clear) {
+      suspect_ = stepped;
+      clear = true;
+    }
     raised_ = out.raised = clear;
     out.coil = clear ? suspect_ : -1;
     return out;
@@ -248,7 +259,10 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
 
 Diagnosis BearingDetector::Examine() {
   const std::vector<const KeptPeriod*> periods = LastPeriods(kRing);
-  suspect_ = Suspect(LastPeriods(count_ - alarm_at_), &suspect_clear_);
+  if (model_.coupling == Coupling::kFloatingRotor) {
+    const int now = Suspect(LastPeriods(count_ - alarm_at_ + 2), &suspect_clear_);
+    if (suspect_clear_ || !raised_) suspect_ = now;
+  }
   const bool last = count_ - alarm_at_ >= kLongestExamination;
   const Examination x = ExamineCoil(LearnedModel(), s_, periods, suspect_, last);
   if (!x.decided || x.diagnosis.cls == FaultClass::kNone) return {};

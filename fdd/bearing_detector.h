@@ -70,8 +70,8 @@ class BearingDetector {
  private:
   void Residuals(const MeasuredPeriod& in);
   void Cusum();
-  void StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage,
-                          const MeasuredPeriod& in);
+  /// Coil with the largest unexplained step of its linkage, -1: none.
+  int StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in);
   void Learn();
   void Keep(const MeasuredPeriod& in);
   void Solve();

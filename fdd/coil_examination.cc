@@ -11,6 +11,7 @@ constexpr double kZeroCurrent = 0.03;  // [A]
 constexpr double kClip = 64;           // a window's largest cost: 8 sigma
 constexpr double kMargin = 12;         // certain: e^-6 against the next hypothesis
 constexpr double kFreeVoltage = 8;     // 2 ln(60 V / 1 V): a flux that the hypothesis leaves open
+constexpr double kLeastOffset = 0.09;  // [A]
 constexpr double kParameter = 4;       // per fitted quantity
 
 /// One phase of the suspect in one period.
@@ -22,6 +23,7 @@ struct Window {
   double own = 0;             // L_jj di/dt [V]
   double mean = 0, least = 0; // current [A]
   double sd_e = 0, sd_f = 0, noise_l = 0, noise_own = 0;  // [V]
+  double Rest() const { return e + v - own; }  // what the neighbours, motion and R i take [V]
 };
 
 double Cost(double z) { return std::min(z * z, kClip); }
@@ -155,12 +157,14 @@ double WrongVoltageCost(const std::vector<Window>& all, int phase) {
   return cost;
 }
 
+/// The flux equation must hold; the suspect's own one too, or its shorted turns carry a current.
 double ShortCost(const std::vector<Window>& all, double a) {
   double cost = kParameter;
   for (const Window& w : all) {
     if (!Applies(w)) continue;
     const double sd = std::hypot(a * w.sd_f, a * a * w.noise_l);
     cost += Cost((a * w.F + a * a * w.x_l + a * w.x_r - w.v) / sd);
+    cost += std::min(Cost((a * a * w.own + a * w.Rest() - w.v) / w.sd_e), kFreeVoltage);
   }
   return cost;
 }
@@ -182,18 +186,22 @@ double BestShort(const std::vector<Window>& all, double* turns_left) {
   return best;
 }
 
+/// Both equations must hold with the current c i instead of i.
 double SensorCost(const std::vector<Window>& all) {
   double top = 0, bottom = 0;
   for (const Window& w : all) {
     if (!Applies(w)) continue;
-    const double x = w.x_l + w.x_r, weight = 1 / (w.sd_f * w.sd_f);
-    top += weight * x * (w.v - w.F);
+    const double x = w.own + w.x_r, weight = 1 / (w.sd_e * w.sd_e);
+    top += weight * x * (w.v - w.Rest() + w.x_r);
     bottom += weight * x * x;
   }
   const double c = bottom > 0 ? std::clamp(top / bottom, 0.0, 20.0) : 1;
   double cost = kParameter;
-  for (const Window& w : all)
-    if (Applies(w)) cost += Cost((w.F + c * (w.x_l + w.x_r) - w.v) / std::hypot(w.sd_f, c * w.noise_l));
+  for (const Window& w : all) {
+    if (!Applies(w)) continue;
+    cost += Cost((c * (w.own + w.x_r) + w.Rest() - w.x_r - w.v) / w.sd_e);
+    cost += Cost((w.F + c * (w.x_l + w.x_r) - w.v) / std::hypot(w.sd_f, c * w.noise_l));
+  }
   return cost;
 }
 
@@ -266,8 +274,7 @@ bool LoopCarriesCurrent(const std::vector<Window>& all, double a) {
   double sum = 0, count = 0;
   for (const Window& w : all) {
     if (!Applies(w)) continue;
-    const double rest = w.e + w.v - w.own;
-    sum += Cost((a * a * w.own + a * rest - w.v) / w.sd_e);
+    sum += Cost((a * a * w.own + a * w.Rest() - w.v) / w.sd_e);
     count += 1;
   }
   return count > 0 && sum / count > 16;
@@ -309,10 +316,11 @@ Examination ExamineCoil(const LinkageModel& model, const DetectorSettings& setti
                ? (entries[1].cost - entries[0].cost > kMargin ? best : FaultClass::kAmplifierOff)
                : FaultClass::kOpen;
   if (best == FaultClass::kNone) {
-    if (UnexplainedStep(model, settings, periods, onset, coil) < 0.09) return out;
+    if (UnexplainedStep(model, settings, periods, onset, coil) < kLeastOffset) return out;
     best = FaultClass::kCurrentSensor;  // right before and after, but another offset
   }
-  out.decided = lead > kMargin || last;
+  const bool offset = best == FaultClass::kCurrentSensor && entries[0].cls == FaultClass::kNone;
+  out.decided = lead > kMargin || last || (offset && periods.size() >= first + 3);
   out.diagnosis.coil = coil;
   out.diagnosis.cls = best;
   out.diagnosis.onset = periods[onset]->in.t;

@@ -9,8 +9,9 @@
 ///   open             i = 0
 ///   amplifier off    e = v_off - v_on in the on phase, until the current has decayed to zero
 ///   switch stuck on  e = v_on - v_off in the off phase
-///   partial short    a F + a² L_l di/dt + a R i = v,  a = 1 - s;  for bypassed and closed loops
-///   current sensor   F + c (L_l di/dt + R i) = v,     c = 1/gain, any;
+///   partial short    a F + a² L_l di/dt + a R i = v,  a = 1 - s;  and, unless the shorted turns
+///                    carry a current,  a² L_jj di/dt + a (the rest) = v
+///   current sensor   F + c (L_l di/dt + R i) = v  and  c L_jj di/dt + the rest = v,  c = 1/gain;
 ///                    or a reading that stands still;  or all well, but after a step of the reading
 ///
 /// Costs are sums of squares over their variances plus a penalty per free quantity.

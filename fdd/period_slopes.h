@@ -21,7 +21,6 @@ struct MeasuredPeriod {
   const Lane* duty = nullptr;
   double bus = 0;                      // mean over the period [V]
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [m]
-  double extra_sd = 0;                 // of every residual, besides the settings' [V]
   bool comparable = true;              // false: bus or position unknown, nothing can be concluded
 };
 

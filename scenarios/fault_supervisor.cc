@@ -16,7 +16,6 @@ constexpr double kLeastGapSd = 0.01, kLeastLeakageSd = 0.05;  // relative, when 
 constexpr double kBusStep = 0.02, kBusSag = 0.9;              // of the nominal bus
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;    // [s]
 constexpr double kCredibleJump = 3e-5;                        // [m] in one controller period: 4700 m/s²
-constexpr double kLostPosition = 5;                           // [V] doubt of every residual
 
 double ToleranceOf(const RigParameters& rig, const std::string& path, double least) {
   for (const Tolerance& t : rig.tolerances)
@@ -72,7 +71,6 @@ struct FaultSupervisor::Watched {
   const BearingParameters* bearing = nullptr;
   std::size_t index = 0;
   std::size_t first_axis = 0;
-  double cos_a = 1, sin_a = 0;              // opposed: one axis along a
   std::vector<double> weights;              // of the sensor planes, radial
   std::vector<SensedPlane> planes;
   std::unique_ptr<BearingDetector> detector;
@@ -80,6 +78,11 @@ struct FaultSupervisor::Watched {
   Coils turns_left = Coils::Ones();
   int alarmed = -1;                         // coil that the alarm was raised for
 
+  bool Uses(int axis) const {
+    if (bearing->kind != BearingKind::kRadial) return axis == static_cast<int>(first_axis);
+    return std::any_of(planes.begin(), planes.end(),
+                       [&](const SensedPlane& p) { return p.x_axis == axis || p.y_axis == axis; });
+  }
   void Position(const PositionMonitor& p, double t, double* x, double* y) const {
     *x = *y = 0;
     if (bearing->kind != BearingKind::kRadial) {
@@ -147,7 +150,6 @@ void FaultSupervisor::WatchPositions(const PeriodMeasurement& m, std::vector<Run
   const double t = m.t + T_;
   events.push_back({t, "detected", name, "", 0});
   events.push_back({t, "classified", name, ToText(FaultClass::kPositionSensor), 0});
-  sensor_doubt_ = kLostPosition;
 }
 
 void FaultSupervisor::AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
@@ -171,8 +173,11 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, st
   in.bus = 0.5 * (b.bus + last_bus_);
   w.Position(positions_, m.t, &in.x0, &in.y0);
   w.Position(positions_, m.t + T_, &in.x1, &in.y1);
-  in.extra_sd = sensor_doubt_;
-  in.comparable = positions_.ready(m.t) && std::abs(b.bus - last_bus_) < kBusStep * rig_.amplifier.bus_voltage;
+  // Without its position a bearing's inductances are not known: nothing can be concluded.
+  bool sensed = positions_.ready(m.t);
+  for (std::size_t a = 0; a < axis_names_.size(); ++a)
+    if (positions_.faulty(a) && w.Uses(static_cast<int>(a))) sensed = false;
+  in.comparable = sensed && std::abs(b.bus - last_bus_) < kBusStep * rig_.amplifier.bus_voltage;
   const BearingDetector::Alarm alarm = w.detector->Period(in);
   coil_periods_ += w.bearing->coils();
   if (alarm.coil < 0) return;

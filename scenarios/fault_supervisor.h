@@ -50,7 +50,7 @@ class FaultSupervisor : public Supervisor {
 
   const RigParameters rig_;
   FaultSupervisorOptions options_;
-  double T_ = 0, last_bus_ = 0, sensor_doubt_ = 0;  // [s], [V], [V]
+  double T_ = 0, last_bus_ = 0;  // [s], [V]
   bool bus_sagged_ = false;
   std::vector<std::string> axis_names_;
   PositionMonitor positions_;
