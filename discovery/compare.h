@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "discovery/blocks.h"
+#include "discovery/block_ratios.h"
 #include "discovery/residual.h"
 
 namespace ambrig {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/residual_force.h"
+#include "scenarios/residual_force.h"
 
 namespace ambrig {
 
@@ -142,7 +142,7 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
     u.where = "plane " + plane + ", worst at " + channel;
     double best_share = 0;
     for (const CaseRecord& candidate : model.data().records) {
-      const auto force = EstimateResidualForce(fit.hypothesis.rig, candidate);
+      const auto force = EstimateResidualForce(fit.hypothesis.rig, candidate.scenario, candidate.data);
       if (!force) continue;
       for (const auto& p : force->planes) {
         if (p.bearing != plane) continue;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/rig.h"
 #include "scenarios/switching_engine.h"
 
 namespace ambrig {
@@ -81,15 +82,6 @@ double Hypothesis::ValueAt(std::size_t parameter, double coordinate) const {
   const FreeParameter& p = free[parameter];
   const double v = p.logarithmic ? p.start * std::exp(0.3 * coordinate) : p.start + p.step * coordinate;
   return std::clamp(v, p.lo, p.hi);
-}
-
-double RecordRateFor(const RigParameters& rig, double rate) {
-  const double pwm = rig.amplifier.switching_frequency;
-  const int k = rig.samples_per_period();
-  if (rate <= pwm * (1 + 1e-9)) return pwm / std::max(1.0, std::floor(pwm / rate + 1e-6));
-  for (int part = 2; part <= k; ++part)
-    if (k % part == 0 && pwm * part >= rate * (1 - 1e-9)) return pwm * part;
-  return pwm * k;
 }
 
 CaseModel::CaseModel(const Case& c) : case_(c) {

@@ -82,7 +82,4 @@ class CaseModel {
   std::vector<std::unique_ptr<CommandPlan>> plans_;
 };
 
-/// Rates at which the engine can record: the nearest one not below `rate`.
-double RecordRateFor(const RigParameters& rig, double rate);
-
 }  // namespace ambrig

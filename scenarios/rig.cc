@@ -1,5 +1,6 @@
 #include "scenarios/rig.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "effects/catalogue.h"
@@ -180,6 +181,15 @@ std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {
     }
   }
   return out;
+}
+
+double RecordRateFor(const RigParameters& rig, double rate) {
+  const double pwm = rig.amplifier.switching_frequency;
+  const int k = rig.samples_per_period();
+  if (rate <= pwm * (1 + 1e-9)) return pwm / std::max(1.0, std::floor(pwm / rate + 1e-6));
+  for (int part = 2; part <= k; ++part)
+    if (k % part == 0 && pwm * part >= rate * (1 - 1e-9)) return pwm * part;
+  return pwm * k;
 }
 
 }  // namespace ambrig

@@ -20,4 +20,7 @@ const PidParameters& PidOf(const RigParameters& rig, const BearingParameters& b)
 /// Bearing forces (fx, fy) that carry the rotor's weight, one per bearing. [N]
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig);
 
+/// Rates at which the engine can record: the nearest one not below `rate`.
+double RecordRateFor(const RigParameters& rig, double rate);
+
 }  // namespace ambrig

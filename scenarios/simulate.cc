@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "scenarios/fault_supervisor.h"
+#include "scenarios/redistribution_setup.h"
 #include "scenarios/switching_engine.h"
 
 namespace ambrig {
@@ -17,6 +19,15 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const
   engine.snapshots = options.for_report;
   engine.progress = options.progress;
   engine.stop = options.stop;
+  std::unique_ptr<FaultSupervisor> supervisor;
+  const bool bridges = rig.amplifier.modulation == Modulation::kBiState;
+  if (scenario.fault_tolerant && scenario.start != StartState::kClamped && bridges) {
+    FaultSupervisorOptions watch;
+    watch.slopes = options.for_report;
+    watch.cache_dir = RedistributionCacheDirectory();
+    supervisor = std::make_unique<FaultSupervisor>(rig, watch);
+    engine.supervisor = supervisor.get();
+  }
   return SwitchingEngine(rig, scenario, engine).Run();
 }
 

@@ -78,7 +78,9 @@ int Redistribute(const RedistributeOptions& o) {
     throw InputError(fmt::format("--bearing = {}, allowed: {}", o.bearing, known));
   }
   const auto sets = FailedSets(o.failed);
-  const RedistributionTable table(RedistributionProblemOf(rig, *b), RedistributionCacheDirectory());
+  DistributionOptions best;
+  best.policy = DistributionPolicy::kCapacity;
+  const RedistributionTable table(RedistributionProblemOf(rig, *b), RedistributionCacheDirectory(), best);
   {
     Progress progress("redistribute");
     for (std::size_t k = 0; k < sets.size(); ++k) {

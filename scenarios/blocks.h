@@ -7,16 +7,15 @@
 #include <map>
 #include <string>
 
-#include "discovery/model.h"
+#include "core/record/record.h"
+#include "scenarios/scenario.h"
 
 namespace ambrig {
 
 using BlockErrors = std::map<std::string, double>;
 
 /// Rms error of every block that this record can tell.
-BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const CaseRecord& record);
-
-/// Errors of the data over errors of the model's own noisy record.
-BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record);
+BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario,
+                     const Record& data);
 
 }  // namespace ambrig

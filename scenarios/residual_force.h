@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "discovery/model.h"
+#include "core/record/record.h"
+#include "scenarios/scenario.h"
 
 namespace ambrig {
 
@@ -22,7 +23,8 @@ struct ResidualForce {
 };
 
 /// nullopt where the record has no currents and positions of two radial bearings.
-std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const CaseRecord& record, double cutoff = 300);
+std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const Scenario& scenario,
+                                                   const Record& data, double cutoff = 300);
 
 /// Zero-phase low pass (Gaussian, -3 dB at cutoff) of a series; and its derivatives 0, 1, 2.
 std::vector<double> Smooth(const std::vector<double>& y, double rate, double cutoff, int derivative = 0);

@@ -1,4 +1,4 @@
-#include "discovery/residual_force.h"
+#include "scenarios/residual_force.h"
 
 #include <fmt/format.h>
 
@@ -30,13 +30,13 @@ std::vector<double> Smooth(const std::vector<double>& y, double rate, double cut
   return out;
 }
 
-std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const CaseRecord& record, double cutoff) {
-  if (record.scenario.start == StartState::kClamped) return std::nullopt;
+std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const Scenario& scenario, const Record& d,
+                                                   double cutoff) {
+  if (scenario.start == StartState::kClamped) return std::nullopt;
   std::vector<const BearingParameters*> bearings;
   for (const auto& b : rig.bearings)
     if (b.kind == BearingKind::kRadial) bearings.push_back(&b);
   if (bearings.size() != 2) return std::nullopt;
-  const Record& d = record.data;
   const std::size_t n = d.rows();
   ResidualForce out;
   // Readings at the sensor planes -> shaft centre at the bearing planes (rigid, nominal geometry).
@@ -59,8 +59,8 @@ std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, con
   for (std::size_t k = 0; k < n; ++k) {
     const double t = d.TimeAt(k);
     out.t.push_back(t);
-    out.omega.push_back(omega ? omega->samples[k] : record.scenario.speed.Speed(t));
-    out.theta.push_back(theta ? theta->samples[k] : record.scenario.speed.Angle(t));
+    out.omega.push_back(omega ? omega->samples[k] : scenario.speed.Speed(t));
+    out.theta.push_back(theta ? theta->samples[k] : scenario.speed.Angle(t));
   }
   for (const BearingParameters* b : bearings) {
     ResidualForce::Plane plane;
@@ -114,7 +114,7 @@ std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, con
     const double beta_dd = sax, alpha_dd = -say, beta_d = svx, alpha_d = -svy;
     double Fx = m * (ax - rig.gravity[0]), Fy = m * (ay - rig.gravity[1]);
     double My = It * beta_dd - Ip * out.omega[k] * alpha_d, Mx = It * alpha_dd + Ip * out.omega[k] * beta_d;
-    for (const LoadSpec& l : record.scenario.loads)
+    for (const LoadSpec& l : scenario.loads)
       if (out.t[k] >= l.start && out.t[k] < l.stop) {
         Fx -= l.fx;
         Fy -= l.fy;

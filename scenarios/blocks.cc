@@ -1,4 +1,4 @@
-#include "discovery/blocks.h"
+#include "scenarios/blocks.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "control/pid.h"
-#include "discovery/floor.h"
-#include "discovery/residual_force.h"
+#include "actuators/radial_stator.h"
+#include "scenarios/residual_force.h"
 #include "scenarios/rig.h"
 #include "scenarios/switching_engine.h"
 
@@ -30,9 +30,8 @@ void Put(BlockErrors& out, const std::string& block, const Mean& mean) {
 }
 
 /// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
-void ControllerBlock(const RigParameters& nominal, const CaseRecord& record, BlockErrors& out) {
-  const Record& d = record.data;
-  if (record.scenario.start == StartState::kClamped || std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate) return;
+void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, const Record& d, BlockErrors& out) {
+  if (scenario.start == StartState::kClamped || std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate) return;
   Mean error;
   for (const BearingParameters& b : nominal.bearings) {
     if (b.kind != BearingKind::kRadial) continue;
@@ -58,7 +57,7 @@ void ControllerBlock(const RigParameters& nominal, const CaseRecord& record, Blo
       for (std::size_t k = 0; k + 1 < d.rows(); ++k) {
         const double t = d.TimeAt(k) + 1e-10;
         double r = 0, f = 0;
-        for (const Excitation& e : record.scenario.excitations) {
+        for (const Excitation& e : scenario.excitations) {
           if (e.target != axis) continue;
           (e.port == "reference" ? r : f) += e.Value(t);
         }
@@ -78,30 +77,29 @@ void ControllerBlock(const RigParameters& nominal, const CaseRecord& record, Blo
   Put(out, "controller", error);
 }
 
-void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const CaseRecord& record, BlockErrors& out) {
-  const Record& d = record.data;
+void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario, const Record& d, BlockErrors& out) {
   bool readings = true, set_points = false;
   for (const BearingParameters& b : rig.bearings) {
     for (const auto& axis : b.Axes()) readings = readings && d.Find(axis);
     set_points = set_points || d.Find(b.name + ".s1");
   }
-  if (!set_points || (!readings && record.scenario.start != StartState::kClamped)) return;
+  if (!set_points || (!readings && scenario.start != StartState::kClamped)) return;
   Record forced = d;
   if (!readings)
     for (const BearingParameters& b : rig.bearings) {
-      const auto it = record.scenario.clamp.find(b.name);
-      const auto at = it == record.scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+      const auto it = scenario.clamp.find(b.name);
+      const auto at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
       for (std::size_t side = 0; side < b.Axes().size(); ++side)
         if (!forced.Find(b.Axes()[side])) forced.channels.push_back({b.Axes()[side], "m", std::vector<double>(d.rows(), at[side])});
     }
-  Scenario scenario = record.scenario;
-  scenario.noise = false;
+  Scenario quiet = scenario;
+  quiet.noise = false;
   EngineOptions options;
   options.forced = &forced;
   options.nominal = &nominal;
   options.watch = false;
   options.record_rate = RecordRateFor(rig, d.rate);
-  const Record simulated = SwitchingEngine(rig, scenario, options).Run().record;
+  const Record simulated = SwitchingEngine(rig, quiet, options).Run().record;
   if (std::abs(simulated.rate - d.rate) > 1e-6 * d.rate) return;
   const auto shift = static_cast<std::size_t>(std::lround(d.start * d.rate));
   const std::size_t settle = std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(0.004 * d.rate));
@@ -115,13 +113,12 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Cas
   Put(out, "coil", error);
 }
 
-void ForceAndSensorBlocks(const RigParameters& rig, const CaseRecord& record, BlockErrors& out) {
-  if (record.scenario.start != StartState::kClamped) return;
-  const Record& d = record.data;
+void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, const Record& d, BlockErrors& out) {
+  if (scenario.start != StartState::kClamped) return;
   Mean force, sensor;
   for (const BearingParameters& b : rig.bearings) {
-    const auto it = record.scenario.clamp.find(b.name);
-    const std::array<double, 2> at = it == record.scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    const auto it = scenario.clamp.find(b.name);
+    const std::array<double, 2> at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
     const Channel *fx = d.Find(b.name + ".fx"), *fy = d.Find(b.name + ".fy");
     const Channel* current[kPoles] = {};
     bool complete = b.kind == BearingKind::kRadial && fx && fy;
@@ -142,8 +139,8 @@ void ForceAndSensorBlocks(const RigParameters& rig, const CaseRecord& record, Bl
     for (const auto& o : rig.bearings)
       if (o.kind == BearingKind::kRadial && o.name != b.name) other = &o;
     if (!other) continue;
-    const auto ot = record.scenario.clamp.find(other->name);
-    const std::array<double, 2> far = ot == record.scenario.clamp.end() ? std::array<double, 2>{0, 0} : ot->second;
+    const auto ot = scenario.clamp.find(other->name);
+    const std::array<double, 2> far = ot == scenario.clamp.end() ? std::array<double, 2>{0, 0} : ot->second;
     for (std::size_t side = 0; side < 2; ++side) {
       const Channel* y = d.Find(b.Axes()[side]);
       if (!y) continue;
@@ -155,11 +152,11 @@ void ForceAndSensorBlocks(const RigParameters& rig, const CaseRecord& record, Bl
   Put(out, "sensor", sensor);
 }
 
-void RotorBlock(const RigParameters& rig, const CaseRecord& record, BlockErrors& out) {
-  const auto f = EstimateResidualForce(rig, record, 400);
+void RotorBlock(const RigParameters& rig, const Scenario& scenario, const Record& d, BlockErrors& out) {
+  const auto f = EstimateResidualForce(rig, scenario, d, 400);
   if (!f) return;
   Mean error;
-  const std::size_t edge = static_cast<std::size_t>(0.004 * record.data.rate);
+  const std::size_t edge = static_cast<std::size_t>(0.004 * d.rate);
   for (const auto& p : f->planes)
     for (std::size_t k = edge; k + edge < p.fx.size(); ++k) {
       error.Add(p.fx[k]);
@@ -170,42 +167,12 @@ void RotorBlock(const RigParameters& rig, const CaseRecord& record, BlockErrors&
 
 }  // namespace
 
-BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const CaseRecord& record) {
+BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario, const Record& d) {
   BlockErrors out;
-  ControllerBlock(nominal, record, out);
-  CoilBlock(rig, nominal, record, out);
-  ForceAndSensorBlocks(rig, record, out);
-  RotorBlock(rig, record, out);
-  return out;
-}
-
-BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record) {
-  const CaseRecord& r = model.data().records[record];
-  Hypothesis noisy = h;
-  noisy.rig = WithCaseNoise(h.rig, model.data().noise);
-  CaseRecord own = r;
-  const Record simulated = model.Simulated(noisy, record, true, 21);
-  // The model's own noisy record, cut to the rows and channels of the data.
-  const auto shift = static_cast<std::size_t>(std::lround(r.data.start * simulated.rate));
-  const auto stride = static_cast<std::size_t>(std::max(1L, std::lround(simulated.rate / r.data.rate)));
-  for (Channel& c : own.data.channels) {
-    const Channel* s = simulated.Find(c.name);
-    if (!s) continue;
-    for (std::size_t k = 0; k < c.samples.size(); ++k) {
-      const std::size_t at = shift + k * stride;
-      if (at < s->samples.size()) c.samples[k] = s->samples[at];
-    }
-    const auto it = model.data().noise.find(c.name);
-    if (it != model.data().noise.end() && c.name.find(".f") != std::string::npos)
-      for (std::size_t k = 0; k < c.samples.size(); ++k) c.samples[k] += it->second * (k % 2 == 0 ? 1 : -1);
-  }
-  const BlockErrors measured = BlockRms(h.rig, model.data().rig, r), floor = BlockRms(h.rig, model.data().rig, own);
-  BlockErrors out;
-  for (const auto& [block, rms] : measured) {
-    const auto it = floor.find(block);
-    const double least = block == "controller" ? 1e-4 : block == "coil" ? 1e-4 : block == "sensor" ? 1e-8 : 1e-3;
-    out[block] = rms / std::max(least, it == floor.end() ? 0 : it->second);
-  }
+  ControllerBlock(nominal, scenario, d, out);
+  CoilBlock(rig, nominal, scenario, d, out);
+  ForceAndSensorBlocks(rig, scenario, d, out);
+  RotorBlock(rig, scenario, d, out);
   return out;
 }
 
