@@ -1,0 +1,157 @@
+/// Reading and checking of formulas in a rig file.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "effects/formula.h"
+#include "effects/formula_parser.h"
+
+namespace ambrig {
+
+namespace {
+
+bool Contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+void CheckName(const TomlTable& parameters, const std::string& key, const std::vector<std::string>& known) {
+  if (Contains(known, key)) parameters.Fail(key, "is a name that formulas know already, allowed: any other");
+  if (!IsFormulaName(key))
+    parameters.Fail(key, "is no name for a parameter, allowed: letters, digits and _, and none of " + FormulaFunctions());
+}
+
+/// { value, null, min, max, unit, sd }, or a plain number.
+void ReadParameter(const TomlTable& parameters, const std::string& key, EffectInstance& effect) {
+  EffectParameter row;
+  row.name = key;
+  row.unit = "-";
+  row.doc = "of the user's formula";
+  row.has_null = false;
+  double value = 0, sd = 0;
+  if (parameters.IsTable(key)) {
+    const TomlTable p = *parameters.Table(key);
+    value = p.Number("value");
+    row.has_null = p.Has("null");
+    row.null_value = p.Number("null", value);
+    row.lo = p.Number("min", -kInfinity);
+    row.hi = p.Number("max", kInfinity);
+    row.unit = p.String("unit", "-");
+    sd = p.Number("sd", 0);
+    p.RejectUnknownKeys();
+    const auto check = [&](const char* what, double v) {
+      if (!(row.lo <= v && v <= row.hi)) ThrowOutOfRange(p.Where(what), what, v, row.unit, row.lo, row.hi, row.doc);
+    };
+    check("value", value);
+    check("null", row.null_value);
+  } else {
+    value = row.null_value = parameters.Number(key);
+  }
+  // The usual size of a fit's step: what the user wrote, else the bounds, else 1.
+  double size = std::abs(value);
+  if (size == 0) size = std::isfinite(row.hi) ? 0.1 * std::abs(row.hi) : 0;
+  if (size == 0) size = std::isfinite(row.lo) ? 0.1 * std::abs(row.lo) : 0;
+  row.typical_hi = size > 0 ? size : 1;
+  row.typical_lo = 0.1 * row.typical_hi;
+  effect.table.push_back(row);
+  effect.values.push_back(value);
+  effect.sd.push_back(sd);
+}
+
+/// Parses the formula and evaluates it off centre and, for what rests there, at the centre.
+void Check(const std::string& text, const std::string& where, const EffectInstance& effect) {
+  std::vector<std::string> names = FormulaNames(FormulaTargetOf(effect.target));
+  const std::size_t known = names.size();
+  for (const EffectParameter& p : effect.table) names.push_back(p.name);
+  const FormulaExpression formula(text, names, where);
+  for (const bool centred : {false, true}) {
+    std::vector<double> values(names.size());
+    for (std::size_t k = 0; k < known; ++k) {
+      const char first = names[k][0];
+      values[k] = 1 + 0.01 * static_cast<double>(k);  // currents, angle, time
+      if (names[k] == "bus") values[k] = 30;
+      if (names[k] == "omega") values[k] = 100;
+      if (first == 'x' || first == 'y') values[k] = centred ? 0 : 1e-5;
+      if (first == 'v') values[k] = centred ? 0 : 1e-3;
+    }
+    std::copy(effect.values.begin(), effect.values.end(), values.begin() + static_cast<std::ptrdiff_t>(known));
+    if (const double v = formula(values.data()); !std::isfinite(v))
+      throw InputError(fmt::format("{} = \"{}\": gives {} {}", where, text, v,
+                                   centred ? "with the shaft at rest at x = y = 0" : "at x = y = 1e-5 m"));
+  }
+}
+
+void Add(const TomlTable& table, const std::string& table_key, const std::string& name, EffectInstance& effect) {
+  const std::string text = table.String(table_key);
+  Check(text, table.Where(table_key), effect);
+  effect.formulas.emplace_back(name, text);
+}
+
+const char* Needs(const std::string& quantity) {
+  if (quantity == "torque") return "\"rig\"";
+  if (quantity == "voltage") return "a coil or a bearing";
+  return "a plane or an axis";
+}
+
+bool Fits(const std::string& quantity, FormulaTarget target, const std::string& name) {
+  if (quantity == "torque") return target == FormulaTarget::kRig;
+  if (quantity == "voltage")
+    return target == FormulaTarget::kCoil || (target == FormulaTarget::kPlane && name != "z");
+  return target == FormulaTarget::kPlane || target == FormulaTarget::kAxis;
+}
+
+void ReadQuantity(const TomlTable& table, const std::string& quantity, EffectInstance& effect) {
+  const FormulaTarget target = FormulaTargetOf(effect.target);
+  if (!Fits(quantity, target, effect.target))
+    table.Fail(quantity, fmt::format("needs {} as target, not \"{}\"", Needs(quantity), effect.target));
+  const bool one_axis = target == FormulaTarget::kAxis || effect.target == "z";
+  if (quantity == "torque" || quantity == "voltage") return Add(table, quantity, quantity, effect);
+  if (table.IsString(quantity)) {
+    if (!one_axis) table.Fail(quantity, "acts on a plane, allowed: { x = \"...\", y = \"...\" }");
+    const bool y = effect.target.size() > 2 && effect.target.substr(effect.target.size() - 2) == ".y";
+    return Add(table, quantity, quantity + (y ? ".y" : ".x"), effect);
+  }
+  const auto both = table.Table(quantity);
+  if (one_axis) table.Fail(quantity, "acts on one axis, allowed: a formula in quotes");
+  for (const char* side : {"x", "y"})
+    if (both->Has(side)) Add(*both, side, quantity + "." + side, effect);
+  both->RejectUnknownKeys();
+  if (both->Keys().empty()) table.Fail(quantity, "is empty, allowed: { x = \"...\", y = \"...\" }");
+}
+
+}  // namespace
+
+FormulaTarget FormulaTargetOf(const std::string& target) {
+  if (target == "rig") return FormulaTarget::kRig;
+  if (target.find(".coil") != std::string::npos) return FormulaTarget::kCoil;
+  return target.find('.') != std::string::npos ? FormulaTarget::kAxis : FormulaTarget::kPlane;
+}
+
+std::vector<std::string> FormulaNames(FormulaTarget target) {
+  std::vector<std::string> names = {"x", "y", "vx", "vy", "theta", "omega", "t", "bus"};
+  if (target == FormulaTarget::kRig) return names;
+  for (int j = 1; j <= kFormulaCurrents; ++j) names.push_back("i" + std::to_string(j));
+  if (target == FormulaTarget::kCoil) names.push_back("i");
+  return names;
+}
+
+void ReadFormula(const TomlTable& table, EffectInstance& effect) {
+  effect.table.clear();
+  effect.values.clear();
+  effect.sd.clear();
+  effect.formulas.clear();
+  const std::vector<std::string> known = FormulaNames(FormulaTargetOf(effect.target));
+  if (const auto parameters = table.Table("parameters")) {
+    for (const std::string& key : parameters->Keys()) {
+      CheckName(*parameters, key, known);
+      ReadParameter(*parameters, key, effect);
+    }
+    parameters->RejectUnknownKeys();
+  }
+  for (const char* quantity : {"force", "reading", "voltage", "torque"})
+    if (table.Has(quantity)) ReadQuantity(table, quantity, effect);
+  if (effect.formulas.empty())
+    table.Fail("", "has no formula, allowed: force, reading, voltage or torque");
+}
+
+}  // namespace ambrig
