@@ -11,6 +11,7 @@ namespace {
 constexpr int kRing = 20;             // periods kept
 constexpr double kFewest = 4;         // samples of a phase that counts
 constexpr double kZeroCurrent = 0.03; // [A] below: the diodes may block
+constexpr double kClosestGap = 0.4;      // of the nominal: nearer, its error rules the inductance
 constexpr int kLongestExamination = 12;
 constexpr double kDoubt = 3;           // tolerances count this many times
 constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
@@ -24,6 +25,8 @@ BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettin
     slope_variance_[n] = SlopeVariance(static_cast<double>(n), s_.sampling.step);
   for (Lane& size : size_)
     for (int j = 0; j < kLanes; ++j) size[j] = 0.8;  // mean of |z| of a normal variable
+  const Lane P = model_.Permeance(0, 0);
+  centred_ = *std::max_element(P.v, P.v + kLanes);
   Solve();
 }
 
@@ -211,16 +214,18 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   }
   Residuals(in);
   const bool follows = follows_;
-  follows_ = in.comparable && !any_unknown_;
+  bool comparable = in.comparable;
+  for (double P : slopes_.P.v) comparable = comparable && P * kClosestGap < centred_;
+  follows_ = comparable && !any_unknown_;
   if (paused_ > 0) {
     --paused_;
     return out;
   }
   if (alarm_at_ < 0) {
-    if (in.comparable) Cusum();
+    if (comparable) Cusum();
     int stepped = -1;
-    if (in.comparable && follows && !any_unknown_) stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
-    bool alarm = false, calm = in.comparable;
+    if (comparable && follows && !any_unknown_) stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
+    bool alarm = false, calm = comparable;
     for (int q = 0; q < 3; ++q)
       for (int j = 0; j < model_.coils; ++j) {
         alarm = alarm || G_[q][j] > s_.threshold;

@@ -16,7 +16,7 @@
 /// Afterwards the model knows the fault (masked coil, fewer turns) and watching goes on.
 ///
 /// A residual counts only where its equation holds: at least 4 samples in the phase, no current at
-/// zero in the off phase (diodes block), no clipped ADC, a known bus and position.
+/// zero in the off phase (diodes block), no clipped ADC, a known bus and position, no gap nearly closed.
 #include <array>
 #include <vector>
 
@@ -97,6 +97,7 @@ class BearingDetector {
   std::array<bool, kLanes> unknown_mmf_{};
   bool any_unknown_ = false;
   std::vector<KeptPeriod> ring_;
+  double centred_ = 0;                    // largest permeance at the centre [H]
   long long count_ = 0, alarm_at_ = -1;
   int paused_ = 8, suspect_ = -1;
   bool raised_ = false, suspect_clear_ = false;
