@@ -1,6 +1,7 @@
 #include "effects/catalogue.h"
 
 #include "effects/effects_magnetic.h"
+#include "effects/effects_motion.h"
 
 namespace ambrig {
 
@@ -22,6 +23,26 @@ const std::vector<EffectDescription>& Catalogue() {
       CurrentSensorGain(),
       CurrentSensorOffset(),
       LoopDelay(),
+      SensorGain(),
+      SensorOffset(),
+      SensorRotation(),
+      SensorLowpass(),
+      SensorRunout(),
+      SensorHum(),
+      Unbalance(),
+      ShaftBow(),
+      BendingModeEffect(),
+      RotatingDamping(),
+      CrossCoupling(),
+      SidePull(),
+      CouplingMisalignment(),
+      Windage(),
+      BaseMode(),
+      BaseVibration(),
+      ConstantLoad(),
+      ContactFriction(),
+      ContactMount(),
+      Formula(),
   };
   return all;
 }
