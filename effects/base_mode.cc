@@ -1,7 +1,9 @@
 /// The stator stands on a compliant base: mass M on a spring and damper in both radial directions,
-///   M X'' + c X' + k X = -(force of the stator on the rotor),  k = M (2 pi f)²,  c = 2 zeta M 2 pi f.
+///   M X'' + c X' + k X = -(force of the stator on the rotor),  k = M (2 pi f)²,  c = 2 zeta M 2 pi
+///   f.
 /// Sensors and gaps move with the base. From force to relative motion this puts a pole at f and a
-/// zero at f √(M/(M + m)) of a rigid rotor, equal in x and y and without gyroscopic split (facts.md 5.4).
+/// zero at f √(M/(M + m)) of a rigid rotor, equal in x and y and without gyroscopic split
+/// (facts.md 5.4).
 #include "core/math/constants.h"
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
@@ -13,12 +15,14 @@ EffectDescription BaseMode() {
   d.id = "base-mode";
   d.title = "Compliant base";
   d.physics =
-      "The stator is not fixed: it moves on its base as a mass on a spring, pushed by what the bearings\n"
+      "The stator is not fixed: it moves on its base as a mass on a spring, pushed by what the "
+      "bearings\n"
       "push on the rotor. A pole and a zero appear near its frequency in every radial axis.";
   d.target = TargetKind::kRig;
-  d.parameters = {{"mass", "kg", kInfinity, 1e-2, kInfinity, 10, 500, "stator and what moves with it"},
-                  {"frequency", "Hz", 60, 0.5, 2e3, 20, 200, "of stator on base, rotor clamped off"},
-                  {"damping", "-", 0.02, 0, 2, 0.005, 0.1, "ratio"}};
+  d.parameters = {
+      {"mass", "kg", kInfinity, 1e-2, kInfinity, 10, 500, "stator and what moves with it"},
+      {"frequency", "Hz", 60, 0.5, 2e3, 20, 200, "of stator on base, rotor clamped off"},
+      {"damping", "-", 0.02, 0, 2, 0.005, 0.1, "ratio"}};
   d.off_when_null = {"mass"};
   d.shows_in = "force excitation near its frequency; the planes answer together, at standstill too";
   d.confused_with = "bending-mode (splits with speed, other signs along z), base-vibration";

@@ -9,17 +9,21 @@ EffectDescription ConstantLoad() {
   d.id = "constant-load";
   d.title = "Constant load";
   d.physics =
-      "A belt, a hose or a tilt of the rig pushes the rotor with a constant force: the bearing carries\n"
+      "A belt, a hose or a tilt of the rig pushes the rotor with a constant force: the bearing "
+      "carries\n"
       "it with static currents that fall with the bias.";
   d.target = TargetKind::kPlane;
-  d.parameters = {{"fx", "N", 0, -1e6, 1e6, 0.5, 30, "along x"}, {"fy", "N", 0, -1e6, 1e6, 0.5, 30, "along y"}};
+  d.parameters = {{"fx", "N", 0, -1e6, 1e6, 0.5, 30, "along x"},
+                  {"fy", "N", 0, -1e6, 1e6, 0.5, 30, "along y"}};
   d.off_when_null = {"fx", "fy"};
   d.shows_in = "levitated records: static currents, set-points; not in clamped ones";
-  d.confused_with = "magnetic-offset and sensor-offset (grow with the bias), rotor mass, current-sensor-offset";
+  d.confused_with =
+      "magnetic-offset and sensor-offset (grow with the bias), rotor mass, current-sensor-offset";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const PlaneMap map = TargetPlane(e, plant).plane;
     const double fx = e.Value("fx"), fy = e.Value("fy");
-    AddForceTerm(plant, [=](const MotionState&, RotorForces& forces) { map.AddForce(fx, fy, forces.Q); });
+    AddForceTerm(plant,
+                 [=](const MotionState&, RotorForces& forces) { map.AddForce(fx, fy, forces.Q); });
   };
   return d;
 }

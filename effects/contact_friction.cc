@@ -1,6 +1,6 @@
 /// Friction of one auxiliary bearing, other than in the rig file (lubricant lost, coating worn).
-/// friction >= 0 is the coefficient itself. A negative value is minus a fraction of the rig's own, so
-/// that -1 is exactly "as in the rig" (1 * mu = mu, bit for bit) and the parameter has no jump.
+/// friction >= 0 is the coefficient itself. A negative value is minus a fraction of the rig's own,
+/// so that -1 is exactly "as in the rig" (1 * mu = mu, bit for bit) and the parameter has no jump.
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
 
@@ -11,10 +11,12 @@ EffectDescription ContactFriction() {
   d.id = "contact-friction";
   d.title = "Friction of an auxiliary bearing";
   d.physics =
-      "The auxiliary bearing rubs more or less than its drawing says: after a touch-down the rotor is\n"
+      "The auxiliary bearing rubs more or less than its drawing says: after a touch-down the rotor "
+      "is\n"
       "driven up the wall and slowed down accordingly; backward whirl comes with high friction.";
   d.target = TargetKind::kPlane;
-  d.parameters = {{"friction", "-", -1, -1, 2, 0.05, 0.5, "coefficient; negative: minus a fraction of the rig's own"}};
+  d.parameters = {{"friction", "-", -1, -1, 2, 0.05, 0.5,
+                   "coefficient; negative: minus a fraction of the rig's own"}};
   d.off_when_null = {"friction"};
   d.shows_in = "drops, touch-downs, resting starts";
   d.confused_with = "contact-mount, windage (coast-down)";

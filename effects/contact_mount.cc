@@ -1,5 +1,6 @@
-/// The race of an auxiliary bearing stands on a resilient mount: mass, spring and damper between race
-/// and stator in both radial directions. Above 1e12 N/m, four decades over any contact, it is rigid.
+/// The race of an auxiliary bearing stands on a resilient mount: mass, spring and damper between
+/// race and stator in both radial directions. Above 1e12 N/m, four decades over any contact, it is
+/// rigid.
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
 
@@ -10,14 +11,16 @@ EffectDescription ContactMount() {
   d.id = "contact-mount";
   d.title = "Resilient mount of an auxiliary bearing";
   d.physics =
-      "The auxiliary bearing sits in a tolerance ring or elastomer: its race gives way under the rotor,\n"
+      "The auxiliary bearing sits in a tolerance ring or elastomer: its race gives way under the "
+      "rotor,\n"
       "which makes impacts longer and softer and takes energy out of the rebound.";
   d.target = TargetKind::kPlane;
   d.parameters = {{"stiffness", "N/m", kInfinity, 1, kInfinity, 1e6, 1e8, "of the mount"},
                   {"damping", "N s/m", 0, 0, 1e7, 100, 1e4, "of the mount"},
                   {"mass", "kg", 0.1, 1e-4, 100, 0.05, 1, "race and holder"}};
   d.off_when_null = {"stiffness"};
-  d.shows_in = "drops, touch-downs, resting starts (the rotor rests lower by its weight over the stiffness)";
+  d.shows_in =
+      "drops, touch-downs, resting starts (the rotor rests lower by its weight over the stiffness)";
   d.confused_with = "contact-friction, contact stiffness and clearance of the rig";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const std::size_t k = TargetAuxiliary(e, plant);

@@ -11,13 +11,15 @@ EffectDescription CouplingMisalignment() {
   d.id = "coupling-misalignment";
   d.title = "Misaligned coupling";
   d.physics =
-      "The shaft that drives the rotor is not in line with it: the coupling's elements bend twice per\n"
+      "The shaft that drives the rotor is not in line with it: the coupling's elements bend twice "
+      "per\n"
       "turn and push with a force that depends on their stiffness, not on the speed.";
   d.target = TargetKind::kPlane;
   d.parameters = {{"c", "N", 0, -1e4, 1e4, 0.2, 20, "along x at theta = 0"},
                   {"s", "N", 0, -1e4, 1e4, 0.2, 20, "along y at theta = 0"}};
   d.off_when_null = {"c", "s"};
-  d.shows_in = "turning records: twice per turn, equal force at any speed, so more motion at low speed";
+  d.shows_in =
+      "turning records: twice per turn, equal force at any speed, so more motion at low speed";
   d.confused_with = "sensor-runout of order 2 (a reading, no force)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const PlaneMap map = TargetPlane(e, plant).plane;

@@ -1,6 +1,6 @@
 /// Cross-coupled stiffness of a seal or impeller:  fx = -k y,  fy = +k x  on the rotor, the
-/// opposite on the stator. k > 0 drives the forward whirl: unstable once k > c w of the whirl's mode
-/// (facts.md 5.4; Alford k = beta T/(D h), 1e3 to 1e7 N/m).
+/// opposite on the stator. k > 0 drives the forward whirl: unstable once k > c w of the whirl's
+/// mode (facts.md 5.4; Alford k = beta T/(D h), 1e3 to 1e7 N/m).
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
 
@@ -11,7 +11,8 @@ EffectDescription CrossCoupling() {
   d.id = "cross-coupling";
   d.title = "Cross-coupled stiffness (seal, impeller)";
   d.physics =
-      "The fluid in a seal or impeller pushes the rotor sideways to its displacement: the forward whirl\n"
+      "The fluid in a seal or impeller pushes the rotor sideways to its displacement: the forward "
+      "whirl\n"
       "gains energy, the backward whirl loses it.";
   d.target = TargetKind::kPlane;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 5e3, 2e5, "k of fx = -k y, fy = +k x"}};

@@ -33,7 +33,8 @@ class FormulaValues {
     std::copy(std::begin(motion), std::end(motion), values_.begin());
     if (target_ == FormulaTarget::kRig) return values_.data();
     for (int j = 0; j < kFormulaCurrents; ++j)
-      values_[8 + static_cast<std::size_t>(j)] = j < bearing_->lanes.coils ? bearing_->lanes.i[j] : 0;
+      values_[8 + static_cast<std::size_t>(j)] =
+          j < bearing_->lanes.coils ? bearing_->lanes.i[j] : 0;
     return values_.data();
   }
   const double* AtPlane(const MotionState& m, const PlaneMap& map) {
@@ -53,7 +54,8 @@ class FormulaValues {
 
 /// One quantity of an effect: its formulas in x and y (or the only one in x), and their values.
 struct Law {
-  Law(const EffectInstance& e, const Plant& plant, const BearingPlant* bearing, const std::string& quantity)
+  Law(const EffectInstance& e, const Plant& plant, const BearingPlant* bearing,
+      const std::string& quantity)
       : values(e, plant, bearing) {
     for (const auto& [name, text] : e.formulas) {
       if (name == quantity || name == quantity + ".x") x.emplace(text, values.names(), e.where);
@@ -67,7 +69,8 @@ struct Law {
 
 class FormulaForce : public ForceTerm {
  public:
-  FormulaForce(std::unique_ptr<Law> law, const BearingPlant& b) : law_(std::move(law)), map_(b.plane), radial_(!b.thrust && !b.opposed) {}
+  FormulaForce(std::unique_ptr<Law> law, const BearingPlant& b)
+      : law_(std::move(law)), map_(b.plane), radial_(!b.thrust && !b.opposed) {}
   void Add(const MotionState& m, RotorForces& forces) const override {
     const double* v = law_->values.AtPlane(m, map_);
     const double fx = law_->x ? (*law_->x)(v) : 0, fy = law_->y ? (*law_->y)(v) : 0;
@@ -131,7 +134,8 @@ void AddVoltage(const EffectInstance& e, Plant& plant, BearingPlant& b) {
   for (int j = 0; j < b.lanes.coils; ++j) {
     if (at != std::string::npos && std::stoi(e.target.substr(at + 5)) != j + 1) continue;
     auto law = std::make_unique<Law>(e, plant, &b, "voltage");
-    if (law->any()) b.voltage[j].push_back(std::make_unique<FormulaVoltage>(std::move(law), b.plane));
+    if (law->any())
+      b.voltage[j].push_back(std::make_unique<FormulaVoltage>(std::move(law), b.plane));
   }
 }
 
@@ -139,14 +143,17 @@ void Apply(const EffectInstance& e, Plant& plant) {
   if (e.formulas.empty()) return;
   if (FormulaTargetOf(e.target) == FormulaTarget::kRig) {
     auto torque = std::make_unique<Law>(e, plant, nullptr, "torque");
-    if (torque->any()) plant.rotor.terms.push_back(std::make_unique<FormulaTorque>(std::move(torque)));
+    if (torque->any())
+      plant.rotor.terms.push_back(std::make_unique<FormulaTorque>(std::move(torque)));
     return;
   }
   BearingPlant& b = TargetPlane(e, plant);
   auto force = std::make_unique<Law>(e, plant, &b, "force");
-  if (force->any()) plant.rotor.terms.push_back(std::make_unique<FormulaForce>(std::move(force), b));
+  if (force->any())
+    plant.rotor.terms.push_back(std::make_unique<FormulaForce>(std::move(force), b));
   auto reading = std::make_unique<Law>(e, plant, &b, "reading");
-  if (reading->any()) InsertMap(b.sensor, std::make_unique<FormulaReading>(std::move(reading), b.sensor.map));
+  if (reading->any())
+    InsertMap(b.sensor, std::make_unique<FormulaReading>(std::move(reading), b.sensor.map));
   AddVoltage(e, plant, b);
 }
 
@@ -157,8 +164,10 @@ EffectDescription Formula() {
   d.id = "formula";
   d.title = "A law written by the user";
   d.physics =
-      "A force, reading, voltage or torque as a formula of position, speed, angle, time and currents,\n"
-      "written in the rig file with parameters of its own; fitted and adopted like any other effect.";
+      "A force, reading, voltage or torque as a formula of position, speed, angle, time and "
+      "currents,\n"
+      "written in the rig file with parameters of its own; fitted and adopted like any other "
+      "effect.";
   d.target = TargetKind::kAny;
   d.shows_in = "depends on the formula";
   d.confused_with = "depends on the formula";

@@ -2,17 +2,19 @@
 /// The effect `formula`: a law that the user writes in the rig file.
 ///
 ///   target       quantity                       what it means
-///   plane        force = { x, y }               on the rotor at that plane, its opposite on the stator [N];
+///   plane        force = { x, y }               on the rotor at that plane, its opposite on the
+///   stator [N];
 ///                                               "z": force = "..." along z
 ///   plane        reading = { x, y }             the sensors read this instead of x, y [m]
 ///   axis         force = "..", reading = ".."   the same for one axis
 ///   coil,bearing voltage = ".."                 in series with the coil (with each coil) [V]
-///   rig          torque = ".."                  on the rotor, where the speed is not prescribed [N m]
+///   rig          torque = ".."                  on the rotor, where the speed is not prescribed [N
+///   m]
 ///
-/// Known inside: x, y, vx, vy (shaft centre at the plane; a thrust bearing's x is z; rig: at the centre
-/// of mass; in a reading: what the sensor would read), theta, omega, t, bus; except for "rig" also
-/// i1..i8 of the bearing; for a coil i, its own current; the parameters; FormulaFunctions().
-/// Source: shared/design/effects.md.
+/// Known inside: x, y, vx, vy (shaft centre at the plane; a thrust bearing's x is z; rig: at the
+/// centre of mass; in a reading: what the sensor would read), theta, omega, t, bus; except for
+/// "rig" also i1..i8 of the bearing; for a coil i, its own current; the parameters;
+/// FormulaFunctions(). Source: shared/design/effects.md.
 #include <string>
 #include <vector>
 
@@ -28,7 +30,8 @@ FormulaTarget FormulaTargetOf(const std::string& target);
 /// Names known inside formulas for this target, before the effect's own parameters.
 std::vector<std::string> FormulaNames(FormulaTarget target);
 
-/// Reads parameters and formulas of a `formula` effect. @throws InputError naming the wrong formula.
+/// Reads parameters and formulas of a `formula` effect. @throws InputError naming the wrong
+/// formula.
 void ReadFormula(const TomlTable& table, EffectInstance& effect);
 
 }  // namespace ambrig

@@ -15,10 +15,14 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void CheckName(const TomlTable& parameters, const std::string& key, const std::vector<std::string>& known) {
-  if (Contains(known, key)) parameters.Fail(key, "is a name that formulas know already, allowed: any other");
+void CheckName(const TomlTable& parameters, const std::string& key,
+               const std::vector<std::string>& known) {
+  if (Contains(known, key))
+    parameters.Fail(key, "is a name that formulas know already, allowed: any other");
   if (!IsFormulaName(key))
-    parameters.Fail(key, "is no name for a parameter, allowed: letters, digits and _, and none of " + FormulaFunctions());
+    parameters.Fail(key,
+                    "is no name for a parameter, allowed: letters, digits and _, and none of " +
+                        FormulaFunctions());
 }
 
 /// { value, null, min, max, unit, sd }, or a plain number.
@@ -40,7 +44,8 @@ void ReadParameter(const TomlTable& parameters, const std::string& key, EffectIn
     sd = p.Number("sd", 0);
     p.RejectUnknownKeys();
     const auto check = [&](const char* what, double v) {
-      if (!(row.lo <= v && v <= row.hi)) ThrowOutOfRange(p.Where(what), what, v, row.unit, row.lo, row.hi, row.doc);
+      if (!(row.lo <= v && v <= row.hi))
+        ThrowOutOfRange(p.Where(what), what, v, row.unit, row.lo, row.hi, row.doc);
     };
     check("value", value);
     check("null", row.null_value);
@@ -74,14 +79,17 @@ void Check(const std::string& text, const std::string& where, const EffectInstan
       if (first == 'x' || first == 'y') values[k] = centred ? 0 : 1e-5;
       if (first == 'v') values[k] = centred ? 0 : 1e-3;
     }
-    std::copy(effect.values.begin(), effect.values.end(), values.begin() + static_cast<std::ptrdiff_t>(known));
+    std::copy(effect.values.begin(), effect.values.end(),
+              values.begin() + static_cast<std::ptrdiff_t>(known));
     if (const double v = formula(values.data()); !std::isfinite(v))
-      throw InputError(fmt::format("{} = \"{}\": gives {} {}", where, text, v,
-                                   centred ? "with the shaft at rest at x = y = 0" : "at x = y = 1e-5 m"));
+      throw InputError(
+          fmt::format("{} = \"{}\": gives {} {}", where, text, v,
+                      centred ? "with the shaft at rest at x = y = 0" : "at x = y = 1e-5 m"));
   }
 }
 
-void Add(const TomlTable& table, const std::string& table_key, const std::string& name, EffectInstance& effect) {
+void Add(const TomlTable& table, const std::string& table_key, const std::string& name,
+         EffectInstance& effect) {
   const std::string text = table.String(table_key);
   Check(text, table.Where(table_key), effect);
   effect.formulas.emplace_back(name, text);
@@ -103,12 +111,14 @@ bool Fits(const std::string& quantity, FormulaTarget target, const std::string& 
 void ReadQuantity(const TomlTable& table, const std::string& quantity, EffectInstance& effect) {
   const FormulaTarget target = FormulaTargetOf(effect.target);
   if (!Fits(quantity, target, effect.target))
-    table.Fail(quantity, fmt::format("needs {} as target, not \"{}\"", Needs(quantity), effect.target));
+    table.Fail(quantity,
+               fmt::format("needs {} as target, not \"{}\"", Needs(quantity), effect.target));
   const bool one_axis = target == FormulaTarget::kAxis || effect.target == "z";
   if (quantity == "torque" || quantity == "voltage") return Add(table, quantity, quantity, effect);
   if (table.IsString(quantity)) {
     if (!one_axis) table.Fail(quantity, "acts on a plane, allowed: { x = \"...\", y = \"...\" }");
-    const bool y = effect.target.size() > 2 && effect.target.substr(effect.target.size() - 2) == ".y";
+    const bool y =
+        effect.target.size() > 2 && effect.target.substr(effect.target.size() - 2) == ".y";
     return Add(table, quantity, quantity + (y ? ".y" : ".x"), effect);
   }
   const auto both = table.Table(quantity);

@@ -50,9 +50,12 @@ std::string Reason(const mu::Parser::exception_type& e, const std::vector<std::s
                          near.empty() ? "" : fmt::format(", did you mean {}?", near), Joined(names),
                          FormulaFunctions());
     }
-    case mu::ecEMPTY_EXPRESSION: return "is empty, allowed: a formula such as \"-k * x\"";
-    case mu::ecUNEXPECTED_EOF: return "ends too early";
-    case mu::ecMISSING_PARENS: return "a closing parenthesis is missing";
+    case mu::ecEMPTY_EXPRESSION:
+      return "is empty, allowed: a formula such as \"-k * x\"";
+    case mu::ecUNEXPECTED_EOF:
+      return "ends too early";
+    case mu::ecMISSING_PARENS:
+      return "a closing parenthesis is missing";
     default: {
       std::string text = e.GetMsg();
       std::replace(text.begin(), text.end(), '\n', ' ');
@@ -65,7 +68,8 @@ std::string Reason(const mu::Parser::exception_type& e, const std::vector<std::s
 
 const std::string& FormulaFunctions() {
   static const std::string all =
-      "abs, acos, acosh, asin, asinh, atan, atan2, atanh, avg, cos, cosh, exp, ln, log, log10, log2, max, "
+      "abs, acos, acosh, asin, asinh, atan, atan2, atanh, avg, cos, cosh, exp, ln, log, log10, "
+      "log2, max, "
       "min, pi, rint, sign, sin, sinh, sqrt, sum, tan, tanh";
   return all;
 }

@@ -10,7 +10,8 @@ namespace ambrig {
 class FormulaExpression {
  public:
   /// @throws InputError "WHERE = \"text\": what is wrong, where; allowed names".
-  FormulaExpression(const std::string& text, const std::vector<std::string>& names, const std::string& where);
+  FormulaExpression(const std::string& text, const std::vector<std::string>& names,
+                    const std::string& where);
   ~FormulaExpression();
   FormulaExpression(FormulaExpression&&) noexcept;
 

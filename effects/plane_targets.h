@@ -1,5 +1,6 @@
 #pragma once
-/// What a plane ("A", "z") or axis ("A.x", "z") target means, and the order of the maps on a sensor.
+/// What a plane ("A", "z") or axis ("A.x", "z") target means, and the order of the maps on a
+/// sensor.
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,7 +17,8 @@ int TargetSide(const EffectInstance& effect);
 /// The auxiliary bearing at the target plane. @throws InputError when the rig has none there.
 std::size_t TargetAuxiliary(const EffectInstance& effect, const Plant& plant);
 
-/// A point fixed to the rotor at (c, s) for theta = 0, seen by the stator at the angle `order` theta.
+/// A point fixed to the rotor at (c, s) for theta = 0, seen by the stator at the angle `order`
+/// theta.
 struct Turned {
   double x, y;
 };

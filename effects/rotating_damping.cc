@@ -1,8 +1,9 @@
 /// Internal damping: friction that turns with the shaft (shrink fits, sleeves, composite shafts).
-///   f = -d (r' - i Omega r),  i.e.  fx = -d (x' + Omega y),  fy = -d (y' - Omega x)   (facts.md 5.4)
+///   f = -d (r' - i Omega r),  i.e.  fx = -d (x' + Omega y),  fy = -d (y' - Omega x) (facts.md 5.4)
 /// damps a mode of frequency w below Omega = w and drives its forward whirl above.
-/// With bending modes in the rig, r is the bent part of the displacement at the radial planes (a rigid
-/// body does not deform); without, r is the displacement itself. d is the total: n planes carry d/n each.
+/// With bending modes in the rig, r is the bent part of the displacement at the radial planes (a
+/// rigid body does not deform); without, r is the displacement itself. d is the total: n planes
+/// carry d/n each.
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
 
@@ -27,7 +28,8 @@ EffectDescription RotatingDamping() {
   d.id = "rotating-damping";
   d.title = "Internal (rotating) damping";
   d.physics =
-      "Friction inside the shaft or its fits acts on the motion seen by the turning rotor: above a\n"
+      "Friction inside the shaft or its fits acts on the motion seen by the turning rotor: above "
+      "a\n"
       "mode's frequency it feeds a forward whirl at that frequency instead of damping it.";
   d.target = TargetKind::kRig;
   d.parameters = {{"damping", "N s/m", 0, 0, 1e6, 1, 1e3, "d, shared by the radial planes"}};
@@ -39,11 +41,12 @@ EffectDescription RotatingDamping() {
     std::vector<PlaneMap> planes;
     for (const BearingPlant& b : plant.bearings)
       if (!b.thrust && !b.opposed) planes.push_back(flexible ? BentPart(b.plane) : b.plane);
-    const double share = planes.empty() ? 0 : e.Value("damping") / static_cast<double>(planes.size());
+    const double share =
+        planes.empty() ? 0 : e.Value("damping") / static_cast<double>(planes.size());
     AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
       for (const PlaneMap& p : planes)
-        p.AddForce(-share * (p.X(m.v) + m.Omega * p.Y(m.q)), -share * (p.Y(m.v) - m.Omega * p.X(m.q)),
-                   forces.Q);
+        p.AddForce(-share * (p.X(m.v) + m.Omega * p.Y(m.q)),
+                   -share * (p.Y(m.v) - m.Omega * p.X(m.q)), forces.Q);
     });
   };
   return d;

@@ -1,5 +1,6 @@
 /// Mains hum picked up by the cables of a plane's sensors:
-///   reading += c cos(2 pi f t) + s sin(2 pi f t),  both sensors alike, t the record's time, so that
+///   reading += c cos(2 pi f t) + s sin(2 pi f t),  both sensors alike, t the record's time, so
+///   that
 /// the phase is the same in every record (effects.md). Not filtered by the sensor electronics.
 #include <cmath>
 
@@ -14,7 +15,8 @@ EffectDescription SensorHum() {
   d.id = "sensor-hum";
   d.title = "Mains hum on position sensors";
   d.physics =
-      "The cables of both sensors of a plane pick up the mains: a sine at a fixed frequency is read as\n"
+      "The cables of both sensors of a plane pick up the mains: a sine at a fixed frequency is "
+      "read as\n"
       "motion along the diagonal, and the bearing answers with a force.";
   d.target = TargetKind::kPlane;
   d.parameters = {{"frequency", "Hz", 50, 0.1, 1e4, 50, 300, "50 or 60 Hz, or a multiple"},

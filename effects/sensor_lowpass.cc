@@ -44,18 +44,21 @@ EffectDescription SensorLowpass() {
   d.id = "sensor-lowpass";
   d.title = "Bandwidth of the position sensors";
   d.physics =
-      "The sensor electronics follow the motion as a first-order low-pass: the controller sees the\n"
+      "The sensor electronics follow the motion as a first-order low-pass: the controller sees "
+      "the\n"
       "position late and loses phase, so damping, above a few hundred hertz.";
   d.target = TargetKind::kPlaneOrRig;
   d.parameters = {{"cutoff", "Hz", kInfinity, 10, kInfinity, 300, 2e4, "-3 dB frequency"}};
   d.off_when_null = {"cutoff"};
   d.shows_in = "wide-band force excitation: less damping; clamped records do not show it";
-  d.confused_with = "loop-delay (moves the currents too), eddy-currents (seen between current and force)";
+  d.confused_with =
+      "loop-delay (moves the currents too), eddy-currents (seen between current and force)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const double tau = 1 / (2 * kPi * e.Value("cutoff"));
     const bool everywhere = e.target == "rig";
     for (BearingPlant& b : plant.bearings)
-      if (everywhere || b.name == e.target) AddMap(b.sensor, ReadingStage::kElectronics, Lowpass{tau});
+      if (everywhere || b.name == e.target)
+        AddMap(b.sensor, ReadingStage::kElectronics, Lowpass{tau});
   };
   return d;
 }

@@ -10,18 +10,22 @@ EffectDescription SensorOffset() {
   d.id = "sensor-offset";
   d.title = "Offset of a position sensor";
   d.physics =
-      "The sensor of one axis reads a constant with the shaft centred: the controller holds the shaft\n"
+      "The sensor of one axis reads a constant with the shaft centred: the controller holds the "
+      "shaft\n"
       "off centre, where the negative stiffness of the bearing asks for other static currents.";
   d.target = TargetKind::kAxis;
   d.parameters = {{"offset", "m", 0, -1e-2, 1e-2, 2e-6, 5e-5, "reading with the shaft at zero"}};
   d.off_when_null = {"offset"};
-  d.shows_in = "static currents of levitated records; clamped records show it as a constant reading";
+  d.shows_in =
+      "static currents of levitated records; clamped records show it as a constant reading";
   d.confused_with = "magnetic-offset, constant-load, current-sensor-offset";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const double offset = e.Value("offset");
     const int side = TargetSide(e);
     AddMap(TargetPlane(e, plant).sensor, ReadingStage::kOffset,
-           [offset, side](const MotionState&, double* x, double* y) { *(side == 0 ? x : y) += offset; });
+           [offset, side](const MotionState&, double* x, double* y) {
+             *(side == 0 ? x : y) += offset;
+           });
   };
   return d;
 }

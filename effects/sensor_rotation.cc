@@ -15,10 +15,12 @@ EffectDescription SensorRotation() {
       "Both sensors of a plane are turned by an angle: each axis reads part of the other one.\n"
       "The control force then has a cross part: one whirl direction loses damping, at any speed.";
   d.target = TargetKind::kPlane;
-  d.parameters = {{"angle", "rad", 0, -1.6, 1.6, 0.01, 0.1, "sensor axes against the bearing's, x towards y"}};
+  d.parameters = {
+      {"angle", "rad", 0, -1.6, 1.6, 0.01, 0.1, "sensor axes against the bearing's, x towards y"}};
   d.off_when_null = {"angle"};
   d.shows_in = "force excitation: the other axis of the plane answers; also at standstill";
-  d.confused_with = "cross-coupling (a force: shows in the sum of forces), gyroscopics (grow with speed)";
+  d.confused_with =
+      "cross-coupling (a force: shows in the sum of forces), gyroscopics (grow with speed)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const double c = std::cos(e.Value("angle")), s = std::sin(e.Value("angle"));
     AddMap(TargetPlane(e, plant).sensor, ReadingStage::kAxes,

@@ -30,7 +30,8 @@ EffectDescription SensorRunout() {
   d.id = "sensor-runout";
   d.title = "Run-out of the sensed surface";
   d.physics =
-      "The surface in front of the probes is out of round or off centre: its error is read as motion,\n"
+      "The surface in front of the probes is out of round or off centre: its error is read as "
+      "motion,\n"
       "once and twice per turn, the same size at any speed; the bearing answers with a force.";
   d.target = TargetKind::kPlane;
   d.parameters = {{"c1", "m", 0, -1e-3, 1e-3, 1e-6, 2e-5, "once per turn, cosine"},
@@ -38,8 +39,10 @@ EffectDescription SensorRunout() {
                   {"c2", "m", 0, -1e-3, 1e-3, 5e-7, 1e-5, "twice per turn, cosine"},
                   {"s2", "m", 0, -1e-3, 1e-3, 5e-7, 1e-5, "twice per turn, sine"}};
   d.off_when_null = {"c1", "s1", "c2", "s2"};
-  d.shows_in = "turning records at two speeds: the reading stays at slow roll, where unbalance vanishes";
-  d.confused_with = "unbalance (grows with the square of the speed), shaft-bow (moves the gaps too)";
+  d.shows_in =
+      "turning records at two speeds: the reading stays at slow roll, where unbalance vanishes";
+  d.confused_with =
+      "unbalance (grows with the square of the speed), shaft-bow (moves the gaps too)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     PositionSensor& sensor = TargetPlane(e, plant).sensor;
     const std::array<double, 4> p = {e.Value("c1"), e.Value("s1"), e.Value("c2"), e.Value("s2")};
@@ -48,7 +51,8 @@ EffectDescription SensorRunout() {
     AddMap(sensor, ReadingStage::kSurface, [=](const MotionState& state, double* x, double* y) {
       const auto surface = [&](double angle) {
         const double a = angle - state.theta;
-        return p[0] * std::cos(a) + p[1] * std::sin(a) + p[2] * std::cos(2 * a) + p[3] * std::sin(2 * a);
+        return p[0] * std::cos(a) + p[1] * std::sin(a) + p[2] * std::cos(2 * a) +
+               p[3] * std::sin(2 * a);
       };
       *x += surface(ax);
       if (!one_axis) *y += surface(ay);

@@ -1,8 +1,8 @@
 /// A bent shaft: the surface at z runs off the mass axis by
 ///   b(z) = (c, s) z/z_ref,  z_ref the largest |z| of the radial bearing planes,
-/// turned by theta, whatever the speed. It moves gaps, journals and readings; the mass axis itself is
-/// the model's coordinate, so at equal b everywhere a bow would be an unbalance: hence the shape is
-/// antisymmetric about the centre of mass (effects.md). Size 1 to 30 um (facts.md 5.4).
+/// turned by theta, whatever the speed. It moves gaps, journals and readings; the mass axis itself
+/// is the model's coordinate, so at equal b everywhere a bow would be an unbalance: hence the shape
+/// is antisymmetric about the centre of mass (effects.md). Size 1 to 30 um (facts.md 5.4).
 #include <algorithm>
 #include <cmath>
 
@@ -33,20 +33,23 @@ EffectDescription ShaftBow() {
   d.id = "shaft-bow";
   d.title = "Bent shaft";
   d.physics =
-      "The shaft's surface runs off its mass axis, at one end opposite to the other: sensors read it\n"
+      "The shaft's surface runs off its mass axis, at one end opposite to the other: sensors read "
+      "it\n"
       "and the magnets' gaps follow it once per turn, the same size at any speed.";
   d.target = TargetKind::kRig;
-  d.parameters = {
-      {"c", "m", 0, -1e-3, 1e-3, 1e-6, 3e-5, "along the mark, at z = + the largest |z| of the bearing planes"},
-      {"s", "m", 0, -1e-3, 1e-3, 1e-6, 3e-5, "90 degrees ahead of the mark"}};
+  d.parameters = {{"c", "m", 0, -1e-3, 1e-3, 1e-6, 3e-5,
+                   "along the mark, at z = + the largest |z| of the bearing planes"},
+                  {"s", "m", 0, -1e-3, 1e-3, 1e-6, 3e-5, "90 degrees ahead of the mark"}};
   d.off_when_null = {"c", "s"};
   d.shows_in = "slow-roll and turning records: once per turn, opposite at the two planes";
-  d.confused_with = "sensor-runout (one plane, gaps unmoved), unbalance (grows with the square of the speed)";
+  d.confused_with =
+      "sensor-runout (one plane, gaps unmoved), unbalance (grows with the square of the speed)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     double reference = 0;
     for (const auto& [name, z] : plant.planes) reference = std::max(reference, std::abs(z));
     if (reference == 0) reference = 1;  // planes at the centre of mass see no bow
-    plant.rotor.surface.push_back(std::make_unique<Bow>(e.Value("c") / reference, e.Value("s") / reference));
+    plant.rotor.surface.push_back(
+        std::make_unique<Bow>(e.Value("c") / reference, e.Value("s") / reference));
   };
   return d;
 }

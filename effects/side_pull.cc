@@ -10,7 +10,8 @@ EffectDescription SidePull() {
   d.id = "side-pull";
   d.title = "Side pull of a motor";
   d.physics =
-      "The motor's field pulls the rotor further the way it has moved: a negative stiffness at one\n"
+      "The motor's field pulls the rotor further the way it has moved: a negative stiffness at "
+      "one\n"
       "plane, independent of the bearing's currents.";
   d.target = TargetKind::kPlaneOrZ;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 1e4, 5e5, "k of f = k r; > 0 destabilises"}};
