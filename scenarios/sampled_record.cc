@@ -1,0 +1,53 @@
+/// Rows of the record of the continuous-time engines: the switching engine's, value by value.
+#include <cmath>
+
+#include "core/math/noise.h"
+#include "scenarios/record_layout.h"
+#include "scenarios/sampled_rig.h"
+
+namespace ambrig {
+
+namespace {
+constexpr std::uint32_t kBusNoise = 300;  // stream of the switching engine
+}  // namespace
+
+void SampledRig::RecordStart() {
+  const double rate = options.record_rate > 0 ? options.record_rate : scenario.record_rate;
+  const double per_period = rate * T;
+  if (per_period > 1 + 1e-9)
+    row_samples_ = static_cast<int>(std::lround(samples / per_period));
+  else
+    row_periods_ = static_cast<int>(std::lround(1 / per_period));
+  recorder_.emplace(rate, 0.0);
+  channel_ = AddRecordChannels(*recorder_, rig, clamped, static_cast<std::size_t>(std::ceil(scenario.duration * rate)) + 1);
+}
+
+void SampledRig::RecordBurst(long long n) {
+  if (n < 0 || !recorder_ || row_samples_ == 0) return;
+  for (int k = 0; k < samples; k += row_samples_) RecordRow(n, k);
+}
+
+void SampledRig::RecordRow(long long n, int sample) {
+  const double inside = sample * h, t = static_cast<double>(n) * T + inside;
+  std::size_t c = 0;
+  const auto put = [&](double value) { recorder_->Put(channel_[c++], value); };
+  const bool at_tick = sample == 0 && controller_on_ && n % M == 0;
+  for (std::size_t a = 0; a < readings_.size(); ++a) put(at_tick ? readings_[a] : NoisyReading(a, n));
+  for (const SampledBearing& b : bearings) {
+    const BearingControl& k = control[b.index];
+    for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b.adc[sample][j] : k.feedback[j]);
+    for (int j = 0; j < k.coils; ++j) put(k.set_point[j]);
+    for (int j = 0; j < k.coils; ++j) put(k.duty[j]);
+    put(clamped ? b.fx : b.true_x);
+    if (b.axes > 1) put(clamped ? b.fy : b.true_y);
+  }
+  const bool free_spin = plant.rotor.SpeedIsFree(t);
+  put(free_spin ? motion.Omega : scenario.speed.Speed(t));
+  put(free_spin ? motion.theta + motion.Omega * inside : scenario.speed.Angle(t));
+  double bus = plant.bus.voltage;
+  if (scenario.noise && rig.amplifier.bus_noise > 0)
+    bus += rig.amplifier.bus_noise * Normal(scenario.seed, kBusNoise, static_cast<std::uint64_t>(n * samples + sample));
+  put(bus);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,289 @@
+#include "scenarios/sampled_rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/noise.h"
+
+namespace ambrig {
+
+namespace {
+/// Streams of the switching engine: the same noise, number by number.
+enum Stream : std::uint32_t { kCurrentNoise = 100, kReadingNoise = 200 };
+constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
+constexpr long long kFirst = 1LL << 40;  // counts of periods before t = 0 stay positive
+
+std::size_t U(int k) { return static_cast<std::size_t>(k); }
+
+Scenario WithNoise(Scenario s, bool noise) {
+  s.noise = s.noise && noise;
+  return s;
+}
+}  // namespace
+
+SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const SampledOptions& o)
+    : rig(TrueRig(given)), nominal(o.nominal ? *o.nominal : given), scenario(WithNoise(s, o.noise)), options(o),
+      plant(BuildPlant(rig)), commands_(rig, scenario) {
+  T = 1 / rig.amplifier.switching_frequency;
+  samples = rig.samples_per_period();
+  h = T / samples;
+  M = rig.periods_per_control();
+  periods = static_cast<long long>(std::ceil(scenario.duration / T - 1e-6));
+  plant.rotor.SetSpeed(scenario.speed, scenario.speed_free_from);
+  std::vector<PidParameters> axes;
+  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
+    const BearingParameters& p = rig.bearings[k];
+    SampledBearing b;
+    b.index = k;
+    b.plant = &plant.bearings[k];
+    b.first_axis = axes.size();
+    b.axes = p.Axes().size();
+    b.measurement = {samples, p.coils(), scenario.noise, rig.amplifier.current_noise,
+                     Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
+    for (std::size_t a = 0; a < b.axes; ++a) axes.push_back(PidOf(rig, p));
+    BearingControl c;
+    c.name = p.name;
+    c.coils = p.coils();
+    c.amplifier.fill(PowerAmplifier(rig.amplifier));
+    c.map.k = ForceConstant(nominal.bearings[k]);
+    c.map.c0 = BiasCurrent(rig, p);
+    c.map.i_max = rig.amplifier.i_max;
+    c.map.unipolar = rig.amplifier.quadrants < 3;
+    for (int j = 0; j < c.coils; ++j) {
+      c.map.W(j, 0) = 1;
+      c.map.W(j, 1) = b.plant->lanes.direction_x[j];
+      c.map.W(j, 2) = b.plant->lanes.direction_y[j];
+    }
+    bearings.push_back(b);
+    control.push_back(c);
+  }
+  controller_ = std::make_unique<DecentralisedPid>(axes, T * M);
+  for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axes.size(), 0.0);
+}
+
+void SampledRig::Start() {
+  switch (scenario.start) {
+    case StartState::kLevitated: StartLevitated(); break;
+    case StartState::kClamped: StartClamped(); break;
+    case StartState::kResting: StartResting(); break;
+  }
+  plant.rotor.SetSpin(motion);
+  UpdatePositions();
+  for (BearingControl& c : control) c.feedback = c.commanded = c.set_point;
+}
+
+void SampledRig::UpdatePositions() {
+  for (SampledBearing& b : bearings) plant.rotor.Position(motion, b.plant->plane, &b.true_x, &b.true_y);
+}
+
+void SampledRig::SetStartForces(const std::vector<double>& force) {
+  force_ = force;
+  double fx = 0, fy = 0;
+  for (SampledBearing& b : bearings) {
+    BearingControl& c = control[b.index];
+    const double f[2] = {force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0};
+    const auto set = c.map.SetPoints(f[0], f[1]);
+    for (int j = 0; j < c.coils; ++j) {
+      c.set_point[j] = set[j];
+      c.amplifier[U(j)].HoldCurrent(set[j], b.plant->base_resistance[j]);
+    }
+    if (b.axes < 2) continue;
+    fx += f[0];
+    fy += f[1];
+  }
+  controller_->Hold(force_, readings_);
+  plant.rotor.SettleBase(motion, fx, fy);
+}
+
+void SampledRig::StartLevitated() {
+  warm = std::llround((options.warm_up < 0 ? 0.25 : options.warm_up) / T / M) * M;
+  motion.t = -static_cast<double>(warm) * T;
+  const auto shares = WeightShares(rig);
+  std::vector<double> force(force_.size(), 0.0);
+  for (const SampledBearing& b : bearings)
+    for (std::size_t side = 0; side < b.axes; ++side) force[b.first_axis + side] = shares[b.index][side];
+  SetStartForces(force);
+}
+
+void SampledRig::StartFrom(const std::vector<double>& force, const DofVector& q) {
+  SetStartForces(force);
+  motion.q = q;
+  UpdatePositions();
+  for (BearingControl& c : control) c.feedback = c.commanded = c.set_point;
+}
+
+void SampledRig::StartClamped() {
+  warm = std::llround((options.warm_up < 0 ? 0.03 : options.warm_up) / T);
+  clamped = true;
+  controller_on_ = false;
+  motion.t = -static_cast<double>(warm) * T;
+  // Straight line through the given centres: x(z) = q0 + q4 z, y(z) = q1 - q3 z (least squares).
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right_x = Eigen::Vector2d::Zero(), right_y = right_x;
+  for (const SampledBearing& b : bearings) {
+    const auto it = scenario.clamp.find(b.plant->name);
+    const std::array<double, 2> at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    if (b.plant->thrust) {
+      motion.q[2] = at[0];
+    } else if (b.plant->opposed) {
+      const double angle = rig.bearings[b.index].opposed.angle_deg * kPi / 180;
+      motion.q[0] = at[0] * std::cos(angle);
+      motion.q[1] = at[0] * std::sin(angle);
+    } else {
+      const Eigen::Vector2d row(1, b.plant->z);
+      normal += row * row.transpose();
+      right_x += row * at[0];
+      right_y += row * at[1];
+    }
+  }
+  if (normal.determinant() > 0) {
+    const Eigen::Vector2d x = normal.inverse() * right_x, y = normal.inverse() * right_y;
+    motion.q[0] = x[0];
+    motion.q[4] = x[1];
+    motion.q[1] = y[0];
+    motion.q[3] = -y[1];
+  }
+  for (const CommandPlan::Signal& s : commands_.current)
+    control[U(s.bearing)].set_point[s.index] += CommandPlan::At(s, 0);
+  for (const SampledBearing& b : bearings) {
+    BearingControl& c = control[b.index];
+    for (int j = 0; j < c.coils; ++j) c.amplifier[U(j)].HoldCurrent(c.set_point[j], b.plant->base_resistance[j]);
+  }
+}
+
+void SampledRig::StartResting() {
+  first_period_of_rest_ = true;
+  motion.t = 0;
+  plant.rotor.Rest(motion);
+  for (BearingControl& c : control) {
+    c.set_point = Lane{};
+    for (PowerAmplifier& a : c.amplifier) a.ResetToLowerLimit();
+  }
+}
+
+void SampledRig::AtPeriodStart(long long n) {
+  motion.t = static_cast<double>(n) * T;
+  plant.rotor.SetSpin(motion);
+  UpdatePositions();
+  ReadSensors();
+  ApplySetPoints(n);
+  if (controller_on_ && n % M == 0) ControlTick(n);
+  CurrentLoops(n);
+  if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
+}
+
+void SampledRig::ReadSensors() {
+  for (SampledBearing& b : bearings) {
+    PositionSensor& s = b.plant->sensor;
+    plant.rotor.Position(motion, s.map, &s.reading[0], &s.reading[1]);
+    for (const auto& map : s.maps) map->Map(motion, &s.reading[0], &s.reading[1]);
+  }
+}
+
+double SampledRig::NoisyReading(std::size_t axis, long long n) const {
+  for (const SampledBearing& b : bearings) {
+    if (axis < b.first_axis || axis >= b.first_axis + b.axes) continue;
+    const PositionSensor& s = b.plant->sensor;
+    const std::size_t side = axis - b.first_axis;
+    double reading = s.reading[side];
+    if (scenario.noise && s.noise > 0)
+      reading += s.noise * Normal(scenario.seed, kReadingNoise + static_cast<std::uint32_t>(axis),
+                                  static_cast<std::uint64_t>(n + kFirst));
+    return s.fault[side].Apply(reading);
+  }
+  return 0;
+}
+
+void SampledRig::ControlTick(long long n) {
+  for (std::size_t a = 0; a < readings_.size(); ++a) {
+    readings_[a] = NoisyReading(a, n);
+    reference_[a] = excitation_[a] = 0;
+  }
+  reading_time_ = motion.t;
+  for (SampledBearing& b : bearings)
+    for (std::size_t side = 0; side < b.axes; ++side) {
+      SensorFault& f = b.plant->sensor.fault[side];
+      if (!f.stuck) f.held = readings_[b.first_axis + side];
+    }
+  if (n >= 0) {
+    for (const auto& s : commands_.reference) reference_[U(s.index)] += CommandPlan::At(s, n / M);
+    for (const auto& s : commands_.force) excitation_[U(s.index)] += CommandPlan::At(s, n / M);
+  }
+  controller_->Step(readings_, reference_, excitation_, motion.Omega, force_);
+  Pending next;
+  next.due = static_cast<double>(n + M) * T;
+  next.values.resize(control.size());
+  for (const SampledBearing& b : bearings) {
+    const auto set = control[b.index].map.SetPoints(force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0);
+    for (int j = 0; j < kLanes; ++j) next.values[b.index][j] = set[j];
+  }
+  pending_.push_back(std::move(next));
+}
+
+void SampledRig::ApplySetPoints(long long n) {
+  const double t = static_cast<double>(n) * T + kTiny;
+  for (Pending& p : pending_) {
+    if (p.due <= t && !p.recorded) {
+      for (std::size_t k = 0; k < control.size(); ++k) control[k].set_point = p.values[k];
+      p.recorded = true;
+    }
+    if (p.due + plant.loop_delay <= t)
+      for (std::size_t k = 0; k < control.size(); ++k) control[k].commanded = p.values[k];
+  }
+  std::erase_if(pending_, [&](const Pending& p) { return p.due + plant.loop_delay <= t; });
+}
+
+CoilVoltage SampledRig::PatternOf(const SampledBearing& b, int j) const {
+  BridgeImperfection bridge = b.plant->bridge[U(j)];
+  for (const auto& term : b.plant->voltage[U(j)])
+    bridge.voltage_offset += term->Voltage({motion.t, control[b.index].feedback[j], plant.bus.voltage,
+                                            b.true_x - b.plant->offset_x, b.true_y - b.plant->offset_y, &motion});
+  return control[b.index].amplifier[U(j)].Pattern(control[b.index].duty[j], bridge);
+}
+
+void SampledRig::CurrentLoops(long long n) {
+  const long long at = n < 0 ? (clamped ? 0 : -1) : n;
+  for (SampledBearing& b : bearings) {
+    BearingControl& c = control[b.index];
+    Lane target = clamped ? Lane{} : c.commanded;
+    if (at >= 0)
+      for (const auto& s : commands_.current)
+        if (U(s.bearing) == b.index) target[s.index] += CommandPlan::At(s, at);
+    if (clamped) c.set_point = target;
+    for (int j = 0; j < c.coils; ++j) {
+      c.duty[j] = first_period_of_rest_ ? rig.amplifier.duty_min : c.amplifier[U(j)].CurrentLoop(target[j], c.feedback[j]);
+      if (c.disabled[U(j)]) c.duty[j] = 0;
+    }
+    if (at >= 0)
+      for (const auto& s : commands_.duty)
+        if (U(s.bearing) == b.index)
+          c.duty[s.index] = std::clamp(CommandPlan::At(s, at), std::min(0.0, rig.amplifier.duty_min), 1.0);
+    for (int j = 0; j < c.coils; ++j) b.voltage[U(j)] = PatternOf(b, j);
+  }
+  first_period_of_rest_ = false;
+}
+
+void SampledRig::Measure(long long n, const std::vector<const Lane*>& truth, int count) {
+  for (SampledBearing& b : bearings) {
+    MeasurementSettings settings = b.measurement;
+    settings.samples = count;
+    MeasureCurrents(settings, truth[b.index], b.plant->current_sensor.data(), false, scenario.seed,
+                    kCurrentNoise + static_cast<std::uint32_t>(b.index), static_cast<std::uint64_t>(n + kFirst), b.adc,
+                    &control[b.index].feedback);
+  }
+}
+
+void SampledRig::AfterPeriod(long long n, RunResult& result) {
+  if (!options.supervisor || n < 0) return;
+  PeriodMeasurement m;
+  m.period = n;
+  m.t = static_cast<double>(n) * T;
+  m.samples = samples;
+  m.readings = &readings_;
+  m.reading_time = reading_time_;
+  for (const SampledBearing& b : bearings)
+    m.bearings.push_back({b.adc, &control[b.index].duty, plant.bus.voltage});
+  options.supervisor->AfterPeriod(m, control, result.events);
+}
+
+}  // namespace ambrig

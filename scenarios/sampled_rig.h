@@ -1,0 +1,104 @@
+#pragma once
+/// The sampled side of a rig for the engines that run the plant in continuous time (reference,
+/// averaged): start states, readings, position loop, current loops, rows of the record.
+/// The clocks are those of physics.md sections 3 and 4, as in the switching engine:
+///
+///   t_n = n T        readings; set-points that are due; duty of period n from the feedback of n-1
+///   n % M == 0       position loop; its set-points act one controller period later
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "control/position_controller.h"
+#include "scenarios/command_plan.h"
+#include "scenarios/measurement.h"
+#include "scenarios/recorder.h"
+#include "scenarios/rig.h"
+#include "scenarios/run_result.h"
+#include "scenarios/scenario.h"
+#include "scenarios/supervisor.h"
+
+namespace ambrig {
+
+struct SampledOptions {
+  double record_rate = 0;               // 0: the scenario's
+  bool noise = false;                   // false: none, whatever the scenario says
+  double warm_up = -1;                  // [s] before t = 0; negative: physics.md's
+  const RigParameters* nominal = nullptr;
+  Supervisor* supervisor = nullptr;
+};
+
+/// One bearing as the controller's side of the run needs it.
+struct SampledBearing {
+  std::size_t index = 0, first_axis = 0, axes = 2;
+  BearingPlant* plant = nullptr;
+  std::array<CoilVoltage, kLanes> voltage;   // of this period
+  MeasurementSettings measurement;
+  Lane adc[64];                              // of the last period [A]
+  double fx = 0, fy = 0;                     // mean force of the last period [N]
+  double true_x = 0, true_y = 0;             // shaft centre at the plane [m]
+};
+
+class SampledRig {
+ public:
+  SampledRig(const RigParameters& rig, const Scenario& scenario, const SampledOptions& options);
+
+  /// Start state: motion, set-points, integrals. The coils then carry the set-points.
+  void Start();
+  /// Replaces a levitated start's forces per axis [N] and motion by an equilibrium.
+  void StartFrom(const std::vector<double>& force, const DofVector& q);
+  /// Everything that is sampled at t_n, before the plant moves on.
+  void AtPeriodStart(long long n);
+  /// Duty pattern of coil j with the faults of its bridge, at this period's duty.
+  CoilVoltage PatternOf(const SampledBearing& b, int j) const;
+  /// The period's true samples (count x coils) become the feedback of the next one.
+  void Measure(long long n, const std::vector<const Lane*>& samples, int count);
+  void AfterPeriod(long long n, RunResult& result);
+  /// Rows inside period n: one per ADC sample wanted, after Measure (bursts only).
+  void RecordBurst(long long n);
+  void RecordStart();
+  Record TakeRecord() { return recorder_ ? recorder_->Take() : Record{}; }
+  /// Shaft centres at the bearings from `motion`.
+  void UpdatePositions();
+
+  const RigParameters rig, nominal;   // true values, the controller's
+  const Scenario scenario;            // noise as asked for
+  const SampledOptions options;
+  Plant plant;
+  MotionState motion;
+  std::vector<SampledBearing> bearings;
+  std::vector<BearingControl> control;
+  double T = 0, h = 0;                // switching period, ADC sample [s]
+  int M = 1, samples = 18;
+  bool clamped = false;
+  long long warm = 0, periods = 0;
+
+ private:
+  struct Pending {
+    double due = 0;
+    std::vector<Lane> values;
+    bool recorded = false;
+  };
+  void StartLevitated();
+  void StartClamped();
+  void StartResting();
+  void SetStartForces(const std::vector<double>& force);
+  void ReadSensors();
+  double NoisyReading(std::size_t axis, long long n) const;
+  void ControlTick(long long n);
+  void ApplySetPoints(long long n);
+  void CurrentLoops(long long n);
+  void RecordRow(long long n, int sample);
+
+  CommandPlan commands_;
+  std::unique_ptr<PositionController> controller_;
+  std::vector<double> readings_, reference_, excitation_, force_;  // per axis
+  std::vector<Pending> pending_;
+  bool first_period_of_rest_ = false, controller_on_ = true;
+  double reading_time_ = 0;
+  std::optional<Recorder> recorder_;
+  std::vector<std::size_t> channel_;
+  int row_periods_ = 1, row_samples_ = 0;
+};
+
+}  // namespace ambrig
