@@ -1,10 +1,9 @@
 /// Rows of the record: what the controller knows at the start of a period (formats.md "Record").
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "core/math/noise.h"
 #include "scenarios/bearing_run.h"
+#include "scenarios/record_layout.h"
 #include "scenarios/switching_engine.h"
 
 namespace ambrig {
@@ -19,26 +18,7 @@ void SwitchingEngine::CreateChannels() {
   }
   recorder_.emplace(rate, 0.0);
   const auto rows = static_cast<std::size_t>(std::ceil(scenario_.duration * rate)) + 1;
-  const auto add = [&](const std::string& name, const char* unit) {
-    channel_.push_back(recorder_->Add(name, unit, rows));
-  };
-  for (const BearingParameters& b : rig_.bearings)
-    for (const std::string& axis : b.Axes()) add(axis, "m");
-  for (const BearingParameters& b : rig_.bearings) {
-    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.i{}", b.name, j), "A");
-    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.s{}", b.name, j), "A");
-    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.d{}", b.name, j), "-");
-    if (clamped_) {
-      add(b.kind == BearingKind::kThrust ? b.name + ".fz" : b.name + ".fx", "N");
-      if (b.kind == BearingKind::kRadial) add(b.name + ".fy", "N");
-    } else {
-      add(b.kind == BearingKind::kThrust ? "r.z" : b.name + ".r.x", "m");
-      if (b.kind == BearingKind::kRadial) add(b.name + ".r.y", "m");
-    }
-  }
-  add("omega", "rad/s");
-  add("theta", "rad");
-  add("bus", "V");
+  channel_ = AddRecordChannels(*recorder_, rig_, clamped_, rows);
 }
 
 void SwitchingEngine::RecordRow(long long n, int sample) {

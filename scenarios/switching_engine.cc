@@ -113,7 +113,7 @@ void SwitchingEngine::Start() {
 }
 
 void SwitchingEngine::StartLevitated() {
-  warm_ = std::llround(kLevitatedWarmUp / T_ / M_) * M_;
+  warm_ = std::llround((options_.warm_up < 0 ? kLevitatedWarmUp : options_.warm_up) / T_ / M_) * M_;
   motion_.t = -static_cast<double>(warm_) * T_;
   const auto shares = WeightShares(rig_);
   double fx = 0, fy = 0;
@@ -137,7 +137,7 @@ void SwitchingEngine::StartLevitated() {
 }
 
 void SwitchingEngine::StartClamped() {
-  warm_ = std::llround(kClampedWarmUp / T_);
+  warm_ = std::llround((options_.warm_up < 0 ? kClampedWarmUp : options_.warm_up) / T_);
   clamped_ = true;
   controller_on_ = false;
   motion_.t = -static_cast<double>(warm_) * T_;
@@ -423,6 +423,10 @@ void SwitchingEngine::MoveRotor(long long n) {
   const DofVector v_before = motion_.v;
   plant_.rotor.Step(motion_, Q, sx, sy, T_);
   motion_.t = static_cast<double>(n + 1) * T_;
+  if (options_.lost_after < kInfinity && plant_.rotor.NearContact(motion_, 0)) {
+    touching_ += T_;
+    if (touching_ > options_.lost_after) throw std::runtime_error(scenario_.name + ": the rotor is lost");
+  }
   for (std::size_t d = 0; d < static_cast<std::size_t>(plant_.rotor.dof()); ++d)
     acceleration_[d] = (motion_.v[d] - v_before[d]) / T_;
   for (BearingRun& b : bearings_) {

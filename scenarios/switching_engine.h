@@ -21,8 +21,10 @@ struct EngineOptions {
   double record_rate = 0;                          // 0: the scenario's
   bool record = true;
   bool snapshots = false;
+  double lost_after = kInfinity;                   // [s] of contact after which the rotor counts as lost: throws
   bool watch = true;                               // events and figures of the verdict
   bool force_general_path = false;                 // tests: the slow path must give the same record
+  double warm_up = -1;                             // [s] before t = 0; negative: physics.md's (tests: shorter)
   int substeps = 1;                                // tests of convergence: finer steps inside a sample
   const RigParameters* nominal = nullptr;          // what the controller believes; default: the rig file's values
   const Record* forced = nullptr;                  // measured set-points and readings drive the coils; no rotor
@@ -103,7 +105,7 @@ class SwitchingEngine {
   std::vector<std::size_t> channel_;
   RunResult result_;
   std::vector<double> contact_since_;
-  double loss_sum_ = 0;
+  double loss_sum_ = 0, touching_ = 0;
   PeriodMeasurement measurement_;
 };
 
