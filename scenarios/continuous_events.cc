@@ -31,7 +31,7 @@ void ContinuousRig::Settle() {
       current[j] = rig_.control[k].set_point[j];
       b.network.windings[U(j)].conducts = !unipolar || current[j] > 0;
     }
-    Place(b, k, rig_.motion, &px, &py);
+    Place(k, rig_.motion, &px, &py);
     b.network.Linkages(current, px, py, y_.data() + b.at);
   }
   Refresh();
@@ -43,7 +43,7 @@ void ContinuousRig::Refresh() {
   const MotionState s = MotionOf(tau_, y_.data());
   for (std::size_t k = 0; k < bearings_.size(); ++k) {
     double px, py;
-    Place(bearings_[k], k, s, &px, &py);
+    Place(k, s, &px, &py);
     bearings_[k].network.Solve(y_.data() + bearings_[k].at, px, py, now_[k]);
   }
 }
@@ -70,7 +70,7 @@ void ContinuousRig::DecideConduction(std::size_t k, int must_block, int must_car
   const MotionState s = MotionOf(tau_, y_.data());
   const PlaneMap& plane = rig_.plant.bearings[k].plane;
   double px, py, slope[kMaxWindings];
-  Place(b, k, s, &px, &py);
+  Place(k, s, &px, &py);
   const double vx = rig_.clamped ? 0 : plane.X(s.v), vy = rig_.clamped ? 0 : plane.Y(s.v);
   NetworkRates r;
   const auto solve = [&] {
@@ -196,7 +196,7 @@ EnergyBalance ContinuousRig::Energies() const {
   const MotionState s = MotionOf(tau_, y_.data());
   for (std::size_t k = 0; k < bearings_.size(); ++k) {
     double px, py;
-    Place(bearings_[k], k, s, &px, &py);
+    Place(k, s, &px, &py);
     e.field += bearings_[k].network.FieldEnergy(now_[k], px, py);
   }
   e.rotor = rig_.plant.rotor.Energy(s);

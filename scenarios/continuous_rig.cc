@@ -99,7 +99,7 @@ MotionState ContinuousRig::MotionOf(double tau, const double* y) const {
   return s;
 }
 
-void ContinuousRig::Place(const Bearing&, std::size_t k, const MotionState& s, double* x, double* y) const {
+void ContinuousRig::Place(std::size_t k, const MotionState& s, double* x, double* y) const {
   const BearingPlant& plant = rig_.plant.bearings[k];
   rig_.plant.rotor.Position(s, plant.plane, x, y);
   *x -= plant.offset_x;
@@ -122,7 +122,7 @@ void ContinuousRig::Rhs(double tau, const double* y, double* f) const {
   for (std::size_t k = 0; k < bearings_.size(); ++k) {
     const Bearing& b = bearings_[k];
     double px, py;
-    Place(b, k, s, &px, &py);
+    Place(k, s, &px, &py);
     NetworkState n;
     b.network.Solve(y + b.at, px, py, n);
     Slopes(b, n, f + b.at);
@@ -147,7 +147,7 @@ void ContinuousRig::Rhs(double tau, const double* y, double* f) const {
   energy[0] = electrical;
   energy[2] = copper;
   energy[3] = rig_.clamped ? 0 : ContactLoss(s, &spin_torque);
-  energy[1] = -spin_torque * s.Omega;
+  energy[1] = free_spin_ ? 0 : -spin_torque * s.Omega;
   energy[4] = work;
   if (rig_.clamped) return;
   DofVector a{};
@@ -157,11 +157,11 @@ void ContinuousRig::Rhs(double tau, const double* y, double* f) const {
   for (std::size_t d = 0; d < dof; ++d) {
     f[q_at_ + d] = s.v[d];
     f[v_at_ + d] = a[d];
+    energy[1] += active_load_[d] * s.v[d];
   }
   const double polar = rig_.plant.rotor.parameters().inertia_polar;
   f[spin_at_] = s.Omega;
   f[spin_at_ + 1] = free_spin_ && polar > 0 ? torque / polar : s.Omega_dot;
-  if (free_spin_) energy[1] = 0;
 }
 
 double ContinuousRig::ContactLoss(const MotionState& s, double* spin_torque) const {
@@ -189,7 +189,7 @@ void ContinuousRig::Roots(double tau, const double* y, double* g) const {
   for (std::size_t k = 0; k < bearings_.size() && rig_.plant.bearings[0].lanes.unipolar; ++k) {
     const Bearing& b = bearings_[k];
     double px, py;
-    Place(b, k, s, &px, &py);
+    Place(k, s, &px, &py);
     NetworkState n;
     b.network.Solve(y + b.at, px, py, n);
     double slope[kMaxWindings];

@@ -13,7 +13,8 @@
 ///
 ///   electrical + drive = copper + Δfield + Δrotor + contact losses
 ///
-/// where `drive` is the work of the motor that keeps a prescribed speed.
+/// where `drive` is the work of the motor that keeps a prescribed speed, and of the scenario's loads.
+/// (Races, mounts, bases and effects have energies and losses of their own, not counted.)
 /// Source: shared/design/physics.md sections 1 to 3, 6, 8.
 #include <memory>
 #include <vector>
@@ -81,7 +82,7 @@ class ContinuousRig {
   void Roots(double tau, const double* y, double* g) const;
   void HandleRoots(const std::vector<int>& roots);
   void DecideConduction(std::size_t b, int must_block, int must_carry);
-  void Place(const Bearing& b, std::size_t k, const MotionState& s, double* x, double* y) const;
+  void Place(std::size_t k, const MotionState& s, double* x, double* y) const;
   double ContactLoss(const MotionState& s, double* spin_torque) const;
   void Slopes(const Bearing& b, const NetworkState& s, double* slope) const;
   void Restart();
