@@ -21,7 +21,9 @@ using LaneVector = double __attribute__((vector_size(kLanes * sizeof(double))));
   __builtin_memcpy(&v, p, sizeof v);
   return v;
 }
-[[gnu::always_inline]] static inline void Store(double* p, const LaneVector& v) { __builtin_memcpy(p, &v, sizeof v); }
+[[gnu::always_inline]] static inline void Store(double* p, const LaneVector& v) {
+  __builtin_memcpy(p, &v, sizeof v);
+}
 [[gnu::always_inline]] static inline double Sum(const LaneVector& v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }

@@ -12,8 +12,9 @@ namespace {
 
 using V = LaneVector;
 
-constexpr int kMostRounds = 30;       // Newton over the iron laws
-constexpr double kConverged = 1e-8;   // [-] change of a round; what is left after it is its square
+constexpr int kMostRounds = 30;  // Newton over the iron laws
+constexpr double kConverged =
+    1e-5;  // [-] change of a round; what is left after it goes with its square
 
 /// Time from the start of the sample to a switching edge, within [0, h].
 [[gnu::always_inline]] inline V Within(const V& edge, double t, double h) {
@@ -28,16 +29,20 @@ struct Edges {
   double bus, t, h;
 };
 
+// Everything that a wide load reads soon after is written by a wide store: narrow stores before
+// a wide load would cost more than the arithmetic.
+
 /// λ* = λ + ∫v dt - (R h/2) i
-AMBRIG_WIDE void Targets(const Edges& e, const double* lambda, const double* half_rh, const double* i,
-                         double* target) {
+AMBRIG_WIDE void Targets(const Edges& e, const double* lambda, const double* half_rh,
+                         const double* i, double* target) {
   const VoltagePattern& p = *e.pattern;
   const V a = Within(Load(p.t1.v), e.t, e.h), b0 = Within(Load(p.t2.v), e.t, e.h);
   const V b = b0 < a ? a : b0;
   const V v0 = Load(p.gain[0].v) * e.bus + Load(p.drop[0].v);
   const V v1 = Load(p.gain[1].v) * e.bus + Load(p.drop[1].v);
   const V v2 = Load(p.gain[2].v) * e.bus + Load(p.drop[2].v);
-  Store(target, Load(lambda) + ((v2 * e.h + (v1 - v2) * b) + (v0 - v1) * a) - Load(half_rh) * Load(i));
+  Store(target,
+        Load(lambda) + ((v2 * e.h + (v1 - v2) * b) + (v0 - v1) * a) - Load(half_rh) * Load(i));
 }
 
 /// Mean current drawn from the bus: ∫ gain i dt / h with i linear over the sample.
@@ -47,43 +52,58 @@ AMBRIG_WIDE double Drawn(const Edges& e, const double* before, const double* aft
   const V b = b0 < a ? a : b0;
   const double per = 1 / e.h;
   const V i0 = Load(before), rise = (Load(after) - i0) * (0.5 * per);
-  const V at_a = a * per * (i0 + rise * a), at_b = b * per * (i0 + rise * b), at_h = i0 + rise * e.h;
+  const V at_a = a * per * (i0 + rise * a), at_b = b * per * (i0 + rise * b),
+          at_h = i0 + rise * e.h;
   const V g1 = Load(p.gain[1].v), g2 = Load(p.gain[2].v);
   return Sum(Load(p.gain[0].v) * at_a + g1 * (at_b - at_a) + g2 * (at_h - at_b));
 }
 
-/// MMF and self-conductance of the windings: Σ c λ* and Σ n c, over both of a shared core.
+/// Reluctance at a fraction of the period.
+AMBRIG_WIDE void Reluctance(const double* rel0, const double* rel1, double fraction, double* rel) {
+  const V r0 = Load(rel0);
+  Store(rel, r0 + (Load(rel1) - r0) * fraction);
+}
+
+/// MMF Σ c λ* and stiffness 1/P + Σ n c of the driven windings, over both of a shared core, to
+/// which shorted turns add theirs.
 AMBRIG_WIDE void Windings(Coupling coupling, const double* c, const double* n, const double* target,
-                          double* mmf, double* own) {
-  V m = Load(mmf) + Load(c) * Load(target), w = Load(own) + Load(n) * Load(c);
+                          const double* rel, const double* short_mmf, const double* short_own,
+                          double* mmf, double* stiffness) {
+  V m = Load(c) * Load(target), w = Load(n) * Load(c);
+  if (short_mmf) {
+    m += Load(short_mmf);
+    w += Load(short_own);
+  }
   if (coupling == Coupling::kSides) {
     m = m + Partner(m);
     w = w + Partner(w);
   }
   Store(mmf, m);
-  Store(own, w);
+  Store(stiffness, Load(rel) + w);
 }
 
-/// One round of Newton: φ from MMF, reluctance and the iron's tangent. Returns the largest change
-/// over the largest flux.
-AMBRIG_WIDE double Round(Coupling coupling, const double* mmf, const double* reluctance,
-                         const double* drop, const double* slope, double* phi) {
+AMBRIG_WIDE void Clear(double* drop, double* slope) {
+  const V zero = {};
+  Store(drop, zero);
+  Store(slope, zero);
+}
+
+/// One round of Newton: φ from MMF, reluctance and the iron's tangent. Returns whether it changed
+/// the fluxes by less than kConverged of their size.
+AMBRIG_WIDE bool Round(Coupling coupling, const double* mmf, const double* stiffness,
+                       const double* drop, const double* slope, double* phi) {
   const V old = Load(phi), s = Load(slope);
   const V m = Load(mmf) - (Load(drop) - s * old);
-  const V g = 1.0 / (Load(reluctance) + s);
+  const V g = 1.0 / (Load(stiffness) + s);
   V next = g * m;
   if (coupling == Coupling::kFloatingRotor) next = next - g * (Sum(next) / Sum(g));
   Store(phi, next);
-  double change = 0, size = 1e-12;
-  for (int j = 0; j < kLanes; ++j) {
-    change = std::max(change, std::abs(next[j] - old[j]));
-    size = std::max(size, std::abs(next[j]));
-  }
-  return change / size;
+  const V change = next - old;
+  return Sum(change * change) <= kConverged * kConverged * Sum(next * next) + 1e-36;
 }
 
-AMBRIG_WIDE void Currents(const double* inverse_l, const double* n, const double* target, const double* phi,
-                          double* i) {
+AMBRIG_WIDE void Currents(const double* inverse_l, const double* n, const double* target,
+                          const double* phi, double* i) {
   Store(i, Load(inverse_l) * (Load(target) - Load(n) * Load(phi)));
 }
 
@@ -97,20 +117,21 @@ AMBRIG_WIDE void Take(const double* n, const double* leakage, const double* phi,
 }  // namespace
 
 void StatorLanes::SolveGeneral(const Lane& target, const Lane& target2) {
-  Lane inverse2, mmf, own;
+  Lane inverse2, short_mmf, short_own;
   for (int j = 0; any_short && j < kLanes; ++j) {
     if (n2[j] == 0) continue;
     inverse2[j] = 1 / (leakage2[j] + theta2_[j] * resistance2[j] * h_);
-    mmf[j] = n2[j] * inverse2[j] * target2[j];
-    own[j] = n2[j] * n2[j] * inverse2[j];
+    short_mmf[j] = n2[j] * inverse2[j] * target2[j];
+    short_own[j] = n2[j] * n2[j] * inverse2[j];
   }
-  Windings(coupling, c_.v, n.v, target.v, mmf.v, own.v);
-  for (int j = 0; j < kLanes; ++j) own[j] += rel_[j];
+  Lane mmf, stiffness, drop, slope;
+  Windings(coupling, c_.v, n.v, target.v, rel_.v, any_short ? short_mmf.v : nullptr, short_own.v,
+           mmf.v, stiffness.v);
   const int rounds = affine_laws_ ? 1 : kMostRounds;
   for (int round = 0; round < rounds; ++round) {
-    Lane drop, slope;
+    Clear(drop.v, slope.v);
     for (const FluxLaw* law : laws) law->Drop(phi, &drop, &slope);
-    if (Round(coupling, mmf.v, own.v, drop.v, slope.v, phi.v) < kConverged) break;
+    if (Round(coupling, mmf.v, stiffness.v, drop.v, slope.v, phi.v)) break;
   }
   Currents(inverse_l_.v, n.v, target.v, phi.v, i.v);
   for (int j = 0; any_short && j < kLanes; ++j)
@@ -138,7 +159,7 @@ void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
   const Edges edges{&pattern, bus, k * h_, h_};
   samples[k] = i;
   const Lane& start = samples[k];
-  for (int j = 0; j < kLanes; ++j) rel_[j] = rel0_[j] + (rel1_[j] - rel0_[j]) * fraction;
+  Reluctance(rel0_.v, rel1_.v, fraction, rel_.v);
   Lane target, target2;
   Targets(edges, lambda.v, half_rh_.v, i.v, target.v);
   UnblockDriven(pattern, bus, edges.t, &target);

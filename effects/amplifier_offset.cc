@@ -9,13 +9,15 @@ EffectDescription AmplifierOffset() {
   d.id = "amplifier-offset";
   d.title = "Offset and dead duty of the amplifier";
   d.physics =
-      "The bridge gives a constant voltage more or less than asked for, and pulses shorter than a least\n"
+      "The bridge gives a constant voltage more or less than asked for, and pulses shorter than a "
+      "least\n"
       "duty do not come out at all.";
   d.target = TargetKind::kCoilOrBearing;
   d.parameters = {{"offset", "V", 0, -100, 100, 0.05, 2, "added while the bridge drives the coil"},
                   {"dead_duty", "-", 0, 0, 0.5, 0.02, 0.1, "no pulse below this duty"}};
   d.off_when_null = {"offset", "dead_duty"};
-  d.shows_in = "open-loop duty records; in closed current loops only transients and the duty itself";
+  d.shows_in =
+      "open-loop duty records; in closed current loops only transients and the duty itself";
   d.confused_with = "freewheel-drop, switch drops, current-sensor-offset (closed loop)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const double offset = e.Value("offset"), dead_duty = e.Value("dead_duty");

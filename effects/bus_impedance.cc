@@ -10,8 +10,10 @@ EffectDescription BusImpedance() {
   d.id = "bus-impedance";
   d.title = "Source impedance of the bus";
   d.physics =
-      "The supply feeds the amplifiers through a resistance with a capacitance behind it: the bus sags\n"
-      "while coils take power, pumps up while they return it, and all current slopes scale with it.";
+      "The supply feeds the amplifiers through a resistance with a capacitance behind it: the bus "
+      "sags\n"
+      "while coils take power, pumps up while they return it, and all current slopes scale with "
+      "it.";
   d.target = TargetKind::kRig;
   d.parameters = {{"resistance", "ohm", 0, 0, 100, 0.02, 0.5, "between source and capacitance"},
                   {"capacitance", "F", 1e-3, 0, 10, 3e-4, 1e-2, "at the amplifiers"}};

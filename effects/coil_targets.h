@@ -4,7 +4,6 @@
 
 #include "core/base/errors.h"
 #include "core/math/constants.h"
-#include "core/math/constants.h"
 #include "effects/effect.h"
 #include "effects/plant.h"
 

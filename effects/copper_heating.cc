@@ -10,13 +10,16 @@ EffectDescription CopperHeating() {
   d.id = "copper-heating";
   d.title = "Heating of the copper";
   d.physics =
-      "Copper loss warms each coil with one thermal time constant, and its resistance grows by 0.393 %\n"
+      "Copper loss warms each coil with one thermal time constant, and its resistance grows by "
+      "0.393 %\n"
       "per kelvin; the current loops answer with more duty.";
   d.target = TargetKind::kBearing;
-  d.parameters = {{"rise_per_watt", "K/W", 0, 0, 1000, 2, 50, "temperature rise over copper loss, settled"},
-                  {"time_constant", "s", 1, 1e-3, 1e5, 0.1, 100, "thermal"}};
+  d.parameters = {
+      {"rise_per_watt", "K/W", 0, 0, 1000, 2, 50, "temperature rise over copper loss, settled"},
+      {"time_constant", "s", 1, 1e-3, 1e5, 0.1, 100, "thermal"}};
   d.off_when_null = {"rise_per_watt"};
-  d.shows_in = "long records at high current: slow drift of the current ripple's mean and of the duty";
+  d.shows_in =
+      "long records at high current: slow drift of the current ripple's mean and of the duty";
   d.confused_with = "a larger resistance (constant), bus sag";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     BearingPlant& b = TargetBearing(e, plant);

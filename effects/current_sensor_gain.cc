@@ -9,10 +9,12 @@ EffectDescription CurrentSensorGain() {
   d.id = "current-sensor-gain";
   d.title = "Gain error of a current sensor";
   d.physics =
-      "The sensor reads gain times the current. The tight current loop hides it in the reading: the true\n"
+      "The sensor reads gain times the current. The tight current loop hides it in the reading: "
+      "the true\n"
       "current is set-point over gain, and with it MMF, slope and force of that coil.";
   d.target = TargetKind::kCoilOrBearing;
-  d.parameters = {{"gain", "-", 1, 0.2, 5, 0.01, 0.1, "reading over current; typical: distance from 1"}};
+  d.parameters = {
+      {"gain", "-", 1, 0.2, 5, 0.01, 0.1, "reading over current; typical: distance from 1"}};
   d.off_when_null = {"gain"};
   d.shows_in = "force of clamped records; levitated: cross-talk and changed loop gain of that coil";
   d.confused_with = "turn-mismatch (also changes the ripple), pole area";

@@ -10,10 +10,12 @@ EffectDescription DeadTime() {
   d.id = "dead-time";
   d.title = "Dead time of the bridges";
   d.physics =
-      "Both switches wait before they turn on, so every on-phase is shorter by that time; the current\n"
+      "Both switches wait before they turn on, so every on-phase is shorter by that time; the "
+      "current\n"
       "loop answers with duty, and the ripple shifts within the period.";
   d.target = TargetKind::kRig;
-  d.parameters = {{"time", "s", 0, 0, 1e-4, 2e-7, 3e-6, "from the command to the switches closing"}};
+  d.parameters = {
+      {"time", "s", 0, 0, 1e-4, 2e-7, 3e-6, "from the command to the switches closing"}};
   d.off_when_null = {"time"};
   d.shows_in = "duty against current, ADC samples just after the start of a period";
   d.confused_with = "amplifier-offset of all coils, a lower bus voltage";

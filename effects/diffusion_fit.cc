@@ -12,12 +12,13 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kFitFrom = 35, kFitTo = 3e5;           // [Hz]
-constexpr double kFirstPole = 8, kLastPole = 5e5;       // [Hz]
-constexpr double kTailFrequency = 1e6;                  // [Hz] scale of the tail's column
+constexpr double kFitFrom = 35, kFitTo = 3e5;      // [Hz]
+constexpr double kFirstPole = 8, kLastPole = 5e5;  // [Hz]
+constexpr double kTailFrequency = 1e6;             // [Hz] scale of the tail's column
 constexpr int kFrequencies = 120, kColumns = kDiffusionPoles + 1;
 
-/// min |A x - b|, x >= 0, by leaving out what comes out negative; enough for these well-spread columns.
+/// min |A x - b|, x >= 0, by leaving out what comes out negative; enough for these well-spread
+/// columns.
 Eigen::VectorXd NonNegative(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   std::vector<int> active;
   for (int k = 0; k < A.cols(); ++k) active.push_back(k);
@@ -62,7 +63,8 @@ DiffusionFit FitDiffusion(double cutoff, double rho) {
   Eigen::MatrixXd A(2 * kFrequencies, kColumns);
   Eigen::VectorXd b(2 * kFrequencies);
   for (int row = 0; row < kFrequencies; ++row) {
-    const Complex s(0, 2 * kPi * kFitFrom * std::pow(kFitTo / kFitFrom, row / (kFrequencies - 1.0)));
+    const Complex s(0,
+                    2 * kPi * kFitFrom * std::pow(kFitTo / kFitFrom, row / (kFrequencies - 1.0)));
     const Complex wanted = Diffusion(s, cutoff, rho);
     const auto set = [&](auto&& at, Complex value) {
       at(2 * row) = value.real();

@@ -1,15 +1,17 @@
-/// Eddy currents: the flux of a pole diffuses into its laminations, which costs MMF on top of the gap.
+/// Eddy currents: the flux of a pole diffuses into its laminations, which costs MMF on top of the
+/// gap.
 ///
 ///   E(s) = R_gap T(s) φ(s),  so without static iron φ = φ_static / (1 + sqrt(j f/cutoff))
 ///
 /// T(s): effects/diffusion_fit.h. With a linear flux over a step of h the relaxations are exact:
-///   e_k' = r_k φ' - p_k e_k :   e_k <- a_k e_k + b_k Δφ,  a_k = exp(-p_k h),  b_k = r_k (1 - a_k)/(p_k h)
-/// E = Σ e_k + tail Δφ/h is linear in the flux at the end (one round of Newton) and vanishes at rest.
-/// With `path` 0 the half order holds at all frequencies: thick iron. A path gives the laminations
-/// their thickness d: below 1/(2 pi τ) they no longer hold the flux back; conductivity σ and
-/// path = l_fe/mu_r give τ = σ mu0 mu_r d²/4 and cutoff = g0²/(2 pi τ path²). The MMF that the same
-/// iron needs at rest is the effect iron-reluctance.
-/// Source: facts.md 5.1; Zhu & Knospe 2011 for the half order. Limit: linear iron.
+///   e_k' = r_k φ' - p_k e_k :   e_k <- a_k e_k + b_k Δφ,  a_k = exp(-p_k h),  b_k = r_k (1 -
+///   a_k)/(p_k h)
+/// E = Σ e_k + tail Δφ/h is linear in the flux at the end (one round of Newton) and vanishes at
+/// rest. With `path` 0 the half order holds at all frequencies: thick iron. A path gives the
+/// laminations their thickness d: below 1/(2 pi τ) they no longer hold the flux back; conductivity
+/// σ and path = l_fe/mu_r give τ = σ mu0 mu_r d²/4 and cutoff = g0²/(2 pi τ path²). The MMF that
+/// the same iron needs at rest is the effect iron-reluctance. Source: facts.md 5.1; Zhu & Knospe
+/// 2011 for the half order. Limit: linear iron.
 #include <array>
 #include <cmath>
 #include <memory>
@@ -49,6 +51,12 @@ AMBRIG_WIDE void Advance(const StepCoefficients& c, double gap, const double* ph
   Store(s.base.v, kept - now * (gap * c.slope));
 }
 
+AMBRIG_WIDE void AddDrop(const double* base, double tangent, const double* phi, double* drop,
+                         double* slope) {
+  Store(drop, Load(drop) + Load(base) + Load(phi) * tangent);
+  Store(slope, Load(slope) + tangent);
+}
+
 class EddyLaw final : public FluxLaw {
  public:
   EddyLaw(double cutoff, double rho, double gap) : fit_(FitDiffusion(cutoff, rho)), gap_(gap) {}
@@ -69,11 +77,7 @@ class EddyLaw final : public FluxLaw {
   }
 
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    const double tangent = gap_ * step_.slope;
-    for (int j = 0; j < kLanes; ++j) {
-      drop->v[j] += states_.base.v[j] + tangent * phi.v[j];
-      slope->v[j] += tangent;
-    }
+    AddDrop(states_.base.v, gap_ * step_.slope, phi.v, drop->v, slope->v);
   }
 
   void Steady(const Lane&, Lane*, Lane*) const override {}
@@ -109,16 +113,20 @@ EffectDescription EddyCurrents() {
   d.id = "eddy-currents";
   d.title = "Eddy currents in the iron";
   d.physics =
-      "Changing flux is kept out of the laminations by the currents it induces and diffuses in with the\n"
-      "square root of time: force and inductance fall by 10 dB a decade, phase tends to -45 degrees.";
+      "Changing flux is kept out of the laminations by the currents it induces and diffuses in "
+      "with the\n"
+      "square root of time: force and inductance fall by 10 dB a decade, phase tends to -45 "
+      "degrees.";
   d.target = TargetKind::kBearing;
-  d.parameters = {{"cutoff", "Hz", kInfinity, 1, kInfinity, 300, 3e4,
-                   "frequency at which the half-order drop equals the gap's"},
-                  {"path", "m", 0, 0, 1e-3, 5e-6, 5e-5,
-                   "iron length over mu_r; 0: half order down to rest"}};
+  d.parameters = {
+      {"cutoff", "Hz", kInfinity, 1, kInfinity, 300, 3e4,
+       "frequency at which the half-order drop equals the gap's"},
+      {"path", "m", 0, 0, 1e-3, 5e-6, 5e-5, "iron length over mu_r; 0: half order down to rest"}};
   d.off_when_null = {"cutoff"};
   d.shows_in = "current ripple and steps (steep, then slow), force of fast excitation; not at rest";
-  d.confused_with = "loop-delay (phase in proportion to f), leakage and gap (seen by the ripple), iron-reluctance";
+  d.confused_with =
+      "loop-delay (phase in proportion to f), leakage and gap (seen by the ripple), "
+      "iron-reluctance";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     if (!std::isfinite(e.Value("cutoff"))) return;
     BearingPlant& b = TargetBearing(e, plant);

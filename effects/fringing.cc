@@ -13,10 +13,12 @@ EffectDescription Fringing() {
       "Flux bulges out at the pole's edges, so the pole acts as if its area grew with the gap:\n"
       "A (1 + coefficient g/g0). Force falls less steeply with the gap than 1/g³.";
   d.target = TargetKind::kBearing;
-  d.parameters = {{"coefficient", "-", 0, -0.5, 2, 0.01, 0.15, "growth of the area per nominal gap"}};
+  d.parameters = {
+      {"coefficient", "-", 0, -0.5, 2, 0.01, 0.15, "growth of the area per nominal gap"}};
   d.off_when_null = {"coefficient"};
   d.shows_in = "clamped current steps at several rotor positions";
-  d.confused_with = "a larger pole area, more turns; told apart by how force and slope depend on position";
+  d.confused_with =
+      "a larger pole area, more turns; told apart by how force and slope depend on position";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     TargetBearing(e, plant).lanes.reluctance.fringing = e.Value("coefficient");
   };

@@ -1,11 +1,13 @@
-/// Hysteresis: the iron's MMF depends on the turning points of its flux density (Prandtl-Ishlinskii).
+/// Hysteresis: the iron's MMF depends on the turning points of its flux density
+/// (Prandtl-Ishlinskii).
 ///
-///   E = N coercive (1/n) Σ_k s_k / r_k,   s_k <- clamp(s_k + ΔB, ±r_k),   r_k = width (k - 1/2)/n, n = 8
+///   E = N coercive (1/n) Σ_k s_k / r_k,   s_k <- clamp(s_k + ΔB, ±r_k),   r_k = width (k - 1/2)/n,
+///   n = 8
 ///
-/// Stop operators: return-point memory, closed minor loops, no dependence on rate, |E| <= N coercive.
-/// A loop between ±B of at least `width` costs 4 N coercive A (B - width/2) of energy: the closed form
-/// of the test. `width` is the flux density after a turning point within which the branch
-/// crosses over by half: the whole crossing takes 2 width. A run starts on the virgin curve.
+/// Stop operators: return-point memory, closed minor loops, no dependence on rate, |E| <= N
+/// coercive. A loop between ±B of at least `width` costs 4 N coercive A (B - width/2) of energy:
+/// the closed form of the test. `width` is the flux density after a turning point within which the
+/// branch crosses over by half: the whole crossing takes 2 width. A run starts on the virgin curve.
 /// Source: facts.md 5.1 (hysteresis); Hc of the loops in data/measured/bh_steel_msl.
 #include <cmath>
 #include <memory>
@@ -18,6 +20,8 @@ namespace ambrig {
 
 namespace {
 
+using V = LaneVector;
+
 constexpr int kStops = 8;
 
 /// One stop operator per row, all lanes; in units of flux [Wb].
@@ -26,29 +30,32 @@ struct Stops {
   Lane phi;
 };
 
+/// s + Δφ, held within ±r.
+[[gnu::always_inline]] static inline V Held(const V& free, double r) {
+  const V top = V{} + r;
+  const V low = free < -top ? -top : free;
+  return low > top ? top : low;
+}
+
 AMBRIG_WIDE void AddDrop(const Stops& stops, const double* radius, double weight, const double* phi,
                          double* drop, double* slope) {
+  const V change = Load(phi) - Load(stops.phi.v), zero = {};
+  V sum = Load(drop), tangents = Load(slope);
   for (int k = 0; k < kStops; ++k) {
-    const double r = radius[k], tangent = weight / r;
-    for (int j = 0; j < kLanes; ++j) {
-      const double free = stops.s[k].v[j] + (phi[j] - stops.phi.v[j]);
-      const double low = free < -r ? -r : free, held = low > r ? r : low;
-      drop[j] += tangent * held;
-      slope[j] += held == free ? tangent : 0;
-    }
+    const double tangent = weight / radius[k];
+    const V free = Load(stops.s[k].v) + change, held = Held(free, radius[k]);
+    sum += tangent * held;
+    tangents += held == free ? zero + tangent : zero;
   }
+  Store(drop, sum);
+  Store(slope, tangents);
 }
 
 AMBRIG_WIDE void Advance(const double* radius, const double* phi, Stops& stops) {
-  for (int k = 0; k < kStops; ++k) {
-    const double r = radius[k];
-    for (int j = 0; j < kLanes; ++j) {
-      const double free = stops.s[k].v[j] + (phi[j] - stops.phi.v[j]);
-      const double low = free < -r ? -r : free;
-      stops.s[k].v[j] = low > r ? r : low;
-    }
-  }
-  for (int j = 0; j < kLanes; ++j) stops.phi.v[j] = phi[j];
+  const V now = Load(phi), change = now - Load(stops.phi.v);
+  for (int k = 0; k < kStops; ++k)
+    Store(stops.s[k].v, Held(Load(stops.s[k].v) + change, radius[k]));
+  Store(stops.phi.v, now);
 }
 
 class HysteresisLaw final : public FluxLaw {
@@ -82,18 +89,22 @@ EffectDescription Hysteresis() {
   d.id = "hysteresis";
   d.title = "Hysteresis of the iron";
   d.physics =
-      "The iron's MMF depends on where its flux turned last: rising and falling branches lie twice the\n"
+      "The iron's MMF depends on where its flux turned last: rising and falling branches lie twice "
+      "the\n"
       "coercive current apart, minor loops close, and remanence stays when the current ends.";
   d.target = TargetKind::kBearing;
-  d.parameters = {{"coercive", "A", 0, 0, 10, 0.005, 0.2, "half the width of the loop, as current of one coil"},
-                  {"width", "T", 0.2, 1e-3, 3, 0.03, 0.5, "flux density within which the branches cross over"}};
+  d.parameters = {
+      {"coercive", "A", 0, 0, 10, 0.005, 0.2, "half the width of the loop, as current of one coil"},
+      {"width", "T", 0.2, 1e-3, 3, 0.03, 0.5, "flux density within which the branches cross over"}};
   d.off_when_null = {"coercive"};
-  d.shows_in = "clamped ramps up and down: force on the way down exceeds that on the way up; any frequency";
+  d.shows_in =
+      "clamped ramps up and down: force on the way down exceeds that on the way up; any frequency";
   d.confused_with = "eddy-currents (lag grows with frequency), current-sensor-offset (no branches)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     BearingPlant& b = TargetBearing(e, plant);
     const double turns = std::abs(b.lanes.n[0]);
-    b.laws.push_back(std::make_unique<HysteresisLaw>(turns * e.Value("coercive"), e.Value("width") / DensityPerFlux(b)));
+    b.laws.push_back(std::make_unique<HysteresisLaw>(turns * e.Value("coercive"),
+                                                     e.Value("width") / DensityPerFlux(b)));
   };
   return d;
 }

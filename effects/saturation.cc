@@ -1,9 +1,10 @@
-/// Saturation: MMF drop of the iron in series with a pole's gap, H(B) * path, with H growing steeply
-/// once the pole's flux density passes the knee (effects/steel_curve.h).
+/// Saturation: MMF drop of the iron in series with a pole's gap, H(B) * path, with H growing
+/// steeply once the pole's flux density passes the knee (effects/steel_curve.h).
 ///
-/// B counts over the gap's area. Iron of a smaller section a A holds B/a: its knee appears at a times
-/// the steel's (1.4 to 1.6 T), so a slender yoke has a knee of 0.3 T here. `path` is the iron's length.
-/// No memory; U and flux by Newton. Source: facts.md 5.1 (saturation), data/measured/bh_steel_msl.
+/// B counts over the gap's area. Iron of a smaller section a A holds B/a: its knee appears at a
+/// times the steel's (1.4 to 1.6 T), so a slender yoke has a knee of 0.3 T here. `path` is the
+/// iron's length. No memory; U and flux by Newton. Source: facts.md 5.1 (saturation),
+/// data/measured/bh_steel_msl.
 #include <cmath>
 #include <memory>
 
@@ -16,13 +17,12 @@ namespace ambrig {
 
 namespace {
 
-AMBRIG_WIDE void AddDrop(double x_per_flux, double path, const double* phi, double* drop, double* slope) {
-  for (int j = 0; j < kLanes; ++j) {
-    double H, tangent;
-    SteelCurve(phi[j] * x_per_flux, &H, &tangent);
-    drop[j] += path * H;
-    slope[j] += path * tangent * x_per_flux;
-  }
+AMBRIG_WIDE void AddDrop(double x_per_flux, double path, const double* phi, double* drop,
+                         double* slope) {
+  LaneVector H, tangent;
+  SteelCurve(Load(phi) * x_per_flux, &H, &tangent);
+  Store(drop, Load(drop) + path * H);
+  Store(slope, Load(slope) + path * x_per_flux * tangent);
 }
 
 class SaturationLaw final : public FluxLaw {
@@ -47,19 +47,24 @@ EffectDescription Saturation() {
   d.id = "saturation";
   d.title = "Saturation of the iron";
   d.physics =
-      "Past the knee of its magnetisation curve the iron needs steeply more MMF: force per current falls\n"
+      "Past the knee of its magnetisation curve the iron needs steeply more MMF: force per current "
+      "falls\n"
       "with the flux, inductance falls, and current slopes rise at high current.";
   d.target = TargetKind::kBearing;
   d.parameters = {{"knee", "T", kInfinity, 0.1, kInfinity, 0.3, 1.6,
                    "flux density in the gap at which the iron needs 1000 A/m"},
                   {"path", "m", 0.1, 0, 2, 0.03, 0.2, "length of the saturating iron per gap"}};
   d.off_when_null = {"knee"};
-  d.shows_in = "clamped ramps to high current: force and slope; harmonics of the force under large excitation";
-  d.confused_with = "iron-reluctance (acts at every flux), current-sensor-gain, voltage limit (needs speed)";
+  d.shows_in =
+      "clamped ramps to high current: force and slope; harmonics of the force under large "
+      "excitation";
+  d.confused_with =
+      "iron-reluctance (acts at every flux), current-sensor-gain, voltage limit (needs speed)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     if (!std::isfinite(e.Value("knee"))) return;
     BearingPlant& b = TargetBearing(e, plant);
-    b.laws.push_back(std::make_unique<SaturationLaw>(DensityPerFlux(b) / e.Value("knee"), e.Value("path")));
+    b.laws.push_back(
+        std::make_unique<SaturationLaw>(DensityPerFlux(b) / e.Value("knee"), e.Value("path")));
   };
   return d;
 }

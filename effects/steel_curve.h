@@ -11,12 +11,13 @@
 
 namespace ambrig {
 
-/// H [A/m] and dH/dx [A/m] at x = B/knee.
-[[gnu::always_inline]] static inline void SteelCurve(double x, double* H, double* slope) {
+/// H [A/m] and dH/dx [A/m] at x = B/knee, of one number or of all lanes.
+template <class T>
+[[gnu::always_inline]] static inline void SteelCurve(const T& x, T* H, T* slope) {
   constexpr double kScale = 2000, kAir = kScale * kMu0 / 1.5;
-  const double y = x * x, y2 = y * y, y4 = y2 * y2, y8 = y4 * y4;
-  const double below = 1 + y4 * y + kAir * y8;
-  const double ratio = y8 / below;
+  const T y = x * x, y2 = y * y, y4 = y2 * y2, y8 = y4 * y4;
+  const T below = 1 + y4 * y + kAir * y8;
+  const T ratio = y8 / below;
   *H = kScale * x * ratio;
   *slope = kScale * ratio * (17 - (10 * y4 * y + 16 * kAir * y8) / below);
 }

@@ -13,10 +13,12 @@ EffectDescription TurnMismatch() {
       "One coil was wound with more or fewer turns: its MMF and linkage scale with the ratio, its\n"
       "resistance with the ratio, its leakage inductance with the ratio squared.";
   d.target = TargetKind::kCoil;
-  d.parameters = {{"ratio", "-", 1, 0.3, 2, 0.02, 0.2, "turns over the drawing's; typical: distance from 1"}};
+  d.parameters = {
+      {"ratio", "-", 1, 0.3, 2, 0.02, 0.2, "turns over the drawing's; typical: distance from 1"}};
   d.off_when_null = {"ratio"};
   d.shows_in = "current ripple and force of one coil, clamped or levitated with excitation";
-  d.confused_with = "current-sensor-gain of that coil (force only, no change of slope), partial short";
+  d.confused_with =
+      "current-sensor-gain of that coil (force only, no change of slope), partial short";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     const double ratio = e.Value("ratio");
     ForEachTargetCoil(e, plant, [&](BearingPlant& b, int j) {

@@ -47,8 +47,9 @@ TEST_P(EveryEffect, IsDescribedCompletely) {
   EXPECT_FALSE(d.parameters.empty());
   EXPECT_FALSE(d.off_when_null.empty());
   for (const std::string& name : d.off_when_null)
-    EXPECT_TRUE(std::any_of(d.parameters.begin(), d.parameters.end(), [&](const auto& p) { return p.name == name; }))
-        << name;
+    EXPECT_TRUE(std::any_of(d.parameters.begin(), d.parameters.end(), [&](const auto& p) {
+      return p.name == name;
+    })) << name;
   for (const EffectParameter& p : d.parameters) {
     EXPECT_FALSE(p.name.empty() || p.unit.empty() || p.doc.empty()) << p.name;
     EXPECT_LE(p.lo, p.null_value) << p.name;
@@ -72,15 +73,17 @@ TEST_P(EveryEffect, NullLeavesEveryBitOfTheRecord) {
   }
   const Record record = RunText(with, LevitatedText()).record;
   ASSERT_EQ(record.channels.size(), base.channels.size());
-  for (const Channel& c : base.channels) EXPECT_EQ(c.samples, record.Find(c.name)->samples) << c.name;
+  for (const Channel& c : base.channels)
+    EXPECT_EQ(c.samples, record.Find(c.name)->samples) << c.name;
 }
 
-// Parameters 100 times nearer to null: the effect is 100 times smaller (the half-order law: 10 times),
-// down to what the fast and the general path differ by, 2e-7 of a channel.
+// Parameters 100 times nearer to null: the effect is 100 times smaller (the half-order law: 10
+// times), down to what the fast and the general path differ by, 2e-7 of a channel.
 TEST_P(EveryEffect, VanishesWithoutAJump) {
   const EffectDescription& d = GetParam();
   if (d.id == "formula") GTEST_SKIP() << "has no parameters of its own";
-  if (d.id == "loop-delay") GTEST_SKIP() << "set-points wait for the next PWM start: whole periods only";
+  if (d.id == "loop-delay")
+    GTEST_SKIP() << "set-points wait for the next PWM start: whole periods only";
   const RigParameters rig = FineRig();
   static const Record base = RunText(rig, LevitatedText()).record;
   const auto change = [&](double eps) {
@@ -96,11 +99,12 @@ TEST_P(EveryEffect, VanishesWithoutAJump) {
   EXPECT_LT(smaller, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(Catalogue()), [](const auto& each) {
-  std::string name = each.param.id;
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(Catalogue()),
+                         [](const auto& each) {
+                           std::string name = each.param.id;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST(Catalogue, IdsAreUniqueAndFound) {
   std::set<std::string> ids;

@@ -41,11 +41,12 @@ TEST(IronReluctance, StiffnessRatioIsTheEffectiveGapOverTheBias) {
   EXPECT_NEAR(iron.ks / ideal.ks, std::pow(g0 / (g0 + path), 3), 1e-6);
 }
 
-// Pull = (1/2) phi² dR/dg with R = g / (mu0 A (1 + c g/g0)): force at the centre is (1 + c)² (1 + c)^-2 = that
-// of ideal iron at equal currents, while L grows by 1 + c.
+// Pull = (1/2) phi² dR/dg with R = g / (mu0 A (1 + c g/g0)): force at the centre is (1 + c)² (1 +
+// c)^-2 = that of ideal iron at equal currents, while L grows by 1 + c.
 TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {
   const double c = 0.12;
-  Plant with = PlantWith("fringing", "A", {{"coefficient", c}}), without = BuildPlant(ReferenceRig());
+  Plant with = PlantWith("fringing", "A", {{"coefficient", c}}),
+        without = BuildPlant(ReferenceRig());
   EXPECT_NEAR(RestFlux(with, Currents(2))[0] / RestFlux(without, Currents(2))[0], 1 + c, 1e-12);
   EXPECT_NEAR(StiffnessOf(with, 2).ki / StiffnessOf(without, 2).ki, 1, 1e-6);
   // ks: the same pull 1/g² in place of (1/g²): f = mu0 A (N i)²/(2 g²) whatever c.
@@ -54,15 +55,18 @@ TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {
 
 TEST(MagneticOffset, ForceAtZeroIsStiffnessTimesOffset) {
   const double dx = 1e-6, bias = 2;
-  Plant with = PlantWith("magnetic-offset", "A", {{"dx", dx}}), without = BuildPlant(ReferenceRig());
+  Plant with = PlantWith("magnetic-offset", "A", {{"dx", dx}}),
+        without = BuildPlant(ReferenceRig());
   const Stiffness s = StiffnessOf(without, bias);
   // Cubic term of the force: (dx/g0)² relative.
   EXPECT_NEAR(ForceX(with, bias, 0, 0), -s.ks * dx, 1e-4 * s.ks * dx);
-  EXPECT_NEAR(ForceX(with, bias, bias * dx / ReferenceRig().bearings[0].radial.gap, 0), 0, 1e-4 * s.ks * dx);
+  EXPECT_NEAR(ForceX(with, bias, bias * dx / ReferenceRig().bearings[0].radial.gap, 0), 0,
+              1e-4 * s.ks * dx);
 }
 
 TEST(TurnMismatch, ScalesMmfResistanceAndLeakage) {
-  Plant with = PlantWith("turn-mismatch", "A.coil3", {{"ratio", 0.9}}), without = BuildPlant(ReferenceRig());
+  Plant with = PlantWith("turn-mismatch", "A.coil3", {{"ratio", 0.9}}),
+        without = BuildPlant(ReferenceRig());
   const StatorLanes &a = with.bearings[0].lanes, &b = without.bearings[0].lanes;
   EXPECT_DOUBLE_EQ(a.n[2], 0.9 * b.n[2]);
   EXPECT_DOUBLE_EQ(a.resistance[2], 0.9 * b.resistance[2]);
@@ -90,7 +94,8 @@ TEST(CurrentSensor, LoopDrivesTheTrueCurrentAwayFromTheReading) {
     EXPECT_NEAR(TailMean(r.record, "A.i1", 250), TailMean(plain.record, "A.i1", 250), lsb) << id;
     const double wanted = rig.bearings[0].radial.resistance * (true_current - 3) * DutyPerVolt(rig);
     EXPECT_NEAR(TailMean(r.record, "A.d1", 250) - TailMean(plain.record, "A.d1", 250), wanted,
-                0.05 * std::abs(wanted)) << id;
+                0.05 * std::abs(wanted))
+        << id;
   };
   check("current-sensor-gain", {{"gain", 1.1}}, 3 / 1.1);
   check("current-sensor-offset", {{"offset", 0.2}}, 2.8);
@@ -113,7 +118,8 @@ TEST(BusImpedance, SettledBusCarriesTheCopperLoss) {
   RigParameters rig = ReferenceRig();
   rig.amplifier.switch_drop = rig.amplifier.diode_drop = 0;
   const double resistance = 0.3, high = 4;
-  const RigParameters with = WithEffect(rig, "bus-impedance", "rig", {{"resistance", resistance}, {"capacitance", 0.04}});
+  const RigParameters with =
+      WithEffect(rig, "bus-impedance", "rig", {{"resistance", resistance}, {"capacitance", 0.04}});
   const RunResult result = RunText(with, ClampedText(high, 0.1));
   const double bus = TailMean(result.record, "bus", 250);
   // Coils of B are told nothing: they stay at the lower duty limit and draw next to nothing.
@@ -125,15 +131,16 @@ TEST(BusImpedance, SettledBusCarriesTheCopperLoss) {
   const double source = rig.amplifier.bus_voltage;
   const double wanted = 0.5 * (source + std::sqrt(source * source - 4 * resistance * power));
   EXPECT_LT(wanted, source - 0.5);
-  // Rows show the bus at the start of a period, half its ripple (32 A over 20 us in 40 mF) above the mean:
-  // 1.3 % of the sag. Ripple current adds copper loss: (0.2/4)²/3 of it.
+  // Rows show the bus at the start of a period, half its ripple (32 A over 20 us in 40 mF) above
+  // the mean: 1.3 % of the sag. Ripple current adds copper loss: (0.2/4)²/3 of it.
   EXPECT_NEAR(bus, wanted, 0.02 * (source - wanted));
 }
 
 // The on-phase is shorter by t_d: the loop gives back the duty t_d f_sw.
 TEST(DeadTime, LoopGivesTheDutyBack) {
   const double time = 1e-6;
-  const RigParameters rig = ReferenceRig(), with = WithEffect(rig, "dead-time", "rig", {{"time", time}});
+  const RigParameters rig = ReferenceRig(),
+                      with = WithEffect(rig, "dead-time", "rig", {{"time", time}});
   const std::string text = ClampedText(3, 0.05);
   const RunResult a = RunText(rig, text), b = RunText(with, text);
   EXPECT_NEAR(TailMean(b.record, "A.d1", 250) - TailMean(a.record, "A.d1", 250),
@@ -144,14 +151,17 @@ TEST(DeadTime, LoopGivesTheDutyBack) {
 TEST(CopperHeating, DutyCarriesTheWarmResistance) {
   const double rise = 20, tau = 2e-3, high = 4;
   const RigParameters rig = ReferenceRig(),
-                      with = WithEffect(rig, "copper-heating", "A", {{"rise_per_watt", rise}, {"time_constant", tau}});
+                      with = WithEffect(rig, "copper-heating", "A",
+                                        {{"rise_per_watt", rise}, {"time_constant", tau}});
   const std::string text = ClampedText(high, 0.08);
   const RunResult cold = RunText(rig, text), warm = RunText(with, text);
   const double r20 = rig.bearings[0].radial.resistance;
-  const double r = r20 / (1 - 0.00393 * rise * r20 * high * high);  // dT = rise R i², R = R20 (1 + 0.00393 dT)
+  const double r =
+      r20 / (1 - 0.00393 * rise * r20 * high * high);  // dT = rise R i², R = R20 (1 + 0.00393 dT)
   const double dv = (r - r20) * high;
   const double wanted = dv * DutyPerVolt(rig);
-  EXPECT_NEAR(TailMean(warm.record, "A.d1", 250) - TailMean(cold.record, "A.d1", 250), wanted, 0.05 * wanted);
+  EXPECT_NEAR(TailMean(warm.record, "A.d1", 250) - TailMean(cold.record, "A.d1", 250), wanted,
+              0.05 * wanted);
 }
 
 // A chopper without current loop: mean current = (d U - (1 - d) drop)/R.
@@ -164,7 +174,8 @@ TEST(Chopper, DropAndOffsetEnterTheMeanVoltage) {
     const CoilVoltage c = amplifier.Pattern(0.4, plant.bearings[0].bridge[3]);
     const double T = 1 / rig.amplifier.switching_frequency, bus = rig.amplifier.bus_voltage;
     return ((c.gain[0] * bus + c.drop[0]) * c.t1 + (c.gain[1] * bus + c.drop[1]) * (c.t2 - c.t1) +
-            (c.gain[2] * bus + c.drop[2]) * (T - c.t2)) / T;
+            (c.gain[2] * bus + c.drop[2]) * (T - c.t2)) /
+           T;
   };
   const double bus = rig.amplifier.bus_voltage;
   EXPECT_NEAR(at("freewheel-drop", {{"drop", 0.8}}), 0.4 * bus - 0.6 * 0.8, 1e-9);
@@ -183,7 +194,8 @@ TEST(LoopDelay, AnyPartOfAPeriodWaitsForTheNextPwmStart) {
   EXPECT_GT(Change(four, five), 1e-3);
 }
 
-// Ideal iron on the general path is the fast path, up to how the gap is interpolated within a period.
+// Ideal iron on the general path is the fast path, up to how the gap is interpolated within a
+// period.
 TEST(GeneralPath, EqualsTheFastPathForIdealIron) {
   const RigParameters rig = ReferenceRig();
   const Scenario scenario = ReadScenarioText(LevitatedText(), "test.toml", rig);

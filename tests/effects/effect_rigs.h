@@ -16,7 +16,8 @@ namespace ambrig {
 using Values = std::vector<std::pair<std::string, double>>;
 
 inline RigParameters ReferenceRig() {
-  RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   rig.effects.clear();
   return rig;
 }
@@ -51,7 +52,8 @@ inline RunResult RunText(const RigParameters& rig, const std::string& text) {
   return SwitchingEngine(rig, scenario, {}).Run();
 }
 
-/// A short levitated record under excitation, without noise: every channel that an effect can reach.
+/// A short levitated record under excitation, without noise: every channel that an effect can
+/// reach.
 inline const char* LevitatedText() {
   return R"(name = "levitated"
 rig = "rig.toml"
@@ -82,14 +84,17 @@ amplitude = 5e-6
 
 /// Both bearings clamped at the centre, all coils of A stepping from 1 A to `high` at 10 ms.
 inline std::string ClampedText(double high, double duration = 0.02) {
-  std::string text = "name = \"clamped\"\nrig = \"rig.toml\"\nduration = " + std::to_string(duration) +
-                     "\nrecord_rate = 25000.0\nseed = 1\nnoise = false\n[start]\nstate = \"clamped\"\n"
-                     "position = { A = [0.0, 0.0], B = [0.0, 0.0] }\n[speed]\nprofile = [[0.0, 0.0], [1.0, 0.0]]\n";
+  std::string text =
+      "name = \"clamped\"\nrig = \"rig.toml\"\nduration = " + std::to_string(duration) +
+      "\nrecord_rate = 25000.0\nseed = 1\nnoise = false\n[start]\nstate = \"clamped\"\n"
+      "position = { A = [0.0, 0.0], B = [0.0, 0.0] }\n[speed]\nprofile = [[0.0, 0.0], [1.0, "
+      "0.0]]\n";
   for (int j = 1; j <= 8; ++j)
     for (const auto& [start, amplitude] : {std::pair{0.0, 1.0}, std::pair{0.01, high - 1}})
-      text += "[[excitation]]\ntarget = \"A.coil" + std::to_string(j) + "\"\nport = \"current\"\nkind = \"step\"\nstart = " +
-              std::to_string(start) + "\nstop = " + std::to_string(duration) + "\namplitude = " +
-              std::to_string(amplitude) + "\n";
+      text += "[[excitation]]\ntarget = \"A.coil" + std::to_string(j) +
+              "\"\nport = \"current\"\nkind = \"step\"\nstart = " + std::to_string(start) +
+              "\nstop = " + std::to_string(duration) +
+              "\namplitude = " + std::to_string(amplitude) + "\n";
   return text;
 }
 
@@ -112,7 +117,8 @@ inline double Change(const Record& a, const Record& b) {
       change = std::max(change, std::abs(c.samples[k] - d->samples[k]));
     }
     // Positions come to rest near zero: judge them against a micrometre, currents against 10 mA.
-    const bool position = c.name.find(".x") != std::string::npos || c.name.find(".y") != std::string::npos;
+    const bool position =
+        c.name.find(".x") != std::string::npos || c.name.find(".y") != std::string::npos;
     worst = std::max(worst, change / std::max(size, position ? 1e-6 : 1e-2));
   }
   return worst;

@@ -24,13 +24,15 @@ double DropOf(const FluxLaw& law, double phi, double* slope = nullptr) {
   return drop[0];
 }
 
-// facts.md 5.1: tanh z / z at ω τ = 0.1, 1, 10, 100: magnitude and phase. ρ (z coth z - 1) + ρ is its inverse.
+// facts.md 5.1: tanh z / z at ω τ = 0.1, 1, 10, 100: magnitude and phase. ρ (z coth z - 1) + ρ is
+// its inverse.
 TEST(EddyCurrents, LaminationFollowsTheLadderValues) {
-  const double table[4][3] = {{0.1, 0.99922, -1.909}, {1, 0.93080, -17.958}, {10, 0.31795, -46.271}, {100, 0.1, -45}};
+  const double table[4][3] = {
+      {0.1, 0.99922, -1.909}, {1, 0.93080, -17.958}, {10, 0.31795, -46.271}, {100, 0.1, -45}};
   for (const auto& row : table) {
     // τ = 1/(ρ² ω_c): with ρ = 1 and cutoff 1/(2 pi), τ = 1 s.
     const Complex h = 1.0 / (1.0 + Diffusion(Complex(0, row[0]), 1 / (2 * kPi), 1));
-    EXPECT_NEAR(std::abs(h), row[1], 1e-5);                      // last digit of the table
+    EXPECT_NEAR(std::abs(h), row[1], 1e-5);  // last digit of the table
     EXPECT_NEAR(std::arg(h) * 180 / kPi, row[2], 1e-3);
   }
 }
@@ -53,7 +55,8 @@ TEST(EddyCurrents, RelaxationsFollowTheLamination) {
       for (double f = 50; f < 2.01e5; f *= 1.05) {
         // Against the whole reluctance, gap included: what flux and force see.
         const Complex s(0, 2 * kPi * f), wanted = 1.0 + Diffusion(s, cutoff, rho);
-        EXPECT_LT(std::abs((1.0 + fit.At(s)) / wanted - 1.0), 0.03) << f << " " << cutoff << " " << rho;
+        EXPECT_LT(std::abs((1.0 + fit.At(s)) / wanted - 1.0), 0.03)
+            << f << " " << cutoff << " " << rho;
       }
     }
 }
@@ -73,7 +76,8 @@ TEST(EddyCurrents, StepsReproduceTheFrequencyResponse) {
     const double angle = 2 * kPi * k / per_cycle, phi = 1e-5 * std::sin(angle);
     const double drop = DropOf(law, phi);
     law.Commit(Currents(phi));
-    if (k > per_cycle * (cycles - 1)) seen += drop * Complex(std::sin(angle), std::cos(angle)) * (2.0 / per_cycle);
+    if (k > per_cycle * (cycles - 1))
+      seen += drop * Complex(std::sin(angle), std::cos(angle)) * (2.0 / per_cycle);
   }
   const DiffusionFit fit = FitDiffusion(2000, 0);
   const Complex s(0, 2 * kPi * f), wanted = gap * 1e-5 * fit.At(s);
@@ -81,12 +85,14 @@ TEST(EddyCurrents, StepsReproduceTheFrequencyResponse) {
   for (int k = 0; k < kDiffusionPoles; ++k)
     if (fit.pole[k] * kStep > 0.3) fast += std::abs(fit.residue[k] * s / (s + fit.pole[k]));
   const double angle = std::abs(s) * kStep;
-  EXPECT_LT(std::abs(seen / wanted - 1.0), angle * angle / 12 + 0.5 * angle * fast / std::abs(fit.At(s)));
+  EXPECT_LT(std::abs(seen / wanted - 1.0),
+            angle * angle / 12 + 0.5 * angle * fast / std::abs(fit.At(s)));
   EXPECT_NEAR(std::arg(seen), kPi / 4, 0.02);
 }
 
 TEST(EddyCurrents, VanishAtRest) {
-  Plant with = PlantWith("eddy-currents", "A", {{"cutoff", 500}}), without = BuildPlant(ReferenceRig());
+  Plant with = PlantWith("eddy-currents", "A", {{"cutoff", 500}}),
+        without = BuildPlant(ReferenceRig());
   EXPECT_EQ(RestFlux(with, Currents(2))[0], RestFlux(without, Currents(2))[0]);
   // After a jump the drop decays, at long times as 1/sqrt(pi ω_c t) gap reluctances.
   FluxLaw& law = *with.bearings[0].laws.at(0);
@@ -141,7 +147,8 @@ TEST(Saturation, SlopeIsTheDerivative) {
     SteelCurve(x, &H, &slope);
     SteelCurve(x + 1e-5, &up, &unused);
     SteelCurve(x - 1e-5, &down, &unused);
-    EXPECT_NEAR(slope, (up - down) / 2e-5, 1e-6 * std::abs(slope) + 1e-4) << x;  // third derivative x 1e-10/6
+    EXPECT_NEAR(slope, (up - down) / 2e-5, 1e-6 * std::abs(slope) + 1e-4)
+        << x;  // third derivative x 1e-10/6
     EXPECT_GE(slope, 0) << x;
   }
 }
@@ -153,7 +160,8 @@ TEST(Saturation, AmperesLawHoldsAtRest) {
   double H, slope;
   SteelCurve(phi[0] * DensityPerFlux(b) / 0.5, &H, &slope);
   // NSNS at equal currents: the rotor's potential is zero, N i = R phi + H path.
-  EXPECT_NEAR(std::abs(b.lanes.n[0]) * 5, std::abs(GapReluctanceOf(b) * phi[0] + 0.1 * H), 1e-9 * 250);
+  EXPECT_NEAR(std::abs(b.lanes.n[0]) * 5, std::abs(GapReluctanceOf(b) * phi[0] + 0.1 * H),
+              1e-9 * 250);
   EXPECT_GT(std::abs(H), 500);
 }
 
@@ -175,9 +183,11 @@ double LoopArea(FluxLaw& law, double per_tesla, double B, double mmf) {
 TEST(Hysteresis, LoopHasTheAreaOfItsStops) {
   Plant plant = PlantWith("hysteresis", "A", {{"coercive", 0.1}, {"width", 0.2}});
   FluxLaw& law = *plant.bearings[0].laws.at(0);
-  const double per_tesla = 1 / DensityPerFlux(plant.bearings[0]), mmf = 0.1 * std::abs(plant.bearings[0].lanes.n[0]);
+  const double per_tesla = 1 / DensityPerFlux(plant.bearings[0]),
+               mmf = 0.1 * std::abs(plant.bearings[0].lanes.n[0]);
   law.Settle(Lane{});
-  // Σ over stops of 4 (B - r)/n = 4 (B - width/2); trapezoids at the corners cost (dB/width)² per loop.
+  // Σ over stops of 4 (B - r)/n = 4 (B - width/2); trapezoids at the corners cost (dB/width)² per
+  // loop.
   EXPECT_NEAR(LoopArea(law, per_tesla, 0.8, mmf), 4 * (0.8 - 0.1), 1e-4);
   EXPECT_NEAR(DropOf(law, 0.8 * per_tesla), mmf, 1e-9);
 }
@@ -205,7 +215,8 @@ TEST(Hysteresis, RemembersTurningPointsAndForgetsInnerLoops) {
 }
 
 TEST(Hysteresis, CoerciveCurrentAddsToTheCoil) {
-  Plant with = PlantWith("hysteresis", "A", {{"coercive", 0.1}, {"width", 0.05}}), without = BuildPlant(ReferenceRig());
+  Plant with = PlantWith("hysteresis", "A", {{"coercive", 0.1}, {"width", 0.05}}),
+        without = BuildPlant(ReferenceRig());
   // On the virgin curve far beyond the width the iron takes the coercive current away.
   EXPECT_NEAR(RestFlux(with, Currents(2))[0] / RestFlux(without, Currents(2))[0], 1.9 / 2, 1e-9);
 }
