@@ -99,8 +99,11 @@ class StatorLanes {
   double FieldEnergy(double x, double y) const;  // [J], ideal iron
 
  private:
+  /// Never below 2 % of the nominal gap: a shaft pressed beyond that has reached the pole.
   double GapAt(int j, double x, double y) const {
-    return gap_offset[j] - x * direction_x[j] - y * direction_y[j];
+    const double gap = gap_offset[j] - x * direction_x[j] - y * direction_y[j];
+    const double least = 0.02 * reluctance.gap0;
+    return gap < least ? least : gap;
   }
   void UpdateConductance(int j);
   void Block(int j);

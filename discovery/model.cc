@@ -124,6 +124,8 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.watch = false;
   options.nominal = &case_.rig;
+  // A hypothesis that drops a rotor which the measured rig held is no explanation; do not watch it bounce.
+  if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty()) options.lost_after = 0.01;
   options.stop = stop;
   ++runs;
   return SwitchingEngine(h.rig, scenario, options).Run().record;
