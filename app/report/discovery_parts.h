@@ -1,0 +1,33 @@
+#pragma once
+/// What the reports of compare, explain and adopt share: the ladder, the heat map of records and
+/// channels, effects and their parameters in words.
+#include <string>
+#include <vector>
+
+#include "app/report/html.h"
+#include "app/report/residual_data.h"
+#include "discovery/compare.h"
+#include "discovery/explain.h"
+
+namespace ambrig {
+
+/// How to read "error over noise", once per report.
+void AddReadingHelp(HtmlReport& report);
+
+void AddRatioMap(HtmlReport& report, const Comparison& comparison, const std::string& caption);
+/// The same from a residual.
+void AddRatioMap(HtmlReport& report, const CaseModel& model, const std::vector<double>& residual,
+                 const std::string& caption);
+
+/// Figure and table: error against what was believed, on fitted and on unseen records.
+void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder);
+
+std::string List(const std::vector<std::string>& lines);
+/// "eddy-currents at A"
+std::string EffectName(const EffectInstance& e);
+/// "3.2 ± 0.1 kHz"; the sd is left out where unknown.
+std::string ValueText(double value, double sd, const std::string& unit);
+/// "cutoff = 3.2 ± 0.1 kHz, path = ..."
+std::string ParametersText(const EffectInstance& e);
+
+}  // namespace ambrig
