@@ -28,13 +28,19 @@ class AveragedRun {
   AveragedRun(const RigParameters& rig, const Scenario& scenario, const AveragedOptions& options)
       : options_(options), rig_(rig, scenario, options.sampled), mean_(rig_.bearings.size()) {
     Require(!options.sampled.supervisor, "no detector: averaged currents have no slopes");
-    const double rate = options.sampled.record_rate > 0 ? options.sampled.record_rate : scenario.record_rate;
-    if (rate * rig_.T > 1 + 1e-9) throw InputError("a record_rate above the switching frequency needs --fidelity switching or reference");
+    const double rate =
+        options.sampled.record_rate > 0 ? options.sampled.record_rate : scenario.record_rate;
+    if (rate * rig_.T > 1 + 1e-9)
+      throw InputError(
+          "a record_rate above the switching frequency needs --fidelity switching or reference");
     rig_.Start();
     if (scenario.start == StartState::kLevitated) {
       const Equilibrium e = LevitatedEquilibrium(rig_);
-      if (e.usable()) rig_.StartFrom(e.force, e.q);
-      else result_.notes.push_back("no unique equilibrium (" + e.message + "): started from the centre");
+      if (e.usable())
+        rig_.StartFrom(e.force, e.q);
+      else
+        result_.notes.push_back("no unique equilibrium (" + e.message +
+                                "): started from the centre");
     }
     plant_.emplace(rig_, options.integrator);
     plant_->Settle();
@@ -47,7 +53,8 @@ class AveragedRun {
     for (long long n = -rig_.warm; n < rig_.periods; ++n) {
       if (options_.stop && options_.stop->load()) throw Interrupted();
       if (options_.progress && (n & 255) == 0)
-        options_.progress(static_cast<double>(n + rig_.warm) / static_cast<double>(rig_.periods + rig_.warm));
+        options_.progress(static_cast<double>(n + rig_.warm) /
+                          static_cast<double>(rig_.periods + rig_.warm));
       Period(n);
     }
     watch_->Finish();
@@ -64,7 +71,8 @@ class AveragedRun {
       plant_->AdvanceTo(tau);
       if (faults_->Due(n, tau))
         for (SampledBearing& b : rig_.bearings)
-          for (int j = 0; j < rig_.control[b.index].coils; ++j) b.voltage[static_cast<std::size_t>(j)] = rig_.PatternOf(b, j);
+          for (int j = 0; j < rig_.control[b.index].coils; ++j)
+            b.voltage[static_cast<std::size_t>(j)] = rig_.PatternOf(b, j);
       SetVoltages();
     }
     plant_->AdvanceTo(rig_.T);
@@ -104,7 +112,8 @@ class AveragedRun {
     for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         bool driven;
-        const double v = MeanVoltage(b.voltage[static_cast<std::size_t>(j)], rig_.plant.bus.voltage, rig_.T, &driven);
+        const double v = MeanVoltage(b.voltage[static_cast<std::size_t>(j)], rig_.plant.bus.voltage,
+                                     rig_.T, &driven);
         plant_->SetVoltage(b.index, j, v, driven);
       }
   }
@@ -127,7 +136,8 @@ AveragedOptions DefaultAveragedOptions() {
   return o;
 }
 
-RunResult RunAveraged(const RigParameters& rig, const Scenario& scenario, const AveragedOptions& options) {
+RunResult RunAveraged(const RigParameters& rig, const Scenario& scenario,
+                      const AveragedOptions& options) {
   return AveragedRun(rig, scenario, options).Run();
 }
 

@@ -1,11 +1,13 @@
 #include "scenarios/coil_network.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ambrig {
 
 namespace {
 std::size_t U(int k) { return static_cast<std::size_t>(k); }
+constexpr double kLeastGap = 0.02;  // of the nominal one: there the shaft has reached the pole
 }  // namespace
 
 CoilNetwork::CoilNetwork(const StatorLanes& lanes) : reluctance_(lanes.reluctance) {
@@ -38,7 +40,7 @@ std::size_t CoilNetwork::ReserveLoop(int coil) {
 
 double CoilNetwork::Gap(int pole, double x, double y) const {
   const std::size_t p = U(pole);
-  return gap_[p] - x * dx_[p] - y * dy_[p];
+  return std::max(gap_[p] - x * dx_[p] - y * dy_[p], kLeastGap * reluctance_.gap0);
 }
 
 void CoilNetwork::Solve(const double* lambda, double x, double y, NetworkState& s) const {
@@ -73,8 +75,8 @@ void CoilNetwork::Solve(const double* lambda, double x, double y, NetworkState& 
   }
 }
 
-void CoilNetwork::Rates(const NetworkState& s, const double* slope, double x, double y, double vx, double vy,
-                        NetworkRates& r) const {
+void CoilNetwork::Rates(const NetworkState& s, const double* slope, double x, double y, double vx,
+                        double vy, NetworkRates& r) const {
   std::array<double, kLanes> own{}, m{}, G{};
   for (std::size_t w = 0; w < windings.size(); ++w) {
     const Winding& k = windings[w];
@@ -116,7 +118,8 @@ void CoilNetwork::Linkages(const double* current, double x, double y, double* la
   }
 }
 
-void CoilNetwork::Short(int coil, int loop, double s, double r, const NetworkState& now, double* lambda) {
+void CoilNetwork::Short(int coil, int loop, double s, double r, const NetworkState& now,
+                        double* lambda) {
   Winding& w = windings[U(coil)];
   const double phi = now.phi[U(w.pole)], current = now.i[U(coil)];
   if (loop >= 0) {
@@ -135,7 +138,8 @@ void CoilNetwork::Short(int coil, int loop, double s, double r, const NetworkSta
 
 double CoilNetwork::FieldEnergy(const NetworkState& s, double x, double y) const {
   double energy = 0;
-  for (std::size_t w = 0; w < windings.size(); ++w) energy += 0.5 * windings[w].leakage * s.i[w] * s.i[w];
+  for (std::size_t w = 0; w < windings.size(); ++w)
+    energy += 0.5 * windings[w].leakage * s.i[w] * s.i[w];
   for (int q = 0; q < poles_; ++q)
     energy += 0.5 * reluctance_.Value(Gap(q, x, y)) * s.phi[U(q)] * s.phi[U(q)];
   return energy;

@@ -33,14 +33,14 @@ struct Winding {
 
 /// Currents and fluxes of one instant.
 struct NetworkState {
-  std::array<double, kLanes> phi{};              // per pole [Wb]
-  std::array<double, kMaxWindings> i{};          // per winding [A]
-  double fx = 0, fy = 0;                         // on the rotor [N]
+  std::array<double, kLanes> phi{};      // per pole [Wb]
+  std::array<double, kMaxWindings> i{};  // per winding [A]
+  double fx = 0, fy = 0;                 // on the rotor [N]
 };
 
 struct NetworkRates {
-  std::array<double, kLanes> phi{};              // [Wb/s]
-  std::array<double, kMaxWindings> i{};          // [A/s]
+  std::array<double, kLanes> phi{};      // [Wb/s]
+  std::array<double, kMaxWindings> i{};  // [A/s]
 };
 
 class CoilNetwork {

@@ -10,15 +10,18 @@ namespace {
 std::size_t U(int k) { return static_cast<std::size_t>(k); }
 constexpr double kNoCurrent = 1e-9;  // [A] counts as zero when the diodes are looked at
 constexpr double kNoRise = 1e-3;     // [A/s] a slope that is zero to rounding
-constexpr double kSame = 1e-14;      // [s] two instants of a period that are one
+constexpr int kBlockRounds = 8, kMostRounds = 200;
+constexpr double kSame = 1e-14;  // [s] two instants of a period that are one
 }  // namespace
 
 void ContinuousRig::Settle() {
   const bool unipolar = rig_.plant.bearings[0].lanes.unipolar;
   if (!rig_.clamped) {
     const std::size_t dof = U(rig_.plant.rotor.dof());
-    std::copy(rig_.motion.q.begin(), rig_.motion.q.begin() + static_cast<std::ptrdiff_t>(dof), y_.begin() + static_cast<std::ptrdiff_t>(q_at_));
-    std::copy(rig_.motion.v.begin(), rig_.motion.v.begin() + static_cast<std::ptrdiff_t>(dof), y_.begin() + static_cast<std::ptrdiff_t>(v_at_));
+    std::copy(rig_.motion.q.begin(), rig_.motion.q.begin() + static_cast<std::ptrdiff_t>(dof),
+              y_.begin() + static_cast<std::ptrdiff_t>(q_at_));
+    std::copy(rig_.motion.v.begin(), rig_.motion.v.begin() + static_cast<std::ptrdiff_t>(dof),
+              y_.begin() + static_cast<std::ptrdiff_t>(v_at_));
     y_[spin_at_] = rig_.motion.theta;
     y_[spin_at_ + 1] = rig_.motion.Omega;
   }
@@ -57,7 +60,8 @@ void ContinuousRig::BeginPeriod(long long n) {
 }
 
 void ContinuousRig::SetVoltage(std::size_t b, int j, double volts, bool driven) {
-  if (bearings_[b].volts[U(j)] == volts && bearings_[b].driven[U(j)] == driven) return;  // a mere sample
+  if (bearings_[b].volts[U(j)] == volts && bearings_[b].driven[U(j)] == driven)
+    return;  // a mere sample
   bearings_[b].volts[U(j)] = volts;
   bearings_[b].driven[U(j)] = driven;
   restart_ = true;
@@ -90,23 +94,28 @@ void ContinuousRig::DecideConduction(std::size_t k, int must_block, int must_car
     const Winding& w = b.network.windings[U(j)];
     if (!w.broken && !w.conducts && b.driven[U(j)] && j != must_block) carry(j);
   }
-  for (int round = 0; round < 4 * kLanes; ++round) {
+  // All at once first; should that not settle, one at a time by the lowest index, which ends for
+  // the positive definite inductance (Murty 1974).
+  for (int round = 0; round < kMostRounds; ++round) {
     solve();
+    const bool one = round >= kBlockRounds;
     bool changed = false;
-    for (int j = 0; j < b.network.coils; ++j) {
+    for (int j = 0; j < b.network.coils && !(one && changed); ++j) {
       Winding& w = b.network.windings[U(j)];
-      if (w.broken || !w.conducts || now_[k].i[U(j)] > kNoCurrent || r.i[U(j)] >= -kNoRise) continue;
-      w.conducts = false;
+      if (w.broken) continue;
+      if (w.conducts) {
+        if (now_[k].i[U(j)] > kNoCurrent || r.i[U(j)] >= -kNoRise) continue;
+        w.conducts = false;
+      } else {
+        if (!one || !b.driven[U(j)] || j == must_block) continue;
+        if (b.volts[U(j)] - w.n * r.phi[U(w.pole)] <= kNoRise * w.leakage) continue;
+        carry(j);
+      }
       changed = true;
     }
-    for (int j = 0; j < b.network.coils && !changed; ++j) {
-      const Winding& w = b.network.windings[U(j)];
-      if (w.broken || w.conducts || !b.driven[U(j)] || j == must_block) continue;
-      if (b.volts[U(j)] - w.n * r.phi[U(w.pole)] <= kNoRise * w.leakage) continue;
-      carry(j);
-      changed = true;
-    }
-    if (!changed) return;
+    if (changed) continue;
+    if (one) return;
+    round = kBlockRounds - 1;  // nothing to block: look for coils to let go
   }
 }
 

@@ -9,14 +9,16 @@ namespace ambrig {
 
 namespace {
 std::size_t U(int k) { return static_cast<std::size_t>(k); }
-constexpr std::size_t kEnergies = 5;   // electrical, drive, copper, contact, magnetic work
+constexpr std::size_t kEnergies = 5;  // electrical, drive, copper, contact, magnetic work
 
 void RefuseWhatIsNotHere(const Plant& plant) {
   for (const BearingPlant& b : plant.bearings) {
     if (!b.lanes.laws.empty())
-      throw InputError(fmt::format("bearing {}: effects of the iron need --fidelity switching", b.name));
+      throw InputError(
+          fmt::format("bearing {}: effects of the iron need --fidelity switching", b.name));
     if (b.heating.rise_per_watt > 0)
-      throw InputError(fmt::format("bearing {}: effect copper-heating needs --fidelity switching", b.name));
+      throw InputError(
+          fmt::format("bearing {}: effect copper-heating needs --fidelity switching", b.name));
   }
   if (!plant.bus.stiff()) throw InputError("effect bus-impedance needs --fidelity switching");
 }
@@ -28,9 +30,10 @@ ContinuousRig::ContinuousRig(SampledRig& rig, const IntegratorOptions& options) 
     bearings_.emplace_back(rig.plant.bearings[k].lanes);
     const std::string prefix = rig.plant.bearings[k].name + ".coil";
     for (const FaultSpec& f : rig.scenario.faults)
-      if (f.kind == "partial-short" && f.target.starts_with(prefix) && std::isfinite(f.Get("short_resistance", kInfinity)))
-        bearings_.back().loops.push_back(
-            static_cast<int>(bearings_.back().network.ReserveLoop(std::stoi(f.target.substr(prefix.size())) - 1)));
+      if (f.kind == "partial-short" && f.target.starts_with(prefix) &&
+          std::isfinite(f.Get("short_resistance", kInfinity)))
+        bearings_.back().loops.push_back(static_cast<int>(
+            bearings_.back().network.ReserveLoop(std::stoi(f.target.substr(prefix.size())) - 1)));
   }
   for (const LoadSpec& l : rig.scenario.loads) {
     DofVector Q{};
@@ -55,15 +58,15 @@ void ContinuousRig::LayOut() {
     return at;
   };
   for (Bearing& b : bearings_) {
-    b.at = add(b.network.windings.size(), 1e-13);        // [Wb]
-    b.force_at = add(2, 1e-12);                          // [N s]
-    b.charge_at = add(U(b.network.coils), 1e-13);        // [A s]
+    b.at = add(b.network.windings.size(), 1e-13);  // [Wb]
+    b.force_at = add(2, 1e-12);                    // [N s]
+    b.charge_at = add(U(b.network.coils), 1e-13);  // [A s]
   }
-  energy_at_ = add(kEnergies, 1e-12);                    // [J]
+  energy_at_ = add(kEnergies, 1e-12);  // [J]
   const std::size_t dof = rig_.clamped ? 0 : U(rig_.plant.rotor.dof());
-  q_at_ = add(dof, 1e-15);                               // [m]
-  v_at_ = add(dof, 1e-12);                               // [m/s]
-  spin_at_ = add(rig_.clamped ? 0 : 2, 1e-9);            // [rad], [rad/s]
+  q_at_ = add(dof, 1e-15);                     // [m]
+  v_at_ = add(dof, 1e-12);                     // [m/s]
+  spin_at_ = add(rig_.clamped ? 0 : 2, 1e-9);  // [rad], [rad/s]
   y_.assign(absolute_.size(), 0.0);
 }
 
@@ -73,8 +76,10 @@ OdeProblem ContinuousRig::MakeProblem(const IntegratorOptions& options) {
   p.rhs = [this](double tau, const double* y, double* f) { Rhs(tau, y, f); };
   p.root = [this](double tau, const double* y, double* g) { Roots(tau, y, g); };
   for (const Bearing& b : bearings_)
-    if (rig_.plant.bearings[0].lanes.unipolar) p.directions.insert(p.directions.end(), U(b.network.coils), -1);
-  if (!rig_.clamped) p.directions.insert(p.directions.end(), rig_.plant.rotor.auxiliaries().size() + 1, 0);
+    if (rig_.plant.bearings[0].lanes.unipolar)
+      p.directions.insert(p.directions.end(), U(b.network.coils), -1);
+  if (!rig_.clamped)
+    p.directions.insert(p.directions.end(), rig_.plant.rotor.auxiliaries().size() + 1, 0);
   p.roots = static_cast<int>(p.directions.size());
   p.relative = options.tolerance;
   p.absolute = absolute_;
@@ -176,7 +181,8 @@ double ContinuousRig::ContactLoss(const MotionState& s, double* spin_torque) con
     const ContactForce c = RadialContact(aux.parameters, radius, x, y, vx, vy, s.Omega, 0);
     if (c.penetration <= 0) continue;
     const double rate = (vx * x + vy * y) / r;
-    const double elastic = aux.parameters.stiffness * std::pow(c.penetration, aux.parameters.exponent);
+    const double elastic =
+        aux.parameters.stiffness * std::pow(c.penetration, aux.parameters.exponent);
     const double power = c.fx * vx + c.fy * vy + c.torque * s.Omega;  // into the shaft
     loss += -power - elastic * rate;
     *spin_torque += c.torque;
@@ -203,7 +209,8 @@ void ContinuousRig::Roots(double tau, const double* y, double* g) const {
         if (!rates) {
           const PlaneMap& plane = rig_.plant.bearings[k].plane;
           Slopes(b, n, slope);
-          b.network.Rates(n, slope, px, py, rig_.clamped ? 0 : plane.X(s.v), rig_.clamped ? 0 : plane.Y(s.v), r);
+          b.network.Rates(n, slope, px, py, rig_.clamped ? 0 : plane.X(s.v),
+                          rig_.clamped ? 0 : plane.Y(s.v), r);
           rates = true;
         }
         *g = w.n * r.phi[U(w.pole)] - b.volts[U(j)];

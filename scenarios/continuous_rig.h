@@ -13,8 +13,8 @@
 ///
 ///   electrical + drive = copper + Δfield + Δrotor + contact losses
 ///
-/// where `drive` is the work of the motor that keeps a prescribed speed, and of the scenario's loads.
-/// (Races, mounts, bases and effects have energies and losses of their own, not counted.)
+/// where `drive` is the work of the motor that keeps a prescribed speed, and of the scenario's
+/// loads. (Races, mounts, bases and effects have energies and losses of their own, not counted.)
 /// Source: shared/design/physics.md sections 1 to 3, 6, 8.
 #include <memory>
 #include <vector>
@@ -26,17 +26,17 @@
 namespace ambrig {
 
 struct IntegratorOptions {
-  double tolerance = 1e-10;   // relative, of a step
-  int order = 5;              // of ARKODE's explicit Runge-Kutta method
-  bool stiff = false;         // CVODE's BDF instead: stiff shorted turns
+  double tolerance = 1e-10;  // relative, of a step
+  int order = 5;             // of ARKODE's explicit Runge-Kutta method
+  bool stiff = false;        // CVODE's BDF instead: stiff shorted turns
 };
 
 /// All since the start of the run [J]. The rates that make them are in ContinuousRig::Rhs.
 struct EnergyBalance {
-  double electrical = 0, drive = 0;                     // in
-  double copper = 0, contact = 0;                       // out, for good
-  double magnetic_work = 0;                             // of the magnets on the rotor
-  double field = 0, rotor = 0;                          // stored now
+  double electrical = 0, drive = 0;  // in
+  double copper = 0, contact = 0;    // out, for good
+  double magnetic_work = 0;          // of the magnets on the rotor
+  double field = 0, rotor = 0;       // stored now
 };
 
 class ContinuousRig {
@@ -69,11 +69,11 @@ class ContinuousRig {
  private:
   struct Bearing {
     CoilNetwork network;
-    std::size_t at = 0;                 // its λ in the state; ∫f and ∫i likewise
+    std::size_t at = 0;  // its λ in the state; ∫f and ∫i likewise
     std::size_t force_at = 0, charge_at = 0;
     std::array<double, kLanes> volts{};
     std::array<bool, kLanes> driven{};
-    std::vector<int> loops;             // per partial short of the scenario, in its order
+    std::vector<int> loops;  // per partial short of the scenario, in its order
     explicit Bearing(const StatorLanes& lanes) : network(lanes) {}
   };
   void LayOut();
@@ -90,13 +90,13 @@ class ContinuousRig {
 
   SampledRig& rig_;
   std::vector<Bearing> bearings_;
-  std::vector<DofVector> load_Q_;       // of every load of the scenario
+  std::vector<DofVector> load_Q_;  // of every load of the scenario
   DofVector active_load_{};
   bool free_spin_ = false, restart_ = true;
   std::size_t energy_at_ = 0, q_at_ = 0, v_at_ = 0, spin_at_ = 0;
   std::vector<double> y_, absolute_;
   std::vector<NetworkState> now_;
-  double t0_ = 0, tau_ = 0;             // [s]
+  double t0_ = 0, tau_ = 0;  // [s]
   long events_ = 0;
   std::unique_ptr<OdeSolver> solver_;
 };

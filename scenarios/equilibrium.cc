@@ -16,7 +16,8 @@ struct Balance {
   std::size_t axes = 0, dof = 0;
   std::vector<bool> fixed;  // coordinates that no force moves: held at zero
 
-  explicit Balance(const SampledRig& r) : rig(r), dof(static_cast<std::size_t>(r.plant.rotor.dof())), fixed(dof, false) {
+  explicit Balance(const SampledRig& r)
+      : rig(r), dof(static_cast<std::size_t>(r.plant.rotor.dof())), fixed(dof, false) {
     for (const BearingPlant& b : r.plant.bearings) networks.emplace_back(b.lanes);
     for (const SampledBearing& b : r.bearings) axes += b.axes;
     fixed[2] = !r.plant.rotor.axial_free;
@@ -30,7 +31,8 @@ struct Balance {
     DofVector Q{}, a{};
     double stator_x = 0, stator_y = 0, torque = 0;
     for (const SampledBearing& b : rig.bearings) {
-      const auto set = rig.control[b.index].map.SetPoints(u[b.first_axis], b.axes > 1 ? u[b.first_axis + 1] : 0);
+      const auto set =
+          rig.control[b.index].map.SetPoints(u[b.first_axis], b.axes > 1 ? u[b.first_axis + 1] : 0);
       double x, y, lambda[kMaxWindings];
       rig.plant.rotor.Position(s, b.plant->plane, &x, &y);
       x -= b.plant->offset_x;
@@ -48,7 +50,8 @@ struct Balance {
     for (const SampledBearing& b : rig.bearings) {
       double reading[2];
       rig.plant.rotor.Position(s, b.plant->sensor.map, &reading[0], &reading[1]);
-      for (std::size_t side = 0; side < b.axes; ++side) F[dof + b.first_axis + side] = reading[side];
+      for (std::size_t side = 0; side < b.axes; ++side)
+        F[dof + b.first_axis + side] = reading[side];
     }
   }
 };
@@ -71,8 +74,8 @@ Equilibrium LevitatedEquilibrium(const SampledRig& rig) {
     }
   for (std::size_t d = 0; d < balance.dof; ++d)
     if (!balance.fixed[d]) f_scale[d] = g;
-  const KinsolOutcome out =
-      SolveKinsol([&](const double* u, double* F) { balance.Equations(u, F); }, start, u_scale, f_scale, 1e-9);
+  const KinsolOutcome out = SolveKinsol(
+      [&](const double* u, double* F) { balance.Equations(u, F); }, start, u_scale, f_scale, 1e-9);
   Equilibrium e;
   e.residual = out.residual;
   e.iterations = out.iterations;
@@ -81,7 +84,8 @@ Equilibrium LevitatedEquilibrium(const SampledRig& rig) {
   e.force.assign(out.u.begin(), out.u.begin() + static_cast<std::ptrdiff_t>(balance.axes));
   std::copy(out.u.begin() + static_cast<std::ptrdiff_t>(balance.axes), out.u.end(), e.q.begin());
   for (const SampledBearing& b : rig.bearings) {
-    const auto set = rig.control[b.index].map.SetPoints(e.force[b.first_axis], b.axes > 1 ? e.force[b.first_axis + 1] : 0);
+    const auto set = rig.control[b.index].map.SetPoints(e.force[b.first_axis],
+                                                        b.axes > 1 ? e.force[b.first_axis + 1] : 0);
     Lane current;
     for (int j = 0; j < rig.control[b.index].coils; ++j) current[j] = set[j];
     e.current.push_back(current);

@@ -11,12 +11,15 @@ constexpr double kSame = 1e-10;  // [s] two instants that are one
 FaultInjection::FaultInjection(SampledRig& rig, ContinuousRig& plant, RunResult& result)
     : rig_(rig), plant_(plant), result_(result) {}
 
-double FaultInjection::Snapped(const FaultSpec& f) const { return std::floor(f.time / rig_.h + 0.5) * rig_.h; }
+double FaultInjection::Snapped(const FaultSpec& f) const {
+  return std::floor(f.time / rig_.h + 0.5) * rig_.h;
+}
 
 void FaultInjection::Instants(long long n, std::vector<double>& out) const {
   const double t0 = static_cast<double>(n) * rig_.T;
   const auto add = [&](double t) {
-    if (std::isfinite(t) && t > t0 - kSame && t < t0 + rig_.T - kSame) out.push_back(std::max(t - t0, 0.0));
+    if (std::isfinite(t) && t > t0 - kSame && t < t0 + rig_.T - kSame)
+      out.push_back(std::max(t - t0, 0.0));
   };
   for (std::size_t k = next_; k < rig_.scenario.faults.size(); ++k) {
     const FaultSpec& f = rig_.scenario.faults[k];
@@ -43,7 +46,8 @@ bool FaultInjection::Due(long long n, double tau) {
 bool FaultInjection::Inject(const FaultSpec& f) {
   result_.events.push_back({f.time, "fault", f.target, f.kind, f.Get("fraction", 0)});
   if (f.kind == "bus-sag") {
-    rig_.plant.bus.source = rig_.plant.bus.voltage = f.Get("voltage", 0.8 * rig_.rig.amplifier.bus_voltage);
+    rig_.plant.bus.source = rig_.plant.bus.voltage =
+        f.Get("voltage", 0.8 * rig_.rig.amplifier.bus_voltage);
     bus_back_at_ = f.time + f.Get("duration", kInfinity);
     return true;
   }

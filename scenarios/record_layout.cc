@@ -4,8 +4,8 @@
 
 namespace ambrig {
 
-std::vector<std::size_t> AddRecordChannels(Recorder& recorder, const RigParameters& rig, bool clamped,
-                                           std::size_t rows) {
+std::vector<std::size_t> AddRecordChannels(Recorder& recorder, const RigParameters& rig,
+                                           bool clamped, std::size_t rows) {
   std::vector<std::size_t> channels;
   const auto add = [&](const std::string& name, const char* unit) {
     channels.push_back(recorder.Add(name, unit, rows));

@@ -5,10 +5,10 @@
 
 namespace ambrig {
 
-/// Adds the channels; `clamped` runs have load cells in place of true positions. Returns the indices
-/// for Recorder::Put: readings per axis; per bearing currents, set-points, duties, then load cells or
-/// true positions; omega, theta, bus.
-std::vector<std::size_t> AddRecordChannels(Recorder& recorder, const RigParameters& rig, bool clamped,
-                                           std::size_t rows);
+/// Adds the channels; `clamped` runs have load cells in place of true positions. Returns the
+/// indices for Recorder::Put: readings per axis; per bearing currents, set-points, duties, then
+/// load cells or true positions; omega, theta, bus.
+std::vector<std::size_t> AddRecordChannels(Recorder& recorder, const RigParameters& rig,
+                                           bool clamped, std::size_t rows);
 
 }  // namespace ambrig

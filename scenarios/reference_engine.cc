@@ -31,7 +31,8 @@ class ReferenceRun {
     for (long long n = -rig_.warm; n < rig_.periods; ++n) {
       if (options_.stop && options_.stop->load()) throw Interrupted();
       if (options_.progress && (n & 63) == 0)
-        options_.progress(static_cast<double>(n + rig_.warm) / static_cast<double>(rig_.periods + rig_.warm));
+        options_.progress(static_cast<double>(n + rig_.warm) /
+                          static_cast<double>(rig_.periods + rig_.warm));
       Period(n);
       if (energies) energies->push_back(plant_->Energies());
     }
@@ -52,7 +53,9 @@ class ReferenceRun {
     for (double tau : instants_) {
       plant_->AdvanceTo(tau);
       if (faults_->Due(n, tau)) Rebuild();
-      if (sample < static_cast<std::size_t>(rig_.samples) && tau >= static_cast<double>(sample) * rig_.h - kSame) Sample(sample++, &peak);
+      if (sample < static_cast<std::size_t>(rig_.samples) &&
+          tau >= static_cast<double>(sample) * rig_.h - kSame)
+        Sample(sample++, &peak);
       SetVoltages(tau);
     }
     plant_->AdvanceTo(rig_.T);
@@ -72,7 +75,8 @@ class ReferenceRun {
     for (int k = 0; k < rig_.samples; ++k) instants_.push_back(k * rig_.h);
     for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j)
-        for (double t : {b.voltage[static_cast<std::size_t>(j)].t1, b.voltage[static_cast<std::size_t>(j)].t2})
+        for (double t :
+             {b.voltage[static_cast<std::size_t>(j)].t1, b.voltage[static_cast<std::size_t>(j)].t2})
           if (t > kSame && t < rig_.T - kSame) instants_.push_back(t);
     const double t0 = static_cast<double>(n) * rig_.T;
     const auto at = [&](double t) {
@@ -91,7 +95,8 @@ class ReferenceRun {
 
   void Rebuild() {
     for (SampledBearing& b : rig_.bearings)
-      for (int j = 0; j < rig_.control[b.index].coils; ++j) b.voltage[static_cast<std::size_t>(j)] = rig_.PatternOf(b, j);
+      for (int j = 0; j < rig_.control[b.index].coils; ++j)
+        b.voltage[static_cast<std::size_t>(j)] = rig_.PatternOf(b, j);
   }
 
   void Sample(std::size_t k, double* peak) {
@@ -108,7 +113,8 @@ class ReferenceRun {
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         const CoilVoltage& v = b.voltage[static_cast<std::size_t>(j)];
         const int piece = tau < v.t1 - kSame ? 0 : (tau < v.t2 - kSame ? 1 : 2);
-        plant_->SetVoltage(b.index, j, v.gain[piece] * rig_.plant.bus.voltage + v.drop[piece], v.gain[piece] > 0);
+        plant_->SetVoltage(b.index, j, v.gain[piece] * rig_.plant.bus.voltage + v.drop[piece],
+                           v.gain[piece] > 0);
       }
   }
 
@@ -124,12 +130,13 @@ class ReferenceRun {
 
 }  // namespace
 
-RunResult RunReference(const RigParameters& rig, const Scenario& scenario, const ReferenceOptions& options) {
+RunResult RunReference(const RigParameters& rig, const Scenario& scenario,
+                       const ReferenceOptions& options) {
   return ReferenceRun(rig, scenario, options).Run(nullptr);
 }
 
-RunResult RunReference(const RigParameters& rig, const Scenario& scenario, const ReferenceOptions& options,
-                       std::vector<EnergyBalance>* energies) {
+RunResult RunReference(const RigParameters& rig, const Scenario& scenario,
+                       const ReferenceOptions& options, std::vector<EnergyBalance>* energies) {
   return ReferenceRun(rig, scenario, options).Run(energies);
 }
 

@@ -17,17 +17,18 @@
 namespace ambrig {
 
 struct ReferenceOptions {
-  SampledOptions sampled;                   // record rate, noise (off), warm-up
+  SampledOptions sampled;  // record rate, noise (off), warm-up
   IntegratorOptions integrator;
   std::function<void(double)> progress = {};
   const std::atomic<bool>* stop = nullptr;  // set: throw Interrupted
 };
 
 /// @throws InputError for what it cannot do, Interrupted when stopped.
-RunResult RunReference(const RigParameters& rig, const Scenario& scenario, const ReferenceOptions& options = {});
+RunResult RunReference(const RigParameters& rig, const Scenario& scenario,
+                       const ReferenceOptions& options = {});
 
 /// The same, with the energy balance at the end of every period from the first on.
-RunResult RunReference(const RigParameters& rig, const Scenario& scenario, const ReferenceOptions& options,
-                       std::vector<EnergyBalance>* energies);
+RunResult RunReference(const RigParameters& rig, const Scenario& scenario,
+                       const ReferenceOptions& options, std::vector<EnergyBalance>* energies);
 
 }  // namespace ambrig

@@ -1,4 +1,5 @@
-/// Rows of the record of the continuous-time engines: the switching engine's, value by value.
+/// What leaves the sampled side: measurements for the supervisor, rows of the record (the switching
+/// engine's, value by value).
 #include <cmath>
 
 #include "core/math/noise.h"
@@ -11,6 +12,19 @@ namespace {
 constexpr std::uint32_t kBusNoise = 300;  // stream of the switching engine
 }  // namespace
 
+void SampledRig::AfterPeriod(long long n, RunResult& result) {
+  if (!options.supervisor || n < 0) return;
+  PeriodMeasurement m;
+  m.period = n;
+  m.t = static_cast<double>(n) * T;
+  m.samples = samples;
+  m.readings = &readings_;
+  m.reading_time = reading_time_;
+  for (const SampledBearing& b : bearings)
+    m.bearings.push_back({b.adc, &control[b.index].duty, plant.bus.voltage});
+  options.supervisor->AfterPeriod(m, control, result.events);
+}
+
 void SampledRig::RecordStart() {
   const double rate = options.record_rate > 0 ? options.record_rate : scenario.record_rate;
   const double per_period = rate * T;
@@ -19,7 +33,8 @@ void SampledRig::RecordStart() {
   else
     row_periods_ = static_cast<int>(std::lround(1 / per_period));
   recorder_.emplace(rate, 0.0);
-  channel_ = AddRecordChannels(*recorder_, rig, clamped, static_cast<std::size_t>(std::ceil(scenario.duration * rate)) + 1);
+  channel_ = AddRecordChannels(*recorder_, rig, clamped,
+                               static_cast<std::size_t>(std::ceil(scenario.duration * rate)) + 1);
 }
 
 void SampledRig::RecordBurst(long long n) {
@@ -32,7 +47,8 @@ void SampledRig::RecordRow(long long n, int sample) {
   std::size_t c = 0;
   const auto put = [&](double value) { recorder_->Put(channel_[c++], value); };
   const bool at_tick = sample == 0 && controller_on_ && n % M == 0;
-  for (std::size_t a = 0; a < readings_.size(); ++a) put(at_tick ? readings_[a] : NoisyReading(a, n));
+  for (std::size_t a = 0; a < readings_.size(); ++a)
+    put(at_tick ? readings_[a] : NoisyReading(a, n));
   for (const SampledBearing& b : bearings) {
     const BearingControl& k = control[b.index];
     for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b.adc[sample][j] : k.feedback[j]);
@@ -46,7 +62,8 @@ void SampledRig::RecordRow(long long n, int sample) {
   put(free_spin ? motion.theta + motion.Omega * inside : scenario.speed.Angle(t));
   double bus = plant.bus.voltage;
   if (scenario.noise && rig.amplifier.bus_noise > 0)
-    bus += rig.amplifier.bus_noise * Normal(scenario.seed, kBusNoise, static_cast<std::uint64_t>(n * samples + sample));
+    bus += rig.amplifier.bus_noise *
+           Normal(scenario.seed, kBusNoise, static_cast<std::uint64_t>(n * samples + sample));
   put(bus);
 }
 

@@ -10,7 +10,7 @@ namespace ambrig {
 namespace {
 /// Streams of the switching engine: the same noise, number by number.
 enum Stream : std::uint32_t { kCurrentNoise = 100, kReadingNoise = 200 };
-constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
+constexpr double kTiny = 1e-10;          // [s] instants equal to rounding
 constexpr long long kFirst = 1LL << 40;  // counts of periods before t = 0 stay positive
 
 std::size_t U(int k) { return static_cast<std::size_t>(k); }
@@ -22,8 +22,12 @@ Scenario WithNoise(Scenario s, bool noise) {
 }  // namespace
 
 SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const SampledOptions& o)
-    : rig(TrueRig(given)), nominal(o.nominal ? *o.nominal : given), scenario(WithNoise(s, o.noise)), options(o),
-      plant(BuildPlant(rig)), commands_(rig, scenario) {
+    : rig(TrueRig(given)),
+      nominal(o.nominal ? *o.nominal : given),
+      scenario(WithNoise(s, o.noise)),
+      options(o),
+      plant(BuildPlant(rig)),
+      commands_(rig, scenario) {
   T = 1 / rig.amplifier.switching_frequency;
   samples = rig.samples_per_period();
   h = T / samples;
@@ -63,9 +67,15 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
 
 void SampledRig::Start() {
   switch (scenario.start) {
-    case StartState::kLevitated: StartLevitated(); break;
-    case StartState::kClamped: StartClamped(); break;
-    case StartState::kResting: StartResting(); break;
+    case StartState::kLevitated:
+      StartLevitated();
+      break;
+    case StartState::kClamped:
+      StartClamped();
+      break;
+    case StartState::kResting:
+      StartResting();
+      break;
   }
   plant.rotor.SetSpin(motion);
   UpdatePositions();
@@ -73,7 +83,8 @@ void SampledRig::Start() {
 }
 
 void SampledRig::UpdatePositions() {
-  for (SampledBearing& b : bearings) plant.rotor.Position(motion, b.plant->plane, &b.true_x, &b.true_y);
+  for (SampledBearing& b : bearings)
+    plant.rotor.Position(motion, b.plant->plane, &b.true_x, &b.true_y);
 }
 
 void SampledRig::SetStartForces(const std::vector<double>& force) {
@@ -101,7 +112,8 @@ void SampledRig::StartLevitated() {
   const auto shares = WeightShares(rig);
   std::vector<double> force(force_.size(), 0.0);
   for (const SampledBearing& b : bearings)
-    for (std::size_t side = 0; side < b.axes; ++side) force[b.first_axis + side] = shares[b.index][side];
+    for (std::size_t side = 0; side < b.axes; ++side)
+      force[b.first_axis + side] = shares[b.index][side];
   SetStartForces(force);
 }
 
@@ -122,7 +134,8 @@ void SampledRig::StartClamped() {
   Eigen::Vector2d right_x = Eigen::Vector2d::Zero(), right_y = right_x;
   for (const SampledBearing& b : bearings) {
     const auto it = scenario.clamp.find(b.plant->name);
-    const std::array<double, 2> at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    const std::array<double, 2> at =
+        it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
     if (b.plant->thrust) {
       motion.q[2] = at[0];
     } else if (b.plant->opposed) {
@@ -147,7 +160,8 @@ void SampledRig::StartClamped() {
     control[U(s.bearing)].set_point[s.index] += CommandPlan::At(s, 0);
   for (const SampledBearing& b : bearings) {
     BearingControl& c = control[b.index];
-    for (int j = 0; j < c.coils; ++j) c.amplifier[U(j)].HoldCurrent(c.set_point[j], b.plant->base_resistance[j]);
+    for (int j = 0; j < c.coils; ++j)
+      c.amplifier[U(j)].HoldCurrent(c.set_point[j], b.plant->base_resistance[j]);
   }
 }
 
@@ -214,7 +228,8 @@ void SampledRig::ControlTick(long long n) {
   next.due = static_cast<double>(n + M) * T;
   next.values.resize(control.size());
   for (const SampledBearing& b : bearings) {
-    const auto set = control[b.index].map.SetPoints(force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0);
+    const auto set = control[b.index].map.SetPoints(force_[b.first_axis],
+                                                    b.axes > 1 ? force_[b.first_axis + 1] : 0);
     for (int j = 0; j < kLanes; ++j) next.values[b.index][j] = set[j];
   }
   pending_.push_back(std::move(next));
@@ -236,8 +251,9 @@ void SampledRig::ApplySetPoints(long long n) {
 CoilVoltage SampledRig::PatternOf(const SampledBearing& b, int j) const {
   BridgeImperfection bridge = b.plant->bridge[U(j)];
   for (const auto& term : b.plant->voltage[U(j)])
-    bridge.voltage_offset += term->Voltage({motion.t, control[b.index].feedback[j], plant.bus.voltage,
-                                            b.true_x - b.plant->offset_x, b.true_y - b.plant->offset_y, &motion});
+    bridge.voltage_offset +=
+        term->Voltage({motion.t, control[b.index].feedback[j], plant.bus.voltage,
+                       b.true_x - b.plant->offset_x, b.true_y - b.plant->offset_y, &motion});
   return control[b.index].amplifier[U(j)].Pattern(control[b.index].duty[j], bridge);
 }
 
@@ -251,13 +267,15 @@ void SampledRig::CurrentLoops(long long n) {
         if (U(s.bearing) == b.index) target[s.index] += CommandPlan::At(s, at);
     if (clamped) c.set_point = target;
     for (int j = 0; j < c.coils; ++j) {
-      c.duty[j] = first_period_of_rest_ ? rig.amplifier.duty_min : c.amplifier[U(j)].CurrentLoop(target[j], c.feedback[j]);
+      c.duty[j] = first_period_of_rest_ ? rig.amplifier.duty_min
+                                        : c.amplifier[U(j)].CurrentLoop(target[j], c.feedback[j]);
       if (c.disabled[U(j)]) c.duty[j] = 0;
     }
     if (at >= 0)
       for (const auto& s : commands_.duty)
         if (U(s.bearing) == b.index)
-          c.duty[s.index] = std::clamp(CommandPlan::At(s, at), std::min(0.0, rig.amplifier.duty_min), 1.0);
+          c.duty[s.index] =
+              std::clamp(CommandPlan::At(s, at), std::min(0.0, rig.amplifier.duty_min), 1.0);
     for (int j = 0; j < c.coils; ++j) b.voltage[U(j)] = PatternOf(b, j);
   }
   first_period_of_rest_ = false;
@@ -268,22 +286,9 @@ void SampledRig::Measure(long long n, const std::vector<const Lane*>& truth, int
     MeasurementSettings settings = b.measurement;
     settings.samples = count;
     MeasureCurrents(settings, truth[b.index], b.plant->current_sensor.data(), false, scenario.seed,
-                    kCurrentNoise + static_cast<std::uint32_t>(b.index), static_cast<std::uint64_t>(n + kFirst), b.adc,
-                    &control[b.index].feedback);
+                    kCurrentNoise + static_cast<std::uint32_t>(b.index),
+                    static_cast<std::uint64_t>(n + kFirst), b.adc, &control[b.index].feedback);
   }
-}
-
-void SampledRig::AfterPeriod(long long n, RunResult& result) {
-  if (!options.supervisor || n < 0) return;
-  PeriodMeasurement m;
-  m.period = n;
-  m.t = static_cast<double>(n) * T;
-  m.samples = samples;
-  m.readings = &readings_;
-  m.reading_time = reading_time_;
-  for (const SampledBearing& b : bearings)
-    m.bearings.push_back({b.adc, &control[b.index].duty, plant.bus.voltage});
-  options.supervisor->AfterPeriod(m, control, result.events);
 }
 
 }  // namespace ambrig

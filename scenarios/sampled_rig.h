@@ -21,9 +21,9 @@
 namespace ambrig {
 
 struct SampledOptions {
-  double record_rate = 0;               // 0: the scenario's
-  bool noise = false;                   // false: none, whatever the scenario says
-  double warm_up = -1;                  // [s] before t = 0; negative: physics.md's
+  double record_rate = 0;  // 0: the scenario's
+  bool noise = false;      // false: none, whatever the scenario says
+  double warm_up = -1;     // [s] before t = 0; negative: physics.md's
   const RigParameters* nominal = nullptr;
   Supervisor* supervisor = nullptr;
 };
@@ -32,11 +32,11 @@ struct SampledOptions {
 struct SampledBearing {
   std::size_t index = 0, first_axis = 0, axes = 2;
   BearingPlant* plant = nullptr;
-  std::array<CoilVoltage, kLanes> voltage;   // of this period
+  std::array<CoilVoltage, kLanes> voltage;  // of this period
   MeasurementSettings measurement;
-  Lane adc[64];                              // of the last period [A]
-  double fx = 0, fy = 0;                     // mean force of the last period [N]
-  double true_x = 0, true_y = 0;             // shaft centre at the plane [m]
+  Lane adc[64];                   // of the last period [A]
+  double fx = 0, fy = 0;          // mean force of the last period [N]
+  double true_x = 0, true_y = 0;  // shaft centre at the plane [m]
 };
 
 class SampledRig {
@@ -61,14 +61,14 @@ class SampledRig {
   /// Shaft centres at the bearings from `motion`.
   void UpdatePositions();
 
-  const RigParameters rig, nominal;   // true values, the controller's
-  const Scenario scenario;            // noise as asked for
+  const RigParameters rig, nominal;  // true values, the controller's
+  const Scenario scenario;           // noise as asked for
   const SampledOptions options;
   Plant plant;
   MotionState motion;
   std::vector<SampledBearing> bearings;
   std::vector<BearingControl> control;
-  double T = 0, h = 0;                // switching period, ADC sample [s]
+  double T = 0, h = 0;  // switching period, ADC sample [s]
   int M = 1, samples = 18;
   bool clamped = false;
   long long warm = 0, periods = 0;

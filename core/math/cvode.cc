@@ -62,7 +62,8 @@ struct Report {
   std::exception_ptr thrown;
 
   static void Handler(int code, const char* module, const char* function, char* text, void* data) {
-    if (code < 0) static_cast<Report*>(data)->message = fmt::format("{} {}: {}", module, function, text);
+    if (code < 0)
+      static_cast<Report*>(data)->message = fmt::format("{} {}: {}", module, function, text);
   }
   /// 0 fine, 1 try again with a smaller step, -1 give up.
   template <typename Call>
@@ -80,7 +81,8 @@ struct Report {
   void Check(int code, const char* what) {
     if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
     if (code >= 0) return;
-    throw std::runtime_error(message.empty() ? fmt::format("{} failed with code {}", what, code) : message);
+    throw std::runtime_error(message.empty() ? fmt::format("{} failed with code {}", what, code)
+                                             : message);
   }
 };
 
@@ -94,11 +96,14 @@ struct Integrator {
   void* memory = nullptr;
 
   explicit Integrator(OdeProblem p)
-      : problem(std::move(p)), y(NewVector(std::vector<double>(problem.size, 0.0), context)),
-        absolute(NewVector(problem.absolute, context)), found(static_cast<std::size_t>(problem.roots), 0) {
+      : problem(std::move(p)),
+        y(NewVector(std::vector<double>(problem.size, 0.0), context)),
+        absolute(NewVector(problem.absolute, context)),
+        found(static_cast<std::size_t>(problem.roots), 0) {
     Require(problem.absolute.size() == problem.size, "one absolute tolerance per state");
     Require(problem.roots == 0 || problem.root, "a function for the roots");
-    Require(problem.directions.empty() || problem.directions.size() == found.size(), "one direction per root");
+    Require(problem.directions.empty() || problem.directions.size() == found.size(),
+            "one direction per root");
   }
   static int Rhs(double t, N_Vector state, N_Vector rate, void* data) {
     auto* self = static_cast<Integrator*>(data);
@@ -124,10 +129,12 @@ struct Integrator {
 
 struct Arkode::Impl : Integrator {
   long steps_before = 0;
+
   Impl(OdeProblem p, int order) : Integrator(std::move(p)) {
     memory = ERKStepCreate(Rhs, 0, y, context);
     Require(memory != nullptr, "ARKODE has memory");
-    report.Check(ERKStepSetErrHandlerFn(memory, Report::Handler, &report), "ERKStepSetErrHandlerFn");
+    report.Check(ERKStepSetErrHandlerFn(memory, Report::Handler, &report),
+                 "ERKStepSetErrHandlerFn");
     report.Check(ERKStepSetUserData(memory, static_cast<Integrator*>(this)), "ERKStepSetUserData");
     report.Check(ERKStepSetOrder(memory, order), "ERKStepSetOrder");
     report.Check(ERKStepSVtolerances(memory, problem.relative, absolute), "ERKStepSVtolerances");
@@ -136,12 +143,14 @@ struct Arkode::Impl : Integrator {
     report.Check(ERKStepRootInit(memory, problem.roots, Root), "ERKStepRootInit");
     report.Check(ERKStepSetNoInactiveRootWarn(memory), "ERKStepSetNoInactiveRootWarn");
     if (!problem.directions.empty())
-      report.Check(ERKStepSetRootDirection(memory, problem.directions.data()), "ERKStepSetRootDirection");
+      report.Check(ERKStepSetRootDirection(memory, problem.directions.data()),
+                   "ERKStepSetRootDirection");
   }
   ~Impl() { ERKStepFree(&memory); }
 };
 
-Arkode::Arkode(OdeProblem problem, int order) : impl_(std::make_unique<Impl>(std::move(problem), order)) {}
+Arkode::Arkode(OdeProblem problem, int order)
+    : impl_(std::make_unique<Impl>(std::move(problem), order)) {}
 Arkode::~Arkode() = default;
 
 void Arkode::Restart(double t, const std::vector<double>& y, double first_step) {
@@ -158,7 +167,9 @@ OdeSolver::Outcome Arkode::Advance(double stop, std::vector<double>& y) {
   const int code = ERKStepEvolve(impl_->memory, stop, impl_->y, &out.t, ARK_NORMAL);
   impl_->report.Check(code, "ERKStepEvolve");
   out.root = code == ARK_ROOT_RETURN;
-  if (out.root) impl_->report.Check(ERKStepGetRootInfo(impl_->memory, impl_->found.data()), "ERKStepGetRootInfo");
+  if (out.root)
+    impl_->report.Check(ERKStepGetRootInfo(impl_->memory, impl_->found.data()),
+                        "ERKStepGetRootInfo");
   impl_->Store(y);
   return out;
 }
@@ -176,7 +187,8 @@ struct Cvode::Impl : Integrator {
   Linear linear;
   explicit Impl(OdeProblem p)
       : Integrator(std::move(p)),
-        matrix(SUNDenseMatrix(static_cast<sunindextype>(problem.size), static_cast<sunindextype>(problem.size), context)),
+        matrix(SUNDenseMatrix(static_cast<sunindextype>(problem.size),
+                              static_cast<sunindextype>(problem.size), context)),
         linear(SUNLinSol_Dense(y, matrix, context)) {
     memory = CVodeCreate(CV_BDF, context);
     Require(memory != nullptr, "CVODE has memory");
@@ -190,7 +202,8 @@ struct Cvode::Impl : Integrator {
     report.Check(CVodeRootInit(memory, problem.roots, Root), "CVodeRootInit");
     report.Check(CVodeSetNoInactiveRootWarn(memory), "CVodeSetNoInactiveRootWarn");
     if (!problem.directions.empty())
-      report.Check(CVodeSetRootDirection(memory, problem.directions.data()), "CVodeSetRootDirection");
+      report.Check(CVodeSetRootDirection(memory, problem.directions.data()),
+                   "CVodeSetRootDirection");
   }
   ~Impl() { CVodeFree(&memory); }
 };
@@ -210,7 +223,8 @@ OdeSolver::Outcome Cvode::Advance(double stop, std::vector<double>& y) {
   const int code = CVode(impl_->memory, stop, impl_->y, &out.t, CV_NORMAL);
   impl_->report.Check(code, "CVode");
   out.root = code == CV_ROOT_RETURN;
-  if (out.root) impl_->report.Check(CVodeGetRootInfo(impl_->memory, impl_->found.data()), "CVodeGetRootInfo");
+  if (out.root)
+    impl_->report.Check(CVodeGetRootInfo(impl_->memory, impl_->found.data()), "CVodeGetRootInfo");
   impl_->Store(y);
   return out;
 }
@@ -232,7 +246,8 @@ struct KinsolProblem {
   static int Function(N_Vector u, N_Vector F, void* data) {
     auto* self = static_cast<KinsolProblem*>(data);
     double* out = N_VGetArrayPointer(F);
-    return self->report.Guard(out, self->size, [&] { (*self->function)(N_VGetArrayPointer(u), out); });
+    return self->report.Guard(out, self->size,
+                              [&] { (*self->function)(N_VGetArrayPointer(u), out); });
   }
 };
 
@@ -255,7 +270,8 @@ KinsolOutcome SolveKinsol(const std::function<void(const double* u, double* F)>&
   Report& report = problem.report;
   const Vector u(NewVector(start, context)), us(NewVector(Inverse(u_scale), context)),
       fs(NewVector(Inverse(f_scale), context));
-  const Matrix matrix(SUNDenseMatrix(static_cast<sunindextype>(n), static_cast<sunindextype>(n), context));
+  const Matrix matrix(
+      SUNDenseMatrix(static_cast<sunindextype>(n), static_cast<sunindextype>(n), context));
   const Linear linear(SUNLinSol_Dense(u, matrix, context));
   const Owned<void*, FreeKinsol> memory(KINCreate(context));
   report.Check(KINSetErrHandlerFn(memory, Report::Handler, &report), "KINSetErrHandlerFn");
@@ -271,14 +287,16 @@ KinsolOutcome SolveKinsol(const std::function<void(const double* u, double* F)>&
   out.u.assign(N_VGetArrayPointer(u), N_VGetArrayPointer(u) + n);
   std::vector<double> F(n);
   function(out.u.data(), F.data());
-  for (std::size_t k = 0; k < n; ++k) out.residual = std::max(out.residual, std::abs(F[k]) / f_scale[k]);
+  for (std::size_t k = 0; k < n; ++k)
+    out.residual = std::max(out.residual, std::abs(F[k]) / f_scale[k]);
   long iterations = 0;
   report.Check(KINGetNumNonlinSolvIters(memory, &iterations), "KINGetNumNonlinSolvIters");
   out.iterations = static_cast<int>(iterations);
   // A line search that cannot go on is fine where the residual is already small.
   out.converged = out.residual <= tolerance;
   if (!out.converged)
-    out.message = report.message.empty() ? fmt::format("KINSol ended with code {}", code) : report.message;
+    out.message =
+        report.message.empty() ? fmt::format("KINSol ended with code {}", code) : report.message;
   return out;
 }
 

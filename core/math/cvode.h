@@ -5,9 +5,9 @@
 ///   F(u) = 0
 ///
 /// Every return code is checked; a failure is a std::runtime_error with SUNDIALS' own words. What a
-/// right-hand side throws comes out of Advance unchanged. A right-hand side that is not finite makes
-/// the integrator try a smaller step.
-/// Source: Hindmarsh et al. 2005, ACM TOMS 31(3); Reynolds et al. 2023, ACM TOMS 49(2).
+/// right-hand side throws comes out of Advance unchanged. A right-hand side that is not finite
+/// makes the integrator try a smaller step. Source: Hindmarsh et al. 2005, ACM TOMS 31(3); Reynolds
+/// et al. 2023, ACM TOMS 49(2).
 #include <functional>
 #include <memory>
 #include <string>
@@ -21,19 +21,19 @@ using OdeFunction = std::function<void(double, const double*, double*)>;
 struct OdeProblem {
   OdeFunction rhs;
   std::size_t size = 0;
-  int roots = 0;                    // number of root functions
+  int roots = 0;  // number of root functions
   OdeFunction root = {};
-  std::vector<int> directions = {}; // of each root: -1 falling, +1 rising, 0 both; empty: all both
-  double relative = 1e-10;          // tolerance of a step
-  std::vector<double> absolute;     // (size), in the units of y
-  long max_steps = 200000;          // between two stops
+  std::vector<int> directions = {};  // of each root: -1 falling, +1 rising, 0 both; empty: all both
+  double relative = 1e-10;           // tolerance of a step
+  std::vector<double> absolute;      // (size), in the units of y
+  long max_steps = 200000;           // between two stops
 };
 
 class OdeSolver {
  public:
   struct Outcome {
     double t = 0;
-    bool root = false;              // stopped at a root, not at the time asked for
+    bool root = false;  // stopped at a root, not at the time asked for
   };
 
   virtual ~OdeSolver() = default;
@@ -43,7 +43,7 @@ class OdeSolver {
   virtual Outcome Advance(double stop, std::vector<double>& y) = 0;
   /// Of the last root: -1 fell, +1 rose, 0 not this one.
   virtual const std::vector<int>& roots() const = 0;
-  virtual long steps() const = 0;   // since the last Restart
+  virtual long steps() const = 0;  // since the last Restart
 };
 
 /// Explicit Runge-Kutta of ARKODE, order 2 to 8: a new start costs nothing, so it suits problems
@@ -79,10 +79,10 @@ class Cvode : public OdeSolver {
 
 struct KinsolOutcome {
   std::vector<double> u;
-  double residual = 0;              // largest |F| in the given scale
+  double residual = 0;  // largest |F| in the given scale
   int iterations = 0;
   bool converged = false;
-  std::string message;              // why not
+  std::string message;  // why not
 };
 
 /// Solves F(u) = 0 by Newton with line search, dense differenced Jacobian. `u_scale`, `f_scale`:

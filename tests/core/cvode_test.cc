@@ -21,7 +21,9 @@ class Integrators : public ::testing::TestWithParam<bool> {};
 TEST_P(Integrators, FollowsAClosedForm) {
   OdeProblem p;
   p.size = 1;
-  p.rhs = [](double t, const double* y, double* f) { f[0] = -50 * (y[0] - std::cos(t)) - std::sin(t); };
+  p.rhs = [](double t, const double* y, double* f) {
+    f[0] = -50 * (y[0] - std::cos(t)) - std::sin(t);
+  };
   p.relative = 1e-10;
   p.absolute = {1e-12};
   const auto solver = Make(GetParam(), p);
@@ -52,7 +54,8 @@ TEST_P(Integrators, FindsTheRootInItsDirection) {
   solver->Restart(0, y, 1e-3);
   auto out = solver->Advance(2, y);
   ASSERT_TRUE(out.root);
-  const double up = (6 - std::sqrt(36 - 2 * 9.81)) / 9.81, down = (6 + std::sqrt(36 - 2 * 9.81)) / 9.81;
+  const double up = (6 - std::sqrt(36 - 2 * 9.81)) / 9.81,
+               down = (6 + std::sqrt(36 - 2 * 9.81)) / 9.81;
   EXPECT_NEAR(out.t, up, 1e-9);
   EXPECT_EQ(solver->roots()[0], 1);
   EXPECT_EQ(solver->roots()[1], 0);
@@ -119,7 +122,8 @@ TEST_P(Integrators, AFailureSaysWhy) {
     solver->Advance(2, y);
     FAIL() << "expected a failure";
   } catch (const std::runtime_error& e) {
-    EXPECT_NE(std::string(e.what()).find(GetParam() ? "CVODE" : "ARKODE"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find(GetParam() ? "CVODE" : "ARKODE"), std::string::npos)
+        << e.what();
   }
 }
 
