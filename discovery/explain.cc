@@ -87,7 +87,7 @@ class Explainer {
     FitOptions o;
     o.effective = out_.effective;
     o.base_jacobian = jacobian;
-    o.iterations = 5;
+    o.iterations = 4;
     return Fit(model_, start, o);
   }
 
@@ -128,6 +128,7 @@ class Explainer {
       const Candidate& c = candidates[k];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
       if (c.score > here && (ranking.size() >= 2 || round > 0)) break;
+      if (Decided(now, ranking, c)) break;
       Progress(from + share * (0.6 + 0.4 * static_cast<double>(k) / options_.candidates), "fitting " + c.effect.name + " at " + c.effect.target);
       Hypothesis h = now.hypothesis;
       h.AddEffect(c.effect);
@@ -150,6 +151,14 @@ class Explainer {
       ranking[0].effect = FittedEffect(ranking[0].fit);
     }
     return ranking;
+  }
+
+  /// The best fit so far explains nearly all, and this candidate promises far less.
+  bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking, const Candidate& next) const {
+    if (ranking.size() < 2) return false;
+    double best = kInfinity;
+    for (const RankedEffect& r : ranking) best = std::min(best, r.fit.ratio_validate);
+    return ExplainedShare(now.ratio_validate, best) > 0.9 && next.ratio_validate * next.ratio_validate - 1 > 4 * (best * best - 1);
   }
 
   void SetProbabilities(std::vector<RankedEffect>& ranking) const {

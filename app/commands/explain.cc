@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "app/commands/commands.h"
 #include "app/report/discovery_json.h"
@@ -16,6 +17,7 @@ struct ExplainCommand {
   CommonOptions common;
   std::string file;
   int candidates = 5;
+  bool verbose = false;
 };
 
 std::string ParametersText(const EffectInstance& e) {
@@ -65,7 +67,12 @@ int RunExplain(const ExplainCommand& o) {
     ExplainOptions options;
     options.candidates = o.candidates;
     options.stop = &interrupted;
-    options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
+    const auto begin = std::chrono::steady_clock::now();
+    options.progress = [&](double f, const std::string& text) {
+      progress.Update(f, text);
+      if (o.verbose)
+        fmt::print(stderr, "{:7.1f} s  {:3.0f} %  {}\n", std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 100 * f, text);
+    };
     if (!o.common.json.empty())
       options.checkpoint = [&](const Explanation& partial) {
         nlohmann::ordered_json j = ExplainJson(partial);
@@ -87,6 +94,7 @@ void AddExplain(CLI::App& app, Work& work) {
   CLI::App* command = app.add_subcommand("explain", "which effect is missing: ranked, with evidence");
   command->add_option("case", options->file, "case file (TOML)")->required();
   command->add_option("--candidates", options->candidates, "effects fitted in full per round")->capture_default_str()->check(CLI::Range(1, 60));
+  command->add_flag("--verbose", options->verbose, "print every step with its time to stderr");
   options->common.AddTo(*command);
   command->footer("Example:\n  ambrig explain case.toml --json answer.json --html answer.html\n"
                   "Intermediate results are written to the JSON file as they come (verdict \"unfinished\").");
