@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <chrono>
 
+#include "scenarios/averaged_engine.h"
 #include "scenarios/fault_supervisor.h"
 #include "scenarios/redistribution_setup.h"
+#include "scenarios/reference_engine.h"
 #include "scenarios/switching_engine.h"
 
 namespace ambrig {
@@ -31,6 +33,16 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const
   return SwitchingEngine(rig, scenario, engine).Run();
 }
 
+/// The witnesses integrate continuously: no noise, no detection (their cost is in the equations).
+template <class Options>
+RunResult RunContinuous(const RigParameters& rig, const Scenario& scenario, const SimulateOptions& options, Options o,
+                        RunResult (*run)(const RigParameters&, const Scenario&, const Options&)) {
+  o.sampled.record_rate = options.record_rate;
+  o.progress = options.progress;
+  o.stop = options.stop;
+  return run(rig, scenario, o);
+}
+
 }  // namespace
 
 Fidelity FidelityByName(const std::string& name) {
@@ -45,7 +57,8 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario, const Sim
   RunResult result;
   switch (options.fidelity) {
     case Fidelity::kSwitching: result = RunSwitching(rig, scenario, options); break;
-    default: throw InputError("only the switching fidelity is here");
+    case Fidelity::kReference: result = RunContinuous(rig, scenario, options, ReferenceOptions{}, RunReference); break;
+    case Fidelity::kAveraged: result = RunContinuous(rig, scenario, options, DefaultAveragedOptions(), RunAveraged); break;
   }
   std::stable_sort(result.events.begin(), result.events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });

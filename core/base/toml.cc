@@ -87,7 +87,8 @@ std::string TomlTable::Where(std::string_view key) const {
 }
 
 void TomlTable::Fail(std::string_view key, const std::string& text) const {
-  throw InputError(fmt::format("{}: {}", Where(key), text));
+  // "gap = -1, allowed ...", but "gap: is missing".
+  throw InputError(fmt::format("{}{}{}", Where(key), text.starts_with("=") ? " " : ": ", text));
 }
 
 bool TomlTable::Has(std::string_view key) const { return node_->Get(key) != nullptr; }
