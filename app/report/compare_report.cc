@@ -44,11 +44,23 @@ void AddVerdict(HtmlReport& report, const Comparison& c) {
     report.Verdict(c.ratio < 2 ? Verdict::kWarn : Verdict::kFail, "**The model misses something**: " + numbers + ".");
 }
 
+/// The words of a comparison name data files with their folders; a reader wants the record.
+std::vector<std::string> ShortWords(const Comparison& c) {
+  std::vector<std::string> out = c.words;
+  for (std::string& word : out)
+    for (const RecordComparison& r : c.records)
+      if (const std::size_t at = word.find(r.data); at != std::string::npos && !r.data.empty()) {
+        word.replace(at, r.data.size(), ShortName(r.data));
+        break;
+      }
+  return out;
+}
+
 void AddOverview(HtmlReport& report, const View& v) {
   report.Heading("Where the model fails");
   AddVerdict(report, v.comparison);
   AddReadingHelp(report);
-  report.Text("The worst places, worst first:\n\n" + List(v.comparison.words));
+  report.Text("The worst places, worst first:\n\n" + List(ShortWords(v.comparison)));
   if (!v.model.data().notes.empty()) report.Text("Left out by the data-quality pass:\n\n" + List(v.model.data().notes));
   AddRatioMap(report, v.comparison, "Error over noise of every channel in every record. A dark column points to one sensor or coil, a dark row to "
               "one kind of operation, a dark block to one bearing.");
@@ -112,7 +124,8 @@ void AddChannelFigures(HtmlReport& report, const View& v, const std::vector<Targ
   report.AddFigure(SpectrumFigure(v.model, worst, models, v.noise, "Spectrum of that error over the noise. Where the lines meet, the model is right; "
                                   "peaks above the noise are what it lacks."));
   report.AddFigure(WhitenessFigure(v.model, worst, models, v.noise, "Is the error random? Its autocorrelation beside that of the noise alone (which "
-                                   "the control loop colours): a slower or ringing line is structure that a model could still explain."));
+                                   "the control loop colours): a line that stays up is an offset, a slow or ringing one "
+                                   "structure that a model could still explain."));
 }
 
 void AddMotionFigures(HtmlReport& report, const View& v, std::size_t record, const std::vector<Target>& worst) {

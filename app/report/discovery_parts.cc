@@ -30,8 +30,7 @@ struct RatioTable {
 };
 
 void AddTable(HtmlReport& report, const RatioTable& table, const std::string& caption) {
-  if (table.rows.empty()) return;
-  report.Heatmap(caption, table.columns, table.rows, table.values, "error / noise");
+  if (!table.rows.empty()) report.AddFigure(RatioFigure(table.columns, table.rows, table.values, caption));
 }
 
 std::string StepName(const LadderStep& s) {
@@ -66,6 +65,23 @@ void LadderFigure(HtmlReport& report, const std::vector<LadderStep>& ladder) {
 }
 
 }  // namespace
+
+Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<std::string>& rows,
+                   const std::vector<std::vector<double>>& values, const std::string& caption) {
+  constexpr std::size_t kReadable = 20;  // columns that leave room for numbers
+  Grid grid;
+  grid.panel_height = std::clamp(static_cast<int>(rows.size()) * 26, 120, 1400);
+  const bool printed = columns.size() <= kReadable;
+  double largest = 2;
+  for (const auto& row : values)
+    for (const double v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
+  std::string note = largest > 10 ? " The colour ends at 10." : "";
+  if (!printed) note += " Point at a cell for its number.";
+  Figure figure = MakeFigure(caption + note, grid);
+  AddHeatmap(figure, 0, columns, rows, values, "error / noise", printed ? 3 : 0);
+  figure.traces.back().update({{"zmin", 1}, {"zmax", std::min(largest, 10.0)}});
+  return figure;
+}
 
 void AddReadingHelp(HtmlReport& report) {
   report.Text(

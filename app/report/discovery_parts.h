@@ -22,6 +22,11 @@ void AddRatioMap(HtmlReport& report, const CaseModel& model, const std::vector<d
 /// Figure and table: error against what was believed, on fitted and on unseen records.
 void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder);
 
+/// Cells of error over noise: the colour runs from the noise to at most ten times it, so that one
+/// extreme does not whiten the rest; numbers are printed where there is room for them.
+Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<std::string>& rows,
+                   const std::vector<std::vector<double>>& values, const std::string& caption);
+
 std::string List(const std::vector<std::string>& lines);
 /// "eddy-currents at A"
 std::string EffectName(const EffectInstance& e);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/report/discovery_parts.h"
 #include "app/report/response_figures.h"
 #include "app/report/series.h"
 #include "core/math/fft.h"
@@ -103,11 +104,7 @@ std::optional<Figure> FrequencySpeedMap(const CaseModel& model, const std::vecto
       if (std::isfinite(row[b])) used = std::max(used, b + 1);
   for (auto& row : values) row.resize(used);
   for (std::size_t b = 0; b < used; ++b) columns.push_back(BandName(b) + " Hz");
-  Grid grid;
-  grid.panel_height = std::clamp(static_cast<int>(rows.size()) * 26, 120, 1400);
-  Figure figure = MakeFigure(caption, grid);
-  AddHeatmap(figure, 0, columns, rows, values, "error / noise");
-  return figure;
+  return RatioFigure(columns, rows, values, caption);
 }
 
 namespace {

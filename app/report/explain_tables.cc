@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "app/report/format.h"
@@ -160,14 +161,43 @@ std::vector<std::string> FreeLetters(const std::string& law) {
   return out;
 }
 
+struct Guess {
+  double value, lo, hi;
+  const char* unit;
+};
+
+/// Where a fit of this letter may start, by the meaning it has in the suggested laws.
+Guess GuessOf(const std::string& letter, const std::string& dependence) {
+  const bool contact = dependence.find("one side") != std::string::npos;
+  if (letter == "mu") return {0.1, 0, 1, "-"};
+  if (letter == "k3") return {1e10, -1e16, 1e16, "N/m^3"};
+  if (letter == "c" && contact) return {2e-5, 0, 5e-4, "m"};
+  if (letter == "k") return {1e5, 0, 1e7, "N/m"};
+  if (letter.starts_with("k")) return {1e3, -1e6, 1e6, "N/m"};
+  if (letter.size() == 3 && letter[0] == 'c') return {10, -1e4, 1e4, "N s/m"};
+  return {0.1, -100, 100, "N"};
+}
+
+/// "c = 2.3e-05 m" in the law's own comment.
+double Hinted(const std::string& law, const std::string& letter, double otherwise) {
+  const std::size_t comment = law.find('#');
+  const std::size_t at = comment == std::string::npos ? comment : law.find(" " + letter + " = ", comment);
+  return at == std::string::npos ? otherwise : std::strtod(law.c_str() + at + letter.size() + 4, nullptr);
+}
+
 }  // namespace
 
 std::string FormulaSnippet(const Unexplained& u) {
   const bool plane = u.where.starts_with("plane ");
   const std::string target = plane ? u.where.substr(6, u.where.find_first_of(", ", 6) - 6) : u.where.substr(0, u.where.find('.'));
   std::string parameters;
-  for (const std::string& p : FreeLetters(u.formula))
-    parameters += fmt::format("{}{} = {{ value = 0.0, null = 0.0, min = -1e7, max = 1e7, unit = \"-\" }}", parameters.empty() ? "" : ", ", p);
+  for (const std::string& p : FreeLetters(u.formula)) {
+    const Guess g = GuessOf(p, u.dependence);
+    // A place or a friction does not switch the force off, its stiffness does.
+    const bool switches = std::string(g.unit) != "m" && std::string(g.unit) != "-";
+    parameters += fmt::format("{}{} = {{ value = {:.3g}{}, min = {:.3g}, max = {:.3g}, unit = \"{}\" }}", parameters.empty() ? "" : ", ", p,
+                              Hinted(u.formula, p, g.value), switches ? ", null = 0" : "", g.lo, g.hi, g.unit);
+  }
   return fmt::format("[[effect]]\nname = \"formula\"\nlabel = \"what explain described\"\ntarget = \"{}\"\n# starting values, bounds and units: set them to what you expect\n"
                      "parameters = {{ {} }}\n{}\n", target, parameters, u.formula);
 }

@@ -100,6 +100,13 @@ void TimePanels(Figure& figure, const CaseModel& model, const Target& t, int c, 
   SetAxes(figure, 2 * columns + c, "time [s]", fmt::format("error [{}]", error.name));
 }
 
+/// Powers of ten only: digits between them are unreadable in narrow panels.
+void DecadeTicks(Figure& figure, int panel) {
+  const std::string number = panel == 0 ? "" : std::to_string(panel + 1);
+  figure.layout["xaxis" + number]["dtick"] = 1;
+  figure.layout["yaxis" + number]["dtick"] = "D2";
+}
+
 struct Density {
   std::vector<double> f, a;
 };
@@ -108,10 +115,15 @@ Density AmplitudeDensity(const std::vector<double>& x, double rate, double facto
   std::size_t segment = 64;
   while (segment * 6 <= x.size()) segment *= 2;
   const PowerDensity p = WelchPsd(Filled(x), rate, std::min(segment, x.size()));
-  Density d;
-  for (std::size_t k = 1; k < p.frequency.size(); ++k) {
-    d.f.push_back(p.frequency[k]);
-    d.a.push_back(std::sqrt(p.density[k]) * factor);
+  Density d;  // lines nearer than 2 % are averaged: on a logarithmic axis they would make a black band
+  for (std::size_t k = 1; k < p.frequency.size();) {
+    double sum = 0, n = 0, f = 0;
+    for (const double first = p.frequency[k]; k < p.frequency.size() && (n == 0 || p.frequency[k] < 1.02 * first); ++k, ++n) {
+      sum += p.density[k];
+      f += p.frequency[k];
+    }
+    d.f.push_back(f / n);
+    d.a.push_back(std::sqrt(sum / n) * factor);
   }
   return d;
 }
@@ -150,6 +162,7 @@ Figure SpectrumFigure(const CaseModel& model, const std::vector<Target>& channel
     Line(figure, c, "noise alone", n.f, n.a, "@gray", c == 0);
     SetAxes(figure, c, "frequency [Hz]", fmt::format("error density [{}/√Hz]", unit.name));
     LogAxes(figure, c, true, true);
+    DecadeTicks(figure, c);
   }
   return figure;
 }

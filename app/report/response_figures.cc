@@ -236,6 +236,9 @@ std::optional<Figure> ResponseFigure(const CaseModel& model, const std::vector<d
     SetAxes(figure, columns + c, "frequency [Hz]", c == 0 ? "phase [deg]" : "");
     LogAxes(figure, c, true, true);
     LogAxes(figure, columns + c, true, false);
+    for (const int panel : {c, columns + c})
+      figure.layout["xaxis" + (panel == 0 ? std::string() : std::to_string(panel + 1))]["dtick"] = 1;
+    figure.layout["yaxis" + (c == 0 ? std::string() : std::to_string(c + 1))]["dtick"] = "D2";
   }
   return figure;
 }
