@@ -128,7 +128,7 @@ class Explainer {
       const Candidate& c = candidates[k];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
       if (c.score > here && (ranking.size() >= 2 || round > 0)) break;
-      if (Decided(now, ranking, c)) break;
+      if (Decided(now, ranking, c) || (round > 0 && !Promising(now, c))) break;
       Progress(from + share * (0.6 + 0.4 * static_cast<double>(k) / options_.candidates), "fitting " + c.effect.name + " at " + c.effect.target);
       Hypothesis h = now.hypothesis;
       h.AddEffect(c.effect);
@@ -151,6 +151,12 @@ class Explainer {
       ranking[0].effect = FittedEffect(ranking[0].fit);
     }
     return ranking;
+  }
+
+  /// Whether the linear screening promises at least half of what adoption would ask for.
+  static bool Promising(const FitResult& now, const Candidate& c) {
+    const double fall = now.ratio_validate * now.ratio_validate - c.ratio_validate * c.ratio_validate;
+    return fall > 0.012 && ExplainedShare(now.ratio_validate, c.ratio_validate) > 0.17;
   }
 
   /// The best fit so far explains nearly all, and this candidate promises far less.

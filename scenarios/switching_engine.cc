@@ -345,22 +345,32 @@ void SwitchingEngine::RunMagnetics(long long n) {
   due.clear();
   while (n >= 0 && next_fault_ < scenario_.faults.size() && scenario_.faults[next_fault_].time < end - kTiny)
     due.push_back(&scenario_.faults[next_fault_++]);
-  bool general = options_.force_general_path || !due.empty() || !plant_.bus.stiff() || bus_restore_at_ < end;
-  for (const BearingRun& b : bearings_) {
-    general = general || b.plant->lanes.NeedsGeneralPath();
-    for (const BridgeImperfection& bridge : b.plant->bridge) general = general || bridge.dead_time > 0;
-  }
-  const int steps = samples_ * options_.substeps;
-  if (general) {
+  // Faults and a moving bus tie the bearings together sample by sample; an iron law or a late edge
+  // concerns its own bearing only.
+  const bool lockstep = options_.force_general_path || !due.empty() || !plant_.bus.stiff() || bus_restore_at_ < end;
+  if (lockstep) {
     RunSamplesInLockstep(n, due);
   } else {
-    for (BearingRun& b : bearings_)
-      b.plant->lanes.RunPeriod(b.pattern, plant_.bus.voltage, b.x, b.y, b.x_next, b.y_next, steps);
+    for (BearingRun& b : bearings_) RunBearing(b);
   }
   for (BearingRun& b : bearings_) {
     b.fx = b.plant->lanes.fx;
     b.fy = b.plant->lanes.fy;
   }
+}
+
+void SwitchingEngine::RunBearing(BearingRun& b) {
+  StatorLanes& lanes = b.plant->lanes;
+  const int steps = samples_ * options_.substeps;
+  bool late_edge = false;
+  for (const BridgeImperfection& bridge : b.plant->bridge) late_edge = late_edge || bridge.dead_time > 0;
+  if (!lanes.NeedsGeneralPath() && !late_edge) {
+    lanes.RunPeriod(b.pattern, plant_.bus.voltage, b.x, b.y, b.x_next, b.y_next, steps);
+    return;
+  }
+  lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
+  for (int k = 0; k < steps; ++k) lanes.StepSample(b.pattern, plant_.bus.voltage, k);
+  lanes.EndPeriod();
 }
 
 void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due) {

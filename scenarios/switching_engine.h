@@ -57,6 +57,7 @@ class SwitchingEngine {
   void ApplySetPoints(long long n);
   void CurrentLoops(long long n);
   void RunMagnetics(long long n);
+  void RunBearing(BearingRun& b);
   void RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due);
   void Measure(long long n);
   void MoveRotor(long long n);
