@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/report/format.h"
+#include "app/report/series.h"
 
 namespace ambrig {
 namespace {
@@ -135,7 +136,13 @@ std::string EffectName(const EffectInstance& e) {
 
 std::string ValueText(double value, double sd, const std::string& unit) {
   if (!(sd > 0) || !std::isfinite(sd)) return FormatSi(value, unit);
-  return FormatSi(value, unit) + " ± " + FormatSi(sd, unit, 2);
+  const bool prefixed = FormatSi(1e3, unit).find('k') != std::string::npos && unit.find('k') == std::string::npos;
+  const double largest = std::max(std::abs(value), sd);
+  const DisplayUnit shown = prefixed ? ChooseUnit(largest, unit) : DisplayUnit{1, unit == "-" ? "" : unit};
+  // As many decimals as the sd has in its first two digits.
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(sd * shown.factor))), 0, 9);
+  return fmt::format("{:.{}f} ± {:.{}f}{}{}", value * shown.factor, decimals, sd * shown.factor, decimals,
+                     shown.name.empty() ? "" : "\u00a0", shown.name);
 }
 
 std::string ParametersText(const EffectInstance& e) {

@@ -30,7 +30,7 @@ Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<st
 std::string List(const std::vector<std::string>& lines);
 /// "eddy-currents at A"
 std::string EffectName(const EffectInstance& e);
-/// "3.2 ± 0.1 kHz"; the sd is left out where unknown.
+/// "3.20 ± 0.14 kHz", both in one unit; the sd is left out where unknown.
 std::string ValueText(double value, double sd, const std::string& unit);
 /// "cutoff = 3.2 ± 0.1 kHz, path = ..."
 std::string ParametersText(const EffectInstance& e);

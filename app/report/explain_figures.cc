@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/report/response_figures.h"
 #include "discovery/floor.h"
@@ -51,7 +52,7 @@ std::string FinalName(const Explanation& e) {
 void AddSignatures(HtmlReport& report, const ExplainScene& s, const Target& t) {
   std::vector<NamedPrediction> all = {{"rig file", "@orange", &s.plain}};
   for (const RankedEffect& r : s.explanation.ranking)
-    if (all.size() < 5 && r.fit.predicted.size() == s.model.size()) all.push_back({EffectName(r.effect), "@orange", &r.fit.predicted});
+    if (all.size() < 5 && std::isfinite(r.fit.ratio_fit) && r.fit.predicted.size() == s.model.size()) all.push_back({EffectName(r.effect), "@orange", &r.fit.predicted});
   if (all.size() < 2) return;
   report.AddFigure(SignatureFigure(s.model, t, all,
       fmt::format("Signatures: what each candidate (with the rig parameters fitted beside it) adds to the plain model in {} of {}, over what the plain model leaves "

@@ -20,7 +20,8 @@ std::string Names(const std::vector<EffectInstance>& effects) {
 
 std::string Evidence(const Explanation& e) {
   return fmt::format("On records that were not used for fitting, the error falls from {:.2f} times the noise (rig file) to {:.2f} (rig parameters "
-                     "adjusted) to **{:.2f}** (final).", e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate);
+                     "adjusted) to **{:.2f}** (final).{}", e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate,
+                     std::max(e.final_ratio_validate, e.final_ratio_fit) > 1.15 ? " Not everything is explained: *What is left* shows the rest." : "");
 }
 
 void AddVerdict(HtmlReport& report, const Explanation& e) {
@@ -49,13 +50,21 @@ void AddMeaning(HtmlReport& report, const Case& c, const Explanation& e) {
   if (!c.notes.empty()) report.Text("Left out by the data-quality pass:\n\n" + List(c.notes));
 }
 
-void AddUnknown(HtmlReport& report, const Explanation& e) {
+/// Texts name data files with their folders; a reader wants the record.
+std::string ShortPaths(std::string text, const Case& c) {
+  for (const CaseRecord& r : c.records)
+    for (std::size_t at; !r.data_file.empty() && r.data_file != ShortName(r.data_file) && (at = text.find(r.data_file)) != std::string::npos;)
+      text.replace(at, r.data_file.size(), ShortName(r.data_file));
+  return text;
+}
+
+void AddUnknown(HtmlReport& report, const Case& c, const Explanation& e) {
   if (e.verdict != "unknown") return;
   const Unexplained& u = e.unexplained;
   report.Heading("What no effect explains");
-  report.Text(u.text.empty() ? "Nothing more can be said from these records." : u.text);
+  report.Text(u.text.empty() ? "Nothing more can be said from these records." : ShortPaths(u.text, c));
   std::vector<std::pair<std::string, std::string>> keys;
-  for (const auto& [key, value] : {std::pair("block", u.block), {"where", u.where}, {"depends on", u.dependence}})
+  for (const auto& [key, value] : {std::pair("block", u.block), {"where", u.where}, {"depends on", ShortPaths(u.dependence, c)}})
     if (!value.empty()) keys.emplace_back(key, value);
   std::string peaks;
   for (const double f : u.frequencies) peaks += (peaks.empty() ? "" : ", ") + FormatSi(f, "Hz");
@@ -109,7 +118,7 @@ void WriteExplainReport(const Case& c, const Explanation& e, const std::string& 
   AddScreening(report, e);
   AddWhyThatOne(report, scene);
   AddCost(report, e);
-  AddUnknown(report, e);
+  AddUnknown(report, c, e);
   AddWhatIsLeft(report, scene);
   AddNext(report, c, e);
   AddWarnings(report, e);

@@ -19,22 +19,33 @@ std::string OneLine(std::string text) {
 
 namespace {
 
+bool Adopted(const Explanation& e, const EffectInstance& effect) {
+  return std::ranges::any_of(e.adopted, [&](const EffectInstance& a) { return a.name == effect.name && a.target == effect.target; });
+}
+
+std::string SecondCaption(const Explanation& e) {
+  const bool taken = std::ranges::any_of(e.second_round, [&](const RankedEffect& r) { return Adopted(e, r.effect); });
+  return std::string("Candidates for one more effect beside what was found before. ") +
+         (taken ? "The green one was believed as well." : "None lowers the error by enough to be believed; what it gains is as likely a patch on another error.");
+}
+
 void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking, const Explanation& e, bool first_round) {
   std::vector<std::vector<Cell>> rows;
   for (std::size_t k = 0; k < ranking.size(); ++k) {
     const RankedEffect& r = ranking[k];
-    const std::string probability = r.probability < 0.001 ? "< 0.1 %" : fmt::format("{:.1f} %", 100 * r.probability);
-    std::vector<Cell> row = {fmt::format("{}", k + 1), Cell(EffectName(r.effect), k == 0 ? "ok" : ""), probability};
+    const std::string probability = fmt::format("{:.1f} %", 100 * r.probability);
+    std::vector<Cell> row = {fmt::format("{}", k + 1), Cell(EffectName(r.effect), Adopted(e, r.effect) ? "ok" : ""), probability};
     if (first_round) row.push_back(fmt::format("{:.3f}", e.base_ratio_validate));
-    row.insert(row.end(), {fmt::format("{:.3f}", r.fit.ratio_validate), fmt::format("{:.3f}", r.fit.ratio_fit), ParametersText(r.effect)});
+    const bool held = std::isfinite(r.fit.ratio_fit);
+    row.insert(row.end(), {held ? fmt::format("{:.3f}", r.fit.ratio_validate) : "loses the rotor", held ? fmt::format("{:.3f}", r.fit.ratio_fit) : "–", ParametersText(r.effect)});
     rows.push_back(row);
   }
   std::vector<std::string> columns = {"", "effect", "probability"};
   if (first_round) columns.push_back("unseen, before");
   columns.insert(columns.end(), {first_round ? "unseen, with it" : "unseen, with it too", "fitted, with it", "parameters ± sd"});
-  report.Table(columns, rows, first_round ? "Candidates fitted in full, best first. *Before*: rig parameters fitted, no effect. Probabilities are among these "
-                                            "candidates, each parameter at its price."
-                                          : "Candidates for one more effect beside what was found first.");
+  report.Table(columns, rows, first_round ? std::string("Candidates fitted in full, best first. *Before*: rig parameters fitted, no effect. Probabilities are among these "
+                                            "candidates, each parameter at its price.")
+                                          : SecondCaption(e));
 }
 
 void AboutEffect(HtmlReport& report, const RankedEffect& r, std::set<std::string>& told) {
@@ -106,10 +117,22 @@ std::vector<std::vector<Cell>> ShiftRows(const FitResult& fit) {
     const FreeParameter& p = fit.hypothesis.free[k];
     if (p.effect >= 0) continue;
     const double shift = p.sd > 0 ? (p.value - p.start) / p.sd : 0, sd = k < fit.sd.size() ? fit.sd[k] : 0;
-    rows.push_back({p.path, FormatNumber(p.start), FormatNumber(p.value), sd > 0 ? FormatNumber(sd, 2) : "–", FormatNumber(p.sd, 2),
+    double lo = 0, hi = 0;
+    std::string unit;
+    ParameterRange(fit.hypothesis.rig, p.path, &lo, &hi, &unit);
+    rows.push_back({p.path, ValueText(p.start, p.sd, unit), ValueText(p.value, sd, unit),
                     Cell(fmt::format("{:+.2f} sd", shift), std::abs(shift) > 2.5 ? "warn" : "")});
   }
   return rows;
+}
+
+std::string FarShifts(const FitResult& fit) {
+  std::string out;
+  for (const FreeParameter& p : fit.hypothesis.free) {
+    const double shift = p.effect < 0 && p.sd > 0 ? (p.value - p.start) / p.sd : 0;
+    if (std::abs(shift) > 2.5) out += fmt::format("{}{} ({:+.1f} sd)", out.empty() ? "" : ", ", p.path, shift);
+  }
+  return out;
 }
 
 }  // namespace
@@ -129,7 +152,9 @@ void AddCost(HtmlReport& report, const Explanation& e) {
     if (p.effect < 0 && p.sd > 0) squares += std::pow((p.value - p.start) / p.sd, 2), n += 1;
   report.Text(fmt::format("The rig's toleranced parameters moved by {:.2f} sd rms (1 is what their tolerances promise). An explanation that needs a parameter "
                           "three sd away is a warning: it may hide a second effect.", n > 0 ? std::sqrt(squares / n) : 0));
-  report.Table({"rig parameter (SI)", "rig file", "fitted", "sd after", "tolerance (sd)", "shift"}, shifts);
+  if (const std::string far = FarShifts(e.final_fit); !far.empty())
+    report.Verdict(Verdict::kWarn, "**Beyond their tolerances here: " + far + ".** Measure them, or look for what else they stand in for.");
+  report.Table({"rig parameter", "rig file ± tolerance", "fitted ± sd", "shift"}, shifts);
 }
 
 namespace {
