@@ -38,8 +38,10 @@ void AddSupport(const SpringSupport& s, int node, LinearRotor& out) {
 /// that a round section has I about its diameter and 2 I about its axis.
 void AddSection(const ShaftSection& s, double& m, double& mz, double& mzz, double& ip) {
   // Degree 4 in t for diameters, 2 more for z²: four Gauss points are exact.
-  static constexpr double t[] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813, 0.93056815579702629};
-  static constexpr double weight[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307, 0.17392742256872693};
+  static constexpr double t[] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
+                                 0.93056815579702629};
+  static constexpr double weight[] = {0.17392742256872693, 0.32607257743127307, 0.32607257743127307,
+                                      0.17392742256872693};
   for (int i = 0; i < 4; ++i) {
     const double od = s.od + t[i] * (s.od_right - s.od), id = s.id + t[i] * (s.id_right - s.id);
     const double scale = weight[i] * s.length * s.material.rho * kPi, z = s.z0 + t[i] * s.length;

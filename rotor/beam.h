@@ -1,8 +1,9 @@
 #pragma once
 /// Beam rotor: shaft of Timoshenko elements with disks, sleeves and spring/damper supports.
-/// Axes and signs of physics.md section 1: node dofs (x, y, alpha about x, beta about y); the section
-/// rotation is beta in the x-z plane and -alpha in the y-z plane. Shaft and disks are round, so both
-/// planes share M, K, C and couple through J alone. With plane dofs (w, psi) per node:
+/// Axes and signs of physics.md section 1: node dofs (x, y, alpha about x, beta about y); the
+/// section rotation is beta in the x-z plane and -alpha in the y-z plane. Shaft and disks are
+/// round, so both planes share M, K, C and couple through J alone. With plane dofs (w, psi) per
+/// node:
 ///   M ux'' + C ux' + Omega J uy' + K ux = fx,   M uy'' + C uy' - Omega J ux' + K uy = fy
 /// or in all dofs   M q'' + (C + Omega G) q' + K q = f,  supports included in C and K.
 /// z is the file's own axis, left to right; `Totals` gives the centre of mass on it. Units SI.
@@ -57,11 +58,12 @@ SpringSupport IsotropicSupport(double z, double k, double c);
 
 /// What a person describes.
 struct BeamDefinition {
-  std::vector<ShaftSection> sections;  // shaft pieces and sleeves (stiff = false), may lie in layers
+  std::vector<ShaftSection>
+      sections;  // shaft pieces and sleeves (stiff = false), may lie in layers
   std::vector<Disk> disks;
   std::vector<SpringSupport> supports;
-  std::vector<double> stations;   // further planes that become nodes (sensors, AMBs)
-  int elements_per_section = 4;   // per shaft piece; planes in between split further
+  std::vector<double> stations;  // further planes that become nodes (sensors, AMBs)
+  int elements_per_section = 4;  // per shaft piece; planes in between split further
   BeamTheory theory;
 };
 
@@ -76,7 +78,8 @@ struct BeamRotor {
   Eigen::MatrixXd M, J, K, C;
 };
 
-/// All dofs of a linear rotor at any speed; `xy` pairs the x and y displacements used for the whirl sense.
+/// All dofs of a linear rotor at any speed; `xy` pairs the x and y displacements used for the whirl
+/// sense.
 struct LinearRotor {
   Eigen::MatrixXd M, G, C, K;
   std::vector<std::array<int, 2>> xy;
@@ -98,7 +101,8 @@ LinearRotor Assemble(const BeamRotor& rotor);
 /// Exact sums over sections and disks (not over the mass matrix, which lumping distorts).
 RotorTotals Totals(const BeamRotor& rotor);
 
-/// The node at z; the nearest within `tolerance` of the shaft's length. @throws std::logic_error when none.
+/// The node at z; the nearest within `tolerance` of the shaft's length. @throws std::logic_error
+/// when none.
 int NodeAt(const BeamRotor& rotor, double z);
 
 }  // namespace ambrig

@@ -30,8 +30,8 @@ Materials ReadMaterials(const TomlTable& rotor, std::vector<Tolerance>* toleranc
 }
 
 /// `material = "name"`, overridden by E, rho, nu given beside it.
-Material ReadMaterial(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances,
-                      bool mass_only) {
+Material ReadMaterial(const TomlTable& row, const Materials& materials,
+                      std::vector<Tolerance>* tolerances, bool mass_only) {
   Material m;
   if (mass_only) m.E = kMaterialFields[0].hi;  // carries nothing; any value passes the check
   if (row.Has("material")) {
@@ -59,18 +59,22 @@ ShaftSection ReadSection(const TomlTable& row, const Materials& materials, bool 
   return s;
 }
 
-Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances) {
+Disk ReadDisk(const TomlTable& row, const Materials& materials,
+              std::vector<Tolerance>* tolerances) {
   // Both spellings first: a misspelt `width` must not end as a missing mass.
-  for (const char* key : {"z", "mass", "inertia_diametral", "inertia_polar", "width", "od", "id", "material", "rho", "name"})
+  for (const char* key : {"z", "mass", "inertia_diametral", "inertia_polar", "width", "od", "id",
+                          "material", "rho", "name"})
     row.Has(key);
   row.RejectUnknownKeys();
   Disk d;
   if (row.Has("width")) {
     for (const char* key : {"mass", "inertia_diametral", "inertia_polar"})
-      if (row.Has(key)) row.Fail(key, "is given beside width, allowed: either mass and inertias or width, od, id");
+      if (row.Has(key))
+        row.Fail(key, "is given beside width, allowed: either mass and inertias or width, od, id");
     const double width = row.Number("width"), od = row.Number("od"), id = row.Number("id", 0.0);
     if (!(width > 0)) row.Fail("width", fmt::format("{} m, allowed above 0", NumberText(width)));
-    if (!(id >= 0 && od > id)) row.Fail("od", fmt::format("{} m, allowed above id = {} m", NumberText(od), NumberText(id)));
+    if (!(id >= 0 && od > id))
+      row.Fail("od", fmt::format("{} m, allowed above id = {} m", NumberText(od), NumberText(id)));
     d = DiskFromGeometry(0, width, id, od, ReadMaterial(row, materials, tolerances, true).rho);
     d.z = kRequired;
   }
@@ -78,8 +82,9 @@ Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tole
   d.name = row.String("name", "");
   // A body's own second moments: Ip <= Id_1 + Id_2.
   if (d.inertia_polar > 2 * d.inertia_diametral * (1 + 1e-9))
-    row.Fail("inertia_polar", fmt::format("{} kg m2, allowed up to twice inertia_diametral = {} kg m2",
-                                          NumberText(d.inertia_polar), NumberText(d.inertia_diametral)));
+    row.Fail("inertia_polar",
+             fmt::format("{} kg m2, allowed up to twice inertia_diametral = {} kg m2",
+                         NumberText(d.inertia_polar), NumberText(d.inertia_diametral)));
   return d;
 }
 
@@ -104,7 +109,8 @@ BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
   t.rotary_inertia = rotor.Bool("rotary_inertia", t.rotary_inertia);
   t.gyroscopic = rotor.Bool("gyroscopic", t.gyroscopic);
   const char* now = t.coefficient == ShearCoefficient::kHutchinson ? "hutchinson" : "cowper";
-  const bool hutchinson = rotor.Choice("shear_coefficient", now, "cowper, hutchinson") == "hutchinson";
+  const bool hutchinson =
+      rotor.Choice("shear_coefficient", now, "cowper, hutchinson") == "hutchinson";
   t.coefficient = hutchinson ? ShearCoefficient::kHutchinson : ShearCoefficient::kCowper;
   return t;
 }
@@ -116,9 +122,11 @@ std::vector<double> ReadDamping(const TomlTable& rotor, int modes) {
   else
     zeta = {rotor.Number("modal_damping", 0.0)};
   if (zeta.size() != 1 && static_cast<int>(zeta.size()) != modes)
-    rotor.Fail("modal_damping", fmt::format("{} values, allowed: one, or one per mode ({})", zeta.size(), modes));
+    rotor.Fail("modal_damping",
+               fmt::format("{} values, allowed: one, or one per mode ({})", zeta.size(), modes));
   for (double z : zeta)
-    if (!(z >= 0 && z < 1)) rotor.Fail("modal_damping", fmt::format("{}, allowed 0 to below 1", NumberText(z)));
+    if (!(z >= 0 && z < 1))
+      rotor.Fail("modal_damping", fmt::format("{}, allowed 0 to below 1", NumberText(z)));
   return zeta;
 }
 
@@ -131,13 +139,16 @@ void ReadTables(const TomlTable& rotor, BeamDefinition& d, std::vector<Tolerance
   }
   for (const TomlTable& row : rotor.Tables("sleeve"))
     d.sections.push_back(ReadSection(row, materials, false, 0, tolerances));
-  for (const TomlTable& row : rotor.Tables("disk")) d.disks.push_back(ReadDisk(row, materials, tolerances));
-  for (const TomlTable& row : rotor.Tables("support")) d.supports.push_back(ReadSupport(row, tolerances));
+  for (const TomlTable& row : rotor.Tables("disk"))
+    d.disks.push_back(ReadDisk(row, materials, tolerances));
+  for (const TomlTable& row : rotor.Tables("support"))
+    d.supports.push_back(ReadSupport(row, tolerances));
   for (double station : rotor.Numbers("stations", {})) d.stations.push_back(station);
 }
 
 BeamDefinition FromRoss(const TomlTable& rotor) {
-  if (rotor.Has("section")) rotor.Fail("section", "is given beside ross_file, allowed: one of them");
+  if (rotor.Has("section"))
+    rotor.Fail("section", "is given beside ross_file, allowed: one of them");
   const std::filesystem::path file = rotor.String("ross_file");
   const std::filesystem::path folder = std::filesystem::path(rotor.file()).parent_path();
   return ReadRoss((file.is_absolute() ? file : folder / file).string()).definition;
@@ -152,7 +163,8 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   const bool ross = rotor.Has("ross_file");
   if (ross) d = FromRoss(rotor);
   ReadTables(rotor, d, tolerances);
-  if (d.sections.empty()) rotor.Fail("section", "is missing, allowed: tables, each written [[rotor.section]]");
+  if (d.sections.empty())
+    rotor.Fail("section", "is missing, allowed: tables, each written [[rotor.section]]");
   d.theory = ReadTheory(rotor, d.theory);
   d.elements_per_section = ReadCount(rotor, "elements_per_section", ross ? 1 : 4, 1, 1000);
   out.modes = ReadCount(rotor, "modes", 2, 0, 100);
@@ -165,7 +177,8 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   }
   const int available = 2 * static_cast<int>(mesh.z.size()) - 2;
   if (out.modes > available)
-    rotor.Fail("modes", fmt::format("{}, allowed 0 to {} with these elements", out.modes, available));
+    rotor.Fail("modes",
+               fmt::format("{}, allowed 0 to {} with these elements", out.modes, available));
   return out;
 }
 

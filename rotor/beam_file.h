@@ -10,14 +10,15 @@
 ///     shear = true                     # rotary_inertia, gyroscopic likewise
 ///     shear_coefficient = "cowper"     # | "hutchinson"
 ///     stations = [0.05]                # planes that must be nodes
-///     ross_file = "rotor.toml"         # shaft, disks and bearings as saved by ROSS, instead of tables
-///     [rotor.materials.mysteel]        # E, rho, nu; built in: steel, aluminium, titanium
-///     [[rotor.section]]                # left to right; z0 = end of the section before, unless given
-///     length = 0.1
-///     od = 0.02                        # id, od_right, id_right, damping_mass, damping_stiffness, name
-///     material = "steel"               # or E, rho, nu
-///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id, material or rho
-///     [[rotor.disk]]                   # z with mass, inertia_diametral, inertia_polar or with width, od,
+///     ross_file = "rotor.toml"         # shaft, disks and bearings as saved by ROSS, instead of
+///     tables [rotor.materials.mysteel]        # E, rho, nu; built in: steel, aluminium, titanium
+///     [[rotor.section]]                # left to right; z0 = end of the section before, unless
+///     given length = 0.1 od = 0.02                        # id, od_right, id_right, damping_mass,
+///     damping_stiffness, name material = "steel"               # or E, rho, nu
+///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id, material or
+///     rho
+///     [[rotor.disk]]                   # z with mass, inertia_diametral, inertia_polar or with
+///     width, od,
 ///                                      # id, material
 ///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ...: analysis only
 ///

@@ -20,7 +20,8 @@ Span ShaftSpan(const BeamDefinition& d) {
   Span span;
   for (const ShaftSection& s : d.sections) {
     const std::string problem = SectionProblem(s);
-    if (!problem.empty()) throw InputError(fmt::format("shaft section \"{}\": {}", s.name, problem));
+    if (!problem.empty())
+      throw InputError(fmt::format("shaft section \"{}\": {}", s.name, problem));
     if (!s.stiff) continue;
     span.lo = std::min(span.lo, s.z0);
     span.hi = std::max(span.hi, s.z0 + s.length);
@@ -49,7 +50,8 @@ std::vector<double> Planes(const BeamDefinition& d, const Span& span) {
   for (double station : d.stations) add(station, "station");
   for (const ShaftSection& s : d.sections) {
     const int n = s.stiff ? d.elements_per_section : 1;
-    for (int k = 0; k <= n; ++k) add(s.z0 + s.length * k / n, fmt::format("section \"{}\"", s.name));
+    for (int k = 0; k <= n; ++k)
+      add(s.z0 + s.length * k / n, fmt::format("section \"{}\"", s.name));
   }
   std::sort(z.begin(), z.end());
   return z;
@@ -74,17 +76,19 @@ ShaftElement MakeElement(const BeamDefinition& d, double left, double right, dou
 std::string SectionProblem(const ShaftSection& s) {
   if (!(s.length > 0)) return fmt::format("length = {} m, allowed above 0", NumberText(s.length));
   if (!(s.id >= 0 && s.id < s.od))
-    return fmt::format("id = {} m, allowed 0 to below od = {} m", NumberText(s.id), NumberText(s.od));
+    return fmt::format("id = {} m, allowed 0 to below od = {} m", NumberText(s.id),
+                       NumberText(s.od));
   if (!(s.id_right >= 0 && s.id_right < s.od_right))
-    return fmt::format("id_right = {} m, allowed 0 to below od_right = {} m", NumberText(s.id_right),
-                       NumberText(s.od_right));
+    return fmt::format("id_right = {} m, allowed 0 to below od_right = {} m",
+                       NumberText(s.id_right), NumberText(s.od_right));
   if (s.stiff && !(s.material.E > 0)) return "E is not positive";
   return {};
 }
 
 BeamMesh MakeMesh(const BeamDefinition& d) {
   if (d.elements_per_section < 1)
-    throw InputError(fmt::format("elements_per_section = {}, allowed 1 or more", d.elements_per_section));
+    throw InputError(
+        fmt::format("elements_per_section = {}, allowed 1 or more", d.elements_per_section));
   const Span span = ShaftSpan(d);
   BeamMesh mesh{Planes(d, span), {}};
   for (std::size_t i = 0; i + 1 < mesh.z.size(); ++i)

@@ -1,6 +1,6 @@
 #pragma once
-/// Nodes and elements of a beam definition: every section end, sleeve end, disk, support and station
-/// is a node, shaft pieces are split evenly in between.
+/// Nodes and elements of a beam definition: every section end, sleeve end, disk, support and
+/// station is a node, shaft pieces are split evenly in between.
 #include "rotor/beam.h"
 
 namespace ambrig {

@@ -18,7 +18,8 @@ Eigen::VectorXd Tilt(const BeamRotor& rotor, double z_com) {
 }
 
 /// Removes what rounding left of the rigid modes, exactly with respect to M.
-void MakeOrthogonal(const Eigen::MatrixXd& M, const Eigen::VectorXd& rigid, Eigen::MatrixXd& shape) {
+void MakeOrthogonal(const Eigen::MatrixXd& M, const Eigen::VectorXd& rigid,
+                    Eigen::MatrixXd& shape) {
   const Eigen::VectorXd weight = M * rigid;
   shape -= rigid * (weight.transpose() * shape) / weight.dot(rigid);
 }
@@ -27,7 +28,8 @@ void MakeOrthogonal(const Eigen::MatrixXd& M, const Eigen::VectorXd& rigid, Eige
 
 ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>& damping) {
   Require(modes >= 0, "no negative mode count");
-  Require(damping.size() == 1 || static_cast<int>(damping.size()) >= modes, "a damping ratio for every mode");
+  Require(damping.size() == 1 || static_cast<int>(damping.size()) >= modes,
+          "a damping ratio for every mode");
   Eigen::VectorXd shift = Eigen::VectorXd::Zero(rotor.M.rows());
   for (Eigen::Index i = 0; i < shift.size(); i += 2) shift(i) = 1;
   // Sums of the matrices themselves: rigid part and modes then are one consistent model.
@@ -43,7 +45,8 @@ ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>
   for (Eigen::Index k = 0; k < free.omega.size(); ++k) {
     const double rayleigh = free.shape.col(k).dot(rotor.C * free.shape.col(k));
     r.omega.push_back(free.omega(k));
-    r.zeta.push_back((damping.size() == 1 ? damping[0] : damping[k]) + rayleigh / (2 * free.omega(k)));
+    r.zeta.push_back((damping.size() == 1 ? damping[0] : damping[k]) +
+                     rayleigh / (2 * free.omega(k)));
   }
   Eigen::MatrixXd basis(rotor.M.rows(), 1 + free.shape.cols());
   basis << tilt, free.shape;
@@ -56,7 +59,8 @@ ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>
 }
 
 ModalStation StationAt(const ReducedRotor& r, double z) {
-  ModalStation station{z - r.z_com, Eigen::VectorXd::Zero(r.modes()), Eigen::VectorXd::Zero(r.modes())};
+  ModalStation station{z - r.z_com, Eigen::VectorXd::Zero(r.modes()),
+                       Eigen::VectorXd::Zero(r.modes())};
   if (r.modes() == 0) return station;
   const auto above = std::upper_bound(r.node_z.begin(), r.node_z.end(), z);
   const int last = static_cast<int>(r.elements.size()) - 1;

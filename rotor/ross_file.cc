@@ -30,10 +30,13 @@ struct Element {
     if (!Has(key)) Fail(key + " is missing");
     return numbers.at(key)[0];
   }
-  double Get(const std::string& key, double fallback) const { return Has(key) ? numbers.at(key)[0] : fallback; }
+  double Get(const std::string& key, double fallback) const {
+    return Has(key) ? numbers.at(key)[0] : fallback;
+  }
   int Node() const {
     const double n = Get("n");
-    if (n < 0 || n > 1e6 || n != std::floor(n)) Fail(fmt::format("n = {}, allowed: a node number", NumberText(n)));
+    if (n < 0 || n > 1e6 || n != std::floor(n))
+      Fail(fmt::format("n = {}, allowed: a node number", NumberText(n)));
     return static_cast<int>(n);
   }
 };
@@ -100,7 +103,9 @@ std::vector<Element> FromJson(const std::string& file) {
   return out;
 }
 
-bool IsJson(const std::string& file) { return file.size() > 5 && file.substr(file.size() - 5) == ".json"; }
+bool IsJson(const std::string& file) {
+  return file.size() > 5 && file.substr(file.size() - 5) == ".json";
+}
 bool IsShaft(const Element& e) { return e.kind == "ShaftElement" || e.kind == "ShaftElement6DoF"; }
 bool IsDisk(const Element& e) { return e.kind == "DiskElement" || e.kind == "DiskElement6DoF"; }
 
@@ -143,7 +148,8 @@ std::vector<double> NodePlanes(const std::vector<Element>& elements, const std::
       e.Fail("L differs from another shaft element at the same n");
   }
   if (length.empty())
-    throw InputError(fmt::format("{}: no shaft element, allowed: a file saved by ROSS's Rotor.save", file));
+    throw InputError(
+        fmt::format("{}: no shaft element, allowed: a file saved by ROSS's Rotor.save", file));
   std::vector<double> z{0};
   for (const auto& [n, L] : length) {
     if (n + 1 != static_cast<int>(z.size()))
@@ -164,13 +170,16 @@ void ReadTheory(const Element& e, bool first, BeamTheory& theory) {
   t.shear = e.Get("shear_effects", 1) != 0;
   t.rotary_inertia = e.Get("rotary_inertia", 1) != 0;
   t.gyroscopic = e.Get("gyroscopic", 1) != 0;
-  const bool hutchinson = e.texts.count("shear_method_calc") && e.texts.at("shear_method_calc") == "hutchinson";
+  const bool hutchinson =
+      e.texts.count("shear_method_calc") && e.texts.at("shear_method_calc") == "hutchinson";
   t.coefficient = hutchinson ? ShearCoefficient::kHutchinson : ShearCoefficient::kCowper;
   const bool same = t.shear == theory.shear && t.rotary_inertia == theory.rotary_inertia &&
                     t.gyroscopic == theory.gyroscopic && t.coefficient == theory.coefficient;
   if (!first && !same)
-    e.Fail("shear_effects, rotary_inertia, gyroscopic or shear_method_calc differ from another element, "
-           "allowed: one choice for the whole shaft");
+    e.Fail(
+        "shear_effects, rotary_inertia, gyroscopic or shear_method_calc differ from another "
+        "element, "
+        "allowed: one choice for the whole shaft");
   theory = t;
 }
 
@@ -182,13 +191,15 @@ double At(const Element& e, const std::string& key, double fallback, double spee
   if (it == e.numbers.end() || it->second.size() != y.size())
     e.Fail(fmt::format("{} has {} values, allowed: one, or as many as frequency", key, y.size()));
   const std::vector<double>& x = it->second;
-  const std::size_t i = std::clamp<std::size_t>(std::upper_bound(x.begin(), x.end(), speed) - x.begin(), 1, x.size() - 1);
+  const std::size_t i = std::clamp<std::size_t>(
+      std::upper_bound(x.begin(), x.end(), speed) - x.begin(), 1, x.size() - 1);
   const double t = std::clamp((speed - x[i - 1]) / (x[i] - x[i - 1]), 0.0, 1.0);
   return y[i - 1] + t * (y[i] - y[i - 1]);
 }
 
 SpringSupport ReadSupport(const Element& e, double z, double speed) {
-  if (e.Has("n_link")) e.Fail("n_link (a bearing on a housing) is not modelled, allowed: bearings to ground");
+  if (e.Has("n_link"))
+    e.Fail("n_link (a bearing on a housing) is not modelled, allowed: bearings to ground");
   SpringSupport s;
   s.z = z;
   s.name = e.name;
@@ -227,7 +238,8 @@ RossRotor ReadRoss(const std::string& file, double speed) {
   }
   // Tables come sorted by name; along the shaft is how people read them.
   const auto along = [](const auto& a, const auto& b) { return a.z < b.z; };
-  std::stable_sort(d.sections.begin(), d.sections.end(), [](const auto& a, const auto& b) { return a.z0 < b.z0; });
+  std::stable_sort(d.sections.begin(), d.sections.end(),
+                   [](const auto& a, const auto& b) { return a.z0 < b.z0; });
   std::stable_sort(d.disks.begin(), d.disks.end(), along);
   std::stable_sort(d.supports.begin(), d.supports.end(), along);
   return out;

@@ -1,11 +1,12 @@
 #pragma once
-/// The rotor file of ROSS (petrobras/ross, `Rotor.save` and `Rotor.load` of versions 1 and 2): TOML or
-/// JSON, one table "Class_tag" per element. Read: shaft elements (L, idl, odl, idr, odr, n, alpha, beta,
-/// material; several at one n are layers), disk elements (n, m, Id, Ip), bearings and seals with
-/// coefficients kxx, cxx, ... over `frequency` [rad/s]. Magnetic bearings become planes (ambrig has its
-/// own), and elements without a counterpart are named, never dropped silently. ROSS's axes are ours.
-/// A sleeve is written as a shaft element of E = 1 Pa and read back as one: ROSS has no other way to say
-/// mass without stiffness along a shaft. ROSS knows no lumped mass, so that choice is not in the file.
+/// The rotor file of ROSS (petrobras/ross, `Rotor.save` and `Rotor.load` of versions 1 and 2): TOML
+/// or JSON, one table "Class_tag" per element. Read: shaft elements (L, idl, odl, idr, odr, n,
+/// alpha, beta, material; several at one n are layers), disk elements (n, m, Id, Ip), bearings and
+/// seals with coefficients kxx, cxx, ... over `frequency` [rad/s]. Magnetic bearings become planes
+/// (ambrig has its own), and elements without a counterpart are named, never dropped silently.
+/// ROSS's axes are ours. A sleeve is written as a shaft element of E = 1 Pa and read back as one:
+/// ROSS has no other way to say mass without stiffness along a shaft. ROSS knows no lumped mass, so
+/// that choice is not in the file.
 #include <string>
 #include <vector>
 

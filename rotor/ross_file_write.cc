@@ -23,12 +23,23 @@ Json MaterialTable(const ShaftSection& s) {
 }
 
 Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std::string& tag) {
-  return {{"L", s.length}, {"idl", s.id}, {"odl", s.od}, {"idr", s.id_right}, {"odr", s.od_right},
-          {"n", node}, {"axial_force", 0}, {"torque", 0}, {"shear_effects", t.shear},
-          {"rotary_inertia", t.rotary_inertia}, {"gyroscopic", t.gyroscopic},
-          {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
-          {"tag", tag}, {"alpha", s.damping_mass}, {"beta", s.damping_stiffness},
-          {"material", MaterialTable(s)}};
+  return {
+      {"L", s.length},
+      {"idl", s.id},
+      {"odl", s.od},
+      {"idr", s.id_right},
+      {"odr", s.od_right},
+      {"n", node},
+      {"axial_force", 0},
+      {"torque", 0},
+      {"shear_effects", t.shear},
+      {"rotary_inertia", t.rotary_inertia},
+      {"gyroscopic", t.gyroscopic},
+      {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
+      {"tag", tag},
+      {"alpha", s.damping_mass},
+      {"beta", s.damping_stiffness},
+      {"material", MaterialTable(s)}};
 }
 
 Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
@@ -61,9 +72,10 @@ Json RotorTables(const BeamDefinition& d) {
     }
   for (const Disk& disk : d.disks) {
     const std::string tag = Tag(root, "DiskElement_", disk.name);
-    root["DiskElement_" + tag] = {{"n", NodeAt(nodes, disk.z)}, {"m", disk.mass},
-                                  {"Id", disk.inertia_diametral}, {"Ip", disk.inertia_polar},
-                                  {"tag", tag}, {"scale_factor", 1.0}, {"color", "Firebrick"}};
+    root["DiskElement_" + tag] = {
+        {"n", NodeAt(nodes, disk.z)}, {"m", disk.mass}, {"Id", disk.inertia_diametral},
+        {"Ip", disk.inertia_polar},   {"tag", tag},     {"scale_factor", 1.0},
+        {"color", "Firebrick"}};
   }
   for (const SpringSupport& s : d.supports) {
     const std::string tag = Tag(root, "BearingElement_", s.name);

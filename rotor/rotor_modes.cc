@@ -27,8 +27,9 @@ struct StateModes {
   Eigen::MatrixXcd shape;
 };
 
-/// Eigenvalues through M^{-1/2} coordinates and velocities scaled by the highest frequency: the state
-/// matrix then has the size of that frequency, not of its square, and low modes keep their digits.
+/// Eigenvalues through M^{-1/2} coordinates and velocities scaled by the highest frequency: the
+/// state matrix then has the size of that frequency, not of its square, and low modes keep their
+/// digits.
 StateModes SolveState(const LinearRotor& r, double speed) {
   const Eigen::Index n = r.M.rows();
   const Eigen::LLT<Eigen::MatrixXd> llt(Symmetric(r.M));
@@ -68,7 +69,8 @@ std::vector<WhirlMode> Oscillatory(const StateModes& state, int count) {
   const double floor = 1e-9 * state.s.cwiseAbs().maxCoeff();
   for (Eigen::Index k = 0; k < state.s.size(); ++k)
     if (state.s(k).imag() > floor) modes.push_back(MakeMode(state.s(k), state.shape.col(k)));
-  std::sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.omega_d < b.omega_d; });
+  std::sort(modes.begin(), modes.end(),
+            [](const auto& a, const auto& b) { return a.omega_d < b.omega_d; });
   if (static_cast<int>(modes.size()) > count) modes.resize(count);
   return modes;
 }
@@ -121,14 +123,15 @@ std::vector<WhirlMode> WhirlModes(const LinearRotor& rotor, double speed, int co
   return modes;
 }
 
-std::vector<WhirlMode> WhirlModes(const TruncatedRotor& rotor, const LinearRotor& full, double speed,
-                                  int count) {
+std::vector<WhirlMode> WhirlModes(const TruncatedRotor& rotor, const LinearRotor& full,
+                                  double speed, int count) {
   std::vector<WhirlMode> modes = Oscillatory(SolveState(rotor.modal, speed), count);
   for (WhirlMode& m : modes) m.whirl = WhirlIndex(full.xy, rotor.basis * m.shape);
   return modes;
 }
 
-std::vector<CampbellRow> Campbell(const LinearRotor& rotor, const std::vector<double>& speeds, int count) {
+std::vector<CampbellRow> Campbell(const LinearRotor& rotor, const std::vector<double>& speeds,
+                                  int count) {
   std::vector<CampbellRow> rows;
   for (double speed : speeds) rows.push_back({speed, WhirlModes(rotor, speed, count)});
   return rows;
@@ -136,7 +139,8 @@ std::vector<CampbellRow> Campbell(const LinearRotor& rotor, const std::vector<do
 
 std::vector<CriticalSpeed> CriticalSpeeds(const LinearRotor& rotor, int count) {
   const Eigen::MatrixXd K = Symmetric(rotor.K);
-  Require((rotor.K - K).cwiseAbs().maxCoeff() <= 1e-9 * K.cwiseAbs().maxCoeff(), "a symmetric stiffness");
+  Require((rotor.K - K).cwiseAbs().maxCoeff() <= 1e-9 * K.cwiseAbs().maxCoeff(),
+          "a symmetric stiffness");
   const Eigen::LLT<Eigen::MatrixXd> llt(K);
   Require(llt.info() == Eigen::Success, "a positive definite stiffness (a supported rotor)");
   const Eigen::MatrixXcd L = Eigen::MatrixXd(llt.matrixL()).cast<Complex>();
@@ -157,8 +161,8 @@ std::vector<CriticalSpeed> CriticalSpeeds(const LinearRotor& rotor, int count) {
   return out;
 }
 
-std::vector<CriticalMapRow> CriticalSpeedMap(const BeamRotor& rotor, const std::vector<double>& stiffnesses,
-                                             int count) {
+std::vector<CriticalMapRow> CriticalSpeedMap(const BeamRotor& rotor,
+                                             const std::vector<double>& stiffnesses, int count) {
   std::vector<CriticalMapRow> rows;
   BeamRotor copy = rotor;
   for (double k : stiffnesses) {
@@ -168,8 +172,8 @@ std::vector<CriticalMapRow> CriticalSpeedMap(const BeamRotor& rotor, const std::
   return rows;
 }
 
-Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor, const std::vector<Unbalance>& unbalances,
-                                   double speed) {
+Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor,
+                                   const std::vector<Unbalance>& unbalances, double speed) {
   Eigen::VectorXcd f = Eigen::VectorXcd::Zero(rotor.M.rows());
   for (const Unbalance& u : unbalances) {
     const auto& [x, y] = rotor.xy[u.node];
@@ -177,7 +181,8 @@ Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor, const std::vector<U
     f(x) += force;
     f(y) -= kI * force;
   }
-  const Eigen::MatrixXcd dynamic = rotor.K.cast<Complex>() - speed * speed * rotor.M.cast<Complex>() +
+  const Eigen::MatrixXcd dynamic = rotor.K.cast<Complex>() -
+                                   speed * speed * rotor.M.cast<Complex>() +
                                    kI * speed * (rotor.C + speed * rotor.G).cast<Complex>();
   return dynamic.partialPivLu().solve(f);
 }
@@ -190,7 +195,9 @@ OrbitAxes Orbit(Complex x, Complex y) {
 TruncatedRotor Truncate(const LinearRotor& rotor, int count) {
   const PlaneModes modes = SolvePlane(rotor.K, rotor.M);
   const Eigen::MatrixXd B = modes.shape.leftCols(std::min<Eigen::Index>(count, rotor.M.rows()));
-  const auto project = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd { return B.transpose() * a * B; };
+  const auto project = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
+    return B.transpose() * a * B;
+  };
   return {{project(rotor.M), project(rotor.G), project(rotor.C), project(rotor.K), {}}, B};
 }
 

@@ -3,9 +3,10 @@
 /// Free or pinned modes of one plane solve K phi = w² M phi. At speed Omega the whole rotor
 ///   M q'' + (C + Omega G) q' + K q = f
 /// has eigenvalues s = -zeta wn ± i wd; log decrement 2 pi zeta / sqrt(1 - zeta²). A mode's motion
-/// Re(q e^{st}) turns forward with amplitude |x + i y|/2 and backward with |x - i y|/2 at each plane.
-/// Undamped critical speeds need no iteration: q = Re(Q e^{i Omega t}) gives K Q = Omega² (M - i G) Q,
-/// solved for 1/Omega² with the Cholesky factor of K (direct synchronous method). Units SI, rad/s.
+/// Re(q e^{st}) turns forward with amplitude |x + i y|/2 and backward with |x - i y|/2 at each
+/// plane. Undamped critical speeds need no iteration: q = Re(Q e^{i Omega t}) gives K Q = Omega² (M
+/// - i G) Q, solved for 1/Omega² with the Cholesky factor of K (direct synchronous method). Units
+/// SI, rad/s.
 #include <complex>
 #include <vector>
 
@@ -13,7 +14,8 @@
 
 namespace ambrig {
 
-/// Mass-normalised modes of one bending plane (phi' M phi = 1), rows as plane dofs (w, psi) per node.
+/// Mass-normalised modes of one bending plane (phi' M phi = 1), rows as plane dofs (w, psi) per
+/// node.
 struct PlaneModes {
   Eigen::VectorXd omega;
   Eigen::MatrixXd shape;
@@ -33,7 +35,8 @@ struct WhirlMode {
   double omega_d = 0;      // Im s
   double zeta = 0;
   double log_decrement = 0;
-  double whirl = 0;  // (forward - backward) / (forward + backward), squared amplitudes of all planes
+  double whirl =
+      0;  // (forward - backward) / (forward + backward), squared amplitudes of all planes
   Eigen::VectorXcd shape;
   Whirl sense() const;  // mixed: |whirl| < 0.1, among them every planar motion
 };
@@ -46,7 +49,8 @@ struct CampbellRow {
   double speed = 0;
   std::vector<WhirlMode> modes;
 };
-std::vector<CampbellRow> Campbell(const LinearRotor& rotor, const std::vector<double>& speeds, int count);
+std::vector<CampbellRow> Campbell(const LinearRotor& rotor, const std::vector<double>& speeds,
+                                  int count);
 
 struct CriticalSpeed {
   double speed = 0;
@@ -54,16 +58,17 @@ struct CriticalSpeed {
   Eigen::VectorXcd shape;
 };
 
-/// Undamped critical speeds in rising order, damping ignored. Requires a symmetric, positive definite K.
+/// Undamped critical speeds in rising order, damping ignored. Requires a symmetric, positive
+/// definite K.
 std::vector<CriticalSpeed> CriticalSpeeds(const LinearRotor& rotor, int count);
 
 struct CriticalMapRow {
-  double stiffness = 0;               // of every support, isotropic [N/m]
+  double stiffness = 0;  // of every support, isotropic [N/m]
   std::vector<CriticalSpeed> speeds;
 };
 /// Undamped critical speed map: the supports' planes with one common stiffness after the other.
-std::vector<CriticalMapRow> CriticalSpeedMap(const BeamRotor& rotor, const std::vector<double>& stiffnesses,
-                                             int count);
+std::vector<CriticalMapRow> CriticalSpeedMap(const BeamRotor& rotor,
+                                             const std::vector<double>& stiffnesses, int count);
 
 /// Mass times eccentricity at a node [kg m], at an angle from x at t = 0.
 struct Unbalance {
@@ -73,10 +78,11 @@ struct Unbalance {
 };
 
 /// Complex amplitudes Q of q = Re(Q e^{i Omega t}).
-Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor, const std::vector<Unbalance>& unbalances,
-                                   double speed);
+Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor,
+                                   const std::vector<Unbalance>& unbalances, double speed);
 
-/// Half axes of the ellipse x = Re(X e^{it}), y = Re(Y e^{it}); minor is negative for backward whirl.
+/// Half axes of the ellipse x = Re(X e^{it}), y = Re(Y e^{it}); minor is negative for backward
+/// whirl.
 struct OrbitAxes {
   double major = 0, minor = 0;
 };
@@ -90,7 +96,7 @@ struct TruncatedRotor {
   Eigen::MatrixXd basis;
 };
 TruncatedRotor Truncate(const LinearRotor& rotor, int count);
-std::vector<WhirlMode> WhirlModes(const TruncatedRotor& rotor, const LinearRotor& full, double speed,
-                                  int count);
+std::vector<WhirlMode> WhirlModes(const TruncatedRotor& rotor, const LinearRotor& full,
+                                  double speed, int count);
 
 }  // namespace ambrig

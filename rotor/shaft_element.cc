@@ -40,8 +40,8 @@ CrossSection SectionAt(const ShaftElement& e, const BeamTheory& theory, double s
     if (!l.stiff) continue;
     out.EI += l.material.E * I;
     // The bore ratio of the element's middle, so that kappa is one number per element and layer.
-    const double kappa = ShearCoefficientOf(theory.coefficient, (l.id + l.id_right) / (l.od + l.od_right),
-                                            l.material.nu);
+    const double kappa = ShearCoefficientOf(
+        theory.coefficient, (l.id + l.id_right) / (l.od + l.od_right), l.material.nu);
     out.kGA += kappa * l.material.shear_modulus() * A;
   }
   return out;
@@ -79,7 +79,8 @@ Shape2x4 EndForces(const Flexibility& f, double length) {
   return Deflection(f, length).inverse() * R;
 }
 
-ElementShape Shape(const ShaftElement& e, const BeamTheory& theory, const Shape2x4& forces, double s) {
+ElementShape Shape(const ShaftElement& e, const BeamTheory& theory, const Shape2x4& forces,
+                   double s) {
   const Shape2x4 d = Deflection(FlexibilityTo(e, theory, s), s) * forces;
   ElementShape shape{d.row(1), d.row(0)};
   shape.w += Eigen::RowVector4d(1, s, 0, 0);
@@ -99,13 +100,15 @@ void AddConsistentMass(const ShaftElement& e, const BeamTheory& theory, const Sh
   });
 }
 
-/// Mass to the ends so that total and centre of mass stay; each half turns with its node as a rigid piece.
+/// Mass to the ends so that total and centre of mass stay; each half turns with its node as a rigid
+/// piece.
 void AddLumpedMass(const ShaftElement& e, const BeamTheory& theory, PlaneElement& out) {
   const auto add = [&](double s, double weight) {
     const CrossSection c = SectionAt(e, theory, s);
     const double t = s / e.length;
     const double arm = t < 0.5 ? s : e.length - s;
-    if (theory.rotary_inertia) out.M(t < 0.5 ? 1 : 3, t < 0.5 ? 1 : 3) += weight * c.rhoA * arm * arm;
+    if (theory.rotary_inertia)
+      out.M(t < 0.5 ? 1 : 3, t < 0.5 ? 1 : 3) += weight * c.rhoA * arm * arm;
     for (const auto& [end, share] : {std::pair{0, 1 - t}, std::pair{2, t}}) {
       out.M(end, end) += weight * c.rhoA * share;
       if (theory.rotary_inertia) out.M(end + 1, end + 1) += weight * c.rhoI * share;

@@ -4,10 +4,12 @@
 ///   psi' = M/EI,  w' = psi + Q/(kappa G A),  M(s) = M0 - Q s,  Q constant,
 /// integrated with the true EI(s), GA(s), so nodal statics are exact for any taper and the shape
 /// functions are the static deflections; a uniform element is the usual interdependent one.
-///   M = ∫ rho A w'w + rho I psi'psi,   J = ∫ 2 rho I psi'psi (gyroscopic),   K = ∫ M²/EI + Q²/(kappa G A)
-/// Layers of one element share w and psi: shaft layers add mass and stiffness, sleeves and laminations
-/// (`stiff` = false) mass alone. Units SI. Sources: Timoshenko beam theory; kappa of Cowper (J. Appl. Mech.
-/// 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for a hollow circle.
+///   M = ∫ rho A w'w + rho I psi'psi,   J = ∫ 2 rho I psi'psi (gyroscopic),   K = ∫ M²/EI +
+///   Q²/(kappa G A)
+/// Layers of one element share w and psi: shaft layers add mass and stiffness, sleeves and
+/// laminations
+/// (`stiff` = false) mass alone. Units SI. Sources: Timoshenko beam theory; kappa of Cowper (J.
+/// Appl. Mech. 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for a hollow circle.
 #include <Eigen/Dense>
 #include <string>
 #include <vector>
@@ -46,10 +48,13 @@ inline constexpr Field<ShaftSection> kShaftSectionFields[] = {
     {"length", &ShaftSection::length, "m", 1e-6, 1e3, "length of the section"},
     {"od", &ShaftSection::od, "m", 1e-5, 1e2, "outer diameter (left end)"},
     {"id", &ShaftSection::id, "m", 0.0, 1e2, "inner diameter (left end)"},
-    {"od_right", &ShaftSection::od_right, "m", 1e-5, 1e2, "outer diameter at the right end, default od"},
-    {"id_right", &ShaftSection::id_right, "m", 0.0, 1e2, "inner diameter at the right end, default id"},
+    {"od_right", &ShaftSection::od_right, "m", 1e-5, 1e2,
+     "outer diameter at the right end, default od"},
+    {"id_right", &ShaftSection::id_right, "m", 0.0, 1e2,
+     "inner diameter at the right end, default id"},
     {"damping_mass", &ShaftSection::damping_mass, "1/s", 0.0, 1e6, "Rayleigh damping with mass"},
-    {"damping_stiffness", &ShaftSection::damping_stiffness, "s", 0.0, 1.0, "Rayleigh damping with stiffness"},
+    {"damping_stiffness", &ShaftSection::damping_stiffness, "s", 0.0, 1.0,
+     "Rayleigh damping with stiffness"},
 };
 
 enum class MassKind { kConsistent, kLumped };

@@ -103,29 +103,38 @@ TEST(BeamFile, ReadsEveryTable) {
 
 TEST(BeamFile, ChoicesReachTheModel) {
   const double plain = BuildReduced(Parse(kFile)).omega[1];
-  const double no_shear = BuildReduced(Parse(Replaced(kFile, "modes = 2", "modes = 2\nshear = false"))).omega[1];
-  const double lumped = BuildReduced(Parse(Replaced(kFile, "modes = 2", "modes = 2\nmass = \"lumped\""))).omega[1];
+  const double no_shear =
+      BuildReduced(Parse(Replaced(kFile, "modes = 2", "modes = 2\nshear = false"))).omega[1];
+  const double lumped =
+      BuildReduced(Parse(Replaced(kFile, "modes = 2", "modes = 2\nmass = \"lumped\""))).omega[1];
   EXPECT_GT(no_shear, plain);
   EXPECT_LT(lumped, plain);
 }
 
 TEST(BeamFile, MistakesNameFileLineAndKey) {
   EXPECT_EQ(MessageOf(Replaced(kFile, "od = 0.02", "od = -0.02")),
-            "rig.toml:13: rotor.section[1].od = -0.02 m, allowed 1e-05 to 100 m (outer diameter (left end))");
+            "rig.toml:13: rotor.section[1].od = -0.02 m, allowed 1e-05 to 100 m (outer diameter "
+            "(left end))");
   EXPECT_EQ(MessageOf(Replaced(kFile, "\"m300\"", "\"m30\"")),
-            "rig.toml:14: rotor.section[1].material = \"m30\", allowed: aluminium, m300, steel, titanium (did you mean m300?)");
+            "rig.toml:14: rotor.section[1].material = \"m30\", allowed: aluminium, m300, steel, "
+            "titanium (did you mean m300?)");
   EXPECT_EQ(MessageOf(Replaced(kFile, "id = 0.01", "id = 0.05")),
             "rig.toml:19: rotor.section[2].id: id = 0.05 m, allowed 0 to below od = 0.03 m");
   EXPECT_EQ(MessageOf(Replaced(kFile, "z = 0.3", "z = 0.4")),
-            "rig.toml:1: rotor: disk \"\" at z = 0.4 m is off the shaft, allowed 0 to 0.30000000000000004 m");
+            "rig.toml:1: rotor: disk \"\" at z = 0.4 m is off the shaft, allowed 0 to "
+            "0.30000000000000004 m");
   EXPECT_EQ(MessageOf(Replaced(kFile, "inertia_polar = 2e-4", "inertia_polar = 3e-4")),
-            "rig.toml:39: rotor.disk[2].inertia_polar: 0.0003 kg m2, allowed up to twice inertia_diametral = 0.0001 kg m2");
+            "rig.toml:39: rotor.disk[2].inertia_polar: 0.0003 kg m2, allowed up to twice "
+            "inertia_diametral = 0.0001 kg m2");
   EXPECT_EQ(MessageOf(Replaced(kFile, "[0.001, 0.002]", "[0.001, 0.002, 0.003]")),
             "rig.toml:4: rotor.modal_damping: 3 values, allowed: one, or one per mode (2)");
-  EXPECT_EQ(MessageOf(Replaced(kFile, "modes = 2", "modes = 101")), "rig.toml:3: rotor.modes: 101, allowed 0 to 100");
-  EXPECT_NE(MessageOf(Replaced(kFile, "width = 0.02", "widht = 0.02")).find("did you mean"), std::string::npos);
-  EXPECT_EQ(MessageOf("[rotor]\nkind = \"beam\"\n"),
-            "rig.toml:1: rotor.section: is missing, allowed: tables, each written [[rotor.section]]");
+  EXPECT_EQ(MessageOf(Replaced(kFile, "modes = 2", "modes = 101")),
+            "rig.toml:3: rotor.modes: 101, allowed 0 to 100");
+  EXPECT_NE(MessageOf(Replaced(kFile, "width = 0.02", "widht = 0.02")).find("did you mean"),
+            std::string::npos);
+  EXPECT_EQ(
+      MessageOf("[rotor]\nkind = \"beam\"\n"),
+      "rig.toml:1: rotor.section: is missing, allowed: tables, each written [[rotor.section]]");
 }
 
 /// A file of this test's own, gone afterwards.
@@ -142,16 +151,24 @@ std::string FriswellAsRossToml() {
   std::string text = "ross_version = \"2.3.0\"\n\n[parameters]\n";
   for (int i = 0; i < 6; ++i) {
     const std::string tag = "Shaft Element " + std::to_string(i);
-    text += "\n[\"ShaftElement_" + tag + "\"]\nL = 0.25\nidl = 0.0\nodl = 0.05\nidr = 0.0\nodr = 0.05\nn = " +
-            std::to_string(i) +
-            "\naxial_force = 0\ntorque = 0\nshear_effects = true\nrotary_inertia = true\ngyroscopic = true\n"
-            "shear_method_calc = \"cowper\"\ntag = \"" + tag + "\"\nalpha = 0.0\nbeta = 0.0\n"
-            "\n[\"ShaftElement_" + tag + "\".material]\nname = \"steel\"\nrho = 7810.0\nE = 211000000000.0\n"
-            "G_s = 81200000000.0\ncolor = \"#525252\"\n";
+    text +=
+        "\n[\"ShaftElement_" + tag +
+        "\"]\nL = 0.25\nidl = 0.0\nodl = 0.05\nidr = 0.0\nodr = 0.05\nn = " + std::to_string(i) +
+        "\naxial_force = 0\ntorque = 0\nshear_effects = true\nrotary_inertia = true\ngyroscopic = "
+        "true\n"
+        "shear_method_calc = \"cowper\"\ntag = \"" +
+        tag +
+        "\"\nalpha = 0.0\nbeta = 0.0\n"
+        "\n[\"ShaftElement_" +
+        tag +
+        "\".material]\nname = \"steel\"\nrho = 7810.0\nE = 211000000000.0\n"
+        "G_s = 81200000000.0\ncolor = \"#525252\"\n";
   }
-  text += "\n[\"DiskElement_Disk 0\"]\nn = 2\nm = 32.58972765304033\nId = 0.17808928257067666\n"
-          "Ip = 0.32956362089137037\ntag = \"Disk 0\"\nscale_factor = 1.0\ncolor = \"Firebrick\"\n"
-          "\n[\"DiskElement_Disk 1\"]\nn = 4\nm = 51.525\nId = 0.423581\nIp = 0.805082\ntag = \"Disk 1\"\n";
+  text +=
+      "\n[\"DiskElement_Disk 0\"]\nn = 2\nm = 32.58972765304033\nId = 0.17808928257067666\n"
+      "Ip = 0.32956362089137037\ntag = \"Disk 0\"\nscale_factor = 1.0\ncolor = \"Firebrick\"\n"
+      "\n[\"DiskElement_Disk 1\"]\nn = 4\nm = 51.525\nId = 0.423581\nIp = 0.805082\ntag = \"Disk "
+      "1\"\n";
   for (int n : {0, 6})
     text += "\n[\"BearingElement_Bearing " + std::to_string(n) + "\"]\nn = " + std::to_string(n) +
             "\ntag = \"Bearing\"\ncxx = [ 0,]\nkxx = [ 1000000.0,]\nkxy = [ 0,]\nkyx = [ 0,]\n"
@@ -197,7 +214,8 @@ TEST(RossFile, RoundTripInBothFormats) {
     EXPECT_EQ(back.definition.disks[1].name, "wheel");
     const LinearRotor after = Assemble(BuildBeam(back.definition));
     ASSERT_EQ(after.M.rows(), before.M.rows()) << name;
-    // z = sums of L and nu from E / (2 G) - 1: some roundings of 1e-16, times the cancellation in L.
+    // z = sums of L and nu from E / (2 G) - 1: some roundings of 1e-16, times the cancellation in
+    // L.
     EXPECT_LT((after.M - before.M).norm(), 1e-11 * before.M.norm()) << name;
     EXPECT_LT((after.K - before.K).norm(), 1e-11 * before.K.norm()) << name;
     EXPECT_LT((after.C - before.C).norm(), 1e-11 * before.C.norm()) << name;
@@ -209,7 +227,9 @@ TEST(RossFile, CoefficientsAtSpeedMagneticBearingsAndTheRest) {
   const Scratch file("more.toml");
   std::string text = FriswellAsRossToml();
   text = Replaced(text, "kxx = [ 1000000.0,]", "kxx = [ 1e6, 3e6,]\nfrequency = [ 0.0, 100.0,]");
-  text += "\n[\"MagneticBearingElement_AMB\"]\nn = 3\ng0 = 0.001\ni0 = 1.0\nnw = 200\n[PointMass_housing]\nn = 7\nm = 5.0\n";
+  text +=
+      "\n[\"MagneticBearingElement_AMB\"]\nn = 3\ng0 = 0.001\ni0 = 1.0\nnw = "
+      "200\n[PointMass_housing]\nn = 7\nm = 5.0\n";
   file.Write(text);
   const RossRotor r = ReadRoss(file.path, 25);
   EXPECT_EQ(r.definition.supports[0].kxx, 1.5e6);
@@ -231,12 +251,16 @@ std::string RossMessage(const std::string& text) {
 }
 
 TEST(RossFile, Mistakes) {
-  EXPECT_EQ(RossMessage("a = 1\n"), ": no shaft element, allowed: a file saved by ROSS's Rotor.save");
+  EXPECT_EQ(RossMessage("a = 1\n"),
+            ": no shaft element, allowed: a file saved by ROSS's Rotor.save");
   const std::string good = FriswellAsRossToml();
-  EXPECT_EQ(RossMessage(Replaced(good, "odl = 0.05\n", "")), ":5: ShaftElement_Shaft Element 0: odl is missing");
+  EXPECT_EQ(RossMessage(Replaced(good, "odl = 0.05\n", "")),
+            ":5: ShaftElement_Shaft Element 0: odl is missing");
   EXPECT_EQ(RossMessage(Replaced(good, "n = 3\n", "n = 9\n")), ": no shaft element with n = 3");
-  EXPECT_NE(RossMessage(Replaced(good, "n = 4\nm", "n = 40\nm")).find("n = 40, allowed 0 to 6"), std::string::npos);
-  EXPECT_NE(RossMessage(Replaced(good, "tag = \"Bearing\"", "n_link = 7")).find("n_link"), std::string::npos);
+  EXPECT_NE(RossMessage(Replaced(good, "n = 4\nm", "n = 40\nm")).find("n = 40, allowed 0 to 6"),
+            std::string::npos);
+  EXPECT_NE(RossMessage(Replaced(good, "tag = \"Bearing\"", "n_link = 7")).find("n_link"),
+            std::string::npos);
   EXPECT_THROW(ReadRoss("/nonexistent/rotor.json"), InputError);
   EXPECT_THROW(WriteRoss(Everything(), "/nonexistent/rotor.toml"), InputError);
 }
@@ -244,7 +268,8 @@ TEST(RossFile, Mistakes) {
 TEST(RossFile, NamedInARigFile) {
   const Scratch file("rig_rotor.toml");
   file.Write(FriswellAsRossToml());
-  const BeamFile beam = Parse("[rotor]\nkind = \"beam\"\nmodes = 1\nross_file = \"" + file.path + "\"\n");
+  const BeamFile beam =
+      Parse("[rotor]\nkind = \"beam\"\nmodes = 1\nross_file = \"" + file.path + "\"\n");
   EXPECT_NEAR(BuildReduced(beam).mass, 107.117, 1e-3);
 }
 

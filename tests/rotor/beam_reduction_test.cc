@@ -12,7 +12,8 @@ namespace {
 BeamDefinition Rotor() {
   BeamDefinition d;
   const Material steel{2.1e11, 7850, 0.3};
-  const auto add = [&](double z0, double length, double od, double od_right, double id, bool stiff) {
+  const auto add = [&](double z0, double length, double od, double od_right, double id,
+                       bool stiff) {
     ShaftSection s;
     s.z0 = z0, s.length = length, s.od = od, s.od_right = od_right, s.id = s.id_right = id;
     s.material = steel, s.stiff = stiff;
@@ -40,7 +41,8 @@ TEST(Reduction, RigidPartIsTheRotor) {
   EXPECT_NEAR(l.G(3, 2), -t.inertia_polar, 1e-10);  // beta row: - Ip Omega alpha'
 }
 
-// With every mode kept the reduction is a change of coordinates: same eigenvalues at speed on supports.
+// With every mode kept the reduction is a change of coordinates: same eigenvalues at speed on
+// supports.
 TEST(Reduction, AllModesAreTheFullRotor) {
   BeamDefinition d = Rotor();
   d.supports = {IsotropicSupport(0.11, 3e5, 40), IsotropicSupport(0.6, 2e5, 60)};
@@ -50,7 +52,8 @@ TEST(Reduction, AllModesAreTheFullRotor) {
   LinearRotor modal = Linear(reduced);
   for (const SpringSupport& s : d.supports) AddSupport(reduced, s, modal);
   const auto full = WhirlModes(Assemble(beam), 800, 8), ours = WhirlModes(modal, 800, 8);
-  for (int i = 0; i < 8; ++i) EXPECT_LT(std::abs(full[i].s - ours[i].s), 1e-6 * std::abs(full[i].s));
+  for (int i = 0; i < 8; ++i)
+    EXPECT_LT(std::abs(full[i].s - ours[i].s), 1e-6 * std::abs(full[i].s));
 }
 
 // Few modes: bending modes left out are static flexibility only; the lowest whirl modes stay.
@@ -114,7 +117,8 @@ TEST(Station, NodesAndBetween) {
     const ModalStation s = StationAt(r, z), t = StationAt(f, z);
     for (int k = 0; k < 3; ++k) {
       const double scale = r.shape.col(k).cwiseAbs().maxCoeff();
-      // Static shapes between nodes miss the inertia load: (k h)^4 / 384 of the amplitude, k h < 0.8.
+      // Static shapes between nodes miss the inertia load: (k h)^4 / 384 of the amplitude, k h <
+      // 0.8.
       EXPECT_NEAR(s.phi(k), t.phi(k), 2e-3 * scale) << z << " mode " << k;
     }
   }

@@ -42,7 +42,8 @@ TEST(BeamElement, CantileverRoots) {
   BeamDefinition d = UniformShaft(1, 0.01, n);
   d.theory = EulerBernoulli();
   const PlaneModes modes = HeldModes(BuildBeam(d), {0, 1}, 5);
-  const double exact[] = {1.875104068711961, 4.694091132974175, 7.854757438237613, 10.99554073487547, 14.13716839104647};
+  const double exact[] = {1.875104068711961, 4.694091132974175, 7.854757438237613,
+                          10.99554073487547, 14.13716839104647};
   const double unit = std::sqrt(kSteel.E * Inertia(0.01) / (kSteel.rho * Area(0.01)));
   for (int i = 0; i < 5; ++i) {
     const double root = std::sqrt(modes.omega(i) / unit);
@@ -51,10 +52,25 @@ TEST(BeamElement, CantileverRoots) {
   }
 }
 
-/// Pinned-pinned Timoshenko shaft, mode k: rho² I/(kappa G) w⁴ - (rho A + rho I a² (1 + E/(kappa G))) w²
+// Solid rod and thin tube as the two papers print them.
+TEST(BeamElement, ShearCoefficientLimits) {
+  const double nu = 0.3;
+  const auto cowper = ShearCoefficient::kCowper, hutchinson = ShearCoefficient::kHutchinson;
+  EXPECT_NEAR(ShearCoefficientOf(cowper, 0, nu), 6 * (1 + nu) / (7 + 6 * nu), 1e-15);
+  EXPECT_NEAR(ShearCoefficientOf(cowper, 1, nu), 2 * (1 + nu) / (4 + 3 * nu), 1e-15);
+  EXPECT_NEAR(ShearCoefficientOf(hutchinson, 0, nu),
+              6 * (1 + nu) * (1 + nu) / (7 + 12 * nu + 4 * nu * nu), 1e-15);
+  EXPECT_NEAR(ShearCoefficientOf(hutchinson, 1, nu), (1 + nu) / (2 + nu), 1e-15);
+}
+
+/// Pinned-pinned Timoshenko shaft, mode k: rho² I/(kappa G) w⁴ - (rho A + rho I a² (1 + E/(kappa
+/// G))) w²
 /// + E I a⁴ = 0, a = k pi / L; without shear kappa G is infinite.
 double PinnedFrequency(int k, double length, double d, bool shear, bool rotary) {
-  const double a2 = std::pow(k * kPi / length, 2), kG = shear ? ShearCoefficientOf(ShearCoefficient::kCowper, 0, kSteel.nu) * kSteel.shear_modulus() : 1e30;
+  const double a2 = std::pow(k * kPi / length, 2),
+               kG = shear ? ShearCoefficientOf(ShearCoefficient::kCowper, 0, kSteel.nu) *
+                                kSteel.shear_modulus()
+                          : 1e30;
   const double I = Inertia(d), rI = rotary ? kSteel.rho * I : 0;
   const double A = rI * kSteel.rho / kG;
   const double B = kSteel.rho * Area(d) + rI * a2 + kSteel.rho * I * a2 * kSteel.E / kG;
@@ -81,15 +97,18 @@ TEST(BeamElement, FrequencyConvergesWithFourthOrder) {
     EXPECT_GT(e8, 0);  // consistent mass: from above
   }
   const double kh = 2 * kPi / 16;
-  EXPECT_NEAR(PinnedError(16, EulerBernoulli(), 2), std::pow(kh, 4) / 1440, 0.05 * std::pow(kh, 4) / 1440);
+  EXPECT_NEAR(PinnedError(16, EulerBernoulli(), 2), std::pow(kh, 4) / 1440,
+              0.05 * std::pow(kh, 4) / 1440);
 }
 
 // With shear the static shapes miss, inside an element, the shear force q s of the inertia load
 // q = rho A w² W and the moment m s of m = rho I w² Psi. Their energies, q² h²/(12 kappa G A) and
-// m² h²/(12 E I) against w² (rho A W² + rho I Psi²), are a second order term, small for slender shafts.
+// m² h²/(12 E I) against w² (rho A W² + rho I Psi²), are a second order term, small for slender
+// shafts.
 TEST(BeamElement, ShearAddsTheDerivedSecondOrderTerm) {
   const double d = 0.1, k = 2 * kPi, A = Area(d), I = Inertia(d), rho = kSteel.rho;
-  const double kGA = ShearCoefficientOf(ShearCoefficient::kCowper, 0, kSteel.nu) * kSteel.shear_modulus() * A;
+  const double kGA =
+      ShearCoefficientOf(ShearCoefficient::kCowper, 0, kSteel.nu) * kSteel.shear_modulus() * A;
   const double w2 = std::pow(PinnedFrequency(2, 1, d, true, true), 2), EI = kSteel.E * I;
   const double tilt = kGA * k / (kGA + EI * k * k - rho * I * w2);  // Psi / W
   const double energy = std::pow(rho * A * w2, 2) / kGA + std::pow(rho * I * w2 * tilt, 2) / EI;
@@ -110,15 +129,18 @@ TEST(BeamElement, LumpedMassConvergesToTheSameFrequency) {
   EXPECT_NEAR(std::log2(e16 / e32), 2, 0.1);
 }
 
-// Cone from d1 (clamped) to d2, end load P: bending P L³/(3 E I1) d1/d2, shear 4 P L/(pi kappa G d1 d2).
+// Cone from d1 (clamped) to d2, end load P: bending P L³/(3 E I1) d1/d2, shear 4 P L/(pi kappa G d1
+// d2).
 TEST(BeamElement, OneTaperedElementIsStaticallyExact) {
   const double d1 = 0.04, d2 = 0.03, L = 0.2, P = 1000;
   BeamDefinition d = UniformShaft(L, d1, 1);
   d.sections[0].od_right = d2;
   const BeamRotor r = BuildBeam(d);
   const Eigen::Vector2d tip = r.K.bottomRightCorner<2, 2>().inverse() * Eigen::Vector2d(P, 0);
-  const double kG = ShearCoefficientOf(ShearCoefficient::kCowper, 0, kSteel.nu) * kSteel.shear_modulus();
-  const double exact = P * L * L * L / (3 * kSteel.E * Inertia(d1)) * d1 / d2 + 4 * P * L / (kPi * kG * d1 * d2);
+  const double kG =
+      ShearCoefficientOf(ShearCoefficient::kCowper, 0, kSteel.nu) * kSteel.shear_modulus();
+  const double exact =
+      P * L * L * L / (3 * kSteel.E * Inertia(d1)) * d1 / d2 + 4 * P * L / (kPi * kG * d1 * d2);
   EXPECT_NEAR(tip(0), exact, 1e-9 * exact);
   // Truncated cone: volume pi L (d1² + d1 d2 + d2²)/12.
   EXPECT_NEAR(Totals(r).mass, kSteel.rho * kPi * L / 12 * (d1 * d1 + d1 * d2 + d2 * d2), 1e-12);
@@ -190,22 +212,26 @@ TEST(BeamMatrices, FreeRotorNutatesLikeARigidBody) {
   double nearest = 1e9;
   Whirl sense = Whirl::kMixed;
   for (const WhirlMode& m : modes)
-    if (std::abs(m.omega_d - nutation) < std::abs(nearest - nutation)) nearest = m.omega_d, sense = m.sense();
+    if (std::abs(m.omega_d - nutation) < std::abs(nearest - nutation))
+      nearest = m.omega_d, sense = m.sense();
   EXPECT_NEAR(nearest, nutation, 1e-4 * nutation);
   EXPECT_EQ(sense, Whirl::kForward);
 }
 
-// Spinning Rayleigh shaft on pins: rho (A + I a²) w² -/+ 2 rho I a² Omega w - E I a⁴ = 0 forward/backward.
+// Spinning Rayleigh shaft on pins: rho (A + I a²) w² -/+ 2 rho I a² Omega w - E I a⁴ = 0
+// forward/backward.
 TEST(BeamMatrices, SpinningPinnedShaft) {
   const double L = 1, od = 0.1, speed = 2000, a2 = kPi * kPi / (L * L);
   BeamDefinition d = UniformShaft(L, od, 12);
   d.theory.shear = false;
   d.supports = {IsotropicSupport(0, 1e15, 0), IsotropicSupport(L, 1e15, 0)};
   const auto modes = WhirlModes(Assemble(BuildBeam(d)), speed, 2);
-  const double A = kSteel.rho * (Area(od) + Inertia(od) * a2), B = 2 * kSteel.rho * Inertia(od) * a2 * speed;
+  const double A = kSteel.rho * (Area(od) + Inertia(od) * a2),
+               B = 2 * kSteel.rho * Inertia(od) * a2 * speed;
   const double C = kSteel.E * Inertia(od) * a2 * a2;
   const double root = std::sqrt(B * B + 4 * A * C);
-  const double tolerance = 2 * std::pow(kPi / 12, 4) / 1440 + 1e-6;  // mesh; and eps times the 1e15 N/m pin
+  const double tolerance =
+      2 * std::pow(kPi / 12, 4) / 1440 + 1e-6;  // mesh; and eps times the 1e15 N/m pin
   EXPECT_NEAR(modes[0].omega_d, (root - B) / (2 * A), tolerance * modes[0].omega_d);
   EXPECT_NEAR(modes[1].omega_d, (root + B) / (2 * A), tolerance * modes[1].omega_d);
   EXPECT_EQ(modes[0].sense(), Whirl::kBackward);
@@ -239,7 +265,8 @@ TEST(RotorModes, TruncatedBasisFollowsTheFullRotor) {
   }
   // All modes kept: only the coordinates differ.
   const auto c = WhirlModes(Truncate(full, 44), full, 500, 6);
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(c[i].omega_d, a[i].omega_d, 1e-8 * a[i].omega_d);
+  for (std::size_t i = 0; i < a.size(); ++i)
+    EXPECT_NEAR(c[i].omega_d, a[i].omega_d, 1e-8 * a[i].omega_d);
 }
 
 TEST(RotorModes, CriticalSpeedMapRisesToThePinnedShaft) {

@@ -1,5 +1,5 @@
-// Rotors of the literature and of peer programs (docs/theory/rotor.md has the table). Tolerances are
-// half a unit of the printed digits, or 0.5 % where a note says that the source is rougher.
+// Rotors of the literature and of peer programs (docs/theory/rotor.md has the table). Tolerances
+// are half a unit of the printed digits, or 0.5 % where a note says that the source is rougher.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -45,12 +45,13 @@ BeamDefinition TwoDiskRotor(int elements, double kxx, double kyy, double c) {
 
 std::vector<double> NaturalFrequencies(const BeamDefinition& d, double speed, int count) {
   std::vector<double> out;
-  for (const WhirlMode& m : WhirlModes(Assemble(BuildBeam(d)), speed, count)) out.push_back(m.omega_n);
+  for (const WhirlMode& m : WhirlModes(Assemble(BuildBeam(d)), speed, count))
+    out.push_back(m.omega_n);
   return out;
 }
 
-void ExpectEach(const std::vector<double>& ours, const std::vector<double>& published, double relative,
-                double absolute = 0) {
+void ExpectEach(const std::vector<double>& ours, const std::vector<double>& published,
+                double relative, double absolute = 0) {
   ASSERT_GE(ours.size(), published.size());
   for (std::size_t i = 0; i < published.size(); ++i)
     EXPECT_NEAR(ours[i], published[i], relative * published[i] + absolute) << "number " << i + 1;
@@ -78,8 +79,10 @@ TEST(Friswell, IsotropicSupports591) {
   const BeamDefinition d = TwoDiskRotor(6, 1e6, 1e6, 0);
   // The book's 716.78 and ours 716.786: last digit truncated or rounded, hence one unit.
   ExpectEach(NaturalFrequencies(d, 0, 6), {86.66, 86.66, 274.31, 274.31, 716.78, 716.78}, 0, 0.01);
-  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 6), {85.39, 87.80, 251.78, 294.71, 600.18, 827.08}, 0, 0.01);
-  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 5), {85.3895, 87.7959, 251.7846, 294.7133, 600.1794}, 0, 5.1e-5);
+  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 6), {85.39, 87.80, 251.78, 294.71, 600.18, 827.08},
+             0, 0.01);
+  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 5),
+             {85.3895, 87.7959, 251.7846, 294.7133, 600.1794}, 0, 5.1e-5);
 }
 
 TEST(Friswell, Overhung599) {
@@ -87,13 +90,15 @@ TEST(Friswell, Overhung599) {
   d.disks = {FriswellDisk(1.5, 0.35)};
   d.supports = {IsotropicSupport(0, 1e7, 0), IsotropicSupport(1.0, 1e7, 0)};
   ExpectEach(NaturalFrequencies(d, 0, 6), {90.14, 90.14, 630.73, 630.73, 830.43, 830.43}, 0, 0.01);
-  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 6), {76.19, 103.91, 565.99, 634.23, 647.75, 1174.2}, 0, 0.05);
+  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 6), {76.19, 103.91, 565.99, 634.23, 647.75, 1174.2},
+             0, 0.05);
 }
 
 TEST(Friswell, AnisotropicSupports592) {
   const BeamDefinition d = TwoDiskRotor(48, 1e6, 8e5, 0);
   ExpectEach(NaturalFrequencies(d, 0, 6), {82.65, 86.66, 254.52, 274.31, 679.49, 716.79}, 5e-4);
-  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 6), {82.33, 86.86, 239.64, 287.25, 583.49, 806.89}, 5e-4);
+  ExpectEach(NaturalFrequencies(d, 4000 * kRpm, 6), {82.33, 86.86, 239.64, 287.25, 583.49, 806.89},
+             5e-4);
 }
 
 TEST(Friswell, DampedSupports595) {
@@ -128,7 +133,8 @@ TEST(Friswell, UnbalanceResponse) {
   }
 }
 
-// The peer found its critical speeds on a speed grid: 1e-4 between its numbers and the direct method.
+// The peer found its critical speeds on a speed grid: 1e-4 between its numbers and the direct
+// method.
 TEST(Friswell, CriticalSpeeds) {
   const LinearRotor r = Assemble(BuildBeam(TwoDiskRotor(6, 1e6, 1e6, 100)));
   const auto critical = CriticalSpeeds(r, 5);
@@ -191,7 +197,8 @@ TEST(TumMbtr, FreeFree) {
   double disks = 0;
   for (const Disk& disk : r.disks) disks += disk.inertia_polar;
   EXPECT_NEAR(disks, 3.6401e-3, 5e-8);
-  ExpectEach(Hz(FreeModes(r, 6).omega), {22.378, 105.575, 176.527, 212.873, 607.44, 662.26}, 0, 0.0052);
+  ExpectEach(Hz(FreeModes(r, 6).omega), {22.378, 105.575, 176.527, 212.873, 607.44, 662.26}, 0,
+             0.0052);
 }
 
 TEST(TumMbtr, PinnedAtTheBearings) {
@@ -224,7 +231,8 @@ TEST(TumMbtr, SpringsAndProportionalDerivative) {
   // k = P ki - kx = 5000 * 50 - 1e5, c = D ki = 250: peer program's run without Rayleigh damping.
   d.supports = {IsotropicSupport(0.113, 1.5e5, 250), IsotropicSupport(0.623, 1.5e5, 250)};
   auto pd = WhirlModes(Assemble(BuildBeam(d)), 0, 10);
-  std::sort(pd.begin(), pd.end(), [](const auto& a, const auto& b) { return a.omega_n < b.omega_n; });
+  std::sort(pd.begin(), pd.end(),
+            [](const auto& a, const auto& b) { return a.omega_n < b.omega_n; });
   const double f[] = {16.722, 59.232, 61.114, 105.586, 176.749};
   for (int i = 0; i < 5; ++i) EXPECT_NEAR(pd[2 * i].omega_d / (2 * kPi), f[i], 2e-4 * f[i]);
   EXPECT_NEAR(pd[0].zeta, 0.0048, 5e-5);
@@ -234,11 +242,12 @@ TEST(TumMbtr, SpringsAndProportionalDerivative) {
 
 // Node planes and diameters of the UFU rig as in its ROSS example (doi 10.14393/ufu.di.2015.186).
 BeamDefinition UfuRotor(double sleeve_density) {
-  const double z[] = {0,      0.012,  0.032,  0.052,  0.072,  0.092,  0.112,  0.1208, 0.1272, 0.1348, 0.1405,
-                      0.1469, 0.153,  0.1592, 0.1653, 0.1804, 0.1905, 0.2063, 0.2221, 0.2379, 0.2537, 0.2695,
-                      0.2853, 0.3011, 0.3169, 0.3243, 0.3363, 0.358,  0.364,  0.3705, 0.3825, 0.3986, 0.4147,
-                      0.4308, 0.4469, 0.463,  0.4791, 0.4952, 0.5113, 0.5274, 0.5356, 0.5457, 0.5607, 0.5669,
-                      0.5731, 0.5792, 0.5856, 0.5913, 0.5989, 0.6053, 0.6141, 0.6341, 0.6461};
+  const double z[] = {0,      0.012,  0.032,  0.052,  0.072,  0.092,  0.112,  0.1208, 0.1272,
+                      0.1348, 0.1405, 0.1469, 0.153,  0.1592, 0.1653, 0.1804, 0.1905, 0.2063,
+                      0.2221, 0.2379, 0.2537, 0.2695, 0.2853, 0.3011, 0.3169, 0.3243, 0.3363,
+                      0.358,  0.364,  0.3705, 0.3825, 0.3986, 0.4147, 0.4308, 0.4469, 0.463,
+                      0.4791, 0.4952, 0.5113, 0.5274, 0.5356, 0.5457, 0.5607, 0.5669, 0.5731,
+                      0.5792, 0.5856, 0.5913, 0.5989, 0.6053, 0.6141, 0.6341, 0.6461};
   const auto diameter = [](int i) {
     if (i == 0 || i == 51) return 6.35e-3;
     if (i < 5) return 32e-3;
@@ -247,10 +256,12 @@ BeamDefinition UfuRotor(double sleeve_density) {
     return i == 27 || i == 28 ? 54e-3 : 19.05e-3;
   };
   BeamDefinition d;
-  for (int i = 0; i < 52; ++i) d.sections.push_back(Uniform(z[i], z[i + 1] - z[i], diameter(i), {1.9e11, 7850, 0.3}));
+  for (int i = 0; i < 52; ++i)
+    d.sections.push_back(Uniform(z[i], z[i + 1] - z[i], diameter(i), {1.9e11, 7850, 0.3}));
   d.elements_per_section = 1;
   const double centre[] = {0.004, 0.007, 0.014};
-  for (int i = 0; i < 3; ++i) d.disks.push_back(DiskFromGeometry(z[27 + i], centre[i], 0.054, 0.12, 7850));
+  for (int i = 0; i < 3; ++i)
+    d.disks.push_back(DiskFromGeometry(z[27 + i], centre[i], 0.054, 0.12, 7850));
   const double lamination[] = {0.0088, 0.0064, 0.0075, 0.0057, 0.0064, 0.0061, 0.0062, 0.0062};
   for (int i = 0; i < 8; ++i) {
     d.disks.push_back(DiskFromGeometry(z[6 + i], lamination[i], 0.0348, 0.0498, sleeve_density));
@@ -273,7 +284,8 @@ TEST(Ufu, TotalsAndFreeModes) {
 
 TEST(Ufu, ReducedRotorKeepsTheGyroscopicSplit) {
   const ReducedRotor r = Reduce(BuildBeam(UfuRotor(7600)), 12, {0.0});
-  const double published[] = {102.964, 105.589, 373.459, 426.553, 747.615, 790.819, 1074.305, 1170.934};
+  const double published[] = {102.964, 105.589, 373.459,  426.553,
+                              747.615, 790.819, 1074.305, 1170.934};
   std::vector<double> bending;
   for (const WhirlMode& m : WhirlModes(Linear(r), 628.3, 16))
     if (m.omega_d > 2 * kPi * 50) bending.push_back(m.omega_d / (2 * kPi));
@@ -281,15 +293,17 @@ TEST(Ufu, ReducedRotorKeepsTheGyroscopicSplit) {
   ExpectEach(bending, {published, published + 8}, 1e-4);
 }
 
-// Source: geometry recalled, last three elements chosen by fit (low confidence). The first list is an
-// independent Euler-Bernoulli FE of the same data: ours must match it; the second is literature.
+// Source: geometry recalled, last three elements chosen by fit (low confidence). The first list is
+// an independent Euler-Bernoulli FE of the same data: ours must match it; the second is literature.
 TEST(NelsonMcVaugh, CriticalSpeedsOfTheRecalledGeometry) {
   const double z[] = {0,     1.27,  5.08,  7.62,  8.89,  10.16, 10.67, 11.43, 12.70, 13.46,
                       16.51, 19.05, 22.86, 26.67, 28.70, 30.48, 31.50, 34.54, 35.50};
-  const double od[] = {1.02, 2.04, 1.52, 4.06, 4.06, 6.60, 6.60, 5.08, 5.08, 2.54, 2.54, 3.04, 3.04, 2.54, 2.54, 7.62, 4.06, 4.06};
+  const double od[] = {1.02, 2.04, 1.52, 4.06, 4.06, 6.60, 6.60, 5.08, 5.08,
+                       2.54, 2.54, 3.04, 3.04, 2.54, 2.54, 7.62, 4.06, 4.06};
   BeamDefinition d;
   for (int i = 0; i < 18; ++i) {
-    d.sections.push_back(Uniform(z[i] / 100, (z[i + 1] - z[i]) / 100, od[i] / 100, {2.078e11, 7806, 0.3}));
+    d.sections.push_back(
+        Uniform(z[i] / 100, (z[i + 1] - z[i]) / 100, od[i] / 100, {2.078e11, 7806, 0.3}));
     const double id = i == 6 ? 3.04 : i == 7 ? 3.56 : i == 16 ? 1.52 : i == 17 ? 2.03 : 0;
     d.sections.back().id = d.sections.back().id_right = id / 100;
   }
@@ -306,7 +320,8 @@ TEST(NelsonMcVaugh, CriticalSpeedsOfTheRecalledGeometry) {
   }
 }
 
-// Modelling and Simulation in Engineering 2011, 414286, table 1: rigid rotor, sensors not at the bearings.
+// Modelling and Simulation in Engineering 2011, 414286, table 1: rigid rotor, sensors not at the
+// bearings.
 struct MseLoop {
   ReducedRotor rotor;
   LinearRotor closed;
@@ -335,19 +350,22 @@ TEST(Mse2011, RigidEigenvalues) {
     for (const auto& p : published) {
       double nearest = 1e9;
       for (const WhirlMode& m : modes)
-        nearest = std::min(nearest, std::abs(m.s - std::complex<double>(p.real(), std::abs(p.imag()))));
+        nearest =
+            std::min(nearest, std::abs(m.s - std::complex<double>(p.real(), std::abs(p.imag()))));
       // kd is printed to 3e-5 and kp to 7e-6 of itself; the parts of s move by up to
       // (401.6 * 401.6 * 3.3e-5 + 2e5 * 7e-6) / 198.8 = 0.034, plus half a digit.
       EXPECT_LT(nearest, 0.04) << p;
     }
   };
   expect(0, {{-200.41, 237.74}, {-401.57, 198.83}});
-  expect(20000 * kRpm, {{-198.08, -233.57}, {-202.73, 241.37}, {-379.11, -191.06}, {-424.04, 211.18}});
+  expect(20000 * kRpm,
+         {{-198.08, -233.57}, {-202.73, 241.37}, {-379.11, -191.06}, {-424.04, 211.18}});
 }
 
 TEST(Mse2011, OpenLoopPoles) {
   LinearRotor open = Linear(MakeMse().rotor);
-  for (double z : {0.241, -0.139}) AddSupport(MakeMse().rotor, IsotropicSupport(z, -144000, 0), open);
+  for (double z : {0.241, -0.139})
+    AddSupport(MakeMse().rotor, IsotropicSupport(z, -144000, 0), open);
   // Undamped at rest: s² are the eigenvalues of -K with unit-free masses.
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(-open.K, open.M);
   EXPECT_NEAR(std::sqrt(eigen.eigenvalues()(0)), 325.1, 0.05);
