@@ -64,7 +64,7 @@ void AddUnknown(HtmlReport& report, const Case& c, const Explanation& e) {
   report.Heading("What no effect explains");
   report.Text(u.text.empty() ? "Nothing more can be said from these records." : ShortPaths(u.text, c));
   std::vector<std::pair<std::string, std::string>> keys;
-  for (const auto& [key, value] : {std::pair("block", u.block), {"where", u.where}, {"depends on", ShortPaths(u.dependence, c)}})
+  for (const auto& [key, value] : {std::pair("block", u.block), {"where", u.where}})
     if (!value.empty()) keys.emplace_back(key, value);
   std::string peaks;
   for (const double f : u.frequencies) peaks += (peaks.empty() ? "" : ", ") + FormatSi(f, "Hz");

@@ -44,7 +44,8 @@ void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking, 
   if (first_round) columns.push_back("unseen, before");
   columns.insert(columns.end(), {first_round ? "unseen, with it" : "unseen, with it too", "fitted, with it", "parameters ± sd"});
   report.Table(columns, rows, first_round ? std::string("Candidates fitted in full, best first. *Before*: rig parameters fitted, no effect. Probabilities are among these "
-                                            "candidates, each parameter at its price.")
+                                            "candidates, each parameter at its price.") +
+                                                (e.verdict == "unknown" ? " None was believed: the best of them leaves too much unexplained." : "")
                                           : SecondCaption(e));
 }
 
@@ -220,11 +221,11 @@ std::string FormulaSnippet(const Unexplained& u) {
     const Guess g = GuessOf(p, u.dependence);
     // A place or a friction does not switch the force off, its stiffness does.
     const bool switches = std::string(g.unit) != "m" && std::string(g.unit) != "-";
-    parameters += fmt::format("{}{} = {{ value = {:.3g}{}, min = {:.3g}, max = {:.3g}, unit = \"{}\" }}", parameters.empty() ? "" : ", ", p,
+    parameters += fmt::format("parameters.{} = {{ value = {:.3g}{}, min = {:.3g}, max = {:.3g}, unit = \"{}\" }}\n", p,
                               Hinted(u.formula, p, g.value), switches ? ", null = 0" : "", g.lo, g.hi, g.unit);
   }
   return fmt::format("[[effect]]\nname = \"formula\"\nlabel = \"what explain described\"\ntarget = \"{}\"\n# starting values, bounds and units: set them to what you expect\n"
-                     "parameters = {{ {} }}\n{}\n", target, parameters, u.formula);
+                     "{}{}\n", target, parameters, u.formula);
 }
 
 }  // namespace ambrig

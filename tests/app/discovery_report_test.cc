@@ -214,7 +214,7 @@ TEST(FormulaSnippetText, IsAFormulaThatTheRigFileTakes) {
   u.formula = "force = { x = \"-k*max(0.766*x + 6.4e-1*y - c, 0)*(0.766 - mu*0.643)\", y = \"0\" }  # c = 2.1e-05 m, mu: friction";
   const std::string text = FormulaSnippet(u);
   EXPECT_THAT(text, HasSubstr("target = \"B\""));
-  EXPECT_THAT(text, HasSubstr("c = { value = 2.1e-05, min"));
+  EXPECT_THAT(text, HasSubstr("parameters.c = { value = 2.1e-05, min"));
   EXPECT_THAT(text, Not(HasSubstr("max = {"))) << "functions are no parameters";
   const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
   std::ifstream in(file);
