@@ -15,14 +15,16 @@ double ExplainedShare(double before, double after) {
   return excess <= 0 ? 0 : std::clamp((before * before - after * after) / excess, 0.0, 1.0);
 }
 
-bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round) {
+bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round, double first_fall) {
   const double b = before.ratio_validate, a = after.ratio_validate;
   if (!after.converged || score_gain < 20) return false;
   // Unseen records decide: the error must fall by more than integrators differ (1 % of the floor's
   // power), and by a good part of what is left; a second effect by more than a law's own detail.
   const double fall = b * b - a * a;
   if (fall < 0.015 + 0.01 * round) return false;
-  return ExplainedShare(b, a) > (round == 0 ? 0.25 : 0.35);
+  const double share = ExplainedShare(b, a);
+  if (round == 0) return share > 0.25;
+  return share > 0.75 || (share > 0.4 && fall > 0.1 * first_fall);
 }
 
 std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted) {

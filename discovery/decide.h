@@ -8,8 +8,10 @@ namespace ambrig {
 double ExplainedShare(double ratio_before, double ratio_after);
 
 /// Whether the step from `before` to `after` (one more effect) is more than chance and more than a
-/// patch: `round` counts the effects adopted before it.
-bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round);
+/// patch: `round` counts the effects adopted before it, `first_fall` is how far the first one brought
+/// the squared ratio down. What a law leaves in detail must not be sold as a second effect: that one
+/// has to explain most of what is left, or to weigh against the first.
+bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round, double first_fall);
 
 /// "effect", "parameters", "none" or "unknown" from the ratios on unseen records.
 std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted);

@@ -50,7 +50,8 @@ class Explainer {
       std::vector<RankedEffect> ranking = Round(now, round);
       if (round == 0) out_.ranking = ranking;
       else out_.second_round = ranking;
-      if (ranking.empty() || !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round)) break;
+      if (ranking.empty() || !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_)) break;
+      if (round == 0) first_fall_ = now.ratio_validate * now.ratio_validate - ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
       now = ranking[0].fit;
       out_.adopted.push_back(ranking[0].effect);
       out_.ladder.push_back({ranking[0].effect.name + " at " + ranking[0].effect.target, now.ratio_fit, now.ratio_validate});
@@ -185,7 +186,7 @@ class Explainer {
         if (k != drop) h.AddEffect(out_.adopted[k]);
       Progress(0.9, "without " + out_.adopted[drop].name);
       FitResult without = FitNow(h, &base.jacobian);
-      if (WorthAdopting(without, now, Gain(without, now), 1)) {
+      if (WorthAdopting(without, now, Gain(without, now), 1, 0)) {
         ++drop;
         continue;
       }
@@ -238,6 +239,7 @@ class Explainer {
   RigParameters rig_;
   Explanation out_;
   SignatureBank bank_;
+  double first_fall_ = 0;  // of the squared ratio on unseen records, by the first effect
 };
 
 }  // namespace
