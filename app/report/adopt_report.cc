@@ -48,7 +48,7 @@ std::vector<Target> MostImproved(const CaseModel& model, const std::vector<doubl
 void AddBeforeAfter(HtmlReport& report, const CaseModel& model, const Comparison& before, const Comparison& after) {
   report.Heading("Before and after");
   AddRatioMap(report, before, "Before: error over noise of every channel in every record.");
-  AddRatioMap(report, after, "After, with the new rig file. Places that stay dark are not explained by what was adopted.");
+  AddRatioMap(report, after, "After, with the new rig file. Places that stay dark are not explained by what was adopted.", LargestRatio(before));
   if (before.predicted.size() != model.size() || after.predicted.size() != model.size()) return;
   const std::vector<Target> gained = MostImproved(model, Residual(model, before.predicted), after.residual, 3);
   if (gained.empty()) return;

@@ -30,8 +30,8 @@ struct RatioTable {
   }
 };
 
-void AddTable(HtmlReport& report, const RatioTable& table, const std::string& caption) {
-  if (!table.rows.empty()) report.AddFigure(RatioFigure(table.columns, table.rows, table.values, caption));
+void AddTable(HtmlReport& report, const RatioTable& table, const std::string& caption, double scale) {
+  if (!table.rows.empty()) report.AddFigure(RatioFigure(table.columns, table.rows, table.values, caption, scale));
 }
 
 std::string StepName(const LadderStep& s) {
@@ -68,20 +68,27 @@ void LadderFigure(HtmlReport& report, const std::vector<LadderStep>& ladder) {
 }  // namespace
 
 Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<std::string>& rows,
-                   const std::vector<std::vector<double>>& values, const std::string& caption) {
+                   const std::vector<std::vector<double>>& values, const std::string& caption, double scale) {
   constexpr std::size_t kReadable = 20;  // columns that leave room for numbers
   Grid grid;
   grid.panel_height = std::clamp(static_cast<int>(rows.size()) * 26, 120, 1400);
   const bool printed = columns.size() <= kReadable;
-  double largest = 2;
+  double largest = std::max(2.0, scale);
   for (const auto& row : values)
-    for (const double v : row) largest = std::isfinite(v) ? std::max(largest, v) : largest;
+    for (const double v : row) largest = std::isfinite(v) && scale == 0 ? std::max(largest, v) : largest;
   std::string note = largest > 10 ? " The colour ends at 10." : "";
   if (!printed) note += " Point at a cell for its number.";
   Figure figure = MakeFigure(caption + note, grid);
   AddHeatmap(figure, 0, columns, rows, values, "error / noise", printed ? 3 : 0);
   figure.traces.back().update({{"zmin", 1}, {"zmax", std::min(largest, 10.0)}});
   return figure;
+}
+
+double LargestRatio(const Comparison& c) {
+  double largest = 0;
+  for (const RecordComparison& r : c.records)
+    for (const ChannelError& e : r.channels) largest = std::max(largest, e.ratio);
+  return largest;
 }
 
 void AddReadingHelp(HtmlReport& report) {
@@ -92,22 +99,22 @@ void AddReadingHelp(HtmlReport& report) {
       "back, only used to judge). A cause is believed when the error falls on the unseen records too.");
 }
 
-void AddRatioMap(HtmlReport& report, const Comparison& c, const std::string& caption) {
+void AddRatioMap(HtmlReport& report, const Comparison& c, const std::string& caption, double scale) {
   RatioTable table;
   for (const RecordComparison& r : c.records)
     for (const ChannelError& e : r.channels)
       table.Put(ShortName(r.data) + (r.validate ? " (unseen)" : ""), e.channel, e.ratio);
-  AddTable(report, table, caption);
+  AddTable(report, table, caption, scale);
 }
 
 void AddRatioMap(HtmlReport& report, const CaseModel& model, const std::vector<double>& residual,
-                 const std::string& caption) {
+                 const std::string& caption, double scale) {
   RatioTable table;
   for (const Target& t : model.targets()) {
     const CaseRecord& r = model.data().records[t.record];
     table.Put(ShortName(r.data_file) + (r.validate ? " (unseen)" : ""), ChannelName(model, t), TargetRatio(model, residual, t));
   }
-  AddTable(report, table, caption);
+  AddTable(report, table, caption, scale);
 }
 
 void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder) {

@@ -112,7 +112,8 @@ void AddWhatIsLeft(HtmlReport& report, const ExplainScene& s) {
   const auto worst = WorstPlaces(s.model, s.final_residual);
   if (worst.empty()) report.Text("Nothing: no channel of any record errs by more than 15 % over its noise.");
   else report.Text("After everything that was fitted, these stand out most:\n\n" + List(worst));
-  AddRatioMap(report, s.model, s.final_residual, "Error over noise after everything that was fitted; compare with the same map of the plain model above.");
+  AddRatioMap(report, s.model, s.final_residual, "Error over noise after everything that was fitted; compare with the same map of the plain model above, in the same colours.",
+              WorstRatio(s.model, s.plain_residual, Which::kAll));
 }
 
 }  // namespace ambrig

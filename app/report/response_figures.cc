@@ -225,7 +225,7 @@ std::optional<Figure> ResponseFigure(const CaseModel& model, const std::vector<d
   Figure figure = MakeFigure(
       "Response to the injected force: displacement per newton, in closed loop. Where the model's line leaves the "
       "measured points, stiffness (low frequencies), damping (the hump) or delay (phase at high ones) is wrong. "
-      "Lines too near to those of another axis are left out.", grid);
+      "Points that scatter at high frequencies are noise. Lines too near to those of another axis are left out.", grid);
   const Scenario& s = model.data().records[record].scenario;
   for (int c = 0; c < columns; ++c) {
     const ForceAxis& a = axes[static_cast<std::size_t>(c)];
