@@ -55,6 +55,7 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   if (progress) progress(0.05, "noise floor");
   const NoiseFloor floor = FindFloor(model, h);
   c.predicted = floor.clean;
+  c.effective = floor.effective;
   c.residual = Residual(model, c.predicted);
   c.ratio = Ratio(model, c.residual, Which::kAll);
   c.ratio_fit = Ratio(model, c.residual, Which::kFit);

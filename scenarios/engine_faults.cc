@@ -14,7 +14,6 @@ void SwitchingEngine::Inject(const FaultSpec& fault) {
     bus_restore_at_ = fault.time + fault.Get("duration", kInfinity);
     return;
   }
-  std::size_t axis = 0;
   for (BearingRun& b : bearings_) {
     const BearingParameters& p = rig_.bearings[b.index];
     const std::string prefix = p.name + ".coil";
@@ -28,7 +27,6 @@ void SwitchingEngine::Inject(const FaultSpec& fault) {
         f.stuck = f.stuck || fault.Get("stuck", 0) != 0;
       }
       ++side;
-      ++axis;
     }
   }
 }

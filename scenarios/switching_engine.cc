@@ -62,10 +62,9 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
     c.map.i_max = rig_.amplifier.i_max;
     c.map.unipolar = rig_.amplifier.quadrants < 3;
     for (int j = 0; j < c.coils; ++j) {
-      c.map.W(j, 0) = p.kind == BearingKind::kOpposed && c.coils == 1 ? 0 : 1;
+      c.map.W(j, 0) = 1;
       c.map.W(j, 1) = b.plant->lanes.direction_x[j];
       c.map.W(j, 2) = b.plant->lanes.direction_y[j];
-      if (p.kind == BearingKind::kOpposed && c.coils == 1) c.map.W(j, 0) = 1;
     }
     control_.push_back(c);
   }
@@ -197,12 +196,8 @@ void SwitchingEngine::Period(long long n) {
   if (options_.forced) FollowData(n);
   ApplySetPoints(n);
   if (controller_on_ && n % M_ == 0) ControlTick(n);
-  if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) {
-    CurrentLoops(n);  // the row shows this period's duty
-    RecordRow(n, 0);
-  } else {
-    CurrentLoops(n);
-  }
+  CurrentLoops(n);  // a row shows this period's duty
+  if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
   RunMagnetics(n);
   Measure(n);
   if (n >= 0 && recorder_ && row_samples_ > 0)

@@ -2,16 +2,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "app/commands/commands.h"
 #include "app/report/discovery_json.h"
 #include "app/report/discovery_report.h"
 #include "app/report/progress.h"
 #include "core/base/atomic_file.h"
+#include "core/base/read_file.h"
 #include "discovery/adopt.h"
-#include "discovery/floor.h"
 #include "discovery/screen.h"
 #include "discovery/probes.h"
 #include "scenarios/rig.h"
@@ -24,13 +22,6 @@ struct AdoptCommand {
   CommonOptions common;
   std::string file, effect, target, output;
 };
-
-std::string Slurp(const std::string& file) {
-  std::ifstream in(file);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 /// The effects to fit: the named one at its target, or at each possible target in turn.
 std::vector<std::string> TargetsToTry(const EffectDescription& d, const Case& c, const std::string& wanted) {
@@ -76,9 +67,8 @@ int RunAdopt(const AdoptCommand& o) {
   model.stop = &interrupted;
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   const Comparison before = Compare(model, nominal, false);
-  NoiseFloor floor = FindFloor(model, nominal);
   FitOptions options;
-  options.effective = floor.effective;
+  options.effective = before.effective;
   progress.Update(0.2, "rig parameters");
   FitResult base = Fit(model, nominal, options);
   std::vector<LadderStep> ladder = {{"", before.ratio_fit, before.ratio_validate}, {"parameters", base.ratio_fit, base.ratio_validate}};
@@ -94,7 +84,7 @@ int RunAdopt(const AdoptCommand& o) {
     double best = kInfinity;
     for (const std::string& target : TargetsToTry(*d, c, o.target)) {
       progress.Update(0.4, fmt::format("{} at {}", o.effect, target));
-      FitResult trial = FitAt(model, base, *d, target, floor.effective);
+      FitResult trial = FitAt(model, base, *d, target, before.effective);
       if (trial.ratio_fit >= best) continue;
       best = trial.ratio_fit;
       fit = std::move(trial);
@@ -108,7 +98,7 @@ int RunAdopt(const AdoptCommand& o) {
     added.push_back(e);
     ladder.push_back({e.name + " at " + e.target, fit.ratio_fit, fit.ratio_validate});
   }
-  std::string rig_text = Slurp(c.rig_file);
+  std::string rig_text = ReadFile(c.rig_file);
   if (o.effect == "formula") {  // its fitted values replace the user's starting ones
     rig_text = rig_text.substr(0, rig_text.find("[[effect]]"));
     for (const EffectInstance& e : c.rig.effects)

@@ -2,15 +2,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 #include "app/commands/commands.h"
 #include "app/report/progress.h"
 #include "app/report/run_json.h"
 #include "app/report/run_report_data.h"
 #include "core/base/atomic_file.h"
+#include "core/base/read_file.h"
 #include "core/record/csv.h"
 #include "core/record/hdf5.h"
 #include "scenarios/simulate.h"
@@ -26,13 +25,6 @@ struct RunOptions {
   double rate = 0;
   bool csv = false, quiet = false, no_html = false;
 };
-
-std::string Slurp(const std::string& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 void PrintTimeline(const Scenario& scenario, const RunResult& result, const std::vector<ExpectResult>& expect) {
   fmt::print("{}\n", Coloured(scenario.name, "bold"));
@@ -78,8 +70,8 @@ int RunOne(const std::string& file, const RunOptions& options, nlohmann::ordered
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) throw InputError(fmt::format("cannot write {}: {}", options.out, error.message()));
-  result.record.attributes["scenario"] = Slurp(file);
-  result.record.attributes["rig"] = Slurp(rig.file);
+  result.record.attributes["scenario"] = ReadFile(file);
+  result.record.attributes["rig"] = ReadFile(rig.file);
   result.record.attributes["fidelity"] = options.fidelity;
   WriteHdf5(result.record, stem.string() + ".h5");
   if (options.csv) WriteCsv(result.record, stem.string() + ".csv");

@@ -3,21 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
 #include "app/report/format.h"
+#include "core/base/read_file.h"
 
 namespace ambrig {
 
 namespace {
-
-std::string Slurp(const std::string& file) {
-  std::ifstream in(file);
-  std::ostringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
 
 std::string MilliSeconds(double t) { return t < 0 ? "-" : fmt::format("{:.3g} ms", t * 1e3); }
 
@@ -114,8 +106,8 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
     data.slopes.push_back(std::move(r));
   }
   FillSnapshots(scenario, result, data);
-  data.scenario_toml = Slurp(scenario.file);
-  data.rig_toml = Slurp(rig.file);
+  data.scenario_toml = ReadFile(scenario.file);
+  data.rig_toml = ReadFile(rig.file);
   return data;
 }
 
