@@ -7,6 +7,7 @@ namespace ambrig {
 namespace {
 constexpr double kAgrees = 1.05;        // ratio on unseen records that counts as the floor
 constexpr double kGood = 1.5;           // discovery.md: what an effect of the catalogue should reach
+constexpr double kCompelling = 200;     // gain of the score that no detail of another law brings
 constexpr double kMostExplained = 0.9;  // of the squared error above the floor
 }  // namespace
 
@@ -24,7 +25,7 @@ bool WorthAdopting(const FitResult& before, const FitResult& after, double score
   if (fall < 0.015 + 0.01 * round) return false;
   const double share = ExplainedShare(b, a);
   if (round == 0) return share > 0.25;
-  return share > 0.75 || (share > 0.4 && fall > 0.1 * first_fall);
+  return share > 0.75 || (share > 0.4 && (fall > 0.1 * first_fall || score_gain > kCompelling));
 }
 
 std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted) {

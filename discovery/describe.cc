@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/residual_peaks.h"
 #include "scenarios/residual_force.h"
 
 namespace ambrig {
@@ -127,7 +128,7 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
   const Worst any = FindWorst(model, fit, false), reading = FindWorst(model, fit, true);
   if (!any.target) return u;
   const CaseRecord& record = model.data().records[any.target->record];
-  u.frequencies = SpectrumPeaks(model, fit.residual, 3);
+  u.frequencies = FindPeaks(model, fit.residual).spectrum;
   double clamped = 0, free_running = 0;
   for (const Target& t : model.targets())
     (model.data().records[t.record].scenario.start == StartState::kClamped ? clamped : free_running) =

@@ -6,40 +6,59 @@
 #include <chrono>
 #include <cmath>
 
+#include "discovery/candidate_fit.h"
 #include "discovery/decide.h"
 #include "discovery/describe.h"
+#include "discovery/likelihood.h"
 
 namespace ambrig {
 
 namespace {
 
-/// Fitted values and sd of the hypothesis' last effect.
-EffectInstance FittedEffect(const FitResult& fit) {
-  const int last = static_cast<int>(fit.hypothesis.rig.effects.size()) - 1;
-  EffectInstance e = fit.hypothesis.rig.effects.back();
+/// Rows that the search looks at: more would cost time and tell nothing new.
+constexpr std::size_t kRows = 150000;
+
+constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
+
+std::size_t Thinning(const Case& c) {
+  std::size_t rows = 0;
+  for (const CaseRecord& r : c.records)
+    for (const Channel& channel : r.data.channels) rows += channel.samples.size();
+  return std::clamp<std::size_t>(rows / kRows, 1, 12);
+}
+
+/// Fitted values and sd of the hypothesis' effect number `index`.
+EffectInstance FittedEffect(const FitResult& fit, std::size_t index) {
+  EffectInstance e = fit.hypothesis.rig.effects[index];
   for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k) {
     const FreeParameter& p = fit.hypothesis.free[k];
-    if (p.effect == last && k < fit.sd.size()) e.sd[p.row] = fit.sd[k];
+    if (p.effect == static_cast<int>(index) && k < fit.sd.size()) e.sd[p.row] = fit.sd[k];
   }
   return e;
 }
 
+std::string Named(const EffectInstance& e) { return e.name + " at " + e.target; }
+
 class Explainer {
  public:
-  Explainer(const Case& c, const ExplainOptions& options) : options_(options), model_(c), rig_(c.rig) { model_.stop = options.stop; }
+  Explainer(const Case& c, const ExplainOptions& options) : options_(options), full_(c), model_(c, Thinning(c)), rig_(c.rig) {
+    full_.stop = model_.stop = options.stop;
+  }
 
   Explanation Run() {
     const auto begin = std::chrono::steady_clock::now();
     Progress(0.0, "noise floor");
     const Hypothesis nominal = Hypothesis::Base(rig_);
-    const NoiseFloor floor = FindFloor(model_, nominal);
+    const NoiseFloor floor = FindFloor(full_, nominal);
+    for (std::size_t t = 0; t < full_.targets().size(); ++t) model_.targets()[t].floor = full_.targets()[t].floor;
     out_.effective = floor.effective;
-    const std::vector<double> r0 = Residual(model_, floor.clean);
+    const FitResult as_filed = KeepNominal(nominal);
+    const std::vector<double>& r0 = as_filed.residual;
     out_.nominal_ratio_validate = Validated(r0);
     out_.ladder.push_back({"", Ratio(model_, r0, Which::kFit), out_.nominal_ratio_validate});
     Progress(0.03, "rig parameters");
     FitResult base = FitNow(nominal, nullptr);
-    if (base.ratio_validate > out_.nominal_ratio_validate && base.ratio_fit > 0.999 * out_.ladder[0].ratio_fit) base = KeepNominal(nominal, floor.clean);
+    if (base.ratio_validate > out_.nominal_ratio_validate && base.ratio_fit > 0.999 * out_.ladder[0].ratio_fit) base = as_filed;
     out_.base_ratio_fit = base.ratio_fit;
     out_.base_ratio_validate = base.ratio_validate;
     out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
@@ -54,9 +73,10 @@ class Explainer {
       if (round == 0) first_fall_ = now.ratio_validate * now.ratio_validate - ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
       now = ranking[0].fit;
       out_.adopted.push_back(ranking[0].effect);
-      out_.ladder.push_back({ranking[0].effect.name + " at " + ranking[0].effect.target, now.ratio_fit, now.ratio_validate});
+      out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});
       if (options_.checkpoint) options_.checkpoint(out_);
     }
+    TryPairs(base, now);
     Backward(base, now);
     Polish(now);
     out_.final_fit = now;
@@ -64,10 +84,10 @@ class Explainer {
     out_.final_ratio_validate = now.ratio_validate;
     out_.verdict = VerdictOf(out_.nominal_ratio_validate, out_.base_ratio_validate, now.ratio_validate, !out_.adopted.empty());
     out_.warnings = now.warnings;
-    if (out_.verdict == "unknown") out_.unexplained = Describe(model_, now);
+    if (out_.verdict == "unknown") out_.unexplained = Describe(full_, AllRows(now));
     if (out_.verdict != "effect") out_.adopted.clear();
     FindConfusable();
-    out_.runs = model_.runs;
+    out_.runs = full_.runs + model_.runs;
     out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     Progress(1.0, "done");
     return std::move(out_);
@@ -84,21 +104,18 @@ class Explainer {
     return v > 0 ? v : Ratio(model_, residual, Which::kFit);
   }
 
-  FitResult FitNow(const Hypothesis& start, const Eigen::MatrixXd* jacobian) const {
+  FitOptions Options(const Eigen::MatrixXd* jacobian) const {
     FitOptions o;
     o.effective = out_.effective;
     o.base_jacobian = jacobian;
-    o.iterations = 4;
-    return Fit(model_, start, o);
+    return o;
   }
+  FitResult FitNow(const Hypothesis& start, const Eigen::MatrixXd* jacobian) const { return Fit(model_, start, Options(jacobian)); }
 
-  FitResult KeepNominal(const Hypothesis& nominal, const std::vector<double>& predicted) const {
-    FitOptions o;
-    o.effective = out_.effective;
+  FitResult KeepNominal(const Hypothesis& nominal) const {
+    FitOptions o = Options(nullptr);
     o.iterations = 0;
-    FitResult fit = Fit(model_, nominal, o);
-    fit.predicted = predicted;
-    return fit;
+    return Fit(model_, nominal, o);
   }
 
   bool Finished(const FitResult& now) const {
@@ -106,14 +123,7 @@ class Explainer {
     return now.ratio_validate * now.ratio_validate < 1.015 || (now.ratio_validate < 1.012 && now.ratio_fit < 1.012);
   }
 
-  int Parameters(const FitResult& fit) const {
-    int n = 0;
-    for (const FreeParameter& p : fit.hypothesis.free) n += p.effect >= 0 ? 1 : 0;
-    return n;
-  }
-  double ScoreOf(const FitResult& fit) const {
-    return Score(model_, fit.ratio_fit, fit.ratio_validate, out_.effective, Parameters(fit));
-  }
+  double ScoreOf(const FitResult& fit) const { return Score(model_, fit, out_.effective); }
   double Gain(const FitResult& before, const FitResult& after) const { return ScoreOf(before) - ScoreOf(after); }
 
   std::vector<RankedEffect> Round(const FitResult& now, int round) {
@@ -121,37 +131,66 @@ class Explainer {
     ScreenOptions screen;
     screen.effective = out_.effective;
     screen.progress = [&](double f, const std::string& text) { Progress(from + 0.6 * share * f, "screening " + text); };
-    const std::vector<Candidate> candidates = Screen(model_, now, screen, bank_);
+    const std::vector<Candidate> candidates = Screen(model_, now, Peaks(now), screen, bank_);
     if (round == 0) out_.screened = candidates;
     std::vector<RankedEffect> ranking;
     const double here = ScoreOf(now);
-    for (std::size_t k = 0; k < candidates.size() && static_cast<int>(ranking.size()) < options_.candidates; ++k) {
-      const Candidate& c = candidates[k];
+    const auto fit_briefly = [&](const Candidate& c) {
+      Progress(from + share * (0.6 + 0.07 * static_cast<double>(ranking.size())), "fitting " + Named(c.effect));
+      RankedEffect r;
+      r.fit = FitBriefly(model_, now, c, out_.effective);
+      r.screened_ratio = c.ratio_validate;
+      if (!r.fit.converged) return;
+      Note(r);
+      ranking.push_back(std::move(r));
+    };
+    std::size_t next = 0;
+    for (; next < candidates.size() && static_cast<int>(ranking.size()) < options_.candidates; ++next) {
+      const Candidate& c = candidates[next];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
       if (c.score > here && (ranking.size() >= 2 || round > 0)) break;
       if (Decided(now, ranking, c) || (round > 0 && !Promising(now, c))) break;
-      Progress(from + share * (0.6 + 0.4 * static_cast<double>(k) / options_.candidates), "fitting " + c.effect.name + " at " + c.effect.target);
-      Hypothesis h = now.hypothesis;
-      h.AddEffect(c.effect);
-      RankedEffect r;
-      r.fit = FitNow(h, &now.jacobian);
-      r.effect = FittedEffect(r.fit);
-      r.score = ScoreOf(r.fit);
-      r.screened_ratio = c.ratio_validate;
-      r.fit.jacobian.resize(0, 0);
-      ranking.push_back(std::move(r));
+      fit_briefly(c);
     }
-    std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+    for (; next < candidates.size(); ++next)
+      if (candidates[next].narrow && !Decided(now, ranking, candidates[next])) fit_briefly(candidates[next]);
+    const auto sort = [&] { std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.score < b.score; }); };
+    sort();
+    // To the end: the best, and the next where the short fits left it open.
+    for (std::size_t k = 0; k < std::min<std::size_t>(ranking.size(), 2); ++k) {
+      if (k > 0 && ranking[k].score > ranking[0].score + kOpen) break;
+      Progress(from + share * 0.95, "full fit of " + Named(ranking[k].effect));
+      FitResult fit = FitOn(model_, now, ranking[k].fit.hypothesis, out_.effective);
+      if (!fit.converged) continue;
+      ranking[k].fit = std::move(fit);
+      Note(ranking[k]);
+    }
+    sort();
+    if (!ranking.empty() && ranking[0].fit.jacobian.size() == 0) {
+      ranking[0].fit = FitOn(model_, now, ranking[0].fit.hypothesis, out_.effective);
+      Note(ranking[0]);
+    }
     SetProbabilities(ranking);
-    if (!ranking.empty()) {  // the winner needs its own sensitivities for the next round
-      FitOptions o;
-      o.effective = out_.effective;
-      o.base_jacobian = &now.jacobian;
-      o.iterations = 3;
-      ranking[0].fit = Fit(model_, ranking[0].fit.hypothesis, o);
-      ranking[0].effect = FittedEffect(ranking[0].fit);
-    }
     return ranking;
+  }
+
+  /// Values and score of the fit of a ranked effect.
+  void Note(RankedEffect& r) const {
+    r.effect = FittedEffect(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
+    r.score = ScoreOf(r.fit);
+  }
+
+  /// The same point seen with all rows.
+  FitResult AllRows(const FitResult& fit) const {
+    FitOptions o = Options(nullptr);
+    o.iterations = 0;
+    o.sensitivities = false;
+    return Fit(full_, fit.hypothesis, o);
+  }
+
+  ResidualPeaks Peaks(const FitResult& fit) const {
+    const auto predicted = full_.Predict(fit.hypothesis);
+    return predicted ? FindPeaks(full_, Residual(full_, *predicted)) : ResidualPeaks();
   }
 
   /// Whether the linear screening promises at least half of what adoption would ask for.
@@ -170,17 +209,44 @@ class Explainer {
 
   void SetProbabilities(std::vector<RankedEffect>& ranking) const {
     if (ranking.empty()) return;
-    // Laws differ from the truth in detail, so the likelihood is trusted as if 300 numbers were seen.
-    const double temper = 0.5 * std::min(1.0, 300 / std::max(out_.effective, 1.0));
     double sum = 0;
-    for (RankedEffect& r : ranking) sum += r.probability = std::exp(-temper * (r.score - ranking[0].score));
+    for (RankedEffect& r : ranking) sum += r.probability = std::exp(-0.5 * (r.score - ranking[0].score));
     for (RankedEffect& r : ranking) r.probability /= sum;
+  }
+
+  /// The effect that explains most alone may be none of two that are there: the best pairs of the
+  /// screening are fitted too where one effect does not explain nearly all.
+  void TryPairs(const FitResult& base, FitResult& now) {
+    if (out_.ranking.empty() || (out_.adopted.size() < 2 && Finished(now))) return;
+    Progress(0.8, "pairs of effects");
+    for (const CandidatePair& p : ScreenPairs(model_, base, out_.effective, bank_, 3)) {
+      if (AlreadyTried(p) || p.score > ScoreOf(base)) continue;
+      Progress(0.82, "fitting " + Named(p.first) + " with " + Named(p.second));
+      Hypothesis h = base.hypothesis;
+      h.AddEffect(p.first);
+      h.AddEffect(p.second);
+      FitResult fit = FitNow(h, &base.jacobian);
+      const bool more = out_.adopted.size() < 2;
+      if (!fit.converged || Gain(now, fit) < (more ? 20 : 2) || (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_))) continue;
+      now = std::move(fit);
+      out_.adopted = {FittedEffect(now, rig_.effects.size()), FittedEffect(now, rig_.effects.size() + 1)};
+      out_.ladder.resize(2);
+      out_.ladder.push_back({Named(p.first) + " and " + Named(p.second), now.ratio_fit, now.ratio_validate});
+    }
+  }
+
+  /// The steps one by one have fitted this pair, or one with more in it.
+  bool AlreadyTried(const CandidatePair& p) const {
+    int found = 0;
+    for (const EffectInstance& e : out_.adopted)
+      for (const EffectInstance* o : {&p.first, &p.second}) found += e.name == o->name && e.target == o->target ? 1 : 0;
+    return found == 2 || (found == 1 && out_.adopted.size() == 1);
   }
 
   /// An effect that its successors made needless goes again.
   void Backward(const FitResult& base, FitResult& now) {
     if (out_.adopted.size() < 2) return;
-    for (std::size_t drop = 0; drop + 1 < out_.adopted.size();) {
+    for (std::size_t drop = 0; drop < out_.adopted.size() && out_.adopted.size() > 1;) {
       Hypothesis h = base.hypothesis;
       for (std::size_t k = 0; k < out_.adopted.size(); ++k)
         if (k != drop) h.AddEffect(out_.adopted[k]);
@@ -200,17 +266,9 @@ class Explainer {
   void Polish(FitResult& now) {
     if (out_.adopted.empty()) return;
     Progress(0.94, "final fit");
-    FitOptions o;
-    o.effective = out_.effective;
-    o.iterations = 4;
-    FitResult polished = Fit(model_, now.hypothesis, o);
+    FitResult polished = FitNow(now.hypothesis, nullptr);
     if (polished.ratio_fit <= now.ratio_fit * 1.0005) now = std::move(polished);
-    for (std::size_t k = 0; k < out_.adopted.size(); ++k) {
-      EffectInstance& e = out_.adopted[k];
-      e = now.hypothesis.rig.effects[rig_.effects.size() + k];
-      for (std::size_t p = 0; p < now.hypothesis.free.size(); ++p)
-        if (now.hypothesis.free[p].effect == static_cast<int>(rig_.effects.size() + k)) e.sd[now.hypothesis.free[p].row] = now.sd[p];
-    }
+    for (std::size_t k = 0; k < out_.adopted.size(); ++k) out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
     out_.ladder.back().ratio_fit = now.ratio_fit;
     out_.ladder.back().ratio_validate = now.ratio_validate;
   }
@@ -235,7 +293,7 @@ class Explainer {
   }
 
   ExplainOptions options_;
-  CaseModel model_;
+  CaseModel full_, model_;   // with all rows: floor and frequencies; with some: the search
   RigParameters rig_;
   Explanation out_;
   SignatureBank bank_;

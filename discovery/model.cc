@@ -51,14 +51,13 @@ void Hypothesis::AddEffect(const EffectInstance& effect) {
     p.value = p.start = effect.values[row];
     p.lo = e.lo;
     p.hi = e.hi;
+    if (!std::isfinite(p.value)) continue;  // at a null of infinity: not moved
     const double typical = std::max(std::abs(e.typical_hi), std::abs(e.typical_lo));
     p.step = 0.3 * typical;
     if (p.step == 0) p.step = std::isfinite(e.hi) && std::isfinite(e.lo) ? 0.05 * (e.hi - e.lo) : 1;
-    // Sizes over decades move in ratios; signed ones and those about 1 in steps.
-    p.logarithmic = e.typical_lo > 0 && e.typical_hi / e.typical_lo > 2.5 && e.lo >= 0 && p.value > 0 && std::isfinite(p.value);
-    if (!std::isfinite(p.value)) continue;  // at a null of infinity: not moved
-    if (std::isfinite(e.null_value) && e.null_value != 0 && !p.logarithmic)
-      p.step = 0.3 * std::max(std::abs(e.typical_hi - e.null_value), std::abs(e.typical_lo - e.null_value));
+    // Sizes over decades move in ratios; signed ones and distances from a null (a gain of 1) in steps.
+    const bool distance = std::isfinite(e.null_value) && std::abs(e.typical_hi) <= 0.5 * std::abs(e.null_value);
+    p.logarithmic = !distance && e.typical_lo > 0 && e.typical_hi / e.typical_lo > 2.5 && e.lo >= 0 && p.value > 0;
     free.push_back(p);
   }
 }
@@ -84,7 +83,7 @@ double Hypothesis::ValueAt(std::size_t parameter, double coordinate) const {
   return std::clamp(v, p.lo, p.hi);
 }
 
-CaseModel::CaseModel(const Case& c) : case_(c) {
+CaseModel::CaseModel(const Case& c, std::size_t thin) : case_(c) {
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const CaseRecord& record = c.records[r];
     plans_.push_back(std::make_unique<CommandPlan>(c.rig, record.scenario));
@@ -98,9 +97,11 @@ CaseModel::CaseModel(const Case& c) : case_(c) {
       t.record = r;
       t.channel = ch;
       t.first = measured_.size();
-      t.count = channel.samples.size();
       double mean = 0, square = 0, n = 0;
-      for (std::size_t k = 0; k < t.count; ++k) {
+      for (std::size_t block = 0; block * thin < channel.samples.size(); ++block) {
+        const std::size_t k = block * thin + block % thin;
+        if (k >= channel.samples.size()) break;
+        sample_.push_back(k);
         measured_.push_back(std::isfinite(channel.samples[k]) ? channel.samples[k] : 0);
         ok_.push_back(record.quality[ch].ok[k]);
         if (!ok_.back()) continue;
@@ -108,6 +109,7 @@ CaseModel::CaseModel(const Case& c) : case_(c) {
         square += channel.samples[k] * channel.samples[k];
         n += 1;
       }
+      t.count = measured_.size() - t.first;
       if (n > 0) t.full_scale = std::sqrt(std::max(0.0, square / n - mean * mean / n / n));
       targets_.push_back(t);
     }
@@ -150,7 +152,7 @@ bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool no
     if (!channel) continue;
     const std::vector<double>& y = channel->samples;
     for (std::size_t k = 0; k < t.count; ++k) {
-      const double at = data.start * simulated.rate + static_cast<double>(k) * ratio;
+      const double at = data.start * simulated.rate + static_cast<double>(sample_[t.first + k]) * ratio;
       const auto low = static_cast<std::size_t>(std::max(0.0, at + 1e-6));
       const double part = std::max(0.0, at - static_cast<double>(low));
       const std::size_t a = std::min(low, y.size() - 1), b = std::min(low + 1, y.size() - 1);

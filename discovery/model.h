@@ -50,7 +50,8 @@ struct Target {
 /// Runs hypotheses against the records of a case.
 class CaseModel {
  public:
-  explicit CaseModel(const Case& c);
+  /// One row of `thin` takes part (at alternating phases, so that nothing periodic hides); 1: all.
+  explicit CaseModel(const Case& c, std::size_t thin = 1);
 
   const Case& data() const { return case_; }
   const std::vector<Target>& targets() const { return targets_; }
@@ -58,6 +59,8 @@ class CaseModel {
   std::size_t size() const { return measured_.size(); }
   const std::vector<double>& measured() const { return measured_; }
   const std::vector<char>& ok() const { return ok_; }
+  /// Index of a row in its channel.
+  std::size_t sample(std::size_t row) const { return sample_[row]; }
 
   /// Predicted values in the order of the targets; nullopt when the hypothesis falls out of control.
   std::optional<std::vector<double>> Predict(const Hypothesis& h) const;
@@ -79,6 +82,7 @@ class CaseModel {
   std::vector<Target> targets_;
   std::vector<double> measured_;
   std::vector<char> ok_;
+  std::vector<std::size_t> sample_;
   std::vector<std::unique_ptr<CommandPlan>> plans_;
 };
 

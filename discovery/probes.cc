@@ -12,15 +12,11 @@ double Middle(const EffectParameter& p) {
   return 0.5 * (p.typical_lo + p.typical_hi);
 }
 
-/// Size of a probe of a parameter whose null is finite: its usual magnitude, from the null.
+/// Size of a probe of a parameter whose null is finite: its usual distance from there.
 double SizeFromNull(const EffectParameter& p) {
-  if (p.null_value == 0) {
-    const double most = std::max(std::abs(p.typical_hi), std::abs(p.typical_lo));
-    const double least = std::min(std::abs(p.typical_hi), std::abs(p.typical_lo));
-    return least > 0 ? std::sqrt(most * least) : 0.3 * most;
-  }
-  const double a = p.typical_hi - p.null_value, b = p.typical_lo - p.null_value;
-  return 0.5 * (std::abs(a) > std::abs(b) ? a : b);
+  const double most = std::max(std::abs(p.typical_hi), std::abs(p.typical_lo));
+  const double least = std::min(std::abs(p.typical_hi), std::abs(p.typical_lo));
+  return least > 0 ? std::sqrt(most * least) : 0.3 * most;
 }
 
 std::vector<double> LogGrid(double lo, double hi, int n) {
@@ -30,41 +26,60 @@ std::vector<double> LogGrid(double lo, double hi, int n) {
 }
 
 void AppendApart(std::vector<double>& list, const std::vector<double>& more, double ratio) {
-  for (double f : more)
+  for (double f : more)  // neighbours of what stands there already are left out
     if (std::none_of(list.begin(), list.end(), [&](double g) { return std::abs(std::log(f / g)) < ratio; }))
       list.push_back(f);
 }
 
+/// A resonance is sought with more damping than it has: it is felt from further off, and a fit from
+/// there finds its way down to the true one.
+constexpr double kSoughtDamping = 0.05;
+constexpr double kSoughtSpacing = 1.1;   // of neighbouring frequencies, about its width
+constexpr double kSoughtGain = 0.4;      // of its usual top: large gains shift the loop's resonance, a small probe misses that
+
+bool IsResonance(const EffectDescription& d) {
+  const auto has = [&](const char* name) {
+    return std::any_of(d.parameters.begin(), d.parameters.end(), [&](const EffectParameter& p) { return p.name == name; });
+  };
+  return has("frequency") && has("damping");
+}
+
+/// It answers to its gains squared: both signs of their ratio, the size to be found.
+std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, std::size_t b, double size) {
+  std::vector<ProbeGroup> groups;
+  for (const double sign : {1.0, -1.0}) {
+    ProbeGroup g;
+    g.linear = false;
+    g.scaling = {{a, 0.5}, {b, 0.5}};
+    g.probes.push_back(at);
+    g.probes[0].values[a] = size;
+    g.probes[0].values[b] = sign * size;
+    groups.push_back(g);
+  }
+  return groups;
+}
+
 /// Values at which the shape parameters (frequency, width, ...) are tried together with the switches.
 std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string& target, const EffectParameter& p,
-                                   const CaseModel& model, const std::vector<double>& residual) {
+                                   const ResidualPeaks& peaks) {
   std::vector<double> seeds;
   const bool tone = d.id == "sensor-hum" || d.id == "base-vibration";
   if (tone) {
-    seeds = CoherentPeaks(model, residual, target, 2);
+    if (const auto it = peaks.coherent.find(target); it != peaks.coherent.end()) seeds = it->second;
     AppendApart(seeds, {50, 60}, 0.01);
   } else {
-    seeds = SpectrumPeaks(model, residual, 3);
-    AppendApart(seeds, LogGrid(p.typical_lo, p.typical_hi, 7), 0.08);
+    seeds = peaks.spectrum;
+    const int n = IsResonance(d) ? static_cast<int>(std::ceil(std::log(p.typical_hi / p.typical_lo) / std::log(kSoughtSpacing))) : 7;
+    AppendApart(seeds, LogGrid(p.typical_lo, p.typical_hi, n), 0.06);
   }
   std::erase_if(seeds, [&](double f) { return f < p.lo || f > p.hi; });
   return seeds;
 }
 
-/// Effects whose signature is quadratic in two gains: try sign patterns of a middle size.
-ProbeGroup Pattern(EffectInstance e, const std::string& a, double va, const std::string& b, double vb) {
-  e.Set(a, va);
-  e.Set(b, vb);
-  ProbeGroup g;
-  g.linear = false;
-  g.probes.push_back(std::move(e));
-  return g;
-}
-
 }  // namespace
 
 std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target, const CaseModel& model,
-                                 const std::vector<double>& residual) {
+                                 const ResidualPeaks& peaks) {
   EffectInstance null = MakeInstance(d, target);
   std::vector<std::size_t> finite, infinite, shape;
   std::size_t frequency = d.parameters.size();
@@ -77,21 +92,20 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
     } else {
       // A shape parameter whose null is inside its usual range (an optional extra) stays at its null.
       if (p.name == "frequency") frequency = k;
+      else if (p.name == "damping" && IsResonance(d)) null.values[k] = kSoughtDamping;
       else if (p.typical_lo > 0 || p.typical_hi < 0) null.values[k] = Middle(p);
       shape.push_back(k);
     }
   }
   std::vector<double> frequencies = {0};
   if (frequency < d.parameters.size())
-    frequencies = FrequencySeeds(d, target, d.parameters[frequency], model, residual);
+    frequencies = FrequencySeeds(d, target, d.parameters[frequency], peaks);
   std::vector<ProbeGroup> groups;
   for (double f : frequencies) {
     EffectInstance at = null;
     if (frequency < d.parameters.size()) at.values[frequency] = f;
     if (d.id == "bending-mode") {
-      const double size = Middle(d.parameters[finite[0]]) > 0 ? Middle(d.parameters[finite[0]]) : SizeFromNull(d.parameters[finite[0]]);
-      groups.push_back(Pattern(at, "gain_a", size, "gain_b", size));
-      groups.push_back(Pattern(at, "gain_a", size, "gain_b", -size));
+      for (ProbeGroup& g : GainPatterns(at, finite[0], finite[1], kSoughtGain * d.parameters[finite[0]].typical_hi)) groups.push_back(std::move(g));
       continue;
     }
     if (d.id == "loop-delay") {  // acts in whole switching periods
@@ -108,9 +122,10 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
     }
     for (std::size_t k : infinite) {
       const EffectParameter& p = d.parameters[k];
-      for (double value : LogGrid(p.typical_lo, p.typical_hi, frequency < d.parameters.size() ? 2 : 4)) {
+      for (double value : LogGrid(p.typical_lo, p.typical_hi, IsResonance(d) ? 1 : 4)) {
         ProbeGroup g;
         g.linear = false;
+        if (IsResonance(d)) g.scaling = {{k, -1.0}};  // a mass
         EffectInstance e = at;
         e.values[k] = value;
         g.probes.push_back(e);
@@ -127,6 +142,7 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
     }
     groups.push_back(g);
   }
+  for (ProbeGroup& g : groups) g.narrow = IsResonance(d);
   return groups;
 }
 

@@ -2,7 +2,8 @@
 /// The trial sizes of an effect: where its signature is taken.
 #include <vector>
 
-#include "discovery/screen.h"
+#include "discovery/residual_peaks.h"
+#include "effects/catalogue.h"
 
 namespace ambrig {
 
@@ -12,9 +13,12 @@ struct ProbeGroup {
   std::vector<EffectInstance> probes;
   std::vector<std::size_t> rows;       // linear: the table row that each probe moved
   bool linear = true;
+  std::vector<std::pair<std::size_t, double>> scaling;  // not linear: rows that go with a power of the amount
+  bool narrow = false;                 // a resonance: off its frequency the signature tells little
 };
 
+/// Frequencies are tried where the error stands out (`peaks`) and over their usual range.
 std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target, const CaseModel& model,
-                                 const std::vector<double>& residual);
+                                 const ResidualPeaks& peaks);
 
 }  // namespace ambrig

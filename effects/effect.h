@@ -18,7 +18,7 @@ struct EffectParameter {
   std::string name, unit;
   double null_value = 0;
   double lo = -kInfinity, hi = kInfinity;        // possible
-  double typical_lo = 0, typical_hi = 0;         // usual size (of the magnitude for signed ones)
+  double typical_lo = 0, typical_hi = 0;         // usual size; of a switch its distance from null
   std::string doc;
   bool has_null = true;                          // false: a formula's parameter that never switches it off
 };

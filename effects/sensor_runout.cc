@@ -1,9 +1,13 @@
 /// Run-out: the sensed surface is not round or not concentric, and turns with the rotor.
 /// A probe at angle a reads in addition
-///   sum over n = 1, 2 of  c_n cos n(a - theta) + s_n sin n(a - theta),
-/// a = 0 for x, 90 degrees for y; the same at any speed (facts.md 5.3, effects.md "Phases").
+///   sum over n = 1 ... 7 of  c_n cos n(a - theta) + s_n sin n(a - theta),
+/// a = 0 for x, 90 degrees for y; the same at any speed (facts.md 5.3, effects.md "Phases"). A ground
+/// surface has lobes: orders above the second are small, but far over the noise of a good sensor.
 #include <array>
 #include <cmath>
+#include <complex>
+
+#include <fmt/format.h>
 
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
@@ -11,6 +15,8 @@
 namespace ambrig {
 
 namespace {
+
+constexpr int kOrders = 7;
 
 /// Angle of a probe from the weights with which it sees the shaft's x and y.
 double ProbeAngle(const PlaneMap& map, bool second) {
@@ -32,27 +38,34 @@ EffectDescription SensorRunout() {
   d.physics =
       "The surface in front of the probes is out of round or off centre: its error is read as "
       "motion,\n"
-      "once and twice per turn, the same size at any speed; the bearing answers with a force.";
+      "once per turn and in harmonics, the same size at any speed; the bearing answers with a force.";
   d.target = TargetKind::kPlane;
-  d.parameters = {{"c1", "m", 0, -1e-3, 1e-3, 1e-6, 2e-5, "once per turn, cosine"},
-                  {"s1", "m", 0, -1e-3, 1e-3, 1e-6, 2e-5, "once per turn, sine"},
-                  {"c2", "m", 0, -1e-3, 1e-3, 5e-7, 1e-5, "twice per turn, cosine"},
-                  {"s2", "m", 0, -1e-3, 1e-3, 5e-7, 1e-5, "twice per turn, sine"}};
-  d.off_when_null = {"c1", "s1", "c2", "s2"};
+  for (int n = 1; n <= kOrders; ++n) {
+    const double usual = n == 1 ? 1e-6 : n == 2 ? 5e-7 : 5e-8;
+    for (const char* part : {"c", "s"}) {
+      const std::string name = fmt::format("{}{}", part, n);
+      d.parameters.push_back({name, "m", 0, -1e-3, 1e-3, usual, 20 * usual,
+                              fmt::format("order {}, {}", n, part[0] == 'c' ? "cosine" : "sine")});
+      d.off_when_null.push_back(name);
+    }
+  }
   d.shows_in =
       "turning records at two speeds: the reading stays at slow roll, where unbalance vanishes";
   d.confused_with =
       "unbalance (grows with the square of the speed), shaft-bow (moves the gaps too)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
     PositionSensor& sensor = TargetPlane(e, plant).sensor;
-    const std::array<double, 4> p = {e.Value("c1"), e.Value("s1"), e.Value("c2"), e.Value("s2")};
+    std::array<std::complex<double>, kOrders> profile;  // c_n - i s_n
+    for (std::size_t n = 0; n < profile.size(); ++n)
+      profile[n] = {e.Value(fmt::format("c{}", n + 1)), -e.Value(fmt::format("s{}", n + 1))};
     const double ax = ProbeAngle(sensor.map, false), ay = ProbeAngle(sensor.map, true);
     const bool one_axis = plant.Find(e.target)->opposed;
     AddMap(sensor, ReadingStage::kSurface, [=](const MotionState& state, double* x, double* y) {
       const auto surface = [&](double angle) {
-        const double a = angle - state.theta;
-        return p[0] * std::cos(a) + p[1] * std::sin(a) + p[2] * std::cos(2 * a) +
-               p[3] * std::sin(2 * a);
+        const std::complex<double> turn = std::polar(1.0, angle - state.theta);
+        std::complex<double> sum = 0;  // Horner's rule in the turn
+        for (std::size_t n = profile.size(); n-- > 0;) sum = (sum + profile[n]) * turn;
+        return sum.real();
       };
       *x += surface(ax);
       if (!one_axis) *y += surface(ay);

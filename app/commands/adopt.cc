@@ -10,8 +10,8 @@
 #include "core/base/atomic_file.h"
 #include "core/base/read_file.h"
 #include "discovery/adopt.h"
+#include "discovery/candidate_fit.h"
 #include "discovery/screen.h"
-#include "discovery/probes.h"
 #include "scenarios/rig.h"
 
 namespace ambrig {
@@ -23,32 +23,24 @@ struct AdoptCommand {
   std::string file, effect, target, output;
 };
 
-/// The effects to fit: the named one at its target, or at each possible target in turn.
-std::vector<std::string> TargetsToTry(const EffectDescription& d, const Case& c, const std::string& wanted) {
-  const std::vector<std::string> possible = TargetsOf(d, TargetsOfEffects(c.rig));
-  if (wanted.empty()) return possible;
+void CheckTarget(const EffectDescription& d, const Case& c, const std::string& wanted) {
   std::string names;
-  for (const auto& t : possible) {
-    if (t == wanted) return {wanted};
+  for (const auto& t : TargetsOf(d, TargetsOfEffects(c.rig))) {
+    if (t == wanted || wanted.empty()) return;
     names += (names.empty() ? "" : ", ") + t;
   }
-  throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id, names));
+  throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id, names.empty() ? "no target of this rig" : names));
 }
 
-FitResult FitAt(const CaseModel& model, const FitResult& base, const EffectDescription& d, const std::string& target, double effective) {
+/// The effect at the named target, or where it explains most.
+FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {
+  SignatureBank bank;
+  const std::vector<Candidate> candidates = Screen(model, base, FindPeaks(model, base.residual), what, bank);
   FitResult best;
   best.ratio_fit = kInfinity;
-  FitOptions o;
-  o.effective = effective;
-  o.base_jacobian = &base.jacobian;
-  for (const ProbeGroup& g : ProbesOf(d, target, model, base.residual)) {
-    Hypothesis h = base.hypothesis;
-    EffectInstance start = g.probes.back();
-    if (g.linear)  // all switches moved together
-      for (std::size_t k = 0; k < g.rows.size(); ++k) start.values[g.rows[k]] = g.probes[k].values[g.rows[k]];
-    h.AddEffect(start);
-    FitResult fit = Fit(model, h, o);
-    if (fit.ratio_fit < best.ratio_fit) best = std::move(fit);
+  for (std::size_t k = 0; k < std::min<std::size_t>(candidates.size(), 3); ++k) {
+    FitResult fit = FitBriefly(model, base, candidates[k], what.effective);
+    if (fit.converged && fit.ratio_fit < best.ratio_fit) best = std::move(fit);
   }
   return best;
 }
@@ -81,16 +73,15 @@ int RunAdopt(const AdoptCommand& o) {
     for (std::size_t k = 0; k < fit.hypothesis.rig.effects.size(); ++k) any = any || fit.hypothesis.rig.effects[k].name == "formula";
     if (!any) throw InputError(fmt::format("{}: has no [[effect]] name = \"formula\" to fit; write one first", c.rig_file));
   } else {
-    double best = kInfinity;
-    for (const std::string& target : TargetsToTry(*d, c, o.target)) {
-      progress.Update(0.4, fmt::format("{} at {}", o.effect, target));
-      FitResult trial = FitAt(model, base, *d, target, before.effective);
-      if (trial.ratio_fit >= best) continue;
-      best = trial.ratio_fit;
-      fit = std::move(trial);
-    }
-    if (!std::isfinite(best)) throw InputError(fmt::format("{}: no fit of {} holds the rotor", o.file, o.effect));
-    options.iterations = 4;
+    CheckTarget(*d, c, o.target);
+    ScreenOptions what;
+    what.effective = before.effective;
+    what.effect = o.effect;
+    what.target = o.target;
+    what.progress = [&](double f, const std::string& text) { progress.Update(0.3 + 0.3 * f, text); };
+    fit = FitEffect(model, base, what);
+    if (!fit.converged) throw InputError(fmt::format("{}: no fit of {} holds the rotor", o.file, o.effect));
+    progress.Update(0.8, "final fit");
     fit = Fit(model, fit.hypothesis, options);
     EffectInstance e = fit.hypothesis.rig.effects.back();
     for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "app/report/response_figures.h"
 #include "discovery/floor.h"
@@ -51,8 +52,14 @@ std::string FinalName(const Explanation& e) {
 
 void AddSignatures(HtmlReport& report, const ExplainScene& s, const Target& t) {
   std::vector<NamedPrediction> all = {{"rig file", "@orange", &s.plain}};
-  for (const RankedEffect& r : s.explanation.ranking)
-    if (all.size() < 5 && std::isfinite(r.fit.ratio_fit) && r.fit.predicted.size() == s.model.size()) all.push_back({EffectName(r.effect), "@orange", &r.fit.predicted});
+  std::deque<std::vector<double>> predictions;  // stay where they are
+  for (const RankedEffect& r : s.explanation.ranking) {
+    if (all.size() >= 5 || !std::isfinite(r.fit.ratio_fit)) continue;
+    auto predicted = s.model.Predict(r.fit.hypothesis);
+    if (!predicted) continue;
+    predictions.push_back(std::move(*predicted));
+    all.push_back({EffectName(r.effect), "@orange", &predictions.back()});
+  }
   if (all.size() < 2) return;
   report.AddFigure(SignatureFigure(s.model, t, all,
       fmt::format("Signatures: what each candidate (with the rig parameters fitted beside it) adds to the plain model in {} of {}, over what the plain model leaves "
@@ -71,7 +78,9 @@ ExplainScene::ExplainScene(const Case& c, const Explanation& e) : explanation(e)
     return;  // the rig file's model loses its rotor: the words alone remain
   }
   plain_residual = Residual(model, plain);
-  final_residual = e.final_fit.predicted.size() == model.size() ? Residual(model, e.final_fit.predicted) : plain_residual;
+  const auto last = e.final_fit.predicted.empty() ? std::nullopt : model.Predict(e.final_fit.hypothesis);
+  final_prediction = last ? *last : plain;
+  final_residual = Residual(model, final_prediction);
   usable = true;
 }
 
@@ -99,7 +108,7 @@ void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
     return;
   }
   const std::string name = FinalName(s.explanation);
-  const std::vector<NamedPrediction> both = {{"rig file", "@orange", &s.plain}, {name, "@green", &s.explanation.final_fit.predicted}};
+  const std::vector<NamedPrediction> both = {{"rig file", "@orange", &s.plain}, {name, "@green", &s.final_prediction}};
   report.AddFigure(TimeFigure(s.model, telling, both, "The most telling channels, one of each kind. Top: the whole record. Middle: where the plain model "
                               "erred most. Bottom: the errors; what lies inside the grey band is noise."));
   if (found) AddSignatures(report, s, telling.front());

@@ -11,7 +11,7 @@ struct ExplainScene {
   ExplainScene(const Case& c, const Explanation& e);
   const Explanation& explanation;
   CaseModel model;
-  std::vector<double> plain, plain_residual, final_residual, noise;
+  std::vector<double> plain, plain_residual, final_prediction, final_residual, noise;
   bool usable = false;  // false: the rig file's model loses its rotor, there is nothing to draw
 };
 
