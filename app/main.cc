@@ -34,6 +34,8 @@ int Main(int argc, char** argv) {
   ambrig::AddCompare(app, work);
   ambrig::AddExplain(app, work);
   ambrig::AddAdopt(app, work);
+  ambrig::AddHide(app, work);
+  ambrig::AddJudge(app, work);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -134,7 +134,11 @@ void Judge(const CompressedCost& cost, FitResult& result) {
     const double unit = f.logarithmic ? 0.3 * f.value : f.step;
     result.sd[k] = unit * std::sqrt(std::max(0.0, covariance(i, i)));
     if (f.effect < 0) continue;
-    if (influence(i) < 1e-6) result.warnings.push_back(f.path + " has no influence on these records");
+    if (influence(i) < 1e-6) {
+      result.warnings.push_back(f.path + " has no influence on these records near its value (or acts in steps)");
+      result.sd[k] = 0;  // not known from here
+      continue;
+    }
     if (f.value <= f.lo || f.value >= f.hi) result.warnings.push_back(fmt::format("{} is at its bound {}", f.path, f.value));
     for (std::size_t m = 0; m < p; ++m) {
       const auto j = static_cast<Index>(m);

@@ -21,6 +21,7 @@ double Resolution(const RigParameters& rig, const std::string& channel, double f
   if (kind == 'd') return 1e-5;
   if (channel == "bus") return 1e-4 * rig.amplifier.bus_voltage;
   if (kind == 'f') return 1e-3;
+  if (channel == "omega") return 0.05;  // [rad/s], of a free-running rotor
   return std::max(1e-9, 1e-6 * full_scale);
 }
 

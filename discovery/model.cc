@@ -89,7 +89,8 @@ CaseModel::CaseModel(const Case& c, std::size_t thin) : case_(c) {
     plans_.push_back(std::make_unique<CommandPlan>(c.rig, record.scenario));
     for (std::size_t ch = 0; ch < record.data.channels.size(); ++ch) {
       const Channel& channel = record.data.channels[ch];
-      const bool prescribed = channel.name == "omega" || channel.name == "theta";
+      const bool free_speed = record.scenario.speed_free_from < record.scenario.duration;
+      const bool prescribed = channel.name == "theta" || (channel.name == "omega" && !free_speed);
       const bool truth = channel.name.find(".r.") != std::string::npos || channel.name == "r.z";
       const bool command = record.scenario.start == StartState::kClamped && channel.name.find(".s") != std::string::npos;
       if (prescribed || truth || command || !record.quality[ch].use) continue;

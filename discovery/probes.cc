@@ -114,7 +114,7 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
         ProbeGroup g;
         g.linear = false;
         EffectInstance e = at;
-        e.Set("time", (k - 0.25) * T);
+        e.Set("time", k * T * (1 - 1e-6));
         g.probes.push_back(e);
         groups.push_back(g);
       }

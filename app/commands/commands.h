@@ -31,6 +31,7 @@ void AddCompare(CLI::App& app, Work& work);
 void AddExplain(CLI::App& app, Work& work);
 void AddAdopt(CLI::App& app, Work& work);
 void AddHide(CLI::App& app, Work& work);
+void AddJudge(CLI::App& app, Work& work);
 
 /// 1 for a yes, else 0; terminal colours only on a terminal.
 bool ColourTerminal();

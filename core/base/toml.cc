@@ -279,12 +279,37 @@ std::vector<TomlTable> TomlTable::Tables(std::string_view key) const {
   for (const auto& item : *a) {
     const auto* t = item.as_table();
     if (!t) fail();
-    auto node = std::make_shared<Node>();
-    node->root = node_->root;
+    auto node = Inside(fmt::format("{}[{}]", key, out.size() + 1));
     node->table = t;
-    node->file = node_->file;
-    node->path = fmt::format("{}{}[{}]", node_->path.empty() ? "" : node_->path + ".", key, out.size() + 1);
     out.push_back(TomlTable(node));
+  }
+  return out;
+}
+
+std::shared_ptr<TomlTable::Node> TomlTable::Inside(const std::string& name) const {
+  auto node = std::make_shared<Node>();
+  node->root = node_->root;
+  node->file = node_->file;
+  node->path = (node_->path.empty() ? "" : node_->path + ".") + name;
+  return node;
+}
+
+std::vector<std::vector<TomlTable>> TomlTable::TableRows(std::string_view key) const {
+  const toml::node* n = node_->Get(key);
+  if (!n) return {};
+  const auto* a = n->as_array();
+  if (!a) throw InputError(fmt::format("{} is {}, allowed: an array of rows of tables [[{{...}}], ...]", Where(key), TypeName(*n)));
+  std::vector<std::vector<TomlTable>> out;
+  for (const auto& row : *a) {
+    const auto* r = row.as_array();
+    if (!r) throw InputError(fmt::format("{}: row {} is not an array of tables", Where(key), out.size() + 1));
+    out.emplace_back();
+    for (const auto& item : *r) {
+      auto node = Inside(fmt::format("{}[{}][{}]", key, out.size(), out.back().size() + 1));
+      node->table = item.as_table();
+      if (!node->table) throw InputError(fmt::format("{}: row {} is not an array of tables", Where(key), out.size()));
+      out.back().push_back(TomlTable(node));
+    }
   }
   return out;
 }

@@ -55,6 +55,8 @@ class TomlTable {
   std::vector<std::vector<double>> Rows(std::string_view key) const;
   std::optional<TomlTable> Table(std::string_view key) const;
   std::vector<TomlTable> Tables(std::string_view key) const;  // [[key]]; empty when absent
+  /// [[{...}, {...}], [{...}]]: rows of tables.
+  std::vector<std::vector<TomlTable>> TableRows(std::string_view key) const;
   bool IsNumber(std::string_view key) const;
   bool IsString(std::string_view key) const;
   bool IsBool(std::string_view key) const;
@@ -83,6 +85,7 @@ class TomlTable {
   struct Node;
   double NumberOr(std::string_view key, double fallback, double* sd, double* fitted = nullptr) const;
   explicit TomlTable(std::shared_ptr<const Node> node);
+  std::shared_ptr<Node> Inside(const std::string& name) const;
   std::shared_ptr<const Node> node_;
 };
 

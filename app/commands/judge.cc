@@ -1,0 +1,197 @@
+/// ambrig judge: explain many cases whose answers are known, and count.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "app/commands/commands.h"
+#include "app/report/discovery_json.h"
+#include "app/report/html.h"
+#include "app/report/progress.h"
+#include "core/base/atomic_file.h"
+#include "discovery/judge.h"
+
+namespace ambrig {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct JudgeCommand {
+  CommonOptions common;
+  std::vector<std::string> paths;
+  std::string answers, output = "judged";
+  bool again = false;
+};
+
+/// Folders with a case.toml, at or directly below the paths, in order.
+std::vector<fs::path> CaseFolders(const std::vector<std::string>& paths) {
+  std::vector<fs::path> out;
+  for (const std::string& p : paths) {
+    if (!fs::is_directory(p)) throw InputError(p + ": no folder, allowed: a case's folder or one that holds such folders");
+    if (fs::exists(fs::path(p) / "case.toml")) {
+      out.push_back(fs::path(p).lexically_normal());
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const auto& item : fs::directory_iterator(p))
+      if (item.is_directory() && fs::exists(item.path() / "case.toml")) inside.push_back(item.path());
+    std::sort(inside.begin(), inside.end());
+    if (inside.empty()) throw InputError(p + ": holds no case.toml, nor does any folder in it");
+    out.insert(out.end(), inside.begin(), inside.end());
+  }
+  for (fs::path& p : out)
+    if (!p.has_filename()) p = p.parent_path();
+  return out;
+}
+
+/// The answer of a case: from the named file, else answers.toml beside the folders, else FOLDER.answer.toml.
+Answer AnswerOf(const fs::path& folder, const std::string& named) {
+  const std::string name = folder.filename().string();
+  const fs::path own = folder.string() + ".answer.toml", shared = folder.parent_path() / "answers.toml";
+  const std::string file = !named.empty() ? named : fs::exists(own) ? own.string() : shared.string();
+  const auto all = ReadAnswers(file);
+  const auto it = all.find(name);
+  if (it == all.end()) throw InputError(fmt::format("{}: no answer for {}", file, name));
+  return it->second;
+}
+
+NamedEffect Named(const Json& j) { return {j.at("effect").get<std::string>(), j.at("target").get<std::string>()}; }
+
+Finding FindingOf(const Json& j) {
+  Finding f;
+  f.verdict = j.at("verdict").get<std::string>();
+  if (!j.at("ranking").empty()) f.first = Named(j.at("ranking").at(0));
+  for (const Json& a : j.at("adopted")) f.adopted.push_back(Named(a));
+  const auto number = [&](const char* key) { return j.at(key).is_number() ? j.at(key).get<double>() : kInfinity; };
+  f.nominal_ratio = number("nominal_ratio_validate");
+  f.final_ratio = number("final_ratio_validate");
+  f.seconds = number("seconds");
+  return f;
+}
+
+/// An earlier result of this case, if it is younger than the case and complete.
+std::optional<Finding> Earlier(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  if (error || written < fs::last_write_time(folder / "case.toml")) return std::nullopt;
+  std::ifstream in(file);
+  const Json j = Json::parse(in, nullptr, false);
+  if (j.is_discarded() || j.value("verdict", "unfinished") == "unfinished") return std::nullopt;
+  return FindingOf(j);
+}
+
+std::string Listed(const std::vector<NamedEffect>& effects, const std::string& none) {
+  std::string text;
+  for (const auto& [name, target] : effects) text += (text.empty() ? "" : " + ") + name + " at " + target;
+  return text.empty() ? none : text;
+}
+
+std::string Truth(const Answer& a) {
+  std::vector<NamedEffect> first;
+  for (const auto& slot : a.slots) first.push_back(slot[0]);
+  return Listed(first, a.verdicts.empty() ? "?" : a.verdicts[0]);
+}
+
+void PrintLine(const Judgement& j) {
+  fmt::print("{:<22} {:<40} {:<44} {:>7.3f} {:>7.3f} {:>6.0f} s  {}\n", j.name, Truth(j.answer), Listed(j.finding.adopted, j.finding.verdict), j.finding.nominal_ratio,
+             j.finding.final_ratio, j.finding.seconds, j.right() ? Coloured("right", "green") : j.first_right ? Coloured("in part", "yellow") : Coloured("wrong", "red"));
+}
+
+Json MatrixJson(const std::vector<Judgement>& all) {
+  Json cases = Json::array(), tallies = Json::array(), confusion = Json::object();
+  for (const Judgement& j : all)
+    cases.push_back({{"case", j.name}, {"truth", Truth(j.answer)}, {"found", Listed(j.finding.adopted, j.finding.verdict)}, {"verdict", j.finding.verdict},
+                     {"right", j.right()}, {"first_right", j.first_right}, {"nominal_ratio_validate", j.finding.nominal_ratio},
+                     {"final_ratio_validate", j.finding.final_ratio}, {"seconds", j.finding.seconds}});
+  for (const Tally& t : Tallies(all)) tallies.push_back({{"kind", t.kind}, {"cases", t.cases}, {"right", t.right}});
+  for (const auto& [truth, given] : Confusion(all))
+    for (const auto& [name, n] : given) confusion[truth][name] = n;
+  return {{"cases", cases}, {"tallies", tallies}, {"confusion", confusion}};
+}
+
+void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
+  HtmlReport report("How often explain is right", fmt::format("{} cases with known answers", all.size()));
+  report.Heading("Counts");
+  std::vector<std::vector<Cell>> rows;
+  for (const Tally& t : Tallies(all)) rows.push_back({t.kind, fmt::format("{} of {}", t.right, t.cases)});
+  report.Table({"kind of case", "right"}, rows);
+  report.Heading("What was hidden and what was found");
+  const auto confusion = Confusion(all);
+  std::vector<std::string> columns, names;
+  for (const auto& [truth, given] : confusion) {
+    names.push_back(truth);
+    for (const auto& [name, n] : given)
+      if (std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
+  }
+  std::sort(columns.begin(), columns.end());
+  std::vector<std::vector<double>> values;
+  for (const std::string& truth : names) {
+    values.emplace_back();
+    for (const std::string& c : columns) values.back().push_back(confusion.at(truth).contains(c) ? confusion.at(truth).at(c) : 0);
+  }
+  report.Heatmap("Rows: hidden. Columns: found. All on the diagonal would be right.", columns, names, values, "cases");
+  report.Heading("Every case");
+  rows.clear();
+  for (const Judgement& j : all)
+    rows.push_back({j.name, Truth(j.answer), Listed(j.finding.adopted, j.finding.verdict), fmt::format("{:.3f}", j.finding.nominal_ratio),
+                    fmt::format("{:.3f}", j.finding.final_ratio), fmt::format("{:.0f}", j.finding.seconds),
+                    Cell(j.right() ? "right" : j.first_right ? "in part" : "wrong", j.right() ? "ok" : j.first_right ? "warn" : "fail")});
+  report.Table({"case", "hidden", "found", "error over noise, rig file", "after", "time [s]", ""}, rows);
+  WriteFileAtomically(file, report.Html());
+}
+
+int RunJudge(const JudgeCommand& o) {
+  const std::vector<fs::path> folders = CaseFolders(o.paths);
+  for (const fs::path& f : folders) AnswerOf(f, o.answers);  // complain before hours of work
+  std::error_code error;
+  fs::create_directories(o.output, error);
+  if (error) ThrowCannotWrite(o.output, error.value());
+  std::vector<Judgement> all;
+  Progress progress("judge");
+  fmt::print("{:<22} {:<40} {:<44} {:>7} {:>7} {:>8}\n", "case", "hidden", "found", "before", "after", "time");
+  for (std::size_t k = 0; k < folders.size(); ++k) {
+    const std::string name = folders[k].filename().string();
+    const fs::path file = fs::path(o.output) / (name + ".json");
+    auto finding = o.again ? std::nullopt : Earlier(file, folders[k]);
+    if (!finding) {
+      ExplainOptions options;
+      options.stop = &interrupted;
+      options.progress = [&](double f, const std::string& text) {
+        progress.Update((static_cast<double>(k) + f) / static_cast<double>(folders.size()), name + ": " + text);
+      };
+      const Json j = ExplainJson(Explain(ReadCase((folders[k] / "case.toml").string()), options));
+      WriteFileAtomically(file.string(), j.dump(1) + "\n");
+      finding = FindingOf(j);
+    }
+    all.push_back(Judge(name, AnswerOf(folders[k], o.answers), *finding));
+    progress.Clear();
+    PrintLine(all.back());
+    std::fflush(stdout);
+  }
+  fmt::print("\n");
+  for (const Tally& t : Tallies(all)) fmt::print("{:<60} {:>3} of {}\n", t.kind, t.right, t.cases);
+  fmt::print("\nhidden -> found\n");
+  for (const auto& [truth, given] : Confusion(all))
+    for (const auto& [found, n] : given) fmt::print("  {:<24} {:<28} {:>3}{}\n", truth, found, n, truth == found ? "" : "   <-");
+  o.common.WriteJson(MatrixJson(all));
+  if (!o.common.html.empty()) WriteReport(all, o.common.html);
+  return 0;
+}
+
+}  // namespace
+
+void AddJudge(CLI::App& app, Work& work) {
+  auto options = std::make_shared<JudgeCommand>();
+  CLI::App* command = app.add_subcommand("judge", "explain cases with known answers and count: the confusion matrix");
+  command->add_option("folder", options->paths, "folders of cases, or folders that hold them")->required();
+  command->add_option("--answers", options->answers, "answers file; else answers.toml beside the cases or FOLDER.answer.toml");
+  command->add_option("-o,--out", options->output, "folder for each case's result; what is there and young enough is not done again")->capture_default_str();
+  command->add_flag("--again", options->again, "explain every case anew");
+  options->common.AddTo(*command);
+  command->footer("Example:\n  ambrig judge ../shared/data/hidden-effects -o judged --html matrix.html\nStopped? The same command goes on where it stopped.");
+  command->callback([options, &work] { work = [options] { return RunJudge(*options); }; });
+}
+
+}  // namespace ambrig
