@@ -2,9 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <sstream>
+
+#include "core/base/read_file.h"
+#include "discovery/candidate_fit.h"
+#include "discovery/screen.h"
+#include "effects/catalogue.h"
+#include "scenarios/rig.h"
 
 namespace ambrig {
 
@@ -51,13 +58,57 @@ std::string EffectText(const EffectInstance& e) {
   return text;
 }
 
+/// The text without its [[effect]] tables.
+std::string WithoutEffects(const std::string& text) {
+  std::istringstream in(text);
+  std::string out, line;
+  bool inside = false;
+  while (std::getline(in, line)) {
+    const std::string trimmed = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
+    if (trimmed.starts_with("[")) inside = trimmed.starts_with("[[effect]]") || trimmed.starts_with("[effect.");
+    if (!inside) out += line + "\n";
+  }
+  while (out.ends_with("\n\n")) out.pop_back();
+  return out;
+}
+
+void CheckTarget(const EffectDescription& d, const Case& c, const std::string& wanted) {
+  std::string names;
+  for (const auto& t : TargetsOf(d, TargetsOfEffects(c.rig))) {
+    if (t == wanted || wanted.empty()) return;
+    names += (names.empty() ? "" : ", ") + t;
+  }
+  throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id, names.empty() ? "no target of this rig" : names));
+}
+
+const EffectDescription& Described(const std::string& effect) {
+  if (const EffectDescription* d = FindEffect(effect)) return *d;
+  std::string all;
+  for (const auto& k : Catalogue()) all += (all.empty() ? "" : ", ") + k.id;
+  const std::string near = Nearest(effect, all);
+  throw InputError(fmt::format("{} is no effect{}, allowed: {}", effect, near.empty() ? "" : ", did you mean " + near + "?", all));
+}
+
+/// The effect at the named target, or where it explains most.
+FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {
+  SignatureBank bank;
+  const std::vector<Candidate> candidates = Screen(model, base, FindPeaks(model, base.residual), what, bank);
+  FitResult best;
+  best.ratio_fit = kInfinity;
+  for (std::size_t k = 0; k < std::min<std::size_t>(candidates.size(), 3); ++k) {
+    FitResult fit = FitBriefly(model, base, candidates[k], what.effective);
+    if (fit.converged && fit.ratio_fit < best.ratio_fit) best = std::move(fit);
+  }
+  return best;
+}
+
 }  // namespace
 
 std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const std::vector<EffectInstance>& effects) {
   std::map<std::string, const FreeParameter*> fitted;  // by path
   for (const FreeParameter& p : h.free)
     if (p.effect < 0) fitted[p.path] = &p;
-  std::istringstream in(text);
+  std::istringstream in(WithoutEffects(text));
   std::string out, section, line;
   std::vector<std::string> copies;  // fitted values of numbers that a bearing has from `like`
   std::map<std::string, bool> written;
@@ -94,6 +145,53 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const s
   flush_inherited();
   for (const EffectInstance& e : effects) out += EffectText(e);
   return out;
+}
+
+Adoption Adopt(const Case& c, const std::string& effect, const std::string& target, const std::string& output,
+               const ExplainOptions& options) {
+  const auto progress = [&](double f, const std::string& text) {
+    if (options.stop && options.stop->load()) throw Interrupted();
+    if (options.progress) options.progress(f, text);
+  };
+  const EffectDescription& d = Described(effect);
+  const bool formula = effect == "formula";
+  const auto is_formula = [](const EffectInstance& e) { return e.name == "formula"; };
+  if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))
+    throw InputError(c.rig_file + ": has no [[effect]] name = \"formula\" to fit; write one first");
+  if (!formula) CheckTarget(d, c, target);
+  Adoption a;
+  CaseModel model(c);
+  model.stop = options.stop;
+  const Hypothesis nominal = Hypothesis::Base(c.rig);
+  a.before = Compare(model, nominal, false);
+  FitOptions fit;
+  fit.effective = a.before.effective;
+  progress(0.2, "rig parameters");
+  const FitResult base = Fit(model, nominal, fit);
+  a.ladder = {{"", a.before.ratio_fit, a.before.ratio_validate}, {"parameters", base.ratio_fit, base.ratio_validate}};
+  if (formula) {
+    a.fit = base;  // it stands in the rig file and was fitted with the rig parameters
+  } else {
+    ScreenOptions what;
+    what.effective = fit.effective;
+    what.effect = effect;
+    what.target = target;
+    what.progress = [&](double f, const std::string& text) { progress(0.3 + 0.3 * f, text); };
+    a.fit = FitEffect(model, base, what);
+    if (!a.fit.converged) throw InputError(fmt::format("{}: no fit of {} holds the rotor", c.file, effect));
+    progress(0.7, "final fit");
+    a.fit = Fit(model, a.fit.hypothesis, fit);
+    const EffectInstance& e = a.fit.hypothesis.rig.effects.back();
+    a.ladder.push_back({e.name + " at " + e.target, a.fit.ratio_fit, a.fit.ratio_validate});
+  }
+  for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k) a.effects.push_back(FittedEffect(a.fit, k));
+  a.rig_text = AdoptedRigText(ReadFile(c.rig_file), a.fit.hypothesis, a.effects);
+  progress(0.9, "compare again");
+  a.adopted_case = std::make_unique<Case>(c);
+  a.adopted_case->rig = ReadRigText(a.rig_text, output);  // must read back
+  a.model = std::make_unique<CaseModel>(*a.adopted_case);
+  a.after = Compare(*a.model, Hypothesis::Base(a.adopted_case->rig), true);
+  return a;
 }
 
 }  // namespace ambrig

@@ -158,8 +158,8 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
       }
     }
   }
-  u.text = fmt::format("{} in {}: {:.1f} times the noise at {}; the error stands out at {}; it depends most on {}.", u.block,
-                       record.data_file, any.ratio, u.where, FrequencyText(model, u.frequencies, any.target->record),
+  u.text = fmt::format("{} in {}: {:.1f} times the noise at {}{}; the error stands out at {}; it depends most on {}.", u.block,
+                       record.data_file, any.ratio, record.data.channels[any.target->channel].name, reading.target ? "; " + u.where : "", FrequencyText(model, u.frequencies, any.target->record),
                        u.dependence.empty() ? "nothing that was tried" : u.dependence);
   return u;
 }

@@ -27,16 +27,6 @@ std::size_t Thinning(const Case& c) {
   return std::clamp<std::size_t>(rows / kRows, 1, 12);
 }
 
-/// Fitted values and sd of the hypothesis' effect number `index`.
-EffectInstance FittedEffect(const FitResult& fit, std::size_t index) {
-  EffectInstance e = fit.hypothesis.rig.effects[index];
-  for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k) {
-    const FreeParameter& p = fit.hypothesis.free[k];
-    if (p.effect == static_cast<int>(index) && k < fit.sd.size()) e.sd[p.row] = fit.sd[k];
-  }
-  return e;
-}
-
 std::string Named(const EffectInstance& e) { return e.name + " at " + e.target; }
 
 class Explainer {

@@ -230,4 +230,13 @@ FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions&
   return result;
 }
 
+EffectInstance FittedEffect(const FitResult& fit, std::size_t index) {
+  EffectInstance e = fit.hypothesis.rig.effects[index];
+  for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k) {
+    const FreeParameter& p = fit.hypothesis.free[k];
+    if (p.effect == static_cast<int>(index) && k < fit.sd.size()) e.sd[p.row] = fit.sd[k];
+  }
+  return e;
+}
+
 }  // namespace ambrig

@@ -33,4 +33,7 @@ struct FitResult {
 /// A fit that finds no better point says so (`converged` false), it never passes for a result.
 FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options);
 
+/// Fitted values and sd of the effect number `index` of the hypothesis.
+EffectInstance FittedEffect(const FitResult& fit, std::size_t index);
+
 }  // namespace ambrig

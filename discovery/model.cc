@@ -29,12 +29,15 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
     if (!std::isnan(t.fitted)) h.Set(h.free.size() - 1, t.fitted);
   }
   for (Tolerance& t : h.rig.tolerances) t.fitted = kRequired;  // now in the values
-  // A formula that the user wrote is there to be fitted.
+  // A formula that the user wrote is there to be fitted, and so is what an adoption found: { value, sd }.
   const std::vector<EffectInstance> own = std::move(h.rig.effects);
   h.rig.effects.clear();
   for (const EffectInstance& e : own) {
-    if (e.name == "formula") h.AddEffect(e);
-    else h.rig.effects.push_back(e);
+    const std::size_t before = h.free.size();
+    h.AddEffect(e);
+    if (e.name == "formula") continue;
+    for (std::size_t k = h.free.size(); k-- > before;)
+      if (e.sd[h.free[k].row] <= 0) h.free.erase(h.free.begin() + static_cast<std::ptrdiff_t>(k));
   }
   return h;
 }

@@ -29,7 +29,8 @@ struct Hypothesis {
   RigParameters rig;                 // rig.effects holds the effects
   std::vector<FreeParameter> free;
 
-  /// Toleranced parameters of the rig as free ones, with their prior.
+  /// Toleranced parameters of the rig as free ones, with their prior; without one the parameters of
+  /// formulas and those that an effect of the rig file gives with an sd.
   static Hypothesis Base(const RigParameters& rig);
   /// Adds an effect; its parameters become free.
   void AddEffect(const EffectInstance& effect);

@@ -44,6 +44,12 @@ bool Present(const Hypothesis& h, const EffectInstance& e) {
                      [&](const EffectInstance& o) { return o.name == e.name && o.target == e.target; });
 }
 
+/// The coil of a bearing that has no other: the bearing as a target says the same.
+bool OnlyCoil(const RigParameters& rig, const EffectDescription& d, const std::string& target) {
+  const BearingParameters* b = rig.Find(target.substr(0, target.find('.')));
+  return b && b->coils() == 1 && d.target == TargetKind::kCoilOrBearing;
+}
+
 bool Same(const EffectInstance& a, const EffectInstance& b) { return a.name == b.name && a.target == b.target; }
 
 /// Probes of one kind of target (coils or the others) that the bank does not hold yet.
@@ -57,7 +63,8 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
     if (options.effect.empty() && (CannotShow(d, model) || (again && !coils && !SeeksFrequency(d)))) continue;
     for (const std::string& target : TargetsOf(d, targets)) {
       if (!options.target.empty() && target != options.target) continue;
-      if ((target.find(".coil") != std::string::npos) != coils) continue;
+      const bool coil = target.find(".coil") != std::string::npos;
+      if (coil != coils || (coil && options.target.empty() && OnlyCoil(model.data().rig, d, target))) continue;
       for (ProbeGroup& g : ProbesOf(d, target, model, peaks))
         if (!Present(base.hypothesis, g.probes[0]) && !bank.Holds(g.probes[0])) groups.push_back(std::move(g));
     }
