@@ -14,6 +14,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   ambrig run scenarios/library/coil_a3_opens_1500rpm.toml     what happens when coil A3 breaks
   ambrig check scenarios/library --jobs 2                     every scenario with expectations
+  ambrig campaign scenarios/campaigns/single_coils.toml       many runs on all cores, resumable
   ambrig redistribute rig.toml --bearing A --failed 3         currents after a coil failure
   ambrig compare case.toml                                    model beside measurement
   ambrig explain case.toml                                    which physical effect is missing
@@ -29,6 +30,8 @@ int Main(int argc, char** argv) {
   ambrig::Work work;
   ambrig::AddRun(app, work);
   ambrig::AddCheck(app, work);
+  ambrig::AddCampaign(app, work);
+  ambrig::AddMerge(app, work);
   ambrig::AddRedistribute(app, work);
   ambrig::AddEffects(app, work);
   ambrig::AddCompare(app, work);

@@ -1,7 +1,6 @@
 #include "faulttolerance/redistribution_table.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "core/base/atomic_file.h"
 #include "core/base/errors.h"
 
 namespace ambrig {
@@ -145,12 +145,11 @@ void RedistributionTable::Save() const {
   }
   std::error_code error;
   std::filesystem::create_directories(std::filesystem::path(file_).parent_path(), error);
-  const std::string temporary = fmt::format("{}.{}", file_, getpid());
-  std::ofstream stream(temporary);
-  stream << root.dump(1) << '\n';
-  stream.close();
-  if (stream) std::filesystem::rename(temporary, file_, error);
-  if (!stream || error) std::filesystem::remove(temporary, error);
+  try {
+    WriteFileAtomically(file_, root.dump(1) + '\n');  // threads of one process write it too
+  } catch (const InputError&) {
+    // A cache that cannot be written costs time, nothing else.
+  }
 }
 
 std::vector<std::vector<int>> AllFailureSets() {

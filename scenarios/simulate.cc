@@ -18,6 +18,7 @@ namespace {
 RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const SimulateOptions& options) {
   EngineOptions engine;
   engine.record_rate = options.record_rate;
+  engine.record = options.record;
   engine.snapshots = options.for_report;
   engine.progress = options.progress;
   engine.stop = options.stop;

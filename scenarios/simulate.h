@@ -15,6 +15,7 @@ struct SimulateOptions {
   Fidelity fidelity = Fidelity::kSwitching;
   double record_rate = 0;             // 0: the scenario's
   bool for_report = false;            // also snapshots of fluxes and slope traces
+  bool record = true;                 // false: figures of the verdict only (switching)
   std::function<void(double)> progress;
   const std::atomic<bool>* stop = nullptr;
 };

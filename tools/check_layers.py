@@ -14,8 +14,9 @@ MAY_INCLUDE = {
     "effects": "core actuators rotor control",
     "scenarios": "core actuators rotor control fdd faulttolerance effects",
     "discovery": "core effects scenarios",
+    "campaign": "core faulttolerance scenarios",
     "analysis": "core actuators rotor control scenarios",
-    "app": "core effects scenarios discovery analysis faulttolerance",
+    "app": "core effects scenarios discovery campaign analysis faulttolerance",
     "bench": "core actuators rotor control fdd faulttolerance effects scenarios discovery",
 }
 # What runs in the controller may not look at the true fault, only at what it measures.
@@ -26,6 +27,7 @@ DOORS = {
     "hdf5.h": ["core/record/hdf5.cc"],
     "matio.h": ["core/record/mat.cc"],
     "ode/": ["rotor/ode_contact.cc"],
+    "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model.cc", "discovery/screen.cc"],
     "ceres/": ["discovery/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],
 }

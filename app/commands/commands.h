@@ -25,6 +25,8 @@ using Work = std::function<int()>;
 
 void AddRun(CLI::App& app, Work& work);
 void AddCheck(CLI::App& app, Work& work);
+void AddCampaign(CLI::App& app, Work& work);
+void AddMerge(CLI::App& app, Work& work);
 void AddRedistribute(CLI::App& app, Work& work);
 void AddEffects(CLI::App& app, Work& work);
 void AddCompare(CLI::App& app, Work& work);

@@ -8,6 +8,7 @@
 #include "app/report/progress.h"
 #include "app/report/run_json.h"
 #include "app/report/run_report_data.h"
+#include "campaign/run_plan.h"
 #include "core/base/atomic_file.h"
 #include "core/base/read_file.h"
 #include "core/record/csv.h"
@@ -22,6 +23,8 @@ struct RunOptions {
   CommonOptions common;
   std::vector<std::string> scenarios;
   std::string out = "out", fidelity = "switching";
+  std::string campaign;
+  long long row = -1;
   double rate = 0;
   bool csv = false, quiet = false, no_html = false;
 };
@@ -53,9 +56,40 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result, const std:
                                                              : Coloured("rotor stayed up", "green"));
 }
 
-int RunOne(const std::string& file, const RunOptions& options, nlohmann::ordered_json& all) {
-  const RigParameters rig = ReadRig(RigOfScenario(file));
-  const Scenario scenario = ReadScenario(file, rig);
+/// What is simulated and where it came from.
+struct RunInput {
+  RigParameters rig;
+  Scenario scenario;
+  std::string stem, text;  // name of the output files; the input as a person wrote it
+};
+
+RunInput FromScenario(const std::string& file) {
+  RunInput in;
+  in.rig = ReadRig(RigOfScenario(file));
+  in.scenario = ReadScenario(file, in.rig);
+  in.stem = std::filesystem::path(file).stem().string();
+  in.text = ReadFile(file);
+  return in;
+}
+
+RunInput FromCampaign(const std::string& file, long long row) {
+  const RunPlan plan(ReadCampaign(file));
+  const std::size_t runs = plan.campaign().runs();
+  if (row < 0 || static_cast<std::size_t>(row) >= runs) throw InputError(fmt::format("--row = {}, allowed: 0 to {}", row, runs - 1));
+  PlannedRun p = plan.Make(static_cast<std::size_t>(row));
+  RunInput in;
+  in.rig = std::move(p.rig);
+  in.scenario = std::move(p.scenario);
+  in.scenario.name = fmt::format("{}, row {}", plan.campaign().name, row);
+  in.scenario.file = file;
+  in.stem = fmt::format("{}_row_{}", std::filesystem::path(file).stem().string(), row);
+  in.text = fmt::format("# row {} of\n{}", row, ReadFile(file));
+  return in;
+}
+
+int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json& all) {
+  const RigParameters& rig = in.rig;
+  const Scenario& scenario = in.scenario;
   Progress progress(scenario.name);
   SimulateOptions simulate;
   simulate.fidelity = FidelityByName(options.fidelity);
@@ -66,11 +100,11 @@ int RunOne(const std::string& file, const RunOptions& options, nlohmann::ordered
   RunResult result = Simulate(rig, scenario, simulate);
   progress.Clear();
   const auto expect = CheckExpectations(scenario, result);
-  const std::filesystem::path stem = std::filesystem::path(options.out) / std::filesystem::path(file).stem();
+  const std::filesystem::path stem = std::filesystem::path(options.out) / in.stem;
   std::error_code error;
   std::filesystem::create_directories(options.out, error);
   if (error) throw InputError(fmt::format("cannot write {}: {}", options.out, error.message()));
-  result.record.attributes["scenario"] = ReadFile(file);
+  result.record.attributes["scenario"] = in.text;
   result.record.attributes["rig"] = ReadFile(rig.file);
   result.record.attributes["fidelity"] = options.fidelity;
   WriteHdf5(result.record, stem.string() + ".h5");
@@ -96,7 +130,9 @@ int RunOne(const std::string& file, const RunOptions& options, nlohmann::ordered
 void AddRun(CLI::App& app, Work& work) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "simulate scenarios: timeline, record, report");
-  command->add_option("scenario", options->scenarios, "scenario files (TOML)")->required();
+  command->add_option("scenario", options->scenarios, "scenario files (TOML)");
+  CLI::Option* campaign = command->add_option("--from-campaign", options->campaign, "campaign file: repeat one of its rows")->type_name("FILE");
+  command->add_option("--row", options->row, "run of that campaign, from 0")->needs(campaign);
   command->add_option("--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")->capture_default_str();
   command->add_option("--rate", options->rate, "rows of the record per second [Hz] (default: the scenario's)");
   command->add_option("--fidelity", options->fidelity, "switching | reference | averaged")->capture_default_str();
@@ -111,10 +147,13 @@ void AddRun(CLI::App& app, Work& work) {
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
       int code = 0;
       std::set<std::string> stems;
+      if (options->campaign.empty() == options->scenarios.empty())
+        throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
+      if (!options->campaign.empty()) code = RunOne(FromCampaign(options->campaign, options->row), *options, all);
       for (const std::string& file : options->scenarios) {
         if (!stems.insert(std::filesystem::path(file).stem().string()).second)
           throw InputError(fmt::format("{}: another scenario of that file name would be overwritten", file));
-        code = std::max(code, RunOne(file, *options, all));
+        code = std::max(code, RunOne(FromScenario(file), *options, all));
       }
       options->common.WriteJson(all.size() == 1 ? all[0] : all);
       return code;

@@ -1,0 +1,130 @@
+/// ambrig campaign: many runs, on all cores or a cluster; ambrig merge: their shards as one.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "app/commands/commands.h"
+#include "app/report/campaign_report.h"
+#include "app/report/progress.h"
+#include "campaign/journal.h"
+#include "campaign/merge.h"
+#include "campaign/run_rows.h"
+
+namespace ambrig {
+
+namespace {
+
+struct CampaignOptions {
+  CommonOptions common;
+  std::string file, out, shard, engine = "local";
+  int jobs = 0;
+  bool no_report = false;
+};
+
+nlohmann::ordered_json Json(const JournalHeader& header, const RowCounts& n) {
+  return {{"name", header.name}, {"fingerprint", header.fingerprint}, {"runs", header.runs}, {"done", n.rows}, {"up", n.up},
+          {"touchdown", n.touchdown}, {"drop", n.drop}, {"error", n.error}, {"false_alarms", n.false_alarms},
+          {"coil_periods", n.coil_periods}, {"undetected", n.undetected}, {"worst_detection_delay", n.worst_delay},
+          {"largest_orbit", n.largest_orbit}};
+}
+
+/// Table, report, JSON, and a few lines on the screen.
+void Conclude(const CommonOptions& common, bool no_report, const std::string& out, const JournalHeader& header, const Rows& rows) {
+  WriteTable(out, rows);
+  const RowCounts n = CountRows(rows);
+  const std::string html = (std::filesystem::path(out) / "report.html").string();
+  if (!no_report) WriteCampaignReport(header, rows, html);
+  if (!common.html.empty()) WriteCampaignReport(header, rows, common.html);
+  common.WriteJson(Json(header, n));
+  fmt::print("{}\n  runs               {} of {}\n", Coloured(header.name, "bold"), n.rows, header.runs);
+  fmt::print("  stayed up          {}\n  touched down       {}\n  dropped            {}\n", n.up, n.touchdown, n.drop);
+  if (n.error > 0) fmt::print("  {}\n", Coloured(fmt::format("not finished       {} (column note)", n.error), "red"));
+  fmt::print("  false alarms       {:.0f} in {:.3g} healthy coil-periods\n", n.false_alarms, n.coil_periods);
+  if (n.faults > 0)
+    fmt::print("  faults             {}, not detected {}, worst delay {:.1f} us\n", n.faults, n.undetected, n.worst_delay * 1e6);
+  fmt::print("  largest orbit      {:.2f} um (runs that stayed up)\n", n.largest_orbit * 1e6);
+  fmt::print("  written            {}/table.csv{}\n", out, no_report ? "" : fmt::format(", report {}", html));
+}
+
+void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard, Journal& journal) {
+  const auto pending = PendingRuns(plan.campaign().runs(), shard, journal.rows());
+  if (pending.empty()) return;
+  Progress progress("campaign");
+  std::atomic<std::size_t> done{0}, dropped{0};
+  const auto begin = std::chrono::steady_clock::now();
+  RunRows(plan, pending, o.jobs, &interrupted, [&](const Row& row) {
+    journal.Append(row);
+    if (row.At("verdict") == "drop") ++dropped;
+    const std::size_t n = ++done;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
+                    fmt::format("{} of {} runs, {:.1f} runs/s, {} dropped", n, pending.size(), static_cast<double>(n) / seconds, dropped.load()));
+  });
+}
+
+int RunCampaign(CampaignOptions o) {
+  const RunPlan plan(ReadCampaign(o.file));
+  const Shard shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
+  if (o.out.empty()) o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
+  const JournalHeader header = HeaderOf(plan.campaign());
+  Journal journal(o.out, header);
+  if (!journal.rows().empty())
+    fmt::print("{}: goes on after {} runs that are done{}\n", o.out, journal.rows().size(),
+               journal.damaged() > 0 ? fmt::format(", {} damaged line(s) done again", journal.damaged()) : "");
+  try {
+    RunHere(plan, o, shard, journal);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "ambrig: stopped; {} of {} runs are kept in {}, the same command goes on\n", journal.rows().size(), header.runs, o.out);
+    return 130;
+  }
+  Conclude(o.common, o.no_report, o.out, header, journal.rows());
+  return 0;
+}
+
+struct MergeOptions {
+  CommonOptions common;
+  std::vector<std::string> folders;
+  std::string out;
+  bool partial = false, no_report = false;
+};
+
+int Merge(const MergeOptions& o) {
+  const JournalContent merged = MergeJournals(o.folders, o.partial);
+  Journal journal(o.out, merged.header);
+  for (const auto& [run, row] : merged.rows)
+    if (!journal.rows().contains(run)) journal.Append(row);
+  Conclude(o.common, o.no_report, o.out, merged.header, journal.rows());
+  return 0;
+}
+
+}  // namespace
+
+void AddCampaign(CLI::App& app, Work& work) {
+  auto options = std::make_shared<CampaignOptions>();
+  CLI::App* command = app.add_subcommand("campaign", "many runs: fault sets x speeds x loads x spread of parameters");
+  command->add_option("campaign", options->file, "campaign file (TOML)")->required();
+  command->add_option("-o,--out", options->out, "folder of journal.txt, table.csv, report.html (default: out/NAME)");
+  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")->check(CLI::Range(1, 1024));
+  command->add_option("--shard", options->shard, "only part i of n of the runs, e.g. 2/4 (then: ambrig merge)");
+  command->add_flag("--no-report", options->no_report, "no report.html");
+  options->common.AddTo(*command);
+  command->footer("Example:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o out/single_coils\n"
+                  "The same command goes on where a stopped or killed one was. Rerun one row:\n"
+                  "  ambrig run --from-campaign scenarios/campaigns/single_coils.toml --row 17");
+  command->callback([options, &work] { work = [options] { return RunCampaign(*options); }; });
+}
+
+void AddMerge(CLI::App& app, Work& work) {
+  auto options = std::make_shared<MergeOptions>();
+  CLI::App* command = app.add_subcommand("merge", "shards of a campaign as one table and report");
+  command->add_option("folder", options->folders, "folders of the shards")->required();
+  command->add_option("-o,--out", options->out, "folder of the merged campaign")->required();
+  command->add_flag("--partial", options->partial, "also when runs are missing");
+  command->add_flag("--no-report", options->no_report, "no report.html");
+  options->common.AddTo(*command);
+  command->footer("Example:\n  ambrig merge out/part1 out/part2 -o out/all");
+  command->callback([options, &work] { work = [options] { return Merge(*options); }; });
+}
+
+}  // namespace ambrig

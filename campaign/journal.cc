@@ -1,0 +1,152 @@
+#include "campaign/journal.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "core/base/atomic_file.h"
+#include "core/base/read_file.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kVersion = 1;
+
+std::string PathOf(const std::string& folder) { return (std::filesystem::path(folder) / "journal.txt").string(); }
+
+std::string Checked(const std::string& text) { return fmt::format("{}\t{:016x}\n", text, Fingerprint(text)); }
+
+/// The text of a line whose check sum is right; empty for any other.
+std::string_view Unchecked(std::string_view line) {
+  const std::size_t tab = line.rfind('\t');
+  if (tab == std::string_view::npos) return {};
+  return fmt::format("{:016x}", Fingerprint(line.substr(0, tab))) == line.substr(tab + 1) ? line.substr(0, tab) : std::string_view{};
+}
+
+std::string HeaderText(const JournalHeader& h) {
+  return nlohmann::ordered_json{{"ambrig_campaign", kVersion}, {"name", h.name}, {"file", h.file},
+                                {"fingerprint", h.fingerprint}, {"runs", h.runs}}.dump();
+}
+
+JournalHeader ParseHeader(std::string_view text, const std::string& path) {
+  try {
+    const auto json = nlohmann::json::parse(text);
+    if (json.at("ambrig_campaign") == kVersion)
+      return {json.at("name"), json.at("file"), json.at("fingerprint"), json.at("runs")};
+  } catch (const nlohmann::json::exception&) {
+    // Said below in our words.
+  }
+  throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
+}
+
+JournalContent Parse(const std::string& text, const std::string& path) {
+  JournalContent out;
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const bool whole = end < text.size();
+    const std::string_view content = whole ? Unchecked(std::string_view(text).substr(begin, end - begin)) : std::string_view{};
+    begin = end + 1;
+    if (++number == 1) {
+      out.header = ParseHeader(content, path);
+      continue;
+    }
+    if (content.empty()) {
+      ++out.damaged;
+      continue;
+    }
+    Row row = ParseRow(content, fmt::format("{}:{}", path, number));
+    if (row.run >= out.header.runs)
+      throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, number, row.run, out.header.runs - 1));
+    const std::size_t run = row.run;
+    out.rows.insert_or_assign(run, std::move(row));
+  }
+  return out;
+}
+
+}  // namespace
+
+JournalHeader HeaderOf(const Campaign& c) {
+  return {c.name, std::filesystem::absolute(c.file).lexically_normal().string(), c.fingerprint, c.runs()};
+}
+
+bool HasJournal(const std::string& folder) { return std::filesystem::exists(PathOf(folder)); }
+
+JournalContent ReadJournal(const std::string& folder) {
+  if (!HasJournal(folder)) throw InputError(fmt::format("{}: no campaign's results, allowed: a folder with journal.txt", folder));
+  const std::string path = PathOf(folder), text = ReadFile(path);
+  if (text.empty()) throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
+  return Parse(text, path);
+}
+
+Journal::Journal(const std::string& folder, const JournalHeader& header) : path_(PathOf(folder)) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(fmt::format("cannot write {}: {}", folder, error.message()));
+  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+  if (file_ < 0) ThrowCannotWrite(path_, errno);
+  try {
+    if (flock(file_, LOCK_EX | LOCK_NB) != 0)
+      throw InputError(fmt::format("{}: another ambrig writes there; wait for it, or give another folder with -o", folder));
+    Begin(header);
+  } catch (...) {
+    close(file_);
+    throw;
+  }
+}
+
+Journal::~Journal() { close(file_); }
+
+void Journal::Begin(const JournalHeader& header) {
+  const std::string text = ReadFile(path_);
+  // Without a whole first line nothing was recorded yet.
+  if (text.find('\n') == std::string::npos) {
+    if (ftruncate(file_, 0) != 0) ThrowCannotWrite(path_, errno);
+    Write(Checked(HeaderText(header)));
+    return;
+  }
+  JournalContent content = Parse(text, path_);
+  if (content.header.fingerprint != header.fingerprint || content.header.runs != header.runs)
+    throw InputError(fmt::format("{}: holds runs of {} before it, its rig or a scenario was changed; allowed: the same files, or another folder with -o",
+                                 path_, content.header.file));
+  rows_ = std::move(content.rows);
+  damaged_ = content.damaged;
+  // A half line is ended, so that the next one stands alone.
+  if (!text.ends_with('\n')) Write("\n");
+}
+
+void Journal::Append(const Row& row) {
+  const std::string line = Checked(row.Csv());
+  const std::scoped_lock lock(mutex_);
+  Write(line);
+  rows_.insert_or_assign(row.run, row);
+}
+
+void Journal::Write(const std::string& line) {
+  if (broken_) throw InputError(fmt::format("cannot write {}: an earlier line failed", path_));
+  for (std::string_view rest = line; !rest.empty();) {
+    const ssize_t n = write(file_, rest.data(), rest.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) {
+      broken_ = true;
+      ThrowCannotWrite(path_, errno);
+    }
+    rest.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void WriteTable(const std::string& folder, const Rows& rows) {
+  std::string text;
+  for (const std::string& column : RowColumns()) text += (text.empty() ? "" : ",") + column;
+  text += '\n';
+  for (const auto& [run, row] : rows) text += row.Csv() + '\n';
+  WriteFileAtomically((std::filesystem::path(folder) / "table.csv").string(), text);
+}
+
+}  // namespace ambrig

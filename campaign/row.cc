@@ -1,0 +1,178 @@
+#include "campaign/row.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "scenarios/simulate.h"
+
+namespace ambrig {
+
+namespace {
+
+/// A delay that was not: an empty cell.
+std::string Optional(double v) { return v < 0 || !std::isfinite(v) ? "" : NumberText(v); }
+
+/// One line without separators, whatever an error says.
+std::string OneCell(std::string text) {
+  for (char& ch : text)
+    if (ch == ',' || ch == '\n' || ch == '\r' || ch == '\t' || ch == '"') ch = ' ';
+  return text;
+}
+
+struct Faults {
+  std::size_t detected = 0, right_class = 0;
+};
+
+Faults CountFaults(const Scenario& s, const RunResult& r) {
+  Faults n;
+  for (const FaultSpec& f : s.faults) {
+    const auto matches = [&](const RunEvent& e, const char* kind) { return e.kind == kind && e.target == f.target && e.t >= f.time; };
+    n.detected += std::any_of(r.events.begin(), r.events.end(), [&](const RunEvent& e) { return matches(e, "detected"); }) ? 1 : 0;
+    // The last diagnosis counts: a class may be refined while more is seen of the coil.
+    std::string last;
+    for (const RunEvent& e : r.events)
+      if (matches(e, "classified")) last = e.fault_class;
+    n.right_class += last == f.kind ? 1 : 0;
+  }
+  return n;
+}
+
+double LargestOrbit(const RunResult& r, const std::string& bearing) {
+  const auto it = r.metrics.max_orbit.find(bearing);
+  return it == r.metrics.max_orbit.end() ? 0 : it->second;
+}
+
+double LargestOrbit(const PlannedRun& p, const RunResult& r) {
+  double most = 0;
+  for (const BearingParameters& b : p.rig.bearings)
+    if (b.kind != BearingKind::kThrust) most = std::max(most, LargestOrbit(r, b.name));
+  return most;
+}
+
+std::vector<std::string> Conditions(const RunPlan& plan, const PlannedRun& p) {
+  const Campaign& c = plan.campaign();
+  const FaultCase& f = c.cases[p.at.fault];
+  const FailureSet& set = c.sets[f.set];
+  return {std::to_string(p.run),
+          OneCell(std::filesystem::path(p.scenario.file).stem().string()),
+          SetText(set),
+          std::to_string(set.coils.size()),
+          p.theory.cls,
+          c.kinds[f.kind].label,
+          set.coils.empty() ? "" : f.sequential ? "sequential" : "simultaneous",
+          p.scenario.faults.empty() ? "" : NumberText(p.scenario.faults.front().time),
+          NumberText(p.speed),
+          NumberText(c.loads[p.at.load]),
+          NumberText(p.load),
+          NumberText(p.theory.capacity),
+          NumberText(c.positions[p.at.position]),
+          std::to_string(p.at.draw),
+          std::to_string(p.scenario.seed)};
+}
+
+std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r) {
+  const RunMetrics& m = r.metrics;
+  const Faults n = CountFaults(p.scenario, r);
+  const bool finite = std::isfinite(LargestOrbit(p, r)) && std::isfinite(m.copper_loss) && std::isfinite(m.peak_current);
+  if (!finite) throw std::runtime_error("the run is not finite");
+  return {r.drop ? "drop" : r.touchdown ? "touchdown" : "up",
+          std::to_string(n.detected),
+          std::to_string(n.right_class),
+          Optional(m.detection_delay),
+          Optional(m.redistribution_delay),
+          NumberText(m.false_alarms),
+          NumberText(m.coil_periods),
+          NumberText(LargestOrbit(p, r)),
+          NumberText(LargestOrbit(r, p.bearing)),
+          NumberText(m.late_orbit),
+          NumberText(m.min_clearance_left),
+          NumberText(m.longest_contact),
+          NumberText(m.peak_current),
+          NumberText(m.copper_loss),
+          ""};
+}
+
+}  // namespace
+
+const std::vector<std::string>& RowColumns() {
+  static const std::vector<std::string> columns{
+      "run", "scenario", "set", "failed", "class", "kind", "onset", "fault_time [s]", "speed [rad/s]", "load_given", "load [N]",
+      "capacity [N]", "position", "draw", "seed",
+      "verdict", "detected", "right_class", "detection_delay [s]", "redistribution_delay [s]", "false_alarms", "coil_periods",
+      "peak_orbit [m]", "bearing_orbit [m]", "late_orbit [m]", "clearance_left [m]", "longest_contact [s]", "peak_current [A]",
+      "copper_loss [W]", "note"};
+  return columns;
+}
+
+std::string SetText(const FailureSet& set) {
+  if (set.coils.empty()) return set.bearing + ":healthy";
+  std::string text;
+  for (const int coil : set.coils) text += (text.empty() ? set.bearing + ":" : "+") + std::to_string(coil);
+  return text;
+}
+
+std::string Row::Csv() const {
+  std::string text;
+  for (std::size_t k = 0; k < cells.size(); ++k) text += (k > 0 ? "," : "") + cells[k];
+  return text;
+}
+
+const std::string& Row::At(std::string_view column) const {
+  const auto& columns = RowColumns();
+  const auto it = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) {
+    return c == column || (c.starts_with(column) && c.substr(column.size()).starts_with(" ["));
+  });
+  Require(it != columns.end(), "a column of the table");
+  return cells[static_cast<std::size_t>(it - columns.begin())];
+}
+
+double Row::Number(std::string_view column) const {
+  const std::string& text = At(column);
+  double v = kRequired;
+  if (!text.empty()) std::from_chars(text.data(), text.data() + text.size(), v);
+  return v;
+}
+
+Row ParseRow(std::string_view csv, const std::string& where) {
+  Row row;
+  for (std::size_t begin = 0; begin <= csv.size();) {
+    const std::size_t end = std::min(csv.find(',', begin), csv.size());
+    row.cells.emplace_back(csv.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  const std::string& id = row.cells.front();
+  const auto [last, error] = std::from_chars(id.data(), id.data() + id.size(), row.run);
+  if (row.cells.size() != RowColumns().size() || error != std::errc{} || last != id.data() + id.size())
+    throw InputError(fmt::format("{}: no row of a campaign, allowed: {} cells from the run's number on", where, RowColumns().size()));
+  return row;
+}
+
+Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* stop) {
+  const PlannedRun p = plan.Make(run);
+  Row row;
+  row.run = run;
+  row.cells = Conditions(plan, p);
+  try {
+    SimulateOptions options;
+    options.record = false;
+    options.stop = stop;
+    const RunResult result = Simulate(p.rig, p.scenario, options);
+    const auto outcome = Outcome(p, result);
+    row.cells.insert(row.cells.end(), outcome.begin(), outcome.end());
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // of the machine, not of the run: another machine would have another table
+  } catch (const std::exception& e) {
+    row.cells.push_back("error");
+    row.cells.resize(RowColumns().size());
+    row.cells.back() = OneCell(e.what());
+  }
+  return row;
+}
+
+}  // namespace ambrig

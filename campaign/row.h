@@ -1,0 +1,34 @@
+#pragma once
+/// One line of a campaign's table: a run's conditions, then what came out. Text is CSV; numbers
+/// are the shortest that read back as the same double, so equal results are equal bytes.
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "campaign/run_plan.h"
+
+namespace ambrig {
+
+/// Header of the table; the order of Row's values.
+const std::vector<std::string>& RowColumns();
+
+struct Row {
+  std::size_t run = 0;
+  std::vector<std::string> cells;  // as in RowColumns(), the first is the run
+
+  std::string Csv() const;
+  const std::string& At(std::string_view column) const;  // @throws std::logic_error for an unknown one
+  double Number(std::string_view column) const;          // nan for an empty cell
+};
+
+/// @throws InputError when the text has another number of cells or no run number.
+Row ParseRow(std::string_view csv, const std::string& where);
+
+/// Simulates a run (fast engine, detection and redistribution on). A run that the program cannot
+/// finish is a row too: verdict "error", the reason in `note`. @throws Interrupted
+Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* stop);
+
+/// "A:1+3", "A:healthy".
+std::string SetText(const FailureSet& set);
+
+}  // namespace ambrig

@@ -1,0 +1,167 @@
+#include "campaign/run_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "scenarios/redistribution_setup.h"
+#include "scenarios/rig.h"
+
+namespace ambrig {
+
+namespace {
+
+// Static loads and positions are reached in small steps: the loop can hold more than it can step.
+constexpr int kLoadSteps = 12;
+constexpr double kLoadFirst = -0.23, kLoadLast = -0.07;  // [s], within the warm-up of 0.25 s
+constexpr double kPositionReached = 0.75;                // of the time up to the fault
+
+/// Turns of a coil that the controller can still use after the fault. [-]
+double TurnsLeft(const CampaignFaultKind& k) {
+  return k.kind == "partial-short" ? 1 - k.parameters.at("fraction") : 0;
+}
+
+}  // namespace
+
+RunIndex IndexOf(const Campaign& c, std::size_t run) {
+  RunIndex at;
+  const auto take = [&run](std::size_t size) {
+    const std::size_t k = run % size;
+    run /= size;
+    return k;
+  };
+  at.seed = take(c.seeds.size());
+  at.draw = take(c.draws.size());
+  at.position = take(c.positions.size());
+  at.load = take(c.loads.size());
+  at.speed = take(std::max<std::size_t>(c.speeds.size(), 1));
+  at.phase = take(c.phases.size());
+  at.fault = take(c.cases.size());
+  at.scenario = take(c.scenarios.size());
+  return at;
+}
+
+RunPlan::RunPlan(const Campaign& campaign) : campaign_(campaign) {
+  for (const BearingParameters& b : campaign_.rig.bearings)
+    if (b.kind == BearingKind::kRadial)
+      tables_[b.name] = std::make_unique<RedistributionTable>(RedistributionProblemOf(campaign_.rig, b),
+                                                              RedistributionCacheDirectory());
+}
+
+SetCapacity RunPlan::Theory(const FailureSet& set, const CampaignFaultKind& kind) const {
+  const BearingParameters& b = *campaign_.rig.Find(set.bearing);
+  const double most = PidOf(campaign_.rig, b).f_max;
+  const auto table = tables_.find(set.bearing);
+  if (table == tables_.end()) return {"healthy", most};
+  Coils turns = Coils::Ones();
+  for (const int coil : set.coils) turns[coil - 1] = TurnsLeft(kind);
+  const Distribution d = table->second->Lookup(turns);
+  const double c0 = BiasCurrent(campaign_.rig, b), k = ForceConstant(b);
+  SetCapacity out;
+  out.cls = set.coils.empty() ? "healthy" : ToText(d.cls);
+  out.capacity = d.cls == SolvabilityClass::kNone ? 0 : std::min(most, k * c0 * c0 * d.rho);
+  return out;
+}
+
+void RunPlan::AddFaults(const RunIndex& at, Scenario& s) const {
+  const FaultCase& fault = campaign_.cases[at.fault];
+  const FailureSet& set = campaign_.sets[fault.set];
+  const CampaignFaultKind& kind = campaign_.kinds[fault.kind];
+  double t = campaign_.fault_time + campaign_.phases[at.phase] / campaign_.rig.controller.rate;
+  for (const int coil : set.coils) {
+    FaultSpec f;
+    f.time = t;
+    f.target = set.bearing + ".coil" + std::to_string(coil);
+    f.kind = kind.kind;
+    f.parameters = kind.parameters;
+    s.faults.push_back(f);
+    if (fault.sequential) t += campaign_.spacing;
+  }
+}
+
+void RunPlan::AddLoad(PlannedRun& p) const {
+  const double given = campaign_.loads[p.at.load];
+  const double ux = std::cos(campaign_.load_angle), uy = std::sin(campaign_.load_angle);
+  const BearingParameters& b = *p.rig.Find(p.bearing);
+  p.load = given;
+  if (campaign_.load_unit == LoadUnit::kCapacity) {
+    // A share of the capacity is all that the bearing carries: the weight counts.
+    const auto shares = WeightShares(campaign_.rig);
+    const auto& up = shares[static_cast<std::size_t>(&b - p.rig.bearings.data())];
+    p.load = given > 0 ? std::max(0.0, given * p.theory.capacity + up[0] * ux + up[1] * uy) : 0;
+  }
+  if (p.load == 0) return;
+  const bool steps = p.scenario.start == StartState::kLevitated;
+  const int n = steps ? kLoadSteps : 1;
+  for (int k = 0; k < n; ++k) {
+    LoadSpec l;
+    l.z = b.z;
+    l.fx = p.load * ux / n;
+    l.fy = p.load * uy / n;
+    l.start = steps ? kLoadFirst + (kLoadLast - kLoadFirst) * k / (n - 1) : 0;
+    l.stop = p.scenario.duration + 1;
+    p.scenario.loads.push_back(l);
+  }
+}
+
+void RunPlan::AddPosition(PlannedRun& p) const {
+  const BearingParameters& b = *p.rig.Find(p.bearing);
+  const double share = campaign_.positions[p.at.position];
+  if (share == 0 || !b.auxiliary || b.kind != BearingKind::kRadial) return;
+  const double rate = p.rig.controller.rate, reach = kPositionReached * campaign_.fault_time;
+  Excitation e;
+  e.port = "reference";
+  e.kind = "samples";
+  e.stop = p.scenario.duration + 1;
+  e.sample_rate = rate;
+  const auto samples = static_cast<std::size_t>(std::ceil(reach * rate)) + 1;
+  for (std::size_t k = 0; k < samples; ++k) {
+    const double u = reach > 0 ? std::min(1.0, static_cast<double>(k) / rate / reach) : 1;
+    e.samples.push_back(0.5 - 0.5 * std::cos(kPi * u));
+  }
+  const double radius = share * b.auxiliary->clearance;
+  const auto axes = b.Axes();
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    e.target = axes[a];
+    e.amplitude = radius * (a == 0 ? std::cos(campaign_.position_angle) : std::sin(campaign_.position_angle));
+    p.scenario.excitations.push_back(e);
+  }
+}
+
+PlannedRun RunPlan::Make(std::size_t run) const {
+  Require(run < campaign_.runs(), "a run of the campaign");
+  PlannedRun p;
+  p.run = run;
+  p.at = IndexOf(campaign_, run);
+  p.rig = campaign_.rig;
+  p.scenario = campaign_.scenarios[p.at.scenario];
+  const FaultCase& fault = campaign_.cases[p.at.fault];
+  p.bearing = campaign_.sets[fault.set].bearing;
+  p.theory = Theory(campaign_.sets[fault.set], campaign_.kinds[fault.kind]);
+  // Every run has noise of its own; equal numbers of bits as a TOML integer holds.
+  p.scenario.seed = Mixed(campaign_.seeds[p.at.seed] * 0x100000001u + run) >> 11;
+  if (!campaign_.speeds.empty()) {
+    const double omega = campaign_.speeds[p.at.speed];
+    p.scenario.speed = SpeedProfile({{0, omega}});
+  }
+  p.speed = p.scenario.speed.Speed(campaign_.fault_time);
+  const std::vector<double>& draw = campaign_.draws[p.at.draw];
+  std::size_t k = 0;
+  for (Tolerance& t : p.rig.tolerances) {
+    if (!(t.sd > 0) || draw.empty()) continue;
+    const double* value = ParameterAt(p.rig, t.path);
+    double lo = 0, hi = 0;
+    std::string unit;
+    const bool ranged = ParameterRange(p.rig, t.path, &lo, &hi, &unit);
+    const double z = draw[k++];
+    if (!value) continue;
+    const double drawn = (std::isnan(t.fitted) ? *value : t.fitted) + t.sd * z;
+    t.fitted = ranged ? std::clamp(drawn, lo, hi) : drawn;
+  }
+  AddFaults(p.at, p.scenario);
+  AddLoad(p);
+  AddPosition(p);
+  return p;
+}
+
+}  // namespace ambrig

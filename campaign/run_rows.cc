@@ -1,0 +1,55 @@
+#include "campaign/run_rows.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <charconv>
+
+namespace ambrig {
+
+Shard ParseShard(const std::string& text) {
+  const std::size_t slash = text.find('/');
+  std::size_t i = 0, n = 0;
+  const auto number = [](std::string_view s, std::size_t& out) {
+    const auto [end, error] = std::from_chars(s.data(), s.data() + s.size(), out);
+    return error == std::errc{} && end == s.data() + s.size();
+  };
+  const std::string_view all = text;
+  if (slash == std::string::npos || !number(all.substr(0, slash), i) || !number(all.substr(slash + 1), n) || i < 1 || i > n)
+    throw InputError(fmt::format("--shard = {}, allowed: i/n with 1 <= i <= n, e.g. 2/4", text));
+  return {i - 1, n};
+}
+
+std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard, const std::map<std::size_t, Row>& done) {
+  std::vector<std::size_t> pending;
+  for (std::size_t k = shard.index; k < runs; k += shard.count)
+    if (!done.contains(k)) pending.push_back(k);
+  return pending;
+}
+
+void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
+             const std::function<void(const Row&)>& finished) {
+  const int threads = jobs > 0 ? jobs : tbb::info::default_concurrency();
+  // More threads than cores only when asked for; an arena alone does not raise the limit.
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads);
+  std::atomic<std::size_t> next{0};
+  // One task a thread, each takes the next run: they begin in order and no thread waits for another.
+  arena.execute([&] {
+    tbb::parallel_for(
+        0, threads,
+        [&](int) {
+          for (std::size_t k = next++; k < runs.size(); k = next++) {
+            if (stop && stop->load()) throw Interrupted();
+            if (tbb::is_current_task_group_canceling()) return;
+            finished(SimulateRow(plan, runs[k], stop));
+          }
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+}  // namespace ambrig

@@ -1,0 +1,130 @@
+// ambrig campaign, merge and run --from-campaign as a user sees them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include "tests/campaign/campaign_folder.h"
+#include "campaign/journal.h"
+#include "campaign/merge.h"
+#include "nlohmann/json.hpp"
+
+namespace ambrig::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::size_t Lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+
+TEST(CampaignCommand, SameBytesForAnyJobsAndShards) {
+  const CampaignFolder f;
+  const Outcome one = f.Ambrig("campaign c.toml -o one --jobs 1 --no-report");
+  ASSERT_EQ(one.exit, 0) << one.text;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o three --jobs 3 --no-report").exit, 0);
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o p1 --shard 1/3 --no-report").exit, 0);
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o p3 --shard 3/3 --no-report").exit, 0);
+  const Outcome missing = f.Ambrig("merge p1 p3 -o all");
+  EXPECT_EQ(missing.exit, 2);
+  EXPECT_NE(missing.text.find("11 of 32 runs are missing (1, 4, 7, 10, 13, ...)"), std::string::npos) << missing.text;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o p2 --shard 2/3 --no-report").exit, 0);
+  const Outcome merged = f.Ambrig("merge p3 p1 p2 -o all");
+  ASSERT_EQ(merged.exit, 0) << merged.text;
+  const std::string table = f.Read("one/table.csv");
+  EXPECT_EQ(Lines(table), 33u);
+  EXPECT_EQ(table, f.Read("three/table.csv"));
+  EXPECT_EQ(table, f.Read("all/table.csv"));
+  EXPECT_TRUE(fs::exists(f.File("all/report.html")));
+}
+
+TEST(CampaignCommand, KillLosesNoFinishedRunAndResumesToTheSameBytes) {
+  const CampaignFolder f;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o whole --no-report").exit, 0);
+  // Killed as soon as five rows are there.
+  const Outcome killed = f.In(std::string(AMBRIG_BINARY) +
+                              " campaign c.toml -o cut --jobs 2 --no-report & p=$!; "
+                              "for k in $(seq 1500); do [ $(cat cut/journal.txt 2>/dev/null | wc -l) -lt 6 ] || break; sleep 0.02; done; kill -9 $p; wait $p; true");
+  ASSERT_EQ(killed.exit, 0) << killed.text;
+  const Rows before = ReadJournal(f.File("cut")).rows;
+  ASSERT_GE(before.size(), 5u);
+  ASSERT_LT(before.size(), 32u) << "killed too late to show anything";
+  EXPECT_FALSE(fs::exists(f.File("cut/table.csv")));
+  const std::string kept = f.Read("cut/journal.txt");
+  const Outcome resumed = f.Ambrig("campaign c.toml -o cut --no-report");
+  ASSERT_EQ(resumed.exit, 0) << resumed.text;
+  EXPECT_NE(resumed.text.find("goes on after " + std::to_string(before.size()) + " runs"), std::string::npos) << resumed.text;
+  EXPECT_TRUE(f.Read("cut/journal.txt").starts_with(kept.substr(0, kept.rfind('\n'))));  // nothing was done twice
+  EXPECT_EQ(Lines(f.Read("cut/journal.txt")), 33u + (kept.ends_with('\n') ? 0u : 1u));
+  EXPECT_EQ(f.Read("cut/table.csv"), f.Read("whole/table.csv"));
+}
+
+TEST(CampaignCommand, WriteThatFailsStopsWithOneLineAndLosesNothing) {
+  const CampaignFolder f;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o whole --no-report").exit, 0);
+  // A limit on the size of a file: the last line is cut off, as on a full disk.
+  const Outcome full = f.In(std::string("trap '' XFSZ; ulimit -f 4; ") + AMBRIG_BINARY + " campaign c.toml -o cut --no-report");
+  EXPECT_EQ(full.exit, 2) << full.text;
+  EXPECT_NE(full.text.find("cannot write cut/journal.txt: File too large"), std::string::npos) << full.text;
+  EXPECT_EQ(Lines(full.text), 1u) << full.text;
+  const JournalContent content = ReadJournal(f.File("cut"));
+  EXPECT_GT(content.rows.size(), 1u);
+  EXPECT_LT(content.rows.size(), 32u);
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o cut --no-report").exit, 0);
+  EXPECT_EQ(f.Read("cut/table.csv"), f.Read("whole/table.csv"));
+  EXPECT_EQ(f.Ambrig("campaign c.toml -o cut --no-report --json /dev/full").exit, 2);
+}
+
+TEST(CampaignCommand, DamagedLinesAreDoneAgain) {
+  const CampaignFolder f;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o out --no-report").exit, 0);
+  const std::string table = f.Read("out/table.csv");
+  std::string journal = f.Read("out/journal.txt");
+  const auto at = journal.find("open");
+  journal[at] = 'O';
+  f.Write("out/journal.txt", journal.substr(0, journal.size() - 20));
+  const Outcome again = f.Ambrig("campaign c.toml -o out --no-report");
+  EXPECT_NE(again.text.find("goes on after 30 runs that are done, 2 damaged"), std::string::npos) << again.text;
+  EXPECT_EQ(f.Read("out/table.csv"), table);
+}
+
+TEST(CampaignCommand, ChangedCampaignOrRigIsRefused) {
+  const CampaignFolder f;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o out --shard 1/8 --no-report").exit, 0);
+  const std::string rig = f.Read("rig.toml");
+  f.Write("rig.toml", rig + "\n# another word\n");
+  const Outcome changed = f.Ambrig("campaign c.toml -o out --no-report");
+  EXPECT_EQ(changed.exit, 2);
+  EXPECT_NE(changed.text.find("its rig or a scenario was changed"), std::string::npos) << changed.text;
+  f.Write("rig.toml", rig);
+  f.Write("c.toml", std::string(kSmallCampaign) + "scale = 0.5\n");
+  EXPECT_EQ(f.Ambrig("campaign c.toml -o out --no-report").exit, 2);
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o other --shard 1/8 --no-report").exit, 0);
+  EXPECT_NE(f.Ambrig("merge out other -o all").text.find("of another campaign"), std::string::npos);
+}
+
+TEST(CampaignCommand, ARowRunsAgainWithTheSameFigures) {
+  const CampaignFolder f;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o out --no-report --shard 6/32").exit, 0);
+  const Row row = ReadJournal(f.File("out")).rows.at(5);
+  const Outcome run = f.Ambrig("run --from-campaign c.toml --row 5 --no-report --out again");
+  ASSERT_EQ(run.exit, 0) << run.text;
+  const auto json = nlohmann::json::parse(f.Read("again/c_row_5.json"));
+  EXPECT_EQ(std::to_string(json["seed"].get<std::uint64_t>()), row.At("seed"));
+  EXPECT_EQ(json["metrics"]["max_orbit"]["A"].get<double>(), row.Number("bearing_orbit"));
+  EXPECT_EQ(json["metrics"]["copper_loss"].get<double>(), row.Number("copper_loss"));
+  EXPECT_EQ(json["metrics"]["peak_current"].get<double>(), row.Number("peak_current"));
+  EXPECT_EQ(json["metrics"]["detection_delay"].get<double>(), row.Number("detection_delay"));
+  EXPECT_EQ(f.Ambrig("run --from-campaign c.toml --row 32").exit, 2);
+}
+
+TEST(CampaignCommand, FolderInUseIsRefused) {
+  const CampaignFolder f;
+  const Campaign c = ReadCampaign(f.File("c.toml"));
+  const Journal journal(f.File("out"), HeaderOf(c));
+  const Outcome second = f.Ambrig("campaign c.toml -o out");
+  EXPECT_EQ(second.exit, 2);
+  EXPECT_NE(second.text.find("another ambrig writes there"), std::string::npos) << second.text;
+}
+
+}  // namespace
+}  // namespace ambrig::testing
