@@ -67,6 +67,16 @@ std::map<std::string, Mapping> ReadMapping(const TomlTable& record, const std::m
   return map;
 }
 
+/// One line for all files of which the same is to be said.
+void NoteOnce(Case& c, const std::string& file, const std::string& text) {
+  for (std::string& note : c.notes) {
+    if (!note.ends_with(": " + text)) continue;
+    note = fmt::format("{}, {}: {}", note.substr(0, note.size() - text.size() - 2), file, text);
+    return;
+  }
+  c.notes.push_back(file + ": " + text);
+}
+
 /// Columns renamed to rig channels, units converted, unknown columns left out with a note.
 Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapping,
                    const std::map<std::string, std::string>& known, const TomlTable& table, Case& c) {
@@ -96,7 +106,7 @@ Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapp
     for (const auto& [channel, m] : mapping) used = used || m.column == ch.name;
     if (!used && ch.name != "t") ignored += (ignored.empty() ? "" : ", ") + ch.name;
   }
-  if (!ignored.empty()) c.notes.push_back(fmt::format("{}: columns without a rig channel, left out: {}", table.String("data"), ignored));
+  if (!ignored.empty()) NoteOnce(c, table.String("data"), "columns without a rig channel, left out: " + ignored);
   return out;
 }
 
