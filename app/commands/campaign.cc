@@ -10,6 +10,7 @@
 #include "campaign/journal.h"
 #include "campaign/merge.h"
 #include "campaign/run_rows.h"
+#include "campaign/slurm_engine.h"
 
 namespace ambrig {
 
@@ -18,7 +19,9 @@ namespace {
 struct CampaignOptions {
   CommonOptions common;
   std::string file, out, shard, engine = "local";
-  int jobs = 0;
+  std::string sbatch;
+  int jobs = 0, tasks = 0;
+  double poll = 2;
   bool no_report = false;
 };
 
@@ -63,17 +66,38 @@ void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard, 
   });
 }
 
+void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, Journal& journal) {
+  SlurmOptions slurm;
+  slurm.program = std::filesystem::read_symlink("/proc/self/exe").string();
+  slurm.tasks = o.tasks;
+  slurm.cpus = std::max(o.jobs, 1);
+  slurm.sbatch = o.sbatch;
+  slurm.poll = o.poll;
+  Progress progress("campaign (slurm)");
+  const std::size_t runs = plan.campaign().runs(), before = journal.rows().size();
+  const auto begin = std::chrono::steady_clock::now();
+  RunOnSlurm(plan, o.out, journal, slurm, &interrupted, [&](std::size_t done) {
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    progress.Update(static_cast<double>(done - before) / static_cast<double>(runs - before),
+                    fmt::format("{} of {} runs, {:.1f} runs/s", done, runs, static_cast<double>(done - before) / seconds));
+  });
+}
+
 int RunCampaign(CampaignOptions o) {
   const RunPlan plan(ReadCampaign(o.file));
   const Shard shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
   if (o.out.empty()) o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
+  if (o.engine == "slurm" && !o.shard.empty()) throw InputError("--shard: allowed with --engine local only (slurm makes its own)");
   const JournalHeader header = HeaderOf(plan.campaign());
   Journal journal(o.out, header);
   if (!journal.rows().empty())
     fmt::print("{}: goes on after {} runs that are done{}\n", o.out, journal.rows().size(),
                journal.damaged() > 0 ? fmt::format(", {} damaged line(s) done again", journal.damaged()) : "");
   try {
-    RunHere(plan, o, shard, journal);
+    if (o.engine == "slurm")
+      RunOnCluster(plan, o, journal);
+    else
+      RunHere(plan, o, shard, journal);
   } catch (const Interrupted&) {
     fmt::print(stderr, "ambrig: stopped; {} of {} runs are kept in {}, the same command goes on\n", journal.rows().size(), header.runs, o.out);
     return 130;
@@ -107,6 +131,11 @@ void AddCampaign(CLI::App& app, Work& work) {
   command->add_option("-o,--out", options->out, "folder of journal.txt, table.csv, report.html (default: out/NAME)");
   command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")->check(CLI::Range(1, 1024));
   command->add_option("--shard", options->shard, "only part i of n of the runs, e.g. 2/4 (then: ambrig merge)");
+  command->add_option("--engine", options->engine, "local: this machine; slurm: array tasks of a cluster that sees the same files")
+      ->check(CLI::IsMember({"local", "slurm"}))->capture_default_str();
+  command->add_option("--tasks", options->tasks, "slurm: array tasks (default: so many that each takes minutes)")->check(CLI::Range(1, kMostTasks));
+  command->add_option("--sbatch", options->sbatch, "slurm: further options of sbatch, e.g. \"--partition=long --time=60\"");
+  command->add_option("--poll", options->poll, "slurm: seconds between looks at the queue")->check(CLI::Range(0.1, 3600.0))->capture_default_str();
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
   command->footer("Example:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o out/single_coils\n"

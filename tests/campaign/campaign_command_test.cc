@@ -126,5 +126,37 @@ TEST(CampaignCommand, FolderInUseIsRefused) {
   EXPECT_NE(second.text.find("another ambrig writes there"), std::string::npos) << second.text;
 }
 
+// The small version of scenarios/campaigns/survival.toml: what theory calls exact with capacity for
+// the weight survives open coils; a bearing without coils cannot.
+TEST(CampaignCommand, SmallSurvivalCampaign) {
+  const CampaignFolder f;
+  const std::string campaign = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/survival_small.toml";
+  const Outcome o = f.Ambrig("campaign " + campaign + " -o out");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  const Rows rows = ReadJournal(f.File("out")).rows;
+  EXPECT_EQ(rows.size(), 44u);
+  std::size_t held = 0;
+  for (const auto& [run, row] : rows) {
+    const std::string what = row.At("set") + " " + row.At("kind") + " " + row.At("onset") + " load " + row.At("load_given");
+    EXPECT_NE(row.At("verdict"), "error") << what << row.At("note");
+    EXPECT_EQ(row.Number("false_alarms"), 0) << what;
+    if (row.At("kind") != "open") continue;
+    if (row.Number("capacity") > 30) {
+      EXPECT_EQ(row.At("verdict"), "up") << what;
+      ++held;
+    }
+    if (row.Number("failed") == 8) {
+      EXPECT_NE(row.At("verdict"), "up") << what;
+    }
+  }
+  EXPECT_EQ(held, 14u);  // {3}, {1,2}, {1,5}, {2,4,6,8}
+  EXPECT_NE(f.Read("out/report.html").find("Survival: open, 1500 rpm"), std::string::npos);
+}
+
+TEST(CampaignFiles, AllOfTheRepositoryCanBeRead) {
+  for (const char* name : {"single_coils", "survival", "survival_small", "false_alarms"})
+    EXPECT_GT(ReadCampaign(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/" + name + ".toml").runs(), 0u) << name;
+}
+
 }  // namespace
 }  // namespace ambrig::testing

@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# slurm_harm.sh AMBRIG PRIVATE_SLURM: a campaign on the private Slurm in ./slurm, in the middle of which
+# a task, the controller and a node are killed. Each step waits for rows; every loop has an end.
+ambrig=$1 tool=$2
+export SLURM_CONF=$PWD/slurm/slurm.conf
+
+rows() { cat out/journal.txt 2> /dev/null | wc -l; }
+wait_rows() {
+  for _ in $(seq 300); do [ "$(rows)" -ge "$1" ] && return; sleep 0.1; done
+  echo "only $(rows) rows"
+  kill -9 $main
+  exit 8
+}
+tasks() { pgrep -f "campaign .*$PWD/c.toml -o $PWD/out/shards"; }
+kill_recorded() { kill -9 "$(awk -v n="$1" '$1 == n { p = $2 } END { print p }' slurm/pids)"; }
+
+"$ambrig" campaign c.toml -o out --engine slurm --tasks 8 --poll 0.5 --no-report > said.txt 2>&1 &
+main=$!
+wait_rows 20
+kill -9 "$(tasks | head -1)" && echo "task killed at $(rows)"
+
+wait_rows 60
+kill_recorded slurmd-n2
+for p in $(tasks); do  # the crashed node's task and its keeper die with it
+  grep -qz '^SLURMD_NODENAME=n2$' /proc/$p/environ || continue
+  kill -9 "$(ps -o ppid= -p $p | tr -d ' ')" $p && echo "node killed at $(rows)"
+done
+
+wait_rows 110
+kill_recorded slurmctld && echo "controller killed at $(rows)"
+sleep 3
+kill -0 $main || { echo "gave up"; exit 9; }
+"$tool" controller slurm
+
+# A controller that forgot its last seconds may take a node out of service; an administrator brings it back.
+for _ in $(seq 700); do kill -0 $main 2> /dev/null || break; sinfo -h -n n1 -t drain -o %N | grep -q n1 && scontrol update nodename=n1 state=resume; sleep 0.1; done
+kill -9 $main 2> /dev/null && { echo "did not end"; cat out/shards/jobs.txt; squeue; exit 7; }
+wait $main
