@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/missing_force.h"
 #include "discovery/residual_peaks.h"
-#include "scenarios/residual_force.h"
 
 namespace ambrig {
 
@@ -26,88 +26,6 @@ Worst FindWorst(const CaseModel& model, const FitResult& fit, bool readings_only
     if (r > worst.ratio) worst = {&t, r};
   }
   return worst;
-}
-
-/// The missing force of a plane against what it may depend on: share of its power that each explains.
-struct Dependence {
-  std::string on, formula;
-  double share = 0;
-};
-
-double Share(const std::vector<std::vector<double>>& columns, const std::vector<double>& y) {
-  const auto n = static_cast<Eigen::Index>(y.size());
-  Eigen::MatrixXd A(n, static_cast<Eigen::Index>(columns.size()) + 1);
-  Eigen::VectorXd b(n);
-  for (Eigen::Index k = 0; k < n; ++k) {
-    A(k, 0) = 1;
-    for (std::size_t c = 0; c < columns.size(); ++c) A(k, static_cast<Eigen::Index>(c) + 1) = columns[c][static_cast<std::size_t>(k)];
-    b(k) = y[static_cast<std::size_t>(k)];
-  }
-  const double mean = b.mean(), total = (b.array() - mean).square().sum();
-  if (total <= 0) return 0;
-  const Eigen::VectorXd x = A.colPivHouseholderQr().solve(b);
-  return 1 - (A * x - b).squaredNorm() / total;
-}
-
-/// One-sided contact: direction and gap for which max(projection - gap, 0) explains most.
-struct Contact {
-  double share = 0, angle = 0, gap = 0;
-};
-
-Contact FindContact(const ResidualForce::Plane& p) {
-  Contact best;
-  const std::size_t n = p.x.size(), stride = std::max<std::size_t>(1, n / 1500);
-  for (int d = 0; d < 24; ++d) {
-    const double angle = 2 * kPi * d / 24, c = std::cos(angle), s = std::sin(angle);
-    std::vector<double> along;
-    for (std::size_t k = 0; k < n; k += stride) along.push_back(p.x[k] * c + p.y[k] * s);
-    std::vector<double> sorted = along;
-    std::sort(sorted.begin(), sorted.end());
-    for (double q : {0.3, 0.5, 0.7, 0.85}) {
-      const double gap = sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
-      std::vector<double> depth, force;
-      for (std::size_t m = 0; m < along.size(); ++m) {
-        depth.push_back(std::max(0.0, along[m] - gap));
-        force.push_back(-(p.fx[m * stride] * c + p.fy[m * stride] * s));
-      }
-      const double share = Share({depth}, force);
-      if (share > best.share) best = {share, angle, gap};
-    }
-  }
-  return best;
-}
-
-Dependence FindDependence(const ResidualForce& f, const ResidualForce::Plane& p) {
-  const auto turning = [&](double order) {
-    std::vector<std::vector<double>> out(2);
-    for (double th : f.theta) {
-      out[0].push_back(std::cos(order * th));
-      out[1].push_back(std::sin(order * th));
-    }
-    return out;
-  };
-  const auto mean_share = [&](const std::vector<std::vector<double>>& c) { return 0.5 * (Share(c, p.fx) + Share(c, p.fy)); };
-  std::vector<Dependence> all;
-  all.push_back({"position (linear)", "force = { x = \"-kxx*x - kxy*y\", y = \"-kyx*x - kyy*y\" }", mean_share({p.x, p.y})});
-  all.push_back({"velocity (linear)", "force = { x = \"-cxx*vx - cxy*vy\", y = \"-cyx*vx - cyy*vy\" }", mean_share({p.vx, p.vy})});
-  if (std::abs(f.omega.back()) > 1) {
-    all.push_back({"angle, order 1", "force = { x = \"c*cos(theta) - s*sin(theta)\", y = \"c*sin(theta) + s*cos(theta)\" }", mean_share(turning(1))});
-    all.push_back({"angle, order 2", "force = { x = \"c*cos(2*theta) - s*sin(2*theta)\", y = \"c*sin(2*theta) + s*cos(2*theta)\" }", mean_share(turning(2))});
-  }
-  std::vector<double> cube_x, cube_y;
-  for (std::size_t k = 0; k < p.x.size(); ++k) {
-    const double r2 = p.x[k] * p.x[k] + p.y[k] * p.y[k];
-    cube_x.push_back(p.x[k] * r2);
-    cube_y.push_back(p.y[k] * r2);
-  }
-  all.push_back({"position (cubic)", "force = { x = \"-k3*x*(x*x + y*y)\", y = \"-k3*y*(x*x + y*y)\" }", 0.5 * (Share({cube_x}, p.fx) + Share({cube_y}, p.fy))});
-  const Contact contact = FindContact(p);
-  const double ca = std::cos(contact.angle), sa = std::sin(contact.angle);
-  all.push_back({fmt::format("position on one side: contact at {:.0f} degrees", contact.angle * 180 / kPi),
-                 fmt::format("force = {{ x = \"-k*max({0:.3g}*x + {1:.3g}*y - c, 0)*({0:.3g} - mu*{1:.3g})\", y = \"-k*max({0:.3g}*x + {1:.3g}*y - c, 0)*({1:.3g} + mu*{0:.3g})\" }}  "
-                             "# c = {2:.3g} m, mu: friction", ca, sa, contact.gap),
-                 contact.share});
-  return *std::max_element(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.share < b.share; });
 }
 
 std::string FrequencyText(const CaseModel& model, const std::vector<double>& frequencies, std::size_t record) {
@@ -141,21 +59,9 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
     const std::string channel = r.data.channels[reading.target->channel].name;
     const std::string plane = channel.substr(0, channel.find('.'));
     u.where = "plane " + plane + ", worst at " + channel;
-    double best_share = 0;
-    for (const CaseRecord& candidate : model.data().records) {
-      const auto force = EstimateResidualForce(fit.hypothesis.rig, candidate.scenario, candidate.data);
-      if (!force) continue;
-      for (const auto& p : force->planes) {
-        if (p.bearing != plane) continue;
-        const Dependence d = FindDependence(*force, p);
-        double square = 0;
-        for (std::size_t k = 0; k < p.fx.size(); ++k) square += p.fx[k] * p.fx[k] + p.fy[k] * p.fy[k];
-        if (d.share <= best_share) continue;
-        best_share = d.share;
-        u.dependence = fmt::format("{} ({:.0f} % of the missing force of {:.2g} N rms in {})", d.on, 100 * d.share,
-                                   std::sqrt(square / static_cast<double>(p.fx.size())), candidate.data_file);
-        u.formula = d.formula;
-      }
+    if (const auto force = DescribeMissingForce(model, fit.hypothesis, plane)) {
+      u.dependence = fmt::format("{} ({:.0f} % of the missing force of {:.2g} N rms)", force->on, 100 * force->share, force->rms);
+      u.formula = force->formula;
     }
   }
   u.text = fmt::format("{} in {}: {:.1f} times the noise at {}{}; the error stands out at {}; it depends most on {}.", u.block,
