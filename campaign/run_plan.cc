@@ -114,10 +114,18 @@ void RunPlan::AddPosition(PlannedRun& p) const {
   e.kind = "samples";
   e.stop = p.scenario.duration + 1;
   e.sample_rate = rate;
-  const auto samples = static_cast<std::size_t>(std::ceil(reach * rate)) + 1;
+  // Quasi-static, with e = r - x: kp e + ki ∫e dt + ks x = 0 (negative stiffness ks), so that without the
+  // lead e the shaft would run past the reference by ks / (kp - ks) until the integral has settled.
+  const PidParameters& pid = PidOf(p.rig, b);
+  const double ks = tables_.at(b.name)->Lookup(Coils(Coils::Ones())).stiffness(0, 0);
+  const auto samples = static_cast<std::size_t>(std::ceil(p.scenario.duration * rate)) + 1;
+  double lead = 0, before = 0;
   for (std::size_t k = 0; k < samples; ++k) {
     const double u = reach > 0 ? std::min(1.0, static_cast<double>(k) / rate / reach) : 1;
-    e.samples.push_back(0.5 - 0.5 * std::cos(kPi * u));
+    const double x = 0.5 - 0.5 * std::cos(kPi * u);
+    lead -= (pid.ki * lead / rate + ks * (x - before)) / pid.kp;
+    before = x;
+    e.samples.push_back(x + lead);
   }
   const double radius = share * b.auxiliary->clearance;
   const auto axes = b.Axes();

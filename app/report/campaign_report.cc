@@ -59,6 +59,8 @@ void SurvivalMaps(HtmlReport& report, const Rows& rows) {
       Figure figure = MakeFigure(fmt::format("Survival: {}, {}", kind, Rpm(speed)));
       figure.height = std::clamp(140 + 14 * static_cast<int>(names.size()), 260, 3800);
       AddHeatmap(figure, 0, columns, names, values, "stayed up", values.size() <= 40 ? 2 : 0);
+      figure.traces.back()["zmin"] = 0;
+      figure.traces.back()["zmax"] = 1;
       report.AddFigure(figure);
     }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/campaign/campaign_folder.h"
+#include "campaign/row.h"
 #include "campaign/run_plan.h"
 
 namespace ambrig::testing {
@@ -117,6 +118,17 @@ TEST(RunPlan, LoadIsAShareOfTheCapacityThatIncludesTheWeight) {
   const double weight = 4.2 * 9.81 * 0.130 / 0.250;  // of bearing A at z = -0.12, B at 0.13
   EXPECT_NEAR(down + weight, 0.8 * p.theory.capacity, 1e-9);
   EXPECT_EQ(p.theory.cls, "exact");
+}
+
+// The shaft is where the file says when the fault comes, and did not run past it on the way.
+TEST(RunPlan, PositionIsReachedWithoutOvershoot) {
+  const CampaignFolder f;
+  f.Write("c.toml", "rig = \"rig.toml\"\nduration = 0.07\n[faults]\ntime = 0.06\nbearings = [\"A\"]\n[operation]\npositions = [0.6]\n");
+  const RunPlan plan(ReadCampaign(f.File("c.toml")));
+  const Row row = SimulateRow(plan, 0, nullptr);
+  EXPECT_EQ(row.At("verdict"), "up");
+  EXPECT_NEAR(row.Number("bearing_orbit"), 0.6 * 2e-4, 0.1 * 0.6 * 2e-4);
+  EXPECT_NEAR(row.Number("late_orbit"), 0.6 * 2e-4, 0.1 * 0.6 * 2e-4);
 }
 
 }  // namespace
