@@ -7,8 +7,8 @@ namespace ambrig {
 /// Share of the error above the floor that a better model removes on unseen records, 0 to 1.
 double ExplainedShare(double ratio_before, double ratio_after);
 
-/// Whether the shifts of the rig parameters are what their sd allow: Σ (shift/sd)² not above three
-/// times their number. Above it an effect may hide in an impossible parameter.
+/// Whether the shifts of the rig parameters are what their sd allow: Σ (shift/sd)² not above 2.2
+/// times their number (of 11, once in a hundred). Above it an effect may hide in an impossible parameter.
 bool Believable(const FitResult& fit);
 
 /// Whether the step from `before` to `after` (one more effect) is more than chance and more than a

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/examination.h"
 #include "discovery/missing_force.h"
 #include "discovery/residual_peaks.h"
 
@@ -70,51 +71,12 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
   return u;
 }
 
-namespace {
-
-struct Library {
-  std::string name, toml;
-};
-
-/// Records that any such rig can make.
-std::vector<Library> FeasibleScenarios(const RigParameters& rig) {
-  std::string axis, coil;
-  for (const auto& b : rig.bearings) {
-    if (axis.empty()) axis = b.Axes()[0];
-    if (coil.empty()) coil = b.name + ".coil1";
-  }
-  const std::string head = fmt::format("rig = \"rig.toml\"\nrecord_rate = {}\nnoise = false\n", rig.controller.rate);
-  const std::string tail = fmt::format("[[excitation]]\ntarget = \"{}\"\nport = \"force\"\nkind = \"chirp\"\nf0 = 5.0\nf1 = 1200.0\nstart = 0.02\nstop = 0.3\namplitude = 5.0\n", axis);
-  return {
-      {"slow roll at 5 Hz", "name = \"slow\"\nduration = 0.4\n" + head + "[speed]\nprofile = [[0.0, 31.4]]\n"},
-      {"run-up to 250 Hz", "name = \"run-up\"\nduration = 0.4\n" + head + "[speed]\nprofile = [[0.0, 0.0], [0.4, 1570.0]]\n"},
-      {"force chirp 5 to 1200 Hz at standstill", "name = \"chirp\"\nduration = 0.3\n" + head + tail},
-      {"force chirp at 150 Hz speed", "name = \"chirp\"\nduration = 0.3\n" + head + "[speed]\nprofile = [[0.0, 942.0]]\n" + tail},
-      {"reference steps of 60 um", "name = \"steps\"\nduration = 0.3\n" + head + fmt::format("[[excitation]]\ntarget = \"{}\"\nport = \"reference\"\nkind = \"step\"\nstart = 0.05\nstop = 0.2\namplitude = 6e-5\n", axis)},
-      {"clamped rotor, current ramp to 5 A in one coil", "name = \"ramp\"\nduration = 0.2\n" + head + fmt::format("[start]\nstate = \"clamped\"\n[[excitation]]\ntarget = \"{}\"\nport = \"current\"\nkind = \"ramp\"\nstart = 0.02\nstop = 0.18\namplitude = 5.0\n", coil)},
-  };
-}
-
-}  // namespace
-
 std::string SeparatingRecord(const CaseModel& model, const Hypothesis& first, const Hypothesis& second) {
   std::string best = "none of the scenarios tried tells them apart";
   double most = 2;
-  for (const Library& item : FeasibleScenarios(model.data().rig)) {
+  for (const ExaminationRecord& item : Examination(model.data().rig, 1)) {
     try {
-      Case c;
-      c.file = item.name;
-      c.rig = model.data().rig;
-      CaseRecord r;
-      r.scenario = ReadScenarioText(item.toml, item.name, c.rig);
-      r.data.rate = r.scenario.record_rate;
-      const auto rows = static_cast<std::size_t>(r.scenario.duration * r.scenario.record_rate);
-      for (const auto& b : c.rig.bearings) {
-        for (const auto& axis : b.Axes()) r.data.channels.push_back({axis, "m", std::vector<double>(rows, 0)});
-        for (int j = 1; j <= b.coils(); ++j) r.data.channels.push_back({fmt::format("{}.i{}", b.name, j), "A", std::vector<double>(rows, 0)});
-      }
-      for (const Channel& ch : r.data.channels) r.quality.push_back({ch.name, "good", true, std::vector<char>(rows, 1), 0, 0});
-      c.records.push_back(std::move(r));
+      const Case c = EmptyCase(model.data().rig, {item});
       CaseModel trial(c);
       const NoiseFloor floor = FindFloor(trial, first);
       const auto other = trial.Predict(second);
@@ -127,7 +89,7 @@ std::string SeparatingRecord(const CaseModel& model, const Hypothesis& first, co
       }
       if (difference > most) {
         most = difference;
-        best = fmt::format("{} (their outputs differ by {:.1f} times the noise)", item.name, difference);
+        best = fmt::format("{} (their outputs differ by {:.1f} times the noise)", item.title, difference);
       }
     } catch (const InputError&) {
       continue;  // this rig cannot run that scenario

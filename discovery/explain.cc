@@ -110,7 +110,7 @@ class Explainer {
 
   bool Finished(const FitResult& now) const {
     // Nothing that an effect could still win (see WorthAdopting), with parameters that can be believed.
-    return Believable(now) && (now.ratio_validate * now.ratio_validate < 1.015 || (now.ratio_validate < 1.012 && now.ratio_fit < 1.012));
+    return Believable(now) && now.ratio_validate * now.ratio_validate < 1.025 && now.ratio_fit * now.ratio_fit < 1.04;
   }
 
   double ScoreOf(const FitResult& fit) const { return Score(model_, fit, out_.effective); }

@@ -53,14 +53,18 @@ EffectInstance DrawEffect(const EffectDescription& d, const std::string& target,
   return e;
 }
 
-/// The effect with its switches `k` times as far from their nulls.
+/// The effect with its switches `k` times as far from their nulls, at most twice what is usual.
 EffectInstance Scaled(const EffectDescription& d, const EffectInstance& e, double k) {
   EffectInstance out = e;
   for (std::size_t row = 0; row < d.parameters.size(); ++row) {
     const EffectParameter& p = d.parameters[row];
     if (!Switches(d, p)) continue;
-    const double v = std::isinf(p.null_value) ? e.values[row] / k : p.null_value + k * (e.values[row] - p.null_value);
-    out.values[row] = std::clamp(v, p.lo, p.hi);
+    if (std::isinf(p.null_value)) {
+      out.values[row] = std::clamp(std::max(e.values[row] / k, 0.5 * p.typical_lo), p.lo, p.hi);
+      continue;
+    }
+    const double distance = std::clamp(k * (e.values[row] - p.null_value), -2 * p.typical_hi, 2 * p.typical_hi);
+    out.values[row] = std::clamp(p.null_value + distance, p.lo, p.hi);
   }
   return out;
 }
