@@ -117,6 +117,22 @@ TEST(CampaignCommand, ARowRunsAgainWithTheSameFigures) {
   EXPECT_EQ(f.Ambrig("run --from-campaign c.toml --row 32").exit, 2);
 }
 
+TEST(CampaignCommand, WrongOptionsAreSaidInOneLine) {
+  const CampaignFolder f;
+  for (const char* options : {"--shard 0/2", "--shard 3/2", "--shard 1", "--shard a/b", "--shard -1/2", "--jobs 0", "--engine pbs",
+                              "--engine slurm --shard 1/2", "--tasks 2000 --engine slurm"}) {
+    const Outcome o = f.Ambrig(std::string("campaign c.toml -o out ") + options);
+    EXPECT_EQ(o.exit, 2) << options << o.text;
+    EXPECT_EQ(Lines(o.text), 1u) << options << o.text;
+  }
+  for (const char* command : {"run --row 3", "run", "run --from-campaign c.toml", "merge . -o out", "campaign none.toml"}) {
+    const Outcome o = f.Ambrig(command);
+    EXPECT_EQ(o.exit, 2) << command << o.text;
+    EXPECT_EQ(Lines(o.text), 1u) << command << o.text;
+  }
+  EXPECT_FALSE(fs::exists(f.File("out")));
+}
+
 TEST(CampaignCommand, FolderInUseIsRefused) {
   const CampaignFolder f;
   const Campaign c = ReadCampaign(f.File("c.toml"));
