@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/math/constants.h"
@@ -61,6 +62,10 @@ Excitation ReadExcitation(const TomlTable& t, const std::string& directory, doub
     const Record r = ReadRecord(file.starts_with('/') ? file : directory + "/" + file);
     const Channel* c = r.Find(channel);
     if (!c) t.Fail("channel", fmt::format("= \"{}\" is not in {}", channel, file));
+    const auto missing = std::find_if(c->samples.begin(), c->samples.end(), [](double v) { return !std::isfinite(v); });
+    if (missing != c->samples.end())
+      t.Fail("channel", fmt::format("= \"{}\" of {} has no number at {:.6g} s; what was commanded must be known throughout", channel, file,
+                                    r.TimeAt(static_cast<std::size_t>(missing - c->samples.begin()))));
     e.samples = c->samples;
     e.sample_rate = r.rate;
     e.sample_start = r.start;

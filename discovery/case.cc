@@ -119,10 +119,20 @@ void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
     t.Fail("data", fmt::format("starts at {} s, before the scenario", r.data.start));
 }
 
+/// Whether something moves this coil's current in a clamped record: more than one constant set-point.
+bool Moved(const Scenario& s, const std::string& channel) {
+  const auto dot = channel.find(".i");
+  if (dot == std::string::npos) return false;
+  const std::string coil = channel.substr(0, dot) + ".coil" + channel.substr(dot + 2);
+  return std::any_of(s.excitations.begin(), s.excitations.end(),
+                     [&](const Excitation& e) { return e.target == coil && !(e.kind == "step" && e.start <= 0); });
+}
+
 bool MayBeConstant(const Scenario& s, const std::string& channel) {
   const auto dot = channel.find('.');
   const char kind = dot == std::string::npos ? channel[0] : channel[dot + 1];
-  return s.start == StartState::kClamped || kind == 's' || kind == 'd' || kind == 'b' || kind == 'o' || kind == 't';
+  if (s.start == StartState::kClamped) return !Moved(s, channel);
+  return kind == 's' || kind == 'd' || kind == 'b' || kind == 'o' || kind == 't';
 }
 
 }  // namespace
