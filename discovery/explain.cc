@@ -142,7 +142,8 @@ class Explainer {
       if (Decided(now, ranking, c) || (round > 0 && !Promising(now, c))) break;
       fit_briefly(c);
     }
-    for (; next < candidates.size(); ++next)
+    // A resonance shows only when it is fitted; later rounds try that where much is left.
+    for (; next < candidates.size() && (round == 0 || now.ratio_validate > 1.3); ++next)
       if (candidates[next].narrow && !Decided(now, ranking, candidates[next])) fit_briefly(candidates[next]);
     const auto sort = [&] { std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.score < b.score; }); };
     sort();
