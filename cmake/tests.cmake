@@ -15,3 +15,5 @@ endforeach()
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
 add_test(NAME layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# The pages that commands print are what the commands print.
+add_test(NAME docs_effects COMMAND sh -c "$<TARGET_FILE:ambrig> effects --markdown | diff -u ${CMAKE_SOURCE_DIR}/docs/effects.md -")

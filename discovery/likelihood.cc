@@ -8,6 +8,7 @@ namespace ambrig {
 
 namespace {
 constexpr double kModelNumbers = 300;  // independent numbers in what a wrong law leaves
+constexpr double kFloorNumbers = 1e4;  // the floor comes from two runs with noise: known to about 1 % of its power
 constexpr double kLaw = 4;             // price of one more kind of effect: the same cause twice is likelier than two
 }
 
@@ -24,7 +25,9 @@ double Score(const CaseModel& model, double ratio_fit, double ratio_validate, do
   double fit = 0, validate = 0;
   for (const Target& t : model.targets()) (Counts(model, t, Which::kFit) ? fit : validate) += static_cast<double>(t.count);
   const double share = fit / (fit + validate);
-  return share * Misfit(ratio_fit, effective) + (1 - share) * Misfit(ratio_validate, effective) + penalty +
+  const double n = std::min(effective, kFloorNumbers);
+  const auto misfit = [n](double ratio) { return Misfit(std::max(1.0, ratio), n); };
+  return share * misfit(ratio_fit) + (1 - share) * misfit(ratio_validate) + penalty +
          parameters * std::log(std::min(effective, kModelNumbers));
 }
 

@@ -21,6 +21,7 @@ struct SwitchingEngine::BearingRun {
   double x = 0, y = 0;             // magnetic position at the start of the period [m]
   double x_next = 0, y_next = 0;   // predicted for its end
   double fx = 0, fy = 0;           // mean force of the last period [N]
+  double fx_before = 0, fy_before = 0;  // of the one before it: what a load cell shows inside a burst
   double true_x = 0, true_y = 0;   // shaft centre at the plane, start of the period [m]
   std::array<bool, kLanes> faulty{};
 };

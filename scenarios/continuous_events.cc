@@ -1,6 +1,7 @@
 /// Events of the continuous rig: diodes, contacts, voltages, faults, periods.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "scenarios/continuous_rig.h"
 
@@ -185,8 +186,9 @@ void ContinuousRig::InjectCoil(std::size_t k, int coil, const FaultSpec& fault) 
 void ContinuousRig::EndPeriod() {
   rig_.motion = MotionOf(tau_, y_.data());
   for (std::size_t k = 0; k < bearings_.size(); ++k) {
-    rig_.bearings[k].fx = y_[bearings_[k].force_at] / tau_;
-    rig_.bearings[k].fy = y_[bearings_[k].force_at + 1] / tau_;
+    SampledBearing& b = rig_.bearings[k];
+    b.fx_before = std::exchange(b.fx, y_[bearings_[k].force_at] / tau_);
+    b.fy_before = std::exchange(b.fy, y_[bearings_[k].force_at + 1] / tau_);
   }
 }
 

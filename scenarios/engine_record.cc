@@ -32,8 +32,9 @@ void SwitchingEngine::RecordRow(long long n, int sample) {
     for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b.adc[sample][j] : k.feedback[j]);
     for (int j = 0; j < k.coils; ++j) put(k.set_point[j]);
     for (int j = 0; j < k.coils; ++j) put(k.duty[j]);
-    put(clamped_ ? b.fx : b.true_x);
-    if (b.axes > 1) put(clamped_ ? b.fy : b.true_y);
+    // Rows of a burst are written when their period is over; the load cell holds the one before it.
+    put(!clamped_ ? b.true_x : row_samples_ > 0 ? b.fx_before : b.fx);
+    if (b.axes > 1) put(!clamped_ ? b.true_y : row_samples_ > 0 ? b.fy_before : b.fy);
   }
   put(plant_.rotor.SpeedIsFree(t) ? motion_.Omega : scenario_.speed.Speed(t));
   put(plant_.rotor.SpeedIsFree(t) ? motion_.theta + motion_.Omega * inside : scenario_.speed.Angle(t));

@@ -54,8 +54,9 @@ void SampledRig::RecordRow(long long n, int sample) {
     for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b.adc[sample][j] : k.feedback[j]);
     for (int j = 0; j < k.coils; ++j) put(k.set_point[j]);
     for (int j = 0; j < k.coils; ++j) put(k.duty[j]);
-    put(clamped ? b.fx : b.true_x);
-    if (b.axes > 1) put(clamped ? b.fy : b.true_y);
+    // Rows of a burst are written when their period is over; the load cell holds the one before it.
+    put(!clamped ? b.true_x : row_samples_ > 0 ? b.fx_before : b.fx);
+    if (b.axes > 1) put(!clamped ? b.true_y : row_samples_ > 0 ? b.fy_before : b.fy);
   }
   const bool free_spin = plant.rotor.SpeedIsFree(t);
   put(free_spin ? motion.Omega : scenario.speed.Speed(t));

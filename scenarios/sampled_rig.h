@@ -36,6 +36,7 @@ struct SampledBearing {
   MeasurementSettings measurement;
   Lane adc[64];                   // of the last period [A]
   double fx = 0, fy = 0;          // mean force of the last period [N]
+  double fx_before = 0, fy_before = 0;  // of the one before it: what a load cell shows inside a burst
   double true_x = 0, true_y = 0;  // shaft centre at the plane [m]
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/math/noise.h"
 #include "scenarios/bearing_run.h"
@@ -349,8 +350,8 @@ void SwitchingEngine::RunMagnetics(long long n) {
     for (BearingRun& b : bearings_) RunBearing(b);
   }
   for (BearingRun& b : bearings_) {
-    b.fx = b.plant->lanes.fx;
-    b.fy = b.plant->lanes.fy;
+    b.fx_before = std::exchange(b.fx, b.plant->lanes.fx);
+    b.fy_before = std::exchange(b.fy, b.plant->lanes.fy);
   }
 }
 

@@ -63,6 +63,29 @@ TEST(SwitchingEngine, GeneralPathGivesTheFastPathsRecord) {
       ASSERT_NEAR(a.channels[c].samples[k], b.channels[c].samples[k], 1e-8) << a.channels[c].name << " row " << k;
 }
 
+// formats.md: load cells give the mean force over the period before t, in a burst as in rows of whole periods.
+TEST(SwitchingEngine, LoadCellOfABurstHoldsThePeriodBefore) {
+  const std::string folder = std::string(AMBRIG_SOURCE_DIR) + "/tests/data/base-records/";
+  const RigParameters rig = ReadRig(folder + "rig.toml");
+  Scenario scenario = ReadScenario(folder + "clamped-ramps.toml", rig);
+  scenario.noise = false;
+  scenario.duration = 0.06;
+  const double pwm = rig.amplifier.switching_frequency;
+  const int samples = rig.samples_per_period();
+  scenario.record_rate = pwm;
+  const Record rows = SwitchingEngine(rig, scenario, {}).Run().record;
+  scenario.record_rate = pwm * samples;
+  const Record burst = SwitchingEngine(rig, scenario, {}).Run().record;
+  const Channel *slow = rows.Find("A.fx"), *fast = burst.Find("A.fx");
+  ASSERT_TRUE(slow && fast);
+  double moved = 0;
+  for (std::size_t n = 1; n + 1 < slow->samples.size(); ++n) {
+    moved = std::max(moved, std::abs(slow->samples[n + 1] - slow->samples[n]));
+    for (int k = 0; k < samples; ++k) ASSERT_EQ(fast->samples[n * static_cast<std::size_t>(samples) + static_cast<std::size_t>(k)], slow->samples[n]) << n << " " << k;
+  }
+  EXPECT_GT(moved, 0.01);  // or nothing was tested
+}
+
 TEST(SwitchingEngine, SameSeedSameBits) {
   const std::string folder = std::string(AMBRIG_SOURCE_DIR) + "/tests/data/base-records/";
   const RigParameters rig = ReadRig(folder + "rig.toml");
