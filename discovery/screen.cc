@@ -104,9 +104,8 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base, con
   std::vector<Candidate> out = Rank(model, base, bank, options.effective);
   if (again) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
-  const double excess = base.ratio_validate * base.ratio_validate - 1;
-  const double left = out.empty() || !options.effect.empty() ? excess : out[0].ratio_validate * out[0].ratio_validate - 1;
-  if (left > 0.12 * excess) {
+  const auto open = [](double before, double after) { return after * after - 1 > 0.12 * std::max(0.05, before * before - 1); };
+  if (!options.effect.empty() || out.empty() || open(base.ratio_fit, out[0].ratio_fit) || open(base.ratio_validate, out[0].ratio_validate)) {
     bank.Simulate(model, base, GroupsToRun(model, base, peaks, true, options, bank), part(0.7, 1));
     out = Rank(model, base, bank, options.effective);
   }
