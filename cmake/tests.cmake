@@ -9,7 +9,12 @@ foreach(folder IN LISTS test_folders)
     target_compile_definitions(test_${folder} PRIVATE AMBRIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                AMBRIG_BINARY="$<TARGET_FILE:ambrig>")
     add_dependencies(test_${folder} ambrig)
-    gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600)
+    # Two private Slurms on one machine are in each other's way: the tests of campaigns go one by one.
+    set(lock "")
+    if(folder STREQUAL "campaign")
+      set(lock RESOURCE_LOCK private_slurm)
+    endif()
+    gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600 ${lock})
   endif()
 endforeach()
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
