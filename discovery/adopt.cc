@@ -81,14 +81,6 @@ void CheckTarget(const EffectDescription& d, const Case& c, const std::string& w
   throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id, names.empty() ? "no target of this rig" : names));
 }
 
-const EffectDescription& Described(const std::string& effect) {
-  if (const EffectDescription* d = FindEffect(effect)) return *d;
-  std::string all;
-  for (const auto& k : Catalogue()) all += (all.empty() ? "" : ", ") + k.id;
-  const std::string near = Nearest(effect, all);
-  throw InputError(fmt::format("{} is no effect{}, allowed: {}", effect, near.empty() ? "" : ", did you mean " + near + "?", all));
-}
-
 /// The effect at the named target, or where it explains most.
 FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {
   SignatureBank bank;
@@ -153,7 +145,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     if (options.stop && options.stop->load()) throw Interrupted();
     if (options.progress) options.progress(f, text);
   };
-  const EffectDescription& d = Described(effect);
+  const EffectDescription& d = EffectNamed(effect);
   const bool formula = effect == "formula";
   const auto is_formula = [](const EffectInstance& e) { return e.name == "formula"; };
   if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))

@@ -16,10 +16,7 @@ namespace {
 class Draw {
  public:
   explicit Draw(std::uint64_t seed) : seed_(seed) {}
-  double Uniform(double lo, double hi) {
-    const double u = static_cast<double>(Philox4x32({next_++, 0, 0, 0}, {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)})[0]) / 4294967296.0;
-    return lo + (hi - lo) * u;
-  }
+  double Uniform(double lo, double hi) { return lo + (hi - lo) * ambrig::Uniform(seed_, 0, next_++); }
 
  private:
   std::uint64_t seed_;

@@ -47,7 +47,7 @@ class Explainer {
     out_.nominal_ratio_validate = Validated(r0);
     out_.ladder.push_back({"", Ratio(model_, r0, Which::kFit), out_.nominal_ratio_validate});
     Progress(0.03, "rig parameters");
-    FitResult base = FitNow(nominal, nullptr);
+    FitResult base = FitNow(nominal, &as_filed.jacobian);
     if (base.ratio_validate > out_.nominal_ratio_validate && base.ratio_fit > 0.999 * out_.ladder[0].ratio_fit) base = as_filed;
     out_.base_ratio_fit = base.ratio_fit;
     out_.base_ratio_validate = base.ratio_validate;
@@ -216,7 +216,7 @@ class Explainer {
       Hypothesis h = base.hypothesis;
       h.AddEffect(p.first);
       h.AddEffect(p.second);
-      FitResult fit = FitNow(h, &base.jacobian);
+      FitResult fit = FitOn(model_, base, h, out_.effective);
       const bool more = out_.adopted.size() < 2;
       if (!fit.converged || Gain(now, fit) < (more ? 20 : 2) || (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_))) continue;
       now = std::move(fit);

@@ -21,10 +21,6 @@ constexpr double kLoadCellNoise = 0.0012;           // of the rotor's weight, rm
 /// Streams of random numbers of one seed.
 enum Stream : std::uint32_t { kParameters = 101, kTargets, kSizes, kLoadCells };
 
-double Uniform(std::uint64_t seed, std::uint32_t stream, std::uint32_t index) {
-  return static_cast<double>(Philox4x32({index, stream, 0, 0}, {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)})[0]) / 4294967296.0;
-}
-
 RigParameters DrawRig(const RigParameters& rig, const HideRequest& request) {
   RigParameters truth = rig;
   if (!request.draw_parameters) return truth;
@@ -32,10 +28,6 @@ RigParameters DrawRig(const RigParameters& rig, const HideRequest& request) {
   for (const Tolerance& t : rig.tolerances)
     if (double* at = ParameterAt(truth, t.path)) *at += t.sd * std::clamp(Normal(request.seed, kParameters, k++), -2.5, 2.5);
   return truth;
-}
-
-bool Switches(const EffectDescription& d, const EffectParameter& p) {
-  return d.off_when_null.empty() || std::find(d.off_when_null.begin(), d.off_when_null.end(), p.name) != d.off_when_null.end();
 }
 
 EffectInstance DrawEffect(const EffectDescription& d, const std::string& target, std::uint64_t seed, std::uint32_t slot) {
@@ -46,7 +38,7 @@ EffectInstance DrawEffect(const EffectDescription& d, const std::string& target,
     const double size = p.typical_lo > 0 ? p.typical_lo * std::pow(p.typical_hi / p.typical_lo, Uniform(seed, kSizes, index)) : p.null_value;
     const double sign = Uniform(seed, kSizes, index + 1) < 0.5 ? -1 : 1;
     if (d.id == "sensor-hum" && p.name == "frequency") e.values[k] = sign > 0 ? 50 : 60;
-    else if (!Switches(d, p)) e.values[k] = p.null_value == 0 ? 0 : size;  // an optional extra stays out
+    else if (!d.Switches(p)) e.values[k] = p.null_value == 0 ? 0 : size;  // an optional extra stays out
     else if (std::isinf(p.null_value)) e.values[k] = size;
     else e.values[k] = std::clamp(p.null_value + (p.null_value + sign * size < p.lo ? 1 : sign) * size, p.lo, p.hi);
   }
@@ -58,7 +50,7 @@ EffectInstance Scaled(const EffectDescription& d, const EffectInstance& e, doubl
   EffectInstance out = e;
   for (std::size_t row = 0; row < d.parameters.size(); ++row) {
     const EffectParameter& p = d.parameters[row];
-    if (!Switches(d, p)) continue;
+    if (!d.Switches(p)) continue;
     if (std::isinf(p.null_value)) {
       out.values[row] = std::clamp(std::max(e.values[row] / k, 0.5 * p.typical_lo), p.lo, p.hi);
       continue;
@@ -81,7 +73,7 @@ Shown WorstChannel(const CaseModel& model, const std::vector<double>& with, cons
     for (std::size_t k = t.first; k < t.first + t.count; ++k) sum += std::pow(with[k] - without[k], 2);
     const double ratio = std::sqrt(sum / static_cast<double>(std::max<std::size_t>(t.count, 1))) / t.floor;
     const CaseRecord& r = model.data().records[t.record];
-    if (ratio > worst.ratio) worst = {ratio, fmt::format("{} in \"{}\"", r.data.channels[t.channel].name, r.scenario.name)};
+    if (ratio > worst.ratio) worst = {ratio, r.data.channels[t.channel].name};
   }
   return worst;
 }
@@ -137,13 +129,7 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request) {
   ExaminationNeeds needs;
   std::vector<const EffectDescription*> descriptions;
   for (const auto& [id, target] : request.effects) {
-    const EffectDescription* d = FindEffect(id);
-    if (!d) {
-      std::string all;
-      for (const auto& k : Catalogue()) all += (all.empty() ? "" : ",") + k.id;
-      const std::string near = Nearest(id, all);
-      throw InputError(fmt::format("{} is no effect{}; `ambrig effects` lists them", id, near.empty() ? "" : ", did you mean " + near + "?"));
-    }
+    const EffectDescription* d = &EffectNamed(id);
     if (d->id == "formula") throw InputError("formula: a law of one's own cannot be drawn; hide one of the catalogue");
     needs.contact = needs.contact || id.starts_with("contact-");
     needs.free_speed = needs.free_speed || id == "windage";
@@ -199,7 +185,7 @@ std::string AnswerText(const HiddenCase& hidden, const HideRequest& request, con
     truth += fmt::format("{}\"{}\" = {:.9g}", truth.empty() ? "" : ", ", t.path, *ParameterAt(rig, t.path));
   const char* verdict = !hidden.effects.empty() ? "effect" : request.draw_parameters ? "parameters" : "none";
   return fmt::format("[\"{}\"]\nverdict = [\"{}\"]\neffects = [\n{}]\nparameters = {{ {} }}\nworst = \"{:.1f} times the noise at {}\"\nseed = {}\ntrue_parameters = {{ {} }}\n", name,
-                     verdict, effects, parameters, hidden.worst_ratio, hidden.worst_channel.empty() ? "-" : fmt::format("{}", hidden.worst_channel.substr(0, hidden.worst_channel.find(' '))),
+                     verdict, effects, parameters, hidden.worst_ratio, hidden.worst_channel.empty() ? "-" : hidden.worst_channel,
                      request.seed, truth);
 }
 

@@ -85,9 +85,7 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
   std::size_t frequency = d.parameters.size();
   for (std::size_t k = 0; k < d.parameters.size(); ++k) {
     const EffectParameter& p = d.parameters[k];
-    const bool is_switch = d.off_when_null.empty() ||
-                           std::find(d.off_when_null.begin(), d.off_when_null.end(), p.name) != d.off_when_null.end();
-    if (is_switch) {
+    if (d.Switches(p)) {
       (std::isfinite(p.null_value) ? finite : infinite).push_back(k);
     } else {
       // A shape parameter whose null is inside its usual range (an optional extra) stays at its null.

@@ -55,9 +55,9 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base, cons
     for (; first < last; ++first) {
       Entry entry;
       entry.first = used_;
-      entry.group.linear = groups[first].linear;
-      entry.group.scaling = groups[first].scaling;
-      entry.group.narrow = groups[first].narrow;
+      entry.group = groups[first];
+      entry.group.probes.clear();
+      entry.group.rows.clear();
       for (std::size_t k = 0; k < groups[first].probes.size(); ++k, ++at) {
         if (!runs[at]) continue;
         for (const Target& t : model.targets())

@@ -10,5 +10,7 @@ namespace ambrig {
 const std::vector<EffectDescription>& Catalogue();
 /// nullptr when there is none of that name.
 const EffectDescription* FindEffect(const std::string& id);
+/// @throws InputError that suggests the nearest name.
+const EffectDescription& EffectNamed(const std::string& id);
 
 }  // namespace ambrig

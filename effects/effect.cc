@@ -21,15 +21,15 @@ void EffectInstance::Set(const std::string& parameter, double value) {
     if (table[k].name == parameter) values[k] = value;
 }
 
+bool EffectDescription::Switches(const EffectParameter& p) const {
+  return off_when_null.empty() || std::find(off_when_null.begin(), off_when_null.end(), p.name) != off_when_null.end();
+}
+
 bool EffectInstance::IsNull() const {
   const EffectDescription* d = FindEffect(name);
   bool any_switch = false;
   for (std::size_t k = 0; k < table.size(); ++k) {
-    const bool is_switch =
-        table[k].has_null &&
-        (!d || d->off_when_null.empty() ||
-        std::find(d->off_when_null.begin(), d->off_when_null.end(), table[k].name) != d->off_when_null.end());
-    if (!is_switch) continue;
+    if (!table[k].has_null || (d && !d->Switches(table[k]))) continue;
     any_switch = true;
     if (values[k] != table[k].null_value) return false;
   }

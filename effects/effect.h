@@ -49,6 +49,8 @@ struct EffectDescription {
   TargetKind target;
   std::vector<EffectParameter> parameters;
   std::vector<std::string> off_when_null;  // the parameters whose null switches the effect off (any of... all of these null)
+  /// Whether this parameter's null takes part in switching the effect off.
+  bool Switches(const EffectParameter& p) const;
   std::string shows_in;                    // which record shows it
   std::string confused_with;
   void (*apply)(const EffectInstance&, Plant&) = nullptr;

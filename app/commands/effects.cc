@@ -59,15 +59,12 @@ void AddEffects(CLI::App& app, Work& work) {
   command->callback([options, &work] {
     work = [options] {
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
-      std::string names;
+      if (!options->name.empty()) EffectNamed(options->name);
       HtmlReport report("The catalogue of effects", "ambrig effects");
       std::vector<std::vector<Cell>> rows;
-      bool found = options->name.empty();
       if (options->markdown) fmt::print("# Catalogue of effects\n\nMade by `ambrig effects --markdown`; a test keeps it so. Usual sizes of what switches an effect on count from its null.\n");
       for (const EffectDescription& d : Catalogue()) {
-        names += (names.empty() ? "" : ", ") + d.id;
         if (!options->name.empty() && d.id != options->name) continue;
-        found = true;
         all.push_back(EffectJson(d));
         rows.push_back({Cell(d.id), Cell(TargetText(d.target)), Cell(d.physics), Cell(d.shows_in), Cell(d.confused_with)});
         if (options->markdown) {
@@ -80,11 +77,6 @@ void AddEffects(CLI::App& app, Work& work) {
         } else {
           fmt::print("{:<24} {:<16} {}\n", d.id, TargetText(d.target), d.title);
         }
-      }
-      if (!found) {
-        const std::string near = Nearest(options->name, names);
-        throw InputError(fmt::format("{} is no effect{}, allowed: {}", options->name,
-                                     near.empty() ? "" : fmt::format(", did you mean {}?", near), names));
       }
       options->common.WriteJson(all);
       if (!options->common.html.empty()) {

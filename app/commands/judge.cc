@@ -1,8 +1,10 @@
 /// ambrig judge: explain many cases whose answers are known, and count.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "app/commands/commands.h"
 #include "app/report/discovery_json.h"
@@ -139,12 +141,13 @@ void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
                     fmt::format("{:.3f}", j.finding.final_ratio), fmt::format("{:.0f}", j.finding.seconds),
                     Cell(j.right() ? "right" : j.first_right ? "in part" : "wrong", j.right() ? "ok" : j.first_right ? "warn" : "fail")});
   report.Table({"case", "hidden", "found", "error over noise, rig file", "after", "time [s]", ""}, rows);
-  WriteFileAtomically(file, report.Html());
+  report.Write(file);
 }
 
 int RunJudge(const JudgeCommand& o) {
   const std::vector<fs::path> folders = CaseFolders(o.paths);
-  for (const fs::path& f : folders) AnswerOf(f, o.answers);  // complain before hours of work
+  std::vector<Answer> answers;  // all of them first: complain before hours of work
+  for (const fs::path& f : folders) answers.push_back(AnswerOf(f, o.answers));
   std::error_code error;
   fs::create_directories(o.output, error);
   if (error) ThrowCannotWrite(o.output, error.value());
@@ -165,7 +168,7 @@ int RunJudge(const JudgeCommand& o) {
       WriteFileAtomically(file.string(), j.dump(1) + "\n");
       finding = FindingOf(j);
     }
-    all.push_back(Judge(name, AnswerOf(folders[k], o.answers), *finding));
+    all.push_back(Judge(name, answers[k], *finding));
     progress.Clear();
     PrintLine(all.back());
     std::fflush(stdout);

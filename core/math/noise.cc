@@ -45,4 +45,8 @@ std::array<U32, 4> Philox4x32(std::array<U32, 4> c, std::array<U32, 2> key) {
           static_cast<U32>(w.w3[0])};
 }
 
+double Uniform(std::uint64_t seed, std::uint32_t stream, std::uint32_t index) {
+  return static_cast<double>(Philox4x32({index, stream, 0, 0}, {static_cast<U32>(seed), static_cast<U32>(seed >> 32)})[0]) / 4294967296.0;
+}
+
 }  // namespace ambrig

@@ -22,6 +22,9 @@ void FillNormals(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, 
 /// One standard normal, never one of those that FillNormals gives.
 double Normal(std::uint64_t seed, std::uint32_t stream, std::uint64_t index);
 
+/// Uniform in [0, 1) from 32 bits, of the same key and counter.
+double Uniform(std::uint64_t seed, std::uint32_t stream, std::uint32_t index);
+
 /// The bits behind it, for the test against published values.
 std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter,
                                         std::array<std::uint32_t, 2> key);
