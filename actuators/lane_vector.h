@@ -24,8 +24,13 @@ using LaneVector = double __attribute__((vector_size(kLanes * sizeof(double))));
 [[gnu::always_inline]] static inline void Store(double* p, const LaneVector& v) {
   __builtin_memcpy(p, &v, sizeof v);
 }
+/// Halves added to halves: ((v0+v4) + (v2+v6)) + ((v1+v5) + (v3+v7)).
 [[gnu::always_inline]] static inline double Sum(const LaneVector& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+  using Four = double __attribute__((vector_size(32)));
+  using Two = double __attribute__((vector_size(16)));
+  const Four four = __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  const Two two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
+  return two[0] + two[1];
 }
 /// Each lane's partner in a pair of neighbours.
 [[gnu::always_inline]] static inline LaneVector Partner(const LaneVector& v) {

@@ -3,112 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actuators/lane_vector.h"
 #include "core/base/errors.h"
 
 namespace ambrig {
 
 namespace {
-
-using V = LaneVector;
-
-/// What one sample's update reads and writes; pointers into a StatorLanes.
-struct Kernel {
-  const double *n, *c, *inverse_l, *half_rh, *leakage, *g0, *dg;
-  double *lambda, *i, *phi, *sum;
-};
-
-/// One period's pattern, ready for the loop: volt-seconds of a sample from its two edges.
-struct Edges {
-  const double *t1, *t2, *v;  // v: three voltages, eight lanes each
-  double h;
-};
-
-/// Flux that carries the targets λ*; `inverse_sum` is 1/Σg (radial only).
-template <Coupling kCoupling>
-[[gnu::always_inline]] inline V Flux(const V& g, const V& m, double inverse_sum) {
-  const V gm = g * m;
-  if constexpr (kCoupling == Coupling::kFloatingRotor) {
-    return gm - g * (Sum(gm) * inverse_sum);
-  } else if constexpr (kCoupling == Coupling::kSides) {
-    return g * (m + Partner(m));
-  } else {
-    return gm;
-  }
-}
-
-/// Runs samples from k while nothing needs attention; returns the index of the sample whose
-/// solution has a negative current (its targets are left in `target`), or `count`.
-template <Coupling kCoupling>
-[[gnu::always_inline]] inline int Run(const Kernel& s, const Edges& e, int k, int count, double floor,
-                                      Lane* samples, double* target) {
-  const V n = Load(s.n), c = Load(s.c), inverse_l = Load(s.inverse_l), half_rh = Load(s.half_rh);
-  const V leakage = Load(s.leakage), g0 = Load(s.g0), dg = Load(s.dg);
-  const V t1 = Load(e.t1), t2 = Load(e.t2);
-  const V v2h = Load(e.v + 2 * kLanes) * e.h;
-  const V step1 = Load(e.v) - Load(e.v + kLanes), step2 = Load(e.v + kLanes) - Load(e.v + 2 * kLanes);
-  const V zero = {}, h = zero + e.h;
-  V lambda = Load(s.lambda), i = Load(s.i), phi = Load(s.phi), sum = Load(s.sum);
-  const double per = 1.0 / count;
-  for (; k < count; ++k) {
-    Store(samples[k].v, i);
-    const double t = k * e.h;
-    V a = t1 - t, b = t2 - t;
-    a = a < zero ? zero : a;
-    a = a > h ? h : a;
-    b = b < zero ? zero : b;
-    b = b > h ? h : b;
-    const V wanted = lambda + ((v2h + step2 * b) + step1 * a) - half_rh * i;
-    const V g = g0 + dg * ((k + 1) * per);
-    phi = Flux<kCoupling>(g, c * wanted, kCoupling == Coupling::kFloatingRotor ? 1 / Sum(g) : 0);
-    i = inverse_l * (wanted - n * phi);
-    lambda = n * phi + leakage * i;
-    double least = 0;
-    for (int j = 0; j < kLanes; ++j) least = i[j] < least ? i[j] : least;
-    if (least < floor) {
-      Store(target, wanted);
-      break;
-    }
-    sum += phi * phi;
-  }
-  Store(s.lambda, lambda);
-  Store(s.i, i);
-  Store(s.phi, phi);
-  Store(s.sum, sum);
-  return k;
-}
-
-AMBRIG_WIDE int RunRadial(const Kernel& s, const Edges& e, int k, int count, double floor, Lane* samples,
-                          double* target) {
-  return Run<Coupling::kFloatingRotor>(s, e, k, count, floor, samples, target);
-}
-AMBRIG_WIDE int RunSides(const Kernel& s, const Edges& e, int k, int count, double floor, Lane* samples,
-                         double* target) {
-  return Run<Coupling::kSides>(s, e, k, count, floor, samples, target);
-}
-AMBRIG_WIDE int RunSeparate(const Kernel& s, const Edges& e, int k, int count, double floor, Lane* samples,
-                            double* target) {
-  return Run<Coupling::kNone>(s, e, k, count, floor, samples, target);
-}
-
-/// The same solution for one sample, after coils were taken out of it.
-template <Coupling kCoupling>
-void SolveOnce(const Kernel& s, const double* target, double fraction) {
-  const V g = Load(s.g0) + Load(s.dg) * fraction, wanted = Load(target);
-  const V phi = Flux<kCoupling>(g, Load(s.c) * wanted, 1 / Sum(g));
-  const V i = Load(s.inverse_l) * (wanted - Load(s.n) * phi);
-  Store(s.phi, phi);
-  Store(s.i, i);
-  Store(s.lambda, Load(s.n) * phi + Load(s.leakage) * i);
-}
-
-void SolveOnce(Coupling coupling, const Kernel& s, const double* target, double fraction) {
-  switch (coupling) {
-    case Coupling::kFloatingRotor: return SolveOnce<Coupling::kFloatingRotor>(s, target, fraction);
-    case Coupling::kSides: return SolveOnce<Coupling::kSides>(s, target, fraction);
-    case Coupling::kNone: return SolveOnce<Coupling::kNone>(s, target, fraction);
-  }
-}
 
 /// Whether the switches of lane j are closed at time t of the period, and where the pattern stands.
 int SegmentAt(const VoltagePattern& p, int j, double t) { return t < p.t1[j] ? 0 : (t < p.t2[j] ? 1 : 2); }
@@ -170,15 +69,16 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
   x1_ = x1;
   y1_ = y1;
   per_period_ = samples_per_period;
+  const GapReluctance& r = reluctance;
+  const GapLaw law{coupling, gap_offset.v, direction_x.v, direction_y.v, n.v, inverse_l_.v,
+                   r.per_metre, r.iron_path, r.fringing, r.gap0, r.offset};
+  Lane slope;
+  Reluctances(law, x0, y0, x1, y1, rel0_.v, rel1_.v, slope.v, g0_.v, dg_.v);
   for (int j = 0; j < kLanes; ++j) {
-    rel0_[j] = reluctance.Value(GapAt(j, x0, y0));
-    rel1_[j] = reluctance.Value(GapAt(j, x1, y1));
-    const double slope = reluctance.Slope(0.5 * (GapAt(j, x0, y0) + GapAt(j, x1, y1)));
-    weight_[j] = (coupling == Coupling::kSides && j % 2 == 1) || j >= coils ? 0 : 0.5 * slope;
+    weight_[j] = (coupling == Coupling::kSides && j % 2 == 1) || j >= coils ? 0 : 0.5 * slope[j];
     sum_[j] = 0;
     start_sq_[j] = phi[j] * phi[j];
   }
-  for (int j = 0; j < kLanes; ++j) UpdateConductance(j);
 }
 
 void StatorLanes::EndPeriod() {
@@ -191,27 +91,25 @@ void StatorLanes::EndPeriod() {
   }
 }
 
-void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
-                            double y1, int samples_per_period) {
-  BeginPeriod(x0, y0, x1, y1, samples_per_period);
-  alignas(64) double v[3 * kLanes];
-  for (int q = 0; q < 3; ++q)
-    for (int j = 0; j < kLanes; ++j) v[q * kLanes + j] = pattern.gain[q][j] * bus + pattern.drop[q][j];
-  const Kernel s{n.v, c_.v, inverse_l_.v, half_rh_.v, leakage.v, g0_.v, dg_.v, lambda.v, i.v, phi.v, sum_.v};
-  const auto run = coupling == Coupling::kFloatingRotor ? RunRadial
-                   : coupling == Coupling::kSides       ? RunSides
-                                                        : RunSeparate;
+StatorLoop StatorLanes::LoopOver(const VoltagePattern& pattern, const double* v) {
+  return {coupling, n.v, half_rh_.v, inverse_l_.v, c_.v, leakage.v, g0_.v, dg_.v, pattern.t1.v, pattern.t2.v, v,
+          lambda.v, i.v, phi.v, sum_.v, samples};
+}
+
+void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
+  for (int j = 0; j < coils; ++j)
+    if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0)) Unblock(j);
+}
+
+/// Sample by sample with an eye on the sign of the currents.
+void StatorLanes::RunChecked(const VoltagePattern& pattern, const StatorLoop& loop) {
   const double floor = unipolar ? 0 : -kInfinity;
-  const auto unblock_driven = [&](double t) {
-    for (int j = 0; j < coils; ++j)
-      if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0)) Unblock(j);
-  };
-  unblock_driven(0);
+  blocks_ = false;
   Lane target;
   int k = 0;
-  const Edges edges{pattern.t1.v, pattern.t2.v, v, h_};
-  while ((k = run(s, edges, k, per_period_, floor, samples, target.v)) < per_period_) {
+  while ((k = RunSamples(loop, k, per_period_, h_, floor, target.v)) < per_period_) {
     // Some diodes block within sample k: take those coils out and solve the sample again.
+    blocks_ = true;
     for (int round = 0; round < kLanes; ++round) {
       bool any = false;
       for (int j = 0; j < coils; ++j)
@@ -220,13 +118,57 @@ void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0
           any = true;
         }
       if (!any) break;
-      SolveOnce(coupling, s, target.v, (k + 1.0) / per_period_);
+      SolveSample(loop, target.v, (k + 1.0) / per_period_);
     }
     for (int j = 0; j < kLanes; ++j) sum_[j] += phi[j] * phi[j];
     ++k;
-    if (k < per_period_) unblock_driven(k * h_);
+    if (k < per_period_) OpenDriven(pattern, k * h_);
   }
-  EndPeriod();
+}
+
+void StatorLanes::RunPeriods(const PeriodOfBearing* bearings, int count, double bus, int samples_per_period) {
+  constexpr int kMost = 8;
+  for (; count > kMost; count -= kMost, bearings += kMost) RunPeriods(bearings, kMost, bus, samples_per_period);
+  alignas(64) double v[kMost][3 * kLanes];
+  StatorLoop loops[kMost];
+  int together[kMost], members = 0;
+  struct Before {
+    Lane lambda, i, phi;
+  } before[kMost];
+  for (int b = 0; b < count; ++b) {
+    const PeriodOfBearing& in = bearings[b];
+    StatorLanes& lanes = *in.lanes;
+    lanes.OpenDriven(*in.pattern, 0);
+    lanes.BeginPeriod(in.x0, in.y0, in.x1, in.y1, samples_per_period);
+    for (int q = 0; q < 3; ++q)
+      for (int j = 0; j < kLanes; ++j) v[b][q * kLanes + j] = in.pattern->gain[q][j] * bus + in.pattern->drop[q][j];
+    const StatorLoop loop = lanes.LoopOver(*in.pattern, v[b]);
+    if (lanes.blocks_) {
+      lanes.RunChecked(*in.pattern, loop);
+      continue;
+    }
+    before[members] = {lanes.lambda, lanes.i, lanes.phi};
+    loops[members] = loop;
+    together[members++] = b;
+  }
+  double least[kMost];
+  RunTogether(loops, members, samples_per_period, members > 0 ? bearings[together[0]].lanes->h_ : 0, least);
+  for (int m = 0; m < members; ++m) {
+    StatorLanes& lanes = *bearings[together[m]].lanes;
+    if (!lanes.unipolar || least[m] >= 0) continue;
+    lanes.lambda = before[m].lambda;
+    lanes.i = before[m].i;
+    lanes.phi = before[m].phi;
+    lanes.sum_ = Lane{};
+    lanes.RunChecked(*bearings[together[m]].pattern, loops[m]);
+  }
+  for (int b = 0; b < count; ++b) bearings[b].lanes->EndPeriod();
+}
+
+void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
+                            double y1, int samples_per_period) {
+  const PeriodOfBearing one{this, &pattern, x0, y0, x1, y1};
+  RunPeriods(&one, 1, bus, samples_per_period);
 }
 
 void StatorLanes::Refresh(double x, double y) {

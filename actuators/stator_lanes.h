@@ -19,12 +19,10 @@
 #include <vector>
 
 #include "actuators/flux_law.h"
-#include "actuators/lane.h"
+#include "actuators/stator_loop.h"
 #include "core/base/parameters.h"
 
 namespace ambrig {
-
-enum class Coupling { kFloatingRotor, kSides, kNone };
 
 /// How the voltage of every coil runs over one switching period: v0 until t1, v1 until t2, then v2.
 /// Each voltage is gain * bus + drop; `on` tells which of the three closes the switches.
@@ -85,6 +83,13 @@ class StatorLanes {
   /// (x1, y1); constant bus, ideal iron, no shorted turns: the fast path.
   void RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
                  double y1, int samples_per_period);
+  /// The same for several bearings side by side: three cost little more than one.
+  struct PeriodOfBearing {
+    StatorLanes* lanes;
+    const VoltagePattern* pattern;
+    double x0, y0, x1, y1;
+  };
+  static void RunPeriods(const PeriodOfBearing* bearings, int count, double bus, int samples_per_period);
 
   /// The general path, one sample at a time: any flux law, shorted turns, moving bus, late edges.
   void BeginPeriod(double x0, double y0, double x1, double y1, int samples_per_period);
@@ -110,6 +115,9 @@ class StatorLanes {
   void Unblock(int j);
   /// Flux and currents that carry the targets λ* (and λ2* of shorted turns); Newton over the laws.
   void SolveGeneral(const Lane& target, const Lane& target2);
+  StatorLoop LoopOver(const VoltagePattern& pattern, const double* v);
+  void RunChecked(const VoltagePattern& pattern, const StatorLoop& loop);
+  void OpenDriven(const VoltagePattern& pattern, double t);
   void UnblockDriven(const VoltagePattern& pattern, double bus, double t, Lane* target);
 
   double h_ = 0;
@@ -118,6 +126,7 @@ class StatorLanes {
   Lane weight_, sum_, start_sq_;        // force weight, sums of φ²
   double x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;
   int per_period_ = 18;
+  bool blocks_ = false;                 // some diode blocked in the last period
   Lane theta2_;                         // implicitness of the shorted loop
   Lane rel_;
   double bus_current_ = 0;

@@ -36,26 +36,33 @@ void Engine(benchmark::State& state) {
 }
 BENCHMARK(Engine)->ArgNames({"noise", "detection"})->Args({1, 1})->Args({1, 0})->Args({0, 0})->Unit(benchmark::kMillisecond);
 
-/// One radial bearing of eight coils, fast path, nothing else.
+/// The bearings' fast path alone: the first radial bearing, or all of the rig (20 coils).
 void UpdateLoop(benchmark::State& state) {
   Plant plant = BuildPlant(Rig());
-  StatorLanes& lanes = plant.bearings[0].lanes;
-  Lane currents;
   VoltagePattern pattern;
+  Lane currents;
   for (int j = 0; j < kLanes; ++j) {
     currents[j] = 2;
     pattern.t2[j] = 21e-6;
     pattern.gain[0][j] = pattern.gain[2][j] = -1;
     pattern.gain[1][j] = 1;
   }
-  lanes.Settle(currents, 0, 0);
-  for (auto _ : state) {
-    lanes.RunPeriod(pattern, 30, 0, 0, 1e-8, 0, 18);
-    benchmark::DoNotOptimize(lanes.fx);
+  std::vector<StatorLanes::PeriodOfBearing> bearings;
+  int coils = 0;
+  for (BearingPlant& b : plant.bearings) {
+    if (!bearings.empty() && state.range(0) == 1) break;
+    b.lanes.SetStep(1 / 450e3);
+    b.lanes.Settle(currents, 0, 0);
+    bearings.push_back({&b.lanes, &pattern, 0, 0, 1e-8, 0});
+    coils += b.lanes.coils;
   }
-  Count(state, 40e-6, 8);
+  for (auto _ : state) {
+    StatorLanes::RunPeriods(bearings.data(), static_cast<int>(bearings.size()), 30, 18);
+    benchmark::DoNotOptimize(plant.bearings[0].lanes.fx);
+  }
+  Count(state, 40e-6, coils);
 }
-BENCHMARK(UpdateLoop);
+BENCHMARK(UpdateLoop)->ArgName("bearings")->Arg(1)->Arg(3);
 
 }  // namespace
 }  // namespace ambrig

@@ -347,7 +347,7 @@ void SwitchingEngine::RunMagnetics(long long n) {
   if (lockstep) {
     RunSamplesInLockstep(n, due);
   } else {
-    for (BearingRun& b : bearings_) RunBearing(b);
+    RunBearings();
   }
   for (BearingRun& b : bearings_) {
     b.fx_before = std::exchange(b.fx, b.plant->lanes.fx);
@@ -355,18 +355,22 @@ void SwitchingEngine::RunMagnetics(long long n) {
   }
 }
 
-void SwitchingEngine::RunBearing(BearingRun& b) {
-  StatorLanes& lanes = b.plant->lanes;
+void SwitchingEngine::RunBearings() {
   const int steps = samples_ * options_.substeps;
-  bool late_edge = false;
-  for (const BridgeImperfection& bridge : b.plant->bridge) late_edge = late_edge || bridge.dead_time > 0;
-  if (!lanes.NeedsGeneralPath() && !late_edge) {
-    lanes.RunPeriod(b.pattern, plant_.bus.voltage, b.x, b.y, b.x_next, b.y_next, steps);
-    return;
+  together_.clear();
+  for (BearingRun& b : bearings_) {
+    StatorLanes& lanes = b.plant->lanes;
+    bool late_edge = false;
+    for (const BridgeImperfection& bridge : b.plant->bridge) late_edge = late_edge || bridge.dead_time > 0;
+    if (!lanes.NeedsGeneralPath() && !late_edge) {
+      together_.push_back({&lanes, &b.pattern, b.x, b.y, b.x_next, b.y_next});
+      continue;
+    }
+    lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
+    for (int k = 0; k < steps; ++k) lanes.StepSample(b.pattern, plant_.bus.voltage, k);
+    lanes.EndPeriod();
   }
-  lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
-  for (int k = 0; k < steps; ++k) lanes.StepSample(b.pattern, plant_.bus.voltage, k);
-  lanes.EndPeriod();
+  StatorLanes::RunPeriods(together_.data(), static_cast<int>(together_.size()), plant_.bus.voltage, steps);
 }
 
 void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due) {

@@ -57,7 +57,7 @@ class SwitchingEngine {
   void ApplySetPoints(long long n);
   void CurrentLoops(long long n);
   void RunMagnetics(long long n);
-  void RunBearing(BearingRun& b);
+  void RunBearings();
   void RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due);
   void Measure(long long n);
   void MoveRotor(long long n);
@@ -100,6 +100,7 @@ class SwitchingEngine {
   double bus_restore_at_ = kInfinity;
   std::vector<Lane> loop_target_;
   std::vector<const FaultSpec*> due_faults_;
+  std::vector<StatorLanes::PeriodOfBearing> together_;
 
   std::optional<Recorder> recorder_;
   int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples

@@ -1,0 +1,242 @@
+#include "actuators/stator_loop.h"
+
+#include <tuple>
+
+#include "actuators/lane_vector.h"
+
+namespace ambrig {
+
+namespace {
+
+using V = LaneVector;
+
+/// Volt-seconds of one sample from the two edges, by clamping.
+struct VoltSeconds {
+  V t1, t2, v2h, step1, step2, h;
+  [[gnu::always_inline]] VoltSeconds(const StatorLoop& s, double sample) {
+    const V v0 = Load(s.v), v1 = Load(s.v + kLanes), v2 = Load(s.v + 2 * kLanes);
+    t1 = Load(s.t1);
+    t2 = Load(s.t2);
+    v2h = v2 * sample;
+    step1 = v0 - v1;
+    step2 = v1 - v2;
+    h = V{} + sample;
+  }
+  [[gnu::always_inline]] static V Within(V a, const V& h) {
+    const V zero = {};
+    a = a < zero ? zero : a;
+    return a > h ? h : a;
+  }
+  [[gnu::always_inline]] V Of(double t) const {
+    return (v2h + step2 * Within(t2 - t, h)) + step1 * Within(t1 - t, h);
+  }
+};
+
+/// Flux that carries the targets λ*; `inverse_sum` is 1/Σg (radial only).
+template <Coupling kCoupling>
+[[gnu::always_inline]] inline V Flux(const V& g, const V& m, double inverse_sum) {
+  const V gm = g * m;
+  if constexpr (kCoupling == Coupling::kFloatingRotor) {
+    return gm - g * (Sum(gm) * inverse_sum);
+  } else if constexpr (kCoupling == Coupling::kSides) {
+    return g * (m + Partner(m));
+  } else {
+    return gm;
+  }
+}
+
+template <Coupling kCoupling>
+[[gnu::always_inline]] inline int Run(const StatorLoop& s, int k, int count, double sample, double floor, double* target) {
+  const V n = Load(s.n), c = Load(s.c), inverse_l = Load(s.inverse_l), half_rh = Load(s.half_rh);
+  const V leakage = Load(s.leakage), g0 = Load(s.g0), dg = Load(s.dg);
+  const VoltSeconds volt_seconds(s, sample);
+  V lambda = Load(s.lambda), i = Load(s.i), phi = Load(s.phi), sum = Load(s.sum);
+  const double per = 1.0 / count;
+  for (; k < count; ++k) {
+    Store(s.samples[k].v, i);
+    const V wanted = lambda + volt_seconds.Of(k * sample) - half_rh * i;
+    const V g = g0 + dg * ((k + 1) * per);
+    phi = Flux<kCoupling>(g, c * wanted, kCoupling == Coupling::kFloatingRotor ? 1 / Sum(g) : 0);
+    i = inverse_l * (wanted - n * phi);
+    lambda = n * phi + leakage * i;
+    double least = 0;
+    for (int j = 0; j < kLanes; ++j) least = i[j] < least ? i[j] : least;
+    if (least < floor) {
+      Store(target, wanted);
+      break;
+    }
+    sum += phi * phi;
+  }
+  Store(s.lambda, lambda);
+  Store(s.i, i);
+  Store(s.phi, phi);
+  Store(s.sum, sum);
+  return k;
+}
+
+/// One bearing among several. Its chain from target to target is cut short by what does not
+/// depend on the new currents:  λ - (R h/2) i = a λ* + (1 - a) n φ,  a = (L_l - R h/2)/(L_l + R h/2).
+template <Coupling kCoupling>
+struct Running {
+  V n, c, inverse_l, leakage, g0, dg, a, b, wanted, i, phi, sum, least;
+  VoltSeconds volt_seconds;
+  double g0_sum, dg_sum;
+  Lane* samples;
+
+  [[gnu::always_inline]] Running(const StatorLoop& s, double sample) : volt_seconds(s, sample) {
+    n = Load(s.n);
+    c = Load(s.c);
+    inverse_l = Load(s.inverse_l);
+    leakage = Load(s.leakage);
+    g0 = Load(s.g0);
+    dg = Load(s.dg);
+    const V half_rh = Load(s.half_rh);
+    a = (leakage - half_rh) * inverse_l;
+    b = (1 - a) * n;
+    i = Load(s.i);
+    phi = Load(s.phi);
+    sum = Load(s.sum);
+    least = i;
+    wanted = Load(s.lambda) - half_rh * i;
+    g0_sum = Sum(g0);
+    dg_sum = Sum(dg);
+    samples = s.samples;
+  }
+  [[gnu::always_inline]] void Step(int k, double fraction, double t) {
+    Store(samples[k].v, i);
+    wanted += volt_seconds.Of(t);
+    phi = Flux<kCoupling>(g0 + dg * fraction, c * wanted, 1 / (g0_sum + dg_sum * fraction));
+    i = inverse_l * (wanted - n * phi);
+    least = i < least ? i : least;
+    sum += phi * phi;
+    wanted = a * wanted + b * phi;
+  }
+  [[gnu::always_inline]] void Finish(const StatorLoop& s, double* lowest) const {
+    Store(s.lambda, n * phi + leakage * i);
+    Store(s.i, i);
+    Store(s.phi, phi);
+    Store(s.sum, sum);
+    *lowest = least[0];
+    for (int j = 1; j < kLanes; ++j) *lowest = least[j] < *lowest ? least[j] : *lowest;
+  }
+};
+
+template <Coupling kFirst>
+[[gnu::always_inline]] inline void Together(const StatorLoop* s, int count, double h, double* least) {
+  Running<kFirst> first(s[0], h);
+  const double per = 1.0 / count;
+  for (int k = 0; k < count; ++k) first.Step(k, (k + 1) * per, k * h);
+  first.Finish(s[0], least);
+}
+template <Coupling kFirst, Coupling kSecond>
+[[gnu::always_inline]] inline void Together(const StatorLoop* s, int count, double h, double* least) {
+  Running<kFirst> first(s[0], h);
+  Running<kSecond> second(s[1], h);
+  const double per = 1.0 / count;
+  for (int k = 0; k < count; ++k) {
+    const double fraction = (k + 1) * per, t = k * h;
+    first.Step(k, fraction, t);
+    second.Step(k, fraction, t);
+  }
+  first.Finish(s[0], least);
+  second.Finish(s[1], least + 1);
+}
+template <Coupling kFirst, Coupling kSecond, Coupling kThird>
+[[gnu::always_inline]] inline void Together(const StatorLoop* s, int count, double h, double* least) {
+  Running<kFirst> first(s[0], h);
+  Running<kSecond> second(s[1], h);
+  Running<kThird> third(s[2], h);
+  const double per = 1.0 / count;
+  for (int k = 0; k < count; ++k) {
+    const double fraction = (k + 1) * per, t = k * h;
+    first.Step(k, fraction, t);
+    second.Step(k, fraction, t);
+    third.Step(k, fraction, t);
+  }
+  first.Finish(s[0], least);
+  second.Finish(s[1], least + 1);
+  third.Finish(s[2], least + 2);
+}
+
+constexpr Coupling R = Coupling::kFloatingRotor, S = Coupling::kSides, N = Coupling::kNone;
+
+AMBRIG_WIDE void TogetherRRS(const StatorLoop* s, int n, double h, double* least) { Together<R, R, S>(s, n, h, least); }
+AMBRIG_WIDE void TogetherRR(const StatorLoop* s, int n, double h, double* least) { Together<R, R>(s, n, h, least); }
+AMBRIG_WIDE void TogetherR(const StatorLoop* s, int n, double h, double* least) { Together<R>(s, n, h, least); }
+AMBRIG_WIDE void TogetherS(const StatorLoop* s, int n, double h, double* least) { Together<S>(s, n, h, least); }
+AMBRIG_WIDE void TogetherN(const StatorLoop* s, int n, double h, double* least) { Together<N>(s, n, h, least); }
+
+AMBRIG_WIDE int RunRadial(const StatorLoop& s, int k, int n, double h, double floor, double* target) {
+  return Run<R>(s, k, n, h, floor, target);
+}
+AMBRIG_WIDE int RunSides(const StatorLoop& s, int k, int n, double h, double floor, double* target) {
+  return Run<S>(s, k, n, h, floor, target);
+}
+AMBRIG_WIDE int RunSeparate(const StatorLoop& s, int k, int n, double h, double floor, double* target) {
+  return Run<N>(s, k, n, h, floor, target);
+}
+
+template <Coupling kCoupling>
+void Solve(const StatorLoop& s, const double* target, double fraction) {
+  const V g = Load(s.g0) + Load(s.dg) * fraction, wanted = Load(target);
+  const V phi = Flux<kCoupling>(g, Load(s.c) * wanted, 1 / Sum(g));
+  const V i = Load(s.inverse_l) * (wanted - Load(s.n) * phi);
+  Store(s.phi, phi);
+  Store(s.i, i);
+  Store(s.lambda, Load(s.n) * phi + Load(s.leakage) * i);
+}
+
+}  // namespace
+
+int RunSamples(const StatorLoop& s, int k, int count, double h, double floor, double* target) {
+  const auto run = s.coupling == R ? RunRadial : s.coupling == S ? RunSides : RunSeparate;
+  return run(s, k, count, h, floor, target);
+}
+
+void RunTogether(const StatorLoop* s, int bearings, int count, double h, double* least) {
+  const auto is = [&](int at, Coupling c) { return at < bearings && s[at].coupling == c; };
+  for (int at = 0; at < bearings;) {
+    if (is(at, R) && is(at + 1, R) && is(at + 2, S)) {
+      TogetherRRS(s + at, count, h, least + at);
+      at += 3;
+    } else if (is(at, R) && is(at + 1, R)) {
+      TogetherRR(s + at, count, h, least + at);
+      at += 2;
+    } else {
+      const auto run = s[at].coupling == R ? TogetherR : s[at].coupling == S ? TogetherS : TogetherN;
+      run(s + at, count, h, least + at);
+      at += 1;
+    }
+  }
+}
+
+void SolveSample(const StatorLoop& s, const double* target, double fraction) {
+  switch (s.coupling) {
+    case R: return Solve<R>(s, target, fraction);
+    case S: return Solve<S>(s, target, fraction);
+    case N: return Solve<N>(s, target, fraction);
+  }
+}
+
+AMBRIG_WIDE void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0, double* rel1,
+                             double* slope, double* g0, double* dg) {
+  const V offset = Load(law.gap_offset), dx = Load(law.direction_x), dy = Load(law.direction_y);
+  const V closest = V{} + 0.02 * law.gap0;
+  V start = offset - x0 * dx - y0 * dy, end = offset - x1 * dx - y1 * dy;
+  start = start < closest ? closest : start;
+  end = end < closest ? closest : end;
+  const V widening_start = 1 + law.fringing * start / law.gap0, widening_end = 1 + law.fringing * end / law.gap0;
+  const V middle = 1 + law.fringing * (0.5 * (start + end)) / law.gap0;
+  const V first = law.per_metre * (start / widening_start + law.iron_path) + law.offset;
+  const V last = law.per_metre * (end / widening_end + law.iron_path) + law.offset;
+  const V n = Load(law.n), own = n * n * Load(law.inverse_l);
+  const V nc = law.coupling == S ? own + Partner(own) : own;
+  const V conductance = 1 / (first + nc);
+  Store(rel0, first);
+  Store(rel1, last);
+  Store(slope, law.per_metre / (middle * middle));
+  Store(g0, conductance);
+  Store(dg, 1 / (last + nc) - conductance);
+}
+
+}  // namespace ambrig

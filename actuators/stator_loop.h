@@ -1,0 +1,47 @@
+#pragma once
+/// The innermost loop of the fast engine: samples of one switching period of one bearing, or of
+/// several side by side (ideal iron, no shorted turns, constant bus). Equations: stator_lanes.h.
+#include "actuators/lane.h"
+
+namespace ambrig {
+
+enum class Coupling { kFloatingRotor, kSides, kNone };
+
+/// What the loop reads and writes of one bearing; pointers to eight lanes each.
+struct StatorLoop {
+  Coupling coupling = Coupling::kFloatingRotor;
+  // Constant over the period: signed turns, R h/2 [ohm s], 1/(L_l + R h/2) and n times it (0 where
+  // blocked), L_l [H], conductance at the period's start and its change [H].
+  const double *n, *half_rh, *inverse_l, *c, *leakage, *g0, *dg;
+  // Two edges [s from the period's start] and the three voltages around them, 3 x 8 lanes [V].
+  const double *t1, *t2, *v;
+  // State and Σφ² of the samples' ends.
+  double *lambda, *i, *phi, *sum;
+  Lane* samples;  // i at the start of every sample [A]
+};
+
+/// Samples k .. count - 1 of length h; returns the sample in whose solution a current falls below
+/// `floor` (its targets λ* are left in `target`, Σφ² lacks it), or `count`.
+int RunSamples(const StatorLoop& loop, int k, int count, double h, double floor, double* target);
+
+/// Whole periods of several bearings, without a look at the sign of the currents until the end:
+/// the dependent chain of one bearing's sample (a sum over the poles, then a product) is several
+/// times longer than its arithmetic, so bearings run side by side. `least` [A]: the smallest
+/// current of each bearing; below its floor the period has to be run again by RunSamples.
+void RunTogether(const StatorLoop* loops, int bearings, int count, double h, double* least);
+
+/// The solution of one sample at `fraction` of the period for the targets λ*.
+void SolveSample(const StatorLoop& loop, const double* target, double fraction);
+
+/// Reluctance's affine law over the lanes of a bearing: everything that changes with the gap.
+struct GapLaw {
+  Coupling coupling = Coupling::kFloatingRotor;
+  const double *gap_offset, *direction_x, *direction_y, *n, *inverse_l;  // eight lanes each
+  double per_metre = 0, iron_path = 0, fringing = 0, gap0 = 1, offset = 0;
+};
+/// Reluctance at both ends [1/H], its mean slope [1/(H m)], conductance of the circuit at the start
+/// and its change [H].
+void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0, double* rel1,
+                 double* slope, double* g0, double* dg);
+
+}  // namespace ambrig
