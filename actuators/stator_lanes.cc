@@ -91,9 +91,9 @@ void StatorLanes::EndPeriod() {
   }
 }
 
-StatorLoop StatorLanes::LoopOver(const VoltagePattern& pattern, const double* v) {
-  return {coupling, n.v, half_rh_.v, inverse_l_.v, c_.v, leakage.v, g0_.v, dg_.v, pattern.t1.v, pattern.t2.v, v,
-          lambda.v, i.v, phi.v, sum_.v, samples};
+StatorLoop StatorLanes::LoopOver(const VoltagePattern& pattern, double bus) {
+  return {coupling, n.v, half_rh_.v, inverse_l_.v, c_.v, leakage.v, g0_.v, dg_.v, &pattern, bus,
+          unipolar ? 0 : -kInfinity, lambda.v, i.v, phi.v, sum_.v, samples};
 }
 
 void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
@@ -102,12 +102,11 @@ void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
 }
 
 /// Sample by sample with an eye on the sign of the currents.
-void StatorLanes::RunChecked(const VoltagePattern& pattern, const StatorLoop& loop) {
-  const double floor = unipolar ? 0 : -kInfinity;
+void StatorLanes::RunChecked(const StatorLoop& loop) {
   blocks_ = false;
   Lane target;
   int k = 0;
-  while ((k = RunSamples(loop, k, per_period_, h_, floor, target.v)) < per_period_) {
+  while ((k = RunSamples(loop, k, per_period_, h_, target.v)) < per_period_) {
     // Some diodes block within sample k: take those coils out and solve the sample again.
     blocks_ = true;
     for (int round = 0; round < kLanes; ++round) {
@@ -122,46 +121,30 @@ void StatorLanes::RunChecked(const VoltagePattern& pattern, const StatorLoop& lo
     }
     for (int j = 0; j < kLanes; ++j) sum_[j] += phi[j] * phi[j];
     ++k;
-    if (k < per_period_) OpenDriven(pattern, k * h_);
+    if (k < per_period_) OpenDriven(*loop.pattern, k * h_);
   }
 }
 
 void StatorLanes::RunPeriods(const PeriodOfBearing* bearings, int count, double bus, int samples_per_period) {
   constexpr int kMost = 8;
   for (; count > kMost; count -= kMost, bearings += kMost) RunPeriods(bearings, kMost, bus, samples_per_period);
-  alignas(64) double v[kMost][3 * kLanes];
   StatorLoop loops[kMost];
-  int together[kMost], members = 0;
-  struct Before {
-    Lane lambda, i, phi;
-  } before[kMost];
+  StatorLanes* members[kMost];
+  int together = 0;
   for (int b = 0; b < count; ++b) {
     const PeriodOfBearing& in = bearings[b];
     StatorLanes& lanes = *in.lanes;
     lanes.OpenDriven(*in.pattern, 0);
     lanes.BeginPeriod(in.x0, in.y0, in.x1, in.y1, samples_per_period);
-    for (int q = 0; q < 3; ++q)
-      for (int j = 0; j < kLanes; ++j) v[b][q * kLanes + j] = in.pattern->gain[q][j] * bus + in.pattern->drop[q][j];
-    const StatorLoop loop = lanes.LoopOver(*in.pattern, v[b]);
-    if (lanes.blocks_) {
-      lanes.RunChecked(*in.pattern, loop);
-      continue;
-    }
-    before[members] = {lanes.lambda, lanes.i, lanes.phi};
-    loops[members] = loop;
-    together[members++] = b;
+    loops[together] = lanes.LoopOver(*in.pattern, bus);
+    if (lanes.blocks_)
+      lanes.RunChecked(loops[together]);
+    else
+      members[together++] = &lanes;
   }
-  double least[kMost];
-  RunTogether(loops, members, samples_per_period, members > 0 ? bearings[together[0]].lanes->h_ : 0, least);
-  for (int m = 0; m < members; ++m) {
-    StatorLanes& lanes = *bearings[together[m]].lanes;
-    if (!lanes.unipolar || least[m] >= 0) continue;
-    lanes.lambda = before[m].lambda;
-    lanes.i = before[m].i;
-    lanes.phi = before[m].phi;
-    lanes.sum_ = Lane{};
-    lanes.RunChecked(*bearings[together[m]].pattern, loops[m]);
-  }
+  const unsigned below = together > 0 ? RunTogether(loops, together, samples_per_period, members[0]->h_) : 0;
+  for (int m = 0; m < together; ++m)
+    if (below >> m & 1U) members[m]->RunChecked(loops[m]);
   for (int b = 0; b < count; ++b) bearings[b].lanes->EndPeriod();
 }
 

@@ -24,13 +24,6 @@
 
 namespace ambrig {
 
-/// How the voltage of every coil runs over one switching period: v0 until t1, v1 until t2, then v2.
-/// Each voltage is gain * bus + drop; `on` tells which of the three closes the switches.
-struct VoltagePattern {
-  Lane t1, t2;           // [s] from the start of the period
-  Lane gain[3], drop[3]; // [-], [V]
-};
-
 /// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it.
 struct GapReluctance {
   double per_metre = 0;   // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]
@@ -115,8 +108,8 @@ class StatorLanes {
   void Unblock(int j);
   /// Flux and currents that carry the targets λ* (and λ2* of shorted turns); Newton over the laws.
   void SolveGeneral(const Lane& target, const Lane& target2);
-  StatorLoop LoopOver(const VoltagePattern& pattern, const double* v);
-  void RunChecked(const VoltagePattern& pattern, const StatorLoop& loop);
+  StatorLoop LoopOver(const VoltagePattern& pattern, double bus);
+  void RunChecked(const StatorLoop& loop);
   void OpenDriven(const VoltagePattern& pattern, double t);
   void UnblockDriven(const VoltagePattern& pattern, double bus, double t, Lane* target);
 

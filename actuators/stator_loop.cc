@@ -13,10 +13,15 @@ using V = LaneVector;
 /// Volt-seconds of one sample from the two edges, by clamping.
 struct VoltSeconds {
   V t1, t2, v2h, step1, step2, h;
+  bool one_edge = true;  // nothing before t1: the usual pattern
   [[gnu::always_inline]] VoltSeconds(const StatorLoop& s, double sample) {
-    const V v0 = Load(s.v), v1 = Load(s.v + kLanes), v2 = Load(s.v + 2 * kLanes);
-    t1 = Load(s.t1);
-    t2 = Load(s.t2);
+    const VoltagePattern& p = *s.pattern;
+    const V v0 = Load(p.gain[0].v) * s.bus + Load(p.drop[0].v);
+    const V v1 = Load(p.gain[1].v) * s.bus + Load(p.drop[1].v);
+    const V v2 = Load(p.gain[2].v) * s.bus + Load(p.drop[2].v);
+    t1 = Load(p.t1.v);
+    t2 = Load(p.t2.v);
+    for (int j = 0; j < kLanes; ++j) one_edge = one_edge && t1[j] <= 0;
     v2h = v2 * sample;
     step1 = v0 - v1;
     step2 = v1 - v2;
@@ -28,7 +33,8 @@ struct VoltSeconds {
     return a > h ? h : a;
   }
   [[gnu::always_inline]] V Of(double t) const {
-    return (v2h + step2 * Within(t2 - t, h)) + step1 * Within(t1 - t, h);
+    const V after = v2h + step2 * Within(t2 - t, h);
+    return one_edge ? after : after + step1 * Within(t1 - t, h);
   }
 };
 
@@ -46,7 +52,7 @@ template <Coupling kCoupling>
 }
 
 template <Coupling kCoupling>
-[[gnu::always_inline]] inline int Run(const StatorLoop& s, int k, int count, double sample, double floor, double* target) {
+[[gnu::always_inline]] inline int Run(const StatorLoop& s, int k, int count, double sample, double* target) {
   const V n = Load(s.n), c = Load(s.c), inverse_l = Load(s.inverse_l), half_rh = Load(s.half_rh);
   const V leakage = Load(s.leakage), g0 = Load(s.g0), dg = Load(s.dg);
   const VoltSeconds volt_seconds(s, sample);
@@ -61,7 +67,7 @@ template <Coupling kCoupling>
     lambda = n * phi + leakage * i;
     double least = 0;
     for (int j = 0; j < kLanes; ++j) least = i[j] < least ? i[j] : least;
-    if (least < floor) {
+    if (least < s.floor) {
       Store(target, wanted);
       break;
     }
@@ -95,7 +101,7 @@ struct Running {
     b = (1 - a) * n;
     i = Load(s.i);
     phi = Load(s.phi);
-    sum = Load(s.sum);
+    sum = V{};
     least = i;
     wanted = Load(s.lambda) - half_rh * i;
     g0_sum = Sum(g0);
@@ -111,25 +117,27 @@ struct Running {
     sum += phi * phi;
     wanted = a * wanted + b * phi;
   }
-  [[gnu::always_inline]] void Finish(const StatorLoop& s, double* lowest) const {
+  [[gnu::always_inline]] unsigned Finish(const StatorLoop& s) const {
+    double lowest = least[0];
+    for (int j = 1; j < kLanes; ++j) lowest = least[j] < lowest ? least[j] : lowest;
+    if (lowest < s.floor) return 1;
     Store(s.lambda, n * phi + leakage * i);
     Store(s.i, i);
     Store(s.phi, phi);
     Store(s.sum, sum);
-    *lowest = least[0];
-    for (int j = 1; j < kLanes; ++j) *lowest = least[j] < *lowest ? least[j] : *lowest;
+    return 0;
   }
 };
 
 template <Coupling kFirst>
-[[gnu::always_inline]] inline void Together(const StatorLoop* s, int count, double h, double* least) {
+[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
   Running<kFirst> first(s[0], h);
   const double per = 1.0 / count;
   for (int k = 0; k < count; ++k) first.Step(k, (k + 1) * per, k * h);
-  first.Finish(s[0], least);
+  return first.Finish(s[0]);
 }
 template <Coupling kFirst, Coupling kSecond>
-[[gnu::always_inline]] inline void Together(const StatorLoop* s, int count, double h, double* least) {
+[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
   Running<kFirst> first(s[0], h);
   Running<kSecond> second(s[1], h);
   const double per = 1.0 / count;
@@ -138,11 +146,10 @@ template <Coupling kFirst, Coupling kSecond>
     first.Step(k, fraction, t);
     second.Step(k, fraction, t);
   }
-  first.Finish(s[0], least);
-  second.Finish(s[1], least + 1);
+  return first.Finish(s[0]) | second.Finish(s[1]) << 1;
 }
 template <Coupling kFirst, Coupling kSecond, Coupling kThird>
-[[gnu::always_inline]] inline void Together(const StatorLoop* s, int count, double h, double* least) {
+[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
   Running<kFirst> first(s[0], h);
   Running<kSecond> second(s[1], h);
   Running<kThird> third(s[2], h);
@@ -153,28 +160,20 @@ template <Coupling kFirst, Coupling kSecond, Coupling kThird>
     second.Step(k, fraction, t);
     third.Step(k, fraction, t);
   }
-  first.Finish(s[0], least);
-  second.Finish(s[1], least + 1);
-  third.Finish(s[2], least + 2);
+  return first.Finish(s[0]) | second.Finish(s[1]) << 1 | third.Finish(s[2]) << 2;
 }
 
 constexpr Coupling R = Coupling::kFloatingRotor, S = Coupling::kSides, N = Coupling::kNone;
 
-AMBRIG_WIDE void TogetherRRS(const StatorLoop* s, int n, double h, double* least) { Together<R, R, S>(s, n, h, least); }
-AMBRIG_WIDE void TogetherRR(const StatorLoop* s, int n, double h, double* least) { Together<R, R>(s, n, h, least); }
-AMBRIG_WIDE void TogetherR(const StatorLoop* s, int n, double h, double* least) { Together<R>(s, n, h, least); }
-AMBRIG_WIDE void TogetherS(const StatorLoop* s, int n, double h, double* least) { Together<S>(s, n, h, least); }
-AMBRIG_WIDE void TogetherN(const StatorLoop* s, int n, double h, double* least) { Together<N>(s, n, h, least); }
+AMBRIG_WIDE unsigned TogetherRRS(const StatorLoop* s, int n, double h) { return Together<R, R, S>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherRR(const StatorLoop* s, int n, double h) { return Together<R, R>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherR(const StatorLoop* s, int n, double h) { return Together<R>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherS(const StatorLoop* s, int n, double h) { return Together<S>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherN(const StatorLoop* s, int n, double h) { return Together<N>(s, n, h); }
 
-AMBRIG_WIDE int RunRadial(const StatorLoop& s, int k, int n, double h, double floor, double* target) {
-  return Run<R>(s, k, n, h, floor, target);
-}
-AMBRIG_WIDE int RunSides(const StatorLoop& s, int k, int n, double h, double floor, double* target) {
-  return Run<S>(s, k, n, h, floor, target);
-}
-AMBRIG_WIDE int RunSeparate(const StatorLoop& s, int k, int n, double h, double floor, double* target) {
-  return Run<N>(s, k, n, h, floor, target);
-}
+AMBRIG_WIDE int RunRadial(const StatorLoop& s, int k, int n, double h, double* target) { return Run<R>(s, k, n, h, target); }
+AMBRIG_WIDE int RunSides(const StatorLoop& s, int k, int n, double h, double* target) { return Run<S>(s, k, n, h, target); }
+AMBRIG_WIDE int RunSeparate(const StatorLoop& s, int k, int n, double h, double* target) { return Run<N>(s, k, n, h, target); }
 
 template <Coupling kCoupling>
 void Solve(const StatorLoop& s, const double* target, double fraction) {
@@ -188,26 +187,28 @@ void Solve(const StatorLoop& s, const double* target, double fraction) {
 
 }  // namespace
 
-int RunSamples(const StatorLoop& s, int k, int count, double h, double floor, double* target) {
+int RunSamples(const StatorLoop& s, int k, int count, double h, double* target) {
   const auto run = s.coupling == R ? RunRadial : s.coupling == S ? RunSides : RunSeparate;
-  return run(s, k, count, h, floor, target);
+  return run(s, k, count, h, target);
 }
 
-void RunTogether(const StatorLoop* s, int bearings, int count, double h, double* least) {
+unsigned RunTogether(const StatorLoop* s, int bearings, int count, double h) {
   const auto is = [&](int at, Coupling c) { return at < bearings && s[at].coupling == c; };
+  unsigned below = 0;
   for (int at = 0; at < bearings;) {
     if (is(at, R) && is(at + 1, R) && is(at + 2, S)) {
-      TogetherRRS(s + at, count, h, least + at);
+      below |= TogetherRRS(s + at, count, h) << at;
       at += 3;
     } else if (is(at, R) && is(at + 1, R)) {
-      TogetherRR(s + at, count, h, least + at);
+      below |= TogetherRR(s + at, count, h) << at;
       at += 2;
     } else {
       const auto run = s[at].coupling == R ? TogetherR : s[at].coupling == S ? TogetherS : TogetherN;
-      run(s + at, count, h, least + at);
+      below |= run(s + at, count, h) << at;
       at += 1;
     }
   }
+  return below;
 }
 
 void SolveSample(const StatorLoop& s, const double* target, double fraction) {
@@ -225,16 +226,21 @@ AMBRIG_WIDE void Reluctances(const GapLaw& law, double x0, double y0, double x1,
   V start = offset - x0 * dx - y0 * dy, end = offset - x1 * dx - y1 * dy;
   start = start < closest ? closest : start;
   end = end < closest ? closest : end;
-  const V widening_start = 1 + law.fringing * start / law.gap0, widening_end = 1 + law.fringing * end / law.gap0;
-  const V middle = 1 + law.fringing * (0.5 * (start + end)) / law.gap0;
-  const V first = law.per_metre * (start / widening_start + law.iron_path) + law.offset;
-  const V last = law.per_metre * (end / widening_end + law.iron_path) + law.offset;
+  V first = start, last = end, slope_of = V{} + law.per_metre;
+  if (law.fringing != 0) {
+    const V middle = 1 + law.fringing * (0.5 * (start + end)) / law.gap0;
+    first = start / (1 + law.fringing * start / law.gap0);
+    last = end / (1 + law.fringing * end / law.gap0);
+    slope_of = law.per_metre / (middle * middle);
+  }
+  first = law.per_metre * (first + law.iron_path) + law.offset;
+  last = law.per_metre * (last + law.iron_path) + law.offset;
   const V n = Load(law.n), own = n * n * Load(law.inverse_l);
   const V nc = law.coupling == S ? own + Partner(own) : own;
   const V conductance = 1 / (first + nc);
   Store(rel0, first);
   Store(rel1, last);
-  Store(slope, law.per_metre / (middle * middle));
+  Store(slope, slope_of);
   Store(g0, conductance);
   Store(dg, 1 / (last + nc) - conductance);
 }

@@ -7,28 +7,36 @@ namespace ambrig {
 
 enum class Coupling { kFloatingRotor, kSides, kNone };
 
+/// How the voltage of every coil runs over one switching period: v0 until t1, v1 until t2, then v2.
+/// Each voltage is gain * bus + drop; `gain` tells which of the three closes the switches.
+struct VoltagePattern {
+  Lane t1, t2;           // [s] from the start of the period
+  Lane gain[3], drop[3]; // [-], [V]
+};
+
 /// What the loop reads and writes of one bearing; pointers to eight lanes each.
 struct StatorLoop {
   Coupling coupling = Coupling::kFloatingRotor;
   // Constant over the period: signed turns, R h/2 [ohm s], 1/(L_l + R h/2) and n times it (0 where
   // blocked), L_l [H], conductance at the period's start and its change [H].
   const double *n, *half_rh, *inverse_l, *c, *leakage, *g0, *dg;
-  // Two edges [s from the period's start] and the three voltages around them, 3 x 8 lanes [V].
-  const double *t1, *t2, *v;
+  const VoltagePattern* pattern;
+  double bus;    // [V]
+  double floor;  // [A] no current may fall below it
   // State and Σφ² of the samples' ends.
   double *lambda, *i, *phi, *sum;
   Lane* samples;  // i at the start of every sample [A]
 };
 
 /// Samples k .. count - 1 of length h; returns the sample in whose solution a current falls below
-/// `floor` (its targets λ* are left in `target`, Σφ² lacks it), or `count`.
-int RunSamples(const StatorLoop& loop, int k, int count, double h, double floor, double* target);
+/// the floor (its targets λ* are left in `target`, Σφ² lacks it), or `count`.
+int RunSamples(const StatorLoop& loop, int k, int count, double h, double* target);
 
-/// Whole periods of several bearings, without a look at the sign of the currents until the end:
-/// the dependent chain of one bearing's sample (a sum over the poles, then a product) is several
-/// times longer than its arithmetic, so bearings run side by side. `least` [A]: the smallest
-/// current of each bearing; below its floor the period has to be run again by RunSamples.
-void RunTogether(const StatorLoop* loops, int bearings, int count, double h, double* least);
+/// Whole periods of several bearings (up to 32), with a look at the sign of the currents only at
+/// the end: the dependent chain of one bearing's sample (a sum over the poles, then a product) is
+/// several times longer than its arithmetic, so bearings run side by side. Returns a bit for each
+/// bearing whose current fell below its floor; its state is as before, to be run by RunSamples.
+unsigned RunTogether(const StatorLoop* loops, int bearings, int count, double h);
 
 /// The solution of one sample at `fraction` of the period for the targets λ*.
 void SolveSample(const StatorLoop& loop, const double* target, double fraction);
