@@ -13,6 +13,7 @@ constexpr double kFewest = 4;         // samples of a phase that counts
 constexpr double kZeroCurrent = 0.03; // [A] below: the diodes may block
 constexpr double kClosestGap = 0.4;      // of the nominal: nearer, its error rules the inductance
 constexpr int kLongestExamination = 12;
+constexpr double kPartnerMargin = 12;    // between two windings on one core: e^-6
 constexpr double kDoubt = 3;           // tolerances count this many times
 constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
 constexpr int kLearnEvery = 4;         // periods
@@ -162,7 +163,8 @@ int BearingDetector::Largest() const {
 }
 
 int BearingDetector::Suspect(const std::vector<const KeptPeriod*>& periods, bool* clear) const {
-  *clear = true;
+  // Of two windings on one core the fault of one shows in both: only their examination tells.
+  *clear = model_.coupling == Coupling::kNone;
   if (model_.coupling != Coupling::kFloatingRotor) return Largest();
   const LinkageModel m = LearnedModel();
   int best = Largest();
@@ -231,6 +233,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
         alarm = alarm || G_[q][j] > s_.threshold;
         calm = calm && G_[q][j] < 1.5;
       }
+    if (calm) calm_at_ = count_;
     if (calm && count_ % kLearnEvery == 0) Learn();
     if (!alarm) return out;
     alarm_at_ = count_;
@@ -246,7 +249,8 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   }
   const Diagnosis d = Examine();
   // A fault late in a period shows its coil only in the next one.
-  if (!raised_ && (suspect_clear_ || d.cls != FaultClass::kNone || count_ - alarm_at_ >= 2))
+  const int patience = model_.coupling == Coupling::kSides ? 4 : 2;
+  if (!raised_ && (suspect_clear_ || d.cls != FaultClass::kNone || count_ - alarm_at_ >= patience))
     raised_ = out.raised = true;
   out.coil = raised_ ? suspect_ : -1;
   const bool given_up = count_ - alarm_at_ >= kLongestExamination;
@@ -269,7 +273,20 @@ Diagnosis BearingDetector::Examine() {
     if (suspect_clear_ || !raised_) suspect_ = now;
   }
   const bool last = count_ - alarm_at_ >= kLongestExamination;
-  const Examination x = ExamineCoil(LearnedModel(), s_, periods, suspect_, last);
+  const LinkageModel model = LearnedModel();
+  const long long suspicious = std::min<long long>(count_ - calm_at_, static_cast<long long>(periods.size()));
+  const std::size_t calm = periods.size() - static_cast<std::size_t>(suspicious);
+  Examination x = ExamineCoil(model, s_, periods, calm, suspect_, last);
+  if (model_.coupling == Coupling::kSides && state_[static_cast<std::size_t>(suspect_ ^ 1)] == Coil::kHealthy) {
+    const Examination partner = ExamineCoil(model, s_, periods, calm, suspect_ ^ 1, last);
+    const bool named = x.diagnosis.cls != FaultClass::kNone, other = partner.diagnosis.cls != FaultClass::kNone;
+    suspect_clear_ = (named != other && std::max(x.cost, partner.cost) < 1e30) || std::abs(partner.cost - x.cost) > kPartnerMargin;
+    if (other && (!named || partner.cost < x.cost)) {
+      x = partner;
+      suspect_ ^= 1;
+    }
+    if (!suspect_clear_ && !last) return {};
+  }
   if (!x.decided || x.diagnosis.cls == FaultClass::kNone) return {};
   Diagnosis d = x.diagnosis;
   d.time = periods.back()->in.t + s_.sampling.step * s_.sampling.samples;

@@ -99,6 +99,7 @@ class BearingDetector {
   std::vector<KeptPeriod> ring_;
   double centred_ = 0;                    // largest permeance at the centre [H]
   long long count_ = 0, alarm_at_ = -1;
+  long long calm_at_ = 0;                 // last period without suspicion
   int paused_ = 8, suspect_ = -1;
   bool raised_ = false, suspect_clear_ = false;
   bool follows_ = false;                  // the previous period is known

@@ -187,7 +187,7 @@ double BestShort(const std::vector<Window>& all, double* turns_left) {
 }
 
 /// Both equations must hold with the current c i instead of i.
-double SensorCost(const std::vector<Window>& all) {
+double SensorCost(const std::vector<Window>& all, double* c_found) {
   double top = 0, bottom = 0;
   for (const Window& w : all) {
     if (!Applies(w)) continue;
@@ -196,6 +196,7 @@ double SensorCost(const std::vector<Window>& all) {
     bottom += weight * x * x;
   }
   const double c = bottom > 0 ? std::clamp(top / bottom, 0.0, 20.0) : 1;
+  *c_found = c;
   double cost = kParameter;
   for (const Window& w : all) {
     if (!Applies(w)) continue;
@@ -228,7 +229,7 @@ bool Decayed(const DetectorSettings& s, const std::vector<const KeptPeriod*>& pe
 /// Largest step of the suspect's reading that its circuit cannot explain [A], periods around the onset.
 double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
                        const std::vector<const KeptPeriod*>& periods, std::size_t onset, int j) {
-  double most = 0, last_lambda = 0;
+  double most = 0, last_lambda = 0, last_reading = 0;
   bool known = false;
   for (std::size_t n = onset > 1 ? onset - 2 : 0; n <= onset + 1 && n < periods.size(); ++n) {
     PeriodSlopes now;
@@ -247,9 +248,13 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
         const double t = (k - 1) * s.sampling.step;
         const double on = k == 0 ? 0 : std::clamp(now.edge[j] - t, 0.0, s.sampling.step);
         const double driven = on * now.phase[0].voltage[j] + (s.sampling.step - on) * now.phase[1].voltage[j];
-        if (i[j] > kZeroCurrent) most = std::max(most, std::abs(lambda - last_lambda - driven) / own);
+        double step = std::abs(lambda - last_lambda - driven) / own;
+        // A step of the other reading on the same core looks the same, but for this reading.
+        if (m.coupling == Coupling::kSides) step = std::min(step, std::abs(i[j] - last_reading));
+        if (i[j] > kZeroCurrent) most = std::max(most, step);
       }
       last_lambda = lambda;
+      last_reading = i[j];
       known = true;
     }
   }
@@ -257,15 +262,42 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
 }
 
 std::size_t FindOnset(const LinkageModel& m, const DetectorSettings& s, const std::vector<const KeptPeriod*>& periods,
-                      int j) {
+                      std::size_t calm, int j) {
   std::vector<Window> w;
   for (std::size_t n = 0; n < periods.size(); ++n) {
     w.clear();
     AddWindows(m, s, *periods[n], j, &w);
+    if (m.coupling == Coupling::kSides) AddWindows(m, s, *periods[n], j ^ 1, &w);  // one onset for both
     for (const Window& one : w)
       if (Applies(one) && !(one.mean < 2 * kZeroCurrent && one.e > 0) && std::abs(one.e) > 5 * one.sd_e) return n;
   }
-  return periods.size() > 8 ? periods.size() - 8 : 0;  // many small residuals, no gross one
+  return std::max(calm, periods.size() > 8 ? periods.size() - 8 : 0);  // many small residuals, no gross one
+}
+
+/// Two windings on one core: the other one is healthy, so its equation must hold when the suspect's
+/// ampere-turns are `factor` times what its reading and its nominal turns say. `most`: what a window
+/// may cost, where shorted turns may carry a current of their own.
+double PartnerCost(const LinkageModel& m, const DetectorSettings& s, const std::vector<const KeptPeriod*>& periods,
+                   std::size_t first, int j, double factor, double most) {
+  if (m.coupling != Coupling::kSides) return 0;
+  const int k = j ^ 1;
+  double cost = 0, i[64];
+  std::vector<Window> windows;
+  for (std::size_t n = first; n < periods.size(); ++n) {
+    const KeptPeriod& p = *periods[n];
+    windows.clear();
+    AddWindows(m, s, p, k, &windows);
+    PeriodSlopes now;
+    ComputePeriodSlopes(m, s.sampling, p.in, &now);
+    for (int q = 0; q < s.sampling.samples; ++q) i[q] = p.adc[static_cast<std::size_t>(q)][j];
+    for (const Window& w : windows) {
+      if (!Applies(w)) continue;
+      const int on = static_cast<int>(now.phase[0].samples[k]), count = static_cast<int>(now.phase[w.phase].samples[k]);
+      const double slope = SlopeOf(i, w.phase == 0 ? 0 : on, count, s.sampling.step);
+      cost += std::min(Cost((w.e + (factor - 1) * m.n[k] * now.P[k] * m.n[j] * slope) / w.sd_e), most);
+    }
+  }
+  return cost;
 }
 
 /// Own equation with the fewer turns and the nominal circuit: far off when the shorted turns carry
@@ -283,34 +315,39 @@ bool LoopCarriesCurrent(const std::vector<Window>& all, double a) {
 }  // namespace
 
 Examination ExamineCoil(const LinkageModel& model, const DetectorSettings& settings,
-                        const std::vector<const KeptPeriod*>& periods, int coil, bool last) {
+                        const std::vector<const KeptPeriod*>& periods, std::size_t calm, int coil, bool last) {
   Examination out;
-  const std::size_t onset = FindOnset(model, settings, periods, coil);
+  const std::size_t onset = FindOnset(model, settings, periods, calm, coil);
   std::vector<Window> all;
   const std::size_t first = std::max(onset + 1, periods.size() > 6 ? periods.size() - 6 : 0);
   for (std::size_t n = first; n < periods.size(); ++n) AddWindows(model, settings, *periods[n], coil, &all);
   if (periods.size() < first + 2 || all.size() < 2) return out;
 
-  double turns_left = 1;
+  double turns_left = 1, sensed = 1;
+  const auto partner = [&](double factor, double most = kClip) {
+    return PartnerCost(model, settings, periods, first, coil, factor, most);
+  };
+  const double as_read = partner(1), shorted = BestShort(all, &turns_left);
+  const double gain = model.coupling != Coupling::kNone ? SensorCost(all, &sensed) : 1e30;
   struct Entry {
     FaultClass cls;
     double cost;
   };
   std::vector<Entry> entries = {
-      {FaultClass::kNone, HealthyCost(all)},
-      {FaultClass::kOpen, OpenCost(all) + 1},
-      {FaultClass::kAmplifierOff, WrongVoltageCost(all, 0) + 2},
-      {FaultClass::kSwitchStuckOn, WrongVoltageCost(all, 1) + 2},
-      {FaultClass::kPartialShort, BestShort(all, &turns_left)},
+      {FaultClass::kNone, HealthyCost(all) + as_read},
+      {FaultClass::kOpen, OpenCost(all) + 1 + as_read},
+      {FaultClass::kAmplifierOff, WrongVoltageCost(all, 0) + 2 + as_read},
+      {FaultClass::kSwitchStuckOn, WrongVoltageCost(all, 1) + 2 + as_read},
+      {FaultClass::kPartialShort, shorted + partner(turns_left, kFreeVoltage)},
+      {FaultClass::kCurrentSensor, std::min(FrozenCost(all), gain + partner(sensed))},
   };
-  entries.push_back({FaultClass::kCurrentSensor,
-                     std::min(FrozenCost(all), model.coupling != Coupling::kNone ? SensorCost(all) : 1e30)});
   std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cost < b.cost; });
   const auto vanished = [](FaultClass c) { return c == FaultClass::kOpen || c == FaultClass::kAmplifierOff; };
   std::size_t second = 1;
   if (vanished(entries[0].cls) && vanished(entries[1].cls)) second = 2;
   FaultClass best = entries[0].cls;
   const double lead = entries[second].cost - entries[0].cost;
+  out.cost = entries[0].cost;
   if (vanished(best) && second == 2)
     best = Decayed(settings, periods, onset, coil) || entries[1].cost - entries[0].cost > kMargin
                ? (entries[1].cost - entries[0].cost > kMargin ? best : FaultClass::kAmplifierOff)

@@ -17,7 +17,7 @@ struct SwitchingEngine::BearingRun {
   MeasurementSettings measurement;
   bool plain_sensors = true;
   Lane adc[64];                    // measured samples of the last period [A]
-  Lane mean, mean_square, largest; // of the measured; of the true samples [A], [A²], [A]
+  CurrentStatistics current;       // of the last period
   double x = 0, y = 0;             // magnetic position at the start of the period [m]
   double x_next = 0, y_next = 0;   // predicted for its end
   double fx = 0, fy = 0;           // mean force of the last period [N]

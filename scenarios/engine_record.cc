@@ -1,7 +1,6 @@
 /// Rows of the record: what the controller knows at the start of a period (formats.md "Record").
 #include <cmath>
 
-#include "core/math/noise.h"
 #include "scenarios/bearing_run.h"
 #include "scenarios/record_layout.h"
 #include "scenarios/switching_engine.h"
@@ -40,7 +39,7 @@ void SwitchingEngine::RecordRow(long long n, int sample) {
   put(plant_.rotor.SpeedIsFree(t) ? motion_.theta + motion_.Omega * inside : scenario_.speed.Angle(t));
   double bus = plant_.bus.voltage;
   if (scenario_.noise && rig_.amplifier.bus_noise > 0)
-    bus += rig_.amplifier.bus_noise * Normal(scenario_.seed, 300, static_cast<std::uint64_t>(n * samples_ + sample));
+    bus += rig_.amplifier.bus_noise * noise_->Bus(n, sample);
   put(bus);
 }
 

@@ -17,10 +17,9 @@ void SwitchingEngine::Watch(long long n) {
   RunMetrics& m = result_.metrics;
   const bool late = motion_.t > 0.9 * scenario_.duration;
   for (BearingRun& b : bearings_) {
-    CurrentStatistics(b.plant->lanes.samples, samples_, &b.mean_square, &b.largest);
     for (int j = 0; j < b.plant->lanes.coils; ++j) {
-      loss_sum_ += b.plant->lanes.resistance[j] * b.mean_square[j];
-      m.peak_current = std::max(m.peak_current, b.largest[j]);
+      loss_sum_ += b.plant->lanes.resistance[j] * b.current.mean_square[j];
+      m.peak_current = std::max(m.peak_current, b.current.largest[j]);
     }
     if (clamped_) continue;
     const double orbit = std::hypot(b.true_x, b.true_y);

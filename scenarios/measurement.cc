@@ -1,78 +1,77 @@
 #include "scenarios/measurement.h"
 
-#include <cmath>
-
-#include "core/math/noise.h"
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(AMBRIG_SANITIZED)
-#define AMBRIG_WIDE __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define AMBRIG_WIDE
-#endif
+#include "actuators/lane_vector.h"
 
 namespace ambrig {
 
 namespace {
 
-AMBRIG_WIDE void Average(const Lane* samples, int count, Lane* mean) {
-  double sum[kLanes] = {};
-  for (int k = 0; k < count; ++k)
-    for (int j = 0; j < kLanes; ++j) sum[j] += samples[k].v[j];
-  for (int j = 0; j < kLanes; ++j) mean->v[j] = sum[j] / count;
-}
+using V = LaneVector;
+using FloatVector = float __attribute__((vector_size(kLanes * sizeof(float))));
 
 /// Rounds to the nearest step and clips; |value / step| stays far below 2^51, where adding and
 /// subtracting 1.5 * 2^52 rounds to the nearest even integer, as nearbyint does.
-AMBRIG_WIDE void Convert(const Lane* truth, const float* normals, double noise, const double* gain,
-                         const double* offset, double step, double low, double high, int count, Lane* adc) {
-  constexpr double kRound = 6755399441055744.0;
-  const double per_step = 1 / step;
-  for (int k = 0; k < count; ++k)
-    for (int j = 0; j < kLanes; ++j) {
-      const double value = gain[j] * truth[k].v[j] + offset[j] + noise * static_cast<double>(normals[k * kLanes + j]);
-      const double q = ((value * per_step + kRound) - kRound) * step;
-      const double floor = q < low ? low : q;
-      adc[k].v[j] = floor > high ? high : floor;
-    }
+struct Converter {
+  double step, low, high;
+  [[gnu::always_inline]] V operator()(const V& value) const {
+    constexpr double kRound = 6755399441055744.0;
+    const V zero = {}, lowest = zero + low, highest = zero + high;
+    V q = ((value * (1 / step) + kRound) - kRound) * step;
+    q = q < lowest ? lowest : q;
+    return q > highest ? highest : q;
+  }
+};
+
+struct Sensors {
+  const double *gain, *offset;  // nullptr: ideal
+};
+
+template <class Convert>
+[[gnu::always_inline]] inline void Measure(const Lane* truth, int count, const Sensors& sensors, const Convert& convert,
+                                           Lane* adc, CurrentStatistics* out) {
+  const bool plain = sensors.gain == nullptr;
+  const V gain = plain ? V{} + 1 : Load(sensors.gain), offset = plain ? V{} : Load(sensors.offset);
+  V sum = {}, square = {}, most = {};
+  for (int k = 0; k < count; ++k) {
+    const V i = Load(truth[k].v);
+    const V value = convert(plain ? i : gain * i + offset, k);
+    Store(adc[k].v, value);
+    sum += value;
+    square += i * i;
+    most = i > most ? i : most;
+  }
+  Store(out->mean.v, sum / static_cast<double>(count));
+  Store(out->mean_square.v, square / static_cast<double>(count));
+  Store(out->largest.v, most);
 }
 
-AMBRIG_WIDE void Statistics(const Lane* truth, int count, Lane* mean_square, Lane* largest) {
-  double sum[kLanes] = {}, most[kLanes] = {};
-  for (int k = 0; k < count; ++k)
-    for (int j = 0; j < kLanes; ++j) {
-      sum[j] += truth[k].v[j] * truth[k].v[j];
-      most[j] = truth[k].v[j] > most[j] ? truth[k].v[j] : most[j];
-    }
-  for (int j = 0; j < kLanes; ++j) {
-    mean_square->v[j] = sum[j] / count;
-    largest->v[j] = most[j];
-  }
+AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc, CurrentStatistics* out) {
+  Measure(truth, count, sensors, [](const V& value, int) __attribute__((always_inline)) { return value; }, adc, out);
+}
+
+AMBRIG_WIDE void MeasureNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+                                double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  const Converter c = converter;
+  Measure(truth, count, sensors, [&](const V& value, int k) __attribute__((always_inline)) {
+    FloatVector normal;
+    __builtin_memcpy(&normal, normals + k * coils, sizeof normal);
+    return c(value + noise * __builtin_convertvector(normal, V));
+  }, adc, out);
 }
 
 }  // namespace
 
-void CurrentStatistics(const Lane* truth, int samples, Lane* mean_square, Lane* largest) {
-  Statistics(truth, samples, mean_square, largest);
-}
-
-void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
-                     bool plain, std::uint64_t seed, std::uint32_t stream, std::uint64_t period,
-                     Lane* adc, Lane* mean) {
-  double gain[kLanes], offset[kLanes];
-  for (int j = 0; j < kLanes; ++j) {
-    gain[j] = plain ? 1 : (sensors[j].stuck ? 0 : sensors[j].gain);
-    offset[j] = plain ? 0 : (sensors[j].stuck ? sensors[j].stuck_at : sensors[j].offset);
+void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors, bool plain,
+                     const float* normals, Lane* adc, CurrentStatistics* statistics) {
+  Lane gain, offset;
+  for (int j = 0; j < kLanes && !plain; ++j) {
+    gain[j] = sensors[j].stuck ? 0 : sensors[j].gain;
+    offset[j] = sensors[j].stuck ? sensors[j].stuck_at : sensors[j].offset;
   }
-  if (s.noisy) {
-    alignas(64) float normals[64 * kLanes];
-    FillNormals(seed, stream, period, normals, s.samples * kLanes);
-    Convert(truth, normals, s.noise, gain, offset, s.quantiser.step, s.quantiser.low, s.quantiser.high,
-            s.samples, adc);
-  } else {
-    for (int k = 0; k < s.samples; ++k)
-      for (int j = 0; j < kLanes; ++j) adc[k].v[j] = plain ? truth[k].v[j] : gain[j] * truth[k].v[j] + offset[j];
-  }
-  Average(adc, s.samples, mean);
+  const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
+  if (!s.noisy) return MeasureIdeally(truth, s.samples, chain, adc, statistics);
+  const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
+  MeasureNoisily(truth, s.samples, chain, normals, s.coils, s.noise, converter, adc, statistics);
 }
 
 }  // namespace ambrig

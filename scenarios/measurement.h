@@ -1,9 +1,7 @@
 #pragma once
 /// The current measurement of one bearing over one period: sensor, noise, ADC, and their mean.
-#include <cstdint>
-
 #include "actuators/adc.h"
-#include "actuators/stator_lanes.h"
+#include "actuators/lane.h"
 
 namespace ambrig {
 
@@ -14,13 +12,15 @@ struct MeasurementSettings {
   Quantiser quantiser;
 };
 
-/// True samples -> what the ADC hands over, and its mean per coil; also sums of i² and the largest i.
-/// `plain` says that every sensor is ideal (gain 1, no offset, not stuck).
-void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
-                     bool plain, std::uint64_t seed, std::uint32_t stream, std::uint64_t period,
-                     Lane* adc, Lane* mean);
+/// Per coil: mean of what was measured; mean square and largest of the true samples. [A], [A²], [A]
+struct CurrentStatistics {
+  Lane mean, mean_square, largest;
+};
 
-/// Mean of i² and the largest i over the period, per lane, of the true samples.
-void CurrentStatistics(const Lane* truth, int samples, Lane* mean_square, Lane* largest);
+/// True samples -> what the ADC hands over, and the statistics of the period. `normals` holds
+/// samples x coils values of unit variance (unused without noise; see MeasurementNoise). `plain`
+/// says that every sensor is ideal (gain 1, no offset, not stuck).
+void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors, bool plain,
+                     const float* normals, Lane* adc, CurrentStatistics* statistics);
 
 }  // namespace ambrig

@@ -154,6 +154,12 @@ double BiasCurrent(const RigParameters& rig, const BearingParameters& b) {
   return rig.controller.bias_current;
 }
 
+std::vector<int> CoilsOf(const RigParameters& rig) {
+  std::vector<int> out;
+  for (const BearingParameters& b : rig.bearings) out.push_back(b.coils());
+  return out;
+}
+
 const PidParameters& PidOf(const RigParameters& rig, const BearingParameters& b) {
   return b.controller ? *b.controller : rig.controller.pid;
 }

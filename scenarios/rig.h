@@ -15,6 +15,8 @@ EffectTargets TargetsOfEffects(const RigParameters& rig);
 double ForceConstant(const BearingParameters& b);
 /// Bias current c0 of a bearing. [A]
 double BiasCurrent(const RigParameters& rig, const BearingParameters& b);
+/// Coils of each bearing.
+std::vector<int> CoilsOf(const RigParameters& rig);
 /// PID of a bearing's axes.
 const PidParameters& PidOf(const RigParameters& rig, const BearingParameters& b);
 /// Bearing forces (fx, fy) that carry the rotor's weight, one per bearing. [N]

@@ -2,15 +2,10 @@
 /// engine's, value by value).
 #include <cmath>
 
-#include "core/math/noise.h"
 #include "scenarios/record_layout.h"
 #include "scenarios/sampled_rig.h"
 
 namespace ambrig {
-
-namespace {
-constexpr std::uint32_t kBusNoise = 300;  // stream of the switching engine
-}  // namespace
 
 void SampledRig::AfterPeriod(long long n, RunResult& result) {
   if (!options.supervisor || n < 0) return;
@@ -63,8 +58,7 @@ void SampledRig::RecordRow(long long n, int sample) {
   put(free_spin ? motion.theta + motion.Omega * inside : scenario.speed.Angle(t));
   double bus = plant.bus.voltage;
   if (scenario.noise && rig.amplifier.bus_noise > 0)
-    bus += rig.amplifier.bus_noise *
-           Normal(scenario.seed, kBusNoise, static_cast<std::uint64_t>(n * samples + sample));
+    bus += rig.amplifier.bus_noise * noise_->Bus(n, sample);
   put(bus);
 }
 

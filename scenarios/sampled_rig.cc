@@ -3,15 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/noise.h"
-
 namespace ambrig {
 
 namespace {
-/// Streams of the switching engine: the same noise, number by number.
-enum Stream : std::uint32_t { kCurrentNoise = 100, kReadingNoise = 200 };
-constexpr double kTiny = 1e-10;          // [s] instants equal to rounding
-constexpr long long kFirst = 1LL << 40;  // counts of periods before t = 0 stay positive
+constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
 
 std::size_t U(int k) { return static_cast<std::size_t>(k); }
 
@@ -62,6 +57,7 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
     control.push_back(c);
   }
   controller_ = std::make_unique<DecentralisedPid>(axes, T * M);
+  noise_.emplace(scenario.seed, CoilsOf(rig), axes.size(), samples);  // the switching engine's, number by number
   for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axes.size(), 0.0);
 }
 
@@ -194,15 +190,14 @@ void SampledRig::ReadSensors() {
   }
 }
 
-double SampledRig::NoisyReading(std::size_t axis, long long n) const {
+double SampledRig::NoisyReading(std::size_t axis, long long n) {
   for (const SampledBearing& b : bearings) {
     if (axis < b.first_axis || axis >= b.first_axis + b.axes) continue;
     const PositionSensor& s = b.plant->sensor;
     const std::size_t side = axis - b.first_axis;
     double reading = s.reading[side];
     if (scenario.noise && s.noise > 0)
-      reading += s.noise * Normal(scenario.seed, kReadingNoise + static_cast<std::uint32_t>(axis),
-                                  static_cast<std::uint64_t>(n + kFirst));
+      reading += s.noise * noise_->Reading(axis, n);
     return s.fault[side].Apply(reading);
   }
   return 0;
@@ -282,12 +277,14 @@ void SampledRig::CurrentLoops(long long n) {
 }
 
 void SampledRig::Measure(long long n, const std::vector<const Lane*>& truth, int count) {
+  if (scenario.noise) noise_->DrawCurrents(n);
   for (SampledBearing& b : bearings) {
     MeasurementSettings settings = b.measurement;
     settings.samples = count;
-    MeasureCurrents(settings, truth[b.index], b.plant->current_sensor.data(), false, scenario.seed,
-                    kCurrentNoise + static_cast<std::uint32_t>(b.index),
-                    static_cast<std::uint64_t>(n + kFirst), b.adc, &control[b.index].feedback);
+    CurrentStatistics current;
+    MeasureCurrents(settings, truth[b.index], b.plant->current_sensor.data(), false, noise_->Currents(b.index), b.adc,
+                    &current);
+    control[b.index].feedback = current.mean;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "control/position_controller.h"
 #include "scenarios/command_plan.h"
 #include "scenarios/measurement.h"
+#include "scenarios/measurement_noise.h"
 #include "scenarios/recorder.h"
 #include "scenarios/rig.h"
 #include "scenarios/run_result.h"
@@ -85,7 +86,7 @@ class SampledRig {
   void StartResting();
   void SetStartForces(const std::vector<double>& force);
   void ReadSensors();
-  double NoisyReading(std::size_t axis, long long n) const;
+  double NoisyReading(std::size_t axis, long long n);
   void ControlTick(long long n);
   void ApplySetPoints(long long n);
   void CurrentLoops(long long n);
@@ -97,6 +98,7 @@ class SampledRig {
   std::vector<Pending> pending_;
   bool first_period_of_rest_ = false, controller_on_ = true;
   double reading_time_ = 0;
+  std::optional<MeasurementNoise> noise_;
   std::optional<Recorder> recorder_;
   std::vector<std::size_t> channel_;
   int row_periods_ = 1, row_samples_ = 0;

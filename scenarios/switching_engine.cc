@@ -6,14 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "core/math/noise.h"
 #include "scenarios/bearing_run.h"
 
 namespace ambrig {
 
 namespace {
-/// Noise streams: one per channel family, then the bearing or axis.
-enum Stream : std::uint32_t { kCurrentNoise = 100, kReadingNoise = 200, kBusNoise = 300 };
 constexpr double kLevitatedWarmUp = 0.25, kClampedWarmUp = 0.03;  // [s], physics.md section 3
 constexpr double kTiny = 1e-10;                                   // [s] instants equal to rounding
 }  // namespace
@@ -70,6 +67,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
     control_.push_back(c);
   }
   controller_ = std::make_unique<DecentralisedPid>(axes, T_ * M_);
+  noise_.emplace(scenario_.seed, CoilsOf(rig_), axis, samples_);
   for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axis, 0.0);
   contact_since_.assign(plant_.rotor.auxiliaries().size() + 1, -1);
 }
@@ -203,7 +201,7 @@ void SwitchingEngine::Period(long long n) {
   Measure(n);
   if (n >= 0 && recorder_ && row_samples_ > 0)
     for (int k = 0; k < samples_; k += row_samples_) RecordRow(n, k);
-  for (BearingRun& b : bearings_) control_[b.index].feedback = b.mean;
+  for (BearingRun& b : bearings_) control_[b.index].feedback = b.current.mean;
   MoveRotor(n);
   if (n >= 0 && options_.watch) Watch(n);
 }
@@ -219,15 +217,14 @@ void SwitchingEngine::ReadSensors() {
   }
 }
 
-double SwitchingEngine::NoisyReading(std::size_t axis, long long n) const {
+double SwitchingEngine::NoisyReading(std::size_t axis, long long n) {
   for (const BearingRun& b : bearings_) {
     if (axis < b.first_axis || axis >= b.first_axis + b.axes) continue;
     const PositionSensor& s = b.plant->sensor;
     const std::size_t side = axis - b.first_axis;
     double reading = s.reading[side];
     if (scenario_.noise && s.noise > 0)
-      reading += s.noise * Normal(scenario_.seed, kReadingNoise + static_cast<std::uint32_t>(axis),
-                                  static_cast<std::uint64_t>(n + (1LL << 40)));
+      reading += s.noise * noise_->Reading(axis, n);
     return s.fault[side].Apply(reading);
   }
   return 0;
@@ -406,12 +403,12 @@ void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const 
 }
 
 void SwitchingEngine::Measure(long long n) {
+  if (scenario_.noise) noise_->DrawCurrents(n);
   for (BearingRun& b : bearings_) {
     if (options_.substeps > 1)
       for (int k = 1; k < samples_; ++k) b.plant->lanes.samples[k] = b.plant->lanes.samples[k * options_.substeps];
     MeasureCurrents(b.measurement, b.plant->lanes.samples, b.plant->current_sensor.data(), b.plain_sensors,
-                    scenario_.seed, kCurrentNoise + static_cast<std::uint32_t>(b.index),
-                    static_cast<std::uint64_t>(n + (1LL << 40)), b.adc, &b.mean);
+                    noise_->Currents(b.index), b.adc, &b.current);
   }
 }
 
@@ -453,10 +450,9 @@ void SwitchingEngine::HeatCopper() {
     CoilHeating& heat = b.plant->heating;
     if (heat.rise_per_watt <= 0 || motion_.t < 0) continue;
     StatorLanes& lanes = b.plant->lanes;
-    CurrentStatistics(lanes.samples, samples_, &b.mean_square, &b.largest);
     for (int j = 0; j < lanes.coils; ++j) {
       double& dT = heat.dT[static_cast<std::size_t>(j)];
-      const double power = lanes.resistance[j] * b.mean_square[j];
+      const double power = lanes.resistance[j] * b.current.mean_square[j];
       dT += T_ / heat.time_constant * (heat.rise_per_watt * power - dT);
       lanes.resistance[j] = b.plant->base_resistance[j] * (1 + 0.00393 * dT);
     }

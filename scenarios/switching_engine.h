@@ -10,6 +10,7 @@
 #include "control/position_controller.h"
 #include "scenarios/command_plan.h"
 #include "scenarios/measurement.h"
+#include "scenarios/measurement_noise.h"
 #include "scenarios/recorder.h"
 #include "scenarios/rig.h"
 #include "scenarios/run_result.h"
@@ -70,7 +71,7 @@ class SwitchingEngine {
   void HeatCopper();
   void Snapshot(const std::string& label);
   void Verdict();
-  double NoisyReading(std::size_t axis, long long n) const;
+  double NoisyReading(std::size_t axis, long long n);
   void Event(const std::string& kind, const std::string& target, const std::string& fault_class = "",
              double fraction = 0, double t = -1);
 
@@ -109,6 +110,7 @@ class SwitchingEngine {
   std::vector<double> contact_since_;
   double loss_sum_ = 0, touching_ = 0;
   PeriodMeasurement measurement_;
+  std::optional<MeasurementNoise> noise_;
 };
 
 }  // namespace ambrig

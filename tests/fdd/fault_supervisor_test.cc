@@ -160,6 +160,18 @@ TEST_P(EveryClass, IsNamedWithinTenPeriodsOnAnyCoilOfADrawnRig) {
     }
   }
 }
+
+// Two windings share a core: the fault of one shows in both.
+TEST_P(EveryClass, OfTwoWindingsOnOneCoreTheRightOneIsNamed) {
+  const Case c = GetParam();
+  for (unsigned seed = 1; seed <= 16; ++seed) {
+    const std::string coil = fmt::format("Z.coil{}", 1 + seed % 4);
+    const double t = 0.01 + 7.7e-6 * seed;
+    const Outcome o = Simulated(Spin(0.0112, 157, seed) + Fault(t, coil, c.kind, c.parameters), Drawn(seed, 1), false);
+    EXPECT_EQ(o.Class(coil), c.kind) << coil << " seed " << seed;
+    EXPECT_EQ(o.result.metrics.false_alarms, 0) << coil << " seed " << seed;
+  }
+}
 INSTANTIATE_TEST_SUITE_P(Faults, EveryClass,
                          ::testing::Values(Case{"open", ""}, Case{"amplifier-off", ""},
                                            Case{"partial-short", "fraction = 0.5"},

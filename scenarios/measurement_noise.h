@@ -1,0 +1,34 @@
+#pragma once
+/// Noise of everything that the controller measures, unit variance, from a counter-based generator:
+/// a value depends on the seed, the switching period and its place only, so every fidelity and any
+/// order of asking gives the same.
+#include <cstdint>
+#include <vector>
+
+namespace ambrig {
+
+class MeasurementNoise {
+ public:
+  /// `coils` of each bearing, `axes` position readings, `samples` ADC samples in a period.
+  MeasurementNoise(std::uint64_t seed, const std::vector<int>& coils, std::size_t axes, int samples);
+
+  /// Draws the ADC samples' noise of period n; then Currents(b) holds samples x coils values of
+  /// bearing b, readable up to seven values beyond its end.
+  void DrawCurrents(long long n);
+  const float* Currents(std::size_t bearing) const { return currents_.data() + first_[bearing]; }
+  /// Of the position reading of `axis` and of the bus reading of ADC sample `sample`, period n.
+  double Reading(std::size_t axis, long long n) { return Others(n)[axis]; }
+  double Bus(long long n, int sample) { return Others(n)[axes_ + static_cast<std::size_t>(sample)]; }
+
+ private:
+  const float* Others(long long n);
+
+  std::uint64_t seed_;
+  std::size_t axes_;
+  std::vector<std::size_t> first_;  // of each bearing in currents_
+  std::size_t drawn_ = 0;           // values of a period
+  std::vector<float> currents_, others_;
+  long long others_of_;             // the period that others_ holds
+};
+
+}  // namespace ambrig
