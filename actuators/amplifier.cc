@@ -5,29 +5,8 @@
 
 namespace ambrig {
 
-namespace {
-/// Bi-state and tri-state bridges swing over 2 U_d around d = 0.5; the others over U_d from 0.
-bool Swings(Modulation m) { return m == Modulation::kBiState || m == Modulation::kTriState; }
-}  // namespace
-
-double PowerAmplifier::DutyFromVoltage(double u) const {
-  return Swings(p_->modulation) ? 0.5 + u / (2 * p_->bus_voltage) : u / p_->bus_voltage;
-}
-
 double PowerAmplifier::VoltageOfDuty(double d) const {
-  return Swings(p_->modulation) ? 2 * p_->bus_voltage * (d - 0.5) : p_->bus_voltage * d;
-}
-
-double PowerAmplifier::CurrentLoop(double set_point, double feedback) {
-  const double e = set_point - feedback;
-  const double increment = p_->ki / p_->switching_frequency * e;
-  double d = DutyFromVoltage(p_->kp * e + integral_ + increment);
-  const bool pushes_out = (d > p_->duty_max && e > 0) || (d < p_->duty_min && e < 0);
-  if (pushes_out)
-    d = DutyFromVoltage(p_->kp * e + integral_);
-  else
-    integral_ += increment;
-  return std::clamp(d, p_->duty_min, p_->duty_max);
+  return Swings() ? 2 * p_->bus_voltage * (d - 0.5) : p_->bus_voltage * d;
 }
 
 void PowerAmplifier::ResetToLowerLimit() { integral_ = VoltageOfDuty(p_->duty_min); }

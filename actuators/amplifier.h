@@ -75,12 +75,23 @@ class PowerAmplifier {
   explicit PowerAmplifier(const AmplifierParameters& p) : p_(&p) {}
 
   /// Duty that the current loop asks for at t_n. `feedback` is the mean of last period's samples [A].
-  double CurrentLoop(double set_point, double feedback);
+  double CurrentLoop(double set_point, double feedback) {
+    const double e = set_point - feedback, increment = p_->ki / p_->switching_frequency * e;
+    double d = DutyFromVoltage(p_->kp * e + integral_ + increment);
+    const bool pushes_out = (d > p_->duty_max && e > 0) || (d < p_->duty_min && e < 0);
+    if (pushes_out)
+      d = DutyFromVoltage(p_->kp * e + integral_);
+    else
+      integral_ += increment;
+    return d < p_->duty_min ? p_->duty_min : (d > p_->duty_max ? p_->duty_max : d);
+  }
   /// Integral [V] that holds `current` in a coil of `resistance`; the lower limit for a coil told
   /// 0.2 A or less.
   void HoldCurrent(double current, double resistance);
   void ResetToLowerLimit();
-  double DutyFromVoltage(double u) const;
+  double DutyFromVoltage(double u) const {
+    return Swings() ? 0.5 + u / (2 * p_->bus_voltage) : u / p_->bus_voltage;
+  }
   /// The bridge's voltages in a period with duty d.
   CoilVoltage Pattern(double duty, const BridgeImperfection& bridge) const;
 
@@ -88,6 +99,8 @@ class PowerAmplifier {
   void set_integral(double value) { integral_ = value; }
 
  private:
+  /// Bi-state and tri-state bridges swing over 2 U_d around d = 0.5; the others over U_d from 0.
+  bool Swings() const { return p_->modulation == Modulation::kBiState || p_->modulation == Modulation::kTriState; }
   double VoltageOfDuty(double d) const;
 
   const AmplifierParameters* p_ = nullptr;

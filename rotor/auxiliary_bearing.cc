@@ -16,7 +16,7 @@ double Normal(const AuxiliaryParameters& p, double penetration, double rate) {
 ContactForce RadialContact(const AuxiliaryParameters& p, double journal_radius, double x, double y,
                            double vx, double vy, double Omega, double race_speed) {
   ContactForce c;
-  const double r = std::hypot(x, y);
+  const double r = std::sqrt(x * x + y * y);
   c.penetration = r - p.clearance;
   if (c.penetration <= 0) return c;
   const double nx = x / r, ny = y / r;  // outward normal, tangent t = (-ny, nx)

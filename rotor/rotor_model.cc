@@ -7,6 +7,7 @@ namespace ambrig {
 
 namespace {
 std::size_t U(int d) { return static_cast<std::size_t>(d); }
+double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 }  // namespace
 
 double BendingMode::Gain(double z) const {
@@ -113,13 +114,14 @@ void RotorModel::Position(const MotionState& s, const PlaneMap& plane, double* x
 }
 
 void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double stator_x, double stator_y,
-                               DofVector& a, double* torque) const {
+                               DofVector& a, double* torque, bool near_contact) const {
   RotorForces f;
   f.Q = Q;
   f.stator_x = stator_x;
   f.stator_y = stator_y;
   for (const auto& term : terms) term->Add(s, f);
   for (const AuxiliaryPlane& aux : aux_) {
+    if (!near_contact && aux.mount_dof < 0 && aux.race_dof < 0) continue;
     double x, y;
     Position(s, aux.map, &x, &y);
     double vx = aux.map.X(s.v), vy = aux.map.Y(s.v);
@@ -181,7 +183,8 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   *torque = f.torque;
 }
 
-void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const {
+void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
+                          bool near_contact) const {
   // Loads of the scenario enter with their mean over the step, so that their impulse is exact.
   DofVector forced = Q;
   for (const ExternalLoad& load : loads_) {
@@ -210,7 +213,7 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
       SetSpin(stage);
     }
     double torque = 0;
-    Accelerations(stage, forced, stator_x, stator_y, k_a[k], &torque);
+    Accelerations(stage, forced, stator_x, stator_y, k_a[k], &torque, near_contact);
     k_w[k] = free_spin ? torque / p_.inertia_polar : 0;
     stage_w[k] = stage.Omega;
     for (std::size_t d = 0; d < U(dof_); ++d) k_v[k][d] = stage.v[d];
@@ -238,7 +241,7 @@ double RotorModel::Penetration(const MotionState& s, std::size_t plane) const {
     x -= s.q[U(aux.mount_dof)];
     y -= s.q[U(aux.mount_dof) + 1];
   }
-  return std::hypot(x, y) - aux.parameters.clearance;
+  return Length(x, y) - aux.parameters.clearance;
 }
 
 double RotorModel::AxialPenetration(const MotionState& s) const {
@@ -248,7 +251,7 @@ double RotorModel::AxialPenetration(const MotionState& s) const {
 bool RotorModel::NearContact(const MotionState& s, double horizon) const {
   for (std::size_t k = 0; k < aux_.size(); ++k) {
     const PlaneMap& m = aux_[k].map;
-    if (Penetration(s, k) + horizon * std::hypot(m.X(s.v), m.Y(s.v)) > -1e-7) return true;
+    if (Penetration(s, k) + horizon * Length(m.X(s.v), m.Y(s.v)) > -1e-7) return true;
   }
   return has_axial_ && axial_free && AxialPenetration(s) + horizon * std::abs(s.v[2]) > -1e-7;
 }
@@ -292,13 +295,14 @@ double RotorModel::StiffnessRate(const MotionState& s) const {
 
 void RotorModel::Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const {
   int pieces = std::clamp(static_cast<int>(std::ceil(dt * MountRate())), 1, 400);
-  if (NearContact(s, 2 * dt)) {
+  const bool near = NearContact(s, 2 * dt);
+  if (near) {
     // Fine enough that an impact is resolved to nanometres and no friction rate is unstable.
     pieces = std::clamp(static_cast<int>(std::ceil(dt * StiffnessRate(s) / 0.02)), 4, 400);
   }
   const double h = dt / pieces, t0 = s.t;
   for (int k = 0; k < pieces; ++k) {
-    StepOnce(s, Q, stator_x, stator_y, h);
+    StepOnce(s, Q, stator_x, stator_y, h, near);
     s.t = t0 + (k + 1) * h;
   }
   s.t = t0 + dt;

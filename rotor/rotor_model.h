@@ -92,9 +92,9 @@ class RotorModel {
   void SetSpin(MotionState& s) const;
   /// Advances by dt under constant magnetic forces `Q` (and what they push on the stator).
   void Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const;
-  /// Accelerations at `s`.
+  /// Accelerations at `s`; `near_contact` false: no auxiliary bearing can be touched.
   void Accelerations(const MotionState& s, const DofVector& Q, double stator_x, double stator_y,
-                     DofVector& a, double* torque) const;
+                     DofVector& a, double* torque, bool near_contact = true) const;
   /// Shaft centre (with bow) at a plane. [m]
   void Position(const MotionState& s, const PlaneMap& plane, double* x, double* y) const;
   /// Largest penetration over the auxiliary bearings [m]; negative: the least clearance left.
@@ -125,7 +125,8 @@ class RotorModel {
   int NewDof(double mass);
   double StiffnessRate(const MotionState& s) const;
   double MountRate() const;
-  void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const;
+  void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
+                bool near_contact) const;
 
   RotorParameters p_;
   std::array<double, 3> g_;

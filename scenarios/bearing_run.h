@@ -13,7 +13,7 @@ struct SwitchingEngine::BearingRun {
   std::size_t first_axis = 0, axes = 2;
   int auxiliary = -1;              // index among the rotor's auxiliary planes
   VoltagePattern pattern;
-  std::array<CoilVoltage, kLanes> voltage;
+  bool only_edge_moves = false;    // ordinary bi-state bridges: the pattern is set but for t2
   MeasurementSettings measurement;
   bool plain_sensors = true;
   Lane adc[64];                    // measured samples of the last period [A]
@@ -23,6 +23,7 @@ struct SwitchingEngine::BearingRun {
   double fx = 0, fy = 0;           // mean force of the last period [N]
   double fx_before = 0, fy_before = 0;  // of the one before it: what a load cell shows inside a burst
   double true_x = 0, true_y = 0;   // shaft centre at the plane, start of the period [m]
+  double max_orbit_sq = 0;         // largest distance of the shaft from the centre, squared [m²]
   std::array<bool, kLanes> faulty{};
 };
 

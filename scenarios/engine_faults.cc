@@ -57,14 +57,8 @@ void SwitchingEngine::InjectCoil(const FaultSpec& fault, BearingRun& b, int coil
   }
   if (fault.kind != "amplifier-off" && fault.kind != "switch-stuck-on") return;
   // The bridge changes in the middle of its period: rebuild this coil's voltage pattern.
-  const CoilVoltage v =
-      control_[b.index].amplifier[j].Pattern(control_[b.index].duty[coil], b.plant->bridge[j]);
-  b.pattern.t1[coil] = v.t1;
-  b.pattern.t2[coil] = v.t2;
-  for (int q = 0; q < 3; ++q) {
-    b.pattern.gain[q][coil] = v.gain[q];
-    b.pattern.drop[q][coil] = v.drop[q];
-  }
+  b.only_edge_moves = false;
+  SetPattern(b, coil, control_[b.index].amplifier[j].Pattern(control_[b.index].duty[coil], b.plant->bridge[j]));
 }
 
 }  // namespace ambrig

@@ -22,36 +22,44 @@ void SwitchingEngine::Watch(long long n) {
       m.peak_current = std::max(m.peak_current, b.current.largest[j]);
     }
     if (clamped_) continue;
-    const double orbit = std::hypot(b.true_x, b.true_y);
-    double& most = m.max_orbit[b.plant->name];
-    most = std::max(most, orbit);
-    if (late) m.late_orbit = std::max(m.late_orbit, orbit);
+    const double orbit_sq = b.true_x * b.true_x + b.true_y * b.true_y;
+    b.max_orbit_sq = std::max(b.max_orbit_sq, orbit_sq);
+    if (late) late_orbit_sq_ = std::max(late_orbit_sq_, orbit_sq);
   }
+  if (!clamped_)
+    for (std::size_t k = 0; k <= plant_.rotor.auxiliaries().size(); ++k) WatchContact(k, n == 0 && k == 0);
+  WatchFaults(n);
+}
+
+/// Auxiliary bearing k, or the axial stop after the last of them.
+void SwitchingEngine::WatchContact(std::size_t k, bool first) {
+  RunMetrics& m = result_.metrics;
   const RotorModel& rotor = plant_.rotor;
-  for (std::size_t k = 0; !clamped_ && k <= rotor.auxiliaries().size(); ++k) {
-    const bool axial = k == rotor.auxiliaries().size();
-    const double depth = axial ? rotor.AxialPenetration(motion_) : rotor.Penetration(motion_, k);
-    if (!std::isfinite(depth)) continue;
-    const std::string name = axial ? "z" : rotor.auxiliaries()[k].name;
-    const bool first = n == 0 && k == 0;
-    m.min_clearance_left = first ? -depth : std::min(m.min_clearance_left, -depth);
-    double& since = contact_since_[k];
-    if (depth > 0 && since < 0) {
-      since = motion_.t;
-      if (scenario_.start != StartState::kResting || motion_.t > T_ * 1.5) {
-        if (!result_.touchdown || result_.events.back().kind != "touchdown") Event("touchdown", name);
-        result_.touchdown = true;
-      }
-    } else if (depth <= 0 && since >= 0) {
-      m.longest_contact = std::max(m.longest_contact, motion_.t - since);
-      since = -1;
-      Event("lift_off", name);
+  const bool axial = k == rotor.auxiliaries().size();
+  const double depth = axial ? rotor.AxialPenetration(motion_) : rotor.Penetration(motion_, k);
+  if (!std::isfinite(depth)) return;
+  m.min_clearance_left = first ? -depth : std::min(m.min_clearance_left, -depth);
+  double& since = contact_since_[k];
+  if (depth <= 0 && since < 0) return;
+  const std::string name = axial ? "z" : rotor.auxiliaries()[k].name;
+  if (depth > 0 && since < 0) {
+    since = motion_.t;
+    if (scenario_.start != StartState::kResting || motion_.t > T_ * 1.5) {
+      if (!result_.touchdown || result_.events.back().kind != "touchdown") Event("touchdown", name);
+      result_.touchdown = true;
     }
-    if (since >= 0 && !result_.drop && motion_.t - since > scenario_.drop_limit) {
-      result_.drop = true;
-      Event("drop", name);
-    }
+  } else if (depth <= 0 && since >= 0) {
+    m.longest_contact = std::max(m.longest_contact, motion_.t - since);
+    since = -1;
+    Event("lift_off", name);
   }
+  if (since >= 0 && !result_.drop && motion_.t - since > scenario_.drop_limit) {
+    result_.drop = true;
+    Event("drop", name);
+  }
+}
+
+void SwitchingEngine::WatchFaults(long long n) {
   if (!options_.supervisor) return;
   measurement_.period = n;
   measurement_.t = static_cast<double>(n) * T_;
@@ -85,6 +93,9 @@ void SwitchingEngine::Snapshot(const std::string& label) {
 
 void SwitchingEngine::Verdict() {
   RunMetrics& m = result_.metrics;
+  if (!clamped_)
+    for (const BearingRun& b : bearings_) m.max_orbit[b.plant->name] = std::sqrt(b.max_orbit_sq);
+  m.late_orbit = std::sqrt(late_orbit_sq_);
   m.copper_loss = periods_ > 0 ? loss_sum_ / static_cast<double>(periods_) : 0;
   for (double since : contact_since_) {
     if (since < 0) continue;

@@ -294,44 +294,59 @@ void SwitchingEngine::CurrentLoops(long long n) {
     for (const auto& s : commands_->duty)
       control_[static_cast<std::size_t>(s.bearing)].duty[s.index] =
           std::clamp(CommandPlan::At(s, at), std::min(0.0, rig_.amplifier.duty_min), 1.0);
+  for (BearingRun& b : bearings_) SetPatterns(b);
+}
+
+void SwitchingEngine::SetPatterns(BearingRun& b) {
+  const BearingControl& c = control_[b.index];
+  if (b.only_edge_moves) {
+    for (int j = 0; j < c.coils; ++j) b.pattern.t2[j] = c.duty[j] * T_;
+    return;
+  }
+  b.only_edge_moves = rig_.amplifier.modulation == Modulation::kBiState;
+  for (int j = 0; j < c.coils; ++j) {
+    const auto lane = static_cast<std::size_t>(j);
+    BridgeImperfection bridge = b.plant->bridge[lane];
+    b.only_edge_moves = b.only_edge_moves && bridge.dead_time == 0 && bridge.dead_duty == 0 && !bridge.off &&
+                        !bridge.stuck_on && b.plant->voltage[lane].empty();
+    for (const auto& term : b.plant->voltage[lane])
+      bridge.voltage_offset += term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y, &motion_});
+    SetPattern(b, j, c.amplifier[lane].Pattern(c.duty[j], bridge));
+  }
+}
+
+void SwitchingEngine::SetPattern(BearingRun& b, int j, const CoilVoltage& v) {
+  b.pattern.t1[j] = v.t1;
+  b.pattern.t2[j] = v.t2;
+  for (int q = 0; q < 3; ++q) {
+    b.pattern.gain[q][j] = v.gain[q];
+    b.pattern.drop[q][j] = v.drop[q];
+  }
+}
+
+void SwitchingEngine::PredictPositions() {
+  // Where the planes will be at the end of the period: constant acceleration.
+  MotionState ahead = motion_;
+  ahead.t += T_;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(plant_.rotor.dof()); ++d)
+    ahead.q[d] += T_ * (motion_.v[d] + 0.5 * T_ * acceleration_[d]);
+  ahead.theta += T_ * motion_.Omega;
   for (BearingRun& b : bearings_) {
-    const BearingControl& c = control_[b.index];
-    for (int j = 0; j < c.coils; ++j) {
-      const auto lane = static_cast<std::size_t>(j);
-      BridgeImperfection bridge = b.plant->bridge[lane];
-      for (const auto& term : b.plant->voltage[lane])
-        bridge.voltage_offset += term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y, &motion_});
-      const CoilVoltage v = c.amplifier[lane].Pattern(c.duty[j], bridge);
-      b.pattern.t1[j] = v.t1;
-      b.pattern.t2[j] = v.t2;
-      for (int q = 0; q < 3; ++q) {
-        b.pattern.gain[q][j] = v.gain[q];
-        b.pattern.drop[q][j] = v.drop[q];
-      }
-    }
+    plant_.rotor.Position(ahead, b.plant->plane, &b.x_next, &b.y_next);
+    b.x_next -= b.plant->offset_x;
+    b.y_next -= b.plant->offset_y;
   }
 }
 
 void SwitchingEngine::RunMagnetics(long long n) {
+  if (!clamped_ && !options_.forced) PredictPositions();
   for (BearingRun& b : bearings_) {
-    b.x_next = b.x;
-    b.y_next = b.y;
     if (options_.forced) {
       ForcedPosition(b, motion_.t + T_, &b.x_next, &b.y_next);
-      continue;
+    } else if (clamped_) {
+      b.x_next = b.x;
+      b.y_next = b.y;
     }
-    if (clamped_) continue;
-    // Where the plane will be at the end of the period: constant acceleration.
-    MotionState ahead = motion_;
-    ahead.t += T_;
-    for (int d = 0; d < plant_.rotor.dof(); ++d) {
-      const auto c = static_cast<std::size_t>(d);
-      ahead.q[c] += T_ * (motion_.v[c] + 0.5 * T_ * acceleration_[c]);
-    }
-    ahead.theta += T_ * motion_.Omega;
-    plant_.rotor.Position(ahead, b.plant->plane, &b.x_next, &b.y_next);
-    b.x_next -= b.plant->offset_x;
-    b.y_next -= b.plant->offset_y;
   }
   const double end = motion_.t + T_;
   std::vector<const FaultSpec*>& due = due_faults_;

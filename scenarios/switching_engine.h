@@ -57,12 +57,17 @@ class SwitchingEngine {
   void ControlTick(long long n);
   void ApplySetPoints(long long n);
   void CurrentLoops(long long n);
+  void SetPatterns(BearingRun& b);
+  static void SetPattern(BearingRun& b, int j, const CoilVoltage& v);
+  void PredictPositions();
   void RunMagnetics(long long n);
   void RunBearings();
   void RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due);
   void Measure(long long n);
   void MoveRotor(long long n);
   void Watch(long long n);
+  void WatchContact(std::size_t k, bool first);
+  void WatchFaults(long long n);
   void Inject(const FaultSpec& fault);
   void InjectCoil(const FaultSpec& fault, BearingRun& b, int coil);
   void BusAt(double t);
@@ -108,7 +113,7 @@ class SwitchingEngine {
   std::vector<std::size_t> channel_;
   RunResult result_;
   std::vector<double> contact_since_;
-  double loss_sum_ = 0, touching_ = 0;
+  double loss_sum_ = 0, touching_ = 0, late_orbit_sq_ = 0;
   PeriodMeasurement measurement_;
   std::optional<MeasurementNoise> noise_;
 };
