@@ -42,7 +42,6 @@ void StatorLanes::Unblock(int j) {
 
 void StatorLanes::SetStep(double h) {
   h_ = h;
-  any_short = false;
   affine_laws_ = true;
   for (FluxLaw* law : laws) {
     law->SetStep(h);
@@ -54,12 +53,11 @@ void StatorLanes::SetStep(double h) {
     if (inert) blocked[j] = true;
     inverse_l_[j] = blocked[j] ? 0 : 1 / (leakage[j] + half_rh_[j]);
     c_[j] = n[j] * inverse_l_[j];
-    if (n2[j] != 0) {
-      any_short = true;
-      // Exponentially fitted: exact for the loop's own decay R/L, stable however stiff.
-      const double a = resistance2[j] * h / leakage2[j];
-      theta2_[j] = a < 1e-3 ? 0.5 + a / 12 : 1 / -std::expm1(-a) - 1 / a;
-    }
+  }
+  for (ShortedTurns& s : shorts) {
+    // Exponentially fitted: exact for the loop's own decay R/L, stable however stiff.
+    const double a = s.resistance * h / s.leakage;
+    s.theta = a < 1e-3 ? 0.5 + a / 12 : 1 / -std::expm1(-a) - 1 / a;
   }
 }
 
@@ -156,32 +154,28 @@ void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0
 
 void StatorLanes::Refresh(double x, double y) {
   // Same as a solve with no voltage and no time: currents that carry the present linkages.
-  const double h = h_;
   for (int j = 0; j < kLanes; ++j) rel_[j] = reluctance.Value(GapAt(j, x, y));
-  const Lane keep_half = half_rh_, keep_resistance2 = resistance2, keep_inverse = inverse_l_;
+  const Lane keep_half = half_rh_, keep_inverse = inverse_l_;
   for (int j = 0; j < kLanes; ++j) {
     half_rh_[j] = 0;
-    resistance2[j] = 0;
     inverse_l_[j] = blocked[j] ? 0 : 1 / leakage[j];
     c_[j] = n[j] * inverse_l_[j];
   }
-  SolveGeneral(lambda, lambda2);
+  for (ShortedTurns& s : shorts) s.target = s.lambda;
+  SolveGeneral(lambda, 0);
   half_rh_ = keep_half;
-  resistance2 = keep_resistance2;
   inverse_l_ = keep_inverse;
   for (int j = 0; j < kLanes; ++j) {
     c_[j] = n[j] * inverse_l_[j];
     if (blocked[j]) i[j] = 0;
     lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
   }
-  h_ = h;
 }
 
 void StatorLanes::Settle(const Lane& currents, double x, double y) {
   // Linear start, then the iron laws' own fixed point at the given currents.
   for (int j = 0; j < kLanes; ++j) {
     i[j] = j < coils && !open[j] ? currents[j] : 0;
-    i2[j] = 0;
     rel_[j] = reluctance.Value(GapAt(j, x, y));
     phi[j] = 0;
   }
@@ -208,8 +202,11 @@ void StatorLanes::Settle(const Lane& currents, double x, double y) {
   for (FluxLaw* law : laws) law->Settle(phi);
   for (int j = 0; j < kLanes; ++j) {
     lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
-    lambda2[j] = n2[j] * phi[j];
     blocked[j] = j >= coils || open[j] || n[j] == 0 || (unipolar && i[j] <= 0);
+  }
+  for (ShortedTurns& s : shorts) {
+    s.i = 0;
+    s.lambda = s.n * phi[s.coil];
   }
   SetStep(h_);
 }
@@ -231,11 +228,10 @@ void StatorLanes::ShortTurns(int j, double s, double r, double x, double y) {
   leakage[j] = (1 - s) * (1 - s) * leak;
   resistance[j] = (1 - s) * coil_resistance;
   if (std::isfinite(r)) {
-    n2[j] = s * turns;
-    leakage2[j] = s * s * leak;
-    resistance2[j] = s * coil_resistance + r;
-    i2[j] = i[j];
-    lambda2[j] = n2[j] * phi[j] + leakage2[j] * i2[j];
+    ShortedTurns loop{j, s * turns, s * s * leak, s * coil_resistance + r};
+    loop.i = i[j];
+    loop.lambda = loop.n * phi[j] + loop.leakage * loop.i;
+    shorts.push_back(loop);
   }
   lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
   SetStep(h_);
@@ -254,9 +250,9 @@ void StatorLanes::Force(double x, double y, double* out_x, double* out_y) const 
 
 double StatorLanes::FieldEnergy(double x, double y) const {
   double w = 0;
+  for (const ShortedTurns& s : shorts) w += 0.5 * s.leakage * s.i * s.i;
   for (int j = 0; j < coils; ++j) {
     w += 0.5 * leakage[j] * i[j] * i[j];
-    if (n2[j] != 0) w += 0.5 * leakage2[j] * i2[j] * i2[j];
     if (coupling == Coupling::kSides && j % 2 == 1) continue;
     w += 0.5 * reluctance.Value(GapAt(j, x, y)) * phi[j] * phi[j];
   }

@@ -24,6 +24,15 @@
 
 namespace ambrig {
 
+/// Turns of one coil shorted through a resistance: a winding on its pole that nobody drives.
+struct ShortedTurns {
+  int coil = 0;
+  double n = 0, leakage = 0, resistance = 0;  // signed turns, [H], of the whole loop [ohm]
+  double lambda = 0, i = 0;                   // [Wb], [A]
+  double theta = 0.5;                         // implicitness of a step, fitted to R h / L
+  double target = 0;                          // λ* of the present step [Wb]
+};
+
 /// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it.
 struct GapReluctance {
   double per_metre = 0;   // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]
@@ -48,9 +57,7 @@ class StatorLanes {
   Lane gap_offset;               // g = gap_offset - x dx - y dy  [m]
   GapReluctance reluctance;
   std::vector<FluxLaw*> laws;    // iron laws, empty for ideal iron
-  // Shorted turns: a second winding per pole that nobody drives. n2 = 0 where there is none.
-  bool any_short = false;
-  Lane n2, leakage2, resistance2, lambda2, i2;
+  std::vector<ShortedTurns> shorts;      // any number, several on one coil too
   std::array<bool, kLanes> open{};       // broken for good
   bool unipolar = true;                  // two-quadrant bridges: i >= 0
 
@@ -69,7 +76,7 @@ class StatorLanes {
   void Refresh(double x, double y);
   /// Coil j breaks: its current is gone, the other linkages stay.
   void Break(int j, double x, double y);
-  /// A fraction s of coil j's turns is shorted through r [ohm] (infinite: bypassed).
+  /// A fraction s of the turns that coil j still drives is shorted through r [ohm] (infinite: bypassed).
   void ShortTurns(int j, double s, double r, double x, double y);
 
   /// One switching period of `samples_per_period` steps while the gap moves from (x0, y0) to
@@ -91,7 +98,7 @@ class StatorLanes {
   /// Mean current drawn from the bus over sample k [A] (general path).
   double bus_current() const { return bus_current_; }
 
-  bool NeedsGeneralPath() const { return any_short || !laws.empty(); }
+  bool NeedsGeneralPath() const { return !shorts.empty() || !laws.empty(); }
   /// Instantaneous force at the present flux.
   void Force(double x, double y, double* out_x, double* out_y) const;
   double FieldEnergy(double x, double y) const;  // [J], ideal iron
@@ -106,8 +113,9 @@ class StatorLanes {
   void UpdateConductance(int j);
   void Block(int j);
   void Unblock(int j);
-  /// Flux and currents that carry the targets λ* (and λ2* of shorted turns); Newton over the laws.
-  void SolveGeneral(const Lane& target, const Lane& target2);
+  /// Flux and currents that carry the targets λ*, the shorted turns' too, after a step of h [s] (0: at
+  /// once); Newton over the laws.
+  void SolveGeneral(const Lane& target, double h);
   StatorLoop LoopOver(const VoltagePattern& pattern, double bus);
   void RunChecked(const StatorLoop& loop);
   void OpenDriven(const VoltagePattern& pattern, double t);
@@ -120,7 +128,6 @@ class StatorLanes {
   double x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;
   int per_period_ = 18;
   bool blocks_ = false;                 // some diode blocked in the last period
-  Lane theta2_;                         // implicitness of the shorted loop
   Lane rel_;
   double bus_current_ = 0;
   bool affine_laws_ = true;             // one round of Newton is exact

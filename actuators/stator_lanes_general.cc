@@ -116,17 +116,16 @@ AMBRIG_WIDE void Take(const double* n, const double* leakage, const double* phi,
 
 }  // namespace
 
-void StatorLanes::SolveGeneral(const Lane& target, const Lane& target2) {
-  Lane inverse2, short_mmf, short_own;
-  for (int j = 0; any_short && j < kLanes; ++j) {
-    if (n2[j] == 0) continue;
-    inverse2[j] = 1 / (leakage2[j] + theta2_[j] * resistance2[j] * h_);
-    short_mmf[j] = n2[j] * inverse2[j] * target2[j];
-    short_own[j] = n2[j] * n2[j] * inverse2[j];
+void StatorLanes::SolveGeneral(const Lane& target, double h) {
+  Lane short_mmf, short_own;
+  const auto inverse = [h](const ShortedTurns& s) { return 1 / (s.leakage + s.theta * s.resistance * h); };
+  for (const ShortedTurns& s : shorts) {
+    short_mmf[s.coil] += s.n * inverse(s) * s.target;
+    short_own[s.coil] += s.n * s.n * inverse(s);
   }
   Lane mmf, stiffness, drop, slope;
-  Windings(coupling, c_.v, n.v, target.v, rel_.v, any_short ? short_mmf.v : nullptr, short_own.v,
-           mmf.v, stiffness.v);
+  Windings(coupling, c_.v, n.v, target.v, rel_.v, shorts.empty() ? nullptr : short_mmf.v,
+           short_own.v, mmf.v, stiffness.v);
   const int rounds = affine_laws_ ? 1 : kMostRounds;
   for (int round = 0; round < rounds; ++round) {
     Clear(drop.v, slope.v);
@@ -134,8 +133,7 @@ void StatorLanes::SolveGeneral(const Lane& target, const Lane& target2) {
     if (Round(coupling, mmf.v, stiffness.v, drop.v, slope.v, phi.v)) break;
   }
   Currents(inverse_l_.v, n.v, target.v, phi.v, i.v);
-  for (int j = 0; any_short && j < kLanes; ++j)
-    if (n2[j] != 0) i2[j] = inverse2[j] * (target2[j] - n2[j] * phi[j]);
+  for (ShortedTurns& s : shorts) s.i = inverse(s) * (s.target - s.n * phi[s.coil]);
 }
 
 void StatorLanes::UnblockDriven(const VoltagePattern& p, double bus, double t, Lane* target) {
@@ -160,13 +158,12 @@ void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
   samples[k] = i;
   const Lane& start = samples[k];
   Reluctance(rel0_.v, rel1_.v, fraction, rel_.v);
-  Lane target, target2;
+  Lane target;
   Targets(edges, lambda.v, half_rh_.v, i.v, target.v);
   UnblockDriven(pattern, bus, edges.t, &target);
-  for (int j = 0; any_short && j < kLanes; ++j)
-    if (n2[j] != 0) target2[j] = lambda2[j] - (1 - theta2_[j]) * resistance2[j] * h_ * i2[j];
+  for (ShortedTurns& s : shorts) s.target = s.lambda - (1 - s.theta) * s.resistance * h_ * s.i;
   for (int round = 0; round <= kLanes; ++round) {
-    SolveGeneral(target, target2);
+    SolveGeneral(target, h_);
     bool any = false;
     for (int j = 0; unipolar && j < coils; ++j)
       if (i[j] < 0) {
@@ -176,8 +173,7 @@ void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
     if (!any) break;
   }
   Take(n.v, leakage.v, phi.v, i.v, lambda.v, sum_.v);
-  for (int j = 0; any_short && j < kLanes; ++j)
-    if (n2[j] != 0) lambda2[j] = n2[j] * phi[j] + leakage2[j] * i2[j];
+  for (ShortedTurns& s : shorts) s.lambda = s.n * phi[s.coil] + s.leakage * s.i;
   for (FluxLaw* law : laws) law->Commit(phi);
   bus_current_ = Drawn(edges, start.v, i.v);
 }

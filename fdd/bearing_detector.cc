@@ -15,6 +15,7 @@ constexpr double kClosestGap = 0.4;      // of the nominal: nearer, its error ru
 constexpr int kLongestExamination = 12;
 constexpr double kPartnerMargin = 12;    // between two windings on one core: e^-6
 constexpr double kDoubt = 3;           // tolerances count this many times
+constexpr double kLeastUnknownCurrent = 1;  // [A] what a coil of unknown MMF may carry beside its reading
 constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
 constexpr int kLearnEvery = 4;         // periods
 constexpr double kForget = kLearnEvery / 500.0, kSizeRate = kLearnEvery / 200.0;
@@ -53,23 +54,34 @@ void BearingDetector::Keep(const MeasuredPeriod& in) {
   ++count_;
 }
 
+double BearingDetector::UnknownPotential() const {
+  double doubt = 0;
+  for (int k = 0; any_unknown_ && k < model_.coils; ++k)
+    if (unknown_mmf_[static_cast<std::size_t>(k)])
+      doubt += std::abs(model_.n[k]) * slopes_.P[k] * std::max(slopes_.largest[k], kLeastUnknownCurrent);
+  return doubt / slopes_.total;
+}
+
 void BearingDetector::Residuals(const MeasuredPeriod& in) {
   if (any_unknown_ && model_.coupling == Coupling::kFloatingRotor)
     ComputePeriodSlopesUnknownMmf(model_, s_.sampling, in, unknown_mmf_, &slopes_);
   else
     ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
+  // What an unknown MMF was at the first sample stays unknown: the motion turns it into a voltage.
+  const double potential_rate = UnknownPotential() / (s_.sampling.step * s_.sampling.samples);
   for (int q = 0; q < 2; ++q) {
     const PhaseSlopes& p = slopes_.phase[q];
     for (int j = 0; j < model_.coils; ++j) {
       const auto lane = static_cast<std::size_t>(j);
+      const double moved = model_.n[j] * slopes_.dP[j] * potential_rate;
       const double flux = p.linkage[j] - model_.leakage[j] * p.current[j];
       const double own = model_.SelfInductance(j, slopes_.P, radial ? slopes_.total : 1);
       const double noise = own * s_.current_noise;
       const double di = p.current[j];
       const double variance = noise * noise * slope_variance_[static_cast<std::size_t>(p.samples[j])] +
                               doubt_[0] * di * di - doubt_[1] * di * flux + doubt_[2] * flux * flux +
-                              s_.voltage_sd * s_.voltage_sd;
+                              s_.voltage_sd * s_.voltage_sd + moved * moved;
       e_[q][j] = p.residual[j] + theta_[0] * p.current[j] - theta_[1] * flux;
       sd_[q][j] = std::sqrt(variance) * std::clamp(size_[q][j] / 0.8, 1.0, 5.0);
       z_[q][j] = e_[q][j] / sd_[q][j];

@@ -15,6 +15,10 @@
 /// hypotheses (coil_examination.h) until one is certain or the alarm is cleared.
 /// Afterwards the model knows the fault (masked coil, fewer turns) and watching goes on.
 ///
+/// Where the MMF of a coil is not known (false or clipped reading, current in shorted turns), its change
+/// within a period is estimated from the other coils (period_slopes.h); what it was before is not, and
+/// widens s by n (dP/dt) δU, δU from a current as large as the reading.
+///
 /// A residual counts only where its equation holds: at least 4 samples in the phase, no current at
 /// zero in the off phase (diodes block), no clipped ADC, a known bus and position, no gap nearly closed.
 #include <array>
@@ -69,6 +73,8 @@ class BearingDetector {
 
  private:
   void Residuals(const MeasuredPeriod& in);
+  /// By how much the rotor's potential may be wrong for coils of unknown MMF [A turns].
+  double UnknownPotential() const;
   void Cusum();
   /// Coil with the largest unexplained step of its linkage, -1: none.
   int StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in);

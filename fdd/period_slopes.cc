@@ -148,6 +148,7 @@ void Ends(const LinkageModel& m, const MeasuredPeriod& in, PeriodSlopes* out, La
   out->total = 0;
   for (int j = 0; j < kLanes; ++j) {
     out->P[j] = 0.5 * (P0->v[j] + P1->v[j]);
+    out->dP[j] = P1->v[j] - P0->v[j];
     out->total += out->P[j];
   }
 }

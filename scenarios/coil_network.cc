@@ -124,6 +124,7 @@ void CoilNetwork::Short(int coil, int loop, double s, double r, const NetworkSta
   const double phi = now.phi[U(w.pole)], current = now.i[U(coil)];
   if (loop >= 0) {
     Winding& l = windings[U(loop)];
+    l.pole = w.pole;
     l.n = s * w.n;
     l.leakage = s * s * w.leakage;
     l.resistance = s * w.resistance + r;

@@ -29,11 +29,19 @@ ContinuousRig::ContinuousRig(SampledRig& rig, const IntegratorOptions& options) 
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     bearings_.emplace_back(rig.plant.bearings[k].lanes);
     const std::string prefix = rig.plant.bearings[k].name + ".coil";
-    for (const FaultSpec& f : rig.scenario.faults)
-      if (f.kind == "partial-short" && f.target.starts_with(prefix) &&
-          std::isfinite(f.Get("short_resistance", kInfinity)))
-        bearings_.back().loops.push_back(static_cast<int>(
-            bearings_.back().network.ReserveLoop(std::stoi(f.target.substr(prefix.size())) - 1)));
+    for (const FaultSpec& f : rig.scenario.faults) {
+      if (f.kind != "partial-short" || !f.target.starts_with(prefix) ||
+          !std::isfinite(f.Get("short_resistance", kInfinity)))
+        continue;
+      CoilNetwork& network = bearings_.back().network;
+      if (network.windings.size() == kMaxWindings)
+        throw InputError(fmt::format("{}: target: \"{}\" is the bearing's short number {} with a resistance, "
+                                     "allowed: {} with --fidelity reference or averaged",
+                                     f.where, f.target, bearings_.back().loops.size() + 1,
+                                     bearings_.back().loops.size()));
+      bearings_.back().loops.push_back(
+          static_cast<int>(network.ReserveLoop(std::stoi(f.target.substr(prefix.size())) - 1)));
+    }
   }
   for (const LoadSpec& l : rig.scenario.loads) {
     DofVector Q{};

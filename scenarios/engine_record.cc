@@ -24,7 +24,7 @@ void SwitchingEngine::RecordRow(long long n, int sample) {
   const double inside = sample * T_ / samples_, t = static_cast<double>(n) * T_ + inside;
   std::size_t c = 0;
   const auto put = [&](double value) { recorder_->Put(channel_[c++], value); };
-  const bool at_tick = sample == 0 && controller_on_ && n % M_ == 0;
+  const bool at_tick = sample == 0 && n % M_ == 0;
   for (std::size_t a = 0; a < readings_.size(); ++a) put(at_tick ? readings_[a] : NoisyReading(a, n));
   for (BearingRun& b : bearings_) {
     const BearingControl& k = control_[b.index];

@@ -66,6 +66,7 @@ void SwitchingEngine::WatchFaults(long long n) {
   measurement_.samples = samples_;
   measurement_.readings = &readings_;
   measurement_.reading_time = reading_time_;
+  measurement_.position_loop = controller_on_;
   measurement_.bearings.clear();
   for (const BearingRun& b : bearings_)
     measurement_.bearings.push_back({b.adc, &control_[b.index].duty, plant_.bus.voltage});

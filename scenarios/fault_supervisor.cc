@@ -200,14 +200,20 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, st
   if (alarm.cleared) events.push_back({t, "alarm_cleared", name, "", 0});
   if (alarm.diagnosis.cls == FaultClass::kNone) return;
   events.push_back({t, "classified", name, ToText(alarm.diagnosis.cls), alarm.diagnosis.fraction});
-  if (options_.redistribute) Redistribute(w, alarm.diagnosis, control[k], events);
+  if (!options_.redistribute) return;
+  Disable(w, alarm.diagnosis, control[k]);
+  // Set-points that come from outside are not spread over other coils.
+  if (m.position_loop) Redistribute(w, alarm.diagnosis, control[k], events);
+}
+
+void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, BearingControl& control) {
+  const bool lost = d.cls != FaultClass::kPartialShort;
+  w.turns_left[d.coil] = lost ? 0 : w.turns_left[d.coil] * (1 - d.fraction);
+  if (lost) control.disabled[static_cast<std::size_t>(d.coil)] = true;
 }
 
 void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingControl& control,
                                    std::vector<RunEvent>& events) {
-  const bool lost = d.cls != FaultClass::kPartialShort;
-  w.turns_left[d.coil] = lost ? 0 : w.turns_left[d.coil] * (1 - d.fraction);
-  if (lost) control.disabled[static_cast<std::size_t>(d.coil)] = true;
   const CurrentMap old = control.map;
   std::string cls;
   double resistance = 0;
@@ -233,7 +239,7 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingContro
     }
   } else {
     cls = "none";
-    if (lost) control.map.W.row(d.coil).setZero();
+    if (w.turns_left[d.coil] == 0) control.map.W.row(d.coil).setZero();
     resistance = w.bearing->opposed.resistance;
   }
   // The force command behind the present set-points, then the set-points that it will have.

@@ -45,6 +45,8 @@ class FaultSupervisor : public Supervisor {
   void WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events);
   void WatchBearing(std::size_t k, const PeriodMeasurement& m, std::vector<BearingControl>& control,
                     std::vector<RunEvent>& events);
+  /// What is left of the coil's turns; a lost coil's bridge is kept off.
+  static void Disable(Watched& w, const Diagnosis& d, BearingControl& control);
   void Redistribute(Watched& w, const Diagnosis& d, BearingControl& control, std::vector<RunEvent>& events);
   void TraceSlopes(double t);
 

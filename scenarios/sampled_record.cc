@@ -15,6 +15,7 @@ void SampledRig::AfterPeriod(long long n, RunResult& result) {
   m.samples = samples;
   m.readings = &readings_;
   m.reading_time = reading_time_;
+  m.position_loop = controller_on_;
   for (const SampledBearing& b : bearings)
     m.bearings.push_back({b.adc, &control[b.index].duty, plant.bus.voltage});
   options.supervisor->AfterPeriod(m, control, result.events);
@@ -41,7 +42,7 @@ void SampledRig::RecordRow(long long n, int sample) {
   const double inside = sample * h, t = static_cast<double>(n) * T + inside;
   std::size_t c = 0;
   const auto put = [&](double value) { recorder_->Put(channel_[c++], value); };
-  const bool at_tick = sample == 0 && controller_on_ && n % M == 0;
+  const bool at_tick = sample == 0 && n % M == 0;
   for (std::size_t a = 0; a < readings_.size(); ++a)
     put(at_tick ? readings_[a] : NoisyReading(a, n));
   for (const SampledBearing& b : bearings) {

@@ -177,7 +177,10 @@ void SampledRig::AtPeriodStart(long long n) {
   UpdatePositions();
   ReadSensors();
   ApplySetPoints(n);
-  if (controller_on_ && n % M == 0) ControlTick(n);
+  if (n % M == 0) {
+    SampleReadings(n);
+    if (controller_on_) ControlTick(n);
+  }
   CurrentLoops(n);
   if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
 }
@@ -203,17 +206,18 @@ double SampledRig::NoisyReading(std::size_t axis, long long n) {
   return 0;
 }
 
-void SampledRig::ControlTick(long long n) {
-  for (std::size_t a = 0; a < readings_.size(); ++a) {
-    readings_[a] = NoisyReading(a, n);
-    reference_[a] = excitation_[a] = 0;
-  }
+void SampledRig::SampleReadings(long long n) {
+  for (std::size_t a = 0; a < readings_.size(); ++a) readings_[a] = NoisyReading(a, n);
   reading_time_ = motion.t;
   for (SampledBearing& b : bearings)
     for (std::size_t side = 0; side < b.axes; ++side) {
       SensorFault& f = b.plant->sensor.fault[side];
       if (!f.stuck) f.held = readings_[b.first_axis + side];
     }
+}
+
+void SampledRig::ControlTick(long long n) {
+  for (auto* v : {&reference_, &excitation_}) std::fill(v->begin(), v->end(), 0.0);
   if (n >= 0) {
     for (const auto& s : commands_.reference) reference_[U(s.index)] += CommandPlan::At(s, n / M);
     for (const auto& s : commands_.force) excitation_[U(s.index)] += CommandPlan::At(s, n / M);

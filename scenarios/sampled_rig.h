@@ -87,6 +87,7 @@ class SampledRig {
   void SetStartForces(const std::vector<double>& force);
   void ReadSensors();
   double NoisyReading(std::size_t axis, long long n);
+  void SampleReadings(long long n);
   void ControlTick(long long n);
   void ApplySetPoints(long long n);
   void CurrentLoops(long long n);

@@ -38,6 +38,7 @@ struct PeriodMeasurement {
   std::vector<BearingMeasurement> bearings;
   const std::vector<double>* readings = nullptr;  // last noisy position readings per axis [m]
   double reading_time = 0;                        // [s]
+  bool position_loop = true;                      // false: clamped, set-points come from outside
 };
 
 class Supervisor {

@@ -194,7 +194,10 @@ void SwitchingEngine::Period(long long n) {
   ReadSensors();
   if (options_.forced) FollowData(n);
   ApplySetPoints(n);
-  if (controller_on_ && n % M_ == 0) ControlTick(n);
+  if (n % M_ == 0) {
+    SampleReadings(n);
+    if (controller_on_) ControlTick(n);
+  }
   CurrentLoops(n);  // a row shows this period's duty
   if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
   RunMagnetics(n);
@@ -230,16 +233,17 @@ double SwitchingEngine::NoisyReading(std::size_t axis, long long n) {
   return 0;
 }
 
-void SwitchingEngine::ControlTick(long long n) {
-  const long long tick = n / M_;
-  for (std::size_t a = 0; a < readings_.size(); ++a) {
-    readings_[a] = NoisyReading(a, n);
-    reference_[a] = excitation_[a] = 0;
-  }
+void SwitchingEngine::SampleReadings(long long n) {
+  for (std::size_t a = 0; a < readings_.size(); ++a) readings_[a] = NoisyReading(a, n);
   reading_time_ = motion_.t;
   for (BearingRun& b : bearings_)
     for (std::size_t side = 0; side < b.axes; ++side)
       if (!b.plant->sensor.fault[side].stuck) b.plant->sensor.fault[side].held = readings_[b.first_axis + side];
+}
+
+void SwitchingEngine::ControlTick(long long n) {
+  const long long tick = n / M_;
+  for (auto* v : {&reference_, &excitation_}) std::fill(v->begin(), v->end(), 0.0);
   if (tick >= 0) {
     for (const auto& s : commands_->reference) reference_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, tick);
     for (const auto& s : commands_->force) excitation_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, tick);

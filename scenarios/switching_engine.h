@@ -54,6 +54,7 @@ class SwitchingEngine {
   void ForcedPosition(const BearingRun& b, double t, double* x, double* y) const;
   void Period(long long n);
   void ReadSensors();
+  void SampleReadings(long long n);
   void ControlTick(long long n);
   void ApplySetPoints(long long n);
   void CurrentLoops(long long n);
