@@ -9,8 +9,9 @@ namespace ambrig {
 
 namespace {
 constexpr int kRing = 20;             // periods kept
-constexpr double kFewest = 4;         // samples of a phase that counts
-constexpr double kZeroCurrent = 0.03; // [A] below: the diodes may block
+constexpr double kFewest = 4;          // samples of a phase that counts
+constexpr double kZeroCurrent = 0.03;  // [A] below: the diodes may block
+constexpr double kCalm = 1.5;          // no suspicion while every G is below
 constexpr double kClosestGap = 0.4;      // of the nominal: nearer, its error rules the inductance
 constexpr int kLongestExamination = 12;
 constexpr double kPartnerMargin = 12;    // between two windings on one core: e^-6
@@ -23,10 +24,9 @@ constexpr double kForget = kLearnEvery / 500.0, kSizeRate = kLearnEvery / 200.0;
 
 BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettings& settings)
     : model_(model), s_(settings), ring_(kRing) {
-  for (std::size_t n = 0; n < slope_variance_.size(); ++n)
-    slope_variance_[n] = SlopeVariance(static_cast<double>(n), s_.sampling.step);
-  for (Lane& size : size_)
+  for (Lane& size : chart_.size)
     for (int j = 0; j < kLanes; ++j) size[j] = 0.8;  // mean of |z| of a normal variable
+  for (int j = 0; j < model_.coils; ++j) watched_[j] = 1;
   const Lane P = model_.Permeance(0, 0);
   centred_ = *std::max_element(P.v, P.v + kLanes);
   Solve();
@@ -36,12 +36,12 @@ void BearingDetector::Solve() {
   const double leak = 1 / (s_.leakage_sd * s_.leakage_sd), gap = 1 / (s_.gap_sd * s_.gap_sd);
   const double p0 = info_[0] + leak, p1 = info_[2] + gap;
   const double det = p0 * p1 - info_[1] * info_[1];
-  theta_[0] = std::clamp((p1 * pull_[0] - info_[1] * pull_[1]) / det, -5 * s_.leakage_sd, 5 * s_.leakage_sd);
-  theta_[1] = std::clamp((p0 * pull_[1] - info_[1] * pull_[0]) / det, -5 * s_.gap_sd, 5 * s_.gap_sd);
+  known_.leakage = std::clamp((p1 * pull_[0] - info_[1] * pull_[1]) / det, -5 * s_.leakage_sd, 5 * s_.leakage_sd);
+  known_.gap = std::clamp((p0 * pull_[1] - info_[1] * pull_[0]) / det, -5 * s_.gap_sd, 5 * s_.gap_sd);
   // Covariance of what is left; in e the regressors are -di and flux.
-  doubt_[0] = kDoubt * kDoubt * p1 / det + kLeastLeakage * kLeastLeakage / leak;
-  doubt_[1] = -2 * kDoubt * kDoubt * info_[1] / det;
-  doubt_[2] = kDoubt * kDoubt * p0 / det + kLeastGap * kLeastGap / gap;
+  known_.doubt[0] = kDoubt * kDoubt * p1 / det + kLeastLeakage * kLeastLeakage / leak;
+  known_.doubt[1] = -2 * kDoubt * kDoubt * info_[1] / det;
+  known_.doubt[2] = kDoubt * kDoubt * p0 / det + kLeastGap * kLeastGap / gap;
 }
 
 void BearingDetector::Keep(const MeasuredPeriod& in) {
@@ -67,62 +67,28 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
     ComputePeriodSlopesUnknownMmf(model_, s_.sampling, in, unknown_mmf_, &slopes_);
   else
     ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
-  const bool radial = model_.coupling == Coupling::kFloatingRotor;
   // What an unknown MMF was at the first sample stays unknown: the motion turns it into a voltage.
   const double potential_rate = UnknownPotential() / (s_.sampling.step * s_.sampling.samples);
-  for (int q = 0; q < 2; ++q) {
-    const PhaseSlopes& p = slopes_.phase[q];
-    for (int j = 0; j < model_.coils; ++j) {
-      const auto lane = static_cast<std::size_t>(j);
-      const double moved = model_.n[j] * slopes_.dP[j] * potential_rate;
-      const double flux = p.linkage[j] - model_.leakage[j] * p.current[j];
-      const double own = model_.SelfInductance(j, slopes_.P, radial ? slopes_.total : 1);
-      const double noise = own * s_.current_noise;
-      const double di = p.current[j];
-      const double variance = noise * noise * slope_variance_[static_cast<std::size_t>(p.samples[j])] +
-                              doubt_[0] * di * di - doubt_[1] * di * flux + doubt_[2] * flux * flux +
-                              s_.voltage_sd * s_.voltage_sd + moved * moved;
-      e_[q][j] = p.residual[j] + theta_[0] * p.current[j] - theta_[1] * flux;
-      sd_[q][j] = std::sqrt(variance) * std::clamp(size_[q][j] / 0.8, 1.0, 5.0);
-      z_[q][j] = e_[q][j] / sd_[q][j];
-      bool ok = p.samples[j] >= kFewest && slopes_.largest[j] < s_.adc_limit &&
-                (state_[lane] == Coil::kHealthy || state_[lane] == Coil::kShort);
-      // At zero current the diodes may block: off says nothing, on only that too little flux comes.
-      if (p.least[j] < kZeroCurrent && (q == 1 || (p.mean[j] < 2 * kZeroCurrent && e_[q][j] > 0))) ok = false;
-      valid_[q][lane] = ok;
-      if (!ok) z_[q][j] = 0;
-    }
-  }
+  chart_.Compute(model_, s_.sampling, s_, known_, slopes_, watched_, potential_rate);
 }
 
 int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
   const double h = s_.sampling.step;
+  if (LargestStep(last_linkage, slopes_.first, last_voltage, h) < s_.cap) return -1;
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
   int largest = -1;
   double most = s_.cap;
   for (int j = 0; j < model_.coils; ++j) {
-    const auto lane = static_cast<std::size_t>(j);
     const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]);
-    if (step < s_.cap || (!valid_[0][lane] && !valid_[1][lane]) || in.adc[0][j] < kZeroCurrent) continue;
+    if (step < s_.cap || (!Holds(0, j) && !Holds(1, j)) || in.adc[0][j] < kZeroCurrent) continue;
     const double own = model_.SelfInductance(j, slopes_.P, radial ? slopes_.total : 1);
     const double sd = 1.4 * own * s_.current_noise / h + 1;
     if (step < most * sd) continue;
     most = step / sd;
     largest = j;
   }
-  if (largest >= 0) G_[0][largest] += 2 * s_.threshold;
+  if (largest >= 0) chart_.G[0][largest] += 2 * s_.threshold;
   return largest;
-}
-
-void BearingDetector::Cusum() {
-  for (int j = 0; j < model_.coils; ++j) {
-    const auto lane = static_cast<std::size_t>(j);
-    const double both = valid_[0][lane] && valid_[1][lane] ? (z_[0][j] - z_[1][j]) * 0.7071 : 0;
-    const double z[3] = {z_[0][j], z_[1][j], both};
-    const bool counts[3] = {valid_[0][lane], valid_[1][lane], valid_[0][lane] && valid_[1][lane]};
-    for (int q = 0; q < 3; ++q)
-      if (counts[q]) G_[q][j] = std::max(0.0, G_[q][j] + std::min(std::abs(z[q]), s_.cap) - s_.drift);
-  }
 }
 
 void BearingDetector::Learn() {
@@ -130,11 +96,11 @@ void BearingDetector::Learn() {
   double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0;
   for (int q = 0; q < 2; ++q)
     for (int j = 0; j < model_.coils; ++j) {
-      if (!valid_[q][static_cast<std::size_t>(j)]) continue;
+      if (!Holds(q, j)) continue;
       const PhaseSlopes& p = slopes_.phase[q];
-      const double size = std::min(std::abs(z_[q][j]), 4.0);
-      size_[q][j] += kSizeRate * (size - size_[q][j]);
-      const double w = kLearnEvery / (sd_[q][j] * sd_[q][j]);
+      const double size = std::min(std::abs(chart_.z[q][j]), 4.0);
+      chart_.size[q][j] += kSizeRate * (size - chart_.size[q][j]);
+      const double w = kLearnEvery / (chart_.sd[q][j] * chart_.sd[q][j]);
       const double x0 = -p.current[j], x1 = p.linkage[j] - model_.leakage[j] * p.current[j];
       const double e = p.residual[j];
       a00 += w * x0 * x0;
@@ -153,9 +119,9 @@ void BearingDetector::Learn() {
 
 LinkageModel BearingDetector::LearnedModel() const {
   LinkageModel m = model_;
-  for (int j = 0; j < m.coils; ++j) m.leakage[j] += theta_[0];
-  m.reluctance.per_metre /= 1 - theta_[1];
-  m.reluctance.offset /= 1 - theta_[1];
+  for (int j = 0; j < m.coils; ++j) m.leakage[j] += known_.leakage;
+  m.reluctance.per_metre /= 1 - known_.gap;
+  m.reluctance.offset /= 1 - known_.gap;
   return m;
 }
 
@@ -165,8 +131,8 @@ int BearingDetector::Largest() const {
   for (int j = 0; j < model_.coils; ++j) {
     double size = 0;
     for (int q = 0; q < 2; ++q)
-      if (valid_[q][static_cast<std::size_t>(j)]) size += std::abs(e_[q][j]);
-    if (G_[0][j] + G_[1][j] + G_[2][j] > 0 && size > most) {
+      if (Holds(q, j)) size += std::abs(chart_.e[q][j]);
+    if (chart_.G[0][j] + chart_.G[1][j] + chart_.G[2][j] > 0 && size > most) {
       most = size;
       worst = j;
     }
@@ -219,13 +185,7 @@ std::vector<const KeptPeriod*> BearingDetector::LastPeriods(long long n) const {
 BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   Alarm out;
   Keep(in);
-  const Lane last_linkage = slopes_.last;
-  Lane last_voltage;  // mean between the last sample and the end of the period
-  for (int j = 0; j < model_.coils; ++j) {
-    const double h = s_.sampling.step;
-    const double on = std::clamp(slopes_.edge[j] - (s_.sampling.samples - 1) * h, 0.0, h) / h;
-    last_voltage[j] = on * slopes_.phase[0].voltage[j] + (1 - on) * slopes_.phase[1].voltage[j];
-  }
+  const Lane last_linkage = slopes_.last, last_voltage = slopes_.after;
   Residuals(in);
   const bool follows = follows_;
   bool comparable = in.comparable;
@@ -236,15 +196,11 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
     return out;
   }
   if (alarm_at_ < 0) {
-    if (comparable) Cusum();
+    if (comparable) chart_.Cusum(s_);
     int stepped = -1;
     if (comparable && follows && !any_unknown_) stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
-    bool alarm = false, calm = comparable;
-    for (int q = 0; q < 3; ++q)
-      for (int j = 0; j < model_.coils; ++j) {
-        alarm = alarm || G_[q][j] > s_.threshold;
-        calm = calm && G_[q][j] < 1.5;
-      }
+    const double most = chart_.LargestSum();
+    const bool alarm = most > s_.threshold, calm = comparable && most < kCalm;
     if (calm) calm_at_ = count_;
     if (calm && count_ % kLearnEvery == 0) Learn();
     if (!alarm) return out;
@@ -274,7 +230,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
     return out;
   }
   alarm_at_ = -1;
-  for (Lane& G : G_) G = Lane{};
+  for (Lane& G : chart_.G) G = Lane{};
   return out;
 }
 
@@ -317,7 +273,7 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
       model_.resistance[j] *= a;
       state_[lane] = closed_loop ? Coil::kUnknownMmf : Coil::kShort;
       unknown_mmf_[lane] = closed_loop;
-      size_[0][j] = size_[1][j] = 2.4;  // the fraction is an estimate: wider until learned
+      chart_.size[0][j] = chart_.size[1][j] = 2.4;  // the fraction is an estimate: wider until learned
       break;
     }
     case FaultClass::kCurrentSensor:
@@ -330,9 +286,12 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
       break;
     default: state_[lane] = Coil::kLost; break;
   }
+  watched_[j] = state_[lane] == Coil::kShort ? 1 : 0;
   any_unknown_ = std::any_of(unknown_mmf_.begin(), unknown_mmf_.end(), [](bool b) { return b; });
-  if (model_.coupling == Coupling::kSides && unknown_mmf_[lane])
+  if (model_.coupling == Coupling::kSides && unknown_mmf_[lane]) {
     state_[lane ^ 1] = Coil::kUnknownMmf;  // one core: nothing else tells its partner's flux
+    watched_[j ^ 1] = 0;
+  }
   paused_ = 2;
 }
 
@@ -340,8 +299,8 @@ void BearingDetector::Band(int coil, double* slope, double* expected, double* ha
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
   const double own = model_.SelfInductance(coil, slopes_.P, radial ? slopes_.total : 1);
   *slope = slopes_.phase[0].current[coil];
-  *expected = *slope - e_[0][coil] / own;
-  *half_width = 4 * sd_[0][coil] / own;
+  *expected = *slope - chart_.e[0][coil] / own;
+  *half_width = 4 * chart_.sd[0][coil] / own;
 }
 
 }  // namespace ambrig

@@ -25,18 +25,14 @@
 #include <vector>
 
 #include "fdd/diagnosis.h"
-#include "fdd/period_slopes.h"
+#include "fdd/residual_chart.h"
 
 namespace ambrig {
 
-struct DetectorSettings {
+struct DetectorSettings : ChartSettings {
   SamplingSettings sampling;
-  double current_noise = 0.004;    // [A rms] per sample, quantisation included
-  double adc_limit = 10;           // [A] larger readings are clipped
   double gap_sd = 0.01;            // relative
   double leakage_sd = 2e-5;        // [H]
-  double voltage_sd = 0.2;         // bus, drops [V]
-  double drift = 2.5, threshold = 9, cap = 12;
 };
 
 /// One period as kept for an examination.
@@ -66,18 +62,18 @@ class BearingDetector {
   /// half-width of its band [A/s]; from the last period.
   void Band(int coil, double* slope, double* expected, double* half_width) const;
   const PeriodSlopes& slopes() const { return slopes_; }
-  const Lane& z(int phase) const { return z_[phase]; }
+  const Lane& z(int phase) const { return chart_.z[phase]; }
   Coil state(int j) const { return state_[static_cast<std::size_t>(j)]; }
-  double leakage_error() const { return theta_[0]; }  // learned [H]
-  double gap_error() const { return theta_[1]; }      // learned, relative
+  double leakage_error() const { return known_.leakage; }  // learned [H]
+  double gap_error() const { return known_.gap; }      // learned, relative
 
  private:
   void Residuals(const MeasuredPeriod& in);
   /// By how much the rotor's potential may be wrong for coils of unknown MMF [A turns].
   double UnknownPotential() const;
-  void Cusum();
   /// Coil with the largest unexplained step of its linkage, -1: none.
   int StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in);
+  bool Holds(int phase, int coil) const { return chart_.valid[phase][coil] > 0; }
   void Learn();
   void Keep(const MeasuredPeriod& in);
   void Solve();
@@ -92,13 +88,10 @@ class BearingDetector {
   LinkageModel model_;
   DetectorSettings s_;
   PeriodSlopes slopes_;
-  Lane e_[2], sd_[2], z_[2];              // corrected residual, its expected size, their ratio
-  std::array<bool, kLanes> valid_[2];
-  Lane G_[3], size_[2];                   // CUSUMs; long-term mean of |z|
-  double theta_[2] = {0, 0};              // learned errors: leakage [H], gap (relative)
+  ResidualChart chart_;
+  ModelError known_;                      // learned
   double info_[3] = {0, 0, 0}, pull_[2] = {0, 0};
-  double doubt_[3] = {0, 0, 0};           // of e: di², -di flux, flux² terms of its variance
-  std::array<double, 65> slope_variance_{};
+  Lane watched_;                          // 1: coils that may be judged
   std::array<Coil, kLanes> state_{};
   std::array<bool, kLanes> unknown_mmf_{};
   bool any_unknown_ = false;

@@ -1,20 +1,27 @@
 #include "fdd/linkage_model.h"
 
-#include <algorithm>
+#include "actuators/lane_vector.h"
 
 namespace ambrig {
 
 namespace {
 /// A gap that noise or a wrong reading makes closed is taken as this share of the nominal one.
 constexpr double kLeastGap = 0.05;
+
+AMBRIG_WIDE void Permeances(const LinkageModel& m, double x, double y, Lane* out) {
+  const LaneVector zero = {}, offset = Load(m.gap_offset.v), least = kLeastGap * offset;
+  const GapReluctance& r = m.reluctance;
+  LaneVector gap = offset - x * Load(m.direction_x.v) - y * Load(m.direction_y.v);
+  gap = gap < least ? least : gap;
+  if (r.fringing != 0) gap = gap / (1 + r.fringing * gap / r.gap0);
+  const LaneVector reluctance = r.per_metre * (gap + r.iron_path) + r.offset;
+  Store(out->v, offset > zero ? 1 / reluctance : zero);
+}
 }  // namespace
 
 Lane LinkageModel::Permeance(double x, double y) const {
   Lane P;
-  for (int j = 0; j < coils; ++j) {
-    const double gap = gap_offset[j] - x * direction_x[j] - y * direction_y[j];
-    P[j] = 1 / reluctance.Value(std::max(gap, kLeastGap * gap_offset[j]));
-  }
+  Permeances(*this, x, y, &P);
   return P;
 }
 

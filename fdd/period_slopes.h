@@ -33,6 +33,7 @@ struct PhaseSlopes {
   Lane mean;       // current [A]
   Lane least;      // smallest sample [A]
   Lane residual;   // e [V]
+  Lane scale;      // 12/(n (n²-1) h) of n samples, 0 below two: the slope's variance is scale/h [1/s]
 };
 
 struct PeriodSlopes {
@@ -43,6 +44,7 @@ struct PeriodSlopes {
   double total = 0;      // Σ P
   Lane largest;          // sample of the period [A]
   Lane first, last;      // linkage at the first and the last sample [Wb]
+  Lane after;            // mean voltage between the last sample and the end of the period [V]
 };
 
 /// Geometry of the samples and the amplifier: fixed for a run.

@@ -1,0 +1,41 @@
+#pragma once
+/// The control chart of one bearing's coils: residuals of both phases over their expected size, and
+/// CUSUMs  G <- max(0, G + min(|z|, cap) - drift)  of z_on, z_off and (z_on - z_off)/√2.
+/// All coils at once, one lane each; masks are 1 or 0.
+#include "fdd/period_slopes.h"
+
+namespace ambrig {
+
+struct ChartSettings {
+  double current_noise = 0.004;    // [A rms] per sample, quantisation included
+  double adc_limit = 10;           // [A] larger readings are clipped
+  double voltage_sd = 0.2;         // bus, drops [V]
+  double drift = 2.5, threshold = 9, cap = 12;
+};
+
+/// What is known of the nominal model's error: leakage [H] and gap (relative), and what the variance
+/// of a residual owes to what is not known of them (coefficients of di², -di flux, flux²).
+struct ModelError {
+  double leakage = 0, gap = 0;
+  double doubt[3] = {0, 0, 0};
+};
+
+struct ResidualChart {
+  Lane e[2], sd[2], z[2];  // corrected residual, its expected size [V], their ratio
+  Lane valid[2];           // the residual's equation holds
+  Lane size[2];            // long-term mean of |z|
+  Lane G[3];
+
+  /// Residuals of one period. `watched`: coils that may be judged; `potential_rate` [A/s]: by how
+  /// much the rotor's potential may be wrong, over the period (unknown ampere-turns).
+  void Compute(const LinkageModel& m, const SamplingSettings& sampling, const ChartSettings& s, const ModelError& known,
+               const PeriodSlopes& slopes, const Lane& watched, double potential_rate);
+  void Cusum(const ChartSettings& s);
+  double LargestSum() const;  // of all G
+};
+
+/// Largest unexplained step of a linkage between the last sample of one period and the first of the
+/// next, as a voltage over the sample [V]; `expected` [V].
+double LargestStep(const Lane& before, const Lane& after, const Lane& expected, double step);
+
+}  // namespace ambrig
