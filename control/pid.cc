@@ -5,9 +5,12 @@
 
 namespace ambrig {
 
-double PidStep(const PidParameters& p, double Ts, double y, double r, double excitation, PidState& s) {
+double PidFilter(const PidParameters& p, double Ts) {
+  return p.derivative_time_constant > 0 ? std::exp(-Ts / p.derivative_time_constant) : 0;
+}
+
+double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation, PidState& s) {
   const double e = r - y;
-  const double a = p.derivative_time_constant > 0 ? std::exp(-Ts / p.derivative_time_constant) : 0;
   if (!s.started) s.last = y;
   s.started = true;
   s.derivative = a * s.derivative + (1 - a) * (y - s.last) / Ts;
@@ -19,12 +22,14 @@ double PidStep(const PidParameters& p, double Ts, double y, double r, double exc
 }
 
 DecentralisedPid::DecentralisedPid(std::vector<PidParameters> axes, double Ts)
-    : axes_(std::move(axes)), states_(axes_.size()), Ts_(Ts) {}
+    : axes_(std::move(axes)), states_(axes_.size()), Ts_(Ts) {
+  for (const PidParameters& p : axes_) filter_.push_back(PidFilter(p, Ts));
+}
 
 void DecentralisedPid::Step(const std::vector<double>& y, const std::vector<double>& r,
                             const std::vector<double>& excitation, double, std::vector<double>& f) {
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    f[k] = PidStep(axes_[k], Ts_, y[k], r[k], excitation[k], states_[k]);
+    f[k] = PidStep(axes_[k], Ts_, filter_[k], y[k], r[k], excitation[k], states_[k]);
 }
 
 void DecentralisedPid::Hold(const std::vector<double>& force, const std::vector<double>& y) {

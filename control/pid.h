@@ -34,7 +34,9 @@ struct PidState {
   bool started = false;   // the first reading has no predecessor: no derivative
 };
 
-double PidStep(const PidParameters& p, double Ts, double y, double r, double excitation, PidState& s);
+/// a of the derivative's filter.
+double PidFilter(const PidParameters& p, double Ts);
+double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation, PidState& s);
 
 class DecentralisedPid : public PositionController {
  public:
@@ -48,6 +50,7 @@ class DecentralisedPid : public PositionController {
 
  private:
   std::vector<PidParameters> axes_;
+  std::vector<double> filter_;
   std::vector<PidState> states_;
   double Ts_;
 };

@@ -58,8 +58,8 @@ double BearingDetector::UnknownPotential() const {
   double doubt = 0;
   for (int k = 0; any_unknown_ && k < model_.coils; ++k)
     if (unknown_mmf_[static_cast<std::size_t>(k)])
-      doubt += std::abs(model_.n[k]) * slopes_.P[k] * std::max(slopes_.largest[k], kLeastUnknownCurrent);
-  return doubt / slopes_.total;
+      doubt += std::abs(model_.n[k]) * slopes_.permeance.middle[k] * std::max(slopes_.largest[k], kLeastUnknownCurrent);
+  return doubt / slopes_.permeance.total;
 }
 
 void BearingDetector::Residuals(const MeasuredPeriod& in) {
@@ -81,7 +81,7 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
   for (int j = 0; j < model_.coils; ++j) {
     const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]);
     if (step < s_.cap || (!Holds(0, j) && !Holds(1, j)) || in.adc[0][j] < kZeroCurrent) continue;
-    const double own = model_.SelfInductance(j, slopes_.P, radial ? slopes_.total : 1);
+    const double own = model_.SelfInductance(j, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
     const double sd = 1.4 * own * s_.current_noise / h + 1;
     if (step < most * sd) continue;
     most = step / sd;
@@ -189,17 +189,17 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   Residuals(in);
   const bool follows = follows_;
   bool comparable = in.comparable;
-  for (double P : slopes_.P.v) comparable = comparable && P * kClosestGap < centred_;
+  for (double P : slopes_.permeance.middle.v) comparable = comparable && P * kClosestGap < centred_;
   follows_ = comparable && !any_unknown_;
   if (paused_ > 0) {
     --paused_;
     return out;
   }
   if (alarm_at_ < 0) {
-    if (comparable) chart_.Cusum(s_);
+    double most = comparable ? chart_.Cusum(s_) : chart_.LargestSum();
     int stepped = -1;
     if (comparable && follows && !any_unknown_) stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
-    const double most = chart_.LargestSum();
+    if (stepped >= 0) most = chart_.LargestSum();
     const bool alarm = most > s_.threshold, calm = comparable && most < kCalm;
     if (calm) calm_at_ = count_;
     if (calm && count_ % kLearnEvery == 0) Learn();
@@ -297,7 +297,7 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
 
 void BearingDetector::Band(int coil, double* slope, double* expected, double* half_width) const {
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
-  const double own = model_.SelfInductance(coil, slopes_.P, radial ? slopes_.total : 1);
+  const double own = model_.SelfInductance(coil, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
   *slope = slopes_.phase[0].current[coil];
   *expected = *slope - chart_.e[0][coil] / own;
   *half_width = 4 * chart_.sd[0][coil] / own;

@@ -40,13 +40,13 @@ void FluxFromOthers(const LinkageModel& m, const DetectorSettings& s, const Kept
     double least = 1e30;
     for (int q = 0; q < count; ++q) least = std::min(least, p.adc[static_cast<std::size_t>(q)][k]);
     conducts[static_cast<std::size_t>(k)] = k != j && least > kZeroCurrent && now.largest[k] < s.adc_limit;
-    top += now.P[k] * m.n[k] * p.adc[0][k];
-    total += now.P[k];
+    top += now.permeance.middle[k] * m.n[k] * p.adc[0][k];
+    total += now.permeance.middle[k];
   }
   const bool radial = m.coupling == Coupling::kFloatingRotor;
   for (int k = 0; k < m.coils; ++k) {
     const double partner = m.coupling == Coupling::kSides ? m.n[k ^ 1] * p.adc[0][k ^ 1] : 0;
-    phi0[k] = now.P[k] * (m.n[k] * p.adc[0][k] + partner - (radial ? top / total : 0));
+    phi0[k] = now.permeance.middle[k] * (m.n[k] * p.adc[0][k] + partner - (radial ? top / total : 0));
   }
   for (int q = 0; q < count; ++q) {
     const Lane& i = p.adc[static_cast<std::size_t>(q)];
@@ -59,19 +59,19 @@ void FluxFromOthers(const LinkageModel& m, const DetectorSettings& s, const Kept
       const double driven =
           now.phase[0].voltage[k] * std::min(t, now.edge[k]) + now.phase[1].voltage[k] * std::max(t - now.edge[k], 0.0);
       phi[k] = phi0[k] + (driven - m.resistance[k] * charge[k] - m.leakage[k] * (i[k] - p.adc[0][k])) / m.n[k];
-      U += m.n[k] * i[k] - phi[k] / now.P[k];
+      U += m.n[k] * i[k] - phi[k] / now.permeance.middle[k];
       known += 1;
       sum += phi[k];
     }
     if (m.coupling == Coupling::kNone || (m.coupling == Coupling::kSides && !conducts[static_cast<std::size_t>(j ^ 1)])) {
       const double partner = m.coupling == Coupling::kSides ? m.n[j ^ 1] * i[j ^ 1] : 0;
-      flux[q] = m.n[j] * now.P[j] * (m.n[j] * i[j] + partner);
+      flux[q] = m.n[j] * now.permeance.middle[j] * (m.n[j] * i[j] + partner);
     } else if (m.coupling == Coupling::kSides) {
       flux[q] = m.n[j] * phi[j ^ 1];
     } else {
       if (known > 0) U /= known;
       for (int k = 0; k < m.coils; ++k)
-        if (k != j && !conducts[static_cast<std::size_t>(k)]) sum += now.P[k] * (m.n[k] * i[k] - U);
+        if (k != j && !conducts[static_cast<std::size_t>(k)]) sum += now.permeance.middle[k] * (m.n[k] * i[k] - U);
       flux[q] = -m.n[j] * sum;
     }
   }
@@ -95,7 +95,7 @@ void AddWindows(const LinkageModel& m, const DetectorSettings& s, const KeptPeri
   double flux[64];
   FluxFromOthers(m, s, p, now, j, flux);
   const bool radial = m.coupling == Coupling::kFloatingRotor;
-  const double own = m.SelfInductance(j, now.P, radial ? now.total : 1);
+  const double own = m.SelfInductance(j, now.permeance.middle, radial ? now.permeance.total : 1);
   for (int q = 0; q < 2; ++q) {
     const PhaseSlopes& a = now.phase[q];
     const int count = static_cast<int>(a.samples[j]), from = q == 0 ? 0 : static_cast<int>(now.phase[0].samples[j]);
@@ -236,14 +236,14 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
     const KeptPeriod& p = *periods[n];
     ComputePeriodSlopes(m, s.sampling, p.in, &now);
     const bool radial = m.coupling == Coupling::kFloatingRotor;
-    const double own = m.SelfInductance(j, now.P, radial ? now.total : 1);
+    const double own = m.SelfInductance(j, now.permeance.middle, radial ? now.permeance.total : 1);
     for (int k = 0; k < s.sampling.samples; ++k) {
       const Lane& i = p.adc[static_cast<std::size_t>(k)];
       double top = 0;
-      for (int q = 0; q < m.coils; ++q) top += now.P[q] * m.n[q] * i[q];
+      for (int q = 0; q < m.coils; ++q) top += now.permeance.middle[q] * m.n[q] * i[q];
       const double partner = m.coupling == Coupling::kSides ? m.n[j ^ 1] * i[j ^ 1] : 0;
       const double lambda =
-          m.n[j] * now.P[j] * (m.n[j] * i[j] + partner - (radial ? top / now.total : 0)) + m.leakage[j] * i[j];
+          m.n[j] * now.permeance.middle[j] * (m.n[j] * i[j] + partner - (radial ? top / now.permeance.total : 0)) + m.leakage[j] * i[j];
       if (k > 0 || known) {
         const double t = (k - 1) * s.sampling.step;
         const double on = k == 0 ? 0 : std::clamp(now.edge[j] - t, 0.0, s.sampling.step);
@@ -294,7 +294,7 @@ double PartnerCost(const LinkageModel& m, const DetectorSettings& s, const std::
       if (!Applies(w)) continue;
       const int on = static_cast<int>(now.phase[0].samples[k]), count = static_cast<int>(now.phase[w.phase].samples[k]);
       const double slope = SlopeOf(i, w.phase == 0 ? 0 : on, count, s.sampling.step);
-      cost += std::min(Cost((w.e + (factor - 1) * m.n[k] * now.P[k] * m.n[j] * slope) / w.sd_e), most);
+      cost += std::min(Cost((w.e + (factor - 1) * m.n[k] * now.permeance.middle[k] * m.n[j] * slope) / w.sd_e), most);
     }
   }
   return cost;

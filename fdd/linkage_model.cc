@@ -8,21 +8,36 @@ namespace {
 /// A gap that noise or a wrong reading makes closed is taken as this share of the nominal one.
 constexpr double kLeastGap = 0.05;
 
-AMBRIG_WIDE void Permeances(const LinkageModel& m, double x, double y, Lane* out) {
+[[gnu::always_inline]] inline LaneVector At(const LinkageModel& m, double x, double y) {
   const LaneVector zero = {}, offset = Load(m.gap_offset.v), least = kLeastGap * offset;
   const GapReluctance& r = m.reluctance;
   LaneVector gap = offset - x * Load(m.direction_x.v) - y * Load(m.direction_y.v);
   gap = gap < least ? least : gap;
   if (r.fringing != 0) gap = gap / (1 + r.fringing * gap / r.gap0);
   const LaneVector reluctance = r.per_metre * (gap + r.iron_path) + r.offset;
-  Store(out->v, offset > zero ? 1 / reluctance : zero);
+  return offset > zero ? 1 / reluctance : zero;
+}
+
+AMBRIG_WIDE void AtOnePlace(const LinkageModel& m, double x, double y, Lane* P) { Store(P->v, At(m, x, y)); }
+
+AMBRIG_WIDE void OverAMove(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
+  const LaneVector start = At(m, from[0], from[1]), end = At(m, to[0], to[1]), middle = 0.5 * (start + end);
+  Store(out->start.v, start);
+  Store(out->end.v, end);
+  Store(out->middle.v, middle);
+  Store(out->change.v, end - start);
+  out->total = Sum(middle);
 }
 }  // namespace
 
 Lane LinkageModel::Permeance(double x, double y) const {
   Lane P;
-  Permeances(*this, x, y, &P);
+  AtOnePlace(*this, x, y, &P);
   return P;
+}
+
+void LinkageModel::Permeance(const double* from, const double* to, MovingPermeance* out) const {
+  OverAMove(*this, from, to, out);
 }
 
 double LinkageModel::SelfInductance(int j, const Lane& P, double total) const {

@@ -14,6 +14,12 @@
 
 namespace ambrig {
 
+/// Permeances of all poles while the shaft moves. [H]
+struct MovingPermeance {
+  Lane start, end, middle, change;
+  double total = 0;  // Σ of the middle
+};
+
 struct LinkageModel {
   Coupling coupling = Coupling::kFloatingRotor;
   int coils = kLanes;
@@ -24,6 +30,8 @@ struct LinkageModel {
 
   /// Permeances at (x, y) [H]; zero in lanes without a coil.
   Lane Permeance(double x, double y) const;
+  /// The same from one place (x, y) to another, in one go.
+  void Permeance(const double* from, const double* to, MovingPermeance* out) const;
   /// Own inductance of coil j for permeances P with sum `total` [H].
   double SelfInductance(int j, const Lane& P, double total) const;
 };

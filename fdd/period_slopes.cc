@@ -21,10 +21,10 @@ template <Coupling kCoupling>
 }
 
 template <Coupling kCoupling>
-[[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane& on_samples, const Lane& P0,
-                                              const Lane& P1, const Lane* adc, int count, SlopeSums* s) {
+[[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane& on_samples, const MovingPermeance& P,
+                                              const Lane* adc, int count, SlopeSums* s) {
   const LaneVector n = Load(m.n.v), leakage = Load(m.leakage.v), on_count = Load(on_samples.v);
-  const LaneVector p0 = Load(P0.v), dp = (Load(P1.v) - p0) / (0.0 * p0 + count);
+  const LaneVector p0 = Load(P.start.v), dp = Load(P.change.v) * (1.0 / count);
   const LaneVector zero = {}, far = zero + 1e30;
   LaneVector y_on = zero, ky_on = zero, y = zero, ky = zero, i_on = zero, ki_on = zero, is = zero, ki = zero;
   double inverse_sum[64];
@@ -64,30 +64,29 @@ template <Coupling kCoupling>
   Store(s->largest.v, largest);
 }
 
-AMBRIG_WIDE void AccumulateRadial(const LinkageModel& m, const Lane& on, const Lane& P0, const Lane& P1,
+AMBRIG_WIDE void AccumulateRadial(const LinkageModel& m, const Lane& on, const MovingPermeance& P,
                                   const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<Coupling::kFloatingRotor>(m, on, P0, P1, adc, count, s);
+  Accumulate<Coupling::kFloatingRotor>(m, on, P, adc, count, s);
 }
-AMBRIG_WIDE void AccumulateSides(const LinkageModel& m, const Lane& on, const Lane& P0, const Lane& P1,
-                                 const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<Coupling::kSides>(m, on, P0, P1, adc, count, s);
+AMBRIG_WIDE void AccumulateSides(const LinkageModel& m, const Lane& on, const MovingPermeance& P,
+                                  const Lane* adc, int count, SlopeSums* s) {
+  Accumulate<Coupling::kSides>(m, on, P, adc, count, s);
 }
-AMBRIG_WIDE void AccumulateSeparate(const LinkageModel& m, const Lane& on, const Lane& P0, const Lane& P1,
-                                    const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<Coupling::kNone>(m, on, P0, P1, adc, count, s);
+AMBRIG_WIDE void AccumulateSeparate(const LinkageModel& m, const Lane& on, const MovingPermeance& P,
+                                  const Lane* adc, int count, SlopeSums* s) {
+  Accumulate<Coupling::kNone>(m, on, P, adc, count, s);
 }
 
 }  // namespace
 
 void ComputePeriodSlopes(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
                          PeriodSlopes* out) {
-  Lane P0, P1;
   SlopeSums sums;
-  PreparePeriod(m, s, in, out, &P0, &P1);
+  PreparePeriod(m, s, in, out);
   const auto run = m.coupling == Coupling::kFloatingRotor ? AccumulateRadial
                    : m.coupling == Coupling::kSides       ? AccumulateSides
                                                           : AccumulateSeparate;
-  run(m, out->phase[0].samples, P0, P1, in.adc, s.samples, &sums);
+  run(m, out->phase[0].samples, out->permeance, in.adc, s.samples, &sums);
   FitSlopes(m, s, sums, out);
 }
 

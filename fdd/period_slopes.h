@@ -39,9 +39,7 @@ struct PhaseSlopes {
 struct PeriodSlopes {
   PhaseSlopes phase[2];  // on, off
   Lane edge;             // end of the on phase [s]
-  Lane P;                // permeance in the middle of the period [H]
-  Lane dP;               // its change over the period [H]
-  double total = 0;      // Σ P
+  MovingPermeance permeance;
   Lane largest;          // sample of the period [A]
   Lane first, last;      // linkage at the first and the last sample [Wb]
   Lane after;            // mean voltage between the last sample and the end of the period [V]

@@ -7,9 +7,9 @@ namespace ambrig {
 
 void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
                                    const std::array<bool, kLanes>& excluded, PeriodSlopes* out) {
-  Lane P0, P1, first, charge;
+  Lane first, charge;
   SlopeSums sum;
-  PreparePeriod(m, s, in, out, &P0, &P1);
+  PreparePeriod(m, s, in, out);
   std::array<bool, kLanes> usable{};
   for (int j = 0; j < m.coils; ++j) {
     double least = 1e30;
@@ -24,7 +24,7 @@ void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings
     Lane P, lambda;
     double top = 0, total = 0;
     for (int j = 0; j < m.coils; ++j) {
-      P[j] = P0[j] + (P1[j] - P0[j]) * k / s.samples;
+      P[j] = out->permeance.start[j] + out->permeance.change[j] * k / s.samples;
       top += P[j] * m.n[j] * in.adc[k][j];
       total += P[j];
     }

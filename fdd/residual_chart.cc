@@ -17,6 +17,15 @@ constexpr double kNormalSize = 0.8;   // mean of |z| of a normal variable
 [[gnu::always_inline]] inline V Abs(const V& a) { return a < 0 ? -a : a; }
 [[gnu::always_inline]] inline V Max(const V& a, const V& b) { return a > b ? a : b; }
 [[gnu::always_inline]] inline V Min(const V& a, const V& b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline double Largest(const V& a) {
+  using Four = double __attribute__((vector_size(32)));
+  using Two = double __attribute__((vector_size(16)));
+  const Four low = __builtin_shufflevector(a, a, 0, 1, 2, 3), high = __builtin_shufflevector(a, a, 4, 5, 6, 7);
+  const Four four = low > high ? low : high;
+  const Two left = __builtin_shufflevector(four, four, 0, 1), right = __builtin_shufflevector(four, four, 2, 3);
+  const Two two = left > right ? left : right;
+  return two[0] > two[1] ? two[0] : two[1];
+}
 [[gnu::always_inline]] inline V SquareRoot(const V& a) {
   Lane out;
   for (int j = 0; j < kLanes; ++j) out[j] = std::sqrt(a[j]);
@@ -25,7 +34,7 @@ constexpr double kNormalSize = 0.8;   // mean of |z| of a normal variable
 
 struct Terms {
   V n, leakage, own, dP, watched, largest;
-  double step = 0, potential_rate = 0;
+  double per_step = 0, potential_rate = 0;
 };
 
 [[gnu::always_inline]] inline void Phase(const Terms& c, const ChartSettings& s, const ModelError& known,
@@ -34,10 +43,10 @@ struct Terms {
   const V zero = {}, one = zero + 1, nothing = zero + kZeroCurrent;
   const V di = Load(p.current.v), flux = Load(p.linkage.v) - c.leakage * di;
   const V noise = c.own * s.current_noise, moved = c.n * c.dP * c.potential_rate;
-  const V variance = noise * noise * (Load(p.scale.v) / c.step) + known.doubt[0] * di * di -
+  const V variance = noise * noise * (Load(p.scale.v) * c.per_step) + known.doubt[0] * di * di -
                      known.doubt[1] * di * flux + known.doubt[2] * flux * flux + s.voltage_sd * s.voltage_sd +
                      moved * moved;
-  const V width = SquareRoot(variance) * Min(Max(Load(size.v) / kNormalSize, one), zero + 5);
+  const V width = SquareRoot(variance) * Min(Max(Load(size.v) * (1 / kNormalSize), one), zero + 5);
   const V residual = Load(p.residual.v) + known.leakage * di - known.gap * flux;
   // At zero current the diodes may block: off says nothing, on only that too little flux comes.
   const V least = Load(p.least.v), mean = Load(p.mean.v);
@@ -53,34 +62,37 @@ struct Terms {
 
 AMBRIG_WIDE void ComputeAll(const LinkageModel& m, double step, const ChartSettings& s, const ModelError& known,
                             const PeriodSlopes& slopes, const Lane& watched, double potential_rate, ResidualChart* r) {
-  const V n = Load(m.n.v), P = Load(slopes.P.v);
+  const V n = Load(m.n.v), P = Load(slopes.permeance.middle.v);
   const bool radial = m.coupling == Coupling::kFloatingRotor;
   Terms c;
   c.n = n;
   c.leakage = Load(m.leakage.v);
-  c.own = n * n * (radial ? P * (1 - P / slopes.total) : P) + c.leakage;
-  c.dP = Load(slopes.dP.v);
+  c.own = n * n * (radial ? P * (1 - P / slopes.permeance.total) : P) + c.leakage;
+  c.dP = Load(slopes.permeance.change.v);
   c.watched = Load(watched.v);
   c.largest = Load(slopes.largest.v);
-  c.step = step;
+  c.per_step = 1 / step;
   c.potential_rate = potential_rate;
   Phase(c, s, known, slopes.phase[0], false, r->size[0], &r->e[0], &r->sd[0], &r->z[0], &r->valid[0]);
   Phase(c, s, known, slopes.phase[1], true, r->size[1], &r->e[1], &r->sd[1], &r->z[1], &r->valid[1]);
 }
 
-AMBRIG_WIDE void Accumulate(const ChartSettings& s, ResidualChart* r) {
+AMBRIG_WIDE double Accumulate(const ChartSettings& s, ResidualChart* r) {
   const V zero = {}, cap = zero + s.cap;
   const V on = Load(r->valid[0].v), off = Load(r->valid[1].v), both = on * off;
   const V z[3] = {Load(r->z[0].v), Load(r->z[1].v), (Load(r->z[0].v) - Load(r->z[1].v)) * 0.7071};
   const V counts[3] = {on, off, both};
+  V most = zero;
   for (int q = 0; q < 3; ++q) {
-    const V G = Load(r->G[q].v);
-    Store(r->G[q].v, counts[q] > zero ? Max(G + Min(Abs(z[q]), cap) - s.drift, zero) : G);
+    const V before = Load(r->G[q].v), G = counts[q] > zero ? Max(before + Min(Abs(z[q]), cap) - s.drift, zero) : before;
+    Store(r->G[q].v, G);
+    most = Max(most, G);
   }
+  return Largest(most);
 }
 
-AMBRIG_WIDE void StepSizes(const Lane& before, const Lane& after, const Lane& expected, double step, Lane* out) {
-  Store(out->v, Abs((Load(after.v) - Load(before.v)) / step - Load(expected.v)));
+AMBRIG_WIDE double StepOf(const Lane& before, const Lane& after, const Lane& expected, double per_step) {
+  return Largest(Abs((Load(after.v) - Load(before.v)) * per_step - Load(expected.v)));
 }
 
 }  // namespace
@@ -91,21 +103,16 @@ void ResidualChart::Compute(const LinkageModel& m, const SamplingSettings& sampl
   ComputeAll(m, sampling.step, s, known, slopes, watched, potential_rate, this);
 }
 
-void ResidualChart::Cusum(const ChartSettings& s) { Accumulate(s, this); }
+double ResidualChart::Cusum(const ChartSettings& s) { return Accumulate(s, this); }
 
 double ResidualChart::LargestSum() const {
   double most = 0;
-  for (const Lane& one : G)
-    for (double g : one.v) most = g > most ? g : most;
+  for (const Lane& one : G) most = std::max(most, *std::max_element(one.v, one.v + kLanes));
   return most;
 }
 
 double LargestStep(const Lane& before, const Lane& after, const Lane& expected, double step) {
-  Lane sizes;
-  StepSizes(before, after, expected, step, &sizes);
-  double most = 0;
-  for (double v : sizes.v) most = v > most ? v : most;
-  return most;
+  return StepOf(before, after, expected, 1 / step);
 }
 
 }  // namespace ambrig

@@ -30,8 +30,9 @@ struct ResidualChart {
   /// much the rotor's potential may be wrong, over the period (unknown ampere-turns).
   void Compute(const LinkageModel& m, const SamplingSettings& sampling, const ChartSettings& s, const ModelError& known,
                const PeriodSlopes& slopes, const Lane& watched, double potential_rate);
-  void Cusum(const ChartSettings& s);
-  double LargestSum() const;  // of all G
+  /// Adds the period; returns the largest G.
+  double Cusum(const ChartSettings& s);
+  double LargestSum() const;
 };
 
 /// Largest unexplained step of a linkage between the last sample of one period and the first of the

@@ -17,13 +17,6 @@ using V = LaneVector;
   return nearest > x ? nearest - 1 : nearest;
 }
 
-AMBRIG_WIDE void Middle(const Lane& P0, const Lane& P1, PeriodSlopes* out) {
-  const V start = Load(P0.v), end = Load(P1.v), middle = 0.5 * (start + end);
-  Store(out->P.v, middle);
-  Store(out->dP.v, end - start);
-  out->total = Sum(middle);
-}
-
 /// Sample k lies in the on phase when k h <= edge; the edge itself belongs to both.
 AMBRIG_WIDE void CountSamples(double step, double samples, PeriodSlopes* out) {
   const V zero = {}, all = zero + samples, edge = Load(out->edge.v);
@@ -78,11 +71,9 @@ BridgeVoltage VoltageOf(const AmplifierParameters& p, double duty, double bus) {
 
 double SlopeVariance(double n, double step) { return n < 2 ? 1e30 : 12 / (n * (n * n - 1) * step * step); }
 
-void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out,
-                   Lane* P0, Lane* P1) {
-  *P0 = m.Permeance(in.x0, in.y0);
-  *P1 = m.Permeance(in.x1, in.y1);
-  Middle(*P0, *P1, out);
+void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out) {
+  const double from[2] = {in.x0, in.y0}, to[2] = {in.x1, in.y1};
+  m.Permeance(from, to, &out->permeance);
   const AmplifierParameters& a = *s.amplifier;
   if (a.modulation == Modulation::kBiState) {  // the usual case: only the edges differ
     EdgesOf(*in.duty, 1 / a.switching_frequency, VoltageOf(a, 0.5, in.bus), out);

@@ -14,8 +14,7 @@ struct SlopeSums {
 };
 
 /// Permeances at both ends, mean and sum for the middle; edges, samples and voltages of the phases.
-void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out,
-                   Lane* P0, Lane* P1);
+void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out);
 void FitSlopes(const LinkageModel& m, const SamplingSettings& s, const SlopeSums& sums, PeriodSlopes* out);
 
 }  // namespace ambrig

@@ -27,11 +27,4 @@ struct SwitchingEngine::BearingRun {
   std::array<bool, kLanes> faulty{};
 };
 
-/// Set-points on their way to the current loops.
-struct SwitchingEngine::PendingSetPoints {
-  double due = 0;                  // [s]
-  std::vector<Lane> values;        // per bearing
-  bool recorded = false;           // the record's s channels already show them
-};
-
 }  // namespace ambrig

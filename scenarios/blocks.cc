@@ -61,7 +61,7 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, con
           if (e.target != axis) continue;
           (e.port == "reference" ? r : f) += e.Value(t);
         }
-        const double out_force = PidStep(pid, Ts, y[side]->samples[k], r, f, state);
+        const double out_force = PidStep(pid, Ts, PidFilter(pid, Ts), y[side]->samples[k], r, f, state);
         errors.push_back(force(k + 1) - out_force);
         if (k == settle) {  // start the integral where the data stand
           state.integral += errors.back();

@@ -249,8 +249,9 @@ void SwitchingEngine::ControlTick(long long n) {
     for (const auto& s : commands_->force) excitation_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, tick);
   }
   controller_->Step(readings_, reference_, excitation_, motion_.Omega, force_);
-  PendingSetPoints next;
+  PendingSetPoints next = std::move(spare_);  // its memory: no allocation in the loop
   next.due = motion_.t + M_ * T_;
+  next.recorded = false;
   next.values.resize(control_.size());
   for (const BearingRun& b : bearings_) {
     const auto set = control_[b.index].map.SetPoints(force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0);
@@ -271,6 +272,7 @@ void SwitchingEngine::ApplySetPoints(long long n) {
     for (std::size_t k = 0; k < control_.size(); ++k) control_[k].commanded = p.values[k];
     ++done;
   }
+  if (done > 0) spare_ = std::move(pending_.front());
   pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(done));
 }
 

@@ -35,6 +35,13 @@ struct EngineOptions {
   const std::atomic<bool>* stop = nullptr;         // set: throw Interrupted
 };
 
+/// Set-points on their way to the current loops.
+struct PendingSetPoints {
+  double due = 0;                  // [s]
+  std::vector<Lane> values;        // per bearing
+  bool recorded = false;           // the record's s channels already show them
+};
+
 class SwitchingEngine {
  public:
   SwitchingEngine(const RigParameters& rig, const Scenario& scenario, const EngineOptions& options);
@@ -43,7 +50,6 @@ class SwitchingEngine {
 
  private:
   struct BearingRun;
-  struct PendingSetPoints;
 
   void Start();
   void StartLevitated();
@@ -96,6 +102,7 @@ class SwitchingEngine {
   std::unique_ptr<PositionController> controller_;
   std::vector<double> readings_, reference_, excitation_, force_;  // per axis
   std::vector<PendingSetPoints> pending_;
+  PendingSetPoints spare_;
   double reading_time_ = 0;
 
   double T_ = 0, h_ = 0;     // switching period, ADC sample [s]
