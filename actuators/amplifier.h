@@ -72,11 +72,12 @@ struct BridgeImperfection {
 class PowerAmplifier {
  public:
   PowerAmplifier() = default;
-  explicit PowerAmplifier(const AmplifierParameters& p) : p_(&p) {}
+  explicit PowerAmplifier(const AmplifierParameters& p)
+      : p_(&p), integral_gain_(p.ki / p.switching_frequency), duty_per_volt_(1 / (Swings() ? 2 * p.bus_voltage : p.bus_voltage)) {}
 
   /// Duty that the current loop asks for at t_n. `feedback` is the mean of last period's samples [A].
   double CurrentLoop(double set_point, double feedback) {
-    const double e = set_point - feedback, increment = p_->ki / p_->switching_frequency * e;
+    const double e = set_point - feedback, increment = integral_gain_ * e;
     double d = DutyFromVoltage(p_->kp * e + integral_ + increment);
     const bool pushes_out = (d > p_->duty_max && e > 0) || (d < p_->duty_min && e < 0);
     if (pushes_out)
@@ -89,9 +90,7 @@ class PowerAmplifier {
   /// 0.2 A or less.
   void HoldCurrent(double current, double resistance);
   void ResetToLowerLimit();
-  double DutyFromVoltage(double u) const {
-    return Swings() ? 0.5 + u / (2 * p_->bus_voltage) : u / p_->bus_voltage;
-  }
+  double DutyFromVoltage(double u) const { return (Swings() ? 0.5 : 0) + u * duty_per_volt_; }
   /// The bridge's voltages in a period with duty d.
   CoilVoltage Pattern(double duty, const BridgeImperfection& bridge) const;
 
@@ -104,7 +103,8 @@ class PowerAmplifier {
   double VoltageOfDuty(double d) const;
 
   const AmplifierParameters* p_ = nullptr;
-  double integral_ = 0;  // [V]
+  double integral_gain_ = 0, duty_per_volt_ = 0;  // ki T [V/A], [1/V]
+  double integral_ = 0;                           // [V]
 };
 
 }  // namespace ambrig

@@ -82,8 +82,9 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
 void StatorLanes::EndPeriod() {
   // Trapezoid over the samples: half of the first and of the last.
   fx = fy = 0;
+  const double per = 1.0 / per_period_;
   for (int j = 0; j < kLanes; ++j) {
-    const double mean = (sum_[j] + 0.5 * (start_sq_[j] - phi[j] * phi[j])) / per_period_;
+    const double mean = (sum_[j] + 0.5 * (start_sq_[j] - phi[j] * phi[j])) * per;
     fx += weight_[j] * direction_x[j] * mean;
     fy += weight_[j] * direction_y[j] * mean;
   }

@@ -131,11 +131,21 @@ inline void Store(Real x, float* out) {
     std::memcpy(out + kChunk, reinterpret_cast<const char*>(&x) + kPart, kPart);
 }
 
+/// 0, 2, 4 ...: the counters of a vector of 64-bit lanes.
+inline Wide EvenCounters() {
+#if defined(AMBRIG_NOISE_AVX512)
+  return Wide{0, 2, 4, 6, 8, 10, 12, 14};
+#elif defined(AMBRIG_NOISE_AVX2)
+  return Wide{0, 2, 4, 6};
+#else
+  return Wide{0, 2};
+#endif
+}
+
 /// Value 8 m + j of a chunk comes from words of counter j, m = 0..3.
 inline void FillStep(const Keys& keys, U32 stream, U64 index, U32 chunk, float* out) {
   for (int j = 0; j < kCounters; j += kLanes, out += kLanes) {
-    Wide even = Wide{} + (U64{chunk} * kCounters + static_cast<U64>(j));
-    for (int lane = 0; lane < kLanes / 2; ++lane) even[lane] += 2 * static_cast<U64>(lane);
+    const Wide even = EvenCounters() + (U64{chunk} * kCounters + static_cast<U64>(j));
     Words a = {even, Wide{} + stream, Wide{} + (index & 0xffffffffU), Wide{} + (index >> 32)};
     Words b = {even + 1U, a.w1, a.w2, a.w3};
     Philox(a, b, keys);
