@@ -1,8 +1,12 @@
 #pragma once
-/// Arithmetic on a Lane as one vector value; only for sources that hold a hot loop.
+/// Arithmetic on a Lane as one value; only for sources that hold a hot loop.
 ///
 /// AMBRIG_WIDE compiles a function for wider registers too and picks at load time: the same
 /// operations in the same order (no contraction), hence the same bits on every machine.
+///
+/// Two halves of four doubles, not one vector of eight: g++ lowers comparisons and choices of
+/// vectors wider than the registers element by element, which costs a factor of ten on machines
+/// without 512-bit registers.
 #include "actuators/lane.h"
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(AMBRIG_SANITIZED)
@@ -10,31 +14,77 @@
 #else
 #define AMBRIG_WIDE
 #endif
+#define AMBRIG_INLINE [[gnu::always_inline]] static inline
 
 namespace ambrig {
 
-/// Eight lanes as one value; the compiler splits it over the registers that it has.
-using LaneVector = double __attribute__((vector_size(kLanes * sizeof(double))));
+using FourLanes = double __attribute__((vector_size(32)));
+using FourMasks = long long __attribute__((vector_size(32)));
 
-[[gnu::always_inline]] static inline LaneVector Load(const double* p) {
+/// Eight comparisons' outcomes.
+struct LaneMask {
+  FourMasks a, b;
+};
+
+/// Eight lanes as one value.
+struct LaneVector {
+  FourLanes a = {}, b = {};
+  [[gnu::always_inline]] LaneVector() = default;
+  [[gnu::always_inline]] LaneVector(const FourLanes& low, const FourLanes& high) : a(low), b(high) {}
+  [[gnu::always_inline]] LaneVector(double x) : a(FourLanes{} + x), b(a) {}  // the same in every lane
+  [[gnu::always_inline]] double operator[](int j) const { return j < 4 ? a[j] : b[j - 4]; }
+  [[gnu::always_inline]] LaneVector& operator+=(const LaneVector& y) {
+    a += y.a;
+    b += y.b;
+    return *this;
+  }
+};
+
+AMBRIG_INLINE LaneVector operator+(const LaneVector& x, const LaneVector& y) { return {x.a + y.a, x.b + y.b}; }
+AMBRIG_INLINE LaneVector operator-(const LaneVector& x, const LaneVector& y) { return {x.a - y.a, x.b - y.b}; }
+AMBRIG_INLINE LaneVector operator*(const LaneVector& x, const LaneVector& y) { return {x.a * y.a, x.b * y.b}; }
+AMBRIG_INLINE LaneVector operator/(const LaneVector& x, const LaneVector& y) { return {x.a / y.a, x.b / y.b}; }
+AMBRIG_INLINE LaneVector operator-(const LaneVector& x) { return {-x.a, -x.b}; }
+AMBRIG_INLINE LaneMask operator<(const LaneVector& x, const LaneVector& y) { return {x.a < y.a, x.b < y.b}; }
+AMBRIG_INLINE LaneMask operator>(const LaneVector& x, const LaneVector& y) { return {x.a > y.a, x.b > y.b}; }
+
+AMBRIG_INLINE LaneMask operator==(const LaneVector& x, const LaneVector& y) { return {x.a == y.a, x.b == y.b}; }
+
+AMBRIG_INLINE LaneVector Select(const LaneMask& m, const LaneVector& yes, const LaneVector& no) {
+  return {m.a ? yes.a : no.a, m.b ? yes.b : no.b};
+}
+AMBRIG_INLINE LaneVector Min(const LaneVector& x, const LaneVector& y) { return Select(x < y, x, y); }
+AMBRIG_INLINE LaneVector Max(const LaneVector& x, const LaneVector& y) { return Select(x > y, x, y); }
+AMBRIG_INLINE LaneVector Abs(const LaneVector& x) { return Select(x < LaneVector(0.0), -x, x); }
+
+AMBRIG_INLINE LaneVector Load(const double* p) {
   LaneVector v;
-  __builtin_memcpy(&v, p, sizeof v);
+  __builtin_memcpy(&v.a, p, sizeof v.a);
+  __builtin_memcpy(&v.b, p + 4, sizeof v.b);
   return v;
 }
-[[gnu::always_inline]] static inline void Store(double* p, const LaneVector& v) {
-  __builtin_memcpy(p, &v, sizeof v);
+AMBRIG_INLINE void Store(double* p, const LaneVector& v) {
+  __builtin_memcpy(p, &v.a, sizeof v.a);
+  __builtin_memcpy(p + 4, &v.b, sizeof v.b);
 }
+
 /// Halves added to halves: ((v0+v4) + (v2+v6)) + ((v1+v5) + (v3+v7)).
-[[gnu::always_inline]] static inline double Sum(const LaneVector& v) {
-  using Four = double __attribute__((vector_size(32)));
+AMBRIG_INLINE double Sum(const LaneVector& v) {
   using Two = double __attribute__((vector_size(16)));
-  const Four four = __builtin_shufflevector(v, v, 0, 1, 2, 3) + __builtin_shufflevector(v, v, 4, 5, 6, 7);
+  const FourLanes four = v.a + v.b;
   const Two two = __builtin_shufflevector(four, four, 0, 1) + __builtin_shufflevector(four, four, 2, 3);
   return two[0] + two[1];
 }
+AMBRIG_INLINE double Largest(const LaneVector& v) {
+  using Two = double __attribute__((vector_size(16)));
+  const FourLanes four = v.a > v.b ? v.a : v.b;
+  const Two left = __builtin_shufflevector(four, four, 0, 1), right = __builtin_shufflevector(four, four, 2, 3);
+  const Two two = left > right ? left : right;
+  return two[0] > two[1] ? two[0] : two[1];
+}
 /// Each lane's partner in a pair of neighbours.
-[[gnu::always_inline]] static inline LaneVector Partner(const LaneVector& v) {
-  return LaneVector{v[1], v[0], v[3], v[2], v[5], v[4], v[7], v[6]};
+AMBRIG_INLINE LaneVector Partner(const LaneVector& v) {
+  return {__builtin_shufflevector(v.a, v.a, 1, 0, 3, 2), __builtin_shufflevector(v.b, v.b, 1, 0, 3, 2)};
 }
 
 }  // namespace ambrig

@@ -18,10 +18,7 @@ constexpr double kConverged =
 
 /// Time from the start of the sample to a switching edge, within [0, h].
 [[gnu::always_inline]] inline V Within(const V& edge, double t, double h) {
-  const V zero = {}, end = zero + h;
-  V a = edge - t;
-  a = a < zero ? zero : a;
-  return a > end ? end : a;
+  return Min(Max(edge - t, 0.0), h);
 }
 
 struct Edges {
@@ -37,7 +34,7 @@ AMBRIG_WIDE void Targets(const Edges& e, const double* lambda, const double* hal
                          const double* i, double* target) {
   const VoltagePattern& p = *e.pattern;
   const V a = Within(Load(p.t1.v), e.t, e.h), b0 = Within(Load(p.t2.v), e.t, e.h);
-  const V b = b0 < a ? a : b0;
+  const V b = Max(b0, a);
   const V v0 = Load(p.gain[0].v) * e.bus + Load(p.drop[0].v);
   const V v1 = Load(p.gain[1].v) * e.bus + Load(p.drop[1].v);
   const V v2 = Load(p.gain[2].v) * e.bus + Load(p.drop[2].v);
@@ -49,7 +46,7 @@ AMBRIG_WIDE void Targets(const Edges& e, const double* lambda, const double* hal
 AMBRIG_WIDE double Drawn(const Edges& e, const double* before, const double* after) {
   const VoltagePattern& p = *e.pattern;
   const V a = Within(Load(p.t1.v), e.t, e.h), b0 = Within(Load(p.t2.v), e.t, e.h);
-  const V b = b0 < a ? a : b0;
+  const V b = Max(b0, a);
   const double per = 1 / e.h;
   const V i0 = Load(before), rise = (Load(after) - i0) * (0.5 * per);
   const V at_a = a * per * (i0 + rise * a), at_b = b * per * (i0 + rise * b),

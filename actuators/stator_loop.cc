@@ -25,12 +25,10 @@ struct VoltSeconds {
     v2h = v2 * sample;
     step1 = v0 - v1;
     step2 = v1 - v2;
-    h = V{} + sample;
+    h = sample;
   }
   [[gnu::always_inline]] static V Within(V a, const V& h) {
-    const V zero = {};
-    a = a < zero ? zero : a;
-    return a > h ? h : a;
+    return Min(Max(a, 0.0), h);
   }
   [[gnu::always_inline]] V Of(double t) const {
     const V after = v2h + step2 * Within(t2 - t, h);
@@ -65,9 +63,7 @@ template <Coupling kCoupling>
     phi = Flux<kCoupling>(g, c * wanted, kCoupling == Coupling::kFloatingRotor ? 1 / Sum(g) : 0);
     i = inverse_l * (wanted - n * phi);
     lambda = n * phi + leakage * i;
-    double least = 0;
-    for (int j = 0; j < kLanes; ++j) least = i[j] < least ? i[j] : least;
-    if (least < s.floor) {
+    if (-Largest(-i) < s.floor) {
       Store(target, wanted);
       break;
     }
@@ -113,14 +109,12 @@ struct Running {
     wanted += volt_seconds.Of(t);
     phi = Flux<kCoupling>(g0 + dg * fraction, c * wanted, 1 / (g0_sum + dg_sum * fraction));
     i = inverse_l * (wanted - n * phi);
-    least = i < least ? i : least;
+    least = Min(i, least);
     sum += phi * phi;
     wanted = a * wanted + b * phi;
   }
   [[gnu::always_inline]] unsigned Finish(const StatorLoop& s) const {
-    double lowest = least[0];
-    for (int j = 1; j < kLanes; ++j) lowest = least[j] < lowest ? least[j] : lowest;
-    if (lowest < s.floor) return 1;
+    if (-Largest(-least) < s.floor) return 1;
     Store(s.lambda, n * phi + leakage * i);
     Store(s.i, i);
     Store(s.phi, phi);
@@ -222,11 +216,11 @@ void SolveSample(const StatorLoop& s, const double* target, double fraction) {
 AMBRIG_WIDE void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0, double* rel1,
                              double* slope, double* g0, double* dg) {
   const V offset = Load(law.gap_offset), dx = Load(law.direction_x), dy = Load(law.direction_y);
-  const V closest = V{} + 0.02 * law.gap0;
+  const V closest = 0.02 * law.gap0;
   V start = offset - x0 * dx - y0 * dy, end = offset - x1 * dx - y1 * dy;
-  start = start < closest ? closest : start;
-  end = end < closest ? closest : end;
-  V first = start, last = end, slope_of = V{} + law.per_metre;
+  start = Max(start, closest);
+  end = Max(end, closest);
+  V first = start, last = end, slope_of = law.per_metre;
   if (law.fringing != 0) {
     const V middle = 1 + law.fringing * (0.5 * (start + end)) / law.gap0;
     first = start / (1 + law.fringing * start / law.gap0);

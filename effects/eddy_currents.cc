@@ -41,7 +41,7 @@ struct States {
 
 AMBRIG_WIDE void Advance(const StepCoefficients& c, double gap, const double* phi, States& s) {
   const V now = Load(phi), change = (now - Load(s.phi.v)) * gap;
-  V kept = {};
+  V kept;
   for (int k = 0; k < kDiffusionPoles; ++k) {
     const V e = Load(s.e[k].v) * c.a[k] + change * c.b[k];
     Store(s.e[k].v, e);

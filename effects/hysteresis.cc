@@ -32,20 +32,18 @@ struct Stops {
 
 /// s + Δφ, held within ±r.
 [[gnu::always_inline]] static inline V Held(const V& free, double r) {
-  const V top = V{} + r;
-  const V low = free < -top ? -top : free;
-  return low > top ? top : low;
+  return Min(Max(free, -r), r);
 }
 
 AMBRIG_WIDE void AddDrop(const Stops& stops, const double* radius, double weight, const double* phi,
                          double* drop, double* slope) {
-  const V change = Load(phi) - Load(stops.phi.v), zero = {};
+  const V change = Load(phi) - Load(stops.phi.v);
   V sum = Load(drop), tangents = Load(slope);
   for (int k = 0; k < kStops; ++k) {
     const double tangent = weight / radius[k];
     const V free = Load(stops.s[k].v) + change, held = Held(free, radius[k]);
     sum += tangent * held;
-    tangents += held == free ? zero + tangent : zero;
+    tangents += Select(held == free, tangent, 0.0);
   }
   Store(drop, sum);
   Store(slope, tangents);

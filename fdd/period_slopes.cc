@@ -25,19 +25,19 @@ template <Coupling kCoupling>
                                               const Lane* adc, int count, SlopeSums* s) {
   const LaneVector n = Load(m.n.v), leakage = Load(m.leakage.v), on_count = Load(on_samples.v);
   const LaneVector p0 = Load(P.start.v), dp = Load(P.change.v) * (1.0 / count);
-  const LaneVector zero = {}, far = zero + 1e30;
+  const LaneVector zero, far = 1e30;
   LaneVector y_on = zero, ky_on = zero, y = zero, ky = zero, i_on = zero, ki_on = zero, is = zero, ki = zero;
   double inverse_sum[64];
   const double sum0 = Sum(p0), dsum = Sum(dp);
   for (int k = 0; k < count; ++k) inverse_sum[k] = 1 / (sum0 + dsum * k);
   LaneVector least_on = far, least_off = far, largest = -far;
   for (int k = 0; k < count; ++k) {
-    const LaneVector at = zero + static_cast<double>(k), i = Load(adc[k].v);
+    const LaneVector at = static_cast<double>(k), i = Load(adc[k].v);
     const LaneVector lambda = Linkage<kCoupling>(n, leakage, p0 + dp * at, i, inverse_sum[k]);
     if (k == 0) Store(s->first.v, lambda);
     if (k == count - 1) Store(s->last.v, lambda);
     const auto on = on_count > at;
-    const LaneVector lambda_on = on ? lambda : zero, current_on = on ? i : zero;
+    const LaneVector lambda_on = Select(on, lambda, zero), current_on = Select(on, i, zero);
     y += lambda;
     ky += at * lambda;
     is += i;
@@ -46,10 +46,9 @@ template <Coupling kCoupling>
     ky_on += at * lambda_on;
     i_on += current_on;
     ki_on += at * current_on;
-    const LaneVector in_on = on ? i : far, in_off = on ? far : i;
-    least_on = in_on < least_on ? in_on : least_on;
-    least_off = in_off < least_off ? in_off : least_off;
-    largest = i > largest ? i : largest;
+    least_on = Min(Select(on, i, far), least_on);
+    least_off = Min(Select(on, far, i), least_off);
+    largest = Max(i, largest);
   }
   Store(s->y_on.v, y_on);
   Store(s->ky_on.v, ky_on);

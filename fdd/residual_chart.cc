@@ -14,18 +14,6 @@ constexpr double kFewest = 4;         // samples of a phase that counts
 constexpr double kZeroCurrent = 0.03; // [A] below: the diodes may block
 constexpr double kNormalSize = 0.8;   // mean of |z| of a normal variable
 
-[[gnu::always_inline]] inline V Abs(const V& a) { return a < 0 ? -a : a; }
-[[gnu::always_inline]] inline V Max(const V& a, const V& b) { return a > b ? a : b; }
-[[gnu::always_inline]] inline V Min(const V& a, const V& b) { return a < b ? a : b; }
-[[gnu::always_inline]] inline double Largest(const V& a) {
-  using Four = double __attribute__((vector_size(32)));
-  using Two = double __attribute__((vector_size(16)));
-  const Four low = __builtin_shufflevector(a, a, 0, 1, 2, 3), high = __builtin_shufflevector(a, a, 4, 5, 6, 7);
-  const Four four = low > high ? low : high;
-  const Two left = __builtin_shufflevector(four, four, 0, 1), right = __builtin_shufflevector(four, four, 2, 3);
-  const Two two = left > right ? left : right;
-  return two[0] > two[1] ? two[0] : two[1];
-}
 [[gnu::always_inline]] inline V SquareRoot(const V& a) {
   Lane out;
   for (int j = 0; j < kLanes; ++j) out[j] = std::sqrt(a[j]);
@@ -40,23 +28,23 @@ struct Terms {
 [[gnu::always_inline]] inline void Phase(const Terms& c, const ChartSettings& s, const ModelError& known,
                                          const PhaseSlopes& p, bool off, const Lane& size, Lane* e, Lane* sd, Lane* z,
                                          Lane* valid) {
-  const V zero = {}, one = zero + 1, nothing = zero + kZeroCurrent;
+  const V zero, one = 1, nothing = kZeroCurrent;
   const V di = Load(p.current.v), flux = Load(p.linkage.v) - c.leakage * di;
   const V noise = c.own * s.current_noise, moved = c.n * c.dP * c.potential_rate;
   const V variance = noise * noise * (Load(p.scale.v) * c.per_step) + known.doubt[0] * di * di -
                      known.doubt[1] * di * flux + known.doubt[2] * flux * flux + s.voltage_sd * s.voltage_sd +
                      moved * moved;
-  const V width = SquareRoot(variance) * Min(Max(Load(size.v) * (1 / kNormalSize), one), zero + 5);
+  const V width = SquareRoot(variance) * Min(Max(Load(size.v) * (1 / kNormalSize), one), 5);
   const V residual = Load(p.residual.v) + known.leakage * di - known.gap * flux;
   // At zero current the diodes may block: off says nothing, on only that too little flux comes.
   const V least = Load(p.least.v), mean = Load(p.mean.v);
-  const V few = Load(p.samples.v) < kFewest ? one : zero, clipped = c.largest < s.adc_limit ? zero : one;
-  const V low = mean < 2 * nothing ? (residual > zero ? one : zero) : zero;
-  const V blocks = least < nothing ? (off ? one : low) : zero;
-  const V ok = few + clipped + blocks > zero ? zero : c.watched;
+  const V few = Select(Load(p.samples.v) < kFewest, one, zero), clipped = Select(c.largest < s.adc_limit, zero, one);
+  const V low = Select(mean < 2 * nothing, Select(residual > zero, one, zero), zero);
+  const V blocks = Select(least < nothing, off ? one : low, zero);
+  const V ok = Select(few + clipped + blocks > zero, zero, c.watched);
   Store(e->v, residual);
   Store(sd->v, width);
-  Store(z->v, ok > zero ? residual / width : zero);
+  Store(z->v, Select(ok > zero, residual / width, zero));
   Store(valid->v, ok);
 }
 
@@ -78,13 +66,13 @@ AMBRIG_WIDE void ComputeAll(const LinkageModel& m, double step, const ChartSetti
 }
 
 AMBRIG_WIDE double Accumulate(const ChartSettings& s, ResidualChart* r) {
-  const V zero = {}, cap = zero + s.cap;
+  const V zero, cap = s.cap;
   const V on = Load(r->valid[0].v), off = Load(r->valid[1].v), both = on * off;
   const V z[3] = {Load(r->z[0].v), Load(r->z[1].v), (Load(r->z[0].v) - Load(r->z[1].v)) * 0.7071};
   const V counts[3] = {on, off, both};
   V most = zero;
   for (int q = 0; q < 3; ++q) {
-    const V before = Load(r->G[q].v), G = counts[q] > zero ? Max(before + Min(Abs(z[q]), cap) - s.drift, zero) : before;
+    const V before = Load(r->G[q].v), G = Select(counts[q] > zero, Max(before + Min(Abs(z[q]), cap) - s.drift, zero), before);
     Store(r->G[q].v, G);
     most = Max(most, G);
   }

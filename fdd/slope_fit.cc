@@ -14,34 +14,32 @@ using V = LaneVector;
 [[gnu::always_inline]] inline V Floor(const V& x) {
   constexpr double kRound = 4503599627370496.0;  // 2^52: the sum has no binary places left
   const V nearest = (x + kRound) - kRound;
-  return nearest > x ? nearest - 1 : nearest;
+  return Select(nearest > x, nearest - 1, nearest);
 }
 
 /// Sample k lies in the on phase when k h <= edge; the edge itself belongs to both.
 AMBRIG_WIDE void CountSamples(double step, double samples, PeriodSlopes* out) {
-  const V zero = {}, all = zero + samples, edge = Load(out->edge.v);
+  const V all = samples, edge = Load(out->edge.v);
   V count = Floor(edge * ((1 + 1e-12) / step)) + 1;
-  count = count > all ? all : count;
-  count = edge <= zero ? zero : count;
+  count = Select(edge > 0.0, Min(count, all), 0.0);
   Store(out->phase[0].samples.v, count);
   Store(out->phase[1].samples.v, all - count);
   V last = (edge - (samples - 1) * step) / step;  // share of the time after the last sample
-  last = last < zero ? zero : last;
-  last = last > 1 ? zero + 1 : last;
+  last = Min(Max(last, 0.0), 1.0);
   Store(out->after.v, last * Load(out->phase[0].voltage.v) + (1 - last) * Load(out->phase[1].voltage.v));
 }
 
 AMBRIG_WIDE void EdgesOf(const Lane& duty, double T, const BridgeVoltage& v, PeriodSlopes* out) {
   Store(out->edge.v, Load(duty.v) * T);
-  Store(out->phase[0].voltage.v, V{} + v.on);
-  Store(out->phase[1].voltage.v, V{} + v.off);
+  Store(out->phase[0].voltage.v, V(v.on));
+  Store(out->phase[1].voltage.v, V(v.off));
 }
 
 [[gnu::always_inline]] inline void Fit(const V& n, const V& from, double step, const V& resistance, const V& y, const V& ky,
                                        const V& i, const V& ki, PhaseSlopes* out) {
-  const V zero = {}, middle = 0.5 * (n - 1) + from;
-  const V scale = n < 2 ? zero : 12 / (n * (n * n - 1) * step);
-  const V linkage = (ky - middle * y) * scale, mean = n > zero ? i / n : zero;
+  const V middle = 0.5 * (n - 1) + from;
+  const V scale = Select(n < 2, 0.0, 12 / (n * (n * n - 1) * step));
+  const V linkage = (ky - middle * y) * scale, mean = Select(n > 0.0, i / n, 0.0);
   Store(out->scale.v, scale);
   Store(out->linkage.v, linkage);
   Store(out->current.v, (ki - middle * i) * scale);

@@ -7,7 +7,7 @@ namespace ambrig {
 namespace {
 
 using V = LaneVector;
-using FloatVector = float __attribute__((vector_size(kLanes * sizeof(float))));
+using FourFloats = float __attribute__((vector_size(16)));
 
 /// Rounds to the nearest step and clips; |value / step| stays far below 2^51, where adding and
 /// subtracting 1.5 * 2^52 rounds to the nearest even integer, as nearbyint does.
@@ -15,10 +15,8 @@ struct Converter {
   double step, low, high;
   [[gnu::always_inline]] V operator()(const V& value) const {
     constexpr double kRound = 6755399441055744.0;
-    const V zero = {}, lowest = zero + low, highest = zero + high;
-    V q = ((value * (1 / step) + kRound) - kRound) * step;
-    q = q < lowest ? lowest : q;
-    return q > highest ? highest : q;
+    const V q = ((value * (1 / step) + kRound) - kRound) * step;
+    return Min(Max(q, low), high);
   }
 };
 
@@ -30,7 +28,7 @@ template <class Convert>
 [[gnu::always_inline]] inline void Measure(const Lane* truth, int count, const Sensors& sensors, const Convert& convert,
                                            Lane* adc, CurrentStatistics* out) {
   const bool plain = sensors.gain == nullptr;
-  const V gain = plain ? V{} + 1 : Load(sensors.gain), offset = plain ? V{} : Load(sensors.offset);
+  const V gain = plain ? V(1) : Load(sensors.gain), offset = plain ? V() : Load(sensors.offset);
   V sum = {}, square = {}, most = {};
   for (int k = 0; k < count; ++k) {
     const V i = Load(truth[k].v);
@@ -38,7 +36,7 @@ template <class Convert>
     Store(adc[k].v, value);
     sum += value;
     square += i * i;
-    most = i > most ? i : most;
+    most = Max(i, most);
   }
   Store(out->mean.v, sum / static_cast<double>(count));
   Store(out->mean_square.v, square / static_cast<double>(count));
@@ -53,9 +51,11 @@ AMBRIG_WIDE void MeasureNoisily(const Lane* truth, int count, const Sensors& sen
                                 double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
   const Converter c = converter;
   Measure(truth, count, sensors, [&](const V& value, int k) __attribute__((always_inline)) {
-    FloatVector normal;
-    __builtin_memcpy(&normal, normals + k * coils, sizeof normal);
-    return c(value + noise * __builtin_convertvector(normal, V));
+    FourFloats low, high;
+    __builtin_memcpy(&low, normals + k * coils, sizeof low);
+    __builtin_memcpy(&high, normals + k * coils + 4, sizeof high);
+    const V normal(__builtin_convertvector(low, FourLanes), __builtin_convertvector(high, FourLanes));
+    return c(value + noise * normal);
   }, adc, out);
 }
 
