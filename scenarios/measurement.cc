@@ -7,7 +7,6 @@ namespace ambrig {
 namespace {
 
 using V = LaneVector;
-using FourFloats = float __attribute__((vector_size(16)));
 
 /// Rounds to the nearest step and clips; |value / step| stays far below 2^51, where adding and
 /// subtracting 1.5 * 2^52 rounds to the nearest even integer, as nearbyint does.
@@ -51,11 +50,9 @@ AMBRIG_WIDE void MeasureNoisily(const Lane* truth, int count, const Sensors& sen
                                 double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
   const Converter c = converter;
   Measure(truth, count, sensors, [&](const V& value, int k) __attribute__((always_inline)) {
-    FourFloats low, high;
-    __builtin_memcpy(&low, normals + k * coils, sizeof low);
-    __builtin_memcpy(&high, normals + k * coils + 4, sizeof high);
-    const V normal(__builtin_convertvector(low, FourLanes), __builtin_convertvector(high, FourLanes));
-    return c(value + noise * normal);
+    Lane normal;
+    for (int j = 0; j < kLanes; ++j) normal[j] = static_cast<double>(normals[k * coils + j]);
+    return c(value + noise * Load(normal.v));
   }, adc, out);
 }
 
