@@ -1,6 +1,6 @@
 #pragma once
 /// Force of a heteropolar bearing with eight poles as quadratic forms of its coil currents, rotor
-/// centred, ideal iron, all gaps meeting at the rotor (docs/theory: stator, redistribution).
+/// centred, ideal iron, all gaps meeting at the rotor (docs/theory/stator.md).
 ///
 ///   m_j = tau_j s_j i_j                  coil's magnetomotive force over N (tau_j turns left,
 ///   0..1) B_j = m_j - mean(m)                  flux of pole j in units of mu0 N A / g0 F   = (mu0
