@@ -92,7 +92,10 @@ void RotorModel::SetSpeed(const SpeedProfile& profile, double free_from) {
 }
 
 void RotorModel::SetSpin(MotionState& s) const {
-  if (SpeedIsFree(s.t)) return;
+  if (!SpeedIsFree(s.t)) Prescribe(s);
+}
+
+void RotorModel::Prescribe(MotionState& s) const {
   s.theta = speed_.Angle(s.t);
   s.Omega = speed_.Speed(s.t);
   s.Omega_dot = speed_.Acceleration(s.t);
@@ -210,7 +213,7 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
       stage.Omega = s.Omega + c[k] * dt * k_w[k - 1];
       stage.theta = s.theta + c[k] * dt * stage_w[k - 1];
     } else if (!free_spin) {
-      SetSpin(stage);
+      Prescribe(stage);
     }
     double torque = 0;
     Accelerations(stage, forced, stator_x, stator_y, k_a[k], &torque, near_contact);
@@ -229,7 +232,7 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
     s.theta += w * (stage_w[0] + 2 * (stage_w[1] + stage_w[2]) + stage_w[3]);
     s.Omega += w * (k_w[0] + 2 * (k_w[1] + k_w[2]) + k_w[3]);
   } else {
-    SetSpin(s);
+    Prescribe(s);  // also where the speed is free from: a step that began before ends on the profile
   }
 }
 

@@ -123,6 +123,8 @@ class RotorModel {
 
  private:
   int NewDof(double mass);
+  /// theta, Omega of the speed profile at the state's time.
+  void Prescribe(MotionState& s) const;
   double StiffnessRate(const MotionState& s) const;
   double MountRate() const;
   void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,

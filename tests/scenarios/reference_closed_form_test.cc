@@ -172,6 +172,24 @@ TEST(ReferenceClosedForm, FreeFall) {
   }
 }
 
+// √(2c/g) = 6.386 ms through a clearance of 0.2 mm: the verdict names the period in which it is over.
+TEST(ReferenceClosedForm, TouchdownAfterTheFreeFallTime) {
+  const RigParameters rig = LooseRotor(2e-4, 0);
+  const Scenario scenario = LooseScenario(rig, 0.008);
+  const double fall = std::sqrt(2 * 2e-4 / 9.81);
+  EngineOptions fast;
+  fast.warm_up = 0;
+  ReferenceOptions reference;
+  reference.sampled.warm_up = 0;
+  for (const RunResult& r : {SwitchingEngine(rig, scenario, fast).Run(), RunReference(rig, scenario, reference)}) {
+    EXPECT_TRUE(r.touchdown);
+    ASSERT_FALSE(r.events.empty());
+    EXPECT_EQ(r.events.front().kind, "touchdown");
+    EXPECT_GE(r.events.front().t, fall);
+    EXPECT_LT(r.events.front().t, fall + 40e-6);
+  }
+}
+
 /// e of N = k pⁿ (1 + h p') on a free mass: a - ln(1 + a) = -a e - ln(1 - a e), a = h v (facts.md).
 double Restitution(double a) {
   double lo = 0, hi = std::min(1.0, 1 / a * (1 - 1e-12));
