@@ -84,29 +84,13 @@ std::vector<std::string> Bearings(const TomlTable& t, const RigParameters& rig) 
   return names;
 }
 
-/// The kinds that a coil may have, checked by the scenario reader: one set of rules.
+/// The kinds that a coil may have, by the scenario reader's rules.
 CampaignFaultKind ReadKind(const TomlTable& t) {
+  constexpr FaultTarget kCoil[] = {FaultTarget::kCoil};
   CampaignFaultKind k;
-  k.kind = t.Choice("kind", "", "open, partial-short, amplifier-off, switch-stuck-on, current-sensor");
+  k.kind = ReadFaultKind(t, FaultKindNames(kCoil), &k.parameters).kind;
   k.label = k.kind;
-  if (const auto p = t.Table("parameters")) {
-    const std::string allowed = k.kind == "partial-short"    ? "fraction, short_resistance"
-                                : k.kind == "current-sensor" ? "gain, offset, stuck" : "none";
-    for (const auto& key : p->Keys()) {
-      if (allowed.find(key) == std::string::npos)
-        p->Fail(key, fmt::format("unknown key, allowed with kind {}: {}", k.kind, allowed));
-      const double v = p->IsBool(key) ? (p->Bool(key, false) ? 1.0 : 0.0) : p->Number(key);
-      if (std::isnan(v)) p->Fail(key, "= nan, allowed: a number");
-      k.parameters[key] = v;
-      k.label += fmt::format(" {}={}", key, v);
-    }
-  }
-  if (k.kind == "partial-short") {
-    const double f = k.parameters.contains("fraction") ? k.parameters["fraction"] : -1;
-    const double r = k.parameters.contains("short_resistance") ? k.parameters["short_resistance"] : 0;
-    if (!(f > 0 && f < 1)) t.Fail("parameters", fmt::format("fraction = {}, allowed: above 0 to below 1 (share of the turns)", f));
-    if (!(r >= 0)) t.Fail("parameters", fmt::format("short_resistance = {}, allowed: 0 ohm or more, or inf", r));
-  }
+  for (const auto& [key, value] : k.parameters) k.label += fmt::format(" {}={}", key, value);
   t.RejectUnknownKeys();
   return k;
 }

@@ -26,37 +26,8 @@ void SwitchingEngine::Watch(long long n) {
     b.max_orbit_sq = std::max(b.max_orbit_sq, orbit_sq);
     if (late) late_orbit_sq_ = std::max(late_orbit_sq_, orbit_sq);
   }
-  if (!clamped_)
-    for (std::size_t k = 0; k <= plant_.rotor.auxiliaries().size(); ++k) WatchContact(k, n == 0 && k == 0);
+  if (!clamped_) contacts_->Period(motion_, n == 0, result_);
   WatchFaults(n);
-}
-
-/// Auxiliary bearing k, or the axial stop after the last of them.
-void SwitchingEngine::WatchContact(std::size_t k, bool first) {
-  RunMetrics& m = result_.metrics;
-  const RotorModel& rotor = plant_.rotor;
-  const bool axial = k == rotor.auxiliaries().size();
-  const double depth = axial ? rotor.AxialPenetration(motion_) : rotor.Penetration(motion_, k);
-  if (!std::isfinite(depth)) return;
-  m.min_clearance_left = first ? -depth : std::min(m.min_clearance_left, -depth);
-  double& since = contact_since_[k];
-  if (depth <= 0 && since < 0) return;
-  const std::string name = axial ? "z" : rotor.auxiliaries()[k].name;
-  if (depth > 0 && since < 0) {
-    since = motion_.t;
-    if (scenario_.start != StartState::kResting || motion_.t > T_ * 1.5) {
-      if (!result_.touchdown || result_.events.back().kind != "touchdown") Event("touchdown", name);
-      result_.touchdown = true;
-    }
-  } else if (depth <= 0 && since >= 0) {
-    m.longest_contact = std::max(m.longest_contact, motion_.t - since);
-    since = -1;
-    Event("lift_off", name);
-  }
-  if (since >= 0 && !result_.drop && motion_.t - since > scenario_.drop_limit) {
-    result_.drop = true;
-    Event("drop", name);
-  }
 }
 
 void SwitchingEngine::WatchFaults(long long n) {
@@ -98,12 +69,7 @@ void SwitchingEngine::Verdict() {
     for (const BearingRun& b : bearings_) m.max_orbit[b.plant->name] = std::sqrt(b.max_orbit_sq);
   m.late_orbit = std::sqrt(late_orbit_sq_);
   m.copper_loss = periods_ > 0 ? loss_sum_ / static_cast<double>(periods_) : 0;
-  for (double since : contact_since_) {
-    if (since < 0) continue;
-    m.longest_contact = std::max(m.longest_contact, motion_.t - since);
-    if (!result_.drop) Event("drop", "rotor");
-    result_.drop = true;  // in contact at the end of the run
-  }
+  contacts_->Finish(motion_, result_);
   if (options_.snapshots) Snapshot("end of the run");
 }
 

@@ -94,9 +94,11 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
   b.kind = kind == "radial" ? BearingKind::kRadial : kind == "thrust" ? BearingKind::kThrust : BearingKind::kOpposed;
   if (b.kind == BearingKind::kRadial) {
     b.z = t.Number("z", like.empty() ? kRequired : b.z);
-    if (!(std::abs(b.z) <= 100)) t.Fail("z", "is missing or not in -100 to 100 m (bearing plane)");
+    if (std::isnan(b.z)) t.Fail("z", "is missing, allowed: -100 to 100 m (bearing plane)");
+    if (!(std::abs(b.z) <= 100)) t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m (bearing plane)", b.z));
   } else {
     b.z = t.Number("z", 0);
+    if (!(std::abs(b.z) <= 100)) t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m", b.z));
   }
   ReadStator(t, b, &tolerances);
   if (like.empty() || t.Has("sensor")) ReadSensor(t, b, &tolerances);

@@ -2,8 +2,7 @@
 /// Events and figures of a run of the continuous-time engines, once per switching period: contact,
 /// touchdown, drop, orbit, currents, copper loss. The rules are the switching engine's.
 /// Source: shared/design/physics.md section 8 (verdict terms).
-#include <vector>
-
+#include "scenarios/contact_watch.h"
 #include "scenarios/sampled_rig.h"
 
 namespace ambrig {
@@ -16,12 +15,9 @@ class RunWatch {
   void Finish();
 
  private:
-  void Contact(long long n, std::size_t k);
-  void Event(const std::string& kind, const std::string& target);
-
   const SampledRig& rig_;
   RunResult& result_;
-  std::vector<double> contact_since_;  // per auxiliary bearing and the axial stops, -1: none
+  ContactWatch contacts_;
   double copper_sum_ = 0;
 };
 

@@ -126,55 +126,23 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
   }
 }
 
-struct FaultKind {
-  const char* kind;
-  const char* target;      // coil | axis | rig
-  const char* parameters;  // comma separated
-};
-constexpr FaultKind kFaultKinds[] = {
-    {"open", "coil", ""},
-    {"partial-short", "coil", "fraction, short_resistance"},
-    {"amplifier-off", "coil", ""},
-    {"switch-stuck-on", "coil", ""},
-    {"current-sensor", "coil", "gain, offset, stuck"},
-    {"position-sensor", "axis", "offset, stuck, lost"},
-    {"bus-sag", "rig", "voltage, duration"},
-};
+constexpr FaultTarget kAll[] = {FaultTarget::kCoil, FaultTarget::kAxis, FaultTarget::kRig};
 
 void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
-  std::string kinds;
-  for (const FaultKind& k : kFaultKinds) kinds += (kinds.empty() ? "" : ", ") + std::string(k.kind);
   for (const TomlTable& t : root.Tables("fault")) {
     FaultSpec f;
     f.where = t.Where();
     f.time = t.Number("time");
     if (!(f.time >= 0 && f.time < s.duration))
       t.Fail("time", fmt::format("= {} s, allowed: 0 to below the duration of {} s", f.time, s.duration));
-    f.kind = t.Choice("kind", "", kinds);
-    f.target = t.String("target", f.kind == "bus-sag" ? "rig" : "");
-    const FaultKind& spec =
-        *std::find_if(std::begin(kFaultKinds), std::end(kFaultKinds), [&](const auto& k) { return f.kind == k.kind; });
-    const std::vector<std::string> allowed = spec.target == std::string("coil") ? targets.coils
-                                             : spec.target == std::string("axis")
-                                                 ? targets.axes
-                                                 : std::vector<std::string>{"rig"};
+    const FaultKind& kind = ReadFaultKind(t, FaultKindNames(kAll), &f.parameters);
+    f.kind = kind.kind;
+    f.target = t.String("target", kind.target == FaultTarget::kRig ? "rig" : "");
+    const std::vector<std::string> allowed = kind.target == FaultTarget::kCoil   ? targets.coils
+                                             : kind.target == FaultTarget::kAxis ? targets.axes
+                                                                                 : std::vector<std::string>{"rig"};
     if (std::find(allowed.begin(), allowed.end(), f.target) == allowed.end())
       t.Fail("target", fmt::format("= \"{}\" with kind {}, allowed: {}", f.target, f.kind, Join(allowed)));
-    if (const auto p = t.Table("parameters")) {
-      for (const auto& key : p->Keys()) {
-        const std::string list = spec.parameters;
-        if (list.find(key) == std::string::npos)
-          p->Fail(key, fmt::format("unknown key, allowed with kind {}: {}", f.kind, list.empty() ? "none" : list));
-        f.parameters[key] = p->IsBool(key) ? p->Bool(key, false) : p->Number(key);
-        if (std::isnan(f.parameters[key])) p->Fail(key, "= nan, allowed: a number");
-      }
-    }
-    if (f.kind == "partial-short") {
-      const double fraction = f.Get("fraction", -1), r = f.Get("short_resistance", kInfinity);
-      if (!(fraction > 0 && fraction < 1))
-        t.Fail("parameters", fmt::format("fraction = {}, allowed: above 0 to below 1 (share of the turns)", fraction));
-      if (!(r >= 0)) t.Fail("parameters", fmt::format("short_resistance = {} ohm, allowed: 0 or more, or inf", r));
-    }
     t.RejectUnknownKeys();
     s.faults.push_back(f);
   }
@@ -198,8 +166,7 @@ void ReadExpect(const TomlTable& root, Scenario& s) {
   flag("drop", s.expect.drop);
   flag("redistributed", s.expect.redistributed);
   if (t->Has("classified"))
-    s.expect.classified = t->Choice("classified", "", "open, partial-short, amplifier-off, switch-stuck-on, "
-                                                      "current-sensor, position-sensor, bus-sag");
+    s.expect.classified = t->Choice("classified", "", FaultKindNames(kAll));
   t->RejectUnknownKeys();
 }
 

@@ -8,22 +8,10 @@
 
 #include "control/excitation.h"
 #include "rotor/speed_profile.h"
+#include "scenarios/fault_spec.h"
 #include "scenarios/rig_file.h"
 
 namespace ambrig {
-
-struct FaultSpec {
-  double time = 0;
-  std::string target;  // "A.coil3", "A.x", "rig"
-  std::string kind;    // open | partial-short | amplifier-off | switch-stuck-on | current-sensor | position-sensor | bus-sag
-  std::map<std::string, double> parameters;
-  std::string where;
-
-  double Get(const std::string& key, double fallback) const {
-    const auto it = parameters.find(key);
-    return it == parameters.end() ? fallback : it->second;
-  }
-};
 
 struct LoadSpec {
   double z = 0;

@@ -69,7 +69,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
   controller_ = std::make_unique<DecentralisedPid>(axes, T_ * M_);
   noise_.emplace(scenario_.seed, CoilsOf(rig_), axis, samples_);
   for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axis, 0.0);
-  contact_since_.assign(plant_.rotor.auxiliaries().size() + 1, -1);
+  contacts_.emplace(plant_.rotor, scenario_, T_);
 }
 
 SwitchingEngine::~SwitchingEngine() = default;

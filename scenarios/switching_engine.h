@@ -9,6 +9,7 @@
 
 #include "control/position_controller.h"
 #include "scenarios/command_plan.h"
+#include "scenarios/contact_watch.h"
 #include "scenarios/measurement.h"
 #include "scenarios/measurement_noise.h"
 #include "scenarios/recorder.h"
@@ -73,7 +74,6 @@ class SwitchingEngine {
   void Measure(long long n);
   void MoveRotor(long long n);
   void Watch(long long n);
-  void WatchContact(std::size_t k, bool first);
   void WatchFaults(long long n);
   void Inject(const FaultSpec& fault);
   void InjectCoil(const FaultSpec& fault, BearingRun& b, int coil);
@@ -120,7 +120,7 @@ class SwitchingEngine {
   int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples
   std::vector<std::size_t> channel_;
   RunResult result_;
-  std::vector<double> contact_since_;
+  std::optional<ContactWatch> contacts_;
   double loss_sum_ = 0, touching_ = 0, late_orbit_sq_ = 0;
   PeriodMeasurement measurement_;
   std::optional<MeasurementNoise> noise_;

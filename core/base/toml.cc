@@ -39,7 +39,8 @@ std::string Text(const toml::node& n) {
   if (const auto* t = n.as_table()) out << toml::toml_formatter(*t, toml::format_flags::none);
   else if (const auto* a = n.as_array()) out << *a;
   else n.visit([&](const auto& v) {
-    if constexpr (toml::is_value<decltype(v)>) out << v;
+    if constexpr (toml::is_floating_point<decltype(v)>) out << NumberText(v.get());
+    else if constexpr (toml::is_value<decltype(v)>) out << v;
   });
   std::string text = out.str();
   for (char& c : text)
@@ -142,22 +143,24 @@ double TomlTable::NumberOr(std::string_view key, double fallback, double* sd, do
         throw InputError(fmt::format("{}.fitted = {}, allowed: a number", Where(key), Text(*f)));
       *fitted = f->value<double>().value();
     }
-    return value->value<double>().value();
+    n = value;
   }
   if (!n->is_number())
     throw InputError(fmt::format("{} = {} is {}, allowed: a number", Where(key), Text(*n), TypeName(*n)));
-  return n->value<double>().value();
+  const double v = n->value<double>().value();
+  if (std::isnan(v)) Fail(key, "= nan, allowed: a number");
+  return v;
 }
 
 double TomlTable::Number(std::string_view key) const {
   if (!Has(key)) Fail(key, "is missing, allowed: a number");
-  return NumberOr(key, 0, nullptr);
+  return Number(key, 0, nullptr);
 }
-double TomlTable::Number(std::string_view key, double fallback) const {
-  return NumberOr(key, fallback, nullptr);
-}
+double TomlTable::Number(std::string_view key, double fallback) const { return Number(key, fallback, nullptr); }
 double TomlTable::Number(std::string_view key, double fallback, double* sd) const {
-  return NumberOr(key, fallback, sd);
+  const double v = NumberOr(key, fallback, sd);
+  if (Has(key) && std::isinf(v) && !std::isinf(fallback)) Fail(key, fmt::format("= {}, allowed: a finite number", v));
+  return v;
 }
 
 long long TomlTable::Integer(std::string_view key, long long fallback) const {
@@ -312,6 +315,14 @@ std::vector<std::vector<TomlTable>> TomlTable::TableRows(std::string_view key) c
     }
   }
   return out;
+}
+
+void TomlTable::RejectMisspelt(std::string_view key) const {
+  for (const auto& [k, v] : *node_->table) {
+    const std::string given(k.str());
+    if (!node_->asked.contains(given) && !Nearest(given, std::string(key)).empty())
+      throw InputError(fmt::format("{}: unknown key, did you mean {}? allowed: {}", Where(given), key, key));
+  }
 }
 
 void TomlTable::RejectUnknownKeys() const {

@@ -37,7 +37,8 @@ class TomlTable {
   bool Has(std::string_view key) const;
   std::vector<std::string> Keys() const;
 
-  double Number(std::string_view key) const;  // required; plain or {value, sd}
+  /// Plain or {value, sd}; never nan. Infinite only where the fallback is. Without fallback: required.
+  double Number(std::string_view key) const;
   double Number(std::string_view key, double fallback) const;
   /// Also returns the sd of `{ value, sd }` (0 when plain).
   double Number(std::string_view key, double fallback, double* sd) const;
@@ -70,6 +71,7 @@ class TomlTable {
     for (const Field<P>& f : fields) {
       double sd = 0, fitted = kRequired;
       p.*f.at = NumberOr(f.key, p.*f.at, &sd, &fitted);
+      if (std::isnan(p.*f.at)) RejectMisspelt(f.key);
       if ((sd > 0 || !std::isnan(fitted)) && tolerances)
         tolerances->push_back({(path().empty() ? "" : path() + ".") + std::string(f.key), sd, fitted});
     }
@@ -78,6 +80,8 @@ class TomlTable {
 
   /// @throws InputError for the first key that no reader asked for, naming the nearest known one.
   void RejectUnknownKeys() const;
+  /// A required key is missing: throws when another, unknown one looks like it.
+  void RejectMisspelt(std::string_view key) const;
   /// "file:line: path.key: text", thrown.
   [[noreturn]] void Fail(std::string_view key, const std::string& text) const;
 

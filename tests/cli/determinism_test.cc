@@ -1,0 +1,51 @@
+/// Same scenario and seed, same bits: two runs, and any number of threads.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+class Determinism : public CliFolder {};
+
+const std::string kLibrary = AMBRIG_SOURCE_DIR "/scenarios/library/";
+
+// Noise, detection and redistribution on: the record is the same file, byte by byte.
+TEST_F(Determinism, ARecordHasTheSameBytes) {
+  for (const char* out : {"one", "two"})
+    EXPECT_EQ(Ambrig("run " + kLibrary + "coil_a3_opens_1500rpm.toml --quiet --csv --no-report --out " + out).exit, 0);
+  for (const char* file : {"coil_a3_opens_1500rpm.h5", "coil_a3_opens_1500rpm.csv"}) {
+    const std::string one = ReadText(folder_ / "one" / file);
+    EXPECT_GT(one.size(), 100000u);
+    EXPECT_TRUE(one == ReadText(folder_ / "two" / file)) << file;
+  }
+}
+
+TEST_F(Determinism, AnotherSeedIsAnotherRecord) {
+  Write("rig.toml", ReferenceRigText());
+  for (const char* seed : {"1", "2"}) {
+    Write("s.toml", ScenarioText(std::string("seed = ") + seed + "\n"));
+    EXPECT_EQ(Ambrig(std::string("run s.toml --quiet --csv --no-report --out ") + seed).exit, 0);
+  }
+  EXPECT_FALSE(ReadText(folder_ / "1" / "s.csv") == ReadText(folder_ / "2" / "s.csv"));
+}
+
+// Scenarios side by side on two threads give the figures of one thread, to the last digit.
+TEST_F(Determinism, ChecksOfOneAndTwoJobs) {
+  std::string files;
+  for (const char* name : {"coil_a3_opens_1500rpm", "drop_at_1500rpm", "two_faults_in_sequence", "switch_stuck_on", "lift_off"})
+    files += " " + kLibrary + name + ".toml";
+  nlohmann::json result[2];
+  for (int jobs = 1; jobs <= 2; ++jobs) {
+    const Outcome o = Ambrig("check" + files + " --json out.json --jobs " + std::to_string(jobs));
+    EXPECT_EQ(o.exit, 0) << o.text;
+    result[jobs - 1] = nlohmann::json::parse(ReadText(folder_ / "out.json"));
+    for (auto& run : result[jobs - 1]) run["metrics"].erase("real_time_factor");
+  }
+  ASSERT_EQ(result[0].size(), 5u);
+  EXPECT_GT(result[0][0]["metrics"]["peak_current"], 0);
+  EXPECT_EQ(result[0], result[1]);
+}
+
+}  // namespace
+}  // namespace ambrig
