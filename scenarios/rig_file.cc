@@ -278,9 +278,9 @@ bool ParameterRange(const RigParameters& rig, const std::string& path, double* l
 
 std::vector<ParameterRow> RigParameterRows() {
   std::vector<ParameterRow> rows;
-  const auto add = [&](const std::string& section, const auto& fields) {
-    for (const auto& f : fields)
-      rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo, f.hi});
+  const auto add = [&]<class P, std::size_t n>(const std::string& section, const Field<P>(&fields)[n]) {
+    for (const Field<P>& f : fields)
+      rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo, f.hi, P{}.*f.at});
   };
   add("[rotor]", kRotorFields);
   add("[amplifier]", kAmplifierFields);
@@ -291,6 +291,7 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[bearings.M] kind = \"opposed\"", kOpposedStatorFields);
   add("[bearings.A.sensor]", kSensorFields);
   add("[bearings.A.auxiliary]", kAuxiliaryFields);
+  add("[bearings.A.controller]", kPidFields);
   return rows;
 }
 

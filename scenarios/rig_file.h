@@ -106,10 +106,11 @@ double* ParameterAt(RigParameters& rig, const std::string& path);
 bool ParameterRange(const RigParameters& rig, const std::string& path, double* lo, double* hi,
                     std::string* unit);
 
-/// Every parameter table of a rig file: section, key, unit, range, doc, for help and docs.
+/// Every parameter table of a rig file: section, key, unit, range, doc, for help and docs. `fallback`: nan
+/// where the file must give it.
 struct ParameterRow {
   std::string section, key, unit, doc;
-  double lo, hi;
+  double lo, hi, fallback;
 };
 std::vector<ParameterRow> RigParameterRows();
 

@@ -29,6 +29,7 @@ void AddCampaign(CLI::App& app, Work& work);
 void AddMerge(CLI::App& app, Work& work);
 void AddRedistribute(CLI::App& app, Work& work);
 void AddEffects(CLI::App& app, Work& work);
+void AddParameters(CLI::App& app, Work& work);
 void AddCompare(CLI::App& app, Work& work);
 void AddExplain(CLI::App& app, Work& work);
 void AddAdopt(CLI::App& app, Work& work);

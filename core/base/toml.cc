@@ -194,7 +194,7 @@ std::string TomlTable::String(std::string_view key, const std::string& fallback)
 
 std::string TomlTable::Choice(std::string_view key, const std::string& fallback,
                               const std::string& allowed) const {
-  const std::string word = String(key, fallback);
+  std::string word = String(key, fallback);
   std::istringstream list(allowed);
   std::string entry;
   while (std::getline(list, entry, ',')) {

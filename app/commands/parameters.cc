@@ -1,0 +1,116 @@
+/// ambrig parameters: every number of a rig file and every fault, from the tables that the readers walk.
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/report/html.h"
+#include "scenarios/fault_spec.h"
+#include "scenarios/rig_file.h"
+
+namespace ambrig {
+
+namespace {
+
+struct Line {
+  std::string section, key, unit, fallback, allowed, doc;
+};
+
+const char* TargetText(FaultTarget target) {
+  switch (target) {
+    case FaultTarget::kCoil: return "coil";
+    case FaultTarget::kAxis: return "axis";
+    case FaultTarget::kRig: return "rig";
+  }
+  return "";
+}
+
+std::vector<Line> RigLines() {
+  std::vector<Line> lines;
+  for (const ParameterRow& r : RigParameterRows())
+    lines.push_back({r.section, r.key, r.unit, std::isnan(r.fallback) ? "required" : NumberText(r.fallback),
+                     fmt::format("{:g} to {:g}", r.lo, r.hi), r.doc});
+  return lines;
+}
+
+std::vector<Line> FaultLines() {
+  std::vector<Line> lines;
+  for (const FaultKind& k : FaultKinds()) {
+    const std::string section = fmt::format("[[fault]] kind = \"{}\"", k.kind);
+    lines.push_back({section, "", "", "", "", fmt::format("Target: {}; {}", TargetText(k.target), k.doc)});
+    for (const FaultParameter& p : FaultParameters())
+      if (p.kind == k.kind)
+        lines.push_back({section, fmt::format("parameters.{}", p.key), std::string(p.unit), "",
+                         p.flag ? "true, false" : fmt::format("{}{:g} to {}{:g}", p.ends_allowed ? "" : "above ", p.lo, p.ends_allowed ? "" : "below ", p.hi),
+                         std::string(p.doc)});
+  }
+  return lines;
+}
+
+/// A heading, a sentence (a line without key) and one table per section.
+void PrintMarkdown(const std::vector<Line>& lines) {
+  std::string section;
+  bool in_table = false;
+  for (const Line& l : lines) {
+    if (l.section != section) fmt::print("\n### `{}`\n", l.section);
+    if (l.section != section) in_table = false;
+    section = l.section;
+    if (l.key.empty()) {
+      fmt::print("\n{}.\n", l.doc);
+      continue;
+    }
+    if (!in_table) fmt::print("\n| key | unit | default | allowed | meaning |\n|---|---|---|---|---|\n");
+    in_table = true;
+    fmt::print("| `{}` | {} | {} | {} | {} |\n", l.key, l.unit, l.fallback, l.allowed, l.doc);
+  }
+}
+
+void PrintPage() {
+  fmt::print("# Parameters\n\nMade by `ambrig parameters --markdown`; a test keeps it so. What else rig and scenario files hold: "
+             "[guide/files.md](guide/files.md).\n\n## Numbers of a rig file\n\nSI units. A number may be written "
+             "`{{ value = 4.2, sd = 0.01 }}`: sd is how well the maker knows it.\n");
+  PrintMarkdown(RigLines());
+  fmt::print("\n## Faults of a scenario\n");
+  PrintMarkdown(FaultLines());
+}
+
+nlohmann::ordered_json LineJson(const Line& l) {
+  return {{"section", l.section}, {"key", l.key}, {"unit", l.unit}, {"default", l.fallback}, {"allowed", l.allowed}, {"doc", l.doc}};
+}
+
+}  // namespace
+
+void AddParameters(CLI::App& app, Work& work) {
+  struct Options {
+    CommonOptions common;
+    bool markdown = false;
+  };
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand("parameters", "every number of a rig file, every fault: unit, range, default");
+  command->add_flag("--markdown", options->markdown, "print docs/parameters.md");
+  options->common.AddTo(*command);
+  command->footer("Example:\n  ambrig parameters | grep gap");
+  command->callback([options, &work] {
+    work = [options] {
+      std::vector<Line> lines = RigLines();
+      const std::vector<Line> faults = FaultLines();
+      lines.insert(lines.end(), faults.begin(), faults.end());
+      nlohmann::ordered_json all = nlohmann::ordered_json::array();
+      std::vector<std::vector<Cell>> rows;
+      for (const Line& l : lines) {
+        all.push_back(LineJson(l));
+        rows.push_back({Cell(l.section), Cell(l.key), Cell(l.unit), Cell(l.fallback), Cell(l.allowed), Cell(l.doc)});
+        if (!options->markdown)
+          fmt::print("{:<36} {:<26} {:<8} {:<10} {:<20} {}\n", l.section, l.key, l.unit, l.fallback, l.allowed, l.doc);
+      }
+      if (options->markdown) PrintPage();
+      options->common.WriteJson(all);
+      if (!options->common.html.empty()) {
+        HtmlReport report("Parameters", "ambrig parameters");
+        report.Table({"section", "key", "unit", "default", "allowed", "meaning"}, rows);
+        report.Write(options->common.html);
+      }
+      return 0;
+    };
+  });
+}
+
+}  // namespace ambrig
