@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scenarios/fault_effects.h"
+
 namespace ambrig {
 
 namespace {
@@ -51,37 +53,10 @@ bool FaultInjection::Inject(const FaultSpec& f) {
     bus_back_at_ = f.time + f.Get("duration", kInfinity);
     return true;
   }
-  bool bridge = false;
-  for (SampledBearing& b : rig_.bearings) {
-    const BearingParameters& p = rig_.rig.bearings[b.index];
-    const std::string prefix = p.name + ".coil";
-    if (f.target.starts_with(prefix)) {
-      const int coil = std::stoi(f.target.substr(prefix.size())) - 1;
-      const auto j = static_cast<std::size_t>(coil);
-      if (f.kind == "amplifier-off") b.plant->bridge[j].off = bridge = true;
-      if (f.kind == "switch-stuck-on") b.plant->bridge[j].stuck_on = bridge = true;
-      if (f.kind == "open" || f.kind == "partial-short") plant_.InjectCoil(b.index, coil, f);
-      if (f.kind == "current-sensor") {
-        CurrentSensor& s = b.plant->current_sensor[j];
-        s.gain *= f.Get("gain", 1);
-        s.offset += f.Get("offset", 0);
-        if (f.Get("stuck", 0) != 0) {
-          s.stuck = true;
-          s.stuck_at = plant_.Current(b.index, coil);
-        }
-      }
-    }
-    std::size_t side = 0;
-    for (const std::string& axis : p.Axes()) {
-      if (axis == f.target) {
-        SensorFault& fault = b.plant->sensor.fault[side];
-        fault.offset += f.Get("offset", 0);
-        fault.lost = fault.lost || f.Get("lost", 0) != 0;
-        fault.stuck = fault.stuck || f.Get("stuck", 0) != 0;
-      }
-      ++side;
-    }
-  }
+  const FaultPlace place = PlaceOf(f, rig_.rig);
+  const double current = place.coil < 0 ? 0 : plant_.Current(place.bearing, place.coil);
+  const bool bridge = ApplyToPlant(f, place, current, *rig_.bearings[place.bearing].plant);
+  if (f.kind == "open" || f.kind == "partial-short") plant_.InjectCoil(place.bearing, place.coil, f);
   return bridge;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/start_state.h"
+
 namespace ambrig {
 
 namespace {
@@ -40,21 +42,8 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
     b.measurement = {samples, p.coils(), scenario.noise, rig.amplifier.current_noise,
                      Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
     for (std::size_t a = 0; a < b.axes; ++a) axes.push_back(PidOf(rig, p));
-    BearingControl c;
-    c.name = p.name;
-    c.coils = p.coils();
-    c.amplifier.fill(PowerAmplifier(rig.amplifier));
-    c.map.k = ForceConstant(nominal.bearings[k]);
-    c.map.c0 = BiasCurrent(rig, p);
-    c.map.i_max = rig.amplifier.i_max;
-    c.map.unipolar = rig.amplifier.quadrants < 3;
-    for (int j = 0; j < c.coils; ++j) {
-      c.map.W(j, 0) = 1;
-      c.map.W(j, 1) = b.plant->lanes.direction_x[j];
-      c.map.W(j, 2) = b.plant->lanes.direction_y[j];
-    }
     bearings.push_back(b);
-    control.push_back(c);
+    control.push_back(MakeBearingControl(rig, nominal, k, plant.bearings[k].lanes));
   }
   controller_ = std::make_unique<DecentralisedPid>(axes, T * M);
   noise_.emplace(scenario.seed, CoilsOf(rig), axes.size(), samples);  // the switching engine's, number by number
@@ -90,10 +79,8 @@ void SampledRig::SetStartForces(const std::vector<double>& force) {
     BearingControl& c = control[b.index];
     const double f[2] = {force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0};
     const auto set = c.map.SetPoints(f[0], f[1]);
-    for (int j = 0; j < c.coils; ++j) {
-      c.set_point[j] = set[j];
-      c.amplifier[U(j)].HoldCurrent(set[j], b.plant->base_resistance[j]);
-    }
+    for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
+    HoldSetPoints(c, b.plant->base_resistance);
     if (b.axes < 2) continue;
     fx += f[0];
     fy += f[1];
@@ -103,7 +90,7 @@ void SampledRig::SetStartForces(const std::vector<double>& force) {
 }
 
 void SampledRig::StartLevitated() {
-  warm = std::llround((options.warm_up < 0 ? 0.25 : options.warm_up) / T / M) * M;
+  warm = std::llround((options.warm_up < 0 ? kLevitatedWarmUp : options.warm_up) / T / M) * M;
   motion.t = -static_cast<double>(warm) * T;
   const auto shares = WeightShares(rig);
   std::vector<double> force(force_.size(), 0.0);
@@ -121,54 +108,21 @@ void SampledRig::StartFrom(const std::vector<double>& force, const DofVector& q)
 }
 
 void SampledRig::StartClamped() {
-  warm = std::llround((options.warm_up < 0 ? 0.03 : options.warm_up) / T);
+  warm = std::llround((options.warm_up < 0 ? kClampedWarmUp : options.warm_up) / T);
   clamped = true;
   controller_on_ = false;
   motion.t = -static_cast<double>(warm) * T;
-  // Straight line through the given centres: x(z) = q0 + q4 z, y(z) = q1 - q3 z (least squares).
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right_x = Eigen::Vector2d::Zero(), right_y = right_x;
-  for (const SampledBearing& b : bearings) {
-    const auto it = scenario.clamp.find(b.plant->name);
-    const std::array<double, 2> at =
-        it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
-    if (b.plant->thrust) {
-      motion.q[2] = at[0];
-    } else if (b.plant->opposed) {
-      const double angle = rig.bearings[b.index].opposed.angle_deg * kPi / 180;
-      motion.q[0] = at[0] * std::cos(angle);
-      motion.q[1] = at[0] * std::sin(angle);
-    } else {
-      const Eigen::Vector2d row(1, b.plant->z);
-      normal += row * row.transpose();
-      right_x += row * at[0];
-      right_y += row * at[1];
-    }
-  }
-  if (normal.determinant() > 0) {
-    const Eigen::Vector2d x = normal.inverse() * right_x, y = normal.inverse() * right_y;
-    motion.q[0] = x[0];
-    motion.q[4] = x[1];
-    motion.q[1] = y[0];
-    motion.q[3] = -y[1];
-  }
+  PlaceClamped(rig, scenario, motion);
   for (const CommandPlan::Signal& s : commands_.current)
     control[U(s.bearing)].set_point[s.index] += CommandPlan::At(s, 0);
-  for (const SampledBearing& b : bearings) {
-    BearingControl& c = control[b.index];
-    for (int j = 0; j < c.coils; ++j)
-      c.amplifier[U(j)].HoldCurrent(c.set_point[j], b.plant->base_resistance[j]);
-  }
+  for (const SampledBearing& b : bearings) HoldSetPoints(control[b.index], b.plant->base_resistance);
 }
 
 void SampledRig::StartResting() {
   first_period_of_rest_ = true;
   motion.t = 0;
   plant.rotor.Rest(motion);
-  for (BearingControl& c : control) {
-    c.set_point = Lane{};
-    for (PowerAmplifier& a : c.amplifier) a.ResetToLowerLimit();
-  }
+  SwitchOn(control);
 }
 
 void SampledRig::AtPeriodStart(long long n) {

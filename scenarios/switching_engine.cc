@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "scenarios/bearing_run.h"
+#include "scenarios/start_state.h"
 
 namespace ambrig {
 
 namespace {
-constexpr double kLevitatedWarmUp = 0.25, kClampedWarmUp = 0.03;  // [s], physics.md section 3
 constexpr double kTiny = 1e-10;                                   // [s] instants equal to rounding
 }  // namespace
 
@@ -51,20 +51,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
     b.plant->lanes.SetStep(h_ / options_.substeps);
     bearings_.push_back(std::move(b));
     for (std::size_t a = 0; a < p.Axes().size(); ++a) axes.push_back(PidOf(rig_, p));
-    BearingControl c;
-    c.name = p.name;
-    c.coils = p.coils();
-    c.amplifier.fill(PowerAmplifier(rig_.amplifier));
-    c.map.k = ForceConstant(nominal_.bearings[k]);
-    c.map.c0 = BiasCurrent(rig_, p);
-    c.map.i_max = rig_.amplifier.i_max;
-    c.map.unipolar = rig_.amplifier.quadrants < 3;
-    for (int j = 0; j < c.coils; ++j) {
-      c.map.W(j, 0) = 1;
-      c.map.W(j, 1) = b.plant->lanes.direction_x[j];
-      c.map.W(j, 2) = b.plant->lanes.direction_y[j];
-    }
-    control_.push_back(c);
+    control_.push_back(MakeBearingControl(rig_, nominal_, k, plant_.bearings[k].lanes));
   }
   controller_ = std::make_unique<DecentralisedPid>(axes, T_ * M_);
   noise_.emplace(scenario_.seed, CoilsOf(rig_), axis, samples_);
@@ -121,10 +108,8 @@ void SwitchingEngine::StartLevitated() {
     if (b.axes > 1) force_[b.first_axis + 1] = f[1];
     BearingControl& c = control_[b.index];
     const auto set = c.map.SetPoints(f[0], b.axes > 1 ? f[1] : 0);
-    for (int j = 0; j < c.coils; ++j) {
-      c.set_point[j] = set[j];
-      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(set[j], b.plant->base_resistance[j]);
-    }
+    for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
+    HoldSetPoints(c, b.plant->base_resistance);
     if (b.axes > 1) {
       fx += f[0];
       fy += f[1];
@@ -139,42 +124,10 @@ void SwitchingEngine::StartClamped() {
   clamped_ = true;
   controller_on_ = false;
   motion_.t = -static_cast<double>(warm_) * T_;
-  // Two planes fix the rigid rotor: solve for the coordinates that put the centres where told.
-  double sz = 0, szz = 0, n = 0, sx = 0, sy = 0, szx = 0, szy = 0;
-  for (const BearingRun& b : bearings_) {
-    const auto it = scenario_.clamp.find(b.plant->name);
-    const std::array<double, 2> at = it == scenario_.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
-    if (b.plant->thrust) {
-      motion_.q[2] = at[0];
-    } else if (b.plant->opposed) {
-      const double a = rig_.bearings[b.index].opposed.angle_deg * kPi / 180;
-      motion_.q[0] = at[0] * std::cos(a);
-      motion_.q[1] = at[0] * std::sin(a);
-    } else {
-      const double z = b.plant->z;
-      n += 1;
-      sz += z;
-      szz += z * z;
-      sx += at[0];
-      sy += at[1];
-      szx += z * at[0];
-      szy += z * at[1];
-    }
-  }
-  if (n > 1) {
-    const double det = n * szz - sz * sz;
-    motion_.q[0] = (szz * sx - sz * szx) / det;
-    motion_.q[1] = (szz * sy - sz * szy) / det;
-    motion_.q[4] = (n * szx - sz * sx) / det;
-    motion_.q[3] = -(n * szy - sz * sy) / det;
-  }
+  PlaceClamped(rig_, scenario_, motion_);
   for (const CommandPlan::Signal& s : commands_->current)
     control_[static_cast<std::size_t>(s.bearing)].set_point[s.index] += CommandPlan::At(s, 0);
-  for (BearingRun& b : bearings_) {
-    BearingControl& c = control_[b.index];
-    for (int j = 0; j < c.coils; ++j)
-      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(c.set_point[j], b.plant->base_resistance[j]);
-  }
+  for (BearingRun& b : bearings_) HoldSetPoints(control_[b.index], b.plant->base_resistance);
 }
 
 void SwitchingEngine::StartResting() {
@@ -182,10 +135,7 @@ void SwitchingEngine::StartResting() {
   first_period_of_rest_ = true;
   motion_.t = 0;
   plant_.rotor.Rest(motion_);
-  for (BearingControl& c : control_) {
-    c.set_point = Lane{};
-    for (PowerAmplifier& a : c.amplifier) a.ResetToLowerLimit();
-  }
+  SwitchOn(control_);
 }
 
 void SwitchingEngine::Period(long long n) {

@@ -39,7 +39,7 @@ std::vector<Line> FaultLines() {
     for (const FaultParameter& p : FaultParameters())
       if (p.kind == k.kind)
         lines.push_back({section, fmt::format("parameters.{}", p.key), std::string(p.unit), "",
-                         p.flag ? "true, false" : fmt::format("{}{:g} to {}{:g}", p.ends_allowed ? "" : "above ", p.lo, p.ends_allowed ? "" : "below ", p.hi),
+                         p.flag ? "true, false" : fmt::format("{}{:g} to {}{:g}", p.ends_allowed ? "" : "above ", p.lo, p.ends_allowed || std::isinf(p.hi) ? "" : "below ", p.hi),
                          std::string(p.doc)});
   }
   return lines;

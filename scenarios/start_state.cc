@@ -1,0 +1,66 @@
+#include "scenarios/start_state.h"
+
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "scenarios/rig.h"
+
+namespace ambrig {
+
+BearingControl MakeBearingControl(const RigParameters& rig, const RigParameters& nominal, std::size_t k,
+                                  const StatorLanes& lanes) {
+  const BearingParameters& p = rig.bearings[k];
+  BearingControl c;
+  c.name = p.name;
+  c.coils = p.coils();
+  c.amplifier.fill(PowerAmplifier(rig.amplifier));
+  c.map.k = ForceConstant(nominal.bearings[k]);
+  c.map.c0 = BiasCurrent(rig, p);
+  c.map.i_max = rig.amplifier.i_max;
+  c.map.unipolar = rig.amplifier.quadrants < 3;
+  for (int j = 0; j < c.coils; ++j) c.map.W.row(j) << 1, lanes.direction_x[j], lanes.direction_y[j];
+  return c;
+}
+
+void HoldSetPoints(BearingControl& control, const Lane& resistance) {
+  for (int j = 0; j < control.coils; ++j)
+    control.amplifier[static_cast<std::size_t>(j)].HoldCurrent(control.set_point[j], resistance[j]);
+}
+
+void SwitchOn(std::vector<BearingControl>& control) {
+  for (BearingControl& c : control) {
+    c.set_point = Lane{};
+    for (PowerAmplifier& a : c.amplifier) a.ResetToLowerLimit();
+  }
+}
+
+void PlaceClamped(const RigParameters& rig, const Scenario& scenario, MotionState& s) {
+  double n = 0, sz = 0, szz = 0, sx = 0, sy = 0, szx = 0, szy = 0;
+  for (const BearingParameters& b : rig.bearings) {
+    const auto it = scenario.clamp.find(b.name);
+    const std::array<double, 2> at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    if (b.kind == BearingKind::kThrust) {
+      s.q[2] = at[0];
+    } else if (b.kind == BearingKind::kOpposed) {
+      const double angle = b.opposed.angle_deg * kPi / 180;
+      s.q[0] = at[0] * std::cos(angle);
+      s.q[1] = at[0] * std::sin(angle);
+    } else {
+      n += 1;
+      sz += b.z;
+      szz += b.z * b.z;
+      sx += at[0];
+      sy += at[1];
+      szx += b.z * at[0];
+      szy += b.z * at[1];
+    }
+  }
+  if (n < 2) return;
+  const double det = n * szz - sz * sz;
+  s.q[0] = (szz * sx - sz * szx) / det;
+  s.q[1] = (szz * sy - sz * szy) / det;
+  s.q[4] = (n * szx - sz * sx) / det;
+  s.q[3] = -(n * szy - sz * sy) / det;
+}
+
+}  // namespace ambrig
