@@ -137,7 +137,8 @@ bool MayBeConstant(const Scenario& s, const std::string& channel) {
 
 }  // namespace
 
-Case ReadCase(const std::string& file) {
+Case ReadCase(const std::string& path) {
+  const std::string file = std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "case.toml").string() : path;
   const TomlTable root = TomlTable::FromFile(file);
   Case c;
   c.file = file;

@@ -27,6 +27,6 @@ struct Case {
 };
 
 /// @throws InputError, one line, for anything that contradicts.
-Case ReadCase(const std::string& file);
+Case ReadCase(const std::string& path);
 
 }  // namespace ambrig

@@ -42,7 +42,7 @@ class Explainer {
     const NoiseFloor floor = FindFloor(full_, nominal);
     for (std::size_t t = 0; t < full_.targets().size(); ++t) model_.targets()[t].floor = full_.targets()[t].floor;
     out_.effective = floor.effective;
-    const FitResult as_filed = KeepNominal(nominal);
+    const FitResult as_filed = At(nominal);
     const std::vector<double>& r0 = as_filed.residual;
     out_.nominal_ratio_validate = Validated(r0);
     out_.ladder.push_back({"", Ratio(model_, r0, Which::kFit), out_.nominal_ratio_validate});
@@ -54,19 +54,12 @@ class Explainer {
     out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
     NoteShifts(base);
     FitResult now = base;
-    for (int round = 0; round < options_.rounds; ++round) {
-      if (Finished(now)) break;
-      std::vector<RankedEffect> ranking = Round(now, round);
-      if (round == 0) out_.ranking = ranking;
-      else out_.second_round = ranking;
-      if (ranking.empty() || !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_)) break;
-      if (round == 0) first_fall_ = now.ratio_validate * now.ratio_validate - ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
-      now = ranking[0].fit;
-      out_.adopted.push_back(ranking[0].effect);
-      out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});
-      if (options_.checkpoint) options_.checkpoint(out_);
-    }
+    for (int round = 0; round < options_.rounds; ++round)
+      if (!AdoptBest(now, round)) break;
     TryPairs(base, now);
+    if (RenewFloor(as_filed, base, now))
+      for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
+        if (!AdoptBest(now, round)) break;
     Backward(base, now);
     Polish(now);
     out_.final_fit = now;
@@ -74,6 +67,7 @@ class Explainer {
     out_.final_ratio_validate = now.ratio_validate;
     out_.verdict = VerdictOf(out_.nominal_ratio_validate, out_.base_ratio_validate, now.ratio_validate, !out_.adopted.empty());
     out_.warnings = now.warnings;
+    if (floor_renewed_) out_.warnings.push_back("the loop of the model found passes more noise than the rig file's: the noise floor is the found model's");
     if (out_.verdict == "unknown") out_.unexplained = Describe(full_, AllRows(now));
     if (out_.verdict != "effect") out_.adopted.clear();
     FindConfusable();
@@ -102,10 +96,11 @@ class Explainer {
   }
   FitResult FitNow(const Hypothesis& start, const Eigen::MatrixXd* jacobian) const { return Fit(model_, start, Options(jacobian)); }
 
-  FitResult KeepNominal(const Hypothesis& nominal) const {
+  /// The point itself, with its sensitivities.
+  FitResult At(const Hypothesis& h) const {
     FitOptions o = Options(nullptr);
     o.iterations = 0;
-    return Fit(model_, nominal, o);
+    return Fit(model_, h, o);
   }
 
   bool Finished(const FitResult& now) const {
@@ -115,6 +110,48 @@ class Explainer {
 
   double ScoreOf(const FitResult& fit) const { return Score(model_, fit, out_.effective); }
   double Gain(const FitResult& before, const FitResult& after) const { return ScoreOf(before) - ScoreOf(after); }
+
+  /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
+  bool AdoptBest(FitResult& now, int round) {
+    if (Finished(now)) return false;
+    std::vector<RankedEffect> ranking = Round(now, round);
+    (round == 0 ? out_.ranking : out_.second_round) = ranking;
+    if (ranking.empty() || !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_)) return false;
+    if (round == 0) first_fall_ = now.ratio_validate * now.ratio_validate - ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
+    now = ranking[0].fit;
+    out_.adopted.push_back(ranking[0].effect);
+    out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});
+    if (options_.checkpoint) options_.checkpoint(out_);
+    return true;
+  }
+
+  /// A rig whose loop is nearly unstable with the hidden effect passes more noise than the rig file's:
+  /// what seems unexplained may be noise of the model found. True when the floor was renewed.
+  bool RenewFloor(const FitResult& as_filed, FitResult& base, FitResult& now) {
+    if (out_.adopted.empty() || VerdictOf(out_.nominal_ratio_validate, out_.base_ratio_validate, now.ratio_validate, true) == "effect") return false;
+    Progress(0.86, "noise floor of the model found");
+    const std::vector<Target> before = full_.targets();
+    try {
+      out_.effective = FindFloor(full_, now.hypothesis).effective;
+    } catch (const InputError&) {
+      return false;  // with noise it does not hold its rotor
+    }
+    const double old = now.ratio_validate;
+    for (std::size_t t = 0; t < before.size(); ++t)
+      model_.targets()[t].floor = full_.targets()[t].floor = std::max(before[t].floor, full_.targets()[t].floor);
+    base = At(base.hypothesis);
+    now = FitNow(now.hypothesis, nullptr);
+    out_.nominal_ratio_validate = At(as_filed.hypothesis).ratio_validate;
+    out_.base_ratio_fit = base.ratio_fit;
+    out_.base_ratio_validate = base.ratio_validate;
+    first_fall_ = std::pow(base.ratio_validate, 2) - std::pow(now.ratio_validate, 2);
+    bank_ = SignatureBank();
+    if (now.ratio_validate < 0.8 * old) {
+      out_.ladder.push_back({"noise floor of this model", now.ratio_fit, now.ratio_validate});
+      floor_renewed_ = true;
+    }
+    return true;
+  }
 
   std::vector<RankedEffect> Round(const FitResult& now, int round) {
     const double from = 0.08 + 0.3 * round, share = 0.3;
@@ -288,6 +325,7 @@ class Explainer {
   RigParameters rig_;
   Explanation out_;
   SignatureBank bank_;
+  bool floor_renewed_ = false;
   double first_fall_ = 0;  // of the squared ratio on unseen records, by the first effect
 };
 

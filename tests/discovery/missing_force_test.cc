@@ -72,5 +72,12 @@ TEST(MissingForce, ContactThatComesAndGoes) {
   EXPECT_GT(f.share, 0.7);
 }
 
+TEST(MissingForce, ContactOfTheRotorsHighSpot) {
+  const MissingForce f = FindLaw(Samples([](const ForceSamples& s, std::size_t k) { return Rub(s, k, -2.1, 4e-6 - 1.5e-5 * std::cos(s.theta[k] - 1), 1); }), "B");
+  EXPECT_NE(f.on.find("high spot"), std::string::npos) << f.on;
+  EXPECT_NEAR(std::stod(f.on.substr(f.on.find("from ") + 5)), -2.1 * 180 / kPi, 3);
+  EXPECT_GT(f.share, 0.95);
+}
+
 }  // namespace
 }  // namespace ambrig
