@@ -25,7 +25,7 @@ void SwitchingEngine::RecordRow(long long n, int sample) {
   std::size_t c = 0;
   const auto put = [&](double value) { recorder_->Put(channel_[c++], value); };
   const bool at_tick = sample == 0 && n % M_ == 0;
-  for (std::size_t a = 0; a < readings_.size(); ++a) put(at_tick ? readings_[a] : NoisyReading(a, n));
+  for (std::size_t a = 0; a < loop_->axes(); ++a) put(at_tick ? loop_->readings()[a] : loop_->Reading(a, n));
   for (BearingRun& b : bearings_) {
     const BearingControl& k = control_[b.index];
     for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b.adc[sample][j] : k.feedback[j]);

@@ -35,8 +35,8 @@ void SwitchingEngine::WatchFaults(long long n) {
   measurement_.period = n;
   measurement_.t = static_cast<double>(n) * T_;
   measurement_.samples = samples_;
-  measurement_.readings = &readings_;
-  measurement_.reading_time = reading_time_;
+  measurement_.readings = &loop_->readings();
+  measurement_.reading_time = loop_->reading_time();
   measurement_.position_loop = controller_on_;
   measurement_.bearings.clear();
   for (const BearingRun& b : bearings_)

@@ -13,8 +13,8 @@ void SampledRig::AfterPeriod(long long n, RunResult& result) {
   m.period = n;
   m.t = static_cast<double>(n) * T;
   m.samples = samples;
-  m.readings = &readings_;
-  m.reading_time = reading_time_;
+  m.readings = &loop_->readings();
+  m.reading_time = loop_->reading_time();
   m.position_loop = controller_on_;
   for (const SampledBearing& b : bearings)
     m.bearings.push_back({b.adc, &control[b.index].duty, plant.bus.voltage});
@@ -43,8 +43,8 @@ void SampledRig::RecordRow(long long n, int sample) {
   std::size_t c = 0;
   const auto put = [&](double value) { recorder_->Put(channel_[c++], value); };
   const bool at_tick = sample == 0 && n % M == 0;
-  for (std::size_t a = 0; a < readings_.size(); ++a)
-    put(at_tick ? readings_[a] : NoisyReading(a, n));
+  for (std::size_t a = 0; a < loop_->axes(); ++a)
+    put(at_tick ? loop_->readings()[a] : loop_->Reading(a, n));
   for (const SampledBearing& b : bearings) {
     const BearingControl& k = control[b.index];
     for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b.adc[sample][j] : k.feedback[j]);

@@ -31,23 +31,22 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
   M = rig.periods_per_control();
   periods = static_cast<long long>(std::ceil(scenario.duration / T - 1e-6));
   plant.rotor.SetSpeed(scenario.speed, scenario.speed_free_from);
-  std::vector<PidParameters> axes;
+  std::size_t axes = 0;
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     const BearingParameters& p = rig.bearings[k];
     SampledBearing b;
     b.index = k;
     b.plant = &plant.bearings[k];
-    b.first_axis = axes.size();
+    b.first_axis = axes;
     b.axes = p.Axes().size();
     b.measurement = {samples, p.coils(), scenario.noise, rig.amplifier.current_noise,
                      Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
-    for (std::size_t a = 0; a < b.axes; ++a) axes.push_back(PidOf(rig, p));
+    axes += b.axes;
     bearings.push_back(b);
     control.push_back(MakeBearingControl(rig, nominal, k, plant.bearings[k].lanes));
   }
-  controller_ = std::make_unique<DecentralisedPid>(axes, T * M);
-  noise_.emplace(scenario.seed, CoilsOf(rig), axes.size(), samples);  // the switching engine's, number by number
-  for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axes.size(), 0.0);
+  noise_.emplace(scenario.seed, CoilsOf(rig), axes, samples);  // the switching engine's, number by number
+  loop_.emplace(rig, plant, commands_, *noise_, scenario.noise);
 }
 
 void SampledRig::Start() {
@@ -73,11 +72,10 @@ void SampledRig::UpdatePositions() {
 }
 
 void SampledRig::SetStartForces(const std::vector<double>& force) {
-  force_ = force;
   double fx = 0, fy = 0;
   for (SampledBearing& b : bearings) {
     BearingControl& c = control[b.index];
-    const double f[2] = {force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0};
+    const double f[2] = {force[b.first_axis], b.axes > 1 ? force[b.first_axis + 1] : 0};
     const auto set = c.map.SetPoints(f[0], f[1]);
     for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
     HoldSetPoints(c, b.plant->base_resistance);
@@ -85,7 +83,7 @@ void SampledRig::SetStartForces(const std::vector<double>& force) {
     fx += f[0];
     fy += f[1];
   }
-  controller_->Hold(force_, readings_);
+  loop_->Hold(force);
   plant.rotor.SettleBase(motion, fx, fy);
 }
 
@@ -93,7 +91,7 @@ void SampledRig::StartLevitated() {
   warm = std::llround((options.warm_up < 0 ? kLevitatedWarmUp : options.warm_up) / T / M) * M;
   motion.t = -static_cast<double>(warm) * T;
   const auto shares = WeightShares(rig);
-  std::vector<double> force(force_.size(), 0.0);
+  std::vector<double> force(loop_->axes(), 0.0);
   for (const SampledBearing& b : bearings)
     for (std::size_t side = 0; side < b.axes; ++side)
       force[b.first_axis + side] = shares[b.index][side];
@@ -129,76 +127,14 @@ void SampledRig::AtPeriodStart(long long n) {
   motion.t = static_cast<double>(n) * T;
   plant.rotor.SetSpin(motion);
   UpdatePositions();
-  ReadSensors();
-  ApplySetPoints(n);
+  loop_->ReadSensors(motion);
+  loop_->Apply(n, control);
   if (n % M == 0) {
-    SampleReadings(n);
-    if (controller_on_) ControlTick(n);
+    loop_->Sample(n, motion.t);
+    if (controller_on_) loop_->Tick(n, motion.Omega, control);
   }
   CurrentLoops(n);
   if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
-}
-
-void SampledRig::ReadSensors() {
-  for (SampledBearing& b : bearings) {
-    PositionSensor& s = b.plant->sensor;
-    plant.rotor.Position(motion, s.map, &s.reading[0], &s.reading[1]);
-    for (const auto& map : s.maps) map->Map(motion, &s.reading[0], &s.reading[1]);
-  }
-}
-
-double SampledRig::NoisyReading(std::size_t axis, long long n) {
-  for (const SampledBearing& b : bearings) {
-    if (axis < b.first_axis || axis >= b.first_axis + b.axes) continue;
-    const PositionSensor& s = b.plant->sensor;
-    const std::size_t side = axis - b.first_axis;
-    double reading = s.reading[side];
-    if (scenario.noise && s.noise > 0)
-      reading += s.noise * noise_->Reading(axis, n);
-    return s.fault[side].Apply(reading);
-  }
-  return 0;
-}
-
-void SampledRig::SampleReadings(long long n) {
-  for (std::size_t a = 0; a < readings_.size(); ++a) readings_[a] = NoisyReading(a, n);
-  reading_time_ = motion.t;
-  for (SampledBearing& b : bearings)
-    for (std::size_t side = 0; side < b.axes; ++side) {
-      SensorFault& f = b.plant->sensor.fault[side];
-      if (!f.stuck) f.held = readings_[b.first_axis + side];
-    }
-}
-
-void SampledRig::ControlTick(long long n) {
-  for (auto* v : {&reference_, &excitation_}) std::fill(v->begin(), v->end(), 0.0);
-  if (n >= 0) {
-    for (const auto& s : commands_.reference) reference_[U(s.index)] += CommandPlan::At(s, n / M);
-    for (const auto& s : commands_.force) excitation_[U(s.index)] += CommandPlan::At(s, n / M);
-  }
-  controller_->Step(readings_, reference_, excitation_, motion.Omega, force_);
-  Pending next;
-  next.due = static_cast<double>(n + M) * T;
-  next.values.resize(control.size());
-  for (const SampledBearing& b : bearings) {
-    const auto set = control[b.index].map.SetPoints(force_[b.first_axis],
-                                                    b.axes > 1 ? force_[b.first_axis + 1] : 0);
-    for (int j = 0; j < kLanes; ++j) next.values[b.index][j] = set[j];
-  }
-  pending_.push_back(std::move(next));
-}
-
-void SampledRig::ApplySetPoints(long long n) {
-  const double t = static_cast<double>(n) * T + kTiny;
-  for (Pending& p : pending_) {
-    if (p.due <= t && !p.recorded) {
-      for (std::size_t k = 0; k < control.size(); ++k) control[k].set_point = p.values[k];
-      p.recorded = true;
-    }
-    if (p.due + plant.loop_delay <= t)
-      for (std::size_t k = 0; k < control.size(); ++k) control[k].commanded = p.values[k];
-  }
-  std::erase_if(pending_, [&](const Pending& p) { return p.due + plant.loop_delay <= t; });
 }
 
 CoilVoltage SampledRig::PatternOf(const SampledBearing& b, int j) const {

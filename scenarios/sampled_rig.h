@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "control/position_controller.h"
 #include "scenarios/command_plan.h"
 #include "scenarios/measurement.h"
+#include "scenarios/position_loop.h"
 #include "scenarios/measurement_noise.h"
 #include "scenarios/recorder.h"
 #include "scenarios/rig.h"
@@ -76,29 +76,16 @@ class SampledRig {
   long long warm = 0, periods = 0;
 
  private:
-  struct Pending {
-    double due = 0;
-    std::vector<Lane> values;
-    bool recorded = false;
-  };
   void StartLevitated();
   void StartClamped();
   void StartResting();
   void SetStartForces(const std::vector<double>& force);
-  void ReadSensors();
-  double NoisyReading(std::size_t axis, long long n);
-  void SampleReadings(long long n);
-  void ControlTick(long long n);
-  void ApplySetPoints(long long n);
   void CurrentLoops(long long n);
   void RecordRow(long long n, int sample);
 
   CommandPlan commands_;
-  std::unique_ptr<PositionController> controller_;
-  std::vector<double> readings_, reference_, excitation_, force_;  // per axis
-  std::vector<Pending> pending_;
+  std::optional<PositionLoop> loop_;
   bool first_period_of_rest_ = false, controller_on_ = true;
-  double reading_time_ = 0;
   std::optional<MeasurementNoise> noise_;
   std::optional<Recorder> recorder_;
   std::vector<std::size_t> channel_;

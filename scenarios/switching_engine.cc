@@ -32,7 +32,6 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
   periods_ = static_cast<long long>(std::ceil(scenario_.duration / T_ - 1e-6));
   plant_.rotor.SetSpeed(scenario_.speed, scenario_.speed_free_from);
   for (const LoadSpec& l : scenario_.loads) plant_.rotor.AddLoad(l.z, l.fx, l.fy, l.fz, l.start, l.stop);
-  std::vector<PidParameters> axes;
   std::size_t axis = 0;
   int auxiliary = 0;
   for (std::size_t k = 0; k < rig_.bearings.size(); ++k) {
@@ -50,12 +49,10 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
       if (s.gain != 1 || s.offset != 0) b.plain_sensors = false;
     b.plant->lanes.SetStep(h_ / options_.substeps);
     bearings_.push_back(std::move(b));
-    for (std::size_t a = 0; a < p.Axes().size(); ++a) axes.push_back(PidOf(rig_, p));
     control_.push_back(MakeBearingControl(rig_, nominal_, k, plant_.bearings[k].lanes));
   }
-  controller_ = std::make_unique<DecentralisedPid>(axes, T_ * M_);
   noise_.emplace(scenario_.seed, CoilsOf(rig_), axis, samples_);
-  for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axis, 0.0);
+  loop_.emplace(rig_, plant_, *commands_, *noise_, scenario_.noise);
   contacts_.emplace(plant_.rotor, scenario_, T_);
 }
 
@@ -101,11 +98,12 @@ void SwitchingEngine::StartLevitated() {
   warm_ = std::llround((options_.warm_up < 0 ? kLevitatedWarmUp : options_.warm_up) / T_ / M_) * M_;
   motion_.t = -static_cast<double>(warm_) * T_;
   const auto shares = WeightShares(rig_);
+  std::vector<double> force(loop_->axes(), 0.0);
   double fx = 0, fy = 0;
   for (BearingRun& b : bearings_) {
     const auto& f = shares[b.index];
-    force_[b.first_axis] = f[0];
-    if (b.axes > 1) force_[b.first_axis + 1] = f[1];
+    force[b.first_axis] = f[0];
+    if (b.axes > 1) force[b.first_axis + 1] = f[1];
     BearingControl& c = control_[b.index];
     const auto set = c.map.SetPoints(f[0], b.axes > 1 ? f[1] : 0);
     for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
@@ -115,7 +113,7 @@ void SwitchingEngine::StartLevitated() {
       fy += f[1];
     }
   }
-  controller_->Hold(force_, readings_);
+  loop_->Hold(force);
   plant_.rotor.SettleBase(motion_, fx, fy);
 }
 
@@ -141,12 +139,12 @@ void SwitchingEngine::StartResting() {
 void SwitchingEngine::Period(long long n) {
   motion_.t = static_cast<double>(n) * T_;
   plant_.rotor.SetSpin(motion_);
-  ReadSensors();
+  loop_->ReadSensors(motion_);
   if (options_.forced) FollowData(n);
-  ApplySetPoints(n);
+  loop_->Apply(n, control_);
   if (n % M_ == 0) {
-    SampleReadings(n);
-    if (controller_on_) ControlTick(n);
+    loop_->Sample(n, motion_.t);
+    if (controller_on_) loop_->Tick(n, motion_.Omega, control_);
   }
   CurrentLoops(n);  // a row shows this period's duty
   if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
@@ -157,73 +155,6 @@ void SwitchingEngine::Period(long long n) {
   for (BearingRun& b : bearings_) control_[b.index].feedback = b.current.mean;
   MoveRotor(n);
   if (n >= 0 && options_.watch) Watch(n);
-}
-
-void SwitchingEngine::ReadSensors() {
-  for (BearingRun& b : bearings_) {
-    PositionSensor& s = b.plant->sensor;
-    double x, y;
-    plant_.rotor.Position(motion_, s.map, &x, &y);
-    for (const auto& map : s.maps) map->Map(motion_, &x, &y);
-    s.reading[0] = x;
-    s.reading[1] = y;
-  }
-}
-
-double SwitchingEngine::NoisyReading(std::size_t axis, long long n) {
-  for (const BearingRun& b : bearings_) {
-    if (axis < b.first_axis || axis >= b.first_axis + b.axes) continue;
-    const PositionSensor& s = b.plant->sensor;
-    const std::size_t side = axis - b.first_axis;
-    double reading = s.reading[side];
-    if (scenario_.noise && s.noise > 0)
-      reading += s.noise * noise_->Reading(axis, n);
-    return s.fault[side].Apply(reading);
-  }
-  return 0;
-}
-
-void SwitchingEngine::SampleReadings(long long n) {
-  for (std::size_t a = 0; a < readings_.size(); ++a) readings_[a] = NoisyReading(a, n);
-  reading_time_ = motion_.t;
-  for (BearingRun& b : bearings_)
-    for (std::size_t side = 0; side < b.axes; ++side)
-      if (!b.plant->sensor.fault[side].stuck) b.plant->sensor.fault[side].held = readings_[b.first_axis + side];
-}
-
-void SwitchingEngine::ControlTick(long long n) {
-  const long long tick = n / M_;
-  for (auto* v : {&reference_, &excitation_}) std::fill(v->begin(), v->end(), 0.0);
-  if (tick >= 0) {
-    for (const auto& s : commands_->reference) reference_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, tick);
-    for (const auto& s : commands_->force) excitation_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, tick);
-  }
-  controller_->Step(readings_, reference_, excitation_, motion_.Omega, force_);
-  PendingSetPoints next = std::move(spare_);  // its memory: no allocation in the loop
-  next.due = motion_.t + M_ * T_;
-  next.recorded = false;
-  next.values.resize(control_.size());
-  for (const BearingRun& b : bearings_) {
-    const auto set = control_[b.index].map.SetPoints(force_[b.first_axis], b.axes > 1 ? force_[b.first_axis + 1] : 0);
-    for (int j = 0; j < kLanes; ++j) next.values[b.index][j] = set[j];
-  }
-  pending_.push_back(std::move(next));
-}
-
-void SwitchingEngine::ApplySetPoints(long long n) {
-  const double t = static_cast<double>(n) * T_ + kTiny;
-  std::size_t done = 0;
-  for (PendingSetPoints& p : pending_) {
-    if (p.due > t) break;
-    if (!p.recorded)
-      for (std::size_t k = 0; k < control_.size(); ++k) control_[k].set_point = p.values[k];
-    p.recorded = true;
-    if (p.due + plant_.loop_delay > t) break;
-    for (std::size_t k = 0; k < control_.size(); ++k) control_[k].commanded = p.values[k];
-    ++done;
-  }
-  if (done > 0) spare_ = std::move(pending_.front());
-  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(done));
 }
 
 void SwitchingEngine::CurrentLoops(long long n) {

@@ -7,10 +7,10 @@
 #include <memory>
 #include <optional>
 
-#include "control/position_controller.h"
 #include "scenarios/command_plan.h"
 #include "scenarios/contact_watch.h"
 #include "scenarios/measurement.h"
+#include "scenarios/position_loop.h"
 #include "scenarios/measurement_noise.h"
 #include "scenarios/recorder.h"
 #include "scenarios/rig.h"
@@ -37,12 +37,6 @@ struct EngineOptions {
 };
 
 /// Set-points on their way to the current loops.
-struct PendingSetPoints {
-  double due = 0;                  // [s]
-  std::vector<Lane> values;        // per bearing
-  bool recorded = false;           // the record's s channels already show them
-};
-
 class SwitchingEngine {
  public:
   SwitchingEngine(const RigParameters& rig, const Scenario& scenario, const EngineOptions& options);
@@ -60,10 +54,6 @@ class SwitchingEngine {
   void FollowData(long long n);
   void ForcedPosition(const BearingRun& b, double t, double* x, double* y) const;
   void Period(long long n);
-  void ReadSensors();
-  void SampleReadings(long long n);
-  void ControlTick(long long n);
-  void ApplySetPoints(long long n);
   void CurrentLoops(long long n);
   void SetPatterns(BearingRun& b);
   static void SetPattern(BearingRun& b, int j, const CoilVoltage& v);
@@ -83,7 +73,6 @@ class SwitchingEngine {
   void HeatCopper();
   void Snapshot(const std::string& label);
   void Verdict();
-  double NoisyReading(std::size_t axis, long long n);
   void Event(const std::string& kind, const std::string& target, const std::string& fault_class = "",
              double fraction = 0, double t = -1);
 
@@ -99,11 +88,6 @@ class SwitchingEngine {
   DofVector acceleration_{};
   std::vector<BearingRun> bearings_;
   std::vector<BearingControl> control_;
-  std::unique_ptr<PositionController> controller_;
-  std::vector<double> readings_, reference_, excitation_, force_;  // per axis
-  std::vector<PendingSetPoints> pending_;
-  PendingSetPoints spare_;
-  double reading_time_ = 0;
 
   double T_ = 0, h_ = 0;     // switching period, ADC sample [s]
   int M_ = 1, samples_ = 18; // periods per controller period, ADC samples per period
@@ -124,6 +108,7 @@ class SwitchingEngine {
   double loss_sum_ = 0, touching_ = 0, late_orbit_sq_ = 0;
   PeriodMeasurement measurement_;
   std::optional<MeasurementNoise> noise_;
+  std::optional<PositionLoop> loop_;
 };
 
 }  // namespace ambrig

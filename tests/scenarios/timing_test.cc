@@ -2,6 +2,7 @@
 /// fidelities. A run with a command is compared with the same run without it: the same bits before.
 #include <gtest/gtest.h>
 
+#include "effects/catalogue.h"
 #include "scenarios/averaged_engine.h"
 #include "scenarios/reference_engine.h"
 #include "scenarios/switching_engine.h"
@@ -111,6 +112,26 @@ TEST_P(Clock, ADutyIsTakenAsItIs) {
   const Record record = Simulated(GetParam(), &e);
   EXPECT_EQ(record.Find("A.d1")->samples[kRow], 0);
   EXPECT_EQ(record.Find("A.d1")->samples[kRow + 1], 0.61);
+}
+
+// A delay of five controller periods: a record shows every set-point in its own period, the coils get it
+// later. (Set-points under way used to wait for each other in the switching engine.)
+TEST(LoopDelay, SetPointsAreRecordedWhenTheyAreDue) {
+  RigParameters rig = BaseRig();
+  rig.effects.push_back(MakeInstance(*FindEffect("loop-delay"), "rig"));
+  rig.effects.back().Set("time", 4e-4);
+  Scenario s = BaseScenario("steps", rig);
+  s.excitations = {Step("A.x", "force", 0.5, kRow * kT)};
+  s.loads.clear();
+  s.duration = 0.0025;
+  s.record_rate = 25000;
+  EngineOptions o;
+  o.warm_up = 0.0004;
+  const Record with = SwitchingEngine(rig, s, o).Run().record;
+  s.excitations.clear();
+  const Record without = SwitchingEngine(rig, s, o).Run().record;
+  EXPECT_EQ(FirstChange(with, without, "A.s1").row, kRow + 2);
+  EXPECT_EQ(FirstChange(with, without, "A.d1").row, kRow + 2 + 10);
 }
 
 std::string NameOf(const ::testing::TestParamInfo<Engine>& which) {
