@@ -5,6 +5,7 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -66,13 +67,14 @@ TomlTable TomlTable::FromText(const std::string& text, const std::string& file_n
 }
 
 TomlTable TomlTable::FromFile(const std::string& file) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(file, ignored))
+    throw InputError(fmt::format("{}: is a folder, allowed: a TOML file", file));
   std::ifstream in(file, std::ios::binary);
   if (!in) throw InputError(fmt::format("{}: cannot open the file for reading", file));
   std::ostringstream text;
   text << in.rdbuf();
-  if (in.bad() || text.fail())
-    if (!text.str().empty() || in.bad())
-      throw InputError(fmt::format("{}: cannot read the file (is it a directory?)", file));
+  if (in.bad()) throw InputError(fmt::format("{}: cannot read the file", file));
   return FromText(text.str(), file);
 }
 
