@@ -250,6 +250,7 @@ TEST(ReferenceClosedForm, EnergyBalanceOfLiftOffWithContactAndFriction) {
       b.copper - a.copper + b.contact - a.contact + b.field - a.field + b.rotor - a.rotor;
   EXPECT_GT(b.contact - a.contact, 0.1);  // it does rub: quarter of a joule
   EXPECT_GT(b.electrical - a.electrical, 0.4);
+  RecordProperty("left_of_the_input", std::to_string((in - out) / (b.electrical + std::abs(b.drive)) * 1e12) + "e-12");
   EXPECT_NEAR(in, out, 1e-9 * (b.electrical + std::abs(b.drive)));
 }
 
