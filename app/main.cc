@@ -15,6 +15,7 @@ constexpr const char* kExamples = R"(Examples:
   ambrig run scenarios/library/coil_a3_opens_1500rpm.toml     what happens when coil A3 breaks
   ambrig check scenarios/library --jobs 2                     every scenario with expectations
   ambrig campaign scenarios/campaigns/single_coils.toml       many runs on all cores, resumable
+  ambrig witness scenarios/library/drop_at_1500rpm.toml       contact by two models: do they agree?
   ambrig redistribute rig.toml --bearing A --failed 3         currents after a coil failure
   ambrig compare case.toml                                    model beside measurement
   ambrig explain case.toml                                    which physical effect is missing
@@ -32,6 +33,7 @@ int Main(int argc, char** argv) {
   ambrig::AddCheck(app, work);
   ambrig::AddCampaign(app, work);
   ambrig::AddMerge(app, work);
+  ambrig::AddWitness(app, work);
   ambrig::AddRedistribute(app, work);
   ambrig::AddEffects(app, work);
   ambrig::AddParameters(app, work);

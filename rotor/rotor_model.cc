@@ -75,9 +75,7 @@ void RotorModel::SetMount(std::size_t k, double stiffness, double damping, doubl
 }
 
 void RotorModel::SetBase(double mass, double stiffness, double damping) {
-  base_mass_ = mass;
-  base_stiffness_ = stiffness;
-  base_damping_ = damping;
+  base_ = {mass, stiffness, damping};
   base_dof_ = NewDof(mass);
   NewDof(mass);
 }
@@ -145,8 +143,8 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
       const double my = -p.mount_stiffness * s.q[d + 1] - p.mount_damping * s.v[d + 1];
       f.Q[d] += mx - c.fx;
       f.Q[d + 1] += my - c.fy;
-      f.stator_x -= mx;  // the mount pushes back on the stator
-      f.stator_y -= my;
+      f.stator_x += mx;  // what the stator pushes, through the mount
+      f.stator_y += my;
     } else {
       f.stator_x += c.fx;
       f.stator_y += c.fy;
@@ -170,8 +168,8 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   if (base_dof_ >= 0) {
     const std::size_t d = U(base_dof_);
     // Relative to the floor, which may itself accelerate.
-    a[d] = (-base_stiffness_ * s.q[d] - base_damping_ * s.v[d] - f.stator_x) / base_mass_ - f.base_ax;
-    a[d + 1] = (-base_stiffness_ * s.q[d + 1] - base_damping_ * s.v[d + 1] - f.stator_y) / base_mass_ - f.base_ay;
+    a[d] = (-base_.stiffness * s.q[d] - base_.damping * s.v[d] - f.stator_x) / base_.mass - f.base_ax;
+    a[d + 1] = (-base_.stiffness * s.q[d + 1] - base_.damping * s.v[d + 1] - f.stator_y) / base_.mass - f.base_ay;
     ax += a[d];
     ay += a[d + 1];
   }
@@ -183,6 +181,11 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   for (int d = 5; d < dof_; ++d)
     if (base_dof_ < 0 || (d != base_dof_ && d != base_dof_ + 1))
       a[U(d)] = f.Q[U(d)] * inverse_mass_[U(d)];
+  for (const AuxiliaryPlane& aux : aux_) {  // mounts, too, are seen from the base
+    if (aux.mount_dof < 0) continue;
+    a[U(aux.mount_dof)] -= ax;
+    a[U(aux.mount_dof) + 1] -= ay;
+  }
   *torque = f.torque;
 }
 
@@ -342,8 +345,8 @@ void RotorModel::Rest(MotionState& s) const {
 
 void RotorModel::SettleBase(MotionState& s, double stator_x, double stator_y) const {
   if (base_dof_ < 0) return;
-  s.q[U(base_dof_)] = -stator_x / base_stiffness_;
-  s.q[U(base_dof_) + 1] = -stator_y / base_stiffness_;
+  s.q[U(base_dof_)] = -stator_x / base_.stiffness;
+  s.q[U(base_dof_) + 1] = -stator_y / base_.stiffness;
 }
 
 double RotorModel::Energy(const MotionState& s) const {

@@ -69,6 +69,11 @@ struct ExternalLoad {
   double start = 0, stop = 0;
 };
 
+/// The stator as a mass on a spring and a damper in both radial directions.
+struct BaseOnFloor {
+  double mass = 0, stiffness = 0, damping = 0;  // [kg], [N/m], [N s/m]
+};
+
 class RotorModel {
  public:
   RotorModel(const RotorParameters& parameters, const std::array<double, 3>& gravity);
@@ -120,13 +125,18 @@ class RotorModel {
   double free_from() const { return free_from_; }
   bool SpeedIsFree(double t) const { return t >= free_from_; }
   bool HasLoads() const { return !loads_.empty(); }
+  // For a second witness of the same rotor (rotor/rotor_stepper.h).
+  const std::vector<ExternalLoad>& loads() const { return loads_; }
+  const AuxiliaryParameters* axial_stop() const { return has_axial_ ? &axial_ : nullptr; }
+  const BaseOnFloor& base() const { return base_; }
+  int base_dof() const { return base_dof_; }
+  double MountRate() const;  // fastest rate of a race on its mount [1/s], 0: none
 
  private:
   int NewDof(double mass);
   /// theta, Omega of the speed profile at the state's time.
   void Prescribe(MotionState& s) const;
   double StiffnessRate(const MotionState& s) const;
-  double MountRate() const;
   void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
                 bool near_contact) const;
 
@@ -140,7 +150,7 @@ class RotorModel {
   AuxiliaryParameters axial_;
   bool has_axial_ = false;
   int base_dof_ = -1;
-  double base_mass_ = 0, base_stiffness_ = 0, base_damping_ = 0;
+  BaseOnFloor base_;
   std::vector<ExternalLoad> loads_;
   SpeedProfile speed_;
   double free_from_ = kInfinity;

@@ -20,6 +20,7 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const
   engine.record_rate = options.record_rate;
   engine.record = options.record;
   engine.snapshots = options.for_report;
+  engine.stepper = options.stepper;
   engine.progress = options.progress;
   engine.stop = options.stop;
   std::unique_ptr<FaultSupervisor> supervisor;

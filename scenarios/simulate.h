@@ -2,8 +2,10 @@
 /// One call for every fidelity: a rig and a scenario in, record, events and verdict out.
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <string>
 
+#include "rotor/rotor_stepper.h"
 #include "scenarios/run_result.h"
 #include "scenarios/scenario.h"
 
@@ -16,6 +18,8 @@ struct SimulateOptions {
   double record_rate = 0;             // 0: the scenario's
   bool for_report = false;            // also snapshots of fluxes and slope traces
   bool record = true;                 // false: figures of the verdict only (switching)
+  /// Who moves the rotor (switching); empty: RotorModel::Step.
+  std::function<std::unique_ptr<RotorStepper>(const RotorModel&)> stepper = {};
   std::function<void(double)> progress;
   const std::atomic<bool>* stop = nullptr;
 };

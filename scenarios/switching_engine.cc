@@ -54,6 +54,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
   noise_.emplace(scenario_.seed, CoilsOf(rig_), axis, samples_);
   loop_.emplace(rig_, plant_, *commands_, *noise_, scenario_.noise);
   contacts_.emplace(plant_.rotor, scenario_, T_);
+  if (options_.stepper) stepper_ = options_.stepper(plant_.rotor);
 }
 
 SwitchingEngine::~SwitchingEngine() = default;
@@ -330,7 +331,10 @@ void SwitchingEngine::MoveRotor(long long n) {
     sy += b.fy;
   }
   const DofVector v_before = motion_.v;
-  plant_.rotor.Step(motion_, Q, sx, sy, T_);
+  if (stepper_)
+    stepper_->Step(motion_, Q, sx, sy, T_);
+  else
+    plant_.rotor.Step(motion_, Q, sx, sy, T_);
   motion_.t = static_cast<double>(n + 1) * T_;
   if (options_.lost_after < kInfinity && plant_.rotor.NearContact(motion_, 0)) {
     touching_ += T_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "rotor/rotor_stepper.h"
 #include "scenarios/command_plan.h"
 #include "scenarios/contact_watch.h"
 #include "scenarios/measurement.h"
@@ -32,6 +33,8 @@ struct EngineOptions {
   const Record* forced = nullptr;                  // measured set-points and readings drive the coils; no rotor
   const CommandPlan* commands = nullptr;           // shared between runs of one scenario
   Supervisor* supervisor = nullptr;
+  /// Who moves the rotor; empty: RotorModel::Step.
+  std::function<std::unique_ptr<RotorStepper>(const RotorModel&)> stepper = {};
   std::function<void(double)> progress;            // fraction done
   const std::atomic<bool>* stop = nullptr;         // set: throw Interrupted
 };
@@ -84,6 +87,7 @@ class SwitchingEngine {
   const CommandPlan* commands_;
 
   Plant plant_;
+  std::unique_ptr<RotorStepper> stepper_;
   MotionState motion_;
   DofVector acceleration_{};
   std::vector<BearingRun> bearings_;

@@ -26,7 +26,7 @@ DOORS = {
     "toml++/": ["core/base/toml.cc"],
     "hdf5.h": ["core/record/hdf5.cc"],
     "matio.h": ["core/record/mat.cc"],
-    "ode/": ["rotor/ode_contact.cc"],
+    "ode/": ["rotor/ode_world.cc"],
     "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model.cc", "discovery/screen.cc"],
     "ceres/": ["discovery/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],

@@ -4,7 +4,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <mutex>
 #include <pugixml.hpp>
 #include <sstream>
@@ -34,23 +33,6 @@ struct CheckRow {
   double seconds = 0;
   bool met() const { return error.empty() && AllMet(expect); }
 };
-
-std::vector<std::string> FindScenarios(const std::vector<std::string>& paths) {
-  std::vector<std::string> files;
-  for (const std::string& path : paths) {
-    if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: no such file or folder", path));
-    if (!std::filesystem::is_directory(path)) {
-      files.push_back(path);
-      continue;
-    }
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
-      if (entry.path().extension() == ".toml" && HasExpectations(entry.path().string()))
-        files.push_back(entry.path().string());
-  }
-  std::sort(files.begin(), files.end());
-  if (files.empty()) throw InputError("no scenario with [expect] found");
-  return files;
-}
 
 CheckRow CheckOne(const std::string& file) {
   CheckRow row;

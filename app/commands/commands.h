@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 namespace ambrig {
 
@@ -35,6 +36,10 @@ void AddExplain(CLI::App& app, Work& work);
 void AddAdopt(CLI::App& app, Work& work);
 void AddHide(CLI::App& app, Work& work);
 void AddJudge(CLI::App& app, Work& work);
+void AddWitness(CLI::App& app, Work& work);
+
+/// Scenario files as given and those with [expect] in the given folders, sorted. @throws InputError
+std::vector<std::string> FindScenarios(const std::vector<std::string>& paths);
 
 /// 1 for a yes, else 0; terminal colours only on a terminal.
 bool ColourTerminal();

@@ -1,7 +1,13 @@
+#include <fmt/format.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
 
 #include "app/commands/commands.h"
 #include "core/base/atomic_file.h"
+#include "core/base/errors.h"
+#include "scenarios/scenario.h"
 
 namespace ambrig {
 
@@ -12,6 +18,23 @@ void CommonOptions::AddTo(CLI::App& command) {
 
 void CommonOptions::WriteJson(const nlohmann::ordered_json& document) const {
   if (!json.empty()) WriteFileAtomically(json, document.dump(2) + "\n");
+}
+
+std::vector<std::string> FindScenarios(const std::vector<std::string>& paths) {
+  std::vector<std::string> files;
+  for (const std::string& path : paths) {
+    if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: no such file or folder", path));
+    if (!std::filesystem::is_directory(path)) {
+      files.push_back(path);
+      continue;
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
+      if (entry.path().extension() == ".toml" && HasExpectations(entry.path().string()))
+        files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  if (files.empty()) throw InputError("no scenario with [expect] found");
+  return files;
 }
 
 bool ColourTerminal() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }

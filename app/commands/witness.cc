@@ -1,0 +1,151 @@
+/// ambrig witness: scenarios with the compliant rotor and with the rotor on the Open Dynamics
+/// Engine; figures of the drop, verdicts, agreement.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/commands/commands.h"
+#include "app/report/progress.h"
+#include "app/report/witness_report.h"
+#include "scenarios/scenario.h"
+
+namespace ambrig {
+
+namespace {
+
+struct WitnessCommand {
+  CommonOptions common;
+  std::vector<std::string> paths;
+  double step_us = 1;
+  int seeds = 1;
+};
+
+std::string Rest(const WitnessRun& run) {
+  std::string text;
+  for (std::size_t b = 0; b < run.figures.rest.size(); ++b)
+    text += fmt::format("{}{} ({:.0f}, {:.0f})", b > 0 ? "  " : "", run.paths.bearings[b].bearing,
+                        run.figures.rest[b][0] * 1e6, run.figures.rest[b][1] * 1e6);
+  return text;
+}
+
+void PrintRow(const char* name, const WitnessRun& run, double parted) {
+  const DropFigures& f = run.figures;
+  const std::string touch =
+      f.first.empty() ? "-" : fmt::format("{} {:.3f}", f.first, f.touchdown_time * 1e3);
+  const std::string severity = f.severity > 0 ? fmt::format("{:.4f}", f.severity) : "-";
+  fmt::print("  {:<12} {:<13} {:>10} {:>8.1f} {:>8.1f}  {:<8} {:>+7.1f} {:>8} {:>6.2f} {:>9}  {}\n",
+             name, VerdictName(f), touch, f.rebound * 1e6, f.peak_orbit * 1e6, WhirlName(f.whirl),
+             f.turns, severity, f.fall_severity,
+             parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3), Rest(run));
+}
+
+void Print(const WitnessedScenario& s) {
+  const ContactWitness& w = s.witness;
+  fmt::print("{}  {}\n",
+             w.verdicts_agree() ? Coloured("agree ", "green") : Coloured("DIFFER", "red"),
+             Coloured(s.name, "bold"));
+  if (!w.contact()) {
+    fmt::print("  no contact in either\n");
+    return;
+  }
+  fmt::print("  {:<12} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>7} {:>8} {:>6} {:>9}  {}\n", "rotor",
+             "verdict", "touch ms", "rebnd um", "peak um", "whirl", "turns", "v/Oc", "v/fall",
+             "parts ms", "rest um");
+  PrintRow("compliant", w.model, -1);
+  PrintRow("on ODE", w.ode, w.parted_ode);
+  PrintRow("other noise", w.other_noise, w.parted_noise);
+  if (w.ode_warnings > 0) fmt::print("  note: ODE's solver gave {} warnings\n", w.ode_warnings);
+}
+
+/// Where bouncing has made the paths unlike, what is left to compare is how often what happens.
+void PrintTally(const std::vector<WitnessedScenario>& all, int seeds) {
+  const auto tally = [&](const char* name, WitnessRun ContactWitness::*run) {
+    std::size_t drops = 0, backward = 0, forward = 0;
+    double low = kInfinity, high = 0;
+    for (std::size_t k = all.size() - static_cast<std::size_t>(seeds); k < all.size(); ++k) {
+      const DropFigures& f = (all[k].witness.*run).figures;
+      drops += f.drop ? 1 : 0;
+      backward += f.whirl == Whirl::kBackward ? 1 : 0;
+      forward += f.whirl == Whirl::kForward ? 1 : 0;
+      low = std::min(low, f.peak_orbit);
+      high = std::max(high, f.peak_orbit);
+    }
+    fmt::print(
+        "  {:<12} of {} seeds: {} dropped, {} whirl backward, {} forward, peak {:.1f} to {:.1f} "
+        "um\n",
+        name, seeds, drops, backward, forward, low * 1e6, high * 1e6);
+  };
+  tally("compliant", &ContactWitness::model);
+  tally("on ODE", &ContactWitness::ode);
+}
+
+WitnessedScenario WitnessOne(const std::string& file, const RigParameters& rig,
+                             const Scenario& scenario, const WitnessCommand& command,
+                             bool other_noise) {
+  Progress progress(scenario.name);
+  WitnessOptions options;
+  options.ode.step = command.step_us * 1e-6;
+  options.ode.far_step = std::max(options.ode.far_step, options.ode.step);
+  options.other_noise = other_noise;
+  options.stop = &interrupted;
+  options.progress = [&](double f) { progress.Update(f); };
+  try {
+    return {file, scenario.name, scenario.seed, WitnessContact(rig, scenario, options)};
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: {}", file, e.what()));
+  }
+}
+
+int Witness(const WitnessCommand& command) {
+  std::vector<WitnessedScenario> all;
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  std::size_t differ = 0, touched = 0;
+  for (const std::string& file : FindScenarios(command.paths)) {
+    const RigParameters rig = ReadRig(RigOfScenario(file));
+    Scenario scenario = ReadScenario(file, rig);
+    const bool named = std::count(command.paths.begin(), command.paths.end(), file) > 0;
+    if (scenario.start == StartState::kClamped && !named) {
+      fmt::print("skip    {}: clamped, nothing moves\n", scenario.name);
+      continue;
+    }
+    for (int k = 0; k < command.seeds; ++k, ++scenario.seed) {
+      WitnessedScenario s = WitnessOne(file, rig, scenario, command, k == 0);
+      if (k == 0) Print(s);
+      json.push_back(WitnessJson(s));
+      differ += s.witness.verdicts_agree() ? 0 : 1;
+      touched += s.witness.contact() ? 1 : 0;
+      if (command.common.html.empty() || k > 0)  // paths are large
+        for (WitnessRun* run : {&s.witness.model, &s.witness.ode, &s.witness.other_noise})
+          run->paths = {};
+      all.push_back(std::move(s));
+    }
+    if (command.seeds > 1) PrintTally(all, command.seeds);
+  }
+  fmt::print("{} runs, {} with contact, {} verdicts differ\n", all.size(), touched, differ);
+  if (!command.common.html.empty()) WriteWitnessReport(all, command.common.html);
+  command.common.WriteJson(json);
+  return differ > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void AddWitness(CLI::App& app, Work& work) {
+  auto command = std::make_shared<WitnessCommand>();
+  CLI::App* sub = app.add_subcommand(
+      "witness", "does it drop? the contact model beside a rotor on the Open Dynamics Engine");
+  sub->add_option("scenario", command->paths, "scenario files, or folders of them")->required();
+  sub->add_option("--step", command->step_us, "longest step of ODE near contact [us]")
+      ->check(CLI::Range(0.05, 10.0))
+      ->capture_default_str();
+  sub->add_option("--seeds", command->seeds,
+                  "runs of each scenario, with the next seeds of the noise")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->common.AddTo(*sub);
+  sub->footer(
+      "Example:\n  ambrig witness scenarios/library/drop_at_12000rpm.toml --html witness.html\n"
+      "Exit code 1 when a verdict differs.");
+  sub->callback([command, &work] { work = [command] { return Witness(*command); }; });
+}
+
+}  // namespace ambrig
