@@ -50,8 +50,12 @@ TEST(OdeRotor, FallsFreely) {
 }
 
 /// Rebound speed over impact speed, in free space: 1 um before the race at speed v.
-double Rebound(const OdeOptions& options, double damping, double v) {
-  const RotorModel model = Dropping(0, damping, 0, 0);
+double Rebound(const OdeOptions& options, double damping, double v, double exponent = 1) {
+  RotorModel model = Dropping(0, damping, 0, 0);
+  for (AuxiliaryPlane& plane : model.auxiliaries()) {
+    plane.parameters.exponent = exponent;
+    if (exponent > 1) plane.parameters.stiffness = 5e9;  // about the same depth, 17 um
+  }
   OdeRotor rotor(model, options);
   MotionState s;
   s.q[1] = -1.99e-4;
@@ -69,6 +73,10 @@ TEST(OdeRotor, ReboundsWithTheRestitutionOfTheLaw) {
     // 880 steps an impact, symplectic: what is left is of order (ω h)² = 1e-5.
     EXPECT_NEAR(error, 0, 1e-5) << damping;
     EXPECT_NEAR(coarser, 0, 1e-4) << damping;
+    // The same for every exponent n.
+    const double hertz = Rebound({}, damping, 0.06, 1.5) - wanted;
+    EXPECT_NEAR(hertz, 0, 1e-5) << damping;
+    std::printf("[restitution] n = 1.5: error %.1e\n", hertz);
     std::printf("[restitution] damping %g s/m: law %.5f, error %.1e (step 4 us: %.1e)\n", damping,
                 wanted, error, coarser);
   }
