@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "discovery/side_contact.h"
 #include "scenarios/residual_force.h"
 
 namespace ambrig {
@@ -16,7 +17,6 @@ namespace {
 constexpr double kCutoff = 200;        // [Hz] of the estimated force
 constexpr std::size_t kMost = 1500;    // samples looked at
 constexpr double kMuchBetter = 0.08;   // of the power: what a law with more freedom must gain
-constexpr double kBetter = 0.03;       // the same, of a detail
 
 /// A law f = Σ c_k b_k with vector fields b_k, fitted with a constant force beside it.
 struct Field {
@@ -107,156 +107,10 @@ std::vector<MissingForce> SmoothLaws(const ForceSamples& s, const std::string& p
   return out;
 }
 
-/// Something that pushes back from one side: f = -k max(along + lobe cos(theta - high) - gap, 0) (n + mu t),
-/// n its direction; always, or in a bump that comes back every period. The lobe is the rotor's high spot.
-struct Contact {
-  double angle = 0, gap = 0, period = 0, phase = 0, duty = 1, lobe = 0, high = 0;
-  Fit fit = {};
-
-  double Least() const { return std::cos(kPi * duty); }  // of the cosine where the bump begins
-  double On(double t) const {
-    return period <= 0 ? 1 : std::max(0.0, std::cos(2 * kPi * (t / period - phase)) - Least()) / (1 - Least());
-  }
-};
-
-/// Along and across the contact's direction the fit falls into two lines through the depth, each with
-/// its constant.
-Fit FitContact(const ForceSamples& s, const Contact& c) {
-  const double n_x = std::cos(c.angle), n_y = std::sin(c.angle);
-  double sd = 0, sdd = 0, sr = 0, st = 0, srd = 0, std_ = 0, square = 0;
-  for (std::size_t k = 0; k < s.fx.size(); ++k) {
-    const double d = std::max(0.0, s.x[k] * n_x + s.y[k] * n_y + (c.lobe > 0 ? c.lobe * std::cos(s.theta[k] - c.high) : 0) - c.gap) * c.On(s.t[k]);
-    const double r = -(s.fx[k] * n_x + s.fy[k] * n_y), t = s.fx[k] * n_y - s.fy[k] * n_x;
-    sd += d;
-    sdd += d * d;
-    sr += r;
-    st += t;
-    srd += r * d;
-    std_ += t * d;
-    square += r * r + t * t;
-  }
-  const auto n = static_cast<double>(s.fx.size());
-  const double total = square - (sr * sr + st * st) / n, depth = sdd - sd * sd / n;
-  const double along = srd - sr * sd / n, across = std_ - st * sd / n;
-  if (total <= 0 || depth <= 0 || along <= 0) return {};  // it would pull
-  return {(along * along + across * across) / depth / total, {along / depth, across / depth}};
-}
-
-/// Direction from which most of the force comes: its principal axis, against its larger side.
-double PushedFrom(const ForceSamples& s) {
-  double xx = 0, xy = 0, yy = 0, mx = 0, my = 0;
-  const auto n = static_cast<double>(s.fx.size());
-  for (std::size_t k = 0; k < s.fx.size(); ++k) {
-    mx += s.fx[k] / n;
-    my += s.fy[k] / n;
-  }
-  for (std::size_t k = 0; k < s.fx.size(); ++k) {
-    xx += std::pow(s.fx[k] - mx, 2);
-    yy += std::pow(s.fy[k] - my, 2);
-    xy += (s.fx[k] - mx) * (s.fy[k] - my);
-  }
-  const double axis = 0.5 * std::atan2(2 * xy, xx - yy);
-  double third = 0;  // the side of the long tail
-  for (std::size_t k = 0; k < s.fx.size(); ++k) third += std::pow((s.fx[k] - mx) * std::cos(axis) + (s.fy[k] - my) * std::sin(axis), 3);
-  return third > 0 ? axis + kPi : axis;
-}
-
-/// Positions along a direction, sorted.
-std::vector<double> Along(const ForceSamples& s, double angle) {
-  std::vector<double> along;
-  for (std::size_t k = 0; k < s.x.size(); ++k) along.push_back(s.x[k] * std::cos(angle) + s.y[k] * std::sin(angle));
-  std::sort(along.begin(), along.end());
-  return along;
-}
-double Quantile(const std::vector<double>& sorted, double q) { return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))]; }
-
-Contact Better(const ForceSamples& s, const Contact& best, Contact c) {
-  c.fit = FitContact(s, c);
-  return c.fit.share > best.fit.share ? c : best;
-}
-
-Contact StandingContact(const ForceSamples& s) {
-  Contact best;
-  for (int d = 0; d < 24; ++d) {
-    const double angle = 2 * kPi * d / 24;
-    const std::vector<double> along = Along(s, angle);
-    for (const double q : {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85}) best = Better(s, best, {angle, Quantile(along, q)});
-  }
-  return best;
-}
-
-Contact PassingContact(const ForceSamples& s) {
-  Contact best;
-  const double from = PushedFrom(s), longest = *std::max_element(s.t.begin(), s.t.end());
-  for (const double angle : {from - 0.2, from, from + 0.2}) {
-    const std::vector<double> along = Along(s, angle);
-    for (const double q : {0.1, 0.3, 0.4, 0.5, 0.6})
-      for (double period = 0.02; period < 0.5 * longest; period *= 1.03)
-        for (const double duty : {0.2, 0.35, 0.5, 0.65})
-          for (double phase = 0; phase < 1; phase += 0.1) best = Better(s, best, {angle, Quantile(along, q), period, phase, duty});
-  }
-  return best;
-}
-
-/// Downhill in every quantity by turns.
-Contact Refined(const ForceSamples& s, Contact best) {
-  const std::vector<double> along = Along(s, best.angle);
-  const double spread = 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
-  const auto moved = [&](double Contact::*quantity, double by) {
-    Contact c = best;
-    c.*quantity += by;
-    c.duty = std::clamp(c.duty, 0.02, 1.0);
-    c.lobe = std::max(c.lobe, 0.0);
-    best = Better(s, best, c);
-  };
-  for (double step = 1; step > 0.02; step *= 0.5) {
-    const double here = best.fit.share;
-    for (const double by : {-step, step}) {
-      moved(&Contact::angle, 0.2 * by);
-      moved(&Contact::gap, 0.7 * spread * by);
-      if (best.period > 0) {
-        moved(&Contact::period, 0.03 * by * best.period);
-        moved(&Contact::phase, 0.08 * by);
-        moved(&Contact::duty, 0.1 * by);
-      }
-      if (best.lobe > 0) {
-        moved(&Contact::lobe, 0.5 * by * best.lobe);
-        moved(&Contact::high, 0.5 * by);
-      }
-    }
-    if (best.fit.share > here + 1e-6) step = std::min(1.0, 2 * step);  // once more at this size
-  }
-  return best;
-}
-
-/// The same with a high spot on the rotor.
-Contact WithLobe(const ForceSamples& s, const Contact& round) {
-  const std::vector<double> along = Along(s, round.angle);
-  const double spread = 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
-  Contact best;
-  for (const double lobe : {0.3 * spread, spread})
-    for (const double farther : {0.0, 0.5 * lobe, lobe})
-      for (int d = 0; d < 8; ++d) {
-        Contact c = round;
-        c.lobe = lobe;
-        c.high = 2 * kPi * d / 8;
-        c.gap += farther;
-        best = Better(s, best, c);
-      }
-  return Refined(s, best);
-}
-
-Contact FindContact(const ForceSamples& s) {
-  const Contact standing = Refined(s, StandingContact(s)), passing = Refined(s, PassingContact(s));
-  const Contact best = passing.fit.share < standing.fit.share + kMuchBetter ? standing : passing;
-  const Contact lobed = WithLobe(s, best);
-  return lobed.fit.share < best.fit.share + kBetter ? best : lobed;
-}
-
 MissingForce ContactLaw(const ForceSamples& s, const std::string& plane) {
-  const Contact c = FindContact(s);
-  if (c.fit.c.empty() || c.fit.share <= 0) return {plane, 0, "contact", 0, ""};
-  const double k = c.fit.c[0], mu = c.fit.c[1] / k, angle = std::remainder(c.angle, 2 * kPi);
+  const SideContact c = FindSideContact(s, kMuchBetter);
+  if (c.share <= 0) return {plane, 0, "contact", 0, ""};
+  const double k = c.push, mu = c.drag / k, angle = std::remainder(c.angle, 2 * kPi);
   std::string on = fmt::format("position on one side: something pushes back from {:.0f} degrees (from x towards y)", angle * 180 / kPi), gate;
   const auto within = [](const char* name, double value, double reach, const char* unit) {
     return fmt::format("{} = {{ value = {:.4g}, min = {:.4g}, max = {:.4g}, unit = \"{}\" }}", name, value, value - reach, value + reach, unit);
@@ -278,7 +132,7 @@ MissingForce ContactLaw(const ForceSamples& s, const std::string& plane) {
     parameters.push_back(within("high", std::remainder(c.high, 2 * kPi), 1, "rad"));
   }
   const std::string push = "-k*max(" + depth + ", 0)" + gate;
-  return {plane, 0, on, c.fit.share, Effect(plane, "contact on one side", parameters, push + "*(cos(a) - mu*sin(a))", push + "*(sin(a) + mu*cos(a))")};
+  return {plane, 0, on, c.share, Effect(plane, "contact on one side", parameters, push + "*(cos(a) - mu*sin(a))", push + "*(sin(a) + mu*cos(a))")};
 }
 
 /// Samples of all levitated records, thinned to kMost.

@@ -1,0 +1,151 @@
+#include "discovery/side_contact.h"
+
+#include <vector>
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kBetter = 0.03;  // of the power: what a detail must explain
+
+/// Along and across the contact's direction the fit falls into two lines through the depth, each with
+/// its constant.
+SideContact Fitted(const ForceSamples& s, SideContact c) {
+  c.share = c.push = c.drag = 0;
+  const double n_x = std::cos(c.angle), n_y = std::sin(c.angle);
+  double sd = 0, sdd = 0, sr = 0, st = 0, srd = 0, std_ = 0, square = 0;
+  for (std::size_t k = 0; k < s.fx.size(); ++k) {
+    const double d = std::max(0.0, s.x[k] * n_x + s.y[k] * n_y + (c.lobe > 0 ? c.lobe * std::cos(s.theta[k] - c.high) : 0) - c.gap) * c.On(s.t[k]);
+    const double r = -(s.fx[k] * n_x + s.fy[k] * n_y), t = s.fx[k] * n_y - s.fy[k] * n_x;
+    sd += d;
+    sdd += d * d;
+    sr += r;
+    st += t;
+    srd += r * d;
+    std_ += t * d;
+    square += r * r + t * t;
+  }
+  const auto n = static_cast<double>(s.fx.size());
+  const double total = square - (sr * sr + st * st) / n, depth = sdd - sd * sd / n;
+  const double along = srd - sr * sd / n, across = std_ - st * sd / n;
+  if (total <= 0 || depth <= 0 || along <= 0) return c;  // it would pull
+  c.share = (along * along + across * across) / depth / total;
+  c.push = along / depth;
+  c.drag = across / depth;
+  return c;
+}
+
+/// Direction from which most of the force comes: its principal axis, against its larger side.
+double PushedFrom(const ForceSamples& s) {
+  double xx = 0, xy = 0, yy = 0, mx = 0, my = 0;
+  const auto n = static_cast<double>(s.fx.size());
+  for (std::size_t k = 0; k < s.fx.size(); ++k) {
+    mx += s.fx[k] / n;
+    my += s.fy[k] / n;
+  }
+  for (std::size_t k = 0; k < s.fx.size(); ++k) {
+    xx += std::pow(s.fx[k] - mx, 2);
+    yy += std::pow(s.fy[k] - my, 2);
+    xy += (s.fx[k] - mx) * (s.fy[k] - my);
+  }
+  const double axis = 0.5 * std::atan2(2 * xy, xx - yy);
+  double third = 0;  // the side of the long tail
+  for (std::size_t k = 0; k < s.fx.size(); ++k) third += std::pow((s.fx[k] - mx) * std::cos(axis) + (s.fy[k] - my) * std::sin(axis), 3);
+  return third > 0 ? axis + kPi : axis;
+}
+
+/// Positions along a direction, sorted.
+std::vector<double> Along(const ForceSamples& s, double angle) {
+  std::vector<double> along;
+  for (std::size_t k = 0; k < s.x.size(); ++k) along.push_back(s.x[k] * std::cos(angle) + s.y[k] * std::sin(angle));
+  std::sort(along.begin(), along.end());
+  return along;
+}
+double Quantile(const std::vector<double>& sorted, double q) { return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))]; }
+
+SideContact Better(const ForceSamples& s, const SideContact& best, SideContact c) {
+  c = Fitted(s, c);
+  return c.share > best.share ? c : best;
+}
+
+SideContact StandingContact(const ForceSamples& s) {
+  SideContact best;
+  for (int d = 0; d < 24; ++d) {
+    const double angle = 2 * kPi * d / 24;
+    const std::vector<double> along = Along(s, angle);
+    for (const double q : {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85}) best = Better(s, best, {angle, Quantile(along, q)});
+  }
+  return best;
+}
+
+SideContact PassingContact(const ForceSamples& s) {
+  SideContact best;
+  const double from = PushedFrom(s), longest = *std::max_element(s.t.begin(), s.t.end());
+  for (const double angle : {from - 0.2, from, from + 0.2}) {
+    const std::vector<double> along = Along(s, angle);
+    for (const double q : {0.1, 0.3, 0.4, 0.5, 0.6})
+      for (double period = 0.02; period < 0.5 * longest; period *= 1.03)
+        for (const double duty : {0.2, 0.35, 0.5, 0.65})
+          for (double phase = 0; phase < 1; phase += 0.1) best = Better(s, best, {angle, Quantile(along, q), period, phase, duty});
+  }
+  return best;
+}
+
+/// Downhill in every quantity by turns.
+SideContact Refined(const ForceSamples& s, SideContact best) {
+  const std::vector<double> along = Along(s, best.angle);
+  const double spread = 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
+  const auto moved = [&](double SideContact::*quantity, double by) {
+    SideContact c = best;
+    c.*quantity += by;
+    c.duty = std::clamp(c.duty, 0.02, 1.0);
+    c.lobe = std::max(c.lobe, 0.0);
+    best = Better(s, best, c);
+  };
+  for (double step = 1; step > 0.02; step *= 0.5) {
+    const double here = best.share;
+    for (const double by : {-step, step}) {
+      moved(&SideContact::angle, 0.2 * by);
+      moved(&SideContact::gap, 0.7 * spread * by);
+      if (best.period > 0) {
+        moved(&SideContact::period, 0.03 * by * best.period);
+        moved(&SideContact::phase, 0.08 * by);
+        moved(&SideContact::duty, 0.1 * by);
+      }
+      if (best.lobe > 0) {
+        moved(&SideContact::lobe, 0.5 * by * best.lobe);
+        moved(&SideContact::high, 0.5 * by);
+      }
+    }
+    if (best.share > here + 1e-6) step = std::min(1.0, 2 * step);  // once more at this size
+  }
+  return best;
+}
+
+/// The same with a high spot on the rotor.
+SideContact WithLobe(const ForceSamples& s, const SideContact& round) {
+  const std::vector<double> along = Along(s, round.angle);
+  const double spread = 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
+  SideContact best;
+  for (const double lobe : {0.3 * spread, spread})
+    for (const double farther : {0.0, 0.5 * lobe, lobe})
+      for (int d = 0; d < 8; ++d) {
+        SideContact c = round;
+        c.lobe = lobe;
+        c.high = 2 * kPi * d / 8;
+        c.gap += farther;
+        best = Better(s, best, c);
+      }
+  return Refined(s, best);
+}
+
+}  // namespace
+
+SideContact FindSideContact(const ForceSamples& s, double much) {
+  const SideContact standing = Refined(s, StandingContact(s)), passing = Refined(s, PassingContact(s));
+  const SideContact best = passing.share < standing.share + much ? standing : passing;
+  const SideContact lobed = WithLobe(s, best);
+  return lobed.share < best.share + kBetter ? best : lobed;
+}
+
+}  // namespace ambrig
