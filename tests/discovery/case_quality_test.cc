@@ -1,5 +1,6 @@
 // Data from outside with something wrong in it: said in one line, left out, or refused.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 class CaseQuality : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("ambrig_quality_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = fs::temp_directory_path() / ("ambrig_quality_" + std::to_string(::getpid()) + "_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples/mls2em", folder_, fs::copy_options::recursive);
   }

@@ -2,6 +2,7 @@
 #include "discovery/hide.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -72,7 +73,7 @@ TEST_F(HideTest, OnlyTheTruthExplainsTheData) {
 }
 
 TEST_F(HideTest, AnswerReadsBack) {
-  const std::string file = std::filesystem::temp_directory_path() / "ambrig_hide.answer.toml";
+  const std::string file = std::filesystem::temp_directory_path() / ("ambrig_hide_" + std::to_string(::getpid()) + ".answer.toml");
   std::ofstream(file) << AnswerText(*hidden_, *request_, "practice");
   const Answer answer = ReadAnswers(file).at("practice");
   ASSERT_EQ(answer.slots.size(), 1U);

@@ -2,6 +2,7 @@
 #include "discovery/judge.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -55,7 +56,7 @@ TEST(Judge, TalliesAndConfusion) {
 }
 
 TEST(Judge, ReadsAnswersAndNamesWhatIsWrongWithThem) {
-  const std::string file = std::filesystem::temp_directory_path() / "ambrig_answers.toml";
+  const std::string file = std::filesystem::temp_directory_path() / ("ambrig_answers_" + std::to_string(::getpid()) + ".toml");
   std::ofstream(file) << "[\"case-1\"]\nverdict = [\"effect\"]\neffects = [\n [{ effect = \"sensor-hum\", target = \"A\" }, { effect = \"base-vibration\", target = \"rig\" }],\n]\nseed = 3\n";
   const auto answers = ReadAnswers(file);
   ASSERT_EQ(answers.at("case-1").slots.size(), 1U);

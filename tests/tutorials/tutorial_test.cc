@@ -1,6 +1,7 @@
 // The tutorials of docs/guide, run: every line that starts with "ambrig" (and the copies and edits
 // between them) as it stands on the page, and what the page says comes out.
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <sys/wait.h>
 
 #include <cstdio>
@@ -24,7 +25,8 @@ std::string Read(const fs::path& file) {
 class Tutorial : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("ambrig_tutorial_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    // Of this process: the same test may run from another clone at the same time.
+    folder_ = fs::temp_directory_path() / ("ambrig_tutorial_" + std::to_string(::getpid()) + "_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     setenv("PATH", (fs::path(AMBRIG_BINARY).parent_path().string() + ":" + std::getenv("PATH")).c_str(), 1);
