@@ -1,6 +1,7 @@
 #include "actuators/stator_loop.h"
 
 #include <tuple>
+#include <utility>
 
 #include "actuators/lane_vector.h"
 
@@ -123,38 +124,19 @@ struct Running {
   }
 };
 
-template <Coupling kFirst>
-[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
-  Running<kFirst> first(s[0], h);
-  const double per = 1.0 / count;
-  for (int k = 0; k < count; ++k) first.Step(k, (k + 1) * per, k * h);
-  return first.Finish(s[0]);
-}
-template <Coupling kFirst, Coupling kSecond>
-[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
-  Running<kFirst> first(s[0], h);
-  Running<kSecond> second(s[1], h);
+template <Coupling... kAll, std::size_t... kAt>
+[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h, std::index_sequence<kAt...>) {
+  std::tuple<Running<kAll>...> all(Running<kAll>(s[kAt], h)...);
   const double per = 1.0 / count;
   for (int k = 0; k < count; ++k) {
     const double fraction = (k + 1) * per, t = k * h;
-    first.Step(k, fraction, t);
-    second.Step(k, fraction, t);
+    (std::get<kAt>(all).Step(k, fraction, t), ...);
   }
-  return first.Finish(s[0]) | second.Finish(s[1]) << 1;
+  return ((std::get<kAt>(all).Finish(s[kAt]) << kAt) | ...);
 }
-template <Coupling kFirst, Coupling kSecond, Coupling kThird>
+template <Coupling... kAll>
 [[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
-  Running<kFirst> first(s[0], h);
-  Running<kSecond> second(s[1], h);
-  Running<kThird> third(s[2], h);
-  const double per = 1.0 / count;
-  for (int k = 0; k < count; ++k) {
-    const double fraction = (k + 1) * per, t = k * h;
-    first.Step(k, fraction, t);
-    second.Step(k, fraction, t);
-    third.Step(k, fraction, t);
-  }
-  return first.Finish(s[0]) | second.Finish(s[1]) << 1 | third.Finish(s[2]) << 2;
+  return Together<kAll...>(s, count, h, std::make_index_sequence<sizeof...(kAll)>());
 }
 
 constexpr Coupling R = Coupling::kFloatingRotor, S = Coupling::kSides, N = Coupling::kNone;

@@ -63,6 +63,12 @@ std::vector<double> Along(const ForceSamples& s, double angle) {
 }
 double Quantile(const std::vector<double>& sorted, double q) { return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))]; }
 
+/// Half the width that two thirds of them fill.
+double Spread(const ForceSamples& s, double angle) {
+  const std::vector<double> along = Along(s, angle);
+  return 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
+}
+
 SideContact Better(const ForceSamples& s, const SideContact& best, SideContact c) {
   c = Fitted(s, c);
   return c.share > best.share ? c : best;
@@ -93,8 +99,7 @@ SideContact PassingContact(const ForceSamples& s) {
 
 /// Downhill in every quantity by turns.
 SideContact Refined(const ForceSamples& s, SideContact best) {
-  const std::vector<double> along = Along(s, best.angle);
-  const double spread = 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
+  const double spread = Spread(s, best.angle);
   const auto moved = [&](double SideContact::*quantity, double by) {
     SideContact c = best;
     c.*quantity += by;
@@ -124,8 +129,7 @@ SideContact Refined(const ForceSamples& s, SideContact best) {
 
 /// The same with a high spot on the rotor.
 SideContact WithLobe(const ForceSamples& s, const SideContact& round) {
-  const std::vector<double> along = Along(s, round.angle);
-  const double spread = 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
+  const double spread = Spread(s, round.angle);
   SideContact best;
   for (const double lobe : {0.3 * spread, spread})
     for (const double farther : {0.0, 0.5 * lobe, lobe})

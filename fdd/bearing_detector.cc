@@ -9,8 +9,6 @@ namespace ambrig {
 
 namespace {
 constexpr int kRing = 20;             // periods kept
-constexpr double kFewest = 4;          // samples of a phase that counts
-constexpr double kZeroCurrent = 0.03;  // [A] below: the diodes may block
 constexpr double kCalm = 1.5;          // no suspicion while every G is below
 constexpr double kClosestGap = 0.4;      // of the nominal: nearer, its error rules the inductance
 constexpr int kLongestExamination = 12;
@@ -158,7 +156,7 @@ int BearingDetector::Suspect(const std::vector<const KeptPeriod*>& periods, bool
       for (int q = 0; q < 2; ++q)
         for (int k = 0; k < m.coils; ++k) {
           const auto lane = static_cast<std::size_t>(k);
-          if (excluded[lane] || state_[lane] == Coil::kLost || now.phase[q].samples[k] < kFewest) continue;
+          if (excluded[lane] || state_[lane] == Coil::kLost || now.phase[q].samples[k] < kFewestSamples) continue;
           const PhaseSlopes& a = now.phase[q];
           const double e = a.residual[k];
           if (a.least[k] < kZeroCurrent && (q == 1 || (a.mean[k] < 2 * kZeroCurrent && e > 0))) continue;

@@ -7,7 +7,6 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kZeroCurrent = 0.03;  // [A]
 constexpr double kClip = 64;           // a window's largest cost: 8 sigma
 constexpr double kMargin = 12;         // certain: e^-6 against the next hypothesis
 constexpr double kFreeVoltage = 8;     // 2 ln(60 V / 1 V): a flux that the hypothesis leaves open

@@ -10,8 +10,6 @@ namespace ambrig {
 namespace {
 
 using V = LaneVector;
-constexpr double kFewest = 4;         // samples of a phase that counts
-constexpr double kZeroCurrent = 0.03; // [A] below: the diodes may block
 constexpr double kNormalSize = 0.8;   // mean of |z| of a normal variable
 
 [[gnu::always_inline]] inline V SquareRoot(const V& a) {
@@ -38,7 +36,7 @@ struct Terms {
   const V residual = Load(p.residual.v) + known.leakage * di - known.gap * flux;
   // At zero current the diodes may block: off says nothing, on only that too little flux comes.
   const V least = Load(p.least.v), mean = Load(p.mean.v);
-  const V few = Select(Load(p.samples.v) < kFewest, one, zero), clipped = Select(c.largest < s.adc_limit, zero, one);
+  const V few = Select(Load(p.samples.v) < kFewestSamples, one, zero), clipped = Select(c.largest < s.adc_limit, zero, one);
   const V low = Select(mean < 2 * nothing, Select(residual > zero, one, zero), zero);
   const V blocks = Select(least < nothing, off ? one : low, zero);
   const V ok = Select(few + clipped + blocks > zero, zero, c.watched);

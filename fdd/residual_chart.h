@@ -6,6 +6,10 @@
 
 namespace ambrig {
 
+/// Where a residual counts.
+inline constexpr double kFewestSamples = 4;   // of a phase
+inline constexpr double kZeroCurrent = 0.03;  // [A] below: the diodes may block
+
 struct ChartSettings {
   double current_noise = 0.004;    // [A rms] per sample, quantisation included
   double adc_limit = 10;           // [A] larger readings are clipped
