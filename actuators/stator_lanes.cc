@@ -67,9 +67,7 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
   x1_ = x1;
   y1_ = y1;
   per_period_ = samples_per_period;
-  const GapReluctance& r = reluctance;
-  const GapLaw law{coupling, gap_offset.v, direction_x.v, direction_y.v, n.v, inverse_l_.v,
-                   r.per_metre, r.iron_path, r.fringing, r.gap0, r.offset};
+  const GapLaw law{coupling, gap_offset.v, direction_x.v, direction_y.v, n.v, inverse_l_.v, reluctance};
   Lane slope;
   Reluctances(law, x0, y0, x1, y1, rel0_.v, rel1_.v, slope.v, g0_.v, dg_.v);
   for (int j = 0; j < kLanes; ++j) {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "actuators/flux_law.h"
+#include "actuators/gap_reluctance.h"
 #include "actuators/stator_loop.h"
 #include "core/base/parameters.h"
 
@@ -31,20 +32,6 @@ struct ShortedTurns {
   double lambda = 0, i = 0;                   // [Wb], [A]
   double theta = 0.5;                         // implicitness of a step, fitted to R h / L
   double target = 0;                          // λ* of the present step [Wb]
-};
-
-/// A pole's reluctance 1/P as a function of its gap; base law g/(mu0 A), effects may change it.
-struct GapReluctance {
-  double per_metre = 0;   // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]
-  double iron_path = 0;   // [m] added to the gap (effect iron-reluctance)
-  double fringing = 0;    // area grows as 1 + fringing g/gap0 (effect fringing)
-  double gap0 = 1;        // [m]
-  double offset = 0;      // [1/H] constant part (opposed magnets: g_c)
-  double Value(double g) const { return per_metre * (g / (1 + fringing * g / gap0) + iron_path) + offset; }
-  double Slope(double g) const {
-    const double a = 1 + fringing * g / gap0;
-    return per_metre / (a * a);
-  }
 };
 
 class StatorLanes {

@@ -198,25 +198,17 @@ void SolveSample(const StatorLoop& s, const double* target, double fraction) {
 AMBRIG_WIDE void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0, double* rel1,
                              double* slope, double* g0, double* dg) {
   const V offset = Load(law.gap_offset), dx = Load(law.direction_x), dy = Load(law.direction_y);
-  const V closest = 0.02 * law.gap0;
+  const V closest = 0.02 * law.reluctance.gap0;
   V start = offset - x0 * dx - y0 * dy, end = offset - x1 * dx - y1 * dy;
   start = Max(start, closest);
   end = Max(end, closest);
-  V first = start, last = end, slope_of = law.per_metre;
-  if (law.fringing != 0) {
-    const V middle = 1 + law.fringing * (0.5 * (start + end)) / law.gap0;
-    first = start / (1 + law.fringing * start / law.gap0);
-    last = end / (1 + law.fringing * end / law.gap0);
-    slope_of = law.per_metre / (middle * middle);
-  }
-  first = law.per_metre * (first + law.iron_path) + law.offset;
-  last = law.per_metre * (last + law.iron_path) + law.offset;
+  const V first = law.reluctance.Value(start), last = law.reluctance.Value(end);
   const V n = Load(law.n), own = n * n * Load(law.inverse_l);
   const V nc = law.coupling == S ? own + Partner(own) : own;
   const V conductance = 1 / (first + nc);
   Store(rel0, first);
   Store(rel1, last);
-  Store(slope, slope_of);
+  Store(slope, law.reluctance.Slope(V(0.5 * (start + end))));
   Store(g0, conductance);
   Store(dg, 1 / (last + nc) - conductance);
 }

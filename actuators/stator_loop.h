@@ -1,6 +1,7 @@
 #pragma once
 /// The innermost loop of the fast engine: samples of one switching period of one bearing, or of
 /// several side by side (ideal iron, no shorted turns, constant bus). Equations: stator_lanes.h.
+#include "actuators/gap_reluctance.h"
 #include "actuators/lane.h"
 
 namespace ambrig {
@@ -41,11 +42,11 @@ unsigned RunTogether(const StatorLoop* loops, int bearings, int count, double h)
 /// The solution of one sample at `fraction` of the period for the targets λ*.
 void SolveSample(const StatorLoop& loop, const double* target, double fraction);
 
-/// Reluctance's affine law over the lanes of a bearing: everything that changes with the gap.
+/// Everything of a bearing that changes with its gaps.
 struct GapLaw {
   Coupling coupling = Coupling::kFloatingRotor;
   const double *gap_offset, *direction_x, *direction_y, *n, *inverse_l;  // eight lanes each
-  double per_metre = 0, iron_path = 0, fringing = 0, gap0 = 1, offset = 0;
+  GapReluctance reluctance;
 };
 /// Reluctance at both ends [1/H], its mean slope [1/(H m)], conductance of the circuit at the start
 /// and its change [H].

@@ -10,12 +10,8 @@ constexpr double kLeastGap = 0.05;
 
 [[gnu::always_inline]] inline LaneVector At(const LinkageModel& m, double x, double y) {
   const LaneVector offset = Load(m.gap_offset.v), least = kLeastGap * offset;
-  const GapReluctance& r = m.reluctance;
-  LaneVector gap = offset - x * Load(m.direction_x.v) - y * Load(m.direction_y.v);
-  gap = Max(gap, least);
-  if (r.fringing != 0) gap = gap / (1 + r.fringing * gap / r.gap0);
-  const LaneVector reluctance = r.per_metre * (gap + r.iron_path) + r.offset;
-  return Select(offset > 0.0, 1 / reluctance, 0.0);
+  const LaneVector gap = Max(offset - x * Load(m.direction_x.v) - y * Load(m.direction_y.v), least);
+  return Select(offset > 0.0, 1 / m.reluctance.Value(gap), 0.0);
 }
 
 AMBRIG_WIDE void AtOnePlace(const LinkageModel& m, double x, double y, Lane* P) { Store(P->v, At(m, x, y)); }
