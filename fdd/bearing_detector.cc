@@ -198,7 +198,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
     int stepped = -1;
     if (comparable && follows && !any_unknown_) stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
     if (stepped >= 0) most = chart_.LargestSum();
-    const bool alarm = most > s_.threshold, calm = comparable && most < kCalm;
+    const bool alarm = !s_.watch_only && most > s_.threshold, calm = comparable && most < kCalm;
     if (calm) calm_at_ = count_;
     if (calm && count_ % kLearnEvery == 0) Learn();
     if (!alarm) return out;

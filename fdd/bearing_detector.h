@@ -33,6 +33,8 @@ struct DetectorSettings : ChartSettings {
   SamplingSettings sampling;
   double gap_sd = 0.01;            // relative
   double leakage_sd = 2e-5;        // [H]
+  double current_quantum = 0.005;  // of the ADC [A]
+  bool watch_only = false;         // no alarm: the sums go on (detector studies)
 };
 
 /// One period as kept for an examination.
@@ -63,6 +65,7 @@ class BearingDetector {
   void Band(int coil, double* slope, double* expected, double* half_width) const;
   const PeriodSlopes& slopes() const { return slopes_; }
   const Lane& z(int phase) const { return chart_.z[phase]; }
+  const ResidualChart& chart() const { return chart_; }
   Coil state(int j) const { return state_[static_cast<std::size_t>(j)]; }
   double leakage_error() const { return known_.leakage; }  // learned [H]
   double gap_error() const { return known_.gap; }      // learned, relative

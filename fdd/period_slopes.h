@@ -19,6 +19,7 @@ struct MeasuredPeriod {
   double t = 0;                        // start [s]
   const Lane* adc = nullptr;           // samples [A]
   const Lane* duty = nullptr;
+  const Lane* set_point = nullptr;     // that the current loops followed [A]; may be absent
   double bus = 0;                      // mean over the period [V]
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [m]
   bool comparable = true;              // false: bus or position unknown, nothing can be concluded

@@ -12,56 +12,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLeastGapSd = 0.01, kLeastLeakageSd = 0.05;  // relative, when the maker says nothing
-constexpr double kBusStep = 0.02, kBusSag = 0.9;              // of the nominal bus
+constexpr double kBusSag = 0.9;                               // of the nominal bus
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;    // [s]
-constexpr double kCredibleJump = 3e-5;                        // [m] in one controller period: 4700 m/s²
-
-double ToleranceOf(const RigParameters& rig, const std::string& path, double least) {
-  for (const Tolerance& t : rig.tolerances)
-    if (t.path == path) return std::max(t.sd, least);
-  return least;
-}
-
-LinkageModel ModelOf(const BearingParameters& b) {
-  if (b.kind == BearingKind::kRadial) return MakeLinkageModel(b.radial);
-  if (b.kind == BearingKind::kThrust) return MakeLinkageModel(b.thrust);
-  const OpposedStatorParameters& p = b.opposed;
-  LinkageModel m;  // L(g) = L_inf + L_0/(1 + g/g_c), one "turn"
-  m.coupling = Coupling::kNone;
-  m.coils = b.coils();
-  m.reluctance.per_metre = 1 / (p.gap_constant * p.inductance_near);
-  m.reluctance.offset = 1 / p.inductance_near;
-  m.reluctance.gap0 = p.gap;
-  for (int j = 0; j < m.coils; ++j) {
-    m.n[j] = 1;
-    m.leakage[j] = p.inductance_far;
-    m.resistance[j] = p.resistance;
-    m.direction_x[j] = j == 0 ? 1 : -1;
-    m.gap_offset[j] = p.gap;
-  }
-  return m;
-}
-
-DetectorSettings SettingsOf(const RigParameters& rig, const BearingParameters& b, const LinkageModel& m) {
-  const AmplifierParameters& a = rig.amplifier;
-  DetectorSettings s;
-  s.sampling.samples = rig.samples_per_period();
-  s.sampling.step = 1 / (a.switching_frequency * s.sampling.samples);
-  s.sampling.amplifier = &rig.amplifier;
-  const double quantum = 2 * a.adc_range / std::exp2(a.adc_bits);
-  s.current_noise = std::hypot(a.current_noise, quantum / std::sqrt(12.0));
-  s.adc_limit = a.adc_range - 2 * quantum;
-  const std::string at = "bearings." + b.name + ".";
-  const double gap = m.gap_offset[0];
-  s.gap_sd = ToleranceOf(rig, at + "gap", kLeastGapSd * gap) / gap;
-  s.leakage_sd = ToleranceOf(rig, at + "leakage_inductance", kLeastLeakageSd * m.leakage[0]);
-  // Velocity from three noisy readings, times the flux that a bias current makes.
-  const double velocity = 5 * b.sensor.noise * rig.controller.rate;
-  const double motion = velocity * m.n[0] * m.n[0] * m.Permeance(0, 0)[0] * BiasCurrent(rig, b) / gap;
-  s.voltage_sd = std::sqrt(0.2 * 0.2 + motion * motion + a.bus_noise * a.bus_noise);
-  return s;
-}
 
 std::string CoilName(const std::string& bearing, int coil) { return fmt::format("{}.coil{}", bearing, coil + 1); }
 
@@ -70,60 +22,22 @@ std::string CoilName(const std::string& bearing, int coil) { return fmt::format(
 struct FaultSupervisor::Watched {
   const BearingParameters* bearing = nullptr;
   std::size_t index = 0;
-  std::size_t first_axis = 0;
-  std::vector<double> weights;              // of the sensor planes, radial
-  std::vector<SensedPlane> planes;
   std::unique_ptr<BearingDetector> detector;
   std::unique_ptr<RedistributionTable> table;
   Coils turns_left = Coils::Ones();
   int alarmed = -1;                         // coil that the alarm was raised for
-
-  bool Uses(int axis) const {
-    if (bearing->kind != BearingKind::kRadial) return axis == static_cast<int>(first_axis);
-    return std::any_of(planes.begin(), planes.end(),
-                       [&](const SensedPlane& p) { return p.x_axis == axis || p.y_axis == axis; });
-  }
-  void Position(const PositionMonitor& p, double t, double* x, double* y) const {
-    *x = *y = 0;
-    if (bearing->kind != BearingKind::kRadial) {
-      *x = p.At(first_axis, t);
-      return;
-    }
-    for (std::size_t k = 0; k < planes.size(); ++k) {
-      *x += weights[k] * p.At(static_cast<std::size_t>(planes[k].x_axis), t);
-      *y += weights[k] * p.At(static_cast<std::size_t>(planes[k].y_axis), t);
-    }
-  }
 };
 
 FaultSupervisor::FaultSupervisor(const RigParameters& nominal, const FaultSupervisorOptions& options)
-    : rig_(nominal), options_(options), T_(1 / nominal.amplifier.switching_frequency),
-      last_bus_(nominal.amplifier.bus_voltage) {
-  std::vector<SensedPlane> planes;
-  std::vector<double> sensor_z;
-  std::size_t axis = 0;
-  double largest_noise = 0;
+    : rig_(nominal), options_(options), T_(1 / nominal.amplifier.switching_frequency), feed_(rig_) {
   for (const BearingParameters& b : rig_.bearings) {
     auto w = std::make_unique<Watched>();
     w->bearing = &b;
     w->index = watched_.size();
-    w->first_axis = axis;
-    const LinkageModel model = ModelOf(b);
-    w->detector = std::make_unique<BearingDetector>(model, SettingsOf(rig_, b, model));
-    if (b.kind == BearingKind::kRadial) {
-      planes.push_back({b.sensor.z, static_cast<int>(axis), static_cast<int>(axis) + 1});
-      sensor_z.push_back(b.sensor.z);
-    }
-    for (const std::string& name : b.Axes()) axis_names_.push_back(name);
-    axis += b.Axes().size();
-    largest_noise = std::max(largest_noise, b.sensor.noise);
+    const LinkageModel model = LinkageModelOf(b);
+    w->detector = std::make_unique<BearingDetector>(model, DetectorSettingsOf(rig_, b, model));
     watched_.push_back(std::move(w));
   }
-  for (auto& w : watched_) {
-    w->planes = planes;
-    w->weights = PlaneWeights(sensor_z, w->bearing->z);
-  }
-  positions_ = PositionMonitor(axis, kCredibleJump + 40 * largest_noise);
 }
 
 FaultSupervisor::~FaultSupervisor() = default;
@@ -143,10 +57,8 @@ void FaultSupervisor::WatchBus(double t, double bus, std::vector<RunEvent>& even
 }
 
 void FaultSupervisor::WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events) {
-  positions_.Read(m.reading_time, *m.readings);
-  const int axis = positions_.TakeNewFault();
-  if (axis < 0) return;
-  const std::string& name = axis_names_[static_cast<std::size_t>(axis)];
+  const std::string name = feed_.TakeFaultyAxis();
+  if (name.empty()) return;
   const double t = m.t + T_;
   events.push_back({t, "detected", name, "", 0});
   events.push_back({t, "classified", name, ToText(FaultClass::kPositionSensor), 0});
@@ -155,29 +67,17 @@ void FaultSupervisor::WatchPositions(const PeriodMeasurement& m, std::vector<Run
 void FaultSupervisor::AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
                                   std::vector<RunEvent>& events) {
   const double bus = m.bearings.front().bus;
+  feed_.Read(m);
   WatchBus(m.t + T_, bus, events);
   WatchPositions(m, events);
   for (std::size_t k = 0; k < watched_.size(); ++k) WatchBearing(k, m, control, events);
-  last_bus_ = bus;
   if (options_.slopes) TraceSlopes(m.t);
 }
 
 void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, std::vector<BearingControl>& control,
                                    std::vector<RunEvent>& events) {
   Watched& w = *watched_[k];
-  const BearingMeasurement& b = m.bearings[k];
-  MeasuredPeriod in;
-  in.t = m.t;
-  in.adc = b.adc;
-  in.duty = b.duty;
-  in.bus = 0.5 * (b.bus + last_bus_);
-  w.Position(positions_, m.t, &in.x0, &in.y0);
-  w.Position(positions_, m.t + T_, &in.x1, &in.y1);
-  // Without its position a bearing's inductances are not known: nothing can be concluded.
-  bool sensed = positions_.ready(m.t);
-  for (std::size_t a = 0; a < axis_names_.size(); ++a)
-    if (positions_.faulty(a) && w.Uses(static_cast<int>(a))) sensed = false;
-  in.comparable = sensed && std::abs(b.bus - last_bus_) < kBusStep * rig_.amplifier.bus_voltage;
+  const MeasuredPeriod in = feed_.Period(k, m);
   const BearingDetector::Alarm alarm = w.detector->Period(in);
   coil_periods_ += w.bearing->coils();
   if (alarm.coil < 0) return;

@@ -14,7 +14,7 @@
 
 #include "faulttolerance/redistribution_table.h"
 #include "fdd/bearing_detector.h"
-#include "fdd/position_monitor.h"
+#include "scenarios/detection_feed.h"
 #include "scenarios/rig_file.h"
 #include "scenarios/supervisor.h"
 
@@ -52,10 +52,9 @@ class FaultSupervisor : public Supervisor {
 
   const RigParameters rig_;
   FaultSupervisorOptions options_;
-  double T_ = 0, last_bus_ = 0;  // [s], [V]
+  double T_ = 0;  // [s]
   bool bus_sagged_ = false;
-  std::vector<std::string> axis_names_;
-  PositionMonitor positions_;
+  DetectionFeed feed_;
   std::vector<std::unique_ptr<Watched>> watched_;
   double coil_periods_ = 0;
 

@@ -7,84 +7,12 @@
 #include <random>
 
 #include "fdd/position_monitor.h"
+#include "tests/fdd/stator_bench.h"
 
 namespace ambrig {
 namespace {
 
-constexpr double kT = 40e-6;
-constexpr int kSamples = 18;
-
-RadialStatorParameters Reference() {
-  RadialStatorParameters p;
-  p.turns = 50;
-  p.pole_area = 2.0372e-4;
-  p.gap = 4e-4;
-  p.leakage_inductance = 3.5e-4;
-  p.resistance = 0.5;
-  return p;
-}
-
-AmplifierParameters Bridge() {
-  AmplifierParameters a;
-  a.bus_voltage = 30;
-  a.switch_drop = 0.125;
-  a.diode_drop = 0.7;
-  a.switching_frequency = 1 / kT;
-  a.kp = 4;
-  a.ki = 2000;
-  a.i_max = 6;
-  return a;
-}
-
-/// True stator with one duty per coil; coil `open` broken.
-struct Bench {
-  StatorLanes lanes;
-  AmplifierParameters amplifier = Bridge();
-  Lane duty, adc[kSamples];
-  double x0 = 1e-4, y0 = -0.5e-4, vx = 0, vy = 0, t = 0;
-
-  Bench() {
-    const LinkageModel m = MakeLinkageModel(Reference());
-    lanes.n = m.n;
-    lanes.leakage = m.leakage;
-    lanes.resistance = m.resistance;
-    lanes.direction_x = m.direction_x;
-    lanes.direction_y = m.direction_y;
-    lanes.gap_offset = m.gap_offset;
-    lanes.reluctance = m.reluctance;
-    lanes.SetStep(kT / kSamples);
-    Lane two;
-    for (double& i : two.v) i = 2;
-    lanes.Settle(two, x0, y0);
-    for (double& d : duty.v) d = 0.515;
-  }
-  MeasuredPeriod Run() {
-    VoltagePattern pattern;
-    for (int j = 0; j < kLanes; ++j) {
-      const CoilVoltage v = PowerAmplifier(amplifier).Pattern(duty[j], {});
-      pattern.t1[j] = v.t1;
-      pattern.t2[j] = v.t2;
-      for (int q = 0; q < 3; ++q) {
-        pattern.gain[q][j] = v.gain[q];
-        pattern.drop[q][j] = v.drop[q];
-      }
-    }
-    MeasuredPeriod in;
-    in.t = t;
-    in.x0 = x0;
-    in.y0 = y0;
-    in.x1 = x0 += vx * kT;
-    in.y1 = y0 += vy * kT;
-    lanes.RunPeriod(pattern, amplifier.bus_voltage, in.x0, in.y0, in.x1, in.y1, kSamples);
-    for (int k = 0; k < kSamples; ++k) adc[k] = lanes.samples[k];
-    in.adc = adc;
-    in.duty = &duty;
-    in.bus = amplifier.bus_voltage;
-    t += kT;
-    return in;
-  }
-  SamplingSettings Sampling() const { return {kSamples, kT / kSamples, &amplifier}; }
-};
+using namespace testing_bench;
 
 // The engine's trapezoid and moving reluctance leave 0.05 V: R h/2 di = 0.02 V, dP² terms the rest.
 constexpr double kModelError = 0.08;

@@ -1,0 +1,26 @@
+#include "fdd/linkage_residual.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+namespace {
+constexpr double kClosestGap = 0.4;  // of the nominal: nearer, its error rules the inductance
+}
+
+LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup) : model_(setup.model), s_(setup.settings) {
+  tolerance_.doubt[0] = s_.leakage_sd * s_.leakage_sd;
+  tolerance_.doubt[2] = s_.gap_sd * s_.gap_sd;
+  for (int j = 0; j < model_.coils; ++j) watched_[j] = 1;
+  const Lane P = model_.Permeance(0, 0);
+  centred_ = *std::max_element(P.v, P.v + kLanes);
+}
+
+bool LinkageResidual::Compute(const MeasuredPeriod& in) {
+  ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
+  chart_.Compute(model_, s_.sampling, s_, tolerance_, slopes_, watched_, 0);
+  const Lane& P = slopes_.permeance.middle;
+  return in.comparable && *std::max_element(P.v, P.v + kLanes) * kClosestGap < centred_;
+}
+
+}  // namespace ambrig

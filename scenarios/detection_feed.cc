@@ -1,0 +1,130 @@
+#include "scenarios/detection_feed.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenarios/rig.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kLeastGapSd = 0.01, kLeastLeakageSd = 0.05;  // relative, when the maker says nothing
+constexpr double kBusStep = 0.02;                             // of the nominal bus, within one period
+constexpr double kCredibleJump = 3e-5;                        // [m] in one controller period: 4700 m/s²
+
+double ToleranceOf(const RigParameters& rig, const std::string& path, double least) {
+  for (const Tolerance& t : rig.tolerances)
+    if (t.path == path) return std::max(t.sd, least);
+  return least;
+}
+
+}  // namespace
+
+LinkageModel LinkageModelOf(const BearingParameters& b) {
+  if (b.kind == BearingKind::kRadial) return MakeLinkageModel(b.radial);
+  if (b.kind == BearingKind::kThrust) return MakeLinkageModel(b.thrust);
+  const OpposedStatorParameters& p = b.opposed;
+  LinkageModel m;  // L(g) = L_inf + L_0/(1 + g/g_c), one "turn"
+  m.coupling = Coupling::kNone;
+  m.coils = b.coils();
+  m.reluctance.per_metre = 1 / (p.gap_constant * p.inductance_near);
+  m.reluctance.offset = 1 / p.inductance_near;
+  m.reluctance.gap0 = p.gap;
+  for (int j = 0; j < m.coils; ++j) {
+    m.n[j] = 1;
+    m.leakage[j] = p.inductance_far;
+    m.resistance[j] = p.resistance;
+    m.direction_x[j] = j == 0 ? 1 : -1;
+    m.gap_offset[j] = p.gap;
+  }
+  return m;
+}
+
+DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b, const LinkageModel& m) {
+  const AmplifierParameters& a = rig.amplifier;
+  DetectorSettings s;
+  s.sampling.samples = rig.samples_per_period();
+  s.sampling.step = 1 / (a.switching_frequency * s.sampling.samples);
+  s.sampling.amplifier = &rig.amplifier;
+  const double quantum = 2 * a.adc_range / std::exp2(a.adc_bits);
+  s.current_noise = std::hypot(a.current_noise, quantum / std::sqrt(12.0));
+  s.current_quantum = quantum;
+  s.adc_limit = a.adc_range - 2 * quantum;
+  const std::string at = "bearings." + b.name + ".";
+  const double gap = m.gap_offset[0];
+  s.gap_sd = ToleranceOf(rig, at + "gap", kLeastGapSd * gap) / gap;
+  s.leakage_sd = ToleranceOf(rig, at + "leakage_inductance", kLeastLeakageSd * m.leakage[0]);
+  // Velocity from three noisy readings, times the flux that a bias current makes.
+  const double velocity = 5 * b.sensor.noise * rig.controller.rate;
+  const double motion = velocity * m.n[0] * m.n[0] * m.Permeance(0, 0)[0] * BiasCurrent(rig, b) / gap;
+  s.voltage_sd = std::sqrt(0.2 * 0.2 + motion * motion + a.bus_noise * a.bus_noise);
+  return s;
+}
+
+DetectionFeed::DetectionFeed(const RigParameters& nominal)
+    : rig_(nominal), T_(1 / nominal.amplifier.switching_frequency), bus_(nominal.amplifier.bus_voltage),
+      last_bus_(nominal.amplifier.bus_voltage) {
+  std::vector<double> sensor_z;
+  double largest_noise = 0;
+  for (const BearingParameters& b : rig_.bearings) {
+    const std::size_t axis = axis_names_.size();
+    if (b.kind == BearingKind::kRadial) {
+      planes_.push_back({b.sensor.z, static_cast<int>(axis), static_cast<int>(axis) + 1});
+      sensor_z.push_back(b.sensor.z);
+    }
+    for (const std::string& name : b.Axes()) axis_names_.push_back(name);
+    largest_noise = std::max(largest_noise, b.sensor.noise);
+    views_.push_back({&b, axis, {}});
+  }
+  for (View& v : views_) v.weights = PlaneWeights(sensor_z, v.bearing->z);
+  positions_ = PositionMonitor(axis_names_.size(), kCredibleJump + 40 * largest_noise);
+}
+
+bool DetectionFeed::Uses(const View& v, std::size_t axis) const {
+  if (v.bearing->kind != BearingKind::kRadial) return axis == v.first_axis;
+  const int a = static_cast<int>(axis);
+  return std::any_of(planes_.begin(), planes_.end(), [&](const SensedPlane& p) { return p.x_axis == a || p.y_axis == a; });
+}
+
+void DetectionFeed::Position(const View& v, double t, double* x, double* y) const {
+  *x = *y = 0;
+  if (v.bearing->kind != BearingKind::kRadial) {
+    *x = positions_.At(v.first_axis, t);
+    return;
+  }
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    *x += v.weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].x_axis), t);
+    *y += v.weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].y_axis), t);
+  }
+}
+
+void DetectionFeed::Read(const PeriodMeasurement& m) {
+  last_bus_ = bus_;
+  bus_ = m.bearings.front().bus;
+  positions_.Read(m.reading_time, *m.readings);
+}
+
+MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasurement& m) const {
+  const View& v = views_[bearing];
+  const BearingMeasurement& b = m.bearings[bearing];
+  MeasuredPeriod in;
+  in.t = m.t;
+  in.adc = b.adc;
+  in.duty = b.duty;
+  in.bus = 0.5 * (b.bus + last_bus_);
+  Position(v, m.t, &in.x0, &in.y0);
+  Position(v, m.t + T_, &in.x1, &in.y1);
+  bool sensed = positions_.ready(m.t);
+  for (std::size_t a = 0; a < axis_names_.size(); ++a)
+    if (positions_.faulty(a) && Uses(v, a)) sensed = false;
+  in.comparable = sensed && std::abs(b.bus - last_bus_) < kBusStep * rig_.amplifier.bus_voltage;
+  return in;
+}
+
+std::string DetectionFeed::TakeFaultyAxis() {
+  const int axis = positions_.TakeNewFault();
+  return axis < 0 ? "" : axis_names_[static_cast<std::size_t>(axis)];
+}
+
+}  // namespace ambrig

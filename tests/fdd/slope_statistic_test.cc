@@ -1,0 +1,188 @@
+// The paper's detector as a statistic, thresholds fixed and online; current error; levels.
+#include "fdd/slope_statistic.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fdd/coupled_detector.h"
+#include "fdd/current_error.h"
+#include "fdd/statistic_level.h"
+#include "tests/fdd/stator_bench.h"
+
+namespace ambrig {
+namespace {
+
+using namespace testing_bench;
+using Thresholds = SlopeStatistic::Thresholds;
+
+/// Uncoupled coils with ideal slopes: v = U - R i on, -(U + ..) off, L of all coils in phase.
+struct IdealCoil {
+  Bench bench;
+  CoilDetectorSetup setup = SetupOf(bench);
+  Lane adc[kSamples], duty, set;
+  double bus = 30, x = 0;
+
+  IdealCoil() {
+    setup.settings.current_quantum = 1e-6;
+    for (double& d : duty.v) d = 0.5;
+    for (double& i : set.v) i = 2;
+  }
+  MeasuredPeriod Period(double inductance, double resistance) {
+    const AmplifierParameters& a = bench.amplifier;
+    const double h = kT / kSamples;
+    double i = 2;
+    for (int k = 0; k < kSamples; ++k) {
+      for (double& v : adc[k].v) v = i;
+      const double v = k < kSamples / 2 ? bus - 2 * a.switch_drop : -(bus + 2 * a.diode_drop);
+      i = v / resistance + (i - v / resistance) * std::exp(-h * resistance / inductance);
+    }
+    MeasuredPeriod in;
+    in.adc = adc;
+    in.duty = &duty;
+    in.set_point = &set;
+    in.bus = bus;
+    in.x0 = in.x1 = x;
+    return in;
+  }
+};
+
+constexpr double kInPhase = 1.6e-3 + 0.35e-3;  // facts: N² mu0 A/g0 + L_l [H]
+
+TEST(SlopeStatistic, InPhaseInductanceOfTheReferenceRig) {
+  const LinkageModel m = MakeLinkageModel(Reference());
+  EXPECT_NEAR(InPhaseInductance(m, 3, m.Permeance(0, 0)), kInPhase, 1e-7);
+}
+
+TEST(SlopeStatistic, BusPumpingMovesFixedThresholdsOnly) {
+  IdealCoil coil;
+  SlopeStatistic fixed(coil.setup, Thresholds::kFixed), online(coil.setup, Thresholds::kOnline);
+  // The off phase starts at the crest: i R there is R 0.3 A more than the paper's i0 R, 77 A/s.
+  EXPECT_LT(fixed.Period(coil.Period(kInPhase, 0.5))[0], 0.12);
+  EXPECT_LT(online.Period(coil.Period(kInPhase, 0.5))[0], 0.12);
+  coil.bus = 33;
+  // 3 V / 1.95 mH = 1538 A/s.
+  EXPECT_NEAR(fixed.Period(coil.Period(kInPhase, 0.5))[0], 3 / kInPhase / 700, 0.15);
+  EXPECT_LT(online.Period(coil.Period(kInPhase, 0.5))[0], 0.15);
+}
+
+TEST(SlopeStatistic, GapMovesFixedThresholdsOnly) {
+  IdealCoil coil;
+  SlopeStatistic fixed(coil.setup, Thresholds::kFixed), online(coil.setup, Thresholds::kOnline);
+  coil.x = 1e-4;
+  const LinkageModel m = coil.setup.model;
+  const double L = InPhaseInductance(m, 0, m.Permeance(coil.x, 0));
+  EXPECT_GT(L, 1.2 * kInPhase);
+  EXPECT_GT(fixed.Period(coil.Period(L, 0.5))[0], 3);
+  EXPECT_LT(online.Period(coil.Period(L, 0.5))[0], 0.15);
+}
+
+TEST(SlopeStatistic, ResistanceIsLearnedFromMeans) {
+  IdealCoil coil;
+  SlopeStatistic online(coil.setup, Thresholds::kOnline);
+  // 40 % more resistance (about 100 K): the mean voltage that holds 2 A is 1.4 V, not 1.0 V.
+  coil.bus = 30;
+  const AmplifierParameters& a = coil.bench.amplifier;
+  const MeasuredPeriod one = coil.Period(kInPhase, 0.7);
+  double mean = 0;
+  for (const Lane& i : coil.adc) mean += i[0] / kSamples;
+  const double up = 30 - 2 * a.switch_drop, down = 30 + 2 * a.diode_drop;
+  for (double& d : coil.duty.v) d = (0.7 * mean + down) / (up + down);
+  for (int n = 0; n < 5000; ++n) online.Period(one);
+  EXPECT_NEAR(online.resistance().Value(0), 0.7, 0.06);  // the prior still has a third of the weight
+  EXPECT_GT(online.resistance().Value(0), 0.6);
+}
+
+TEST(SlopeStatistic, AboveOneWhereThePapersDetectorFlags) {
+  for (double factor : {1.0, 0.97, 0.9, 0.81, 1.1}) {
+    IdealCoil coil;
+    const MeasuredPeriod in = coil.Period(kInPhase * factor, 0.5);
+    SlopeStatistic statistic(coil.setup, Thresholds::kFixed);
+    SlopeDetectorSettings s;
+    s.converter = {1, 1, 1e-6, 0, kT / kSamples};
+    s.circuit = {30, 0.125, 0.7, InPhaseInductance(coil.setup.model, 0, coil.setup.model.Permeance(0, 0)), 0.5, kT};
+    s.margin = 700;
+    SlopeDetector paper(s);
+    for (const Lane& i : coil.adc) paper.Sample(s.converter.Code(i[0]), coil.adc[0][0]);
+    EXPECT_EQ(statistic.Period(in)[0] > 1, paper.flagged()) << factor;
+  }
+}
+
+TEST(SlopeStatistic, LooksOnceInACycle) {
+  IdealCoil coil;
+  SlopeStatistic paper(coil.setup, Thresholds::kFixed, 1.75e-3);
+  int looks = 0;
+  double before = 0;
+  for (int n = 0; n < 440; ++n) {
+    coil.bus = 20 + 0.02 * n;  // another slope in every period
+    const double now = paper.Period(coil.Period(kInPhase, 0.5))[0];
+    looks += now != before ? 1 : 0;
+    before = now;
+  }
+  EXPECT_EQ(looks, 10);  // 1.75 ms are 43.75 periods: the first one at or after it, 44
+}
+
+TEST(CurrentErrorDetector, FollowsAStepAndNamesALostCurrent) {
+  IdealCoil coil;
+  CurrentErrorDetector detector(coil.setup);
+  MeasuredPeriod in = coil.Period(kInPhase, 0.5);
+  for (Lane& sample : coil.adc)
+    for (double& v : sample.v) v = 2;
+  for (int n = 0; n < 20; ++n) EXPECT_LT(detector.Period(in)[0], 1e-9);
+  // A step of the set-point that the loop follows with its lag L/kp = 0.49 ms.
+  for (double& i : coil.set.v) i = 3;
+  double lag = 0;
+  for (int n = 0; n < 100; ++n) {
+    lag += (1 - lag) * kT * 4 / kInPhase;
+    in = coil.Period(kInPhase, 0.5);
+    for (Lane& sample : coil.adc)
+      for (double& v : sample.v) v = 2 + lag;
+    EXPECT_LT(detector.Period(in)[0], 1e-9) << n;
+  }
+  // The current is gone: after five periods in a row the error is the set-point.
+  for (int n = 0; n < 5; ++n) {
+    for (Lane& sample : coil.adc) sample[4] = 0;
+    const Lane s = detector.Period(in);
+    EXPECT_NEAR(s[4], n < 4 ? 0 : 3, 0.01) << n;
+    EXPECT_LT(s[3], 0.01);
+  }
+}
+
+// The statistic is the shipped detector's: its alarm comes in the period in which the sum passes 9.
+TEST(CoupledDetector, PassesNineWhereTheDetectorAlarms) {
+  for (int coil = 0; coil < kLanes; ++coil) {
+    Bench bench;
+    bench.noise = 0.004;
+    bench.seed = static_cast<std::uint64_t>(coil) + 1;
+    const CoilDetectorSetup setup = SetupOf(bench);
+    CoupledDetector statistic(setup);
+    BearingDetector detector(setup.model, setup.settings);
+    int over = -1, raised = -1;
+    for (int n = 0; n < 100 && raised < 0; ++n) {
+      if (n == 60) bench.lanes.ShortTurns(coil, 0.05, INFINITY, bench.x0, bench.y0);
+      const MeasuredPeriod in = bench.Run();
+      const Lane s = statistic.Period(in);
+      if (over < 0 && *std::max_element(s.v, s.v + kLanes) > 9) {
+        over = n;
+        EXPECT_EQ(std::max_element(s.v, s.v + kLanes) - s.v, coil);
+      }
+      if (detector.Period(in).raised) raised = n;
+    }
+    EXPECT_GE(over, 60);
+    EXPECT_GE(raised, over);
+    EXPECT_LE(raised, over + 2);  // the name of the coil may take two periods more
+  }
+}
+
+TEST(StatisticLevel, FindsItsPlace) {
+  for (int k = 0; k < kStatisticLevels; ++k) EXPECT_EQ(LevelOf(ValueOf(k)), k);
+  for (int k = 1; k + 1 < kStatisticLevels; ++k) EXPECT_EQ(LevelOf(0.5 * (ValueOf(k) + ValueOf(k + 1))), k);
+  EXPECT_EQ(LevelOf(0), 0);
+  EXPECT_EQ(LevelOf(1e300), kStatisticLevels - 1);
+  EXPECT_EQ(LevelOf(NAN), kStatisticLevels - 1);
+  EXPECT_NEAR(ValueOf(1 + 2 * kLevelsPerDecade) / ValueOf(1 + kLevelsPerDecade), 10, 1e-9);
+}
+
+}  // namespace
+}  // namespace ambrig
