@@ -31,7 +31,7 @@ void AddSupport(const SpringSupport& s, int node, LinearRotor& out) {
   k << s.kxx, s.kxy, s.kyx, s.kyy;
   c << s.cxx, s.cxy, s.cyx, s.cyy;
   out.K.block<2, 2>(x, x) += k;
-  out.C.block<2, 2>(x, x) += c;
+  out.D.block<2, 2>(x, x) += c;
 }
 
 /// Mass, first and second moment about z = 0 and polar inertia of a piece of shaft, by the theorem
@@ -89,13 +89,13 @@ BeamRotor BuildBeam(const BeamDefinition& d) {
 LinearRotor Assemble(const BeamRotor& r) {
   const int n = static_cast<int>(r.M.rows());
   LinearRotor out;
-  for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.C, &out.K}) a->setZero(2 * n, 2 * n);
+  for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.D, &out.K}) a->setZero(2 * n, 2 * n);
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b) {
       const DofMap xa = InX(a), xb = InX(b), ya = InY(a), yb = InY(b);
       const double sign = ya.sign * yb.sign;
       out.M(xa.index, xb.index) = r.M(a, b), out.M(ya.index, yb.index) = sign * r.M(a, b);
-      out.C(xa.index, xb.index) = r.C(a, b), out.C(ya.index, yb.index) = sign * r.C(a, b);
+      out.D(xa.index, xb.index) = r.C(a, b), out.D(ya.index, yb.index) = sign * r.C(a, b);
       out.K(xa.index, xb.index) = r.K(a, b), out.K(ya.index, yb.index) = sign * r.K(a, b);
       out.G(xa.index, yb.index) = yb.sign * r.J(a, b);
       out.G(ya.index, xb.index) = -ya.sign * r.J(a, b);

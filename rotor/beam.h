@@ -5,13 +5,14 @@
 /// round, so both planes share M, K, C and couple through J alone. With plane dofs (w, psi) per
 /// node:
 ///   M ux'' + C ux' + Omega J uy' + K ux = fx,   M uy'' + C uy' - Omega J ux' + K uy = fy
-/// or in all dofs   M q'' + (C + Omega G) q' + K q = f,  supports included in C and K.
+/// or in all dofs   M q'' + (D + Omega G) q' + K q = f,  supports included in D and K.
 /// z is the file's own axis, left to right; `Totals` gives the centre of mass on it. Units SI.
 #include <Eigen/Dense>
 #include <array>
 #include <string>
 #include <vector>
 
+#include "rotor/linear_rotor.h"
 #include "rotor/shaft_element.h"
 
 namespace ambrig {
@@ -76,13 +77,6 @@ struct BeamRotor {
   std::vector<SpringSupport> supports;
   BeamTheory theory;
   Eigen::MatrixXd M, J, K, C;
-};
-
-/// All dofs of a linear rotor at any speed; `xy` pairs the x and y displacements used for the whirl
-/// sense.
-struct LinearRotor {
-  Eigen::MatrixXd M, G, C, K;
-  std::vector<std::array<int, 2>> xy;
 };
 
 struct RotorTotals {

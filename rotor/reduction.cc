@@ -76,7 +76,7 @@ ModalStation StationAt(const ReducedRotor& r, double z) {
 LinearRotor Linear(const ReducedRotor& r) {
   const int n = r.modes(), size = 4 + 2 * n;
   LinearRotor out;
-  for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.C, &out.K}) a->setZero(size, size);
+  for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.D, &out.K}) a->setZero(size, size);
   out.M.diagonal().setOnes();
   out.M.diagonal().head<4>() << r.mass, r.mass, r.inertia_transverse, r.inertia_transverse;
   const auto x = [&](int k) { return k == 0 ? 3 : 3 + k; };      // beta, eta_x
@@ -90,7 +90,7 @@ LinearRotor Linear(const ReducedRotor& r) {
   out.xy.push_back({0, 1});
   for (int k = 1; k <= n; ++k) {
     for (int i : {x(k), y(k)}) {
-      out.C(i, i) = 2 * r.zeta[k - 1] * r.omega[k - 1];
+      out.D(i, i) = 2 * r.zeta[k - 1] * r.omega[k - 1];
       out.K(i, i) = r.omega[k - 1] * r.omega[k - 1];
     }
     out.xy.push_back({x(k), y(k)});
@@ -115,7 +115,7 @@ void AddSupport(const ReducedRotor& rotor, const SpringSupport& s, LinearRotor& 
   k << s.kxx, s.kxy, s.kyx, s.kyy;
   c << s.cxx, s.cxy, s.cyx, s.cyy;
   linear.K += rows.transpose() * k * rows;
-  linear.C += rows.transpose() * c * rows;
+  linear.D += rows.transpose() * c * rows;
 }
 
 }  // namespace ambrig

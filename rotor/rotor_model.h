@@ -114,6 +114,7 @@ class RotorModel {
   double Energy(const MotionState& s) const;
 
   int dof() const { return dof_; }
+  int mode_dof(std::size_t k) const { return mode_dof_[k]; }  // eta_x of mode k; eta_y follows
   const std::vector<BendingMode>& modes() const { return modes_; }
   bool HasBase() const { return base_dof_ >= 0; }
   const RotorParameters& parameters() const { return p_; }

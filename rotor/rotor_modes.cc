@@ -38,7 +38,7 @@ StateModes SolveState(const LinearRotor& r, double speed) {
     const Eigen::MatrixXd left = llt.matrixL().solve(a);
     return llt.matrixL().solve(left.transpose()).transpose();
   };
-  const Eigen::MatrixXd K = congruence(r.K), D = congruence(r.C + speed * r.G);
+  const Eigen::MatrixXd K = congruence(r.K), D = congruence(r.D + speed * r.G);
   const double scale = std::sqrt(std::max(K.cwiseAbs().maxCoeff(), 1e-300));
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
   A.topRightCorner(n, n).setIdentity();
@@ -183,7 +183,7 @@ Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor,
   }
   const Eigen::MatrixXcd dynamic = rotor.K.cast<Complex>() -
                                    speed * speed * rotor.M.cast<Complex>() +
-                                   kI * speed * (rotor.C + speed * rotor.G).cast<Complex>();
+                                   kI * speed * (rotor.D + speed * rotor.G).cast<Complex>();
   return dynamic.partialPivLu().solve(f);
 }
 
@@ -198,7 +198,12 @@ TruncatedRotor Truncate(const LinearRotor& rotor, int count) {
   const auto project = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
     return B.transpose() * a * B;
   };
-  return {{project(rotor.M), project(rotor.G), project(rotor.C), project(rotor.K), {}}, B};
+  LinearRotor modal;
+  modal.M = project(rotor.M);
+  modal.G = project(rotor.G);
+  modal.D = project(rotor.D);
+  modal.K = project(rotor.K);
+  return {modal, B};
 }
 
 }  // namespace ambrig

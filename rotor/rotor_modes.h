@@ -1,7 +1,7 @@
 #pragma once
 /// Linear rotor dynamics: modes, Campbell data, critical speeds, unbalance response.
 /// Free or pinned modes of one plane solve K phi = w² M phi. At speed Omega the whole rotor
-///   M q'' + (C + Omega G) q' + K q = f
+///   M q'' + (D + Omega G) q' + K q = f
 /// has eigenvalues s = -zeta wn ± i wd; log decrement 2 pi zeta / sqrt(1 - zeta²). A mode's motion
 /// Re(q e^{st}) turns forward with amplitude |x + i y|/2 and backward with |x - i y|/2 at each
 /// plane. Undamped critical speeds need no iteration: q = Re(Q e^{i Omega t}) gives K Q = Omega² (M

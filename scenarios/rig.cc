@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
+#include "rotor/linear_rotor.h"
 
 namespace ambrig {
 
@@ -120,6 +121,23 @@ Plant BuildPlant(const RigParameters& rig) {
     b.lanes.SetStep(h);
   }
   return plant;
+}
+
+LinearRotor LinearRotorOf(const Plant& plant, double speed) {
+  LinearRotor out = Linearise(plant.rotor, speed);
+  for (const BearingPlant& b : plant.bearings) {
+    const Eigen::Index axes = b.thrust || b.opposed ? 1 : 2;
+    LinearPort port;
+    port.name = b.name;
+    port.z = b.plane.z;
+    port.sensor_z = b.sensor.map.z;
+    port.gap = PlaneRows(plant.rotor, b.plane).topRows(axes);
+    port.C = PlaneRows(plant.rotor, b.sensor.map).topRows(axes);
+    port.B = b.thrust ? Eigen::MatrixXd(port.gap.transpose())
+                      : Eigen::MatrixXd(ForceColumns(plant.rotor, b.plane).leftCols(axes));
+    out.ports.push_back(std::move(port));
+  }
+  return out;
 }
 
 EffectTargets TargetsOfEffects(const RigParameters& rig) {

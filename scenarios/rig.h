@@ -5,8 +5,13 @@
 
 namespace ambrig {
 
+struct LinearRotor;  // rotor/linear_rotor.h
+
 /// Effects whose parameters are all null are dropped, so that null means the same bits.
 Plant BuildPlant(const RigParameters& rig);
+
+/// The rotor's linear equations at `speed` [rad/s] with one port per bearing, in the plant's order.
+LinearRotor LinearRotorOf(const Plant& plant, double speed = 0);
 
 /// Targets that effects of this rig may have.
 EffectTargets TargetsOfEffects(const RigParameters& rig);

@@ -218,7 +218,7 @@ TEST(RossFile, RoundTripInBothFormats) {
     // L.
     EXPECT_LT((after.M - before.M).norm(), 1e-11 * before.M.norm()) << name;
     EXPECT_LT((after.K - before.K).norm(), 1e-11 * before.K.norm()) << name;
-    EXPECT_LT((after.C - before.C).norm(), 1e-11 * before.C.norm()) << name;
+    EXPECT_LT((after.D - before.D).norm(), 1e-11 * before.D.norm()) << name;
     EXPECT_LT((after.G - before.G).norm(), 1e-11 * before.G.norm()) << name;
   }
 }

@@ -145,7 +145,7 @@ TEST(Friswell, CriticalSpeeds) {
     EXPECT_EQ(critical[i].whirl > 0, i % 2 == 1);
     // Identity: at a critical speed a whirl mode of the undamped rotor has that frequency.
     LinearRotor undamped = r;
-    undamped.C.setZero();
+    undamped.D.setZero();
     double nearest = 1e9;
     for (const WhirlMode& m : WhirlModes(undamped, critical[i].speed, 12))
       nearest = std::min(nearest, std::abs(m.omega_d - critical[i].speed));
@@ -338,7 +338,7 @@ MseLoop MakeMse() {
     const Eigen::MatrixXd b = StationRows(StationAt(out.rotor, bearing));
     const Eigen::MatrixXd s = StationRows(StationAt(out.rotor, sensor));
     out.closed.K += b.transpose() * (ki * kp * s - ks * b);
-    out.closed.C += ki * kd * b.transpose() * s;
+    out.closed.D += ki * kd * b.transpose() * s;
   }
   return out;
 }
