@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "faulttolerance/redistribution_table.h"
 
@@ -16,10 +17,6 @@ namespace {
 
 constexpr int kFormat = 1;  // of the enumeration and the rows: raise it when row k means another run
 constexpr std::size_t kMostRuns = 10'000'000;
-
-std::string Beside(const std::string& file, const std::string& name) {
-  return name.starts_with('/') ? name : (std::filesystem::path(file).parent_path() / name).lexically_normal().string();
-}
 
 std::vector<double> List(const TomlTable& t, const char* key, const std::vector<double>& fallback, double lo, double hi,
                          const char* unit) {
@@ -218,11 +215,6 @@ std::string ReadScenarios(const TomlTable& root, Campaign& c) {
 }
 
 }  // namespace
-
-std::uint64_t Fingerprint(std::string_view text, std::uint64_t start) {
-  for (const char ch : text) start = (start ^ static_cast<unsigned char>(ch)) * 0x100000001b3u;
-  return start;
-}
 
 std::size_t Campaign::runs() const {
   return scenarios.size() * cases.size() * phases.size() * std::max<std::size_t>(speeds.size(), 1) * loads.size() *

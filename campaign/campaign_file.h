@@ -53,7 +53,4 @@ struct Campaign {
 /// @throws InputError "file:line: key = value, allowed ..." for every mistake.
 Campaign ReadCampaign(const std::string& file);
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo): tells texts apart, no protection.
-std::uint64_t Fingerprint(std::string_view text, std::uint64_t start = 0xcbf29ce484222325u);
-
 }  // namespace ambrig

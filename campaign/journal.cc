@@ -1,15 +1,12 @@
 #include "campaign/journal.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
+#include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 
 namespace ambrig {
@@ -85,60 +82,30 @@ JournalContent ReadJournal(const std::string& folder) {
   return Parse(text, path);
 }
 
-Journal::Journal(const std::string& folder, const JournalHeader& header) : path_(PathOf(folder)) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(fmt::format("cannot write {}: {}", folder, error.message()));
-  file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-  if (file_ < 0) ThrowCannotWrite(path_, errno);
-  try {
-    if (flock(file_, LOCK_EX | LOCK_NB) != 0)
-      throw InputError(fmt::format("{}: another ambrig writes there; wait for it, or give another folder with -o", folder));
-    Begin(header);
-  } catch (...) {
-    close(file_);
-    throw;
-  }
-}
-
-Journal::~Journal() { close(file_); }
-
-void Journal::Begin(const JournalHeader& header) {
-  const std::string text = ReadFile(path_);
+Journal::Journal(const std::string& folder, const JournalHeader& header) : file_(PathOf(folder)) {
+  const std::string& path = file_.path();
+  const std::string text = ReadFile(path);
   // Without a whole first line nothing was recorded yet.
   if (text.find('\n') == std::string::npos) {
-    if (ftruncate(file_, 0) != 0) ThrowCannotWrite(path_, errno);
-    Write(Checked(HeaderText(header)));
+    file_.Truncate(0);
+    file_.Append(Checked(HeaderText(header)));
     return;
   }
-  JournalContent content = Parse(text, path_);
+  JournalContent content = Parse(text, path);
   if (content.header.fingerprint != header.fingerprint || content.header.runs != header.runs)
     throw InputError(fmt::format("{}: holds runs of {} before it, its rig or a scenario was changed; allowed: the same files, or another folder with -o",
-                                 path_, content.header.file));
+                                 path, content.header.file));
   rows_ = std::move(content.rows);
   damaged_ = content.damaged;
   // A half line is ended, so that the next one stands alone.
-  if (!text.ends_with('\n')) Write("\n");
+  if (!text.ends_with('\n')) file_.Append("\n");
 }
 
 void Journal::Append(const Row& row) {
   const std::string line = Checked(row.Csv());
   const std::scoped_lock lock(mutex_);
-  Write(line);
+  file_.Append(line);
   rows_.insert_or_assign(row.run, row);
-}
-
-void Journal::Write(const std::string& line) {
-  if (broken_) throw InputError(fmt::format("cannot write {}: an earlier line failed", path_));
-  for (std::string_view rest = line; !rest.empty();) {
-    const ssize_t n = write(file_, rest.data(), rest.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) {
-      broken_ = true;
-      ThrowCannotWrite(path_, errno);
-    }
-    rest.remove_prefix(static_cast<std::size_t>(n));
-  }
 }
 
 void WriteTable(const std::string& folder, const Rows& rows) {

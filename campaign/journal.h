@@ -8,6 +8,7 @@
 
 #include "campaign/campaign_file.h"
 #include "campaign/row.h"
+#include "core/base/append_file.h"
 
 namespace ambrig {
 
@@ -35,10 +36,6 @@ class Journal {
   /// Makes the folder, begins a journal or goes on with the one that is there (its rows are read).
   /// @throws InputError when it is of another campaign or rig, in use, or cannot be written.
   Journal(const std::string& folder, const JournalHeader& header);
-  ~Journal();
-  Journal(const Journal&) = delete;
-  Journal& operator=(const Journal&) = delete;
-
   const Rows& rows() const { return rows_; }
   std::size_t damaged() const { return damaged_; }
   /// Thread-safe; on return the line is in the system's hands. @throws InputError (full disk ...)
@@ -46,15 +43,10 @@ class Journal {
   Rows TakeRows() { return std::move(rows_); }
 
  private:
-  void Begin(const JournalHeader& header);
-  void Write(const std::string& line);
-
-  std::string path_;
-  int file_ = -1;
+  AppendFile file_;
   std::mutex mutex_;
   Rows rows_;
   std::size_t damaged_ = 0;
-  bool broken_ = false;  // a write failed: the last line may be half
 };
 
 /// FOLDER/table.csv: header and the rows by run. @throws InputError

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/read_file.h"
 #include "core/base/units.h"
 #include "core/record/csv.h"
 #include "core/record/read_record.h"
@@ -13,12 +14,6 @@
 namespace ambrig {
 
 namespace {
-
-std::string Beside(const std::string& file, const std::string& name) {
-  if (name.starts_with('/')) return name;
-  const std::string parent = std::filesystem::path(file).parent_path().string();
-  return parent.empty() ? name : parent + "/" + name;
-}
 
 /// Channels a run of this rig has, with their SI unit.
 std::map<std::string, std::string> KnownChannels(const RigParameters& rig) {

@@ -33,6 +33,7 @@ class Explainer {
  public:
   Explainer(const Case& c, const ExplainOptions& options) : options_(options), full_(c), model_(c, Thinning(c)), rig_(c.rig) {
     full_.stop = model_.stop = options.stop;
+    full_.store = model_.store = options.store;
   }
 
   Explanation Run() {

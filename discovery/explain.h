@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "discovery/floor.h"
+#include "discovery/run_store.h"
 #include "discovery/screen.h"
 
 namespace ambrig {
@@ -58,6 +59,7 @@ struct ExplainOptions {
   std::function<void(double, const std::string&)> progress;
   std::function<void(const Explanation&)> checkpoint;  // results as they come
   const std::atomic<bool>* stop = nullptr;
+  RunStore* store = nullptr;   // simulations of an earlier, interrupted call
 };
 
 Explanation Explain(const Case& c, const ExplainOptions& options);

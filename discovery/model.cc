@@ -137,7 +137,27 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   return SwitchingEngine(h.rig, scenario, options).Run().record;
 }
 
+std::pair<std::size_t, std::size_t> CaseModel::RowsOf(std::size_t record) const {
+  std::size_t first = 0, end = 0;
+  for (const Target& t : targets_) {
+    if (t.record < record) first = t.first + t.count;
+    if (t.record <= record) end = t.first + t.count;
+  }
+  return {first, end};
+}
+
 bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
+                           std::vector<double>& out) const {
+  if (!store) return SimulateRecord(rig, record, noise, seed, out);
+  const auto [first, end] = RowsOf(record);
+  const RunKey key{rig, record, noise, seed, end - first};
+  if (const std::optional<bool> known = store->Find(key, out.data() + first)) return *known;
+  const bool fine = SimulateRecord(rig, record, noise, seed, out);
+  store->Keep(key, fine, out.data() + first);
+  return fine;
+}
+
+bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                            std::vector<double>& out) const {
   Hypothesis h;
   h.rig = rig;

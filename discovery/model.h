@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "discovery/case.h"
+#include "discovery/run_store.h"
 #include "scenarios/command_plan.h"
 
 namespace ambrig {
@@ -74,8 +75,13 @@ class CaseModel {
 
   mutable std::atomic<long> runs{0};          // record simulations so far
   const std::atomic<bool>* stop = nullptr;
+  RunStore* store = nullptr;                  // looked up before a record is simulated
 
  private:
+  /// Flat rows of one record.
+  std::pair<std::size_t, std::size_t> RowsOf(std::size_t record) const;
+  bool SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
+                      std::vector<double>& out) const;
   bool FillRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                   std::vector<double>& out) const;
 

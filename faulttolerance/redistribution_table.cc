@@ -10,6 +10,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
+#include "core/base/fingerprint.h"
 
 namespace ambrig {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 constexpr int kGrid = 20;    // steps of a coil's turns
 constexpr int kVersion = 1;  // of solver and file: raise it when results change
 
-/// FNV-1a of everything the results depend on.
+/// Fingerprint of everything the results depend on.
 std::uint64_t Hash(const RedistributionProblem& p, const DistributionOptions& o) {
   std::string text = fmt::format("{} {} {} {} {} {} {}", kVersion, p.turns, p.pole_area, p.gap,
                                  p.c0, p.i_max, p.quadrants);
@@ -25,9 +26,7 @@ std::uint64_t Hash(const RedistributionProblem& p, const DistributionOptions& o)
   text += fmt::format(" {} {} {} {} {} {} {} {} {}", static_cast<int>(o.policy), o.capacity_share,
                       o.rho_floor, o.rho_needed, o.rho_same_flux, o.bias_weight, o.control_weight,
                       o.starts, o.seed);
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
+  return Fingerprint(text);
 }
 
 SolvabilityClass ClassFrom(const std::string& text) {

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <memory>
 
 #include "app/commands/commands.h"
 #include "app/report/discovery_json.h"
 #include "app/report/discovery_report.h"
 #include "app/report/progress.h"
+#include "core/base/atomic_file.h"
 
 namespace ambrig {
 
@@ -15,7 +18,7 @@ namespace {
 
 struct ExplainCommand {
   CommonOptions common;
-  std::string file;
+  std::string file, resume, law;
   int candidates = 5;
   bool verbose = false;
 };
@@ -61,12 +64,16 @@ void Print(const Explanation& e) {
 int RunExplain(const ExplainCommand& o) {
   const Case c = ReadCase(o.file);
   for (const std::string& note : c.notes) fmt::print("data: {}\n", note);
+  std::unique_ptr<RunStore> store;
+  if (!o.resume.empty()) store = std::make_unique<RunStore>(o.resume, c);
+  if (store && store->size() > 0) fmt::print("{} simulations of an interrupted call found in {}\n", store->size(), store->path());
   Explanation e;
   {
     Progress progress("explain");
     ExplainOptions options;
     options.candidates = o.candidates;
     options.stop = &interrupted;
+    options.store = store.get();
     const auto begin = std::chrono::steady_clock::now();
     options.progress = [&](double f, const std::string& text) {
       progress.Update(f, text);
@@ -84,6 +91,9 @@ int RunExplain(const ExplainCommand& o) {
   Print(e);
   o.common.WriteJson(ExplainJson(e));
   if (!o.common.html.empty()) WriteExplainReport(c, e, o.common.html);
+  if (!o.law.empty() && e.unexplained.formula.empty()) fmt::print("no law to propose: {} is not written\n", o.law);
+  if (!o.law.empty() && !e.unexplained.formula.empty()) WriteFileAtomically(o.law, e.unexplained.formula + "\n");
+  if (store) std::filesystem::remove(store->path());  // answered: nothing to go on with
   return 0;
 }
 
@@ -95,8 +105,13 @@ void AddExplain(CLI::App& app, Work& work) {
   command->add_option("case", options->file, "case file (TOML)")->required();
   command->add_option("--candidates", options->candidates, "effects fitted in full per round")->capture_default_str()->check(CLI::Range(1, 60));
   command->add_flag("--verbose", options->verbose, "print every step with its time to stderr");
+  command->add_option("--law", options->law, "verdict unknown: write the law to try here, an [[effect]] to append to the rig file")->type_name("FILE");
+  command->add_option("--resume", options->resume, "keep the simulations in this folder (some 100 MB) until the answer is written; the same command goes on where it was stopped")
+      ->type_name("FOLDER");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig explain case.toml --json answer.json --html answer.html\n"
+  command->footer("Examples:\n  ambrig explain case.toml --json answer.json --html answer.html\n"
+                  "  ambrig explain case.toml --law law.toml; cat rig.toml law.toml > rig_2.toml\n"
+                  "  ambrig explain case.toml --resume work       # Ctrl-C, then the same again: goes on\n"
                   "Intermediate results are written to the JSON file as they come (verdict \"unfinished\").");
   command->callback([options, &work] { work = [options] { return RunExplain(*options); }; });
 }

@@ -26,4 +26,8 @@ std::string ReadFile(const std::string& path, std::size_t limit) {
   return text;
 }
 
+std::string Beside(const std::string& file, const std::string& name) {
+  return name.starts_with('/') ? name : (std::filesystem::path(file).parent_path() / name).lexically_normal().string();
+}
+
 }  // namespace ambrig
