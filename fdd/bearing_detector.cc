@@ -4,20 +4,32 @@
 #include <cmath>
 
 #include "fdd/coil_examination.h"
+#include "fdd/shorted_coils.h"
 
 namespace ambrig {
 
 namespace {
 constexpr int kRing = 20;             // periods kept
 constexpr double kCalm = 1.5;          // no suspicion while every G is below
+constexpr double kCalmResidual = 4;    // and in a pause, while every residual is [sd]
 constexpr double kClosestGap = 0.4;      // of the nominal: nearer, its error rules the inductance
 constexpr int kLongestExamination = 12;
+constexpr int kTogether[] = {2, 5};    // periods that tell several shorted coils, or else
+constexpr double kGross = 6;           // [sd] residual that no noise makes
 constexpr double kPartnerMargin = 12;    // between two windings on one core: e^-6
 constexpr double kDoubt = 3;           // tolerances count this many times
 constexpr double kLeastUnknownCurrent = 1;  // [A] what a coil of unknown MMF may carry beside its reading
 constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
 constexpr int kLearnEvery = 4;         // periods
 constexpr double kForget = kLearnEvery / 500.0, kSizeRate = kLearnEvery / 200.0;
+
+/// Winding with the share `left` of its turns, the others bypassed.
+void ShortTurns(LinkageModel& m, int j, double left) {
+  m.n[j] *= left;
+  m.leakage[j] *= left * left;
+  m.resistance[j] *= left;
+}
+
 }  // namespace
 
 BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettings& settings)
@@ -191,6 +203,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   follows_ = comparable && !any_unknown_;
   if (paused_ > 0) {
     --paused_;
+    if (comparable && chart_.LargestResidual() < kCalmResidual) calm_at_ = count_;
     return out;
   }
   if (alarm_at_ < 0) {
@@ -213,7 +226,12 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
     out.coil = clear ? suspect_ : -1;
     return out;
   }
-  const Diagnosis d = Examine();
+  out.more = ExamineTogether();
+  const Diagnosis d = out.more.empty() ? Examine() : out.more.front();
+  if (!out.more.empty()) {
+    out.more.erase(out.more.begin());
+    suspect_ = d.coil;
+  }
   // A fault late in a period shows its coil only in the next one.
   const int patience = model_.coupling == Coupling::kSides ? 4 : 2;
   if (!raised_ && (suspect_clear_ || d.cls != FaultClass::kNone || count_ - alarm_at_ >= patience))
@@ -229,6 +247,29 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
   }
   alarm_at_ = -1;
   for (Lane& G : chart_.G) G = Lane{};
+  return out;
+}
+
+std::vector<Diagnosis> BearingDetector::ExamineTogether() {
+  std::vector<Diagnosis> out;
+  if (model_.coupling != Coupling::kFloatingRotor || any_unknown_) return out;
+  std::array<bool, kLanes> judged{};
+  for (int j = 0; j < model_.coils; ++j) judged[static_cast<std::size_t>(j)] = watched_[j] > 0;
+  ShortedCoils found;
+  for (int periods : kTogether)
+    if (found.coils.empty() && count_ - alarm_at_ >= periods)
+      found = FindShortedCoils(LearnedModel(), s_, LastPeriods(periods), judged);
+  for (int j : found.coils) {
+    Diagnosis d;
+    d.coil = j;
+    d.cls = FaultClass::kPartialShort;
+    d.fraction = 1 - found.turns_left[j];
+    d.time = LastPeriods(1).back()->in.t + s_.sampling.step * s_.sampling.samples;
+    d.onset = ring_[static_cast<std::size_t>((alarm_at_ - 1) % kRing)].in.t;
+    d.confidence = found.confidence;
+    Accept(d, false);
+    out.insert(j == suspect_ ? out.begin() : out.end(), d);
+  }
   return out;
 }
 
@@ -254,10 +295,35 @@ Diagnosis BearingDetector::Examine() {
     if (!suspect_clear_ && !last) return {};
   }
   if (!x.decided || x.diagnosis.cls == FaultClass::kNone) return {};
+  // What the flux of the others told is worth nothing when another coil fails meanwhile: wait.
+  if (!last && !OthersHold(model, x.diagnosis, x.closed_loop)) return {};
   Diagnosis d = x.diagnosis;
   d.time = periods.back()->in.t + s_.sampling.step * s_.sampling.samples;
   Accept(d, x.closed_loop);
   return d;
+}
+
+bool BearingDetector::OthersHold(const LinkageModel& learned, const Diagnosis& d, bool closed_loop) const {
+  const bool shorted = d.cls == FaultClass::kPartialShort;
+  if (model_.coupling != Coupling::kFloatingRotor || (!shorted && d.cls != FaultClass::kCurrentSensor)) return true;
+  LinkageModel m = learned;
+  std::array<bool, kLanes> unknown = unknown_mmf_;
+  if (shorted) ShortTurns(m, d.coil, 1 - d.fraction);
+  unknown[static_cast<std::size_t>(d.coil)] = !shorted || closed_loop;
+  const bool any = std::any_of(unknown.begin(), unknown.end(), [](bool b) { return b; });
+  for (const KeptPeriod* p : LastPeriods(2)) {
+    PeriodSlopes now;
+    if (any)
+      ComputePeriodSlopesUnknownMmf(m, s_.sampling, p->in, unknown, &now);
+    else
+      ComputePeriodSlopes(m, s_.sampling, p->in, &now);
+    for (int q = 0; q < 2; ++q)
+      for (int j = 0; j < m.coils; ++j)
+        if (j != d.coil && Holds(q, j) && now.phase[q].least[j] > kZeroCurrent && now.phase[q].samples[j] >= kFewestSamples &&
+            std::abs(now.phase[q].residual[j]) > kGross * chart_.sd[q][j])
+          return false;
+  }
+  return true;
 }
 
 void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
@@ -265,10 +331,7 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
   const int j = d.coil;
   switch (d.cls) {
     case FaultClass::kPartialShort: {
-      const double a = 1 - d.fraction;
-      model_.n[j] *= a;
-      model_.leakage[j] *= a * a;
-      model_.resistance[j] *= a;
+      ShortTurns(model_, j, 1 - d.fraction);
       state_[lane] = closed_loop ? Coil::kUnknownMmf : Coil::kShort;
       unknown_mmf_[lane] = closed_loop;
       chart_.size[0][j] = chart_.size[1][j] = 2.4;  // the fraction is an estimate: wider until learned

@@ -12,7 +12,8 @@
 /// the maker's tolerances; what is not learned yet widens s), and s follows each coil's long-term residual.
 /// Suspect: the coil without whose current all other coils obey their equations best.
 /// Examining: after an alarm the raw samples of the last periods are tested against all fault
-/// hypotheses (coil_examination.h) until one is certain or the alarm is cleared.
+/// hypotheses (coil_examination.h) until one is certain or the alarm is cleared; shorts of several coils
+/// at once are tested together (shorted_coils.h).
 /// Afterwards the model knows the fault (masked coil, fewer turns) and watching goes on.
 ///
 /// Where the MMF of a coil is not known (false or clipped reading, current in shorted turns), its change
@@ -52,6 +53,7 @@ class BearingDetector {
     bool cleared = false;
     int coil = -1;
     Diagnosis diagnosis;           // cls other than kNone: decided in this period
+    std::vector<Diagnosis> more;   // of other coils, decided together with it
   };
 
   BearingDetector(const LinkageModel& model, const DetectorSettings& settings);
@@ -86,6 +88,10 @@ class BearingDetector {
   int Suspect(const std::vector<const KeptPeriod*>& periods, bool* clear) const;
   std::vector<const KeptPeriod*> LastPeriods(long long n) const;
   Diagnosis Examine();
+  /// Coils whose turns were shorted together, when that explains all that is seen; else empty.
+  std::vector<Diagnosis> ExamineTogether();
+  /// Whether the coils beside the diagnosed one obey their equations when it is as `d` says.
+  bool OthersHold(const LinkageModel& learned, const Diagnosis& d, bool closed_loop) const;
   void Accept(const Diagnosis& d, bool closed_loop);
 
   LinkageModel model_;

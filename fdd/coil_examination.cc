@@ -263,7 +263,8 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
 std::size_t FindOnset(const LinkageModel& m, const DetectorSettings& s, const std::vector<const KeptPeriod*>& periods,
                       std::size_t calm, int j) {
   std::vector<Window> w;
-  for (std::size_t n = 0; n < periods.size(); ++n) {
+  // What was calm stays out: before an earlier fault was accepted, the model of now does not hold.
+  for (std::size_t n = calm; n < periods.size(); ++n) {
     w.clear();
     AddWindows(m, s, *periods[n], j, &w);
     if (m.coupling == Coupling::kSides) AddWindows(m, s, *periods[n], j ^ 1, &w);  // one onset for both

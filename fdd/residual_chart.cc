@@ -97,6 +97,13 @@ double ResidualChart::LargestSum() const {
   return most;
 }
 
+double ResidualChart::LargestResidual() const {
+  double most = 0;
+  for (const Lane& one : z)
+    for (double v : one.v) most = std::max(most, std::abs(v));
+  return most;
+}
+
 double LargestStep(const Lane& before, const Lane& after, const Lane& expected, double step) {
   return StepOf(before, after, expected, 1 / step);
 }

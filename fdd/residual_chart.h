@@ -37,6 +37,7 @@ struct ResidualChart {
   /// Adds the period; returns the largest G.
   double Cusum(const ChartSettings& s);
   double LargestSum() const;
+  double LargestResidual() const;  // |z|
 };
 
 /// Largest unexplained step of a linkage between the last sample of one period and the first of the

@@ -100,8 +100,13 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, st
   if (alarm.cleared) events.push_back({t, "alarm_cleared", name, "", 0});
   if (alarm.diagnosis.cls == FaultClass::kNone) return;
   events.push_back({t, "classified", name, ToText(alarm.diagnosis.cls), alarm.diagnosis.fraction});
+  for (const Diagnosis& d : alarm.more) {
+    events.push_back({t, "detected", CoilName(w.bearing->name, d.coil), "", 0});
+    events.push_back({t, "classified", CoilName(w.bearing->name, d.coil), ToText(d.cls), d.fraction});
+  }
   if (!options_.redistribute) return;
   Disable(w, alarm.diagnosis, control[k]);
+  for (const Diagnosis& d : alarm.more) Disable(w, d, control[k]);
   // Set-points that come from outside are not spread over other coils.
   if (m.position_loop) Redistribute(w, alarm.diagnosis, control[k], events);
 }

@@ -181,6 +181,36 @@ INSTANTIATE_TEST_SUITE_P(Faults, EveryClass,
                                            Case{"current-sensor", "offset = 0.5"},
                                            Case{"current-sensor", "stuck = true"}));
 
+// Each half-short alone is easy; two at once each spoil the flux that the other one is judged by.
+TEST(FaultSupervisor, HalfShortsTogetherAreNamedAndTheRotorStays) {
+  for (const std::vector<int>& set : {std::vector<int>{2, 3}, {1, 4}, {1, 2, 3}, {1, 2, 3, 4, 5, 6, 7, 8}}) {
+    std::string s = Spin(0.06, 157, 3);
+    for (int coil : set) s += Fault(0.02, fmt::format("A.coil{}", coil), "partial-short", "fraction = 0.5");
+    const Outcome o = Simulated(s, Rig());
+    for (int coil : set) {
+      const std::string target = fmt::format("A.coil{}", coil);
+      EXPECT_EQ(o.Class(target), "partial-short") << target << " of " << set.size();
+      EXPECT_NEAR(o.Fraction(target), 0.5, 0.03) << target << " of " << set.size();
+    }
+    EXPECT_EQ(o.result.metrics.false_alarms, 0);
+    EXPECT_LT(o.result.metrics.redistribution_delay, 0.3e-3);
+    EXPECT_LT(o.result.metrics.max_orbit.at("A"), 40e-6) << set.size();
+  }
+}
+
+// The second fault comes while the first is examined, or in the pause after it.
+TEST(FaultSupervisor, ShortsWithinAHalfMillisecondAreNamed) {
+  for (double gap : {60e-6, 120e-6, 180e-6, 260e-6, 400e-6}) {
+    const Outcome o = Simulated(Spin(0.03, 157, 5) + Fault(0.02, "A.coil3", "partial-short", "fraction = 0.5") +
+                                    Fault(0.02 + gap, "A.coil6", "partial-short", "fraction = 0.2"),
+                                Rig());
+    EXPECT_EQ(o.Class("A.coil3"), "partial-short") << gap;
+    EXPECT_EQ(o.Class("A.coil6"), "partial-short") << gap;
+    EXPECT_NEAR(o.Fraction("A.coil3"), 0.5, 0.05) << gap;
+    EXPECT_NEAR(o.Fraction("A.coil6"), 0.2, 0.05) << gap;
+  }
+}
+
 TEST(FaultSupervisor, NoAlarmWhileHealthy) {
   // Whirl at 60 % of the clearance, load steps and a run-up; rigs drawn from their tolerances.
   double coil_periods = 0;
