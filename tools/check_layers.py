@@ -15,7 +15,7 @@ MAY_INCLUDE = {
     "scenarios": "core actuators rotor control fdd faulttolerance effects",
     "discovery": "core effects scenarios",
     "campaign": "core faulttolerance scenarios",
-    "analysis": "core actuators rotor control scenarios",
+    "analysis": "core actuators rotor control faulttolerance scenarios",
     "app": "core effects scenarios discovery campaign analysis faulttolerance",
     "bench": "core actuators rotor control fdd faulttolerance effects scenarios discovery",
 }

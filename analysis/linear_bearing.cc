@@ -1,0 +1,83 @@
+#include "analysis/linear_bearing.h"
+
+#include <cmath>
+
+#include "scenarios/coil_network.h"
+
+namespace ambrig {
+
+namespace {
+
+std::size_t U(int k) { return static_cast<std::size_t>(k); }
+
+/// d²R/dg² of a pole's reluctance [1/(H m²)]: zero but for fringing.
+double Curvature(const GapReluctance& r, double g) {
+  const double a = 1 + r.fringing * g / r.gap0;
+  return -2 * r.per_metre * r.fringing / (r.gap0 * a * a * a);
+}
+
+/// Force of a change (dphi, dx, dy): f_p = R'(g) φ²/2 along the pole, g' = -d.
+Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s, const NetworkRates& rate,
+                            double x, double y, double dx, double dy) {
+  Eigen::Vector2d out = Eigen::Vector2d::Zero();
+  const int per_pole = lanes.coupling == Coupling::kSides ? 2 : 1;
+  for (int j = 0; j < lanes.coils; j += per_pole) {
+    const Eigen::Vector2d d(lanes.direction_x[j], lanes.direction_y[j]);
+    const double g = lanes.gap_offset[j] - d.x() * x - d.y() * y, phi = s.phi[U(j / per_pole)];
+    const double closing = d.x() * dx + d.y() * dy;
+    out += d * (lanes.reluctance.Slope(g) * phi * rate.phi[U(j / per_pole)] -
+                0.5 * Curvature(lanes.reluctance, g) * closing * phi * phi);
+  }
+  return out;
+}
+
+}  // namespace
+
+Eigen::MatrixXd LinearBearing::ForceOfCurrent() const { return F_lambda * Inductance(); }
+
+Eigen::Matrix2d LinearBearing::NegativeStiffness() const { return F_r - ForceOfCurrent() * I_r; }
+
+LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, double x, double y) {
+  CoilNetwork network(lanes);
+  LinearBearing out;
+  double carried[kMaxWindings] = {}, lambda[kMaxWindings] = {}, slope[kMaxWindings] = {};
+  for (int j = 0; j < lanes.coils; ++j) {
+    network.windings[U(j)].conducts = !lanes.unipolar || current[j] > 0;
+    network.windings[U(j)].broken = lanes.open[U(j)];
+    if (!network.windings[U(j)].conducts || lanes.open[U(j)]) continue;
+    carried[j] = current[j];
+    out.coils.push_back(j);
+  }
+  network.Linkages(carried, x, y, lambda);
+  NetworkState s;
+  network.Solve(lambda, x, y, s);
+  const auto n = static_cast<Eigen::Index>(out.coils.size());
+  out.current.resize(n);
+  out.resistance.resize(n);
+  out.I_lambda.resize(n, n);
+  out.I_r.resize(n, 2);
+  out.F_lambda.resize(2, n);
+  const auto column = [&](const NetworkRates& rate, auto&& to) {
+    for (Eigen::Index k = 0; k < n; ++k) to(k) = rate.i[U(out.coils[U(static_cast<int>(k))])];
+  };
+  NetworkRates rate;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const int coil = out.coils[U(static_cast<int>(k))];
+    out.current(k) = current[coil];
+    out.resistance(k) = lanes.resistance[coil];
+    slope[coil] = 1;
+    network.Rates(s, slope, x, y, 0, 0, rate);
+    slope[coil] = 0;
+    column(rate, out.I_lambda.col(k));
+    out.F_lambda.col(k) = ForceChange(lanes, s, rate, x, y, 0, 0);
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const double dx = axis == 0, dy = axis == 1;
+    network.Rates(s, slope, x, y, dx, dy, rate);
+    column(rate, out.I_r.col(axis));
+    out.F_r.col(axis) = ForceChange(lanes, s, rate, x, y, dx, dy);
+  }
+  return out;
+}
+
+}  // namespace ambrig

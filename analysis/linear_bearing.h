@@ -1,0 +1,39 @@
+#pragma once
+/// First derivatives of one bearing's magnetic circuit at an operating point, exact (the circuit's
+/// own rate equations, scenarios/coil_network.h, give them; no differences):
+///
+///   δi = I_λ δλ + I_r δr            currents of the coils that carry    [A]
+///   δf = F_λ δλ + F_r δr            force on the rotor                  [N]
+///
+/// and from them at constant current, what a bearing's data sheet calls k_i and k_s:
+///   δf = F_λ I_λ⁻¹ δi + (F_r - F_λ I_λ⁻¹ I_r) δr
+///
+/// r is the shaft centre at the bearing plane in stator axes (x, y) [m]; of a thrust bearing z, of an
+/// opposed pair its own axis, along x. Source: shared/design/physics.md section 2.
+#include <Eigen/Dense>
+#include <vector>
+
+#include "actuators/stator_lanes.h"
+
+namespace ambrig {
+
+struct LinearBearing {
+  std::vector<int> coils;      // lanes of the n coils that carry current
+  Eigen::VectorXd current;     // (n) at the operating point [A]
+  Eigen::VectorXd resistance;  // (n) [ohm]
+  Eigen::MatrixXd I_lambda;    // (n x n) [1/H]
+  Eigen::MatrixXd I_r;         // (n x 2) at constant linkage [A/m]
+  Eigen::MatrixXd F_lambda;    // (2 x n) [N/Wb]
+  Eigen::Matrix2d F_r;         // at constant linkage [N/m]
+
+  Eigen::MatrixXd Inductance() const { return I_lambda.inverse(); }  // (n x n) [H]
+  Eigen::MatrixXd ForceOfCurrent() const;                            // (2 x n) k_i per coil [N/A]
+  /// df/dr at constant current [N/m]; positive pulls away from the centre.
+  Eigen::Matrix2d NegativeStiffness() const;
+};
+
+/// At these coil currents [A] with the shaft at (x, y). Coils told 0 A are blocked by their diodes
+/// when the bridges have two quadrants.
+LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, double x, double y);
+
+}  // namespace ambrig

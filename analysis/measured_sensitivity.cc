@@ -1,0 +1,83 @@
+#include "analysis/measured_sensitivity.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "analysis/operating_point.h"
+#include "core/math/constants.h"
+#include "scenarios/simulate.h"
+
+namespace ambrig {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Least squares of mean + drift + Re(a e^{iωt}) on samples at t_k. Returns a.
+Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, double omega) {
+  Eigen::MatrixXd basis(static_cast<Eigen::Index>(t.size()), 4);
+  Eigen::VectorXd value(basis.rows());
+  for (Eigen::Index k = 0; k < basis.rows(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    basis.row(k) << 1, t[i] - t.front(), std::cos(omega * t[i]), std::sin(omega * t[i]);
+    value(k) = y[i];
+  }
+  const Eigen::Vector4d c = basis.colPivHouseholderQr().solve(value);
+  return {c(2), -c(3)};
+}
+
+/// Force commands of one axis of bearing `b`, from its set-points: v by least squares over the coils.
+std::vector<double> Commands(const Record& record, const OperatingPoint& point, std::size_t b, std::size_t side) {
+  const BearingControl& control = point.sampled->control[b];
+  const Eigen::Index columns = point.sampled->bearings[b].axes > 1 ? 3 : 2;
+  const Eigen::MatrixXd W = control.map.W.topLeftCorner(control.coils, columns);
+  const Eigen::RowVectorXd row = (W.transpose() * W).ldlt().solve(W.transpose()).row(1 + static_cast<Eigen::Index>(side));
+  std::vector<double> f(record.rows(), 0.0);
+  for (int j = 0; j < control.coils; ++j) {
+    const Channel* set = record.Find(fmt::format("{}.s{}", control.name, j + 1));
+    Require(set != nullptr, "set-points in the record");
+    for (std::size_t k = 0; k < f.size(); ++k) f[k] += control.map.k * control.map.c0 * row(j) * set->samples[k];
+  }
+  return f;
+}
+
+}  // namespace
+
+Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test, const std::atomic<bool>* stop) {
+  const OperatingPoint point = FindOperatingPoint(rig);
+  std::size_t bearing = 0;
+  for (const SampledBearing& b : point.sampled->bearings)
+    if (test.axis >= b.first_axis) bearing = b.index;
+  Scenario s;
+  s.name = "sensitivity " + point.Axes()[test.axis];
+  s.noise = false;
+  s.fault_tolerant = false;
+  s.speed = SpeedProfile(std::vector<std::vector<double>>{{0.0, test.speed}});
+  s.record_rate = rig.controller.rate;
+  s.duration = test.settle + test.cycles / test.frequency;
+  Excitation e;
+  e.target = point.Axes()[test.axis];
+  e.port = "force";
+  e.kind = "sine";
+  e.frequency = test.frequency;
+  e.amplitude = test.amplitude;
+  e.stop = s.duration + 1;
+  s.excitations = {e};
+  SimulateOptions options;
+  options.stop = stop;
+  const Record record = Simulate(rig, s, options).record;
+  const std::vector<double> f = Commands(record, point, bearing, test.axis - point.sampled->bearings[bearing].first_axis);
+  // A row's set-points were computed one tick earlier, from the excitation at that instant.
+  const double Ts = 1 / rig.controller.rate, omega = 2 * kPi * test.frequency;
+  std::vector<double> t, y;
+  for (std::size_t k = 0; k < f.size(); ++k)
+    if (const double at = record.TimeAt(k) - Ts; at >= test.settle) {
+      t.push_back(at);
+      y.push_back(f[k]);
+    }
+  return FitSine(t, y, omega) / (test.amplitude * Complex(0, -1));  // amplitude * sin ωt
+}
+
+}  // namespace ambrig

@@ -1,0 +1,145 @@
+#include "analysis/rig_analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/iso14839.h"
+#include "analysis/measured_sensitivity.h"
+#include "core/math/constants.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kSweep = 161;   // speeds of the sweeps; every fourth has its modes too
+constexpr int kModes = 4;    // of the rotor alone
+
+class Analysis {
+ public:
+  Analysis(const RigParameters& rig, const AnalysisOptions& options) {
+    out_.options = options;
+    out_.point = FindOperatingPoint(rig);
+  }
+
+  RigAnalysis Run(const RigParameters& rig) {
+    Say(0, "operating point");
+    out_.capacity = FindCapacity(out_.point);
+    out_.supports = AnalyseSupports(out_.point, kModes);
+    AtOperatingSpeeds();
+    OverSpeed();
+    Judge();
+    Measure(rig);
+    return std::move(out_);
+  }
+
+ private:
+  void Say(double fraction, const std::string& text) const {
+    if (out_.options.stop && out_.options.stop->load()) throw Interrupted();
+    if (out_.options.progress) out_.options.progress(fraction, text);
+  }
+
+  void AtOperatingSpeeds() {
+    std::vector<double> speeds = {0, out_.options.lowest, out_.options.highest};
+    std::sort(speeds.begin(), speeds.end());
+    speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
+    for (double speed : speeds) {
+      Say(0.02 + 0.04 * static_cast<double>(out_.sensitivity.size()), "sensitivity");
+      const ClosedLoop loop(out_.point, speed);
+      const TransferFunction transfer(out_.point, loop);
+      out_.sensitivity.push_back(FindSensitivity(out_.point, transfer, out_.options.highest));
+      const std::vector<double>& f = out_.sensitivity.back().frequency;
+      if (speed == 0) {
+        Say(0.05, "dynamic stiffness");
+        std::vector<double> some;
+        for (std::size_t k = 0; k < f.size(); k += 3) some.push_back(f[k]);
+        out_.stiffness = FindStiffness(out_.point, transfer, some);
+      }
+      if (speed == speeds.back()) Responses(transfer, f);
+    }
+  }
+
+  void Responses(const TransferFunction& transfer, const std::vector<double>& frequency) {
+    for (const auto& [input, output] : out_.options.responses) {
+      const auto in = transfer.FindInput(input);
+      const auto to = transfer.FindOutput(output);
+      ResponseCurve curve{input, output, fmt::format("{}/{}", to.unit, in.unit), frequency, {}};
+      for (double f : frequency) curve.values.push_back(transfer.Between(in, to, 2 * kPi * f));
+      out_.responses.push_back(std::move(curve));
+    }
+  }
+
+  void OverSpeed() {
+    std::vector<ClosedLoop> loops;
+    for (int k = 0; k < kSweep; ++k) {
+      Say(0.15 + 0.55 * k / kSweep, "modes and unbalance over speed");
+      const double speed = out_.options.fastest * k / (kSweep - 1);
+      ClosedLoop loop(out_.point, speed);
+      if (k % 4 == 0) out_.rows.push_back(FindModes(out_.point, loop));
+      if (k > 0) loops.push_back(std::move(loop));
+    }
+    out_.tracks = FollowModes(out_.rows);
+    out_.criticals = FindCriticals(out_.tracks);
+    Say(0.7, "unbalance response");
+    out_.unbalance = SweepUnbalance(out_.point, loops, StandardUnbalance(out_.point, out_.options.highest));
+  }
+
+  void Judge() {
+    const AnalysisOptions& o = out_.options;
+    for (const UnbalanceSweep& sweep : out_.unbalance)
+      for (const OrderTrack& track : sweep.tracks) {
+        DisplacementRow row{track.bearing, sweep.unbalance.name, 0, 0, 'A'};
+        const BearingParameters* b = out_.point.rig().Find(track.bearing);
+        row.clearance = b->auxiliary ? b->auxiliary->clearance : b->radial.gap;
+        for (std::size_t k = 0; k < sweep.speed.size(); ++k) {
+          const double step = o.fastest / (kSweep - 1);  // the nearest speeds of the sweep count too
+          if (sweep.speed[k] >= o.lowest - step && sweep.speed[k] <= o.highest + step)
+            row.largest = std::max(row.largest, track.amplitude[k]);
+        }
+        row.zone = DisplacementZone(row.largest / row.clearance);
+        out_.displacement.push_back(row);
+        for (const ResponsePeak& peak : track.peaks)
+          out_.separation.push_back({track.bearing, sweep.unbalance.name, peak,
+                                     JudgeSeparation(peak.speed, peak.amplification, o.lowest, o.highest)});
+      }
+  }
+
+  void Measure(const RigParameters& rig) {
+    const int count = out_.options.measured;
+    if (count == 0) return;
+    const ClosedLoop loop(out_.point, 0);
+    const TransferFunction transfer(out_.point, loop);
+    const double low = 20, high = std::min(2000.0, 0.4 / loop.Ts());
+    for (std::size_t a = 0; a < out_.capacity.size(); ++a)
+      for (int k = 0; k < count; ++k) {
+        Say(0.75 + 0.25 * (static_cast<double>(a) + static_cast<double>(k) / count) / static_cast<double>(out_.capacity.size()),
+            "sines injected into the switching rig");
+        SineTest test;
+        test.axis = a;
+        test.frequency = low * std::pow(high / low, count > 1 ? k / (count - 1.0) : 0.5);
+        test.amplitude = out_.options.sine > 0 ? out_.options.sine : 0.01 * out_.capacity[a].usable();
+        MeasuredPoint point{a, test.frequency, MeasureSensitivity(rig, test, out_.options.stop), 0};
+        const auto axis = static_cast<Eigen::Index>(a);
+        point.computed = transfer(2 * kPi * test.frequency)(loop.Command(axis), loop.Excitation(axis));
+        out_.measured.push_back(point);
+      }
+  }
+
+  RigAnalysis out_;
+};
+
+}  // namespace
+
+bool RigAnalysis::stable() const {
+  return std::all_of(rows.begin(), rows.end(), [](const ClosedLoopModes& r) { return r.stable(); });
+}
+
+RigAnalysis Analyse(const RigParameters& rig, const AnalysisOptions& o) {
+  if (!(o.lowest >= 0 && o.highest >= o.lowest && o.fastest > 0 && o.fastest >= o.highest))
+    throw InputError(fmt::format("speeds {} to {} rad/s, fastest {} rad/s: allowed are 0 <= lowest <= highest <= fastest, fastest > 0",
+                                 o.lowest, o.highest, o.fastest));
+  return Analysis(rig, o).Run(rig);
+}
+
+}  // namespace ambrig

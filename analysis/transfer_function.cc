@@ -1,0 +1,99 @@
+#include "analysis/transfer_function.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include "core/math/constants.h"
+
+namespace ambrig {
+
+namespace {
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::VectorXcd;
+}  // namespace
+
+TransferFunction::TransferFunction(const OperatingPoint& point, const ClosedLoop& loop)
+    : loop_(loop), axes_(point.Axes()) {
+  for (const PlantCoil& c : loop.plant().coils)
+    coils_.push_back(fmt::format("{}.i{}", point.rig().bearings[c.bearing].name, c.lane + 1));
+  const Eigen::ComplexSchur<MatrixXcd> schur(loop.Phi.cast<Complex>());
+  Require(schur.info() == Eigen::Success, "converged eigenvalues of the closed loop");
+  T_ = schur.matrixT();
+  U_ = schur.matrixU();
+  eigenvalues_ = T_.diagonal();
+  Gamma_T_ = U_.adjoint() * loop.Gamma.cast<Complex>();
+  C_U_ = loop.C.cast<Complex>() * U_;
+}
+
+MatrixXcd TransferFunction::operator()(double omega) const {
+  MatrixXcd shifted = -T_;
+  shifted.diagonal().array() += std::polar(1.0, omega * loop_.Ts());
+  return C_U_ * shifted.triangularView<Eigen::Upper>().solve(Gamma_T_) + loop_.D.cast<Complex>();
+}
+
+VectorXcd TransferFunction::Harmonic(const HarmonicInput& in) const {
+  MatrixXcd shifted = -T_;
+  shifted.diagonal().array() += std::polar(1.0, in.omega * loop_.Ts());
+  const VectorXcd disturbance = U_.adjoint() * loop_.Disturbance(in);
+  return C_U_ * shifted.triangularView<Eigen::Upper>().solve(disturbance);
+}
+
+VectorXcd TransferFunction::LoadOn(Index axis) const {
+  for (const LinearPort& p : loop_.plant().rotor.ports) {
+    if (axis < p.gap.rows()) return p.gap.row(axis).transpose().cast<Complex>();
+    axis -= p.gap.rows();
+  }
+  throw std::logic_error("an axis of the rig");
+}
+
+TransferFunction::Input TransferFunction::FindInput(const std::string& channel) const {
+  for (Index a = 0; a < loop_.axes(); ++a) {
+    const std::string& axis = axes_[static_cast<std::size_t>(a)];
+    if (channel == axis + ".reference") return {loop_.Reference(a), false, "m"};
+    if (channel == axis + ".force") return {loop_.Excitation(a), false, "N"};
+    if (channel == axis + ".sensor") return {loop_.SensorError(a), false, "m"};
+    if (channel == axis + ".load") return {a, true, "N"};
+  }
+  throw InputError(fmt::format("input channel \"{}\", allowed: .reference, .force, .sensor or .load of {}",
+                               channel, fmt::join(axes_, ", ")));
+}
+
+TransferFunction::Output TransferFunction::FindOutput(const std::string& channel) const {
+  for (Index a = 0; a < loop_.axes(); ++a) {
+    const std::string& axis = axes_[static_cast<std::size_t>(a)];
+    if (channel == axis) return {loop_.Reading(a), "m"};
+    if (channel == axis + ".command") return {loop_.Command(a), "N"};
+    if (channel == axis + ".shaft") return {loop_.Position(a), "m"};
+    if (channel == axis + ".magnet") return {loop_.Force(a), "N"};
+  }
+  for (std::size_t c = 0; c < coils_.size(); ++c)
+    if (channel == coils_[c]) return {loop_.Current(static_cast<Index>(c)), "A"};
+  throw InputError(fmt::format("output channel \"{}\", allowed: {} alone or with .command, .shaft, .magnet; a coil's current as {}",
+                               channel, fmt::join(axes_, ", "), coils_.empty() ? "A.i1" : coils_.front()));
+}
+
+Complex TransferFunction::Between(const Input& in, const Output& out, double omega) const {
+  if (in.load) return Harmonic({omega, LoadOn(in.column)})(out.row);
+  return (*this)(omega)(out.row, in.column);
+}
+
+std::vector<double> FrequencyGrid(const TransferFunction& transfer, double low, double high, int count) {
+  std::vector<double> f;
+  for (int k = 0; k < count; ++k) f.push_back(low * std::pow(high / low, k / (count - 1.0)));
+  for (const Complex& z : transfer.eigenvalues()) {
+    const Complex s = std::log(z) / transfer.loop().Ts();
+    const double centre = s.imag() / (2 * kPi), half = std::abs(s.real()) / (2 * kPi);
+    if (!(centre > low && centre < high) || half > 0.3 * centre) continue;
+    for (int k = -6; k <= 6; ++k)
+      if (const double at = centre + 0.5 * k * half; at > low && at < high) f.push_back(at);
+  }
+  std::sort(f.begin(), f.end());
+  f.erase(std::unique(f.begin(), f.end()), f.end());
+  return f;
+}
+
+}  // namespace ambrig

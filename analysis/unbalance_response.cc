@@ -1,0 +1,122 @@
+#include "analysis/unbalance_response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "analysis/closed_loop_modes.h"
+#include "core/math/constants.h"
+#include "rotor/rotor_modes.h"
+
+namespace ambrig {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Crossing of `level` next to `peak` in direction `step`; 0: none inside the sweep.
+double HalfPower(const std::vector<double>& x, const std::vector<double>& y, std::size_t peak, int step, double level) {
+  for (std::size_t k = peak;; k += static_cast<std::size_t>(step)) {
+    const std::size_t next = k + static_cast<std::size_t>(step);
+    if (next >= x.size()) return 0;  // beyond either end (unsigned)
+    if (y[next] > y[peak]) return 0;
+    if (y[next] <= level) return std::lerp(x[k], x[next], (y[k] - level) / (y[k] - y[next]));
+  }
+}
+
+/// Maxima with both neighbours lower, top refined by a parabola.
+std::vector<ResponsePeak> FindPeaks(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<ResponsePeak> out;
+  for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+    if (!(y[k] > y[k - 1] && y[k] >= y[k + 1])) continue;
+    const double left = HalfPower(x, y, k, -1, y[k] * std::numbers::sqrt2 / 2);
+    const double right = HalfPower(x, y, k, 1, y[k] * std::numbers::sqrt2 / 2);
+    const double bend = y[k - 1] - 2 * y[k] + y[k + 1];
+    const double shift = bend < 0 ? 0.5 * (y[k - 1] - y[k + 1]) / bend : 0;
+    ResponsePeak peak;
+    peak.speed = x[k] + shift * 0.5 * (x[k + 1] - x[k - 1]);
+    peak.amplitude = y[k];
+    if (left > 0 && right > left) peak.amplification = peak.speed / (right - left);
+    out.push_back(peak);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<UnbalanceCase> StandardUnbalance(const OperatingPoint& point, double rated) {
+  std::vector<UnbalanceCase> cases = {{"static", {}}, {"couple", {}}, {"middle", {}}};
+  const double rpm = rated * 30 / kPi;
+  if (rpm <= 0) return {};
+  const RigParameters& rig = point.rig();
+  // Static share of the mass per radial bearing, as if gravity were radial.
+  std::vector<const BearingParameters*> radial;
+  for (const BearingParameters& b : rig.bearings)
+    if (b.kind == BearingKind::kRadial) radial.push_back(&b);
+  double n = 0, sz = 0, szz = 0;
+  for (const auto* b : radial) {
+    n += 1;
+    sz += b->z;
+    szz += b->z * b->z;
+  }
+  const double kilogram_metre = 6350.0 / rpm * 1e-6;  // per kg of load
+  double total = 0;
+  for (std::size_t k = 0; k < radial.size(); ++k) {
+    const double det = n * szz - sz * sz;
+    const double load = rig.rotor.mass * (det > 0 ? std::abs((szz - radial[k]->z * sz) / det) : 1 / n);
+    cases[0].planes.push_back({radial[k]->z, kilogram_metre * load, 0});
+    cases[1].planes.push_back({radial[k]->z, kilogram_metre * load, k % 2 == 0 ? 0 : kPi});
+    total += kilogram_metre * load;
+  }
+  cases[2].planes.push_back({0, total, 0});
+  if (radial.empty()) return {};
+  return cases;
+}
+
+Eigen::VectorXcd UnbalanceAt(const OperatingPoint& point, const ClosedLoop& loop, const UnbalanceCase& unbalance) {
+  HarmonicInput in;
+  in.omega = loop.speed();
+  in.pushed = Eigen::VectorXcd::Zero(loop.plant().m());
+  for (const PlaneUnbalance& u : unbalance.planes) {
+    // u Ω² (cos(Ωt + phase), sin(Ωt + phase)) at its plane: it turns with the shaft.
+    const Complex f = u.magnitude * in.omega * in.omega * std::polar(1.0, u.phase);
+    in.pushed += ShaftRows(point, loop.plant(), u.z).transpose().cast<Complex>() *
+                 Eigen::Vector2cd(f, f * Complex(0, -1));
+  }
+  return loop.Harmonic(in);
+}
+
+std::vector<UnbalanceSweep> SweepUnbalance(const OperatingPoint& point, const std::vector<ClosedLoop>& loops,
+                                           const std::vector<UnbalanceCase>& cases) {
+  std::vector<UnbalanceSweep> out;
+  for (const UnbalanceCase& unbalance : cases) {
+    UnbalanceSweep sweep;
+    sweep.unbalance = unbalance;
+    std::vector<Eigen::Index> first;
+    Eigen::Index axis = 0;
+    for (const BearingParameters& b : point.rig().bearings) {
+      if (b.kind == BearingKind::kRadial) {
+        sweep.tracks.emplace_back();
+        sweep.tracks.back().bearing = b.name;
+        first.push_back(axis);
+      }
+      axis += static_cast<Eigen::Index>(b.Axes().size());
+    }
+    for (const ClosedLoop& loop : loops) {
+      const Eigen::VectorXcd y = UnbalanceAt(point, loop, unbalance);
+      sweep.speed.push_back(loop.speed());
+      for (std::size_t k = 0; k < first.size(); ++k) {
+        const Eigen::Index a = first[k];
+        OrderTrack& t = sweep.tracks[k];
+        t.amplitude.push_back(Orbit(y(loop.Reading(a)), y(loop.Reading(a + 1))).major);
+        t.phase.push_back(std::arg(y(loop.Reading(a))));
+        t.force.push_back(Orbit(y(loop.Force(a)), y(loop.Force(a + 1))).major);
+      }
+    }
+    for (OrderTrack& t : sweep.tracks) t.peaks = FindPeaks(sweep.speed, t.amplitude);
+    out.push_back(std::move(sweep));
+  }
+  return out;
+}
+
+}  // namespace ambrig

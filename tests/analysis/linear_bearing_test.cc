@@ -1,0 +1,86 @@
+// Derivatives of the magnetic circuit: closed forms of the centred bearing, and differences of the
+// exact circuit at a displaced one.
+#include "analysis/linear_bearing.h"
+
+#include <gtest/gtest.h>
+
+#include "scenarios/coil_network.h"
+#include "scenarios/rig.h"
+#include "tests/scenarios/witness.h"
+
+namespace ambrig {
+namespace {
+
+class Bearing : public testing::Test {
+ protected:
+  const RigParameters rig_ = BaseRig();
+  const Plant plant_ = BuildPlant(rig_);
+  const StatorLanes& lanes_ = plant_.bearings[0].lanes;
+};
+
+// facts.md 1.3: f = 4 kappa i0 (ix, iy), k_s = 4 kappa i0²/g0; leakage changes neither.
+TEST_F(Bearing, CentredConstants) {
+  const RadialStatorParameters& p = rig_.bearings[0].radial;
+  const double kappa = kMu0 * p.turns * p.turns * p.pole_area / (p.gap * p.gap), i0 = 2;
+  Lane bias{};
+  for (int j = 0; j < kPoles; ++j) bias[j] = i0;
+  const LinearBearing b = LineariseBearing(lanes_, bias, 0, 0);
+  ASSERT_EQ(b.coils.size(), 8u);
+  const RadialStator stator(p);
+  const Eigen::Vector2d ki(b.ForceOfCurrent().row(0) * stator.cosine(), b.ForceOfCurrent().row(1) * stator.cosine());
+  EXPECT_NEAR(ki.x(), 4 * kappa * i0, 1e-9 * ki.x());
+  EXPECT_NEAR(ki.y(), 0, 1e-9 * ki.x());
+  const Eigen::Matrix2d ks = b.NegativeStiffness();
+  EXPECT_NEAR(ks(0, 0), 4 * kappa * i0 * i0 / p.gap, 1e-9 * ks(0, 0));
+  EXPECT_NEAR(ks(1, 1), ks(0, 0), 1e-9 * ks(0, 0));
+  EXPECT_NEAR(ks(0, 1), 0, 1e-9 * ks(0, 0));
+  // L of the stator itself.
+  EXPECT_LT((b.Inductance() - stator.Inductance({0, 0})).norm(), 1e-9 * b.Inductance().norm());
+}
+
+TEST_F(Bearing, DerivativesAreThoseOfTheDisplacedCircuit) {
+  const double x = 5e-5, y = -8e-5;
+  Lane current{};
+  for (int j = 0; j < kPoles; ++j) current[j] = 1 + 0.3 * j;
+  const LinearBearing b = LineariseBearing(lanes_, current, x, y);
+  const CoilNetwork network(lanes_);
+  double lambda[kMaxWindings] = {};
+  network.Linkages(current.v, x, y, lambda);
+  const auto solve = [&](double dx, double dy, int coil, double d) {
+    double moved[kMaxWindings];
+    std::copy(lambda, lambda + kPoles, moved);
+    moved[coil] += d;
+    NetworkState s;
+    network.Solve(moved, x + dx, y + dy, s);
+    Eigen::Matrix<double, 10, 1> out;
+    for (int j = 0; j < kPoles; ++j) out[j] = s.i[static_cast<std::size_t>(j)];
+    out[8] = s.fx;
+    out[9] = s.fy;
+    return out;
+  };
+  // Central differences; truncation (h/g0)² = 6e-10 of a derivative, rounding 1e-16/(h/g0).
+  const double h = 1e-8, dl = 1e-7;
+  for (int axis = 0; axis < 2; ++axis) {
+    const auto slope = ((solve(axis == 0 ? h : 0, axis == 1 ? h : 0, 0, 0) - solve(axis == 0 ? -h : 0, axis == 1 ? -h : 0, 0, 0)) / (2 * h)).eval();
+    EXPECT_LT((slope.head<8>() - b.I_r.col(axis)).norm(), 1e-6 * b.I_r.norm());
+    EXPECT_LT((slope.tail<2>() - b.F_r.col(axis)).norm(), 1e-6 * b.F_r.norm());
+  }
+  for (int j = 0; j < kPoles; ++j) {
+    const auto slope = ((solve(0, 0, j, dl) - solve(0, 0, j, -dl)) / (2 * dl)).eval();
+    EXPECT_LT((slope.head<8>() - b.I_lambda.col(j)).norm(), 1e-6 * b.I_lambda.norm());
+    EXPECT_LT((slope.tail<2>() - b.F_lambda.col(j)).norm(), 1e-6 * b.F_lambda.norm());
+  }
+  // Reciprocity: dλ/dx at constant current is df/di at constant position (facts.md, trap 4).
+  EXPECT_LT((b.Inductance() * -b.I_r - b.ForceOfCurrent().transpose()).norm(), 1e-9 * b.ForceOfCurrent().norm());
+}
+
+// What a coil told 0 A cannot do: its diodes block, it carries nothing and is no state.
+TEST_F(Bearing, BlockedCoilsAreLeftOut) {
+  Lane current{};
+  for (int j = 0; j < kPoles; ++j) current[j] = j == 3 ? 0 : 2;
+  const LinearBearing b = LineariseBearing(lanes_, current, 0, 0);
+  EXPECT_EQ(b.coils, (std::vector<int>{0, 1, 2, 4, 5, 6, 7}));
+}
+
+}  // namespace
+}  // namespace ambrig
