@@ -132,12 +132,16 @@ MissingForce ContactLaw(const ForceSamples& s, const std::string& plane) {
     parameters.push_back(within("high", std::remainder(c.high, 2 * kPi), 1, "rad"));
   }
   const std::string push = "-k*max(" + depth + ", 0)" + gate;
-  return {plane, 0, on, c.share, Effect(plane, "contact on one side", parameters, push + "*(cos(a) - mu*sin(a))", push + "*(sin(a) + mu*cos(a))")};
+  // Friction against the sliding: none at rest, the other way round when the rotor turns backwards.
+  const std::string v = fmt::format("({:.6g}*omega - sin(a)*vx + cos(a)*vy)", s.radius);
+  const std::string rub = fmt::format("mu*{0}/sqrt({0}^2 + {1:g})", v, SideContact::kSlow * SideContact::kSlow);
+  return {plane, 0, on, c.share, Effect(plane, "contact on one side", parameters, push + "*(cos(a) - sin(a)*" + rub + ")", push + "*(sin(a) + cos(a)*" + rub + ")")};
 }
 
 /// Samples of all levitated records, thinned to kMost.
 std::optional<ForceSamples> SamplesOf(const CaseModel& model, const Hypothesis& h, const std::string& plane) {
   ForceSamples all;
+  all.radius = h.rig.rotor.journal_radius;
   for (const CaseRecord& r : model.data().records) {
     const auto force = EstimateResidualForce(h.rig, r.scenario, r.data, kCutoff);
     if (!force) continue;
@@ -147,6 +151,7 @@ std::optional<ForceSamples> SamplesOf(const CaseModel& model, const Hypothesis& 
       for (std::size_t k = edge; k + edge < p.fx.size(); ++k) {
         all.t.push_back(force->t[k]);
         all.theta.push_back(force->theta[k]);
+        all.omega.push_back(force->omega[k]);
         all.x.push_back(p.x[k]);
         all.y.push_back(p.y[k]);
         all.vx.push_back(p.vx[k]);
@@ -158,7 +163,7 @@ std::optional<ForceSamples> SamplesOf(const CaseModel& model, const Hypothesis& 
   }
   if (all.t.size() < 100) return std::nullopt;
   const std::size_t stride = all.t.size() / kMost + 1;
-  for (auto* v : {&all.t, &all.theta, &all.x, &all.y, &all.vx, &all.vy, &all.fx, &all.fy}) {
+  for (auto* v : {&all.t, &all.theta, &all.omega, &all.x, &all.y, &all.vx, &all.vy, &all.fx, &all.fy}) {
     for (std::size_t k = 0; k * stride < v->size(); ++k) (*v)[k] = (*v)[k * stride];
     v->resize((v->size() + stride - 1) / stride);
   }

@@ -23,7 +23,8 @@ std::optional<MissingForce> DescribeMissingForce(const CaseModel& model, const H
 
 /// The same from samples: positions, velocities and forces of a plane, angle and time.
 struct ForceSamples {
-  std::vector<double> t, theta, x, y, vx, vy, fx, fy;
+  std::vector<double> t, theta, omega, x, y, vx, vy, fx, fy;
+  double radius = 0;  // of the journal [m]
 };
 MissingForce FindLaw(const ForceSamples& samples, const std::string& plane);
 

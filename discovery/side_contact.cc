@@ -8,30 +8,38 @@ namespace {
 
 constexpr double kBetter = 0.03;  // of the power: what a detail must explain
 
-/// Along and across the contact's direction the fit falls into two lines through the depth, each with
-/// its constant.
+/// Straight line through samples, from sums; how much of the second's variance it explains.
+struct Line {
+  double n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0;
+  void Add(double a, double b) {
+    n += 1;
+    u += a;
+    v += b;
+    uu += a * a;
+    uv += a * b;
+    vv += b * b;
+  }
+  double Slope() const { return uu * n > u * u ? (uv - u * v / n) / (uu - u * u / n) : 0; }
+  double Explained() const { return Slope() * (uv - u * v / n); }
+  double Variance() const { return vv - v * v / n; }
+};
+
+/// Along and across the contact's direction the fit falls into two lines, through the depth and through
+/// the depth that rubs, each with its constant.
 SideContact Fitted(const ForceSamples& s, SideContact c) {
   c.share = c.push = c.drag = 0;
   const double n_x = std::cos(c.angle), n_y = std::sin(c.angle);
-  double sd = 0, sdd = 0, sr = 0, st = 0, srd = 0, std_ = 0, square = 0;
+  Line along, across;
   for (std::size_t k = 0; k < s.fx.size(); ++k) {
     const double d = std::max(0.0, s.x[k] * n_x + s.y[k] * n_y + (c.lobe > 0 ? c.lobe * std::cos(s.theta[k] - c.high) : 0) - c.gap) * c.On(s.t[k]);
-    const double r = -(s.fx[k] * n_x + s.fy[k] * n_y), t = s.fx[k] * n_y - s.fy[k] * n_x;
-    sd += d;
-    sdd += d * d;
-    sr += r;
-    st += t;
-    srd += r * d;
-    std_ += t * d;
-    square += r * r + t * t;
+    along.Add(d, -(s.fx[k] * n_x + s.fy[k] * n_y));
+    across.Add(d > 0 ? d * c.Rubs(s, k) : 0, s.fx[k] * n_y - s.fy[k] * n_x);
   }
-  const auto n = static_cast<double>(s.fx.size());
-  const double total = square - (sr * sr + st * st) / n, depth = sdd - sd * sd / n;
-  const double along = srd - sr * sd / n, across = std_ - st * sd / n;
-  if (total <= 0 || depth <= 0 || along <= 0) return c;  // it would pull
-  c.share = (along * along + across * across) / depth / total;
-  c.push = along / depth;
-  c.drag = across / depth;
+  const double total = along.Variance() + across.Variance();
+  if (total <= 0 || along.Slope() <= 0) return c;  // it would pull
+  c.share = (along.Explained() + across.Explained()) / total;
+  c.push = along.Slope();
+  c.drag = across.Slope();
   return c;
 }
 
@@ -84,17 +92,31 @@ SideContact StandingContact(const ForceSamples& s) {
   return best;
 }
 
-SideContact PassingContact(const ForceSamples& s) {
-  SideContact best;
+/// The best of each period, best first.
+std::vector<SideContact> PassingContacts(const ForceSamples& s) {
+  std::vector<SideContact> found;
   const double from = PushedFrom(s), longest = *std::max_element(s.t.begin(), s.t.end());
-  for (const double angle : {from - 0.2, from, from + 0.2}) {
-    const std::vector<double> along = Along(s, angle);
-    for (const double q : {0.1, 0.3, 0.4, 0.5, 0.6})
-      for (double period = 0.02; period < 0.5 * longest; period *= 1.03)
+  for (double period = 0.02; period < 0.5 * longest; period *= 1.03) {
+    SideContact best;
+    for (const double angle : {from - 0.2, from, from + 0.2}) {
+      const std::vector<double> along = Along(s, angle);
+      for (const double q : {0.1, 0.3, 0.4, 0.5, 0.6})
         for (const double duty : {0.2, 0.35, 0.5, 0.65})
           for (double phase = 0; phase < 1; phase += 0.1) best = Better(s, best, {angle, Quantile(along, q), period, phase, duty});
+    }
+    found.push_back(best);
   }
-  return best;
+  std::sort(found.begin(), found.end(), [](const SideContact& a, const SideContact& b) { return a.share > b.share; });
+  return found;
+}
+
+ForceSamples EveryFourth(const ForceSamples& s) {
+  ForceSamples out;
+  out.radius = s.radius;
+  for (const auto part : {&ForceSamples::t, &ForceSamples::theta, &ForceSamples::omega, &ForceSamples::x, &ForceSamples::y,
+                          &ForceSamples::vx, &ForceSamples::vy, &ForceSamples::fx, &ForceSamples::fy})
+    for (std::size_t k = 0; k < (s.*part).size(); k += 4) (out.*part).push_back((s.*part)[k]);
+  return out;
 }
 
 /// Downhill in every quantity by turns.
@@ -146,7 +168,15 @@ SideContact WithLobe(const ForceSamples& s, const SideContact& round) {
 }  // namespace
 
 SideContact FindSideContact(const ForceSamples& s, double much) {
-  const SideContact standing = Refined(s, StandingContact(s)), passing = Refined(s, PassingContact(s));
+  const ForceSamples few = EveryFourth(s);  // enough to search where the refinement begins
+  const SideContact standing = Refined(s, StandingContact(few));
+  const std::vector<SideContact> starts = PassingContacts(few);
+  SideContact passing;
+  for (std::size_t k = 0; k < std::min<std::size_t>(starts.size(), 6); ++k) {
+    const SideContact refined = Refined(few, starts[k]);
+    if (refined.share > passing.share) passing = refined;
+  }
+  passing = Refined(s, passing);
   const SideContact best = passing.share < standing.share + much ? standing : passing;
   const SideContact lobed = WithLobe(s, best);
   return lobed.share < best.share + kBetter ? best : lobed;

@@ -12,12 +12,14 @@
 namespace ambrig {
 namespace {
 
-/// Two incommensurate wobbles and a rotation at 37 Hz, force by a law, noise of 0.1 N.
-ForceSamples Samples(const std::function<std::pair<double, double>(const ForceSamples&, std::size_t)>& law) {
+/// Two incommensurate wobbles and a rotation at 37 Hz (every second sample backwards), force by a law, noise of 0.1 N.
+ForceSamples Samples(const std::function<std::pair<double, double>(const ForceSamples&, std::size_t)>& law, bool back_and_forth = false) {
   ForceSamples s;
+  s.radius = 0.03;
   for (std::size_t k = 0; k < 3000; ++k) {
     const double t = 2e-4 * static_cast<double>(k);
     s.t.push_back(t);
+    s.omega.push_back(2 * kPi * (back_and_forth && k % 2 == 1 ? -37 : 37));
     s.theta.push_back(2 * kPi * 37 * t);
     const double a = 2 * kPi * 11.3 * t, b = 2 * kPi * 23.7 * t + 1;
     s.x.push_back(2e-5 * std::sin(a) + 1e-5 * std::sin(b));
@@ -70,6 +72,18 @@ TEST(MissingForce, ContactThatComesAndGoes) {
   EXPECT_NEAR(std::stod(f.on.substr(at + 6)), 0.11, 0.004);
   EXPECT_NEAR(std::stod(f.on.substr(f.on.find("from ") + 5)), 0.9 * 180 / kPi, 6);
   EXPECT_GT(f.share, 0.7);
+}
+
+// Half of the samples from a rotor that turns backwards: friction drags it the other way.
+TEST(MissingForce, FrictionFollowsTheSliding) {
+  const double angle = 0.4;
+  const MissingForce f = FindLaw(Samples([&](const ForceSamples& s, std::size_t k) {
+    const auto [x, y] = Rub(s, k, angle, -3e-6, 1);
+    const double push = -(x * std::cos(angle) + y * std::sin(angle)), mu = 0.3 * (s.omega[k] > 0 ? 1 : -1);
+    return std::pair{x + mu * push * std::sin(angle), y - mu * push * std::cos(angle)};
+  }, true), "B");
+  EXPECT_GT(f.share, 0.95);
+  EXPECT_NEAR(std::stod(f.formula.substr(f.formula.find("mu = { value = ") + 15)), 0.3, 0.03) << f.formula;
 }
 
 TEST(MissingForce, ContactOfTheRotorsHighSpot) {
