@@ -3,7 +3,7 @@
 #include <tuple>
 #include <utility>
 
-#include "actuators/lane_vector.h"
+#include "actuators/whole_lane_vector.h"
 
 namespace ambrig {
 
@@ -12,16 +12,17 @@ namespace {
 using V = LaneVector;
 
 /// Volt-seconds of one sample from the two edges, by clamping.
+template <class V>
 struct VoltSeconds {
   V t1, t2, v2h, step1, step2, h;
   bool one_edge = true;  // nothing before t1: the usual pattern
   [[gnu::always_inline]] VoltSeconds(const StatorLoop& s, double sample) {
     const VoltagePattern& p = *s.pattern;
-    const V v0 = Load(p.gain[0].v) * s.bus + Load(p.drop[0].v);
-    const V v1 = Load(p.gain[1].v) * s.bus + Load(p.drop[1].v);
-    const V v2 = Load(p.gain[2].v) * s.bus + Load(p.drop[2].v);
-    t1 = Load(p.t1.v);
-    t2 = Load(p.t2.v);
+    const V v0 = LoadAs<V>(p.gain[0].v) * s.bus + LoadAs<V>(p.drop[0].v);
+    const V v1 = LoadAs<V>(p.gain[1].v) * s.bus + LoadAs<V>(p.drop[1].v);
+    const V v2 = LoadAs<V>(p.gain[2].v) * s.bus + LoadAs<V>(p.drop[2].v);
+    t1 = LoadAs<V>(p.t1.v);
+    t2 = LoadAs<V>(p.t2.v);
     for (int j = 0; j < kLanes; ++j) one_edge = one_edge && t1[j] <= 0;
     v2h = v2 * sample;
     step1 = v0 - v1;
@@ -38,7 +39,7 @@ struct VoltSeconds {
 };
 
 /// Flux that carries the targets λ*; `inverse_sum` is 1/Σg (radial only).
-template <Coupling kCoupling>
+template <Coupling kCoupling, class V>
 [[gnu::always_inline]] inline V Flux(const V& g, const V& m, double inverse_sum) {
   const V gm = g * m;
   if constexpr (kCoupling == Coupling::kFloatingRotor) {
@@ -54,7 +55,7 @@ template <Coupling kCoupling>
 [[gnu::always_inline]] inline int Run(const StatorLoop& s, int k, int count, double sample, double* target) {
   const V n = Load(s.n), c = Load(s.c), inverse_l = Load(s.inverse_l), half_rh = Load(s.half_rh);
   const V leakage = Load(s.leakage), g0 = Load(s.g0), dg = Load(s.dg);
-  const VoltSeconds volt_seconds(s, sample);
+  const VoltSeconds<V> volt_seconds(s, sample);
   V lambda = Load(s.lambda), i = Load(s.i), phi = Load(s.phi), sum = Load(s.sum);
   const double per = 1.0 / count;
   for (; k < count; ++k) {
@@ -79,28 +80,28 @@ template <Coupling kCoupling>
 
 /// One bearing among several. Its chain from target to target is cut short by what does not
 /// depend on the new currents:  λ - (R h/2) i = a λ* + (1 - a) n φ,  a = (L_l - R h/2)/(L_l + R h/2).
-template <Coupling kCoupling>
+template <class V, Coupling kCoupling>
 struct Running {
   V n, c, inverse_l, leakage, g0, dg, a, b, wanted, i, phi, sum, least;
-  VoltSeconds volt_seconds;
+  VoltSeconds<V> volt_seconds;
   double g0_sum, dg_sum;
   Lane* samples;
 
   [[gnu::always_inline]] Running(const StatorLoop& s, double sample) : volt_seconds(s, sample) {
-    n = Load(s.n);
-    c = Load(s.c);
-    inverse_l = Load(s.inverse_l);
-    leakage = Load(s.leakage);
-    g0 = Load(s.g0);
-    dg = Load(s.dg);
-    const V half_rh = Load(s.half_rh);
+    n = LoadAs<V>(s.n);
+    c = LoadAs<V>(s.c);
+    inverse_l = LoadAs<V>(s.inverse_l);
+    leakage = LoadAs<V>(s.leakage);
+    g0 = LoadAs<V>(s.g0);
+    dg = LoadAs<V>(s.dg);
+    const V half_rh = LoadAs<V>(s.half_rh);
     a = (leakage - half_rh) * inverse_l;
     b = (1 - a) * n;
-    i = Load(s.i);
-    phi = Load(s.phi);
+    i = LoadAs<V>(s.i);
+    phi = LoadAs<V>(s.phi);
     sum = V{};
     least = i;
-    wanted = Load(s.lambda) - half_rh * i;
+    wanted = LoadAs<V>(s.lambda) - half_rh * i;
     g0_sum = Sum(g0);
     dg_sum = Sum(dg);
     samples = s.samples;
@@ -124,9 +125,9 @@ struct Running {
   }
 };
 
-template <Coupling... kAll, std::size_t... kAt>
+template <class V, Coupling... kAll, std::size_t... kAt>
 [[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h, std::index_sequence<kAt...>) {
-  std::tuple<Running<kAll>...> all(Running<kAll>(s[kAt], h)...);
+  std::tuple<Running<V, kAll>...> all(Running<V, kAll>(s[kAt], h)...);
   const double per = 1.0 / count;
   for (int k = 0; k < count; ++k) {
     const double fraction = (k + 1) * per, t = k * h;
@@ -134,18 +135,21 @@ template <Coupling... kAll, std::size_t... kAt>
   }
   return ((std::get<kAt>(all).Finish(s[kAt]) << kAt) | ...);
 }
-template <Coupling... kAll>
+template <class V, Coupling... kAll>
 [[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
-  return Together<kAll...>(s, count, h, std::make_index_sequence<sizeof...(kAll)>());
+  return Together<V, kAll...>(s, count, h, std::make_index_sequence<sizeof...(kAll)>());
 }
 
 constexpr Coupling R = Coupling::kFloatingRotor, S = Coupling::kSides, N = Coupling::kNone;
 
-AMBRIG_WIDE unsigned TogetherRRS(const StatorLoop* s, int n, double h) { return Together<R, R, S>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherRR(const StatorLoop* s, int n, double h) { return Together<R, R>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherR(const StatorLoop* s, int n, double h) { return Together<R>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherS(const StatorLoop* s, int n, double h) { return Together<S>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherN(const StatorLoop* s, int n, double h) { return Together<N>(s, n, h); }
+AMBRIG_WHOLE unsigned RRSWhole(const StatorLoop* s, int n, double h) { return Together<WholeLaneVector, R, R, S>(s, n, h); }
+AMBRIG_WHOLE unsigned RRWhole(const StatorLoop* s, int n, double h) { return Together<WholeLaneVector, R, R>(s, n, h); }
+AMBRIG_WHOLE unsigned RWhole(const StatorLoop* s, int n, double h) { return Together<WholeLaneVector, R>(s, n, h); }
+AMBRIG_WIDE unsigned RRSHalves(const StatorLoop* s, int n, double h) { return Together<V, R, R, S>(s, n, h); }
+AMBRIG_WIDE unsigned RRHalves(const StatorLoop* s, int n, double h) { return Together<V, R, R>(s, n, h); }
+AMBRIG_WIDE unsigned RHalves(const StatorLoop* s, int n, double h) { return Together<V, R>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherS(const StatorLoop* s, int n, double h) { return Together<V, S>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherN(const StatorLoop* s, int n, double h) { return Together<V, N>(s, n, h); }
 
 AMBRIG_WIDE int RunRadial(const StatorLoop& s, int k, int n, double h, double* target) { return Run<R>(s, k, n, h, target); }
 AMBRIG_WIDE int RunSides(const StatorLoop& s, int k, int n, double h, double* target) { return Run<S>(s, k, n, h, target); }
@@ -173,13 +177,13 @@ unsigned RunTogether(const StatorLoop* s, int bearings, int count, double h) {
   unsigned below = 0;
   for (int at = 0; at < bearings;) {
     if (is(at, R) && is(at + 1, R) && is(at + 2, S)) {
-      below |= TogetherRRS(s + at, count, h) << at;
+      below |= (whole_lanes ? RRSWhole : RRSHalves)(s + at, count, h) << at;
       at += 3;
     } else if (is(at, R) && is(at + 1, R)) {
-      below |= TogetherRR(s + at, count, h) << at;
+      below |= (whole_lanes ? RRWhole : RRHalves)(s + at, count, h) << at;
       at += 2;
     } else {
-      const auto run = s[at].coupling == R ? TogetherR : s[at].coupling == S ? TogetherS : TogetherN;
+      const auto run = s[at].coupling == R ? (whole_lanes ? RWhole : RHalves) : s[at].coupling == S ? TogetherS : TogetherN;
       below |= run(s + at, count, h) << at;
       at += 1;
     }

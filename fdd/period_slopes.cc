@@ -1,6 +1,6 @@
 #include "fdd/period_slopes.h"
 
-#include "actuators/lane_vector.h"
+#include "actuators/whole_lane_vector.h"
 #include "fdd/slope_fit.h"
 
 namespace ambrig {
@@ -8,10 +8,10 @@ namespace ambrig {
 namespace {
 
 /// `inverse_sum`: 1/Σ P, radial only.
-template <Coupling kCoupling>
-[[gnu::always_inline]] inline LaneVector Linkage(const LaneVector& n, const LaneVector& leakage, const LaneVector& P,
-                                                 const LaneVector& i, double inverse_sum) {
-  const LaneVector mmf = n * i;
+template <class V, Coupling kCoupling>
+[[gnu::always_inline]] inline V Linkage(const V& n, const V& leakage, const V& P,
+                                                 const V& i, double inverse_sum) {
+  const V mmf = n * i;
   if constexpr (kCoupling == Coupling::kFloatingRotor)
     return n * P * (mmf - Sum(P * mmf) * inverse_sum) + leakage * i;
   else if constexpr (kCoupling == Coupling::kSides)
@@ -20,24 +20,24 @@ template <Coupling kCoupling>
     return n * P * mmf + leakage * i;
 }
 
-template <Coupling kCoupling>
+template <class V, Coupling kCoupling>
 [[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane& on_samples, const MovingPermeance& P,
                                               const Lane* adc, int count, SlopeSums* s) {
-  const LaneVector n = Load(m.n.v), leakage = Load(m.leakage.v), on_count = Load(on_samples.v);
-  const LaneVector p0 = Load(P.start.v), dp = Load(P.change.v) * (1.0 / count);
-  const LaneVector zero, far = 1e30;
-  LaneVector y_on = zero, ky_on = zero, y = zero, ky = zero, i_on = zero, ki_on = zero, is = zero, ki = zero;
+  const V n = LoadAs<V>(m.n.v), leakage = LoadAs<V>(m.leakage.v), on_count = LoadAs<V>(on_samples.v);
+  const V p0 = LoadAs<V>(P.start.v), dp = LoadAs<V>(P.change.v) * (1.0 / count);
+  const V zero, far = 1e30;
+  V y_on = zero, ky_on = zero, y = zero, ky = zero, i_on = zero, ki_on = zero, is = zero, ki = zero;
   double inverse_sum[64];
   const double sum0 = Sum(p0), dsum = Sum(dp);
   for (int k = 0; k < count; ++k) inverse_sum[k] = 1 / (sum0 + dsum * k);
-  LaneVector least_on = far, least_off = far, largest = -far;
+  V least_on = far, least_off = far, largest = -far;
   for (int k = 0; k < count; ++k) {
-    const LaneVector at = static_cast<double>(k), i = Load(adc[k].v);
-    const LaneVector lambda = Linkage<kCoupling>(n, leakage, p0 + dp * at, i, inverse_sum[k]);
+    const V at = static_cast<double>(k), i = LoadAs<V>(adc[k].v);
+    const V lambda = Linkage<V, kCoupling>(n, leakage, p0 + dp * at, i, inverse_sum[k]);
     if (k == 0) Store(s->first.v, lambda);
     if (k == count - 1) Store(s->last.v, lambda);
     const auto on = on_count > at;
-    const LaneVector lambda_on = Select(on, lambda, zero), current_on = Select(on, i, zero);
+    const V lambda_on = Select(on, lambda, zero), current_on = Select(on, i, zero);
     y += lambda;
     ky += at * lambda;
     is += i;
@@ -63,17 +63,20 @@ template <Coupling kCoupling>
   Store(s->largest.v, largest);
 }
 
-AMBRIG_WIDE void AccumulateRadial(const LinkageModel& m, const Lane& on, const MovingPermeance& P,
-                                  const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<Coupling::kFloatingRotor>(m, on, P, adc, count, s);
+AMBRIG_WHOLE void RadialWhole(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
+  Accumulate<WholeLaneVector, Coupling::kFloatingRotor>(m, on, P, adc, count, s);
 }
-AMBRIG_WIDE void AccumulateSides(const LinkageModel& m, const Lane& on, const MovingPermeance& P,
-                                  const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<Coupling::kSides>(m, on, P, adc, count, s);
+AMBRIG_WIDE void RadialHalves(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
+  Accumulate<LaneVector, Coupling::kFloatingRotor>(m, on, P, adc, count, s);
 }
-AMBRIG_WIDE void AccumulateSeparate(const LinkageModel& m, const Lane& on, const MovingPermeance& P,
-                                  const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<Coupling::kNone>(m, on, P, adc, count, s);
+AMBRIG_WHOLE void SidesWhole(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
+  Accumulate<WholeLaneVector, Coupling::kSides>(m, on, P, adc, count, s);
+}
+AMBRIG_WIDE void SidesHalves(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
+  Accumulate<LaneVector, Coupling::kSides>(m, on, P, adc, count, s);
+}
+AMBRIG_WIDE void Separate(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
+  Accumulate<LaneVector, Coupling::kNone>(m, on, P, adc, count, s);
 }
 
 }  // namespace
@@ -82,9 +85,9 @@ void ComputePeriodSlopes(const LinkageModel& m, const SamplingSettings& s, const
                          PeriodSlopes* out) {
   SlopeSums sums;
   PreparePeriod(m, s, in, out);
-  const auto run = m.coupling == Coupling::kFloatingRotor ? AccumulateRadial
-                   : m.coupling == Coupling::kSides       ? AccumulateSides
-                                                          : AccumulateSeparate;
+  const auto run = m.coupling == Coupling::kFloatingRotor ? (whole_lanes ? RadialWhole : RadialHalves)
+                   : m.coupling == Coupling::kSides       ? (whole_lanes ? SidesWhole : SidesHalves)
+                                                          : Separate;
   run(m, out->phase[0].samples, out->permeance, in.adc, s.samples, &sums);
   FitSlopes(m, s, sums, out);
 }

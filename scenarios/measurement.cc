@@ -1,17 +1,16 @@
 #include "scenarios/measurement.h"
 
-#include "actuators/lane_vector.h"
+#include "actuators/whole_lane_vector.h"
 
 namespace ambrig {
 
 namespace {
 
-using V = LaneVector;
-
 /// Rounds to the nearest step and clips; |value / step| stays far below 2^51, where adding and
 /// subtracting 1.5 * 2^52 rounds to the nearest even integer, as nearbyint does.
 struct Converter {
   double step, low, high;
+  template <class V>
   [[gnu::always_inline]] V operator()(const V& value) const {
     constexpr double kRound = 6755399441055744.0;
     const V q = ((value * (1 / step) + kRound) - kRound) * step;
@@ -23,14 +22,14 @@ struct Sensors {
   const double *gain, *offset;  // nullptr: ideal
 };
 
-template <class Convert>
+template <class V, class Convert>
 [[gnu::always_inline]] inline void Measure(const Lane* truth, int count, const Sensors& sensors, const Convert& convert,
                                            Lane* adc, CurrentStatistics* out) {
   const bool plain = sensors.gain == nullptr;
-  const V gain = plain ? V(1) : Load(sensors.gain), offset = plain ? V() : Load(sensors.offset);
+  const V gain = plain ? V(1) : LoadAs<V>(sensors.gain), offset = plain ? V() : LoadAs<V>(sensors.offset);
   V sum = {}, square = {}, most = {};
   for (int k = 0; k < count; ++k) {
-    const V i = Load(truth[k].v);
+    const V i = LoadAs<V>(truth[k].v);
     const V value = convert(plain ? i : gain * i + offset, k);
     Store(adc[k].v, value);
     sum += value;
@@ -42,18 +41,27 @@ template <class Convert>
   Store(out->largest.v, most);
 }
 
-AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc, CurrentStatistics* out) {
-  Measure(truth, count, sensors, [](const V& value, int) __attribute__((always_inline)) { return value; }, adc, out);
-}
-
-AMBRIG_WIDE void MeasureNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
-                                double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
+template <class V>
+[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+                                                  double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
   const Converter c = converter;
-  Measure(truth, count, sensors, [&](const V& value, int k) __attribute__((always_inline)) {
+  Measure<V>(truth, count, sensors, [&](const V& value, int k) __attribute__((always_inline)) {
     Lane normal;
     for (int j = 0; j < kLanes; ++j) normal[j] = static_cast<double>(normals[k * coils + j]);
-    return c(value + noise * Load(normal.v));
+    return c(value + noise * LoadAs<V>(normal.v));
   }, adc, out);
+}
+
+AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc, CurrentStatistics* out) {
+  Measure<LaneVector>(truth, count, sensors, [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
+}
+AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+                               double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  MeasureNoisily<WholeLaneVector>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+}
+AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+                               double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  MeasureNoisily<LaneVector>(truth, count, sensors, normals, coils, noise, converter, adc, out);
 }
 
 }  // namespace
@@ -68,7 +76,7 @@ void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const Curr
   const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
   if (!s.noisy) return MeasureIdeally(truth, s.samples, chain, adc, statistics);
   const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
-  MeasureNoisily(truth, s.samples, chain, normals, s.coils, s.noise, converter, adc, statistics);
+  (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, chain, normals, s.coils, s.noise, converter, adc, statistics);
 }
 
 }  // namespace ambrig

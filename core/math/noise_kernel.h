@@ -6,6 +6,7 @@
 // upper halves being ignored: counters 0, 2, 4 ... in one vector, 1, 3, 5 ... in another.
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 
 #ifdef __SSE2__
 #include <immintrin.h>
@@ -81,46 +82,60 @@ inline void Philox(Words& even, Words& odd, const Keys& keys) {
 
 inline Bits Interleave(Wide even, Wide odd) { return (Bits)((even & 0xffffffffU) | (odd << 32)); }
 
+/// Several vectors treated alike. Their operations alternate: each function is a chain of operations that wait
+/// for one another, and a processor does not look far enough ahead to mix chains that follow one another.
+template <class T, int kCount>
+struct Several {
+  T of[kCount];
+  T& operator[](int k) { return of[k]; }
+  const T& operator[](int k) const { return of[k]; }
+};
+constexpr int kPairs = kLanes > kCounters ? 2 : 1;  // at once, of the two that a counter gives: as registers allow
+using Reals = Several<Real, kPairs>;
+using BitsOfAll = Several<Bits, kPairs>;
+
+template <class F>
+inline auto Each(const F& f) {
+  Several<decltype(f(0)), kPairs> out;
+  for (int k = 0; k < kPairs; ++k) out[k] = f(k);
+  return out;
+}
+
 /// ln u for u in [2^-32, 1]: u = 2^e (1 + f), 1 + f in [sqrt(1/2), sqrt(2)), and
 /// ln(1 + f) = f + f² L(f), L the Chebyshev interpolant of degree 7.
-inline Real Log(Real u) {
-  const Int e = ((Int)u - 0x3f3504f3) >> 23;
-  const Real f = (Real)((Int)u - (e << 23)) - 1.0F;
-  Real L = 0.0878726551F * f - 0.14159647F;
-  L = L * f + 0.148347868F;
-  L = L * f - 0.165884885F;
-  L = L * f + 0.199720497F;
-  L = L * f - 0.250011477F;
-  L = L * f + 0.333336706F;
-  L = L * f - 0.499999971F;
-  return __builtin_convertvector(e, Real) * 0.693147181F + (f + f * f * L);
+inline Reals Log(const Reals& u) {
+  const auto e = Each([&](int k) { return ((Int)u[k] - 0x3f3504f3) >> 23; });
+  const auto f = Each([&](int k) { return (Real)((Int)u[k] - (e[k] << 23)) - 1.0F; });
+  auto L = Each([&](int k) { return 0.0878726551F * f[k] - 0.14159647F; });
+  for (const float c : {0.148347868F, -0.165884885F, 0.199720497F, -0.250011477F, 0.333336706F, -0.499999971F})
+    L = Each([&](int k) { return L[k] * f[k] + c; });
+  return Each([&](int k) { return __builtin_convertvector(e[k], Real) * 0.693147181F + (f[k] + f[k] * f[k] * L[k]); });
 }
 
 /// sqrt x for x in [0, 50]: Newton's iteration for 1 / sqrt x; halving the exponent starts it
 /// within 3.5 %, which becomes 2e-3, 5e-6, 4e-11 (error -> 3/2 error²).
-inline Real SquareRoot(Real x) {
-  const Real half = 0.5F * x;
-  Real y = (Real)(0x5f3759dfU - ((Bits)x >> 1));
-  y = y * (1.5F - half * y * y);
-  y = y * (1.5F - half * y * y);
-  y = y * (1.5F - half * y * y);
-  return x * y;
+inline Reals SquareRoot(const Reals& x) {
+  const auto half = Each([&](int k) { return 0.5F * x[k]; });
+  auto y = Each([&](int k) { return (Real)(0x5f3759dfU - ((Bits)x[k] >> 1)); });
+  for (int iteration = 0; iteration < 3; ++iteration) y = Each([&](int k) { return y[k] * (1.5F - half[k] * y[k] * y[k]); });
+  return Each([&](int k) { return x[k] * y[k]; });
 }
 
-/// Normals from two words: radius from the first, angle 2π w / 2³² from the second. The angle is q
+/// Normals from pairs of words: radius from the first, angle 2π w / 2³² from the second. The angle is q
 /// quarter turns and a rest t in [-π/4, π/4), turned back by choosing and negating bits.
-inline void BoxMuller(Bits radius_word, Bits angle_word, Real* first, Real* second) {
-  const Real u = (__builtin_convertvector((Int)(radius_word >> 1), Real) + 0.5F) * 0x1p-31F;
-  const Real r = SquareRoot(-2.0F * Log(u));
-  const Bits q = (angle_word + 0x20000000U) >> 30;
-  const Int rest = (Int)(angle_word - (q << 30));
-  const Real t = __builtin_convertvector(rest, Real) * (1.57079633F * 0x1p-30F), s = t * t;
-  const Real sine = t + t * s * (-0.166666647F + s * (0.00833274827F - s * 0.000195878909F));
-  const Real cosine =
-      1.0F - 0.5F * s + s * s * (0.0416666647F + s * (-0.0013888303F + s * 2.45479419e-05F));
-  const Bits swap = -(q & 1U), difference = ((Bits)cosine ^ (Bits)sine) & swap;
-  *first = r * (Real)((Bits)cosine ^ difference ^ (((q + 1U) & 2U) << 30));
-  *second = r * (Real)((Bits)sine ^ difference ^ ((q & 2U) << 30));
+inline void BoxMuller(const BitsOfAll& radius_word, const BitsOfAll& angle_word, Reals* first, Reals* second) {
+  const Reals u = Each([&](int k) { return (__builtin_convertvector((Int)(radius_word[k] >> 1), Real) + 0.5F) * 0x1p-31F; });
+  const Reals ln = Log(u), r = SquareRoot(Each([&](int k) { return -2.0F * ln[k]; }));
+  const auto q = Each([&](int k) { return (angle_word[k] + 0x20000000U) >> 30; });
+  const Reals t = Each([&](int k) { return __builtin_convertvector((Int)(angle_word[k] - (q[k] << 30)), Real) * (1.57079633F * 0x1p-30F); });
+  const Reals s = Each([&](int k) { return t[k] * t[k]; });
+  const Reals sine = Each([&](int k) { return t[k] + t[k] * s[k] * (-0.166666647F + s[k] * (0.00833274827F - s[k] * 0.000195878909F)); });
+  const Reals cosine = Each([&](int k) {
+    return 1.0F - 0.5F * s[k] + s[k] * s[k] * (0.0416666647F + s[k] * (-0.0013888303F + s[k] * 2.45479419e-05F));
+  });
+  const auto swapped = Each([&](int k) { return ((Bits)cosine[k] ^ (Bits)sine[k]) & -(q[k] & 1U); });
+  *first = Each([&](int k) { return r[k] * (Real)((Bits)cosine[k] ^ swapped[k] ^ (((q[k] + 1U) & 2U) << 30)); });
+  *second = Each([&](int k) { return r[k] * (Real)((Bits)sine[k] ^ swapped[k] ^ ((q[k] & 2U) << 30)); });
 }
 
 /// Lanes 0..7 belong to one chunk, 8..15 to the next.
@@ -149,13 +164,15 @@ inline void FillStep(const Keys& keys, U32 stream, U64 index, U32 chunk, float* 
     Words a = {even, Wide{} + stream, Wide{} + (index & 0xffffffffU), Wide{} + (index >> 32)};
     Words b = {even + 1U, a.w1, a.w2, a.w3};
     Philox(a, b, keys);
-    Real x0, x1, x2, x3;
-    BoxMuller(Interleave(a.w0, b.w0), Interleave(a.w1, b.w1), &x0, &x1);
-    BoxMuller(Interleave(a.w2, b.w2), Interleave(a.w3, b.w3), &x2, &x3);
-    Store(x0, out);
-    Store(x1, out + kCounters);
-    Store(x2, out + 2 * kCounters);
-    Store(x3, out + 3 * kCounters);
+    const Bits radius[2] = {Interleave(a.w0, b.w0), Interleave(a.w2, b.w2)}, angle[2] = {Interleave(a.w1, b.w1), Interleave(a.w3, b.w3)};
+    for (int pair = 0; pair < 2; pair += kPairs) {
+      Reals first, second;
+      BoxMuller(Each([&](int k) { return radius[pair + k]; }), Each([&](int k) { return angle[pair + k]; }), &first, &second);
+      for (int k = 0; k < kPairs; ++k) {
+        Store(first[k], out + 2 * (pair + k) * kCounters);
+        Store(second[k], out + (2 * (pair + k) + 1) * kCounters);
+      }
+    }
   }
 }
 
