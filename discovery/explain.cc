@@ -18,16 +18,12 @@ namespace {
 /// Rows that the search looks at: more would cost time and tell nothing new.
 constexpr std::size_t kRows = 150000;
 
-constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
-
 std::size_t Thinning(const Case& c) {
   std::size_t rows = 0;
   for (const CaseRecord& r : c.records)
     for (const Channel& channel : r.data.channels) rows += channel.samples.size();
   return std::clamp<std::size_t>(rows / kRows, 1, 12);
 }
-
-std::string Named(const EffectInstance& e) { return e.name + " at " + e.target; }
 
 class Explainer {
  public:
@@ -115,7 +111,11 @@ class Explainer {
   /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
   bool AdoptBest(FitResult& now, int round) {
     if (Finished(now)) return false;
-    std::vector<RankedEffect> ranking = Round(now, round);
+    const double from = 0.08 + 0.3 * round;
+    EffectRound ranked = RankEffects({full_, model_, bank_, out_.effective, options_.candidates,
+                                      [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }}, now, round);
+    const std::vector<RankedEffect>& ranking = ranked.ranking;
+    if (round == 0) out_.screened = std::move(ranked.screened);
     (round == 0 ? out_.ranking : out_.second_round) = ranking;
     if (ranking.empty() || !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_)) return false;
     if (round == 0) first_fall_ = now.ratio_validate * now.ratio_validate - ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
@@ -154,93 +154,12 @@ class Explainer {
     return true;
   }
 
-  std::vector<RankedEffect> Round(const FitResult& now, int round) {
-    const double from = 0.08 + 0.3 * round, share = 0.3;
-    ScreenOptions screen;
-    screen.effective = out_.effective;
-    screen.progress = [&](double f, const std::string& text) { Progress(from + 0.6 * share * f, "screening " + text); };
-    const std::vector<Candidate> candidates = Screen(model_, now, Peaks(now), screen, bank_);
-    if (round == 0) out_.screened = candidates;
-    std::vector<RankedEffect> ranking;
-    const double here = ScoreOf(now);
-    const auto fit_briefly = [&](const Candidate& c) {
-      Progress(from + share * (0.6 + 0.07 * static_cast<double>(ranking.size())), "fitting " + Named(c.effect));
-      RankedEffect r;
-      r.fit = FitBriefly(model_, now, c, out_.effective);
-      r.screened_ratio = c.ratio_validate;
-      if (!r.fit.converged) return;
-      Note(r);
-      ranking.push_back(std::move(r));
-    };
-    std::size_t next = 0;
-    for (; next < candidates.size() && static_cast<int>(ranking.size()) < options_.candidates; ++next) {
-      const Candidate& c = candidates[next];
-      // Hopeless ones need no full fit, but a user wants to see a few beside the best.
-      if (c.score > here && (ranking.size() >= 2 || round > 0)) break;
-      if (Decided(now, ranking, c) || (round > 0 && !Promising(now, c))) break;
-      fit_briefly(c);
-    }
-    // A resonance shows only when it is fitted; later rounds try that where much is left.
-    for (; next < candidates.size() && (round == 0 || now.ratio_validate > 1.3); ++next)
-      if (candidates[next].narrow && !Decided(now, ranking, candidates[next])) fit_briefly(candidates[next]);
-    const auto sort = [&] { std::stable_sort(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) { return a.score < b.score; }); };
-    sort();
-    // To the end: the best, and the next where the short fits left it open.
-    for (std::size_t k = 0; k < std::min<std::size_t>(ranking.size(), 2); ++k) {
-      if (k > 0 && ranking[k].score > ranking[0].score + kOpen) break;
-      Progress(from + share * 0.95, "full fit of " + Named(ranking[k].effect));
-      FitResult fit = FitOn(model_, now, ranking[k].fit.hypothesis, out_.effective);
-      if (!fit.converged) continue;
-      ranking[k].fit = std::move(fit);
-      Note(ranking[k]);
-    }
-    sort();
-    if (!ranking.empty() && ranking[0].fit.jacobian.size() == 0) {
-      ranking[0].fit = FitOn(model_, now, ranking[0].fit.hypothesis, out_.effective);
-      Note(ranking[0]);
-    }
-    SetProbabilities(ranking);
-    return ranking;
-  }
-
-  /// Values and score of the fit of a ranked effect.
-  void Note(RankedEffect& r) const {
-    r.effect = FittedEffect(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
-    r.score = ScoreOf(r.fit);
-  }
-
   /// The same point seen with all rows.
   FitResult AllRows(const FitResult& fit) const {
     FitOptions o = Options(nullptr);
     o.iterations = 0;
     o.sensitivities = false;
     return Fit(full_, fit.hypothesis, o);
-  }
-
-  ResidualPeaks Peaks(const FitResult& fit) const {
-    const auto predicted = full_.Predict(fit.hypothesis);
-    return predicted ? FindPeaks(full_, Residual(full_, *predicted)) : ResidualPeaks();
-  }
-
-  /// Whether the linear screening promises at least half of what adoption would ask for.
-  static bool Promising(const FitResult& now, const Candidate& c) {
-    const double fall = now.ratio_validate * now.ratio_validate - c.ratio_validate * c.ratio_validate;
-    return fall > 0.012 && ExplainedShare(now.ratio_validate, c.ratio_validate) > 0.17;
-  }
-
-  /// The best fit so far explains nearly all, and this candidate promises far less.
-  bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking, const Candidate& next) const {
-    if (ranking.size() < 2) return false;
-    double best = kInfinity;
-    for (const RankedEffect& r : ranking) best = std::min(best, r.fit.ratio_validate);
-    return ExplainedShare(now.ratio_validate, best) > 0.9 && next.ratio_validate * next.ratio_validate - 1 > 4 * (best * best - 1);
-  }
-
-  void SetProbabilities(std::vector<RankedEffect>& ranking) const {
-    if (ranking.empty()) return;
-    double sum = 0;
-    for (RankedEffect& r : ranking) sum += r.probability = std::exp(-0.5 * (r.score - ranking[0].score));
-    for (RankedEffect& r : ranking) r.probability /= sum;
   }
 
   /// The effect that explains most alone may be none of two that are there: the best pairs of the

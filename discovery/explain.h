@@ -6,18 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "discovery/effect_round.h"
 #include "discovery/floor.h"
 #include "discovery/run_store.h"
-#include "discovery/screen.h"
 
 namespace ambrig {
-
-struct RankedEffect {
-  FitResult fit;               // with the effect (and what was adopted before it)
-  EffectInstance effect;       // fitted values and sd
-  double score = 0, probability = 0;
-  double screened_ratio = 0;   // what the linear screening promised on unseen records
-};
 
 struct Confusable {
   std::string first, second, record;
