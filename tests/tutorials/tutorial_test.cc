@@ -85,6 +85,16 @@ TEST_F(Tutorial, RealRig) {
   EXPECT_NEAR(drop["value"].get<double>(), 0.561, 0.04);
   EXPECT_LT(Json("adopt.json")["ratio"], 2.9);
   EXPECT_LT(Json("adopt_2.json")["ratio"], 1.8);
+  // Force over the weight at the measured lift-off, at three gaps.
+  const std::pair<const char*, double> shares[] = {{"05", 0.99}, {"12", 0.68}, {"19", 0.44}};
+  for (const auto& [record, share] : shares) {
+    std::string text = Read(folder_ / "lift" / (std::string("lift-") + record + ".csv"));
+    text.pop_back();
+    std::istringstream last(text.substr(text.rfind('\n') + 1));
+    std::string cell;
+    for (int column = 0; column < 6; ++column) std::getline(last, cell, ',');
+    EXPECT_NEAR(std::stod(cell) / (0.0605 * 9.81), share, 0.02) << record;
+  }
 }
 
 // Found, described, written, fitted; the numbers that the independent simulator hid.
