@@ -9,7 +9,7 @@ foreach(folder IN LISTS test_folders)
     target_compile_definitions(test_${folder} PRIVATE AMBRIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                AMBRIG_BINARY="$<TARGET_FILE:ambrig>")
     add_dependencies(test_${folder} ambrig)
-    # Two private Slurms on one machine are in each other's way: the tests of campaigns go one by one.
+    # A private Slurm beside other work misses its own time limits: the tests of campaigns go one by one.
     set(lock "")
     if(folder STREQUAL "campaign")
       set(lock RESOURCE_LOCK private_slurm)

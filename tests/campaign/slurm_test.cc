@@ -1,6 +1,7 @@
 // --engine slurm against a real, private Slurm with two nodes, of which a task, the controller and
 // a node are killed meanwhile. Skipped where Slurm is not installed (tools/setup.sh --tests).
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 
@@ -33,6 +34,8 @@ class PrivateSlurm : public ::testing::Test {
  protected:
   void SetUp() override {
     if (Shell("command -v slurmctld slurmd munged sbatch").exit != 0) GTEST_SKIP() << "Slurm is not installed: tools/setup.sh --tests";
+    // Ports of this process: another clone's tests may run their own cluster.
+    setenv("SLURM_TEST_PORT", std::to_string(17000 + 4 * (::getpid() % 3000)).c_str(), 1);
     const Outcome up = Shell(Tool("start") + " 2 1");
     ASSERT_EQ(up.exit, 0) << up.text;
     started_ = true;
