@@ -49,6 +49,7 @@ TEST(MagneticCircuit, ReferenceInductances) {
 struct GapRow {
   double x, near, far, mutual;  // x/g0, then in units of mu0 N² A/g0
 };
+void PrintTo(const GapRow& row, std::ostream* out) { *out << row.x << " gaps off centre"; }
 class PublishedGaps : public ::testing::TestWithParam<GapRow> {};
 
 // facts.md, trap 1: rotor moved towards pole 1. Four digits printed.

@@ -8,6 +8,8 @@
 #include "tests/effects/effect_rigs.h"
 
 namespace ambrig {
+void PrintTo(const EffectDescription& d, std::ostream* out) { *out << d.id; }
+
 namespace {
 
 /// The reference rig with an ADC so fine that a tiny change is not hidden by its steps.

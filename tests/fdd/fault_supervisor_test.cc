@@ -139,6 +139,7 @@ std::string Spin(double seconds, double Omega, unsigned seed) {
 struct Case {
   const char *kind, *parameters;
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.kind << " " << c.parameters; }
 class EveryClass : public ::testing::TestWithParam<Case> {};
 
 // Ten periods, 0.4 ms, for the class; the alarm well before. The run ends 1.1 ms after the fault: nothing

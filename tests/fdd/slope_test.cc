@@ -124,6 +124,7 @@ TEST(PaperSlope, ErrorBudgetOfSection41) {
 struct Coil {
   double R, L;
 };
+void PrintTo(const Coil& coil, std::ostream* out) { *out << coil.R << " ohm, " << coil.L << " H"; }
 class PaperCoils : public ::testing::TestWithParam<Coil> {};
 
 TEST_P(PaperCoils, SimulatedSlopesLieInTheTheoreticalRange) {

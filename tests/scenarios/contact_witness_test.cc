@@ -61,6 +61,7 @@ struct Held {
   double peak;  // [m] tolerance
 };
 
+void PrintTo(const Held& c, std::ostream* out) { *out << c.name; }
 class HeldOrPulled : public testing::TestWithParam<Held> {};
 
 // With the magnets' help the paths stay together to the end: every figure can be compared.

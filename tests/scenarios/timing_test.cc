@@ -13,6 +13,10 @@ namespace {
 
 enum class Engine { kSwitching, kReference, kAveraged };
 
+void PrintTo(Engine e, std::ostream* out) {
+  *out << (e == Engine::kSwitching ? "switching" : e == Engine::kReference ? "reference" : "averaged");
+}
+
 constexpr double kT = 40e-6;
 constexpr int kRow = 50;  // of a controller tick: an even period
 
@@ -134,11 +138,8 @@ TEST(LoopDelay, SetPointsAreRecordedWhenTheyAreDue) {
   EXPECT_EQ(FirstChange(with, without, "A.d1").row, kRow + 2 + 10);
 }
 
-std::string NameOf(const ::testing::TestParamInfo<Engine>& which) {
-  return which.param == Engine::kSwitching ? "switching" : which.param == Engine::kReference ? "reference" : "averaged";
-}
 INSTANTIATE_TEST_SUITE_P(Fidelity, Clock, ::testing::Values(Engine::kSwitching, Engine::kReference, Engine::kAveraged),
-                         NameOf);
+                         ::testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace ambrig
