@@ -33,6 +33,7 @@ int Main(int argc, char** argv) {
   ambrig::AddCheck(app, work);
   ambrig::AddCampaign(app, work);
   ambrig::AddMerge(app, work);
+  ambrig::AddDetectors(app, work);
   ambrig::AddWitness(app, work);
   ambrig::AddRedistribute(app, work);
   ambrig::AddEffects(app, work);

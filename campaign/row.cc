@@ -127,6 +127,8 @@ const std::string& Row::At(std::string_view column) const {
     return c == column || (c.starts_with(column) && c.substr(column.size()).starts_with(" ["));
   });
   Require(it != columns.end(), "a column of the table");
+  if (cells.size() != columns.size())
+    throw InputError(fmt::format("row of run {}: {} cells, allowed: {} of a campaign's row", run, cells.size(), columns.size()));
   return cells[static_cast<std::size_t>(it - columns.begin())];
 }
 
@@ -146,8 +148,8 @@ Row ParseRow(std::string_view csv, const std::string& where) {
   }
   const std::string& id = row.cells.front();
   const auto [last, error] = std::from_chars(id.data(), id.data() + id.size(), row.run);
-  if (row.cells.size() != RowColumns().size() || error != std::errc{} || last != id.data() + id.size())
-    throw InputError(fmt::format("{}: no row of a campaign, allowed: {} cells from the run's number on", where, RowColumns().size()));
+  if (error != std::errc{} || last != id.data() + id.size())
+    throw InputError(fmt::format("{}: no row of a campaign, allowed: cells from the run's number on", where));
   return row;
 }
 

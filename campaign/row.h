@@ -17,11 +17,12 @@ struct Row {
   std::vector<std::string> cells;  // as in RowColumns(), the first is the run
 
   std::string Csv() const;
-  const std::string& At(std::string_view column) const;  // @throws std::logic_error for an unknown one
+  /// @throws std::logic_error for an unknown column, InputError when the row is not a campaign's.
+  const std::string& At(std::string_view column) const;
   double Number(std::string_view column) const;          // nan for an empty cell
 };
 
-/// @throws InputError when the text has another number of cells or no run number.
+/// @throws InputError when the text has no run number.
 Row ParseRow(std::string_view csv, const std::string& where);
 
 /// Simulates a run (fast engine, detection and redistribution on). A run that the program cannot

@@ -30,8 +30,8 @@ std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard, const
   return pending;
 }
 
-void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
-             const std::function<void(const Row&)>& finished) {
+void OnAllCores(const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
+                const std::function<void(std::size_t run)>& work) {
   const int threads = jobs > 0 ? jobs : tbb::info::default_concurrency();
   // More threads than cores only when asked for; an arena alone does not raise the limit.
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
@@ -45,11 +45,16 @@ void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs
           for (std::size_t k = next++; k < runs.size(); k = next++) {
             if (stop && stop->load()) throw Interrupted();
             if (tbb::is_current_task_group_canceling()) return;
-            finished(SimulateRow(plan, runs[k], stop));
+            work(runs[k]);
           }
         },
         tbb::simple_partitioner());
   });
+}
+
+void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
+             const std::function<void(const Row&)>& finished) {
+  OnAllCores(runs, jobs, stop, [&](std::size_t run) { finished(SimulateRow(plan, run, stop)); });
 }
 
 }  // namespace ambrig

@@ -5,6 +5,7 @@
 #include "fdd/cusum.h"
 #include "fdd/glrt.h"
 #include "fdd/linkage_kalman.h"
+#include "fdd/slope_prediction.h"
 #include "fdd/slope_statistic.h"
 
 namespace ambrig {
@@ -27,6 +28,7 @@ constexpr CoilDetectorKind kKinds[] = {
     {"paper", "700 A/s", "slopes against fixed theoretical limits, once in 1.75 ms", 1, Paper},
     {"paper-every-period", "700 A/s", "the same in every switching period", 1, PaperEveryPeriod},
     {"paper-online", "700 A/s", "the same, limits from measured bus, resistance and gap", 1, PaperOnline},
+    {"paper-coupled", "700 A/s", "the same, and from the neighbours' switch states", 1, Make<SlopePrediction>},
     {"current-error", "A", "mean current against its set-point, five periods in a row", kRequired, Make<CurrentErrorDetector>},
     {"glrt", "-", "likelihood ratio on the coupled residuals, unknown change", kRequired, Make<GlrtDetector>},
     {"cusum", "-", "two-sided sums on the coupled residuals", kRequired, Make<CusumDetector>},

@@ -1,28 +1,11 @@
 #include "fdd/linkage_kalman.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace ambrig {
 
 namespace {
 constexpr int kSettle = 400;  // Riccati steps at the start
-}
-
-LinkageMatrix InductanceOf(const LinkageModel& m, const Lane& P) {
-  LinkageMatrix L = LinkageMatrix::Identity();
-  double total = 0;
-  for (int j = 0; j < m.coils; ++j) total += P[j];
-  for (int j = 0; j < m.coils; ++j)
-    for (int k = 0; k < m.coils; ++k) {
-      double value = 0;
-      if (m.coupling == Coupling::kFloatingRotor)
-        value = m.n[j] * P[j] * m.n[k] * ((j == k ? 1 : 0) - P[k] / total);
-      else if (j == k || (m.coupling == Coupling::kSides && (j ^ 1) == k))
-        value = m.n[j] * m.n[k] * P[j];
-      L(j, k) = value + (j == k ? m.leakage[j] : 0);
-    }
-  return L;
 }
 
 LinkageKalman::LinkageKalman(const CoilDetectorSetup& setup) : model_(setup.model), s_(setup.settings) {
@@ -59,11 +42,8 @@ void LinkageKalman::Begin(const MeasuredPeriod& in, const LinkageMatrix& L) {
 
 void LinkageKalman::Predict(const MeasuredPeriod& in, const LinkageVector& current, int k) {
   const double h = s_.sampling.step;
-  for (int j = 0; j < model_.coils; ++j) {
-    const BridgeVoltage v = VoltageOf(*s_.sampling.amplifier, (*in.duty)[j], in.bus);
-    const double on = std::clamp(v.edge - k * h, 0.0, h);
-    lambda_[j] += on * v.on + (h - on) * v.off - h * model_.resistance[j] * current[j];
-  }
+  for (int j = 0; j < model_.coils; ++j)
+    lambda_[j] += DrivenLinkage(s_.sampling, in, j, k) - h * model_.resistance[j] * current[j];
 }
 
 Lane LinkageKalman::Period(const MeasuredPeriod& in) {
@@ -72,14 +52,12 @@ Lane LinkageKalman::Period(const MeasuredPeriod& in) {
     running_ = false;
     return out;
   }
-  const LinkageMatrix L0 = InductanceOf(model_, model_.Permeance(in.x0, in.y0));
-  const LinkageMatrix C0 = L0.inverse(), C1 = InductanceOf(model_, model_.Permeance(in.x1, in.y1)).inverse();
-  const LinkageMatrix change = C1 - C0;
-  if (!running_) Begin(in, L0);
-  StepCovariance(0.5 * (C0 + C1));
+  const MovingInverse inverse(model_, in);
+  if (!running_) Begin(in, inverse.L0);
+  StepCovariance(inverse.start + 0.5 * inverse.change);
   double judged[kLanes] = {};
   for (int k = 0; k < s_.sampling.samples; ++k) {
-    const LinkageMatrix C = C0 + (static_cast<double>(k) / s_.sampling.samples) * change;
+    const LinkageMatrix C = inverse.At(k, s_.sampling.samples);
     LinkageVector i = C * lambda_, nu = LinkageVector::Zero();
     for (int j = 0; j < model_.coils; ++j)
       if (i[j] < 0) {  // a diode blocks: the linkage follows the others' flux at zero current

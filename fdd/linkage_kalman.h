@@ -16,17 +16,10 @@
 /// Between periods L^-1 runs linearly from the sensed position at the start to that at the end.
 /// Source: Mehra and Peschon, Automatica 7 (1971), innovations as a fault test; Noel, Tammi, Buckner
 /// 2008 (Kalman filter on magnetic bearings).
-#include <Eigen/Dense>
-
 #include "fdd/coil_detector.h"
+#include "fdd/inductance_matrix.h"
 
 namespace ambrig {
-
-using LinkageMatrix = Eigen::Matrix<double, kLanes, kLanes>;
-using LinkageVector = Eigen::Matrix<double, kLanes, 1>;
-
-/// L for permeances P [H]; unit rows for lanes without a coil.
-LinkageMatrix InductanceOf(const LinkageModel& m, const Lane& P);
 
 class LinkageKalman : public CoilDetector {
  public:

@@ -30,25 +30,26 @@ SlopeRange DecreasingRange(const SlopeCircuit& c, double i0, double margin) {
   return {k - margin, k * std::exp(-0.5 * c.switching_period * c.resistance / c.inductance) + margin};
 }
 
+std::vector<int> KeptSlopes(const std::vector<double>& k) {
+  std::vector<int> kept(k.size(), 0);
+  for (std::size_t j = 1; j + 1 < k.size(); ++j) {
+    if (k[j - 1] > 0 && k[j] > 0 && k[j + 1] > 0) kept[j] = 1;
+    if (k[j - 1] < 0 && k[j] < 0 && k[j + 1] < 0) kept[j] = -1;
+  }
+  return kept;
+}
+
 MeanSlopes MeanSlopesOf(const SlopeConverter& converter, const std::vector<long>& codes) {
   MeanSlopes out;
-  const std::size_t n = codes.size();
-  if (n < 2) return out;
   std::vector<double> k;
-  for (std::size_t j = 0; j + 1 < n; ++j) k.push_back(converter.Slope(codes[j], codes[j + 1]));
+  for (std::size_t j = 0; j + 1 < codes.size(); ++j) k.push_back(converter.Slope(codes[j], codes[j + 1]));
+  const std::vector<int> kept = KeptSlopes(k);
   for (std::size_t j = 0; j < k.size(); ++j) {
-    const bool ends = j == 0 || j + 1 == k.size();
-    const bool up = !ends && k[j - 1] > 0 && k[j] > 0 && k[j + 1] > 0;
-    const bool down = !ends && k[j - 1] < 0 && k[j] < 0 && k[j + 1] < 0;
-    if (up) {
-      out.increasing += k[j];
-      ++out.kept_increasing;
-    } else if (down) {
-      out.decreasing += k[j];
-      ++out.kept_decreasing;
-    } else {
-      ++out.cancelled;
-    }
+    out.kept_increasing += kept[j] > 0 ? 1 : 0;
+    out.kept_decreasing += kept[j] < 0 ? 1 : 0;
+    out.cancelled += kept[j] == 0 ? 1 : 0;
+    if (kept[j] > 0) out.increasing += k[j];
+    if (kept[j] < 0) out.decreasing += k[j];
   }
   if (out.kept_increasing > 0) out.increasing /= out.kept_increasing;
   if (out.kept_decreasing > 0) out.decreasing /= out.kept_decreasing;

@@ -56,6 +56,8 @@ struct MeanSlopes {
   int kept_increasing = 0, kept_decreasing = 0, cancelled = 0;
 };
 
+/// Singularity rule: +1 for a slope that is kept as increasing, -1 as decreasing, 0 for a cancelled one.
+std::vector<int> KeptSlopes(const std::vector<double>& k);
 /// Singularity rule and Eq. 20 over a queue of codes.
 MeanSlopes MeanSlopesOf(const SlopeConverter& converter, const std::vector<long>& codes);
 

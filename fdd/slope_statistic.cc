@@ -6,9 +6,7 @@
 namespace ambrig {
 
 namespace {
-constexpr double kMargin = 700;         // [A/s] error budget of the paper's section 4.1
-constexpr double kForgetIn = 0.1;       // [s]
-constexpr double kLeastCurrent = 0.3;   // [A] that tells a resistance
+constexpr double kMargin = 700;  // [A/s] error budget of the paper's section 4.1
 
 double Outside(const SlopeRange& range, double k) { return std::max({0.0, range.low - k, k - range.high}); }
 }  // namespace
@@ -18,21 +16,9 @@ double InPhaseInductance(const LinkageModel& m, int j, const Lane& P) {
   return windings * m.n[j] * m.n[j] * P[j] + m.leakage[j];
 }
 
-void ResistanceEstimate::Add(int j, double voltage, double current) {
-  if (current < kLeastCurrent) return;
-  top_[j] += voltage * current - forget_ * top_[j];
-  bottom_[j] += current * current - forget_ * bottom_[j];
-}
-
-double ResistanceEstimate::Value(int j) const {
-  const double found = (top_[j] + kPrior * nominal_[j]) / (bottom_[j] + kPrior);
-  return std::clamp(found, 0.5 * nominal_[j], 2 * nominal_[j]);
-}
-
 SlopeStatistic::SlopeStatistic(const CoilDetectorSetup& setup, Thresholds thresholds, double cycle)
     : model_(setup.model), s_(setup.settings), thresholds_(thresholds),
-      resistance_(setup.model.resistance, setup.settings.sampling.samples * setup.settings.sampling.step / kForgetIn),
-      cycle_(cycle) {
+      resistance_(setup), cycle_(cycle) {
   const double centre[2] = {0, 0};
   model_.Permeance(centre, centre, &centred_);
   converter_.attenuation = converter_.sampling_resistance = 1;
@@ -79,14 +65,9 @@ Lane SlopeStatistic::Period(const MeasuredPeriod& in) {
     const double from[2] = {in.x0, in.y0}, to[2] = {in.x1, in.y1};
     model_.Permeance(from, to, &P);
   }
-  for (int j = 0; j < model_.coils; ++j) {
+  for (int j = 0; j < model_.coils; ++j)
     if (due) held_[j] = Judge(j, in, P);
-    if (!online) continue;
-    double mean = 0;
-    for (int k = 0; k < s_.sampling.samples; ++k) mean += in.adc[k][j] / s_.sampling.samples;
-    const BridgeVoltage v = VoltageOf(*s_.sampling.amplifier, (*in.duty)[j], in.bus);
-    resistance_.Add(j, (v.edge * v.on + (T - v.edge) * v.off) / T, mean);
-  }
+  if (online) resistance_.Add(in);
   return held_;
 }
 

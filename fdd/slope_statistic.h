@@ -8,11 +8,13 @@
 ///   bus         measured, mean of the period
 ///   resistance  R + what the mean bridge voltage and the mean current of the last 0.1 s tell of it
 ///   gap         L_j of the sensed position, and the motion's voltage i n² dP/dt
-/// Neighbours stay ignored: a coil is judged as one that switches together with all others.
+/// Neighbours stay ignored: a coil is judged as one that switches together with all others
+/// (slope_prediction.h takes them in).
 ///
 /// A phase of fewer than four samples is not judged; a cycle looks at its last period only and holds
 /// its statistic until the next one (1.75 ms in the paper's processor).
 #include "fdd/coil_detector.h"
+#include "fdd/resistance_estimate.h"
 #include "fdd/slope.h"
 
 namespace ambrig {
@@ -20,22 +22,6 @@ namespace ambrig {
 /// Inductance of coil j while all coils of its bearing are driven alike: n² P + L_l on a rotor that
 /// floats between alternating poles (centred: exact), twice n² P for two windings on one core. [H]
 double InPhaseInductance(const LinkageModel& m, int j, const Lane& P);
-
-/// Resistance of each coil from means with exponential forgetting: Σ v i / Σ i², started with the
-/// nominal value. The linkage returns to where it was, so that its change drops out of the mean.
-class ResistanceEstimate {
- public:
-  ResistanceEstimate(const Lane& nominal, double forget) : nominal_(nominal), forget_(forget) {}
-
-  /// Mean voltage [V] and current [A] of one period.
-  void Add(int j, double voltage, double current);
-  double Value(int j) const;  // [ohm], within half and twice the nominal one
-
- private:
-  static constexpr double kPrior = 4000;  // [A²] weight of the nominal value: 40 ms at 2 A and 25 kHz
-  Lane nominal_, top_, bottom_;
-  double forget_;                         // share a period
-};
 
 class SlopeStatistic : public CoilDetector {
  public:

@@ -28,6 +28,11 @@ int LevelOf(double statistic) {
   return std::max(0, static_cast<int>(std::upper_bound(e.begin(), e.end(), statistic) - e.begin()) - 1);
 }
 
+int LevelAtLeast(double threshold) {
+  const int level = LevelOf(threshold);
+  return ValueOf(level) < threshold ? std::min(level + 1, kStatisticLevels - 1) : level;
+}
+
 double ValueOf(int level) { return Edges()[static_cast<std::size_t>(std::clamp(level, 0, kStatisticLevels - 1))]; }
 
 }  // namespace ambrig

@@ -8,6 +8,8 @@ inline constexpr int kLevelsPerDecade = 32, kStatisticLevels = 10 * kLevelsPerDe
 
 /// Of a statistic, nan counts as infinite.
 int LevelOf(double statistic);
+/// Lowest level all of whose values are at or above a threshold.
+int LevelAtLeast(double threshold);
 /// Smallest value of a level; 0 for level 0.
 double ValueOf(int level);
 

@@ -27,6 +27,7 @@ using Work = std::function<int()>;
 void AddRun(CLI::App& app, Work& work);
 void AddCheck(CLI::App& app, Work& work);
 void AddCampaign(CLI::App& app, Work& work);
+void AddDetectors(CLI::App& app, Work& work);
 void AddMerge(CLI::App& app, Work& work);
 void AddRedistribute(CLI::App& app, Work& work);
 void AddEffects(CLI::App& app, Work& work);

@@ -8,6 +8,7 @@
 
 #include "fdd/coupled_detector.h"
 #include "fdd/current_error.h"
+#include "fdd/slope_prediction.h"
 #include "fdd/statistic_level.h"
 #include "tests/fdd/stator_bench.h"
 
@@ -123,6 +124,48 @@ TEST(SlopeStatistic, LooksOnceInACycle) {
   EXPECT_EQ(looks, 10);  // 1.75 ms are 43.75 periods: the first one at or after it, 44
 }
 
+TEST(SlopePrediction, KnowsNeighboursGapAndMotion) {
+  Bench bench;
+  bench.vx = 0.1;
+  const CoilDetectorSetup setup = SetupOf(bench);
+  SlopePrediction coupled(setup);
+  SlopeStatistic online(setup, Thresholds::kOnline);
+  double worst_online = 0;
+  for (int n = 0; n < 10; ++n) {
+    for (int j = 0; j < kLanes; ++j) bench.duty[j] = 0.515 + (j % 2 == 0 ? 0.02 : -0.02);  // flux-free pattern: leakage alone
+    for (double& i : bench.lanes.i.v) ASSERT_GT(i, 0.1);
+    const MeasuredPeriod in = bench.Run();
+    for (double s : coupled.Period(in).v) EXPECT_LT(s, 0.15) << n;  // 100 A/s: explicit R i, linear L^-1
+    for (double s : online.Period(in).v) worst_online = std::max(worst_online, s);
+  }
+  EXPECT_GT(worst_online, 2);
+  // A short of 5 % of the turns of one coil: slopes (L_short^-1 - L^-1) v, v = -(U + 2 U_c) - R i in the off phase.
+  for (double& d : bench.duty.v) d = 0.515;
+  bench.vx = 0;
+  bench.lanes.ShortTurns(3, 0.05, INFINITY, bench.x0, bench.y0);
+  const Lane s = coupled.Period(bench.Run());
+  LinkageModel shorted = setup.model;
+  shorted.n[3] *= 0.95;
+  shorted.leakage[3] *= 0.95 * 0.95;
+  const Lane P = shorted.Permeance(bench.x0, bench.y0);
+  LinkageVector v;
+  for (int j = 0; j < kLanes; ++j) v[j] = -31.4 - 0.5 * bench.lanes.samples[13][j];
+  const LinkageVector change = InductanceOf(shorted, P).inverse() * v - InductanceOf(setup.model, P).inverse() * v;
+  EXPECT_NEAR(s[3], std::abs(change[3]) / 700, 0.2);
+  EXPECT_GT(s[3], 3);
+  for (int j = 0; j < kLanes; ++j) EXPECT_LE(s[j], s[3]) << j;
+}
+
+TEST(SlopePrediction, AnOpenCoilMissesItsWholeSlope) {
+  Bench bench;
+  bench.noise = 0.004;
+  SlopePrediction coupled(SetupOf(bench));
+  for (int n = 0; n < 5; ++n) coupled.Period(bench.Run());
+  bench.lanes.Break(2, bench.x0, bench.y0);
+  const Lane s = coupled.Period(bench.Run());
+  EXPECT_GT(s[2], 15);  // 15 kA/s and more are gone
+}
+
 TEST(CurrentErrorDetector, FollowsAStepAndNamesALostCurrent) {
   IdealCoil coil;
   CurrentErrorDetector detector(coil.setup);
@@ -179,6 +222,8 @@ TEST(StatisticLevel, FindsItsPlace) {
   for (int k = 0; k < kStatisticLevels; ++k) EXPECT_EQ(LevelOf(ValueOf(k)), k);
   for (int k = 1; k + 1 < kStatisticLevels; ++k) EXPECT_EQ(LevelOf(0.5 * (ValueOf(k) + ValueOf(k + 1))), k);
   EXPECT_EQ(LevelOf(0), 0);
+  EXPECT_EQ(LevelAtLeast(ValueOf(40)), 40);
+  EXPECT_EQ(LevelAtLeast(1.001 * ValueOf(40)), 41);
   EXPECT_EQ(LevelOf(1e300), kStatisticLevels - 1);
   EXPECT_EQ(LevelOf(NAN), kStatisticLevels - 1);
   EXPECT_NEAR(ValueOf(1 + 2 * kLevelsPerDecade) / ValueOf(1 + kLevelsPerDecade), 10, 1e-9);

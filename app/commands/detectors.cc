@@ -1,0 +1,92 @@
+/// ambrig detectors: detectors of coil faults on the same healthy and faulty runs.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+
+#include "app/commands/commands.h"
+#include "app/report/detector_report.h"
+#include "app/report/progress.h"
+#include "campaign/run_rows.h"
+#include "core/base/atomic_file.h"
+
+namespace ambrig {
+
+namespace {
+
+struct DetectorsCommand {
+  CommonOptions common;
+  std::string file, out;
+  int jobs = 0;
+  bool no_report = false;
+};
+
+void WriteStudyTable(const DetectorStudyPlan& plan, const Rows& rows, const std::string& folder) {
+  std::string text;
+  for (const std::string& column : plan.Columns()) text += (text.empty() ? "" : ",") + column;
+  text += '\n';
+  for (const auto& [run, row] : rows) text += row.Csv() + '\n';
+  WriteFileAtomically((std::filesystem::path(folder) / "table.csv").string(), text);
+}
+
+void RunAll(const DetectorStudyPlan& plan, int jobs, Journal& journal) {
+  std::vector<std::size_t> pending;
+  for (std::size_t run = 0; run < plan.study().runs(); ++run)
+    if (!journal.rows().contains(run)) pending.push_back(run);
+  if (pending.empty()) return;
+  Progress progress("detectors");
+  std::atomic<std::size_t> done{0};
+  const auto begin = std::chrono::steady_clock::now();
+  OnAllCores(pending, jobs, &interrupted, [&](std::size_t run) {
+    journal.Append(plan.Simulate(run, &interrupted));
+    const std::size_t n = ++done;
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
+                    fmt::format("{} of {} runs, {:.1f} runs/s", n, pending.size(), static_cast<double>(n) / seconds));
+  });
+}
+
+int RunDetectors(DetectorsCommand o) {
+  const DetectorStudyPlan plan(ReadDetectorStudy(o.file));
+  if (o.out.empty()) o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
+  Journal journal(o.out, plan.Header());
+  if (!journal.rows().empty()) fmt::print("{}: goes on after {} runs that are done\n", o.out, journal.rows().size());
+  try {
+    RunAll(plan, o.jobs, journal);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "ambrig: stopped; {} of {} runs are kept in {}, the same command goes on\n", journal.rows().size(), plan.study().runs(), o.out);
+    return 130;
+  }
+  const Rows& rows = journal.rows();
+  WriteStudyTable(plan, rows, o.out);
+  const auto curves = CurvesOf(plan.study(), rows);
+  const std::string text = DetectorText(plan.study(), curves, rows);
+  const auto json = DetectorJson(plan.study(), curves, rows);
+  const auto in = [&](const char* name) { return (std::filesystem::path(o.out) / name).string(); };
+  WriteFileAtomically(in("curves.txt"), text);
+  WriteFileAtomically(in("curves.json"), json.dump(1) + "\n");
+  o.common.WriteJson(json);
+  if (!o.no_report) WriteDetectorReport(plan.study(), curves, rows, in("report.html"));
+  if (!o.common.html.empty()) WriteDetectorReport(plan.study(), curves, rows, o.common.html);
+  fmt::print("{}", text);
+  fmt::print("written: {}/table.csv, curves.txt, curves.json{}\n", o.out, o.no_report ? "" : ", report.html");
+  return 0;
+}
+
+}  // namespace
+
+void AddDetectors(CLI::App& app, Work& work) {
+  auto options = std::make_shared<DetectorsCommand>();
+  CLI::App* command = app.add_subcommand("detectors", "detectors of coil faults compared: ROC curves, delay against false alarms");
+  command->add_option("study", options->file, "study file (TOML)")->required();
+  command->add_option("-o,--out", options->out, "folder of journal.txt, table.csv, curves, report.html (default: out/NAME)");
+  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")->check(CLI::Range(1, 1024));
+  command->add_flag("--no-report", options->no_report, "no report.html");
+  options->common.AddTo(*command);
+  command->footer("Example:\n  ambrig detectors scenarios/studies/detectors.toml -o out/detectors\n"
+                  "The same command goes on where a stopped or killed one was.");
+  command->callback([options, &work] { work = [options] { return RunDetectors(*options); }; });
+}
+
+}  // namespace ambrig

@@ -1,0 +1,45 @@
+#pragma once
+/// What a study's rows say of each detector at every threshold: false alarms of healthy coils, detections,
+/// delays. Thresholds are the levels of fdd/statistic_level.h.
+#include <string>
+#include <vector>
+
+#include "campaign/detector_study.h"
+
+namespace ambrig {
+
+/// Per level; a fault counts as detected when the faulty coil's own statistic got there in its window.
+struct FaultCurve {
+  std::string kind;
+  long runs = 0;
+  std::vector<double> detected;       // share of the runs
+  std::vector<double> median, late;   // delay of half and of 95 % of the runs, inf when fewer were detected [s]
+  std::vector<double> named;          // share in which the bearing's first alarm is the faulty coil's
+  /// Mean of `detected` over log10 of the false-alarm share, from one window (at least 1e-4) to all: 1 is
+  /// a detector without errors, a blind one has 0.1.
+  double area = 0;
+};
+
+struct FalseAlarmCurve {
+  std::string scenario;
+  long windows = 0;                   // of single coils
+  std::vector<double> share;          // of the windows that reach the level
+};
+
+struct DetectorCurves {
+  std::string name, unit, doc;
+  double documented = kRequired;      // threshold of its source, nan: none
+  FalseAlarmCurve all;
+  std::vector<FalseAlarmCurve> scenarios;
+  std::vector<FaultCurve> faults;
+  int budget_level = 0;               // lowest level within the study's budget of false alarms
+  double score = 0;                   // mean detected share over the kinds at that level
+  double mean_delay = 0;              // mean of the delays there, a missed fault counting as the window [s]
+};
+
+/// In the study's order of detectors; kinds and scenarios in the order of the rows.
+std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& rows);
+/// Indices, best first: by score, then by mean delay.
+std::vector<std::size_t> Ranking(const std::vector<DetectorCurves>& curves);
+
+}  // namespace ambrig
