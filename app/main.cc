@@ -15,6 +15,7 @@ constexpr const char* kExamples = R"(Examples:
   ambrig run scenarios/library/coil_a3_opens_1500rpm.toml     what happens when coil A3 breaks
   ambrig check scenarios/library --jobs 2                     every scenario with expectations
   ambrig campaign scenarios/campaigns/single_coils.toml       many runs on all cores, resumable
+  ambrig detectors scenarios/studies/detectors.toml           detectors of coil faults: ROC, delays
   ambrig witness scenarios/library/drop_at_1500rpm.toml       contact by two models: do they agree?
   ambrig redistribute rig.toml --bearing A --failed 3         currents after a coil failure
   ambrig compare case.toml                                    model beside measurement

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "scenarios/switching_engine.h"
 
@@ -114,11 +115,8 @@ DetectorStudy ReadDetectorStudy(const std::string& file) {
   DetectorStudy s;
   s.file = file;
   s.name = root.String("name", std::filesystem::path(file).stem().string());
-  const auto beside = [&](const std::string& name) {
-    return name.starts_with('/') ? name : (std::filesystem::path(file).parent_path() / name).lexically_normal().string();
-  };
-  s.healthy = ReadCampaign(beside(root.String("healthy")));
-  s.faulty = ReadCampaign(beside(root.String("faulty")));
+  s.healthy = ReadCampaign(Beside(file, root.String("healthy")));
+  s.faulty = ReadCampaign(Beside(file, root.String("faulty")));
   s.detectors = ReadDetectors(root);
   s.trial.begin = In(root, "begin", s.trial.begin, 0, 10, "s");
   s.trial.settle = In(root, "settle", s.trial.settle, 0, 10, "s");
@@ -128,6 +126,9 @@ DetectorStudy ReadDetectorStudy(const std::string& file) {
   for (const Campaign* c : {&s.healthy, &s.faulty})
     if (c->rig.amplifier.modulation != Modulation::kBiState)
       root.Fail(c == &s.healthy ? "healthy" : "faulty", fmt::format("= \"{}\": {}, allowed: a rig with bi-state bridges (slopes need both phases)", c->file, c->rig.file));
+  // A threshold is set for one kind of bearing: where the faults are.
+  s.trial.kinds.clear();
+  for (const FailureSet& set : s.faulty.sets) s.trial.kinds.push_back(s.faulty.rig.Find(set.bearing)->kind);
   CheckHealthy(root, s);
   CheckFaulty(root, s);
   const std::string texts = ReadFile(file) + s.healthy.fingerprint + s.faulty.fingerprint;

@@ -31,6 +31,8 @@ DetectorTrial::DetectorTrial(const RigParameters& nominal, const Scenario& scena
     count_from_ = static_cast<long long>(std::floor(scenario.faults.front().time * f + 1e-6));
     begin_ = std::max(0LL, count_from_ - std::llround(settings.begin * f));
   }
+  for (std::size_t k = 0; k < rig_.bearings.size(); ++k)
+    watched_.push_back(faulty_ ? k == bearing_ : std::count(settings.kinds.begin(), settings.kinds.end(), rig_.bearings[k].kind) > 0);
   for (const CoilDetectorKind& kind : kinds) {
     auto d = std::make_unique<OneDetector>();
     for (const BearingParameters& b : rig_.bearings) {
@@ -61,7 +63,7 @@ void DetectorTrial::AfterPeriod(const PeriodMeasurement& m, std::vector<BearingC
   std::vector<Lane> statistic(in.size());
   for (auto& d : detectors_) {
     for (std::size_t k = 0; k < in.size(); ++k)
-      if (!faulty_ || k == bearing_) statistic[k] = d->bearings[k]->Period(in[k]);
+      if (watched_[k]) statistic[k] = d->bearings[k]->Period(in[k]);
     if (!counts) continue;
     if (faulty_)
       CountFaulty(*d, statistic[bearing_], static_cast<int>(m.period - count_from_));
@@ -73,7 +75,7 @@ void DetectorTrial::AfterPeriod(const PeriodMeasurement& m, std::vector<BearingC
 
 void DetectorTrial::CountHealthy(OneDetector& d, const std::vector<Lane>& statistic) {
   for (std::size_t k = 0; k < statistic.size(); ++k)
-    for (int j = 0; j < rig_.bearings[k].coils(); ++j) {
+    for (int j = 0; watched_[k] && j < rig_.bearings[k].coils(); ++j) {
       double& most = d.largest[k][j];
       most = in_window_ == 1 ? statistic[k][j] : std::max(most, statistic[k][j]);
       if (in_window_ == window_) ++d.outcome.windows[LevelOf(most)];

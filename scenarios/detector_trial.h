@@ -33,6 +33,7 @@ struct TrialSettings {
   double begin = 0.02;   // [s] detectors start; in a run with a fault: that much before it
   double settle = 0.01;  // [s] from there on nothing is counted
   double window = 0.01;  // [s]
+  std::vector<BearingKind> kinds = {BearingKind::kRadial};  // bearings whose coils count, healthy
 };
 
 class DetectorTrial : public Supervisor {
@@ -55,6 +56,7 @@ class DetectorTrial : public Supervisor {
   const RigParameters& rig_;
   DetectionFeed feed_;
   std::vector<std::unique_ptr<OneDetector>> detectors_;
+  std::vector<bool> watched_;            // per bearing
   bool faulty_ = false;
   std::size_t bearing_ = 0;              // of the fault
   int coil_ = 0;

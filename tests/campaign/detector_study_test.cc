@@ -143,7 +143,7 @@ TEST(DetectorStudy, SameBytesForAnyJobsAndAfterAKill) {
   for (const char* name : {"table.csv", "curves.json", "curves.txt"}) EXPECT_EQ(f.Read(std::string("one/") + name), f.Read(std::string("cut/") + name)) << name;
   const auto json = nlohmann::json::parse(f.Read("cut.json"));
   EXPECT_EQ(json["detectors"].size(), CoilDetectorKinds().size());
-  EXPECT_EQ(json["windows"], 1920);
+  EXPECT_EQ(json["windows"], 1536);
   const std::string html = f.Read("cut.html");
   for (const char* part : {"ROC curves", "Delay against false alarms", "paper-online"}) EXPECT_NE(html.find(part), std::string::npos) << part;
 }
