@@ -12,7 +12,9 @@ namespace ambrig {
 
 namespace {
 
-std::string Percent(double share) { return fmt::format("{:.1f} %", 100 * share); }
+std::string Percent(double share) {
+  return share == 1 || share == 0 ? fmt::format("{:.0f} %", 100 * share) : fmt::format("{:.1f} %", 100 * share);
+}
 
 Grid PanelPerKind(const std::vector<DetectorCurves>& curves) {
   Grid grid;
@@ -55,8 +57,8 @@ Figure CurveFigure(const std::string& caption, const std::vector<DetectorCurves>
 void AtBudget(HtmlReport& report, const DetectorStudy& study, const std::vector<DetectorCurves>& curves) {
   report.Heading("At equal false alarms");
   report.Text(fmt::format("Each detector at the lowest threshold with at most {:.3g} false alarms per coil and window of {}; best first. "
-                          "A cell: share of the faults found within one window, median delay, and in brackets the share in which the "
-                          "bearing's first alarm was the faulty coil's own.",
+                          "A cell: share of the faults found within one window, median delay; and where it is not the same share, in "
+                          "brackets, how often the bearing's first alarm was the faulty coil's own.",
                           study.budget, FormatSi(study.trial.window, "s")));
   std::vector<std::string> columns = {"fault", "runs"};
   const auto order = Ranking(curves);
@@ -71,8 +73,10 @@ void AtBudget(HtmlReport& report, const DetectorStudy& study, const std::vector<
       const FaultCurve& c = curves[i].faults[k];
       const auto at = static_cast<std::size_t>(curves[i].budget_level);
       const double share = c.detected[at];
-      line.emplace_back(fmt::format("{}, {} ({})", Percent(share), FormatSi(std::isfinite(c.median[at]) ? c.median[at] : kRequired, "s"), Percent(c.named[at])),
-                        share > 0.99 ? "ok" : share > 0.5 ? "warn" : "fail");
+      std::string text = Percent(share);
+      if (std::isfinite(c.median[at])) text += ", " + FormatSi(c.median[at], "s");
+      if (c.named[at] != share) text += " (" + Percent(c.named[at]) + ")";
+      line.emplace_back(text, share > 0.99 ? "ok" : share > 0.5 ? "warn" : "fail");
     }
     table.push_back(std::move(line));
   }
