@@ -17,6 +17,7 @@ constexpr int kLongestExamination = 12;
 constexpr int kTogether[] = {2, 5};    // periods that tell several shorted coils, or else
 constexpr double kGross = 6;           // [sd] residual that no noise makes
 constexpr double kPartnerMargin = 12;    // between two windings on one core: e^-6
+constexpr int kDecayed = 25;             // periods after which a coil that is off carries nothing: 1 ms, 0.2 ms are needed
 constexpr double kDoubt = 3;           // tolerances count this many times
 constexpr double kLeastUnknownCurrent = 1;  // [A] what a coil of unknown MMF may carry beside its reading
 constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
@@ -62,6 +63,25 @@ void BearingDetector::Keep(const MeasuredPeriod& in) {
   kept.in.adc = kept.adc.data();
   kept.in.duty = &kept.duty;
   ++count_;
+}
+
+void BearingDetector::SilenceFalseSensors() {
+  KeptPeriod& kept = ring_[static_cast<std::size_t>((count_ - 1) % kRing)];
+  for (int j = 0; j < model_.coils; ++j) {
+    const auto lane = static_cast<std::size_t>(j);
+    off_for_[lane] = kept.duty[j] <= 0 ? off_for_[lane] + 1 : 0;
+    if (!false_reading_[lane] || off_for_[lane] < kDecayed) continue;
+    for (int k = 0; k < s_.sampling.samples; ++k) kept.adc[static_cast<std::size_t>(k)][j] = 0;
+    if (!unknown_mmf_[lane]) continue;
+    unknown_mmf_[lane] = false;
+    state_[lane] = Coil::kLost;
+    if (model_.coupling == Coupling::kSides && state_[lane ^ 1] == Coil::kUnknownMmf && !unknown_mmf_[lane ^ 1]) {
+      state_[lane ^ 1] = Coil::kHealthy;
+      watched_[j ^ 1] = 1;
+    }
+    any_unknown_ = std::any_of(unknown_mmf_.begin(), unknown_mmf_.end(), [](bool b) { return b; });
+    paused_ = std::max(paused_, 1);
+  }
 }
 
 double BearingDetector::UnknownPotential() const {
@@ -192,9 +212,11 @@ std::vector<const KeptPeriod*> BearingDetector::LastPeriods(long long n) const {
   return out;
 }
 
-BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& in) {
+BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
   Alarm out;
-  Keep(in);
+  Keep(measured);
+  SilenceFalseSensors();
+  const MeasuredPeriod& in = ring_[static_cast<std::size_t>((count_ - 1) % kRing)].in;
   const Lane last_linkage = slopes_.last, last_voltage = slopes_.after;
   Residuals(in);
   const bool follows = follows_;
@@ -339,7 +361,7 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
     }
     case FaultClass::kCurrentSensor:
       state_[lane] = Coil::kUnknownMmf;
-      unknown_mmf_[lane] = true;
+      unknown_mmf_[lane] = false_reading_[lane] = true;
       break;
     case FaultClass::kSwitchStuckOn:  // its ADC will clip
       state_[lane] = Coil::kUnknownMmf;

@@ -20,6 +20,9 @@
 /// within a period is estimated from the other coils (period_slopes.h); what it was before is not, and
 /// widens s by n (dP/dt) δU, δU from a current as large as the reading.
 ///
+/// A coil with a false sensor carries nothing once its bridge has been kept off for 1 ms: its MMF is
+/// known again, and its reading is taken as zero, also when a second fault is examined.
+///
 /// A residual counts only where its equation holds: at least 4 samples in the phase, no current at
 /// zero in the off phase (diodes block), no clipped ADC, a known bus and position, no gap nearly closed.
 #include <array>
@@ -81,6 +84,9 @@ class BearingDetector {
   bool Holds(int phase, int coil) const { return chart_.valid[phase][coil] > 0; }
   void Learn();
   void Keep(const MeasuredPeriod& in);
+  /// Coils with a false reading whose bridge the controller has kept off carry nothing: zero replaces
+  /// the reading in the period just kept, and the coil counts as lost.
+  void SilenceFalseSensors();
   void Solve();
   LinkageModel LearnedModel() const;
   int Largest() const;  // coil of the largest residual
@@ -104,6 +110,8 @@ class BearingDetector {
   std::array<Coil, kLanes> state_{};
   std::array<bool, kLanes> unknown_mmf_{};
   bool any_unknown_ = false;
+  std::array<bool, kLanes> false_reading_{};
+  std::array<int, kLanes> off_for_{};     // periods without duty
   std::vector<KeptPeriod> ring_;
   double centred_ = 0;                    // largest permeance at the centre [H]
   long long count_ = 0, alarm_at_ = -1;

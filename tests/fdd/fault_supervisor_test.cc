@@ -274,6 +274,30 @@ TEST(FaultSupervisor, FaultsInSequenceInAllBearings) {
   EXPECT_EQ(o.result.metrics.false_alarms, 0);
 }
 
+// The coil with the false sensor is switched off: what its sensor says no longer spoils the flux that the
+// next fault is judged by (a short of 30 % was taken for 45 %, a gain of 0.8 for a short).
+TEST(FaultSupervisor, AFaultAfterAFalseSensorIsJudgedWithoutIt) {
+  struct Second {
+    const char *kind, *parameters;
+  };
+  unsigned seed = 1;
+  for (const char* first : {"offset = 0.3", "stuck = true", "gain = 0.8"})
+    for (const Second& second : {Second{"partial-short", "fraction = 0.3"}, Second{"current-sensor", "gain = 0.8"},
+                                 Second{"current-sensor", "offset = 0.3"}, Second{"open", ""}}) {
+      ++seed;
+      const Outcome o = Simulated(Spin(0.06, 157, seed) + Fault(0.02, "A.coil2", "current-sensor", first) +
+                                      Fault(0.05, "A.coil5", second.kind, second.parameters), Drawn(seed, 1));
+      const std::string what = std::string(first) + ", " + second.kind + " " + second.parameters;
+      EXPECT_EQ(o.Class("A.coil2"), "current-sensor") << what;
+      EXPECT_EQ(o.Class("A.coil5"), second.kind) << what;
+      EXPECT_EQ(o.result.metrics.false_alarms, 0) << what;
+      EXPECT_LT(o.result.metrics.detection_delay, 0.2e-3) << what;
+      if (std::string(second.kind) == "partial-short") {
+        EXPECT_NEAR(o.Fraction("A.coil5"), 0.3, 0.03) << what;
+      }
+    }
+}
+
 // 18 A in a coil whose reading is clipped at 10 A tear the shaft to the stator within 1.6 ms: what the
 // reading hides, times the speed of the gap, is no fault of the neighbours.
 TEST(FaultSupervisor, ASwitchStuckOnIsNotBlamedOnANeighbour) {
