@@ -14,7 +14,7 @@ struct SeparationMargin {
   bool met = true;
 };
 
-/// Speeds in one unit. AF = 0 (unknown) is judged as if the peak were sharp: 17 or 27 per cent.
+/// Speeds in one unit; AF, or a bound above it.
 SeparationMargin JudgeSeparation(double critical, double amplification, double lowest, double highest);
 
 inline constexpr double kLeastLogDecrement = 0.1;

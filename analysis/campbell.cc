@@ -64,7 +64,7 @@ std::vector<ModeTrack> FollowModes(const std::vector<ClosedLoopModes>& rows) {
 std::vector<DampedCritical> FindCriticals(const std::vector<ModeTrack>& tracks) {
   std::vector<DampedCritical> out;
   for (const ModeTrack& t : tracks) {
-    if (!t.of_rotor()) continue;
+    if (!t.of_rotor() || !t.modes.front().lateral) continue;  // an unbalance does not push along the axis
     for (std::size_t k = 1; k < t.speed.size(); ++k) {
       const double a = t.modes[k - 1].s.imag() - t.speed[k - 1], b = t.modes[k].s.imag() - t.speed[k];
       if (a * b > 0 || a == b) continue;

@@ -14,14 +14,16 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXcd;
 
-double WhirlOf(const std::vector<Eigen::MatrixXd>& rows, const Eigen::VectorXcd& q) {
+void SetWhirl(const std::vector<Eigen::MatrixXd>& rows, ClosedLoopMode& mode) {
+  const Eigen::VectorXcd& q = mode.q;
   double forward = 0, backward = 0;
   for (const Eigen::MatrixXd& r : rows) {
     const Eigen::Vector2cd d = r.cast<Complex>() * q;
     forward += std::norm(d(0) + Complex(0, 1) * d(1));
     backward += std::norm(d(0) - Complex(0, 1) * d(1));
   }
-  return (forward - backward) / std::max(forward + backward, 1e-300);
+  mode.lateral = forward + backward > 1e-9 * q.squaredNorm();  // beyond rounding
+  mode.whirl = mode.lateral ? (forward - backward) / (forward + backward) : 0;
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ ClosedLoopModes FindModes(const OperatingPoint& point, const ClosedLoop& loop, d
     const double rotor = part.head(2 * m).sum(), all = part.sum();
     mode.rotor_share = std::isfinite(all) && all > 0 ? rotor / all : 0;
     mode.q = loop.scale().head(m).asDiagonal() * right.col(k).head(m);
-    mode.whirl = WhirlOf(rows, mode.q);
+    SetWhirl(rows, mode);
     out.modes.push_back(std::move(mode));
   }
   std::sort(out.modes.begin(), out.modes.end(),

@@ -14,7 +14,8 @@ struct ClosedLoopMode {
   double frequency = 0;    // damped [Hz]
   double zeta = 0, log_decrement = 0;
   double rotor_share = 0;  // participation of the rotor [-]
-  double whirl = 0;        // (forward - backward)/(forward + backward)
+  double whirl = 0;        // (forward - backward)/(forward + backward); 0 of an axial mode
+  bool lateral = true;     // false: the shaft moves along its axis only
   Eigen::VectorXcd q;      // kept coordinates of the rotor
   bool of_rotor() const { return rotor_share >= 0.3; }
   Whirl sense() const;

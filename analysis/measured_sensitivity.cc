@@ -15,16 +15,19 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Least squares of mean + drift + Re(a e^{iωt}) on samples at t_k. Returns a.
-Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, double omega) {
-  Eigen::MatrixXd basis(static_cast<Eigen::Index>(t.size()), 4);
+/// Least squares of mean + drift + Re(a e^{iωt}) + what turns with the shaft on samples at t_k.
+/// Returns a.
+Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, double omega, double speed) {
+  const bool turns = speed > 0 && std::abs(speed / omega - 1) > 1e-3;
+  Eigen::MatrixXd basis(static_cast<Eigen::Index>(t.size()), turns ? 6 : 4);
   Eigen::VectorXd value(basis.rows());
   for (Eigen::Index k = 0; k < basis.rows(); ++k) {
     const auto i = static_cast<std::size_t>(k);
-    basis.row(k) << 1, t[i] - t.front(), std::cos(omega * t[i]), std::sin(omega * t[i]);
+    basis.row(k).head<4>() << 1, t[i] - t.front(), std::cos(omega * t[i]), std::sin(omega * t[i]);
+    if (turns) basis.row(k).tail<2>() << std::cos(speed * t[i]), std::sin(speed * t[i]);
     value(k) = y[i];
   }
-  const Eigen::Vector4d c = basis.colPivHouseholderQr().solve(value);
+  const Eigen::VectorXd c = basis.colPivHouseholderQr().solve(value);
   return {c(2), -c(3)};
 }
 
@@ -77,7 +80,7 @@ Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test, const
       t.push_back(at);
       y.push_back(f[k]);
     }
-  return FitSine(t, y, omega) / (test.amplitude * Complex(0, -1));  // amplitude * sin ωt
+  return FitSine(t, y, omega, test.speed) / (test.amplitude * Complex(0, -1));  // amplitude * sin ωt
 }
 
 }  // namespace ambrig

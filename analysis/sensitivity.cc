@@ -55,6 +55,7 @@ void PhaseMargins(const std::vector<double>& f, const std::vector<Complex>& L, A
 Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction& transfer, double rated) {
   const ClosedLoop& loop = transfer.loop();
   const double nyquist = 0.5 / loop.Ts(), highest = SensitivityRange(rated / (2 * kPi));
+  const bool stable = transfer.eigenvalues().cwiseAbs().maxCoeff() < 1;
   Sensitivity out;
   out.speed = loop.speed();
   out.frequency = FrequencyGrid(transfer, 0.5, 0.98 * nyquist, 400);
@@ -78,7 +79,7 @@ Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction&
       s.peak = std::abs(s.S[k]);
       s.peak_frequency = out.frequency[k];
     }
-    s.zone = SensitivityZone(s.peak);
+    s.zone = stable ? SensitivityZone(s.peak) : 'D';  // a peak of what diverges means nothing
     GainMargins(L, s);
     PhaseMargins(out.frequency, L, s);
   }

@@ -13,11 +13,11 @@ struct AxisSensitivity {
   std::string axis;
   std::vector<std::complex<double>> S;  // on the frequency grid
   double peak = 0, peak_frequency = 0;  // [-], [Hz], up to the standard's highest frequency
-  char zone = 'A';                      // ISO 14839-3
+  char zone = 'A';                      // ISO 14839-3; D of an unstable loop
   // Factors that the loop's gain may change by before the loop is unstable; infinite or 0: never.
   double gain_up = 0, gain_down = 0;
   double phase_margin = 0, phase_frequency = 0;  // least over the crossovers [rad], [Hz]; negative: none
-  double delay_margin = 0;                       // further dead time [s]
+  double delay_margin = 0;                       // further dead time of this axis alone [s]
 };
 
 struct Sensitivity {

@@ -14,13 +14,15 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Crossing of `level` next to `peak` in direction `step`; 0: none inside the sweep.
-double HalfPower(const std::vector<double>& x, const std::vector<double>& y, std::size_t peak, int step, double level) {
+/// Crossing of `level` next to `peak` in direction `step`; where the curve rises above the peak or the
+/// sweep ends first, that place, and `found` is false.
+double HalfPower(const std::vector<double>& x, const std::vector<double>& y, std::size_t peak, int step, double level,
+                 bool* found) {
   for (std::size_t k = peak;; k += static_cast<std::size_t>(step)) {
     const std::size_t next = k + static_cast<std::size_t>(step);
-    if (next >= x.size()) return 0;  // beyond either end (unsigned)
-    if (y[next] > y[peak]) return 0;
-    if (y[next] <= level) return std::lerp(x[k], x[next], (y[k] - level) / (y[k] - y[next]));
+    *found = next < x.size() && y[next] <= level;  // beyond either end `next` is large (unsigned)
+    if (*found) return std::lerp(x[k], x[next], (y[k] - level) / (y[k] - y[next]));
+    if (next >= x.size() || y[next] > y[peak]) return x[k];
   }
 }
 
@@ -29,14 +31,16 @@ std::vector<ResponsePeak> FindPeaks(const std::vector<double>& x, const std::vec
   std::vector<ResponsePeak> out;
   for (std::size_t k = 1; k + 1 < x.size(); ++k) {
     if (!(y[k] > y[k - 1] && y[k] >= y[k + 1])) continue;
-    const double left = HalfPower(x, y, k, -1, y[k] * std::numbers::sqrt2 / 2);
-    const double right = HalfPower(x, y, k, 1, y[k] * std::numbers::sqrt2 / 2);
+    const double level = y[k] * std::numbers::sqrt2 / 2;
+    bool below, above;
+    const double left = HalfPower(x, y, k, -1, level, &below), right = HalfPower(x, y, k, 1, level, &above);
     const double bend = y[k - 1] - 2 * y[k] + y[k + 1];
     const double shift = bend < 0 ? 0.5 * (y[k - 1] - y[k + 1]) / bend : 0;
     ResponsePeak peak;
     peak.speed = x[k] + shift * 0.5 * (x[k + 1] - x[k - 1]);
     peak.amplitude = y[k];
-    if (left > 0 && right > left) peak.amplification = peak.speed / (right - left);
+    peak.amplification = peak.speed / (right - left);
+    peak.bound = !below || !above;
     out.push_back(peak);
   }
   return out;

@@ -27,7 +27,8 @@ std::vector<UnbalanceCase> StandardUnbalance(const OperatingPoint& point, double
 struct ResponsePeak {
   double speed = 0;          // N_c [rad/s]
   double amplitude = 0;      // half the orbit's long axis [m]
-  double amplification = 0;  // AF; 0: the half-power points lie outside the sweep
+  double amplification = 0;  // AF
+  bool bound = false;        // a half-power point was not reached: AF is smaller than this
 };
 
 /// Amplitude (long half axis of the orbit at the sensors) and phase over speed, per radial bearing.

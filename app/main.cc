@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <fmt/format.h>
 
-#include "app/commands/commands.h"
+#include "app/commands/analyze.h"
 #include "core/base/errors.h"
 
 namespace ambrig {
@@ -18,6 +18,7 @@ constexpr const char* kExamples = R"(Examples:
   ambrig detectors scenarios/studies/detectors.toml           detectors of coil faults: ROC, delays
   ambrig witness scenarios/library/drop_at_1500rpm.toml       contact by two models: do they agree?
   ambrig redistribute rig.toml --bearing A --failed 3         currents after a coil failure
+  ambrig analyze rig.toml --speed 3000:9000 -o out            modes, margins, sensitivity, unbalance
   ambrig compare case.toml                                    model beside measurement
   ambrig explain case.toml                                    which physical effect is missing
   ambrig adopt case.toml eddy-currents --target A             add it, compare again
@@ -37,6 +38,8 @@ int Main(int argc, char** argv) {
   ambrig::AddDetectors(app, work);
   ambrig::AddWitness(app, work);
   ambrig::AddRedistribute(app, work);
+  ambrig::AddAnalyze(app, work);
+  ambrig::AddValidate(app, work);
   ambrig::AddEffects(app, work);
   ambrig::AddParameters(app, work);
   ambrig::AddCompare(app, work);

@@ -25,3 +25,5 @@ add_test(NAME examples COMMAND ambrig check ${CMAKE_SOURCE_DIR}/examples --jobs 
 # The pages that commands print are what the commands print.
 add_test(NAME docs_parameters COMMAND sh -c "$<TARGET_FILE:ambrig> parameters --markdown | diff -u ${CMAKE_SOURCE_DIR}/docs/parameters.md -")
 add_test(NAME docs_effects COMMAND sh -c "$<TARGET_FILE:ambrig> effects --markdown | diff -u ${CMAKE_SOURCE_DIR}/docs/effects.md -")
+add_test(NAME docs_validation COMMAND sh -c "$<TARGET_FILE:ambrig> validate examples/validation --markdown | diff -u docs/validation.md -"
+         WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
