@@ -193,7 +193,7 @@ Figure ModeShapeFigure(const RigAnalysis& a) {
     if (std::abs(r.speed - a.options.highest) < std::abs(row->speed - a.options.highest)) row = &r;
   std::vector<const ClosedLoopMode*> modes;
   for (const ClosedLoopMode& m : row->modes)
-    if (m.of_rotor() && m.zeta < 0.97 && modes.size() < 6) modes.push_back(&m);
+    if (m.of_rotor() && m.lateral && m.zeta < 0.97 && modes.size() < 6) modes.push_back(&m);
   Grid grid;
   grid.columns = std::max<int>(1, std::min<int>(3, static_cast<int>(modes.size())));
   grid.rows = std::max<int>(1, (static_cast<int>(modes.size()) + grid.columns - 1) / grid.columns);
