@@ -8,6 +8,8 @@
 /// b_k = 4.7300, 7.8532, 10.9956, 14.1372: the lowest mode alone where it fits, and no wild shape
 /// where a bearing sits on a node. Straight beyond the ends. `gyro` couples the planes: ± gyro
 /// Omega eta' (a thin shaft: 0).
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 
@@ -59,7 +61,7 @@ std::array<double, kModes> Blend(double a, double b, double gain_a, double gain_
   return c;
 }
 
-using Shape = std::vector<std::pair<double, double>>;
+using Shape = std::vector<ShapePoint>;
 
 Shape ShapeThrough(const std::vector<std::pair<std::string, double>>& planes, double gain_a,
                    double gain_b, double length) {
@@ -71,7 +73,7 @@ Shape ShapeThrough(const std::vector<std::pair<std::string, double>>& planes, do
     double gain = 0;
     for (int k = 0; k < kModes; ++k)
       gain += c[static_cast<std::size_t>(k)] * FreeMode(k, z / length);
-    shape.emplace_back(z, gain);
+    shape.push_back({z, gain});
   };
   constexpr int kPieces = 400;  // straight pieces: off by at most (b/400)²/8 = 2e-4 of a mode's end
   add(-length);
@@ -102,8 +104,8 @@ EffectDescription BendingModeEffect() {
   d.confused_with =
       "base-mode (does not split with speed, rigid zero), sensor-lowpass well above its frequency";
   d.shape = [](const EffectInstance& e, Plant& plant) {
-    if (plant.rotor.modes().size() >= 2)
-      throw InputError(e.where + ": at most two bending modes in a rig");
+    if (plant.rotor.modes().size() >= kMaxModes)
+      throw InputError(fmt::format("{}: more than {} bending modes in a rig", e.where, kMaxModes));
     const RotorParameters& rotor = plant.rotor.parameters();
     BendingMode mode;
     mode.omega = 2 * kPi * e.Value("frequency");

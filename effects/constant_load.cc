@@ -15,12 +15,13 @@ EffectDescription ConstantLoad() {
   d.target = TargetKind::kPlane;
   d.parameters = {{"fx", "N", 0, -1e6, 1e6, 0.5, 30, "along x"},
                   {"fy", "N", 0, -1e6, 1e6, 0.5, 30, "along y"}};
+  d.at_stations = true;
   d.off_when_null = {"fx", "fy"};
   d.shows_in = "levitated records: static currents, set-points; not in clamped ones";
   d.confused_with =
       "magnetic-offset and sensor-offset (grow with the bias), rotor mass, current-sensor-offset";
   d.apply = [](const EffectInstance& e, Plant& plant) {
-    const PlaneMap map = TargetPlane(e, plant).plane;
+    const PlaneMap map = TargetForcePlane(e, plant);
     const double fx = e.Value("fx"), fy = e.Value("fy");
     AddForceTerm(plant,
                  [=](const MotionState&, RotorForces& forces) { map.AddForce(fx, fy, forces.Q); });

@@ -17,12 +17,13 @@ EffectDescription CouplingMisalignment() {
   d.target = TargetKind::kPlane;
   d.parameters = {{"c", "N", 0, -1e4, 1e4, 0.2, 20, "along x at theta = 0"},
                   {"s", "N", 0, -1e4, 1e4, 0.2, 20, "along y at theta = 0"}};
+  d.at_stations = true;
   d.off_when_null = {"c", "s"};
   d.shows_in =
       "turning records: twice per turn, equal force at any speed, so more motion at low speed";
   d.confused_with = "sensor-runout of order 2 (a reading, no force)";
   d.apply = [](const EffectInstance& e, Plant& plant) {
-    const PlaneMap map = TargetPlane(e, plant).plane;
+    const PlaneMap map = TargetForcePlane(e, plant);
     const double c = e.Value("c"), s = e.Value("s");
     AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
       const Turned f = Turn(c, s, 2 * m.theta);

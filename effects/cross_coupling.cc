@@ -16,11 +16,12 @@ EffectDescription CrossCoupling() {
       "gains energy, the backward whirl loses it.";
   d.target = TargetKind::kPlane;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 5e3, 2e5, "k of fx = -k y, fy = +k x"}};
+  d.at_stations = true;
   d.off_when_null = {"stiffness"};
   d.shows_in = "force excitation: the other axis answers; forward whirl less damped than backward";
   d.confused_with = "sensor-rotation (same at standstill, no force of its own), rotating-damping";
   d.apply = [](const EffectInstance& e, Plant& plant) {
-    const PlaneMap map = TargetPlane(e, plant).plane;
+    const PlaneMap map = TargetForcePlane(e, plant);
     const double k = e.Value("stiffness");
     AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
       const double fx = -k * map.Y(m.q), fy = k * map.X(m.q);

@@ -59,6 +59,7 @@ std::vector<std::string> TargetsOf(const EffectDescription& d, const EffectTarge
       add(known.coils);
       break;
   }
+  if (d.at_stations) add(known.stations);
   std::vector<std::string> unique;
   for (const auto& t : out)
     if (std::find(unique.begin(), unique.end(), t) == unique.end()) unique.push_back(t);

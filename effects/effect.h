@@ -26,6 +26,7 @@ struct EffectParameter {
 /// Names that a rig offers as targets.
 struct EffectTargets {
   std::vector<std::string> bearings, planes, coils, axes;
+  std::vector<std::string> stations;  // named planes of a beam rotor
 };
 
 /// An effect as a rig file names it.
@@ -53,6 +54,7 @@ struct EffectDescription {
   bool Switches(const EffectParameter& p) const;
   std::string shows_in;                    // which record shows it
   std::string confused_with;
+  bool at_stations = false;                // a plane may also be a disk or station of a beam rotor
   void (*apply)(const EffectInstance&, Plant&) = nullptr;
   void (*shape)(const EffectInstance&, Plant&) = nullptr;  // before planes exist: adds modes to the shaft
 };

@@ -12,6 +12,12 @@ BearingPlant& TargetPlane(const EffectInstance& effect, Plant& plant) {
   throw InputError(effect.where + ": " + effect.name + " has no plane \"" + effect.target + "\"");
 }
 
+PlaneMap TargetForcePlane(const EffectInstance& effect, Plant& plant) {
+  for (const auto& [name, plane] : plant.stations)
+    if (name == effect.target) return plane;
+  return TargetPlane(effect, plant).plane;
+}
+
 int TargetSide(const EffectInstance& effect) {
   const std::string& t = effect.target;
   return t.size() > 2 && t.substr(t.size() - 2) == ".y" ? 1 : 0;

@@ -12,6 +12,8 @@ namespace ambrig {
 
 /// The bearing of a plane or axis; "z" is the thrust bearing.
 BearingPlant& TargetPlane(const EffectInstance& effect, Plant& plant);
+/// Where a force at the target plane acts: a bearing's plane, or a disk or station of a beam rotor.
+PlaneMap TargetForcePlane(const EffectInstance& effect, Plant& plant);
 /// Side of the sensor that an axis target names: 0 for "A.x" and "z", 1 for "A.y".
 int TargetSide(const EffectInstance& effect);
 /// The auxiliary bearing at the target plane. @throws InputError when the rig has none there.

@@ -69,6 +69,8 @@ struct Plant {
   /// The bus lives on the heap: a formula keeps its address while the plant moves.
   std::unique_ptr<BusSupply> bus_place = std::make_unique<BusSupply>();
   BusSupply& bus = *bus_place;
+  /// Named planes of a beam rotor: disks, stations.
+  std::vector<std::pair<std::string, PlaneMap>> stations;
   double loop_delay = 0;     // [s] set-points reach the current loops this much later
 
   BearingPlant* Find(const std::string& name) {

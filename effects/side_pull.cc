@@ -15,14 +15,14 @@ EffectDescription SidePull() {
       "plane, independent of the bearing's currents.";
   d.target = TargetKind::kPlaneOrZ;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 1e4, 5e5, "k of f = k r; > 0 destabilises"}};
+  d.at_stations = true;
   d.off_when_null = {"stiffness"};
   d.shows_in = "force excitation at low frequency; reference steps; static currents off centre";
   d.confused_with = "gap of that bearing (its negative stiffness grows with the bias), sensor-gain";
   d.apply = [](const EffectInstance& e, Plant& plant) {
-    const BearingPlant& b = TargetPlane(e, plant);
-    const PlaneMap map = b.plane;
+    const PlaneMap map = TargetForcePlane(e, plant);
     const double k = e.Value("stiffness");
-    const bool radial = !b.thrust;
+    const bool radial = map.count > 0 && map.dof[0] != 2;
     AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
       // Along its one axis at an opposed pair (weights cos, sin), along z at a thrust bearing.
       const double fx = k * map.X(m.q), fy = k * map.Y(m.q);

@@ -20,11 +20,12 @@ EffectDescription Unbalance() {
   d.parameters = {
       {"c", "kg m", 0, -1e-2, 1e-2, 1e-6, 1e-4, "along the rotor's mark (x at theta = 0)"},
       {"s", "kg m", 0, -1e-2, 1e-2, 1e-6, 1e-4, "90 degrees ahead of the mark"}};
+  d.at_stations = true;
   d.off_when_null = {"c", "s"};
   d.shows_in = "turning records, run-ups best: once per turn, growing with the square of the speed";
   d.confused_with = "sensor-runout, shaft-bow (both stay at slow roll); at one speed not separable";
   d.apply = [](const EffectInstance& e, Plant& plant) {
-    const PlaneMap map = TargetPlane(e, plant).plane;
+    const PlaneMap map = TargetForcePlane(e, plant);
     const double c = e.Value("c"), s = e.Value("s");
     AddForceTerm(plant, [=](const MotionState& m, RotorForces& forces) {
       const Turned u = Turn(c, s, m.theta);

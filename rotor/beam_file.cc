@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 
 #include "rotor/beam_mesh.h"
 #include "rotor/ross_file.h"
+#include "rotor/shaft_file.h"
 
 namespace ambrig {
 namespace {
@@ -103,7 +106,8 @@ int ReadCount(const TomlTable& rotor, const char* key, int fallback, int lo, int
 }
 
 BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
-  const bool lumped = rotor.Choice("mass", "consistent", "consistent, lumped") == "lumped";
+  const char* before = t.mass == MassKind::kLumped ? "lumped" : "consistent";
+  const bool lumped = rotor.Choice("mass", before, "consistent, lumped") == "lumped";
   t.mass = lumped ? MassKind::kLumped : MassKind::kConsistent;
   t.shear = rotor.Bool("shear", t.shear);
   t.rotary_inertia = rotor.Bool("rotary_inertia", t.rotary_inertia);
@@ -115,12 +119,11 @@ BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
   return t;
 }
 
-std::vector<double> ReadDamping(const TomlTable& rotor, int modes) {
-  std::vector<double> zeta;
+std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta, int modes) {
   if (rotor.IsArray("modal_damping"))
     zeta = rotor.Numbers("modal_damping");
-  else
-    zeta = {rotor.Number("modal_damping", 0.0)};
+  else if (rotor.Has("modal_damping"))
+    zeta = {rotor.Number("modal_damping")};
   if (zeta.size() != 1 && static_cast<int>(zeta.size()) != modes)
     rotor.Fail("modal_damping",
                fmt::format("{} values, allowed: one, or one per mode ({})", zeta.size(), modes));
@@ -146,12 +149,69 @@ void ReadTables(const TomlTable& rotor, BeamDefinition& d, std::vector<Tolerance
   for (double station : rotor.Numbers("stations", {})) d.stations.push_back(station);
 }
 
-BeamDefinition FromRoss(const TomlTable& rotor) {
+void AddPlane(const TomlTable& row, const std::string& name, double z, BeamFile& out) {
+  if (name.empty()) return;
+  if (name.find_first_of(". \t") != std::string::npos)
+    row.Fail("name", fmt::format("= \"{}\", allowed: a name without dots and blanks", name));
+  for (const ShaftPlane& p : out.planes)
+    if (p.name == name) row.Fail("name", fmt::format("= \"{}\" is taken, allowed: another name", name));
+  out.planes.push_back({name, z});
+}
+
+void ReadPlanes(const TomlTable& rotor, BeamFile& out) {
+  for (const TomlTable& row : rotor.Tables("disk"))
+    AddPlane(row, row.String("name", ""), row.Number("z"), out);
+  for (const TomlTable& row : rotor.Tables("station")) {
+    const double z = row.Number("z");
+    AddPlane(row, row.String("name"), z, out);
+    row.RejectUnknownKeys();
+    out.definition.stations.push_back(z);
+  }
+}
+
+/// The tables of one [rotor], in the rig's file or in the shaft's own; what is absent stays as it was.
+void ReadOwnTable(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
+  rotor.Choice("kind", "beam", "beam");
+  BeamDefinition& d = out.definition;
+  ReadTables(rotor, d, tolerances);
+  ReadPlanes(rotor, out);
+  d.theory = ReadTheory(rotor, d.theory);
+  d.elements_per_section = ReadCount(rotor, "elements_per_section", d.elements_per_section, 1, 1000);
+  out.modes = ReadCount(rotor, "modes", out.modes, 0, 100);
+  out.modal_damping = ReadDamping(rotor, out.modal_damping, out.modes);
+}
+
+void FromRoss(const std::string& file, const std::function<void(const std::string&, double)>& add, BeamFile& out,
+              std::vector<std::string>* ignored) {
+  RossRotor ross = ReadRoss(file);
+  out.definition = std::move(ross.definition);
+  if (ignored) *ignored = ross.ignored;
+  for (const Disk& d : out.definition.disks) {
+    std::string name = d.name;  // ROSS's names have blanks: "Disk 0"
+    std::replace_if(name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
+    add(name, d.z);
+  }
+}
+
+/// A table's own file: ROSS's, or one with a [rotor] of the same tables.
+void ReadShaftFile(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
   if (rotor.Has("section"))
-    rotor.Fail("section", "is given beside ross_file, allowed: one of them");
-  const std::filesystem::path file = rotor.String("ross_file");
+    rotor.Fail("section", "is given beside file, allowed: one of them");
+  const std::filesystem::path given = rotor.String("file");
   const std::filesystem::path folder = std::filesystem::path(rotor.file()).parent_path();
-  return ReadRoss((file.is_absolute() ? file : folder / file).string()).definition;
+  const std::string file = (given.is_absolute() ? given : folder / given).string();
+  if (given.extension() == ".toml") {
+    const TomlTable root = TomlTable::FromFile(file);
+    if (const auto own = root.Table("rotor")) {
+      ReadOwnTable(*own, out, tolerances);
+      own->RejectUnknownKeys();
+      root.RejectUnknownKeys();
+      return;
+    }
+  } else if (given.extension() != ".json") {
+    rotor.Fail("file", fmt::format("= \"{}\", allowed: a .toml or .json file", given.string()));
+  }
+  FromRoss(file, [&](const std::string& name, double z) { AddPlane(rotor, name, z, out); }, out, nullptr);
 }
 
 }  // namespace
@@ -159,16 +219,13 @@ BeamDefinition FromRoss(const TomlTable& rotor) {
 BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   rotor.Choice("kind", "beam", "beam");
   BeamFile out;
+  out.modes = 2;
+  out.modal_damping = {0.0};
+  if (rotor.Has("file")) ReadShaftFile(rotor, out, tolerances);
+  ReadOwnTable(rotor, out, tolerances);
   BeamDefinition& d = out.definition;
-  const bool ross = rotor.Has("ross_file");
-  if (ross) d = FromRoss(rotor);
-  ReadTables(rotor, d, tolerances);
   if (d.sections.empty())
     rotor.Fail("section", "is missing, allowed: tables, each written [[rotor.section]]");
-  d.theory = ReadTheory(rotor, d.theory);
-  d.elements_per_section = ReadCount(rotor, "elements_per_section", ross ? 1 : 4, 1, 1000);
-  out.modes = ReadCount(rotor, "modes", 2, 0, 100);
-  out.modal_damping = ReadDamping(rotor, out.modes);
   BeamMesh mesh;
   try {
     mesh = MakeMesh(d);
@@ -179,6 +236,26 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   if (out.modes > available)
     rotor.Fail("modes",
                fmt::format("{}, allowed 0 to {} with these elements", out.modes, available));
+  return out;
+}
+
+BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored) {
+  *ross = true;
+  if (file.ends_with(".toml")) {
+    const TomlTable root = TomlTable::FromFile(file);
+    if (const auto own = root.Table("rotor")) {
+      *ross = false;
+      return ReadBeam(*own);
+    }
+  } else if (!file.ends_with(".json")) {
+    throw InputError(fmt::format("{}: allowed: a .toml or .json file", file));
+  }
+  BeamFile out;
+  out.modes = 2;
+  out.modal_damping = {0.0};
+  FromRoss(file, [&](const std::string& name, double z) {
+    if (!name.empty()) out.planes.push_back({name, z});
+  }, out, ignored);
   return out;
 }
 

@@ -10,20 +10,22 @@
 ///     shear = true                     # rotary_inertia, gyroscopic likewise
 ///     shear_coefficient = "cowper"     # | "hutchinson"
 ///     stations = [0.05]                # planes that must be nodes
-///     ross_file = "rotor.toml"         # shaft, disks and bearings as saved by ROSS, instead of
-///     tables [rotor.materials.mysteel]        # E, rho, nu; built in: steel, aluminium, titanium
-///     [[rotor.section]]                # left to right; z0 = end of the section before, unless
-///     given length = 0.1 od = 0.02                        # id, od_right, id_right, damping_mass,
-///     damping_stiffness, name material = "steel"               # or E, rho, nu
-///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id, material or
-///     rho
-///     [[rotor.disk]]                   # z with mass, inertia_diametral, inertia_polar or with
-///     width, od,
-///                                      # id, material
+///     file = "shaft.json"              # the shaft from another file instead of sections here: one that
+///                                      # ROSS saved (.toml, .json), or a [rotor] of these tables (.toml)
+///     [rotor.materials.mysteel]        # E, rho, nu; built in: steel, aluminium, titanium
+///     [[rotor.section]]                # left to right; z0 = end of the section before, unless given
+///     length = 0.1
+///     od = 0.02                        # id, od_right, id_right, damping_mass, damping_stiffness, name
+///     material = "steel"               # or E, rho, nu
+///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id, material or rho
+///     [[rotor.disk]]                   # z with mass, inertia_diametral, inertia_polar or with width, od,
+///                                      # id, material; name
+///     [[rotor.station]]                # name, z: a plane for loads, unbalance and the record
 ///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ...: analysis only
 ///
 /// z runs along the shaft from its left end (or any origin: z0). Units SI. Every mistake is an
 /// InputError with file:line.
+#include <string>
 #include <vector>
 
 #include "core/base/toml.h"
@@ -32,9 +34,16 @@
 
 namespace ambrig {
 
+/// A plane of the shaft that has a name: a disk's or a station's.
+struct ShaftPlane {
+  std::string name;
+  double z = 0;  // [m]
+};
+
 struct BeamFile {
   BeamDefinition definition;
-  int modes = 0;
+  std::vector<ShaftPlane> planes;
+  int modes = 0;               // wanted
   std::vector<double> modal_damping;  // one for all modes or one each
 };
 

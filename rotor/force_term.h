@@ -5,7 +5,10 @@
 
 namespace ambrig {
 
-inline constexpr int kMaxDof = 24;
+inline constexpr int kMaxModes = 8;  // bending modes of one rotor
+// Rigid 5, two per mode, a base 2, races on mounts 2 and 1 each.
+inline constexpr int kMaxDof = 5 + 2 * kMaxModes + 11;
+inline constexpr std::size_t kMaxPlane = 4 + 2 * kMaxModes;  // coordinates that a plane sees
 using DofVector = std::array<double, kMaxDof>;
 
 /// State of the rotor and of everything that moves with it. The first five coordinates are those of
@@ -22,8 +25,8 @@ struct MotionState {
 struct PlaneMap {
   double z = 0;                    // [m]
   int count = 0;
-  std::array<int, 8> dof{};
-  std::array<double, 8> wx{}, wy{};
+  std::array<int, kMaxPlane> dof{};
+  std::array<double, kMaxPlane> wx{}, wy{};
   void Add(int d, double x, double y) {
     dof[static_cast<std::size_t>(count)] = d;
     wx[static_cast<std::size_t>(count)] = x;
@@ -39,7 +42,7 @@ struct PlaneMap {
   }
 
  private:
-  double Dot(const std::array<double, 8>& w, const DofVector& q) const {
+  double Dot(const std::array<double, kMaxPlane>& w, const DofVector& q) const {
     double s = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
       s += w[k] * q[static_cast<std::size_t>(dof[k])];

@@ -51,6 +51,14 @@ void AddModes(const RotorModel& model, LinearRotor& out) {
     }
     out.G(d, d + 1) = mode.gyroscopic;
     out.G(d + 1, d) = -mode.gyroscopic;
+    const double tilt = mode.gyroscopic_tilt;  // psi is beta in the x-z plane, -alpha in the y-z plane
+    out.G(d, 3) = out.G(d + 1, 4) = -tilt;
+    out.G(3, d) = out.G(4, d + 1) = tilt;
+    for (std::size_t l = 0; l < mode.gyroscopic_other.size(); ++l) {
+      const Index o = model.mode_dof(l);
+      out.G(d, o + 1) = out.G(o, d + 1) = mode.gyroscopic_other[l];
+      out.G(d + 1, o) = out.G(o + 1, d) = -mode.gyroscopic_other[l];
+    }
     out.xy.push_back({static_cast<int>(d), static_cast<int>(d + 1)});
   }
 }

@@ -1,8 +1,9 @@
 #include <fmt/format.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "core/base/atomic_file.h"
 #include "rotor/beam_mesh.h"
 #include "rotor/ross_file.h"
 
@@ -103,13 +104,12 @@ void WriteToml(std::ostream& out, const Json& root) {
 
 void WriteRoss(const BeamDefinition& definition, const std::string& file) {
   const Json root = RotorTables(definition);
-  std::ofstream out(file, std::ios::binary);
+  std::ostringstream out;
   if (file.size() > 5 && file.substr(file.size() - 5) == ".json")
     out << root.dump(4) << "\n";
   else
     WriteToml(out, root);
-  out.flush();
-  if (!out) throw InputError(fmt::format("{}: cannot write the file", file));
+  WriteFileAtomically(file, out.str());
 }
 
 }  // namespace ambrig

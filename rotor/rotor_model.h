@@ -6,6 +6,7 @@
 ///   m y'' = Fy                 It beta''  - Ip Omega alpha' = My
 ///   m z'' = Fz                 theta' = Omega (prescribed, or Ip Omega' = Mz)
 ///
+/// Bending adds its own coordinates and couples to the tilt (rotor/bending_mode.h).
 /// A radial force at z gives Mx = -z fy, My = z fx; the shaft centre there sits at
 /// (x + z beta, y - z alpha). On a moving base the coordinates are relative to the base, so gaps
 /// and readings need no correction; the rotor feels minus the base's acceleration.
@@ -16,6 +17,7 @@
 
 #include "core/base/parameters.h"
 #include "rotor/auxiliary_bearing.h"
+#include "rotor/bending_mode.h"
 #include "rotor/force_term.h"
 #include "rotor/speed_profile.h"
 
@@ -35,16 +37,6 @@ inline constexpr Field<RotorParameters> kRotorFields[] = {
     {"inertia_polar", &RotorParameters::inertia_polar, "kg m2", 0, 1e6, "Ip, about the spin axis"},
     {"journal_radius", &RotorParameters::journal_radius, "m", 1e-4, 10,
      "at the auxiliary bearings"},
-};
-
-/// One bending mode, mass normalised: eta'' + 2 zeta w eta' + w² eta = gain(z) f in both planes.
-struct BendingMode {
-  double omega = 0;          // [rad/s]
-  double damping = 0;        // zeta [-]
-  double gyroscopic = 0;     // [-] coupling of the two planes: ± g Omega eta'
-  std::vector<std::pair<double, double>> shape;  // (z [m], gain [kg^-1/2]), interpolated linearly
-  double rotating_damping = 0;                   // [1/s] internal: -d (eta' - i Omega eta)
-  double Gain(double z) const;
 };
 
 /// An auxiliary bearing in the model; its optional mount and race own coordinates.
@@ -114,8 +106,8 @@ class RotorModel {
   double Energy(const MotionState& s) const;
 
   int dof() const { return dof_; }
-  int mode_dof(std::size_t k) const { return mode_dof_[k]; }  // eta_x of mode k; eta_y follows
-  const std::vector<BendingMode>& modes() const { return modes_; }
+  int mode_dof(std::size_t k) const { return shaft_.dof(k); }  // eta_x of mode k; eta_y follows
+  const std::vector<BendingMode>& modes() const { return shaft_.modes(); }
   bool HasBase() const { return base_dof_ >= 0; }
   const RotorParameters& parameters() const { return p_; }
   RotorParameters& parameters() { return p_; }
@@ -145,8 +137,7 @@ class RotorModel {
   std::array<double, 3> g_;
   int dof_ = 5;
   std::array<double, kMaxDof> inverse_mass_{};
-  std::vector<BendingMode> modes_;
-  std::vector<int> mode_dof_;
+  ModalShaft shaft_;
   std::vector<AuxiliaryPlane> aux_;
   AuxiliaryParameters axial_;
   bool has_axial_ = false;

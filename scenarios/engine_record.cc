@@ -35,6 +35,13 @@ void SwitchingEngine::RecordRow(long long n, int sample) {
     put(!clamped_ ? b.true_x : row_samples_ > 0 ? b.fx_before : b.fx);
     if (b.axes > 1) put(!clamped_ ? b.true_y : row_samples_ > 0 ? b.fy_before : b.fy);
   }
+  for (const auto& [name, plane] : plant_.stations) {
+    if (clamped_) break;
+    double x, y;
+    plant_.rotor.Position(motion_, plane, &x, &y);
+    put(x);
+    put(y);
+  }
   put(plant_.rotor.SpeedIsFree(t) ? motion_.Omega : scenario_.speed.Speed(t));
   put(plant_.rotor.SpeedIsFree(t) ? motion_.theta + motion_.Omega * inside : scenario_.speed.Angle(t));
   double bus = plant_.bus.voltage;

@@ -93,4 +93,10 @@ Equilibrium LevitatedEquilibrium(const SampledRig& rig) {
   return e;
 }
 
+Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Scenario& scenario) {
+  SampledRig sampled(rig, scenario, {});
+  sampled.Start();
+  return LevitatedEquilibrium(sampled);
+}
+
 }  // namespace ambrig

@@ -25,5 +25,7 @@ struct Equilibrium {
 };
 
 Equilibrium LevitatedEquilibrium(const SampledRig& rig);
+/// The same for an engine without a sampled rig of its own.
+Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Scenario& scenario);
 
 }  // namespace ambrig

@@ -24,6 +24,11 @@ std::vector<std::size_t> AddRecordChannels(Recorder& recorder, const RigParamete
       if (b.kind == BearingKind::kRadial) add(b.name + ".r.y", "m");
     }
   }
+  for (const ShaftPlane& s : rig.stations) {  // true positions of a beam rotor's named planes
+    if (clamped) break;
+    add(s.name + ".r.x", "m");
+    add(s.name + ".r.y", "m");
+  }
   add("omega", "rad/s");
   add("theta", "rad");
   add("bus", "V");

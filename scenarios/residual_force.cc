@@ -33,6 +33,7 @@ std::vector<double> Smooth(const std::vector<double>& y, double rate, double cut
 std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const Scenario& scenario, const Record& d,
                                                    double cutoff) {
   if (scenario.start == StartState::kClamped) return std::nullopt;
+  if (!rig.modes.empty()) return std::nullopt;  // two sensors do not tell how a shaft is bent
   std::vector<const BearingParameters*> bearings;
   for (const auto& b : rig.bearings)
     if (b.kind == BearingKind::kRadial) bearings.push_back(&b);

@@ -91,7 +91,8 @@ BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, R
   }
   plant.lanes.unipolar = rig.amplifier.quadrants < 3;
   plant.base_resistance = plant.lanes.resistance;
-  if (b.auxiliary && b.kind == BearingKind::kRadial) rotor.AddAuxiliary(b.name, b.z, *b.auxiliary);
+  if (b.auxiliary && b.kind == BearingKind::kRadial) 
+    rotor.AddAuxiliary(b.name, std::isnan(b.auxiliary_z) ? b.z : b.auxiliary_z, *b.auxiliary);
   if (b.auxiliary && b.kind == BearingKind::kThrust) rotor.SetAxialStop(*b.auxiliary);
   return plant;
 }
@@ -113,6 +114,7 @@ Plant BuildPlant(const RigParameters& rig) {
     if (b.kind == BearingKind::kThrust) plant.rotor.axial_free = true;
     plant.bearings.push_back(MakeBearing(rig, b, plant.rotor));
   }
+  for (const ShaftPlane& s : rig.stations) plant.stations.emplace_back(s.name, plant.rotor.MakePlane(s.z));
   for (const auto& [description, instance] : live)
     if (description->apply) description->apply(*instance, plant);
   const double h = 1 / (rig.amplifier.switching_frequency * rig.samples_per_period());
@@ -142,6 +144,7 @@ LinearRotor LinearRotorOf(const Plant& plant, double speed) {
 
 EffectTargets TargetsOfEffects(const RigParameters& rig) {
   EffectTargets known;
+  for (const ShaftPlane& s : rig.stations) known.stations.push_back(s.name);
   for (const auto& b : rig.bearings) {
     known.planes.push_back(b.kind == BearingKind::kThrust ? "z" : b.name);
     known.bearings.push_back(b.name);

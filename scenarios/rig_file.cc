@@ -6,6 +6,7 @@
 #include <set>
 
 #include "scenarios/rig.h"
+#include "scenarios/rig_rotor.h"
 
 namespace ambrig {
 
@@ -25,6 +26,7 @@ void ReadAuxiliary(const TomlTable& bearing, BearingParameters& b, double gap) {
   if (t) {
     AuxiliaryParameters p = b.auxiliary.value_or(AuxiliaryParameters{});
     t->Read(p, kAuxiliaryFields);
+    if (b.kind == BearingKind::kRadial && t->Has("z")) b.auxiliary_z = t->Number("z");
     t->RejectUnknownKeys();
     b.auxiliary = p;
     if (p.clearance >= gap)
@@ -86,6 +88,7 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
         tolerances.push_back({to + k.path.substr(from.size()), k.sd, kRequired});
   }
   b.name = name;
+  b.auxiliary_z = kRequired;  // a place of its own is not copied
   const char* kinds = "radial, thrust, opposed";
   const std::string fallback = like.empty() ? "radial"
                                : b.kind == BearingKind::kRadial ? "radial"
@@ -144,20 +147,6 @@ void ReadController(const TomlTable& t, RigParameters& rig) {
   t.RejectUnknownKeys();
 }
 
-void ReadRotor(const TomlTable& t, RigParameters& rig) {
-  rig.rotor_kind = t.Choice("kind", "rigid", "rigid, point");
-  if (rig.rotor_kind == "point") {
-    rig.rotor.inertia_transverse = 1;
-    rig.rotor.inertia_polar = 0;
-    rig.rotor.journal_radius = 0.01;
-  }
-  t.Read(rig.rotor, kRotorFields, &rig.tolerances);
-  t.RejectUnknownKeys();
-  if (rig.rotor.inertia_polar > 2 * rig.rotor.inertia_transverse)
-    t.Fail("inertia_polar", fmt::format("= {} kg m2, allowed: at most twice inertia_transverse = {} (no "
-                                        "body has more)", rig.rotor.inertia_polar, rig.rotor.inertia_transverse));
-}
-
 void ReadBearings(const TomlTable& root, RigParameters& rig) {
   const auto all = root.Table("bearings");
   if (!all) root.Fail("bearings", "is missing, allowed: tables [bearings.A], [bearings.B], [bearings.Z]");
@@ -198,6 +187,7 @@ RigParameters Read(const TomlTable& root) {
   ReadAmplifier(section("amplifier"), rig);
   ReadController(section("controller"), rig);
   ReadBearings(root, rig);
+  PlaceOnShaft(root, rig);
   const EffectTargets known = TargetsOfEffects(rig);
   for (const TomlTable& t : root.Tables("effect")) rig.effects.push_back(ReadEffect(t, known));
   root.RejectUnknownKeys();
@@ -207,7 +197,7 @@ RigParameters Read(const TomlTable& root) {
 /// Calls visit(section, struct reference, fields) for every numeric table of the rig.
 template <class Rig, class Visit>
 void VisitTables(Rig& rig, const Visit& visit) {
-  visit("rotor", rig.rotor, kRotorFields);
+  if (!rig.beam) visit("rotor", rig.rotor, kRotorFields);  // a beam's mass and inertia follow from its shaft
   visit("amplifier", rig.amplifier, kAmplifierFields);
   visit("controller", rig.controller, kControllerFields);
   visit("controller", rig.controller.pid, kPidFields);
@@ -233,6 +223,12 @@ std::vector<std::string> BearingParameters::Axes() const {
 const BearingParameters* RigParameters::Find(const std::string& bearing) const {
   for (const auto& b : bearings)
     if (b.name == bearing) return &b;
+  return nullptr;
+}
+
+const ShaftPlane* RigParameters::FindStation(const std::string& station) const {
+  for (const auto& s : stations)
+    if (s.name == station) return &s;
   return nullptr;
 }
 

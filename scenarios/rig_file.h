@@ -13,6 +13,7 @@
 #include "core/base/toml.h"
 #include "effects/effect.h"
 #include "rotor/auxiliary_bearing.h"
+#include "rotor/beam_file.h"
 #include "rotor/position_sensor.h"
 #include "rotor/rotor_model.h"
 
@@ -64,6 +65,7 @@ struct BearingParameters {
   OpposedStatorParameters opposed;
   SensorParameters sensor;
   std::optional<AuxiliaryParameters> auxiliary;
+  double auxiliary_z = kRequired;  // nan: at the bearing's plane [m]
   std::optional<PidParameters> controller;  // its own instead of the rig's
 
   int coils() const {
@@ -80,7 +82,10 @@ struct RigParameters {
   std::array<double, 3> gravity{0, -9.81, 0};
   std::string rotor_kind = "rigid";
   RotorParameters rotor;
-  std::vector<BendingMode> modes;  // of a beam rotor, reduced
+  std::vector<BendingMode> modes;    // of a beam rotor, reduced
+  std::optional<BeamFile> beam;      // the shaft itself, z as in the file
+  double z_origin = 0;               // of every z here in the file's own [m]: a beam's centre of mass
+  std::vector<ShaftPlane> stations;  // named planes of a beam rotor, z as the bearings'
   AmplifierParameters amplifier;
   ControllerParameters controller;
   std::vector<BearingParameters> bearings;
@@ -88,6 +93,7 @@ struct RigParameters {
   std::vector<Tolerance> tolerances;
 
   const BearingParameters* Find(const std::string& bearing) const;
+  const ShaftPlane* FindStation(const std::string& name) const;
   int samples_per_period() const { return static_cast<int>(amplifier.adc_samples_per_period); }
   /// M: switching periods per controller period.
   int periods_per_control() const;

@@ -54,6 +54,13 @@ void SampledRig::RecordRow(long long n, int sample) {
     put(!clamped ? b.true_x : row_samples_ > 0 ? b.fx_before : b.fx);
     if (b.axes > 1) put(!clamped ? b.true_y : row_samples_ > 0 ? b.fy_before : b.fy);
   }
+  for (const auto& [name, plane] : plant.stations) {
+    if (clamped) break;
+    double x, y;
+    plant.rotor.Position(motion, plane, &x, &y);
+    put(x);
+    put(y);
+  }
   const bool free_spin = plant.rotor.SpeedIsFree(t);
   put(free_spin ? motion.Omega : scenario.speed.Speed(t));
   put(free_spin ? motion.theta + motion.Omega * inside : scenario.speed.Angle(t));

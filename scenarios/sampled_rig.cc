@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/equilibrium.h"
 #include "scenarios/start_state.h"
 
 namespace ambrig {
@@ -96,6 +97,10 @@ void SampledRig::StartLevitated() {
     for (std::size_t side = 0; side < b.axes; ++side)
       force[b.first_axis + side] = shares[b.index][side];
   SetStartForces(force);
+  if (rig.modes.empty()) return;
+  // A shaft that sags, put there straight, would ring for seconds.
+  const Equilibrium e = LevitatedEquilibrium(*this);
+  if (e.usable()) StartFrom(e.force, e.q);
 }
 
 void SampledRig::StartFrom(const std::vector<double>& force, const DofVector& q) {

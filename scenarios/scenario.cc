@@ -17,7 +17,7 @@ std::string Join(const std::vector<std::string>& names) {
 }
 
 struct Targets {
-  std::vector<std::string> axes, coils, planes, bearings;
+  std::vector<std::string> axes, coils, planes, bearings, load_planes;
 };
 
 Targets TargetsOfRig(const RigParameters& rig) {
@@ -28,6 +28,8 @@ Targets TargetsOfRig(const RigParameters& rig) {
     if (b.kind != BearingKind::kThrust) t.planes.push_back(b.name);
     t.bearings.push_back(b.name);
   }
+  t.load_planes = t.bearings;
+  for (const auto& s : rig.stations) t.load_planes.push_back(s.name);
   return t;
 }
 
@@ -103,11 +105,13 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
     if (t.Has("plane")) {
       const std::string plane = t.String("plane");
       const BearingParameters* b = rig.Find(plane);
-      if (!b) t.Fail("plane", fmt::format("= \"{}\", allowed: {}", plane, Join(targets.bearings)));
-      l.z = b->z;
-      l.axial = b->kind == BearingKind::kThrust;
+      const ShaftPlane* station = rig.FindStation(plane);
+      if (!b && !station)
+        t.Fail("plane", fmt::format("= \"{}\", allowed: {}", plane, Join(targets.load_planes)));
+      l.z = b ? b->z : station->z;
+      l.axial = b && b->kind == BearingKind::kThrust;
     } else {
-      l.z = t.Number("z");
+      l.z = t.Number("z") - rig.z_origin;
     }
     const auto f = t.IsNumber("force") ? std::vector<double>{t.Number("force")} : t.Numbers("force");
     if (f.empty() || f.size() > 3) t.Fail("force", "allowed: [fx, fy] or [fx, fy, fz] in N");

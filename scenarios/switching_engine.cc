@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "scenarios/bearing_run.h"
+#include "scenarios/equilibrium.h"
 #include "scenarios/start_state.h"
 
 namespace ambrig {
@@ -98,15 +99,22 @@ void SwitchingEngine::Start() {
 void SwitchingEngine::StartLevitated() {
   warm_ = std::llround((options_.warm_up < 0 ? kLevitatedWarmUp : options_.warm_up) / T_ / M_) * M_;
   motion_.t = -static_cast<double>(warm_) * T_;
-  const auto shares = WeightShares(rig_);
   std::vector<double> force(loop_->axes(), 0.0);
+  const auto shares = WeightShares(rig_);
+  for (const BearingRun& b : bearings_)
+    for (std::size_t side = 0; side < b.axes; ++side) force[b.first_axis + side] = shares[b.index][side];
+  if (!rig_.modes.empty()) {  // a shaft that sags, put there straight, would ring for seconds
+    const Equilibrium e = LevitatedEquilibrium(rig_, scenario_);
+    if (e.usable()) {
+      force = e.force;
+      motion_.q = e.q;
+    }
+  }
   double fx = 0, fy = 0;
   for (BearingRun& b : bearings_) {
-    const auto& f = shares[b.index];
-    force[b.first_axis] = f[0];
-    if (b.axes > 1) force[b.first_axis + 1] = f[1];
+    const double f[2] = {force[b.first_axis], b.axes > 1 ? force[b.first_axis + 1] : 0};
     BearingControl& c = control_[b.index];
-    const auto set = c.map.SetPoints(f[0], b.axes > 1 ? f[1] : 0);
+    const auto set = c.map.SetPoints(f[0], f[1]);
     for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
     HoldSetPoints(c, b.plant->base_resistance);
     if (b.axes > 1) {

@@ -38,6 +38,7 @@ void AddAdopt(CLI::App& app, Work& work);
 void AddHide(CLI::App& app, Work& work);
 void AddJudge(CLI::App& app, Work& work);
 void AddWitness(CLI::App& app, Work& work);
+void AddRotor(CLI::App& app, Work& work);
 
 /// Scenario files as given and those with [expect] in the given folders, sorted. @throws InputError
 std::vector<std::string> FindScenarios(const std::vector<std::string>& paths);

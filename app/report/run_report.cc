@@ -6,6 +6,7 @@
 
 #include "app/report/format.h"
 #include "app/report/run_figures.h"
+#include "app/report/speed_figures.h"
 
 namespace ambrig {
 namespace {
@@ -100,6 +101,11 @@ HtmlReport MakeRunReport(const RunReportData& data) {
       report.AddFigure(CurrentFigure(data, stages, false));
       if (stages.fault) report.AddFigure(CurrentFigure(data, stages, true));
     }
+  }
+  if (SpeedVaries(data)) {
+    report.Heading("Over the speed");
+    report.AddFigure(WaterfallFigure(data));
+    if (const auto orders = OrderFigure(data)) report.AddFigure(*orders);
   }
   AddDetection(report, data, stages);
   if (!data.snapshots.empty()) {

@@ -28,6 +28,12 @@ struct ReportBearing {
   std::vector<std::vector<double>> currents;  // (coil)(row) [A]
 };
 
+/// True motion of a named plane of a beam rotor.
+struct ReportStation {
+  std::string name;          // "disk"
+  std::vector<double> x, y;  // at the record's times [m]
+};
+
 struct ReportChannel {
   std::string name, unit;  // "speed", "rpm"
   std::vector<double> samples;
@@ -73,6 +79,8 @@ struct RunReportData {
 
   double rate = 0, start = 0;  // time base of bearings and channels [Hz], [s]
   std::vector<ReportBearing> bearings;
+  std::vector<ReportStation> stations;
+  std::vector<double> theta;            // shaft angle at the record's times, unwrapped [rad]
   std::vector<ReportChannel> channels;  // speed, z, bus, ...
 
   std::vector<ReportSlope> slopes;  // the faulty coils first

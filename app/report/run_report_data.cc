@@ -39,6 +39,13 @@ void FillBearings(const RigParameters& rig, const RunResult& result, RunReportDa
   }
 }
 
+void FillStations(const RigParameters& rig, const RunResult& result, RunReportData& data) {
+  for (const ShaftPlane& s : rig.stations) {
+    ReportStation r{s.name, ChannelOf(result.record, s.name + ".r.x"), ChannelOf(result.record, s.name + ".r.y")};
+    if (!r.x.empty()) data.stations.push_back(std::move(r));
+  }
+}
+
 void FillSnapshots(const Scenario& scenario, const RunResult& result, RunReportData& data) {
   for (const FluxSnapshot& s : result.snapshots) {
     ReportSnapshot r;
@@ -89,6 +96,8 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
   data.rate = result.record.rate;
   data.start = result.record.start;
   FillBearings(rig, result, data);
+  FillStations(rig, result, data);
+  data.theta = ChannelOf(result.record, "theta");
   const auto rpm = [&](std::vector<double> v) {
     for (double& x : v) x *= 30 / kPi;
     return v;

@@ -269,7 +269,7 @@ TEST(RossFile, NamedInARigFile) {
   const Scratch file("rig_rotor.toml");
   file.Write(FriswellAsRossToml());
   const BeamFile beam =
-      Parse("[rotor]\nkind = \"beam\"\nmodes = 1\nross_file = \"" + file.path + "\"\n");
+      Parse("[rotor]\nkind = \"beam\"\nmodes = 1\nfile = \"" + file.path + "\"\n");
   EXPECT_NEAR(BuildReduced(beam).mass, 107.117, 1e-3);
 }
 
