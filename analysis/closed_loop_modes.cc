@@ -46,9 +46,9 @@ std::vector<double> ShaftStations(const OperatingPoint& point) {
     high = std::max({high, b.z, b.sensor.z});
   }
   for (const BendingMode& mode : point.plant().rotor.modes())
-    for (const auto& [z, gain] : mode.shape) {
-      low = std::min(low, z);
-      high = std::max(high, z);
+    for (const ShapePoint& p : mode.shape) {
+      low = std::min(low, p.z);
+      high = std::max(high, p.z);
     }
   std::vector<double> z;
   constexpr int kCount = 33;

@@ -279,6 +279,9 @@ std::vector<ParameterRow> RigParameterRows() {
       rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo, f.hi, P{}.*f.at});
   };
   add("[rotor]", kRotorFields);
+  add("[rotor.materials.NAME]", kMaterialFields);
+  add("[[rotor.section]]", kShaftSectionFields);
+  add("[[rotor.disk]]", kDiskFields);
   add("[amplifier]", kAmplifierFields);
   add("[controller]", kControllerFields);
   add("[controller]", kPidFields);

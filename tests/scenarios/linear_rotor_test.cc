@@ -85,6 +85,26 @@ TEST(LinearRotor, AccelerationsAreTheModels) {
     }
 }
 
+TEST(LinearRotor, AlsoOfABeamWithFullGyroscopicCoupling) {
+  RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/tum_mbtr/rig.toml");
+  rig.gravity = {0, 0, 0};
+  rig.effects.clear();
+  const Plant plant = BuildPlant(rig);
+  const double speed = 700;
+  const LinearRotor linear = LinearRotorOf(plant, speed);
+  const Small m = RandomMotion(plant, linear, speed, 3);
+  DofVector a{};
+  double torque = 0;
+  plant.rotor.Accelerations(m.s, m.Q, m.stator[0], m.stator[1], a, &torque);
+  const Eigen::VectorXd ours =
+      linear.M.partialPivLu().solve(m.force - linear.K * m.q - (linear.D + speed * linear.G) * m.v);
+  for (int d = 0; d < plant.rotor.dof(); ++d)
+    EXPECT_NEAR(a[static_cast<std::size_t>(d)], ours(d), 1e-10 * ours.cwiseAbs().maxCoeff()) << d;
+  EXPECT_LT((linear.G + linear.G.transpose()).norm(), 1e-15 * linear.G.norm());
+  EXPECT_GT(std::abs(linear.G(3, 5)), 0);  // tilt and bending
+  EXPECT_GT(std::abs(linear.G(5, 8)), 0);  // bending and bending
+}
+
 TEST(LinearRotor, PortsReadAndPushWhereTheRigDoes) {
   const Plant plant = BuildPlant(ReferenceRig());
   const LinearRotor linear = LinearRotorOf(plant);
