@@ -3,11 +3,7 @@
 
 #include "app/commands/commands.h"
 #include "app/report/html.h"
-#include "core/base/errors.h"
-#include "core/math/constants.h"
-#include "rotor/ross_file.h"
-#include "rotor/rotor_modes.h"
-#include "rotor/shaft_file.h"
+#include "scenarios/convert_shaft.h"
 
 namespace ambrig {
 
@@ -25,37 +21,26 @@ std::string Joined(const std::vector<std::string>& words) {
 }
 
 int Run(const Convert& c) {
-  bool ross = false;
-  std::vector<std::string> ignored;
-  const BeamFile file = ReadShaft(c.in, &ross, &ignored);
-  if (ross && !c.out.ends_with(".toml"))
-    throw InputError(fmt::format("{}: allowed: a .toml file (its [rotor] is ambrig's)", c.out));
-  if (!ross && !c.out.ends_with(".toml") && !c.out.ends_with(".json"))
-    throw InputError(fmt::format("{}: allowed: a .toml or .json file, as ROSS loads them", c.out));
-  const BeamRotor beam = BuildBeam(file.definition);
-  const RotorTotals totals = Totals(beam);
-  std::vector<double> hertz;
-  for (const double w : FreeModes(beam, 4).omega) hertz.push_back(w / (2 * kPi));
-  if (ross)
-    WriteBeam(file, c.out);
-  else
-    WriteRoss(file.definition, c.out);
-  fmt::print("{}: {} -> {}\n", c.out, ross ? "ROSS" : "ambrig", ross ? "ambrig" : "ROSS");
-  fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m, free bending {:.2f} Hz\n", totals.mass, totals.z_com,
-             fmt::join(hertz, " "));
-  if (!ignored.empty()) fmt::print("  not carried over: {}\n", Joined(ignored));
-  nlohmann::ordered_json j = {{"in", c.in},           {"out", c.out},
-                              {"from", ross ? "ross" : "ambrig"}, {"mass", totals.mass},
-                              {"z_com", totals.z_com}, {"free_bending_hz", hertz},
-                              {"ignored", ignored}};
-  c.common.WriteJson(j);
+  const ShaftConversion done = ConvertShaft(c.in, c.out);
+  const std::string lost = done.not_carried.empty() ? "nothing" : Joined(done.not_carried);
+  fmt::print("{}: {} -> {}\n", c.out, done.from_ross ? "ROSS" : "ambrig", done.from_ross ? "ambrig" : "ROSS");
+  fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m, free bending {:.2f} Hz\n", done.mass, done.z_com,
+             fmt::join(done.free_bending, " "));
+  if (!done.not_carried.empty()) fmt::print("  not carried over: {}\n", lost);
+  c.common.WriteJson({{"in", c.in},
+                      {"out", c.out},
+                      {"from", done.from_ross ? "ross" : "ambrig"},
+                      {"mass", done.mass},
+                      {"z_com", done.z_com},
+                      {"free_bending_hz", done.free_bending},
+                      {"not_carried", done.not_carried}});
   if (!c.common.html.empty()) {
     HtmlReport report("Shaft " + c.in, "ambrig rotor convert");
     report.KeyValues({{"written", c.out},
-                      {"mass", fmt::format("{:.6g} kg", totals.mass)},
-                      {"centre of mass", fmt::format("{:.6g} m", totals.z_com)},
-                      {"free bending", fmt::format("{:.2f} Hz", fmt::join(hertz, " "))},
-                      {"not carried over", ignored.empty() ? "nothing" : Joined(ignored)}});
+                      {"mass", fmt::format("{:.6g} kg", done.mass)},
+                      {"centre of mass", fmt::format("{:.6g} m", done.z_com)},
+                      {"free bending", fmt::format("{:.2f} Hz", fmt::join(done.free_bending, " "))},
+                      {"not carried over", lost}});
     report.Write(c.common.html);
   }
   return 0;
