@@ -95,9 +95,9 @@ DropFigures MakeDropFigures(const RigParameters& rig, const RunResult& run,
   const CentrePath& first = paths.bearings[where];
   f.rebound = Rebound(first, touch);
   f.turns = Turns(paths, first, touch);
-  f.whirl = std::abs(f.turns) < 0.5 ? Whirl::kNone
-            : f.turns > 0           ? Whirl::kForward
-                                    : Whirl::kBackward;
+  f.whirl = std::abs(f.turns) < 0.5 ? ContactWhirl::kNone
+            : f.turns > 0           ? ContactWhirl::kForward
+                                    : ContactWhirl::kBackward;
   const double Omega = std::abs(paths.Omega[touch]);
   const double g = std::hypot(rig.gravity[0], rig.gravity[1]);
   for (const CentrePath& p : paths.bearings) {
@@ -124,13 +124,13 @@ double PartingTime(const DropPaths& a, const DropPaths& b, double share) {
   return first;
 }
 
-const char* WhirlName(Whirl whirl) {
+const char* WhirlName(ContactWhirl whirl) {
   switch (whirl) {
-    case Whirl::kNone:
+    case ContactWhirl::kNone:
       return "none";
-    case Whirl::kForward:
+    case ContactWhirl::kForward:
       return "forward";
-    case Whirl::kBackward:
+    case ContactWhirl::kBackward:
       return "backward";
   }
   return "";

@@ -30,7 +30,7 @@ struct DropPaths {
   double TimeAt(std::size_t row) const { return start + static_cast<double>(row) / rate; }
 };
 
-enum class Whirl { kNone, kForward, kBackward };
+enum class ContactWhirl { kNone, kForward, kBackward };
 
 struct DropFigures {
   bool touchdown = false, drop = false;  // the run's verdict
@@ -40,7 +40,7 @@ struct DropFigures {
   double rebound = 0;          // [m] clearance regained there between first and second contact
   double peak_orbit = 0;       // [m] largest radius in any bearing after the touch
   double turns = 0;            // [rev] of the centre round the clearance there, positive with Omega
-  Whirl whirl = Whirl::kNone;  // by the sign of `turns`, from half a turn on
+  ContactWhirl whirl = ContactWhirl::kNone;  // by the sign of `turns`, from half a turn on
   std::vector<std::array<double, 2>> rest;  // [m] mean (x, y) per bearing, last tenth of the run
   double severity = 0;                      // peak centre speed over Omega c [-], 0 at standstill
   double fall_severity = 0;  // peak centre speed over √(2 g c) [-], 0 without gravity across
@@ -54,6 +54,6 @@ DropFigures MakeDropFigures(const RigParameters& rig, const RunResult& run, cons
 /// bearing [s]; -1: never.
 double PartingTime(const DropPaths& a, const DropPaths& b, double share);
 
-const char* WhirlName(Whirl whirl);
+const char* WhirlName(ContactWhirl whirl);
 
 }  // namespace ambrig

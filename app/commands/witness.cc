@@ -65,8 +65,8 @@ void PrintTally(const std::vector<WitnessedScenario>& all, int seeds) {
     for (std::size_t k = all.size() - static_cast<std::size_t>(seeds); k < all.size(); ++k) {
       const DropFigures& f = (all[k].witness.*run).figures;
       drops += f.drop ? 1 : 0;
-      backward += f.whirl == Whirl::kBackward ? 1 : 0;
-      forward += f.whirl == Whirl::kForward ? 1 : 0;
+      backward += f.whirl == ContactWhirl::kBackward ? 1 : 0;
+      forward += f.whirl == ContactWhirl::kForward ? 1 : 0;
       low = std::min(low, f.peak_orbit);
       high = std::max(high, f.peak_orbit);
     }

@@ -44,8 +44,8 @@ INSTANTIATE_TEST_SUITE_P(ContactWitness, Drop,
 
 TEST(ContactWitness, WhirlIsBackwardAtRollingSpeedByBoth) {
   const ContactWitness w = Library("drop_at_12000rpm");
-  EXPECT_EQ(w.model.figures.whirl, Whirl::kBackward);
-  EXPECT_EQ(w.ode.figures.whirl, Whirl::kBackward);
+  EXPECT_EQ(w.model.figures.whirl, ContactWhirl::kBackward);
+  EXPECT_EQ(w.ode.figures.whirl, ContactWhirl::kBackward);
   // The journal rolls in the race: centre speed Omega R, over Omega c = 150; overshoot on the way.
   for (const DropFigures& f : {w.model.figures, w.ode.figures}) {
     EXPECT_GT(f.severity, 0.030 / kClearance);
@@ -151,7 +151,7 @@ TEST(DropFigures, AreThoseOfAKnownPath) {
   EXPECT_NEAR(f.rebound, 3e-5, 1e-12);
   EXPECT_NEAR(f.peak_orbit, 2.1e-4, 1e-12);
   EXPECT_NEAR(f.turns, -2, 1e-9);
-  EXPECT_EQ(f.whirl, Whirl::kBackward);
+  EXPECT_EQ(f.whirl, ContactWhirl::kBackward);
   // Central differences: fastest from 170 um over 190 to 205 um, 35 um in two rows.
   EXPECT_NEAR(f.severity, 35e-6 * 1e5 / 2 / (100 * kClearance), 1e-9);
   EXPECT_NEAR(f.fall_severity / f.severity, 100 * kClearance / std::sqrt(2 * 9.81 * kClearance),
@@ -161,7 +161,7 @@ TEST(DropFigures, AreThoseOfAKnownPath) {
   std::vector<double> reversed(speed.size(), -100.0);
   DropPaths other = paths;
   other.Omega = reversed;
-  EXPECT_EQ(MakeDropFigures(rig, run, other).whirl, Whirl::kForward);
+  EXPECT_EQ(MakeDropFigures(rig, run, other).whirl, ContactWhirl::kForward);
   EXPECT_EQ(PartingTime(paths, other, 0.05), -1);
   other.bearings[1].x[50] = 1.1e-5;
   EXPECT_NEAR(PartingTime(paths, other, 0.05), 50e-5, 1e-12);
