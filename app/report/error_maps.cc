@@ -22,13 +22,13 @@ std::string BandName(std::size_t band) {
 }
 
 /// Rows of a record in which the speed is about one.
-struct Slice {
+struct RecordSlice {
   std::string name;
   std::size_t record, first, last;
 };
 
-std::vector<Slice> Slices(const CaseModel& model) {
-  std::vector<Slice> out;
+std::vector<RecordSlice> RecordSlices(const CaseModel& model) {
+  std::vector<RecordSlice> out;
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
     const CaseRecord& record = model.data().records[r];
     const std::size_t rows = record.data.rows();
@@ -60,13 +60,13 @@ std::vector<double> BandPower(const std::vector<double>& x, double rate) {
   return out;
 }
 
-std::vector<double> Cut(const std::vector<double>& flat, const Target& t, const Slice& s) {
+std::vector<double> Cut(const std::vector<double>& flat, const Target& t, const RecordSlice& s) {
   const auto begin = flat.begin() + static_cast<std::ptrdiff_t>(t.first);
   return {begin + static_cast<std::ptrdiff_t>(s.first), begin + static_cast<std::ptrdiff_t>(s.last)};
 }
 
 std::vector<double> BandRatios(const CaseModel& model, const std::vector<double>& residual,
-                               const std::vector<double>& noise, const Slice& s) {
+                               const std::vector<double>& noise, const RecordSlice& s) {
   std::vector<double> sum(kEdges.size() - 1, 0), out(sum.size(), std::nan(""));
   double channels = 0;
   const double rate = model.data().records[s.record].data.rate;
@@ -93,7 +93,7 @@ std::optional<Figure> FrequencySpeedMap(const CaseModel& model, const std::vecto
   const std::vector<double> residual = Residual(model, predicted);
   std::vector<std::string> rows, columns;
   std::vector<std::vector<double>> values;
-  for (const Slice& s : Slices(model)) {
+  for (const RecordSlice& s : RecordSlices(model)) {
     rows.push_back(s.name);
     values.push_back(BandRatios(model, residual, noise, s));
   }
