@@ -2,7 +2,13 @@
 /// Currents from forces by bias-current linearisation: i_set = W [c0, vx, vy]', v = f/(k c0),
 /// set-points clamped to [0, i_max] (two-quadrant bridges) or ±i_max.
 /// Healthy: row j of W = [1, cos γ_j, sin γ_j]. Source: shared/design/physics.md sections 4, 5.
-#include <Eigen/Dense>
+///
+/// After a failure W may have another negative stiffness than the controller was made for, in other
+/// directions: `stiffness_change` = K_healthy - K_now [N/m] makes it up from the measured position,
+/// f + stiffness_change (x, y)'. An `allocation` takes the place of W.
+#include <memory>
+
+#include "control/current_allocation.h"
 
 namespace ambrig {
 
@@ -12,11 +18,15 @@ struct CurrentMap {
   double c0 = 0;     // [A]
   double i_max = 0;  // [A]
   bool unipolar = true;
+  Eigen::Matrix2d stiffness_change = Eigen::Matrix2d::Zero();
+  std::shared_ptr<CurrentAllocation> allocation;
 
-  /// Forces [N] -> set-points [A].
-  Eigen::Matrix<double, 8, 1> SetPoints(double fx, double fy) const {
-    const Eigen::Vector3d command(c0, fx / (k * c0), fy / (k * c0));
-    return (W * command).cwiseMax(unipolar ? 0.0 : -i_max).cwiseMin(i_max);
+  /// Forces [N], position [m] -> set-points [A].
+  SetPointVector SetPoints(double fx, double fy, double x = 0, double y = 0) const {
+    const Eigen::Vector2d f = Eigen::Vector2d(fx, fy) + stiffness_change * Eigen::Vector2d(x, y);
+    const SetPointVector set = allocation ? allocation->Step(f.x(), f.y(), x, y)
+                                          : SetPointVector(W * Eigen::Vector3d(c0, f.x() / (k * c0), f.y() / (k * c0)));
+    return set.cwiseMax(unipolar ? 0.0 : -i_max).cwiseMin(i_max);
   }
 };
 

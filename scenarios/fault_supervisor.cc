@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "faulttolerance/inverse_allocation.h"
 #include "scenarios/redistribution_setup.h"
 #include "scenarios/rig.h"
 
@@ -13,7 +14,33 @@ namespace ambrig {
 namespace {
 
 constexpr double kBusSag = 0.9;                               // of the nominal bus
+constexpr double kTrueWithin = 0.15;                          // of the force in command
+constexpr double kTrueResidual = 1;                           // of the equations that a linearised W leaves open
+constexpr double kVoltageShare = 0.8;                         // of the bus, to change currents with
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;    // [s]
+
+/// Whether W gives the force that it is asked for: a linearised one, clamped at zero current, may give another.
+bool TrueAt(const Eigen::Vector2d& force, const RedistributionProblem& left, const Distribution& found, const CurrentMap& map) {
+  if (found.cls != SolvabilityClass::kLinearised) return found.cls == SolvabilityClass::kExact;
+  if (found.residual > kTrueResidual) return false;
+  return (NetworkForce(left).Force(map.SetPoints(force.x(), force.y())) - force).norm() <= kTrueWithin * force.norm();
+}
+
+/// Of a change of stiffness what is negative: directions in which W pulls the rotor away more than the healthy
+/// bearing would. Where it pulls less the controller is stiffer than planned, which wants no help.
+Eigen::Matrix2d OnlyMore(const Eigen::Matrix2d& change) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
+  const Eigen::Matrix2d& v = eigen.eigenvectors();
+  return v * eigen.eigenvalues().cwiseMin(0.0).asDiagonal() * v.transpose();
+}
+
+/// The force command behind set-points.
+Eigen::Vector2d ForceBehind(const CurrentMap& map, const SetPointVector& now) {
+  if (map.allocation) return map.allocation->LastForce();
+  const Eigen::Matrix<double, 8, 2> gain = map.W.rightCols<2>();
+  const Eigen::Matrix2d normal = gain.transpose() * gain + 1e-9 * Eigen::Matrix2d::Identity();
+  return map.k * map.c0 * (normal.inverse() * gain.transpose() * (now - map.c0 * map.W.col(0)));
+}
 
 std::string CoilName(const std::string& bearing, int coil) { return fmt::format("{}.coil{}", bearing, coil + 1); }
 
@@ -122,13 +149,13 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingContro
   const CurrentMap old = control.map;
   std::string cls;
   double resistance = 0;
+  SetPointVector now = SetPointVector::Zero();
+  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
+  const Eigen::Vector2d force = ForceBehind(old, now);
   if (w.bearing->kind == BearingKind::kRadial) {
     resistance = w.bearing->radial.resistance;
-    if (!w.table)
-      w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing), options_.cache_dir);
-    const Distribution found = w.table->Lookup(w.turns_left);
-    control.map.W = found.W;
-    cls = ToText(found.cls);
+    cls = NewMap(w, force, &control.map);
+    control.hand_over = NewHandOver(w, old, force, control);
   } else if (w.bearing->kind == BearingKind::kThrust) {
     resistance = w.bearing->thrust.resistance;
     cls = "exact";
@@ -147,13 +174,10 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingContro
     if (w.turns_left[d.coil] == 0) control.map.W.row(d.coil).setZero();
     resistance = w.bearing->opposed.resistance;
   }
-  // The force command behind the present set-points, then the set-points that it will have.
-  Eigen::Matrix<double, 8, 1> now = Eigen::Matrix<double, 8, 1>::Zero();
-  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
-  const Eigen::Matrix<double, 8, 2> gain = old.W.rightCols<2>();
-  const Eigen::Matrix2d normal = gain.transpose() * gain + 1e-9 * Eigen::Matrix2d::Identity();
-  const Eigen::Vector2d v = normal.inverse() * gain.transpose() * (now - old.c0 * old.W.col(0));
-  const auto next = control.map.SetPoints(v.x() * old.k * old.c0, v.y() * old.k * old.c0);
+  // The set-points that come next.
+  const CurrentMap& map = control.map;
+  SetPointVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
+  if (control.hand_over) next = control.hand_over->Clone()->Step(next, force);
   for (int j = 0; j < control.coils; ++j) {
     PowerAmplifier& a = control.amplifier[static_cast<std::size_t>(j)];
     PowerAmplifier held = a;
@@ -166,6 +190,45 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingContro
       a.set_integral(held.integral());
   }
   events.push_back({d.time, "redistributed", w.bearing->name, cls, 0});
+}
+
+std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
+  if (!w.table)
+    w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing), options_.cache_dir);
+  RedistributionProblem left = w.table->problem();
+  const Eigen::Matrix2d healthy = Describe(left, SolvabilityClass::kExact, HealthyDistribution(left)).stiffness;
+  left.turns_left = w.turns_left;
+  map->allocation = nullptr;
+  map->stiffness_change.setZero();
+  const Distribution found = w.table->Lookup(w.turns_left);
+  map->W = found.W;
+  const bool matrix = options_.redistribution == "matrix" || (options_.redistribution == "auto" && TrueAt(force, left, found, *map));
+  if (!matrix) {
+    ForceInverse inverse(left);
+    if (inverse.Start(force)) {
+      map->allocation = std::make_shared<InverseAllocation>(inverse, healthy);
+      return "force by force";
+    }
+  }
+  if (options_.stiffness_compensation) map->stiffness_change = OnlyMore(healthy - found.stiffness);
+  return ToText(found.cls);
+}
+
+std::unique_ptr<HandOver> FaultSupervisor::NewHandOver(const Watched& w, const CurrentMap& old, const Eigen::Vector2d& force,
+                                                       const BearingControl& control) const {
+  HandOverStart s;
+  s.bearing = RedistributionProblemOf(rig_, *w.bearing);
+  s.bearing.turns_left = w.turns_left;
+  const CurrentMap& map = control.map;
+  for (int j = 0; j < 8; ++j)
+    if (w.turns_left[j] > 0) s.now[j] = control.set_point[j];
+  // Without a matrix the bias is what the currents without a force would be.
+  s.bias_before = old.allocation ? s.now : Coils(old.c0 * old.W.col(0));
+  s.bias_after = map.allocation ? map.allocation->Step(force.x(), force.y(), 0, 0) : SetPointVector(map.c0 * map.W.col(0));
+  s.leakage = w.bearing->radial.leakage_inductance;
+  s.voltage = kVoltageShare * rig_.amplifier.bus_voltage;
+  s.period = 1 / rig_.controller.rate;
+  return MakeHandOver(options_.hand_over, s);
 }
 
 void FaultSupervisor::TraceSlopes(double t) {

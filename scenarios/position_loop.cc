@@ -75,7 +75,10 @@ void PositionLoop::Tick(long long n, double Omega, const std::vector<BearingCont
   next.values.resize(control.size());
   for (std::size_t k = 0; k < control.size(); ++k) {
     const std::size_t a = first_axis_[k];
-    const auto set = control[k].map.SetPoints(force_[a], first_axis_[k + 1] > a + 1 ? force_[a + 1] : 0);
+    const bool planar = first_axis_[k + 1] > a + 1;
+    const double fx = force_[a], fy = planar ? force_[a + 1] : 0;
+    auto set = control[k].map.SetPoints(fx, fy, planar ? readings_[a] : 0, planar ? readings_[a + 1] : 0);
+    if (control[k].hand_over) set = control[k].hand_over->Step(set, {fx, fy});
     for (int j = 0; j < kLanes; ++j) next.values[k][j] = set[j];
   }
   under_way_.push_back(std::move(next));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "control/excitation.h"
+#include "faulttolerance/hand_over_policy.h"
 #include "rotor/speed_profile.h"
 #include "scenarios/fault_spec.h"
 #include "scenarios/rig_file.h"
@@ -42,6 +43,9 @@ struct Scenario {
   std::uint64_t seed = 1;
   bool noise = true;
   bool fault_tolerant = true;  // detection and redistribution act
+  std::string redistribution = "auto";        // auto, matrix, force-by-force (fault_supervisor.h)
+  std::string hand_over = kDefaultHandOver;   // faulttolerance/hand_over_policy.h
+  bool stiffness_compensation = true;         // of a failed bearing's other negative stiffness
   StartState start = StartState::kLevitated;
   std::map<std::string, std::array<double, 2>> clamp;
   SpeedProfile speed;

@@ -28,6 +28,9 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const
   if (scenario.fault_tolerant && scenario.start != StartState::kClamped && bridges) {
     FaultSupervisorOptions watch;
     watch.slopes = options.for_report;
+    watch.redistribution = scenario.redistribution;
+    watch.hand_over = scenario.hand_over;
+    watch.stiffness_compensation = scenario.stiffness_compensation;
     watch.cache_dir = RedistributionCacheDirectory();
     supervisor = std::make_unique<FaultSupervisor>(rig, watch);
     engine.supervisor = supervisor.get();

@@ -8,6 +8,7 @@
 #include "actuators/amplifier.h"
 #include "actuators/stator_lanes.h"
 #include "control/current_map.h"
+#include "control/hand_over.h"
 #include "scenarios/run_result.h"
 
 namespace ambrig {
@@ -17,6 +18,7 @@ struct BearingControl {
   std::string name;
   int coils = 0;
   CurrentMap map;
+  std::shared_ptr<HandOver> hand_over;  // on the way to `map`'s currents; empty: there
   std::array<PowerAmplifier, kLanes> amplifier;
   Lane set_point;                 // in force, without excitation [A]
   Lane commanded;                 // with the coil's current excitation [A]
