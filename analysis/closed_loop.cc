@@ -48,7 +48,7 @@ ClosedLoop::ClosedLoop(const OperatingPoint& point, LinearPlant plant)
       M_(point.rig().periods_per_control()) {
   const AmplifierParameters& a = point.rig().amplifier;
   Ts_ = M_ * period_.T;
-  controller_ = LineariseController(point.rig(), Ts_);
+  controller_ = LineariseController(point.rig(), Ts_, plant_.speed);
   kp_ = a.kp;
   ki_T_ = a.ki * period_.T;
   const PowerAmplifier bridge(a);

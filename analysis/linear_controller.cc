@@ -1,10 +1,15 @@
 #include "analysis/linear_controller.h"
 
+#include "scenarios/controller_setup.h"
 #include "scenarios/rig.h"
 
 namespace ambrig {
 
-LinearController LineariseController(const RigParameters& rig, double Ts) {
+LinearController LineariseController(const RigParameters& rig, double Ts, double speed) {
+  if (!rig.controller.IsPlainPid()) {
+    const StateSpace k = MakeController(rig, rig.controller)->Linear(speed);
+    return {k.A, k.B, Eigen::MatrixXd::Zero(k.states(), k.inputs()), k.C, k.D, Eigen::MatrixXd::Zero(k.outputs(), k.inputs())};
+  }
   std::vector<const PidParameters*> pid;
   for (const BearingParameters& b : rig.bearings)
     pid.insert(pid.end(), b.Axes().size(), &PidOf(rig, b));

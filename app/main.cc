@@ -18,6 +18,7 @@ constexpr const char* kExamples = R"(Examples:
   ambrig detectors scenarios/studies/detectors.toml           detectors of coil faults: ROC, delays
   ambrig witness scenarios/library/drop_at_1500rpm.toml       contact by two models: do they agree?
   ambrig rotor convert rotor.json shaft.toml                  a shaft from ROSS's file, or to it
+  ambrig design study.toml                                    controllers compared: Pareto front, report
   ambrig redistribute rig.toml --bearing A --failed 3         currents after a coil failure
   ambrig analyze rig.toml --speed 3000:9000 -o out            modes, margins, sensitivity, unbalance
   ambrig compare case.toml                                    model beside measurement
@@ -39,6 +40,7 @@ int Main(int argc, char** argv) {
   ambrig::AddDetectors(app, work);
   ambrig::AddWitness(app, work);
   ambrig::AddRotor(app, work);
+  ambrig::AddDesign(app, work);
   ambrig::AddRedistribute(app, work);
   ambrig::AddAnalyze(app, work);
   ambrig::AddValidate(app, work);

@@ -141,6 +141,8 @@ void ReadOperation(const TomlTable& root, Campaign& c) {
                  c.load_unit == LoadUnit::kNewton ? "N" : "(share of the capacity)");
   c.load_angle = In(*t, "load_angle_deg", -90, -360, 360, "deg") * std::numbers::pi / 180;
   c.positions = List(*t, "positions", {0.0}, 0, 0.9, "(share of the clearance)");
+  if (c.rig.controller.kind != "pid" && std::any_of(c.positions.begin(), c.positions.end(), [](double p) { return p != 0; }))
+    t->Fail("positions", fmt::format("other than 0 with kind = \"{}\" in {}, allowed: with a PID, whose way to a reference is known", c.rig.controller.kind, c.rig.file));
   c.position_angle = In(*t, "position_angle_deg", 0, -360, 360, "deg") * std::numbers::pi / 180;
   t->RejectUnknownKeys();
 }

@@ -31,6 +31,7 @@ void Put(BlockErrors& out, const std::string& block, const Mean& mean) {
 
 /// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
 void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, const Record& d, BlockErrors& out) {
+  if (!nominal.controller.IsPlainPid() || !scenario.switches.empty()) return;  // only the PID's start can be told from data
   if (scenario.start == StartState::kClamped || std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate) return;
   Mean error;
   for (const BearingParameters& b : nominal.bearings) {

@@ -38,6 +38,12 @@ CommandPlan::CommandPlan(const RigParameters& rig, const Scenario& scenario) {
       }
     }
   }
+  for (const SwitchSpec& s : scenario.switches) {
+    std::size_t index = 0;
+    for (std::size_t k = 0; k < rig.other_controllers.size(); ++k)
+      if (rig.other_controllers[k].name == s.to) index = k + 1;
+    switches.push_back({static_cast<long long>(std::ceil(s.time * pwm / M - 1e-9)), index});
+  }
 }
 
 }  // namespace ambrig

@@ -17,6 +17,12 @@ struct CommandPlan {
   };
   std::vector<Signal> force, reference, current, duty;
 
+  struct Switch {
+    long long tick = 0;          // of the controller, from t = 0
+    std::size_t controller = 0;  // 0: main, then the rig's others
+  };
+  std::vector<Switch> switches;
+
   static double At(const Signal& s, long long k) {
     if (s.values.empty()) return 0;
     const long long last = static_cast<long long>(s.values.size()) - 1;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenarios/controller_setup.h"
 #include "scenarios/rig.h"
 
 namespace ambrig {
@@ -18,23 +19,25 @@ PositionLoop::PositionLoop(const RigParameters& rig, Plant& plant, const Command
       noisy_(noisy),
       T_(1 / rig.amplifier.switching_frequency),
       M_(rig.periods_per_control()) {
-  std::vector<PidParameters> pid;
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     first_axis_.push_back(axes_.size());
     const std::size_t sides = rig.bearings[k].Axes().size();
-    for (std::size_t side = 0; side < sides; ++side) {
-      axes_.push_back({k, side});
-      pid.push_back(PidOf(rig, rig.bearings[k]));
-    }
+    for (std::size_t side = 0; side < sides; ++side) axes_.push_back({k, side});
   }
   first_axis_.push_back(axes_.size());
-  controller_ = std::make_unique<DecentralisedPid>(pid, T_ * M_);
+  if (commands_.switches.empty()) {
+    controller_ = MakeController(rig, rig.controller);
+  } else {
+    auto changing = MakeControllerSwitch(rig);
+    switch_ = changing.get();
+    controller_ = std::move(changing);
+  }
   for (auto* v : {&readings_, &reference_, &excitation_, &force_}) v->assign(axes_.size(), 0.0);
 }
 
 void PositionLoop::Hold(const std::vector<double>& force) {
   force_ = force;
-  controller_->Hold(force_, readings_);
+  controller_->Hold(force_, readings_, reference_);
 }
 
 void PositionLoop::ReadSensors(const MotionState& motion) {
@@ -68,6 +71,9 @@ void PositionLoop::Tick(long long n, double Omega, const std::vector<BearingCont
     for (const auto& s : commands_.reference) reference_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, n / M_);
     for (const auto& s : commands_.force) excitation_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, n / M_);
   }
+  if (switch_)
+    for (const CommandPlan::Switch& s : commands_.switches)
+      if (s.tick == n / M_ && n >= 0) switch_->SwitchTo(s.controller);
   controller_->Step(readings_, reference_, excitation_, Omega, force_);
   UnderWay next = std::move(spare_);
   next.due = n + M_;

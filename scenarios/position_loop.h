@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "control/position_controller.h"
+#include "control/controller_switch.h"
 #include "effects/plant.h"
 #include "scenarios/command_plan.h"
 #include "scenarios/measurement_noise.h"
@@ -19,7 +19,8 @@ namespace ambrig {
 class PositionLoop {
  public:
   /// `plant`, `commands` and `noise` must outlive the loop; `noisy`: readings with the sensors' noise.
-  PositionLoop(const RigParameters& rig, Plant& plant, const CommandPlan& commands, MeasurementNoise& noise, bool noisy);
+  /// `nominal`: the rig as the controller's designer knows it.
+  PositionLoop(const RigParameters& nominal, Plant& plant, const CommandPlan& commands, MeasurementNoise& noise, bool noisy);
 
   /// Starts with these forces per axis [N] while the readings rest at zero.
   void Hold(const std::vector<double>& force);
@@ -57,6 +58,7 @@ class PositionLoop {
   std::vector<Axis> axes_;
   std::vector<std::size_t> first_axis_;  // of each bearing, and the end
   std::unique_ptr<PositionController> controller_;
+  ControllerSwitch* switch_ = nullptr;  // the same, when the scenario changes over
   std::vector<double> readings_, reference_, excitation_, force_;  // per axis
   double reading_time_ = 0;
   std::vector<UnderWay> under_way_;

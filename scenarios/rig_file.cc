@@ -137,14 +137,34 @@ void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
 }
 
 void ReadController(const TomlTable& t, RigParameters& rig) {
-  rig.controller.kind = t.Choice("kind", "pid", "pid");
   t.Read(rig.controller, kControllerFields);
-  rig.controller.pid = ReadPid(t);
   const double periods = rig.amplifier.switching_frequency / rig.controller.rate;
   if (std::abs(periods - std::round(periods)) > 1e-9 * periods || periods < 0.5)
     t.Fail("rate", fmt::format("= {} Hz, allowed: the switching frequency of {} Hz over an integer",
                                rig.controller.rate, rig.amplifier.switching_frequency));
+  std::vector<std::string> axes;
+  for (const std::size_t k : ControlledAxes(rig)) axes.push_back(AxisNames(rig)[k]);
+  ReadControllerKind(t, axes, rig.controller);
   t.RejectUnknownKeys();
+}
+
+/// [controllers.NAME]: rate and bias current are the main one's.
+void ReadOtherControllers(const TomlTable& root, RigParameters& rig) {
+  const auto all = root.Table("controllers");
+  if (!all) return;
+  std::vector<std::string> axes;
+  for (const std::size_t k : ControlledAxes(rig)) axes.push_back(AxisNames(rig)[k]);
+  for (const std::string& name : all->Keys()) {
+    const auto t = all->Table(name);
+    if (name == "main") all->Fail(name, "is the name of [controller], allowed: another one");
+    ControllerParameters c;
+    c.name = name;
+    c.rate = rig.controller.rate;
+    c.bias_current = rig.controller.bias_current;
+    ReadControllerKind(*t, axes, c);
+    t->RejectUnknownKeys();
+    rig.other_controllers.push_back(c);
+  }
 }
 
 void ReadBearings(const TomlTable& root, RigParameters& rig) {
@@ -185,9 +205,11 @@ RigParameters Read(const TomlTable& root) {
   };
   ReadRotor(section("rotor"), rig);
   ReadAmplifier(section("amplifier"), rig);
-  ReadController(section("controller"), rig);
+  const TomlTable controller = section("controller");
   ReadBearings(root, rig);
   PlaceOnShaft(root, rig);
+  ReadController(controller, rig);
+  ReadOtherControllers(root, rig);
   const EffectTargets known = TargetsOfEffects(rig);
   for (const TomlTable& t : root.Tables("effect")) rig.effects.push_back(ReadEffect(t, known));
   root.RejectUnknownKeys();
@@ -218,6 +240,22 @@ std::vector<std::string> BearingParameters::Axes() const {
   if (kind == BearingKind::kThrust) return {"z"};
   if (kind == BearingKind::kOpposed) return {name + ".x"};
   return {name + ".x", name + ".y"};
+}
+
+std::vector<std::string> AxisNames(const RigParameters& rig) {
+  std::vector<std::string> names;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& name : b.Axes()) names.push_back(name);
+  return names;
+}
+
+std::vector<std::size_t> ControlledAxes(const RigParameters& rig) {
+  std::vector<std::size_t> axes;
+  std::size_t k = 0;
+  for (const BearingParameters& b : rig.bearings)
+    for (std::size_t side = 0; side < b.Axes().size(); ++side, ++k)
+      if (!b.controller) axes.push_back(k);
+  return axes;
 }
 
 const BearingParameters* RigParameters::Find(const std::string& bearing) const {
@@ -285,6 +323,16 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[amplifier]", kAmplifierFields);
   add("[controller]", kControllerFields);
   add("[controller]", kPidFields);
+  add("[[controller.schedule]]", kPidPointFields);
+  add("[[controller.filter]] kind = \"notch\"", kNotchFields);
+  add("[[controller.filter]] kind = \"lead-lag\"", kLeadLagFields);
+  add("[[controller.filter]] kind = \"low-pass\"", kLowPassFields);
+  add("[controller.unbalance]", kUnbalanceControlFields);
+  add("[controller] kind = \"lqg\"", kLqgFields);
+  add("[controller] kind = \"h-infinity\"", kHInfinityFields);
+  add("[controller] kind = \"tilt-translation\"", kTiltTranslationFields);
+  add("[controller] kind = \"tilt-translation\", translation", kTranslationFields);
+  add("[controller] kind = \"tilt-translation\", tilt", kTiltFields);
   add("[bearings.A] kind = \"radial\"", kRadialStatorFields);
   add("[bearings.Z] kind = \"thrust\"", kThrustStatorFields);
   add("[bearings.M] kind = \"opposed\"", kOpposedStatorFields);

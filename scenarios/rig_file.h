@@ -9,7 +9,7 @@
 #include "actuators/amplifier.h"
 #include "actuators/radial_stator.h"
 #include "actuators/thrust_stator.h"
-#include "control/pid.h"
+#include "control/controller_file.h"
 #include "core/base/toml.h"
 #include "effects/effect.h"
 #include "rotor/auxiliary_bearing.h"
@@ -18,18 +18,6 @@
 #include "rotor/rotor_model.h"
 
 namespace ambrig {
-
-struct ControllerParameters {
-  PidParameters pid;
-  double rate = kRequired;
-  double bias_current = kRequired;
-  std::string kind = "pid";
-};
-
-inline constexpr Field<ControllerParameters> kControllerFields[] = {
-    {"rate", &ControllerParameters::rate, "Hz", 1, 1e6, "an integer fraction of the switching frequency"},
-    {"bias_current", &ControllerParameters::bias_current, "A", 1e-6, 1e4, "c0"},
-};
 
 /// One axis with one or two magnets facing each other: L(g) = L_inf + L_0/(1 + g/g_c).
 struct OpposedStatorParameters {
@@ -88,6 +76,7 @@ struct RigParameters {
   std::vector<ShaftPlane> stations;  // named planes of a beam rotor, z as the bearings'
   AmplifierParameters amplifier;
   ControllerParameters controller;
+  std::vector<ControllerParameters> other_controllers;  // [controllers.NAME], for changing over in a run
   std::vector<BearingParameters> bearings;
   std::vector<EffectInstance> effects;
   std::vector<Tolerance> tolerances;
@@ -98,6 +87,11 @@ struct RigParameters {
   /// M: switching periods per controller period.
   int periods_per_control() const;
 };
+
+/// Controlled axes in the order of the bearings: "A.x", "A.y", ..., "z".
+std::vector<std::string> AxisNames(const RigParameters& rig);
+/// Those that [controller] has: of bearings without a controller of their own.
+std::vector<std::size_t> ControlledAxes(const RigParameters& rig);
 
 /// @throws InputError with file:line for every wrong key, type, value or contradiction.
 RigParameters ReadRig(const std::string& file);

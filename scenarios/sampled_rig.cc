@@ -47,7 +47,7 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
     control.push_back(MakeBearingControl(rig, nominal, k, plant.bearings[k].lanes));
   }
   noise_.emplace(scenario.seed, CoilsOf(rig), axes, samples);  // the switching engine's, number by number
-  loop_.emplace(rig, plant, commands_, *noise_, scenario.noise);
+  loop_.emplace(nominal, plant, commands_, *noise_, scenario.noise);
 }
 
 void SampledRig::Start() {

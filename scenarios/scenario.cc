@@ -153,6 +153,23 @@ void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
   std::stable_sort(s.faults.begin(), s.faults.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
+void ReadSwitches(const TomlTable& root, const RigParameters& rig, Scenario& s) {
+  std::vector<std::string> allowed{"main"};
+  for (const ControllerParameters& c : rig.other_controllers) allowed.push_back(c.name);
+  for (const TomlTable& t : root.Tables("switch")) {
+    SwitchSpec change;
+    change.time = t.Number("time");
+    if (!(change.time >= 0 && change.time < s.duration))
+      t.Fail("time", fmt::format("= {} s, allowed: 0 to below the duration of {} s", change.time, s.duration));
+    change.to = t.String("to");
+    if (std::find(allowed.begin(), allowed.end(), change.to) == allowed.end())
+      t.Fail("to", fmt::format("= \"{}\", allowed: controllers of the rig: {}", change.to, Join(allowed)));
+    t.RejectUnknownKeys();
+    s.switches.push_back(change);
+  }
+  std::stable_sort(s.switches.begin(), s.switches.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+}
+
 void ReadExpect(const TomlTable& root, Scenario& s) {
   const auto t = root.Table("expect");
   if (!t) return;
@@ -207,6 +224,7 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   ReadExcitations(root, targets, s);
   ReadLoads(root, targets, rig, s);
   ReadFaults(root, targets, s);
+  ReadSwitches(root, rig, s);
   ReadExpect(root, s);
   root.RejectUnknownKeys();
   return s;

@@ -21,6 +21,12 @@ struct LoadSpec {
   double start = 0, stop = 0;
 };
 
+/// From the first controller tick at or after `time` on, another controller of the rig is in charge.
+struct SwitchSpec {
+  double time = 0;  // [s]
+  std::string to;   // "main" or a name of [controllers]
+};
+
 enum class StartState { kLevitated, kResting, kClamped };
 
 /// What makes a scenario a regression test; absent keys are not checked.
@@ -53,6 +59,7 @@ struct Scenario {
   std::vector<Excitation> excitations;
   std::vector<LoadSpec> loads;
   std::vector<FaultSpec> faults;
+  std::vector<SwitchSpec> switches;
   double drop_limit = 0.1;  // [s] longest contact that is not yet a drop
   Expectation expect;
 };

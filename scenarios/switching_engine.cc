@@ -53,7 +53,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
     control_.push_back(MakeBearingControl(rig_, nominal_, k, plant_.bearings[k].lanes));
   }
   noise_.emplace(scenario_.seed, CoilsOf(rig_), axis, samples_);
-  loop_.emplace(rig_, plant_, *commands_, *noise_, scenario_.noise);
+  loop_.emplace(nominal_, plant_, *commands_, *noise_, scenario_.noise);
   contacts_.emplace(plant_.rotor, scenario_, T_);
   if (options_.stepper) stepper_ = options_.stepper(plant_.rotor);
 }

@@ -16,20 +16,23 @@ MAY_INCLUDE = {
     "discovery": "core effects scenarios",
     "campaign": "core faulttolerance scenarios",
     "analysis": "core actuators rotor control faulttolerance scenarios",
-    "app": "core effects scenarios discovery campaign analysis faulttolerance",
+    "design": "core control scenarios campaign",
+    "app": "core effects scenarios discovery campaign analysis design faulttolerance",
     "bench": "core actuators rotor control fdd faulttolerance effects scenarios discovery",
 }
 # What runs in the controller may not look at the true fault, only at what it measures.
 BANNED = {"fdd": ["actuators/coil_fault.h"], "faulttolerance": ["actuators/coil_fault.h"]}
 # One door per library: the only files that may include it.
 DOORS = {
-    "toml++/": ["core/base/toml.cc"],
+    "toml++/": ["core/base/toml.cc", "core/base/toml_edit.cc"],
     "hdf5.h": ["core/record/hdf5.cc"],
     "matio.h": ["core/record/mat.cc"],
     "ode/": ["rotor/ode_world.cc"],
-    "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model.cc", "discovery/screen.cc"],
+    "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model.cc", "discovery/screen.cc",
+                   "design/run_study.cc"],
     "ceres/": ["discovery/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],
+    "nlopt": ["design/nlopt_search.cc"],
 }
 
 

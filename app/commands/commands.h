@@ -32,6 +32,7 @@ void AddMerge(CLI::App& app, Work& work);
 void AddRedistribute(CLI::App& app, Work& work);
 void AddEffects(CLI::App& app, Work& work);
 void AddParameters(CLI::App& app, Work& work);
+void AddDesign(CLI::App& app, Work& work);
 void AddCompare(CLI::App& app, Work& work);
 void AddExplain(CLI::App& app, Work& work);
 void AddAdopt(CLI::App& app, Work& work);

@@ -63,7 +63,7 @@ TEST(Pid, ClampAndAntiWindup) {
 
 TEST(Pid, HoldGivesTheForceAtRest) {
   DecentralisedPid pid({kGains, kGains}, kTs);
-  pid.Hold({12, -3}, {5e-6, 0});
+  pid.Hold({12, -3}, {5e-6, 0}, {5e-6, 0});
   std::vector<double> f(2);
   pid.Step({5e-6, 0}, {5e-6, 0}, {0, 0}, 0, f);
   EXPECT_EQ(f[0], 12);

@@ -1,0 +1,106 @@
+#include "control/h_infinity.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "control/slicot.h"
+
+namespace ambrig {
+
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr double kIntegratorShare = 1e-3;  // of the bandwidth: the weight's pole, instead of a true integrator (nearer ones spoil the Riccati equations)
+constexpr double kLargestGamma = 1e9;
+constexpr int kBisections = 16;            // least gamma to 1e-4 of its logarithm's first octave
+
+/// Gain of the closed loop at rest: there the weight is largest and the equations are hardest.
+double NormAtRest(const StateSpace& P, const StateSpace& K) {
+  const Eigen::Index u = K.outputs(), y = K.inputs(), w = P.inputs() - u, z = P.outputs() - y;
+  const MatrixXd G = P.Response(1.0).real(), k = K.Response(1.0).real();
+  const MatrixXd loop = (MatrixXd::Identity(y, y) - G.bottomRightCorner(y, u) * k).inverse();
+  const MatrixXd T = G.topLeftCorner(z, w) + G.topRightCorner(z, u) * k * loop * G.bottomLeftCorner(y, w);
+  return T.allFinite() ? Eigen::JacobiSVD<MatrixXd>(T).singularValues()(0) : kInfinity;
+}
+
+/// W per axis: (1/y_w)(s + w_b)/(s + w_b/1e3), sampled.
+StateSpace Weight(const HInfinityParameters& p, Eigen::Index axes, double Ts) {
+  const StateSpace one = Bilinear(
+      FromTransferFunction({1 / p.position_weight, p.bandwidth / p.position_weight}, {1, p.bandwidth * kIntegratorShare}), Ts);
+  // The state in units of the output: the weight is huge at rest.
+  StateSpace scaled = one;
+  const double unit = std::abs(one.B(0, 0));
+  scaled.B /= unit;
+  scaled.C *= unit;
+  return Append(std::vector<StateSpace>(static_cast<std::size_t>(axes), scaled));
+}
+
+}  // namespace
+
+StateSpace HInfinityPlant(const SampledPlant& plant, const HInfinityParameters& w) {
+  const Eigen::Index n = plant.A.rows(), p = plant.axes(), d = plant.E.cols();
+  const StateSpace weight = Weight(w, p, plant.Ts);
+  const Eigen::Index m = weight.states();
+  // In units of the weights: readings per sensor_noise, forces per force_weight.
+  const MatrixXd y = plant.C / w.sensor_noise;
+  StateSpace s;
+  s.A = MatrixXd::Zero(n + m, n + m);
+  s.A.topLeftCorner(n, n) = plant.A;
+  s.A.bottomLeftCorner(m, n) = weight.B * plant.C;
+  s.A.bottomRightCorner(m, m) = weight.A;
+  s.B = MatrixXd::Zero(n + m, d + 2 * p);
+  s.B.topLeftCorner(n, d) = w.force_noise * plant.E;
+  s.B.topRightCorner(n, p) = w.force_weight * plant.B;
+  s.C = MatrixXd::Zero(3 * p, n + m);
+  s.C.topLeftCorner(p, n) = weight.D * plant.C;
+  s.C.topRightCorner(p, m) = weight.C;
+  s.C.bottomLeftCorner(p, n) = y;
+  s.D = MatrixXd::Zero(3 * p, d + 2 * p);
+  s.D.block(p, d + p, p, p).setIdentity();
+  s.D.block(2 * p, d, p, p).setIdentity();
+  return s;
+}
+
+HInfinityDesign DesignHInfinity(const SampledPlant& plant, const HInfinityParameters& w, const std::string& where) {
+  const StateSpace P = HInfinityPlant(plant, w);
+  const int axes = static_cast<int>(plant.axes());
+  StateSpace found;
+  const auto try_gamma = [&](double gamma) {
+    HInfinityOutcome out = DiscreteHInfinity(P, axes, axes, gamma);
+    if (!out.usable || NormAtRest(P, out.controller) > 1.001 * gamma) return false;
+    StateSpace k = out.controller;
+    k.B /= w.sensor_noise;
+    k.D *= w.force_weight / w.sensor_noise;
+    k.C *= w.force_weight;
+    if (!(SpectralRadius(LoopMatrix(plant.FromForce(), k)) < 1)) return false;
+    found = k;
+    return true;
+  };
+  double high = 1;
+  while (high < kLargestGamma && !try_gamma(high)) high *= 4;
+  if (high >= kLargestGamma)
+    throw InputError(fmt::format("{}: no H-infinity controller with these weights below gamma = {:g}; allowed: axes that magnets and "
+                                 "sensors of the rig can hold, weights near its sizes", where, kLargestGamma));
+  double low = high / 4;
+  while (low > 1e-9 && try_gamma(low)) {
+    high = low;
+    low /= 4;
+  }
+  for (int k = 0; k < kBisections; ++k) {
+    const double middle = std::sqrt(low * high);
+    (try_gamma(middle) ? high : low) = middle;
+  }
+  HInfinityDesign design;
+  design.least_gamma = high;
+  design.gamma = high * w.slack;
+  if (!try_gamma(design.gamma)) {  // numerically next to the limit
+    design.gamma = high;
+    Require(try_gamma(high), "a gamma that was found");
+  }
+  design.controller = found;
+  return design;
+}
+
+}  // namespace ambrig

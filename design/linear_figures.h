@@ -1,0 +1,29 @@
+#pragma once
+/// What the linear closed loop of a rig and a controller says, sampled, at one speed.
+#include "control/position_controller.h"
+#include "control/sampled_plant.h"
+#include "scenarios/rig_file.h"
+
+namespace ambrig {
+
+struct LinearFigures {
+  double spectral_radius = 0;               // of the closed loop's state matrix; below 1: stable
+  double settling_time = kInfinity;         // time constant of its slowest pole [s]
+  double peak_sensitivity = kInfinity;      // largest |S_kk| over axes and frequencies [-]
+  std::vector<double> axis_sensitivity;     // the same per axis [-]
+  double noise_force = kInfinity;           // largest rms force command over the axes due to the sensors' noise [N]
+  bool stable() const { return spectral_radius < 1; }
+};
+
+/// S = (I - P K)^-1 per axis, all other loops closed, over 0.5 Hz to max(2 kHz, three times the speed), below the Nyquist frequency,
+/// as ISO 14839-3 wants it. `plant`: true values; `K`: readings to forces; `noise` [m] per axis. The largest is taken over `axes`.
+LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K, const std::vector<double>& noise, double Omega,
+                              const std::vector<std::size_t>& axes);
+
+/// |S_kk| of one axis at these frequencies [Hz].
+std::vector<double> SensitivityCurve(const SampledPlant& plant, const StateSpace& K, std::size_t axis, const std::vector<double>& hertz);
+
+/// The response of the readings [m] (axes x samples) to 1 N at the magnets of axis `axis` from t = 0 on.
+Eigen::MatrixXd LoadStep(const SampledPlant& plant, const StateSpace& K, std::size_t axis, std::size_t samples);
+
+}  // namespace ambrig

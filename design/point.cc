@@ -1,0 +1,158 @@
+#include "design/point.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/toml_edit.h"
+#include "design/linear_figures.h"
+#include "scenarios/control_plant.h"
+#include "scenarios/controller_setup.h"
+
+namespace ambrig {
+
+namespace {
+
+/// One line without separators, whatever an error says.
+std::string OneLine(std::string text) {
+  for (char& ch : text)
+    if (ch == '\n' || ch == '\r' || ch == '\t') ch = ' ';
+  return text;
+}
+
+void Worse(double& worst, double value) {
+  if (std::isnan(value)) value = kInfinity;
+  worst = std::max(worst, value);
+}
+
+std::vector<std::size_t> AllAxes(const RigParameters& rig) {
+  std::vector<std::size_t> axes(AxisNames(rig).size());
+  for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = k;
+  return axes;
+}
+
+std::vector<double> SensorNoise(const RigParameters& rig) {
+  std::vector<double> noise;
+  for (const BearingParameters& b : rig.bearings) noise.insert(noise.end(), b.Axes().size(), b.sensor.noise);
+  return noise;
+}
+
+double RunFigure(FigureKind kind, const RigParameters& rig, const RunResult& r) {
+  double orbit = 0, used = 0;
+  for (const BearingParameters& b : rig.bearings) {
+    if (b.kind == BearingKind::kThrust) continue;
+    const auto it = r.metrics.max_orbit.find(b.name);
+    const double most = it == r.metrics.max_orbit.end() ? 0 : it->second;
+    orbit = std::max(orbit, most);
+    if (b.auxiliary) used = std::max(used, most / b.auxiliary->clearance);
+  }
+  switch (kind) {
+    case FigureKind::kOrbit: return orbit;
+    case FigureKind::kLateOrbit: return r.metrics.late_orbit;
+    case FigureKind::kClearanceUsed: return used;
+    case FigureKind::kPeakCurrent: return r.metrics.peak_current;
+    case FigureKind::kCopperLoss: return r.metrics.copper_loss;
+    case FigureKind::kContact: return r.metrics.longest_contact;
+    case FigureKind::kTouchdown: return r.touchdown ? 1 : 0;
+    case FigureKind::kDrop: return r.drop ? 1 : 0;
+    case FigureKind::kDetectionDelay: return r.metrics.detection_delay < 0 ? kInfinity : r.metrics.detection_delay;
+    default: return 0;
+  }
+}
+
+/// False when the loop is unstable at some speed: no run is worth its time.
+bool EvaluateLinear(const Study& study, const RigParameters& rig, const PositionController& controller, Evaluation& out) {
+  for (const double speed : study.speeds) {
+    const LinearFigures f = LinearFiguresOf(MakeControlPlant(TrueRig(rig), AllAxes(rig), speed, &rig), controller.Linear(speed), SensorNoise(rig), speed,
+                                            ControlledAxes(rig));
+    if (!f.stable()) {
+      out.note = "unstable at " + NumberText(speed) + " rad/s";
+      return false;
+    }
+    for (std::size_t k = 0; k < study.figures.size(); ++k) {
+      if (study.figures[k].info->kind == FigureKind::kPeakSensitivity) Worse(out.figures[k], f.peak_sensitivity);
+      if (study.figures[k].info->kind == FigureKind::kSettlingTime) Worse(out.figures[k], f.settling_time);
+      if (study.figures[k].info->kind == FigureKind::kNoiseForce) Worse(out.figures[k], f.noise_force);
+    }
+  }
+  return true;
+}
+
+void EvaluateRuns(const Study& study, const RigParameters& rig, const std::atomic<bool>* stop, Evaluation& out) {
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
+    const bool wanted = std::any_of(study.figures.begin(), study.figures.end(),
+                                    [&](const FigureSpec& f) { return f.info->of_scenario && f.scenario == s; });
+    if (!wanted) continue;
+    SimulateOptions options;
+    options.fidelity = study.fidelity;
+    options.record = false;
+    options.stop = stop;
+    const RunResult r = Simulate(rig, ReadScenarioText(study.scenarios[s].text, study.scenarios[s].file, rig), options);
+    for (std::size_t k = 0; k < study.figures.size(); ++k) {
+      const FigureSpec& f = study.figures[k];
+      if (f.info->of_scenario && f.scenario == s) Worse(out.figures[k], RunFigure(f.info->kind, rig, r));
+    }
+  }
+}
+
+}  // namespace
+
+std::string RigTextOfPoint(const DesignCandidate& c, const std::vector<double>& values) {
+  Require(values.size() == c.variables.size(), "a value per variable");
+  std::vector<TomlEdit> edits;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    for (const std::string& path : c.variables[k].paths) edits.push_back({path, values[k]});
+  return EditedToml(c.rig_text, c.rig_file, edits);
+}
+
+RigParameters RigOfPoint(const DesignCandidate& c, const std::vector<double>& values) {
+  return ReadRigText(RigTextOfPoint(c, values), c.rig_file);
+}
+
+RigParameters Drawn(RigParameters rig, const std::vector<double>& draw) {
+  std::size_t k = 0;
+  for (Tolerance& t : rig.tolerances) {
+    if (!(t.sd > 0) || draw.empty()) continue;
+    const double* value = ParameterAt(rig, t.path);
+    double lo = 0, hi = 0;
+    std::string unit;
+    const bool ranged = ParameterRange(rig, t.path, &lo, &hi, &unit);
+    const double z = draw[k++];
+    if (!value) continue;
+    const double drawn = (std::isnan(t.fitted) ? *value : t.fitted) + t.sd * z;
+    t.fitted = ranged ? std::clamp(drawn, lo, hi) : drawn;
+  }
+  return rig;
+}
+
+Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector<double>& values, const std::atomic<bool>* stop) {
+  Evaluation out;
+  out.figures.assign(study.figures.size(), 0.0);
+  try {
+    const RigParameters nominal = RigOfPoint(study.candidates[candidate], values);
+    const auto controller = MakeController(nominal, nominal.controller);
+    for (const std::vector<double>& draw : study.draws) {
+      const RigParameters rig = Drawn(nominal, draw);
+      if (!EvaluateLinear(study, rig, *controller, out)) {
+        std::fill(out.figures.begin(), out.figures.end(), kInfinity);
+        return out;
+      }
+      EvaluateRuns(study, rig, stop, out);
+    }
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;  // of the machine, not of the point
+  } catch (const std::exception& e) {
+    out.note = OneLine(e.what());
+    std::fill(out.figures.begin(), out.figures.end(), kInfinity);
+  }
+  return out;
+}
+
+bool MeetsLimits(const Study& study, const std::vector<double>& figures) {
+  for (std::size_t k = 0; k < figures.size(); ++k)
+    if (!std::isfinite(figures[k]) || (study.figures[k].at_most && figures[k] > *study.figures[k].at_most)) return false;
+  return true;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,78 @@
+#include "design/responses.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "design/linear_figures.h"
+#include "design/pareto.h"
+#include "scenarios/control_plant.h"
+#include "scenarios/controller_setup.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kStepLength = 0.03;  // [s]
+constexpr int kCurvePoints = 200;
+constexpr double kLowest = 1, kHighest = 2000;  // [Hz]
+
+ScenarioTrace TraceOf(const RigParameters& rig, RunResult result) {
+  ScenarioTrace trace;
+  for (std::size_t k = 0; k < result.record.rows(); ++k) trace.t.push_back(result.record.TimeAt(k));
+  trace.orbit.assign(trace.t.size(), 0.0);
+  for (const BearingParameters& b : rig.bearings) {
+    if (b.kind == BearingKind::kThrust) continue;
+    const Channel *x = result.record.Find(b.name + ".x"), *y = result.record.Find(b.name + ".y");
+    for (std::size_t k = 0; x && k < trace.orbit.size(); ++k)
+      trace.orbit[k] = std::max(trace.orbit[k], std::hypot(x->samples[k], y ? y->samples[k] : 0.0));
+  }
+  trace.result = std::move(result);
+  return trace;
+}
+
+}  // namespace
+
+PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::size_t point, const std::atomic<bool>* stop) {
+  const StudyPoint& p = result.points[point];
+  const RigParameters rig = RigOfPoint(study.candidates[p.candidate], p.values);
+  PointResponses out;
+  out.point = point;
+  std::vector<std::size_t> axes(AxisNames(rig).size());
+  for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = k;
+  const double speed = study.speeds.front();
+  const SampledPlant plant = MakeControlPlant(rig, axes, speed);
+  const StateSpace K = MakeController(rig, rig.controller)->Linear(speed);
+  const auto samples = static_cast<std::size_t>(kStepLength / plant.Ts);
+  const Eigen::MatrixXd step = LoadStep(plant, K, 0, samples);
+  for (std::size_t k = 0; k < samples; ++k) {
+    out.step_t.push_back(static_cast<double>(k) * plant.Ts);
+    out.step.push_back(step(0, static_cast<Eigen::Index>(k)));
+  }
+  for (int k = 0; k < kCurvePoints; ++k)
+    out.hertz.push_back(kLowest * std::pow(std::min(kHighest, 0.49 / plant.Ts) / kLowest, static_cast<double>(k) / (kCurvePoints - 1)));
+  out.sensitivity = SensitivityCurve(plant, K, 0, out.hertz);
+  for (const StudyScenario& s : study.scenarios) {
+    SimulateOptions options;
+    options.fidelity = study.fidelity;
+    options.stop = stop;
+    out.scenarios.push_back(TraceOf(rig, Simulate(rig, ReadScenarioText(s.text, s.file, rig), options)));
+  }
+  return out;
+}
+
+std::size_t RepresentativeOf(const Study& study, const StudyResult& result, std::size_t candidate) {
+  std::vector<std::vector<double>> objectives;
+  std::vector<std::size_t> front, feasible, finite;
+  for (std::size_t k = 0; k < result.points.size(); ++k) {
+    const StudyPoint& p = result.points[k];
+    objectives.emplace_back();
+    for (const std::size_t j : study.Objectives()) objectives.back().push_back(p.result.figures[j]);
+    if (p.candidate != candidate) continue;
+    if (p.front) front.push_back(k);
+    if (p.feasible) feasible.push_back(k);
+    finite.push_back(k);
+  }
+  return front.empty() && feasible.empty() ? finite.front() : Compromise(objectives, front.empty() ? feasible : front, result.scales);
+}
+
+}  // namespace ambrig

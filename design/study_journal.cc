@@ -1,0 +1,99 @@
+#include "design/study_journal.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "core/base/fingerprint.h"
+#include "core/base/read_file.h"
+
+namespace ambrig {
+
+namespace {
+
+std::string PathOf(const std::string& folder) { return (std::filesystem::path(folder) / "journal.txt").string(); }
+
+std::string Checked(const std::string& text) { return fmt::format("{}\t{:016x}\n", text, Fingerprint(text)); }
+
+std::string Numbers(const std::vector<double>& values) {
+  std::string text;
+  for (const double v : values) text += (text.empty() ? "" : " ") + (std::isinf(v) ? std::string(v > 0 ? "inf" : "-inf") : NumberText(v));
+  return text;
+}
+
+std::string Key(std::size_t candidate, const std::vector<double>& values) { return fmt::format("{}: {}", candidate, Numbers(values)); }
+
+bool ParseNumbers(std::string_view text, std::vector<double>& out) {
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    double v = 0;
+    const auto [last, error] = std::from_chars(text.data(), text.data() + end, v);
+    if (error != std::errc{} || last != text.data() + end) return false;
+    out.push_back(v);
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return true;
+}
+
+/// The text of a whole line whose check sum is right.
+std::string_view Unchecked(std::string_view line) {
+  const std::size_t tab = line.rfind('\t');
+  if (tab == std::string_view::npos || fmt::format("{:016x}", Fingerprint(line.substr(0, tab))) != line.substr(tab + 1)) return {};
+  return line.substr(0, tab);
+}
+
+}  // namespace
+
+StudyJournal::StudyJournal(const std::string& folder, const Study& study) : file_(PathOf(folder)) {
+  const std::string header = fmt::format("ambrig study 1\t{}\t{}", study.fingerprint, study.file);
+  const std::string text = ReadFile(file_.path());
+  if (text.find('\n') == std::string::npos) {
+    file_.Truncate(0);
+    file_.Append(Checked(header));
+    return;
+  }
+  std::size_t number = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    const std::string_view line = end == std::string::npos ? std::string_view{} : Unchecked(std::string_view(text).substr(begin, end - begin));
+    begin = end == std::string::npos ? text.size() : end + 1;
+    if (++number == 1) {
+      if (!line.starts_with(fmt::format("ambrig study 1\t{}\t", study.fingerprint)))
+        throw InputError(fmt::format("{}: holds another study, or this one before it, a rig or a scenario was changed; allowed: the same "
+                                     "files, or another folder with -o", file_.path()));
+      continue;
+    }
+    const std::size_t a = line.find('\t'), b = a == std::string_view::npos ? a : line.find('\t', a + 1);
+    Evaluation e;
+    if (b == std::string_view::npos || !ParseNumbers(line.substr(a + 1, b - a - 1), e.figures) || e.figures.size() != study.figures.size()) {
+      ++damaged_;
+      continue;
+    }
+    e.note = line.substr(b + 1);
+    known_[std::string(line.substr(0, a))] = e;
+  }
+  if (!text.ends_with('\n')) file_.Append("\n");
+}
+
+std::optional<Evaluation> StudyJournal::Find(std::size_t candidate, const std::vector<double>& values) const {
+  const std::scoped_lock lock(mutex_);
+  const auto it = known_.find(Key(candidate, values));
+  return it == known_.end() ? std::nullopt : std::optional(it->second);
+}
+
+void StudyJournal::Add(std::size_t candidate, const std::vector<double>& values, const Evaluation& e) {
+  const std::string key = Key(candidate, values);
+  const std::scoped_lock lock(mutex_);
+  if (known_.contains(key)) return;
+  file_.Append(Checked(fmt::format("{}\t{}\t{}", key, Numbers(e.figures), e.note)));
+  known_[key] = e;
+}
+
+std::size_t StudyJournal::size() const {
+  const std::scoped_lock lock(mutex_);
+  return known_.size();
+}
+
+}  // namespace ambrig
