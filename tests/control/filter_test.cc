@@ -34,8 +34,9 @@ TEST(Filter, NotchDepthAtItsFrequency) {
       EXPECT_NEAR(std::abs(ResponseAt(q, f)), depth, 1e-12) << f;
       EXPECT_NEAR(std::abs(ResponseAt(q, 0)), 1, 1e-12);
       // Far below the sampling rate the edges of the width are at -3 dB of a full notch.
-      if (depth == 0 && f < 200)
+      if (depth == 0 && f < 200) {
         EXPECT_NEAR(std::abs(ResponseAt(q, f * (std::sqrt(1.01) + 0.1))), std::sqrt(0.5), 2e-3);
+      }
     }
 }
 

@@ -91,7 +91,9 @@ TEST(Lqg, RejectsALoadAndFollowsAReference) {
     k.Step({y}, {r}, {0}, 0, f);
     x = (p.A * x + p.B * f[0] + p.E * 30).eval();
     if (n < 10000) worst = std::max(worst, std::abs(y));
-    if (n == 9999) EXPECT_LT(std::abs(y), 1e-9);
+    if (n == 9999) {
+      EXPECT_LT(std::abs(y), 1e-9);
+    }
   }
   EXPECT_NEAR((p.C * x)(0), 5e-6, 1e-9);
   EXPECT_GT(worst, 1e-6);  // there was a disturbance
