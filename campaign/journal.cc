@@ -17,15 +17,6 @@ constexpr int kVersion = 1;
 
 std::string PathOf(const std::string& folder) { return (std::filesystem::path(folder) / "journal.txt").string(); }
 
-std::string Checked(const std::string& text) { return fmt::format("{}\t{:016x}\n", text, Fingerprint(text)); }
-
-/// The text of a line whose check sum is right; empty for any other.
-std::string_view Unchecked(std::string_view line) {
-  const std::size_t tab = line.rfind('\t');
-  if (tab == std::string_view::npos) return {};
-  return fmt::format("{:016x}", Fingerprint(line.substr(0, tab))) == line.substr(tab + 1) ? line.substr(0, tab) : std::string_view{};
-}
-
 std::string HeaderText(const JournalHeader& h) {
   return nlohmann::ordered_json{{"ambrig_campaign", kVersion}, {"name", h.name}, {"file", h.file},
                                 {"fingerprint", h.fingerprint}, {"runs", h.runs}}.dump();
@@ -88,7 +79,7 @@ Journal::Journal(const std::string& folder, const JournalHeader& header) : file_
   // Without a whole first line nothing was recorded yet.
   if (text.find('\n') == std::string::npos) {
     file_.Truncate(0);
-    file_.Append(Checked(HeaderText(header)));
+    file_.Append(CheckedLine(HeaderText(header)));
     return;
   }
   JournalContent content = Parse(text, path);
@@ -102,7 +93,7 @@ Journal::Journal(const std::string& folder, const JournalHeader& header) : file_
 }
 
 void Journal::Append(const Row& row) {
-  const std::string line = Checked(row.Csv());
+  const std::string line = CheckedLine(row.Csv());
   const std::scoped_lock lock(mutex_);
   file_.Append(line);
   rows_.insert_or_assign(row.run, row);

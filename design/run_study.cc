@@ -1,15 +1,12 @@
 #include "design/run_study.h"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include "campaign/parameter_draw.h"
+#include "campaign/run_rows.h"
 #include "design/nlopt_search.h"
 #include "design/pareto.h"
 #include "design/study_journal.h"
@@ -76,20 +73,10 @@ std::vector<std::vector<double>> SweepOf(const Study& study, const DesignCandida
   return out;
 }
 
-/// Tasks begun in order, each by the next free thread.
 void InParallel(std::size_t count, int jobs, const std::function<void(std::size_t)>& task) {
-  const int threads = jobs > 0 ? jobs : tbb::info::default_concurrency();
-  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  std::atomic<std::size_t> next{0};
-  arena.execute([&] {
-    tbb::parallel_for(
-        0, threads,
-        [&](int) {
-          for (std::size_t k = next++; k < count && !tbb::is_current_task_group_canceling(); k = next++) task(k);
-        },
-        tbb::simple_partitioner());
-  });
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  OnAllCores(all, jobs, nullptr, task);
 }
 
 /// Ways to weigh the objectives: all alike, each one foremost, then Sobol's.

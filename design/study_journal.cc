@@ -15,8 +15,6 @@ namespace {
 
 std::string PathOf(const std::string& folder) { return (std::filesystem::path(folder) / "journal.txt").string(); }
 
-std::string Checked(const std::string& text) { return fmt::format("{}\t{:016x}\n", text, Fingerprint(text)); }
-
 std::string Numbers(const std::vector<double>& values) {
   std::string text;
   for (const double v : values) text += (text.empty() ? "" : " ") + (std::isinf(v) ? std::string(v > 0 ? "inf" : "-inf") : NumberText(v));
@@ -37,13 +35,6 @@ bool ParseNumbers(std::string_view text, std::vector<double>& out) {
   return true;
 }
 
-/// The text of a whole line whose check sum is right.
-std::string_view Unchecked(std::string_view line) {
-  const std::size_t tab = line.rfind('\t');
-  if (tab == std::string_view::npos || fmt::format("{:016x}", Fingerprint(line.substr(0, tab))) != line.substr(tab + 1)) return {};
-  return line.substr(0, tab);
-}
-
 }  // namespace
 
 StudyJournal::StudyJournal(const std::string& folder, const Study& study) : file_(PathOf(folder)) {
@@ -51,7 +42,7 @@ StudyJournal::StudyJournal(const std::string& folder, const Study& study) : file
   const std::string text = ReadFile(file_.path());
   if (text.find('\n') == std::string::npos) {
     file_.Truncate(0);
-    file_.Append(Checked(header));
+    file_.Append(CheckedLine(header));
     return;
   }
   std::size_t number = 0;
@@ -87,7 +78,7 @@ void StudyJournal::Add(std::size_t candidate, const std::vector<double>& values,
   const std::string key = Key(candidate, values);
   const std::scoped_lock lock(mutex_);
   if (known_.contains(key)) return;
-  file_.Append(Checked(fmt::format("{}\t{}\t{}", key, Numbers(e.figures), e.note)));
+  file_.Append(CheckedLine(fmt::format("{}\t{}\t{}", key, Numbers(e.figures), e.note)));
   known_[key] = e;
 }
 

@@ -3,6 +3,7 @@
 /// expectation is not met, 2 wrong input, 3 an error of the program, 130 interrupted.
 #include <CLI/CLI.hpp>
 #include <atomic>
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -41,6 +42,9 @@ void AddJudge(CLI::App& app, Work& work);
 void AddWitness(CLI::App& app, Work& work);
 void AddRotor(CLI::App& app, Work& work);
 
+/// Files as given and the `wanted` ones in the given folders, sorted. @throws InputError (`none`: nothing found)
+std::vector<std::string> FindFiles(const std::vector<std::string>& paths, const std::function<bool(const std::filesystem::path&)>& wanted,
+                                   const char* none);
 /// Scenario files as given and those with [expect] in the given folders, sorted. @throws InputError
 std::vector<std::string> FindScenarios(const std::vector<std::string>& paths);
 

@@ -20,7 +20,8 @@ void CommonOptions::WriteJson(const nlohmann::ordered_json& document) const {
   if (!json.empty()) WriteFileAtomically(json, document.dump(2) + "\n");
 }
 
-std::vector<std::string> FindScenarios(const std::vector<std::string>& paths) {
+std::vector<std::string> FindFiles(const std::vector<std::string>& paths, const std::function<bool(const std::filesystem::path&)>& wanted,
+                                   const char* none) {
   std::vector<std::string> files;
   for (const std::string& path : paths) {
     if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: no such file or folder", path));
@@ -29,12 +30,16 @@ std::vector<std::string> FindScenarios(const std::vector<std::string>& paths) {
       continue;
     }
     for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
-      if (entry.path().extension() == ".toml" && HasExpectations(entry.path().string()))
-        files.push_back(entry.path().string());
+      if (wanted(entry.path())) files.push_back(entry.path().string());
   }
   std::sort(files.begin(), files.end());
-  if (files.empty()) throw InputError("no scenario with [expect] found");
+  if (files.empty()) throw InputError(none);
   return files;
+}
+
+std::vector<std::string> FindScenarios(const std::vector<std::string>& paths) {
+  return FindFiles(paths, [](const std::filesystem::path& file) { return file.extension() == ".toml" && HasExpectations(file.string()); },
+                   "no scenario with [expect] found");
 }
 
 bool ColourTerminal() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }

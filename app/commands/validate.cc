@@ -22,22 +22,6 @@ bool IsValidation(const std::filesystem::path& file) {
   return file.extension() == ".toml" && file.stem().string().ends_with(".validation");
 }
 
-std::vector<std::string> FindFiles(const std::vector<std::string>& paths) {
-  std::vector<std::string> files;
-  for (const std::string& path : paths) {
-    if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: no such file or folder", path));
-    if (!std::filesystem::is_directory(path)) {
-      files.push_back(path);
-      continue;
-    }
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
-      if (IsValidation(entry.path())) files.push_back(entry.path().string());
-  }
-  std::sort(files.begin(), files.end());
-  if (files.empty()) throw InputError("no NAME.validation.toml found");
-  return files;
-}
-
 std::string Figures(const std::vector<double>& values) {
   std::vector<std::string> text;
   for (double v : values) text.push_back(fmt::format("{:.6g}", v));
@@ -83,7 +67,7 @@ void PrintText(const std::vector<ValidationRow>& rows) {
 
 int RunValidate(const ValidateCommand& c) {
   std::vector<ValidationRow> rows;
-  for (const std::string& file : FindFiles(c.paths))
+  for (const std::string& file : FindFiles(c.paths, IsValidation, "no NAME.validation.toml found"))
     for (ValidationRow& row : Validate(file)) rows.push_back(std::move(row));
   c.markdown ? PrintMarkdown(rows) : PrintText(rows);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
