@@ -97,6 +97,15 @@ void AddMap(Figure& figure, int panel, const WaterfallSpectrum& w, double factor
   figure.traces.push_back(trace);
 }
 
+/// One panel a plane, one below the other.
+Figure PanelPerPlane(const std::vector<Plane>& planes, int height, const char* caption) {
+  Grid grid;
+  grid.rows = static_cast<int>(planes.size());
+  grid.panel_height = height;
+  for (const Plane& p : planes) grid.titles.push_back(p.title);
+  return MakeFigure(caption, grid);
+}
+
 }  // namespace
 
 bool SpeedVaries(const RunReportData& data) {
@@ -110,15 +119,11 @@ bool SpeedVaries(const RunReportData& data) {
 Figure WaterfallFigure(const RunReportData& data) {
   const std::vector<Plane> planes = PlanesOf(data);
   const SpeedRun run = MakeSpeedRun(data);
-  Grid grid;
-  grid.rows = static_cast<int>(planes.size());
-  grid.panel_height = 260;
-  for (const Plane& p : planes) grid.titles.push_back(p.title);
-  Figure figure = MakeFigure(
+  Figure figure = PanelPerPlane(
+      planes, 260,
       "Waterfall: amplitude of the shaft centre's motion over time and frequency; forward whirl has "
       "positive, backward whirl negative frequencies. The line is the shaft's own turning: what "
-      "follows it is order 1, what stays level is a mode of the rotor in its bearings.",
-      grid);
+      "follows it is order 1, what stays level is a mode of the rotor in its bearings.");
   double peak = 0;
   for (const Plane& p : planes)
     peak = std::max({peak, LargestSize(p.x), LargestSize(p.y)});
@@ -142,15 +147,11 @@ Figure WaterfallFigure(const RunReportData& data) {
 std::optional<Figure> OrderFigure(const RunReportData& data) {
   const std::vector<Plane> planes = PlanesOf(data);
   const SpeedRun run = MakeSpeedRun(data);
-  Grid grid;
-  grid.rows = static_cast<int>(planes.size());
-  grid.panel_height = 220;
-  for (const Plane& p : planes) grid.titles.push_back(p.title);
-  Figure figure = MakeFigure(
+  Figure figure = PanelPerPlane(
+      planes, 220,
       "Order tracks: the part of the motion that turns with the shaft (order 1: unbalance, bow, "
       "run-out), at twice its speed, and against it, over the speed. A peak of order 1 is a "
-      "critical speed.",
-      grid);
+      "critical speed.");
   bool any = false;
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const int panel = static_cast<int>(k);
