@@ -16,6 +16,7 @@ constexpr double kClosestGap = 0.4;      // of the nominal: nearer, its error ru
 constexpr int kLongestExamination = 12;
 constexpr int kTogether[] = {2, 5};    // periods that tell several shorted coils, or else
 constexpr double kGross = 6;           // [sd] residual that no noise makes
+constexpr double kStepVoltage = 5;     // what the voltage may err by within one sample [sd of its mean over a phase]
 constexpr double kPartnerMargin = 12;    // between two windings on one core: e^-6
 constexpr int kDecayed = 25;             // periods after which a coil that is off carries nothing: 1 ms, 0.2 ms are needed
 constexpr double kDoubt = 3;           // tolerances count this many times
@@ -112,7 +113,7 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
     const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]);
     if (step < s_.cap || (!Holds(0, j) && !Holds(1, j)) || in.adc[0][j] < kZeroCurrent) continue;
     const double own = model_.SelfInductance(j, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
-    const double sd = 1.4 * own * s_.current_noise / h + 1;
+    const double sd = 1.4 * own * s_.current_noise / h + kStepVoltage * s_.voltage_sd;
     if (step < most * sd) continue;
     most = step / sd;
     largest = j;

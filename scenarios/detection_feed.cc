@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kLeastGapSd = 0.01, kLeastLeakageSd = 0.05;  // relative, when the maker says nothing
 constexpr double kBusStep = 0.02;                             // of the nominal bus, within one period
+constexpr double kBusNoise = 8;                               // [sd] between two readings: never in 1e8 periods
 constexpr double kCredibleJump = 3e-5;                        // [m] in one controller period: 4700 m/s²
 
 double ToleranceOf(const RigParameters& rig, const std::string& path, double least) {
@@ -118,7 +119,8 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
   bool sensed = positions_.ready(m.t);
   for (std::size_t a = 0; a < axis_names_.size(); ++a)
     if (positions_.faulty(a) && Uses(v, a)) sensed = false;
-  in.comparable = sensed && std::abs(b.bus - last_bus_) < kBusStep * rig_.amplifier.bus_voltage;
+  const double step = kBusStep * rig_.amplifier.bus_voltage + kBusNoise * rig_.amplifier.bus_noise;
+  in.comparable = sensed && std::abs(b.bus - last_bus_) < step;
   return in;
 }
 

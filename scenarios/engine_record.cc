@@ -44,10 +44,7 @@ void SwitchingEngine::RecordRow(long long n, int sample) {
   }
   put(plant_.rotor.SpeedIsFree(t) ? motion_.Omega : scenario_.speed.Speed(t));
   put(plant_.rotor.SpeedIsFree(t) ? motion_.theta + motion_.Omega * inside : scenario_.speed.Angle(t));
-  double bus = plant_.bus.voltage;
-  if (scenario_.noise && rig_.amplifier.bus_noise > 0)
-    bus += rig_.amplifier.bus_noise * noise_->Bus(n, sample);
-  put(bus);
+  put(noise_->BusReading(plant_.bus.voltage, scenario_.noise ? rig_.amplifier.bus_noise : 0, n, sample));
 }
 
 }  // namespace ambrig

@@ -39,8 +39,9 @@ void SwitchingEngine::WatchFaults(long long n) {
   measurement_.reading_time = loop_->reading_time();
   measurement_.position_loop = controller_on_;
   measurement_.bearings.clear();
-  for (const BearingRun& b : bearings_)
-    measurement_.bearings.push_back({b.adc, &control_[b.index].duty, plant_.bus.voltage});
+  // The bus at the period's end: the next one's first reading.
+  const double bus = noise_->BusReading(plant_.bus.voltage, scenario_.noise ? rig_.amplifier.bus_noise : 0, n + 1, 0);
+  for (const BearingRun& b : bearings_) measurement_.bearings.push_back({b.adc, &control_[b.index].duty, bus});
   const std::size_t before = result_.events.size();
   options_.supervisor->AfterPeriod(measurement_, control_, result_.events);
   if (options_.snapshots && result_.events.size() > before) Snapshot(result_.events.back().kind);

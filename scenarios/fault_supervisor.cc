@@ -14,6 +14,7 @@ namespace ambrig {
 namespace {
 
 constexpr double kBusSag = 0.9;                               // of the nominal bus
+constexpr double kBusDoubt = 0.05, kBusNoise = 6;             // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kTrueWithin = 0.15;                          // of the force in command
 constexpr double kTrueResidual = 1;                           // of the equations that a linearised W leaves open
 constexpr double kVoltageShare = 0.8;                         // of the bus, to change currents with
@@ -57,6 +58,11 @@ struct FaultSupervisor::Watched {
 
 FaultSupervisor::FaultSupervisor(const RigParameters& nominal, const FaultSupervisorOptions& options)
     : rig_(nominal), options_(options), T_(1 / nominal.amplifier.switching_frequency), feed_(rig_) {
+  const AmplifierParameters& a = rig_.amplifier;
+  // Mean of as many readings as their noise asks for: one, of a quiet one.
+  const double noisy = kBusNoise * a.bus_noise / (kBusDoubt * a.bus_voltage);
+  bus_weight_ = 1 / std::max(1.0, noisy * noisy);
+  bus_ = a.bus_voltage;
   for (const BearingParameters& b : rig_.bearings) {
     auto w = std::make_unique<Watched>();
     w->bearing = &b;
@@ -71,8 +77,9 @@ FaultSupervisor::~FaultSupervisor() = default;
 
 const BearingDetector& FaultSupervisor::detector(std::size_t bearing) const { return *watched_[bearing]->detector; }
 
-void FaultSupervisor::WatchBus(double t, double bus, std::vector<RunEvent>& events) {
+void FaultSupervisor::WatchBus(double t, double reading, std::vector<RunEvent>& events) {
   const double nominal = rig_.amplifier.bus_voltage;
+  const double bus = bus_ += bus_weight_ * (reading - bus_);
   if (!bus_sagged_ && bus < kBusSag * nominal) {
     bus_sagged_ = true;
     events.push_back({t, "detected", "rig", "", 0});

@@ -47,7 +47,7 @@ class FaultSupervisor : public Supervisor {
 
  private:
   struct Watched;
-  void WatchBus(double t, double bus, std::vector<RunEvent>& events);
+  void WatchBus(double t, double reading, std::vector<RunEvent>& events);
   void WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events);
   void WatchBearing(std::size_t k, const PeriodMeasurement& m, std::vector<BearingControl>& control,
                     std::vector<RunEvent>& events);
@@ -65,6 +65,7 @@ class FaultSupervisor : public Supervisor {
   FaultSupervisorOptions options_;
   double T_ = 0;  // [s]
   bool bus_sagged_ = false;
+  double bus_ = 0, bus_weight_ = 1;  // smoothed reading [V]; share of each new one
   DetectionFeed feed_;
   std::vector<std::unique_ptr<Watched>> watched_;
   double coil_periods_ = 0;

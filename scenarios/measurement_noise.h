@@ -19,6 +19,10 @@ class MeasurementNoise {
   /// Of the position reading of `axis` and of the bus reading of ADC sample `sample`, period n.
   double Reading(std::size_t axis, long long n) { return Others(n)[axis]; }
   double Bus(long long n, int sample) { return Others(n)[axes_ + static_cast<std::size_t>(sample)]; }
+  /// What the bus reading of that sample shows, with noise of `rms` [V]. The record and the controller see the same one.
+  double BusReading(double voltage, double rms, long long n, int sample) {
+    return rms > 0 ? voltage + rms * Bus(n, sample) : voltage;
+  }
 
  private:
   const float* Others(long long n);

@@ -16,8 +16,9 @@ void SampledRig::AfterPeriod(long long n, RunResult& result) {
   m.readings = &loop_->readings();
   m.reading_time = loop_->reading_time();
   m.position_loop = controller_on_;
-  for (const SampledBearing& b : bearings)
-    m.bearings.push_back({b.adc, &control[b.index].duty, plant.bus.voltage});
+  // The bus at the period's end: the next one's first reading.
+  const double bus = noise_->BusReading(plant.bus.voltage, scenario.noise ? rig.amplifier.bus_noise : 0, n + 1, 0);
+  for (const SampledBearing& b : bearings) m.bearings.push_back({b.adc, &control[b.index].duty, bus});
   options.supervisor->AfterPeriod(m, control, result.events);
 }
 
@@ -64,10 +65,7 @@ void SampledRig::RecordRow(long long n, int sample) {
   const bool free_spin = plant.rotor.SpeedIsFree(t);
   put(free_spin ? motion.Omega : scenario.speed.Speed(t));
   put(free_spin ? motion.theta + motion.Omega * inside : scenario.speed.Angle(t));
-  double bus = plant.bus.voltage;
-  if (scenario.noise && rig.amplifier.bus_noise > 0)
-    bus += rig.amplifier.bus_noise * noise_->Bus(n, sample);
-  put(bus);
+  put(noise_->BusReading(plant.bus.voltage, scenario.noise ? rig.amplifier.bus_noise : 0, n, sample));
 }
 
 }  // namespace ambrig
