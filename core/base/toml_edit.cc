@@ -2,14 +2,12 @@
 
 #include <fmt/format.h>
 
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
-
 #include <charconv>
 #include <filesystem>
 #include <sstream>
 
 #include "core/base/errors.h"
+#include "core/base/toml_node.h"
 
 namespace ambrig {
 
@@ -89,30 +87,22 @@ void MakeFilesAbsolute(toml::node& node, const std::filesystem::path& folder) {
 }  // namespace
 
 std::string EditedToml(const std::string& text, const std::string& file, const std::vector<TomlEdit>& edits) {
-  try {
-    toml::table root = toml::parse(text, file);
-    for (const TomlEdit& e : edits) Apply(root, file, e);
-    MakeFilesAbsolute(root, std::filesystem::absolute(file).parent_path());
-    std::ostringstream out;
-    out << toml::toml_formatter(root, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings) << '\n';
-    return out.str();
-  } catch (const toml::parse_error& e) {
-    throw InputError(fmt::format("{}:{}: {}", file, e.source().begin.line, e.description()));
-  }
+  toml::table root = ParseToml(text, file);
+  for (const TomlEdit& e : edits) Apply(root, file, e);
+  MakeFilesAbsolute(root, std::filesystem::absolute(file).parent_path());
+  std::ostringstream out;
+  out << toml::toml_formatter(root, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings) << '\n';
+  return out.str();
 }
 
 double TomlNumberAt(const std::string& text, const std::string& file, const std::string& path) {
   const TomlEdit e{path, 0.0};
-  try {
-    toml::table root = toml::parse(text, file);
-    const std::vector<Step> steps = StepsOf(file, e);
-    const toml::node* found = Holder(root, file, e, steps).get(steps.back().key);
-    if (found && found->is_table()) found = found->as_table()->get("value");
-    if (!found || !found->is_number()) Fail(file, e, "is no number of this file");
-    return *found->value<double>();
-  } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: {}", file, error.source().begin.line, error.description()));
-  }
+  toml::table root = ParseToml(text, file);
+  const std::vector<Step> steps = StepsOf(file, e);
+  const toml::node* found = Holder(root, file, e, steps).get(steps.back().key);
+  if (found && found->is_table()) found = found->as_table()->get("value");
+  if (!found || !found->is_number()) Fail(file, e, "is no number of this file");
+  return NumberOf(*found);
 }
 
 }  // namespace ambrig

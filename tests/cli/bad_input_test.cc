@@ -23,6 +23,17 @@ TEST_F(BadInput, GoodInputRuns) {
 }
 TEST_F(BadInput, TruncatedToml) { ExpectComplaint(Run(ReferenceRigText().substr(0, 300), ScenarioText("")), "rig.toml:"); }
 TEST_F(BadInput, NotToml) { ExpectComplaint(Run(ReferenceRigText(), "\x01\x02 nonsense"), "s.toml:1: not valid TOML"); }
+TEST_F(BadInput, KeyOfManyNames) {
+  std::string key = "a";
+  for (int k = 0; k < 100'000; ++k) key += ".a";
+  ExpectComplaint(Run("name = \"x\"\n[" + key + "]\nb = 1\n", ScenarioText("")), "rig.toml:2: not valid TOML: a key of more than 32 names");
+}
+TEST_F(BadInput, DotsOutsideKeys) {
+  const std::string dots = "# " + std::string(100, '.') + "\nname = \"" + std::string(100, '.') + "\"\n";
+  const Outcome o = Run(dots + Replaced(ReferenceRigText(), "name = \"reference\"", ""), ScenarioText(""));
+  EXPECT_EQ(o.exit, 0) << o.text;
+}
+TEST_F(BadInput, DeepValue) { ExpectComplaint(Run("a = " + std::string(100'000, '['), ScenarioText("")), "rig.toml:1: not valid TOML"); }
 TEST_F(BadInput, EmptyRig) { ExpectComplaint(Run("", ScenarioText("")), "rig.toml:"); }
 TEST_F(BadInput, MissingRig) {
   ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", "no.toml")), "no.toml: cannot open");

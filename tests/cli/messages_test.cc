@@ -22,6 +22,7 @@ const Mistake kRigMistakes[] = {
     {"RotorNegativeMass", "value = 4.2", "value = -4.2", {"rig.toml:7: rotor.mass = -4.2 kg", "allowed"}},
     {"RotorNan", "value = 4.2", "value = nan", {"rig.toml:7: rotor.mass = nan", "allowed"}},
     {"RotorInf", "journal_radius = 0.030", "journal_radius = inf", {"rig.toml:10: rotor.journal_radius = inf m", "allowed"}},
+    {"RotorHugeInteger", "journal_radius = 0.030", "journal_radius = 9223372036854775807", {"rig.toml:10: rotor.journal_radius = 9.223372036854776e+18 m", "allowed"}},
     {"RotorSd", "sd = 0.01 }            # kg", "sd = -1 }", {"rig.toml:7: rotor.mass.sd", "allowed: a number of 0 or more"}},
     {"RotorSdKey", "sd = 0.01 }            # kg", "sigma = 1 }", {"rig.toml:7: rotor.mass.sigma", "allowed: value, sd"}},
     {"RotorKind", "kind = \"rigid\"", "kind = \"rigit\"", {"rig.toml:6: rotor.kind = \"rigit\"", "allowed", "rigid"}},
