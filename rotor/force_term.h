@@ -38,16 +38,19 @@ struct PlaneMap {
   /// Generalised forces of a radial force (fx, fy) at this plane.
   void AddForce(double fx, double fy, DofVector& Q) const {
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
-      Q[static_cast<std::size_t>(dof[k])] += wx[k] * fx + wy[k] * fy;
+      Q[U(k)] += wx[k] * fx + wy[k] * fy;
   }
 
  private:
   double Dot(const std::array<double, kMaxPlane>& w, const DofVector& q) const {
+    if (count == 4)  // a radial plane of a rigid rotor
+      return w[0] * q[U(0)] + w[1] * q[U(1)] + w[2] * q[U(2)] + w[3] * q[U(3)];
     double s = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
-      s += w[k] * q[static_cast<std::size_t>(dof[k])];
+      s += w[k] * q[U(k)];
     return s;
   }
+  std::size_t U(std::size_t k) const { return static_cast<std::size_t>(dof[k]); }
 };
 
 /// Sums that a force term adds to.

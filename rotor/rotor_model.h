@@ -129,9 +129,17 @@ class RotorModel {
   int NewDof(double mass);
   /// theta, Omega of the speed profile at the state's time.
   void Prescribe(MotionState& s) const;
+  /// Sure that nothing touches at the plane within the horizon, without a square root.
+  bool FarFromContact(const MotionState& s, std::size_t plane, double horizon) const;
   double StiffnessRate(const MotionState& s) const;
   void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
                 bool near_contact) const;
+  /// Whether nothing but given forces and gyroscopics acts: a rigid rotor, touching nothing.
+  bool FliesFreely(bool near_contact) const {
+    return dof_ == 5 && !near_contact && terms.empty();
+  }
+  /// StepOnce, to the bit, of a rotor that flies freely.
+  void Fly(MotionState& s, const DofVector& forced, double dt) const;
 
   RotorParameters p_;
   std::array<double, 3> g_;

@@ -120,6 +120,7 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
     load.map.AddForce(share * load.fx, share * load.fy, forced);
     forced[2] += share * load.fz;
   }
+  if (FliesFreely(near_contact)) return Fly(s, forced, dt);
   const bool free_spin = SpeedIsFree(s.t) && p_.inertia_polar > 0;
   MotionState stage = s;
   DofVector k_v[4], k_a[4];
@@ -159,6 +160,41 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
   }
 }
 
+void RotorModel::Fly(MotionState& s, const DofVector& forced, double dt) const {
+  const bool free_spin = SpeedIsFree(s.t) && p_.inertia_polar > 0;
+  const double half = 0.5 * dt, w = dt / 6;
+  double a[5];
+  for (std::size_t d = 0; d < 3; ++d) a[d] = forced[d] / p_.mass + g_[d];
+  if (!axial_free) a[2] = 0;
+  for (std::size_t d = 0; d < 3; ++d) {
+    const double middle = s.v[d] + half * a[d], end = s.v[d] + dt * a[d];
+    s.q[d] += w * (s.v[d] + 2 * (middle + middle) + end);
+    s.v[d] += w * (a[d] + 2 * (a[d] + a[d]) + a[d]);
+  }
+  const double start_speed = free_spin ? s.Omega : speed_.Speed(s.t);
+  const double half_speed = free_spin ? s.Omega : speed_.Speed(s.t + half), end_speed = free_spin ? s.Omega : speed_.Speed(s.t + dt);
+  const double spin[4] = {p_.inertia_polar * start_speed, p_.inertia_polar * half_speed, p_.inertia_polar * half_speed,
+                          p_.inertia_polar * end_speed};
+  const double ahead[4] = {0, half, half, dt}, tilt[2] = {s.v[3], s.v[4]};
+  double k_v[4][2], k_a[4][2];
+  for (int k = 0; k < 4; ++k) {
+    for (int c = 0; c < 2; ++c) k_v[k][c] = k > 0 ? tilt[c] + ahead[k] * k_a[k - 1][c] : tilt[c];
+    k_a[k][0] = (forced[3] - spin[k] * k_v[k][1]) / p_.inertia_transverse;
+    k_a[k][1] = (forced[4] + spin[k] * k_v[k][0]) / p_.inertia_transverse;
+  }
+  for (std::size_t c = 0; c < 2; ++c) {
+    s.q[3 + c] += w * (k_v[0][c] + 2 * (k_v[1][c] + k_v[2][c]) + k_v[3][c]);
+    s.v[3 + c] += w * (k_a[0][c] + 2 * (k_a[1][c] + k_a[2][c]) + k_a[3][c]);
+  }
+  s.t += dt;
+  if (free_spin) {
+    s.Omega_dot = 0;
+    s.theta += w * (s.Omega + 2 * (s.Omega + s.Omega) + s.Omega);
+  } else {
+    Prescribe(s);
+  }
+}
+
 double RotorModel::Penetration(const MotionState& s, std::size_t plane) const {
   const AuxiliaryPlane& aux = aux_[plane];
   double x, y;
@@ -174,9 +210,17 @@ double RotorModel::AxialPenetration(const MotionState& s) const {
   return has_axial_ ? std::abs(s.q[2]) - axial_.clearance : -kInfinity;
 }
 
+bool RotorModel::FarFromContact(const MotionState& s, std::size_t plane, double horizon) const {
+  if (!surface.empty() || aux_[plane].mount_dof >= 0) return false;
+  const PlaneMap& m = aux_[plane].map;
+  const double reach = std::abs(m.X(s.q)) + std::abs(m.Y(s.q)) + horizon * (std::abs(m.X(s.v)) + std::abs(m.Y(s.v)));
+  return reach < aux_[plane].parameters.clearance - 2e-7;
+}
+
 bool RotorModel::NearContact(const MotionState& s, double horizon) const {
   for (std::size_t k = 0; k < aux_.size(); ++k) {
     const PlaneMap& m = aux_[k].map;
+    if (FarFromContact(s, k, horizon)) continue;
     if (Penetration(s, k) + horizon * Length(m.X(s.v), m.Y(s.v)) > -1e-7) return true;
   }
   return has_axial_ && axial_free && AxialPenetration(s) + horizon * std::abs(s.v[2]) > -1e-7;

@@ -222,11 +222,15 @@ void SwitchingEngine::SetPattern(BearingRun& b, int j, const CoilVoltage& v) {
 
 void SwitchingEngine::PredictPositions() {
   // Where the planes will be at the end of the period: constant acceleration.
-  MotionState ahead = motion_;
-  ahead.t += T_;
-  for (std::size_t d = 0; d < static_cast<std::size_t>(plant_.rotor.dof()); ++d)
-    ahead.q[d] += T_ * (motion_.v[d] + 0.5 * T_ * acceleration_[d]);
-  ahead.theta += T_ * motion_.Omega;
+  MotionState& ahead = ahead_;  // kept: only what moves is written
+  ahead.t = motion_.t + T_;
+  ahead.theta = motion_.theta + T_ * motion_.Omega;
+  ahead.Omega = motion_.Omega;
+  ahead.Omega_dot = motion_.Omega_dot;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(plant_.rotor.dof()); ++d) {
+    ahead.q[d] = motion_.q[d] + T_ * (motion_.v[d] + 0.5 * T_ * acceleration_[d]);
+    ahead.v[d] = motion_.v[d];
+  }
   for (BearingRun& b : bearings_) {
     plant_.rotor.Position(ahead, b.plant->plane, &b.x_next, &b.y_next);
     b.x_next -= b.plant->offset_x;
