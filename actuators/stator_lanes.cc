@@ -49,6 +49,7 @@ void StatorLanes::SetStep(double h) {
   }
   for (int j = 0; j < kLanes; ++j) {
     const bool inert = j >= coils || open[j] || n[j] == 0;
+    pulls_[j] = (coupling == Coupling::kSides && j % 2 == 1) || j >= coils ? 0 : 0.5;
     half_rh_[j] = inert ? 0 : 0.5 * resistance[j] * h;
     if (inert) blocked[j] = true;
     inverse_l_[j] = blocked[j] ? 0 : 1 / (leakage[j] + half_rh_[j]);
@@ -68,24 +69,16 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
   y1_ = y1;
   per_period_ = samples_per_period;
   const GapLaw law{coupling, gap_offset.v, direction_x.v, direction_y.v, n.v, inverse_l_.v, reluctance};
-  Lane slope;
-  Reluctances(law, x0, y0, x1, y1, rel0_.v, rel1_.v, slope.v, g0_.v, dg_.v);
+  Reluctances(law, x0, y0, x1, y1, rel0_.v, rel1_.v, weight_.v, g0_.v, dg_.v);
   for (int j = 0; j < kLanes; ++j) {
-    weight_[j] = (coupling == Coupling::kSides && j % 2 == 1) || j >= coils ? 0 : 0.5 * slope[j];
+    weight_[j] *= pulls_[j];
     sum_[j] = 0;
     start_sq_[j] = phi[j] * phi[j];
   }
 }
 
 void StatorLanes::EndPeriod() {
-  // Trapezoid over the samples: half of the first and of the last.
-  fx = fy = 0;
-  const double per = 1.0 / per_period_;
-  for (int j = 0; j < kLanes; ++j) {
-    const double mean = (sum_[j] + 0.5 * (start_sq_[j] - phi[j] * phi[j])) * per;
-    fx += weight_[j] * direction_x[j] * mean;
-    fy += weight_[j] * direction_y[j] * mean;
-  }
+  MeanPull({sum_.v, start_sq_.v, phi.v, weight_.v, direction_x.v, direction_y.v}, per_period_, &fx, &fy);
 }
 
 StatorLoop StatorLanes::LoopOver(const VoltagePattern& pattern, double bus) {

@@ -111,6 +111,7 @@ class StatorLanes {
   double h_ = 0;
   Lane half_rh_, inverse_l_, c_;        // R h/2, 1/(L_l + R h/2) (0 when blocked), n * inverse_l
   Lane rel0_, rel1_, g0_, dg_;          // reluctance at both ends, conductance and its change
+  Lane pulls_;                          // 1/2 of a lane's (d rel/dg) φ²; 0: no pole of its own
   Lane weight_, sum_, start_sq_;        // force weight, sums of φ²
   double x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;
   int per_period_ = 18;

@@ -53,4 +53,12 @@ struct GapLaw {
 void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0, double* rel1,
                  double* slope, double* g0, double* dg);
 
+/// Σφ² of a period's samples as RunSamples leaves it, φ² at its start, φ at its end, and by how much a
+/// pole's φ² pulls [N/Wb²]; eight lanes each.
+struct PullOfPeriod {
+  const double *sum, *start_sq, *phi, *weight, *direction_x, *direction_y;
+};
+/// Mean force of the period by the trapezoid rule: half of the first sample and of the last. [N]
+void MeanPull(const PullOfPeriod& p, int count, double* fx, double* fy);
+
 }  // namespace ambrig
