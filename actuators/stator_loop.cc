@@ -272,12 +272,12 @@ template <class V>
   const V first = law.reluctance.Value(start), last = law.reluctance.Value(end);
   const V n = LoadAs<V>(law.n), own = n * n * LoadAs<V>(law.inverse_l);
   const V nc = law.coupling == S ? own + Partner(own) : own;
-  const V conductance = 1 / (first + nc);
+  const V inverse = 1 / ((first + nc) * (last + nc));  // one division for both
   Store(rel0, first);
   Store(rel1, last);
   Store(slope, law.reluctance.Slope(V(0.5 * (start + end))));
-  Store(g0, conductance);
-  Store(dg, 1 / (last + nc) - conductance);
+  Store(g0, (last + nc) * inverse);
+  Store(dg, (first - last) * inverse);
 }
 
 template <class V>

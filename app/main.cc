@@ -4,6 +4,7 @@
 
 #include "app/commands/analyze.h"
 #include "core/base/errors.h"
+#include "core/base/memory_reuse.h"
 
 namespace ambrig {
 std::atomic<bool> interrupted{false};
@@ -28,6 +29,7 @@ constexpr const char* kExamples = R"(Examples:
 Exit codes: 0 done, 1 an expectation is not met, 2 wrong input, 3 program error, 130 interrupted.)";
 
 int Main(int argc, char** argv) {
+  ambrig::KeepFreedMemory();
   CLI::App app{"ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain"};
   app.footer(kExamples);
   app.require_subcommand(1);

@@ -26,14 +26,14 @@ void ThisMachine(benchmark::State& state) {
 BENCHMARK(ThisMachine)->Arg(144)->Arg(360);
 
 void Baseline(benchmark::State& state) {
-  Normals(state, [](std::uint64_t i, float* out, int n) { FillFromBaseline(1, 2, i, 0, out, n); });
+  Normals(state, [](std::uint64_t i, float* out, int n) { FillFromBaseline(1, 2, i, out, n); });
 }
 BENCHMARK(Baseline)->Arg(144)->Arg(360);
 
 #ifdef __x86_64__
 void Avx2(benchmark::State& state) {
   if (!HasAvx2()) return state.SkipWithError("no AVX2");
-  Normals(state, [](std::uint64_t i, float* out, int n) { FillFromAvx2(1, 2, i, 0, out, n); });
+  Normals(state, [](std::uint64_t i, float* out, int n) { FillFromAvx2(1, 2, i, out, n); });
 }
 BENCHMARK(Avx2)->Arg(144)->Arg(360);
 #endif

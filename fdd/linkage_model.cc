@@ -8,16 +8,19 @@ namespace {
 /// A gap that noise or a wrong reading makes closed is taken as this share of the nominal one.
 constexpr double kLeastGap = 0.05;
 
-[[gnu::always_inline]] inline LaneVector At(const LinkageModel& m, double x, double y) {
+[[gnu::always_inline]] inline LaneVector ReluctanceAt(const LinkageModel& m, double x, double y) {
   const LaneVector offset = Load(m.gap_offset.v), least = kLeastGap * offset;
-  const LaneVector gap = Max(offset - x * Load(m.direction_x.v) - y * Load(m.direction_y.v), least);
-  return Select(offset > 0.0, 1 / m.reluctance.Value(gap), 0.0);
+  return m.reluctance.Value(Max(offset - x * Load(m.direction_x.v) - y * Load(m.direction_y.v), least));
 }
 
-AMBRIG_WIDE void AtOnePlace(const LinkageModel& m, double x, double y, Lane* P) { Store(P->v, At(m, x, y)); }
+AMBRIG_WIDE void AtOnePlace(const LinkageModel& m, double x, double y, Lane* P) {
+  Store(P->v, Select(Load(m.gap_offset.v) > 0.0, 1 / ReluctanceAt(m, x, y), 0.0));
+}
 
 AMBRIG_WIDE void OverAMove(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
-  const LaneVector start = At(m, from[0], from[1]), end = At(m, to[0], to[1]), middle = 0.5 * (start + end);
+  const LaneVector first = ReluctanceAt(m, from[0], from[1]), last = ReluctanceAt(m, to[0], to[1]);
+  const LaneVector inverse = Select(Load(m.gap_offset.v) > 0.0, 1 / (first * last), 0.0);  // one division for both
+  const LaneVector start = last * inverse, end = first * inverse, middle = 0.5 * (start + end);
   Store(out->start.v, start);
   Store(out->end.v, end);
   Store(out->middle.v, middle);

@@ -12,11 +12,15 @@ namespace {
 using V = LaneVector;
 constexpr double kNormalSize = 0.8;   // mean of |z| of a normal variable
 
-[[gnu::always_inline]] inline V SquareRoot(const V& a) {
-  Lane out;
-  for (int j = 0; j < kLanes; ++j) out[j] = std::sqrt(a[j]);
-  return Load(out.v);
+/// 1/sqrt a of four positive lanes. Halving the exponent starts Newton's iteration within 3.5 %, which becomes
+/// 2e-3, 5e-6, 4e-11 (error -> 3/2 error²): the processor's own root takes three times as long.
+[[gnu::always_inline]] inline FourLanes InverseRoot(const FourLanes& a) {
+  const FourLanes half = 0.5 * a;
+  auto y = (FourLanes)(0x5fe6eb50c7b537a9LL - ((FourMasks)a >> 1));
+  for (int iteration = 0; iteration < 3; ++iteration) y = y * (1.5 - half * y * y);
+  return y;
 }
+[[gnu::always_inline]] inline V InverseRoot(const V& a) { return {InverseRoot(a.a), InverseRoot(a.b)}; }
 
 struct Terms {
   V n, leakage, own, dP, watched, largest;
@@ -32,7 +36,8 @@ struct Terms {
   const V variance = noise * noise * (Load(p.scale.v) * c.per_step) + known.doubt[0] * di * di -
                      known.doubt[1] * di * flux + known.doubt[2] * flux * flux + s.voltage_sd * s.voltage_sd +
                      moved * moved;
-  const V width = SquareRoot(variance) * Min(Max(Load(size.v) * (1 / kNormalSize), one), 5);
+  const V wider = Min(Max(Load(size.v) * (1 / kNormalSize), one), 5), total = variance * (wider * wider);
+  const V inverse_width = InverseRoot(total);
   const V residual = Load(p.residual.v) + known.leakage * di - known.gap * flux;
   // At zero current the diodes may block: off says nothing, on only that too little flux comes.
   const V least = Load(p.least.v), mean = Load(p.mean.v);
@@ -41,8 +46,8 @@ struct Terms {
   const V blocks = Select(least < nothing, off ? one : low, zero);
   const V ok = Select(few + clipped + blocks > zero, zero, c.watched);
   Store(e->v, residual);
-  Store(sd->v, width);
-  Store(z->v, Select(ok > zero, residual / width, zero));
+  Store(sd->v, total * inverse_width);
+  Store(z->v, Select(ok > zero, residual * inverse_width, zero));
   Store(valid->v, ok);
 }
 
@@ -53,7 +58,7 @@ AMBRIG_WIDE void ComputeAll(const LinkageModel& m, double step, const ChartSetti
   Terms c;
   c.n = n;
   c.leakage = Load(m.leakage.v);
-  c.own = n * n * (radial ? P * (1 - P / slopes.permeance.total) : P) + c.leakage;
+  c.own = n * n * (radial ? P * (1 - P * (1 / slopes.permeance.total)) : P) + c.leakage;
   c.dP = Load(slopes.permeance.change.v);
   c.watched = Load(watched.v);
   c.largest = Load(slopes.largest.v);

@@ -342,7 +342,8 @@ void SwitchingEngine::MoveRotor(long long n) {
     sx += b.fx;
     sy += b.fy;
   }
-  const DofVector v_before = motion_.v;
+  const auto dof = static_cast<std::size_t>(plant_.rotor.dof());
+  std::copy_n(motion_.v.begin(), dof, acceleration_.begin());
   if (stepper_)
     stepper_->Step(motion_, Q, sx, sy, T_);
   else
@@ -352,8 +353,8 @@ void SwitchingEngine::MoveRotor(long long n) {
     touching_ += T_;
     if (touching_ > options_.lost_after) throw std::runtime_error(scenario_.name + ": the rotor is lost");
   }
-  for (std::size_t d = 0; d < static_cast<std::size_t>(plant_.rotor.dof()); ++d)
-    acceleration_[d] = (motion_.v[d] - v_before[d]) / T_;
+  const double per_period = 1 / T_;
+  for (std::size_t d = 0; d < dof; ++d) acceleration_[d] = (motion_.v[d] - acceleration_[d]) * per_period;
   for (BearingRun& b : bearings_) {
     plant_.rotor.Position(motion_, b.plant->plane, &b.true_x, &b.true_y);
     b.x = b.true_x - b.plant->offset_x;

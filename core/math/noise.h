@@ -2,14 +2,13 @@
 /// Counter-based normal noise: value = function of (seed, stream, index), whatever was asked
 /// before, on every machine the same bits.
 ///
-///   words  = Philox4x32(counter, key)    7 rounds; Salmon et al. 2011, "Parallel random numbers:
-///                                        as easy as 1, 2, 3"
-///   r      = sqrt(-2 ln u),  u in (0, 1] from 31 bits, so |value| < 6.7
-///   values = r cos(2π v), r sin(2π v)    Box and Muller 1958
+///   word  = ARS4x32(counter, key)     5 rounds of the AES; Salmon et al. 2011, "Parallel random
+///                                     numbers: as easy as 1, 2, 3"
+///   value = ± z(p),  P(|value| > z) = p    from 31 bits, so |value| < 6.3; polynomials over the
+///                                     octaves of p, error below 4e-5 (tools/normal_table.py)
 ///
-/// ln, sin, cos and sqrt are own, of +, - and * in single precision (error 2e-7); no library
-/// function takes part and nothing is contracted (-ffp-contract=off): the same bits with and
-/// without AVX2.
+/// In single precision of + and *, nothing contracted (-ffp-contract=off), no library function:
+/// the same bits with and without AES instructions and wide registers.
 #include <array>
 #include <cstdint>
 
@@ -19,10 +18,10 @@ namespace ambrig {
 /// one.
 void FillNormals(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, float* out, int n);
 
-/// One standard normal, never one of those that FillNormals gives.
+/// One standard normal, of Philox4x32 (7 rounds, same paper) by Box and Muller: for draws that are few.
 double Normal(std::uint64_t seed, std::uint32_t stream, std::uint64_t index);
 
-/// Uniform in [0, 1) from 32 bits, of the same key and counter.
+/// Uniform in [0, 1) from 32 bits.
 double Uniform(std::uint64_t seed, std::uint32_t stream, std::uint32_t index);
 
 /// The bits behind it, for the test against published values.

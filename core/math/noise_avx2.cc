@@ -1,15 +1,13 @@
 // The same arithmetic as noise.cc for machines with AVX2; chosen at run time by FillNormals.
 #ifdef __x86_64__
-#pragma GCC target("avx2")
+#pragma GCC target("avx2,aes")
 #define AMBRIG_NOISE_AVX2  // g++ reads the whole file before the pragma defines __AVX2__
 #include "core/math/noise_dispatch.h"
 #include "core/math/noise_kernel.h"
 
 namespace ambrig {
 
-void FillFromAvx2(U64 seed, U32 stream, U64 index, U32 chunk, float* out, int n) {
-  Fill(seed, stream, index, chunk, out, n);
-}
+void FillFromAvx2(U64 seed, U32 stream, U64 index, float* out, int n) { Fill(seed, stream, index, out, n); }
 
 }  // namespace ambrig
 #endif

@@ -4,14 +4,12 @@
 
 namespace ambrig {
 
-/// n normals of a block from its chunk `chunk` (32 normals each) on.
-using FillFromFunction = void(std::uint64_t seed, std::uint32_t stream, std::uint64_t index,
-                              std::uint32_t chunk, float* out, int n);
+using FillFunction = void(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, float* out, int n);
 
-FillFromFunction FillFromBaseline;  // any machine
+FillFunction FillFromBaseline;  // any machine
 #ifdef __x86_64__
-FillFromFunction FillFromAvx2;
-FillFromFunction FillFromAvx512;  // steps of two chunks
+FillFunction FillFromAvx2;    // and AES instructions
+FillFunction FillFromAvx512;  // and AES instructions on whole vectors
 bool HasAvx2();
 bool HasAvx512();
 #endif
