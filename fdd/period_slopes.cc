@@ -7,57 +7,66 @@ namespace ambrig {
 
 namespace {
 
-/// `inverse_sum`: 1/Σ P, radial only.
-template <class V, Coupling kCoupling>
-[[gnu::always_inline]] inline V Linkage(const V& n, const V& leakage, const V& P,
-                                                 const V& i, double inverse_sum) {
-  const V mmf = n * i;
-  if constexpr (kCoupling == Coupling::kFloatingRotor)
-    return n * P * (mmf - Sum(P * mmf) * inverse_sum) + leakage * i;
-  else if constexpr (kCoupling == Coupling::kSides)
-    return n * P * (mmf + Partner(mmf)) + leakage * i;
-  else
-    return n * P * mmf + leakage * i;
-}
+/// Sums over the samples. Of k x_k they come from sums of sums: Σ (N - k) x_k adds up what Σ x is after
+/// each of N samples, which needs no product.
+template <class V>
+struct Sums {
+  V x, of_sums;
+  [[gnu::always_inline]] void Add(const V& value) {
+    x += value;
+    of_sums += x;
+  }
+  template <class Mask>
+  [[gnu::always_inline]] void AddWhere(const Mask& on, const V& value) {
+    x = Select(on, x + value, x);
+    of_sums += x;
+  }
+  [[gnu::always_inline]] V Weighted(int count) const { return x * static_cast<double>(count) - of_sums; }
+};
 
+/// Linkages λ = (n² P + L_l) i - n P U; U is the rotor's potential Σ P n i / Σ P (radial), the partner's
+/// share of a common core, -n i' (thrust), or none.
 template <class V, Coupling kCoupling>
 [[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane& on_samples, const MovingPermeance& P,
                                               const Lane* adc, int count, SlopeSums* s) {
-  const V n = LoadAs<V>(m.n.v), leakage = LoadAs<V>(m.leakage.v), on_count = LoadAs<V>(on_samples.v);
-  const V p0 = LoadAs<V>(P.start.v), dp = LoadAs<V>(P.change.v) * (1.0 / count);
-  const V zero, far = 1e30;
-  V y_on = zero, ky_on = zero, y = zero, ky = zero, i_on = zero, ki_on = zero, is = zero, ki = zero;
+  const V n = LoadAs<V>(m.n.v), per = 1.0 / count, zero, far = 1e30;
+  V turns_P = n * LoadAs<V>(P.start.v), own = n * turns_P + LoadAs<V>(m.leakage.v), left = LoadAs<V>(on_samples.v);
+  const V turns_P_grows = n * LoadAs<V>(P.change.v) * per, own_grows = n * turns_P_grows;
   double inverse_sum[64];
-  const double sum0 = Sum(p0), dsum = Sum(dp);
+  const double sum0 = Sum(LoadAs<V>(P.start.v)), dsum = Sum(LoadAs<V>(P.change.v)) / count;
   for (int k = 0; k < count; ++k) inverse_sum[k] = 1 / (sum0 + dsum * k);
-  V least_on = far, least_off = far, largest = -far;
+  Sums<V> y, i_all, y_on, i_on;
+  V lambda, least_on = far, least_off = far, largest = -far;
   for (int k = 0; k < count; ++k) {
-    const V at = static_cast<double>(k), i = LoadAs<V>(adc[k].v);
-    const V lambda = Linkage<V, kCoupling>(n, leakage, p0 + dp * at, i, inverse_sum[k]);
+    const V i = LoadAs<V>(adc[k].v);
+    if constexpr (kCoupling == Coupling::kFloatingRotor)
+      lambda = own * i - turns_P * (Sum(turns_P * i) * inverse_sum[k]);
+    else if constexpr (kCoupling == Coupling::kSides)
+      lambda = own * i + turns_P * Partner(n * i);
+    else
+      lambda = own * i;
     if (k == 0) Store(s->first.v, lambda);
-    if (k == count - 1) Store(s->last.v, lambda);
-    const auto on = on_count > at;
-    const V lambda_on = Select(on, lambda, zero), current_on = Select(on, i, zero);
-    y += lambda;
-    ky += at * lambda;
-    is += i;
-    ki += at * i;
-    y_on += lambda_on;
-    ky_on += at * lambda_on;
-    i_on += current_on;
-    ki_on += at * current_on;
+    turns_P += turns_P_grows;
+    own += own_grows;
+    const auto on = left > zero;
+    left = left - 1;
+    y.Add(lambda);
+    i_all.Add(i);
+    y_on.AddWhere(on, lambda);
+    i_on.AddWhere(on, i);
     least_on = Min(Select(on, i, far), least_on);
     least_off = Min(Select(on, far, i), least_off);
     largest = Max(i, largest);
   }
-  Store(s->y_on.v, y_on);
-  Store(s->ky_on.v, ky_on);
-  Store(s->y.v, y);
-  Store(s->ky.v, ky);
-  Store(s->i_on.v, i_on);
-  Store(s->ki_on.v, ki_on);
-  Store(s->i.v, is);
-  Store(s->ki.v, ki);
+  Store(s->last.v, lambda);
+  Store(s->y_on.v, y_on.x);
+  Store(s->ky_on.v, y_on.Weighted(count));
+  Store(s->y.v, y.x);
+  Store(s->ky.v, y.Weighted(count));
+  Store(s->i_on.v, i_on.x);
+  Store(s->ki_on.v, i_on.Weighted(count));
+  Store(s->i.v, i_all.x);
+  Store(s->ki.v, i_all.Weighted(count));
   Store(s->least_on.v, least_on);
   Store(s->least_off.v, least_off);
   Store(s->largest.v, largest);

@@ -138,7 +138,7 @@ class RotorModel {
   bool FliesFreely(bool near_contact) const {
     return dof_ == 5 && !near_contact && terms.empty();
   }
-  /// StepOnce, to the bit, of a rotor that flies freely.
+  /// StepOnce, to rounding, of a rotor that flies freely.
   void Fly(MotionState& s, const DofVector& forced, double dt) const;
 
   RotorParameters p_;

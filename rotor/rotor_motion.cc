@@ -176,11 +176,12 @@ void RotorModel::Fly(MotionState& s, const DofVector& forced, double dt) const {
   const double spin[4] = {p_.inertia_polar * start_speed, p_.inertia_polar * half_speed, p_.inertia_polar * half_speed,
                           p_.inertia_polar * end_speed};
   const double ahead[4] = {0, half, half, dt}, tilt[2] = {s.v[3], s.v[4]};
+  const double inverse_inertia = 1 / p_.inertia_transverse;
   double k_v[4][2], k_a[4][2];
   for (int k = 0; k < 4; ++k) {
     for (int c = 0; c < 2; ++c) k_v[k][c] = k > 0 ? tilt[c] + ahead[k] * k_a[k - 1][c] : tilt[c];
-    k_a[k][0] = (forced[3] - spin[k] * k_v[k][1]) / p_.inertia_transverse;
-    k_a[k][1] = (forced[4] + spin[k] * k_v[k][0]) / p_.inertia_transverse;
+    k_a[k][0] = (forced[3] - spin[k] * k_v[k][1]) * inverse_inertia;
+    k_a[k][1] = (forced[4] + spin[k] * k_v[k][0]) * inverse_inertia;
   }
   for (std::size_t c = 0; c < 2; ++c) {
     s.q[3 + c] += w * (k_v[0][c] + 2 * (k_v[1][c] + k_v[2][c]) + k_v[3][c]);
