@@ -1,5 +1,12 @@
 #include "core/math/noise.h"
 
+#ifdef __x86_64__
+#pragma GCC push_options
+#pragma GCC target("aes,sse4.1")
+#define R123_USE_AES_NI 1
+#include <Random123/ars.h>
+#pragma GCC pop_options
+#endif
 #include <Random123/philox.h>
 #include <gtest/gtest.h>
 
@@ -9,7 +16,9 @@
 #include <set>
 #include <vector>
 
+#include "core/math/aes_round.h"
 #include "core/math/noise_dispatch.h"
+#include "core/math/normal_table.h"
 
 namespace ambrig {
 namespace {
@@ -50,43 +59,71 @@ TEST(Noise, PhiloxGivesTheBitsOfRandom123) {
   }
 }
 
-// Value 8 m + j of chunk c from counter (8 c + j, stream, index) by Box and Muller, here in double
-// precision with the library's functions: error of r below 1e-6, of the angle 1e-6 r.
-TEST(Noise, ValuesAreBoxMullerOfThoseBits) {
+// FIPS 197, appendix B: rounds 1 and 10 of the example.
+TEST(Noise, AesRoundsAreThoseOfTheStandard) {
+  const AesState first = {0xbee33d19, 0x2be2f4a0, 0x2a8dc69a, 0x0848f8e9}, key1 = {0x17fefaa0, 0xb12c5488, 0x3939a323, 0x05766c2a};
+  const AesState second = {0xf27f9ca4, 0x2b359f68, 0x43ea5b6b, 0x49506a02};
+  EXPECT_EQ(AesRound(first, key1), second);
+  const AesState tenth = {0x1ef240eb, 0x84382e59, 0xe713a18b, 0xd242c31b}, key10 = {0xa8f914d0, 0x8925eec9, 0xc80c3fe1, 0xa60c63b6};
+  const AesState cipher = {0x1d842539, 0xfb09dc02, 0x978511dc, 0x320b6a19};
+  EXPECT_EQ(AesLastRound(tenth, key10), cipher);
+}
+
+// The lowest bit is the sign; P(|z| > value) = p from the others.
+void ExpectNormalOf(std::uint32_t word, float value) {
+  EXPECT_EQ(std::signbit(value), (word & 1) != 0);
+  const double size = std::abs(double{value}), p = ((word >> 1) + 0.5) * 0x1p-31;
+  const double density = std::sqrt(2 / M_PI) * std::exp(-0.5 * size * size);
+  EXPECT_NEAR(std::erfc(size / std::sqrt(2.0)), p, 4.5e-5 * density + 0x1p-24 * p) << word;
+}
+
+#ifdef __x86_64__
+__attribute__((target("aes,sse4.1"))) std::array<std::uint32_t, 4> Ars(std::array<std::uint32_t, 4> counter, std::uint64_t seed) {
+  const ars4x32_ctr_t c = {{counter[0], counter[1], counter[2], counter[3]}};
+  const ars4x32_ukey_t k = {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), 0, 0}};
+  const ars4x32_ctr_t out = ars4x32_R(5, c, ars4x32keyinit(k));
+  return {out.v[0], out.v[1], out.v[2], out.v[3]};
+}
+
+// Value 4 c + w of a block from word w of counter (c, stream, index).
+TEST(Noise, ValuesAreNormalsOfTheBitsOfRandom123) {
+  if (!__builtin_cpu_supports("aes")) GTEST_SKIP() << "Random123 needs AES instructions";
   const std::uint64_t seed = 0x123456789abcdefULL, index = 0xfedcba9876ULL;
   const std::uint32_t stream = 77;
   const std::vector<float> block = Block(seed, stream, index, kBlock);
-  for (int k = 0; k < kBlock; ++k) {
-    const std::uint32_t counter = 8 * (k / 32) + k % 8;
-    const int m = k % 32 / 8;
-    const philox4x32_ctr_t w =
-        philox4x32_R(7,
-                     philox4x32_ctr_t{{counter, stream, static_cast<std::uint32_t>(index),
-                                       static_cast<std::uint32_t>(index >> 32)}},
-                     philox4x32_key_t{{static_cast<std::uint32_t>(seed),
-                                       static_cast<std::uint32_t>(seed >> 32)}});
-    const double u = ((w.v[m / 2 * 2] >> 1) + 0.5) * 0x1p-31;
-    const double angle = 2 * M_PI * w.v[m / 2 * 2 + 1] * 0x1p-32;
-    const double r = std::sqrt(-2 * std::log(u));
-    // u near 1 has 24 bits as a float: dr = du / (u r), du <= 2^-25.
-    const double tolerance = 1e-6 * (1 + r) + 0x1p-25 / r;
-    EXPECT_NEAR(block[k], r * (m % 2 == 0 ? std::cos(angle) : std::sin(angle)), tolerance) << k;
+  for (std::uint32_t c = 0; c < kBlock / 4; ++c) {
+    const auto words = Ars({c, stream, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)}, seed);
+    for (std::uint32_t w = 0; w < 4; ++w) ExpectNormalOf(words[w], block[4 * c + w]);
   }
+}
+#endif
+
+// Every octave of the table, also those that a test's draws never reach.
+TEST(Noise, TableOfTheInverseDistributionIsWithinItsError) {
+  for (int e = 0; e <= 30; ++e)
+    for (int k = 0; k <= 1000; ++k) {
+      const double t = k / 1000.0 - 0.5, p = std::ldexp(1.5 + t, e - 31);
+      double size = 0;
+      for (int power = kNormalDegree; power >= 0; --power) size = size * t + double{kNormalTable[power][(e + 127) % 32]};
+      const double density = std::sqrt(2 / M_PI) * std::exp(-0.5 * size * size);
+      ASSERT_NEAR((std::erfc(size / std::sqrt(2.0)) - p) / density, 0, 4e-5) << e << ' ' << t;
+    }
+  for (const auto& row : kNormalTable) EXPECT_EQ(row[30], 0);  // p = 1/2 and p = 2^31
 }
 
 TEST(Noise, EveryCloneGivesTheSameBits) {
   for (int n : {1, 7, 8, 31, 32, 33, 64, 65, 144, 360}) {
     std::vector<float> expected(n + 1, 99.0F), got = expected;
-    FillFromBaseline(5, 6, 7, 0, expected.data(), n);
+    FillFromBaseline(5, 6, 7, expected.data(), n);
     const auto same = [&] { return std::memcmp(expected.data(), got.data(), 4 * n + 4) == 0; };
     FillNormals(5, 6, 7, got.data(), n);
     EXPECT_TRUE(same()) << n;
 #ifdef __x86_64__
     std::fill(got.begin(), got.end(), 99.0F);
-    if (HasAvx2()) FillFromAvx2(5, 6, 7, 0, got.data(), n);
+    if (HasAvx2()) FillFromAvx2(5, 6, 7, got.data(), n);
     EXPECT_TRUE(!HasAvx2() || same()) << "AVX2, " << n;
     std::fill(got.begin(), got.end(), 99.0F);
-    if (HasAvx512()) FillFromAvx512(5, 6, 7, 0, got.data(), n);
+    if (HasAvx512()) FillFromAvx512(5, 6, 7, got.data(), n);
     EXPECT_TRUE(!HasAvx512() || same()) << "AVX-512, " << n;
 #endif
     EXPECT_EQ(expected[n], 99.0F);  // nothing behind the end
@@ -102,7 +139,7 @@ TEST(Noise, BitsArePinned) {
       std::memcpy(&bits, &x, 4);
       hash = (hash ^ bits) * 1099511628211ULL;
     }
-  EXPECT_EQ(hash, 12971039637675072672ULL);
+  EXPECT_EQ(hash, 9811798033350460339ULL);
 }
 
 TEST(Noise, LongerBlocksBeginWithShorterOnes) {
@@ -170,8 +207,8 @@ TEST(Noise, StreamsIndicesSeedsAndNeighboursAreIndependent) {
   const double bound = 5 / std::sqrt(static_cast<double>(a.size()));
   EXPECT_NEAR(Correlation(a, Sample(1, 3)), 0, bound);
   EXPECT_NEAR(Correlation(a, Sample(2, 2)), 0, bound);
-  // Neighbours inside a block, the partners of Box and Muller (8), chunks (32), blocks (360).
-  for (std::size_t lag : {1u, 2u, 8u, 16u, 32u, 360u}) {
+  // Words of one counter (1 to 3), of neighbouring counters (4), blocks (360).
+  for (std::size_t lag : {1u, 2u, 3u, 4u, 16u, 32u, 360u}) {
     const std::vector<float> head(a.begin(), a.end() - lag), tail(a.begin() + lag, a.end());
     EXPECT_NEAR(Correlation(head, tail), 0, bound) << lag;
     double squares = 0;  // also of the magnitudes; variance of (x² - 1)(y² - 1) is 4
