@@ -2,6 +2,7 @@
 //   build/release/ambrig_bench --benchmark_filter='Engine|UpdateLoop'
 #include <benchmark/benchmark.h>
 
+#include "actuators/whole_lane_vector.h"
 #include "scenarios/simulate.h"
 #include "scenarios/switching_engine.h"
 
@@ -35,6 +36,16 @@ void Engine(benchmark::State& state) {
   Count(state, 2 * kSeconds, 20);
 }
 BENCHMARK(Engine)->ArgNames({"noise", "detection"})->Args({1, 1})->Args({1, 0})->Args({0, 0})->Unit(benchmark::kMillisecond);
+
+/// Everything on, as on a machine without registers of eight doubles (but for the noise).
+void EngineInHalves(benchmark::State& state) {
+  whole_lanes = false;
+  const Scenario scenario = Healthy(true, true);
+  for (auto _ : state) benchmark::DoNotOptimize(Simulate(Rig(), scenario, {}));
+  whole_lanes = HasWholeLanes();
+  Count(state, 2 * kSeconds, 20);
+}
+BENCHMARK(EngineInHalves)->Unit(benchmark::kMillisecond);
 
 /// The bearings' fast path alone: the first radial bearing, or all of the rig (20 coils).
 void UpdateLoop(benchmark::State& state) {
