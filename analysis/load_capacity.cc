@@ -74,7 +74,8 @@ std::vector<AxisCapacity> FindCapacity(const OperatingPoint& point) {
       c.linear = scale * LinearLimit(control, k);
       c.commanded = PidOf(point.rig(), point.rig().bearings[b.index]).f_max;
       c.largest = LargestForce(control, b.plant->lanes, k, scale * 4 * control.map.i_max);
-      c.weight = point.force[b.first_axis + side] + 0.0;  // no -0
+      c.weight = point.force[b.first_axis + side];
+      if (std::abs(c.weight) < 1e-9 * scale) c.weight = 0;  // rounding of the equilibrium
       const Eigen::VectorXd volts = L * w;
       c.slew = kInfinity;
       for (Eigen::Index j = 0; j < w.size(); ++j) {

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "analysis/operating_point.h"
+#include "analysis/closed_loop.h"
 #include "core/math/constants.h"
 #include "scenarios/simulate.h"
 
@@ -15,16 +16,37 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Least squares of mean + drift + Re(a e^{iωt}) + what turns with the shaft on samples at t_k.
-/// Returns a.
-Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, double omega, double speed) {
+constexpr double kFaded = 1e-4;  // of its size at the start: no longer there
+
+/// Poles z of the loop that still ring after `settle` [s], one of each complex pair.
+std::vector<Complex> Ringing(const OperatingPoint& point, const SineTest& test) {
+  const ClosedLoop loop(point, test.speed);
+  const Eigen::VectorXcd z = loop.Phi.eigenvalues();
+  std::vector<Complex> out;
+  for (const Complex& pole : z)
+    if (pole.imag() >= 0 && std::pow(std::abs(pole), test.settle / loop.Ts()) > kFaded) out.push_back(pole);
+  return out;
+}
+
+/// Least squares of mean + drift + Re(a e^{iωt}) + what turns with the shaft + what rings on, on samples
+/// at t_k, one in every Ts. Returns a.
+Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, double omega, double speed,
+                const std::vector<Complex>& ringing) {
   const bool turns = speed > 0 && std::abs(speed / omega - 1) > 1e-3;
-  Eigen::MatrixXd basis(static_cast<Eigen::Index>(t.size()), turns ? 6 : 4);
-  Eigen::VectorXd value(basis.rows());
-  for (Eigen::Index k = 0; k < basis.rows(); ++k) {
+  const auto rows = static_cast<Eigen::Index>(t.size()), free = static_cast<Eigen::Index>(2 * ringing.size());
+  Eigen::MatrixXd basis(rows, (turns ? 6 : 4) + free);
+  Eigen::VectorXd value(rows);
+  std::vector<Complex> now(ringing.size(), 1.0);
+  for (Eigen::Index k = 0; k < rows; ++k) {
     const auto i = static_cast<std::size_t>(k);
     basis.row(k).head<4>() << 1, t[i] - t.front(), std::cos(omega * t[i]), std::sin(omega * t[i]);
-    if (turns) basis.row(k).tail<2>() << std::cos(speed * t[i]), std::sin(speed * t[i]);
+    if (turns) basis.row(k).segment<2>(4) << std::cos(speed * t[i]), std::sin(speed * t[i]);
+    for (std::size_t m = 0; m < ringing.size(); ++m) {
+      const Eigen::Index at = basis.cols() - free + static_cast<Eigen::Index>(2 * m);
+      basis(k, at) = now[m].real();
+      basis(k, at + 1) = now[m].imag();  // nothing of a real pole: the factorisation leaves it out
+      now[m] *= ringing[m];
+    }
     value(k) = y[i];
   }
   const Eigen::VectorXd c = basis.colPivHouseholderQr().solve(value);
@@ -70,7 +92,11 @@ Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test, const
   s.excitations = {e};
   SimulateOptions options;
   options.stop = stop;
-  const Record record = Simulate(rig, s, options).record;
+  const RunResult run = Simulate(rig, s, options);
+  if (run.touchdown)
+    throw InputError(fmt::format("a sine of {:g} N at {:g} Hz on {} drives the rotor into an auxiliary bearing, allowed: a smaller amplitude",
+                                 test.amplitude, test.frequency, point.Axes()[test.axis]));
+  const Record& record = run.record;
   const std::vector<double> f = Commands(record, point, bearing, test.axis - point.sampled->bearings[bearing].first_axis);
   // A row's set-points were computed one tick earlier, from the excitation at that instant.
   const double Ts = 1 / rig.controller.rate, omega = 2 * kPi * test.frequency;
@@ -80,7 +106,7 @@ Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test, const
       t.push_back(at);
       y.push_back(f[k]);
     }
-  return FitSine(t, y, omega, test.speed) / (test.amplitude * Complex(0, -1));  // amplitude * sin ωt
+  return FitSine(t, y, omega, test.speed, Ringing(point, test)) / (test.amplitude * Complex(0, -1));  // amplitude * sin ωt
 }
 
 }  // namespace ambrig

@@ -13,8 +13,15 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kSweep = 161;   // speeds of the sweeps; every fourth has its modes too
+constexpr int kSweep = 161;  // speeds of the sweeps; every fourth has its modes too
 constexpr int kModes = 4;    // of the rotor alone
+constexpr int kPeak = 16;    // further speeds on either side of a narrow resonance, quarter half-widths apart
+
+std::vector<double> Ascending(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  x.erase(std::unique(x.begin(), x.end()), x.end());
+  return x;
+}
 
 class Analysis {
  public:
@@ -41,9 +48,7 @@ class Analysis {
   }
 
   void AtOperatingSpeeds() {
-    std::vector<double> speeds = {0, out_.options.lowest, out_.options.highest};
-    std::sort(speeds.begin(), speeds.end());
-    speeds.erase(std::unique(speeds.begin(), speeds.end()), speeds.end());
+    const std::vector<double> speeds = Ascending({0, out_.options.lowest, out_.options.highest});
     for (double speed : speeds) {
       Say(0.02 + 0.04 * static_cast<double>(out_.sensitivity.size()), "sensitivity");
       const ClosedLoop loop(out_.point, speed);
@@ -71,16 +76,26 @@ class Analysis {
   }
 
   void OverSpeed() {
-    std::vector<ClosedLoop> loops;
-    for (int k = 0; k < kSweep; ++k) {
-      Say(0.15 + 0.55 * k / kSweep, "modes and unbalance over speed");
-      const double speed = out_.options.fastest * k / (kSweep - 1);
-      ClosedLoop loop(out_.point, speed);
-      if (k % 4 == 0) out_.rows.push_back(FindModes(out_.point, loop));
-      if (k > 0) loops.push_back(std::move(loop));
+    const double lowest = out_.options.lowest, highest = out_.options.highest, step = out_.options.fastest / (kSweep - 1);
+    std::vector<double> speeds = {lowest, highest};  // exactly, beside the grid
+    for (int k = 0; k < kSweep; ++k) speeds.push_back(step * k);
+    for (double speed : Ascending(speeds)) {
+      Say(0.15 + 0.3 * speed / out_.options.fastest, "modes over speed");
+      const bool row = std::fmod(std::round(speed / step), 4) == 0 || speed == lowest || speed == highest;
+      if (row) out_.rows.push_back(FindModes(out_.point, ClosedLoop(out_.point, speed)));
     }
     out_.tracks = FollowModes(out_.rows);
     out_.criticals = FindCriticals(out_.tracks);
+    for (const DampedCritical& c : out_.criticals) {
+      const double half_width = c.mode.zeta * c.speed;
+      for (int k = -kPeak; k <= kPeak && half_width < 4 * step; ++k)
+        if (const double at = c.speed + 0.25 * k * half_width; at > 0 && at < out_.options.fastest) speeds.push_back(at);
+    }
+    std::vector<ClosedLoop> loops;
+    for (double speed : Ascending(speeds)) {
+      Say(0.45 + 0.25 * speed / out_.options.fastest, "unbalance over speed");
+      if (speed > 0) loops.emplace_back(out_.point, speed);
+    }
     Say(0.7, "unbalance response");
     out_.unbalance = SweepUnbalance(out_.point, loops, StandardUnbalance(out_.point, out_.options.highest));
   }
@@ -92,11 +107,8 @@ class Analysis {
         DisplacementRow row{track.bearing, sweep.unbalance.name, 0, 0, 'A'};
         const BearingParameters* b = out_.point.rig().Find(track.bearing);
         row.clearance = b->auxiliary ? b->auxiliary->clearance : b->radial.gap;
-        for (std::size_t k = 0; k < sweep.speed.size(); ++k) {
-          const double step = o.fastest / (kSweep - 1);  // the nearest speeds of the sweep count too
-          if (sweep.speed[k] >= o.lowest - step && sweep.speed[k] <= o.highest + step)
-            row.largest = std::max(row.largest, track.amplitude[k]);
-        }
+        for (std::size_t k = 0; k < sweep.speed.size(); ++k)
+          if (sweep.speed[k] >= o.lowest && sweep.speed[k] <= o.highest) row.largest = std::max(row.largest, track.amplitude[k]);
         row.zone = DisplacementZone(row.largest / row.clearance);
         out_.displacement.push_back(row);
         for (const ResponsePeak& peak : track.peaks)
@@ -111,6 +123,10 @@ class Analysis {
     const ClosedLoop loop(out_.point, 0);
     const TransferFunction transfer(out_.point, loop);
     const double low = 20, high = std::min(2000.0, 0.4 / loop.Ts());
+    for (const AxisCapacity& c : out_.capacity)
+      if (out_.options.sine > 0.5 * c.usable())
+        throw InputError(fmt::format("sine = {:g} N, allowed: up to half the capacity of {}, {:.3g} N, where the loop is still linear", out_.options.sine,
+                                     c.axis, 0.5 * c.usable()));
     for (std::size_t a = 0; a < out_.capacity.size(); ++a)
       for (int k = 0; k < count; ++k) {
         Say(0.75 + 0.25 * (static_cast<double>(a) + static_cast<double>(k) / count) / static_cast<double>(out_.capacity.size()),

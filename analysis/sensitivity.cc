@@ -64,8 +64,10 @@ Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction&
     out.axes.emplace_back();
     out.axes.back().axis = name;
   }
+  std::vector<Eigen::MatrixXcd> S;  // of all axes together
   for (double f : out.frequency) {
     const Eigen::MatrixXcd H = transfer(2 * kPi * f);
+    S.push_back(H.block(loop.Command(0), loop.Excitation(0), loop.axes(), loop.axes()));
     for (std::size_t a = 0; a < names.size(); ++a) {
       const auto k = static_cast<Eigen::Index>(a);
       out.axes[a].S.push_back(H(loop.Command(k), loop.Excitation(k)));
@@ -73,16 +75,20 @@ Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction&
   }
   for (AxisSensitivity& s : out.axes) {
     std::vector<Complex> L;
+    double off = 0;
     for (std::size_t k = 0; k < s.S.size(); ++k) {
+      off = std::max(off, std::abs(s.S[k] - 0.5));
       L.push_back(1.0 / s.S[k] - 1.0);
       if (out.frequency[k] > highest || std::abs(s.S[k]) <= s.peak) continue;
       s.peak = std::abs(s.S[k]);
       s.peak_frequency = out.frequency[k];
     }
     s.zone = stable ? SensitivityZone(s.peak) : 'D';  // a peak of what diverges means nothing
+    s.disk_margin = stable ? 1 / off : 0;
     GainMargins(L, s);
     PhaseMargins(out.frequency, L, s);
   }
+  if (stable) out.joint = FindJointMargins(out.frequency, S);
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
@@ -26,13 +27,24 @@ TransferFunction::TransferFunction(const OperatingPoint& point, const ClosedLoop
   U_ = schur.matrixU();
   eigenvalues_ = T_.diagonal();
   Gamma_T_ = U_.adjoint() * loop.Gamma.cast<Complex>();
-  C_U_ = loop.C.cast<Complex>() * U_;
+  const Index m = loop.plant().m();
+  plane_rows_.resize(2 * static_cast<Index>(point.rig().stations.size()), m);
+  for (const ShaftPlane& p : point.rig().stations) {
+    plane_rows_.middleRows<2>(static_cast<Index>(planes_.size())) = ShaftRows(point, loop.plant(), p.z);
+    for (const char* side : {".x", ".y"}) planes_.push_back(p.name + side);
+  }
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(loop.C.rows() + plane_rows_.rows(), loop.states());
+  C.topRows(loop.C.rows()) = loop.C;
+  C.bottomLeftCorner(plane_rows_.rows(), m) = plane_rows_ * loop.scale().head(m).asDiagonal();
+  C_U_ = C.cast<Complex>() * U_;
+  D_.setZero(C.rows(), loop.D.cols());
+  D_.topRows(loop.D.rows()) = loop.D.cast<Complex>();
 }
 
 MatrixXcd TransferFunction::operator()(double omega) const {
   MatrixXcd shifted = -T_;
   shifted.diagonal().array() += std::polar(1.0, omega * loop_.Ts());
-  return C_U_ * shifted.triangularView<Eigen::Upper>().solve(Gamma_T_) + loop_.D.cast<Complex>();
+  return C_U_ * shifted.triangularView<Eigen::Upper>().solve(Gamma_T_) + D_;
 }
 
 VectorXcd TransferFunction::Harmonic(const HarmonicInput& in) const {
@@ -47,6 +59,7 @@ VectorXcd TransferFunction::LoadOn(Index axis) const {
     if (axis < p.gap.rows()) return p.gap.row(axis).transpose().cast<Complex>();
     axis -= p.gap.rows();
   }
+  if (axis < plane_rows_.rows()) return plane_rows_.row(axis).transpose().cast<Complex>();
   throw std::logic_error("an axis of the rig");
 }
 
@@ -58,8 +71,10 @@ TransferFunction::Input TransferFunction::FindInput(const std::string& channel) 
     if (channel == axis + ".sensor") return {loop_.SensorError(a), false, "m"};
     if (channel == axis + ".load") return {a, true, "N"};
   }
-  throw InputError(fmt::format("input channel \"{}\", allowed: .reference, .force, .sensor or .load of {}",
-                               channel, fmt::join(axes_, ", ")));
+  for (std::size_t p = 0; p < planes_.size(); ++p)
+    if (channel == planes_[p] + ".load") return {loop_.axes() + static_cast<Index>(p), true, "N"};
+  throw InputError(fmt::format("input channel \"{}\", allowed: .reference, .force, .sensor or .load of {}{}", channel, fmt::join(axes_, ", "),
+                               planes_.empty() ? "" : fmt::format("; .load of {}", fmt::join(planes_, ", "))));
 }
 
 TransferFunction::Output TransferFunction::FindOutput(const std::string& channel) const {
@@ -72,8 +87,11 @@ TransferFunction::Output TransferFunction::FindOutput(const std::string& channel
   }
   for (std::size_t c = 0; c < coils_.size(); ++c)
     if (channel == coils_[c]) return {loop_.Current(static_cast<Index>(c)), "A"};
-  throw InputError(fmt::format("output channel \"{}\", allowed: {} alone or with .command, .shaft, .magnet; a coil's current as {}",
-                               channel, fmt::join(axes_, ", "), coils_.empty() ? "A.i1" : coils_.front()));
+  for (std::size_t p = 0; p < planes_.size(); ++p)
+    if (channel == planes_[p]) return {loop_.C.rows() + static_cast<Index>(p), "m"};
+  throw InputError(fmt::format("output channel \"{}\", allowed: {} alone or with .command, .shaft, .magnet; a coil's current as {}{}", channel,
+                               fmt::join(axes_, ", "), coils_.empty() ? "A.i1" : coils_.front(),
+                               planes_.empty() ? "" : fmt::format("; {}", fmt::join(planes_, ", "))));
 }
 
 Complex TransferFunction::Between(const Input& in, const Output& out, double omega) const {
@@ -88,8 +106,9 @@ std::vector<double> FrequencyGrid(const TransferFunction& transfer, double low, 
     const Complex s = std::log(z) / transfer.loop().Ts();
     const double centre = s.imag() / (2 * kPi), half = std::abs(s.real()) / (2 * kPi);
     if (!(centre > low && centre < high) || half > 0.3 * centre) continue;
-    for (int k = -6; k <= 6; ++k)
-      if (const double at = centre + 0.5 * k * half; at > low && at < high) f.push_back(at);
+    // Equal arcs of the circle that the resonance draws in the complex plane.
+    for (int k = -16; k <= 16; ++k)
+      if (const double at = centre + half * std::tan(k * kPi / 36); at > low && at < high) f.push_back(at);
   }
   std::sort(f.begin(), f.end());
   f.erase(std::unique(f.begin(), f.end()), f.end());

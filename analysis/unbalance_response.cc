@@ -34,11 +34,13 @@ std::vector<ResponsePeak> FindPeaks(const std::vector<double>& x, const std::vec
     const double level = y[k] * std::numbers::sqrt2 / 2;
     bool below, above;
     const double left = HalfPower(x, y, k, -1, level, &below), right = HalfPower(x, y, k, 1, level, &above);
-    const double bend = y[k - 1] - 2 * y[k] + y[k + 1];
-    const double shift = bend < 0 ? 0.5 * (y[k - 1] - y[k + 1]) / bend : 0;
+    // The parabola through three points, unequal steps apart.
+    const double a = x[k] - x[k - 1], b = x[k + 1] - x[k], fall = (y[k] - y[k - 1]) / a, rise = (y[k + 1] - y[k]) / b;
+    const double bend = (rise - fall) / (a + b), slope = (fall * b + rise * a) / (a + b);
+    const double shift = bend < 0 ? -0.5 * slope / bend : 0;
     ResponsePeak peak;
-    peak.speed = x[k] + shift * 0.5 * (x[k + 1] - x[k - 1]);
-    peak.amplitude = y[k];
+    peak.speed = x[k] + shift;
+    peak.amplitude = y[k] + 0.5 * slope * shift;
     peak.amplification = peak.speed / (right - left);
     peak.bound = !below || !above;
     out.push_back(peak);

@@ -21,6 +21,7 @@ struct Element {
   std::map<std::string, std::vector<double>> numbers;
   std::map<std::string, std::string> texts;
   std::map<std::string, double> material;
+  bool two_axes = false;  // coefficients over speed and frequency of the whirl (version 3)
 
   [[noreturn]] void Fail(const std::string& text) const {
     throw InputError(fmt::format("{}: {}", where, text));
@@ -43,7 +44,22 @@ struct Element {
 
 Element Named(const std::string& key, const std::string& where) {
   const std::size_t at = key.find('_');
-  return {key.substr(0, at), at == std::string::npos ? "" : key.substr(at + 1), where, {}, {}, {}};
+  return {key.substr(0, at), at == std::string::npos ? "" : key.substr(at + 1), where, {}, {}, {}, false};
+}
+
+/// Coefficients, their axes and damping ratios; other arrays (colours, names) may hold anything.
+bool IsTabulated(const std::string& key) {
+  const bool coefficient = key.size() == 3 && (key[0] == 'k' || key[0] == 'c');
+  return coefficient || key == "speed" || key == "frequency" || key == "w" || key == "modal_damping_ratio";
+}
+
+void ReadList(const TomlTable& t, const std::string& key, Element& e) {
+  try {
+    e.numbers[key] = t.Numbers(key);
+  } catch (const InputError&) {
+    t.Rows(key);  // else it is neither: its own message
+    e.two_axes = true;
+  }
 }
 
 std::vector<Element> FromToml(const std::string& file) {
@@ -57,8 +73,7 @@ std::vector<Element> FromToml(const std::string& file) {
       if (t.IsNumber(k)) e.numbers[k] = {t.Number(k)};
       if (t.IsBool(k)) e.numbers[k] = {t.Bool(k, false) ? 1.0 : 0.0};
       if (t.IsString(k)) e.texts[k] = t.String(k);
-      // Only coefficient tables are wanted; other arrays (colours, names) may hold anything.
-      if (t.IsArray(k) && (k == "frequency" || k.size() == 3)) e.numbers[k] = t.Numbers(k);
+      if (t.IsArray(k) && IsTabulated(k)) ReadList(t, k, e);
       if (k == "material" && t.IsTable(k))
         for (const std::string& m : t.Table(k)->Keys())
           if (t.Table(k)->IsNumber(m)) e.material[m] = t.Table(k)->Number(m);
@@ -84,7 +99,7 @@ std::vector<Element> FromJson(const std::string& file) {
   nlohmann::json root;
   try {
     in >> root;
-  } catch (const nlohmann::json::parse_error& e) {
+  } catch (const nlohmann::json::exception& e) {  // numbers beyond a double too
     throw InputError(fmt::format("{}: not valid JSON: {}", file, e.what()));
   }
   std::vector<Element> out;
@@ -94,6 +109,7 @@ std::vector<Element> FromJson(const std::string& file) {
     for (const auto& [k, v] : table.items()) {
       if (v.is_string()) e.texts[k] = v.get<std::string>();
       if (!Numbers(v).empty()) e.numbers[k] = Numbers(v);
+      if (IsTabulated(k) && v.is_array() && !v.empty() && v[0].is_array()) e.two_axes = true;
       if (k == "material" && v.is_object())
         for (const auto& [m, number] : v.items())
           if (number.is_number()) e.material[m] = number.get<double>();
@@ -136,6 +152,14 @@ ShaftSection ReadShaft(const Element& e) {
   s.damping_mass = e.Get("alpha", 0);
   s.damping_stiffness = e.Get("beta", 0);
   return s;
+}
+
+Disk ReadDisk(const Element& e, double z) {
+  const Disk d{z, e.Get("m"), e.Get("Id"), e.Get("Ip"), e.name};
+  CheckRanges(d, kDiskFields, [&](std::string_view key) { return fmt::format("{}: {}", e.where, key); });
+  if (d.inertia_polar > 2 * d.inertia_diametral * (1 + 1e-9))
+    e.Fail(fmt::format("Ip = {} kg m2, allowed up to twice Id = {} kg m2", NumberText(d.inertia_polar), NumberText(d.inertia_diametral)));
+  return d;
 }
 
 /// Node planes from the shaft elements, whose n is their left node.
@@ -187,9 +211,10 @@ double At(const Element& e, const std::string& key, double fallback, double spee
   if (!e.Has(key)) return fallback;
   const std::vector<double>& y = e.numbers.at(key);
   if (y.size() == 1) return y[0];
-  const auto it = e.numbers.find("frequency");
+  const char* axis = e.Has("speed") ? "speed" : e.Has("frequency") ? "frequency" : "w";
+  const auto it = e.numbers.find(axis);
   if (it == e.numbers.end() || it->second.size() != y.size())
-    e.Fail(fmt::format("{} has {} values, allowed: one, or as many as frequency", key, y.size()));
+    e.Fail(fmt::format("{} has {} values, allowed: one, or as many as {}", key, y.size(), axis));
   const std::vector<double>& x = it->second;
   const std::size_t i = std::clamp<std::size_t>(
       std::upper_bound(x.begin(), x.end(), speed) - x.begin(), 1, x.size() - 1);
@@ -226,13 +251,18 @@ RossRotor ReadRoss(const std::string& file, double speed) {
       ReadTheory(e, first, d.theory);
       first = false;
     } else if (IsDisk(e)) {
-      d.disks.push_back({PlaneOf(e, z), e.Get("m"), e.Get("Id"), e.Get("Ip"), e.name});
+      d.disks.push_back(ReadDisk(e, PlaneOf(e, z)));
     } else if (e.kind.find("MagneticBearing") == 0) {
       out.magnetic_bearings.push_back({e.name, PlaneOf(e, z)});
       d.stations.push_back(PlaneOf(e, z));
+    } else if (e.two_axes) {
+      out.ignored.push_back(e.kind + "_" + e.name + " (coefficients over speed and whirl frequency)");
     } else if (e.Has("kxx")) {
       d.supports.push_back(ReadSupport(e, PlaneOf(e, z), speed));
-    } else if (e.kind != "parameters") {
+    } else if (e.kind == "parameters") {
+      for (const char* damping : {"alpha", "beta", "modal_damping_ratio", "default_damping_ratio"})
+        if (e.Get(damping, 0) != 0) out.ignored.push_back(std::string("parameters.") + damping);
+    } else {
       out.ignored.push_back(e.name.empty() ? e.kind : e.kind + "_" + e.name);
     }
   }

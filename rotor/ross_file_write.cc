@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "core/base/atomic_file.h"
@@ -24,62 +25,71 @@ Json MaterialTable(const ShaftSection& s) {
 }
 
 Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std::string& tag) {
-  return {
-      {"L", s.length},
-      {"idl", s.id},
-      {"odl", s.od},
-      {"idr", s.id_right},
-      {"odr", s.od_right},
-      {"n", node},
-      {"axial_force", 0},
-      {"torque", 0},
-      {"shear_effects", t.shear},
-      {"rotary_inertia", t.rotary_inertia},
-      {"gyroscopic", t.gyroscopic},
-      {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
-      {"tag", tag},
-      {"alpha", s.damping_mass},
-      {"beta", s.damping_stiffness},
-      {"material", MaterialTable(s)}};
-}
-
-Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
-  Json table = {{"n", node}, {"tag", tag}, {"color", "#355d7a"}, {"scale_factor", 1}};
-  const auto set = [&](const char* key, double value) { table[key] = Json::array({value}); };
-  set("kxx", s.kxx), set("kxy", s.kxy), set("kyx", s.kyx), set("kyy", s.kyy);
-  set("cxx", s.cxx), set("cxy", s.cxy), set("cyx", s.cyx), set("cyy", s.cyy);
-  for (const char* zero : {"kzz", "czz", "mxx", "mxy", "myx", "myy", "mzz"}) set(zero, 0.0);
+  Json table = {{"L", s.length},
+                {"idl", s.id},
+                {"odl", s.od},
+                {"idr", s.id_right},
+                {"odr", s.od_right},
+                {"n", node},
+                {"axial_force", 0},
+                {"torque", 0},
+                {"shear_effects", t.shear},
+                {"rotary_inertia", t.rotary_inertia},
+                {"gyroscopic", t.gyroscopic},
+                {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
+                {"tag", tag},
+                {"material", MaterialTable(s)}};
+  // Unknown to the first files of version 1, which hold no damping of a shaft.
+  if (s.damping_mass != 0 || s.damping_stiffness != 0) {
+    table["alpha"] = s.damping_mass;
+    table["beta"] = s.damping_stiffness;
+  }
   return table;
 }
 
-/// A tag that no table of this kind has yet: two elements of one name must not become one.
-std::string Tag(const Json& root, const std::string& table, const std::string& name) {
-  std::string tag = name;
-  for (int count = 0; tag.empty() || root.contains(table + tag); ++count)
-    tag = fmt::format("{} {}", name.empty() ? table.substr(0, table.find("Element")) : name, count);
-  return tag;
+Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
+  Json table = {{"n", node}, {"tag", tag}};
+  const auto set = [&](const char* key, double value) { table[key] = Json::array({value}); };
+  set("kxx", s.kxx), set("kxy", s.kxy), set("kyx", s.kyx), set("kyy", s.kyy);
+  set("cxx", s.cxx), set("cxy", s.cxy), set("cyx", s.cyx), set("cyy", s.cyy);
+  return table;
 }
+
+/// A tag that no element has yet: ROSS takes no two of one tag, a disk and a bearing neither.
+class Tags {
+ public:
+  std::string Of(const std::string& kind, const std::string& name) {
+    std::string tag = name;
+    for (int count = 0; tag.empty() || !taken_.insert(tag).second; ++count)
+      tag = fmt::format("{} {}", name.empty() ? kind : name, count);
+    return tag;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
 
 Json RotorTables(const BeamDefinition& d) {
   const BeamMesh mesh = MakeMesh(d);
   BeamRotor nodes;
   nodes.z = mesh.z;
-  Json root = {{"ross_version", "2.3.0"}, {"parameters", Json::object()}};
-  int count = 0;
+  Json root = {{"parameters", Json::object()}};
+  Tags tags;
   for (std::size_t i = 0; i < mesh.elements.size(); ++i)
     for (const ShaftSection& layer : mesh.elements[i].layers) {
-      const std::string tag = fmt::format("Shaft Element {}", count++);
+      const std::string tag = tags.Of("Shaft Element", "");
       root["ShaftElement_" + tag] = ShaftTable(layer, d.theory, static_cast<int>(i), tag);
     }
   for (const Disk& disk : d.disks) {
-    const std::string tag = Tag(root, "DiskElement_", disk.name);
-    root["DiskElement_" + tag] = {
-        {"n", NodeAt(nodes, disk.z)}, {"m", disk.mass}, {"Id", disk.inertia_diametral},
-        {"Ip", disk.inertia_polar},   {"tag", tag},     {"scale_factor", 1.0},
-        {"color", "Firebrick"}};
+    const std::string tag = tags.Of("Disk", disk.name);
+    root["DiskElement_" + tag] = {{"n", NodeAt(nodes, disk.z)},
+                                  {"m", disk.mass},
+                                  {"Id", disk.inertia_diametral},
+                                  {"Ip", disk.inertia_polar},
+                                  {"tag", tag}};
   }
   for (const SpringSupport& s : d.supports) {
-    const std::string tag = Tag(root, "BearingElement_", s.name);
+    const std::string tag = tags.Of("Bearing", s.name);
     root["BearingElement_" + tag] = BearingTable(s, NodeAt(nodes, s.z), tag);
   }
   return root;
@@ -95,7 +105,6 @@ void WriteTable(std::ostream& out, const std::string& header, const Json& table)
 }
 
 void WriteToml(std::ostream& out, const Json& root) {
-  out << "ross_version = " << root.at("ross_version").dump() << "\n";
   for (const auto& [key, table] : root.items())
     if (table.is_object()) WriteTable(out, Json(key).dump(), table);
 }

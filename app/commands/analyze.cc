@@ -79,6 +79,16 @@ void PrintSensitivity(const RigAnalysis& a) {
     for (const AxisSensitivity& x : s.axes)
       fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n", s.speed / kRpm, x.axis, x.peak, x.peak_frequency,
                  Zone(x.zone), fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up), x.phase_margin * 180 / kPi, x.delay_margin * 1e6);
+  fmt::print("\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n", Coloured("joint margin: every loop changed at once, each in its own way", "bold"), "rpm", "disk [-]",
+             "gain x from..to", "phase", "at [Hz]", "axes");
+  for (const Sensitivity& s : a.sensitivity)
+    for (const JointMargin& m : s.joint) {
+      std::vector<std::string> axes;
+      for (std::size_t k : m.axes) axes.push_back(s.axes[k].axis);
+      fmt::print("{:>9.0f} {:>10.3f} {:>18} {:>8.1f} ° {:>10.1f}  {}\n", s.speed / kRpm, m.alpha,
+                 fmt::format("{:.3f}..{:.3f}", DiskGainDown(m.alpha), DiskGainUp(m.alpha)), DiskPhase(m.alpha) * 180 / kPi, m.frequency,
+                 fmt::join(axes, " "));
+    }
   for (const MeasuredPoint& p : a.measured)
     fmt::print("  measured {:<5} {:>8.1f} Hz: |S| {:.4f}, computed {:.4f}, difference {:+.2f} %\n", a.capacity[p.axis].axis, p.frequency,
                std::abs(p.measured), std::abs(p.computed), 100 * (std::abs(p.measured) / std::abs(p.computed) - 1));
@@ -96,8 +106,7 @@ void PrintModes(const RigAnalysis& a) {
   fmt::print("\n{}\n", Coloured("rotor modes of the closed loop", "bold"));
   fmt::print("{:>9} {:>10} {:>8} {:>9} {:<9}\n", "rpm", "f [Hz]", "zeta", "log dec", "whirl");
   for (const ClosedLoopModes& r : a.rows) {
-    const bool shown = r.speed == 0 || std::abs(r.speed - a.options.highest) < 0.5 * a.options.fastest / 40;
-    if (!shown) continue;
+    if (r.speed != 0 && r.speed != a.options.lowest && r.speed != a.options.highest) continue;
     for (const ClosedLoopMode& m : r.modes)
       if (m.of_rotor() && m.zeta < 0.95)
         fmt::print("{:>9.0f} {:>10.2f} {:>8.4f} {:>9.3f} {:<9}\n", r.speed / kRpm, m.frequency, m.zeta, m.log_decrement, SenseName(m.sense()));
@@ -179,7 +188,8 @@ void AddAnalyze(CLI::App& app, Work& work) {
       "  ambrig analyze examples/reference/rig.toml --speed 3000:9000 -o out\n"
       "  ambrig analyze rig.toml --measure 12 --html rig.html       sensitivity, computed and measured\n"
       "  ambrig analyze rig.toml --response A.x.load:A.x --response A.x.force:A.i1 --json rig.json\n"
-      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft, .magnet, or a coil A.i1.\n"
+      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft, .magnet, or a coil A.i1;\n"
+      "of a named plane of a beam rotor: disk.x.load, disk.x.\n"
       "Exit code 1 when the closed loop is unstable.");
   command->callback([c, &work] { work = [c] { return RunAnalyze(*c); }; });
 }

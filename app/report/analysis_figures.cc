@@ -49,6 +49,12 @@ Style Plain(const std::string& colour, const std::string& dash = "solid") {
   return s;
 }
 
+/// On the axis of the rig file, whose z is a beam's own; the model's counts from the centre of mass.
+std::vector<double> OnFileAxis(const RigAnalysis& a, std::vector<double> z) {
+  for (double& v : z) v += a.point.rig().z_origin;
+  return z;
+}
+
 std::string Rpm(double speed) { return fmt::format("{:.0f} rpm", speed / kRpm); }
 
 }  // namespace
@@ -202,8 +208,9 @@ Figure ModeShapeFigure(const RigAnalysis& a) {
   for (const ClosedLoopMode* m : modes)
     grid.titles.push_back(fmt::format("{:.1f} Hz, {}, δ {:.2f}", m->frequency, SenseName(m->sense()), m->log_decrement));
   Figure f = MakeFigure(fmt::format("Shapes of the rotor modes at {}: shaft centre over the axis z, x (solid) at the instant of its largest "
-                                    "deflection, y (dashed) a quarter turn later. z = 0 is the centre of mass; dots are the bearings.", Rpm(row->speed)), grid);
+                                    "deflection, y (dashed) a quarter turn later. z as in the rig file; dots are the bearings.", Rpm(row->speed)), grid);
   const std::vector<double> z = ShaftStations(a.point);
+  const std::vector<double> shown = OnFileAxis(a, z);
   const LinearPlant plant = LinearisePlant(a.point, row->speed);
   for (std::size_t k = 0; k < modes.size(); ++k) {
     Eigen::MatrixXcd d(2, static_cast<Eigen::Index>(z.size()));
@@ -221,13 +228,13 @@ Figure ModeShapeFigure(const RigAnalysis& a) {
     SetAxes(f, panel, "z [m]", "", {}, std::array<double, 2>{-1.15, 1.15});
     Style style = Plain(WhirlColour(modes[k]->sense()));
     style.legend = false;
-    AddLine(f, panel, "x", z, x, style);
+    AddLine(f, panel, "x", shown, x, style);
     style.dash = "dash";
-    AddLine(f, panel, "y", z, y, style);
+    AddLine(f, panel, "y", shown, y, style);
     std::vector<double> at, zero;
     for (const BearingParameters& b : a.point.rig().bearings)
       if (b.kind == BearingKind::kRadial) {
-        at.push_back(b.z);
+        at.push_back(b.z + a.point.rig().z_origin);
         zero.push_back(0);
       }
     Style dot = Plain("@ink");
@@ -251,7 +258,7 @@ Figure RotorModeFigure(const RigAnalysis& a) {
   for (const auto* modes : {&a.supports.free, &a.supports.supported}) {
     if (modes->empty()) continue;
     SetAxes(f, panel, "z [m]", "", {}, std::array<double, 2>{-1.15, 1.15});
-    for (const RotorMode& m : *modes) AddLine(f, panel, fmt::format("{:.1f} Hz", m.frequency), m.z, m.x, SeriesStyle(k++));
+    for (const RotorMode& m : *modes) AddLine(f, panel, fmt::format("{:.1f} Hz", m.frequency), OnFileAxis(a, m.z), m.x, SeriesStyle(k++));
     ++panel;
   }
   return f;
@@ -297,7 +304,7 @@ Figure UnbalanceFigure(const RigAnalysis& a, const UnbalanceSweep& sweep) {
   grid.titles = {"orbit at the sensors, long half axis", "phase of x against the unbalance", "force of the magnets"};
   std::string planes;
   for (const PlaneUnbalance& p : sweep.unbalance.planes)
-    planes += fmt::format("{}{:.3g} g mm at z = {:.3g} m{}", planes.empty() ? "" : ", ", p.magnitude * 1e6, p.z, p.phase > 1 ? " opposite" : "");
+    planes += fmt::format("{}{:.3g} g mm at z = {:.3g} m{}", planes.empty() ? "" : ", ", p.magnitude * 1e6, p.z + a.point.rig().z_origin, p.phase > 1 ? " opposite" : "");
   Figure f = MakeFigure(fmt::format("Unbalance, case **{}**: {}. The shaded speeds are the operating range.", sweep.unbalance.name, planes), grid);
   SetAxes(f, 0, "speed [rpm]", "[µm]");
   SetAxes(f, 1, "speed [rpm]", "[deg]");

@@ -29,6 +29,25 @@ Json CapacityJson(const AxisCapacity& c) {
           {"knee", Number(c.knee)}};
 }
 
+Json JointJson(const JointMargin& m, const Sensitivity& s) {
+  Json axes = Json::array(), gain = Json::array(), phase = Json::array();
+  for (std::size_t k = 0; k < m.axes.size(); ++k) {
+    axes.push_back(s.axes[m.axes[k]].axis);
+    if (k >= m.factor.size()) continue;
+    gain.push_back(Number(std::abs(m.factor[k])));
+    phase.push_back(Number(std::arg(m.factor[k])));
+  }
+  return {{"axes", axes},
+          {"disk_margin", Number(m.alpha)},
+          {"gain_down", DiskGainDown(m.alpha)},
+          {"gain_up", Number(DiskGainUp(m.alpha))},
+          {"phase", DiskPhase(m.alpha)},
+          {"frequency", m.frequency},
+          {"reached", Number(m.reached)},
+          {"worst_gain", gain},
+          {"worst_phase", phase}};
+}
+
 Json SensitivityJson(const Sensitivity& s) {
   Json axes = Json::array();
   for (const AxisSensitivity& a : s.axes)
@@ -40,8 +59,11 @@ Json SensitivityJson(const Sensitivity& s) {
                     {"gain_down", a.gain_down},
                     {"phase_margin", Number(a.phase_margin)},
                     {"delay_margin", Number(a.delay_margin)},
+                    {"disk_margin", Number(a.disk_margin)},
                     {"S", Parts(a.S)}});
-  return {{"speed", s.speed}, {"frequency", s.frequency}, {"axes", axes}};
+  Json joint = Json::array();
+  for (const JointMargin& m : s.joint) joint.push_back(JointJson(m, s));
+  return {{"speed", s.speed}, {"frequency", s.frequency}, {"axes", axes}, {"joint", joint}};
 }
 
 Json ModeJson(const ClosedLoopMode& m) {
@@ -60,13 +82,18 @@ Json CampbellJson(const RigAnalysis& a) {
   return rows;
 }
 
-Json RotorModesJson(const std::vector<RotorMode>& modes) {
+/// z as in the rig file: a beam's own axis; the model's counts from `origin`, its centre of mass.
+Json RotorModesJson(const std::vector<RotorMode>& modes, double origin) {
   Json out = Json::array();
-  for (const RotorMode& m : modes) out.push_back({{"frequency", m.frequency}, {"z", m.z}, {"x", m.x}});
+  for (const RotorMode& m : modes) {
+    std::vector<double> z = m.z;
+    for (double& v : z) v += origin;
+    out.push_back({{"frequency", m.frequency}, {"z", z}, {"x", m.x}});
+  }
   return out;
 }
 
-Json SupportsJson(const RotorOnSupports& s) {
+Json SupportsJson(const RotorOnSupports& s, double origin) {
   Json supports = Json::array(), critical = Json::array(), map = Json::array();
   for (const SupportStiffness& k : s.supports)
     supports.push_back({{"bearing", k.bearing}, {"proportional", k.proportional}, {"negative", k.negative}, {"net", k.net()}});
@@ -76,14 +103,14 @@ Json SupportsJson(const RotorOnSupports& s) {
     for (const CriticalSpeed& c : row.speeds) speeds.push_back(c.speed);
     map.push_back({{"stiffness", row.stiffness}, {"speeds", speeds}});
   }
-  return {{"supports", supports}, {"free", RotorModesJson(s.free)}, {"supported", RotorModesJson(s.supported)},
+  return {{"supports", supports}, {"free", RotorModesJson(s.free, origin)}, {"supported", RotorModesJson(s.supported, origin)},
           {"critical", critical}, {"map", map}};
 }
 
-Json UnbalanceJson(const UnbalanceSweep& s) {
+Json UnbalanceJson(const UnbalanceSweep& s, double origin) {
   Json planes = Json::array(), tracks = Json::array();
   for (const PlaneUnbalance& p : s.unbalance.planes)
-    planes.push_back({{"z", p.z}, {"magnitude", p.magnitude}, {"phase", p.phase}});
+    planes.push_back({{"z", p.z + origin}, {"magnitude", p.magnitude}, {"phase", p.phase}});
   for (const OrderTrack& t : s.tracks) {
     Json peaks = Json::array();
     for (const ResponsePeak& p : t.peaks)
@@ -130,12 +157,13 @@ Json AnalysisJson(const RigAnalysis& a) {
     return Json{{"axis", a.capacity[p.axis].axis}, {"frequency", p.frequency},
                 {"measured", std::abs(p.measured)}, {"computed", std::abs(p.computed)}};
   });
-  out["rotor"] = SupportsJson(a.supports);
+  const double origin = a.point.rig().z_origin;
+  out["rotor"] = SupportsJson(a.supports, origin);
   out["campbell"] = CampbellJson(a);
   out["critical_speeds"] = List(a.criticals, [](const DampedCritical& c) {
     return Json{{"speed", c.speed}, {"log_decrement", c.mode.log_decrement}, {"whirl", SenseName(c.mode.sense())}};
   });
-  out["unbalance"] = List(a.unbalance, UnbalanceJson);
+  out["unbalance"] = List(a.unbalance, [&](const UnbalanceSweep& s) { return UnbalanceJson(s, origin); });
   out["standards"] = StandardsJson(a);
   out["dynamic_stiffness"] = {{"frequency", a.stiffness.frequency},
                               {"axes", List(a.stiffness.axes, [](const AxisStiffness& s) {

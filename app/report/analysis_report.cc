@@ -50,6 +50,31 @@ void AddCapacity(HtmlReport& report, const RigAnalysis& a) {
                "voltage allows; above the knee a sine of the static capacity is cut.");
 }
 
+void AddJoint(HtmlReport& report, const RigAnalysis& a) {
+  std::vector<std::vector<Cell>> rows;
+  for (const Sensitivity& s : a.sensitivity)
+    for (const JointMargin& m : s.joint) {
+      std::string axes, worst;
+      double least = kInfinity;  // of those axes alone
+      for (std::size_t k = 0; k < m.axes.size(); ++k) {
+        const AxisSensitivity& x = s.axes[m.axes[k]];
+        least = std::min(least, x.disk_margin);
+        axes += (k ? " " : "") + x.axis;
+        if (k < m.factor.size())
+          worst += fmt::format("{}{} × {:.2f} {:+.0f}°", k ? ", " : "", x.axis, std::abs(m.factor[k]), std::arg(m.factor[k]) * 180 / kPi);
+      }
+      rows.push_back({fmt::format("{:.0f}", s.speed / kRpm), axes, fmt::format("{:.3f}", m.alpha), fmt::format("{:.3f}", least),
+                      Factor(DiskGainDown(m.alpha)), Factor(DiskGainUp(m.alpha)), fmt::format("{:.1f}", DiskPhase(m.alpha) * 180 / kPi),
+                      FormatSi(m.frequency, "Hz"), worst});
+    }
+  if (rows.empty()) return;
+  report.Table({"speed [rpm]", "axes together", "joint disk margin", "least of one alone", "gain down to", "gain up to", "phase [deg]", "at",
+                "a change that reaches the limit"}, rows,
+               "Every loop of the group is multiplied by a complex factor of its own, all at once: it stays stable while no factor leaves "
+               "the disk whose real diameter is the two gains (or, at unchanged gain, no phase the one shown). From an upper bound of the "
+               "structured singular value of S - 1/2 with diagonal scaling. Axes that do not move one another stand alone.");
+}
+
 void AddSensitivity(HtmlReport& report, const RigAnalysis& a) {
   report.Heading("Stability margins");
   report.Text("S is the command after an injection point over the force injected there, every other loop closed: 1/(1 + loop gain). The peak counts "
@@ -62,6 +87,7 @@ void AddSensitivity(HtmlReport& report, const RigAnalysis& a) {
                       FormatSi(x.delay_margin, "s")});
   report.Table({"speed [rpm]", "axis", "peak |S|", "at", "zone", "gain down to", "gain up to", "phase margin [deg]", "at", "delay margin"}, rows,
                "The loop stays stable while its gain is multiplied by anything between the two factors, or delayed by less than the last column, at this axis alone: all axes together bear less.");
+  AddJoint(report, a);
   report.AddFigure(SensitivityFigure(a));
   if (!a.measured.empty()) {
     std::vector<std::vector<Cell>> points;

@@ -157,7 +157,8 @@ TEST_F(AnalyzeCommand, BadInputIsOneLine) {
   Write("rig.toml", ReferenceRigText());
   for (const char* arguments : {"analyze rig.toml --speed fast", "analyze rig.toml --speed 900:300", "analyze none.toml",
                                 "analyze rig.toml --response A.x.force:Q.x", "analyze rig.toml --response A.x.push:A.x",
-                                "analyze rig.toml --speed 3000 --max-speed 2000", "analyze rig.toml --measure 0"}) {
+                                "analyze rig.toml --speed 3000 --max-speed 2000", "analyze rig.toml --measure 0",
+                                "analyze rig.toml --measure 1 --sine 1e4"}) {
     const Outcome o = Ambrig(arguments);
     EXPECT_EQ(o.exit, 2) << arguments;
     EXPECT_EQ(o.lines(), 1) << o.text;
@@ -171,7 +172,10 @@ TEST_F(AnalyzeCommand, WritesSummaryJsonAndPage) {
   EXPECT_NE(o.text.find("ISO 14839-3"), std::string::npos);
   const auto json = ReadText(folder_ / "out/rig.analysis.json");
   EXPECT_NE(json.find("\"zone\": \"A\""), std::string::npos);
+  EXPECT_NE(json.find("\"worst_gain\""), std::string::npos);
+  EXPECT_NE(o.text.find("joint margin"), std::string::npos);
   EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("Campbell diagram"), std::string::npos);
+  EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("joint disk margin"), std::string::npos);
   const Outcome again = Ambrig("analyze rig.toml --speed 3000 -o again");
   EXPECT_EQ(json, ReadText(folder_ / "again/rig.analysis.json"));
 }

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "scenarios/rig_file.h"
 
@@ -33,5 +34,25 @@ inline const std::string kTiltTranslation =
 /// PD with roll-off, as a transfer function: (kp + kd s)/(1 + s tau)².
 inline const std::string kTransfer =
     "kind = \"transfer-function\"\n[[controller.transfer]]\nnumerator = [900.0, 4.0e5]\ndenominator = [4.0e-10, 4.0e-5, 1.0]\n";
+
+/// Every kind of controller that levitates the reference rig.
+struct ControllerKind {
+  const char* name;
+  std::string controller;
+  double load_orbit;  // [m] within which 20 N at A are held from then on
+};
+
+inline std::vector<ControllerKind> ControllerKinds() {
+  const std::string pid = "kind = \"pid\"\n" + kPidGains;
+  return {{"filters", pid + "[[controller.filter]]\nkind = \"notch\"\nfrequency = 2500.0\nwidth = 400.0\n"
+                            "[[controller.filter]]\nkind = \"lead-lag\"\nzero = 600.0\npole = 900.0\naxes = [\"A.x\", \"A.y\"]\n", 1.5e-4},
+          {"schedule", pid + "[[controller.schedule]]\nspeed = 0.0\n[[controller.schedule]]\nspeed = 1000.0\nkp = 4.4e5\n", 1.5e-4},
+          {"unbalance", pid + "[controller.unbalance]\nfrom_speed = 800.0\n", 1.5e-4},
+          {"transfer", kTransfer, 1.9e-4},
+          {"lqg", "kind = \"lqg\"\n", 1.5e-4},
+          {"lqg over speeds", "kind = \"lqg\"\nspeeds = [0.0, 600.0]\n", 1.5e-4},
+          {"h-infinity", "kind = \"h-infinity\"\n", 1.5e-4},
+          {"tilt-translation", kTiltTranslation + "gyroscopic_compensation = 0.8\n", 1.5e-4}};
+}
 
 }  // namespace ambrig

@@ -12,32 +12,13 @@
 namespace ambrig {
 namespace {
 
-struct Kind {
-  const char* name;
-  std::string controller;
-  double load_orbit;  // [m] within which 20 N at A are held from then on
-};
-
-std::vector<Kind> Kinds() {
-  const std::string pid = "kind = \"pid\"\n" + kPidGains;
-  return {{"filters", pid + "[[controller.filter]]\nkind = \"notch\"\nfrequency = 2500.0\nwidth = 400.0\n"
-                            "[[controller.filter]]\nkind = \"lead-lag\"\nzero = 600.0\npole = 900.0\naxes = [\"A.x\", \"A.y\"]\n", 1.5e-4},
-          {"schedule", pid + "[[controller.schedule]]\nspeed = 0.0\n[[controller.schedule]]\nspeed = 1000.0\nkp = 4.4e5\n", 1.5e-4},
-          {"unbalance", pid + "[controller.unbalance]\nfrom_speed = 800.0\n", 1.5e-4},
-          {"transfer", kTransfer, 1.9e-4},
-          {"lqg", "kind = \"lqg\"\n", 1.5e-4},
-          {"lqg over speeds", "kind = \"lqg\"\nspeeds = [0.0, 600.0]\n", 1.5e-4},
-          {"h-infinity", "kind = \"h-infinity\"\n", 1.5e-4},
-          {"tilt-translation", kTiltTranslation + "gyroscopic_compensation = 0.8\n", 1.5e-4}};
-}
-
 Scenario LoadStepAtSpeed(const RigParameters& rig, const std::string& more = "") {
   return ReadScenarioText("name = \"load\"\nduration = 0.12\nnoise = true\n[speed]\nprofile = [[0.0, 300.0]]\n[[load]]\nplane = \"A\"\n"
                           "force = [20.0, 0.0]\nstart = 0.02\nstop = 0.2\n" + more, "s.toml", rig);
 }
 
 TEST(Controllers, LevitateInTheSwitchingEngine) {
-  for (const Kind& k : Kinds()) {
+  for (const ControllerKind& k : ControllerKinds()) {
     const RigParameters rig = RigWith(k.controller);
     const RunResult r = Simulate(rig, LoadStepAtSpeed(rig), {});
     EXPECT_FALSE(r.touchdown) << k.name;
@@ -68,7 +49,7 @@ TEST(Controllers, SameInEveryFidelity) {
 
 // Linear loops are stable where the runs levitate, with every kind.
 TEST(Controllers, LinearLoopsAreStable) {
-  for (const Kind& k : Kinds()) {
+  for (const ControllerKind& k : ControllerKinds()) {
     const RigParameters rig = RigWith(k.controller);
     const SampledPlant plant = MakeControlPlant(rig, {0, 1, 2, 3, 4}, 300);
     EXPECT_LT(SpectralRadius(LoopMatrix(plant.FromForce(), MakeController(rig, rig.controller)->Linear(300))), 1) << k.name;
