@@ -73,7 +73,8 @@ class PowerAmplifier {
  public:
   PowerAmplifier() = default;
   explicit PowerAmplifier(const AmplifierParameters& p)
-      : p_(&p), integral_gain_(p.ki / p.switching_frequency), duty_per_volt_(1 / (Swings() ? 2 * p.bus_voltage : p.bus_voltage)) {}
+      : p_(&p), integral_gain_(p.ki / p.switching_frequency), centre_(Swings() ? 0.5 : 0),
+        duty_per_volt_(1 / (Swings() ? 2 * p.bus_voltage : p.bus_voltage)) {}
 
   /// Duty that the current loop asks for at t_n. `feedback` is the mean of last period's samples [A].
   double CurrentLoop(double set_point, double feedback) {
@@ -90,7 +91,7 @@ class PowerAmplifier {
   /// 0.2 A or less.
   void HoldCurrent(double current, double resistance);
   void ResetToLowerLimit();
-  double DutyFromVoltage(double u) const { return (Swings() ? 0.5 : 0) + u * duty_per_volt_; }
+  double DutyFromVoltage(double u) const { return centre_ + u * duty_per_volt_; }
   /// The bridge's voltages in a period with duty d.
   CoilVoltage Pattern(double duty, const BridgeImperfection& bridge) const;
 
@@ -103,7 +104,8 @@ class PowerAmplifier {
   double VoltageOfDuty(double d) const;
 
   const AmplifierParameters* p_ = nullptr;
-  double integral_gain_ = 0, duty_per_volt_ = 0;  // ki T [V/A], [1/V]
+  double integral_gain_ = 0;                      // ki T [V/A]
+  double centre_ = 0, duty_per_volt_ = 0;         // duty of zero volts [-], [1/V]
   double integral_ = 0;                           // [V]
 };
 

@@ -179,10 +179,9 @@ void SwitchingEngine::CurrentLoops(long long n) {
     if (clamped_ && !options_.forced) c.set_point = target[b.index];
     for (int j = 0; j < c.coils; ++j) {
       const auto lane = static_cast<std::size_t>(j);
-      double d = first_period_of_rest_ ? rig_.amplifier.duty_min
-                                       : c.amplifier[lane].CurrentLoop(target[b.index][j], c.feedback[j]);
-      if (c.disabled[lane]) d = 0;
-      c.duty[j] = d;
+      const double d = first_period_of_rest_ ? rig_.amplifier.duty_min
+                                             : c.amplifier[lane].CurrentLoop(target[b.index][j], c.feedback[j]);
+      c.duty[j] = c.disabled[lane] ? 0 : d;
     }
   }
   first_period_of_rest_ = false;
