@@ -39,7 +39,7 @@ class AveragedRun : public ContinuousRun {
 
  private:
   void SetVoltages(double) override {
-    for (const SampledBearing& b : rig_.bearings)
+    for (const ContinuousBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         bool driven;
         const double v = MeanVoltage(b.voltage[static_cast<std::size_t>(j)], rig_.plant.bus.voltage, rig_.T, &driven);
@@ -50,7 +50,7 @@ class AveragedRun : public ContinuousRun {
   double Measure(long long n) override {
     double peak = 0;
     std::vector<const Lane*> truth;
-    for (SampledBearing& b : rig_.bearings) {
+    for (ContinuousBearing& b : rig_.bearings) {
       b.measurement.noisy = false;
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         mean_[b.index][j] = plant_->MeanCurrent(b.index, j, rig_.T);

@@ -69,7 +69,7 @@ void ContinuousRun::FillInstants(long long n) {
 }
 
 void ContinuousRun::RebuildPatterns() {
-  for (SampledBearing& b : rig_.bearings)
+  for (ContinuousBearing& b : rig_.bearings)
     for (int j = 0; j < rig_.control[b.index].coils; ++j)
       b.voltage[static_cast<std::size_t>(j)] = rig_.PatternOf(b, j);
 }

@@ -21,7 +21,9 @@ double At(const Record& record, const Channel* c, double t) {
 }  // namespace
 
 void SwitchingEngine::StartForced() {
-  clamped_start_ = scenario_.start == StartState::kClamped;
+  // Set-points of a clamped run hold the coils' excitations already.
+  current_loops_->Follow(scenario_.start == StartState::kClamped ? CurrentLoops::SetPoints::kMeasuredWhole
+                                                                 : CurrentLoops::SetPoints::kMeasured);
   clamped_ = true;
   controller_on_ = false;
   warm_ = std::llround(0.01 / T_);

@@ -23,7 +23,7 @@ class ReferenceRun : public ContinuousRun {
     next_sample_ = 0;
     peak_ = 0;
     for (int k = 1; k < rig_.samples; ++k) instants.push_back(k * rig_.h);
-    for (const SampledBearing& b : rig_.bearings)
+    for (const ContinuousBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j)
         for (double t : {b.voltage[static_cast<std::size_t>(j)].t1, b.voltage[static_cast<std::size_t>(j)].t2})
           if (t > kSameInstant && t < rig_.T - kSameInstant) instants.push_back(t);
@@ -32,7 +32,7 @@ class ReferenceRun : public ContinuousRun {
   void AtInstant(double tau) override {
     const std::size_t k = next_sample_;
     if (k >= static_cast<std::size_t>(rig_.samples) || tau < static_cast<double>(k) * rig_.h - kSameInstant) return;
-    for (const SampledBearing& b : rig_.bearings)
+    for (const ContinuousBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         samples_[b.index][k][j] = plant_->Current(b.index, j);
         peak_ = std::max(peak_, samples_[b.index][k][j]);
@@ -50,7 +50,7 @@ class ReferenceRun : public ContinuousRun {
 
   /// Piece of every coil's pattern that begins at or before tau.
   void SetVoltages(double tau) override {
-    for (const SampledBearing& b : rig_.bearings)
+    for (const ContinuousBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         const CoilVoltage& v = b.voltage[static_cast<std::size_t>(j)];
         const int piece = tau < v.t1 - kSameInstant ? 0 : (tau < v.t2 - kSameInstant ? 1 : 2);

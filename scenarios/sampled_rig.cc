@@ -25,7 +25,8 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
       scenario(WithNoise(s, o.noise)),
       options(o),
       plant(BuildPlant(rig)),
-      commands_(rig, scenario) {
+      commands_(rig, scenario),
+      current_loops_(rig.amplifier, commands_) {
   T = 1 / rig.amplifier.switching_frequency;
   samples = rig.samples_per_period();
   h = T / samples;
@@ -35,7 +36,7 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
   std::size_t axes = 0;
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     const BearingParameters& p = rig.bearings[k];
-    SampledBearing b;
+    ContinuousBearing b;
     b.index = k;
     b.plant = &plant.bearings[k];
     b.first_axis = axes;
@@ -73,30 +74,14 @@ void SampledRig::UpdatePositions() {
 }
 
 void SampledRig::SetStartForces(const std::vector<double>& force) {
-  double fx = 0, fy = 0;
-  for (SampledBearing& b : bearings) {
-    BearingControl& c = control[b.index];
-    const double f[2] = {force[b.first_axis], b.axes > 1 ? force[b.first_axis + 1] : 0};
-    const auto set = c.map.SetPoints(f[0], f[1]);
-    for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
-    HoldSetPoints(c, b.plant->base_resistance);
-    if (b.axes < 2) continue;
-    fx += f[0];
-    fy += f[1];
-  }
+  StartWithForces(rig, force, plant, control, motion);
   loop_->Hold(force);
-  plant.rotor.SettleBase(motion, fx, fy);
 }
 
 void SampledRig::StartLevitated() {
   warm = std::llround((options.warm_up < 0 ? kLevitatedWarmUp : options.warm_up) / T / M) * M;
   motion.t = -static_cast<double>(warm) * T;
-  const auto shares = WeightShares(rig);
-  std::vector<double> force(loop_->axes(), 0.0);
-  for (const SampledBearing& b : bearings)
-    for (std::size_t side = 0; side < b.axes; ++side)
-      force[b.first_axis + side] = shares[b.index][side];
-  SetStartForces(force);
+  SetStartForces(WeightOverAxes(rig));
   if (rig.modes.empty()) return;
   // A shaft that sags, put there straight, would ring for seconds.
   const Equilibrium e = LevitatedEquilibrium(*this);
@@ -114,6 +99,7 @@ void SampledRig::StartClamped() {
   warm = std::llround((options.warm_up < 0 ? kClampedWarmUp : options.warm_up) / T);
   clamped = true;
   controller_on_ = false;
+  current_loops_.Follow(CurrentLoops::SetPoints::kOfTheScenario);
   motion.t = -static_cast<double>(warm) * T;
   PlaceClamped(rig, scenario, motion);
   for (const CommandPlan::Signal& s : commands_.current)
@@ -122,7 +108,7 @@ void SampledRig::StartClamped() {
 }
 
 void SampledRig::StartResting() {
-  first_period_of_rest_ = true;
+  current_loops_.SwitchOn();
   motion.t = 0;
   plant.rotor.Rest(motion);
   SwitchOn(control);
@@ -138,8 +124,10 @@ void SampledRig::AtPeriodStart(long long n) {
     loop_->Sample(n, motion.t);
     if (controller_on_) loop_->Tick(n, motion.Omega, control);
   }
-  CurrentLoops(n);
-  if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
+  current_loops_.Period(n, control);
+  for (ContinuousBearing& b : bearings)
+    for (int j = 0; j < control[b.index].coils; ++j) b.voltage[U(j)] = PatternOf(b, j);
+  if (record_) record_->AtPeriodStart(n);
 }
 
 CoilVoltage SampledRig::PatternOf(const SampledBearing& b, int j) const {
@@ -149,30 +137,6 @@ CoilVoltage SampledRig::PatternOf(const SampledBearing& b, int j) const {
         term->Voltage({motion.t, control[b.index].feedback[j], plant.bus.voltage,
                        b.true_x - b.plant->offset_x, b.true_y - b.plant->offset_y, &motion});
   return control[b.index].amplifier[U(j)].Pattern(control[b.index].duty[j], bridge);
-}
-
-void SampledRig::CurrentLoops(long long n) {
-  const long long at = n < 0 ? (clamped ? 0 : -1) : n;
-  for (SampledBearing& b : bearings) {
-    BearingControl& c = control[b.index];
-    Lane target = clamped ? Lane{} : c.commanded;
-    if (at >= 0)
-      for (const auto& s : commands_.current)
-        if (U(s.bearing) == b.index) target[s.index] += CommandPlan::At(s, at);
-    if (clamped) c.set_point = target;
-    for (int j = 0; j < c.coils; ++j) {
-      c.duty[j] = first_period_of_rest_ ? rig.amplifier.duty_min
-                                        : c.amplifier[U(j)].CurrentLoop(target[j], c.feedback[j]);
-      if (c.disabled[U(j)]) c.duty[j] = 0;
-    }
-    if (at >= 0)
-      for (const auto& s : commands_.duty)
-        if (U(s.bearing) == b.index)
-          c.duty[s.index] =
-              std::clamp(CommandPlan::At(s, at), std::min(0.0, rig.amplifier.duty_min), 1.0);
-    for (int j = 0; j < c.coils; ++j) b.voltage[U(j)] = PatternOf(b, j);
-  }
-  first_period_of_rest_ = false;
 }
 
 void SampledRig::Measure(long long n, const std::vector<const Lane*>& truth, int count) {

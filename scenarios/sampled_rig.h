@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "scenarios/command_plan.h"
-#include "scenarios/measurement.h"
+#include "scenarios/current_loops.h"
 #include "scenarios/position_loop.h"
 #include "scenarios/measurement_noise.h"
-#include "scenarios/recorder.h"
 #include "scenarios/rig.h"
+#include "scenarios/run_record.h"
 #include "scenarios/run_result.h"
+#include "scenarios/sampled_bearing.h"
 #include "scenarios/scenario.h"
 #include "scenarios/supervisor.h"
 
@@ -29,16 +30,9 @@ struct SampledOptions {
   Supervisor* supervisor = nullptr;
 };
 
-/// One bearing as the controller's side of the run needs it.
-struct SampledBearing {
-  std::size_t index = 0, first_axis = 0, axes = 2;
-  BearingPlant* plant = nullptr;
+/// And its bridges, whose voltages stay as they are over a period or change at a fault.
+struct ContinuousBearing : SampledBearing {
   std::array<CoilVoltage, kLanes> voltage;  // of this period
-  MeasurementSettings measurement;
-  Lane adc[64];                   // of the last period [A]
-  double fx = 0, fy = 0;          // mean force of the last period [N]
-  double fx_before = 0, fy_before = 0;  // of the one before it: what a load cell shows inside a burst
-  double true_x = 0, true_y = 0;  // shaft centre at the plane [m]
 };
 
 class SampledRig {
@@ -56,10 +50,12 @@ class SampledRig {
   /// The period's true samples (count x coils) become the feedback of the next one.
   void Measure(long long n, const std::vector<const Lane*>& samples, int count);
   void AfterPeriod(long long n, RunResult& result);
-  /// Rows inside period n: one per ADC sample wanted, after Measure (bursts only).
-  void RecordBurst(long long n);
   void RecordStart();
-  Record TakeRecord() { return recorder_ ? recorder_->Take() : Record{}; }
+  /// Rows inside period n, after Measure (bursts only).
+  void RecordBurst(long long n) {
+    if (record_) record_->AfterMeasurement(n);
+  }
+  Record TakeRecord() { return record_ ? record_->Take() : Record{}; }
   /// Shaft centres at the bearings from `motion`.
   void UpdatePositions();
 
@@ -68,7 +64,7 @@ class SampledRig {
   const SampledOptions options;
   Plant plant;
   MotionState motion;
-  std::vector<SampledBearing> bearings;
+  std::vector<ContinuousBearing> bearings;
   std::vector<BearingControl> control;
   double T = 0, h = 0;  // switching period, ADC sample [s]
   int M = 1, samples = 18;
@@ -80,16 +76,13 @@ class SampledRig {
   void StartClamped();
   void StartResting();
   void SetStartForces(const std::vector<double>& force);
-  void CurrentLoops(long long n);
-  void RecordRow(long long n, int sample);
 
   CommandPlan commands_;
   std::optional<PositionLoop> loop_;
-  bool first_period_of_rest_ = false, controller_on_ = true;
+  CurrentLoops current_loops_;
+  bool controller_on_ = true;
   std::optional<MeasurementNoise> noise_;
-  std::optional<Recorder> recorder_;
-  std::vector<std::size_t> channel_;
-  int row_periods_ = 1, row_samples_ = 0;
+  std::optional<RunRecord> record_;
 };
 
 }  // namespace ambrig

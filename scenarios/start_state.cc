@@ -27,6 +27,33 @@ void HoldSetPoints(BearingControl& control, const Lane& resistance) {
     control.amplifier[static_cast<std::size_t>(j)].HoldCurrent(control.set_point[j], resistance[j]);
 }
 
+std::vector<double> WeightOverAxes(const RigParameters& rig) {
+  std::vector<double> force;
+  const auto shares = WeightShares(rig);
+  for (std::size_t k = 0; k < rig.bearings.size(); ++k)
+    for (std::size_t side = 0; side < rig.bearings[k].Axes().size(); ++side) force.push_back(shares[k][side]);
+  return force;
+}
+
+void StartWithForces(const RigParameters& rig, const std::vector<double>& force, const Plant& plant,
+                     std::vector<BearingControl>& control, MotionState& s) {
+  double fx = 0, fy = 0;
+  std::size_t axis = 0;
+  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
+    const bool planar = rig.bearings[k].Axes().size() > 1;
+    const double f[2] = {force[axis], planar ? force[axis + 1] : 0};
+    axis += planar ? 2 : 1;
+    BearingControl& c = control[k];
+    const auto set = c.map.SetPoints(f[0], f[1]);
+    for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
+    HoldSetPoints(c, plant.bearings[k].base_resistance);
+    if (!planar) continue;
+    fx += f[0];
+    fy += f[1];
+  }
+  plant.rotor.SettleBase(s, fx, fy);
+}
+
 void SwitchOn(std::vector<BearingControl>& control) {
   for (BearingControl& c : control) {
     c.set_point = Lane{};

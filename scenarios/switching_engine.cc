@@ -54,6 +54,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
   }
   noise_.emplace(scenario_.seed, CoilsOf(rig_), axis, samples_);
   loop_.emplace(nominal_, plant_, *commands_, *noise_, scenario_.noise);
+  current_loops_.emplace(rig_.amplifier, *commands_);
   contacts_.emplace(plant_.rotor, scenario_, T_);
   if (options_.stepper) stepper_ = options_.stepper(plant_.rotor);
 }
@@ -62,7 +63,7 @@ SwitchingEngine::~SwitchingEngine() = default;
 
 RunResult SwitchingEngine::Run() {
   Start();
-  if (options_.record) CreateChannels();
+  if (options_.record) StartRecord();
   for (long long n = -warm_; n < periods_; ++n) {
     if ((n & 255) == 0) {
       if (options_.stop && options_.stop->load()) throw Interrupted();
@@ -71,7 +72,7 @@ RunResult SwitchingEngine::Run() {
     Period(n);
   }
   Verdict();
-  if (recorder_) result_.record = recorder_->Take();
+  if (record_) result_.record = record_->Take();
   if (options_.supervisor) options_.supervisor->Finish(result_);
   return std::move(result_);
 }
@@ -96,13 +97,16 @@ void SwitchingEngine::Start() {
   }
 }
 
+void SwitchingEngine::StartRecord() {
+  RowSource source{plant_, motion_, *loop_, *noise_, control_, {}};
+  for (const BearingRun& b : bearings_) source.bearings.push_back(&b);
+  record_.emplace(rig_, scenario_, options_.record_rate, clamped_, source);
+}
+
 void SwitchingEngine::StartLevitated() {
   warm_ = std::llround((options_.warm_up < 0 ? kLevitatedWarmUp : options_.warm_up) / T_ / M_) * M_;
   motion_.t = -static_cast<double>(warm_) * T_;
-  std::vector<double> force(loop_->axes(), 0.0);
-  const auto shares = WeightShares(rig_);
-  for (const BearingRun& b : bearings_)
-    for (std::size_t side = 0; side < b.axes; ++side) force[b.first_axis + side] = shares[b.index][side];
+  std::vector<double> force = WeightOverAxes(rig_);
   if (!rig_.modes.empty()) {  // a shaft that sags, put there straight, would ring for seconds
     const Equilibrium e = LevitatedEquilibrium(rig_, scenario_);
     if (e.usable()) {
@@ -110,26 +114,15 @@ void SwitchingEngine::StartLevitated() {
       motion_.q = e.q;
     }
   }
-  double fx = 0, fy = 0;
-  for (BearingRun& b : bearings_) {
-    const double f[2] = {force[b.first_axis], b.axes > 1 ? force[b.first_axis + 1] : 0};
-    BearingControl& c = control_[b.index];
-    const auto set = c.map.SetPoints(f[0], f[1]);
-    for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
-    HoldSetPoints(c, b.plant->base_resistance);
-    if (b.axes > 1) {
-      fx += f[0];
-      fy += f[1];
-    }
-  }
+  StartWithForces(rig_, force, plant_, control_, motion_);
   loop_->Hold(force);
-  plant_.rotor.SettleBase(motion_, fx, fy);
 }
 
 void SwitchingEngine::StartClamped() {
   warm_ = std::llround((options_.warm_up < 0 ? kClampedWarmUp : options_.warm_up) / T_);
   clamped_ = true;
   controller_on_ = false;
+  current_loops_->Follow(CurrentLoops::SetPoints::kOfTheScenario);
   motion_.t = -static_cast<double>(warm_) * T_;
   PlaceClamped(rig_, scenario_, motion_);
   for (const CommandPlan::Signal& s : commands_->current)
@@ -139,7 +132,7 @@ void SwitchingEngine::StartClamped() {
 
 void SwitchingEngine::StartResting() {
   warm_ = 0;
-  first_period_of_rest_ = true;
+  current_loops_->SwitchOn();
   motion_.t = 0;
   plant_.rotor.Rest(motion_);
   SwitchOn(control_);
@@ -155,41 +148,15 @@ void SwitchingEngine::Period(long long n) {
     loop_->Sample(n, motion_.t);
     if (controller_on_) loop_->Tick(n, motion_.Omega, control_);
   }
-  CurrentLoops(n);  // a row shows this period's duty
-  if (n >= 0 && recorder_ && row_samples_ == 0 && n % row_periods_ == 0) RecordRow(n, 0);
+  current_loops_->Period(n, control_);
+  for (BearingRun& b : bearings_) SetPatterns(b);
+  if (record_) record_->AtPeriodStart(n);  // a row shows this period's duty
   RunMagnetics(n);
   Measure(n);
-  if (n >= 0 && recorder_ && row_samples_ > 0)
-    for (int k = 0; k < samples_; k += row_samples_) RecordRow(n, k);
+  if (record_) record_->AfterMeasurement(n);
   for (BearingRun& b : bearings_) control_[b.index].feedback = b.current.mean;
   MoveRotor(n);
   if (n >= 0 && options_.watch) Watch(n);
-}
-
-void SwitchingEngine::CurrentLoops(long long n) {
-  std::vector<Lane>& target = loop_target_;  // kept: no allocation in the loop
-  target.resize(control_.size());
-  for (std::size_t k = 0; k < control_.size(); ++k) target[k] = clamped_ && !options_.forced ? Lane{} : control_[k].commanded;
-  const long long at = n < 0 ? (clamped_ ? 0 : -1) : n;
-  if (at >= 0 && !(options_.forced && clamped_start_))
-    for (const auto& s : commands_->current)
-      target[static_cast<std::size_t>(s.bearing)][s.index] += CommandPlan::At(s, at);
-  for (BearingRun& b : bearings_) {
-    BearingControl& c = control_[b.index];
-    if (clamped_ && !options_.forced) c.set_point = target[b.index];
-    for (int j = 0; j < c.coils; ++j) {
-      const auto lane = static_cast<std::size_t>(j);
-      const double d = first_period_of_rest_ ? rig_.amplifier.duty_min
-                                             : c.amplifier[lane].CurrentLoop(target[b.index][j], c.feedback[j]);
-      c.duty[j] = c.disabled[lane] ? 0 : d;
-    }
-  }
-  first_period_of_rest_ = false;
-  if (at >= 0)
-    for (const auto& s : commands_->duty)
-      control_[static_cast<std::size_t>(s.bearing)].duty[s.index] =
-          std::clamp(CommandPlan::At(s, at), std::min(0.0, rig_.amplifier.duty_min), 1.0);
-  for (BearingRun& b : bearings_) SetPatterns(b);
 }
 
 void SwitchingEngine::SetPatterns(BearingRun& b) {

@@ -10,10 +10,11 @@
 #include "rotor/rotor_stepper.h"
 #include "scenarios/command_plan.h"
 #include "scenarios/contact_watch.h"
+#include "scenarios/current_loops.h"
 #include "scenarios/measurement.h"
 #include "scenarios/position_loop.h"
 #include "scenarios/measurement_noise.h"
-#include "scenarios/recorder.h"
+#include "scenarios/run_record.h"
 #include "scenarios/rig.h"
 #include "scenarios/run_result.h"
 #include "scenarios/supervisor.h"
@@ -57,7 +58,6 @@ class SwitchingEngine {
   void FollowData(long long n);
   void ForcedPosition(const BearingRun& b, double t, double* x, double* y) const;
   void Period(long long n);
-  void CurrentLoops(long long n);
   void SetPatterns(BearingRun& b);
   static void SetPattern(BearingRun& b, int j, const CoilVoltage& v);
   void PredictPositions();
@@ -71,8 +71,7 @@ class SwitchingEngine {
   void Inject(const FaultSpec& fault);
   void InjectCoil(const FaultSpec& fault, BearingRun& b, int coil);
   void BusAt(double t);
-  void CreateChannels();
-  void RecordRow(long long n, int sample);
+  void StartRecord();
   void HeatCopper();
   void Snapshot(const std::string& label);
   void Verdict();
@@ -95,24 +94,21 @@ class SwitchingEngine {
 
   double T_ = 0, h_ = 0;     // switching period, ADC sample [s]
   int M_ = 1, samples_ = 18; // periods per controller period, ADC samples per period
-  bool first_period_of_rest_ = false, clamped_ = false, controller_on_ = true;
-  bool clamped_start_ = false;  // forced runs: the set-points already hold the coils' excitations
+  bool clamped_ = false, controller_on_ = true;
   long long warm_ = 0, periods_ = 0;
   std::size_t next_fault_ = 0;
   double bus_restore_at_ = kInfinity;
-  std::vector<Lane> loop_target_;
   std::vector<const FaultSpec*> due_faults_;
   std::vector<StatorLanes::PeriodOfBearing> together_;
 
-  std::optional<Recorder> recorder_;
-  int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples
-  std::vector<std::size_t> channel_;
+  std::optional<RunRecord> record_;
   RunResult result_;
   std::optional<ContactWatch> contacts_;
   double loss_sum_ = 0, touching_ = 0, late_orbit_sq_ = 0;
   PeriodMeasurement measurement_;
   std::optional<MeasurementNoise> noise_;
   std::optional<PositionLoop> loop_;
+  std::optional<CurrentLoops> current_loops_;
 };
 
 }  // namespace ambrig
