@@ -139,7 +139,10 @@ EffectInstance LinearJudge::Start(const SignatureBank::Entry& entry, const Eigen
 
 Candidate LinearJudge::Single(const SignatureBank::Entry& entry) const {
   const Solution s = Solve(ColumnsOf(entry), Priced(entry));
-  return {Start(entry, s.amount, 0), s.score, s.ratio_fit, s.ratio_validate, entry.group.narrow, {}};
+  Candidate c = {Start(entry, s.amount, 0), s.score, s.ratio_fit, s.ratio_validate, entry.group.narrow, {}};
+  // Beside its true frequency a resonance seems smaller than it is.
+  if (c.narrow) c.other_starts.push_back(Start(entry, 2 * s.amount, 0));
+  return c;
 }
 
 CandidatePair LinearJudge::Pair(const SignatureBank::Entry& first, const SignatureBank::Entry& second) const {

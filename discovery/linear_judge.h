@@ -13,7 +13,7 @@ struct Candidate {
   bool narrow = false;         // a resonance: the linear step says little, only a fit does
   std::vector<EffectInstance> other_starts;  // of the same effect at the same target, worse at first sight
 };
-constexpr std::size_t kOtherStarts = 1;
+constexpr std::size_t kOtherStarts = 1, kResonanceStarts = 9;
 
 /// Two effects at once: what each starts from, and what they would leave together.
 struct CandidatePair {

@@ -84,8 +84,13 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
   std::stable_sort(all.begin(), all.end(), [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
   for (Candidate& c : all) {
     auto same = std::find_if(out.begin(), out.end(), [&](const Candidate& o) { return Same(o.effect, c.effect); });
-    if (same == out.end()) out.push_back(std::move(c));
-    else if (same->other_starts.size() < kOtherStarts) same->other_starts.push_back(c.effect);
+    if (same == out.end()) {
+      out.push_back(std::move(c));
+      continue;
+    }
+    if (same->other_starts.size() >= (c.narrow ? kResonanceStarts : kOtherStarts)) continue;
+    same->other_starts.push_back(c.effect);
+    same->other_starts.insert(same->other_starts.end(), c.other_starts.begin(), c.other_starts.end());
   }
   return out;
 }
