@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fdd/coil_examination.h"
+#include "fdd/motion_doubt.h"
 #include "fdd/shorted_coils.h"
 
 namespace ambrig {
@@ -100,7 +101,9 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
     ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
   // What an unknown MMF was at the first sample stays unknown: the motion turns it into a voltage.
   const double potential_rate = UnknownPotential() / (s_.sampling.step * s_.sampling.samples);
-  chart_.Compute(model_, s_.sampling, s_, known_, slopes_, watched_, potential_rate);
+  Lane doubt[2];
+  if (in.doubt.any()) ResidualDoubt(model_, slopes_, in.doubt, doubt);
+  chart_.Compute(model_, s_.sampling, s_, known_, slopes_, watched_, in.doubt.any() ? doubt : nullptr, potential_rate);
 }
 
 int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
@@ -109,8 +112,10 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
   int largest = -1;
   double most = s_.cap;
+  // A new reading moves the position at once.
+  const Lane doubt = LinkageDoubt(model_, slopes_, in.doubt.position);
   for (int j = 0; j < model_.coils; ++j) {
-    const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]);
+    const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) - doubt[j] / h;
     if (step < s_.cap || (!Holds(0, j) && !Holds(1, j)) || in.adc[0][j] < kZeroCurrent) continue;
     const double own = model_.SelfInductance(j, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
     const double sd = 1.4 * own * s_.current_noise / h + kStepVoltage * s_.voltage_sd;
@@ -184,6 +189,7 @@ int BearingDetector::Suspect(const std::vector<const KeptPeriod*>& periods, bool
     excluded[static_cast<std::size_t>(j)] = true;
     double cost = 0;
     for (const KeptPeriod* p : periods) {
+      if (!p->in.comparable) continue;
       PeriodSlopes now;
       ComputePeriodSlopesUnknownMmf(m, s_.sampling, p->in, excluded, &now);
       for (int q = 0; q < 2; ++q)
@@ -217,12 +223,13 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
   Alarm out;
   Keep(measured);
   SilenceFalseSensors();
-  const MeasuredPeriod& in = ring_[static_cast<std::size_t>((count_ - 1) % kRing)].in;
+  MeasuredPeriod& in = ring_[static_cast<std::size_t>((count_ - 1) % kRing)].in;
   const Lane last_linkage = slopes_.last, last_voltage = slopes_.after;
   Residuals(in);
   const bool follows = follows_;
   bool comparable = in.comparable;
   for (double P : slopes_.permeance.middle.v) comparable = comparable && P * kClosestGap < centred_;
+  in.comparable = comparable;
   follows_ = comparable && !any_unknown_;
   if (paused_ > 0) {
     --paused_;
@@ -335,6 +342,7 @@ bool BearingDetector::OthersHold(const LinkageModel& learned, const Diagnosis& d
   unknown[static_cast<std::size_t>(d.coil)] = !shorted || closed_loop;
   const bool any = std::any_of(unknown.begin(), unknown.end(), [](bool b) { return b; });
   for (const KeptPeriod* p : LastPeriods(2)) {
+    if (!p->in.comparable) continue;
     PeriodSlopes now;
     if (any)
       ComputePeriodSlopesUnknownMmf(m, s_.sampling, p->in, unknown, &now);

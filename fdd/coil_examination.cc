@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fdd/motion_doubt.h"
+
 namespace ambrig {
 
 namespace {
@@ -89,8 +91,11 @@ double SlopeOf(const double* y, int from, int count, double step) {
 /// Windows of one period that may be used; appended.
 void AddWindows(const LinkageModel& m, const DetectorSettings& s, const KeptPeriod& p, int j,
                 std::vector<Window>* out) {
+  if (!p.in.comparable) return;
   PeriodSlopes now;
   ComputePeriodSlopes(m, s.sampling, p.in, &now);
+  Lane doubt[2];
+  if (p.in.doubt.any()) ResidualDoubt(m, now, p.in.doubt, doubt);
   double flux[64];
   FluxFromOthers(m, s, p, now, j, flux);
   const bool radial = m.coupling == Coupling::kFloatingRotor;
@@ -116,7 +121,7 @@ void AddWindows(const LinkageModel& m, const DetectorSettings& s, const KeptPeri
     w.noise_l = per_amp * m.leakage[j];
     w.noise_own = per_amp * own;
     w.sd_e = std::sqrt(std::pow(own * per_amp, 2) + std::pow(s.gap_sd * shared, 2) + leak * leak +
-                       s.voltage_sd * s.voltage_sd);
+                       s.voltage_sd * s.voltage_sd + doubt[q][j] * doubt[q][j]);
     w.sd_f = std::sqrt((m.coils - 1) * w.noise_l * w.noise_l + std::pow(0.01 * w.F, 2) +
                        s.leakage_sd * s.leakage_sd * 4e8 + s.voltage_sd * s.voltage_sd);
     out->push_back(w);
@@ -233,21 +238,32 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
   for (std::size_t n = onset > 1 ? onset - 2 : 0; n <= onset + 1 && n < periods.size(); ++n) {
     PeriodSlopes now;
     const KeptPeriod& p = *periods[n];
+    if (!p.in.comparable) {
+      known = false;
+      continue;
+    }
     ComputePeriodSlopes(m, s.sampling, p.in, &now);
     const bool radial = m.coupling == Coupling::kFloatingRotor;
     const double own = m.SelfInductance(j, now.permeance.middle, radial ? now.permeance.total : 1);
+    const double moved = LinkageDoubt(m, now, 1)[j];
     for (int k = 0; k < s.sampling.samples; ++k) {
       const Lane& i = p.adc[static_cast<std::size_t>(k)];
-      double top = 0;
-      for (int q = 0; q < m.coils; ++q) top += now.permeance.middle[q] * m.n[q] * i[q];
+      const double at = static_cast<double>(k) / s.sampling.samples;
+      const auto permeance = [&](int q) { return now.permeance.start[q] + at * now.permeance.change[q]; };
+      double top = 0, total = 0;
+      for (int q = 0; q < m.coils; ++q) {
+        top += permeance(q) * m.n[q] * i[q];
+        total += permeance(q);
+      }
       const double partner = m.coupling == Coupling::kSides ? m.n[j ^ 1] * i[j ^ 1] : 0;
       const double lambda =
-          m.n[j] * now.permeance.middle[j] * (m.n[j] * i[j] + partner - (radial ? top / now.permeance.total : 0)) + m.leakage[j] * i[j];
+          m.n[j] * permeance(j) * (m.n[j] * i[j] + partner - (radial ? top / total : 0)) + m.leakage[j] * i[j];
       if (k > 0 || known) {
         const double t = (k - 1) * s.sampling.step;
         const double on = k == 0 ? 0 : std::clamp(now.edge[j] - t, 0.0, s.sampling.step);
         const double driven = on * now.phase[0].voltage[j] + (s.sampling.step - on) * now.phase[1].voltage[j];
-        double step = std::abs(lambda - last_lambda - driven) / own;
+        const double doubt = moved * (k == 0 ? p.in.doubt.position : p.in.doubt.velocity * s.sampling.step);
+        double step = (std::abs(lambda - last_lambda - driven) - doubt) / own;
         // A step of the other reading on the same core looks the same, but for this reading.
         if (m.coupling == Coupling::kSides) step = std::min(step, std::abs(i[j] - last_reading));
         if (i[j] > kZeroCurrent) most = std::max(most, step);

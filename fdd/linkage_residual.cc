@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "fdd/motion_doubt.h"
+
 namespace ambrig {
 
 namespace {
@@ -18,7 +20,9 @@ LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup) : model_(setup.
 
 bool LinkageResidual::Compute(const MeasuredPeriod& in) {
   ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
-  chart_.Compute(model_, s_.sampling, s_, tolerance_, slopes_, watched_, 0);
+  Lane doubt[2];
+  if (in.doubt.any()) ResidualDoubt(model_, slopes_, in.doubt, doubt);
+  chart_.Compute(model_, s_.sampling, s_, tolerance_, slopes_, watched_, in.doubt.any() ? doubt : nullptr, 0);
   const Lane& P = slopes_.permeance.middle;
   return in.comparable && *std::max_element(P.v, P.v + kLanes) * kClosestGap < centred_;
 }

@@ -14,6 +14,13 @@
 
 namespace ambrig {
 
+/// Bounds of what is not known of the shaft's motion at a bearing plane.
+struct MotionDoubt {
+  double velocity = 0;  // [m/s]
+  double position = 0;  // [m]
+  bool any() const { return velocity > 0 || position > 0; }
+};
+
 /// What was measured of one period; positions at the bearing plane at its start and end.
 struct MeasuredPeriod {
   double t = 0;                        // start [s]
@@ -22,6 +29,7 @@ struct MeasuredPeriod {
   const Lane* set_point = nullptr;     // that the current loops followed [A]; may be absent
   double bus = 0;                      // mean over the period [V]
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [m]
+  MotionDoubt doubt;                   // of these positions
   bool comparable = true;              // false: bus or position unknown, nothing can be concluded
 };
 

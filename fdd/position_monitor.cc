@@ -1,15 +1,20 @@
 #include "fdd/position_monitor.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace ambrig {
 
 namespace {
 constexpr int kEqualReadings = 6, kDifferentReadings = 50;
-}
+const double kNoise = 6 * std::sqrt(20.0);  // of a departure y - 3 y1 + 3 y2 - y3, over that of a reading
+}  // namespace
 
-void PositionMonitor::Read(double t, const std::vector<double>& readings) {
-  if (t <= last_ && count_ > 0) return;
+PositionMonitor::PositionMonitor(std::size_t axes, double jump, double noise)
+    : axes_(axes), jump_(jump), noise_(kNoise * noise) {}
+
+bool PositionMonitor::Read(double t, const std::vector<double>& readings, const std::vector<double>& struck) {
+  if (t <= last_ && count_ > 0) return false;
   step_ = t - last_;
   last_ = t;
   ++count_;
@@ -21,7 +26,11 @@ void PositionMonitor::Read(double t, const std::vector<double>& readings) {
       if (a.equal == 0) ++a.different;
     }
     const double predicted = 3 * a.y[0] - 3 * a.y[1] + a.y[2];
-    const bool jumped = count_ > 4 && std::abs(y - predicted) > jump_;
+    const double departure = count_ > 4 ? std::abs(y - predicted) : 0;
+    const bool jumped = departure > jump_ + (struck.empty() ? 0 : struck[k]);
+    a.departure[2] = a.departure[1];
+    a.departure[1] = a.departure[0];
+    a.departure[0] = std::max(0.0, departure - noise_);
     const bool held = a.different > kDifferentReadings && a.equal >= kEqualReadings;
     if (!a.faulty && (jumped || held)) {
       a.faulty = true;
@@ -31,6 +40,12 @@ void PositionMonitor::Read(double t, const std::vector<double>& readings) {
     a.y[1] = a.y[0];
     a.y[0] = y;
   }
+  return true;
+}
+
+double PositionMonitor::Departure(std::size_t a) const {
+  const double* d = axes_[a].departure;
+  return std::max({d[0], d[1], d[2]});
 }
 
 double PositionMonitor::At(std::size_t k, double t) const {

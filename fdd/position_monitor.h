@@ -6,8 +6,8 @@
 /// that is followed until the next one (whirl: ω² r t²/2 would be missed by a straight line). A rigid
 /// shaft connects the sensor planes: radial position at z is the least-squares line through all
 /// planes, the identity for a single one.
-/// Faulty axis: a step that no force could make (`jump`, against the parabola), or the very same
-/// reading again and again after readings that were never equal.
+/// Faulty axis: a step that no force could make (`jump`, against the parabola; more when the shaft may have
+/// struck something), or the very same reading again and again after readings that were never equal.
 #include <vector>
 
 namespace ambrig {
@@ -20,13 +20,18 @@ struct SensedPlane {
 class PositionMonitor {
  public:
   PositionMonitor() = default;
-  /// `jump`: largest credible departure from the parabola within one period [m].
-  PositionMonitor(std::size_t axes, double jump) : axes_(axes), jump_(jump) {}
+  /// `jump`: largest credible departure from the parabola within one period [m]; `noise`: of a reading [m rms].
+  PositionMonitor(std::size_t axes, double jump, double noise = 0);
 
-  /// New readings of time t [s]; the same t again is ignored.
-  void Read(double t, const std::vector<double>& readings);
+  /// New readings of time t [s]; false: the same t again, ignored. `struck`: what impacts may
+  /// add to a departure, per axis [m]; empty: nothing.
+  bool Read(double t, const std::vector<double>& readings, const std::vector<double>& struck = {});
   /// Position of axis `a` at time t [m].
   double At(std::size_t a, double t) const;
+  /// By how much the last readings of axis `a` departed from the parabola, beyond their noise [m].
+  double Departure(std::size_t a) const;
+  double step() const { return step_; }  // between readings [s]
+  double last() const { return last_; }  // time of the last one [s]
   bool ready(double t) const { return count_ >= 3 && t - last_ < 6 * step_; }
   bool faulty(std::size_t a) const { return axes_[a].faulty; }
   /// Axis that became faulty with the last Read, -1: none.
@@ -35,11 +40,12 @@ class PositionMonitor {
  private:
   struct Axis {
     double y[3] = {0, 0, 0};           // newest first
+    double departure[3] = {0, 0, 0};   // newest first
     int equal = 0, different = 0;
     bool faulty = false;
   };
   std::vector<Axis> axes_;
-  double jump_ = 3e-5, last_ = -1, step_ = 0;
+  double jump_ = 3e-5, noise_ = 0, last_ = -1, step_ = 0;
   long long count_ = 0;
   int new_fault_ = -1;
 };

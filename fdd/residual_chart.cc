@@ -28,14 +28,15 @@ struct Terms {
 };
 
 [[gnu::always_inline]] inline void Phase(const Terms& c, const ChartSettings& s, const ModelError& known,
-                                         const PhaseSlopes& p, bool off, const Lane& size, Lane* e, Lane* sd, Lane* z,
+                                         const PhaseSlopes& p, bool off, const Lane& size, const Lane* doubt, Lane* e, Lane* sd, Lane* z,
                                          Lane* valid) {
   const V zero, one = 1, nothing = kZeroCurrent;
   const V di = Load(p.current.v), flux = Load(p.linkage.v) - c.leakage * di;
   const V noise = c.own * s.current_noise, moved = c.n * c.dP * c.potential_rate;
+  const V uncertain = doubt ? Load(doubt->v) : zero;
   const V variance = noise * noise * (Load(p.scale.v) * c.per_step) + known.doubt[0] * di * di -
                      known.doubt[1] * di * flux + known.doubt[2] * flux * flux + s.voltage_sd * s.voltage_sd +
-                     moved * moved;
+                     moved * moved + uncertain * uncertain;
   const V wider = Min(Max(Load(size.v) * (1 / kNormalSize), one), 5), total = variance * (wider * wider);
   const V inverse_width = InverseRoot(total);
   const V residual = Load(p.residual.v) + known.leakage * di - known.gap * flux;
@@ -52,7 +53,8 @@ struct Terms {
 }
 
 AMBRIG_WIDE void ComputeAll(const LinkageModel& m, double step, const ChartSettings& s, const ModelError& known,
-                            const PeriodSlopes& slopes, const Lane& watched, double potential_rate, ResidualChart* r) {
+                            const PeriodSlopes& slopes, const Lane& watched, const Lane* doubt, double potential_rate,
+                            ResidualChart* r) {
   const V n = Load(m.n.v), P = Load(slopes.permeance.middle.v);
   const bool radial = m.coupling == Coupling::kFloatingRotor;
   Terms c;
@@ -64,8 +66,8 @@ AMBRIG_WIDE void ComputeAll(const LinkageModel& m, double step, const ChartSetti
   c.largest = Load(slopes.largest.v);
   c.per_step = 1 / step;
   c.potential_rate = potential_rate;
-  Phase(c, s, known, slopes.phase[0], false, r->size[0], &r->e[0], &r->sd[0], &r->z[0], &r->valid[0]);
-  Phase(c, s, known, slopes.phase[1], true, r->size[1], &r->e[1], &r->sd[1], &r->z[1], &r->valid[1]);
+  Phase(c, s, known, slopes.phase[0], false, r->size[0], doubt, &r->e[0], &r->sd[0], &r->z[0], &r->valid[0]);
+  Phase(c, s, known, slopes.phase[1], true, r->size[1], doubt ? doubt + 1 : nullptr, &r->e[1], &r->sd[1], &r->z[1], &r->valid[1]);
 }
 
 AMBRIG_WIDE double Accumulate(const ChartSettings& s, ResidualChart* r) {
@@ -90,8 +92,8 @@ AMBRIG_WIDE double StepOf(const Lane& before, const Lane& after, const Lane& exp
 
 void ResidualChart::Compute(const LinkageModel& m, const SamplingSettings& sampling, const ChartSettings& s,
                             const ModelError& known, const PeriodSlopes& slopes, const Lane& watched,
-                            double potential_rate) {
-  ComputeAll(m, sampling.step, s, known, slopes, watched, potential_rate, this);
+                            const Lane* doubt, double potential_rate) {
+  ComputeAll(m, sampling.step, s, known, slopes, watched, doubt, potential_rate, this);
 }
 
 double ResidualChart::Cusum(const ChartSettings& s) { return Accumulate(s, this); }

@@ -30,10 +30,11 @@ struct ResidualChart {
   Lane size[2];            // long-term mean of |z|
   Lane G[3];
 
-  /// Residuals of one period. `watched`: coils that may be judged; `potential_rate` [A/s]: by how
+  /// Residuals of one period. `watched`: coils that may be judged; `doubt`: what the
+  /// motion may add to the residuals of both phases [V], nullptr: nothing; `potential_rate` [A/s]: by how
   /// much the rotor's potential may be wrong, over the period (unknown ampere-turns).
   void Compute(const LinkageModel& m, const SamplingSettings& sampling, const ChartSettings& s, const ModelError& known,
-               const PeriodSlopes& slopes, const Lane& watched, double potential_rate);
+               const PeriodSlopes& slopes, const Lane& watched, const Lane* doubt, double potential_rate);
   /// Adds the period; returns the largest G.
   double Cusum(const ChartSettings& s);
   double LargestSum() const;

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fdd/motion_doubt.h"
+
 namespace ambrig {
 
 namespace {
@@ -58,8 +60,11 @@ void AddSlopes(const LinkageModel& m, const DetectorSettings& s, const KeptPerio
 
 void AddEquations(const LinkageModel& m, const DetectorSettings& s, const KeptPeriod& p,
                   const std::array<bool, kLanes>& judged, std::vector<Equation>* out) {
+  if (!p.in.comparable) return;
   PeriodSlopes now;
   ComputePeriodSlopes(m, s.sampling, p.in, &now);
+  Lane doubt[2];
+  if (p.in.doubt.any()) ResidualDoubt(m, now, p.in.doubt, doubt);
   for (int j = 0; j < m.coils; ++j) {
     if (!judged[static_cast<std::size_t>(j)] || now.largest[j] >= s.adc_limit) continue;
     for (int q = 0; q < 2; ++q) {
@@ -73,7 +78,7 @@ void AddEquations(const LinkageModel& m, const DetectorSettings& s, const KeptPe
       e.v = a.voltage[j];
       const double own = m.SelfInductance(j, now.permeance.middle, now.permeance.total);
       e.sd_own = std::hypot(own * s.current_noise * std::sqrt(SlopeVariance(count, s.sampling.step)), s.leakage_sd * a.current[j]);
-      e.sd = std::hypot(s.gap_sd * e.v, s.voltage_sd);
+      e.sd = std::hypot(s.gap_sd * e.v, s.voltage_sd, doubt[q][j]);
       out->push_back(e);
     }
   }

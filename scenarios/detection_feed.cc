@@ -14,6 +14,11 @@ constexpr double kBusStep = 0.02;                             // of the nominal 
 constexpr double kBusNoise = 8;                               // [sd] between two readings: never in 1e8 periods
 constexpr double kCredibleJump = 3e-5;                        // [m] in one controller period: 4700 m/s²
 
+constexpr double kThrownBack = 2.3;   // change of velocity over speed at an impact: 1 + restitution, and some friction
+constexpr double kParabola = 2;       // departures of the parabola in the impact's three steps, over one step's change
+constexpr double kReach = 0.05;       // of the clearance: the maker's tolerance
+constexpr int kReadingsOfParabola = 3;
+
 double ToleranceOf(const RigParameters& rig, const std::string& path, double least) {
   for (const Tolerance& t : rig.tolerances)
     if (t.path == path) return std::max(t.sd, least);
@@ -76,10 +81,42 @@ DetectionFeed::DetectionFeed(const RigParameters& nominal)
     }
     for (const std::string& name : b.Axes()) axis_names_.push_back(name);
     largest_noise = std::max(largest_noise, b.sensor.noise);
-    views_.push_back({&b, axis, {}});
+    views_.push_back({&b, axis, axis_names_.size(), b.kind == BearingKind::kThrust ? 1U : 0U, {}, {}, {}});
   }
-  for (View& v : views_) v.weights = PlaneWeights(sensor_z, v.bearing->z);
-  positions_ = PositionMonitor(axis_names_.size(), kCredibleJump + 40 * largest_noise);
+  for (View& v : views_) {
+    v.weights = PlaneWeights(sensor_z, v.bearing->z);
+    const double stop = v.bearing->auxiliary_z;
+    v.auxiliary_weights = std::isnan(stop) ? v.weights : PlaneWeights(sensor_z, stop);
+  }
+  struck_.assign(axis_names_.size(), 0.0);
+  positions_ = PositionMonitor(axis_names_.size(), kCredibleJump + 40 * largest_noise, largest_noise);
+}
+
+void DetectionFeed::WatchImpacts() {
+  const double t = positions_.last(), step = positions_.step();
+  for (Impacts& one : impacts_) {
+    one.travel = 0;
+    ++one.readings_since;
+  }
+  for (const View& v : views_) {
+    Impacts& one = impacts_[v.group];
+    double x[3], y[3];
+    for (int k = 0; k < 3; ++k) Position(v, v.auxiliary_weights, t - k * step, &x[k], &y[k]);
+    const double moved = std::max(std::hypot(x[0] - x[1], y[0] - y[1]), std::hypot(x[1] - x[2], y[1] - y[2]));
+    one.travel = std::max(one.travel, moved);
+    const auto& stop = v.bearing->auxiliary;
+    if (stop && std::hypot(x[0], y[0]) + moved > (1 - kReach) * stop->clearance) one.readings_since = 0;
+  }
+  for (View& v : views_) {
+    const Impacts& one = impacts_[v.group];
+    const double change = one.readings_since <= kReadingsOfParabola ? kThrownBack * one.travel : 0;
+    double departure = 0;
+    for (std::size_t a = 0; a < axis_names_.size(); ++a)
+      if (Uses(v, a)) departure = std::max(departure, positions_.Departure(a));
+    v.doubt.position = change + kParabola * departure;
+    v.doubt.velocity = v.doubt.position / step;
+    for (std::size_t a = v.first_axis; a < v.end_axis; ++a) struck_[a] = kParabola * change;
+  }
 }
 
 bool DetectionFeed::Uses(const View& v, std::size_t axis) const {
@@ -88,22 +125,22 @@ bool DetectionFeed::Uses(const View& v, std::size_t axis) const {
   return std::any_of(planes_.begin(), planes_.end(), [&](const SensedPlane& p) { return p.x_axis == a || p.y_axis == a; });
 }
 
-void DetectionFeed::Position(const View& v, double t, double* x, double* y) const {
+void DetectionFeed::Position(const View& v, const std::vector<double>& weights, double t, double* x, double* y) const {
   *x = *y = 0;
   if (v.bearing->kind != BearingKind::kRadial) {
     *x = positions_.At(v.first_axis, t);
     return;
   }
   for (std::size_t k = 0; k < planes_.size(); ++k) {
-    *x += v.weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].x_axis), t);
-    *y += v.weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].y_axis), t);
+    *x += weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].x_axis), t);
+    *y += weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].y_axis), t);
   }
 }
 
 void DetectionFeed::Read(const PeriodMeasurement& m) {
   last_bus_ = bus_;
   bus_ = m.bearings.front().bus;
-  positions_.Read(m.reading_time, *m.readings);
+  if (positions_.Read(m.reading_time, *m.readings, struck_)) WatchImpacts();
 }
 
 MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasurement& m) const {
@@ -114,8 +151,9 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
   in.adc = b.adc;
   in.duty = b.duty;
   in.bus = 0.5 * (b.bus + last_bus_);
-  Position(v, m.t, &in.x0, &in.y0);
-  Position(v, m.t + T_, &in.x1, &in.y1);
+  Position(v, v.weights, m.t, &in.x0, &in.y0);
+  Position(v, v.weights, m.t + T_, &in.x1, &in.y1);
+  in.doubt = v.doubt;
   bool sensed = positions_.ready(m.t);
   for (std::size_t a = 0; a < axis_names_.size(); ++a)
     if (positions_.faulty(a) && Uses(v, a)) sensed = false;

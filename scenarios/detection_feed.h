@@ -1,6 +1,10 @@
 #pragma once
 /// What fault detection is given of every bearing in each switching period, from measurements and the
 /// nominal rig alone: samples, duties, mean bus, and shaft positions that the sensors tell.
+///
+/// Between readings a free shaft follows their parabola. One that is within a step of an auxiliary bearing may be
+/// thrown back at any instant: then its velocity is known within twice its speed only, and for as long as the
+/// parabola holds readings from before. How far the last readings departed from the parabola counts too.
 #include "fdd/bearing_detector.h"
 #include "fdd/position_monitor.h"
 #include "scenarios/rig_file.h"
@@ -29,11 +33,16 @@ class DetectionFeed {
  private:
   struct View {
     const BearingParameters* bearing = nullptr;
-    std::size_t first_axis = 0;
-    std::vector<double> weights;  // of the sensor planes, radial
+    std::size_t first_axis = 0, end_axis = 0;
+    std::size_t group = 0;        // of `impacts_`
+    std::vector<double> weights, auxiliary_weights;  // of the sensor planes, radial: at the bearing, at its stop
+    MotionDoubt doubt;            // until the next reading
   };
   bool Uses(const View& v, std::size_t axis) const;
-  void Position(const View& v, double t, double* x, double* y) const;
+  /// After a reading: whether the shaft may strike an auxiliary bearing before the next one, or has just done so, and
+  /// what is not known of its motion then.
+  void WatchImpacts();
+  void Position(const View& v, const std::vector<double>& weights, double t, double* x, double* y) const;
 
   const RigParameters& rig_;
   double T_ = 0, bus_ = 0, last_bus_ = 0;  // [s], [V]
@@ -41,6 +50,13 @@ class DetectionFeed {
   std::vector<SensedPlane> planes_;
   std::vector<View> views_;
   PositionMonitor positions_;
+  /// Radial planes shake each other, the axial stops only the thrust bearing.
+  struct Impacts {
+    int readings_since = 1000;  // that the shaft was within reach
+    double travel = 0;          // largest of any plane between two of the last readings [m]
+  };
+  Impacts impacts_[2];
+  std::vector<double> struck_;  // by how much impacts may throw each axis off its parabola [m]
 };
 
 }  // namespace ambrig

@@ -117,6 +117,26 @@ TEST(PositionMonitor, RigidShaftBetweenTwoSensorPlanes) {
   EXPECT_DOUBLE_EQ(PlaneWeights({0.1}, 0.3)[0], 1);
 }
 
+// A shaft thrown back between two readings leaves the parabola by at most a step's change of path.
+TEST(PositionMonitor, AnImpactIsNoFaultOfASensorWhenOneIsPossible) {
+  const double v = 0.5, h = 8e-5;
+  for (double hit : {0.1, 0.4, 0.8}) {
+    PositionMonitor knows(1, 3e-5, 2e-7), innocent(1, 3e-5, 2e-7);
+    double most = 0;
+    for (int k = 0; k < 20; ++k) {
+      const double t = (k - 10 - hit) * h, y = 2e-4 - v * std::abs(t);
+      knows.Read(k * h, {y}, {k >= 10 ? 2 * v * h : 0.0});
+      innocent.Read(k * h, {y});
+      most = std::max(most, knows.Departure(0));
+    }
+    EXPECT_FALSE(knows.faulty(0)) << hit;
+    EXPECT_TRUE(innocent.faulty(0)) << hit;
+    EXPECT_LT(most, 2 * v * h);
+    EXPECT_GT(most, 0.5 * v * h);
+    EXPECT_EQ(knows.Departure(0), 0);  // forgotten after three readings that follow the parabola
+  }
+}
+
 TEST(PositionMonitor, NamesAStuckAndAJumpingSensorOnce) {
   std::mt19937 g(2);
   std::normal_distribution<double> noise(0, 2e-7);
