@@ -104,6 +104,7 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const s
   std::string out, section, line;
   std::vector<std::string> copies;  // fitted values of numbers that a bearing has from `like`
   std::map<std::string, bool> written;
+  std::map<std::string, int> tables;  // [[...]] so far
   const auto flush_inherited = [&] {
     // A `like` bearing inherits value and sd; its own calibration needs its own line.
     if (section.rfind("bearings.", 0) != 0) return;
@@ -117,7 +118,11 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const s
   };
   while (std::getline(in, line)) {
     const std::string trimmed = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (trimmed.starts_with("[")) {
+    if (trimmed.starts_with("[[")) {
+      flush_inherited();
+      section = trimmed.substr(2, trimmed.find(']') - 2);
+      section += fmt::format("[{}]", ++tables[section]);  // as paths count them
+    } else if (trimmed.starts_with("[")) {
       flush_inherited();
       section = trimmed.substr(1, trimmed.find(']') - 1);
     }
@@ -135,6 +140,10 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const s
     out += line + "\n";
   }
   flush_inherited();
+  for (const auto& [path, p] : fitted)
+    if (path.starts_with("rotor.") && !written[path])
+      throw InputError(fmt::format("{} has its sd in the shaft's own file, allowed with adopt: the shaft's tables in the rig file, each number "
+                                   "with its sd on a line of its own", path));
   for (const EffectInstance& e : effects) out += EffectText(e);
   return out;
 }
@@ -155,6 +164,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   CaseModel model(c);
   model.stop = options.stop;
   const Hypothesis nominal = Hypothesis::Base(c.rig);
+  AdoptedRigText(ReadFile(c.rig_file), nominal, {});  // can be written: known before the long work
   a.before = Compare(model, nominal, false);
   FitOptions fit;
   fit.effective = a.before.effective;

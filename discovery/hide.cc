@@ -26,7 +26,8 @@ RigParameters DrawRig(const RigParameters& rig, const HideRequest& request) {
   if (!request.draw_parameters) return truth;
   std::uint64_t k = 0;
   for (const Tolerance& t : rig.tolerances)
-    if (double* at = ParameterAt(truth, t.path)) *at += t.sd * std::clamp(Normal(request.seed, kParameters, k++), -2.5, 2.5);
+    if (const double* at = ParameterAt(rig, t.path))
+      SetParameter(truth, t.path, *at + t.sd * std::clamp(Normal(request.seed, kParameters, k++), -2.5, 2.5));
   return truth;
 }
 
@@ -180,9 +181,8 @@ std::string AnswerText(const HiddenCase& hidden, const HideRequest& request, con
     for (std::size_t k = 0; k < e.table.size(); ++k)
       parameters += fmt::format("{}\"{}.{}\" = {:.9g}", parameters.empty() ? "" : ", ", e.name, e.table[k].name, e.values[k]);
   }
-  RigParameters rig = hidden.truth;
   for (const Tolerance& t : hidden.truth.tolerances)
-    truth += fmt::format("{}\"{}\" = {:.9g}", truth.empty() ? "" : ", ", t.path, *ParameterAt(rig, t.path));
+    truth += fmt::format("{}\"{}\" = {:.9g}", truth.empty() ? "" : ", ", t.path, *ParameterAt(hidden.truth, t.path));
   const char* verdict = !hidden.effects.empty() ? "effect" : request.draw_parameters ? "parameters" : "none";
   return fmt::format("[\"{}\"]\nverdict = [\"{}\"]\neffects = [\n{}]\nparameters = {{ {} }}\nworst = \"{:.1f} times the noise at {}\"\nseed = {}\ntrue_parameters = {{ {} }}\n", name,
                      verdict, effects, parameters, hidden.worst_ratio, hidden.worst_channel.empty() ? "-" : hidden.worst_channel,

@@ -71,7 +71,7 @@ void Hypothesis::Set(std::size_t parameter, double value) {
   if (p.effect >= 0) {
     rig.effects[static_cast<std::size_t>(p.effect)].values[p.row] = p.value;
   } else {
-    *ParameterAt(rig, p.path) = p.value;
+    SetParameter(rig, p.path, p.value);
   }
 }
 

@@ -34,7 +34,7 @@ std::string BytesOf(const RunKey& key) {
   Add(bytes, key.noise);
   Add(bytes, key.seed);
   Add(bytes, key.rows);
-  RigParameters rig = key.rig;
+  const RigParameters& rig = key.rig;
   for (const Tolerance& t : rig.tolerances)
     if (const double* value = ParameterAt(rig, t.path)) Add(bytes, *value);
   for (const EffectInstance& e : rig.effects) {

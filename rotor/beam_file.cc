@@ -10,6 +10,7 @@
 #include "rotor/beam_mesh.h"
 #include "rotor/ross_file.h"
 #include "rotor/shaft_file.h"
+#include "rotor/shaft_parameters.h"
 
 namespace ambrig {
 namespace {
@@ -46,24 +47,42 @@ Material ReadMaterial(const TomlTable& row, const Materials& materials,
   return m;
 }
 
+/// Numbers that decide planes or shapes cannot be moved by a calibration.
+void RejectSd(const TomlTable& row, std::initializer_list<const char*> keys, const std::vector<Tolerance>* tolerances) {
+  for (const char* key : keys) {
+    double sd = 0;
+    row.Number(key, 0.0, &sd);
+    if (tolerances && sd > 0) row.Fail(key, "has an sd, allowed: a plain number");
+  }
+}
+
+constexpr Field<ShaftSection> kLeftEnd[] = {kShaftSectionFields[1], kShaftSectionFields[2]};
+static_assert(kLeftEnd[0].key == std::string_view("od") && kLeftEnd[1].key == std::string_view("id"));
+
+ShaftTableSource SourceOf(const TomlTable& row) {
+  const auto keys = row.Keys();
+  return {row.path(), row.String("material", ""), {keys.begin(), keys.end()}, 0};
+}
+
 ShaftSection ReadSection(const TomlTable& row, const Materials& materials, bool stiff, double z0,
                          std::vector<Tolerance>* tolerances) {
   ShaftSection s;
   s.stiff = stiff;
   s.name = row.String("name", "");
   s.z0 = stiff ? row.Number("z0", z0) : row.Number("z0");
-  s.od_right = row.Number("od_right", row.Number("od"));
-  s.id_right = row.Number("id_right", row.Number("id", 0.0));
+  row.Read(s, kLeftEnd);  // the right end is the same unless given
+  s.od_right = s.od;
+  s.id_right = s.id;
   row.Read(s, kShaftSectionFields, tolerances);
   s.material = ReadMaterial(row, materials, tolerances, !stiff);
+  RejectSd(row, {"z0"}, tolerances);
   row.RejectUnknownKeys();
   const std::string problem = SectionProblem(s);
   if (!problem.empty()) row.Fail("id", problem);
   return s;
 }
 
-Disk ReadDisk(const TomlTable& row, const Materials& materials,
-              std::vector<Tolerance>* tolerances) {
+Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances, double* rho) {
   // Both spellings first: a misspelt `width` must not end as a missing mass.
   for (const char* key : {"z", "mass", "inertia_diametral", "inertia_polar", "width", "od", "id",
                           "material", "rho", "name"})
@@ -78,7 +97,9 @@ Disk ReadDisk(const TomlTable& row, const Materials& materials,
     if (!(width > 0)) row.Fail("width", fmt::format("{} m, allowed above 0", NumberText(width)));
     if (!(id >= 0 && od > id))
       row.Fail("od", fmt::format("{} m, allowed above id = {} m", NumberText(od), NumberText(id)));
-    d = DiskFromGeometry(0, width, id, od, ReadMaterial(row, materials, tolerances, true).rho);
+    RejectSd(row, {"width", "od", "id"}, tolerances);
+    *rho = ReadMaterial(row, materials, tolerances, true).rho;
+    d = DiskFromGeometry(0, width, id, od, *rho);
     d.z = kRequired;
   }
   row.Read(d, kDiskFields, tolerances);
@@ -119,11 +140,20 @@ BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
   return t;
 }
 
-std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta, int modes) {
-  if (rotor.IsArray("modal_damping"))
+/// The field of `modal_damping` when it is one number, which may have an sd.
+struct OneDamping {
+  double zeta = 0;
+};
+constexpr Field<OneDamping> kOneDamping[] = {{"modal_damping", &OneDamping::zeta, "-", -kInfinity, kInfinity, "ratio of every mode"}};
+
+std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta, int modes, std::vector<Tolerance>* tolerances) {
+  if (rotor.IsArray("modal_damping")) {
     zeta = rotor.Numbers("modal_damping");
-  else if (rotor.Has("modal_damping"))
-    zeta = {rotor.Number("modal_damping")};
+  } else if (rotor.Has("modal_damping")) {
+    OneDamping one;
+    rotor.Read(one, kOneDamping, tolerances);
+    zeta = {one.zeta};
+  }
   if (zeta.size() != 1 && static_cast<int>(zeta.size()) != modes)
     rotor.Fail("modal_damping",
                fmt::format("{} values, allowed: one, or one per mode ({})", zeta.size(), modes));
@@ -133,17 +163,27 @@ std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta
   return zeta;
 }
 
-void ReadTables(const TomlTable& rotor, BeamDefinition& d, std::vector<Tolerance>* tolerances) {
+void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
+  BeamDefinition& d = out.definition;
   const Materials materials = ReadMaterials(rotor, tolerances);
+  for (const auto& [name, material] : materials) out.materials[name] = material;
+  out.section_sources.resize(d.sections.size());  // ROSS's have none
+  out.disk_sources.resize(d.disks.size());
   double z = 0;
   for (const TomlTable& row : rotor.Tables("section")) {
     d.sections.push_back(ReadSection(row, materials, true, z, tolerances));
+    out.section_sources.push_back(SourceOf(row));
     z = d.sections.back().z0 + d.sections.back().length;
   }
-  for (const TomlTable& row : rotor.Tables("sleeve"))
+  for (const TomlTable& row : rotor.Tables("sleeve")) {
     d.sections.push_back(ReadSection(row, materials, false, 0, tolerances));
-  for (const TomlTable& row : rotor.Tables("disk"))
-    d.disks.push_back(ReadDisk(row, materials, tolerances));
+    out.section_sources.push_back(SourceOf(row));
+  }
+  for (const TomlTable& row : rotor.Tables("disk")) {
+    ShaftTableSource source = SourceOf(row);
+    d.disks.push_back(ReadDisk(row, materials, tolerances, &source.rho));
+    out.disk_sources.push_back(std::move(source));
+  }
   for (const TomlTable& row : rotor.Tables("support"))
     d.supports.push_back(ReadSupport(row, tolerances));
   for (double station : rotor.Numbers("stations", {})) d.stations.push_back(station);
@@ -158,10 +198,11 @@ void AddPlane(const TomlTable& row, const std::string& name, double z, BeamFile&
   out.planes.push_back({name, z});
 }
 
-void ReadPlanes(const TomlTable& rotor, BeamFile& out) {
+void ReadPlanes(const TomlTable& rotor, BeamFile& out, const std::vector<Tolerance>* tolerances) {
   for (const TomlTable& row : rotor.Tables("disk"))
     AddPlane(row, row.String("name", ""), row.Number("z"), out);
   for (const TomlTable& row : rotor.Tables("station")) {
+    RejectSd(row, {"z"}, tolerances);
     const double z = row.Number("z");
     AddPlane(row, row.String("name"), z, out);
     row.RejectUnknownKeys();
@@ -173,12 +214,12 @@ void ReadPlanes(const TomlTable& rotor, BeamFile& out) {
 void ReadOwnTable(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
   rotor.Choice("kind", "beam", "beam");
   BeamDefinition& d = out.definition;
-  ReadTables(rotor, d, tolerances);
-  ReadPlanes(rotor, out);
+  ReadTables(rotor, out, tolerances);
+  ReadPlanes(rotor, out, tolerances);
   d.theory = ReadTheory(rotor, d.theory);
   d.elements_per_section = ReadCount(rotor, "elements_per_section", d.elements_per_section, 1, 1000);
   out.modes = ReadCount(rotor, "modes", out.modes, 0, 100);
-  out.modal_damping = ReadDamping(rotor, out.modal_damping, out.modes);
+  out.modal_damping = ReadDamping(rotor, out.modal_damping, out.modes, tolerances);
 }
 
 void FromRoss(const std::string& file, const std::function<void(const std::string&, double)>& add, BeamFile& out,
@@ -221,8 +262,11 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   BeamFile out;
   out.modes = 2;
   out.modal_damping = {0.0};
-  if (rotor.Has("file")) ReadShaftFile(rotor, out, tolerances);
-  ReadOwnTable(rotor, out, tolerances);
+  std::vector<Tolerance> found;
+  if (rotor.Has("file")) ReadShaftFile(rotor, out, tolerances ? &found : nullptr);
+  ReadOwnTable(rotor, out, tolerances ? &found : nullptr);
+  out.parameters = FindShaftParameters(rotor, out, found);
+  if (tolerances) tolerances->insert(tolerances->end(), found.begin(), found.end());
   BeamDefinition& d = out.definition;
   if (d.sections.empty())
     rotor.Fail("section", "is missing, allowed: tables, each written [[rotor.section]]");

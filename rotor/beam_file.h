@@ -25,6 +25,9 @@
 ///
 /// z runs along the shaft from its left end (or any origin: z0). Units SI. Every mistake is an
 /// InputError with file:line.
+#include <functional>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -40,14 +43,35 @@ struct ShaftPlane {
   double z = 0;  // [m]
 };
 
+/// What a section, sleeve or disk was written with; empty of ROSS's.
+struct ShaftTableSource {
+  std::string path;            // "rotor.section[1]"
+  std::string material;        // by name, "" without
+  std::set<std::string> keys;  // that stand in the table
+  double rho = 0;              // of a disk given by its geometry [kg/m3]
+};
+
+struct BeamFile;
+
+/// A number with an sd (rotor/shaft_parameters.h).
+struct ShaftParameter {
+  std::string path, unit;
+  double value = 0, lo = 0, hi = 0;
+  std::vector<std::function<void(BeamFile&, double)>> set;  // it and what follows it
+};
+
 struct BeamFile {
   BeamDefinition definition;
   std::vector<ShaftPlane> planes;
   int modes = 0;               // wanted
   std::vector<double> modal_damping;  // one for all modes or one each
+  std::map<std::string, Material> materials;               // named ones
+  std::vector<ShaftTableSource> section_sources, disk_sources;  // as definition.sections, .disks
+  std::vector<ShaftParameter> parameters;                  // of the tolerances asked for, in their order
 };
 
-/// Leaves unknown keys of [rotor] itself to the caller, who may know more of them.
+/// Leaves unknown keys of [rotor] itself to the caller, who may know more of them. Numbers with an sd are
+/// appended to `tolerances`, each with its ShaftParameter; without `tolerances` an sd is not looked at.
 BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances = nullptr);
 
 /// The simulator's rotor.

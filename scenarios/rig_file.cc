@@ -282,15 +282,35 @@ RigParameters ReadRigText(const std::string& text, const std::string& file_name)
 RigParameters TrueRig(const RigParameters& rig) {
   RigParameters out = rig;
   for (const Tolerance& t : rig.tolerances)
-    if (double* at = std::isnan(t.fitted) ? nullptr : ParameterAt(out, t.path)) *at = t.fitted;
+    if (!std::isnan(t.fitted)) SetParameter(out, t.path, t.fitted);
   return out;
 }
 
-double* ParameterAt(RigParameters& rig, const std::string& path) {
-  double* found = nullptr;
-  VisitTables(rig, [&](const std::string& section, auto& p, const auto& fields) {
+const double* ParameterAt(const RigParameters& rig, const std::string& path) {
+  const double* found = nullptr;
+  VisitTables(rig, [&](const std::string& section, const auto& p, const auto& fields) {
     for (const auto& f : fields)
       if (path == section + "." + std::string(f.key)) found = &(p.*f.at);
+  });
+  if (rig.beam)
+    for (const ShaftParameter& p : rig.beam->parameters)
+      if (p.path == path) found = &p.value;
+  return found;
+}
+
+bool SetParameter(RigParameters& rig, const std::string& path, double value) {
+  for (std::size_t k = 0; rig.beam && k < rig.beam->parameters.size(); ++k)
+    if (rig.beam->parameters[k].path == path) {
+      SetShaft(rig, k, value);
+      return true;
+    }
+  bool found = false;
+  VisitTables(rig, [&](const std::string& section, auto& p, const auto& fields) {
+    for (const auto& f : fields) {
+      if (path != section + "." + std::string(f.key)) continue;
+      p.*f.at = rig.beam && path.ends_with(".sensor.z") ? value + rig.z_drawn - rig.z_origin : value;
+      found = true;
+    }
   });
   return found;
 }
@@ -307,6 +327,13 @@ bool ParameterRange(const RigParameters& rig, const std::string& path, double* l
         found = true;
       }
   });
+  for (std::size_t k = 0; rig.beam && k < rig.beam->parameters.size(); ++k)
+    if (const ShaftParameter& p = rig.beam->parameters[k]; p.path == path) {
+      *lo = p.lo;
+      *hi = p.hi;
+      *unit = p.unit;
+      found = true;
+    }
   return found;
 }
 

@@ -73,6 +73,7 @@ struct RigParameters {
   std::vector<BendingMode> modes;    // of a beam rotor, reduced
   std::optional<BeamFile> beam;      // the shaft itself, z as in the file
   double z_origin = 0;               // of every z here in the file's own [m]: a beam's centre of mass
+  double z_drawn = 0;                // the same as the file has it, before a calibration: of scenarios
   std::vector<ShaftPlane> stations;  // named planes of a beam rotor, z as the bearings'
   AmplifierParameters amplifier;
   ControllerParameters controller;
@@ -100,8 +101,12 @@ RigParameters ReadRigText(const std::string& text, const std::string& file_name)
 /// The rig with its calibrated values in place of the drawing's: what the plant is built from.
 RigParameters TrueRig(const RigParameters& rig);
 
-/// The number behind a path such as "rotor.mass" or "bearings.A.gap"; nullptr when there is none.
-double* ParameterAt(RigParameters& rig, const std::string& path);
+/// The number behind a path such as "rotor.mass", "bearings.A.gap" or "rotor.section[2].od" (of a shaft:
+/// those with an sd); nullptr when there is none.
+const double* ParameterAt(const RigParameters& rig, const std::string& path);
+/// Another value of it, and of all that follows from it. A sensor's z counts from z_drawn. False when there
+/// is no such number.
+bool SetParameter(RigParameters& rig, const std::string& path, double value);
 /// Its range from the parameter table.
 bool ParameterRange(const RigParameters& rig, const std::string& path, double* lo, double* hi,
                     std::string* unit);

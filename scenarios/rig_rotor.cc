@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "rotor/shaft_parameters.h"
 
 namespace ambrig {
 
@@ -15,28 +16,28 @@ constexpr Field<RotorParameters> kBeamRotorFields[] = {
     {"journal_radius", &RotorParameters::journal_radius, "m", 1e-4, 10, "at the auxiliary bearings"},
 };
 
-void ReadBeamRotor(const TomlTable& t, RigParameters& rig) {
-  std::vector<Tolerance> tolerances;
-  BeamFile beam = ReadBeam(t, &tolerances);
-  if (!tolerances.empty())
-    t.Fail("", fmt::format("{} has an sd: the parts of a shaft cannot be calibrated, allowed: a plain number",
-                           tolerances[0].path));
-  if (t.Has("support"))
-    t.Fail("support", "is for analysis of a shaft on springs, allowed in a rig: none, its bearings carry the rotor");
-  if (beam.modes > kMaxModes)
-    t.Fail("modes", fmt::format("= {}, allowed: 0 to {}", beam.modes, kMaxModes));
-  t.Read(rig.rotor, kBeamRotorFields);
-  const ReducedRotor reduced = BuildReduced(beam);
+/// Mass, inertias and modes of the shaft as it is now. Returns how far its centre of mass is from z_origin.
+double TakeShaft(RigParameters& rig) {
+  const ReducedRotor reduced = BuildReduced(*rig.beam);
   rig.rotor.mass = reduced.mass;
   rig.rotor.inertia_transverse = reduced.inertia_transverse;
   rig.rotor.inertia_polar = reduced.inertia_polar;
-  rig.z_origin = reduced.z_com;
   rig.modes = BendingModes(reduced);
-  for (ShaftPlane p : beam.planes) {
+  return reduced.z_com - rig.z_origin;
+}
+
+void ReadBeamRotor(const TomlTable& t, RigParameters& rig) {
+  rig.beam = ReadBeam(t, &rig.tolerances);
+  if (t.Has("support"))
+    t.Fail("support", "is for analysis of a shaft on springs, allowed in a rig: none, its bearings carry the rotor");
+  if (rig.beam->modes > kMaxModes)
+    t.Fail("modes", fmt::format("= {}, allowed: 0 to {}", rig.beam->modes, kMaxModes));
+  t.Read(rig.rotor, kBeamRotorFields);
+  rig.z_origin = rig.z_drawn = TakeShaft(rig);
+  for (ShaftPlane p : rig.beam->planes) {
     p.z -= rig.z_origin;
     rig.stations.push_back(p);
   }
-  rig.beam = std::move(beam);
 }
 
 /// The engines feed the rotor mean forces of switching periods: half their frequency is the last
@@ -71,6 +72,19 @@ void ReadRotor(const TomlTable& t, RigParameters& rig) {
   if (rig.rotor.inertia_polar > 2 * rig.rotor.inertia_transverse)
     t.Fail("inertia_polar", fmt::format("= {} kg m2, allowed: at most twice inertia_transverse = {} (no "
                                         "body has more)", rig.rotor.inertia_polar, rig.rotor.inertia_transverse));
+}
+
+void SetShaft(RigParameters& rig, std::size_t parameter, double value) {
+  SetShaftParameter(*rig.beam, parameter, value);
+  const double moved = TakeShaft(rig);
+  rig.z_origin += moved;
+  for (ShaftPlane& p : rig.stations) p.z -= moved;
+  for (BearingParameters& b : rig.bearings) {
+    if (b.kind != BearingKind::kRadial) continue;
+    b.z -= moved;
+    b.sensor.z -= moved;
+    b.auxiliary_z -= moved;  // nan: at the bearing
+  }
 }
 
 void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {

@@ -13,6 +13,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
+// Of a window by zeros: a motion between two lines of the bare window would look 15 % smaller, here 1 %.
+constexpr std::size_t kPadding = 4;
+
 std::vector<double> HannWeights(std::size_t n) {
   std::vector<double> w(n);
   double sum = 0;
@@ -72,9 +75,9 @@ WaterfallSpectrum Waterfall(const Orbit& orbit, double span, double hop, double 
                             std::size_t lines) {
   WaterfallSpectrum out;
   const std::vector<double> w = HannWeights(WindowSize(orbit, span));
-  const std::size_t n = w.size();
-  const double df = orbit.rate / static_cast<double>(n);
-  const auto top = std::min<std::size_t>(n / 2, static_cast<std::size_t>(f_max / df));
+  const std::size_t n = w.size(), padded = kPadding * n;
+  const double df = orbit.rate / static_cast<double>(padded);
+  const auto top = std::min<std::size_t>(padded / 2, static_cast<std::size_t>(f_max / df));
   // `merge` neighbouring bins share a line, so that no narrow peak falls between two.
   const std::size_t merge = std::max<std::size_t>(1, (2 * top + lines) / lines);
   const std::size_t half = top / merge;
@@ -82,7 +85,7 @@ WaterfallSpectrum Waterfall(const Orbit& orbit, double span, double hop, double 
     out.frequency.push_back((static_cast<double>(k) - static_cast<double>(half)) * static_cast<double>(merge) * df);
   EachWindow(orbit, n, hop, [&](std::size_t at, double t) {
     const Complex mean = WeightedMean(orbit, w, at);
-    std::vector<double> x(n), y(n), row(2 * half + 1, 0.0);
+    std::vector<double> x(padded, 0.0), y(padded, 0.0), row(2 * half + 1, 0.0);
     for (std::size_t k = 0; k < n; ++k) {
       x[k] = w[k] * (orbit.x[at + k] - mean.real());
       y[k] = w[k] * (orbit.y[at + k] - mean.imag());

@@ -86,7 +86,7 @@ RigParameters Drawn(unsigned seed, double sigmas) {
   std::mt19937 g(seed);
   std::normal_distribution<double> normal;
   for (const Tolerance& t : Rig().tolerances)
-    if (double* value = ParameterAt(truth, t.path)) *value += sigmas * t.sd * normal(g);
+    if (const double* value = ParameterAt(truth, t.path)) SetParameter(truth, t.path, *value + sigmas * t.sd * normal(g));
   return truth;
 }
 

@@ -316,7 +316,7 @@ TEST(FlexibleRotor, MistakesAreOneLine) {
       {"z = 0.623\nsensor", "z = 0.9\nsensor", {"bearings.B.z = 0.9 m", "on the shaft, 0 to 0.702 m"}},
       {"sensor = { z = 0.113", "sensor = { z = -0.2", {"bearings.A.sensor", "on the shaft"}},
       {"auxiliary = { clearance", "auxiliary = { z = 2.0, clearance", {"bearings.A.auxiliary", "on the shaft"}},
-      {"E = 2.11e11", "E = { value = 2.11e11, sd = 1e9 }", {"rotor.materials.shaft_steel.E", "cannot be calibrated"}},
+      {"length = 0.094", "length = { value = 0.094, sd = 1e-4 }", {"rotor.section[1].length", "has an sd", "diameters"}},
       {"journal_radius = 0.0048", "", {"rotor.journal_radius: is missing"}},
       {"name = \"disk\"", "name = \"A\"", {"bearings.A", "disk or station"}},
       {"name = \"disk\"", "name = \"lamination_a\"", {"\"lamination_a\" is taken"}},
