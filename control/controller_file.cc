@@ -155,9 +155,35 @@ void ReadSpeeds(const TomlTable& t, ControllerParameters& c) {
   if (c.speeds.empty() || c.speeds.size() > 50) t.Fail("speeds", "allowed: 1 to 50 speeds");
 }
 
+/// What LQG and H-infinity share: speeds, weighed planes, the model's order.
+void ReadSynthesis(const TomlTable& t, const std::vector<std::string>& planes, ControllerParameters& c) {
+  ReadSpeeds(t, c);
+  std::set<std::string> named;  // of planes
+  for (const TomlTable& k : t.Tables("plane")) {
+    PlaneWeight w;
+    w.at = k.String("at");
+    if (std::find(planes.begin(), planes.end(), w.at) == planes.end())
+      k.Fail("at", fmt::format("= \"{}\", allowed: {}", w.at, fmt::join(planes, ", ")));
+    if (!named.insert(w.at).second) k.Fail("at", fmt::format("= \"{}\" stands twice, allowed: once", w.at));
+    k.Read(w, kPlaneWeightFields);
+    k.RejectUnknownKeys();
+    c.planes.push_back(w);
+  }
+  if (const auto m = t.Table("modes")) {
+    c.modes.emplace();
+    m->Read(*c.modes, kModeWeightFields);
+    m->RejectUnknownKeys();
+  }
+  if (!t.Has("model_modes")) return;
+  const long long modes = t.Integer("model_modes", 0);
+  if (modes < 0 || modes > 100) t.Fail("model_modes", fmt::format("= {}, allowed: 0 to 100", modes));
+  c.model_modes = static_cast<int>(modes);
+}
+
 }  // namespace
 
-void ReadControllerKind(const TomlTable& t, const std::vector<std::string>& axes, ControllerParameters& c) {
+void ReadControllerKind(const TomlTable& t, const std::vector<std::string>& axes, const std::vector<std::string>& planes,
+                        ControllerParameters& c) {
   c.kind = t.Choice("kind", "pid", kControllerKinds);
   c.where = t.Where("kind");
   if (c.kind == "pid") {
@@ -172,12 +198,11 @@ void ReadControllerKind(const TomlTable& t, const std::vector<std::string>& axes
   if (c.kind == "state-space") ReadSystems(t, axes.size(), c);
   if (c.kind == "lqg") {
     t.Read(c.lqg, kLqgFields);
-    ReadSpeeds(t, c);
+    ReadSynthesis(t, planes, c);
   }
   if (c.kind == "h-infinity") {
     t.Read(c.h_infinity, kHInfinityFields);
-    c.speeds = {t.Number("speed", 0)};
-    if (!(c.speeds[0] >= 0 && c.speeds[0] <= 1e5)) t.Fail("speed", fmt::format("= {} rad/s, allowed: 0 to 1e5", c.speeds[0]));
+    ReadSynthesis(t, planes, c);
   }
   if (c.kind == "tilt-translation") {
     c.translation = ReadGains(t, "translation", kTranslationFields);

@@ -8,6 +8,8 @@
 #include "control/filter.h"
 #include "control/h_infinity.h"
 #include "control/lqg.h"
+#include "control/mode_weight.h"
+#include "control/plane_weight.h"
 #include "control/pid.h"
 #include "control/tilt_translation.h"
 #include "control/unbalance_control.h"
@@ -51,7 +53,10 @@ struct ControllerParameters {
   std::vector<PidPoint> schedule;
   std::vector<AxisSystem> transfers;
   std::vector<SystemPoint> systems;
-  std::vector<double> speeds{0};  // that an LQG is designed for [rad/s]
+  std::vector<double> speeds{0};  // that an LQG or H-infinity control is designed for [rad/s]
+  std::vector<PlaneWeight> planes;  // that its synthesis weighs beside the bearings
+  std::optional<ModeWeight> modes;  // the same of the bending modes
+  int model_modes = -1;             // bending modes in the model of its synthesis, the lowest; -1: all of the rig
   LqgParameters lqg;
   HInfinityParameters h_infinity;
   CoordinateGains translation, tilt;
@@ -71,8 +76,9 @@ inline constexpr Field<ControllerParameters> kTiltTranslationFields[] = {
 };
 
 /// Kind and what belongs to it; rate and bias current are read by the caller, who also rejects unknown keys.
-/// `axes`: names of the axes that it controls, in the rig's order. @throws InputError
-void ReadControllerKind(const TomlTable& table, const std::vector<std::string>& axes, ControllerParameters& c);
+/// `axes`: names of the axes that it controls, in the rig's order; `planes`: of bearings, disks and stations. @throws InputError
+void ReadControllerKind(const TomlTable& table, const std::vector<std::string>& axes, const std::vector<std::string>& planes,
+                        ControllerParameters& c);
 
 /// f_max alone, for kinds that are no PID.
 inline constexpr Field<PidParameters> kForceLimitField[] = {kPidFields[4]};

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <deque>
+#include <mutex>
+#include <optional>
 
 #include "control/slicot.h"
 
@@ -14,7 +17,7 @@ using Eigen::MatrixXd;
 
 constexpr double kIntegratorShare = 1e-3;  // of the bandwidth: the weight's pole, instead of a true integrator (nearer ones spoil the Riccati equations)
 constexpr double kLargestGamma = 1e9;
-constexpr int kBisections = 16;            // least gamma to 1e-4 of its logarithm's first octave
+constexpr int kBisections = 12;            // least gamma within 4^(2^-12) - 1 = 3e-4
 
 /// Gain of the closed loop at rest: there the weight is largest and the equations are hardest.
 double NormAtRest(const StateSpace& P, const StateSpace& K) {
@@ -40,31 +43,60 @@ StateSpace Weight(const HInfinityParameters& p, Eigen::Index axes, double Ts) {
 }  // namespace
 
 StateSpace HInfinityPlant(const SampledPlant& plant, const HInfinityParameters& w) {
-  const Eigen::Index n = plant.A.rows(), p = plant.axes(), d = plant.E.cols();
+  const Eigen::Index n = plant.A.rows(), p = plant.axes(), e = plant.E.cols(), g = plant.G.cols(), v = plant.V.rows(), d = e + g;
   const StateSpace weight = Weight(w, p, plant.Ts);
   const Eigen::Index m = weight.states();
   // In units of the weights: readings per sensor_noise, forces per force_weight.
-  const MatrixXd y = plant.C / w.sensor_noise;
   StateSpace s;
   s.A = MatrixXd::Zero(n + m, n + m);
   s.A.topLeftCorner(n, n) = plant.A;
   s.A.bottomLeftCorner(m, n) = weight.B * plant.C;
   s.A.bottomRightCorner(m, m) = weight.A;
   s.B = MatrixXd::Zero(n + m, d + 2 * p);
-  s.B.topLeftCorner(n, d) = w.force_noise * plant.E;
+  s.B.topLeftCorner(n, e) = w.force_noise * plant.E;
+  if (g > 0) s.B.block(0, e, n, g) = plant.G;
   s.B.topRightCorner(n, p) = w.force_weight * plant.B;
-  s.C = MatrixXd::Zero(3 * p, n + m);
+  s.C = MatrixXd::Zero(3 * p + v, n + m);
   s.C.topLeftCorner(p, n) = weight.D * plant.C;
   s.C.topRightCorner(p, m) = weight.C;
-  s.C.bottomLeftCorner(p, n) = y;
-  s.D = MatrixXd::Zero(3 * p, d + 2 * p);
+  if (v > 0) s.C.block(2 * p, 0, v, n) = plant.V;
+  s.C.bottomLeftCorner(p, n) = plant.C / w.sensor_noise;
+  s.D = MatrixXd::Zero(3 * p + v, d + 2 * p);
   s.D.block(p, d + p, p, p).setIdentity();
-  s.D.block(2 * p, d, p, p).setIdentity();
+  s.D.block(2 * p + v, d, p, p).setIdentity();
   return s;
 }
 
-HInfinityDesign DesignHInfinity(const SampledPlant& plant, const HInfinityParameters& w, const std::string& where) {
-  const StateSpace P = HInfinityPlant(plant, w);
+namespace {
+
+/// The last designs: every run of a study's point or of a campaign asks for the same controller, and a bisection of Riccati equations
+/// takes longer than many a run. What a design is made of is its key, bit by bit.
+class Remembered {
+ public:
+  static std::string Key(const StateSpace& P, const HInfinityParameters& w) {
+    std::string key(reinterpret_cast<const char*>(&w), sizeof w);
+    for (const MatrixXd* m : {&P.A, &P.B, &P.C, &P.D}) key.append(reinterpret_cast<const char*>(m->data()), static_cast<std::size_t>(m->size()) * sizeof(double));
+    return key;
+  }
+  std::optional<HInfinityDesign> Find(const std::string& key) {
+    const std::scoped_lock lock(mutex_);
+    for (const auto& [known, design] : designs_)
+      if (known == key) return design;
+    return {};
+  }
+  void Add(const std::string& key, const HInfinityDesign& design) {
+    const std::scoped_lock lock(mutex_);
+    designs_.emplace_back(key, design);
+    if (designs_.size() > kMost) designs_.pop_front();
+  }
+
+ private:
+  static constexpr std::size_t kMost = 64;
+  std::mutex mutex_;
+  std::deque<std::pair<std::string, HInfinityDesign>> designs_;
+};
+
+HInfinityDesign Design(const SampledPlant& plant, const StateSpace& P, const HInfinityParameters& w, const std::string& where) {
   const int axes = static_cast<int>(plant.axes());
   StateSpace found;
   const auto try_gamma = [&](double gamma) {
@@ -100,6 +132,18 @@ HInfinityDesign DesignHInfinity(const SampledPlant& plant, const HInfinityParame
     Require(try_gamma(high), "a gamma that was found");
   }
   design.controller = found;
+  return design;
+}
+
+}  // namespace
+
+HInfinityDesign DesignHInfinity(const SampledPlant& plant, const HInfinityParameters& w, const std::string& where) {
+  static Remembered remembered;
+  const StateSpace P = HInfinityPlant(plant, w);
+  const std::string key = Remembered::Key(P, w);
+  if (const auto known = remembered.Find(key)) return *known;
+  const HInfinityDesign design = Design(plant, P, w, where);
+  remembered.Add(key, design);
   return design;
 }
 

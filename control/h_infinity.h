@@ -1,8 +1,8 @@
 #pragma once
 /// H-infinity control: the controller that keeps the largest gain from disturbances to errors below gamma.
 ///
-///   inputs   forces at the bearings / force_noise, readings' noise / sensor_noise
-///   outputs  W(z) y with W = (1/position_weight) (s + w_b)/(s + w_b/1e3) sampled, and f / force_weight
+///   inputs   forces at the bearings / force_noise, disturbances of the shaft, readings' noise / sensor_noise
+///   outputs  W(z) y with W = (1/position_weight) (s + w_b)/(s + w_b/1e3) sampled, f / force_weight, v of the shaft (plane_weight.h, mode_weight.h)
 ///
 /// W asks for little deviation at rest: below the bandwidth w_b the controller integrates. Synthesis for the sampled plant by
 /// two Riccati equations (SLICOT SB10DD), gamma by bisection. Source: Zhou, Doyle, Glover 1996; Green, Limebeer 1995.
@@ -38,7 +38,7 @@ struct HInfinityDesign {
 /// @throws InputError (`where`: file and line) when no gamma is found.
 HInfinityDesign DesignHInfinity(const SampledPlant& plant, const HInfinityParameters& p, const std::string& where);
 
-/// The plant with its weights, columns (disturbances, noise, f), rows (W y, f, y): what is handed to SLICOT.
+/// The plant with its weights, columns (disturbances, those of the shaft, noise, f), rows (W y, f, v, y): what is handed to SLICOT.
 StateSpace HInfinityPlant(const SampledPlant& plant, const HInfinityParameters& p);
 
 }  // namespace ambrig

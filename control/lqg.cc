@@ -32,10 +32,13 @@ LqgDesign DesignLqg(const SampledPlant& plant, const LqgParameters& w, const std
   A.bottomLeftCorner(p, n) = plant.Ts / w.integral_weight * plant.C;
   B.topRows(n) = w.force_weight * plant.B;
   Q.topLeftCorner(n, n) = plant.C.transpose() * plant.C / (w.position_weight * w.position_weight);
+  if (plant.V.size() > 0) Q.topLeftCorner(n, n) += plant.V.transpose() * plant.V;
   Q.bottomRightCorner(p, p).setIdentity();
   const RiccatiSolution control = SolveRiccati(A, B, Q, MatrixXd::Identity(p, p));
   const MatrixXd noise = w.force_noise * plant.E, C = plant.C / w.sensor_noise;
-  const RiccatiSolution filter = SolveRiccati(plant.A.transpose(), C.transpose(), noise * noise.transpose(), MatrixXd::Identity(p, p));
+  MatrixXd covariance = noise * noise.transpose();
+  if (plant.G.size() > 0) covariance += plant.G * plant.G.transpose();
+  const RiccatiSolution filter = SolveRiccati(plant.A.transpose(), C.transpose(), covariance, MatrixXd::Identity(p, p));
   for (const auto& [solution, what] : {std::pair{&control, "weights"}, std::pair{&filter, "noise"}})
     if (!solution->usable())
       throw InputError(fmt::format("{}: no stabilising solution with these {} (residual {:.2g}, slowest pole {:.9g}); allowed: axes that "

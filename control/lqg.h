@@ -1,11 +1,12 @@
 #pragma once
 /// Linear-quadratic Gaussian control with integral action, sampled, made from the plant's model at load.
 ///
-///   cost       sum over k and axes of (y/y_w)² + (xi/xi_w)² + (f/f_w)²,   xi_(k+1) = xi_k + Ts (y - r)
+///   cost       sum over k and axes of (y/y_w)² + (xi/xi_w)² + (f/f_w)² + v²,   xi_(k+1) = xi_k + Ts (y - r)
 ///   observer   xf = x + L (y - C x),  x+ = A xf + B f      (f as clamped, without the excitation)
 ///   force      f = -Kx (xf - Nx r) + Nf r - Ki xi          (Nx, Nf: the rest at y = r)
 ///
-/// y_w, xi_w, f_w are the sizes that cost 1. The noise model has independent forces at the bearings and readings.
+/// y_w, xi_w, f_w are the sizes that cost 1; v are the weighed outputs of the shaft (control/plane_weight.h, mode_weight.h). The
+/// noise model has independent forces at the bearings, disturbances of the shaft, and readings.
 /// Clamped, the integral stops on the side that e = r - y pushes to, as the PID's. Source: Franklin, Powell, Workman 1998, chapter 9.
 #include "control/position_controller.h"
 #include "control/sampled_plant.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/frequency_response.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
@@ -15,12 +16,21 @@ using Eigen::MatrixXd;
 constexpr int kFrequencies = 240;
 constexpr double kLowest = 0.5, kHighest = 2000;  // [Hz]
 
-/// |S_kk| of every axis at one frequency.
-Eigen::VectorXd Sensitivity(const StateSpace& P, const StateSpace& K, double hertz, double Ts) {
-  const std::complex<double> z = std::polar(1.0, 2 * kPi * hertz * Ts);
-  const MatrixXcd loop = MatrixXcd::Identity(P.outputs(), P.outputs()) - P.Response(z) * K.Response(z);
-  return loop.inverse().diagonal().cwiseAbs();
-}
+/// The loop of P and K at many frequencies.
+class Loop {
+ public:
+  Loop(const StateSpace& P, const StateSpace& K, double Ts) : P_(P), K_(K), Ts_(Ts) {}
+  /// |S_kk| of every axis.
+  Eigen::VectorXd Sensitivity(double hertz) const {
+    const std::complex<double> z = std::polar(1.0, 2 * kPi * hertz * Ts_);
+    const MatrixXcd G = P_.At(z);
+    return (MatrixXcd::Identity(G.rows(), G.rows()) - G * K_.At(z)).inverse().diagonal().cwiseAbs();
+  }
+
+ private:
+  FrequencyResponse P_, K_;
+  double Ts_;
+};
 
 /// X = A X A' + Q by doubling; A stable.
 MatrixXd Covariance(MatrixXd A, MatrixXd X) {
@@ -33,31 +43,58 @@ MatrixXd Covariance(MatrixXd A, MatrixXd X) {
   return X;
 }
 
+/// Poles of the loop as continuous ones [1/s], oscillating with a positive frequency.
+std::vector<std::complex<double>> Oscillations(const Eigen::VectorXcd& z, double Ts) {
+  std::vector<std::complex<double>> out;
+  for (const std::complex<double> pole : z) {
+    const std::complex<double> s = std::log(pole) / Ts;
+    if (s.imag() > 0 && std::isfinite(s.real())) out.push_back(s);
+  }
+  return out;
+}
+
+/// Frequencies for the sensitivity [Hz], ascending: logarithmic, and where the loop rings, which such a grid steps over.
+std::vector<double> Grid(const std::vector<std::complex<double>>& poles, double highest) {
+  std::vector<double> grid;
+  for (int k = 0; k < kFrequencies; ++k) grid.push_back(kLowest * std::pow(highest / kLowest, static_cast<double>(k) / (kFrequencies - 1)));
+  for (const std::complex<double> s : poles)
+    for (const double width : {-1.0, 0.0, 1.0}) {
+      const double hertz = (s.imag() + width * s.real()) / (2 * kPi);
+      if (hertz > kLowest && hertz < highest) grid.push_back(hertz);
+    }
+  std::sort(grid.begin(), grid.end());
+  return grid;
+}
+
 }  // namespace
 
 LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K, const std::vector<double>& noise, double Omega,
-                              const std::vector<std::size_t>& axes) {
+                              const std::vector<std::size_t>& axes, double top) {
   LinearFigures out;
   const StateSpace P = plant.FromForce();
   const MatrixXd A = LoopMatrix(P, K);
-  out.spectral_radius = SpectralRadius(A);
+  const Eigen::VectorXcd z = A.eigenvalues();
+  out.spectral_radius = z.cwiseAbs().maxCoeff();
   out.axis_sensitivity.assign(static_cast<std::size_t>(plant.axes()), kInfinity);
   if (!out.stable()) return out;
   out.settling_time = -plant.Ts / std::log(out.spectral_radius);
-  const double highest = std::min(std::max(kHighest, 3 * std::abs(Omega) / (2 * kPi)), 0.49 / plant.Ts);
+  const auto poles = Oscillations(z, plant.Ts);
+  for (const std::complex<double> s : poles)
+    if (s.imag() <= top) out.amplification = std::max(out.amplification, std::abs(s) / (-2 * s.real()));
+  const std::vector<double> grid = Grid(poles, std::min(std::max(kHighest, 3 * std::abs(Omega) / (2 * kPi)), 0.49 / plant.Ts));
   std::fill(out.axis_sensitivity.begin(), out.axis_sensitivity.end(), 0.0);
-  const auto at = [&](double k) { return kLowest * std::pow(highest / kLowest, k / (kFrequencies - 1)); };
+  const Loop loop(P, K, plant.Ts);
   std::vector<Eigen::VectorXd> S;
-  for (int k = 0; k < kFrequencies; ++k) S.push_back(Sensitivity(P, K, at(k), plant.Ts));
+  for (const double hertz : grid) S.push_back(loop.Sensitivity(hertz));
   for (Eigen::Index axis = 0; axis < plant.axes(); ++axis) {
-    int top = 0;
-    for (int k = 1; k < kFrequencies; ++k)
-      if (S[static_cast<std::size_t>(k)][axis] > S[static_cast<std::size_t>(top)][axis]) top = k;
-    // Between its neighbours: a narrow peak is not missed by the grid.
-    double low = std::max(top - 1, 0), high = std::min(top + 1, kFrequencies - 1), peak = S[static_cast<std::size_t>(top)][axis];
+    std::size_t most = 0;
+    for (std::size_t k = 1; k < grid.size(); ++k)
+      if (S[k][axis] > S[most][axis]) most = k;
+    // Between its neighbours.
+    double low = grid[most - (most > 0 ? 1 : 0)], high = grid[std::min(most + 1, grid.size() - 1)], peak = S[most][axis];
     for (int k = 0; k < 12; ++k) {
       const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
-      const double sa = Sensitivity(P, K, at(a), plant.Ts)[axis], sb = Sensitivity(P, K, at(b), plant.Ts)[axis];
+      const double sa = loop.Sensitivity(a)[axis], sb = loop.Sensitivity(b)[axis];
       peak = std::max({peak, sa, sb});
       (sa > sb ? high : low) = sa > sb ? b : a;
     }
@@ -80,7 +117,8 @@ LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K, co
 
 std::vector<double> SensitivityCurve(const SampledPlant& plant, const StateSpace& K, std::size_t axis, const std::vector<double>& hertz) {
   std::vector<double> out;
-  for (const double f : hertz) out.push_back(Sensitivity(plant.FromForce(), K, f, plant.Ts)[static_cast<Eigen::Index>(axis)]);
+  const Loop loop(plant.FromForce(), K, plant.Ts);
+  for (const double f : hertz) out.push_back(loop.Sensitivity(f)[static_cast<Eigen::Index>(axis)]);
   return out;
 }
 

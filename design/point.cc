@@ -36,7 +36,16 @@ std::vector<double> SensorNoise(const RigParameters& rig) {
   return noise;
 }
 
-double RunFigure(FigureKind kind, const RigParameters& rig, const RunResult& r) {
+/// Largest distance of a named plane from where it stood at the start.
+double PlaneOrbit(const Record& record, const std::string& plane) {
+  const Channel *x = record.Find(plane + ".r.x"), *y = record.Find(plane + ".r.y");
+  Require(x && y && !x->samples.empty(), "a plane that is recorded");
+  double most = 0;
+  for (std::size_t k = 0; k < x->samples.size(); ++k) most = std::max(most, std::hypot(x->samples[k] - x->samples[0], y->samples[k] - y->samples[0]));
+  return most;
+}
+
+double RunFigure(const FigureSpec& f, const RigParameters& rig, const RunResult& r) {
   double orbit = 0, used = 0;
   for (const BearingParameters& b : rig.bearings) {
     if (b.kind == BearingKind::kThrust) continue;
@@ -45,9 +54,10 @@ double RunFigure(FigureKind kind, const RigParameters& rig, const RunResult& r) 
     orbit = std::max(orbit, most);
     if (b.auxiliary) used = std::max(used, most / b.auxiliary->clearance);
   }
-  switch (kind) {
+  switch (f.info->kind) {
     case FigureKind::kOrbit: return orbit;
     case FigureKind::kLateOrbit: return r.metrics.late_orbit;
+    case FigureKind::kPlaneOrbit: return PlaneOrbit(r.record, f.plane);
     case FigureKind::kClearanceUsed: return used;
     case FigureKind::kPeakCurrent: return r.metrics.peak_current;
     case FigureKind::kCopperLoss: return r.metrics.copper_loss;
@@ -59,37 +69,53 @@ double RunFigure(FigureKind kind, const RigParameters& rig, const RunResult& r) 
   }
 }
 
+void AddLinear(const Study& study, const LinearFigures& f, Evaluation& out) {
+  for (std::size_t k = 0; k < study.figures.size(); ++k) {
+    const FigureKind kind = study.figures[k].info->kind;
+    if (kind == FigureKind::kPeakSensitivity) Worse(out.figures[k], f.peak_sensitivity);
+    if (kind == FigureKind::kSettlingTime) Worse(out.figures[k], f.settling_time);
+    if (kind == FigureKind::kNoiseForce) Worse(out.figures[k], f.noise_force);
+    if (kind == FigureKind::kAmplification) Worse(out.figures[k], f.amplification);
+  }
+}
+
 /// False when the loop is unstable at some speed: no run is worth its time.
 bool EvaluateLinear(const Study& study, const RigParameters& rig, const PositionController& controller, Evaluation& out) {
-  for (const double speed : study.speeds) {
-    const LinearFigures f = LinearFiguresOf(MakeControlPlant(TrueRig(rig), AllAxes(rig), speed, &rig), controller.Linear(speed), SensorNoise(rig), speed,
-                                            ControlledAxes(rig));
-    if (!f.stable()) {
-      out.note = "unstable at " + NumberText(speed) + " rad/s";
-      return false;
+  double top = 0;
+  for (const double speed : study.speeds) top = std::max(top, std::abs(speed));
+  for (const double error : study.frequency_errors)
+    for (const double speed : study.speeds) {
+      RigParameters plant = TrueRig(rig);
+      for (BendingMode& mode : plant.modes) mode.omega *= 1 + error;
+      const LinearFigures f = LinearFiguresOf(MakeControlPlant(plant, AllAxes(rig), speed, &rig), controller.Linear(speed), SensorNoise(rig), speed,
+                                              ControlledAxes(rig), top);
+      if (!f.stable()) {
+        out.note = "unstable at " + NumberText(speed) + " rad/s";
+        if (error != 0) out.note += " with bending frequencies off by " + NumberText(100 * error) + " %";
+        return false;
+      }
+      AddLinear(study, f, out);
     }
-    for (std::size_t k = 0; k < study.figures.size(); ++k) {
-      if (study.figures[k].info->kind == FigureKind::kPeakSensitivity) Worse(out.figures[k], f.peak_sensitivity);
-      if (study.figures[k].info->kind == FigureKind::kSettlingTime) Worse(out.figures[k], f.settling_time);
-      if (study.figures[k].info->kind == FigureKind::kNoiseForce) Worse(out.figures[k], f.noise_force);
-    }
-  }
   return true;
 }
 
 void EvaluateRuns(const Study& study, const RigParameters& rig, const std::atomic<bool>* stop, Evaluation& out) {
   for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
-    const bool wanted = std::any_of(study.figures.begin(), study.figures.end(),
-                                    [&](const FigureSpec& f) { return f.info->of_scenario && f.scenario == s; });
+    bool wanted = false, record = false;
+    for (const FigureSpec& f : study.figures) {
+      if (!f.info->of_scenario || f.scenario != s) continue;
+      wanted = true;
+      record = record || f.info->kind == FigureKind::kPlaneOrbit;
+    }
     if (!wanted) continue;
     SimulateOptions options;
     options.fidelity = study.fidelity;
-    options.record = false;
+    options.record = record;
     options.stop = stop;
     const RunResult r = Simulate(rig, ReadScenarioText(study.scenarios[s].text, study.scenarios[s].file, rig), options);
     for (std::size_t k = 0; k < study.figures.size(); ++k) {
       const FigureSpec& f = study.figures[k];
-      if (f.info->of_scenario && f.scenario == s) Worse(out.figures[k], RunFigure(f.info->kind, rig, r));
+      if (f.info->of_scenario && f.scenario == s) Worse(out.figures[k], RunFigure(f, rig, r));
     }
   }
 }

@@ -13,10 +13,18 @@ namespace ambrig {
 namespace {
 
 constexpr double kStepLength = 0.03;  // [s]
-constexpr int kCurvePoints = 200;
+constexpr int kCurvePoints = 300;
 constexpr double kLowest = 1, kHighest = 2000;  // [Hz]
 
-ScenarioTrace TraceOf(const RigParameters& rig, RunResult result) {
+/// Distance of a named plane from where it stood at the start.
+std::vector<double> PlaneTrace(const Record& record, const std::string& plane) {
+  const Channel *x = record.Find(plane + ".r.x"), *y = record.Find(plane + ".r.y");
+  std::vector<double> out;
+  for (std::size_t k = 0; x && y && k < x->samples.size(); ++k) out.push_back(std::hypot(x->samples[k] - x->samples[0], y->samples[k] - y->samples[0]));
+  return out;
+}
+
+ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParameters& rig, RunResult result) {
   ScenarioTrace trace;
   for (std::size_t k = 0; k < result.record.rows(); ++k) trace.t.push_back(result.record.TimeAt(k));
   trace.orbit.assign(trace.t.size(), 0.0);
@@ -26,6 +34,8 @@ ScenarioTrace TraceOf(const RigParameters& rig, RunResult result) {
     for (std::size_t k = 0; x && k < trace.orbit.size(); ++k)
       trace.orbit[k] = std::max(trace.orbit[k], std::hypot(x->samples[k], y ? y->samples[k] : 0.0));
   }
+  for (const FigureSpec& f : study.figures)
+    if (f.info->kind == FigureKind::kPlaneOrbit && f.scenario == scenario) trace.planes.emplace_back(f.plane, PlaneTrace(result.record, f.plane));
   trace.result = std::move(result);
   return trace;
 }
@@ -41,7 +51,8 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
   for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = k;
   const double speed = study.speeds.front();
   const SampledPlant plant = MakeControlPlant(rig, axes, speed);
-  const StateSpace K = MakeController(rig, rig.controller)->Linear(speed);
+  const auto controller = MakeController(rig, rig.controller);
+  const StateSpace K = controller->Linear(speed);
   const auto samples = static_cast<std::size_t>(kStepLength / plant.Ts);
   const Eigen::MatrixXd step = LoadStep(plant, K, 0, samples);
   for (std::size_t k = 0; k < samples; ++k) {
@@ -50,12 +61,21 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
   }
   for (int k = 0; k < kCurvePoints; ++k)
     out.hertz.push_back(kLowest * std::pow(std::min(kHighest, 0.49 / plant.Ts) / kLowest, static_cast<double>(k) / (kCurvePoints - 1)));
-  out.sensitivity = SensitivityCurve(plant, K, 0, out.hertz);
-  for (const StudyScenario& s : study.scenarios) {
+  out.sensitivity.assign(out.hertz.size(), 0.0);
+  for (const double Omega : study.speeds) {
+    const SampledPlant at = MakeControlPlant(rig, axes, Omega);
+    const StateSpace loop = controller->Linear(Omega);
+    for (const std::size_t axis : ControlledAxes(rig)) {
+      const auto curve = SensitivityCurve(at, loop, axis, out.hertz);
+      for (std::size_t k = 0; k < curve.size(); ++k) out.sensitivity[k] = std::max(out.sensitivity[k], curve[k]);
+    }
+  }
+  for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
     SimulateOptions options;
     options.fidelity = study.fidelity;
     options.stop = stop;
-    out.scenarios.push_back(TraceOf(rig, Simulate(rig, ReadScenarioText(s.text, s.file, rig), options)));
+    const StudyScenario& given = study.scenarios[s];
+    out.scenarios.push_back(TraceOf(study, s, rig, Simulate(rig, ReadScenarioText(given.text, given.file, rig), options)));
   }
   return out;
 }

@@ -6,13 +6,14 @@ namespace ambrig {
 
 struct ScenarioTrace {
   std::vector<double> t, orbit;  // [s], largest distance from the centre over the radial bearings' readings [m]
+  std::vector<std::pair<std::string, std::vector<double>>> planes;  // of the study's plane_orbit: distance from where it stood at the start [m]
   RunResult result;
 };
 
 struct PointResponses {
   std::size_t point = 0;
   std::vector<double> step_t, step;           // [s], reading of the first axis after a unit load there [m/N]
-  std::vector<double> hertz, sensitivity;     // of the first axis, first speed
+  std::vector<double> hertz, sensitivity;     // largest over the axes that [controller] has and the study's speeds
   std::vector<ScenarioTrace> scenarios;       // as in the study
 };
 

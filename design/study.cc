@@ -16,7 +16,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kFormat = 1;  // of figures and points: raise it when a point means something else
+constexpr int kFormat = 2;  // of figures and points: raise it when a point means something else
 constexpr double kMostPoints = 1e6;
 
 double Whole(const TomlTable& t, const char* key, double fallback, double lo, double hi) {
@@ -96,6 +96,16 @@ FigureSpec ReadFigure(const TomlTable& t, const Study& s, bool objective) {
   } else {
     f.name = of;
   }
+  if (f.info->kind == FigureKind::kPlaneOrbit) {
+    f.plane = t.String("plane");
+    for (const DesignCandidate& c : s.candidates) {
+      std::vector<std::string> planes;
+      for (const ShaftPlane& p : ReadRigText(c.rig_text, c.rig_file).stations) planes.push_back(p.name);
+      if (std::find(planes.begin(), planes.end(), f.plane) == planes.end())
+        t.Fail("plane", fmt::format("= \"{}\", allowed: {}", f.plane, planes.empty() ? "a disk or station of a beam rotor" : fmt::format("{}", fmt::join(planes, ", "))));
+    }
+    f.name += " of " + f.plane;
+  }
   f.name = t.String("name", f.name);
   if (t.Has("at_most")) f.at_most = t.Number("at_most");
   if (!objective && !f.at_most) t.Fail("at_most", fmt::format("is missing, allowed: a number in {}", f.info->unit));
@@ -144,9 +154,15 @@ void ReadSpread(const TomlTable& root, Study& s) {
   t->RejectUnknownKeys();
 }
 
+/// The file that a table of the rig names as its contents (a shaft, a state space).
+std::string Named(const DesignCandidate& c, const char* table) {
+  const auto t = TomlTable::FromText(c.rig_text, c.rig_file).Table(table);
+  return t && t->Has("file") ? ReadFile(Beside(c.rig_file, t->String("file"))) : "";
+}
+
 std::string Texts(const Study& s) {
   std::string all = ReadFile(s.file);
-  for (const DesignCandidate& c : s.candidates) all += c.rig_text;
+  for (const DesignCandidate& c : s.candidates) all += c.rig_text + Named(c, "rotor") + Named(c, "controller");
   for (const StudyScenario& k : s.scenarios) all += k.text;
   return all;
 }
@@ -167,8 +183,10 @@ const std::vector<FigureInfo>& FigureInfos() {
       {FigureKind::kPeakSensitivity, "peak_sensitivity", "-", "largest sensitivity of the axes that [controller] has (ISO 14839-3), worst speed", false},
       {FigureKind::kSettlingTime, "settling_time", "s", "time constant of the loop's slowest pole, worst speed", false},
       {FigureKind::kNoiseForce, "noise_force", "N", "rms force command of those axes due to sensor noise, worst axis and speed", false},
+      {FigureKind::kAmplification, "amplification", "-", "1/(2 zeta) of the loop's least damped pole up to the highest of the speeds, worst speed", false},
       {FigureKind::kOrbit, "orbit", "m", "largest distance of the shaft from the centre of a radial bearing", true},
       {FigureKind::kLateOrbit, "late_orbit", "m", "the same over the last tenth of the run", true},
+      {FigureKind::kPlaneOrbit, "plane_orbit", "m", "largest distance of a disk or station from where it stood at the start (in the record)", true},
       {FigureKind::kClearanceUsed, "clearance_used", "-", "largest orbit over the auxiliary bearing's clearance", true},
       {FigureKind::kPeakCurrent, "peak_current", "A", "largest coil current", true},
       {FigureKind::kCopperLoss, "copper_loss", "W", "mean over the run, all coils", true},
@@ -216,6 +234,11 @@ Study ReadStudy(const std::string& file) {
   if (s.speeds.empty() || s.speeds.size() > 20) root.Fail("speeds", "allowed: 1 to 20 speeds in rad/s");
   for (const double w : s.speeds)
     if (!(std::abs(w) <= 1e5)) root.Fail("speeds", fmt::format("= {} rad/s, allowed: -1e5 to 1e5", w));
+  for (const double error : root.Numbers("frequency_errors", {})) {
+    if (!(std::abs(error) <= 0.5)) root.Fail("frequency_errors", fmt::format("= {}, allowed: -0.5 to 0.5", error));
+    if (error != 0) s.frequency_errors.push_back(error);
+  }
+  if (s.frequency_errors.size() > 20) root.Fail("frequency_errors", "allowed: up to 20 shares of the frequency");
   s.fidelity = FidelityByName(root.Choice("fidelity", "switching", "switching, averaged, reference"));
   ReadSearch(root, s);
   ReadSpread(root, s);

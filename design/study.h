@@ -32,8 +32,8 @@ struct StudyScenario {
 };
 
 enum class FigureKind {
-  kPeakSensitivity, kSettlingTime, kNoiseForce,                       // of the linear loop, worst over the speeds
-  kOrbit, kLateOrbit, kClearanceUsed, kPeakCurrent, kCopperLoss, kContact, kTouchdown, kDrop, kDetectionDelay  // of a scenario
+  kPeakSensitivity, kSettlingTime, kNoiseForce, kAmplification,       // of the linear loop, worst over the speeds
+  kOrbit, kLateOrbit, kPlaneOrbit, kClearanceUsed, kPeakCurrent, kCopperLoss, kContact, kTouchdown, kDrop, kDetectionDelay  // of a scenario
 };
 
 struct FigureInfo {
@@ -48,6 +48,7 @@ struct FigureSpec {
   std::string name;                // "load step: orbit"
   const FigureInfo* info = nullptr;
   std::size_t scenario = 0;
+  std::string plane;               // of the shaft, where the figure is of one: "disk"
   bool objective = true;           // false: a limit only
   std::optional<double> at_most;
 };
@@ -60,6 +61,7 @@ struct Study {
   std::vector<StudyScenario> scenarios;
   std::vector<FigureSpec> figures;
   std::vector<double> speeds{0};        // of the linear figures [rad/s]
+  std::vector<double> frequency_errors{0};  // of the true shaft's bending modes in the linear figures [-]; the controllers know nothing of them
   SearchMethod method = SearchMethod::kSweep;
   int points = 0;                       // sweep: per candidate, beside the start
   int directions = 0, evaluations = 0;  // optimise: ways to weigh the objectives, evaluations of each

@@ -30,6 +30,7 @@ struct Linearisation {
   MatrixXd stiffness, damping;   // q'' = -... : d a/dq, d a/dv (n x n), signs as accelerations
   MatrixXd bearing, sensor;      // displacement of each axis per coordinate (axes x n)
   MatrixXd force;                // acceleration per force on an axis (n x axes)
+  MatrixXd weighed, push;        // of the shaft's weights: outputs (rows x n), accelerations per disturbance (n x columns)
   MatrixXd magnet;               // d f / d x, axes x axes: negative stiffness [N/m]
   std::vector<AxisActuator> actuators;
 };
@@ -87,6 +88,15 @@ VectorXd RowOf(const PlaneMap& plane, std::size_t side, Eigen::Index n) {
   return row;
 }
 
+double Square(double v) { return v * v; }
+
+/// Of the shaft's points [kg^-1/2].
+double LargestGain(const BendingMode& mode) {
+  double most = 0;
+  for (const ShapePoint& p : mode.shape) most = std::max(most, std::abs(p.gain));
+  return most;
+}
+
 AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingControl& control, const BearingPlant& b, const CoilNetwork& network,
                         std::size_t side, double operating_force) {
   // The pattern: what one newton of this axis puts into the coils, per ampere of v.
@@ -131,7 +141,7 @@ AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingCo
   return a;
 }
 
-Linearisation Linearise(const RigParameters& given, const RigParameters& controllers, double Omega) {
+Linearisation Linearise(const RigParameters& given, const RigParameters& controllers, double Omega, const ShaftWeights& weights) {
   RigParameters rig = given;  // nominal: no effects, no calibration
   rig.effects.clear();
   for (BearingParameters& b : rig.bearings) b.auxiliary.reset();
@@ -155,11 +165,34 @@ Linearisation Linearise(const RigParameters& given, const RigParameters& control
     out.stiffness.col(d) = column(Acceleration(plant.rotor, q, {}));
     out.damping.col(d) = column(Acceleration(plant.rotor, v, {}));
   }
-  std::vector<VectorXd> bearing, sensor, force;
+  std::vector<VectorXd> bearing, sensor, force, outputs, push;
   std::size_t axes = 0;
   for (const BearingParameters& b : rig.bearings) axes += b.Axes().size();
   out.magnet = MatrixXd::Zero(static_cast<Eigen::Index>(axes), static_cast<Eigen::Index>(axes));
   const auto shares = WeightShares(rig);
+  const auto pushed = [&](const PlaneMap& at, std::size_t side) {
+    DofVector Q{};
+    at.AddForce(side == 0 ? 1 : 0, side == 0 ? 0 : 1, Q);
+    return column(Acceleration(plant.rotor, s, Q));
+  };
+  for (const PlaneWeight& w : weights.planes) {
+    const BearingParameters* b = rig.Find(w.at);
+    const ShaftPlane* station = rig.FindStation(w.at);
+    Require(b || station, "a plane of the rig");
+    const PlaneMap at = plant.rotor.MakePlane(b ? b->z : station->z);
+    for (const std::size_t side : {0U, 1U}) {
+      outputs.push_back(RowOf(at, side, n) / w.position_weight);
+      push.push_back(w.force_noise * pushed(at, side));
+    }
+  }
+  for (std::size_t k = 0; weights.modes && k < rig.modes.size(); ++k) {
+    const double eta = weights.modes->deflection / LargestGain(rig.modes[k]), error = 2 * weights.modes->uncertainty * Square(rig.modes[k].omega) * eta;
+    for (const int side : {0, 1}) {
+      const auto d = static_cast<Eigen::Index>(plant.rotor.mode_dof(k) + side);
+      outputs.push_back(VectorXd::Unit(n, d) / eta);
+      push.push_back(error * VectorXd::Unit(n, d));
+    }
+  }
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     const BearingPlant& b = plant.bearings[k];
     const BearingControl control = MakeBearingControl(rig, controllers, k, b.lanes);
@@ -169,9 +202,7 @@ Linearisation Linearise(const RigParameters& given, const RigParameters& control
     for (std::size_t side = 0; side < sides; ++side) {
       bearing.push_back(RowOf(b.plane, side, n));
       sensor.push_back(RowOf(b.sensor.map, side, n));
-      DofVector Q{};
-      b.plane.AddForce(side == 0 ? 1 : 0, side == 0 ? 0 : 1, Q);
-      force.push_back(column(Acceleration(plant.rotor, s, Q)));
+      force.push_back(pushed(b.plane, side));
       out.actuators.push_back(ActuatorOf(rig, k, control, b, network, side, shares[k][side]));
       for (std::size_t other = 0; other < sides; ++other)
         out.magnet(static_cast<Eigen::Index>(first + side), static_cast<Eigen::Index>(first + other)) = Slope(
@@ -194,6 +225,8 @@ Linearisation Linearise(const RigParameters& given, const RigParameters& control
   out.bearing = rows(bearing);
   out.sensor = rows(sensor);
   out.force = rows(force).transpose();
+  out.weighed = rows(outputs);
+  out.push = rows(push).transpose();
   return out;
 }
 
@@ -215,6 +248,8 @@ void Reduce(Linearisation& l, const std::vector<std::size_t>& axes) {
   l.bearing = Pick(l.bearing, rows, keep);
   l.sensor = Pick(l.sensor, rows, keep);
   l.force = Pick(l.force, keep, rows);
+  l.weighed = Pick(l.weighed, All(l.weighed.rows()), keep);
+  l.push = Pick(l.push, keep, All(l.push.cols()));
   l.stiffness = Pick(l.stiffness, keep, keep);
   l.damping = Pick(l.damping, keep, keep);
 }
@@ -225,15 +260,15 @@ constexpr double kSize = 1e-5, kRate = 1e3;  // [m] at a plane, [1/s]
 }  // namespace
 
 SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::size_t>& axes, double Omega,
-                              const RigParameters* controllers) {
-  Linearisation l = Linearise(rig, controllers ? *controllers : rig, Omega);
+                              const RigParameters* controllers, const ShaftWeights& weights) {
+  Linearisation l = Linearise(rig, controllers ? *controllers : rig, Omega, weights);
   Reduce(l, axes);
   const AmplifierParameters& amplifier = rig.amplifier;
   const double T = 1 / amplifier.switching_frequency;
-  const Eigen::Index n = l.stiffness.rows(), p = l.bearing.rows();
+  const Eigen::Index n = l.stiffness.rows(), p = l.bearing.rows(), g = l.push.cols(), d = p + g;
   // Continuous: q, v, i, and the integral of i over the period.
   const Eigen::Index c = 2 * n + 2 * p;
-  MatrixXd A = MatrixXd::Zero(c, c), U = MatrixXd::Zero(c, p), F = MatrixXd::Zero(c, p);
+  MatrixXd A = MatrixXd::Zero(c, c), U = MatrixXd::Zero(c, p), F = MatrixXd::Zero(c, d);
   A.block(0, n, n, n).setIdentity();
   A.block(n, 0, n, n) = l.stiffness + l.force * l.magnet * l.bearing;
   A.block(n, n, n, n) = l.damping;
@@ -247,18 +282,19 @@ SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::s
     U(i, a) = k.volts / k.inductance;
   }
   F.block(n, 0, n, p) = l.force;
+  F.block(n, p, n, g) = l.push;
   // Over one period: the matrix exponential, an impulse at the mean edge, a constant force.
-  MatrixXd augmented = MatrixXd::Zero(c + p, c + p);
+  MatrixXd augmented = MatrixXd::Zero(c + d, c + d);
   augmented.topLeftCorner(c, c) = A * T;
-  augmented.topRightCorner(c, p) = F * T;
+  augmented.topRightCorner(c, d) = F * T;
   const MatrixXd flow = augmented.exp();
-  const MatrixXd Phi = flow.topLeftCorner(c, c), Gamma = flow.topRightCorner(c, p);
+  const MatrixXd Phi = flow.topLeftCorner(c, c), Gamma = flow.topRightCorner(c, d);
   MatrixXd Pulse(c, p);
   for (Eigen::Index a = 0; a < p; ++a)
     Pulse.col(a) = MatrixXd(A * (T * (1 - l.actuators[static_cast<std::size_t>(a)].edge))).exp() * U.col(a) * T;
   // State of a period: q, v, i, feedback, integral of the current loop; input: set-point.
   const Eigen::Index m = 2 * n + 3 * p, ti = 2 * n, fb = 2 * n + p, in = 2 * n + 2 * p;
-  MatrixXd u = MatrixXd::Zero(p, m), Fp = MatrixXd::Zero(m, m), Gp = MatrixXd::Zero(m, p), Ep = MatrixXd::Zero(m, p);
+  MatrixXd u = MatrixXd::Zero(p, m), Fp = MatrixXd::Zero(m, m), Gp = MatrixXd::Zero(m, p), Ep = MatrixXd::Zero(m, d);
   const double proportional = amplifier.kp + amplifier.ki * T;
   u.block(0, fb, p, p) = -proportional * MatrixXd::Identity(p, p);
   u.block(0, in, p, p).setIdentity();
@@ -278,7 +314,7 @@ SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::s
   Gp.bottomRows(p) = amplifier.ki * T * MatrixXd::Identity(p, p);
   finish(Gamma, Ep);
   // Over a controller period: M times, the set-points that the last tick left.
-  MatrixXd Fm = MatrixXd::Identity(m, m), Gm = MatrixXd::Zero(m, p), Em = MatrixXd::Zero(m, p);
+  MatrixXd Fm = MatrixXd::Identity(m, m), Gm = MatrixXd::Zero(m, p), Em = MatrixXd::Zero(m, d);
   for (int k = 0; k < rig.periods_per_control(); ++k) {
     Gm = Fp * Gm + Gp;
     Em = Fp * Em + Ep;
@@ -291,14 +327,18 @@ SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::s
   out.A.topRightCorner(m, p) = Gm;
   out.B = MatrixXd::Zero(m + p, p);
   out.E = MatrixXd::Zero(m + p, p);
-  out.E.topRows(m) = Em;
+  out.E.topRows(m) = Em.leftCols(p);
+  out.G = MatrixXd::Zero(m + p, g);
+  out.G.topRows(m) = Em.rightCols(g);
+  out.V = MatrixXd::Zero(g, m + p);
+  out.V.leftCols(n) = l.weighed;
   out.C = MatrixXd::Zero(p, m + p);
   out.C.leftCols(n) = l.sensor;
   VectorXd size(m + p);
-  for (Eigen::Index d = 0; d < n; ++d) {
-    const double reach = std::max(l.bearing.col(d).cwiseAbs().maxCoeff(), l.sensor.col(d).cwiseAbs().maxCoeff());
-    size[d] = kSize / (reach > 0 ? reach : 1);
-    size[n + d] = kRate * size[d];
+  for (Eigen::Index q = 0; q < n; ++q) {
+    const double reach = std::max(l.bearing.col(q).cwiseAbs().maxCoeff(), l.sensor.col(q).cwiseAbs().maxCoeff());
+    size[q] = kSize / (reach > 0 ? reach : 1);
+    size[n + q] = kRate * size[q];
   }
   for (Eigen::Index a = 0; a < p; ++a) {
     const double newton = 1 / l.actuators[static_cast<std::size_t>(a)].command, ampere = 10 * newton;  // of ten newtons
@@ -311,6 +351,8 @@ SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::s
   out.B = (unit.asDiagonal() * out.B).eval();
   out.E = (unit.asDiagonal() * out.E).eval();
   out.C = (out.C * size.asDiagonal()).eval();
+  out.V = (out.V * size.asDiagonal()).eval();
+  out.G = (unit.asDiagonal() * out.G).eval();
   return out;
 }
 

@@ -89,6 +89,15 @@ std::unique_ptr<PositionController> MakeTiltTranslation(const RigParameters& rig
   return std::make_unique<TiltTranslation>(c.translation, c.tilt, c.gyroscopic_compensation, g, f_max, Ts);
 }
 
+/// The nominal rig as the synthesis of this controller models it, one plant per speed.
+std::vector<SampledPlant> ModelsOf(const RigParameters& rig, const ControllerParameters& c, const std::vector<std::size_t>& axes) {
+  RigParameters model = rig;
+  if (c.model_modes >= 0 && static_cast<std::size_t>(c.model_modes) < model.modes.size()) model.modes.resize(static_cast<std::size_t>(c.model_modes));
+  std::vector<SampledPlant> plants;
+  for (const double speed : c.speeds) plants.push_back(MakeControlPlant(model, axes, speed, nullptr, {c.planes, c.modes}));
+  return plants;
+}
+
 std::unique_ptr<PositionController> MakeCentral(const RigParameters& rig, const ControllerParameters& c,
                                                 const std::vector<std::size_t>& axes, const std::vector<std::string>& names,
                                                 const std::vector<double>& f_max, double Ts) {
@@ -105,15 +114,18 @@ std::unique_ptr<PositionController> MakeCentral(const RigParameters& rig, const 
   }
   if (c.kind == "lqg") {
     std::vector<LqgDesign> designs;
-    for (const double speed : c.speeds) designs.push_back(DesignLqg(MakeControlPlant(rig, axes, speed), c.lqg, c.where));
+    for (const SampledPlant& plant : ModelsOf(rig, c, axes)) designs.push_back(DesignLqg(plant, c.lqg, c.where));
     return std::make_unique<LqgController>(c.speeds, std::move(designs), f_max, Ts);
   }
   if (c.kind == "h-infinity") {
-    const HInfinityDesign d = DesignHInfinity(MakeControlPlant(rig, axes, c.speeds.front()), c.h_infinity, c.where);
-    StateSpace k = d.controller;  // of readings; StateSpaceController works on e = -y
-    k.B = -k.B;
-    k.D = -k.D;
-    return std::make_unique<StateSpaceController>(std::vector<double>{0}, std::vector<StateSpace>{k}, f_max);
+    std::vector<StateSpace> points;
+    for (const SampledPlant& plant : ModelsOf(rig, c, axes)) {
+      StateSpace k = DesignHInfinity(plant, c.h_infinity, c.where).controller;  // of readings; StateSpaceController works on e = -y
+      k.B = -k.B;
+      k.D = -k.D;
+      points.push_back(std::move(k));
+    }
+    return std::make_unique<StateSpaceController>(c.speeds, points, f_max);
   }
   Require(c.kind == "tilt-translation", "a known kind");
   return MakeTiltTranslation(rig, c, f_max, Ts);

@@ -136,6 +136,15 @@ void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
   t.RejectUnknownKeys();
 }
 
+/// Where a synthesis may weigh displacements.
+std::vector<std::string> PlaneNames(const RigParameters& rig) {
+  std::vector<std::string> names;
+  for (const BearingParameters& b : rig.bearings)
+    if (b.kind == BearingKind::kRadial) names.push_back(b.name);
+  for (const ShaftPlane& s : rig.stations) names.push_back(s.name);
+  return names;
+}
+
 void ReadController(const TomlTable& t, RigParameters& rig) {
   t.Read(rig.controller, kControllerFields);
   const double periods = rig.amplifier.switching_frequency / rig.controller.rate;
@@ -144,7 +153,7 @@ void ReadController(const TomlTable& t, RigParameters& rig) {
                                rig.controller.rate, rig.amplifier.switching_frequency));
   std::vector<std::string> axes;
   for (const std::size_t k : ControlledAxes(rig)) axes.push_back(AxisNames(rig)[k]);
-  ReadControllerKind(t, axes, rig.controller);
+  ReadControllerKind(t, axes, PlaneNames(rig), rig.controller);
   t.RejectUnknownKeys();
 }
 
@@ -161,7 +170,7 @@ void ReadOtherControllers(const TomlTable& root, RigParameters& rig) {
     c.name = name;
     c.rate = rig.controller.rate;
     c.bias_current = rig.controller.bias_current;
-    ReadControllerKind(*t, axes, c);
+    ReadControllerKind(*t, axes, PlaneNames(rig), c);
     t->RejectUnknownKeys();
     rig.other_controllers.push_back(c);
   }
@@ -357,6 +366,8 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[controller.unbalance]", kUnbalanceControlFields);
   add("[controller] kind = \"lqg\"", kLqgFields);
   add("[controller] kind = \"h-infinity\"", kHInfinityFields);
+  add("[[controller.plane]]", kPlaneWeightFields);
+  add("[controller.modes]", kModeWeightFields);
   add("[controller] kind = \"tilt-translation\"", kTiltTranslationFields);
   add("[controller] kind = \"tilt-translation\", translation", kTranslationFields);
   add("[controller] kind = \"tilt-translation\", tilt", kTiltFields);

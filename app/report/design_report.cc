@@ -139,17 +139,36 @@ void ParallelCoordinates(HtmlReport& report, const Study& study, const StudyResu
   std::vector<double> at;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const FigureSpec& f = study.figures[shown[k]];
-    names.push_back(fmt::format("{}<br>{} to {}", HtmlEscape(f.name), ValueText(f, low[k]), ValueText(f, high[k])));
+    std::string name = HtmlEscape(f.name);  // in lines: many stand side by side
+    for (std::size_t colon = 0; (colon = name.find(": ", colon)) != std::string::npos;) name.replace(colon, 2, ":<br>");
+    names.push_back(fmt::format("{}<br>{} to<br>{}", name, ValueText(f, low[k]), ValueText(f, high[k])));
     at.push_back(static_cast<double>(k));
   }
   figure.layout["xaxis"]["tickvals"] = at;
   figure.layout["xaxis"]["ticktext"] = names;
+  figure.layout["xaxis"]["tickangle"] = 0;
+  figure.layout["xaxis"]["automargin"] = true;
   report.AddFigure(figure);
+}
+
+/// Planes of the shaft that the study watches in this scenario.
+void PlaneFigures(HtmlReport& report, const Study& study, const std::vector<PointResponses>& shown, std::size_t s) {
+  const std::size_t planes = shown.empty() || s >= shown[0].scenarios.size() ? 0 : shown[0].scenarios[s].planes.size();
+  for (std::size_t p = 0; p < planes; ++p) {
+    Figure figure = MakeFigure(fmt::format("{}: {}, distance from where it stood at the start", study.scenarios[s].name, shown[0].scenarios[s].planes[p].first));
+    for (std::size_t c = 0; c < shown.size(); ++c) {
+      if (s >= shown[c].scenarios.size() || p >= shown[c].scenarios[s].planes.size()) continue;
+      const ScenarioTrace& trace = shown[c].scenarios[s];
+      AddLine(figure, 0, study.candidates[c].name, Scaled(trace.t, 1e3), Scaled(trace.planes[p].second, 1e6), StyleOf(c));
+    }
+    SetAxes(figure, 0, "time [ms]", "distance [µm]");
+    report.AddFigure(figure);
+  }
 }
 
 void Responses(HtmlReport& report, const Study& study, const std::vector<PointResponses>& shown) {
   report.Heading("Answers of the points shown");
-  Figure linear = MakeFigure("Linear loop: first axis after a unit load there, and its sensitivity", {1, 2, false, {}, 320});
+  Figure linear = MakeFigure("Linear loop: first axis after a unit load there; largest sensitivity over axes and speeds", {1, 2, false, {}, 320});
   for (std::size_t c = 0; c < shown.size(); ++c) {
     const PointResponses& r = shown[c];
     if (r.step.empty()) continue;
@@ -170,6 +189,7 @@ void Responses(HtmlReport& report, const Study& study, const std::vector<PointRe
         AddLine(run, 0, study.candidates[c].name, Scaled(shown[c].scenarios[s].t, 1e3), Scaled(shown[c].scenarios[s].orbit, 1e6), StyleOf(c));
     SetAxes(run, 0, "time [ms]", "orbit [µm]");
     report.AddFigure(run);
+    PlaneFigures(report, study, shown, s);
   }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 struct Step {
   std::string key;
-  long index = -1;  // in an array of tables, -1: none
+  long index = -1;  // in an array of tables, the last one in a list of numbers; -1: none
 };
 
 [[noreturn]] void Fail(const std::string& file, const TomlEdit& e, const char* what) {
@@ -38,7 +38,7 @@ std::vector<Step> StepsOf(const std::string& file, const TomlEdit& e) {
     if (s.key.empty()) Fail(file, e, "is no path");
     steps.push_back(s);
   }
-  if (steps.empty() || steps.back().index >= 0) Fail(file, e, "is no path");
+  if (steps.empty()) Fail(file, e, "is no path");
   return steps;
 }
 
@@ -54,11 +54,23 @@ toml::table& Holder(toml::table& root, const std::string& file, const TomlEdit& 
   return *at;
 }
 
+/// What the last step names: the value of a key or an element of its list; nullptr when there is none.
+toml::node* Named(toml::table& holder, const Step& last) {
+  toml::node* found = holder.get(last.key);
+  if (!found || last.index < 0) return found;
+  return found->is_array() ? found->as_array()->get(static_cast<std::size_t>(last.index)) : nullptr;
+}
+
 void Apply(toml::table& root, const std::string& file, const TomlEdit& e) {
   const std::vector<Step> steps = StepsOf(file, e);
   toml::table* at = &Holder(root, file, e, steps);
-  toml::node* old = at->get(steps.back().key);
+  toml::node* old = Named(*at, steps.back());
   if (old && old->is_array()) Fail(file, e, "is a list");
+  if (steps.back().index >= 0) {
+    if (!old || !old->is_number() || !std::holds_alternative<double>(e.value)) Fail(file, e, "is no number of a list");
+    at->get(steps.back().key)->as_array()->replace(at->get(steps.back().key)->as_array()->cbegin() + steps.back().index, std::get<double>(e.value));
+    return;
+  }
   if (std::holds_alternative<std::string>(e.value)) {
     at->insert_or_assign(steps.back().key, std::get<std::string>(e.value));
   } else if (old && old->is_table() && old->as_table()->contains("value")) {
@@ -99,7 +111,7 @@ double TomlNumberAt(const std::string& text, const std::string& file, const std:
   const TomlEdit e{path, 0.0};
   toml::table root = ParseToml(text, file);
   const std::vector<Step> steps = StepsOf(file, e);
-  const toml::node* found = Holder(root, file, e, steps).get(steps.back().key);
+  const toml::node* found = Named(Holder(root, file, e, steps), steps.back());
   if (found && found->is_table()) found = found->as_table()->get("value");
   if (!found || !found->is_number()) Fail(file, e, "is no number of this file");
   return NumberOf(*found);

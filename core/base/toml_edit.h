@@ -6,7 +6,7 @@
 
 namespace ambrig {
 
-/// "controller.kp", "controller.filter[0].frequency", "bearings.Z.controller.kd"; a key that is not there yet is added.
+/// "controller.kp", "controller.filter[0].frequency", "controller.speeds[1]", "bearings.Z.controller.kd"; a key that is not there yet is added.
 struct TomlEdit {
   std::string path;
   std::variant<double, std::string> value;

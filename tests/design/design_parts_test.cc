@@ -55,6 +55,33 @@ TEST(LinearFigures, FindsANarrowPeak) {
   EXPECT_NEAR(LinearFiguresOf(p, K, {0}, 0, {0}).peak_sensitivity, peak, 2e-3 * peak);
 }
 
+// Two modes that no force reaches, the broader one above the range of speeds: 1/(2 zeta) of the other, which zeta fixes exactly. A second,
+// higher peak of S that is narrower than the grid is found too.
+TEST(LinearFigures, AmplificationAndASecondPeak) {
+  const double Ts = 1e-4;
+  SampledPlant p = Scalar(0);
+  p.A = Eigen::MatrixXd::Zero(4, 4);
+  p.B = p.E = Eigen::MatrixXd::Zero(4, 1);
+  p.C = Eigen::MatrixXd::Zero(1, 4);
+  const double w[2] = {300, 900}, zeta[2] = {0.01, 0.0005};
+  for (int k = 0; k < 2; ++k) {
+    const double r = std::exp(-zeta[k] * w[k] * Ts), turn = w[k] * std::sqrt(1 - zeta[k] * zeta[k]) * Ts;
+    p.A.block(2 * k, 2 * k, 2, 2) << r * std::cos(turn), r * std::sin(turn), -r * std::sin(turn), r * std::cos(turn);
+    p.B(2 * k, 0) = p.C(0, 2 * k) = 1;
+  }
+  const StateSpace none = StateSpace::Gain(Eigen::MatrixXd::Zero(1, 1)), K = StateSpace::Gain(Eigen::MatrixXd::Constant(1, 1, 2e-5));
+  EXPECT_NEAR(LinearFiguresOf(p, none, {0}, 0, {0}, 400).amplification, 50, 1e-6);
+  EXPECT_NEAR(LinearFiguresOf(p, none, {0}, 0, {0}, 1000).amplification, 1000, 1e-5);
+  EXPECT_EQ(LinearFiguresOf(p, none, {0}, 0, {0}, 200).amplification, 0);
+  double peak = 0;
+  for (int k = 0; k < 100000; ++k) {
+    const std::complex<double> z = std::polar(1.0, 1e-6 * k + 0.01);
+    peak = std::max(peak, 1 / std::abs(1.0 - 2e-5 * p.FromForce().Response(z)(0, 0)));
+  }
+  EXPECT_GT(peak, 1.05);
+  EXPECT_NEAR(LinearFiguresOf(p, K, {0}, 0, {0}).peak_sensitivity, peak, 1e-3 * (peak - 1));
+}
+
 TEST(Pareto, FrontOfPointsByHand) {
   EXPECT_TRUE(Dominates({1, 2}, {1, 3}));
   EXPECT_FALSE(Dominates({1, 2}, {1, 2}));

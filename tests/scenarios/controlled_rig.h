@@ -52,6 +52,7 @@ inline std::vector<ControllerKind> ControllerKinds() {
           {"lqg", "kind = \"lqg\"\n", 1.5e-4},
           {"lqg over speeds", "kind = \"lqg\"\nspeeds = [0.0, 600.0]\n", 1.5e-4},
           {"h-infinity", "kind = \"h-infinity\"\n", 1.5e-4},
+          {"h-infinity over speeds", "kind = \"h-infinity\"\nspeeds = [0.0, 600.0]\n", 1.5e-4},
           {"tilt-translation", kTiltTranslation + "gyroscopic_compensation = 0.8\n", 1.5e-4}};
 }
 

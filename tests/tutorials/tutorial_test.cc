@@ -120,4 +120,40 @@ TEST_F(Tutorial, LawOutsideTheCatalogue) {
   EXPECT_LT(after, 0.75 * before);
 }
 
+// PID, LQG and H-infinity on the flexible rig: what the page says of each holds, and its point again is the same.
+TEST_F(Tutorial, DesignStudy) {
+  for (const char* folder : {"design_tum", "tum_mbtr"})
+    fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples" / folder, folder_ / "examples" / folder, fs::copy_options::recursive);
+  Follow("design.md");
+  // One number at a time: without speeds or uncertainty the loop is unstable, without the disk's weight its mode rings.
+  const auto why = Json("out/why/study.json")["points"];
+  const auto point = [&](const char* candidate, const char* path, double value) {
+    for (const auto& p : why)
+      if (p["candidate"] == candidate && p["variables"][path] == value) return p;
+    ADD_FAILURE() << candidate << " without " << value;
+    return nlohmann::json();
+  };
+  EXPECT_TRUE(point("range of speeds designed for", "controller.speeds[1]", 1.0)["figures"]["peak_sensitivity"].is_null());
+  EXPECT_TRUE(point("uncertainty of the modes", "controller.modes.uncertainty", 0.0)["figures"]["peak_sensitivity"].is_null());
+  EXPECT_LT(point("uncertainty of the modes", "controller.modes.uncertainty", 0.03)["figures"]["peak_sensitivity"], 3.0);
+  const auto ringing = point("weight of the disk", "controller.plane[0].position_weight", 1.0)["figures"]["amplification"],
+             held = point("weight of the disk", "controller.plane[0].position_weight", 1.0e-5)["figures"]["amplification"];
+  EXPECT_GT(ringing.get<double>(), 5 * held.get<double>());
+  // The study: all three hold zone A with the coil's fault in the run; only the syntheses damp the first bending mode.
+  const auto study = Json("out/study/study.json");
+  for (const char* candidate : {"PID", "LQG", "H-infinity"}) {
+    const auto& shown = study["points"][study["shown"][candidate].get<std::size_t>()];
+    EXPECT_TRUE(shown["front"].get<bool>()) << candidate;
+    EXPECT_LT(shown["figures"]["peak_sensitivity"], 3.0) << candidate;
+    EXPECT_EQ(shown["figures"]["run-up: touchdown"], 0) << candidate;
+    const double amplification = shown["figures"]["amplification"];
+    if (std::string(candidate) == "PID") {
+      EXPECT_GT(amplification, 20);
+    } else {
+      EXPECT_LT(amplification, 15) << candidate;
+    }
+  }
+  EXPECT_GT(fs::file_size(folder_ / "out/study/report.html"), 1000000U);
+}
+
 }  // namespace
