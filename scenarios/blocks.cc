@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/pid.h"
 #include "actuators/radial_stator.h"
+#include "control/pid.h"
+#include "core/record/missing_samples.h"
 #include "scenarios/residual_force.h"
 #include "scenarios/rig.h"
 #include "scenarios/switching_engine.h"
@@ -14,6 +15,8 @@
 namespace ambrig {
 
 namespace {
+
+constexpr double kSettle = 0.004;  // [s] after which a loop has forgotten a wrong start or a gap in the data
 
 struct Mean {
   double sum = 0, n = 0;
@@ -29,8 +32,19 @@ void Put(BlockErrors& out, const std::string& block, const Mean& mean) {
   if (mean.n > 0) out[block] = mean.Rms();
 }
 
+/// What drives a block: readings, set-points, currents; not a load cell or a thermometer.
+bool Drives(const RigParameters& rig, const std::string& channel) {
+  for (const BearingParameters& b : rig.bearings) {
+    for (const std::string& axis : b.Axes())
+      if (channel == axis) return true;
+    if (channel.starts_with(b.name + ".s") || channel.starts_with(b.name + ".i")) return true;
+  }
+  return false;
+}
+
 /// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
-void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, const Record& d, BlockErrors& out) {
+void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, const BridgedRecord& data, BlockErrors& out) {
+  const Record& d = data.record;
   if (!nominal.controller.IsPlainPid() || !scenario.switches.empty()) return;  // only the PID's start can be told from data
   if (scenario.start == StartState::kClamped || std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate) return;
   Mean error;
@@ -70,15 +84,19 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, con
         }
       }
       double mean = 0;
-      for (std::size_t k = settle + 1; k < errors.size(); ++k) mean += errors[k] - offset;
-      mean /= std::max<double>(1, static_cast<double>(errors.size()) - static_cast<double>(settle) - 1);
-      for (std::size_t k = settle + 1; k < errors.size(); ++k) error.Add((errors[k] - mean) / kc);
+      double count = 0;
+      for (std::size_t k = settle + 1; k < errors.size(); ++k)
+        if (data.Sound(k + 1)) mean += errors[k] - offset, count += 1;
+      mean /= std::max<double>(1, count);
+      for (std::size_t k = settle + 1; k < errors.size(); ++k)
+        if (data.Sound(k + 1)) error.Add((errors[k] - mean) / kc);
     }
   }
   Put(out, "controller", error);
 }
 
-void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario, const Record& d, BlockErrors& out) {
+void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario, const BridgedRecord& data, BlockErrors& out) {
+  const Record& d = data.record;
   bool readings = true, set_points = false;
   for (const BearingParameters& b : rig.bearings) {
     for (const auto& axis : b.Axes()) readings = readings && d.Find(axis);
@@ -103,13 +121,14 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   const Record simulated = SwitchingEngine(rig, quiet, options).Run().record;
   if (std::abs(simulated.rate - d.rate) > 1e-6 * d.rate) return;
   const auto shift = static_cast<std::size_t>(std::lround(d.start * d.rate));
-  const std::size_t settle = std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(0.004 * d.rate));
+  const std::size_t settle = std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kSettle * d.rate));
   Mean error;
   for (const BearingParameters& b : rig.bearings)
     for (int j = 1; j <= b.coils(); ++j) {
       const Channel *m = d.Find(fmt::format("{}.i{}", b.name, j)), *p = simulated.Find(fmt::format("{}.i{}", b.name, j));
       if (!m || !p) continue;
-      for (std::size_t k = settle; k < d.rows() && k + shift < p->samples.size(); ++k) error.Add(m->samples[k] - p->samples[k + shift]);
+      for (std::size_t k = settle; k < d.rows() && k + shift < p->samples.size(); ++k)
+        if (data.Sound(k)) error.Add(m->samples[k] - p->samples[k + shift]);
     }
   Put(out, "coil", error);
 }
@@ -153,13 +172,15 @@ void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, co
   Put(out, "sensor", sensor);
 }
 
-void RotorBlock(const RigParameters& rig, const Scenario& scenario, const Record& d, BlockErrors& out) {
+void RotorBlock(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data, BlockErrors& out) {
+  const Record& d = data.record;
   const auto f = EstimateResidualForce(rig, scenario, d, 400);
   if (!f) return;
   Mean error;
-  const std::size_t edge = static_cast<std::size_t>(0.004 * d.rate);
+  const std::size_t edge = static_cast<std::size_t>(kSettle * d.rate);
   for (const auto& p : f->planes)
     for (std::size_t k = edge; k + edge < p.fx.size(); ++k) {
+      if (!data.Sound(k) || !data.Sound(k + edge)) continue;  // smoothing reaches both ways
       error.Add(p.fx[k]);
       error.Add(p.fy[k]);
     }
@@ -170,10 +191,11 @@ void RotorBlock(const RigParameters& rig, const Scenario& scenario, const Record
 
 BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario, const Record& d) {
   BlockErrors out;
-  ControllerBlock(nominal, scenario, d, out);
-  CoilBlock(rig, nominal, scenario, d, out);
-  ForceAndSensorBlocks(rig, scenario, d, out);
-  RotorBlock(rig, scenario, d, out);
+  const BridgedRecord bridged = BridgeMissing(d, kSettle, [&](const std::string& name) { return Drives(rig, name); });
+  ControllerBlock(nominal, scenario, bridged, out);
+  CoilBlock(rig, nominal, scenario, bridged, out);
+  ForceAndSensorBlocks(rig, scenario, d, out);  // row by row: a missing sample leaves out its own row
+  RotorBlock(rig, scenario, bridged, out);
   return out;
 }
 

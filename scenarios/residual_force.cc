@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "actuators/radial_stator.h"
+#include "core/record/missing_samples.h"
 
 namespace ambrig {
 
@@ -30,7 +31,7 @@ std::vector<double> Smooth(const std::vector<double>& y, double rate, double cut
   return out;
 }
 
-std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const Scenario& scenario, const Record& d,
+std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const Scenario& scenario, const Record& data,
                                                    double cutoff) {
   if (scenario.start == StartState::kClamped) return std::nullopt;
   if (!rig.modes.empty()) return std::nullopt;  // two sensors do not tell how a shaft is bent
@@ -38,6 +39,7 @@ std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, con
   for (const auto& b : rig.bearings)
     if (b.kind == BearingKind::kRadial) bearings.push_back(&b);
   if (bearings.size() != 2) return std::nullopt;
+  const Record d = BridgeMissing(data, 0, [](const std::string&) { return true; }).record;  // one NaN would be smoothed into all its neighbours
   const std::size_t n = d.rows();
   ResidualForce out;
   // Readings at the sensor planes -> shaft centre at the bearing planes (rigid, nominal geometry).
