@@ -125,7 +125,7 @@ void Measure(const CaseModel& model, const Hypothesis& truth, std::uint64_t seed
 
 }  // namespace
 
-HiddenCase Hide(const RigParameters& rig, const HideRequest& request) {
+HiddenCase Hide(const RigParameters& rig, const HideRequest& request, const std::atomic<bool>* stop) {
   HiddenCase out;
   ExaminationNeeds needs;
   std::vector<const EffectDescription*> descriptions;
@@ -143,6 +143,7 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request) {
   for (const BearingParameters& b : rig.bearings)
     if (b.kind == BearingKind::kRadial) out.data.noise[b.name + ".fx"] = out.data.noise[b.name + ".fy"] = load_cell_noise;
   CaseModel model(out.data);
+  model.stop = stop;
   Hypothesis truth;
   truth.rig = DrawRig(rig, request);
   const NoiseFloor floor = FindFloor(model, truth);

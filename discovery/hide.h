@@ -1,6 +1,7 @@
 #pragma once
 /// Cases with a known answer, to practise and to cross-validate: a rig whose parameters are drawn
 /// within their sd and whose effects are drawn within their usual size, examined with noise.
+#include <atomic>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,8 +26,8 @@ struct HiddenCase {
 };
 
 /// @throws InputError for unknown names, and where no size of the effect shows in these records with
-/// the rotor held.
-HiddenCase Hide(const RigParameters& rig, const HideRequest& request);
+/// the rotor held; Interrupted when `stop` is set.
+HiddenCase Hide(const RigParameters& rig, const HideRequest& request, const std::atomic<bool>* stop = nullptr);
 
 /// case.toml, and the answer in the form of shared/data/hidden-effects/answers.toml under `name`.
 std::string CaseText(const HiddenCase& hidden);

@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/report/progress.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/record/hdf5.h"
 #include "discovery/hide.h"
@@ -32,7 +33,7 @@ int RunHide(const HideCommand& o) {
   if (!rig.effects.empty()) throw InputError(o.rig + ": has effects of its own; hide them in a rig without");
   Progress progress("hide");
   progress.Update(0.1, "drawing and measuring");
-  const HiddenCase hidden = Hide(rig, request);
+  const HiddenCase hidden = Hide(rig, request, &interrupted);
   const std::filesystem::path folder(o.output);
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -50,8 +51,8 @@ int RunHide(const HideCommand& o) {
   const std::string answer = (folder.has_filename() ? folder : folder.parent_path()).string() + ".answer.toml";
   WriteFileAtomically(answer, AnswerText(hidden, request, name));
   progress.Clear();
-  fmt::print("written {} with {} records; the answer is sealed in {}\nnow: ambrig compare {}, ambrig explain {}\n", (folder / "case.toml").string(),
-             hidden.records.size(), answer, (folder / "case.toml").string(), (folder / "case.toml").string());
+  fmt::print("written {} with {}; the answer is sealed in {}\nnow: ambrig compare {}, ambrig explain {}\n", (folder / "case.toml").string(),
+             Counted(hidden.records.size(), "record"), answer, (folder / "case.toml").string(), (folder / "case.toml").string());
   return 0;
 }
 

@@ -6,6 +6,7 @@
 
 #include "analysis/validation.h"
 #include "app/commands/analyze.h"
+#include "core/base/counted.h"
 #include "core/base/errors.h"
 
 namespace ambrig {
@@ -67,8 +68,10 @@ void PrintText(const std::vector<ValidationRow>& rows) {
 
 int RunValidate(const ValidateCommand& c) {
   std::vector<ValidationRow> rows;
-  for (const std::string& file : FindFiles(c.paths, IsValidation, "no NAME.validation.toml found"))
+  for (const std::string& file : FindFiles(c.paths, IsValidation, "no NAME.validation.toml found")) {
+    if (interrupted) throw Interrupted();
     for (ValidationRow& row : Validate(file)) rows.push_back(std::move(row));
+  }
   c.markdown ? PrintMarkdown(rows) : PrintText(rows);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const ValidationRow& r : rows)
@@ -76,7 +79,7 @@ int RunValidate(const ValidateCommand& c) {
                     {"difference", r.difference}, {"tolerance", r.tolerance}, {"trust", r.trust}, {"agrees", r.agrees()}});
   c.common.WriteJson(json);
   const auto differs = std::count_if(rows.begin(), rows.end(), [](const auto& r) { return !r.low() && !r.agrees(); });
-  if (!c.markdown) fmt::print("{} rows, {} differ by more than allowed\n", rows.size(), differs);
+  if (!c.markdown) fmt::print("{}, beyond what is allowed: {}\n", Counted(rows.size(), "row"), differs);
   return differs > 0 ? 1 : 0;
 }
 

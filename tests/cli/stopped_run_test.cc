@@ -84,6 +84,7 @@ INSTANTIATE_TEST_SUITE_P(Command, Interrupted,
                                          Stop{"run s.toml --quiet --out out", "TERM"},
                                          Stop{"run s.toml --quiet --fidelity reference --out out", "INT"},
                                          Stop{"run s.toml --quiet --fidelity averaged --out out", "INT"},
+                                         Stop{"hide sensor-gain@A.x eddy-currents@A --rig rig.toml -o out", "INT"},
                                          Stop{"check more.toml --junit out.xml --json out.json", "INT"}));
 
 }  // namespace
