@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "analysis/load_capacity.h"
+#include "core/base/counted.h"
 #include "core/math/constants.h"
 #include "rotor/beam_file.h"
 #include "rotor/rotor_modes.h"
@@ -230,7 +231,7 @@ void Compare(const TomlTable& check, ValidationRow& row, const std::vector<doubl
   const bool nearest = check.Choice("match", "order", "order,nearest") == "nearest";
   if (row.published.empty()) check.Fail("published", "is empty");
   if (!nearest && ours.size() < row.published.size())
-    check.Fail("published", fmt::format("has {} figures, there are {} to compare with", row.published.size(), ours.size()));
+    check.Fail("published", fmt::format("has {}, to compare with: {}", Counted(row.published.size(), "figure"), ours.size()));
   for (std::size_t k = 0; k < row.published.size(); ++k) {
     const double p = row.published[k];
     double mine = nearest ? kInfinity : ours[k];

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "core/base/counted.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "faulttolerance/redistribution_table.h"
@@ -161,7 +162,7 @@ void ReadSpread(const TomlTable& root, Campaign& c) {
   for (const Tolerance& k : c.rig.tolerances) dimensions += k.sd > 0 ? 1 : 0;
   if (dimensions == 0) t->Fail("", fmt::format("nothing to draw: no parameter of {} has an sd", c.rig.file));
   if (method == "sobol" && dimensions > kSobolDimensions)
-    t->Fail("method", fmt::format("= \"sobol\" with {} parameters, allowed: at most {}", dimensions, kSobolDimensions));
+    t->Fail("method", fmt::format("= \"sobol\" with {}, allowed: at most {}", Counted(dimensions, "parameter"), kSobolDimensions));
   const auto n = static_cast<int>(draws);
   c.draws = method == "sobol" ? Sobol(n, dimensions, static_cast<std::uint64_t>(seed))
                               : LatinHypercube(n, dimensions, static_cast<std::uint64_t>(seed));

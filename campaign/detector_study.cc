@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "core/base/counted.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "scenarios/switching_engine.h"
@@ -51,7 +52,7 @@ void CheckHealthy(const TomlTable& t, const DetectorStudy& s) {
 void CheckFaulty(const TomlTable& t, const DetectorStudy& s) {
   for (const FailureSet& set : s.faulty.sets)
     if (set.coils.size() != 1)
-      t.Fail("faulty", fmt::format("= \"{}\" has a run with {} faults, allowed: a campaign of sets of one coil", s.faulty.file, set.coils.size()));
+      t.Fail("faulty", fmt::format("= \"{}\" has a run with {}, allowed: a campaign of sets of one coil", s.faulty.file, Counted(set.coils.size(), "fault")));
   const double last = s.faulty.fault_time + *std::max_element(s.faulty.phases.begin(), s.faulty.phases.end()) / s.faulty.rig.controller.rate;
   for (const Scenario& one : s.faulty.scenarios)
     if (one.duration < last + s.trial.window)
@@ -186,7 +187,7 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
 
 DetectorStudyRow ParseDetectorStudyRow(const Row& row, std::size_t detectors) {
   if (row.cells.size() != kConditions + detectors + 1)
-    throw InputError(fmt::format("row of run {}: {} cells, allowed: {} of a study of {} detectors", row.run, row.cells.size(), kConditions + detectors + 1, detectors));
+    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a study of {}", row.run, Counted(row.cells.size(), "cell"), kConditions + detectors + 1, Counted(detectors, "detector")));
   DetectorStudyRow out;
   out.faulty = row.cells[1] == "faulty";
   out.scenario = row.cells[2];

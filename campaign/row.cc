@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/counted.h"
 #include "scenarios/simulate.h"
 
 namespace ambrig {
@@ -128,7 +129,7 @@ const std::string& Row::At(std::string_view column) const {
   });
   Require(it != columns.end(), "a column of the table");
   if (cells.size() != columns.size())
-    throw InputError(fmt::format("row of run {}: {} cells, allowed: {} of a campaign's row", run, cells.size(), columns.size()));
+    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a campaign's row", run, Counted(cells.size(), "cell"), columns.size()));
   return cells[static_cast<std::size_t>(it - columns.begin())];
 }
 

@@ -11,6 +11,7 @@
 
 #include "campaign/slurm_queue.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 #include "core/base/read_file.h"
 
 namespace ambrig {
@@ -89,7 +90,7 @@ class SlurmRun {
       }
       if (s.gone < (jobs_.empty() ? 1 : 2)) continue;
       if (s.fruitless >= kAttempts)
-        throw InputError(fmt::format("--engine slurm: task {} ended {} times without a row, see {}", k + 1, kAttempts,
+        throw InputError(fmt::format("--engine slurm: task {} ended {} without a row, see {}", k + 1, Counted(kAttempts, "time"),
                                      (folder_ / fmt::format("{}.log", k + 1)).string()));
       again.push_back(k + 1);
     }

@@ -1,4 +1,5 @@
 #include "control/controller_file.h"
+#include "core/base/counted.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -15,7 +16,7 @@ namespace {
 
 std::vector<double> Polynomial(const TomlTable& t, const char* key) {
   const auto p = t.Numbers(key);
-  if (p.empty() || p.size() > 41) t.Fail(key, fmt::format("has {} entries, allowed: 1 to 41, descending powers", p.size()));
+  if (p.empty() || p.size() > 41) t.Fail(key, fmt::format("has {}, allowed: 1 to 41, descending powers", Counted(p.size(), "entry")));
   for (const double v : p)
     if (!std::isfinite(v)) t.Fail(key, "allowed: finite numbers");
   return p;

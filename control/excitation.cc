@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/counted.h"
 #include "core/math/constants.h"
 #include "core/record/read_record.h"
 
@@ -51,7 +52,7 @@ Excitation ReadExcitation(const TomlTable& t, const std::string& directory, doub
     e.frequencies = t.Numbers("frequencies");
     e.phases = t.Numbers("phases", std::vector<double>(e.frequencies.size(), 0.0));
     if (e.phases.size() != e.frequencies.size())
-      t.Fail("phases", fmt::format("has {} entries, allowed: {} as in frequencies", e.phases.size(),
+      t.Fail("phases", fmt::format("has {}, allowed: {} as in frequencies", Counted(e.phases.size(), "entry"),
                                    e.frequencies.size()));
   } else if (e.kind == "chirp") {
     e.f0 = t.Number("f0");

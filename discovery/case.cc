@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/units.h"
 #include "core/record/csv.h"
@@ -107,7 +108,7 @@ Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapp
 
 void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
   const double length = static_cast<double>(r.data.rows()) / r.data.rate, end = r.data.start + length;
-  if (r.data.rows() < 8) t.Fail("data", fmt::format("has {} rows, allowed: at least 8", r.data.rows()));
+  if (r.data.rows() < 8) t.Fail("data", fmt::format("has {}, allowed: at least 8", Counted(r.data.rows(), "row")));
   if (end > r.scenario.duration * (1 + 1e-9) + 1.5 / r.data.rate)
     t.Fail("data", fmt::format("ends at {:.6g} s, the scenario {} lasts {} s", end, r.scenario_file, r.scenario.duration));
   if (r.data.start < -1e-9)

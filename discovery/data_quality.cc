@@ -1,4 +1,5 @@
 #include "discovery/data_quality.h"
+#include "core/base/counted.h"
 
 #include <fmt/format.h>
 
@@ -63,8 +64,8 @@ ChannelQuality InspectChannel(const Channel& channel, bool constant_allowed) {
     }
   }
   q.verdict = "good";
-  if (q.missing > 0) q.verdict = fmt::format("{} samples missing, left out", q.missing);
-  if (q.clipped > 0) q.verdict = fmt::format("clipped in {} samples, those left out", q.clipped);
+  if (q.missing > 0) q.verdict = fmt::format("{} missing, left out", Counted(q.missing, "sample"));
+  if (q.clipped > 0) q.verdict = fmt::format("clipped in {}, left out", Counted(q.clipped, "sample"));
   return q;
 }
 

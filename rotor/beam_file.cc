@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "core/base/counted.h"
 #include "rotor/beam_mesh.h"
 #include "rotor/ross_file.h"
 #include "rotor/shaft_file.h"
@@ -156,7 +157,7 @@ std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta
   }
   if (zeta.size() != 1 && static_cast<int>(zeta.size()) != modes)
     rotor.Fail("modal_damping",
-               fmt::format("{} values, allowed: one, or one per mode ({})", zeta.size(), modes));
+               fmt::format("{}, allowed: one, or one per mode ({})", Counted(zeta.size(), "value"), modes));
   for (double z : zeta)
     if (!(z >= 0 && z < 1))
       rotor.Fail("modal_damping", fmt::format("{}, allowed 0 to below 1", NumberText(z)));

@@ -7,6 +7,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "core/base/counted.h"
 #include "core/base/toml.h"
 
 namespace ambrig {
@@ -214,7 +215,7 @@ double At(const Element& e, const std::string& key, double fallback, double spee
   const char* axis = e.Has("speed") ? "speed" : e.Has("frequency") ? "frequency" : "w";
   const auto it = e.numbers.find(axis);
   if (it == e.numbers.end() || it->second.size() != y.size())
-    e.Fail(fmt::format("{} has {} values, allowed: one, or as many as {}", key, y.size(), axis));
+    e.Fail(fmt::format("{} has {}, allowed: one, or as many as {}", key, Counted(y.size(), "value"), axis));
   const std::vector<double>& x = it->second;
   const std::size_t i = std::clamp<std::size_t>(
       std::upper_bound(x.begin(), x.end(), speed) - x.begin(), 1, x.size() - 1);

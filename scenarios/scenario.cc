@@ -1,4 +1,5 @@
 #include "scenarios/scenario.h"
+#include "core/base/counted.h"
 
 #include <fmt/format.h>
 
@@ -51,7 +52,7 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
   if (rows.empty()) t->Fail("profile", "is missing, allowed: [[t, Omega], ...] in s and rad/s");
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k].size() != 2)
-      t->Fail("profile", fmt::format("row {} has {} entries, allowed: [t, Omega]", k + 1, rows[k].size()));
+      t->Fail("profile", fmt::format("row {} has {}, allowed: [t, Omega]", k + 1, Counted(rows[k].size(), "entry")));
     if (k > 0 && rows[k][0] <= rows[k - 1][0])
       t->Fail("profile", fmt::format("row {} goes back in time: t = {} s after {} s, allowed: increasing t",
                                      k + 1, rows[k][0], rows[k - 1][0]));

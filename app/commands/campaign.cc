@@ -11,6 +11,7 @@
 #include "campaign/merge.h"
 #include "campaign/run_rows.h"
 #include "campaign/slurm_engine.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -62,7 +63,7 @@ void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard, 
     const std::size_t n = ++done;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
-                    fmt::format("{} of {} runs, {:.1f} runs/s, {} dropped", n, pending.size(), static_cast<double>(n) / seconds, dropped.load()));
+                    fmt::format("{} of {}, {:.1f} runs/s, {} dropped", n, Counted(pending.size(), "run"), static_cast<double>(n) / seconds, dropped.load()));
   });
 }
 
@@ -79,7 +80,7 @@ void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, Journal& journa
   RunOnSlurm(plan, o.out, journal, slurm, &interrupted, [&](std::size_t done) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(static_cast<double>(done - before) / static_cast<double>(runs - before),
-                    fmt::format("{} of {} runs, {:.1f} runs/s", done, runs, static_cast<double>(done - before) / seconds));
+                    fmt::format("{} of {}, {:.1f} runs/s", done, Counted(runs, "run"), static_cast<double>(done - before) / seconds));
   });
 }
 
@@ -91,15 +92,15 @@ int RunCampaign(CampaignOptions o) {
   const JournalHeader header = HeaderOf(plan.campaign());
   Journal journal(o.out, header);
   if (!journal.rows().empty())
-    fmt::print("{}: goes on after {} runs that are done{}\n", o.out, journal.rows().size(),
-               journal.damaged() > 0 ? fmt::format(", {} damaged line(s) done again", journal.damaged()) : "");
+    fmt::print("{}: goes on after {} done before{}\n", o.out, Counted(journal.rows().size(), "run"),
+               journal.damaged() > 0 ? fmt::format(", {} done again", Counted(journal.damaged(), "damaged line")) : "");
   try {
     if (o.engine == "slurm")
       RunOnCluster(plan, o, journal);
     else
       RunHere(plan, o, shard, journal);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "ambrig: stopped; {} of {} runs are kept in {}, the same command goes on\n", journal.rows().size(), header.runs, o.out);
+    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n", journal.rows().size(), Counted(header.runs, "run"), o.out);
     return 130;
   }
   Conclude(o.common, o.no_report, o.out, header, journal.rows());

@@ -13,6 +13,7 @@
 #include "app/report/progress.h"
 #include "app/report/run_json.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 #include "scenarios/simulate.h"
 
 namespace ambrig {
@@ -87,7 +88,7 @@ void WriteJunit(const std::string& path, const std::vector<CheckRow>& rows) {
 }
 
 void WriteReport(const std::string& path, const std::vector<CheckRow>& rows) {
-  HtmlReport report("ambrig check", fmt::format("{} scenarios", rows.size()));
+  HtmlReport report("ambrig check", Counted(rows.size(), "scenario"));
   std::vector<std::vector<Cell>> cells;
   for (const CheckRow& r : rows)
     cells.push_back({Cell(r.name), Cell(r.file), Cell(r.met() ? "met" : "not met", r.met() ? "ok" : "fail"),
@@ -118,7 +119,7 @@ int Check(const CheckOptions& options) {
                row.name.empty() ? row.file : row.name, row.seconds, Complaint(row));
     json.push_back(row.json.is_null() ? nlohmann::ordered_json{{"file", row.file}, {"error", row.error}} : row.json);
   }
-  fmt::print("{} scenarios, {} met, {} not met\n", rows.size(), rows.size() - failed, failed);
+  fmt::print("{}, {} met, {} not met\n", Counted(rows.size(), "scenario"), rows.size() - failed, failed);
   if (!options.junit.empty()) WriteJunit(options.junit, rows);
   if (!options.common.html.empty()) WriteReport(options.common.html, rows);
   options.common.WriteJson(json);

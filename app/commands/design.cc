@@ -11,6 +11,7 @@
 #include "app/report/run_json.h"
 #include "app/report/run_report_data.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "core/record/hdf5.h"
@@ -140,7 +141,7 @@ int RunDesign(DesignOptions o) {
     options.jobs = o.jobs;
     options.stop = &interrupted;
     options.progress = [&](std::size_t done, std::size_t all) {
-      progress.Update(std::min(1.0, static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(all, 1))), fmt::format("{} of {} points", done, all));
+      progress.Update(std::min(1.0, static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(all, 1))), fmt::format("{} of {}", done, Counted(all, "point")));
     };
     try {
       result = RunStudy(study, options);

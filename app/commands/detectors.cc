@@ -10,6 +10,7 @@
 #include "app/report/progress.h"
 #include "campaign/run_rows.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -43,7 +44,7 @@ void RunAll(const DetectorStudyPlan& plan, int jobs, Journal& journal) {
     const std::size_t n = ++done;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
-                    fmt::format("{} of {} runs, {:.1f} runs/s", n, pending.size(), static_cast<double>(n) / seconds));
+                    fmt::format("{} of {}, {:.1f} runs/s", n, Counted(pending.size(), "run"), static_cast<double>(n) / seconds));
   });
 }
 
@@ -51,11 +52,11 @@ int RunDetectors(DetectorsCommand o) {
   const DetectorStudyPlan plan(ReadDetectorStudy(o.file));
   if (o.out.empty()) o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
   Journal journal(o.out, plan.Header());
-  if (!journal.rows().empty()) fmt::print("{}: goes on after {} runs that are done\n", o.out, journal.rows().size());
+  if (!journal.rows().empty()) fmt::print("{}: goes on after {} done before\n", o.out, Counted(journal.rows().size(), "run"));
   try {
     RunAll(plan, o.jobs, journal);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "ambrig: stopped; {} of {} runs are kept in {}, the same command goes on\n", journal.rows().size(), plan.study().runs(), o.out);
+    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n", journal.rows().size(), Counted(plan.study().runs(), "run"), o.out);
     return 130;
   }
   const Rows& rows = journal.rows();

@@ -11,6 +11,7 @@
 #include "app/report/discovery_report.h"
 #include "app/report/progress.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -58,7 +59,7 @@ void Print(const Explanation& e) {
     if (!e.unexplained.formula.empty())
       fmt::print("  a law to try in the rig file ([[effect]] name = \"formula\"): {}\n", e.unexplained.formula);
   }
-  fmt::print("{} record simulations in {:.1f} s\n", e.runs, e.seconds);
+  fmt::print("{} in {:.1f} s\n", Counted(e.runs, "record simulation"), e.seconds);
 }
 
 int RunExplain(const ExplainCommand& o) {
@@ -66,7 +67,7 @@ int RunExplain(const ExplainCommand& o) {
   for (const std::string& note : c.notes) fmt::print("data: {}\n", note);
   std::unique_ptr<RunStore> store;
   if (!o.resume.empty()) store = std::make_unique<RunStore>(o.resume, c);
-  if (store && store->size() > 0) fmt::print("{} simulations of an interrupted call found in {}\n", store->size(), store->path());
+  if (store && store->size() > 0) fmt::print("{} of an interrupted call found in {}\n", Counted(store->size(), "simulation"), store->path());
   Explanation e;
   {
     Progress progress("explain");

@@ -11,6 +11,7 @@
 #include "app/report/html.h"
 #include "app/report/progress.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 #include "discovery/judge.h"
 
 namespace ambrig {
@@ -114,7 +115,7 @@ Json MatrixJson(const std::vector<Judgement>& all) {
 }
 
 void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
-  HtmlReport report("How often explain is right", fmt::format("{} cases with known answers", all.size()));
+  HtmlReport report("How often explain is right", Counted(all.size(), "case") + (all.size() == 1 ? " with a known answer" : " with known answers"));
   report.Heading("Counts");
   std::vector<std::vector<Cell>> rows;
   for (const Tally& t : Tallies(all)) rows.push_back({t.kind, fmt::format("{} of {}", t.right, t.cases)});

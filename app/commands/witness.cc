@@ -7,6 +7,7 @@
 #include "app/commands/commands.h"
 #include "app/report/progress.h"
 #include "app/report/witness_report.h"
+#include "core/base/counted.h"
 #include "scenarios/scenario.h"
 
 namespace ambrig {
@@ -121,7 +122,7 @@ int Witness(const WitnessCommand& command) {
     }
     if (command.seeds > 1) PrintTally(all, command.seeds);
   }
-  fmt::print("{} runs, {} with contact, {} verdicts differ\n", all.size(), touched, differ);
+  fmt::print("{}, {} with contact, differing verdicts: {}\n", Counted(all.size(), "run"), touched, differ);
   if (!command.common.html.empty()) WriteWitnessReport(all, command.common.html);
   command.common.WriteJson(json);
   return differ > 0 ? 1 : 0;

@@ -9,6 +9,7 @@
 #include "app/report/format.h"
 #include "app/report/html.h"
 #include "campaign/merge.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -146,9 +147,9 @@ void Capacity(HtmlReport& report, const Rows& rows) {
 
 void WriteCampaignReport(const JournalHeader& header, const Rows& rows, const std::string& path) {
   const RowCounts n = CountRows(rows);
-  HtmlReport report(header.name, fmt::format("campaign of {} runs, {}", header.runs, header.fingerprint));
+  HtmlReport report(header.name, fmt::format("campaign of {}, {}", Counted(header.runs, "run"), header.fingerprint));
   report.Verdict(n.drop + n.error > 0 ? Verdict::kFail : n.touchdown > 0 ? Verdict::kWarn : Verdict::kOk,
-                 fmt::format("{} of {} runs stayed up, {} touched down, {} dropped.", n.up, n.rows, n.touchdown, n.drop));
+                 fmt::format("{} of {} stayed up, {} touched down, {} dropped.", n.up, Counted(n.rows, "run"), n.touchdown, n.drop));
   report.KeyValues({{"runs done", fmt::format("{} of {}", n.rows, header.runs)},
                     {"not finished (error)", std::to_string(n.error)},
                     {"faults", std::to_string(n.faults)},

@@ -8,6 +8,7 @@
 #include "app/report/format.h"
 #include "app/report/html.h"
 #include "app/report/series.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -61,7 +62,7 @@ void Summary(HtmlReport& report, const Study& study, const StudyResult& result, 
   }
   report.Heading("Candidates side by side");
   report.Text("Of every candidate one point: on the Pareto front, where its largest objective over the first candidate's start is least. Figures are the worst "
-              "over the nominal rig" + std::string(study.draws.size() > 1 ? fmt::format(" and {} draws of its parameters.", study.draws.size() - 1) : "."));
+              "over the nominal rig" + std::string(study.draws.size() > 1 ? fmt::format(" and {} of its parameters.", Counted(study.draws.size() - 1, "draw")) : "."));
   report.Table(columns, rows);
 }
 
@@ -215,10 +216,10 @@ void FrontTable(HtmlReport& report, const Study& study, const StudyResult& resul
 void WriteDesignReport(const Study& study, const StudyResult& result, const std::vector<PointResponses>& shown, const std::string& path) {
   const auto front = std::count_if(result.points.begin(), result.points.end(), [](const StudyPoint& p) { return p.front; });
   const auto feasible = std::count_if(result.points.begin(), result.points.end(), [](const StudyPoint& p) { return p.feasible; });
-  HtmlReport report(study.name, fmt::format("design study, {} candidates, {}", study.candidates.size(), study.fingerprint));
+  HtmlReport report(study.name, fmt::format("design study, {}, {}", Counted(study.candidates.size(), "candidate"), study.fingerprint));
   report.Verdict(front > 0 ? Verdict::kOk : Verdict::kFail,
-                 front > 0 ? fmt::format("{} of {} points keep all limits; {} of them are beaten by none.", feasible, result.points.size(), front)
-                           : fmt::format("None of {} points keeps all limits.", result.points.size()));
+                 front > 0 ? fmt::format("All limits are kept by {} of {}; beaten by none: {}.", feasible, Counted(result.points.size(), "point"), front)
+                           : fmt::format("None of {} keeps all limits.", Counted(result.points.size(), "point")));
   Summary(report, study, result, shown);
   if (front > 0) {
     Scatter(report, study, result);

@@ -7,6 +7,7 @@
 
 #include "app/report/format.h"
 #include "app/report/html.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -118,7 +119,7 @@ void Areas(HtmlReport& report, const std::vector<DetectorCurves>& curves) {
 
 void WriteDetectorReport(const DetectorStudy& study, const std::vector<DetectorCurves>& curves, const Rows& rows,
                          const std::string& path) {
-  HtmlReport report(study.name, fmt::format("study of {} detectors on {} runs, {}", curves.size(), study.runs(), study.fingerprint));
+  HtmlReport report(study.name, fmt::format("study of {} on {}, {}", Counted(curves.size(), "detector"), Counted(study.runs(), "run"), study.fingerprint));
   if (curves.front().all.windows == 0 || curves.front().faults.empty()) {
     report.Verdict(Verdict::kFail, "No run could be finished: nothing to compare.");
     report.Write(path);

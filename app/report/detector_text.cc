@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "app/report/detector_report.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -73,12 +74,12 @@ Json CurveJson(const DetectorCurves& d) {
 
 std::string DetectorText(const DetectorStudy& study, const std::vector<DetectorCurves>& curves, const Rows& rows) {
   const DetectorCurves& first = curves.front();
-  std::string text = fmt::format("{}: {} of {} runs, {} healthy windows of {:.3g} ms\n", study.name, rows.size(), study.runs(),
-                                 first.all.windows, study.trial.window * 1e3);
-  if (const std::size_t n = Unfinished(rows); n > 0) text += fmt::format("  {} runs could not be finished (column note)\n", n);
+  std::string text = fmt::format("{}: {} of {}, {} of {:.3g} ms\n", study.name, rows.size(), Counted(study.runs(), "run"),
+                                 Counted(first.all.windows, "healthy window"), study.trial.window * 1e3);
+  if (const std::size_t n = Unfinished(rows); n > 0) text += fmt::format("  {} could not be finished (column note)\n", Counted(n, "run"));
   if (first.all.windows == 0 || first.faults.empty()) return text + "  nothing to compare\n";
   for (std::size_t k = 0; k < first.faults.size(); ++k)
-    text += fmt::format("  [{}] {} ({} runs)\n", k + 1, first.faults[k].kind, first.faults[k].runs);
+    text += fmt::format("  [{}] {} ({})\n", k + 1, first.faults[k].kind, Counted(first.faults[k].runs, "run"));
   text += fmt::format("at most {:.3g} false alarms per coil and window; detected within one window, median delay; best first\n", study.budget);
   text += Table(curves, Ranking(curves), [](const DetectorCurves& d) { return d.budget_level; });
   text += "at the thresholds of their sources\n";

@@ -7,6 +7,7 @@
 
 #include "app/report/html.h"
 #include "app/report/series.h"
+#include "core/base/counted.h"
 
 namespace ambrig {
 
@@ -163,7 +164,7 @@ void AddScenario(HtmlReport& report, const WitnessedScenario& s) {
 }  // namespace
 
 void WriteWitnessReport(const std::vector<WitnessedScenario>& scenarios, const std::string& path) {
-  HtmlReport report("Two witnesses of contact", fmt::format("{} scenarios", scenarios.size()));
+  HtmlReport report("Two witnesses of contact", Counted(scenarios.size(), "scenario"));
   report.Text(
       "The same scenarios with the rotor on compliant auxiliary bearings and with the rotor as "
       "rigid "

@@ -83,7 +83,7 @@ TEST(CampaignCommand, DamagedLinesAreDoneAgain) {
   journal[at] = 'O';
   f.Write("out/journal.txt", journal.substr(0, journal.size() - 20));
   const Outcome again = f.Ambrig("campaign c.toml -o out --no-report");
-  EXPECT_NE(again.text.find("goes on after 30 runs that are done, 2 damaged"), std::string::npos) << again.text;
+  EXPECT_NE(again.text.find("goes on after 30 runs done before, 2 damaged lines done again"), std::string::npos) << again.text;
   EXPECT_EQ(f.Read("out/table.csv"), table);
 }
 

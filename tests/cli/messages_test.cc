@@ -101,7 +101,7 @@ const Mistake kScenarioMistakes[] = {
     {"ExcitationTimes", "", "[[excitation]]\ntarget = \"A.x\"\nkind = \"step\"\namplitude = 1.0\nstart = 0.2\nstop = 0.1", {"s.toml:10: excitation[1].stop = 0.1", "allowed: later than start = 0.2"}},
     {"ExcitationAmplitude", "", "[[excitation]]\ntarget = \"A.x\"\nkind = \"step\"", {"s.toml:5: excitation[1].amplitude", "is missing", "allowed"}},
     {"ExcitationFrequencyInf", "", "[[excitation]]\ntarget = \"A.x\"\nkind = \"sine\"\namplitude = 1.0\nfrequency = inf", {"s.toml:9: excitation[1].frequency = inf", "allowed: a finite number"}},
-    {"ExcitationPhases", "", "[[excitation]]\ntarget = \"A.x\"\nkind = \"multisine\"\namplitude = 1.0\nfrequencies = [1.0, 2.0]\nphases = [0.0]", {"s.toml:10: excitation[1].phases", "has 1 entries, allowed: 2"}},
+    {"ExcitationPhases", "", "[[excitation]]\ntarget = \"A.x\"\nkind = \"multisine\"\namplitude = 1.0\nfrequencies = [1.0, 2.0]\nphases = [0.0]", {"s.toml:10: excitation[1].phases", "has 1 entry, allowed: 2"}},
     {"ExcitationNoFile", "", "[[excitation]]\ntarget = \"A.x\"\nkind = \"samples\"\nfile = \"none.h5\"\nchannel = \"f\"", {"none.h5"}},
     {"LoadForce", "", "[[load]]\nplane = \"A\"\nforce = [1.0, 2.0, 3.0, 4.0]", {"s.toml:7: load[1].force", "allowed: [fx, fy]"}},
     {"LoadInf", "", "[[load]]\nplane = \"A\"\nforce = [inf, 0.0]", {"s.toml:7: load[1].force", "entry 1 is not a finite number"}},

@@ -55,7 +55,7 @@ TEST_F(WitnessCommand, WritesTableJsonAndReport) {
   EXPECT_EQ(o.exit, 0) << o.text;
   EXPECT_THAT(o.text, HasSubstr("agree   A3 opens while the shaft whirls"));
   EXPECT_THAT(o.text, HasSubstr("of 2 seeds: 0 dropped, 0 whirl backward, 2 forward"));
-  EXPECT_THAT(o.text, HasSubstr("4 runs, 4 with contact, 0 verdicts differ"));
+  EXPECT_THAT(o.text, HasSubstr("4 runs, 4 with contact, differing verdicts: 0"));
   const auto all = nlohmann::json::parse(Text("w.json"));
   ASSERT_EQ(all.size(), 4u);
   EXPECT_EQ(all[0]["compliant"]["verdict"], "touched down");
