@@ -108,7 +108,8 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
 
 int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
   const double h = s_.sampling.step;
-  if (LargestStep(last_linkage, slopes_.first, last_voltage, h) < s_.cap) return -1;
+  const double noise = 1.4 * s_.current_noise / h, floor = kStepVoltage * s_.voltage_sd;
+  if (!chart_.Steps({&last_linkage, &slopes_.first, &last_voltage, 1 / h, noise, floor}, s_.cap)) return -1;
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
   int largest = -1;
   double most = s_.cap;
@@ -118,7 +119,7 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
     const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) - doubt[j] / h;
     if (step < s_.cap || (!Holds(0, j) && !Holds(1, j)) || in.adc[0][j] < kZeroCurrent) continue;
     const double own = model_.SelfInductance(j, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
-    const double sd = 1.4 * own * s_.current_noise / h + kStepVoltage * s_.voltage_sd;
+    const double sd = noise * own + floor;
     if (step < most * sd) continue;
     most = step / sd;
     largest = j;

@@ -39,20 +39,17 @@ bool PositionMonitor::Read(double t, const std::vector<double>& readings, const 
     a.y[2] = a.y[1];
     a.y[1] = a.y[0];
     a.y[0] = y;
+    const bool parabola = count_ >= 3 && step_ > 0;
+    a.slope = parabola ? 1.5 * a.y[0] - 2 * a.y[1] + 0.5 * a.y[2] : 0;
+    a.curvature = parabola ? 0.5 * a.y[0] - a.y[1] + 0.5 * a.y[2] : 0;
   }
+  per_step_ = step_ > 0 ? 1 / step_ : 0;
   return true;
 }
 
 double PositionMonitor::Departure(std::size_t a) const {
   const double* d = axes_[a].departure;
   return std::max({d[0], d[1], d[2]});
-}
-
-double PositionMonitor::At(std::size_t k, double t) const {
-  const double* y = axes_[k].y;
-  if (count_ < 3 || step_ <= 0) return y[0];
-  const double u = (t - last_) / step_;  // in controller periods
-  return y[0] + u * (1.5 * y[0] - 2 * y[1] + 0.5 * y[2]) + u * u * (0.5 * y[0] - y[1] + 0.5 * y[2]);
 }
 
 int PositionMonitor::TakeNewFault() {

@@ -27,7 +27,11 @@ class PositionMonitor {
   /// add to a departure, per axis [m]; empty: nothing.
   bool Read(double t, const std::vector<double>& readings, const std::vector<double>& struck = {});
   /// Position of axis `a` at time t [m].
-  double At(std::size_t a, double t) const;
+  double At(std::size_t a, double t) const {
+    const double u = (t - last_) * per_step_;  // in controller periods
+    const Axis& axis = axes_[a];
+    return axis.y[0] + u * axis.slope + u * u * axis.curvature;
+  }
   /// By how much the last readings of axis `a` departed from the parabola, beyond their noise [m].
   double Departure(std::size_t a) const;
   double step() const { return step_; }  // between readings [s]
@@ -40,12 +44,13 @@ class PositionMonitor {
  private:
   struct Axis {
     double y[3] = {0, 0, 0};           // newest first
+    double slope = 0, curvature = 0;   // of their parabola, per step and per step²
     double departure[3] = {0, 0, 0};   // newest first
     int equal = 0, different = 0;
     bool faulty = false;
   };
   std::vector<Axis> axes_;
-  double jump_ = 3e-5, noise_ = 0, last_ = -1, step_ = 0;
+  double jump_ = 3e-5, noise_ = 0, last_ = -1, step_ = 0, per_step_ = 0;
   long long count_ = 0;
   int new_fault_ = -1;
 };

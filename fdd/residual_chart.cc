@@ -61,6 +61,7 @@ AMBRIG_WIDE void ComputeAll(const LinkageModel& m, double step, const ChartSetti
   c.n = n;
   c.leakage = Load(m.leakage.v);
   c.own = n * n * (radial ? P * (1 - P * (1 / slopes.permeance.total)) : P) + c.leakage;
+  Store(r->own.v, c.own);
   c.dP = Load(slopes.permeance.change.v);
   c.watched = Load(watched.v);
   c.largest = Load(slopes.largest.v);
@@ -84,8 +85,9 @@ AMBRIG_WIDE double Accumulate(const ChartSettings& s, ResidualChart* r) {
   return Largest(most);
 }
 
-AMBRIG_WIDE double StepOf(const Lane& before, const Lane& after, const Lane& expected, double per_step) {
-  return Largest(Abs((Load(after.v) - Load(before.v)) * per_step - Load(expected.v)));
+AMBRIG_WIDE double BeyondNoise(const Lane& own, const LinkageStep& step, double limit) {
+  const V jump = Abs((Load(step.after->v) - Load(step.before->v)) * step.per_second - Load(step.expected->v));
+  return Largest(jump - limit * (step.noise * Load(own.v) + step.floor));
 }
 
 }  // namespace
@@ -111,8 +113,6 @@ double ResidualChart::LargestResidual() const {
   return most;
 }
 
-double LargestStep(const Lane& before, const Lane& after, const Lane& expected, double step) {
-  return StepOf(before, after, expected, 1 / step);
-}
+bool ResidualChart::Steps(const LinkageStep& step, double limit) const { return BeyondNoise(own, step, 0.999 * limit) > 0; }
 
 }  // namespace ambrig

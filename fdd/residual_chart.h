@@ -24,11 +24,19 @@ struct ModelError {
   double doubt[3] = {0, 0, 0};
 };
 
+/// Linkages at the last sample of one period and the first of the next [Wb], the voltage between them [V]; the
+/// noise of such a step is `noise` [A/s] times the inductance, and at least `floor` [V].
+struct LinkageStep {
+  const Lane *before, *after, *expected;
+  double per_second, noise, floor;
+};
+
 struct ResidualChart {
   Lane e[2], sd[2], z[2];  // corrected residual, its expected size [V], their ratio
   Lane valid[2];           // the residual's equation holds
   Lane size[2];            // long-term mean of |z|
   Lane G[3];
+  Lane own;                // self-inductance [H]
 
   /// Residuals of one period. `watched`: coils that may be judged; `doubt`: what the
   /// motion may add to the residuals of both phases [V], nullptr: nothing; `potential_rate` [A/s]: by how
@@ -37,12 +45,10 @@ struct ResidualChart {
                const PeriodSlopes& slopes, const Lane& watched, const Lane* doubt, double potential_rate);
   /// Adds the period; returns the largest G.
   double Cusum(const ChartSettings& s);
+  /// Whether any linkage may step by more than `limit` times its noise, beyond what is expected.
+  bool Steps(const LinkageStep& step, double limit) const;
   double LargestSum() const;
   double LargestResidual() const;  // |z|
 };
-
-/// Largest unexplained step of a linkage between the last sample of one period and the first of the
-/// next, as a voltage over the sample [V]; `expected` [V].
-double LargestStep(const Lane& before, const Lane& after, const Lane& expected, double step);
 
 }  // namespace ambrig
