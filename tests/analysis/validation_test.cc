@@ -46,7 +46,7 @@ TEST_F(ValidationFile, WrongOnesAreNamed) {
   EXPECT_NE(Said(rigid).find("check: is missing"), std::string::npos) << Said(rigid);
   EXPECT_NE(Said(rigid + "[[check]]\nquantity = \"colour\"\npublished = [1.0]\n").find("quantity"), std::string::npos);
   EXPECT_NE(Said(rigid + "[[check]]\nquantity = \"mass\"\npublished = [1.0]\n").find("needs a beam"), std::string::npos);
-  EXPECT_NE(Said(rigid + "[[check]]\nquantity = \"natural frequencies\"\nunit = \"Hz\"\npublished = [1.0]\n").find("0 to compare"), std::string::npos);
+  EXPECT_NE(Said(rigid + "[[check]]\nquantity = \"natural frequencies\"\nunit = \"Hz\"\npublished = [1.0]\n").find("has 1 figure, to compare with: 0"), std::string::npos);
 }
 
 // A figure that is off fails its row and the command.

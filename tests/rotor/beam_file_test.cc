@@ -19,11 +19,11 @@ modal_damping = [0.001, 0.002]
 elements_per_section = 3
 stations = [0.07]
 [rotor.materials.m300]
-E = 1.9e11
+E = { value = 1.9e11, sd = 2e9 }
 rho = 8000.0
 nu = 0.3
 [[rotor.section]]
-length = { value = 0.1, sd = 1e-5 }
+length = 0.1
 od = 0.02
 material = "m300"
 [[rotor.section]]
@@ -94,7 +94,7 @@ TEST(BeamFile, ReadsEveryTable) {
   EXPECT_EQ(d.supports[0].cyy, 10);
   EXPECT_EQ(file.modes, 2);
   ASSERT_EQ(tolerances.size(), 1u);
-  EXPECT_EQ(tolerances[0].path, "rotor.section[1].length");
+  EXPECT_EQ(tolerances[0].path, "rotor.materials.m300.E");
   const ReducedRotor r = BuildReduced(file);
   EXPECT_EQ(r.zeta, (std::vector<double>{0.001, 0.002}));
   const RotorTotals t = Totals(BuildBeam(d));

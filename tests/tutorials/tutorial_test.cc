@@ -122,6 +122,7 @@ TEST_F(Tutorial, LawOutsideTheCatalogue) {
 
 // PID, LQG and H-infinity on the flexible rig: what the page says of each holds, and its point again is the same.
 TEST_F(Tutorial, DesignStudy) {
+  fs::create_directories(folder_ / "examples");
   for (const char* folder : {"design_tum", "tum_mbtr"})
     fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples" / folder, folder_ / "examples" / folder, fs::copy_options::recursive);
   Follow("design.md");
