@@ -32,10 +32,11 @@ class PositionMonitor {
     const Axis& axis = axes_[a];
     return axis.y[0] + u * axis.slope + u * u * axis.curvature;
   }
+  /// The reading k steps ago, k < 3 [m]; the newest one while there are not three.
+  double Recent(std::size_t a, std::size_t k) const { return axes_[a].y[count_ < 3 ? 0 : k]; }
   /// By how much the last readings of axis `a` departed from the parabola, beyond their noise [m].
   double Departure(std::size_t a) const;
   double step() const { return step_; }  // between readings [s]
-  double last() const { return last_; }  // time of the last one [s]
   bool ready(double t) const { return count_ >= 3 && t - last_ < 6 * step_; }
   bool faulty(std::size_t a) const { return axes_[a].faulty; }
   /// Axis that became faulty with the last Read, -1: none.

@@ -19,6 +19,8 @@ constexpr double kParabola = 2;       // departures of the parabola in the impac
 constexpr double kReach = 0.05;       // of the clearance: the maker's tolerance
 constexpr int kReadingsOfParabola = 3;
 
+double Length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 double ToleranceOf(const RigParameters& rig, const std::string& path, double least) {
   for (const Tolerance& t : rig.tolerances)
     if (t.path == path) return std::max(t.sd, least);
@@ -92,8 +94,21 @@ DetectionFeed::DetectionFeed(const RigParameters& nominal)
   positions_ = PositionMonitor(axis_names_.size(), kCredibleJump + 40 * largest_noise, largest_noise);
 }
 
+template <class Of>
+void DetectionFeed::Place(const View& v, const std::vector<double>& weights, const Of& of, double* x, double* y) const {
+  *x = *y = 0;
+  if (v.bearing->kind != BearingKind::kRadial) {
+    *x = of(v.first_axis);
+    return;
+  }
+  for (std::size_t k = 0; k < planes_.size(); ++k) {
+    *x += weights[k] * of(static_cast<std::size_t>(planes_[k].x_axis));
+    *y += weights[k] * of(static_cast<std::size_t>(planes_[k].y_axis));
+  }
+}
+
 void DetectionFeed::WatchImpacts() {
-  const double t = positions_.last(), step = positions_.step();
+  const double step = positions_.step();
   for (Impacts& one : impacts_) {
     one.travel = 0;
     ++one.readings_since;
@@ -101,11 +116,12 @@ void DetectionFeed::WatchImpacts() {
   for (const View& v : views_) {
     Impacts& one = impacts_[v.group];
     double x[3], y[3];
-    for (int k = 0; k < 3; ++k) Position(v, v.auxiliary_weights, t - k * step, &x[k], &y[k]);
-    const double moved = std::max(std::hypot(x[0] - x[1], y[0] - y[1]), std::hypot(x[1] - x[2], y[1] - y[2]));
+    for (std::size_t k = 0; k < 3; ++k)
+      Place(v, v.auxiliary_weights, [&](std::size_t axis) { return positions_.Recent(axis, k); }, &x[k], &y[k]);
+    const double moved = std::max(Length(x[0] - x[1], y[0] - y[1]), Length(x[1] - x[2], y[1] - y[2]));
     one.travel = std::max(one.travel, moved);
     const auto& stop = v.bearing->auxiliary;
-    if (stop && std::hypot(x[0], y[0]) + moved > (1 - kReach) * stop->clearance) one.readings_since = 0;
+    if (stop && Length(x[0], y[0]) + moved > (1 - kReach) * stop->clearance) one.readings_since = 0;
   }
   for (View& v : views_) {
     const Impacts& one = impacts_[v.group];
@@ -125,18 +141,6 @@ bool DetectionFeed::Uses(const View& v, std::size_t axis) const {
   return std::any_of(planes_.begin(), planes_.end(), [&](const SensedPlane& p) { return p.x_axis == a || p.y_axis == a; });
 }
 
-void DetectionFeed::Position(const View& v, const std::vector<double>& weights, double t, double* x, double* y) const {
-  *x = *y = 0;
-  if (v.bearing->kind != BearingKind::kRadial) {
-    *x = positions_.At(v.first_axis, t);
-    return;
-  }
-  for (std::size_t k = 0; k < planes_.size(); ++k) {
-    *x += weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].x_axis), t);
-    *y += weights[k] * positions_.At(static_cast<std::size_t>(planes_[k].y_axis), t);
-  }
-}
-
 void DetectionFeed::Read(const PeriodMeasurement& m) {
   last_bus_ = bus_;
   bus_ = m.bearings.front().bus;
@@ -151,8 +155,11 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
   in.adc = b.adc;
   in.duty = b.duty;
   in.bus = 0.5 * (b.bus + last_bus_);
-  Position(v, v.weights, m.t, &in.x0, &in.y0);
-  Position(v, v.weights, m.t + T_, &in.x1, &in.y1);
+  const auto at = [&](double t, double* x, double* y) {
+    Place(v, v.weights, [&](std::size_t axis) { return positions_.At(axis, t); }, x, y);
+  };
+  at(m.t, &in.x0, &in.y0);
+  at(m.t + T_, &in.x1, &in.y1);
   in.doubt = v.doubt;
   bool sensed = positions_.ready(m.t);
   for (std::size_t a = 0; a < axis_names_.size(); ++a)

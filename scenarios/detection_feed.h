@@ -42,7 +42,9 @@ class DetectionFeed {
   /// After a reading: whether the shaft may strike an auxiliary bearing before the next one, or has just done so, and
   /// what is not known of its motion then.
   void WatchImpacts();
-  void Position(const View& v, const std::vector<double>& weights, double t, double* x, double* y) const;
+  /// Of the bearing, or of its stop, from what `of` says of every axis.
+  template <class Of>
+  void Place(const View& v, const std::vector<double>& weights, const Of& of, double* x, double* y) const;
 
   const RigParameters& rig_;
   double T_ = 0, bus_ = 0, last_bus_ = 0;  // [s], [V]
