@@ -76,6 +76,18 @@ std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string
   return seeds;
 }
 
+/// What shapes a law over decades is tried at the far end of its usual range too: laminations thin and thick.
+std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInstance& middle, const std::vector<std::size_t>& shape) {
+  std::vector<EffectInstance> forms = {middle};
+  for (std::size_t s : shape) {
+    const EffectParameter& p = d.parameters[s];
+    if (IsResonance(d) || p.typical_lo <= 0 || p.typical_hi < 4 * p.typical_lo) continue;
+    forms.push_back(middle);
+    forms.back().values[s] = p.typical_hi;
+  }
+  return forms;
+}
+
 }  // namespace
 
 std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target, const CaseModel& model,
@@ -120,15 +132,16 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
     }
     for (std::size_t k : infinite) {
       const EffectParameter& p = d.parameters[k];
-      for (double value : LogGrid(p.typical_lo, p.typical_hi, IsResonance(d) ? 1 : 4)) {
-        ProbeGroup g;
-        g.linear = false;
-        if (IsResonance(d)) g.scaling = {{k, -1.0}};  // a mass
-        EffectInstance e = at;
-        e.values[k] = value;
-        g.probes.push_back(e);
-        groups.push_back(g);
-      }
+      for (const EffectInstance& form : FormsOf(d, at, shape))
+        for (double value : LogGrid(p.typical_lo, p.typical_hi, IsResonance(d) ? 1 : 4)) {
+          ProbeGroup g;
+          g.linear = false;
+          if (IsResonance(d)) g.scaling = {{k, -1.0}};  // a mass
+          EffectInstance e = form;
+          e.values[k] = value;
+          g.probes.push_back(e);
+          groups.push_back(g);
+        }
     }
     if (finite.empty()) continue;
     ProbeGroup g;
