@@ -37,6 +37,7 @@ void ShortTurns(LinkageModel& m, int j, double left) {
 
 BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettings& settings)
     : model_(model), s_(settings), ring_(kRing) {
+  s_.sampling.KnowBridge();
   for (Lane& size : chart_.size)
     for (int j = 0; j < kLanes; ++j) size[j] = 0.8;  // mean of |z| of a normal variable
   for (int j = 0; j < model_.coils; ++j) watched_[j] = 1;
@@ -137,7 +138,7 @@ void BearingDetector::Learn() {
       const PhaseSlopes& p = slopes_.phase[q];
       const double size = std::min(std::abs(chart_.z[q][j]), 4.0);
       chart_.size[q][j] += kSizeRate * (size - chart_.size[q][j]);
-      const double w = kLearnEvery / (chart_.sd[q][j] * chart_.sd[q][j]);
+      const double w = kLearnEvery * chart_.per_sd[q][j] * chart_.per_sd[q][j];
       const double x0 = -p.current[j], x1 = p.linkage[j] - model_.leakage[j] * p.current[j];
       const double e = p.residual[j];
       a00 += w * x0 * x0;

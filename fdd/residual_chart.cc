@@ -28,7 +28,7 @@ struct Terms {
 };
 
 [[gnu::always_inline]] inline void Phase(const Terms& c, const ChartSettings& s, const ModelError& known,
-                                         const PhaseSlopes& p, bool off, const Lane& size, const Lane* doubt, Lane* e, Lane* sd, Lane* z,
+                                         const PhaseSlopes& p, bool off, const Lane& size, const Lane* doubt, Lane* e, Lane* sd, Lane* per_sd, Lane* z,
                                          Lane* valid) {
   const V zero, one = 1, nothing = kZeroCurrent;
   const V di = Load(p.current.v), flux = Load(p.linkage.v) - c.leakage * di;
@@ -48,6 +48,7 @@ struct Terms {
   const V ok = Select(few + clipped + blocks > zero, zero, c.watched);
   Store(e->v, residual);
   Store(sd->v, total * inverse_width);
+  Store(per_sd->v, inverse_width);
   Store(z->v, Select(ok > zero, residual * inverse_width, zero));
   Store(valid->v, ok);
 }
@@ -67,8 +68,8 @@ AMBRIG_WIDE void ComputeAll(const LinkageModel& m, double step, const ChartSetti
   c.largest = Load(slopes.largest.v);
   c.per_step = 1 / step;
   c.potential_rate = potential_rate;
-  Phase(c, s, known, slopes.phase[0], false, r->size[0], doubt, &r->e[0], &r->sd[0], &r->z[0], &r->valid[0]);
-  Phase(c, s, known, slopes.phase[1], true, r->size[1], doubt ? doubt + 1 : nullptr, &r->e[1], &r->sd[1], &r->z[1], &r->valid[1]);
+  Phase(c, s, known, slopes.phase[0], false, r->size[0], doubt, &r->e[0], &r->sd[0], &r->per_sd[0], &r->z[0], &r->valid[0]);
+  Phase(c, s, known, slopes.phase[1], true, r->size[1], doubt ? doubt + 1 : nullptr, &r->e[1], &r->sd[1], &r->per_sd[1], &r->z[1], &r->valid[1]);
 }
 
 AMBRIG_WIDE double Accumulate(const ChartSettings& s, ResidualChart* r) {

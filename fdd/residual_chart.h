@@ -33,6 +33,7 @@ struct LinkageStep {
 
 struct ResidualChart {
   Lane e[2], sd[2], z[2];  // corrected residual, its expected size [V], their ratio
+  Lane per_sd[2];          // 1/sd [1/V]
   Lane valid[2];           // the residual's equation holds
   Lane size[2];            // long-term mean of |z|
   Lane G[3];
