@@ -34,15 +34,19 @@ class ResonanceStartTest : public testing::Test {
     for (Channel& ch : data_.records[0].data.channels)
       if (const Channel* from = measured.Find(ch.name)) ch.samples.assign(from->samples.begin(), from->samples.begin() + static_cast<std::ptrdiff_t>(ch.samples.size()));
   }
+  /// The rig as it is, over floors of a thousandth of each channel.
+  FitResult Simulated(CaseModel& model) const {
+    for (Target& t : model.targets()) t.floor = std::max(1e-3 * t.full_scale, 1e-9);
+    FitOptions look;
+    look.iterations = 0;
+    return Fit(model, Hypothesis::Base(data_.rig), look);
+  }
   Case data_;
 };
 
 TEST_F(ResonanceStartTest, DampingIsHeldUntilTheFrequencyIsFound) {
   CaseModel model(data_, 4);
-  for (Target& t : model.targets()) t.floor = std::max(1e-3 * t.full_scale, 1e-9);
-  FitOptions look;
-  look.iterations = 0;
-  const FitResult base = Fit(model, Hypothesis::Base(data_.rig), look);
+  const FitResult base = Simulated(model);
   Candidate candidate;
   candidate.narrow = true;
   candidate.effect = BaseOf(166, 39, 0.05);
@@ -57,10 +61,7 @@ TEST_F(ResonanceStartTest, DampingIsHeldUntilTheFrequencyIsFound) {
 // Of several starts the one that explains most when it is simulated goes first, whatever the linear step thought of it.
 TEST_F(ResonanceStartTest, StartsAreJudgedByTheirSimulation) {
   CaseModel model(data_, 4);
-  for (Target& t : model.targets()) t.floor = std::max(1e-3 * t.full_scale, 1e-9);
-  FitOptions look;
-  look.iterations = 0;
-  const FitResult base = Fit(model, Hypothesis::Base(data_.rig), look);
+  const FitResult base = Simulated(model);
   Candidate candidate;
   candidate.narrow = true;
   candidate.effect = BaseOf(400, 150, 0.05);  // the linear step's favourite
