@@ -27,13 +27,13 @@ AppendFile::AppendFile(const std::string& path) : path_(path) {
 AppendFile::~AppendFile() { close(file_); }
 
 void AppendFile::Append(std::string_view bytes) {
-  if (broken_) throw InputError("cannot write " + path_ + ": an earlier entry failed");
+  if (error_ != 0) ThrowCannotWrite(path_, error_);
   while (!bytes.empty()) {
     const ssize_t n = write(file_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) {
-      broken_ = true;
-      ThrowCannotWrite(path_, errno);
+      error_ = errno;
+      ThrowCannotWrite(path_, error_);
     }
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
