@@ -12,6 +12,7 @@ wait_rows() {
   exit 8
 }
 tasks() { pgrep -f "campaign .*$PWD/c.toml -o $PWD/out/shards"; }
+tasks_on() { for p in $(tasks); do grep -qz "^SLURMD_NODENAME=$1\$" /proc/$p/environ 2> /dev/null && echo $p; done; }
 kill_recorded() { kill -9 "$(awk -v n="$1" '$1 == n { p = $2 } END { print p }' slurm/pids)"; }
 
 "$ambrig" campaign c.toml -o out --engine slurm --tasks 8 --poll 0.5 --no-report > said.txt 2>&1 &
@@ -20,11 +21,9 @@ wait_rows 20
 kill -9 "$(tasks | head -1)" && echo "task killed at $(rows)"
 
 wait_rows 60
-kill_recorded slurmd-n2
-for p in $(tasks); do  # the crashed node's task and its keeper die with it
-  grep -qz '^SLURMD_NODENAME=n2$' /proc/$p/environ || continue
-  kill -9 "$(ps -o ppid= -p $p | tr -d ' ')" $p && echo "node killed at $(rows)"
-done
+for _ in $(seq 50); do [ -n "$(tasks_on n2)" ] && break; sleep 0.1; done  # between two tasks a node has none
+kill_recorded slurmd-n2 && echo "node killed at $(rows)"
+for p in $(tasks_on n2); do kill -9 "$(ps -o ppid= -p $p | tr -d ' ')" $p; done  # its task and the task's keeper die with it
 
 wait_rows 110
 kill_recorded slurmctld && echo "controller killed at $(rows)"
