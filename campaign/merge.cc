@@ -15,7 +15,7 @@ std::string Missing(const JournalContent& c) {
     if (c.rows.contains(run)) continue;
     if (++count <= 5) text += (count > 1 ? ", " : "") + std::to_string(run);
   }
-  return fmt::format("{} of {} runs are missing ({}{})", count, c.header.runs, text, count > 5 ? ", ..." : "");
+  return fmt::format("{} of {} runs {} missing ({}{})", count, c.header.runs, count == 1 ? "is" : "are", text, count > 5 ? ", ..." : "");
 }
 
 }  // namespace
