@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
+#include "core/base/read_file.h"
 #include "core/base/toml_node.h"
 
 namespace ambrig {
+
+namespace {
+constexpr std::size_t kLargestFile = 16 << 20;  // [bytes] a device without an end is no rig
+}
 
 std::string TypeName(const toml::node& n) {
   switch (n.type()) {
@@ -64,12 +68,9 @@ TomlTable TomlTable::FromFile(const std::string& file) {
   std::error_code ignored;
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(fmt::format("{}: is a folder, allowed: a TOML file", file));
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(fmt::format("{}: cannot open the file for reading", file));
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (in.bad()) throw InputError(fmt::format("{}: cannot read the file", file));
-  return FromText(text.str(), file);
+  const std::string text = ReadFile(file, kLargestFile + 1);
+  if (text.size() > kLargestFile) throw InputError(fmt::format("{}: is larger than 16 MiB, allowed: a TOML file", file));
+  return FromText(text, file);
 }
 
 const std::string& TomlTable::file() const { return node_->file; }

@@ -36,10 +36,15 @@ TEST_F(BadInput, DotsOutsideKeys) {
 TEST_F(BadInput, DeepValue) { ExpectComplaint(Run("a = " + std::string(100'000, '['), ScenarioText("")), "rig.toml:1: not valid TOML"); }
 TEST_F(BadInput, EmptyRig) { ExpectComplaint(Run("", ScenarioText("")), "rig.toml:"); }
 TEST_F(BadInput, MissingRig) {
-  ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", "no.toml")), "no.toml: cannot open");
+  ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", "no.toml")), "no.toml: no such file");
 }
 TEST_F(BadInput, RigIsAFolder) {
   ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", ".")), "is a folder, allowed: a TOML file");
+}
+TEST_F(BadInput, FileWithoutAnEnd) {
+  Write("rig.toml", ReferenceRigText());
+  Write("s.toml", ScenarioText(""));
+  ExpectComplaint(Ambrig("run /dev/zero --quiet"), "/dev/zero: is larger than 16 MiB");
 }
 TEST_F(BadInput, UnwritableOut) {
   ExpectComplaint(Run(ReferenceRigText(), ScenarioText(""), "/proc/nowhere"), "cannot write /proc/nowhere");
