@@ -63,11 +63,8 @@ std::optional<TomlTable> TomlTable::Table(std::string_view key) const {
   if (!n) return std::nullopt;
   const auto* t = n->as_table();
   if (!t) throw InputError(fmt::format("{} = {} is {}, allowed: a table", Where(key), TextOf(*n), TypeName(*n)));
-  auto node = std::make_shared<Node>();
-  node->root = node_->root;
+  auto node = Inside(std::string(key));
   node->table = t;
-  node->file = node_->file;
-  node->path = (node_->path.empty() ? "" : node_->path + ".") + std::string(key);
   return TomlTable(node);
 }
 
