@@ -36,15 +36,6 @@ std::vector<double> SensorNoise(const RigParameters& rig) {
   return noise;
 }
 
-/// Largest distance of a named plane from where it stood at the start.
-double PlaneOrbit(const Record& record, const std::string& plane) {
-  const Channel *x = record.Find(plane + ".r.x"), *y = record.Find(plane + ".r.y");
-  Require(x && y && !x->samples.empty(), "a plane that is recorded");
-  double most = 0;
-  for (std::size_t k = 0; k < x->samples.size(); ++k) most = std::max(most, std::hypot(x->samples[k] - x->samples[0], y->samples[k] - y->samples[0]));
-  return most;
-}
-
 double RunFigure(const FigureSpec& f, const RigParameters& rig, const RunResult& r) {
   double orbit = 0, used = 0;
   for (const BearingParameters& b : rig.bearings) {
@@ -57,7 +48,7 @@ double RunFigure(const FigureSpec& f, const RigParameters& rig, const RunResult&
   switch (f.info->kind) {
     case FigureKind::kOrbit: return orbit;
     case FigureKind::kLateOrbit: return r.metrics.late_orbit;
-    case FigureKind::kPlaneOrbit: return PlaneOrbit(r.record, f.plane);
+    case FigureKind::kPlaneOrbit: return std::ranges::max(PlaneDistance(r.record, f.plane));
     case FigureKind::kClearanceUsed: return used;
     case FigureKind::kPeakCurrent: return r.metrics.peak_current;
     case FigureKind::kCopperLoss: return r.metrics.copper_loss;
@@ -172,6 +163,14 @@ Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector
     out.note = OneLine(e.what());
     std::fill(out.figures.begin(), out.figures.end(), kInfinity);
   }
+  return out;
+}
+
+std::vector<double> PlaneDistance(const Record& record, const std::string& plane) {
+  const Channel *x = record.Find(plane + ".r.x"), *y = record.Find(plane + ".r.y");
+  Require(x && y && !x->samples.empty(), "a plane that is recorded");
+  std::vector<double> out;
+  for (std::size_t k = 0; k < x->samples.size(); ++k) out.push_back(std::hypot(x->samples[k] - x->samples[0], y->samples[k] - y->samples[0]));
   return out;
 }
 

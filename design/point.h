@@ -21,6 +21,9 @@ Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector
 /// The rig with one draw of its parameters as the plant's true values.
 RigParameters Drawn(RigParameters rig, const std::vector<double>& draw);
 
+/// Distance of a named plane from where it stood at the start of the record [m], one value a row.
+std::vector<double> PlaneDistance(const Record& record, const std::string& plane);
+
 /// Every limit of the study kept.
 bool MeetsLimits(const Study& study, const std::vector<double>& figures);
 

@@ -5,6 +5,7 @@
 
 #include "design/linear_figures.h"
 #include "design/pareto.h"
+#include "design/point.h"
 #include "scenarios/control_plant.h"
 #include "scenarios/controller_setup.h"
 
@@ -15,14 +16,6 @@ namespace {
 constexpr double kStepLength = 0.03;  // [s]
 constexpr int kCurvePoints = 300;
 constexpr double kLowest = 1, kHighest = 2000;  // [Hz]
-
-/// Distance of a named plane from where it stood at the start.
-std::vector<double> PlaneTrace(const Record& record, const std::string& plane) {
-  const Channel *x = record.Find(plane + ".r.x"), *y = record.Find(plane + ".r.y");
-  std::vector<double> out;
-  for (std::size_t k = 0; x && y && k < x->samples.size(); ++k) out.push_back(std::hypot(x->samples[k] - x->samples[0], y->samples[k] - y->samples[0]));
-  return out;
-}
 
 ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParameters& rig, RunResult result) {
   ScenarioTrace trace;
@@ -35,7 +28,7 @@ ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParamet
       trace.orbit[k] = std::max(trace.orbit[k], std::hypot(x->samples[k], y ? y->samples[k] : 0.0));
   }
   for (const FigureSpec& f : study.figures)
-    if (f.info->kind == FigureKind::kPlaneOrbit && f.scenario == scenario) trace.planes.emplace_back(f.plane, PlaneTrace(result.record, f.plane));
+    if (f.info->kind == FigureKind::kPlaneOrbit && f.scenario == scenario) trace.planes.emplace_back(f.plane, PlaneDistance(result.record, f.plane));
   trace.result = std::move(result);
   return trace;
 }
