@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "control/slicot.h"
+#include "tests/control/unstable_mass.h"
 
 namespace ambrig {
 namespace {
@@ -70,24 +71,8 @@ TEST(HInfinity, NormIsBelowGamma) {
   EXPECT_FALSE(DiscreteHInfinity(P, 1, 1, 0.9 * least).usable);
 }
 
-/// Unstable mass with latency, as in lqg_test.cc, in scaled states.
-SampledPlant UnstableMass() {
-  SampledPlant p;
-  p.Ts = 1e-4;
-  const double w = 300, m = 2, ch = std::cosh(w * p.Ts), sh = std::sinh(w * p.Ts);
-  p.A.resize(3, 3);
-  p.A << ch, 1e3 * sh / w, 1e6 * (ch - 1) / (w * w * m), w * sh / 1e3, ch, 1e3 * sh / (w * m), 0, 0, 0;
-  p.B.resize(3, 1);
-  p.B << 0, 0, 0.1;
-  p.E.resize(3, 1);
-  p.E << 1e5 * (ch - 1) / (w * w * m), 1e2 * sh / (w * m), 0;
-  p.C.resize(1, 3);
-  p.C << 1e-5, 0, 0;
-  return p;
-}
-
 TEST(HInfinity, DesignForAnUnstableMass) {
-  const SampledPlant p = UnstableMass();
+  const SampledPlant p = testing::UnstableMass();
   const HInfinityParameters w;
   const HInfinityDesign d = DesignHInfinity(p, w, "test");
   EXPECT_LT(SpectralRadius(LoopMatrix(p.FromForce(), d.controller)), 1);

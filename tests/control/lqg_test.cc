@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "control/riccati.h"
+#include "tests/control/unstable_mass.h"
 
 namespace ambrig {
 namespace {
@@ -46,31 +47,9 @@ TEST(Riccati, SaysWhenThereIsNoSolution) {
   EXPECT_FALSE(SolveRiccati(A, B, MatrixXd::Identity(2, 2), Scalar(1)).usable());
 }
 
-/// A mass of 2 kg on a negative spring, force held over Ts: x'' = k x + f/m, one step of latency.
-SampledPlant UnstableMass() {
-  SampledPlant p;
-  p.Ts = 1e-4;
-  const double w = 300, m = 2, ch = std::cosh(w * p.Ts), sh = std::sinh(w * p.Ts);
-  const double size[3] = {1e-5, 1e-2, 10};
-  p.A.resize(3, 3);
-  p.A << ch, sh / w, (ch - 1) / (w * w * m), w * sh, ch, sh / (w * m), 0, 0, 0;
-  p.B.resize(3, 1);
-  p.B << 0, 0, 1;
-  p.E.resize(3, 1);
-  p.E << (ch - 1) / (w * w * m), sh / (w * m), 0;
-  p.C.resize(1, 3);
-  p.C << 1, 0, 0;
-  Eigen::Vector3d s(size[0], size[1], size[2]);
-  p.A = (s.cwiseInverse().asDiagonal() * p.A * s.asDiagonal()).eval();
-  p.B = (s.cwiseInverse().asDiagonal() * p.B).eval();
-  p.E = (s.cwiseInverse().asDiagonal() * p.E).eval();
-  p.C = (p.C * s.asDiagonal()).eval();
-  return p;
-}
-
 // Separation: the loop's poles are those of A - B K and of A - A L C, which the design promises to be stable.
 TEST(Lqg, LoopIsStableByTheSeparationTheorem) {
-  const SampledPlant p = UnstableMass();
+  const SampledPlant p = testing::UnstableMass();
   const LqgDesign d = DesignLqg(p, {}, "test");
   const LqgController k({0}, {d}, {100}, p.Ts);
   EXPECT_LT(d.control_residual, 1e-9);
@@ -81,7 +60,7 @@ TEST(Lqg, LoopIsStableByTheSeparationTheorem) {
 
 // Against the plant: a step of load is integrated away, a reference is reached, both without being told.
 TEST(Lqg, RejectsALoadAndFollowsAReference) {
-  const SampledPlant p = UnstableMass();
+  const SampledPlant p = testing::UnstableMass();
   LqgController k({0}, {DesignLqg(p, {}, "test")}, {1000}, p.Ts);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(3);
   std::vector<double> f(1);
@@ -101,7 +80,7 @@ TEST(Lqg, RejectsALoadAndFollowsAReference) {
 
 // Held on a force while the shaft stands off the model's rest, the first steps ask for that force.
 TEST(Lqg, HoldAndLinear) {
-  const SampledPlant p = UnstableMass();
+  const SampledPlant p = testing::UnstableMass();
   LqgController k({0}, {DesignLqg(p, {}, "test")}, {1000}, p.Ts);
   std::vector<double> f(1);
   k.Hold({25}, {2e-6}, {2e-6});
@@ -121,7 +100,7 @@ TEST(Lqg, HoldAndLinear) {
 }
 
 TEST(Lqg, SaysWhatCannotBeHeld) {
-  SampledPlant p = UnstableMass();
+  SampledPlant p = testing::UnstableMass();
   p.B.setZero();
   try {
     DesignLqg(p, {}, "rig.toml:7: controller.kind");

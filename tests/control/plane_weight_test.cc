@@ -3,27 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "control/h_infinity.h"
 #include "control/lqg.h"
+#include "tests/control/unstable_mass.h"
 
 namespace ambrig {
 namespace {
 
-/// x'' = k x + f/m in scaled states, one step of latency; the weighed plane is the sensor's own.
+/// The weighed plane is the sensor's own.
 SampledPlant UnstableMass(double displacement_weight, double force_noise) {
-  SampledPlant p;
-  p.Ts = 1e-4;
-  const double w = 300, m = 2, ch = std::cosh(w * p.Ts), sh = std::sinh(w * p.Ts);
-  p.A.resize(3, 3);
-  p.A << ch, 1e3 * sh / w, 1e6 * (ch - 1) / (w * w * m), w * sh / 1e3, ch, 1e3 * sh / (w * m), 0, 0, 0;
-  p.B.resize(3, 1);
-  p.B << 0, 0, 0.1;
-  p.E.resize(3, 1);
-  p.E << 1e5 * (ch - 1) / (w * w * m), 1e2 * sh / (w * m), 0;
-  p.C.resize(1, 3);
-  p.C << 1e-5, 0, 0;
+  SampledPlant p = testing::UnstableMass();
   if (displacement_weight > 0) p.V = p.C / displacement_weight;
   if (force_noise > 0) p.G = force_noise * p.E;
   return p;

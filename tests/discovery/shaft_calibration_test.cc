@@ -11,28 +11,15 @@
 #include "rotor/shaft_parameters.h"
 #include "scenarios/rig.h"
 #include "scenarios/switching_engine.h"
+#include "tests/scenarios/tum_rig.h"
 
 namespace ambrig {
 namespace {
 
-const std::string kFolder = std::string(AMBRIG_SOURCE_DIR) + "/examples/tum_mbtr/";
-
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
-/// The TUM rig with its shaft inside, after some replacements.
-std::string RigText(const std::vector<std::pair<std::string, std::string>>& changes = {}) {
-  const std::string shaft = ReadFile(kFolder + "shaft.toml");
-  std::string text = Replaced(ReadFile(kFolder + "rig.toml"), "file = \"shaft.toml\"", "modes = 4\nelements_per_section = 4");
-  text = Replaced(text, "[amplifier]", shaft.substr(shaft.find("[rotor.materials")) + "\n[amplifier]");
-  for (const auto& [from, to] : changes) text = Replaced(text, from, to);
-  return text;
-}
-
-RigParameters Rig(const std::string& text) { return ReadRigText(text, kFolder + "rig.toml"); }
+using testing::kTumFolder;
+using testing::Replaced;
+using testing::TumRig;
+using testing::TumRigText;
 
 void ExpectSameRotor(const RigParameters& a, const RigParameters& b, const std::string& what) {
   EXPECT_NEAR(a.rotor.mass / b.rotor.mass, 1, 1e-12) << what;
@@ -67,14 +54,14 @@ const Number kNumbers[] = {
 
 // A fitted number is the same rig as one drawn with it.
 TEST(ShaftCalibration, FittedNumbersAreTheTruth) {
-  const RigParameters drawn = Rig(RigText());
+  const RigParameters drawn = TumRig(TumRigText());
   for (const Number& n : kNumbers) {
-    const RigParameters rig = Rig(RigText({{n.line, n.fitted}}));
+    const RigParameters rig = TumRig(TumRigText({{n.line, n.fitted}}));
     ExpectSameRotor(rig, drawn, n.path);  // the controller's
     ASSERT_EQ(rig.tolerances.size(), 1u);
     EXPECT_EQ(rig.tolerances[0].path, n.path);
     const RigParameters truth = TrueRig(rig);
-    ExpectSameRotor(truth, Rig(RigText({{n.line, n.plain}})), n.path);
+    ExpectSameRotor(truth, TumRig(TumRigText({{n.line, n.plain}})), n.path);
     EXPECT_EQ(*ParameterAt(truth, n.path), n.value);
     EXPECT_GT(std::abs(truth.rotor.mass / drawn.rotor.mass - 1) + std::abs(truth.modes[0].omega / drawn.modes[0].omega - 1) +
                   std::abs(truth.modes[0].damping / drawn.modes[0].damping - 1), 1e-4) << n.path;
@@ -88,7 +75,7 @@ TEST(ShaftCalibration, FittedNumbersAreTheTruth) {
 
 // A sensor's plane with an sd beside a disk's mass that moves the centre of mass: in any order the same.
 TEST(ShaftCalibration, PlanesStayOnTheShaft) {
-  const RigParameters rig = Rig(RigText({{"mass = 0.85074", "mass = { value = 0.85074, sd = 0.01 }"},
+  const RigParameters rig = TumRig(TumRigText({{"mass = 0.85074", "mass = { value = 0.85074, sd = 0.01 }"},
                                          {"sensor = { z = 0.623", "sensor = { z = { value = 0.623, sd = 1e-3 }"}}));
   const double moved = *ParameterAt(rig, "bearings.B.sensor.z") + 5e-4;
   RigParameters a = rig, b = rig;
@@ -128,7 +115,7 @@ TEST(ShaftCalibration, WhatCannotBeMovedIsToldInOneLine) {
                                                           {"z = 0.363", "z = { value = 0.363, sd = 1e-3 }"}};
   for (const auto& [from, to] : mistakes) {
     try {
-      Rig(RigText({{from, to}}));
+      TumRig(TumRigText({{from, to}}));
       ADD_FAILURE() << to;
     } catch (const InputError& e) {
       EXPECT_NE(std::string(e.what()).find("has an sd, allowed: diameters"), std::string::npos) << e.what();
@@ -142,7 +129,7 @@ CaseRecord Measured(const RigParameters& rig, const RigParameters& truth) {
   CaseRecord r;
   r.scenario = ReadScenarioText("duration = 0.6\nrecord_rate = 2500.0\nseed = 11\n[[excitation]]\ntarget = \"A.x\"\nport = \"force\"\n"
                                 "kind = \"chirp\"\namplitude = 3.0\nf0 = 8.0\nf1 = 240.0\n",
-                                kFolder + "chirp.toml", rig);
+                                kTumFolder + "chirp.toml", rig);
   EngineOptions options;
   options.nominal = &rig;
   const Record whole = SwitchingEngine(truth, r.scenario, options).Run().record;
@@ -156,7 +143,7 @@ CaseRecord Measured(const RigParameters& rig, const RigParameters& truth) {
 
 // The measured rig's shaft is 3 % softer and its modes twice as well damped: a fit says so.
 TEST(ShaftCalibration, AFitFindsTheShaft) {
-  const RigParameters rig = Rig(RigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
+  const RigParameters rig = TumRig(TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
                                          {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}));
   RigParameters truth = rig;
   SetParameter(truth, "rotor.materials.shaft_steel.E", 2.047e11);
@@ -180,21 +167,21 @@ TEST(ShaftCalibration, AFitFindsTheShaft) {
     EXPECT_LT(std::abs(value - (E ? 2.047e11 : 0.004)), 5 * fit.sd[k]);
   }
   // What is adopted reads back as that shaft.
-  const std::string text = AdoptedRigText(RigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
+  const std::string text = AdoptedRigText(TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
                                                    {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}),
                                           fit.hypothesis, {});
-  ExpectSameRotor(TrueRig(Rig(text)), fit.hypothesis.rig, "adopted");
+  ExpectSameRotor(TrueRig(TumRig(text)), fit.hypothesis.rig, "adopted");
 }
 
 // The k-th table of [[rotor.section]] is the k-th line that is written; of a shaft's own file nothing can be.
 TEST(ShaftCalibration, AdoptedTextOfTables) {
-  const std::string text = RigText({{kSecond, "length = 0.038\nod = { value = 0.0096, sd = 1e-4 }  # turned"}});
-  Hypothesis h = Hypothesis::Base(Rig(text));
+  const std::string text = TumRigText({{kSecond, "length = 0.038\nod = { value = 0.0096, sd = 1e-4 }  # turned"}});
+  Hypothesis h = Hypothesis::Base(TumRig(text));
   h.Set(0, 0.0098);
   const std::string adopted = AdoptedRigText(text, h, {});
   EXPECT_NE(adopted.find("od = { value = 0.0096, sd = 0.0001, fitted = 0.0098 }  # turned"), std::string::npos);
-  EXPECT_NEAR(TrueRig(Rig(adopted)).beam->definition.sections[1].od, 0.0098, 1e-15);
-  EXPECT_THROW(AdoptedRigText(ReadFile(kFolder + "rig.toml"), h, {}), InputError);
+  EXPECT_NEAR(TrueRig(TumRig(adopted)).beam->definition.sections[1].od, 0.0098, 1e-15);
+  EXPECT_THROW(AdoptedRigText(ReadFile(kTumFolder + "rig.toml"), h, {}), InputError);
 }
 
 }  // namespace

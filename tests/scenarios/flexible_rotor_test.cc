@@ -13,38 +13,26 @@
 #include "scenarios/reference_engine.h"
 #include "scenarios/rig.h"
 #include "scenarios/switching_engine.h"
+#include "tests/scenarios/tum_rig.h"
 #include "tests/scenarios/witness.h"
 
 namespace ambrig {
 namespace {
 
-const std::string kFolder = std::string(AMBRIG_SOURCE_DIR) + "/examples/tum_mbtr/";
+using testing::kTumFolder;
+using testing::Replaced;
+using testing::TumRig;
+using testing::TumRigText;
 
-std::string Replaced(std::string text, const std::string& from, const std::string& to) {
-  const std::size_t at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
-/// The rig's text with its shaft inside, so that tests can change both.
-std::string RigText() {
-  std::string shaft = ReadFile(kFolder + "shaft.toml");
-  const std::size_t tables = shaft.find("[rotor.materials");
-  std::string text = Replaced(ReadFile(kFolder + "rig.toml"), "file = \"shaft.toml\"",
-                              "modes = 4\nelements_per_section = 4");
-  return Replaced(text, "[amplifier]", shaft.substr(tables) + "\n[amplifier]");
-}
-
-RigParameters Rig(const std::string& text) { return ReadRigText(text, kFolder + "rig.toml"); }
-RigParameters Mbtr() { return ReadRig(kFolder + "rig.toml"); }
+RigParameters Mbtr() { return ReadRig(kTumFolder + "rig.toml"); }
 
 /// Without unbalance and losses, floating freely, nothing to touch.
 RigParameters FreeShaft(double damping = 0, int modes = 4) {
-  std::string text = Replaced(RigText(), "modal_damping = 0.002", fmt::format("modal_damping = {}", damping));
+  std::string text = Replaced(TumRigText(), "modal_damping = 0.002", fmt::format("modal_damping = {}", damping));
   text = Replaced(text, "modes = 4", fmt::format("modes = {}", modes));
   while (text.find("damping_stiffness = 5e-7") != std::string::npos)
     text = Replaced(text, "damping_stiffness = 5e-7", "");
-  RigParameters rig = Rig(text);
+  RigParameters rig = TumRig(text);
   rig.effects.clear();
   rig.gravity = {0, 0, 0};
   for (BearingParameters& b : rig.bearings) b.auxiliary.reset();
@@ -53,11 +41,11 @@ RigParameters FreeShaft(double damping = 0, int modes = 4) {
 
 Scenario Quiet(const RigParameters& rig, double duration, double speed) {
   return ReadScenarioText(fmt::format("duration = {}\nrecord_rate = 12500.0\nnoise = false\n[speed]\nprofile = "
-                                      "[[0.0, {}]]\n", duration, NumberText(speed)), kFolder + "test.toml", rig);
+                                      "[[0.0, {}]]\n", duration, NumberText(speed)), kTumFolder + "test.toml", rig);
 }
 
 TEST(FlexibleRotor, InlineAndInAFileAreOneRig) {
-  const RigParameters file = Mbtr(), text = Rig(RigText());
+  const RigParameters file = Mbtr(), text = TumRig(TumRigText());
   EXPECT_EQ(file.rotor.mass, text.rotor.mass);
   ASSERT_EQ(file.modes.size(), 4u);
   ASSERT_EQ(text.modes.size(), 4u);
@@ -70,9 +58,9 @@ TEST(FlexibleRotor, InlineAndInAFileAreOneRig) {
 
 // Without modes the beam is the rigid rotor of its mass and inertia, along its own axis.
 TEST(FlexibleRotor, WithoutModesItIsTheRigidRotor) {
-  const RigParameters beam = Rig(Replaced(RigText(), "modes = 4", "modes = 0"));
+  const RigParameters beam = TumRig(Replaced(TumRigText(), "modes = 4", "modes = 0"));
   EXPECT_TRUE(beam.modes.empty());
-  std::string text = ReadFile(kFolder + "rig.toml");
+  std::string text = ReadFile(kTumFolder + "rig.toml");
   text = Replaced(text, "kind = \"beam\"\nfile = \"shaft.toml\"\n",
                   fmt::format("kind = \"rigid\"\nmass = {}\ninertia_transverse = {}\ninertia_polar = {}\n",
                               beam.rotor.mass, beam.rotor.inertia_transverse, beam.rotor.inertia_polar));
@@ -83,7 +71,7 @@ TEST(FlexibleRotor, WithoutModesItIsTheRigidRotor) {
   text = text.substr(0, text.find("[[effect]]"));  // a rigid rotor has no disk to put it on
   RigParameters without = beam;
   without.effects.clear();
-  const RigParameters rigid = ReadRigText(text, kFolder + "rig.toml");
+  const RigParameters rigid = ReadRigText(text, kTumFolder + "rig.toml");
   EngineOptions o;
   o.warm_up = 0.01;
   const Record a = SwitchingEngine(without, Quiet(without, 0.05, 300), o).Run().record;
@@ -195,7 +183,7 @@ TEST(FlexibleRotor, WhirlsAsItsEigenvector) {
 
 /// Response at the disk to a force there, shaft on springs at the bearings, by n modes.
 std::complex<double> Compliance(int modes, double w) {
-  const RigParameters rig = Rig(Replaced(RigText(), "modes = 4", fmt::format("modes = {}", modes)));
+  const RigParameters rig = TumRig(Replaced(TumRigText(), "modes = 4", fmt::format("modes = {}", modes)));
   const Plant plant = BuildPlant(rig);
   const LinearRotor linear = LinearRotorOf(plant);
   Eigen::MatrixXcd Z = (linear.K - w * w * linear.M).cast<std::complex<double>>();
@@ -292,7 +280,7 @@ TEST(FlexibleRotor, FidelitiesAgree) {
 
 TEST(FlexibleRotor, SensorsReadTheBentShaftAtTheirOwnPlane) {
   RigParameters rig = FreeShaft();
-  rig = Rig(Replaced(RigText(), "sensor = { z = 0.113", "sensor = { z = 0.155"));
+  rig = TumRig(Replaced(TumRigText(), "sensor = { z = 0.113", "sensor = { z = 0.155"));
   const Plant plant = BuildPlant(rig);
   const ReducedRotor reduced = BuildReduced(*rig.beam);
   MotionState s;
@@ -328,9 +316,9 @@ TEST(FlexibleRotor, MistakesAreOneLine) {
   for (const Mistake& m : mistakes) {
     std::string message = "no error";
     try {
-      std::string text = Replaced(RigText(), m.from, m.to);
+      std::string text = Replaced(TumRigText(), m.from, m.to);
       if (m.to.find("400.0") != std::string::npos) text = Replaced(text, "rate = 12500.0", "rate = 400.0");
-      Rig(text);
+      TumRig(text);
     } catch (const InputError& e) {
       message = e.what();
     }
@@ -341,11 +329,11 @@ TEST(FlexibleRotor, MistakesAreOneLine) {
 }
 
 TEST(FlexibleRotor, ShaftFilesThatAreNone) {
-  const std::string text = ReadFile(kFolder + "rig.toml");
+  const std::string text = ReadFile(kTumFolder + "rig.toml");
   for (const auto& [file, part] : {std::pair{"nowhere.toml", "nowhere.toml"}, {"shaft.txt", "a .toml or .json file"},
                                    {"nowhere.json", "nowhere.json"}, {"run_up.toml", "no shaft element"}}) {
     try {
-      Rig(Replaced(text, "shaft.toml\"", std::string(file) + "\""));
+      TumRig(Replaced(text, "shaft.toml\"", std::string(file) + "\""));
       ADD_FAILURE() << file;
     } catch (const InputError& e) {
       EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
