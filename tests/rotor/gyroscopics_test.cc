@@ -42,6 +42,40 @@ TEST(Gyroscopics, StepsConvergeWithOrderFour) {
   EXPECT_NEAR(std::log2(e[1] / e[2]), 4, 0.1);
 }
 
+class NoForce final : public ForceTerm {
+ public:
+  void Add(const MotionState&, RotorForces&) const override {}
+};
+
+// A rotor that only given forces move takes a shorter way through the step: the same to rounding.
+TEST(Gyroscopics, TheStepOfAFreeFlightIsTheGeneralOne) {
+  for (const double free_from : {kInfinity, 0.01}) {
+    RotorModel flying(kReference, {0, -9.81, 0.5}), general(kReference, {0, -9.81, 0.5});
+    for (RotorModel* m : {&flying, &general}) {
+      m->axial_free = true;
+      m->SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 100.0}, {0.02, 900.0}}), free_from);
+      m->AddLoad(0.07, 3, -2, 1, 0.00411, 0.0123);
+    }
+    general.terms.push_back(std::make_unique<NoForce>());
+    MotionState a, b;
+    a.v[3] = b.v[3] = 0.3;
+    for (int n = 0; n < 500; ++n) {
+      const double swing = std::sin(0.05 * n);
+      const DofVector Q = {20 * swing, 30 - swing, 5, 0.4 * swing, -0.7};
+      flying.Step(a, Q, 0, 0, 40e-6);
+      general.Step(b, Q, 0, 0, 40e-6);
+    }
+    for (std::size_t d = 0; d < 5; ++d) {
+      EXPECT_GT(std::abs(b.q[d]), 1e-6) << d;  // it moved
+      EXPECT_NEAR(a.q[d], b.q[d], 1e-13 * (1 + std::abs(b.q[d]))) << d;
+      EXPECT_NEAR(a.v[d], b.v[d], 1e-12 * (1 + std::abs(b.v[d]))) << d;
+    }
+    EXPECT_NEAR(a.theta, b.theta, 1e-12 * b.theta);
+    EXPECT_NEAR(a.Omega, b.Omega, 1e-12 * b.Omega);
+    EXPECT_EQ(a.t, b.t);
+  }
+}
+
 /// Linear rig of facts.md 2.3: x' = A x of (q, v), from the model's accelerations column by column.
 struct PublishedRig {
   static constexpr RotorParameters kRotor = {2.3, 6e-2, 8e-4, 0.01};
