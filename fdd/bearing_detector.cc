@@ -20,11 +20,8 @@ constexpr double kGross = 6;           // [sd] residual that no noise makes
 constexpr double kStepVoltage = 5;     // what the voltage may err by within one sample [sd of its mean over a phase]
 constexpr double kPartnerMargin = 12;    // between two windings on one core: e^-6
 constexpr int kDecayed = 25;             // periods after which a coil that is off carries nothing: 1 ms, 0.2 ms are needed
-constexpr double kDoubt = 3;           // tolerances count this many times
 constexpr double kLeastUnknownCurrent = 1;  // [A] what a coil of unknown MMF may carry beside its reading
-constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;  // of the tolerances: coils differ within a bearing
 constexpr int kLearnEvery = 4;         // periods
-constexpr double kForget = kLearnEvery / 500.0, kSizeRate = kLearnEvery / 200.0;
 
 /// Winding with the share `left` of its turns, the others bypassed.
 void ShortTurns(LinkageModel& m, int j, double left) {
@@ -36,26 +33,12 @@ void ShortTurns(LinkageModel& m, int j, double left) {
 }  // namespace
 
 BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettings& settings)
-    : model_(model), s_(settings), ring_(kRing) {
-  s_.sampling.KnowBridge();
+    : model_(model), s_(settings), learning_(settings.leakage_sd, settings.gap_sd), ring_(kRing) {
   for (Lane& size : chart_.size)
     for (int j = 0; j < kLanes; ++j) size[j] = 0.8;  // mean of |z| of a normal variable
   for (int j = 0; j < model_.coils; ++j) watched_[j] = 1;
   const Lane P = model_.Permeance(0, 0);
   centred_ = *std::max_element(P.v, P.v + kLanes);
-  Solve();
-}
-
-void BearingDetector::Solve() {
-  const double leak = 1 / (s_.leakage_sd * s_.leakage_sd), gap = 1 / (s_.gap_sd * s_.gap_sd);
-  const double p0 = info_[0] + leak, p1 = info_[2] + gap;
-  const double det = p0 * p1 - info_[1] * info_[1];
-  known_.leakage = std::clamp((p1 * pull_[0] - info_[1] * pull_[1]) / det, -5 * s_.leakage_sd, 5 * s_.leakage_sd);
-  known_.gap = std::clamp((p0 * pull_[1] - info_[1] * pull_[0]) / det, -5 * s_.gap_sd, 5 * s_.gap_sd);
-  // Covariance of what is left; in e the regressors are -di and flux.
-  known_.doubt[0] = kDoubt * kDoubt * p1 / det + kLeastLeakage * kLeastLeakage / leak;
-  known_.doubt[1] = -2 * kDoubt * kDoubt * info_[1] / det;
-  known_.doubt[2] = kDoubt * kDoubt * p0 / det + kLeastGap * kLeastGap / gap;
 }
 
 void BearingDetector::Keep(const MeasuredPeriod& in) {
@@ -104,7 +87,7 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
   const double potential_rate = UnknownPotential() / (s_.sampling.step * s_.sampling.samples);
   Lane doubt[2];
   if (in.doubt.any()) ResidualDoubt(model_, slopes_, in.doubt, doubt);
-  chart_.Compute(model_, s_.sampling, s_, known_, slopes_, watched_, in.doubt.any() ? doubt : nullptr, potential_rate);
+  chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, in.doubt.any() ? doubt : nullptr, potential_rate);
 }
 
 int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
@@ -129,37 +112,12 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
   return largest;
 }
 
-void BearingDetector::Learn() {
-  // e = -leakage_error di + gap_error flux, normal equations with forgetting and a prior.
-  double a00 = 0, a01 = 0, a11 = 0, b0 = 0, b1 = 0;
-  for (int q = 0; q < 2; ++q)
-    for (int j = 0; j < model_.coils; ++j) {
-      if (!Holds(q, j)) continue;
-      const PhaseSlopes& p = slopes_.phase[q];
-      const double size = std::min(std::abs(chart_.z[q][j]), 4.0);
-      chart_.size[q][j] += kSizeRate * (size - chart_.size[q][j]);
-      const double w = kLearnEvery * chart_.per_sd[q][j] * chart_.per_sd[q][j];
-      const double x0 = -p.current[j], x1 = p.linkage[j] - model_.leakage[j] * p.current[j];
-      const double e = p.residual[j];
-      a00 += w * x0 * x0;
-      a01 += w * x0 * x1;
-      a11 += w * x1 * x1;
-      b0 += w * x0 * e;
-      b1 += w * x1 * e;
-    }
-  info_[0] += a00 - kForget * info_[0];
-  info_[1] += a01 - kForget * info_[1];
-  info_[2] += a11 - kForget * info_[2];
-  pull_[0] += b0 - kForget * pull_[0];
-  pull_[1] += b1 - kForget * pull_[1];
-  Solve();
-}
-
 LinkageModel BearingDetector::LearnedModel() const {
   LinkageModel m = model_;
-  for (int j = 0; j < m.coils; ++j) m.leakage[j] += known_.leakage;
-  m.reluctance.per_metre /= 1 - known_.gap;
-  m.reluctance.offset /= 1 - known_.gap;
+  const ModelError& known = learning_.known();
+  for (int j = 0; j < m.coils; ++j) m.leakage[j] += known.leakage;
+  m.reluctance.per_metre /= 1 - known.gap;
+  m.reluctance.offset /= 1 - known.gap;
   return m;
 }
 
@@ -229,8 +187,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
   const Lane last_linkage = slopes_.last, last_voltage = slopes_.after;
   Residuals(in);
   const bool follows = follows_;
-  bool comparable = in.comparable;
-  for (double P : slopes_.permeance.middle.v) comparable = comparable && P * kClosestGap < centred_;
+  const bool comparable = in.comparable && slopes_.permeance.largest * kClosestGap < centred_;
   in.comparable = comparable;
   follows_ = comparable && !any_unknown_;
   if (paused_ > 0) {
@@ -245,7 +202,7 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
     if (stepped >= 0) most = chart_.LargestSum();
     const bool alarm = !s_.watch_only && most > s_.threshold, calm = comparable && most < kCalm;
     if (calm) calm_at_ = count_;
-    if (calm && count_ % kLearnEvery == 0) Learn();
+    if (calm && count_ % kLearnEvery == 0) learning_.Learn(model_, slopes_, kLearnEvery, &chart_);
     if (!alarm) return out;
     alarm_at_ = count_;
     bool clear = false;

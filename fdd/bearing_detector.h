@@ -8,8 +8,8 @@
 /// for on, off and (z_on - z_off)/√2, the signature of an inductance that changed. One gross
 /// residual is enough; noise alone needs e^-40. A step of the linkage between two periods, where no
 /// phase sees it, raises the alarm when it is beyond 12 s.
-/// Slow adaptation: leakage and gap of the bearing are learned from the residuals (Bayes, prior from
-/// the maker's tolerances; what is not learned yet widens s), and s follows each coil's long-term residual.
+/// Slow adaptation: leakage and gap of the bearing are learned from the residuals (model_learning.h; what is
+/// not learned yet widens s), and s follows each coil's long-term residual.
 /// Suspect: the coil without whose current all other coils obey their equations best.
 /// Examining: after an alarm the raw samples of the last periods are tested against all fault
 /// hypotheses (coil_examination.h) until one is certain or the alarm is cleared; shorts of several coils
@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "fdd/diagnosis.h"
-#include "fdd/residual_chart.h"
+#include "fdd/model_learning.h"
 
 namespace ambrig {
 
@@ -72,8 +72,8 @@ class BearingDetector {
   const Lane& z(int phase) const { return chart_.z[phase]; }
   const ResidualChart& chart() const { return chart_; }
   Coil state(int j) const { return state_[static_cast<std::size_t>(j)]; }
-  double leakage_error() const { return known_.leakage; }  // learned [H]
-  double gap_error() const { return known_.gap; }      // learned, relative
+  double leakage_error() const { return learning_.known().leakage; }  // learned [H]
+  double gap_error() const { return learning_.known().gap; }      // learned, relative
 
  private:
   void Residuals(const MeasuredPeriod& in);
@@ -82,12 +82,10 @@ class BearingDetector {
   /// Coil with the largest unexplained step of its linkage, -1: none.
   int StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in);
   bool Holds(int phase, int coil) const { return chart_.valid[phase][coil] > 0; }
-  void Learn();
   void Keep(const MeasuredPeriod& in);
   /// Coils with a false reading whose bridge the controller has kept off carry nothing: zero replaces
   /// the reading in the period just kept, and the coil counts as lost.
   void SilenceFalseSensors();
-  void Solve();
   LinkageModel LearnedModel() const;
   int Largest() const;  // coil of the largest residual
   /// Coil without whose current all other coils' equations hold best; `clear`: by far.
@@ -104,8 +102,7 @@ class BearingDetector {
   DetectorSettings s_;
   PeriodSlopes slopes_;
   ResidualChart chart_;
-  ModelError known_;                      // learned
-  double info_[3] = {0, 0, 0}, pull_[2] = {0, 0};
+  ModelLearning learning_;
   Lane watched_;                          // 1: coils that may be judged
   std::array<Coil, kLanes> state_{};
   std::array<bool, kLanes> unknown_mmf_{};

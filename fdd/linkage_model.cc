@@ -26,6 +26,7 @@ AMBRIG_WIDE void OverAMove(const LinkageModel& m, const double* from, const doub
   Store(out->middle.v, middle);
   Store(out->change.v, end - start);
   out->total = Sum(middle);
+  out->largest = Largest(middle);
 }
 }  // namespace
 

@@ -17,7 +17,7 @@ namespace ambrig {
 /// Permeances of all poles while the shaft moves. [H]
 struct MovingPermeance {
   Lane start, end, middle, change;
-  double total = 0;  // Σ of the middle
+  double total = 0, largest = 0;  // Σ of the middle, and its largest
 };
 
 struct LinkageModel {

@@ -23,8 +23,7 @@ bool LinkageResidual::Compute(const MeasuredPeriod& in) {
   Lane doubt[2];
   if (in.doubt.any()) ResidualDoubt(model_, slopes_, in.doubt, doubt);
   chart_.Compute(model_, s_.sampling, s_, tolerance_, slopes_, watched_, in.doubt.any() ? doubt : nullptr, 0);
-  const Lane& P = slopes_.permeance.middle;
-  return in.comparable && *std::max_element(P.v, P.v + kLanes) * kClosestGap < centred_;
+  return in.comparable && slopes_.permeance.largest * kClosestGap < centred_;
 }
 
 }  // namespace ambrig

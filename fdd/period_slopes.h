@@ -59,9 +59,6 @@ struct SamplingSettings {
   int samples = 18;
   double step = 0;                     // between samples [s]
   const AmplifierParameters* amplifier = nullptr;
-  /// Of a bi-state bridge, the same in every period: its length [s], what its drops leave of +bus and -bus [V]. 0: not asked for yet.
-  double period = 0, on_drop = 0, off_drop = 0;
-  void KnowBridge();
 };
 
 /// Voltages of a healthy bridge: `on` until `edge` [s], `off` after it.

@@ -67,23 +67,13 @@ BridgeVoltage VoltageOf(const AmplifierParameters& p, double duty, double bus) {
   return out;
 }
 
-void SamplingSettings::KnowBridge() {
-  if (!amplifier || amplifier->modulation != Modulation::kBiState) return;
-  const BridgeVoltage v = VoltageOf(*amplifier, 0.5, 0);
-  period = 1 / amplifier->switching_frequency;
-  on_drop = v.on;
-  off_drop = v.off;
-}
-
 double SlopeVariance(double n, double step) { return n < 2 ? 1e30 : 12 / (n * (n * n - 1) * step * step); }
 
 void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out) {
   const double from[2] = {in.x0, in.y0}, to[2] = {in.x1, in.y1};
   m.Permeance(from, to, &out->permeance);
   const AmplifierParameters& a = *s.amplifier;
-  if (s.period > 0) {  // the usual case: only the edges differ
-    EdgesOf(*in.duty, s.period, {0, in.bus + s.on_drop, -in.bus + s.off_drop}, out);
-  } else if (a.modulation == Modulation::kBiState) {
+  if (a.modulation == Modulation::kBiState) {  // the usual case: only the edges differ
     EdgesOf(*in.duty, 1 / a.switching_frequency, VoltageOf(a, 0.5, in.bus), out);
   } else {
     for (int j = 0; j < m.coils; ++j) {

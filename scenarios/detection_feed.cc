@@ -91,6 +91,8 @@ DetectionFeed::DetectionFeed(const RigParameters& nominal)
     v.auxiliary_weights = std::isnan(stop) ? v.weights : PlaneWeights(sensor_z, stop);
   }
   struck_.assign(axis_names_.size(), 0.0);
+  start_.assign(axis_names_.size(), 0.0);
+  end_ = start_;
   positions_ = PositionMonitor(axis_names_.size(), kCredibleJump + 40 * largest_noise, largest_noise);
 }
 
@@ -145,6 +147,11 @@ void DetectionFeed::Read(const PeriodMeasurement& m) {
   last_bus_ = bus_;
   bus_ = m.bearings.front().bus;
   if (positions_.Read(m.reading_time, *m.readings, struck_)) WatchImpacts();
+  for (std::size_t a = 0; a < start_.size(); ++a) {
+    start_[a] = positions_.At(a, m.t);
+    end_[a] = positions_.At(a, m.t + T_);
+  }
+  sensed_ = positions_.ready(m.t);
 }
 
 MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasurement& m) const {
@@ -155,13 +162,10 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
   in.adc = b.adc;
   in.duty = b.duty;
   in.bus = 0.5 * (b.bus + last_bus_);
-  const auto at = [&](double t, double* x, double* y) {
-    Place(v, v.weights, [&](std::size_t axis) { return positions_.At(axis, t); }, x, y);
-  };
-  at(m.t, &in.x0, &in.y0);
-  at(m.t + T_, &in.x1, &in.y1);
+  Place(v, v.weights, [&](std::size_t axis) { return start_[axis]; }, &in.x0, &in.y0);
+  Place(v, v.weights, [&](std::size_t axis) { return end_[axis]; }, &in.x1, &in.y1);
   in.doubt = v.doubt;
-  bool sensed = positions_.ready(m.t);
+  bool sensed = sensed_;
   for (std::size_t a = 0; a < axis_names_.size(); ++a)
     if (positions_.faulty(a) && Uses(v, a)) sensed = false;
   const double step = kBusStep * rig_.amplifier.bus_voltage + kBusNoise * rig_.amplifier.bus_noise;

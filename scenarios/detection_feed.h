@@ -58,6 +58,8 @@ class DetectionFeed {
     double travel = 0;          // largest of any plane between two of the last readings [m]
   };
   Impacts impacts_[2];
+  std::vector<double> start_, end_;  // what the parabolas say of every axis at the period's ends [m]
+  bool sensed_ = false;              // they hold
   std::vector<double> struck_;  // by how much impacts may throw each axis off its parabola [m]
 };
 
