@@ -92,8 +92,7 @@ OperatingPoint FindOperatingPoint(const RigParameters& rig) {
   for (std::size_t k = 0; k < p.sampled->bearings.size(); ++k) {
     PlaceCoils(p, k);
     const BearingPlant& b = p.plant().bearings[k];
-    double x, y;
-    p.plant().rotor.Position(p.motion, b.plane, &x, &y);
+    const auto [x, y] = p.plant().rotor.Position(p.motion, b.plane);
     Lane current{};
     for (int j = 0; j < b.lanes.coils; ++j) current[j] = p.coils[k][U(j)].current;
     p.bearings.push_back(LineariseBearing(b.lanes, current, x - b.offset_x, y - b.offset_y));

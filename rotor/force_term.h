@@ -21,30 +21,50 @@ struct MotionState {
   DofVector q{}, v{};              // coordinates and rates
 };
 
+/// A point of a plane across the axis. [m], or [m/s] of a velocity
+struct PlanePoint {
+  double x = 0, y = 0;
+};
+
 /// How a plane at axial position z sees the coordinates: x_plane = Σ wx_d q_d, y_plane = Σ wy_d q_d.
 struct PlaneMap {
   double z = 0;                    // [m]
   int count = 0;
+  bool of_rigid_rotor = true;      // nothing but x + z beta, y - z alpha: so far as was added
   std::array<int, kMaxPlane> dof{};
   std::array<double, kMaxPlane> wx{}, wy{};
   void Add(int d, double x, double y) {
     dof[static_cast<std::size_t>(count)] = d;
     wx[static_cast<std::size_t>(count)] = x;
     wy[static_cast<std::size_t>(count)] = y;
+    of_rigid_rotor = of_rigid_rotor && IsRigid(count, d, x, y);
     ++count;
   }
-  double X(const DofVector& q) const { return Dot(wx, q); }
-  double Y(const DofVector& q) const { return Dot(wy, q); }
+  double X(const DofVector& q) const { return Follows() ? q[0] + z * q[4] : Dot(wx, q); }
+  double Y(const DofVector& q) const { return Follows() ? q[1] - z * q[3] : Dot(wy, q); }
+  PlanePoint Point(const DofVector& q) const { return {X(q), Y(q)}; }
   /// Generalised forces of a radial force (fx, fy) at this plane.
   void AddForce(double fx, double fy, DofVector& Q) const {
+    if (Follows()) {
+      Q[0] += fx;
+      Q[1] += fy;
+      Q[4] += z * fx;
+      Q[3] -= z * fy;
+      return;
+    }
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
       Q[U(k)] += wx[k] * fx + wy[k] * fy;
   }
 
  private:
+  bool Follows() const { return of_rigid_rotor && count == 4; }
+  /// Whether entry k of a radial plane of a rigid rotor is this one.
+  bool IsRigid(int k, int d, double x, double y) const {
+    constexpr int order[4] = {0, 1, 4, 3};
+    const double rx[4] = {1, 0, z, 0}, ry[4] = {0, 1, 0, -z};
+    return k < 4 && d == order[k] && x == rx[k] && y == ry[k];
+  }
   double Dot(const std::array<double, kMaxPlane>& w, const DofVector& q) const {
-    if (count == 4)  // a radial plane of a rigid rotor
-      return w[0] * q[U(0)] + w[1] * q[U(1)] + w[2] * q[U(2)] + w[3] * q[U(3)];
     double s = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
       s += w[k] * q[U(k)];

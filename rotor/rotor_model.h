@@ -93,7 +93,9 @@ class RotorModel {
   void Accelerations(const MotionState& s, const DofVector& Q, double stator_x, double stator_y,
                      DofVector& a, double* torque, bool near_contact = true) const;
   /// Shaft centre (with bow) at a plane. [m]
-  void Position(const MotionState& s, const PlaneMap& plane, double* x, double* y) const;
+  PlanePoint Position(const MotionState& s, const PlaneMap& plane) const {
+    return surface.empty() ? plane.Point(s.q) : OnSurface(s, plane);
+  }
   /// Largest penetration over the auxiliary bearings [m]; negative: the least clearance left.
   double Penetration(const MotionState& s, std::size_t plane) const;
   double AxialPenetration(const MotionState& s) const;
@@ -126,6 +128,7 @@ class RotorModel {
   double MountRate() const;  // fastest rate of a race on its mount [1/s], 0: none
 
  private:
+  PlanePoint OnSurface(const MotionState& s, const PlaneMap& plane) const;
   int NewDof(double mass);
   /// theta, Omega of the speed profile at the state's time.
   void Prescribe(MotionState& s) const;

@@ -26,19 +26,18 @@ void RotorModel::Prescribe(MotionState& s) const {
   s.Omega_dot = speed_.Acceleration(s.t);
 }
 
-void RotorModel::Position(const MotionState& s, const PlaneMap& plane, double* x, double* y) const {
-  *x = plane.X(s.q);
-  *y = plane.Y(s.q);
-  if (surface.empty()) return;
+PlanePoint RotorModel::OnSurface(const MotionState& s, const PlaneMap& plane) const {
+  PlanePoint p = plane.Point(s.q);
   double dx = 0, dy = 0;
   for (const auto& term : surface) term->Add(s, plane.z, &dx, &dy);
   for (std::size_t k = 0; k < static_cast<std::size_t>(plane.count); ++k) {
     // Seen as the plane sees a shift of the rotor: along one axis by an opposed pair, not by a thrust bearing.
     if (plane.dof[k] > 1) continue;
     const double shift = plane.dof[k] == 0 ? dx : dy;
-    *x += plane.wx[k] * shift;
-    *y += plane.wy[k] * shift;
+    p.x += plane.wx[k] * shift;
+    p.y += plane.wy[k] * shift;
   }
+  return p;
 }
 
 void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double stator_x, double stator_y,
@@ -50,8 +49,7 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   for (const auto& term : terms) term->Add(s, f);
   for (const AuxiliaryPlane& aux : aux_) {
     if (!near_contact && aux.mount_dof < 0 && aux.race_dof < 0) continue;
-    double x, y;
-    Position(s, aux.map, &x, &y);
+    auto [x, y] = Position(s, aux.map);
     double vx = aux.map.X(s.v), vy = aux.map.Y(s.v);
     if (aux.mount_dof >= 0) {
       const std::size_t d = U(aux.mount_dof);
@@ -198,8 +196,7 @@ void RotorModel::Fly(MotionState& s, const DofVector& forced, double dt) const {
 
 double RotorModel::Penetration(const MotionState& s, std::size_t plane) const {
   const AuxiliaryPlane& aux = aux_[plane];
-  double x, y;
-  Position(s, aux.map, &x, &y);
+  auto [x, y] = Position(s, aux.map);
   if (aux.mount_dof >= 0) {
     x -= s.q[U(aux.mount_dof)];
     y -= s.q[U(aux.mount_dof) + 1];

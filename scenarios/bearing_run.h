@@ -17,6 +17,14 @@ struct SwitchingEngine::BearingRun : SampledBearing {
   double x_next = 0, y_next = 0;   // predicted for its end
   double max_orbit_sq = 0;         // largest distance of the shaft from the centre, squared [m²]
   std::array<bool, kLanes> faulty{};
+
+  /// The shaft's centre at the magnets' plane.
+  void MoveTo(const PlanePoint& p) {
+    true_x = p.x;
+    true_y = p.y;
+    x = p.x - plant->offset_x;
+    y = p.y - plant->offset_y;
+  }
 };
 
 }  // namespace ambrig

@@ -114,9 +114,9 @@ MotionState ContinuousRig::MotionOf(double tau, const double* y) const {
 
 void ContinuousRig::Place(std::size_t k, const MotionState& s, double* x, double* y) const {
   const BearingPlant& plant = rig_.plant.bearings[k];
-  rig_.plant.rotor.Position(s, plant.plane, x, y);
-  *x -= plant.offset_x;
-  *y -= plant.offset_y;
+  const PlanePoint p = rig_.plant.rotor.Position(s, plant.plane);
+  *x = p.x - plant.offset_x;
+  *y = p.y - plant.offset_y;
 }
 
 void ContinuousRig::Slopes(const Bearing& b, const NetworkState& s, double* slope) const {
@@ -183,8 +183,7 @@ double ContinuousRig::ContactLoss(const MotionState& s, double* spin_torque) con
   const double radius = rotor.parameters().journal_radius;
   double loss = 0;
   for (const AuxiliaryPlane& aux : rotor.auxiliaries()) {
-    double x, y;
-    rotor.Position(s, aux.map, &x, &y);
+    const auto [x, y] = rotor.Position(s, aux.map);
     const double vx = aux.map.X(s.v), vy = aux.map.Y(s.v), r = std::hypot(x, y);
     const ContactForce c = RadialContact(aux.parameters, radius, x, y, vx, vy, s.Omega, 0);
     if (c.penetration <= 0) continue;

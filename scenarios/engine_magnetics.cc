@@ -52,9 +52,9 @@ void SwitchingEngine::PredictPositions() {
     ahead.v[d] = motion_.v[d];
   }
   for (BearingRun& b : bearings_) {
-    plant_.rotor.Position(ahead, b.plant->plane, &b.x_next, &b.y_next);
-    b.x_next -= b.plant->offset_x;
-    b.y_next -= b.plant->offset_y;
+    const PlanePoint p = plant_.rotor.Position(ahead, b.plant->plane);
+    b.x_next = p.x - b.plant->offset_x;
+    b.y_next = p.y - b.plant->offset_y;
   }
 }
 
@@ -93,7 +93,7 @@ void SwitchingEngine::RunBearings() {
   for (BearingRun& b : bearings_) {
     StatorLanes& lanes = b.plant->lanes;
     bool late_edge = false;
-    for (const BridgeImperfection& bridge : b.plant->bridge) late_edge = late_edge || bridge.dead_time > 0;
+    for (std::size_t j = 0; j < kLanes && !b.only_edge_moves; ++j) late_edge = late_edge || b.plant->bridge[j].dead_time > 0;
     if (!lanes.NeedsGeneralPath() && !late_edge) {
       together_.push_back({&lanes, &b.pattern, b.x, b.y, b.x_next, b.y_next});
       continue;

@@ -33,8 +33,8 @@ struct Balance {
     for (const SampledBearing& b : rig.bearings) {
       const auto set =
           rig.control[b.index].map.SetPoints(u[b.first_axis], b.axes > 1 ? u[b.first_axis + 1] : 0);
-      double x, y, lambda[kMaxWindings];
-      rig.plant.rotor.Position(s, b.plant->plane, &x, &y);
+      double lambda[kMaxWindings];
+      auto [x, y] = rig.plant.rotor.Position(s, b.plant->plane);
       x -= b.plant->offset_x;
       y -= b.plant->offset_y;
       NetworkState n;
@@ -48,10 +48,9 @@ struct Balance {
     rig.plant.rotor.Accelerations(s, Q, stator_x, stator_y, a, &torque);
     for (std::size_t d = 0; d < dof; ++d) F[d] = fixed[d] ? s.q[d] : a[d];
     for (const SampledBearing& b : rig.bearings) {
-      double reading[2];
-      rig.plant.rotor.Position(s, b.plant->sensor.map, &reading[0], &reading[1]);
-      for (std::size_t side = 0; side < b.axes; ++side)
-        F[dof + b.first_axis + side] = reading[side];
+      const PlanePoint reading = rig.plant.rotor.Position(s, b.plant->sensor.map);
+      F[dof + b.first_axis] = reading.x;
+      if (b.axes > 1) F[dof + b.first_axis + 1] = reading.y;
     }
   }
 };

@@ -10,13 +10,19 @@ namespace {
 /// subtracting 1.5 * 2^52 rounds to the nearest even integer, as nearbyint does.
 struct Converter {
   double step, low, high;
-  template <class V>
-  [[gnu::always_inline]] V operator()(const V& value) const {
+  bool may_fall_below;
+  template <bool kClips, class V>
+  [[gnu::always_inline]] V Convert(const V& value) const {
     constexpr double kRound = 6755399441055744.0;
     const V q = ((value * (1 / step) + kRound) - kRound) * step;
-    return Min(Max(q, low), high);
+    if constexpr (kClips)
+      return Min(Max(q, low), high);
+    else
+      return q;
   }
 };
+
+constexpr double kLargestNormal = 6.3;  // core/math/noise.h
 
 struct Sensors {
   const double *gain, *offset;  // nullptr: ideal
@@ -41,15 +47,25 @@ template <class V, class Convert>
   Store(out->largest.v, most);
 }
 
-template <class V>
-[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+template <bool kClips, class V>
+[[gnu::always_inline]] inline void ConvertNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
                                                   double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
   const Converter c = converter;
   Measure<V>(truth, count, sensors, [&](const V& value, int k) __attribute__((always_inline)) {
     Lane normal;
     for (int j = 0; j < kLanes; ++j) normal[j] = static_cast<double>(normals[k * coils + j]);
-    return c(value + noise * LoadAs<V>(normal.v));
+    return c.Convert<kClips>(value + noise * LoadAs<V>(normal.v));
   }, adc, out);
+}
+
+/// Currents that flow one way leave a converter's range upwards only, which their largest tells.
+template <class V>
+[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+                                                  double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  if (converter.may_fall_below) return ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+  ConvertNoisily<false, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+  if (!(Largest(LoadAs<V>(out->largest.v)) + kLargestNormal * noise + converter.step < converter.high))
+    ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
 }
 
 AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc, CurrentStatistics* out) {
@@ -75,7 +91,8 @@ void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const Curr
   }
   const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
   if (!s.noisy) return MeasureIdeally(truth, s.samples, chain, adc, statistics);
-  const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
+  const bool one_way = s.one_way && plain && kLargestNormal * s.noise + s.quantiser.step < -s.quantiser.low;
+  const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high, !one_way};
   (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, chain, normals, s.coils, s.noise, converter, adc, statistics);
 }
 

@@ -8,6 +8,7 @@ namespace ambrig {
 struct MeasurementSettings {
   int samples = 18, coils = 8;
   bool noisy = false;
+  bool one_way = false;  // no current is below zero
   double noise = 0;  // [A rms]
   Quantiser quantiser;
 };

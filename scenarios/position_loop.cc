@@ -43,7 +43,9 @@ void PositionLoop::Hold(const std::vector<double>& force) {
 void PositionLoop::ReadSensors(const MotionState& motion) {
   for (BearingPlant& b : plant_.bearings) {
     PositionSensor& s = b.sensor;
-    plant_.rotor.Position(motion, s.map, &s.reading[0], &s.reading[1]);
+    const PlanePoint p = plant_.rotor.Position(motion, s.map);
+    s.reading[0] = p.x;
+    s.reading[1] = p.y;
     for (const auto& map : s.maps) map->Map(motion, &s.reading[0], &s.reading[1]);
   }
 }

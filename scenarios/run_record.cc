@@ -26,7 +26,7 @@ RunRecord::RunRecord(const RigParameters& rig, const Scenario& scenario, double 
 void RunRecord::AddChannels(std::size_t rows) {
   const auto add = [&](const std::string& name, const char* unit) {
     record_.channels.push_back({name, unit, {}});
-    record_.channels.back().samples.reserve(rows);
+    record_.channels.back().samples.resize(rows);
   };
   for (const BearingParameters& b : rig_.bearings)
     for (const std::string& axis : b.Axes()) add(axis, "m");
@@ -56,8 +56,10 @@ void RunRecord::Row(long long n, int sample) {
   const MotionState& motion = source_.motion;
   const RotorModel& rotor = source_.plant.rotor;
   const double inside = sample * T_ / samples_, t = static_cast<double>(n) * T_ + inside;
+  if (row_ == record_.rows())
+    for (Channel& c : record_.channels) c.samples.resize(row_ + 1);
   auto channel = record_.channels.begin();
-  const auto put = [&](double value) { (channel++)->samples.push_back(value); };
+  const auto put = [&](double value) { (channel++)->samples[row_] = value; };
   const bool at_tick = sample == 0 && n % M_ == 0;
   for (std::size_t a = 0; a < source_.loop.axes(); ++a) put(at_tick ? source_.loop.readings()[a] : source_.loop.Reading(a, n));
   for (const SampledBearing* b : source_.bearings) {
@@ -71,8 +73,7 @@ void RunRecord::Row(long long n, int sample) {
   }
   for (const auto& [name, plane] : source_.plant.stations) {
     if (clamped_) break;
-    double x, y;
-    rotor.Position(motion, plane, &x, &y);
+    const auto [x, y] = rotor.Position(motion, plane);
     put(x);
     put(y);
   }
@@ -80,6 +81,12 @@ void RunRecord::Row(long long n, int sample) {
   put(free_spin ? motion.Omega : scenario_.speed.Speed(t));
   put(free_spin ? motion.theta + motion.Omega * inside : scenario_.speed.Angle(t));
   put(source_.noise.BusReading(source_.plant.bus.voltage, scenario_.noise ? rig_.amplifier.bus_noise : 0, n, sample));
+  ++row_;
+}
+
+Record RunRecord::Take() {
+  for (Channel& c : record_.channels) c.samples.resize(row_);
+  return std::move(record_);
 }
 
 }  // namespace ambrig

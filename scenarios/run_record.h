@@ -39,7 +39,7 @@ class RunRecord {
   void AfterMeasurement(long long n) {
     for (int k = 0; n >= 0 && row_samples_ > 0 && k < samples_; k += row_samples_) Row(n, k);
   }
-  Record Take() { return std::move(record_); }
+  Record Take();
 
  private:
   void AddChannels(std::size_t rows);
@@ -53,6 +53,7 @@ class RunRecord {
   int samples_, M_;                         // ADC samples per period, periods per controller period
   int row_periods_ = 1, row_samples_ = 0;   // a row every so many periods, or every so many samples
   Record record_;
+  std::size_t row_ = 0;                     // the next one
 };
 
 }  // namespace ambrig

@@ -41,7 +41,7 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
     b.plant = &plant.bearings[k];
     b.first_axis = axes;
     b.axes = p.Axes().size();
-    b.measurement = {samples, p.coils(), scenario.noise, rig.amplifier.current_noise,
+    b.measurement = {samples, p.coils(), scenario.noise, rig.amplifier.quadrants < 3, rig.amplifier.current_noise,
                      Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
     axes += b.axes;
     bearings.push_back(b);
@@ -69,8 +69,11 @@ void SampledRig::Start() {
 }
 
 void SampledRig::UpdatePositions() {
-  for (SampledBearing& b : bearings)
-    plant.rotor.Position(motion, b.plant->plane, &b.true_x, &b.true_y);
+  for (SampledBearing& b : bearings) {
+    const PlanePoint p = plant.rotor.Position(motion, b.plant->plane);
+    b.true_x = p.x;
+    b.true_y = p.y;
+  }
 }
 
 void SampledRig::SetStartForces(const std::vector<double>& force) {

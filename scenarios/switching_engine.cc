@@ -39,7 +39,7 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
     b.axes = p.Axes().size();
     axis += b.axes;
     if (p.auxiliary && p.kind == BearingKind::kRadial) b.auxiliary = auxiliary++;
-    b.measurement = {samples_, p.coils(), scenario_.noise, rig_.amplifier.current_noise,
+    b.measurement = {samples_, p.coils(), scenario_.noise, rig_.amplifier.quadrants < 3, rig_.amplifier.current_noise,
                      Quantiser(rig_.amplifier.adc_bits, rig_.amplifier.adc_range)};
     for (const CurrentSensor& s : b.plant->current_sensor)
       if (s.gain != 1 || s.offset != 0) b.plain_sensors = false;
@@ -82,9 +82,7 @@ void SwitchingEngine::Start() {
   }
   plant_.rotor.SetSpin(motion_);
   for (BearingRun& b : bearings_) {
-    plant_.rotor.Position(motion_, b.plant->plane, &b.true_x, &b.true_y);
-    b.x = b.true_x - b.plant->offset_x;
-    b.y = b.true_y - b.plant->offset_y;
+    b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
     b.plant->lanes.Settle(control_[b.index].set_point, b.x, b.y);
     b.plant->lanes.Force(b.x, b.y, &b.fx, &b.fy);
     control_[b.index].feedback = control_[b.index].set_point;
@@ -183,9 +181,7 @@ void SwitchingEngine::MoveRotor(long long n) {
   const double per_period = 1 / T_;
   for (std::size_t d = 0; d < dof; ++d) acceleration_[d] = (motion_.v[d] - acceleration_[d]) * per_period;
   for (BearingRun& b : bearings_) {
-    plant_.rotor.Position(motion_, b.plant->plane, &b.true_x, &b.true_y);
-    b.x = b.true_x - b.plant->offset_x;
-    b.y = b.true_y - b.plant->offset_y;
+    b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
     if (!std::isfinite(b.x) || !std::isfinite(b.y))
       throw std::runtime_error(fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t));
   }

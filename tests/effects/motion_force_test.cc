@@ -171,8 +171,7 @@ TEST(MotionForce, BowRunsOppositeAtTheEndsAtAnySpeed) {
   for (const double theta : {0.0, 1.2, 4.0}) {
     s.theta = theta;
     s.Omega = 300 * theta;
-    double x, y;
-    plant.rotor.Position(s, plant.bearings[1].plane, &x, &y);
+    const auto [x, y] = plant.rotor.Position(s, plant.bearings[1].plane);
     EXPECT_NEAR(x, 1e-5 * std::cos(theta) - 2e-6 * std::sin(theta), 1e-20);
     EXPECT_NEAR(y, 1e-5 * std::sin(theta) + 2e-6 * std::cos(theta), 1e-20);
     EXPECT_NEAR(Reading(plant, 0, s).first, -0.135 / 0.12 * x, 1e-19);

@@ -96,8 +96,7 @@ inline Plant PlantOf(const std::vector<Named>& effects) { return BuildPlant(RigW
 /// What the sensors of bearing `k` read.
 inline std::pair<double, double> Reading(Plant& plant, std::size_t k, const MotionState& state) {
   PositionSensor& s = plant.bearings[k].sensor;
-  double x, y;
-  plant.rotor.Position(state, s.map, &x, &y);
+  auto [x, y] = plant.rotor.Position(state, s.map);
   for (const auto& map : s.maps) map->Map(state, &x, &y);
   return {x, y};
 }
