@@ -1,6 +1,5 @@
 // The arithmetic of noise.h on vectors as wide as the including source's target has them. Included by
 // noise.cc (any machine), noise_avx2.cc and noise_avx512.cc only; the unnamed namespace keeps them apart.
-#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -30,11 +29,20 @@ using Bits = U32 __attribute__((vector_size(4 * kLanes)));
 using Int = std::int32_t __attribute__((vector_size(4 * kLanes)));
 using Real = float __attribute__((vector_size(4 * kLanes)));
 
-/// The same four words in every block.
-inline Bits Repeat(const std::array<U32, 4>& block) {
-  Bits out = {};
-  for (int k = 0; k < kLanes; ++k) out[k] = block[static_cast<std::size_t>(k % 4)];
+/// Words in pairs: two of these are a block.
+using Pairs = U64 __attribute__((vector_size(4 * kLanes)));
+alignas(64) constexpr U64 kFirstOfBlock[8] = {~0ULL, 0, ~0ULL, 0, ~0ULL, 0, ~0ULL, 0};
+alignas(64) constexpr U64 kBlockNumber[8] = {0, 0, 1, 0, 2, 0, 3, 0};
+
+inline Pairs LoadPairs(const U64* p) {
+  Pairs out;
+  std::memcpy(&out, p, sizeof out);
   return out;
+}
+/// The same four words in every block.
+inline Pairs Repeat(U64 first, U64 second) {
+  const Pairs mask = LoadPairs(kFirstOfBlock);
+  return ((Pairs{} + first) & mask) | ((Pairs{} + second) & ~mask);
 }
 
 struct Keys {
@@ -44,11 +52,11 @@ struct Keys {
 /// Weyl sequences from the seed on, in both halves of the key.
 inline Keys MakeKeys(U64 seed) {
   Keys keys;
-  U64 low = seed, high = 0;
+  const Pairs step = Repeat(0x9E3779B97F4A7C15ULL, 0xBB67AE8584CAA73BULL);  // golden ratio, sqrt(3) - 1
+  Pairs next = Repeat(seed, 0);
   for (Bits& key : keys.of) {
-    key = Repeat({static_cast<U32>(low), static_cast<U32>(low >> 32), static_cast<U32>(high), static_cast<U32>(high >> 32)});
-    low += 0x9E3779B97F4A7C15ULL;   // golden ratio
-    high += 0xBB67AE8584CAA73BULL;  // sqrt(3) - 1
+    key = (Bits)next;
+    next += step;
   }
   return keys;
 }
@@ -117,13 +125,10 @@ inline Real NormalOf(Bits word) {
 /// n normals of a block; value 4 c + w comes from word w of counter c.
 inline void Fill(U64 seed, U32 stream, U64 index, float* out, int n) {
   const Keys keys = MakeKeys(seed);
-  Bits counter = Repeat({0, stream, static_cast<U32>(index), static_cast<U32>(index >> 32)}), next = {};
-  for (int b = 0; b < kBlocks; ++b) {
-    counter[4 * b] = static_cast<U32>(b);
-    next[4 * b] = static_cast<U32>(kBlocks);
-  }
+  Pairs counter = Repeat(U64{stream} << 32, index) + LoadPairs(kBlockNumber);
+  const Pairs next = Repeat(kBlocks, 0);
   for (; n > 0; n -= kLanes, out += kLanes, counter += next) {
-    const Real normals = NormalOf(Encrypt(counter, keys));
+    const Real normals = NormalOf(Encrypt((Bits)counter, keys));
     std::memcpy(out, &normals, static_cast<std::size_t>(n < kLanes ? n : kLanes) * sizeof(float));
   }
 }
