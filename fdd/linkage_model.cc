@@ -1,6 +1,6 @@
 #include "fdd/linkage_model.h"
 
-#include "actuators/lane_vector.h"
+#include "actuators/whole_lane_vector.h"
 
 namespace ambrig {
 
@@ -8,25 +8,33 @@ namespace {
 /// A gap that noise or a wrong reading makes closed is taken as this share of the nominal one.
 constexpr double kLeastGap = 0.05;
 
-[[gnu::always_inline]] inline LaneVector ReluctanceAt(const LinkageModel& m, double x, double y) {
-  const LaneVector offset = Load(m.gap_offset.v), least = kLeastGap * offset;
-  return m.reluctance.Value(Max(offset - x * Load(m.direction_x.v) - y * Load(m.direction_y.v), least));
+template <class V>
+[[gnu::always_inline]] inline V ReluctanceAt(const LinkageModel& m, double x, double y) {
+  const V offset = LoadAs<V>(m.gap_offset.v), least = offset * kLeastGap;
+  return m.reluctance.Value(Max(offset - LoadAs<V>(m.direction_x.v) * x - LoadAs<V>(m.direction_y.v) * y, least));
 }
 
 AMBRIG_WIDE void AtOnePlace(const LinkageModel& m, double x, double y, Lane* P) {
-  Store(P->v, Select(Load(m.gap_offset.v) > 0.0, 1 / ReluctanceAt(m, x, y), 0.0));
+  Store(P->v, Select(Load(m.gap_offset.v) > 0.0, 1 / ReluctanceAt<LaneVector>(m, x, y), 0.0));
 }
 
-AMBRIG_WIDE void OverAMove(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
-  const LaneVector first = ReluctanceAt(m, from[0], from[1]), last = ReluctanceAt(m, to[0], to[1]);
-  const LaneVector inverse = Select(Load(m.gap_offset.v) > 0.0, 1 / (first * last), 0.0);  // one division for both
-  const LaneVector start = last * inverse, end = first * inverse, middle = 0.5 * (start + end);
+template <class V>
+[[gnu::always_inline]] inline void OverAMove(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
+  const V none = 0.0, first = ReluctanceAt<V>(m, from[0], from[1]), last = ReluctanceAt<V>(m, to[0], to[1]);
+  const V inverse = Select(LoadAs<V>(m.gap_offset.v) > none, 1 / (first * last), none);  // one division for both
+  const V start = last * inverse, end = first * inverse, middle = (start + end) * 0.5;
   Store(out->start.v, start);
   Store(out->end.v, end);
   Store(out->middle.v, middle);
   Store(out->change.v, end - start);
   out->total = Sum(middle);
   out->largest = Largest(middle);
+}
+AMBRIG_WHOLE void MoveWhole(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
+  OverAMove<WholeLaneVector>(m, from, to, out);
+}
+AMBRIG_WIDE void MoveHalves(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
+  OverAMove<LaneVector>(m, from, to, out);
 }
 }  // namespace
 
@@ -37,7 +45,7 @@ Lane LinkageModel::Permeance(double x, double y) const {
 }
 
 void LinkageModel::Permeance(const double* from, const double* to, MovingPermeance* out) const {
-  OverAMove(*this, from, to, out);
+  (whole_lanes ? MoveWhole : MoveHalves)(*this, from, to, out);
 }
 
 double LinkageModel::SelfInductance(int j, const Lane& P, double total) const {

@@ -27,10 +27,11 @@ struct Sums {
 /// Linkages λ = (n² P + L_l) i - n P U; U is the rotor's potential Σ P n i / Σ P (radial), the partner's
 /// share of a common core, -n i' (thrust), or none.
 template <class V, Coupling kCoupling>
-[[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane& on_samples, const MovingPermeance& P,
-                                              const Lane* adc, int count, SlopeSums* s) {
+[[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+  const MovingPermeance& P = out->permeance;
+  SlopeSums* s = &out->sums;
   const V n = LoadAs<V>(m.n.v), per = 1.0 / count, zero, far = 1e30;
-  V turns_P = n * LoadAs<V>(P.start.v), own = n * turns_P + LoadAs<V>(m.leakage.v), left = LoadAs<V>(on_samples.v);
+  V turns_P = n * LoadAs<V>(P.start.v), own = n * turns_P + LoadAs<V>(m.leakage.v), left = LoadAs<V>(out->phase[0].samples.v);
   const V turns_P_grows = n * LoadAs<V>(P.change.v) * per, own_grows = n * turns_P_grows;
   double inverse_sum[64];
   const double sum0 = Sum(LoadAs<V>(P.start.v)), dsum = Sum(LoadAs<V>(P.change.v)) / count;
@@ -45,7 +46,7 @@ template <class V, Coupling kCoupling>
       lambda = own * i + turns_P * Partner(n * i);
     else
       lambda = own * i;
-    if (k == 0) Store(s->first.v, lambda);
+    if (k == 0) Store(out->first.v, lambda);
     turns_P += turns_P_grows;
     own += own_grows;
     const auto on = left > zero;
@@ -58,7 +59,7 @@ template <class V, Coupling kCoupling>
     least_off = Min(Select(on, far, i), least_off);
     largest = Max(i, largest);
   }
-  Store(s->last.v, lambda);
+  Store(out->last.v, lambda);
   Store(s->y_on.v, y_on.x);
   Store(s->ky_on.v, y_on.Weighted(count));
   Store(s->y.v, y.x);
@@ -67,38 +68,37 @@ template <class V, Coupling kCoupling>
   Store(s->ki_on.v, i_on.Weighted(count));
   Store(s->i.v, i_all.x);
   Store(s->ki.v, i_all.Weighted(count));
-  Store(s->least_on.v, least_on);
-  Store(s->least_off.v, least_off);
-  Store(s->largest.v, largest);
+  Store(out->phase[0].least.v, least_on);
+  Store(out->phase[1].least.v, least_off);
+  Store(out->largest.v, largest);
 }
 
-AMBRIG_WHOLE void RadialWhole(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<WholeLaneVector, Coupling::kFloatingRotor>(m, on, P, adc, count, s);
+AMBRIG_WHOLE void RadialWhole(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+  Accumulate<WholeLaneVector, Coupling::kFloatingRotor>(m, adc, count, out);
 }
-AMBRIG_WIDE void RadialHalves(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<LaneVector, Coupling::kFloatingRotor>(m, on, P, adc, count, s);
+AMBRIG_WIDE void RadialHalves(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+  Accumulate<LaneVector, Coupling::kFloatingRotor>(m, adc, count, out);
 }
-AMBRIG_WHOLE void SidesWhole(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<WholeLaneVector, Coupling::kSides>(m, on, P, adc, count, s);
+AMBRIG_WHOLE void SidesWhole(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+  Accumulate<WholeLaneVector, Coupling::kSides>(m, adc, count, out);
 }
-AMBRIG_WIDE void SidesHalves(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<LaneVector, Coupling::kSides>(m, on, P, adc, count, s);
+AMBRIG_WIDE void SidesHalves(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+  Accumulate<LaneVector, Coupling::kSides>(m, adc, count, out);
 }
-AMBRIG_WIDE void Separate(const LinkageModel& m, const Lane& on, const MovingPermeance& P, const Lane* adc, int count, SlopeSums* s) {
-  Accumulate<LaneVector, Coupling::kNone>(m, on, P, adc, count, s);
+AMBRIG_WIDE void Separate(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+  Accumulate<LaneVector, Coupling::kNone>(m, adc, count, out);
 }
 
 }  // namespace
 
 void ComputePeriodSlopes(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
                          PeriodSlopes* out) {
-  SlopeSums sums;
   PreparePeriod(m, s, in, out);
   const auto run = m.coupling == Coupling::kFloatingRotor ? (whole_lanes ? RadialWhole : RadialHalves)
                    : m.coupling == Coupling::kSides       ? (whole_lanes ? SidesWhole : SidesHalves)
                                                           : Separate;
-  run(m, out->phase[0].samples, out->permeance, in.adc, s.samples, &sums);
-  FitSlopes(m, s, sums, out);
+  run(m, in.adc, s.samples, out);
+  FitSlopes(m, s, out);
 }
 
 }  // namespace ambrig

@@ -45,8 +45,15 @@ struct PhaseSlopes {
   Lane scale;      // 12/(n (n²-1) h) of n samples, 0 below two: the slope's variance is scale/h [1/s]
 };
 
+/// Sums over the samples k that the slopes are made of: of x and of k x.
+struct SlopeSums {
+  Lane y_on, ky_on, y, ky;  // linkage: on phase, whole period
+  Lane i_on, ki_on, i, ki;  // current
+};
+
 struct PeriodSlopes {
   PhaseSlopes phase[2];  // on, off
+  SlopeSums sums;
   Lane edge;             // end of the on phase [s]
   MovingPermeance permeance;
   Lane largest;          // sample of the period [A]

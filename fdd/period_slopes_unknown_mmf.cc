@@ -8,8 +8,8 @@ namespace ambrig {
 void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
                                    const std::array<bool, kLanes>& excluded, PeriodSlopes* out) {
   Lane first, charge;
-  SlopeSums sum;
   PreparePeriod(m, s, in, out);
+  SlopeSums& sum = out->sums = {};
   std::array<bool, kLanes> usable{};
   for (int j = 0; j < m.coils; ++j) {
     double least = 1e30;
@@ -17,8 +17,8 @@ void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings
     usable[static_cast<std::size_t>(j)] = !excluded[static_cast<std::size_t>(j)] && least > 0.03;
   }
   for (int j = 0; j < kLanes; ++j) {
-    sum.least_on[j] = sum.least_off[j] = 1e30;
-    sum.largest[j] = -1e30;
+    out->phase[0].least[j] = out->phase[1].least[j] = 1e30;
+    out->largest[j] = -1e30;
   }
   for (int k = 0; k < s.samples; ++k) {
     Lane P, lambda;
@@ -44,14 +44,14 @@ void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings
     for (int j = 0; j < m.coils; ++j) {
       const double i = in.adc[k][j], y = lambda[j] - m.n[j] * P[j] * dU;
       const bool on = k < out->phase[0].samples[j];
-      if (k == 0) sum.first[j] = y;
-      if (k == s.samples - 1) sum.last[j] = y;
+      if (k == 0) out->first[j] = y;
+      if (k == s.samples - 1) out->last[j] = y;
       sum.y[j] += y;
       sum.ky[j] += k * y;
       sum.i[j] += i;
       sum.ki[j] += k * i;
-      sum.largest[j] = std::max(sum.largest[j], i);
-      double& least = on ? sum.least_on[j] : sum.least_off[j];
+      out->largest[j] = std::max(out->largest[j], i);
+      double& least = out->phase[on ? 0 : 1].least[j];
       least = std::min(least, i);
       if (!on) continue;
       sum.y_on[j] += y;
@@ -60,7 +60,7 @@ void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings
       sum.ki_on[j] += k * i;
     }
   }
-  FitSlopes(m, s, sum, out);
+  FitSlopes(m, s, out);
 }
 
 }  // namespace ambrig

@@ -2,57 +2,86 @@
 
 #include <cmath>
 
-#include "actuators/lane_vector.h"
+#include "actuators/whole_lane_vector.h"
 
 namespace ambrig {
 
 namespace {
 
-using V = LaneVector;
-
 /// Largest integers not above x, for 0 <= x < 2^51.
+template <class V>
 [[gnu::always_inline]] inline V Floor(const V& x) {
   constexpr double kRound = 4503599627370496.0;  // 2^52: the sum has no binary places left
   const V nearest = (x + kRound) - kRound;
   return Select(nearest > x, nearest - 1, nearest);
 }
 
+/// Of a bridge that only the edge of the duty moves: its period [s] and voltages.
+struct PlainBridge {
+  const Lane* duty;  // nullptr: edges and voltages are there
+  double period, on, off;
+};
+
 /// Sample k lies in the on phase when k h <= edge; the edge itself belongs to both.
-AMBRIG_WIDE void CountSamples(double step, double samples, PeriodSlopes* out) {
-  const V all = samples, edge = Load(out->edge.v);
-  V count = Floor(edge * ((1 + 1e-12) / step)) + 1;
-  count = Select(edge > 0.0, Min(count, all), 0.0);
+template <class V>
+[[gnu::always_inline]] inline void Count(const PlainBridge& bridge, double step, double samples, PeriodSlopes* out) {
+  const V all = samples, none = 0.0, one = 1.0;
+  V edge, on, off;
+  if (bridge.duty) {
+    edge = LoadAs<V>(bridge.duty->v) * bridge.period;
+    on = bridge.on;
+    off = bridge.off;
+    Store(out->edge.v, edge);
+    Store(out->phase[0].voltage.v, on);
+    Store(out->phase[1].voltage.v, off);
+  } else {
+    edge = LoadAs<V>(out->edge.v);
+    on = LoadAs<V>(out->phase[0].voltage.v);
+    off = LoadAs<V>(out->phase[1].voltage.v);
+  }
+  const V count = Select(edge > none, Min(Floor(edge * ((1 + 1e-12) / step)) + one, all), none);
   Store(out->phase[0].samples.v, count);
   Store(out->phase[1].samples.v, all - count);
-  V last = (edge - (samples - 1) * step) / step;  // share of the time after the last sample
-  last = Min(Max(last, 0.0), 1.0);
-  Store(out->after.v, last * Load(out->phase[0].voltage.v) + (1 - last) * Load(out->phase[1].voltage.v));
+  const V last = Min(Max(edge * (1 / step) - (samples - 1), none), one);  // share of the time after the last sample
+  Store(out->after.v, last * on + (one - last) * off);
 }
+AMBRIG_WHOLE void CountWhole(const PlainBridge& b, double step, double samples, PeriodSlopes* out) { Count<WholeLaneVector>(b, step, samples, out); }
+AMBRIG_WIDE void CountHalves(const PlainBridge& b, double step, double samples, PeriodSlopes* out) { Count<LaneVector>(b, step, samples, out); }
 
-AMBRIG_WIDE void EdgesOf(const Lane& duty, double T, const BridgeVoltage& v, PeriodSlopes* out) {
-  Store(out->edge.v, Load(duty.v) * T);
-  Store(out->phase[0].voltage.v, V(v.on));
-  Store(out->phase[1].voltage.v, V(v.off));
-}
+/// Of n samples: n, n² - 1 and n (n² - 1), this one 1 where no slope is to be had.
+template <class V>
+struct Samples {
+  V n, less, product;
+  [[gnu::always_inline]] explicit Samples(const V& count) : n(count), less(n * n - 1), product(Select(n < 2, 1, n * less)) {}
+};
 
-[[gnu::always_inline]] inline void Fit(const V& n, const V& from, double step, const V& resistance, const V& y, const V& ky,
-                                       const V& i, const V& ki, PhaseSlopes* out) {
-  const V middle = 0.5 * (n - 1) + from;
-  const V scale = Select(n < 2, 0.0, 12 / (n * (n * n - 1) * step));
-  const V linkage = (ky - middle * y) * scale, mean = Select(n > 0.0, i / n, 0.0);
+/// `inverse` is 1/(n (n² - 1)).
+template <class V>
+[[gnu::always_inline]] inline void Fit(const Samples<V>& s, const V& inverse, const V& from, double step, const V& resistance, const V& y,
+                                       const V& ky, const V& i, const V& ki, PhaseSlopes* out) {
+  const V middle = 0.5 * (s.n - 1) + from;
+  const auto few = s.n < 2;
+  const V scale = Select(few, 0.0, inverse * (12 / step));
+  const V linkage = (ky - middle * y) * scale, mean = i * Select(few, 1, s.less * inverse);
   Store(out->scale.v, scale);
   Store(out->linkage.v, linkage);
   Store(out->current.v, (ki - middle * i) * scale);
   Store(out->mean.v, mean);
-  Store(out->residual.v, linkage + resistance * mean - Load(out->voltage.v));
+  Store(out->residual.v, linkage + resistance * mean - LoadAs<V>(out->voltage.v));
 }
 
-AMBRIG_WIDE void FitBoth(const LinkageModel& m, double step, const SlopeSums& s, PeriodSlopes* out) {
-  const V y = Load(s.y_on.v), ky = Load(s.ky_on.v), i = Load(s.i_on.v), ki = Load(s.ki_on.v), R = Load(m.resistance.v);
-  const V on = Load(out->phase[0].samples.v), off = Load(out->phase[1].samples.v);
-  Fit(on, V{}, step, R, y, ky, i, ki, &out->phase[0]);
-  Fit(off, on, step, R, Load(s.y.v) - y, Load(s.ky.v) - ky, Load(s.i.v) - i, Load(s.ki.v) - ki, &out->phase[1]);
+template <class V>
+[[gnu::always_inline]] inline void FitPhases(const LinkageModel& m, double step, PeriodSlopes* out) {
+  const SlopeSums& s = out->sums;
+  const V y = LoadAs<V>(s.y_on.v), ky = LoadAs<V>(s.ky_on.v), i = LoadAs<V>(s.i_on.v), ki = LoadAs<V>(s.ki_on.v), R = LoadAs<V>(m.resistance.v);
+  const Samples<V> on(LoadAs<V>(out->phase[0].samples.v)), off(LoadAs<V>(out->phase[1].samples.v));
+  const V inverse = 1 / (on.product * off.product);  // one division for both
+  Fit<V>(on, off.product * inverse, 0.0, step, R, y, ky, i, ki, &out->phase[0]);
+  Fit<V>(off, on.product * inverse, on.n, step, R, LoadAs<V>(s.y.v) - y, LoadAs<V>(s.ky.v) - ky, LoadAs<V>(s.i.v) - i, LoadAs<V>(s.ki.v) - ki,
+      &out->phase[1]);
 }
+AMBRIG_WHOLE void FitWhole(const LinkageModel& m, double step, PeriodSlopes* out) { FitPhases<WholeLaneVector>(m, step, out); }
+AMBRIG_WIDE void FitHalves(const LinkageModel& m, double step, PeriodSlopes* out) { FitPhases<LaneVector>(m, step, out); }
 
 }  // namespace
 
@@ -73,8 +102,10 @@ void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const Measu
   const double from[2] = {in.x0, in.y0}, to[2] = {in.x1, in.y1};
   m.Permeance(from, to, &out->permeance);
   const AmplifierParameters& a = *s.amplifier;
+  PlainBridge bridge{};
   if (a.modulation == Modulation::kBiState) {  // the usual case: only the edges differ
-    EdgesOf(*in.duty, 1 / a.switching_frequency, VoltageOf(a, 0.5, in.bus), out);
+    const BridgeVoltage v = VoltageOf(a, 0.5, in.bus);
+    bridge = {in.duty, 1 / a.switching_frequency, v.on, v.off};
   } else {
     for (int j = 0; j < m.coils; ++j) {
       const BridgeVoltage v = VoltageOf(a, (*in.duty)[j], in.bus);
@@ -83,16 +114,11 @@ void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const Measu
       out->phase[1].voltage[j] = v.off;
     }
   }
-  CountSamples(s.step, s.samples, out);
+  (whole_lanes ? CountWhole : CountHalves)(bridge, s.step, s.samples, out);
 }
 
-void FitSlopes(const LinkageModel& m, const SamplingSettings& s, const SlopeSums& sums, PeriodSlopes* out) {
-  out->largest = sums.largest;
-  out->first = sums.first;
-  out->last = sums.last;
-  out->phase[0].least = sums.least_on;
-  out->phase[1].least = sums.least_off;
-  FitBoth(m, s.step, sums, out);
+void FitSlopes(const LinkageModel& m, const SamplingSettings& s, PeriodSlopes* out) {
+  (whole_lanes ? FitWhole : FitHalves)(m, s.step, out);
 }
 
 }  // namespace ambrig

@@ -5,16 +5,9 @@
 
 namespace ambrig {
 
-/// Sums over the samples k of both phases.
-struct SlopeSums {
-  Lane y_on, ky_on, y, ky;  // linkage: on phase, whole period
-  Lane i_on, ki_on, i, ki;  // current
-  Lane least_on, least_off, largest;
-  Lane first, last;         // linkage
-};
-
 /// Permeances at both ends, mean and sum for the middle; edges, samples and voltages of the phases.
 void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out);
-void FitSlopes(const LinkageModel& m, const SamplingSettings& s, const SlopeSums& sums, PeriodSlopes* out);
+/// Slopes from the sums.
+void FitSlopes(const LinkageModel& m, const SamplingSettings& s, PeriodSlopes* out);
 
 }  // namespace ambrig
