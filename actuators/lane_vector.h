@@ -2,8 +2,7 @@
 /// Arithmetic on a Lane as one value; only for sources that hold a hot loop.
 ///
 /// AMBRIG_WIDE compiles a function for wider registers too and picks at load time: the same
-/// operations in the same order, hence the same bits on every machine that can fuse a product with a sum
-/// (x86-64-v3 and later); which sources do stands in CMakeLists.txt.
+/// operations in the same order (no contraction), hence the same bits on every machine.
 ///
 /// Two halves of four doubles, not one vector of eight: g++ lowers comparisons and choices of
 /// vectors wider than the registers element by element, which costs a factor of ten on machines
