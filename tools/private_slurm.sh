@@ -85,7 +85,8 @@ case $action in
       fi
       sleep 0.1
     done
-    echo "private_slurm: did not come up, see $dir/log" >&2
+    echo "private_slurm: did not come up: $(grep -h error "$dir"/log/*.log | head -1), see $dir/log" >&2
+    "$0" stop "$dir"
     exit 1 ;;
   controller) run slurmctld slurmctld -D ;;
   node) run "slurmd-n$3" slurmd -D -N "n$3" ;;
