@@ -13,15 +13,17 @@ void FillFromBaseline(U64 seed, U32 stream, U64 index, float* out, int n) { Fill
 #ifdef __x86_64__
 bool HasAvx2() { return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("aes") != 0; }
 
+bool HasVaes() { return HasAvx2() && __builtin_cpu_supports("vaes") != 0; }
+
 bool HasAvx512() {
-  return HasAvx2() && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
-         __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("vaes") != 0;
+  return HasVaes() && __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512vl") != 0 &&
+         __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0;
 }
 #endif
 
 void FillNormals(U64 seed, U32 stream, U64 index, float* out, int n) {
 #ifdef __x86_64__
-  static FillFunction* const fill = HasAvx512() ? FillFromAvx512 : HasAvx2() ? FillFromAvx2 : FillFromBaseline;
+  static FillFunction* const fill = HasAvx512() ? FillFromAvx512 : HasVaes() ? FillFromVaes : HasAvx2() ? FillFromAvx2 : FillFromBaseline;
   fill(seed, stream, index, out, n);
 #else
   Fill(seed, stream, index, out, n);

@@ -9,8 +9,10 @@ using FillFunction = void(std::uint64_t seed, std::uint32_t stream, std::uint64_
 FillFunction FillFromBaseline;  // any machine
 #ifdef __x86_64__
 FillFunction FillFromAvx2;    // and AES instructions
+FillFunction FillFromVaes;    // and AES instructions on vectors
 FillFunction FillFromAvx512;  // and AES instructions on whole vectors
 bool HasAvx2();
+bool HasVaes();
 bool HasAvx512();
 #endif
 
