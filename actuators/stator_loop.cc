@@ -3,48 +3,13 @@
 #include <tuple>
 #include <utility>
 
-#include "actuators/whole_lane_vector.h"
+#include "actuators/running_stator.h"
 
 namespace ambrig {
 
 namespace {
 
 using V = LaneVector;
-
-/// Volt-seconds of one sample from the two edges: what an edge in it would give, clamped to what an edge
-/// before or after it gives.
-template <class V>
-struct VoltSeconds {
-  V first, first_falls, first_low, first_high;     // of the edge t1, relative to a period without it
-  V second, second_falls, second_low, second_high; // of t2
-  bool one_edge = true;  // nothing before t1: the usual pattern
-  /// From sample k on, of `sample` seconds each.
-  [[gnu::always_inline]] VoltSeconds(const StatorLoop& s, int k, double sample) {
-    const VoltagePattern& p = *s.pattern;
-    const V v0 = LoadAs<V>(p.gain[0].v) * s.bus + LoadAs<V>(p.drop[0].v);
-    const V v1 = LoadAs<V>(p.gain[1].v) * s.bus + LoadAs<V>(p.drop[1].v);
-    const V v2 = LoadAs<V>(p.gain[2].v) * s.bus + LoadAs<V>(p.drop[2].v);
-    const V t1 = LoadAs<V>(p.t1.v), t2 = LoadAs<V>(p.t2.v), t = k * sample, none;
-    for (int j = 0; j < kLanes; ++j) one_edge = one_edge && t1[j] <= 0;
-    const V step1 = v0 - v1, step2 = v1 - v2;
-    first_falls = step1 * sample;
-    first = step1 * (t1 - t);
-    first_low = Min(first_falls, none);
-    first_high = Max(first_falls, none);
-    second_falls = step2 * sample;
-    second = v2 * sample + step2 * (t2 - t);
-    second_low = Min(v1 * sample, v2 * sample);
-    second_high = Max(v1 * sample, v2 * sample);
-  }
-  [[gnu::always_inline]] V Next() {
-    const V after = Min(Max(second, second_low), second_high);
-    second = second - second_falls;
-    if (one_edge) return after;
-    const V before = Min(Max(first, first_low), first_high);
-    first = first - first_falls;
-    return after + before;
-  }
-};
 
 /// Flux that carries the targets λ*; `inverse_sum` is 1/Σg (radial only).
 template <Coupling kCoupling, class V>
@@ -63,7 +28,7 @@ template <Coupling kCoupling>
 [[gnu::always_inline]] inline int Run(const StatorLoop& s, int k, int count, double sample, double* target) {
   const V n = Load(s.n), c = Load(s.c), inverse_l = Load(s.inverse_l), half_rh = Load(s.half_rh);
   const V leakage = Load(s.leakage), g0 = Load(s.g0), dg = Load(s.dg);
-  VoltSeconds<V> volt_seconds(s, k, sample);
+  VoltSeconds<V> volt_seconds(s, k, sample, V(1));
   V lambda = Load(s.lambda), i = Load(s.i), phi = Load(s.phi), sum = Load(s.sum);
   const double per = 1.0 / count;
   for (; k < count; ++k) {
@@ -86,132 +51,34 @@ template <Coupling kCoupling>
   return k;
 }
 
-/// Of every sample of a period, and of the one after it: what a radial bearing's potential needs.
-struct PotentialTables {
-  static constexpr int kMost = 168;  // of StatorLanes::samples, and one, in whole vectors
-  double inverse_sum[kMost];         // 1/Σ g'
-  double passes_on[kMost];           // Σ g' c b g / Σ g'
-};
-constexpr Lane kFirstSamples = {{0, 1, 2, 3, 4, 5, 6, 7}};
-
-/// One bearing among several: what does not depend on the new currents cuts the chain from target to
-/// target short,  λ - (R h/2) i = a λ* + (1 - a) n φ,  a = (L_l - R h/2)/(L_l + R h/2).
-template <class V>
-struct RunningLanes {
-  V n, c, inverse_l, leakage, a, b, wanted, i, phi, sum, least;
-  V g, g_grows;  // conductance of this sample and its change from sample to sample
-  VoltSeconds<V> volt_seconds;
-  Lane* samples;
-
-  [[gnu::always_inline]] RunningLanes(const StatorLoop& s, int count, double sample, PotentialTables&) : volt_seconds(s, 0, sample) {
-    n = LoadAs<V>(s.n);
-    c = LoadAs<V>(s.c);
-    inverse_l = LoadAs<V>(s.inverse_l);
-    leakage = LoadAs<V>(s.leakage);
-    g_grows = LoadAs<V>(s.dg) * (1.0 / count);
-    g = LoadAs<V>(s.g0) + g_grows;
-    const V half_rh = LoadAs<V>(s.half_rh);
-    a = (leakage - half_rh) * inverse_l;
-    b = (1 - a) * n;
-    i = LoadAs<V>(s.i);
-    phi = LoadAs<V>(s.phi);
-    sum = V{};
-    least = i;
-    wanted = LoadAs<V>(s.lambda) - half_rh * i;
-    samples = s.samples;
-  }
-  [[gnu::always_inline]] void Currents(const V& target) {
-    i = inverse_l * (target - n * phi);
-    least = Min(i, least);
-    sum += phi * phi;
-  }
-  [[gnu::always_inline]] unsigned Finish(const StatorLoop& s) const {
-    if (-Largest(-least) < s.floor) return 1;
-    Store(s.lambda, n * phi + leakage * i);
-    Store(s.i, i);
-    Store(s.phi, phi);
-    Store(s.sum, sum);
-    return 0;
-  }
-};
-
-/// Poles that share no sum: windings of a thrust side, opposed magnets.
-template <class V, Coupling kCoupling>
-struct Running : RunningLanes<V> {
-  using RunningLanes<V>::RunningLanes;
-  [[gnu::always_inline]] void Step(int k) {
-    Store(this->samples[k].v, this->i);
-    const V target = this->wanted + this->volt_seconds.Next();
-    this->phi = Flux<kCoupling>(this->g, this->c * target, 0);
-    this->Currents(target);
-    this->wanted = this->a * target + this->b * this->phi;
-    this->g += this->g_grows;
-  }
-};
-
-/// A radial bearing. The potential U = Σ g c λ* / Σ g of a sample waits for its targets, these for U of
-/// the sample before. Summing over the poles what is known without U lets two samples' sums overlap:
-///   λ*' = w - b g U,  w = (a + b g c) λ* + ∫v',   U' = (Σ g' c w - U Σ g' c b g) / Σ g'.
-template <class V>
-struct Running<V, Coupling::kFloatingRotor> : RunningLanes<V> {
-  V target, gc, gc_grows, keeps, keeps_grows;      // g c and a + b g c, with their changes
-  double U = 0;
-  const PotentialTables& tables;
-
-  [[gnu::always_inline]] Running(const StatorLoop& s, int count, double sample, PotentialTables& t)
-      : RunningLanes<V>(s, count, sample, t), tables(t) {
-    const V cb = this->c * this->b, g_first = this->g, grows = this->g_grows;
-    gc = g_first * this->c;
-    gc_grows = grows * this->c;
-    keeps = this->a + this->b * gc;
-    keeps_grows = this->b * gc_grows;
-    const double total = Sum(g_first), total_grows = Sum(grows);
-    const double q0 = Sum(cb * g_first * g_first), q1 = Sum(cb * g_first * grows), q2 = Sum(cb * grows * grows);
-    V at = LoadAs<V>(kFirstSamples.v);
-    for (int k = 0; k <= count; k += kLanes, at += kLanes) {
-      const V inverse = 1 / (total + at * total_grows);
-      Store(t.inverse_sum + k, inverse);
-      Store(t.passes_on + k, (q0 + (2 * at - 1) * q1 + at * (at - 1) * q2) * inverse);
-    }
-    target = this->wanted + this->volt_seconds.Next();
-    U = Sum(gc * target) * t.inverse_sum[0];
-  }
-  [[gnu::always_inline]] void Step(int k) {
-    Store(this->samples[k].v, this->i);
-    const V falls = this->g * U;
-    this->phi = gc * target - falls;
-    this->Currents(target);
-    const V w = keeps * target + this->volt_seconds.Next();
-    target = w - this->b * falls;
-    this->g += this->g_grows;
-    gc += gc_grows;
-    keeps += keeps_grows;
-    U = Sum(gc * w) * tables.inverse_sum[k + 1] - U * tables.passes_on[k + 1];
-  }
-};
-
-template <class V, Coupling... kAll, std::size_t... kAt>
+template <class... kBearings, std::size_t... kAt>
 [[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h, std::index_sequence<kAt...>) {
   PotentialTables tables[sizeof...(kAt)];
-  std::tuple<Running<V, kAll>...> all(Running<V, kAll>(s[kAt], count, h, tables[kAt])...);
+  std::tuple<kBearings...> all(kBearings(s[kAt], count, h, tables[kAt])...);
   for (int k = 0; k < count; ++k) (std::get<kAt>(all).Step(k), ...);
   return ((std::get<kAt>(all).Finish(s[kAt]) << kAt) | ...);
 }
-template <class V, Coupling... kAll>
+template <class... kBearings>
 [[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h) {
-  return Together<V, kAll...>(s, count, h, std::make_index_sequence<sizeof...(kAll)>());
+  return Together<kBearings...>(s, count, h, std::make_index_sequence<sizeof...(kBearings)>());
 }
 
 constexpr Coupling R = Coupling::kFloatingRotor, S = Coupling::kSides, N = Coupling::kNone;
 
-AMBRIG_WHOLE unsigned RRSWhole(const StatorLoop* s, int n, double h) { return Together<WholeLaneVector, R, R, S>(s, n, h); }
-AMBRIG_WHOLE unsigned RRWhole(const StatorLoop* s, int n, double h) { return Together<WholeLaneVector, R, R>(s, n, h); }
-AMBRIG_WHOLE unsigned RWhole(const StatorLoop* s, int n, double h) { return Together<WholeLaneVector, R>(s, n, h); }
-AMBRIG_WIDE unsigned RRSHalves(const StatorLoop* s, int n, double h) { return Together<V, R, R, S>(s, n, h); }
-AMBRIG_WIDE unsigned RRHalves(const StatorLoop* s, int n, double h) { return Together<V, R, R>(s, n, h); }
-AMBRIG_WIDE unsigned RHalves(const StatorLoop* s, int n, double h) { return Together<V, R>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherS(const StatorLoop* s, int n, double h) { return Together<V, S>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherN(const StatorLoop* s, int n, double h) { return Together<V, N>(s, n, h); }
+template <class V>
+using Radial = Running<V, R>;
+using ThrustOfFour = Running<FirstLanes, S>;
+
+AMBRIG_WHOLE unsigned RRSWhole(const StatorLoop* s, int n, double h) {
+  return Together<Radial<WholeLaneVector>, Radial<WholeLaneVector>, Running<WholeLaneVector, S>>(s, n, h);
+}
+AMBRIG_WHOLE unsigned RRWhole(const StatorLoop* s, int n, double h) { return Together<Radial<WholeLaneVector>, Radial<WholeLaneVector>>(s, n, h); }
+AMBRIG_WHOLE unsigned RWhole(const StatorLoop* s, int n, double h) { return Together<Radial<WholeLaneVector>>(s, n, h); }
+AMBRIG_WIDE unsigned RRSHalves(const StatorLoop* s, int n, double h) { return Together<Radial<V>, Radial<V>, ThrustOfFour>(s, n, h); }
+AMBRIG_WIDE unsigned RRHalves(const StatorLoop* s, int n, double h) { return Together<Radial<V>, Radial<V>>(s, n, h); }
+AMBRIG_WIDE unsigned RHalves(const StatorLoop* s, int n, double h) { return Together<Radial<V>>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherS(const StatorLoop* s, int n, double h) { return Together<ThrustOfFour>(s, n, h); }
+AMBRIG_WIDE unsigned TogetherN(const StatorLoop* s, int n, double h) { return Together<Running<V, N>>(s, n, h); }
 
 AMBRIG_WIDE int RunRadial(const StatorLoop& s, int k, int n, double h, double* target) { return Run<R>(s, k, n, h, target); }
 AMBRIG_WIDE int RunSides(const StatorLoop& s, int k, int n, double h, double* target) { return Run<S>(s, k, n, h, target); }

@@ -6,6 +6,8 @@
 
 namespace ambrig {
 
+/// What ties the coils of a bearing together: the potential of the rotor (radial), a core for two windings (thrust: four coils,
+/// the first four lanes), nothing (opposed magnets).
 enum class Coupling { kFloatingRotor, kSides, kNone };
 
 /// How the voltage of every coil runs over one switching period: v0 until t1, v1 until t2, then v2.

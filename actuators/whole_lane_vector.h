@@ -46,11 +46,11 @@ struct WholeLaneVector {
 AMBRIG_INLINE WholeLaneVector operator+(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v + y.v; }
 AMBRIG_INLINE WholeLaneVector operator-(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v - y.v; }
 AMBRIG_INLINE WholeLaneVector operator*(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v * y.v; }
-/// Of one number: without the constructor's addition, which costs four cycles where something waits for it.
 AMBRIG_INLINE WholeLaneVector operator*(const WholeLaneVector& x, double y) { return x.v * y; }
 AMBRIG_INLINE WholeLaneVector operator/(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v / y.v; }
 AMBRIG_INLINE WholeLaneVector operator-(const WholeLaneVector& x) { return -x.v; }
 AMBRIG_INLINE EightMasks operator<(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v < y.v; }
+AMBRIG_INLINE EightMasks operator==(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v == y.v; }
 AMBRIG_INLINE EightMasks operator>(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v > y.v; }
 
 AMBRIG_INLINE WholeLaneVector Select(const EightMasks& m, const WholeLaneVector& yes, const WholeLaneVector& no) { return m ? yes.v : no.v; }
@@ -74,7 +74,12 @@ AMBRIG_INLINE LaneVector Halves(const WholeLaneVector& x) {
   return {__builtin_shufflevector(x.v, x.v, 0, 1, 2, 3), __builtin_shufflevector(x.v, x.v, 4, 5, 6, 7)};
 }
 AMBRIG_INLINE double Sum(const WholeLaneVector& x) { return Sum(Halves(x)); }
+AMBRIG_INLINE double CommonSum(const WholeLaneVector& x) { return Sum(x); }
 AMBRIG_INLINE double Largest(const WholeLaneVector& x) { return Largest(Halves(x)); }
 AMBRIG_INLINE WholeLaneVector Partner(const WholeLaneVector& x) { return __builtin_shufflevector(x.v, x.v, 1, 0, 3, 2, 5, 4, 7, 6); }
+
+/// What CommonSum gives of a vector.
+template <class V>
+using CommonOf = decltype(CommonSum(V{}));
 
 }  // namespace ambrig

@@ -1,6 +1,6 @@
 #include "fdd/period_slopes.h"
 
-#include "actuators/whole_lane_vector.h"
+#include "actuators/first_lanes.h"
 #include "fdd/slope_fit.h"
 
 namespace ambrig {
@@ -18,11 +18,31 @@ struct Sums {
   }
   template <class Mask>
   [[gnu::always_inline]] void AddWhere(const Mask& on, const V& value) {
-    x = Select(on, x + value, x);
+    x += Select(on, value, 0.0);
     of_sums += x;
   }
   [[gnu::always_inline]] V Weighted(int count) const { return x * static_cast<double>(count) - of_sums; }
 };
+
+/// Least samples of each phase. Where none is near zero, as usual, the least of both does for either: it is asked only
+/// whether the diodes may block.
+template <class V>
+[[gnu::always_inline]] inline void LeastOfPhases(const Lane* adc, int count, const V& least, PeriodSlopes* out) {
+  const V far = 1e30, zero;
+  V on_phase = least, off_phase = least;
+  if (-Largest(-least) < kZeroCurrent) {
+    on_phase = off_phase = far;
+    V left = LoadAs<V>(out->phase[0].samples.v);
+    for (int k = 0; k < count; ++k, left = left - 1) {
+      const V i = LoadAs<V>(adc[k].v);
+      const auto on = left > zero;
+      on_phase = Min(Select(on, i, far), on_phase);
+      off_phase = Min(Select(on, far, i), off_phase);
+    }
+  }
+  Store(out->phase[0].least.v, on_phase);
+  Store(out->phase[1].least.v, off_phase);
+}
 
 /// Linkages λ = (n² P + L_l) i - n P U; U is the rotor's potential Σ P n i / Σ P (radial), the partner's
 /// share of a common core, -n i' (thrust), or none.
@@ -37,7 +57,7 @@ template <class V, Coupling kCoupling>
   const double sum0 = Sum(LoadAs<V>(P.start.v)), dsum = Sum(LoadAs<V>(P.change.v)) / count;
   for (int k = 0; k < count; ++k) inverse_sum[k] = 1 / (sum0 + dsum * k);
   Sums<V> y, i_all, y_on, i_on;
-  V lambda, least_on = far, least_off = far, largest = -far;
+  V lambda, least = far, largest = -far;
   for (int k = 0; k < count; ++k) {
     const V i = LoadAs<V>(adc[k].v);
     if constexpr (kCoupling == Coupling::kFloatingRotor)
@@ -55,8 +75,7 @@ template <class V, Coupling kCoupling>
     i_all.Add(i);
     y_on.AddWhere(on, lambda);
     i_on.AddWhere(on, i);
-    least_on = Min(Select(on, i, far), least_on);
-    least_off = Min(Select(on, far, i), least_off);
+    least = Min(i, least);
     largest = Max(i, largest);
   }
   Store(out->last.v, lambda);
@@ -68,9 +87,8 @@ template <class V, Coupling kCoupling>
   Store(s->ki_on.v, i_on.Weighted(count));
   Store(s->i.v, i_all.x);
   Store(s->ki.v, i_all.Weighted(count));
-  Store(out->phase[0].least.v, least_on);
-  Store(out->phase[1].least.v, least_off);
   Store(out->largest.v, largest);
+  LeastOfPhases(adc, count, Select(n == zero, far, least), out);
 }
 
 AMBRIG_WHOLE void RadialWhole(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
@@ -83,7 +101,7 @@ AMBRIG_WHOLE void SidesWhole(const LinkageModel& m, const Lane* adc, int count, 
   Accumulate<WholeLaneVector, Coupling::kSides>(m, adc, count, out);
 }
 AMBRIG_WIDE void SidesHalves(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
-  Accumulate<LaneVector, Coupling::kSides>(m, adc, count, out);
+  Accumulate<FirstLanes, Coupling::kSides>(m, adc, count, out);
 }
 AMBRIG_WIDE void Separate(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
   Accumulate<LaneVector, Coupling::kNone>(m, adc, count, out);

@@ -14,6 +14,8 @@
 
 namespace ambrig {
 
+inline constexpr double kZeroCurrent = 0.03;  // [A] below: the diodes may block
+
 /// Bounds of what is not known of the shaft's motion at a bearing plane.
 struct MotionDoubt {
   double velocity = 0;  // [m/s]
@@ -40,7 +42,7 @@ struct PhaseSlopes {
   Lane linkage;    // slope [V]
   Lane current;    // slope [A/s]
   Lane mean;       // current [A]
-  Lane least;      // smallest sample [A]
+  Lane least;      // smallest sample, or of either phase where no coil comes below kZeroCurrent [A]
   Lane residual;   // e [V]
   Lane scale;      // 12/(n (n²-1) h) of n samples, 0 below two: the slope's variance is scale/h [1/s]
 };

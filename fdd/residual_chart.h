@@ -8,7 +8,6 @@ namespace ambrig {
 
 /// Where a residual counts.
 inline constexpr double kFewestSamples = 4;   // of a phase
-inline constexpr double kZeroCurrent = 0.03;  // [A] below: the diodes may block
 
 struct ChartSettings {
   double current_noise = 0.004;    // [A rms] per sample, quantisation included

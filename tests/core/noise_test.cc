@@ -123,6 +123,9 @@ TEST(Noise, EveryCloneGivesTheSameBits) {
     if (HasAvx2()) FillFromAvx2(5, 6, 7, got.data(), n);
     EXPECT_TRUE(!HasAvx2() || same()) << "AVX2, " << n;
     std::fill(got.begin(), got.end(), 99.0F);
+    if (HasVaes()) FillFromVaes(5, 6, 7, got.data(), n);
+    EXPECT_TRUE(!HasVaes() || same()) << "VAES, " << n;
+    std::fill(got.begin(), got.end(), 99.0F);
     if (HasAvx512()) FillFromAvx512(5, 6, 7, got.data(), n);
     EXPECT_TRUE(!HasAvx512() || same()) << "AVX-512, " << n;
 #endif
