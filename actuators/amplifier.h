@@ -80,8 +80,12 @@ class PowerAmplifier {
   double CurrentLoop(double set_point, double feedback) {
     const double e = set_point - feedback, increment = integral_gain_ * e;
     double d = DutyFromVoltage(p_->kp * e + integral_ + increment);
-    const bool pushes_out = (d > p_->duty_max && e > 0) || (d < p_->duty_min && e < 0);
-    if (pushes_out)
+    const bool above = d > p_->duty_max, below = d < p_->duty_min;
+    if (!above && !below) [[likely]] {
+      integral_ += increment;
+      return d;
+    }
+    if ((above && e > 0) || (below && e < 0))
       d = DutyFromVoltage(p_->kp * e + integral_);
     else
       integral_ += increment;

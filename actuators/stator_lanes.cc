@@ -1,7 +1,9 @@
 #include "actuators/stator_lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "core/base/errors.h"
 
@@ -87,6 +89,10 @@ StatorLoop StatorLanes::LoopOver(const VoltagePattern& pattern, double bus) {
 }
 
 void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
+  using Flags = std::uint64_t;  // of eight lanes, a byte each
+  static_assert(sizeof blocked == sizeof(Flags));
+  const Flags present = coils == kLanes ? ~Flags{0} : (Flags{1} << (8 * coils)) - 1;
+  if ((std::bit_cast<Flags>(blocked) & ~std::bit_cast<Flags>(open) & present) == 0) return;
   for (int j = 0; j < coils; ++j)
     if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0)) Unblock(j);
 }

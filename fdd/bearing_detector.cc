@@ -53,10 +53,11 @@ void BearingDetector::Keep(const MeasuredPeriod& in) {
 
 void BearingDetector::SilenceFalseSensors() {
   KeptPeriod& kept = ring_[static_cast<std::size_t>((count_ - 1) % kRing)];
+  for (int j = 0; j < kLanes; ++j) off_for_[j] = kept.duty[j] <= 0 ? off_for_[j] + 1 : 0;
+  if (!any_false_reading_) return;
   for (int j = 0; j < model_.coils; ++j) {
     const auto lane = static_cast<std::size_t>(j);
-    off_for_[lane] = kept.duty[j] <= 0 ? off_for_[lane] + 1 : 0;
-    if (!false_reading_[lane] || off_for_[lane] < kDecayed) continue;
+    if (!false_reading_[lane] || off_for_[j] < kDecayed) continue;
     for (int k = 0; k < s_.sampling.samples; ++k) kept.adc[static_cast<std::size_t>(k)][j] = 0;
     if (!unknown_mmf_[lane]) continue;
     unknown_mmf_[lane] = false;
@@ -85,9 +86,10 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
     ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
   // What an unknown MMF was at the first sample stays unknown: the motion turns it into a voltage.
   const double potential_rate = UnknownPotential() / (s_.sampling.step * s_.sampling.samples);
+  if (!in.doubt.any()) return chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, nullptr, potential_rate);
   Lane doubt[2];
-  if (in.doubt.any()) ResidualDoubt(model_, slopes_, in.doubt, doubt);
-  chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, in.doubt.any() ? doubt : nullptr, potential_rate);
+  ResidualDoubt(model_, slopes_, in.doubt, doubt);
+  chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, doubt, potential_rate);
 }
 
 int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
@@ -329,7 +331,7 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
     }
     case FaultClass::kCurrentSensor:
       state_[lane] = Coil::kUnknownMmf;
-      unknown_mmf_[lane] = false_reading_[lane] = true;
+      unknown_mmf_[lane] = false_reading_[lane] = any_false_reading_ = true;
       break;
     case FaultClass::kSwitchStuckOn:  // its ADC will clip
       state_[lane] = Coil::kUnknownMmf;

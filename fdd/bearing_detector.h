@@ -108,7 +108,8 @@ class BearingDetector {
   std::array<bool, kLanes> unknown_mmf_{};
   bool any_unknown_ = false;
   std::array<bool, kLanes> false_reading_{};
-  std::array<int, kLanes> off_for_{};     // periods without duty
+  bool any_false_reading_ = false;
+  Lane off_for_;                          // periods without duty
   std::vector<KeptPeriod> ring_;
   double centred_ = 0;                    // largest permeance at the centre [H]
   long long count_ = 0, alarm_at_ = -1;

@@ -22,10 +22,11 @@ void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
   Targets(at, control);
   for (std::size_t k = 0; k < control.size(); ++k) {
     BearingControl& c = control[k];
-    for (int j = 0; j < c.coils; ++j) {
-      const double d = first_period_ ? amplifier_.duty_min : c.amplifier[U(j)].CurrentLoop(target_[k][j], c.feedback[j]);
-      c.duty[j] = c.disabled[U(j)] ? 0 : d;
-    }
+    const Lane& target = target_[k];
+    for (int j = 0; j < c.coils; ++j)
+      c.duty[j] = first_period_ ? amplifier_.duty_min : c.amplifier[U(j)].CurrentLoop(target[j], c.feedback[j]);
+    for (int j = 0; j < c.coils; ++j)
+      if (c.disabled[U(j)]) c.duty[j] = 0;
   }
   first_period_ = false;
   if (at < 0) return;
