@@ -137,6 +137,8 @@ class RotorModel {
   double StiffnessRate(const MotionState& s) const;
   void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
                 bool near_contact) const;
+  /// The same under `forced` alone, loads included.
+  void StepUnder(MotionState& s, const DofVector& forced, double stator_x, double stator_y, double dt, bool near_contact) const;
   /// Whether nothing but given forces and gyroscopics acts: a rigid rotor, touching nothing.
   bool FliesFreely(bool near_contact) const {
     return dof_ == 5 && !near_contact && terms.empty();

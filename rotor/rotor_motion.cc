@@ -109,6 +109,7 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
 
 void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
                           bool near_contact) const {
+  if (loads_.empty()) return StepUnder(s, Q, stator_x, stator_y, dt, near_contact);
   // Loads of the scenario enter with their mean over the step, so that their impulse is exact.
   DofVector forced = Q;
   for (const ExternalLoad& load : loads_) {
@@ -118,6 +119,10 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
     load.map.AddForce(share * load.fx, share * load.fy, forced);
     forced[2] += share * load.fz;
   }
+  StepUnder(s, forced, stator_x, stator_y, dt, near_contact);
+}
+
+void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stator_x, double stator_y, double dt, bool near_contact) const {
   if (FliesFreely(near_contact)) return Fly(s, forced, dt);
   const bool free_spin = SpeedIsFree(s.t) && p_.inertia_polar > 0;
   MotionState stage = s;

@@ -159,7 +159,10 @@ void SwitchingEngine::MoveRotor(long long n) {
     b.y = b.y_next;
   }
   if (clamped_) return;
-  DofVector Q{};
+  const auto dof = static_cast<std::size_t>(plant_.rotor.dof());
+  DofVector& Q = magnetic_force_;  // kept: only what moves is written
+  std::fill_n(Q.begin(), 5, 0.0);
+  if (dof > 5) std::fill_n(Q.begin() + 5, dof - 5, 0.0);
   double sx = 0, sy = 0;
   for (const BearingRun& b : bearings_) {
     b.plant->plane.AddForce(b.fx, b.fy, Q);
@@ -167,7 +170,6 @@ void SwitchingEngine::MoveRotor(long long n) {
     sx += b.fx;
     sy += b.fy;
   }
-  const auto dof = static_cast<std::size_t>(plant_.rotor.dof());
   std::copy_n(motion_.v.begin(), dof, acceleration_.begin());
   if (stepper_)
     stepper_->Step(motion_, Q, sx, sy, T_);

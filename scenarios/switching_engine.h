@@ -88,6 +88,7 @@ class SwitchingEngine {
   Plant plant_;
   std::unique_ptr<RotorStepper> stepper_;
   MotionState motion_, ahead_;  // now, and as predicted for the end of the period
+  DofVector magnetic_force_{};              // generalised, of this period
   DofVector acceleration_{};
   std::vector<BearingRun> bearings_;
   std::vector<BearingControl> control_;
