@@ -20,7 +20,6 @@ AMBRIG_INLINE FirstLanes operator-(const FirstLanes& x, const FirstLanes& y) { r
 AMBRIG_INLINE FirstLanes operator-(const FirstLanes& x) { return -x.v; }
 AMBRIG_INLINE FirstLanes operator*(const FirstLanes& x, const FirstLanes& y) { return x.v * y.v; }
 AMBRIG_INLINE FirstLanes operator*(const FirstLanes& x, double y) { return x.v * y; }
-AMBRIG_INLINE FirstLanes operator/(const FirstLanes& x, const FirstLanes& y) { return x.v / y.v; }
 AMBRIG_INLINE FourMasks operator<(const FirstLanes& x, const FirstLanes& y) { return x.v < y.v; }
 AMBRIG_INLINE FourMasks operator>(const FirstLanes& x, const FirstLanes& y) { return x.v > y.v; }
 AMBRIG_INLINE FourMasks operator==(const FirstLanes& x, const FirstLanes& y) { return x.v == y.v; }

@@ -1,6 +1,6 @@
 #include "scenarios/measurement.h"
 
-#include "actuators/first_lanes.h"
+#include "actuators/whole_lane_vector.h"
 
 namespace ambrig {
 
@@ -77,7 +77,6 @@ AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, const Sensors& sens
 }
 AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
                                double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  if (coils <= 4) return MeasureNoisily<FirstLanes>(truth, count, sensors, normals, coils, noise, converter, adc, out);
   MeasureNoisily<LaneVector>(truth, count, sensors, normals, coils, noise, converter, adc, out);
 }
 
