@@ -80,10 +80,13 @@ AMBRIG_INLINE TwoLanes UpperHalf(const FourLanes& v) {
 }
 AMBRIG_INLINE TwoLanes LowerHalf(const FourLanes& v) { return __builtin_shufflevector(v, v, 0, 1); }
 
-/// Halves added to halves: ((v0+v4) + (v2+v6)) + ((v1+v5) + (v3+v7)).
-AMBRIG_INLINE double Sum(const LaneVector& v) {
+/// Halves added to halves: (v0+v4) + (v2+v6) and (v1+v5) + (v3+v7).
+AMBRIG_INLINE TwoLanes SumOfHalves(const LaneVector& v) {
   const FourLanes four = v.a + v.b;
-  const TwoLanes two = LowerHalf(four) + UpperHalf(four);
+  return LowerHalf(four) + UpperHalf(four);
+}
+AMBRIG_INLINE double Sum(const LaneVector& v) {
+  const TwoLanes two = SumOfHalves(v);
   return two[0] + two[1];
 }
 /// The same sum for arithmetic with vectors: g++ keeps a scalar that waits in a general register, six cycles away.
@@ -91,8 +94,7 @@ struct CommonLanes {
   FourLanes v;
 };
 AMBRIG_INLINE CommonLanes CommonSum(const LaneVector& v) {
-  const FourLanes four = v.a + v.b;
-  const TwoLanes two = LowerHalf(four) + UpperHalf(four), sum = two + __builtin_shufflevector(two, two, 1, 0);
+  const TwoLanes two = SumOfHalves(v), sum = two + __builtin_shufflevector(two, two, 1, 0);
   return {FourLanes{sum[0], sum[0], sum[0], sum[0]}};
 }
 AMBRIG_INLINE CommonLanes operator*(const CommonLanes& x, double y) { return {x.v * y}; }

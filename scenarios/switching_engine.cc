@@ -161,8 +161,7 @@ void SwitchingEngine::MoveRotor(long long n) {
   if (clamped_) return;
   const auto dof = static_cast<std::size_t>(plant_.rotor.dof());
   DofVector& Q = magnetic_force_;  // kept: only what moves is written
-  std::fill_n(Q.begin(), 5, 0.0);
-  if (dof > 5) std::fill_n(Q.begin() + 5, dof - 5, 0.0);
+  std::fill_n(Q.begin(), dof, 0.0);
   double sx = 0, sy = 0;
   for (const BearingRun& b : bearings_) {
     b.plant->plane.AddForce(b.fx, b.fy, Q);
