@@ -29,24 +29,10 @@
 #include <vector>
 
 #include "fdd/diagnosis.h"
+#include "fdd/kept_period.h"
 #include "fdd/model_learning.h"
 
 namespace ambrig {
-
-struct DetectorSettings : ChartSettings {
-  SamplingSettings sampling;
-  double gap_sd = 0.01;            // relative
-  double leakage_sd = 2e-5;        // [H]
-  double current_quantum = 0.005;  // of the ADC [A]
-  bool watch_only = false;         // no alarm: the sums go on (detector studies)
-};
-
-/// One period as kept for an examination.
-struct KeptPeriod {
-  MeasuredPeriod in;
-  std::array<Lane, 64> adc;
-  Lane duty;
-};
 
 class BearingDetector {
  public:
@@ -76,6 +62,9 @@ class BearingDetector {
   double gap_error() const { return learning_.known().gap; }      // learned, relative
 
  private:
+  static constexpr int kRing = 20;                // periods kept
+  static constexpr int kLongestExamination = 12;  // [periods]
+
   void Residuals(const MeasuredPeriod& in);
   /// By how much the rotor's potential may be wrong for coils of unknown MMF [A turns].
   double UnknownPotential() const;

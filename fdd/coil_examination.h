@@ -17,7 +17,9 @@
 /// Costs are sums of squares over their variances plus a penalty per free quantity.
 #include <vector>
 
-#include "fdd/bearing_detector.h"
+#include "fdd/diagnosis.h"
+#include "fdd/kept_period.h"
+#include "fdd/linkage_model.h"
 
 namespace ambrig {
 

@@ -12,7 +12,8 @@
 /// (open) adds no equation and no flux, so shorts are found beside it.
 #include <vector>
 
-#include "fdd/bearing_detector.h"
+#include "fdd/kept_period.h"
+#include "fdd/linkage_model.h"
 
 namespace ambrig {
 
