@@ -8,20 +8,10 @@
 ///   loop     u_n = kp e + I_n + ki T e,  e = v_set - v_fb,  v_fb: mean of the last period's ADC samples
 /// and over M of them the set-points of the last tick act. Of the nominal rig: what the controller knows. Not in it: effects, contact,
 /// ripple, clamping; the coupling of the bearing's other current patterns (second order in weight/bias).
-#include <optional>
-
-#include "control/mode_weight.h"
-#include "control/plane_weight.h"
 #include "control/sampled_plant.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_linearization.h"
 
 namespace ambrig {
-
-/// What a synthesis weighs besides forces and readings: V and G of the plant.
-struct ShaftWeights {
-  std::vector<PlaneWeight> planes;  // of radial bearings and named planes of the shaft
-  std::optional<ModeWeight> modes;  // every bending mode of the rig
-};
 
 /// `controllers`: the rig as the controller knows it, whose force constants turn forces into set-points; default: `rig`.
 /// `axes`: of the rig, in order; other axes get no force and their coordinates must not need any (rigid rotor in z).
