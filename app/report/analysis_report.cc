@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/report/analysis_figures.h"
 #include "app/report/analysis_json.h"
 #include "app/report/format.h"
 #include "app/report/html.h"
+#include "app/report/loop_figures.h"
+#include "app/report/rotor_figures.h"
 #include "core/math/constants.h"
 
 namespace ambrig {

@@ -25,8 +25,6 @@ std::vector<std::string> Distinct(const Rows& rows, const char* column) {
   return out;
 }
 
-std::string Rpm(const std::string& omega) { return fmt::format("{:.0f} rpm", std::stod(omega) * 30 / 3.14159265358979); }
-
 /// Share of runs that stayed up, sets x loads, one map for each kind and speed.
 void SurvivalMaps(HtmlReport& report, const Rows& rows) {
   report.Heading("Survival map");
@@ -57,7 +55,7 @@ void SurvivalMaps(HtmlReport& report, const Rows& rows) {
       if (values.empty()) continue;
       std::vector<std::string> columns;
       for (const std::string& load : loads) columns.push_back("load " + load);
-      Figure figure = MakeFigure(fmt::format("Survival: {}, {}", kind, Rpm(speed)));
+      Figure figure = MakeFigure(fmt::format("Survival: {}, {}", kind, Rpm(std::stod(speed))));
       figure.height = std::clamp(140 + 14 * static_cast<int>(names.size()), 260, 3800);
       AddHeatmap(figure, 0, columns, names, values, "stayed up", values.size() <= 40 ? 2 : 0);
       figure.traces.back()["zmin"] = 0;
@@ -104,7 +102,7 @@ void WorstCases(HtmlReport& report, const JournalHeader& header, const Rows& row
   for (std::size_t k = 0; k < std::min(kWorst, order.size()); ++k) {
     const Row& r = *order[k];
     const int s = Severity(r);
-    table.push_back({Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")), Cell(Rpm(r.At("speed"))),
+    table.push_back({Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")), Cell(Rpm(std::stod(r.At("speed")))),
                      Cell(r.At("load_given")), Cell(r.At("verdict"), s > 1 ? "fail" : s == 1 ? "warn" : "ok"),
                      Cell(FormatSi(r.Number("peak_orbit"), "m")), Cell(FormatSi(r.Number("detection_delay"), "s")),
                      Cell(fmt::format("ambrig run --from-campaign {} --row {}", header.file, r.run), "muted")});

@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/math/constants.h"
+
 namespace ambrig {
 namespace {
 
@@ -58,6 +60,8 @@ std::string FormatSi(double value, std::string_view unit, int digits) {
   return Plain(rounded / std::pow(10.0, 3 * group), digits) + gap +
          std::string(kPrefix[static_cast<std::size_t>(group + 4)]) + std::string(unit);
 }
+
+std::string Rpm(double speed) { return fmt::format("{:.0f} rpm", speed * 30 / kPi); }
 
 std::string HtmlEscape(std::string_view text) {
   std::string out;
