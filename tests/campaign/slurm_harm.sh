@@ -18,7 +18,8 @@ kill_recorded() { kill -9 "$(awk -v n="$1" '$1 == n { p = $2 } END { print p }' 
 "$ambrig" campaign c.toml -o out --engine slurm --tasks 8 --poll 0.5 --no-report > said.txt 2>&1 &
 main=$!
 wait_rows 20
-kill -9 "$(tasks | head -1)" && echo "task killed at $(rows)"
+for _ in $(seq 100); do victim=$(tasks | head -1); [ -n "$victim" ] && break; sleep 0.02; done  # between two tasks there is none
+kill -9 "$victim" && echo "task killed at $(rows)"
 
 wait_rows 60
 for _ in $(seq 50); do [ -n "$(tasks_on n2)" ] && break; sleep 0.1; done  # between two tasks a node has none

@@ -11,10 +11,10 @@
 namespace ambrig::testing {
 namespace {
 
-/// 8 sets x 2 speeds x 30 seeds = 480 runs.
+/// 8 sets x 2 speeds x 30 seeds = 480 runs, long enough that a task is met while it runs.
 constexpr const char* kClusterCampaign = R"(name = "cluster"
 rig = "rig.toml"
-duration = 0.01
+duration = 0.1
 seeds = 30
 [faults]
 bearings = ["A"]
