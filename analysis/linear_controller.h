@@ -8,7 +8,7 @@
 /// (control/position_controller.h); how references enter them is left out: B_r = 0, D_r = 0.
 #include <Eigen/Dense>
 
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

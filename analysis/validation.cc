@@ -13,6 +13,7 @@
 #include "rotor/beam_file.h"
 #include "rotor/rotor_modes.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

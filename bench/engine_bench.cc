@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "actuators/whole_lane_vector.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/simulate.h"
 #include "scenarios/switching_engine.h"
 

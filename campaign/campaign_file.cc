@@ -11,6 +11,7 @@
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "faulttolerance/redistribution_table.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

@@ -2,7 +2,7 @@
 /// What the linear closed loop of a rig and a controller says, sampled, at one speed.
 #include "control/position_controller.h"
 #include "control/sampled_plant.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

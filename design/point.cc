@@ -7,6 +7,7 @@
 #include "design/linear_figures.h"
 #include "scenarios/control_plant.h"
 #include "scenarios/controller_setup.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

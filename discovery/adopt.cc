@@ -12,6 +12,7 @@
 #include "discovery/screen.h"
 #include "effects/catalogue.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

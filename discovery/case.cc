@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "core/record/csv.h"
 #include "core/record/read_record.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// From the controllers that a rig file names to controllers that run.
 #include "control/controller_switch.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

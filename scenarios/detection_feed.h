@@ -7,7 +7,7 @@
 /// parabola holds readings from before. How far the last readings departed from the parabola counts too.
 #include "fdd/bearing_detector.h"
 #include "fdd/position_monitor.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 #include "scenarios/supervisor.h"
 
 namespace ambrig {

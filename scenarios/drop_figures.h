@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/parameters.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 #include "scenarios/run_result.h"
 
 namespace ambrig {

@@ -3,7 +3,7 @@
 /// engine's own. Source: shared/design/physics.md section 6.
 #include "effects/plant.h"
 #include "scenarios/fault_spec.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

@@ -16,7 +16,7 @@
 #include "faulttolerance/redistribution_table.h"
 #include "fdd/bearing_detector.h"
 #include "scenarios/detection_feed.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 #include "scenarios/supervisor.h"
 
 namespace ambrig {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "faulttolerance/redistribution_table.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

@@ -1,7 +1,7 @@
 #pragma once
 /// Assembly: a plant (the true rig) from parameters and the effects named in the rig file.
 #include "effects/plant.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

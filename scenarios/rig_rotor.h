@@ -2,7 +2,7 @@
 /// The [rotor] of a rig file: rigid, a point on one axis, or a beam (rotor/beam_file.h), which is
 /// reduced here to its rigid body and the first `modes` bending modes.
 #include "core/base/toml.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

@@ -10,7 +10,7 @@
 #include "faulttolerance/hand_over_policy.h"
 #include "rotor/speed_profile.h"
 #include "scenarios/fault_spec.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

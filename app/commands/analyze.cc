@@ -11,6 +11,7 @@
 #include "app/report/progress.h"
 #include "core/base/atomic_file.h"
 #include "core/math/constants.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

@@ -14,6 +14,7 @@
 #include "app/report/run_json.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/simulate.h"
 
 namespace ambrig {

@@ -16,6 +16,7 @@
 #include "core/base/toml_edit.h"
 #include "core/record/hdf5.h"
 #include "design/responses.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

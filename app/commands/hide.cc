@@ -10,6 +10,7 @@
 #include "core/base/read_file.h"
 #include "core/record/hdf5.h"
 #include "discovery/hide.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

@@ -4,7 +4,7 @@
 #include "app/commands/commands.h"
 #include "app/report/html.h"
 #include "scenarios/fault_spec.h"
-#include "scenarios/rig_file.h"
+#include "scenarios/rig_parameters.h"
 
 namespace ambrig {
 

@@ -8,6 +8,7 @@
 #include "app/report/progress.h"
 #include "faulttolerance/redistribution_json.h"
 #include "scenarios/redistribution_setup.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

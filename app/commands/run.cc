@@ -13,6 +13,7 @@
 #include "core/base/read_file.h"
 #include "core/record/csv.h"
 #include "core/record/hdf5.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/simulate.h"
 
 namespace ambrig {

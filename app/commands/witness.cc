@@ -8,6 +8,7 @@
 #include "app/report/progress.h"
 #include "app/report/witness_report.h"
 #include "core/base/counted.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/scenario.h"
 
 namespace ambrig {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 

@@ -8,6 +8,7 @@
 #include "analysis/transfer_function.h"
 #include "analysis/unbalance_response.h"
 #include "core/math/constants.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 #include "tests/cli/cli_run.h"
 #include "tests/scenarios/controlled_rig.h"

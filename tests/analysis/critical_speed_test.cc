@@ -5,6 +5,7 @@
 
 #include "analysis/rig_analysis.h"
 #include "core/math/constants.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 #include "tests/cli/cli_run.h"
 

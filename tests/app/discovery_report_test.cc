@@ -14,6 +14,7 @@
 #include "app/report/response_figures.h"
 #include "effects/formula.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 #include "tests/core/temporary_folder.h"
 

@@ -11,6 +11,7 @@
 #include "discovery/floor.h"
 #include "discovery/judge.h"
 #include "discovery/residual.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 namespace {

@@ -8,6 +8,7 @@
 #include "core/math/constants.h"
 #include "core/math/noise.h"
 #include "discovery/examination.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 namespace {

@@ -6,6 +6,7 @@
 #include "discovery/examination.h"
 #include "effects/catalogue.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 namespace {

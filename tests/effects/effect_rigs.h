@@ -8,6 +8,7 @@
 
 #include "effects/catalogue.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/scenario.h"
 #include "scenarios/switching_engine.h"
 

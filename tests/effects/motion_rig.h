@@ -7,6 +7,7 @@
 
 #include "effects/catalogue.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig::motion {
 

@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "scenarios/rig_file.h"
 #include "scenarios/simulate.h"
 #include "scenarios/switching_engine.h"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/record/hdf5.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 
 namespace ambrig {

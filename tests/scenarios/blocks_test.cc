@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 
 namespace ambrig {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 #include "tests/scenarios/witness.h"
 
 namespace ambrig {

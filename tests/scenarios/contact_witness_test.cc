@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/simulate.h"
 
 namespace ambrig {

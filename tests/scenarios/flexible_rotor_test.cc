@@ -12,6 +12,7 @@
 #include "scenarios/averaged_engine.h"
 #include "scenarios/reference_engine.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 #include "tests/scenarios/tum_rig.h"
 #include "tests/scenarios/witness.h"

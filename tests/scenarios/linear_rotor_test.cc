@@ -7,6 +7,7 @@
 #include <random>
 
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 namespace {

@@ -4,6 +4,7 @@
 #include "core/math/constants.h"
 #include "scenarios/averaged_engine.h"
 #include "scenarios/reference_engine.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 #include "tests/rotor/restitution.h"
 #include "tests/scenarios/witness.h"

@@ -4,6 +4,7 @@
 
 #include "effects/catalogue.h"
 #include "scenarios/reference_engine.h"
+#include "scenarios/rig_file.h"
 #include "scenarios/switching_engine.h"
 #include "tests/scenarios/witness.h"
 

@@ -9,6 +9,7 @@
 #include "core/base/toml_edit.h"
 #include "scenarios/control_plant.h"
 #include "scenarios/controller_setup.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "core/base/read_file.h"
 #include "scenarios/rig.h"
+#include "scenarios/rig_file.h"
 
 namespace ambrig::testing {
 
