@@ -10,7 +10,6 @@ namespace {
 /// subtracting 1.5 * 2^52 rounds to the nearest even integer, as nearbyint does.
 struct Converter {
   double step, low, high;
-  bool may_fall_below;
   template <bool kClips, class V>
   [[gnu::always_inline]] V Convert(const V& value) const {
     constexpr double kRound = 6755399441055744.0;
@@ -58,11 +57,11 @@ template <bool kClips, class V>
   }, adc, out);
 }
 
-/// Currents that flow one way leave a converter's range upwards only, which their largest tells.
+/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells.
 template <class V>
-[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
-                                                  double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  if (converter.may_fall_below) return ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, bool one_way, const Sensors& sensors, const float* normals,
+                                                  int coils, double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  if (!one_way) return ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
   ConvertNoisily<false, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
   if (!(Largest(LoadAs<V>(out->largest.v)) + kLargestNormal * noise + converter.step < converter.high))
     ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
@@ -71,13 +70,13 @@ template <class V>
 AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc, CurrentStatistics* out) {
   Measure<LaneVector>(truth, count, sensors, [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
 }
-AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, bool one_way, const Sensors& sensors, const float* normals, int coils,
                                double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  MeasureNoisily<WholeLaneVector>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+  MeasureNoisily<WholeLaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter, adc, out);
 }
-AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
+AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, bool one_way, const Sensors& sensors, const float* normals, int coils,
                                double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  MeasureNoisily<LaneVector>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+  MeasureNoisily<LaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter, adc, out);
 }
 
 }  // namespace
@@ -92,8 +91,8 @@ void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const Curr
   const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
   if (!s.noisy) return MeasureIdeally(truth, s.samples, chain, adc, statistics);
   const bool one_way = s.one_way && plain && kLargestNormal * s.noise + s.quantiser.step < -s.quantiser.low;
-  const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high, !one_way};
-  (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, chain, normals, s.coils, s.noise, converter, adc, statistics);
+  const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
+  (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, one_way, chain, normals, s.coils, s.noise, converter, adc, statistics);
 }
 
 }  // namespace ambrig

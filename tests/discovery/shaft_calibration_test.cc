@@ -76,7 +76,7 @@ TEST(ShaftCalibration, FittedNumbersAreTheTruth) {
 // A sensor's plane with an sd beside a disk's mass that moves the centre of mass: in any order the same.
 TEST(ShaftCalibration, PlanesStayOnTheShaft) {
   const RigParameters rig = TumRig(TumRigText({{"mass = 0.85074", "mass = { value = 0.85074, sd = 0.01 }"},
-                                         {"sensor = { z = 0.623", "sensor = { z = { value = 0.623, sd = 1e-3 }"}}));
+                                               {"sensor = { z = 0.623", "sensor = { z = { value = 0.623, sd = 1e-3 }"}}));
   const double moved = *ParameterAt(rig, "bearings.B.sensor.z") + 5e-4;
   RigParameters a = rig, b = rig;
   EXPECT_TRUE(SetParameter(a, "rotor.disk[1].mass", 0.95));
@@ -144,7 +144,7 @@ CaseRecord Measured(const RigParameters& rig, const RigParameters& truth) {
 // The measured rig's shaft is 3 % softer and its modes twice as well damped: a fit says so.
 TEST(ShaftCalibration, AFitFindsTheShaft) {
   const RigParameters rig = TumRig(TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
-                                         {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}));
+                                               {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}));
   RigParameters truth = rig;
   SetParameter(truth, "rotor.materials.shaft_steel.E", 2.047e11);
   SetParameter(truth, "rotor.modal_damping", 0.004);
@@ -168,7 +168,7 @@ TEST(ShaftCalibration, AFitFindsTheShaft) {
   }
   // What is adopted reads back as that shaft.
   const std::string text = AdoptedRigText(TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
-                                                   {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}),
+                                                      {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}),
                                           fit.hypothesis, {});
   ExpectSameRotor(TrueRig(TumRig(text)), fit.hypothesis.rig, "adopted");
 }
