@@ -12,14 +12,16 @@ double PowerAmplifier::VoltageOfDuty(double d) const {
 void PowerAmplifier::ResetToLowerLimit() { integral_ = VoltageOfDuty(p_->duty_min); }
 
 void PowerAmplifier::HoldCurrent(double current, double resistance) {
-  if (current <= 0.2 && p_->quadrants < 3 && p_->modulation != Modulation::kIdeal) return ResetToLowerLimit();
+  if (current <= 0.2 && p_->quadrants < 3 && p_->modulation != Modulation::kIdeal)
+    return ResetToLowerLimit();
   const double u_d = p_->bus_voltage, ir = current * resistance;
   double d = ir / u_d;
   if (p_->modulation == Modulation::kBiState) {
     const double off = p_->quadrants < 3 ? u_d + 2 * p_->diode_drop : u_d - 2 * p_->switch_drop;
     d = (ir + off) / (off + u_d - 2 * p_->switch_drop);
   } else if (p_->modulation == Modulation::kTriState) {
-    const double wheel = p_->switch_drop + p_->diode_drop;  // on for 2d - 1 of the period, else wheel
+    // on for 2d - 1 of the period, else wheel
+    const double wheel = p_->switch_drop + p_->diode_drop;
     d = 0.5 + 0.5 * (ir + wheel) / (u_d - 2 * p_->switch_drop + wheel);
   }
   integral_ = VoltageOfDuty(d);

@@ -49,14 +49,15 @@ inline constexpr Field<AmplifierParameters> kAmplifierFields[] = {
     {"current_noise", &AmplifierParameters::current_noise, "A", 0, 1e3, "rms per ADC sample"},
     {"bus_noise", &AmplifierParameters::bus_noise, "V", 0, 1e3, "rms of the bus voltage reading"},
     {"i_max", &AmplifierParameters::i_max, "A", 1e-6, 1e5, "largest set-point"},
-    {"quadrants", &AmplifierParameters::quadrants, "-", 2, 4, "2: currents never negative; 4: any sign"},
+    {"quadrants", &AmplifierParameters::quadrants, "-", 2, 4,
+     "2: currents never negative; 4: any sign"},
 };
 
 /// Voltage of one coil over one period: three pieces, each gain * bus + drop.
 struct CoilVoltage {
-  double t1 = 0, t2 = 0;                // [s] ends of the first and second piece
-  double gain[3] = {0, 0, 0};           // [-]
-  double drop[3] = {0, 0, 0};           // [V]
+  double t1 = 0, t2 = 0;       // [s] ends of the first and second piece
+  double gain[3] = {0, 0, 0};  // [-]
+  double drop[3] = {0, 0, 0};  // [V]
 };
 
 /// What an effect or a fault may change of one coil's bridge.
@@ -73,10 +74,13 @@ class PowerAmplifier {
  public:
   PowerAmplifier() = default;
   explicit PowerAmplifier(const AmplifierParameters& p)
-      : p_(&p), integral_gain_(p.ki / p.switching_frequency), centre_(Swings() ? 0.5 : 0),
+      : p_(&p),
+        integral_gain_(p.ki / p.switching_frequency),
+        centre_(Swings() ? 0.5 : 0),
         duty_per_volt_(1 / (Swings() ? 2 * p.bus_voltage : p.bus_voltage)) {}
 
-  /// Duty that the current loop asks for at t_n. `feedback` is the mean of last period's samples [A].
+  /// Duty that the current loop asks for at t_n. `feedback` is the mean of last period's samples
+  /// [A].
   double CurrentLoop(double set_point, double feedback) {
     const double e = set_point - feedback, increment = integral_gain_ * e;
     double d = DutyFromVoltage(p_->kp * e + integral_ + increment);
@@ -104,13 +108,15 @@ class PowerAmplifier {
 
  private:
   /// Bi-state and tri-state bridges swing over 2 U_d around d = 0.5; the others over U_d from 0.
-  bool Swings() const { return p_->modulation == Modulation::kBiState || p_->modulation == Modulation::kTriState; }
+  bool Swings() const {
+    return p_->modulation == Modulation::kBiState || p_->modulation == Modulation::kTriState;
+  }
   double VoltageOfDuty(double d) const;
 
   const AmplifierParameters* p_ = nullptr;
-  double integral_gain_ = 0;                      // ki T [V/A]
-  double centre_ = 0, duty_per_volt_ = 0;         // duty of zero volts [-], [1/V]
-  double integral_ = 0;                           // [V]
+  double integral_gain_ = 0;               // ki T [V/A]
+  double centre_ = 0, duty_per_volt_ = 0;  // duty of zero volts [-], [1/V]
+  double integral_ = 0;                    // [V]
 };
 
 }  // namespace ambrig

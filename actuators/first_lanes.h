@@ -1,5 +1,6 @@
 #pragma once
-/// The first four of eight lanes, for bearings that have no more coils, with the interface and the bits of LaneVector.
+/// The first four of eight lanes, for bearings that have no more coils, with the interface and the
+/// bits of LaneVector.
 #include "actuators/whole_lane_vector.h"
 
 namespace ambrig {
@@ -24,10 +25,18 @@ AMBRIG_INLINE FourMasks operator<(const FirstLanes& x, const FirstLanes& y) { re
 AMBRIG_INLINE FourMasks operator>(const FirstLanes& x, const FirstLanes& y) { return x.v > y.v; }
 AMBRIG_INLINE FourMasks operator==(const FirstLanes& x, const FirstLanes& y) { return x.v == y.v; }
 
-AMBRIG_INLINE FirstLanes Select(const FourMasks& m, const FirstLanes& yes, const FirstLanes& no) { return m ? yes.v : no.v; }
-AMBRIG_INLINE FirstLanes Min(const FirstLanes& x, const FirstLanes& y) { return x.v < y.v ? x.v : y.v; }
-AMBRIG_INLINE FirstLanes Max(const FirstLanes& x, const FirstLanes& y) { return x.v > y.v ? x.v : y.v; }
-AMBRIG_INLINE FirstLanes Partner(const FirstLanes& x) { return __builtin_shufflevector(x.v, x.v, 1, 0, 3, 2); }
+AMBRIG_INLINE FirstLanes Select(const FourMasks& m, const FirstLanes& yes, const FirstLanes& no) {
+  return m ? yes.v : no.v;
+}
+AMBRIG_INLINE FirstLanes Min(const FirstLanes& x, const FirstLanes& y) {
+  return x.v < y.v ? x.v : y.v;
+}
+AMBRIG_INLINE FirstLanes Max(const FirstLanes& x, const FirstLanes& y) {
+  return x.v > y.v ? x.v : y.v;
+}
+AMBRIG_INLINE FirstLanes Partner(const FirstLanes& x) {
+  return __builtin_shufflevector(x.v, x.v, 1, 0, 3, 2);
+}
 AMBRIG_INLINE double Sum(const FirstLanes& x) { return Sum(LaneVector(x.v, FourLanes{})); }
 AMBRIG_INLINE double Largest(const FirstLanes& x) { return Largest(LaneVector(x.v, x.v)); }
 

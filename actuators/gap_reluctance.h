@@ -4,16 +4,17 @@
 namespace ambrig {
 
 struct GapReluctance {
-  double per_metre = 0;   // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]
-  double iron_path = 0;   // [m] added to the gap (effect iron-reluctance)
-  double fringing = 0;    // area grows as 1 + fringing g/gap0 (effect fringing)
-  double gap0 = 1;        // [m]
-  double offset = 0;      // [1/H] constant part (opposed magnets: g_c)
+  double per_metre = 0;  // 1/(mu0 A), or 2/(mu0 A) for a thrust core [1/(H m)]
+  double iron_path = 0;  // [m] added to the gap (effect iron-reluctance)
+  double fringing = 0;   // area grows as 1 + fringing g/gap0 (effect fringing)
+  double gap0 = 1;       // [m]
+  double offset = 0;     // [1/H] constant part (opposed magnets: g_c)
 
   /// Of one gap [m], or of all lanes.
   template <class T>
   [[gnu::always_inline]] T Value(const T& g) const {
-    return per_metre * ((fringing == 0 ? g : T(g / (1 + fringing * g / gap0))) + iron_path) + offset;
+    return per_metre * ((fringing == 0 ? g : T(g / (1 + fringing * g / gap0))) + iron_path) +
+           offset;
   }
   template <class T>
   [[gnu::always_inline]] T Slope(const T& g) const {

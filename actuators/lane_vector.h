@@ -30,8 +30,10 @@ struct LaneMask {
 struct LaneVector {
   FourLanes a = {}, b = {};
   [[gnu::always_inline]] LaneVector() = default;
-  [[gnu::always_inline]] LaneVector(const FourLanes& low, const FourLanes& high) : a(low), b(high) {}
-  [[gnu::always_inline]] LaneVector(double x) : a(FourLanes{} + x), b(a) {}  // the same in every lane
+  [[gnu::always_inline]] LaneVector(const FourLanes& low, const FourLanes& high)
+      : a(low), b(high) {}
+  [[gnu::always_inline]] LaneVector(double x)
+      : a(FourLanes{} + x), b(a) {}  // the same in every lane
   [[gnu::always_inline]] double operator[](int j) const { return j < 4 ? a[j] : b[j - 4]; }
   [[gnu::always_inline]] LaneVector& operator+=(const LaneVector& y) {
     a += y.a;
@@ -40,23 +42,41 @@ struct LaneVector {
   }
 };
 
-AMBRIG_INLINE LaneVector operator+(const LaneVector& x, const LaneVector& y) { return {x.a + y.a, x.b + y.b}; }
-AMBRIG_INLINE LaneVector operator-(const LaneVector& x, const LaneVector& y) { return {x.a - y.a, x.b - y.b}; }
-AMBRIG_INLINE LaneVector operator*(const LaneVector& x, const LaneVector& y) { return {x.a * y.a, x.b * y.b}; }
+AMBRIG_INLINE LaneVector operator+(const LaneVector& x, const LaneVector& y) {
+  return {x.a + y.a, x.b + y.b};
+}
+AMBRIG_INLINE LaneVector operator-(const LaneVector& x, const LaneVector& y) {
+  return {x.a - y.a, x.b - y.b};
+}
+AMBRIG_INLINE LaneVector operator*(const LaneVector& x, const LaneVector& y) {
+  return {x.a * y.a, x.b * y.b};
+}
 /// Of one number: without the constructor's addition, which something may wait for.
 AMBRIG_INLINE LaneVector operator*(const LaneVector& x, double y) { return {x.a * y, x.b * y}; }
-AMBRIG_INLINE LaneVector operator/(const LaneVector& x, const LaneVector& y) { return {x.a / y.a, x.b / y.b}; }
+AMBRIG_INLINE LaneVector operator/(const LaneVector& x, const LaneVector& y) {
+  return {x.a / y.a, x.b / y.b};
+}
 AMBRIG_INLINE LaneVector operator-(const LaneVector& x) { return {-x.a, -x.b}; }
-AMBRIG_INLINE LaneMask operator<(const LaneVector& x, const LaneVector& y) { return {x.a < y.a, x.b < y.b}; }
-AMBRIG_INLINE LaneMask operator>(const LaneVector& x, const LaneVector& y) { return {x.a > y.a, x.b > y.b}; }
+AMBRIG_INLINE LaneMask operator<(const LaneVector& x, const LaneVector& y) {
+  return {x.a < y.a, x.b < y.b};
+}
+AMBRIG_INLINE LaneMask operator>(const LaneVector& x, const LaneVector& y) {
+  return {x.a > y.a, x.b > y.b};
+}
 
-AMBRIG_INLINE LaneMask operator==(const LaneVector& x, const LaneVector& y) { return {x.a == y.a, x.b == y.b}; }
+AMBRIG_INLINE LaneMask operator==(const LaneVector& x, const LaneVector& y) {
+  return {x.a == y.a, x.b == y.b};
+}
 
 AMBRIG_INLINE LaneVector Select(const LaneMask& m, const LaneVector& yes, const LaneVector& no) {
   return {m.a ? yes.a : no.a, m.b ? yes.b : no.b};
 }
-AMBRIG_INLINE LaneVector Min(const LaneVector& x, const LaneVector& y) { return Select(x < y, x, y); }
-AMBRIG_INLINE LaneVector Max(const LaneVector& x, const LaneVector& y) { return Select(x > y, x, y); }
+AMBRIG_INLINE LaneVector Min(const LaneVector& x, const LaneVector& y) {
+  return Select(x < y, x, y);
+}
+AMBRIG_INLINE LaneVector Max(const LaneVector& x, const LaneVector& y) {
+  return Select(x > y, x, y);
+}
 AMBRIG_INLINE LaneVector Abs(const LaneVector& x) { return Select(x < LaneVector(0.0), -x, x); }
 
 AMBRIG_INLINE LaneVector Load(const double* p) {
@@ -71,8 +91,8 @@ AMBRIG_INLINE void Store(double* p, const LaneVector& v) {
 }
 
 using TwoLanes = double __attribute__((vector_size(16)));
-/// By way of memory that the compiler removes: asked for by its lanes, g++ takes the upper half with a permutation of
-/// twice the latency.
+/// By way of memory that the compiler removes: asked for by its lanes, g++ takes the upper half
+/// with a permutation of twice the latency.
 AMBRIG_INLINE TwoLanes UpperHalf(const FourLanes& v) {
   TwoLanes upper;
   __builtin_memcpy(&upper, reinterpret_cast<const char*>(&v) + sizeof upper, sizeof upper);
@@ -89,7 +109,8 @@ AMBRIG_INLINE double Sum(const LaneVector& v) {
   const TwoLanes two = SumOfHalves(v);
   return two[0] + two[1];
 }
-/// The same sum for arithmetic with vectors: g++ keeps a scalar that waits in a general register, six cycles away.
+/// The same sum for arithmetic with vectors: g++ keeps a scalar that waits in a general register,
+/// six cycles away.
 struct CommonLanes {
   FourLanes v;
 };
@@ -98,8 +119,12 @@ AMBRIG_INLINE CommonLanes CommonSum(const LaneVector& v) {
   return {FourLanes{sum[0], sum[0], sum[0], sum[0]}};
 }
 AMBRIG_INLINE CommonLanes operator*(const CommonLanes& x, double y) { return {x.v * y}; }
-AMBRIG_INLINE CommonLanes operator-(const CommonLanes& x, const CommonLanes& y) { return {x.v - y.v}; }
-AMBRIG_INLINE LaneVector operator*(const LaneVector& x, const CommonLanes& y) { return {x.a * y.v, x.b * y.v}; }
+AMBRIG_INLINE CommonLanes operator-(const CommonLanes& x, const CommonLanes& y) {
+  return {x.v - y.v};
+}
+AMBRIG_INLINE LaneVector operator*(const LaneVector& x, const CommonLanes& y) {
+  return {x.a * y.v, x.b * y.v};
+}
 AMBRIG_INLINE double Largest(const LaneVector& v) {
   const FourLanes four = v.a > v.b ? v.a : v.b;
   const TwoLanes left = LowerHalf(four), right = UpperHalf(four), two = left > right ? left : right;
@@ -107,7 +132,8 @@ AMBRIG_INLINE double Largest(const LaneVector& v) {
 }
 /// Each lane's partner in a pair of neighbours.
 AMBRIG_INLINE LaneVector Partner(const LaneVector& v) {
-  return {__builtin_shufflevector(v.a, v.a, 1, 0, 3, 2), __builtin_shufflevector(v.b, v.b, 1, 0, 3, 2)};
+  return {__builtin_shufflevector(v.a, v.a, 1, 0, 3, 2),
+          __builtin_shufflevector(v.b, v.b, 1, 0, 3, 2)};
 }
 
 }  // namespace ambrig

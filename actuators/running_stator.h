@@ -1,8 +1,9 @@
 #pragma once
-/// One bearing in the innermost loop of the fast engine, as a template of its vector; see stator_loop.cc.
+/// One bearing in the innermost loop of the fast engine, as a template of its vector; see
+/// stator_loop.cc.
 ///
-/// Carried from sample to sample is J = λ*/(L_l + R h/2), the current that the targets λ* would drive without
-/// flux, so that what does not depend on the new currents cuts the chain short:
+/// Carried from sample to sample is J = λ*/(L_l + R h/2), the current that the targets λ* would
+/// drive without flux, so that what does not depend on the new currents cuts the chain short:
 ///   φ = g (n J - U),   i = J - c φ,   J' = a J + d φ + ∫v'/(L_l + R h/2),
 ///   a = (L_l - R h/2)/(L_l + R h/2),  d = (1 - a) c
 #include "actuators/first_lanes.h"
@@ -11,13 +12,14 @@
 
 namespace ambrig {
 
-/// Volt-seconds of one sample from the two edges, over L_l + R h/2 [A]: what an edge in the sample would give, clamped
-/// to what an edge before or after it gives.
+/// Volt-seconds of one sample from the two edges, over L_l + R h/2 [A]: what an edge in the sample
+/// would give, clamped to what an edge before or after it gives.
 template <class V>
 struct VoltSeconds {
-  V first, first_falls, first_low, first_high;     // of the edge t1, relative to a period without it
-  V second, second_falls, second_low, second_high; // of t2
-  bool one_edge;  // nothing before t1: the usual pattern
+  // of the edge t1, relative to a period without it
+  V first, first_falls, first_low, first_high;
+  V second, second_falls, second_low, second_high;  // of t2
+  bool one_edge;                                    // nothing before t1: the usual pattern
   /// From sample k on, of `sample` seconds each; `scale` [1/H].
   [[gnu::always_inline]] VoltSeconds(const StatorLoop& s, int k, double sample, const V& scale) {
     const VoltagePattern& p = *s.pattern;
@@ -39,7 +41,8 @@ struct VoltSeconds {
   [[gnu::always_inline]] V Next() {
     const V after = Min(Max(second, second_low), second_high);
     second = second - second_falls;
-    if (one_edge) [[likely]] return after;
+    if (one_edge) [[likely]]
+      return after;
     const V before = Min(Max(first, first_low), first_high);
     first = first - first_falls;
     return after + before;
@@ -95,7 +98,8 @@ struct RunningLanes {
 /// Poles that share no sum: windings of a thrust side, opposed magnets.
 template <class V, Coupling kCoupling>
 struct Running : RunningLanes<V> {
-  [[gnu::always_inline]] Running(const StatorLoop& s, int count, double sample, PotentialTables&) : RunningLanes<V>(s, count, sample) {}
+  [[gnu::always_inline]] Running(const StatorLoop& s, int count, double sample, PotentialTables&)
+      : RunningLanes<V>(s, count, sample) {}
   [[gnu::always_inline]] void Step(int k) {
     Store(this->samples[k].v, this->i);
     const V m = this->n * this->J;
@@ -107,9 +111,11 @@ struct Running : RunningLanes<V> {
   }
 };
 
-/// A radial bearing. The potential U = Σ g n J / Σ g of a sample waits for its J, these for U of the
-/// sample before. Summing over the poles what is known without U lets two samples' sums overlap:
-///   J' = W - d g U,  W = (a + d g n) J + ∫v'/(L_l + R h/2),   U' = (Σ g' n W - U Σ g' n d g) / Σ g'.
+/// A radial bearing. The potential U = Σ g n J / Σ g of a sample waits for its J, these for U of
+/// the sample before. Summing over the poles what is known without U lets two samples' sums
+/// overlap:
+///   J' = W - d g U,  W = (a + d g n) J + ∫v'/(L_l + R h/2),
+///     U' = (Σ g' n W - U Σ g' n d g) / Σ g'.
 template <class V>
 struct Running<V, Coupling::kFloatingRotor> : RunningLanes<V> {
   V gn;
@@ -120,7 +126,8 @@ struct Running<V, Coupling::kFloatingRotor> : RunningLanes<V> {
       : RunningLanes<V>(s, count, sample), tables(t) {
     const V nd = this->n * this->d, first = this->g, grows = this->g_grows;
     const double total = Sum(first), total_grows = Sum(grows);
-    const double q0 = Sum(nd * first * first), q1 = Sum(nd * first * grows), q2 = Sum(nd * grows * grows);
+    const double q0 = Sum(nd * first * first), q1 = Sum(nd * first * grows),
+                 q2 = Sum(nd * grows * grows);
     V at = LoadAs<V>(kFirstSamples.v);
     for (int k = 0; k <= count; k += kLanes, at += kLanes) {
       const V inverse = 1 / (total + at * total_grows);

@@ -12,7 +12,9 @@ namespace ambrig {
 namespace {
 
 /// Whether the switches of lane j are closed at time t of the period, and where the pattern stands.
-int SegmentAt(const VoltagePattern& p, int j, double t) { return t < p.t1[j] ? 0 : (t < p.t2[j] ? 1 : 2); }
+int SegmentAt(const VoltagePattern& p, int j, double t) {
+  return t < p.t1[j] ? 0 : (t < p.t2[j] ? 1 : 2);
+}
 
 }  // namespace
 
@@ -70,7 +72,8 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
   x1_ = x1;
   y1_ = y1;
   per_period_ = samples_per_period;
-  const GapLaw law{coupling, gap_offset.v, direction_x.v, direction_y.v, n.v, inverse_l_.v, reluctance};
+  const GapLaw law{coupling, gap_offset.v, direction_x.v, direction_y.v,
+                   n.v,      inverse_l_.v, reluctance};
   Reluctances(law, x0, y0, x1, y1, rel0_.v, rel1_.v, weight_.v, g0_.v, dg_.v);
   for (int j = 0; j < kLanes; ++j) {
     weight_[j] *= pulls_[j];
@@ -80,12 +83,27 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
 }
 
 void StatorLanes::EndPeriod() {
-  MeanPull({sum_.v, start_sq_.v, phi.v, weight_.v, direction_x.v, direction_y.v}, per_period_, &fx, &fy);
+  MeanPull({sum_.v, start_sq_.v, phi.v, weight_.v, direction_x.v, direction_y.v}, per_period_, &fx,
+           &fy);
 }
 
 StatorLoop StatorLanes::LoopOver(const VoltagePattern& pattern, double bus) {
-  return {coupling, n.v, half_rh_.v, inverse_l_.v, c_.v, leakage.v, g0_.v, dg_.v, &pattern, bus,
-          unipolar ? 0 : -kInfinity, lambda.v, i.v, phi.v, sum_.v, samples};
+  return {coupling,
+          n.v,
+          half_rh_.v,
+          inverse_l_.v,
+          c_.v,
+          leakage.v,
+          g0_.v,
+          dg_.v,
+          &pattern,
+          bus,
+          unipolar ? 0 : -kInfinity,
+          lambda.v,
+          i.v,
+          phi.v,
+          sum_.v,
+          samples};
 }
 
 void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
@@ -94,7 +112,8 @@ void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
   const Flags present = coils == kLanes ? ~Flags{0} : (Flags{1} << (8 * coils)) - 1;
   if ((std::bit_cast<Flags>(blocked) & ~std::bit_cast<Flags>(open) & present) == 0) return;
   for (int j = 0; j < coils; ++j)
-    if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0)) Unblock(j);
+    if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0))
+      Unblock(j);
 }
 
 /// Sample by sample with an eye on the sign of the currents.
@@ -121,9 +140,11 @@ void StatorLanes::RunChecked(const StatorLoop& loop) {
   }
 }
 
-void StatorLanes::RunPeriods(const PeriodOfBearing* bearings, int count, double bus, int samples_per_period) {
+void StatorLanes::RunPeriods(const PeriodOfBearing* bearings, int count, double bus,
+                             int samples_per_period) {
   constexpr int kMost = 8;
-  for (; count > kMost; count -= kMost, bearings += kMost) RunPeriods(bearings, kMost, bus, samples_per_period);
+  for (; count > kMost; count -= kMost, bearings += kMost)
+    RunPeriods(bearings, kMost, bus, samples_per_period);
   StatorLoop loops[kMost];
   StatorLanes* members[kMost];
   int together = 0;
@@ -138,14 +159,15 @@ void StatorLanes::RunPeriods(const PeriodOfBearing* bearings, int count, double 
     else
       members[together++] = &lanes;
   }
-  const unsigned below = together > 0 ? RunTogether(loops, together, samples_per_period, members[0]->h_) : 0;
+  const unsigned below =
+      together > 0 ? RunTogether(loops, together, samples_per_period, members[0]->h_) : 0;
   for (int m = 0; m < together; ++m)
     if (below >> m & 1U) members[m]->RunChecked(loops[m]);
   for (int b = 0; b < count; ++b) bearings[b].lanes->EndPeriod();
 }
 
-void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
-                            double y1, int samples_per_period) {
+void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0, double y0,
+                            double x1, double y1, int samples_per_period) {
   const PeriodOfBearing one{this, &pattern, x0, y0, x1, y1};
   RunPeriods(&one, 1, bus, samples_per_period);
 }
@@ -182,7 +204,8 @@ void StatorLanes::Settle(const Lane& currents, double x, double y) {
     double top = 0, sum = 0;
     for (const FluxLaw* law : laws) law->Steady(phi, &drop, &slope);
     for (int j = 0; j < kLanes; ++j) {
-      const double mmf = coupling == Coupling::kSides ? n[j] * i[j] + n[j ^ 1] * i[j ^ 1] : n[j] * i[j];
+      const double mmf =
+          coupling == Coupling::kSides ? n[j] * i[j] + n[j ^ 1] * i[j ^ 1] : n[j] * i[j];
       m[j] = mmf - (drop[j] - slope[j] * phi[j]);
       g[j] = 1 / (rel_[j] + slope[j]);
       top += g[j] * m[j];

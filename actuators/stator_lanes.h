@@ -39,31 +39,32 @@ class StatorLanes {
   Coupling coupling = Coupling::kFloatingRotor;
   int coils = kLanes;
   // Parameters by lane. Lanes beyond `coils` stay inert (no turns, blocked).
-  Lane n, leakage, resistance;   // signed turns, [H], [ohm]
-  Lane direction_x, direction_y; // of the pull: cos γ, sin γ (thrust: z along x)
-  Lane gap_offset;               // g = gap_offset - x dx - y dy  [m]
+  Lane n, leakage, resistance;    // signed turns, [H], [ohm]
+  Lane direction_x, direction_y;  // of the pull: cos γ, sin γ (thrust: z along x)
+  Lane gap_offset;                // g = gap_offset - x dx - y dy  [m]
   GapReluctance reluctance;
-  std::vector<FluxLaw*> laws;    // iron laws, empty for ideal iron
-  std::vector<ShortedTurns> shorts;      // any number, several on one coil too
-  std::array<bool, kLanes> open{};       // broken for good
-  bool unipolar = true;                  // two-quadrant bridges: i >= 0
+  std::vector<FluxLaw*> laws;        // iron laws, empty for ideal iron
+  std::vector<ShortedTurns> shorts;  // any number, several on one coil too
+  std::array<bool, kLanes> open{};   // broken for good
+  bool unipolar = true;              // two-quadrant bridges: i >= 0
 
   // State.
-  Lane lambda, i, phi;                   // [Wb], [A], [Wb]
+  Lane lambda, i, phi;  // [Wb], [A], [Wb]
   std::array<bool, kLanes> blocked{};
 
   // Results of the last period.
-  Lane samples[160];                     // i at the start of every step [A]
-  double fx = 0, fy = 0;                 // mean force [N]
+  Lane samples[160];      // i at the start of every step [A]
+  double fx = 0, fy = 0;  // mean force [N]
 
-  void SetStep(double h);                // [s] between ADC samples
+  void SetStep(double h);  // [s] between ADC samples
   /// Sets currents and linkages of a standing start at (x, y).
   void Settle(const Lane& currents, double x, double y);
   /// Recomputes currents and flux from the linkages after a parameter changed (fault).
   void Refresh(double x, double y);
   /// Coil j breaks: its current is gone, the other linkages stay.
   void Break(int j, double x, double y);
-  /// A fraction s of the turns that coil j still drives is shorted through r [ohm] (infinite: bypassed).
+  /// A fraction s of the turns that coil j still drives is shorted through r [ohm] (infinite:
+  /// bypassed).
   void ShortTurns(int j, double s, double r, double x, double y);
 
   /// One switching period of `samples_per_period` steps while the gap moves from (x0, y0) to
@@ -76,7 +77,8 @@ class StatorLanes {
     const VoltagePattern* pattern;
     double x0, y0, x1, y1;
   };
-  static void RunPeriods(const PeriodOfBearing* bearings, int count, double bus, int samples_per_period);
+  static void RunPeriods(const PeriodOfBearing* bearings, int count, double bus,
+                         int samples_per_period);
 
   /// The general path, one sample at a time: any flux law, shorted turns, moving bus, late edges.
   void BeginPeriod(double x0, double y0, double x1, double y1, int samples_per_period);
@@ -100,8 +102,8 @@ class StatorLanes {
   void UpdateConductance(int j);
   void Block(int j);
   void Unblock(int j);
-  /// Flux and currents that carry the targets λ*, the shorted turns' too, after a step of h [s] (0: at
-  /// once); Newton over the laws.
+  /// Flux and currents that carry the targets λ*, the shorted turns' too, after a step of h [s] (0:
+  /// at once); Newton over the laws.
   void SolveGeneral(const Lane& target, double h);
   StatorLoop LoopOver(const VoltagePattern& pattern, double bus);
   void RunChecked(const StatorLoop& loop);
@@ -109,16 +111,16 @@ class StatorLanes {
   void UnblockDriven(const VoltagePattern& pattern, double bus, double t, Lane* target);
 
   double h_ = 0;
-  Lane half_rh_, inverse_l_, c_;        // R h/2, 1/(L_l + R h/2) (0 when blocked), n * inverse_l
-  Lane rel0_, rel1_, g0_, dg_;          // reluctance at both ends, conductance and its change
-  Lane pulls_;                          // 1/2 of a lane's (d rel/dg) φ²; 0: no pole of its own
-  Lane weight_, sum_, start_sq_;        // force weight, sums of φ²
+  Lane half_rh_, inverse_l_, c_;  // R h/2, 1/(L_l + R h/2) (0 when blocked), n * inverse_l
+  Lane rel0_, rel1_, g0_, dg_;    // reluctance at both ends, conductance and its change
+  Lane pulls_;                    // 1/2 of a lane's (d rel/dg) φ²; 0: no pole of its own
+  Lane weight_, sum_, start_sq_;  // force weight, sums of φ²
   double x0_ = 0, y0_ = 0, x1_ = 0, y1_ = 0;
   int per_period_ = 18;
-  bool blocks_ = false;                 // some diode blocked in the last period
+  bool blocks_ = false;  // some diode blocked in the last period
   Lane rel_;
   double bus_current_ = 0;
-  bool affine_laws_ = true;             // one round of Newton is exact
+  bool affine_laws_ = true;  // one round of Newton is exact
 };
 
 }  // namespace ambrig

@@ -13,8 +13,8 @@ namespace {
 using V = LaneVector;
 
 constexpr int kMostRounds = 30;  // Newton over the iron laws
-constexpr double kConverged =
-    1e-5;  // [-] change of a round; what is left after it goes with its square
+// [-] change of a round; what is left after it goes with its square
+constexpr double kConverged = 1e-5;
 
 /// Time from the start of the sample to a switching edge, within [0, h].
 [[gnu::always_inline]] inline V Within(const V& edge, double t, double h) {
@@ -115,7 +115,9 @@ AMBRIG_WIDE void Take(const double* n, const double* leakage, const double* phi,
 
 void StatorLanes::SolveGeneral(const Lane& target, double h) {
   Lane short_mmf, short_own;
-  const auto inverse = [h](const ShortedTurns& s) { return 1 / (s.leakage + s.theta * s.resistance * h); };
+  const auto inverse = [h](const ShortedTurns& s) {
+    return 1 / (s.leakage + s.theta * s.resistance * h);
+  };
   for (const ShortedTurns& s : shorts) {
     short_mmf[s.coil] += s.n * inverse(s) * s.target;
     short_own[s.coil] += s.n * s.n * inverse(s);

@@ -25,7 +25,8 @@ template <Coupling kCoupling, class V>
 }
 
 template <Coupling kCoupling>
-[[gnu::always_inline]] inline int Run(const StatorLoop& s, int k, int count, double sample, double* target) {
+[[gnu::always_inline]] inline int Run(const StatorLoop& s, int k, int count, double sample,
+                                      double* target) {
   const V n = Load(s.n), c = Load(s.c), inverse_l = Load(s.inverse_l), half_rh = Load(s.half_rh);
   const V leakage = Load(s.leakage), g0 = Load(s.g0), dg = Load(s.dg);
   VoltSeconds<V> volt_seconds(s, k, sample, V(1));
@@ -52,7 +53,8 @@ template <Coupling kCoupling>
 }
 
 template <class... kBearings, std::size_t... kAt>
-[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h, std::index_sequence<kAt...>) {
+[[gnu::always_inline]] inline unsigned Together(const StatorLoop* s, int count, double h,
+                                                std::index_sequence<kAt...>) {
   PotentialTables tables[sizeof...(kAt)];
   std::tuple<kBearings...> all(kBearings(s[kAt], count, h, tables[kAt])...);
   for (int k = 0; k < count; ++k) (std::get<kAt>(all).Step(k), ...);
@@ -70,19 +72,40 @@ using Radial = Running<V, R>;
 using ThrustOfFour = Running<FirstLanes, S>;
 
 AMBRIG_WHOLE unsigned RRSWhole(const StatorLoop* s, int n, double h) {
-  return Together<Radial<WholeLaneVector>, Radial<WholeLaneVector>, Running<WholeLaneVector, S>>(s, n, h);
+  return Together<Radial<WholeLaneVector>, Radial<WholeLaneVector>, Running<WholeLaneVector, S>>(
+      s, n, h);
 }
-AMBRIG_WHOLE unsigned RRWhole(const StatorLoop* s, int n, double h) { return Together<Radial<WholeLaneVector>, Radial<WholeLaneVector>>(s, n, h); }
-AMBRIG_WHOLE unsigned RWhole(const StatorLoop* s, int n, double h) { return Together<Radial<WholeLaneVector>>(s, n, h); }
-AMBRIG_WIDE unsigned RRSHalves(const StatorLoop* s, int n, double h) { return Together<Radial<V>, Radial<V>, ThrustOfFour>(s, n, h); }
-AMBRIG_WIDE unsigned RRHalves(const StatorLoop* s, int n, double h) { return Together<Radial<V>, Radial<V>>(s, n, h); }
-AMBRIG_WIDE unsigned RHalves(const StatorLoop* s, int n, double h) { return Together<Radial<V>>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherS(const StatorLoop* s, int n, double h) { return Together<ThrustOfFour>(s, n, h); }
-AMBRIG_WIDE unsigned TogetherN(const StatorLoop* s, int n, double h) { return Together<Running<V, N>>(s, n, h); }
+AMBRIG_WHOLE unsigned RRWhole(const StatorLoop* s, int n, double h) {
+  return Together<Radial<WholeLaneVector>, Radial<WholeLaneVector>>(s, n, h);
+}
+AMBRIG_WHOLE unsigned RWhole(const StatorLoop* s, int n, double h) {
+  return Together<Radial<WholeLaneVector>>(s, n, h);
+}
+AMBRIG_WIDE unsigned RRSHalves(const StatorLoop* s, int n, double h) {
+  return Together<Radial<V>, Radial<V>, ThrustOfFour>(s, n, h);
+}
+AMBRIG_WIDE unsigned RRHalves(const StatorLoop* s, int n, double h) {
+  return Together<Radial<V>, Radial<V>>(s, n, h);
+}
+AMBRIG_WIDE unsigned RHalves(const StatorLoop* s, int n, double h) {
+  return Together<Radial<V>>(s, n, h);
+}
+AMBRIG_WIDE unsigned TogetherS(const StatorLoop* s, int n, double h) {
+  return Together<ThrustOfFour>(s, n, h);
+}
+AMBRIG_WIDE unsigned TogetherN(const StatorLoop* s, int n, double h) {
+  return Together<Running<V, N>>(s, n, h);
+}
 
-AMBRIG_WIDE int RunRadial(const StatorLoop& s, int k, int n, double h, double* target) { return Run<R>(s, k, n, h, target); }
-AMBRIG_WIDE int RunSides(const StatorLoop& s, int k, int n, double h, double* target) { return Run<S>(s, k, n, h, target); }
-AMBRIG_WIDE int RunSeparate(const StatorLoop& s, int k, int n, double h, double* target) { return Run<N>(s, k, n, h, target); }
+AMBRIG_WIDE int RunRadial(const StatorLoop& s, int k, int n, double h, double* target) {
+  return Run<R>(s, k, n, h, target);
+}
+AMBRIG_WIDE int RunSides(const StatorLoop& s, int k, int n, double h, double* target) {
+  return Run<S>(s, k, n, h, target);
+}
+AMBRIG_WIDE int RunSeparate(const StatorLoop& s, int k, int n, double h, double* target) {
+  return Run<N>(s, k, n, h, target);
+}
 
 template <Coupling kCoupling>
 void Solve(const StatorLoop& s, const double* target, double fraction) {
@@ -112,7 +135,9 @@ unsigned RunTogether(const StatorLoop* s, int bearings, int count, double h) {
       below |= (whole_lanes ? RRWhole : RRHalves)(s + at, count, h) << at;
       at += 2;
     } else {
-      const auto run = s[at].coupling == R ? (whole_lanes ? RWhole : RHalves) : s[at].coupling == S ? TogetherS : TogetherN;
+      const auto run = s[at].coupling == R   ? (whole_lanes ? RWhole : RHalves)
+                       : s[at].coupling == S ? TogetherS
+                                             : TogetherN;
       below |= run(s + at, count, h) << at;
       at += 1;
     }
@@ -122,20 +147,26 @@ unsigned RunTogether(const StatorLoop* s, int bearings, int count, double h) {
 
 void SolveSample(const StatorLoop& s, const double* target, double fraction) {
   switch (s.coupling) {
-    case R: return Solve<R>(s, target, fraction);
-    case S: return Solve<S>(s, target, fraction);
-    case N: return Solve<N>(s, target, fraction);
+    case R:
+      return Solve<R>(s, target, fraction);
+    case S:
+      return Solve<S>(s, target, fraction);
+    case N:
+      return Solve<N>(s, target, fraction);
   }
 }
 
 namespace {
 
 template <class V>
-[[gnu::always_inline]] inline void ReluctancesOf(const GapLaw& law, const double* from, const double* to, double* rel0, double* rel1,
+[[gnu::always_inline]] inline void ReluctancesOf(const GapLaw& law, const double* from,
+                                                 const double* to, double* rel0, double* rel1,
                                                  double* slope, double* g0, double* dg) {
-  const V offset = LoadAs<V>(law.gap_offset), dx = LoadAs<V>(law.direction_x), dy = LoadAs<V>(law.direction_y);
+  const V offset = LoadAs<V>(law.gap_offset), dx = LoadAs<V>(law.direction_x),
+          dy = LoadAs<V>(law.direction_y);
   const V closest = 0.02 * law.reluctance.gap0;
-  const V start = Max(offset - dx * from[0] - dy * from[1], closest), end = Max(offset - dx * to[0] - dy * to[1], closest);
+  const V start = Max(offset - dx * from[0] - dy * from[1], closest),
+          end = Max(offset - dx * to[0] - dy * to[1], closest);
   const V first = law.reluctance.Value(start), last = law.reluctance.Value(end);
   const V n = LoadAs<V>(law.n), own = n * n * LoadAs<V>(law.inverse_l);
   const V nc = law.coupling == S ? own + Partner(own) : own;
@@ -148,28 +179,36 @@ template <class V>
 }
 
 template <class V>
-[[gnu::always_inline]] inline void MeanPullOf(const PullOfPeriod& p, int count, double* fx, double* fy) {
-  const V phi = LoadAs<V>(p.phi), squares = LoadAs<V>(p.sum) + 0.5 * (LoadAs<V>(p.start_sq) - phi * phi);
+[[gnu::always_inline]] inline void MeanPullOf(const PullOfPeriod& p, int count, double* fx,
+                                              double* fy) {
+  const V phi = LoadAs<V>(p.phi),
+          squares = LoadAs<V>(p.sum) + 0.5 * (LoadAs<V>(p.start_sq) - phi * phi);
   const V pull = LoadAs<V>(p.weight) * squares * (1.0 / count);
   *fx = Sum(pull * LoadAs<V>(p.direction_x));
   *fy = Sum(pull * LoadAs<V>(p.direction_y));
 }
 
-AMBRIG_WHOLE void ReluctancesWhole(const GapLaw& law, const double* from, const double* to, double* rel0, double* rel1, double* slope,
-                                   double* g0, double* dg) {
+AMBRIG_WHOLE void ReluctancesWhole(const GapLaw& law, const double* from, const double* to,
+                                   double* rel0, double* rel1, double* slope, double* g0,
+                                   double* dg) {
   ReluctancesOf<WholeLaneVector>(law, from, to, rel0, rel1, slope, g0, dg);
 }
-AMBRIG_WIDE void ReluctancesHalves(const GapLaw& law, const double* from, const double* to, double* rel0, double* rel1, double* slope,
-                                   double* g0, double* dg) {
+AMBRIG_WIDE void ReluctancesHalves(const GapLaw& law, const double* from, const double* to,
+                                   double* rel0, double* rel1, double* slope, double* g0,
+                                   double* dg) {
   ReluctancesOf<V>(law, from, to, rel0, rel1, slope, g0, dg);
 }
-AMBRIG_WHOLE void MeanPullWhole(const PullOfPeriod& p, int count, double* fx, double* fy) { MeanPullOf<WholeLaneVector>(p, count, fx, fy); }
-AMBRIG_WIDE void MeanPullHalves(const PullOfPeriod& p, int count, double* fx, double* fy) { MeanPullOf<V>(p, count, fx, fy); }
+AMBRIG_WHOLE void MeanPullWhole(const PullOfPeriod& p, int count, double* fx, double* fy) {
+  MeanPullOf<WholeLaneVector>(p, count, fx, fy);
+}
+AMBRIG_WIDE void MeanPullHalves(const PullOfPeriod& p, int count, double* fx, double* fy) {
+  MeanPullOf<V>(p, count, fx, fy);
+}
 
 }  // namespace
 
-void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0, double* rel1, double* slope,
-                 double* g0, double* dg) {
+void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0,
+                 double* rel1, double* slope, double* g0, double* dg) {
   const double from[2] = {x0, y0}, to[2] = {x1, y1};
   (whole_lanes ? ReluctancesWhole : ReluctancesHalves)(law, from, to, rel0, rel1, slope, g0, dg);
 }

@@ -6,15 +6,15 @@
 
 namespace ambrig {
 
-/// What ties the coils of a bearing together: the potential of the rotor (radial), a core for two windings (thrust: four coils,
-/// the first four lanes), nothing (opposed magnets).
+/// What ties the coils of a bearing together: the potential of the rotor (radial), a core for two
+/// windings (thrust: four coils, the first four lanes), nothing (opposed magnets).
 enum class Coupling { kFloatingRotor, kSides, kNone };
 
 /// How the voltage of every coil runs over one switching period: v0 until t1, v1 until t2, then v2.
 /// Each voltage is gain * bus + drop; `gain` tells which of the three closes the switches.
 struct VoltagePattern {
-  Lane t1, t2;           // [s] from the start of the period
-  Lane gain[3], drop[3]; // [-], [V]
+  Lane t1, t2;            // [s] from the start of the period
+  Lane gain[3], drop[3];  // [-], [V]
 };
 
 /// What the loop reads and writes of one bearing; pointers to eight lanes each.
@@ -52,11 +52,11 @@ struct GapLaw {
 };
 /// Reluctance at both ends [1/H], its mean slope [1/(H m)], conductance of the circuit at the start
 /// and its change [H].
-void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0, double* rel1,
-                 double* slope, double* g0, double* dg);
+void Reluctances(const GapLaw& law, double x0, double y0, double x1, double y1, double* rel0,
+                 double* rel1, double* slope, double* g0, double* dg);
 
-/// Σφ² of a period's samples as RunSamples leaves it, φ² at its start, φ at its end, and by how much a
-/// pole's φ² pulls [N/Wb²]; eight lanes each.
+/// Σφ² of a period's samples as RunSamples leaves it, φ² at its start, φ at its end, and by how
+/// much a pole's φ² pulls [N/Wb²]; eight lanes each.
 struct PullOfPeriod {
   const double *sum, *start_sq, *phi, *weight, *direction_x, *direction_y;
 };

@@ -1,6 +1,7 @@
 #pragma once
-/// Eight lanes in one 512-bit register, with the interface and the bits of LaneVector: a tenth faster where
-/// the machine has such registers, ten times slower elsewhere. So a hot loop is a template of its vector:
+/// Eight lanes in one 512-bit register, with the interface and the bits of LaneVector: a tenth
+/// faster where the machine has such registers, ten times slower elsewhere. So a hot loop is a
+/// template of its vector:
 ///
 ///   AMBRIG_WHOLE void LoopWhole(...) { Loop<WholeLaneVector>(...); }
 ///   AMBRIG_WIDE void LoopHalves(...) { Loop<LaneVector>(...); }
@@ -19,8 +20,9 @@ namespace ambrig {
 inline bool HasWholeLanes() {
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(AMBRIG_SANITIZED)
   const auto has = [](bool feature) { return feature; };
-  return has(__builtin_cpu_supports("avx512f")) && has(__builtin_cpu_supports("avx512vl")) && has(__builtin_cpu_supports("avx512dq")) &&
-         has(__builtin_cpu_supports("avx512bw")) && has(__builtin_cpu_supports("avx512cd")) && has(__builtin_cpu_supports("fma"));
+  return has(__builtin_cpu_supports("avx512f")) && has(__builtin_cpu_supports("avx512vl")) &&
+         has(__builtin_cpu_supports("avx512dq")) && has(__builtin_cpu_supports("avx512bw")) &&
+         has(__builtin_cpu_supports("avx512cd")) && has(__builtin_cpu_supports("fma"));
 #else
   return false;
 #endif
@@ -35,7 +37,8 @@ struct WholeLaneVector {
   EightLanes v = {};
   [[gnu::always_inline]] WholeLaneVector() = default;
   [[gnu::always_inline]] WholeLaneVector(const EightLanes& lanes) : v(lanes) {}
-  [[gnu::always_inline]] WholeLaneVector(double x) : v(EightLanes{} + x) {}  // the same in every lane
+  [[gnu::always_inline]] WholeLaneVector(double x)
+      : v(EightLanes{} + x) {}  // the same in every lane
   [[gnu::always_inline]] double operator[](int j) const { return v[j]; }
   [[gnu::always_inline]] WholeLaneVector& operator+=(const WholeLaneVector& y) {
     v += y.v;
@@ -43,40 +46,68 @@ struct WholeLaneVector {
   }
 };
 
-AMBRIG_INLINE WholeLaneVector operator+(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v + y.v; }
-AMBRIG_INLINE WholeLaneVector operator-(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v - y.v; }
-AMBRIG_INLINE WholeLaneVector operator*(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v * y.v; }
+AMBRIG_INLINE WholeLaneVector operator+(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v + y.v;
+}
+AMBRIG_INLINE WholeLaneVector operator-(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v - y.v;
+}
+AMBRIG_INLINE WholeLaneVector operator*(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v * y.v;
+}
 AMBRIG_INLINE WholeLaneVector operator*(const WholeLaneVector& x, double y) { return x.v * y; }
-AMBRIG_INLINE WholeLaneVector operator/(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v / y.v; }
+AMBRIG_INLINE WholeLaneVector operator/(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v / y.v;
+}
 AMBRIG_INLINE WholeLaneVector operator-(const WholeLaneVector& x) { return -x.v; }
-AMBRIG_INLINE EightMasks operator<(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v < y.v; }
-AMBRIG_INLINE EightMasks operator==(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v == y.v; }
-AMBRIG_INLINE EightMasks operator>(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v > y.v; }
+AMBRIG_INLINE EightMasks operator<(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v < y.v;
+}
+AMBRIG_INLINE EightMasks operator==(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v == y.v;
+}
+AMBRIG_INLINE EightMasks operator>(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v > y.v;
+}
 
-AMBRIG_INLINE WholeLaneVector Select(const EightMasks& m, const WholeLaneVector& yes, const WholeLaneVector& no) { return m ? yes.v : no.v; }
-AMBRIG_INLINE WholeLaneVector Min(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v < y.v ? x.v : y.v; }
-AMBRIG_INLINE WholeLaneVector Max(const WholeLaneVector& x, const WholeLaneVector& y) { return x.v > y.v ? x.v : y.v; }
+AMBRIG_INLINE WholeLaneVector Select(const EightMasks& m, const WholeLaneVector& yes,
+                                     const WholeLaneVector& no) {
+  return m ? yes.v : no.v;
+}
+AMBRIG_INLINE WholeLaneVector Min(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v < y.v ? x.v : y.v;
+}
+AMBRIG_INLINE WholeLaneVector Max(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return x.v > y.v ? x.v : y.v;
+}
 
 /// The lanes at p as one of the two vectors.
 template <class V>
 V LoadAs(const double* p);
 template <>
-[[gnu::always_inline]] inline LaneVector LoadAs<LaneVector>(const double* p) { return Load(p); }
+[[gnu::always_inline]] inline LaneVector LoadAs<LaneVector>(const double* p) {
+  return Load(p);
+}
 template <>
 [[gnu::always_inline]] inline WholeLaneVector LoadAs<WholeLaneVector>(const double* p) {
   WholeLaneVector x;
   __builtin_memcpy(&x.v, p, sizeof x.v);
   return x;
 }
-AMBRIG_INLINE void Store(double* p, const WholeLaneVector& x) { __builtin_memcpy(p, &x.v, sizeof x.v); }
+AMBRIG_INLINE void Store(double* p, const WholeLaneVector& x) {
+  __builtin_memcpy(p, &x.v, sizeof x.v);
+}
 
 AMBRIG_INLINE LaneVector Halves(const WholeLaneVector& x) {
-  return {__builtin_shufflevector(x.v, x.v, 0, 1, 2, 3), __builtin_shufflevector(x.v, x.v, 4, 5, 6, 7)};
+  return {__builtin_shufflevector(x.v, x.v, 0, 1, 2, 3),
+          __builtin_shufflevector(x.v, x.v, 4, 5, 6, 7)};
 }
 AMBRIG_INLINE double Sum(const WholeLaneVector& x) { return Sum(Halves(x)); }
 AMBRIG_INLINE double CommonSum(const WholeLaneVector& x) { return Sum(x); }
 AMBRIG_INLINE double Largest(const WholeLaneVector& x) { return Largest(Halves(x)); }
-AMBRIG_INLINE WholeLaneVector Partner(const WholeLaneVector& x) { return __builtin_shufflevector(x.v, x.v, 1, 0, 3, 2, 5, 4, 7, 6); }
+AMBRIG_INLINE WholeLaneVector Partner(const WholeLaneVector& x) {
+  return __builtin_shufflevector(x.v, x.v, 1, 0, 3, 2, 5, 4, 7, 6);
+}
 
 /// What CommonSum gives of a vector.
 template <class V>

@@ -1,5 +1,6 @@
 #pragma once
-/// Lateral margins of API 617 (8th ed.), for critical speeds found as peaks of the unbalance response:
+/// Lateral margins of API 617 (8th ed.), for critical speeds found as peaks of the unbalance
+/// response:
 ///   AF < 2.5                    critically damped: no margin required
 ///   below the lowest speed      SM = 17 (1 - 1/(AF - 1.5)) per cent of the lowest operating speed
 ///   above the highest speed     SM = 10 + 17 (1 - 1/(AF - 1.5)) per cent of the highest
@@ -15,7 +16,8 @@ struct SeparationMargin {
 };
 
 /// Speeds in one unit; AF, or a bound above it.
-SeparationMargin JudgeSeparation(double critical, double amplification, double lowest, double highest);
+SeparationMargin JudgeSeparation(double critical, double amplification, double lowest,
+                                 double highest);
 
 inline constexpr double kLeastLogDecrement = 0.1;
 

@@ -16,7 +16,8 @@ double Likeness(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
 }
 
 double Distance(const ClosedLoopMode& a, const ClosedLoopMode& b) {
-  return std::abs(a.s - b.s) / std::max(std::abs(a.s), std::abs(b.s)) + 0.2 * (1 - Likeness(a.q, b.q));
+  return std::abs(a.s - b.s) / std::max(std::abs(a.s), std::abs(b.s)) +
+         0.2 * (1 - Likeness(a.q, b.q));
 }
 
 constexpr double kFarthest = 0.5;  // beyond it a mode starts a track of its own
@@ -32,8 +33,10 @@ void Continue(std::vector<ModeTrack>& tracks, double before, const ClosedLoopMod
   for (std::size_t t = 0; t < tracks.size(); ++t)
     for (std::size_t m = 0; m < row.modes.size(); ++m)
       if (tracks[t].speed.back() == before)
-        if (const double d = Distance(tracks[t].modes.back(), row.modes[m]); d < kFarthest) pairs.push_back({d, t, m});
-  std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
+        if (const double d = Distance(tracks[t].modes.back(), row.modes[m]); d < kFarthest)
+          pairs.push_back({d, t, m});
+  std::sort(pairs.begin(), pairs.end(),
+            [](const auto& a, const auto& b) { return a.distance < b.distance; });
   std::vector<bool> used_track(tracks.size(), false), used_mode(row.modes.size(), false);
   for (const Pairing& p : pairs) {
     if (used_track[p.track] || used_mode[p.mode]) continue;
@@ -57,19 +60,23 @@ Whirl ModeTrack::sense() const { return modes.back().sense(); }
 
 std::vector<ModeTrack> FollowModes(const std::vector<ClosedLoopModes>& rows) {
   std::vector<ModeTrack> tracks;
-  for (std::size_t k = 0; k < rows.size(); ++k) Continue(tracks, k > 0 ? rows[k - 1].speed : -1, rows[k]);
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    Continue(tracks, k > 0 ? rows[k - 1].speed : -1, rows[k]);
   return tracks;
 }
 
 std::vector<DampedCritical> FindCriticals(const std::vector<ModeTrack>& tracks) {
   std::vector<DampedCritical> out;
   for (const ModeTrack& t : tracks) {
-    if (!t.of_rotor() || !t.modes.front().lateral) continue;  // an unbalance does not push along the axis
+    // an unbalance does not push along the axis
+    if (!t.of_rotor() || !t.modes.front().lateral) continue;
     for (std::size_t k = 1; k < t.speed.size(); ++k) {
-      const double a = t.modes[k - 1].s.imag() - t.speed[k - 1], b = t.modes[k].s.imag() - t.speed[k];
+      const double a = t.modes[k - 1].s.imag() - t.speed[k - 1],
+                   b = t.modes[k].s.imag() - t.speed[k];
       if (a * b > 0 || a == b) continue;
       const double fraction = a / (a - b);
-      out.push_back({std::lerp(t.speed[k - 1], t.speed[k], fraction), t.modes[fraction < 0.5 ? k - 1 : k]});
+      out.push_back(
+          {std::lerp(t.speed[k - 1], t.speed[k], fraction), t.modes[fraction < 0.5 ? k - 1 : k]});
     }
   }
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.speed < b.speed; });

@@ -1,6 +1,6 @@
 #pragma once
-/// Closed-loop Campbell diagram: modes over speed, followed from speed to speed by frequency, damping
-/// and shape, and where a rotor mode meets the speed itself (critical speeds, damped).
+/// Closed-loop Campbell diagram: modes over speed, followed from speed to speed by frequency,
+/// damping and shape, and where a rotor mode meets the speed itself (critical speeds, damped).
 #include "analysis/closed_loop_modes.h"
 
 namespace ambrig {
@@ -14,7 +14,7 @@ struct ModeTrack {
 };
 
 struct DampedCritical {
-  double speed = 0;  // [rad/s], where the damped frequency equals it
+  double speed = 0;     // [rad/s], where the damped frequency equals it
   ClosedLoopMode mode;  // at the nearest speed
 };
 

@@ -89,8 +89,10 @@ void ClosedLoop::Tick(Matrix& x, const Signals<Matrix>& u, Disturb&& disturb) co
   const auto as = [](const MatrixXd& m) -> decltype(auto) { return m.template cast<Scalar>(); };
   const Matrix y = as(plant_.reading) * x.topRows(n) + u.sensor_error;
   const Matrix xc = x.middleRows(at_controller_, controller_.A.rows());
-  const Matrix f = as(controller_.C) * xc + as(controller_.D_y) * y + as(controller_.D_r) * u.reference + u.excitation;
-  Matrix plant = x.topRows(n), integral = x.middleRows(at_integral_, coils), feedback = x.middleRows(at_feedback_, coils);
+  const Matrix f = as(controller_.C) * xc + as(controller_.D_y) * y +
+                   as(controller_.D_r) * u.reference + u.excitation;
+  Matrix plant = x.topRows(n), integral = x.middleRows(at_integral_, coils),
+         feedback = x.middleRows(at_feedback_, coils);
   for (int j = 0; j < M_; ++j) {
     const Index age = j >= late_ ? 0 : (late_ - j + M_ - 1) / M_;
     const Matrix e = as(set_points_) * x.middleRows(at_force_ + age * a, a) - feedback;
@@ -134,12 +136,15 @@ VectorXcd ClosedLoop::Disturbance(const HarmonicInput& in) const {
   const VectorXcd p = dynamics.partialPivLu().solve(plant_.pushed.cast<Complex>() * in.pushed);
   const VectorXcd end = std::exp(iw * period_.T) * p - period_.state.cast<Complex>() * p;
   Complex mean = 0;
-  for (int k = 0; k < period_.samples; ++k) mean += std::exp(iw * (k * period_.T / period_.samples));
-  const VectorXcd sampled = plant_.current.cast<Complex>() * p * (mean / static_cast<double>(period_.samples)) -
-                            period_.feedback_of_state.cast<Complex>() * p;
+  for (int k = 0; k < period_.samples; ++k)
+    mean += std::exp(iw * (k * period_.T / period_.samples));
+  const VectorXcd sampled =
+      plant_.current.cast<Complex>() * p * (mean / static_cast<double>(period_.samples)) -
+      period_.feedback_of_state.cast<Complex>() * p;
   MatrixXcd x = MatrixXcd::Zero(Phi.rows(), 1);
   Signals<MatrixXcd> none;
-  for (MatrixXcd* s : {&none.reference, &none.excitation, &none.sensor_error}) s->setZero(axes(), 1);
+  for (MatrixXcd* s : {&none.reference, &none.excitation, &none.sensor_error})
+    s->setZero(axes(), 1);
   Tick(x, none, [&](int j, MatrixXcd& plant, MatrixXcd& feedback) {
     const Complex phase = std::exp(iw * (j * period_.T));
     plant += phase * end;

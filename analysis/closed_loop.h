@@ -1,6 +1,6 @@
 #pragma once
-/// The exact linearisation of a levitated rig under its sampled controller, from tick to tick of the
-/// position loop (t_k = k Ts), delays and current loops included:
+/// The exact linearisation of a levitated rig under its sampled controller, from tick to tick of
+/// the position loop (t_k = k Ts), delays and current loops included:
 ///
 ///   x = [plant | integrals of the current loops | their feedback | controller | forces under way]
 ///   x_(k+1) = Phi x_k + Gamma u_k,   y_k = C x_k + D u_k
@@ -25,8 +25,8 @@ namespace ambrig {
 
 /// What acts on the plant continuously as Re(. e^{iωt}).
 struct HarmonicInput {
-  double omega = 0;          // [rad/s]
-  Eigen::VectorXcd pushed;   // (m) generalised forces on the kept coordinates
+  double omega = 0;         // [rad/s]
+  Eigen::VectorXcd pushed;  // (m) generalised forces on the kept coordinates
 };
 
 class ClosedLoop {

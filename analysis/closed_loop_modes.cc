@@ -52,7 +52,8 @@ std::vector<double> ShaftStations(const OperatingPoint& point) {
     }
   std::vector<double> z;
   constexpr int kCount = 33;
-  for (int k = 0; k < kCount && high > low; ++k) z.push_back(std::lerp(low, high, k / (kCount - 1.0)));
+  for (int k = 0; k < kCount && high > low; ++k)
+    z.push_back(std::lerp(low, high, k / (kCount - 1.0)));
   return z;
 }
 

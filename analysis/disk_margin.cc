@@ -53,8 +53,10 @@ JointMargin MarginOf(const std::vector<std::size_t>& axes, const std::vector<dou
     return M;
   };
   std::vector<std::pair<double, std::size_t>> rough;
-  for (std::size_t k = 0; k < S.size(); ++k) rough.push_back({BalancedUpperBound(changed(k)).value, k});
-  std::sort(rough.begin(), rough.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t k = 0; k < S.size(); ++k)
+    rough.push_back({BalancedUpperBound(changed(k)).value, k});
+  std::sort(rough.begin(), rough.end(),
+            [](const auto& a, const auto& b) { return a.first > b.first; });
   double peak = 0;
   std::size_t worst = 0;
   for (const auto& [bound, k] : rough) {
@@ -78,7 +80,8 @@ double DiskGainDown(double alpha) { return alpha >= 2 ? 0 : (2 - alpha) / (2 + a
 double DiskGainUp(double alpha) { return alpha >= 2 ? kInfinity : (2 + alpha) / (2 - alpha); }
 double DiskPhase(double alpha) { return 2 * std::atan(alpha / 2); }
 
-std::vector<JointMargin> FindJointMargins(const std::vector<double>& frequency, const std::vector<MatrixXcd>& S) {
+std::vector<JointMargin> FindJointMargins(const std::vector<double>& frequency,
+                                          const std::vector<MatrixXcd>& S) {
   std::vector<JointMargin> out;
   if (S.empty()) return out;
   for (const auto& axes : Groups(S)) out.push_back(MarginOf(axes, frequency, S));

@@ -13,7 +13,8 @@ using Eigen::VectorXcd;
 VectorXcd Translation(const LinearPlant& plant, Index axis, double omega) {
   VectorXcd out = VectorXcd::Zero(plant.m());
   for (Index d = 0; d < plant.m(); ++d)
-    if (plant.coordinate[static_cast<std::size_t>(d)] < 3) out(d) = -omega * omega * plant.position(axis, d);
+    if (plant.coordinate[static_cast<std::size_t>(d)] < 3)
+      out(d) = -omega * omega * plant.position(axis, d);
   return out;
 }
 

@@ -17,8 +17,8 @@ double Curvature(const GapReluctance& r, double g) {
 }
 
 /// Force of a change (dphi, dx, dy): f_p = R'(g) φ²/2 along the pole, g' = -d.
-Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s, const NetworkRates& rate,
-                            double x, double y, double dx, double dy) {
+Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s,
+                            const NetworkRates& rate, double x, double y, double dx, double dy) {
   Eigen::Vector2d out = Eigen::Vector2d::Zero();
   const int per_pole = lanes.coupling == Coupling::kSides ? 2 : 1;
   for (int j = 0; j < lanes.coils; j += per_pole) {

@@ -8,7 +8,8 @@ namespace ambrig {
 LinearController LineariseController(const RigParameters& rig, double Ts, double speed) {
   if (!rig.controller.IsPlainPid()) {
     const StateSpace k = MakeController(rig, rig.controller)->Linear(speed);
-    return {k.A, k.B, Eigen::MatrixXd::Zero(k.states(), k.inputs()), k.C, k.D, Eigen::MatrixXd::Zero(k.outputs(), k.inputs())};
+    return {k.A, k.B, Eigen::MatrixXd::Zero(k.states(), k.inputs()),
+            k.C, k.D, Eigen::MatrixXd::Zero(k.outputs(), k.inputs())};
   }
   std::vector<const PidParameters*> pid;
   for (const BearingParameters& b : rig.bearings)

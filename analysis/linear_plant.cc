@@ -23,7 +23,8 @@ std::vector<int> Moved(const LinearRotor& r, double speed) {
     grown = false;
     for (Index d = 0; d < n; ++d)
       for (Index e = 0; e < n; ++e) {
-        if (moved[static_cast<std::size_t>(d)] || !moved[static_cast<std::size_t>(e)] || d == e) continue;
+        if (moved[static_cast<std::size_t>(d)] || !moved[static_cast<std::size_t>(e)] || d == e)
+          continue;
         if (tiny(r.M(d, e)) && tiny(r.K(d, e)) && tiny(r.D(d, e) + speed * r.G(d, e))) continue;
         moved[static_cast<std::size_t>(d)] = grown = true;
       }
@@ -41,9 +42,11 @@ LinearRotor Restrict(const LinearRotor& r, const std::vector<int>& kept) {
   out.D = r.D(kept, kept);
   out.K = r.K(kept, kept);
   for (const auto& [x, y] : r.xy) {
-    const auto at_x = std::find(kept.begin(), kept.end(), x), at_y = std::find(kept.begin(), kept.end(), y);
+    const auto at_x = std::find(kept.begin(), kept.end(), x),
+               at_y = std::find(kept.begin(), kept.end(), y);
     if (at_x != kept.end() && at_y != kept.end())
-      out.xy.push_back({static_cast<int>(at_x - kept.begin()), static_cast<int>(at_y - kept.begin())});
+      out.xy.push_back(
+          {static_cast<int>(at_x - kept.begin()), static_cast<int>(at_y - kept.begin())});
   }
   for (const LinearPort& p : r.ports) {
     LinearPort port = p;

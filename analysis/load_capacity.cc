@@ -29,13 +29,16 @@ double LinearLimit(const BearingControl& c, Eigen::Index side) {
   double least = kInfinity;
   for (int j = 0; j < c.coils; ++j) {
     const double bias = c.map.W(j, 0) * c.map.c0, w = c.map.W(j, 1 + side);
-    if (w != 0) least = std::min(least, std::min((c.map.i_max - bias) / std::abs(w), (bias - low) / std::abs(w)));
+    if (w != 0)
+      least =
+          std::min(least, std::min((c.map.i_max - bias) / std::abs(w), (bias - low) / std::abs(w)));
   }
   return least;
 }
 
 /// Largest exact force along +side over growing commands, set-points clamped [N].
-double LargestForce(const BearingControl& c, const StatorLanes& lanes, Eigen::Index side, double bound) {
+double LargestForce(const BearingControl& c, const StatorLanes& lanes, Eigen::Index side,
+                    double bound) {
   const CoilNetwork network(lanes);
   double best = 0;
   constexpr int kSteps = 400;
@@ -65,7 +68,8 @@ std::vector<AxisCapacity> FindCapacity(const OperatingPoint& point) {
     for (std::size_t side = 0; side < b.axes; ++side) {
       const auto k = static_cast<Eigen::Index>(side);
       Eigen::VectorXd w(static_cast<Eigen::Index>(linear.coils.size()));
-      for (Eigen::Index j = 0; j < w.size(); ++j) w(j) = control.map.W(linear.coils[static_cast<std::size_t>(j)], 1 + k);
+      for (Eigen::Index j = 0; j < w.size(); ++j)
+        w(j) = control.map.W(linear.coils[static_cast<std::size_t>(j)], 1 + k);
       AxisCapacity c;
       c.axis = names[b.first_axis + side];
       c.k_i = ki.row(k) * w;
@@ -79,7 +83,9 @@ std::vector<AxisCapacity> FindCapacity(const OperatingPoint& point) {
       const Eigen::VectorXd volts = L * w;
       c.slew = kInfinity;
       for (Eigen::Index j = 0; j < w.size(); ++j) {
-        const CoilPoint& at = point.coils[b.index][static_cast<std::size_t>(linear.coils[static_cast<std::size_t>(j)])];
+        const CoilPoint& at =
+            point.coils[b.index]
+                       [static_cast<std::size_t>(linear.coils[static_cast<std::size_t>(j)])];
         if (volts(j) == 0) continue;
         const double left = VoltageLeft(point.rig().amplifier, point.plant().bus.voltage, at.duty);
         c.slew = std::min(c.slew, scale * left / std::abs(volts(j)));

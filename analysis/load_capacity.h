@@ -7,21 +7,23 @@
 ///   slew      k c0 min_j ΔU_j / |L W u|_j: the voltage left in every coil bounds v' = u [N/s]
 ///   knee      slew / (2π largest usable force): above it a full-size sine is cut [Hz]
 ///
-/// Static capacity: the least over directions of the smaller of linear and f_max, and what the weight
-/// leaves of it. Source: shared/design/physics.md sections 2 to 4; Schweitzer & Maslen 2009, 3.4.
+/// Static capacity: the least over directions of the smaller of linear and f_max, and what the
+/// weight leaves of it. Source: shared/design/physics.md sections 2 to 4; Schweitzer & Maslen 2009,
+/// 3.4.
 #include "analysis/operating_point.h"
 
 namespace ambrig {
 
 struct AxisCapacity {
   std::string axis;
-  double k_i = 0, k_s = 0;   // force per ampere of v [N/A]; negative stiffness [N/m], at the operating point
-  double linear = 0;         // [N]
-  double largest = 0;        // [N]
-  double commanded = 0;      // [N]
-  double weight = 0;         // carried at rest, signed [N]
-  double slew = 0, knee = 0; // [N/s], [Hz]
-  double usable() const;     // static capacity [N]
+  // force per ampere of v [N/A]; negative stiffness [N/m], at the operating point
+  double k_i = 0, k_s = 0;
+  double linear = 0;          // [N]
+  double largest = 0;         // [N]
+  double commanded = 0;       // [N]
+  double weight = 0;          // carried at rest, signed [N]
+  double slew = 0, knee = 0;  // [N/s], [Hz]
+  double usable() const;      // static capacity [N]
 };
 
 std::vector<AxisCapacity> FindCapacity(const OperatingPoint& point);

@@ -24,16 +24,18 @@ std::vector<Complex> Ringing(const OperatingPoint& point, const SineTest& test) 
   const Eigen::VectorXcd z = loop.Phi.eigenvalues();
   std::vector<Complex> out;
   for (const Complex& pole : z)
-    if (pole.imag() >= 0 && std::pow(std::abs(pole), test.settle / loop.Ts()) > kFaded) out.push_back(pole);
+    if (pole.imag() >= 0 && std::pow(std::abs(pole), test.settle / loop.Ts()) > kFaded)
+      out.push_back(pole);
   return out;
 }
 
-/// Least squares of mean + drift + Re(a e^{iωt}) + what turns with the shaft + what rings on, on samples
-/// at t_k, one in every Ts. Returns a.
-Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, double omega, double speed,
-                const std::vector<Complex>& ringing) {
+/// Least squares of mean + drift + Re(a e^{iωt}) + what turns with the shaft + what rings on, on
+/// samples at t_k, one in every Ts. Returns a.
+Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, double omega,
+                double speed, const std::vector<Complex>& ringing) {
   const bool turns = speed > 0 && std::abs(speed / omega - 1) > 1e-3;
-  const auto rows = static_cast<Eigen::Index>(t.size()), free = static_cast<Eigen::Index>(2 * ringing.size());
+  const auto rows = static_cast<Eigen::Index>(t.size()),
+             free = static_cast<Eigen::Index>(2 * ringing.size());
   Eigen::MatrixXd basis(rows, (turns ? 6 : 4) + free);
   Eigen::VectorXd value(rows);
   std::vector<Complex> now(ringing.size(), 1.0);
@@ -53,24 +55,29 @@ Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, doub
   return {c(2), -c(3)};
 }
 
-/// Force commands of one axis of bearing `b`, from its set-points: v by least squares over the coils.
-std::vector<double> Commands(const Record& record, const OperatingPoint& point, std::size_t b, std::size_t side) {
+/// Force commands of one axis of bearing `b`, from its set-points: v by least squares over the
+/// coils.
+std::vector<double> Commands(const Record& record, const OperatingPoint& point, std::size_t b,
+                             std::size_t side) {
   const BearingControl& control = point.sampled->control[b];
   const Eigen::Index columns = point.sampled->bearings[b].axes > 1 ? 3 : 2;
   const Eigen::MatrixXd W = control.map.W.topLeftCorner(control.coils, columns);
-  const Eigen::RowVectorXd row = (W.transpose() * W).ldlt().solve(W.transpose()).row(1 + static_cast<Eigen::Index>(side));
+  const Eigen::RowVectorXd row =
+      (W.transpose() * W).ldlt().solve(W.transpose()).row(1 + static_cast<Eigen::Index>(side));
   std::vector<double> f(record.rows(), 0.0);
   for (int j = 0; j < control.coils; ++j) {
     const Channel* set = record.Find(fmt::format("{}.s{}", control.name, j + 1));
     Require(set != nullptr, "set-points in the record");
-    for (std::size_t k = 0; k < f.size(); ++k) f[k] += control.map.k * control.map.c0 * row(j) * set->samples[k];
+    for (std::size_t k = 0; k < f.size(); ++k)
+      f[k] += control.map.k * control.map.c0 * row(j) * set->samples[k];
   }
   return f;
 }
 
 }  // namespace
 
-Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test, const std::atomic<bool>* stop) {
+Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test,
+                           const std::atomic<bool>* stop) {
   const OperatingPoint point = FindOperatingPoint(rig);
   std::size_t bearing = 0;
   for (const SampledBearing& b : point.sampled->bearings)
@@ -94,10 +101,13 @@ Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test, const
   options.stop = stop;
   const RunResult run = Simulate(rig, s, options);
   if (run.touchdown)
-    throw InputError(fmt::format("a sine of {:g} N at {:g} Hz on {} drives the rotor into an auxiliary bearing, allowed: a smaller amplitude",
-                                 test.amplitude, test.frequency, point.Axes()[test.axis]));
+    throw InputError(
+        fmt::format("a sine of {:g} N at {:g} Hz on {} drives the rotor into an auxiliary bearing, "
+                    "allowed: a smaller amplitude",
+                    test.amplitude, test.frequency, point.Axes()[test.axis]));
   const Record& record = run.record;
-  const std::vector<double> f = Commands(record, point, bearing, test.axis - point.sampled->bearings[bearing].first_axis);
+  const std::vector<double> f =
+      Commands(record, point, bearing, test.axis - point.sampled->bearings[bearing].first_axis);
   // A row's set-points were computed one tick earlier, from the excitation at that instant.
   const double Ts = 1 / rig.controller.rate, omega = 2 * kPi * test.frequency;
   std::vector<double> t, y;
@@ -106,7 +116,8 @@ Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test, const
       t.push_back(at);
       y.push_back(f[k]);
     }
-  return FitSine(t, y, omega, test.speed, Ringing(point, test)) / (test.amplitude * Complex(0, -1));  // amplitude * sin ωt
+  // amplitude * sin ωt
+  return FitSine(t, y, omega, test.speed, Ringing(point, test)) / (test.amplitude * Complex(0, -1));
 }
 
 }  // namespace ambrig

@@ -42,11 +42,13 @@ void PlaceCoils(OperatingPoint& p, std::size_t k) {
     c.duty = bridge.DutyFromVoltage(bridge.integral());
     const std::string name = fmt::format("{}.coil{}", control.name, j + 1);
     if (!c.commanded)
-      p.notes.push_back(fmt::format("{} carries {:.3g} A, a limit of its set-point: it does not follow the force",
-                                    name, c.current));
+      p.notes.push_back(
+          fmt::format("{} carries {:.3g} A, a limit of its set-point: it does not follow the force",
+                      name, c.current));
     else if (c.current <= kInterrupted && amplifier.quadrants < 3)
-      p.notes.push_back(fmt::format("{} carries {:.3g} A: a current that its diodes interrupt counts as continuous",
-                                    name, c.current));
+      p.notes.push_back(fmt::format(
+          "{} carries {:.3g} A: a current that its diodes interrupt counts as continuous", name,
+          c.current));
   }
   p.coils.push_back(coils);
 }
@@ -54,12 +56,15 @@ void PlaceCoils(OperatingPoint& p, std::size_t k) {
 void NoteWhatIsLeftOut(OperatingPoint& p) {
   for (const BearingPlant& b : p.plant().bearings) {
     if (!b.lanes.laws.empty())
-      p.notes.push_back(fmt::format("bearing {}: effects of its iron are not in the linear model", b.name));
+      p.notes.push_back(
+          fmt::format("bearing {}: effects of its iron are not in the linear model", b.name));
     if (!b.sensor.maps.empty())
-      p.notes.push_back(fmt::format("bearing {}: effects of its position sensors are not in the linear model", b.name));
+      p.notes.push_back(fmt::format(
+          "bearing {}: effects of its position sensors are not in the linear model", b.name));
     for (const CurrentSensor& s : b.current_sensor)
       if (s.gain != 1) {
-        p.notes.push_back(fmt::format("bearing {}: errors of its current sensors are not in the linear model", b.name));
+        p.notes.push_back(fmt::format(
+            "bearing {}: errors of its current sensors are not in the linear model", b.name));
         break;
       }
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// Where a rig is linearised: levitated at rest, every sensor reads zero, the coils carry what holds
-/// the weight. What turns with the shaft is no part of it; speed enters the derivatives only.
+/// Where a rig is linearised: levitated at rest, every sensor reads zero, the coils carry what
+/// holds the weight. What turns with the shaft is no part of it; speed enters the derivatives only.
 /// Source: shared/design/physics.md sections 3 and 4.
 #include <memory>
 #include <string>
@@ -21,8 +21,8 @@ struct CoilPoint {
 struct OperatingPoint {
   std::unique_ptr<SampledRig> sampled;  // plant, maps, amplifiers as a run would start
   MotionState motion;
-  std::vector<double> force;                   // per axis [N]
-  std::vector<std::vector<CoilPoint>> coils;   // per bearing
+  std::vector<double> force;                  // per axis [N]
+  std::vector<std::vector<CoilPoint>> coils;  // per bearing
   std::vector<LinearBearing> bearings;
   std::vector<std::string> notes;  // what of this rig the linear model leaves out, one line each
 

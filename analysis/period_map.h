@@ -1,11 +1,12 @@
 #pragma once
-/// One switching period of the linear plant, exact: between the edges of the bridges the voltages are
-/// constant, a change of duty moves one edge, which acts as an impulse of linkage there,
+/// One switching period of the linear plant, exact: between the edges of the bridges the voltages
+/// are constant, a change of duty moves one edge, which acts as an impulse of linkage there,
 ///
 ///   x(T) = e^{AT} x(0) + Σ_j e^{A (T - t_j)} e_j ΔU_j dt_j/dd δd_j
 ///
 /// (an `ideal` amplifier: a step of voltage over the whole period), and the feedback is the mean of
-/// the ADC's samples at k T/n before and after the edges. Source: shared/design/physics.md section 3.
+/// the ADC's samples at k T/n before and after the edges. Source: shared/design/physics.md section
+/// 3.
 #include <Eigen/Dense>
 
 #include "analysis/linear_plant.h"
@@ -13,10 +14,10 @@
 namespace ambrig {
 
 struct PeriodMap {
-  double T = 0;           // [s]
-  int samples = 0;        // of the ADC in a period
-  Eigen::MatrixXd state;  // (n x n) x(T) of x(0)
-  Eigen::MatrixXd duty;   // (n x c) x(T) of duties
+  double T = 0;                       // [s]
+  int samples = 0;                    // of the ADC in a period
+  Eigen::MatrixXd state;              // (n x n) x(T) of x(0)
+  Eigen::MatrixXd duty;               // (n x c) x(T) of duties
   Eigen::MatrixXd feedback_of_state;  // (c x n)
   Eigen::MatrixXd feedback_of_duty;   // (c x c)
 };

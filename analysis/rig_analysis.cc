@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kSweep = 161;  // speeds of the sweeps; every fourth has its modes too
 constexpr int kModes = 4;    // of the rotor alone
-constexpr int kPeak = 16;    // further speeds on either side of a narrow resonance, quarter half-widths apart
+// further speeds on either side of a narrow resonance, quarter half-widths apart
+constexpr int kPeak = 16;
 
 std::vector<double> Ascending(std::vector<double> x) {
   std::sort(x.begin(), x.end());
@@ -76,12 +77,14 @@ class Analysis {
   }
 
   void OverSpeed() {
-    const double lowest = out_.options.lowest, highest = out_.options.highest, step = out_.options.fastest / (kSweep - 1);
+    const double lowest = out_.options.lowest, highest = out_.options.highest,
+                 step = out_.options.fastest / (kSweep - 1);
     std::vector<double> speeds = {lowest, highest};  // exactly, beside the grid
     for (int k = 0; k < kSweep; ++k) speeds.push_back(step * k);
     for (double speed : Ascending(speeds)) {
       Say(0.15 + 0.3 * speed / out_.options.fastest, "modes over speed");
-      const bool row = std::fmod(std::round(speed / step), 4) == 0 || speed == lowest || speed == highest;
+      const bool row =
+          std::fmod(std::round(speed / step), 4) == 0 || speed == lowest || speed == highest;
       if (row) out_.rows.push_back(FindModes(out_.point, ClosedLoop(out_.point, speed)));
     }
     out_.tracks = FollowModes(out_.rows);
@@ -89,7 +92,8 @@ class Analysis {
     for (const DampedCritical& c : out_.criticals) {
       const double half_width = c.mode.zeta * c.speed;
       for (int k = -kPeak; k <= kPeak && half_width < 4 * step; ++k)
-        if (const double at = c.speed + 0.25 * k * half_width; at > 0 && at < out_.options.fastest) speeds.push_back(at);
+        if (const double at = c.speed + 0.25 * k * half_width; at > 0 && at < out_.options.fastest)
+          speeds.push_back(at);
     }
     std::vector<ClosedLoop> loops;
     for (double speed : Ascending(speeds)) {
@@ -97,7 +101,8 @@ class Analysis {
       if (speed > 0) loops.emplace_back(out_.point, speed);
     }
     Say(0.7, "unbalance response");
-    out_.unbalance = SweepUnbalance(out_.point, loops, StandardUnbalance(out_.point, out_.options.highest));
+    out_.unbalance =
+        SweepUnbalance(out_.point, loops, StandardUnbalance(out_.point, out_.options.highest));
   }
 
   void Judge() {
@@ -108,12 +113,14 @@ class Analysis {
         const BearingParameters* b = out_.point.rig().Find(track.bearing);
         row.clearance = b->auxiliary ? b->auxiliary->clearance : b->radial.gap;
         for (std::size_t k = 0; k < sweep.speed.size(); ++k)
-          if (sweep.speed[k] >= o.lowest && sweep.speed[k] <= o.highest) row.largest = std::max(row.largest, track.amplitude[k]);
+          if (sweep.speed[k] >= o.lowest && sweep.speed[k] <= o.highest)
+            row.largest = std::max(row.largest, track.amplitude[k]);
         row.zone = DisplacementZone(row.largest / row.clearance);
         out_.displacement.push_back(row);
         for (const ResponsePeak& peak : track.peaks)
-          out_.separation.push_back({track.bearing, sweep.unbalance.name, peak,
-                                     JudgeSeparation(peak.speed, peak.amplification, o.lowest, o.highest)});
+          out_.separation.push_back(
+              {track.bearing, sweep.unbalance.name, peak,
+               JudgeSeparation(peak.speed, peak.amplification, o.lowest, o.highest)});
       }
   }
 
@@ -125,19 +132,24 @@ class Analysis {
     const double low = 20, high = std::min(2000.0, 0.4 / loop.Ts());
     for (const AxisCapacity& c : out_.capacity)
       if (out_.options.sine > 0.5 * c.usable())
-        throw InputError(fmt::format("sine = {:g} N, allowed: up to half the capacity of {}, {:.3g} N, where the loop is still linear", out_.options.sine,
-                                     c.axis, 0.5 * c.usable()));
+        throw InputError(
+            fmt::format("sine = {:g} N, allowed: up to half the capacity of {}, {:.3g} N, where "
+                        "the loop is still linear",
+                        out_.options.sine, c.axis, 0.5 * c.usable()));
     for (std::size_t a = 0; a < out_.capacity.size(); ++a)
       for (int k = 0; k < count; ++k) {
-        Say(0.75 + 0.25 * (static_cast<double>(a) + static_cast<double>(k) / count) / static_cast<double>(out_.capacity.size()),
+        Say(0.75 + 0.25 * (static_cast<double>(a) + static_cast<double>(k) / count) /
+                       static_cast<double>(out_.capacity.size()),
             "sines injected into the switching rig");
         SineTest test;
         test.axis = a;
         test.frequency = low * std::pow(high / low, count > 1 ? k / (count - 1.0) : 0.5);
-        test.amplitude = out_.options.sine > 0 ? out_.options.sine : 0.01 * out_.capacity[a].usable();
+        test.amplitude =
+            out_.options.sine > 0 ? out_.options.sine : 0.01 * out_.capacity[a].usable();
         MeasuredPoint point{a, test.frequency, MeasureSensitivity(rig, test, out_.options.stop), 0};
         const auto axis = static_cast<Eigen::Index>(a);
-        point.computed = transfer(2 * kPi * test.frequency)(loop.Command(axis), loop.Excitation(axis));
+        point.computed =
+            transfer(2 * kPi * test.frequency)(loop.Command(axis), loop.Excitation(axis));
         out_.measured.push_back(point);
       }
   }
@@ -153,8 +165,10 @@ bool RigAnalysis::stable() const {
 
 RigAnalysis Analyse(const RigParameters& rig, const AnalysisOptions& o) {
   if (!(o.lowest >= 0 && o.highest >= o.lowest && o.fastest > 0 && o.fastest >= o.highest))
-    throw InputError(fmt::format("speeds {} to {} rad/s, fastest {} rad/s: allowed are 0 <= lowest <= highest <= fastest, fastest > 0",
-                                 o.lowest, o.highest, o.fastest));
+    throw InputError(
+        fmt::format("speeds {} to {} rad/s, fastest {} rad/s: allowed are 0 <= lowest <= highest "
+                    "<= fastest, fastest > 0",
+                    o.lowest, o.highest, o.fastest));
   return Analysis(rig, o).Run(rig);
 }
 

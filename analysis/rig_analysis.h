@@ -19,8 +19,8 @@ struct AnalysisOptions {
   double lowest = 0, highest = 0;  // operating speeds [rad/s]
   double fastest = 0;              // end of the Campbell diagram and the sweeps [rad/s]
   std::vector<std::pair<std::string, std::string>> responses;  // input, output channel
-  int measured = 0;                // frequencies per axis at which the switching engine is asked
-  double sine = 0;                 // [N] of those; 0: a hundredth of the axis' capacity
+  int measured = 0;  // frequencies per axis at which the switching engine is asked
+  double sine = 0;   // [N] of those; 0: a hundredth of the axis' capacity
   std::function<void(double, const std::string&)> progress;
   const std::atomic<bool>* stop = nullptr;
 };
@@ -47,7 +47,7 @@ struct ResponseCurve {
 /// |S| that the nonlinear switching rig shows under an injected sine.
 struct MeasuredPoint {
   std::size_t axis = 0;
-  double frequency = 0;                    // [Hz]
+  double frequency = 0;  // [Hz]
   std::complex<double> measured, computed;
 };
 

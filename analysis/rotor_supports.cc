@@ -35,7 +35,9 @@ RadialRotor WithoutAxial(const LinearPlant& plant) {
   out.rotor.D = r.D(kept, kept);
   out.rotor.K = r.K(kept, kept);
   for (const auto& [x, y] : r.xy) {
-    const auto at = [&](int k) { return static_cast<int>(std::find(kept.begin(), kept.end(), k) - kept.begin()); };
+    const auto at = [&](int k) {
+      return static_cast<int>(std::find(kept.begin(), kept.end(), k) - kept.begin());
+    };
     out.rotor.xy.push_back({at(x), at(y)});
   }
   for (LinearPort p : r.ports) {
@@ -47,8 +49,8 @@ RadialRotor WithoutAxial(const LinearPlant& plant) {
 }
 
 /// Undamped modes at rest, planar pairs once.
-std::vector<RotorMode> ModesAtRest(const OperatingPoint& point, const LinearPlant& plant, const RadialRotor& r,
-                                   const MatrixXd& K, int count) {
+std::vector<RotorMode> ModesAtRest(const OperatingPoint& point, const LinearPlant& plant,
+                                   const RadialRotor& r, const MatrixXd& K, int count) {
   const MatrixXd symmetric = 0.5 * (K + K.transpose());
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(symmetric, r.rotor.M);
   std::vector<RotorMode> out;
@@ -58,7 +60,8 @@ std::vector<RotorMode> ModesAtRest(const OperatingPoint& point, const LinearPlan
     if (w2 < 1e-9 * largest || w2 < 1e-3) continue;  // rigid modes of a free rotor
     RotorMode mode;
     mode.frequency = std::sqrt(w2) / (2 * kPi);
-    if (!out.empty() && mode.frequency < out.back().frequency * (1 + 1e-6)) continue;  // the other plane
+    // the other plane
+    if (!out.empty() && mode.frequency < out.back().frequency * (1 + 1e-6)) continue;
     for (double z : ShaftStations(point)) {
       const MatrixXd all = PlaneRows(point.plant().rotor, point.plant().rotor.MakePlane(z));
       const Eigen::Vector2d d = all(Eigen::all, r.coordinate) * eigen.eigenvectors().col(k);
@@ -101,7 +104,8 @@ RotorOnSupports AnalyseSupports(const OperatingPoint& point, int modes) {
   for (std::size_t k = 0; k < point.bearings.size(); ++k) {
     const BearingParameters& b = point.rig().bearings[k];
     const Eigen::Matrix2d ks = point.bearings[k].NegativeStiffness();
-    SupportStiffness s{b.name, PidOf(point.rig(), b).kp, b.kind == BearingKind::kRadial ? 0.5 * ks.trace() : ks(0, 0)};
+    SupportStiffness s{b.name, PidOf(point.rig(), b).kp,
+                       b.kind == BearingKind::kRadial ? 0.5 * ks.trace() : ks(0, 0)};
     net.push_back(b.kind == BearingKind::kThrust ? 0.0 : s.net());
     if (b.kind == BearingKind::kThrust) continue;
     weight = std::max(weight, std::abs(s.proportional));

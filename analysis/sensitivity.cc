@@ -52,7 +52,8 @@ void PhaseMargins(const std::vector<double>& f, const std::vector<Complex>& L, A
 
 }  // namespace
 
-Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction& transfer, double rated) {
+Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction& transfer,
+                            double rated) {
   const ClosedLoop& loop = transfer.loop();
   const double nyquist = 0.5 / loop.Ts(), highest = SensitivityRange(rated / (2 * kPi));
   const bool stable = transfer.eigenvalues().cwiseAbs().maxCoeff() < 1;

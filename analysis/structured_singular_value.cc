@@ -47,7 +47,8 @@ MuUpper BalancedUpperBound(const MatrixXcd& M) {
           row += std::norm(M(i, j)) * std::exp(2 * (x(i) - x(j)));
           column += std::norm(M(j, i)) * std::exp(2 * (x(j) - x(i)));
         }
-      if (row > 0 && column > 0) x(i) = std::clamp(x(i) + 0.25 * std::log(column / row), -kReach, kReach);
+      if (row > 0 && column > 0)
+        x(i) = std::clamp(x(i) + 0.25 * std::log(column / row), -kReach, kReach);
     }
   return {Eigen::JacobiSVD<MatrixXcd>(Scaled(M, x)).singularValues()(0), x};
 }
@@ -56,8 +57,8 @@ MuUpper LeastUpperBound(const MatrixXcd& M, double accuracy) {
   MuUpper best = BalancedUpperBound(M);
   const auto n = static_cast<double>(M.rows());
   if (M.rows() < 2 || !(best.value > 0)) return best;
-  // The minimum stays inside the ellipsoid (x - centre)' P⁻¹ (x - centre) <= 1; every step keeps the half
-  // that the subgradient points away from.
+  // The minimum stays inside the ellipsoid (x - centre)' P⁻¹ (x - centre) <= 1; every step keeps
+  // the half that the subgradient points away from.
   VectorXd centre = best.scaling, g;
   MatrixXd P = kReach * kReach * MatrixXd::Identity(M.rows(), M.rows());
   for (int step = 0; step < 5000; ++step) {
@@ -84,7 +85,9 @@ MuLower LargestLowerBound(const MatrixXcd& M) {
   };
   for (Index start = 0; start <= n; ++start) {
     VectorXcd b(n), a(n), w(n), z(n);
-    for (Index i = 0; i < n; ++i) b(i) = w(i) = std::polar(1 / std::sqrt(n), 2 * kPi * static_cast<double>(start * i) / static_cast<double>(n + 1));
+    for (Index i = 0; i < n; ++i)
+      b(i) = w(i) = std::polar(
+          1 / std::sqrt(n), 2 * kPi * static_cast<double>(start * i) / static_cast<double>(n + 1));
     for (int k = 0; k < 100; ++k) {
       a = M * b;
       if (!(a.norm() > 0)) break;

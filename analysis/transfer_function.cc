@@ -1,9 +1,9 @@
 #include "analysis/transfer_function.h"
 
+#include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
@@ -30,7 +30,8 @@ TransferFunction::TransferFunction(const OperatingPoint& point, const ClosedLoop
   const Index m = loop.plant().m();
   plane_rows_.resize(2 * static_cast<Index>(point.rig().stations.size()), m);
   for (const ShaftPlane& p : point.rig().stations) {
-    plane_rows_.middleRows<2>(static_cast<Index>(planes_.size())) = ShaftRows(point, loop.plant(), p.z);
+    plane_rows_.middleRows<2>(static_cast<Index>(planes_.size())) =
+        ShaftRows(point, loop.plant(), p.z);
     for (const char* side : {".x", ".y"}) planes_.push_back(p.name + side);
   }
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(loop.C.rows() + plane_rows_.rows(), loop.states());
@@ -73,8 +74,10 @@ TransferFunction::Input TransferFunction::FindInput(const std::string& channel) 
   }
   for (std::size_t p = 0; p < planes_.size(); ++p)
     if (channel == planes_[p] + ".load") return {loop_.axes() + static_cast<Index>(p), true, "N"};
-  throw InputError(fmt::format("input channel \"{}\", allowed: .reference, .force, .sensor or .load of {}{}", channel, fmt::join(axes_, ", "),
-                               planes_.empty() ? "" : fmt::format("; .load of {}", fmt::join(planes_, ", "))));
+  throw InputError(
+      fmt::format("input channel \"{}\", allowed: .reference, .force, .sensor or .load of {}{}",
+                  channel, fmt::join(axes_, ", "),
+                  planes_.empty() ? "" : fmt::format("; .load of {}", fmt::join(planes_, ", "))));
 }
 
 TransferFunction::Output TransferFunction::FindOutput(const std::string& channel) const {
@@ -89,9 +92,11 @@ TransferFunction::Output TransferFunction::FindOutput(const std::string& channel
     if (channel == coils_[c]) return {loop_.Current(static_cast<Index>(c)), "A"};
   for (std::size_t p = 0; p < planes_.size(); ++p)
     if (channel == planes_[p]) return {loop_.C.rows() + static_cast<Index>(p), "m"};
-  throw InputError(fmt::format("output channel \"{}\", allowed: {} alone or with .command, .shaft, .magnet; a coil's current as {}{}", channel,
-                               fmt::join(axes_, ", "), coils_.empty() ? "A.i1" : coils_.front(),
-                               planes_.empty() ? "" : fmt::format("; {}", fmt::join(planes_, ", "))));
+  throw InputError(
+      fmt::format("output channel \"{}\", allowed: {} alone or with .command, .shaft, .magnet; a "
+                  "coil's current as {}{}",
+                  channel, fmt::join(axes_, ", "), coils_.empty() ? "A.i1" : coils_.front(),
+                  planes_.empty() ? "" : fmt::format("; {}", fmt::join(planes_, ", "))));
 }
 
 Complex TransferFunction::Between(const Input& in, const Output& out, double omega) const {
@@ -99,7 +104,8 @@ Complex TransferFunction::Between(const Input& in, const Output& out, double ome
   return (*this)(omega)(out.row, in.column);
 }
 
-std::vector<double> FrequencyGrid(const TransferFunction& transfer, double low, double high, int count) {
+std::vector<double> FrequencyGrid(const TransferFunction& transfer, double low, double high,
+                                  int count) {
   std::vector<double> f;
   for (int k = 0; k < count; ++k) f.push_back(low * std::pow(high / low, k / (count - 1.0)));
   for (const Complex& z : transfer.eigenvalues()) {
@@ -108,7 +114,8 @@ std::vector<double> FrequencyGrid(const TransferFunction& transfer, double low, 
     if (!(centre > low && centre < high) || half > 0.3 * centre) continue;
     // Equal arcs of the circle that the resonance draws in the complex plane.
     for (int k = -16; k <= 16; ++k)
-      if (const double at = centre + half * std::tan(k * kPi / 36); at > low && at < high) f.push_back(at);
+      if (const double at = centre + half * std::tan(k * kPi / 36); at > low && at < high)
+        f.push_back(at);
   }
   std::sort(f.begin(), f.end());
   f.erase(std::unique(f.begin(), f.end()), f.end());

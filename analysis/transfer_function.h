@@ -5,7 +5,8 @@
 ///           the reading), A.x.load [N] (a force on the rotor at the bearing's plane, continuous);
 ///           NAME.x.load [N] at a named plane of a beam rotor
 /// Outputs   A.x [m] (reading), A.x.command [N] (force asked for, excitation included), A.x.shaft [m]
-///           (at the magnets), A.x.magnet [N] (force on the rotor), A.i1 [A] (coil current); NAME.x [m]
+///           (at the magnets), A.x.magnet [N] (force on the rotor), A.i1 [A] (coil current);
+///             NAME.x [m]
 ///           shaft at a named plane
 ///
 /// The sampled system is triangularised once (complex Schur, Phi = U T U^H), a frequency then costs
@@ -18,13 +19,14 @@ class TransferFunction {
  public:
   TransferFunction(const OperatingPoint& point, const ClosedLoop& loop);
 
-  /// Outputs x inputs of the sampled system at ω [rad/s]; named planes stand behind the loop's outputs.
+  /// Outputs x inputs of the sampled system at ω [rad/s]; named planes stand behind the loop's
+  /// outputs.
   Eigen::MatrixXcd operator()(double omega) const;
   /// Outputs under a continuous harmonic force on the rotor.
   Eigen::VectorXcd Harmonic(const HarmonicInput& input) const;
   const Eigen::VectorXcd& eigenvalues() const { return eigenvalues_; }  // z
-  /// Generalised unit force on the kept coordinates along an axis at its bearing's plane; from axes() on
-  /// along x, y of the named planes.
+  /// Generalised unit force on the kept coordinates along an axis at its bearing's plane; from
+  /// axes() on along x, y of the named planes.
   Eigen::VectorXcd LoadOn(Eigen::Index axis) const;
   const ClosedLoop& loop() const { return loop_; }
 
@@ -45,12 +47,13 @@ class TransferFunction {
  private:
   const ClosedLoop& loop_;
   std::vector<std::string> axes_, coils_, planes_;  // names: "A.x", "A.i1", "disk.x"
-  Eigen::MatrixXd plane_rows_;                       // (planes x m) shaft there
+  Eigen::MatrixXd plane_rows_;                      // (planes x m) shaft there
   Eigen::VectorXcd eigenvalues_;
   Eigen::MatrixXcd T_, U_, Gamma_T_, C_U_, D_;
 };
 
 /// From `low` to `high` Hz, `count` in equal ratios, and around every lightly damped pole closer.
-std::vector<double> FrequencyGrid(const TransferFunction& transfer, double low, double high, int count);
+std::vector<double> FrequencyGrid(const TransferFunction& transfer, double low, double high,
+                                  int count);
 
 }  // namespace ambrig

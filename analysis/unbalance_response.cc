@@ -14,10 +14,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// Crossing of `level` next to `peak` in direction `step`; where the curve rises above the peak or the
-/// sweep ends first, that place, and `found` is false.
-double HalfPower(const std::vector<double>& x, const std::vector<double>& y, std::size_t peak, int step, double level,
-                 bool* found) {
+/// Crossing of `level` next to `peak` in direction `step`; where the curve rises above the peak or
+/// the sweep ends first, that place, and `found` is false.
+double HalfPower(const std::vector<double>& x, const std::vector<double>& y, std::size_t peak,
+                 int step, double level, bool* found) {
   for (std::size_t k = peak;; k += static_cast<std::size_t>(step)) {
     const std::size_t next = k + static_cast<std::size_t>(step);
     *found = next < x.size() && y[next] <= level;  // beyond either end `next` is large (unsigned)
@@ -33,9 +33,11 @@ std::vector<ResponsePeak> FindPeaks(const std::vector<double>& x, const std::vec
     if (!(y[k] > y[k - 1] && y[k] >= y[k + 1])) continue;
     const double level = y[k] * std::numbers::sqrt2 / 2;
     bool below, above;
-    const double left = HalfPower(x, y, k, -1, level, &below), right = HalfPower(x, y, k, 1, level, &above);
+    const double left = HalfPower(x, y, k, -1, level, &below),
+                 right = HalfPower(x, y, k, 1, level, &above);
     // The parabola through three points, unequal steps apart.
-    const double a = x[k] - x[k - 1], b = x[k + 1] - x[k], fall = (y[k] - y[k - 1]) / a, rise = (y[k + 1] - y[k]) / b;
+    const double a = x[k] - x[k - 1], b = x[k + 1] - x[k], fall = (y[k] - y[k - 1]) / a,
+                 rise = (y[k + 1] - y[k]) / b;
     const double bend = (rise - fall) / (a + b), slope = (fall * b + rise * a) / (a + b);
     const double shift = bend < 0 ? -0.5 * slope / bend : 0;
     ResponsePeak peak;
@@ -69,7 +71,8 @@ std::vector<UnbalanceCase> StandardUnbalance(const OperatingPoint& point, double
   double total = 0;
   for (std::size_t k = 0; k < radial.size(); ++k) {
     const double det = n * szz - sz * sz;
-    const double load = rig.rotor.mass * (det > 0 ? std::abs((szz - radial[k]->z * sz) / det) : 1 / n);
+    const double load =
+        rig.rotor.mass * (det > 0 ? std::abs((szz - radial[k]->z * sz) / det) : 1 / n);
     cases[0].planes.push_back({radial[k]->z, kilogram_metre * load, 0});
     cases[1].planes.push_back({radial[k]->z, kilogram_metre * load, k % 2 == 0 ? 0 : kPi});
     total += kilogram_metre * load;
@@ -79,7 +82,8 @@ std::vector<UnbalanceCase> StandardUnbalance(const OperatingPoint& point, double
   return cases;
 }
 
-Eigen::VectorXcd UnbalanceAt(const OperatingPoint& point, const ClosedLoop& loop, const UnbalanceCase& unbalance) {
+Eigen::VectorXcd UnbalanceAt(const OperatingPoint& point, const ClosedLoop& loop,
+                             const UnbalanceCase& unbalance) {
   HarmonicInput in;
   in.omega = loop.speed();
   in.pushed = Eigen::VectorXcd::Zero(loop.plant().m());
@@ -92,7 +96,8 @@ Eigen::VectorXcd UnbalanceAt(const OperatingPoint& point, const ClosedLoop& loop
   return loop.Harmonic(in);
 }
 
-std::vector<UnbalanceSweep> SweepUnbalance(const OperatingPoint& point, const std::vector<ClosedLoop>& loops,
+std::vector<UnbalanceSweep> SweepUnbalance(const OperatingPoint& point,
+                                           const std::vector<ClosedLoop>& loops,
                                            const std::vector<UnbalanceCase>& cases) {
   std::vector<UnbalanceSweep> out;
   for (const UnbalanceCase& unbalance : cases) {

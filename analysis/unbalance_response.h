@@ -2,10 +2,10 @@
 /// Synchronous response of the closed loop, exact at the controller's ticks (the unbalance acts
 /// continuously): order 1 over speed, its peaks and their amplification.
 ///
-/// Unbalance of API 617: U = 6350 W/N per plane [g mm, kg, rpm], W the static load of the plane, N the
-/// rated speed: `static` in phase at the bearings, `couple` opposed there, `middle` all of it at the
-/// centre of mass. Amplification factor AF = N_c/(N_2 - N_1) at 0.707 of the peak.
-/// Source: API 617 8th ed.; facts.md 3.
+/// Unbalance of API 617: U = 6350 W/N per plane [g mm, kg, rpm], W the static load of the plane, N
+/// the rated speed: `static` in phase at the bearings, `couple` opposed there, `middle` all of it
+/// at the centre of mass. Amplification factor AF = N_c/(N_2 - N_1) at 0.707 of the peak. Source:
+/// API 617 8th ed.; facts.md 3.
 #include "analysis/closed_loop.h"
 
 namespace ambrig {
@@ -46,10 +46,12 @@ struct UnbalanceSweep {
 };
 
 /// Outputs of `loop` at its own speed.
-Eigen::VectorXcd UnbalanceAt(const OperatingPoint& point, const ClosedLoop& loop, const UnbalanceCase& unbalance);
+Eigen::VectorXcd UnbalanceAt(const OperatingPoint& point, const ClosedLoop& loop,
+                             const UnbalanceCase& unbalance);
 
 /// All cases over the same loops (rising speeds).
-std::vector<UnbalanceSweep> SweepUnbalance(const OperatingPoint& point, const std::vector<ClosedLoop>& loops,
+std::vector<UnbalanceSweep> SweepUnbalance(const OperatingPoint& point,
+                                           const std::vector<ClosedLoop>& loops,
                                            const std::vector<UnbalanceCase>& cases);
 
 }  // namespace ambrig

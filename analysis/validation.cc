@@ -22,16 +22,18 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kRpm = kPi / 30;
 constexpr const char* kQuantities =
-    "mass,centre of mass,transverse inertia,polar inertia,free bending,pinned,natural frequencies,damped frequencies,"
-    "damping ratios,critical speeds,unbalance response,eigenvalues,unstable poles,k_i,horseshoe k_i,k_s,force constant,unstable pole";
+    "mass,centre of mass,transverse inertia,polar inertia,free bending,pinned,natural "
+    "frequencies,damped frequencies,"
+    "damping ratios,critical speeds,unbalance response,eigenvalues,unstable poles,k_i,horseshoe "
+    "k_i,k_s,force constant,unstable pole";
 
 /// The rotor of a validation file.
 struct Subject {
   bool beam = false;
-  BeamFile file;         // beam
-  ReducedRotor rigid;    // else
-  LinearRotor loop;      // rigid with its feedback
-  LinearRotor open;      // with the negative stiffness only
+  BeamFile file;       // beam
+  ReducedRotor rigid;  // else
+  LinearRotor loop;    // rigid with its feedback
+  LinearRotor open;    // with the negative stiffness only
 };
 
 Subject ReadRigid(const TomlTable& root, const TomlTable& rotor) {
@@ -98,10 +100,12 @@ double FromSi(const std::string& unit, double omega) {
 }
 
 /// Frequencies or damping ratios of the modes at a speed, by natural frequency.
-std::vector<double> ModesOf(const Subject& s, const TomlTable& check, const std::string& quantity, const std::string& unit) {
+std::vector<double> ModesOf(const Subject& s, const TomlTable& check, const std::string& quantity,
+                            const std::string& unit) {
   constexpr int kCount = 40;
   auto modes = WhirlModes(RotorOf(s, check), check.Number("speed_rpm", 0) * kRpm, kCount);
-  std::stable_sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.omega_n < b.omega_n; });
+  std::stable_sort(modes.begin(), modes.end(),
+                   [](const auto& a, const auto& b) { return a.omega_n < b.omega_n; });
   const double above = check.Number("above", 0);
   const auto every = static_cast<std::size_t>(check.Integer("every", 1));
   std::vector<double> out;
@@ -139,7 +143,8 @@ std::vector<double> UnbalanceAmplitudes(const Subject& s, const TomlTable& check
 void Eigenvalues(const Subject& s, const TomlTable& check, ValidationRow& row) {
   const auto modes = WhirlModes(RotorOf(s, check), check.Number("speed_rpm", 0) * kRpm, 40);
   for (const auto& pair : check.Rows("published")) {
-    if (pair.size() != 2) check.Fail("published", "rows of two numbers are allowed: [real, imaginary]");
+    if (pair.size() != 2)
+      check.Fail("published", "rows of two numbers are allowed: [real, imaginary]");
     const Complex wanted(pair[0], std::abs(pair[1]));
     Complex nearest = 1e300;
     for (const WhirlMode& m : modes)
@@ -158,9 +163,11 @@ std::vector<double> UnstablePoles(const Subject& s) {
   return out;
 }
 
-std::vector<double> OfRotor(const Subject& s, const TomlTable& check, const std::string& quantity, const std::string& unit) {
+std::vector<double> OfRotor(const Subject& s, const TomlTable& check, const std::string& quantity,
+                            const std::string& unit) {
   if (quantity == "unstable poles") return UnstablePoles(s);
-  if (quantity == "natural frequencies" || quantity == "damped frequencies" || quantity == "damping ratios")
+  if (quantity == "natural frequencies" || quantity == "damped frequencies" ||
+      quantity == "damping ratios")
     return ModesOf(s, check, quantity, unit);
   if (!s.beam) check.Fail("quantity", fmt::format("\"{}\" needs a beam rotor", quantity));
   if (quantity == "unbalance response") return UnbalanceAmplitudes(s, check);
@@ -179,7 +186,8 @@ std::vector<double> OfRotor(const Subject& s, const TomlTable& check, const std:
   }
   if (quantity == "critical speeds") {
     std::vector<double> out;
-    for (const CriticalSpeed& c : CriticalSpeeds(Assemble(beam), count)) out.push_back(FromSi(unit, c.speed));
+    for (const CriticalSpeed& c : CriticalSpeeds(Assemble(beam), count))
+      out.push_back(FromSi(unit, c.speed));
     return out;
   }
   check.Fail("quantity", fmt::format("\"{}\" is a quantity of a rig, not of a rotor", quantity));
@@ -201,11 +209,13 @@ double HorseshoeGain(const OperatingPoint& point, std::size_t bearing, Eigen::In
 
 /// f = k [(i0 + i)²/(g - x)² - (i0 - i)²/(g + x)²]: k from k_i = 4 k i0/g².
 double ForceConstantOf(const RigParameters& rig, const BearingParameters& b, double k_i) {
-  const double gap = b.kind == BearingKind::kOpposed ? b.opposed.gap + b.opposed.gap_constant : b.radial.gap;
+  const double gap =
+      b.kind == BearingKind::kOpposed ? b.opposed.gap + b.opposed.gap_constant : b.radial.gap;
   return k_i * gap * gap / (4 * BiasCurrent(rig, b));
 }
 
-std::vector<double> OfRig(const RigParameters& rig, const TomlTable& check, const std::string& quantity) {
+std::vector<double> OfRig(const RigParameters& rig, const TomlTable& check,
+                          const std::string& quantity) {
   const std::string axis = check.String("axis");
   const OperatingPoint point = FindOperatingPoint(rig);
   for (const AxisCapacity& c : FindCapacity(point)) {
@@ -232,7 +242,8 @@ void Compare(const TomlTable& check, ValidationRow& row, const std::vector<doubl
   const bool nearest = check.Choice("match", "order", "order,nearest") == "nearest";
   if (row.published.empty()) check.Fail("published", "is empty");
   if (!nearest && ours.size() < row.published.size())
-    check.Fail("published", fmt::format("has {}, to compare with: {}", Counted(row.published.size(), "figure"), ours.size()));
+    check.Fail("published", fmt::format("has {}, to compare with: {}",
+                                        Counted(row.published.size(), "figure"), ours.size()));
   for (std::size_t k = 0; k < row.published.size(); ++k) {
     const double p = row.published[k];
     double mine = nearest ? kInfinity : ours[k];
@@ -271,7 +282,9 @@ std::vector<ValidationRow> Validate(const std::string& file) {
     if (row.quantity == "eigenvalues")
       Eigenvalues(subject, check, row);
     else
-      Compare(check, row, of_rig ? OfRig(rig, check, row.quantity) : OfRotor(subject, check, row.quantity, row.unit));
+      Compare(check, row,
+              of_rig ? OfRig(rig, check, row.quantity)
+                     : OfRotor(subject, check, row.quantity, row.unit));
     const double rpm = check.Number("speed_rpm", 0);
     if (rpm != 0) row.quantity += fmt::format(", {:g} rpm", rpm);
     check.RejectUnknownKeys();

@@ -1,6 +1,6 @@
+#include <fmt/format.h>
 #include <csignal>
 #include <cstdio>
-#include <fmt/format.h>
 
 #include "app/commands/analyze.h"
 #include "core/base/errors.h"
@@ -30,7 +30,8 @@ Exit codes: 0 done, 1 an expectation is not met, 2 wrong input, 3 program error,
 
 int Main(int argc, char** argv) {
   ambrig::KeepFreedMemory();
-  CLI::App app{"ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain"};
+  CLI::App app{
+      "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain"};
   app.footer(kExamples);
   app.require_subcommand(1);
   app.set_version_flag("--version", "ambrig 0.1.0");

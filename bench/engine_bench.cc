@@ -13,22 +13,25 @@ namespace {
 constexpr double kSeconds = 0.25;  // simulated, after as much warm-up
 
 const RigParameters& Rig() {
-  static const RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  static const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   return rig;
 }
 
 Scenario Healthy(bool noise, bool detection) {
-  Scenario s = ReadScenarioText("rig = \"r\"\nduration = 0.25\n[speed]\nprofile = [[0.0, 157.0]]\n", "bench", Rig());
+  Scenario s = ReadScenarioText("rig = \"r\"\nduration = 0.25\n[speed]\nprofile = [[0.0, 157.0]]\n",
+                                "bench", Rig());
   s.noise = noise;
   s.fault_tolerant = detection;
   return s;
 }
 
 void Count(benchmark::State& state, double simulated, double coils) {
-  state.counters["x_real_time"] = benchmark::Counter(simulated * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
-  state.counters["ns_per_coil_sample"] = benchmark::Counter(
-      simulated * 450e3 * coils * static_cast<double>(state.iterations()) * 1e-9,
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["x_real_time"] = benchmark::Counter(
+      simulated * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["ns_per_coil_sample"] =
+      benchmark::Counter(simulated * 450e3 * coils * static_cast<double>(state.iterations()) * 1e-9,
+                         benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void Engine(benchmark::State& state) {
@@ -36,7 +39,12 @@ void Engine(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(Simulate(Rig(), scenario, {}));
   Count(state, 2 * kSeconds, 20);
 }
-BENCHMARK(Engine)->ArgNames({"noise", "detection"})->Args({1, 1})->Args({1, 0})->Args({0, 0})->Unit(benchmark::kMillisecond);
+BENCHMARK(Engine)
+    ->ArgNames({"noise", "detection"})
+    ->Args({1, 1})
+    ->Args({1, 0})
+    ->Args({0, 0})
+    ->Unit(benchmark::kMillisecond);
 
 /// Everything on, as on a machine without registers of eight doubles (but for the noise).
 void EngineInHalves(benchmark::State& state) {

@@ -17,34 +17,42 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kFormat = 1;  // of the enumeration and the rows: raise it when row k means another run
+// of the enumeration and the rows: raise it when row k means another run
+constexpr int kFormat = 1;
 constexpr std::size_t kMostRuns = 10'000'000;
 
-std::vector<double> List(const TomlTable& t, const char* key, const std::vector<double>& fallback, double lo, double hi,
-                         const char* unit) {
-  const std::vector<double> values = t.IsNumber(key) ? std::vector<double>{t.Number(key)} : t.Numbers(key, fallback);
-  if (values.empty()) t.Fail(key, fmt::format("= [], allowed: at least one number from {} to {} {}", lo, hi, unit));
+std::vector<double> List(const TomlTable& t, const char* key, const std::vector<double>& fallback,
+                         double lo, double hi, const char* unit) {
+  const std::vector<double> values =
+      t.IsNumber(key) ? std::vector<double>{t.Number(key)} : t.Numbers(key, fallback);
+  if (values.empty())
+    t.Fail(key, fmt::format("= [], allowed: at least one number from {} to {} {}", lo, hi, unit));
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (!(values[k] >= lo && values[k] <= hi))
       t.Fail(key, fmt::format("= {}, allowed: {} to {} {}", values[k], lo, hi, unit));
     for (std::size_t j = 0; j < k; ++j)
-      if (values[j] == values[k]) t.Fail(key, fmt::format("= {} stands twice, allowed: different values", values[k]));
+      if (values[j] == values[k])
+        t.Fail(key, fmt::format("= {} stands twice, allowed: different values", values[k]));
   }
   return values;
 }
 
-double In(const TomlTable& t, const char* key, double fallback, double lo, double hi, const char* unit) {
+double In(const TomlTable& t, const char* key, double fallback, double lo, double hi,
+          const char* unit) {
   const double v = t.Number(key, fallback);
-  if (!(v >= lo && v <= hi)) t.Fail(key, fmt::format("= {}, allowed: {} to {} {}", v, lo, hi, unit));
+  if (!(v >= lo && v <= hi))
+    t.Fail(key, fmt::format("= {}, allowed: {} to {} {}", v, lo, hi, unit));
   return v;
 }
 
 std::vector<std::vector<int>> CoilSets(const TomlTable& t) {
   const std::vector<std::string> names{"none", "single", "double", "triple", "quadruple"};
   if (t.IsString("sets") || !t.Has("sets")) {
-    const std::string which = t.Choice("sets", "none", "none, single, double, triple, quadruple, all");
+    const std::string which =
+        t.Choice("sets", "none", "none, single, double, triple, quadruple, all");
     if (which == "none") return {{}};
-    const auto size = static_cast<std::size_t>(std::find(names.begin(), names.end(), which) - names.begin());
+    const auto size =
+        static_cast<std::size_t>(std::find(names.begin(), names.end(), which) - names.begin());
     std::vector<std::vector<int>> sets = AllFailureSets();
     if (which != "all") std::erase_if(sets, [&](const auto& s) { return s.size() != size; });
     return sets;
@@ -53,13 +61,17 @@ std::vector<std::vector<int>> CoilSets(const TomlTable& t) {
   for (const auto& row : t.Rows("sets")) {
     std::vector<int> set;
     for (const double v : row) {
-      if (v != std::floor(v) || v < 1 || v > kPoles || std::count(set.begin(), set.end(), static_cast<int>(v)) > 0)
-        t.Fail("sets", fmt::format("= [..{}..] in set {}, allowed: different coils from 1 to {}, or none, single, double, "
-                                   "triple, quadruple, all", v, sets.size() + 1, kPoles));
+      if (v != std::floor(v) || v < 1 || v > kPoles ||
+          std::count(set.begin(), set.end(), static_cast<int>(v)) > 0)
+        t.Fail("sets", fmt::format("= [..{}..] in set {}, allowed: different coils from 1 to {}, "
+                                   "or none, single, double, "
+                                   "triple, quadruple, all",
+                                   v, sets.size() + 1, kPoles));
       set.push_back(static_cast<int>(v));
     }
     std::sort(set.begin(), set.end());
-    if (std::count(sets.begin(), sets.end(), set) > 0) t.Fail("sets", fmt::format("= set {} stands twice", sets.size() + 1));
+    if (std::count(sets.begin(), sets.end(), set) > 0)
+      t.Fail("sets", fmt::format("= set {} stands twice", sets.size() + 1));
     sets.push_back(set);
   }
   if (sets.empty()) t.Fail("sets", "= [], allowed: e.g. [[1], [1, 2]]");
@@ -78,7 +90,8 @@ std::vector<std::string> Bearings(const TomlTable& t, const RigParameters& rig) 
   const auto names = t.Strings("bearings");
   if (names.empty()) t.Fail("bearings", "= [], allowed: some of " + known);
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (std::count(radial.begin(), radial.end(), names[k]) == 0 || std::count(names.begin(), names.end(), names[k]) > 1)
+    if (std::count(radial.begin(), radial.end(), names[k]) == 0 ||
+        std::count(names.begin(), names.end(), names[k]) > 1)
       t.Fail("bearings", fmt::format("= \"{}\", allowed: each once of {}", names[k], known));
   return names;
 }
@@ -107,20 +120,26 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
     for (const auto& coils : CoilSets(*t)) c.sets.push_back({b, coils});
   for (const TomlTable& k : t->Tables("kind")) c.kinds.push_back(ReadKind(k));
   const bool healthy = c.sets.front().coils.empty();
-  if (healthy && !c.kinds.empty()) t->Fail("kind", "is given, but sets = \"none\"; allowed: other sets");
-  if (c.kinds.empty()) c.kinds = {healthy ? CampaignFaultKind{"none", "none", {}} : CampaignFaultKind{"open", "open", {}}};
-  std::vector<std::string> onsets = t->Has("onset") && !t->IsString("onset") ? t->Strings("onset")
-                                                                              : std::vector{t->String("onset", "simultaneous")};
+  if (healthy && !c.kinds.empty())
+    t->Fail("kind", "is given, but sets = \"none\"; allowed: other sets");
+  if (c.kinds.empty())
+    c.kinds = {healthy ? CampaignFaultKind{"none", "none", {}}
+                       : CampaignFaultKind{"open", "open", {}}};
+  std::vector<std::string> onsets = t->Has("onset") && !t->IsString("onset")
+                                        ? t->Strings("onset")
+                                        : std::vector{t->String("onset", "simultaneous")};
   for (const auto& o : onsets)
     if (o != "simultaneous" && o != "sequential")
-      t->Fail("onset", fmt::format("= \"{}\", allowed: simultaneous, sequential, or a list of both", o));
+      t->Fail("onset",
+              fmt::format("= \"{}\", allowed: simultaneous, sequential, or a list of both", o));
   std::sort(onsets.begin(), onsets.end(), std::greater<>());  // simultaneous first
   onsets.erase(std::unique(onsets.begin(), onsets.end()), onsets.end());
   if (onsets.empty()) t->Fail("onset", "= [], allowed: simultaneous, sequential");
   for (std::size_t s = 0; s < c.sets.size(); ++s)
     for (std::size_t k = 0; k < c.kinds.size(); ++k)
       for (std::size_t o = 0; o < onsets.size(); ++o)
-        if (o == 0 || c.sets[s].coils.size() > 1) c.cases.push_back({s, k, onsets[o] == "sequential"});
+        if (o == 0 || c.sets[s].coils.size() > 1)
+          c.cases.push_back({s, k, onsets[o] == "sequential"});
   c.fault_time = In(*t, "time", 0.02, 0, 1e5, "s");
   c.spacing = In(*t, "spacing", 0.02, 1e-6, 1e5, "s");
   c.phases = List(*t, "phases", {0.0}, 0, 1, "(share of the control period)");
@@ -128,23 +147,32 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
   std::size_t most = 0;
   for (const FailureSet& s : c.sets) most = std::max(most, s.coils.size());
   const bool sequential = std::count(onsets.begin(), onsets.end(), "sequential") > 0;
-  const double last = c.fault_time + (sequential && most > 0 ? static_cast<double>(most - 1) * c.spacing : 0) + 1 / c.rig.controller.rate;
+  const double last = c.fault_time +
+                      (sequential && most > 0 ? static_cast<double>(most - 1) * c.spacing : 0) +
+                      1 / c.rig.controller.rate;
   for (const Scenario& s : c.scenarios)
     if (!healthy && last >= s.duration)
-      t->Fail("time", fmt::format("= {} s: the last fault comes at {} s, allowed: below the duration of {} s", c.fault_time, last, s.duration));
+      t->Fail(
+          "time",
+          fmt::format("= {} s: the last fault comes at {} s, allowed: below the duration of {} s",
+                      c.fault_time, last, s.duration));
 }
 
 void ReadOperation(const TomlTable& root, Campaign& c) {
   const auto t = root.Table("operation");
   if (!t) return;
   if (t->Has("speeds")) c.speeds = List(*t, "speeds", {}, -1e5, 1e5, "rad/s");
-  c.load_unit = t->Choice("load_unit", "capacity", "capacity, N") == "N" ? LoadUnit::kNewton : LoadUnit::kCapacity;
+  c.load_unit = t->Choice("load_unit", "capacity", "capacity, N") == "N" ? LoadUnit::kNewton
+                                                                         : LoadUnit::kCapacity;
   c.loads = List(*t, "loads", {0.0}, 0, c.load_unit == LoadUnit::kNewton ? 1e6 : 2,
                  c.load_unit == LoadUnit::kNewton ? "N" : "(share of the capacity)");
   c.load_angle = In(*t, "load_angle_deg", -90, -360, 360, "deg") * std::numbers::pi / 180;
   c.positions = List(*t, "positions", {0.0}, 0, 0.9, "(share of the clearance)");
-  if (c.rig.controller.kind != "pid" && std::any_of(c.positions.begin(), c.positions.end(), [](double p) { return p != 0; }))
-    t->Fail("positions", fmt::format("other than 0 with kind = \"{}\" in {}, allowed: with a PID, whose way to a reference is known", c.rig.controller.kind, c.rig.file));
+  if (c.rig.controller.kind != "pid" &&
+      std::any_of(c.positions.begin(), c.positions.end(), [](double p) { return p != 0; }))
+    t->Fail("positions", fmt::format("other than 0 with kind = \"{}\" in {}, allowed: with a PID, "
+                                     "whose way to a reference is known",
+                                     c.rig.controller.kind, c.rig.file));
   c.position_angle = In(*t, "position_angle_deg", 0, -360, 360, "deg") * std::numbers::pi / 180;
   t->RejectUnknownKeys();
 }
@@ -155,15 +183,18 @@ void ReadSpread(const TomlTable& root, Campaign& c) {
   if (!t) return;
   const std::string method = t->Choice("method", "latin-hypercube", "latin-hypercube, sobol");
   const long long draws = t->Integer("draws", 0);
-  if (draws < 1 || draws > 1'000'000) t->Fail("draws", fmt::format("= {}, allowed: 1 to 1000000", draws));
+  if (draws < 1 || draws > 1'000'000)
+    t->Fail("draws", fmt::format("= {}, allowed: 1 to 1000000", draws));
   const long long seed = t->Integer("seed", 1);
   if (seed < 0) t->Fail("seed", fmt::format("= {}, allowed: 0 or more", seed));
   const double scale = In(*t, "scale", 1, 0, 10, "(times the sd)");
   int dimensions = 0;
   for (const Tolerance& k : c.rig.tolerances) dimensions += k.sd > 0 ? 1 : 0;
-  if (dimensions == 0) t->Fail("", fmt::format("nothing to draw: no parameter of {} has an sd", c.rig.file));
+  if (dimensions == 0)
+    t->Fail("", fmt::format("nothing to draw: no parameter of {} has an sd", c.rig.file));
   if (method == "sobol" && dimensions > kSobolDimensions)
-    t->Fail("method", fmt::format("= \"sobol\" with {}, allowed: at most {}", Counted(dimensions, "parameter"), kSobolDimensions));
+    t->Fail("method", fmt::format("= \"sobol\" with {}, allowed: at most {}",
+                                  Counted(dimensions, "parameter"), kSobolDimensions));
   const auto n = static_cast<int>(draws);
   c.draws = method == "sobol" ? Sobol(n, dimensions, static_cast<std::uint64_t>(seed))
                               : LatinHypercube(n, dimensions, static_cast<std::uint64_t>(seed));
@@ -182,7 +213,8 @@ void ReadSeeds(const TomlTable& root, Campaign& c) {
     return;
   }
   const long long n = root.Integer("seeds", 1);
-  if (n < 1 || n > 1'000'000) root.Fail("seeds", fmt::format("= {}, allowed: 1 to 1000000 (how many), or a list", n));
+  if (n < 1 || n > 1'000'000)
+    root.Fail("seeds", fmt::format("= {}, allowed: 1 to 1000000 (how many), or a list", n));
   for (long long k = 1; k <= n; ++k) c.seeds.push_back(static_cast<std::uint64_t>(k));
 }
 
@@ -190,13 +222,15 @@ void ReadSeeds(const TomlTable& root, Campaign& c) {
 std::string ReadScenarios(const TomlTable& root, Campaign& c) {
   std::string texts;
   const double limit = root.Number("drop_limit", 0.1);
-  if (!(limit > 0 && limit <= 1e5)) root.Fail("drop_limit", fmt::format("= {}, allowed: above 0 to 1e5 s", limit));
+  if (!(limit > 0 && limit <= 1e5))
+    root.Fail("drop_limit", fmt::format("= {}, allowed: above 0 to 1e5 s", limit));
   if (root.Has("scenarios")) {
     if (root.Has("duration")) root.Fail("duration", "is given, but the scenarios have their own");
     for (const auto& name : root.Strings("scenarios")) {
       const std::string file = Beside(c.file, name);
       c.scenarios.push_back(ReadScenario(file, c.rig));
-      if (!c.scenarios.back().faults.empty()) root.Fail("scenarios", fmt::format("{} has faults, allowed: only those of [faults]", file));
+      if (!c.scenarios.back().faults.empty())
+        root.Fail("scenarios", fmt::format("{} has faults, allowed: only those of [faults]", file));
       texts += ReadFile(file);
       for (const Excitation& e : c.scenarios.back().excitations)
         for (const double v : e.samples) texts += fmt::format("{} ", v);
@@ -206,7 +240,8 @@ std::string ReadScenarios(const TomlTable& root, Campaign& c) {
     Scenario s;
     s.name = s.file = "levitated";
     s.duration = root.Number("duration");
-    if (!(s.duration > 0 && s.duration <= 1e5)) root.Fail("duration", fmt::format("= {}, allowed: above 0 to 1e5 s", s.duration));
+    if (!(s.duration > 0 && s.duration <= 1e5))
+      root.Fail("duration", fmt::format("= {}, allowed: above 0 to 1e5 s", s.duration));
     c.scenarios.push_back(s);
   }
   for (Scenario& s : c.scenarios) {
@@ -221,8 +256,8 @@ std::string ReadScenarios(const TomlTable& root, Campaign& c) {
 }  // namespace
 
 std::size_t Campaign::runs() const {
-  return scenarios.size() * cases.size() * phases.size() * std::max<std::size_t>(speeds.size(), 1) * loads.size() *
-         positions.size() * draws.size() * seeds.size();
+  return scenarios.size() * cases.size() * phases.size() * std::max<std::size_t>(speeds.size(), 1) *
+         loads.size() * positions.size() * draws.size() * seeds.size();
 }
 
 Campaign ReadCampaign(const std::string& file) {
@@ -240,10 +275,12 @@ Campaign ReadCampaign(const std::string& file) {
   ReadSeeds(root, c);
   root.RejectUnknownKeys();
   double runs = 1;
-  for (const std::size_t n : {c.cases.size(), c.phases.size(), c.loads.size(), c.positions.size(), c.draws.size(),
-                              c.seeds.size(), c.scenarios.size(), std::max<std::size_t>(c.speeds.size(), 1)})
+  for (const std::size_t n :
+       {c.cases.size(), c.phases.size(), c.loads.size(), c.positions.size(), c.draws.size(),
+        c.seeds.size(), c.scenarios.size(), std::max<std::size_t>(c.speeds.size(), 1)})
     runs *= static_cast<double>(n);
-  if (runs > static_cast<double>(kMostRuns)) root.Fail("", fmt::format("describes {:.3g} runs, allowed: up to {}", runs, kMostRuns));
+  if (runs > static_cast<double>(kMostRuns))
+    root.Fail("", fmt::format("describes {:.3g} runs, allowed: up to {}", runs, kMostRuns));
   c.fingerprint = fmt::format("{:016x}", Fingerprint(texts, Fingerprint(std::to_string(kFormat))));
   return c;
 }

@@ -32,19 +32,20 @@ enum class LoadUnit { kCapacity, kNewton };
 struct Campaign {
   std::string name, file, fingerprint;  // of the file and all that it names
   RigParameters rig;
-  std::vector<Scenario> scenarios;      // what every run starts from
+  std::vector<Scenario> scenarios;  // what every run starts from
   std::vector<FailureSet> sets;
   std::vector<CampaignFaultKind> kinds;
   std::vector<FaultCase> cases;
-  double fault_time = 0, spacing = 0;   // [s]
-  std::vector<double> phases{0};        // of the control period
-  std::vector<double> speeds;           // [rad/s]; empty: the scenario's
+  double fault_time = 0, spacing = 0;  // [s]
+  std::vector<double> phases{0};       // of the control period
+  std::vector<double> speeds;          // [rad/s]; empty: the scenario's
   std::vector<double> loads{0};
   LoadUnit load_unit = LoadUnit::kCapacity;
-  double load_angle = 0;                // [rad]
-  std::vector<double> positions{0};     // of the clearance
-  double position_angle = 0;            // [rad]
-  std::vector<std::vector<double>> draws;  // [draw][tolerance with sd]: normal deviates; one empty: nominal
+  double load_angle = 0;             // [rad]
+  std::vector<double> positions{0};  // of the clearance
+  double position_angle = 0;         // [rad]
+  // [draw][tolerance with sd]: normal deviates; one empty: nominal
+  std::vector<std::vector<double>> draws;
   std::vector<std::uint64_t> seeds{1};
 
   std::size_t runs() const;

@@ -15,7 +15,8 @@ constexpr double kLeastShare = 1e-4;  // lower end of the area under a curve
 /// The entry of a list with this name, made at its end when it is not there.
 template <class T>
 T& Named(std::vector<T>& list, std::string T::*name, const std::string& value) {
-  const auto it = std::find_if(list.begin(), list.end(), [&](const T& one) { return one.*name == value; });
+  const auto it =
+      std::find_if(list.begin(), list.end(), [&](const T& one) { return one.*name == value; });
   if (it != list.end()) return *it;
   list.emplace_back();
   list.back().*name = value;
@@ -26,7 +27,8 @@ T& Named(std::vector<T>& list, std::string T::*name, const std::string& value) {
 void AddWindows(FalseAlarmCurve& c, const DetectorOutcome& o) {
   c.share.resize(kStatisticLevels);
   for (const auto& [level, count] : o.windows) {
-    c.share[static_cast<std::size_t>(std::clamp(level, 0, kStatisticLevels - 1))] += static_cast<double>(count);
+    c.share[static_cast<std::size_t>(std::clamp(level, 0, kStatisticLevels - 1))] +=
+        static_cast<double>(count);
     c.windows += count;
   }
 }
@@ -82,10 +84,12 @@ double DetectedAt(const std::vector<double>& false_alarm, const FaultCurve& c, d
 
 double Area(const FalseAlarmCurve& healthy, const FaultCurve& c) {
   constexpr int kSteps = 200;
-  const double low = std::log10(std::max(kLeastShare, 1 / static_cast<double>(std::max(healthy.windows, 1L))));
+  const double low =
+      std::log10(std::max(kLeastShare, 1 / static_cast<double>(std::max(healthy.windows, 1L))));
   if (low >= 0) return 0;
   double sum = 0;
-  for (int k = 0; k < kSteps; ++k) sum += DetectedAt(healthy.share, c, std::pow(10.0, low * (1 - (k + 0.5) / kSteps)));
+  for (int k = 0; k < kSteps; ++k)
+    sum += DetectedAt(healthy.share, c, std::pow(10.0, low * (1 - (k + 0.5) / kSteps)));
   return sum / kSteps;
 }
 
@@ -97,7 +101,8 @@ void Judge(DetectorCurves& d, const DetectorStudy& study) {
   for (FaultCurve& c : d.faults) {
     c.area = Area(d.all, c);
     d.score += c.detected[level] / static_cast<double>(d.faults.size());
-    d.mean_delay += std::min(c.median[level], study.trial.window) / static_cast<double>(d.faults.size());
+    d.mean_delay +=
+        std::min(c.median[level], study.trial.window) / static_cast<double>(d.faults.size());
   }
 }
 
@@ -106,7 +111,8 @@ void Judge(DetectorCurves& d, const DetectorStudy& study) {
 std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& rows) {
   const double T = 1 / study.faulty.rig.amplifier.switching_frequency;
   std::vector<DetectorStudyRow> parsed;
-  for (const auto& [run, row] : rows) parsed.push_back(ParseDetectorStudyRow(row, study.detectors.size()));
+  for (const auto& [run, row] : rows)
+    parsed.push_back(ParseDetectorStudyRow(row, study.detectors.size()));
   std::vector<DetectorCurves> out;
   for (std::size_t k = 0; k < study.detectors.size(); ++k) {
     const CoilDetectorKind& kind = study.detectors[k];
@@ -124,8 +130,10 @@ std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& row
         AddWindows(Named(d.scenarios, &FalseAlarmCurve::scenario, row.scenario), row.outcomes[k]);
         continue;
       }
-      auto& list = Named(faults, &std::pair<std::string, std::vector<Fault>>::first, row.kind).second;
-      list.push_back({(std::floor(row.fault_time / T + 1e-6) + 1) * T - row.fault_time, &row.outcomes[k]});
+      auto& list =
+          Named(faults, &std::pair<std::string, std::vector<Fault>>::first, row.kind).second;
+      list.push_back(
+          {(std::floor(row.fault_time / T + 1e-6) + 1) * T - row.fault_time, &row.outcomes[k]});
     }
     Finish(d.all);
     for (FalseAlarmCurve& c : d.scenarios) Finish(c);

@@ -18,22 +18,28 @@ namespace {
 
 constexpr int kFormat = 1;  // of the rows: raise it when a cell means something else
 
-double In(const TomlTable& t, const char* key, double fallback, double lo, double hi, const char* unit) {
+double In(const TomlTable& t, const char* key, double fallback, double lo, double hi,
+          const char* unit) {
   const double v = t.Number(key, fallback);
-  if (!(v >= lo && v <= hi)) t.Fail(key, fmt::format("= {}, allowed: {} to {} {}", v, lo, hi, unit));
+  if (!(v >= lo && v <= hi))
+    t.Fail(key, fmt::format("= {}, allowed: {} to {} {}", v, lo, hi, unit));
   return v;
 }
 
 std::vector<CoilDetectorKind> ReadDetectors(const TomlTable& t) {
   const auto all = CoilDetectorKinds();
   std::string names;
-  for (const CoilDetectorKind& k : all) names += fmt::format("{}{}", names.empty() ? "" : ", ", k.name);
+  for (const CoilDetectorKind& k : all)
+    names += fmt::format("{}{}", names.empty() ? "" : ", ", k.name);
   std::vector<CoilDetectorKind> out;
   if (!t.Has("detectors")) return {all.begin(), all.end()};
   for (const std::string& name : t.Strings("detectors")) {
-    const auto it = std::find_if(all.begin(), all.end(), [&](const CoilDetectorKind& k) { return k.name == name; });
-    const bool twice = std::any_of(out.begin(), out.end(), [&](const CoilDetectorKind& k) { return k.name == name; });
-    if (it == all.end() || twice) t.Fail("detectors", fmt::format("= \"{}\", allowed: each once of {}", name, names));
+    const auto it = std::find_if(all.begin(), all.end(),
+                                 [&](const CoilDetectorKind& k) { return k.name == name; });
+    const bool twice = std::any_of(out.begin(), out.end(),
+                                   [&](const CoilDetectorKind& k) { return k.name == name; });
+    if (it == all.end() || twice)
+      t.Fail("detectors", fmt::format("= \"{}\", allowed: each once of {}", name, names));
     out.push_back(*it);
   }
   if (out.empty()) t.Fail("detectors", "= [], allowed: some of " + names);
@@ -42,26 +48,38 @@ std::vector<CoilDetectorKind> ReadDetectors(const TomlTable& t) {
 
 void CheckHealthy(const TomlTable& t, const DetectorStudy& s) {
   for (const FailureSet& set : s.healthy.sets)
-    if (!set.coils.empty()) t.Fail("healthy", fmt::format("= \"{}\" has faults, allowed: a campaign with sets = \"none\"", s.healthy.file));
+    if (!set.coils.empty())
+      t.Fail("healthy", fmt::format("= \"{}\" has faults, allowed: a campaign with sets = \"none\"",
+                                    s.healthy.file));
   const double least = s.trial.begin + s.trial.settle + s.trial.window;
   for (const Scenario& one : s.healthy.scenarios)
     if (one.duration < least)
-      t.Fail("healthy", fmt::format("= \"{}\": {} lasts {} s, allowed: at least begin + settle + window, {} s", s.healthy.file, one.name, one.duration, least));
+      t.Fail("healthy",
+             fmt::format("= \"{}\": {} lasts {} s, allowed: at least begin + settle + window, {} s",
+                         s.healthy.file, one.name, one.duration, least));
 }
 
 void CheckFaulty(const TomlTable& t, const DetectorStudy& s) {
   for (const FailureSet& set : s.faulty.sets)
     if (set.coils.size() != 1)
-      t.Fail("faulty", fmt::format("= \"{}\" has a run with {}, allowed: a campaign of sets of one coil", s.faulty.file, Counted(set.coils.size(), "fault")));
-  const double last = s.faulty.fault_time + *std::max_element(s.faulty.phases.begin(), s.faulty.phases.end()) / s.faulty.rig.controller.rate;
+      t.Fail("faulty",
+             fmt::format("= \"{}\" has a run with {}, allowed: a campaign of sets of one coil",
+                         s.faulty.file, Counted(set.coils.size(), "fault")));
+  const double last =
+      s.faulty.fault_time + *std::max_element(s.faulty.phases.begin(), s.faulty.phases.end()) /
+                                s.faulty.rig.controller.rate;
   for (const Scenario& one : s.faulty.scenarios)
     if (one.duration < last + s.trial.window)
-      t.Fail("faulty", fmt::format("= \"{}\": {} ends at {} s, allowed: not before the window after the fault, {} s", s.faulty.file, one.name, one.duration, last + s.trial.window));
+      t.Fail("faulty",
+             fmt::format(
+                 "= \"{}\": {} ends at {} s, allowed: not before the window after the fault, {} s",
+                 s.faulty.file, one.name, one.duration, last + s.trial.window));
 }
 
 std::string HealthyText(const DetectorOutcome& o) {
   std::string text;
-  for (const auto& [level, count] : o.windows) text += fmt::format("{}{}:{}", text.empty() ? "" : " ", level, count);
+  for (const auto& [level, count] : o.windows)
+    text += fmt::format("{}{}:{}", text.empty() ? "" : " ", level, count);
   return text;
 }
 
@@ -69,7 +87,8 @@ std::string FaultyText(const DetectorOutcome& o) {
   std::string text = "coil";
   for (const LevelReached& r : o.coil) text += fmt::format(" {}:{}", r.period, r.level);
   text += " bearing";
-  for (const LevelReached& r : o.bearing) text += fmt::format(" {}:{}:{}", r.period, r.level, r.right ? 1 : 0);
+  for (const LevelReached& r : o.bearing)
+    text += fmt::format(" {}:{}:{}", r.period, r.level, r.right ? 1 : 0);
   return text;
 }
 
@@ -97,7 +116,8 @@ DetectorOutcome ParseOutcome(const std::string& cell, bool faulty) {
     if (word == "coil" || word == "bearing") {
       list = word == "coil" ? &out.coil : &out.bearing;
     } else if (std::sscanf(word.c_str(), "%d:%d:%d", &a, &b, &right) < 2 || (faulty && !list)) {
-      throw InputError(fmt::format("\"{}\": allowed: level:windows, or period:level after coil or bearing", word));
+      throw InputError(fmt::format(
+          "\"{}\": allowed: level:windows, or period:level after coil or bearing", word));
     } else if (faulty) {
       list->push_back({a, b, right != 0});
     } else {
@@ -126,10 +146,14 @@ DetectorStudy ReadDetectorStudy(const std::string& file) {
   root.RejectUnknownKeys();
   for (const Campaign* c : {&s.healthy, &s.faulty})
     if (c->rig.amplifier.modulation != Modulation::kBiState)
-      root.Fail(c == &s.healthy ? "healthy" : "faulty", fmt::format("= \"{}\": {}, allowed: a rig with bi-state bridges (slopes need both phases)", c->file, c->rig.file));
+      root.Fail(c == &s.healthy ? "healthy" : "faulty",
+                fmt::format(
+                    "= \"{}\": {}, allowed: a rig with bi-state bridges (slopes need both phases)",
+                    c->file, c->rig.file));
   // A threshold is set for one kind of bearing: where the faults are.
   s.trial.kinds.clear();
-  for (const FailureSet& set : s.faulty.sets) s.trial.kinds.push_back(s.faulty.rig.Find(set.bearing)->kind);
+  for (const FailureSet& set : s.faulty.sets)
+    s.trial.kinds.push_back(s.faulty.rig.Find(set.bearing)->kind);
   CheckHealthy(root, s);
   CheckFaulty(root, s);
   const std::string texts = ReadFile(file) + s.healthy.fingerprint + s.faulty.fingerprint;
@@ -141,11 +165,13 @@ DetectorStudyPlan::DetectorStudyPlan(const DetectorStudy& study)
     : study_(study), healthy_(study.healthy), faulty_(study.faulty) {}
 
 JournalHeader DetectorStudyPlan::Header() const {
-  return {study_.name, std::filesystem::absolute(study_.file).lexically_normal().string(), study_.fingerprint, study_.runs()};
+  return {study_.name, std::filesystem::absolute(study_.file).lexically_normal().string(),
+          study_.fingerprint, study_.runs()};
 }
 
 std::vector<std::string> DetectorStudyPlan::Columns() const {
-  std::vector<std::string> out = {"run", "part", "scenario", "coil", "kind", "fault_time [s]", "draw", "seed"};
+  std::vector<std::string> out = {"run",  "part",           "scenario", "coil",
+                                  "kind", "fault_time [s]", "draw",     "seed"};
   for (const CoilDetectorKind& k : study_.detectors) out.emplace_back(k.name);
   out.emplace_back("note");
   return out;
@@ -158,13 +184,18 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
   const FaultCase& fault = plan.campaign().cases[p.at.fault];
   Row row;
   row.run = run;
-  row.cells = {std::to_string(run), faulty ? "faulty" : "healthy",
+  row.cells = {std::to_string(run),
+               faulty ? "faulty" : "healthy",
                OneCell(std::filesystem::path(p.scenario.file).stem().string()),
                faulty ? SetText(plan.campaign().sets[fault.set]) : "",
                faulty ? OneCell(plan.campaign().kinds[fault.kind].label) : "",
-               faulty ? NumberText(p.scenario.faults.front().time) : "", std::to_string(p.at.draw), std::to_string(p.scenario.seed)};
+               faulty ? NumberText(p.scenario.faults.front().time) : "",
+               std::to_string(p.at.draw),
+               std::to_string(p.scenario.seed)};
   // A longer run would only repeat what nobody looks at.
-  if (faulty) p.scenario.duration = std::min(p.scenario.duration, p.scenario.faults.front().time + study_.trial.window + 1e-4);
+  if (faulty)
+    p.scenario.duration =
+        std::min(p.scenario.duration, p.scenario.faults.front().time + study_.trial.window + 1e-4);
   try {
     DetectorTrial trial(p.rig, p.scenario, study_.detectors, study_.trial);
     EngineOptions engine;
@@ -172,7 +203,8 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
     engine.supervisor = &trial;
     engine.stop = stop;
     SwitchingEngine(p.rig, p.scenario, engine).Run();
-    for (const DetectorOutcome& o : trial.Take()) row.cells.push_back(faulty ? FaultyText(o) : HealthyText(o));
+    for (const DetectorOutcome& o : trial.Take())
+      row.cells.push_back(faulty ? FaultyText(o) : HealthyText(o));
     row.cells.emplace_back();
   } catch (const Interrupted&) {
     throw;
@@ -187,7 +219,9 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
 
 DetectorStudyRow ParseDetectorStudyRow(const Row& row, std::size_t detectors) {
   if (row.cells.size() != kConditions + detectors + 1)
-    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a study of {}", row.run, Counted(row.cells.size(), "cell"), kConditions + detectors + 1, Counted(detectors, "detector")));
+    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a study of {}", row.run,
+                                 Counted(row.cells.size(), "cell"), kConditions + detectors + 1,
+                                 Counted(detectors, "detector")));
   DetectorStudyRow out;
   out.faulty = row.cells[1] == "faulty";
   out.scenario = row.cells[2];
@@ -196,7 +230,8 @@ DetectorStudyRow ParseDetectorStudyRow(const Row& row, std::size_t detectors) {
   out.fault_time = out.faulty ? std::atof(row.cells[5].c_str()) : 0;
   out.note = row.cells.back();
   if (!out.note.empty()) return out;
-  for (std::size_t k = 0; k < detectors; ++k) out.outcomes.push_back(ParseOutcome(row.cells[kConditions + k], out.faulty));
+  for (std::size_t k = 0; k < detectors; ++k)
+    out.outcomes.push_back(ParseOutcome(row.cells[kConditions + k], out.faulty));
   return out;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// A study file (TOML): detectors of coil faults on the same healthy and faulty runs. The runs are those
-/// of two campaign files; docs/guide/detectors.md explains each key by example.
+/// A study file (TOML): detectors of coil faults on the same healthy and faulty runs. The runs are
+/// those of two campaign files; docs/guide/detectors.md explains each key by example.
 #include "campaign/journal.h"
 #include "campaign/run_plan.h"
 #include "scenarios/detector_trial.h"
@@ -12,7 +12,8 @@ struct DetectorStudy {
   Campaign healthy, faulty;             // the latter: one coil fault in every run
   std::vector<CoilDetectorKind> detectors;
   TrialSettings trial;
-  double budget = 1e-4;                 // false alarms per coil and window at which detectors are compared
+  // false alarms per coil and window at which detectors are compared
+  double budget = 1e-4;
 
   std::size_t runs() const { return healthy.runs() + faulty.runs(); }
 };
@@ -28,8 +29,8 @@ class DetectorStudyPlan {
   JournalHeader Header() const;
   /// Columns of the table: conditions, one per detector, note.
   std::vector<std::string> Columns() const;
-  /// Simulates a run with all detectors watching and none acting. Thread-safe. A run that the program
-  /// cannot finish is a row too, its reason in the note. @throws Interrupted
+  /// Simulates a run with all detectors watching and none acting. Thread-safe. A run that the
+  /// program cannot finish is a row too, its reason in the note. @throws Interrupted
   Row Simulate(std::size_t run, const std::atomic<bool>* stop) const;
 
  private:
@@ -40,9 +41,11 @@ class DetectorStudyPlan {
 /// What a row says.
 struct DetectorStudyRow {
   bool faulty = false;
-  double fault_time = 0;                       // [s]
-  std::string scenario, kind, coil, note;      // kind and coil of the fault: "partial-short fraction=0.1", "A:3"
-  std::vector<DetectorOutcome> outcomes;       // one per detector; empty when the run could not be finished
+  double fault_time = 0;  // [s]
+  // kind and coil of the fault: "partial-short fraction=0.1", "A:3"
+  std::string scenario, kind, coil, note;
+  // one per detector; empty when the run could not be finished
+  std::vector<DetectorOutcome> outcomes;
 };
 /// @throws InputError when it is no row of a study with that many detectors.
 DetectorStudyRow ParseDetectorStudyRow(const Row& row, std::size_t detectors);

@@ -15,11 +15,17 @@ namespace {
 
 constexpr int kVersion = 1;
 
-std::string PathOf(const std::string& folder) { return (std::filesystem::path(folder) / "journal.txt").string(); }
+std::string PathOf(const std::string& folder) {
+  return (std::filesystem::path(folder) / "journal.txt").string();
+}
 
 std::string HeaderText(const JournalHeader& h) {
-  return nlohmann::ordered_json{{"ambrig_campaign", kVersion}, {"name", h.name}, {"file", h.file},
-                                {"fingerprint", h.fingerprint}, {"runs", h.runs}}.dump();
+  return nlohmann::ordered_json{{"ambrig_campaign", kVersion},
+                                {"name", h.name},
+                                {"file", h.file},
+                                {"fingerprint", h.fingerprint},
+                                {"runs", h.runs}}
+      .dump();
 }
 
 JournalHeader ParseHeader(std::string_view text, const std::string& path) {
@@ -39,7 +45,8 @@ JournalContent Parse(const std::string& text, const std::string& path) {
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const bool whole = end < text.size();
-    const std::string_view content = whole ? Unchecked(std::string_view(text).substr(begin, end - begin)) : std::string_view{};
+    const std::string_view content =
+        whole ? Unchecked(std::string_view(text).substr(begin, end - begin)) : std::string_view{};
     begin = end + 1;
     if (++number == 1) {
       out.header = ParseHeader(content, path);
@@ -51,7 +58,8 @@ JournalContent Parse(const std::string& text, const std::string& path) {
     }
     Row row = ParseRow(content, fmt::format("{}:{}", path, number));
     if (row.run >= out.header.runs)
-      throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, number, row.run, out.header.runs - 1));
+      throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, number, row.run,
+                                   out.header.runs - 1));
     const std::size_t run = row.run;
     out.rows.insert_or_assign(run, std::move(row));
   }
@@ -61,15 +69,19 @@ JournalContent Parse(const std::string& text, const std::string& path) {
 }  // namespace
 
 JournalHeader HeaderOf(const Campaign& c) {
-  return {c.name, std::filesystem::absolute(c.file).lexically_normal().string(), c.fingerprint, c.runs()};
+  return {c.name, std::filesystem::absolute(c.file).lexically_normal().string(), c.fingerprint,
+          c.runs()};
 }
 
 bool HasJournal(const std::string& folder) { return std::filesystem::exists(PathOf(folder)); }
 
 JournalContent ReadJournal(const std::string& folder) {
-  if (!HasJournal(folder)) throw InputError(fmt::format("{}: no campaign's results, allowed: a folder with journal.txt", folder));
+  if (!HasJournal(folder))
+    throw InputError(
+        fmt::format("{}: no campaign's results, allowed: a folder with journal.txt", folder));
   const std::string path = PathOf(folder), text = ReadFile(path);
-  if (text.empty()) throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
+  if (text.empty())
+    throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
   return Parse(text, path);
 }
 
@@ -84,8 +96,10 @@ Journal::Journal(const std::string& folder, const JournalHeader& header) : file_
   }
   JournalContent content = Parse(text, path);
   if (content.header.fingerprint != header.fingerprint || content.header.runs != header.runs)
-    throw InputError(fmt::format("{}: holds runs of {} before it, its rig or a scenario was changed; allowed: the same files, or another folder with -o",
-                                 path, content.header.file));
+    throw InputError(
+        fmt::format("{}: holds runs of {} before it, its rig or a scenario was changed; allowed: "
+                    "the same files, or another folder with -o",
+                    path, content.header.file));
   rows_ = std::move(content.rows);
   damaged_ = content.damaged;
   // A half line is ended, so that the next one stands alone.

@@ -15,7 +15,8 @@ std::string Missing(const JournalContent& c) {
     if (c.rows.contains(run)) continue;
     if (++count <= 5) text += (count > 1 ? ", " : "") + std::to_string(run);
   }
-  return fmt::format("{} of {} runs {} missing ({}{})", count, c.header.runs, count == 1 ? "is" : "are", text, count > 5 ? ", ..." : "");
+  return fmt::format("{} of {} runs {} missing ({}{})", count, c.header.runs,
+                     count == 1 ? "is" : "are", text, count > 5 ? ", ..." : "");
 }
 
 }  // namespace
@@ -26,16 +27,22 @@ JournalContent MergeJournals(const std::vector<std::string>& folders, bool parti
     JournalContent part = ReadJournal(folder);
     if (all.header.fingerprint.empty()) all.header = part.header;
     if (part.header.fingerprint != all.header.fingerprint || part.header.runs != all.header.runs)
-      throw InputError(fmt::format("{}: is of another campaign, rig or version of them than {}; allowed: shards of one", folder, folders.front()));
+      throw InputError(fmt::format(
+          "{}: is of another campaign, rig or version of them than {}; allowed: shards of one",
+          folder, folders.front()));
     all.damaged += part.damaged;
     for (auto& [run, row] : part.rows) {
       const auto [it, fresh] = all.rows.try_emplace(run, row);
       if (!fresh && it->second.cells != row.cells)
-        throw InputError(fmt::format("{}: row of run {} differs from that of another folder, allowed: equal rows (same program on all machines)", folder, run));
+        throw InputError(
+            fmt::format("{}: row of run {} differs from that of another folder, allowed: equal "
+                        "rows (same program on all machines)",
+                        folder, run));
     }
   }
   if (!partial && all.rows.size() < all.header.runs)
-    throw InputError(fmt::format("{}: {}; allowed: all shards, or --partial", folders.front(), Missing(all)));
+    throw InputError(
+        fmt::format("{}: {}; allowed: all shards, or --partial", folders.front(), Missing(all)));
   return all;
 }
 
@@ -55,7 +62,8 @@ RowCounts CountRows(const Rows& rows) {
     n.wrong_class += failed - static_cast<std::size_t>(row.Number("right_class"));
     n.false_alarms += row.Number("false_alarms");
     n.coil_periods += row.Number("coil_periods");
-    if (!row.At("detection_delay").empty()) n.worst_delay = std::max(n.worst_delay, row.Number("detection_delay"));
+    if (!row.At("detection_delay").empty())
+      n.worst_delay = std::max(n.worst_delay, row.Number("detection_delay"));
     if (verdict == "up") n.largest_orbit = std::max(n.largest_orbit, row.Number("peak_orbit"));
   }
   return n;

@@ -31,8 +31,13 @@ struct Faults {
 Faults CountFaults(const Scenario& s, const RunResult& r) {
   Faults n;
   for (const FaultSpec& f : s.faults) {
-    const auto matches = [&](const RunEvent& e, const char* kind) { return e.kind == kind && e.target == f.target && e.t >= f.time; };
-    n.detected += std::any_of(r.events.begin(), r.events.end(), [&](const RunEvent& e) { return matches(e, "detected"); }) ? 1 : 0;
+    const auto matches = [&](const RunEvent& e, const char* kind) {
+      return e.kind == kind && e.target == f.target && e.t >= f.time;
+    };
+    n.detected += std::any_of(r.events.begin(), r.events.end(),
+                              [&](const RunEvent& e) { return matches(e, "detected"); })
+                      ? 1
+                      : 0;
     // The last diagnosis counts: a class may be refined while more is seen of the coil.
     std::string last;
     for (const RunEvent& e : r.events)
@@ -64,7 +69,9 @@ std::vector<std::string> Conditions(const RunPlan& plan, const PlannedRun& p) {
           std::to_string(set.coils.size()),
           p.theory.cls,
           c.kinds[f.kind].label,
-          set.coils.empty() ? "" : f.sequential ? "sequential" : "simultaneous",
+          set.coils.empty() ? ""
+          : f.sequential    ? "sequential"
+                            : "simultaneous",
           p.scenario.faults.empty() ? "" : NumberText(p.scenario.faults.front().time),
           NumberText(p.speed),
           NumberText(c.loads[p.at.load]),
@@ -78,9 +85,12 @@ std::vector<std::string> Conditions(const RunPlan& plan, const PlannedRun& p) {
 std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r) {
   const RunMetrics& m = r.metrics;
   const Faults n = CountFaults(p.scenario, r);
-  const bool finite = std::isfinite(LargestOrbit(p, r)) && std::isfinite(m.copper_loss) && std::isfinite(m.peak_current);
+  const bool finite = std::isfinite(LargestOrbit(p, r)) && std::isfinite(m.copper_loss) &&
+                      std::isfinite(m.peak_current);
   if (!finite) throw std::runtime_error("the run is not finite");
-  return {r.drop ? "drop" : r.touchdown ? "touchdown" : "up",
+  return {r.drop        ? "drop"
+          : r.touchdown ? "touchdown"
+                        : "up",
           std::to_string(n.detected),
           std::to_string(n.right_class),
           Optional(m.detection_delay),
@@ -100,19 +110,44 @@ std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r) {
 }  // namespace
 
 const std::vector<std::string>& RowColumns() {
-  static const std::vector<std::string> columns{
-      "run", "scenario", "set", "failed", "class", "kind", "onset", "fault_time [s]", "speed [rad/s]", "load_given", "load [N]",
-      "capacity [N]", "position", "draw", "seed",
-      "verdict", "detected", "right_class", "detection_delay [s]", "redistribution_delay [s]", "false_alarms", "coil_periods",
-      "peak_orbit [m]", "bearing_orbit [m]", "late_orbit [m]", "clearance_left [m]", "longest_contact [s]", "peak_current [A]",
-      "copper_loss [W]", "note"};
+  static const std::vector<std::string> columns{"run",
+                                                "scenario",
+                                                "set",
+                                                "failed",
+                                                "class",
+                                                "kind",
+                                                "onset",
+                                                "fault_time [s]",
+                                                "speed [rad/s]",
+                                                "load_given",
+                                                "load [N]",
+                                                "capacity [N]",
+                                                "position",
+                                                "draw",
+                                                "seed",
+                                                "verdict",
+                                                "detected",
+                                                "right_class",
+                                                "detection_delay [s]",
+                                                "redistribution_delay [s]",
+                                                "false_alarms",
+                                                "coil_periods",
+                                                "peak_orbit [m]",
+                                                "bearing_orbit [m]",
+                                                "late_orbit [m]",
+                                                "clearance_left [m]",
+                                                "longest_contact [s]",
+                                                "peak_current [A]",
+                                                "copper_loss [W]",
+                                                "note"};
   return columns;
 }
 
 std::string SetText(const FailureSet& set) {
   if (set.coils.empty()) return set.bearing + ":healthy";
   std::string text;
-  for (const int coil : set.coils) text += (text.empty() ? set.bearing + ":" : "+") + std::to_string(coil);
+  for (const int coil : set.coils)
+    text += (text.empty() ? set.bearing + ":" : "+") + std::to_string(coil);
   return text;
 }
 
@@ -129,7 +164,8 @@ const std::string& Row::At(std::string_view column) const {
   });
   Require(it != columns.end(), "a column of the table");
   if (cells.size() != columns.size())
-    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a campaign's row", run, Counted(cells.size(), "cell"), columns.size()));
+    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a campaign's row", run,
+                                 Counted(cells.size(), "cell"), columns.size()));
   return cells[static_cast<std::size_t>(it - columns.begin())];
 }
 
@@ -150,7 +186,8 @@ Row ParseRow(std::string_view csv, const std::string& where) {
   const std::string& id = row.cells.front();
   const auto [last, error] = std::from_chars(id.data(), id.data() + id.size(), row.run);
   if (error != std::errc{} || last != id.data() + id.size())
-    throw InputError(fmt::format("{}: no row of a campaign, allowed: cells from the run's number on", where));
+    throw InputError(
+        fmt::format("{}: no row of a campaign, allowed: cells from the run's number on", where));
   return row;
 }
 

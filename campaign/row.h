@@ -19,7 +19,7 @@ struct Row {
   std::string Csv() const;
   /// @throws std::logic_error for an unknown column, InputError when the row is not a campaign's.
   const std::string& At(std::string_view column) const;
-  double Number(std::string_view column) const;          // nan for an empty cell
+  double Number(std::string_view column) const;  // nan for an empty cell
 };
 
 /// @throws InputError when the text has no run number.

@@ -44,8 +44,8 @@ RunIndex IndexOf(const Campaign& c, std::size_t run) {
 RunPlan::RunPlan(const Campaign& campaign) : campaign_(campaign) {
   for (const BearingParameters& b : campaign_.rig.bearings)
     if (b.kind == BearingKind::kRadial)
-      tables_[b.name] = std::make_unique<RedistributionTable>(RedistributionProblemOf(campaign_.rig, b),
-                                                              RedistributionCacheDirectory());
+      tables_[b.name] = std::make_unique<RedistributionTable>(
+          RedistributionProblemOf(campaign_.rig, b), RedistributionCacheDirectory());
 }
 
 SetCapacity RunPlan::Theory(const FailureSet& set, const CampaignFaultKind& kind) const {
@@ -114,8 +114,9 @@ void RunPlan::AddPosition(PlannedRun& p) const {
   e.kind = "samples";
   e.stop = p.scenario.duration + 1;
   e.sample_rate = rate;
-  // Quasi-static, with e = r - x: kp e + ki ∫e dt + ks x = 0 (negative stiffness ks), so that without the
-  // lead e the shaft would run past the reference by ks / (kp - ks) until the integral has settled.
+  // Quasi-static, with e = r - x: kp e + ki ∫e dt + ks x = 0 (negative stiffness ks), so that
+  // without the lead e the shaft would run past the reference by ks / (kp - ks) until the integral
+  // has settled.
   const PidParameters& pid = PidOf(p.rig, b);
   const double ks = tables_.at(b.name)->Lookup(Coils(Coils::Ones())).stiffness(0, 0);
   const auto samples = static_cast<std::size_t>(std::ceil(p.scenario.duration * rate)) + 1;
@@ -131,7 +132,8 @@ void RunPlan::AddPosition(PlannedRun& p) const {
   const auto axes = b.Axes();
   for (std::size_t a = 0; a < axes.size(); ++a) {
     e.target = axes[a];
-    e.amplitude = radius * (a == 0 ? std::cos(campaign_.position_angle) : std::sin(campaign_.position_angle));
+    e.amplitude =
+        radius * (a == 0 ? std::cos(campaign_.position_angle) : std::sin(campaign_.position_angle));
     p.scenario.excitations.push_back(e);
   }
 }

@@ -8,7 +8,8 @@ namespace ambrig {
 
 /// Indices of run k in the campaign's lists; the last one counts fastest.
 struct RunIndex {
-  std::size_t scenario = 0, fault = 0, phase = 0, speed = 0, load = 0, position = 0, draw = 0, seed = 0;
+  std::size_t scenario = 0, fault = 0, phase = 0, speed = 0, load = 0, position = 0, draw = 0,
+              seed = 0;
 };
 
 RunIndex IndexOf(const Campaign& c, std::size_t run);
@@ -22,12 +23,12 @@ struct SetCapacity {
 struct PlannedRun {
   std::size_t run = 0;
   RunIndex at;
-  RigParameters rig;      // tolerances carry this draw as `fitted`: the plant's values
+  RigParameters rig;  // tolerances carry this draw as `fitted`: the plant's values
   Scenario scenario;
-  std::string bearing;    // that the faults and the load act on
+  std::string bearing;  // that the faults and the load act on
   SetCapacity theory;
-  double speed = 0;       // at the fault [rad/s]
-  double load = 0;        // added to the weight [N]
+  double speed = 0;  // at the fault [rad/s]
+  double load = 0;   // added to the weight [N]
 };
 
 class RunPlan {

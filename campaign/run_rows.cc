@@ -18,12 +18,14 @@ Shard ParseShard(const std::string& text) {
     return error == std::errc{} && end == s.data() + s.size();
   };
   const std::string_view all = text;
-  if (slash == std::string::npos || !number(all.substr(0, slash), i) || !number(all.substr(slash + 1), n) || i < 1 || i > n)
+  if (slash == std::string::npos || !number(all.substr(0, slash), i) ||
+      !number(all.substr(slash + 1), n) || i < 1 || i > n)
     throw InputError(fmt::format("--shard = {}, allowed: i/n with 1 <= i <= n, e.g. 2/4", text));
   return {i - 1, n};
 }
 
-std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard, const std::map<std::size_t, Row>& done) {
+std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard,
+                                     const std::map<std::size_t, Row>& done) {
   std::vector<std::size_t> pending;
   for (std::size_t k = shard.index; k < runs; k += shard.count)
     if (!done.contains(k)) pending.push_back(k);
@@ -34,10 +36,12 @@ void OnAllCores(const std::vector<std::size_t>& runs, int jobs, const std::atomi
                 const std::function<void(std::size_t run)>& work) {
   const int threads = jobs > 0 ? jobs : tbb::info::default_concurrency();
   // More threads than cores only when asked for; an arena alone does not raise the limit.
-  tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                            static_cast<std::size_t>(threads));
   tbb::task_arena arena(threads);
   std::atomic<std::size_t> next{0};
-  // One task a thread, each takes the next run: they begin in order and no thread waits for another.
+  // One task a thread, each takes the next run: they begin in order and no thread waits for
+  // another.
   arena.execute([&] {
     tbb::parallel_for(
         0, threads,
@@ -52,8 +56,8 @@ void OnAllCores(const std::vector<std::size_t>& runs, int jobs, const std::atomi
   });
 }
 
-void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
-             const std::function<void(const Row&)>& finished) {
+void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs,
+             const std::atomic<bool>* stop, const std::function<void(const Row&)>& finished) {
   OnAllCores(runs, jobs, stop, [&](std::size_t run) { finished(SimulateRow(plan, run, stop)); });
 }
 

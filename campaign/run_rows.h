@@ -15,16 +15,17 @@ struct Shard {
 Shard ParseShard(const std::string& text);
 
 /// Runs of the shard that `done` does not hold, in order.
-std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard, const std::map<std::size_t, Row>& done);
+std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard,
+                                     const std::map<std::size_t, Row>& done);
 
-/// Calls `work` for every one of `runs` on `jobs` threads (0: all cores), begun in their order. The first
-/// exception ends all. @throws Interrupted
+/// Calls `work` for every one of `runs` on `jobs` threads (0: all cores), begun in their order. The
+/// first exception ends all. @throws Interrupted
 void OnAllCores(const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
                 const std::function<void(std::size_t run)>& work);
 
 /// Simulates `runs` on `jobs` threads (0: all cores), begun in their order; `finished` is called
 /// from any thread, whenever one is done. The first exception ends all. @throws Interrupted
-void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
-             const std::function<void(const Row&)>& finished);
+void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs,
+             const std::atomic<bool>* stop, const std::function<void(const Row&)>& finished);
 
 }  // namespace ambrig

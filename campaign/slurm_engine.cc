@@ -19,23 +19,29 @@ namespace ambrig {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr int kAttempts = 4;      // of a shard that brings no row
-constexpr double kLinger = 5;     // [s] a task may need to end after its last row
+constexpr int kAttempts = 4;   // of a shard that brings no row
+constexpr double kLinger = 5;  // [s] a task may need to end after its last row
 
 struct ShardState {
-  std::size_t missing = 0;       // rows
-  std::uintmax_t size = 0;       // of its journal when last read
-  double lingering = 0;          // [s] that its task is in the queue though all rows are there
-  int gone = 0;                  // looks in a row that found it neither alive nor complete
-  int fruitless = 0;             // submissions since its last new row
+  std::size_t missing = 0;  // rows
+  std::uintmax_t size = 0;  // of its journal when last read
+  double lingering = 0;     // [s] that its task is in the queue though all rows are there
+  int gone = 0;             // looks in a row that found it neither alive nor complete
+  int fruitless = 0;        // submissions since its last new row
 };
 
-std::string ReadIfThere(const fs::path& file) { return fs::exists(file) ? ReadFile(file.string()) : ""; }
+std::string ReadIfThere(const fs::path& file) {
+  return fs::exists(file) ? ReadFile(file.string()) : "";
+}
 
 class SlurmRun {
  public:
-  SlurmRun(const RunPlan& plan, const std::string& folder, Journal& journal, const SlurmOptions& options)
-      : campaign_(plan.campaign()), folder_(fs::absolute(folder) / "shards"), journal_(journal), options_(options) {
+  SlurmRun(const RunPlan& plan, const std::string& folder, Journal& journal,
+           const SlurmOptions& options)
+      : campaign_(plan.campaign()),
+        folder_(fs::absolute(folder) / "shards"),
+        journal_(journal),
+        options_(options) {
     fs::create_directories(folder_);
     ChooseShards(plan);
     std::istringstream jobs(ReadIfThere(folder_ / "jobs.txt"));
@@ -45,7 +51,8 @@ class SlurmRun {
   }
 
   bool complete() const {
-    return std::all_of(shards_.begin(), shards_.end(), [](const ShardState& s) { return s.missing == 0; });
+    return std::all_of(shards_.begin(), shards_.end(),
+                       [](const ShardState& s) { return s.missing == 0; });
   }
 
   /// Takes over what the shards' journals hold by now. True when there was something new.
@@ -58,10 +65,12 @@ class SlurmRun {
       const auto size = fs::file_size(fs::path(folder) / "journal.txt", error);
       if (error || size == s.size || s.missing == 0) continue;
       s.size = size;
-      if (ReadFile(folder + "/journal.txt").find('\n') == std::string::npos) continue;  // just begun
+      // just begun
+      if (ReadFile(folder + "/journal.txt").find('\n') == std::string::npos) continue;
       const JournalContent part = ReadJournal(folder);
       if (part.header.fingerprint != campaign_.fingerprint)
-        throw InputError(fmt::format("{}: is of another campaign, allowed: an empty folder", folder));
+        throw InputError(
+            fmt::format("{}: is of another campaign, allowed: an empty folder", folder));
       for (const auto& [run, row] : part.rows) {
         if (journal_.rows().contains(run)) continue;
         journal_.Append(row);
@@ -90,12 +99,15 @@ class SlurmRun {
       }
       if (s.gone < (jobs_.empty() ? 1 : 2)) continue;
       if (s.fruitless >= kAttempts)
-        throw InputError(fmt::format("--engine slurm: task {} ended {} without a row, see {}", k + 1, Counted(kAttempts, "time"),
+        throw InputError(fmt::format("--engine slurm: task {} ended {} without a row, see {}",
+                                     k + 1, Counted(kAttempts, "time"),
                                      (folder_ / fmt::format("{}.log", k + 1)).string()));
       again.push_back(k + 1);
     }
     if (again.empty()) return;
-    const std::string job = SubmitArray({(folder_ / "task.sh").string(), (folder_ / "%a.log").string(), again, options_.cpus, options_.sbatch});
+    const std::string job =
+        SubmitArray({(folder_ / "task.sh").string(), (folder_ / "%a.log").string(), again,
+                     options_.cpus, options_.sbatch});
     if (job.empty()) return;  // the controller is away: the next look tries again
     for (const std::size_t task : again) {
       shards_[task - 1].gone = 0;
@@ -120,8 +132,10 @@ class SlurmRun {
       if (n == 0) {
         const auto begin = std::chrono::steady_clock::now();
         SimulateRow(plan, runs / 2, nullptr);  // how long one takes
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-        n = static_cast<std::size_t>(std::ceil(static_cast<double>(runs) * seconds / (60 * options_.task_minutes * options_.cpus)));
+        const double seconds =
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        n = static_cast<std::size_t>(std::ceil(static_cast<double>(runs) * seconds /
+                                               (60 * options_.task_minutes * options_.cpus)));
       }
       n = std::clamp<std::size_t>(n, 1, std::min<std::size_t>(kMostTasks, runs));
       WriteFileAtomically((folder_ / "count.txt").string(), std::to_string(n) + "\n");
@@ -136,11 +150,14 @@ class SlurmRun {
       for (const char ch : text) out += ch == '\'' ? std::string("'\\''") : std::string(1, ch);
       return out + "'";
     };
-    WriteFileAtomically((folder_ / "task.sh").string(),
-                        fmt::format("#!/bin/sh\n# One shard of a campaign; written by ambrig campaign --engine slurm.\n"
-                                    "exec {} campaign {} -o {}/\"$SLURM_ARRAY_TASK_ID\" --shard \"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --no-report\n",
-                                    quoted(options_.program), quoted(fs::absolute(campaign_.file).string()), quoted(folder_.string()),
-                                    shards_.size(), options_.cpus));
+    WriteFileAtomically(
+        (folder_ / "task.sh").string(),
+        fmt::format(
+            "#!/bin/sh\n# One shard of a campaign; written by ambrig campaign --engine slurm.\n"
+            "exec {} campaign {} -o {}/\"$SLURM_ARRAY_TASK_ID\" --shard "
+            "\"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --no-report\n",
+            quoted(options_.program), quoted(fs::absolute(campaign_.file).string()),
+            quoted(folder_.string()), shards_.size(), options_.cpus));
   }
 
   const Campaign& campaign_;
@@ -153,8 +170,9 @@ class SlurmRun {
 
 }  // namespace
 
-void RunOnSlurm(const RunPlan& plan, const std::string& folder, Journal& journal, const SlurmOptions& options,
-                const std::atomic<bool>* stop, const std::function<void(std::size_t)>& finished) {
+void RunOnSlurm(const RunPlan& plan, const std::string& folder, Journal& journal,
+                const SlurmOptions& options, const std::atomic<bool>* stop,
+                const std::function<void(std::size_t)>& finished) {
   SlurmRun run(plan, folder, journal, options);
   while (true) {
     if (run.Gather()) finished(journal.rows().size());
@@ -163,7 +181,8 @@ void RunOnSlurm(const RunPlan& plan, const std::string& folder, Journal& journal
       return;
     }
     run.Resubmit();
-    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(options.poll);
+    const auto until =
+        std::chrono::steady_clock::now() + std::chrono::duration<double>(options.poll);
     while (std::chrono::steady_clock::now() < until) {
       if (stop && stop->load()) {
         run.Cancel();

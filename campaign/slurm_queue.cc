@@ -28,15 +28,18 @@ Answer Ask(const std::string& command) {
   FILE* pipe = popen((command + " 2>&1 < /dev/null").c_str(), "r");
   if (!pipe) throw InputError("cannot start a shell for Slurm's commands");
   char buffer[4096];
-  for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;) out.text.append(buffer, n);
+  for (std::size_t n; (n = std::fread(buffer, 1, sizeof buffer, pipe)) > 0;)
+    out.text.append(buffer, n);
   const int status = pclose(pipe);
   out.exit = WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   return out;
 }
 
 bool Unreachable(const std::string& text) {
-  for (const char* said : {"Unable to contact slurm controller", "Connection refused", "Connection timed out", "Socket timed out",
-                           "slurm_load_jobs error: Zero Bytes", "Unexpected message received", "Communication connection failure"})
+  for (const char* said :
+       {"Unable to contact slurm controller", "Connection refused", "Connection timed out",
+        "Socket timed out", "slurm_load_jobs error: Zero Bytes", "Unexpected message received",
+        "Communication connection failure"})
     if (text.find(said) != std::string::npos) return true;
   return false;
 }
@@ -58,11 +61,14 @@ std::string ArrayText(const std::vector<std::size_t>& tasks) {
 }
 
 std::string SubmitArray(const SlurmArray& a) {
-  const Answer r = Ask(fmt::format("sbatch --parsable --job-name=ambrig --open-mode=append --ntasks=1 --cpus-per-task={} --array={} --output={} {} {}",
-                                   a.cpus, ArrayText(a.tasks), Quoted(a.log), a.options, Quoted(a.script)));
+  const Answer r =
+      Ask(fmt::format("sbatch --parsable --job-name=ambrig --open-mode=append --ntasks=1 "
+                      "--cpus-per-task={} --array={} --output={} {} {}",
+                      a.cpus, ArrayText(a.tasks), Quoted(a.log), a.options, Quoted(a.script)));
   if (r.exit != 0) {
     if (Unreachable(r.text)) return "";
-    throw InputError(fmt::format("--engine slurm: sbatch: {}", r.text.empty() ? "failed" : FirstLine(r.text)));
+    throw InputError(
+        fmt::format("--engine slurm: sbatch: {}", r.text.empty() ? "failed" : FirstLine(r.text)));
   }
   // "12" or "12;cluster", perhaps after lines that warn.
   const std::size_t line = r.text.find_last_of('\n', r.text.size() - 2);
@@ -75,7 +81,8 @@ SlurmTasks AskTasks(const std::vector<std::string>& jobs) {
   out.reachable = true;
   for (const std::string& job : jobs) {
     const Answer r = Ask("squeue --noheader --array --format='%K %F_%K %r' --jobs=" + Quoted(job));
-    if (r.exit != 0 && r.text.find("Invalid job id") != std::string::npos) continue;  // over and forgotten
+    // over and forgotten
+    if (r.exit != 0 && r.text.find("Invalid job id") != std::string::npos) continue;
     if (r.exit != 0) {
       out.reachable = false;  // whatever it is, nothing is known of the tasks
       return out;
@@ -87,7 +94,8 @@ SlurmTasks AskTasks(const std::vector<std::string>& jobs) {
       std::string number, reason;
       if (!(words >> task >> number) || !std::getline(words, reason)) continue;
       out.alive.emplace(task, number);
-      if (reason.find("launch failed requeued held") != std::string::npos) Ask("scontrol release " + Quoted(number));
+      if (reason.find("launch failed requeued held") != std::string::npos)
+        Ask("scontrol release " + Quoted(number));
     }
   }
   return out;

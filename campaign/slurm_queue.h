@@ -12,15 +12,17 @@ struct SlurmArray {
   std::string script, log;  // absolute paths; log with %a for the task
   std::vector<std::size_t> tasks;
   int cpus = 1;
-  std::string options;      // further options for sbatch, as on its command line
+  std::string options;  // further options for sbatch, as on its command line
 };
 
-/// Job number; empty when the controller cannot be reached now. @throws InputError for what sbatch refuses.
+/// Job number; empty when the controller cannot be reached now. @throws InputError for what sbatch
+/// refuses.
 std::string SubmitArray(const SlurmArray& array);
 
 struct SlurmTasks {
-  bool reachable = false;        // false: nothing is known
-  std::multimap<std::size_t, std::string> alive;  // pending, running or ending tasks: number, id ("12_3")
+  bool reachable = false;  // false: nothing is known
+  // pending, running or ending tasks: number, id ("12_3")
+  std::multimap<std::size_t, std::string> alive;
 };
 /// Tasks that Slurm holds because a node failed to start them are released: nobody else would.
 SlurmTasks AskTasks(const std::vector<std::string>& jobs);

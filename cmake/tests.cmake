@@ -27,3 +27,9 @@ add_test(NAME docs_parameters COMMAND sh -c "$<TARGET_FILE:ambrig> parameters --
 add_test(NAME docs_effects COMMAND sh -c "$<TARGET_FILE:ambrig> effects --markdown | diff -u ${CMAKE_SOURCE_DIR}/docs/effects.md -")
 add_test(NAME docs_validation COMMAND sh -c "$<TARGET_FILE:ambrig> validate examples/validation --markdown | diff -u docs/validation.md -"
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# Where the formatter of Debian 12 is installed (tools/setup.sh --tidy): another version formats otherwise.
+find_program(CLANG_FORMAT clang-format-14)
+if(CLANG_FORMAT)
+  add_test(NAME format COMMAND sh -c "git ls-files '*.cc' '*.h' | xargs ${CLANG_FORMAT} --dry-run --Werror"
+           WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+endif()

@@ -11,12 +11,13 @@ AxisGroups::AxisGroups(std::vector<AxisGroup> groups) {
   }
 }
 
-void AxisGroups::Gather(const std::vector<std::size_t>& axes, const std::vector<double>& from, std::vector<double>& to) {
+void AxisGroups::Gather(const std::vector<std::size_t>& axes, const std::vector<double>& from,
+                        std::vector<double>& to) {
   for (std::size_t k = 0; k < axes.size(); ++k) to[k] = from[axes[k]];
 }
 
-void AxisGroups::Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-                      double Omega, std::vector<double>& f) {
+void AxisGroups::Step(const std::vector<double>& y, const std::vector<double>& r,
+                      const std::vector<double>& excitation, double Omega, std::vector<double>& f) {
   for (Part& p : parts_) {
     Gather(p.group.axes, y, p.y);
     Gather(p.group.axes, r, p.r);
@@ -26,7 +27,8 @@ void AxisGroups::Step(const std::vector<double>& y, const std::vector<double>& r
   }
 }
 
-void AxisGroups::Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) {
+void AxisGroups::Hold(const std::vector<double>& force, const std::vector<double>& y,
+                      const std::vector<double>& r) {
   for (Part& p : parts_) {
     Gather(p.group.axes, force, p.f);
     Gather(p.group.axes, y, p.y);
@@ -35,7 +37,8 @@ void AxisGroups::Hold(const std::vector<double>& force, const std::vector<double
   }
 }
 
-void AxisGroups::Track(const std::vector<double>& y, const std::vector<double>& r, double Omega, const std::vector<double>& f) {
+void AxisGroups::Track(const std::vector<double>& y, const std::vector<double>& r, double Omega,
+                       const std::vector<double>& f) {
   for (Part& p : parts_) {
     Gather(p.group.axes, f, p.f);
     Gather(p.group.axes, y, p.y);
@@ -58,7 +61,8 @@ StateSpace AxisGroups::Linear(double Omega) const {
     all.B.col(to) = grouped.B.col(from);
     all.C.row(to) = grouped.C.row(from);
     for (std::size_t j = 0; j < order.size(); ++j)
-      all.D(static_cast<Eigen::Index>(order[j]), to) = grouped.D(static_cast<Eigen::Index>(j), from);
+      all.D(static_cast<Eigen::Index>(order[j]), to) =
+          grouped.D(static_cast<Eigen::Index>(j), from);
   }
   return all;
 }

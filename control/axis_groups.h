@@ -1,5 +1,6 @@
 #pragma once
-/// Several controllers side by side, each on its own axes: a central one for the radial axes, a PID for the thrust bearing.
+/// Several controllers side by side, each on its own axes: a central one for the radial axes, a PID
+/// for the thrust bearing.
 #include "control/position_controller.h"
 
 namespace ambrig {
@@ -12,10 +13,12 @@ struct AxisGroup {
 class AxisGroups : public PositionController {
  public:
   explicit AxisGroups(std::vector<AxisGroup> groups);
-  void Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-            double Omega, std::vector<double>& f) override;
-  void Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) override;
-  void Track(const std::vector<double>& y, const std::vector<double>& r, double Omega, const std::vector<double>& f) override;
+  void Step(const std::vector<double>& y, const std::vector<double>& r,
+            const std::vector<double>& excitation, double Omega, std::vector<double>& f) override;
+  void Hold(const std::vector<double>& force, const std::vector<double>& y,
+            const std::vector<double>& r) override;
+  void Track(const std::vector<double>& y, const std::vector<double>& r, double Omega,
+             const std::vector<double>& f) override;
   StateSpace Linear(double Omega) const override;
   std::unique_ptr<PositionController> Clone() const override;
 
@@ -24,7 +27,8 @@ class AxisGroups : public PositionController {
     AxisGroup group;
     std::vector<double> y, r, excitation, f;
   };
-  static void Gather(const std::vector<std::size_t>& axes, const std::vector<double>& from, std::vector<double>& to);
+  static void Gather(const std::vector<std::size_t>& axes, const std::vector<double>& from,
+                     std::vector<double>& to);
   std::vector<Part> parts_;
 };
 

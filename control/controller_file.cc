@@ -16,7 +16,9 @@ namespace {
 
 std::vector<double> Polynomial(const TomlTable& t, const char* key) {
   const auto p = t.Numbers(key);
-  if (p.empty() || p.size() > 41) t.Fail(key, fmt::format("has {}, allowed: 1 to 41, descending powers", Counted(p.size(), "entry")));
+  if (p.empty() || p.size() > 41)
+    t.Fail(key,
+           fmt::format("has {}, allowed: 1 to 41, descending powers", Counted(p.size(), "entry")));
   for (const double v : p)
     if (!std::isfinite(v)) t.Fail(key, "allowed: finite numbers");
   return p;
@@ -25,7 +27,8 @@ std::vector<double> Polynomial(const TomlTable& t, const char* key) {
 StateSpace Sampled(const TomlTable& t, const StateSpace& s, double rate, const char* fallback) {
   if (t.Choice("domain", fallback, "s, z") == "z") return s;
   const StateSpace z = Bilinear(s, 1 / rate);
-  if (!z.A.allFinite()) t.Fail("domain", fmt::format("= \"s\": a pole at 2 rate = {} 1/s cannot be sampled", 2 * rate));
+  if (!z.A.allFinite())
+    t.Fail("domain", fmt::format("= \"s\": a pole at 2 rate = {} 1/s cannot be sampled", 2 * rate));
   return z;
 }
 
@@ -36,7 +39,9 @@ AxisSystem ReadTransfer(const TomlTable& t, const std::vector<std::string>& axes
     return p.end() - std::find_if(p.begin(), p.end(), [](double v) { return v != 0; });
   };
   if (order(den) == 0) t.Fail("denominator", "is zero, allowed: a number other than 0 in it");
-  if (order(num) > order(den)) t.Fail("numerator", "is of a higher power than the denominator, allowed: a proper transfer function");
+  if (order(num) > order(den))
+    t.Fail("numerator",
+           "is of a higher power than the denominator, allowed: a proper transfer function");
   a.system = Sampled(t, FromTransferFunction(num, den), rate, "s");
   if (t.Has("axes")) a.axes = t.Strings("axes");
   for (const std::string& name : a.axes)
@@ -46,7 +51,8 @@ AxisSystem ReadTransfer(const TomlTable& t, const std::vector<std::string>& axes
   return a;
 }
 
-Eigen::MatrixXd Matrix(const TomlTable& t, const char* key, Eigen::Index rows, Eigen::Index columns) {
+Eigen::MatrixXd Matrix(const TomlTable& t, const char* key, Eigen::Index rows,
+                       Eigen::Index columns) {
   const auto all = t.Has(key) ? t.Rows(key) : std::vector<std::vector<double>>{};
   if (all.empty() && rows == 0) return Eigen::MatrixXd(0, columns);
   Eigen::MatrixXd m(rows, columns);
@@ -89,10 +95,13 @@ StateSpace ReadSystem(const TomlTable& t, std::size_t axes, double rate) {
 
 /// Tables with ascending speeds.
 void CheckAscending(const TomlTable& t, double before, double speed) {
-  if (speed <= before) t.Fail("speed", fmt::format("= {} rad/s after {} rad/s, allowed: ascending speeds", speed, before));
+  if (speed <= before)
+    t.Fail("speed",
+           fmt::format("= {} rad/s after {} rad/s, allowed: ascending speeds", speed, before));
 }
 
-void ReadPidExtras(const TomlTable& t, const std::vector<std::string>& axes, ControllerParameters& c) {
+void ReadPidExtras(const TomlTable& t, const std::vector<std::string>& axes,
+                   ControllerParameters& c) {
   for (const TomlTable& f : t.Tables("filter")) c.filters.push_back(ReadFilter(f, axes, c.rate));
   double before = -1;
   for (const TomlTable& s : t.Tables("schedule")) {
@@ -105,19 +114,24 @@ void ReadPidExtras(const TomlTable& t, const std::vector<std::string>& axes, Con
   }
 }
 
-void ReadTransfers(const TomlTable& t, const std::vector<std::string>& axes, ControllerParameters& c) {
+void ReadTransfers(const TomlTable& t, const std::vector<std::string>& axes,
+                   ControllerParameters& c) {
   std::set<std::string> named;
   bool rest = false;
   for (const TomlTable& k : t.Tables("transfer")) {
     const AxisSystem a = ReadTransfer(k, axes, c.rate);
-    if (a.axes.empty() && std::exchange(rest, true)) k.Fail("axes", "is missing in two of them, allowed: in one, for the axes left");
+    if (a.axes.empty() && std::exchange(rest, true))
+      k.Fail("axes", "is missing in two of them, allowed: in one, for the axes left");
     for (const std::string& name : a.axes)
-      if (!named.insert(name).second) k.Fail("axes", fmt::format("= \"{}\" stands twice, allowed: once", name));
+      if (!named.insert(name).second)
+        k.Fail("axes", fmt::format("= \"{}\" stands twice, allowed: once", name));
     c.transfers.push_back(a);
   }
   for (const std::string& name : axes)
     if (!rest && !named.contains(name))
-      t.Fail("transfer", fmt::format("has none for axis {}, allowed: [[controller.transfer]] with numerator and denominator for every axis", name));
+      t.Fail("transfer", fmt::format("has none for axis {}, allowed: [[controller.transfer]] with "
+                                     "numerator and denominator for every axis",
+                                     name));
 }
 
 void ReadSystems(const TomlTable& t, std::size_t axes, ControllerParameters& c) {
@@ -129,19 +143,23 @@ void ReadSystems(const TomlTable& t, std::size_t axes, ControllerParameters& c) 
   double before = -1;
   for (const TomlTable& p : points) {
     SystemPoint s{p.Number("speed"), ReadSystem(p, axes, c.rate)};
-    if (!(s.speed >= 0 && s.speed <= 1e5)) p.Fail("speed", fmt::format("= {} rad/s, allowed: 0 to 1e5", s.speed));
+    if (!(s.speed >= 0 && s.speed <= 1e5))
+      p.Fail("speed", fmt::format("= {} rad/s, allowed: 0 to 1e5", s.speed));
     CheckAscending(p, before, s.speed);
     before = s.speed;
     p.RejectUnknownKeys();
     if (!c.systems.empty() && s.system.states() != c.systems.front().system.states())
-      p.Fail("A", fmt::format("is of order {}, allowed: {} as at the first speed", s.system.states(), c.systems.front().system.states()));
+      p.Fail("A", fmt::format("is of order {}, allowed: {} as at the first speed",
+                              s.system.states(), c.systems.front().system.states()));
     c.systems.push_back(s);
   }
 }
 
-CoordinateGains ReadGains(const TomlTable& t, const char* key, const Field<CoordinateGains> (&fields)[4]) {
+CoordinateGains ReadGains(const TomlTable& t, const char* key,
+                          const Field<CoordinateGains> (&fields)[4]) {
   const auto inner = t.Table(key);
-  if (!inner) t.Fail(key, "is missing, allowed: { kp = , kd = , ki = , derivative_time_constant = }");
+  if (!inner)
+    t.Fail(key, "is missing, allowed: { kp = , kd = , ki = , derivative_time_constant = }");
   CoordinateGains g;
   inner->Read(g, fields);
   inner->RejectUnknownKeys();
@@ -157,7 +175,8 @@ void ReadSpeeds(const TomlTable& t, ControllerParameters& c) {
 }
 
 /// What LQG and H-infinity share: speeds, weighed planes, the model's order.
-void ReadSynthesis(const TomlTable& t, const std::vector<std::string>& planes, ControllerParameters& c) {
+void ReadSynthesis(const TomlTable& t, const std::vector<std::string>& planes,
+                   ControllerParameters& c) {
   ReadSpeeds(t, c);
   std::set<std::string> named;  // of planes
   for (const TomlTable& k : t.Tables("plane")) {
@@ -165,7 +184,8 @@ void ReadSynthesis(const TomlTable& t, const std::vector<std::string>& planes, C
     w.at = k.String("at");
     if (std::find(planes.begin(), planes.end(), w.at) == planes.end())
       k.Fail("at", fmt::format("= \"{}\", allowed: {}", w.at, fmt::join(planes, ", ")));
-    if (!named.insert(w.at).second) k.Fail("at", fmt::format("= \"{}\" stands twice, allowed: once", w.at));
+    if (!named.insert(w.at).second)
+      k.Fail("at", fmt::format("= \"{}\" stands twice, allowed: once", w.at));
     k.Read(w, kPlaneWeightFields);
     k.RejectUnknownKeys();
     c.planes.push_back(w);
@@ -177,14 +197,15 @@ void ReadSynthesis(const TomlTable& t, const std::vector<std::string>& planes, C
   }
   if (!t.Has("model_modes")) return;
   const long long modes = t.Integer("model_modes", 0);
-  if (modes < 0 || modes > 100) t.Fail("model_modes", fmt::format("= {}, allowed: 0 to 100", modes));
+  if (modes < 0 || modes > 100)
+    t.Fail("model_modes", fmt::format("= {}, allowed: 0 to 100", modes));
   c.model_modes = static_cast<int>(modes);
 }
 
 }  // namespace
 
-void ReadControllerKind(const TomlTable& t, const std::vector<std::string>& axes, const std::vector<std::string>& planes,
-                        ControllerParameters& c) {
+void ReadControllerKind(const TomlTable& t, const std::vector<std::string>& axes,
+                        const std::vector<std::string>& planes, ControllerParameters& c) {
   c.kind = t.Choice("kind", "pid", kControllerKinds);
   c.where = t.Where("kind");
   if (c.kind == "pid") {
@@ -193,7 +214,9 @@ void ReadControllerKind(const TomlTable& t, const std::vector<std::string>& axes
   } else {
     c.pid = PidParameters{0, 0, 0, 0, kRequired};
     t.Read(c.pid, kForceLimitField);
-    if (axes.empty()) t.Fail("kind", fmt::format("= \"{}\", but every bearing has its own controller; allowed: pid", c.kind));
+    if (axes.empty())
+      t.Fail("kind", fmt::format("= \"{}\", but every bearing has its own controller; allowed: pid",
+                                 c.kind));
   }
   if (c.kind == "transfer-function") ReadTransfers(t, axes, c);
   if (c.kind == "state-space") ReadSystems(t, axes.size(), c);

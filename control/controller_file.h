@@ -1,6 +1,6 @@
 #pragma once
-/// The controllers that a rig file may name: [controller] and, for changing over in a run, [controllers.NAME].
-/// Keys: docs/guide/controllers.md; numbers: docs/parameters.md.
+/// The controllers that a rig file may name: [controller] and, for changing over in a run,
+/// [controllers.NAME]. Keys: docs/guide/controllers.md; numbers: docs/parameters.md.
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,14 +9,15 @@
 #include "control/h_infinity.h"
 #include "control/lqg.h"
 #include "control/mode_weight.h"
-#include "control/plane_weight.h"
 #include "control/pid.h"
+#include "control/plane_weight.h"
 #include "control/tilt_translation.h"
 #include "control/unbalance_control.h"
 
 namespace ambrig {
 
-inline constexpr char kControllerKinds[] = "pid, transfer-function, state-space, lqg, h-infinity, tilt-translation";
+inline constexpr char kControllerKinds[] =
+    "pid, transfer-function, state-space, lqg, h-infinity, tilt-translation";
 
 /// PID gains at one speed; what is not given is the controller's own.
 struct PidPoint {
@@ -25,7 +26,8 @@ struct PidPoint {
 };
 
 inline constexpr Field<PidPoint> kPidPointFields[] = {
-    {"speed", &PidPoint::speed, "rad/s", 0, 1e5, "ascending; gains are linear in between, held outside"},
+    {"speed", &PidPoint::speed, "rad/s", 0, 1e5,
+     "ascending; gains are linear in between, held outside"},
     {"kp", &PidPoint::kp, "N/m", -1e12, 1e12, "default: the controller's"},
     {"kd", &PidPoint::kd, "N s/m", -1e9, 1e9, "default: the controller's"},
     {"ki", &PidPoint::ki, "N/(m s)", -1e15, 1e15, "default: the controller's"},
@@ -53,10 +55,11 @@ struct ControllerParameters {
   std::vector<PidPoint> schedule;
   std::vector<AxisSystem> transfers;
   std::vector<SystemPoint> systems;
-  std::vector<double> speeds{0};  // that an LQG or H-infinity control is designed for [rad/s]
+  std::vector<double> speeds{0};    // that an LQG or H-infinity control is designed for [rad/s]
   std::vector<PlaneWeight> planes;  // that its synthesis weighs beside the bearings
   std::optional<ModeWeight> modes;  // the same of the bending modes
-  int model_modes = -1;             // bending modes in the model of its synthesis, the lowest; -1: all of the rig
+  // bending modes in the model of its synthesis, the lowest; -1: all of the rig
+  int model_modes = -1;
   LqgParameters lqg;
   HInfinityParameters h_infinity;
   CoordinateGains translation, tilt;
@@ -64,21 +67,26 @@ struct ControllerParameters {
   std::optional<UnbalanceControlParameters> unbalance;
 
   /// The base controller of physics.md: one PID per axis and nothing else.
-  bool IsPlainPid() const { return kind == "pid" && filters.empty() && schedule.empty() && !unbalance; }
+  bool IsPlainPid() const {
+    return kind == "pid" && filters.empty() && schedule.empty() && !unbalance;
+  }
 };
 
 inline constexpr Field<ControllerParameters> kControllerFields[] = {
-    {"rate", &ControllerParameters::rate, "Hz", 1, 1e6, "an integer fraction of the switching frequency"},
+    {"rate", &ControllerParameters::rate, "Hz", 1, 1e6,
+     "an integer fraction of the switching frequency"},
     {"bias_current", &ControllerParameters::bias_current, "A", 1e-6, 1e4, "c0"},
 };
 inline constexpr Field<ControllerParameters> kTiltTranslationFields[] = {
-    {"gyroscopic_compensation", &ControllerParameters::gyroscopic_compensation, "-", 0, 2, "share of the gyroscopic moment that is cancelled"},
+    {"gyroscopic_compensation", &ControllerParameters::gyroscopic_compensation, "-", 0, 2,
+     "share of the gyroscopic moment that is cancelled"},
 };
 
-/// Kind and what belongs to it; rate and bias current are read by the caller, who also rejects unknown keys.
-/// `axes`: names of the axes that it controls, in the rig's order; `planes`: of bearings, disks and stations. @throws InputError
-void ReadControllerKind(const TomlTable& table, const std::vector<std::string>& axes, const std::vector<std::string>& planes,
-                        ControllerParameters& c);
+/// Kind and what belongs to it; rate and bias current are read by the caller, who also rejects
+/// unknown keys. `axes`: names of the axes that it controls, in the rig's order; `planes`: of
+/// bearings, disks and stations. @throws InputError
+void ReadControllerKind(const TomlTable& table, const std::vector<std::string>& axes,
+                        const std::vector<std::string>& planes, ControllerParameters& c);
 
 /// f_max alone, for kinds that are no PID.
 inline constexpr Field<PidParameters> kForceLimitField[] = {kPidFields[4]};

@@ -7,20 +7,26 @@
 
 namespace ambrig {
 
-ControllerSwitch::ControllerSwitch(std::vector<std::unique_ptr<PositionController>> controllers, std::vector<double> f_max, double Ts)
-    : controllers_(std::move(controllers)), f_max_(std::move(f_max)), keep_(std::exp(-Ts / kFade)), difference_(f_max_.size(), 0.0) {}
+ControllerSwitch::ControllerSwitch(std::vector<std::unique_ptr<PositionController>> controllers,
+                                   std::vector<double> f_max, double Ts)
+    : controllers_(std::move(controllers)),
+      f_max_(std::move(f_max)),
+      keep_(std::exp(-Ts / kFade)),
+      difference_(f_max_.size(), 0.0) {}
 
 void ControllerSwitch::SwitchTo(std::size_t index) {
   Require(index < controllers_.size(), "a controller of the rig");
   next_ = index;
 }
 
-void ControllerSwitch::ChangeOver(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-                                  double Omega, std::vector<double>& f) {
+void ControllerSwitch::ChangeOver(const std::vector<double>& y, const std::vector<double>& r,
+                                  const std::vector<double>& excitation, double Omega,
+                                  std::vector<double>& f) {
   const std::vector<double> carried = difference_;
   controllers_[now_]->Step(y, r, excitation, Omega, f);
   std::vector<double> old = f;
-  for (std::size_t k = 0; k < f.size(); ++k) old[k] = std::clamp(f[k] + carried[k] * keep_, -f_max_[k], f_max_[k]);
+  for (std::size_t k = 0; k < f.size(); ++k)
+    old[k] = std::clamp(f[k] + carried[k] * keep_, -f_max_[k], f_max_[k]);
   PositionController& in = *controllers_[next_];
   if (past_.empty()) {
     in.Hold(old, y, r);
@@ -36,8 +42,9 @@ void ControllerSwitch::ChangeOver(const std::vector<double>& y, const std::vecto
   }
 }
 
-void ControllerSwitch::Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-                            double Omega, std::vector<double>& f) {
+void ControllerSwitch::Step(const std::vector<double>& y, const std::vector<double>& r,
+                            const std::vector<double>& excitation, double Omega,
+                            std::vector<double>& f) {
   if (next_ != now_) {
     ChangeOver(y, r, excitation, Omega, f);
   } else {
@@ -55,13 +62,15 @@ void ControllerSwitch::Step(const std::vector<double>& y, const std::vector<doub
   if (past_.size() > kRemembered) past_.pop_front();
 }
 
-void ControllerSwitch::Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) {
+void ControllerSwitch::Hold(const std::vector<double>& force, const std::vector<double>& y,
+                            const std::vector<double>& r) {
   std::fill(difference_.begin(), difference_.end(), 0.0);
   past_.clear();
   controllers_[now_]->Hold(force, y, r);
 }
 
-void ControllerSwitch::Track(const std::vector<double>& y, const std::vector<double>& r, double Omega, const std::vector<double>& f) {
+void ControllerSwitch::Track(const std::vector<double>& y, const std::vector<double>& r,
+                             double Omega, const std::vector<double>& f) {
   controllers_[now_]->Track(y, r, Omega, f);
 }
 

@@ -44,7 +44,8 @@ Excitation ReadExcitation(const TomlTable& t, const std::string& directory, doub
   if (!(std::isfinite(e.start) && std::isfinite(e.stop) && e.stop > e.start))
     t.Fail("stop", fmt::format("= {}, allowed: later than start = {}", e.stop, e.start));
   e.amplitude = t.Number("amplitude", e.kind == "samples" ? 1.0 : kRequired);
-  if (!std::isfinite(e.amplitude)) t.Fail("amplitude", "is missing or not finite, allowed: a number");
+  if (!std::isfinite(e.amplitude))
+    t.Fail("amplitude", "is missing or not finite, allowed: a number");
   if (e.kind == "sine") {
     e.frequency = t.Number("frequency");
     e.phase = t.Number("phase", 0);
@@ -52,8 +53,8 @@ Excitation ReadExcitation(const TomlTable& t, const std::string& directory, doub
     e.frequencies = t.Numbers("frequencies");
     e.phases = t.Numbers("phases", std::vector<double>(e.frequencies.size(), 0.0));
     if (e.phases.size() != e.frequencies.size())
-      t.Fail("phases", fmt::format("has {}, allowed: {} as in frequencies", Counted(e.phases.size(), "entry"),
-                                   e.frequencies.size()));
+      t.Fail("phases", fmt::format("has {}, allowed: {} as in frequencies",
+                                   Counted(e.phases.size(), "entry"), e.frequencies.size()));
   } else if (e.kind == "chirp") {
     e.f0 = t.Number("f0");
     e.f1 = t.Number("f1");
@@ -63,10 +64,14 @@ Excitation ReadExcitation(const TomlTable& t, const std::string& directory, doub
     const Record r = ReadRecord(file.starts_with('/') ? file : directory + "/" + file);
     const Channel* c = r.Find(channel);
     if (!c) t.Fail("channel", fmt::format("= \"{}\" is not in {}", channel, file));
-    const auto missing = std::find_if(c->samples.begin(), c->samples.end(), [](double v) { return !std::isfinite(v); });
+    const auto missing = std::find_if(c->samples.begin(), c->samples.end(),
+                                      [](double v) { return !std::isfinite(v); });
     if (missing != c->samples.end())
-      t.Fail("channel", fmt::format("= \"{}\" of {} has no number at {:.6g} s; what was commanded must be known throughout", channel, file,
-                                    r.TimeAt(static_cast<std::size_t>(missing - c->samples.begin()))));
+      t.Fail("channel",
+             fmt::format("= \"{}\" of {} has no number at {:.6g} s; what was commanded must be "
+                         "known throughout",
+                         channel, file,
+                         r.TimeAt(static_cast<std::size_t>(missing - c->samples.begin()))));
     e.samples = c->samples;
     e.sample_rate = r.rate;
     e.sample_start = r.start;

@@ -12,9 +12,13 @@ namespace ambrig {
 FilterParameters ReadFilter(const TomlTable& t, const std::vector<std::string>& axes, double rate) {
   FilterParameters p;
   const std::string kind = t.Choice("kind", "", "notch, lead-lag, low-pass");
-  p.kind = kind == "notch" ? FilterKind::kNotch : kind == "lead-lag" ? FilterKind::kLeadLag : FilterKind::kLowPass;
+  p.kind = kind == "notch"      ? FilterKind::kNotch
+           : kind == "lead-lag" ? FilterKind::kLeadLag
+                                : FilterKind::kLowPass;
   const auto below = [&](const char* key, double f) {
-    if (!(f < 0.5 * rate)) t.Fail(key, fmt::format("= {} Hz, allowed: below half the controller's rate of {} Hz", f, rate));
+    if (!(f < 0.5 * rate))
+      t.Fail(key,
+             fmt::format("= {} Hz, allowed: below half the controller's rate of {} Hz", f, rate));
   };
   switch (p.kind) {
     case FilterKind::kNotch:
@@ -67,7 +71,8 @@ Biquad Sampled(double n2, double n1, double n0, double d2, double d1, double d0,
 }  // namespace
 
 Biquad SampleFilter(const FilterParameters& p, double Ts) {
-  const double centre = 2 * kPi * (p.kind == FilterKind::kLeadLag ? std::sqrt(p.zero * p.pole) : p.frequency);
+  const double centre =
+      2 * kPi * (p.kind == FilterKind::kLeadLag ? std::sqrt(p.zero * p.pole) : p.frequency);
   const double c = centre / std::tan(centre * Ts / 2);
   switch (p.kind) {
     case FilterKind::kNotch: {
@@ -83,7 +88,8 @@ Biquad SampleFilter(const FilterParameters& p, double Ts) {
       q.a1 = (1 - c / wp) / a;
       return q;
     }
-    case FilterKind::kLowPass: break;
+    case FilterKind::kLowPass:
+      break;
   }
   return Sampled(0, 0, centre * centre, 1, 2 * p.damping * centre, centre * centre, c);
 }

@@ -1,12 +1,14 @@
 #pragma once
-/// Filters in series with a controller's force, one state per axis. Continuous forms of gain 1 at rest:
+/// Filters in series with a controller's force, one state per axis. Continuous forms of gain 1 at
+/// rest:
 ///
 ///   notch     (s² + depth b s + w²) / (s² + b s + w²)     b = 2 pi width, w = 2 pi frequency
 ///   lead-lag  (1 + s/w_z) / (1 + s/w_p)                   zero below pole: lead
 ///   low-pass  w² / (s² + 2 zeta w s + w²)
 ///
-/// sampled by the bilinear map, prewarped at the notch's and low-pass's frequency and at the lead-lag's centre
-/// sqrt(w_z w_p): depth and phase there are those of the continuous form. Source: Franklin, Powell, Workman 1998, 6.1.
+/// sampled by the bilinear map, prewarped at the notch's and low-pass's frequency and at the
+/// lead-lag's centre sqrt(w_z w_p): depth and phase there are those of the continuous form. Source:
+/// Franklin, Powell, Workman 1998, 6.1.
 #include <string>
 #include <vector>
 
@@ -26,8 +28,10 @@ struct FilterParameters {
 };
 
 inline constexpr Field<FilterParameters> kNotchFields[] = {
-    {"frequency", &FilterParameters::frequency, "Hz", 1e-3, 1e6, "centre, below half the controller's rate"},
-    {"width", &FilterParameters::width, "Hz", 1e-6, 1e6, "between the points of -3 dB of a full notch"},
+    {"frequency", &FilterParameters::frequency, "Hz", 1e-3, 1e6,
+     "centre, below half the controller's rate"},
+    {"width", &FilterParameters::width, "Hz", 1e-6, 1e6,
+     "between the points of -3 dB of a full notch"},
     {"depth", &FilterParameters::depth, "-", 0, 1, "gain at the centre; 0: nothing passes"},
 };
 inline constexpr Field<FilterParameters> kLeadLagFields[] = {
@@ -35,12 +39,14 @@ inline constexpr Field<FilterParameters> kLeadLagFields[] = {
     {"pole", &FilterParameters::pole, "Hz", 1e-3, 1e6, "corner of the pole"},
 };
 inline constexpr Field<FilterParameters> kLowPassFields[] = {
-    {"frequency", &FilterParameters::frequency, "Hz", 1e-3, 1e6, "corner, below half the controller's rate"},
+    {"frequency", &FilterParameters::frequency, "Hz", 1e-3, 1e6,
+     "corner, below half the controller's rate"},
     {"damping", &FilterParameters::damping, "-", 0.01, 10, "zeta"},
 };
 
 /// One [[controller.filter]]; `axes` allowed. @throws InputError
-FilterParameters ReadFilter(const TomlTable& table, const std::vector<std::string>& axes, double rate);
+FilterParameters ReadFilter(const TomlTable& table, const std::vector<std::string>& axes,
+                            double rate);
 
 /// Sampled second order section, direct form II transposed.
 struct Biquad {

@@ -7,8 +7,9 @@ namespace ambrig {
 FilteredPid::FilteredPid(std::vector<FilteredPidAxis> axes, double Ts)
     : axes_(std::move(axes)), states_(axes_.size()), Ts_(Ts) {}
 
-void FilteredPid::Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-                       double Omega, std::vector<double>& f) {
+void FilteredPid::Step(const std::vector<double>& y, const std::vector<double>& r,
+                       const std::vector<double>& excitation, double Omega,
+                       std::vector<double>& f) {
   last_speed_ = Omega;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const PidParameters p = axes_[k].pid.At(Omega);
@@ -27,7 +28,8 @@ void FilteredPid::Step(const std::vector<double>& y, const std::vector<double>& 
   }
 }
 
-void FilteredPid::Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) {
+void FilteredPid::Hold(const std::vector<double>& force, const std::vector<double>& y,
+                       const std::vector<double>& r) {
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     states_[k] = PidState{};
     states_[k].integral = force[k] - axes_[k].pid.At(last_speed_).kp * (r[k] - y[k]);

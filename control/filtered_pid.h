@@ -3,8 +3,9 @@
 ///
 ///   f = F_n(z) ... F_1(z) (kp e - kd d + integral) + excitation, clamped to ±f_max
 ///
-/// with the PID of control/pid.h (its increment is dropped when this raw f is beyond the limit on the side that e
-/// pushes to). Without filters and schedule it is that PID. Source: shared/design/physics.md section 4.
+/// with the PID of control/pid.h (its increment is dropped when this raw f is beyond the limit on
+/// the side that e pushes to). Without filters and schedule it is that PID. Source:
+/// shared/design/physics.md section 4.
 #include "control/filter.h"
 #include "control/gain_schedule.h"
 
@@ -18,11 +19,14 @@ struct FilteredPidAxis {
 class FilteredPid : public PositionController {
  public:
   FilteredPid(std::vector<FilteredPidAxis> axes, double Ts);
-  void Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-            double Omega, std::vector<double>& f) override;
-  void Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) override;
+  void Step(const std::vector<double>& y, const std::vector<double>& r,
+            const std::vector<double>& excitation, double Omega, std::vector<double>& f) override;
+  void Hold(const std::vector<double>& force, const std::vector<double>& y,
+            const std::vector<double>& r) override;
   StateSpace Linear(double Omega) const override;
-  std::unique_ptr<PositionController> Clone() const override { return std::make_unique<FilteredPid>(*this); }
+  std::unique_ptr<PositionController> Clone() const override {
+    return std::make_unique<FilteredPid>(*this);
+  }
 
  private:
   std::vector<FilteredPidAxis> axes_;

@@ -1,6 +1,7 @@
 #pragma once
-/// Responses of one sampled system at many frequencies: A is brought to Hessenberg form once, then each response costs n² instead of n³.
-/// Source: Laub 1981, Efficient multivariable frequency response computations, IEEE Trans. Automatic Control 26(2).
+/// Responses of one sampled system at many frequencies: A is brought to Hessenberg form once, then
+/// each response costs n² instead of n³. Source: Laub 1981, Efficient multivariable frequency
+/// response computations, IEEE Trans. Automatic Control 26(2).
 #include "control/state_space.h"
 
 namespace ambrig {
@@ -12,9 +13,10 @@ class FrequencyResponse {
   Eigen::MatrixXcd At(std::complex<double> z) const;
 
  private:
-  using RowMajor = Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  using RowMajor =
+      Eigen::Matrix<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-  RowMajor pencil_;         // -H | B, in the Hessenberg basis
+  RowMajor pencil_;  // -H | B, in the Hessenberg basis
   Eigen::MatrixXd C_, D_;
   Eigen::Index n_ = 0;
 };

@@ -14,10 +14,11 @@ struct ScheduleSpot {
 /// `speeds` ascending, at least one [rad/s].
 ScheduleSpot Locate(const std::vector<double>& speeds, double Omega);
 
-/// A PID whose gains change with the speed. Its states stay: the integral is in newtons, so nothing jumps.
+/// A PID whose gains change with the speed. Its states stay: the integral is in newtons, so nothing
+/// jumps.
 struct PidSchedule {
-  std::vector<double> speeds{0};       // [rad/s]
-  std::vector<PidParameters> points;   // one per speed
+  std::vector<double> speeds{0};      // [rad/s]
+  std::vector<PidParameters> points;  // one per speed
   PidParameters At(double Omega) const;
 };
 

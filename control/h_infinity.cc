@@ -15,23 +15,28 @@ namespace {
 
 using Eigen::MatrixXd;
 
-constexpr double kIntegratorShare = 1e-3;  // of the bandwidth: the weight's pole, instead of a true integrator (nearer ones spoil the Riccati equations)
+// of the bandwidth: the weight's pole, instead of a true integrator (nearer ones spoil the Riccati
+// equations)
+constexpr double kIntegratorShare = 1e-3;
 constexpr double kLargestGamma = 1e9;
-constexpr int kBisections = 12;            // least gamma within 4^(2^-12) - 1 = 3e-4
+constexpr int kBisections = 12;  // least gamma within 4^(2^-12) - 1 = 3e-4
 
 /// Gain of the closed loop at rest: there the weight is largest and the equations are hardest.
 double NormAtRest(const StateSpace& P, const StateSpace& K) {
   const Eigen::Index u = K.outputs(), y = K.inputs(), w = P.inputs() - u, z = P.outputs() - y;
   const MatrixXd G = P.Response(1.0).real(), k = K.Response(1.0).real();
   const MatrixXd loop = (MatrixXd::Identity(y, y) - G.bottomRightCorner(y, u) * k).inverse();
-  const MatrixXd T = G.topLeftCorner(z, w) + G.topRightCorner(z, u) * k * loop * G.bottomLeftCorner(y, w);
+  const MatrixXd T =
+      G.topLeftCorner(z, w) + G.topRightCorner(z, u) * k * loop * G.bottomLeftCorner(y, w);
   return T.allFinite() ? Eigen::JacobiSVD<MatrixXd>(T).singularValues()(0) : kInfinity;
 }
 
 /// W per axis: (1/y_w)(s + w_b)/(s + w_b/1e3), sampled.
 StateSpace Weight(const HInfinityParameters& p, Eigen::Index axes, double Ts) {
-  const StateSpace one = Bilinear(
-      FromTransferFunction({1 / p.position_weight, p.bandwidth / p.position_weight}, {1, p.bandwidth * kIntegratorShare}), Ts);
+  const StateSpace one =
+      Bilinear(FromTransferFunction({1 / p.position_weight, p.bandwidth / p.position_weight},
+                                    {1, p.bandwidth * kIntegratorShare}),
+               Ts);
   // The state in units of the output: the weight is huge at rest.
   StateSpace scaled = one;
   const double unit = std::abs(one.B(0, 0));
@@ -43,7 +48,8 @@ StateSpace Weight(const HInfinityParameters& p, Eigen::Index axes, double Ts) {
 }  // namespace
 
 StateSpace HInfinityPlant(const SampledPlant& plant, const HInfinityParameters& w) {
-  const Eigen::Index n = plant.A.rows(), p = plant.axes(), e = plant.E.cols(), g = plant.G.cols(), v = plant.V.rows(), d = e + g;
+  const Eigen::Index n = plant.A.rows(), p = plant.axes(), e = plant.E.cols(), g = plant.G.cols(),
+                     v = plant.V.rows(), d = e + g;
   const StateSpace weight = Weight(w, p, plant.Ts);
   const Eigen::Index m = weight.states();
   // In units of the weights: readings per sensor_noise, forces per force_weight.
@@ -69,13 +75,16 @@ StateSpace HInfinityPlant(const SampledPlant& plant, const HInfinityParameters& 
 
 namespace {
 
-/// The last designs: every run of a study's point or of a campaign asks for the same controller, and a bisection of Riccati equations
-/// takes longer than many a run. What a design is made of is its key, bit by bit.
+/// The last designs: every run of a study's point or of a campaign asks for the same controller,
+/// and a bisection of Riccati equations takes longer than many a run. What a design is made of is
+/// its key, bit by bit.
 class Remembered {
  public:
   static std::string Key(const StateSpace& P, const HInfinityParameters& w) {
     std::string key(reinterpret_cast<const char*>(&w), sizeof w);
-    for (const MatrixXd* m : {&P.A, &P.B, &P.C, &P.D}) key.append(reinterpret_cast<const char*>(m->data()), static_cast<std::size_t>(m->size()) * sizeof(double));
+    for (const MatrixXd* m : {&P.A, &P.B, &P.C, &P.D})
+      key.append(reinterpret_cast<const char*>(m->data()),
+                 static_cast<std::size_t>(m->size()) * sizeof(double));
     return key;
   }
   std::optional<HInfinityDesign> Find(const std::string& key) {
@@ -96,7 +105,8 @@ class Remembered {
   std::deque<std::pair<std::string, HInfinityDesign>> designs_;
 };
 
-HInfinityDesign Design(const SampledPlant& plant, const StateSpace& P, const HInfinityParameters& w, const std::string& where) {
+HInfinityDesign Design(const SampledPlant& plant, const StateSpace& P, const HInfinityParameters& w,
+                       const std::string& where) {
   const int axes = static_cast<int>(plant.axes());
   StateSpace found;
   const auto try_gamma = [&](double gamma) {
@@ -113,8 +123,11 @@ HInfinityDesign Design(const SampledPlant& plant, const StateSpace& P, const HIn
   double high = 1;
   while (high < kLargestGamma && !try_gamma(high)) high *= 4;
   if (high >= kLargestGamma)
-    throw InputError(fmt::format("{}: no H-infinity controller with these weights below gamma = {:g}; allowed: axes that magnets and "
-                                 "sensors of the rig can hold, weights near its sizes", where, kLargestGamma));
+    throw InputError(
+        fmt::format("{}: no H-infinity controller with these weights below gamma = {:g}; allowed: "
+                    "axes that magnets and "
+                    "sensors of the rig can hold, weights near its sizes",
+                    where, kLargestGamma));
   double low = high / 4;
   while (low > 1e-9 && try_gamma(low)) {
     high = low;
@@ -137,7 +150,8 @@ HInfinityDesign Design(const SampledPlant& plant, const StateSpace& P, const HIn
 
 }  // namespace
 
-HInfinityDesign DesignHInfinity(const SampledPlant& plant, const HInfinityParameters& w, const std::string& where) {
+HInfinityDesign DesignHInfinity(const SampledPlant& plant, const HInfinityParameters& w,
+                                const std::string& where) {
   static Remembered remembered;
   const StateSpace P = HInfinityPlant(plant, w);
   const std::string key = Remembered::Key(P, w);

@@ -27,7 +27,8 @@ LqgDesign DesignLqg(const SampledPlant& plant, const LqgParameters& w, const std
   d.B = plant.B;
   d.C = plant.C;
   // Forces and readings in units of their weights; the integral in units of its own.
-  MatrixXd A = MatrixXd::Identity(n + p, n + p), B = MatrixXd::Zero(n + p, p), Q = MatrixXd::Zero(n + p, n + p);
+  MatrixXd A = MatrixXd::Identity(n + p, n + p), B = MatrixXd::Zero(n + p, p),
+           Q = MatrixXd::Zero(n + p, n + p);
   A.topLeftCorner(n, n) = plant.A;
   A.bottomLeftCorner(p, n) = plant.Ts / w.integral_weight * plant.C;
   B.topRows(n) = w.force_weight * plant.B;
@@ -38,20 +39,26 @@ LqgDesign DesignLqg(const SampledPlant& plant, const LqgParameters& w, const std
   const MatrixXd noise = w.force_noise * plant.E, C = plant.C / w.sensor_noise;
   MatrixXd covariance = noise * noise.transpose();
   if (plant.G.size() > 0) covariance += plant.G * plant.G.transpose();
-  const RiccatiSolution filter = SolveRiccati(plant.A.transpose(), C.transpose(), covariance, MatrixXd::Identity(p, p));
+  const RiccatiSolution filter =
+      SolveRiccati(plant.A.transpose(), C.transpose(), covariance, MatrixXd::Identity(p, p));
   for (const auto& [solution, what] : {std::pair{&control, "weights"}, std::pair{&filter, "noise"}})
     if (!solution->usable())
-      throw InputError(fmt::format("{}: no stabilising solution with these {} (residual {:.2g}, slowest pole {:.9g}); allowed: axes that "
-                                   "magnets and sensors of the rig can hold", where, what, solution->residual, solution->spectral_radius));
+      throw InputError(
+          fmt::format("{}: no stabilising solution with these {} (residual {:.2g}, slowest pole "
+                      "{:.9g}); allowed: axes that "
+                      "magnets and sensors of the rig can hold",
+                      where, what, solution->residual, solution->spectral_radius));
   d.Kx = w.force_weight * control.K.leftCols(n);
   d.Ki = w.force_weight / w.integral_weight * control.K.rightCols(p);
   const MatrixXd PC = filter.X * C.transpose();
-  d.L = (MatrixXd::Identity(p, p) + C * PC).ldlt().solve(PC.transpose()).transpose() / w.sensor_noise;
+  d.L =
+      (MatrixXd::Identity(p, p) + C * PC).ldlt().solve(PC.transpose()).transpose() / w.sensor_noise;
   MatrixXd rest = MatrixXd::Zero(n + p, n + p);
   rest.topLeftCorner(n, n) = MatrixXd::Identity(n, n) - plant.A;
   rest.topRightCorner(n, p) = -plant.B;
   rest.bottomLeftCorner(p, n) = plant.C;
-  const MatrixXd target = rest.fullPivLu().solve(MatrixXd(MatrixXd::Identity(n + p, n + p).rightCols(p)));
+  const MatrixXd target =
+      rest.fullPivLu().solve(MatrixXd(MatrixXd::Identity(n + p, n + p).rightCols(p)));
   d.Nx = target.topRows(n);
   d.Nf = target.bottomRows(p);
   d.control_residual = control.residual;
@@ -60,9 +67,15 @@ LqgDesign DesignLqg(const SampledPlant& plant, const LqgParameters& w, const std
   return d;
 }
 
-LqgController::LqgController(std::vector<double> speeds, std::vector<LqgDesign> designs, std::vector<double> f_max, double Ts)
-    : speeds_(std::move(speeds)), designs_(std::move(designs)), f_max_(std::move(f_max)), Ts_(Ts), now_(designs_.front()) {
-  Require(speeds_.size() == designs_.size() && N(f_max_.size()) == now_.B.cols(), "a design per speed, a limit per axis");
+LqgController::LqgController(std::vector<double> speeds, std::vector<LqgDesign> designs,
+                             std::vector<double> f_max, double Ts)
+    : speeds_(std::move(speeds)),
+      designs_(std::move(designs)),
+      f_max_(std::move(f_max)),
+      Ts_(Ts),
+      now_(designs_.front()) {
+  Require(speeds_.size() == designs_.size() && N(f_max_.size()) == now_.B.cols(),
+          "a design per speed, a limit per axis");
   for (auto* v : {&x_, &corrected_, &work_}) v->setZero(now_.A.rows());
   for (auto* v : {&xi_, &y_, &r_, &f_}) v->setZero(now_.B.cols());
 }
@@ -104,8 +117,9 @@ void LqgController::Predict() {
   x_.noalias() += now_.B * f_;
 }
 
-void LqgController::Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-                         double Omega, std::vector<double>& f) {
+void LqgController::Step(const std::vector<double>& y, const std::vector<double>& r,
+                         const std::vector<double>& excitation, double Omega,
+                         std::vector<double>& f) {
   Schedule(Omega);
   Correct(y, r);
   work_ = corrected_;
@@ -124,10 +138,12 @@ void LqgController::Step(const std::vector<double>& y, const std::vector<double>
 }
 
 void LqgController::MatchIntegral() {
-  xi_ = now_.Ki.partialPivLu().solve(Eigen::VectorXd(now_.Nf * r_ - now_.Kx * (corrected_ - now_.Nx * r_) - f_));
+  xi_ = now_.Ki.partialPivLu().solve(
+      Eigen::VectorXd(now_.Nf * r_ - now_.Kx * (corrected_ - now_.Nx * r_) - f_));
 }
 
-void LqgController::Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) {
+void LqgController::Hold(const std::vector<double>& force, const std::vector<double>& y,
+                         const std::vector<double>& r) {
   const Eigen::Index n = now_.A.rows();
   for (std::size_t k = 0; k < force.size(); ++k) {
     y_[N(k)] = y[k];
@@ -136,12 +152,15 @@ void LqgController::Hold(const std::vector<double>& force, const std::vector<dou
   }
   // The observer's own rest under this force and these readings.
   const MatrixXd A = now_.A * (MatrixXd::Identity(n, n) - now_.L * now_.C);
-  x_ = (MatrixXd::Identity(n, n) - A).partialPivLu().solve(Eigen::VectorXd(now_.A * (now_.L * y_) + now_.B * f_));
+  x_ = (MatrixXd::Identity(n, n) - A)
+           .partialPivLu()
+           .solve(Eigen::VectorXd(now_.A * (now_.L * y_) + now_.B * f_));
   corrected_ = x_ + now_.L * (y_ - now_.C * x_);
   MatchIntegral();
 }
 
-void LqgController::Track(const std::vector<double>& y, const std::vector<double>& r, double Omega, const std::vector<double>& f) {
+void LqgController::Track(const std::vector<double>& y, const std::vector<double>& r, double Omega,
+                          const std::vector<double>& f) {
   Schedule(Omega);
   Correct(y, r);
   for (std::size_t k = 0; k < f.size(); ++k) f_[N(k)] = f[k];

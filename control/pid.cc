@@ -22,7 +22,8 @@ StateSpace PidLinear(const PidParameters& p, double Ts) {
   return s;
 }
 
-double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation, PidState& s) {
+double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation,
+               PidState& s) {
   const double e = r - y;
   if (!s.started) s.last = y;
   s.started = true;
@@ -45,7 +46,8 @@ void DecentralisedPid::Step(const std::vector<double>& y, const std::vector<doub
     f[k] = PidStep(axes_[k], Ts_, filter_[k], y[k], r[k], excitation[k], states_[k]);
 }
 
-void DecentralisedPid::Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) {
+void DecentralisedPid::Hold(const std::vector<double>& force, const std::vector<double>& y,
+                            const std::vector<double>& r) {
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     states_[k] = PidState{};
     states_[k].integral = force[k] - axes_[k].kp * (r[k] - y[k]);

@@ -38,14 +38,16 @@ struct PidState {
 double PidFilter(const PidParameters& p, double Ts);
 /// Reading -> force of one PID, r = 0; states d_(k-1), y_(k-1), integral.
 StateSpace PidLinear(const PidParameters& p, double Ts);
-double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation, PidState& s);
+double PidStep(const PidParameters& p, double Ts, double a, double y, double r, double excitation,
+               PidState& s);
 
 class DecentralisedPid : public PositionController {
  public:
   DecentralisedPid(std::vector<PidParameters> axes, double Ts);
   void Step(const std::vector<double>& y, const std::vector<double>& r,
             const std::vector<double>& excitation, double Omega, std::vector<double>& f) override;
-  void Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) override;
+  void Hold(const std::vector<double>& force, const std::vector<double>& y,
+            const std::vector<double>& r) override;
   StateSpace Linear(double Omega) const override;
   std::unique_ptr<PositionController> Clone() const override {
     return std::make_unique<DecentralisedPid>(*this);

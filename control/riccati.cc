@@ -7,7 +7,8 @@
 
 namespace ambrig {
 
-RiccatiSolution SolveRiccati(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B, const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R) {
+RiccatiSolution SolveRiccati(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
+                             const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R) {
   constexpr int kMostIterations = 60;
   const Eigen::Index n = A.rows();
   Eigen::MatrixXd a = A, g = B * R.ldlt().solve(B.transpose()), h = Q;

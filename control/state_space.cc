@@ -14,7 +14,8 @@ Eigen::MatrixXcd StateSpace::Response(std::complex<double> z) const {
   if (states() == 0) return D.cast<std::complex<double>>();
   Eigen::MatrixXcd pencil = -A.cast<std::complex<double>>();
   pencil.diagonal().array() += z;
-  return C * pencil.partialPivLu().solve(B.cast<std::complex<double>>()) + D.cast<std::complex<double>>();
+  return C * pencil.partialPivLu().solve(B.cast<std::complex<double>>()) +
+         D.cast<std::complex<double>>();
 }
 
 StateSpace Series(const StateSpace& first, const StateSpace& second) {
@@ -39,7 +40,8 @@ StateSpace Append(const std::vector<StateSpace>& parts) {
     m += k.inputs();
     p += k.outputs();
   }
-  StateSpace s{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(p, n), Eigen::MatrixXd::Zero(p, m)};
+  StateSpace s{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, m),
+               Eigen::MatrixXd::Zero(p, n), Eigen::MatrixXd::Zero(p, m)};
   n = m = p = 0;
   for (const StateSpace& k : parts) {
     s.A.block(n, n, k.states(), k.states()) = k.A;
@@ -56,7 +58,8 @@ StateSpace Append(const std::vector<StateSpace>& parts) {
 Eigen::MatrixXd LoopMatrix(const StateSpace& P, const StateSpace& K) {
   const Eigen::Index n = P.states(), m = K.states();
   // y = C x + D u, u = Ck xk + Dk y: solved for u.
-  const Eigen::MatrixXd E = (Eigen::MatrixXd::Identity(P.inputs(), P.inputs()) - K.D * P.D).inverse();
+  const Eigen::MatrixXd E =
+      (Eigen::MatrixXd::Identity(P.inputs(), P.inputs()) - K.D * P.D).inverse();
   Eigen::MatrixXd u(P.inputs(), n + m), y(P.outputs(), n + m);
   u << E * K.D * P.C, E * K.C;
   y << P.C, Eigen::MatrixXd::Zero(P.outputs(), m);
@@ -88,11 +91,14 @@ StateSpace Bilinear(const StateSpace& s, double Ts, double prewarp) {
   return d;
 }
 
-StateSpace FromTransferFunction(const std::vector<double>& numerator, const std::vector<double>& denominator) {
+StateSpace FromTransferFunction(const std::vector<double>& numerator,
+                                const std::vector<double>& denominator) {
   std::size_t first = 0;
   while (first < denominator.size() && denominator[first] == 0) ++first;
-  Require(first < denominator.size() && !numerator.empty(), "a transfer function with a denominator");
-  const std::vector<double> den(denominator.begin() + static_cast<std::ptrdiff_t>(first), denominator.end());
+  Require(first < denominator.size() && !numerator.empty(),
+          "a transfer function with a denominator");
+  const std::vector<double> den(denominator.begin() + static_cast<std::ptrdiff_t>(first),
+                                denominator.end());
   std::size_t lead = 0;
   while (lead + 1 < numerator.size() && numerator[lead] == 0) ++lead;
   std::vector<double> num(numerator.begin() + static_cast<std::ptrdiff_t>(lead), numerator.end());

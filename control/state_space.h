@@ -27,12 +27,13 @@ Eigen::MatrixXd LoopMatrix(const StateSpace& P, const StateSpace& K);
 /// Largest |eigenvalue|; below 1: stable.
 double SpectralRadius(const Eigen::MatrixXd& A);
 
-/// A continuous system sampled by the bilinear map s = c (z - 1)/(z + 1); c = 2/Ts, or w/tan(w Ts/2) so that the
-/// responses at w [rad/s] are equal (prewarped; w = 0: plain).
+/// A continuous system sampled by the bilinear map s = c (z - 1)/(z + 1); c = 2/Ts, or w/tan(w
+/// Ts/2) so that the responses at w [rad/s] are equal (prewarped; w = 0: plain).
 StateSpace Bilinear(const StateSpace& continuous, double Ts, double prewarp = 0);
 
 /// Controllable canonical form of numerator/denominator, descending powers of s or z, proper.
 /// @throws std::logic_error for an improper or empty one.
-StateSpace FromTransferFunction(const std::vector<double>& numerator, const std::vector<double>& denominator);
+StateSpace FromTransferFunction(const std::vector<double>& numerator,
+                                const std::vector<double>& denominator);
 
 }  // namespace ambrig

@@ -8,12 +8,15 @@
 
 namespace ambrig {
 
-StateSpaceController::StateSpaceController(std::vector<double> speeds, std::vector<StateSpace> points, std::vector<double> f_max)
+StateSpaceController::StateSpaceController(std::vector<double> speeds,
+                                           std::vector<StateSpace> points,
+                                           std::vector<double> f_max)
     : speeds_(std::move(speeds)), points_(std::move(points)), f_max_(std::move(f_max)) {
   const auto axes = static_cast<Eigen::Index>(f_max_.size());
   Require(!points_.empty() && points_.size() == speeds_.size(), "a system per speed");
   for (const StateSpace& s : points_)
-    Require(s.inputs() == axes && s.outputs() == axes && s.states() == points_.front().states(), "systems of one size");
+    Require(s.inputs() == axes && s.outputs() == axes && s.states() == points_.front().states(),
+            "systems of one size");
   now_ = points_.front();
   x_.setZero(now_.states());
   next_ = x_;
@@ -27,11 +30,13 @@ StateSpace StateSpaceController::At(double Omega) const {
   const ScheduleSpot spot = Locate(speeds_, Omega);
   const StateSpace &a = points_[spot.low], &b = points_[spot.low + 1];
   const double w = spot.weight;
-  return {(1 - w) * a.A + w * b.A, (1 - w) * a.B + w * b.B, (1 - w) * a.C + w * b.C, (1 - w) * a.D + w * b.D};
+  return {(1 - w) * a.A + w * b.A, (1 - w) * a.B + w * b.B, (1 - w) * a.C + w * b.C,
+          (1 - w) * a.D + w * b.D};
 }
 
-void StateSpaceController::Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-                            double Omega, std::vector<double>& f) {
+void StateSpaceController::Step(const std::vector<double>& y, const std::vector<double>& r,
+                                const std::vector<double>& excitation, double Omega,
+                                std::vector<double>& f) {
   if (points_.size() > 1 && Omega != now_speed_) {
     now_ = At(Omega);
     now_speed_ = Omega;
@@ -47,7 +52,8 @@ void StateSpaceController::Step(const std::vector<double>& y, const std::vector<
     f[k] = std::clamp(raw_[static_cast<Eigen::Index>(k)] + excitation[k], -f_max_[k], f_max_[k]);
 }
 
-void StateSpaceController::Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) {
+void StateSpaceController::Hold(const std::vector<double>& force, const std::vector<double>& y,
+                                const std::vector<double>& r) {
   const Eigen::Index n = now_.states();
   Eigen::VectorXd wanted(e_.size());
   for (std::size_t k = 0; k < force.size(); ++k) {
@@ -66,7 +72,8 @@ void StateSpaceController::Hold(const std::vector<double>& force, const std::vec
     const Eigen::VectorXd b = svd.matrixU().leftCols(rank).transpose() * (now_.B * e_);
     x_ = svd.matrixV().leftCols(rank) * b.cwiseQuotient(svd.singularValues().head(rank));
     const Eigen::MatrixXd free = svd.matrixV().rightCols(n - rank);
-    if (free.cols() > 0) x_ += free * (now_.C * free).completeOrthogonalDecomposition().solve(wanted - now_.C * x_);
+    if (free.cols() > 0)
+      x_ += free * (now_.C * free).completeOrthogonalDecomposition().solve(wanted - now_.C * x_);
   }
   offset_ = wanted - (n > 0 ? Eigen::VectorXd(now_.C * x_) : Eigen::VectorXd::Zero(wanted.size()));
 }

@@ -6,9 +6,14 @@
 
 namespace ambrig {
 
-UnbalanceControl::UnbalanceControl(std::unique_ptr<PositionController> inner, std::size_t axes, const UnbalanceControlParameters& p, double Ts)
-    : inner_(std::move(inner)), p_(p), Ts_(Ts), gain_(std::polar(2 * p.bandwidth * Ts, p.phase_deg * kPi / 180)),
-      turning_(axes), rest_(axes, 0.0) {}
+UnbalanceControl::UnbalanceControl(std::unique_ptr<PositionController> inner, std::size_t axes,
+                                   const UnbalanceControlParameters& p, double Ts)
+    : inner_(std::move(inner)),
+      p_(p),
+      Ts_(Ts),
+      gain_(std::polar(2 * p.bandwidth * Ts, p.phase_deg * kPi / 180)),
+      turning_(axes),
+      rest_(axes, 0.0) {}
 
 void UnbalanceControl::Remove(const std::vector<double>& y, double Omega) {
   const bool learns = std::abs(Omega) >= p_.from_speed;
@@ -23,18 +28,21 @@ void UnbalanceControl::Remove(const std::vector<double>& y, double Omega) {
   }
 }
 
-void UnbalanceControl::Step(const std::vector<double>& y, const std::vector<double>& r, const std::vector<double>& excitation,
-                            double Omega, std::vector<double>& f) {
+void UnbalanceControl::Step(const std::vector<double>& y, const std::vector<double>& r,
+                            const std::vector<double>& excitation, double Omega,
+                            std::vector<double>& f) {
   Remove(y, Omega);
   inner_->Step(rest_, r, excitation, Omega, f);
 }
 
-void UnbalanceControl::Hold(const std::vector<double>& force, const std::vector<double>& y, const std::vector<double>& r) {
+void UnbalanceControl::Hold(const std::vector<double>& force, const std::vector<double>& y,
+                            const std::vector<double>& r) {
   std::fill(turning_.begin(), turning_.end(), 0.0);
   inner_->Hold(force, y, r);
 }
 
-void UnbalanceControl::Track(const std::vector<double>& y, const std::vector<double>& r, double Omega, const std::vector<double>& f) {
+void UnbalanceControl::Track(const std::vector<double>& y, const std::vector<double>& r,
+                             double Omega, const std::vector<double>& f) {
   Remove(y, Omega);
   inner_->Track(rest_, r, Omega, f);
 }

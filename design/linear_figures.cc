@@ -53,10 +53,13 @@ std::vector<std::complex<double>> Oscillations(const Eigen::VectorXcd& z, double
   return out;
 }
 
-/// Frequencies for the sensitivity [Hz], ascending: logarithmic, and where the loop rings, which such a grid steps over.
+/// Frequencies for the sensitivity [Hz], ascending: logarithmic, and where the loop rings, which
+/// such a grid steps over.
 std::vector<double> Grid(const std::vector<std::complex<double>>& poles, double highest) {
   std::vector<double> grid;
-  for (int k = 0; k < kFrequencies; ++k) grid.push_back(kLowest * std::pow(highest / kLowest, static_cast<double>(k) / (kFrequencies - 1)));
+  for (int k = 0; k < kFrequencies; ++k)
+    grid.push_back(kLowest *
+                   std::pow(highest / kLowest, static_cast<double>(k) / (kFrequencies - 1)));
   for (const std::complex<double> s : poles)
     for (const double width : {-1.0, 0.0, 1.0}) {
       const double hertz = (s.imag() + width * s.real()) / (2 * kPi);
@@ -68,7 +71,8 @@ std::vector<double> Grid(const std::vector<std::complex<double>>& poles, double 
 
 }  // namespace
 
-LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K, const std::vector<double>& noise, double Omega,
+LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K,
+                              const std::vector<double>& noise, double Omega,
                               const std::vector<std::size_t>& axes, double top) {
   LinearFigures out;
   const StateSpace P = plant.FromForce();
@@ -80,8 +84,10 @@ LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K, co
   out.settling_time = -plant.Ts / std::log(out.spectral_radius);
   const auto poles = Oscillations(z, plant.Ts);
   for (const std::complex<double> s : poles)
-    if (s.imag() <= top) out.amplification = std::max(out.amplification, std::abs(s) / (-2 * s.real()));
-  const std::vector<double> grid = Grid(poles, std::min(std::max(kHighest, 3 * std::abs(Omega) / (2 * kPi)), 0.49 / plant.Ts));
+    if (s.imag() <= top)
+      out.amplification = std::max(out.amplification, std::abs(s) / (-2 * s.real()));
+  const std::vector<double> grid =
+      Grid(poles, std::min(std::max(kHighest, 3 * std::abs(Omega) / (2 * kPi)), 0.49 / plant.Ts));
   std::fill(out.axis_sensitivity.begin(), out.axis_sensitivity.end(), 0.0);
   const Loop loop(P, K, plant.Ts);
   std::vector<Eigen::VectorXd> S;
@@ -91,7 +97,8 @@ LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K, co
     for (std::size_t k = 1; k < grid.size(); ++k)
       if (S[k][axis] > S[most][axis]) most = k;
     // Between its neighbours.
-    double low = grid[most - (most > 0 ? 1 : 0)], high = grid[std::min(most + 1, grid.size() - 1)], peak = S[most][axis];
+    double low = grid[most - (most > 0 ? 1 : 0)], high = grid[std::min(most + 1, grid.size() - 1)],
+           peak = S[most][axis];
     for (int k = 0; k < 12; ++k) {
       const double a = low + 0.382 * (high - low), b = low + 0.618 * (high - low);
       const double sa = loop.Sensitivity(a)[axis], sb = loop.Sensitivity(b)[axis];
@@ -101,28 +108,35 @@ LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K, co
     out.axis_sensitivity[static_cast<std::size_t>(axis)] = peak;
   }
   out.peak_sensitivity = 0;
-  for (const std::size_t k : axes) out.peak_sensitivity = std::max(out.peak_sensitivity, out.axis_sensitivity[k]);
+  for (const std::size_t k : axes)
+    out.peak_sensitivity = std::max(out.peak_sensitivity, out.axis_sensitivity[k]);
   // Noise enters beside the readings: f = K (C x + n).
   MatrixXd B(A.rows(), plant.axes()), C(plant.axes(), A.rows());
   B << P.B * K.D, K.B;
   C << K.D * P.C, K.C;
   MatrixXd n = MatrixXd::Zero(plant.axes(), plant.axes());
-  for (std::size_t k = 0; k < noise.size(); ++k) n(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = noise[k] * noise[k];
-  const MatrixXd force = C * Covariance(A, B * n * B.transpose()) * C.transpose() + K.D * n * K.D.transpose();
+  for (std::size_t k = 0; k < noise.size(); ++k)
+    n(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)) = noise[k] * noise[k];
+  const MatrixXd force =
+      C * Covariance(A, B * n * B.transpose()) * C.transpose() + K.D * n * K.D.transpose();
   out.noise_force = 0;
   for (const std::size_t k : axes)
-    out.noise_force = std::max(out.noise_force, std::sqrt(std::max(0.0, force(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(k)))));
+    out.noise_force =
+        std::max(out.noise_force, std::sqrt(std::max(0.0, force(static_cast<Eigen::Index>(k),
+                                                                static_cast<Eigen::Index>(k)))));
   return out;
 }
 
-std::vector<double> SensitivityCurve(const SampledPlant& plant, const StateSpace& K, std::size_t axis, const std::vector<double>& hertz) {
+std::vector<double> SensitivityCurve(const SampledPlant& plant, const StateSpace& K,
+                                     std::size_t axis, const std::vector<double>& hertz) {
   std::vector<double> out;
   const Loop loop(plant.FromForce(), K, plant.Ts);
   for (const double f : hertz) out.push_back(loop.Sensitivity(f)[static_cast<Eigen::Index>(axis)]);
   return out;
 }
 
-Eigen::MatrixXd LoadStep(const SampledPlant& plant, const StateSpace& K, std::size_t axis, std::size_t samples) {
+Eigen::MatrixXd LoadStep(const SampledPlant& plant, const StateSpace& K, std::size_t axis,
+                         std::size_t samples) {
   const Eigen::Index n = plant.A.rows();
   const MatrixXd A = LoopMatrix(plant.FromForce(), K);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(A.rows()), b = x;

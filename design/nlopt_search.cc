@@ -1,8 +1,8 @@
 #include "design/nlopt_search.h"
 
+#include <nlopt.h>
 #include <algorithm>
 #include <exception>
-#include <nlopt.h>
 #include <stdexcept>
 
 namespace ambrig {
@@ -30,7 +30,8 @@ double Evaluate(unsigned n, const double* x, double*, void* data) {
 
 }  // namespace
 
-std::vector<double> SearchUnitCube(const std::function<double(const std::vector<double>&)>& f, const std::vector<double>& start, int evaluations) {
+std::vector<double> SearchUnitCube(const std::function<double(const std::vector<double>&)>& f,
+                                   const std::vector<double>& start, int evaluations) {
   const auto n = static_cast<unsigned>(start.size());
   const nlopt_opt search = nlopt_create(NLOPT_LN_SBPLX, n);
   if (!search) throw std::runtime_error("NLopt: no memory");
@@ -48,7 +49,8 @@ std::vector<double> SearchUnitCube(const std::function<double(const std::vector<
   nlopt_destroy(search);
   if (call.error) std::rethrow_exception(call.error);
   // Round-off: x is still the best found.
-  if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED) throw std::runtime_error("NLopt: the search failed");
+  if (result < 0 && result != NLOPT_ROUNDOFF_LIMITED)
+    throw std::runtime_error("NLopt: the search failed");
   return x;
 }
 

@@ -19,7 +19,8 @@ bool Dominates(const std::vector<double>& a, const std::vector<double>& b) {
 std::vector<std::size_t> ParetoFront(const std::vector<std::vector<double>>& points) {
   std::vector<std::size_t> front;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    bool stands = std::all_of(points[k].begin(), points[k].end(), [](double v) { return std::isfinite(v); });
+    bool stands =
+        std::all_of(points[k].begin(), points[k].end(), [](double v) { return std::isfinite(v); });
     for (std::size_t j = 0; stands && j < points.size(); ++j)
       stands = !Dominates(points[j], points[k]) && !(j < k && points[j] == points[k]);
     if (stands) front.push_back(k);
@@ -27,14 +28,16 @@ std::vector<std::size_t> ParetoFront(const std::vector<std::vector<double>>& poi
   return front;
 }
 
-std::size_t Compromise(const std::vector<std::vector<double>>& points, const std::vector<std::size_t>& among, const std::vector<double>& scales) {
+std::size_t Compromise(const std::vector<std::vector<double>>& points,
+                       const std::vector<std::size_t>& among, const std::vector<double>& scales) {
   Require(!among.empty(), "a point to choose");
   const auto worst = [&](std::size_t k) {
     double most = 0;
     for (std::size_t j = 0; j < scales.size(); ++j) most = std::max(most, points[k][j] / scales[j]);
     return most;
   };
-  return *std::min_element(among.begin(), among.end(), [&](std::size_t a, std::size_t b) { return worst(a) < worst(b); });
+  return *std::min_element(among.begin(), among.end(),
+                           [&](std::size_t a, std::size_t b) { return worst(a) < worst(b); });
 }
 
 }  // namespace ambrig

@@ -33,7 +33,8 @@ std::vector<std::size_t> AllAxes(const RigParameters& rig) {
 
 std::vector<double> SensorNoise(const RigParameters& rig) {
   std::vector<double> noise;
-  for (const BearingParameters& b : rig.bearings) noise.insert(noise.end(), b.Axes().size(), b.sensor.noise);
+  for (const BearingParameters& b : rig.bearings)
+    noise.insert(noise.end(), b.Axes().size(), b.sensor.noise);
   return noise;
 }
 
@@ -47,17 +48,28 @@ double RunFigure(const FigureSpec& f, const RigParameters& rig, const RunResult&
     if (b.auxiliary) used = std::max(used, most / b.auxiliary->clearance);
   }
   switch (f.info->kind) {
-    case FigureKind::kOrbit: return orbit;
-    case FigureKind::kLateOrbit: return r.metrics.late_orbit;
-    case FigureKind::kPlaneOrbit: return std::ranges::max(PlaneDistance(r.record, f.plane));
-    case FigureKind::kClearanceUsed: return used;
-    case FigureKind::kPeakCurrent: return r.metrics.peak_current;
-    case FigureKind::kCopperLoss: return r.metrics.copper_loss;
-    case FigureKind::kContact: return r.metrics.longest_contact;
-    case FigureKind::kTouchdown: return r.touchdown ? 1 : 0;
-    case FigureKind::kDrop: return r.drop ? 1 : 0;
-    case FigureKind::kDetectionDelay: return r.metrics.detection_delay < 0 ? kInfinity : r.metrics.detection_delay;
-    default: return 0;
+    case FigureKind::kOrbit:
+      return orbit;
+    case FigureKind::kLateOrbit:
+      return r.metrics.late_orbit;
+    case FigureKind::kPlaneOrbit:
+      return std::ranges::max(PlaneDistance(r.record, f.plane));
+    case FigureKind::kClearanceUsed:
+      return used;
+    case FigureKind::kPeakCurrent:
+      return r.metrics.peak_current;
+    case FigureKind::kCopperLoss:
+      return r.metrics.copper_loss;
+    case FigureKind::kContact:
+      return r.metrics.longest_contact;
+    case FigureKind::kTouchdown:
+      return r.touchdown ? 1 : 0;
+    case FigureKind::kDrop:
+      return r.drop ? 1 : 0;
+    case FigureKind::kDetectionDelay:
+      return r.metrics.detection_delay < 0 ? kInfinity : r.metrics.detection_delay;
+    default:
+      return 0;
   }
 }
 
@@ -72,18 +84,21 @@ void AddLinear(const Study& study, const LinearFigures& f, Evaluation& out) {
 }
 
 /// False when the loop is unstable at some speed: no run is worth its time.
-bool EvaluateLinear(const Study& study, const RigParameters& rig, const PositionController& controller, Evaluation& out) {
+bool EvaluateLinear(const Study& study, const RigParameters& rig,
+                    const PositionController& controller, Evaluation& out) {
   double top = 0;
   for (const double speed : study.speeds) top = std::max(top, std::abs(speed));
   for (const double error : study.frequency_errors)
     for (const double speed : study.speeds) {
       RigParameters plant = TrueRig(rig);
       for (BendingMode& mode : plant.modes) mode.omega *= 1 + error;
-      const LinearFigures f = LinearFiguresOf(MakeControlPlant(plant, AllAxes(rig), speed, &rig), controller.Linear(speed), SensorNoise(rig), speed,
+      const LinearFigures f = LinearFiguresOf(MakeControlPlant(plant, AllAxes(rig), speed, &rig),
+                                              controller.Linear(speed), SensorNoise(rig), speed,
                                               ControlledAxes(rig), top);
       if (!f.stable()) {
         out.note = "unstable at " + NumberText(speed) + " rad/s";
-        if (error != 0) out.note += " with bending frequencies off by " + NumberText(100 * error) + " %";
+        if (error != 0)
+          out.note += " with bending frequencies off by " + NumberText(100 * error) + " %";
         return false;
       }
       AddLinear(study, f, out);
@@ -91,7 +106,8 @@ bool EvaluateLinear(const Study& study, const RigParameters& rig, const Position
   return true;
 }
 
-void EvaluateRuns(const Study& study, const RigParameters& rig, const std::atomic<bool>* stop, Evaluation& out) {
+void EvaluateRuns(const Study& study, const RigParameters& rig, const std::atomic<bool>* stop,
+                  Evaluation& out) {
   for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
     bool wanted = false, record = false;
     for (const FigureSpec& f : study.figures) {
@@ -104,7 +120,8 @@ void EvaluateRuns(const Study& study, const RigParameters& rig, const std::atomi
     options.fidelity = study.fidelity;
     options.record = record;
     options.stop = stop;
-    const RunResult r = Simulate(rig, ReadScenarioText(study.scenarios[s].text, study.scenarios[s].file, rig), options);
+    const RunResult r = Simulate(
+        rig, ReadScenarioText(study.scenarios[s].text, study.scenarios[s].file, rig), options);
     for (std::size_t k = 0; k < study.figures.size(); ++k) {
       const FigureSpec& f = study.figures[k];
       if (f.info->of_scenario && f.scenario == s) Worse(out.figures[k], RunFigure(f, rig, r));
@@ -142,7 +159,8 @@ RigParameters Drawn(RigParameters rig, const std::vector<double>& draw) {
   return rig;
 }
 
-Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector<double>& values, const std::atomic<bool>* stop) {
+Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector<double>& values,
+                    const std::atomic<bool>* stop) {
   Evaluation out;
   out.figures.assign(study.figures.size(), 0.0);
   try {
@@ -171,13 +189,16 @@ std::vector<double> PlaneDistance(const Record& record, const std::string& plane
   const Channel *x = record.Find(plane + ".r.x"), *y = record.Find(plane + ".r.y");
   Require(x && y && !x->samples.empty(), "a plane that is recorded");
   std::vector<double> out;
-  for (std::size_t k = 0; k < x->samples.size(); ++k) out.push_back(std::hypot(x->samples[k] - x->samples[0], y->samples[k] - y->samples[0]));
+  for (std::size_t k = 0; k < x->samples.size(); ++k)
+    out.push_back(std::hypot(x->samples[k] - x->samples[0], y->samples[k] - y->samples[0]));
   return out;
 }
 
 bool MeetsLimits(const Study& study, const std::vector<double>& figures) {
   for (std::size_t k = 0; k < figures.size(); ++k)
-    if (!std::isfinite(figures[k]) || (study.figures[k].at_most && figures[k] > *study.figures[k].at_most)) return false;
+    if (!std::isfinite(figures[k]) ||
+        (study.figures[k].at_most && figures[k] > *study.figures[k].at_most))
+      return false;
   return true;
 }
 

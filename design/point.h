@@ -11,12 +11,15 @@ std::string RigTextOfPoint(const DesignCandidate& c, const std::vector<double>& 
 RigParameters RigOfPoint(const DesignCandidate& c, const std::vector<double>& values);
 
 struct Evaluation {
-  std::vector<double> figures;  // as Study::figures; inf where the loop is unstable or the run failed
-  std::string note;             // why, one line
+  // as Study::figures; inf where the loop is unstable or the run failed
+  std::vector<double> figures;
+  std::string note;  // why, one line
 };
 
-/// Worst value of every figure over the nominal rig and its draws. What the rig cannot do is a note, never an exception. @throws Interrupted
-Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector<double>& values, const std::atomic<bool>* stop);
+/// Worst value of every figure over the nominal rig and its draws. What the rig cannot do is a
+/// note, never an exception. @throws Interrupted
+Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector<double>& values,
+                    const std::atomic<bool>* stop);
 
 /// The rig with one draw of its parameters as the plant's true values.
 RigParameters Drawn(RigParameters rig, const std::vector<double>& draw);

@@ -17,7 +17,8 @@ constexpr double kStepLength = 0.03;  // [s]
 constexpr int kCurvePoints = 300;
 constexpr double kLowest = 1, kHighest = 2000;  // [Hz]
 
-ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParameters& rig, RunResult result) {
+ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParameters& rig,
+                      RunResult result) {
   ScenarioTrace trace;
   for (std::size_t k = 0; k < result.record.rows(); ++k) trace.t.push_back(result.record.TimeAt(k));
   trace.orbit.assign(trace.t.size(), 0.0);
@@ -28,14 +29,16 @@ ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParamet
       trace.orbit[k] = std::max(trace.orbit[k], std::hypot(x->samples[k], y ? y->samples[k] : 0.0));
   }
   for (const FigureSpec& f : study.figures)
-    if (f.info->kind == FigureKind::kPlaneOrbit && f.scenario == scenario) trace.planes.emplace_back(f.plane, PlaneDistance(result.record, f.plane));
+    if (f.info->kind == FigureKind::kPlaneOrbit && f.scenario == scenario)
+      trace.planes.emplace_back(f.plane, PlaneDistance(result.record, f.plane));
   trace.result = std::move(result);
   return trace;
 }
 
 }  // namespace
 
-PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::size_t point, const std::atomic<bool>* stop) {
+PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::size_t point,
+                           const std::atomic<bool>* stop) {
   const StudyPoint& p = result.points[point];
   const RigParameters rig = RigOfPoint(study.candidates[p.candidate], p.values);
   PointResponses out;
@@ -53,14 +56,16 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
     out.step.push_back(step(0, static_cast<Eigen::Index>(k)));
   }
   for (int k = 0; k < kCurvePoints; ++k)
-    out.hertz.push_back(kLowest * std::pow(std::min(kHighest, 0.49 / plant.Ts) / kLowest, static_cast<double>(k) / (kCurvePoints - 1)));
+    out.hertz.push_back(kLowest * std::pow(std::min(kHighest, 0.49 / plant.Ts) / kLowest,
+                                           static_cast<double>(k) / (kCurvePoints - 1)));
   out.sensitivity.assign(out.hertz.size(), 0.0);
   for (const double Omega : study.speeds) {
     const SampledPlant at = MakeControlPlant(rig, axes, Omega);
     const StateSpace loop = controller->Linear(Omega);
     for (const std::size_t axis : ControlledAxes(rig)) {
       const auto curve = SensitivityCurve(at, loop, axis, out.hertz);
-      for (std::size_t k = 0; k < curve.size(); ++k) out.sensitivity[k] = std::max(out.sensitivity[k], curve[k]);
+      for (std::size_t k = 0; k < curve.size(); ++k)
+        out.sensitivity[k] = std::max(out.sensitivity[k], curve[k]);
     }
   }
   for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
@@ -68,7 +73,8 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
     options.fidelity = study.fidelity;
     options.stop = stop;
     const StudyScenario& given = study.scenarios[s];
-    out.scenarios.push_back(TraceOf(study, s, rig, Simulate(rig, ReadScenarioText(given.text, given.file, rig), options)));
+    out.scenarios.push_back(TraceOf(
+        study, s, rig, Simulate(rig, ReadScenarioText(given.text, given.file, rig), options)));
   }
   return out;
 }
@@ -85,7 +91,9 @@ std::size_t RepresentativeOf(const Study& study, const StudyResult& result, std:
     if (p.feasible) feasible.push_back(k);
     finite.push_back(k);
   }
-  return front.empty() && feasible.empty() ? finite.front() : Compromise(objectives, front.empty() ? feasible : front, result.scales);
+  return front.empty() && feasible.empty()
+             ? finite.front()
+             : Compromise(objectives, front.empty() ? feasible : front, result.scales);
 }
 
 }  // namespace ambrig

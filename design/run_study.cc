@@ -20,7 +20,8 @@ constexpr double kFailed = 1e6, kPerLimit = 10, kSum = 0.05;
 /// Evaluates what the journal does not know.
 class Evaluator {
  public:
-  Evaluator(const Study& study, StudyJournal& journal, const StudyOptions& options) : study_(study), journal_(journal), options_(options) {}
+  Evaluator(const Study& study, StudyJournal& journal, const StudyOptions& options)
+      : study_(study), journal_(journal), options_(options) {}
 
   Evaluation At(std::size_t candidate, const std::vector<double>& values) {
     if (options_.stop && options_.stop->load()) throw Interrupted();
@@ -64,7 +65,8 @@ std::vector<std::vector<double>> SweepOf(const Study& study, const DesignCandida
     return out;
   }
   const int n = static_cast<int>(c.variables.size());
-  const UnitPoints unit = n <= kSobolDimensions ? Sobol(study.points, n, study.seed) : LatinHypercube(study.points, n, study.seed);
+  const UnitPoints unit = n <= kSobolDimensions ? Sobol(study.points, n, study.seed)
+                                                : LatinHypercube(study.points, n, study.seed);
   for (const auto& u : unit) {
     std::vector<double> values;
     for (std::size_t k = 0; k < u.size(); ++k) values.push_back(c.variables[k].FromUnit(u[k]));
@@ -97,13 +99,16 @@ std::vector<std::vector<double>> Directions(const Study& study) {
 }
 
 /// One number of the objectives, by the direction's weights; limits exceeded cost.
-double Scalar(const Study& study, const std::vector<double>& figures, const std::vector<double>& weights, const std::vector<double>& scales) {
+double Scalar(const Study& study, const std::vector<double>& figures,
+              const std::vector<double>& weights, const std::vector<double>& scales) {
   double most = 0, sum = 0, excess = 0;
   std::size_t j = 0;
   for (std::size_t k = 0; k < figures.size(); ++k) {
     const FigureSpec& f = study.figures[k];
     if (!std::isfinite(figures[k])) return kFailed;
-    if (f.at_most) excess += std::max(0.0, figures[k] - *f.at_most) / (*f.at_most != 0 ? std::abs(*f.at_most) : 1);
+    if (f.at_most)
+      excess +=
+          std::max(0.0, figures[k] - *f.at_most) / (*f.at_most != 0 ? std::abs(*f.at_most) : 1);
     if (!f.objective) continue;
     const double part = weights[j] * figures[k] / scales[j];
     most = std::max(most, part);
@@ -116,15 +121,16 @@ double Scalar(const Study& study, const std::vector<double>& figures, const std:
 std::vector<double> ScalesOf(const Study& study, const Evaluation& start) {
   std::vector<double> scales;
   for (const std::size_t k : study.Objectives())
-    scales.push_back(std::isfinite(start.figures[k]) && start.figures[k] != 0 ? std::abs(start.figures[k]) : 1);
+    scales.push_back(
+        std::isfinite(start.figures[k]) && start.figures[k] != 0 ? std::abs(start.figures[k]) : 1);
   return scales;
 }
 
 using Asked = std::vector<std::vector<double>>;
 
 /// Every point that one search asks for, in its order.
-Asked SearchDirection(const Study& study, Evaluator& evaluator, std::size_t candidate, const std::vector<double>& weights,
-                      const std::vector<double>& scales) {
+Asked SearchDirection(const Study& study, Evaluator& evaluator, std::size_t candidate,
+                      const std::vector<double>& weights, const std::vector<double>& scales) {
   const DesignCandidate& c = study.candidates[candidate];
   Asked asked{StartOf(c)};
   std::vector<double> start;
@@ -145,14 +151,18 @@ Asked SearchDirection(const Study& study, Evaluator& evaluator, std::size_t cand
 }
 
 /// Points in order, each once, with their results from the journal.
-StudyResult Gather(const Study& study, const std::vector<std::vector<std::vector<double>>>& per_candidate, const StudyJournal& journal) {
+StudyResult Gather(const Study& study,
+                   const std::vector<std::vector<std::vector<double>>>& per_candidate,
+                   const StudyJournal& journal) {
   StudyResult out;
   for (std::size_t c = 0; c < per_candidate.size(); ++c) {
     std::set<std::vector<double>> seen;
     for (const auto& values : per_candidate[c]) {
       if (!seen.insert(values).second) continue;
       const auto e = journal.Find(c, values);
-      if (!e) throw InputError(study.file + ": the study is not finished, allowed: run ambrig design first");
+      if (!e)
+        throw InputError(study.file +
+                         ": the study is not finished, allowed: run ambrig design first");
       out.points.push_back({c, values, *e, MeetsLimits(study, e->figures), false});
     }
   }
@@ -160,7 +170,8 @@ StudyResult Gather(const Study& study, const std::vector<std::vector<std::vector
   std::vector<std::vector<double>> objectives;
   for (const StudyPoint& p : out.points) {
     objectives.emplace_back();
-    for (const std::size_t k : study.Objectives()) objectives.back().push_back(p.feasible ? p.result.figures[k] : kInfinity);
+    for (const std::size_t k : study.Objectives())
+      objectives.back().push_back(p.feasible ? p.result.figures[k] : kInfinity);
   }
   for (const std::size_t k : ParetoFront(objectives)) out.points[k].front = true;
   return out;
@@ -180,16 +191,19 @@ StudyResult RunStudy(const Study& study, const StudyOptions& options) {
       for (const auto& values : points[c]) all.emplace_back(c, values);
     }
     evaluator.Expect(all.size());
-    InParallel(all.size(), options.jobs, [&](std::size_t k) { evaluator.At(all[k].first, all[k].second); });
+    InParallel(all.size(), options.jobs,
+               [&](std::size_t k) { evaluator.At(all[k].first, all[k].second); });
     return Gather(study, points, journal);
   }
   const auto directions = Directions(study);
   evaluator.Expect(candidates * directions.size() * static_cast<std::size_t>(study.evaluations));
-  InParallel(candidates, options.jobs, [&](std::size_t c) { evaluator.At(c, StartOf(study.candidates[c])); });
+  InParallel(candidates, options.jobs,
+             [&](std::size_t c) { evaluator.At(c, StartOf(study.candidates[c])); });
   const auto scales = ScalesOf(study, evaluator.At(0, StartOf(study.candidates[0])));
   std::vector<Asked> asked(candidates * directions.size());
   InParallel(asked.size(), options.jobs, [&](std::size_t k) {
-    asked[k] = SearchDirection(study, evaluator, k / directions.size(), directions[k % directions.size()], scales);
+    asked[k] = SearchDirection(study, evaluator, k / directions.size(),
+                               directions[k % directions.size()], scales);
   });
   for (std::size_t k = 0; k < asked.size(); ++k) {
     auto& to = points[k / directions.size()];

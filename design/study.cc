@@ -29,8 +29,10 @@ double Whole(const TomlTable& t, const char* key, double fallback, double lo, do
 DesignVariable ReadVariable(const TomlTable& t, const DesignCandidate& c) {
   DesignVariable v;
   v.paths = t.Has("paths") ? t.Strings("paths") : std::vector{t.String("path")};
-  if (v.paths.empty()) t.Fail("paths", "= [], allowed: at least one path such as \"controller.kp\"");
-  if (t.Has("values") == t.Has("range")) t.Fail("range", "allowed: either range = [low, high] or values = [...]");
+  if (v.paths.empty())
+    t.Fail("paths", "= [], allowed: at least one path such as \"controller.kp\"");
+  if (t.Has("values") == t.Has("range"))
+    t.Fail("range", "allowed: either range = [low, high] or values = [...]");
   v.start = TomlNumberAt(c.rig_text, c.rig_file, v.paths.front());
   if (t.Has("values")) {
     v.values = t.Numbers("values");
@@ -40,11 +42,14 @@ DesignVariable ReadVariable(const TomlTable& t, const DesignCandidate& c) {
   } else {
     const auto range = t.Numbers("range");
     v.logarithmic = t.Choice("scale", "linear", "linear, log") == "log";
-    if (range.size() != 2 || !(range[0] < range[1]) || !std::isfinite(range[0]) || !std::isfinite(range[1]))
+    if (range.size() != 2 || !(range[0] < range[1]) || !std::isfinite(range[0]) ||
+        !std::isfinite(range[1]))
       t.Fail("range", "allowed: [low, high] with low < high");
     v.low = range[0];
     v.high = range[1];
-    if (v.logarithmic && !(v.low > 0)) t.Fail("range", fmt::format("= [{}, {}] with scale = \"log\", allowed: above 0", v.low, v.high));
+    if (v.logarithmic && !(v.low > 0))
+      t.Fail("range",
+             fmt::format("= [{}, {}] with scale = \"log\", allowed: above 0", v.low, v.high));
   }
   t.RejectUnknownKeys();
   return v;
@@ -59,7 +64,8 @@ DesignCandidate ReadCandidate(const TomlTable& t, const std::string& file) {
   for (const TomlTable& v : t.Tables("variable")) c.variables.push_back(ReadVariable(v, c));
   std::size_t listed = 0;
   for (const DesignVariable& v : c.variables) listed += v.values.empty() ? 0 : 1;
-  if (listed != 0 && listed != c.variables.size()) t.Fail("variable", "has ranges and values mixed, allowed: all of one sort");
+  if (listed != 0 && listed != c.variables.size())
+    t.Fail("variable", "has ranges and values mixed, allowed: all of one sort");
   // The ends of every range must be a rig.
   for (const bool high : {false, true}) {
     std::vector<double> values;
@@ -67,7 +73,8 @@ DesignCandidate ReadCandidate(const TomlTable& t, const std::string& file) {
     try {
       RigOfPoint(c, values);
     } catch (const InputError& e) {
-      t.Fail("variable", fmt::format("at its {} end makes no rig: {}", high ? "upper" : "lower", e.what()));
+      t.Fail("variable",
+             fmt::format("at its {} end makes no rig: {}", high ? "upper" : "lower", e.what()));
     }
   }
   t.RejectUnknownKeys();
@@ -91,7 +98,10 @@ FigureSpec ReadFigure(const TomlTable& t, const Study& s, bool objective) {
   if (f.info->of_scenario) {
     const std::string wanted = t.String("scenario");
     const auto it = std::find(names.begin(), names.end(), wanted);
-    if (it == names.end()) t.Fail("scenario", fmt::format("= \"{}\", allowed: {}", wanted, names.empty() ? "a [[scenario]] first" : fmt::format("{}", fmt::join(names, ", "))));
+    if (it == names.end())
+      t.Fail("scenario", fmt::format("= \"{}\", allowed: {}", wanted,
+                                     names.empty() ? "a [[scenario]] first"
+                                                   : fmt::format("{}", fmt::join(names, ", "))));
     f.scenario = static_cast<std::size_t>(it - names.begin());
     f.name = wanted + ": " + of;
   } else {
@@ -101,15 +111,19 @@ FigureSpec ReadFigure(const TomlTable& t, const Study& s, bool objective) {
     f.plane = t.String("plane");
     for (const DesignCandidate& c : s.candidates) {
       std::vector<std::string> planes;
-      for (const ShaftPlane& p : ReadRigText(c.rig_text, c.rig_file).stations) planes.push_back(p.name);
+      for (const ShaftPlane& p : ReadRigText(c.rig_text, c.rig_file).stations)
+        planes.push_back(p.name);
       if (std::find(planes.begin(), planes.end(), f.plane) == planes.end())
-        t.Fail("plane", fmt::format("= \"{}\", allowed: {}", f.plane, planes.empty() ? "a disk or station of a beam rotor" : fmt::format("{}", fmt::join(planes, ", "))));
+        t.Fail("plane", fmt::format("= \"{}\", allowed: {}", f.plane,
+                                    planes.empty() ? "a disk or station of a beam rotor"
+                                                   : fmt::format("{}", fmt::join(planes, ", "))));
     }
     f.name += " of " + f.plane;
   }
   f.name = t.String("name", f.name);
   if (t.Has("at_most")) f.at_most = t.Number("at_most");
-  if (!objective && !f.at_most) t.Fail("at_most", fmt::format("is missing, allowed: a number in {}", f.info->unit));
+  if (!objective && !f.at_most)
+    t.Fail("at_most", fmt::format("is missing, allowed: a number in {}", f.info->unit));
   t.RejectUnknownKeys();
   return f;
 }
@@ -117,7 +131,8 @@ FigureSpec ReadFigure(const TomlTable& t, const Study& s, bool objective) {
 void ReadSearch(const TomlTable& root, Study& s) {
   const auto t = root.Table("search");
   if (!t) return;
-  s.method = t->Choice("method", "sweep", "sweep, optimise") == "sweep" ? SearchMethod::kSweep : SearchMethod::kOptimise;
+  s.method = t->Choice("method", "sweep", "sweep, optimise") == "sweep" ? SearchMethod::kSweep
+                                                                        : SearchMethod::kOptimise;
   s.seed = static_cast<std::uint64_t>(Whole(*t, "seed", 1, 0, 1e9));
   if (s.method == SearchMethod::kSweep) {
     s.points = static_cast<int>(Whole(*t, "points", 0, 0, kMostPoints));
@@ -128,9 +143,12 @@ void ReadSearch(const TomlTable& root, Study& s) {
   t->RejectUnknownKeys();
   for (const DesignCandidate& c : s.candidates)
     for (const DesignVariable& v : c.variables) {
-      if (s.method == SearchMethod::kOptimise && !v.values.empty()) t->Fail("method", "= \"optimise\", but a variable has values; allowed: ranges");
+      if (s.method == SearchMethod::kOptimise && !v.values.empty())
+        t->Fail("method", "= \"optimise\", but a variable has values; allowed: ranges");
       if (v.values.empty() && !(v.low <= v.start && v.start <= v.high))
-        t->Fail("", fmt::format("candidate {}: {} = {} in the rig file, allowed: inside its range [{}, {}], where the search begins", c.name, v.paths.front(), v.start, v.low, v.high));
+        t->Fail("", fmt::format("candidate {}: {} = {} in the rig file, allowed: inside its range "
+                                "[{}, {}], where the search begins",
+                                c.name, v.paths.front(), v.start, v.low, v.high));
     }
 }
 
@@ -140,7 +158,8 @@ void ReadSpread(const TomlTable& root, Study& s) {
   const auto draws = static_cast<int>(Whole(*t, "draws", 0, 1, 1e4));
   const auto seed = static_cast<std::uint64_t>(Whole(*t, "seed", 1, 0, 1e9));
   const double scale = t->Number("scale", 1);
-  if (!(scale >= 0 && scale <= 10)) t->Fail("scale", fmt::format("= {}, allowed: 0 to 10 (times the sd)", scale));
+  if (!(scale >= 0 && scale <= 10))
+    t->Fail("scale", fmt::format("= {}, allowed: 0 to 10 (times the sd)", scale));
   std::size_t most = 0;
   for (const DesignCandidate& c : s.candidates) {
     std::size_t n = 0;
@@ -163,7 +182,8 @@ std::string Named(const DesignCandidate& c, const char* table) {
 
 std::string Texts(const Study& s) {
   std::string all = ReadFile(s.file);
-  for (const DesignCandidate& c : s.candidates) all += c.rig_text + Named(c, "rotor") + Named(c, "controller");
+  for (const DesignCandidate& c : s.candidates)
+    all += c.rig_text + Named(c, "rotor") + Named(c, "controller");
   for (const StudyScenario& k : s.scenarios) all += k.text;
   return all;
 }
@@ -172,7 +192,8 @@ std::string Texts(const Study& s) {
 
 double DesignVariable::FromUnit(double u) const {
   const double w = std::clamp(u, 0.0, 1.0);
-  return std::clamp(logarithmic ? low * std::pow(high / low, w) : low + w * (high - low), low, high);
+  return std::clamp(logarithmic ? low * std::pow(high / low, w) : low + w * (high - low), low,
+                    high);
 }
 
 double DesignVariable::ToUnit(double value) const {
@@ -181,20 +202,31 @@ double DesignVariable::ToUnit(double value) const {
 
 const std::vector<FigureInfo>& FigureInfos() {
   static const std::vector<FigureInfo> all{
-      {FigureKind::kPeakSensitivity, "peak_sensitivity", "-", "largest sensitivity of the axes that [controller] has (ISO 14839-3), worst speed", false},
-      {FigureKind::kSettlingTime, "settling_time", "s", "time constant of the loop's slowest pole, worst speed", false},
-      {FigureKind::kNoiseForce, "noise_force", "N", "rms force command of those axes due to sensor noise, worst axis and speed", false},
-      {FigureKind::kAmplification, "amplification", "-", "1/(2 zeta) of the loop's least damped pole up to the highest of the speeds, worst speed", false},
-      {FigureKind::kOrbit, "orbit", "m", "largest distance of the shaft from the centre of a radial bearing", true},
+      {FigureKind::kPeakSensitivity, "peak_sensitivity", "-",
+       "largest sensitivity of the axes that [controller] has (ISO 14839-3), worst speed", false},
+      {FigureKind::kSettlingTime, "settling_time", "s",
+       "time constant of the loop's slowest pole, worst speed", false},
+      {FigureKind::kNoiseForce, "noise_force", "N",
+       "rms force command of those axes due to sensor noise, worst axis and speed", false},
+      {FigureKind::kAmplification, "amplification", "-",
+       "1/(2 zeta) of the loop's least damped pole up to the highest of the speeds, worst speed",
+       false},
+      {FigureKind::kOrbit, "orbit", "m",
+       "largest distance of the shaft from the centre of a radial bearing", true},
       {FigureKind::kLateOrbit, "late_orbit", "m", "the same over the last tenth of the run", true},
-      {FigureKind::kPlaneOrbit, "plane_orbit", "m", "largest distance of a disk or station from where it stood at the start (in the record)", true},
-      {FigureKind::kClearanceUsed, "clearance_used", "-", "largest orbit over the auxiliary bearing's clearance", true},
+      {FigureKind::kPlaneOrbit, "plane_orbit", "m",
+       "largest distance of a disk or station from where it stood at the start (in the record)",
+       true},
+      {FigureKind::kClearanceUsed, "clearance_used", "-",
+       "largest orbit over the auxiliary bearing's clearance", true},
       {FigureKind::kPeakCurrent, "peak_current", "A", "largest coil current", true},
       {FigureKind::kCopperLoss, "copper_loss", "W", "mean over the run, all coils", true},
       {FigureKind::kContact, "contact", "s", "longest contact with an auxiliary bearing", true},
-      {FigureKind::kTouchdown, "touchdown", "-", "1 when the rotor touched an auxiliary bearing, else 0", true},
+      {FigureKind::kTouchdown, "touchdown", "-",
+       "1 when the rotor touched an auxiliary bearing, else 0", true},
       {FigureKind::kDrop, "drop", "-", "1 when the rotor dropped, else 0", true},
-      {FigureKind::kDetectionDelay, "detection_delay", "s", "worst delay of a fault's detection", true},
+      {FigureKind::kDetectionDelay, "detection_delay", "s", "worst delay of a fault's detection",
+       true},
   };
   return all;
 }
@@ -214,37 +246,47 @@ Study ReadStudy(const std::string& file) {
   for (const TomlTable& t : root.Tables("candidate")) {
     s.candidates.push_back(ReadCandidate(t, file));
     for (std::size_t k = 0; k + 1 < s.candidates.size(); ++k)
-      if (s.candidates[k].name == s.candidates.back().name) t.Fail("name", fmt::format("= \"{}\" stands twice", s.candidates[k].name));
+      if (s.candidates[k].name == s.candidates.back().name)
+        t.Fail("name", fmt::format("= \"{}\" stands twice", s.candidates[k].name));
   }
-  if (s.candidates.empty()) root.Fail("candidate", "is missing, allowed: [[candidate]] with name and rig");
+  if (s.candidates.empty())
+    root.Fail("candidate", "is missing, allowed: [[candidate]] with name and rig");
   for (const TomlTable& t : root.Tables("scenario")) {
     StudyScenario k;
     k.file = Beside(file, t.String("file"));
     k.text = ReadFile(k.file);
     k.name = t.String("name");
     t.RejectUnknownKeys();
-    for (const DesignCandidate& c : s.candidates) ReadScenarioText(k.text, k.file, ReadRigText(c.rig_text, c.rig_file));
+    for (const DesignCandidate& c : s.candidates)
+      ReadScenarioText(k.text, k.file, ReadRigText(c.rig_text, c.rig_file));
     for (const StudyScenario& other : s.scenarios)
       if (other.name == k.name) t.Fail("name", fmt::format("= \"{}\" stands twice", k.name));
     s.scenarios.push_back(k);
   }
   for (const TomlTable& t : root.Tables("objective")) s.figures.push_back(ReadFigure(t, s, true));
-  if (s.figures.empty()) root.Fail("objective", "is missing, allowed: [[objective]] with of = one of " + FigureNames());
+  if (s.figures.empty())
+    root.Fail("objective", "is missing, allowed: [[objective]] with of = one of " + FigureNames());
   for (const TomlTable& t : root.Tables("limit")) s.figures.push_back(ReadFigure(t, s, false));
   s.speeds = root.Numbers("speeds", {0.0});
-  if (s.speeds.empty() || s.speeds.size() > 20) root.Fail("speeds", "allowed: 1 to 20 speeds in rad/s");
+  if (s.speeds.empty() || s.speeds.size() > 20)
+    root.Fail("speeds", "allowed: 1 to 20 speeds in rad/s");
   for (const double w : s.speeds)
-    if (!(std::abs(w) <= 1e5)) root.Fail("speeds", fmt::format("= {} rad/s, allowed: -1e5 to 1e5", w));
+    if (!(std::abs(w) <= 1e5))
+      root.Fail("speeds", fmt::format("= {} rad/s, allowed: -1e5 to 1e5", w));
   for (const double error : root.Numbers("frequency_errors", {})) {
-    if (!(std::abs(error) <= 0.5)) root.Fail("frequency_errors", fmt::format("= {}, allowed: -0.5 to 0.5", error));
+    if (!(std::abs(error) <= 0.5))
+      root.Fail("frequency_errors", fmt::format("= {}, allowed: -0.5 to 0.5", error));
     if (error != 0) s.frequency_errors.push_back(error);
   }
-  if (s.frequency_errors.size() > 20) root.Fail("frequency_errors", "allowed: up to 20 shares of the frequency");
-  s.fidelity = FidelityByName(root.Choice("fidelity", "switching", "switching, averaged, reference"));
+  if (s.frequency_errors.size() > 20)
+    root.Fail("frequency_errors", "allowed: up to 20 shares of the frequency");
+  s.fidelity =
+      FidelityByName(root.Choice("fidelity", "switching", "switching, averaged, reference"));
   ReadSearch(root, s);
   ReadSpread(root, s);
   root.RejectUnknownKeys();
-  s.fingerprint = fmt::format("{:016x}", Fingerprint(Texts(s), Fingerprint(std::to_string(kFormat))));
+  s.fingerprint =
+      fmt::format("{:016x}", Fingerprint(Texts(s), Fingerprint(std::to_string(kFormat))));
   return s;
 }
 

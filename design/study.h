@@ -1,5 +1,6 @@
 #pragma once
-/// study.toml: which controllers are compared, what of them may change, what counts. docs/guide/design.md explains it by example.
+/// study.toml: which controllers are compared, what of them may change, what counts.
+/// docs/guide/design.md explains it by example.
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,8 +15,8 @@ struct DesignVariable {
   std::vector<std::string> paths;  // "controller.kp", "controller.filter[0].frequency"
   double low = 0, high = 0;
   bool logarithmic = false;
-  std::vector<double> values;      // instead of a range: every one is tried
-  double start = 0;                // the rig file's own
+  std::vector<double> values;  // instead of a range: every one is tried
+  double start = 0;            // the rig file's own
 
   /// Share of the range, and back.
   double FromUnit(double u) const;
@@ -32,8 +33,21 @@ struct StudyScenario {
 };
 
 enum class FigureKind {
-  kPeakSensitivity, kSettlingTime, kNoiseForce, kAmplification,       // of the linear loop, worst over the speeds
-  kOrbit, kLateOrbit, kPlaneOrbit, kClearanceUsed, kPeakCurrent, kCopperLoss, kContact, kTouchdown, kDrop, kDetectionDelay  // of a scenario
+  // of the linear loop, worst over the speeds
+  kPeakSensitivity,
+  kSettlingTime,
+  kNoiseForce,
+  kAmplification,
+  kOrbit,
+  kLateOrbit,
+  kPlaneOrbit,
+  kClearanceUsed,
+  kPeakCurrent,
+  kCopperLoss,
+  kContact,
+  kTouchdown,
+  kDrop,
+  kDetectionDelay  // of a scenario
 };
 
 struct FigureInfo {
@@ -45,11 +59,11 @@ struct FigureInfo {
 const std::vector<FigureInfo>& FigureInfos();
 
 struct FigureSpec {
-  std::string name;                // "load step: orbit"
+  std::string name;  // "load step: orbit"
   const FigureInfo* info = nullptr;
   std::size_t scenario = 0;
-  std::string plane;               // of the shaft, where the figure is of one: "disk"
-  bool objective = true;           // false: a limit only
+  std::string plane;      // of the shaft, where the figure is of one: "disk"
+  bool objective = true;  // false: a limit only
   std::optional<double> at_most;
 };
 
@@ -60,13 +74,17 @@ struct Study {
   std::vector<DesignCandidate> candidates;
   std::vector<StudyScenario> scenarios;
   std::vector<FigureSpec> figures;
-  std::vector<double> speeds{0};        // of the linear figures [rad/s]
-  std::vector<double> frequency_errors{0};  // of the true shaft's bending modes in the linear figures [-]; the controllers know nothing of them
+  std::vector<double> speeds{0};  // of the linear figures [rad/s]
+  // of the true shaft's bending modes in the linear figures [-]; the controllers know nothing of
+  // them
+  std::vector<double> frequency_errors{0};
   SearchMethod method = SearchMethod::kSweep;
-  int points = 0;                       // sweep: per candidate, beside the start
-  int directions = 0, evaluations = 0;  // optimise: ways to weigh the objectives, evaluations of each
+  int points = 0;  // sweep: per candidate, beside the start
+  // optimise: ways to weigh the objectives, evaluations of each
+  int directions = 0, evaluations = 0;
   std::uint64_t seed = 1;
-  std::vector<std::vector<double>> draws{{}};  // [draw][tolerance with sd]: normal deviates; the first is nominal
+  // [draw][tolerance with sd]: normal deviates; the first is nominal
+  std::vector<std::vector<double>> draws{{}};
   Fidelity fidelity = Fidelity::kSwitching;
 
   std::vector<std::size_t> Objectives() const;

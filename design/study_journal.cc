@@ -13,15 +13,21 @@ namespace ambrig {
 
 namespace {
 
-std::string PathOf(const std::string& folder) { return (std::filesystem::path(folder) / "journal.txt").string(); }
+std::string PathOf(const std::string& folder) {
+  return (std::filesystem::path(folder) / "journal.txt").string();
+}
 
 std::string Numbers(const std::vector<double>& values) {
   std::string text;
-  for (const double v : values) text += (text.empty() ? "" : " ") + (std::isinf(v) ? std::string(v > 0 ? "inf" : "-inf") : NumberText(v));
+  for (const double v : values)
+    text += (text.empty() ? "" : " ") +
+            (std::isinf(v) ? std::string(v > 0 ? "inf" : "-inf") : NumberText(v));
   return text;
 }
 
-std::string Key(std::size_t candidate, const std::vector<double>& values) { return fmt::format("{}: {}", candidate, Numbers(values)); }
+std::string Key(std::size_t candidate, const std::vector<double>& values) {
+  return fmt::format("{}: {}", candidate, Numbers(values));
+}
 
 bool ParseNumbers(std::string_view text, std::vector<double>& out) {
   while (!text.empty()) {
@@ -48,17 +54,24 @@ StudyJournal::StudyJournal(const std::string& folder, const Study& study) : file
   std::size_t number = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = text.find('\n', begin);
-    const std::string_view line = end == std::string::npos ? std::string_view{} : Unchecked(std::string_view(text).substr(begin, end - begin));
+    const std::string_view line =
+        end == std::string::npos ? std::string_view{}
+                                 : Unchecked(std::string_view(text).substr(begin, end - begin));
     begin = end == std::string::npos ? text.size() : end + 1;
     if (++number == 1) {
       if (!line.starts_with(fmt::format("ambrig study 1\t{}\t", study.fingerprint)))
-        throw InputError(fmt::format("{}: holds another study, or this one before it, a rig or a scenario was changed; allowed: the same "
-                                     "files, or another folder with -o", file_.path()));
+        throw InputError(
+            fmt::format("{}: holds another study, or this one before it, a rig or a scenario was "
+                        "changed; allowed: the same "
+                        "files, or another folder with -o",
+                        file_.path()));
       continue;
     }
-    const std::size_t a = line.find('\t'), b = a == std::string_view::npos ? a : line.find('\t', a + 1);
+    const std::size_t a = line.find('\t'),
+                      b = a == std::string_view::npos ? a : line.find('\t', a + 1);
     Evaluation e;
-    if (b == std::string_view::npos || !ParseNumbers(line.substr(a + 1, b - a - 1), e.figures) || e.figures.size() != study.figures.size()) {
+    if (b == std::string_view::npos || !ParseNumbers(line.substr(a + 1, b - a - 1), e.figures) ||
+        e.figures.size() != study.figures.size()) {
       ++damaged_;
       continue;
     }
@@ -68,13 +81,15 @@ StudyJournal::StudyJournal(const std::string& folder, const Study& study) : file
   if (!text.ends_with('\n')) file_.Append("\n");
 }
 
-std::optional<Evaluation> StudyJournal::Find(std::size_t candidate, const std::vector<double>& values) const {
+std::optional<Evaluation> StudyJournal::Find(std::size_t candidate,
+                                             const std::vector<double>& values) const {
   const std::scoped_lock lock(mutex_);
   const auto it = known_.find(Key(candidate, values));
   return it == known_.end() ? std::nullopt : std::optional(it->second);
 }
 
-void StudyJournal::Add(std::size_t candidate, const std::vector<double>& values, const Evaluation& e) {
+void StudyJournal::Add(std::size_t candidate, const std::vector<double>& values,
+                       const Evaluation& e) {
   const std::string key = Key(candidate, values);
   const std::scoped_lock lock(mutex_);
   if (known_.contains(key)) return;

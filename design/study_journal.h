@@ -1,6 +1,6 @@
 #pragma once
-/// What a study has evaluated so far: a line per point, appended when it is done. kill -9 loses no line; a damaged one is found by its
-/// check sum and its point is done again.
+/// What a study has evaluated so far: a line per point, appended when it is done. kill -9 loses no
+/// line; a damaged one is found by its check sum and its point is done again.
 #include <map>
 #include <mutex>
 #include <optional>

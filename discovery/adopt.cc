@@ -39,20 +39,24 @@ std::string EffectText(const EffectInstance& e) {
     text += fmt::format("{{ value = {}", TomlNumber(e.values[k]));
     if (k < e.sd.size() && e.sd[k] > 0) text += fmt::format(", sd = {}", TomlNumber(e.sd[k]));
     if (formula) {
-      if (e.table[k].has_null) text += fmt::format(", null = {}", TomlNumber(e.table[k].null_value));
-      text += fmt::format(", min = {}, max = {}, unit = \"{}\"", TomlNumber(e.table[k].lo), TomlNumber(e.table[k].hi), e.table[k].unit);
+      if (e.table[k].has_null)
+        text += fmt::format(", null = {}", TomlNumber(e.table[k].null_value));
+      text += fmt::format(", min = {}, max = {}, unit = \"{}\"", TomlNumber(e.table[k].lo),
+                          TomlNumber(e.table[k].hi), e.table[k].unit);
     }
     text += " }";
   }
   text += " }\n";
-  std::map<std::string, std::string> kinds;  // force, reading: inline tables; voltage, torque: texts
+  // force, reading: inline tables; voltage, torque: texts
+  std::map<std::string, std::string> kinds;
   for (const auto& [where, formula] : e.formulas) {
     const auto dot = where.find('.');
     if (dot == std::string::npos) {
       text += fmt::format("{} = \"{}\"\n", where, formula);
     } else {
       std::string& inside = kinds[where.substr(0, dot)];
-      inside += fmt::format("{}{} = \"{}\"", inside.empty() ? "" : ", ", where.substr(dot + 1), formula);
+      inside +=
+          fmt::format("{}{} = \"{}\"", inside.empty() ? "" : ", ", where.substr(dot + 1), formula);
     }
   }
   for (const auto& [kind, inside] : kinds) text += fmt::format("{} = {{ {} }}\n", kind, inside);
@@ -66,7 +70,8 @@ std::string WithoutEffects(const std::string& text) {
   bool inside = false;
   while (std::getline(in, line)) {
     const std::string trimmed = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (trimmed.starts_with("[")) inside = trimmed.starts_with("[[effect]]") || trimmed.starts_with("[effect.");
+    if (trimmed.starts_with("["))
+      inside = trimmed.starts_with("[[effect]]") || trimmed.starts_with("[effect.");
     if (!inside) out += line + "\n";
   }
   while (out.ends_with("\n\n")) out.pop_back();
@@ -79,13 +84,15 @@ void CheckTarget(const EffectDescription& d, const Case& c, const std::string& w
     if (t == wanted || wanted.empty()) return;
     names += (names.empty() ? "" : ", ") + t;
   }
-  throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id, names.empty() ? "no target of this rig" : names));
+  throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id,
+                               names.empty() ? "no target of this rig" : names));
 }
 
 /// The effect at the named target, or where it explains most.
 FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {
   SignatureBank bank;
-  const std::vector<Candidate> candidates = Screen(model, base, FindPeaks(model, base.residual), what, bank);
+  const std::vector<Candidate> candidates =
+      Screen(model, base, FindPeaks(model, base.residual), what, bank);
   FitResult best;
   best.ratio_fit = kInfinity;
   for (std::size_t k = 0; k < std::min<std::size_t>(candidates.size(), 3); ++k) {
@@ -97,7 +104,8 @@ FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenO
 
 }  // namespace
 
-std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const std::vector<EffectInstance>& effects) {
+std::string AdoptedRigText(const std::string& text, const Hypothesis& h,
+                           const std::vector<EffectInstance>& effects) {
   std::map<std::string, const FreeParameter*> fitted;  // by path
   for (const FreeParameter& p : h.free)
     if (p.effect < 0) fitted[p.path] = &p;
@@ -113,7 +121,8 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const s
       if (written[path] || path.rfind(section + ".", 0) != 0) continue;
       const std::string key = path.substr(section.size() + 1);
       if (key.find('.') != std::string::npos) continue;
-      out += fmt::format("{} = {{ value = {}, sd = {}, fitted = {} }}\n", key, TomlNumber(p->start), TomlNumber(p->sd), TomlNumber(p->value));
+      out += fmt::format("{} = {{ value = {}, sd = {}, fitted = {} }}\n", key, TomlNumber(p->start),
+                         TomlNumber(p->sd), TomlNumber(p->value));
       written[path] = true;
     }
   };
@@ -131,9 +140,11 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const s
     std::string key = equals == std::string::npos ? "" : trimmed.substr(0, equals);
     while (!key.empty() && (key.back() == ' ' || key.back() == '\t')) key.pop_back();
     const auto it = fitted.find(section + "." + key);
-    if (!key.empty() && it != fitted.end() && !written[it->first] && line.find('{') != std::string::npos && line.find('}') != std::string::npos) {
+    if (!key.empty() && it != fitted.end() && !written[it->first] &&
+        line.find('{') != std::string::npos && line.find('}') != std::string::npos) {
       const std::string comment = line.substr(line.find('}') + 1);
-      out += fmt::format("{} = {{ value = {}, sd = {}, fitted = {} }}{}\n", key, TomlNumber(it->second->start), TomlNumber(it->second->sd),
+      out += fmt::format("{} = {{ value = {}, sd = {}, fitted = {} }}{}\n", key,
+                         TomlNumber(it->second->start), TomlNumber(it->second->sd),
                          TomlNumber(it->second->value), comment);
       written[it->first] = true;
       continue;
@@ -143,14 +154,17 @@ std::string AdoptedRigText(const std::string& text, const Hypothesis& h, const s
   flush_inherited();
   for (const auto& [path, p] : fitted)
     if (path.starts_with("rotor.") && !written[path])
-      throw InputError(fmt::format("{} has its sd in the shaft's own file, allowed with adopt: the shaft's tables in the rig file, each number "
-                                   "with its sd on a line of its own", path));
+      throw InputError(
+          fmt::format("{} has its sd in the shaft's own file, allowed with adopt: the shaft's "
+                      "tables in the rig file, each number "
+                      "with its sd on a line of its own",
+                      path));
   for (const EffectInstance& e : effects) out += EffectText(e);
   return out;
 }
 
-Adoption Adopt(const Case& c, const std::string& effect, const std::string& target, const std::string& output,
-               const ExplainOptions& options) {
+Adoption Adopt(const Case& c, const std::string& effect, const std::string& target,
+               const std::string& output, const ExplainOptions& options) {
   const auto progress = [&](double f, const std::string& text) {
     if (options.stop && options.stop->load()) throw Interrupted();
     if (options.progress) options.progress(f, text);
@@ -171,7 +185,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   fit.effective = a.before.effective;
   progress(0.2, "rig parameters");
   const FitResult base = Fit(model, nominal, fit);
-  a.ladder = {{"", a.before.ratio_fit, a.before.ratio_validate}, {"parameters", base.ratio_fit, base.ratio_validate}};
+  a.ladder = {{"", a.before.ratio_fit, a.before.ratio_validate},
+              {"parameters", base.ratio_fit, base.ratio_validate}};
   if (formula) {
     a.fit = base;  // it stands in the rig file and was fitted with the rig parameters
   } else {
@@ -181,13 +196,15 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     what.target = target;
     what.progress = [&](double f, const std::string& text) { progress(0.3 + 0.3 * f, text); };
     a.fit = FitEffect(model, base, what);
-    if (!a.fit.converged) throw InputError(fmt::format("{}: no fit of {} holds the rotor", c.file, effect));
+    if (!a.fit.converged)
+      throw InputError(fmt::format("{}: no fit of {} holds the rotor", c.file, effect));
     progress(0.7, "final fit");
     a.fit = Fit(model, a.fit.hypothesis, fit);
     const EffectInstance& e = a.fit.hypothesis.rig.effects.back();
     a.ladder.push_back({e.name + " at " + e.target, a.fit.ratio_fit, a.fit.ratio_validate});
   }
-  for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k) a.effects.push_back(FittedEffect(a.fit, k));
+  for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k)
+    a.effects.push_back(FittedEffect(a.fit, k));
   a.rig_text = AdoptedRigText(ReadFile(c.rig_file), a.fit.hypothesis, a.effects);
   progress(0.9, "compare again");
   a.adopted_case = std::make_unique<Case>(c);

@@ -4,8 +4,8 @@
 
 namespace ambrig {
 
-/// Errors of the data over errors of the model's own noisy record, block by block: 1 means the block
-/// explains its part.
+/// Errors of the data over errors of the model's own noisy record, block by block: 1 means the
+/// block explains its part.
 BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record);
 
 }  // namespace ambrig

@@ -19,8 +19,9 @@ FitResult TryFit(const CaseModel& model, const Hypothesis& h, const FitOptions& 
   }
 }
 
-/// Size and frequency first, the damping as it was sought, then all together: a damping let loose from a
-/// start beside the resonance runs up and explains a broad part of the misfit with a mode that is none.
+/// Size and frequency first, the damping as it was sought, then all together: a damping let loose
+/// from a start beside the resonance runs up and explains a broad part of the misfit with a mode
+/// that is none.
 FitResult FitResonance(const CaseModel& model, const Hypothesis& start, const FitOptions& options) {
   const int effect = static_cast<int>(start.rig.effects.size()) - 1;
   Hypothesis h = start;
@@ -42,13 +43,15 @@ FitResult FitResonance(const CaseModel& model, const Hypothesis& start, const Fi
 /// Whether two starts of a resonance differ in size only.
 bool SameValley(const EffectInstance& a, const EffectInstance& b) {
   for (std::size_t k = 0; k < a.values.size(); ++k)
-    if (a.table[k].name == "frequency" ? a.values[k] != b.values[k] : a.values[k] * b.values[k] < 0) return false;
+    if (a.table[k].name == "frequency" ? a.values[k] != b.values[k] : a.values[k] * b.values[k] < 0)
+      return false;
   return true;
 }
 
-/// The starts of a resonance that explain most when they are simulated: the linear step knows sizes and
-/// neighbouring frequencies badly where the loop answers strongly.
-std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now, const std::vector<EffectInstance>& starts, double effective) {
+/// The starts of a resonance that explain most when they are simulated: the linear step knows sizes
+/// and neighbouring frequencies badly where the loop answers strongly.
+std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
+                                   const std::vector<EffectInstance>& starts, double effective) {
   constexpr std::size_t kFitted = 2;
   std::vector<Hypothesis> all;
   for (const EffectInstance& e : starts) {
@@ -61,7 +64,9 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
     for (std::size_t k = 0; k < runs.size(); ++k) {
       if (!runs[k]) continue;
       const std::vector<double> residual = Residual(model, *runs[k]);
-      order.emplace_back(Score(model, Ratio(model, residual, Which::kFit), Ratio(model, residual, Which::kValidate), effective, 0, 0), k);
+      order.emplace_back(Score(model, Ratio(model, residual, Which::kFit),
+                               Ratio(model, residual, Which::kValidate), effective, 0, 0),
+                         k);
     }
   } catch (const InputError&) {
     return starts;  // refused: no start of it is any good
@@ -69,24 +74,29 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
   std::sort(order.begin(), order.end());
   std::vector<EffectInstance> out;
   for (const auto& [score, k] : order)
-    if (out.size() < kFitted && std::none_of(out.begin(), out.end(), [&](const EffectInstance& o) { return SameValley(o, starts[k]); }))
+    if (out.size() < kFitted && std::none_of(out.begin(), out.end(), [&](const EffectInstance& o) {
+          return SameValley(o, starts[k]);
+        }))
       out.push_back(starts[k]);
   return out;
 }
 
 }  // namespace
 
-FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate, double effective) {
+FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
+                     double effective) {
   FitOptions brief;
   brief.effective = effective;
   brief.base_jacobian = &now.jacobian;
+  brief.reached = now.ratio_fit;
   brief.iterations = candidate.narrow ? 12 : 4;
   brief.passes = 1;
   brief.sensitivities = false;
   std::vector<EffectInstance> starts = {candidate.effect};
   starts.insert(starts.end(), candidate.other_starts.begin(), candidate.other_starts.end());
   if (candidate.narrow) starts = BestOf(model, now, starts, effective);
-  const double enough = candidate.narrow ? 0.1 : 0.5;  // a wrong valley of a resonance may explain most
+  // a wrong valley of a resonance may explain most
+  const double enough = candidate.narrow ? 0.1 : 0.5;
   FitResult best;
   double best_score = kInfinity;
   for (const EffectInstance& start : starts) {
@@ -96,16 +106,19 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
     if (!fit.converged || Score(model, fit, effective) >= best_score) continue;
     best_score = Score(model, fit, effective);
     best = std::move(fit);
-    if (best.ratio_fit * best.ratio_fit - 1 < enough * (now.ratio_fit * now.ratio_fit - 1)) break;  // found its way
+    // found its way
+    if (best.ratio_fit * best.ratio_fit - 1 < enough * (now.ratio_fit * now.ratio_fit - 1)) break;
   }
   if (!best.converged) best.ratio_fit = best.ratio_validate = kInfinity;
   return best;
 }
 
-FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start, double effective) {
+FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
+                double effective) {
   FitOptions full;
   full.effective = effective;
   full.base_jacobian = &now.jacobian;
+  full.reached = now.ratio_fit;
   return TryFit(model, start, full);
 }
 

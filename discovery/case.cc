@@ -23,7 +23,8 @@ std::map<std::string, std::string> KnownChannels(const RigParameters& rig) {
   for (const BearingParameters& b : rig.bearings) {
     for (const std::string& axis : b.Axes()) {
       known[axis] = "m";
-      known[b.kind == BearingKind::kThrust ? "r.z" : b.name + ".r." + axis.substr(axis.size() - 1)] = "m";
+      known[b.kind == BearingKind::kThrust ? "r.z"
+                                           : b.name + ".r." + axis.substr(axis.size() - 1)] = "m";
     }
     for (int j = 1; j <= b.coils(); ++j) {
       known[fmt::format("{}.i{}", b.name, j)] = "A";
@@ -39,7 +40,8 @@ struct Mapping {
   std::string column, unit;
 };
 
-std::map<std::string, Mapping> ReadMapping(const TomlTable& record, const std::map<std::string, std::string>& known) {
+std::map<std::string, Mapping> ReadMapping(const TomlTable& record,
+                                           const std::map<std::string, std::string>& known) {
   std::map<std::string, Mapping> map;
   const auto channels = record.Table("channels");
   if (!channels) return map;
@@ -48,7 +50,8 @@ std::map<std::string, Mapping> ReadMapping(const TomlTable& record, const std::m
   for (const std::string& channel : channels->Keys()) {
     if (!known.contains(channel)) {
       const std::string near = Nearest(channel, names);
-      channels->Fail(channel, "is no channel of this rig" + (near.empty() ? "" : ", did you mean " + near + "?"));
+      channels->Fail(channel, "is no channel of this rig" +
+                                  (near.empty() ? "" : ", did you mean " + near + "?"));
     }
     Mapping m;
     if (channels->IsString(channel)) {
@@ -76,7 +79,8 @@ void NoteOnce(Case& c, const std::string& file, const std::string& text) {
 
 /// Columns renamed to rig channels, units converted, unknown columns left out with a note.
 Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapping,
-                   const std::map<std::string, std::string>& known, const TomlTable& table, Case& c) {
+                   const std::map<std::string, std::string>& known, const TomlTable& table,
+                   Case& c) {
   Record out;
   out.rate = raw.rate;
   out.start = raw.start;
@@ -86,13 +90,16 @@ Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapp
     const Channel* found = raw.Find(column);
     if (!found) {
       if (it != mapping.end())
-        throw InputError(fmt::format("{}: column \"{}\" of {} is not in the data file", table.Where("channels"), column, channel));
+        throw InputError(fmt::format("{}: column \"{}\" of {} is not in the data file",
+                                     table.Where("channels"), column, channel));
       continue;
     }
     Channel converted = *found;
     converted.name = channel;
-    const std::string from = it != mapping.end() && !it->second.unit.empty() ? it->second.unit : found->unit;
-    const double factor = from.empty() ? 1 : UnitFactor(from, unit, table.Where("data") + ": channel " + channel);
+    const std::string from =
+        it != mapping.end() && !it->second.unit.empty() ? it->second.unit : found->unit;
+    const double factor =
+        from.empty() ? 1 : UnitFactor(from, unit, table.Where("data") + ": channel " + channel);
     for (double& v : converted.samples) v *= factor;
     converted.unit = unit;
     out.channels.push_back(std::move(converted));
@@ -103,26 +110,32 @@ Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapp
     for (const auto& [channel, m] : mapping) used = used || m.column == ch.name;
     if (!used && ch.name != "t") ignored += (ignored.empty() ? "" : ", ") + ch.name;
   }
-  if (!ignored.empty()) NoteOnce(c, table.String("data"), "columns without a rig channel, left out: " + ignored);
+  if (!ignored.empty())
+    NoteOnce(c, table.String("data"), "columns without a rig channel, left out: " + ignored);
   return out;
 }
 
 void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
-  const double length = static_cast<double>(r.data.rows()) / r.data.rate, end = r.data.start + length;
-  if (r.data.rows() < 8) t.Fail("data", fmt::format("has {}, allowed: at least 8", Counted(r.data.rows(), "row")));
+  const double length = static_cast<double>(r.data.rows()) / r.data.rate,
+               end = r.data.start + length;
+  if (r.data.rows() < 8)
+    t.Fail("data", fmt::format("has {}, allowed: at least 8", Counted(r.data.rows(), "row")));
   if (end > r.scenario.duration * (1 + 1e-9) + 1.5 / r.data.rate)
-    t.Fail("data", fmt::format("ends at {:.6g} s, the scenario {} lasts {} s", end, r.scenario_file, r.scenario.duration));
+    t.Fail("data", fmt::format("ends at {:.6g} s, the scenario {} lasts {} s", end, r.scenario_file,
+                               r.scenario.duration));
   if (r.data.start < -1e-9)
     t.Fail("data", fmt::format("starts at {} s, before the scenario", r.data.start));
 }
 
-/// Whether something moves this coil's current in a clamped record: more than one constant set-point.
+/// Whether something moves this coil's current in a clamped record: more than one constant
+/// set-point.
 bool Moved(const Scenario& s, const std::string& channel) {
   const auto dot = channel.find(".i");
   if (dot == std::string::npos) return false;
   const std::string coil = channel.substr(0, dot) + ".coil" + channel.substr(dot + 2);
-  return std::any_of(s.excitations.begin(), s.excitations.end(),
-                     [&](const Excitation& e) { return e.target == coil && !(e.kind == "step" && e.start <= 0); });
+  return std::any_of(s.excitations.begin(), s.excitations.end(), [&](const Excitation& e) {
+    return e.target == coil && !(e.kind == "step" && e.start <= 0);
+  });
 }
 
 bool MayBeConstant(const Scenario& s, const std::string& channel) {
@@ -135,7 +148,9 @@ bool MayBeConstant(const Scenario& s, const std::string& channel) {
 }  // namespace
 
 Case ReadCase(const std::string& path) {
-  const std::string file = std::filesystem::is_directory(path) ? (std::filesystem::path(path) / "case.toml").string() : path;
+  const std::string file = std::filesystem::is_directory(path)
+                               ? (std::filesystem::path(path) / "case.toml").string()
+                               : path;
   const TomlTable root = TomlTable::FromFile(file);
   Case c;
   c.file = file;
@@ -146,11 +161,13 @@ Case ReadCase(const std::string& path) {
     for (const std::string& channel : noise->Keys()) {
       if (!known.contains(channel)) noise->Fail(channel, "is no channel of this rig");
       const double v = noise->Number(channel);
-      if (!(v >= 0 && std::isfinite(v))) noise->Fail(channel, fmt::format("= {}, allowed: 0 or more", v));
+      if (!(v >= 0 && std::isfinite(v)))
+        noise->Fail(channel, fmt::format("= {}, allowed: 0 or more", v));
       c.noise[channel] = v;
     }
   const auto tables = root.Tables("record");
-  if (tables.empty()) root.Fail("record", "is missing, allowed: one or more [[record]] with scenario and data");
+  if (tables.empty())
+    root.Fail("record", "is missing, allowed: one or more [[record]] with scenario and data");
   bool any_fit = false;
   for (const TomlTable& t : tables) {
     CaseRecord r;
@@ -162,19 +179,22 @@ Case ReadCase(const std::string& path) {
     r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c);
     t.RejectUnknownKeys();
     r.data.start += offset;
-    if (r.data.channels.empty()) t.Fail("data", fmt::format("= {} holds no channel of this rig", r.data_file));
+    if (r.data.channels.empty())
+      t.Fail("data", fmt::format("= {} holds no channel of this rig", r.data_file));
     CheckAgainstScenario(r, t);
     for (const Channel& ch : r.data.channels) {
       r.quality.push_back(InspectChannel(ch, MayBeConstant(r.scenario, ch.name)));
       if (!r.quality.back().verdict.starts_with("good"))
-        c.notes.push_back(fmt::format("{}: {}: {}", r.data_file, ch.name, r.quality.back().verdict));
+        c.notes.push_back(
+            fmt::format("{}: {}: {}", r.data_file, ch.name, r.quality.back().verdict));
     }
     any_fit = any_fit || !r.validate;
     c.records.push_back(std::move(r));
   }
   root.RejectUnknownKeys();
   if (!any_fit) root.Fail("record", "has no record with use = \"fit\", allowed: at least one");
-  const bool any_validate = std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
+  const bool any_validate =
+      std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
   if (!any_validate && c.records.size() > 2) {  // every third record is kept back
     for (std::size_t k = 2; k < c.records.size(); k += 3) c.records[k].validate = true;
     c.notes.push_back("no record is marked \"validate\": every third one is kept back for that");

@@ -1,5 +1,6 @@
 #pragma once
-/// A case: measurements beside the model that should explain them. Source: shared/design/formats.md.
+/// A case: measurements beside the model that should explain them. Source:
+/// shared/design/formats.md.
 #include <map>
 #include <string>
 #include <vector>
@@ -13,7 +14,7 @@ namespace ambrig {
 struct CaseRecord {
   std::string scenario_file, data_file;
   Scenario scenario;
-  Record data;                       // rig channel names, SI
+  Record data;  // rig channel names, SI
   bool validate = false;
   std::vector<ChannelQuality> quality;  // one per channel of data
 };
@@ -23,7 +24,7 @@ struct Case {
   RigParameters rig;
   std::map<std::string, double> noise;  // rms by channel, SI
   std::vector<CaseRecord> records;
-  std::vector<std::string> notes;       // what the data-quality pass left out
+  std::vector<std::string> notes;  // what the data-quality pass left out
 };
 
 /// @throws InputError, one line, for anything that contradicts.

@@ -36,11 +36,18 @@ std::vector<std::string> Words(const Comparison& c) {
   std::vector<Place> places;
   for (const RecordComparison& r : c.records) {
     for (const ChannelError& e : r.channels)
-      if (e.ratio > 1.15) places.push_back({fmt::format("{} in {} ({}): {:.1f} times the noise", e.channel, r.data, r.scenario, e.ratio), e.ratio});
+      if (e.ratio > 1.15)
+        places.push_back({fmt::format("{} in {} ({}): {:.1f} times the noise", e.channel, r.data,
+                                      r.scenario, e.ratio),
+                          e.ratio});
     for (const auto& [block, ratio] : r.blocks)
-      if (ratio > 1.15) places.push_back({fmt::format("block {} in {} ({}): {:.1f} times its own noise", block, r.data, r.scenario, ratio), ratio});
+      if (ratio > 1.15)
+        places.push_back({fmt::format("block {} in {} ({}): {:.1f} times its own noise", block,
+                                      r.data, r.scenario, ratio),
+                          ratio});
   }
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.ratio > b.ratio; });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.ratio > b.ratio; });
   std::vector<std::string> out;
   for (std::size_t k = 0; k < places.size() && k < 8; ++k) out.push_back(places[k].text);
   if (out.empty()) out.push_back("model and measurement agree within the noise everywhere");
@@ -62,7 +69,10 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   c.ratio_validate = Ratio(model, c.residual, Which::kValidate);
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
     const CaseRecord& record = model.data().records[r];
-    if (progress) progress(0.3 + 0.7 * static_cast<double>(r) / static_cast<double>(model.data().records.size()), "blocks of " + record.data_file);
+    if (progress)
+      progress(
+          0.3 + 0.7 * static_cast<double>(r) / static_cast<double>(model.data().records.size()),
+          "blocks of " + record.data_file);
     RecordComparison out;
     out.data = record.data_file;
     out.scenario = record.scenario.name;

@@ -13,7 +13,7 @@ namespace ambrig {
 struct ChannelError {
   std::string channel;
   double nrmse = 0, rms_error = 0, noise = 0, ratio = 0;
-  double whiteness = 0;      // correlation of neighbouring residuals, 0: white
+  double whiteness = 0;  // correlation of neighbouring residuals, 0: white
 };
 
 struct RecordComparison {
@@ -28,9 +28,9 @@ struct RecordComparison {
 struct Comparison {
   std::vector<RecordComparison> records;
   double ratio = 0, ratio_fit = 0, ratio_validate = 0;
-  std::vector<std::string> words;        // the worst places, named
+  std::vector<std::string> words;  // the worst places, named
   std::vector<double> predicted, residual;
-  double effective = 0;                  // independent numbers among the residuals
+  double effective = 0;  // independent numbers among the residuals
 };
 
 Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks = true,

@@ -65,7 +65,8 @@ ChannelQuality InspectChannel(const Channel& channel, bool constant_allowed) {
   }
   q.verdict = "good";
   if (q.missing > 0) q.verdict = fmt::format("{} missing, left out", Counted(q.missing, "sample"));
-  if (q.clipped > 0) q.verdict = fmt::format("clipped in {}, left out", Counted(q.clipped, "sample"));
+  if (q.clipped > 0)
+    q.verdict = fmt::format("clipped in {}, left out", Counted(q.clipped, "sample"));
   return q;
 }
 

@@ -9,13 +9,14 @@
 namespace ambrig {
 
 struct ChannelQuality {
-  std::string channel, verdict;   // "good", "stuck", "clipped", "missing samples", "empty"
+  std::string channel, verdict;  // "good", "stuck", "clipped", "missing samples", "empty"
   bool use = true;
-  std::vector<char> ok;           // per row: counts in the error
+  std::vector<char> ok;  // per row: counts in the error
   std::size_t missing = 0, clipped = 0;
 };
 
-/// `constant_allowed`: set-points of clamped runs, positions of a held rotor, a stiff bus may be constant.
+/// `constant_allowed`: set-points of clamped runs, positions of a held rotor, a stiff bus may be
+/// constant.
 ChannelQuality InspectChannel(const Channel& channel, bool constant_allowed);
 
 }  // namespace ambrig

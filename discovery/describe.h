@@ -11,6 +11,7 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit);
 
 /// Runs both models through feasible scenarios of this rig and names the one whose outputs differ
 /// most over the noise.
-std::string SeparatingRecord(const CaseModel& model, const Hypothesis& first, const Hypothesis& second);
+std::string SeparatingRecord(const CaseModel& model, const Hypothesis& first,
+                             const Hypothesis& second);
 
 }  // namespace ambrig

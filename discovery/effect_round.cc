@@ -21,23 +21,29 @@ bool Promising(const FitResult& now, const Candidate& c) {
 }
 
 /// The best fit so far explains nearly all, and this candidate promises far less.
-bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking, const Candidate& next) {
+bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
+             const Candidate& next) {
   if (ranking.size() < 2) return false;
   double best = kInfinity;
   for (const RankedEffect& r : ranking) best = std::min(best, r.fit.ratio_validate);
-  return ExplainedShare(now.ratio_validate, best) > 0.9 && next.ratio_validate * next.ratio_validate - 1 > 4 * (best * best - 1);
+  return ExplainedShare(now.ratio_validate, best) > 0.9 &&
+         next.ratio_validate * next.ratio_validate - 1 > 4 * (best * best - 1);
 }
 
 class Ranker {
  public:
-  Ranker(const RoundSetting& s, const FitResult& now, int round) : s_(s), now_(now), round_(round) {}
+  Ranker(const RoundSetting& s, const FitResult& now, int round)
+      : s_(s), now_(now), round_(round) {}
 
   EffectRound Run() {
     ScreenOptions screen;
     screen.effective = s_.effective;
-    screen.progress = [&](double f, const std::string& text) { s_.progress(0.6 * f, "screening " + text); };
+    screen.progress = [&](double f, const std::string& text) {
+      s_.progress(0.6 * f, "screening " + text);
+    };
     const auto predicted = s_.full.Predict(now_.hypothesis);
-    const ResidualPeaks peaks = predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
+    const ResidualPeaks peaks =
+        predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
     out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
     FitThePromising();
     Sort();
@@ -65,11 +71,13 @@ class Ranker {
     }
     // A resonance shows only when it is fitted; later rounds try that where much is left.
     for (; next < candidates.size() && (round_ == 0 || now_.ratio_validate > 1.3); ++next)
-      if (candidates[next].narrow && !Decided(now_, ranking_, candidates[next])) FitTheStart(candidates[next]);
+      if (candidates[next].narrow && !Decided(now_, ranking_, candidates[next]))
+        FitTheStart(candidates[next]);
   }
 
   void FitTheStart(const Candidate& c) {
-    s_.progress(0.6 + 0.07 * std::min(4.0, static_cast<double>(ranking_.size())), "fitting " + Named(c.effect));
+    s_.progress(0.6 + 0.07 * std::min(4.0, static_cast<double>(ranking_.size())),
+                "fitting " + Named(c.effect));
     RankedEffect r;
     r.fit = FitBriefly(s_.model, now_, c, s_.effective);
     r.screened_ratio = c.ratio_validate;
@@ -97,12 +105,14 @@ class Ranker {
   }
 
   void Sort() {
-    std::stable_sort(ranking_.begin(), ranking_.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+    std::stable_sort(ranking_.begin(), ranking_.end(),
+                     [](const auto& a, const auto& b) { return a.score < b.score; });
   }
 
   void SetProbabilities() {
     double sum = 0;
-    for (RankedEffect& r : ranking_) sum += r.probability = std::exp(-0.5 * (r.score - ranking_[0].score));
+    for (RankedEffect& r : ranking_)
+      sum += r.probability = std::exp(-0.5 * (r.score - ranking_[0].score));
     for (RankedEffect& r : ranking_) r.probability /= sum;
   }
 
@@ -117,6 +127,8 @@ class Ranker {
 
 std::string Named(const EffectInstance& e) { return e.name + " at " + e.target; }
 
-EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round) { return Ranker(setting, now, round).Run(); }
+EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round) {
+  return Ranker(setting, now, round).Run();
+}
 
 }  // namespace ambrig

@@ -27,7 +27,8 @@ std::size_t Thinning(const Case& c) {
 
 class Explainer {
  public:
-  Explainer(const Case& c, const ExplainOptions& options) : options_(options), full_(c), model_(c, Thinning(c)), rig_(c.rig) {
+  Explainer(const Case& c, const ExplainOptions& options)
+      : options_(options), full_(c), model_(c, Thinning(c)), rig_(c.rig) {
     full_.stop = model_.stop = options.stop;
     full_.store = model_.store = options.store;
   }
@@ -37,7 +38,8 @@ class Explainer {
     Progress(0.0, "noise floor");
     const Hypothesis nominal = Hypothesis::Base(rig_);
     const NoiseFloor floor = FindFloor(full_, nominal);
-    for (std::size_t t = 0; t < full_.targets().size(); ++t) model_.targets()[t].floor = full_.targets()[t].floor;
+    for (std::size_t t = 0; t < full_.targets().size(); ++t)
+      model_.targets()[t].floor = full_.targets()[t].floor;
     out_.effective = floor.effective;
     const FitResult as_filed = At(nominal);
     const std::vector<double>& r0 = as_filed.residual;
@@ -45,7 +47,9 @@ class Explainer {
     out_.ladder.push_back({"", Ratio(model_, r0, Which::kFit), out_.nominal_ratio_validate});
     Progress(0.03, "rig parameters");
     FitResult base = FitNow(nominal, &as_filed.jacobian);
-    if (base.ratio_validate > out_.nominal_ratio_validate && base.ratio_fit > 0.999 * out_.ladder[0].ratio_fit) base = as_filed;
+    if (base.ratio_validate > out_.nominal_ratio_validate &&
+        base.ratio_fit > 0.999 * out_.ladder[0].ratio_fit)
+      base = as_filed;
     out_.base_ratio_fit = base.ratio_fit;
     out_.base_ratio_validate = base.ratio_validate;
     out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
@@ -62,9 +66,13 @@ class Explainer {
     out_.final_fit = now;
     out_.final_ratio_fit = now.ratio_fit;
     out_.final_ratio_validate = now.ratio_validate;
-    out_.verdict = VerdictOf(out_.nominal_ratio_validate, out_.base_ratio_validate, now.ratio_validate, !out_.adopted.empty());
+    out_.verdict = VerdictOf(out_.nominal_ratio_validate, out_.base_ratio_validate,
+                             now.ratio_validate, !out_.adopted.empty());
     out_.warnings = now.warnings;
-    if (floor_renewed_) out_.warnings.push_back("the loop of the model found passes more noise than the rig file's: the noise floor is the found model's");
+    if (floor_renewed_)
+      out_.warnings.push_back(
+          "the loop of the model found passes more noise than the rig file's: the noise floor is "
+          "the found model's");
     if (out_.verdict == "unknown") out_.unexplained = Describe(full_, AllRows(now));
     if (out_.verdict != "effect") out_.adopted.clear();
     FindConfusable();
@@ -91,7 +99,9 @@ class Explainer {
     o.base_jacobian = jacobian;
     return o;
   }
-  FitResult FitNow(const Hypothesis& start, const Eigen::MatrixXd* jacobian) const { return Fit(model_, start, Options(jacobian)); }
+  FitResult FitNow(const Hypothesis& start, const Eigen::MatrixXd* jacobian) const {
+    return Fit(model_, start, Options(jacobian));
+  }
 
   /// The point itself, with its sensitivities.
   FitResult At(const Hypothesis& h) const {
@@ -101,24 +111,34 @@ class Explainer {
   }
 
   bool Finished(const FitResult& now) const {
-    // Nothing that an effect could still win (see WorthAdopting), with parameters that can be believed.
-    return Believable(now) && now.ratio_validate * now.ratio_validate < 1.025 && now.ratio_fit * now.ratio_fit < 1.04;
+    // Nothing that an effect could still win (see WorthAdopting), with parameters that can be
+    // believed.
+    return Believable(now) && now.ratio_validate * now.ratio_validate < 1.025 &&
+           now.ratio_fit * now.ratio_fit < 1.04;
   }
 
   double ScoreOf(const FitResult& fit) const { return Score(model_, fit, out_.effective); }
-  double Gain(const FitResult& before, const FitResult& after) const { return ScoreOf(before) - ScoreOf(after); }
+  double Gain(const FitResult& before, const FitResult& after) const {
+    return ScoreOf(before) - ScoreOf(after);
+  }
 
   /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
   bool AdoptBest(FitResult& now, int round) {
     if (Finished(now)) return false;
     const double from = 0.08 + 0.3 * round;
-    EffectRound ranked = RankEffects({full_, model_, bank_, out_.effective, options_.candidates,
-                                      [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }}, now, round);
+    EffectRound ranked =
+        RankEffects({full_, model_, bank_, out_.effective, options_.candidates,
+                     [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }},
+                    now, round);
     const std::vector<RankedEffect>& ranking = ranked.ranking;
     if (round == 0) out_.screened = std::move(ranked.screened);
     (round == 0 ? out_.ranking : out_.second_round) = ranking;
-    if (ranking.empty() || !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_)) return false;
-    if (round == 0) first_fall_ = now.ratio_validate * now.ratio_validate - ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
+    if (ranking.empty() ||
+        !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_))
+      return false;
+    if (round == 0)
+      first_fall_ = now.ratio_validate * now.ratio_validate -
+                    ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
     now = ranking[0].fit;
     out_.adopted.push_back(ranking[0].effect);
     out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});
@@ -126,10 +146,13 @@ class Explainer {
     return true;
   }
 
-  /// A rig whose loop is nearly unstable with the hidden effect passes more noise than the rig file's:
-  /// what seems unexplained may be noise of the model found. True when the floor was renewed.
+  /// A rig whose loop is nearly unstable with the hidden effect passes more noise than the rig
+  /// file's: what seems unexplained may be noise of the model found. True when the floor was
+  /// renewed.
   bool RenewFloor(const FitResult& as_filed, FitResult& base, FitResult& now) {
-    if (out_.adopted.empty() || VerdictOf(out_.nominal_ratio_validate, out_.base_ratio_validate, now.ratio_validate, true) == "effect") return false;
+    if (out_.adopted.empty() || VerdictOf(out_.nominal_ratio_validate, out_.base_ratio_validate,
+                                          now.ratio_validate, true) == "effect")
+      return false;
     Progress(0.86, "noise floor of the model found");
     const std::vector<Target> before = full_.targets();
     try {
@@ -139,7 +162,8 @@ class Explainer {
     }
     const double old = now.ratio_validate;
     for (std::size_t t = 0; t < before.size(); ++t)
-      model_.targets()[t].floor = full_.targets()[t].floor = std::max(before[t].floor, full_.targets()[t].floor);
+      model_.targets()[t].floor = full_.targets()[t].floor =
+          std::max(before[t].floor, full_.targets()[t].floor);
     base = At(base.hypothesis);
     now = FitNow(now.hypothesis, nullptr);
     out_.nominal_ratio_validate = At(as_filed.hypothesis).ratio_validate;
@@ -175,11 +199,15 @@ class Explainer {
       h.AddEffect(p.second);
       FitResult fit = FitOn(model_, base, h, out_.effective);
       const bool more = out_.adopted.size() < 2;
-      if (!fit.converged || Gain(now, fit) < (more ? 20 : 2) || (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_))) continue;
+      if (!fit.converged || Gain(now, fit) < (more ? 20 : 2) ||
+          (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_)))
+        continue;
       now = std::move(fit);
-      out_.adopted = {FittedEffect(now, rig_.effects.size()), FittedEffect(now, rig_.effects.size() + 1)};
+      out_.adopted = {FittedEffect(now, rig_.effects.size()),
+                      FittedEffect(now, rig_.effects.size() + 1)};
       out_.ladder.resize(2);
-      out_.ladder.push_back({Named(p.first) + " and " + Named(p.second), now.ratio_fit, now.ratio_validate});
+      out_.ladder.push_back(
+          {Named(p.first) + " and " + Named(p.second), now.ratio_fit, now.ratio_validate});
     }
   }
 
@@ -187,7 +215,8 @@ class Explainer {
   bool AlreadyTried(const CandidatePair& p) const {
     int found = 0;
     for (const EffectInstance& e : out_.adopted)
-      for (const EffectInstance* o : {&p.first, &p.second}) found += e.name == o->name && e.target == o->target ? 1 : 0;
+      for (const EffectInstance* o : {&p.first, &p.second})
+        found += e.name == o->name && e.target == o->target ? 1 : 0;
     return found == 2 || (found == 1 && out_.adopted.size() == 1);
   }
 
@@ -199,14 +228,15 @@ class Explainer {
       for (std::size_t k = 0; k < out_.adopted.size(); ++k)
         if (k != drop) h.AddEffect(out_.adopted[k]);
       Progress(0.9, "without " + out_.adopted[drop].name);
-      FitResult without = FitNow(h, &base.jacobian);
+      FitResult without = FitOn(model_, base, h, out_.effective);
       if (WorthAdopting(without, now, Gain(without, now), 1, 0)) {
         ++drop;
         continue;
       }
       out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(drop));
       now = std::move(without);
-      out_.ladder.push_back({"without the effect that became needless", now.ratio_fit, now.ratio_validate});
+      out_.ladder.push_back(
+          {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
     }
   }
 
@@ -216,7 +246,8 @@ class Explainer {
     Progress(0.94, "final fit");
     FitResult polished = FitNow(now.hypothesis, nullptr);
     if (polished.ratio_fit <= now.ratio_fit * 1.0005) now = std::move(polished);
-    for (std::size_t k = 0; k < out_.adopted.size(); ++k) out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
+    for (std::size_t k = 0; k < out_.adopted.size(); ++k)
+      out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
     out_.ladder.back().ratio_fit = now.ratio_fit;
     out_.ladder.back().ratio_validate = now.ratio_validate;
   }
@@ -224,7 +255,9 @@ class Explainer {
   void NoteShifts(const FitResult& base) {
     for (std::size_t k = 0; k < base.hypothesis.free.size(); ++k) {
       const double sds = base.hypothesis.Coordinate(k);
-      if (std::abs(sds) > 1) out_.parameter_shifts.push_back(fmt::format("{} {:+.2f} sd", base.hypothesis.free[k].path, sds));
+      if (std::abs(sds) > 1)
+        out_.parameter_shifts.push_back(
+            fmt::format("{} {:+.2f} sd", base.hypothesis.free[k].path, sds));
     }
   }
 
@@ -236,12 +269,14 @@ class Explainer {
       const RankedEffect& other = out_.ranking[k];
       if (other.effect.name == best.effect.name || other.probability < 0.02) continue;
       Progress(0.97, "what would tell " + best.effect.name + " from " + other.effect.name);
-      out_.confusable.push_back({best.effect.name, other.effect.name, SeparatingRecord(model_, best.fit.hypothesis, other.fit.hypothesis)});
+      out_.confusable.push_back(
+          {best.effect.name, other.effect.name,
+           SeparatingRecord(model_, best.fit.hypothesis, other.fit.hypothesis)});
     }
   }
 
   ExplainOptions options_;
-  CaseModel full_, model_;   // with all rows: floor and frequencies; with some: the search
+  CaseModel full_, model_;  // with all rows: floor and frequencies; with some: the search
   RigParameters rig_;
   Explanation out_;
   SignatureBank bank_;
@@ -251,6 +286,8 @@ class Explainer {
 
 }  // namespace
 
-Explanation Explain(const Case& c, const ExplainOptions& options) { return Explainer(c, options).Run(); }
+Explanation Explain(const Case& c, const ExplainOptions& options) {
+  return Explainer(c, options).Run();
+}
 
 }  // namespace ambrig

@@ -17,7 +17,8 @@ using Eigen::Index;
 constexpr double kEffectStep = 0.01;  // of a parameter's natural step: resonances are narrow
 
 /// [J r]ᵀ[J r] over the rows of the fit records.
-Eigen::MatrixXd FitGram(const CaseModel& model, const Eigen::MatrixXd& J, const std::vector<double>& r) {
+Eigen::MatrixXd FitGram(const CaseModel& model, const Eigen::MatrixXd& J,
+                        const std::vector<double>& r) {
   const Index p = J.cols();
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(p + 1, p + 1);
   for (const Target& t : model.targets()) {
@@ -32,8 +33,8 @@ Eigen::MatrixXd FitGram(const CaseModel& model, const Eigen::MatrixXd& J, const 
   return gram;
 }
 
-/// The least-squares problem seen through its Gram matrix: with [J r] = Q R the residual Qᵀr and the
-/// Jacobian R have the same cost, gradient and Gauss-Newton matrix in a handful of rows.
+/// The least-squares problem seen through its Gram matrix: with [J r] = Q R the residual Qᵀr and
+/// the Jacobian R have the same cost, gradient and Gauss-Newton matrix in a handful of rows.
 class CompressedCost : public ceres::CostFunction {
  public:
   CompressedCost(const CaseModel& model, const Hypothesis& start, const FitOptions& options)
@@ -41,12 +42,17 @@ class CompressedCost : public ceres::CostFunction {
     set_num_residuals(static_cast<int>(p_) + 1 + static_cast<int>(p_));  // data, then priors
     mutable_parameter_block_sizes()->push_back(static_cast<int>(p_));
     for (std::size_t k = 0; k < p_; ++k)
-      if (start.free[k].effect < 0) base_.push_back(k);
-      else effect_.push_back(k);
+      if (start.free[k].effect < 0)
+        base_.push_back(k);
+      else
+        effect_.push_back(k);
   }
 
   /// Weight of a residual when the model leaves `ratio` times the noise.
-  void Believe(double ratio) { weight_ = std::sqrt(MisfitWeight(ratio, options_.effective) / static_cast<double>(model_.size())); }
+  void Believe(double ratio) {
+    weight_ =
+        std::sqrt(MisfitWeight(ratio, options_.effective) / static_cast<double>(model_.size()));
+  }
   /// Sensitivities of the rig parameters are taken anew.
   void Refresh() {
     base_jacobian_.resize(0, 0);
@@ -72,7 +78,8 @@ class CompressedCost : public ceres::CostFunction {
       return true;
     }
     Eigen::MatrixXd gram = weight_ * weight_ * FitGram(model_, FullJacobian(h, *predicted), r);
-    gram.topRightCorner(static_cast<Index>(p_), 1) *= -1;  // a prediction that rises lowers the residual
+    // a prediction that rises lowers the residual
+    gram.topRightCorner(static_cast<Index>(p_), 1) *= -1;
     gram.bottomLeftCorner(1, static_cast<Index>(p_)) *= -1;
     gram.diagonal().array() += 1e-12 * gram.diagonal().array().abs() + 1e-14;
     const Eigen::MatrixXd R = gram.llt().matrixU();
@@ -80,9 +87,11 @@ class CompressedCost : public ceres::CostFunction {
         jacobians[0], num_residuals(), static_cast<Index>(p_));
     out.setZero();
     out.topRows(static_cast<Index>(p_) + 1) = R.leftCols(static_cast<Index>(p_));
-    for (std::size_t k = 0; k <= p_; ++k) residuals[k] = R(static_cast<Index>(k), static_cast<Index>(p_));
+    for (std::size_t k = 0; k <= p_; ++k)
+      residuals[k] = R(static_cast<Index>(k), static_cast<Index>(p_));
     for (std::size_t k = 0; k < p_; ++k)
-      if (hypothesis_.free[k].sd > 0) out(static_cast<Index>(p_ + 1 + k), static_cast<Index>(k)) = 1;
+      if (hypothesis_.free[k].sd > 0)
+        out(static_cast<Index>(p_ + 1 + k), static_cast<Index>(k)) = 1;
     return true;
   }
 
@@ -95,9 +104,11 @@ class CompressedCost : public ceres::CostFunction {
       else
         base_jacobian_ = Jacobian(model_, h, predicted, base_);
     }
-    for (std::size_t k = 0; k < base_.size(); ++k) J.col(static_cast<Index>(base_[k])) = base_jacobian_.col(static_cast<Index>(k));
+    for (std::size_t k = 0; k < base_.size(); ++k)
+      J.col(static_cast<Index>(base_[k])) = base_jacobian_.col(static_cast<Index>(k));
     const Eigen::MatrixXd moving = Jacobian(model_, h, predicted, effect_, kEffectStep);
-    for (std::size_t k = 0; k < effect_.size(); ++k) J.col(static_cast<Index>(effect_[k])) = moving.col(static_cast<Index>(k));
+    for (std::size_t k = 0; k < effect_.size(); ++k)
+      J.col(static_cast<Index>(effect_[k])) = moving.col(static_cast<Index>(k));
     return J;
   }
 
@@ -122,12 +133,14 @@ void Judge(const CompressedCost& cost, FitResult& result) {
   result.jacobian = cost.FullJacobian(h, result.predicted);
   const auto n = static_cast<Index>(p);
   Eigen::MatrixXd information =
-      cost.weight() * cost.weight() * FitGram(cost.model(), result.jacobian, result.residual).topLeftCorner(n, n);
+      cost.weight() * cost.weight() *
+      FitGram(cost.model(), result.jacobian, result.residual).topLeftCorner(n, n);
   result.sd.assign(p, 0);
   Eigen::VectorXd influence = information.diagonal().cwiseSqrt();
   for (std::size_t k = 0; k < p; ++k)
     information(static_cast<Index>(k), static_cast<Index>(k)) += h.free[k].sd > 0 ? 1.0 : 1e-9;
-  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  const Eigen::MatrixXd covariance =
+      information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
   for (std::size_t k = 0; k < p; ++k) {
     const auto i = static_cast<Index>(k);
     const FreeParameter& f = h.free[k];
@@ -135,19 +148,22 @@ void Judge(const CompressedCost& cost, FitResult& result) {
     result.sd[k] = unit * std::sqrt(std::max(0.0, covariance(i, i)));
     if (f.effect < 0) continue;
     if (influence(i) < 1e-6) {
-      result.warnings.push_back(f.path + " has no influence on these records near its value (or acts in steps)");
+      result.warnings.push_back(
+          f.path + " has no influence on these records near its value (or acts in steps)");
       result.sd[k] = 0;  // not known from here
       continue;
     }
-    if (f.value <= f.lo || f.value >= f.hi) result.warnings.push_back(fmt::format("{} is at its bound {}", f.path, f.value));
+    if (f.value <= f.lo || f.value >= f.hi)
+      result.warnings.push_back(fmt::format("{} is at its bound {}", f.path, f.value));
     for (std::size_t m = 0; m < p; ++m) {
       const auto j = static_cast<Index>(m);
       const double c = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
-      if (m != k && std::abs(c) > 0.97) result.warnings.push_back(fmt::format("{} and {} are correlated by {:.3f}", f.path, h.free[m].path, c));
+      if (m != k && std::abs(c) > 0.97)
+        result.warnings.push_back(
+            fmt::format("{} and {} are correlated by {:.3f}", f.path, h.free[m].path, c));
     }
   }
 }
-
 
 /// One pass of the solver from and to x. Returns whether it found a usable point.
 bool Solve(CompressedCost& cost, const Hypothesis& start, int iterations, std::vector<double>& x) {
@@ -157,9 +173,13 @@ bool Solve(CompressedCost& cost, const Hypothesis& start, int iterations, std::v
   problem.AddResidualBlock(&cost, nullptr, x.data());
   for (std::size_t k = 0; k < x.size(); ++k) {
     const FreeParameter& f = start.free[k];
-    const auto bound = [&](double v) { return f.logarithmic ? std::log(std::max(v, 1e-300) / f.start) / 0.3 : (v - f.start) / f.step; };
-    if (std::isfinite(f.lo)) problem.SetParameterLowerBound(x.data(), static_cast<int>(k), std::min(bound(f.lo), x[k]));
-    if (std::isfinite(f.hi)) problem.SetParameterUpperBound(x.data(), static_cast<int>(k), std::max(bound(f.hi), x[k]));
+    const auto bound = [&](double v) {
+      return f.logarithmic ? std::log(std::max(v, 1e-300) / f.start) / 0.3 : (v - f.start) / f.step;
+    };
+    if (std::isfinite(f.lo))
+      problem.SetParameterLowerBound(x.data(), static_cast<int>(k), std::min(bound(f.lo), x[k]));
+    if (std::isfinite(f.hi))
+      problem.SetParameterUpperBound(x.data(), static_cast<int>(k), std::max(bound(f.hi), x[k]));
   }
   ceres::Solver::Options solver;
   solver.max_num_iterations = iterations;
@@ -169,7 +189,8 @@ bool Solve(CompressedCost& cost, const Hypothesis& start, int iterations, std::v
   solver.gradient_tolerance = 1e-12;
   solver.initial_trust_region_radius = 10;
   solver.logging_type = ceres::SILENT;
-  solver.max_num_line_search_step_size_iterations = 0;  // bounds by projection: a line search costs many runs
+  // bounds by projection: a line search costs many runs
+  solver.max_num_line_search_step_size_iterations = 0;
   solver.max_num_consecutive_invalid_steps = 4;
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
@@ -192,7 +213,8 @@ bool Look(const CaseModel& model, FitResult& result) {
   if (result.ratio_validate == 0) result.ratio_validate = result.ratio_fit;
   result.penalty = 0;
   for (std::size_t k = 0; k < result.hypothesis.free.size(); ++k)
-    if (result.hypothesis.free[k].sd > 0) result.penalty += std::pow(result.hypothesis.Coordinate(k), 2);
+    if (result.hypothesis.free[k].sd > 0)
+      result.penalty += std::pow(result.hypothesis.Coordinate(k), 2);
   return true;
 }
 
@@ -212,7 +234,7 @@ FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions&
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = start.Coordinate(k);
   for (int pass = 0; pass < options.passes && options.iterations > 0; ++pass) {
     const double before = result.ratio_fit;
-    cost.Believe(before);
+    cost.Believe(std::min(before, options.reached));
     if (pass > 0) cost.Refresh();
     if (!Solve(cost, start, options.iterations, x)) {
       result.converged = pass > 0;

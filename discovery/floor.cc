@@ -59,7 +59,8 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
   noisy.rig = WithCaseNoise(h.rig, model.data().noise);
   const auto clean = model.Predict(h);
   const auto first = model.PredictNoisy(noisy, 11), second = model.PredictNoisy(noisy, 12);
-  if (!clean || !first || !second) throw InputError(model.data().file + ": the model does not hold its rotor in these records");
+  if (!clean || !first || !second)
+    throw InputError(model.data().file + ": the model does not hold its rotor in these records");
   std::vector<double> d1(clean->size()), d2(clean->size());
   for (std::size_t k = 0; k < d1.size(); ++k) {
     d1[k] = (*first)[k] - (*clean)[k];
@@ -71,8 +72,11 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
     const double a = Rms(d1, t.first, t.count), b = Rms(d2, t.first, t.count);
     double square = 0.5 * (a * a + b * b);
     const auto it = model.data().noise.find(channel);
-    const bool reader_noise = channel.find(".f") != std::string::npos;  // load cells: noise of their own
-    if (it != model.data().noise.end()) square = reader_noise ? square + it->second * it->second : std::max(square, it->second * it->second);
+    // load cells: noise of their own
+    const bool reader_noise = channel.find(".f") != std::string::npos;
+    if (it != model.data().noise.end())
+      square = reader_noise ? square + it->second * it->second
+                            : std::max(square, it->second * it->second);
     t.floor = std::max(std::sqrt(square), Resolution(h.rig, channel, t.full_scale));
   }
   // Independent rows times independent channels: the latter from the spread of their correlations.
@@ -83,14 +87,16 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
       if (t.record == r) of.push_back(&t);
     if (of.empty()) continue;
     double per_channel = 0, spread = 0;
-    for (const Target* t : of) per_channel += static_cast<double>(t->count) / Correlation(d1, t->first, t->count);
+    for (const Target* t : of)
+      per_channel += static_cast<double>(t->count) / Correlation(d1, t->first, t->count);
     per_channel /= static_cast<double>(of.size());
     for (const Target* a : of)
       for (const Target* b : of) {
         const double pa = Rms(d1, a->first, a->count), pb = Rms(d1, b->first, b->count);
         double c = 0;
         for (std::size_t k = 0; k < a->count; ++k) c += d1[a->first + k] * d1[b->first + k];
-        const double rho = pa > 0 && pb > 0 ? c / static_cast<double>(a->count) / pa / pb : (a == b ? 1.0 : 0.0);
+        const double rho =
+            pa > 0 && pb > 0 ? c / static_cast<double>(a->count) / pa / pb : (a == b ? 1.0 : 0.0);
         spread += rho * rho;
       }
     rows_effective += per_channel * static_cast<double>(of.size() * of.size()) / spread;

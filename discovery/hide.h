@@ -17,20 +17,23 @@ struct HideRequest {
 };
 
 struct HiddenCase {
-  Case data;                              // records filled with what the true rig gave
+  Case data;  // records filled with what the true rig gave
   std::vector<ExaminationRecord> records;
-  std::vector<EffectInstance> effects;    // as they are in the true rig
+  std::vector<EffectInstance> effects;  // as they are in the true rig
   RigParameters truth;
-  double worst_ratio = 0;                 // error over the noise that the effects make, worst channel
+  // error over the noise that the effects make, worst channel
+  double worst_ratio = 0;
   std::string worst_channel;
 };
 
 /// @throws InputError for unknown names, and where no size of the effect shows in these records with
 /// the rotor held; Interrupted when `stop` is set.
-HiddenCase Hide(const RigParameters& rig, const HideRequest& request, const std::atomic<bool>* stop = nullptr);
+HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
+                const std::atomic<bool>* stop = nullptr);
 
 /// case.toml, and the answer in the form of shared/data/hidden-effects/answers.toml under `name`.
 std::string CaseText(const HiddenCase& hidden);
-std::string AnswerText(const HiddenCase& hidden, const HideRequest& request, const std::string& name);
+std::string AnswerText(const HiddenCase& hidden, const HideRequest& request,
+                       const std::string& name);
 
 }  // namespace ambrig

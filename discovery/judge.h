@@ -20,7 +20,7 @@ struct Answer {
 /// What was said about it.
 struct Finding {
   std::string verdict;
-  NamedEffect first;                   // of the ranking; empty names: none
+  NamedEffect first;  // of the ranking; empty names: none
   std::vector<NamedEffect> adopted;
   double nominal_ratio = 0, final_ratio = 0, seconds = 0;
 };
@@ -30,9 +30,9 @@ struct Judgement {
   Answer answer;
   Finding finding;
   bool verdict_right = false;
-  bool first_right = false;            // the first of the ranking is one of the effects present
-  std::size_t found = 0;               // slots that an adopted effect fills
-  std::size_t invented = 0;            // adopted effects that fill none
+  bool first_right = false;  // the first of the ranking is one of the effects present
+  std::size_t found = 0;     // slots that an adopted effect fills
+  std::size_t invented = 0;  // adopted effects that fill none
   bool right() const { return verdict_right && found == answer.slots.size() && invented == 0; }
 };
 
@@ -49,7 +49,8 @@ std::vector<Tally> Tallies(const std::vector<Judgement>& all);
 /// "unknown" without one), counts.
 std::map<std::string, std::map<std::string, int>> Confusion(const std::vector<Judgement>& all);
 
-/// Answers of a file in the form of shared/data/hidden-effects/answers.toml, by case. @throws InputError
+/// Answers of a file in the form of shared/data/hidden-effects/answers.toml, by case.
+/// @throws InputError
 std::map<std::string, Answer> ReadAnswers(const std::string& file);
 
 }  // namespace ambrig

@@ -8,22 +8,28 @@ namespace ambrig {
 
 namespace {
 constexpr double kModelNumbers = 300;  // independent numbers in what a wrong law leaves
-constexpr double kFloorNumbers = 1e4;  // the floor comes from two runs with noise: known to about 1 % of its power
-constexpr double kLaw = 4;             // price of one more kind of effect: the same cause twice is likelier than two
-}
+// the floor comes from two runs with noise: known to about 1 % of its power
+constexpr double kFloorNumbers = 1e4;
+// price of one more kind of effect: the same cause twice is likelier than two
+constexpr double kLaw = 4;
+}  // namespace
 
 int PricedParameters(int count) { return std::min(count, 6); }
 
-double MisfitWeight(double ratio, double n) { return n / (1 + std::max(0.0, ratio * ratio - 1) * n / kModelNumbers); }
+double MisfitWeight(double ratio, double n) {
+  return n / (1 + std::max(0.0, ratio * ratio - 1) * n / kModelNumbers);
+}
 
 double Misfit(double ratio, double n) {
   const double excess = ratio * ratio - 1;
   return excess < 0 ? n * excess : kModelNumbers * std::log1p(excess * n / kModelNumbers);
 }
 
-double Score(const CaseModel& model, double ratio_fit, double ratio_validate, double effective, int parameters, double penalty) {
+double Score(const CaseModel& model, double ratio_fit, double ratio_validate, double effective,
+             int parameters, double penalty) {
   double fit = 0, validate = 0;
-  for (const Target& t : model.targets()) (Counts(model, t, Which::kFit) ? fit : validate) += static_cast<double>(t.count);
+  for (const Target& t : model.targets())
+    (Counts(model, t, Which::kFit) ? fit : validate) += static_cast<double>(t.count);
   const double share = fit / (fit + validate);
   const double n = std::min(effective, kFloorNumbers);
   const auto misfit = [n](double ratio) { return Misfit(std::max(1.0, ratio), n); };
@@ -34,7 +40,9 @@ double Score(const CaseModel& model, double ratio_fit, double ratio_validate, do
 double Score(const CaseModel& model, const FitResult& fit, double effective) {
   int of_effects = 0;
   for (std::size_t k = 0; k < fit.hypothesis.rig.effects.size(); ++k) {
-    const auto n = std::count_if(fit.hypothesis.free.begin(), fit.hypothesis.free.end(), [&](const FreeParameter& p) { return p.effect == static_cast<int>(k); });
+    const auto n =
+        std::count_if(fit.hypothesis.free.begin(), fit.hypothesis.free.end(),
+                      [&](const FreeParameter& p) { return p.effect == static_cast<int>(k); });
     of_effects += PricedParameters(static_cast<int>(n));
   }
   std::set<std::string> laws;

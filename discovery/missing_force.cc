@@ -14,9 +14,9 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kCutoff = 200;        // [Hz] of the estimated force
-constexpr std::size_t kMost = 1500;    // samples looked at
-constexpr double kMuchBetter = 0.08;   // of the power: what a law with more freedom must gain
+constexpr double kCutoff = 200;       // [Hz] of the estimated force
+constexpr std::size_t kMost = 1500;   // samples looked at
+constexpr double kMuchBetter = 0.08;  // of the power: what a law with more freedom must gain
 
 /// A law f = Σ c_k b_k with vector fields b_k, fitted with a constant force beside it.
 struct Field {
@@ -55,13 +55,20 @@ Fit FitFields(const ForceSamples& s, const std::vector<Field>& fields) {
 }
 
 std::string Parameter(const std::string& name, double value, const std::string& unit) {
-  return fmt::format("{} = {{ value = {:.4g}, null = 0.0, min = {:.4g}, max = {:.4g}, unit = \"{}\" }}", name, value, -20 * std::abs(value), 20 * std::abs(value), unit);
+  return fmt::format(
+      "{} = {{ value = {:.4g}, null = 0.0, min = {:.4g}, max = {:.4g}, unit = \"{}\" }}", name,
+      value, -20 * std::abs(value), 20 * std::abs(value), unit);
 }
 
-std::string Effect(const std::string& plane, const std::string& label, const std::vector<std::string>& parameters, const std::string& x, const std::string& y) {
+std::string Effect(const std::string& plane, const std::string& label,
+                   const std::vector<std::string>& parameters, const std::string& x,
+                   const std::string& y) {
   std::string list;
   for (const std::string& p : parameters) list += (list.empty() ? "" : ", ") + p;
-  return fmt::format("[[effect]]\nname = \"formula\"\nlabel = \"{}\"\ntarget = \"{}\"\nparameters = {{ {} }}\nforce = {{ x = \"{}\", y = \"{}\" }}\n", label, plane, list, x, y);
+  return fmt::format(
+      "[[effect]]\nname = \"formula\"\nlabel = \"{}\"\ntarget = \"{}\"\nparameters = {{ {} "
+      "}}\nforce = {{ x = \"{}\", y = \"{}\" }}\n",
+      label, plane, list, x, y);
 }
 
 template <class Function>
@@ -79,29 +86,52 @@ Field MakeField(const ForceSamples& s, Function f) {
 std::vector<MissingForce> SmoothLaws(const ForceSamples& s, const std::string& plane) {
   using Pair = std::pair<double, double>;
   std::vector<MissingForce> out;
-  const auto add = [&](const std::string& on, const std::vector<Field>& fields, const std::vector<std::string>& names, const std::string& unit, const std::string& x,
-                       const std::string& y) {
+  const auto add = [&](const std::string& on, const std::vector<Field>& fields,
+                       const std::vector<std::string>& names, const std::string& unit,
+                       const std::string& x, const std::string& y) {
     const Fit fit = FitFields(s, fields);
     std::vector<std::string> parameters;
-    for (std::size_t k = 0; k < names.size(); ++k) parameters.push_back(Parameter(names[k], fit.c.empty() ? 0 : fit.c[k], unit));
+    for (std::size_t k = 0; k < names.size(); ++k)
+      parameters.push_back(Parameter(names[k], fit.c.empty() ? 0 : fit.c[k], unit));
     out.push_back({plane, 0, on, fit.share, Effect(plane, on, parameters, x, y)});
   };
   const auto linear = [&](const std::vector<double>& u, const std::vector<double>& v) {
-    return std::vector<Field>{MakeField(s, [&](std::size_t k) { return Pair{u[k], 0}; }), MakeField(s, [&](std::size_t k) { return Pair{v[k], 0}; }),
-                              MakeField(s, [&](std::size_t k) { return Pair{0, u[k]}; }), MakeField(s, [&](std::size_t k) { return Pair{0, v[k]}; })};
+    return std::vector<Field>{MakeField(s,
+                                        [&](std::size_t k) {
+                                          return Pair{u[k], 0};
+                                        }),
+                              MakeField(s,
+                                        [&](std::size_t k) {
+                                          return Pair{v[k], 0};
+                                        }),
+                              MakeField(s,
+                                        [&](std::size_t k) {
+                                          return Pair{0, u[k]};
+                                        }),
+                              MakeField(s, [&](std::size_t k) {
+                                return Pair{0, v[k]};
+                              })};
   };
-  add("position (linear)", linear(s.x, s.y), {"kxx", "kxy", "kyx", "kyy"}, "N/m", "kxx*x + kxy*y", "kyx*x + kyy*y");
-  add("velocity (linear)", linear(s.vx, s.vy), {"cxx", "cxy", "cyx", "cyy"}, "N s/m", "cxx*vx + cxy*vy", "cyx*vx + cyy*vy");
-  add("position (cubic)", {MakeField(s, [&](std::size_t k) {
-        const double r2 = s.x[k] * s.x[k] + s.y[k] * s.y[k];
-        return Pair{s.x[k] * r2, s.y[k] * r2};
-      })}, {"k3"}, "N/m3", "k3*x*(x*x + y*y)", "k3*y*(x*x + y*y)");
+  add("position (linear)", linear(s.x, s.y), {"kxx", "kxy", "kyx", "kyy"}, "N/m", "kxx*x + kxy*y",
+      "kyx*x + kyy*y");
+  add("velocity (linear)", linear(s.vx, s.vy), {"cxx", "cxy", "cyx", "cyy"}, "N s/m",
+      "cxx*vx + cxy*vy", "cyx*vx + cyy*vy");
+  add("position (cubic)",
+      {MakeField(s,
+                 [&](std::size_t k) {
+                   const double r2 = s.x[k] * s.x[k] + s.y[k] * s.y[k];
+                   return Pair{s.x[k] * r2, s.y[k] * r2};
+                 })},
+      {"k3"}, "N/m3", "k3*x*(x*x + y*y)", "k3*y*(x*x + y*y)");
   for (const int order : {1, 2}) {
     const auto turning = [&](double shift) {
-      return MakeField(s, [&](std::size_t k) { return Pair{std::cos(order * s.theta[k] + shift), std::sin(order * s.theta[k] + shift)}; });
+      return MakeField(s, [&](std::size_t k) {
+        return Pair{std::cos(order * s.theta[k] + shift), std::sin(order * s.theta[k] + shift)};
+      });
     };
     const std::string a = order == 1 ? "theta" : "2*theta";
-    add(fmt::format("angle of rotation, order {}", order), {turning(0), turning(kPi / 2)}, {"c", "s"}, "N", fmt::format("c*cos({0}) - s*sin({0})", a),
+    add(fmt::format("angle of rotation, order {}", order), {turning(0), turning(kPi / 2)},
+        {"c", "s"}, "N", fmt::format("c*cos({0}) - s*sin({0})", a),
         fmt::format("c*sin({0}) + s*cos({0})", a));
   }
   return out;
@@ -111,11 +141,18 @@ MissingForce ContactLaw(const ForceSamples& s, const std::string& plane) {
   const SideContact c = FindSideContact(s, kMuchBetter);
   if (c.share <= 0) return {plane, 0, "contact", 0, ""};
   const double k = c.push, mu = c.drag / k, angle = std::remainder(c.angle, 2 * kPi);
-  std::string on = fmt::format("position on one side: something pushes back from {:.0f} degrees (from x towards y)", angle * 180 / kPi), gate;
+  std::string
+      on = fmt::format(
+          "position on one side: something pushes back from {:.0f} degrees (from x towards y)",
+          angle * 180 / kPi),
+      gate;
   const auto within = [](const char* name, double value, double reach, const char* unit) {
-    return fmt::format("{} = {{ value = {:.4g}, min = {:.4g}, max = {:.4g}, unit = \"{}\" }}", name, value, value - reach, value + reach, unit);
+    return fmt::format("{} = {{ value = {:.4g}, min = {:.4g}, max = {:.4g}, unit = \"{}\" }}", name,
+                       value, value - reach, value + reach, unit);
   };
-  std::vector<std::string> parameters = {Parameter("k", k, "N/m"), within("gap", c.gap, 4e-5, "m"), within("mu", std::clamp(mu, -1.5, 1.5), 0.5, "-"), within("a", angle, 0.5, "rad")};
+  std::vector<std::string> parameters = {Parameter("k", k, "N/m"), within("gap", c.gap, 4e-5, "m"),
+                                         within("mu", std::clamp(mu, -1.5, 1.5), 0.5, "-"),
+                                         within("a", angle, 0.5, "rad")};
   if (c.period > 0) {
     on += fmt::format(", only in a part of every {:.3g} s", c.period);
     gate = "*max(cos(2*pi*(t/period - phase)) - b, 0)/(1 - b)";
@@ -134,12 +171,16 @@ MissingForce ContactLaw(const ForceSamples& s, const std::string& plane) {
   const std::string push = "-k*max(" + depth + ", 0)" + gate;
   // Friction against the sliding: none at rest, the other way round when the rotor turns backwards.
   const std::string v = fmt::format("({:.6g}*omega - sin(a)*vx + cos(a)*vy)", s.radius);
-  const std::string rub = fmt::format("mu*{0}/sqrt({0}^2 + {1:g})", v, SideContact::kSlow * SideContact::kSlow);
-  return {plane, 0, on, c.share, Effect(plane, "contact on one side", parameters, push + "*(cos(a) - sin(a)*" + rub + ")", push + "*(sin(a) + cos(a)*" + rub + ")")};
+  const std::string rub =
+      fmt::format("mu*{0}/sqrt({0}^2 + {1:g})", v, SideContact::kSlow * SideContact::kSlow);
+  return {plane, 0, on, c.share,
+          Effect(plane, "contact on one side", parameters, push + "*(cos(a) - sin(a)*" + rub + ")",
+                 push + "*(sin(a) + cos(a)*" + rub + ")")};
 }
 
 /// Samples of all levitated records, thinned to kMost.
-std::optional<ForceSamples> SamplesOf(const CaseModel& model, const Hypothesis& h, const std::string& plane) {
+std::optional<ForceSamples> SamplesOf(const CaseModel& model, const Hypothesis& h,
+                                      const std::string& plane) {
   ForceSamples all;
   all.radius = h.rig.rotor.journal_radius;
   for (const CaseRecord& r : model.data().records) {
@@ -163,7 +204,8 @@ std::optional<ForceSamples> SamplesOf(const CaseModel& model, const Hypothesis& 
   }
   if (all.t.size() < 100) return std::nullopt;
   const std::size_t stride = all.t.size() / kMost + 1;
-  for (auto* v : {&all.t, &all.theta, &all.omega, &all.x, &all.y, &all.vx, &all.vy, &all.fx, &all.fy}) {
+  for (auto* v :
+       {&all.t, &all.theta, &all.omega, &all.x, &all.y, &all.vx, &all.vy, &all.fx, &all.fy}) {
     for (std::size_t k = 0; k * stride < v->size(); ++k) (*v)[k] = (*v)[k * stride];
     v->resize((v->size() + stride - 1) / stride);
   }
@@ -174,16 +216,19 @@ std::optional<ForceSamples> SamplesOf(const CaseModel& model, const Hypothesis& 
 
 MissingForce FindLaw(const ForceSamples& samples, const std::string& plane) {
   std::vector<MissingForce> laws = SmoothLaws(samples, plane);
-  MissingForce best = *std::max_element(laws.begin(), laws.end(), [](const auto& a, const auto& b) { return a.share < b.share; });
+  MissingForce best = *std::max_element(
+      laws.begin(), laws.end(), [](const auto& a, const auto& b) { return a.share < b.share; });
   const MissingForce contact = ContactLaw(samples, plane);
   if (contact.share > best.share + kMuchBetter) best = contact;
   double square = 0;
-  for (std::size_t k = 0; k < samples.fx.size(); ++k) square += samples.fx[k] * samples.fx[k] + samples.fy[k] * samples.fy[k];
+  for (std::size_t k = 0; k < samples.fx.size(); ++k)
+    square += samples.fx[k] * samples.fx[k] + samples.fy[k] * samples.fy[k];
   best.rms = std::sqrt(square / static_cast<double>(std::max<std::size_t>(samples.fx.size(), 1)));
   return best;
 }
 
-std::optional<MissingForce> DescribeMissingForce(const CaseModel& model, const Hypothesis& h, const std::string& plane) {
+std::optional<MissingForce> DescribeMissingForce(const CaseModel& model, const Hypothesis& h,
+                                                 const std::string& plane) {
   const auto samples = SamplesOf(model, h, plane);
   if (!samples) return std::nullopt;
   return FindLaw(*samples, plane);

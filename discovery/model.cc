@@ -19,7 +19,8 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
     p.path = t.path;
     const double* at = ParameterAt(h.rig, t.path);
     if (!at || t.sd <= 0) continue;
-    p.value = p.start = *at;  // the prior's mean; a calibration found earlier is where the fit starts
+    // the prior's mean; a calibration found earlier is where the fit starts
+    p.value = p.start = *at;
     p.sd = p.step = t.sd;
     std::string unit;
     ParameterRange(rig, t.path, &p.lo, &p.hi, &unit);
@@ -29,7 +30,8 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
     if (!std::isnan(t.fitted)) h.Set(h.free.size() - 1, t.fitted);
   }
   for (Tolerance& t : h.rig.tolerances) t.fitted = kRequired;  // now in the values
-  // A formula that the user wrote is there to be fitted, and so is what an adoption found: { value, sd }.
+  // A formula that the user wrote is there to be fitted, and so is what an adoption found: { value,
+  // sd }.
   const std::vector<EffectInstance> own = std::move(h.rig.effects);
   h.rig.effects.clear();
   for (const EffectInstance& e : own) {
@@ -58,9 +60,12 @@ void Hypothesis::AddEffect(const EffectInstance& effect) {
     const double typical = std::max(std::abs(e.typical_hi), std::abs(e.typical_lo));
     p.step = 0.3 * typical;
     if (p.step == 0) p.step = std::isfinite(e.hi) && std::isfinite(e.lo) ? 0.05 * (e.hi - e.lo) : 1;
-    // Sizes over decades move in ratios; signed ones and distances from a null (a gain of 1) in steps.
-    const bool distance = std::isfinite(e.null_value) && std::abs(e.typical_hi) <= 0.5 * std::abs(e.null_value);
-    p.logarithmic = !distance && e.typical_lo > 0 && e.typical_hi / e.typical_lo > 2.5 && e.lo >= 0 && p.value > 0;
+    // Sizes over decades move in ratios; signed ones and distances from a null (a gain of 1) in
+    // steps.
+    const bool distance =
+        std::isfinite(e.null_value) && std::abs(e.typical_hi) <= 0.5 * std::abs(e.null_value);
+    p.logarithmic = !distance && e.typical_lo > 0 && e.typical_hi / e.typical_lo > 2.5 &&
+                    e.lo >= 0 && p.value > 0;
     free.push_back(p);
   }
 }
@@ -82,7 +87,8 @@ double Hypothesis::Coordinate(std::size_t parameter) const {
 
 double Hypothesis::ValueAt(std::size_t parameter, double coordinate) const {
   const FreeParameter& p = free[parameter];
-  const double v = p.logarithmic ? p.start * std::exp(0.3 * coordinate) : p.start + p.step * coordinate;
+  const double v =
+      p.logarithmic ? p.start * std::exp(0.3 * coordinate) : p.start + p.step * coordinate;
   return std::clamp(v, p.lo, p.hi);
 }
 
@@ -95,7 +101,8 @@ CaseModel::CaseModel(const Case& c, std::size_t thin) : case_(c) {
       const bool free_speed = record.scenario.speed_free_from < record.scenario.duration;
       const bool prescribed = channel.name == "theta" || (channel.name == "omega" && !free_speed);
       const bool truth = channel.name.find(".r.") != std::string::npos || channel.name == "r.z";
-      const bool command = record.scenario.start == StartState::kClamped && channel.name.find(".s") != std::string::npos;
+      const bool command = record.scenario.start == StartState::kClamped &&
+                           channel.name.find(".s") != std::string::npos;
       if (prescribed || truth || command || !record.quality[ch].use) continue;
       Target t;
       t.record = r;
@@ -120,7 +127,8 @@ CaseModel::CaseModel(const Case& c, std::size_t thin) : case_(c) {
   }
 }
 
-Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const {
+Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
+                            std::uint64_t seed) const {
   const CaseRecord& r = case_.records[record];
   Scenario scenario = r.scenario;
   scenario.noise = noise;
@@ -130,8 +138,10 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.watch = false;
   options.nominal = &case_.rig;
-  // A hypothesis that drops a rotor which the measured rig held is no explanation; do not watch it bounce.
-  if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty()) options.lost_after = 0.01;
+  // A hypothesis that drops a rotor which the measured rig held is no explanation; do not watch it
+  // bounce.
+  if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty())
+    options.lost_after = 0.01;
   options.stop = stop;
   ++runs;
   return SwitchingEngine(h.rig, scenario, options).Run().record;
@@ -146,8 +156,8 @@ std::pair<std::size_t, std::size_t> CaseModel::RowsOf(std::size_t record) const 
   return {first, end};
 }
 
-bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
-                           std::vector<double>& out) const {
+bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool noise,
+                           std::uint64_t seed, std::vector<double>& out) const {
   if (!store) return SimulateRecord(rig, record, noise, seed, out);
   const auto [first, end] = RowsOf(record);
   const RunKey key{rig, record, noise, seed, end - first};
@@ -157,8 +167,8 @@ bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool no
   return fine;
 }
 
-bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
-                           std::vector<double>& out) const {
+bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, bool noise,
+                               std::uint64_t seed, std::vector<double>& out) const {
   Hypothesis h;
   h.rig = rig;
   Record simulated;
@@ -176,7 +186,8 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
     if (!channel) continue;
     const std::vector<double>& y = channel->samples;
     for (std::size_t k = 0; k < t.count; ++k) {
-      const double at = data.start * simulated.rate + static_cast<double>(sample_[t.first + k]) * ratio;
+      const double at =
+          data.start * simulated.rate + static_cast<double>(sample_[t.first + k]) * ratio;
       const auto low = static_cast<std::size_t>(std::max(0.0, at + 1e-6));
       const double part = std::max(0.0, at - static_cast<double>(low));
       const std::size_t a = std::min(low, y.size() - 1), b = std::min(low + 1, y.size() - 1);
@@ -191,7 +202,8 @@ std::optional<std::vector<double>> CaseModel::Predict(const Hypothesis& h) const
   return std::move(all[0]);
 }
 
-std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(const std::vector<Hypothesis>& all) const {
+std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
+    const std::vector<Hypothesis>& all) const {
   const std::size_t records = case_.records.size();
   std::vector<std::optional<std::vector<double>>> out(all.size());
   for (auto& o : out) o.emplace(measured_.size(), 0.0);
@@ -206,7 +218,8 @@ std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(const std:
   return out;
 }
 
-std::optional<std::vector<double>> CaseModel::PredictNoisy(const Hypothesis& h, std::uint64_t seed) const {
+std::optional<std::vector<double>> CaseModel::PredictNoisy(const Hypothesis& h,
+                                                           std::uint64_t seed) const {
   std::vector<double> out(measured_.size(), 0.0);
   std::atomic<bool> fine{true};
   tbb::parallel_for(std::size_t{0}, case_.records.size(), [&](std::size_t r) {

@@ -15,19 +15,19 @@ namespace ambrig {
 
 /// A number that a fit may move: a toleranced rig parameter or a parameter of an effect.
 struct FreeParameter {
-  std::string path;        // "bearings.A.gap"; for effects "effect[k].name"
-  int effect = -1;         // index of the effect, -1: rig parameter
-  std::size_t row = 0;     // row of the effect's table
+  std::string path;     // "bearings.A.gap"; for effects "effect[k].name"
+  int effect = -1;      // index of the effect, -1: rig parameter
+  std::size_t row = 0;  // row of the effect's table
   double value = 0, start = 0;
-  double sd = 0;           // prior (rig parameters); 0: none
+  double sd = 0;  // prior (rig parameters); 0: none
   double lo = 0, hi = 0;
-  double step = 0;         // natural size of a change, for differences and scaling
+  double step = 0;  // natural size of a change, for differences and scaling
   bool logarithmic = false;
 };
 
 /// What is believed: the rig file's parameters and effects with values of the free ones.
 struct Hypothesis {
-  RigParameters rig;                 // rig.effects holds the effects
+  RigParameters rig;  // rig.effects holds the effects
   std::vector<FreeParameter> free;
 
   /// Toleranced parameters of the rig as free ones, with their prior; without one the parameters of
@@ -64,18 +64,20 @@ class CaseModel {
   /// Index of a row in its channel.
   std::size_t sample(std::size_t row) const { return sample_[row]; }
 
-  /// Predicted values in the order of the targets; nullopt when the hypothesis falls out of control.
+  /// Predicted values in the order of the targets; nullopt when the hypothesis falls out of
+  /// control.
   std::optional<std::vector<double>> Predict(const Hypothesis& h) const;
   /// The same with noise of a seed: what the data would look like again.
   std::optional<std::vector<double>> PredictNoisy(const Hypothesis& h, std::uint64_t seed) const;
   /// Many at once on all cores, in order.
-  std::vector<std::optional<std::vector<double>>> PredictAll(const std::vector<Hypothesis>& all) const;
+  std::vector<std::optional<std::vector<double>>> PredictAll(
+      const std::vector<Hypothesis>& all) const;
   /// Full simulated record of one record's scenario.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;
 
-  mutable std::atomic<long> runs{0};          // record simulations so far
+  mutable std::atomic<long> runs{0};  // record simulations so far
   const std::atomic<bool>* stop = nullptr;
-  RunStore* store = nullptr;                  // looked up before a record is simulated
+  RunStore* store = nullptr;  // looked up before a record is simulated
 
  private:
   /// Flat rows of one record.

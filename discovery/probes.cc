@@ -21,31 +21,36 @@ double SizeFromNull(const EffectParameter& p) {
 
 std::vector<double> LogGrid(double lo, double hi, int n) {
   std::vector<double> out;
-  for (int k = 0; k < n; ++k) out.push_back(lo * std::pow(hi / lo, n == 1 ? 0.5 : static_cast<double>(k) / (n - 1)));
+  for (int k = 0; k < n; ++k)
+    out.push_back(lo * std::pow(hi / lo, n == 1 ? 0.5 : static_cast<double>(k) / (n - 1)));
   return out;
 }
 
 void AppendApart(std::vector<double>& list, const std::vector<double>& more, double ratio) {
   for (double f : more)  // neighbours of what stands there already are left out
-    if (std::none_of(list.begin(), list.end(), [&](double g) { return std::abs(std::log(f / g)) < ratio; }))
+    if (std::none_of(list.begin(), list.end(),
+                     [&](double g) { return std::abs(std::log(f / g)) < ratio; }))
       list.push_back(f);
 }
 
 /// A resonance is sought with more damping than it has: it is felt from further off, and a fit from
 /// there finds its way down to the true one.
 constexpr double kSoughtDamping = 0.05;
-constexpr double kSoughtSpacing = 1.1;   // of neighbouring frequencies, about its width
-constexpr double kSoughtGain = 0.4;      // of its usual top: large gains shift the loop's resonance, a small probe misses that
+constexpr double kSoughtSpacing = 1.1;  // of neighbouring frequencies, about its width
+// of its usual top: large gains shift the loop's resonance, a small probe misses that
+constexpr double kSoughtGain = 0.4;
 
 bool IsResonance(const EffectDescription& d) {
   const auto has = [&](const char* name) {
-    return std::any_of(d.parameters.begin(), d.parameters.end(), [&](const EffectParameter& p) { return p.name == name; });
+    return std::any_of(d.parameters.begin(), d.parameters.end(),
+                       [&](const EffectParameter& p) { return p.name == name; });
   };
   return has("frequency") && has("damping");
 }
 
 /// It answers to its gains squared: both signs of their ratio, the size to be found.
-std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, std::size_t b, double size) {
+std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, std::size_t b,
+                                     double size) {
   std::vector<ProbeGroup> groups;
   for (const double sign : {1.0, -1.0}) {
     ProbeGroup g;
@@ -59,9 +64,10 @@ std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, st
   return groups;
 }
 
-/// Values at which the shape parameters (frequency, width, ...) are tried together with the switches.
-std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string& target, const EffectParameter& p,
-                                   const ResidualPeaks& peaks) {
+/// Values at which the shape parameters (frequency, width, ...) are tried together with the
+/// switches.
+std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string& target,
+                                   const EffectParameter& p, const ResidualPeaks& peaks) {
   std::vector<double> seeds;
   const bool tone = d.id == "sensor-hum" || d.id == "base-vibration";
   if (tone) {
@@ -69,15 +75,20 @@ std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string
     AppendApart(seeds, {50, 60}, 0.01);
   } else {
     seeds = peaks.spectrum;
-    const int n = IsResonance(d) ? static_cast<int>(std::ceil(std::log(p.typical_hi / p.typical_lo) / std::log(kSoughtSpacing))) : 7;
+    const int n = IsResonance(d)
+                      ? static_cast<int>(std::ceil(std::log(p.typical_hi / p.typical_lo) /
+                                                   std::log(kSoughtSpacing)))
+                      : 7;
     AppendApart(seeds, LogGrid(p.typical_lo, p.typical_hi, n), 0.06);
   }
   std::erase_if(seeds, [&](double f) { return f < p.lo || f > p.hi; });
   return seeds;
 }
 
-/// What shapes a law over decades is tried at the far end of its usual range too: laminations thin and thick.
-std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInstance& middle, const std::vector<std::size_t>& shape) {
+/// What shapes a law over decades is tried at the far end of its usual range too: laminations thin
+/// and thick.
+std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInstance& middle,
+                                    const std::vector<std::size_t>& shape) {
   std::vector<EffectInstance> forms = {middle};
   for (std::size_t s : shape) {
     const EffectParameter& p = d.parameters[s];
@@ -90,8 +101,8 @@ std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInst
 
 }  // namespace
 
-std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target, const CaseModel& model,
-                                 const ResidualPeaks& peaks) {
+std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target,
+                                 const CaseModel& model, const ResidualPeaks& peaks) {
   EffectInstance null = MakeInstance(d, target);
   std::vector<std::size_t> finite, infinite, shape;
   std::size_t frequency = d.parameters.size();
@@ -100,10 +111,14 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
     if (d.Switches(p)) {
       (std::isfinite(p.null_value) ? finite : infinite).push_back(k);
     } else {
-      // A shape parameter whose null is inside its usual range (an optional extra) stays at its null.
-      if (p.name == "frequency") frequency = k;
-      else if (p.name == "damping" && IsResonance(d)) null.values[k] = kSoughtDamping;
-      else if (p.typical_lo > 0 || p.typical_hi < 0) null.values[k] = Middle(p);
+      // A shape parameter whose null is inside its usual range (an optional extra) stays at its
+      // null.
+      if (p.name == "frequency")
+        frequency = k;
+      else if (p.name == "damping" && IsResonance(d))
+        null.values[k] = kSoughtDamping;
+      else if (p.typical_lo > 0 || p.typical_hi < 0)
+        null.values[k] = Middle(p);
       shape.push_back(k);
     }
   }
@@ -115,7 +130,9 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
     EffectInstance at = null;
     if (frequency < d.parameters.size()) at.values[frequency] = f;
     if (d.id == "bending-mode") {
-      for (ProbeGroup& g : GainPatterns(at, finite[0], finite[1], kSoughtGain * d.parameters[finite[0]].typical_hi)) groups.push_back(std::move(g));
+      for (ProbeGroup& g :
+           GainPatterns(at, finite[0], finite[1], kSoughtGain * d.parameters[finite[0]].typical_hi))
+        groups.push_back(std::move(g));
       continue;
     }
     if (d.id == "loop-delay") {  // acts in whole switching periods

@@ -11,14 +11,15 @@ namespace ambrig {
 /// their signatures add; otherwise the group is one probe of finite size, to be scaled about 1.
 struct ProbeGroup {
   std::vector<EffectInstance> probes;
-  std::vector<std::size_t> rows;       // linear: the table row that each probe moved
+  std::vector<std::size_t> rows;  // linear: the table row that each probe moved
   bool linear = true;
-  std::vector<std::pair<std::size_t, double>> scaling;  // not linear: rows that go with a power of the amount
-  bool narrow = false;                 // a resonance: off its frequency the signature tells little
+  // not linear: rows that go with a power of the amount
+  std::vector<std::pair<std::size_t, double>> scaling;
+  bool narrow = false;  // a resonance: off its frequency the signature tells little
 };
 
 /// Frequencies are tried where the error stands out (`peaks`) and over their usual range.
-std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target, const CaseModel& model,
-                                 const ResidualPeaks& peaks);
+std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target,
+                                 const CaseModel& model, const ResidualPeaks& peaks);
 
 }  // namespace ambrig

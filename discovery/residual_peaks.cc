@@ -15,11 +15,13 @@ constexpr std::size_t kCoherentPeaks = 3, kSpectrumPeaks = 4;
 bool IsReading(const CaseModel& model, const Target& t) {
   const CaseRecord& record = model.data().records[t.record];
   const std::string& channel = record.data.channels[t.channel].name;
-  return record.scenario.start != StartState::kClamped && (channel.ends_with(".x") || channel.ends_with(".y"));
+  return record.scenario.start != StartState::kClamped &&
+         (channel.ends_with(".x") || channel.ends_with(".y"));
 }
 
 /// Fourier sum of one target's residual at f, phase zero at the scenario's start.
-std::complex<double> SumAt(const CaseModel& model, const std::vector<double>& residual, const Target& t, double f) {
+std::complex<double> SumAt(const CaseModel& model, const std::vector<double>& residual,
+                           const Target& t, double f) {
   const CaseRecord& record = model.data().records[t.record];
   const double w = 2 * kPi * f / record.data.rate;
   if (w > 0.8 * kPi) return 0;
@@ -32,22 +34,26 @@ std::complex<double> SumAt(const CaseModel& model, const std::vector<double>& re
   return sum;
 }
 
-std::vector<double> Peaks(const std::vector<double>& f, const std::vector<double>& power, std::size_t count, double apart) {
+std::vector<double> Peaks(const std::vector<double>& f, const std::vector<double>& power,
+                          std::size_t count, double apart) {
   std::vector<std::size_t> order;
   for (std::size_t k = 1; k + 1 < f.size(); ++k)
     if (power[k] >= power[k - 1] && power[k] >= power[k + 1]) order.push_back(k);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return power[a] > power[b]; });
   std::vector<double> out;
   for (std::size_t k : order) {
     if (out.size() >= count) break;
-    if (std::none_of(out.begin(), out.end(), [&](double g) { return std::abs(f[k] - g) < apart * g; })) out.push_back(f[k]);
+    if (std::none_of(out.begin(), out.end(),
+                     [&](double g) { return std::abs(f[k] - g) < apart * g; }))
+      out.push_back(f[k]);
   }
   return out;
 }
 
 /// Power of a plane's readings by frequency, the records added with their phases.
-std::vector<double> CoherentPower(const CaseModel& model, const std::vector<double>& residual, const std::string& plane,
-                                  const std::vector<double>& f) {
+std::vector<double> CoherentPower(const CaseModel& model, const std::vector<double>& residual,
+                                  const std::string& plane, const std::vector<double>& f) {
   std::vector<double> power(f.size());
   for (std::size_t k = 0; k < f.size(); ++k) {
     std::map<std::string, std::complex<double>> sums;
@@ -79,7 +85,8 @@ ResidualPeaks FindPeaks(const CaseModel& model, const std::vector<double>& resid
     wide.push_back(g);
     power.push_back(0);
     for (const Target& t : model.targets())
-      if (IsReading(model, t)) power.back() += std::norm(SumAt(model, residual, t, g)) / static_cast<double>(t.count);
+      if (IsReading(model, t))
+        power.back() += std::norm(SumAt(model, residual, t, g)) / static_cast<double>(t.count);
   }
   peaks.spectrum = Peaks(wide, power, kSpectrumPeaks, 0.1);
   return peaks;

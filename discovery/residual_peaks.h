@@ -1,5 +1,6 @@
 #pragma once
-/// Frequencies at which an error stands out: where tones and resonances that the model lacks are sought.
+/// Frequencies at which an error stands out: where tones and resonances that the model lacks are
+/// sought.
 #include <map>
 #include <string>
 #include <vector>
@@ -9,7 +10,8 @@
 namespace ambrig {
 
 struct ResidualPeaks {
-  /// By plane ("rig": all of them), of the readings, same phase in every record. [Hz], strongest first.
+  /// By plane ("rig": all of them), of the readings, same phase in every record. [Hz], strongest
+  /// first.
   std::map<std::string, std::vector<double>> coherent;
   std::vector<double> spectrum;  // any phase [Hz], strongest first
 };

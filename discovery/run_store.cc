@@ -59,7 +59,8 @@ std::string BeginOf(const Case& c) {
 }
 
 std::uint64_t CheckOf(std::string_view key, const double* rows, std::size_t count) {
-  return Fingerprint({reinterpret_cast<const char*>(rows), count * sizeof(double)}, Fingerprint(key));
+  return Fingerprint({reinterpret_cast<const char*>(rows), count * sizeof(double)},
+                     Fingerprint(key));
 }
 
 }  // namespace
@@ -74,7 +75,10 @@ RunStore::RunStore(const std::string& folder, const Case& c)
     return;
   }
   if (found != begin_)
-    throw InputError(fmt::format("{}: holds the simulations of another case or of another build; allowed: the same files and program, or another folder", file_.path()));
+    throw InputError(
+        fmt::format("{}: holds the simulations of another case or of another build; allowed: the "
+                    "same files and program, or another folder",
+                    file_.path()));
   ReadAll();
 }
 
@@ -88,7 +92,9 @@ void RunStore::ReadAll() {
     key.resize(head.key_bytes);
     rows.resize(head.rows);
     if (!file_.ReadAt(at, key.data(), key.size())) break;
-    if (!file_.ReadAt(at + key.size(), reinterpret_cast<char*>(rows.data()), rows.size() * sizeof(double))) break;
+    if (!file_.ReadAt(at + key.size(), reinterpret_cast<char*>(rows.data()),
+                      rows.size() * sizeof(double)))
+      break;
     if (CheckOf(key, rows.data(), rows.size()) != head.check) break;
     places_[key] = {at + key.size(), rows.size(), head.fine != 0};
     end_ = at + key.size() + rows.size() * sizeof(double);
@@ -104,7 +110,9 @@ std::optional<bool> RunStore::Find(const RunKey& key, double* out) const {
     if (found == places_.end()) return std::nullopt;
     place = found->second;
   }
-  if (place.fine && !file_.ReadAt(place.offset, reinterpret_cast<char*>(out), place.rows * sizeof(double))) return std::nullopt;
+  if (place.fine &&
+      !file_.ReadAt(place.offset, reinterpret_cast<char*>(out), place.rows * sizeof(double)))
+    return std::nullopt;
   return place.fine;
 }
 

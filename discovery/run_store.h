@@ -1,7 +1,7 @@
 #pragma once
-/// The simulations of an explain run on disk: an interrupted one, called again, finds them and goes on
-/// where it stopped, with the same bits. Entries are told apart by everything that a prediction depends
-/// on; a store of another case or another build is refused.
+/// The simulations of an explain run on disk: an interrupted one, called again, finds them and goes
+/// on where it stopped, with the same bits. Entries are told apart by everything that a prediction
+/// depends on; a store of another case or another build is refused.
 #include <cstdint>
 #include <map>
 #include <mutex>

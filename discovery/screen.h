@@ -16,13 +16,14 @@ struct ScreenOptions {
 };
 
 /// Every (effect, target) that these records could show, best first. `base` is the fit so far.
-/// Fills the bank; what stands in it already is not simulated again, save for effects that look for a
-/// frequency where the error stands out (`peaks`).
-std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base, const ResidualPeaks& peaks, const ScreenOptions& options,
+/// Fills the bank; what stands in it already is not simulated again, save for effects that look for
+/// a frequency where the error stands out (`peaks`).
+std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
+                              const ResidualPeaks& peaks, const ScreenOptions& options,
                               SignatureBank& bank);
 
 /// The pairs of effects out of the bank that would explain most together, best first.
-std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& base, double effective, SignatureBank& bank,
-                                       std::size_t count);
+std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& base,
+                                       double effective, SignatureBank& bank, std::size_t count);
 
 }  // namespace ambrig

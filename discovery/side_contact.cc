@@ -24,14 +24,17 @@ struct Line {
   double Variance() const { return vv - v * v / n; }
 };
 
-/// Along and across the contact's direction the fit falls into two lines, through the depth and through
-/// the depth that rubs, each with its constant.
+/// Along and across the contact's direction the fit falls into two lines, through the depth and
+/// through the depth that rubs, each with its constant.
 SideContact Fitted(const ForceSamples& s, SideContact c) {
   c.share = c.push = c.drag = 0;
   const double n_x = std::cos(c.angle), n_y = std::sin(c.angle);
   Line along, across;
   for (std::size_t k = 0; k < s.fx.size(); ++k) {
-    const double d = std::max(0.0, s.x[k] * n_x + s.y[k] * n_y + (c.lobe > 0 ? c.lobe * std::cos(s.theta[k] - c.high) : 0) - c.gap) * c.On(s.t[k]);
+    const double d =
+        std::max(0.0, s.x[k] * n_x + s.y[k] * n_y +
+                          (c.lobe > 0 ? c.lobe * std::cos(s.theta[k] - c.high) : 0) - c.gap) *
+        c.On(s.t[k]);
     along.Add(d, -(s.fx[k] * n_x + s.fy[k] * n_y));
     across.Add(d > 0 ? d * c.Rubs(s, k) : 0, s.fx[k] * n_y - s.fy[k] * n_x);
   }
@@ -58,18 +61,22 @@ double PushedFrom(const ForceSamples& s) {
   }
   const double axis = 0.5 * std::atan2(2 * xy, xx - yy);
   double third = 0;  // the side of the long tail
-  for (std::size_t k = 0; k < s.fx.size(); ++k) third += std::pow((s.fx[k] - mx) * std::cos(axis) + (s.fy[k] - my) * std::sin(axis), 3);
+  for (std::size_t k = 0; k < s.fx.size(); ++k)
+    third += std::pow((s.fx[k] - mx) * std::cos(axis) + (s.fy[k] - my) * std::sin(axis), 3);
   return third > 0 ? axis + kPi : axis;
 }
 
 /// Positions along a direction, sorted.
 std::vector<double> Along(const ForceSamples& s, double angle) {
   std::vector<double> along;
-  for (std::size_t k = 0; k < s.x.size(); ++k) along.push_back(s.x[k] * std::cos(angle) + s.y[k] * std::sin(angle));
+  for (std::size_t k = 0; k < s.x.size(); ++k)
+    along.push_back(s.x[k] * std::cos(angle) + s.y[k] * std::sin(angle));
   std::sort(along.begin(), along.end());
   return along;
 }
-double Quantile(const std::vector<double>& sorted, double q) { return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))]; }
+double Quantile(const std::vector<double>& sorted, double q) {
+  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+}
 
 /// Half the width that two thirds of them fill.
 double Spread(const ForceSamples& s, double angle) {
@@ -87,7 +94,8 @@ SideContact StandingContact(const ForceSamples& s) {
   for (int d = 0; d < 24; ++d) {
     const double angle = 2 * kPi * d / 24;
     const std::vector<double> along = Along(s, angle);
-    for (const double q : {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85}) best = Better(s, best, {angle, Quantile(along, q)});
+    for (const double q : {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85})
+      best = Better(s, best, {angle, Quantile(along, q)});
   }
   return best;
 }
@@ -102,19 +110,22 @@ std::vector<SideContact> PassingContacts(const ForceSamples& s) {
       const std::vector<double> along = Along(s, angle);
       for (const double q : {0.1, 0.3, 0.4, 0.5, 0.6})
         for (const double duty : {0.2, 0.35, 0.5, 0.65})
-          for (double phase = 0; phase < 1; phase += 0.1) best = Better(s, best, {angle, Quantile(along, q), period, phase, duty});
+          for (double phase = 0; phase < 1; phase += 0.1)
+            best = Better(s, best, {angle, Quantile(along, q), period, phase, duty});
     }
     found.push_back(best);
   }
-  std::sort(found.begin(), found.end(), [](const SideContact& a, const SideContact& b) { return a.share > b.share; });
+  std::sort(found.begin(), found.end(),
+            [](const SideContact& a, const SideContact& b) { return a.share > b.share; });
   return found;
 }
 
 ForceSamples EveryFourth(const ForceSamples& s) {
   ForceSamples out;
   out.radius = s.radius;
-  for (const auto part : {&ForceSamples::t, &ForceSamples::theta, &ForceSamples::omega, &ForceSamples::x, &ForceSamples::y,
-                          &ForceSamples::vx, &ForceSamples::vy, &ForceSamples::fx, &ForceSamples::fy})
+  for (const auto part : {&ForceSamples::t, &ForceSamples::theta, &ForceSamples::omega,
+                          &ForceSamples::x, &ForceSamples::y, &ForceSamples::vx, &ForceSamples::vy,
+                          &ForceSamples::fx, &ForceSamples::fy})
     for (std::size_t k = 0; k < (s.*part).size(); k += 4) (out.*part).push_back((s.*part)[k]);
   return out;
 }

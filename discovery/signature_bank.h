@@ -19,13 +19,14 @@ struct Gram {
 class SignatureBank {
  public:
   struct Entry {
-    ProbeGroup group;         // only the probes that the rotor survived
-    Eigen::Index first = 0;   // column of its first probe
+    ProbeGroup group;        // only the probes that the rotor survived
+    Eigen::Index first = 0;  // column of its first probe
     Eigen::Index count() const { return static_cast<Eigen::Index>(group.probes.size()); }
   };
 
   /// Simulates the groups' probes on top of `base` and adds their signatures.
-  void Simulate(const CaseModel& model, const FitResult& base, const std::vector<ProbeGroup>& groups,
+  void Simulate(const CaseModel& model, const FitResult& base,
+                const std::vector<ProbeGroup>& groups,
                 const std::function<void(double, const std::string&)>& progress);
 
   const std::vector<Entry>& entries() const { return entries_; }
@@ -37,7 +38,7 @@ class SignatureBank {
 
  private:
   std::vector<Entry> entries_;
-  Eigen::MatrixXf columns_;   // spare columns at the end
+  Eigen::MatrixXf columns_;  // spare columns at the end
   Eigen::Index used_ = 0, multiplied_ = 0;
   Gram products_;
 };

@@ -22,7 +22,8 @@ void EffectInstance::Set(const std::string& parameter, double value) {
 }
 
 bool EffectDescription::Switches(const EffectParameter& p) const {
-  return off_when_null.empty() || std::find(off_when_null.begin(), off_when_null.end(), p.name) != off_when_null.end();
+  return off_when_null.empty() ||
+         std::find(off_when_null.begin(), off_when_null.end(), p.name) != off_when_null.end();
 }
 
 bool EffectInstance::IsNull() const {
@@ -38,19 +39,38 @@ bool EffectInstance::IsNull() const {
 
 std::vector<std::string> TargetsOf(const EffectDescription& d, const EffectTargets& known) {
   std::vector<std::string> out;
-  const auto add = [&](const std::vector<std::string>& names) { out.insert(out.end(), names.begin(), names.end()); };
+  const auto add = [&](const std::vector<std::string>& names) {
+    out.insert(out.end(), names.begin(), names.end());
+  };
   std::vector<std::string> radial;  // planes without z
   for (const auto& p : known.planes)
     if (p != "z") radial.push_back(p);
   switch (d.target) {
-    case TargetKind::kRig: return {"rig"};
-    case TargetKind::kBearing: add(known.bearings); break;
-    case TargetKind::kPlane: out = radial; break;
-    case TargetKind::kPlaneOrZ: add(known.planes); break;
-    case TargetKind::kPlaneOrRig: out = radial; out.push_back("rig"); break;
-    case TargetKind::kCoil: add(known.coils); break;
-    case TargetKind::kCoilOrBearing: add(known.coils); add(known.bearings); break;
-    case TargetKind::kAxis: add(known.axes); break;
+    case TargetKind::kRig:
+      return {"rig"};
+    case TargetKind::kBearing:
+      add(known.bearings);
+      break;
+    case TargetKind::kPlane:
+      out = radial;
+      break;
+    case TargetKind::kPlaneOrZ:
+      add(known.planes);
+      break;
+    case TargetKind::kPlaneOrRig:
+      out = radial;
+      out.push_back("rig");
+      break;
+    case TargetKind::kCoil:
+      add(known.coils);
+      break;
+    case TargetKind::kCoilOrBearing:
+      add(known.coils);
+      add(known.bearings);
+      break;
+    case TargetKind::kAxis:
+      add(known.axes);
+      break;
     case TargetKind::kAny:
       out.push_back("rig");
       add(known.bearings);
@@ -100,7 +120,8 @@ EffectInstance ReadEffect(const TomlTable& t, const EffectTargets& known) {
       const EffectParameter& row = e.table[k];
       e.values[k] = p->Number(row.name, row.null_value, &e.sd[k]);
       if (!(row.lo <= e.values[k] && e.values[k] <= row.hi))
-        ThrowOutOfRange(p->Where(row.name), row.name, e.values[k], row.unit, row.lo, row.hi, row.doc);
+        ThrowOutOfRange(p->Where(row.name), row.name, e.values[k], row.unit, row.lo, row.hi,
+                        row.doc);
     }
     p->RejectUnknownKeys();
   }

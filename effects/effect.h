@@ -11,16 +11,27 @@ namespace ambrig {
 
 struct Plant;
 
-enum class TargetKind { kRig, kBearing, kPlane, kPlaneOrZ, kPlaneOrRig, kCoil, kCoilOrBearing, kAxis, kAny };
+enum class TargetKind {
+  kRig,
+  kBearing,
+  kPlane,
+  kPlaneOrZ,
+  kPlaneOrRig,
+  kCoil,
+  kCoilOrBearing,
+  kAxis,
+  kAny
+};
 
 /// One parameter of an effect: physical bounds, null value, and where it is usually found.
 struct EffectParameter {
   std::string name, unit;
   double null_value = 0;
-  double lo = -kInfinity, hi = kInfinity;        // possible
-  double typical_lo = 0, typical_hi = 0;         // usual size; of a switch its distance from null
+  double lo = -kInfinity, hi = kInfinity;  // possible
+  double typical_lo = 0, typical_hi = 0;   // usual size; of a switch its distance from null
   std::string doc;
-  bool has_null = true;                          // false: a formula's parameter that never switches it off
+  // false: a formula's parameter that never switches it off
+  bool has_null = true;
 };
 
 /// Names that a rig offers as targets.
@@ -32,11 +43,11 @@ struct EffectTargets {
 /// An effect as a rig file names it.
 struct EffectInstance {
   std::string name, target, label;
-  std::vector<EffectParameter> table;   // copy of the description's, or the formula's own
-  std::vector<double> values;           // one per row of the table
-  std::vector<double> sd;               // 0 where unknown
+  std::vector<EffectParameter> table;  // copy of the description's, or the formula's own
+  std::vector<double> values;          // one per row of the table
+  std::vector<double> sd;              // 0 where unknown
   std::vector<std::pair<std::string, std::string>> formulas;  // formula effect: "force.x" -> text
-  std::string where;                    // file:line
+  std::string where;                                          // file:line
 
   double Value(const std::string& parameter) const;
   void Set(const std::string& parameter, double value);
@@ -49,14 +60,16 @@ struct EffectDescription {
   std::string id, title, physics;
   TargetKind target;
   std::vector<EffectParameter> parameters;
-  std::vector<std::string> off_when_null;  // the parameters whose null switches the effect off (any of... all of these null)
+  // the parameters whose null switches the effect off (any of... all of these null)
+  std::vector<std::string> off_when_null;
   /// Whether this parameter's null takes part in switching the effect off.
   bool Switches(const EffectParameter& p) const;
-  std::string shows_in;                    // which record shows it
+  std::string shows_in;  // which record shows it
   std::string confused_with;
-  bool at_stations = false;                // a plane may also be a disk or station of a beam rotor
+  bool at_stations = false;  // a plane may also be a disk or station of a beam rotor
   void (*apply)(const EffectInstance&, Plant&) = nullptr;
-  void (*shape)(const EffectInstance&, Plant&) = nullptr;  // before planes exist: adds modes to the shaft
+  // before planes exist: adds modes to the shaft
+  void (*shape)(const EffectInstance&, Plant&) = nullptr;
 };
 
 /// All targets of this rig that the effect may have.

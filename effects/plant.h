@@ -37,26 +37,26 @@ struct CoilHeating {
 
 struct BearingPlant {
   std::string name;
-  double z = 0;                  // [m]
+  double z = 0;  // [m]
   bool thrust = false, opposed = false;
   StatorLanes lanes;
-  PlaneMap plane;                // where the magnets pull
+  PlaneMap plane;  // where the magnets pull
   PositionSensor sensor;
   std::array<BridgeImperfection, kLanes> bridge{};
   std::array<CurrentSensor, kLanes> current_sensor{};
   std::vector<std::unique_ptr<FluxLaw>> laws;
   std::vector<std::unique_ptr<VoltageTerm>> voltage[kLanes];
   CoilHeating heating;
-  Lane base_resistance;          // before heating
+  Lane base_resistance;               // before heating
   double offset_x = 0, offset_y = 0;  // magnetic centre against the sensor's zero [m]
 };
 
 /// The supply at the amplifiers: stiff, or a source resistance feeding a capacitance.
 struct BusSupply {
-  double source = 0;         // [V]
-  double resistance = 0;     // [ohm], 0: stiff
-  double capacitance = 0;    // [F]
-  double voltage = 0;        // state [V]
+  double source = 0;       // [V]
+  double resistance = 0;   // [ohm], 0: stiff
+  double capacitance = 0;  // [F]
+  double voltage = 0;      // state [V]
   bool stiff() const { return resistance <= 0; }
 };
 
@@ -71,7 +71,7 @@ struct Plant {
   BusSupply& bus = *bus_place;
   /// Named planes of a beam rotor: disks, stations.
   std::vector<std::pair<std::string, PlaneMap>> stations;
-  double loop_delay = 0;     // [s] set-points reach the current loops this much later
+  double loop_delay = 0;  // [s] set-points reach the current loops this much later
 
   BearingPlant* Find(const std::string& name) {
     for (BearingPlant& b : bearings)

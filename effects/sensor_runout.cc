@@ -1,8 +1,9 @@
 /// Run-out: the sensed surface is not round or not concentric, and turns with the rotor.
 /// A probe at angle a reads in addition
 ///   sum over n = 1 ... 7 of  c_n cos n(a - theta) + s_n sin n(a - theta),
-/// a = 0 for x, 90 degrees for y; the same at any speed (facts.md 5.3, effects.md "Phases"). A ground
-/// surface has lobes: orders above the second are small, but far over the noise of a good sensor.
+/// a = 0 for x, 90 degrees for y; the same at any speed (facts.md 5.3, effects.md "Phases"). A
+/// ground surface has lobes: orders above the second are small, but far over the noise of a good
+/// sensor.
 #include <array>
 #include <cmath>
 #include <complex>
@@ -38,7 +39,8 @@ EffectDescription SensorRunout() {
   d.physics =
       "The surface in front of the probes is out of round or off centre: its error is read as "
       "motion,\n"
-      "once per turn and in harmonics, the same size at any speed; the bearing answers with a force.";
+      "once per turn and in harmonics, the same size at any speed; the bearing answers with a "
+      "force.";
   d.target = TargetKind::kPlane;
   for (int n = 1; n <= kOrders; ++n) {
     const double usual = n == 1 ? 1e-6 : n == 2 ? 5e-7 : 5e-8;

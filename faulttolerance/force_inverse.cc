@@ -9,18 +9,20 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLeastGain = 0.02;      // of the healthy bearing: below, the force is as good as stuck
-constexpr double kDamping = 1e-6;        // of dF/di squared, where the free coils lose rank
+// of the healthy bearing: below, the force is as good as stuck
+constexpr double kLeastGain = 0.02;
+constexpr double kDamping = 1e-6;  // of dF/di squared, where the free coils lose rank
 constexpr int kStartIterations = 120;
 constexpr double kMissed = 0.02, kMissedForce = 0.2;  // of the force, [N]
-constexpr double kForceStep = 0.25;      // [N]
-constexpr double kCircleStep = 2;        // [N] between circles
-constexpr double kAllowedMiss = 0.1;     // [N] that a step along the branch may add
-constexpr double kTrust = 0.5;           // [A] of a start's iteration
+constexpr double kForceStep = 0.25;                   // [N]
+constexpr double kCircleStep = 2;                     // [N] between circles
+constexpr double kAllowedMiss = 0.1;                  // [N] that a step along the branch may add
+constexpr double kTrust = 0.5;                        // [A] of a start's iteration
 
 /// Low-discrepancy starts: additive recurrence with the roots of primes, 0 to 1.
 double Share(int start, int coil) {
-  constexpr std::array<double, 8> root = {1.41421356, 1.73205081, 2.23606798, 2.64575131, 3.31662479, 3.60555128, 4.12310563, 4.35889894};
+  constexpr std::array<double, 8> root = {1.41421356, 1.73205081, 2.23606798, 2.64575131,
+                                          3.31662479, 3.60555128, 4.12310563, 4.35889894};
   const double u = (start + 1) * root[static_cast<std::size_t>(coil)];
   return u - std::floor(u);
 }
@@ -40,7 +42,9 @@ double ForceInverse::least_gain() const {
   ForceGradient J;
   network_.Force(i_, &J);
   for (int j = 0; j < 8; ++j)
-    if (p_.quadrants == 2 ? i_[j] < 0.02 * p_.c0 || i_[j] > p_.i_max * 0.999 : std::abs(i_[j]) > p_.i_max * 0.999) J.col(j).setZero();
+    if (p_.quadrants == 2 ? i_[j] < 0.02 * p_.c0 || i_[j] > p_.i_max * 0.999
+                          : std::abs(i_[j]) > p_.i_max * 0.999)
+      J.col(j).setZero();
   // Healthy: dF/di has two singular values k c0 / 2.
   const Eigen::Matrix2d D = J * J.transpose() / (0.25 * unit_ * unit_);
   const double mean = 0.5 * D.trace(), spread = std::hypot(0.5 * (D(0, 0) - D(1, 1)), D(0, 1));
@@ -51,7 +55,8 @@ double ForceInverse::Merit() const {
   ForceGradient J;
   network_.Force(i_, &J);
   const double det = (J * J.transpose()).determinant() / std::pow(0.5 * unit_, 4);
-  return i_.cwiseAbs2().dot(p_.turns_left) / (8 * p_.c0 * p_.c0) - o_.mu * std::log(std::max(det, 1e-12));
+  return i_.cwiseAbs2().dot(p_.turns_left) / (8 * p_.c0 * p_.c0) -
+         o_.mu * std::log(std::max(det, 1e-12));
 }
 
 void ForceInverse::Iterate(const Eigen::Vector2d& force, const Coils& low, const Coils& high) {
@@ -62,7 +67,8 @@ void ForceInverse::Iterate(const Eigen::Vector2d& force, const Coils& low, const
   D += (kDamping * unit_ * unit_) * Eigen::Matrix2d::Identity();
   // Gradient and a positive diagonal in place of the Hessian.
   const ForceGradient y = D.inverse() * J;
-  const Coils gradient = 2 * scale * p_.turns_left.cwiseProduct(i_) - 4 * o_.mu * network_.Contract(y);
+  const Coils gradient =
+      2 * scale * p_.turns_left.cwiseProduct(i_) - 4 * o_.mu * network_.Contract(y);
   const Coils inverse = (2 * scale * p_.turns_left.array() + 4 * o_.mu * scale).inverse();
   Coils d = Coils::Zero(), lo = low - i_, hi = high - i_;
   std::array<bool, 8> fixed{};
@@ -88,7 +94,8 @@ void ForceInverse::Iterate(const Eigen::Vector2d& force, const Coils& low, const
     }
     if (!again) break;
   }
-  // Shorter where the force would be missed by more than before: past the end of a branch whole steps swing.
+  // Shorter where the force would be missed by more than before: past the end of a branch whole
+  // steps swing.
   const Coils before = i_;
   Coils best = i_;
   double least = missing.norm();
@@ -136,8 +143,8 @@ bool ForceInverse::Start(const Eigen::Vector2d& force, double x, double y) {
   return lowest < 1e30;
 }
 
-InverseReach ReachOf(const RedistributionProblem& bearing, const Eigen::Vector2d& centre, double most,
-                     const ForceInverseOptions& options) {
+InverseReach ReachOf(const RedistributionProblem& bearing, const Eigen::Vector2d& centre,
+                     double most, const ForceInverseOptions& options) {
   InverseReach out;
   ForceInverse inverse(bearing, options);
   out.holds = inverse.Start(centre);

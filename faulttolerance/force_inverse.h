@@ -10,8 +10,8 @@
 /// period to period from the currents of before (sequential quadratic programming, box and slew
 /// limits by an active set), so the currents move on one branch while the force turns.
 ///
-/// Unlike W it needs no equality for all forces: it holds wherever dF/di of the coils that can still
-/// move has rank two, also about a static load where no bias without net force exists.
+/// Unlike W it needs no equality for all forces: it holds wherever dF/di of the coils that can
+/// still move has rank two, also about a static load where no bias without net force exists.
 /// Source: the unbiased inverse of Meeker, Actuators 6(1):1, 2017, here solved numerically for any
 /// failure set, position and current range.
 #include "faulttolerance/network_force.h"
@@ -19,10 +19,10 @@
 namespace ambrig {
 
 struct ForceInverseOptions {
-  double mu = 0.3;      // healthy bearing without force: bias sqrt(2 mu) c0
-  double slew = 1.2;    // [A] largest change of a current from one period to the next
-  int iterations = 3;   // of a period
-  int starts = 32;      // of the search for the first currents
+  double mu = 0.3;     // healthy bearing without force: bias sqrt(2 mu) c0
+  double slew = 1.2;   // [A] largest change of a current from one period to the next
+  int iterations = 3;  // of a period
+  int starts = 32;     // of the search for the first currents
 };
 
 class ForceInverse {
@@ -38,9 +38,11 @@ class ForceInverse {
   void SetCurrents(const Coils& current);
 
   const Coils& current() const { return i_; }
-  Eigen::Vector2d force() const { return network_.Force(i_); }  // of the network, at the last position
-  /// Smallest singular value of dF/di of the coils that can move both ways, over that of the healthy
-  /// bearing at bias c0. [-]
+  Eigen::Vector2d force() const {
+    return network_.Force(i_);
+  }  // of the network, at the last position
+  /// Smallest singular value of dF/di of the coils that can move both ways, over that of the
+  /// healthy bearing at bias c0. [-]
   double least_gain() const;
   const NetworkForce& network() const { return network_; }
 
@@ -58,14 +60,14 @@ class ForceInverse {
 
 /// What the inverse holds of a failure set.
 struct InverseReach {
-  bool holds = false;   // the centre, with control
-  double radius = 0;    // [N] forces |f - centre| <= radius are followed on one branch
-  double loss = 0;      // copper loss at the centre over the healthy bearing's at bias c0
+  bool holds = false;  // the centre, with control
+  double radius = 0;   // [N] forces |f - centre| <= radius are followed on one branch
+  double loss = 0;     // copper loss at the centre over the healthy bearing's at bias c0
 };
 
 /// Follows forces from `centre` [N] out to circles and round them, in steps of a quarter of a
 /// newton, until one is missed by more than 2 %, or until `most` [N].
-InverseReach ReachOf(const RedistributionProblem& bearing, const Eigen::Vector2d& centre, double most,
-                     const ForceInverseOptions& options = {});
+InverseReach ReachOf(const RedistributionProblem& bearing, const Eigen::Vector2d& centre,
+                     double most, const ForceInverseOptions& options = {});
 
 }  // namespace ambrig

@@ -7,8 +7,12 @@ namespace {
 class BiasFirst : public HandOver {
  public:
   explicit BiasFirst(const HandOverStart& s)
-      : bias_(s.bias_before.cwiseProduct(Live(s))), control_(s.now - bias_), bias_after_(s.bias_after),
-        step_(RampStep(s)), least_(s.bearing.quadrants == 2 ? 0 : -s.bearing.i_max), most_(s.bearing.i_max) {}
+      : bias_(s.bias_before.cwiseProduct(Live(s))),
+        control_(s.now - bias_),
+        bias_after_(s.bias_after),
+        step_(RampStep(s)),
+        least_(s.bearing.quadrants == 2 ? 0 : -s.bearing.i_max),
+        most_(s.bearing.i_max) {}
   SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d&) override {
     if (done_) return wanted;
     const SetPointVector bias = Toward(bias_, bias_after_);
@@ -25,7 +29,9 @@ class BiasFirst : public HandOver {
   std::unique_ptr<HandOver> Clone() const override { return std::make_unique<BiasFirst>(*this); }
 
  private:
-  static Coils Live(const HandOverStart& s) { return (s.bearing.turns_left.array() > 0).cast<double>(); }
+  static Coils Live(const HandOverStart& s) {
+    return (s.bearing.turns_left.array() > 0).cast<double>();
+  }
   SetPointVector Toward(const SetPointVector& from, const SetPointVector& to) const {
     return from + (to - from).cwiseMin(step_).cwiseMax(-step_);
   }
@@ -38,6 +44,8 @@ class BiasFirst : public HandOver {
 
 }  // namespace
 
-std::unique_ptr<HandOver> MakeBiasFirst(const HandOverStart& start) { return std::make_unique<BiasFirst>(start); }
+std::unique_ptr<HandOver> MakeBiasFirst(const HandOverStart& start) {
+  return std::make_unique<BiasFirst>(start);
+}
 
 }  // namespace ambrig

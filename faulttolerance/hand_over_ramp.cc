@@ -24,6 +24,8 @@ class Ramp : public HandOver {
 
 }  // namespace
 
-std::unique_ptr<HandOver> MakeRamp(const HandOverStart& start) { return std::make_unique<Ramp>(start); }
+std::unique_ptr<HandOver> MakeRamp(const HandOverStart& start) {
+  return std::make_unique<Ramp>(start);
+}
 
 }  // namespace ambrig

@@ -6,7 +6,8 @@ namespace {
 
 class TimeOptimal : public HandOver {
  public:
-  explicit TimeOptimal(const HandOverStart& s) : now_(s.now), rate_(InductanceOf(s) / s.period), voltage_(s.voltage) {
+  explicit TimeOptimal(const HandOverStart& s)
+      : now_(s.now), rate_(InductanceOf(s) / s.period), voltage_(s.voltage) {
     for (int j = 0; j < 8; ++j)
       if (s.bearing.turns_left[j] == 0) rate_.row(j).setZero();
   }
@@ -29,6 +30,8 @@ class TimeOptimal : public HandOver {
 
 }  // namespace
 
-std::unique_ptr<HandOver> MakeTimeOptimal(const HandOverStart& start) { return std::make_unique<TimeOptimal>(start); }
+std::unique_ptr<HandOver> MakeTimeOptimal(const HandOverStart& start) {
+  return std::make_unique<TimeOptimal>(start);
+}
 
 }  // namespace ambrig

@@ -5,12 +5,14 @@
 
 namespace ambrig {
 
-/// The inverse knows the rotor's position, so its forces carry no negative stiffness of their own; the
-/// controller was made for a bearing with one, so the stiffness of the healthy W is added back
-/// (`stiffness` [N/m]). Where its branch ends (the force is missed for some periods) it searches anew.
+/// The inverse knows the rotor's position, so its forces carry no negative stiffness of their own;
+/// the controller was made for a bearing with one, so the stiffness of the healthy W is added back
+/// (`stiffness` [N/m]). Where its branch ends (the force is missed for some periods) it searches
+/// anew.
 class InverseAllocation : public CurrentAllocation {
  public:
-  InverseAllocation(const ForceInverse& started, const Eigen::Matrix2d& stiffness) : inverse_(started), stiffness_(stiffness) {}
+  InverseAllocation(const ForceInverse& started, const Eigen::Matrix2d& stiffness)
+      : inverse_(started), stiffness_(stiffness) {}
   SetPointVector Step(double fx, double fy, double x, double y) override;
   Eigen::Vector2d LastForce() const override { return force_; }
   int searches() const { return searches_; }

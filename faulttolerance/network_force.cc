@@ -11,7 +11,10 @@ constexpr double kLeastGap = 0.1;  // of the nominal one
 }  // namespace
 
 NetworkForce::NetworkForce(const RedistributionProblem& b)
-    : area_(b.pole_area), gap_(b.gap), cosine_(b.angle.array().cos()), sine_(b.angle.array().sin()),
+    : area_(b.pole_area),
+      gap_(b.gap),
+      cosine_(b.angle.array().cos()),
+      sine_(b.angle.array().sin()),
       turns_(b.turns * b.turns_left.cwiseProduct(b.sign)) {
   MoveTo(0, 0);
 }
@@ -39,7 +42,8 @@ Eigen::Vector2d NetworkForce::Force(const Coils& i, ForceGradient* gradient) con
   const auto row = [&](const Coils& direction) {
     const Coils w = phi.cwiseProduct(direction);
     const double mean = permeance_.dot(w) * inverse_total_;
-    gradient->row(&direction == &sine_) = turns_.cwiseProduct(permeance_).cwiseProduct((w.array() - mean).matrix()).transpose();
+    gradient->row(&direction == &sine_) =
+        turns_.cwiseProduct(permeance_).cwiseProduct((w.array() - mean).matrix()).transpose();
   };
   row(cosine_);
   row(sine_);
@@ -50,8 +54,10 @@ Eigen::Vector2d NetworkForce::Force(const Coils& i, ForceGradient* gradient) con
 Coils NetworkForce::Contract(const ForceGradient& y) const {
   Coils sum = Coils::Zero();
   for (int a = 0; a < 2; ++a) {
-    const Coils w = Flux(y.row(a).transpose()).cwiseProduct(a == 0 ? cosine_ : sine_) / (2 * kMu0 * area_);
-    sum += turns_.cwiseProduct(permeance_).cwiseProduct((w.array() - permeance_.dot(w) * inverse_total_).matrix());
+    const Coils w =
+        Flux(y.row(a).transpose()).cwiseProduct(a == 0 ? cosine_ : sine_) / (2 * kMu0 * area_);
+    sum += turns_.cwiseProduct(permeance_)
+               .cwiseProduct((w.array() - permeance_.dot(w) * inverse_total_).matrix());
   }
   return sum;
 }

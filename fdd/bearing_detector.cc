@@ -8,13 +8,17 @@
 namespace ambrig {
 
 namespace {
-constexpr double kCalm = 1.5;               // no suspicion while every G is below
-constexpr double kCalmResidual = 4;         // and in a pause, while every residual is [sd]
-constexpr double kClosestGap = 0.4;         // of the nominal: nearer, its error rules the inductance
-constexpr double kStepVoltage = 5;          // what the voltage may err by within one sample [sd of its mean over a phase]
-constexpr int kDecayed = 25;                // periods after which a coil that is off carries nothing: 1 ms, 0.2 ms are needed
-constexpr double kLeastUnknownCurrent = 1;  // [A] what a coil of unknown MMF may carry beside its reading
-constexpr int kLearnEvery = 4;              // periods
+constexpr double kCalm = 1.5;        // no suspicion while every G is below
+constexpr double kCalmResidual = 4;  // and in a pause, while every residual is [sd]
+// of the nominal: nearer, its error rules the inductance
+constexpr double kClosestGap = 0.4;
+// what the voltage may err by within one sample [sd of its mean over a phase]
+constexpr double kStepVoltage = 5;
+// periods after which a coil that is off carries nothing: 1 ms, 0.2 ms are needed
+constexpr int kDecayed = 25;
+// [A] what a coil of unknown MMF may carry beside its reading
+constexpr double kLeastUnknownCurrent = 1;
+constexpr int kLearnEvery = 4;  // periods
 }  // namespace
 
 BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettings& settings)
@@ -47,7 +51,8 @@ void BearingDetector::SilenceFalseSensors() {
     if (!unknown_mmf_[lane]) continue;
     unknown_mmf_[lane] = false;
     state_[lane] = Coil::kLost;
-    if (model_.coupling == Coupling::kSides && state_[lane ^ 1] == Coil::kUnknownMmf && !unknown_mmf_[lane ^ 1]) {
+    if (model_.coupling == Coupling::kSides && state_[lane ^ 1] == Coil::kUnknownMmf &&
+        !unknown_mmf_[lane ^ 1]) {
       state_[lane ^ 1] = Coil::kHealthy;
       watched_[j ^ 1] = 1;
     }
@@ -60,7 +65,8 @@ double BearingDetector::UnknownPotential() const {
   double doubt = 0;
   for (int k = 0; any_unknown_ && k < model_.coils; ++k)
     if (unknown_mmf_[static_cast<std::size_t>(k)])
-      doubt += std::abs(model_.n[k]) * slopes_.permeance.middle[k] * std::max(slopes_.largest[k], kLeastUnknownCurrent);
+      doubt += std::abs(model_.n[k]) * slopes_.permeance.middle[k] *
+               std::max(slopes_.largest[k], kLeastUnknownCurrent);
   return doubt / slopes_.permeance.total;
 }
 
@@ -71,25 +77,32 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
     ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
   // What an unknown MMF was at the first sample stays unknown: the motion turns it into a voltage.
   const double potential_rate = UnknownPotential() / (s_.sampling.step * s_.sampling.samples);
-  if (!in.doubt.any()) return chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, nullptr, potential_rate);
+  if (!in.doubt.any())
+    return chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, nullptr,
+                          potential_rate);
   Lane doubt[2];
   ResidualDoubt(model_, slopes_, in.doubt, doubt);
-  chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, doubt, potential_rate);
+  chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, doubt,
+                 potential_rate);
 }
 
-int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage, const MeasuredPeriod& in) {
+int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& last_voltage,
+                                        const MeasuredPeriod& in) {
   const double h = s_.sampling.step;
   const double noise = 1.4 * s_.current_noise / h, floor = kStepVoltage * s_.voltage_sd;
-  if (!chart_.Steps({&last_linkage, &slopes_.first, &last_voltage, 1 / h, noise, floor}, s_.cap)) return -1;
+  if (!chart_.Steps({&last_linkage, &slopes_.first, &last_voltage, 1 / h, noise, floor}, s_.cap))
+    return -1;
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
   int largest = -1;
   double most = s_.cap;
   // A new reading moves the position at once.
   const Lane doubt = LinkageDoubt(model_, slopes_, in.doubt.position);
   for (int j = 0; j < model_.coils; ++j) {
-    const double step = std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) - doubt[j] / h;
+    const double step =
+        std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) - doubt[j] / h;
     if (step < s_.cap || (!Holds(0, j) && !Holds(1, j)) || in.adc[0][j] < kZeroCurrent) continue;
-    const double own = model_.SelfInductance(j, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
+    const double own =
+        model_.SelfInductance(j, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
     const double sd = noise * own + floor;
     if (step < most * sd) continue;
     most = step / sd;
@@ -118,7 +131,8 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
   if (alarm_at_ < 0) {
     double most = comparable ? chart_.Cusum(s_) : chart_.LargestSum();
     int stepped = -1;
-    if (comparable && follows && !any_unknown_) stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
+    if (comparable && follows && !any_unknown_)
+      stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
     if (stepped >= 0) most = chart_.LargestSum();
     const bool alarm = !s_.watch_only && most > s_.threshold, calm = comparable && most < kCalm;
     if (calm) calm_at_ = count_;
@@ -161,7 +175,8 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
 
 void BearingDetector::Band(int coil, double* slope, double* expected, double* half_width) const {
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
-  const double own = model_.SelfInductance(coil, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
+  const double own =
+      model_.SelfInductance(coil, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
   *slope = slopes_.phase[0].current[coil];
   *expected = *slope - chart_.e[0][coil] / own;
   *half_width = 4 * chart_.sd[0][coil] / own;

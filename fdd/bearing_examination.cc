@@ -55,7 +55,9 @@ int BearingDetector::Suspect(const std::vector<const KeptPeriod*>& periods, bool
   int best = Largest();
   double least = 1e30, next = 1e30;
   for (int j = 0; j < m.coils; ++j) {
-    if (state_[static_cast<std::size_t>(j)] == Coil::kLost || unknown_mmf_[static_cast<std::size_t>(j)]) continue;
+    if (state_[static_cast<std::size_t>(j)] == Coil::kLost ||
+        unknown_mmf_[static_cast<std::size_t>(j)])
+      continue;
     std::array<bool, kLanes> excluded = unknown_mmf_;
     excluded[static_cast<std::size_t>(j)] = true;
     double cost = 0;
@@ -66,10 +68,13 @@ int BearingDetector::Suspect(const std::vector<const KeptPeriod*>& periods, bool
       for (int q = 0; q < 2; ++q)
         for (int k = 0; k < m.coils; ++k) {
           const auto lane = static_cast<std::size_t>(k);
-          if (excluded[lane] || state_[lane] == Coil::kLost || now.phase[q].samples[k] < kFewestSamples) continue;
+          if (excluded[lane] || state_[lane] == Coil::kLost ||
+              now.phase[q].samples[k] < kFewestSamples)
+            continue;
           const PhaseSlopes& a = now.phase[q];
           const double e = a.residual[k];
-          if (a.least[k] < kZeroCurrent && (q == 1 || (a.mean[k] < 2 * kZeroCurrent && e > 0))) continue;
+          if (a.least[k] < kZeroCurrent && (q == 1 || (a.mean[k] < 2 * kZeroCurrent && e > 0)))
+            continue;
           cost += std::min(e * e, 900.0);  // [V²]
         }
     }
@@ -121,13 +126,17 @@ Diagnosis BearingDetector::Examine() {
   }
   const bool last = count_ - alarm_at_ >= kLongestExamination;
   const LinkageModel model = LearnedModel();
-  const long long suspicious = std::min<long long>(count_ - calm_at_, static_cast<long long>(periods.size()));
+  const long long suspicious =
+      std::min<long long>(count_ - calm_at_, static_cast<long long>(periods.size()));
   const std::size_t calm = periods.size() - static_cast<std::size_t>(suspicious);
   Examination x = ExamineCoil(model, s_, periods, calm, suspect_, last);
-  if (model_.coupling == Coupling::kSides && state_[static_cast<std::size_t>(suspect_ ^ 1)] == Coil::kHealthy) {
+  if (model_.coupling == Coupling::kSides &&
+      state_[static_cast<std::size_t>(suspect_ ^ 1)] == Coil::kHealthy) {
     const Examination partner = ExamineCoil(model, s_, periods, calm, suspect_ ^ 1, last);
-    const bool named = x.diagnosis.cls != FaultClass::kNone, other = partner.diagnosis.cls != FaultClass::kNone;
-    suspect_clear_ = (named != other && std::max(x.cost, partner.cost) < 1e30) || std::abs(partner.cost - x.cost) > kPartnerMargin;
+    const bool named = x.diagnosis.cls != FaultClass::kNone,
+               other = partner.diagnosis.cls != FaultClass::kNone;
+    suspect_clear_ = (named != other && std::max(x.cost, partner.cost) < 1e30) ||
+                     std::abs(partner.cost - x.cost) > kPartnerMargin;
     if (other && (!named || partner.cost < x.cost)) {
       x = partner;
       suspect_ ^= 1;
@@ -143,9 +152,12 @@ Diagnosis BearingDetector::Examine() {
   return d;
 }
 
-bool BearingDetector::OthersHold(const LinkageModel& learned, const Diagnosis& d, bool closed_loop) const {
+bool BearingDetector::OthersHold(const LinkageModel& learned, const Diagnosis& d,
+                                 bool closed_loop) const {
   const bool shorted = d.cls == FaultClass::kPartialShort;
-  if (model_.coupling != Coupling::kFloatingRotor || (!shorted && d.cls != FaultClass::kCurrentSensor)) return true;
+  if (model_.coupling != Coupling::kFloatingRotor ||
+      (!shorted && d.cls != FaultClass::kCurrentSensor))
+    return true;
   LinkageModel m = learned;
   std::array<bool, kLanes> unknown = unknown_mmf_;
   if (shorted) ShortTurns(m, d.coil, 1 - d.fraction);
@@ -160,7 +172,8 @@ bool BearingDetector::OthersHold(const LinkageModel& learned, const Diagnosis& d
       ComputePeriodSlopes(m, s_.sampling, p->in, &now);
     for (int q = 0; q < 2; ++q)
       for (int j = 0; j < m.coils; ++j)
-        if (j != d.coil && Holds(q, j) && now.phase[q].least[j] > kZeroCurrent && now.phase[q].samples[j] >= kFewestSamples &&
+        if (j != d.coil && Holds(q, j) && now.phase[q].least[j] > kZeroCurrent &&
+            now.phase[q].samples[j] >= kFewestSamples &&
             std::abs(now.phase[q].residual[j]) > kGross * chart_.sd[q][j])
           return false;
   }
@@ -175,7 +188,8 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
       ShortTurns(model_, j, 1 - d.fraction);
       state_[lane] = closed_loop ? Coil::kUnknownMmf : Coil::kShort;
       unknown_mmf_[lane] = closed_loop;
-      chart_.size[0][j] = chart_.size[1][j] = 2.4;  // the fraction is an estimate: wider until learned
+      // the fraction is an estimate: wider until learned
+      chart_.size[0][j] = chart_.size[1][j] = 2.4;
       break;
     }
     case FaultClass::kCurrentSensor:
@@ -186,7 +200,9 @@ void BearingDetector::Accept(const Diagnosis& d, bool closed_loop) {
       state_[lane] = Coil::kUnknownMmf;
       unknown_mmf_[lane] = true;
       break;
-    default: state_[lane] = Coil::kLost; break;
+    default:
+      state_[lane] = Coil::kLost;
+      break;
   }
   watched_[j] = state_[lane] == Coil::kShort ? 1 : 0;
   any_unknown_ = std::any_of(unknown_mmf_.begin(), unknown_mmf_.end(), [](bool b) { return b; });

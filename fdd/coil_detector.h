@@ -1,7 +1,7 @@
 #pragma once
 /// One interface for all detectors of coil faults: what the controller measured of a bearing in one
-/// switching period goes in, a scalar statistic of every coil comes out. A fault is flagged where the
-/// statistic exceeds a threshold, so that thresholds can be swept over stored statistics.
+/// switching period goes in, a scalar statistic of every coil comes out. A fault is flagged where
+/// the statistic exceeds a threshold, so that thresholds can be swept over stored statistics.
 #include <memory>
 #include <span>
 #include <string_view>
@@ -17,7 +17,8 @@ class CoilDetector {
   virtual Lane Period(const MeasuredPeriod& in) = 0;
 };
 
-/// A bearing as the controller knows it: nominal circuit, sampling, noise and the maker's tolerances.
+/// A bearing as the controller knows it: nominal circuit, sampling, noise and the maker's
+/// tolerances.
 struct CoilDetectorSetup {
   LinkageModel model;
   DetectorSettings settings;

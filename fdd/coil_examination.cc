@@ -14,10 +14,12 @@ constexpr double kMargin = 12;         // certain: e^-6 against the next hypothe
 constexpr double kLeastOffset = 0.09;  // [A]
 
 /// True when the current went to zero at the bridge's pace, not at once.
-bool Decayed(const DetectorSettings& s, const std::vector<const KeptPeriod*>& periods, std::size_t onset, int j) {
+bool Decayed(const DetectorSettings& s, const std::vector<const KeptPeriod*>& periods,
+             std::size_t onset, int j) {
   std::vector<double> i;
   for (std::size_t n = onset > 0 ? onset - 1 : 0; n < periods.size(); ++n)
-    for (int k = 0; k < s.sampling.samples; ++k) i.push_back(periods[n]->adc[static_cast<std::size_t>(k)][j]);
+    for (int k = 0; k < s.sampling.samples; ++k)
+      i.push_back(periods[n]->adc[static_cast<std::size_t>(k)][j]);
   std::size_t zero = i.size();
   while (zero > 0 && i[zero - 1] < kZeroCurrent) --zero;  // first sample of the last run of zeros
   if (zero < 7 || zero == i.size()) return false;
@@ -25,7 +27,8 @@ bool Decayed(const DetectorSettings& s, const std::vector<const KeptPeriod*>& pe
   return last < 0.25 && before > last + 0.08;
 }
 
-/// Largest step of the suspect's reading that its circuit cannot explain [A], periods around the onset.
+/// Largest step of the suspect's reading that its circuit cannot explain [A], periods around the
+/// onset.
 double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
                        const std::vector<const KeptPeriod*>& periods, std::size_t onset, int j) {
   double most = 0, last_lambda = 0, last_reading = 0;
@@ -44,7 +47,9 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
     for (int k = 0; k < s.sampling.samples; ++k) {
       const Lane& i = p.adc[static_cast<std::size_t>(k)];
       const double at = static_cast<double>(k) / s.sampling.samples;
-      const auto permeance = [&](int q) { return now.permeance.start[q] + at * now.permeance.change[q]; };
+      const auto permeance = [&](int q) {
+        return now.permeance.start[q] + at * now.permeance.change[q];
+      };
       double top = 0, total = 0;
       for (int q = 0; q < m.coils; ++q) {
         top += permeance(q) * m.n[q] * i[q];
@@ -52,12 +57,15 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
       }
       const double partner = m.coupling == Coupling::kSides ? m.n[j ^ 1] * i[j ^ 1] : 0;
       const double lambda =
-          m.n[j] * permeance(j) * (m.n[j] * i[j] + partner - (radial ? top / total : 0)) + m.leakage[j] * i[j];
+          m.n[j] * permeance(j) * (m.n[j] * i[j] + partner - (radial ? top / total : 0)) +
+          m.leakage[j] * i[j];
       if (k > 0 || known) {
         const double t = (k - 1) * s.sampling.step;
         const double on = k == 0 ? 0 : std::clamp(now.edge[j] - t, 0.0, s.sampling.step);
-        const double driven = on * now.phase[0].voltage[j] + (s.sampling.step - on) * now.phase[1].voltage[j];
-        const double doubt = moved * (k == 0 ? p.in.doubt.position : p.in.doubt.velocity * s.sampling.step);
+        const double driven =
+            on * now.phase[0].voltage[j] + (s.sampling.step - on) * now.phase[1].voltage[j];
+        const double doubt =
+            moved * (k == 0 ? p.in.doubt.position : p.in.doubt.velocity * s.sampling.step);
         double step = (std::abs(lambda - last_lambda - driven) - doubt) / own;
         // A step of the other reading on the same core looks the same, but for this reading.
         if (m.coupling == Coupling::kSides) step = std::min(step, std::abs(i[j] - last_reading));
@@ -71,25 +79,30 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
   return most;
 }
 
-std::size_t FindOnset(const LinkageModel& m, const DetectorSettings& s, const std::vector<const KeptPeriod*>& periods,
-                      std::size_t calm, int j) {
+std::size_t FindOnset(const LinkageModel& m, const DetectorSettings& s,
+                      const std::vector<const KeptPeriod*>& periods, std::size_t calm, int j) {
   PhaseWindows w;
   // What was calm stays out: before an earlier fault was accepted, the model of now does not hold.
   for (std::size_t n = calm; n < periods.size(); ++n) {
     w.clear();
     AddWindows(m, s, *periods[n], j, &w);
-    if (m.coupling == Coupling::kSides) AddWindows(m, s, *periods[n], j ^ 1, &w);  // one onset for both
+    // one onset for both
+    if (m.coupling == Coupling::kSides) AddWindows(m, s, *periods[n], j ^ 1, &w);
     for (const PhaseWindow& one : w)
-      if (one.Applies() && !(one.mean < 2 * kZeroCurrent && one.e > 0) && std::abs(one.e) > 5 * one.sd_e) return n;
+      if (one.Applies() && !(one.mean < 2 * kZeroCurrent && one.e > 0) &&
+          std::abs(one.e) > 5 * one.sd_e)
+        return n;
   }
-  return std::max(calm, periods.size() > 8 ? periods.size() - 8 : 0);  // many small residuals, no gross one
+  // many small residuals, no gross one
+  return std::max(calm, periods.size() > 8 ? periods.size() - 8 : 0);
 }
 
 /// Two windings on one core: the other one is healthy, so its equation must hold when the suspect's
-/// ampere-turns are `factor` times what its reading and its nominal turns say. `most`: what a window
-/// may cost, where shorted turns may carry a current of their own.
-double PartnerCost(const LinkageModel& m, const DetectorSettings& s, const std::vector<const KeptPeriod*>& periods,
-                   std::size_t first, int j, double factor, double most) {
+/// ampere-turns are `factor` times what its reading and its nominal turns say. `most`: what a
+/// window may cost, where shorted turns may carry a current of their own.
+double PartnerCost(const LinkageModel& m, const DetectorSettings& s,
+                   const std::vector<const KeptPeriod*>& periods, std::size_t first, int j,
+                   double factor, double most) {
   if (m.coupling != Coupling::kSides) return 0;
   const int k = j ^ 1;
   double cost = 0, i[64];
@@ -103,9 +116,12 @@ double PartnerCost(const LinkageModel& m, const DetectorSettings& s, const std::
     for (int q = 0; q < s.sampling.samples; ++q) i[q] = p.adc[static_cast<std::size_t>(q)][j];
     for (const PhaseWindow& w : windows) {
       if (!w.Applies()) continue;
-      const int on = static_cast<int>(now.phase[0].samples[k]), count = static_cast<int>(now.phase[w.phase].samples[k]);
+      const int on = static_cast<int>(now.phase[0].samples[k]),
+                count = static_cast<int>(now.phase[w.phase].samples[k]);
       const double slope = SlopeOf(i, w.phase == 0 ? 0 : on, count, s.sampling.step);
-      cost += std::min(Cost((w.e + (factor - 1) * m.n[k] * now.permeance.middle[k] * m.n[j] * slope) / w.sd_e), most);
+      cost += std::min(
+          Cost((w.e + (factor - 1) * m.n[k] * now.permeance.middle[k] * m.n[j] * slope) / w.sd_e),
+          most);
     }
   }
   return cost;
@@ -114,12 +130,14 @@ double PartnerCost(const LinkageModel& m, const DetectorSettings& s, const std::
 }  // namespace
 
 Examination ExamineCoil(const LinkageModel& model, const DetectorSettings& settings,
-                        const std::vector<const KeptPeriod*>& periods, std::size_t calm, int coil, bool last) {
+                        const std::vector<const KeptPeriod*>& periods, std::size_t calm, int coil,
+                        bool last) {
   Examination out;
   const std::size_t onset = FindOnset(model, settings, periods, calm, coil);
   PhaseWindows all;
   const std::size_t first = std::max(onset + 1, periods.size() > 6 ? periods.size() - 6 : 0);
-  for (std::size_t n = first; n < periods.size(); ++n) AddWindows(model, settings, *periods[n], coil, &all);
+  for (std::size_t n = first; n < periods.size(); ++n)
+    AddWindows(model, settings, *periods[n], coil, &all);
   if (periods.size() < first + 2 || all.size() < 2) return out;
 
   double turns_left = 1, sensed = 1;
@@ -140,8 +158,11 @@ Examination ExamineCoil(const LinkageModel& model, const DetectorSettings& setti
       {FaultClass::kPartialShort, shorted + partner(turns_left, kFreeVoltage)},
       {FaultClass::kCurrentSensor, std::min(FrozenCost(all), gain + partner(sensed))},
   };
-  std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.cost < b.cost; });
-  const auto vanished = [](FaultClass c) { return c == FaultClass::kOpen || c == FaultClass::kAmplifierOff; };
+  std::stable_sort(entries.begin(), entries.end(),
+                   [](const Entry& a, const Entry& b) { return a.cost < b.cost; });
+  const auto vanished = [](FaultClass c) {
+    return c == FaultClass::kOpen || c == FaultClass::kAmplifierOff;
+  };
   std::size_t second = 1;
   if (vanished(entries[0].cls) && vanished(entries[1].cls)) second = 2;
   FaultClass best = entries[0].cls;

@@ -24,15 +24,16 @@
 namespace ambrig {
 
 struct Examination {
-  Diagnosis diagnosis;     // kNone: healthy again
-  bool decided = false;    // the best is ahead of all others by a margin
-  double cost = 1e30;      // of the best: coils may be compared
+  Diagnosis diagnosis;       // kNone: healthy again
+  bool decided = false;      // the best is ahead of all others by a margin
+  double cost = 1e30;        // of the best: coils may be compared
   bool closed_loop = false;  // partial short whose shorted turns carry a current
 };
 
 /// `periods`: oldest first, the onset among them, the first `calm` of them without any suspicion;
 /// `last`: decide now whatever the margin.
 Examination ExamineCoil(const LinkageModel& model, const DetectorSettings& settings,
-                        const std::vector<const KeptPeriod*>& periods, std::size_t calm, int coil, bool last);
+                        const std::vector<const KeptPeriod*>& periods, std::size_t calm, int coil,
+                        bool last);
 
 }  // namespace ambrig

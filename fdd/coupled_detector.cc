@@ -11,7 +11,8 @@ DetectorSettings WatchOnly(DetectorSettings s) {
 }
 }  // namespace
 
-CoupledDetector::CoupledDetector(const CoilDetectorSetup& setup) : watch_(setup.model, WatchOnly(setup.settings)) {}
+CoupledDetector::CoupledDetector(const CoilDetectorSetup& setup)
+    : watch_(setup.model, WatchOnly(setup.settings)) {}
 
 Lane CoupledDetector::Period(const MeasuredPeriod& in) {
   watch_.Period(in);

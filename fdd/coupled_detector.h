@@ -1,6 +1,7 @@
 #pragma once
-/// The watching half of the coupled detector (bearing_detector.h), learned leakage and gap included,
-/// as a statistic: the largest of a coil's three sums G. The detector itself alarms at G > 9.
+/// The watching half of the coupled detector (bearing_detector.h), learned leakage and gap
+/// included, as a statistic: the largest of a coil's three sums G. The detector itself alarms at G
+/// > 9.
 #include "fdd/coil_detector.h"
 
 namespace ambrig {

@@ -3,8 +3,8 @@
 ///
 ///   g+ <- max(0, g+ + r - drift),   g- <- max(0, g- - r - drift),   statistic max(g+, g-)
 ///
-/// r has unit variance; drift is half of the shift that is to be found fastest. Average run length of
-/// one side for a shift d of the mean, Siegmund (1985):
+/// r has unit variance; drift is half of the shift that is to be found fastest. Average run length
+/// of one side for a shift d of the mean, Siegmund (1985):
 ///   ARL = (exp(-2 D b) + 2 D b - 1)/(2 D²),  D = d - drift,  b = h + 1.166     (D = 0: b²)
 /// and 1/ARL = 1/ARL+ + 1/ARL- for both.
 #include "fdd/linkage_residual.h"
@@ -23,8 +23,8 @@ struct Cusum {
 double CusumRunLength(double shift, double drift, double h);
 
 /// On the residuals of both phases of every coil. Drift 2.5: half of the shift of about five
-/// expected sizes that a short of 5 % of the turns makes in the reference rig; tolerances alone shift
-/// a residual by about one.
+/// expected sizes that a short of 5 % of the turns makes in the reference rig; tolerances alone
+/// shift a residual by about one.
 class CusumDetector : public CoilDetector {
  public:
   static constexpr double kDrift = 2.5;

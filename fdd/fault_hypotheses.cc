@@ -40,7 +40,8 @@ double WrongVoltageCost(const PhaseWindows& all, int phase) {
   double cost = 0;
   for (const PhaseWindow& w : all) {
     if (phase == 0 && w.least < kZeroCurrent) {
-      if (w.mean < 2 * kZeroCurrent) cost += Cost(w.mean / 0.015) + (w.phase == 0 ? kFreeVoltage : 0);
+      if (w.mean < 2 * kZeroCurrent)
+        cost += Cost(w.mean / 0.015) + (w.phase == 0 ? kFreeVoltage : 0);
       continue;
     }
     if (phase == 1 && !w.Applies()) {

@@ -1,6 +1,7 @@
 #pragma once
-/// What each fault hypothesis of coil_examination.h costs: the sum, over the windows of a suspected coil, of its
-/// residuals' squares over their variances, each clipped, plus a penalty per free quantity.
+/// What each fault hypothesis of coil_examination.h costs: the sum, over the windows of a suspected
+/// coil, of its residuals' squares over their variances, each clipped, plus a penalty per free
+/// quantity.
 #include <vector>
 
 #include "fdd/phase_window.h"
@@ -9,9 +10,10 @@ namespace ambrig {
 
 using PhaseWindows = std::vector<PhaseWindow>;
 
-inline constexpr double kClip = 64;        // a window's largest cost: 8 sigma
-inline constexpr double kFreeVoltage = 8;  // 2 ln(60 V / 1 V): a flux that the hypothesis leaves open
-inline constexpr double kParameter = 4;    // per fitted quantity
+inline constexpr double kClip = 64;  // a window's largest cost: 8 sigma
+// 2 ln(60 V / 1 V): a flux that the hypothesis leaves open
+inline constexpr double kFreeVoltage = 8;
+inline constexpr double kParameter = 4;  // per fitted quantity
 
 /// Of a residual of z standard deviations.
 double Cost(double z);
@@ -27,8 +29,8 @@ double SensorCost(const PhaseWindows& all, double* c_found);
 /// The reading stands still at a current that is not zero, while the bridge drives.
 double FrozenCost(const PhaseWindows& all);
 
-/// Whether a coil with the share `a` of its turns left is far off its own equation: the shorted turns carry a
-/// current of their own.
+/// Whether a coil with the share `a` of its turns left is far off its own equation: the shorted
+/// turns carry a current of their own.
 bool LoopCarriesCurrent(const PhaseWindows& all, double a);
 
 }  // namespace ambrig

@@ -1,13 +1,13 @@
 #pragma once
-/// Gaussian generalised likelihood ratio test for a mean that changes at an unknown time by an unknown
-/// amount, over the last M samples:
+/// Gaussian generalised likelihood ratio test for a mean that changes at an unknown time by an
+/// unknown amount, over the last M samples:
 ///
 ///   g(k) = max over m = 1..M of  1/(2 m) Σ_c (Σ of the last m samples of channel c)²
 ///
 /// Channels are independent and of unit variance. Without a change and for one m, 2 g is chi-square
-/// distributed with as many degrees of freedom as channels: P(g > h) = erfc(sqrt h) for one, e^-h for
-/// two. A shift of size d (norm over the channels) is found after about 2 h/d² samples.
-/// Source: Nagel, Galeazzi, Voigt, Santos, SysTol 2016 (Gaussian GLRT on residuals of electromagnets);
+/// distributed with as many degrees of freedom as channels: P(g > h) = erfc(sqrt h) for one, e^-h
+/// for two. A shift of size d (norm over the channels) is found after about 2 h/d² samples. Source:
+/// Nagel, Galeazzi, Voigt, Santos, SysTol 2016 (Gaussian GLRT on residuals of electromagnets);
 /// Basseville and Nikiforov 1993, section 2.4.3.
 #include <vector>
 
@@ -34,8 +34,8 @@ class Glrt {
   double g_ = 0;
 };
 
-/// On the residuals of both phases of every coil as two channels; a phase that cannot be judged adds
-/// nothing. M = 25 periods (1 ms of the reference rig).
+/// On the residuals of both phases of every coil as two channels; a phase that cannot be judged
+/// adds nothing. M = 25 periods (1 ms of the reference rig).
 class GlrtDetector : public CoilDetector {
  public:
   static constexpr int kWindow = 25;

@@ -21,7 +21,8 @@ LinkageMatrix InductanceOf(const LinkageModel& m, const Lane& P) {
 }
 
 MovingInverse::MovingInverse(const LinkageModel& m, const MeasuredPeriod& in)
-    : L0(InductanceOf(m, m.Permeance(in.x0, in.y0))), start(L0.inverse()),
+    : L0(InductanceOf(m, m.Permeance(in.x0, in.y0))),
+      start(L0.inverse()),
       change(InductanceOf(m, m.Permeance(in.x1, in.y1)).inverse() - start) {}
 
 double DrivenLinkage(const SamplingSettings& s, const MeasuredPeriod& in, int j, int k) {

@@ -1,5 +1,6 @@
 #pragma once
-/// What the detector of one bearing is set to, and what it keeps of a switching period for an examination.
+/// What the detector of one bearing is set to, and what it keeps of a switching period for an
+/// examination.
 #include <array>
 
 #include "fdd/residual_chart.h"

@@ -8,9 +8,11 @@ namespace {
 constexpr int kSettle = 400;  // Riccati steps at the start
 }
 
-LinkageKalman::LinkageKalman(const CoilDetectorSetup& setup) : model_(setup.model), s_(setup.settings) {
+LinkageKalman::LinkageKalman(const CoilDetectorSetup& setup)
+    : model_(setup.model), s_(setup.settings) {
   const double bus = s_.sampling.amplifier->bus_voltage;
-  const double leakage = s_.leakage_sd / (model_.leakage[0] + model_.n[0] * model_.n[0] * model_.Permeance(0, 0)[0]);
+  const double leakage =
+      s_.leakage_sd / (model_.leakage[0] + model_.n[0] * model_.n[0] * model_.Permeance(0, 0)[0]);
   process_sd_ = s_.sampling.step * std::hypot(s_.voltage_sd, s_.gap_sd * bus, leakage * bus);
   lambda_.setZero();
   P_ = LinkageMatrix::Identity() * std::pow(process_sd_, 2);

@@ -3,19 +3,21 @@
 ///
 ///   state        λ, linkages of all coils [Wb]
 ///   prediction   λ(k+1) = λ(k) + ∫v dt - R i h,  i = L(x, y)^-1 λ          per ADC sample, h
-///                v of the healthy bridges; a coil that a diode keeps from going negative stays at 0 A
+///                v of the healthy bridges;
+///                  a coil that a diode keeps from going negative stays at 0 A
 ///   measurement  y = L^-1 λ + ADC noise
-///   process      voltage error per sample, sd σ_v: drops, bus and the tolerances of gap and leakage
+///   process      voltage error per sample, sd σ_v: drops,
+///     bus and the tolerances of gap and leakage
 ///                times the bus (a constant error taken as a white one: it makes the filter quick)
 ///   innovation   ν = y - L^-1 λ(k|k-1),  covariance S = C P C' + r I
 ///   statistic    Σ ν_j² / S_jj over the samples of a period, over their number: 1 without a fault,
 ///                chi-square with 18 degrees of freedom over 18
 ///
 /// Covariance and gain follow the Riccati recursion of the sample rate, one step a period: the gap
-/// moves by less than a thousandth in a sample, and the steady state is reached within some periods.
-/// Between periods L^-1 runs linearly from the sensed position at the start to that at the end.
-/// Source: Mehra and Peschon, Automatica 7 (1971), innovations as a fault test; Noel, Tammi, Buckner
-/// 2008 (Kalman filter on magnetic bearings).
+/// moves by less than a thousandth in a sample, and the steady state is reached within some
+/// periods. Between periods L^-1 runs linearly from the sensed position at the start to that at the
+/// end. Source: Mehra and Peschon, Automatica 7 (1971), innovations as a fault test; Noel, Tammi,
+/// Buckner 2008 (Kalman filter on magnetic bearings).
 #include "fdd/coil_detector.h"
 #include "fdd/inductance_matrix.h"
 
@@ -39,9 +41,9 @@ class LinkageKalman : public CoilDetector {
   LinkageModel model_;
   DetectorSettings s_;
   double process_sd_ = 0;
-  LinkageVector lambda_;                 // predicted for the next sample [Wb]
-  LinkageMatrix P_, gain_;               // covariance of λ [Wb²]; [H]
-  LinkageVector sd_;                     // sqrt of the diagonal of S [A]
+  LinkageVector lambda_;    // predicted for the next sample [Wb]
+  LinkageMatrix P_, gain_;  // covariance of λ [Wb²]; [H]
+  LinkageVector sd_;        // sqrt of the diagonal of S [A]
   Lane scaled_[64];
   bool running_ = false;
 };

@@ -11,7 +11,8 @@ constexpr double kLeastGap = 0.05;
 template <class V>
 [[gnu::always_inline]] inline V ReluctanceAt(const LinkageModel& m, double x, double y) {
   const V offset = LoadAs<V>(m.gap_offset.v), least = offset * kLeastGap;
-  return m.reluctance.Value(Max(offset - LoadAs<V>(m.direction_x.v) * x - LoadAs<V>(m.direction_y.v) * y, least));
+  return m.reluctance.Value(
+      Max(offset - LoadAs<V>(m.direction_x.v) * x - LoadAs<V>(m.direction_y.v) * y, least));
 }
 
 AMBRIG_WIDE void AtOnePlace(const LinkageModel& m, double x, double y, Lane* P) {
@@ -19,9 +20,12 @@ AMBRIG_WIDE void AtOnePlace(const LinkageModel& m, double x, double y, Lane* P) 
 }
 
 template <class V>
-[[gnu::always_inline]] inline void OverAMove(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
-  const V none = 0.0, first = ReluctanceAt<V>(m, from[0], from[1]), last = ReluctanceAt<V>(m, to[0], to[1]);
-  const V inverse = Select(LoadAs<V>(m.gap_offset.v) > none, 1 / (first * last), none);  // one division for both
+[[gnu::always_inline]] inline void OverAMove(const LinkageModel& m, const double* from,
+                                             const double* to, MovingPermeance* out) {
+  const V none = 0.0, first = ReluctanceAt<V>(m, from[0], from[1]),
+          last = ReluctanceAt<V>(m, to[0], to[1]);
+  // one division for both
+  const V inverse = Select(LoadAs<V>(m.gap_offset.v) > none, 1 / (first * last), none);
   const V start = last * inverse, end = first * inverse, middle = (start + end) * 0.5;
   Store(out->start.v, start);
   Store(out->end.v, end);
@@ -30,10 +34,12 @@ template <class V>
   out->total = Sum(middle);
   out->largest = Largest(middle);
 }
-AMBRIG_WHOLE void MoveWhole(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
+AMBRIG_WHOLE void MoveWhole(const LinkageModel& m, const double* from, const double* to,
+                            MovingPermeance* out) {
   OverAMove<WholeLaneVector>(m, from, to, out);
 }
-AMBRIG_WIDE void MoveHalves(const LinkageModel& m, const double* from, const double* to, MovingPermeance* out) {
+AMBRIG_WIDE void MoveHalves(const LinkageModel& m, const double* from, const double* to,
+                            MovingPermeance* out) {
   OverAMove<LaneVector>(m, from, to, out);
 }
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 constexpr double kClosestGap = 0.4;  // of the nominal: nearer, its error rules the inductance
 }
 
-LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup) : model_(setup.model), s_(setup.settings) {
+LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup)
+    : model_(setup.model), s_(setup.settings) {
   tolerance_.doubt[0] = s_.leakage_sd * s_.leakage_sd;
   tolerance_.doubt[2] = s_.gap_sd * s_.gap_sd;
   for (int j = 0; j < model_.coils; ++j) watched_[j] = 1;
@@ -22,7 +23,8 @@ bool LinkageResidual::Compute(const MeasuredPeriod& in) {
   ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
   Lane doubt[2];
   if (in.doubt.any()) ResidualDoubt(model_, slopes_, in.doubt, doubt);
-  chart_.Compute(model_, s_.sampling, s_, tolerance_, slopes_, watched_, in.doubt.any() ? doubt : nullptr, 0);
+  chart_.Compute(model_, s_.sampling, s_, tolerance_, slopes_, watched_,
+                 in.doubt.any() ? doubt : nullptr, 0);
   return in.comparable && slopes_.permeance.largest * kClosestGap < centred_;
 }
 

@@ -2,10 +2,11 @@
 /// Residuals of the coupled coils' voltage equations over their expected size, without learning and
 /// without a control chart: what a GLRT or a CUSUM is put on.
 ///
-///   z_q = e_q / s_q,  q = on, off;   s² = ADC noise + (gap_sd flux)² + (leakage_sd di/dt)² + voltage_sd²
+///   z_q = e_q / s_q,  q = on, off;
+///     s² = ADC noise + (gap_sd flux)² + (leakage_sd di/dt)² + voltage_sd²
 ///
-/// (period_slopes.h, residual_chart.h). Tolerances count as if they were noise, though they stay the
-/// same from period to period.
+/// (period_slopes.h, residual_chart.h). Tolerances count as if they were noise, though they stay
+/// the same from period to period.
 #include "fdd/coil_detector.h"
 
 namespace ambrig {

@@ -1,10 +1,11 @@
 #pragma once
-/// What the residuals of healthy running tell of the nominal model's error, and how large they usually are.
+/// What the residuals of healthy running tell of the nominal model's error, and how large they
+/// usually are.
 ///
 ///   e = -(leakage error) di + (gap error) flux       di: slope of the current, flux: of n φ
 ///
-/// Bayes: normal equations with forgetting over the maker's tolerances as a prior. Coils differ within a
-/// bearing, so that some of the tolerances stays in doubt however much was learned.
+/// Bayes: normal equations with forgetting over the maker's tolerances as a prior. Coils differ
+/// within a bearing, so that some of the tolerances stays in doubt however much was learned.
 #include "fdd/residual_chart.h"
 
 namespace ambrig {
@@ -15,7 +16,8 @@ class ModelLearning {
   ModelLearning(double leakage_sd, double gap_sd);
 
   const ModelError& known() const { return known_; }
-  /// Learns from one period, which stands for `periods`; every coil's long-term |z| in `chart` follows too.
+  /// Learns from one period, which stands for `periods`; every coil's long-term |z| in `chart`
+  /// follows too.
   void Learn(const LinkageModel& m, const PeriodSlopes& slopes, int periods, ResidualChart* chart);
 
  private:

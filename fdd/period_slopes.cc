@@ -7,8 +7,8 @@ namespace ambrig {
 
 namespace {
 
-/// Sums over the samples. Of k x_k they come from sums of sums: Σ (N - k) x_k adds up what Σ x is after
-/// each of N samples, which needs no product.
+/// Sums over the samples. Of k x_k they come from sums of sums: Σ (N - k) x_k adds up what Σ x is
+/// after each of N samples, which needs no product.
 template <class V>
 struct Sums {
   V x, of_sums;
@@ -21,13 +21,16 @@ struct Sums {
     x += Select(on, value, 0.0);
     of_sums += x;
   }
-  [[gnu::always_inline]] V Weighted(int count) const { return x * static_cast<double>(count) - of_sums; }
+  [[gnu::always_inline]] V Weighted(int count) const {
+    return x * static_cast<double>(count) - of_sums;
+  }
 };
 
-/// Least samples of each phase. Where none is near zero, as usual, the least of both does for either: it is asked only
-/// whether the diodes may block.
+/// Least samples of each phase. Where none is near zero, as usual, the least of both does for
+/// either: it is asked only whether the diodes may block.
 template <class V>
-[[gnu::always_inline]] inline void LeastOfPhases(const Lane* adc, int count, const V& least, PeriodSlopes* out) {
+[[gnu::always_inline]] inline void LeastOfPhases(const Lane* adc, int count, const V& least,
+                                                 PeriodSlopes* out) {
   const V far = 1e30, zero;
   V on_phase = least, off_phase = least;
   if (-Largest(-least) < kZeroCurrent) {
@@ -44,14 +47,16 @@ template <class V>
   Store(out->phase[1].least.v, off_phase);
 }
 
-/// Linkages λ = (n² P + L_l) i - n P U; U is the rotor's potential Σ P n i / Σ P (radial), the partner's
-/// share of a common core, -n i' (thrust), or none.
+/// Linkages λ = (n² P + L_l) i - n P U; U is the rotor's potential Σ P n i / Σ P (radial), the
+/// partner's share of a common core, -n i' (thrust), or none.
 template <class V, Coupling kCoupling>
-[[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+[[gnu::always_inline]] inline void Accumulate(const LinkageModel& m, const Lane* adc, int count,
+                                              PeriodSlopes* out) {
   const MovingPermeance& P = out->permeance;
   SlopeSums* s = &out->sums;
   const V n = LoadAs<V>(m.n.v), per = 1.0 / count, zero, far = 1e30;
-  V turns_P = n * LoadAs<V>(P.start.v), own = n * turns_P + LoadAs<V>(m.leakage.v), left = LoadAs<V>(out->phase[0].samples.v);
+  V turns_P = n * LoadAs<V>(P.start.v), own = n * turns_P + LoadAs<V>(m.leakage.v),
+    left = LoadAs<V>(out->phase[0].samples.v);
   const V turns_P_grows = n * LoadAs<V>(P.change.v) * per, own_grows = n * turns_P_grows;
   double inverse_sum[64];
   const double sum0 = Sum(LoadAs<V>(P.start.v)), dsum = Sum(LoadAs<V>(P.change.v)) / count;
@@ -91,10 +96,12 @@ template <class V, Coupling kCoupling>
   LeastOfPhases(adc, count, Select(n == zero, far, least), out);
 }
 
-AMBRIG_WHOLE void RadialWhole(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+AMBRIG_WHOLE void RadialWhole(const LinkageModel& m, const Lane* adc, int count,
+                              PeriodSlopes* out) {
   Accumulate<WholeLaneVector, Coupling::kFloatingRotor>(m, adc, count, out);
 }
-AMBRIG_WIDE void RadialHalves(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
+AMBRIG_WIDE void RadialHalves(const LinkageModel& m, const Lane* adc, int count,
+                              PeriodSlopes* out) {
   Accumulate<LaneVector, Coupling::kFloatingRotor>(m, adc, count, out);
 }
 AMBRIG_WHOLE void SidesWhole(const LinkageModel& m, const Lane* adc, int count, PeriodSlopes* out) {
@@ -112,9 +119,10 @@ AMBRIG_WIDE void Separate(const LinkageModel& m, const Lane* adc, int count, Per
 void ComputePeriodSlopes(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
                          PeriodSlopes* out) {
   PreparePeriod(m, s, in, out);
-  const auto run = m.coupling == Coupling::kFloatingRotor ? (whole_lanes ? RadialWhole : RadialHalves)
-                   : m.coupling == Coupling::kSides       ? (whole_lanes ? SidesWhole : SidesHalves)
-                                                          : Separate;
+  const auto run = m.coupling == Coupling::kFloatingRotor
+                       ? (whole_lanes ? RadialWhole : RadialHalves)
+                   : m.coupling == Coupling::kSides ? (whole_lanes ? SidesWhole : SidesHalves)
+                                                    : Separate;
   run(m, in.adc, s.samples, out);
   FitSlopes(m, s, out);
 }

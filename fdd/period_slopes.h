@@ -25,26 +25,27 @@ struct MotionDoubt {
 
 /// What was measured of one period; positions at the bearing plane at its start and end.
 struct MeasuredPeriod {
-  double t = 0;                        // start [s]
-  const Lane* adc = nullptr;           // samples [A]
+  double t = 0;               // start [s]
+  const Lane* adc = nullptr;  // samples [A]
   const Lane* duty = nullptr;
-  const Lane* set_point = nullptr;     // that the current loops followed [A]; may be absent
-  double bus = 0;                      // mean over the period [V]
+  const Lane* set_point = nullptr;        // that the current loops followed [A]; may be absent
+  double bus = 0;                         // mean over the period [V]
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [m]
-  MotionDoubt doubt;                   // of these positions
-  bool comparable = true;              // false: bus or position unknown, nothing can be concluded
+  MotionDoubt doubt;                      // of these positions
+  bool comparable = true;  // false: bus or position unknown, nothing can be concluded
 };
 
 /// One phase of all coils.
 struct PhaseSlopes {
-  Lane samples;    // in the phase
-  Lane voltage;    // of the healthy bridge [V]
-  Lane linkage;    // slope [V]
-  Lane current;    // slope [A/s]
-  Lane mean;       // current [A]
-  Lane least;      // smallest sample, or of either phase where no coil comes below kZeroCurrent [A]
-  Lane residual;   // e [V]
-  Lane scale;      // 12/(n (n²-1) h) of n samples, 0 below two: the slope's variance is scale/h [1/s]
+  Lane samples;   // in the phase
+  Lane voltage;   // of the healthy bridge [V]
+  Lane linkage;   // slope [V]
+  Lane current;   // slope [A/s]
+  Lane mean;      // current [A]
+  Lane least;     // smallest sample, or of either phase where no coil comes below kZeroCurrent [A]
+  Lane residual;  // e [V]
+  // 12/(n (n²-1) h) of n samples, 0 below two: the slope's variance is scale/h [1/s]
+  Lane scale;
 };
 
 /// Sums over the samples k that the slopes are made of: of x and of k x.
@@ -56,17 +57,17 @@ struct SlopeSums {
 struct PeriodSlopes {
   PhaseSlopes phase[2];  // on, off
   SlopeSums sums;
-  Lane edge;             // end of the on phase [s]
+  Lane edge;  // end of the on phase [s]
   MovingPermeance permeance;
-  Lane largest;          // sample of the period [A]
-  Lane first, last;      // linkage at the first and the last sample [Wb]
-  Lane after;            // mean voltage between the last sample and the end of the period [V]
+  Lane largest;      // sample of the period [A]
+  Lane first, last;  // linkage at the first and the last sample [Wb]
+  Lane after;        // mean voltage between the last sample and the end of the period [V]
 };
 
 /// Geometry of the samples and the amplifier: fixed for a run.
 struct SamplingSettings {
   int samples = 18;
-  double step = 0;                     // between samples [s]
+  double step = 0;  // between samples [s]
   const AmplifierParameters* amplifier = nullptr;
 };
 
@@ -82,7 +83,8 @@ void ComputePeriodSlopes(const LinkageModel& m, const SamplingSettings& s, const
 /// The same when the magnetomotive force of some coils is not known (false sensor, a closed loop of
 /// shorted turns): the error of the rotor's potential U(t) is estimated from the other coils'
 /// equations, sample by sample, and taken out of them. Radial bearings.
-void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
+void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings& s,
+                                   const MeasuredPeriod& in,
                                    const std::array<bool, kLanes>& excluded, PeriodSlopes* out);
 
 /// 1/(step² n (n²-1)/12): variance of a slope over n samples of unit variance. [1/s²]

@@ -5,7 +5,8 @@
 
 namespace ambrig {
 
-void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
+void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings& s,
+                                   const MeasuredPeriod& in,
                                    const std::array<bool, kLanes>& excluded, PeriodSlopes* out) {
   Lane first, charge;
   PreparePeriod(m, s, in, out);
@@ -34,7 +35,8 @@ void ComputePeriodSlopesUnknownMmf(const LinkageModel& m, const SamplingSettings
       lambda[j] = m.n[j] * P[j] * (m.n[j] * i - top / total) + m.leakage[j] * i;
       if (k > 0) charge[j] += 0.5 * s.step * (i + in.adc[k - 1][j]);
       if (!usable[static_cast<std::size_t>(j)]) continue;
-      const double driven = out->phase[0].voltage[j] * std::min(t, edge) + out->phase[1].voltage[j] * std::max(t - edge, 0.0);
+      const double driven = out->phase[0].voltage[j] * std::min(t, edge) +
+                            out->phase[1].voltage[j] * std::max(t - edge, 0.0);
       const double error = lambda[j] + m.resistance[j] * charge[j] - driven;
       if (k == 0) first[j] = error;
       share += m.n[j] * P[j] * (error - first[j]);

@@ -12,8 +12,8 @@ namespace ambrig {
 namespace {
 
 /// N phi_j at every sample from the other coils' equations. [Wb]
-void FluxFromOthers(const LinkageModel& m, const DetectorSettings& s, const KeptPeriod& p, const PeriodSlopes& now,
-                    int j, double* flux) {
+void FluxFromOthers(const LinkageModel& m, const DetectorSettings& s, const KeptPeriod& p,
+                    const PeriodSlopes& now, int j, double* flux) {
   const int count = s.sampling.samples;
   const double h = s.sampling.step;
   std::array<bool, kLanes> conducts{};
@@ -22,14 +22,16 @@ void FluxFromOthers(const LinkageModel& m, const DetectorSettings& s, const Kept
   for (int k = 0; k < m.coils; ++k) {
     double least = 1e30;
     for (int q = 0; q < count; ++q) least = std::min(least, p.adc[static_cast<std::size_t>(q)][k]);
-    conducts[static_cast<std::size_t>(k)] = k != j && least > kZeroCurrent && now.largest[k] < s.adc_limit;
+    conducts[static_cast<std::size_t>(k)] =
+        k != j && least > kZeroCurrent && now.largest[k] < s.adc_limit;
     top += now.permeance.middle[k] * m.n[k] * p.adc[0][k];
     total += now.permeance.middle[k];
   }
   const bool radial = m.coupling == Coupling::kFloatingRotor;
   for (int k = 0; k < m.coils; ++k) {
     const double partner = m.coupling == Coupling::kSides ? m.n[k ^ 1] * p.adc[0][k ^ 1] : 0;
-    phi0[k] = now.permeance.middle[k] * (m.n[k] * p.adc[0][k] + partner - (radial ? top / total : 0));
+    phi0[k] =
+        now.permeance.middle[k] * (m.n[k] * p.adc[0][k] + partner - (radial ? top / total : 0));
   }
   for (int q = 0; q < count; ++q) {
     const Lane& i = p.adc[static_cast<std::size_t>(q)];
@@ -39,14 +41,17 @@ void FluxFromOthers(const LinkageModel& m, const DetectorSettings& s, const Kept
     for (int k = 0; k < m.coils; ++k) {
       if (q > 0) charge[k] += 0.5 * h * (i[k] + p.adc[static_cast<std::size_t>(q - 1)][k]);
       if (!conducts[static_cast<std::size_t>(k)]) continue;
-      const double driven =
-          now.phase[0].voltage[k] * std::min(t, now.edge[k]) + now.phase[1].voltage[k] * std::max(t - now.edge[k], 0.0);
-      phi[k] = phi0[k] + (driven - m.resistance[k] * charge[k] - m.leakage[k] * (i[k] - p.adc[0][k])) / m.n[k];
+      const double driven = now.phase[0].voltage[k] * std::min(t, now.edge[k]) +
+                            now.phase[1].voltage[k] * std::max(t - now.edge[k], 0.0);
+      phi[k] =
+          phi0[k] +
+          (driven - m.resistance[k] * charge[k] - m.leakage[k] * (i[k] - p.adc[0][k])) / m.n[k];
       U += m.n[k] * i[k] - phi[k] / now.permeance.middle[k];
       known += 1;
       sum += phi[k];
     }
-    if (m.coupling == Coupling::kNone || (m.coupling == Coupling::kSides && !conducts[static_cast<std::size_t>(j ^ 1)])) {
+    if (m.coupling == Coupling::kNone ||
+        (m.coupling == Coupling::kSides && !conducts[static_cast<std::size_t>(j ^ 1)])) {
       const double partner = m.coupling == Coupling::kSides ? m.n[j ^ 1] * i[j ^ 1] : 0;
       flux[q] = m.n[j] * now.permeance.middle[j] * (m.n[j] * i[j] + partner);
     } else if (m.coupling == Coupling::kSides) {
@@ -54,7 +59,8 @@ void FluxFromOthers(const LinkageModel& m, const DetectorSettings& s, const Kept
     } else {
       if (known > 0) U /= known;
       for (int k = 0; k < m.coils; ++k)
-        if (k != j && !conducts[static_cast<std::size_t>(k)]) sum += now.permeance.middle[k] * (m.n[k] * i[k] - U);
+        if (k != j && !conducts[static_cast<std::size_t>(k)])
+          sum += now.permeance.middle[k] * (m.n[k] * i[k] - U);
       flux[q] = -m.n[j] * sum;
     }
   }
@@ -85,7 +91,8 @@ void AddWindows(const LinkageModel& m, const DetectorSettings& s, const KeptPeri
   const double own = m.SelfInductance(j, now.permeance.middle, radial ? now.permeance.total : 1);
   for (int q = 0; q < 2; ++q) {
     const PhaseSlopes& a = now.phase[q];
-    const int count = static_cast<int>(a.samples[j]), from = q == 0 ? 0 : static_cast<int>(now.phase[0].samples[j]);
+    const int count = static_cast<int>(a.samples[j]),
+              from = q == 0 ? 0 : static_cast<int>(now.phase[0].samples[j]);
     if (count < 4 || now.largest[j] >= s.adc_limit) continue;
     PhaseWindow w;
     w.phase = q;
@@ -98,7 +105,8 @@ void AddWindows(const LinkageModel& m, const DetectorSettings& s, const KeptPeri
     w.own = own * a.current[j];
     w.mean = a.mean[j];
     w.least = a.least[j];
-    const double per_amp = std::sqrt(SlopeVariance(count, s.sampling.step)) * s.current_noise;  // [A/s]
+    // [A/s]
+    const double per_amp = std::sqrt(SlopeVariance(count, s.sampling.step)) * s.current_noise;
     const double shared = a.linkage[j] - w.x_l;
     const double leak = s.leakage_sd * a.current[j];
     w.noise_l = per_amp * m.leakage[j];

@@ -7,13 +7,15 @@ namespace ambrig {
 
 namespace {
 constexpr int kEqualReadings = 6, kDifferentReadings = 50;
-const double kNoise = 6 * std::sqrt(20.0);  // of a departure y - 3 y1 + 3 y2 - y3, over that of a reading
+// of a departure y - 3 y1 + 3 y2 - y3, over that of a reading
+const double kNoise = 6 * std::sqrt(20.0);
 }  // namespace
 
 PositionMonitor::PositionMonitor(std::size_t axes, double jump, double noise)
     : axes_(axes), jump_(jump), noise_(kNoise * noise) {}
 
-bool PositionMonitor::Read(double t, const std::vector<double>& readings, const std::vector<double>& struck) {
+bool PositionMonitor::Read(double t, const std::vector<double>& readings,
+                           const std::vector<double>& struck) {
   if (t <= last_ && count_ > 0) return false;
   step_ = t - last_;
   last_ = t;

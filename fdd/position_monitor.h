@@ -3,24 +3,26 @@
 /// the position sensors.
 ///
 /// Readings y of one sensor plane come once per controller period; three of them give the parabola
-/// that is followed until the next one (whirl: ω² r t²/2 would be missed by a straight line). A rigid
-/// shaft connects the sensor planes: radial position at z is the least-squares line through all
-/// planes, the identity for a single one.
-/// Faulty axis: a step that no force could make (`jump`, against the parabola; more when the shaft may have
-/// struck something), or the very same reading again and again after readings that were never equal.
+/// that is followed until the next one (whirl: ω² r t²/2 would be missed by a straight line). A
+/// rigid shaft connects the sensor planes: radial position at z is the least-squares line through
+/// all planes, the identity for a single one.
+/// Faulty axis: a step that no force could make (`jump`, against the parabola; more when the shaft
+/// may have struck something), or the very same reading again and again after readings that were
+/// never equal.
 #include <vector>
 
 namespace ambrig {
 
 struct SensedPlane {
-  double z = 0;                        // [m]
-  int x_axis = 0, y_axis = 0;          // index of the readings
+  double z = 0;                // [m]
+  int x_axis = 0, y_axis = 0;  // index of the readings
 };
 
 class PositionMonitor {
  public:
   PositionMonitor() = default;
-  /// `jump`: largest credible departure from the parabola within one period [m]; `noise`: of a reading [m rms].
+  /// `jump`: largest credible departure from the parabola within one period [m]; `noise`: of a
+  /// reading [m rms].
   PositionMonitor(std::size_t axes, double jump, double noise = 0);
 
   /// New readings of time t [s]; false: the same t again, ignored. `struck`: what impacts may
@@ -44,9 +46,9 @@ class PositionMonitor {
 
  private:
   struct Axis {
-    double y[3] = {0, 0, 0};           // newest first
-    double slope = 0, curvature = 0;   // of their parabola, per step and per step²
-    double departure[3] = {0, 0, 0};   // newest first
+    double y[3] = {0, 0, 0};          // newest first
+    double slope = 0, curvature = 0;  // of their parabola, per step and per step²
+    double departure[3] = {0, 0, 0};  // newest first
     int equal = 0, different = 0;
     bool faulty = false;
   };

@@ -9,10 +9,11 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kNormalSize = 0.8;   // mean of |z| of a normal variable
+constexpr double kNormalSize = 0.8;  // mean of |z| of a normal variable
 
-/// 1/sqrt a of positive lanes. Halving the exponent starts Newton's iteration within 3.5 %, which becomes
-/// 2e-3, then 5e-6 (error -> 3/2 error²): enough for the size of noise, a third of the processor's own root.
+/// 1/sqrt a of positive lanes. Halving the exponent starts Newton's iteration within 3.5 %, which
+/// becomes 2e-3, then 5e-6 (error -> 3/2 error²): enough for the size of noise, a third of the
+/// processor's own root.
 template <class Lanes, class Bits>
 [[gnu::always_inline]] inline Lanes NewtonRoot(const Lanes& a) {
   const Lanes half = 0.5 * a;
@@ -23,7 +24,9 @@ template <class Lanes, class Bits>
 [[gnu::always_inline]] inline LaneVector InverseRoot(const LaneVector& a) {
   return {NewtonRoot<FourLanes, FourMasks>(a.a), NewtonRoot<FourLanes, FourMasks>(a.b)};
 }
-[[gnu::always_inline]] inline WholeLaneVector InverseRoot(const WholeLaneVector& a) { return NewtonRoot<EightLanes, EightMasks>(a.v); }
+[[gnu::always_inline]] inline WholeLaneVector InverseRoot(const WholeLaneVector& a) {
+  return NewtonRoot<EightLanes, EightMasks>(a.v);
+}
 
 template <class V>
 struct Terms {
@@ -32,14 +35,17 @@ struct Terms {
 };
 
 template <class V>
-[[gnu::always_inline]] inline void Phase(const Terms<V>& c, const ChartSettings& s, const ModelError& known, const PhaseSlopes& p, int q,
+[[gnu::always_inline]] inline void Phase(const Terms<V>& c, const ChartSettings& s,
+                                         const ModelError& known, const PhaseSlopes& p, int q,
                                          const Lane* doubt, ResidualChart* r) {
   const V zero = 0.0, one = 1, nothing = kZeroCurrent;
   const V di = LoadAs<V>(p.current.v), flux = LoadAs<V>(p.linkage.v) - c.leakage * di;
   const V uncertain = doubt ? LoadAs<V>(doubt[q].v) : zero;
-  const V variance = c.noise * (LoadAs<V>(p.scale.v) * c.per_step) + di * (di * known.doubt[0] - flux * known.doubt[1]) +
+  const V variance = c.noise * (LoadAs<V>(p.scale.v) * c.per_step) +
+                     di * (di * known.doubt[0] - flux * known.doubt[1]) +
                      flux * flux * known.doubt[2] + c.moved + uncertain * uncertain;
-  const V wider = Min(Max(LoadAs<V>(r->size[q].v) * (1 / kNormalSize), one), 5), total = variance * (wider * wider);
+  const V wider = Min(Max(LoadAs<V>(r->size[q].v) * (1 / kNormalSize), one), 5),
+          total = variance * (wider * wider);
   const V inverse_width = InverseRoot(total);
   const V residual = LoadAs<V>(p.residual.v) + di * known.leakage - flux * known.gap;
   // At zero current the diodes may block: off says nothing, on only that too little flux comes.
@@ -63,7 +69,8 @@ struct Circumstance {
 };
 
 template <class V>
-[[gnu::always_inline]] inline void ComputeAll(const LinkageModel& m, const Circumstance& at, const ChartSettings& s, const ModelError& known,
+[[gnu::always_inline]] inline void ComputeAll(const LinkageModel& m, const Circumstance& at,
+                                              const ChartSettings& s, const ModelError& known,
                                               const PeriodSlopes& slopes, ResidualChart* r) {
   const V n = LoadAs<V>(m.n.v), P = LoadAs<V>(slopes.permeance.middle.v);
   const bool radial = m.coupling == Coupling::kFloatingRotor;
@@ -71,7 +78,8 @@ template <class V>
   c.leakage = LoadAs<V>(m.leakage.v);
   const V own = n * n * (radial ? P * (1 - P * (1 / slopes.permeance.total)) : P) + c.leakage;
   Store(r->own.v, own);
-  const V noise = own * s.current_noise, moved = n * LoadAs<V>(slopes.permeance.change.v) * at.potential_rate;
+  const V noise = own * s.current_noise,
+          moved = n * LoadAs<V>(slopes.permeance.change.v) * at.potential_rate;
   c.noise = noise * noise;
   c.moved = moved * moved + s.voltage_sd * s.voltage_sd;
   c.watched = LoadAs<V>(at.watched->v);
@@ -80,11 +88,13 @@ template <class V>
   Phase(c, s, known, slopes.phase[0], 0, at.doubt, r);
   Phase(c, s, known, slopes.phase[1], 1, at.doubt, r);
 }
-AMBRIG_WHOLE void ComputeWhole(const LinkageModel& m, const Circumstance& at, const ChartSettings& s, const ModelError& known,
+AMBRIG_WHOLE void ComputeWhole(const LinkageModel& m, const Circumstance& at,
+                               const ChartSettings& s, const ModelError& known,
                                const PeriodSlopes& slopes, ResidualChart* r) {
   ComputeAll<WholeLaneVector>(m, at, s, known, slopes, r);
 }
-AMBRIG_WIDE void ComputeHalves(const LinkageModel& m, const Circumstance& at, const ChartSettings& s, const ModelError& known,
+AMBRIG_WIDE void ComputeHalves(const LinkageModel& m, const Circumstance& at,
+                               const ChartSettings& s, const ModelError& known,
                                const PeriodSlopes& slopes, ResidualChart* r) {
   ComputeAll<LaneVector>(m, at, s, known, slopes, r);
 }
@@ -93,34 +103,45 @@ template <class V>
 [[gnu::always_inline]] inline double Accumulate(const ChartSettings& s, ResidualChart* r) {
   const V zero = 0.0, cap = s.cap;
   const V on = LoadAs<V>(r->valid[0].v), off = LoadAs<V>(r->valid[1].v), both = on * off;
-  const V z[3] = {LoadAs<V>(r->z[0].v), LoadAs<V>(r->z[1].v), (LoadAs<V>(r->z[0].v) - LoadAs<V>(r->z[1].v)) * 0.7071};
+  const V z[3] = {LoadAs<V>(r->z[0].v), LoadAs<V>(r->z[1].v),
+                  (LoadAs<V>(r->z[0].v) - LoadAs<V>(r->z[1].v)) * 0.7071};
   const V counts[3] = {on, off, both};
   V most = zero;
   for (int q = 0; q < 3; ++q) {
     const V before = LoadAs<V>(r->G[q].v);
-    const V G = Select(counts[q] > zero, Max(before + Min(Max(z[q], -z[q]), cap) - s.drift, zero), before);
+    const V G =
+        Select(counts[q] > zero, Max(before + Min(Max(z[q], -z[q]), cap) - s.drift, zero), before);
     Store(r->G[q].v, G);
     most = Max(most, G);
   }
   return Largest(most);
 }
-AMBRIG_WHOLE double AccumulateWhole(const ChartSettings& s, ResidualChart* r) { return Accumulate<WholeLaneVector>(s, r); }
-AMBRIG_WIDE double AccumulateHalves(const ChartSettings& s, ResidualChart* r) { return Accumulate<LaneVector>(s, r); }
+AMBRIG_WHOLE double AccumulateWhole(const ChartSettings& s, ResidualChart* r) {
+  return Accumulate<WholeLaneVector>(s, r);
+}
+AMBRIG_WIDE double AccumulateHalves(const ChartSettings& s, ResidualChart* r) {
+  return Accumulate<LaneVector>(s, r);
+}
 
 AMBRIG_WIDE double BeyondNoise(const Lane& own, const LinkageStep& step, double limit) {
-  const LaneVector jump = Abs((Load(step.after->v) - Load(step.before->v)) * step.per_second - Load(step.expected->v));
+  const LaneVector jump =
+      Abs((Load(step.after->v) - Load(step.before->v)) * step.per_second - Load(step.expected->v));
   return Largest(jump - limit * (step.noise * Load(own.v) + step.floor));
 }
 
 }  // namespace
 
-void ResidualChart::Compute(const LinkageModel& m, const SamplingSettings& sampling, const ChartSettings& s,
-                            const ModelError& known, const PeriodSlopes& slopes, const Lane& watched,
-                            const Lane* doubt, double potential_rate) {
-  (whole_lanes ? ComputeWhole : ComputeHalves)(m, {&watched, doubt, sampling.step, potential_rate}, s, known, slopes, this);
+void ResidualChart::Compute(const LinkageModel& m, const SamplingSettings& sampling,
+                            const ChartSettings& s, const ModelError& known,
+                            const PeriodSlopes& slopes, const Lane& watched, const Lane* doubt,
+                            double potential_rate) {
+  (whole_lanes ? ComputeWhole : ComputeHalves)(m, {&watched, doubt, sampling.step, potential_rate},
+                                               s, known, slopes, this);
 }
 
-double ResidualChart::Cusum(const ChartSettings& s) { return (whole_lanes ? AccumulateWhole : AccumulateHalves)(s, this); }
+double ResidualChart::Cusum(const ChartSettings& s) {
+  return (whole_lanes ? AccumulateWhole : AccumulateHalves)(s, this);
+}
 
 double ResidualChart::LargestSum() const {
   double most = 0;
@@ -135,6 +156,8 @@ double ResidualChart::LargestResidual() const {
   return most;
 }
 
-bool ResidualChart::Steps(const LinkageStep& step, double limit) const { return BeyondNoise(own, step, 0.999 * limit) > 0; }
+bool ResidualChart::Steps(const LinkageStep& step, double limit) const {
+  return BeyondNoise(own, step, 0.999 * limit) > 0;
+}
 
 }  // namespace ambrig

@@ -10,7 +10,9 @@ constexpr double kLeastCurrent = 0.3;  // [A] that tells a resistance
 }  // namespace
 
 ResistanceEstimate::ResistanceEstimate(const CoilDetectorSetup& setup)
-    : sampling_(setup.settings.sampling), coils_(setup.model.coils), nominal_(setup.model.resistance),
+    : sampling_(setup.settings.sampling),
+      coils_(setup.model.coils),
+      nominal_(setup.model.resistance),
       forget_(sampling_.samples * sampling_.step / kForgetIn) {}
 
 void ResistanceEstimate::Add(const MeasuredPeriod& in) {

@@ -14,11 +14,12 @@ class ResistanceEstimate {
   double Value(int j) const;  // [ohm], within half and twice the nominal one
 
  private:
-  static constexpr double kPrior = 4000;  // [A²] weight of the nominal value: 40 ms at 2 A and 25 kHz
+  // [A²] weight of the nominal value: 40 ms at 2 A and 25 kHz
+  static constexpr double kPrior = 4000;
   SamplingSettings sampling_;
   int coils_;
   Lane nominal_, top_, bottom_;
-  double forget_;                         // share a period
+  double forget_;  // share a period
 };
 
 }  // namespace ambrig

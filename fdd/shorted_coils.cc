@@ -15,12 +15,13 @@ using Turns = Eigen::Vector<double, kLanes>;
 using Normal = Eigen::Matrix<double, kLanes, kLanes>;
 
 constexpr double kFewestTurns = 0.02, kMostTurns = 1.05;  // shares that a fit may reach
-constexpr double kLeastShort = 0.02;    // of the turns: less is no matter of several coils
-constexpr double kCertain = 16;         // cost that leaving out a coil must add: e^-6 and its parameter
-constexpr double kGross = 8;            // [sd] no residual of an explanation may be larger
-constexpr double kMeanSquare = 3;       // nor all together
-constexpr int kSpareEquations = 6;      // more than unknowns
-constexpr double kFelt = 0.3;           // [V] of a coil in another one's equation: it conducts
+constexpr double kLeastShort = 0.02;  // of the turns: less is no matter of several coils
+// cost that leaving out a coil must add: e^-6 and its parameter
+constexpr double kCertain = 16;
+constexpr double kGross = 8;        // [sd] no residual of an explanation may be larger
+constexpr double kMeanSquare = 3;   // nor all together
+constexpr int kSpareEquations = 6;  // more than unknowns
+constexpr double kFelt = 0.3;       // [V] of a coil in another one's equation: it conducts
 
 /// One coil's equation in one phase of one period.
 struct Equation {
@@ -38,8 +39,8 @@ struct Equation {
 };
 
 /// Slopes of every coil's own and mutual terms over its samples [from, from + count).
-void AddSlopes(const LinkageModel& m, const DetectorSettings& s, const KeptPeriod& p, const MovingPermeance& P, int from,
-               int count, Equation* e) {
+void AddSlopes(const LinkageModel& m, const DetectorSettings& s, const KeptPeriod& p,
+               const MovingPermeance& P, int from, int count, Equation* e) {
   const int j = e->coil;
   const double middle = from + 0.5 * (count - 1);
   double weight = 0;
@@ -73,11 +74,14 @@ void AddEquations(const LinkageModel& m, const DetectorSettings& s, const KeptPe
       const int count = static_cast<int>(a.samples[j]);
       Equation e;
       e.coil = j;
-      AddSlopes(m, s, p, now.permeance, q == 0 ? 0 : static_cast<int>(now.phase[0].samples[j]), count, &e);
+      AddSlopes(m, s, p, now.permeance, q == 0 ? 0 : static_cast<int>(now.phase[0].samples[j]),
+                count, &e);
       e.Ri = m.resistance[j] * a.mean[j];
       e.v = a.voltage[j];
       const double own = m.SelfInductance(j, now.permeance.middle, now.permeance.total);
-      e.sd_own = std::hypot(own * s.current_noise * std::sqrt(SlopeVariance(count, s.sampling.step)), s.leakage_sd * a.current[j]);
+      e.sd_own =
+          std::hypot(own * s.current_noise * std::sqrt(SlopeVariance(count, s.sampling.step)),
+                     s.leakage_sd * a.current[j]);
       e.sd = std::hypot(s.gap_sd * e.v, s.voltage_sd, doubt[q][j]);
       out->push_back(e);
     }
@@ -158,8 +162,8 @@ std::vector<int> Without(std::vector<int> coils, int coil) {
 }
 
 /// Whether another coil in place of one of `coils` explains as much.
-bool Ambiguous(const std::vector<Equation>& equations, const std::vector<int>& coils, const std::vector<int>& felt,
-               double cost) {
+bool Ambiguous(const std::vector<Equation>& equations, const std::vector<int>& coils,
+               const std::vector<int>& felt, double cost) {
   for (int k : felt) {
     if (std::find(coils.begin(), coils.end(), k) != coils.end()) continue;
     for (int j : coils) {
@@ -174,21 +178,26 @@ bool Ambiguous(const std::vector<Equation>& equations, const std::vector<int>& c
 }  // namespace
 
 ShortedCoils FindShortedCoils(const LinkageModel& m, const DetectorSettings& s,
-                              const std::vector<const KeptPeriod*>& periods, const std::array<bool, kLanes>& judged) {
+                              const std::vector<const KeptPeriod*>& periods,
+                              const std::array<bool, kLanes>& judged) {
   ShortedCoils out;
   for (double& a : out.turns_left.v) a = 1;
   std::vector<Equation> equations;
   for (const KeptPeriod* p : periods) AddEquations(m, s, *p, judged, &equations);
-  // Also a coil whose own equation does not hold (its current falls to zero) is felt in the others'.
+  // Also a coil whose own equation does not hold (its current falls to zero) is felt in the
+  // others'.
   std::vector<int> felt;
   for (int j = 0; j < m.coils; ++j)
     if (judged[static_cast<std::size_t>(j)] &&
-        std::any_of(equations.begin(), equations.end(), [j](const Equation& e) { return e.coil == j || std::abs(e.B[j]) > kFelt; }))
+        std::any_of(equations.begin(), equations.end(),
+                    [j](const Equation& e) { return e.coil == j || std::abs(e.B[j]) > kFelt; }))
       felt.push_back(j);
   if (equations.size() < felt.size() + kSpareEquations) return out;
   std::vector<int> coils = felt;
   Fit fit = Solve(equations, coils);
-  const auto explains = [&] { return fit.worst < kGross && fit.cost < kMeanSquare * static_cast<double>(equations.size()); };
+  const auto explains = [&] {
+    return fit.worst < kGross && fit.cost < kMeanSquare * static_cast<double>(equations.size());
+  };
   if (!explains()) return out;
   // The fewest: healthy coils first, then whichever the residuals do not need.
   std::erase_if(coils, [&](int j) { return 1 - fit.a[j] < kLeastShort; });

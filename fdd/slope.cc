@@ -5,7 +5,8 @@
 namespace ambrig {
 
 double SlopeConverter::Slope(long a, long next) const {
-  return attenuation * static_cast<double>(next - a) * reference / (std::exp2(bits) * sampling_resistance * period);
+  return attenuation * static_cast<double>(next - a) * reference /
+         (std::exp2(bits) * sampling_resistance * period);
 }
 
 long SlopeConverter::Code(double current) const {
@@ -22,12 +23,14 @@ double DecreasingSlope(const SlopeCircuit& c, double i0) {
 
 SlopeRange IncreasingRange(const SlopeCircuit& c, double i0, double margin) {
   const double k = IncreasingSlope(c, i0);
-  return {k * std::exp(-0.5 * c.switching_period * c.resistance / c.inductance) - margin, k + margin};
+  return {k * std::exp(-0.5 * c.switching_period * c.resistance / c.inductance) - margin,
+          k + margin};
 }
 
 SlopeRange DecreasingRange(const SlopeCircuit& c, double i0, double margin) {
   const double k = DecreasingSlope(c, i0);
-  return {k - margin, k * std::exp(-0.5 * c.switching_period * c.resistance / c.inductance) + margin};
+  return {k - margin,
+          k * std::exp(-0.5 * c.switching_period * c.resistance / c.inductance) + margin};
 }
 
 std::vector<int> KeptSlopes(const std::vector<double>& k) {
@@ -42,7 +45,8 @@ std::vector<int> KeptSlopes(const std::vector<double>& k) {
 MeanSlopes MeanSlopesOf(const SlopeConverter& converter, const std::vector<long>& codes) {
   MeanSlopes out;
   std::vector<double> k;
-  for (std::size_t j = 0; j + 1 < codes.size(); ++j) k.push_back(converter.Slope(codes[j], codes[j + 1]));
+  for (std::size_t j = 0; j + 1 < codes.size(); ++j)
+    k.push_back(converter.Slope(codes[j], codes[j + 1]));
   const std::vector<int> kept = KeptSlopes(k);
   for (std::size_t j = 0; j < k.size(); ++j) {
     out.kept_increasing += kept[j] > 0 ? 1 : 0;
@@ -70,7 +74,8 @@ bool SlopeDetector::Sample(long code, double i0) {
 bool SlopeDetector::Judge(double i0) {
   last_ = MeanSlopesOf(s_.converter, queue_);
   if (flagged()) return false;
-  const SlopeRange up = IncreasingRange(s_.circuit, i0, s_.margin), down = DecreasingRange(s_.circuit, i0, s_.margin);
+  const SlopeRange up = IncreasingRange(s_.circuit, i0, s_.margin),
+                   down = DecreasingRange(s_.circuit, i0, s_.margin);
   if (last_.increasing > up.high || last_.decreasing < down.low)
     cls_ = FaultClass::kPartialShort;
   else if (last_.increasing < up.low || last_.decreasing > down.high)

@@ -20,11 +20,11 @@ namespace ambrig {
 
 /// Analogue path and converter of one coil's current.
 struct SlopeConverter {
-  double attenuation = 1;         // G_f
-  double sampling_resistance = 1; // R_a [ohm]
-  double reference = 10;          // U_ref [V]
-  int bits = 12;                  // m
-  double period = 1 / 450e3;      // T_n [s]
+  double attenuation = 1;          // G_f
+  double sampling_resistance = 1;  // R_a [ohm]
+  double reference = 10;           // U_ref [V]
+  int bits = 12;                   // m
+  double period = 1 / 450e3;       // T_n [s]
 
   /// Eq. 19. [A/s]
   double Slope(long a, long next) const;
@@ -56,7 +56,8 @@ struct MeanSlopes {
   int kept_increasing = 0, kept_decreasing = 0, cancelled = 0;
 };
 
-/// Singularity rule: +1 for a slope that is kept as increasing, -1 as decreasing, 0 for a cancelled one.
+/// Singularity rule: +1 for a slope that is kept as increasing, -1 as decreasing, 0 for a cancelled
+/// one.
 std::vector<int> KeptSlopes(const std::vector<double>& k);
 /// Singularity rule and Eq. 20 over a queue of codes.
 MeanSlopes MeanSlopesOf(const SlopeConverter& converter, const std::vector<long>& codes);
@@ -65,8 +66,8 @@ struct SlopeDetectorSettings {
   SlopeConverter converter;
   SlopeCircuit circuit;
   int samples_per_period = 18;
-  double margin = 700;       // total error of the paper's section 4.1 [A/s]
-  double cycle = 0;          // [s], 1.75e-3 in the paper; 0: every period
+  double margin = 700;  // total error of the paper's section 4.1 [A/s]
+  double cycle = 0;     // [s], 1.75e-3 in the paper; 0: every period
 };
 
 /// One instance per coil.

@@ -24,7 +24,8 @@ struct PlainBridge {
 
 /// Sample k lies in the on phase when k h <= edge; the edge itself belongs to both.
 template <class V>
-[[gnu::always_inline]] inline void Count(const PlainBridge& bridge, double step, double samples, PeriodSlopes* out) {
+[[gnu::always_inline]] inline void Count(const PlainBridge& bridge, double step, double samples,
+                                         PeriodSlopes* out) {
   const V all = samples, none = 0.0, one = 1.0;
   V edge, on, off;
   if (bridge.duty) {
@@ -42,23 +43,30 @@ template <class V>
   const V count = Select(edge > none, Min(Floor(edge * ((1 + 1e-12) / step)) + one, all), none);
   Store(out->phase[0].samples.v, count);
   Store(out->phase[1].samples.v, all - count);
-  const V last = Min(Max(edge * (1 / step) - (samples - 1), none), one);  // share of the time after the last sample
+  // share of the time after the last sample
+  const V last = Min(Max(edge * (1 / step) - (samples - 1), none), one);
   Store(out->after.v, last * on + (one - last) * off);
 }
-AMBRIG_WHOLE void CountWhole(const PlainBridge& b, double step, double samples, PeriodSlopes* out) { Count<WholeLaneVector>(b, step, samples, out); }
-AMBRIG_WIDE void CountHalves(const PlainBridge& b, double step, double samples, PeriodSlopes* out) { Count<LaneVector>(b, step, samples, out); }
+AMBRIG_WHOLE void CountWhole(const PlainBridge& b, double step, double samples, PeriodSlopes* out) {
+  Count<WholeLaneVector>(b, step, samples, out);
+}
+AMBRIG_WIDE void CountHalves(const PlainBridge& b, double step, double samples, PeriodSlopes* out) {
+  Count<LaneVector>(b, step, samples, out);
+}
 
 /// Of n samples: n, n² - 1 and n (n² - 1), this one 1 where no slope is to be had.
 template <class V>
 struct Samples {
   V n, less, product;
-  [[gnu::always_inline]] explicit Samples(const V& count) : n(count), less(n * n - 1), product(Select(n < 2, 1, n * less)) {}
+  [[gnu::always_inline]] explicit Samples(const V& count)
+      : n(count), less(n * n - 1), product(Select(n < 2, 1, n * less)) {}
 };
 
 /// `inverse` is 1/(n (n² - 1)).
 template <class V>
-[[gnu::always_inline]] inline void Fit(const Samples<V>& s, const V& inverse, const V& from, double step, const V& resistance, const V& y,
-                                       const V& ky, const V& i, const V& ki, PhaseSlopes* out) {
+[[gnu::always_inline]] inline void Fit(const Samples<V>& s, const V& inverse, const V& from,
+                                       double step, const V& resistance, const V& y, const V& ky,
+                                       const V& i, const V& ki, PhaseSlopes* out) {
   const V middle = 0.5 * (s.n - 1) + from;
   const auto few = s.n < 2;
   const V scale = Select(few, 0.0, inverse * (12 / step));
@@ -71,17 +79,23 @@ template <class V>
 }
 
 template <class V>
-[[gnu::always_inline]] inline void FitPhases(const LinkageModel& m, double step, PeriodSlopes* out) {
+[[gnu::always_inline]] inline void FitPhases(const LinkageModel& m, double step,
+                                             PeriodSlopes* out) {
   const SlopeSums& s = out->sums;
-  const V y = LoadAs<V>(s.y_on.v), ky = LoadAs<V>(s.ky_on.v), i = LoadAs<V>(s.i_on.v), ki = LoadAs<V>(s.ki_on.v), R = LoadAs<V>(m.resistance.v);
+  const V y = LoadAs<V>(s.y_on.v), ky = LoadAs<V>(s.ky_on.v), i = LoadAs<V>(s.i_on.v),
+          ki = LoadAs<V>(s.ki_on.v), R = LoadAs<V>(m.resistance.v);
   const Samples<V> on(LoadAs<V>(out->phase[0].samples.v)), off(LoadAs<V>(out->phase[1].samples.v));
   const V inverse = 1 / (on.product * off.product);  // one division for both
   Fit<V>(on, off.product * inverse, 0.0, step, R, y, ky, i, ki, &out->phase[0]);
-  Fit<V>(off, on.product * inverse, on.n, step, R, LoadAs<V>(s.y.v) - y, LoadAs<V>(s.ky.v) - ky, LoadAs<V>(s.i.v) - i, LoadAs<V>(s.ki.v) - ki,
-      &out->phase[1]);
+  Fit<V>(off, on.product * inverse, on.n, step, R, LoadAs<V>(s.y.v) - y, LoadAs<V>(s.ky.v) - ky,
+         LoadAs<V>(s.i.v) - i, LoadAs<V>(s.ki.v) - ki, &out->phase[1]);
 }
-AMBRIG_WHOLE void FitWhole(const LinkageModel& m, double step, PeriodSlopes* out) { FitPhases<WholeLaneVector>(m, step, out); }
-AMBRIG_WIDE void FitHalves(const LinkageModel& m, double step, PeriodSlopes* out) { FitPhases<LaneVector>(m, step, out); }
+AMBRIG_WHOLE void FitWhole(const LinkageModel& m, double step, PeriodSlopes* out) {
+  FitPhases<WholeLaneVector>(m, step, out);
+}
+AMBRIG_WIDE void FitHalves(const LinkageModel& m, double step, PeriodSlopes* out) {
+  FitPhases<LaneVector>(m, step, out);
+}
 
 }  // namespace
 
@@ -96,9 +110,12 @@ BridgeVoltage VoltageOf(const AmplifierParameters& p, double duty, double bus) {
   return out;
 }
 
-double SlopeVariance(double n, double step) { return n < 2 ? 1e30 : 12 / (n * (n * n - 1) * step * step); }
+double SlopeVariance(double n, double step) {
+  return n < 2 ? 1e30 : 12 / (n * (n * n - 1) * step * step);
+}
 
-void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out) {
+void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
+                   PeriodSlopes* out) {
   const double from[2] = {in.x0, in.y0}, to[2] = {in.x1, in.y1};
   m.Permeance(from, to, &out->permeance);
   const AmplifierParameters& a = *s.amplifier;

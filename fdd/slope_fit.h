@@ -6,7 +6,8 @@
 namespace ambrig {
 
 /// Permeances at both ends, mean and sum for the middle; edges, samples and voltages of the phases.
-void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in, PeriodSlopes* out);
+void PreparePeriod(const LinkageModel& m, const SamplingSettings& s, const MeasuredPeriod& in,
+                   PeriodSlopes* out);
 /// Slopes from the sums.
 void FitSlopes(const LinkageModel& m, const SamplingSettings& s, PeriodSlopes* out);
 

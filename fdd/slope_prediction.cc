@@ -10,8 +10,11 @@ constexpr double kMargin = 700;  // [A/s] error budget of the paper's section 4.
 }
 
 SlopePrediction::SlopePrediction(const CoilDetectorSetup& setup)
-    : model_(setup.model), s_(setup.settings), resistance_(setup),
-      measured_(static_cast<std::size_t>(s_.sampling.samples - 1)), predicted_(measured_.size()) {}
+    : model_(setup.model),
+      s_(setup.settings),
+      resistance_(setup),
+      measured_(static_cast<std::size_t>(s_.sampling.samples - 1)),
+      predicted_(measured_.size()) {}
 
 void SlopePrediction::Predict(const MeasuredPeriod& in, Lane* current) const {
   const MovingInverse inverse(model_, in);
@@ -22,14 +25,16 @@ void SlopePrediction::Predict(const MeasuredPeriod& in, Lane* current) const {
     const LinkageMatrix C = inverse.At(k, s_.sampling.samples);
     i = C * lambda;
     for (int j = 0; j < model_.coils; ++j)
-      if (k > 0 && i[j] < 0) {  // a diode blocks: the linkage follows the others' flux at zero current
+      // a diode blocks: the linkage follows the others' flux at zero current
+      if (k > 0 && i[j] < 0) {
         const double shift = -i[j] / C(j, j);
         lambda[j] += shift;
         i += C.col(j) * shift;
       }
     for (int j = 0; j < model_.coils; ++j) {
       current[k][j] = i[j];
-      lambda[j] += DrivenLinkage(s_.sampling, in, j, k) - s_.sampling.step * resistance_.Value(j) * i[j];
+      lambda[j] +=
+          DrivenLinkage(s_.sampling, in, j, k) - s_.sampling.step * resistance_.Value(j) * i[j];
     }
   }
 }

@@ -8,7 +8,9 @@ namespace ambrig {
 namespace {
 constexpr double kMargin = 700;  // [A/s] error budget of the paper's section 4.1
 
-double Outside(const SlopeRange& range, double k) { return std::max({0.0, range.low - k, k - range.high}); }
+double Outside(const SlopeRange& range, double k) {
+  return std::max({0.0, range.low - k, k - range.high});
+}
 }  // namespace
 
 double InPhaseInductance(const LinkageModel& m, int j, const Lane& P) {
@@ -17,8 +19,11 @@ double InPhaseInductance(const LinkageModel& m, int j, const Lane& P) {
 }
 
 SlopeStatistic::SlopeStatistic(const CoilDetectorSetup& setup, Thresholds thresholds, double cycle)
-    : model_(setup.model), s_(setup.settings), thresholds_(thresholds),
-      resistance_(setup), cycle_(cycle) {
+    : model_(setup.model),
+      s_(setup.settings),
+      thresholds_(thresholds),
+      resistance_(setup),
+      cycle_(cycle) {
   const double centre[2] = {0, 0};
   model_.Permeance(centre, centre, &centred_);
   converter_.attenuation = converter_.sampling_resistance = 1;
@@ -28,16 +33,19 @@ SlopeStatistic::SlopeStatistic(const CoilDetectorSetup& setup, Thresholds thresh
   codes_.resize(static_cast<std::size_t>(s_.sampling.samples));
 }
 
-SlopeCircuit SlopeStatistic::CircuitOf(int j, const MeasuredPeriod& in, const MovingPermeance& P) const {
+SlopeCircuit SlopeStatistic::CircuitOf(int j, const MeasuredPeriod& in,
+                                       const MovingPermeance& P) const {
   const AmplifierParameters& a = *s_.sampling.amplifier;
   const double T = s_.sampling.step * s_.sampling.samples;
-  SlopeCircuit c{a.bus_voltage, a.switch_drop, a.diode_drop, InPhaseInductance(model_, j, centred_.middle),
+  SlopeCircuit c{a.bus_voltage,        a.switch_drop,
+                 a.diode_drop,         InPhaseInductance(model_, j, centred_.middle),
                  model_.resistance[j], T};
   if (thresholds_ == Thresholds::kFixed || !in.comparable) return c;
   c.bus = in.bus;
   c.inductance = InPhaseInductance(model_, j, P.middle);
   // di/dt = (v - i (R + dL/dt))/L
-  c.resistance = resistance_.Value(j) + (InPhaseInductance(model_, j, P.end) - InPhaseInductance(model_, j, P.start)) / T;
+  c.resistance = resistance_.Value(j) +
+                 (InPhaseInductance(model_, j, P.end) - InPhaseInductance(model_, j, P.start)) / T;
   return c;
 }
 

@@ -3,7 +3,8 @@
 ///
 ///   p = r - c > 0:  N = k pⁿ (1 + h p'), clipped at N >= 0
 ///   friction mu N v/√(v² + v_s²), v_s = 0.01 m/s, v: sliding speed of the journal on the race
-///   race (optional inertia J, drag d): J w' = friction * R - d w; mount (optional): mass, stiffness, damping
+///   race (optional inertia J, drag d): J w' = friction * R - d w; mount (optional): mass,
+///     stiffness, damping
 ///
 /// Source: shared/design/physics.md section 8; restitution oracle facts.md section 4.
 #include "core/base/parameters.h"
@@ -16,7 +17,7 @@ struct AuxiliaryParameters {
   double exponent = 1;
   double damping = 0;
   double friction = 0;
-  double race_inertia = 0;      // 0: the race stands still
+  double race_inertia = 0;  // 0: the race stands still
   double race_drag = 0;
   double mount_stiffness = kInfinity;
   double mount_damping = 0;
@@ -35,17 +36,18 @@ inline constexpr Field<AuxiliaryParameters> kAuxiliaryFields[] = {
     {"mount_stiffness", &AuxiliaryParameters::mount_stiffness, "N/m", 1, kInfinity,
      "race on a resilient mount; inf: rigid"},
     {"mount_damping", &AuxiliaryParameters::mount_damping, "N s/m", 0, 1e7, "of the mount"},
-    {"mount_mass", &AuxiliaryParameters::mount_mass, "kg", 1e-4, 100, "race and holder on the mount"},
+    {"mount_mass", &AuxiliaryParameters::mount_mass, "kg", 1e-4, 100,
+     "race and holder on the mount"},
 };
 
 inline constexpr double kSlidingSpeed = 0.01;  // v_s [m/s], regularises the friction
 
 struct ContactForce {
-  double penetration = 0;        // [m], > 0 in contact
-  double normal = 0;             // N >= 0 [N]
-  double fx = 0, fy = 0;         // on the journal [N]
-  double torque = 0;             // on the rotor about z [N m]
-  double race_torque = 0;        // on the race [N m]
+  double penetration = 0;  // [m], > 0 in contact
+  double normal = 0;       // N >= 0 [N]
+  double fx = 0, fy = 0;   // on the journal [N]
+  double torque = 0;       // on the rotor about z [N m]
+  double race_torque = 0;  // on the race [N m]
 };
 
 /// Force on the journal whose centre sits at (x, y) relative to the race and moves with (vx, vy);

@@ -59,8 +59,8 @@ SpringSupport IsotropicSupport(double z, double k, double c);
 
 /// What a person describes.
 struct BeamDefinition {
-  std::vector<ShaftSection>
-      sections;  // shaft pieces and sleeves (stiff = false), may lie in layers
+  // shaft pieces and sleeves (stiff = false), may lie in layers
+  std::vector<ShaftSection> sections;
   std::vector<Disk> disks;
   std::vector<SpringSupport> supports;
   std::vector<double> stations;  // further planes that become nodes (sensors, AMBs)

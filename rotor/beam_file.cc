@@ -49,7 +49,8 @@ Material ReadMaterial(const TomlTable& row, const Materials& materials,
 }
 
 /// Numbers that decide planes or shapes cannot be moved by a calibration.
-void RejectSd(const TomlTable& row, std::initializer_list<const char*> keys, const std::vector<Tolerance>* tolerances) {
+void RejectSd(const TomlTable& row, std::initializer_list<const char*> keys,
+              const std::vector<Tolerance>* tolerances) {
   for (const char* key : keys) {
     double sd = 0;
     row.Number(key, 0.0, &sd);
@@ -58,7 +59,8 @@ void RejectSd(const TomlTable& row, std::initializer_list<const char*> keys, con
 }
 
 constexpr Field<ShaftSection> kLeftEnd[] = {kShaftSectionFields[1], kShaftSectionFields[2]};
-static_assert(kLeftEnd[0].key == std::string_view("od") && kLeftEnd[1].key == std::string_view("id"));
+static_assert(kLeftEnd[0].key == std::string_view("od") &&
+              kLeftEnd[1].key == std::string_view("id"));
 
 ShaftTableSource SourceOf(const TomlTable& row) {
   const auto keys = row.Keys();
@@ -83,7 +85,8 @@ ShaftSection ReadSection(const TomlTable& row, const Materials& materials, bool 
   return s;
 }
 
-Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances, double* rho) {
+Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances,
+              double* rho) {
   // Both spellings first: a misspelt `width` must not end as a missing mass.
   for (const char* key : {"z", "mass", "inertia_diametral", "inertia_polar", "width", "od", "id",
                           "material", "rho", "name"})
@@ -145,9 +148,11 @@ BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
 struct OneDamping {
   double zeta = 0;
 };
-constexpr Field<OneDamping> kOneDamping[] = {{"modal_damping", &OneDamping::zeta, "-", -kInfinity, kInfinity, "ratio of every mode"}};
+constexpr Field<OneDamping> kOneDamping[] = {
+    {"modal_damping", &OneDamping::zeta, "-", -kInfinity, kInfinity, "ratio of every mode"}};
 
-std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta, int modes, std::vector<Tolerance>* tolerances) {
+std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta, int modes,
+                                std::vector<Tolerance>* tolerances) {
   if (rotor.IsArray("modal_damping")) {
     zeta = rotor.Numbers("modal_damping");
   } else if (rotor.Has("modal_damping")) {
@@ -156,8 +161,8 @@ std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta
     zeta = {one.zeta};
   }
   if (zeta.size() != 1 && static_cast<int>(zeta.size()) != modes)
-    rotor.Fail("modal_damping",
-               fmt::format("{}, allowed: one, or one per mode ({})", Counted(zeta.size(), "value"), modes));
+    rotor.Fail("modal_damping", fmt::format("{}, allowed: one, or one per mode ({})",
+                                            Counted(zeta.size(), "value"), modes));
   for (double z : zeta)
     if (!(z >= 0 && z < 1))
       rotor.Fail("modal_damping", fmt::format("{}, allowed 0 to below 1", NumberText(z)));
@@ -195,7 +200,8 @@ void AddPlane(const TomlTable& row, const std::string& name, double z, BeamFile&
   if (name.find_first_of(". \t") != std::string::npos)
     row.Fail("name", fmt::format("= \"{}\", allowed: a name without dots and blanks", name));
   for (const ShaftPlane& p : out.planes)
-    if (p.name == name) row.Fail("name", fmt::format("= \"{}\" is taken, allowed: another name", name));
+    if (p.name == name)
+      row.Fail("name", fmt::format("= \"{}\" is taken, allowed: another name", name));
   out.planes.push_back({name, z});
 }
 
@@ -211,34 +217,36 @@ void ReadPlanes(const TomlTable& rotor, BeamFile& out, const std::vector<Toleran
   }
 }
 
-/// The tables of one [rotor], in the rig's file or in the shaft's own; what is absent stays as it was.
+/// The tables of one [rotor], in the rig's file or in the shaft's own; what is absent stays as it
+/// was.
 void ReadOwnTable(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
   rotor.Choice("kind", "beam", "beam");
   BeamDefinition& d = out.definition;
   ReadTables(rotor, out, tolerances);
   ReadPlanes(rotor, out, tolerances);
   d.theory = ReadTheory(rotor, d.theory);
-  d.elements_per_section = ReadCount(rotor, "elements_per_section", d.elements_per_section, 1, 1000);
+  d.elements_per_section =
+      ReadCount(rotor, "elements_per_section", d.elements_per_section, 1, 1000);
   out.modes = ReadCount(rotor, "modes", out.modes, 0, 100);
   out.modal_damping = ReadDamping(rotor, out.modal_damping, out.modes, tolerances);
 }
 
-void FromRoss(const std::string& file, const std::function<void(const std::string&, double)>& add, BeamFile& out,
-              std::vector<std::string>* ignored) {
+void FromRoss(const std::string& file, const std::function<void(const std::string&, double)>& add,
+              BeamFile& out, std::vector<std::string>* ignored) {
   RossRotor ross = ReadRoss(file);
   out.definition = std::move(ross.definition);
   if (ignored) *ignored = ross.ignored;
   for (const Disk& d : out.definition.disks) {
     std::string name = d.name;  // ROSS's names have blanks: "Disk 0"
-    std::replace_if(name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
     add(name, d.z);
   }
 }
 
 /// A table's own file: ROSS's, or one with a [rotor] of the same tables.
 void ReadShaftFile(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
-  if (rotor.Has("section"))
-    rotor.Fail("section", "is given beside file, allowed: one of them");
+  if (rotor.Has("section")) rotor.Fail("section", "is given beside file, allowed: one of them");
   const std::filesystem::path given = rotor.String("file");
   const std::filesystem::path folder = std::filesystem::path(rotor.file()).parent_path();
   const std::string file = (given.is_absolute() ? given : folder / given).string();
@@ -253,7 +261,9 @@ void ReadShaftFile(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>
   } else if (given.extension() != ".json") {
     rotor.Fail("file", fmt::format("= \"{}\", allowed: a .toml or .json file", given.string()));
   }
-  FromRoss(file, [&](const std::string& name, double z) { AddPlane(rotor, name, z, out); }, out, nullptr);
+  FromRoss(
+      file, [&](const std::string& name, double z) { AddPlane(rotor, name, z, out); }, out,
+      nullptr);
 }
 
 }  // namespace
@@ -298,9 +308,12 @@ BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>
   BeamFile out;
   out.modes = 2;
   out.modal_damping = {0.0};
-  FromRoss(file, [&](const std::string& name, double z) {
-    if (!name.empty()) out.planes.push_back({name, z});
-  }, out, ignored);
+  FromRoss(
+      file,
+      [&](const std::string& name, double z) {
+        if (!name.empty()) out.planes.push_back({name, z});
+      },
+      out, ignored);
   return out;
 }
 

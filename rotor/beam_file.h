@@ -10,15 +10,21 @@
 ///     shear = true                     # rotary_inertia, gyroscopic likewise
 ///     shear_coefficient = "cowper"     # | "hutchinson"
 ///     stations = [0.05]                # planes that must be nodes
-///     file = "shaft.json"              # the shaft from another file instead of sections here: one that
-///                                      # ROSS saved (.toml, .json), or a [rotor] of these tables (.toml)
+///     file = "shaft.json"              # the shaft from another file instead of sections here:
+///       one that
+///                                      # ROSS saved (.toml, .json),
+///                                        or a [rotor] of these tables (.toml)
 ///     [rotor.materials.mysteel]        # E, rho, nu; built in: steel, aluminium, titanium
-///     [[rotor.section]]                # left to right; z0 = end of the section before, unless given
+///     [[rotor.section]]                # left to right; z0 = end of the section before,
+///       unless given
 ///     length = 0.1
-///     od = 0.02                        # id, od_right, id_right, damping_mass, damping_stiffness, name
+///     od = 0.02                        # id, od_right, id_right, damping_mass, damping_stiffness,
+///       name
 ///     material = "steel"               # or E, rho, nu
-///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id, material or rho
-///     [[rotor.disk]]                   # z with mass, inertia_diametral, inertia_polar or with width, od,
+///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id,
+///       material or rho
+///     [[rotor.disk]]                   # z with mass, inertia_diametral,
+///       inertia_polar or with width, od,
 ///                                      # id, material; name
 ///     [[rotor.station]]                # name, z: a plane for loads, unbalance and the record
 ///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ...: analysis only
@@ -63,15 +69,17 @@ struct ShaftParameter {
 struct BeamFile {
   BeamDefinition definition;
   std::vector<ShaftPlane> planes;
-  int modes = 0;               // wanted
-  std::vector<double> modal_damping;  // one for all modes or one each
-  std::map<std::string, Material> materials;               // named ones
+  int modes = 0;                                                // wanted
+  std::vector<double> modal_damping;                            // one for all modes or one each
+  std::map<std::string, Material> materials;                    // named ones
   std::vector<ShaftTableSource> section_sources, disk_sources;  // as definition.sections, .disks
-  std::vector<ShaftParameter> parameters;                  // of the tolerances asked for, in their order
+  // of the tolerances asked for, in their order
+  std::vector<ShaftParameter> parameters;
 };
 
-/// Leaves unknown keys of [rotor] itself to the caller, who may know more of them. Numbers with an sd are
-/// appended to `tolerances`, each with its ShaftParameter; without `tolerances` an sd is not looked at.
+/// Leaves unknown keys of [rotor] itself to the caller, who may know more of them. Numbers with an
+/// sd are appended to `tolerances`, each with its ShaftParameter; without `tolerances` an sd is not
+/// looked at.
 BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances = nullptr);
 
 /// The simulator's rotor.

@@ -19,7 +19,7 @@ double DisplacementAt(const ReducedRotor& r, std::size_t e, int mode, double s) 
 
 /// The cubic through the values at u = 0, 1/3, 2/3, 1.
 ShapePoint CubicPiece(double z, const double (&g)[4]) {
-  const double third = (g[1] - (2 * g[0] + g[3]) / 3) * 4.5;      // bend + twist/3
+  const double third = (g[1] - (2 * g[0] + g[3]) / 3) * 4.5;       // bend + twist/3
   const double two_thirds = (g[2] - (g[0] + 2 * g[3]) / 3) * 4.5;  // bend + 2 twist/3
   return {z, g[0], 2 * third - two_thirds, 3 * (two_thirds - third)};
 }
@@ -34,7 +34,8 @@ std::vector<ShapePoint> ShapeOf(const ReducedRotor& r, int mode) {
       shape.push_back(CubicPiece(r.node_z[e] + h * piece - r.z_com, g));
     }
   const std::size_t last = r.elements.size() - 1;
-  shape.push_back({r.node_z.back() - r.z_com, DisplacementAt(r, last, mode, r.elements[last].length)});
+  shape.push_back(
+      {r.node_z.back() - r.z_com, DisplacementAt(r, last, mode, r.elements[last].length)});
   return shape;
 }
 }  // namespace
@@ -45,7 +46,8 @@ double BendingMode::Gain(double z) const {
   std::size_t k = 0;
   while (k + 2 < shape.size() && z > shape[k + 1].z) ++k;
   const ShapePoint &a = shape[k], &b = shape[k + 1];
-  const double u = (z - a.z) / (b.z - a.z), straight = a.gain + (b.gain - a.gain) * (z - a.z) / (b.z - a.z);
+  const double u = (z - a.z) / (b.z - a.z),
+               straight = a.gain + (b.gain - a.gain) * (z - a.z) / (b.z - a.z);
   if (u < 0) return straight + u * a.bend;
   if (u > 1) return straight - (u - 1) * (a.bend + a.twist);
   return straight + u * (1 - u) * (a.bend + a.twist * u);

@@ -17,17 +17,17 @@ namespace ambrig {
 /// Gain of a mode at z, and how it bends towards the next point, u = 0..1 between the two:
 ///   gain = g0 + (g1 - g0) u + u (1 - u) (bend + twist u)      any cubic; straight when both are 0
 struct ShapePoint {
-  double z = 0;                 // from the centre of mass [m]
-  double gain = 0;              // [kg^-1/2]
-  double bend = 0, twist = 0;   // [kg^-1/2]
+  double z = 0;                // from the centre of mass [m]
+  double gain = 0;             // [kg^-1/2]
+  double bend = 0, twist = 0;  // [kg^-1/2]
 };
 
 struct BendingMode {
-  double omega = 0;        // [rad/s]
-  double damping = 0;      // zeta [-]
-  double gyroscopic = 0;   // J_kk [-]
-  std::vector<ShapePoint> shape;  // along z
-  double gyroscopic_tilt = 0;     // J_k0, with the rotor's tilt [kg^1/2 m]
+  double omega = 0;                      // [rad/s]
+  double damping = 0;                    // zeta [-]
+  double gyroscopic = 0;                 // J_kk [-]
+  std::vector<ShapePoint> shape;         // along z
+  double gyroscopic_tilt = 0;            // J_k0, with the rotor's tilt [kg^1/2 m]
   std::vector<double> gyroscopic_other;  // J_kl with the modes l before this one; fewer: 0
   /// Displacement of the shaft centre at z; straight on beyond the ends. [kg^-1/2]
   double Gain(double z) const;
@@ -61,8 +61,8 @@ class ModalShaft {
  private:
   std::vector<BendingMode> modes_;
   std::vector<int> dof_;
-  double root_inertia_;      // √It, scales the tilt like a mode [kg^1/2 m]
-  std::vector<double> row_;  // sums |J| of the tilt and of each mode, mass normalised
+  double root_inertia_;            // √It, scales the tilt like a mode [kg^1/2 m]
+  std::vector<double> row_;        // sums |J| of the tilt and of each mode, mass normalised
   double omega_ = 0, spread_ = 0;  // largest w [rad/s] and row sum [-]
 };
 

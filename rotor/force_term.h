@@ -15,10 +15,10 @@ using DofVector = std::array<double, kMaxDof>;
 /// physics.md section 1: x, y, z [m], alpha about x, beta about y [rad]; then bending modes, the
 /// stator's base, races on mounts.
 struct MotionState {
-  double t = 0;                    // [s]
-  double theta = 0, Omega = 0;     // spin angle [rad] and speed [rad/s]
-  double Omega_dot = 0;            // [rad/s2]
-  DofVector q{}, v{};              // coordinates and rates
+  double t = 0;                 // [s]
+  double theta = 0, Omega = 0;  // spin angle [rad] and speed [rad/s]
+  double Omega_dot = 0;         // [rad/s2]
+  DofVector q{}, v{};           // coordinates and rates
 };
 
 /// A point of a plane across the axis. [m], or [m/s] of a velocity
@@ -26,11 +26,12 @@ struct PlanePoint {
   double x = 0, y = 0;
 };
 
-/// How a plane at axial position z sees the coordinates: x_plane = Σ wx_d q_d, y_plane = Σ wy_d q_d.
+/// How a plane at axial position z sees the coordinates: x_plane = Σ wx_d q_d, y_plane = Σ wy_d
+/// q_d.
 struct PlaneMap {
-  double z = 0;                    // [m]
+  double z = 0;  // [m]
   int count = 0;
-  bool of_rigid_rotor = true;      // nothing but x + z beta, y - z alpha: so far as was added
+  bool of_rigid_rotor = true;  // nothing but x + z beta, y - z alpha: so far as was added
   std::array<int, kMaxPlane> dof{};
   std::array<double, kMaxPlane> wx{}, wy{};
   void Add(int d, double x, double y) {
@@ -66,8 +67,7 @@ struct PlaneMap {
   }
   double Dot(const std::array<double, kMaxPlane>& w, const DofVector& q) const {
     double s = 0;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
-      s += w[k] * q[U(k)];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) s += w[k] * q[U(k)];
     return s;
   }
   std::size_t U(std::size_t k) const { return static_cast<std::size_t>(dof[k]); }
@@ -75,10 +75,12 @@ struct PlaneMap {
 
 /// Sums that a force term adds to.
 struct RotorForces {
-  DofVector Q{};        // generalised forces on q
-  double torque = 0;    // about the spin axis [N m]
-  double stator_x = 0, stator_y = 0;  // what the stator pushes on the rotor (its reaction moves a base) [N]
-  double base_ax = 0, base_ay = 0;    // acceleration of the frame [m/s2]; the rotor sees its negative
+  DofVector Q{};      // generalised forces on q
+  double torque = 0;  // about the spin axis [N m]
+  // what the stator pushes on the rotor (its reaction moves a base) [N]
+  double stator_x = 0, stator_y = 0;
+  // acceleration of the frame [m/s2]; the rotor sees its negative
+  double base_ax = 0, base_ay = 0;
 };
 
 class ForceTerm {

@@ -51,7 +51,8 @@ void AddModes(const RotorModel& model, LinearRotor& out) {
     }
     out.G(d, d + 1) = mode.gyroscopic;
     out.G(d + 1, d) = -mode.gyroscopic;
-    const double tilt = mode.gyroscopic_tilt;  // psi is beta in the x-z plane, -alpha in the y-z plane
+    // psi is beta in the x-z plane, -alpha in the y-z plane
+    const double tilt = mode.gyroscopic_tilt;
     out.G(d, 3) = out.G(d + 1, 4) = -tilt;
     out.G(3, d) = out.G(4, d + 1) = tilt;
     for (std::size_t l = 0; l < mode.gyroscopic_other.size(); ++l) {

@@ -28,11 +28,11 @@ struct PlaneMap;
 
 /// Forces at one plane come in by B (dofs x axes), displacements there are read by C (axes x dofs).
 struct LinearPort {
-  std::string name;           // of the bearing
-  double z = 0;               // force plane [m]
-  double sensor_z = 0;        // [m]
-  Eigen::MatrixXd B, C;       // of the magnets' plane, of the sensor's plane
-  Eigen::MatrixXd gap;        // displacement at the magnets' plane: of the negative stiffness
+  std::string name;      // of the bearing
+  double z = 0;          // force plane [m]
+  double sensor_z = 0;   // [m]
+  Eigen::MatrixXd B, C;  // of the magnets' plane, of the sensor's plane
+  Eigen::MatrixXd gap;   // displacement at the magnets' plane: of the negative stiffness
 };
 
 struct LinearRotor {
@@ -49,7 +49,8 @@ LinearRotor Linearise(const RotorModel& model, double speed = 0);
 /// Displacement (x, y) of a plane as rows over the model's coordinates (2 x dofs).
 Eigen::MatrixXd PlaneRows(const RotorModel& model, const PlaneMap& plane);
 
-/// How a force (fx, fy) of the stator at a plane enters (dofs x 2), its reaction on a base included.
+/// How a force (fx, fy) of the stator at a plane enters (dofs x 2), its reaction on a base
+/// included.
 Eigen::MatrixXd ForceColumns(const RotorModel& model, const PlaneMap& plane);
 
 }  // namespace ambrig

@@ -1,6 +1,7 @@
 #pragma once
 /// Position readings of one plane: shaft-centre displacement at the sensor's own z, through a chain
-/// of reading maps (sensor effects and faults), plus noise. Source: shared/design/physics.md section 4.
+/// of reading maps (sensor effects and faults), plus noise. Source: shared/design/physics.md
+/// section 4.
 #include <memory>
 #include <vector>
 

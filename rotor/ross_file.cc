@@ -45,13 +45,20 @@ struct Element {
 
 Element Named(const std::string& key, const std::string& where) {
   const std::size_t at = key.find('_');
-  return {key.substr(0, at), at == std::string::npos ? "" : key.substr(at + 1), where, {}, {}, {}, false};
+  return {key.substr(0, at),
+          at == std::string::npos ? "" : key.substr(at + 1),
+          where,
+          {},
+          {},
+          {},
+          false};
 }
 
 /// Coefficients, their axes and damping ratios; other arrays (colours, names) may hold anything.
 bool IsTabulated(const std::string& key) {
   const bool coefficient = key.size() == 3 && (key[0] == 'k' || key[0] == 'c');
-  return coefficient || key == "speed" || key == "frequency" || key == "w" || key == "modal_damping_ratio";
+  return coefficient || key == "speed" || key == "frequency" || key == "w" ||
+         key == "modal_damping_ratio";
 }
 
 void ReadList(const TomlTable& t, const std::string& key, Element& e) {
@@ -157,9 +164,11 @@ ShaftSection ReadShaft(const Element& e) {
 
 Disk ReadDisk(const Element& e, double z) {
   const Disk d{z, e.Get("m"), e.Get("Id"), e.Get("Ip"), e.name};
-  CheckRanges(d, kDiskFields, [&](std::string_view key) { return fmt::format("{}: {}", e.where, key); });
+  CheckRanges(d, kDiskFields,
+              [&](std::string_view key) { return fmt::format("{}: {}", e.where, key); });
   if (d.inertia_polar > 2 * d.inertia_diametral * (1 + 1e-9))
-    e.Fail(fmt::format("Ip = {} kg m2, allowed up to twice Id = {} kg m2", NumberText(d.inertia_polar), NumberText(d.inertia_diametral)));
+    e.Fail(fmt::format("Ip = {} kg m2, allowed up to twice Id = {} kg m2",
+                       NumberText(d.inertia_polar), NumberText(d.inertia_diametral)));
   return d;
 }
 
@@ -215,7 +224,8 @@ double At(const Element& e, const std::string& key, double fallback, double spee
   const char* axis = e.Has("speed") ? "speed" : e.Has("frequency") ? "frequency" : "w";
   const auto it = e.numbers.find(axis);
   if (it == e.numbers.end() || it->second.size() != y.size())
-    e.Fail(fmt::format("{} has {}, allowed: one, or as many as {}", key, Counted(y.size(), "value"), axis));
+    e.Fail(fmt::format("{} has {}, allowed: one, or as many as {}", key, Counted(y.size(), "value"),
+                       axis));
   const std::vector<double>& x = it->second;
   const std::size_t i = std::clamp<std::size_t>(
       std::upper_bound(x.begin(), x.end(), speed) - x.begin(), 1, x.size() - 1);
@@ -257,7 +267,8 @@ RossRotor ReadRoss(const std::string& file, double speed) {
       out.magnetic_bearings.push_back({e.name, PlaneOf(e, z)});
       d.stations.push_back(PlaneOf(e, z));
     } else if (e.two_axes) {
-      out.ignored.push_back(e.kind + "_" + e.name + " (coefficients over speed and whirl frequency)");
+      out.ignored.push_back(e.kind + "_" + e.name +
+                            " (coefficients over speed and whirl frequency)");
     } else if (e.Has("kxx")) {
       d.supports.push_back(ReadSupport(e, PlaneOf(e, z), speed));
     } else if (e.kind == "parameters") {

@@ -1,12 +1,12 @@
 #pragma once
-/// The rotor file of ROSS (petrobras/ross, `Rotor.save` and `Rotor.load` of versions 1 to 3): TOML or
-/// JSON, one table "Class_tag" per element, whose keys are the arguments of that class. Read: shaft
-/// elements (L, idl, odl, idr, odr, n, alpha, beta, material; several at one n are layers), disk elements
-/// (n, m, Id, Ip), bearings and seals with coefficients kxx, cxx, ... over the speed [rad/s] (`speed` of
-/// version 3, `frequency` of 1 and 2, `w` before). Magnetic bearings become planes (ambrig has its own),
-/// and what has no counterpart is named, never dropped silently.
-/// Written: only keys that every one of these versions takes, and no `ross_version`, which version 1 takes
-/// for an element; versions 2 and 3 then warn that they do not know who wrote the file.
+/// The rotor file of ROSS (petrobras/ross, `Rotor.save` and `Rotor.load` of versions 1 to 3): TOML
+/// or JSON, one table "Class_tag" per element, whose keys are the arguments of that class. Read:
+/// shaft elements (L, idl, odl, idr, odr, n, alpha, beta, material; several at one n are layers),
+/// disk elements (n, m, Id, Ip), bearings and seals with coefficients kxx, cxx, ... over the speed
+/// [rad/s] (`speed` of version 3, `frequency` of 1 and 2, `w` before). Magnetic bearings become
+/// planes (ambrig has its own), and what has no counterpart is named, never dropped silently.
+/// Written: only keys that every one of these versions takes, and no `ross_version`, which version
+/// 1 takes for an element; versions 2 and 3 then warn that they do not know who wrote the file.
 /// ROSS's axes are ours. A sleeve is written as a shaft element of E = 1 Pa and read back as one:
 /// ROSS has no other way to say mass without stiffness along a shaft. ROSS knows no lumped mass, so
 /// that choice is not in the file.
@@ -25,7 +25,8 @@ struct RossPlane {
 struct RossRotor {
   BeamDefinition definition;
   std::vector<RossPlane> magnetic_bearings;
-  std::vector<std::string> ignored;  // "PointMass_housing", "parameters.alpha": what is not modelled here
+  // "PointMass_housing", "parameters.alpha": what is not modelled here
+  std::vector<std::string> ignored;
 };
 
 /// Speed-dependent coefficients are taken at `speed` [rad/s], linear between entries.

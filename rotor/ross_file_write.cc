@@ -25,20 +25,21 @@ Json MaterialTable(const ShaftSection& s) {
 }
 
 Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std::string& tag) {
-  Json table = {{"L", s.length},
-                {"idl", s.id},
-                {"odl", s.od},
-                {"idr", s.id_right},
-                {"odr", s.od_right},
-                {"n", node},
-                {"axial_force", 0},
-                {"torque", 0},
-                {"shear_effects", t.shear},
-                {"rotary_inertia", t.rotary_inertia},
-                {"gyroscopic", t.gyroscopic},
-                {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
-                {"tag", tag},
-                {"material", MaterialTable(s)}};
+  Json table = {
+      {"L", s.length},
+      {"idl", s.id},
+      {"odl", s.od},
+      {"idr", s.id_right},
+      {"odr", s.od_right},
+      {"n", node},
+      {"axial_force", 0},
+      {"torque", 0},
+      {"shear_effects", t.shear},
+      {"rotary_inertia", t.rotary_inertia},
+      {"gyroscopic", t.gyroscopic},
+      {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
+      {"tag", tag},
+      {"material", MaterialTable(s)}};
   // Unknown to the first files of version 1, which hold no damping of a shaft.
   if (s.damping_mass != 0 || s.damping_stiffness != 0) {
     table["alpha"] = s.damping_mass;

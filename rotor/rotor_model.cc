@@ -10,7 +10,9 @@ std::size_t U(int d) { return static_cast<std::size_t>(d); }
 }  // namespace
 
 RotorModel::RotorModel(const RotorParameters& parameters, const std::array<double, 3>& gravity)
-    : p_(parameters), g_(gravity), shaft_(parameters.inertia_transverse, parameters.inertia_polar) {}
+    : p_(parameters),
+      g_(gravity),
+      shaft_(parameters.inertia_transverse, parameters.inertia_polar) {}
 
 int RotorModel::NewDof(double mass) {
   if (dof_ >= kMaxDof) throw InputError("too many moving parts in one rig (modes, mounts, races)");
@@ -95,7 +97,8 @@ void RotorModel::Rest(MotionState& s) const {
   for (std::size_t k = 0; k < 2; ++k) {
     const AuxiliaryPlane& aux = aux_[k];
     depth[k] = aux.parameters.clearance + StaticPenetration(aux.parameters, load[k]);
-    depth[k] -= nx * aux.map.X(s.q) + ny * aux.map.Y(s.q);  // bent part: the rigid one is still zero
+    // bent part: the rigid one is still zero
+    depth[k] -= nx * aux.map.X(s.q) + ny * aux.map.Y(s.q);
     if (aux.mount_dof < 0) continue;
     const double sag = load[k] / aux.parameters.mount_stiffness;
     s.q[U(aux.mount_dof)] = nx * sag;

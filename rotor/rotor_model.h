@@ -74,7 +74,10 @@ class RotorModel {
   void AddBendingMode(const BendingMode& mode);
   PlaneMap MakePlane(double z) const;
   void AddAuxiliary(const std::string& name, double z, const AuxiliaryParameters& p);
-  void SetAxialStop(const AuxiliaryParameters& p) { axial_ = p; has_axial_ = true; }
+  void SetAxialStop(const AuxiliaryParameters& p) {
+    axial_ = p;
+    has_axial_ = true;
+  }
   /// Puts the race of auxiliary plane `k` on a mount (or changes the mount it has).
   void SetMount(std::size_t k, double stiffness, double damping, double mass);
   void SetBase(double mass, double stiffness, double damping);
@@ -138,11 +141,10 @@ class RotorModel {
   void StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
                 bool near_contact) const;
   /// The same under `forced` alone, loads included.
-  void StepUnder(MotionState& s, const DofVector& forced, double stator_x, double stator_y, double dt, bool near_contact) const;
+  void StepUnder(MotionState& s, const DofVector& forced, double stator_x, double stator_y,
+                 double dt, bool near_contact) const;
   /// Whether nothing but given forces and gyroscopics acts: a rigid rotor, touching nothing.
-  bool FliesFreely(bool near_contact) const {
-    return dof_ == 5 && !near_contact && terms.empty();
-  }
+  bool FliesFreely(bool near_contact) const { return dof_ == 5 && !near_contact && terms.empty(); }
   /// StepOnce, to rounding, of a rotor that flies freely.
   void Fly(MotionState& s, const DofVector& forced, double dt) const;
 

@@ -35,8 +35,8 @@ struct WhirlMode {
   double omega_d = 0;      // Im s
   double zeta = 0;
   double log_decrement = 0;
-  double whirl =
-      0;  // (forward - backward) / (forward + backward), squared amplitudes of all planes
+  // (forward - backward) / (forward + backward), squared amplitudes of all planes
+  double whirl = 0;
   Eigen::VectorXcd shape;
   Whirl sense() const;  // mixed: |whirl| < 0.1, among them every planar motion
 };

@@ -31,7 +31,8 @@ PlanePoint RotorModel::OnSurface(const MotionState& s, const PlaneMap& plane) co
   double dx = 0, dy = 0;
   for (const auto& term : surface) term->Add(s, plane.z, &dx, &dy);
   for (std::size_t k = 0; k < static_cast<std::size_t>(plane.count); ++k) {
-    // Seen as the plane sees a shift of the rotor: along one axis by an opposed pair, not by a thrust bearing.
+    // Seen as the plane sees a shift of the rotor: along one axis by an opposed pair, not by a
+    // thrust bearing.
     if (plane.dof[k] > 1) continue;
     const double shift = plane.dof[k] == 0 ? dx : dy;
     p.x += plane.wx[k] * shift;
@@ -40,8 +41,9 @@ PlanePoint RotorModel::OnSurface(const MotionState& s, const PlaneMap& plane) co
   return p;
 }
 
-void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double stator_x, double stator_y,
-                               DofVector& a, double* torque, bool near_contact) const {
+void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double stator_x,
+                               double stator_y, DofVector& a, double* torque,
+                               bool near_contact) const {
   RotorForces f;
   f.Q = Q;
   f.stator_x = stator_x;
@@ -74,8 +76,7 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
       f.stator_x += c.fx;
       f.stator_y += c.fy;
     }
-    if (aux.race_dof >= 0)
-      f.Q[U(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
+    if (aux.race_dof >= 0) f.Q[U(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
     if (c.penetration <= 0) continue;
     aux.map.AddForce(c.fx, c.fy, f.Q);
     f.torque += c.torque;
@@ -86,8 +87,11 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   if (base_dof_ >= 0) {
     const std::size_t d = U(base_dof_);
     // Relative to the floor, which may itself accelerate.
-    a[d] = (-base_.stiffness * s.q[d] - base_.damping * s.v[d] - f.stator_x) / base_.mass - f.base_ax;
-    a[d + 1] = (-base_.stiffness * s.q[d + 1] - base_.damping * s.v[d + 1] - f.stator_y) / base_.mass - f.base_ay;
+    a[d] =
+        (-base_.stiffness * s.q[d] - base_.damping * s.v[d] - f.stator_x) / base_.mass - f.base_ax;
+    a[d + 1] =
+        (-base_.stiffness * s.q[d + 1] - base_.damping * s.v[d + 1] - f.stator_y) / base_.mass -
+        f.base_ay;
     ax += a[d];
     ay += a[d + 1];
   }
@@ -107,8 +111,8 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   *torque = f.torque;
 }
 
-void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt,
-                          bool near_contact) const {
+void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, double stator_y,
+                          double dt, bool near_contact) const {
   if (loads_.empty()) return StepUnder(s, Q, stator_x, stator_y, dt, near_contact);
   // Loads of the scenario enter with their mean over the step, so that their impulse is exact.
   DofVector forced = Q;
@@ -122,7 +126,8 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
   StepUnder(s, forced, stator_x, stator_y, dt, near_contact);
 }
 
-void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stator_x, double stator_y, double dt, bool near_contact) const {
+void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stator_x,
+                           double stator_y, double dt, bool near_contact) const {
   if (FliesFreely(near_contact)) return Fly(s, forced, dt);
   const bool free_spin = SpeedIsFree(s.t) && p_.inertia_polar > 0;
   MotionState stage = s;
@@ -159,7 +164,8 @@ void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stato
     s.theta += w * (stage_w[0] + 2 * (stage_w[1] + stage_w[2]) + stage_w[3]);
     s.Omega += w * (k_w[0] + 2 * (k_w[1] + k_w[2]) + k_w[3]);
   } else {
-    Prescribe(s);  // also where the speed is free from: a step that began before ends on the profile
+    // also where the speed is free from: a step that began before ends on the profile
+    Prescribe(s);
   }
 }
 
@@ -175,9 +181,10 @@ void RotorModel::Fly(MotionState& s, const DofVector& forced, double dt) const {
     s.v[d] += w * (a[d] + 2 * (a[d] + a[d]) + a[d]);
   }
   const double start_speed = free_spin ? s.Omega : speed_.Speed(s.t);
-  const double half_speed = free_spin ? s.Omega : speed_.Speed(s.t + half), end_speed = free_spin ? s.Omega : speed_.Speed(s.t + dt);
-  const double spin[4] = {p_.inertia_polar * start_speed, p_.inertia_polar * half_speed, p_.inertia_polar * half_speed,
-                          p_.inertia_polar * end_speed};
+  const double half_speed = free_spin ? s.Omega : speed_.Speed(s.t + half),
+               end_speed = free_spin ? s.Omega : speed_.Speed(s.t + dt);
+  const double spin[4] = {p_.inertia_polar * start_speed, p_.inertia_polar * half_speed,
+                          p_.inertia_polar * half_speed, p_.inertia_polar * end_speed};
   const double ahead[4] = {0, half, half, dt}, tilt[2] = {s.v[3], s.v[4]};
   const double inverse_inertia = 1 / p_.inertia_transverse;
   double k_v[4][2], k_a[4][2];
@@ -216,7 +223,8 @@ double RotorModel::AxialPenetration(const MotionState& s) const {
 bool RotorModel::FarFromContact(const MotionState& s, std::size_t plane, double horizon) const {
   if (!surface.empty() || aux_[plane].mount_dof >= 0) return false;
   const PlaneMap& m = aux_[plane].map;
-  const double reach = std::abs(m.X(s.q)) + std::abs(m.Y(s.q)) + horizon * (std::abs(m.X(s.v)) + std::abs(m.Y(s.v)));
+  const double reach =
+      std::abs(m.X(s.q)) + std::abs(m.Y(s.q)) + horizon * (std::abs(m.X(s.v)) + std::abs(m.Y(s.v)));
   return reach < aux_[plane].parameters.clearance - 2e-7;
 }
 
@@ -235,13 +243,15 @@ double RotorModel::MountRate() const {
   for (const AuxiliaryPlane& aux : aux_) {
     if (aux.mount_dof < 0) continue;
     const AuxiliaryParameters& p = aux.parameters;
-    rate = std::max({rate, std::sqrt(p.mount_stiffness / p.mount_mass), p.mount_damping / p.mount_mass});
+    rate = std::max(
+        {rate, std::sqrt(p.mount_stiffness / p.mount_mass), p.mount_damping / p.mount_mass});
   }
   return rate;
 }
 
 double RotorModel::StiffnessRate(const MotionState& s) const {
-  // Fastest rate [1/s] among the contacts: impact, regularised friction on journal and race, mounts.
+  // Fastest rate [1/s] among the contacts: impact, regularised friction on journal and race,
+  // mounts.
   double rate = 0;
   for (std::size_t k = 0; k < aux_.size(); ++k) {
     const AuxiliaryPlane& aux = aux_[k];
@@ -254,26 +264,31 @@ double RotorModel::StiffnessRate(const MotionState& s) const {
     for (int c = 4; c < aux.map.count; ++c) mobility += aux.map.wx[U(c)] * aux.map.wx[U(c)];
     if (aux.mount_dof >= 0) {
       mobility += 1 / p.mount_mass;
-      rate = std::max({rate, std::sqrt(p.mount_stiffness / p.mount_mass), p.mount_damping / p.mount_mass});
+      rate = std::max(
+          {rate, std::sqrt(p.mount_stiffness / p.mount_mass), p.mount_damping / p.mount_mass});
     }
     rate = std::max(rate, std::sqrt(stiffness * mobility));
     const double normal = p.stiffness * std::pow(depth, p.exponent);
-    double tangential = mobility + p_.journal_radius * p_.journal_radius / std::max(p_.inertia_polar, 1e-9);
+    double tangential =
+        mobility + p_.journal_radius * p_.journal_radius / std::max(p_.inertia_polar, 1e-9);
     if (aux.race_dof >= 0) tangential += p_.journal_radius * p_.journal_radius / p.race_inertia;
-    rate = std::max({rate, p.friction * normal / kSlidingSpeed * tangential, p.damping * normal * mobility});
+    rate = std::max(
+        {rate, p.friction * normal / kSlidingSpeed * tangential, p.damping * normal * mobility});
   }
   if (has_axial_ && axial_free) rate = std::max(rate, std::sqrt(axial_.stiffness / p_.mass));
   return rate;
 }
 
-void RotorModel::Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y, double dt) const {
+void RotorModel::Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y,
+                      double dt) const {
   const int modal =
       shaft_.empty() ? 1 : static_cast<int>(std::ceil(dt * shaft_.Rate(s.Omega) / kModalAngle));
   int pieces = std::clamp(std::max(static_cast<int>(std::ceil(dt * MountRate())), modal), 1, 400);
   const bool near = NearContact(s, 2 * dt);
   if (near) {
     // Fine enough that an impact is resolved to nanometres and no friction rate is unstable.
-    pieces = std::clamp(std::max(static_cast<int>(std::ceil(dt * StiffnessRate(s) / 0.02)), modal), 4, 400);
+    pieces = std::clamp(std::max(static_cast<int>(std::ceil(dt * StiffnessRate(s) / 0.02)), modal),
+                        4, 400);
   }
   const double h = dt / pieces, t0 = s.t;
   for (int k = 0; k < pieces; ++k) {

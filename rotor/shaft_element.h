@@ -7,9 +7,8 @@
 ///   M = ∫ rho A w'w + rho I psi'psi,   J = ∫ 2 rho I psi'psi (gyroscopic),   K = ∫ M²/EI +
 ///   Q²/(kappa G A)
 /// Layers of one element share w and psi: shaft layers add mass and stiffness, sleeves and
-/// laminations
-/// (`stiff` = false) mass alone. Units SI. Sources: Timoshenko beam theory; kappa of Cowper (J.
-/// Appl. Mech. 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for a hollow circle.
+/// laminations (`stiff` = false) mass alone. Units SI. Sources: Timoshenko beam theory; kappa of
+/// Cowper (J. Appl. Mech. 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for a hollow circle.
 #include <Eigen/Dense>
 #include <string>
 #include <vector>

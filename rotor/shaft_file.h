@@ -8,7 +8,8 @@
 namespace ambrig {
 
 /// The shaft of a file of its own: ROSS's (.toml, .json), or a .toml with a [rotor] of kind beam, a
-/// rig file among them. `ross`: which one it was; `ignored`: elements of ROSS without a counterpart.
+/// rig file among them. `ross`: which one it was; `ignored`: elements of ROSS without a
+/// counterpart.
 BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored);
 
 /// A [rotor] that ReadBeam reads back to the same numbers. Materials become E, rho, nu.

@@ -59,7 +59,8 @@ void AddDisk(const Disk& d, Lines& out) {
   out.Table("disk");
   // Names are targets in scenarios: no dots and blanks.
   std::string name = d.name;
-  std::replace_if(name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
   out.Put("name", name);
   out.Put("z", d.z);
   out.Put("mass", d.mass);
@@ -83,14 +84,16 @@ std::string BeamText(const BeamFile& file) {
   const BeamTheory& t = d.theory;
   Lines out;
   out.text = fmt::format(
-      "[rotor]\nkind = \"beam\"\nmodes = {}\nelements_per_section = {}\nmass = \"{}\"\nshear = {}\nrotary_inertia = "
+      "[rotor]\nkind = \"beam\"\nmodes = {}\nelements_per_section = {}\nmass = \"{}\"\nshear = "
+      "{}\nrotary_inertia = "
       "{}\ngyroscopic = {}\nshear_coefficient = \"{}\"\n",
-      file.modes, d.elements_per_section, t.mass == MassKind::kLumped ? "lumped" : "consistent", YesNo(t.shear),
-      YesNo(t.rotary_inertia), YesNo(t.gyroscopic),
+      file.modes, d.elements_per_section, t.mass == MassKind::kLumped ? "lumped" : "consistent",
+      YesNo(t.shear), YesNo(t.rotary_inertia), YesNo(t.gyroscopic),
       t.coefficient == ShearCoefficient::kHutchinson ? "hutchinson" : "cowper");
   std::string list;
   for (const double zeta : file.modal_damping) list += (list.empty() ? "" : ", ") + Float(zeta);
-  out.text += fmt::format("modal_damping = {}\n", file.modal_damping.size() == 1 ? list : "[" + list + "]");
+  out.text +=
+      fmt::format("modal_damping = {}\n", file.modal_damping.size() == 1 ? list : "[" + list + "]");
   std::vector<double> unnamed = d.stations;
   for (const ShaftPlane& p : file.planes) std::erase(unnamed, p.z);
   list.clear();
@@ -109,6 +112,8 @@ std::string BeamText(const BeamFile& file) {
   return out.text;
 }
 
-void WriteBeam(const BeamFile& file, const std::string& path) { WriteFileAtomically(path, BeamText(file)); }
+void WriteBeam(const BeamFile& file, const std::string& path) {
+  WriteFileAtomically(path, BeamText(file));
+}
 
 }  // namespace ambrig

@@ -39,7 +39,8 @@ void ScaleDisk(std::size_t k, const BeamFile& file, double rho, ShaftParameter& 
   });
 }
 
-bool OfMaterial(const std::string& name, const std::string& key, const BeamFile& file, ShaftParameter& out) {
+bool OfMaterial(const std::string& name, const std::string& key, const BeamFile& file,
+                ShaftParameter& out) {
   const Field<Material>* f = FieldNamed(kMaterialFields, key);
   const auto material = file.materials.find(name);
   if (!f || material == file.materials.end()) return false;
@@ -47,7 +48,8 @@ bool OfMaterial(const std::string& name, const std::string& key, const BeamFile&
   const auto at = f->at;
   for (std::size_t k = 0; k < file.section_sources.size(); ++k)
     if (const ShaftTableSource& s = file.section_sources[k]; s.material == name && !Own(s, key))
-      out.set.push_back([k, at](BeamFile& to, double value) { to.definition.sections[k].material.*at = value; });
+      out.set.push_back(
+          [k, at](BeamFile& to, double value) { to.definition.sections[k].material.*at = value; });
   for (std::size_t k = 0; key == "rho" && k < file.disk_sources.size(); ++k)
     if (const ShaftTableSource& s = file.disk_sources[k]; s.material == name && !Own(s, key))
       ScaleDisk(k, file, out.value, out);
@@ -59,16 +61,21 @@ bool OfSection(std::size_t k, const std::string& key, const BeamFile& file, Shaf
   const ShaftTableSource& source = file.section_sources[k];
   if (const Field<Material>* f = FieldNamed(kMaterialFields, key)) {
     Take(*f, section.material, out);
-    out.set.push_back([k, at = f->at](BeamFile& to, double value) { to.definition.sections[k].material.*at = value; });
+    out.set.push_back([k, at = f->at](BeamFile& to, double value) {
+      to.definition.sections[k].material.*at = value;
+    });
     return true;
   }
   const Field<ShaftSection>* f = FieldNamed(kShaftSectionFields, key);
   if (!f || key == "length") return false;
   Take(*f, section, out);
-  out.set.push_back([k, at = f->at](BeamFile& to, double value) { to.definition.sections[k].*at = value; });
+  out.set.push_back(
+      [k, at = f->at](BeamFile& to, double value) { to.definition.sections[k].*at = value; });
   const std::string right = key + "_right";
-  if (const Field<ShaftSection>* other = FieldNamed(kShaftSectionFields, right); other && !Own(source, right))
-    out.set.push_back([k, at = other->at](BeamFile& to, double value) { to.definition.sections[k].*at = value; });
+  if (const Field<ShaftSection>* other = FieldNamed(kShaftSectionFields, right);
+      other && !Own(source, right))
+    out.set.push_back(
+        [k, at = other->at](BeamFile& to, double value) { to.definition.sections[k].*at = value; });
   // A bore stays inside its shaft.
   if (key == "od") out.lo = std::max(out.lo, section.id * (1 + kApart));
   if (key == "od_right") out.lo = std::max(out.lo, section.id_right * (1 + kApart));
@@ -87,13 +94,15 @@ bool OfDisk(std::size_t k, const std::string& key, const BeamFile& file, ShaftPa
   const Field<Disk>* f = FieldNamed(kDiskFields, key);
   if (!f || key == "z") return false;
   Take(*f, file.definition.disks[k], out);
-  out.set.push_back([k, at = f->at](BeamFile& to, double value) { to.definition.disks[k].*at = value; });
+  out.set.push_back(
+      [k, at = f->at](BeamFile& to, double value) { to.definition.disks[k].*at = value; });
   return true;
 }
 
 bool Find(const BeamFile& file, const std::string& path, ShaftParameter& out) {
   const std::size_t dot = path.rfind('.');
-  const std::string table = path.substr(0, dot), key = path.substr(dot + 1), materials = "rotor.materials.";
+  const std::string table = path.substr(0, dot), key = path.substr(dot + 1),
+                    materials = "rotor.materials.";
   if (path == "rotor.modal_damping") {
     out.value = file.modal_damping[0];
     out.lo = 0;
@@ -102,7 +111,8 @@ bool Find(const BeamFile& file, const std::string& path, ShaftParameter& out) {
     out.set.push_back([](BeamFile& to, double value) { to.modal_damping = {value}; });
     return true;
   }
-  if (table.starts_with(materials)) return OfMaterial(table.substr(materials.size()), key, file, out);
+  if (table.starts_with(materials))
+    return OfMaterial(table.substr(materials.size()), key, file, out);
   for (std::size_t k = 0; k < file.section_sources.size(); ++k)
     if (file.section_sources[k].path == table) return OfSection(k, key, file, out);
   for (std::size_t k = 0; k < file.disk_sources.size(); ++k)
@@ -122,8 +132,10 @@ std::vector<ShaftParameter> FindShaftParameters(const TomlTable& rotor, const Be
       if (other.path == t.path)
         rotor.Fail("", fmt::format("{} has an sd in two files, allowed: one", t.path));
     if (!Find(file, t.path, p))
-      rotor.Fail("", fmt::format("{} has an sd, allowed: diameters, damping and materials of sections and sleeves, mass and inertias "
-                                 "of disks, one modal_damping", t.path));
+      rotor.Fail("", fmt::format("{} has an sd, allowed: diameters, damping and materials of "
+                                 "sections and sleeves, mass and inertias "
+                                 "of disks, one modal_damping",
+                                 t.path));
     out.push_back(std::move(p));
   }
   return out;

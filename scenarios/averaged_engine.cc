@@ -24,15 +24,18 @@ class AveragedRun : public ContinuousRun {
   AveragedRun(const RigParameters& rig, const Scenario& scenario, const AveragedOptions& options)
       : ContinuousRun(rig, scenario, options), mean_(rig_.bearings.size()) {
     Require(!options.sampled.supervisor, "no detector: averaged currents have no slopes");
-    const double rate = options.sampled.record_rate > 0 ? options.sampled.record_rate : scenario.record_rate;
+    const double rate =
+        options.sampled.record_rate > 0 ? options.sampled.record_rate : scenario.record_rate;
     if (rate * rig_.T > 1 + 1e-9)
-      throw InputError("a record_rate above the switching frequency needs --fidelity switching or reference");
+      throw InputError(
+          "a record_rate above the switching frequency needs --fidelity switching or reference");
     if (scenario.start == StartState::kLevitated) {
       const Equilibrium e = LevitatedEquilibrium(rig_);
       if (e.usable())
         rig_.StartFrom(e.force, e.q);
       else
-        result_.notes.push_back("no unique equilibrium (" + e.message + "): started from the centre");
+        result_.notes.push_back("no unique equilibrium (" + e.message +
+                                "): started from the centre");
     }
     Settle();
   }
@@ -42,7 +45,8 @@ class AveragedRun : public ContinuousRun {
     for (const ContinuousBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         bool driven;
-        const double v = MeanVoltage(b.voltage[static_cast<std::size_t>(j)], rig_.plant.bus.voltage, rig_.T, &driven);
+        const double v = MeanVoltage(b.voltage[static_cast<std::size_t>(j)], rig_.plant.bus.voltage,
+                                     rig_.T, &driven);
         plant_->SetVoltage(b.index, j, v, driven);
       }
   }

@@ -8,14 +8,14 @@
 namespace ambrig {
 
 struct SwitchingEngine::BearingRun : SampledBearing {
-  int auxiliary = -1;              // index among the rotor's auxiliary planes
+  int auxiliary = -1;  // index among the rotor's auxiliary planes
   VoltagePattern pattern;
-  bool only_edge_moves = false;    // ordinary bi-state bridges: the pattern is set but for t2
+  bool only_edge_moves = false;  // ordinary bi-state bridges: the pattern is set but for t2
   bool plain_sensors = true;
-  CurrentStatistics current;       // of the last period
-  double x = 0, y = 0;             // magnetic position at the start of the period [m]
-  double x_next = 0, y_next = 0;   // predicted for its end
-  double max_orbit_sq = 0;         // largest distance of the shaft from the centre, squared [m²]
+  CurrentStatistics current;      // of the last period
+  double x = 0, y = 0;            // magnetic position at the start of the period [m]
+  double x_next = 0, y_next = 0;  // predicted for its end
+  double max_orbit_sq = 0;        // largest distance of the shaft from the centre, squared [m²]
   std::array<bool, kLanes> faulty{};
 
   /// The shaft's centre at the magnets' plane.

@@ -16,7 +16,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kSettle = 0.004;  // [s] after which a loop has forgotten a wrong start or a gap in the data
+// [s] after which a loop has forgotten a wrong start or a gap in the data
+constexpr double kSettle = 0.004;
 
 struct Mean {
   double sum = 0, n = 0;
@@ -43,16 +44,21 @@ bool Drives(const RigParameters& rig, const std::string& channel) {
 }
 
 /// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
-void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, const BridgedRecord& data, BlockErrors& out) {
+void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
+                     const BridgedRecord& data, BlockErrors& out) {
   const Record& d = data.record;
-  if (!nominal.controller.IsPlainPid() || !scenario.switches.empty()) return;  // only the PID's start can be told from data
-  if (scenario.start == StartState::kClamped || std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate) return;
+  // only the PID's start can be told from data
+  if (!nominal.controller.IsPlainPid() || !scenario.switches.empty()) return;
+  if (scenario.start == StartState::kClamped ||
+      std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate)
+    return;
   Mean error;
   for (const BearingParameters& b : nominal.bearings) {
     if (b.kind != BearingKind::kRadial) continue;
     const Channel *y[2] = {d.Find(b.name + ".x"), d.Find(b.name + ".y")}, *s[kPoles];
     bool complete = y[0] && y[1];
-    for (int j = 0; j < kPoles; ++j) complete = (s[j] = d.Find(fmt::format("{}.s{}", b.name, j + 1))) && complete;
+    for (int j = 0; j < kPoles; ++j)
+      complete = (s[j] = d.Find(fmt::format("{}.s{}", b.name, j + 1))) && complete;
     if (!complete) continue;
     const RadialStator stator(b.radial);
     const PidParameters& pid = PidOf(nominal, b);
@@ -76,7 +82,8 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, con
           if (e.target != axis) continue;
           (e.port == "reference" ? r : f) += e.Value(t);
         }
-        const double out_force = PidStep(pid, Ts, PidFilter(pid, Ts), y[side]->samples[k], r, f, state);
+        const double out_force =
+            PidStep(pid, Ts, PidFilter(pid, Ts), y[side]->samples[k], r, f, state);
         errors.push_back(force(k + 1) - out_force);
         if (k == settle) {  // start the integral where the data stand
           state.integral += errors.back();
@@ -95,7 +102,8 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario, con
   Put(out, "controller", error);
 }
 
-void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario, const BridgedRecord& data, BlockErrors& out) {
+void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario,
+               const BridgedRecord& data, BlockErrors& out) {
   const Record& d = data.record;
   bool readings = true, set_points = false;
   for (const BearingParameters& b : rig.bearings) {
@@ -109,7 +117,8 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
       const auto it = scenario.clamp.find(b.name);
       const auto at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
       for (std::size_t side = 0; side < b.Axes().size(); ++side)
-        if (!forced.Find(b.Axes()[side])) forced.channels.push_back({b.Axes()[side], "m", std::vector<double>(d.rows(), at[side])});
+        if (!forced.Find(b.Axes()[side]))
+          forced.channels.push_back({b.Axes()[side], "m", std::vector<double>(d.rows(), at[side])});
     }
   Scenario quiet = scenario;
   quiet.noise = false;
@@ -121,11 +130,13 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   const Record simulated = SwitchingEngine(rig, quiet, options).Run().record;
   if (std::abs(simulated.rate - d.rate) > 1e-6 * d.rate) return;
   const auto shift = static_cast<std::size_t>(std::lround(d.start * d.rate));
-  const std::size_t settle = std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kSettle * d.rate));
+  const std::size_t settle =
+      std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kSettle * d.rate));
   Mean error;
   for (const BearingParameters& b : rig.bearings)
     for (int j = 1; j <= b.coils(); ++j) {
-      const Channel *m = d.Find(fmt::format("{}.i{}", b.name, j)), *p = simulated.Find(fmt::format("{}.i{}", b.name, j));
+      const Channel *m = d.Find(fmt::format("{}.i{}", b.name, j)),
+                    *p = simulated.Find(fmt::format("{}.i{}", b.name, j));
       if (!m || !p) continue;
       for (std::size_t k = settle; k < d.rows() && k + shift < p->samples.size(); ++k)
         if (data.Sound(k)) error.Add(m->samples[k] - p->samples[k + shift]);
@@ -133,16 +144,19 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   Put(out, "coil", error);
 }
 
-void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, const Record& d, BlockErrors& out) {
+void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, const Record& d,
+                          BlockErrors& out) {
   if (scenario.start != StartState::kClamped) return;
   Mean force, sensor;
   for (const BearingParameters& b : rig.bearings) {
     const auto it = scenario.clamp.find(b.name);
-    const std::array<double, 2> at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    const std::array<double, 2> at =
+        it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
     const Channel *fx = d.Find(b.name + ".fx"), *fy = d.Find(b.name + ".fy");
     const Channel* current[kPoles] = {};
     bool complete = b.kind == BearingKind::kRadial && fx && fy;
-    for (int j = 0; complete && j < kPoles; ++j) complete = (current[j] = d.Find(fmt::format("{}.i{}", b.name, j + 1))) != nullptr;
+    for (int j = 0; complete && j < kPoles; ++j)
+      complete = (current[j] = d.Find(fmt::format("{}.i{}", b.name, j + 1))) != nullptr;
     if (complete) {
       const RadialStator stator(b.radial);
       for (std::size_t k = 0; k < d.rows(); ++k) {
@@ -160,7 +174,8 @@ void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, co
       if (o.kind == BearingKind::kRadial && o.name != b.name) other = &o;
     if (!other) continue;
     const auto ot = scenario.clamp.find(other->name);
-    const std::array<double, 2> far = ot == scenario.clamp.end() ? std::array<double, 2>{0, 0} : ot->second;
+    const std::array<double, 2> far =
+        ot == scenario.clamp.end() ? std::array<double, 2>{0, 0} : ot->second;
     for (std::size_t side = 0; side < 2; ++side) {
       const Channel* y = d.Find(b.Axes()[side]);
       if (!y) continue;
@@ -172,7 +187,8 @@ void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, co
   Put(out, "sensor", sensor);
 }
 
-void RotorBlock(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data, BlockErrors& out) {
+void RotorBlock(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data,
+                BlockErrors& out) {
   const Record& d = data.record;
   const auto f = EstimateResidualForce(rig, scenario, d, 400);
   if (!f) return;
@@ -189,12 +205,15 @@ void RotorBlock(const RigParameters& rig, const Scenario& scenario, const Bridge
 
 }  // namespace
 
-BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario, const Record& d) {
+BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal,
+                     const Scenario& scenario, const Record& d) {
   BlockErrors out;
-  const BridgedRecord bridged = BridgeMissing(d, kSettle, [&](const std::string& name) { return Drives(rig, name); });
+  const BridgedRecord bridged =
+      BridgeMissing(d, kSettle, [&](const std::string& name) { return Drives(rig, name); });
   ControllerBlock(nominal, scenario, bridged, out);
   CoilBlock(rig, nominal, scenario, bridged, out);
-  ForceAndSensorBlocks(rig, scenario, d, out);  // row by row: a missing sample leaves out its own row
+  // row by row: a missing sample leaves out its own row
+  ForceAndSensorBlocks(rig, scenario, d, out);
   RotorBlock(rig, scenario, bridged, out);
   return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Each part of the model fed with measured inputs, so that an error shows where it arises:
-///   controller  measured readings -> set-points          coil   measured set-points, readings -> currents
+///   controller  measured readings -> set-points          coil   measured set-points,
+///     readings -> currents
 ///   force       measured currents -> load cell (clamped)  rotor  measured currents and readings -> missing force
 ///   sensor      the held position -> readings (clamped)
 /// A block's ratio is its rms error over that of a noisy run of the model itself.
@@ -15,7 +16,7 @@ namespace ambrig {
 using BlockErrors = std::map<std::string, double>;
 
 /// Rms error of every block that this record can tell.
-BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario,
-                     const Record& data);
+BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal,
+                     const Scenario& scenario, const Record& data);
 
 }  // namespace ambrig

@@ -9,7 +9,8 @@ CommandPlan::CommandPlan(const RigParameters& rig, const Scenario& scenario) {
   const double pwm = rig.amplifier.switching_frequency;
   const int M = rig.periods_per_control();
   const auto periods = static_cast<std::size_t>(std::ceil(scenario.duration * pwm - 1e-9)) + 1;
-  const auto add = [&](std::vector<Signal>& list, int bearing, int index, const Excitation& e, bool tick) {
+  const auto add = [&](std::vector<Signal>& list, int bearing, int index, const Excitation& e,
+                       bool tick) {
     Signal* signal = nullptr;
     for (Signal& s : list)
       if (s.bearing == bearing && s.index == index) signal = &s;

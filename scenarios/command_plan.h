@@ -1,6 +1,6 @@
 #pragma once
-/// The commanded signals of a scenario, sampled once on the controller's and the amplifiers' clocks,
-/// so that many runs of one scenario do not evaluate the same sines again.
+/// The commanded signals of a scenario, sampled once on the controller's and the amplifiers'
+/// clocks, so that many runs of one scenario do not evaluate the same sines again.
 #include <vector>
 
 #include "scenarios/scenario.h"

@@ -16,7 +16,8 @@ void ContactWatch::Period(const MotionState& s, bool first, RunResult& result) {
   for (std::size_t k = 0; k < planes_.size(); ++k) Watch(planes_[k], k, s, first && k == 0, result);
 }
 
-void ContactWatch::Watch(Plane& plane, std::size_t k, const MotionState& s, bool first, RunResult& result) const {
+void ContactWatch::Watch(Plane& plane, std::size_t k, const MotionState& s, bool first,
+                         RunResult& result) const {
   RunMetrics& m = result.metrics;
   const bool axial = k == rotor_.auxiliaries().size();
   const double depth = axial ? rotor_.AxialPenetration(s) : rotor_.Penetration(s, k);
@@ -54,7 +55,9 @@ void ContactWatch::Drop(const std::string& name, double t, RunResult& result) {
 void ContactWatch::Finish(const MotionState& s, RunResult& result) {
   for (const Plane& plane : planes_) {
     const bool touching = plane.touching_since >= 0;
-    if (touching) result.metrics.longest_contact = std::max(result.metrics.longest_contact, s.t - plane.touching_since);
+    if (touching)
+      result.metrics.longest_contact =
+          std::max(result.metrics.longest_contact, s.t - plane.touching_since);
     const bool bouncing = plane.touches > 1 && s.t - plane.last_touch < kHop;
     if (touching || bouncing) Drop("rotor", s.t, result);
   }

@@ -4,9 +4,9 @@
 ///   touchdown   first penetration p > 0 (of a resting start: after its first period)
 ///   drop        in contact at the end of the run, or for longer than the scenario's limit
 ///
-/// A rotor that nothing carries bounces: while it hops it is in contact all the same. A contact is over
-/// only when the journal has been free for longer than a bounce through the whole clearance takes,
-/// 2 √(4 c/g) = 18 ms for 0.2 mm. Lift-off events and the longest contact count every hop.
+/// A rotor that nothing carries bounces: while it hops it is in contact all the same. A contact is
+/// over only when the journal has been free for longer than a bounce through the whole clearance
+/// takes, 2 √(4 c/g) = 18 ms for 0.2 mm. Lift-off events and the longest contact count every hop.
 /// Source: shared/design/physics.md section 8.
 #include <vector>
 
@@ -29,7 +29,8 @@ class ContactWatch {
     double touching_since = -1, contact_since = -1, last_touch = -kInfinity;  // [s], -1: no contact
     int touches = 0;                                                          // of this contact
   };
-  void Watch(Plane& plane, std::size_t k, const MotionState& s, bool first, RunResult& result) const;
+  void Watch(Plane& plane, std::size_t k, const MotionState& s, bool first,
+             RunResult& result) const;
   static void Drop(const std::string& name, double t, RunResult& result);
 
   const RotorModel& rotor_;

@@ -35,10 +35,10 @@ ContinuousRig::ContinuousRig(SampledRig& rig, const IntegratorOptions& options) 
         continue;
       CoilNetwork& network = bearings_.back().network;
       if (network.windings.size() == kMaxWindings)
-        throw InputError(fmt::format("{}: target: \"{}\" is the bearing's short number {} with a resistance, "
-                                     "allowed: {} with --fidelity reference or averaged",
-                                     f.where, f.target, bearings_.back().loops.size() + 1,
-                                     bearings_.back().loops.size()));
+        throw InputError(fmt::format(
+            "{}: target: \"{}\" is the bearing's short number {} with a resistance, "
+            "allowed: {} with --fidelity reference or averaged",
+            f.where, f.target, bearings_.back().loops.size() + 1, bearings_.back().loops.size()));
       bearings_.back().loops.push_back(
           static_cast<int>(network.ReserveLoop(std::stoi(f.target.substr(prefix.size())) - 1)));
     }

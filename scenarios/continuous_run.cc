@@ -4,7 +4,8 @@
 
 namespace ambrig {
 
-ContinuousRun::ContinuousRun(const RigParameters& rig, const Scenario& scenario, const ReferenceOptions& options)
+ContinuousRun::ContinuousRun(const RigParameters& rig, const Scenario& scenario,
+                             const ReferenceOptions& options)
     : options_(options), rig_(rig, scenario, options.sampled) {
   rig_.Start();
 }
@@ -21,7 +22,8 @@ RunResult ContinuousRun::Run(std::vector<EnergyBalance>* energies) {
   for (long long n = -rig_.warm; n < rig_.periods; ++n) {
     if (options_.stop && options_.stop->load()) throw Interrupted();
     if (options_.progress && (n & 63) == 0)
-      options_.progress(static_cast<double>(n + rig_.warm) / static_cast<double>(rig_.periods + rig_.warm));
+      options_.progress(static_cast<double>(n + rig_.warm) /
+                        static_cast<double>(rig_.periods + rig_.warm));
     Period(n);
     if (energies) energies->push_back(plant_->Energies());
   }

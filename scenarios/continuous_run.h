@@ -1,6 +1,7 @@
 #pragma once
-/// A run of a continuous-time fidelity, period by period: the sampled side at t_n, then the plant from
-/// instant to instant (loads, faults, a speed let go, and what the fidelity adds), then the measurements.
+/// A run of a continuous-time fidelity, period by period: the sampled side at t_n, then the plant
+/// from instant to instant (loads, faults, a speed let go, and what the fidelity adds), then the
+/// measurements.
 #include <optional>
 #include <vector>
 
@@ -21,7 +22,8 @@ class ContinuousRun {
   RunResult Run(std::vector<EnergyBalance>* energies = nullptr);
 
  protected:
-  ContinuousRun(const RigParameters& rig, const Scenario& scenario, const ReferenceOptions& options);
+  ContinuousRun(const RigParameters& rig, const Scenario& scenario,
+                const ReferenceOptions& options);
   /// The start is final: the plant settles on it.
   void Settle();
 

@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 /// Typical sizes of the states, so that numbers near 1 are what is controlled.
 constexpr double kSize = 1e-5, kRate = 1e3;  // [m] at a plane, [1/s]
 
-/// Where the parts of a state stand: q (n), q' (n), currents, feedback, integrals of the current loops (p each), and at the
-/// controller's pace the set-points (p).
+/// Where the parts of a state stand: q (n), q' (n), currents, feedback, integrals of the current
+/// loops (p each), and at the controller's pace the set-points (p).
 struct Layout {
   Index n, p;
   Index current = 2 * n, feedback = current + p, integral = feedback + p, set_point = integral + p;
@@ -25,14 +25,15 @@ struct Step {
   MatrixXd F, G, E;
 };
 
-/// Coils and rotor over one switching period: q, q', i and the integral of i; what a volt's impulse at the mean edge does, and what
-/// constant forces on the axes and disturbances do.
+/// Coils and rotor over one switching period: q, q', i and the integral of i; what a volt's impulse
+/// at the mean edge does, and what constant forces on the axes and disturbances do.
 struct Flow {
   MatrixXd Phi, Pulse, Gamma;
 };
 
 Flow PeriodFlow(const RigLinearization& l, double T) {
-  const Index n = l.stiffness.rows(), p = l.bearing.rows(), g = l.push.cols(), d = p + g, c = 2 * n + 2 * p;
+  const Index n = l.stiffness.rows(), p = l.bearing.rows(), g = l.push.cols(), d = p + g,
+              c = 2 * n + 2 * p;
   MatrixXd A = MatrixXd::Zero(c, c), U = MatrixXd::Zero(c, p), F = MatrixXd::Zero(c, d);
   A.block(0, n, n, n).setIdentity();
   A.block(n, 0, n, n) = l.stiffness + l.force * l.magnet * l.bearing;
@@ -61,9 +62,12 @@ Flow PeriodFlow(const RigLinearization& l, double T) {
 }
 
 /// One switching period with its current loops; input: set-points.
-Step SwitchingPeriod(const RigLinearization& l, const AmplifierParameters& amplifier, const Layout& at) {
-  const double T = 1 / amplifier.switching_frequency, proportional = amplifier.kp + amplifier.ki * T;
-  const double skew = 1 / (2 * amplifier.adc_samples_per_period);  // samples stand at the beginnings of their parts
+Step SwitchingPeriod(const RigLinearization& l, const AmplifierParameters& amplifier,
+                     const Layout& at) {
+  const double T = 1 / amplifier.switching_frequency,
+               proportional = amplifier.kp + amplifier.ki * T;
+  // samples stand at the beginnings of their parts
+  const double skew = 1 / (2 * amplifier.adc_samples_per_period);
   const Flow flow = PeriodFlow(l, T);
   const Index p = at.p, m = at.set_point;
   const MatrixXd unit = MatrixXd::Identity(p, p);
@@ -89,7 +93,8 @@ Step SwitchingPeriod(const RigLinearization& l, const AmplifierParameters& ampli
 
 /// `times` steps with the same input.
 Step Repeated(const Step& one, int times) {
-  Step out{MatrixXd::Identity(one.F.rows(), one.F.cols()), MatrixXd::Zero(one.G.rows(), one.G.cols()), MatrixXd::Zero(one.E.rows(), one.E.cols())};
+  Step out{MatrixXd::Identity(one.F.rows(), one.F.cols()),
+           MatrixXd::Zero(one.G.rows(), one.G.cols()), MatrixXd::Zero(one.E.rows(), one.E.cols())};
   for (int k = 0; k < times; ++k) {
     out.G = one.F * out.G + one.G;
     out.E = one.F * out.E + one.E;
@@ -101,7 +106,8 @@ Step Repeated(const Step& one, int times) {
 VectorXd TypicalSizes(const RigLinearization& l, const Layout& at, double kp) {
   VectorXd size(at.set_point + at.p);
   for (Index q = 0; q < at.n; ++q) {
-    const double reach = std::max(l.bearing.col(q).cwiseAbs().maxCoeff(), l.sensor.col(q).cwiseAbs().maxCoeff());
+    const double reach =
+        std::max(l.bearing.col(q).cwiseAbs().maxCoeff(), l.sensor.col(q).cwiseAbs().maxCoeff());
     size[q] = kSize / (reach > 0 ? reach : 1);
     size[at.n + q] = kRate * size[q];
   }
@@ -126,8 +132,9 @@ void Scale(SampledPlant& plant, const VectorXd& size) {
 
 }  // namespace
 
-SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::size_t>& axes, double Omega,
-                              const RigParameters* controllers, const ShaftWeights& weights) {
+SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::size_t>& axes,
+                              double Omega, const RigParameters* controllers,
+                              const ShaftWeights& weights) {
   RigLinearization l = LineariseRig(rig, controllers ? *controllers : rig, Omega, weights);
   KeepAxes(l, axes);
   const Layout at{l.stiffness.rows(), l.bearing.rows()};
@@ -139,7 +146,8 @@ SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::s
   out.A = MatrixXd::Zero(m + p, m + p);
   out.A.topRows(m) << tick.F, tick.G;
   out.B = MatrixXd::Zero(m + p, p);
-  for (Index a = 0; a < p; ++a) out.B(m + a, a) = 1 / l.actuators[static_cast<std::size_t>(a)].command;
+  for (Index a = 0; a < p; ++a)
+    out.B(m + a, a) = 1 / l.actuators[static_cast<std::size_t>(a)].command;
   out.E = MatrixXd::Zero(m + p, p);
   out.E.topRows(m) = tick.E.leftCols(p);
   out.G = MatrixXd::Zero(m + p, g);

@@ -47,7 +47,8 @@ PidSchedule ScheduleOf(const ControllerParameters& c) {
   return s;
 }
 
-std::unique_ptr<PositionController> MakePid(const ControllerParameters& c, const std::vector<std::string>& names, double Ts) {
+std::unique_ptr<PositionController> MakePid(const ControllerParameters& c,
+                                            const std::vector<std::string>& names, double Ts) {
   if (c.filters.empty() && c.schedule.empty())
     return std::make_unique<DecentralisedPid>(std::vector<PidParameters>(names.size(), c.pid), Ts);
   std::vector<FilteredPidAxis> axes;
@@ -72,37 +73,52 @@ StateSpace TransfersOf(const ControllerParameters& c, const std::vector<std::str
   return Append(parts);
 }
 
-std::unique_ptr<PositionController> MakeTiltTranslation(const RigParameters& rig, const ControllerParameters& c,
-                                                        const std::vector<double>& f_max, double Ts) {
+std::unique_ptr<PositionController> MakeTiltTranslation(const RigParameters& rig,
+                                                        const ControllerParameters& c,
+                                                        const std::vector<double>& f_max,
+                                                        double Ts) {
   TiltTranslationGeometry g;
   g.inertia_polar = rig.rotor.inertia_polar;
   for (const BearingParameters& b : rig.bearings) {
     if (b.controller) continue;
     if (b.kind != BearingKind::kRadial)
-      throw InputError(fmt::format("{}: kind = \"tilt-translation\", but bearing {} is not radial; allowed: its own controller, "
-                                   "[bearings.{}.controller]", c.where, b.name, b.name));
+      throw InputError(
+          fmt::format("{}: kind = \"tilt-translation\", but bearing {} is not radial; allowed: its "
+                      "own controller, "
+                      "[bearings.{}.controller]",
+                      c.where, b.name, b.name));
     g.sensor_z.push_back(b.sensor.z);
     g.bearing_z.push_back(b.z);
   }
   if (g.sensor_z.size() < 2)
-    throw InputError(fmt::format("{}: kind = \"tilt-translation\", allowed: with two radial bearings or more that it controls", c.where));
-  return std::make_unique<TiltTranslation>(c.translation, c.tilt, c.gyroscopic_compensation, g, f_max, Ts);
+    throw InputError(
+        fmt::format("{}: kind = \"tilt-translation\", allowed: with two radial bearings or more "
+                    "that it controls",
+                    c.where));
+  return std::make_unique<TiltTranslation>(c.translation, c.tilt, c.gyroscopic_compensation, g,
+                                           f_max, Ts);
 }
 
 /// The nominal rig as the synthesis of this controller models it, one plant per speed.
-std::vector<SampledPlant> ModelsOf(const RigParameters& rig, const ControllerParameters& c, const std::vector<std::size_t>& axes) {
+std::vector<SampledPlant> ModelsOf(const RigParameters& rig, const ControllerParameters& c,
+                                   const std::vector<std::size_t>& axes) {
   RigParameters model = rig;
-  if (c.model_modes >= 0 && static_cast<std::size_t>(c.model_modes) < model.modes.size()) model.modes.resize(static_cast<std::size_t>(c.model_modes));
+  if (c.model_modes >= 0 && static_cast<std::size_t>(c.model_modes) < model.modes.size())
+    model.modes.resize(static_cast<std::size_t>(c.model_modes));
   std::vector<SampledPlant> plants;
-  for (const double speed : c.speeds) plants.push_back(MakeControlPlant(model, axes, speed, nullptr, {c.planes, c.modes}));
+  for (const double speed : c.speeds)
+    plants.push_back(MakeControlPlant(model, axes, speed, nullptr, {c.planes, c.modes}));
   return plants;
 }
 
-std::unique_ptr<PositionController> MakeCentral(const RigParameters& rig, const ControllerParameters& c,
-                                                const std::vector<std::size_t>& axes, const std::vector<std::string>& names,
+std::unique_ptr<PositionController> MakeCentral(const RigParameters& rig,
+                                                const ControllerParameters& c,
+                                                const std::vector<std::size_t>& axes,
+                                                const std::vector<std::string>& names,
                                                 const std::vector<double>& f_max, double Ts) {
   if (c.kind == "transfer-function")
-    return std::make_unique<StateSpaceController>(std::vector<double>{0}, std::vector<StateSpace>{TransfersOf(c, names)}, f_max);
+    return std::make_unique<StateSpaceController>(
+        std::vector<double>{0}, std::vector<StateSpace>{TransfersOf(c, names)}, f_max);
   if (c.kind == "state-space") {
     std::vector<double> speeds;
     std::vector<StateSpace> points;
@@ -114,13 +130,15 @@ std::unique_ptr<PositionController> MakeCentral(const RigParameters& rig, const 
   }
   if (c.kind == "lqg") {
     std::vector<LqgDesign> designs;
-    for (const SampledPlant& plant : ModelsOf(rig, c, axes)) designs.push_back(DesignLqg(plant, c.lqg, c.where));
+    for (const SampledPlant& plant : ModelsOf(rig, c, axes))
+      designs.push_back(DesignLqg(plant, c.lqg, c.where));
     return std::make_unique<LqgController>(c.speeds, std::move(designs), f_max, Ts);
   }
   if (c.kind == "h-infinity") {
     std::vector<StateSpace> points;
     for (const SampledPlant& plant : ModelsOf(rig, c, axes)) {
-      StateSpace k = DesignHInfinity(plant, c.h_infinity, c.where).controller;  // of readings; StateSpaceController works on e = -y
+      // of readings; StateSpaceController works on e = -y
+      StateSpace k = DesignHInfinity(plant, c.h_infinity, c.where).controller;
       k.B = -k.B;
       k.D = -k.D;
       points.push_back(std::move(k));
@@ -135,16 +153,19 @@ std::unique_ptr<PositionController> MakeCentral(const RigParameters& rig, const 
 
 std::vector<double> ForceLimits(const RigParameters& rig, const ControllerParameters& c) {
   std::vector<double> out;
-  for (const Axis& a : AxesOf(rig)) out.push_back(a.bearing->controller ? a.bearing->controller->f_max : c.pid.f_max);
+  for (const Axis& a : AxesOf(rig))
+    out.push_back(a.bearing->controller ? a.bearing->controller->f_max : c.pid.f_max);
   return out;
 }
 
-std::unique_ptr<PositionController> MakeController(const RigParameters& rig, const ControllerParameters& c) {
+std::unique_ptr<PositionController> MakeController(const RigParameters& rig,
+                                                   const ControllerParameters& c) {
   const auto axes = AxesOf(rig);
   const double Ts = rig.periods_per_control() / rig.amplifier.switching_frequency;
   if (c.IsPlainPid()) {
     std::vector<PidParameters> pid;
-    for (const Axis& a : axes) pid.push_back(a.bearing->controller ? *a.bearing->controller : c.pid);
+    for (const Axis& a : axes)
+      pid.push_back(a.bearing->controller ? *a.bearing->controller : c.pid);
     return std::make_unique<DecentralisedPid>(std::move(pid), Ts);
   }
   const std::vector<std::size_t> own = ControlledAxes(rig);
@@ -163,7 +184,8 @@ std::unique_ptr<PositionController> MakeController(const RigParameters& rig, con
   }
   std::unique_ptr<PositionController> central =
       c.kind == "pid" ? MakePid(c, names, Ts) : MakeCentral(rig, c, own, names, limits, Ts);
-  if (c.unbalance) central = std::make_unique<UnbalanceControl>(std::move(central), own.size(), *c.unbalance, Ts);
+  if (c.unbalance)
+    central = std::make_unique<UnbalanceControl>(std::move(central), own.size(), *c.unbalance, Ts);
   if (rest.axes.empty()) return central;
   rest.controller = std::make_unique<DecentralisedPid>(std::move(rest_pid), Ts);
   std::vector<AxisGroup> groups;
@@ -181,7 +203,8 @@ std::unique_ptr<ControllerSwitch> MakeControllerSwitch(const RigParameters& rig)
     const auto more = ForceLimits(rig, c);
     for (std::size_t k = 0; k < limits.size(); ++k) limits[k] = std::max(limits[k], more[k]);
   }
-  return std::make_unique<ControllerSwitch>(std::move(all), limits, rig.periods_per_control() / rig.amplifier.switching_frequency);
+  return std::make_unique<ControllerSwitch>(
+      std::move(all), limits, rig.periods_per_control() / rig.amplifier.switching_frequency);
 }
 
 }  // namespace ambrig

@@ -5,9 +5,11 @@
 
 namespace ambrig {
 
-/// One controller of the rig for all its axes; bearings with their own have their PID. `rig`: nominal values, what the controller is designed with.
+/// One controller of the rig for all its axes; bearings with their own have their PID. `rig`:
+/// nominal values, what the controller is designed with.
 /// @throws InputError when a synthesis fails.
-std::unique_ptr<PositionController> MakeController(const RigParameters& rig, const ControllerParameters& c);
+std::unique_ptr<PositionController> MakeController(const RigParameters& rig,
+                                                   const ControllerParameters& c);
 
 /// All of the rig, [controller] in charge: 0, then those of [controllers.NAME] in their order.
 std::unique_ptr<ControllerSwitch> MakeControllerSwitch(const RigParameters& rig);

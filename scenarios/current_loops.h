@@ -1,6 +1,7 @@
 #pragma once
 /// The current loops of all coils at the start of a switching period, the same in every fidelity:
-/// set-points and what the scenario adds to them become duties. Source: shared/design/physics.md section 3.
+/// set-points and what the scenario adds to them become duties. Source: shared/design/physics.md
+/// section 3.
 #include "scenarios/command_plan.h"
 #include "scenarios/supervisor.h"
 

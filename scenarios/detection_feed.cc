@@ -9,14 +9,20 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLeastGapSd = 0.01, kLeastLeakageSd = 0.05;  // relative, when the maker says nothing
-constexpr double kBusStep = 0.02;                             // of the nominal bus, within one period
-constexpr double kBusNoise = 8;                               // [sd] between two readings: never in 1e8 periods
-constexpr double kCredibleJump = 3e-5;                        // [m] in one controller period: 4700 m/s²
+// relative, when the maker says nothing
+constexpr double kLeastGapSd = 0.01, kLeastLeakageSd = 0.05;
+// of the nominal bus, within one period
+constexpr double kBusStep = 0.02;
+// [sd] between two readings: never in 1e8 periods
+constexpr double kBusNoise = 8;
+// [m] in one controller period: 4700 m/s²
+constexpr double kCredibleJump = 3e-5;
 
-constexpr double kThrownBack = 2.3;   // change of velocity over speed at an impact: 1 + restitution, and some friction
-constexpr double kParabola = 2;       // departures of the parabola in the impact's three steps, over one step's change
-constexpr double kReach = 0.05;       // of the clearance: the maker's tolerance
+// change of velocity over speed at an impact: 1 + restitution, and some friction
+constexpr double kThrownBack = 2.3;
+// departures of the parabola in the impact's three steps, over one step's change
+constexpr double kParabola = 2;
+constexpr double kReach = 0.05;  // of the clearance: the maker's tolerance
 constexpr int kReadingsOfParabola = 3;
 
 double Length(double x, double y) { return std::sqrt(x * x + y * y); }
@@ -49,7 +55,8 @@ LinkageModel LinkageModelOf(const BearingParameters& b) {
   return m;
 }
 
-DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b, const LinkageModel& m) {
+DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b,
+                                    const LinkageModel& m) {
   const AmplifierParameters& a = rig.amplifier;
   DetectorSettings s;
   s.sampling.samples = rig.samples_per_period();
@@ -65,13 +72,16 @@ DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParam
   s.leakage_sd = ToleranceOf(rig, at + "leakage_inductance", kLeastLeakageSd * m.leakage[0]);
   // Velocity from three noisy readings, times the flux that a bias current makes.
   const double velocity = 5 * b.sensor.noise * rig.controller.rate;
-  const double motion = velocity * m.n[0] * m.n[0] * m.Permeance(0, 0)[0] * BiasCurrent(rig, b) / gap;
+  const double motion =
+      velocity * m.n[0] * m.n[0] * m.Permeance(0, 0)[0] * BiasCurrent(rig, b) / gap;
   s.voltage_sd = std::sqrt(0.2 * 0.2 + motion * motion + a.bus_noise * a.bus_noise);
   return s;
 }
 
 DetectionFeed::DetectionFeed(const RigParameters& nominal)
-    : rig_(nominal), T_(1 / nominal.amplifier.switching_frequency), bus_(nominal.amplifier.bus_voltage),
+    : rig_(nominal),
+      T_(1 / nominal.amplifier.switching_frequency),
+      bus_(nominal.amplifier.bus_voltage),
       last_bus_(nominal.amplifier.bus_voltage) {
   std::vector<double> sensor_z;
   double largest_noise = 0;
@@ -83,7 +93,8 @@ DetectionFeed::DetectionFeed(const RigParameters& nominal)
     }
     for (const std::string& name : b.Axes()) axis_names_.push_back(name);
     largest_noise = std::max(largest_noise, b.sensor.noise);
-    views_.push_back({&b, axis, axis_names_.size(), b.kind == BearingKind::kThrust ? 1U : 0U, {}, {}, {}});
+    views_.push_back(
+        {&b, axis, axis_names_.size(), b.kind == BearingKind::kThrust ? 1U : 0U, {}, {}, {}});
   }
   for (View& v : views_) {
     v.weights = PlaneWeights(sensor_z, v.bearing->z);
@@ -93,11 +104,13 @@ DetectionFeed::DetectionFeed(const RigParameters& nominal)
   struck_.assign(axis_names_.size(), 0.0);
   start_.assign(axis_names_.size(), 0.0);
   end_ = start_;
-  positions_ = PositionMonitor(axis_names_.size(), kCredibleJump + 40 * largest_noise, largest_noise);
+  positions_ =
+      PositionMonitor(axis_names_.size(), kCredibleJump + 40 * largest_noise, largest_noise);
 }
 
 template <class Of>
-void DetectionFeed::Place(const View& v, const std::vector<double>& weights, const Of& of, double* x, double* y) const {
+void DetectionFeed::Place(const View& v, const std::vector<double>& weights, const Of& of,
+                          double* x, double* y) const {
   *x = *y = 0;
   if (v.bearing->kind != BearingKind::kRadial) {
     *x = of(v.first_axis);
@@ -119,8 +132,11 @@ void DetectionFeed::WatchImpacts() {
     Impacts& one = impacts_[v.group];
     double x[3], y[3];
     for (std::size_t k = 0; k < 3; ++k)
-      Place(v, v.auxiliary_weights, [&](std::size_t axis) { return positions_.Recent(axis, k); }, &x[k], &y[k]);
-    const double moved = std::max(Length(x[0] - x[1], y[0] - y[1]), Length(x[1] - x[2], y[1] - y[2]));
+      Place(
+          v, v.auxiliary_weights, [&](std::size_t axis) { return positions_.Recent(axis, k); },
+          &x[k], &y[k]);
+    const double moved =
+        std::max(Length(x[0] - x[1], y[0] - y[1]), Length(x[1] - x[2], y[1] - y[2]));
     one.travel = std::max(one.travel, moved);
     const auto& stop = v.bearing->auxiliary;
     if (stop && Length(x[0], y[0]) + moved > (1 - kReach) * stop->clearance) one.readings_since = 0;
@@ -140,7 +156,8 @@ void DetectionFeed::WatchImpacts() {
 bool DetectionFeed::Uses(const View& v, std::size_t axis) const {
   if (v.bearing->kind != BearingKind::kRadial) return axis == v.first_axis;
   const int a = static_cast<int>(axis);
-  return std::any_of(planes_.begin(), planes_.end(), [&](const SensedPlane& p) { return p.x_axis == a || p.y_axis == a; });
+  return std::any_of(planes_.begin(), planes_.end(),
+                     [&](const SensedPlane& p) { return p.x_axis == a || p.y_axis == a; });
 }
 
 void DetectionFeed::Read(const PeriodMeasurement& m) {
@@ -162,8 +179,10 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
   in.adc = b.adc;
   in.duty = b.duty;
   in.bus = 0.5 * (b.bus + last_bus_);
-  Place(v, v.weights, [&](std::size_t axis) { return start_[axis]; }, &in.x0, &in.y0);
-  Place(v, v.weights, [&](std::size_t axis) { return end_[axis]; }, &in.x1, &in.y1);
+  Place(
+      v, v.weights, [&](std::size_t axis) { return start_[axis]; }, &in.x0, &in.y0);
+  Place(
+      v, v.weights, [&](std::size_t axis) { return end_[axis]; }, &in.x1, &in.y1);
   in.doubt = v.doubt;
   bool sensed = sensed_;
   for (std::size_t a = 0; a < axis_names_.size(); ++a)

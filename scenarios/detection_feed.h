@@ -1,10 +1,11 @@
 #pragma once
-/// What fault detection is given of every bearing in each switching period, from measurements and the
-/// nominal rig alone: samples, duties, mean bus, and shaft positions that the sensors tell.
+/// What fault detection is given of every bearing in each switching period, from measurements and
+/// the nominal rig alone: samples, duties, mean bus, and shaft positions that the sensors tell.
 ///
-/// Between readings a free shaft follows their parabola. One that is within a step of an auxiliary bearing may be
-/// thrown back at any instant: then its velocity is known within twice its speed only, and for as long as the
-/// parabola holds readings from before. How far the last readings departed from the parabola counts too.
+/// Between readings a free shaft follows their parabola. One that is within a step of an auxiliary
+/// bearing may be thrown back at any instant: then its velocity is known within twice its speed
+/// only, and for as long as the parabola holds readings from before. How far the last readings
+/// departed from the parabola counts too.
 #include "fdd/bearing_detector.h"
 #include "fdd/position_monitor.h"
 #include "scenarios/rig_parameters.h"
@@ -15,7 +16,8 @@ namespace ambrig {
 /// Nominal circuit of a bearing.
 LinkageModel LinkageModelOf(const BearingParameters& b);
 /// Sampling, noise and tolerances as the rig file gives them; `rig` must outlive them.
-DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b, const LinkageModel& m);
+DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b,
+                                    const LinkageModel& m);
 
 class DetectionFeed {
  public:
@@ -34,17 +36,19 @@ class DetectionFeed {
   struct View {
     const BearingParameters* bearing = nullptr;
     std::size_t first_axis = 0, end_axis = 0;
-    std::size_t group = 0;        // of `impacts_`
-    std::vector<double> weights, auxiliary_weights;  // of the sensor planes, radial: at the bearing, at its stop
-    MotionDoubt doubt;            // until the next reading
+    std::size_t group = 0;  // of `impacts_`
+    // of the sensor planes, radial: at the bearing, at its stop
+    std::vector<double> weights, auxiliary_weights;
+    MotionDoubt doubt;  // until the next reading
   };
   bool Uses(const View& v, std::size_t axis) const;
-  /// After a reading: whether the shaft may strike an auxiliary bearing before the next one, or has just done so, and
-  /// what is not known of its motion then.
+  /// After a reading: whether the shaft may strike an auxiliary bearing before the next one, or has
+  /// just done so, and what is not known of its motion then.
   void WatchImpacts();
   /// Of the bearing, or of its stop, from what `of` says of every axis.
   template <class Of>
-  void Place(const View& v, const std::vector<double>& weights, const Of& of, double* x, double* y) const;
+  void Place(const View& v, const std::vector<double>& weights, const Of& of, double* x,
+             double* y) const;
 
   const RigParameters& rig_;
   double T_ = 0, bus_ = 0, last_bus_ = 0;  // [s], [V]
@@ -58,8 +62,9 @@ class DetectionFeed {
     double travel = 0;          // largest of any plane between two of the last readings [m]
   };
   Impacts impacts_[2];
-  std::vector<double> start_, end_;  // what the parabolas say of every axis at the period's ends [m]
-  bool sensed_ = false;              // they hold
+  // what the parabolas say of every axis at the period's ends [m]
+  std::vector<double> start_, end_;
+  bool sensed_ = false;         // they hold
   std::vector<double> struck_;  // by how much impacts may throw each axis off its parabola [m]
 };
 

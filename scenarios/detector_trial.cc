@@ -9,13 +9,14 @@ namespace ambrig {
 
 struct DetectorTrial::OneDetector {
   std::vector<std::unique_ptr<CoilDetector>> bearings;
-  std::vector<Lane> largest;        // in the present window
-  double coil = -1, bearing = -1;   // largest since the fault
+  std::vector<Lane> largest;       // in the present window
+  double coil = -1, bearing = -1;  // largest since the fault
   DetectorOutcome outcome;
 };
 
 DetectorTrial::DetectorTrial(const RigParameters& nominal, const Scenario& scenario,
-                             const std::vector<CoilDetectorKind>& kinds, const TrialSettings& settings)
+                             const std::vector<CoilDetectorKind>& kinds,
+                             const TrialSettings& settings)
     : rig_(nominal), feed_(nominal) {
   const double f = nominal.amplifier.switching_frequency;
   begin_ = std::llround(settings.begin * f);
@@ -32,7 +33,9 @@ DetectorTrial::DetectorTrial(const RigParameters& nominal, const Scenario& scena
     begin_ = std::max(0LL, count_from_ - std::llround(settings.begin * f));
   }
   for (std::size_t k = 0; k < rig_.bearings.size(); ++k)
-    watched_.push_back(faulty_ ? k == bearing_ : std::count(settings.kinds.begin(), settings.kinds.end(), rig_.bearings[k].kind) > 0);
+    watched_.push_back(faulty_ ? k == bearing_
+                               : std::count(settings.kinds.begin(), settings.kinds.end(),
+                                            rig_.bearings[k].kind) > 0);
   for (const CoilDetectorKind& kind : kinds) {
     auto d = std::make_unique<OneDetector>();
     for (const BearingParameters& b : rig_.bearings) {
@@ -83,7 +86,8 @@ void DetectorTrial::CountHealthy(OneDetector& d, const std::vector<Lane>& statis
 }
 
 void DetectorTrial::CountFaulty(OneDetector& d, const Lane& statistic, int period) {
-  const auto add = [period](std::vector<LevelReached>& list, double& most, double value, bool right) {
+  const auto add = [period](std::vector<LevelReached>& list, double& most, double value,
+                            bool right) {
     if (!(value > most)) return;
     const int before = most < 0 ? -1 : LevelOf(most), now = LevelOf(value);
     most = value;

@@ -1,11 +1,12 @@
 #pragma once
-/// Several detectors of coil faults on one run, all fed with what the controller measured; none of them
-/// acts on the run. What is kept of a statistic allows any threshold to be asked for afterwards.
+/// Several detectors of coil faults on one run, all fed with what the controller measured; none of
+/// them acts on the run. What is kept of a statistic allows any threshold to be asked for
+/// afterwards.
 ///
 /// A healthy run is cut into windows: of every coil and window the largest statistic is counted (a
-/// false alarm is a window whose largest statistic exceeds the threshold). Of a run with a fault: when,
-/// within one window from the fault on, each level was first reached, by the faulty coil and by any
-/// coil of its bearing.
+/// false alarm is a window whose largest statistic exceeds the threshold). Of a run with a fault:
+/// when, within one window from the fault on, each level was first reached, by the faulty coil and
+/// by any coil of its bearing.
 #include <map>
 #include <memory>
 #include <vector>
@@ -19,14 +20,15 @@ namespace ambrig {
 
 /// A new largest level.
 struct LevelReached {
-  int period = 0;      // from the one of the fault on
+  int period = 0;  // from the one of the fault on
   int level = 0;
-  bool right = true;   // the faulty coil has the largest statistic of its bearing
+  bool right = true;  // the faulty coil has the largest statistic of its bearing
 };
 
 struct DetectorOutcome {
-  std::map<int, long> windows;             // healthy: level -> windows whose largest statistic lies there
-  std::vector<LevelReached> coil, bearing; // faulty: of the coil, of the largest of its bearing
+  // healthy: level -> windows whose largest statistic lies there
+  std::map<int, long> windows;
+  std::vector<LevelReached> coil, bearing;  // faulty: of the coil, of the largest of its bearing
 };
 
 struct TrialSettings {
@@ -39,8 +41,8 @@ struct TrialSettings {
 class DetectorTrial : public Supervisor {
  public:
   /// The first fault of the scenario, if any, on one coil. `nominal` must outlive it.
-  DetectorTrial(const RigParameters& nominal, const Scenario& scenario, const std::vector<CoilDetectorKind>& kinds,
-                const TrialSettings& settings);
+  DetectorTrial(const RigParameters& nominal, const Scenario& scenario,
+                const std::vector<CoilDetectorKind>& kinds, const TrialSettings& settings);
   ~DetectorTrial() override;
 
   void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
@@ -56,9 +58,9 @@ class DetectorTrial : public Supervisor {
   const RigParameters& rig_;
   DetectionFeed feed_;
   std::vector<std::unique_ptr<OneDetector>> detectors_;
-  std::vector<bool> watched_;            // per bearing
+  std::vector<bool> watched_;  // per bearing
   bool faulty_ = false;
-  std::size_t bearing_ = 0;              // of the fault
+  std::size_t bearing_ = 0;  // of the fault
   int coil_ = 0;
   long long begin_ = 0, count_from_ = 0, window_ = 1;  // periods
   long long in_window_ = 0, seen_ = 0;

@@ -37,12 +37,12 @@ struct DropFigures {
   std::string first;                     // bearing that is touched first; empty: none
   double touchdown_time = -1;            // [s] its crossing of the clearance, -1: none; a resting
                                          // start touches from the first row on
-  double rebound = 0;          // [m] clearance regained there between first and second contact
-  double peak_orbit = 0;       // [m] largest radius in any bearing after the touch
-  double turns = 0;            // [rev] of the centre round the clearance there, positive with Omega
+  double rebound = 0;     // [m] clearance regained there between first and second contact
+  double peak_orbit = 0;  // [m] largest radius in any bearing after the touch
+  double turns = 0;       // [rev] of the centre round the clearance there, positive with Omega
   ContactWhirl whirl = ContactWhirl::kNone;  // by the sign of `turns`, from half a turn on
-  std::vector<std::array<double, 2>> rest;  // [m] mean (x, y) per bearing, last tenth of the run
-  double severity = 0;                      // peak centre speed over Omega c [-], 0 at standstill
+  std::vector<std::array<double, 2>> rest;   // [m] mean (x, y) per bearing, last tenth of the run
+  double severity = 0;                       // peak centre speed over Omega c [-], 0 at standstill
   double fall_severity = 0;  // peak centre speed over √(2 g c) [-], 0 without gravity across
 };
 

@@ -17,14 +17,17 @@ void SwitchingEngine::Inject(const FaultSpec& fault) {
   }
   const FaultPlace place = PlaceOf(fault, rig_);
   BearingRun& b = bearings_[place.bearing];
-  const bool bridge = ApplyToPlant(fault, place, place.coil < 0 ? 0 : b.plant->lanes.i[place.coil], *b.plant);
+  const bool bridge =
+      ApplyToPlant(fault, place, place.coil < 0 ? 0 : b.plant->lanes.i[place.coil], *b.plant);
   if (place.coil < 0) return;
   InjectCoil(fault, b, place.coil);
   if (!bridge) return;
   // The bridge changes in the middle of its period: rebuild this coil's voltage pattern.
   const auto j = static_cast<std::size_t>(place.coil);
   b.only_edge_moves = false;
-  SetPattern(b, place.coil, control_[b.index].amplifier[j].Pattern(control_[b.index].duty[place.coil], b.plant->bridge[j]));
+  SetPattern(b, place.coil,
+             control_[b.index].amplifier[j].Pattern(control_[b.index].duty[place.coil],
+                                                    b.plant->bridge[j]));
 }
 
 void SwitchingEngine::InjectCoil(const FaultSpec& fault, BearingRun& b, int coil) {

@@ -1,5 +1,5 @@
-/// Teacher-forced coils: measured set-points and measured readings drive the amplifiers and the gaps,
-/// so that an error of the coil block shows where it arises. Discovery compares its currents.
+/// Teacher-forced coils: measured set-points and measured readings drive the amplifiers and the
+/// gaps, so that an error of the coil block shows where it arises. Discovery compares its currents.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace ambrig {
 namespace {
 double At(const Record& record, const Channel* c, double t) {
   if (!c || c->samples.empty()) return 0;
-  const double row = std::clamp((t - record.start) * record.rate, 0.0, static_cast<double>(c->samples.size() - 1));
+  const double row =
+      std::clamp((t - record.start) * record.rate, 0.0, static_cast<double>(c->samples.size() - 1));
   const auto k = static_cast<std::size_t>(row);
   const std::size_t next = std::min(k + 1, c->samples.size() - 1);
   return c->samples[k] + (row - static_cast<double>(k)) * (c->samples[next] - c->samples[k]);
@@ -22,8 +23,9 @@ double At(const Record& record, const Channel* c, double t) {
 
 void SwitchingEngine::StartForced() {
   // Set-points of a clamped run hold the coils' excitations already.
-  current_loops_->Follow(scenario_.start == StartState::kClamped ? CurrentLoops::SetPoints::kMeasuredWhole
-                                                                 : CurrentLoops::SetPoints::kMeasured);
+  current_loops_->Follow(scenario_.start == StartState::kClamped
+                             ? CurrentLoops::SetPoints::kMeasuredWhole
+                             : CurrentLoops::SetPoints::kMeasured);
   clamped_ = true;
   controller_on_ = false;
   warm_ = std::llround(0.01 / T_);
@@ -32,7 +34,8 @@ void SwitchingEngine::StartForced() {
   for (BearingRun& b : bearings_) {
     BearingControl& c = control_[b.index];
     for (int j = 0; j < c.coils; ++j)
-      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(c.set_point[j], b.plant->base_resistance[j]);
+      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(c.set_point[j],
+                                                           b.plant->base_resistance[j]);
   }
 }
 
@@ -65,12 +68,14 @@ void SwitchingEngine::ForcedPosition(const BearingRun& b, double t, double* x, d
 void SwitchingEngine::FollowData(long long n) {
   const Record& d = *options_.forced;
   const double t = std::max(0.0, static_cast<double>(n) * T_);
-  const auto row = static_cast<std::size_t>(std::max(0.0, std::floor((t - d.start) * d.rate + 1e-6)));
+  const auto row =
+      static_cast<std::size_t>(std::max(0.0, std::floor((t - d.start) * d.rate + 1e-6)));
   for (BearingRun& b : bearings_) {
     BearingControl& c = control_[b.index];
     for (int j = 0; j < c.coils; ++j) {
       const Channel* s = d.Find(fmt::format("{}.s{}", b.plant->name, j + 1));
-      if (s && !s->samples.empty()) c.set_point[j] = s->samples[std::min(row, s->samples.size() - 1)];
+      if (s && !s->samples.empty())
+        c.set_point[j] = s->samples[std::min(row, s->samples.size() - 1)];
     }
     c.commanded = c.set_point;
     ForcedPosition(b, static_cast<double>(n) * T_, &b.true_x, &b.true_y);

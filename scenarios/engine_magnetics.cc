@@ -1,5 +1,6 @@
-/// The coils of all bearings through one period: voltage patterns, where the gaps will be, the samples of
-/// the circuits (side by side, or in lockstep where something ties them together), what is measured of them.
+/// The coils of all bearings through one period: voltage patterns, where the gaps will be, the
+/// samples of the circuits (side by side, or in lockstep where something ties them together), what
+/// is measured of them.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -23,10 +24,11 @@ void SwitchingEngine::SetPatterns(BearingRun& b) {
   for (int j = 0; j < c.coils; ++j) {
     const auto lane = static_cast<std::size_t>(j);
     BridgeImperfection bridge = b.plant->bridge[lane];
-    b.only_edge_moves = b.only_edge_moves && bridge.dead_time == 0 && bridge.dead_duty == 0 && !bridge.off &&
-                        !bridge.stuck_on && b.plant->voltage[lane].empty();
+    b.only_edge_moves = b.only_edge_moves && bridge.dead_time == 0 && bridge.dead_duty == 0 &&
+                        !bridge.off && !bridge.stuck_on && b.plant->voltage[lane].empty();
     for (const auto& term : b.plant->voltage[lane])
-      bridge.voltage_offset += term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y, &motion_});
+      bridge.voltage_offset +=
+          term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y, &motion_});
     SetPattern(b, j, c.amplifier[lane].Pattern(c.duty[j], bridge));
   }
 }
@@ -71,11 +73,13 @@ void SwitchingEngine::RunMagnetics(long long n) {
   const double end = motion_.t + T_;
   std::vector<const FaultSpec*>& due = due_faults_;
   due.clear();
-  while (n >= 0 && next_fault_ < scenario_.faults.size() && scenario_.faults[next_fault_].time < end - kTiny)
+  while (n >= 0 && next_fault_ < scenario_.faults.size() &&
+         scenario_.faults[next_fault_].time < end - kTiny)
     due.push_back(&scenario_.faults[next_fault_++]);
   // Faults and a moving bus tie the bearings together sample by sample; an iron law or a late edge
   // concerns its own bearing only.
-  const bool lockstep = options_.force_general_path || !due.empty() || !plant_.bus.stiff() || bus_restore_at_ < end;
+  const bool lockstep =
+      options_.force_general_path || !due.empty() || !plant_.bus.stiff() || bus_restore_at_ < end;
   if (lockstep) {
     RunSamplesInLockstep(n, due);
   } else {
@@ -93,7 +97,8 @@ void SwitchingEngine::RunBearings() {
   for (BearingRun& b : bearings_) {
     StatorLanes& lanes = b.plant->lanes;
     bool late_edge = false;
-    for (std::size_t j = 0; j < kLanes && !b.only_edge_moves; ++j) late_edge = late_edge || b.plant->bridge[j].dead_time > 0;
+    for (std::size_t j = 0; j < kLanes && !b.only_edge_moves; ++j)
+      late_edge = late_edge || b.plant->bridge[j].dead_time > 0;
     if (!lanes.NeedsGeneralPath() && !late_edge) {
       together_.push_back({&lanes, &b.pattern, b.x, b.y, b.x_next, b.y_next});
       continue;
@@ -102,7 +107,8 @@ void SwitchingEngine::RunBearings() {
     for (int k = 0; k < steps; ++k) lanes.StepSample(b.pattern, plant_.bus.voltage, k);
     lanes.EndPeriod();
   }
-  StatorLanes::RunPeriods(together_.data(), static_cast<int>(together_.size()), plant_.bus.voltage, steps);
+  StatorLanes::RunPeriods(together_.data(), static_cast<int>(together_.size()), plant_.bus.voltage,
+                          steps);
 }
 
 void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due) {
@@ -124,7 +130,8 @@ void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const 
     if (!plant_.bus.stiff()) {
       const BusSupply& bus = plant_.bus;
       const double settled = bus.source - bus.resistance * drawn;
-      const double keep = bus.capacitance > 0 ? std::exp(-h / (bus.resistance * bus.capacitance)) : 0;
+      const double keep =
+          bus.capacitance > 0 ? std::exp(-h / (bus.resistance * bus.capacitance)) : 0;
       plant_.bus.voltage = settled + (bus.voltage - settled) * keep;
     }
     if (t + h > bus_restore_at_) {
@@ -141,9 +148,10 @@ void SwitchingEngine::Measure(long long n) {
   if (scenario_.noise) noise_->DrawCurrents(n);
   for (BearingRun& b : bearings_) {
     if (options_.substeps > 1)
-      for (int k = 1; k < samples_; ++k) b.plant->lanes.samples[k] = b.plant->lanes.samples[k * options_.substeps];
-    MeasureCurrents(b.measurement, b.plant->lanes.samples, b.plant->current_sensor.data(), b.plain_sensors,
-                    noise_->Currents(b.index), b.adc, &b.current);
+      for (int k = 1; k < samples_; ++k)
+        b.plant->lanes.samples[k] = b.plant->lanes.samples[k * options_.substeps];
+    MeasureCurrents(b.measurement, b.plant->lanes.samples, b.plant->current_sensor.data(),
+                    b.plain_sensors, noise_->Currents(b.index), b.adc, &b.current);
   }
 }
 

@@ -8,9 +8,10 @@
 
 namespace ambrig {
 
-void SwitchingEngine::Event(const std::string& kind, const std::string& target, const std::string& fault_class,
-                            double fraction, double t) {
-  result_.events.push_back({t < 0 ? std::max(motion_.t, 0.0) : t, kind, target, fault_class, fraction});
+void SwitchingEngine::Event(const std::string& kind, const std::string& target,
+                            const std::string& fault_class, double fraction, double t) {
+  result_.events.push_back(
+      {t < 0 ? std::max(motion_.t, 0.0) : t, kind, target, fault_class, fraction});
 }
 
 void SwitchingEngine::Watch(long long n) {
@@ -40,8 +41,10 @@ void SwitchingEngine::WatchFaults(long long n) {
   measurement_.position_loop = controller_on_;
   measurement_.bearings.clear();
   // The bus at the period's end: the next one's first reading.
-  const double bus = noise_->BusReading(plant_.bus.voltage, scenario_.noise ? rig_.amplifier.bus_noise : 0, n + 1, 0);
-  for (const BearingRun& b : bearings_) measurement_.bearings.push_back({b.adc, &control_[b.index].duty, bus});
+  const double bus = noise_->BusReading(plant_.bus.voltage,
+                                        scenario_.noise ? rig_.amplifier.bus_noise : 0, n + 1, 0);
+  for (const BearingRun& b : bearings_)
+    measurement_.bearings.push_back({b.adc, &control_[b.index].duty, bus});
   const std::size_t before = result_.events.size();
   options_.supervisor->AfterPeriod(measurement_, control_, result_.events);
   if (options_.snapshots && result_.events.size() > before) Snapshot(result_.events.back().kind);

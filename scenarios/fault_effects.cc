@@ -5,7 +5,8 @@ namespace ambrig {
 FaultPlace PlaceOf(const FaultSpec& fault, const RigParameters& rig) {
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     const std::string prefix = rig.bearings[k].name + ".coil";
-    if (fault.target.starts_with(prefix)) return {k, std::stoi(fault.target.substr(prefix.size())) - 1, -1};
+    if (fault.target.starts_with(prefix))
+      return {k, std::stoi(fault.target.substr(prefix.size())) - 1, -1};
     const std::vector<std::string> axes = rig.bearings[k].Axes();
     for (std::size_t side = 0; side < axes.size(); ++side)
       if (axes[side] == fault.target) return {k, -1, static_cast<int>(side)};
@@ -13,7 +14,8 @@ FaultPlace PlaceOf(const FaultSpec& fault, const RigParameters& rig) {
   return {};
 }
 
-bool ApplyToPlant(const FaultSpec& fault, const FaultPlace& place, double current, BearingPlant& plant) {
+bool ApplyToPlant(const FaultSpec& fault, const FaultPlace& place, double current,
+                  BearingPlant& plant) {
   if (place.side >= 0) {
     SensorFault& f = plant.sensor.fault[static_cast<std::size_t>(place.side)];
     f.offset += fault.Get("offset", 0);

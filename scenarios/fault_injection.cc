@@ -56,7 +56,8 @@ bool FaultInjection::Inject(const FaultSpec& f) {
   const FaultPlace place = PlaceOf(f, rig_.rig);
   const double current = place.coil < 0 ? 0 : plant_.Current(place.bearing, place.coil);
   const bool bridge = ApplyToPlant(f, place, current, *rig_.bearings[place.bearing].plant);
-  if (f.kind == "open" || f.kind == "partial-short") plant_.InjectCoil(place.bearing, place.coil, f);
+  if (f.kind == "open" || f.kind == "partial-short")
+    plant_.InjectCoil(place.bearing, place.coil, f);
   return bridge;
 }
 

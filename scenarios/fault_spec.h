@@ -1,6 +1,6 @@
 #pragma once
-/// Faults that a scenario or a campaign may name: one table of kinds, one of their parameters, walked by
-/// the readers and by docs/parameters.md. Source: shared/design/physics.md section 6.
+/// Faults that a scenario or a campaign may name: one table of kinds, one of their parameters,
+/// walked by the readers and by docs/parameters.md. Source: shared/design/physics.md section 6.
 #include <map>
 #include <span>
 #include <string>
@@ -45,8 +45,10 @@ std::span<const FaultParameter> FaultParameters();
 
 /// Comma separated kinds with one of these targets.
 std::string FaultKindNames(std::span<const FaultTarget> targets);
-/// Reads `kind` (one of `allowed`) and the table `parameters` of a fault; both checked against the tables.
+/// Reads `kind` (one of `allowed`) and the table `parameters` of a fault; both checked against the
+/// tables.
 /// @throws InputError with file:line, key, value and what is allowed.
-const FaultKind& ReadFaultKind(const TomlTable& t, const std::string& allowed, std::map<std::string, double>* parameters);
+const FaultKind& ReadFaultKind(const TomlTable& t, const std::string& allowed,
+                               std::map<std::string, double>* parameters);
 
 }  // namespace ambrig

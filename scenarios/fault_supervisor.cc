@@ -13,22 +13,28 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kBusSag = 0.9;                               // of the nominal bus
-constexpr double kBusDoubt = 0.05, kBusNoise = 6;             // of the nominal bus, half the way to a sag: no noise may go it [sd]
-constexpr double kTrueWithin = 0.15;                          // of the force in command
-constexpr double kTrueResidual = 1;                           // of the equations that a linearised W leaves open
-constexpr double kVoltageShare = 0.8;                         // of the bus, to change currents with
-constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;    // [s]
+constexpr double kBusSag = 0.9;  // of the nominal bus
+// of the nominal bus, half the way to a sag: no noise may go it [sd]
+constexpr double kBusDoubt = 0.05, kBusNoise = 6;
+constexpr double kTrueWithin = 0.15;  // of the force in command
+// of the equations that a linearised W leaves open
+constexpr double kTrueResidual = 1;
+constexpr double kVoltageShare = 0.8;                       // of the bus, to change currents with
+constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
-/// Whether W gives the force that it is asked for: a linearised one, clamped at zero current, may give another.
-bool TrueAt(const Eigen::Vector2d& force, const RedistributionProblem& left, const Distribution& found, const CurrentMap& map) {
+/// Whether W gives the force that it is asked for: a linearised one, clamped at zero current, may
+/// give another.
+bool TrueAt(const Eigen::Vector2d& force, const RedistributionProblem& left,
+            const Distribution& found, const CurrentMap& map) {
   if (found.cls != SolvabilityClass::kLinearised) return found.cls == SolvabilityClass::kExact;
   if (found.residual > kTrueResidual) return false;
-  return (NetworkForce(left).Force(map.SetPoints(force.x(), force.y())) - force).norm() <= kTrueWithin * force.norm();
+  return (NetworkForce(left).Force(map.SetPoints(force.x(), force.y())) - force).norm() <=
+         kTrueWithin * force.norm();
 }
 
-/// Of a change of stiffness what is negative: directions in which W pulls the rotor away more than the healthy
-/// bearing would. Where it pulls less the controller is stiffer than planned, which wants no help.
+/// Of a change of stiffness what is negative: directions in which W pulls the rotor away more than
+/// the healthy bearing would. Where it pulls less the controller is stiffer than planned, which
+/// wants no help.
 Eigen::Matrix2d OnlyMore(const Eigen::Matrix2d& change) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
   const Eigen::Matrix2d& v = eigen.eigenvectors();
@@ -43,7 +49,9 @@ Eigen::Vector2d ForceBehind(const CurrentMap& map, const SetPointVector& now) {
   return map.k * map.c0 * (normal.inverse() * gain.transpose() * (now - map.c0 * map.W.col(0)));
 }
 
-std::string CoilName(const std::string& bearing, int coil) { return fmt::format("{}.coil{}", bearing, coil + 1); }
+std::string CoilName(const std::string& bearing, int coil) {
+  return fmt::format("{}.coil{}", bearing, coil + 1);
+}
 
 }  // namespace
 
@@ -53,10 +61,11 @@ struct FaultSupervisor::Watched {
   std::unique_ptr<BearingDetector> detector;
   std::unique_ptr<RedistributionTable> table;
   Coils turns_left = Coils::Ones();
-  int alarmed = -1;                         // coil that the alarm was raised for
+  int alarmed = -1;  // coil that the alarm was raised for
 };
 
-FaultSupervisor::FaultSupervisor(const RigParameters& nominal, const FaultSupervisorOptions& options)
+FaultSupervisor::FaultSupervisor(const RigParameters& nominal,
+                                 const FaultSupervisorOptions& options)
     : rig_(nominal), options_(options), T_(1 / nominal.amplifier.switching_frequency), feed_(rig_) {
   const AmplifierParameters& a = rig_.amplifier;
   // Mean of as many readings as their noise asks for: one, of a quiet one.
@@ -75,7 +84,9 @@ FaultSupervisor::FaultSupervisor(const RigParameters& nominal, const FaultSuperv
 
 FaultSupervisor::~FaultSupervisor() = default;
 
-const BearingDetector& FaultSupervisor::detector(std::size_t bearing) const { return *watched_[bearing]->detector; }
+const BearingDetector& FaultSupervisor::detector(std::size_t bearing) const {
+  return *watched_[bearing]->detector;
+}
 
 void FaultSupervisor::WatchBus(double t, double reading, std::vector<RunEvent>& events) {
   const double nominal = rig_.amplifier.bus_voltage;
@@ -108,7 +119,8 @@ void FaultSupervisor::AfterPeriod(const PeriodMeasurement& m, std::vector<Bearin
   if (options_.slopes) TraceSlopes(m.t);
 }
 
-void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, std::vector<BearingControl>& control,
+void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
+                                   std::vector<BearingControl>& control,
                                    std::vector<RunEvent>& events) {
   Watched& w = *watched_[k];
   const MeasuredPeriod in = feed_.Period(k, m);
@@ -119,7 +131,8 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, st
   const std::string name = CoilName(w.bearing->name, alarm.coil);
   if (alarm.raised) w.alarmed = alarm.coil;
   if (alarm.diagnosis.cls != FaultClass::kNone && alarm.coil != w.alarmed) {
-    if (w.alarmed >= 0) events.push_back({t, "alarm_cleared", CoilName(w.bearing->name, w.alarmed), "", 0});
+    if (w.alarmed >= 0)
+      events.push_back({t, "alarm_cleared", CoilName(w.bearing->name, w.alarmed), "", 0});
     events.push_back({t, "detected", name, "", 0});
   }
   if (alarm.diagnosis.cls != FaultClass::kNone || alarm.cleared) w.alarmed = -1;
@@ -136,7 +149,8 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m, st
   events.push_back({t, "classified", name, ToText(alarm.diagnosis.cls), alarm.diagnosis.fraction});
   for (const Diagnosis& d : alarm.more) {
     events.push_back({t, "detected", CoilName(w.bearing->name, d.coil), "", 0});
-    events.push_back({t, "classified", CoilName(w.bearing->name, d.coil), ToText(d.cls), d.fraction});
+    events.push_back(
+        {t, "classified", CoilName(w.bearing->name, d.coil), ToText(d.cls), d.fraction});
   }
   if (!options_.redistribute) return;
   Disable(w, alarm.diagnosis, control[k]);
@@ -201,15 +215,18 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingContro
 
 std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
   if (!w.table)
-    w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing), options_.cache_dir);
+    w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing),
+                                                    options_.cache_dir);
   RedistributionProblem left = w.table->problem();
-  const Eigen::Matrix2d healthy = Describe(left, SolvabilityClass::kExact, HealthyDistribution(left)).stiffness;
+  const Eigen::Matrix2d healthy =
+      Describe(left, SolvabilityClass::kExact, HealthyDistribution(left)).stiffness;
   left.turns_left = w.turns_left;
   map->allocation = nullptr;
   map->stiffness_change.setZero();
   const Distribution found = w.table->Lookup(w.turns_left);
   map->W = found.W;
-  const bool matrix = options_.redistribution == "matrix" || (options_.redistribution == "auto" && TrueAt(force, left, found, *map));
+  const bool matrix = options_.redistribution == "matrix" ||
+                      (options_.redistribution == "auto" && TrueAt(force, left, found, *map));
   if (!matrix) {
     ForceInverse inverse(left);
     if (inverse.Start(force)) {
@@ -221,7 +238,8 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
   return ToText(found.cls);
 }
 
-std::unique_ptr<HandOver> FaultSupervisor::NewHandOver(const Watched& w, const CurrentMap& old, const Eigen::Vector2d& force,
+std::unique_ptr<HandOver> FaultSupervisor::NewHandOver(const Watched& w, const CurrentMap& old,
+                                                       const Eigen::Vector2d& force,
                                                        const BearingControl& control) const {
   HandOverStart s;
   s.bearing = RedistributionProblemOf(rig_, *w.bearing);
@@ -231,7 +249,8 @@ std::unique_ptr<HandOver> FaultSupervisor::NewHandOver(const Watched& w, const C
     if (w.turns_left[j] > 0) s.now[j] = control.set_point[j];
   // Without a matrix the bias is what the currents without a force would be.
   s.bias_before = old.allocation ? s.now : Coils(old.c0 * old.W.col(0));
-  s.bias_after = map.allocation ? map.allocation->Step(force.x(), force.y(), 0, 0) : SetPointVector(map.c0 * map.W.col(0));
+  s.bias_after = map.allocation ? map.allocation->Step(force.x(), force.y(), 0, 0)
+                                : SetPointVector(map.c0 * map.W.col(0));
   s.leakage = w.bearing->radial.leakage_inductance;
   s.voltage = kVoltageShare * rig_.amplifier.bus_voltage;
   s.period = 1 / rig_.controller.rate;

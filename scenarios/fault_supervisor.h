@@ -1,6 +1,6 @@
 #pragma once
-/// Fault tolerance of a rig at run time: one detector per bearing (fdd/), built from the nominal rig,
-/// then redistribution of the currents (faulttolerance/) over the coils that are left.
+/// Fault tolerance of a rig at run time: one detector per bearing (fdd/), built from the nominal
+/// rig, then redistribution of the currents (faulttolerance/) over the coils that are left.
 ///
 /// After a diagnosis of a coil fault, in the same period:
 ///   - a lost coil (open, amplifier, switch, sensor) is disabled; a partial short keeps 1 - s turns
@@ -23,13 +23,14 @@ namespace ambrig {
 
 struct FaultSupervisorOptions {
   bool redistribute = true;
-  /// auto: W when it is exact or its force at the command of now is true within 15 % (and what W leaves open is small), else force by force
-  /// (faulttolerance/force_inverse.h) where that holds, else the W of least error. matrix: always W. force-by-force: always that, where it holds.
+  /// auto: W when it is exact or its force at the command of now is true within 15 % (and what W
+  /// leaves open is small), else force by force (faulttolerance/force_inverse.h) where that holds,
+  /// else the W of least error. matrix: always W. force-by-force: always that, where it holds.
   std::string redistribution = "auto";
   std::string hand_over = kDefaultHandOver;
   bool stiffness_compensation = true;  // f + (K_healthy - K_W) x
-  bool slopes = false;        // slope traces round the first alarm, for the report
-  std::string cache_dir;      // of the redistribution tables; empty: memory only
+  bool slopes = false;                 // slope traces round the first alarm, for the report
+  std::string cache_dir;               // of the redistribution tables; empty: memory only
 };
 
 class FaultSupervisor : public Supervisor {
@@ -53,11 +54,14 @@ class FaultSupervisor : public Supervisor {
                     std::vector<RunEvent>& events);
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
   static void Disable(Watched& w, const Diagnosis& d, BearingControl& control);
-  void Redistribute(Watched& w, const Diagnosis& d, BearingControl& control, std::vector<RunEvent>& events);
-  /// The radial bearing's new map for `force` [N] after its faults; returns its class for the record.
+  void Redistribute(Watched& w, const Diagnosis& d, BearingControl& control,
+                    std::vector<RunEvent>& events);
+  /// The radial bearing's new map for `force` [N] after its faults; returns its class for the
+  /// record.
   std::string NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map);
   /// The way from the set-points in force to those of the new map.
-  std::unique_ptr<HandOver> NewHandOver(const Watched& w, const CurrentMap& old, const Eigen::Vector2d& force,
+  std::unique_ptr<HandOver> NewHandOver(const Watched& w, const CurrentMap& old,
+                                        const Eigen::Vector2d& force,
                                         const BearingControl& control) const;
   void TraceSlopes(double t);
 

@@ -28,10 +28,12 @@ struct Sensors {
 };
 
 template <class V, class Convert>
-[[gnu::always_inline]] inline void Measure(const Lane* truth, int count, const Sensors& sensors, const Convert& convert,
-                                           Lane* adc, CurrentStatistics* out) {
+[[gnu::always_inline]] inline void Measure(const Lane* truth, int count, const Sensors& sensors,
+                                           const Convert& convert, Lane* adc,
+                                           CurrentStatistics* out) {
   const bool plain = sensors.gain == nullptr;
-  const V gain = plain ? V(1) : LoadAs<V>(sensors.gain), offset = plain ? V() : LoadAs<V>(sensors.offset);
+  const V gain = plain ? V(1) : LoadAs<V>(sensors.gain),
+          offset = plain ? V() : LoadAs<V>(sensors.offset);
   V sum = {}, square = {}, most = {};
   for (int k = 0; k < count; ++k) {
     const V i = LoadAs<V>(truth[k].v);
@@ -47,42 +49,61 @@ template <class V, class Convert>
 }
 
 template <bool kClips, class V>
-[[gnu::always_inline]] inline void ConvertNoisily(const Lane* truth, int count, const Sensors& sensors, const float* normals, int coils,
-                                                  double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
+[[gnu::always_inline]] inline void ConvertNoisily(const Lane* truth, int count,
+                                                  const Sensors& sensors, const float* normals,
+                                                  int coils, double noise,
+                                                  const Converter& converter, Lane* adc,
+                                                  CurrentStatistics* out) {
   const Converter c = converter;
-  Measure<V>(truth, count, sensors, [&](const V& value, int k) __attribute__((always_inline)) {
-    Lane normal;
-    for (int j = 0; j < kLanes; ++j) normal[j] = static_cast<double>(normals[k * coils + j]);
-    return c.Convert<kClips>(value + noise * LoadAs<V>(normal.v));
-  }, adc, out);
+  Measure<V>(
+      truth, count, sensors,
+      [&](const V& value, int k) __attribute__((always_inline)) {
+        Lane normal;
+        for (int j = 0; j < kLanes; ++j) normal[j] = static_cast<double>(normals[k * coils + j]);
+        return c.Convert<kClips>(value + noise * LoadAs<V>(normal.v));
+      },
+      adc, out);
 }
 
 /// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells.
 template <class V>
-[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, bool one_way, const Sensors& sensors, const float* normals,
-                                                  int coils, double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  if (!one_way) return ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, bool one_way,
+                                                  const Sensors& sensors, const float* normals,
+                                                  int coils, double noise,
+                                                  const Converter& converter, Lane* adc,
+                                                  CurrentStatistics* out) {
+  if (!one_way)
+    return ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc,
+                                   out);
   ConvertNoisily<false, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
-  if (!(Largest(LoadAs<V>(out->largest.v)) + kLargestNormal * noise + converter.step < converter.high))
+  if (!(Largest(LoadAs<V>(out->largest.v)) + kLargestNormal * noise + converter.step <
+        converter.high))
     ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
 }
 
-AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc, CurrentStatistics* out) {
-  Measure<LaneVector>(truth, count, sensors, [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
+AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc,
+                                CurrentStatistics* out) {
+  Measure<LaneVector>(
+      truth, count, sensors,
+      [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
 }
-AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, bool one_way, const Sensors& sensors, const float* normals, int coils,
-                               double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  MeasureNoisily<WholeLaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter, adc, out);
+AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, bool one_way, const Sensors& sensors,
+                               const float* normals, int coils, double noise,
+                               const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  MeasureNoisily<WholeLaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter,
+                                  adc, out);
 }
-AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, bool one_way, const Sensors& sensors, const float* normals, int coils,
-                               double noise, const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  MeasureNoisily<LaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter, adc, out);
+AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, bool one_way, const Sensors& sensors,
+                               const float* normals, int coils, double noise,
+                               const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  MeasureNoisily<LaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter, adc,
+                             out);
 }
 
 }  // namespace
 
-void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors, bool plain,
-                     const float* normals, Lane* adc, CurrentStatistics* statistics) {
+void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
+                     bool plain, const float* normals, Lane* adc, CurrentStatistics* statistics) {
   Lane gain, offset;
   for (int j = 0; j < kLanes && !plain; ++j) {
     gain[j] = sensors[j].stuck ? 0 : sensors[j].gain;
@@ -90,9 +111,11 @@ void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const Curr
   }
   const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
   if (!s.noisy) return MeasureIdeally(truth, s.samples, chain, adc, statistics);
-  const bool one_way = s.one_way && plain && kLargestNormal * s.noise + s.quantiser.step < -s.quantiser.low;
+  const bool one_way =
+      s.one_way && plain && kLargestNormal * s.noise + s.quantiser.step < -s.quantiser.low;
   const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
-  (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, one_way, chain, normals, s.coils, s.noise, converter, adc, statistics);
+  (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, one_way, chain, normals, s.coils,
+                                               s.noise, converter, adc, statistics);
 }
 
 }  // namespace ambrig

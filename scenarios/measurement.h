@@ -9,7 +9,7 @@ struct MeasurementSettings {
   int samples = 18, coils = 8;
   bool noisy = false;
   bool one_way = false;  // no current is below zero
-  double noise = 0;  // [A rms]
+  double noise = 0;      // [A rms]
   Quantiser quantiser;
 };
 
@@ -21,7 +21,7 @@ struct CurrentStatistics {
 /// True samples -> what the ADC hands over, and the statistics of the period. `normals` holds
 /// samples x coils values of unit variance (unused without noise; see MeasurementNoise). `plain`
 /// says that every sensor is ideal (gain 1, no offset, not stuck).
-void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors, bool plain,
-                     const float* normals, Lane* adc, CurrentStatistics* statistics);
+void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
+                     bool plain, const float* normals, Lane* adc, CurrentStatistics* statistics);
 
 }  // namespace ambrig

@@ -10,16 +10,18 @@ namespace ambrig {
 class MeasurementNoise {
  public:
   /// `coils` of each bearing, `axes` position readings, `samples` ADC samples in a period.
-  MeasurementNoise(std::uint64_t seed, const std::vector<int>& coils, std::size_t axes, int samples);
+  MeasurementNoise(std::uint64_t seed, const std::vector<int>& coils, std::size_t axes,
+                   int samples);
 
-  /// Draws what is missing of period n; then Currents(b) holds samples x coils values of the ADC samples
-  /// of bearing b, readable up to seven values beyond its end.
+  /// Draws what is missing of period n; then Currents(b) holds samples x coils values of the ADC
+  /// samples of bearing b, readable up to seven values beyond its end.
   void DrawCurrents(long long n) { Draw(n); }
   const float* Currents(std::size_t bearing) const { return values_.data() + first_[bearing]; }
   /// Of the position reading of `axis` and of the bus reading of ADC sample `sample`, period n.
   double Reading(std::size_t axis, long long n) { return Draw(n)[axis]; }
   double Bus(long long n, int sample) { return Draw(n)[axes_ + static_cast<std::size_t>(sample)]; }
-  /// What the bus reading of that sample shows, with noise of `rms` [V]. The record and the controller see the same one.
+  /// What the bus reading of that sample shows, with noise of `rms` [V]. The record and the
+  /// controller see the same one.
   double BusReading(double voltage, double rms, long long n, int sample) {
     return rms > 0 ? voltage + rms * Bus(n, sample) : voltage;
   }

@@ -11,8 +11,8 @@ namespace {
 constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
 }  // namespace
 
-PositionLoop::PositionLoop(const RigParameters& rig, Plant& plant, const CommandPlan& commands, MeasurementNoise& noise,
-                           bool noisy)
+PositionLoop::PositionLoop(const RigParameters& rig, Plant& plant, const CommandPlan& commands,
+                           MeasurementNoise& noise, bool noisy)
     : plant_(plant),
       commands_(commands),
       noise_(noise),
@@ -70,8 +70,10 @@ void PositionLoop::Sample(long long n, double t) {
 void PositionLoop::Tick(long long n, double Omega, const std::vector<BearingControl>& control) {
   for (auto* v : {&reference_, &excitation_}) std::fill(v->begin(), v->end(), 0.0);
   if (n >= 0) {
-    for (const auto& s : commands_.reference) reference_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, n / M_);
-    for (const auto& s : commands_.force) excitation_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, n / M_);
+    for (const auto& s : commands_.reference)
+      reference_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, n / M_);
+    for (const auto& s : commands_.force)
+      excitation_[static_cast<std::size_t>(s.index)] += CommandPlan::At(s, n / M_);
   }
   if (switch_)
     for (const CommandPlan::Switch& s : commands_.switches)
@@ -85,7 +87,8 @@ void PositionLoop::Tick(long long n, double Omega, const std::vector<BearingCont
     const std::size_t a = first_axis_[k];
     const bool planar = first_axis_[k + 1] > a + 1;
     const double fx = force_[a], fy = planar ? force_[a + 1] : 0;
-    auto set = control[k].map.SetPoints(fx, fy, planar ? readings_[a] : 0, planar ? readings_[a + 1] : 0);
+    auto set =
+        control[k].map.SetPoints(fx, fy, planar ? readings_[a] : 0, planar ? readings_[a + 1] : 0);
     if (control[k].hand_over) set = control[k].hand_over->Step(set, {fx, fy});
     for (int j = 0; j < kLanes; ++j) next.values[k][j] = set[j];
   }
@@ -99,7 +102,8 @@ void PositionLoop::Apply(long long n, std::vector<BearingControl>& control) {
     if (!u.recorded)
       for (std::size_t k = 0; k < control.size(); ++k) control[k].set_point = u.values[k];
     u.recorded = true;
-    if (static_cast<double>(u.due) * T_ + plant_.loop_delay > static_cast<double>(n) * T_ + kTiny) continue;
+    if (static_cast<double>(u.due) * T_ + plant_.loop_delay > static_cast<double>(n) * T_ + kTiny)
+      continue;
     for (std::size_t k = 0; k < control.size(); ++k) control[k].commanded = u.values[k];
     ++done;
   }

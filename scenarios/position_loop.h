@@ -18,9 +18,10 @@ namespace ambrig {
 
 class PositionLoop {
  public:
-  /// `plant`, `commands` and `noise` must outlive the loop; `noisy`: readings with the sensors' noise.
-  /// `nominal`: the rig as the controller's designer knows it.
-  PositionLoop(const RigParameters& nominal, Plant& plant, const CommandPlan& commands, MeasurementNoise& noise, bool noisy);
+  /// `plant`, `commands` and `noise` must outlive the loop; `noisy`: readings with the sensors'
+  /// noise. `nominal`: the rig as the controller's designer knows it.
+  PositionLoop(const RigParameters& nominal, Plant& plant, const CommandPlan& commands,
+               MeasurementNoise& noise, bool noisy);
 
   /// Starts with these forces per axis [N] while the readings rest at zero.
   void Hold(const std::vector<double>& force);

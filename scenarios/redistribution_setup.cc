@@ -6,7 +6,8 @@
 
 namespace ambrig {
 
-RedistributionProblem RedistributionProblemOf(const RigParameters& rig, const BearingParameters& bearing) {
+RedistributionProblem RedistributionProblemOf(const RigParameters& rig,
+                                              const BearingParameters& bearing) {
   Require(bearing.kind == BearingKind::kRadial, "a radial bearing");
   const RadialStator stator(bearing.radial);
   RedistributionProblem p;

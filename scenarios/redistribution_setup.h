@@ -1,5 +1,6 @@
 #pragma once
-/// The redistribution problem of a bearing of this rig, nominal values, and where its table is kept.
+/// The redistribution problem of a bearing of this rig, nominal values, and where its table is
+/// kept.
 #include <string>
 
 #include "faulttolerance/redistribution_table.h"
@@ -7,7 +8,8 @@
 
 namespace ambrig {
 
-RedistributionProblem RedistributionProblemOf(const RigParameters& rig, const BearingParameters& bearing);
+RedistributionProblem RedistributionProblemOf(const RigParameters& rig,
+                                              const BearingParameters& bearing);
 
 /// $AMBRIG_CACHE, else $XDG_CACHE_HOME/ambrig, else ~/.cache/ambrig; empty when none can be had.
 std::string RedistributionCacheDirectory();

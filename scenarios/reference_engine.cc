@@ -25,13 +25,16 @@ class ReferenceRun : public ContinuousRun {
     for (int k = 1; k < rig_.samples; ++k) instants.push_back(k * rig_.h);
     for (const ContinuousBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j)
-        for (double t : {b.voltage[static_cast<std::size_t>(j)].t1, b.voltage[static_cast<std::size_t>(j)].t2})
+        for (double t :
+             {b.voltage[static_cast<std::size_t>(j)].t1, b.voltage[static_cast<std::size_t>(j)].t2})
           if (t > kSameInstant && t < rig_.T - kSameInstant) instants.push_back(t);
   }
 
   void AtInstant(double tau) override {
     const std::size_t k = next_sample_;
-    if (k >= static_cast<std::size_t>(rig_.samples) || tau < static_cast<double>(k) * rig_.h - kSameInstant) return;
+    if (k >= static_cast<std::size_t>(rig_.samples) ||
+        tau < static_cast<double>(k) * rig_.h - kSameInstant)
+      return;
     for (const ContinuousBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         samples_[b.index][k][j] = plant_->Current(b.index, j);

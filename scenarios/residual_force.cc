@@ -9,8 +9,10 @@
 
 namespace ambrig {
 
-std::vector<double> Smooth(const std::vector<double>& y, double rate, double cutoff, int derivative) {
-  const double sigma = std::sqrt(std::log(2.0)) / (2 * kPi * cutoff) * rate;  // [rows], |H| = 0.707 at cutoff
+std::vector<double> Smooth(const std::vector<double>& y, double rate, double cutoff,
+                           int derivative) {
+  // [rows], |H| = 0.707 at cutoff
+  const double sigma = std::sqrt(std::log(2.0)) / (2 * kPi * cutoff) * rate;
   const int half = static_cast<int>(std::ceil(5 * sigma));
   std::vector<double> kernel(static_cast<std::size_t>(2 * half + 1));
   double sum = 0;
@@ -19,19 +21,23 @@ std::vector<double> Smooth(const std::vector<double>& y, double rate, double cut
     const double g = std::exp(-0.5 * k * k / sigma / sigma) / sum, u = k / sigma;
     // y(t) = Σ g(k) y(t + k): derivatives of the kernel with respect to t carry the sign of k.
     kernel[static_cast<std::size_t>(k + half)] =
-        derivative == 0 ? g : derivative == 1 ? g * u / sigma * rate : g * (u * u - 1) / sigma / sigma * rate * rate;
+        derivative == 0   ? g
+        : derivative == 1 ? g * u / sigma * rate
+                          : g * (u * u - 1) / sigma / sigma * rate * rate;
   }
   const int n = static_cast<int>(y.size());
   std::vector<double> out(y.size(), 0.0);
   for (int k = 0; k < n; ++k)
     for (int m = -half; m <= half; ++m) {
       const int at = std::min(n - 1, std::max(0, k + m));
-      out[static_cast<std::size_t>(k)] += kernel[static_cast<std::size_t>(m + half)] * y[static_cast<std::size_t>(at)];
+      out[static_cast<std::size_t>(k)] +=
+          kernel[static_cast<std::size_t>(m + half)] * y[static_cast<std::size_t>(at)];
     }
   return out;
 }
 
-std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const Scenario& scenario, const Record& data,
+std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig,
+                                                   const Scenario& scenario, const Record& data,
                                                    double cutoff) {
   if (scenario.start == StartState::kClamped) return std::nullopt;
   if (!rig.modes.empty()) return std::nullopt;  // two sensors do not tell how a shaft is bent
@@ -39,7 +45,8 @@ std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, con
   for (const auto& b : rig.bearings)
     if (b.kind == BearingKind::kRadial) bearings.push_back(&b);
   if (bearings.size() != 2) return std::nullopt;
-  const Record d = BridgeMissing(data, 0, [](const std::string&) { return true; }).record;  // one NaN would be smoothed into all its neighbours
+  // one NaN would be smoothed into all its neighbours
+  const Record d = BridgeMissing(data, 0, [](const std::string&) { return true; }).record;
   const std::size_t n = d.rows();
   ResidualForce out;
   // Readings at the sensor planes -> shaft centre at the bearing planes (rigid, nominal geometry).
@@ -54,7 +61,8 @@ std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, con
   const auto at_plane = [&](double z, std::size_t side, int derivative) {
     std::vector<double> mixed(n);
     const double w = (z - zs0) / (zs1 - zs0);
-    for (std::size_t k = 0; k < n; ++k) mixed[k] = (1 - w) * sensor[side][k] + w * sensor[2 + side][k];
+    for (std::size_t k = 0; k < n; ++k)
+      mixed[k] = (1 - w) * sensor[side][k] + w * sensor[2 + side][k];
     return Smooth(mixed, d.rate, cutoff, derivative);
   };
   const Channel* omega = d.Find("omega");
@@ -91,7 +99,8 @@ std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, con
     out.planes.push_back(std::move(plane));
   }
   // Rigid motion needs F = m a and M = It a'' + gyroscopic part; solved for the two plane forces.
-  const double zA = bearings[0]->z, zB = bearings[1]->z, m = rig.rotor.mass, It = rig.rotor.inertia_transverse, Ip = rig.rotor.inertia_polar;
+  const double zA = bearings[0]->z, zB = bearings[1]->z, m = rig.rotor.mass,
+               It = rig.rotor.inertia_transverse, Ip = rig.rotor.inertia_polar;
   std::vector<double> a[4], v[4];
   for (std::size_t side = 0; side < 2; ++side) {
     a[side] = at_plane(zA, side, 2);
@@ -116,7 +125,8 @@ std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, con
     // x + z beta, y - z alpha: slopes are beta and -alpha.
     const double beta_dd = sax, alpha_dd = -say, beta_d = svx, alpha_d = -svy;
     double Fx = m * (ax - rig.gravity[0]), Fy = m * (ay - rig.gravity[1]);
-    double My = It * beta_dd - Ip * out.omega[k] * alpha_d, Mx = It * alpha_dd + Ip * out.omega[k] * beta_d;
+    double My = It * beta_dd - Ip * out.omega[k] * alpha_d,
+           Mx = It * alpha_dd + Ip * out.omega[k] * beta_d;
     for (const LoadSpec& l : scenario.loads)
       if (out.t[k] >= l.start && out.t[k] < l.stop) {
         Fx -= l.fx;

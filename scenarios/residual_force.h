@@ -15,7 +15,7 @@ namespace ambrig {
 struct ResidualForce {
   struct Plane {
     std::string bearing;
-    std::vector<double> fx, fy, x, y, vx, vy;  // [N], [m], [m/s]
+    std::vector<double> fx, fy, x, y, vx, vy;    // [N], [m], [m/s]
     std::vector<double> magnetic_x, magnetic_y;  // [N], from measured currents, same band
   };
   std::vector<double> t, theta, omega;
@@ -23,10 +23,12 @@ struct ResidualForce {
 };
 
 /// nullopt where the record has no currents and positions of two radial bearings.
-std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig, const Scenario& scenario,
-                                                   const Record& data, double cutoff = 300);
+std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig,
+                                                   const Scenario& scenario, const Record& data,
+                                                   double cutoff = 300);
 
 /// Zero-phase low pass (Gaussian, -3 dB at cutoff) of a series; and its derivatives 0, 1, 2.
-std::vector<double> Smooth(const std::vector<double>& y, double rate, double cutoff, int derivative = 0);
+std::vector<double> Smooth(const std::vector<double>& y, double rate, double cutoff,
+                           int derivative = 0);
 
 }  // namespace ambrig

@@ -85,13 +85,19 @@ BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, R
     plant.lanes.leakage[j] = 1;
   }
   switch (b.kind) {
-    case BearingKind::kRadial: FillRadial(b, plant.lanes); break;
-    case BearingKind::kThrust: FillThrust(b, plant.lanes); break;
-    case BearingKind::kOpposed: FillOpposed(b, plant.lanes); break;
+    case BearingKind::kRadial:
+      FillRadial(b, plant.lanes);
+      break;
+    case BearingKind::kThrust:
+      FillThrust(b, plant.lanes);
+      break;
+    case BearingKind::kOpposed:
+      FillOpposed(b, plant.lanes);
+      break;
   }
   plant.lanes.unipolar = rig.amplifier.quadrants < 3;
   plant.base_resistance = plant.lanes.resistance;
-  if (b.auxiliary && b.kind == BearingKind::kRadial) 
+  if (b.auxiliary && b.kind == BearingKind::kRadial)
     rotor.AddAuxiliary(b.name, std::isnan(b.auxiliary_z) ? b.z : b.auxiliary_z, *b.auxiliary);
   if (b.auxiliary && b.kind == BearingKind::kThrust) rotor.SetAxialStop(*b.auxiliary);
   return plant;
@@ -114,7 +120,8 @@ Plant BuildPlant(const RigParameters& rig) {
     if (b.kind == BearingKind::kThrust) plant.rotor.axial_free = true;
     plant.bearings.push_back(MakeBearing(rig, b, plant.rotor));
   }
-  for (const ShaftPlane& s : rig.stations) plant.stations.emplace_back(s.name, plant.rotor.MakePlane(s.z));
+  for (const ShaftPlane& s : rig.stations)
+    plant.stations.emplace_back(s.name, plant.rotor.MakePlane(s.z));
   for (const auto& [description, instance] : live)
     if (description->apply) description->apply(*instance, plant);
   const double h = 1 / (rig.amplifier.switching_frequency * rig.samples_per_period());
@@ -148,7 +155,8 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
   for (const auto& b : rig.bearings) {
     known.planes.push_back(b.kind == BearingKind::kThrust ? "z" : b.name);
     known.bearings.push_back(b.name);
-    for (int j = 1; j <= b.coils(); ++j) known.coils.push_back(b.name + ".coil" + std::to_string(j));
+    for (int j = 1; j <= b.coils(); ++j)
+      known.coils.push_back(b.name + ".coil" + std::to_string(j));
     for (const auto& axis : b.Axes()) known.axes.push_back(axis);
   }
   return known;
@@ -156,13 +164,16 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
 
 double ForceConstant(const BearingParameters& b) {
   switch (b.kind) {
-    case BearingKind::kRadial: return RadialStator(b.radial).ForceConstant();
+    case BearingKind::kRadial:
+      return RadialStator(b.radial).ForceConstant();
     case BearingKind::kThrust:
-      return 4 * kMu0 * b.thrust.turns * b.thrust.turns * b.thrust.pole_area / (b.thrust.gap * b.thrust.gap);
+      return 4 * kMu0 * b.thrust.turns * b.thrust.turns * b.thrust.pole_area /
+             (b.thrust.gap * b.thrust.gap);
     case BearingKind::kOpposed: {
       // f = (1/2) (c0 + v)² L' - (1/2) (c0 - v)² L' = 2 c0 v L', one coil alone: c0 v L' about c0.
       const auto& p = b.opposed;
-      const double slope = p.inductance_near / (p.gap_constant * std::pow(1 + p.gap / p.gap_constant, 2));
+      const double slope =
+          p.inductance_near / (p.gap_constant * std::pow(1 + p.gap / p.gap_constant, 2));
       return (p.coils > 1 ? 2 : 1) * slope;
     }
   }

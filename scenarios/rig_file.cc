@@ -12,7 +12,8 @@ namespace ambrig {
 
 namespace {
 
-void ReadSensor(const TomlTable& bearing, BearingParameters& b, std::vector<Tolerance>* tolerances) {
+void ReadSensor(const TomlTable& bearing, BearingParameters& b,
+                std::vector<Tolerance>* tolerances) {
   const auto t = bearing.Table("sensor");
   if (!t) bearing.Fail("sensor", "is missing, allowed: { z = m, noise = m }");
   if (b.kind == BearingKind::kThrust) b.sensor.z = 0;
@@ -30,22 +31,26 @@ void ReadAuxiliary(const TomlTable& bearing, BearingParameters& b, double gap) {
     t->RejectUnknownKeys();
     b.auxiliary = p;
     if (p.clearance >= gap)
-      t->Fail("clearance", fmt::format("= {} m, allowed: smaller than the gap of {} m (the rotor would "
-                                       "touch the poles first)", p.clearance, gap));
+      t->Fail("clearance",
+              fmt::format("= {} m, allowed: smaller than the gap of {} m (the rotor would "
+                          "touch the poles first)",
+                          p.clearance, gap));
   } else if (b.auxiliary && b.auxiliary->clearance >= gap) {
-    bearing.Fail("gap", fmt::format("= {} m, allowed: larger than the auxiliary clearance of {} m", gap,
-                                    b.auxiliary->clearance));
+    bearing.Fail("gap", fmt::format("= {} m, allowed: larger than the auxiliary clearance of {} m",
+                                    gap, b.auxiliary->clearance));
   }
 }
 
 void CheckWinding(const TomlTable& t, const std::string& winding) {
   if (winding.size() != kPoles || winding.find_first_not_of("NS") != std::string::npos)
-    t.Fail("winding", fmt::format("= \"{}\", allowed: eight letters N or S, e.g. NSNSNSNS", winding));
+    t.Fail("winding",
+           fmt::format("= \"{}\", allowed: eight letters N or S, e.g. NSNSNSNS", winding));
 }
 
 double Gap(const BearingParameters& b) {
-  return b.kind == BearingKind::kRadial ? b.radial.gap
-         : b.kind == BearingKind::kThrust ? b.thrust.gap : b.opposed.gap;
+  return b.kind == BearingKind::kRadial   ? b.radial.gap
+         : b.kind == BearingKind::kThrust ? b.thrust.gap
+                                          : b.opposed.gap;
 }
 
 void ReadStator(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
@@ -58,8 +63,12 @@ void ReadStator(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>
       t.Read(b.radial, kRadialStatorFields, tolerances);
       break;
     }
-    case BearingKind::kThrust: t.Read(b.thrust, kThrustStatorFields, tolerances); break;
-    case BearingKind::kOpposed: t.Read(b.opposed, kOpposedStatorFields, tolerances); break;
+    case BearingKind::kThrust:
+      t.Read(b.thrust, kThrustStatorFields, tolerances);
+      break;
+    case BearingKind::kOpposed:
+      t.Read(b.opposed, kOpposedStatorFields, tolerances);
+      break;
   }
 }
 
@@ -78,7 +87,8 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
     if (!other) {
       std::string known;
       for (const auto& k : rig.bearings) known += (known.empty() ? "" : ", ") + k.name;
-      t.Fail("like", fmt::format("= \"{}\", allowed: a bearing with its own values: {}", like, known));
+      t.Fail("like",
+             fmt::format("= \"{}\", allowed: a bearing with its own values: {}", like, known));
     }
     b = *other;
     const std::string from = "bearings." + like + ".", to = "bearings." + name + ".";
@@ -90,15 +100,19 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
   b.name = name;
   b.auxiliary_z = kRequired;  // a place of its own is not copied
   const char* kinds = "radial, thrust, opposed";
-  const std::string fallback = like.empty() ? "radial"
+  const std::string fallback = like.empty()                     ? "radial"
                                : b.kind == BearingKind::kRadial ? "radial"
-                               : b.kind == BearingKind::kThrust ? "thrust" : "opposed";
+                               : b.kind == BearingKind::kThrust ? "thrust"
+                                                                : "opposed";
   const std::string kind = t.Choice("kind", fallback, kinds);
-  b.kind = kind == "radial" ? BearingKind::kRadial : kind == "thrust" ? BearingKind::kThrust : BearingKind::kOpposed;
+  b.kind = kind == "radial"   ? BearingKind::kRadial
+           : kind == "thrust" ? BearingKind::kThrust
+                              : BearingKind::kOpposed;
   if (b.kind == BearingKind::kRadial) {
     b.z = t.Number("z", like.empty() ? kRequired : b.z);
     if (std::isnan(b.z)) t.Fail("z", "is missing, allowed: -100 to 100 m (bearing plane)");
-    if (!(std::abs(b.z) <= 100)) t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m (bearing plane)", b.z));
+    if (!(std::abs(b.z) <= 100))
+      t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m (bearing plane)", b.z));
   } else {
     b.z = t.Number("z", 0);
     if (!(std::abs(b.z) <= 100)) t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m", b.z));
@@ -117,15 +131,18 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
 void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
   AmplifierParameters& a = rig.amplifier;
   const std::string m = t.Choice("modulation", "bi-state", "bi-state, tri-state, chopper, ideal");
-  a.modulation = m == "bi-state" ? Modulation::kBiState : m == "tri-state" ? Modulation::kTriState
-                 : m == "chopper" ? Modulation::kChopper : Modulation::kIdeal;
+  a.modulation = m == "bi-state"    ? Modulation::kBiState
+                 : m == "tri-state" ? Modulation::kTriState
+                 : m == "chopper"   ? Modulation::kChopper
+                                    : Modulation::kIdeal;
   t.Read(a, kAmplifierFields, &rig.tolerances);
   const auto limits = t.Numbers("duty_limits", {a.duty_min, a.duty_max});
   if (limits.size() != 2 || !(limits[0] >= -1 && limits[0] < limits[1] && limits[1] <= 1))
     t.Fail("duty_limits", "allowed: [min, max] with min < max, within 0 to 1");
   a.duty_min = limits[0];
   a.duty_max = limits[1];
-  if (a.duty_min < 0 && m != "ideal") t.Fail("duty_limits", "allowed: 0 to 1 for a switching bridge");
+  if (a.duty_min < 0 && m != "ideal")
+    t.Fail("duty_limits", "allowed: 0 to 1 for a switching bridge");
   for (const char* key : {"adc_samples_per_period", "adc_bits", "quadrants"}) {
     const double v = t.Number(key, 2);
     if (v != std::floor(v)) t.Fail(key, fmt::format("= {}, allowed: an integer", v));
@@ -178,21 +195,26 @@ void ReadOtherControllers(const TomlTable& root, RigParameters& rig) {
 
 void ReadBearings(const TomlTable& root, RigParameters& rig) {
   const auto all = root.Table("bearings");
-  if (!all) root.Fail("bearings", "is missing, allowed: tables [bearings.A], [bearings.B], [bearings.Z]");
+  if (!all)
+    root.Fail("bearings", "is missing, allowed: tables [bearings.A], [bearings.B], [bearings.Z]");
   std::vector<std::string> names = all->Keys(), later;
   for (int pass = 0; pass < 2; ++pass)  // those that are `like` another come after it
     for (const std::string& name : names) {
       const TomlTable t = *all->Table(name);
-      if (t.Has("like") == (pass == 1)) rig.bearings.push_back(ReadBearing(t, name, rig, rig.tolerances));
+      if (t.Has("like") == (pass == 1))
+        rig.bearings.push_back(ReadBearing(t, name, rig, rig.tolerances));
     }
-  std::sort(rig.bearings.begin(), rig.bearings.end(),
-            [](const auto& a, const auto& b) { return std::tie(a.kind, a.name) < std::tie(b.kind, b.name); });
+  std::sort(rig.bearings.begin(), rig.bearings.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
+  });
   int radial = 0, thrust = 0, opposed = 0;
   for (const auto& b : rig.bearings) {
     (b.kind == BearingKind::kRadial ? radial : b.kind == BearingKind::kThrust ? thrust : opposed)++;
     for (const auto& other : rig.bearings)
-      if (&b != &other && b.kind == BearingKind::kRadial && other.kind == BearingKind::kRadial && b.z == other.z)
-        all->Table(b.name)->Fail("z", fmt::format("= {} m, allowed: another plane than bearing {}", b.z, other.name));
+      if (&b != &other && b.kind == BearingKind::kRadial && other.kind == BearingKind::kRadial &&
+          b.z == other.z)
+        all->Table(b.name)->Fail(
+            "z", fmt::format("= {} m, allowed: another plane than bearing {}", b.z, other.name));
   }
   if (opposed == 0 && radial < 2) all->Fail("", "a rigid rotor needs at least two radial bearings");
   if (opposed > 0 && (radial + thrust > 0 || opposed > 1 || rig.rotor_kind != "point"))

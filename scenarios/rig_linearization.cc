@@ -23,12 +23,14 @@ double Slope(const F& f, double h) {
 std::vector<std::size_t> MovingCoordinates(const MatrixXd& planes, const MatrixXd& coupling) {
   const Eigen::Index n = planes.cols();
   std::vector<bool> on(static_cast<std::size_t>(n), false);
-  for (Eigen::Index d = 0; d < n; ++d) on[static_cast<std::size_t>(d)] = planes.col(d).cwiseAbs().maxCoeff() > 0;
+  for (Eigen::Index d = 0; d < n; ++d)
+    on[static_cast<std::size_t>(d)] = planes.col(d).cwiseAbs().maxCoeff() > 0;
   for (bool more = true; more;) {
     more = false;
     for (Eigen::Index d = 0; d < n; ++d)
       for (Eigen::Index e = 0; e < n; ++e)
-        if (on[static_cast<std::size_t>(d)] && !on[static_cast<std::size_t>(e)] && (coupling(d, e) != 0 || coupling(e, d) != 0))
+        if (on[static_cast<std::size_t>(d)] && !on[static_cast<std::size_t>(e)] &&
+            (coupling(d, e) != 0 || coupling(e, d) != 0))
           more = on[static_cast<std::size_t>(e)] = true;
   }
   std::vector<std::size_t> out;
@@ -44,11 +46,13 @@ double LargestGain(const BendingMode& mode) {
   return most;
 }
 
-AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingControl& control, const BearingPlant& b, const CoilNetwork& network,
-                        std::size_t side, double operating_force) {
+AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingControl& control,
+                        const BearingPlant& b, const CoilNetwork& network, std::size_t side,
+                        double operating_force) {
   // The pattern: what one newton of this axis puts into the coils, per ampere of v.
   AxisActuator a;
-  const Eigen::Matrix<double, 8, 1> pattern = control.map.W.col(1 + static_cast<Eigen::Index>(side));
+  const Eigen::Matrix<double, 8, 1> pattern =
+      control.map.W.col(1 + static_cast<Eigen::Index>(side));
   const double norm = pattern.squaredNorm();
   a.force = ForceConstant(rig.bearings[k]) * control.map.c0;
   a.command = control.map.k * control.map.c0;
@@ -61,7 +65,8 @@ AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingCo
   const auto along = [&](const std::array<double, kMaxWindings>& current, double at) {
     network.Linkages(current.data(), side == 0 ? at : 0, side == 0 ? 0 : at, lambda.data());
     double sum = 0;
-    for (int j = 0; j < control.coils; ++j) sum += pattern[j] * lambda[static_cast<std::size_t>(j)] / norm;
+    for (int j = 0; j < control.coils; ++j)
+      sum += pattern[j] * lambda[static_cast<std::size_t>(j)] / norm;
     return sum;
   };
   a.inductance = along(i, 0);
@@ -71,26 +76,32 @@ AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingCo
   const double v = operating_force / a.force;
   double duty = 0;
   for (int j = 0; j < control.coils; ++j) {
-    amplifier.HoldCurrent(control.map.c0 * control.map.W(j, 0) + pattern[j] * v, b.base_resistance[j]);
+    amplifier.HoldCurrent(control.map.c0 * control.map.W(j, 0) + pattern[j] * v,
+                          b.base_resistance[j]);
     duty += amplifier.DutyFromVoltage(amplifier.integral()) * pattern[j] * pattern[j] / norm;
   }
   const auto mean = [&](double d) {
     const CoilVoltage p = amplifier.Pattern(d, ideal);
-    const double T = 1 / rig.amplifier.switching_frequency, length[3] = {p.t1, p.t2 - p.t1, T - p.t2};
+    const double T = 1 / rig.amplifier.switching_frequency,
+                 length[3] = {p.t1, p.t2 - p.t1, T - p.t2};
     double sum = 0;
-    for (int q = 0; q < 3; ++q) sum += length[q] / T * (p.gain[q] * rig.amplifier.bus_voltage + p.drop[q]);
+    for (int q = 0; q < 3; ++q)
+      sum += length[q] / T * (p.gain[q] * rig.amplifier.bus_voltage + p.drop[q]);
     return sum;
   };
   const double h = 1e-3;
-  a.volts = (mean(duty + h) - mean(duty - h)) / (2 * h) * (amplifier.DutyFromVoltage(1) - amplifier.DutyFromVoltage(0));
+  a.volts = (mean(duty + h) - mean(duty - h)) / (2 * h) *
+            (amplifier.DutyFromVoltage(1) - amplifier.DutyFromVoltage(0));
   const CoilVoltage p = amplifier.Pattern(duty, ideal);
-  a.edge = rig.amplifier.modulation == Modulation::kIdeal ? 0.5 : p.t2 * rig.amplifier.switching_frequency;
+  a.edge = rig.amplifier.modulation == Modulation::kIdeal
+               ? 0.5
+               : p.t2 * rig.amplifier.switching_frequency;
   return a;
 }
 
 /// Outputs and disturbances of the planes and modes that are weighed.
-void AddWeights(const RigParameters& rig, const RotorModel& rotor, const ShaftWeights& weights, const MatrixXd& inverse_mass,
-                RigLinearization& out) {
+void AddWeights(const RigParameters& rig, const RotorModel& rotor, const ShaftWeights& weights,
+                const MatrixXd& inverse_mass, RigLinearization& out) {
   const Eigen::Index n = inverse_mass.rows();
   const auto planes = static_cast<Eigen::Index>(weights.planes.size());
   const auto modes = static_cast<Eigen::Index>(weights.modes ? rig.modes.size() : 0);
@@ -110,7 +121,8 @@ void AddWeights(const RigParameters& rig, const RotorModel& rotor, const ShaftWe
     const double eta = weights.modes->deflection / LargestGain(mode);
     const double error = 2 * weights.modes->uncertainty * mode.omega * mode.omega * eta;
     for (Eigen::Index side = 0; side < 2; ++side) {
-      const Eigen::Index row = 2 * (planes + k) + side, d = rotor.mode_dof(static_cast<std::size_t>(k)) + side;
+      const Eigen::Index row = 2 * (planes + k) + side,
+                         d = rotor.mode_dof(static_cast<std::size_t>(k)) + side;
       out.weighed(row, d) = 1 / eta;
       out.push(d, row) = error;
     }
@@ -118,7 +130,8 @@ void AddWeights(const RigParameters& rig, const RotorModel& rotor, const ShaftWe
 }
 
 /// d f / d x of a bearing at set-points `set`, axes x axes. [N/m]
-MatrixXd NegativeStiffness(const CoilNetwork& network, const SetPointVector& set, Eigen::Index axes, double gap) {
+MatrixXd NegativeStiffness(const CoilNetwork& network, const SetPointVector& set, Eigen::Index axes,
+                           double gap) {
   MatrixXd out(axes, axes);
   for (Eigen::Index side = 0; side < axes; ++side)
     for (Eigen::Index other = 0; other < axes; ++other)
@@ -137,14 +150,16 @@ MatrixXd NegativeStiffness(const CoilNetwork& network, const SetPointVector& set
 
 }  // namespace
 
-RigLinearization LineariseRig(const RigParameters& given, const RigParameters& controllers, double Omega, const ShaftWeights& weights) {
+RigLinearization LineariseRig(const RigParameters& given, const RigParameters& controllers,
+                              double Omega, const ShaftWeights& weights) {
   RigParameters rig = given;  // nominal: no effects, no calibration
   rig.effects.clear();
   for (BearingParameters& b : rig.bearings) b.auxiliary.reset();
   const Plant plant = BuildPlant(rig);
   const LinearRotor rotor = LinearRotorOf(plant, Omega);
   const Eigen::Index n = rotor.M.rows();
-  const MatrixXd inverse_mass = rotor.M.diagonal().cwiseInverse().asDiagonal();  // no base: M is diagonal
+  // no base: M is diagonal
+  const MatrixXd inverse_mass = rotor.M.diagonal().cwiseInverse().asDiagonal();
   RigLinearization out;
   out.stiffness = -inverse_mass * rotor.K;
   out.damping = -inverse_mass * (rotor.D + Omega * rotor.G);
@@ -165,9 +180,12 @@ RigLinearization LineariseRig(const RigParameters& given, const RigParameters& c
     const BearingControl control = MakeBearingControl(rig, controllers, k, b.lanes);
     const CoilNetwork network(b.lanes);
     for (Eigen::Index side = 0; side < sides; ++side)
-      out.actuators.push_back(ActuatorOf(rig, k, control, b, network, static_cast<std::size_t>(side), shares[k][static_cast<std::size_t>(side)]));
+      out.actuators.push_back(ActuatorOf(rig, k, control, b, network,
+                                         static_cast<std::size_t>(side),
+                                         shares[k][static_cast<std::size_t>(side)]));
     const auto set = control.map.SetPoints(shares[k][0], sides > 1 ? shares[k][1] : 0);
-    out.magnet.block(first, first, sides, sides) = NegativeStiffness(network, set, sides, b.lanes.gap_offset[0]);
+    out.magnet.block(first, first, sides, sides) =
+        NegativeStiffness(network, set, sides, b.lanes.gap_offset[0]);
     first += sides;
   }
   AddWeights(rig, plant.rotor, weights, inverse_mass, out);

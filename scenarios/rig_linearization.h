@@ -1,7 +1,8 @@
 #pragma once
-/// The nominal rig in small motions about levitation (bias c0, weight carried): rotor, magnets and amplifiers of every axis, each axis
-/// with its own pattern of currents. Not in it: effects, contact, ripple, clamping; the coupling of a bearing's other current patterns
-/// (second order in weight/bias). Source: shared/design/physics.md sections 1 to 4; docs/theory/linearisation.md.
+/// The nominal rig in small motions about levitation (bias c0, weight carried): rotor, magnets and
+/// amplifiers of every axis, each axis with its own pattern of currents. Not in it: effects,
+/// contact, ripple, clamping; the coupling of a bearing's other current patterns (second order in
+/// weight/bias). Source: shared/design/physics.md sections 1 to 4; docs/theory/linearisation.md.
 #include <Eigen/Dense>
 #include <optional>
 #include <vector>
@@ -35,12 +36,14 @@ struct RigLinearization {
   Eigen::MatrixXd bearing, sensor;     // displacement of each axis per coordinate (p x n)
   Eigen::MatrixXd force;               // acceleration per force on an axis (n x p)
   Eigen::MatrixXd magnet;              // d f / d x, p x p: negative stiffness [N/m]
-  Eigen::MatrixXd weighed, push;       // of the weights: outputs (rows x n), accelerations per disturbance d (n x columns)
+  // of the weights: outputs (rows x n), accelerations per disturbance d (n x columns)
+  Eigen::MatrixXd weighed, push;
   std::vector<AxisActuator> actuators;
 };
 
 /// `controllers`: the rig as the controller knows it.
-RigLinearization LineariseRig(const RigParameters& rig, const RigParameters& controllers, double Omega, const ShaftWeights& weights);
+RigLinearization LineariseRig(const RigParameters& rig, const RigParameters& controllers,
+                              double Omega, const ShaftWeights& weights);
 
 /// Leaves the axes named, in that order, and the coordinates that they move or that move them.
 void KeepAxes(RigLinearization& l, const std::vector<std::size_t>& axes);

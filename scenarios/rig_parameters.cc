@@ -11,7 +11,8 @@ namespace {
 /// Calls visit(section, struct reference, fields) for every numeric table of the rig.
 template <class Rig, class Visit>
 void VisitTables(Rig& rig, const Visit& visit) {
-  if (!rig.beam) visit("rotor", rig.rotor, kRotorFields);  // a beam's mass and inertia follow from its shaft
+  // a beam's mass and inertia follow from its shaft
+  if (!rig.beam) visit("rotor", rig.rotor, kRotorFields);
   visit("amplifier", rig.amplifier, kAmplifierFields);
   visit("controller", rig.controller, kControllerFields);
   visit("controller", rig.controller.pid, kPidFields);
@@ -95,7 +96,8 @@ bool SetParameter(RigParameters& rig, const std::string& path, double value) {
   VisitTables(rig, [&](const std::string& section, auto& p, const auto& fields) {
     for (const auto& f : fields) {
       if (path != section + "." + std::string(f.key)) continue;
-      p.*f.at = rig.beam && path.ends_with(".sensor.z") ? value + rig.z_drawn - rig.z_origin : value;
+      p.*f.at =
+          rig.beam && path.ends_with(".sensor.z") ? value + rig.z_drawn - rig.z_origin : value;
       found = true;
     }
   });
@@ -126,9 +128,11 @@ bool ParameterRange(const RigParameters& rig, const std::string& path, double* l
 
 std::vector<ParameterRow> RigParameterRows() {
   std::vector<ParameterRow> rows;
-  const auto add = [&]<class P, std::size_t n>(const std::string& section, const Field<P>(&fields)[n]) {
+  const auto add = [&]<class P, std::size_t n>(const std::string& section,
+                                               const Field<P>(&fields)[n]) {
     for (const Field<P>& f : fields)
-      rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo, f.hi, P{}.*f.at});
+      rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo,
+                      f.hi, P{}.*f.at});
   };
   add("[rotor]", kRotorFields);
   add("[rotor.materials.NAME]", kMaterialFields);

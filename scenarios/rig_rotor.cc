@@ -13,10 +13,12 @@ namespace ambrig {
 namespace {
 
 constexpr Field<RotorParameters> kBeamRotorFields[] = {
-    {"journal_radius", &RotorParameters::journal_radius, "m", 1e-4, 10, "at the auxiliary bearings"},
+    {"journal_radius", &RotorParameters::journal_radius, "m", 1e-4, 10,
+     "at the auxiliary bearings"},
 };
 
-/// Mass, inertias and modes of the shaft as it is now. Returns how far its centre of mass is from z_origin.
+/// Mass, inertias and modes of the shaft as it is now. Returns how far its centre of mass is from
+/// z_origin.
 double TakeShaft(RigParameters& rig) {
   const ReducedRotor reduced = BuildReduced(*rig.beam);
   rig.rotor.mass = reduced.mass;
@@ -29,7 +31,9 @@ double TakeShaft(RigParameters& rig) {
 void ReadBeamRotor(const TomlTable& t, RigParameters& rig) {
   rig.beam = ReadBeam(t, &rig.tolerances);
   if (t.Has("support"))
-    t.Fail("support", "is for analysis of a shaft on springs, allowed in a rig: none, its bearings carry the rotor");
+    t.Fail("support",
+           "is for analysis of a shaft on springs, allowed in a rig: none, its bearings carry the "
+           "rotor");
   if (rig.beam->modes > kMaxModes)
     t.Fail("modes", fmt::format("= {}, allowed: 0 to {}", rig.beam->modes, kMaxModes));
   t.Read(rig.rotor, kBeamRotorFields);
@@ -47,9 +51,10 @@ void CheckModes(const TomlTable& rotor, const RigParameters& rig) {
   for (std::size_t k = 0; k < rig.modes.size(); ++k) {
     const double f = rig.modes[k].omega / (2 * kPi);
     if (f < limit) continue;
-    rotor.Fail("modes", fmt::format("= {}, allowed: 0 to {} (mode {} at {:.0f} Hz lies above half the "
-                                    "switching frequency of {} Hz)", rig.modes.size(), k, k + 1, f,
-                                    rig.amplifier.switching_frequency));
+    rotor.Fail("modes",
+               fmt::format("= {}, allowed: 0 to {} (mode {} at {:.0f} Hz lies above half the "
+                           "switching frequency of {} Hz)",
+                           rig.modes.size(), k, k + 1, f, rig.amplifier.switching_frequency));
   }
 }
 
@@ -70,8 +75,10 @@ void ReadRotor(const TomlTable& t, RigParameters& rig) {
   t.Read(rig.rotor, kRotorFields, &rig.tolerances);
   t.RejectUnknownKeys();
   if (rig.rotor.inertia_polar > 2 * rig.rotor.inertia_transverse)
-    t.Fail("inertia_polar", fmt::format("= {} kg m2, allowed: at most twice inertia_transverse = {} (no "
-                                        "body has more)", rig.rotor.inertia_polar, rig.rotor.inertia_transverse));
+    t.Fail("inertia_polar",
+           fmt::format("= {} kg m2, allowed: at most twice inertia_transverse = {} (no "
+                       "body has more)",
+                       rig.rotor.inertia_polar, rig.rotor.inertia_transverse));
 }
 
 void SetShaft(RigParameters& rig, std::size_t parameter, double value) {
@@ -98,13 +105,15 @@ void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
   }
   const auto place = [&](const TomlTable& t, const char* key, double& z) {
     if (!(lo <= z && z <= hi))
-      t.Fail(key, fmt::format("= {} m, allowed: on the shaft, {} to {} m", NumberText(z), NumberText(lo), NumberText(hi)));
+      t.Fail(key, fmt::format("= {} m, allowed: on the shaft, {} to {} m", NumberText(z),
+                              NumberText(lo), NumberText(hi)));
     z -= rig.z_origin;
   };
   const TomlTable bearings = *root.Table("bearings");
   for (BearingParameters& b : rig.bearings) {
     if (rig.FindStation(b.name))
-      bearings.Fail(b.name, "is also the name of a disk or station of the shaft, allowed: another one");
+      bearings.Fail(b.name,
+                    "is also the name of a disk or station of the shaft, allowed: another one");
     if (b.kind != BearingKind::kRadial) continue;
     const TomlTable t = *bearings.Table(b.name);
     place(t, "z", b.z);

@@ -6,7 +6,8 @@
 
 namespace ambrig {
 
-RunRecord::RunRecord(const RigParameters& rig, const Scenario& scenario, double rate, bool clamped, const RowSource& source)
+RunRecord::RunRecord(const RigParameters& rig, const Scenario& scenario, double rate, bool clamped,
+                     const RowSource& source)
     : rig_(rig),
       scenario_(scenario),
       source_(source),
@@ -61,7 +62,8 @@ void RunRecord::Row(long long n, int sample) {
   auto channel = record_.channels.begin();
   const auto put = [&](double value) { (channel++)->samples[row_] = value; };
   const bool at_tick = sample == 0 && n % M_ == 0;
-  for (std::size_t a = 0; a < source_.loop.axes(); ++a) put(at_tick ? source_.loop.readings()[a] : source_.loop.Reading(a, n));
+  for (std::size_t a = 0; a < source_.loop.axes(); ++a)
+    put(at_tick ? source_.loop.readings()[a] : source_.loop.Reading(a, n));
   for (const SampledBearing* b : source_.bearings) {
     const BearingControl& k = source_.control[b->index];
     for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b->adc[sample][j] : k.feedback[j]);
@@ -80,7 +82,8 @@ void RunRecord::Row(long long n, int sample) {
   const bool free_spin = rotor.SpeedIsFree(t);
   put(free_spin ? motion.Omega : scenario_.speed.Speed(t));
   put(free_spin ? motion.theta + motion.Omega * inside : scenario_.speed.Angle(t));
-  put(source_.noise.BusReading(source_.plant.bus.voltage, scenario_.noise ? rig_.amplifier.bus_noise : 0, n, sample));
+  put(source_.noise.BusReading(source_.plant.bus.voltage,
+                               scenario_.noise ? rig_.amplifier.bus_noise : 0, n, sample));
   ++row_;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-/// The record of a run while it grows: its channels and rows, the same in every fidelity. A row shows what
-/// the controller knows at the start of a period, or, in a burst, at every so many ADC samples.
-/// Source: shared/design/formats.md "Record".
+/// The record of a run while it grows: its channels and rows, the same in every fidelity. A row
+/// shows what the controller knows at the start of a period, or, in a burst, at every so many ADC
+/// samples. Source: shared/design/formats.md "Record".
 #include <string>
 #include <vector>
 
@@ -29,7 +29,8 @@ struct RowSource {
 class RunRecord {
  public:
   /// `rate` [Hz]; 0: the scenario's. `clamped` runs have load cells in place of true positions.
-  RunRecord(const RigParameters& rig, const Scenario& scenario, double rate, bool clamped, const RowSource& source);
+  RunRecord(const RigParameters& rig, const Scenario& scenario, double rate, bool clamped,
+            const RowSource& source);
 
   /// The row of period n, if one is due at its start.
   void AtPeriodStart(long long n) {
@@ -49,11 +50,11 @@ class RunRecord {
   const Scenario& scenario_;
   RowSource source_;
   bool clamped_;
-  double T_;                                // switching period [s]
-  int samples_, M_;                         // ADC samples per period, periods per controller period
-  int row_periods_ = 1, row_samples_ = 0;   // a row every so many periods, or every so many samples
+  double T_;                               // switching period [s]
+  int samples_, M_;                        // ADC samples per period, periods per controller period
+  int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples
   Record record_;
-  std::size_t row_ = 0;                     // the next one
+  std::size_t row_ = 0;  // the next one
 };
 
 }  // namespace ambrig

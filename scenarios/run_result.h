@@ -10,25 +10,26 @@
 namespace ambrig {
 
 struct RunEvent {
-  double t = 0;             // [s]
-  std::string kind;         // fault | detected | classified | redistributed | alarm_cleared | touchdown | lift_off | drop
+  double t = 0;  // [s]
+  // fault | detected | classified | redistributed | alarm_cleared | touchdown | lift_off | drop
+  std::string kind;
   std::string target;       // "A.coil3", "A"
   std::string fault_class;  // "open", ...
   double fraction = 0;      // of shorted turns
 };
 
 struct RunMetrics {
-  std::map<std::string, double> max_orbit;      // per bearing, from t = 0 [m]
-  double min_clearance_left = 0;                // [m], negative: penetration
-  double peak_current = 0;                      // [A]
-  double copper_loss = 0;                       // mean over the run [W]
-  double detection_delay = -1;                  // worst over the faults [s], -1: none
-  double redistribution_delay = -1;             // from the fault [s]
+  std::map<std::string, double> max_orbit;  // per bearing, from t = 0 [m]
+  double min_clearance_left = 0;            // [m], negative: penetration
+  double peak_current = 0;                  // [A]
+  double copper_loss = 0;                   // mean over the run [W]
+  double detection_delay = -1;              // worst over the faults [s], -1: none
+  double redistribution_delay = -1;         // from the fault [s]
   double false_alarms = 0;
-  double coil_periods = 0;                      // healthy coil-periods watched
+  double coil_periods = 0;  // healthy coil-periods watched
   double real_time_factor = 0;
-  double late_orbit = 0;                        // largest orbit of the last tenth of the run [m]
-  double longest_contact = 0;                   // [s]
+  double late_orbit = 0;       // largest orbit of the last tenth of the run [m]
+  double longest_contact = 0;  // [s]
 };
 
 /// Fluxes and shaft position of one bearing at an instant, for the report's drawing.

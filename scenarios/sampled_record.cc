@@ -13,8 +13,10 @@ void SampledRig::AfterPeriod(long long n, RunResult& result) {
   m.reading_time = loop_->reading_time();
   m.position_loop = controller_on_;
   // The bus at the period's end: the next one's first reading.
-  const double bus = noise_->BusReading(plant.bus.voltage, scenario.noise ? rig.amplifier.bus_noise : 0, n + 1, 0);
-  for (const SampledBearing& b : bearings) m.bearings.push_back({b.adc, &control[b.index].duty, bus});
+  const double bus =
+      noise_->BusReading(plant.bus.voltage, scenario.noise ? rig.amplifier.bus_noise : 0, n + 1, 0);
+  for (const SampledBearing& b : bearings)
+    m.bearings.push_back({b.adc, &control[b.index].duty, bus});
   options.supervisor->AfterPeriod(m, control, result.events);
 }
 

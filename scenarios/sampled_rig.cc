@@ -41,13 +41,18 @@ SampledRig::SampledRig(const RigParameters& given, const Scenario& s, const Samp
     b.plant = &plant.bearings[k];
     b.first_axis = axes;
     b.axes = p.Axes().size();
-    b.measurement = {samples, p.coils(), scenario.noise, rig.amplifier.quadrants < 3, rig.amplifier.current_noise,
+    b.measurement = {samples,
+                     p.coils(),
+                     scenario.noise,
+                     rig.amplifier.quadrants < 3,
+                     rig.amplifier.current_noise,
                      Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
     axes += b.axes;
     bearings.push_back(b);
     control.push_back(MakeBearingControl(rig, nominal, k, plant.bearings[k].lanes));
   }
-  noise_.emplace(scenario.seed, CoilsOf(rig), axes, samples);  // the switching engine's, number by number
+  // the switching engine's, number by number
+  noise_.emplace(scenario.seed, CoilsOf(rig), axes, samples);
   loop_.emplace(nominal, plant, commands_, *noise_, scenario.noise);
 }
 
@@ -107,7 +112,8 @@ void SampledRig::StartClamped() {
   PlaceClamped(rig, scenario, motion);
   for (const CommandPlan::Signal& s : commands_.current)
     control[U(s.bearing)].set_point[s.index] += CommandPlan::At(s, 0);
-  for (const SampledBearing& b : bearings) HoldSetPoints(control[b.index], b.plant->base_resistance);
+  for (const SampledBearing& b : bearings)
+    HoldSetPoints(control[b.index], b.plant->base_resistance);
 }
 
 void SampledRig::StartResting() {
@@ -148,8 +154,8 @@ void SampledRig::Measure(long long n, const std::vector<const Lane*>& truth, int
     MeasurementSettings settings = b.measurement;
     settings.samples = count;
     CurrentStatistics current;
-    MeasureCurrents(settings, truth[b.index], b.plant->current_sensor.data(), false, noise_->Currents(b.index), b.adc,
-                    &current);
+    MeasureCurrents(settings, truth[b.index], b.plant->current_sensor.data(), false,
+                    noise_->Currents(b.index), b.adc, &current);
     control[b.index].feedback = current.mean;
   }
 }

@@ -11,8 +11,8 @@
 
 #include "scenarios/command_plan.h"
 #include "scenarios/current_loops.h"
-#include "scenarios/position_loop.h"
 #include "scenarios/measurement_noise.h"
+#include "scenarios/position_loop.h"
 #include "scenarios/rig.h"
 #include "scenarios/run_record.h"
 #include "scenarios/run_result.h"

@@ -52,36 +52,45 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
   if (rows.empty()) t->Fail("profile", "is missing, allowed: [[t, Omega], ...] in s and rad/s");
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k].size() != 2)
-      t->Fail("profile", fmt::format("row {} has {}, allowed: [t, Omega]", k + 1, Counted(rows[k].size(), "entry")));
+      t->Fail("profile", fmt::format("row {} has {}, allowed: [t, Omega]", k + 1,
+                                     Counted(rows[k].size(), "entry")));
     if (k > 0 && rows[k][0] <= rows[k - 1][0])
-      t->Fail("profile", fmt::format("row {} goes back in time: t = {} s after {} s, allowed: increasing t",
-                                     k + 1, rows[k][0], rows[k - 1][0]));
+      t->Fail("profile",
+              fmt::format("row {} goes back in time: t = {} s after {} s, allowed: increasing t",
+                          k + 1, rows[k][0], rows[k - 1][0]));
     if (std::abs(rows[k][1]) > 1e5)
-      t->Fail("profile", fmt::format("row {}: Omega = {} rad/s, allowed: -1e5 to 1e5", k + 1, rows[k][1]));
+      t->Fail("profile",
+              fmt::format("row {}: Omega = {} rad/s, allowed: -1e5 to 1e5", k + 1, rows[k][1]));
   }
   s.speed = SpeedProfile(rows);
   s.speed_free_from = t->Number("free_from", kInfinity);
   t->RejectUnknownKeys();
 }
 
-void ReadStart(const TomlTable& root, const Targets& targets, const RigParameters& rig, Scenario& s) {
+void ReadStart(const TomlTable& root, const Targets& targets, const RigParameters& rig,
+               Scenario& s) {
   const auto t = root.Table("start");
   if (!t) return;
   const std::string state = t->Choice("state", "levitated", "levitated, resting, clamped");
   s.start = state == "levitated" ? StartState::kLevitated
-            : state == "resting" ? StartState::kResting : StartState::kClamped;
+            : state == "resting" ? StartState::kResting
+                                 : StartState::kClamped;
   if (const auto p = t->Table("position")) {
-    if (s.start != StartState::kClamped) t->Fail("position", "is only allowed with state = \"clamped\"");
+    if (s.start != StartState::kClamped)
+      t->Fail("position", "is only allowed with state = \"clamped\"");
     for (const auto& key : p->Keys()) {
       const BearingParameters* b = rig.Find(key);
       if (!b) p->Fail(key, "is no bearing, allowed: " + Join(targets.bearings));
-      std::vector<double> xy = p->IsNumber(key) ? std::vector<double>{p->Number(key), 0.0} : p->Numbers(key);
+      std::vector<double> xy =
+          p->IsNumber(key) ? std::vector<double>{p->Number(key), 0.0} : p->Numbers(key);
       if (xy.size() == 1) xy.push_back(0);
       if (xy.size() != 2) p->Fail(key, "allowed: [x, y] in m");
-      const double gap = b->kind == BearingKind::kRadial ? b->radial.gap
-                         : b->kind == BearingKind::kThrust ? b->thrust.gap : kInfinity;
+      const double gap = b->kind == BearingKind::kRadial   ? b->radial.gap
+                         : b->kind == BearingKind::kThrust ? b->thrust.gap
+                                                           : kInfinity;
       if (std::hypot(xy[0], xy[1]) >= gap)
-        p->Fail(key, fmt::format("= [{}, {}] m, allowed: inside the gap of {} m", xy[0], xy[1], gap));
+        p->Fail(key,
+                fmt::format("= [{}, {}] m, allowed: inside the gap of {} m", xy[0], xy[1], gap));
       s.clamp[key] = {xy[0], xy[1]};
     }
   }
@@ -94,12 +103,14 @@ void ReadExcitations(const TomlTable& root, const Targets& targets, Scenario& s)
     const bool coil = e.port == "current" || e.port == "duty";
     const auto& allowed = coil ? targets.coils : targets.axes;
     if (std::find(allowed.begin(), allowed.end(), e.target) == allowed.end())
-      t.Fail("target", fmt::format("= \"{}\" on port {}, allowed: {}", e.target, e.port, Join(allowed)));
+      t.Fail("target",
+             fmt::format("= \"{}\" on port {}, allowed: {}", e.target, e.port, Join(allowed)));
     s.excitations.push_back(e);
   }
 }
 
-void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameters& rig, Scenario& s) {
+void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameters& rig,
+               Scenario& s) {
   for (const TomlTable& t : root.Tables("load")) {
     LoadSpec l;
     if (t.Has("plane") == t.Has("z")) t.Fail("plane", "allowed: either plane = \"A\" or z = m");
@@ -114,7 +125,8 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
     } else {
       l.z = t.Number("z") - rig.z_origin;
     }
-    const auto f = t.IsNumber("force") ? std::vector<double>{t.Number("force")} : t.Numbers("force");
+    const auto f =
+        t.IsNumber("force") ? std::vector<double>{t.Number("force")} : t.Numbers("force");
     if (f.empty() || f.size() > 3) t.Fail("force", "allowed: [fx, fy] or [fx, fy, fz] in N");
     if (l.axial && f.size() == 1) {
       l.fz = f[0];
@@ -125,7 +137,8 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
     }
     l.start = t.Number("start", 0);
     l.stop = t.Number("stop", s.duration);
-    if (!(l.stop > l.start)) t.Fail("stop", fmt::format("= {} s, allowed: later than start = {} s", l.stop, l.start));
+    if (!(l.stop > l.start))
+      t.Fail("stop", fmt::format("= {} s, allowed: later than start = {} s", l.stop, l.start));
     t.RejectUnknownKeys();
     s.loads.push_back(l);
   }
@@ -139,19 +152,23 @@ void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
     f.where = t.Where();
     f.time = t.Number("time");
     if (!(f.time >= 0 && f.time < s.duration))
-      t.Fail("time", fmt::format("= {} s, allowed: 0 to below the duration of {} s", f.time, s.duration));
+      t.Fail("time",
+             fmt::format("= {} s, allowed: 0 to below the duration of {} s", f.time, s.duration));
     const FaultKind& kind = ReadFaultKind(t, FaultKindNames(kAll), &f.parameters);
     f.kind = kind.kind;
     f.target = t.String("target", kind.target == FaultTarget::kRig ? "rig" : "");
-    const std::vector<std::string> allowed = kind.target == FaultTarget::kCoil   ? targets.coils
-                                             : kind.target == FaultTarget::kAxis ? targets.axes
-                                                                                 : std::vector<std::string>{"rig"};
+    const std::vector<std::string> allowed = kind.target == FaultTarget::kCoil ? targets.coils
+                                             : kind.target == FaultTarget::kAxis
+                                                 ? targets.axes
+                                                 : std::vector<std::string>{"rig"};
     if (std::find(allowed.begin(), allowed.end(), f.target) == allowed.end())
-      t.Fail("target", fmt::format("= \"{}\" with kind {}, allowed: {}", f.target, f.kind, Join(allowed)));
+      t.Fail("target",
+             fmt::format("= \"{}\" with kind {}, allowed: {}", f.target, f.kind, Join(allowed)));
     t.RejectUnknownKeys();
     s.faults.push_back(f);
   }
-  std::stable_sort(s.faults.begin(), s.faults.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  std::stable_sort(s.faults.begin(), s.faults.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
 void ReadSwitches(const TomlTable& root, const RigParameters& rig, Scenario& s) {
@@ -161,14 +178,17 @@ void ReadSwitches(const TomlTable& root, const RigParameters& rig, Scenario& s) 
     SwitchSpec change;
     change.time = t.Number("time");
     if (!(change.time >= 0 && change.time < s.duration))
-      t.Fail("time", fmt::format("= {} s, allowed: 0 to below the duration of {} s", change.time, s.duration));
+      t.Fail("time", fmt::format("= {} s, allowed: 0 to below the duration of {} s", change.time,
+                                 s.duration));
     change.to = t.String("to");
     if (std::find(allowed.begin(), allowed.end(), change.to) == allowed.end())
-      t.Fail("to", fmt::format("= \"{}\", allowed: controllers of the rig: {}", change.to, Join(allowed)));
+      t.Fail("to", fmt::format("= \"{}\", allowed: controllers of the rig: {}", change.to,
+                               Join(allowed)));
     t.RejectUnknownKeys();
     s.switches.push_back(change);
   }
-  std::stable_sort(s.switches.begin(), s.switches.end(), [](const auto& a, const auto& b) { return a.time < b.time; });
+  std::stable_sort(s.switches.begin(), s.switches.end(),
+                   [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
 void ReadExpect(const TomlTable& root, Scenario& s) {
@@ -187,8 +207,7 @@ void ReadExpect(const TomlTable& root, Scenario& s) {
   flag("touchdown", s.expect.touchdown);
   flag("drop", s.expect.drop);
   flag("redistributed", s.expect.redistributed);
-  if (t->Has("classified"))
-    s.expect.classified = t->Choice("classified", "", FaultKindNames(kAll));
+  if (t->Has("classified")) s.expect.classified = t->Choice("classified", "", FaultKindNames(kAll));
   t->RejectUnknownKeys();
 }
 
@@ -197,8 +216,10 @@ void CheckRate(const TomlTable& root, const RigParameters& rig, double rate) {
   const double slow = pwm / rate, fast = rate / pwm;
   const auto whole = [](double v) { return std::abs(v - std::round(v)) < 1e-6 * v && v > 0.5; };
   if (whole(slow) || (whole(fast) && whole(k / fast))) return;
-  root.Fail("record_rate", fmt::format("= {} Hz, allowed: the switching frequency {} Hz over an integer, or times "
-                                       "a divisor of {} samples a period", rate, pwm, k));
+  root.Fail("record_rate",
+            fmt::format("= {} Hz, allowed: the switching frequency {} Hz over an integer, or times "
+                        "a divisor of {} samples a period",
+                        rate, pwm, k));
 }
 
 Scenario Read(const TomlTable& root, const RigParameters& rig) {
@@ -208,7 +229,8 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   s.rig_file = root.String("rig", "rig.toml");
   s.duration = PositiveTime(root, "duration", kRequired);
   s.record_rate = root.Number("record_rate", rig.controller.rate);
-  if (!(s.record_rate > 0)) root.Fail("record_rate", fmt::format("= {} Hz, allowed: above 0", s.record_rate));
+  if (!(s.record_rate > 0))
+    root.Fail("record_rate", fmt::format("= {} Hz, allowed: above 0", s.record_rate));
   CheckRate(root, rig, s.record_rate);
   const long long seed = root.Integer("seed", 1);
   if (seed < 0) root.Fail("seed", fmt::format("= {}, allowed: 0 or more", seed));
@@ -236,7 +258,8 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
 Scenario ReadScenario(const std::string& file, const RigParameters& rig) {
   return Read(TomlTable::FromFile(file), rig);
 }
-Scenario ReadScenarioText(const std::string& text, const std::string& file, const RigParameters& rig) {
+Scenario ReadScenarioText(const std::string& text, const std::string& file,
+                          const RigParameters& rig) {
   return Read(TomlTable::FromText(text, file), rig);
 }
 
@@ -246,6 +269,8 @@ std::string RigOfScenario(const std::string& file) {
   return rig.starts_with('/') ? rig : DirectoryOf(file) + "/" + rig;
 }
 
-bool HasExpectations(const std::string& file) { return TomlTable::FromFile(file).Table("expect").has_value(); }
+bool HasExpectations(const std::string& file) {
+  return TomlTable::FromFile(file).Table("expect").has_value();
+}
 
 }  // namespace ambrig

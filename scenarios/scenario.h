@@ -21,7 +21,8 @@ struct LoadSpec {
   double start = 0, stop = 0;
 };
 
-/// From the first controller tick at or after `time` on, another controller of the rig is in charge.
+/// From the first controller tick at or after `time` on, another controller of the rig is in
+/// charge.
 struct SwitchSpec {
   double time = 0;  // [s]
   std::string to;   // "main" or a name of [controllers]
@@ -34,9 +35,9 @@ struct Expectation {
   std::optional<double> detected_within;  // [s]
   std::optional<std::string> classified;
   std::optional<bool> touchdown, drop, redistributed;
-  std::optional<double> max_orbit;        // [m]
-  std::optional<double> max_false_alarms; // [-]
-  std::optional<double> rests_within;     // [m], orbit over the last tenth of the run
+  std::optional<double> max_orbit;         // [m]
+  std::optional<double> max_false_alarms;  // [-]
+  std::optional<double> rests_within;      // [m], orbit over the last tenth of the run
   bool any() const {
     return detected_within || classified || touchdown || drop || redistributed || max_orbit ||
            max_false_alarms || rests_within;
@@ -48,10 +49,10 @@ struct Scenario {
   double duration = 0, record_rate = 0;
   std::uint64_t seed = 1;
   bool noise = true;
-  bool fault_tolerant = true;  // detection and redistribution act
-  std::string redistribution = "auto";        // auto, matrix, force-by-force (fault_supervisor.h)
-  std::string hand_over = kDefaultHandOver;   // faulttolerance/hand_over_policy.h
-  bool stiffness_compensation = true;         // of a failed bearing's other negative stiffness
+  bool fault_tolerant = true;                // detection and redistribution act
+  std::string redistribution = "auto";       // auto, matrix, force-by-force (fault_supervisor.h)
+  std::string hand_over = kDefaultHandOver;  // faulttolerance/hand_over_policy.h
+  bool stiffness_compensation = true;        // of a failed bearing's other negative stiffness
   StartState start = StartState::kLevitated;
   std::map<std::string, std::array<double, 2>> clamp;
   SpeedProfile speed;
@@ -66,7 +67,8 @@ struct Scenario {
 
 /// @throws InputError with file:line. The rig is needed to check targets.
 Scenario ReadScenario(const std::string& file, const RigParameters& rig);
-Scenario ReadScenarioText(const std::string& text, const std::string& file, const RigParameters& rig);
+Scenario ReadScenarioText(const std::string& text, const std::string& file,
+                          const RigParameters& rig);
 /// Rig file that a scenario names, as a path relative to the working directory.
 std::string RigOfScenario(const std::string& file);
 bool HasExpectations(const std::string& file);

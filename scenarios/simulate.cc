@@ -15,7 +15,8 @@ namespace ambrig {
 
 namespace {
 
-RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const SimulateOptions& options) {
+RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
+                       const SimulateOptions& options) {
   EngineOptions engine;
   engine.record_rate = options.record_rate;
   engine.record = options.record;
@@ -40,7 +41,8 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario, const
 
 /// The witnesses integrate continuously: no noise, no detection (their cost is in the equations).
 template <class Options>
-RunResult RunContinuous(const RigParameters& rig, const Scenario& scenario, const SimulateOptions& options, Options o,
+RunResult RunContinuous(const RigParameters& rig, const Scenario& scenario,
+                        const SimulateOptions& options, Options o,
                         RunResult (*run)(const RigParameters&, const Scenario&, const Options&)) {
   o.sampled.record_rate = options.record_rate;
   o.progress = options.progress;
@@ -57,18 +59,26 @@ Fidelity FidelityByName(const std::string& name) {
   throw InputError(fmt::format("--fidelity = {}, allowed: switching, reference, averaged", name));
 }
 
-RunResult Simulate(const RigParameters& rig, const Scenario& scenario, const SimulateOptions& options) {
+RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
+                   const SimulateOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   RunResult result;
   switch (options.fidelity) {
-    case Fidelity::kSwitching: result = RunSwitching(rig, scenario, options); break;
-    case Fidelity::kReference: result = RunContinuous(rig, scenario, options, ReferenceOptions{}, RunReference); break;
-    case Fidelity::kAveraged: result = RunContinuous(rig, scenario, options, DefaultAveragedOptions(), RunAveraged); break;
+    case Fidelity::kSwitching:
+      result = RunSwitching(rig, scenario, options);
+      break;
+    case Fidelity::kReference:
+      result = RunContinuous(rig, scenario, options, ReferenceOptions{}, RunReference);
+      break;
+    case Fidelity::kAveraged:
+      result = RunContinuous(rig, scenario, options, DefaultAveragedOptions(), RunAveraged);
+      break;
   }
   std::stable_sort(result.events.begin(), result.events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
   JudgeDetection(scenario, result);
-  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;
   return result;
 }
@@ -83,14 +93,17 @@ void JudgeDetection(const Scenario& scenario, RunResult& result) {
       if (e.kind == "detected" && e.target == fault.target) detected = std::min(detected, e.t);
       if (e.kind == "redistributed") redistributed = std::min(redistributed, e.t);
     }
-    if (std::isfinite(detected)) m.detection_delay = std::max(m.detection_delay, detected - fault.time);
-    if (std::isfinite(redistributed)) m.redistribution_delay = std::max(m.redistribution_delay, redistributed - fault.time);
+    if (std::isfinite(detected))
+      m.detection_delay = std::max(m.detection_delay, detected - fault.time);
+    if (std::isfinite(redistributed))
+      m.redistribution_delay = std::max(m.redistribution_delay, redistributed - fault.time);
   }
   m.false_alarms = 0;
   for (const RunEvent& e : result.events) {
     if (e.kind != "detected") continue;
     bool real = false;
-    for (const FaultSpec& fault : scenario.faults) real = real || (fault.target == e.target && e.t >= fault.time);
+    for (const FaultSpec& fault : scenario.faults)
+      real = real || (fault.target == e.target && e.t >= fault.time);
     if (!real) m.false_alarms += 1;
   }
 }

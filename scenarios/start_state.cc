@@ -7,8 +7,8 @@
 
 namespace ambrig {
 
-BearingControl MakeBearingControl(const RigParameters& rig, const RigParameters& nominal, std::size_t k,
-                                  const StatorLanes& lanes) {
+BearingControl MakeBearingControl(const RigParameters& rig, const RigParameters& nominal,
+                                  std::size_t k, const StatorLanes& lanes) {
   const BearingParameters& p = rig.bearings[k];
   BearingControl c;
   c.name = p.name;
@@ -31,7 +31,8 @@ std::vector<double> WeightOverAxes(const RigParameters& rig) {
   std::vector<double> force;
   const auto shares = WeightShares(rig);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k)
-    for (std::size_t side = 0; side < rig.bearings[k].Axes().size(); ++side) force.push_back(shares[k][side]);
+    for (std::size_t side = 0; side < rig.bearings[k].Axes().size(); ++side)
+      force.push_back(shares[k][side]);
   return force;
 }
 
@@ -65,7 +66,8 @@ void PlaceClamped(const RigParameters& rig, const Scenario& scenario, MotionStat
   double n = 0, sz = 0, szz = 0, sx = 0, sy = 0, szx = 0, szy = 0;
   for (const BearingParameters& b : rig.bearings) {
     const auto it = scenario.clamp.find(b.name);
-    const std::array<double, 2> at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    const std::array<double, 2> at =
+        it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
     if (b.kind == BearingKind::kThrust) {
       s.q[2] = at[0];
     } else if (b.kind == BearingKind::kOpposed) {

@@ -20,22 +20,22 @@ struct BearingControl {
   CurrentMap map;
   std::shared_ptr<HandOver> hand_over;  // on the way to `map`'s currents; empty: there
   std::array<PowerAmplifier, kLanes> amplifier;
-  Lane set_point;                 // in force, without excitation [A]
-  Lane commanded;                 // with the coil's current excitation [A]
-  Lane duty, feedback;            // of this period [-]; mean of the last period's samples [A]
+  Lane set_point;                       // in force, without excitation [A]
+  Lane commanded;                       // with the coil's current excitation [A]
+  Lane duty, feedback;                  // of this period [-]; mean of the last period's samples [A]
   std::array<bool, kLanes> disabled{};  // bridge kept off by the controller
 };
 
 /// What was measured of one bearing over one switching period.
 struct BearingMeasurement {
-  const Lane* adc = nullptr;      // samples k = 0..n-1 [A]
-  const Lane* duty = nullptr;     // that was applied [-]
-  double bus = 0;                 // measured supply [V]
+  const Lane* adc = nullptr;   // samples k = 0..n-1 [A]
+  const Lane* duty = nullptr;  // that was applied [-]
+  double bus = 0;              // measured supply [V]
 };
 
 struct PeriodMeasurement {
-  long long period = 0;           // n; t_n = n T
-  double t = 0;                   // t_n [s]
+  long long period = 0;  // n; t_n = n T
+  double t = 0;          // t_n [s]
   int samples = 0;
   std::vector<BearingMeasurement> bearings;
   const std::vector<double>* readings = nullptr;  // last noisy position readings per axis [m]

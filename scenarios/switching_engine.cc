@@ -11,8 +11,12 @@
 
 namespace ambrig {
 
-SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scenario, const EngineOptions& options)
-    : rig_(TrueRig(rig)), nominal_(options.nominal ? *options.nominal : rig), scenario_(scenario), options_(options),
+SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scenario,
+                                 const EngineOptions& options)
+    : rig_(TrueRig(rig)),
+      nominal_(options.nominal ? *options.nominal : rig),
+      scenario_(scenario),
+      options_(options),
       plant_(BuildPlant(rig_)) {
   if (options_.commands) {
     commands_ = options_.commands;
@@ -22,12 +26,14 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
   }
   T_ = 1 / rig_.amplifier.switching_frequency;
   samples_ = rig_.samples_per_period();
-  Require(options_.substeps >= 1 && samples_ * options_.substeps <= 160, "at most 160 steps in a period");
+  Require(options_.substeps >= 1 && samples_ * options_.substeps <= 160,
+          "at most 160 steps in a period");
   h_ = T_ / samples_;
   M_ = rig_.periods_per_control();
   periods_ = static_cast<long long>(std::ceil(scenario_.duration / T_ - 1e-6));
   plant_.rotor.SetSpeed(scenario_.speed, scenario_.speed_free_from);
-  for (const LoadSpec& l : scenario_.loads) plant_.rotor.AddLoad(l.z + (rig_.z_drawn - rig_.z_origin), l.fx, l.fy, l.fz, l.start, l.stop);
+  for (const LoadSpec& l : scenario_.loads)
+    plant_.rotor.AddLoad(l.z + (rig_.z_drawn - rig_.z_origin), l.fx, l.fy, l.fz, l.start, l.stop);
   std::size_t axis = 0;
   int auxiliary = 0;
   for (std::size_t k = 0; k < rig_.bearings.size(); ++k) {
@@ -39,7 +45,11 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
     b.axes = p.Axes().size();
     axis += b.axes;
     if (p.auxiliary && p.kind == BearingKind::kRadial) b.auxiliary = auxiliary++;
-    b.measurement = {samples_, p.coils(), scenario_.noise, rig_.amplifier.quadrants < 3, rig_.amplifier.current_noise,
+    b.measurement = {samples_,
+                     p.coils(),
+                     scenario_.noise,
+                     rig_.amplifier.quadrants < 3,
+                     rig_.amplifier.current_noise,
                      Quantiser(rig_.amplifier.adc_bits, rig_.amplifier.adc_range)};
     for (const CurrentSensor& s : b.plant->current_sensor)
       if (s.gain != 1 || s.offset != 0) b.plain_sensors = false;
@@ -62,7 +72,8 @@ RunResult SwitchingEngine::Run() {
   for (long long n = -warm_; n < periods_; ++n) {
     if ((n & 255) == 0) {
       if (options_.stop && options_.stop->load()) throw Interrupted();
-      if (options_.progress) options_.progress(static_cast<double>(n + warm_) / static_cast<double>(periods_ + warm_));
+      if (options_.progress)
+        options_.progress(static_cast<double>(n + warm_) / static_cast<double>(periods_ + warm_));
     }
     Period(n);
   }
@@ -75,11 +86,18 @@ RunResult SwitchingEngine::Run() {
 void SwitchingEngine::Start() {
   if (options_.forced) {
     StartForced();
-  } else switch (scenario_.start) {
-    case StartState::kLevitated: StartLevitated(); break;
-    case StartState::kClamped: StartClamped(); break;
-    case StartState::kResting: StartResting(); break;
-  }
+  } else
+    switch (scenario_.start) {
+      case StartState::kLevitated:
+        StartLevitated();
+        break;
+      case StartState::kClamped:
+        StartClamped();
+        break;
+      case StartState::kResting:
+        StartResting();
+        break;
+    }
   plant_.rotor.SetSpin(motion_);
   for (BearingRun& b : bearings_) {
     b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
@@ -177,14 +195,17 @@ void SwitchingEngine::MoveRotor(long long n) {
   motion_.t = static_cast<double>(n + 1) * T_;
   if (options_.lost_after < kInfinity && plant_.rotor.NearContact(motion_, 0)) {
     touching_ += T_;
-    if (touching_ > options_.lost_after) throw std::runtime_error(scenario_.name + ": the rotor is lost");
+    if (touching_ > options_.lost_after)
+      throw std::runtime_error(scenario_.name + ": the rotor is lost");
   }
   const double per_period = 1 / T_;
-  for (std::size_t d = 0; d < dof; ++d) acceleration_[d] = (motion_.v[d] - acceleration_[d]) * per_period;
+  for (std::size_t d = 0; d < dof; ++d)
+    acceleration_[d] = (motion_.v[d] - acceleration_[d]) * per_period;
   for (BearingRun& b : bearings_) {
     b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
     if (!std::isfinite(b.x) || !std::isfinite(b.y))
-      throw std::runtime_error(fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t));
+      throw std::runtime_error(
+          fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t));
   }
 }
 

@@ -12,32 +12,37 @@
 #include "scenarios/contact_watch.h"
 #include "scenarios/current_loops.h"
 #include "scenarios/measurement.h"
-#include "scenarios/position_loop.h"
 #include "scenarios/measurement_noise.h"
-#include "scenarios/run_record.h"
+#include "scenarios/position_loop.h"
 #include "scenarios/rig.h"
+#include "scenarios/run_record.h"
 #include "scenarios/run_result.h"
 #include "scenarios/supervisor.h"
 
 namespace ambrig {
 
 struct EngineOptions {
-  double record_rate = 0;                          // 0: the scenario's
+  double record_rate = 0;  // 0: the scenario's
   bool record = true;
   bool snapshots = false;
-  double lost_after = kInfinity;                   // [s] of contact after which the rotor counts as lost: throws
-  bool watch = true;                               // events and figures of the verdict
-  bool force_general_path = false;                 // tests: the slow path must give the same record
-  double warm_up = -1;                             // [s] before t = 0; negative: physics.md's (tests: shorter)
-  int substeps = 1;                                // tests of convergence: finer steps inside a sample
-  const RigParameters* nominal = nullptr;          // what the controller believes; default: the rig file's values
-  const Record* forced = nullptr;                  // measured set-points and readings drive the coils; no rotor
-  const CommandPlan* commands = nullptr;           // shared between runs of one scenario
+  // [s] of contact after which the rotor counts as lost: throws
+  double lost_after = kInfinity;
+  bool watch = true;                // events and figures of the verdict
+  bool force_general_path = false;  // tests: the slow path must give the same record
+  // [s] before t = 0; negative: physics.md's (tests: shorter)
+  double warm_up = -1;
+  // tests of convergence: finer steps inside a sample
+  int substeps = 1;
+  // what the controller believes; default: the rig file's values
+  const RigParameters* nominal = nullptr;
+  // measured set-points and readings drive the coils; no rotor
+  const Record* forced = nullptr;
+  const CommandPlan* commands = nullptr;  // shared between runs of one scenario
   Supervisor* supervisor = nullptr;
   /// Who moves the rotor; empty: RotorModel::Step.
   std::function<std::unique_ptr<RotorStepper>(const RotorModel&)> stepper = {};
-  std::function<void(double)> progress;            // fraction done
-  const std::atomic<bool>* stop = nullptr;         // set: throw Interrupted
+  std::function<void(double)> progress;     // fraction done
+  const std::atomic<bool>* stop = nullptr;  // set: throw Interrupted
 };
 
 /// Set-points on their way to the current loops.
@@ -75,8 +80,8 @@ class SwitchingEngine {
   void HeatCopper();
   void Snapshot(const std::string& label);
   void Verdict();
-  void Event(const std::string& kind, const std::string& target, const std::string& fault_class = "",
-             double fraction = 0, double t = -1);
+  void Event(const std::string& kind, const std::string& target,
+             const std::string& fault_class = "", double fraction = 0, double t = -1);
 
   RigParameters rig_;      // true values
   RigParameters nominal_;  // the controller's
@@ -88,13 +93,13 @@ class SwitchingEngine {
   Plant plant_;
   std::unique_ptr<RotorStepper> stepper_;
   MotionState motion_, ahead_;  // now, and as predicted for the end of the period
-  DofVector magnetic_force_{};              // generalised, of this period
+  DofVector magnetic_force_{};  // generalised, of this period
   DofVector acceleration_{};
   std::vector<BearingRun> bearings_;
   std::vector<BearingControl> control_;
 
-  double T_ = 0, h_ = 0;     // switching period, ADC sample [s]
-  int M_ = 1, samples_ = 18; // periods per controller period, ADC samples per period
+  double T_ = 0, h_ = 0;      // switching period, ADC sample [s]
+  int M_ = 1, samples_ = 18;  // periods per controller period, ADC samples per period
   bool clamped_ = false, controller_on_ = true;
   long long warm_ = 0, periods_ = 0;
   std::size_t next_fault_ = 0;

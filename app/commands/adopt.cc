@@ -23,12 +23,15 @@ void Print(const Adoption& a, const std::string& output) {
   const EffectInstance& e = a.effects.back();
   fmt::print("{} at {}\n", e.name, e.target);
   for (std::size_t k = 0; k < e.table.size(); ++k)
-    fmt::print("  {:<16} {:.6g}{} {}\n", e.table[k].name, e.values[k], e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "", e.table[k].unit);
+    fmt::print("  {:<16} {:.6g}{} {}\n", e.table[k].name, e.values[k],
+               e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "", e.table[k].unit);
   for (const LadderStep& s : a.ladder)
-    fmt::print("  {:<34} fit {:8.3f}   unseen {:8.3f}\n", s.added.empty() ? "rig file" : s.added, s.ratio_fit, s.ratio_validate);
+    fmt::print("  {:<34} fit {:8.3f}   unseen {:8.3f}\n", s.added.empty() ? "rig file" : s.added,
+               s.ratio_fit, s.ratio_validate);
   for (const std::string& w : a.fit.warnings) fmt::print("  warning: {}\n", w);
   if (!a.fit.converged) fmt::print("  warning: the fit did not converge\n");
-  fmt::print("written {}; compared again: ratio {:.3f} (was {:.3f})\n", output, a.after.ratio, a.before.ratio);
+  fmt::print("written {}; compared again: ratio {:.3f} (was {:.3f})\n", output, a.after.ratio,
+             a.before.ratio);
 }
 
 nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output) {
@@ -37,14 +40,18 @@ nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output
   json["rig"] = output;
   json["converged"] = a.fit.converged;
   json["warnings"] = a.fit.warnings;
-  for (const LadderStep& s : a.ladder) json["ladder"].push_back({{"added", s.added}, {"ratio_fit", s.ratio_fit}, {"ratio_validate", s.ratio_validate}});
+  for (const LadderStep& s : a.ladder)
+    json["ladder"].push_back(
+        {{"added", s.added}, {"ratio_fit", s.ratio_fit}, {"ratio_validate", s.ratio_validate}});
   return json;
 }
 
 int RunAdopt(const AdoptCommand& o) {
   const Case c = ReadCase(o.file);
   const std::filesystem::path rig(c.rig_file);
-  const std::string output = !o.output.empty() ? o.output : (rig.parent_path() / (rig.stem().string() + "_adopted.toml")).string();
+  const std::string output =
+      !o.output.empty() ? o.output
+                        : (rig.parent_path() / (rig.stem().string() + "_adopted.toml")).string();
   Progress progress("adopt");
   ExplainOptions options;
   options.stop = &interrupted;
@@ -54,7 +61,8 @@ int RunAdopt(const AdoptCommand& o) {
   progress.Clear();
   Print(a, output);
   o.common.WriteJson(AdoptionJson(a, output));
-  if (!o.common.html.empty()) WriteAdoptReport(*a.model, a.before, a.after, a.ladder, o.common.html);
+  if (!o.common.html.empty())
+    WriteAdoptReport(*a.model, a.before, a.after, a.ladder, o.common.html);
   return 0;
 }
 
@@ -62,13 +70,17 @@ int RunAdopt(const AdoptCommand& o) {
 
 void AddAdopt(CLI::App& app, Work& work) {
   auto options = std::make_shared<AdoptCommand>();
-  CLI::App* command = app.add_subcommand("adopt", "add an effect with fitted parameters, compare again");
+  CLI::App* command =
+      app.add_subcommand("adopt", "add an effect with fitted parameters, compare again");
   command->add_option("case", options->file, "case file (TOML)")->required();
-  command->add_option("effect", options->effect, "effect of the catalogue (ambrig effects)")->required();
+  command->add_option("effect", options->effect, "effect of the catalogue (ambrig effects)")
+      ->required();
   command->add_option("--target", options->target, "where; default: the target that fits best");
-  command->add_option("-o,--output", options->output, "new rig file (default: RIG_adopted.toml beside the rig)");
+  command->add_option("-o,--output", options->output,
+                      "new rig file (default: RIG_adopted.toml beside the rig)");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig adopt case.toml eddy-currents --target A -o rig_with_eddy.toml");
+  command->footer(
+      "Example:\n  ambrig adopt case.toml eddy-currents --target A -o rig_with_eddy.toml");
   command->callback([options, &work] { work = [options] { return RunAdopt(*options); }; });
 }
 

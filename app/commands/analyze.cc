@@ -36,7 +36,8 @@ double Rpm(const std::string& option, const std::string& text) {
     used = std::string::npos;
   }
   if (used != text.size() || !(value >= 0 && value <= 1e7))
-    throw InputError(fmt::format("--{} = {}, allowed: rpm from 0 to 1e7, e.g. 6000 or 3000:9000", option, text));
+    throw InputError(
+        fmt::format("--{} = {}, allowed: rpm from 0 to 1e7, e.g. 6000 or 3000:9000", option, text));
   return value;
 }
 
@@ -44,15 +45,20 @@ AnalysisOptions OptionsOf(const AnalyzeCommand& c) {
   AnalysisOptions o;
   const std::size_t colon = c.speed.find(':');
   o.lowest = Rpm("speed", c.speed.substr(0, colon)) * kRpm;
-  o.highest = colon == std::string::npos ? o.lowest : Rpm("speed", c.speed.substr(colon + 1)) * kRpm;
-  if (o.highest < o.lowest) throw InputError(fmt::format("--speed = {}, allowed: the lower speed first", c.speed));
+  o.highest =
+      colon == std::string::npos ? o.lowest : Rpm("speed", c.speed.substr(colon + 1)) * kRpm;
+  if (o.highest < o.lowest)
+    throw InputError(fmt::format("--speed = {}, allowed: the lower speed first", c.speed));
   o.fastest = c.fastest > 0 ? c.fastest * kRpm : o.highest > 0 ? 1.5 * o.highest : 9000 * kRpm;
   if (o.fastest < o.highest)
-    throw InputError(fmt::format("--max-speed = {}, allowed: at least the highest operating speed, {:g} rpm", c.fastest, o.highest / kRpm));
+    throw InputError(
+        fmt::format("--max-speed = {}, allowed: at least the highest operating speed, {:g} rpm",
+                    c.fastest, o.highest / kRpm));
   for (const std::string& pair : c.responses) {
     const std::size_t comma = pair.find(':');
     if (comma == std::string::npos)
-      throw InputError(fmt::format("--response = {}, allowed: INPUT:OUTPUT, e.g. A.x.force:B.x", pair));
+      throw InputError(
+          fmt::format("--response = {}, allowed: INPUT:OUTPUT, e.g. A.x.force:B.x", pair));
     o.responses.emplace_back(pair.substr(0, comma), pair.substr(comma + 1));
   }
   o.measured = c.measured;
@@ -66,33 +72,39 @@ std::string Zone(char zone) {
 }
 
 void PrintCapacity(const RigAnalysis& a) {
-  fmt::print("\n{}\n{:<6} {:>9} {:>11} {:>10} {:>10} {:>10} {:>12} {:>9}\n", Coloured("bearings at the operating point", "bold"), "axis",
-             "k_i [N/A]", "k_s [N/m]", "static [N]", "weight [N]", "peak [N]", "slew [N/s]", "knee [Hz]");
+  fmt::print("\n{}\n{:<6} {:>9} {:>11} {:>10} {:>10} {:>10} {:>12} {:>9}\n",
+             Coloured("bearings at the operating point", "bold"), "axis", "k_i [N/A]", "k_s [N/m]",
+             "static [N]", "weight [N]", "peak [N]", "slew [N/s]", "knee [Hz]");
   for (const AxisCapacity& c : a.capacity)
-    fmt::print("{:<6} {:>9.4g} {:>11.5g} {:>10.4g} {:>10.4g} {:>10.4g} {:>12.4g} {:>9.4g}\n", c.axis, c.k_i, c.k_s, c.usable(), c.weight,
-               c.largest, c.slew, c.knee);
+    fmt::print("{:<6} {:>9.4g} {:>11.5g} {:>10.4g} {:>10.4g} {:>10.4g} {:>12.4g} {:>9.4g}\n",
+               c.axis, c.k_i, c.k_s, c.usable(), c.weight, c.largest, c.slew, c.knee);
 }
 
 void PrintSensitivity(const RigAnalysis& a) {
-  fmt::print("\n{}\n{:>9} {:<6} {:>8} {:>10} {:>5} {:>18} {:>10} {:>12}\n", Coloured("sensitivity (ISO 14839-3), all other loops closed", "bold"),
-             "rpm", "axis", "peak |S|", "at [Hz]", "zone", "gain x from..to", "phase", "delay");
+  fmt::print("\n{}\n{:>9} {:<6} {:>8} {:>10} {:>5} {:>18} {:>10} {:>12}\n",
+             Coloured("sensitivity (ISO 14839-3), all other loops closed", "bold"), "rpm", "axis",
+             "peak |S|", "at [Hz]", "zone", "gain x from..to", "phase", "delay");
   for (const Sensitivity& s : a.sensitivity)
     for (const AxisSensitivity& x : s.axes)
-      fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n", s.speed / kRpm, x.axis, x.peak, x.peak_frequency,
-                 Zone(x.zone), fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up), x.phase_margin * 180 / kPi, x.delay_margin * 1e6);
-  fmt::print("\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n", Coloured("joint margin: every loop changed at once, each in its own way", "bold"), "rpm", "disk [-]",
-             "gain x from..to", "phase", "at [Hz]", "axes");
+      fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n",
+                 s.speed / kRpm, x.axis, x.peak, x.peak_frequency, Zone(x.zone),
+                 fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up), x.phase_margin * 180 / kPi,
+                 x.delay_margin * 1e6);
+  fmt::print("\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n",
+             Coloured("joint margin: every loop changed at once, each in its own way", "bold"),
+             "rpm", "disk [-]", "gain x from..to", "phase", "at [Hz]", "axes");
   for (const Sensitivity& s : a.sensitivity)
     for (const JointMargin& m : s.joint) {
       std::vector<std::string> axes;
       for (std::size_t k : m.axes) axes.push_back(s.axes[k].axis);
       fmt::print("{:>9.0f} {:>10.3f} {:>18} {:>8.1f} ° {:>10.1f}  {}\n", s.speed / kRpm, m.alpha,
-                 fmt::format("{:.3f}..{:.3f}", DiskGainDown(m.alpha), DiskGainUp(m.alpha)), DiskPhase(m.alpha) * 180 / kPi, m.frequency,
-                 fmt::join(axes, " "));
+                 fmt::format("{:.3f}..{:.3f}", DiskGainDown(m.alpha), DiskGainUp(m.alpha)),
+                 DiskPhase(m.alpha) * 180 / kPi, m.frequency, fmt::join(axes, " "));
     }
   for (const MeasuredPoint& p : a.measured)
-    fmt::print("  measured {:<5} {:>8.1f} Hz: |S| {:.4f}, computed {:.4f}, difference {:+.2f} %\n", a.capacity[p.axis].axis, p.frequency,
-               std::abs(p.measured), std::abs(p.computed), 100 * (std::abs(p.measured) / std::abs(p.computed) - 1));
+    fmt::print("  measured {:<5} {:>8.1f} Hz: |S| {:.4f}, computed {:.4f}, difference {:+.2f} %\n",
+               a.capacity[p.axis].axis, p.frequency, std::abs(p.measured), std::abs(p.computed),
+               100 * (std::abs(p.measured) / std::abs(p.computed) - 1));
 }
 
 void PrintModes(const RigAnalysis& a) {
@@ -110,32 +122,42 @@ void PrintModes(const RigAnalysis& a) {
     if (r.speed != 0 && r.speed != a.options.lowest && r.speed != a.options.highest) continue;
     for (const ClosedLoopMode& m : r.modes)
       if (m.of_rotor() && m.zeta < 0.95)
-        fmt::print("{:>9.0f} {:>10.2f} {:>8.4f} {:>9.3f} {:<9}\n", r.speed / kRpm, m.frequency, m.zeta, m.log_decrement, SenseName(m.sense()));
+        fmt::print("{:>9.0f} {:>10.2f} {:>8.4f} {:>9.3f} {:<9}\n", r.speed / kRpm, m.frequency,
+                   m.zeta, m.log_decrement, SenseName(m.sense()));
   }
   for (const DampedCritical& c : a.criticals)
-    fmt::print("  critical speed {:.0f} rpm, {}, log decrement {:.3f}\n", c.speed / kRpm, SenseName(c.mode.sense()), c.mode.log_decrement);
+    fmt::print("  critical speed {:.0f} rpm, {}, log decrement {:.3f}\n", c.speed / kRpm,
+               SenseName(c.mode.sense()), c.mode.log_decrement);
 }
 
 void PrintStandards(const RigAnalysis& a) {
   if (a.displacement.empty()) return;
-  fmt::print("\n{}\n", Coloured("unbalance of API 617 (6350 W/N g mm a plane), operating speeds", "bold"));
+  fmt::print("\n{}\n",
+             Coloured("unbalance of API 617 (6350 W/N g mm a plane), operating speeds", "bold"));
   for (const DisplacementRow& d : a.displacement)
-    fmt::print("  {:<7} {:<3} largest {:>8.3f} um of {:.0f} um: ISO 14839-2 zone {}\n", d.unbalance, d.bearing, d.largest * 1e6,
-               d.clearance * 1e6, Zone(d.zone));
+    fmt::print("  {:<7} {:<3} largest {:>8.3f} um of {:.0f} um: ISO 14839-2 zone {}\n", d.unbalance,
+               d.bearing, d.largest * 1e6, d.clearance * 1e6, Zone(d.zone));
   for (const SeparationRow& s : a.separation)
-    fmt::print("  {:<7} {:<3} peak at {:.0f} rpm, AF {}: margin {:.1f} % of {:.1f} % {}\n", s.unbalance, s.bearing, s.peak.speed / kRpm,
-               fmt::format("{}{:.2f}", s.peak.bound ? "< " : "", s.peak.amplification), s.margin.actual, s.margin.required,
+    fmt::print("  {:<7} {:<3} peak at {:.0f} rpm, AF {}: margin {:.1f} % of {:.1f} % {}\n",
+               s.unbalance, s.bearing, s.peak.speed / kRpm,
+               fmt::format("{}{:.2f}", s.peak.bound ? "< " : "", s.peak.amplification),
+               s.margin.actual, s.margin.required,
                s.margin.met ? Coloured("met", "green") : Coloured("NOT MET", "red"));
 }
 
 void Print(const RigAnalysis& a) {
   const RigParameters& rig = a.point.rig();
-  fmt::print("{}: {} axes, {} coils, controller {:g} Hz, operating {:.0f} to {:.0f} rpm, looked at up to {:.0f} rpm\n",
-             Coloured(rig.name, "bold"), a.capacity.size(), [&] {
-               int n = 0;
-               for (const auto& b : rig.bearings) n += b.coils();
-               return n;
-             }(), rig.controller.rate, a.options.lowest / kRpm, a.options.highest / kRpm, a.options.fastest / kRpm);
+  fmt::print(
+      "{}: {} axes, {} coils, controller {:g} Hz, operating {:.0f} to {:.0f} rpm, looked at up to "
+      "{:.0f} rpm\n",
+      Coloured(rig.name, "bold"), a.capacity.size(),
+      [&] {
+        int n = 0;
+        for (const auto& b : rig.bearings) n += b.coils();
+        return n;
+      }(),
+      rig.controller.rate, a.options.lowest / kRpm, a.options.highest / kRpm,
+      a.options.fastest / kRpm);
   for (const std::string& note : a.point.notes) fmt::print("  note: {}\n", note);
   PrintCapacity(a);
   PrintSensitivity(a);
@@ -163,7 +185,8 @@ int RunAnalyze(const AnalyzeCommand& c) {
   std::error_code failed;
   std::filesystem::create_directories(c.out, failed);
   if (failed) throw InputError(fmt::format("-o {}: {}", c.out, failed.message()));
-  const std::filesystem::path base = std::filesystem::path(c.out) / (std::filesystem::path(c.rig).stem().string() + ".analysis");
+  const std::filesystem::path base =
+      std::filesystem::path(c.out) / (std::filesystem::path(c.rig).stem().string() + ".analysis");
   WriteFileAtomically(base.string() + ".json", json.dump(2) + "\n");
   WriteAnalysisReport(analysis, c.rig, base.string() + ".html");
   fmt::print("written: {0}.json, {0}.html\n", base.string());
@@ -174,22 +197,36 @@ int RunAnalyze(const AnalyzeCommand& c) {
 
 void AddAnalyze(CLI::App& app, Work& work) {
   auto c = std::make_shared<AnalyzeCommand>();
-  CLI::App* command = app.add_subcommand("analyze", "rotor dynamics and control margins: modes, Campbell, sensitivity, unbalance");
+  CLI::App* command = app.add_subcommand(
+      "analyze", "rotor dynamics and control margins: modes, Campbell, sensitivity, unbalance");
   command->add_option("rig", c->rig, "rig file (TOML)")->required();
-  command->add_option("--speed", c->speed, "operating speed, or lowest:highest [rpm]")->capture_default_str();
-  command->add_option("--max-speed", c->fastest, "end of the Campbell diagram [rpm] (default: 1.5 operating speeds)")->check(CLI::Range(1.0, 1e7));
-  command->add_option("--response", c->responses, "frequency response INPUT:OUTPUT, e.g. A.x.force:B.x; may be repeated");
-  command->add_option("--measure", c->measured, "inject sines of this many frequencies per axis into the switching rig")
+  command->add_option("--speed", c->speed, "operating speed, or lowest:highest [rpm]")
+      ->capture_default_str();
+  command
+      ->add_option("--max-speed", c->fastest,
+                   "end of the Campbell diagram [rpm] (default: 1.5 operating speeds)")
+      ->check(CLI::Range(1.0, 1e7));
+  command->add_option("--response", c->responses,
+                      "frequency response INPUT:OUTPUT, e.g. A.x.force:B.x; may be repeated");
+  command
+      ->add_option("--measure", c->measured,
+                   "inject sines of this many frequencies per axis into the switching rig")
       ->check(CLI::Range(1, 200));
-  command->add_option("--sine", c->sine, "amplitude of those sines [N] (default: a hundredth of the capacity)")->check(CLI::Range(1e-9, 1e6));
+  command
+      ->add_option("--sine", c->sine,
+                   "amplitude of those sines [N] (default: a hundredth of the capacity)")
+      ->check(CLI::Range(1e-9, 1e6));
   command->add_option("-o,--out", c->out, "folder for RIG.analysis.json and RIG.analysis.html");
   c->common.AddTo(*command);
   command->footer(
       "Examples:\n"
       "  ambrig analyze examples/reference/rig.toml --speed 3000:9000 -o out\n"
-      "  ambrig analyze rig.toml --measure 12 --html rig.html       sensitivity, computed and measured\n"
-      "  ambrig analyze rig.toml --response A.x.load:A.x --response A.x.force:A.i1 --json rig.json\n"
-      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft, .magnet, or a coil A.i1;\n"
+      "  ambrig analyze rig.toml --measure 12 --html rig.html       sensitivity, computed and "
+      "measured\n"
+      "  ambrig analyze rig.toml --response A.x.load:A.x --response A.x.force:A.i1 --json "
+      "rig.json\n"
+      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft, "
+      ".magnet, or a coil A.i1;\n"
       "of a named plane of a beam rotor: disk.x.load, disk.x.\n"
       "Exit code 1 when the closed loop is unstable.");
   command->callback([c, &work] { work = [c] { return RunAnalyze(*c); }; });

@@ -27,28 +27,45 @@ struct CampaignOptions {
 };
 
 nlohmann::ordered_json Json(const JournalHeader& header, const RowCounts& n) {
-  return {{"name", header.name}, {"fingerprint", header.fingerprint}, {"runs", header.runs}, {"done", n.rows}, {"up", n.up},
-          {"touchdown", n.touchdown}, {"drop", n.drop}, {"error", n.error}, {"false_alarms", n.false_alarms},
-          {"coil_periods", n.coil_periods}, {"undetected", n.undetected}, {"worst_detection_delay", n.worst_delay},
+  return {{"name", header.name},
+          {"fingerprint", header.fingerprint},
+          {"runs", header.runs},
+          {"done", n.rows},
+          {"up", n.up},
+          {"touchdown", n.touchdown},
+          {"drop", n.drop},
+          {"error", n.error},
+          {"false_alarms", n.false_alarms},
+          {"coil_periods", n.coil_periods},
+          {"undetected", n.undetected},
+          {"worst_detection_delay", n.worst_delay},
           {"largest_orbit", n.largest_orbit}};
 }
 
 /// Table, report, JSON, and a few lines on the screen.
-void Conclude(const CommonOptions& common, bool no_report, const std::string& out, const JournalHeader& header, const Rows& rows) {
+void Conclude(const CommonOptions& common, bool no_report, const std::string& out,
+              const JournalHeader& header, const Rows& rows) {
   WriteTable(out, rows);
   const RowCounts n = CountRows(rows);
   const std::string html = (std::filesystem::path(out) / "report.html").string();
   if (!no_report) WriteCampaignReport(header, rows, html);
   if (!common.html.empty()) WriteCampaignReport(header, rows, common.html);
   common.WriteJson(Json(header, n));
-  fmt::print("{}\n  runs               {} of {}\n", Coloured(header.name, "bold"), n.rows, header.runs);
-  fmt::print("  stayed up          {}\n  touched down       {}\n  dropped            {}\n", n.up, n.touchdown, n.drop);
-  if (n.error > 0) fmt::print("  {}\n", Coloured(fmt::format("not finished       {} (column note)", n.error), "red"));
-  fmt::print("  false alarms       {:.0f} in {:.3g} healthy coil-periods\n", n.false_alarms, n.coil_periods);
+  fmt::print("{}\n  runs               {} of {}\n", Coloured(header.name, "bold"), n.rows,
+             header.runs);
+  fmt::print("  stayed up          {}\n  touched down       {}\n  dropped            {}\n", n.up,
+             n.touchdown, n.drop);
+  if (n.error > 0)
+    fmt::print("  {}\n",
+               Coloured(fmt::format("not finished       {} (column note)", n.error), "red"));
+  fmt::print("  false alarms       {:.0f} in {:.3g} healthy coil-periods\n", n.false_alarms,
+             n.coil_periods);
   if (n.faults > 0)
-    fmt::print("  faults             {}, not detected {}, worst delay {:.1f} us\n", n.faults, n.undetected, n.worst_delay * 1e6);
+    fmt::print("  faults             {}, not detected {}, worst delay {:.1f} us\n", n.faults,
+               n.undetected, n.worst_delay * 1e6);
   fmt::print("  largest orbit      {:.2f} um (runs that stayed up)\n", n.largest_orbit * 1e6);
-  fmt::print("  written            {}/table.csv{}\n", out, no_report ? "" : fmt::format(", report {}", html));
+  fmt::print("  written            {}/table.csv{}\n", out,
+             no_report ? "" : fmt::format(", report {}", html));
 }
 
 void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard, Journal& journal) {
@@ -61,9 +78,12 @@ void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard, 
     journal.Append(row);
     if (row.At("verdict") == "drop") ++dropped;
     const std::size_t n = ++done;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
-                    fmt::format("{} of {}, {:.1f} runs/s, {} dropped", n, Counted(pending.size(), "run"), static_cast<double>(n) / seconds, dropped.load()));
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    progress.Update(
+        static_cast<double>(n) / static_cast<double>(pending.size()),
+        fmt::format("{} of {}, {:.1f} runs/s, {} dropped", n, Counted(pending.size(), "run"),
+                    static_cast<double>(n) / seconds, dropped.load()));
   });
 }
 
@@ -78,29 +98,36 @@ void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, Journal& journa
   const std::size_t runs = plan.campaign().runs(), before = journal.rows().size();
   const auto begin = std::chrono::steady_clock::now();
   RunOnSlurm(plan, o.out, journal, slurm, &interrupted, [&](std::size_t done) {
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(static_cast<double>(done - before) / static_cast<double>(runs - before),
-                    fmt::format("{} of {}, {:.1f} runs/s", done, Counted(runs, "run"), static_cast<double>(done - before) / seconds));
+                    fmt::format("{} of {}, {:.1f} runs/s", done, Counted(runs, "run"),
+                                static_cast<double>(done - before) / seconds));
   });
 }
 
 int RunCampaign(CampaignOptions o) {
   const RunPlan plan(ReadCampaign(o.file));
   const Shard shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
-  if (o.out.empty()) o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
-  if (o.engine == "slurm" && !o.shard.empty()) throw InputError("--shard: allowed with --engine local only (slurm makes its own)");
+  if (o.out.empty())
+    o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
+  if (o.engine == "slurm" && !o.shard.empty())
+    throw InputError("--shard: allowed with --engine local only (slurm makes its own)");
   const JournalHeader header = HeaderOf(plan.campaign());
   Journal journal(o.out, header);
   if (!journal.rows().empty())
     fmt::print("{}: goes on after {} done before{}\n", o.out, Counted(journal.rows().size(), "run"),
-               journal.damaged() > 0 ? fmt::format(", {} done again", Counted(journal.damaged(), "damaged line")) : "");
+               journal.damaged() > 0
+                   ? fmt::format(", {} done again", Counted(journal.damaged(), "damaged line"))
+                   : "");
   try {
     if (o.engine == "slurm")
       RunOnCluster(plan, o, journal);
     else
       RunHere(plan, o, shard, journal);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n", journal.rows().size(), Counted(header.runs, "run"), o.out);
+    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n",
+               journal.rows().size(), Counted(header.runs, "run"), o.out);
     return 130;
   }
   Conclude(o.common, o.no_report, o.out, header, journal.rows());
@@ -127,21 +154,35 @@ int Merge(const MergeOptions& o) {
 
 void AddCampaign(CLI::App& app, Work& work) {
   auto options = std::make_shared<CampaignOptions>();
-  CLI::App* command = app.add_subcommand("campaign", "many runs: fault sets x speeds x loads x spread of parameters");
+  CLI::App* command = app.add_subcommand(
+      "campaign", "many runs: fault sets x speeds x loads x spread of parameters");
   command->add_option("campaign", options->file, "campaign file (TOML)")->required();
-  command->add_option("-o,--out", options->out, "folder of journal.txt, table.csv, report.html (default: out/NAME)");
-  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")->check(CLI::Range(1, 1024));
-  command->add_option("--shard", options->shard, "only part i of n of the runs, e.g. 2/4 (then: ambrig merge)");
-  command->add_option("--engine", options->engine, "local: this machine; slurm: array tasks of a cluster that sees the same files")
-      ->check(CLI::IsMember({"local", "slurm"}))->capture_default_str();
-  command->add_option("--tasks", options->tasks, "slurm: array tasks (default: so many that each takes minutes)")->check(CLI::Range(1, kMostTasks));
-  command->add_option("--sbatch", options->sbatch, "slurm: further options of sbatch, e.g. \"--partition=long --time=60\"");
-  command->add_option("--poll", options->poll, "slurm: seconds between looks at the queue")->check(CLI::Range(0.1, 3600.0))->capture_default_str();
+  command->add_option("-o,--out", options->out,
+                      "folder of journal.txt, table.csv, report.html (default: out/NAME)");
+  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")
+      ->check(CLI::Range(1, 1024));
+  command->add_option("--shard", options->shard,
+                      "only part i of n of the runs, e.g. 2/4 (then: ambrig merge)");
+  command
+      ->add_option("--engine", options->engine,
+                   "local: this machine; slurm: array tasks of a cluster that sees the same files")
+      ->check(CLI::IsMember({"local", "slurm"}))
+      ->capture_default_str();
+  command
+      ->add_option("--tasks", options->tasks,
+                   "slurm: array tasks (default: so many that each takes minutes)")
+      ->check(CLI::Range(1, kMostTasks));
+  command->add_option("--sbatch", options->sbatch,
+                      "slurm: further options of sbatch, e.g. \"--partition=long --time=60\"");
+  command->add_option("--poll", options->poll, "slurm: seconds between looks at the queue")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o out/single_coils\n"
-                  "The same command goes on where a stopped or killed one was. Rerun one row:\n"
-                  "  ambrig run --from-campaign scenarios/campaigns/single_coils.toml --row 17");
+  command->footer(
+      "Example:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o out/single_coils\n"
+      "The same command goes on where a stopped or killed one was. Rerun one row:\n"
+      "  ambrig run --from-campaign scenarios/campaigns/single_coils.toml --row 17");
   command->callback([options, &work] { work = [options] { return RunCampaign(*options); }; });
 }
 

@@ -63,7 +63,9 @@ std::string Complaint(const CheckRow& row) {
   if (!row.error.empty()) return row.error;
   std::string text;
   for (const ExpectResult& e : row.expect)
-    if (!e.met) text += fmt::format("{}{}: wanted {}, got {}", text.empty() ? "" : "; ", e.key, e.wanted, e.got);
+    if (!e.met)
+      text +=
+          fmt::format("{}{}: wanted {}, got {}", text.empty() ? "" : "; ", e.key, e.wanted, e.got);
   return text;
 }
 
@@ -72,16 +74,18 @@ void WriteJunit(const std::string& path, const std::vector<CheckRow>& rows) {
   pugi::xml_node suite = document.append_child("testsuite");
   suite.append_attribute("name") = "ambrig check";
   suite.append_attribute("tests") = rows.size();
-  suite.append_attribute("failures") =
-      std::count_if(rows.begin(), rows.end(), [](const CheckRow& r) { return !r.met() && r.error.empty(); });
-  suite.append_attribute("errors") = std::count_if(rows.begin(), rows.end(), [](const CheckRow& r) { return !r.error.empty(); });
+  suite.append_attribute("failures") = std::count_if(
+      rows.begin(), rows.end(), [](const CheckRow& r) { return !r.met() && r.error.empty(); });
+  suite.append_attribute("errors") =
+      std::count_if(rows.begin(), rows.end(), [](const CheckRow& r) { return !r.error.empty(); });
   for (const CheckRow& row : rows) {
     pugi::xml_node test = suite.append_child("testcase");
     test.append_attribute("name") = row.name.empty() ? row.file.c_str() : row.name.c_str();
     test.append_attribute("classname") = row.file.c_str();
     test.append_attribute("time") = row.seconds;
     if (row.met()) continue;
-    test.append_child(row.error.empty() ? "failure" : "error").append_attribute("message") = Complaint(row).c_str();
+    test.append_child(row.error.empty() ? "failure" : "error").append_attribute("message") =
+        Complaint(row).c_str();
   }
   std::ostringstream out;
   document.save(out, "  ");
@@ -92,8 +96,9 @@ void WriteReport(const std::string& path, const std::vector<CheckRow>& rows) {
   HtmlReport report("ambrig check", Counted(rows.size(), "scenario"));
   std::vector<std::vector<Cell>> cells;
   for (const CheckRow& r : rows)
-    cells.push_back({Cell(r.name), Cell(r.file), Cell(r.met() ? "met" : "not met", r.met() ? "ok" : "fail"),
-                     Cell(Complaint(r)), Cell(fmt::format("{:.2f}", r.seconds))});
+    cells.push_back({Cell(r.name), Cell(r.file),
+                     Cell(r.met() ? "met" : "not met", r.met() ? "ok" : "fail"), Cell(Complaint(r)),
+                     Cell(fmt::format("{:.2f}", r.seconds))});
   report.Heading("Scenarios");
   report.Table({"scenario", "file", "verdict", "what is not met", "seconds"}, cells);
   report.Write(path);
@@ -105,7 +110,8 @@ int Check(const CheckOptions& options) {
   std::atomic<std::size_t> done{0};
   {
     Progress progress("check");
-    const std::size_t jobs = options.jobs > 0 ? static_cast<std::size_t>(options.jobs) : std::thread::hardware_concurrency();
+    const std::size_t jobs = options.jobs > 0 ? static_cast<std::size_t>(options.jobs)
+                                              : std::thread::hardware_concurrency();
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, jobs);
     tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t k) {
       rows[k] = CheckOne(files[k]);
@@ -116,11 +122,15 @@ int Check(const CheckOptions& options) {
   std::size_t failed = 0;
   for (const CheckRow& row : rows) {
     failed += row.met() ? 0 : 1;
-    fmt::print("{}  {:<55} {:6.2f} s  {}\n", row.met() ? Coloured("met    ", "green") : Coloured("NOT MET", "red"),
+    fmt::print("{}  {:<55} {:6.2f} s  {}\n",
+               row.met() ? Coloured("met    ", "green") : Coloured("NOT MET", "red"),
                row.name.empty() ? row.file : row.name, row.seconds, Complaint(row));
-    json.push_back(row.json.is_null() ? nlohmann::ordered_json{{"file", row.file}, {"error", row.error}} : row.json);
+    json.push_back(row.json.is_null()
+                       ? nlohmann::ordered_json{{"file", row.file}, {"error", row.error}}
+                       : row.json);
   }
-  fmt::print("{}, {} met, {} not met\n", Counted(rows.size(), "scenario"), rows.size() - failed, failed);
+  fmt::print("{}, {} met, {} not met\n", Counted(rows.size(), "scenario"), rows.size() - failed,
+             failed);
   if (!options.junit.empty()) WriteJunit(options.junit, rows);
   if (!options.common.html.empty()) WriteReport(options.common.html, rows);
   options.common.WriteJson(json);

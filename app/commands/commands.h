@@ -42,14 +42,17 @@ void AddJudge(CLI::App& app, Work& work);
 void AddWitness(CLI::App& app, Work& work);
 void AddRotor(CLI::App& app, Work& work);
 
-/// Files as given and the `wanted` ones in the given folders, sorted. @throws InputError (`none`: nothing found)
-std::vector<std::string> FindFiles(const std::vector<std::string>& paths, const std::function<bool(const std::filesystem::path&)>& wanted,
+/// Files as given and the `wanted` ones in the given folders, sorted. @throws InputError (`none`:
+/// nothing found)
+std::vector<std::string> FindFiles(const std::vector<std::string>& paths,
+                                   const std::function<bool(const std::filesystem::path&)>& wanted,
                                    const char* none);
 /// Scenario files as given and those with [expect] in the given folders, sorted. @throws InputError
 std::vector<std::string> FindScenarios(const std::vector<std::string>& paths);
 
 /// 1 for a yes, else 0; terminal colours only on a terminal.
 bool ColourTerminal();
-std::string Coloured(const std::string& text, const char* colour);  // "green" | "red" | "yellow" | "bold"
+std::string Coloured(const std::string& text,
+                     const char* colour);  // "green" | "red" | "yellow" | "bold"
 
 }  // namespace ambrig

@@ -13,18 +13,21 @@ namespace ambrig {
 
 void CommonOptions::AddTo(CLI::App& command) {
   command.add_option("--json", json, "write the result as JSON to FILE")->type_name("FILE");
-  command.add_option("--html", html, "write the report as one HTML file to FILE")->type_name("FILE");
+  command.add_option("--html", html, "write the report as one HTML file to FILE")
+      ->type_name("FILE");
 }
 
 void CommonOptions::WriteJson(const nlohmann::ordered_json& document) const {
   if (!json.empty()) WriteFileAtomically(json, document.dump(2) + "\n");
 }
 
-std::vector<std::string> FindFiles(const std::vector<std::string>& paths, const std::function<bool(const std::filesystem::path&)>& wanted,
+std::vector<std::string> FindFiles(const std::vector<std::string>& paths,
+                                   const std::function<bool(const std::filesystem::path&)>& wanted,
                                    const char* none) {
   std::vector<std::string> files;
   for (const std::string& path : paths) {
-    if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: no such file or folder", path));
+    if (!std::filesystem::exists(path))
+      throw InputError(fmt::format("{}: no such file or folder", path));
     if (!std::filesystem::is_directory(path)) {
       files.push_back(path);
       continue;
@@ -38,8 +41,12 @@ std::vector<std::string> FindFiles(const std::vector<std::string>& paths, const 
 }
 
 std::vector<std::string> FindScenarios(const std::vector<std::string>& paths) {
-  return FindFiles(paths, [](const std::filesystem::path& file) { return file.extension() == ".toml" && HasExpectations(file.string()); },
-                   "no scenario with [expect] found");
+  return FindFiles(
+      paths,
+      [](const std::filesystem::path& file) {
+        return file.extension() == ".toml" && HasExpectations(file.string());
+      },
+      "no scenario with [expect] found");
 }
 
 bool ColourTerminal() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }

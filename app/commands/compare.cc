@@ -24,19 +24,24 @@ int RunCompare(const CompareOptions& o) {
   Comparison comparison;
   {
     Progress progress("compare");
-    comparison = Compare(model, Hypothesis::Base(c.rig), !o.no_blocks, [&](double f, const std::string& text) { progress.Update(f, text); });
+    comparison = Compare(model, Hypothesis::Base(c.rig), !o.no_blocks,
+                         [&](double f, const std::string& text) { progress.Update(f, text); });
   }
   fmt::print("{:<28} {:<34} {:>8}  worst channel\n", "record", "scenario", "ratio");
   for (const RecordComparison& r : comparison.records) {
     const ChannelError* worst = nullptr;
     for (const ChannelError& e : r.channels)
       if (!worst || e.ratio > worst->ratio) worst = &e;
-    fmt::print("{:<28} {:<34} {:>8.2f}  {}\n", r.data.size() > 28 ? r.data.substr(r.data.size() - 28) : r.data, r.scenario, r.ratio,
+    fmt::print("{:<28} {:<34} {:>8.2f}  {}\n",
+               r.data.size() > 28 ? r.data.substr(r.data.size() - 28) : r.data, r.scenario, r.ratio,
                worst ? fmt::format("{} {:.2f}", worst->channel, worst->ratio) : "-");
-    for (const auto& [block, ratio] : r.blocks) fmt::print("    block {:<12} {:.2f}\n", block, ratio);
+    for (const auto& [block, ratio] : r.blocks)
+      fmt::print("    block {:<12} {:.2f}\n", block, ratio);
   }
-  fmt::print("ratio of the error to the noise floor: {:.3f} (fit {:.3f}, unseen {:.3f}); 1 means nothing is left to explain\n",
-             comparison.ratio, comparison.ratio_fit, comparison.ratio_validate);
+  fmt::print(
+      "ratio of the error to the noise floor: {:.3f} (fit {:.3f}, unseen {:.3f}); 1 means nothing "
+      "is left to explain\n",
+      comparison.ratio, comparison.ratio_fit, comparison.ratio_validate);
   for (const std::string& w : comparison.words) fmt::print("  {}\n", w);
   o.common.WriteJson(CompareJson(comparison));
   if (!o.common.html.empty()) WriteCompareReport(model, comparison, o.common.html);

@@ -42,21 +42,26 @@ void RunAll(const DetectorStudyPlan& plan, int jobs, Journal& journal) {
   OnAllCores(pending, jobs, &interrupted, [&](std::size_t run) {
     journal.Append(plan.Simulate(run, &interrupted));
     const std::size_t n = ++done;
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    const double seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
-                    fmt::format("{} of {}, {:.1f} runs/s", n, Counted(pending.size(), "run"), static_cast<double>(n) / seconds));
+                    fmt::format("{} of {}, {:.1f} runs/s", n, Counted(pending.size(), "run"),
+                                static_cast<double>(n) / seconds));
   });
 }
 
 int RunDetectors(DetectorsCommand o) {
   const DetectorStudyPlan plan(ReadDetectorStudy(o.file));
-  if (o.out.empty()) o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
+  if (o.out.empty())
+    o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
   Journal journal(o.out, plan.Header());
-  if (!journal.rows().empty()) fmt::print("{}: goes on after {} done before\n", o.out, Counted(journal.rows().size(), "run"));
+  if (!journal.rows().empty())
+    fmt::print("{}: goes on after {} done before\n", o.out, Counted(journal.rows().size(), "run"));
   try {
     RunAll(plan, o.jobs, journal);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n", journal.rows().size(), Counted(plan.study().runs(), "run"), o.out);
+    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n",
+               journal.rows().size(), Counted(plan.study().runs(), "run"), o.out);
     return 130;
   }
   const Rows& rows = journal.rows();
@@ -71,7 +76,8 @@ int RunDetectors(DetectorsCommand o) {
   if (!o.no_report) WriteDetectorReport(plan.study(), curves, rows, in("report.html"));
   if (!o.common.html.empty()) WriteDetectorReport(plan.study(), curves, rows, o.common.html);
   fmt::print("{}", text);
-  fmt::print("written: {}/table.csv, curves.txt, curves.json{}\n", o.out, o.no_report ? "" : ", report.html");
+  fmt::print("written: {}/table.csv, curves.txt, curves.json{}\n", o.out,
+             o.no_report ? "" : ", report.html");
   return 0;
 }
 
@@ -79,14 +85,18 @@ int RunDetectors(DetectorsCommand o) {
 
 void AddDetectors(CLI::App& app, Work& work) {
   auto options = std::make_shared<DetectorsCommand>();
-  CLI::App* command = app.add_subcommand("detectors", "detectors of coil faults compared: ROC curves, delay against false alarms");
+  CLI::App* command = app.add_subcommand(
+      "detectors", "detectors of coil faults compared: ROC curves, delay against false alarms");
   command->add_option("study", options->file, "study file (TOML)")->required();
-  command->add_option("-o,--out", options->out, "folder of journal.txt, table.csv, curves, report.html (default: out/NAME)");
-  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")->check(CLI::Range(1, 1024));
+  command->add_option("-o,--out", options->out,
+                      "folder of journal.txt, table.csv, curves, report.html (default: out/NAME)");
+  command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")
+      ->check(CLI::Range(1, 1024));
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig detectors scenarios/studies/detectors.toml -o out/detectors\n"
-                  "The same command goes on where a stopped or killed one was.");
+  command->footer(
+      "Example:\n  ambrig detectors scenarios/studies/detectors.toml -o out/detectors\n"
+      "The same command goes on where a stopped or killed one was.");
   command->callback([options, &work] { work = [options] { return RunDetectors(*options); }; });
 }
 

@@ -11,35 +11,60 @@ namespace {
 
 const char* TargetText(TargetKind kind) {
   switch (kind) {
-    case TargetKind::kRig: return "rig";
-    case TargetKind::kBearing: return "bearing";
-    case TargetKind::kPlane: return "plane";
-    case TargetKind::kPlaneOrZ: return "plane or z";
-    case TargetKind::kPlaneOrRig: return "plane or rig";
-    case TargetKind::kCoil: return "coil";
-    case TargetKind::kCoilOrBearing: return "coil or bearing";
-    case TargetKind::kAxis: return "axis";
-    case TargetKind::kAny: return "plane, coil, axis or rig";
+    case TargetKind::kRig:
+      return "rig";
+    case TargetKind::kBearing:
+      return "bearing";
+    case TargetKind::kPlane:
+      return "plane";
+    case TargetKind::kPlaneOrZ:
+      return "plane or z";
+    case TargetKind::kPlaneOrRig:
+      return "plane or rig";
+    case TargetKind::kCoil:
+      return "coil";
+    case TargetKind::kCoilOrBearing:
+      return "coil or bearing";
+    case TargetKind::kAxis:
+      return "axis";
+    case TargetKind::kAny:
+      return "plane, coil, axis or rig";
   }
   return "";
 }
 
 nlohmann::ordered_json EffectJson(const EffectDescription& d) {
   nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
-  const auto number = [](double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(v > 0 ? "inf" : "-inf"); };
+  const auto number = [](double v) {
+    return std::isfinite(v) ? nlohmann::ordered_json(v)
+                            : nlohmann::ordered_json(v > 0 ? "inf" : "-inf");
+  };
   for (const EffectParameter& p : d.parameters)
-    parameters.push_back({{"name", p.name}, {"unit", p.unit}, {"null", number(p.null_value)}, {"min", number(p.lo)},
-                          {"max", number(p.hi)}, {"typical", {number(p.typical_lo), number(p.typical_hi)}}, {"doc", p.doc}});
-  return {{"name", d.id}, {"title", d.title}, {"target", TargetText(d.target)}, {"physics", d.physics},
-          {"parameters", parameters}, {"shows_in", d.shows_in}, {"confused_with", d.confused_with}};
+    parameters.push_back({{"name", p.name},
+                          {"unit", p.unit},
+                          {"null", number(p.null_value)},
+                          {"min", number(p.lo)},
+                          {"max", number(p.hi)},
+                          {"typical", {number(p.typical_lo), number(p.typical_hi)}},
+                          {"doc", p.doc}});
+  return {{"name", d.id},
+          {"title", d.title},
+          {"target", TargetText(d.target)},
+          {"physics", d.physics},
+          {"parameters", parameters},
+          {"shows_in", d.shows_in},
+          {"confused_with", d.confused_with}};
 }
 
 void PrintOne(const EffectDescription& d) {
-  fmt::print("{} - {}\n  target         {}\n  physics        {}\n  shows in       {}\n  confused with  {}\n  parameters\n",
-             Coloured(d.id, "bold"), d.title, TargetText(d.target), d.physics, d.shows_in, d.confused_with);
+  fmt::print(
+      "{} - {}\n  target         {}\n  physics        {}\n  shows in       {}\n  confused with  "
+      "{}\n  parameters\n",
+      Coloured(d.id, "bold"), d.title, TargetText(d.target), d.physics, d.shows_in,
+      d.confused_with);
   for (const EffectParameter& p : d.parameters)
-    fmt::print("    {:<16} [{}]  null {}, {} to {}, usually {} to {}: {}\n", p.name, p.unit, p.null_value, p.lo, p.hi,
-               p.typical_lo, p.typical_hi, p.doc);
+    fmt::print("    {:<16} [{}]  null {}, {} to {}, usually {} to {}: {}\n", p.name, p.unit,
+               p.null_value, p.lo, p.hi, p.typical_lo, p.typical_hi, p.doc);
 }
 
 }  // namespace
@@ -62,16 +87,23 @@ void AddEffects(CLI::App& app, Work& work) {
       if (!options->name.empty()) EffectNamed(options->name);
       HtmlReport report("The catalogue of effects", "ambrig effects");
       std::vector<std::vector<Cell>> rows;
-      if (options->markdown) fmt::print("# Catalogue of effects\n\nMade by `ambrig effects --markdown`; a test keeps it so. Usual sizes of what switches an effect on count from its null.\n");
+      if (options->markdown)
+        fmt::print(
+            "# Catalogue of effects\n\nMade by `ambrig effects --markdown`; a test keeps it so. "
+            "Usual sizes of what switches an effect on count from its null.\n");
       for (const EffectDescription& d : Catalogue()) {
         if (!options->name.empty() && d.id != options->name) continue;
         all.push_back(EffectJson(d));
-        rows.push_back({Cell(d.id), Cell(TargetText(d.target)), Cell(d.physics), Cell(d.shows_in), Cell(d.confused_with)});
+        rows.push_back({Cell(d.id), Cell(TargetText(d.target)), Cell(d.physics), Cell(d.shows_in),
+                        Cell(d.confused_with)});
         if (options->markdown) {
-          fmt::print("\n## {}\n\n{}. Target: {}. {}\n\nShows in: {}. Confused with: {}.\n\n| parameter | unit | null | possible | usual | meaning |\n|---|---|---|---|---|---|\n",
-                     d.id, d.title, TargetText(d.target), d.physics, d.shows_in, d.confused_with);
+          fmt::print(
+              "\n## {}\n\n{}. Target: {}. {}\n\nShows in: {}. Confused with: {}.\n\n| parameter | "
+              "unit | null | possible | usual | meaning |\n|---|---|---|---|---|---|\n",
+              d.id, d.title, TargetText(d.target), d.physics, d.shows_in, d.confused_with);
           for (const EffectParameter& p : d.parameters)
-            fmt::print("| `{}` | {} | {} | {} to {} | {} to {} | {} |\n", p.name, p.unit, p.null_value, p.lo, p.hi, p.typical_lo, p.typical_hi, p.doc);
+            fmt::print("| `{}` | {} | {} | {} to {} | {} to {} | {} |\n", p.name, p.unit,
+                       p.null_value, p.lo, p.hi, p.typical_lo, p.typical_hi, p.doc);
         } else if (!options->name.empty()) {
           PrintOne(d);
         } else {

@@ -28,10 +28,12 @@ int RunHide(const HideCommand& o) {
   request.draw_parameters = !o.exact;
   for (const std::string& text : o.effects) {
     const auto at = text.find('@');
-    request.effects.emplace_back(text.substr(0, at), at == std::string::npos ? "" : text.substr(at + 1));
+    request.effects.emplace_back(text.substr(0, at),
+                                 at == std::string::npos ? "" : text.substr(at + 1));
   }
   const RigParameters rig = ReadRig(o.rig);
-  if (!rig.effects.empty()) throw InputError(o.rig + ": has effects of its own; hide them in a rig without");
+  if (!rig.effects.empty())
+    throw InputError(o.rig + ": has effects of its own; hide them in a rig without");
   Progress progress("hide");
   progress.Update(0.1, "drawing and measuring");
   const HiddenCase hidden = Hide(rig, request, &interrupted);
@@ -40,7 +42,8 @@ int RunHide(const HideCommand& o) {
   std::filesystem::create_directories(folder, error);
   if (error) ThrowCannotWrite(folder.string(), error.value());
   for (std::size_t r = 0; r < hidden.records.size(); ++r) {
-    progress.Update(0.8 + 0.2 * static_cast<double>(r) / static_cast<double>(hidden.records.size()), "writing");
+    progress.Update(0.8 + 0.2 * static_cast<double>(r) / static_cast<double>(hidden.records.size()),
+                    "writing");
     const std::string stem = (folder / fmt::format("record-{}", r + 1)).string();
     WriteFileAtomically(stem + ".toml", hidden.records[r].toml);
     WriteHdf5(hidden.data.records[r].data, stem + ".h5");
@@ -49,11 +52,14 @@ int RunHide(const HideCommand& o) {
   WriteFileAtomically((folder / "case.toml").string(), CaseText(hidden));
   std::string name = folder.filename().string();
   if (name.empty()) name = folder.parent_path().filename().string();
-  const std::string answer = (folder.has_filename() ? folder : folder.parent_path()).string() + ".answer.toml";
+  const std::string answer =
+      (folder.has_filename() ? folder : folder.parent_path()).string() + ".answer.toml";
   WriteFileAtomically(answer, AnswerText(hidden, request, name));
   progress.Clear();
-  fmt::print("written {} with {}; the answer is sealed in {}\nnow: ambrig compare {}, ambrig explain {}\n", (folder / "case.toml").string(),
-             Counted(hidden.records.size(), "record"), answer, (folder / "case.toml").string(), (folder / "case.toml").string());
+  fmt::print(
+      "written {} with {}; the answer is sealed in {}\nnow: ambrig compare {}, ambrig explain {}\n",
+      (folder / "case.toml").string(), Counted(hidden.records.size(), "record"), answer,
+      (folder / "case.toml").string(), (folder / "case.toml").string());
   return 0;
 }
 
@@ -62,13 +68,21 @@ int RunHide(const HideCommand& o) {
 void AddHide(CLI::App& app, Work& work) {
   auto options = std::make_shared<HideCommand>();
   CLI::App* command = app.add_subcommand("hide", "make a case with a hidden effect to practise on");
-  command->add_option("effect", options->effects, "effects to hide, NAME or NAME@TARGET; none: parameters only");
+  command->add_option("effect", options->effects,
+                      "effects to hide, NAME or NAME@TARGET; none: parameters only");
   command->add_option("--rig", options->rig, "rig file as its user believes it")->required();
-  command->add_option("-o,--out", options->output, "folder of the case; the answer goes to FOLDER.answer.toml")->capture_default_str();
-  command->add_option("--seed", options->request.seed, "draws sizes, targets, parameters and noise")->capture_default_str();
+  command
+      ->add_option("-o,--out", options->output,
+                   "folder of the case; the answer goes to FOLDER.answer.toml")
+      ->capture_default_str();
+  command->add_option("--seed", options->request.seed, "draws sizes, targets, parameters and noise")
+      ->capture_default_str();
   command->add_flag("--exact", options->exact, "keep every rig parameter at its nominal value");
-  command->footer("Examples:\n  ambrig hide sensor-gain --rig scenarios/library/rigs/reference.toml -o practice\n"
-                  "  ambrig hide unbalance@A cross-coupling@B --rig rig.toml --seed 7 -o two\n  ambrig hide --rig rig.toml -o parameters-only");
+  command->footer(
+      "Examples:\n  ambrig hide sensor-gain --rig scenarios/library/rigs/reference.toml -o "
+      "practice\n"
+      "  ambrig hide unbalance@A cross-coupling@B --rig rig.toml --seed 7 -o two\n  ambrig hide "
+      "--rig rig.toml -o parameters-only");
   command->callback([options, &work] { work = [options] { return RunHide(*options); }; });
 }
 

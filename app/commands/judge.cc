@@ -32,14 +32,16 @@ struct JudgeCommand {
 std::vector<fs::path> CaseFolders(const std::vector<std::string>& paths) {
   std::vector<fs::path> out;
   for (const std::string& p : paths) {
-    if (!fs::is_directory(p)) throw InputError(p + ": no folder, allowed: a case's folder or one that holds such folders");
+    if (!fs::is_directory(p))
+      throw InputError(p + ": no folder, allowed: a case's folder or one that holds such folders");
     if (fs::exists(fs::path(p) / "case.toml")) {
       out.push_back(fs::path(p).lexically_normal());
       continue;
     }
     std::vector<fs::path> inside;
     for (const auto& item : fs::directory_iterator(p))
-      if (item.is_directory() && fs::exists(item.path() / "case.toml")) inside.push_back(item.path());
+      if (item.is_directory() && fs::exists(item.path() / "case.toml"))
+        inside.push_back(item.path());
     std::sort(inside.begin(), inside.end());
     if (inside.empty()) throw InputError(p + ": holds no case.toml, nor does any folder in it");
     out.insert(out.end(), inside.begin(), inside.end());
@@ -49,25 +51,33 @@ std::vector<fs::path> CaseFolders(const std::vector<std::string>& paths) {
   return out;
 }
 
-/// The answer of a case: from the named file, else answers.toml beside the folders, else FOLDER.answer.toml.
+/// The answer of a case: from the named file, else answers.toml beside the folders, else
+/// FOLDER.answer.toml.
 Answer AnswerOf(const fs::path& folder, const std::string& named) {
   const std::string name = folder.filename().string();
-  const fs::path own = folder.string() + ".answer.toml", shared = folder.parent_path() / "answers.toml";
-  const std::string file = !named.empty() ? named : fs::exists(own) ? own.string() : shared.string();
+  const fs::path own = folder.string() + ".answer.toml",
+                 shared = folder.parent_path() / "answers.toml";
+  const std::string file = !named.empty()    ? named
+                           : fs::exists(own) ? own.string()
+                                             : shared.string();
   const auto all = ReadAnswers(file);
   const auto it = all.find(name);
   if (it == all.end()) throw InputError(fmt::format("{}: no answer for {}", file, name));
   return it->second;
 }
 
-NamedEffect Named(const Json& j) { return {j.at("effect").get<std::string>(), j.at("target").get<std::string>()}; }
+NamedEffect Named(const Json& j) {
+  return {j.at("effect").get<std::string>(), j.at("target").get<std::string>()};
+}
 
 Finding FindingOf(const Json& j) {
   Finding f;
   f.verdict = j.at("verdict").get<std::string>();
   if (!j.at("ranking").empty()) f.first = Named(j.at("ranking").at(0));
   for (const Json& a : j.at("adopted")) f.adopted.push_back(Named(a));
-  const auto number = [&](const char* key) { return j.at(key).is_number() ? j.at(key).get<double>() : kInfinity; };
+  const auto number = [&](const char* key) {
+    return j.at(key).is_number() ? j.at(key).get<double>() : kInfinity;
+  };
   f.nominal_ratio = number("nominal_ratio_validate");
   f.final_ratio = number("final_ratio_validate");
   f.seconds = number("seconds");
@@ -87,7 +97,8 @@ std::optional<Finding> Earlier(const fs::path& file, const fs::path& folder) {
 
 std::string Listed(const std::vector<NamedEffect>& effects, const std::string& none) {
   std::string text;
-  for (const auto& [name, target] : effects) text += (text.empty() ? "" : " + ") + name + " at " + target;
+  for (const auto& [name, target] : effects)
+    text += (text.empty() ? "" : " + ") + name + " at " + target;
   return text.empty() ? none : text;
 }
 
@@ -98,27 +109,41 @@ std::string Truth(const Answer& a) {
 }
 
 void PrintLine(const Judgement& j) {
-  fmt::print("{:<22} {:<40} {:<44} {:>7.3f} {:>7.3f} {:>6.0f} s  {}\n", j.name, Truth(j.answer), Listed(j.finding.adopted, j.finding.verdict), j.finding.nominal_ratio,
-             j.finding.final_ratio, j.finding.seconds, j.right() ? Coloured("right", "green") : j.first_right ? Coloured("in part", "yellow") : Coloured("wrong", "red"));
+  fmt::print("{:<22} {:<40} {:<44} {:>7.3f} {:>7.3f} {:>6.0f} s  {}\n", j.name, Truth(j.answer),
+             Listed(j.finding.adopted, j.finding.verdict), j.finding.nominal_ratio,
+             j.finding.final_ratio, j.finding.seconds,
+             j.right()       ? Coloured("right", "green")
+             : j.first_right ? Coloured("in part", "yellow")
+                             : Coloured("wrong", "red"));
 }
 
 Json MatrixJson(const std::vector<Judgement>& all) {
   Json cases = Json::array(), tallies = Json::array(), confusion = Json::object();
   for (const Judgement& j : all)
-    cases.push_back({{"case", j.name}, {"truth", Truth(j.answer)}, {"found", Listed(j.finding.adopted, j.finding.verdict)}, {"verdict", j.finding.verdict},
-                     {"right", j.right()}, {"first_right", j.first_right}, {"nominal_ratio_validate", j.finding.nominal_ratio},
-                     {"final_ratio_validate", j.finding.final_ratio}, {"seconds", j.finding.seconds}});
-  for (const Tally& t : Tallies(all)) tallies.push_back({{"kind", t.kind}, {"cases", t.cases}, {"right", t.right}});
+    cases.push_back({{"case", j.name},
+                     {"truth", Truth(j.answer)},
+                     {"found", Listed(j.finding.adopted, j.finding.verdict)},
+                     {"verdict", j.finding.verdict},
+                     {"right", j.right()},
+                     {"first_right", j.first_right},
+                     {"nominal_ratio_validate", j.finding.nominal_ratio},
+                     {"final_ratio_validate", j.finding.final_ratio},
+                     {"seconds", j.finding.seconds}});
+  for (const Tally& t : Tallies(all))
+    tallies.push_back({{"kind", t.kind}, {"cases", t.cases}, {"right", t.right}});
   for (const auto& [truth, given] : Confusion(all))
     for (const auto& [name, n] : given) confusion[truth][name] = n;
   return {{"cases", cases}, {"tallies", tallies}, {"confusion", confusion}};
 }
 
 void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
-  HtmlReport report("How often explain is right", Counted(all.size(), "case") + (all.size() == 1 ? " with a known answer" : " with known answers"));
+  HtmlReport report("How often explain is right",
+                    Counted(all.size(), "case") +
+                        (all.size() == 1 ? " with a known answer" : " with known answers"));
   report.Heading("Counts");
   std::vector<std::vector<Cell>> rows;
-  for (const Tally& t : Tallies(all)) rows.push_back({t.kind, fmt::format("{} of {}", t.right, t.cases)});
+  for (const Tally& t : Tallies(all))
+    rows.push_back({t.kind, fmt::format("{} of {}", t.right, t.cases)});
   report.Table({"kind of case", "right"}, rows);
   report.Heading("What was hidden and what was found");
   const auto confusion = Confusion(all);
@@ -132,16 +157,26 @@ void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
   std::vector<std::vector<double>> values;
   for (const std::string& truth : names) {
     values.emplace_back();
-    for (const std::string& c : columns) values.back().push_back(confusion.at(truth).contains(c) ? confusion.at(truth).at(c) : 0);
+    for (const std::string& c : columns)
+      values.back().push_back(confusion.at(truth).contains(c) ? confusion.at(truth).at(c) : 0);
   }
-  report.Heatmap("Rows: hidden. Columns: found. All on the diagonal would be right.", columns, names, values, "cases");
+  report.Heatmap("Rows: hidden. Columns: found. All on the diagonal would be right.", columns,
+                 names, values, "cases");
   report.Heading("Every case");
   rows.clear();
   for (const Judgement& j : all)
-    rows.push_back({j.name, Truth(j.answer), Listed(j.finding.adopted, j.finding.verdict), fmt::format("{:.3f}", j.finding.nominal_ratio),
-                    fmt::format("{:.3f}", j.finding.final_ratio), fmt::format("{:.0f}", j.finding.seconds),
-                    Cell(j.right() ? "right" : j.first_right ? "in part" : "wrong", j.right() ? "ok" : j.first_right ? "warn" : "fail")});
-  report.Table({"case", "hidden", "found", "error over noise, rig file", "after", "time [s]", ""}, rows);
+    rows.push_back({j.name, Truth(j.answer), Listed(j.finding.adopted, j.finding.verdict),
+                    fmt::format("{:.3f}", j.finding.nominal_ratio),
+                    fmt::format("{:.3f}", j.finding.final_ratio),
+                    fmt::format("{:.0f}", j.finding.seconds),
+                    Cell(j.right()       ? "right"
+                         : j.first_right ? "in part"
+                                         : "wrong",
+                         j.right()       ? "ok"
+                         : j.first_right ? "warn"
+                                         : "fail")});
+  report.Table({"case", "hidden", "found", "error over noise, rig file", "after", "time [s]", ""},
+               rows);
   report.Write(file);
 }
 
@@ -154,7 +189,8 @@ int RunJudge(const JudgeCommand& o) {
   if (error) ThrowCannotWrite(o.output, error.value());
   std::vector<Judgement> all;
   Progress progress("judge");
-  fmt::print("{:<22} {:<40} {:<44} {:>7} {:>7} {:>8}\n", "case", "hidden", "found", "before", "after", "time");
+  fmt::print("{:<22} {:<40} {:<44} {:>7} {:>7} {:>8}\n", "case", "hidden", "found", "before",
+             "after", "time");
   for (std::size_t k = 0; k < folders.size(); ++k) {
     const std::string name = folders[k].filename().string();
     const fs::path file = fs::path(o.output) / (name + ".json");
@@ -163,7 +199,8 @@ int RunJudge(const JudgeCommand& o) {
       ExplainOptions options;
       options.stop = &interrupted;
       options.progress = [&](double f, const std::string& text) {
-        progress.Update((static_cast<double>(k) + f) / static_cast<double>(folders.size()), name + ": " + text);
+        progress.Update((static_cast<double>(k) + f) / static_cast<double>(folders.size()),
+                        name + ": " + text);
       };
       const Json j = ExplainJson(Explain(ReadCase((folders[k] / "case.toml").string()), options));
       WriteFileAtomically(file.string(), j.dump(1) + "\n");
@@ -178,7 +215,8 @@ int RunJudge(const JudgeCommand& o) {
   for (const Tally& t : Tallies(all)) fmt::print("{:<60} {:>3} of {}\n", t.kind, t.right, t.cases);
   fmt::print("\nhidden -> found\n");
   for (const auto& [truth, given] : Confusion(all))
-    for (const auto& [found, n] : given) fmt::print("  {:<24} {:<28} {:>3}{}\n", truth, found, n, truth == found ? "" : "   <-");
+    for (const auto& [found, n] : given)
+      fmt::print("  {:<24} {:<28} {:>3}{}\n", truth, found, n, truth == found ? "" : "   <-");
   o.common.WriteJson(MatrixJson(all));
   if (!o.common.html.empty()) WriteReport(all, o.common.html);
   return 0;
@@ -188,13 +226,22 @@ int RunJudge(const JudgeCommand& o) {
 
 void AddJudge(CLI::App& app, Work& work) {
   auto options = std::make_shared<JudgeCommand>();
-  CLI::App* command = app.add_subcommand("judge", "explain cases with known answers and count: the confusion matrix");
-  command->add_option("folder", options->paths, "folders of cases, or folders that hold them")->required();
-  command->add_option("--answers", options->answers, "answers file; else answers.toml beside the cases or FOLDER.answer.toml");
-  command->add_option("-o,--out", options->output, "folder for each case's result; what is there and young enough is not done again")->capture_default_str();
+  CLI::App* command = app.add_subcommand(
+      "judge", "explain cases with known answers and count: the confusion matrix");
+  command->add_option("folder", options->paths, "folders of cases, or folders that hold them")
+      ->required();
+  command->add_option("--answers", options->answers,
+                      "answers file; else answers.toml beside the cases or FOLDER.answer.toml");
+  command
+      ->add_option(
+          "-o,--out", options->output,
+          "folder for each case's result; what is there and young enough is not done again")
+      ->capture_default_str();
   command->add_flag("--again", options->again, "explain every case anew");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig judge ../shared/data/hidden-effects -o judged --html matrix.html\nStopped? The same command goes on where it stopped.");
+  command->footer(
+      "Example:\n  ambrig judge ../shared/data/hidden-effects -o judged --html "
+      "matrix.html\nStopped? The same command goes on where it stopped.");
   command->callback([options, &work] { work = [options] { return RunJudge(*options); }; });
 }
 

@@ -1,4 +1,5 @@
-/// ambrig parameters: every number of a rig file and every fault, from the tables that the readers walk.
+/// ambrig parameters: every number of a rig file and every fault, from the tables that the readers
+/// walk.
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
@@ -16,9 +17,12 @@ struct Line {
 
 const char* TargetText(FaultTarget target) {
   switch (target) {
-    case FaultTarget::kCoil: return "coil";
-    case FaultTarget::kAxis: return "axis";
-    case FaultTarget::kRig: return "rig";
+    case FaultTarget::kCoil:
+      return "coil";
+    case FaultTarget::kAxis:
+      return "axis";
+    case FaultTarget::kRig:
+      return "rig";
   }
   return "";
 }
@@ -26,7 +30,8 @@ const char* TargetText(FaultTarget target) {
 std::vector<Line> RigLines() {
   std::vector<Line> lines;
   for (const ParameterRow& r : RigParameterRows())
-    lines.push_back({r.section, r.key, r.unit, std::isnan(r.fallback) ? "required" : NumberText(r.fallback),
+    lines.push_back({r.section, r.key, r.unit,
+                     std::isnan(r.fallback) ? "required" : NumberText(r.fallback),
                      fmt::format("{:g} to {:g}", r.lo, r.hi), r.doc});
   return lines;
 }
@@ -35,12 +40,16 @@ std::vector<Line> FaultLines() {
   std::vector<Line> lines;
   for (const FaultKind& k : FaultKinds()) {
     const std::string section = fmt::format("[[fault]] kind = \"{}\"", k.kind);
-    lines.push_back({section, "", "", "", "", fmt::format("Target: {}; {}", TargetText(k.target), k.doc)});
+    lines.push_back(
+        {section, "", "", "", "", fmt::format("Target: {}; {}", TargetText(k.target), k.doc)});
     for (const FaultParameter& p : FaultParameters())
       if (p.kind == k.kind)
-        lines.push_back({section, fmt::format("parameters.{}", p.key), std::string(p.unit), "",
-                         p.flag ? "true, false" : fmt::format("{}{:g} to {}{:g}", p.ends_allowed ? "" : "above ", p.lo, p.ends_allowed || std::isinf(p.hi) ? "" : "below ", p.hi),
-                         std::string(p.doc)});
+        lines.push_back(
+            {section, fmt::format("parameters.{}", p.key), std::string(p.unit), "",
+             p.flag ? "true, false"
+                    : fmt::format("{}{:g} to {}{:g}", p.ends_allowed ? "" : "above ", p.lo,
+                                  p.ends_allowed || std::isinf(p.hi) ? "" : "below ", p.hi),
+             std::string(p.doc)});
   }
   return lines;
 }
@@ -57,23 +66,28 @@ void PrintMarkdown(const std::vector<Line>& lines) {
       fmt::print("\n{}.\n", l.doc);
       continue;
     }
-    if (!in_table) fmt::print("\n| key | unit | default | allowed | meaning |\n|---|---|---|---|---|\n");
+    if (!in_table)
+      fmt::print("\n| key | unit | default | allowed | meaning |\n|---|---|---|---|---|\n");
     in_table = true;
     fmt::print("| `{}` | {} | {} | {} | {} |\n", l.key, l.unit, l.fallback, l.allowed, l.doc);
   }
 }
 
 void PrintPage() {
-  fmt::print("# Parameters\n\nMade by `ambrig parameters --markdown`; a test keeps it so. What else rig and scenario files hold: "
-             "[guide/files.md](guide/files.md).\n\n## Numbers of a rig file\n\nSI units. A number may be written "
-             "`{{ value = 4.2, sd = 0.01 }}`: sd is how well the maker knows it.\n");
+  fmt::print(
+      "# Parameters\n\nMade by `ambrig parameters --markdown`; a test keeps it so. What else rig "
+      "and scenario files hold: "
+      "[guide/files.md](guide/files.md).\n\n## Numbers of a rig file\n\nSI units. A number may be "
+      "written "
+      "`{{ value = 4.2, sd = 0.01 }}`: sd is how well the maker knows it.\n");
   PrintMarkdown(RigLines());
   fmt::print("\n## Faults of a scenario\n");
   PrintMarkdown(FaultLines());
 }
 
 nlohmann::ordered_json LineJson(const Line& l) {
-  return {{"section", l.section}, {"key", l.key}, {"unit", l.unit}, {"default", l.fallback}, {"allowed", l.allowed}, {"doc", l.doc}};
+  return {{"section", l.section},  {"key", l.key},         {"unit", l.unit},
+          {"default", l.fallback}, {"allowed", l.allowed}, {"doc", l.doc}};
 }
 
 }  // namespace
@@ -84,7 +98,8 @@ void AddParameters(CLI::App& app, Work& work) {
     bool markdown = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("parameters", "every number of a rig file, every fault: unit, range, default");
+  CLI::App* command = app.add_subcommand(
+      "parameters", "every number of a rig file, every fault: unit, range, default");
   command->add_flag("--markdown", options->markdown, "print docs/parameters.md");
   options->common.AddTo(*command);
   command->footer("Example:\n  ambrig parameters | grep gap");
@@ -97,9 +112,11 @@ void AddParameters(CLI::App& app, Work& work) {
       std::vector<std::vector<Cell>> rows;
       for (const Line& l : lines) {
         all.push_back(LineJson(l));
-        rows.push_back({Cell(l.section), Cell(l.key), Cell(l.unit), Cell(l.fallback), Cell(l.allowed), Cell(l.doc)});
+        rows.push_back({Cell(l.section), Cell(l.key), Cell(l.unit), Cell(l.fallback),
+                        Cell(l.allowed), Cell(l.doc)});
         if (!options->markdown)
-          fmt::print("{:<36} {:<26} {:<8} {:<10} {:<20} {}\n", l.section, l.key, l.unit, l.fallback, l.allowed, l.doc);
+          fmt::print("{:<36} {:<26} {:<8} {:<10} {:<20} {}\n", l.section, l.key, l.unit, l.fallback,
+                     l.allowed, l.doc);
       }
       if (options->markdown) PrintPage();
       options->common.WriteJson(all);

@@ -23,9 +23,10 @@ std::string Joined(const std::vector<std::string>& words) {
 int Run(const Convert& c) {
   const ShaftConversion done = ConvertShaft(c.in, c.out);
   const std::string lost = done.not_carried.empty() ? "nothing" : Joined(done.not_carried);
-  fmt::print("{}: {} -> {}\n", c.out, done.from_ross ? "ROSS" : "ambrig", done.from_ross ? "ambrig" : "ROSS");
-  fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m, free bending {:.2f} Hz\n", done.mass, done.z_com,
-             fmt::join(done.free_bending, " "));
+  fmt::print("{}: {} -> {}\n", c.out, done.from_ross ? "ROSS" : "ambrig",
+             done.from_ross ? "ambrig" : "ROSS");
+  fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m, free bending {:.2f} Hz\n", done.mass,
+             done.z_com, fmt::join(done.free_bending, " "));
   if (!done.not_carried.empty()) fmt::print("  not carried over: {}\n", lost);
   c.common.WriteJson({{"in", c.in},
                       {"out", c.out},
@@ -50,15 +51,20 @@ int Run(const Convert& c) {
 
 void AddRotor(CLI::App& app, Work& work) {
   auto options = std::make_shared<Convert>();
-  CLI::App* rotor = app.add_subcommand("rotor", "beam rotors: convert between ROSS's file and ambrig's");
+  CLI::App* rotor =
+      app.add_subcommand("rotor", "beam rotors: convert between ROSS's file and ambrig's");
   rotor->require_subcommand(1);
-  CLI::App* convert = rotor->add_subcommand("convert", "a shaft from ROSS's rotor file to a [rotor], or back");
-  convert->add_option("IN", options->in, "ROSS's file (.toml, .json), or a .toml with [rotor] kind = \"beam\"")
+  CLI::App* convert =
+      rotor->add_subcommand("convert", "a shaft from ROSS's rotor file to a [rotor], or back");
+  convert
+      ->add_option("IN", options->in,
+                   "ROSS's file (.toml, .json), or a .toml with [rotor] kind = \"beam\"")
       ->required();
   convert->add_option("OUT", options->out, "the other kind")->required();
   options->common.AddTo(*convert);
   convert->footer(
-      "Examples:\n  ambrig rotor convert rotor.json shaft.toml    then, in a rig: [rotor] kind = \"beam\", file = "
+      "Examples:\n  ambrig rotor convert rotor.json shaft.toml    then, in a rig: [rotor] kind = "
+      "\"beam\", file = "
       "\"shaft.toml\"\n  ambrig rotor convert rig.toml rotor.json      for ross.Rotor.load");
   convert->callback([options, &work] { work = [options] { return Run(*options); }; });
 }

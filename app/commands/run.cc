@@ -30,7 +30,8 @@ struct RunOptions {
   bool csv = false, quiet = false, no_html = false;
 };
 
-void PrintTimeline(const Scenario& scenario, const RunResult& result, const std::vector<ExpectResult>& expect) {
+void PrintTimeline(const Scenario& scenario, const RunResult& result,
+                   const std::vector<ExpectResult>& expect) {
   fmt::print("{}\n", Coloured(scenario.name, "bold"));
   std::size_t shown = 0, contacts = 0;
   for (const RunEvent& e : result.events) {
@@ -42,19 +43,24 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result, const std:
   if (contacts > 12) fmt::print("  ... and {} more contacts\n", contacts - 12);
   if (shown == 0) fmt::print("  no events\n");
   const RunMetrics& m = result.metrics;
-  for (const auto& [name, orbit] : m.max_orbit) fmt::print("  peak orbit {}       {:8.2f} um\n", name, orbit * 1e6);
-  if (!m.max_orbit.empty()) fmt::print("  clearance left     {:8.2f} um\n", m.min_clearance_left * 1e6);
-  fmt::print("  peak current       {:8.3f} A\n  copper loss        {:8.2f} W\n", m.peak_current, m.copper_loss);
+  for (const auto& [name, orbit] : m.max_orbit)
+    fmt::print("  peak orbit {}       {:8.2f} um\n", name, orbit * 1e6);
+  if (!m.max_orbit.empty())
+    fmt::print("  clearance left     {:8.2f} um\n", m.min_clearance_left * 1e6);
+  fmt::print("  peak current       {:8.3f} A\n  copper loss        {:8.2f} W\n", m.peak_current,
+             m.copper_loss);
   if (m.coil_periods > 0)
-    fmt::print("  false alarms       {:8.0f} in {:.3g} healthy coil-periods\n", m.false_alarms, m.coil_periods);
+    fmt::print("  false alarms       {:8.0f} in {:.3g} healthy coil-periods\n", m.false_alarms,
+               m.coil_periods);
   fmt::print("  speed              {:8.1f} x real time\n", m.real_time_factor);
   for (const std::string& note : result.notes) fmt::print("  note: {}\n", note);
   for (const ExpectResult& e : expect)
     fmt::print("  expect {:<18} wanted {:<14} got {:<14} {}\n", e.key, e.wanted, e.got,
                e.met ? Coloured("met", "green") : Coloured("NOT MET", "red"));
-  fmt::print("  verdict            {}\n", result.drop        ? Coloured("rotor dropped", "red")
-                                          : result.touchdown ? Coloured("touched down, did not drop", "yellow")
-                                                             : Coloured("rotor stayed up", "green"));
+  fmt::print("  verdict            {}\n", result.drop ? Coloured("rotor dropped", "red")
+                                          : result.touchdown
+                                              ? Coloured("touched down, did not drop", "yellow")
+                                              : Coloured("rotor stayed up", "green"));
 }
 
 /// What is simulated and where it came from.
@@ -76,7 +82,8 @@ RunInput FromScenario(const std::string& file) {
 RunInput FromCampaign(const std::string& file, long long row) {
   const RunPlan plan(ReadCampaign(file));
   const std::size_t runs = plan.campaign().runs();
-  if (row < 0 || static_cast<std::size_t>(row) >= runs) throw InputError(fmt::format("--row = {}, allowed: 0 to {}", row, runs - 1));
+  if (row < 0 || static_cast<std::size_t>(row) >= runs)
+    throw InputError(fmt::format("--row = {}, allowed: 0 to {}", row, runs - 1));
   PlannedRun p = plan.Make(static_cast<std::size_t>(row));
   RunInput in;
   in.rig = std::move(p.rig);
@@ -132,17 +139,24 @@ void AddRun(CLI::App& app, Work& work) {
   auto options = std::make_shared<RunOptions>();
   CLI::App* command = app.add_subcommand("run", "simulate scenarios: timeline, record, report");
   command->add_option("scenario", options->scenarios, "scenario files (TOML)");
-  CLI::Option* campaign = command->add_option("--from-campaign", options->campaign, "campaign file: repeat one of its rows")->type_name("FILE");
+  CLI::Option* campaign = command
+                              ->add_option("--from-campaign", options->campaign,
+                                           "campaign file: repeat one of its rows")
+                              ->type_name("FILE");
   command->add_option("--row", options->row, "run of that campaign, from 0")->needs(campaign);
-  command->add_option("--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")->capture_default_str();
-  command->add_option("--rate", options->rate, "rows of the record per second [Hz] (default: the scenario's)");
-  command->add_option("--fidelity", options->fidelity, "switching | reference | averaged")->capture_default_str();
+  command->add_option("--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")
+      ->capture_default_str();
+  command->add_option("--rate", options->rate,
+                      "rows of the record per second [Hz] (default: the scenario's)");
+  command->add_option("--fidelity", options->fidelity, "switching | reference | averaged")
+      ->capture_default_str();
   command->add_flag("--csv", options->csv, "also write the record as NAME.csv");
   command->add_flag("--no-report", options->no_html, "no NAME.html");
   command->add_flag("--quiet", options->quiet, "print nothing");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml --out out --csv\n"
-                  "Exit code 1 when an [expect] of a scenario is not met.");
+  command->footer(
+      "Example:\n  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml --out out --csv\n"
+      "Exit code 1 when an [expect] of a scenario is not met.");
   command->callback([options, &work] {
     work = [options] {
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -150,10 +164,12 @@ void AddRun(CLI::App& app, Work& work) {
       std::set<std::string> stems;
       if (options->campaign.empty() == options->scenarios.empty())
         throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
-      if (!options->campaign.empty()) code = RunOne(FromCampaign(options->campaign, options->row), *options, all);
+      if (!options->campaign.empty())
+        code = RunOne(FromCampaign(options->campaign, options->row), *options, all);
       for (const std::string& file : options->scenarios) {
         if (!stems.insert(std::filesystem::path(file).stem().string()).second)
-          throw InputError(fmt::format("{}: another scenario of that file name would be overwritten", file));
+          throw InputError(
+              fmt::format("{}: another scenario of that file name would be overwritten", file));
         code = std::max(code, RunOne(FromScenario(file), *options, all));
       }
       options->common.WriteJson(all.size() == 1 ? all[0] : all);

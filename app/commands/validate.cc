@@ -42,13 +42,19 @@ std::string Verdict(const ValidationRow& r) {
 void PrintMarkdown(const std::vector<ValidationRow>& rows) {
   fmt::print(
       "# Published rotors and rigs beside ours\n\n"
-      "Written by `ambrig validate examples/validation --markdown > docs/validation.md`; ctest (docs_validation) keeps it true.\n"
-      "Difference: the largest relative one of a row; of eigenvalues the distance over the modulus. Trust: `published` in print or by\n"
-      "the maker, `computed` by another program from published data, `low` recalled or unconfirmed: shown, never passed.\n\n");
-  fmt::print("| rig | quantity | published | ours | largest difference | allowed | source's trust | verdict |\n|---|---|---|---|---|---|---|---|\n");
+      "Written by `ambrig validate examples/validation --markdown > docs/validation.md`; ctest "
+      "(docs_validation) keeps it true.\n"
+      "Difference: the largest relative one of a row; of eigenvalues the distance over the "
+      "modulus. Trust: `published` in print or by\n"
+      "the maker, `computed` by another program from published data, `low` recalled or "
+      "unconfirmed: shown, never passed.\n\n");
+  fmt::print(
+      "| rig | quantity | published | ours | largest difference | allowed | source's trust | "
+      "verdict |\n|---|---|---|---|---|---|---|---|\n");
   for (const ValidationRow& r : rows)
-    fmt::print("| {} | {} [{}]{} | {} | {} | {} | {:.2g} % | {} | {} |\n", r.name, r.quantity, r.unit, r.note.empty() ? "" : " (" + r.note + ")",
-               Figures(r.published), Figures(r.ours), PerCent(r.difference), 100 * r.tolerance, r.trust, Verdict(r));
+    fmt::print("| {} | {} [{}]{} | {} | {} | {} | {:.2g} % | {} | {} |\n", r.name, r.quantity,
+               r.unit, r.note.empty() ? "" : " (" + r.note + ")", Figures(r.published),
+               Figures(r.ours), PerCent(r.difference), 100 * r.tolerance, r.trust, Verdict(r));
   std::string last;
   fmt::print("\nSources:\n\n");
   for (const ValidationRow& r : rows) {
@@ -60,26 +66,37 @@ void PrintMarkdown(const std::vector<ValidationRow>& rows) {
 void PrintText(const std::vector<ValidationRow>& rows) {
   for (const ValidationRow& r : rows) {
     const char* colour = r.low() ? "yellow" : r.agrees() ? "green" : "red";
-    fmt::print("{:<24} {:<36} {:>12} of {:.2g} %  {}\n", r.name, r.quantity + " [" + r.unit + "]", PerCent(r.difference), 100 * r.tolerance,
-               Coloured(Verdict(r), colour));
-    if (!r.agrees()) fmt::print("    published {}\n    ours      {}\n", Figures(r.published), Figures(r.ours));
+    fmt::print("{:<24} {:<36} {:>12} of {:.2g} %  {}\n", r.name, r.quantity + " [" + r.unit + "]",
+               PerCent(r.difference), 100 * r.tolerance, Coloured(Verdict(r), colour));
+    if (!r.agrees())
+      fmt::print("    published {}\n    ours      {}\n", Figures(r.published), Figures(r.ours));
   }
 }
 
 int RunValidate(const ValidateCommand& c) {
   std::vector<ValidationRow> rows;
-  for (const std::string& file : FindFiles(c.paths, IsValidation, "no NAME.validation.toml found")) {
+  for (const std::string& file :
+       FindFiles(c.paths, IsValidation, "no NAME.validation.toml found")) {
     if (interrupted) throw Interrupted();
     for (ValidationRow& row : Validate(file)) rows.push_back(std::move(row));
   }
   c.markdown ? PrintMarkdown(rows) : PrintText(rows);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const ValidationRow& r : rows)
-    json.push_back({{"name", r.name}, {"quantity", r.quantity}, {"unit", r.unit}, {"published", r.published}, {"ours", r.ours},
-                    {"difference", r.difference}, {"tolerance", r.tolerance}, {"trust", r.trust}, {"agrees", r.agrees()}});
+    json.push_back({{"name", r.name},
+                    {"quantity", r.quantity},
+                    {"unit", r.unit},
+                    {"published", r.published},
+                    {"ours", r.ours},
+                    {"difference", r.difference},
+                    {"tolerance", r.tolerance},
+                    {"trust", r.trust},
+                    {"agrees", r.agrees()}});
   c.common.WriteJson(json);
-  const auto differs = std::count_if(rows.begin(), rows.end(), [](const auto& r) { return !r.low() && !r.agrees(); });
-  if (!c.markdown) fmt::print("{}, beyond what is allowed: {}\n", Counted(rows.size(), "row"), differs);
+  const auto differs = std::count_if(rows.begin(), rows.end(),
+                                     [](const auto& r) { return !r.low() && !r.agrees(); });
+  if (!c.markdown)
+    fmt::print("{}, beyond what is allowed: {}\n", Counted(rows.size(), "row"), differs);
   return differs > 0 ? 1 : 0;
 }
 
@@ -87,11 +104,16 @@ int RunValidate(const ValidateCommand& c) {
 
 void AddValidate(CLI::App& app, Work& work) {
   auto c = std::make_shared<ValidateCommand>();
-  CLI::App* command = app.add_subcommand("validate", "published rotors and rigs beside what this program computes");
-  command->add_option("path", c->paths, "validation files, or folders of NAME.validation.toml")->required();
+  CLI::App* command =
+      app.add_subcommand("validate", "published rotors and rigs beside what this program computes");
+  command->add_option("path", c->paths, "validation files, or folders of NAME.validation.toml")
+      ->required();
   command->add_flag("--markdown", c->markdown, "the table of docs/validation.md");
-  command->add_option("--json", c->common.json, "write the rows as JSON to FILE")->type_name("FILE");
-  command->footer("Example:\n  ambrig validate examples/validation\nExit code 1 when a row differs by more than its file allows.");
+  command->add_option("--json", c->common.json, "write the rows as JSON to FILE")
+      ->type_name("FILE");
+  command->footer(
+      "Example:\n  ambrig validate examples/validation\nExit code 1 when a row differs by more "
+      "than its file allows.");
   command->callback([c, &work] { work = [c] { return RunValidate(*c); }; });
 }
 

@@ -123,7 +123,8 @@ int Witness(const WitnessCommand& command) {
     }
     if (command.seeds > 1) PrintTally(all, command.seeds);
   }
-  fmt::print("{}, {} with contact, differing verdicts: {}\n", Counted(all.size(), "run"), touched, differ);
+  fmt::print("{}, {} with contact, differing verdicts: {}\n", Counted(all.size(), "run"), touched,
+             differ);
   if (!command.common.html.empty()) WriteWitnessReport(all, command.common.html);
   command.common.WriteJson(json);
   return differ > 0 ? 1 : 0;

@@ -23,9 +23,9 @@ Json Parts(const std::vector<std::complex<double>>& values) {
 }
 
 Json CapacityJson(const AxisCapacity& c) {
-  return {{"axis", c.axis},         {"k_i", c.k_i},           {"k_s", c.k_s},
-          {"static", c.usable()},   {"linear", c.linear},     {"largest", c.largest},
-          {"f_max", c.commanded},   {"weight", c.weight},     {"slew", Number(c.slew)},
+  return {{"axis", c.axis},        {"k_i", c.k_i},       {"k_s", c.k_s},
+          {"static", c.usable()},  {"linear", c.linear}, {"largest", c.largest},
+          {"f_max", c.commanded},  {"weight", c.weight}, {"slew", Number(c.slew)},
           {"knee", Number(c.knee)}};
 }
 
@@ -67,8 +67,13 @@ Json SensitivityJson(const Sensitivity& s) {
 }
 
 Json ModeJson(const ClosedLoopMode& m) {
-  return {{"re", m.s.real()},  {"im", m.s.imag()},          {"frequency", m.frequency}, {"zeta", m.zeta},
-          {"log_decrement", m.log_decrement}, {"whirl", SenseName(m.sense())}, {"rotor_share", m.rotor_share}};
+  return {{"re", m.s.real()},
+          {"im", m.s.imag()},
+          {"frequency", m.frequency},
+          {"zeta", m.zeta},
+          {"log_decrement", m.log_decrement},
+          {"whirl", SenseName(m.sense())},
+          {"rotor_share", m.rotor_share}};
 }
 
 Json CampbellJson(const RigAnalysis& a) {
@@ -96,15 +101,22 @@ Json RotorModesJson(const std::vector<RotorMode>& modes, double origin) {
 Json SupportsJson(const RotorOnSupports& s, double origin) {
   Json supports = Json::array(), critical = Json::array(), map = Json::array();
   for (const SupportStiffness& k : s.supports)
-    supports.push_back({{"bearing", k.bearing}, {"proportional", k.proportional}, {"negative", k.negative}, {"net", k.net()}});
-  for (const CriticalSpeed& c : s.critical) critical.push_back({{"speed", c.speed}, {"whirl", c.whirl}});
+    supports.push_back({{"bearing", k.bearing},
+                        {"proportional", k.proportional},
+                        {"negative", k.negative},
+                        {"net", k.net()}});
+  for (const CriticalSpeed& c : s.critical)
+    critical.push_back({{"speed", c.speed}, {"whirl", c.whirl}});
   for (const CriticalMapRow& row : s.map) {
     Json speeds = Json::array();
     for (const CriticalSpeed& c : row.speeds) speeds.push_back(c.speed);
     map.push_back({{"stiffness", row.stiffness}, {"speeds", speeds}});
   }
-  return {{"supports", supports}, {"free", RotorModesJson(s.free, origin)}, {"supported", RotorModesJson(s.supported, origin)},
-          {"critical", critical}, {"map", map}};
+  return {{"supports", supports},
+          {"free", RotorModesJson(s.free, origin)},
+          {"supported", RotorModesJson(s.supported, origin)},
+          {"critical", critical},
+          {"map", map}};
 }
 
 Json UnbalanceJson(const UnbalanceSweep& s, double origin) {
@@ -114,8 +126,15 @@ Json UnbalanceJson(const UnbalanceSweep& s, double origin) {
   for (const OrderTrack& t : s.tracks) {
     Json peaks = Json::array();
     for (const ResponsePeak& p : t.peaks)
-      peaks.push_back({{"speed", p.speed}, {"amplitude", p.amplitude}, {"amplification", p.amplification}, {"bound", p.bound}});
-    tracks.push_back({{"bearing", t.bearing}, {"amplitude", t.amplitude}, {"phase", t.phase}, {"force", t.force}, {"peaks", peaks}});
+      peaks.push_back({{"speed", p.speed},
+                       {"amplitude", p.amplitude},
+                       {"amplification", p.amplification},
+                       {"bound", p.bound}});
+    tracks.push_back({{"bearing", t.bearing},
+                      {"amplitude", t.amplitude},
+                      {"phase", t.phase},
+                      {"force", t.force},
+                      {"peaks", peaks}});
   }
   return {{"case", s.unbalance.name}, {"planes", planes}, {"speed", s.speed}, {"tracks", tracks}};
 }
@@ -128,14 +147,22 @@ Json List(const Items& items, Make&& make) {
 }
 
 Json StandardsJson(const RigAnalysis& a) {
-  return {{"displacement", List(a.displacement, [](const DisplacementRow& d) {
-             return Json{{"bearing", d.bearing}, {"unbalance", d.unbalance}, {"largest", d.largest},
-                         {"clearance", d.clearance}, {"zone", std::string(1, d.zone)}};
-           })},
+  return {{"displacement", List(a.displacement,
+                                [](const DisplacementRow& d) {
+                                  return Json{{"bearing", d.bearing},
+                                              {"unbalance", d.unbalance},
+                                              {"largest", d.largest},
+                                              {"clearance", d.clearance},
+                                              {"zone", std::string(1, d.zone)}};
+                                })},
           {"separation", List(a.separation, [](const SeparationRow& s) {
-             return Json{{"bearing", s.bearing}, {"unbalance", s.unbalance}, {"critical", s.peak.speed},
-                         {"amplification", s.peak.amplification}, {"required", s.margin.required},
-                         {"actual", s.margin.actual}, {"met", s.margin.met}};
+             return Json{{"bearing", s.bearing},
+                         {"unbalance", s.unbalance},
+                         {"critical", s.peak.speed},
+                         {"amplification", s.peak.amplification},
+                         {"required", s.margin.required},
+                         {"actual", s.margin.actual},
+                         {"met", s.margin.met}};
            })}};
 }
 
@@ -148,29 +175,37 @@ const char* SenseName(Whirl whirl) {
 Json AnalysisJson(const RigAnalysis& a) {
   Json out;
   out["rig"] = a.point.rig().name;
-  out["speed"] = {{"lowest", a.options.lowest}, {"highest", a.options.highest}, {"fastest", a.options.fastest}};
+  out["speed"] = {
+      {"lowest", a.options.lowest}, {"highest", a.options.highest}, {"fastest", a.options.fastest}};
   out["stable"] = a.stable();
   out["notes"] = a.point.notes;
   out["capacity"] = List(a.capacity, CapacityJson);
   out["sensitivity"] = List(a.sensitivity, SensitivityJson);
   out["measured_sensitivity"] = List(a.measured, [&](const MeasuredPoint& p) {
-    return Json{{"axis", a.capacity[p.axis].axis}, {"frequency", p.frequency},
-                {"measured", std::abs(p.measured)}, {"computed", std::abs(p.computed)}};
+    return Json{{"axis", a.capacity[p.axis].axis},
+                {"frequency", p.frequency},
+                {"measured", std::abs(p.measured)},
+                {"computed", std::abs(p.computed)}};
   });
   const double origin = a.point.rig().z_origin;
   out["rotor"] = SupportsJson(a.supports, origin);
   out["campbell"] = CampbellJson(a);
   out["critical_speeds"] = List(a.criticals, [](const DampedCritical& c) {
-    return Json{{"speed", c.speed}, {"log_decrement", c.mode.log_decrement}, {"whirl", SenseName(c.mode.sense())}};
+    return Json{{"speed", c.speed},
+                {"log_decrement", c.mode.log_decrement},
+                {"whirl", SenseName(c.mode.sense())}};
   });
-  out["unbalance"] = List(a.unbalance, [&](const UnbalanceSweep& s) { return UnbalanceJson(s, origin); });
+  out["unbalance"] =
+      List(a.unbalance, [&](const UnbalanceSweep& s) { return UnbalanceJson(s, origin); });
   out["standards"] = StandardsJson(a);
-  out["dynamic_stiffness"] = {{"frequency", a.stiffness.frequency},
-                              {"axes", List(a.stiffness.axes, [](const AxisStiffness& s) {
-                                 return Json{{"axis", s.axis}, {"bearing", Parts(s.bearing)}, {"rotor", Parts(s.rotor)}};
-                               })}};
+  out["dynamic_stiffness"] = {
+      {"frequency", a.stiffness.frequency},
+      {"axes", List(a.stiffness.axes, [](const AxisStiffness& s) {
+         return Json{{"axis", s.axis}, {"bearing", Parts(s.bearing)}, {"rotor", Parts(s.rotor)}};
+       })}};
   out["responses"] = List(a.responses, [](const ResponseCurve& c) {
-    Json r = {{"input", c.input}, {"output", c.output}, {"unit", c.unit}, {"frequency", c.frequency}};
+    Json r = {
+        {"input", c.input}, {"output", c.output}, {"unit", c.unit}, {"frequency", c.frequency}};
     r.update(Parts(c.values));
     return r;
   });

@@ -7,6 +7,7 @@
 namespace ambrig {
 
 /// One HTML file. @throws InputError when it cannot be written.
-void WriteAnalysisReport(const RigAnalysis& analysis, const std::string& rig_file, const std::filesystem::path& path);
+void WriteAnalysisReport(const RigAnalysis& analysis, const std::string& rig_file,
+                         const std::filesystem::path& path);
 
 }  // namespace ambrig

@@ -28,8 +28,11 @@ std::vector<std::string> Distinct(const Rows& rows, const char* column) {
 /// Share of runs that stayed up, sets x loads, one map for each kind and speed.
 void SurvivalMaps(HtmlReport& report, const Rows& rows) {
   report.Heading("Survival map");
-  report.Text("Share of the runs that stayed up, of each failure set (row) at each load (column): 1 = all, 0 = none. "
-              "Loads are those of the campaign file: shares of the set's own capacity (the weight counts), or newtons.");
+  report.Text(
+      "Share of the runs that stayed up, of each failure set (row) at each load (column): 1 = all, "
+      "0 = none. "
+      "Loads are those of the campaign file: shares of the set's own capacity (the weight counts), "
+      "or newtons.");
   const auto sets = Distinct(rows, "set"), loads = Distinct(rows, "load_given");
   for (const std::string& kind : Distinct(rows, "kind"))
     for (const std::string& speed : Distinct(rows, "speed")) {
@@ -67,15 +70,20 @@ void SurvivalMaps(HtmlReport& report, const Rows& rows) {
 void Delays(HtmlReport& report, const Rows& rows) {
   std::map<std::string, std::vector<double>> by_kind;
   for (const auto& [run, row] : rows)
-    if (!row.At("detection_delay").empty()) by_kind[row.At("kind")].push_back(row.Number("detection_delay") * 1e6);
+    if (!row.At("detection_delay").empty())
+      by_kind[row.At("kind")].push_back(row.Number("detection_delay") * 1e6);
   if (by_kind.empty()) return;
   report.Heading("Detection delay");
   report.Text("From the fault to the alarm, the slowest coil of each run.");
   std::vector<std::vector<Cell>> table;
   for (auto& [kind, values] : by_kind) {
     std::sort(values.begin(), values.end());
-    const auto at = [&v = values](double q) { return fmt::format("{:.1f}", v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))]); };
-    table.push_back({Cell(kind), Cell(std::to_string(values.size())), Cell(at(0)), Cell(at(0.5)), Cell(at(0.95)), Cell(at(1))});
+    const auto at = [&v = values](double q) {
+      return fmt::format("{:.1f}",
+                         v[static_cast<std::size_t>(q * static_cast<double>(v.size() - 1))]);
+    };
+    table.push_back({Cell(kind), Cell(std::to_string(values.size())), Cell(at(0)), Cell(at(0.5)),
+                     Cell(at(0.95)), Cell(at(1))});
     Figure figure = MakeFigure("Detection delay: " + kind);
     AddHistogram(figure, 0, kind, values, 40);
     SetAxes(figure, 0, "delay [µs]", "runs");
@@ -91,10 +99,15 @@ int Severity(const Row& r) {
 
 void WorstCases(HtmlReport& report, const JournalHeader& header, const Rows& rows) {
   report.Heading("Worst cases");
-  report.Text("Runs that did not stay up first, then by the largest orbit. The command repeats a run with its record and report.");
+  report.Text(
+      "Runs that did not stay up first, then by the largest orbit. The command repeats a run with "
+      "its record and report.");
   std::vector<const Row*> order;
   for (const auto& [run, row] : rows) order.push_back(&row);
-  const auto orbit = [](const Row* r) { const double v = r->Number("peak_orbit"); return std::isnan(v) ? 1e9 : v; };
+  const auto orbit = [](const Row* r) {
+    const double v = r->Number("peak_orbit");
+    return std::isnan(v) ? 1e9 : v;
+  };
   std::stable_sort(order.begin(), order.end(), [&](const Row* a, const Row* b) {
     return Severity(*a) != Severity(*b) ? Severity(*a) > Severity(*b) : orbit(a) > orbit(b);
   });
@@ -102,12 +115,19 @@ void WorstCases(HtmlReport& report, const JournalHeader& header, const Rows& row
   for (std::size_t k = 0; k < std::min(kWorst, order.size()); ++k) {
     const Row& r = *order[k];
     const int s = Severity(r);
-    table.push_back({Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")), Cell(Rpm(std::stod(r.At("speed")))),
-                     Cell(r.At("load_given")), Cell(r.At("verdict"), s > 1 ? "fail" : s == 1 ? "warn" : "ok"),
-                     Cell(FormatSi(r.Number("peak_orbit"), "m")), Cell(FormatSi(r.Number("detection_delay"), "s")),
-                     Cell(fmt::format("ambrig run --from-campaign {} --row {}", header.file, r.run), "muted")});
+    table.push_back(
+        {Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")),
+         Cell(Rpm(std::stod(r.At("speed")))), Cell(r.At("load_given")),
+         Cell(r.At("verdict"), s > 1    ? "fail"
+                               : s == 1 ? "warn"
+                                        : "ok"),
+         Cell(FormatSi(r.Number("peak_orbit"), "m")),
+         Cell(FormatSi(r.Number("detection_delay"), "s")),
+         Cell(fmt::format("ambrig run --from-campaign {} --row {}", header.file, r.run), "muted")});
   }
-  report.Table({"run", "set", "class", "kind", "speed", "load", "verdict", "largest orbit", "delay", "repeat"}, table);
+  report.Table({"run", "set", "class", "kind", "speed", "load", "verdict", "largest orbit", "delay",
+                "repeat"},
+               table);
 }
 
 /// Largest static force that was held against what the theory allows.
@@ -115,8 +135,11 @@ void Capacity(HtmlReport& report, const Rows& rows) {
   std::map<std::string, std::vector<const Row*>> by_set;
   for (const auto& [run, row] : rows) by_set[row.At("set") + ", " + row.At("kind")].push_back(&row);
   report.Heading("Capacity against theory");
-  report.Text("Theory: `k c0² rho` of the set's current distribution, at most the controller's largest force. Held: the largest "
-              "load beside the weight at which every run of the set stayed up; a loaded set below the line was not tried further or fell.");
+  report.Text(
+      "Theory: `k c0² rho` of the set's current distribution, at most the controller's largest "
+      "force. Held: the largest "
+      "load beside the weight at which every run of the set stayed up; a loaded set below the line "
+      "was not tried further or fell.");
   std::map<std::string, std::array<std::vector<double>, 2>> points;  // class -> theory, held
   for (const auto& [name, list] : by_set) {
     std::map<double, bool> held;
@@ -145,16 +168,21 @@ void Capacity(HtmlReport& report, const Rows& rows) {
 
 void WriteCampaignReport(const JournalHeader& header, const Rows& rows, const std::string& path) {
   const RowCounts n = CountRows(rows);
-  HtmlReport report(header.name, fmt::format("campaign of {}, {}", Counted(header.runs, "run"), header.fingerprint));
-  report.Verdict(n.drop + n.error > 0 ? Verdict::kFail : n.touchdown > 0 ? Verdict::kWarn : Verdict::kOk,
-                 fmt::format("{} of {} stayed up, {} touched down, {} dropped.", n.up, Counted(n.rows, "run"), n.touchdown, n.drop));
+  HtmlReport report(header.name, fmt::format("campaign of {}, {}", Counted(header.runs, "run"),
+                                             header.fingerprint));
+  report.Verdict(n.drop + n.error > 0 ? Verdict::kFail
+                 : n.touchdown > 0    ? Verdict::kWarn
+                                      : Verdict::kOk,
+                 fmt::format("{} of {} stayed up, {} touched down, {} dropped.", n.up,
+                             Counted(n.rows, "run"), n.touchdown, n.drop));
   report.KeyValues({{"runs done", fmt::format("{} of {}", n.rows, header.runs)},
                     {"not finished (error)", std::to_string(n.error)},
                     {"faults", std::to_string(n.faults)},
                     {"not detected", std::to_string(n.undetected)},
                     {"last class not the true one", std::to_string(n.wrong_class)},
                     {"worst detection delay", FormatSi(n.worst_delay, "s")},
-                    {"false alarms", fmt::format("{:.0f} in {:.3g} healthy coil-periods", n.false_alarms, n.coil_periods)},
+                    {"false alarms", fmt::format("{:.0f} in {:.3g} healthy coil-periods",
+                                                 n.false_alarms, n.coil_periods)},
                     {"largest orbit of runs that stayed up", FormatSi(n.largest_orbit, "m")}});
   if (!rows.empty()) {
     SurvivalMaps(report, rows);

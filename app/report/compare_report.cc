@@ -22,10 +22,14 @@ struct View {
 
 std::string BlockMeaning(const std::string& block) {
   static const std::map<std::string, std::string> kMeaning = {
-      {"controller", "measured readings in, set-points out: filters, gains, delay of the controller"},
-      {"coil", "measured set-points and readings in, currents out: amplifier, inductance, iron, current sensors"},
+      {"controller",
+       "measured readings in, set-points out: filters, gains, delay of the controller"},
+      {"coil",
+       "measured set-points and readings in, currents out: amplifier, inductance, iron, current "
+       "sensors"},
       {"force", "measured currents in, load cells out: magnetic force of the clamped rotor"},
-      {"rotor", "measured currents and readings in, missing force out: forces and motion of the rotor"},
+      {"rotor",
+       "measured currents and readings in, missing force out: forces and motion of the rotor"},
       {"sensor", "the held position in, readings out: position sensors"}};
   const auto at = kMeaning.find(block);
   return at == kMeaning.end() ? "" : at->second;
@@ -37,11 +41,15 @@ Cell RatioCell(double ratio) {
 
 void AddVerdict(HtmlReport& report, const Comparison& c) {
   const double unseen = c.ratio_validate > 0 ? c.ratio_validate : c.ratio;
-  const std::string numbers = fmt::format("error over noise {:.2f} over all records (fitted {:.2f}, unseen {:.2f})", c.ratio, c.ratio_fit, c.ratio_validate);
+  const std::string numbers =
+      fmt::format("error over noise {:.2f} over all records (fitted {:.2f}, unseen {:.2f})",
+                  c.ratio, c.ratio_fit, c.ratio_validate);
   if (std::max(unseen, c.ratio) < 1.1)
-    report.Verdict(Verdict::kOk, "**Model and measurement agree within the noise**: " + numbers + ".");
+    report.Verdict(Verdict::kOk,
+                   "**Model and measurement agree within the noise**: " + numbers + ".");
   else
-    report.Verdict(c.ratio < 2 ? Verdict::kWarn : Verdict::kFail, "**The model misses something**: " + numbers + ".");
+    report.Verdict(c.ratio < 2 ? Verdict::kWarn : Verdict::kFail,
+                   "**The model misses something**: " + numbers + ".");
 }
 
 /// The words of a comparison name data files with their folders; a reader wants the record.
@@ -61,12 +69,18 @@ void AddOverview(HtmlReport& report, const View& v) {
   AddVerdict(report, v.comparison);
   AddReadingHelp(report);
   report.Text("The worst places, worst first:\n\n" + List(ShortWords(v.comparison)));
-  if (!v.model.data().notes.empty()) report.Text("Left out by the data-quality pass:\n\n" + List(v.model.data().notes));
-  AddRatioMap(report, v.comparison, "Error over noise of every channel in every record. A dark column points to one sensor or coil, a dark row to "
+  if (!v.model.data().notes.empty())
+    report.Text("Left out by the data-quality pass:\n\n" + List(v.model.data().notes));
+  AddRatioMap(report, v.comparison,
+              "Error over noise of every channel in every record. A dark column points to one "
+              "sensor or coil, a dark row to "
               "one kind of operation, a dark block to one bearing.");
-  if (const auto map = FrequencySpeedMap(v.model, v.comparison.predicted, v.noise,
-          "Error over noise in bands of frequency (all channels together); run-ups are cut into stretches of speed. What grows with speed "
-          "turns with the rotor; what stays in one band at all speeds is a resonance, hum or delay; what is dark at the left is static."))
+  if (const auto map =
+          FrequencySpeedMap(v.model, v.comparison.predicted, v.noise,
+                            "Error over noise in bands of frequency (all channels together); "
+                            "run-ups are cut into stretches of speed. What grows with speed "
+                            "turns with the rotor; what stays in one band at all speeds is a "
+                            "resonance, hum or delay; what is dark at the left is static."))
     report.AddFigure(*map);
 }
 
@@ -77,8 +91,10 @@ void AddBlocks(HtmlReport& report, const Comparison& c) {
       if (std::ranges::find(names, block) == names.end()) names.push_back(block);
   if (names.empty()) return;
   report.Heading("Which block is it?");
-  report.Text("Each part of the model was fed with *measured* inputs, so that the error of one does not spread to the others; its error is divided "
-              "by that of a noisy run of the model itself.");
+  report.Text(
+      "Each part of the model was fed with *measured* inputs, so that the error of one does not "
+      "spread to the others; its error is divided "
+      "by that of a noisy run of the model itself.");
   std::vector<std::string> columns = {"record"}, meaning;
   for (const std::string& name : names) {
     columns.push_back(name);
@@ -93,7 +109,8 @@ void AddBlocks(HtmlReport& report, const Comparison& c) {
     }
     rows.push_back(row);
   }
-  report.Table(columns, rows, "Error of each block over its own noise; – where a record cannot tell.");
+  report.Table(columns, rows,
+               "Error of each block over its own noise; – where a record cannot tell.");
   report.Text(List(meaning));
 }
 
@@ -108,31 +125,43 @@ void AddChannelTable(HtmlReport& report, const CaseRecord& record, const RecordC
   std::vector<std::vector<Cell>> rows;
   for (const ChannelError& e : all) {
     const std::string unit = Unit(record, e.channel);
-    rows.push_back({e.channel, ChannelKind(e.channel), FormatSi(e.rms_error, unit), FormatSi(e.noise, unit), RatioCell(e.ratio),
+    rows.push_back({e.channel, ChannelKind(e.channel), FormatSi(e.rms_error, unit),
+                    FormatSi(e.noise, unit), RatioCell(e.ratio),
                     fmt::format("{:.2f} %", 100 * e.nrmse), fmt::format("{:.2f}", e.whiteness)});
   }
-  report.BeginDetails(fmt::format("All {} channels of {} in numbers", rows.size(), ShortName(r.data)));
-  report.Table({"channel", "kind", "rms error", "noise", "error / noise", "of full scale", "neighbour correlation"}, rows,
-               "Neighbour correlation: 0 for white errors, near 1 for slow ones.");
+  report.BeginDetails(
+      fmt::format("All {} channels of {} in numbers", rows.size(), ShortName(r.data)));
+  report.Table({"channel", "kind", "rms error", "noise", "error / noise", "of full scale",
+                "neighbour correlation"},
+               rows, "Neighbour correlation: 0 for white errors, near 1 for slow ones.");
   report.EndDetails();
 }
 
 void AddChannelFigures(HtmlReport& report, const View& v, const std::vector<Target>& worst) {
   const std::vector<NamedPrediction> models = {{"model", "@orange", &v.comparison.predicted}};
-  report.AddFigure(TimeFigure(v.model, worst, models, "The worst channels in time. Top: the whole record. Middle: the stretch where the error is "
-                              "largest (shaded above). Bottom: measured less model; inside the grey band it is noise."));
-  report.AddFigure(SpectrumFigure(v.model, worst, models, v.noise, "Spectrum of that error over the noise. Where the lines meet, the model is right; "
-                                  "peaks above the noise are what it lacks."));
-  report.AddFigure(WhitenessFigure(v.model, worst, models, v.noise, "Is the error random? Its autocorrelation beside that of the noise alone (which "
-                                   "the control loop colours): a line that stays up is an offset, a slow or ringing one "
-                                   "structure that a model could still explain."));
+  report.AddFigure(TimeFigure(
+      v.model, worst, models,
+      "The worst channels in time. Top: the whole record. Middle: the stretch where the error is "
+      "largest (shaded above). Bottom: measured less model; inside the grey band it is noise."));
+  report.AddFigure(SpectrumFigure(
+      v.model, worst, models, v.noise,
+      "Spectrum of that error over the noise. Where the lines meet, the model is right; "
+      "peaks above the noise are what it lacks."));
+  report.AddFigure(WhitenessFigure(
+      v.model, worst, models, v.noise,
+      "Is the error random? Its autocorrelation beside that of the noise alone (which "
+      "the control loop colours): a line that stays up is an offset, a slow or ringing one "
+      "structure that a model could still explain."));
 }
 
-void AddMotionFigures(HtmlReport& report, const View& v, std::size_t record, const std::vector<Target>& worst) {
-  if (const auto response = ResponseFigure(v.model, v.comparison.predicted, record)) report.AddFigure(*response);
+void AddMotionFigures(HtmlReport& report, const View& v, std::size_t record,
+                      const std::vector<Target>& worst) {
+  if (const auto response = ResponseFigure(v.model, v.comparison.predicted, record))
+    report.AddFigure(*response);
   for (const Target& t : worst) {
     if (ChannelKind(ChannelName(v.model, t)) != "reading") continue;
-    if (const auto orders = OrderFigure(v.model, v.comparison.predicted, t)) report.AddFigure(*orders);
+    if (const auto orders = OrderFigure(v.model, v.comparison.predicted, t))
+      report.AddFigure(*orders);
     return;
   }
 }
@@ -140,10 +169,12 @@ void AddMotionFigures(HtmlReport& report, const View& v, std::size_t record, con
 void AddRecord(HtmlReport& report, const View& v, std::size_t record) {
   const RecordComparison& r = v.comparison.records[record];
   report.Heading(fmt::format("{}: {}", ShortName(r.data), r.scenario), 3);
-  report.Text(fmt::format("Error over noise **{:.2f}**, {} record.", r.ratio, r.validate ? "unseen" : "fitted"));
+  report.Text(fmt::format("Error over noise **{:.2f}**, {} record.", r.ratio,
+                          r.validate ? "unseen" : "fitted"));
   const std::vector<Target> worst = WorstTargets(v.model, v.comparison.residual, record, 3);
   if (!worst.empty() && worst.front().count >= 64) AddChannelFigures(report, v, worst);
-  AddMotionFigures(report, v, record, WorstTargets(v.model, v.comparison.residual, record, 1000, 1000));
+  AddMotionFigures(report, v, record,
+                   WorstTargets(v.model, v.comparison.residual, record, 1000, 1000));
   AddChannelTable(report, v.model.data().records[record], r);
 }
 
@@ -158,22 +189,29 @@ std::vector<std::string> WorstNames(const Comparison& c, std::size_t count) {
   std::vector<std::string> out;
   std::map<std::string, int> kinds;
   for (const auto& [ratio, name] : order)
-    if (out.size() < count && (ratio > 1.05 || out.empty()) && ++kinds[ChannelKind(name)] <= 2) out.push_back(name);
+    if (out.size() < count && (ratio > 1.05 || out.empty()) && ++kinds[ChannelKind(name)] <= 2)
+      out.push_back(name);
   return out;
 }
 
 void AddDependence(HtmlReport& report, const View& v) {
   report.Heading("What does the error depend on?");
-  report.Text("The shape of these lines is often the law itself: a slope against position is a stiffness, a kink a contact or a clipped "
-              "amplifier, a slope against current a gain, a bend at large currents saturation, growth with speed something that turns.");
+  report.Text(
+      "The shape of these lines is often the law itself: a slope against position is a stiffness, "
+      "a kink a contact or a clipped "
+      "amplifier, a slope against current a gain, a bend at large currents saturation, growth with "
+      "speed something that turns.");
   for (const std::string& name : WorstNames(v.comparison, 4))
-    if (const auto figure = DependenceFigure(v.model, v.comparison.predicted, name)) report.AddFigure(*figure);
+    if (const auto figure = DependenceFigure(v.model, v.comparison.predicted, name))
+      report.AddFigure(*figure);
 }
 
 }  // namespace
 
-void WriteCompareReport(const CaseModel& model, const Comparison& comparison, const std::string& path) {
-  const View view{model, comparison, NoiseSample(model, Hypothesis::Base(model.data().rig), comparison.predicted)};
+void WriteCompareReport(const CaseModel& model, const Comparison& comparison,
+                        const std::string& path) {
+  const View view{model, comparison,
+                  NoiseSample(model, Hypothesis::Base(model.data().rig), comparison.predicted)};
   HtmlReport report("Model beside measurement", model.data().file);
   AddOverview(report, view);
   AddBlocks(report, comparison);

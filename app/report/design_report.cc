@@ -26,7 +26,8 @@ std::string ValueText(const FigureSpec& f, double v) {
 std::string VariablesText(const DesignCandidate& c, const std::vector<double>& values) {
   std::string text;
   for (std::size_t k = 0; k < values.size(); ++k)
-    text += fmt::format("{}{} = {}", k == 0 ? "" : ", ", c.variables[k].paths.front(), FormatNumber(values[k], 4));
+    text += fmt::format("{}{} = {}", k == 0 ? "" : ", ", c.variables[k].paths.front(),
+                        FormatNumber(values[k], 4));
   return text.empty() ? "as in its file" : text;
 }
 
@@ -39,9 +40,13 @@ DisplayUnit UnitOf(const StudyResult& result, const Study& study, std::size_t fi
   return unit == "-" ? DisplayUnit{1, "-"} : ChooseUnit(largest, unit);
 }
 
-void Summary(HtmlReport& report, const Study& study, const StudyResult& result, const std::vector<PointResponses>& shown) {
-  std::vector<std::string> columns{"candidate", "points", "meet limits", "on the front", "point shown", "its numbers"};
-  for (const FigureSpec& f : study.figures) columns.push_back(f.name + (f.at_most ? fmt::format(" (at most {})", ValueText(f, *f.at_most)) : ""));
+void Summary(HtmlReport& report, const Study& study, const StudyResult& result,
+             const std::vector<PointResponses>& shown) {
+  std::vector<std::string> columns{"candidate",    "points",      "meet limits",
+                                   "on the front", "point shown", "its numbers"};
+  for (const FigureSpec& f : study.figures)
+    columns.push_back(f.name +
+                      (f.at_most ? fmt::format(" (at most {})", ValueText(f, *f.at_most)) : ""));
   std::vector<std::vector<Cell>> rows;
   for (std::size_t c = 0; c < study.candidates.size(); ++c) {
     std::size_t all = 0, feasible = 0, front = 0;
@@ -52,17 +57,26 @@ void Summary(HtmlReport& report, const Study& study, const StudyResult& result, 
       front += p.front ? 1 : 0;
     }
     const StudyPoint& p = result.points[shown[c].point];
-    std::vector<Cell> row{study.candidates[c].name, std::to_string(all), std::to_string(feasible), std::to_string(front),
-                          std::to_string(shown[c].point), VariablesText(study.candidates[c], p.values)};
+    std::vector<Cell> row{
+        study.candidates[c].name,       std::to_string(all),
+        std::to_string(feasible),       std::to_string(front),
+        std::to_string(shown[c].point), VariablesText(study.candidates[c], p.values)};
     for (std::size_t k = 0; k < study.figures.size(); ++k) {
-      const bool bad = !std::isfinite(p.result.figures[k]) || (study.figures[k].at_most && p.result.figures[k] > *study.figures[k].at_most);
+      const bool bad =
+          !std::isfinite(p.result.figures[k]) ||
+          (study.figures[k].at_most && p.result.figures[k] > *study.figures[k].at_most);
       row.emplace_back(ValueText(study.figures[k], p.result.figures[k]), bad ? "fail" : "");
     }
     rows.push_back(row);
   }
   report.Heading("Candidates side by side");
-  report.Text("Of every candidate one point: on the Pareto front, where its largest objective over the first candidate's start is least. Figures are the worst "
-              "over the nominal rig" + std::string(study.draws.size() > 1 ? fmt::format(" and {} of its parameters.", Counted(study.draws.size() - 1, "draw")) : "."));
+  report.Text(
+      "Of every candidate one point: on the Pareto front, where its largest objective over the "
+      "first candidate's start is least. Figures are the worst "
+      "over the nominal rig" +
+      std::string(study.draws.size() > 1 ? fmt::format(" and {} of its parameters.",
+                                                       Counted(study.draws.size() - 1, "draw"))
+                                         : "."));
   report.Table(columns, rows);
 }
 
@@ -70,10 +84,13 @@ void Scatter(HtmlReport& report, const Study& study, const StudyResult& result) 
   const auto objectives = study.Objectives();
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t a = 0; a < objectives.size(); ++a)
-    for (std::size_t b = a + 1; b < objectives.size() && pairs.size() < kMostPairs; ++b) pairs.emplace_back(objectives[a], objectives[b]);
+    for (std::size_t b = a + 1; b < objectives.size() && pairs.size() < kMostPairs; ++b)
+      pairs.emplace_back(objectives[a], objectives[b]);
   if (pairs.empty()) return;
   report.Heading("Pareto front");
-  report.Text("Every point that keeps the limits; the large ones are on the front. Small is good in both directions.");
+  report.Text(
+      "Every point that keeps the limits; the large ones are on the front. Small is good in both "
+      "directions.");
   Grid grid;
   grid.columns = pairs.size() > 1 ? 2 : 1;
   grid.rows = (static_cast<int>(pairs.size()) + grid.columns - 1) / grid.columns;
@@ -97,9 +114,11 @@ void Scatter(HtmlReport& report, const Study& study, const StudyResult& result) 
         style.size = front ? 9 : 4;
         style.legend = k == 0;
         if (!front) style.color += "/50";
-        AddLine(figure, static_cast<int>(k), study.candidates[c].name + (front ? ", front" : ""), x, y, style);
+        AddLine(figure, static_cast<int>(k), study.candidates[c].name + (front ? ", front" : ""), x,
+                y, style);
       }
-    SetAxes(figure, static_cast<int>(k), fmt::format("{} [{}]", study.figures[i].name, ux.name), fmt::format("{} [{}]", study.figures[j].name, uy.name));
+    SetAxes(figure, static_cast<int>(k), fmt::format("{} [{}]", study.figures[i].name, ux.name),
+            fmt::format("{} [{}]", study.figures[j].name, uy.name));
   }
   report.AddFigure(figure);
 }
@@ -120,7 +139,8 @@ void ParallelCoordinates(HtmlReport& report, const Study& study, const StudyResu
     high.push_back(b);
   }
   if (shown.size() < 2) return;
-  Figure figure = MakeFigure("The front's points, a line each: 0 is the least of the front, 1 the largest");
+  Figure figure =
+      MakeFigure("The front's points, a line each: 0 is the least of the front, 1 the largest");
   std::vector<bool> named(study.candidates.size(), false);
   for (const StudyPoint& p : result.points) {
     if (!p.front) continue;
@@ -135,14 +155,18 @@ void ParallelCoordinates(HtmlReport& report, const Study& study, const StudyResu
     named[p.candidate] = true;
     AddLine(figure, 0, study.candidates[p.candidate].name, x, y, style);
   }
-  SetAxes(figure, 0, "", "share of the front's range [-]", std::array<double, 2>{-0.5, static_cast<double>(shown.size()) - 0.5}, std::array<double, 2>{-0.05, 1.05});
+  SetAxes(figure, 0, "", "share of the front's range [-]",
+          std::array<double, 2>{-0.5, static_cast<double>(shown.size()) - 0.5},
+          std::array<double, 2>{-0.05, 1.05});
   std::vector<std::string> names;
   std::vector<double> at;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     const FigureSpec& f = study.figures[shown[k]];
     std::string name = HtmlEscape(f.name);  // in lines: many stand side by side
-    for (std::size_t colon = 0; (colon = name.find(": ", colon)) != std::string::npos;) name.replace(colon, 2, ":<br>");
-    names.push_back(fmt::format("{}<br>{} to<br>{}", name, ValueText(f, low[k]), ValueText(f, high[k])));
+    for (std::size_t colon = 0; (colon = name.find(": ", colon)) != std::string::npos;)
+      name.replace(colon, 2, ":<br>");
+    names.push_back(
+        fmt::format("{}<br>{} to<br>{}", name, ValueText(f, low[k]), ValueText(f, high[k])));
     at.push_back(static_cast<double>(k));
   }
   figure.layout["xaxis"]["tickvals"] = at;
@@ -153,14 +177,19 @@ void ParallelCoordinates(HtmlReport& report, const Study& study, const StudyResu
 }
 
 /// Planes of the shaft that the study watches in this scenario.
-void PlaneFigures(HtmlReport& report, const Study& study, const std::vector<PointResponses>& shown, std::size_t s) {
-  const std::size_t planes = shown.empty() || s >= shown[0].scenarios.size() ? 0 : shown[0].scenarios[s].planes.size();
+void PlaneFigures(HtmlReport& report, const Study& study, const std::vector<PointResponses>& shown,
+                  std::size_t s) {
+  const std::size_t planes =
+      shown.empty() || s >= shown[0].scenarios.size() ? 0 : shown[0].scenarios[s].planes.size();
   for (std::size_t p = 0; p < planes; ++p) {
-    Figure figure = MakeFigure(fmt::format("{}: {}, distance from where it stood at the start", study.scenarios[s].name, shown[0].scenarios[s].planes[p].first));
+    Figure figure =
+        MakeFigure(fmt::format("{}: {}, distance from where it stood at the start",
+                               study.scenarios[s].name, shown[0].scenarios[s].planes[p].first));
     for (std::size_t c = 0; c < shown.size(); ++c) {
       if (s >= shown[c].scenarios.size() || p >= shown[c].scenarios[s].planes.size()) continue;
       const ScenarioTrace& trace = shown[c].scenarios[s];
-      AddLine(figure, 0, study.candidates[c].name, Scaled(trace.t, 1e3), Scaled(trace.planes[p].second, 1e6), StyleOf(c));
+      AddLine(figure, 0, study.candidates[c].name, Scaled(trace.t, 1e3),
+              Scaled(trace.planes[p].second, 1e6), StyleOf(c));
     }
     SetAxes(figure, 0, "time [ms]", "distance [µm]");
     report.AddFigure(figure);
@@ -169,11 +198,14 @@ void PlaneFigures(HtmlReport& report, const Study& study, const std::vector<Poin
 
 void Responses(HtmlReport& report, const Study& study, const std::vector<PointResponses>& shown) {
   report.Heading("Answers of the points shown");
-  Figure linear = MakeFigure("Linear loop: first axis after a unit load there; largest sensitivity over axes and speeds", {1, 2, false, {}, 320});
+  Figure linear = MakeFigure(
+      "Linear loop: first axis after a unit load there; largest sensitivity over axes and speeds",
+      {1, 2, false, {}, 320});
   for (std::size_t c = 0; c < shown.size(); ++c) {
     const PointResponses& r = shown[c];
     if (r.step.empty()) continue;
-    AddLine(linear, 0, study.candidates[c].name, Scaled(r.step_t, 1e3), Scaled(r.step, 1e6), StyleOf(c));
+    AddLine(linear, 0, study.candidates[c].name, Scaled(r.step_t, 1e3), Scaled(r.step, 1e6),
+            StyleOf(c));
     Style style = StyleOf(c);
     style.legend = false;
     AddLine(linear, 1, study.candidates[c].name, r.hertz, r.sensitivity, style);
@@ -184,10 +216,13 @@ void Responses(HtmlReport& report, const Study& study, const std::vector<PointRe
   AddLevel(linear, 1, 3, "ISO 14839-3 A/B");
   report.AddFigure(linear);
   for (std::size_t s = 0; s < study.scenarios.size(); ++s) {
-    Figure run = MakeFigure(fmt::format("{}: distance of the shaft from the centre, worst radial bearing", study.scenarios[s].name));
+    Figure run =
+        MakeFigure(fmt::format("{}: distance of the shaft from the centre, worst radial bearing",
+                               study.scenarios[s].name));
     for (std::size_t c = 0; c < shown.size(); ++c)
       if (s < shown[c].scenarios.size())
-        AddLine(run, 0, study.candidates[c].name, Scaled(shown[c].scenarios[s].t, 1e3), Scaled(shown[c].scenarios[s].orbit, 1e6), StyleOf(c));
+        AddLine(run, 0, study.candidates[c].name, Scaled(shown[c].scenarios[s].t, 1e3),
+                Scaled(shown[c].scenarios[s].orbit, 1e6), StyleOf(c));
     SetAxes(run, 0, "time [ms]", "orbit [µm]");
     report.AddFigure(run);
     PlaneFigures(report, study, shown, s);
@@ -202,8 +237,10 @@ void FrontTable(HtmlReport& report, const Study& study, const StudyResult& resul
   for (std::size_t k = 0; k < result.points.size() && rows.size() < kMostRows; ++k) {
     const StudyPoint& p = result.points[k];
     if (!p.front) continue;
-    std::vector<Cell> row{std::to_string(k), study.candidates[p.candidate].name, VariablesText(study.candidates[p.candidate], p.values)};
-    for (std::size_t j = 0; j < study.figures.size(); ++j) row.emplace_back(ValueText(study.figures[j], p.result.figures[j]));
+    std::vector<Cell> row{std::to_string(k), study.candidates[p.candidate].name,
+                          VariablesText(study.candidates[p.candidate], p.values)};
+    for (std::size_t j = 0; j < study.figures.size(); ++j)
+      row.emplace_back(ValueText(study.figures[j], p.result.figures[j]));
     row.emplace_back(fmt::format("ambrig design {} --point {}", study.file, k));
     rows.push_back(row);
   }
@@ -213,13 +250,20 @@ void FrontTable(HtmlReport& report, const Study& study, const StudyResult& resul
 
 }  // namespace
 
-void WriteDesignReport(const Study& study, const StudyResult& result, const std::vector<PointResponses>& shown, const std::string& path) {
-  const auto front = std::count_if(result.points.begin(), result.points.end(), [](const StudyPoint& p) { return p.front; });
-  const auto feasible = std::count_if(result.points.begin(), result.points.end(), [](const StudyPoint& p) { return p.feasible; });
-  HtmlReport report(study.name, fmt::format("design study, {}, {}", Counted(study.candidates.size(), "candidate"), study.fingerprint));
+void WriteDesignReport(const Study& study, const StudyResult& result,
+                       const std::vector<PointResponses>& shown, const std::string& path) {
+  const auto front = std::count_if(result.points.begin(), result.points.end(),
+                                   [](const StudyPoint& p) { return p.front; });
+  const auto feasible = std::count_if(result.points.begin(), result.points.end(),
+                                      [](const StudyPoint& p) { return p.feasible; });
+  HtmlReport report(
+      study.name, fmt::format("design study, {}, {}", Counted(study.candidates.size(), "candidate"),
+                              study.fingerprint));
   report.Verdict(front > 0 ? Verdict::kOk : Verdict::kFail,
-                 front > 0 ? fmt::format("All limits are kept by {} of {}; beaten by none: {}.", feasible, Counted(result.points.size(), "point"), front)
-                           : fmt::format("None of {} keeps all limits.", Counted(result.points.size(), "point")));
+                 front > 0 ? fmt::format("All limits are kept by {} of {}; beaten by none: {}.",
+                                         feasible, Counted(result.points.size(), "point"), front)
+                           : fmt::format("None of {} keeps all limits.",
+                                         Counted(result.points.size(), "point")));
   Summary(report, study, result, shown);
   if (front > 0) {
     Scatter(report, study, result);

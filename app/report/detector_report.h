@@ -6,12 +6,15 @@
 
 namespace ambrig {
 
-/// Tables for a terminal: at the study's budget of false alarms, and at the detectors' own thresholds.
-std::string DetectorText(const DetectorStudy& study, const std::vector<DetectorCurves>& curves, const Rows& rows);
+/// Tables for a terminal: at the study's budget of false alarms, and at the detectors' own
+/// thresholds.
+std::string DetectorText(const DetectorStudy& study, const std::vector<DetectorCurves>& curves,
+                         const Rows& rows);
 /// Everything that the curves hold; a delay that is not reached is null.
-nlohmann::ordered_json DetectorJson(const DetectorStudy& study, const std::vector<DetectorCurves>& curves, const Rows& rows);
+nlohmann::ordered_json DetectorJson(const DetectorStudy& study,
+                                    const std::vector<DetectorCurves>& curves, const Rows& rows);
 /// @throws InputError when it cannot be written.
-void WriteDetectorReport(const DetectorStudy& study, const std::vector<DetectorCurves>& curves, const Rows& rows,
-                         const std::string& path);
+void WriteDetectorReport(const DetectorStudy& study, const std::vector<DetectorCurves>& curves,
+                         const Rows& rows, const std::string& path);
 
 }  // namespace ambrig

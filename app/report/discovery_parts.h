@@ -14,8 +14,10 @@ namespace ambrig {
 /// How to read "error over noise", once per report.
 void AddReadingHelp(HtmlReport& report);
 
-/// `scale`: the largest ratio that the colours are chosen for, 0: of this map; two maps to be compared share one.
-void AddRatioMap(HtmlReport& report, const Comparison& comparison, const std::string& caption, double scale = 0);
+/// `scale`: the largest ratio that the colours are chosen for, 0: of this map; two maps to be
+/// compared share one.
+void AddRatioMap(HtmlReport& report, const Comparison& comparison, const std::string& caption,
+                 double scale = 0);
 /// The same from a residual.
 void AddRatioMap(HtmlReport& report, const CaseModel& model, const std::vector<double>& residual,
                  const std::string& caption, double scale = 0);
@@ -28,7 +30,8 @@ void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder);
 /// Cells of error over noise: the colour runs from the noise to at most ten times it, so that one
 /// extreme does not whiten the rest; numbers are printed where there is room for them.
 Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<std::string>& rows,
-                   const std::vector<std::vector<double>>& values, const std::string& caption, double scale = 0);
+                   const std::vector<std::vector<double>>& values, const std::string& caption,
+                   double scale = 0);
 
 std::string List(const std::vector<std::string>& lines);
 /// "eddy-currents at A"

@@ -1,6 +1,6 @@
 #pragma once
-/// Reports that teach: where the model fails, which effect is missing and why that one, what it costs
-/// to believe it, what to measure next.
+/// Reports that teach: where the model fails, which effect is missing and why that one, what it
+/// costs to believe it, what to measure next.
 #include <string>
 
 #include "discovery/compare.h"
@@ -8,7 +8,8 @@
 
 namespace ambrig {
 
-void WriteCompareReport(const CaseModel& model, const Comparison& comparison, const std::string& path);
+void WriteCompareReport(const CaseModel& model, const Comparison& comparison,
+                        const std::string& path);
 void WriteExplainReport(const Case& c, const Explanation& explanation, const std::string& path);
 /// Before and after adoption, with the ladder: error against effects added.
 void WriteAdoptReport(const CaseModel& model, const Comparison& before, const Comparison& after,

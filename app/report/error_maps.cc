@@ -16,7 +16,9 @@ constexpr double kTurn = 2 * 3.14159265358979323846;
 const std::vector<double> kEdges = {0, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e6};
 
 std::string BandName(std::size_t band) {
-  const auto text = [](double f) { return f < 1000 ? fmt::format("{:g}", f) : fmt::format("{:g}k", f / 1000); };
+  const auto text = [](double f) {
+    return f < 1000 ? fmt::format("{:g}", f) : fmt::format("{:g}k", f / 1000);
+  };
   if (band + 2 == kEdges.size()) return "> " + text(kEdges[band]);
   return text(kEdges[band]) + "–" + text(kEdges[band + 1]);
 }
@@ -40,7 +42,8 @@ std::vector<RecordSlice> RecordSlices(const CaseModel& model) {
     const std::size_t parts = runs_up ? 5 : 1;
     for (std::size_t p = 0; p < parts; ++p) {
       const std::size_t first = rows * p / parts, last = rows * (p + 1) / parts;
-      const std::string speed = runs_up ? fmt::format("{:.0f}–{:.0f} Hz", hertz(first), hertz(last - 1))
+      const std::string speed = runs_up
+                                    ? fmt::format("{:.0f}–{:.0f} Hz", hertz(first), hertz(last - 1))
                                 : std::abs(hertz(0)) < 0.5 ? std::string("at rest")
                                                            : fmt::format("{:.0f} Hz", hertz(0));
       out.push_back({ShortName(record.data_file) + ", " + speed, r, first, last});
@@ -54,7 +57,9 @@ std::vector<double> BandPower(const std::vector<double>& x, double rate) {
   const PowerDensity p = WelchPsd(x, rate, std::max<std::size_t>(16, x.size() / 2));
   std::vector<double> out(kEdges.size() - 1, std::nan(""));
   for (std::size_t k = 1; k < p.frequency.size(); ++k) {
-    const auto band = static_cast<std::size_t>(std::ranges::upper_bound(kEdges, p.frequency[k]) - kEdges.begin()) - 1;
+    const auto band = static_cast<std::size_t>(std::ranges::upper_bound(kEdges, p.frequency[k]) -
+                                               kEdges.begin()) -
+                      1;
     out[band] = (std::isnan(out[band]) ? 0 : out[band]) + p.density[k];
   }
   return out;
@@ -62,7 +67,8 @@ std::vector<double> BandPower(const std::vector<double>& x, double rate) {
 
 std::vector<double> Cut(const std::vector<double>& flat, const Target& t, const RecordSlice& s) {
   const auto begin = flat.begin() + static_cast<std::ptrdiff_t>(t.first);
-  return {begin + static_cast<std::ptrdiff_t>(s.first), begin + static_cast<std::ptrdiff_t>(s.last)};
+  return {begin + static_cast<std::ptrdiff_t>(s.first),
+          begin + static_cast<std::ptrdiff_t>(s.last)};
 }
 
 std::vector<double> BandRatios(const CaseModel& model, const std::vector<double>& residual,
@@ -72,7 +78,8 @@ std::vector<double> BandRatios(const CaseModel& model, const std::vector<double>
   const double rate = model.data().records[s.record].data.rate;
   for (const Target& t : model.targets()) {
     if (t.record != s.record) continue;
-    const std::vector<double> error = BandPower(Cut(residual, t, s), rate), floor = BandPower(Cut(noise, t, s), rate);
+    const std::vector<double> error = BandPower(Cut(residual, t, s), rate),
+                              floor = BandPower(Cut(noise, t, s), rate);
     // Noise may leave a band nearly empty; what is lost beside its whole power is no yardstick.
     double least = 0;
     for (const double power : floor) least += std::isfinite(power) ? 1e-4 * power : 0;
@@ -87,8 +94,10 @@ std::vector<double> BandRatios(const CaseModel& model, const std::vector<double>
 
 }  // namespace
 
-std::optional<Figure> FrequencySpeedMap(const CaseModel& model, const std::vector<double>& predicted,
-                                        const std::vector<double>& noise, const std::string& caption) {
+std::optional<Figure> FrequencySpeedMap(const CaseModel& model,
+                                        const std::vector<double>& predicted,
+                                        const std::vector<double>& noise,
+                                        const std::string& caption) {
   if (noise.empty()) return {};
   const std::vector<double> residual = Residual(model, predicted);
   std::vector<std::string> rows, columns;
@@ -119,14 +128,16 @@ struct Binned {
 
 constexpr std::size_t kBins = 24;
 
-Binned BinOver(const std::string& on, const std::string& unit, const std::vector<double>& x, const std::vector<double>& e) {
+Binned BinOver(const std::string& on, const std::string& unit, const std::vector<double>& x,
+               const std::vector<double>& e) {
   Binned out{on, unit, {}, {}, {}, {}, 0};
   std::vector<double> sorted;
   for (const double v : x)
     if (std::isfinite(v)) sorted.push_back(v);
   if (sorted.size() < 10 * kBins) return out;
   std::ranges::sort(sorted);
-  const double lo = sorted[sorted.size() / 200], hi = sorted[sorted.size() - 1 - sorted.size() / 200];
+  const double lo = sorted[sorted.size() / 200],
+               hi = sorted[sorted.size() - 1 - sorted.size() / 200];
   if (!(hi > lo)) return out;
   std::vector<double> n(kBins, 0), sum(kBins, 0), square(kBins, 0);
   double total = 0;
@@ -141,7 +152,8 @@ Binned BinOver(const std::string& on, const std::string& unit, const std::vector
   }
   for (std::size_t b = 0; b < kBins; ++b) {
     if (n[b] < 10) continue;
-    const double mean = sum[b] / n[b], sd = std::sqrt(std::max(0.0, square[b] / n[b] - mean * mean));
+    const double mean = sum[b] / n[b],
+                 sd = std::sqrt(std::max(0.0, square[b] / n[b] - mean * mean));
     out.at.push_back(lo + (static_cast<double>(b) + 0.5) * (hi - lo) / kBins);
     out.mean.push_back(mean);
     out.low.push_back(mean - sd);
@@ -195,9 +207,12 @@ class Pool {
     std::vector<std::string> out;
     for (const std::size_t r : records_)
       for (const Channel& c : model_.data().records[r].data.channels) {
-        const bool prescribed = c.name == "omega" || c.name == "theta" || c.name.find(".r.") != std::string::npos || c.name == "r.z";
+        const bool prescribed = c.name == "omega" || c.name == "theta" ||
+                                c.name.find(".r.") != std::string::npos || c.name == "r.z";
         const bool here = of == "bus" || c.name.substr(0, c.name.find('.')) == bearing;
-        if (!prescribed && here && ChannelKind(c.name) == kind && std::ranges::find(out, c.name) == out.end()) out.push_back(c.name);
+        if (!prescribed && here && ChannelKind(c.name) == kind &&
+            std::ranges::find(out, c.name) == out.end())
+          out.push_back(c.name);
       }
     return out;
   }
@@ -209,7 +224,8 @@ class Pool {
   std::string unit_;
 };
 
-Binned BestOf(const Pool& pool, const std::string& kind, const std::string& unit, const std::string& channel) {
+Binned BestOf(const Pool& pool, const std::string& kind, const std::string& unit,
+              const std::string& channel) {
   Binned best;
   for (const std::string& name : pool.Names(kind, channel)) {
     Binned b = BinOver(name, unit, pool.Series(name), pool.error());
@@ -223,7 +239,8 @@ Binned BestOf(const Pool& pool, const std::string& kind, const std::string& unit
 std::optional<Figure> DependenceFigure(const CaseModel& model, const std::vector<double>& predicted,
                                        const std::string& channel) {
   const Pool pool(model, predicted, channel);
-  std::vector<Binned> all = {BestOf(pool, "reading", "m", channel), BestOf(pool, "current", "A", channel),
+  std::vector<Binned> all = {BestOf(pool, "reading", "m", channel),
+                             BestOf(pool, "current", "A", channel),
                              BinOver("speed", "Hz", pool.Speed(), pool.error())};
   std::erase_if(all, [](const Binned& b) { return b.at.size() < 2; });
   if (all.empty()) return {};
@@ -231,16 +248,22 @@ std::optional<Figure> DependenceFigure(const CaseModel& model, const std::vector
   grid.columns = static_cast<int>(all.size());
   grid.shared_x = false;
   grid.panel_height = 220;
-  for (const Binned& b : all) grid.titles.push_back(fmt::format("against {}: explains {:.0f} %", b.on, 100 * b.share));
-  Figure figure = MakeFigure(
-      fmt::format("Error of {} (all its records together) against measured position, current and speed: mean in each bin, "
-                  "shade one standard deviation. A flat line at zero means that the error does not depend on it.", channel), grid);
+  for (const Binned& b : all)
+    grid.titles.push_back(fmt::format("against {}: explains {:.0f} %", b.on, 100 * b.share));
+  Figure figure = MakeFigure(fmt::format("Error of {} (all its records together) against measured "
+                                         "position, current and speed: mean in each bin, "
+                                         "shade one standard deviation. A flat line at zero means "
+                                         "that the error does not depend on it.",
+                                         channel),
+                             grid);
   double largest = 0;
-  for (const Binned& b : all) largest = std::max({largest, LargestSize(b.low), LargestSize(b.high)});
+  for (const Binned& b : all)
+    largest = std::max({largest, LargestSize(b.low), LargestSize(b.high)});
   const DisplayUnit y = ChooseUnit(largest, pool.unit());
   for (int p = 0; p < static_cast<int>(all.size()); ++p) {
     const Binned& b = all[static_cast<std::size_t>(p)];
-    const DisplayUnit x = b.unit == "Hz" ? DisplayUnit{1, "Hz"} : ChooseUnit(LargestSize(b.at), b.unit);
+    const DisplayUnit x =
+        b.unit == "Hz" ? DisplayUnit{1, "Hz"} : ChooseUnit(LargestSize(b.at), b.unit);
     const std::vector<double> at = Scaled(b.at, x.factor);
     AddBand(figure, p, "one sd", at, Scaled(b.low, y.factor), Scaled(b.high, y.factor), "@blue");
     figure.traces.back()["showlegend"] = p == 0;
@@ -248,7 +271,8 @@ std::optional<Figure> DependenceFigure(const CaseModel& model, const std::vector
     style.color = "@blue";
     style.legend = p == 0;
     AddLine(figure, p, "mean error", at, Scaled(b.mean, y.factor), style);
-    SetAxes(figure, p, fmt::format("{} [{}]", b.on, x.name), p == 0 ? fmt::format("error of {} [{}]", channel, y.name) : "");
+    SetAxes(figure, p, fmt::format("{} [{}]", b.on, x.name),
+            p == 0 ? fmt::format("error of {} [{}]", channel, y.name) : "");
   }
   return figure;
 }

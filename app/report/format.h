@@ -5,8 +5,9 @@
 
 namespace ambrig {
 
-/// "36.2 um" with the sign µ, "1.75 mH", "16.8 kA/s", "0.26 ms". Units that take no prefix ("-", "", "%", "deg",
-/// "rpm") are written as they are, with thousands separated by a thin gap: "12 000 rpm". NaN gives an en dash.
+/// "36.2 um" with the sign µ, "1.75 mH", "16.8 kA/s", "0.26 ms". Units that take no prefix ("-",
+/// "", "%", "deg", "rpm") are written as they are, with thousands separated by a thin gap: "12 000
+/// rpm". NaN gives an en dash.
 std::string FormatSi(double value, std::string_view unit, int digits = 3);
 
 /// Without unit: at most `digits` significant ones, no exponent between 1e-4 and 1e7.

@@ -41,9 +41,13 @@ Figure SensitivityFigure(const RigAnalysis& a) {
   Grid grid;
   grid.rows = static_cast<int>(a.sensitivity.size());
   grid.panel_height = 260;
-  for (const Sensitivity& s : a.sensitivity) grid.titles.push_back(s.speed == 0 ? "at rest" : "at " + Rpm(s.speed));
-  Figure f = MakeFigure("Sensitivity |S| of every axis, all other loops closed. Below 3 (9.5 dB) zone A of ISO 14839-3, below 4 zone B, below 5 "
-                        "zone C, above zone D. Points: a sine injected into the nonlinear switching rig.", grid);
+  for (const Sensitivity& s : a.sensitivity)
+    grid.titles.push_back(s.speed == 0 ? "at rest" : "at " + Rpm(s.speed));
+  Figure f = MakeFigure(
+      "Sensitivity |S| of every axis, all other loops closed. Below 3 (9.5 dB) zone A of ISO "
+      "14839-3, below 4 zone B, below 5 "
+      "zone C, above zone D. Points: a sine injected into the nonlinear switching rig.",
+      grid);
   double top = 3.4;
   for (const Sensitivity& s : a.sensitivity)
     for (const AxisSensitivity& x : s.axes) top = std::max(top, 1.1 * x.peak);
@@ -75,8 +79,11 @@ Figure SensitivityFigure(const RigAnalysis& a) {
 }
 
 Figure NyquistFigure(const RigAnalysis& a) {
-  Figure f = MakeFigure("Return ratio L = 1/S - 1 of every axis at the highest operating speed, near the critical point -1. The circles round it are "
-                        "|S| = 3, 4 and 5: a curve outside the largest is in zone A. An AMB's loop is unstable when open and must go round -1.");
+  Figure f = MakeFigure(
+      "Return ratio L = 1/S - 1 of every axis at the highest operating speed, near the critical "
+      "point -1. The circles round it are "
+      "|S| = 3, 4 and 5: a curve outside the largest is in zone A. An AMB's loop is unstable when "
+      "open and must go round -1.");
   f.height = 520;
   f.narrow = 620;
   SetAxes(f, 0, "Re L", "Im L", std::array<double, 2>{-3, 1.5}, std::array<double, 2>{-2.2, 2.2});
@@ -99,8 +106,10 @@ Figure NyquistFigure(const RigAnalysis& a) {
 }
 
 Figure RootLocusFigure(const RigAnalysis& a) {
-  Figure f = MakeFigure("Poles of the closed loop over speed, as s = ln z / Ts (upper half). Blue: modes of the rotor; grey: current loops, filters, "
-                        "integrators. Large points: at rest.");
+  Figure f = MakeFigure(
+      "Poles of the closed loop over speed, as s = ln z / Ts (upper half). Blue: modes of the "
+      "rotor; grey: current loops, filters, "
+      "integrators. Large points: at rest.");
   f.height = 460;
   SetAxes(f, 0, "Re s [1/s]", "Im s / 2π [Hz]");
   std::vector<double> re[2], im[2], re0[2], im0[2];
@@ -131,10 +140,15 @@ Figure StiffnessFigure(const RigAnalysis& a) {
   Grid grid;
   grid.rows = 3;
   grid.panel_height = 220;
-  grid.titles = {"bearing: stiffness k = Re K", "bearing: damping c = Im K / ω", "levitated rotor: |force per displacement|"};
-  Figure f = MakeFigure("Dynamic stiffness of every axis. Above: the force that comes back when the shaft is moved, with negative stiffness, current "
-                        "loops, sampling and delay in it; where c < 0 the bearing feeds energy into the shaft. Below: force per displacement of the "
-                        "levitated rotor at the magnets; its minima are the resonances.", grid);
+  grid.titles = {"bearing: stiffness k = Re K", "bearing: damping c = Im K / ω",
+                 "levitated rotor: |force per displacement|"};
+  Figure f = MakeFigure(
+      "Dynamic stiffness of every axis. Above: the force that comes back when the shaft is moved, "
+      "with negative stiffness, current "
+      "loops, sampling and delay in it; where c < 0 the bearing feeds energy into the shaft. "
+      "Below: force per displacement of the "
+      "levitated rotor at the magnets; its minima are the resonances.",
+      grid);
   SetAxes(f, 0, "frequency [Hz]", "[N/µm]");
   SetAxes(f, 1, "frequency [Hz]", "[N s/m]");
   SetAxes(f, 2, "frequency [Hz]", "[N/µm]");
@@ -160,7 +174,10 @@ Figure BodeFigure(const ResponseCurve& c) {
   Grid grid;
   grid.rows = 2;
   grid.panel_height = 220;
-  Figure f = MakeFigure(fmt::format("Frequency response from {} to {}, at the highest operating speed.", c.input, c.output), grid);
+  Figure f =
+      MakeFigure(fmt::format("Frequency response from {} to {}, at the highest operating speed.",
+                             c.input, c.output),
+                 grid);
   SetAxes(f, 0, "frequency [Hz]", fmt::format("[{}]", c.unit));
   SetAxes(f, 1, "frequency [Hz]", "phase [deg]");
   LogAxes(f, 0, true, true);

@@ -27,9 +27,9 @@ ChannelView ViewOf(const CaseModel& model, const std::vector<double>& predicted,
 std::vector<Target> WorstTargets(const CaseModel& model, const std::vector<double>& residual,
                                  std::size_t record, std::size_t count, std::size_t per_kind = 2);
 
-/// One realization of the noise alone, as it arrives in every row of the targets after its way round
-/// the control loop: a noisy run less the noise-free one, sized to the floor. Empty when the noisy
-/// run loses the rotor; white where noise does not reach a channel.
+/// One realization of the noise alone, as it arrives in every row of the targets after its way
+/// round the control loop: a noisy run less the noise-free one, sized to the floor. Empty when the
+/// noisy run loses the rotor; white where noise does not reach a channel.
 std::vector<double> NoiseSample(const CaseModel& model, const Hypothesis& h,
                                 const std::vector<double>& clean);
 

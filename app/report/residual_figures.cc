@@ -34,7 +34,8 @@ Stretch WorstStretch(const ChannelView& v) {
 }
 
 std::vector<double> Cut(const std::vector<double>& x, Stretch s) {
-  return {x.begin() + static_cast<std::ptrdiff_t>(s.first), x.begin() + static_cast<std::ptrdiff_t>(s.last)};
+  return {x.begin() + static_cast<std::ptrdiff_t>(s.first),
+          x.begin() + static_cast<std::ptrdiff_t>(s.last)};
 }
 
 void Line(Figure& figure, int panel, const std::string& name, const std::vector<double>& x,
@@ -76,10 +77,13 @@ void TimePanels(Figure& figure, const CaseModel& model, const Target& t, int c, 
   const DisplayUnit error = UnitOf(model, t, std::max(LargestSize(first.residual), t.floor));
   const auto whole = [&](int row, const std::string& name, const std::vector<double>& y,
                          const std::string& color, double width, bool legend) {
-    Line(figure, row * columns + c, name, first.t, Scaled(y, row == 2 ? error.factor : unit.factor), color, legend, width);
+    Line(figure, row * columns + c, name, first.t, Scaled(y, row == 2 ? error.factor : unit.factor),
+         color, legend, width);
   };
-  const auto part = [&](const std::string& name, const std::vector<double>& y, const std::string& color, double width) {
-    Line(figure, columns + c, name, Cut(first.t, zoom), Cut(Scaled(y, unit.factor), zoom), color, false, width);
+  const auto part = [&](const std::string& name, const std::vector<double>& y,
+                        const std::string& color, double width) {
+    Line(figure, columns + c, name, Cut(first.t, zoom), Cut(Scaled(y, unit.factor), zoom), color,
+         false, width);
   };
   whole(0, "measured", first.measured, "@ink", 1.8, c == 0);
   part("measured", first.measured, "@ink", 1.8);
@@ -115,10 +119,12 @@ Density AmplitudeDensity(const std::vector<double>& x, double rate, double facto
   std::size_t segment = 64;
   while (segment * 6 <= x.size()) segment *= 2;
   const PowerDensity p = WelchPsd(Filled(x), rate, std::min(segment, x.size()));
-  Density d;  // lines nearer than 2 % are averaged: on a logarithmic axis they would make a black band
+  // lines nearer than 2 % are averaged: on a logarithmic axis they would make a black band
+  Density d;
   for (std::size_t k = 1; k < p.frequency.size();) {
     double sum = 0, n = 0, f = 0;
-    for (const double first = p.frequency[k]; k < p.frequency.size() && (n == 0 || p.frequency[k] < 1.02 * first); ++k, ++n) {
+    for (const double first = p.frequency[k];
+         k < p.frequency.size() && (n == 0 || p.frequency[k] < 1.02 * first); ++k, ++n) {
       sum += p.density[k];
       f += p.frequency[k];
     }
@@ -129,7 +135,8 @@ Density AmplitudeDensity(const std::vector<double>& x, double rate, double facto
 }
 
 std::vector<double> Rows(const std::vector<double>& flat, const Target& t) {
-  return {flat.begin() + static_cast<std::ptrdiff_t>(t.first), flat.begin() + static_cast<std::ptrdiff_t>(t.first + t.count)};
+  return {flat.begin() + static_cast<std::ptrdiff_t>(t.first),
+          flat.begin() + static_cast<std::ptrdiff_t>(t.first + t.count)};
 }
 
 }  // namespace
@@ -151,9 +158,11 @@ Figure SpectrumFigure(const CaseModel& model, const std::vector<Target>& channel
     const Target& t = channels[static_cast<std::size_t>(c)];
     if (t.count < 8) continue;
     const ChannelView first = ViewOf(model, *predictions[0].values, t);
-    const DisplayUnit unit = UnitOf(model, t, LargestSize(AmplitudeDensity(first.residual, first.rate, 1).a));
+    const DisplayUnit unit =
+        UnitOf(model, t, LargestSize(AmplitudeDensity(first.residual, first.rate, 1).a));
     for (const NamedPrediction& p : predictions) {
-      const Density d = AmplitudeDensity(ViewOf(model, *p.values, t).residual, first.rate, unit.factor);
+      const Density d =
+          AmplitudeDensity(ViewOf(model, *p.values, t).residual, first.rate, unit.factor);
       Line(figure, c, "error of " + p.name, d.f, d.a, p.color, c == 0);
     }
     const double flat = t.floor * unit.factor / std::sqrt(first.rate / 2);
@@ -178,15 +187,19 @@ Figure WhitenessFigure(const CaseModel& model, const std::vector<Target>& channe
     for (std::size_t k = 0; k < lags; ++k)
       lag[k] = 1e3 * static_cast<double>(k) / model.data().records[t.record].data.rate;
     for (const NamedPrediction& p : predictions)
-      Line(figure, c, "error of " + p.name, lag, Autocorrelation(ViewOf(model, *p.values, t).residual, lags), p.color, c == 0);
-    if (!noise.empty()) Line(figure, c, "noise alone", lag, Autocorrelation(Rows(noise, t), lags), "@gray", c == 0);
-    SetAxes(figure, c, "lag [ms]", c == 0 ? "autocorrelation [-]" : "", {}, std::array{-1.05, 1.05});
+      Line(figure, c, "error of " + p.name, lag,
+           Autocorrelation(ViewOf(model, *p.values, t).residual, lags), p.color, c == 0);
+    if (!noise.empty())
+      Line(figure, c, "noise alone", lag, Autocorrelation(Rows(noise, t), lags), "@gray", c == 0);
+    SetAxes(figure, c, "lag [ms]", c == 0 ? "autocorrelation [-]" : "", {},
+            std::array{-1.05, 1.05});
   }
   return figure;
 }
 
 Figure SignatureFigure(const CaseModel& model, const Target& channel,
-                       const std::vector<NamedPrediction>& predictions, const std::string& caption) {
+                       const std::vector<NamedPrediction>& predictions,
+                       const std::string& caption) {
   Grid grid;
   grid.rows = static_cast<int>(predictions.size()) - 1;
   grid.panel_height = 150;
@@ -195,16 +208,18 @@ Figure SignatureFigure(const CaseModel& model, const Target& channel,
   const ChannelView first = ViewOf(model, *predictions[0].values, channel);
   const Stretch whole = {0, first.t.size()}, worst = WorstStretch(first);
   const std::size_t length = worst.last - worst.first;  // shown with as much on both sides
-  const Stretch zoom = {worst.first > length ? worst.first - length : 0, std::min(whole.last, worst.last + length)};
+  const Stretch zoom = {worst.first > length ? worst.first - length : 0,
+                        std::min(whole.last, worst.last + length)};
   const DisplayUnit unit = UnitOf(model, channel, LargestSize(first.residual));
   for (std::size_t k = 1; k < predictions.size(); ++k) {
     const int panel = static_cast<int>(k) - 1;
     std::vector<double> added = ViewOf(model, *predictions[k].values, channel).model;
-    for (std::size_t i = 0; i < added.size(); ++i) added[i] = (added[i] - first.model[i]) * unit.factor;
+    for (std::size_t i = 0; i < added.size(); ++i)
+      added[i] = (added[i] - first.model[i]) * unit.factor;
     Line(figure, panel, "what the rig file leaves unexplained", Cut(first.t, zoom),
          Cut(Scaled(first.residual, unit.factor), zoom), "@ink", k == 1, 1.6);
-    Line(figure, panel, k == 1 ? "what the best-ranked adds" : "what another candidate adds", Cut(first.t, zoom), Cut(added, zoom),
-         k == 1 ? "@green" : "@orange", k <= 2);
+    Line(figure, panel, k == 1 ? "what the best-ranked adds" : "what another candidate adds",
+         Cut(first.t, zoom), Cut(added, zoom), k == 1 ? "@green" : "@orange", k <= 2);
     SetAxes(figure, panel, "time [s]", fmt::format("{} [{}]", first.channel, unit.name));
   }
   return figure;

@@ -11,12 +11,13 @@ struct NamedPrediction {
   const std::vector<double>* values;
 };
 
-/// A column per channel; rows: whole record, the stretch where the first model errs most, errors with
-/// the band of twice the noise.
+/// A column per channel; rows: whole record, the stretch where the first model errs most, errors
+/// with the band of twice the noise.
 Figure TimeFigure(const CaseModel& model, const std::vector<Target>& channels,
                   const std::vector<NamedPrediction>& predictions, const std::string& caption);
 
-/// Amplitude density of the errors over the noise's own (`noise` may be empty), a column per channel.
+/// Amplitude density of the errors over the noise's own (`noise` may be empty), a column per
+/// channel.
 Figure SpectrumFigure(const CaseModel& model, const std::vector<Target>& channels,
                       const std::vector<NamedPrediction>& predictions,
                       const std::vector<double>& noise, const std::string& caption);

@@ -34,7 +34,7 @@ Style LineStyle(const std::string& color, bool legend, bool markers = false) {
 constexpr int kOrders = 4;
 
 struct OrderTrack {
-  std::vector<double> at;                       // speed [Hz] or time [s]
+  std::vector<double> at;  // speed [Hz] or time [s]
   std::array<std::vector<double>, kOrders> size;
 };
 
@@ -56,7 +56,8 @@ std::array<double, kOrders> OrdersIn(const std::vector<double>& x, const std::ve
   }
   const Eigen::VectorXd c = A.colPivHouseholderQr().solve(b);
   std::array<double, kOrders> out{};
-  for (int o = 1; o <= kOrders; ++o) out[static_cast<std::size_t>(o - 1)] = std::hypot(c(2 * o), c(2 * o + 1));
+  for (int o = 1; o <= kOrders; ++o)
+    out[static_cast<std::size_t>(o - 1)] = std::hypot(c(2 * o), c(2 * o + 1));
   return out;
 }
 
@@ -64,7 +65,8 @@ bool RunsUp(const SpeedProfile& speed, double t0, double t1) {
   return std::abs(speed.Speed(t1) - speed.Speed(t0)) > kTurn * 10;
 }
 
-OrderTrack TrackOrders(const ChannelView& v, const std::vector<double>& series, const SpeedProfile& speed) {
+OrderTrack TrackOrders(const ChannelView& v, const std::vector<double>& series,
+                       const SpeedProfile& speed) {
   const std::vector<double> x = Filled(series);
   std::vector<double> theta;
   for (const double t : v.t) theta.push_back(speed.Angle(t));
@@ -106,10 +108,14 @@ std::optional<Figure> OrderFigure(const CaseModel& model, const std::vector<doub
   grid.titles = {"order 1: " + v.channel + ", " + v.record, "error, order by order"};
   grid.panel_height = 230;
   Figure figure = MakeFigure(
-      "Order tracks: what turns with the rotor, once per turn (order 1), twice (order 2) and so on. Unbalance "
-      "and bow are order 1, a run-out of the sensed surface is every order, a stiffness that differs between two "
-      "directions of the shaft is order 2.", grid);
-  const auto line = [&](int p, const std::string& name, const OrderTrack& t, std::size_t o, const Style& style) {
+      "Order tracks: what turns with the rotor, once per turn (order 1), twice (order 2) and so "
+      "on. Unbalance "
+      "and bow are order 1, a run-out of the sensed surface is every order, a stiffness that "
+      "differs between two "
+      "directions of the shaft is order 2.",
+      grid);
+  const auto line = [&](int p, const std::string& name, const OrderTrack& t, std::size_t o,
+                        const Style& style) {
     AddLine(figure, p, name, t.at, Scaled(t.size[o], unit.factor), style);
   };
   line(0, "measured", measured, 0, LineStyle("@ink", true));
@@ -120,7 +126,8 @@ std::optional<Figure> OrderFigure(const CaseModel& model, const std::vector<doub
   }
   const bool runs_up = RunsUp(record.scenario.speed, v.t.front(), v.t.back());
   for (int p = 0; p < 2; ++p)
-    SetAxes(figure, p, runs_up ? "speed [Hz]" : "time [s]", fmt::format("{} [{}]", p == 0 ? "amplitude" : "error", unit.name));
+    SetAxes(figure, p, runs_up ? "speed [Hz]" : "time [s]",
+            fmt::format("{} [{}]", p == 0 ? "amplitude" : "error", unit.name));
   return figure;
 }
 
@@ -140,7 +147,8 @@ void Push(Response& r, double f, Complex h) {
 }
 
 /// Hann-windowed line at f over the rows inside [start, stop).
-Complex LineAt(const std::vector<double>& t, const std::vector<double>& x, double start, double stop, double f) {
+Complex LineAt(const std::vector<double>& t, const std::vector<double>& x, double start,
+               double stop, double f) {
   double mean = 0, n = 0;
   for (std::size_t k = 0; k < t.size(); ++k)
     if (t[k] >= start && t[k] < stop) mean += x[k], n += 1;
@@ -175,19 +183,23 @@ Response MultisineResponse(const Scenario& s, const Excitation& e, const Channel
   return r;
 }
 
-Response WelchResponse(const ChannelView& v, const std::vector<double>& u, const std::vector<double>& y) {
+Response WelchResponse(const ChannelView& v, const std::vector<double>& u,
+                       const std::vector<double>& y) {
   Response r;
-  const FrequencyResponse h = EstimateResponse(u, y, v.rate, std::max<std::size_t>(8, u.size() / 3));
+  const FrequencyResponse h =
+      EstimateResponse(u, y, v.rate, std::max<std::size_t>(8, u.size() / 3));
   const double strongest = LargestSize(h.coherence);
   for (std::size_t k = 1; k < h.frequency.size(); ++k)
     if (h.coherence[k] > 0.6 * strongest) Push(r, h.frequency[k], h.response[k]);
   return r;
 }
 
-Response ResponseOf(const Scenario& s, const Excitation& e, const ChannelView& v, const std::vector<double>& y) {
+Response ResponseOf(const Scenario& s, const Excitation& e, const ChannelView& v,
+                    const std::vector<double>& y) {
   std::vector<double> u;
   for (const double t : v.t) u.push_back(e.Value(t));
-  return e.frequencies.empty() ? WelchResponse(v, u, Filled(y)) : MultisineResponse(s, e, v, u, Filled(y));
+  return e.frequencies.empty() ? WelchResponse(v, u, Filled(y))
+                               : MultisineResponse(s, e, v, u, Filled(y));
 }
 
 struct ForceAxis {
@@ -199,14 +211,17 @@ std::vector<ForceAxis> ForceAxes(const CaseModel& model, std::size_t record) {
   std::vector<ForceAxis> out;
   for (const Excitation& e : model.data().records[record].scenario.excitations)
     for (const Target& t : model.targets())
-      if (e.port == "force" && t.record == record && ChannelName(model, t) == e.target) out.push_back({&e, &t});
+      if (e.port == "force" && t.record == record && ChannelName(model, t) == e.target)
+        out.push_back({&e, &t});
   return out;
 }
 
 void ResponsePanels(Figure& figure, int c, int columns, const std::string& name, const Response& r,
                     const std::string& color) {
-  AddLine(figure, c, name, r.f, r.magnitude, LineStyle(color, c == 0, r.lines && name == "measured"));
-  AddLine(figure, columns + c, name, r.f, r.phase, LineStyle(color, false, r.lines && name == "measured"));
+  AddLine(figure, c, name, r.f, r.magnitude,
+          LineStyle(color, c == 0, r.lines && name == "measured"));
+  AddLine(figure, columns + c, name, r.f, r.phase,
+          LineStyle(color, false, r.lines && name == "measured"));
 }
 
 }  // namespace
@@ -223,21 +238,28 @@ std::optional<Figure> ResponseFigure(const CaseModel& model, const std::vector<d
   grid.panel_height = 170;
   for (const ForceAxis& a : axes) grid.titles.push_back(a.excitation->target);
   Figure figure = MakeFigure(
-      "Response to the injected force: displacement per newton, in closed loop. Where the model's line leaves the "
-      "measured points, stiffness (low frequencies), damping (the hump) or delay (phase at high ones) is wrong. "
-      "Points that scatter at high frequencies are noise. Lines too near to those of another axis are left out.", grid);
+      "Response to the injected force: displacement per newton, in closed loop. Where the model's "
+      "line leaves the "
+      "measured points, stiffness (low frequencies), damping (the hump) or delay (phase at high "
+      "ones) is wrong. "
+      "Points that scatter at high frequencies are noise. Lines too near to those of another axis "
+      "are left out.",
+      grid);
   const Scenario& s = model.data().records[record].scenario;
   for (int c = 0; c < columns; ++c) {
     const ForceAxis& a = axes[static_cast<std::size_t>(c)];
     const ChannelView v = ViewOf(model, predicted, *a.target);
-    ResponsePanels(figure, c, columns, "measured", ResponseOf(s, *a.excitation, v, v.measured), "@ink");
-    ResponsePanels(figure, c, columns, "model", ResponseOf(s, *a.excitation, v, v.model), "@orange");
+    ResponsePanels(figure, c, columns, "measured", ResponseOf(s, *a.excitation, v, v.measured),
+                   "@ink");
+    ResponsePanels(figure, c, columns, "model", ResponseOf(s, *a.excitation, v, v.model),
+                   "@orange");
     SetAxes(figure, c, "", c == 0 ? "[µm/N]" : "");
     SetAxes(figure, columns + c, "frequency [Hz]", c == 0 ? "phase [deg]" : "");
     LogAxes(figure, c, true, true);
     LogAxes(figure, columns + c, true, false);
     for (const int panel : {c, columns + c})
-      figure.layout["xaxis" + (panel == 0 ? std::string() : std::to_string(panel + 1))]["dtick"] = 1;
+      figure.layout["xaxis" + (panel == 0 ? std::string() : std::to_string(panel + 1))]["dtick"] =
+          1;
     figure.layout["yaxis" + (c == 0 ? std::string() : std::to_string(c + 1))]["dtick"] = "D2";
   }
   return figure;

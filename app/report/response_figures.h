@@ -8,10 +8,12 @@
 
 namespace ambrig {
 
-/// Error over noise in frequency bands (columns), a row per record; a run-up is cut into stretches of
-/// speed. rms over the channels. nullopt without a noise sample.
-std::optional<Figure> FrequencySpeedMap(const CaseModel& model, const std::vector<double>& predicted,
-                                        const std::vector<double>& noise, const std::string& caption);
+/// Error over noise in frequency bands (columns), a row per record; a run-up is cut into stretches
+/// of speed. rms over the channels. nullopt without a noise sample.
+std::optional<Figure> FrequencySpeedMap(const CaseModel& model,
+                                        const std::vector<double>& predicted,
+                                        const std::vector<double>& noise,
+                                        const std::string& caption);
 
 /// Orders 1 to 4 of measurement, model and error over a spinning record, by least squares on
 /// cos n theta, sin n theta in windows of at least four turns. nullopt at rest or under force.
@@ -23,8 +25,8 @@ std::optional<Figure> OrderFigure(const CaseModel& model, const std::vector<doub
 std::optional<Figure> ResponseFigure(const CaseModel& model, const std::vector<double>& predicted,
                                      std::size_t record);
 
-/// Mean error of a channel (all records together) in bins of the position, the current and the speed
-/// that explain most of it. nullopt when nothing varies.
+/// Mean error of a channel (all records together) in bins of the position, the current and the
+/// speed that explain most of it. nullopt when nothing varies.
 std::optional<Figure> DependenceFigure(const CaseModel& model, const std::vector<double>& predicted,
                                        const std::string& channel);
 

@@ -17,7 +17,8 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
   Json orbit = Json::object();
   for (const auto& [name, value] : m.max_orbit) orbit[name] = value;
   Json wanted = Json::object();
-  for (const ExpectResult& e : expect) wanted[e.key] = {{"wanted", e.wanted}, {"got", e.got}, {"met", e.met}};
+  for (const ExpectResult& e : expect)
+    wanted[e.key] = {{"wanted", e.wanted}, {"got", e.got}, {"met", e.met}};
   return {{"name", scenario.name},
           {"seed", scenario.seed},
           {"events", events},

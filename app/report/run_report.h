@@ -14,8 +14,8 @@ namespace ambrig {
 
 struct ReportEvent {
   double t = 0;  // [s]
-  std::string
-      kind;  // fault detected classified redistributed alarm_cleared touchdown lift_off drop
+  // fault detected classified redistributed alarm_cleared touchdown lift_off drop
+  std::string kind;
   std::string target;  // "A3"
   std::string text;    // for the timeline: "open coil", "partial short, 48 % of the turns"
 };

@@ -34,14 +34,16 @@ void FillBearings(const RigParameters& rig, const RunResult& result, RunReportDa
       r.pole_angles.push_back((b.radial.first_pole_angle_deg + 45.0 * j) * kPi / 180);
     r.x = ChannelOf(result.record, b.name + ".r.x");
     r.y = ChannelOf(result.record, b.name + ".r.y");
-    for (int j = 1; j <= kPoles; ++j) r.currents.push_back(ChannelOf(result.record, fmt::format("{}.i{}", b.name, j)));
+    for (int j = 1; j <= kPoles; ++j)
+      r.currents.push_back(ChannelOf(result.record, fmt::format("{}.i{}", b.name, j)));
     data.bearings.push_back(std::move(r));
   }
 }
 
 void FillStations(const RigParameters& rig, const RunResult& result, RunReportData& data) {
   for (const ShaftPlane& s : rig.stations) {
-    ReportStation r{s.name, ChannelOf(result.record, s.name + ".r.x"), ChannelOf(result.record, s.name + ".r.y")};
+    ReportStation r{s.name, ChannelOf(result.record, s.name + ".r.x"),
+                    ChannelOf(result.record, s.name + ".r.y")};
     if (!r.x.empty()) data.stations.push_back(std::move(r));
   }
 }
@@ -57,7 +59,8 @@ void FillSnapshots(const Scenario& scenario, const RunResult& result, RunReportD
     r.x = s.x;
     r.y = s.y;
     for (const FaultSpec& f : scenario.faults)
-      if (f.target.starts_with(s.bearing + ".coil") && f.time <= s.t && s.label.rfind("before", 0) != 0)
+      if (f.target.starts_with(s.bearing + ".coil") && f.time <= s.t &&
+          s.label.rfind("before", 0) != 0)
         r.failed.push_back(std::stoi(f.target.substr(s.bearing.size() + 5)));
     data.snapshots.push_back(std::move(r));
   }
@@ -67,32 +70,44 @@ void FillSnapshots(const Scenario& scenario, const RunResult& result, RunReportD
 
 std::string EventText(const RunEvent& e) {
   std::string text = e.fault_class;
-  if (e.fraction > 0) text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);
+  if (e.fraction > 0)
+    text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);
   return text;
 }
 
-RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenario, const RunResult& result,
-                                const std::vector<ExpectResult>& expect, const std::string& fidelity) {
+RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenario,
+                                const RunResult& result, const std::vector<ExpectResult>& expect,
+                                const std::string& fidelity) {
   RunReportData data;
   const RunMetrics& m = result.metrics;
   data.name = scenario.name;
-  data.subtitle = fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
+  data.subtitle =
+      fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
   const bool met = AllMet(expect);
-  data.verdict = !met ? Verdict::kFail : result.drop ? Verdict::kFail : result.touchdown ? Verdict::kWarn : Verdict::kOk;
-  data.verdict_text = result.drop        ? "The rotor dropped."
-                      : result.touchdown ? "The rotor touched an auxiliary bearing but did not stay on it."
-                                         : "The rotor stayed up, without touching an auxiliary bearing.";
-  if (!expect.empty()) data.verdict_text += met ? " Every expectation is met." : " An expectation is not met.";
-  for (const auto& [name, orbit] : m.max_orbit) data.metrics.emplace_back("peak orbit " + name, FormatSi(orbit, "m"));
+  data.verdict = !met               ? Verdict::kFail
+                 : result.drop      ? Verdict::kFail
+                 : result.touchdown ? Verdict::kWarn
+                                    : Verdict::kOk;
+  data.verdict_text = result.drop ? "The rotor dropped."
+                      : result.touchdown
+                          ? "The rotor touched an auxiliary bearing but did not stay on it."
+                          : "The rotor stayed up, without touching an auxiliary bearing.";
+  if (!expect.empty())
+    data.verdict_text += met ? " Every expectation is met." : " An expectation is not met.";
+  for (const auto& [name, orbit] : m.max_orbit)
+    data.metrics.emplace_back("peak orbit " + name, FormatSi(orbit, "m"));
   data.metrics.emplace_back("least clearance left", FormatSi(m.min_clearance_left, "m"));
   data.metrics.emplace_back("detection delay", MilliSeconds(m.detection_delay));
   data.metrics.emplace_back("redistribution delay", MilliSeconds(m.redistribution_delay));
-  data.metrics.emplace_back("false alarms", fmt::format("{:.0f} in {:.3g} coil-periods", m.false_alarms, m.coil_periods));
+  data.metrics.emplace_back(
+      "false alarms", fmt::format("{:.0f} in {:.3g} coil-periods", m.false_alarms, m.coil_periods));
   data.metrics.emplace_back("peak coil current", FormatSi(m.peak_current, "A"));
   data.metrics.emplace_back("copper loss, mean", FormatSi(m.copper_loss, "W"));
-  data.metrics.emplace_back("speed of the simulation", fmt::format("{:.1f} x real time", m.real_time_factor));
+  data.metrics.emplace_back("speed of the simulation",
+                            fmt::format("{:.1f} x real time", m.real_time_factor));
   for (const ExpectResult& e : expect) data.expect.push_back({e.key, e.wanted, e.got, e.met});
-  for (const RunEvent& e : result.events) data.events.push_back({e.t, e.kind, ShortName(e.target), EventText(e)});
+  for (const RunEvent& e : result.events)
+    data.events.push_back({e.t, e.kind, ShortName(e.target), EventText(e)});
   data.rate = result.record.rate;
   data.start = result.record.start;
   FillBearings(rig, result, data);

@@ -12,9 +12,9 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kWindows = 120;      // columns of a waterfall
+constexpr double kWindows = 120;       // columns of a waterfall
 constexpr double kLeastChange = 0.05;  // of the highest speed
-constexpr double kFloor = 1e-4;       // of the largest amplitude: below it all is one colour
+constexpr double kFloor = 1e-4;        // of the largest amplitude: below it all is one colour
 
 struct Plane {
   std::string title;
@@ -50,7 +50,8 @@ double SpanFor(double duration, double f_top) {
 }
 
 double At(const RunReportData& data, const std::vector<double>& v, double t) {
-  const double row = std::clamp((t - data.start) * data.rate, 0.0, static_cast<double>(v.size() - 1));
+  const double row =
+      std::clamp((t - data.start) * data.rate, 0.0, static_cast<double>(v.size() - 1));
   return v[static_cast<std::size_t>(row)];
 }
 
@@ -121,18 +122,19 @@ Figure WaterfallFigure(const RunReportData& data) {
   const SpeedRun run = MakeSpeedRun(data);
   Figure figure = PanelPerPlane(
       planes, 260,
-      "Waterfall: amplitude of the shaft centre's motion over time and frequency; forward whirl has "
+      "Waterfall: amplitude of the shaft centre's motion over time and frequency; forward whirl "
+      "has "
       "positive, backward whirl negative frequencies. The line is the shaft's own turning: what "
       "follows it is order 1, what stays level is a mode of the rotor in its bearings.");
   double peak = 0;
-  for (const Plane& p : planes)
-    peak = std::max({peak, LargestSize(p.x), LargestSize(p.y)});
+  for (const Plane& p : planes) peak = std::max({peak, LargestSize(p.x), LargestSize(p.y)});
   const DisplayUnit unit = ChooseUnit(peak, "m");
   const double f_max = std::min(data.rate / 2.56, std::max(5 * run.top, 50.0));
   const std::vector<double> time = UniformTime(data.start, data.rate, run.speed.size());
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const int panel = static_cast<int>(k);
-    AddMap(figure, panel, Waterfall({planes[k].x, planes[k].y, data.rate, data.start}, run.span, run.hop, f_max),
+    AddMap(figure, panel,
+           Waterfall({planes[k].x, planes[k].y, data.rate, data.start}, run.span, run.hop, f_max),
            unit.factor, unit.name);
     Style style;
     style.color = "@red";
@@ -162,7 +164,9 @@ std::optional<Figure> OrderFigure(const RunReportData& data) {
       bool forward;
     };
     int number = 0;
-    for (const Line& line : {Line{"order 1, forward", 1, true}, {"order 2, forward", 2, true}, {"order 1, backward", 1, false}}) {
+    for (const Line& line : {Line{"order 1, forward", 1, true},
+                             {"order 2, forward", 2, true},
+                             {"order 1, backward", 1, false}}) {
       const OrderTrack track = TrackOrder(orbit, data.theta, line.order, run.span, run.hop);
       std::vector<double> speed, size;
       for (std::size_t i = 0; i < track.t.size(); ++i) {

@@ -21,7 +21,8 @@ AppendFile::AppendFile(const std::string& path) : path_(path) {
   if (file_ < 0) ThrowCannotWrite(path_, errno);
   if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;
   close(file_);
-  throw InputError(folder.string() + ": another ambrig writes there; wait for it, or give another folder");
+  throw InputError(folder.string() +
+                   ": another ambrig writes there; wait for it, or give another folder");
 }
 
 AppendFile::~AppendFile() { close(file_); }

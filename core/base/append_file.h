@@ -1,6 +1,6 @@
 #pragma once
-/// A file that only grows (journals): what was appended is in the system's hands when Append returns, so
-/// that kill -9 loses none of it. One process at a time.
+/// A file that only grows (journals): what was appended is in the system's hands when Append
+/// returns, so that kill -9 loses none of it. One process at a time.
 #include <cstddef>
 #include <string>
 #include <string_view>

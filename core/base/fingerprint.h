@@ -1,5 +1,6 @@
 #pragma once
-/// FNV-1a, 64 bits: whether two inputs are the same, and whether a line came back as it was written.
+/// FNV-1a, 64 bits: whether two inputs are the same, and whether a line came back as it was
+/// written.
 #include <cstdint>
 #include <string>
 #include <string_view>

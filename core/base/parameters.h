@@ -1,6 +1,7 @@
 #pragma once
 /// Table-driven parameters: one table per struct is the only place that knows key, unit, range and
-/// meaning. The reader, the range check, `--help`, docs/parameters.md and the bounds of a fit walk it.
+/// meaning. The reader, the range check, `--help`, docs/parameters.md and the bounds of a fit walk
+/// it.
 #include <cmath>
 #include <limits>
 #include <string>
@@ -29,7 +30,8 @@ struct Field {
                                   std::string_view unit, double lo, double hi,
                                   std::string_view doc);
 
-/// Throws InputError for the first field outside its range. `where(key)` gives "rig.toml:31: bearings.A.gap".
+/// Throws InputError for the first field outside its range. `where(key)` gives "rig.toml:31:
+/// bearings.A.gap".
 template <class P, std::size_t n, class Where>
 void CheckRanges(const P& p, const Field<P> (&fields)[n], const Where& where) {
   for (const Field<P>& f : fields) {

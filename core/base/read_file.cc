@@ -27,7 +27,9 @@ std::string ReadFile(const std::string& path, std::size_t limit) {
 }
 
 std::string Beside(const std::string& file, const std::string& name) {
-  return name.starts_with('/') ? name : (std::filesystem::path(file).parent_path() / name).lexically_normal().string();
+  return name.starts_with('/')
+             ? name
+             : (std::filesystem::path(file).parent_path() / name).lexically_normal().string();
 }
 
 }  // namespace ambrig

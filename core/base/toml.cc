@@ -16,23 +16,35 @@ constexpr std::size_t kLargestFile = 16 << 20;  // [bytes] a device without an e
 
 std::string TypeName(const toml::node& n) {
   switch (n.type()) {
-    case toml::node_type::string: return "a string";
-    case toml::node_type::integer: return "an integer";
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "true/false";
-    case toml::node_type::array: return "an array";
-    case toml::node_type::table: return "a table";
-    default: return "a date";
+    case toml::node_type::string:
+      return "a string";
+    case toml::node_type::integer:
+      return "an integer";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "true/false";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::table:
+      return "a table";
+    default:
+      return "a date";
   }
 }
 std::string TextOf(const toml::node& n) {
   std::ostringstream out;
-  if (const auto* t = n.as_table()) out << toml::toml_formatter(*t, toml::format_flags::none);
-  else if (const auto* a = n.as_array()) out << *a;
-  else n.visit([&](const auto& v) {
-    if constexpr (toml::is_floating_point<decltype(v)>) out << NumberText(v.get());
-    else if constexpr (toml::is_value<decltype(v)>) out << v;
-  });
+  if (const auto* t = n.as_table())
+    out << toml::toml_formatter(*t, toml::format_flags::none);
+  else if (const auto* a = n.as_array())
+    out << *a;
+  else
+    n.visit([&](const auto& v) {
+      if constexpr (toml::is_floating_point<decltype(v)>)
+        out << NumberText(v.get());
+      else if constexpr (toml::is_value<decltype(v)>)
+        out << v;
+    });
   std::string text = out.str();
   for (char& c : text)
     if (c == '\n') c = ' ';
@@ -49,7 +61,8 @@ toml::table ParseToml(const std::string& text, const std::string& file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& e) {
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", file, e.source().begin.line, e.description()));
+    throw InputError(
+        fmt::format("{}:{}: not valid TOML: {}", file, e.source().begin.line, e.description()));
   }
 }
 
@@ -69,7 +82,8 @@ TomlTable TomlTable::FromFile(const std::string& file) {
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(fmt::format("{}: is a folder, allowed: a TOML file", file));
   const std::string text = ReadFile(file, kLargestFile + 1);
-  if (text.size() > kLargestFile) throw InputError(fmt::format("{}: is larger than 16 MiB, allowed: a TOML file", file));
+  if (text.size() > kLargestFile)
+    throw InputError(fmt::format("{}: is larger than 16 MiB, allowed: a TOML file", file));
   return FromText(text, file);
 }
 
@@ -118,21 +132,24 @@ bool TomlTable::IsArray(std::string_view key) const {
   return n && n->is_array();
 }
 
-double TomlTable::NumberOr(std::string_view key, double fallback, double* sd, double* fitted) const {
+double TomlTable::NumberOr(std::string_view key, double fallback, double* sd,
+                           double* fitted) const {
   if (sd) *sd = 0;
   const toml::node* n = node_->Get(key);
   if (!n) return fallback;
   if (const auto* t = n->as_table()) {
     for (const auto& [k, v] : *t)
       if (k.str() != "value" && k.str() != "sd" && !(fitted && k.str() == "fitted"))
-        throw InputError(fmt::format("{}.{}: unknown key, allowed: value, sd", Where(key), k.str()));
+        throw InputError(
+            fmt::format("{}.{}: unknown key, allowed: value, sd", Where(key), k.str()));
     const auto* value = t->get("value");
     if (!value || !value->is_number())
-      Fail(key, fmt::format("= {}, allowed: a number or {{ value = number, sd = number }}", TextOf(*n)));
+      Fail(key,
+           fmt::format("= {}, allowed: a number or {{ value = number, sd = number }}", TextOf(*n)));
     if (const auto* s = t->get("sd")) {
-      if (!s->is_number() || !(NumberOf(*s) >= 0) ||
-          !std::isfinite(NumberOf(*s)))
-        throw InputError(fmt::format("{}.sd = {}, allowed: a number of 0 or more", Where(key), TextOf(*s)));
+      if (!s->is_number() || !(NumberOf(*s) >= 0) || !std::isfinite(NumberOf(*s)))
+        throw InputError(
+            fmt::format("{}.sd = {}, allowed: a number of 0 or more", Where(key), TextOf(*s)));
       if (sd) *sd = NumberOf(*s);
     }
     if (const auto* f = t->get("fitted"); f && fitted) {
@@ -143,7 +160,8 @@ double TomlTable::NumberOr(std::string_view key, double fallback, double* sd, do
     n = value;
   }
   if (!n->is_number())
-    throw InputError(fmt::format("{} = {} is {}, allowed: a number", Where(key), TextOf(*n), TypeName(*n)));
+    throw InputError(
+        fmt::format("{} = {} is {}, allowed: a number", Where(key), TextOf(*n), TypeName(*n)));
   const double v = NumberOf(*n);
   if (std::isnan(v)) Fail(key, "= nan, allowed: a number");
   return v;
@@ -153,10 +171,13 @@ double TomlTable::Number(std::string_view key) const {
   if (!Has(key)) Fail(key, "is missing, allowed: a number");
   return Number(key, 0, nullptr);
 }
-double TomlTable::Number(std::string_view key, double fallback) const { return Number(key, fallback, nullptr); }
+double TomlTable::Number(std::string_view key, double fallback) const {
+  return Number(key, fallback, nullptr);
+}
 double TomlTable::Number(std::string_view key, double fallback, double* sd) const {
   const double v = NumberOr(key, fallback, sd);
-  if (Has(key) && std::isinf(v) && !std::isinf(fallback)) Fail(key, fmt::format("= {}, allowed: a finite number", v));
+  if (Has(key) && std::isinf(v) && !std::isinf(fallback))
+    Fail(key, fmt::format("= {}, allowed: a finite number", v));
   return v;
 }
 
@@ -173,7 +194,8 @@ bool TomlTable::Bool(std::string_view key, bool fallback) const {
   const toml::node* n = node_->Get(key);
   if (!n) return fallback;
   if (!n->is_boolean())
-    throw InputError(fmt::format("{} = {} is {}, allowed: true or false", Where(key), TextOf(*n), TypeName(*n)));
+    throw InputError(
+        fmt::format("{} = {} is {}, allowed: true or false", Where(key), TextOf(*n), TypeName(*n)));
   return n->value<bool>().value();
 }
 
@@ -185,7 +207,8 @@ std::string TomlTable::String(std::string_view key, const std::string& fallback)
   const toml::node* n = node_->Get(key);
   if (!n) return fallback;
   if (!n->is_string())
-    throw InputError(fmt::format("{} = {} is {}, allowed: a string", Where(key), TextOf(*n), TypeName(*n)));
+    throw InputError(
+        fmt::format("{} = {} is {}, allowed: a string", Where(key), TextOf(*n), TypeName(*n)));
   return n->value<std::string>().value();
 }
 
@@ -207,7 +230,8 @@ void TomlTable::RejectMisspelt(std::string_view key) const {
   for (const auto& [k, v] : *node_->table) {
     const std::string given(k.str());
     if (!node_->asked.contains(given) && !Nearest(given, std::string(key)).empty())
-      throw InputError(fmt::format("{}: unknown key, did you mean {}? allowed: {}", Where(given), key, key));
+      throw InputError(
+          fmt::format("{}: unknown key, did you mean {}? allowed: {}", Where(given), key, key));
   }
 }
 

@@ -16,9 +16,9 @@ namespace ambrig {
 /// One `{ value, sd }` of a file: the one-sigma knowledge of a parameter. `fitted` is what a
 /// calibration found (`ambrig adopt` writes it): the plant has it, the controller keeps `value`.
 struct Tolerance {
-  std::string path;          // "rotor.mass", "bearings.A.gap"
-  double sd = 0;             // same unit as the value
-  double fitted = kRequired; // nan: not calibrated
+  std::string path;           // "rotor.mass", "bearings.A.gap"
+  double sd = 0;              // same unit as the value
+  double fitted = kRequired;  // nan: not calibrated
 };
 
 /// A TOML table (or the file's root) with its place in the file. Keys that were asked for are
@@ -37,7 +37,8 @@ class TomlTable {
   bool Has(std::string_view key) const;
   std::vector<std::string> Keys() const;
 
-  /// Plain or {value, sd}; never nan. Infinite only where the fallback is. Without fallback: required.
+  /// Plain or {value, sd}; never nan. Infinite only where the fallback is. Without fallback:
+  /// required.
   double Number(std::string_view key) const;
   double Number(std::string_view key, double fallback) const;
   /// Also returns the sd of `{ value, sd }` (0 when plain).
@@ -73,7 +74,8 @@ class TomlTable {
       p.*f.at = NumberOr(f.key, p.*f.at, &sd, &fitted);
       if (std::isnan(p.*f.at)) RejectMisspelt(f.key);
       if ((sd > 0 || !std::isnan(fitted)) && tolerances)
-        tolerances->push_back({(path().empty() ? "" : path() + ".") + std::string(f.key), sd, fitted});
+        tolerances->push_back(
+            {(path().empty() ? "" : path() + ".") + std::string(f.key), sd, fitted});
     }
     CheckRanges(p, fields, [&](std::string_view key) { return Where(key); });
   }
@@ -87,7 +89,8 @@ class TomlTable {
 
  private:
   struct Node;
-  double NumberOr(std::string_view key, double fallback, double* sd, double* fitted = nullptr) const;
+  double NumberOr(std::string_view key, double fallback, double* sd,
+                  double* fitted = nullptr) const;
   explicit TomlTable(std::shared_ptr<const Node> node);
   std::shared_ptr<Node> Inside(const std::string& name) const;
   std::shared_ptr<const Node> node_;

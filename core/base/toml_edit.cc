@@ -19,7 +19,10 @@ struct Step {
 };
 
 [[noreturn]] void Fail(const std::string& file, const TomlEdit& e, const char* what) {
-  throw InputError(fmt::format("{}: {}: {}, allowed: the path of a number such as controller.kp or controller.filter[0].frequency", file, e.path, what));
+  throw InputError(
+      fmt::format("{}: {}: {}, allowed: the path of a number such as controller.kp or "
+                  "controller.filter[0].frequency",
+                  file, e.path, what));
 }
 
 std::vector<Step> StepsOf(const std::string& file, const TomlEdit& e) {
@@ -33,7 +36,8 @@ std::vector<Step> StepsOf(const std::string& file, const TomlEdit& e) {
     if (open != std::string::npos) {
       const char *begin = part.data() + open + 1, *last = part.data() + part.size() - 1;
       const auto [end, error] = std::from_chars(begin, last, s.index);
-      if (error != std::errc{} || end != last || *last != ']' || s.index < 0) Fail(file, e, "is no path");
+      if (error != std::errc{} || end != last || *last != ']' || s.index < 0)
+        Fail(file, e, "is no path");
     }
     if (s.key.empty()) Fail(file, e, "is no path");
     steps.push_back(s);
@@ -43,18 +47,22 @@ std::vector<Step> StepsOf(const std::string& file, const TomlEdit& e) {
 }
 
 /// The table that holds the path's last key.
-toml::table& Holder(toml::table& root, const std::string& file, const TomlEdit& e, const std::vector<Step>& steps) {
+toml::table& Holder(toml::table& root, const std::string& file, const TomlEdit& e,
+                    const std::vector<Step>& steps) {
   toml::table* at = &root;
   for (std::size_t k = 0; k + 1 < steps.size(); ++k) {
     toml::node* next = at->get(steps[k].key);
-    if (next && steps[k].index >= 0) next = next->is_array() ? next->as_array()->get(static_cast<std::size_t>(steps[k].index)) : nullptr;
+    if (next && steps[k].index >= 0)
+      next = next->is_array() ? next->as_array()->get(static_cast<std::size_t>(steps[k].index))
+                              : nullptr;
     if (!next || !next->is_table()) Fail(file, e, "goes through a table that is not there");
     at = next->as_table();
   }
   return *at;
 }
 
-/// What the last step names: the value of a key or an element of its list; nullptr when there is none.
+/// What the last step names: the value of a key or an element of its list; nullptr when there is
+/// none.
 toml::node* Named(toml::table& holder, const Step& last) {
   toml::node* found = holder.get(last.key);
   if (!found || last.index < 0) return found;
@@ -67,8 +75,12 @@ void Apply(toml::table& root, const std::string& file, const TomlEdit& e) {
   toml::node* old = Named(*at, steps.back());
   if (old && old->is_array()) Fail(file, e, "is a list");
   if (steps.back().index >= 0) {
-    if (!old || !old->is_number() || !std::holds_alternative<double>(e.value)) Fail(file, e, "is no number of a list");
-    at->get(steps.back().key)->as_array()->replace(at->get(steps.back().key)->as_array()->cbegin() + steps.back().index, std::get<double>(e.value));
+    if (!old || !old->is_number() || !std::holds_alternative<double>(e.value))
+      Fail(file, e, "is no number of a list");
+    at->get(steps.back().key)
+        ->as_array()
+        ->replace(at->get(steps.back().key)->as_array()->cbegin() + steps.back().index,
+                  std::get<double>(e.value));
     return;
   }
   if (std::holds_alternative<std::string>(e.value)) {
@@ -98,12 +110,15 @@ void MakeFilesAbsolute(toml::node& node, const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::string EditedToml(const std::string& text, const std::string& file, const std::vector<TomlEdit>& edits) {
+std::string EditedToml(const std::string& text, const std::string& file,
+                       const std::vector<TomlEdit>& edits) {
   toml::table root = ParseToml(text, file);
   for (const TomlEdit& e : edits) Apply(root, file, e);
   MakeFilesAbsolute(root, std::filesystem::absolute(file).parent_path());
   std::ostringstream out;
-  out << toml::toml_formatter(root, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings) << '\n';
+  out << toml::toml_formatter(
+             root, toml::toml_formatter::default_flags & ~toml::format_flags::allow_literal_strings)
+      << '\n';
   return out.str();
 }
 

@@ -16,10 +16,14 @@ class KeyScanner {
   void Scan() {
     for (at_ = 0; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
-      if (c == '"' || c == '\'') SkipString(c);
-      else if (c == '#') at_ = std::min(text_.find('\n', at_), text_.size()) - 1;
-      else if (c == '.') Deeper();
-      else if (std::string_view("\n,=[]{}").find(c) != std::string_view::npos) NewKey(c);
+      if (c == '"' || c == '\'')
+        SkipString(c);
+      else if (c == '#')
+        at_ = std::min(text_.find('\n', at_), text_.size()) - 1;
+      else if (c == '.')
+        Deeper();
+      else if (std::string_view("\n,=[]{}").find(c) != std::string_view::npos)
+        NewKey(c);
     }
   }
 
@@ -31,10 +35,13 @@ class KeyScanner {
 
   void Deeper() {
     if (++dots_ >= kDeepest)
-      throw InputError(fmt::format("{}:{}: not valid TOML: a key of more than {} names, allowed: up to {}", file_, line_, kDeepest, kDeepest));
+      throw InputError(
+          fmt::format("{}:{}: not valid TOML: a key of more than {} names, allowed: up to {}",
+                      file_, line_, kDeepest, kDeepest));
   }
 
-  /// From the opening quote to the closing one; a string that does not end is the parser's to report.
+  /// From the opening quote to the closing one; a string that does not end is the parser's to
+  /// report.
   void SkipString(char quote) {
     const bool many_lines = text_.compare(at_, 3, std::string(3, quote)) == 0;
     const std::string end(many_lines ? 3 : 1, quote);
@@ -55,6 +62,8 @@ class KeyScanner {
 
 }  // namespace
 
-void RejectDeepKeys(const std::string& text, const std::string& file) { KeyScanner(text, file).Scan(); }
+void RejectDeepKeys(const std::string& text, const std::string& file) {
+  KeyScanner(text, file).Scan();
+}
 
 }  // namespace ambrig

@@ -1,6 +1,6 @@
 #pragma once
-/// The door to toml++: the only file that includes it. For core/base/toml*.cc alone (tools/check_layers.py); everybody else
-/// knows tables (toml.h) and edits (toml_edit.h).
+/// The door to toml++: the only file that includes it. For core/base/toml*.cc alone
+/// (tools/check_layers.py); everybody else knows tables (toml.h) and edits (toml_edit.h).
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
@@ -28,11 +28,13 @@ struct TomlTable::Node {
 /// The document `text` of `file`. @throws InputError "file:line: not valid TOML: ..."
 toml::table ParseToml(const std::string& text, const std::string& file);
 
-/// A key of a hundred thousand names, a.a.a..., makes tables that toml++ cannot take apart again without all of the stack.
+/// A key of a hundred thousand names, a.a.a..., makes tables that toml++ cannot take apart again
+/// without all of the stack.
 /// @throws InputError "file:line: ..." when a key has more than 32 names.
 void RejectDeepKeys(const std::string& text, const std::string& file);
 
-/// Of an integer or a floating-point number (is_number). toml++'s own value<double>() is empty for integers beyond 2^53.
+/// Of an integer or a floating-point number (is_number). toml++'s own value<double>() is empty for
+/// integers beyond 2^53.
 double NumberOf(const toml::node& n);
 
 /// "an integer", "a table": for messages.

@@ -1,6 +1,6 @@
 #pragma once
-/// Rounds of the Advanced Encryption Standard (FIPS 197) for machines without an instruction for them. A
-/// state is four words, its columns, least significant byte on top.
+/// Rounds of the Advanced Encryption Standard (FIPS 197) for machines without an instruction for
+/// them. A state is four words, its columns, least significant byte on top.
 #include <array>
 #include <cstdint>
 
@@ -11,12 +11,15 @@ using AesState = std::array<std::uint32_t, 4>;
 namespace aes {
 
 struct Tables {
-  std::array<std::uint8_t, 256> s{};         // SubBytes
-  std::array<std::uint32_t, 256> column{};   // what a byte on top of a column mixes into it, substituted
+  std::array<std::uint8_t, 256> s{};  // SubBytes
+  // what a byte on top of a column mixes into it, substituted
+  std::array<std::uint32_t, 256> column{};
 };
 
 /// Times x in GF(2^8) modulo x^8 + x^4 + x^3 + x + 1.
-constexpr std::uint8_t Doubled(std::uint8_t a) { return static_cast<std::uint8_t>((a << 1) ^ (a & 0x80 ? 0x1b : 0)); }
+constexpr std::uint8_t Doubled(std::uint8_t a) {
+  return static_cast<std::uint8_t>((a << 1) ^ (a & 0x80 ? 0x1b : 0));
+}
 
 constexpr Tables MakeTables() {
   std::array<std::uint8_t, 256> power{}, logarithm{};  // of x + 1, which generates the field
@@ -40,7 +43,9 @@ constexpr Tables MakeTables() {
 
 inline constexpr Tables kTables = MakeTables();
 
-constexpr unsigned Byte(const AesState& s, int column, int row) { return s[static_cast<std::size_t>(column & 3)] >> (8 * row) & 0xff; }
+constexpr unsigned Byte(const AesState& s, int column, int row) {
+  return s[static_cast<std::size_t>(column & 3)] >> (8 * row) & 0xff;
+}
 
 }  // namespace aes
 
@@ -50,7 +55,8 @@ constexpr AesState AesRound(const AesState& s, const AesState& key) {
   for (int c = 0; c < 4; ++c)
     for (int row = 0; row < 4; ++row) {
       const std::uint32_t mixed = aes::kTables.column[aes::Byte(s, c + row, row)];
-      out[static_cast<std::size_t>(c)] ^= row == 0 ? mixed : mixed << (8 * row) | mixed >> (32 - 8 * row);
+      out[static_cast<std::size_t>(c)] ^=
+          row == 0 ? mixed : mixed << (8 * row) | mixed >> (32 - 8 * row);
     }
   return out;
 }
@@ -60,7 +66,8 @@ constexpr AesState AesLastRound(const AesState& s, const AesState& key) {
   AesState out = key;
   for (int c = 0; c < 4; ++c)
     for (int row = 0; row < 4; ++row)
-      out[static_cast<std::size_t>(c)] ^= static_cast<std::uint32_t>(aes::kTables.s[aes::Byte(s, c + row, row)]) << (8 * row);
+      out[static_cast<std::size_t>(c)] ^=
+          static_cast<std::uint32_t>(aes::kTables.s[aes::Byte(s, c + row, row)]) << (8 * row);
   return out;
 }
 

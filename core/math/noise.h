@@ -18,7 +18,8 @@ namespace ambrig {
 /// one.
 void FillNormals(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, float* out, int n);
 
-/// One standard normal, of Philox4x32 (7 rounds, same paper) by Box and Muller: for draws that are few.
+/// One standard normal, of Philox4x32 (7 rounds, same paper) by Box and Muller: for draws that are
+/// few.
 double Normal(std::uint64_t seed, std::uint32_t stream, std::uint64_t index);
 
 /// Uniform in [0, 1) from 32 bits.

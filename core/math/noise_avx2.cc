@@ -7,7 +7,9 @@
 
 namespace ambrig {
 
-void FillFromAvx2(U64 seed, U32 stream, U64 index, float* out, int n) { Fill(seed, stream, index, out, n); }
+void FillFromAvx2(U64 seed, U32 stream, U64 index, float* out, int n) {
+  Fill(seed, stream, index, out, n);
+}
 
 }  // namespace ambrig
 #endif

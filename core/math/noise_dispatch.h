@@ -4,7 +4,8 @@
 
 namespace ambrig {
 
-using FillFunction = void(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, float* out, int n);
+using FillFunction = void(std::uint64_t seed, std::uint32_t stream, std::uint64_t index, float* out,
+                          int n);
 
 FillFunction FillFromBaseline;  // any machine
 #ifdef __x86_64__

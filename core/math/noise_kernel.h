@@ -1,5 +1,6 @@
-// The arithmetic of noise.h on vectors as wide as the including source's target has them. Included by
-// noise.cc (any machine), noise_avx2.cc, noise_vaes.cc and noise_avx512.cc only; the unnamed namespace keeps them apart.
+// The arithmetic of noise.h on vectors as wide as the including source's target has them. Included
+// by noise.cc (any machine), noise_avx2.cc, noise_vaes.cc and noise_avx512.cc only; the unnamed
+// namespace keeps them apart.
 #include <bit>
 #include <cstdint>
 #include <cstring>
@@ -21,9 +22,10 @@ constexpr int kLanes = 8;
 #else
 constexpr int kLanes = 4;
 #endif
-constexpr int kRounds = 5;            // "Crush-resistant"; see the paper named in noise.h
-constexpr int kBlocks = kLanes / 4;   // of 128 bits, the unit of the cipher
-[[maybe_unused]] constexpr int kFirstCommon = 23;  // of the table's eight entries that all words but one in 128 need
+constexpr int kRounds = 5;           // "Crush-resistant"; see the paper named in noise.h
+constexpr int kBlocks = kLanes / 4;  // of 128 bits, the unit of the cipher
+// of the table's eight entries that all words but one in 128 need
+[[maybe_unused]] constexpr int kFirstCommon = 23;
 
 using U32 = std::uint32_t;
 using U64 = std::uint64_t;
@@ -54,7 +56,8 @@ struct Keys {
 /// Weyl sequences from the seed on, in both halves of the key.
 inline Keys MakeKeys(U64 seed) {
   Keys keys;
-  const Pairs step = Repeat(0x9E3779B97F4A7C15ULL, 0xBB67AE8584CAA73BULL);  // golden ratio, sqrt(3) - 1
+  // golden ratio, sqrt(3) - 1
+  const Pairs step = Repeat(0x9E3779B97F4A7C15ULL, 0xBB67AE8584CAA73BULL);
   Pairs next = Repeat(seed, 0);
   for (Bits& key : keys.of) {
     key = (Bits)next;
@@ -67,13 +70,15 @@ inline Keys MakeKeys(U64 seed) {
 #if defined(AMBRIG_NOISE_AVX512)
 inline Bits Encrypt(Bits v, const Keys& keys) {
   __m512i x = (__m512i)(v ^ keys.of[0]);
-  for (int round = 1; round < kRounds; ++round) x = _mm512_aesenc_epi128(x, (__m512i)keys.of[round]);
+  for (int round = 1; round < kRounds; ++round)
+    x = _mm512_aesenc_epi128(x, (__m512i)keys.of[round]);
   return (Bits)_mm512_aesenclast_epi128(x, (__m512i)keys.of[kRounds]);
 }
 #elif defined(AMBRIG_NOISE_VAES)
 inline Bits Encrypt(Bits v, const Keys& keys) {
   __m256i x = (__m256i)(v ^ keys.of[0]);
-  for (int round = 1; round < kRounds; ++round) x = _mm256_aesenc_epi128(x, (__m256i)keys.of[round]);
+  for (int round = 1; round < kRounds; ++round)
+    x = _mm256_aesenc_epi128(x, (__m256i)keys.of[round]);
   return (Bits)_mm256_aesenclast_epi128(x, (__m256i)keys.of[kRounds]);
 }
 #elif defined(AMBRIG_NOISE_AVX2)
@@ -102,15 +107,18 @@ inline Bits Encrypt(Bits v, const Keys& keys) {
 #if defined(AMBRIG_NOISE_AVX512)
 inline Real Coefficients(int power, Bits entry) {
   const float* row = kNormalTable[power];
-  return (Real)_mm512_permutex2var_ps(_mm512_load_ps(row), (__m512i)entry, _mm512_load_ps(row + 16));
+  return (Real)_mm512_permutex2var_ps(_mm512_load_ps(row), (__m512i)entry,
+                                      _mm512_load_ps(row + 16));
 }
 #elif defined(AMBRIG_NOISE_AVX2)
-/// Only of the entries 23 to 30, by their three lowest bits: a register holds no more, and one word in 128 needs more.
+/// Only of the entries 23 to 30, by their three lowest bits: a register holds no more, and one word
+/// in 128 needs more.
 constexpr struct CommonNormals {
   alignas(32) float of[kNormalDegree + 1][8] = {};
   constexpr CommonNormals() {
     for (int power = 0; power <= kNormalDegree; ++power)
-      for (int entry = kFirstCommon; entry < kFirstCommon + 8; ++entry) of[power][entry % 8] = kNormalTable[power][entry];
+      for (int entry = kFirstCommon; entry < kFirstCommon + 8; ++entry)
+        of[power][entry % 8] = kNormalTable[power][entry];
   }
 } kCommonNormals;
 inline Real Coefficients(int power, Bits entry) {
@@ -125,30 +133,37 @@ inline Real Coefficients(int power, Bits entry) {
 #endif
 
 /// p of noise.h times 2^31, from all bits of a word but the lowest, which is the sign.
-inline Bits SizeOf(Bits word) { return (Bits)(__builtin_convertvector((Int)(word >> 1), Real) + 0.5F); }
+inline Bits SizeOf(Bits word) {
+  return (Bits)(__builtin_convertvector((Int)(word >> 1), Real) + 0.5F);
+}
 
 /// Normals from words and their sizes.
 inline Bits NormalOf(Bits word, Bits p) {
   const Bits entry = p >> 23;
   const Real t = (Real)((p & 0x7fffffU) | 0x3f800000U) - 1.5F;
   Real size = Coefficients(kNormalDegree, entry);
-  for (int power = kNormalDegree - 1; power >= 0; --power) size = size * t + Coefficients(power, entry);
+  for (int power = kNormalDegree - 1; power >= 0; --power)
+    size = size * t + Coefficients(power, entry);
   return (Bits)size ^ (word << 31);
 }
 
 #ifdef AMBRIG_NOISE_AVX2
 /// The same for one word, whatever its size.
 inline float NormalOf(U32 word) {
-  const U32 p = __builtin_bit_cast(U32, static_cast<float>(static_cast<std::int32_t>(word >> 1)) + 0.5F);
+  const U32 p =
+      __builtin_bit_cast(U32, static_cast<float>(static_cast<std::int32_t>(word >> 1)) + 0.5F);
   const U32 entry = (p >> 23) & 31U;
   const float t = __builtin_bit_cast(float, (p & 0x7fffffU) | 0x3f800000U) - 1.5F;
   float size = kNormalTable[kNormalDegree][entry];
-  for (int power = kNormalDegree - 1; power >= 0; --power) size = size * t + kNormalTable[power][entry];
+  for (int power = kNormalDegree - 1; power >= 0; --power)
+    size = size * t + kNormalTable[power][entry];
   return __builtin_bit_cast(float, __builtin_bit_cast(U32, size) ^ (word << 31));
 }
 
 /// Which lanes need an entry that is not among the common ones.
-inline int Rare(Bits p) { return _mm256_movemask_ps((__m256)((Int)p < Int{} + ((kFirstCommon + 128) << 23))); }
+inline int Rare(Bits p) {
+  return _mm256_movemask_ps((__m256)((Int)p < Int{} + ((kFirstCommon + 128) << 23)));
+}
 #endif
 
 constexpr int kChunk = 64;  // vectors of words at a time
@@ -156,7 +171,9 @@ constexpr int kChunk = 64;  // vectors of words at a time
 /// Normals of n words, vectors of which the last may be in part.
 inline void Normals(const Bits* words, float* out, int n) {
 #ifdef AMBRIG_NOISE_AVX2
-  struct { int vector, lanes; } rare[kChunk + 1];
+  struct {
+    int vector, lanes;
+  } rare[kChunk + 1];
   int rares = 0;
 #endif
   for (int k = 0; k * kLanes < n; ++k) {
@@ -167,7 +184,8 @@ inline void Normals(const Bits* words, float* out, int n) {
     else
       std::memcpy(out + k * kLanes, &normals, static_cast<std::size_t>(left) * sizeof(float));
 #ifdef AMBRIG_NOISE_AVX2
-    rare[rares] = {k, Rare(p)};  // written always, kept if there is one: no branch that is hard to predict
+    // written always, kept if there is one: no branch that is hard to predict
+    rare[rares] = {k, Rare(p)};
     rares += rare[rares].lanes != 0;
 #endif
   }
@@ -188,7 +206,8 @@ inline void Fill(U64 seed, U32 stream, U64 index, float* out, int n) {
   Bits words[kChunk];
   for (; n > 0; n -= kChunk * kLanes, out += kChunk * kLanes) {
     const int count = n < kChunk * kLanes ? n : kChunk * kLanes;
-    for (int k = 0; k * kLanes < count; ++k, counter += next) words[k] = Encrypt((Bits)counter, keys);
+    for (int k = 0; k * kLanes < count; ++k, counter += next)
+      words[k] = Encrypt((Bits)counter, keys);
     Normals(words, out, count);
   }
 }

@@ -13,7 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// Of a window by zeros: a motion between two lines of the bare window would look 15 % smaller, here 1 %.
+// Of a window by zeros: a motion between two lines of the bare window would look 15 % smaller, here
+// 1 %.
 constexpr std::size_t kPadding = 4;
 
 std::vector<double> HannWeights(std::size_t n) {
@@ -33,7 +34,8 @@ void EachWindow(const Orbit& orbit, std::size_t n, double hop, const Visit& visi
   Require(orbit.x.size() == orbit.y.size(), "x and y of one size");
   const auto step = static_cast<std::size_t>(std::max(1.0, std::round(hop * orbit.rate)));
   for (std::size_t at = 0; at + n <= orbit.x.size(); at += step)
-    visit(at, orbit.start + (static_cast<double>(at) + 0.5 * static_cast<double>(n - 1)) / orbit.rate);
+    visit(at,
+          orbit.start + (static_cast<double>(at) + 0.5 * static_cast<double>(n - 1)) / orbit.rate);
 }
 
 std::size_t WindowSize(const Orbit& orbit, double span) {
@@ -42,7 +44,8 @@ std::size_t WindowSize(const Orbit& orbit, double span) {
 
 Complex WeightedMean(const Orbit& orbit, const std::vector<double>& w, std::size_t at) {
   Complex mean = 0;
-  for (std::size_t k = 0; k < w.size(); ++k) mean += w[k] * Complex(orbit.x[at + k], orbit.y[at + k]);
+  for (std::size_t k = 0; k < w.size(); ++k)
+    mean += w[k] * Complex(orbit.x[at + k], orbit.y[at + k]);
   return mean;
 }
 
@@ -82,7 +85,8 @@ WaterfallSpectrum Waterfall(const Orbit& orbit, double span, double hop, double 
   const std::size_t merge = std::max<std::size_t>(1, (2 * top + lines) / lines);
   const std::size_t half = top / merge;
   for (std::size_t k = 0; k <= 2 * half; ++k)
-    out.frequency.push_back((static_cast<double>(k) - static_cast<double>(half)) * static_cast<double>(merge) * df);
+    out.frequency.push_back((static_cast<double>(k) - static_cast<double>(half)) *
+                            static_cast<double>(merge) * df);
   EachWindow(orbit, n, hop, [&](std::size_t at, double t) {
     const Complex mean = WeightedMean(orbit, w, at);
     std::vector<double> x(padded, 0.0), y(padded, 0.0), row(2 * half + 1, 0.0);

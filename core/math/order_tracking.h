@@ -24,7 +24,7 @@ struct Orbit {
 };
 
 struct OrderTrack {
-  std::vector<double> t;                           // centres of the windows [s]
+  std::vector<double> t;                                // centres of the windows [s]
   std::vector<std::complex<double>> forward, backward;  // Z_n and Z_-n [m]
 };
 
@@ -33,8 +33,8 @@ OrderTrack TrackOrder(const Orbit& orbit, std::span<const double> theta, double 
                       double hop);
 
 struct WaterfallSpectrum {
-  std::vector<double> t;          // centres of the windows [s]
-  std::vector<double> frequency;  // [Hz], negative: backward
+  std::vector<double> t;                       // centres of the windows [s]
+  std::vector<double> frequency;               // [Hz], negative: backward
   std::vector<std::vector<double>> amplitude;  // [t][frequency], of a circular motion [m]
 };
 

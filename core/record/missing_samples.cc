@@ -27,17 +27,20 @@ void BridgeOne(std::vector<double>& y, std::vector<char>& gap) {
 }
 
 bool AnyMissing(const Channel& c) {
-  return !std::all_of(c.samples.begin(), c.samples.end(), [](double v) { return std::isfinite(v); });
+  return !std::all_of(c.samples.begin(), c.samples.end(),
+                      [](double v) { return std::isfinite(v); });
 }
 
 }  // namespace
 
-BridgedRecord BridgeMissing(const Record& record, double after, const std::function<bool(const std::string& name)>& drives) {
+BridgedRecord BridgeMissing(const Record& record, double after,
+                            const std::function<bool(const std::string& name)>& drives) {
   BridgedRecord out{record, {}};
   std::vector<Channel>& channels = out.record.channels;
   if (std::none_of(channels.begin(), channels.end(), AnyMissing)) return out;
   const std::size_t rows = record.rows();
-  std::erase_if(channels, [&](const Channel& c) { return rows > 0 && NextFinite(c.samples, 0) == rows; });
+  std::erase_if(channels,
+                [&](const Channel& c) { return rows > 0 && NextFinite(c.samples, 0) == rows; });
   out.in_gap.assign(rows, 0);
   std::vector<char> ignored(rows, 0);
   for (Channel& c : channels) BridgeOne(c.samples, drives(c.name) ? out.in_gap : ignored);

@@ -1,4 +1,5 @@
-/// The power amplifier: voltages of a period, exact discrete current loop, anti-windup, standing start.
+/// The power amplifier: voltages of a period, exact discrete current loop, anti-windup, standing
+/// start.
 #include "actuators/amplifier.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +35,8 @@ TEST(Amplifier, MeanVoltageOfEveryModulation) {
     EXPECT_NEAR(mean(Modulation::kBiState), d * (U - 2 * Us) - (1 - d) * (U + 2 * Uc), 1e-12) << d;
     const double drive = 2 * d - 1;
     const double driven = drive > 0 ? drive * (U - 2 * Us) : drive * (U + 2 * Uc);
-    EXPECT_NEAR(mean(Modulation::kTriState), driven - (1 - std::abs(drive)) * (Us + Uc), 1e-12) << d;
+    EXPECT_NEAR(mean(Modulation::kTriState), driven - (1 - std::abs(drive)) * (Us + Uc), 1e-12)
+        << d;
     EXPECT_NEAR(mean(Modulation::kChopper), d * U, 1e-12) << d;
     EXPECT_NEAR(mean(Modulation::kIdeal), d * U, 1e-12) << d;
   }
@@ -59,7 +61,8 @@ TEST(Amplifier, CurrentLoopIsTheDiscretePi) {
   }
 }
 
-// Beyond a limit on the side that e pushes to, the increment is dropped; on the other side it counts.
+// Beyond a limit on the side that e pushes to, the increment is dropped; on the other side it
+// counts.
 TEST(Amplifier, IntegralStandsStillAtTheLimit) {
   const AmplifierParameters p = Reference();
   PowerAmplifier a(p);
@@ -78,13 +81,15 @@ TEST(Amplifier, IntegralStandsStillAtTheLimit) {
 
 // A standing start: with no error the duty's mean voltage is R i, for every modulation.
 TEST(Amplifier, HoldCurrentStandsStill) {
-  for (Modulation m : {Modulation::kBiState, Modulation::kTriState, Modulation::kChopper, Modulation::kIdeal})
+  for (Modulation m :
+       {Modulation::kBiState, Modulation::kTriState, Modulation::kChopper, Modulation::kIdeal})
     for (double quadrants : {2.0, 4.0}) {
       AmplifierParameters p = Reference(m);
       p.quadrants = quadrants;
       PowerAmplifier a(p);
       a.HoldCurrent(3, 0.5);
-      EXPECT_NEAR(Mean(a.Pattern(a.CurrentLoop(3, 3), {}), 30, 40e-6), 1.5, 1e-12) << static_cast<int>(m) << quadrants;
+      EXPECT_NEAR(Mean(a.Pattern(a.CurrentLoop(3, 3), {}), 30, 40e-6), 1.5, 1e-12)
+          << static_cast<int>(m) << quadrants;
     }
 }
 
@@ -107,7 +112,8 @@ TEST(Amplifier, FaultsOfTheBridge) {
   EXPECT_NEAR(Mean(a.Pattern(0.02, bridge), 30, 40e-6), 29.75, 1e-12);
   bridge = {};
   bridge.dead_time = 1e-6;  // the on phase starts 1 us late
-  EXPECT_NEAR(Mean(a.Pattern(0.5, bridge), 30, 40e-6), Mean(a.Pattern(0.475, {}), 30, 40e-6), 1e-12);
+  EXPECT_NEAR(Mean(a.Pattern(0.5, bridge), 30, 40e-6), Mean(a.Pattern(0.475, {}), 30, 40e-6),
+              1e-12);
 }
 
 // Signed, 12 bits over ±10 A: 4.88 mA a step, nearest code, clipped.

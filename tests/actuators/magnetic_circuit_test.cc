@@ -11,7 +11,8 @@ namespace ambrig {
 namespace {
 
 constexpr double kX = 7e-5, kY = -4e-5;  // a third of the clearance off centre [m]
-constexpr double kL0 = 1.6e-3;           // N² mu0 A / g0 of the reference rig, five digits of its area [H]
+// N² mu0 A / g0 of the reference rig, five digits of its area [H]
+constexpr double kL0 = 1.6e-3;
 
 Lane SomeCurrents() { return {{2.4, 1.9, 0.7, 3.1, 2.2, 1.4, 0.2, 2.9}}; }
 
@@ -43,7 +44,8 @@ TEST(MagneticCircuit, ReferenceInductances) {
   EXPECT_NEAR(eigen.eigenvalues()[0], 0.35e-3, 1e-9);
   for (int k = 1; k < kPoles; ++k) EXPECT_NEAR(eigen.eigenvalues()[k], 1.95e-3, 1e-7);
   const CoilVector flux_free = eigen.eigenvectors().col(0) * std::sqrt(8.0);  // s_j i_j all equal
-  for (int k = 1; k < kPoles; ++k) EXPECT_NEAR(flux_free[k] * flux_free[0], k % 2 == 0 ? 1 : -1, 1e-9);
+  for (int k = 1; k < kPoles; ++k)
+    EXPECT_NEAR(flux_free[k] * flux_free[0], k % 2 == 0 ? 1 : -1, 1e-9);
 }
 
 struct GapRow {
@@ -64,8 +66,10 @@ TEST_P(PublishedGaps, SelfAndMutualInductance) {
   EXPECT_NEAR(-std::abs(L(0, 1)) / unit, mutual, 5e-5);
 }
 INSTANTIATE_TEST_SUITE_P(Facts, PublishedGaps,
-                         ::testing::Values(GapRow{0, 0.8750, 0.8750, -0.1250}, GapRow{0.1, 0.9576, 0.8063, -0.1487},
-                                           GapRow{0.2, 1.0586, 0.7483, -0.1783}, GapRow{0.3, 1.1852, 0.6987, -0.2162},
+                         ::testing::Values(GapRow{0, 0.8750, 0.8750, -0.1250},
+                                           GapRow{0.1, 0.9576, 0.8063, -0.1487},
+                                           GapRow{0.2, 1.0586, 0.7483, -0.1783},
+                                           GapRow{0.3, 1.1852, 0.6987, -0.2162},
                                            GapRow{0.5, 1.5670, 0.6186, -0.3349}));
 
 class EveryStator : public ::testing::TestWithParam<std::string> {
@@ -75,8 +79,8 @@ class EveryStator : public ::testing::TestWithParam<std::string> {
   double y() const { return radial() ? kY : 0; }
 };
 
-// At fixed currents of a linear circuit co-energy = field energy: F = +dW'/dx. Central difference with
-// h = 1e-7 m: error h²/6 of a third derivative 6 W/g³, 1e-7 of F.
+// At fixed currents of a linear circuit co-energy = field energy: F = +dW'/dx. Central difference
+// with h = 1e-7 m: error h²/6 of a third derivative 6 W/g³, 1e-7 of F.
 TEST_P(EveryStator, ForceIsTheGradientOfTheCoenergy) {
   const auto coenergy = [&](double x, double y) {
     lanes_.Settle(SomeCurrents(), x, y);
@@ -145,7 +149,8 @@ TEST_P(EveryStator, FluxBalances) {
     }
   }
 }
-INSTANTIATE_TEST_SUITE_P(Reference, EveryStator, ::testing::Values("A", "Z"), [](const auto& p) { return p.param; });
+INSTANTIATE_TEST_SUITE_P(Reference, EveryStator, ::testing::Values("A", "Z"),
+                         [](const auto& p) { return p.param; });
 
 // physics.md section 2: f = phi²/(mu0 A) a side, phi = mu0 A N (i1 + i2)/(2 g).
 TEST(MagneticCircuit, ThrustForceClosedForm) {
@@ -162,14 +167,16 @@ TEST(MagneticCircuit, ThrustForceClosedForm) {
   EXPECT_NEAR(f, pull(3.2, p.gap - z) - pull(2.0, p.gap + z), 1e-12 * f);
 }
 
-// facts.md 1.3: F = 4 kappa c0 v, k_i = 4 kappa c0, k_s = 4 kappa c0²/g0, hence k_i/k_s = g0/c0. The
-// reference rig: kappa 4 N/A², k_i 32 N/A, k_s 1.6e5 N/m (facts.md 1.6), 144 N with 6 A (1.6 too).
+// facts.md 1.3: F = 4 kappa c0 v, k_i = 4 kappa c0, k_s = 4 kappa c0²/g0, hence k_i/k_s = g0/c0.
+// The reference rig: kappa 4 N/A², k_i 32 N/A, k_s 1.6e5 N/m (facts.md 1.6), 144 N with 6 A (1.6
+// too).
 TEST(MagneticCircuit, ForceConstantAndNegativeStiffnessOfTheHealthyBearing) {
   StatorLanes lanes = LanesOf("A");
   const double c0 = 2, kappa = kL0 / 4e-4;
   const auto force = [&](double x, double vx, double vy, double bias) {
     Lane i;
-    for (int j = 0; j < kPoles; ++j) i[j] = bias + vx * lanes.direction_x[j] + vy * lanes.direction_y[j];
+    for (int j = 0; j < kPoles; ++j)
+      i[j] = bias + vx * lanes.direction_x[j] + vy * lanes.direction_y[j];
     lanes.Settle(i, x, 0);
     Eigen::Vector2d f;
     lanes.Force(x, 0, &f.x(), &f.y());
@@ -196,7 +203,8 @@ TEST(MagneticCircuit, TheFluxFreePatternCarriesNoForce) {
   lanes.Settle(SomeCurrents(), kX, kY);
   const Lane phi = lanes.phi;
   Lane shifted = SomeCurrents();
-  for (int j = 0; j < kPoles; ++j) shifted[j] -= (j % 2 == 0 ? 1 : -1) * SomeCurrents()[2];  // NSNSNSNS
+  // NSNSNSNS
+  for (int j = 0; j < kPoles; ++j) shifted[j] -= (j % 2 == 0 ? 1 : -1) * SomeCurrents()[2];
   lanes.Settle(shifted, kX, kY);
   EXPECT_EQ(lanes.i[2], 0);
   for (int j = 0; j < kPoles; ++j) EXPECT_NEAR(lanes.phi[j], phi[j], 1e-19);

@@ -9,7 +9,8 @@
 namespace ambrig {
 
 inline const RigParameters& ReferenceRig() {
-  static const RigParameters rig = ReadRig(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml");
+  static const RigParameters rig =
+      ReadRig(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml");
   return rig;
 }
 
@@ -29,7 +30,8 @@ inline VoltagePattern Constant(const Lane& voltage) {
   VoltagePattern p;
   for (int j = 0; j < kLanes; ++j)
     for (int q = 0; q < 3; ++q) p.drop[q][j] = voltage[j];
-  for (int j = 0; j < kLanes; ++j) p.gain[0][j] = p.gain[1][j] = p.gain[2][j] = voltage[j] > 0 ? 1e-300 : -1e-300;
+  for (int j = 0; j < kLanes; ++j)
+    p.gain[0][j] = p.gain[1][j] = p.gain[2][j] = voltage[j] > 0 ? 1e-300 : -1e-300;
   return p;
 }
 

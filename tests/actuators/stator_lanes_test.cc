@@ -1,5 +1,5 @@
-/// The lockstep update of the lanes against closed forms of RL circuits, with its order of convergence
-/// and its energy balance.
+/// The lockstep update of the lanes against closed forms of RL circuits, with its order of
+/// convergence and its energy balance.
 #include "actuators/stator_lanes.h"
 
 #include <gtest/gtest.h>
@@ -29,22 +29,26 @@ StatorLanes PaperCoil(double h) {
   return lanes;
 }
 
-// facts.md 0: with U_d - 2 U_s = 29.75 V the slope at zero current is 17 000 A/s less 0.25 V / 1.75 mH at
-// 0.5 A: 16 857.1 A/s, and 16 761.1 after 20 us of Eq. 9. The trapezoid holds them to (R h/2L)²/3.
+// facts.md 0: with U_d - 2 U_s = 29.75 V the slope at zero current is 17 000 A/s less 0.25 V / 1.75
+// mH at 0.5 A: 16 857.1 A/s, and 16 761.1 after 20 us of Eq. 9. The trapezoid holds them to (R
+// h/2L)²/3.
 TEST(StatorLanes, PaperSlopesOfOneCoil) {
   const double h = kT / 18;
   StatorLanes lanes = PaperCoil(h);
   lanes.RunPeriod(Constant({{29.75}}), 30, 0, 0, 0, 0, 18);
   const double tau = 3.5e-3, settled = 29.75 / 0.5;
   for (int k = 0; k < 18; ++k)
-    EXPECT_NEAR(lanes.samples[k][0], settled + (0.5 - settled) * std::exp(-k * h / tau), (k + 0.01) * kPerStep) << k;
+    EXPECT_NEAR(lanes.samples[k][0], settled + (0.5 - settled) * std::exp(-k * h / tau),
+                (k + 0.01) * kPerStep)
+        << k;
   const double slope = (lanes.samples[1][0] - lanes.samples[0][0]) / h;
   EXPECT_NEAR(slope, 16857.1 * (1 - 0.5 * h / tau), 0.1);
   const double later = (lanes.samples[10][0] - lanes.samples[9][0]) / h;
   EXPECT_NEAR(later, 16761.1 * (1 - 0.5 * h / tau), 0.1);
 }
 
-// i_(n+1) = i_n (1 - a)/(1 + a) + h v/(L (1 + a)), a = R h/2L: what a trapezoid must be, to rounding.
+// i_(n+1) = i_n (1 - a)/(1 + a) + h v/(L (1 + a)), a = R h/2L: what a trapezoid must be, to
+// rounding.
 TEST(StatorLanes, StepIsTheTrapezoid) {
   const double h = kT / 2, a = 0.5 * h / 3.5e-3;
   StatorLanes lanes = PaperCoil(h);
@@ -70,7 +74,8 @@ TEST(StatorLanes, ConvergesWithOrderTwo) {
   EXPECT_NEAR(std::log2(error[1] / error[2]), 2, 0.01);
 }
 
-// A switching edge anywhere inside a sample: its volt-seconds are exact, so a coil without resistance is.
+// A switching edge anywhere inside a sample: its volt-seconds are exact, so a coil without
+// resistance is.
 TEST(StatorLanes, EdgeInsideASampleIsExact) {
   for (double edge : {0.31 * kT, 0.5 * kT, 0.777 * kT}) {
     StatorLanes lanes = PaperCoil(kT / 18);
@@ -85,7 +90,8 @@ TEST(StatorLanes, EdgeInsideASampleIsExact) {
   }
 }
 
-// Off at -31.4 V the diodes end the current at t = τ ln(1 + i0 R/V); then nothing, until the switch closes.
+// Off at -31.4 V the diodes end the current at t = τ ln(1 + i0 R/V); then nothing, until the switch
+// closes.
 TEST(StatorLanes, DiodesEndTheCurrent) {
   const double h = kT / 18, V = 31.4, ends = 3.5e-3 * std::log1p(0.5 * 0.5 / V);
   for (bool general : {false, true}) {
@@ -99,7 +105,8 @@ TEST(StatorLanes, DiodesEndTheCurrent) {
       lanes.RunPeriod(off, 30, 0, 0, 0, 0, 18);
     }
     for (int k = 0; k < 18; ++k) {
-      const double t = k * h, exact = t < ends ? -V / 0.5 + (0.5 + V / 0.5) * std::exp(-t / 3.5e-3) : 0;
+      const double t = k * h,
+                   exact = t < ends ? -V / 0.5 + (0.5 + V / 0.5) * std::exp(-t / 3.5e-3) : 0;
       EXPECT_NEAR(lanes.samples[k][0], exact, (k + 1) * 1.1 * kPerStep) << k;
       EXPECT_GE(lanes.samples[k][0], 0);
     }
@@ -135,8 +142,8 @@ TEST(StatorLanes, SlopesOfCoupledCoils) {
   EXPECT_NEAR(slopes(-1, one)[0], 2.045, 5e-4);  // the others held at 0 V
 }
 
-// The motion's own voltage: at fixed linkage (no voltage, no resistance) the currents of a moving rotor are
-// those that Refresh finds at its new place.
+// The motion's own voltage: at fixed linkage (no voltage, no resistance) the currents of a moving
+// rotor are those that Refresh finds at its new place.
 TEST(StatorLanes, MotionChangesCurrentsAtFixedLinkage) {
   StatorLanes lanes = LanesOf("A");
   lanes.resistance = All(0);
@@ -149,8 +156,8 @@ TEST(StatorLanes, MotionChangesCurrentsAtFixedLinkage) {
   EXPECT_GT(std::abs(lanes.i[0] - 2), 0.05);
 }
 
-/// Electrical input - copper - field - work on the rotor over some periods along a path, relative to the
-/// input. Mean of current and flux over each step, as the update has them.
+/// Electrical input - copper - field - work on the rotor over some periods along a path, relative
+/// to the input. Mean of current and flux over each step, as the update has them.
 double EnergyLeft(int steps) {
   StatorLanes lanes = LanesOf("A");
   const double h = kT / steps, speed = 0.1;  // [m/s]

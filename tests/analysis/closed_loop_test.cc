@@ -30,7 +30,8 @@ struct Linearised {
 
 /// Readings of all axes under a step of force on one, from the recursion.
 Eigen::MatrixXd LinearStep(const ClosedLoop& loop, Eigen::Index axis, double amplitude, int ticks) {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(loop.states()), u = Eigen::VectorXd::Zero(loop.Gamma.cols());
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(loop.states()),
+                  u = Eigen::VectorXd::Zero(loop.Gamma.cols());
   u(loop.Excitation(axis)) = amplitude;
   Eigen::MatrixXd y(ticks, loop.axes());
   for (int k = 0; k < ticks; ++k) {
@@ -41,7 +42,8 @@ Eigen::MatrixXd LinearStep(const ClosedLoop& loop, Eigen::Index axis, double amp
 }
 
 /// The same of the switching rig: with the step less without it.
-Eigen::MatrixXd SwitchingStep(const RigParameters& rig, const std::string& target, double amplitude, double speed, int ticks) {
+Eigen::MatrixXd SwitchingStep(const RigParameters& rig, const std::string& target, double amplitude,
+                              double speed, int ticks) {
   Scenario s;
   s.name = "step";
   s.noise = false;
@@ -80,13 +82,16 @@ TEST_P(StepResponse, IsThatOfTheSwitchingRig) {
   const RigParameters rig = ReferenceRig();
   const Linearised l(rig, speed);
   constexpr int kTicks = 250;
-  const Eigen::MatrixXd linear = LinearStep(l.loop, axis, 0.5, kTicks), real = SwitchingStep(rig, names[axis], 0.5, speed, kTicks);
+  const Eigen::MatrixXd linear = LinearStep(l.loop, axis, 0.5, kTicks),
+                        real = SwitchingStep(rig, names[axis], 0.5, speed, kTicks);
   const double size = linear.col(axis).cwiseAbs().maxCoeff();
   EXPECT_GT(size, 1e-7);
   EXPECT_LT((linear - real).cwiseAbs().maxCoeff(), 0.01 * size);
 }
 
-INSTANTIATE_TEST_SUITE_P(Axes, StepResponse, testing::Values(std::tuple(0, 0.0), std::tuple(3, 400.0), std::tuple(4, 0.0)));
+INSTANTIATE_TEST_SUITE_P(Axes, StepResponse,
+                         testing::Values(std::tuple(0, 0.0), std::tuple(3, 400.0),
+                                         std::tuple(4, 0.0)));
 
 // The frequency response is the recursion's steady state.
 TEST(ClosedLoop, ResponseIsTheSteadyStateOfTheRecursion) {
@@ -94,7 +99,8 @@ TEST(ClosedLoop, ResponseIsTheSteadyStateOfTheRecursion) {
   const TransferFunction transfer(l.point, l.loop);
   const double omega = 2 * kPi * 75;
   const Complex expected = transfer(omega)(l.loop.Reading(1), l.loop.Excitation(0));
-  Eigen::VectorXcd x = Eigen::VectorXcd::Zero(l.loop.states()), u = Eigen::VectorXcd::Zero(l.loop.Gamma.cols());
+  Eigen::VectorXcd x = Eigen::VectorXcd::Zero(l.loop.states()),
+                   u = Eigen::VectorXcd::Zero(l.loop.Gamma.cols());
   Complex y;
   const double radius = FindModes(l.point, l.loop).spectral_radius;
   ASSERT_LT(radius, 1);
@@ -125,10 +131,11 @@ TEST(ClosedLoop, FastRotorTurnsAboutItsMass) {
 
 // The continuous disturbance as a very short hold: against the same force held over each period by
 // the excitation-free recursion there is no such input, so compare with a slow force, where the
-// levitated rotor's displacement per force is that of a constant force on a rotor without integrator.
+// levitated rotor's displacement per force is that of a constant force on a rotor without
+// integrator.
 TEST(ClosedLoop, LoadAtTheMagnetsIsAForceCommandWhenSlow) {
-  // At 5 Hz delays vanish: a load of 1 N and a commanded force of 1 N move the shaft alike up to the
-  // phase of the delay, (1.5 Ts + T/2) ω = 0.4 %.
+  // At 5 Hz delays vanish: a load of 1 N and a commanded force of 1 N move the shaft alike up to
+  // the phase of the delay, (1.5 Ts + T/2) ω = 0.4 %.
   const Linearised l(ReferenceRig());
   const TransferFunction transfer(l.point, l.loop);
   const double omega = 2 * kPi * 5;
@@ -139,12 +146,14 @@ TEST(ClosedLoop, LoadAtTheMagnetsIsAForceCommandWhenSlow) {
 
 // A loop delay of whole periods acts as that many in the switching rig.
 TEST(ClosedLoop, LoopDelay) {
-  RigParameters rig = ReadRigText(ReferenceRigText() +
-                                      "\n[[effect]]\nname = \"loop-delay\"\ntarget = \"rig\"\nparameters = { time = 6.0e-5 }\n",
-                                  "delayed.toml");
+  RigParameters rig = ReadRigText(
+      ReferenceRigText() +
+          "\n[[effect]]\nname = \"loop-delay\"\ntarget = \"rig\"\nparameters = { time = 6.0e-5 }\n",
+      "delayed.toml");
   const Linearised l(rig);
   constexpr int kTicks = 120;
-  const Eigen::MatrixXd linear = LinearStep(l.loop, 0, 0.5, kTicks), real = SwitchingStep(rig, "A.x", 0.5, 0, kTicks);
+  const Eigen::MatrixXd linear = LinearStep(l.loop, 0, 0.5, kTicks),
+                        real = SwitchingStep(rig, "A.x", 0.5, 0, kTicks);
   const double size = linear.col(0).cwiseAbs().maxCoeff();
   EXPECT_LT((linear - real).cwiseAbs().maxCoeff(), 0.01 * size);
 }
@@ -154,10 +163,12 @@ TEST(ClosedLoop, LoopDelay) {
 class InjectedSine : public testing::TestWithParam<std::tuple<int, double, double>> {};
 
 /// The sine in the nonlinear switching rig against the linear model: complex S within 2 %.
-void ExpectMeasuredIsComputed(const RigParameters& rig, int axis, double frequency, double speed, const std::string& what) {
+void ExpectMeasuredIsComputed(const RigParameters& rig, int axis, double frequency, double speed,
+                              const std::string& what) {
   const Linearised l(rig, speed);
   const TransferFunction transfer(l.point, l.loop);
-  const Complex computed = transfer(2 * kPi * frequency)(l.loop.Command(axis), l.loop.Excitation(axis));
+  const Complex computed =
+      transfer(2 * kPi * frequency)(l.loop.Command(axis), l.loop.Excitation(axis));
   SineTest test;
   test.axis = static_cast<std::size_t>(axis);
   test.frequency = frequency;
@@ -165,7 +176,8 @@ void ExpectMeasuredIsComputed(const RigParameters& rig, int axis, double frequen
   test.speed = speed;
   const Complex measured = MeasureSensitivity(rig, test);
   EXPECT_LT(std::abs(measured - computed), 0.02 * std::abs(computed))
-      << what << ", axis " << axis << ", " << frequency << " Hz: measured " << measured << ", computed " << computed;
+      << what << ", axis " << axis << ", " << frequency << " Hz: measured " << measured
+      << ", computed " << computed;
 }
 
 TEST_P(InjectedSine, ShowsTheComputedSensitivity) {
@@ -174,9 +186,11 @@ TEST_P(InjectedSine, ShowsTheComputedSensitivity) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Frequencies, InjectedSine,
-                         testing::Values(std::tuple(0, 20.0, 0.0), std::tuple(0, 60.0, 0.0), std::tuple(1, 110.0, 0.0),
-                                         std::tuple(0, 200.0, 300.0), std::tuple(3, 350.0, 0.0), std::tuple(2, 700.0, 300.0),
-                                         std::tuple(0, 1500.0, 0.0), std::tuple(4, 90.0, 0.0), std::tuple(4, 400.0, 0.0)));
+                         testing::Values(std::tuple(0, 20.0, 0.0), std::tuple(0, 60.0, 0.0),
+                                         std::tuple(1, 110.0, 0.0), std::tuple(0, 200.0, 300.0),
+                                         std::tuple(3, 350.0, 0.0), std::tuple(2, 700.0, 300.0),
+                                         std::tuple(0, 1500.0, 0.0), std::tuple(4, 90.0, 0.0),
+                                         std::tuple(4, 400.0, 0.0)));
 
 // Whatever controls it. At 900 rad/s the unbalance control is at work.
 TEST(InjectedSineWith, EveryKindOfController) {
@@ -185,18 +199,22 @@ TEST(InjectedSineWith, EveryKindOfController) {
       ExpectMeasuredIsComputed(RigWith(kind.controller), 1, frequency, 900, kind.name);
 }
 
-// The flexible rig: its modes at 16.6 and 105.6 Hz ring for seconds, the measurement lasts tenths of one.
+// The flexible rig: its modes at 16.6 and 105.6 Hz ring for seconds, the measurement lasts tenths
+// of one.
 class InjectedSineFlexible : public testing::TestWithParam<std::tuple<int, double, double>> {};
 
 TEST_P(InjectedSineFlexible, ShowsTheComputedSensitivity) {
   const auto [axis, frequency, speed] = GetParam();
-  ExpectMeasuredIsComputed(ReadRig(AMBRIG_SOURCE_DIR "/examples/tum_mbtr/rig.toml"), axis, frequency, speed, "TUM MBTR");
+  ExpectMeasuredIsComputed(ReadRig(AMBRIG_SOURCE_DIR "/examples/tum_mbtr/rig.toml"), axis,
+                           frequency, speed, "TUM MBTR");
 }
 
 INSTANTIATE_TEST_SUITE_P(Frequencies, InjectedSineFlexible,
-                         testing::Values(std::tuple(0, 15.0, 0.0), std::tuple(2, 20.0, 0.0), std::tuple(1, 60.0, 0.0),
-                                         std::tuple(3, 104.0, 0.0), std::tuple(0, 180.0, 0.0), std::tuple(2, 400.0, 0.0),
-                                         std::tuple(0, 1500.0, 0.0), std::tuple(0, 20.0, 250.0), std::tuple(3, 75.0, 250.0)));
+                         testing::Values(std::tuple(0, 15.0, 0.0), std::tuple(2, 20.0, 0.0),
+                                         std::tuple(1, 60.0, 0.0), std::tuple(3, 104.0, 0.0),
+                                         std::tuple(0, 180.0, 0.0), std::tuple(2, 400.0, 0.0),
+                                         std::tuple(0, 1500.0, 0.0), std::tuple(0, 20.0, 250.0),
+                                         std::tuple(3, 75.0, 250.0)));
 
 TEST(InjectedSineWith, EveryKindOfControllerOnTheFlexibleRig) {
   const std::string text = ReadText(AMBRIG_SOURCE_DIR "/examples/tum_mbtr/rig.toml");
@@ -204,9 +222,11 @@ TEST(InjectedSineWith, EveryKindOfControllerOnTheFlexibleRig) {
   ASSERT_NE(begin, std::string::npos);
   ASSERT_NE(end, std::string::npos);
   for (const std::string kind : {"kind = \"lqg\"\n", "kind = \"h-infinity\"\n"}) {
-    const RigParameters rig = ReadRigText(text.substr(0, begin) + kind + "rate = 12500.0\n" + text.substr(end),
-                                          AMBRIG_SOURCE_DIR "/examples/tum_mbtr/other.toml");
-    for (const double frequency : {30.0, 90.0, 500.0}) ExpectMeasuredIsComputed(rig, 0, frequency, 0, kind);
+    const RigParameters rig =
+        ReadRigText(text.substr(0, begin) + kind + "rate = 12500.0\n" + text.substr(end),
+                    AMBRIG_SOURCE_DIR "/examples/tum_mbtr/other.toml");
+    for (const double frequency : {30.0, 90.0, 500.0})
+      ExpectMeasuredIsComputed(rig, 0, frequency, 0, kind);
   }
 }
 

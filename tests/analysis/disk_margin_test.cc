@@ -1,4 +1,5 @@
-// Joint margins against closed forms, against every phase tried, and against the poles of a changed loop.
+// Joint margins against closed forms, against every phase tried, and against the poles of a changed
+// loop.
 #include "analysis/disk_margin.h"
 
 #include <gtest/gtest.h>
@@ -45,7 +46,8 @@ TEST(StructuredSingularValue, OfTwoCrossedLoops) {
   M(1, 0) = -0.02;
   EXPECT_NEAR(LeastUpperBound(M).value, 1, 1e-3);
   EXPECT_NEAR(LargestLowerBound(M).value, 1, 1e-9);
-  M(1, 0) = 0;  // one way only: no Δ closes a loop; the bound goes to 0 with the reach of the scaling
+  // one way only: no Δ closes a loop; the bound goes to 0 with the reach of the scaling
+  M(1, 0) = 0;
   EXPECT_LT(LeastUpperBound(M).value, 1e-3);
 }
 
@@ -58,7 +60,10 @@ TEST(StructuredSingularValue, OfThreeLoopsIsTheWorstOfAllPhases) {
     for (int a = 0; a < 90; ++a)
       for (int b = 0; b < 90; ++b) {
         Eigen::Vector3cd q(1, std::polar(1.0, a * kPi / 45), std::polar(1.0, b * kPi / 45));
-        mu = std::max(mu, Eigen::ComplexEigenSolver<MatrixXcd>(M * q.asDiagonal(), false).eigenvalues().cwiseAbs().maxCoeff());
+        mu = std::max(mu, Eigen::ComplexEigenSolver<MatrixXcd>(M * q.asDiagonal(), false)
+                              .eigenvalues()
+                              .cwiseAbs()
+                              .maxCoeff());
       }
     const double upper = LeastUpperBound(M).value;
     EXPECT_GE(upper, mu * (1 - 1e-12));
@@ -80,12 +85,14 @@ TEST(StructuredSingularValue, TheBoundIsTheLeastOfManyScalings) {
   for (int k = 0; k < 2000; ++k) {
     Eigen::VectorXd x(5);
     for (double& value : x) value = normal(random);
-    const MatrixXcd scaled = x.array().exp().matrix().asDiagonal() * M * (-x).array().exp().matrix().asDiagonal();
+    const MatrixXcd scaled =
+        x.array().exp().matrix().asDiagonal() * M * (-x).array().exp().matrix().asDiagonal();
     EXPECT_GE(scaled.jacobiSvd().singularValues()(0), upper.value * (1 - 1.01e-4));
   }
 }
 
-// Doyle's spinning body: two integrators coupled by the speed a. Each loop alone has an infinite gain margin
+// Doyle's spinning body: two integrators coupled by the speed a. Each loop alone has an infinite
+// gain margin
 // and 90 degrees (α = 2); together  S - I/2 = [(s - 1)/2  -a; a  (s - 1)/2]/(s + 1), normal and with equal
 // off-diagonals: no scaling helps, μ² = (1/4 + (ω/2 + a)²)/(1 + ω²) at the worse sign.
 TEST(DiskMargin, OfTheSpinningBodyInClosedForm) {
@@ -101,13 +108,15 @@ TEST(DiskMargin, OfTheSpinningBodyInClosedForm) {
     S.push_back(m / (s + 1.0));
     frequency.push_back(omega / (2 * kPi));
     alone = std::max(alone, std::abs(S.back()(0, 0) - 0.5));
-    together = std::max(together, std::sqrt((0.25 + (omega / 2 + a) * (omega / 2 + a)) / (1 + omega * omega)));
+    together = std::max(
+        together, std::sqrt((0.25 + (omega / 2 + a) * (omega / 2 + a)) / (1 + omega * omega)));
   }
   EXPECT_NEAR(1 / alone, 2, 1e-3);
   const auto joint = FindJointMargins(frequency, S);
   ASSERT_EQ(joint.size(), 1u);
   EXPECT_NEAR(joint[0].alpha * together, 1, 2e-4);
-  EXPECT_NEAR(joint[0].reached * together, 1, 1e-4);  // the bound chooses among neighbouring frequencies
+  // the bound chooses among neighbouring frequencies
+  EXPECT_NEAR(joint[0].reached * together, 1, 1e-4);
   EXPECT_LT(joint[0].alpha, 0.11);  // a tenth where each alone bears two
   EXPECT_NEAR(DiskGainUp(joint[0].alpha), (2 + 1 / together) / (2 - 1 / together), 1e-4);
 }
@@ -138,13 +147,15 @@ TEST(DiskMargin, AxesThatDoNotMoveOneAnotherStandAlone) {
 double Radius(const ClosedLoop& loop, const Eigen::VectorXcd& factor) {
   const auto n = loop.axes();
   const Eigen::VectorXcd more = factor.array() - 1.0;
-  const MatrixXcd Phi = loop.Phi.cast<Complex>() + loop.Gamma.middleCols(loop.Excitation(0), n).cast<Complex>() *
-                                                       more.asDiagonal() * loop.C.middleRows(loop.Command(0), n).cast<Complex>();
+  const MatrixXcd Phi =
+      loop.Phi.cast<Complex>() + loop.Gamma.middleCols(loop.Excitation(0), n).cast<Complex>() *
+                                     more.asDiagonal() *
+                                     loop.C.middleRows(loop.Command(0), n).cast<Complex>();
   return Eigen::ComplexEigenSolver<MatrixXcd>(Phi, false).eigenvalues().cwiseAbs().maxCoeff();
 }
 
-// The rig: within the margin every combination of gains is stable, and the change that was found puts a pole on
-// the unit circle.
+// The rig: within the margin every combination of gains is stable, and the change that was found
+// puts a pole on the unit circle.
 TEST(DiskMargin, IsWhereTheRigsPolesReachTheCircle) {
   const RigParameters rig = ReadRigText(ReferenceRigText(), "rig.toml");
   const OperatingPoint point = FindOperatingPoint(rig);

@@ -27,7 +27,8 @@ TEST_F(Bearing, CentredConstants) {
   const LinearBearing b = LineariseBearing(lanes_, bias, 0, 0);
   ASSERT_EQ(b.coils.size(), 8u);
   const RadialStator stator(p);
-  const Eigen::Vector2d ki(b.ForceOfCurrent().row(0) * stator.cosine(), b.ForceOfCurrent().row(1) * stator.cosine());
+  const Eigen::Vector2d ki(b.ForceOfCurrent().row(0) * stator.cosine(),
+                           b.ForceOfCurrent().row(1) * stator.cosine());
   EXPECT_NEAR(ki.x(), 4 * kappa * i0, 1e-9 * ki.x());
   EXPECT_NEAR(ki.y(), 0, 1e-9 * ki.x());
   const Eigen::Matrix2d ks = b.NegativeStiffness();
@@ -61,7 +62,10 @@ TEST_F(Bearing, DerivativesAreThoseOfTheDisplacedCircuit) {
   // Central differences; truncation (h/g0)² = 6e-10 of a derivative, rounding 1e-16/(h/g0).
   const double h = 1e-8, dl = 1e-7;
   for (int axis = 0; axis < 2; ++axis) {
-    const auto slope = ((solve(axis == 0 ? h : 0, axis == 1 ? h : 0, 0, 0) - solve(axis == 0 ? -h : 0, axis == 1 ? -h : 0, 0, 0)) / (2 * h)).eval();
+    const auto slope = ((solve(axis == 0 ? h : 0, axis == 1 ? h : 0, 0, 0) -
+                         solve(axis == 0 ? -h : 0, axis == 1 ? -h : 0, 0, 0)) /
+                        (2 * h))
+                           .eval();
     EXPECT_LT((slope.head<8>() - b.I_r.col(axis)).norm(), 1e-6 * b.I_r.norm());
     EXPECT_LT((slope.tail<2>() - b.F_r.col(axis)).norm(), 1e-6 * b.F_r.norm());
   }
@@ -71,7 +75,8 @@ TEST_F(Bearing, DerivativesAreThoseOfTheDisplacedCircuit) {
     EXPECT_LT((slope.tail<2>() - b.F_lambda.col(j)).norm(), 1e-6 * b.F_lambda.norm());
   }
   // Reciprocity: dλ/dx at constant current is df/di at constant position (facts.md, trap 4).
-  EXPECT_LT((b.Inductance() * -b.I_r - b.ForceOfCurrent().transpose()).norm(), 1e-9 * b.ForceOfCurrent().norm());
+  EXPECT_LT((b.Inductance() * -b.I_r - b.ForceOfCurrent().transpose()).norm(),
+            1e-9 * b.ForceOfCurrent().norm());
 }
 
 // What a coil told 0 A cannot do: its diodes block, it carries nothing and is no state.

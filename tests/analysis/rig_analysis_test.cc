@@ -26,7 +26,8 @@ TEST(Standards, Zones) {
 
 TEST(Standards, SeparationMargins) {
   // AF 5: 17 (1 - 1/3.5) = 12.14 below, 22.14 above.
-  const SeparationMargin below = JudgeSeparation(850, 5, 1000, 2000), above = JudgeSeparation(2400, 5, 1000, 2000);
+  const SeparationMargin below = JudgeSeparation(850, 5, 1000, 2000),
+                         above = JudgeSeparation(2400, 5, 1000, 2000);
   EXPECT_NEAR(below.required, 17 * (1 - 1 / 3.5), 1e-12);
   EXPECT_NEAR(below.actual, 15, 1e-9);
   EXPECT_TRUE(below.met);
@@ -49,13 +50,14 @@ TEST(Stiffness, OfTheBearingWhenSlow) {
   const AxisCapacity c = FindCapacity(point)[0];
   // Nominal force per command is k c0 of the centred bearing; at the operating point k_i differs.
   const double gain = c.k_i / (point.sampled->control[0].map.k * point.sampled->control[0].map.c0);
-  const std::complex<double> expected = gain * std::complex<double>(pid.kp, omega * pid.kd - pid.ki / omega) - c.k_s;
+  const std::complex<double> expected =
+      gain * std::complex<double>(pid.kp, omega * pid.kd - pid.ki / omega) - c.k_s;
   // Delay of 1.5 controller periods and the current loop turns the command by about 1 %.
   EXPECT_LT(std::abs(s.axes[0].bearing[0] - expected), 0.03 * std::abs(expected));
 }
 
-// One axis as mass on its bearing: rotor stiffness = K - m ω² for a pure translation. The thrust axis
-// is exactly that.
+// One axis as mass on its bearing: rotor stiffness = K - m ω² for a pure translation. The thrust
+// axis is exactly that.
 TEST(Stiffness, LevitatedRotorIsBearingAndMass) {
   const RigParameters rig = ReferenceRig();
   const OperatingPoint point = FindOperatingPoint(rig);
@@ -79,13 +81,18 @@ TEST(Supports, RigidRotorOnSprings) {
   const RotorOnSupports s = AnalyseSupports(point, 4);
   EXPECT_TRUE(s.free.empty());
   ASSERT_EQ(s.supported.size(), 2u);
-  const double k = s.supports[0].net(), za = -0.12, zb = 0.13, m = rig.rotor.mass, It = rig.rotor.inertia_transverse;
+  const double k = s.supports[0].net(), za = -0.12, zb = 0.13, m = rig.rotor.mass,
+               It = rig.rotor.inertia_transverse;
   // 2 x 2: translation and tilt.
-  const double a = 2 * k / m, b = k * (za + zb) / std::sqrt(m * It), c = k * (za * za + zb * zb) / It;
+  const double a = 2 * k / m, b = k * (za + zb) / std::sqrt(m * It),
+               c = k * (za * za + zb * zb) / It;
   const double root = std::sqrt(0.25 * (a - c) * (a - c) + b * b);
-  EXPECT_NEAR(s.supported[0].frequency, std::sqrt(0.5 * (a + c) - root) / (2 * kPi), 1e-6 * s.supported[0].frequency);
-  EXPECT_NEAR(s.supported[1].frequency, std::sqrt(0.5 * (a + c) + root) / (2 * kPi), 1e-6 * s.supported[1].frequency);
-  // Undamped critical speeds lie on both sides of them: Ip lowers the backward, raises the forward tilt.
+  EXPECT_NEAR(s.supported[0].frequency, std::sqrt(0.5 * (a + c) - root) / (2 * kPi),
+              1e-6 * s.supported[0].frequency);
+  EXPECT_NEAR(s.supported[1].frequency, std::sqrt(0.5 * (a + c) + root) / (2 * kPi),
+              1e-6 * s.supported[1].frequency);
+  // Undamped critical speeds lie on both sides of them: Ip lowers the backward, raises the forward
+  // tilt.
   ASSERT_GE(s.critical.size(), 3u);
   EXPECT_FALSE(s.map.empty());
 }
@@ -98,7 +105,8 @@ TEST(Capacity, OfTheReferenceRig) {
   const double k = 4 * kMu0 * p.turns * p.turns * p.pole_area / (p.gap * p.gap), c0 = 2;
   const double cosine = std::cos(22.5 * kPi / 180);
   EXPECT_NEAR(c[0].k_i, k * c0, 1e-9 * c[0].k_i);
-  EXPECT_NEAR(c[0].linear, k * c0 * c0 / cosine, 1e-9 * c[0].linear);  // the coil opposite reaches 0 A
+  // the coil opposite reaches 0 A
+  EXPECT_NEAR(c[0].linear, k * c0 * c0 / cosine, 1e-9 * c[0].linear);
   EXPECT_NEAR(c[0].usable(), std::min(c[0].linear, 60.0), 1e-9);
   EXPECT_GE(c[0].largest, c[0].linear);
   // Slew: every coil needs L_eff w v', the carrying patterns see N²P + L_l = 1.95 mH; voltage left
@@ -128,7 +136,7 @@ TEST(Analysis, OfTheReferenceRig) {
   // API's residual unbalance: 6350 W/N g mm a plane, in kg m.
   double sum = 0;
   for (const PlaneUnbalance& p : a.unbalance[0].unbalance.planes) sum += p.magnitude;
-  EXPECT_NEAR(sum, 6350e-6 * 4.2 / (600 * 30 / kPi) , 1e-6 * sum);
+  EXPECT_NEAR(sum, 6350e-6 * 4.2 / (600 * 30 / kPi), 1e-6 * sum);
 }
 
 // A gain beyond its margins is unstable, within them stable: the controller's gains multiplied.
@@ -156,10 +164,11 @@ class AnalyzeCommand : public CliFolder {};
 
 TEST_F(AnalyzeCommand, BadInputIsOneLine) {
   Write("rig.toml", ReferenceRigText());
-  for (const char* arguments : {"analyze rig.toml --speed fast", "analyze rig.toml --speed 900:300", "analyze none.toml",
-                                "analyze rig.toml --response A.x.force:Q.x", "analyze rig.toml --response A.x.push:A.x",
-                                "analyze rig.toml --speed 3000 --max-speed 2000", "analyze rig.toml --measure 0",
-                                "analyze rig.toml --measure 1 --sine 1e4"}) {
+  for (const char* arguments :
+       {"analyze rig.toml --speed fast", "analyze rig.toml --speed 900:300", "analyze none.toml",
+        "analyze rig.toml --response A.x.force:Q.x", "analyze rig.toml --response A.x.push:A.x",
+        "analyze rig.toml --speed 3000 --max-speed 2000", "analyze rig.toml --measure 0",
+        "analyze rig.toml --measure 1 --sine 1e4"}) {
     const Outcome o = Ambrig(arguments);
     EXPECT_EQ(o.exit, 2) << arguments;
     EXPECT_EQ(o.lines(), 1) << o.text;
@@ -175,8 +184,10 @@ TEST_F(AnalyzeCommand, WritesSummaryJsonAndPage) {
   EXPECT_NE(json.find("\"zone\": \"A\""), std::string::npos);
   EXPECT_NE(json.find("\"worst_gain\""), std::string::npos);
   EXPECT_NE(o.text.find("joint margin"), std::string::npos);
-  EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("Campbell diagram"), std::string::npos);
-  EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("joint disk margin"), std::string::npos);
+  EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("Campbell diagram"),
+            std::string::npos);
+  EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("joint disk margin"),
+            std::string::npos);
   const Outcome again = Ambrig("analyze rig.toml --speed 3000 -o again");
   EXPECT_EQ(json, ReadText(folder_ / "again/rig.analysis.json"));
 }

@@ -1,5 +1,5 @@
-// Reports of compare, explain and adopt from two short records of the reference rig whose "measurements"
-// are simulated with a hidden side pull at A.
+// Reports of compare, explain and adopt from two short records of the reference rig whose
+// "measurements" are simulated with a hidden side pull at A.
 #include "app/report/discovery_report.h"
 
 #include <gmock/gmock.h>
@@ -22,8 +22,8 @@ namespace ambrig {
 namespace {
 
 using ::testing::HasSubstr;
-using testing::TemporaryFolder;
 using ::testing::Not;
+using testing::TemporaryFolder;
 
 const char* kForced = R"(name = "multisine"
 rig = "rig.toml"
@@ -69,7 +69,8 @@ EffectInstance SidePull() {
   return e;
 }
 
-CaseRecord MeasuredRecord(const RigParameters& truth, const RigParameters& rig, const std::string& text, const std::string& name, bool validate) {
+CaseRecord MeasuredRecord(const RigParameters& truth, const RigParameters& rig,
+                          const std::string& text, const std::string& name, bool validate) {
   CaseRecord r;
   r.data_file = "folder/" + name + ".h5";
   r.scenario = ReadScenarioText(text, name + ".toml", rig);
@@ -79,7 +80,8 @@ CaseRecord MeasuredRecord(const RigParameters& truth, const RigParameters& rig, 
   r.data.start = full.start;
   for (const char* channel : {"A.x", "A.y", "B.x", "A.i1", "A.i2", "bus"})
     if (const Channel* c = full.Find(channel)) r.data.channels.push_back(*c);
-  for (const Channel& c : r.data.channels) r.quality.push_back({c.name, "good", true, std::vector<char>(c.samples.size(), 1), 0, 0});
+  for (const Channel& c : r.data.channels)
+    r.quality.push_back({c.name, "good", true, std::vector<char>(c.samples.size(), 1), 0, 0});
   return r;
 }
 
@@ -168,7 +170,8 @@ void ExpectSections(const std::string& html, const std::vector<std::string>& sec
 // Our markup alone: the plotting library's source names addresses in comments.
 void ExpectSelfContained(const std::string& html) {
   EXPECT_GT(html.size(), 1'000'000u) << "the plotting library is inside";
-  for (const char* outside : {"<script src", "<link", "<img"}) EXPECT_THAT(html, Not(HasSubstr(outside)));
+  for (const char* outside : {"<script src", "<link", "<img"})
+    EXPECT_THAT(html, Not(HasSubstr(outside)));
 }
 
 TEST_F(DiscoveryReport, CompareHasEveryPicture) {
@@ -176,9 +179,13 @@ TEST_F(DiscoveryReport, CompareHasEveryPicture) {
   WriteCompareReport(*model_, *before_, folder.File("c.html"));
   const std::string html = Read(folder.File("c.html"));
   ExpectSelfContained(html);
-  ExpectSections(html, {"Where the model fails", "Which block is it?", "What does the error depend on?", "record-1: multisine", "record-2: spinning"});
-  for (const char* words : {"Order tracks", "Response to the injected force", "The worst channels in time", "Spectrum of that error", "Is the error random?",
-                            "bands of frequency", "4.50", "nothing was &lt;left&gt; out"})
+  ExpectSections(html,
+                 {"Where the model fails", "Which block is it?", "What does the error depend on?",
+                  "record-1: multisine", "record-2: spinning"});
+  for (const char* words :
+       {"Order tracks", "Response to the injected force", "The worst channels in time",
+        "Spectrum of that error", "Is the error random?", "bands of frequency", "4.50",
+        "nothing was &lt;left&gt; out"})
     EXPECT_THAT(html, HasSubstr(words));
   EXPECT_THAT(html, Not(HasSubstr("folder/record-1.h5:"))) << "words name records, not paths";
 }
@@ -186,10 +193,14 @@ TEST_F(DiscoveryReport, CompareHasEveryPicture) {
 TEST_F(DiscoveryReport, ExplainTeaches) {
   const std::string html = ExplainHtml(Found());
   ExpectSelfContained(html);
-  ExpectSections(html, {"Verdict", "The ladder", "Where the plain model failed", "The candidates, ranked", "A first look at everything", "Why that one",
-                        "What it costs to believe it", "What is left", "What to do next", "Warnings"});
-  for (const char* words : {"The rig has what the model lacks: side-pull at A", "5.25 times the noise", "97.0 %", "20.00 ± 0.30\u00a0kN/m", "slow roll at 5 Hz",
-                            "Signatures", "ambrig adopt folder/case.toml side-pull --target A", "strongly correlated"})
+  ExpectSections(html,
+                 {"Verdict", "The ladder", "Where the plain model failed", "The candidates, ranked",
+                  "A first look at everything", "Why that one", "What it costs to believe it",
+                  "What is left", "What to do next", "Warnings"});
+  for (const char* words :
+       {"The rig has what the model lacks: side-pull at A", "5.25 times the noise", "97.0 %",
+        "20.00 ± 0.30\u00a0kN/m", "slow roll at 5 Hz", "Signatures",
+        "ambrig adopt folder/case.toml side-pull --target A", "strongly correlated"})
     EXPECT_THAT(html, HasSubstr(words));
   EXPECT_THAT(html, HasSubstr(FindEffect("side-pull")->title));
   EXPECT_THAT(html, Not(HasSubstr("What no effect explains</h")));
@@ -199,8 +210,13 @@ TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
   Explanation e = Found();
   e.verdict = "unknown";
   e.adopted.clear();
-  e.unexplained = {"rotor or sensor", "plane B, worst at B.y", "position on one side: contact at 40 degrees", "what it looks like",
-                   "force = { x = \"-k*max(0.766*x + 0.643*y - c, 0)*(0.766 - mu*0.643)\", y = \"0\" }  # c = 2.1e-05 m, mu: friction", {120.0}};
+  e.unexplained = {"rotor or sensor",
+                   "plane B, worst at B.y",
+                   "position on one side: contact at 40 degrees",
+                   "what it looks like",
+                   "force = { x = \"-k*max(0.766*x + 0.643*y - c, 0)*(0.766 - mu*0.643)\", y = "
+                   "\"0\" }  # c = 2.1e-05 m, mu: friction",
+                   {120.0}};
   const std::string html = ExplainHtml(e);
   ExpectSections(html, {"What no effect explains", "What fitting changed", "What to do next"});
   EXPECT_THAT(html, HasSubstr("Something is missing"));
@@ -212,12 +228,15 @@ TEST(FormulaSnippetText, IsAFormulaThatTheRigFileTakes) {
   Unexplained u;
   u.where = "plane B, worst at B.y";
   u.dependence = "position on one side: contact at 40 degrees";
-  u.formula = "force = { x = \"-k*max(0.766*x + 6.4e-1*y - c, 0)*(0.766 - mu*0.643)\", y = \"0\" }  # c = 2.1e-05 m, mu: friction";
+  u.formula =
+      "force = { x = \"-k*max(0.766*x + 6.4e-1*y - c, 0)*(0.766 - mu*0.643)\", y = \"0\" }  # c = "
+      "2.1e-05 m, mu: friction";
   const std::string text = FormulaSnippet(u);
   EXPECT_THAT(text, HasSubstr("target = \"B\""));
   EXPECT_THAT(text, HasSubstr("parameters.c = { value = 2.1e-05, min"));
   EXPECT_THAT(text, Not(HasSubstr("max = {"))) << "functions are no parameters";
-  const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
+  const std::string file =
+      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
   std::ifstream in(file);
   std::ostringstream rig;
   rig << in.rdbuf() << "\n" << text;
@@ -236,13 +255,15 @@ TEST_F(DiscoveryReport, AdoptShowsBeforeAndAfter) {
   WriteAdoptReport(model, *before_, after, Found().ladder, folder.File("a.html"));
   const std::string html = Read(folder.File("a.html"));
   ExpectSelfContained(html);
-  ExpectSections(html, {"What it changed", "The ladder", "What is believed now", "Before and after", "What is left"});
+  ExpectSections(html, {"What it changed", "The ladder", "What is believed now", "Before and after",
+                        "What is left"});
   EXPECT_THAT(html, HasSubstr("The channels that gained most"));
 }
 
 TEST_F(DiscoveryReport, AnEffectThatDoesNotHelpIsSaidSo) {
   const TemporaryFolder folder;
-  WriteAdoptReport(*model_, *before_, *before_, {{"", 2, 2}, {"windage at rig", 2, 2}}, folder.File("a.html"));
+  WriteAdoptReport(*model_, *before_, *before_, {{"", 2, 2}, {"windage at rig", 2, 2}},
+                   folder.File("a.html"));
   EXPECT_THAT(Read(folder.File("a.html")), HasSubstr("windage at rig did not help"));
 }
 
@@ -252,12 +273,14 @@ TEST_F(DiscoveryReport, OrderTrackFindsTheSizeOfALine) {
   for (const Target& t : model_->targets()) {
     if (ChannelName(*model_, t) != "A.x" || t.record != 1) continue;
     const Record& data = case_->records[1].data;
-    for (std::size_t k = 0; k < t.count; ++k) predicted[t.first + k] -= 2e-6 * std::cos(1500 * data.TimeAt(k) + 0.3);
+    for (std::size_t k = 0; k < t.count; ++k)
+      predicted[t.first + k] -= 2e-6 * std::cos(1500 * data.TimeAt(k) + 0.3);
     const auto figure = OrderFigure(*model_, predicted, t);
     ASSERT_TRUE(figure);
     for (const auto& trace : figure->traces) {
       if (trace["name"] != "error, order 1") continue;
-      for (const auto& y : trace["y"]) EXPECT_NEAR(y.get<double>(), 2, 1e-6);  // [um], least squares of an exact line
+      // [um], least squares of an exact line
+      for (const auto& y : trace["y"]) EXPECT_NEAR(y.get<double>(), 2, 1e-6);
       EXPECT_GE(trace["y"].size(), 2u);
     }
   }

@@ -14,13 +14,15 @@ namespace {
 using Json = nlohmann::json;
 using Complex = std::complex<double>;
 
-constexpr double kRate = 2000, kEnd = 8;                          // [Hz], [s]
+constexpr double kRate = 2000, kEnd = 8;                           // [Hz], [s]
 constexpr double kOrder2 = 5e-6, kBackward = 3e-6, kLevel = 4e-6;  // [m]
 constexpr double kLevelHz = 35;                                    // forward, whatever the speed
 
-double SpeedAt(double t) { return 10 + 50 * t / kEnd; }                     // [Hz]
+double SpeedAt(double t) { return 10 + 50 * t / kEnd; }  // [Hz]
 double TurnsAt(double t) { return 10 * t + 25 * t * t / kEnd; }
-double Order1At(double f) { return 2e-5 / (1 + std::pow((f - 40) / 8, 2)); }  // a critical speed at 40 Hz
+double Order1At(double f) {
+  return 2e-5 / (1 + std::pow((f - 40) / 8, 2));
+}  // a critical speed at 40 Hz
 
 RunReportData RunUp() {
   RunReportData d;
@@ -34,8 +36,9 @@ RunReportData RunUp() {
   d.stations[0].name = "disk";
   for (int k = 0; k < kRate * kEnd; ++k) {
     const double t = k / kRate, theta = 2 * kPi * TurnsAt(t);
-    const Complex z = std::polar(Order1At(SpeedAt(t)), theta + 0.3) + std::polar(kOrder2, 2 * theta) +
-                      std::polar(kBackward, -theta) + std::polar(kLevel, 2 * kPi * kLevelHz * t) + Complex(1e-5, -2e-5);
+    const Complex z = std::polar(Order1At(SpeedAt(t)), theta + 0.3) +
+                      std::polar(kOrder2, 2 * theta) + std::polar(kBackward, -theta) +
+                      std::polar(kLevel, 2 * kPi * kLevelHz * t) + Complex(1e-5, -2e-5);
     d.theta.push_back(theta);
     d.bearings[0].x.push_back(z.real());
     d.bearings[0].y.push_back(z.imag());
@@ -102,7 +105,9 @@ TEST_F(SpeedFigures, OrderTracksHaveTheirAmplitudesOverTheSpeed) {
     const Json& first = Trace(orders_, "order 1, forward", axes[panel]);
     std::size_t top = 0;
     for (std::size_t k = 0; k < first["y"].size(); ++k)
-      if (first["y"][k].is_number() && (!first["y"][top].is_number() || first["y"][k] > first["y"][top])) top = k;
+      if (first["y"][k].is_number() &&
+          (!first["y"][top].is_number() || first["y"][k] > first["y"][top]))
+        top = k;
     EXPECT_NEAR(first["x"][top].get<double>(), 2400, 40);
     EXPECT_NEAR(first["y"][top].get<double>(), times * 20, times * 0.6);
   }
@@ -114,7 +119,8 @@ TEST_F(SpeedFigures, WaterfallShowsOrdersAndLevelLinesOnTheirSides) {
   for (const Json& t : waterfall_["data"])
     if (t.value("type", "") == "heatmap" && t["yaxis"] == "y") map = &t;
   ASSERT_NE(map, nullptr);
-  const auto time = (*map)["x"].get<std::vector<double>>(), frequency = (*map)["y"].get<std::vector<double>>();
+  const auto time = (*map)["x"].get<std::vector<double>>(),
+             frequency = (*map)["y"].get<std::vector<double>>();
   const double line = frequency[1] - frequency[0];
   EXPECT_LE(line, 4);
   for (double hz : {25.0, 50.0}) {
@@ -122,7 +128,8 @@ TEST_F(SpeedFigures, WaterfallShowsOrdersAndLevelLinesOnTheirSides) {
     const auto level = [&](double f) {  // on the lines beside f
       double top = -1e9;
       for (std::size_t k = 0; k < frequency.size(); ++k)
-        if (std::abs(frequency[k] - f) <= 0.6 * line) top = std::max(top, (*map)["z"][k][column].get<double>());
+        if (std::abs(frequency[k] - f) <= 0.6 * line)
+          top = std::max(top, (*map)["z"][k][column].get<double>());
       return top;
     };
     // The speed changes by 3 Hz within a window, twice as much for order 2.
@@ -148,7 +155,9 @@ TEST_F(SpeedFigures, TheSpeedIsDrawnOverTheMap) {
 }
 
 TEST_F(SpeedFigures, AxesHaveTheirQuantityAndUnit) {
-  const auto title = [](const Json& figure, const char* axis) { return figure["layout"][axis]["title"]["text"].get<std::string>(); };
+  const auto title = [](const Json& figure, const char* axis) {
+    return figure["layout"][axis]["title"]["text"].get<std::string>();
+  };
   EXPECT_EQ(title(waterfall_, "yaxis"), "frequency [Hz]");
   EXPECT_EQ(title(waterfall_, "yaxis2"), "frequency [Hz]");
   EXPECT_EQ(title(orders_, "yaxis"), "amplitude [µm]");
@@ -161,7 +170,8 @@ TEST_F(SpeedFigures, AxesHaveTheirQuantityAndUnit) {
     }
   for (const Json& figure : {waterfall_, orders_}) {
     std::string titles;
-    for (const Json& a : figure["layout"]["annotations"]) titles += a["text"].get<std::string>() + ";";
+    for (const Json& a : figure["layout"]["annotations"])
+      titles += a["text"].get<std::string>() + ";";
     EXPECT_NE(titles.find("bearing A"), std::string::npos);
     EXPECT_NE(titles.find("disk"), std::string::npos);
   }
@@ -170,7 +180,8 @@ TEST_F(SpeedFigures, AxesHaveTheirQuantityAndUnit) {
 // A constant speed has neither figure.
 TEST(SpeedFiguresAbsent, AtConstantSpeed) {
   RunReportData d = RunUp();
-  for (std::size_t k = 0; k < d.theta.size(); ++k) d.theta[k] = 2 * kPi * 30 * static_cast<double>(k) / kRate;
+  for (std::size_t k = 0; k < d.theta.size(); ++k)
+    d.theta[k] = 2 * kPi * 30 * static_cast<double>(k) / kRate;
   EXPECT_FALSE(SpeedVaries(d));
   EXPECT_EQ(MakeRunReport(d).Html().find("Waterfall"), std::string::npos);
 }

@@ -5,17 +5,19 @@
 #include <filesystem>
 #include <thread>
 
-#include "tests/campaign/campaign_folder.h"
 #include "campaign/journal.h"
 #include "campaign/merge.h"
 #include "nlohmann/json.hpp"
+#include "tests/campaign/campaign_folder.h"
 
 namespace ambrig::testing {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::size_t Lines(const std::string& text) { return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')); }
+std::size_t Lines(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
 
 TEST(CampaignCommand, SameBytesForAnyJobsAndShards) {
   const CampaignFolder f;
@@ -26,7 +28,9 @@ TEST(CampaignCommand, SameBytesForAnyJobsAndShards) {
   ASSERT_EQ(f.Ambrig("campaign c.toml -o p3 --shard 3/3 --no-report").exit, 0);
   const Outcome missing = f.Ambrig("merge p1 p3 -o all");
   EXPECT_EQ(missing.exit, 2);
-  EXPECT_NE(missing.text.find("11 of 32 runs are missing (1, 4, 7, 10, 13, ...)"), std::string::npos) << missing.text;
+  EXPECT_NE(missing.text.find("11 of 32 runs are missing (1, 4, 7, 10, 13, ...)"),
+            std::string::npos)
+      << missing.text;
   ASSERT_EQ(f.Ambrig("campaign c.toml -o p2 --shard 2/3 --no-report").exit, 0);
   const Outcome merged = f.Ambrig("merge p3 p1 p2 -o all");
   ASSERT_EQ(merged.exit, 0) << merged.text;
@@ -43,7 +47,8 @@ TEST(CampaignCommand, KillLosesNoFinishedRunAndResumesToTheSameBytes) {
   // Killed as soon as five rows are there.
   const Outcome killed = f.In(std::string(AMBRIG_BINARY) +
                               " campaign c.toml -o cut --jobs 2 --no-report & p=$!; "
-                              "for k in $(seq 1500); do [ $(cat cut/journal.txt 2>/dev/null | wc -l) -lt 6 ] || break; sleep 0.02; done; kill -9 $p; wait $p; true");
+                              "for k in $(seq 1500); do [ $(cat cut/journal.txt 2>/dev/null | wc "
+                              "-l) -lt 6 ] || break; sleep 0.02; done; kill -9 $p; wait $p; true");
   ASSERT_EQ(killed.exit, 0) << killed.text;
   const Rows before = ReadJournal(f.File("cut")).rows;
   ASSERT_GE(before.size(), 5u);
@@ -52,8 +57,11 @@ TEST(CampaignCommand, KillLosesNoFinishedRunAndResumesToTheSameBytes) {
   const std::string kept = f.Read("cut/journal.txt");
   const Outcome resumed = f.Ambrig("campaign c.toml -o cut --no-report");
   ASSERT_EQ(resumed.exit, 0) << resumed.text;
-  EXPECT_NE(resumed.text.find("goes on after " + std::to_string(before.size()) + " runs"), std::string::npos) << resumed.text;
-  EXPECT_TRUE(f.Read("cut/journal.txt").starts_with(kept.substr(0, kept.rfind('\n'))));  // nothing was done twice
+  EXPECT_NE(resumed.text.find("goes on after " + std::to_string(before.size()) + " runs"),
+            std::string::npos)
+      << resumed.text;
+  // nothing was done twice
+  EXPECT_TRUE(f.Read("cut/journal.txt").starts_with(kept.substr(0, kept.rfind('\n'))));
   EXPECT_EQ(Lines(f.Read("cut/journal.txt")), 33u + (kept.ends_with('\n') ? 0u : 1u));
   EXPECT_EQ(f.Read("cut/table.csv"), f.Read("whole/table.csv"));
 }
@@ -62,9 +70,11 @@ TEST(CampaignCommand, WriteThatFailsStopsWithOneLineAndLosesNothing) {
   const CampaignFolder f;
   ASSERT_EQ(f.Ambrig("campaign c.toml -o whole --no-report").exit, 0);
   // A limit on the size of a file: the last line is cut off, as on a full disk.
-  const Outcome full = f.In(std::string("trap '' XFSZ; ulimit -f 4; ") + AMBRIG_BINARY + " campaign c.toml -o cut --no-report");
+  const Outcome full = f.In(std::string("trap '' XFSZ; ulimit -f 4; ") + AMBRIG_BINARY +
+                            " campaign c.toml -o cut --no-report");
   EXPECT_EQ(full.exit, 2) << full.text;
-  EXPECT_NE(full.text.find("cannot write cut/journal.txt: File too large"), std::string::npos) << full.text;
+  EXPECT_NE(full.text.find("cannot write cut/journal.txt: File too large"), std::string::npos)
+      << full.text;
   EXPECT_EQ(Lines(full.text), 1u) << full.text;
   const JournalContent content = ReadJournal(f.File("cut"));
   EXPECT_GT(content.rows.size(), 1u);
@@ -83,7 +93,9 @@ TEST(CampaignCommand, DamagedLinesAreDoneAgain) {
   journal[at] = 'O';
   f.Write("out/journal.txt", journal.substr(0, journal.size() - 20));
   const Outcome again = f.Ambrig("campaign c.toml -o out --no-report");
-  EXPECT_NE(again.text.find("goes on after 30 runs done before, 2 damaged lines done again"), std::string::npos) << again.text;
+  EXPECT_NE(again.text.find("goes on after 30 runs done before, 2 damaged lines done again"),
+            std::string::npos)
+      << again.text;
   EXPECT_EQ(f.Read("out/table.csv"), table);
 }
 
@@ -94,7 +106,8 @@ TEST(CampaignCommand, ChangedCampaignOrRigIsRefused) {
   f.Write("rig.toml", rig + "\n# another word\n");
   const Outcome changed = f.Ambrig("campaign c.toml -o out --no-report");
   EXPECT_EQ(changed.exit, 2);
-  EXPECT_NE(changed.text.find("its rig or a scenario was changed"), std::string::npos) << changed.text;
+  EXPECT_NE(changed.text.find("its rig or a scenario was changed"), std::string::npos)
+      << changed.text;
   f.Write("rig.toml", rig);
   f.Write("c.toml", std::string(kSmallCampaign) + "scale = 0.5\n");
   EXPECT_EQ(f.Ambrig("campaign c.toml -o out --no-report").exit, 2);
@@ -119,13 +132,15 @@ TEST(CampaignCommand, ARowRunsAgainWithTheSameFigures) {
 
 TEST(CampaignCommand, WrongOptionsAreSaidInOneLine) {
   const CampaignFolder f;
-  for (const char* options : {"--shard 0/2", "--shard 3/2", "--shard 1", "--shard a/b", "--shard -1/2", "--jobs 0", "--engine pbs",
-                              "--engine slurm --shard 1/2", "--tasks 2000 --engine slurm"}) {
+  for (const char* options :
+       {"--shard 0/2", "--shard 3/2", "--shard 1", "--shard a/b", "--shard -1/2", "--jobs 0",
+        "--engine pbs", "--engine slurm --shard 1/2", "--tasks 2000 --engine slurm"}) {
     const Outcome o = f.Ambrig(std::string("campaign c.toml -o out ") + options);
     EXPECT_EQ(o.exit, 2) << options << o.text;
     EXPECT_EQ(Lines(o.text), 1u) << options << o.text;
   }
-  for (const char* command : {"run --row 3", "run", "run --from-campaign c.toml", "merge . -o out", "campaign none.toml"}) {
+  for (const char* command : {"run --row 3", "run", "run --from-campaign c.toml", "merge . -o out",
+                              "campaign none.toml"}) {
     const Outcome o = f.Ambrig(command);
     EXPECT_EQ(o.exit, 2) << command << o.text;
     EXPECT_EQ(Lines(o.text), 1u) << command << o.text;
@@ -146,14 +161,16 @@ TEST(CampaignCommand, FolderInUseIsRefused) {
 // the weight survives open coils; a bearing without coils cannot.
 TEST(CampaignCommand, SmallSurvivalCampaign) {
   const CampaignFolder f;
-  const std::string campaign = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/survival_small.toml";
+  const std::string campaign =
+      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/survival_small.toml";
   const Outcome o = f.Ambrig("campaign " + campaign + " -o out");
   ASSERT_EQ(o.exit, 0) << o.text;
   const Rows rows = ReadJournal(f.File("out")).rows;
   EXPECT_EQ(rows.size(), 44u);
   std::size_t held = 0;
   for (const auto& [run, row] : rows) {
-    const std::string what = row.At("set") + " " + row.At("kind") + " " + row.At("onset") + " load " + row.At("load_given");
+    const std::string what = row.At("set") + " " + row.At("kind") + " " + row.At("onset") +
+                             " load " + row.At("load_given");
     EXPECT_NE(row.At("verdict"), "error") << what << row.At("note");
     EXPECT_EQ(row.Number("false_alarms"), 0) << what;
     if (row.At("kind") != "open") continue;
@@ -171,7 +188,11 @@ TEST(CampaignCommand, SmallSurvivalCampaign) {
 
 TEST(CampaignFiles, AllOfTheRepositoryCanBeRead) {
   for (const char* name : {"single_coils", "survival", "survival_small", "false_alarms"})
-    EXPECT_GT(ReadCampaign(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/" + name + ".toml").runs(), 0u) << name;
+    EXPECT_GT(
+        ReadCampaign(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/" + name + ".toml")
+            .runs(),
+        0u)
+        << name;
 }
 
 }  // namespace

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "tests/campaign/campaign_folder.h"
 #include "campaign/row.h"
 #include "campaign/run_plan.h"
+#include "tests/campaign/campaign_folder.h"
 
 namespace ambrig::testing {
 namespace {
@@ -66,8 +66,9 @@ TEST(CampaignFile, EveryMistakeIsOneLineWithItsPlace) {
 
 TEST(CampaignFile, SetsAndOnsetsSpanTheirProduct) {
   const CampaignFolder f;
-  f.Write("c.toml", Replaced(Replaced(kSmallCampaign, "\"single\"", "\"all\""), "time = 0.002",
-                             "time = 0.002\nonset = [\"sequential\", \"simultaneous\"]\nspacing = 0.0005"));
+  f.Write("c.toml",
+          Replaced(Replaced(kSmallCampaign, "\"single\"", "\"all\""), "time = 0.002",
+                   "time = 0.002\nonset = [\"sequential\", \"simultaneous\"]\nspacing = 0.0005"));
   const Campaign c = ReadCampaign(f.File("c.toml"));
   EXPECT_EQ(c.sets.size(), 255u);
   EXPECT_EQ(c.cases.size(), 2u * (255 + 247));  // one coil has one onset
@@ -76,8 +77,9 @@ TEST(CampaignFile, SetsAndOnsetsSpanTheirProduct) {
 
 TEST(RunPlan, FaultsComeAtTheirTimes) {
   const CampaignFolder f;
-  f.Write("c.toml", Replaced(Replaced(kSmallCampaign, "\"single\"", "[[2, 5]]"), "time = 0.002",
-                             "time = 0.002\nonset = \"sequential\"\nspacing = 0.003\nphases = [0.0, 0.5]"));
+  f.Write("c.toml",
+          Replaced(Replaced(kSmallCampaign, "\"single\"", "[[2, 5]]"), "time = 0.002",
+                   "time = 0.002\nonset = \"sequential\"\nspacing = 0.003\nphases = [0.0, 0.5]"));
   const RunPlan plan(ReadCampaign(f.File("c.toml")));
   ASSERT_EQ(plan.campaign().runs(), 8u);
   const PlannedRun p = plan.Make(2);  // second phase, first speed
@@ -103,13 +105,14 @@ TEST(RunPlan, DrawsMoveThePlantWithinItsToleranceAndNotTheController) {
     sum += z / 64;
     squares += z * z / 64;
   }
-  EXPECT_NEAR(sum, 0, 0.02);      // Latin hypercube: far better than 1/sqrt(64)
+  EXPECT_NEAR(sum, 0, 0.02);  // Latin hypercube: far better than 1/sqrt(64)
   EXPECT_NEAR(squares, 1, 0.05);
 }
 
 TEST(RunPlan, LoadIsAShareOfTheCapacityThatIncludesTheWeight) {
   const CampaignFolder f;
-  f.Write("c.toml", Replaced(kSmallCampaign, "speeds = [0.0, 157.0]", "speeds = [0.0]\nloads = [0.0, 0.8]"));
+  f.Write("c.toml",
+          Replaced(kSmallCampaign, "speeds = [0.0, 157.0]", "speeds = [0.0]\nloads = [0.0, 0.8]"));
   const RunPlan plan(ReadCampaign(f.File("c.toml")));
   EXPECT_TRUE(plan.Make(0).scenario.loads.empty());
   const PlannedRun p = plan.Make(1);
@@ -123,7 +126,9 @@ TEST(RunPlan, LoadIsAShareOfTheCapacityThatIncludesTheWeight) {
 // The shaft is where the file says when the fault comes, and did not run past it on the way.
 TEST(RunPlan, PositionIsReachedWithoutOvershoot) {
   const CampaignFolder f;
-  f.Write("c.toml", "rig = \"rig.toml\"\nduration = 0.07\n[faults]\ntime = 0.06\nbearings = [\"A\"]\n[operation]\npositions = [0.6]\n");
+  f.Write("c.toml",
+          "rig = \"rig.toml\"\nduration = 0.07\n[faults]\ntime = 0.06\nbearings = "
+          "[\"A\"]\n[operation]\npositions = [0.6]\n");
   const RunPlan plan(ReadCampaign(f.File("c.toml")));
   const Row row = SimulateRow(plan, 0, nullptr);
   EXPECT_EQ(row.At("verdict"), "up");

@@ -46,14 +46,21 @@ draws = 1
 class CampaignFolder {
  public:
   CampaignFolder() {
-    Write("rig.toml", ReadBytes(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml"));
+    Write("rig.toml",
+          ReadBytes(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml"));
     Write("c.toml", kSmallCampaign);
   }
-  void Write(const std::string& name, const std::string& text) const { WriteBytes(folder_.File(name), text); }
+  void Write(const std::string& name, const std::string& text) const {
+    WriteBytes(folder_.File(name), text);
+  }
   std::string Read(const std::string& name) const { return ReadBytes(folder_.File(name)); }
   std::string File(const std::string& name) const { return folder_.File(name); }
-  Outcome Ambrig(const std::string& arguments) const { return In(AMBRIG_BINARY + (" " + arguments)); }
-  Outcome In(const std::string& command) const { return Shell("cd " + folder_.File("") + " || exit 99; " + command); }
+  Outcome Ambrig(const std::string& arguments) const {
+    return In(AMBRIG_BINARY + (" " + arguments));
+  }
+  Outcome In(const std::string& command) const {
+    return Shell("cd " + folder_.File("") + " || exit 99; " + command);
+  }
 
  private:
   TemporaryFolder folder_;

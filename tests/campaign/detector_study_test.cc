@@ -1,4 +1,5 @@
-// ambrig detectors: curves against hand-made rows, ranking, same bytes for any jobs, resuming, bad input.
+// ambrig detectors: curves against hand-made rows, ranking, same bytes for any jobs, resuming, bad
+// input.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +14,8 @@
 namespace ambrig::testing {
 namespace {
 
-const std::string kSmall = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/studies/detectors_small.toml";
+const std::string kSmall =
+    std::string(AMBRIG_SOURCE_DIR) + "/scenarios/studies/detectors_small.toml";
 
 Row MakeRow(std::size_t run, const std::vector<std::string>& cells) {
   Row row;
@@ -33,9 +35,12 @@ TEST(DetectorCurves, OfRowsMadeByHand) {
   rows[1] = MakeRow(1, {"healthy", "whirl", "", "", "", "0", "1", "30:3 40:1", ""});
   // Faults at the end of a quarter period: the first decision comes 30 us after them.
   const std::string at = "0.06001";
-  rows[2] = MakeRow(2, {"faulty", "quiet", "A:1", "open", at, "0", "1", "coil 0:15 2:35 bearing 0:15:1 2:35:1", ""});
-  rows[3] = MakeRow(3, {"faulty", "quiet", "A:2", "open", at, "0", "1", "coil 0:15 9:25 bearing 0:33:0 9:35:0", ""});
-  rows[4] = MakeRow(4, {"faulty", "quiet", "A:3", "open", at, "0", "1", "coil 0:15 4:50 bearing 0:15:1 4:50:1", ""});
+  rows[2] = MakeRow(2, {"faulty", "quiet", "A:1", "open", at, "0", "1",
+                        "coil 0:15 2:35 bearing 0:15:1 2:35:1", ""});
+  rows[3] = MakeRow(3, {"faulty", "quiet", "A:2", "open", at, "0", "1",
+                        "coil 0:15 9:25 bearing 0:33:0 9:35:0", ""});
+  rows[4] = MakeRow(4, {"faulty", "quiet", "A:3", "open", at, "0", "1",
+                        "coil 0:15 4:50 bearing 0:15:1 4:50:1", ""});
   rows[5] = MakeRow(5, {"faulty", "quiet", "A:4", "open", at, "0", "1", "", "error: lost"});
   const auto curves = CurvesOf(study, rows);
   ASSERT_EQ(curves.size(), 1u);
@@ -65,8 +70,8 @@ TEST(DetectorCurves, OfRowsMadeByHand) {
   EXPECT_EQ(c.named[15], 2 / 3.0);  // the second bearing's first alarm is another coil's
   EXPECT_EQ(c.named[34], 2 / 3.0);
   EXPECT_EQ(c.named[40], 1 / 3.0);
-  // Steps of `detected` over log10 of the share from 1/20 to 1 by the lowest threshold with at most that
-  // share: 1 (level 11 on) from 0.5, 1 (level 21) from 0.2, 2/3 (level 31) from 0.05.
+  // Steps of `detected` over log10 of the share from 1/20 to 1 by the lowest threshold with at most
+  // that share: 1 (level 11 on) from 0.5, 1 (level 21) from 0.2, 2/3 (level 31) from 0.05.
   const double all = std::log10(20.0);
   EXPECT_NEAR(c.area, (std::log10(0.2 / 0.05) * 2 / 3 + std::log10(1 / 0.2)) / all, 0.01);
   rows[6] = MakeRow(6, {"faulty", "quiet", "A:1", "open", at, "0", "1", "0:15", ""});
@@ -78,15 +83,20 @@ class Blind : public CoilDetector {
  public:
   Lane Period(const MeasuredPeriod& in) override {
     Lane out;
-    for (int j = 0; j < kLanes; ++j) out[j] = Uniform(99, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(in.t * 25e3 + 0.5));
+    for (int j = 0; j < kLanes; ++j)
+      out[j] =
+          Uniform(99, static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(in.t * 25e3 + 0.5));
     return out;
   }
 };
-std::unique_ptr<CoilDetector> MakeBlind(const CoilDetectorSetup&) { return std::make_unique<Blind>(); }
+std::unique_ptr<CoilDetector> MakeBlind(const CoilDetectorSetup&) {
+  return std::make_unique<Blind>();
+}
 
 TEST(DetectorStudy, ABlindDetectorIsRankedLastAndByChanceAlone) {
   DetectorStudy study = ReadDetectorStudy(kSmall);
-  study.detectors.insert(study.detectors.begin() + 2, {"blind", "-", "a clock", kRequired, MakeBlind});
+  study.detectors.insert(study.detectors.begin() + 2,
+                         {"blind", "-", "a clock", kRequired, MakeBlind});
   const DetectorStudyPlan plan(study);
   Rows rows;
   for (std::size_t run = 0; run < study.runs(); ++run) rows[run] = plan.Simulate(run, nullptr);
@@ -99,7 +109,8 @@ TEST(DetectorStudy, ABlindDetectorIsRankedLastAndByChanceAlone) {
   EXPECT_LT(blind.score, 0.2);
   for (const FaultCurve& c : blind.faults) EXPECT_LT(c.area, 0.4) << c.kind;  // 8 faults: coarse
   const auto named = [&](const char* name) {
-    return *std::find_if(curves.begin(), curves.end(), [&](const DetectorCurves& d) { return d.name == name; });
+    return *std::find_if(curves.begin(), curves.end(),
+                         [&](const DetectorCurves& d) { return d.name == name; });
   };
   // The coupled detector misses nothing, at its own threshold without a false alarm.
   const DetectorCurves coupled = named("coupled");
@@ -109,12 +120,14 @@ TEST(DetectorStudy, ABlindDetectorIsRankedLastAndByChanceAlone) {
     EXPECT_EQ(c.detected[nine], 1) << c.kind;
     EXPECT_LE(c.median[nine], 80e-6) << c.kind;
   }
-  // At equal false alarms limits that follow the gap can be less than 0.6 of the fixed ones, and find every
-  // short of 10 %, which the fixed ones do not.
-  const DetectorCurves fixed = named("paper-every-period"), online = named("paper-online"), known = named("paper-coupled");
+  // At equal false alarms limits that follow the gap can be less than 0.6 of the fixed ones, and
+  // find every short of 10 %, which the fixed ones do not.
+  const DetectorCurves fixed = named("paper-every-period"), online = named("paper-online"),
+                       known = named("paper-coupled");
   EXPECT_LT(ValueOf(online.budget_level), 0.6 * ValueOf(fixed.budget_level));
   const auto shorts_found = [](const DetectorCurves& d) {
-    const auto it = std::find_if(d.faults.begin(), d.faults.end(), [](const FaultCurve& c) { return c.kind.starts_with("partial"); });
+    const auto it = std::find_if(d.faults.begin(), d.faults.end(),
+                                 [](const FaultCurve& c) { return c.kind.starts_with("partial"); });
     return it->detected[static_cast<std::size_t>(d.budget_level)];
   };
   EXPECT_LT(shorts_found(fixed), 1);
@@ -129,7 +142,8 @@ TEST(DetectorStudy, SameBytesForAnyJobsAndAfterAKill) {
   ASSERT_EQ(one.exit, 0) << one.text;
   EXPECT_NE(one.text.find("32 of 32 runs"), std::string::npos) << one.text;
   const Outcome killed = f.In(std::string(AMBRIG_BINARY) + " " + command +
-                              "cut --jobs 3 & p=$!; for k in $(seq 1500); do [ $(cat cut/journal.txt 2>/dev/null | wc -l) -lt 4 ] || break; "
+                              "cut --jobs 3 & p=$!; for k in $(seq 1500); do [ $(cat "
+                              "cut/journal.txt 2>/dev/null | wc -l) -lt 4 ] || break; "
                               "sleep 0.02; done; kill -9 $p; wait $p; true");
   ASSERT_EQ(killed.exit, 0) << killed.text;
   const std::string kept = f.Read("cut/journal.txt");
@@ -139,20 +153,25 @@ TEST(DetectorStudy, SameBytesForAnyJobsAndAfterAKill) {
   ASSERT_EQ(resumed.exit, 0) << resumed.text;
   EXPECT_NE(resumed.text.find("goes on after"), std::string::npos);
   EXPECT_TRUE(f.Read("cut/journal.txt").starts_with(kept.substr(0, kept.rfind('\n'))));
-  for (const char* name : {"table.csv", "curves.json", "curves.txt"}) EXPECT_EQ(f.Read(std::string("one/") + name), f.Read(std::string("cut/") + name)) << name;
+  for (const char* name : {"table.csv", "curves.json", "curves.txt"})
+    EXPECT_EQ(f.Read(std::string("one/") + name), f.Read(std::string("cut/") + name)) << name;
   const auto json = nlohmann::json::parse(f.Read("cut.json"));
   EXPECT_EQ(json["detectors"].size(), CoilDetectorKinds().size());
   EXPECT_EQ(json["windows"], 1536);
   const std::string html = f.Read("cut.html");
-  for (const char* part : {"ROC curves", "Delay against false alarms", "paper-online"}) EXPECT_NE(html.find(part), std::string::npos) << part;
+  for (const char* part : {"ROC curves", "Delay against false alarms", "paper-online"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
 TEST(DetectorStudy, WrongStudiesAreSaidInOneLine) {
   const CampaignFolder f;
   f.Write("h.toml", "rig = \"rig.toml\"\nduration = 0.05\n");
-  f.Write("f.toml", "rig = \"rig.toml\"\nduration = 0.05\n[faults]\nsets = \"single\"\ntime = 0.03\n");
-  f.Write("two.toml", "rig = \"rig.toml\"\nduration = 0.05\n[faults]\nsets = [[1, 2]]\ntime = 0.03\n");
-  f.Write("late.toml", "rig = \"rig.toml\"\nduration = 0.05\n[faults]\nsets = \"single\"\ntime = 0.045\n");
+  f.Write("f.toml",
+          "rig = \"rig.toml\"\nduration = 0.05\n[faults]\nsets = \"single\"\ntime = 0.03\n");
+  f.Write("two.toml",
+          "rig = \"rig.toml\"\nduration = 0.05\n[faults]\nsets = [[1, 2]]\ntime = 0.03\n");
+  f.Write("late.toml",
+          "rig = \"rig.toml\"\nduration = 0.05\n[faults]\nsets = \"single\"\ntime = 0.045\n");
   const std::string good = "healthy = \"h.toml\"\nfaulty = \"f.toml\"\n";
   const std::pair<std::string, const char*> wrong[] = {
       {"healthy = \"h.toml\"\n", "faulty"},
@@ -179,7 +198,8 @@ TEST(DetectorStudy, WrongStudiesAreSaidInOneLine) {
 }
 
 TEST(DetectorStudy, FullStudyOfTheRepositoryCanBeRead) {
-  const DetectorStudy s = ReadDetectorStudy(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/studies/detectors.toml");
+  const DetectorStudy s =
+      ReadDetectorStudy(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/studies/detectors.toml");
   EXPECT_GT(s.runs(), 2000u);
   EXPECT_EQ(s.detectors.size(), CoilDetectorKinds().size());
 }

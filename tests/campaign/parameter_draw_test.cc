@@ -12,20 +12,26 @@ namespace {
 void ExpectStratified(const UnitPoints& points, std::size_t dimensions) {
   for (std::size_t d = 0; d < dimensions; ++d) {
     std::set<std::size_t> slices;
-    for (const auto& p : points) slices.insert(static_cast<std::size_t>(p[d] * static_cast<double>(points.size())));
+    for (const auto& p : points)
+      slices.insert(static_cast<std::size_t>(p[d] * static_cast<double>(points.size())));
     EXPECT_EQ(slices.size(), points.size()) << "dimension " << d;
   }
 }
 
-TEST(ParameterDraw, LatinHypercubeHasOnePointInEverySlice) { ExpectStratified(LatinHypercube(37, 11, 5), 11); }
+TEST(ParameterDraw, LatinHypercubeHasOnePointInEverySlice) {
+  ExpectStratified(LatinHypercube(37, 11, 5), 11);
+}
 
-TEST(ParameterDraw, SobolHasOnePointInEverySlice) { ExpectStratified(Sobol(256, kSobolDimensions, 7), kSobolDimensions); }
+TEST(ParameterDraw, SobolHasOnePointInEverySlice) {
+  ExpectStratified(Sobol(256, kSobolDimensions, 7), kSobolDimensions);
+}
 
 // Joe and Kuo's directions give pairs of dimensions a (t, 6, 2)-net of small t: most of the
 // 8 x 8 boxes hold a point already at 64 points for the first dimensions.
 TEST(ParameterDraw, SobolFillsThePlaneOfItsFirstDimensions) {
   std::set<int> boxes;
-  for (const auto& p : Sobol(64, 2, 3)) boxes.insert(static_cast<int>(p[0] * 8) * 8 + static_cast<int>(p[1] * 8));
+  for (const auto& p : Sobol(64, 2, 3))
+    boxes.insert(static_cast<int>(p[0] * 8) * 8 + static_cast<int>(p[1] * 8));
   EXPECT_EQ(boxes.size(), 64u);
 }
 
@@ -37,7 +43,8 @@ TEST(ParameterDraw, SeedsGiveOtherPointsAndTheSameSeedTheSame) {
 
 TEST(ParameterDraw, NormalQuantileInvertsTheNormalDistribution) {
   for (const double p : {1e-12, 1e-6, 0.001, 0.2, 0.5, 0.7, 0.999, 1 - 1e-9})
-    EXPECT_NEAR(0.5 * std::erfc(-NormalQuantile(p) / std::sqrt(2.0)), p, 1e-12 * std::max(1.0, p)) << p;
+    EXPECT_NEAR(0.5 * std::erfc(-NormalQuantile(p) / std::sqrt(2.0)), p, 1e-12 * std::max(1.0, p))
+        << p;
   EXPECT_NEAR(NormalQuantile(0.975), 1.959963984540054, 1e-12);
 }
 

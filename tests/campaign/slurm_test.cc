@@ -33,8 +33,10 @@ TEST(SlurmQueue, ArraysAreNamedByRanges) {
 class PrivateSlurm : public ::testing::Test {
  protected:
   void SetUp() override {
-    if (Shell("command -v slurmctld slurmd munged sbatch").exit != 0) GTEST_SKIP() << "Slurm is not installed: tools/setup.sh --tests";
-    if (Shell("grep -q ' /sys/fs/cgroup' /proc/self/mounts").exit != 0) GTEST_SKIP() << "no control groups here, as in a bare chroot: slurmd wants them";
+    if (Shell("command -v slurmctld slurmd munged sbatch").exit != 0)
+      GTEST_SKIP() << "Slurm is not installed: tools/setup.sh --tests";
+    if (Shell("grep -q ' /sys/fs/cgroup' /proc/self/mounts").exit != 0)
+      GTEST_SKIP() << "no control groups here, as in a bare chroot: slurmd wants them";
     // Ports of this process: another clone's tests may run their own cluster.
     setenv("SLURM_TEST_PORT", std::to_string(17000 + 4 * (::getpid() % 3000)).c_str(), 1);
     const Outcome up = Shell(Tool("start") + " 2 1");
@@ -46,9 +48,12 @@ class PrivateSlurm : public ::testing::Test {
     if (started_) Shell(Tool("stop"));
   }
   std::string Tool(const std::string& action) const {
-    return std::string(AMBRIG_SOURCE_DIR) + "/tools/private_slurm.sh " + action + " " + folder_.File("slurm");
+    return std::string(AMBRIG_SOURCE_DIR) + "/tools/private_slurm.sh " + action + " " +
+           folder_.File("slurm");
   }
-  std::string Environment() const { return "export SLURM_CONF=" + folder_.File("slurm/slurm.conf") + "; "; }
+  std::string Environment() const {
+    return "export SLURM_CONF=" + folder_.File("slurm/slurm.conf") + "; ";
+  }
 
   CampaignFolder folder_;
   bool started_ = false;
@@ -56,7 +61,8 @@ class PrivateSlurm : public ::testing::Test {
 
 TEST_F(PrivateSlurm, KilledTaskControllerAndNodeLoseNothing) {
   const std::string source = AMBRIG_SOURCE_DIR;
-  const Outcome harm = folder_.In("bash " + source + "/tests/campaign/slurm_harm.sh " + AMBRIG_BINARY + " " + source + "/tools/private_slurm.sh");
+  const Outcome harm = folder_.In("bash " + source + "/tests/campaign/slurm_harm.sh " +
+                                  AMBRIG_BINARY + " " + source + "/tools/private_slurm.sh");
   EXPECT_EQ(harm.exit, 0) << harm.text << folder_.Read("said.txt");
   EXPECT_NE(harm.text.find("task killed"), std::string::npos) << harm.text;
   EXPECT_NE(harm.text.find("controller killed"), std::string::npos) << harm.text;
@@ -67,7 +73,9 @@ TEST_F(PrivateSlurm, KilledTaskControllerAndNodeLoseNothing) {
 }
 
 TEST_F(PrivateSlurm, RefusedOptionsAreSaidInOneLine) {
-  const Outcome o = folder_.In(Environment() + AMBRIG_BINARY + " campaign c.toml -o out --engine slurm --tasks 2 --sbatch=--partition=nowhere");
+  const Outcome o =
+      folder_.In(Environment() + AMBRIG_BINARY +
+                 " campaign c.toml -o out --engine slurm --tasks 2 --sbatch=--partition=nowhere");
   EXPECT_EQ(o.exit, 2) << o.text;
   EXPECT_NE(o.text.find("--engine slurm: sbatch: "), std::string::npos) << o.text;
   EXPECT_NE(o.text.find("nvalid partition"), std::string::npos) << o.text;

@@ -1,5 +1,5 @@
-// What is wrong with a whole file, path or command line: one clear line, a non-zero exit, no file left behind.
-// (Mistakes inside a file: messages_test.cc.)
+// What is wrong with a whole file, path or command line: one clear line, a non-zero exit, no file
+// left behind. (Mistakes inside a file: messages_test.cc.)
 #include "tests/cli/cli_run.h"
 
 namespace ambrig {
@@ -21,25 +21,37 @@ TEST_F(BadInput, GoodInputRuns) {
   EXPECT_EQ(o.exit, 0) << o.text;
   EXPECT_EQ(Files(), "out/s.h5 out/s.html out/s.json rig.toml s.toml ");
 }
-TEST_F(BadInput, TruncatedToml) { ExpectComplaint(Run(ReferenceRigText().substr(0, 300), ScenarioText("")), "rig.toml:"); }
-TEST_F(BadInput, NotToml) { ExpectComplaint(Run(ReferenceRigText(), "\x01\x02 nonsense"), "s.toml:1: not valid TOML"); }
+TEST_F(BadInput, TruncatedToml) {
+  ExpectComplaint(Run(ReferenceRigText().substr(0, 300), ScenarioText("")), "rig.toml:");
+}
+TEST_F(BadInput, NotToml) {
+  ExpectComplaint(Run(ReferenceRigText(), "\x01\x02 nonsense"), "s.toml:1: not valid TOML");
+}
 TEST_F(BadInput, KeyOfManyNames) {
   std::string key = "a";
   for (int k = 0; k < 100'000; ++k) key += ".a";
-  ExpectComplaint(Run("name = \"x\"\n[" + key + "]\nb = 1\n", ScenarioText("")), "rig.toml:2: not valid TOML: a key of more than 32 names");
+  ExpectComplaint(Run("name = \"x\"\n[" + key + "]\nb = 1\n", ScenarioText("")),
+                  "rig.toml:2: not valid TOML: a key of more than 32 names");
 }
 TEST_F(BadInput, DotsOutsideKeys) {
-  const std::string dots = "# " + std::string(100, '.') + "\nname = \"" + std::string(100, '.') + "\"\n";
-  const Outcome o = Run(dots + Replaced(ReferenceRigText(), "name = \"reference\"", ""), ScenarioText(""));
+  const std::string dots =
+      "# " + std::string(100, '.') + "\nname = \"" + std::string(100, '.') + "\"\n";
+  const Outcome o =
+      Run(dots + Replaced(ReferenceRigText(), "name = \"reference\"", ""), ScenarioText(""));
   EXPECT_EQ(o.exit, 0) << o.text;
 }
-TEST_F(BadInput, DeepValue) { ExpectComplaint(Run("a = " + std::string(100'000, '['), ScenarioText("")), "rig.toml:1: not valid TOML"); }
+TEST_F(BadInput, DeepValue) {
+  ExpectComplaint(Run("a = " + std::string(100'000, '['), ScenarioText("")),
+                  "rig.toml:1: not valid TOML");
+}
 TEST_F(BadInput, EmptyRig) { ExpectComplaint(Run("", ScenarioText("")), "rig.toml:"); }
 TEST_F(BadInput, MissingRig) {
-  ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", "no.toml")), "no.toml: no such file");
+  ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", "no.toml")),
+                  "no.toml: no such file");
 }
 TEST_F(BadInput, RigIsAFolder) {
-  ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", ".")), "is a folder, allowed: a TOML file");
+  ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", ".")),
+                  "is a folder, allowed: a TOML file");
 }
 TEST_F(BadInput, FileWithoutAnEnd) {
   Write("rig.toml", ReferenceRigText());
@@ -47,7 +59,8 @@ TEST_F(BadInput, FileWithoutAnEnd) {
   ExpectComplaint(Ambrig("run /dev/zero --quiet"), "/dev/zero: is larger than 16 MiB");
 }
 TEST_F(BadInput, UnwritableOut) {
-  ExpectComplaint(Run(ReferenceRigText(), ScenarioText(""), "/proc/nowhere"), "cannot write /proc/nowhere");
+  ExpectComplaint(Run(ReferenceRigText(), ScenarioText(""), "/proc/nowhere"),
+                  "cannot write /proc/nowhere");
 }
 TEST_F(BadInput, UnknownCommand) {
   const Outcome o = Ambrig("rnu x.toml");
@@ -65,8 +78,8 @@ TEST_F(BadInput, UnknownEffectSuggests) {
   EXPECT_NE(o.text.find("did you mean eddy-currents?"), std::string::npos) << o.text;
 }
 TEST_F(BadInput, HelpOfEveryCommand) {
-  for (const char* command : {"run", "check", "campaign", "merge", "redistribute", "effects", "parameters", "compare",
-                              "explain", "adopt", "hide", "judge"}) {
+  for (const char* command : {"run", "check", "campaign", "merge", "redistribute", "effects",
+                              "parameters", "compare", "explain", "adopt", "hide", "judge"}) {
     const Outcome o = Ambrig(std::string(command) + " --help");
     EXPECT_EQ(o.exit, 0) << command;
     EXPECT_NE(o.text.find("Example"), std::string::npos) << command;

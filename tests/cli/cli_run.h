@@ -44,7 +44,9 @@ inline std::string Replaced(std::string text, const std::string& from, const std
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-inline std::string ReferenceRigText() { return ReadText(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml"); }
+inline std::string ReferenceRigText() {
+  return ReadText(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml");
+}
 inline std::string ScenarioText(const std::string& more) {
   return "name = \"t\"\nrig = \"rig.toml\"\nduration = 0.01\nrecord_rate = 12500.0\n" + more;
 }
@@ -54,16 +56,20 @@ class CliFolder : public testing::Test {
   void SetUp() override {
     std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
     std::replace(name.begin(), name.end(), '/', '_');
-    folder_ = std::filesystem::temp_directory_path() / ("ambrig_cli_" + std::to_string(::getpid()) + "_" + name);
+    folder_ = std::filesystem::temp_directory_path() /
+              ("ambrig_cli_" + std::to_string(::getpid()) + "_" + name);
     std::filesystem::create_directories(folder_);
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  void Write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void Write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
   Outcome Ambrig(const std::string& arguments) const {
     return Shell("cd " + folder_.string() + " && " + AMBRIG_BINARY + " " + arguments);
   }
-  Outcome Run(const std::string& rig, const std::string& scenario, const std::string& out = "out") const {
+  Outcome Run(const std::string& rig, const std::string& scenario,
+              const std::string& out = "out") const {
     Write("rig.toml", rig);
     Write("s.toml", scenario);
     return Ambrig("run s.toml --quiet --out " + out);
@@ -72,7 +78,8 @@ class CliFolder : public testing::Test {
   std::string Files() const {
     std::vector<std::string> names;
     for (const auto& e : std::filesystem::recursive_directory_iterator(folder_))
-      if (e.is_regular_file()) names.push_back(std::filesystem::relative(e.path(), folder_).string());
+      if (e.is_regular_file())
+        names.push_back(std::filesystem::relative(e.path(), folder_).string());
     std::sort(names.begin(), names.end());
     std::string all;
     for (const std::string& n : names) all += n + " ";

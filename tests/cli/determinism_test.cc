@@ -13,7 +13,10 @@ const std::string kLibrary = AMBRIG_SOURCE_DIR "/scenarios/library/";
 // Noise, detection and redistribution on: the record is the same file, byte by byte.
 TEST_F(Determinism, ARecordHasTheSameBytes) {
   for (const char* out : {"one", "two"})
-    EXPECT_EQ(Ambrig("run " + kLibrary + "coil_a3_opens_1500rpm.toml --quiet --csv --no-report --out " + out).exit, 0);
+    EXPECT_EQ(Ambrig("run " + kLibrary +
+                     "coil_a3_opens_1500rpm.toml --quiet --csv --no-report --out " + out)
+                  .exit,
+              0);
   for (const char* file : {"coil_a3_opens_1500rpm.h5", "coil_a3_opens_1500rpm.csv"}) {
     const std::string one = ReadText(folder_ / "one" / file);
     EXPECT_GT(one.size(), 100000u);
@@ -33,7 +36,8 @@ TEST_F(Determinism, AnotherSeedIsAnotherRecord) {
 // Scenarios side by side on two threads give the figures of one thread, to the last digit.
 TEST_F(Determinism, ChecksOfOneAndTwoJobs) {
   std::string files;
-  for (const char* name : {"coil_a3_opens_1500rpm", "drop_at_1500rpm", "two_faults_in_sequence", "switch_stuck_on", "lift_off"})
+  for (const char* name : {"coil_a3_opens_1500rpm", "drop_at_1500rpm", "two_faults_in_sequence",
+                           "switch_stuck_on", "lift_off"})
     files += " " + kLibrary + name + ".toml";
   nlohmann::json result[2];
   for (int jobs = 1; jobs <= 2; ++jobs) {

@@ -45,7 +45,8 @@ TEST_F(StoppedRun, FullDisk) {
 TEST_F(StoppedRun, DiskThatFillsLater) {
   const SmallDisk disk(folder_ / "out");
   if (!disk.mounted()) GTEST_SKIP() << "a tmpfs cannot be mounted here (needs root)";
-  const Outcome o = Run(ReferenceRigText(), Replaced(ScenarioText(""), "duration = 0.01", "duration = 0.002"));
+  const Outcome o =
+      Run(ReferenceRigText(), Replaced(ScenarioText(""), "duration = 0.01", "duration = 0.002"));
   EXPECT_EQ(o.exit, 2) << o.text;  // the report with its plotting library is larger than the disk
   EXPECT_EQ(o.lines(), 1) << o.text;
   EXPECT_NE(o.text.find("cannot write out/s."), std::string::npos) << o.text;
@@ -59,33 +60,37 @@ TEST_F(StoppedRun, FullDevice) {
   const Outcome o = Ambrig("run s.toml --quiet --no-report --json /dev/full");
   EXPECT_EQ(o.exit, 2) << o.text;
   EXPECT_EQ(o.lines(), 1) << o.text;
-  EXPECT_NE(o.text.find("cannot write /dev/full: No space left on device"), std::string::npos) << o.text;
+  EXPECT_NE(o.text.find("cannot write /dev/full: No space left on device"), std::string::npos)
+      << o.text;
 }
 
 using Stop = std::pair<const char*, const char*>;  // command, signal
 class Interrupted : public StoppedRun, public testing::WithParamInterface<Stop> {};
 
-// A minute of simulated time, ended in its first second by the signals of a terminal and of a system that
-// stops (a shell without job control starts its jobs deaf to SIGINT: env clears that).
+// A minute of simulated time, ended in its first second by the signals of a terminal and of a
+// system that stops (a shell without job control starts its jobs deaf to SIGINT: env clears that).
 TEST_P(Interrupted, LeavesNothing) {
   const auto& [command, signal] = GetParam();
   Write("rig.toml", ReferenceRigText());
   Write("s.toml", Replaced(ScenarioText(""), "duration = 0.01", "duration = 60.0"));
-  Write("more.toml", Replaced(ScenarioText("[expect]\ndrop = false\n"), "duration = 0.01", "duration = 60.0"));
-  const Outcome o = Shell("cd " + folder_.string() + " && { env --default-signal=INT " + std::string(AMBRIG_BINARY) + " " + command +
-                          " & sleep 0.6; kill -" + signal + " $!; wait $!; }");
+  Write("more.toml",
+        Replaced(ScenarioText("[expect]\ndrop = false\n"), "duration = 0.01", "duration = 60.0"));
+  const Outcome o = Shell("cd " + folder_.string() + " && { env --default-signal=INT " +
+                          std::string(AMBRIG_BINARY) + " " + command + " & sleep 0.6; kill -" +
+                          signal + " $!; wait $!; }");
   EXPECT_EQ(o.exit, 130) << o.text;
   EXPECT_EQ(o.lines(), 1) << o.text;
   EXPECT_NE(o.text.find("interrupted"), std::string::npos) << o.text;
   EXPECT_EQ(Files(), "more.toml rig.toml s.toml ");
 }
-INSTANTIATE_TEST_SUITE_P(Command, Interrupted,
-                         testing::Values(Stop{"run s.toml --quiet --out out", "INT"},
-                                         Stop{"run s.toml --quiet --out out", "TERM"},
-                                         Stop{"run s.toml --quiet --fidelity reference --out out", "INT"},
-                                         Stop{"run s.toml --quiet --fidelity averaged --out out", "INT"},
-                                         Stop{"hide sensor-gain@A.x eddy-currents@A --rig rig.toml -o out", "INT"},
-                                         Stop{"check more.toml --junit out.xml --json out.json", "INT"}));
+INSTANTIATE_TEST_SUITE_P(
+    Command, Interrupted,
+    testing::Values(Stop{"run s.toml --quiet --out out", "INT"},
+                    Stop{"run s.toml --quiet --out out", "TERM"},
+                    Stop{"run s.toml --quiet --fidelity reference --out out", "INT"},
+                    Stop{"run s.toml --quiet --fidelity averaged --out out", "INT"},
+                    Stop{"hide sensor-gain@A.x eddy-currents@A --rig rig.toml -o out", "INT"},
+                    Stop{"check more.toml --junit out.xml --json out.json", "INT"}));
 
 }  // namespace
 }  // namespace ambrig

@@ -15,8 +15,10 @@ constexpr double kTs = 80e-6;
 constexpr PidParameters kSoft = {2e5, 500, 3e6, 1.5e-4, 60}, kHard = {4e5, 900, 6e6, 1.5e-4, 60};
 
 std::unique_ptr<PositionController> Lead() {
-  return std::make_unique<StateSpaceController>(std::vector<double>{0}, std::vector<StateSpace>{FromTransferFunction({3e6, -2.7e6}, {1, -0.3})},
-                                            std::vector<double>{60});
+  return std::make_unique<StateSpaceController>(
+      std::vector<double>{0},
+      std::vector<StateSpace>{FromTransferFunction({3e6, -2.7e6}, {1, -0.3})},
+      std::vector<double>{60});
 }
 
 std::unique_ptr<ControllerSwitch> Make() {
@@ -29,7 +31,8 @@ std::unique_ptr<ControllerSwitch> Make() {
 
 double Motion(int n) { return 4e-6 * std::sin(0.02 * n) + 1e-6; }
 
-// The period of the change has the old controller's force exactly; the next differ by no more than the motion asks for.
+// The period of the change has the old controller's force exactly; the next differ by no more than
+// the motion asks for.
 TEST(ControllerSwitch, TheForceHasNoStep) {
   for (const std::size_t to : {std::size_t{1}, std::size_t{2}}) {
     auto k = Make();

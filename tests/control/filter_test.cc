@@ -26,7 +26,8 @@ FilterParameters Notch(double frequency, double width, double depth) {
   return p;
 }
 
-// Prewarped: the depth at the centre is the continuous filter's, whatever the sampling; gain 1 at rest.
+// Prewarped: the depth at the centre is the continuous filter's, whatever the sampling; gain 1 at
+// rest.
 TEST(Filter, NotchDepthAtItsFrequency) {
   for (const double f : {100.0, 1200.0, 5000.0})
     for (const double depth : {0.0, 0.05, 0.5}) {
@@ -50,7 +51,8 @@ TEST(Filter, LeadAtItsCentre) {
   EXPECT_NEAR(std::arg(g), std::asin((p.pole - p.zero) / (p.pole + p.zero)), 1e-12);
   EXPECT_NEAR(std::abs(g), std::sqrt(p.pole / p.zero), 1e-12);
   std::swap(p.zero, p.pole);
-  EXPECT_NEAR(std::arg(ResponseAt(SampleFilter(p, kTs), std::sqrt(p.zero * p.pole))), -std::asin(2600.0 / 3400.0), 1e-12);
+  EXPECT_NEAR(std::arg(ResponseAt(SampleFilter(p, kTs), std::sqrt(p.zero * p.pole))),
+              -std::asin(2600.0 / 3400.0), 1e-12);
 }
 
 // At its corner a second order low-pass has gain 1/(2 zeta) and a quarter turn.
@@ -83,7 +85,8 @@ TEST(FilteredPid, WithoutFiltersIsThePid) {
   FilteredPid filtered({{PidSchedule{{0}, {kGains}}, {}}}, kTs);
   std::vector<double> a(1), b(1);
   for (int k = 0; k < 200; ++k) {
-    const std::vector<double> y{3e-5 * std::sin(0.1 * k) + 1e-4 * (k > 100)}, r{1e-6 * k}, e{k == 50 ? 70.0 : 0.0};
+    const std::vector<double> y{3e-5 * std::sin(0.1 * k) + 1e-4 * (k > 100)}, r{1e-6 * k},
+        e{k == 50 ? 70.0 : 0.0};
     plain.Step(y, r, e, 0, a);
     filtered.Step(y, r, e, 0, b);
     EXPECT_EQ(a[0], b[0]) << k;
@@ -91,7 +94,10 @@ TEST(FilteredPid, WithoutFiltersIsThePid) {
 }
 
 TEST(FilteredPid, LinearIsTheResponseToSmallSignals) {
-  FilteredPid pid({{PidSchedule{{0}, {kGains}}, {SampleFilter(Notch(900, 300, 0.1), kTs), SampleFilter(Notch(2000, 500, 0), kTs)}}}, kTs);
+  FilteredPid pid(
+      {{PidSchedule{{0}, {kGains}},
+        {SampleFilter(Notch(900, 300, 0.1), kTs), SampleFilter(Notch(2000, 500, 0), kTs)}}},
+      kTs);
   const StateSpace s = pid.Linear(0);
   pid.Hold({0}, {0}, {0});
   Eigen::VectorXd x = Eigen::VectorXd::Zero(s.states());

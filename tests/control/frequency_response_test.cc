@@ -28,7 +28,8 @@ TEST(FrequencyResponse, IsTheSystemsResponse) {
 
 // Block diagonal systems have zeros below the diagonal.
 TEST(FrequencyResponse, OfSystemsSideBySide) {
-  const StateSpace one = FromTransferFunction({1, 0.2}, {1, -0.5, 0.3}), two = Append({one, one, one});
+  const StateSpace one = FromTransferFunction({1, 0.2}, {1, -0.5, 0.3}),
+                   two = Append({one, one, one});
   const std::complex<double> z = std::polar(1.0, 0.7);
   EXPECT_LT((FrequencyResponse(two).At(z) - two.Response(z)).norm(), 1e-13);
 }

@@ -15,14 +15,19 @@ namespace {
 using Eigen::MatrixXd;
 
 /// Gain from w to z with u = K y: largest singular value over the frequencies.
-double Norm(const StateSpace& P, const StateSpace& K, Eigen::Index controls, Eigen::Index measurements, int points) {
+double Norm(const StateSpace& P, const StateSpace& K, Eigen::Index controls,
+            Eigen::Index measurements, int points) {
   double worst = 0;
   const Eigen::Index m = P.inputs() - controls, p = P.outputs() - measurements;
   for (int k = 0; k <= points; ++k) {
-    const std::complex<double> z = std::polar(1.0, std::numbers::pi * std::pow(10.0, -7.0 * (points - k) / points));
+    const std::complex<double> z =
+        std::polar(1.0, std::numbers::pi * std::pow(10.0, -7.0 * (points - k) / points));
     const Eigen::MatrixXcd G = P.Response(z), k_z = K.Response(z);
-    const Eigen::MatrixXcd loop = Eigen::MatrixXcd::Identity(measurements, measurements) - G.bottomRightCorner(measurements, controls) * k_z;
-    const Eigen::MatrixXcd T = G.topLeftCorner(p, m) + G.topRightCorner(p, controls) * k_z * loop.inverse() * G.bottomLeftCorner(measurements, m);
+    const Eigen::MatrixXcd loop = Eigen::MatrixXcd::Identity(measurements, measurements) -
+                                  G.bottomRightCorner(measurements, controls) * k_z;
+    const Eigen::MatrixXcd T = G.topLeftCorner(p, m) + G.topRightCorner(p, controls) * k_z *
+                                                           loop.inverse() *
+                                                           G.bottomLeftCorner(measurements, m);
     worst = std::max(worst, Eigen::JacobiSVD<Eigen::MatrixXcd>(T).singularValues()(0));
   }
   return worst;
@@ -51,13 +56,16 @@ double LeastGamma(const StateSpace& P) {
   return high;
 }
 
-// Nearly perfect measurement, x+ = a x + w + u, z = (x, u). The game's value X x² obeys X = 1 + a² Y/(1 + Y), Y = X/(1 - X/g²), with
-// X < g² (Basar, Bernhard 1995, chapter 3). As X rises to g², Y/(1 + Y) rises to 1: a solution exists for g² > 1 + a² only.
+// Nearly perfect measurement, x+ = a x + w + u, z = (x, u). The game's value X x² obeys X = 1 + a²
+// Y/(1 + Y), Y = X/(1 - X/g²), with X < g² (Basar, Bernhard 1995, chapter 3). As X rises to g²,
+// Y/(1 + Y) rises to 1: a solution exists for g² > 1 + a² only.
 TEST(HInfinity, ScalarClosedForm) {
-  for (const double a : {0.5, 1.0, 1.5}) EXPECT_NEAR(LeastGamma(ScalarPlant(a, 1e-4)), std::sqrt(1 + a * a), 2e-3) << a;
+  for (const double a : {0.5, 1.0, 1.5})
+    EXPECT_NEAR(LeastGamma(ScalarPlant(a, 1e-4)), std::sqrt(1 + a * a), 2e-3) << a;
 }
 
-// What was asked for is what comes out: the norm of the closed loop is below gamma, and not far below near the least.
+// What was asked for is what comes out: the norm of the closed loop is below gamma, and not far
+// below near the least.
 TEST(HInfinity, NormIsBelowGamma) {
   const StateSpace P = ScalarPlant(1.3, 0.7);
   const double least = LeastGamma(P);
@@ -84,7 +92,8 @@ TEST(HInfinity, DesignForAnUnstableMass) {
   EXPECT_LT(norm, d.gamma);
   EXPECT_GT(norm, 0.5 * d.least_gamma);
   // Integral action below the bandwidth: the gain at rest is far above that at the crossover.
-  EXPECT_GT(std::abs(d.controller.Response(1.0)(0, 0)), 20 * std::abs(d.controller.Response(std::polar(1.0, 300 * p.Ts))(0, 0)));
+  EXPECT_GT(std::abs(d.controller.Response(1.0)(0, 0)),
+            20 * std::abs(d.controller.Response(std::polar(1.0, 300 * p.Ts))(0, 0)));
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ TEST(Riccati, ScalarClosedForm) {
 TEST(Riccati, ResidualOfLargerOnes) {
   std::srand(7);
   for (const int n : {2, 5, 12}) {
-    const MatrixXd A = MatrixXd::Identity(n, n) + 0.4 * MatrixXd::Random(n, n), B = MatrixXd::Random(n, 2), C = MatrixXd::Random(3, n);
+    const MatrixXd A = MatrixXd::Identity(n, n) + 0.4 * MatrixXd::Random(n, n),
+                   B = MatrixXd::Random(n, 2), C = MatrixXd::Random(3, n);
     const RiccatiSolution s = SolveRiccati(A, B, C.transpose() * C, MatrixXd::Identity(2, 2));
     EXPECT_LT(s.residual, 1e-9);
     EXPECT_LT(s.spectral_radius, 1);
@@ -47,7 +48,8 @@ TEST(Riccati, SaysWhenThereIsNoSolution) {
   EXPECT_FALSE(SolveRiccati(A, B, MatrixXd::Identity(2, 2), Scalar(1)).usable());
 }
 
-// Separation: the loop's poles are those of A - B K and of A - A L C, which the design promises to be stable.
+// Separation: the loop's poles are those of A - B K and of A - A L C, which the design promises to
+// be stable.
 TEST(Lqg, LoopIsStableByTheSeparationTheorem) {
   const SampledPlant p = testing::UnstableMass();
   const LqgDesign d = DesignLqg(p, {}, "test");
@@ -58,7 +60,8 @@ TEST(Lqg, LoopIsStableByTheSeparationTheorem) {
   EXPECT_LT(d.spectral_radius, 1);
 }
 
-// Against the plant: a step of load is integrated away, a reference is reached, both without being told.
+// Against the plant: a step of load is integrated away, a reference is reached, both without being
+// told.
 TEST(Lqg, RejectsALoadAndFollowsAReference) {
   const SampledPlant p = testing::UnstableMass();
   LqgController k({0}, {DesignLqg(p, {}, "test")}, {1000}, p.Ts);
@@ -106,7 +109,9 @@ TEST(Lqg, SaysWhatCannotBeHeld) {
     DesignLqg(p, {}, "rig.toml:7: controller.kind");
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_TRUE(std::string(e.what()).starts_with("rig.toml:7: controller.kind: no stabilising solution")) << e.what();
+    EXPECT_TRUE(
+        std::string(e.what()).starts_with("rig.toml:7: controller.kind: no stabilising solution"))
+        << e.what();
   }
 }
 

@@ -44,10 +44,12 @@ TEST(Pid, DerivativeOfARamp) {
 TEST(Pid, IntegralIsOneStepLate) {
   PidState s;
   const double e = 2e-6;
-  for (int n = 0; n < 10; ++n) EXPECT_NEAR(Step(kGains, kTs, 0, e, 0, s), 4e5 * e + n * 6e6 * kTs * e, 1e-14) << n;
+  for (int n = 0; n < 10; ++n)
+    EXPECT_NEAR(Step(kGains, kTs, 0, e, 0, s), 4e5 * e + n * 6e6 * kTs * e, 1e-14) << n;
 }
 
-// The increment is dropped when the raw force, excitation included, is beyond the limit where e pushes.
+// The increment is dropped when the raw force, excitation included, is beyond the limit where e
+// pushes.
 TEST(Pid, ClampAndAntiWindup) {
   PidState s;
   EXPECT_EQ(Step(kGains, kTs, 0, 2e-4, 0, s), 60);  // 80 N asked for

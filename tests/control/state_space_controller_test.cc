@@ -20,14 +20,16 @@ std::complex<double> Polynomial(const std::vector<double>& p, std::complex<doubl
 TEST(StateSpace, ResponseIsTheTransferFunction) {
   const std::vector<double> num{2, -1, 0.5}, den{4, 1, 0.25, -0.1};
   const StateSpace s = FromTransferFunction(num, den);
-  for (const std::complex<double> z : {std::complex<double>(1, 0), std::polar(1.0, 0.3), std::polar(1.0, 2.5), std::complex<double>(0, 7)})
+  for (const std::complex<double> z : {std::complex<double>(1, 0), std::polar(1.0, 0.3),
+                                       std::polar(1.0, 2.5), std::complex<double>(0, 7)})
     EXPECT_LT(std::abs(s.Response(z)(0, 0) - Polynomial(num, z) / Polynomial(den, z)), 1e-12);
   const StateSpace biproper = FromTransferFunction({3, 1}, {2, 5});
   EXPECT_LT(std::abs(biproper.Response(0.7)(0, 0) - (3 * 0.7 + 1) / (2 * 0.7 + 5)), 1e-14);
   EXPECT_EQ(FromTransferFunction({6}, {3}).D(0, 0), 2);
 }
 
-// The bilinear map takes s = i w to z = exp(i W Ts) with w = 2/Ts tan(W Ts/2); prewarped, w = W at the chosen one.
+// The bilinear map takes s = i w to z = exp(i W Ts) with w = 2/Ts tan(W Ts/2); prewarped, w = W at
+// the chosen one.
 TEST(StateSpace, BilinearMapsTheFrequencyAxis) {
   const std::vector<double> num{1, 3e3}, den{1, 400, 1e7};
   const StateSpace c = FromTransferFunction(num, den);
@@ -41,11 +43,14 @@ TEST(StateSpace, BilinearMapsTheFrequencyAxis) {
 }
 
 TEST(StateSpace, SeriesAndLoop) {
-  const StateSpace a = FromTransferFunction({1, 0.5}, {1, -0.2}), b = FromTransferFunction({0.3}, {1, 0.1, 0.05});
+  const StateSpace a = FromTransferFunction({1, 0.5}, {1, -0.2}),
+                   b = FromTransferFunction({0.3}, {1, 0.1, 0.05});
   const std::complex<double> z = std::polar(1.0, 0.9);
-  EXPECT_LT(std::abs(Series(a, b).Response(z)(0, 0) - a.Response(z)(0, 0) * b.Response(z)(0, 0)), 1e-13);
+  EXPECT_LT(std::abs(Series(a, b).Response(z)(0, 0) - a.Response(z)(0, 0) * b.Response(z)(0, 0)),
+            1e-13);
   // Poles of the loop 1 - P K = 0 with P = 1/(z - 1.2), K = -0.5: z = 0.7.
-  const Eigen::MatrixXd A = LoopMatrix(FromTransferFunction({1}, {1, -1.2}), StateSpace::Gain(Eigen::MatrixXd::Constant(1, 1, -0.5)));
+  const Eigen::MatrixXd A = LoopMatrix(FromTransferFunction({1}, {1, -1.2}),
+                                       StateSpace::Gain(Eigen::MatrixXd::Constant(1, 1, -0.5)));
   EXPECT_NEAR(A(0, 0), 0.7, 1e-14);
 }
 
@@ -61,9 +66,11 @@ TEST(StateSpaceController, ImpulseResponse) {
   EXPECT_EQ(f[0], -100);  // clamped
 }
 
-// An integrator finds its own state for a force; a controller without one gets an offset. Both keep it.
+// An integrator finds its own state for a force; a controller without one gets an offset. Both keep
+// it.
 TEST(StateSpaceController, HoldsAForce) {
-  for (const StateSpace& s : {FromTransferFunction({5, -4.9}, {1, -1}), FromTransferFunction({5, -2}, {1, -0.4})}) {
+  for (const StateSpace& s :
+       {FromTransferFunction({5, -4.9}, {1, -1}), FromTransferFunction({5, -2}, {1, -0.4})}) {
     StateSpaceController k({0}, {s}, {100});
     k.Hold({12}, {3e-6}, {3e-6});
     std::vector<double> f(1);

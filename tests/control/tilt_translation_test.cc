@@ -12,9 +12,12 @@ constexpr double kTs = 80e-6;
 const CoordinateGains kTranslation{8e5, 1800, 1e7, 1.5e-4}, kTilt{1.2e4, 27, 2e5, 1.5e-4};
 const TiltTranslationGeometry kPlaces{{-0.135, 0.145}, {-0.12, 0.13}, 0.0042};
 
-TiltTranslation Make(double gyro = 0) { return TiltTranslation(kTranslation, kTilt, gyro, kPlaces, {1e9, 1e9, 1e9, 1e9}, kTs); }
+TiltTranslation Make(double gyro = 0) {
+  return TiltTranslation(kTranslation, kTilt, gyro, kPlaces, {1e9, 1e9, 1e9, 1e9}, kTs);
+}
 
-// Readings of a pure shift give forces without moment about the centre of mass; of a pure tilt, without a sum.
+// Readings of a pure shift give forces without moment about the centre of mass; of a pure tilt,
+// without a sum.
 TEST(TiltTranslation, Decouples) {
   std::vector<double> f(4);
   TiltTranslation k = Make();
@@ -30,7 +33,8 @@ TEST(TiltTranslation, Decouples) {
   EXPECT_EQ(f[0], 0);
 }
 
-// A tilt rate in x-z makes the moment g Omega Ip theta' in y-z against the gyroscopic one, and the other way round.
+// A tilt rate in x-z makes the moment g Omega Ip theta' in y-z against the gyroscopic one, and the
+// other way round.
 TEST(TiltTranslation, CancelsTheGyroscopicMoment) {
   const double Omega = 1000, rate = 0.02;
   TiltTranslation with = Make(1), without = Make(0);
@@ -59,10 +63,13 @@ TEST(TiltTranslation, HoldsForcesAndIsItsLinearModel) {
   for (int n = 0; n < 80; ++n) {
     std::vector<double> y(4);
     Eigen::VectorXd u(4);
-    for (std::size_t a = 0; a < 4; ++a) u[static_cast<Eigen::Index>(a)] = y[a] = 1e-6 * std::sin(0.1 * n * static_cast<double>(a + 1));
+    for (std::size_t a = 0; a < 4; ++a)
+      u[static_cast<Eigen::Index>(a)] = y[a] =
+          1e-6 * std::sin(0.1 * n * static_cast<double>(a + 1));
     k.Step(y, {0, 0, 0, 0}, {0, 0, 0, 0}, 500, f);
     const Eigen::VectorXd v = s.C * x + s.D * u;
-    for (std::size_t a = 0; a < 4; ++a) EXPECT_NEAR(f[a], v[static_cast<Eigen::Index>(a)], 1e-9) << n;
+    for (std::size_t a = 0; a < 4; ++a)
+      EXPECT_NEAR(f[a], v[static_cast<Eigen::Index>(a)], 1e-9) << n;
     x = (s.A * x + s.B * u).eval();
   }
 }
@@ -73,7 +80,8 @@ TEST(TiltTranslation, AntiWindup) {
   std::vector<double> f(4);
   for (int n = 0; n < 1000; ++n) k.Step({-1e-3, 0, -1e-3, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, f);
   EXPECT_EQ(f[0], 10);
-  for (int n = 0; n < 40; ++n) k.Step({0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, f);  // the derivative dies out
+  // the derivative dies out
+  for (int n = 0; n < 40; ++n) k.Step({0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, f);
   EXPECT_NEAR(f[0], 0, 1e-3);
 }
 

@@ -1,4 +1,5 @@
-/// The synchronous notch: what turns with the shaft leaves the controller's view, at the rate promised; the rest stays.
+/// The synchronous notch: what turns with the shaft leaves the controller's view, at the rate
+/// promised; the rest stays.
 #include "control/unbalance_control.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +14,10 @@ namespace {
 constexpr double kTs = 80e-6;
 
 UnbalanceControl Make(double phase = 0) {
-  auto inner = std::make_unique<StateSpaceController>(std::vector<double>{0}, std::vector<StateSpace>{StateSpace::Gain(Eigen::MatrixXd::Constant(1, 1, 1.0))},
-                                                  std::vector<double>{1e9});
+  auto inner = std::make_unique<StateSpaceController>(
+      std::vector<double>{0},
+      std::vector<StateSpace>{StateSpace::Gain(Eigen::MatrixXd::Constant(1, 1, 1.0))},
+      std::vector<double>{1e9});
   return UnbalanceControl(std::move(inner), 1, {200, 20, phase}, kTs);
 }
 

@@ -22,14 +22,18 @@ TEST(AppendFile, GoesOnWhereItEnded) {
 TEST(AppendFile, OneWriterAtATime) {
   const TemporaryFolder folder;
   const AppendFile file(folder.File("journal"));
-  EXPECT_NE(ErrorText<InputError>([&] { AppendFile(folder.File("journal")); }).find("another ambrig writes there"), std::string::npos);
+  EXPECT_NE(ErrorText<InputError>([&] {
+              AppendFile(folder.File("journal"));
+            }).find("another ambrig writes there"),
+            std::string::npos);
 }
 
 // Of several threads any may be heard first: each must name the cause.
 TEST(AppendFile, EveryEntryAfterAFailedOneNamesTheSameReason) {
   AppendFile file("/dev/full");
   for (const char* entry : {"first", "second"})
-    EXPECT_EQ(ErrorText<InputError>([&] { file.Append(entry); }), "cannot write /dev/full: No space left on device");
+    EXPECT_EQ(ErrorText<InputError>([&] { file.Append(entry); }),
+              "cannot write /dev/full: No space left on device");
 }
 
 }  // namespace

@@ -61,10 +61,12 @@ TEST(Noise, PhiloxGivesTheBitsOfRandom123) {
 
 // FIPS 197, appendix B: rounds 1 and 10 of the example.
 TEST(Noise, AesRoundsAreThoseOfTheStandard) {
-  const AesState first = {0xbee33d19, 0x2be2f4a0, 0x2a8dc69a, 0x0848f8e9}, key1 = {0x17fefaa0, 0xb12c5488, 0x3939a323, 0x05766c2a};
+  const AesState first = {0xbee33d19, 0x2be2f4a0, 0x2a8dc69a, 0x0848f8e9},
+                 key1 = {0x17fefaa0, 0xb12c5488, 0x3939a323, 0x05766c2a};
   const AesState second = {0xf27f9ca4, 0x2b359f68, 0x43ea5b6b, 0x49506a02};
   EXPECT_EQ(AesRound(first, key1), second);
-  const AesState tenth = {0x1ef240eb, 0x84382e59, 0xe713a18b, 0xd242c31b}, key10 = {0xa8f914d0, 0x8925eec9, 0xc80c3fe1, 0xa60c63b6};
+  const AesState tenth = {0x1ef240eb, 0x84382e59, 0xe713a18b, 0xd242c31b},
+                 key10 = {0xa8f914d0, 0x8925eec9, 0xc80c3fe1, 0xa60c63b6};
   const AesState cipher = {0x1d842539, 0xfb09dc02, 0x978511dc, 0x320b6a19};
   EXPECT_EQ(AesLastRound(tenth, key10), cipher);
 }
@@ -78,9 +80,11 @@ void ExpectNormalOf(std::uint32_t word, float value) {
 }
 
 #ifdef __x86_64__
-__attribute__((target("aes,sse4.1"))) std::array<std::uint32_t, 4> Ars(std::array<std::uint32_t, 4> counter, std::uint64_t seed) {
+__attribute__((target("aes,sse4.1"))) std::array<std::uint32_t, 4> Ars(
+    std::array<std::uint32_t, 4> counter, std::uint64_t seed) {
   const ars4x32_ctr_t c = {{counter[0], counter[1], counter[2], counter[3]}};
-  const ars4x32_ukey_t k = {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), 0, 0}};
+  const ars4x32_ukey_t k = {
+      {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32), 0, 0}};
   const ars4x32_ctr_t out = ars4x32_R(5, c, ars4x32keyinit(k));
   return {out.v[0], out.v[1], out.v[2], out.v[3]};
 }
@@ -92,7 +96,9 @@ TEST(Noise, ValuesAreNormalsOfTheBitsOfRandom123) {
   const std::uint32_t stream = 77;
   const std::vector<float> block = Block(seed, stream, index, kBlock);
   for (std::uint32_t c = 0; c < kBlock / 4; ++c) {
-    const auto words = Ars({c, stream, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)}, seed);
+    const auto words =
+        Ars({c, stream, static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32)},
+            seed);
     for (std::uint32_t w = 0; w < 4; ++w) ExpectNormalOf(words[w], block[4 * c + w]);
   }
 }
@@ -104,7 +110,8 @@ TEST(Noise, TableOfTheInverseDistributionIsWithinItsError) {
     for (int k = 0; k <= 1000; ++k) {
       const double t = k / 1000.0 - 0.5, p = std::ldexp(1.5 + t, e - 31);
       double size = 0;
-      for (int power = kNormalDegree; power >= 0; --power) size = size * t + double{kNormalTable[power][(e + 127) % 32]};
+      for (int power = kNormalDegree; power >= 0; --power)
+        size = size * t + double{kNormalTable[power][(e + 127) % 32]};
       const double density = std::sqrt(2 / M_PI) * std::exp(-0.5 * size * size);
       ASSERT_NEAR((std::erfc(size / std::sqrt(2.0)) - p) / density, 0, 4e-5) << e << ' ' << t;
     }

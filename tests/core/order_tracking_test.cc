@@ -19,7 +19,8 @@ struct Signal {
     for (int k = 0; k < 8000; ++k) {
       const double t = k / rate, angle = 2 * kPi * (20 * t + 5 * t * t);
       theta.push_back(angle);
-      const std::complex<double> z = std::polar(3e-6, angle + 40 * kPi / 180) + std::polar(1e-6, -angle);
+      const std::complex<double> z =
+          std::polar(3e-6, angle + 40 * kPi / 180) + std::polar(1e-6, -angle);
       x.push_back(z.real() + 2e-6 * std::cos(2 * kPi * 25 * t) + 5e-5);
       y.push_back(z.imag() - 3e-5);
     }
@@ -58,7 +59,8 @@ TEST(OrderTracking, WaterfallShowsCircularAmplitudesOnTheirSide) {
   const auto& row = w.amplitude.back();
   const double speed = 20 + 10 * w.t.back();  // [Hz]
   ASSERT_GT(speed, 50);
-  const auto near = [&](double f) {  // largest within 2.5 lines: the speed sweeps 4 Hz in the window
+  // largest within 2.5 lines: the speed sweeps 4 Hz in the window
+  const auto near = [&](double f) {
     double top = 0;
     for (std::size_t k = 0; k < row.size(); ++k)
       if (std::abs(w.frequency[k] - f) < 2.5 * df) top = std::max(top, row[k]);

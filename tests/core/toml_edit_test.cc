@@ -9,13 +9,19 @@ namespace ambrig {
 namespace {
 
 const std::string kText =
-    "name = \"a\\\\b \\\"q\\\"\"\n[controller]\nkp = 0.1\nki = { value = 3, sd = 0.25 }\nn = 7\nfile = \"k.toml\"\n"
-    "[[controller.filter]]\nfrequency = 100.0\n[[controller.filter]]\nfrequency = 1e-7\n[bearings.A]\nlist = [[1.0, 2.0], [0.30000000000000004, 4.0]]\nspeeds = [0.0, 3]\n";
+    "name = \"a\\\\b \\\"q\\\"\"\n[controller]\nkp = 0.1\nki = { value = 3, sd = 0.25 }\nn = "
+    "7\nfile = \"k.toml\"\n"
+    "[[controller.filter]]\nfrequency = 100.0\n[[controller.filter]]\nfrequency = "
+    "1e-7\n[bearings.A]\nlist = [[1.0, 2.0], [0.30000000000000004, 4.0]]\nspeeds = [0.0, 3]\n";
 
 TEST(TomlEdit, ChangesWhatWasAskedFor) {
   const double kp = 0.1 + 0.2, third = 1.0 / 3;
-  const std::string out = EditedToml(kText, "/some/where/rig.toml", {{"controller.kp", kp}, {"controller.ki", third}, {"controller.filter[1].frequency", 5.0},
-                                                                    {"bearings.A.z", -0.12}, {"name", std::string("new")}});
+  const std::string out = EditedToml(kText, "/some/where/rig.toml",
+                                     {{"controller.kp", kp},
+                                      {"controller.ki", third},
+                                      {"controller.filter[1].frequency", 5.0},
+                                      {"bearings.A.z", -0.12},
+                                      {"name", std::string("new")}});
   const TomlTable t = TomlTable::FromText(out, "out.toml");
   const TomlTable c = *t.Table("controller");
   EXPECT_EQ(t.String("name"), "new");
@@ -38,7 +44,8 @@ TEST(TomlEdit, LeavesTheRest) {
 }
 
 TEST(TomlEdit, ElementsOfAList) {
-  const TomlTable t = TomlTable::FromText(EditedToml(kText, "/x/rig.toml", {{"bearings.A.speeds[1]", 0.5}}), "out.toml");
+  const TomlTable t = TomlTable::FromText(
+      EditedToml(kText, "/x/rig.toml", {{"bearings.A.speeds[1]", 0.5}}), "out.toml");
   EXPECT_EQ(t.Table("bearings")->Table("A")->Numbers("speeds"), (std::vector<double>{0, 0.5}));
   EXPECT_EQ(TomlNumberAt(kText, "f", "bearings.A.speeds[1]"), 3);
 }
@@ -49,8 +56,10 @@ TEST(TomlEdit, ReadsANumber) {
 }
 
 TEST(TomlEdit, TellsWrongPaths) {
-  for (const char* path : {"", "controller.nothing.kp", "controller.filter[2].frequency", "controller.filter[x].frequency", "controller.file",
-                           "controller", "bearings.A.list", "bearings.A.list[0]", "bearings.A.speeds[2]", "controller.filter[1]", "controller..kp"})
+  for (const char* path :
+       {"", "controller.nothing.kp", "controller.filter[2].frequency",
+        "controller.filter[x].frequency", "controller.file", "controller", "bearings.A.list",
+        "bearings.A.list[0]", "bearings.A.speeds[2]", "controller.filter[1]", "controller..kp"})
     EXPECT_THROW(EditedToml(kText, "f", {{path, 1.0}}), InputError) << path;
   EXPECT_THROW(TomlNumberAt(kText, "f", "controller.kz"), InputError);
   EXPECT_THROW(EditedToml("a = = 3", "f", {}), InputError);

@@ -1,4 +1,5 @@
-/// ambrig design: same bytes for any number of jobs and after kill -9, every point again, mistakes in one line.
+/// ambrig design: same bytes for any number of jobs and after kill -9, every point again, mistakes
+/// in one line.
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_run.h"
@@ -13,27 +14,41 @@ class Design : public CliFolder {
     const std::string rig = ReferenceRigText();
     Write("pid.toml", rig);
     const auto begin = rig.find("[controller]"), end = rig.find("[bearings.A]");
-    Write("lqg.toml", rig.substr(0, begin) + "[controller]\nkind = \"lqg\"\nrate = 12500.0\nbias_current = 2.0\nf_max = 60.0\nforce_weight = 10.0\n" + rig.substr(end));
-    Write("load.toml", "name = \"load\"\nrig = \"pid.toml\"\nduration = 0.02\n[[load]]\nplane = \"A\"\nforce = [15.0, 0.0]\nstart = 0.005\n");
+    Write("lqg.toml", rig.substr(0, begin) +
+                          "[controller]\nkind = \"lqg\"\nrate = 12500.0\nbias_current = 2.0\nf_max "
+                          "= 60.0\nforce_weight = 10.0\n" +
+                          rig.substr(end));
+    Write("load.toml",
+          "name = \"load\"\nrig = \"pid.toml\"\nduration = 0.02\n[[load]]\nplane = \"A\"\nforce = "
+          "[15.0, 0.0]\nstart = 0.005\n");
     Write("study.toml", kStudy);
   }
   static constexpr const char* kStudy =
-      "name = \"small\"\n[[candidate]]\nname = \"PID\"\nrig = \"pid.toml\"\n[[candidate.variable]]\npath = \"controller.kp\"\nrange = [3.0e5, 6.0e5]\n"
-      "[[candidate]]\nname = \"LQG\"\nrig = \"lqg.toml\"\n[[candidate.variable]]\npath = \"controller.force_weight\"\nrange = [2.0, 40.0]\nscale = \"log\"\n"
-      "[[scenario]]\nname = \"load\"\nfile = \"load.toml\"\n[[objective]]\nof = \"peak_sensitivity\"\n[[objective]]\nof = \"orbit\"\nscenario = \"load\"\n"
-      "[[limit]]\nof = \"drop\"\nscenario = \"load\"\nat_most = 0.0\n[search]\npoints = 3\n[spread]\ndraws = 1\n";
-  static std::string WithSearch(const std::string& search) { return Replaced(kStudy, "[search]\npoints = 3\n", search); }
+      "name = \"small\"\n[[candidate]]\nname = \"PID\"\nrig = "
+      "\"pid.toml\"\n[[candidate.variable]]\npath = \"controller.kp\"\nrange = [3.0e5, 6.0e5]\n"
+      "[[candidate]]\nname = \"LQG\"\nrig = \"lqg.toml\"\n[[candidate.variable]]\npath = "
+      "\"controller.force_weight\"\nrange = [2.0, 40.0]\nscale = \"log\"\n"
+      "[[scenario]]\nname = \"load\"\nfile = \"load.toml\"\n[[objective]]\nof = "
+      "\"peak_sensitivity\"\n[[objective]]\nof = \"orbit\"\nscenario = \"load\"\n"
+      "[[limit]]\nof = \"drop\"\nscenario = \"load\"\nat_most = 0.0\n[search]\npoints = "
+      "3\n[spread]\ndraws = 1\n";
+  static std::string WithSearch(const std::string& search) {
+    return Replaced(kStudy, "[search]\npoints = 3\n", search);
+  }
 };
 
 TEST_F(Design, SameBytesForAnyJobsAndAfterBeingKilled) {
   EXPECT_EQ(Ambrig("design study.toml -o one --jobs 1 --no-report").exit, 0);
-  const std::string table = ReadText(folder_ / "one/table.csv"), json = ReadText(folder_ / "one/study.json");
+  const std::string table = ReadText(folder_ / "one/table.csv"),
+                    json = ReadText(folder_ / "one/study.json");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * 4);
   EXPECT_EQ(Ambrig("design study.toml -o two --jobs 2 --no-report").exit, 0);
   EXPECT_EQ(ReadText(folder_ / "two/table.csv"), table);
   EXPECT_EQ(ReadText(folder_ / "two/study.json"), json);
   // Killed when a few points are there: the rest is done, nothing twice.
-  Shell("cd " + folder_.string() + " && (" + AMBRIG_BINARY + " design study.toml -o three --jobs 1 --no-report & pid=$!; while [ $(cat three/journal.txt 2>/dev/null | wc -l) -lt 4 ]; do sleep 0.02; "
+  Shell("cd " + folder_.string() + " && (" + AMBRIG_BINARY +
+        " design study.toml -o three --jobs 1 --no-report & pid=$!; while [ $(cat "
+        "three/journal.txt 2>/dev/null | wc -l) -lt 4 ]; do sleep 0.02; "
         "kill -0 $pid 2>/dev/null || break; done; kill -9 $pid; wait $pid)");
   const std::string cut = ReadText(folder_ / "three/journal.txt");
   EXPECT_GE(std::count(cut.begin(), cut.end(), '\n'), 3);
@@ -56,14 +71,17 @@ TEST_F(Design, APointAgain) {
   EXPECT_EQ(point["figures"], study["points"][6]["figures"]);
   // What it wrote is a rig and a scenario like any other.
   EXPECT_EQ(Ambrig("run out/point_6/load.toml --quiet --no-report --out again").exit, 0);
-  const auto run = nlohmann::json::parse(ReadText(folder_ / "again/load.json")), first = nlohmann::json::parse(ReadText(folder_ / "out/point_6/load.json"));
+  const auto run = nlohmann::json::parse(ReadText(folder_ / "again/load.json")),
+             first = nlohmann::json::parse(ReadText(folder_ / "out/point_6/load.json"));
   EXPECT_EQ(run["metrics"]["max_orbit"], first["metrics"]["max_orbit"]);
   EXPECT_EQ(Ambrig("design study.toml -o out --point 99").exit, 2);
 }
 
-// The search finds a better compromise than its start, keeps to the number of evaluations, and is the same again.
+// The search finds a better compromise than its start, keeps to the number of evaluations, and is
+// the same again.
 TEST_F(Design, Optimises) {
-  Write("study.toml", WithSearch("[search]\nmethod = \"optimise\"\ndirections = 2\nevaluations = 8\n"));
+  Write("study.toml",
+        WithSearch("[search]\nmethod = \"optimise\"\ndirections = 2\nevaluations = 8\n"));
   ASSERT_EQ(Ambrig("design study.toml -o a --jobs 2 --no-report").exit, 0);
   ASSERT_EQ(Ambrig("design study.toml -o b --jobs 1 --no-report").exit, 0);
   EXPECT_EQ(ReadText(folder_ / "a/table.csv"), ReadText(folder_ / "b/table.csv"));
@@ -72,7 +90,9 @@ TEST_F(Design, Optimises) {
   double best[2] = {1e9, 1e9}, start[2] = {0, 0};
   for (const auto& p : study["points"]) {
     const int c = p["candidate"] == "PID" ? 0 : 1;
-    const double s = p["figures"]["peak_sensitivity"].is_null() ? 1e9 : p["figures"]["peak_sensitivity"].get<double>();
+    const double s = p["figures"]["peak_sensitivity"].is_null()
+                         ? 1e9
+                         : p["figures"]["peak_sensitivity"].get<double>();
     if (start[c] == 0) start[c] = s;
     best[c] = std::min(best[c], s);
   }
@@ -82,12 +102,15 @@ TEST_F(Design, Optimises) {
 TEST_F(Design, ReportStandsAlone) {
   ASSERT_EQ(Ambrig("design study.toml -o out").exit, 0);
   const std::string html = ReadText(folder_ / "out/report.html");
-  for (const char* part : {"Candidates side by side", "Pareto front", "Answers of the points shown", "Points of the front"})
+  for (const char* part : {"Candidates side by side", "Pareto front", "Answers of the points shown",
+                           "Points of the front"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 
 TEST_F(Design, AnUnstablePointIsAPoint) {
-  Write("study.toml", Replaced(Replaced(kStudy, "range = [3.0e5, 6.0e5]", "values = [1.0e4, 4.0e5]"), "range = [2.0, 40.0]\nscale = \"log\"", "values = [5.0]"));
+  Write("study.toml",
+        Replaced(Replaced(kStudy, "range = [3.0e5, 6.0e5]", "values = [1.0e4, 4.0e5]"),
+                 "range = [2.0, 40.0]\nscale = \"log\"", "values = [5.0]"));
   ASSERT_EQ(Ambrig("design study.toml -o out --no-report").exit, 0);
   const auto study = nlohmann::json::parse(ReadText(folder_ / "out/study.json"));
   EXPECT_TRUE(study["points"][1]["figures"]["peak_sensitivity"].is_null());

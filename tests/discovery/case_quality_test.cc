@@ -17,7 +17,9 @@ namespace fs = std::filesystem;
 class CaseQuality : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("ambrig_quality_" + std::to_string(::getpid()) + "_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = fs::temp_directory_path() /
+              ("ambrig_quality_" + std::to_string(::getpid()) + "_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples/mls2em", folder_, fs::copy_options::recursive);
   }
@@ -32,7 +34,8 @@ class CaseQuality : public testing::Test {
     for (int row = -1; std::getline(in, line); ++row) {
       std::istringstream cells(line);
       std::string cell;
-      for (int column = 0; std::getline(cells, cell, ','); ++column) out << (column ? "," : "") << (row < 0 ? cell : change(row, column, cell));
+      for (int column = 0; std::getline(cells, cell, ','); ++column)
+        out << (column ? "," : "") << (row < 0 ? cell : change(row, column, cell));
       out << "\n";
     }
     in.close();
@@ -59,7 +62,8 @@ class CaseQuality : public testing::Test {
   }
   bool Noted(const std::string& part) const {
     const Case c = Read();
-    return std::any_of(c.notes.begin(), c.notes.end(), [&](const std::string& n) { return n.find(part) != std::string::npos; });
+    return std::any_of(c.notes.begin(), c.notes.end(),
+                       [&](const std::string& n) { return n.find(part) != std::string::npos; });
   }
   fs::path folder_;
 };
@@ -67,7 +71,9 @@ class CaseQuality : public testing::Test {
 constexpr int kTime = 0, kCurrent = 3, kDuty = 5;
 
 TEST_F(CaseQuality, MissingSamplesAreLeftOutAndTheRestCounts) {
-  Edit([](int row, int column, const std::string& cell) { return column == kCurrent && row >= 1000 && row < 1099 ? "nan" : cell; });
+  Edit([](int row, int column, const std::string& cell) {
+    return column == kCurrent && row >= 1000 && row < 1099 ? "nan" : cell;
+  });
   EXPECT_TRUE(Noted("M.i1: 99 samples missing, left out"));
   const Case c = Read();
   CaseModel model(c);
@@ -83,14 +89,18 @@ TEST_F(CaseQuality, AStuckCurrentIsNoData) {
 }
 
 TEST_F(CaseQuality, AHoleInWhatWasCommandedIsRefused) {
-  Edit([](int row, int column, const std::string& cell) { return column == kDuty && row == 998 ? "nan" : cell; });
+  Edit([](int row, int column, const std::string& cell) {
+    return column == kDuty && row == 998 ? "nan" : cell;
+  });
   const std::string text = Complaint();
   EXPECT_NE(text.find("steps-01.toml:"), std::string::npos) << text;
   EXPECT_NE(text.find("4.99 s"), std::string::npos) << text;
 }
 
 TEST_F(CaseQuality, TimesThatContradictTheScenario) {
-  Edit([](int, int column, const std::string& cell) { return column == kTime ? std::to_string(3 * std::stod(cell)) : cell; });
+  Edit([](int, int column, const std::string& cell) {
+    return column == kTime ? std::to_string(3 * std::stod(cell)) : cell;
+  });
   EXPECT_NE(Complaint().find("steps-01.toml lasts 12 s"), std::string::npos) << Complaint();
 }
 

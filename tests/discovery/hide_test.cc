@@ -17,8 +17,10 @@ namespace ambrig {
 namespace {
 
 RigParameters RadialRig() {
-  RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
-  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind == BearingKind::kThrust; });
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  std::erase_if(rig.bearings,
+                [](const BearingParameters& b) { return b.kind == BearingKind::kThrust; });
   return rig;
 }
 
@@ -43,7 +45,8 @@ TEST_F(HideTest, SameSeedSameBitsAnotherSeedAnotherRig) {
   ASSERT_EQ(again.data.records.size(), hidden_->data.records.size());
   for (std::size_t r = 0; r < again.data.records.size(); ++r)
     for (std::size_t c = 0; c < again.data.records[r].data.channels.size(); ++c)
-      ASSERT_EQ(again.data.records[r].data.channels[c].samples, hidden_->data.records[r].data.channels[c].samples);
+      ASSERT_EQ(again.data.records[r].data.channels[c].samples,
+                hidden_->data.records[r].data.channels[c].samples);
   HideRequest other = *request_;
   other.seed = 6;
   const HiddenCase different = Hide(RadialRig(), other);
@@ -62,7 +65,8 @@ TEST_F(HideTest, ParametersStayWithinTheirTolerances) {
   EXPECT_GT(moved, 5);
 }
 
-// The true model leaves the noise and nothing else in every record; the rig file's model leaves more.
+// The true model leaves the noise and nothing else in every record; the rig file's model leaves
+// more.
 TEST_F(HideTest, OnlyTheTruthExplainsTheData) {
   CaseModel model(hidden_->data);
   Hypothesis truth, nominal = Hypothesis::Base(hidden_->data.rig);
@@ -74,7 +78,8 @@ TEST_F(HideTest, OnlyTheTruthExplainsTheData) {
 }
 
 TEST_F(HideTest, AnswerReadsBack) {
-  const std::string file = std::filesystem::temp_directory_path() / ("ambrig_hide_" + std::to_string(::getpid()) + ".answer.toml");
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("ambrig_hide_" + std::to_string(::getpid()) + ".answer.toml");
   std::ofstream(file) << AnswerText(*hidden_, *request_, "practice");
   const Answer answer = ReadAnswers(file).at("practice");
   ASSERT_EQ(answer.slots.size(), 1U);

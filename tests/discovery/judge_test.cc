@@ -12,7 +12,8 @@
 namespace ambrig {
 namespace {
 
-const NamedEffect kHum = {"sensor-hum", "A"}, kGain = {"sensor-gain", "B.y"}, kBow = {"shaft-bow", "rig"};
+const NamedEffect kHum = {"sensor-hum", "A"}, kGain = {"sensor-gain", "B.y"},
+                  kBow = {"shaft-bow", "rig"};
 
 TEST(Judge, OneEffectMustBeFirstAndAlone) {
   const Answer answer = {{"effect"}, {{kHum}}};
@@ -34,13 +35,15 @@ TEST(Judge, EitherAnswerOfASlotCountsButOnlyOnce) {
 }
 
 TEST(Judge, TalliesAndConfusion) {
-  std::vector<Judgement> all = {Judge("1", {{"effect"}, {{kHum}}}, {"effect", kHum, {kHum}, 5, 1.1}),
-                                Judge("2", {{"effect"}, {{kGain}}}, {"effect", kBow, {kBow}, 5, 1.7}),
-                                Judge("3", {{"none"}, {}}, {"none", {}, {}, 1, 1}),
-                                Judge("4", {{"unknown"}, {}}, {"effect", kBow, {kBow}, 9, 2}),
-                                Judge("5", {{"effect"}, {{kHum}, {kGain}}}, {"effect", kHum, {kHum, kGain}, 9, 1})};
+  std::vector<Judgement> all = {
+      Judge("1", {{"effect"}, {{kHum}}}, {"effect", kHum, {kHum}, 5, 1.1}),
+      Judge("2", {{"effect"}, {{kGain}}}, {"effect", kBow, {kBow}, 5, 1.7}),
+      Judge("3", {{"none"}, {}}, {"none", {}, {}, 1, 1}),
+      Judge("4", {{"unknown"}, {}}, {"effect", kBow, {kBow}, 9, 2}),
+      Judge("5", {{"effect"}, {{kHum}, {kGain}}}, {"effect", kHum, {kHum, kGain}, 9, 1})};
   std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // by the first two words
-  for (const Tally& t : Tallies(all)) counts[t.kind.substr(0, t.kind.find(' ', t.kind.find(' ') + 1))] = {t.right, t.cases};
+  for (const Tally& t : Tallies(all))
+    counts[t.kind.substr(0, t.kind.find(' ', t.kind.find(' ') + 1))] = {t.right, t.cases};
   using Counts = std::pair<std::size_t, std::size_t>;
   EXPECT_EQ(counts.at("one effect:"), (Counts{1, 2}));
   EXPECT_EQ(counts.at("two effects:"), (Counts{1, 1}));
@@ -56,8 +59,11 @@ TEST(Judge, TalliesAndConfusion) {
 }
 
 TEST(Judge, ReadsAnswersAndNamesWhatIsWrongWithThem) {
-  const std::string file = std::filesystem::temp_directory_path() / ("ambrig_answers_" + std::to_string(::getpid()) + ".toml");
-  std::ofstream(file) << "[\"case-1\"]\nverdict = [\"effect\"]\neffects = [\n [{ effect = \"sensor-hum\", target = \"A\" }, { effect = \"base-vibration\", target = \"rig\" }],\n]\nseed = 3\n";
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("ambrig_answers_" + std::to_string(::getpid()) + ".toml");
+  std::ofstream(file)
+      << "[\"case-1\"]\nverdict = [\"effect\"]\neffects = [\n [{ effect = \"sensor-hum\", target = "
+         "\"A\" }, { effect = \"base-vibration\", target = \"rig\" }],\n]\nseed = 3\n";
   const auto answers = ReadAnswers(file);
   ASSERT_EQ(answers.at("case-1").slots.size(), 1U);
   EXPECT_EQ(answers.at("case-1").slots[0][1], (NamedEffect{"base-vibration", "rig"}));

@@ -14,9 +14,11 @@
 namespace ambrig {
 namespace {
 
-// Thin laminations and thick ones hold the flux back in other bands: one shape would miss the other.
+// Thin laminations and thick ones hold the flux back in other bands: one shape would miss the
+// other.
 TEST(Probes, ALawIsTriedInTheMiddleAndAtTheEndOfWhatShapesIt) {
-  const RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   const Case c = EmptyCase(rig, Examination(rig, 5, {}));
   const CaseModel model(c, 12);
   for (const char* id : {"eddy-currents", "saturation"}) {
@@ -25,16 +27,20 @@ TEST(Probes, ALawIsTriedInTheMiddleAndAtTheEndOfWhatShapesIt) {
     for (const ProbeGroup& g : ProbesOf(d, "A", model, {}))
       for (const EffectInstance& e : g.probes) sizes_of[e.Value("path")].insert(e.values[0]);
     ASSERT_EQ(sizes_of.size(), 2U) << id;
-    for (const auto& [path, sizes] : sizes_of) EXPECT_EQ(sizes.size(), 4U) << id << " path " << path;
+    for (const auto& [path, sizes] : sizes_of)
+      EXPECT_EQ(sizes.size(), 4U) << id << " path " << path;
     for (const EffectParameter& p : d.parameters) {
-      if (p.name == "path") { EXPECT_EQ(sizes_of.rbegin()->first, p.typical_hi) << id; }
+      if (p.name == "path") {
+        EXPECT_EQ(sizes_of.rbegin()->first, p.typical_hi) << id;
+      }
     }
   }
 }
 
 // A resonance is sought with one damping; its frequencies are many enough.
 TEST(Probes, AResonanceIsSoughtWithOneDamping) {
-  const RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   const Case c = EmptyCase(rig, Examination(rig, 5, {}));
   const CaseModel model(c, 12);
   for (const ProbeGroup& g : ProbesOf(EffectNamed("base-mode"), "rig", model, {}))

@@ -14,9 +14,11 @@ namespace ambrig {
 namespace {
 
 TEST(ResidualPeaks, FindsATone) {
-  RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   Case c = EmptyCase(rig, Examination(rig, 1));
-  std::erase_if(c.records, [](const CaseRecord& r) { return r.scenario.start == StartState::kClamped; });
+  std::erase_if(c.records,
+                [](const CaseRecord& r) { return r.scenario.start == StartState::kClamped; });
   const CaseModel model(c);
   std::vector<double> residual(model.size());
   for (const Target& t : model.targets()) {
@@ -24,8 +26,11 @@ TEST(ResidualPeaks, FindsATone) {
     for (std::size_t k = 0; k < t.count; ++k) {
       const double time = r.data.start + static_cast<double>(k) / r.data.rate;
       residual[t.first + k] = Normal(3, 1, t.first + k);
-      if (r.data.channels[t.channel].name == "A.x") residual[t.first + k] += std::sin(2 * kPi * 60 * time + 0.4);
-      if (r.data.channels[t.channel].name == "B.y") residual[t.first + k] += 2 * std::sin(2 * kPi * 400 * time + 2.1 * static_cast<double>(t.record));
+      if (r.data.channels[t.channel].name == "A.x")
+        residual[t.first + k] += std::sin(2 * kPi * 60 * time + 0.4);
+      if (r.data.channels[t.channel].name == "B.y")
+        residual[t.first + k] +=
+            2 * std::sin(2 * kPi * 400 * time + 2.1 * static_cast<double>(t.record));
     }
   }
   const ResidualPeaks peaks = FindPeaks(model, residual);
@@ -37,10 +42,12 @@ TEST(ResidualPeaks, FindsATone) {
 
 // A thinned model keeps rows of every phase, so that nothing periodic hides.
 TEST(ThinModel, KeepsEveryPhase) {
-  RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   const Case c = EmptyCase(rig, Examination(rig, 1));
   const CaseModel all(c), thin(c, 5);
-  EXPECT_NEAR(static_cast<double>(thin.size()), static_cast<double>(all.size()) / 5, 0.01 * static_cast<double>(all.size()));
+  EXPECT_NEAR(static_cast<double>(thin.size()), static_cast<double>(all.size()) / 5,
+              0.01 * static_cast<double>(all.size()));
   std::vector<int> phase(5);
   const Target& t = thin.targets()[0];
   for (std::size_t k = t.first; k < t.first + t.count; ++k) ++phase[thin.sample(k) % 5];

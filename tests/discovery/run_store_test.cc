@@ -1,4 +1,5 @@
-// Simulations on disk: the same bits without simulating again, half entries dropped, others refused.
+// Simulations on disk: the same bits without simulating again, half entries dropped, others
+// refused.
 #include "discovery/run_store.h"
 
 #include <gtest/gtest.h>
@@ -18,9 +19,12 @@ namespace fs = std::filesystem;
 class RunStoreTest : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("ambrig_store_" + std::to_string(::getpid()) + "_" + testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ =
+        fs::temp_directory_path() / ("ambrig_store_" + std::to_string(::getpid()) + "_" +
+                                     testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
-    fs::copy_file(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml", folder_ / "rig.toml");
+    fs::copy_file(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml",
+                  folder_ / "rig.toml");
     for (const char* name : {"one", "two"}) {
       Write(std::string(name) + ".toml", "rig = \"rig.toml\"\nduration = 0.01\n");
       Write(std::string(name) + ".csv", Data());
@@ -29,15 +33,20 @@ class RunStoreTest : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  void Write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+  void Write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+  }
   static std::string Data() {
     std::string text = "time [s],A.x [um],B.y [um]\n";
-    for (int k = 0; k < 100; ++k) text += std::to_string(1e-4 * k) + "," + std::to_string(k % 7) + "," + std::to_string(k % 5) + "\n";
+    for (int k = 0; k < 100; ++k)
+      text += std::to_string(1e-4 * k) + "," + std::to_string(k % 7) + "," + std::to_string(k % 5) +
+              "\n";
     return text;
   }
   static std::string CaseText(const std::string& noise) {
     return "rig = \"rig.toml\"\nnoise = { \"bus\" = " + noise + " }\n" +
-           "[[record]]\nscenario = \"one.toml\"\ndata = \"one.csv\"\nuse = \"fit\"\n[[record]]\nscenario = \"two.toml\"\ndata = \"two.csv\"\nuse = \"validate\"\n";
+           "[[record]]\nscenario = \"one.toml\"\ndata = \"one.csv\"\nuse = "
+           "\"fit\"\n[[record]]\nscenario = \"two.toml\"\ndata = \"two.csv\"\nuse = \"validate\"\n";
   }
   Case Read() const { return ReadCase((folder_ / "case.toml").string()); }
   std::string Store() const { return (folder_ / "store").string(); }
@@ -107,7 +116,8 @@ TEST_F(RunStoreTest, RefusesAnotherCaseAndASecondUser) {
   Write("case.toml", CaseText("0.002"));
   EXPECT_THROW(
       try { RunStore store(Store(), Read()); } catch (const InputError& e) {
-        EXPECT_NE(std::string(e.what()).find("another case or of another build"), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("another case or of another build"), std::string::npos)
+            << e.what();
         throw;
       },
       InputError);

@@ -1,4 +1,5 @@
-// Numbers of a shaft as things to calibrate: { value, sd, fitted } of materials, sections, disks and damping.
+// Numbers of a shaft as things to calibrate: { value, sd, fitted } of materials, sections, disks
+// and damping.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -34,7 +35,8 @@ void ExpectSameRotor(const RigParameters& a, const RigParameters& b, const std::
     EXPECT_NEAR(a.bearings[k].z, b.bearings[k].z, 1e-14) << what;
     EXPECT_NEAR(a.bearings[k].sensor.z, b.bearings[k].sensor.z, 1e-14) << what;
   }
-  for (std::size_t k = 0; k < a.stations.size(); ++k) EXPECT_NEAR(a.stations[k].z, b.stations[k].z, 1e-14) << what;
+  for (std::size_t k = 0; k < a.stations.size(); ++k)
+    EXPECT_NEAR(a.stations[k].z, b.stations[k].z, 1e-14) << what;
 }
 
 struct Number {
@@ -44,12 +46,19 @@ struct Number {
 
 constexpr const char* kSecond = "length = 0.038\nod = 0.0096";
 const Number kNumbers[] = {
-    {"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9, fitted = 2.05e11 }", "E = 2.05e11", "rotor.materials.shaft_steel.E", 2.05e11},
-    {"rho = 7860.0", "rho = { value = 7860.0, sd = 50.0, fitted = 7800.0 }", "rho = 7800.0", "rotor.materials.shaft_steel.rho", 7800},
-    {kSecond, "length = 0.038\nod = { value = 0.0096, sd = 1e-4, fitted = 0.0099 }", "length = 0.038\nod = 0.0099", "rotor.section[2].od", 0.0099},
-    {"mass = 1.276499", "mass = { value = 1.276499, sd = 0.01, fitted = 1.3 }", "mass = 1.3", "rotor.disk[2].mass", 1.3},
-    {"mass = 0.85074", "mass = { value = 0.85074, sd = 0.01, fitted = 0.9 }", "mass = 0.9", "rotor.disk[1].mass", 0.9},  // moves the centre
-    {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 5e-4, fitted = 0.003 }", "modal_damping = 0.003", "rotor.modal_damping", 0.003},
+    {"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9, fitted = 2.05e11 }", "E = 2.05e11",
+     "rotor.materials.shaft_steel.E", 2.05e11},
+    {"rho = 7860.0", "rho = { value = 7860.0, sd = 50.0, fitted = 7800.0 }", "rho = 7800.0",
+     "rotor.materials.shaft_steel.rho", 7800},
+    {kSecond, "length = 0.038\nod = { value = 0.0096, sd = 1e-4, fitted = 0.0099 }",
+     "length = 0.038\nod = 0.0099", "rotor.section[2].od", 0.0099},
+    {"mass = 1.276499", "mass = { value = 1.276499, sd = 0.01, fitted = 1.3 }", "mass = 1.3",
+     "rotor.disk[2].mass", 1.3},
+    // moves the centre
+    {"mass = 0.85074", "mass = { value = 0.85074, sd = 0.01, fitted = 0.9 }", "mass = 0.9",
+     "rotor.disk[1].mass", 0.9},
+    {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 5e-4, fitted = 0.003 }",
+     "modal_damping = 0.003", "rotor.modal_damping", 0.003},
 };
 
 // A fitted number is the same rig as one drawn with it.
@@ -63,8 +72,11 @@ TEST(ShaftCalibration, FittedNumbersAreTheTruth) {
     const RigParameters truth = TrueRig(rig);
     ExpectSameRotor(truth, TumRig(TumRigText({{n.line, n.plain}})), n.path);
     EXPECT_EQ(*ParameterAt(truth, n.path), n.value);
-    EXPECT_GT(std::abs(truth.rotor.mass / drawn.rotor.mass - 1) + std::abs(truth.modes[0].omega / drawn.modes[0].omega - 1) +
-                  std::abs(truth.modes[0].damping / drawn.modes[0].damping - 1), 1e-4) << n.path;
+    EXPECT_GT(std::abs(truth.rotor.mass / drawn.rotor.mass - 1) +
+                  std::abs(truth.modes[0].omega / drawn.modes[0].omega - 1) +
+                  std::abs(truth.modes[0].damping / drawn.modes[0].damping - 1),
+              1e-4)
+        << n.path;
     double lo = 0, hi = 0;
     std::string unit;
     EXPECT_TRUE(ParameterRange(rig, n.path, &lo, &hi, &unit));
@@ -73,10 +85,12 @@ TEST(ShaftCalibration, FittedNumbersAreTheTruth) {
   }
 }
 
-// A sensor's plane with an sd beside a disk's mass that moves the centre of mass: in any order the same.
+// A sensor's plane with an sd beside a disk's mass that moves the centre of mass: in any order the
+// same.
 TEST(ShaftCalibration, PlanesStayOnTheShaft) {
-  const RigParameters rig = TumRig(TumRigText({{"mass = 0.85074", "mass = { value = 0.85074, sd = 0.01 }"},
-                                               {"sensor = { z = 0.623", "sensor = { z = { value = 0.623, sd = 1e-3 }"}}));
+  const RigParameters rig =
+      TumRig(TumRigText({{"mass = 0.85074", "mass = { value = 0.85074, sd = 0.01 }"},
+                         {"sensor = { z = 0.623", "sensor = { z = { value = 0.623, sd = 1e-3 }"}}));
   const double moved = *ParameterAt(rig, "bearings.B.sensor.z") + 5e-4;
   RigParameters a = rig, b = rig;
   EXPECT_TRUE(SetParameter(a, "rotor.disk[1].mass", 0.95));
@@ -90,17 +104,25 @@ TEST(ShaftCalibration, PlanesStayOnTheShaft) {
   EXPECT_FALSE(SetParameter(a, "rotor.disk[2].mass", 1.0));  // has no sd
 }
 
-// Geometry: a disk of steel is as heavy as its steel, a tube's wall follows its outer diameter at both ends.
+// Geometry: a disk of steel is as heavy as its steel, a tube's wall follows its outer diameter at
+// both ends.
 TEST(ShaftCalibration, WhatDependsOnANumberFollowsIt) {
-  const std::string tail = "\n[rotor.materials.m]\nE = 2e11\nrho = { value = 8000.0, sd = 10.0 }\n"
-                           "[[rotor.section]]\nlength = 0.3\nod = { value = 0.02, sd = 1e-4 }\nid = 0.01\nmaterial = \"m\"\n"
-                           "[[rotor.sleeve]]\nz0 = 0.1\nlength = 0.05\nid = 0.02\nod = 0.03\nmaterial = \"m\"\nrho = 7000.0\n"
-                           "[[rotor.disk]]\nz = 0.2\nwidth = 0.01\nod = 0.1\nid = 0.02\nmaterial = \"m\"\n";
+  const std::string tail =
+      "\n[rotor.materials.m]\nE = 2e11\nrho = { value = 8000.0, sd = 10.0 }\n"
+      "[[rotor.section]]\nlength = 0.3\nod = { value = 0.02, sd = 1e-4 }\nid = 0.01\nmaterial = "
+      "\"m\"\n"
+      "[[rotor.sleeve]]\nz0 = 0.1\nlength = 0.05\nid = 0.02\nod = 0.03\nmaterial = \"m\"\nrho = "
+      "7000.0\n"
+      "[[rotor.disk]]\nz = 0.2\nwidth = 0.01\nod = 0.1\nid = 0.02\nmaterial = \"m\"\n";
   std::vector<Tolerance> tolerances;
-  BeamFile beam = ReadBeam(*TomlTable::FromText("[rotor]\nkind = \"beam\"\nmodes = 1\n" + tail, "rig.toml").Table("rotor"), &tolerances);
+  BeamFile beam =
+      ReadBeam(*TomlTable::FromText("[rotor]\nkind = \"beam\"\nmodes = 1\n" + tail, "rig.toml")
+                    .Table("rotor"),
+               &tolerances);
   ASSERT_EQ(beam.parameters.size(), 2u);
   const Disk before = beam.definition.disks[0];
-  for (std::size_t k = 0; k < 2; ++k) SetShaftParameter(beam, k, beam.parameters[k].path == "rotor.materials.m.rho" ? 8800 : 0.022);
+  for (std::size_t k = 0; k < 2; ++k)
+    SetShaftParameter(beam, k, beam.parameters[k].path == "rotor.materials.m.rho" ? 8800 : 0.022);
   EXPECT_NEAR(beam.definition.disks[0].mass, 1.1 * before.mass, 1e-12);
   EXPECT_NEAR(beam.definition.disks[0].inertia_polar, 1.1 * before.inertia_polar, 1e-15);
   EXPECT_EQ(beam.definition.sections[0].material.rho, 8800);
@@ -111,14 +133,16 @@ TEST(ShaftCalibration, WhatDependsOnANumberFollowsIt) {
 }
 
 TEST(ShaftCalibration, WhatCannotBeMovedIsToldInOneLine) {
-  const std::pair<const char*, const char*> mistakes[] = {{"length = 0.094", "length = { value = 0.094, sd = 1e-3 }"},
-                                                          {"z = 0.363", "z = { value = 0.363, sd = 1e-3 }"}};
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"length = 0.094", "length = { value = 0.094, sd = 1e-3 }"},
+      {"z = 0.363", "z = { value = 0.363, sd = 1e-3 }"}};
   for (const auto& [from, to] : mistakes) {
     try {
       TumRig(TumRigText({{from, to}}));
       ADD_FAILURE() << to;
     } catch (const InputError& e) {
-      EXPECT_NE(std::string(e.what()).find("has an sd, allowed: diameters"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("has an sd, allowed: diameters"), std::string::npos)
+          << e.what();
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
     }
   }
@@ -127,9 +151,11 @@ TEST(ShaftCalibration, WhatCannotBeMovedIsToldInOneLine) {
 /// What a logger would have: the truth's run, noise and all.
 CaseRecord Measured(const RigParameters& rig, const RigParameters& truth) {
   CaseRecord r;
-  r.scenario = ReadScenarioText("duration = 0.6\nrecord_rate = 2500.0\nseed = 11\n[[excitation]]\ntarget = \"A.x\"\nport = \"force\"\n"
-                                "kind = \"chirp\"\namplitude = 3.0\nf0 = 8.0\nf1 = 240.0\n",
-                                kTumFolder + "chirp.toml", rig);
+  r.scenario = ReadScenarioText(
+      "duration = 0.6\nrecord_rate = 2500.0\nseed = 11\n[[excitation]]\ntarget = \"A.x\"\nport = "
+      "\"force\"\n"
+      "kind = \"chirp\"\namplitude = 3.0\nf0 = 8.0\nf1 = 240.0\n",
+      kTumFolder + "chirp.toml", rig);
   EngineOptions options;
   options.nominal = &rig;
   const Record whole = SwitchingEngine(truth, r.scenario, options).Run().record;
@@ -143,8 +169,9 @@ CaseRecord Measured(const RigParameters& rig, const RigParameters& truth) {
 
 // The measured rig's shaft is 3 % softer and its modes twice as well damped: a fit says so.
 TEST(ShaftCalibration, AFitFindsTheShaft) {
-  const RigParameters rig = TumRig(TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
-                                               {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}));
+  const RigParameters rig = TumRig(
+      TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
+                  {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}));
   RigParameters truth = rig;
   SetParameter(truth, "rotor.materials.shaft_steel.E", 2.047e11);
   SetParameter(truth, "rotor.modal_damping", 0.004);
@@ -167,19 +194,23 @@ TEST(ShaftCalibration, AFitFindsTheShaft) {
     EXPECT_LT(std::abs(value - (E ? 2.047e11 : 0.004)), 5 * fit.sd[k]);
   }
   // What is adopted reads back as that shaft.
-  const std::string text = AdoptedRigText(TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
-                                                      {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}),
-                                          fit.hypothesis, {});
+  const std::string text = AdoptedRigText(
+      TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
+                  {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}),
+      fit.hypothesis, {});
   ExpectSameRotor(TrueRig(TumRig(text)), fit.hypothesis.rig, "adopted");
 }
 
-// The k-th table of [[rotor.section]] is the k-th line that is written; of a shaft's own file nothing can be.
+// The k-th table of [[rotor.section]] is the k-th line that is written; of a shaft's own file
+// nothing can be.
 TEST(ShaftCalibration, AdoptedTextOfTables) {
-  const std::string text = TumRigText({{kSecond, "length = 0.038\nod = { value = 0.0096, sd = 1e-4 }  # turned"}});
+  const std::string text =
+      TumRigText({{kSecond, "length = 0.038\nod = { value = 0.0096, sd = 1e-4 }  # turned"}});
   Hypothesis h = Hypothesis::Base(TumRig(text));
   h.Set(0, 0.0098);
   const std::string adopted = AdoptedRigText(text, h, {});
-  EXPECT_NE(adopted.find("od = { value = 0.0096, sd = 0.0001, fitted = 0.0098 }  # turned"), std::string::npos);
+  EXPECT_NE(adopted.find("od = { value = 0.0096, sd = 0.0001, fitted = 0.0098 }  # turned"),
+            std::string::npos);
   EXPECT_NEAR(TrueRig(TumRig(adopted)).beam->definition.sections[1].od, 0.0098, 1e-15);
   EXPECT_THROW(AdoptedRigText(ReadFile(kTumFolder + "rig.toml"), h, {}), InputError);
 }

@@ -1,4 +1,5 @@
-// Network force against the quadratic forms and finite differences; the inverse on all failure sets.
+// Network force against the quadratic forms and finite differences; the inverse on all failure
+// sets.
 #include "faulttolerance/force_inverse.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,8 @@ TEST(NetworkForce, GradientAndContractionAreItsDerivatives) {
   const Coils contracted = network.Contract(y);
   for (int j = 0; j < 8; ++j) {
     const Coils h = 1e-4 * Coils::Unit(j);
-    const Eigen::Vector2d slope = (network.Force(i + h, &plus) - network.Force(i - h, &minus)) / 2e-4;
+    const Eigen::Vector2d slope =
+        (network.Force(i + h, &plus) - network.Force(i - h, &minus)) / 2e-4;
     EXPECT_NEAR((slope - J.col(j)).norm(), 0, 1e-8) << j;
     // d(sum y J)/di_j = 2 (sum_a Q^a y_a)_j
     EXPECT_NEAR(((plus - minus).cwiseProduct(y)).sum() / 2e-4, 2 * contracted[j], 1e-7) << j;
@@ -60,7 +62,8 @@ TEST(ForceInverse, TurnsAForceRoundWithoutAJumpAtAnyPosition) {
     Coils last = inverse.current();
     double largest = 0;
     for (int n = 0; n <= 600; ++n) {
-      const double a = 0.02 * n, r = std::min(set.size() > 2 ? 4.0 : 8.0, 0.2 * n);  // within what the set can carry
+      // within what the set can carry
+      const double a = 0.02 * n, r = std::min(set.size() > 2 ? 4.0 : 8.0, 0.2 * n);
       const Eigen::Vector2d wanted(r * std::cos(a), kWeight + r * std::sin(a));
       const Coils& i = inverse.Step(wanted, 2e-5 * std::sin(0.03 * n), -2e-5 * std::sin(0.05 * n));
       EXPECT_NEAR((inverse.force() - wanted).norm(), 0, 0.3) << set.size() << " at " << n;
@@ -74,7 +77,8 @@ TEST(ForceInverse, TurnsAForceRoundWithoutAJumpAtAnyPosition) {
   }
 }
 
-// Least loss: no currents of the same force and gain nearby are cheaper; here against the bias of W.
+// Least loss: no currents of the same force and gain nearby are cheaper; here against the bias of
+// W.
 TEST(ForceInverse, CostsLessCopperThanAConstantBiasWithTheSameControl) {
   ForceInverseOptions options;
   options.mu = 0.5;  // healthy bias c0
@@ -111,17 +115,29 @@ std::array<int, 9> SetsThatCarryTheWeight(const char* winding) {
   return count;
 }
 
-// docs/theory/redistribution.md: three upper neighbours, and larger sets of that kind, cannot pull up.
+// docs/theory/redistribution.md: three upper neighbours, and larger sets of that kind, cannot pull
+// up.
 TEST(ForceInverse, CarriesTheWeightWithTheseManySets) {
-  EXPECT_EQ(SetsThatCarryTheWeight("NSNSNSNS"), (std::array<int, 9>{0, 8, 28, 52, 51, 28, 6, 0, 0}));
-  EXPECT_EQ(SetsThatCarryTheWeight("NNSSNNSS"), (std::array<int, 9>{0, 8, 28, 52, 53, 28, 6, 0, 0}));
+  EXPECT_EQ(SetsThatCarryTheWeight("NSNSNSNS"),
+            (std::array<int, 9>{0, 8, 28, 52, 51, 28, 6, 0, 0}));
+  EXPECT_EQ(SetsThatCarryTheWeight("NNSSNNSS"),
+            (std::array<int, 9>{0, 8, 28, 52, 53, 28, 6, 0, 0}));
 }
 
-// Linearised by class, yet no currents of one sign pull them up: what the survival campaign's nine falls show.
+// Linearised by class, yet no currents of one sign pull them up: what the survival campaign's nine
+// falls show.
 TEST(ForceInverse, NineSetsOfFourUpperCoilsCannotCarryTheWeight) {
-  for (const std::vector<int>& set : {std::vector<int>{1, 2, 3, 4}, {1, 2, 3, 6}, {1, 2, 3, 8}, {1, 2, 5, 8}, {1, 2, 7, 8}, {2, 3, 4, 5},
-                                      {2, 3, 4, 7}, {3, 4, 5, 6}, {3, 4, 5, 8}})
-    EXPECT_FALSE(ReachOf(Bearing(set), {0, kWeight}, 4).holds) << set[0] << set[1] << set[2] << set[3];
+  for (const std::vector<int>& set : {std::vector<int>{1, 2, 3, 4},
+                                      {1, 2, 3, 6},
+                                      {1, 2, 3, 8},
+                                      {1, 2, 5, 8},
+                                      {1, 2, 7, 8},
+                                      {2, 3, 4, 5},
+                                      {2, 3, 4, 7},
+                                      {3, 4, 5, 6},
+                                      {3, 4, 5, 8}})
+    EXPECT_FALSE(ReachOf(Bearing(set), {0, kWeight}, 4).holds)
+        << set[0] << set[1] << set[2] << set[3];
 }
 
 TEST(ForceInverse, SetsWithoutAnyTwoDimensionalForceHoldNothing) {

@@ -76,7 +76,8 @@ TEST(HandOver, NoCoilOfTheRampGoesFasterThanItsVoltageAllows) {
     SetPointVector last = w.start.now;
     for (int n = 0; n < 12 && !policy->done(); ++n) {
       const SetPointVector now = policy->Step(w.wanted, w.force);
-      for (int j = 0; j < 8; ++j) EXPECT_LE(std::abs(now[j] - last[j]), step[j] + 1e-9) << name << " coil " << j + 1;
+      for (int j = 0; j < 8; ++j)
+        EXPECT_LE(std::abs(now[j] - last[j]), step[j] + 1e-9) << name << " coil " << j + 1;
       last = now;
     }
   }
@@ -106,7 +107,8 @@ TEST(HandOver, ForceIsKeptOnTheWayWhereARampLosesIt) {
     const auto policy = MakeHandOver(name, w.start);
     double most = 0;
     policy->Step(w.wanted, w.force);
-    while (!policy->done()) most = std::max(most, (network.Force(policy->Step(w.wanted, w.force)) - w.force).norm());
+    while (!policy->done())
+      most = std::max(most, (network.Force(policy->Step(w.wanted, w.force)) - w.force).norm());
     return most;
   };
   EXPECT_LT(worst("force-preserving"), 0.5 * worst("ramp"));

@@ -30,7 +30,8 @@ TEST(PeriodSlopes, HealthyCoilsObeyTheirEquationsOffCentreAndMoving) {
     PeriodSlopes s;
     ComputePeriodSlopes(model, bench.Sampling(), in, &s);
     for (int j = 0; j < kLanes; ++j)
-      for (int q = 0; q < 2; ++q) EXPECT_NEAR(s.phase[q].residual[j], 0, kModelError) << j << " " << q;
+      for (int q = 0; q < 2; ++q)
+        EXPECT_NEAR(s.phase[q].residual[j], 0, kModelError) << j << " " << q;
   }
   // The motion term is no detail: without it a coil is off by volts.
   MeasuredPeriod still = bench.Run();
@@ -44,8 +45,8 @@ TEST(PeriodSlopes, HealthyCoilsObeyTheirEquationsOffCentreAndMoving) {
 }
 
 TEST(PeriodSlopes, OneOpenCoilMovesAllSlopesButOnlyItsOwnResidual) {
-  // facts.md trap 2. With m_k = s_k di_k/dt, L0 (m_k - Σm/8) + L_l m_k = s_k v and m_j = 0 the slopes
-  // of the others change by -+(L0/8)/(L0/8 + L_l): 56 % for L_l = 0.1 L0, 36 % for this rig.
+  // facts.md trap 2. With m_k = s_k di_k/dt, L0 (m_k - Σm/8) + L_l m_k = s_k v and m_j = 0 the
+  // slopes of the others change by -+(L0/8)/(L0/8 + L_l): 56 % for L_l = 0.1 L0, 36 % for this rig.
   Bench healthy, broken;
   healthy.x0 = healthy.y0 = broken.x0 = broken.y0 = 0;
   healthy.Run();  // settle at the centre
@@ -61,8 +62,9 @@ TEST(PeriodSlopes, OneOpenCoilMovesAllSlopesButOnlyItsOwnResidual) {
       EXPECT_LT(b.phase[0].residual[j], -15);
     } else {
       const double sign = (j - 2) % 2 == 0 ? -1 : 1;  // same winding sense: slower
-      // The break leaves Σ s i = 2 A * 1.95/0.55 = 7.1 A, so R Σ s i = 3.5 V of 29.75 V work against it,
-      // and R (i_k - 2 A) = 0.36 V in each coil: 0.318 at once, growing with the decay of Σ s i.
+      // The break leaves Σ s i = 2 A * 1.95/0.55 = 7.1 A, so R Σ s i = 3.5 V of 29.75 V work
+      // against it, and R (i_k - 2 A) = 0.36 V in each coil: 0.318 at once, growing with the decay
+      // of Σ s i.
       EXPECT_NEAR(change, sign * 0.32, 0.015) << j;
       EXPECT_NEAR(b.phase[0].residual[j], 0, kModelError) << j;
     }

@@ -51,11 +51,13 @@ TEST(Cusum, SiegmundsApproximation) {
     double mean = 0, error = 0;
     RunLength(0, 0.5, h, &mean, &error);
     const double one = CusumRunLength(0, 0.5, h);
-    EXPECT_NEAR(mean, one / 2, 0.03 * mean + 4 * error) << h;  // both sides; Siegmund: within about 1 %
+    // both sides; Siegmund: within about 1 %
+    EXPECT_NEAR(mean, one / 2, 0.03 * mean + 4 * error) << h;
   }
   double mean = 0, error = 0;
   RunLength(1, 0.5, 5, &mean, &error);
-  EXPECT_NEAR(mean, 1 / (1 / CusumRunLength(1, 0.5, 5) + 1 / CusumRunLength(-1, 0.5, 5)), 0.03 * mean + 4 * error);
+  EXPECT_NEAR(mean, 1 / (1 / CusumRunLength(1, 0.5, 5) + 1 / CusumRunLength(-1, 0.5, 5)),
+              0.03 * mean + 4 * error);
   EXPECT_NEAR(CusumRunLength(0.5, 0.5, 4), std::pow(5.166, 2), 1e-6);
   EXPECT_NEAR(CusumRunLength(0.5 + 1e-5, 0.5, 4), std::pow(5.166, 2), 1e-2);  // no jump at D = 0
 }

@@ -73,8 +73,8 @@ TEST(Glrt, DelayForAKnownStep) {
     square += (k - 99) * (k - 99);
   }
   const double mean = sum / kRuns, error = std::sqrt((square / kRuns - mean * mean) / kRuns);
-  // 2 h sigma²/mu² = 24 samples where S²/2m reaches h in the mean; E[S²/2m] = m mu²/2 + 1/2, so that it
-  // does at 23, and the largest over m fluctuates upwards: earlier, not later.
+  // 2 h sigma²/mu² = 24 samples where S²/2m reaches h in the mean; E[S²/2m] = m mu²/2 + 1/2, so
+  // that it does at 23, and the largest over m fluctuates upwards: earlier, not later.
   EXPECT_LT(mean, 24 + 4 * error);
   EXPECT_GT(mean, 0.75 * 24);
 }

@@ -1,5 +1,5 @@
-// The Kalman filter's innovations on its own model: white, of the size it says, chi-square; and on the
-// simulator's stator.
+// The Kalman filter's innovations on its own model: white, of the size it says, chi-square; and on
+// the simulator's stator.
 #include "fdd/linkage_kalman.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,10 @@ using namespace testing_bench;
 class FilterModel {
  public:
   FilterModel(const CoilDetectorSetup& setup, double process_sd)
-      : s_(setup), process_sd_(process_sd), L_(InductanceOf(setup.model, setup.model.Permeance(kX, kY))), C_(L_.inverse()) {
+      : s_(setup),
+        process_sd_(process_sd),
+        L_(InductanceOf(setup.model, setup.model.Permeance(kX, kY))),
+        C_(L_.inverse()) {
     lambda_ = L_ * LinkageVector::Constant(2.0);
     for (double& d : duty.v) d = 0.522;
   }
@@ -64,7 +67,8 @@ class FilterModel {
 
 TEST(LinkageKalman, InductanceIsThatOfTheStator) {
   const RadialStator stator(Reference());
-  const LinkageMatrix L = InductanceOf(MakeLinkageModel(Reference()), MakeLinkageModel(Reference()).Permeance(1e-4, 2e-5));
+  const LinkageMatrix L = InductanceOf(MakeLinkageModel(Reference()),
+                                       MakeLinkageModel(Reference()).Permeance(1e-4, 2e-5));
   EXPECT_LT((L - stator.Inductance({1e-4, 2e-5})).cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -85,7 +89,8 @@ TEST(LinkageKalman, InnovationsAreWhiteAndOfTheirSize) {
     for (double v : x) mean += v / n;
     for (double v : x) variance += v * v / n;
     EXPECT_NEAR(mean, 0, 4 / std::sqrt(n));
-    EXPECT_NEAR(variance, 1, 4 * std::sqrt(2 / n) + 0.01);  // 1 %: explicit R i, constant gain in a period
+    // 1 %: explicit R i, constant gain in a period
+    EXPECT_NEAR(variance, 1, 4 * std::sqrt(2 / n) + 0.01);
     for (std::size_t lag : {1u, 2u, 5u, 18u}) {
       double r = 0;
       for (std::size_t k = 0; k + lag < x.size(); ++k) r += x[k] * x[k + lag] / n;
@@ -99,7 +104,8 @@ TEST(LinkageKalman, FalseAlarmsAreThoseOfChiSquare) {
   CoilDetectorSetup setup = SetupOf(bench);
   LinkageKalman filter(setup);
   FilterModel model(setup, filter.process_sd());
-  // Upper quantiles of chi-square with 18 degrees of freedom (tables): 25.989 at 10 %, 34.805 at 1 %.
+  // Upper quantiles of chi-square with 18 degrees of freedom (tables): 25.989 at 10 %, 34.805 at 1
+  // %.
   const double quantile[] = {25.989, 34.805}, p[] = {0.1, 0.01};
   double over[2] = {0, 0}, count = 0;
   for (int n = 0; n < 3000; ++n) {
@@ -109,7 +115,8 @@ TEST(LinkageKalman, FalseAlarmsAreThoseOfChiSquare) {
       for (int q = 0; q < 2; ++q) over[q] += s[j] * kSamples > quantile[q] ? 1 : 0;
     }
   }
-  for (int q = 0; q < 2; ++q) EXPECT_NEAR(over[q] / count, p[q], 4 * std::sqrt(p[q] / count) + 0.05 * p[q]) << q;
+  for (int q = 0; q < 2; ++q)
+    EXPECT_NEAR(over[q] / count, p[q], 4 * std::sqrt(p[q] / count) + 0.05 * p[q]) << q;
 }
 
 TEST(LinkageKalman, FollowsTheSimulatorsStatorMovingAndNamesTheBrokenCoil) {

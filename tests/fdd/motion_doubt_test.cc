@@ -1,4 +1,5 @@
-// Bounds of what an unknown motion does to the coils' equations, against the simulator's own stator.
+// Bounds of what an unknown motion does to the coils' equations, against the simulator's own
+// stator.
 #include "fdd/motion_doubt.h"
 
 #include <gtest/gtest.h>
@@ -36,8 +37,8 @@ Seen Judge(const MeasuredPeriod& in, const Bench& bench) {
   return out;
 }
 
-// The shaft is thrown back although the positions say that it goes on: no coil is off by more than the bound,
-// and the bound is no larger than a few times what happens.
+// The shaft is thrown back although the positions say that it goes on: no coil is off by more than
+// the bound, and the bound is no larger than a few times what happens.
 TEST(ResidualDoubt, HoldsForAnUnseenVelocityInAllDirections) {
   for (int k = 0; k < 12; ++k)
     for (double v : {0.1, 0.4}) {
@@ -84,7 +85,8 @@ TEST(ResidualDoubt, NothingWithoutDoubt) {
   ComputePeriodSlopes(model, bench.Sampling(), bench.Run(), &s);
   Lane bound[2];
   ResidualDoubt(model, s, {}, bound);
-  for (int j = 0; j < kLanes; ++j) EXPECT_EQ(bound[0][j] + bound[1][j] + LinkageDoubt(model, s, 0)[j], 0);
+  for (int j = 0; j < kLanes; ++j)
+    EXPECT_EQ(bound[0][j] + bound[1][j] + LinkageDoubt(model, s, 0)[j], 0);
 }
 
 }  // namespace

@@ -36,7 +36,8 @@ struct AnyPeriod {
   explicit AnyPeriod(const LinkageModel& m) : model(m) {
     for (int j = 0; j < m.coils; ++j) {
       duty[j] = 0.25 + 0.06 * j;
-      for (int k = 0; k < kSamples; ++k) adc[k][j] = 2 + 0.1 * j + 0.3 * Normal(5, 1, static_cast<std::uint64_t>(k * kLanes + j));
+      for (int k = 0; k < kSamples; ++k)
+        adc[k][j] = 2 + 0.1 * j + 0.3 * Normal(5, 1, static_cast<std::uint64_t>(k * kLanes + j));
     }
     in.adc = adc;
     in.duty = &duty;
@@ -91,32 +92,40 @@ Line Fit(int from, int to, const Of& of) {
 
 class Bearings : public testing::TestWithParam<const char*> {
  protected:
-  LinkageModel Model() const { return GetParam()[0] == 'r' ? MakeLinkageModel(Reference()) : MakeLinkageModel(Thrust()); }
+  LinkageModel Model() const {
+    return GetParam()[0] == 'r' ? MakeLinkageModel(Reference()) : MakeLinkageModel(Thrust());
+  }
 };
 
 TEST_P(Bearings, AreTheLinesOfLeastSquares) {
   const AnyPeriod period(Model());
   const PeriodSlopes slopes = period.Slopes();
   for (int j = 0; j < period.model.coils; ++j) {
-    const int edge = static_cast<int>(std::floor(period.duty[j] * kT / kStep)) + 1;  // samples with k h <= edge
+    // samples with k h <= edge
+    const int edge = static_cast<int>(std::floor(period.duty[j] * kT / kStep)) + 1;
     for (int q = 0; q < 2; ++q) {
       const int from = q == 0 ? 0 : edge, to = q == 0 ? edge : kSamples;
       const Line linkage = Fit(from, to, [&](int k) { return period.Linkage(j, k); });
       const Line current = Fit(from, to, [&](int k) { return period.adc[k][j]; });
       const PhaseSlopes& p = slopes.phase[q];
       EXPECT_EQ(p.samples[j], linkage.samples) << j << ' ' << q;
-      EXPECT_NEAR(p.linkage[j], linkage.slope, 1e-9 * std::abs(linkage.slope) + 1e-7) << j << ' ' << q;
-      EXPECT_NEAR(p.current[j], current.slope, 1e-9 * std::abs(current.slope) + 1e-4) << j << ' ' << q;
+      EXPECT_NEAR(p.linkage[j], linkage.slope, 1e-9 * std::abs(linkage.slope) + 1e-7)
+          << j << ' ' << q;
+      EXPECT_NEAR(p.current[j], current.slope, 1e-9 * std::abs(current.slope) + 1e-4)
+          << j << ' ' << q;
       EXPECT_NEAR(p.mean[j], current.mean, 1e-12) << j << ' ' << q;
       const double voltage = q == 0 ? 30.5 - 0.25 : -30.5 - 1.4;
-      EXPECT_NEAR(p.residual[j], linkage.slope + period.model.resistance[j] * current.mean - voltage, 1e-6) << j << ' ' << q;
+      EXPECT_NEAR(p.residual[j],
+                  linkage.slope + period.model.resistance[j] * current.mean - voltage, 1e-6)
+          << j << ' ' << q;
     }
     EXPECT_NEAR(slopes.first[j], period.Linkage(j, 0), 1e-15) << j;
     EXPECT_NEAR(slopes.last[j], period.Linkage(j, kSamples - 1), 1e-15) << j;
   }
 }
 
-// Whether diodes may block: each phase's own least sample where a coil is near zero, in either phase.
+// Whether diodes may block: each phase's own least sample where a coil is near zero, in either
+// phase.
 TEST_P(Bearings, LeastSampleOfEachPhaseWhereItMatters) {
   AnyPeriod period(Model());
   for (int low : {-1, 2, kSamples - 1}) {
@@ -129,7 +138,8 @@ TEST_P(Bearings, LeastSampleOfEachPhaseWhereItMatters) {
       EXPECT_EQ(slopes.phase[0].least[j], low < 0 ? std::min(on, off) : on) << j << ' ' << low;
       EXPECT_EQ(slopes.phase[1].least[j], low < 0 ? std::min(on, off) : off) << j << ' ' << low;
     }
-    EXPECT_EQ(std::min(slopes.phase[0].least[1], slopes.phase[1].least[1]) < kZeroCurrent, low >= 0) << low;
+    EXPECT_EQ(std::min(slopes.phase[0].least[1], slopes.phase[1].least[1]) < kZeroCurrent, low >= 0)
+        << low;
     if (low >= 0) period.adc[low][1] = 2;
   }
 }

@@ -52,12 +52,14 @@ ShortedCoils Examined(const Bench& bench, const std::vector<KeptPeriod>& kept) {
   const LinkageModel m = MakeLinkageModel(Reference());
   const ShortedCoils found = FindShortedCoils(m, Settings(bench), {&kept[0], &kept[1]}, All());
   if (!found.coils.empty()) return found;
-  return FindShortedCoils(m, Settings(bench), {&kept[0], &kept[1], &kept[2], &kept[3], &kept[4]}, All());
+  return FindShortedCoils(m, Settings(bench), {&kept[0], &kept[1], &kept[2], &kept[3], &kept[4]},
+                          All());
 }
 
 ShortedCoils Found(Bench& bench, unsigned seed) { return Examined(bench, Measured(bench, seed)); }
 
-/// Coil 7 with `least` of its turns shorted, the others with 20 to 60 %. False when nothing was decided.
+/// Coil 7 with `least` of its turns shorted, the others with 20 to 60 %. False when nothing was
+/// decided.
 bool NamesItsCoils(unsigned set, double least) {
   const double shorted[] = {0.5, 0.2, 0.3, 0.6, 0.2, 0.5, least, 0.4};
   Bench bench;
@@ -78,7 +80,8 @@ bool NamesItsCoils(unsigned set, double least) {
 TEST(ShortedCoils, NoSetIsMistakenAndNearlyAllAreNamed) {
   int undecided = 0;
   for (unsigned set = 1; set < 256; ++set) undecided += !NamesItsCoils(set, 0.2);
-  EXPECT_LE(undecided, 1);  // of 255: a coil with 60 % shorted falls to zero current, others fit as well
+  // of 255: a coil with 60 % shorted falls to zero current, others fit as well
+  EXPECT_LE(undecided, 1);
 }
 
 // In larger sets a few noisy periods do not tell so small a short; it is found later, alone.

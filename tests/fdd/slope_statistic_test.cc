@@ -91,7 +91,8 @@ TEST(SlopeStatistic, ResistanceIsLearnedFromMeans) {
   const double up = 30 - 2 * a.switch_drop, down = 30 + 2 * a.diode_drop;
   for (double& d : coil.duty.v) d = (0.7 * mean + down) / (up + down);
   for (int n = 0; n < 5000; ++n) online.Period(one);
-  EXPECT_NEAR(online.resistance().Value(0), 0.7, 0.06);  // the prior still has a third of the weight
+  // the prior still has a third of the weight
+  EXPECT_NEAR(online.resistance().Value(0), 0.7, 0.06);
   EXPECT_GT(online.resistance().Value(0), 0.6);
 }
 
@@ -102,7 +103,9 @@ TEST(SlopeStatistic, AboveOneWhereThePapersDetectorFlags) {
     SlopeStatistic statistic(coil.setup, Thresholds::kFixed);
     SlopeDetectorSettings s;
     s.converter = {1, 1, 1e-6, 0, kT / kSamples};
-    s.circuit = {30, 0.125, 0.7, InPhaseInductance(coil.setup.model, 0, coil.setup.model.Permeance(0, 0)), 0.5, kT};
+    s.circuit = {30,  0.125,
+                 0.7, InPhaseInductance(coil.setup.model, 0, coil.setup.model.Permeance(0, 0)),
+                 0.5, kT};
     s.margin = 700;
     SlopeDetector paper(s);
     for (const Lane& i : coil.adc) paper.Sample(s.converter.Code(i[0]), coil.adc[0][0]);
@@ -132,14 +135,17 @@ TEST(SlopePrediction, KnowsNeighboursGapAndMotion) {
   SlopeStatistic online(setup, Thresholds::kOnline);
   double worst_online = 0;
   for (int n = 0; n < 10; ++n) {
-    for (int j = 0; j < kLanes; ++j) bench.duty[j] = 0.515 + (j % 2 == 0 ? 0.02 : -0.02);  // flux-free pattern: leakage alone
+    // flux-free pattern: leakage alone
+    for (int j = 0; j < kLanes; ++j) bench.duty[j] = 0.515 + (j % 2 == 0 ? 0.02 : -0.02);
     for (double& i : bench.lanes.i.v) ASSERT_GT(i, 0.1);
     const MeasuredPeriod in = bench.Run();
-    for (double s : coupled.Period(in).v) EXPECT_LT(s, 0.15) << n;  // 100 A/s: explicit R i, linear L^-1
+    // 100 A/s: explicit R i, linear L^-1
+    for (double s : coupled.Period(in).v) EXPECT_LT(s, 0.15) << n;
     for (double s : online.Period(in).v) worst_online = std::max(worst_online, s);
   }
   EXPECT_GT(worst_online, 2);
-  // A short of 5 % of the turns of one coil: slopes (L_short^-1 - L^-1) v, v = -(U + 2 U_c) - R i in the off phase.
+  // A short of 5 % of the turns of one coil: slopes (L_short^-1 - L^-1) v, v = -(U + 2 U_c) - R i
+  // in the off phase.
   for (double& d : bench.duty.v) d = 0.515;
   bench.vx = 0;
   bench.lanes.ShortTurns(3, 0.05, INFINITY, bench.x0, bench.y0);
@@ -150,7 +156,8 @@ TEST(SlopePrediction, KnowsNeighboursGapAndMotion) {
   const Lane P = shorted.Permeance(bench.x0, bench.y0);
   LinkageVector v;
   for (int j = 0; j < kLanes; ++j) v[j] = -31.4 - 0.5 * bench.lanes.samples[13][j];
-  const LinkageVector change = InductanceOf(shorted, P).inverse() * v - InductanceOf(setup.model, P).inverse() * v;
+  const LinkageVector change =
+      InductanceOf(shorted, P).inverse() * v - InductanceOf(setup.model, P).inverse() * v;
   EXPECT_NEAR(s[3], std::abs(change[3]) / 700, 0.2);
   EXPECT_GT(s[3], 3);
   for (int j = 0; j < kLanes; ++j) EXPECT_LE(s[j], s[3]) << j;
@@ -220,7 +227,8 @@ TEST(CoupledDetector, PassesNineWhereTheDetectorAlarms) {
 
 TEST(StatisticLevel, FindsItsPlace) {
   for (int k = 0; k < kStatisticLevels; ++k) EXPECT_EQ(LevelOf(ValueOf(k)), k);
-  for (int k = 1; k + 1 < kStatisticLevels; ++k) EXPECT_EQ(LevelOf(0.5 * (ValueOf(k) + ValueOf(k + 1))), k);
+  for (int k = 1; k + 1 < kStatisticLevels; ++k)
+    EXPECT_EQ(LevelOf(0.5 * (ValueOf(k) + ValueOf(k + 1))), k);
   EXPECT_EQ(LevelOf(0), 0);
   EXPECT_EQ(LevelAtLeast(ValueOf(40)), 40);
   EXPECT_EQ(LevelAtLeast(1.001 * ValueOf(40)), 41);

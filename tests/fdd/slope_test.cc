@@ -150,9 +150,11 @@ TEST_P(PaperCoils, SimulatedSlopesLieInTheTheoreticalRange) {
     const SlopeRange down = DecreasingRange(circuit, crest, 5);
     EXPECT_TRUE(down.Contains(m.decreasing)) << m.decreasing << " " << down.low << " " << down.high;
   }
-  EXPECT_NEAR(coil.i, 1.0 - 0.5 * 30 / p.L * 20e-6, 0.02);  // valley of the ripple: the step is followed
+  // valley of the ripple: the step is followed
+  EXPECT_NEAR(coil.i, 1.0 - 0.5 * 30 / p.L * 20e-6, 0.02);
 }
-INSTANTIATE_TEST_SUITE_P(Figures4And5, PaperCoils, ::testing::Values(Coil{0.5, 2e-3}, Coil{0.2, 1e-3}));
+INSTANTIATE_TEST_SUITE_P(Figures4And5, PaperCoils,
+                         ::testing::Values(Coil{0.5, 2e-3}, Coil{0.2, 1e-3}));
 
 /// Coil of section 4 at its working point.
 MeanSlopes OnePeriod(RlCoil& coil, const SlopeConverter& converter) {

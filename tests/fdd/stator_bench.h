@@ -38,7 +38,7 @@ struct Bench {
   AmplifierParameters amplifier = Bridge();
   Lane duty, adc[kSamples];
   double x0 = 1e-4, y0 = -0.5e-4, vx = 0, vy = 0, t = 0;
-  double noise = 0;          // of the ADC [A rms]
+  double noise = 0;  // of the ADC [A rms]
   std::uint64_t seed = 1;
 
   Bench() {

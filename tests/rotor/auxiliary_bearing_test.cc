@@ -1,4 +1,5 @@
-/// The contact law by itself, and the rotor of the fast engine in it: friction, restitution, free fall.
+/// The contact law by itself, and the rotor of the fast engine in it: friction, restitution, free
+/// fall.
 #include "rotor/auxiliary_bearing.h"
 
 #include <gtest/gtest.h>
@@ -28,21 +29,24 @@ TEST(AuxiliaryBearing, NormalForce) {
     p.exponent = n;
     for (double angle : {0.3, 2.0, 4.5}) {
       const double r = 2e-4 + 3e-6, v = 0.2;
-      const ContactForce c = RadialContact(p, kJournal, r * std::cos(angle), r * std::sin(angle), v * std::cos(angle),
-                                           v * std::sin(angle), 0, 0);
+      const ContactForce c = RadialContact(p, kJournal, r * std::cos(angle), r * std::sin(angle),
+                                           v * std::cos(angle), v * std::sin(angle), 0, 0);
       const double N = 2e7 * std::pow(3e-6, n) * (1 + 0.5 * v);
       EXPECT_NEAR(c.fx, -N * std::cos(angle), 1e-9 * N);
       EXPECT_NEAR(c.fy, -N * std::sin(angle), 1e-9 * N);
     }
   }
-  EXPECT_EQ(RadialContact(p, kJournal, 2.1e-4, 0, -3, 0, 0, 0).normal, 0);  // 1 + h p' < 0: it does not pull
+  // 1 + h p' < 0: it does not pull
+  EXPECT_EQ(RadialContact(p, kJournal, 2.1e-4, 0, -3, 0, 0, 0).normal, 0);
 }
 
-// mu N v/√(v² + v_s²) against the sliding of the surface; its torque brakes the spin and drives the race.
+// mu N v/√(v² + v_s²) against the sliding of the surface; its torque brakes the spin and drives the
+// race.
 TEST(AuxiliaryBearing, Friction) {
   const double Omega = 157, r = 2.05e-4, vt = 0.03;
   const ContactForce c = RadialContact(kReference, kJournal, 0, -r, vt, 0, Omega, 20);
-  const double N = 2e7 * 5e-6, slide = vt + (Omega - 20) * kJournal;  // at the bottom the tangent is +x
+  // at the bottom the tangent is +x
+  const double N = 2e7 * 5e-6, slide = vt + (Omega - 20) * kJournal;
   const double friction = 0.15 * N * slide / std::hypot(slide, kSlidingSpeed);
   EXPECT_NEAR(c.fy, N, 1e-9 * N);
   EXPECT_NEAR(c.fx, -friction, 1e-9 * N);
@@ -124,7 +128,8 @@ TEST(RotorInContact, FreeFallReachesTheBearingInTime) {
   EXPECT_NEAR(fall, 6.386e-3, 5e-7);
 }
 
-// Sliding friction of a rotor lying in its bearings at speed: mu m g R, without rolling away at first.
+// Sliding friction of a rotor lying in its bearings at speed: mu m g R, without rolling away at
+// first.
 TEST(RotorInContact, FrictionSpinsDownAtTheExactRate) {
   RotorModel m = Loose(kReference, 9.81);
   m.SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 1000.0}}), 0);

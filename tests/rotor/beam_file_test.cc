@@ -261,8 +261,11 @@ TEST(RossFile, Mistakes) {
             std::string::npos);
   EXPECT_NE(RossMessage(Replaced(good, "tag = \"Bearing\"", "n_link = 7")).find("n_link"),
             std::string::npos);
-  EXPECT_NE(RossMessage(Replaced(good, "m = 32.58972765304033", "m = -5.0")).find("mass = -5 kg, allowed 0"), std::string::npos);
-  EXPECT_NE(RossMessage(Replaced(good, "Ip = 0.805082", "Ip = 0.9")).find("twice Id"), std::string::npos);
+  EXPECT_NE(RossMessage(Replaced(good, "m = 32.58972765304033", "m = -5.0"))
+                .find("mass = -5 kg, allowed 0"),
+            std::string::npos);
+  EXPECT_NE(RossMessage(Replaced(good, "Ip = 0.805082", "Ip = 0.9")).find("twice Id"),
+            std::string::npos);
   const Scratch huge("huge.json");
   huge.Write("{\"ShaftElement_a\": {\"L\": 1e400}}");
   EXPECT_THROW(ReadRoss(huge.path), InputError);

@@ -64,8 +64,7 @@ TEST(BeamElement, ShearCoefficientLimits) {
 }
 
 /// Pinned-pinned Timoshenko shaft, mode k: rho² I/(kappa G) w⁴ - (rho A + rho I a² (1 + E/(kappa
-/// G))) w²
-/// + E I a⁴ = 0, a = k pi / L; without shear kappa G is infinite.
+/// G))) w² + E I a⁴ = 0, a = k pi / L; without shear kappa G is infinite.
 double PinnedFrequency(int k, double length, double d, bool shear, bool rotary) {
   const double a2 = std::pow(k * kPi / length, 2),
                kG = shear ? ShearCoefficientOf(ShearCoefficient::kCowper, 0, kSteel.nu) *

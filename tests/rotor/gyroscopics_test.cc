@@ -1,5 +1,5 @@
-/// Rigid rotor: gyroscopic motion in closed form, the order of the engine's steps, and the eigenvalues of
-/// a published set (facts.md 2.3).
+/// Rigid rotor: gyroscopic motion in closed form, the order of the engine's steps, and the
+/// eigenvalues of a published set (facts.md 2.3).
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -19,8 +19,8 @@ RotorModel Spinning(const RotorParameters& p, double Omega) {
   return m;
 }
 
-// It alpha'' + Ip Omega beta' = 0, It beta'' - Ip Omega alpha' = 0: the tilt rate turns with Omega Ip/It,
-// forward. ALPHA = alpha + i beta: ALPHA' = ALPHA0' e^(i w t).
+// It alpha'' + Ip Omega beta' = 0, It beta'' - Ip Omega alpha' = 0: the tilt rate turns with Omega
+// Ip/It, forward. ALPHA = alpha + i beta: ALPHA' = ALPHA0' e^(i w t).
 double PrecessionError(double dt) {
   const double Omega = 1257, w = Omega * 0.0042 / 0.036, end = 0.02;
   const RotorModel m = Spinning(kReference, Omega);
@@ -53,7 +53,8 @@ TEST(Gyroscopics, TheStepOfAFreeFlightIsTheGeneralOne) {
     RotorModel flying(kReference, {0, -9.81, 0.5}), general(kReference, {0, -9.81, 0.5});
     for (RotorModel* m : {&flying, &general}) {
       m->axial_free = true;
-      m->SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 100.0}, {0.02, 900.0}}), free_from);
+      m->SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 100.0}, {0.02, 900.0}}),
+                  free_from);
       m->AddLoad(0.07, 3, -2, 1, 0.00411, 0.0123);
     }
     general.terms.push_back(std::make_unique<NoForce>());
@@ -93,7 +94,9 @@ struct PublishedRig {
       DofVector Q{}, a{};
       for (int k = 0; k < 2; ++k) {
         const PlaneMap magnet = m.MakePlane(kArm[k]), sensor = m.MakePlane(kSensor[k]);
-        const auto force = [&](double gap, double reading, double rate) { return kKs * gap - kKi * (kp * reading + kd * rate); };
+        const auto force = [&](double gap, double reading, double rate) {
+          return kKs * gap - kKi * (kp * reading + kd * rate);
+        };
         magnet.AddForce(force(magnet.X(s.q), sensor.X(s.q), sensor.X(s.v)),
                         force(magnet.Y(s.q), sensor.Y(s.q), sensor.Y(s.v)), Q);
       }
@@ -107,7 +110,8 @@ struct PublishedRig {
     return A;
   }
   /// Whether some eigenvalue is within `tolerance` of each expected one.
-  static void ExpectEigenvalues(const Eigen::Matrix<double, 8, 8>& A, const std::vector<Complex>& expected, double tolerance) {
+  static void ExpectEigenvalues(const Eigen::Matrix<double, 8, 8>& A,
+                                const std::vector<Complex>& expected, double tolerance) {
     const auto found = Eigen::EigenSolver<Eigen::Matrix<double, 8, 8>>(A).eigenvalues().eval();
     for (const Complex& e : expected) {
       double nearest = 1e9;
@@ -119,21 +123,25 @@ struct PublishedRig {
 
 // Open loop at standstill: 325.1 and 453.1 rad/s, both signs.
 TEST(PublishedRig, UnstablePolesWithoutControl) {
-  PublishedRig::ExpectEigenvalues(PublishedRig().System(0, 0, 0), {325.1, -325.1, 453.1, -453.1}, 0.06);
+  PublishedRig::ExpectEigenvalues(PublishedRig().System(0, 0, 0), {325.1, -325.1, 453.1, -453.1},
+                                  0.06);
 }
 
-// With PD through the non-collocated sensors. kd is printed with five digits: half of the last one moves a
-// real part of 401 by 0.013, and the imaginary part beside it by 0.027.
+// With PD through the non-collocated sensors. kd is printed with five digits: half of the last one
+// moves a real part of 401 by 0.013, and the imaginary part beside it by 0.027.
 TEST(PublishedRig, ClosedLoopAtStandstillAndAtSpeed) {
   const PublishedRig rig;
-  PublishedRig::ExpectEigenvalues(rig.System(0, 7578.9, 14.993),
-                                  {{-200.41, 237.74}, {-200.41, -237.74}, {-401.57, 198.83}, {-401.57, -198.83}}, 0.045);
+  PublishedRig::ExpectEigenvalues(
+      rig.System(0, 7578.9, 14.993),
+      {{-200.41, 237.74}, {-200.41, -237.74}, {-401.57, 198.83}, {-401.57, -198.83}}, 0.045);
   const double Omega = 20000 * 2 * std::acos(-1.0) / 60;
-  PublishedRig::ExpectEigenvalues(rig.System(Omega, 7578.9, 14.993),
-                                  {{-198.08, -233.57}, {-202.73, 241.37}, {-379.11, -191.06}, {-424.04, 211.18}}, 0.045);
+  PublishedRig::ExpectEigenvalues(
+      rig.System(Omega, 7578.9, 14.993),
+      {{-198.08, -233.57}, {-202.73, 241.37}, {-379.11, -191.06}, {-424.04, 211.18}}, 0.045);
 }
 
-// A force at z: x'' = f/m at the centre, Mx = -z fy, My = z fx; the point of a plane moves with all three.
+// A force at z: x'' = f/m at the centre, Mx = -z fy, My = z fx; the point of a plane moves with all
+// three.
 TEST(RigidRotor, MobilityAtAPlane) {
   const RotorModel m = Spinning(kReference, 0);
   const PlaneMap a = m.MakePlane(-0.12), b = m.MakePlane(0.145);

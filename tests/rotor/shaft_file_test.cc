@@ -16,7 +16,9 @@ const std::string kShaft = std::string(AMBRIG_SOURCE_DIR) + "/examples/tum_mbtr/
 /// A file of this test's own, gone afterwards.
 struct Temporary {
   explicit Temporary(const std::string& ending)
-      : path((std::filesystem::temp_directory_path() / ("shaft_" + std::to_string(getpid()) + ending)).string()) {}
+      : path((std::filesystem::temp_directory_path() /
+              ("shaft_" + std::to_string(getpid()) + ending))
+                 .string()) {}
   ~Temporary() { std::filesystem::remove(path); }
   std::string path;
 };

@@ -44,8 +44,10 @@ TEST_F(Blocks, ALostSampleChangesLittle) {
   Samples("A.i5")[450] = kNan;
   const BlockErrors holed = Errors();
   ASSERT_EQ(holed.size(), whole.size());
-  // An exact controller has no error at all: 1e-4 (A, N) is where compare begins to count (discovery/block_ratios.cc).
-  for (const auto& [block, error] : whole) EXPECT_NEAR(holed.at(block), error, 0.2 * std::max(error, 1e-4)) << block;
+  // An exact controller has no error at all: 1e-4 (A, N) is where compare begins to count
+  // (discovery/block_ratios.cc).
+  for (const auto& [block, error] : whole)
+    EXPECT_NEAR(holed.at(block), error, 0.2 * std::max(error, 1e-4)) << block;
 }
 
 TEST_F(Blocks, ATrulyWrongReadingStillShows) {

@@ -1,4 +1,5 @@
-/// The measured bus: what detection is given is what the record holds (formats.md "Record"), noise included.
+/// The measured bus: what detection is given is what the record holds (formats.md "Record"), noise
+/// included.
 #include <gtest/gtest.h>
 
 #include "scenarios/reference_engine.h"
@@ -12,7 +13,8 @@ constexpr double kNoise = 0.03;  // [V rms]
 
 class Listener : public Supervisor {
  public:
-  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>&, std::vector<RunEvent>&) override {
+  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>&,
+                   std::vector<RunEvent>&) override {
     for (const BearingMeasurement& b : m.bearings) EXPECT_EQ(b.bus, m.bearings.front().bus);
     if (m.period >= 0) bus.push_back(m.bearings.front().bus);
   }
@@ -78,7 +80,8 @@ TEST(BusReading, InABurstTheFirstSampleOfAPeriodIsTheOneGiven) {
 TEST(BusReading, TheReferenceGivesTheSameNumbers) {
   const Heard slow = Listen(true, true, kNoise, 25000), fast = Listen(false, true, kNoise, 25000);
   ExpectTheSameReadings(slow, 1);
-  for (std::size_t n = 0; n < slow.given.size(); ++n) EXPECT_DOUBLE_EQ(slow.given[n], fast.given[n]);
+  for (std::size_t n = 0; n < slow.given.size(); ++n)
+    EXPECT_DOUBLE_EQ(slow.given[n], fast.given[n]);
 }
 
 TEST(BusReading, WithoutNoiseItIsTheBus) {

@@ -1,5 +1,5 @@
-/// Every kind of controller on the reference rig: it levitates in the engines, carries a load, changes over without a bump, and its
-/// mistakes in a rig file are told.
+/// Every kind of controller on the reference rig: it levitates in the engines, carries a load,
+/// changes over without a bump, and its mistakes in a rig file are told.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +13,12 @@ namespace ambrig {
 namespace {
 
 Scenario LoadStepAtSpeed(const RigParameters& rig, const std::string& more = "") {
-  return ReadScenarioText("name = \"load\"\nduration = 0.12\nnoise = true\n[speed]\nprofile = [[0.0, 300.0]]\n[[load]]\nplane = \"A\"\n"
-                          "force = [20.0, 0.0]\nstart = 0.02\nstop = 0.2\n" + more, "s.toml", rig);
+  return ReadScenarioText(
+      "name = \"load\"\nduration = 0.12\nnoise = true\n[speed]\nprofile = [[0.0, "
+      "300.0]]\n[[load]]\nplane = \"A\"\n"
+      "force = [20.0, 0.0]\nstart = 0.02\nstop = 0.2\n" +
+          more,
+      "s.toml", rig);
 }
 
 TEST(Controllers, LevitateInTheSwitchingEngine) {
@@ -28,7 +32,8 @@ TEST(Controllers, LevitateInTheSwitchingEngine) {
   }
 }
 
-// The fidelities agree on the load's largest deflection: the averaged engine leaves out ripple and noise.
+// The fidelities agree on the load's largest deflection: the averaged engine leaves out ripple and
+// noise.
 TEST(Controllers, SameInEveryFidelity) {
   for (const char* kind : {"lqg", "h-infinity"}) {
     const RigParameters rig = RigWith(std::string("kind = \"") + kind + "\"\n");
@@ -52,29 +57,40 @@ TEST(Controllers, LinearLoopsAreStable) {
   for (const ControllerKind& k : ControllerKinds()) {
     const RigParameters rig = RigWith(k.controller);
     const SampledPlant plant = MakeControlPlant(rig, {0, 1, 2, 3, 4}, 300);
-    EXPECT_LT(SpectralRadius(LoopMatrix(plant.FromForce(), MakeController(rig, rig.controller)->Linear(300))), 1) << k.name;
+    EXPECT_LT(SpectralRadius(
+                  LoopMatrix(plant.FromForce(), MakeController(rig, rig.controller)->Linear(300))),
+              1)
+        << k.name;
   }
 }
 
-// The notch with phase 0 is for speeds above the bearing's own frequencies: there the loop is stable, below them it is not.
+// The notch with phase 0 is for speeds above the bearing's own frequencies: there the loop is
+// stable, below them it is not.
 TEST(Controllers, UnbalanceControlNeedsItsSpeed) {
-  const RigParameters rig = RigWith("kind = \"pid\"\n" + kPidGains + "[controller.unbalance]\nfrom_speed = 100.0\n");
+  const RigParameters rig =
+      RigWith("kind = \"pid\"\n" + kPidGains + "[controller.unbalance]\nfrom_speed = 100.0\n");
   const auto controller = MakeController(rig, rig.controller);
   const auto radius = [&](double speed) {
-    return SpectralRadius(LoopMatrix(MakeControlPlant(rig, {0, 1, 2, 3, 4}, speed).FromForce(), controller->Linear(speed)));
+    return SpectralRadius(LoopMatrix(MakeControlPlant(rig, {0, 1, 2, 3, 4}, speed).FromForce(),
+                                     controller->Linear(speed)));
   };
   EXPECT_GT(radius(300), 1);
   EXPECT_LT(radius(1256.6), 1);
 }
 
-// Automatic balancing: with the notch the set-points carry (almost) nothing synchronous, without it they do.
+// Automatic balancing: with the notch the set-points carry (almost) nothing synchronous, without it
+// they do.
 TEST(Controllers, UnbalanceControlEndsTheSynchronousCurrent) {
   double amplitude[2];
   for (const int on : {0, 1}) {
     std::string text = "kind = \"pid\"\n" + kPidGains;
     if (on) text += "[controller.unbalance]\nfrom_speed = 100.0\nbandwidth = 30.0\n";
-    RigParameters rig = RigWith(text + "[[effect]]\nname = \"unbalance\"\ntarget = \"A\"\nparameters = { c = 5.0e-6 }\n");
-    const Scenario s = ReadScenarioText("name = \"u\"\nduration = 0.5\nnoise = false\n[speed]\nprofile = [[0.0, 1256.6370614359173]]\n", "s.toml", rig);
+    RigParameters rig = RigWith(
+        text + "[[effect]]\nname = \"unbalance\"\ntarget = \"A\"\nparameters = { c = 5.0e-6 }\n");
+    const Scenario s = ReadScenarioText(
+        "name = \"u\"\nduration = 0.5\nnoise = false\n[speed]\nprofile = [[0.0, "
+        "1256.6370614359173]]\n",
+        "s.toml", rig);
     const Record r = Simulate(rig, s, {}).record;
     const Channel* c = r.Find("A.s1");
     ASSERT_NE(c, nullptr);
@@ -92,13 +108,18 @@ TEST(Controllers, UnbalanceControlEndsTheSynchronousCurrent) {
   EXPECT_LT(amplitude[1], 0.01 * amplitude[0]);
 }
 
-// In the engine, changing over under load: no step of the set-points beyond what noise makes, and the rotor stays.
+// In the engine, changing over under load: no step of the set-points beyond what noise makes, and
+// the rotor stays.
 TEST(Controllers, ChangeOverWithoutABump) {
-  const std::string text = "kind = \"pid\"\n" + kPidGains + "[controllers.strong]\nkind = \"lqg\"\nf_max = 60.0\n[controllers.soft]\nkind = \"pid\"\nf_max = 60.0\n"
-                           "kp = 3.0e5\nkd = 700.0\nki = 4.0e6\nderivative_time_constant = 1.5e-4\n";
+  const std::string text =
+      "kind = \"pid\"\n" + kPidGains +
+      "[controllers.strong]\nkind = \"lqg\"\nf_max = 60.0\n[controllers.soft]\nkind = "
+      "\"pid\"\nf_max = 60.0\n"
+      "kp = 3.0e5\nkd = 700.0\nki = 4.0e6\nderivative_time_constant = 1.5e-4\n";
   const RigParameters rig = RigWith(text);
   ASSERT_EQ(rig.other_controllers.size(), 2u);
-  Scenario s = LoadStepAtSpeed(rig, "[[switch]]\ntime = 0.06\nto = \"strong\"\n[[switch]]\ntime = 0.09\nto = \"soft\"\n");
+  Scenario s = LoadStepAtSpeed(
+      rig, "[[switch]]\ntime = 0.06\nto = \"strong\"\n[[switch]]\ntime = 0.09\nto = \"soft\"\n");
   s.noise = false;
   const RunResult r = Simulate(rig, s, {});
   EXPECT_FALSE(r.touchdown);
@@ -121,12 +142,14 @@ TEST(Controllers, ChangeOverWithoutABump) {
 // A scenario without changes has the same bits whether or not the rig has other controllers.
 TEST(Controllers, OthersChangeNoBit) {
   const std::string pid = "kind = \"pid\"\n" + kPidGains;
-  const RigParameters one = RigWith(pid), two = RigWith(pid + "[controllers.spare]\nkind = \"lqg\"\nf_max = 60.0\n");
+  const RigParameters one = RigWith(pid),
+                      two = RigWith(pid + "[controllers.spare]\nkind = \"lqg\"\nf_max = 60.0\n");
   Scenario s = LoadStepAtSpeed(one);
   s.duration = 0.03;
   const Record a = Simulate(one, s, {}).record, b = Simulate(two, s, {}).record;
   ASSERT_EQ(a.channels.size(), b.channels.size());
-  for (std::size_t k = 0; k < a.channels.size(); ++k) EXPECT_TRUE(a.channels[k].samples == b.channels[k].samples);
+  for (std::size_t k = 0; k < a.channels.size(); ++k)
+    EXPECT_TRUE(a.channels[k].samples == b.channels[k].samples);
 }
 
 struct Mistake {
@@ -140,16 +163,22 @@ TEST(Controllers, MistakesAreTold) {
       {"kind = \"lqg\"\nforce_wieght = 3.0\n", "force_weight"},
       {"kind = \"lqg\"\nforce_weight = -3.0\n", "allowed 1e-06"},
       {"kind = \"lqg\"\nspeeds = [100.0, 50.0]\n", "ascending"},
-      {pid + "[[controller.filter]]\nkind = \"notch\"\nfrequency = 7000.0\nwidth = 5.0\n", "below half the controller's rate"},
-      {pid + "[[controller.filter]]\nkind = \"notch\"\nfrequency = 700.0\nwidth = 5.0\naxes = [\"z\"]\n", "allowed: A.x, A.y, B.x, B.y"},
+      {pid + "[[controller.filter]]\nkind = \"notch\"\nfrequency = 7000.0\nwidth = 5.0\n",
+       "below half the controller's rate"},
+      {pid + "[[controller.filter]]\nkind = \"notch\"\nfrequency = 700.0\nwidth = 5.0\naxes = "
+             "[\"z\"]\n",
+       "allowed: A.x, A.y, B.x, B.y"},
       {"kind = \"transfer-function\"\n", "controller.transfer"},
-      {"kind = \"transfer-function\"\n[[controller.transfer]]\nnumerator = [1.0, 2.0]\ndenominator = [1.0]\n", "higher power"},
+      {"kind = \"transfer-function\"\n[[controller.transfer]]\nnumerator = [1.0, 2.0]\ndenominator "
+       "= [1.0]\n",
+       "higher power"},
       {"kind = \"state-space\"\nD = [[1.0, 0.0], [0.0, 1.0]]\n", "allowed: 4 rows of 4 numbers"},
       {"kind = \"state-space\"\nfile = \"nowhere.toml\"\n", "nowhere.toml"},
       {"kind = \"tilt-translation\"\n", "translation"},
       {pid + "[controller.unbalance]\nbandwidth = 3.0\n", "from_speed"},
       {pid + "[controllers.main]\nkind = \"lqg\"\nf_max = 60.0\n", "allowed: another one"},
-      {pid + "[[controller.schedule]]\nspeed = 10.0\n[[controller.schedule]]\nspeed = 5.0\n", "ascending"}};
+      {pid + "[[controller.schedule]]\nspeed = 10.0\n[[controller.schedule]]\nspeed = 5.0\n",
+       "ascending"}};
   for (const Mistake& m : all) {
     try {
       RigWith(m.controller);

@@ -29,7 +29,8 @@ RigParameters Mbtr() { return ReadRig(kTumFolder + "rig.toml"); }
 
 /// Without unbalance and losses, floating freely, nothing to touch.
 RigParameters FreeShaft(double damping = 0, int modes = 4) {
-  std::string text = Replaced(TumRigText(), "modal_damping = 0.002", fmt::format("modal_damping = {}", damping));
+  std::string text =
+      Replaced(TumRigText(), "modal_damping = 0.002", fmt::format("modal_damping = {}", damping));
   text = Replaced(text, "modes = 4", fmt::format("modes = {}", modes));
   while (text.find("damping_stiffness = 5e-7") != std::string::npos)
     text = Replaced(text, "damping_stiffness = 5e-7", "");
@@ -41,8 +42,11 @@ RigParameters FreeShaft(double damping = 0, int modes = 4) {
 }
 
 Scenario Quiet(const RigParameters& rig, double duration, double speed) {
-  return ReadScenarioText(fmt::format("duration = {}\nrecord_rate = 12500.0\nnoise = false\n[speed]\nprofile = "
-                                      "[[0.0, {}]]\n", duration, NumberText(speed)), kTumFolder + "test.toml", rig);
+  return ReadScenarioText(
+      fmt::format("duration = {}\nrecord_rate = 12500.0\nnoise = false\n[speed]\nprofile = "
+                  "[[0.0, {}]]\n",
+                  duration, NumberText(speed)),
+      kTumFolder + "test.toml", rig);
 }
 
 TEST(FlexibleRotor, InlineAndInAFileAreOneRig) {
@@ -51,7 +55,7 @@ TEST(FlexibleRotor, InlineAndInAFileAreOneRig) {
   ASSERT_EQ(file.modes.size(), 4u);
   ASSERT_EQ(text.modes.size(), 4u);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(file.modes[k].omega, text.modes[k].omega);
-  EXPECT_NEAR(file.rotor.mass, 3.2731, 5e-5);    // published rows: docs/theory/rotor.md
+  EXPECT_NEAR(file.rotor.mass, 3.2731, 5e-5);  // published rows: docs/theory/rotor.md
   EXPECT_NEAR(file.z_origin, 0.36460, 5e-6);
   EXPECT_NEAR(file.bearings[0].z, 0.113 - file.z_origin, 1e-15);
   EXPECT_NEAR(file.modes[0].omega / (2 * kPi), 22.378, 1e-3);
@@ -62,13 +66,15 @@ TEST(FlexibleRotor, WithoutModesItIsTheRigidRotor) {
   const RigParameters beam = TumRig(Replaced(TumRigText(), "modes = 4", "modes = 0"));
   EXPECT_TRUE(beam.modes.empty());
   std::string text = ReadFile(kTumFolder + "rig.toml");
-  text = Replaced(text, "kind = \"beam\"\nfile = \"shaft.toml\"\n",
-                  fmt::format("kind = \"rigid\"\nmass = {}\ninertia_transverse = {}\ninertia_polar = {}\n",
-                              beam.rotor.mass, beam.rotor.inertia_transverse, beam.rotor.inertia_polar));
+  text = Replaced(
+      text, "kind = \"beam\"\nfile = \"shaft.toml\"\n",
+      fmt::format("kind = \"rigid\"\nmass = {}\ninertia_transverse = {}\ninertia_polar = {}\n",
+                  beam.rotor.mass, beam.rotor.inertia_transverse, beam.rotor.inertia_polar));
   text = Replaced(text, "modal_damping = 0.002", "");
   for (const char* z : {"0.113", "0.623"})
     for (int twice = 0; twice < 2; ++twice)
-      text = Replaced(text, fmt::format("z = {}", z), fmt::format("z = {}", std::stod(z) - beam.z_origin));
+      text = Replaced(text, fmt::format("z = {}", z),
+                      fmt::format("z = {}", std::stod(z) - beam.z_origin));
   text = text.substr(0, text.find("[[effect]]"));  // a rigid rotor has no disk to put it on
   RigParameters without = beam;
   without.effects.clear();
@@ -97,7 +103,8 @@ TEST(FlexibleRotor, AModeRingsDownAtItsFrequencyAndDamping) {
     for (int n = 1; n <= 10000; ++n) {  // 0.4 s
       plant.rotor.Step(s, DofVector{}, 0, 0, 4e-5);
       const double t = n * 4e-5;
-      const double eta = std::exp(-zeta * w * t) * (std::cos(wd * t) + zeta / std::sqrt(1 - zeta * zeta) * std::sin(wd * t));
+      const double eta = std::exp(-zeta * w * t) *
+                         (std::cos(wd * t) + zeta / std::sqrt(1 - zeta * zeta) * std::sin(wd * t));
       worst = std::max(worst, std::abs(s.q[d] / 1e-5 - eta));
     }
     // Runge-Kutta's phase: (wh)^4/120 of the angle turned, 535 rad and w h = 0.0535 for the last.
@@ -114,7 +121,8 @@ TEST(FlexibleRotor, KeepsItsEnergyAtSpeed) {
   rotor.SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 500.0}}));
   for (int d = 3; d < rotor.dof(); ++d) s.v[static_cast<std::size_t>(d)] = 0.01 * (d % 3 + 1);
   rotor.SetSpin(s);
-  const double spin = 0.5 * rotor.parameters().inertia_polar * s.Omega * s.Omega, before = rotor.Energy(s) - spin;
+  const double spin = 0.5 * rotor.parameters().inertia_polar * s.Omega * s.Omega,
+               before = rotor.Energy(s) - spin;
   for (int n = 0; n < 5000; ++n) rotor.Step(s, DofVector{}, 0, 0, 4e-5);
   // Steps turn the fastest whirl by 0.1 rad at most: |R|² = 1 - (wh)^6/72 each.
   EXPECT_NEAR((rotor.Energy(s) - spin) / before, 1, 5000 * std::pow(0.1, 6) / 72);
@@ -145,7 +153,8 @@ TEST(FlexibleRotor, SplitsLikeTheBeam) {
     LinearRotor radial;
     radial.M = linear.M(keep, keep), radial.G = linear.G(keep, keep);
     radial.D = linear.D(keep, keep), radial.K = linear.K(keep, keep);
-    for (const auto& [x, y] : linear.xy) radial.xy.push_back({x > 2 ? x - 1 : x, y > 2 ? y - 1 : y});
+    for (const auto& [x, y] : linear.xy)
+      radial.xy.push_back({x > 2 ? x - 1 : x, y > 2 ? y - 1 : y});
     const auto ours = Bending(radial, speed, 6), theirs = Bending(full, speed, 6);
     ASSERT_EQ(ours.size(), theirs.size());
     for (std::size_t k = 0; k < ours.size(); ++k) {
@@ -184,13 +193,16 @@ TEST(FlexibleRotor, WhirlsAsItsEigenvector) {
 
 /// Response at the disk to a force there, shaft on springs at the bearings, by n modes.
 std::complex<double> Compliance(int modes, double w) {
-  const RigParameters rig = TumRig(Replaced(TumRigText(), "modes = 4", fmt::format("modes = {}", modes)));
+  const RigParameters rig =
+      TumRig(Replaced(TumRigText(), "modes = 4", fmt::format("modes = {}", modes)));
   const Plant plant = BuildPlant(rig);
   const LinearRotor linear = LinearRotorOf(plant);
   Eigen::MatrixXcd Z = (linear.K - w * w * linear.M).cast<std::complex<double>>();
-  for (const LinearPort& p : linear.ports) Z += (p.B * (1.5e5 + std::complex<double>(0, w * 250)) * p.gap);
+  for (const LinearPort& p : linear.ports)
+    Z += (p.B * (1.5e5 + std::complex<double>(0, w * 250)) * p.gap);
   const Eigen::MatrixXd disk = PlaneRows(plant.rotor, plant.stations[1].second);
-  const Eigen::VectorXcd q = Z.partialPivLu().solve(disk.transpose().col(0).cast<std::complex<double>>());
+  const Eigen::VectorXcd q =
+      Z.partialPivLu().solve(disk.transpose().col(0).cast<std::complex<double>>());
   return (disk.cast<std::complex<double>>() * q)(0);
 }
 
@@ -216,12 +228,14 @@ TEST(FlexibleRotor, ConvergesWithTheModesKept) {
   EXPECT_LT(before, 1e-3);
 }
 
-// A levitated start is in equilibrium, sag included: the disk hangs at rest, as deep as statics say.
+// A levitated start is in equilibrium, sag included: the disk hangs at rest, as deep as statics
+// say.
 TEST(FlexibleRotor, StartsSaggedAndStill) {
   RigParameters rig = Mbtr();
   rig.effects.clear();
   const Record record = SwitchingEngine(rig, Quiet(rig, 0.06, 0), {}).Run().record;
-  const auto &y = record.Find("disk.r.y")->samples, &a = record.Find("A.r.y")->samples, &b = record.Find("B.r.y")->samples;
+  const auto &y = record.Find("disk.r.y")->samples, &a = record.Find("A.r.y")->samples,
+             &b = record.Find("B.r.y")->samples;
   BeamDefinition d = rig.beam->definition;
   d.supports = {IsotropicSupport(0.113, 1e12, 0), IsotropicSupport(0.623, 1e12, 0)};
   const BeamRotor beam = BuildBeam(d);
@@ -302,28 +316,40 @@ TEST(FlexibleRotor, MistakesAreOneLine) {
   const Mistake mistakes[] = {
       {"modes = 4", "modes = 9", {"rotor.modes = 9", "allowed: 0 to 8"}},
       {"modes = 4", "modes = -1", {"rotor.modes", "allowed"}},
-      {"z = 0.623\nsensor", "z = 0.9\nsensor", {"bearings.B.z = 0.9 m", "on the shaft, 0 to 0.702 m"}},
+      {"z = 0.623\nsensor",
+       "z = 0.9\nsensor",
+       {"bearings.B.z = 0.9 m", "on the shaft, 0 to 0.702 m"}},
       {"sensor = { z = 0.113", "sensor = { z = -0.2", {"bearings.A.sensor", "on the shaft"}},
-      {"auxiliary = { clearance", "auxiliary = { z = 2.0, clearance", {"bearings.A.auxiliary", "on the shaft"}},
-      {"length = 0.094", "length = { value = 0.094, sd = 1e-4 }", {"rotor.section[1].length", "has an sd", "diameters"}},
+      {"auxiliary = { clearance",
+       "auxiliary = { z = 2.0, clearance",
+       {"bearings.A.auxiliary", "on the shaft"}},
+      {"length = 0.094",
+       "length = { value = 0.094, sd = 1e-4 }",
+       {"rotor.section[1].length", "has an sd", "diameters"}},
       {"journal_radius = 0.0048", "", {"rotor.journal_radius: is missing"}},
       {"name = \"disk\"", "name = \"A\"", {"bearings.A", "disk or station"}},
       {"name = \"disk\"", "name = \"lamination_a\"", {"\"lamination_a\" is taken"}},
       {"target = \"disk\"", "target = \"disc\"", {"disc", "did you mean disk?"}},
-      {"[amplifier]", "[[rotor.support]]\nz = 0.1\nk = 1e5\n[amplifier]", {"rotor.support", "for analysis"}},
-      {"switching_frequency = 25000.0", "switching_frequency = 400.0",
-       {"rotor.modes = 4, allowed: 0 to 3", "mode 4 at 213 Hz", "half the switching frequency of 400 Hz"}},
+      {"[amplifier]",
+       "[[rotor.support]]\nz = 0.1\nk = 1e5\n[amplifier]",
+       {"rotor.support", "for analysis"}},
+      {"switching_frequency = 25000.0",
+       "switching_frequency = 400.0",
+       {"rotor.modes = 4, allowed: 0 to 3", "mode 4 at 213 Hz",
+        "half the switching frequency of 400 Hz"}},
   };
   for (const Mistake& m : mistakes) {
     std::string message = "no error";
     try {
       std::string text = Replaced(TumRigText(), m.from, m.to);
-      if (m.to.find("400.0") != std::string::npos) text = Replaced(text, "rate = 12500.0", "rate = 400.0");
+      if (m.to.find("400.0") != std::string::npos)
+        text = Replaced(text, "rate = 12500.0", "rate = 400.0");
       TumRig(text);
     } catch (const InputError& e) {
       message = e.what();
     }
-    for (const std::string& part : m.says) EXPECT_NE(message.find(part), std::string::npos) << message;
+    for (const std::string& part : m.says)
+      EXPECT_NE(message.find(part), std::string::npos) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     EXPECT_NE(message.find("rig.toml:"), std::string::npos) << message;
   }
@@ -331,8 +357,10 @@ TEST(FlexibleRotor, MistakesAreOneLine) {
 
 TEST(FlexibleRotor, ShaftFilesThatAreNone) {
   const std::string text = ReadFile(kTumFolder + "rig.toml");
-  for (const auto& [file, part] : {std::pair{"nowhere.toml", "nowhere.toml"}, {"shaft.txt", "a .toml or .json file"},
-                                   {"nowhere.json", "nowhere.json"}, {"run_up.toml", "no shaft element"}}) {
+  for (const auto& [file, part] : {std::pair{"nowhere.toml", "nowhere.toml"},
+                                   {"shaft.txt", "a .toml or .json file"},
+                                   {"nowhere.json", "nowhere.json"},
+                                   {"run_up.toml", "no shaft element"}}) {
     try {
       TumRig(Replaced(text, "shaft.toml\"", std::string(file) + "\""));
       ADD_FAILURE() << file;

@@ -59,9 +59,11 @@ TEST(LinearRotor, AccelerationsAreTheModels) {
       "name = \"cross-coupling\"\ntarget = \"A\"\nparameters = { stiffness = 2e4 }",
       "name = \"rotating-damping\"\nparameters = { damping = 30.0 }",
       "name = \"base-mode\"\nparameters = { mass = 30.0, frequency = 50.0, damping = 0.03 }",
-      "name = \"bending-mode\"\nparameters = { frequency = 210.0, gain_a = 0.4, gain_b = -0.3, gyro = "
+      "name = \"bending-mode\"\nparameters = { frequency = 210.0, gain_a = 0.4, gain_b = -0.3, "
+      "gyro = "
       "0.2 }",
-      "name = \"contact-mount\"\ntarget = \"A\"\nparameters = { stiffness = 1e6, damping = 200.0, mass = 0.2 "
+      "name = \"contact-mount\"\ntarget = \"A\"\nparameters = { stiffness = 1e6, damping = 200.0, "
+      "mass = 0.2 "
       "}"};
   for (int twice = 0; twice < 2; ++twice)  // also all of them together
     for (const char* effect : effects) {
@@ -82,7 +84,8 @@ TEST(LinearRotor, AccelerationsAreTheModels) {
       for (int d = 0; d < plant.rotor.dof(); ++d) size = std::max(size, std::abs(ours(d)));
       // Differences of linear terms: rounding of numbers of this size over the step of 1e-7.
       for (int d = 0; d < plant.rotor.dof(); ++d)
-        EXPECT_NEAR(a[static_cast<std::size_t>(d)], ours(d), 1e-7 * size) << effect << " coordinate " << d;
+        EXPECT_NEAR(a[static_cast<std::size_t>(d)], ours(d), 1e-7 * size)
+            << effect << " coordinate " << d;
     }
 }
 

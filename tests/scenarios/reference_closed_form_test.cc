@@ -174,7 +174,8 @@ TEST(ReferenceClosedForm, FreeFall) {
   }
 }
 
-// √(2c/g) = 6.386 ms through a clearance of 0.2 mm: the verdict names the period in which it is over.
+// √(2c/g) = 6.386 ms through a clearance of 0.2 mm: the verdict names the period in which it is
+// over.
 TEST(ReferenceClosedForm, TouchdownAfterTheFreeFallTime) {
   const RigParameters rig = LooseRotor(2e-4, 0);
   const Scenario scenario = LooseScenario(rig, 0.008);
@@ -183,7 +184,8 @@ TEST(ReferenceClosedForm, TouchdownAfterTheFreeFallTime) {
   fast.warm_up = 0;
   ReferenceOptions reference;
   reference.sampled.warm_up = 0;
-  for (const RunResult& r : {SwitchingEngine(rig, scenario, fast).Run(), RunReference(rig, scenario, reference)}) {
+  for (const RunResult& r :
+       {SwitchingEngine(rig, scenario, fast).Run(), RunReference(rig, scenario, reference)}) {
     EXPECT_TRUE(r.touchdown);
     ASSERT_FALSE(r.events.empty());
     EXPECT_EQ(r.events.front().kind, "touchdown");
@@ -241,7 +243,8 @@ TEST(ReferenceClosedForm, EnergyBalanceOfLiftOffWithContactAndFriction) {
       b.copper - a.copper + b.contact - a.contact + b.field - a.field + b.rotor - a.rotor;
   EXPECT_GT(b.contact - a.contact, 0.1);  // it does rub: quarter of a joule
   EXPECT_GT(b.electrical - a.electrical, 0.4);
-  RecordProperty("left_of_the_input", std::to_string((in - out) / (b.electrical + std::abs(b.drive)) * 1e12) + "e-12");
+  RecordProperty("left_of_the_input",
+                 std::to_string((in - out) / (b.electrical + std::abs(b.drive)) * 1e12) + "e-12");
   EXPECT_NEAR(in, out, 1e-9 * (b.electrical + std::abs(b.drive)));
 }
 

@@ -143,12 +143,14 @@ INSTANTIATE_TEST_SUITE_P(
       return name;
     });
 
-// A second short on the same coil is a second loop: each carries its own current, 64 and 110 us long.
+// A second short on the same coil is a second loop: each carries its own current, 64 and 110 us
+// long.
 TEST(ReferenceWitness, TwoShortsOnOneCoil) {
   Case c = Levitated(0.005);
   AddFault(c, "partial-short", kFaultTime, {{"fraction", 0.3}, {"short_resistance", 0.05}});
   const Record first = c.Reference();
-  AddFault(c, "partial-short", kFaultTime + 400e-6, {{"fraction", 0.2}, {"short_resistance", 0.02}});
+  AddFault(c, "partial-short", kFaultTime + 400e-6,
+           {{"fraction", 0.2}, {"short_resistance", 0.02}});
   const Record both = c.Reference();
   EXPECT_GT(Compare(first, both).current, 0.05);  // the second one is seen
   const Difference once = c.Fast(both, 1), four = c.Fast(both, 4);
@@ -157,12 +159,15 @@ TEST(ReferenceWitness, TwoShortsOnOneCoil) {
   EXPECT_LT(four.current_rms, 0.4 * once.current_rms);
 }
 
-// The loop of a short that found its coil broken stays unused; the next short gets one on its own pole.
+// The loop of a short that found its coil broken stays unused; the next short gets one on its own
+// pole.
 TEST(ReferenceWitness, AShortOfABrokenCoilChangesNothing) {
   Case c = Levitated(0.004);
   AddFault(c, "open", kFaultTime, {});
-  AddFault(c, "partial-short", kFaultTime + 200e-6, {{"fraction", 0.3}, {"short_resistance", 0.05}});
-  AddFault(c, "partial-short", kFaultTime + 400e-6, {{"fraction", 0.3}, {"short_resistance", 0.05}});
+  AddFault(c, "partial-short", kFaultTime + 200e-6,
+           {{"fraction", 0.3}, {"short_resistance", 0.05}});
+  AddFault(c, "partial-short", kFaultTime + 400e-6,
+           {{"fraction", 0.3}, {"short_resistance", 0.05}});
   c.scenario.faults.back().target = "A.coil7";
   const Difference once = c.Fast(c.Reference(), 1);
   EXPECT_LT(once.position, 4e-8);

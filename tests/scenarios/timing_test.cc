@@ -1,5 +1,6 @@
-/// When a command acts: the clocks of physics.md sections 3 and 4, exact to the period, in all three
-/// fidelities. A run with a command is compared with the same run without it: the same bits before.
+/// When a command acts: the clocks of physics.md sections 3 and 4, exact to the period, in all
+/// three fidelities. A run with a command is compared with the same run without it: the same bits
+/// before.
 #include <gtest/gtest.h>
 
 #include "effects/catalogue.h"
@@ -14,7 +15,9 @@ namespace {
 enum class Engine { kSwitching, kReference, kAveraged };
 
 void PrintTo(Engine e, std::ostream* out) {
-  *out << (e == Engine::kSwitching ? "switching" : e == Engine::kReference ? "reference" : "averaged");
+  *out << (e == Engine::kSwitching   ? "switching"
+           : e == Engine::kReference ? "reference"
+                                     : "averaged");
 }
 
 constexpr double kT = 40e-6;
@@ -44,7 +47,8 @@ Record Simulated(Engine engine, const Excitation* command) {
   return RunAveraged(rig, s, o).record;
 }
 
-Excitation Step(const std::string& target, const std::string& port, double amplitude, double start) {
+Excitation Step(const std::string& target, const std::string& port, double amplitude,
+                double start) {
   Excitation e;
   e.target = target;
   e.port = port;
@@ -75,7 +79,8 @@ class Clock : public ::testing::TestWithParam<Engine> {
 };
 
 const double kCosine1 = std::cos(22.5 * kPi / 180);
-const double kNewtonPerAmpere = 2 * RadialStator(BaseRig().bearings[0].radial).ForceConstant();  // k c0
+// k c0
+const double kNewtonPerAmpere = 2 * RadialStator(BaseRig().bearings[0].radial).ForceConstant();
 
 // Read by the controller at t_n, set-points one controller period (two PWM periods) later.
 TEST_P(Clock, AForceActsOneControllerPeriodLater) {
@@ -93,7 +98,9 @@ TEST_P(Clock, BetweenTicksTheNextOneReadsIt) {
 TEST_P(Clock, AReferenceActsOneControllerPeriodLater) {
   const Change c = Of(Step("B.y", "reference", 1e-6, kRow * kT), "B.s1");
   EXPECT_EQ(c.row, kRow + 2);
-  EXPECT_NEAR(c.by, BaseRig().controller.pid.kp * 1e-6 / kNewtonPerAmpere * std::sin(22.5 * kPi / 180), 1e-11);
+  EXPECT_NEAR(c.by,
+              BaseRig().controller.pid.kp * 1e-6 / kNewtonPerAmpere * std::sin(22.5 * kPi / 180),
+              1e-11);
 }
 
 // A coil's current excitation is read at every PWM start and acts at once: the duty of that period.
@@ -104,8 +111,8 @@ TEST_P(Clock, ACurrentActsAtOnce) {
   EXPECT_NEAR(c.by, 0.1 * (a.kp + a.ki * kT) / (2 * a.bus_voltage), 1e-12);
 }
 
-// That duty is applied in its own period, whose mean current is the feedback of the next row. The flux-free
-// pattern has leakage alone; the coil's own rise is between U/L_l and U/(L_0 + L_l).
+// That duty is applied in its own period, whose mean current is the feedback of the next row. The
+// flux-free pattern has leakage alone; the coil's own rise is between U/L_l and U/(L_0 + L_l).
 TEST_P(Clock, TheDutyIsAppliedInItsOwnPeriod) {
   EXPECT_EQ(Of(Step("A.coil1", "current", 0.1, (kRow + 1) * kT), "A.i1").row, kRow + 2);
 }
@@ -118,8 +125,8 @@ TEST_P(Clock, ADutyIsTakenAsItIs) {
   EXPECT_EQ(record.Find("A.d1")->samples[kRow + 1], 0.61);
 }
 
-// A delay of five controller periods: a record shows every set-point in its own period, the coils get it
-// later. (Set-points under way used to wait for each other in the switching engine.)
+// A delay of five controller periods: a record shows every set-point in its own period, the coils
+// get it later. (Set-points under way used to wait for each other in the switching engine.)
 TEST(LoopDelay, SetPointsAreRecordedWhenTheyAreDue) {
   RigParameters rig = BaseRig();
   rig.effects.push_back(MakeInstance(*FindEffect("loop-delay"), "rig"));
@@ -138,7 +145,9 @@ TEST(LoopDelay, SetPointsAreRecordedWhenTheyAreDue) {
   EXPECT_EQ(FirstChange(with, without, "A.d1").row, kRow + 2 + 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Fidelity, Clock, ::testing::Values(Engine::kSwitching, Engine::kReference, Engine::kAveraged),
+INSTANTIATE_TEST_SUITE_P(Fidelity, Clock,
+                         ::testing::Values(Engine::kSwitching, Engine::kReference,
+                                           Engine::kAveraged),
                          ::testing::PrintToStringParamName());
 
 }  // namespace

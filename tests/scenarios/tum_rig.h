@@ -20,15 +20,21 @@ inline std::string Replaced(std::string text, const std::string& from, const std
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// The rig's text with its shaft inside, so that tests can change both; then `changes`, from and to.
-inline std::string TumRigText(const std::vector<std::pair<std::string, std::string>>& changes = {}) {
+/// The rig's text with its shaft inside, so that tests can change both; then `changes`, from and
+/// to.
+inline std::string TumRigText(
+    const std::vector<std::pair<std::string, std::string>>& changes = {}) {
   const std::string shaft = ReadFile(kTumFolder + "shaft.toml");
-  std::string text = Replaced(ReadFile(kTumFolder + "rig.toml"), "file = \"shaft.toml\"", "modes = 4\nelements_per_section = 4");
-  text = Replaced(text, "[amplifier]", shaft.substr(shaft.find("[rotor.materials")) + "\n[amplifier]");
+  std::string text = Replaced(ReadFile(kTumFolder + "rig.toml"), "file = \"shaft.toml\"",
+                              "modes = 4\nelements_per_section = 4");
+  text =
+      Replaced(text, "[amplifier]", shaft.substr(shaft.find("[rotor.materials")) + "\n[amplifier]");
   for (const auto& [from, to] : changes) text = Replaced(text, from, to);
   return text;
 }
 
-inline RigParameters TumRig(const std::string& text) { return ReadRigText(text, kTumFolder + "rig.toml"); }
+inline RigParameters TumRig(const std::string& text) {
+  return ReadRigText(text, kTumFolder + "rig.toml");
+}
 
 }  // namespace ambrig::testing

@@ -1,8 +1,8 @@
 // The tutorials of docs/guide, run: every line that starts with "ambrig" (and the copies and edits
 // between them) as it stands on the page, and what the page says comes out.
 #include <gtest/gtest.h>
-#include <unistd.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <filesystem>
@@ -26,10 +26,13 @@ class Tutorial : public testing::Test {
  protected:
   void SetUp() override {
     // Of this process: the same test may run from another clone at the same time.
-    folder_ = fs::temp_directory_path() / ("ambrig_tutorial_" + std::to_string(::getpid()) + "_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+    folder_ = fs::temp_directory_path() /
+              ("ambrig_tutorial_" + std::to_string(::getpid()) + "_" +
+               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    setenv("PATH", (fs::path(AMBRIG_BINARY).parent_path().string() + ":" + std::getenv("PATH")).c_str(), 1);
+    setenv("PATH",
+           (fs::path(AMBRIG_BINARY).parent_path().string() + ":" + std::getenv("PATH")).c_str(), 1);
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -38,21 +41,27 @@ class Tutorial : public testing::Test {
     std::istringstream in(Read(fs::path(AMBRIG_SOURCE_DIR) / "docs/guide" / page));
     int commands = 0;
     for (std::string line; std::getline(in, line);) {
-      if (!line.starts_with("    ambrig ") && !line.starts_with("    sed ") && !line.starts_with("    cat ")) continue;
-      const std::string command = "cd " + folder_.string() + " && ( " + line.substr(4) + " ) > log.txt 2>&1";
+      if (!line.starts_with("    ambrig ") && !line.starts_with("    sed ") &&
+          !line.starts_with("    cat "))
+        continue;
+      const std::string command =
+          "cd " + folder_.string() + " && ( " + line.substr(4) + " ) > log.txt 2>&1";
       const int status = std::system(command.c_str());
       ASSERT_EQ(WEXITSTATUS(status), 0) << line << "\n" << Read(folder_ / "log.txt");
       ++commands;
     }
     EXPECT_GE(commands, 4) << page;
   }
-  nlohmann::json Json(const std::string& file) const { return nlohmann::json::parse(Read(folder_ / file)); }
+  nlohmann::json Json(const std::string& file) const {
+    return nlohmann::json::parse(Read(folder_ / file));
+  }
 
   fs::path folder_;
 };
 
 TEST_F(Tutorial, HiddenEffect) {
-  fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "scenarios/library/rigs/reference.toml", folder_ / "rig.toml");
+  fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "scenarios/library/rigs/reference.toml",
+           folder_ / "rig.toml");
   Follow("hidden_effect.md");
   const auto explained = Json("explain.json");
   EXPECT_EQ(explained["verdict"], "effect");
@@ -65,11 +74,13 @@ TEST_F(Tutorial, HiddenEffect) {
   const auto at = answer.find("\"cross-coupling.stiffness\" = ");
   ASSERT_NE(at, std::string::npos);
   const auto& found = explained["adopted"][0]["parameters"]["stiffness"];
-  EXPECT_NEAR(found["value"].get<double>(), std::stod(answer.substr(at + 29)), 4 * found["sd"].get<double>());
+  EXPECT_NEAR(found["value"].get<double>(), std::stod(answer.substr(at + 29)),
+              4 * found["sd"].get<double>());
   const auto adopted = Json("adopt.json");
   EXPECT_GT(adopted["before"]["ratio"], 4);
   EXPECT_NEAR(adopted["ratio"], 1, 0.03);
-  for (const char* page : {"compare.html", "explain.html", "adopt.html"}) EXPECT_GT(fs::file_size(folder_ / page), 1000000U) << page;
+  for (const char* page : {"compare.html", "explain.html", "adopt.html"})
+    EXPECT_GT(fs::file_size(folder_ / page), 1000000U) << page;
 }
 
 TEST_F(Tutorial, RealRig) {
@@ -103,10 +114,12 @@ TEST_F(Tutorial, LawOutsideTheCatalogue) {
   Follow("unknown_law.md");
   const auto explained = Json("explain.json");
   EXPECT_EQ(explained["verdict"], "unknown");
-  EXPECT_NE(explained["unexplained"]["where"].get<std::string>().find("plane B"), std::string::npos);
+  EXPECT_NE(explained["unexplained"]["where"].get<std::string>().find("plane B"),
+            std::string::npos);
   const std::string fitted = Read(folder_ / "rig_3.toml");
   const auto is = [&](const std::string& name, double hidden, double within) {
-    const auto effect = fitted.find("contact on one side"), at = fitted.find(name + " = { value = ", effect);
+    const auto effect = fitted.find("contact on one side"),
+               at = fitted.find(name + " = { value = ", effect);
     ASSERT_NE(at, std::string::npos) << name;
     EXPECT_NEAR(std::stod(fitted.substr(at + name.size() + 13)), hidden, within) << name;
   };
@@ -116,17 +129,21 @@ TEST_F(Tutorial, LawOutsideTheCatalogue) {
   is("lobe", 8e-6, 4e-6);
   is("mu", 0.3, 0.2);
   is("period", 0.11, 0.004);
-  const double before = explained["base_ratio_validate"], after = Json("adopt.json")["ladder"].back()["ratio_validate"];
+  const double before = explained["base_ratio_validate"],
+               after = Json("adopt.json")["ladder"].back()["ratio_validate"];
   EXPECT_LT(after, 0.75 * before);
 }
 
-// PID, LQG and H-infinity on the flexible rig: what the page says of each holds, and its point again is the same.
+// PID, LQG and H-infinity on the flexible rig: what the page says of each holds, and its point
+// again is the same.
 TEST_F(Tutorial, DesignStudy) {
   fs::create_directories(folder_ / "examples");
   for (const char* folder : {"design_tum", "tum_mbtr"})
-    fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples" / folder, folder_ / "examples" / folder, fs::copy_options::recursive);
+    fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples" / folder, folder_ / "examples" / folder,
+             fs::copy_options::recursive);
   Follow("design.md");
-  // One number at a time: without speeds or uncertainty the loop is unstable, without the disk's weight its mode rings.
+  // One number at a time: without speeds or uncertainty the loop is unstable, without the disk's
+  // weight its mode rings.
   const auto why = Json("out/why/study.json")["points"];
   const auto point = [&](const char* candidate, const char* path, double value) {
     for (const auto& p : why)
@@ -134,13 +151,22 @@ TEST_F(Tutorial, DesignStudy) {
     ADD_FAILURE() << candidate << " without " << value;
     return nlohmann::json();
   };
-  EXPECT_TRUE(point("range of speeds designed for", "controller.speeds[1]", 1.0)["figures"]["peak_sensitivity"].is_null());
-  EXPECT_TRUE(point("uncertainty of the modes", "controller.modes.uncertainty", 0.0)["figures"]["peak_sensitivity"].is_null());
-  EXPECT_LT(point("uncertainty of the modes", "controller.modes.uncertainty", 0.03)["figures"]["peak_sensitivity"], 3.0);
-  const auto ringing = point("weight of the disk", "controller.plane[0].position_weight", 1.0)["figures"]["amplification"],
-             held = point("weight of the disk", "controller.plane[0].position_weight", 1.0e-5)["figures"]["amplification"];
+  EXPECT_TRUE(point("range of speeds designed for", "controller.speeds[1]",
+                    1.0)["figures"]["peak_sensitivity"]
+                  .is_null());
+  EXPECT_TRUE(point("uncertainty of the modes", "controller.modes.uncertainty",
+                    0.0)["figures"]["peak_sensitivity"]
+                  .is_null());
+  EXPECT_LT(point("uncertainty of the modes", "controller.modes.uncertainty",
+                  0.03)["figures"]["peak_sensitivity"],
+            3.0);
+  const auto ringing = point("weight of the disk", "controller.plane[0].position_weight",
+                             1.0)["figures"]["amplification"],
+             held = point("weight of the disk", "controller.plane[0].position_weight",
+                          1.0e-5)["figures"]["amplification"];
   EXPECT_GT(ringing.get<double>(), 5 * held.get<double>());
-  // The study: all three hold zone A with the coil's fault in the run; only the syntheses damp the first bending mode.
+  // The study: all three hold zone A with the coil's fault in the run; only the syntheses damp the
+  // first bending mode.
   const auto study = Json("out/study/study.json");
   for (const char* candidate : {"PID", "LQG", "H-infinity"}) {
     const auto& shown = study["points"][study["shown"][candidate].get<std::size_t>()];
