@@ -199,7 +199,7 @@ class Explainer {
       h.AddEffect(p.second);
       FitResult fit = FitOn(model_, base, h, out_.effective);
       const bool more = out_.adopted.size() < 2;
-      if (!fit.converged || Gain(now, fit) < (more ? 20 : 2) ||
+      if (!fit.converged || Gain(now, fit) < (more ? 20 : 0) ||
           (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_)))
         continue;
       now = std::move(fit);
