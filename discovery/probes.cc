@@ -85,16 +85,21 @@ std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string
   return seeds;
 }
 
-/// What shapes a law over decades is tried at the far end of its usual range too: laminations thin
-/// and thick.
+/// What shapes a law over decades is tried at the ends of its usual range too: laminations thin and
+/// thick, a capacitance that smooths and one that does not.
 std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInstance& middle,
-                                    const std::vector<std::size_t>& shape) {
+                                    const std::vector<std::size_t>& shape, bool both_ends) {
   std::vector<EffectInstance> forms = {middle};
   for (std::size_t s : shape) {
     const EffectParameter& p = d.parameters[s];
-    if (IsResonance(d) || p.typical_lo <= 0 || p.typical_hi < 4 * p.typical_lo) continue;
+    if (p.name == "frequency" || IsResonance(d) || p.typical_lo <= 0 ||
+        p.typical_hi < 4 * p.typical_lo)
+      continue;
     forms.push_back(middle);
     forms.back().values[s] = p.typical_hi;
+    if (!both_ends) continue;
+    forms.push_back(middle);
+    forms.back().values[s] = p.typical_lo;
   }
   return forms;
 }
@@ -149,7 +154,7 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
     }
     for (std::size_t k : infinite) {
       const EffectParameter& p = d.parameters[k];
-      for (const EffectInstance& form : FormsOf(d, at, shape))
+      for (const EffectInstance& form : FormsOf(d, at, shape, false))
         for (double value : LogGrid(p.typical_lo, p.typical_hi, IsResonance(d) ? 1 : 4)) {
           ProbeGroup g;
           g.linear = false;
@@ -161,14 +166,16 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
         }
     }
     if (finite.empty()) continue;
-    ProbeGroup g;
-    for (std::size_t k : finite) {
-      EffectInstance e = at;
-      e.values[k] = d.parameters[k].null_value + SizeFromNull(d.parameters[k]);
-      g.probes.push_back(e);
-      g.rows.push_back(k);
+    for (const EffectInstance& form : FormsOf(d, at, shape, true)) {
+      ProbeGroup g;
+      for (std::size_t k : finite) {
+        EffectInstance e = form;
+        e.values[k] = d.parameters[k].null_value + SizeFromNull(d.parameters[k]);
+        g.probes.push_back(e);
+        g.rows.push_back(k);
+      }
+      groups.push_back(g);
     }
-    groups.push_back(g);
   }
   for (ProbeGroup& g : groups) g.narrow = IsResonance(d);
   return groups;

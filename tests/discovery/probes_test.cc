@@ -5,6 +5,7 @@
 
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "discovery/examination.h"
 #include "effects/catalogue.h"
@@ -33,6 +34,33 @@ TEST(Probes, ALawIsTriedInTheMiddleAndAtTheEndOfWhatShapesIt) {
       if (p.name == "path") {
         EXPECT_EQ(sizes_of.rbegin()->first, p.typical_hi) << id;
       }
+    }
+  }
+}
+
+// A bus with little capacitance follows every period, one with much the mean: of three shapes one is
+// near.
+TEST(Probes, WhatIsSwitchedFromAFiniteNullIsTriedAtBothEndsOfWhatShapesIt) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  const std::tuple<const char*, const char*, const char*> shaped[] = {
+      {"bus-impedance", "rig", "capacitance"},
+      {"hysteresis", "A", "width"},
+      {"copper-heating", "A", "time_constant"}};
+  for (const auto& [id, target, shape] : shaped) {
+    const EffectDescription& d = EffectNamed(id);
+    std::set<double> tried;
+    for (const ProbeGroup& g : ProbesOf(d, target, model, {})) {
+      EXPECT_TRUE(g.linear) << id;
+      for (const EffectInstance& e : g.probes) tried.insert(e.Value(shape));
+    }
+    ASSERT_EQ(tried.size(), 3U) << id;
+    for (const EffectParameter& p : d.parameters) {
+      if (p.name != shape) continue;
+      EXPECT_EQ(*tried.begin(), p.typical_lo) << id;
+      EXPECT_EQ(*tried.rbegin(), p.typical_hi) << id;
     }
   }
 }
