@@ -1,5 +1,6 @@
 #include "scenarios/control_plant.h"
 
+#include <algorithm>
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace ambrig {

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <set>
+#include <tuple>
 
 #include "scenarios/rig.h"
 #include "scenarios/rig_rotor.h"

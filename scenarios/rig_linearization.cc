@@ -1,5 +1,6 @@
 #include "scenarios/rig_linearization.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "rotor/linear_rotor.h"

@@ -11,8 +11,6 @@
 namespace ambrig {
 namespace {
 
-constexpr double kRpm = kPi / 30;
-
 std::vector<double> Magnitude(const std::vector<std::complex<double>>& z) {
   std::vector<double> out;
   for (const auto& v : z) out.push_back(std::abs(v));
