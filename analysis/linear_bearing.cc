@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenarios/coil_network.h"
+#include "actuators/magnetics/coil_network.h"
 
 namespace ambrig {
 

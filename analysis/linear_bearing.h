@@ -1,6 +1,6 @@
 #pragma once
 /// First derivatives of one bearing's magnetic circuit at an operating point, exact (the circuit's
-/// own rate equations, scenarios/coil_network.h, give them; no differences):
+/// own rate equations, actuators/magnetics/coil_network.h, give them; no differences):
 ///
 ///   δi = I_λ δλ + I_r δr            currents of the coils that carry    [A]
 ///   δf = F_λ δλ + F_r δr            force on the rotor                  [N]
@@ -13,7 +13,7 @@
 #include <Eigen/Dense>
 #include <vector>
 
-#include "actuators/stator_lanes.h"
+#include "actuators/magnetics/stator_lanes.h"
 
 namespace ambrig {
 

@@ -1,7 +1,7 @@
 #include "analysis/linear_controller.h"
 
-#include "scenarios/controller_setup.h"
-#include "scenarios/rig.h"
+#include "rig/rig_assembly.h"
+#include "simulation/sampled/controller_setup.h"
 
 namespace ambrig {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scenarios/rig.h"
+#include "rig/rig_assembly.h"
 
 namespace ambrig {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actuators/magnetics/coil_network.h"
 #include "core/math/constants.h"
-#include "scenarios/coil_network.h"
-#include "scenarios/rig.h"
+#include "rig/rig_assembly.h"
 
 namespace ambrig {
 

@@ -8,7 +8,7 @@
 
 #include "analysis/closed_loop.h"
 #include "core/math/constants.h"
-#include "scenarios/simulate.h"
+#include "simulation/simulate.h"
 
 namespace ambrig {
 

@@ -7,7 +7,7 @@
 #include <atomic>
 #include <complex>
 
-#include "scenarios/rig_parameters.h"
+#include "rig/rig_parameters.h"
 
 namespace ambrig {
 

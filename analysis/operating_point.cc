@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scenarios/equilibrium.h"
+#include "simulation/continuous/equilibrium.h"
 
 namespace ambrig {
 

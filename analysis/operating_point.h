@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/linear_bearing.h"
-#include "scenarios/sampled_rig.h"
+#include "simulation/sampled/sampled_rig.h"
 
 namespace ambrig {
 

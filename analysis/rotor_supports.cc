@@ -6,7 +6,7 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
-#include "scenarios/rig.h"
+#include "rig/rig_assembly.h"
 
 namespace ambrig {
 

@@ -7,13 +7,13 @@
 ///   map        the same with every radial bearing at one common k (undamped critical speed map)
 /// Radial coordinates only. Source: docs/theory/rotor.md; API 684 for the map.
 #include "analysis/linear_plant.h"
-#include "rotor/rotor_modes.h"
+#include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
 
 struct RotorMode {
   double frequency = 0;   // [Hz]
-  double whirl = 0;       // as rotor/rotor_modes.h
+  double whirl = 0;       // as rotor/shaft/rotor_modes.h
   std::vector<double> z;  // stations [m]
   std::vector<double> x;  // displacement there, largest 1
 };

@@ -6,7 +6,7 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
-#include "rotor/rotor_modes.h"
+#include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
 

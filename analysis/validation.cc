@@ -10,10 +10,10 @@
 #include "analysis/load_capacity.h"
 #include "core/base/counted.h"
 #include "core/math/constants.h"
-#include "rotor/beam_file.h"
-#include "rotor/rotor_modes.h"
-#include "scenarios/rig.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
+#include "rotor/shaft/beam_file.h"
+#include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Published rotors and rigs beside what this program computes for them. A validation file holds
-/// the rotor (tables of rotor/beam_file.h, or a rigid one), or names a rig, and the published
+/// the rotor (tables of rotor/shaft/beam_file.h, or a rigid one), or names a rig, and the published
 /// figures:
 ///
 ///     name = "Friswell 5.9.1"

@@ -2,10 +2,10 @@
 //   build/release/ambrig_bench --benchmark_filter='Engine|UpdateLoop'
 #include <benchmark/benchmark.h>
 
-#include "actuators/whole_lane_vector.h"
-#include "scenarios/rig_file.h"
-#include "scenarios/simulate.h"
-#include "scenarios/switching_engine.h"
+#include "actuators/magnetics/whole_lane_vector.h"
+#include "rig/rig_file.h"
+#include "simulation/simulate.h"
+#include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
 namespace {

@@ -10,8 +10,8 @@
 #include "core/base/counted.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
-#include "faulttolerance/redistribution_table.h"
-#include "scenarios/rig_file.h"
+#include "faulttolerance/redistribution/redistribution_table.h"
+#include "rig/rig_file.h"
 
 namespace ambrig {
 

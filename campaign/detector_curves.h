@@ -1,6 +1,6 @@
 #pragma once
 /// What a study's rows say of each detector at every threshold: false alarms of healthy coils,
-/// detections, delays. Thresholds are the levels of fdd/statistic_level.h.
+/// detections, delays. Thresholds are the levels of fdd/detectors/statistic_level.h.
 #include <string>
 #include <vector>
 

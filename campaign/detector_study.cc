@@ -10,7 +10,7 @@
 #include "core/base/counted.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
-#include "scenarios/switching_engine.h"
+#include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
 

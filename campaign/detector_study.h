@@ -1,9 +1,9 @@
 #pragma once
 /// A study file (TOML): detectors of coil faults on the same healthy and faulty runs. The runs are
 /// those of two campaign files; docs/guide/detectors.md explains each key by example.
+#include "campaign/detector_trial.h"
 #include "campaign/journal.h"
 #include "campaign/run_plan.h"
-#include "scenarios/detector_trial.h"
 
 namespace ambrig {
 

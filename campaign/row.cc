@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/base/counted.h"
-#include "scenarios/simulate.h"
+#include "simulation/simulate.h"
 
 namespace ambrig {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "scenarios/redistribution_setup.h"
-#include "scenarios/rig.h"
+#include "faulttolerance/redistribution/redistribution_setup.h"
+#include "rig/rig_assembly.h"
 
 namespace ambrig {
 

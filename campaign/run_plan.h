@@ -2,7 +2,7 @@
 /// Run k of a campaign: which case, under which conditions, and the rig and scenario to simulate.
 /// Any run can be made by its number alone, in any order, on any machine.
 #include "campaign/campaign_file.h"
-#include "faulttolerance/redistribution_table.h"
+#include "faulttolerance/redistribution/redistribution_table.h"
 
 namespace ambrig {
 

@@ -1,9 +1,24 @@
-# ambrig_folder(NAME PUBLIC folders/libs... PRIVATE libs...): the static library of one folder.
-# A folder's name is also its target's prefix: ambrig_core, ambrig_rotor, ...
+# ambrig_folder(NAME [ROOM] PUBLIC folders/libs... PRIVATE libs...): the static library of one folder.
+# NAME is also the target's suffix: ambrig_core, ambrig_rotor, ... A folder whose rooms stand in
+# different layers names them: ambrig_folder(analysis_linear ROOM analysis/linear ...), and the rest
+# of the folder leaves that room out: EXCEPT analysis/linear.
 set(AMBRIG_FOLDERS "")
+
+# Headers that nearly every source reads are compiled once for all of them.
+set(AMBRIG_COMMON_HEADERS <algorithm> <array> <cmath> <complex> <filesystem> <functional> <map> <memory> <optional>
+                          <set> <string> <vector> <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp>)
+option(AMBRIG_PRECOMPILED_HEADERS "compile the common headers once" ON)
+
 function(ambrig_folder name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${name}/*.cc)
+  cmake_parse_arguments(ARG "" "ROOM" "PUBLIC;PRIVATE;EXCEPT" ${ARGN})
+  set(room ${name})
+  if(ARG_ROOM)
+    set(room ${ARG_ROOM})
+  endif()
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${room}/*.cc)
+  foreach(other IN LISTS ARG_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_SOURCE_DIR}/${other}/")
+  endforeach()
   set(links "")
   foreach(link IN LISTS ARG_PUBLIC)
     if(TARGET ambrig_${link})
@@ -12,14 +27,22 @@ function(ambrig_folder name)
       list(APPEND links ${link})
     endif()
   endforeach()
-  if(sources)
-    add_library(ambrig_${name} STATIC ${sources})
-    target_include_directories(ambrig_${name} PUBLIC ${CMAKE_SOURCE_DIR})
-    target_link_libraries(ambrig_${name} PUBLIC ${links} PRIVATE ${ARG_PRIVATE})
-  else()
-    add_library(ambrig_${name} INTERFACE)
-    target_include_directories(ambrig_${name} INTERFACE ${CMAKE_SOURCE_DIR})
-    target_link_libraries(ambrig_${name} INTERFACE ${links})
-  endif()
+  add_library(ambrig_${name} STATIC ${sources})
+  target_include_directories(ambrig_${name} PUBLIC ${CMAKE_SOURCE_DIR})
+  target_link_libraries(ambrig_${name} PUBLIC ${links} PRIVATE ${ARG_PRIVATE})
   set(AMBRIG_FOLDERS "${AMBRIG_FOLDERS};ambrig_${name}" PARENT_SCOPE)
+endfunction()
+
+# Gives a target the precompiled headers of `of`, which must be compiled with the same options.
+function(ambrig_precompiled target)
+  if(NOT AMBRIG_PRECOMPILED_HEADERS)
+    return()
+  endif()
+  if(NOT TARGET ambrig_common_headers)
+    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cc CONTENT "// Made by cmake/folders.cmake.\n")
+    add_library(ambrig_common_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cc)
+    target_link_libraries(ambrig_common_headers PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
+    target_precompile_headers(ambrig_common_headers PRIVATE ${AMBRIG_COMMON_HEADERS})
+  endif()
+  target_precompile_headers(${target} REUSE_FROM ambrig_common_headers)
 endfunction()

@@ -1,6 +1,6 @@
 # What every HTML report carries inside it: the plotting library and our style and script, put into
 # the binary by an assembler file (.incbin), so that `ambrig` needs no files beside it.
-# AMBRIG_WEB_ASSETS is that file; app/report/assets.cc knows its symbols.
+# AMBRIG_WEB_ASSETS is that file; app/pages/assets.cc knows its symbols.
 enable_language(ASM)
 set(web ${CMAKE_SOURCE_DIR}/web)
 set(plotly ${web}/node_modules/plotly.js-cartesian-dist-min/plotly-cartesian.min.js)

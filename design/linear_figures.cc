@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "control/frequency_response.h"
+#include "control/synthesis/frequency_response.h"
 #include "core/math/constants.h"
 
 namespace ambrig {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear/control_plant.h"
 #include "core/base/toml_edit.h"
 #include "design/linear_figures.h"
-#include "scenarios/control_plant.h"
-#include "scenarios/controller_setup.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_file.h"
+#include "simulation/sampled/controller_setup.h"
 
 namespace ambrig {
 

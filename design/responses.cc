@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/linear/control_plant.h"
 #include "design/linear_figures.h"
 #include "design/pareto.h"
 #include "design/point.h"
-#include "scenarios/control_plant.h"
-#include "scenarios/controller_setup.h"
+#include "simulation/sampled/controller_setup.h"
 
 namespace ambrig {
 

@@ -11,7 +11,7 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "design/point.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_file.h"
 
 namespace ambrig {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scenarios/scenario.h"
-#include "scenarios/simulate.h"
+#include "simulation/simulate.h"
 
 namespace ambrig {
 

@@ -16,7 +16,7 @@
 #include <cmath>
 #include <memory>
 
-#include "actuators/lane_vector.h"
+#include "actuators/magnetics/lane_vector.h"
 #include "effects/coil_targets.h"
 #include "effects/diffusion_fit.h"
 #include "effects/effects_magnetic.h"

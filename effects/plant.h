@@ -1,17 +1,17 @@
 #pragma once
 /// The true rig, assembled: every block with the seams that effects and faults may use.
-/// Built by scenarios/rig.cc from parameters; the controller never sees it.
+/// Built by rig/rig_assembly.cc from parameters; the controller never sees it.
 #include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "actuators/adc.h"
-#include "actuators/amplifier.h"
-#include "actuators/flux_law.h"
-#include "actuators/stator_lanes.h"
-#include "rotor/position_sensor.h"
-#include "rotor/rotor_model.h"
+#include "actuators/electronics/adc.h"
+#include "actuators/electronics/amplifier.h"
+#include "actuators/magnetics/flux_law.h"
+#include "actuators/magnetics/stator_lanes.h"
+#include "rotor/motion/position_sensor.h"
+#include "rotor/motion/rotor_model.h"
 
 namespace ambrig {
 

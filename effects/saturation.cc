@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "actuators/lane_vector.h"
+#include "actuators/magnetics/lane_vector.h"
 #include "effects/coil_targets.h"
 #include "effects/effects_magnetic.h"
 #include "effects/steel_curve.h"

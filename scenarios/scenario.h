@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "control/excitation.h"
-#include "faulttolerance/hand_over_policy.h"
-#include "rotor/speed_profile.h"
-#include "scenarios/fault_spec.h"
-#include "scenarios/rig_parameters.h"
+#include "faulttolerance/supervision/hand_over_policy.h"
+#include "rig/rig_parameters.h"
+#include "rotor/motion/speed_profile.h"
+#include "scenarios/excitation.h"
+#include "scenarios/faults/fault_spec.h"
 
 namespace ambrig {
 
@@ -51,7 +51,7 @@ struct Scenario {
   bool noise = true;
   bool fault_tolerant = true;                // detection and redistribution act
   std::string redistribution = "auto";       // auto, matrix, force-by-force (fault_supervisor.h)
-  std::string hand_over = kDefaultHandOver;  // faulttolerance/hand_over_policy.h
+  std::string hand_over = kDefaultHandOver;  // faulttolerance/supervision/hand_over_policy.h
   bool stiffness_compensation = true;        // of a failed bearing's other negative stiffness
   StartState start = StartState::kLevitated;
   std::map<std::string, std::array<double, 2>> clamp;

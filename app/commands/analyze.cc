@@ -6,12 +6,12 @@
 
 #include "analysis/iso14839.h"
 #include "app/commands/analyze.h"
-#include "app/report/analysis_json.h"
-#include "app/report/analysis_report.h"
-#include "app/report/progress.h"
+#include "app/commands/progress.h"
+#include "app/json/analysis_json.h"
+#include "app/pages/analysis_report.h"
 #include "core/base/atomic_file.h"
 #include "core/math/constants.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_file.h"
 
 namespace ambrig {
 

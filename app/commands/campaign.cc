@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
-#include "app/report/campaign_report.h"
-#include "app/report/progress.h"
+#include "app/commands/progress.h"
+#include "app/pages/campaign_report.h"
 #include "campaign/journal.h"
 #include "campaign/merge.h"
 #include "campaign/run_rows.h"

@@ -9,13 +9,13 @@
 #include <sstream>
 
 #include "app/commands/commands.h"
-#include "app/report/html.h"
-#include "app/report/progress.h"
-#include "app/report/run_json.h"
+#include "app/commands/progress.h"
+#include "app/json/run_json.h"
+#include "app/pages/html.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
-#include "scenarios/rig_file.h"
-#include "scenarios/simulate.h"
+#include "rig/rig_file.h"
+#include "simulation/simulate.h"
 
 namespace ambrig {
 

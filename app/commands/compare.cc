@@ -2,9 +2,9 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/report/discovery_json.h"
-#include "app/report/discovery_report.h"
-#include "app/report/progress.h"
+#include "app/commands/progress.h"
+#include "app/json/discovery_json.h"
+#include "app/pages/discovery_report.h"
 
 namespace ambrig {
 

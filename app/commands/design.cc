@@ -7,17 +7,17 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
-#include "app/report/design_report.h"
-#include "app/report/progress.h"
-#include "app/report/run_json.h"
-#include "app/report/run_report_data.h"
+#include "app/commands/progress.h"
+#include "app/json/run_json.h"
+#include "app/pages/design_report.h"
+#include "app/pages/run_report_data.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "core/record/hdf5.h"
 #include "design/responses.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_file.h"
 
 namespace ambrig {
 

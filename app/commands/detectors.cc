@@ -6,8 +6,8 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
-#include "app/report/detector_report.h"
-#include "app/report/progress.h"
+#include "app/commands/progress.h"
+#include "app/pages/detector_report.h"
 #include "campaign/run_rows.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"

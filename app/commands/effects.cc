@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/report/html.h"
+#include "app/pages/html.h"
 #include "effects/catalogue.h"
 
 namespace ambrig {

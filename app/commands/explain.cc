@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "app/commands/commands.h"
-#include "app/report/discovery_json.h"
-#include "app/report/discovery_report.h"
-#include "app/report/progress.h"
+#include "app/commands/progress.h"
+#include "app/json/discovery_json.h"
+#include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
 

@@ -4,13 +4,13 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
-#include "app/report/progress.h"
+#include "app/commands/progress.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/record/hdf5.h"
-#include "discovery/hide.h"
-#include "scenarios/rig_file.h"
+#include "discovery/practice/hide.h"
+#include "rig/rig_file.h"
 
 namespace ambrig {
 

@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "app/commands/commands.h"
-#include "app/report/discovery_json.h"
-#include "app/report/html.h"
-#include "app/report/progress.h"
+#include "app/commands/progress.h"
+#include "app/json/discovery_json.h"
+#include "app/pages/html.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
-#include "discovery/judge.h"
+#include "discovery/practice/judge.h"
 
 namespace ambrig {
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/report/html.h"
-#include "scenarios/fault_spec.h"
-#include "scenarios/rig_parameters.h"
+#include "app/pages/html.h"
+#include "rig/rig_parameters.h"
+#include "scenarios/faults/fault_spec.h"
 
 namespace ambrig {
 

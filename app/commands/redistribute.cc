@@ -4,11 +4,11 @@
 #include <algorithm>
 
 #include "app/commands/commands.h"
-#include "app/report/html.h"
-#include "app/report/progress.h"
-#include "faulttolerance/redistribution_json.h"
-#include "scenarios/redistribution_setup.h"
-#include "scenarios/rig_file.h"
+#include "app/commands/progress.h"
+#include "app/pages/html.h"
+#include "faulttolerance/redistribution/redistribution_json.h"
+#include "faulttolerance/redistribution/redistribution_setup.h"
+#include "rig/rig_file.h"
 
 namespace ambrig {
 

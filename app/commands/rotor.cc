@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
-#include "app/report/html.h"
-#include "scenarios/convert_shaft.h"
+#include "app/pages/html.h"
+#include "rotor/shaft/convert_shaft.h"
 
 namespace ambrig {
 

@@ -5,16 +5,16 @@
 #include <set>
 
 #include "app/commands/commands.h"
-#include "app/report/progress.h"
-#include "app/report/run_json.h"
-#include "app/report/run_report_data.h"
+#include "app/commands/progress.h"
+#include "app/json/run_json.h"
+#include "app/pages/run_report_data.h"
 #include "campaign/run_plan.h"
 #include "core/base/atomic_file.h"
 #include "core/base/read_file.h"
 #include "core/record/csv.h"
 #include "core/record/hdf5.h"
-#include "scenarios/rig_file.h"
-#include "scenarios/simulate.h"
+#include "rig/rig_file.h"
+#include "simulation/simulate.h"
 
 namespace ambrig {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include "app/commands/commands.h"
-#include "app/report/progress.h"
-#include "app/report/witness_report.h"
+#include "app/commands/progress.h"
+#include "app/pages/witness_report.h"
 #include "core/base/counted.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_file.h"
 #include "scenarios/scenario.h"
 
 namespace ambrig {

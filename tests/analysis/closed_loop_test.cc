@@ -8,10 +8,10 @@
 #include "analysis/transfer_function.h"
 #include "analysis/unbalance_response.h"
 #include "core/math/constants.h"
-#include "scenarios/rig_file.h"
-#include "scenarios/switching_engine.h"
+#include "rig/rig_file.h"
+#include "simulation/switching/switching_engine.h"
 #include "tests/cli/cli_run.h"
-#include "tests/scenarios/controlled_rig.h"
+#include "tests/simulation/controlled_rig.h"
 
 namespace ambrig {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "analysis/rig_analysis.h"
 #include "core/math/constants.h"
-#include "scenarios/rig_file.h"
-#include "scenarios/switching_engine.h"
+#include "rig/rig_file.h"
+#include "simulation/switching/switching_engine.h"
 #include "tests/cli/cli_run.h"
 
 namespace ambrig {

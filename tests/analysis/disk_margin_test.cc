@@ -10,7 +10,7 @@
 #include "analysis/sensitivity.h"
 #include "analysis/structured_singular_value.h"
 #include "core/math/constants.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_file.h"
 #include "tests/cli/cli_run.h"
 
 namespace ambrig {

@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "scenarios/coil_network.h"
-#include "scenarios/rig.h"
-#include "tests/scenarios/witness.h"
+#include "actuators/magnetics/coil_network.h"
+#include "rig/rig_assembly.h"
+#include "tests/simulation/witness.h"
 
 namespace ambrig {
 namespace {

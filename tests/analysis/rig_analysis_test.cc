@@ -5,7 +5,7 @@
 
 #include "analysis/iso14839.h"
 #include "core/math/constants.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_file.h"
 #include "tests/cli/cli_run.h"
 
 namespace ambrig {

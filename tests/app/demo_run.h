@@ -5,8 +5,8 @@
 #include <numbers>
 #include <string>
 
-#include "app/report/format.h"
-#include "app/report/run_report.h"
+#include "app/pages/format.h"
+#include "app/pages/run_report.h"
 
 namespace ambrig::demo {
 

@@ -1,6 +1,6 @@
 // Reports of compare, explain and adopt from two short records of the reference rig whose
 // "measurements" are simulated with a hidden side pull at A.
-#include "app/report/discovery_report.h"
+#include "app/pages/discovery_report.h"
 
 #include <gmock/gmock.h>
 
@@ -9,13 +9,13 @@
 #include <memory>
 #include <sstream>
 
-#include "app/report/explain_tables.h"
-#include "app/report/residual_data.h"
-#include "app/report/response_figures.h"
+#include "app/figures/residual_data.h"
+#include "app/figures/response_figures.h"
+#include "app/pages/explain_tables.h"
 #include "effects/formula.h"
-#include "scenarios/rig.h"
-#include "scenarios/rig_file.h"
-#include "scenarios/switching_engine.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
+#include "simulation/switching/switching_engine.h"
 #include "tests/core/temporary_folder.h"
 
 namespace ambrig {

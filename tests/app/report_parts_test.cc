@@ -7,11 +7,11 @@
 #include <random>
 #include <thread>
 
-#include "app/report/figure.h"
-#include "app/report/format.h"
-#include "app/report/html.h"
-#include "app/report/progress.h"
-#include "app/report/series.h"
+#include "app/commands/progress.h"
+#include "app/figures/figure.h"
+#include "app/figures/series.h"
+#include "app/pages/format.h"
+#include "app/pages/html.h"
 
 namespace ambrig {
 namespace {

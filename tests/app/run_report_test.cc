@@ -1,4 +1,4 @@
-#include "app/report/run_report.h"
+#include "app/pages/run_report.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>

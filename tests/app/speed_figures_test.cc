@@ -1,5 +1,5 @@
 // Waterfall and order tracks as they stand in the page: a run-up whose orders are known.
-#include "app/report/speed_figures.h"
+#include "app/figures/speed_figures.h"
 
 #include <gtest/gtest.h>
 

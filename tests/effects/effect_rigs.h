@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "effects/catalogue.h"
-#include "scenarios/rig.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
 #include "scenarios/scenario.h"
-#include "scenarios/switching_engine.h"
+#include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "effects/catalogue.h"
-#include "scenarios/rig.h"
-#include "scenarios/rig_file.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
 
 namespace ambrig::motion {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "faulttolerance/force_forms.h"
+#include "faulttolerance/redistribution/force_forms.h"
 
 namespace ambrig::testing_reference {
 

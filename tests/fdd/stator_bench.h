@@ -1,9 +1,9 @@
 #pragma once
 /// The simulator's own stator of one bearing, driven by given duties: what detectors are tested on.
-#include "actuators/radial_stator.h"
-#include "actuators/stator_lanes.h"
+#include "actuators/magnetics/radial_stator.h"
+#include "actuators/magnetics/stator_lanes.h"
 #include "core/math/noise.h"
-#include "fdd/coil_detector.h"
+#include "fdd/detectors/coil_detector.h"
 
 namespace ambrig::testing_bench {
 

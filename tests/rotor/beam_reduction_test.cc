@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "rotor/reduction.h"
-#include "rotor/rotor_modes.h"
+#include "rotor/shaft/reduction.h"
+#include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
 namespace {

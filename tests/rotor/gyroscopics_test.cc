@@ -5,7 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <complex>
 
-#include "rotor/rotor_model.h"
+#include "rotor/motion/rotor_model.h"
 
 namespace ambrig {
 namespace {

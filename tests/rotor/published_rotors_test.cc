@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "core/math/constants.h"
-#include "rotor/reduction.h"
-#include "rotor/rotor_modes.h"
+#include "rotor/shaft/reduction.h"
+#include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
 namespace {

@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "rotor/ross_file.h"
-#include "rotor/rotor_modes.h"
+#include "rotor/shaft/ross_file.h"
+#include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
 namespace {

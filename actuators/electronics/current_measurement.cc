@@ -1,0 +1,121 @@
+#include "actuators/electronics/current_measurement.h"
+
+#include "actuators/magnetics/whole_lane_vector.h"
+
+namespace ambrig {
+
+namespace {
+
+/// Rounds to the nearest step and clips; |value / step| stays far below 2^51, where adding and
+/// subtracting 1.5 * 2^52 rounds to the nearest even integer, as nearbyint does.
+struct Converter {
+  double step, low, high;
+  template <bool kClips, class V>
+  [[gnu::always_inline]] V Convert(const V& value) const {
+    constexpr double kRound = 6755399441055744.0;
+    const V q = ((value * (1 / step) + kRound) - kRound) * step;
+    if constexpr (kClips)
+      return Min(Max(q, low), high);
+    else
+      return q;
+  }
+};
+
+constexpr double kLargestNormal = 6.3;  // core/math/noise.h
+
+struct Sensors {
+  const double *gain, *offset;  // nullptr: ideal
+};
+
+template <class V, class Convert>
+[[gnu::always_inline]] inline void Measure(const Lane* truth, int count, const Sensors& sensors,
+                                           const Convert& convert, Lane* adc,
+                                           CurrentStatistics* out) {
+  const bool plain = sensors.gain == nullptr;
+  const V gain = plain ? V(1) : LoadAs<V>(sensors.gain),
+          offset = plain ? V() : LoadAs<V>(sensors.offset);
+  V sum = {}, square = {}, most = {};
+  for (int k = 0; k < count; ++k) {
+    const V i = LoadAs<V>(truth[k].v);
+    const V value = convert(plain ? i : gain * i + offset, k);
+    Store(adc[k].v, value);
+    sum += value;
+    square += i * i;
+    most = Max(i, most);
+  }
+  Store(out->mean.v, sum / static_cast<double>(count));
+  Store(out->mean_square.v, square / static_cast<double>(count));
+  Store(out->largest.v, most);
+}
+
+template <bool kClips, class V>
+[[gnu::always_inline]] inline void ConvertNoisily(const Lane* truth, int count,
+                                                  const Sensors& sensors, const float* normals,
+                                                  int coils, double noise,
+                                                  const Converter& converter, Lane* adc,
+                                                  CurrentStatistics* out) {
+  const Converter c = converter;
+  Measure<V>(
+      truth, count, sensors,
+      [&](const V& value, int k) __attribute__((always_inline)) {
+        Lane normal;
+        for (int j = 0; j < kLanes; ++j) normal[j] = static_cast<double>(normals[k * coils + j]);
+        return c.Convert<kClips>(value + noise * LoadAs<V>(normal.v));
+      },
+      adc, out);
+}
+
+/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells.
+template <class V>
+[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, bool one_way,
+                                                  const Sensors& sensors, const float* normals,
+                                                  int coils, double noise,
+                                                  const Converter& converter, Lane* adc,
+                                                  CurrentStatistics* out) {
+  if (!one_way)
+    return ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc,
+                                   out);
+  ConvertNoisily<false, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+  if (!(Largest(LoadAs<V>(out->largest.v)) + kLargestNormal * noise + converter.step <
+        converter.high))
+    ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+}
+
+AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc,
+                                CurrentStatistics* out) {
+  Measure<LaneVector>(
+      truth, count, sensors,
+      [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
+}
+AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, bool one_way, const Sensors& sensors,
+                               const float* normals, int coils, double noise,
+                               const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  MeasureNoisily<WholeLaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter,
+                                  adc, out);
+}
+AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, bool one_way, const Sensors& sensors,
+                               const float* normals, int coils, double noise,
+                               const Converter& converter, Lane* adc, CurrentStatistics* out) {
+  MeasureNoisily<LaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter, adc,
+                             out);
+}
+
+}  // namespace
+
+void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
+                     bool plain, const float* normals, Lane* adc, CurrentStatistics* statistics) {
+  Lane gain, offset;
+  for (int j = 0; j < kLanes && !plain; ++j) {
+    gain[j] = sensors[j].stuck ? 0 : sensors[j].gain;
+    offset[j] = sensors[j].stuck ? sensors[j].stuck_at : sensors[j].offset;
+  }
+  const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
+  if (!s.noisy) return MeasureIdeally(truth, s.samples, chain, adc, statistics);
+  const bool one_way =
+      s.one_way && plain && kLargestNormal * s.noise + s.quantiser.step < -s.quantiser.low;
+  const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
+  (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, one_way, chain, normals, s.coils,
+                                               s.noise, converter, adc, statistics);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,30 @@
+#pragma once
+/// Seam for iron that is not ideal: the extra MMF that a pole's iron needs besides its gap,
+/// all lanes of a bearing in one call. The base rig has none (ideal iron, fast path); effects
+/// implement it (eddy currents, saturation, hysteresis).
+///
+/// Within one step of h seconds the flux of a lane runs linearly from its committed value to φ.
+/// The two windings of a thrust side share one core: they see the same flux, so the law holds the
+/// same state twice and the core's MMF is counted once.
+#include "actuators/magnetics/lane.h"
+
+namespace ambrig {
+
+class FluxLaw {
+ public:
+  virtual ~FluxLaw() = default;
+  /// Whether Drop is linear in the flux, so that one round of Newton is exact.
+  virtual bool linear() const { return false; }
+  /// Length of the steps to come [s].
+  virtual void SetStep(double /*h*/) {}
+  /// Adds the MMF drops [A] and their slopes [A/Wb] if the fluxes are `phi` at the end of the step.
+  virtual void Drop(const Lane& phi, Lane* drop, Lane* slope) const = 0;
+  /// The same for a flux that was raised from nothing and has stood for ever (start of a run).
+  virtual void Steady(const Lane& phi, Lane* drop, Lane* slope) const = 0;
+  /// The step is taken: remember it (turning points, diffused flux).
+  virtual void Commit(const Lane& phi) = 0;
+  /// Settle at a steady flux.
+  virtual void Settle(const Lane& phi) = 0;
+};
+
+}  // namespace ambrig

@@ -1,0 +1,156 @@
+#include "app/figures/explain_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+
+#include "app/figures/response_figures.h"
+#include "discovery/model/floor.h"
+
+namespace ambrig {
+namespace {
+
+std::vector<std::string> WorstPlaces(const CaseModel& model, const std::vector<double>& residual) {
+  std::vector<std::pair<double, const Target*>> all;
+  for (const Target& t : model.targets()) all.emplace_back(TargetRatio(model, residual, t), &t);
+  std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<std::string> out;
+  for (const auto& [ratio, t] : all) {
+    if (out.size() == 5 || ratio < 1.15) break;
+    const CaseRecord& r = model.data().records[t->record];
+    out.push_back(fmt::format("**{}** ({}) in {} (*{}*): {:.1f} times the noise",
+                              ChannelName(model, *t), ChannelKind(ChannelName(model, *t)),
+                              ShortName(r.data_file), r.scenario.name, ratio));
+  }
+  return out;
+}
+
+/// Channels whose error fell most, each name and kind once: unseen records first when they tell.
+std::vector<Target> MostTelling(const ExplainScene& s, std::size_t count) {
+  std::vector<std::pair<double, const Target*>> order;
+  for (const Target& t : s.model.targets()) {
+    const double gain =
+        TargetRatio(s.model, s.plain_residual, t) - TargetRatio(s.model, s.final_residual, t);
+    order.emplace_back(s.model.data().records[t.record].validate ? 1.3 * gain : gain, &t);
+  }
+  std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Target> out;
+  for (const auto& [gain, t] : order) {
+    const std::string kind = ChannelKind(ChannelName(s.model, *t));
+    const bool known = std::ranges::any_of(
+        out, [&](const Target& o) { return ChannelKind(ChannelName(s.model, o)) == kind; });
+    if (out.size() < count && gain > 0.1 && !known && t->count >= 64) out.push_back(*t);
+  }
+  return out;
+}
+
+std::string FinalName(const Explanation& e) {
+  if (e.adopted.empty()) return "fitted model";
+  std::string out = "model with ";
+  for (std::size_t k = 0; k < e.adopted.size(); ++k)
+    out += (k > 0 ? " and " : "") + EffectName(e.adopted[k]);
+  return out;
+}
+
+void AddSignatures(HtmlReport& report, const ExplainScene& s, const Target& t) {
+  std::vector<NamedPrediction> all = {{"rig file", "@orange", &s.plain}};
+  std::deque<std::vector<double>> predictions;  // stay where they are
+  for (const RankedEffect& r : s.explanation.ranking) {
+    if (all.size() >= 5 || !std::isfinite(r.fit.ratio_fit)) continue;
+    auto predicted = s.model.Predict(r.fit.hypothesis);
+    if (!predicted) continue;
+    predictions.push_back(std::move(*predicted));
+    all.push_back({EffectName(r.effect), "@orange", &predictions.back()});
+  }
+  if (all.size() < 2) return;
+  report.AddFigure(SignatureFigure(
+      s.model, t, all,
+      fmt::format("Signatures: what each candidate (with the rig parameters fitted beside it) adds "
+                  "to the plain model in {} of {}, over what the plain model leaves "
+                  "unexplained. The right one lies on the black line everywhere, the others only "
+                  "here and there. The best-ranked is green.",
+                  ChannelName(s.model, t), ShortName(s.model.data().records[t.record].data_file))));
+}
+
+}  // namespace
+
+ExplainScene::ExplainScene(const Case& c, const Explanation& e) : explanation(e), model(c) {
+  try {
+    const Hypothesis base = Hypothesis::Base(c.rig);
+    plain = FindFloor(model, base).clean;
+    noise = NoiseSample(model, base, plain);
+  } catch (const InputError&) {
+    return;  // the rig file's model loses its rotor: the words alone remain
+  }
+  plain_residual = Residual(model, plain);
+  const auto last =
+      e.final_fit.predicted.empty() ? std::nullopt : model.Predict(e.final_fit.hypothesis);
+  final_prediction = last ? *last : plain;
+  final_residual = Residual(model, final_prediction);
+  usable = true;
+}
+
+void AddPlainFailure(HtmlReport& report, const ExplainScene& s) {
+  report.Heading("Where the plain model failed");
+  if (!s.usable) {
+    report.Text(
+        "The model of the rig file does not hold its rotor in these records, so there is no error "
+        "to draw.");
+    return;
+  }
+  const auto worst = WorstPlaces(s.model, s.plain_residual);
+  if (worst.empty())
+    report.Text("Nowhere by more than 15 % of the noise.");
+  else
+    report.Text("The rig file as it is, beside the measurements; worst first:\n\n" + List(worst));
+  AddRatioMap(report, s.model, s.plain_residual,
+              "Error over noise of the plain model, every channel (columns: position readings x, "
+              "y; coil currents i; set-points s; bus) in every record (rows).");
+  if (const auto map = FrequencySpeedMap(
+          s.model, s.plain, s.noise,
+          "The same error in bands of frequency, records by speed; all channels together."))
+    report.AddFigure(*map);
+}
+
+void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
+  const bool found = s.explanation.verdict == "effect";
+  report.Heading(found ? "Why that one" : "What fitting changed");
+  if (!s.usable) return;
+  const std::vector<Target> telling = MostTelling(s, 3);
+  if (telling.empty()) {
+    report.Text(
+        "No channel gained enough to be worth a picture: neither parameters nor effects moved the "
+        "error.");
+    return;
+  }
+  const std::string name = FinalName(s.explanation);
+  const std::vector<NamedPrediction> both = {{"rig file", "@orange", &s.plain},
+                                             {name, "@green", &s.final_prediction}};
+  report.AddFigure(
+      TimeFigure(s.model, telling, both,
+                 "The most telling channels, one of each kind. Top: the whole record. Middle: "
+                 "where the plain model "
+                 "erred most. Bottom: the errors; what lies inside the grey band is noise."));
+  if (found) AddSignatures(report, s, telling.front());
+  report.AddFigure(SpectrumFigure(
+      s.model, telling, both, s.noise,
+      "Spectra of those errors. The green line should lie on the grey one, the noise alone."));
+}
+
+void AddWhatIsLeft(HtmlReport& report, const ExplainScene& s) {
+  if (!s.usable) return;
+  report.Heading("What is left");
+  const auto worst = WorstPlaces(s.model, s.final_residual);
+  if (worst.empty())
+    report.Text("Nothing: no channel of any record errs by more than 15 % over its noise.");
+  else
+    report.Text("After everything that was fitted, these stand out most:\n\n" + List(worst));
+  AddRatioMap(report, s.model, s.final_residual,
+              "Error over noise after everything that was fitted; compare with the same map of the "
+              "plain model above, in the same colours.",
+              WorstRatio(s.model, s.plain_residual, Which::kAll));
+}
+
+}  // namespace ambrig

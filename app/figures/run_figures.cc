@@ -1,0 +1,300 @@
+#include "app/figures/run_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "app/figures/rig_drawing.h"
+#include "app/figures/series.h"
+#include "app/pages/format.h"
+
+namespace ambrig {
+namespace {
+
+// The rows of the record in a stretch of time, with the times as the figure shows them.
+struct Cut {
+  std::size_t begin = 0, size = 0;
+  std::vector<double> t;
+  double t0 = 0, factor = 1;  // shown = (t - t0) factor
+  std::array<double, 2> range{};
+  std::string title;
+
+  std::span<const double> Of(const std::vector<double>& samples) const {
+    return std::span(samples).subspan(begin, size);
+  }
+};
+
+Cut MakeCut(const RunReportData& data, const RunStages& stages, bool zoom, std::size_t rows) {
+  Cut cut;
+  const std::array<double, 2> stretch = zoom ? stages.window : stages.whole;
+  if (zoom) {
+    cut.t0 = stages.fault.value_or(0);
+    cut.factor = 1e3;
+  }
+  cut.title = zoom ? "time after the fault [ms]" : "time [s]";
+  const auto row = [&](double t) {
+    const double r = std::round((t - data.start) * data.rate);
+    return static_cast<std::size_t>(std::clamp(r, 0.0, static_cast<double>(rows)));
+  };
+  cut.begin = row(stretch[0]);
+  cut.size = std::min(rows, row(stretch[1]) + 1) - cut.begin;
+  cut.t = UniformTime(data.start + static_cast<double>(cut.begin) / data.rate - cut.t0, data.rate,
+                      cut.size);
+  for (double& t : cut.t) t *= cut.factor;
+  cut.range = {(stretch[0] - cut.t0) * cut.factor, (stretch[1] - cut.t0) * cut.factor};
+  return cut;
+}
+
+std::size_t Rows(const RunReportData& data) {
+  return data.bearings.empty() ? 0 : data.bearings.front().x.size();
+}
+
+std::string InUnit(const std::string& quantity, const DisplayUnit& unit) {
+  return fmt::format("{} [{}]", quantity, unit.name);
+}
+
+double Peak(const ReportBearing& b, std::size_t begin, std::size_t size) {
+  double r2 = 0;
+  for (std::size_t i = begin; i < begin + size; ++i) {
+    const double here = b.x[i] * b.x[i] + b.y[i] * b.y[i];
+    if (here > r2) r2 = here;
+  }
+  return std::sqrt(r2);
+}
+
+constexpr const char* kCoilColors[] = {"@blue", "@orange", "@green", "@purple",
+                                       "@sky",  "@brown",  "@gray",  "@ink"};
+
+struct Stage {
+  const char* name;
+  const char* color;
+  double from, to;  // [s]
+};
+
+std::vector<Stage> Stages(const RunStages& s) {
+  if (!s.fault) return {{"whole run", "@blue", s.whole[0], s.whole[1]}};
+  if (!s.reaction)
+    return {{"after the fault", "@red", *s.fault, s.whole[1]},
+            {"before the fault", "@blue", s.whole[0], *s.fault}};
+  // Drawn in this order: the long steady part lies below, the short one on top.
+  return {{"after the reaction", "@green", *s.reaction, s.whole[1]},
+          {"before the fault", "@blue", s.whole[0], *s.fault},
+          {"fault to reaction", "@red", *s.fault, *s.reaction}};
+}
+
+void AddStageOrbits(Figure& figure, int panel, const RunReportData& data, const ReportBearing& b,
+                    const RunStages& stages, double factor, bool legend) {
+  for (const Stage& stage : Stages(stages)) {
+    RunStages part = stages;
+    part.whole = {stage.from, stage.to};
+    const Cut cut = MakeCut(data, part, false, b.x.size());
+    Style style;
+    style.color = stage.color;
+    style.width = std::string_view(stage.color) == "@red" ? 2.2 : 1.1;
+    style.legend = legend;
+    AddOrbit(figure, panel, stage.name, Scaled(cut.Of(b.x), factor), Scaled(cut.Of(b.y), factor),
+             style);
+  }
+}
+
+}  // namespace
+
+RunStages FindStages(const RunReportData& data) {
+  RunStages s;
+  const double end =
+      data.start + static_cast<double>(std::max<std::size_t>(Rows(data), 1) - 1) / data.rate;
+  s.whole = {data.start, end};
+  for (const ReportEvent& e : data.events) {
+    if (e.kind == "fault" && !s.fault) {
+      s.fault = e.t;
+      s.coil = e.target;
+    }
+    const bool reaction =
+        e.kind == "detected" || e.kind == "classified" || e.kind == "redistributed";
+    // Later faults have reactions of their own; the window is for the first.
+    if (reaction && s.fault && e.t >= *s.fault && e.t < *s.fault + 0.05) s.reaction = e.t;
+  }
+  if (!s.fault) return s;
+  const double length = std::max(0.012, 4 * (s.reaction.value_or(*s.fault) - *s.fault));
+  s.window = {std::max(s.whole[0], *s.fault - 0.3 * length), std::min(end, *s.fault + length)};
+  return s;
+}
+
+std::vector<Mark> EventMarks(const RunReportData& data, double t0, double factor) {
+  static const std::map<std::string, const char*> kColors = {
+      {"fault", "@red"},           {"detected", "@orange"},   {"classified", "@purple"},
+      {"redistributed", "@green"}, {"touchdown", "@red"},     {"drop", "@red"},
+      {"lift_off", "@sky"},        {"alarm_cleared", "@gray"}};
+  std::vector<Mark> marks;
+  for (const ReportEvent& e : data.events) {
+    const auto color = kColors.find(e.kind);
+    std::string label = e.kind;
+    std::ranges::replace(label, '_', ' ');
+    if (e.kind == "fault" && !e.target.empty()) label += " " + e.target;
+    marks.push_back(
+        {(e.t - t0) * factor, label, color == kColors.end() ? "@muted" : color->second});
+  }
+  return marks;
+}
+
+Figure OrbitFigure(const RunReportData& data, const RunStages& stages) {
+  double peak = 0, clearance = 0;
+  Grid grid;
+  grid.columns = static_cast<int>(data.bearings.size());
+  for (const ReportBearing& b : data.bearings) {
+    grid.titles.push_back("bearing " + b.name);
+    peak = std::max(peak, Peak(b, 0, b.x.size()));
+    clearance = std::max(clearance, b.clearance);
+  }
+  // A small orbit is a dot inside the clearance; then a second row shows it large.
+  const bool close_up = peak < 0.4 * clearance;
+  grid.rows = close_up ? 2 : 1;
+  if (close_up)
+    for (const ReportBearing& b : data.bearings) grid.titles.push_back(b.name + ", close-up");
+  grid.shared_x = false;
+  grid.panel_height = 360;
+  std::string caption =
+      "Path of the shaft's centre in each radial bearing. The dashed circle is the clearance of "
+      "the "
+      "auxiliary bearing: beyond it the shaft touches.";
+  if (close_up) caption += " Below, the same paths enlarged.";
+  Figure figure = MakeFigure(caption, grid);
+  const DisplayUnit unit = ChooseUnit(clearance > 0 ? clearance : peak, "m");
+  for (int p = 0; p < figure.panels; ++p) {
+    const ReportBearing& b = data.bearings[static_cast<std::size_t>(p % grid.columns)];
+    const double reach = p < grid.columns ? std::max(b.clearance, Peak(b, 0, b.x.size())) : peak;
+    const double limit = 1.12 * reach * unit.factor;
+    const std::array<double, 2> range = {-limit, limit};
+    SetAxes(figure, p, InUnit("x", unit), InUnit("y", unit), range, range);
+    EqualAspect(figure, p);
+    AddStageOrbits(figure, p, data, b, stages, unit.factor, p == 0);
+    if (p < grid.columns)
+      AddCircle(figure, p, 0, 0, b.clearance * unit.factor, "@ink", "", 1.5, "dash");
+  }
+  return figure;
+}
+
+Figure PositionFigure(const RunReportData& data, const RunStages& stages, bool zoom) {
+  Grid grid;
+  grid.rows = static_cast<int>(data.bearings.size());
+  for (const ReportBearing& b : data.bearings) grid.titles.push_back("bearing " + b.name);
+  Figure figure = MakeFigure(
+      zoom ? "Shaft position round the fault." : "Shaft position over the whole run, as sensed.",
+      grid);
+  const Cut cut = MakeCut(data, stages, zoom, Rows(data));
+  double peak = 0;
+  for (const ReportBearing& b : data.bearings) peak = std::max(peak, Peak(b, cut.begin, cut.size));
+  const DisplayUnit unit = ChooseUnit(peak, "m");
+  for (int p = 0; p < grid.rows; ++p) {
+    const ReportBearing& b = data.bearings[static_cast<std::size_t>(p)];
+    Style style = SeriesStyle(0);
+    style.legend = p == 0;
+    AddLine(figure, p, "x (horizontal)", cut.t, Scaled(cut.Of(b.x), unit.factor), style);
+    style.color = "@orange";
+    AddLine(figure, p, "y (vertical)", cut.t, Scaled(cut.Of(b.y), unit.factor), style);
+    SetAxes(figure, p, cut.title, InUnit("position", unit), cut.range);
+    if (Peak(b, cut.begin, cut.size) > 0.7 * b.clearance) {
+      AddLevel(figure, p, b.clearance * unit.factor, "clearance");
+      AddLevel(figure, p, -b.clearance * unit.factor, "");
+    }
+  }
+  AddMarks(figure, EventMarks(data, cut.t0, cut.factor), cut.range);
+  return figure;
+}
+
+Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zoom) {
+  Grid grid;
+  grid.panel_height = 240;
+  grid.rows = static_cast<int>(data.bearings.size());
+  for (const ReportBearing& b : data.bearings) grid.titles.push_back("bearing " + b.name);
+  std::string caption =
+      zoom ? "Coil currents round the fault: the faulty coil's falls or changes its "
+             "ripple, the others take over."
+           : "Coil currents over the whole run.";
+  if (!stages.coil.empty()) caption += " The faulty coil is drawn bold.";
+  Figure figure = MakeFigure(caption, grid);
+  const Cut cut = MakeCut(data, stages, zoom, Rows(data));
+  std::set<std::string> named;
+  for (int p = 0; p < grid.rows; ++p) {
+    const ReportBearing& b = data.bearings[static_cast<std::size_t>(p)];
+    for (std::size_t j = 0; j < b.currents.size(); ++j) {
+      Style style = SeriesStyle(static_cast<int>(j));
+      std::string name = fmt::format("coil {}", j + 1);
+      const std::string full_name = fmt::format("{}{}", b.name, j + 1);
+      style.width = 1.2;
+      if (full_name == stages.coil) {
+        style = {.color = "@red", .width = 3};
+        name = full_name + " (faulty)";
+      }
+      // Dashes mean something only where a line can be followed.
+      if (!zoom && full_name != stages.coil) style = {.color = kCoilColors[j % 8], .width = 1};
+      // One legend for all panels.
+      style.legend = named.insert(name).second;
+      AddLine(figure, p, name, cut.t, cut.Of(b.currents[j]), style);
+    }
+    SetAxes(figure, p, cut.title, "current [A]", cut.range);
+  }
+  AddMarks(figure, EventMarks(data, cut.t0, cut.factor), cut.range);
+  return figure;
+}
+
+Figure ChannelFigure(const RunReportData& data) {
+  Grid grid;
+  grid.rows = static_cast<int>(data.channels.size());
+  grid.panel_height = 150;
+  Figure figure = MakeFigure("Further channels of the record.", grid);
+  std::array<double, 2> range{};
+  for (int p = 0; p < grid.rows; ++p) {
+    const ReportChannel& c = data.channels[static_cast<std::size_t>(p)];
+    const std::vector<double> t = UniformTime(data.start, data.rate, c.samples.size());
+    const DisplayUnit unit = ChooseUnit(LargestSize(c.samples), c.unit);
+    Style style;
+    style.legend = false;
+    AddLine(figure, p, c.name, t, Scaled(c.samples, unit.factor), style);
+    std::optional<std::array<double, 2>> y_range;
+    if (!c.samples.empty()) {
+      const auto [low, high] = std::ranges::minmax(c.samples);
+      const double middle = 0.5 * (low + high) * unit.factor;
+      // A constant is drawn as one, not as the last bits of its noise.
+      if (high - low <= 1e-3 * std::abs(high) && middle != 0)
+        y_range = {middle - 0.05 * std::abs(middle), middle + 0.05 * std::abs(middle)};
+    }
+    SetAxes(figure, p, "time [s]", InUnit(c.name, unit), {}, y_range);
+    if (!t.empty()) range = {t.front(), t.back()};
+  }
+  AddMarks(figure, EventMarks(data), range);
+  return figure;
+}
+
+Figure SnapshotFigure(const RunReportData& data) {
+  std::vector<StatorView> views;
+  for (const ReportSnapshot& s : data.snapshots) {
+    StatorView view;
+    view.title = fmt::format("{}: {} (t = {} s)", s.bearing, s.label, FormatNumber(s.t, 6));
+    view.bearing = s.bearing;
+    view.flux = s.flux;
+    view.current = s.current;
+    view.failed = s.failed;
+    view.x = s.x;
+    view.y = s.y;
+    for (const ReportBearing& b : data.bearings)
+      if (b.name == s.bearing) {
+        view.pole_angles = b.pole_angles;
+        view.clearance = b.clearance;
+      }
+    views.push_back(std::move(view));
+  }
+  return StatorFigure(
+      "The bearing in cross-section at chosen instants. Poles are coloured by their flux (blue: "
+      "into "
+      "the rotor, orange: out of it), coils at the poles' sides by their current (green); the "
+      "deeper, "
+      "the larger. A faulty coil is dotted red. The shaft's displacement is drawn in proportion to "
+      "the clearance (dashed): shown in the middle, how far the centre has moved.",
+      views);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,103 @@
+#include "app/json/discovery_json.h"
+
+#include <cmath>
+
+namespace ambrig {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json Number(double v) {
+  if (std::isnan(v)) return nullptr;
+  if (std::isinf(v)) return v > 0 ? "inf" : "-inf";
+  return v;
+}
+
+Json EffectJson(const EffectInstance& e) {
+  Json parameters = Json::object();
+  for (std::size_t k = 0; k < e.table.size(); ++k)
+    parameters[e.table[k].name] = {{"value", Number(e.values[k])},
+                                   {"sd", Number(k < e.sd.size() ? e.sd[k] : 0)},
+                                   {"unit", e.table[k].unit}};
+  return {{"effect", e.name}, {"target", e.target}, {"parameters", parameters}};
+}
+
+Json RankingJson(const std::vector<RankedEffect>& ranking) {
+  Json all = Json::array();
+  for (const RankedEffect& r : ranking) {
+    Json j = EffectJson(r.effect);
+    j["probability"] = r.probability;
+    j["ratio_fit"] = Number(r.fit.ratio_fit);
+    j["ratio_validate"] = Number(r.fit.ratio_validate);
+    j["converged"] = r.fit.converged;
+    j["warnings"] = r.fit.warnings;
+    all.push_back(j);
+  }
+  return all;
+}
+
+}  // namespace
+
+Json CompareJson(const Comparison& c) {
+  Json records = Json::array();
+  for (const RecordComparison& r : c.records) {
+    Json channels = Json::object(), blocks = Json::object();
+    for (const ChannelError& e : r.channels)
+      channels[e.channel] = {{"nrmse", e.nrmse},
+                             {"rms_error", e.rms_error},
+                             {"noise", e.noise},
+                             {"ratio", e.ratio},
+                             {"whiteness", e.whiteness}};
+    for (const auto& [block, ratio] : r.blocks) blocks[block] = ratio;
+    records.push_back({{"data", r.data},
+                       {"scenario", r.scenario},
+                       {"use", r.validate ? "validate" : "fit"},
+                       {"ratio", r.ratio},
+                       {"channels", channels},
+                       {"blocks", blocks}});
+  }
+  return {{"records", records},
+          {"ratio", c.ratio},
+          {"ratio_fit", c.ratio_fit},
+          {"ratio_validate", c.ratio_validate},
+          {"words", c.words}};
+}
+
+Json ExplainJson(const Explanation& e) {
+  Json adopted = Json::array(), confusable = Json::array(), ladder = Json::array(),
+       screened = Json::array();
+  for (const EffectInstance& a : e.adopted) adopted.push_back(EffectJson(a));
+  for (const Confusable& c : e.confusable) confusable.push_back({c.first, c.second, c.record});
+  for (const LadderStep& s : e.ladder)
+    ladder.push_back(
+        {{"added", s.added}, {"ratio_fit", s.ratio_fit}, {"ratio_validate", s.ratio_validate}});
+  for (std::size_t k = 0; k < e.screened.size() && k < 20; ++k)
+    screened.push_back({{"effect", e.screened[k].effect.name},
+                        {"target", e.screened[k].effect.target},
+                        {"ratio_validate", e.screened[k].ratio_validate}});
+  Json out = {{"verdict", e.verdict},
+              {"ranking", RankingJson(e.ranking)},
+              {"adopted", adopted},
+              {"base_ratio_validate", e.base_ratio_validate},
+              {"final_ratio_validate", e.final_ratio_validate},
+              {"nominal_ratio_validate", e.nominal_ratio_validate},
+              {"confusable", confusable},
+              {"second_round", RankingJson(e.second_round)},
+              {"ladder", ladder},
+              {"screened", screened},
+              {"parameter_shifts", e.parameter_shifts},
+              {"warnings", e.warnings},
+              {"seconds", e.seconds},
+              {"simulated_records", e.runs}};
+  if (e.verdict == "unknown")
+    out["unexplained"] = {{"block", e.unexplained.block},
+                          {"where", e.unexplained.where},
+                          {"dependence", e.unexplained.dependence},
+                          {"frequencies", e.unexplained.frequencies},
+                          {"text", e.unexplained.text},
+                          {"formula", e.unexplained.formula}};
+  return out;
+}
+
+}  // namespace ambrig

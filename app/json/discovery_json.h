@@ -1,0 +1,13 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "discovery/decision/compare.h"
+#include "discovery/decision/explain.h"
+
+namespace ambrig {
+
+/// JSON of `ambrig compare` and `ambrig explain` (shared/design/formats.md).
+nlohmann::ordered_json CompareJson(const Comparison& comparison);
+nlohmann::ordered_json ExplainJson(const Explanation& explanation);
+
+}  // namespace ambrig

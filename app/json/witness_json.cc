@@ -1,0 +1,55 @@
+#include <cmath>
+
+#include "app/pages/witness_report.h"
+
+namespace ambrig {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json OrNull(double value) { return value < 0 ? Json(nullptr) : Json(value); }
+
+Json FiguresJson(const WitnessRun& run) {
+  const DropFigures& f = run.figures;
+  Json rest = Json::object();
+  for (std::size_t b = 0; b < f.rest.size(); ++b) rest[run.paths.bearings[b].bearing] = f.rest[b];
+  return {{"verdict", VerdictName(f)},
+          {"touchdown", f.touchdown},
+          {"drop", f.drop},
+          {"first_touched", f.first},
+          {"touchdown_time", OrNull(f.touchdown_time)},
+          {"first_rebound", f.rebound},
+          {"peak_orbit", f.peak_orbit},
+          {"whirl", WhirlName(f.whirl)},
+          {"whirl_turns", f.turns},
+          {"rest", rest},
+          {"severity", f.severity},
+          {"fall_severity", f.fall_severity}};
+}
+
+}  // namespace
+
+std::string VerdictName(const DropFigures& figures) {
+  return figures.drop ? "dropped" : figures.touchdown ? "touched down" : "stayed up";
+}
+
+nlohmann::ordered_json WitnessJson(const WitnessedScenario& s) {
+  const ContactWitness& w = s.witness;
+  Json json = {{"file", s.file},
+               {"name", s.name},
+               {"seed", s.seed},
+               {"contact", w.contact()},
+               {"verdicts_agree", w.verdicts_agree()},
+               {"whirl_agrees", w.model.figures.whirl == w.ode.figures.whirl},
+               {"parted_ode", OrNull(w.parted_ode)},
+               {"parted_other_noise", OrNull(w.parted_noise)},
+               {"ode_steps", w.ode_steps},
+               {"ode_warnings", w.ode_warnings},
+               {"compliant", FiguresJson(w.model)},
+               {"ode", FiguresJson(w.ode)}};
+  if (!w.other_noise.figures.rest.empty()) json["other_noise"] = FiguresJson(w.other_noise);
+  return json;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,111 @@
+// The report of `ambrig adopt`: what the effect changed.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/figures/residual_figures.h"
+#include "app/pages/discovery_parts.h"
+#include "app/pages/discovery_report.h"
+
+namespace ambrig {
+namespace {
+
+void AddWords(HtmlReport& report, const Comparison& before, const Comparison& after,
+              const std::vector<LadderStep>& ladder) {
+  const std::string what =
+      ladder.empty() || ladder.back().added.empty() || ladder.back().added == "parameters"
+          ? "The effects of the rig file"
+          : ladder.back().added;
+  const std::string numbers = fmt::format(
+      "error over noise {:.2f} before, **{:.2f}** after (unseen records: {:.2f} before, **{:.2f}** "
+      "after)",
+      before.ratio, after.ratio, before.ratio_validate, after.ratio_validate);
+  const double was = before.ratio_validate > 0 ? before.ratio_validate : before.ratio,
+               is = after.ratio_validate > 0 ? after.ratio_validate : after.ratio;
+  if (is >= 0.99 * was)
+    report.Verdict(Verdict::kWarn,
+                   fmt::format("**{} did not help**: {}. Take it out again.", what, numbers));
+  else if (is < 1.1)
+    report.Verdict(Verdict::kOk,
+                   fmt::format("**{}, adopted, leaves nothing but noise**: {}.", what, numbers));
+  else
+    report.Verdict(Verdict::kInfo,
+                   fmt::format("**{}, adopted, lowers the error, but something is left**: {}. "
+                               "`ambrig explain` with the new rig file asks what.",
+                               what, numbers));
+  AddReadingHelp(report);
+}
+
+std::vector<std::vector<Cell>> EffectRows(const RigParameters& rig) {
+  std::vector<std::vector<Cell>> rows;
+  for (const EffectInstance& e : rig.effects)
+    for (std::size_t k = 0; k < e.table.size(); ++k)
+      rows.push_back({k == 0 ? EffectName(e) : "", e.table[k].name,
+                      ValueText(e.values[k], k < e.sd.size() ? e.sd[k] : 0, e.table[k].unit),
+                      e.table[k].doc});
+  return rows;
+}
+
+/// The channels that gained most, of any record.
+std::vector<Target> MostImproved(const CaseModel& model, const std::vector<double>& before,
+                                 const std::vector<double>& after, std::size_t count) {
+  std::vector<std::pair<double, const Target*>> order;
+  for (const Target& t : model.targets())
+    order.emplace_back(TargetRatio(model, before, t) - TargetRatio(model, after, t), &t);
+  std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<Target> out;
+  for (const auto& [gain, t] : order) {
+    const bool known = std::ranges::any_of(
+        out, [&](const Target& o) { return ChannelName(model, o) == ChannelName(model, *t); });
+    if (out.size() < count && gain > 0.05 && !known && t->count >= 64) out.push_back(*t);
+  }
+  return out;
+}
+
+void AddBeforeAfter(HtmlReport& report, const CaseModel& model, const Comparison& before,
+                    const Comparison& after) {
+  report.Heading("Before and after");
+  AddRatioMap(report, before, "Before: error over noise of every channel in every record.");
+  AddRatioMap(
+      report, after,
+      "After, with the new rig file. Places that stay dark are not explained by what was adopted.",
+      LargestRatio(before));
+  if (before.predicted.size() != model.size() || after.predicted.size() != model.size()) return;
+  const std::vector<Target> gained =
+      MostImproved(model, Residual(model, before.predicted), after.residual, 3);
+  if (gained.empty()) return;
+  report.AddFigure(
+      TimeFigure(model, gained,
+                 {{"before", "@orange", &before.predicted}, {"after", "@green", &after.predicted}},
+                 "The channels that gained most. Top: whole record; middle: where the old model "
+                 "erred most; bottom: the errors, grey: noise."));
+  report.AddFigure(SpectrumFigure(
+      model, gained,
+      {{"model before", "@orange", &before.predicted}, {"model after", "@green", &after.predicted}},
+      {},
+      "Spectra of the errors before and after; grey: the noise's rms spread evenly over "
+      "frequency."));
+}
+
+}  // namespace
+
+void WriteAdoptReport(const CaseModel& model, const Comparison& before, const Comparison& after,
+                      const std::vector<LadderStep>& ladder, const std::string& path) {
+  HtmlReport report("Effect adopted", model.data().file);
+  report.Heading("What it changed");
+  AddWords(report, before, after, ladder);
+  report.Heading("The ladder");
+  AddLadder(report, ladder);
+  const auto rows = EffectRows(model.data().rig);
+  if (!rows.empty()) {
+    report.Heading("What is believed now");
+    report.Table({"effect", "parameter", "value ± sd", "meaning"}, rows,
+                 "The effects in the new rig file.");
+  }
+  AddBeforeAfter(report, model, before, after);
+  report.Heading("What is left");
+  report.Text(List(after.words));
+  report.Write(path);
+}
+
+}  // namespace ambrig

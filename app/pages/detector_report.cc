@@ -1,0 +1,181 @@
+#include "app/pages/detector_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/pages/format.h"
+#include "app/pages/html.h"
+#include "core/base/counted.h"
+
+namespace ambrig {
+
+namespace {
+
+std::string Percent(double share) {
+  return share == 1 || share == 0 ? fmt::format("{:.0f} %", 100 * share)
+                                  : fmt::format("{:.1f} %", 100 * share);
+}
+
+Grid PanelPerKind(const std::vector<DetectorCurves>& curves) {
+  Grid grid;
+  grid.columns = 2;
+  for (const FaultCurve& c : curves.front().faults) grid.titles.push_back(c.kind);
+  grid.rows = static_cast<int>((grid.titles.size() + 1) / 2);
+  grid.titles.resize(static_cast<std::size_t>(grid.rows * grid.columns));
+  grid.panel_height = 230;
+  return grid;
+}
+
+/// One line a detector in every panel; `y` of a fault's curve at a level. Points without false
+/// alarms stand at half of one window.
+template <class Value>
+Figure CurveFigure(const std::string& caption, const std::vector<DetectorCurves>& curves,
+                   const std::string& y_title, const Value& y) {
+  Figure figure = MakeFigure(caption, PanelPerKind(curves));
+  const auto kinds = static_cast<int>(curves.front().faults.size());
+  const double none = 0.5 / static_cast<double>(std::max(curves.front().all.windows, 1L));
+  for (int panel = 0; panel < kinds; ++panel) {
+    const bool bottom = panel + 2 >= kinds;
+    SetAxes(figure, panel, bottom ? "false alarms per coil and window" : "",
+            panel % 2 == 0 ? y_title : "");
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      const DetectorCurves& d = curves[i];
+      const FaultCurve& c = d.faults[static_cast<std::size_t>(panel)];
+      std::vector<double> xs, ys;
+      for (std::size_t k = 0; k < d.all.share.size(); ++k) {
+        const double value = y(c, k);
+        if (!std::isfinite(value)) continue;
+        xs.push_back(std::max(d.all.share[k], none));
+        ys.push_back(value);
+      }
+      Style style = SeriesStyle(static_cast<int>(i));
+      style.legend = panel == 0;
+      AddLine(figure, panel, d.name, xs, ys, style);
+    }
+  }
+  return figure;
+}
+
+void AtBudget(HtmlReport& report, const DetectorStudy& study,
+              const std::vector<DetectorCurves>& curves) {
+  report.Heading("At equal false alarms");
+  report.Text(
+      fmt::format("Each detector at the lowest threshold with at most {:.3g} false alarms per coil "
+                  "and window of {}; best first. "
+                  "A cell: share of the faults found within one window, median delay; and where it "
+                  "is not the same share, in "
+                  "brackets, how often the bearing's first alarm was the faulty coil's own.",
+                  study.budget, FormatSi(study.trial.window, "s")));
+  std::vector<std::string> columns = {"fault", "runs"};
+  const auto order = Ranking(curves);
+  for (const std::size_t i : order) columns.push_back(curves[i].name);
+  std::vector<std::vector<Cell>> table;
+  std::vector<Cell> thresholds = {Cell("threshold", "muted"), Cell("")};
+  for (const std::size_t i : order)
+    thresholds.emplace_back(fmt::format("{:.3g} {}", ValueOf(curves[i].budget_level),
+                                        curves[i].unit == "-" ? "" : curves[i].unit),
+                            "muted");
+  table.push_back(thresholds);
+  for (std::size_t k = 0; k < curves.front().faults.size(); ++k) {
+    std::vector<Cell> line = {Cell(curves.front().faults[k].kind),
+                              Cell(std::to_string(curves.front().faults[k].runs))};
+    for (const std::size_t i : order) {
+      const FaultCurve& c = curves[i].faults[k];
+      const auto at = static_cast<std::size_t>(curves[i].budget_level);
+      const double share = c.detected[at];
+      std::string text = Percent(share);
+      if (std::isfinite(c.median[at])) text += ", " + FormatSi(c.median[at], "s");
+      if (c.named[at] != share) text += " (" + Percent(c.named[at]) + ")";
+      line.emplace_back(text, share > 0.99 ? "ok" : share > 0.5 ? "warn" : "fail");
+    }
+    table.push_back(std::move(line));
+  }
+  report.Table(columns, table);
+}
+
+void OwnThresholds(HtmlReport& report, const std::vector<DetectorCurves>& curves) {
+  report.Heading("False alarms at the thresholds of the sources");
+  report.Text(
+      "What the detectors that name a threshold do with it: share of healthy coils' windows with "
+      "an alarm, by running condition.");
+  std::vector<std::string> columns = {"detector", "threshold"};
+  for (const FalseAlarmCurve& c : curves.front().scenarios) columns.push_back(c.scenario);
+  std::vector<std::vector<Cell>> table;
+  for (const DetectorCurves& d : curves) {
+    if (std::isnan(d.documented)) continue;
+    std::vector<Cell> line = {Cell(d.name), Cell(fmt::format("{:.3g} {}", d.documented, d.unit))};
+    for (const FalseAlarmCurve& c : d.scenarios) {
+      const double share = c.share[static_cast<std::size_t>(LevelAtLeast(d.documented))];
+      line.emplace_back(fmt::format("{:.3g} of {}", share, c.windows), share == 0 ? "ok" : "fail");
+    }
+    table.push_back(std::move(line));
+  }
+  report.Table(columns, table);
+}
+
+void Areas(HtmlReport& report, const std::vector<DetectorCurves>& curves) {
+  std::vector<std::string> columns, rows;
+  std::vector<std::vector<double>> values;
+  for (const FaultCurve& c : curves.front().faults) columns.push_back(c.kind);
+  for (const std::size_t i : Ranking(curves)) {
+    rows.push_back(curves[i].name);
+    values.emplace_back();
+    for (const FaultCurve& c : curves[i].faults) values.back().push_back(c.area);
+  }
+  report.Text(
+      "Area under the ROC curves over the logarithm of the false alarms: 1 = no error at any "
+      "threshold, 0.1 = blind.");
+  report.Heatmap("Area under each curve above", columns, rows, values, "area");
+}
+
+}  // namespace
+
+void WriteDetectorReport(const DetectorStudy& study, const std::vector<DetectorCurves>& curves,
+                         const Rows& rows, const std::string& path) {
+  HtmlReport report(study.name,
+                    fmt::format("study of {} on {}, {}", Counted(curves.size(), "detector"),
+                                Counted(study.runs(), "run"), study.fingerprint));
+  if (curves.front().all.windows == 0 || curves.front().faults.empty()) {
+    report.Verdict(Verdict::kFail, "No run could be finished: nothing to compare.");
+    report.Write(path);
+    return;
+  }
+  const DetectorCurves& best = curves[Ranking(curves).front()];
+  report.Verdict(
+      Verdict::kInfo,
+      fmt::format("Best at {:.3g} false alarms per coil and window: {}, {} of the faults found.",
+                  study.budget, best.name, Percent(best.score)));
+  report.KeyValues({{"runs", fmt::format("{} of {}", rows.size(), study.runs())},
+                    {"healthy windows of single coils", std::to_string(best.all.windows)},
+                    {"window", FormatSi(study.trial.window, "s")}});
+  std::vector<std::vector<Cell>> list;
+  for (const DetectorCurves& d : curves) list.push_back({Cell(d.name), Cell(d.doc), Cell(d.unit)});
+  report.Table({"detector", "what", "unit of its statistic"}, list);
+  AtBudget(report, study, curves);
+  report.Heading("ROC curves");
+  report.Text(
+      "Share of faults found within one window against the share of healthy windows with a false "
+      "alarm, threshold by threshold. "
+      "No false alarm at all is drawn at half of one window.");
+  Figure roc =
+      CurveFigure("Detected faults against false alarms, per kind and size of fault.", curves,
+                  "detected", [](const FaultCurve& c, std::size_t k) { return c.detected[k]; });
+  for (int p = 0; p < static_cast<int>(curves.front().faults.size()); ++p)
+    LogAxes(roc, p, true, false);
+  report.AddFigure(roc);
+  Areas(report, curves);
+  report.Heading("Delay against false alarms");
+  Figure delay = CurveFigure(
+      "Median delay of detection against false alarms; a curve ends where fewer than half of the "
+      "faults are found.",
+      curves, "delay [µs]", [](const FaultCurve& c, std::size_t k) { return c.median[k] * 1e6; });
+  for (int p = 0; p < static_cast<int>(curves.front().faults.size()); ++p)
+    LogAxes(delay, p, true, true);
+  report.AddFigure(delay);
+  OwnThresholds(report, curves);
+  report.Write(path);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,148 @@
+/// A detector study for the terminal and for programs.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/pages/detector_report.h"
+#include "core/base/counted.h"
+
+namespace ambrig {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::size_t Unfinished(const Rows& rows) {
+  std::size_t n = 0;
+  for (const auto& [run, row] : rows) n += row.cells.back().empty() ? 0 : 1;
+  return n;
+}
+
+std::string Delay(double seconds) {
+  if (!std::isfinite(seconds)) return "-";
+  return seconds < 0.9995e-3 ? fmt::format("{:.0f} us", seconds * 1e6)
+                             : fmt::format("{:.1f} ms", seconds * 1e3);
+}
+
+/// One line a detector, one column a kind: detected share and median delay at a level of each.
+template <class LevelOfDetector>
+std::string Table(const std::vector<DetectorCurves>& curves, const std::vector<std::size_t>& order,
+                  const LevelOfDetector& level_of) {
+  std::string text = fmt::format("  {:<20}{:>12}{:>12}", "", "threshold", "false al.");
+  const auto& faults = curves.front().faults;
+  for (std::size_t k = 0; k < faults.size(); ++k)
+    text += fmt::format("{:>16}", fmt::format("[{}]", k + 1));
+  text += '\n';
+  for (const std::size_t i : order) {
+    const DetectorCurves& d = curves[i];
+    const int level = level_of(d);
+    if (level < 0) continue;
+    const auto at = static_cast<std::size_t>(level);
+    text += fmt::format("  {:<20}{:>12}{:>12.2e}", d.name,
+                        fmt::format("{:.4g}{}", ValueOf(level), d.unit == "A" ? " A" : ""),
+                        d.all.share[at]);
+    for (const FaultCurve& c : d.faults)
+      text += fmt::format("{:>16}",
+                          fmt::format("{:.1f} % {:>7}", 100 * c.detected[at], Delay(c.median[at])));
+    text += '\n';
+  }
+  return text;
+}
+
+Json OrNull(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+Json FaultJson(const FaultCurve& c, std::size_t level) {
+  return {{"kind", c.kind},
+          {"runs", c.runs},
+          {"detected", c.detected[level]},
+          {"median_delay", OrNull(c.median[level])},
+          {"delay_95", OrNull(c.late[level])},
+          {"named", c.named[level]},
+          {"area", c.area}};
+}
+
+/// Levels at which something changes, so that the file stays small.
+Json CurveJson(const DetectorCurves& d) {
+  Json out = Json::array();
+  for (std::size_t k = 0; k < d.all.share.size(); ++k) {
+    const bool same = k > 0 && k + 1 < d.all.share.size() && d.all.share[k] == d.all.share[k - 1] &&
+                      std::all_of(d.faults.begin(), d.faults.end(), [&](const FaultCurve& c) {
+                        return c.detected[k] == c.detected[k - 1] &&
+                               c.median[k] == c.median[k - 1] && c.named[k] == c.named[k - 1];
+                      });
+    if (same) continue;
+    Json detected = Json::array(), median = Json::array(), named = Json::array();
+    for (const FaultCurve& c : d.faults) {
+      detected.push_back(c.detected[k]);
+      median.push_back(OrNull(c.median[k]));
+      named.push_back(c.named[k]);
+    }
+    out.push_back({{"threshold", ValueOf(static_cast<int>(k))},
+                   {"false_alarms", d.all.share[k]},
+                   {"detected", detected},
+                   {"median_delay", median},
+                   {"named", named}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string DetectorText(const DetectorStudy& study, const std::vector<DetectorCurves>& curves,
+                         const Rows& rows) {
+  const DetectorCurves& first = curves.front();
+  std::string text = fmt::format(
+      "{}: {} of {}, {} of {:.3g} ms\n", study.name, rows.size(), Counted(study.runs(), "run"),
+      Counted(first.all.windows, "healthy window"), study.trial.window * 1e3);
+  if (const std::size_t n = Unfinished(rows); n > 0)
+    text += fmt::format("  {} could not be finished (column note)\n", Counted(n, "run"));
+  if (first.all.windows == 0 || first.faults.empty()) return text + "  nothing to compare\n";
+  for (std::size_t k = 0; k < first.faults.size(); ++k)
+    text += fmt::format("  [{}] {} ({})\n", k + 1, first.faults[k].kind,
+                        Counted(first.faults[k].runs, "run"));
+  text += fmt::format(
+      "at most {:.3g} false alarms per coil and window; detected within one window, median delay; "
+      "best first\n",
+      study.budget);
+  text += Table(curves, Ranking(curves), [](const DetectorCurves& d) { return d.budget_level; });
+  text += "at the thresholds of their sources\n";
+  text += Table(curves, Ranking(curves), [](const DetectorCurves& d) {
+    return std::isnan(d.documented) ? -1 : LevelAtLeast(d.documented);
+  });
+  return text;
+}
+
+nlohmann::ordered_json DetectorJson(const DetectorStudy& study,
+                                    const std::vector<DetectorCurves>& curves, const Rows& rows) {
+  Json detectors = Json::array();
+  for (const std::size_t i : Ranking(curves)) {
+    const DetectorCurves& d = curves[i];
+    const auto level = static_cast<std::size_t>(d.budget_level);
+    Json faults = Json::array(), healthy = Json::array();
+    for (const FaultCurve& c : d.faults) faults.push_back(FaultJson(c, level));
+    for (const FalseAlarmCurve& c : d.scenarios)
+      healthy.push_back(
+          {{"scenario", c.scenario}, {"windows", c.windows}, {"false_alarms", c.share[level]}});
+    detectors.push_back({{"name", d.name},
+                         {"unit", d.unit},
+                         {"documented_threshold", OrNull(d.documented)},
+                         {"threshold", ValueOf(d.budget_level)},
+                         {"false_alarms", d.all.share[level]},
+                         {"score", d.score},
+                         {"mean_delay", d.mean_delay},
+                         {"faults", faults},
+                         {"healthy", healthy},
+                         {"curve", CurveJson(d)}});
+  }
+  return {{"name", study.name},
+          {"fingerprint", study.fingerprint},
+          {"runs", study.runs()},
+          {"done", rows.size()},
+          {"unfinished", Unfinished(rows)},
+          {"windows", curves.front().all.windows},
+          {"window", study.trial.window},
+          {"budget", study.budget},
+          {"detectors", detectors}};
+}
+
+}  // namespace ambrig

@@ -1,0 +1,181 @@
+#include "app/pages/discovery_parts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/figures/series.h"
+#include "app/pages/format.h"
+
+namespace ambrig {
+namespace {
+
+/// A table of numbers that grows by named rows and columns.
+struct RatioTable {
+  std::vector<std::string> rows, columns;
+  std::vector<std::vector<double>> values;
+
+  void Put(const std::string& row, const std::string& column, double value) {
+    const auto r = Place(rows, row), c = Place(columns, column);
+    values.resize(rows.size());
+    for (auto& v : values) v.resize(columns.size(), std::nan(""));
+    values[r][c] = value;
+  }
+  static std::size_t Place(std::vector<std::string>& names, const std::string& name) {
+    const auto at = std::ranges::find(names, name);
+    if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
+    names.push_back(name);
+    return names.size() - 1;
+  }
+};
+
+void AddTable(HtmlReport& report, const RatioTable& table, const std::string& caption,
+              double scale) {
+  if (!table.rows.empty())
+    report.AddFigure(RatioFigure(table.columns, table.rows, table.values, caption, scale));
+}
+
+std::string StepName(const LadderStep& s) {
+  if (s.added.empty()) return "rig file as it is";
+  if (s.added == "parameters") return "+ rig parameters fitted";
+  return s.added.starts_with("without") ? s.added : "+ " + s.added;
+}
+
+void LadderFigure(HtmlReport& report, const std::vector<LadderStep>& ladder) {
+  Grid grid;
+  grid.panel_height = 240;
+  Figure figure = MakeFigure(
+      "The ladder: error over noise against what is believed, step by step. A step that lowers "
+      "only the fitted records is a "
+      "patch; one that lowers the unseen ones as well is physics. At 1 nothing is left but noise.",
+      grid);
+  std::vector<std::string> names;
+  std::vector<double> fit, unseen;
+  for (const LadderStep& s : ladder) {
+    names.push_back(StepName(s));
+    fit.push_back(s.ratio_fit);
+    unseen.push_back(s.ratio_validate);
+  }
+  AddBars(figure, 0, "fitted records", names, fit, "@sky");
+  AddBars(figure, 0, "unseen records", names, unseen, "@blue");
+  for (auto it = figure.traces.end() - 2; it != figure.traces.end(); ++it) {
+    (*it)["texttemplate"] = "%{y:.3~g}";
+    (*it)["textposition"] = "outside";
+    (*it)["cliponaxis"] = false;
+  }
+  SetAxes(figure, 0, "", "error / noise");
+  AddLevel(figure, 0, 1, "noise", "@green");
+  report.AddFigure(figure);
+}
+
+}  // namespace
+
+Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<std::string>& rows,
+                   const std::vector<std::vector<double>>& values, const std::string& caption,
+                   double scale) {
+  constexpr std::size_t kReadable = 20;  // columns that leave room for numbers
+  Grid grid;
+  grid.panel_height = std::clamp(static_cast<int>(rows.size()) * 26, 120, 1400);
+  const bool printed = columns.size() <= kReadable;
+  double largest = std::max(2.0, scale);
+  for (const auto& row : values)
+    for (const double v : row)
+      largest = std::isfinite(v) && scale == 0 ? std::max(largest, v) : largest;
+  std::string note = largest > 10 ? " The colour ends at 10." : "";
+  if (!printed) note += " Point at a cell for its number.";
+  Figure figure = MakeFigure(caption + note, grid);
+  AddHeatmap(figure, 0, columns, rows, values, "error / noise", printed ? 3 : 0);
+  figure.traces.back().update({{"zmin", 1}, {"zmax", std::min(largest, 10.0)}});
+  return figure;
+}
+
+double LargestRatio(const Comparison& c) {
+  double largest = 0;
+  for (const RecordComparison& r : c.records)
+    for (const ChannelError& e : r.channels) largest = std::max(largest, e.ratio);
+  return largest;
+}
+
+void AddReadingHelp(HtmlReport& report) {
+  report.Text(
+      "How to read the numbers: the **error over noise** is the rms of measured less model, "
+      "divided by the rms that "
+      "the measurement noise alone makes in that channel after its way round the control loop. "
+      "**1** means that nothing is left to "
+      "explain; 3 means an error three times as large as the noise. Records are *fitted* "
+      "(parameters were adjusted to them) or *unseen* (kept "
+      "back, only used to judge). A cause is believed when the error falls on the unseen records "
+      "too.");
+}
+
+void AddRatioMap(HtmlReport& report, const Comparison& c, const std::string& caption,
+                 double scale) {
+  RatioTable table;
+  for (const RecordComparison& r : c.records)
+    for (const ChannelError& e : r.channels)
+      table.Put(ShortName(r.data) + (r.validate ? " (unseen)" : ""), e.channel, e.ratio);
+  AddTable(report, table, caption, scale);
+}
+
+void AddRatioMap(HtmlReport& report, const CaseModel& model, const std::vector<double>& residual,
+                 const std::string& caption, double scale) {
+  RatioTable table;
+  for (const Target& t : model.targets()) {
+    const CaseRecord& r = model.data().records[t.record];
+    table.Put(ShortName(r.data_file) + (r.validate ? " (unseen)" : ""), ChannelName(model, t),
+              TargetRatio(model, residual, t));
+  }
+  AddTable(report, table, caption, scale);
+}
+
+void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder) {
+  if (ladder.empty()) return;
+  LadderFigure(report, ladder);
+  std::vector<std::vector<Cell>> rows;
+  double last = std::nan("");
+  for (const LadderStep& s : ladder) {
+    const double share = std::isfinite(last) && last > 0 ? 100 * (s.ratio_validate / last - 1) : 0;
+    rows.push_back({StepName(s), fmt::format("{:.3f}", s.ratio_fit),
+                    fmt::format("{:.3f}", s.ratio_validate),
+                    Cell(std::isfinite(last) ? fmt::format("{:+.0f} %", share) : "",
+                         share < -1 ? "ok" : "muted")});
+    last = s.ratio_validate;
+  }
+  report.Table({"what is believed", "fitted records", "unseen records", "change on unseen"}, rows,
+               "Error over noise, step by step.");
+}
+
+std::string List(const std::vector<std::string>& lines) {
+  std::string out;
+  for (const std::string& line : lines) out += "- " + line + "\n";
+  return out;
+}
+
+std::string EffectName(const EffectInstance& e) {
+  return e.name + (e.label.empty() ? "" : " (" + e.label + ")") + " at " + e.target;
+}
+
+std::string ValueText(double value, double sd, const std::string& unit) {
+  if (!(sd > 0) || !std::isfinite(sd)) return FormatSi(value, unit);
+  const bool prefixed =
+      FormatSi(1e3, unit).find('k') != std::string::npos && unit.find('k') == std::string::npos;
+  const double largest = std::max(std::abs(value), sd);
+  const DisplayUnit shown =
+      prefixed ? ChooseUnit(largest, unit) : DisplayUnit{1, unit == "-" ? "" : unit};
+  // As many decimals as the sd has in its first two digits.
+  const int decimals =
+      std::clamp(1 - static_cast<int>(std::floor(std::log10(sd * shown.factor))), 0, 9);
+  return fmt::format("{:.{}f} ± {:.{}f}{}{}", value * shown.factor, decimals, sd * shown.factor,
+                     decimals, shown.name.empty() ? "" : "\u00a0", shown.name);
+}
+
+std::string ParametersText(const EffectInstance& e) {
+  std::string out;
+  for (std::size_t k = 0; k < e.table.size(); ++k)
+    out += (k == 0 ? "" : ", ") + e.table[k].name + " = " +
+           ValueText(e.values[k], k < e.sd.size() ? e.sd[k] : 0, e.table[k].unit);
+  return out;
+}
+
+}  // namespace ambrig

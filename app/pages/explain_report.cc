@@ -1,0 +1,169 @@
+// The report of `ambrig explain`: the verdict, the evidence, its price, and what to measure next.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/figures/explain_figures.h"
+#include "app/pages/discovery_report.h"
+#include "app/pages/explain_tables.h"
+#include "app/pages/format.h"
+
+namespace ambrig {
+namespace {
+
+std::string Names(const std::vector<EffectInstance>& effects) {
+  std::string out;
+  for (std::size_t k = 0; k < effects.size(); ++k)
+    out += (k > 0 ? " and " : "") + EffectName(effects[k]);
+  return out;
+}
+
+std::string Evidence(const Explanation& e) {
+  return fmt::format(
+      "On records that were not used for fitting, the error falls from {:.2f} times the noise (rig "
+      "file) to {:.2f} (rig parameters "
+      "adjusted) to **{:.2f}** (final).{}",
+      e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate,
+      std::max(e.final_ratio_validate, e.final_ratio_fit) > 1.15
+          ? " Not everything is explained: *What is left* shows the rest."
+          : "");
+}
+
+void AddVerdict(HtmlReport& report, const Explanation& e) {
+  report.Heading("Verdict");
+  if (e.verdict == "effect")
+    report.Verdict(Verdict::kOk, fmt::format("**The rig has what the model lacks: {}.** {}",
+                                             Names(e.adopted), Evidence(e)));
+  else if (e.verdict == "parameters")
+    report.Verdict(Verdict::kInfo,
+                   "**No effect is missing; the rig's parameters differ from the rig file** within "
+                   "their tolerances. " +
+                       Evidence(e));
+  else if (e.verdict == "none")
+    report.Verdict(
+        Verdict::kOk,
+        "**Nothing is missing**: the rig file explains the measurements within their noise. " +
+            Evidence(e));
+  else
+    report.Verdict(Verdict::kWarn,
+                   "**Something is missing, and no effect of the catalogue explains it.** " +
+                       Evidence(e) + " What it looks like, and a law to try, stand below.");
+}
+
+void AddMeaning(HtmlReport& report, const Case& c, const Explanation& e) {
+  for (const EffectInstance& a : e.adopted)
+    if (const EffectDescription* d = FindEffect(a.name))
+      report.Text(fmt::format("**{}** ({}). {} Found: {}.", d->title, EffectName(a),
+                              OneLine(d->physics), ParametersText(a)));
+  std::size_t unseen = 0;
+  for (const CaseRecord& r : c.records) unseen += r.validate ? 1 : 0;
+  report.KeyValues(
+      {{"records", fmt::format("{} fitted, {} unseen", c.records.size() - unseen, unseen)},
+       {"candidates screened", fmt::format("{}", e.screened.size())},
+       {"record simulations", fmt::format("{}", e.runs)},
+       {"time", FormatSi(e.seconds, "s")}});
+  AddReadingHelp(report);
+  if (!c.notes.empty()) report.Text("Left out by the data-quality pass:\n\n" + List(c.notes));
+}
+
+/// Texts name data files with their folders; a reader wants the record.
+std::string ShortPaths(std::string text, const Case& c) {
+  for (const CaseRecord& r : c.records)
+    for (std::size_t at; !r.data_file.empty() && r.data_file != ShortName(r.data_file) &&
+                         (at = text.find(r.data_file)) != std::string::npos;)
+      text.replace(at, r.data_file.size(), ShortName(r.data_file));
+  return text;
+}
+
+void AddUnknown(HtmlReport& report, const Case& c, const Explanation& e) {
+  if (e.verdict != "unknown") return;
+  const Unexplained& u = e.unexplained;
+  report.Heading("What no effect explains");
+  report.Text(u.text.empty() ? "Nothing more can be said from these records."
+                             : ShortPaths(u.text, c));
+  std::vector<std::pair<std::string, std::string>> keys;
+  for (const auto& [key, value] : {std::pair("block", u.block), {"where", u.where}})
+    if (!value.empty()) keys.emplace_back(key, value);
+  std::string peaks;
+  for (const double f : u.frequencies) peaks += (peaks.empty() ? "" : ", ") + FormatSi(f, "Hz");
+  if (!peaks.empty()) keys.emplace_back("stands out at", peaks);
+  if (!keys.empty()) report.KeyValues(keys);
+  if (u.formula.empty()) return;
+  report.Text(
+      "A law of this shape follows the missing force best. Paste it into the rig file, give its "
+      "parameters rough starting values and "
+      "bounds, and run `ambrig adopt CASE formula`: it is fitted like any effect, and the error "
+      "should fall on the unseen records.");
+  report.Code(FormulaSnippet(u));
+}
+
+void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
+  report.Heading("What to do next");
+  std::vector<std::string> next;
+  for (const Confusable& p : e.confusable)
+    next.push_back(fmt::format(
+        "These records leave open whether it is **{}** or **{}**. To tell them apart, measure: {}.",
+        p.first, p.second, p.record));
+  if (e.verdict == "effect") {
+    if (e.confusable.empty())
+      next.push_back(
+          "No other candidate comes near: no further record is needed to tell it apart.");
+    for (const EffectInstance& a : e.adopted) {
+      const EffectDescription* d = FindEffect(a.name);
+      if (d && !d->shows_in.empty())
+        next.push_back(
+            fmt::format("To know the parameters of {} better, measure what shows it: {}.",
+                        EffectName(a), d->shows_in));
+      next.push_back(
+          fmt::format("To believe it: `ambrig adopt {} {} --target {}` writes a new rig file and "
+                      "compares again.",
+                      c.file, a.name, a.target));
+    }
+  }
+  if (e.verdict == "parameters")
+    next.push_back("Correct the rig file: the table above says which numbers moved.");
+  if (e.verdict == "none")
+    next.push_back(
+        "Nothing needs to be added. To look for smaller effects, measure with more excitation or "
+        "for longer.");
+  if (e.verdict == "unknown")
+    next.push_back(
+        "Try the law above, or measure a record that isolates the block named above: clamped for "
+        "coil and force, slow roll for sensors.");
+  report.Text(List(next));
+}
+
+void AddWarnings(HtmlReport& report, const Explanation& e) {
+  std::vector<std::string> warnings = e.warnings;
+  if (!e.final_fit.predicted.empty() && !e.final_fit.converged)
+    warnings.push_back(
+        "the last fit found no better point; its parameters are those it started from");
+  if (warnings.empty()) return;
+  report.Heading("Warnings");
+  report.Verdict(Verdict::kWarn, "Read these before you trust a number:");
+  report.Text(List(warnings));
+}
+
+}  // namespace
+
+void WriteExplainReport(const Case& c, const Explanation& e, const std::string& path) {
+  const ExplainScene scene(c, e);
+  HtmlReport report("Which effect is missing?", c.file);
+  AddVerdict(report, e);
+  AddMeaning(report, c, e);
+  report.Heading("The ladder");
+  AddLadder(report, e.ladder);
+  AddPlainFailure(report, scene);
+  AddRanking(report, e);
+  AddScreening(report, e);
+  AddWhyThatOne(report, scene);
+  AddCost(report, e);
+  AddUnknown(report, c, e);
+  AddWhatIsLeft(report, scene);
+  AddNext(report, c, e);
+  AddWarnings(report, e);
+  report.Write(path);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,138 @@
+#include "app/pages/run_report_data.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "app/pages/format.h"
+#include "core/base/read_file.h"
+
+namespace ambrig {
+
+namespace {
+
+std::string MilliSeconds(double t) { return t < 0 ? "-" : fmt::format("{:.3g} ms", t * 1e3); }
+
+/// "A.coil3" -> "A3".
+std::string ShortName(const std::string& target) {
+  const auto dot = target.find(".coil");
+  return dot == std::string::npos ? target : target.substr(0, dot) + target.substr(dot + 5);
+}
+
+std::vector<double> ChannelOf(const Record& record, const std::string& name) {
+  const Channel* c = record.Find(name);
+  return c ? c->samples : std::vector<double>{};
+}
+
+void FillBearings(const RigParameters& rig, const RunResult& result, RunReportData& data) {
+  for (const BearingParameters& b : rig.bearings) {
+    if (b.kind != BearingKind::kRadial) continue;
+    ReportBearing r;
+    r.name = b.name;
+    r.clearance = b.auxiliary ? b.auxiliary->clearance : b.radial.gap;
+    for (int j = 0; j < kPoles; ++j)
+      r.pole_angles.push_back((b.radial.first_pole_angle_deg + 45.0 * j) * kPi / 180);
+    r.x = ChannelOf(result.record, b.name + ".r.x");
+    r.y = ChannelOf(result.record, b.name + ".r.y");
+    for (int j = 1; j <= kPoles; ++j)
+      r.currents.push_back(ChannelOf(result.record, fmt::format("{}.i{}", b.name, j)));
+    data.bearings.push_back(std::move(r));
+  }
+}
+
+void FillStations(const RigParameters& rig, const RunResult& result, RunReportData& data) {
+  for (const ShaftPlane& s : rig.stations) {
+    ReportStation r{s.name, ChannelOf(result.record, s.name + ".r.x"),
+                    ChannelOf(result.record, s.name + ".r.y")};
+    if (!r.x.empty()) data.stations.push_back(std::move(r));
+  }
+}
+
+void FillSnapshots(const Scenario& scenario, const RunResult& result, RunReportData& data) {
+  for (const FluxSnapshot& s : result.snapshots) {
+    ReportSnapshot r;
+    r.bearing = s.bearing;
+    r.label = s.label;
+    r.t = s.t;
+    r.flux = s.flux;
+    r.current = s.current;
+    r.x = s.x;
+    r.y = s.y;
+    for (const FaultSpec& f : scenario.faults)
+      if (f.target.starts_with(s.bearing + ".coil") && f.time <= s.t &&
+          s.label.rfind("before", 0) != 0)
+        r.failed.push_back(std::stoi(f.target.substr(s.bearing.size() + 5)));
+    data.snapshots.push_back(std::move(r));
+  }
+}
+
+}  // namespace
+
+std::string EventText(const RunEvent& e) {
+  std::string text = e.fault_class;
+  if (e.fraction > 0)
+    text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);
+  return text;
+}
+
+RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenario,
+                                const RunResult& result, const std::vector<ExpectResult>& expect,
+                                const std::string& fidelity) {
+  RunReportData data;
+  const RunMetrics& m = result.metrics;
+  data.name = scenario.name;
+  data.subtitle =
+      fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
+  const bool met = AllMet(expect);
+  data.verdict = !met               ? Verdict::kFail
+                 : result.drop      ? Verdict::kFail
+                 : result.touchdown ? Verdict::kWarn
+                                    : Verdict::kOk;
+  data.verdict_text = result.drop ? "The rotor dropped."
+                      : result.touchdown
+                          ? "The rotor touched an auxiliary bearing but did not stay on it."
+                          : "The rotor stayed up, without touching an auxiliary bearing.";
+  if (!expect.empty())
+    data.verdict_text += met ? " Every expectation is met." : " An expectation is not met.";
+  for (const auto& [name, orbit] : m.max_orbit)
+    data.metrics.emplace_back("peak orbit " + name, FormatSi(orbit, "m"));
+  data.metrics.emplace_back("least clearance left", FormatSi(m.min_clearance_left, "m"));
+  data.metrics.emplace_back("detection delay", MilliSeconds(m.detection_delay));
+  data.metrics.emplace_back("redistribution delay", MilliSeconds(m.redistribution_delay));
+  data.metrics.emplace_back(
+      "false alarms", fmt::format("{:.0f} in {:.3g} coil-periods", m.false_alarms, m.coil_periods));
+  data.metrics.emplace_back("peak coil current", FormatSi(m.peak_current, "A"));
+  data.metrics.emplace_back("copper loss, mean", FormatSi(m.copper_loss, "W"));
+  data.metrics.emplace_back("speed of the simulation",
+                            fmt::format("{:.1f} x real time", m.real_time_factor));
+  for (const ExpectResult& e : expect) data.expect.push_back({e.key, e.wanted, e.got, e.met});
+  for (const RunEvent& e : result.events)
+    data.events.push_back({e.t, e.kind, ShortName(e.target), EventText(e)});
+  data.rate = result.record.rate;
+  data.start = result.record.start;
+  FillBearings(rig, result, data);
+  FillStations(rig, result, data);
+  data.theta = ChannelOf(result.record, "theta");
+  const auto rpm = [&](std::vector<double> v) {
+    for (double& x : v) x *= 30 / kPi;
+    return v;
+  };
+  data.channels.push_back({"speed", "rpm", rpm(ChannelOf(result.record, "omega"))});
+  if (result.record.Find("z")) data.channels.push_back({"z", "m", ChannelOf(result.record, "z")});
+  data.channels.push_back({"bus", "V", ChannelOf(result.record, "bus")});
+  for (const SlopeTrace& s : result.slopes) {
+    ReportSlope r;
+    r.coil = ShortName(s.coil);
+    r.t = s.t;
+    r.slope = s.slope;
+    r.low = s.low;
+    r.high = s.high;
+    data.slopes.push_back(std::move(r));
+  }
+  FillSnapshots(scenario, result, data);
+  data.scenario_toml = ReadFile(scenario.file);
+  data.rig_toml = ReadFile(rig.file);
+  return data;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,15 @@
+#pragma once
+#include "app/pages/run_report.h"
+#include "simulation/verdict/expect.h"
+
+namespace ambrig {
+
+/// A run turned into what its report shows.
+RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenario,
+                                const RunResult& result, const std::vector<ExpectResult>& expect,
+                                const std::string& fidelity);
+
+/// One line for a person: "detected open at A.coil3" and the like.
+std::string EventText(const RunEvent& event);
+
+}  // namespace ambrig

@@ -1,0 +1,27 @@
+#pragma once
+/// The controller's side of one bearing: its current map, one current loop per coil, and what is
+/// commanded and fed back.
+#include <array>
+#include <memory>
+#include <string>
+
+#include "actuators/electronics/amplifier.h"
+#include "actuators/magnetics/lane.h"
+#include "control/current/current_map.h"
+#include "control/current/hand_over.h"
+
+namespace ambrig {
+
+struct BearingControl {
+  std::string name;
+  int coils = 0;
+  CurrentMap map;
+  std::shared_ptr<HandOver> hand_over;  // on the way to `map`'s currents; empty: there
+  std::array<PowerAmplifier, kLanes> amplifier;
+  Lane set_point;                       // in force, without excitation [A]
+  Lane commanded;                       // with the coil's current excitation [A]
+  Lane duty, feedback;                  // of this period [-]; mean of the last period's samples [A]
+  std::array<bool, kLanes> disabled{};  // bridge kept off by the controller
+};
+
+}  // namespace ambrig

@@ -1,0 +1,205 @@
+#include "discovery/case/case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "core/base/counted.h"
+#include "core/base/read_file.h"
+#include "core/base/units.h"
+#include "core/record/csv.h"
+#include "core/record/read_record.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+
+namespace {
+
+/// Channels a run of this rig has, with their SI unit.
+std::map<std::string, std::string> KnownChannels(const RigParameters& rig) {
+  std::map<std::string, std::string> known = {{"bus", "V"}, {"omega", "rad/s"}, {"theta", "rad"}};
+  for (const BearingParameters& b : rig.bearings) {
+    for (const std::string& axis : b.Axes()) {
+      known[axis] = "m";
+      known[b.kind == BearingKind::kThrust ? "r.z"
+                                           : b.name + ".r." + axis.substr(axis.size() - 1)] = "m";
+    }
+    for (int j = 1; j <= b.coils(); ++j) {
+      known[fmt::format("{}.i{}", b.name, j)] = "A";
+      known[fmt::format("{}.s{}", b.name, j)] = "A";
+      known[fmt::format("{}.d{}", b.name, j)] = "-";
+    }
+    for (const char* f : {".fx", ".fy", ".fz"}) known[b.name + f] = "N";
+  }
+  return known;
+}
+
+struct Mapping {
+  std::string column, unit;
+};
+
+std::map<std::string, Mapping> ReadMapping(const TomlTable& record,
+                                           const std::map<std::string, std::string>& known) {
+  std::map<std::string, Mapping> map;
+  const auto channels = record.Table("channels");
+  if (!channels) return map;
+  std::string names;
+  for (const auto& [name, unit] : known) names += (names.empty() ? "" : ",") + name;
+  for (const std::string& channel : channels->Keys()) {
+    if (!known.contains(channel)) {
+      const std::string near = Nearest(channel, names);
+      channels->Fail(channel, "is no channel of this rig" +
+                                  (near.empty() ? "" : ", did you mean " + near + "?"));
+    }
+    Mapping m;
+    if (channels->IsString(channel)) {
+      m.column = channels->String(channel);
+    } else {
+      const TomlTable t = *channels->Table(channel);
+      m.column = t.String("column", channel);
+      m.unit = t.String("unit", "");
+      t.RejectUnknownKeys();
+    }
+    map[channel] = m;
+  }
+  return map;
+}
+
+/// One line for all files of which the same is to be said.
+void NoteOnce(Case& c, const std::string& file, const std::string& text) {
+  for (std::string& note : c.notes) {
+    if (!note.ends_with(": " + text)) continue;
+    note = fmt::format("{}, {}: {}", note.substr(0, note.size() - text.size() - 2), file, text);
+    return;
+  }
+  c.notes.push_back(file + ": " + text);
+}
+
+/// Columns renamed to rig channels, units converted, unknown columns left out with a note.
+Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapping,
+                   const std::map<std::string, std::string>& known, const TomlTable& table,
+                   Case& c) {
+  Record out;
+  out.rate = raw.rate;
+  out.start = raw.start;
+  for (const auto& [channel, unit] : known) {
+    const auto it = mapping.find(channel);
+    const std::string column = it == mapping.end() ? channel : it->second.column;
+    const Channel* found = raw.Find(column);
+    if (!found) {
+      if (it != mapping.end())
+        throw InputError(fmt::format("{}: column \"{}\" of {} is not in the data file",
+                                     table.Where("channels"), column, channel));
+      continue;
+    }
+    Channel converted = *found;
+    converted.name = channel;
+    const std::string from =
+        it != mapping.end() && !it->second.unit.empty() ? it->second.unit : found->unit;
+    const double factor =
+        from.empty() ? 1 : UnitFactor(from, unit, table.Where("data") + ": channel " + channel);
+    for (double& v : converted.samples) v *= factor;
+    converted.unit = unit;
+    out.channels.push_back(std::move(converted));
+  }
+  std::string ignored;
+  for (const Channel& ch : raw.channels) {
+    bool used = known.contains(ch.name) && !mapping.contains(ch.name);
+    for (const auto& [channel, m] : mapping) used = used || m.column == ch.name;
+    if (!used && ch.name != "t") ignored += (ignored.empty() ? "" : ", ") + ch.name;
+  }
+  if (!ignored.empty())
+    NoteOnce(c, table.String("data"), "columns without a rig channel, left out: " + ignored);
+  return out;
+}
+
+void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
+  const double length = static_cast<double>(r.data.rows()) / r.data.rate,
+               end = r.data.start + length;
+  if (r.data.rows() < 8)
+    t.Fail("data", fmt::format("has {}, allowed: at least 8", Counted(r.data.rows(), "row")));
+  if (end > r.scenario.duration * (1 + 1e-9) + 1.5 / r.data.rate)
+    t.Fail("data", fmt::format("ends at {:.6g} s, the scenario {} lasts {} s", end, r.scenario_file,
+                               r.scenario.duration));
+  if (r.data.start < -1e-9)
+    t.Fail("data", fmt::format("starts at {} s, before the scenario", r.data.start));
+}
+
+/// Whether something moves this coil's current in a clamped record: more than one constant
+/// set-point.
+bool Moved(const Scenario& s, const std::string& channel) {
+  const auto dot = channel.find(".i");
+  if (dot == std::string::npos) return false;
+  const std::string coil = channel.substr(0, dot) + ".coil" + channel.substr(dot + 2);
+  return std::any_of(s.excitations.begin(), s.excitations.end(), [&](const Excitation& e) {
+    return e.target == coil && !(e.kind == "step" && e.start <= 0);
+  });
+}
+
+bool MayBeConstant(const Scenario& s, const std::string& channel) {
+  const auto dot = channel.find('.');
+  const char kind = dot == std::string::npos ? channel[0] : channel[dot + 1];
+  if (s.start == StartState::kClamped) return !Moved(s, channel);
+  return kind == 's' || kind == 'd' || kind == 'b' || kind == 'o' || kind == 't';
+}
+
+}  // namespace
+
+Case ReadCase(const std::string& path) {
+  const std::string file = std::filesystem::is_directory(path)
+                               ? (std::filesystem::path(path) / "case.toml").string()
+                               : path;
+  const TomlTable root = TomlTable::FromFile(file);
+  Case c;
+  c.file = file;
+  c.rig_file = Beside(file, root.String("rig", "rig.toml"));
+  c.rig = ReadRig(c.rig_file);
+  const auto known = KnownChannels(c.rig);
+  if (const auto noise = root.Table("noise"))
+    for (const std::string& channel : noise->Keys()) {
+      if (!known.contains(channel)) noise->Fail(channel, "is no channel of this rig");
+      const double v = noise->Number(channel);
+      if (!(v >= 0 && std::isfinite(v)))
+        noise->Fail(channel, fmt::format("= {}, allowed: 0 or more", v));
+      c.noise[channel] = v;
+    }
+  const auto tables = root.Tables("record");
+  if (tables.empty())
+    root.Fail("record", "is missing, allowed: one or more [[record]] with scenario and data");
+  bool any_fit = false;
+  for (const TomlTable& t : tables) {
+    CaseRecord r;
+    r.scenario_file = Beside(file, t.String("scenario"));
+    r.data_file = Beside(file, t.String("data"));
+    r.validate = t.Choice("use", "fit", "fit, validate") == "validate";
+    r.scenario = ReadScenario(r.scenario_file, c.rig);
+    const double offset = t.Number("time_offset", 0);  // scenario time of the logger's zero [s]
+    r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c);
+    t.RejectUnknownKeys();
+    r.data.start += offset;
+    if (r.data.channels.empty())
+      t.Fail("data", fmt::format("= {} holds no channel of this rig", r.data_file));
+    CheckAgainstScenario(r, t);
+    for (const Channel& ch : r.data.channels) {
+      r.quality.push_back(InspectChannel(ch, MayBeConstant(r.scenario, ch.name)));
+      if (!r.quality.back().verdict.starts_with("good"))
+        c.notes.push_back(
+            fmt::format("{}: {}: {}", r.data_file, ch.name, r.quality.back().verdict));
+    }
+    any_fit = any_fit || !r.validate;
+    c.records.push_back(std::move(r));
+  }
+  root.RejectUnknownKeys();
+  if (!any_fit) root.Fail("record", "has no record with use = \"fit\", allowed: at least one");
+  const bool any_validate =
+      std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
+  if (!any_validate && c.records.size() > 2) {  // every third record is kept back
+    for (std::size_t k = 2; k < c.records.size(); k += 3) c.records[k].validate = true;
+    c.notes.push_back("no record is marked \"validate\": every third one is kept back for that");
+  }
+  return c;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,95 @@
+#include "discovery/decision/compare.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/model/floor.h"
+#include "discovery/search/screen.h"
+
+namespace ambrig {
+
+namespace {
+
+ChannelError ErrorOf(const CaseModel& model, const std::vector<double>& residual, const Target& t) {
+  ChannelError e;
+  e.channel = model.data().records[t.record].data.channels[t.channel].name;
+  e.ratio = TargetRatio(model, residual, t);
+  e.noise = t.floor;
+  e.rms_error = e.ratio * t.floor;
+  e.nrmse = t.full_scale > 0 ? e.rms_error / t.full_scale : 0;
+  double product = 0, square = 0;
+  for (std::size_t k = t.first; k + 1 < t.first + t.count; ++k) {
+    product += residual[k] * residual[k + 1];
+    square += residual[k] * residual[k];
+  }
+  e.whiteness = square > 0 ? product / square : 0;
+  return e;
+}
+
+std::vector<std::string> Words(const Comparison& c) {
+  struct Place {
+    std::string text;
+    double ratio;
+  };
+  std::vector<Place> places;
+  for (const RecordComparison& r : c.records) {
+    for (const ChannelError& e : r.channels)
+      if (e.ratio > 1.15)
+        places.push_back({fmt::format("{} in {} ({}): {:.1f} times the noise", e.channel, r.data,
+                                      r.scenario, e.ratio),
+                          e.ratio});
+    for (const auto& [block, ratio] : r.blocks)
+      if (ratio > 1.15)
+        places.push_back({fmt::format("block {} in {} ({}): {:.1f} times its own noise", block,
+                                      r.data, r.scenario, ratio),
+                          ratio});
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& a, const Place& b) { return a.ratio > b.ratio; });
+  std::vector<std::string> out;
+  for (std::size_t k = 0; k < places.size() && k < 8; ++k) out.push_back(places[k].text);
+  if (out.empty()) out.push_back("model and measurement agree within the noise everywhere");
+  return out;
+}
+
+}  // namespace
+
+Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
+                   const std::function<void(double, const std::string&)>& progress) {
+  Comparison c;
+  if (progress) progress(0.05, "noise floor");
+  const NoiseFloor floor = FindFloor(model, h);
+  c.predicted = floor.clean;
+  c.effective = floor.effective;
+  c.residual = Residual(model, c.predicted);
+  c.ratio = Ratio(model, c.residual, Which::kAll);
+  c.ratio_fit = Ratio(model, c.residual, Which::kFit);
+  c.ratio_validate = Ratio(model, c.residual, Which::kValidate);
+  for (std::size_t r = 0; r < model.data().records.size(); ++r) {
+    const CaseRecord& record = model.data().records[r];
+    if (progress)
+      progress(
+          0.3 + 0.7 * static_cast<double>(r) / static_cast<double>(model.data().records.size()),
+          "blocks of " + record.data_file);
+    RecordComparison out;
+    out.data = record.data_file;
+    out.scenario = record.scenario.name;
+    out.validate = record.validate;
+    double sum = 0, n = 0;
+    for (const Target& t : model.targets()) {
+      if (t.record != r) continue;
+      out.channels.push_back(ErrorOf(model, c.residual, t));
+      sum += out.channels.back().ratio * out.channels.back().ratio;
+      n += 1;
+    }
+    out.ratio = n > 0 ? std::sqrt(sum / n) : 0;
+    if (blocks) out.blocks = BlockRatios(model, h, r);
+    c.records.push_back(std::move(out));
+  }
+  c.words = Words(c);
+  return c;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,39 @@
+#pragma once
+/// The model beside the measurement: error per channel, record and block, over the noise floor.
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "discovery/model/block_ratios.h"
+#include "discovery/model/residual.h"
+
+namespace ambrig {
+
+struct ChannelError {
+  std::string channel;
+  double nrmse = 0, rms_error = 0, noise = 0, ratio = 0;
+  double whiteness = 0;  // correlation of neighbouring residuals, 0: white
+};
+
+struct RecordComparison {
+  std::string data, scenario;
+  bool validate = false;
+  std::vector<ChannelError> channels;
+  BlockErrors blocks;
+  double ratio = 0;
+  std::vector<std::string> frequencies;  // where the error stands out
+};
+
+struct Comparison {
+  std::vector<RecordComparison> records;
+  double ratio = 0, ratio_fit = 0, ratio_validate = 0;
+  std::vector<std::string> words;  // the worst places, named
+  std::vector<double> predicted, residual;
+  double effective = 0;  // independent numbers among the residuals
+};
+
+Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks = true,
+                   const std::function<void(double, const std::string&)>& progress = {});
+
+}  // namespace ambrig

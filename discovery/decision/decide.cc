@@ -1,0 +1,55 @@
+#include "discovery/decision/decide.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+namespace {
+constexpr double kAgrees = 1.05;  // ratio on unseen records that counts as the floor
+// discovery.md: what an effect of the catalogue should reach
+constexpr double kGood = 1.5;
+constexpr double kCompelling = 200;     // gain of the score that no detail of another law brings
+constexpr double kMostExplained = 0.9;  // of the squared error above the floor
+}  // namespace
+
+double ExplainedShare(double before, double after) {
+  const double excess = before * before - 1;
+  return excess <= 0 ? 0 : std::clamp((before * before - after * after) / excess, 0.0, 1.0);
+}
+
+bool Believable(const FitResult& fit) {
+  const auto priors = std::count_if(fit.hypothesis.free.begin(), fit.hypothesis.free.end(),
+                                    [](const FreeParameter& p) { return p.sd > 0; });
+  return fit.penalty <= 2.2 * static_cast<double>(priors);
+}
+
+bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round,
+                   double first_fall) {
+  const double b = before.ratio_validate, a = after.ratio_validate;
+  if (!after.converged || score_gain < 20) return false;
+  if (!Believable(before) && Believable(after) && a < 1.01 * b) return true;
+  // What only the fit records show cannot be seen to hold elsewhere: it must be plain, and do no
+  // harm.
+  if (round == 0 && score_gain > kCompelling &&
+      ExplainedShare(before.ratio_fit, after.ratio_fit) > 0.5 && a < 1.005 * b)
+    return true;
+  // Unseen records decide: the error must fall by more than integrators differ (1 % of the floor's
+  // power), and by a good part of what is left; a second effect by more than a law's own detail.
+  const double fall = b * b - a * a;
+  if (fall < 0.015 + 0.01 * round) return false;
+  const double share = ExplainedShare(b, a);
+  if (round == 0) return share > 0.25;
+  return share > 0.75 || (share > 0.4 && (fall > 0.1 * first_fall || score_gain > kCompelling));
+}
+
+std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted) {
+  if (any_adopted)
+    return final_ratio < kGood || ExplainedShare(base, final_ratio) > kMostExplained ? "effect"
+                                                                                     : "unknown";
+  if (base < kAgrees * 1.05) return nominal < kAgrees ? "none" : "parameters";
+  // Parameters explain all but a trace of a large misfit, and nothing else helps.
+  if (base < kGood && ExplainedShare(nominal, base) > kMostExplained) return "parameters";
+  return "unknown";
+}
+
+}  // namespace ambrig

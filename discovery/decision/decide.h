@@ -1,0 +1,26 @@
+#pragma once
+/// When an effect is believed, and what the verdict is.
+#include "discovery/search/fit.h"
+
+namespace ambrig {
+
+/// Share of the error above the floor that a better model removes on unseen records, 0 to 1.
+double ExplainedShare(double ratio_before, double ratio_after);
+
+/// Whether the shifts of the rig parameters are what their sd allow: Σ (shift/sd)² not above 2.2
+/// times their number (of 11, once in a hundred). Above it an effect may hide in an impossible
+/// parameter.
+bool Believable(const FitResult& fit);
+
+/// Whether the step from `before` to `after` (one more effect) is more than chance and more than a
+/// patch: `round` counts the effects adopted before it, `first_fall` is how far the first one
+/// brought the squared ratio down. What a law leaves in detail must not be sold as a second effect:
+/// that one has to explain most of what is left, or to weigh against the first. An effect that
+/// brings unbelievable parameters back to where they may be is adopted for that alone.
+bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round,
+                   double first_fall);
+
+/// "effect", "parameters", "none" or "unknown" from the ratios on unseen records.
+std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted);
+
+}  // namespace ambrig

@@ -1,0 +1,60 @@
+#pragma once
+/// From a misfit to the missing effect: base fit, screening, full fits of the best, decision on
+/// unseen records, repetition, backward check, verdict. Method: docs/theory/discovery.md.
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "discovery/model/floor.h"
+#include "discovery/model/run_store.h"
+#include "discovery/search/effect_round.h"
+
+namespace ambrig {
+
+struct Confusable {
+  std::string first, second, record;
+};
+
+/// One step of the ladder: what was believed and the error it left.
+struct LadderStep {
+  std::string added;  // "" for the rig file, "parameters", "eddy-currents at A"
+  double ratio_fit = 0, ratio_validate = 0;
+};
+
+/// What no effect explains.
+struct Unexplained {
+  std::string block, where, dependence, text, formula;
+  std::vector<double> frequencies;
+};
+
+struct Explanation {
+  std::string verdict;                     // effect | parameters | none | unknown
+  std::vector<RankedEffect> ranking;       // of the first round, best first
+  std::vector<RankedEffect> second_round;  // of the last round that found anything or nothing
+  std::vector<EffectInstance> adopted;
+  std::vector<std::string> parameter_shifts;  // "bearings.A.gap +1.2 sd"
+  double nominal_ratio_validate = 0, base_ratio_validate = 0, final_ratio_validate = 0;
+  double base_ratio_fit = 0, final_ratio_fit = 0;
+  std::vector<Confusable> confusable;
+  std::vector<LadderStep> ladder;
+  Unexplained unexplained;
+  std::vector<Candidate> screened;  // of the first round
+  std::vector<std::string> warnings;
+  FitResult final_fit;
+  double effective = 0, seconds = 0;
+  long runs = 0;
+};
+
+struct ExplainOptions {
+  int candidates = 5;  // fitted in full per round
+  int rounds = 3;
+  std::function<void(double, const std::string&)> progress;
+  std::function<void(const Explanation&)> checkpoint;  // results as they come
+  const std::atomic<bool>* stop = nullptr;
+  RunStore* store = nullptr;  // simulations of an earlier, interrupted call
+};
+
+Explanation Explain(const Case& c, const ExplainOptions& options);
+
+}  // namespace ambrig

@@ -1,0 +1,30 @@
+#pragma once
+/// How much an error over the floor speaks against a hypothesis. Noise of known size would give n
+/// (R² - 1) with n independent numbers. What a law leaves in detail is no noise: it hangs together
+/// over whole records, so of the excess R² - 1 only about 300 numbers are independent. The two
+/// parts together weigh each squared error
+///   w(R) = n/(1 + (R² - 1) n/300)   and, integrated over R²,   300 ln(1 + (R² - 1) n/300).
+/// At the noise floor that is the full likelihood; far above it a rig parameter is not dragged to
+/// where nobody would believe it just to patch an effect that is missing.
+#include "discovery/search/fit.h"
+
+namespace ambrig {
+
+/// -2 log likelihood of a ratio R to the floor, `n` independent numbers.
+double Misfit(double ratio, double n);
+/// Its derivative to R².
+double MisfitWeight(double ratio, double n);
+
+/// Numbers of one effect that count: the higher harmonics of a profile are no free choice each.
+int PricedParameters(int count);
+
+/// Misfit of both kinds of records, the prior's penalty of the rig parameters and the price of
+/// `parameters` more numbers: smaller is better. `effective`: independent numbers among the
+/// residuals; not more count than the floor itself is known by, and below the floor nothing is
+/// better.
+double Score(const CaseModel& model, double ratio_fit, double ratio_validate, double effective,
+             int parameters, double penalty);
+/// Of a fit, with a price per kind of effect.
+double Score(const CaseModel& model, const FitResult& fit, double effective);
+
+}  // namespace ambrig

@@ -1,0 +1,46 @@
+#include "discovery/model/block_ratios.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/model/floor.h"
+
+namespace ambrig {
+
+BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record) {
+  const CaseRecord& r = model.data().records[record];
+  Hypothesis noisy = h;
+  noisy.rig = WithCaseNoise(h.rig, model.data().noise);
+  CaseRecord own = r;
+  const Record simulated = model.Simulated(noisy, record, true, 21);
+  // The model's own noisy record, cut to the rows and channels of the data.
+  const auto shift = static_cast<std::size_t>(std::lround(r.data.start * simulated.rate));
+  const auto stride =
+      static_cast<std::size_t>(std::max(1L, std::lround(simulated.rate / r.data.rate)));
+  for (Channel& c : own.data.channels) {
+    const Channel* s = simulated.Find(c.name);
+    if (!s) continue;
+    for (std::size_t k = 0; k < c.samples.size(); ++k) {
+      const std::size_t at = shift + k * stride;
+      if (at < s->samples.size()) c.samples[k] = s->samples[at];
+    }
+    const auto it = model.data().noise.find(c.name);
+    if (it != model.data().noise.end() && c.name.find(".f") != std::string::npos)
+      for (std::size_t k = 0; k < c.samples.size(); ++k)
+        c.samples[k] += it->second * (k % 2 == 0 ? 1 : -1);
+  }
+  const BlockErrors measured = BlockRms(h.rig, model.data().rig, r.scenario, r.data),
+                    floor = BlockRms(h.rig, model.data().rig, own.scenario, own.data);
+  BlockErrors out;
+  for (const auto& [block, rms] : measured) {
+    const auto it = floor.find(block);
+    const double least = block == "controller" ? 1e-4
+                         : block == "coil"     ? 1e-4
+                         : block == "sensor"   ? 1e-8
+                                               : 1e-3;
+    out[block] = rms / std::max(least, it == floor.end() ? 0 : it->second);
+  }
+  return out;
+}
+
+}  // namespace ambrig

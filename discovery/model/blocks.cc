@@ -1,0 +1,221 @@
+#include "discovery/model/blocks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "actuators/magnetics/radial_stator.h"
+#include "control/position/pid.h"
+#include "core/record/missing_samples.h"
+#include "discovery/model/residual_force.h"
+#include "rig/rig_assembly.h"
+#include "simulation/switching/switching_engine.h"
+
+namespace ambrig {
+
+namespace {
+
+// [s] after which a loop has forgotten a wrong start or a gap in the data
+constexpr double kSettle = 0.004;
+
+struct Mean {
+  double sum = 0, n = 0;
+  void Add(double error) {
+    if (!std::isfinite(error)) return;
+    sum += error * error;
+    n += 1;
+  }
+  double Rms() const { return n > 0 ? std::sqrt(sum / n) : 0; }
+};
+
+void Put(BlockErrors& out, const std::string& block, const Mean& mean) {
+  if (mean.n > 0) out[block] = mean.Rms();
+}
+
+/// What drives a block: readings, set-points, currents; not a load cell or a thermometer.
+bool Drives(const RigParameters& rig, const std::string& channel) {
+  for (const BearingParameters& b : rig.bearings) {
+    for (const std::string& axis : b.Axes())
+      if (channel == axis) return true;
+    if (channel.starts_with(b.name + ".s") || channel.starts_with(b.name + ".i")) return true;
+  }
+  return false;
+}
+
+/// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
+void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
+                     const BridgedRecord& data, BlockErrors& out) {
+  const Record& d = data.record;
+  // only the PID's start can be told from data
+  if (!nominal.controller.IsPlainPid() || !scenario.switches.empty()) return;
+  if (scenario.start == StartState::kClamped ||
+      std::abs(d.rate - nominal.controller.rate) > 1e-6 * d.rate)
+    return;
+  Mean error;
+  for (const BearingParameters& b : nominal.bearings) {
+    if (b.kind != BearingKind::kRadial) continue;
+    const Channel *y[2] = {d.Find(b.name + ".x"), d.Find(b.name + ".y")}, *s[kPoles];
+    bool complete = y[0] && y[1];
+    for (int j = 0; j < kPoles; ++j)
+      complete = (s[j] = d.Find(fmt::format("{}.s{}", b.name, j + 1))) && complete;
+    if (!complete) continue;
+    const RadialStator stator(b.radial);
+    const PidParameters& pid = PidOf(nominal, b);
+    const double Ts = 1 / nominal.controller.rate, kc = ForceConstant(b) * BiasCurrent(nominal, b);
+    for (int side = 0; side < 2; ++side) {
+      const CoilVector& direction = side == 0 ? stator.cosine() : stator.sine();
+      const auto force = [&](std::size_t k) {  // f = k c0 v, v by projection on the healthy W
+        double v = 0;
+        for (int j = 0; j < kPoles; ++j) v += direction[j] * s[j]->samples[k] / 4;
+        return kc * v;
+      };
+      PidState state;
+      const std::string axis = b.Axes()[static_cast<std::size_t>(side)];
+      const std::size_t settle = 30;  // the derivative's memory
+      double offset = 0;
+      std::vector<double> errors;
+      for (std::size_t k = 0; k + 1 < d.rows(); ++k) {
+        const double t = d.TimeAt(k) + 1e-10;
+        double r = 0, f = 0;
+        for (const Excitation& e : scenario.excitations) {
+          if (e.target != axis) continue;
+          (e.port == "reference" ? r : f) += e.Value(t);
+        }
+        const double out_force =
+            PidStep(pid, Ts, PidFilter(pid, Ts), y[side]->samples[k], r, f, state);
+        errors.push_back(force(k + 1) - out_force);
+        if (k == settle) {  // start the integral where the data stand
+          state.integral += errors.back();
+          offset = 0;
+        }
+      }
+      double mean = 0;
+      double count = 0;
+      for (std::size_t k = settle + 1; k < errors.size(); ++k)
+        if (data.Sound(k + 1)) mean += errors[k] - offset, count += 1;
+      mean /= std::max<double>(1, count);
+      for (std::size_t k = settle + 1; k < errors.size(); ++k)
+        if (data.Sound(k + 1)) error.Add((errors[k] - mean) / kc);
+    }
+  }
+  Put(out, "controller", error);
+}
+
+void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Scenario& scenario,
+               const BridgedRecord& data, BlockErrors& out) {
+  const Record& d = data.record;
+  bool readings = true, set_points = false;
+  for (const BearingParameters& b : rig.bearings) {
+    for (const auto& axis : b.Axes()) readings = readings && d.Find(axis);
+    set_points = set_points || d.Find(b.name + ".s1");
+  }
+  if (!set_points || (!readings && scenario.start != StartState::kClamped)) return;
+  Record forced = d;
+  if (!readings)
+    for (const BearingParameters& b : rig.bearings) {
+      const auto it = scenario.clamp.find(b.name);
+      const auto at = it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+      for (std::size_t side = 0; side < b.Axes().size(); ++side)
+        if (!forced.Find(b.Axes()[side]))
+          forced.channels.push_back({b.Axes()[side], "m", std::vector<double>(d.rows(), at[side])});
+    }
+  Scenario quiet = scenario;
+  quiet.noise = false;
+  EngineOptions options;
+  options.forced = &forced;
+  options.nominal = &nominal;
+  options.watch = false;
+  options.record_rate = RecordRateFor(rig, d.rate);
+  const Record simulated = SwitchingEngine(rig, quiet, options).Run().record;
+  if (std::abs(simulated.rate - d.rate) > 1e-6 * d.rate) return;
+  const auto shift = static_cast<std::size_t>(std::lround(d.start * d.rate));
+  const std::size_t settle =
+      std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kSettle * d.rate));
+  Mean error;
+  for (const BearingParameters& b : rig.bearings)
+    for (int j = 1; j <= b.coils(); ++j) {
+      const Channel *m = d.Find(fmt::format("{}.i{}", b.name, j)),
+                    *p = simulated.Find(fmt::format("{}.i{}", b.name, j));
+      if (!m || !p) continue;
+      for (std::size_t k = settle; k < d.rows() && k + shift < p->samples.size(); ++k)
+        if (data.Sound(k)) error.Add(m->samples[k] - p->samples[k + shift]);
+    }
+  Put(out, "coil", error);
+}
+
+void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, const Record& d,
+                          BlockErrors& out) {
+  if (scenario.start != StartState::kClamped) return;
+  Mean force, sensor;
+  for (const BearingParameters& b : rig.bearings) {
+    const auto it = scenario.clamp.find(b.name);
+    const std::array<double, 2> at =
+        it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
+    const Channel *fx = d.Find(b.name + ".fx"), *fy = d.Find(b.name + ".fy");
+    const Channel* current[kPoles] = {};
+    bool complete = b.kind == BearingKind::kRadial && fx && fy;
+    for (int j = 0; complete && j < kPoles; ++j)
+      complete = (current[j] = d.Find(fmt::format("{}.i{}", b.name, j + 1))) != nullptr;
+    if (complete) {
+      const RadialStator stator(b.radial);
+      for (std::size_t k = 0; k < d.rows(); ++k) {
+        CoilVector i;
+        for (int j = 0; j < kPoles; ++j) i[j] = current[j]->samples[k];
+        const Eigen::Vector2d f = stator.Force({at[0], at[1]}, i);
+        force.Add(fx->samples[k] - f.x());
+        force.Add(fy->samples[k] - f.y());
+      }
+    }
+    if (b.kind != BearingKind::kRadial) continue;
+    // The reading of a rigid, held shaft at the sensor's own plane.
+    const BearingParameters* other = nullptr;
+    for (const auto& o : rig.bearings)
+      if (o.kind == BearingKind::kRadial && o.name != b.name) other = &o;
+    if (!other) continue;
+    const auto ot = scenario.clamp.find(other->name);
+    const std::array<double, 2> far =
+        ot == scenario.clamp.end() ? std::array<double, 2>{0, 0} : ot->second;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Channel* y = d.Find(b.Axes()[side]);
+      if (!y) continue;
+      const double held = at[side] + (far[side] - at[side]) * (b.sensor.z - b.z) / (other->z - b.z);
+      for (double v : y->samples) sensor.Add(v - held);
+    }
+  }
+  Put(out, "force", force);
+  Put(out, "sensor", sensor);
+}
+
+void RotorBlock(const RigParameters& rig, const Scenario& scenario, const BridgedRecord& data,
+                BlockErrors& out) {
+  const Record& d = data.record;
+  const auto f = EstimateResidualForce(rig, scenario, d, 400);
+  if (!f) return;
+  Mean error;
+  const std::size_t edge = static_cast<std::size_t>(kSettle * d.rate);
+  for (const auto& p : f->planes)
+    for (std::size_t k = edge; k + edge < p.fx.size(); ++k) {
+      if (!data.Sound(k) || !data.Sound(k + edge)) continue;  // smoothing reaches both ways
+      error.Add(p.fx[k]);
+      error.Add(p.fy[k]);
+    }
+  Put(out, "rotor", error);
+}
+
+}  // namespace
+
+BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal,
+                     const Scenario& scenario, const Record& d) {
+  BlockErrors out;
+  const BridgedRecord bridged =
+      BridgeMissing(d, kSettle, [&](const std::string& name) { return Drives(rig, name); });
+  ControllerBlock(nominal, scenario, bridged, out);
+  CoilBlock(rig, nominal, scenario, bridged, out);
+  // row by row: a missing sample leaves out its own row
+  ForceAndSensorBlocks(rig, scenario, d, out);
+  RotorBlock(rig, scenario, bridged, out);
+  return out;
+}
+
+}  // namespace ambrig

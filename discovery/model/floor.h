@@ -1,0 +1,20 @@
+#pragma once
+/// What the measurement noise alone would do to every channel: it goes round the control loop, so
+/// the model is run with noise seeds and compared with its noise-free run.
+#include "discovery/model/model.h"
+
+namespace ambrig {
+
+/// Noise of the case put into the rig: sensors, bus.
+RigParameters WithCaseNoise(const RigParameters& rig, const std::map<std::string, double>& noise);
+
+struct NoiseFloor {
+  double effective = 0;       // independent numbers among all residuals (they are coloured)
+  std::vector<double> clean;  // the noise-free prediction that was used
+};
+
+/// Sets the floor of every target (rms) and returns the effective count.
+/// A channel that noise does not reach gets the resolution of what measured it.
+NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h);
+
+}  // namespace ambrig

@@ -1,0 +1,33 @@
+#include "discovery/model/jacobian.h"
+
+namespace ambrig {
+
+Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
+                         const std::vector<double>& predicted,
+                         const std::vector<std::size_t>& parameters, double fraction) {
+  std::vector<Hypothesis> moved;
+  std::vector<double> change;
+  for (std::size_t p : parameters) {
+    Hypothesis m = h;
+    const double here = h.Coordinate(p);
+    m.Set(p, h.ValueAt(p, here + fraction));
+    // at its upper bound
+    if (m.free[p].value == h.free[p].value) m.Set(p, h.ValueAt(p, here - fraction));
+    change.push_back(m.Coordinate(p) - here);
+    moved.push_back(std::move(m));
+  }
+  const auto runs = model.PredictAll(moved);
+  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.size()),
+                                            static_cast<Eigen::Index>(parameters.size()));
+  for (std::size_t c = 0; c < parameters.size(); ++c) {
+    if (!runs[c] || change[c] == 0) continue;
+    for (const Target& t : model.targets())
+      for (std::size_t k = t.first; k < t.first + t.count; ++k)
+        if (model.ok()[k])
+          J(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) =
+              ((*runs[c])[k] - predicted[k]) / t.floor / change[c];
+  }
+  return J;
+}
+
+}  // namespace ambrig

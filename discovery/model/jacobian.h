@@ -1,0 +1,16 @@
+#pragma once
+/// Sensitivities of the residual to the free parameters, by differences, in coordinates where one
+/// unit is one prior sd (or one natural step).
+#include <Eigen/Dense>
+
+#include "discovery/model/residual.h"
+
+namespace ambrig {
+
+/// Column j: d(prediction/floor)/d(coordinate j), by one-sided differences of `fraction` of a step.
+/// Hypotheses that fall out of control leave a zero column.
+Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
+                         const std::vector<double>& predicted,
+                         const std::vector<std::size_t>& parameters, double fraction = 0.3);
+
+}  // namespace ambrig

@@ -1,0 +1,98 @@
+#pragma once
+/// The rig as a function: a hypothesis (rig parameters, effects and their parameters) in, the
+/// channels of every record of a case out, sampled where the data are.
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "discovery/case/case.h"
+#include "discovery/model/run_store.h"
+#include "simulation/sampled/command_plan.h"
+
+namespace ambrig {
+
+/// A number that a fit may move: a toleranced rig parameter or a parameter of an effect.
+struct FreeParameter {
+  std::string path;     // "bearings.A.gap"; for effects "effect[k].name"
+  int effect = -1;      // index of the effect, -1: rig parameter
+  std::size_t row = 0;  // row of the effect's table
+  double value = 0, start = 0;
+  double sd = 0;  // prior (rig parameters); 0: none
+  double lo = 0, hi = 0;
+  double step = 0;  // natural size of a change, for differences and scaling
+  bool logarithmic = false;
+};
+
+/// What is believed: the rig file's parameters and effects with values of the free ones.
+struct Hypothesis {
+  RigParameters rig;  // rig.effects holds the effects
+  std::vector<FreeParameter> free;
+
+  /// Toleranced parameters of the rig as free ones, with their prior; without one the parameters of
+  /// formulas and those that an effect of the rig file gives with an sd.
+  static Hypothesis Base(const RigParameters& rig);
+  /// Adds an effect; its parameters become free.
+  void AddEffect(const EffectInstance& effect);
+  void Set(std::size_t parameter, double value);
+  /// Internal coordinate of a parameter: offset over step, or log ratio; and back.
+  double Coordinate(std::size_t parameter) const;
+  double ValueAt(std::size_t parameter, double coordinate) const;
+};
+
+/// One channel of one record as data of a fit.
+struct Target {
+  std::size_t record = 0, channel = 0;  // into case.records[].data.channels
+  std::size_t first = 0, count = 0;     // rows in the flat vectors
+  double floor = 1;                     // rms that noise alone makes
+  double full_scale = 0;                // rms of the data about its mean
+};
+
+/// Runs hypotheses against the records of a case.
+class CaseModel {
+ public:
+  /// One row of `thin` takes part (at alternating phases, so that nothing periodic hides); 1: all.
+  explicit CaseModel(const Case& c, std::size_t thin = 1);
+
+  const Case& data() const { return case_; }
+  const std::vector<Target>& targets() const { return targets_; }
+  std::vector<Target>& targets() { return targets_; }
+  std::size_t size() const { return measured_.size(); }
+  const std::vector<double>& measured() const { return measured_; }
+  const std::vector<char>& ok() const { return ok_; }
+  /// Index of a row in its channel.
+  std::size_t sample(std::size_t row) const { return sample_[row]; }
+
+  /// Predicted values in the order of the targets; nullopt when the hypothesis falls out of
+  /// control.
+  std::optional<std::vector<double>> Predict(const Hypothesis& h) const;
+  /// The same with noise of a seed: what the data would look like again.
+  std::optional<std::vector<double>> PredictNoisy(const Hypothesis& h, std::uint64_t seed) const;
+  /// Many at once on all cores, in order.
+  std::vector<std::optional<std::vector<double>>> PredictAll(
+      const std::vector<Hypothesis>& all) const;
+  /// Full simulated record of one record's scenario.
+  Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;
+
+  mutable std::atomic<long> runs{0};  // record simulations so far
+  const std::atomic<bool>* stop = nullptr;
+  RunStore* store = nullptr;  // looked up before a record is simulated
+
+ private:
+  /// Flat rows of one record.
+  std::pair<std::size_t, std::size_t> RowsOf(std::size_t record) const;
+  bool SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
+                      std::vector<double>& out) const;
+  bool FillRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
+                  std::vector<double>& out) const;
+
+  const Case& case_;
+  std::vector<Target> targets_;
+  std::vector<double> measured_;
+  std::vector<char> ok_;
+  std::vector<std::size_t> sample_;
+  std::vector<std::unique_ptr<CommandPlan>> plans_;
+};
+
+}  // namespace ambrig

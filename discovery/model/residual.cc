@@ -1,0 +1,49 @@
+#include "discovery/model/residual.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ambrig {
+
+std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted) {
+  std::vector<double> r(model.size());
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      r[k] = model.ok()[k] ? (model.measured()[k] - predicted[k]) / t.floor : 0;
+  return r;
+}
+
+bool Counts(const CaseModel& model, const Target& t, Which which) {
+  if (which == Which::kAll) return true;
+  return model.data().records[t.record].validate == (which == Which::kValidate);
+}
+
+double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t) {
+  double sum = 0, n = 0;
+  for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+    sum += residual[k] * residual[k];
+    n += model.ok()[k];
+  }
+  return n > 0 ? std::sqrt(sum / n) : 0;
+}
+
+double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which) {
+  double sum = 0, n = 0;
+  for (const Target& t : model.targets()) {
+    if (!Counts(model, t, which)) continue;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      sum += residual[k] * residual[k];
+      n += model.ok()[k];
+    }
+  }
+  return n > 0 ? std::sqrt(sum / n) : 0;
+}
+
+double WorstRatio(const CaseModel& model, const std::vector<double>& residual, Which which) {
+  double worst = 0;
+  for (const Target& t : model.targets())
+    if (Counts(model, t, which)) worst = std::max(worst, TargetRatio(model, residual, t));
+  return worst;
+}
+
+}  // namespace ambrig

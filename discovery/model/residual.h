@@ -1,0 +1,22 @@
+#pragma once
+/// Errors of a prediction against the data, in units of the noise floor.
+#include <string>
+#include <vector>
+
+#include "discovery/model/model.h"
+
+namespace ambrig {
+
+/// (measured - predicted)/floor; 0 where a sample does not count.
+std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted);
+
+enum class Which { kFit, kValidate, kAll };
+bool Counts(const CaseModel& model, const Target& t, Which which);
+
+/// Root mean square of a residual over the chosen records: 1 means nothing is left but noise.
+double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which);
+double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t);
+/// Largest ratio of any single channel.
+double WorstRatio(const CaseModel& model, const std::vector<double>& residual, Which which);
+
+}  // namespace ambrig

@@ -1,0 +1,17 @@
+#pragma once
+/// Fits of an effect that the screening proposed, on top of what is believed so far.
+#include "discovery/search/linear_judge.h"
+
+namespace ambrig {
+
+/// Short fits from each of the candidate's starts; the best one, without sensitivities. Not
+/// converged where no start leads anywhere.
+FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
+                     double effective);
+
+/// The fit to the end, from what the short one found. `now` lends its sensitivities to the first
+/// pass.
+FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
+                double effective);
+
+}  // namespace ambrig

@@ -1,0 +1,134 @@
+#include "discovery/search/effect_round.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/decision/decide.h"
+#include "discovery/decision/likelihood.h"
+#include "discovery/search/candidate_fit.h"
+#include "discovery/search/residual_peaks.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
+
+/// Whether the linear screening promises at least half of what adoption would ask for.
+bool Promising(const FitResult& now, const Candidate& c) {
+  const double fall = now.ratio_validate * now.ratio_validate - c.ratio_validate * c.ratio_validate;
+  return fall > 0.012 && ExplainedShare(now.ratio_validate, c.ratio_validate) > 0.17;
+}
+
+/// The best fit so far explains nearly all, and this candidate promises far less.
+bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
+             const Candidate& next) {
+  if (ranking.size() < 2) return false;
+  double best = kInfinity;
+  for (const RankedEffect& r : ranking) best = std::min(best, r.fit.ratio_validate);
+  return ExplainedShare(now.ratio_validate, best) > 0.9 &&
+         next.ratio_validate * next.ratio_validate - 1 > 4 * (best * best - 1);
+}
+
+class Ranker {
+ public:
+  Ranker(const RoundSetting& s, const FitResult& now, int round)
+      : s_(s), now_(now), round_(round) {}
+
+  EffectRound Run() {
+    ScreenOptions screen;
+    screen.effective = s_.effective;
+    screen.progress = [&](double f, const std::string& text) {
+      s_.progress(0.6 * f, "screening " + text);
+    };
+    const auto predicted = s_.full.Predict(now_.hypothesis);
+    const ResidualPeaks peaks =
+        predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
+    out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
+    FitThePromising();
+    Sort();
+    FitToTheEnd();
+    Sort();
+    if (!ranking_.empty() && ranking_[0].fit.jacobian.size() == 0) {
+      ranking_[0].fit = FitOn(s_.model, now_, ranking_[0].fit.hypothesis, s_.effective);
+      Note(ranking_[0]);
+    }
+    SetProbabilities();
+    return std::move(out_);
+  }
+
+ private:
+  void FitThePromising() {
+    const std::vector<Candidate>& candidates = out_.screened;
+    const double here = Score(s_.model, now_, s_.effective);
+    std::size_t next = 0;
+    for (; next < candidates.size() && static_cast<int>(ranking_.size()) < s_.candidates; ++next) {
+      const Candidate& c = candidates[next];
+      // Hopeless ones need no full fit, but a user wants to see a few beside the best.
+      if (c.score > here && (ranking_.size() >= 2 || round_ > 0)) break;
+      if (Decided(now_, ranking_, c) || (round_ > 0 && !Promising(now_, c))) break;
+      FitTheStart(c);
+    }
+    // A resonance shows only when it is fitted; later rounds try that where much is left.
+    for (; next < candidates.size() && (round_ == 0 || now_.ratio_validate > 1.3); ++next)
+      if (candidates[next].narrow && !Decided(now_, ranking_, candidates[next]))
+        FitTheStart(candidates[next]);
+  }
+
+  void FitTheStart(const Candidate& c) {
+    s_.progress(0.6 + 0.07 * std::min(4.0, static_cast<double>(ranking_.size())),
+                "fitting " + Named(c.effect));
+    RankedEffect r;
+    r.fit = FitBriefly(s_.model, now_, c, s_.effective);
+    r.screened_ratio = c.ratio_validate;
+    if (!r.fit.converged) return;
+    Note(r);
+    ranking_.push_back(std::move(r));
+  }
+
+  /// The best, and the next where the short fits left it open.
+  void FitToTheEnd() {
+    for (std::size_t k = 0; k < std::min<std::size_t>(ranking_.size(), 2); ++k) {
+      if (k > 0 && ranking_[k].score > ranking_[0].score + kOpen) break;
+      s_.progress(0.95, "full fit of " + Named(ranking_[k].effect));
+      FitResult fit = FitOn(s_.model, now_, ranking_[k].fit.hypothesis, s_.effective);
+      if (!fit.converged) continue;
+      ranking_[k].fit = std::move(fit);
+      Note(ranking_[k]);
+    }
+  }
+
+  /// Values and score of the fit of a ranked effect.
+  void Note(RankedEffect& r) const {
+    r.effect = FittedEffect(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
+    r.score = Score(s_.model, r.fit, s_.effective);
+  }
+
+  void Sort() {
+    std::stable_sort(ranking_.begin(), ranking_.end(),
+                     [](const auto& a, const auto& b) { return a.score < b.score; });
+  }
+
+  void SetProbabilities() {
+    double sum = 0;
+    for (RankedEffect& r : ranking_)
+      sum += r.probability = std::exp(-0.5 * (r.score - ranking_[0].score));
+    for (RankedEffect& r : ranking_) r.probability /= sum;
+  }
+
+  const RoundSetting& s_;
+  const FitResult& now_;
+  int round_;
+  EffectRound out_;
+  std::vector<RankedEffect>& ranking_ = out_.ranking;
+};
+
+}  // namespace
+
+std::string Named(const EffectInstance& e) { return e.name + " at " + e.target; }
+
+EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round) {
+  return Ranker(setting, now, round).Run();
+}
+
+}  // namespace ambrig

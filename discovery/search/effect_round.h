@@ -1,0 +1,39 @@
+#pragma once
+/// One round of explain: every effect screened linearly, the best fitted to the records, ranked by
+/// what they explain. Method: docs/theory/discovery.md.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "discovery/search/screen.h"
+
+namespace ambrig {
+
+struct RankedEffect {
+  FitResult fit;          // with the effect (and what was adopted before it)
+  EffectInstance effect;  // fitted values and sd
+  double score = 0, probability = 0;
+  double screened_ratio = 0;  // what the linear screening promised on unseen records
+};
+
+/// "eddy-currents at A"
+std::string Named(const EffectInstance& e);
+
+/// What a round works with.
+struct RoundSetting {
+  const CaseModel &full, &model;  // all rows: frequencies; some: the fits
+  SignatureBank& bank;
+  double effective = 1;  // independent numbers among the residuals
+  int candidates = 5;    // fitted in full
+  std::function<void(double, const std::string&)> progress;  // of this round, 0 to 1
+};
+
+struct EffectRound {
+  std::vector<RankedEffect> ranking;  // best first
+  std::vector<Candidate> screened;
+};
+
+/// Effects to add to `now`, which has `round` effects already.
+EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round);
+
+}  // namespace ambrig

@@ -1,0 +1,43 @@
+#pragma once
+/// Maximum-a-posteriori fit of a hypothesis to the fit records: errors over the noise floor, rig
+/// parameters under their Gaussian prior, bounds kept (Ceres, Levenberg-Marquardt). The door to
+/// Ceres. The weight of the errors follows the ratio reached (discovery/decision/likelihood.h) and is
+/// renewed from pass to pass.
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+#include "discovery/model/residual.h"
+
+namespace ambrig {
+
+struct FitOptions {
+  int iterations = 4;  // of each pass
+  // each with a new weight and new sensitivities of the rig parameters
+  int passes = 4;
+  bool sensitivities = true;  // sd, warnings and Jacobian at the optimum
+  double effective = 1;       // independent numbers among the residuals
+  // ratio_fit of a hypothesis within this one: what the errors are weighed by when the start is worse
+  double reached = kInfinity;
+  // its first columns: the rig parameters, for the first pass
+  const Eigen::MatrixXd* base_jacobian = nullptr;
+};
+
+struct FitResult {
+  Hypothesis hypothesis;  // at the optimum
+  std::vector<double> predicted, residual;
+  std::vector<double> sd;  // of the free parameters, their own units
+  double ratio_fit = 0, ratio_validate = 0;
+  double penalty = 0;  // Σ (shift/sd)² of the rig parameters
+  bool converged = false;
+  std::vector<std::string> warnings;  // at a bound, without influence, strongly correlated
+  Eigen::MatrixXd jacobian;           // of prediction/floor, a column per free parameter
+};
+
+/// A fit that finds no better point says so (`converged` false), it never passes for a result.
+FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options);
+
+/// Fitted values and sd of the effect number `index` of the hypothesis.
+EffectInstance FittedEffect(const FitResult& fit, std::size_t index);
+
+}  // namespace ambrig

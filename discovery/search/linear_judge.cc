@@ -1,0 +1,179 @@
+#include "discovery/search/linear_judge.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "discovery/decision/likelihood.h"
+
+namespace ambrig {
+
+using Eigen::Index;
+
+namespace {
+int Priced(const SignatureBank::Entry& entry) {
+  return PricedParameters(static_cast<int>(entry.group.probes[0].table.size()));
+}
+}  // namespace
+
+LinearJudge::LinearJudge(const CaseModel& model, const FitResult& base, SignatureBank& bank,
+                         double effective)
+    : model_(model),
+      base_(base),
+      effective_(effective),
+      nb_(base.jacobian.cols()),
+      bank_(bank.Products(model)) {
+  Eigen::MatrixXd columns(static_cast<Index>(model.size()), nb_ + 1);
+  columns.leftCols(nb_) = base.jacobian;
+  columns.col(nb_) =
+      Eigen::Map<const Eigen::VectorXd>(base.residual.data(), static_cast<Index>(model.size()));
+  own_ = RowProducts(model, columns, columns);
+  with_ = bank.ProductsWith(model, columns);
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      (Counts(model, t, Which::kFit) ? n_fit_ : n_validate_) += model.ok()[k];
+}
+
+std::vector<LinearJudge::Column> LinearJudge::ColumnsOf(const SignatureBank::Entry& entry) {
+  std::vector<Column> out;
+  const ProbeGroup& g = entry.group;
+  for (Index k = 0; k < entry.count(); ++k) {
+    Column c = {entry.first + k, 0, 0};
+    if (g.linear) {
+      const std::size_t row = g.rows[static_cast<std::size_t>(k)];
+      const EffectParameter& p = g.probes[0].table[row];
+      const double size = g.probes[static_cast<std::size_t>(k)].values[row] - p.null_value;
+      c.lo = (p.lo - p.null_value) / size;
+      c.hi = (p.hi - p.null_value) / size;
+      if (size < 0) std::swap(c.lo, c.hi);
+    } else {
+      // A signature of finite size is believed near its own size, a resonance's over decades.
+      c.lo = g.scaling.empty() ? 0.5 : 0.01;
+      c.hi = g.scaling.empty() ? 2.0 : 30;
+    }
+    out.push_back(c);
+  }
+  return out;
+}
+
+Gram LinearJudge::Assemble(const std::vector<Column>& columns) const {
+  const Index m = static_cast<Index>(columns.size()), n = nb_ + 1 + m;
+  Gram g = {Eigen::MatrixXd(n, n), Eigen::MatrixXd(n, n)};
+  for (auto [all, own, with, bank] :
+       {std::tuple{&g.fit, &own_.fit, &with_.fit, &bank_.fit},
+        std::tuple{&g.validate, &own_.validate, &with_.validate, &bank_.validate}}) {
+    all->topLeftCorner(nb_ + 1, nb_ + 1) = *own;
+    for (Index i = 0; i < m; ++i) {
+      const Index a = columns[static_cast<std::size_t>(i)].at;
+      all->block(0, nb_ + 1 + i, nb_ + 1, 1) = with->col(a);
+      all->block(nb_ + 1 + i, 0, 1, nb_ + 1) = with->col(a).transpose();
+      for (Index j = 0; j < m; ++j)
+        (*all)(nb_ + 1 + i, nb_ + 1 + j) = (*bank)(a, columns[static_cast<std::size_t>(j)].at);
+    }
+  }
+  return g;
+}
+
+LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int parameters) const {
+  const Gram g = Assemble(columns);
+  const Index m = static_cast<Index>(columns.size());
+  Solution s;
+  double ratio = std::max(1.0, base_.ratio_fit), penalty = 0;
+  std::vector<double> fixed(columns.size(), std::nan(""));
+  for (int pass = 0; pass < 3 + static_cast<int>(m); ++pass) {
+    // Coefficients c = [-shift, 1, -amount] of [rig columns, residual, signatures] with the least
+    // error.
+    Eigen::VectorXd c = Eigen::VectorXd::Zero(nb_ + 1 + m);
+    c(nb_) = 1;
+    std::vector<Index> free;
+    for (Index k = 0; k < nb_; ++k) free.push_back(k);
+    for (Index k = 0; k < m; ++k)
+      if (std::isnan(fixed[static_cast<std::size_t>(k)]))
+        free.push_back(nb_ + 1 + k);
+      else
+        c(nb_ + 1 + k) = -fixed[static_cast<std::size_t>(k)];
+    const double weight = MisfitWeight(ratio, effective_) / static_cast<double>(model_.size());
+    const Eigen::VectorXd known = g.fit * c;
+    Eigen::MatrixXd A = weight * g.fit(free, free);
+    Eigen::VectorXd b = -weight * known(free);
+    for (Index i = 0; i < static_cast<Index>(free.size()); ++i) {
+      const Index k = free[static_cast<std::size_t>(i)];
+      const bool prior = k < nb_ && base_.hypothesis.free[static_cast<std::size_t>(k)].sd > 0;
+      A(i, i) += prior ? 1 : 1e-9 * A(i, i) + 1e-12;
+      if (prior) b(i) += base_.hypothesis.Coordinate(static_cast<std::size_t>(k));
+    }
+    const Eigen::VectorXd x = A.ldlt().solve(b);
+    c(free) = x;
+    penalty = 0;
+    for (Index k = 0; k < nb_; ++k)
+      if (base_.hypothesis.free[static_cast<std::size_t>(k)].sd > 0)
+        penalty += std::pow(base_.hypothesis.Coordinate(static_cast<std::size_t>(k)) - c(k), 2);
+    s.amount = -c.tail(m);
+    s.ratio_fit = std::sqrt(std::max(0.0, c.dot(g.fit * c)) / std::max(1.0, n_fit_));
+    s.ratio_validate = n_validate_ > 0
+                           ? std::sqrt(std::max(0.0, c.dot(g.validate * c)) / n_validate_)
+                           : s.ratio_fit;
+    // The amount furthest outside its limits stays at the limit.
+    Index worst = -1;
+    double most = 1e-9;
+    for (Index k = 0; k < m; ++k) {
+      const Column& l = columns[static_cast<std::size_t>(k)];
+      const double outside = std::max(l.lo - s.amount(k), s.amount(k) - l.hi);
+      if (std::isnan(fixed[static_cast<std::size_t>(k)]) && outside > most)
+        most = outside, worst = k;
+    }
+    if (worst >= 0) {
+      const Column& l = columns[static_cast<std::size_t>(worst)];
+      fixed[static_cast<std::size_t>(worst)] = std::clamp(s.amount(worst), l.lo, l.hi);
+    } else if (s.ratio_fit > 0.95 * ratio) {
+      break;
+    }
+    ratio = std::max(1.0, s.ratio_fit);
+  }
+  s.score = Score(model_, s.ratio_fit, s.ratio_validate, effective_, parameters, penalty);
+  return s;
+}
+
+EffectInstance LinearJudge::Start(const SignatureBank::Entry& entry, const Eigen::VectorXd& amount,
+                                  Index first) {
+  const ProbeGroup& g = entry.group;
+  EffectInstance e = g.probes[0];
+  for (const auto& [row, power] : g.scaling)
+    e.values[row] = std::clamp(e.values[row] * std::pow(amount(first), power), e.table[row].lo,
+                               e.table[row].hi);
+  if (!g.linear) return e;
+  for (std::size_t k = 0; k < g.rows.size(); ++k) {
+    const std::size_t row = g.rows[k];
+    const EffectParameter& p = e.table[row];
+    const double size = g.probes[k].values[row] - p.null_value,
+                 a = amount(first + static_cast<Index>(k));
+    double value = p.null_value + a * size;
+    const double margin = 1e-3 * std::abs(size);  // a start off the null, inside the bounds
+    if (std::abs(value - p.null_value) < margin) value = p.null_value + (a < 0 ? -margin : margin);
+    e.values[row] = std::clamp(value, p.lo, p.hi);
+    if (e.values[row] == p.null_value)
+      e.values[row] = std::clamp(p.null_value + 0.1 * size, p.lo, p.hi);
+  }
+  return e;
+}
+
+Candidate LinearJudge::Single(const SignatureBank::Entry& entry) const {
+  const Solution s = Solve(ColumnsOf(entry), Priced(entry));
+  Candidate c = {Start(entry, s.amount, 0), s.score, s.ratio_fit, s.ratio_validate,
+                 entry.group.narrow,        {}};
+  // Beside its true frequency a resonance seems smaller than it is.
+  if (c.narrow) c.other_starts.push_back(Start(entry, 2 * s.amount, 0));
+  return c;
+}
+
+CandidatePair LinearJudge::Pair(const SignatureBank::Entry& first,
+                                const SignatureBank::Entry& second) const {
+  std::vector<Column> columns = ColumnsOf(first);
+  const std::vector<Column> more = ColumnsOf(second);
+  columns.insert(columns.end(), more.begin(), more.end());
+  const Solution s = Solve(columns, Priced(first) + Priced(second));
+  return {Start(first, s.amount, 0), Start(second, s.amount, first.count()), s.score, s.ratio_fit,
+          s.ratio_validate};
+}
+
+}  // namespace ambrig

@@ -1,0 +1,59 @@
+#pragma once
+/// What one or several effects would explain of a residual if the model were linear in them: the
+/// rig parameters' signatures are fitted beside theirs under the prior, bounds of the effects'
+/// parameters kept, on the fit records; what is left there and on the unseen records is the score.
+#include "discovery/search/signature_bank.h"
+
+namespace ambrig {
+
+struct Candidate {
+  EffectInstance effect;                     // where a full fit should start
+  double score = 0;                          // smaller is better, in units of 2 log likelihood
+  double ratio_fit = 0, ratio_validate = 0;  // predicted by the linear step
+  bool narrow = false;  // a resonance: the linear step says little, only a fit does
+  // of the same effect at the same target, worse at first sight
+  std::vector<EffectInstance> other_starts;
+};
+constexpr std::size_t kOtherStarts = 1, kResonanceStarts = 9;
+
+/// Two effects at once: what each starts from, and what they would leave together.
+struct CandidatePair {
+  EffectInstance first, second;
+  double score = 0, ratio_fit = 0, ratio_validate = 0;
+};
+
+class LinearJudge {
+ public:
+  /// `base`: the fit so far with its sensitivities; `bank` may hold effects that `base` has
+  /// already.
+  LinearJudge(const CaseModel& model, const FitResult& base, SignatureBank& bank, double effective);
+
+  Candidate Single(const SignatureBank::Entry& entry) const;
+  CandidatePair Pair(const SignatureBank::Entry& first, const SignatureBank::Entry& second) const;
+
+ private:
+  struct Solution {
+    Eigen::VectorXd amount;  // of each signature
+    double score = 0, ratio_fit = 0, ratio_validate = 0;
+  };
+  /// A signature's amount and the limits within which it is believed.
+  struct Column {
+    Eigen::Index at = 0;
+    double lo = 0, hi = 0;
+  };
+  static std::vector<Column> ColumnsOf(const SignatureBank::Entry& entry);
+  Solution Solve(const std::vector<Column>& columns, int parameters) const;
+  Gram Assemble(const std::vector<Column>& columns) const;
+  static EffectInstance Start(const SignatureBank::Entry& entry, const Eigen::VectorXd& amount,
+                              Eigen::Index first);
+
+  const CaseModel& model_;
+  const FitResult& base_;
+  double effective_;
+  Eigen::Index nb_;  // free parameters of the base
+  Gram own_, with_;  // [rig columns, residual] among themselves and with the bank
+  const Gram& bank_;
+  double n_fit_ = 0, n_validate_ = 0;
+};
+
+}  // namespace ambrig

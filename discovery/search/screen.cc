@@ -1,0 +1,184 @@
+#include "discovery/search/screen.h"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "rig/rig_assembly.h"
+
+namespace ambrig {
+
+namespace {
+
+/// Effects that no record of the case could show.
+bool CannotShow(const EffectDescription& d, const CaseModel& model) {
+  if (d.id == "formula") return true;
+  const Case& c = model.data();
+  bool moving = false, free_speed = false, contact = false, levitated = false;
+  for (const CaseRecord& r : c.records) {
+    moving = moving || r.scenario.speed.Speed(0) != 0 ||
+             r.scenario.speed.Speed(r.scenario.duration) != 0;
+    free_speed = free_speed || r.scenario.speed_free_from < r.scenario.duration;
+    contact = contact || r.scenario.start == StartState::kResting || !r.scenario.faults.empty();
+    levitated = levitated || r.scenario.start != StartState::kClamped;
+  }
+  const bool chopper = c.rig.amplifier.modulation == Modulation::kChopper;
+  if (d.id == "freewheel-drop") return !chopper;
+  if (d.id == "windage") return !free_speed;
+  if (d.id == "contact-friction" || d.id == "contact-mount") return !contact;
+  static const std::set<std::string> turning = {"unbalance", "shaft-bow", "sensor-runout",
+                                                "coupling-misalignment", "rotating-damping"};
+  if (turning.contains(d.id) && !moving) return true;
+  static const std::set<std::string> rotor = {"unbalance",
+                                              "shaft-bow",
+                                              "bending-mode",
+                                              "rotating-damping",
+                                              "cross-coupling",
+                                              "side-pull",
+                                              "coupling-misalignment",
+                                              "base-mode",
+                                              "base-vibration",
+                                              "constant-load",
+                                              "loop-delay",
+                                              "sensor-lowpass"};
+  return rotor.contains(d.id) && !levitated;
+}
+
+bool SeeksFrequency(const EffectDescription& d) {
+  return std::any_of(d.parameters.begin(), d.parameters.end(),
+                     [](const EffectParameter& p) { return p.name == "frequency"; });
+}
+
+bool Present(const Hypothesis& h, const EffectInstance& e) {
+  return std::any_of(h.rig.effects.begin(), h.rig.effects.end(), [&](const EffectInstance& o) {
+    return o.name == e.name && o.target == e.target;
+  });
+}
+
+/// The coil of a bearing that has no other: the bearing as a target says the same.
+bool OnlyCoil(const RigParameters& rig, const EffectDescription& d, const std::string& target) {
+  const BearingParameters* b = rig.Find(target.substr(0, target.find('.')));
+  return b && b->coils() == 1 && d.target == TargetKind::kCoilOrBearing;
+}
+
+bool Same(const EffectInstance& a, const EffectInstance& b) {
+  return a.name == b.name && a.target == b.target;
+}
+
+/// Probes of one kind of target (coils or the others) that the bank does not hold yet.
+std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& base,
+                                    const ResidualPeaks& peaks, bool coils,
+                                    const ScreenOptions& options, const SignatureBank& bank) {
+  std::vector<ProbeGroup> groups;
+  const bool again = !bank.entries().empty();
+  const EffectTargets targets = TargetsOfEffects(model.data().rig);
+  for (const EffectDescription& d : Catalogue()) {
+    if (!options.effect.empty() && d.id != options.effect) continue;
+    if (options.effect.empty() && (CannotShow(d, model) || (again && !coils && !SeeksFrequency(d))))
+      continue;
+    for (const std::string& target : TargetsOf(d, targets)) {
+      if (!options.target.empty() && target != options.target) continue;
+      const bool coil = target.find(".coil") != std::string::npos;
+      if (coil != coils ||
+          (coil && options.target.empty() && OnlyCoil(model.data().rig, d, target)))
+        continue;
+      for (ProbeGroup& g : ProbesOf(d, target, model, peaks))
+        if (!Present(base.hypothesis, g.probes[0]) && !bank.Holds(g.probes[0]))
+          groups.push_back(std::move(g));
+    }
+  }
+  return groups;
+}
+
+/// Best start of every (effect, target) that the fit does not hold yet, with the next best beside
+/// it.
+std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, SignatureBank& bank,
+                            double effective) {
+  const LinearJudge judge(model, base, bank, effective);
+  std::vector<Candidate> all, out;
+  for (const SignatureBank::Entry& entry : bank.entries()) {
+    if (Present(base.hypothesis, entry.group.probes[0])) continue;
+    all.push_back(judge.Single(entry));
+    if (!std::isfinite(all.back().score)) all.pop_back();
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.score < b.score; });
+  for (Candidate& c : all) {
+    auto same = std::find_if(out.begin(), out.end(),
+                             [&](const Candidate& o) { return Same(o.effect, c.effect); });
+    if (same == out.end()) {
+      out.push_back(std::move(c));
+      continue;
+    }
+    if (same->other_starts.size() >= (c.narrow ? kResonanceStarts : kOtherStarts)) continue;
+    same->other_starts.push_back(c.effect);
+    same->other_starts.insert(same->other_starts.end(), c.other_starts.begin(),
+                              c.other_starts.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
+                              const ResidualPeaks& peaks, const ScreenOptions& options,
+                              SignatureBank& bank) {
+  const bool again = !bank.entries().empty();
+  const auto part = [&](double from, double to) {
+    return [&options, from, to](double f, const std::string& text) {
+      if (options.progress) options.progress(from + (to - from) * f, text);
+    };
+  };
+  bank.Simulate(model, base, GroupsToRun(model, base, peaks, false, options, bank), part(0, 0.7));
+  std::vector<Candidate> out = Rank(model, base, bank, options.effective);
+  if (again) return out;
+  // Single coils are many; they are tried where nothing else explains nearly all.
+  const auto open = [](double before, double after) {
+    return after * after - 1 > 0.12 * std::max(0.05, before * before - 1);
+  };
+  if (!options.effect.empty() || out.empty() || open(base.ratio_fit, out[0].ratio_fit) ||
+      open(base.ratio_validate, out[0].ratio_validate)) {
+    bank.Simulate(model, base, GroupsToRun(model, base, peaks, true, options, bank), part(0.7, 1));
+    out = Rank(model, base, bank, options.effective);
+  }
+  return out;
+}
+
+std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& base,
+                                       double effective, SignatureBank& bank, std::size_t count) {
+  const LinearJudge judge(model, base, bank, effective);
+  const auto& entries = bank.entries();
+  // with a later entry, one per (effect, target)
+  std::vector<std::vector<CandidatePair>> best_of(entries.size());
+  tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
+    const EffectInstance& a = entries[i].group.probes[0];
+    if (Present(base.hypothesis, a)) return;
+    std::vector<CandidatePair>& best = best_of[i];
+    for (std::size_t j = i + 1; j < entries.size(); ++j) {
+      const EffectInstance& b = entries[j].group.probes[0];
+      if (Same(a, b) || Present(base.hypothesis, b)) continue;
+      CandidatePair p = judge.Pair(entries[i], entries[j]);
+      if (std::isfinite(p.score)) best.push_back(std::move(p));
+    }
+    const std::size_t keep = std::min(best.size(), 4 * count);
+    std::partial_sort(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(keep), best.end(),
+                      [](const auto& x, const auto& y) { return x.score < y.score; });
+    best.resize(keep);
+  });
+  std::vector<CandidatePair> all, out;
+  for (auto& some : best_of) all.insert(all.end(), some.begin(), some.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& x, const auto& y) { return x.score < y.score; });
+  for (CandidatePair& p : all) {
+    if (out.size() >= count) break;
+    if (std::none_of(out.begin(), out.end(), [&](const CandidatePair& o) {
+          return Same(o.first, p.first) && Same(o.second, p.second);
+        }))
+      out.push_back(std::move(p));
+  }
+  return out;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,87 @@
+#pragma once
+/// Fault tolerance of a rig at run time: one detector per bearing (fdd/), built from the nominal
+/// rig, then redistribution of the currents (faulttolerance/) over the coils that are left.
+///
+/// After a diagnosis of a coil fault, in the same period:
+///   - a lost coil (open, amplifier, switch, sensor) is disabled; a partial short keeps 1 - s turns
+///   - W of the bearing's failure set replaces the map: the next set-points use it, the force
+///     command of the position loop stays as it is (bumpless in force)
+///   - every amplifier's integral is moved by what its new current needs (bumpless in voltage)
+/// Thrust bearings: the winding that is left on a side carries the missing ampere-turns.
+#include <deque>
+#include <map>
+#include <memory>
+
+#include "faulttolerance/redistribution/redistribution_table.h"
+#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/supervisor.h"
+#include "fdd/detectors/bearing_detector.h"
+#include "fdd/measurement/detection_feed.h"
+#include "rig/rig_parameters.h"
+
+namespace ambrig {
+
+struct FaultSupervisorOptions {
+  bool redistribute = true;
+  /// auto: W when it is exact or its force at the command of now is true within 15 % (and what W
+  /// leaves open is small), else force by force (faulttolerance/redistribution/force_inverse.h) where that holds,
+  /// else the W of least error. matrix: always W. force-by-force: always that, where it holds.
+  std::string redistribution = "auto";
+  std::string hand_over = kDefaultHandOver;
+  bool stiffness_compensation = true;  // f + (K_healthy - K_W) x
+  bool slopes = false;                 // slope traces round the first alarm, for the report
+  std::string cache_dir;               // of the redistribution tables; empty: memory only
+};
+
+class FaultSupervisor : public Supervisor {
+ public:
+  FaultSupervisor(const RigParameters& nominal, const FaultSupervisorOptions& options);
+  ~FaultSupervisor() override;
+
+  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
+                   std::vector<RunEvent>& events) override;
+  /// Adds the slope traces and the number of coil-periods watched.
+  void Finish(RunResult& result) override;
+
+  double coil_periods() const { return coil_periods_; }
+  const BearingDetector& detector(std::size_t bearing) const;
+
+ private:
+  struct Watched;
+  void WatchBus(double t, double reading, std::vector<RunEvent>& events);
+  void WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events);
+  void WatchBearing(std::size_t k, const PeriodMeasurement& m, std::vector<BearingControl>& control,
+                    std::vector<RunEvent>& events);
+  /// What is left of the coil's turns; a lost coil's bridge is kept off.
+  static void Disable(Watched& w, const Diagnosis& d, BearingControl& control);
+  void Redistribute(Watched& w, const Diagnosis& d, BearingControl& control,
+                    std::vector<RunEvent>& events);
+  /// The radial bearing's new map for `force` [N] after its faults; returns its class for the
+  /// record.
+  std::string NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map);
+  /// The way from the set-points in force to those of the new map.
+  std::unique_ptr<HandOver> NewHandOver(const Watched& w, const CurrentMap& old,
+                                        const Eigen::Vector2d& force,
+                                        const BearingControl& control) const;
+  void TraceSlopes(double t);
+
+  const RigParameters rig_;
+  FaultSupervisorOptions options_;
+  double T_ = 0;  // [s]
+  bool bus_sagged_ = false;
+  double bus_ = 0, bus_weight_ = 1;  // smoothed reading [V]; share of each new one
+  DetectionFeed feed_;
+  std::vector<std::unique_ptr<Watched>> watched_;
+  double coil_periods_ = 0;
+
+  struct SlopeRow {
+    double t = 0;
+    std::vector<std::array<Lane, 3>> bearings;  // slope, expected, half-width
+  };
+  std::deque<SlopeRow> rows_;
+  double first_alarm_ = -1;
+  std::size_t alarm_bearing_ = 0;
+  int alarm_coil_ = 0;
+};
+
+}  // namespace ambrig

@@ -1,0 +1,51 @@
+#include "faulttolerance/supervision/hand_over_policy.h"
+
+namespace ambrig {
+
+namespace {
+
+class BiasFirst : public HandOver {
+ public:
+  explicit BiasFirst(const HandOverStart& s)
+      : bias_(s.bias_before.cwiseProduct(Live(s))),
+        control_(s.now - bias_),
+        bias_after_(s.bias_after),
+        step_(RampStep(s)),
+        least_(s.bearing.quadrants == 2 ? 0 : -s.bearing.i_max),
+        most_(s.bearing.i_max) {}
+  SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d&) override {
+    if (done_) return wanted;
+    const SetPointVector bias = Toward(bias_, bias_after_);
+    if (bias != bias_) {
+      bias_ = bias;
+    } else {
+      const SetPointVector control = wanted - bias_;
+      control_ = Toward(control_, control);
+      done_ = control_ == control;
+    }
+    return (bias_ + control_).cwiseMax(least_).cwiseMin(most_);
+  }
+  bool done() const override { return done_; }
+  std::unique_ptr<HandOver> Clone() const override { return std::make_unique<BiasFirst>(*this); }
+
+ private:
+  static Coils Live(const HandOverStart& s) {
+    return (s.bearing.turns_left.array() > 0).cast<double>();
+  }
+  SetPointVector Toward(const SetPointVector& from, const SetPointVector& to) const {
+    return from + (to - from).cwiseMin(step_).cwiseMax(-step_);
+  }
+
+  SetPointVector bias_, control_, bias_after_;
+  Coils step_;
+  double least_, most_;
+  bool done_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<HandOver> MakeBiasFirst(const HandOverStart& start) {
+  return std::make_unique<BiasFirst>(start);
+}
+
+}  // namespace ambrig

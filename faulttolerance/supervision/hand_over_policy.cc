@@ -1,0 +1,32 @@
+#include "faulttolerance/supervision/hand_over_policy.h"
+
+#include "core/base/errors.h"
+#include "core/math/constants.h"
+
+namespace ambrig {
+
+CoilForm InductanceOf(const HandOverStart& s) {
+  const RedistributionProblem& b = s.bearing;
+  const Coils m = b.turns * b.turns_left.cwiseProduct(b.sign);
+  const double P = kMu0 * b.pole_area / b.gap;
+  CoilForm L = P * (CoilForm(m.cwiseAbs2().asDiagonal()) - m * m.transpose() / 8);
+  for (int j = 0; j < 8; ++j)
+    L(j, j) += b.turns_left[j] > 0 ? s.leakage * b.turns_left[j] * b.turns_left[j] : 1.0;
+  return L;
+}
+
+Coils RampStep(const HandOverStart& s) {
+  return s.voltage * s.period * InductanceOf(s).diagonal().cwiseInverse();
+}
+
+std::unique_ptr<HandOver> MakeHandOver(const std::string& name, const HandOverStart& start) {
+  if (name == "jump") return MakeJump();
+  if (name == "ramp") return MakeRamp(start);
+  if (name == "bias-first") return MakeBiasFirst(start);
+  if (name == "force-preserving") return MakeForcePreserving(start);
+  if (name == "time-optimal") return MakeTimeOptimal(start);
+  Require(false, "a hand-over policy");
+  return nullptr;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,258 @@
+#include "rig/rig_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "rig/rig_assembly.h"
+#include "rig/rig_rotor.h"
+
+namespace ambrig {
+
+namespace {
+
+void ReadSensor(const TomlTable& bearing, BearingParameters& b,
+                std::vector<Tolerance>* tolerances) {
+  const auto t = bearing.Table("sensor");
+  if (!t) bearing.Fail("sensor", "is missing, allowed: { z = m, noise = m }");
+  if (b.kind == BearingKind::kThrust) b.sensor.z = 0;
+  if (b.kind == BearingKind::kOpposed && !std::isfinite(b.sensor.z)) b.sensor.z = b.z;
+  t->Read(b.sensor, kSensorFields, tolerances);
+  t->RejectUnknownKeys();
+}
+
+void ReadAuxiliary(const TomlTable& bearing, BearingParameters& b, double gap) {
+  const auto t = bearing.Table("auxiliary");
+  if (t) {
+    AuxiliaryParameters p = b.auxiliary.value_or(AuxiliaryParameters{});
+    t->Read(p, kAuxiliaryFields);
+    if (b.kind == BearingKind::kRadial && t->Has("z")) b.auxiliary_z = t->Number("z");
+    t->RejectUnknownKeys();
+    b.auxiliary = p;
+    if (p.clearance >= gap)
+      t->Fail("clearance",
+              fmt::format("= {} m, allowed: smaller than the gap of {} m (the rotor would "
+                          "touch the poles first)",
+                          p.clearance, gap));
+  } else if (b.auxiliary && b.auxiliary->clearance >= gap) {
+    bearing.Fail("gap", fmt::format("= {} m, allowed: larger than the auxiliary clearance of {} m",
+                                    gap, b.auxiliary->clearance));
+  }
+}
+
+void CheckWinding(const TomlTable& t, const std::string& winding) {
+  if (winding.size() != kPoles || winding.find_first_not_of("NS") != std::string::npos)
+    t.Fail("winding",
+           fmt::format("= \"{}\", allowed: eight letters N or S, e.g. NSNSNSNS", winding));
+}
+
+double Gap(const BearingParameters& b) {
+  return b.kind == BearingKind::kRadial   ? b.radial.gap
+         : b.kind == BearingKind::kThrust ? b.thrust.gap
+                                          : b.opposed.gap;
+}
+
+void ReadStator(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
+  switch (b.kind) {
+    case BearingKind::kRadial: {
+      const long long poles = t.Integer("poles", kPoles);
+      if (poles != kPoles) t.Fail("poles", fmt::format("= {}, allowed: 8", poles));
+      b.radial.winding = t.String("winding", b.radial.winding);
+      CheckWinding(t, b.radial.winding);
+      t.Read(b.radial, kRadialStatorFields, tolerances);
+      break;
+    }
+    case BearingKind::kThrust:
+      t.Read(b.thrust, kThrustStatorFields, tolerances);
+      break;
+    case BearingKind::kOpposed:
+      t.Read(b.opposed, kOpposedStatorFields, tolerances);
+      break;
+  }
+}
+
+PidParameters ReadPid(const TomlTable& t) {
+  PidParameters p;
+  t.Read(p, kPidFields);
+  return p;
+}
+
+BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const RigParameters& rig,
+                              std::vector<Tolerance>& tolerances) {
+  BearingParameters b;
+  const std::string like = t.String("like", "");
+  if (!like.empty()) {
+    const BearingParameters* other = rig.Find(like);
+    if (!other) {
+      std::string known;
+      for (const auto& k : rig.bearings) known += (known.empty() ? "" : ", ") + k.name;
+      t.Fail("like",
+             fmt::format("= \"{}\", allowed: a bearing with its own values: {}", like, known));
+    }
+    b = *other;
+    const std::string from = "bearings." + like + ".", to = "bearings." + name + ".";
+    const std::vector<Tolerance> all = tolerances;
+    for (const Tolerance& k : all)
+      if (k.path.starts_with(from) && !t.Has(k.path.substr(from.size())))
+        tolerances.push_back({to + k.path.substr(from.size()), k.sd, kRequired});
+  }
+  b.name = name;
+  b.auxiliary_z = kRequired;  // a place of its own is not copied
+  const char* kinds = "radial, thrust, opposed";
+  const std::string fallback = like.empty()                     ? "radial"
+                               : b.kind == BearingKind::kRadial ? "radial"
+                               : b.kind == BearingKind::kThrust ? "thrust"
+                                                                : "opposed";
+  const std::string kind = t.Choice("kind", fallback, kinds);
+  b.kind = kind == "radial"   ? BearingKind::kRadial
+           : kind == "thrust" ? BearingKind::kThrust
+                              : BearingKind::kOpposed;
+  if (b.kind == BearingKind::kRadial) {
+    b.z = t.Number("z", like.empty() ? kRequired : b.z);
+    if (std::isnan(b.z)) t.Fail("z", "is missing, allowed: -100 to 100 m (bearing plane)");
+    if (!(std::abs(b.z) <= 100))
+      t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m (bearing plane)", b.z));
+  } else {
+    b.z = t.Number("z", 0);
+    if (!(std::abs(b.z) <= 100)) t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m", b.z));
+  }
+  ReadStator(t, b, &tolerances);
+  if (like.empty() || t.Has("sensor")) ReadSensor(t, b, &tolerances);
+  ReadAuxiliary(t, b, Gap(b));
+  if (const auto c = t.Table("controller")) {
+    b.controller = ReadPid(*c);
+    c->RejectUnknownKeys();
+  }
+  t.RejectUnknownKeys();
+  return b;
+}
+
+void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
+  AmplifierParameters& a = rig.amplifier;
+  const std::string m = t.Choice("modulation", "bi-state", "bi-state, tri-state, chopper, ideal");
+  a.modulation = m == "bi-state"    ? Modulation::kBiState
+                 : m == "tri-state" ? Modulation::kTriState
+                 : m == "chopper"   ? Modulation::kChopper
+                                    : Modulation::kIdeal;
+  t.Read(a, kAmplifierFields, &rig.tolerances);
+  const auto limits = t.Numbers("duty_limits", {a.duty_min, a.duty_max});
+  if (limits.size() != 2 || !(limits[0] >= -1 && limits[0] < limits[1] && limits[1] <= 1))
+    t.Fail("duty_limits", "allowed: [min, max] with min < max, within 0 to 1");
+  a.duty_min = limits[0];
+  a.duty_max = limits[1];
+  if (a.duty_min < 0 && m != "ideal")
+    t.Fail("duty_limits", "allowed: 0 to 1 for a switching bridge");
+  for (const char* key : {"adc_samples_per_period", "adc_bits", "quadrants"}) {
+    const double v = t.Number(key, 2);
+    if (v != std::floor(v)) t.Fail(key, fmt::format("= {}, allowed: an integer", v));
+  }
+  if (a.quadrants == 3) t.Fail("quadrants", "= 3, allowed: 2 or 4");
+  if (a.i_max > a.adc_range)
+    t.Fail("i_max", fmt::format("= {} A, allowed: at most adc_range = {} A", a.i_max, a.adc_range));
+  t.RejectUnknownKeys();
+}
+
+/// Where a synthesis may weigh displacements.
+std::vector<std::string> PlaneNames(const RigParameters& rig) {
+  std::vector<std::string> names;
+  for (const BearingParameters& b : rig.bearings)
+    if (b.kind == BearingKind::kRadial) names.push_back(b.name);
+  for (const ShaftPlane& s : rig.stations) names.push_back(s.name);
+  return names;
+}
+
+void ReadController(const TomlTable& t, RigParameters& rig) {
+  t.Read(rig.controller, kControllerFields);
+  const double periods = rig.amplifier.switching_frequency / rig.controller.rate;
+  if (std::abs(periods - std::round(periods)) > 1e-9 * periods || periods < 0.5)
+    t.Fail("rate", fmt::format("= {} Hz, allowed: the switching frequency of {} Hz over an integer",
+                               rig.controller.rate, rig.amplifier.switching_frequency));
+  std::vector<std::string> axes;
+  for (const std::size_t k : ControlledAxes(rig)) axes.push_back(AxisNames(rig)[k]);
+  ReadControllerKind(t, axes, PlaneNames(rig), rig.controller);
+  t.RejectUnknownKeys();
+}
+
+/// [controllers.NAME]: rate and bias current are the main one's.
+void ReadOtherControllers(const TomlTable& root, RigParameters& rig) {
+  const auto all = root.Table("controllers");
+  if (!all) return;
+  std::vector<std::string> axes;
+  for (const std::size_t k : ControlledAxes(rig)) axes.push_back(AxisNames(rig)[k]);
+  for (const std::string& name : all->Keys()) {
+    const auto t = all->Table(name);
+    if (name == "main") all->Fail(name, "is the name of [controller], allowed: another one");
+    ControllerParameters c;
+    c.name = name;
+    c.rate = rig.controller.rate;
+    c.bias_current = rig.controller.bias_current;
+    ReadControllerKind(*t, axes, PlaneNames(rig), c);
+    t->RejectUnknownKeys();
+    rig.other_controllers.push_back(c);
+  }
+}
+
+void ReadBearings(const TomlTable& root, RigParameters& rig) {
+  const auto all = root.Table("bearings");
+  if (!all)
+    root.Fail("bearings", "is missing, allowed: tables [bearings.A], [bearings.B], [bearings.Z]");
+  std::vector<std::string> names = all->Keys(), later;
+  for (int pass = 0; pass < 2; ++pass)  // those that are `like` another come after it
+    for (const std::string& name : names) {
+      const TomlTable t = *all->Table(name);
+      if (t.Has("like") == (pass == 1))
+        rig.bearings.push_back(ReadBearing(t, name, rig, rig.tolerances));
+    }
+  std::sort(rig.bearings.begin(), rig.bearings.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
+  });
+  int radial = 0, thrust = 0, opposed = 0;
+  for (const auto& b : rig.bearings) {
+    (b.kind == BearingKind::kRadial ? radial : b.kind == BearingKind::kThrust ? thrust : opposed)++;
+    for (const auto& other : rig.bearings)
+      if (&b != &other && b.kind == BearingKind::kRadial && other.kind == BearingKind::kRadial &&
+          b.z == other.z)
+        all->Table(b.name)->Fail(
+            "z", fmt::format("= {} m, allowed: another plane than bearing {}", b.z, other.name));
+  }
+  if (opposed == 0 && radial < 2) all->Fail("", "a rigid rotor needs at least two radial bearings");
+  if (opposed > 0 && (radial + thrust > 0 || opposed > 1 || rig.rotor_kind != "point"))
+    all->Fail("", "an opposed bearing stands alone, with rotor.kind = \"point\"");
+  if (thrust > 1) all->Fail("", "at most one thrust bearing");
+}
+
+RigParameters Read(const TomlTable& root) {
+  RigParameters rig;
+  rig.file = root.file();
+  rig.name = root.String("name", "rig");
+  const auto g = root.Numbers("gravity", {0, -9.81, 0});
+  if (g.size() != 3) root.Fail("gravity", "allowed: [gx, gy, gz] in m/s2");
+  rig.gravity = {g[0], g[1], g[2]};
+  const auto section = [&](const char* key) {
+    const auto t = root.Table(key);
+    if (!t) root.Fail(key, fmt::format("is missing, allowed: a table [{}]", key));
+    return *t;
+  };
+  ReadRotor(section("rotor"), rig);
+  ReadAmplifier(section("amplifier"), rig);
+  const TomlTable controller = section("controller");
+  ReadBearings(root, rig);
+  PlaceOnShaft(root, rig);
+  ReadController(controller, rig);
+  ReadOtherControllers(root, rig);
+  const EffectTargets known = TargetsOfEffects(rig);
+  for (const TomlTable& t : root.Tables("effect")) rig.effects.push_back(ReadEffect(t, known));
+  root.RejectUnknownKeys();
+  return rig;
+}
+
+}  // namespace
+
+RigParameters ReadRig(const std::string& file) { return Read(TomlTable::FromFile(file)); }
+RigParameters ReadRigText(const std::string& text, const std::string& file_name) {
+  return Read(TomlTable::FromText(text, file_name));
+}
+
+}  // namespace ambrig

@@ -1,0 +1,13 @@
+#pragma once
+/// rig.toml. Source: shared/design/formats.md, rig.toml.
+#include <string>
+
+#include "rig/rig_parameters.h"
+
+namespace ambrig {
+
+/// @throws InputError with file:line for every wrong key, type, value or contradiction.
+RigParameters ReadRig(const std::string& file);
+RigParameters ReadRigText(const std::string& text, const std::string& file_name);
+
+}  // namespace ambrig

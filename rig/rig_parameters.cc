@@ -1,0 +1,165 @@
+#include "rig/rig_parameters.h"
+
+#include <cmath>
+
+#include "rig/rig_rotor.h"
+
+namespace ambrig {
+
+namespace {
+
+/// Calls visit(section, struct reference, fields) for every numeric table of the rig.
+template <class Rig, class Visit>
+void VisitTables(Rig& rig, const Visit& visit) {
+  // a beam's mass and inertia follow from its shaft
+  if (!rig.beam) visit("rotor", rig.rotor, kRotorFields);
+  visit("amplifier", rig.amplifier, kAmplifierFields);
+  visit("controller", rig.controller, kControllerFields);
+  visit("controller", rig.controller.pid, kPidFields);
+  for (auto& b : rig.bearings) {
+    const std::string section = "bearings." + b.name;
+    if (b.kind == BearingKind::kRadial) visit(section, b.radial, kRadialStatorFields);
+    if (b.kind == BearingKind::kThrust) visit(section, b.thrust, kThrustStatorFields);
+    if (b.kind == BearingKind::kOpposed) visit(section, b.opposed, kOpposedStatorFields);
+    visit(section + ".sensor", b.sensor, kSensorFields);
+    if (b.auxiliary) visit(section + ".auxiliary", *b.auxiliary, kAuxiliaryFields);
+    if (b.controller) visit(section + ".controller", *b.controller, kPidFields);
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> BearingParameters::Axes() const {
+  if (kind == BearingKind::kThrust) return {"z"};
+  if (kind == BearingKind::kOpposed) return {name + ".x"};
+  return {name + ".x", name + ".y"};
+}
+
+std::vector<std::string> AxisNames(const RigParameters& rig) {
+  std::vector<std::string> names;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& name : b.Axes()) names.push_back(name);
+  return names;
+}
+
+std::vector<std::size_t> ControlledAxes(const RigParameters& rig) {
+  std::vector<std::size_t> axes;
+  std::size_t k = 0;
+  for (const BearingParameters& b : rig.bearings)
+    for (std::size_t side = 0; side < b.Axes().size(); ++side, ++k)
+      if (!b.controller) axes.push_back(k);
+  return axes;
+}
+
+const BearingParameters* RigParameters::Find(const std::string& bearing) const {
+  for (const auto& b : bearings)
+    if (b.name == bearing) return &b;
+  return nullptr;
+}
+
+const ShaftPlane* RigParameters::FindStation(const std::string& station) const {
+  for (const auto& s : stations)
+    if (s.name == station) return &s;
+  return nullptr;
+}
+
+int RigParameters::periods_per_control() const {
+  return static_cast<int>(std::lround(amplifier.switching_frequency / controller.rate));
+}
+
+RigParameters TrueRig(const RigParameters& rig) {
+  RigParameters out = rig;
+  for (const Tolerance& t : rig.tolerances)
+    if (!std::isnan(t.fitted)) SetParameter(out, t.path, t.fitted);
+  return out;
+}
+
+const double* ParameterAt(const RigParameters& rig, const std::string& path) {
+  const double* found = nullptr;
+  VisitTables(rig, [&](const std::string& section, const auto& p, const auto& fields) {
+    for (const auto& f : fields)
+      if (path == section + "." + std::string(f.key)) found = &(p.*f.at);
+  });
+  if (rig.beam)
+    for (const ShaftParameter& p : rig.beam->parameters)
+      if (p.path == path) found = &p.value;
+  return found;
+}
+
+bool SetParameter(RigParameters& rig, const std::string& path, double value) {
+  for (std::size_t k = 0; rig.beam && k < rig.beam->parameters.size(); ++k)
+    if (rig.beam->parameters[k].path == path) {
+      SetShaft(rig, k, value);
+      return true;
+    }
+  bool found = false;
+  VisitTables(rig, [&](const std::string& section, auto& p, const auto& fields) {
+    for (const auto& f : fields) {
+      if (path != section + "." + std::string(f.key)) continue;
+      p.*f.at =
+          rig.beam && path.ends_with(".sensor.z") ? value + rig.z_drawn - rig.z_origin : value;
+      found = true;
+    }
+  });
+  return found;
+}
+
+bool ParameterRange(const RigParameters& rig, const std::string& path, double* lo, double* hi,
+                    std::string* unit) {
+  bool found = false;
+  VisitTables(rig, [&](const std::string& section, auto&, const auto& fields) {
+    for (const auto& f : fields)
+      if (path == section + "." + std::string(f.key)) {
+        *lo = f.lo;
+        *hi = f.hi;
+        *unit = f.unit;
+        found = true;
+      }
+  });
+  for (std::size_t k = 0; rig.beam && k < rig.beam->parameters.size(); ++k)
+    if (const ShaftParameter& p = rig.beam->parameters[k]; p.path == path) {
+      *lo = p.lo;
+      *hi = p.hi;
+      *unit = p.unit;
+      found = true;
+    }
+  return found;
+}
+
+std::vector<ParameterRow> RigParameterRows() {
+  std::vector<ParameterRow> rows;
+  const auto add = [&]<class P, std::size_t n>(const std::string& section,
+                                               const Field<P>(&fields)[n]) {
+    for (const Field<P>& f : fields)
+      rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo,
+                      f.hi, P{}.*f.at});
+  };
+  add("[rotor]", kRotorFields);
+  add("[rotor.materials.NAME]", kMaterialFields);
+  add("[[rotor.section]]", kShaftSectionFields);
+  add("[[rotor.disk]]", kDiskFields);
+  add("[amplifier]", kAmplifierFields);
+  add("[controller]", kControllerFields);
+  add("[controller]", kPidFields);
+  add("[[controller.schedule]]", kPidPointFields);
+  add("[[controller.filter]] kind = \"notch\"", kNotchFields);
+  add("[[controller.filter]] kind = \"lead-lag\"", kLeadLagFields);
+  add("[[controller.filter]] kind = \"low-pass\"", kLowPassFields);
+  add("[controller.unbalance]", kUnbalanceControlFields);
+  add("[controller] kind = \"lqg\"", kLqgFields);
+  add("[controller] kind = \"h-infinity\"", kHInfinityFields);
+  add("[[controller.plane]]", kPlaneWeightFields);
+  add("[controller.modes]", kModeWeightFields);
+  add("[controller] kind = \"tilt-translation\"", kTiltTranslationFields);
+  add("[controller] kind = \"tilt-translation\", translation", kTranslationFields);
+  add("[controller] kind = \"tilt-translation\", tilt", kTiltFields);
+  add("[bearings.A] kind = \"radial\"", kRadialStatorFields);
+  add("[bearings.Z] kind = \"thrust\"", kThrustStatorFields);
+  add("[bearings.M] kind = \"opposed\"", kOpposedStatorFields);
+  add("[bearings.A.sensor]", kSensorFields);
+  add("[bearings.A.auxiliary]", kAuxiliaryFields);
+  add("[bearings.A.controller]", kPidFields);
+  return rows;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,125 @@
+#pragma once
+/// The parameters of a rig, as its user believes it to be, and the way to each number by its path
+/// in rig.toml.
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "actuators/electronics/amplifier.h"
+#include "actuators/magnetics/radial_stator.h"
+#include "actuators/magnetics/thrust_stator.h"
+#include "control/position/controller_file.h"
+#include "core/base/toml.h"
+#include "effects/effect.h"
+#include "rotor/contact/auxiliary_bearing.h"
+#include "rotor/motion/position_sensor.h"
+#include "rotor/motion/rotor_model.h"
+#include "rotor/shaft/beam_file.h"
+
+namespace ambrig {
+
+/// One axis with one or two magnets facing each other: L(g) = L_inf + L_0/(1 + g/g_c).
+struct OpposedStatorParameters {
+  double angle_deg = 90;
+  double gap = kRequired;
+  double inductance_far = kRequired;
+  double inductance_near = kRequired;
+  double gap_constant = kRequired;
+  double resistance = kRequired;
+  double coils = 2;
+  double bias_current = 0;
+};
+
+inline constexpr Field<OpposedStatorParameters> kOpposedStatorFields[] = {
+    {"angle_deg", &OpposedStatorParameters::angle_deg, "deg", -360, 360,
+     "direction that coil 1 pulls to"},
+    {"gap", &OpposedStatorParameters::gap, "m", 1e-6, 1, "of each magnet, rotor centred"},
+    {"inductance_far", &OpposedStatorParameters::inductance_far, "H", 1e-9, 1e3, "L_inf, gap open"},
+    {"inductance_near", &OpposedStatorParameters::inductance_near, "H", 1e-9, 1e3,
+     "L_0, added at zero gap"},
+    {"gap_constant", &OpposedStatorParameters::gap_constant, "m", 1e-7, 10,
+     "g_c, where L_0's part has halved"},
+    {"resistance", &OpposedStatorParameters::resistance, "ohm", 1e-6, 1e4, "R, per coil"},
+    {"coils", &OpposedStatorParameters::coils, "-", 1, 2, "1: only the magnet that pulls to +"},
+    {"bias_current", &OpposedStatorParameters::bias_current, "A", 0, 1e4, "c0, both coils"},
+};
+
+enum class BearingKind { kRadial, kThrust, kOpposed };
+
+struct BearingParameters {
+  std::string name;
+  BearingKind kind = BearingKind::kRadial;
+  double z = 0;  // [m]
+  RadialStatorParameters radial;
+  ThrustStatorParameters thrust;
+  OpposedStatorParameters opposed;
+  SensorParameters sensor;
+  std::optional<AuxiliaryParameters> auxiliary;
+  double auxiliary_z = kRequired;           // nan: at the bearing's plane [m]
+  std::optional<PidParameters> controller;  // its own instead of the rig's
+
+  int coils() const {
+    return kind == BearingKind::kRadial   ? kPoles
+           : kind == BearingKind::kThrust ? kThrustCoils
+                                          : static_cast<int>(opposed.coils);
+  }
+  /// Names of the controlled axes: "A.x", "A.y"; "z"; "M.x".
+  std::vector<std::string> Axes() const;
+};
+
+struct RigParameters {
+  std::string name, file;
+  std::array<double, 3> gravity{0, -9.81, 0};
+  std::string rotor_kind = "rigid";
+  RotorParameters rotor;
+  std::vector<BendingMode> modes;  // of a beam rotor, reduced
+  std::optional<BeamFile> beam;    // the shaft itself, z as in the file
+  // of every z here in the file's own [m]: a beam's centre of mass
+  double z_origin = 0;
+  // the same as the file has it, before a calibration: of scenarios
+  double z_drawn = 0;
+  std::vector<ShaftPlane> stations;  // named planes of a beam rotor, z as the bearings'
+  AmplifierParameters amplifier;
+  ControllerParameters controller;
+  // [controllers.NAME], for changing over in a run
+  std::vector<ControllerParameters> other_controllers;
+  std::vector<BearingParameters> bearings;
+  std::vector<EffectInstance> effects;
+  std::vector<Tolerance> tolerances;
+
+  const BearingParameters* Find(const std::string& bearing) const;
+  const ShaftPlane* FindStation(const std::string& name) const;
+  int samples_per_period() const { return static_cast<int>(amplifier.adc_samples_per_period); }
+  /// M: switching periods per controller period.
+  int periods_per_control() const;
+};
+
+/// Controlled axes in the order of the bearings: "A.x", "A.y", ..., "z".
+std::vector<std::string> AxisNames(const RigParameters& rig);
+/// Those that [controller] has: of bearings without a controller of their own.
+std::vector<std::size_t> ControlledAxes(const RigParameters& rig);
+
+/// The rig with its calibrated values in place of the drawing's: what the plant is built from.
+RigParameters TrueRig(const RigParameters& rig);
+
+/// The number behind a path such as "rotor.mass", "bearings.A.gap" or "rotor.section[2].od" (of a
+/// shaft: those with an sd); nullptr when there is none.
+const double* ParameterAt(const RigParameters& rig, const std::string& path);
+/// Another value of it, and of all that follows from it. A sensor's z counts from z_drawn. False
+/// when there is no such number.
+bool SetParameter(RigParameters& rig, const std::string& path, double value);
+/// Its range from the parameter table.
+bool ParameterRange(const RigParameters& rig, const std::string& path, double* lo, double* hi,
+                    std::string* unit);
+
+/// Every parameter table of a rig file: section, key, unit, range, doc, for help and docs.
+/// `fallback`: nan where the file must give it.
+struct ParameterRow {
+  std::string section, key, unit, doc;
+  double lo, hi, fallback;
+};
+std::vector<ParameterRow> RigParameterRows();
+
+}  // namespace ambrig

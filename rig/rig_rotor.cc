@@ -1,0 +1,127 @@
+#include "rig/rig_rotor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "rotor/shaft/shaft_parameters.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr Field<RotorParameters> kBeamRotorFields[] = {
+    {"journal_radius", &RotorParameters::journal_radius, "m", 1e-4, 10,
+     "at the auxiliary bearings"},
+};
+
+/// Mass, inertias and modes of the shaft as it is now. Returns how far its centre of mass is from
+/// z_origin.
+double TakeShaft(RigParameters& rig) {
+  const ReducedRotor reduced = BuildReduced(*rig.beam);
+  rig.rotor.mass = reduced.mass;
+  rig.rotor.inertia_transverse = reduced.inertia_transverse;
+  rig.rotor.inertia_polar = reduced.inertia_polar;
+  rig.modes = BendingModes(reduced);
+  return reduced.z_com - rig.z_origin;
+}
+
+void ReadBeamRotor(const TomlTable& t, RigParameters& rig) {
+  rig.beam = ReadBeam(t, &rig.tolerances);
+  if (t.Has("support"))
+    t.Fail("support",
+           "is for analysis of a shaft on springs, allowed in a rig: none, its bearings carry the "
+           "rotor");
+  if (rig.beam->modes > kMaxModes)
+    t.Fail("modes", fmt::format("= {}, allowed: 0 to {}", rig.beam->modes, kMaxModes));
+  t.Read(rig.rotor, kBeamRotorFields);
+  rig.z_origin = rig.z_drawn = TakeShaft(rig);
+  for (ShaftPlane p : rig.beam->planes) {
+    p.z -= rig.z_origin;
+    rig.stations.push_back(p);
+  }
+}
+
+/// The engines feed the rotor mean forces of switching periods: half their frequency is the last
+/// that such a feed can carry.
+void CheckModes(const TomlTable& rotor, const RigParameters& rig) {
+  const double limit = rig.amplifier.switching_frequency / 2;
+  for (std::size_t k = 0; k < rig.modes.size(); ++k) {
+    const double f = rig.modes[k].omega / (2 * kPi);
+    if (f < limit) continue;
+    rotor.Fail("modes",
+               fmt::format("= {}, allowed: 0 to {} (mode {} at {:.0f} Hz lies above half the "
+                           "switching frequency of {} Hz)",
+                           rig.modes.size(), k, k + 1, f, rig.amplifier.switching_frequency));
+  }
+}
+
+}  // namespace
+
+void ReadRotor(const TomlTable& t, RigParameters& rig) {
+  rig.rotor_kind = t.Choice("kind", "rigid", "rigid, point, beam");
+  if (rig.rotor_kind == "beam") {
+    ReadBeamRotor(t, rig);
+    t.RejectUnknownKeys();
+    return;
+  }
+  if (rig.rotor_kind == "point") {
+    rig.rotor.inertia_transverse = 1;
+    rig.rotor.inertia_polar = 0;
+    rig.rotor.journal_radius = 0.01;
+  }
+  t.Read(rig.rotor, kRotorFields, &rig.tolerances);
+  t.RejectUnknownKeys();
+  if (rig.rotor.inertia_polar > 2 * rig.rotor.inertia_transverse)
+    t.Fail("inertia_polar",
+           fmt::format("= {} kg m2, allowed: at most twice inertia_transverse = {} (no "
+                       "body has more)",
+                       rig.rotor.inertia_polar, rig.rotor.inertia_transverse));
+}
+
+void SetShaft(RigParameters& rig, std::size_t parameter, double value) {
+  SetShaftParameter(*rig.beam, parameter, value);
+  const double moved = TakeShaft(rig);
+  rig.z_origin += moved;
+  for (ShaftPlane& p : rig.stations) p.z -= moved;
+  for (BearingParameters& b : rig.bearings) {
+    if (b.kind != BearingKind::kRadial) continue;
+    b.z -= moved;
+    b.sensor.z -= moved;
+    b.auxiliary_z -= moved;  // nan: at the bearing
+  }
+}
+
+void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
+  if (!rig.beam) return;
+  CheckModes(*root.Table("rotor"), rig);
+  double lo = kInfinity, hi = -kInfinity;
+  for (const ShaftSection& s : rig.beam->definition.sections) {
+    if (!s.stiff) continue;
+    lo = std::min(lo, s.z0);
+    hi = std::max(hi, s.z0 + s.length);
+  }
+  const auto place = [&](const TomlTable& t, const char* key, double& z) {
+    if (!(lo <= z && z <= hi))
+      t.Fail(key, fmt::format("= {} m, allowed: on the shaft, {} to {} m", NumberText(z),
+                              NumberText(lo), NumberText(hi)));
+    z -= rig.z_origin;
+  };
+  const TomlTable bearings = *root.Table("bearings");
+  for (BearingParameters& b : rig.bearings) {
+    if (rig.FindStation(b.name))
+      bearings.Fail(b.name,
+                    "is also the name of a disk or station of the shaft, allowed: another one");
+    if (b.kind != BearingKind::kRadial) continue;
+    const TomlTable t = *bearings.Table(b.name);
+    place(t, "z", b.z);
+    place(t, "sensor", b.sensor.z);
+    if (!std::isnan(b.auxiliary_z)) place(t, "auxiliary", b.auxiliary_z);
+    for (Tolerance& k : rig.tolerances)
+      if (k.path == "bearings." + b.name + ".sensor.z") k.fitted -= rig.z_origin;
+  }
+}
+
+}  // namespace ambrig

@@ -1,0 +1,47 @@
+#pragma once
+/// Position readings of one plane: shaft-centre displacement at the sensor's own z, through a chain
+/// of reading maps (sensor effects and faults), plus noise. Source: shared/design/physics.md
+/// section 4.
+#include <memory>
+#include <vector>
+
+#include "core/base/parameters.h"
+#include "rotor/motion/force_term.h"
+
+namespace ambrig {
+
+struct SensorParameters {
+  double z = kRequired;  // a thrust bearing's sensor has none
+  double noise = 0;
+};
+
+inline constexpr Field<SensorParameters> kSensorFields[] = {
+    {"z", &SensorParameters::z, "m", -100, 100, "sensor plane"},
+    {"noise", &SensorParameters::noise, "m", 0, 1, "rms of one reading"},
+};
+
+/// Seam of the sensors: changes the reading (x, y) of a plane [m]. Called once per switching period
+/// in order of time, so a map may keep a filter's state.
+class ReadingMap {
+ public:
+  virtual ~ReadingMap() = default;
+  virtual void Map(const MotionState& state, double* x, double* y) = 0;
+};
+
+/// A fault of one axis' sensor: offset, stuck at its last value, or lost (reads 0).
+struct SensorFault {
+  double offset = 0;
+  bool stuck = false, lost = false;
+  double held = 0;
+  double Apply(double reading) const { return lost ? 0 : (stuck ? held : reading + offset); }
+};
+
+struct PositionSensor {
+  PlaneMap map;
+  double noise = 0;  // [m rms]
+  std::vector<std::unique_ptr<ReadingMap>> maps;
+  SensorFault fault[2];
+  double reading[2] = {0, 0};  // before noise
+};
+
+}  // namespace ambrig

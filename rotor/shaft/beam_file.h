@@ -1,0 +1,88 @@
+#pragma once
+/// The `[rotor]` table of a rig file with kind = "beam":
+///
+///     [rotor]
+///     kind = "beam"
+///     modes = 3                        # bending modes kept by the simulator
+///     modal_damping = 0.002            # ratio of each, or one per mode: [0.002, 0.004]
+///     elements_per_section = 4
+///     mass = "consistent"              # | "lumped"
+///     shear = true                     # rotary_inertia, gyroscopic likewise
+///     shear_coefficient = "cowper"     # | "hutchinson"
+///     stations = [0.05]                # planes that must be nodes
+///     file = "shaft.json"              # the shaft from another file instead of sections here:
+///       one that
+///                                      # ROSS saved (.toml, .json),
+///                                        or a [rotor] of these tables (.toml)
+///     [rotor.materials.mysteel]        # E, rho, nu; built in: steel, aluminium, titanium
+///     [[rotor.section]]                # left to right; z0 = end of the section before,
+///       unless given
+///     length = 0.1
+///     od = 0.02                        # id, od_right, id_right, damping_mass, damping_stiffness,
+///       name
+///     material = "steel"               # or E, rho, nu
+///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id,
+///       material or rho
+///     [[rotor.disk]]                   # z with mass, inertia_diametral,
+///       inertia_polar or with width, od,
+///                                      # id, material; name
+///     [[rotor.station]]                # name, z: a plane for loads, unbalance and the record
+///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ...: analysis only
+///
+/// z runs along the shaft from its left end (or any origin: z0). Units SI. Every mistake is an
+/// InputError with file:line.
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/base/toml.h"
+#include "rotor/shaft/beam.h"
+#include "rotor/shaft/reduction.h"
+
+namespace ambrig {
+
+/// A plane of the shaft that has a name: a disk's or a station's.
+struct ShaftPlane {
+  std::string name;
+  double z = 0;  // [m]
+};
+
+/// What a section, sleeve or disk was written with; empty of ROSS's.
+struct ShaftTableSource {
+  std::string path;            // "rotor.section[1]"
+  std::string material;        // by name, "" without
+  std::set<std::string> keys;  // that stand in the table
+  double rho = 0;              // of a disk given by its geometry [kg/m3]
+};
+
+struct BeamFile;
+
+/// A number with an sd (rotor/shaft/shaft_parameters.h).
+struct ShaftParameter {
+  std::string path, unit;
+  double value = 0, lo = 0, hi = 0;
+  std::vector<std::function<void(BeamFile&, double)>> set;  // it and what follows it
+};
+
+struct BeamFile {
+  BeamDefinition definition;
+  std::vector<ShaftPlane> planes;
+  int modes = 0;                                                // wanted
+  std::vector<double> modal_damping;                            // one for all modes or one each
+  std::map<std::string, Material> materials;                    // named ones
+  std::vector<ShaftTableSource> section_sources, disk_sources;  // as definition.sections, .disks
+  // of the tolerances asked for, in their order
+  std::vector<ShaftParameter> parameters;
+};
+
+/// Leaves unknown keys of [rotor] itself to the caller, who may know more of them. Numbers with an
+/// sd are appended to `tolerances`, each with its ShaftParameter; without `tolerances` an sd is not
+/// looked at.
+BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances = nullptr);
+
+/// The simulator's rotor.
+ReducedRotor BuildReduced(const BeamFile& file);
+
+}  // namespace ambrig

@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "core/base/atomic_file.h"
+#include "rotor/shaft/beam_mesh.h"
+#include "rotor/shaft/ross_file.h"
+
+namespace ambrig {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kSleeveE = 1.0;  // [Pa]; E > 0 because ROSS derives Poisson's ratio from E and G_s
+
+Json MaterialTable(const ShaftSection& s) {
+  const double E = s.stiff ? s.material.E : kSleeveE;
+  return {{"name", s.stiff ? "shaft" : "sleeve"},
+          {"rho", s.material.rho},
+          {"E", E},
+          {"G_s", E / (2 * (1 + s.material.nu))},
+          {"color", s.stiff ? "#525252" : "#b0b0b0"}};
+}
+
+Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std::string& tag) {
+  Json table = {
+      {"L", s.length},
+      {"idl", s.id},
+      {"odl", s.od},
+      {"idr", s.id_right},
+      {"odr", s.od_right},
+      {"n", node},
+      {"axial_force", 0},
+      {"torque", 0},
+      {"shear_effects", t.shear},
+      {"rotary_inertia", t.rotary_inertia},
+      {"gyroscopic", t.gyroscopic},
+      {"shear_method_calc", t.coefficient == ShearCoefficient::kCowper ? "cowper" : "hutchinson"},
+      {"tag", tag},
+      {"material", MaterialTable(s)}};
+  // Unknown to the first files of version 1, which hold no damping of a shaft.
+  if (s.damping_mass != 0 || s.damping_stiffness != 0) {
+    table["alpha"] = s.damping_mass;
+    table["beta"] = s.damping_stiffness;
+  }
+  return table;
+}
+
+Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
+  Json table = {{"n", node}, {"tag", tag}};
+  const auto set = [&](const char* key, double value) { table[key] = Json::array({value}); };
+  set("kxx", s.kxx), set("kxy", s.kxy), set("kyx", s.kyx), set("kyy", s.kyy);
+  set("cxx", s.cxx), set("cxy", s.cxy), set("cyx", s.cyx), set("cyy", s.cyy);
+  return table;
+}
+
+/// A tag that no element has yet: ROSS takes no two of one tag, a disk and a bearing neither.
+class Tags {
+ public:
+  std::string Of(const std::string& kind, const std::string& name) {
+    std::string tag = name;
+    for (int count = 0; tag.empty() || !taken_.insert(tag).second; ++count)
+      tag = fmt::format("{} {}", name.empty() ? kind : name, count);
+    return tag;
+  }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+Json RotorTables(const BeamDefinition& d) {
+  const BeamMesh mesh = MakeMesh(d);
+  BeamRotor nodes;
+  nodes.z = mesh.z;
+  Json root = {{"parameters", Json::object()}};
+  Tags tags;
+  for (std::size_t i = 0; i < mesh.elements.size(); ++i)
+    for (const ShaftSection& layer : mesh.elements[i].layers) {
+      const std::string tag = tags.Of("Shaft Element", "");
+      root["ShaftElement_" + tag] = ShaftTable(layer, d.theory, static_cast<int>(i), tag);
+    }
+  for (const Disk& disk : d.disks) {
+    const std::string tag = tags.Of("Disk", disk.name);
+    root["DiskElement_" + tag] = {{"n", NodeAt(nodes, disk.z)},
+                                  {"m", disk.mass},
+                                  {"Id", disk.inertia_diametral},
+                                  {"Ip", disk.inertia_polar},
+                                  {"tag", tag}};
+  }
+  for (const SpringSupport& s : d.supports) {
+    const std::string tag = tags.Of("Bearing", s.name);
+    root["BearingElement_" + tag] = BearingTable(s, NodeAt(nodes, s.z), tag);
+  }
+  return root;
+}
+
+/// JSON strings and numbers are TOML values too; json.dump gives the shortest text that reads back.
+void WriteTable(std::ostream& out, const std::string& header, const Json& table) {
+  out << "\n[" << header << "]\n";
+  for (const auto& [key, value] : table.items())
+    if (!value.is_object()) out << key << " = " << value.dump() << "\n";
+  for (const auto& [key, value] : table.items())
+    if (value.is_object()) WriteTable(out, header + "." + key, value);
+}
+
+void WriteToml(std::ostream& out, const Json& root) {
+  for (const auto& [key, table] : root.items())
+    if (table.is_object()) WriteTable(out, Json(key).dump(), table);
+}
+
+}  // namespace
+
+void WriteRoss(const BeamDefinition& definition, const std::string& file) {
+  const Json root = RotorTables(definition);
+  std::ostringstream out;
+  if (file.size() > 5 && file.substr(file.size() - 5) == ".json")
+    out << root.dump(4) << "\n";
+  else
+    WriteToml(out, root);
+  WriteFileAtomically(file, out.str());
+}
+
+}  // namespace ambrig

@@ -1,0 +1,20 @@
+#pragma once
+/// Shafts in files of their own, for converting between ROSS's rotor file and a [rotor] table.
+#include <string>
+#include <vector>
+
+#include "rotor/shaft/beam_file.h"
+
+namespace ambrig {
+
+/// The shaft of a file of its own: ROSS's (.toml, .json), or a .toml with a [rotor] of kind beam, a
+/// rig file among them. `ross`: which one it was; `ignored`: elements of ROSS without a
+/// counterpart.
+BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored);
+
+/// A [rotor] that ReadBeam reads back to the same numbers. Materials become E, rho, nu.
+std::string BeamText(const BeamFile& file);
+/// @throws InputError when the file cannot be written.
+void WriteBeam(const BeamFile& file, const std::string& path);
+
+}  // namespace ambrig

@@ -1,0 +1,86 @@
+#include "simulation/continuous/averaged_engine.h"
+
+#include <algorithm>
+
+#include "simulation/continuous/continuous_run.h"
+
+namespace ambrig {
+
+namespace {
+
+double MeanVoltage(const CoilVoltage& v, double bus, double T, bool* driven) {
+  const double length[3] = {v.t1, v.t2 - v.t1, T - v.t2};
+  double sum = 0;
+  *driven = false;
+  for (int q = 0; q < 3; ++q) {
+    sum += length[q] * (v.gain[q] * bus + v.drop[q]);
+    *driven = *driven || (length[q] > 0 && v.gain[q] > 0);
+  }
+  return sum / T;
+}
+
+class AveragedRun : public ContinuousRun {
+ public:
+  AveragedRun(const RigParameters& rig, const Scenario& scenario, const AveragedOptions& options)
+      : ContinuousRun(rig, scenario, options), mean_(rig_.bearings.size()) {
+    Require(!options.sampled.supervisor, "no detector: averaged currents have no slopes");
+    const double rate =
+        options.sampled.record_rate > 0 ? options.sampled.record_rate : scenario.record_rate;
+    if (rate * rig_.T > 1 + 1e-9)
+      throw InputError(
+          "a record_rate above the switching frequency needs --fidelity switching or reference");
+    if (scenario.start == StartState::kLevitated) {
+      const Equilibrium e = LevitatedEquilibrium(rig_);
+      if (e.usable())
+        rig_.StartFrom(e.force, e.q);
+      else
+        result_.notes.push_back("no unique equilibrium (" + e.message +
+                                "): started from the centre");
+    }
+    Settle();
+  }
+
+ private:
+  void SetVoltages(double) override {
+    for (const ContinuousBearing& b : rig_.bearings)
+      for (int j = 0; j < rig_.control[b.index].coils; ++j) {
+        bool driven;
+        const double v = MeanVoltage(b.voltage[static_cast<std::size_t>(j)], rig_.plant.bus.voltage,
+                                     rig_.T, &driven);
+        plant_->SetVoltage(b.index, j, v, driven);
+      }
+  }
+
+  double Measure(long long n) override {
+    double peak = 0;
+    std::vector<const Lane*> truth;
+    for (ContinuousBearing& b : rig_.bearings) {
+      b.measurement.noisy = false;
+      for (int j = 0; j < rig_.control[b.index].coils; ++j) {
+        mean_[b.index][j] = plant_->MeanCurrent(b.index, j, rig_.T);
+        peak = std::max(peak, mean_[b.index][j]);
+      }
+      truth.push_back(&mean_[b.index]);
+    }
+    rig_.Measure(n, truth, 1);
+    return peak;
+  }
+
+  std::vector<Lane> mean_;
+};
+
+}  // namespace
+
+AveragedOptions DefaultAveragedOptions() {
+  AveragedOptions o;
+  o.integrator.tolerance = 1e-7;
+  o.integrator.order = 4;
+  return o;
+}
+
+RunResult RunAveraged(const RigParameters& rig, const Scenario& scenario,
+                      const AveragedOptions& options) {
+  return AveragedRun(rig, scenario, options).Run();
+}
+
+}  // namespace ambrig

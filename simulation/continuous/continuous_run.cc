@@ -1,0 +1,79 @@
+#include "simulation/continuous/continuous_run.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+ContinuousRun::ContinuousRun(const RigParameters& rig, const Scenario& scenario,
+                             const ReferenceOptions& options)
+    : options_(options), rig_(rig, scenario, options.sampled) {
+  rig_.Start();
+}
+
+void ContinuousRun::Settle() {
+  plant_.emplace(rig_, options_.integrator);
+  plant_->Settle();
+  faults_.emplace(rig_, *plant_, result_);
+  watch_.emplace(rig_, result_);
+}
+
+RunResult ContinuousRun::Run(std::vector<EnergyBalance>* energies) {
+  rig_.RecordStart();
+  for (long long n = -rig_.warm; n < rig_.periods; ++n) {
+    if (options_.stop && options_.stop->load()) throw Interrupted();
+    if (options_.progress && (n & 63) == 0)
+      options_.progress(static_cast<double>(n + rig_.warm) /
+                        static_cast<double>(rig_.periods + rig_.warm));
+    Period(n);
+    if (energies) energies->push_back(plant_->Energies());
+  }
+  watch_->Finish();
+  result_.record = rig_.TakeRecord();
+  if (options_.sampled.supervisor) options_.sampled.supervisor->Finish(result_);
+  return std::move(result_);
+}
+
+void ContinuousRun::Period(long long n) {
+  rig_.AtPeriodStart(n);
+  plant_->BeginPeriod(n);
+  const double copper = plant_->Energies().copper;
+  FillInstants(n);
+  for (double tau : instants_) {
+    plant_->AdvanceTo(tau);
+    if (faults_->Due(n, tau)) RebuildPatterns();
+    AtInstant(tau);
+    SetVoltages(tau);
+  }
+  plant_->AdvanceTo(rig_.T);
+  const double peak = Measure(n);
+  plant_->EndPeriod();
+  rig_.UpdatePositions();
+  watch_->Period(n, (plant_->Energies().copper - copper) / rig_.T, peak);
+  rig_.AfterPeriod(n, result_);
+}
+
+void ContinuousRun::FillInstants(long long n) {
+  instants_.assign(1, 0.0);
+  AddInstants(instants_);
+  const double t0 = static_cast<double>(n) * rig_.T;
+  const auto at = [&](double t) {
+    if (t > t0 + kSameInstant && t < t0 + rig_.T - kSameInstant) instants_.push_back(t - t0);
+  };
+  for (const LoadSpec& l : rig_.scenario.loads) {
+    at(l.start);
+    at(l.stop);
+  }
+  at(rig_.scenario.speed_free_from);
+  faults_->Instants(n, instants_);
+  std::sort(instants_.begin(), instants_.end());
+  const auto same = [](double a, double b) { return b - a <= kSameInstant; };
+  instants_.erase(std::unique(instants_.begin(), instants_.end(), same), instants_.end());
+}
+
+void ContinuousRun::RebuildPatterns() {
+  for (ContinuousBearing& b : rig_.bearings)
+    for (int j = 0; j < rig_.control[b.index].coils; ++j)
+      b.voltage[static_cast<std::size_t>(j)] = rig_.PatternOf(b, j);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,54 @@
+#pragma once
+/// A run of a continuous-time fidelity, period by period: the sampled side at t_n, then the plant
+/// from instant to instant (loads, faults, a speed let go, and what the fidelity adds), then the
+/// measurements.
+#include <optional>
+#include <vector>
+
+#include "simulation/continuous/fault_injection.h"
+#include "simulation/continuous/reference_engine.h"
+#include "simulation/continuous/run_watch.h"
+
+namespace ambrig {
+
+inline constexpr double kSameInstant = 1e-14;  // [s] two instants of a period that are one
+
+class ContinuousRun {
+ public:
+  virtual ~ContinuousRun() = default;
+  ContinuousRun(const ContinuousRun&) = delete;
+  ContinuousRun& operator=(const ContinuousRun&) = delete;
+  /// @throws Interrupted when stopped.
+  RunResult Run(std::vector<EnergyBalance>* energies = nullptr);
+
+ protected:
+  ContinuousRun(const RigParameters& rig, const Scenario& scenario,
+                const ReferenceOptions& options);
+  /// The start is final: the plant settles on it.
+  void Settle();
+
+  /// Local instants [s] of the period at which this fidelity acts besides the common ones.
+  virtual void AddInstants(std::vector<double>&) {}
+  /// The plant has reached an instant; faults due there are in.
+  virtual void AtInstant(double /*tau*/) {}
+  /// Voltages of all coils from tau on.
+  virtual void SetVoltages(double tau) = 0;
+  /// The end of period n: feedback and rows. Returns the largest current of the period [A].
+  virtual double Measure(long long n) = 0;
+
+  const ReferenceOptions options_;
+  SampledRig rig_;
+  std::optional<ContinuousRig> plant_;
+  RunResult result_;
+
+ private:
+  void Period(long long n);
+  void FillInstants(long long n);
+  void RebuildPatterns();
+
+  std::optional<FaultInjection> faults_;
+  std::optional<RunWatch> watch_;
+  std::vector<double> instants_;
+};
+
+}  // namespace ambrig

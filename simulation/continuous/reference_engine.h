@@ -1,0 +1,34 @@
+#pragma once
+/// The reference engine: the switching rig with every event located, integrated by SUNDIALS to a
+/// tight tolerance. It is the independent witness for the switching engine: its own magnetics
+/// (actuators/magnetics/coil_network), its own integrator, the same laws for rotor, loops and bridges.
+///
+/// Located exactly: period starts, ADC samples, both edges of every coil's voltage, starts and ends
+/// of loads, faults. Found as roots: currents that reach zero (diodes block), blocked coils that
+/// carry again, contacts. Between events everything is smooth.
+///
+/// Not here: iron laws, copper heating and a bus with impedance (InputError).
+/// Source: shared/design/physics.md.
+#include <atomic>
+#include <functional>
+
+#include "simulation/continuous/continuous_rig.h"
+
+namespace ambrig {
+
+struct ReferenceOptions {
+  SampledOptions sampled;  // record rate, noise (off), warm-up
+  IntegratorOptions integrator;
+  std::function<void(double)> progress = {};
+  const std::atomic<bool>* stop = nullptr;  // set: throw Interrupted
+};
+
+/// @throws InputError for what it cannot do, Interrupted when stopped.
+RunResult RunReference(const RigParameters& rig, const Scenario& scenario,
+                       const ReferenceOptions& options = {});
+
+/// The same, with the energy balance at the end of every period from the first on.
+RunResult RunReference(const RigParameters& rig, const Scenario& scenario,
+                       const ReferenceOptions& options, std::vector<EnergyBalance>* energies);
+
+}  // namespace ambrig

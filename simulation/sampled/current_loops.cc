@@ -1,0 +1,41 @@
+#include "simulation/sampled/current_loops.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+namespace {
+std::size_t U(int k) { return static_cast<std::size_t>(k); }
+}  // namespace
+
+void CurrentLoops::Targets(long long at, std::vector<BearingControl>& control) {
+  const bool scenario = source_ == SetPoints::kOfTheScenario;
+  target_.resize(control.size());
+  for (std::size_t k = 0; k < control.size(); ++k)
+    target_[k] = scenario ? Lane{} : control[k].commanded;
+  if (at >= 0 && source_ != SetPoints::kMeasuredWhole)
+    for (const CommandPlan::Signal& s : commands_.current)
+      target_[U(s.bearing)][s.index] += CommandPlan::At(s, at);
+  for (std::size_t k = 0; scenario && k < control.size(); ++k) control[k].set_point = target_[k];
+}
+
+void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
+  const long long at = n >= 0 ? n : source_ == SetPoints::kOfTheController ? -1 : 0;
+  Targets(at, control);
+  for (std::size_t k = 0; k < control.size(); ++k) {
+    BearingControl& c = control[k];
+    const Lane& target = target_[k];
+    for (int j = 0; j < c.coils; ++j)
+      c.duty[j] = first_period_ ? amplifier_.duty_min
+                                : c.amplifier[U(j)].CurrentLoop(target[j], c.feedback[j]);
+    for (int j = 0; j < c.coils; ++j)
+      if (c.disabled[U(j)]) c.duty[j] = 0;
+  }
+  first_period_ = false;
+  if (at < 0) return;
+  for (const CommandPlan::Signal& s : commands_.duty)
+    control[U(s.bearing)].duty[s.index] =
+        std::clamp(CommandPlan::At(s, at), std::min(0.0, amplifier_.duty_min), 1.0);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,39 @@
+#pragma once
+/// The current loops of all coils at the start of a switching period, the same in every fidelity:
+/// set-points and what the scenario adds to them become duties. Source: shared/design/physics.md
+/// section 3.
+#include "faulttolerance/supervision/supervisor.h"
+#include "simulation/sampled/command_plan.h"
+
+namespace ambrig {
+
+class CurrentLoops {
+ public:
+  enum class SetPoints {
+    kOfTheController,  // position loop; nothing of the scenario before t = 0
+    kOfTheScenario,    // clamped rotor: the scenario's currents alone, before t = 0 as at t = 0
+    kMeasured,         // `commanded` follows data; the scenario's currents come on top
+    kMeasuredWhole,    // the data hold them already
+  };
+
+  /// `commands` must outlive the loops.
+  CurrentLoops(const AmplifierParameters& amplifier, const CommandPlan& commands)
+      : amplifier_(amplifier), commands_(commands) {}
+
+  void Follow(SetPoints source) { source_ = source; }
+  /// The first period after everything was switched on: no feedback yet, least duty.
+  void SwitchOn() { first_period_ = true; }
+  /// Duties of period n from the feedback of the one before it.
+  void Period(long long n, std::vector<BearingControl>& control);
+
+ private:
+  void Targets(long long n, std::vector<BearingControl>& control);
+
+  AmplifierParameters amplifier_;
+  const CommandPlan& commands_;
+  SetPoints source_ = SetPoints::kOfTheController;
+  bool first_period_ = false;
+  std::vector<Lane> target_;  // kept: no allocation in the loop
+};
+
+}  // namespace ambrig

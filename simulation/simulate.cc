@@ -1,0 +1,111 @@
+#include "simulation/simulate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "faulttolerance/redistribution/redistribution_setup.h"
+#include "faulttolerance/supervision/fault_supervisor.h"
+#include "simulation/continuous/averaged_engine.h"
+#include "simulation/continuous/reference_engine.h"
+#include "simulation/switching/switching_engine.h"
+
+namespace ambrig {
+
+namespace {
+
+RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
+                       const SimulateOptions& options) {
+  EngineOptions engine;
+  engine.record_rate = options.record_rate;
+  engine.record = options.record;
+  engine.snapshots = options.for_report;
+  engine.stepper = options.stepper;
+  engine.progress = options.progress;
+  engine.stop = options.stop;
+  std::unique_ptr<FaultSupervisor> supervisor;
+  const bool bridges = rig.amplifier.modulation == Modulation::kBiState;
+  if (scenario.fault_tolerant && scenario.start != StartState::kClamped && bridges) {
+    FaultSupervisorOptions watch;
+    watch.slopes = options.for_report;
+    watch.redistribution = scenario.redistribution;
+    watch.hand_over = scenario.hand_over;
+    watch.stiffness_compensation = scenario.stiffness_compensation;
+    watch.cache_dir = RedistributionCacheDirectory();
+    supervisor = std::make_unique<FaultSupervisor>(rig, watch);
+    engine.supervisor = supervisor.get();
+  }
+  return SwitchingEngine(rig, scenario, engine).Run();
+}
+
+/// The witnesses integrate continuously: no noise, no detection (their cost is in the equations).
+template <class Options>
+RunResult RunContinuous(const RigParameters& rig, const Scenario& scenario,
+                        const SimulateOptions& options, Options o,
+                        RunResult (*run)(const RigParameters&, const Scenario&, const Options&)) {
+  o.sampled.record_rate = options.record_rate;
+  o.progress = options.progress;
+  o.stop = options.stop;
+  return run(rig, scenario, o);
+}
+
+}  // namespace
+
+Fidelity FidelityByName(const std::string& name) {
+  if (name == "switching") return Fidelity::kSwitching;
+  if (name == "reference") return Fidelity::kReference;
+  if (name == "averaged") return Fidelity::kAveraged;
+  throw InputError(fmt::format("--fidelity = {}, allowed: switching, reference, averaged", name));
+}
+
+RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
+                   const SimulateOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  RunResult result;
+  switch (options.fidelity) {
+    case Fidelity::kSwitching:
+      result = RunSwitching(rig, scenario, options);
+      break;
+    case Fidelity::kReference:
+      result = RunContinuous(rig, scenario, options, ReferenceOptions{}, RunReference);
+      break;
+    case Fidelity::kAveraged:
+      result = RunContinuous(rig, scenario, options, DefaultAveragedOptions(), RunAveraged);
+      break;
+  }
+  std::stable_sort(result.events.begin(), result.events.end(),
+                   [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
+  JudgeDetection(scenario, result);
+  const double wall =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;
+  return result;
+}
+
+void JudgeDetection(const Scenario& scenario, RunResult& result) {
+  RunMetrics& m = result.metrics;
+  m.detection_delay = m.redistribution_delay = -1;
+  for (const FaultSpec& fault : scenario.faults) {
+    double detected = kInfinity, redistributed = kInfinity;
+    for (const RunEvent& e : result.events) {
+      if (e.t < fault.time) continue;
+      if (e.kind == "detected" && e.target == fault.target) detected = std::min(detected, e.t);
+      if (e.kind == "redistributed") redistributed = std::min(redistributed, e.t);
+    }
+    if (std::isfinite(detected))
+      m.detection_delay = std::max(m.detection_delay, detected - fault.time);
+    if (std::isfinite(redistributed))
+      m.redistribution_delay = std::max(m.redistribution_delay, redistributed - fault.time);
+  }
+  m.false_alarms = 0;
+  for (const RunEvent& e : result.events) {
+    if (e.kind != "detected") continue;
+    bool real = false;
+    for (const FaultSpec& fault : scenario.faults)
+      real = real || (fault.target == e.target && e.t >= fault.time);
+    if (!real) m.false_alarms += 1;
+  }
+}
+
+}  // namespace ambrig

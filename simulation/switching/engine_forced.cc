@@ -1,0 +1,87 @@
+/// Teacher-forced coils: measured set-points and measured readings drive the amplifiers and the
+/// gaps, so that an error of the coil block shows where it arises. Discovery compares its currents.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/switching/bearing_run.h"
+#include "simulation/switching/switching_engine.h"
+
+namespace ambrig {
+
+namespace {
+double At(const Record& record, const Channel* c, double t) {
+  if (!c || c->samples.empty()) return 0;
+  const double row =
+      std::clamp((t - record.start) * record.rate, 0.0, static_cast<double>(c->samples.size() - 1));
+  const auto k = static_cast<std::size_t>(row);
+  const std::size_t next = std::min(k + 1, c->samples.size() - 1);
+  return c->samples[k] + (row - static_cast<double>(k)) * (c->samples[next] - c->samples[k]);
+}
+}  // namespace
+
+void SwitchingEngine::StartForced() {
+  // Set-points of a clamped run hold the coils' excitations already.
+  current_loops_->Follow(scenario_.start == StartState::kClamped
+                             ? CurrentLoops::SetPoints::kMeasuredWhole
+                             : CurrentLoops::SetPoints::kMeasured);
+  clamped_ = true;
+  controller_on_ = false;
+  warm_ = std::llround(0.01 / T_);
+  motion_.t = -static_cast<double>(warm_) * T_;
+  FollowData(-warm_);
+  for (BearingRun& b : bearings_) {
+    BearingControl& c = control_[b.index];
+    for (int j = 0; j < c.coils; ++j)
+      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(c.set_point[j],
+                                                           b.plant->base_resistance[j]);
+  }
+}
+
+void SwitchingEngine::ForcedPosition(const BearingRun& b, double t, double* x, double* y) const {
+  const Record& d = *options_.forced;
+  double reading[4], z[2];
+  std::size_t found = 0;
+  for (const BearingParameters& p : nominal_.bearings) {
+    if (p.kind != BearingKind::kRadial || found > 1) continue;
+    z[found] = p.sensor.z;
+    reading[2 * found] = At(d, d.Find(p.name + ".x"), t);
+    reading[2 * found + 1] = At(d, d.Find(p.name + ".y"), t);
+    ++found;
+  }
+  if (b.plant->thrust) {
+    *x = At(d, d.Find("z"), t);
+    *y = 0;
+  } else if (found == 2) {  // rigid shaft between the two sensor planes
+    const double w = (b.plant->z - z[0]) / (z[1] - z[0]);
+    *x = (1 - w) * reading[0] + w * reading[2];
+    *y = (1 - w) * reading[1] + w * reading[3];
+  } else {
+    *x = At(d, d.Find(b.plant->name + ".x"), t);
+    *y = 0;
+  }
+  *x -= b.plant->offset_x;
+  *y -= b.plant->offset_y;
+}
+
+void SwitchingEngine::FollowData(long long n) {
+  const Record& d = *options_.forced;
+  const double t = std::max(0.0, static_cast<double>(n) * T_);
+  const auto row =
+      static_cast<std::size_t>(std::max(0.0, std::floor((t - d.start) * d.rate + 1e-6)));
+  for (BearingRun& b : bearings_) {
+    BearingControl& c = control_[b.index];
+    for (int j = 0; j < c.coils; ++j) {
+      const Channel* s = d.Find(fmt::format("{}.s{}", b.plant->name, j + 1));
+      if (s && !s->samples.empty())
+        c.set_point[j] = s->samples[std::min(row, s->samples.size() - 1)];
+    }
+    c.commanded = c.set_point;
+    ForcedPosition(b, static_cast<double>(n) * T_, &b.true_x, &b.true_y);
+    b.x = b.true_x;
+    b.y = b.true_y;
+  }
+}
+
+}  // namespace ambrig

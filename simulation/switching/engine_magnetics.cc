@@ -1,0 +1,158 @@
+/// The coils of all bearings through one period: voltage patterns, where the gaps will be, the
+/// samples of the circuits (side by side, or in lockstep where something ties them together), what
+/// is measured of them.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "simulation/switching/bearing_run.h"
+#include "simulation/switching/switching_engine.h"
+
+namespace ambrig {
+
+namespace {
+constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
+}  // namespace
+
+void SwitchingEngine::SetPatterns(BearingRun& b) {
+  const BearingControl& c = control_[b.index];
+  if (b.only_edge_moves) {
+    for (int j = 0; j < c.coils; ++j) b.pattern.t2[j] = c.duty[j] * T_;
+    return;
+  }
+  b.only_edge_moves = rig_.amplifier.modulation == Modulation::kBiState;
+  for (int j = 0; j < c.coils; ++j) {
+    const auto lane = static_cast<std::size_t>(j);
+    BridgeImperfection bridge = b.plant->bridge[lane];
+    b.only_edge_moves = b.only_edge_moves && bridge.dead_time == 0 && bridge.dead_duty == 0 &&
+                        !bridge.off && !bridge.stuck_on && b.plant->voltage[lane].empty();
+    for (const auto& term : b.plant->voltage[lane])
+      bridge.voltage_offset +=
+          term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y, &motion_});
+    SetPattern(b, j, c.amplifier[lane].Pattern(c.duty[j], bridge));
+  }
+}
+
+void SwitchingEngine::SetPattern(BearingRun& b, int j, const CoilVoltage& v) {
+  b.pattern.t1[j] = v.t1;
+  b.pattern.t2[j] = v.t2;
+  for (int q = 0; q < 3; ++q) {
+    b.pattern.gain[q][j] = v.gain[q];
+    b.pattern.drop[q][j] = v.drop[q];
+  }
+}
+
+void SwitchingEngine::PredictPositions() {
+  // Where the planes will be at the end of the period: constant acceleration.
+  MotionState& ahead = ahead_;  // kept: only what moves is written
+  ahead.t = motion_.t + T_;
+  ahead.theta = motion_.theta + T_ * motion_.Omega;
+  ahead.Omega = motion_.Omega;
+  ahead.Omega_dot = motion_.Omega_dot;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(plant_.rotor.dof()); ++d) {
+    ahead.q[d] = motion_.q[d] + T_ * (motion_.v[d] + 0.5 * T_ * acceleration_[d]);
+    ahead.v[d] = motion_.v[d];
+  }
+  for (BearingRun& b : bearings_) {
+    const PlanePoint p = plant_.rotor.Position(ahead, b.plant->plane);
+    b.x_next = p.x - b.plant->offset_x;
+    b.y_next = p.y - b.plant->offset_y;
+  }
+}
+
+void SwitchingEngine::RunMagnetics(long long n) {
+  if (!clamped_ && !options_.forced) PredictPositions();
+  for (BearingRun& b : bearings_) {
+    if (options_.forced) {
+      ForcedPosition(b, motion_.t + T_, &b.x_next, &b.y_next);
+    } else if (clamped_) {
+      b.x_next = b.x;
+      b.y_next = b.y;
+    }
+  }
+  const double end = motion_.t + T_;
+  std::vector<const FaultSpec*>& due = due_faults_;
+  due.clear();
+  while (n >= 0 && next_fault_ < scenario_.faults.size() &&
+         scenario_.faults[next_fault_].time < end - kTiny)
+    due.push_back(&scenario_.faults[next_fault_++]);
+  // Faults and a moving bus tie the bearings together sample by sample; an iron law or a late edge
+  // concerns its own bearing only.
+  const bool lockstep =
+      options_.force_general_path || !due.empty() || !plant_.bus.stiff() || bus_restore_at_ < end;
+  if (lockstep) {
+    RunSamplesInLockstep(n, due);
+  } else {
+    RunBearings();
+  }
+  for (BearingRun& b : bearings_) {
+    b.fx_before = std::exchange(b.fx, b.plant->lanes.fx);
+    b.fy_before = std::exchange(b.fy, b.plant->lanes.fy);
+  }
+}
+
+void SwitchingEngine::RunBearings() {
+  const int steps = samples_ * options_.substeps;
+  together_.clear();
+  for (BearingRun& b : bearings_) {
+    StatorLanes& lanes = b.plant->lanes;
+    bool late_edge = false;
+    for (std::size_t j = 0; j < kLanes && !b.only_edge_moves; ++j)
+      late_edge = late_edge || b.plant->bridge[j].dead_time > 0;
+    if (!lanes.NeedsGeneralPath() && !late_edge) {
+      together_.push_back({&lanes, &b.pattern, b.x, b.y, b.x_next, b.y_next});
+      continue;
+    }
+    lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
+    for (int k = 0; k < steps; ++k) lanes.StepSample(b.pattern, plant_.bus.voltage, k);
+    lanes.EndPeriod();
+  }
+  StatorLanes::RunPeriods(together_.data(), static_cast<int>(together_.size()), plant_.bus.voltage,
+                          steps);
+}
+
+void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due) {
+  const int steps = samples_ * options_.substeps;
+  const double h = T_ / steps, start = static_cast<double>(n) * T_;
+  for (BearingRun& b : bearings_) b.plant->lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
+  std::size_t done = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double t = start + k * h;
+    while (done < due.size() && due[done]->time < t + 0.5 * h) {
+      Inject(*due[done]);
+      ++done;
+    }
+    double drawn = 0;
+    for (BearingRun& b : bearings_) {
+      b.plant->lanes.StepSample(b.pattern, plant_.bus.voltage, k);
+      drawn += b.plant->lanes.bus_current();
+    }
+    if (!plant_.bus.stiff()) {
+      const BusSupply& bus = plant_.bus;
+      const double settled = bus.source - bus.resistance * drawn;
+      const double keep =
+          bus.capacitance > 0 ? std::exp(-h / (bus.resistance * bus.capacitance)) : 0;
+      plant_.bus.voltage = settled + (bus.voltage - settled) * keep;
+    }
+    if (t + h > bus_restore_at_) {
+      plant_.bus.source = rig_.amplifier.bus_voltage;
+      if (plant_.bus.stiff()) plant_.bus.voltage = plant_.bus.source;
+      bus_restore_at_ = kInfinity;
+    }
+  }
+  for (; done < due.size(); ++done) Inject(*due[done]);
+  for (BearingRun& b : bearings_) b.plant->lanes.EndPeriod();
+}
+
+void SwitchingEngine::Measure(long long n) {
+  if (scenario_.noise) noise_->DrawCurrents(n);
+  for (BearingRun& b : bearings_) {
+    if (options_.substeps > 1)
+      for (int k = 1; k < samples_; ++k)
+        b.plant->lanes.samples[k] = b.plant->lanes.samples[k * options_.substeps];
+    MeasureCurrents(b.measurement, b.plant->lanes.samples, b.plant->current_sensor.data(),
+                    b.plain_sensors, noise_->Currents(b.index), b.adc, &b.current);
+  }
+}
+
+}  // namespace ambrig

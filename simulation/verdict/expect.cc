@@ -1,0 +1,76 @@
+#include "simulation/verdict/expect.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace ambrig {
+
+namespace {
+
+ExpectResult AtMost(const std::string& key, double limit, double got, bool exists) {
+  return {key, fmt::format("<= {}", limit), exists ? fmt::format("{:.6g}", got) : "none",
+          exists && got <= limit};
+}
+
+ExpectResult Equal(const std::string& key, bool wanted, bool got) {
+  return {key, wanted ? "true" : "false", got ? "true" : "false", wanted == got};
+}
+
+/// Every fault of the scenario has an alarm of its own target, the latest of them within the limit.
+ExpectResult Detected(const Scenario& s, const RunResult& r) {
+  const double limit = *s.expect.detected_within;
+  double worst = -1;
+  for (const FaultSpec& fault : s.faults) {
+    double first = kInfinity;
+    for (const RunEvent& e : r.events)
+      if (e.kind == "detected" && e.target == fault.target && e.t >= fault.time)
+        first = std::min(first, e.t - fault.time);
+    worst = std::max(worst, first);
+  }
+  return AtMost("detected_within", limit, worst, worst >= 0 && std::isfinite(worst));
+}
+
+/// The last class given to each faulty target is the wanted one.
+ExpectResult Classified(const Scenario& s, const RunResult& r) {
+  std::string got;
+  bool met = !s.faults.empty();
+  for (const FaultSpec& fault : s.faults) {
+    std::string last = "none";
+    for (const RunEvent& e : r.events)
+      if (e.kind == "classified" && e.target == fault.target && e.t >= fault.time)
+        last = e.fault_class;
+    met = met && last == *s.expect.classified;
+    if (got.find(last) == std::string::npos) got += (got.empty() ? "" : ", ") + last;
+  }
+  return {"classified", *s.expect.classified, got, met};
+}
+
+}  // namespace
+
+std::vector<ExpectResult> CheckExpectations(const Scenario& s, const RunResult& r) {
+  std::vector<ExpectResult> out;
+  const Expectation& e = s.expect;
+  if (e.detected_within) out.push_back(Detected(s, r));
+  if (e.classified) out.push_back(Classified(s, r));
+  if (e.touchdown) out.push_back(Equal("touchdown", *e.touchdown, r.touchdown));
+  if (e.drop) out.push_back(Equal("drop", *e.drop, r.drop));
+  if (e.redistributed)
+    out.push_back(Equal("redistributed", *e.redistributed, r.metrics.redistribution_delay >= 0));
+  if (e.max_orbit) {
+    double most = 0;
+    for (const auto& [name, orbit] : r.metrics.max_orbit) most = std::max(most, orbit);
+    out.push_back(AtMost("max_orbit", *e.max_orbit, most, true));
+  }
+  if (e.max_false_alarms)
+    out.push_back(AtMost("max_false_alarms", *e.max_false_alarms, r.metrics.false_alarms, true));
+  if (e.rests_within)
+    out.push_back(AtMost("rests_within", *e.rests_within, r.metrics.late_orbit, true));
+  return out;
+}
+
+bool AllMet(const std::vector<ExpectResult>& results) {
+  return std::all_of(results.begin(), results.end(), [](const ExpectResult& r) { return r.met; });
+}
+
+}  // namespace ambrig

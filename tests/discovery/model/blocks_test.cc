@@ -1,0 +1,61 @@
+// A logger that loses samples must not make a healthy block look wrong.
+#include "discovery/model/blocks.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
+#include "simulation/switching/switching_engine.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+class Blocks : public testing::Test {
+ protected:
+  Blocks() : rig_(ReadRig(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml")) {
+    scenario_.duration = 0.05;
+    scenario_.seed = 4;
+    EngineOptions options;
+    options.record_rate = 12500;
+    record_ = SwitchingEngine(rig_, scenario_, options).Run().record;
+  }
+  std::vector<double>& Samples(const std::string& name) {
+    for (Channel& c : record_.channels)
+      if (c.name == name) return c.samples;
+    throw std::runtime_error("no channel " + name);
+  }
+  BlockErrors Errors() const { return BlockRms(rig_, rig_, scenario_, record_); }
+
+  RigParameters rig_;
+  Scenario scenario_;
+  Record record_;
+};
+
+TEST_F(Blocks, ALostSampleChangesLittle) {
+  const BlockErrors whole = Errors();
+  ASSERT_TRUE(whole.contains("coil") && whole.contains("controller") && whole.contains("rotor"));
+  Samples("B.x")[200] = kNan;
+  Samples("A.s3")[350] = kNan;
+  Samples("A.i5")[450] = kNan;
+  const BlockErrors holed = Errors();
+  ASSERT_EQ(holed.size(), whole.size());
+  // An exact controller has no error at all: 1e-4 (A, N) is where compare begins to count
+  // (discovery/model/block_ratios.cc).
+  for (const auto& [block, error] : whole)
+    EXPECT_NEAR(holed.at(block), error, 0.2 * std::max(error, 1e-4)) << block;
+}
+
+TEST_F(Blocks, ATrulyWrongReadingStillShows) {
+  const double healthy = Errors().at("coil");
+  Samples("B.x")[200] = kNan;
+  for (double& v : Samples("A.s3")) v *= 1.2;
+  EXPECT_GT(Errors().at("coil"), 3 * healthy);
+}
+
+}  // namespace
+}  // namespace ambrig

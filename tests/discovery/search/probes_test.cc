@@ -1,0 +1,79 @@
+// What the screening simulates of an effect whose law has a shape beside its size.
+#include "discovery/search/probes.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "discovery/practice/examination.h"
+#include "effects/catalogue.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+namespace {
+
+// Thin laminations and thick ones hold the flux back in other bands: one shape would miss the
+// other.
+TEST(Probes, ALawIsTriedInTheMiddleAndAtTheEndOfWhatShapesIt) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  for (const char* id : {"eddy-currents", "saturation"}) {
+    const EffectDescription& d = EffectNamed(id);
+    std::map<double, std::set<double>> sizes_of;  // by path
+    for (const ProbeGroup& g : ProbesOf(d, "A", model, {}))
+      for (const EffectInstance& e : g.probes) sizes_of[e.Value("path")].insert(e.values[0]);
+    ASSERT_EQ(sizes_of.size(), 2U) << id;
+    for (const auto& [path, sizes] : sizes_of)
+      EXPECT_EQ(sizes.size(), 4U) << id << " path " << path;
+    for (const EffectParameter& p : d.parameters) {
+      if (p.name == "path") {
+        EXPECT_EQ(sizes_of.rbegin()->first, p.typical_hi) << id;
+      }
+    }
+  }
+}
+
+// A bus with little capacitance follows every period, one with much the mean: of three shapes one is
+// near.
+TEST(Probes, WhatIsSwitchedFromAFiniteNullIsTriedAtBothEndsOfWhatShapesIt) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  const std::tuple<const char*, const char*, const char*> shaped[] = {
+      {"bus-impedance", "rig", "capacitance"},
+      {"hysteresis", "A", "width"},
+      {"copper-heating", "A", "time_constant"}};
+  for (const auto& [id, target, shape] : shaped) {
+    const EffectDescription& d = EffectNamed(id);
+    std::set<double> tried;
+    for (const ProbeGroup& g : ProbesOf(d, target, model, {})) {
+      EXPECT_TRUE(g.linear) << id;
+      for (const EffectInstance& e : g.probes) tried.insert(e.Value(shape));
+    }
+    ASSERT_EQ(tried.size(), 3U) << id;
+    for (const EffectParameter& p : d.parameters) {
+      if (p.name != shape) continue;
+      EXPECT_EQ(*tried.begin(), p.typical_lo) << id;
+      EXPECT_EQ(*tried.rbegin(), p.typical_hi) << id;
+    }
+  }
+}
+
+// A resonance is sought with one damping; its frequencies are many enough.
+TEST(Probes, AResonanceIsSoughtWithOneDamping) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  for (const ProbeGroup& g : ProbesOf(EffectNamed("base-mode"), "rig", model, {}))
+    for (const EffectInstance& e : g.probes) EXPECT_EQ(e.Value("damping"), 0.05);
+}
+
+}  // namespace
+}  // namespace ambrig

@@ -1,0 +1,58 @@
+// Tones that a residual holds are found at their frequency; of fixed phase in all records, or not.
+#include "discovery/search/residual_peaks.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "core/math/noise.h"
+#include "discovery/practice/examination.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+namespace {
+
+TEST(ResidualPeaks, FindsATone) {
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  Case c = EmptyCase(rig, Examination(rig, 1));
+  std::erase_if(c.records,
+                [](const CaseRecord& r) { return r.scenario.start == StartState::kClamped; });
+  const CaseModel model(c);
+  std::vector<double> residual(model.size());
+  for (const Target& t : model.targets()) {
+    const CaseRecord& r = c.records[t.record];
+    for (std::size_t k = 0; k < t.count; ++k) {
+      const double time = r.data.start + static_cast<double>(k) / r.data.rate;
+      residual[t.first + k] = Normal(3, 1, t.first + k);
+      if (r.data.channels[t.channel].name == "A.x")
+        residual[t.first + k] += std::sin(2 * kPi * 60 * time + 0.4);
+      if (r.data.channels[t.channel].name == "B.y")
+        residual[t.first + k] +=
+            2 * std::sin(2 * kPi * 400 * time + 2.1 * static_cast<double>(t.record));
+    }
+  }
+  const ResidualPeaks peaks = FindPeaks(model, residual);
+  ASSERT_FALSE(peaks.coherent.at("A").empty());
+  EXPECT_NEAR(peaks.coherent.at("A")[0], 60, 0.5);
+  ASSERT_FALSE(peaks.spectrum.empty());
+  EXPECT_NEAR(peaks.spectrum[0], 400, 6);
+}
+
+// A thinned model keeps rows of every phase, so that nothing periodic hides.
+TEST(ThinModel, KeepsEveryPhase) {
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 1));
+  const CaseModel all(c), thin(c, 5);
+  EXPECT_NEAR(static_cast<double>(thin.size()), static_cast<double>(all.size()) / 5,
+              0.01 * static_cast<double>(all.size()));
+  std::vector<int> phase(5);
+  const Target& t = thin.targets()[0];
+  for (std::size_t k = t.first; k < t.first + t.count; ++k) ++phase[thin.sample(k) % 5];
+  for (int n : phase) EXPECT_NEAR(n, static_cast<double>(t.count) / 5, 2);
+}
+
+}  // namespace
+}  // namespace ambrig

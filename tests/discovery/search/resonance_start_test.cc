@@ -1,0 +1,83 @@
+// A resonance is found from a start beside its valley, in a loop that answers strongly: with its
+// damping let loose at once such a fit ends at a broad mode far away that explains the most of the
+// misfit.
+#include <gtest/gtest.h>
+
+#include "discovery/practice/examination.h"
+#include "discovery/search/candidate_fit.h"
+#include "effects/catalogue.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+namespace {
+
+EffectInstance BaseOf(double mass, double frequency, double damping) {
+  EffectInstance e = MakeInstance(EffectNamed("base-mode"), "rig");
+  e.Set("mass", mass);
+  e.Set("frequency", frequency);
+  e.Set("damping", damping);
+  return e;
+}
+
+class ResonanceStartTest : public testing::Test {
+ protected:
+  ResonanceStartTest() {
+    RigParameters rig =
+        ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/heavy_compressor/rig.toml");
+    std::erase_if(rig.bearings,
+                  [](const BearingParameters& b) { return b.kind == BearingKind::kThrust; });
+    rig.tolerances.clear();
+    std::vector<ExaminationRecord> records = Examination(rig, 5, {});
+    records.resize(1);  // multisine at rest
+    data_ = EmptyCase(rig, records);
+    CaseModel empty(data_);
+    Hypothesis truth = Hypothesis::Base(rig);
+    truth.AddEffect(BaseOf(90, 35, 0.02));
+    const Record measured = empty.Simulated(truth, 0, false, 1);
+    for (Channel& ch : data_.records[0].data.channels)
+      if (const Channel* from = measured.Find(ch.name))
+        ch.samples.assign(from->samples.begin(),
+                          from->samples.begin() + static_cast<std::ptrdiff_t>(ch.samples.size()));
+  }
+  /// The rig as it is, over floors of a thousandth of each channel.
+  FitResult Simulated(CaseModel& model) const {
+    for (Target& t : model.targets()) t.floor = std::max(1e-3 * t.full_scale, 1e-9);
+    FitOptions look;
+    look.iterations = 0;
+    return Fit(model, Hypothesis::Base(data_.rig), look);
+  }
+  Case data_;
+};
+
+TEST_F(ResonanceStartTest, DampingIsHeldUntilTheFrequencyIsFound) {
+  CaseModel model(data_, 4);
+  const FitResult base = Simulated(model);
+  Candidate candidate;
+  candidate.narrow = true;
+  candidate.effect = BaseOf(166, 39, 0.05);
+  const FitResult fit = FitBriefly(model, base, candidate, 1e5);
+  ASSERT_TRUE(fit.converged);
+  const EffectInstance found = FittedEffect(fit, 0);
+  EXPECT_NEAR(found.Value("frequency"), 35, 0.4);
+  EXPECT_NEAR(found.Value("mass"), 90, 3);
+  EXPECT_NEAR(found.Value("damping"), 0.02, 0.005);
+}
+
+// Of several starts the one that explains most when it is simulated goes first, whatever the linear
+// step thought of it.
+TEST_F(ResonanceStartTest, StartsAreJudgedByTheirSimulation) {
+  CaseModel model(data_, 4);
+  const FitResult base = Simulated(model);
+  Candidate candidate;
+  candidate.narrow = true;
+  candidate.effect = BaseOf(400, 150, 0.05);  // the linear step's favourite
+  candidate.other_starts = {BaseOf(200, 150, 0.05), BaseOf(300, 110, 0.05), BaseOf(150, 110, 0.05),
+                            BaseOf(180, 33, 0.05), BaseOf(90, 33, 0.05)};
+  const FitResult fit = FitBriefly(model, base, candidate, 1e5);
+  ASSERT_TRUE(fit.converged);
+  EXPECT_NEAR(FittedEffect(fit, 0).Value("frequency"), 35, 0.4);
+}
+
+}  // namespace
+}  // namespace ambrig

@@ -1,0 +1,162 @@
+// The coupled detector's equations against the simulator's own stator, clamped and moving.
+#include "fdd/detectors/bearing_detector.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "fdd/measurement/position_monitor.h"
+#include "tests/fdd/stator_bench.h"
+
+namespace ambrig {
+namespace {
+
+using namespace testing_bench;
+
+// The engine's trapezoid and moving reluctance leave 0.05 V: R h/2 di = 0.02 V, dP² terms the rest.
+constexpr double kModelError = 0.08;
+
+TEST(PeriodSlopes, HealthyCoilsObeyTheirEquationsOffCentreAndMoving) {
+  Bench bench;
+  bench.vx = 0.15;  // whirl at 60 % of the clearance, 12 000 rpm
+  bench.vy = -0.1;
+  std::mt19937 g(1);
+  std::uniform_real_distribution<double> u(0.45, 0.58);
+  const LinkageModel model = MakeLinkageModel(Reference());
+  for (int n = 0; n < 5; ++n) {
+    for (double& d : bench.duty.v) d = u(g);
+    const MeasuredPeriod in = bench.Run();
+    PeriodSlopes s;
+    ComputePeriodSlopes(model, bench.Sampling(), in, &s);
+    for (int j = 0; j < kLanes; ++j)
+      for (int q = 0; q < 2; ++q)
+        EXPECT_NEAR(s.phase[q].residual[j], 0, kModelError) << j << " " << q;
+  }
+  // The motion term is no detail: without it a coil is off by volts.
+  MeasuredPeriod still = bench.Run();
+  still.x1 = still.x0;
+  still.y1 = still.y0;
+  PeriodSlopes s;
+  ComputePeriodSlopes(model, bench.Sampling(), still, &s);
+  double worst = 0;
+  for (double e : s.phase[0].residual.v) worst = std::max(worst, std::abs(e));
+  EXPECT_GT(worst, 0.5);
+}
+
+TEST(PeriodSlopes, OneOpenCoilMovesAllSlopesButOnlyItsOwnResidual) {
+  // facts.md trap 2. With m_k = s_k di_k/dt, L0 (m_k - Σm/8) + L_l m_k = s_k v and m_j = 0 the
+  // slopes of the others change by -+(L0/8)/(L0/8 + L_l): 56 % for L_l = 0.1 L0, 36 % for this rig.
+  Bench healthy, broken;
+  healthy.x0 = healthy.y0 = broken.x0 = broken.y0 = 0;
+  healthy.Run();  // settle at the centre
+  broken.Run();
+  broken.lanes.Break(2, 0, 0);
+  const LinkageModel model = MakeLinkageModel(Reference());
+  PeriodSlopes a, b;
+  ComputePeriodSlopes(model, healthy.Sampling(), healthy.Run(), &a);
+  ComputePeriodSlopes(model, broken.Sampling(), broken.Run(), &b);
+  for (int j = 0; j < kLanes; ++j) {
+    const double change = b.phase[0].current[j] / a.phase[0].current[j] - 1;
+    if (j == 2) {
+      EXPECT_LT(b.phase[0].residual[j], -15);
+    } else {
+      const double sign = (j - 2) % 2 == 0 ? -1 : 1;  // same winding sense: slower
+      // The break leaves Σ s i = 2 A * 1.95/0.55 = 7.1 A, so R Σ s i = 3.5 V of 29.75 V work
+      // against it, and R (i_k - 2 A) = 0.36 V in each coil: 0.318 at once, growing with the decay
+      // of Σ s i.
+      EXPECT_NEAR(change, sign * 0.32, 0.015) << j;
+      EXPECT_NEAR(b.phase[0].residual[j], 0, kModelError) << j;
+    }
+  }
+}
+
+TEST(PeriodSlopes, FalseSensorSpoilsTheOthersUntilItsMmfIsCalledUnknown) {
+  Bench bench;
+  bench.Run();
+  MeasuredPeriod in = bench.Run();
+  for (Lane& sample : bench.adc) sample[4] *= 0.5;
+  const LinkageModel model = MakeLinkageModel(Reference());
+  PeriodSlopes plain, projected;
+  std::array<bool, kLanes> excluded{};
+  excluded[4] = true;
+  ComputePeriodSlopes(model, bench.Sampling(), in, &plain);
+  ComputePeriodSlopesUnknownMmf(model, bench.Sampling(), in, excluded, &projected);
+  for (int j : {3, 5}) {
+    EXPECT_GT(std::abs(plain.phase[0].residual[j]), 0.8);
+    EXPECT_NEAR(projected.phase[0].residual[j], 0, 2 * kModelError);
+  }
+}
+
+TEST(PeriodSlopes, ExpectedSlopeOfAnOpenCoilIsTheHealthyOne) {
+  Bench bench;
+  DetectorSettings s;
+  s.sampling = bench.Sampling();
+  BearingDetector detector(MakeLinkageModel(Reference()), s);
+  detector.Period(bench.Run());
+  double slope = 0, expected = 0, width = 0;
+  detector.Band(1, &slope, &expected, &width);
+  EXPECT_NEAR(slope, expected, width);
+  bench.lanes.Break(1, bench.x0, bench.y0);
+  detector.Period(bench.Run());
+  detector.Band(1, &slope, &expected, &width);
+  EXPECT_NEAR(slope, 0, 1);
+  EXPECT_GT(expected - slope, 2 * width);
+}
+
+TEST(PositionMonitor, FollowsAParabolaExactly) {
+  PositionMonitor m(1, 1);
+  const auto y = [](double t) { return 3e-5 - 0.1 * t + 40 * t * t; };
+  for (int k = 0; k < 4; ++k) m.Read(k * 8e-5, {y(k * 8e-5)});
+  EXPECT_NEAR(m.At(0, 3 * 8e-5 + 6e-5), y(3 * 8e-5 + 6e-5), 1e-15);
+  EXPECT_FALSE(m.ready(1.0));  // old readings say nothing
+}
+
+TEST(PositionMonitor, RigidShaftBetweenTwoSensorPlanes) {
+  const auto w = PlaneWeights({-0.135, 0.145}, -0.120);
+  const auto y = [](double z) { return 2e-5 + 3e-4 * z; };
+  EXPECT_NEAR(w[0] * y(-0.135) + w[1] * y(0.145), y(-0.120), 1e-18);
+  EXPECT_DOUBLE_EQ(PlaneWeights({0.1}, 0.3)[0], 1);
+}
+
+// A shaft thrown back between two readings leaves the parabola by at most a step's change of path.
+TEST(PositionMonitor, AnImpactIsNoFaultOfASensorWhenOneIsPossible) {
+  const double v = 0.5, h = 8e-5;
+  for (double hit : {0.1, 0.4, 0.8}) {
+    PositionMonitor knows(1, 3e-5, 2e-7), innocent(1, 3e-5, 2e-7);
+    double most = 0;
+    for (int k = 0; k < 20; ++k) {
+      const double t = (k - 10 - hit) * h, y = 2e-4 - v * std::abs(t);
+      knows.Read(k * h, {y}, {k >= 10 ? 2 * v * h : 0.0});
+      innocent.Read(k * h, {y});
+      most = std::max(most, knows.Departure(0));
+    }
+    EXPECT_FALSE(knows.faulty(0)) << hit;
+    EXPECT_TRUE(innocent.faulty(0)) << hit;
+    EXPECT_LT(most, 2 * v * h);
+    EXPECT_GT(most, 0.5 * v * h);
+    EXPECT_EQ(knows.Departure(0), 0);  // forgotten after three readings that follow the parabola
+  }
+}
+
+TEST(PositionMonitor, NamesAStuckAndAJumpingSensorOnce) {
+  std::mt19937 g(2);
+  std::normal_distribution<double> noise(0, 2e-7);
+  PositionMonitor m(2, 3e-5);
+  int first = -1;
+  for (int k = 0; k < 300; ++k) {
+    const double whirl = 1.2e-4 * std::cos(1257 * 8e-5 * k);
+    m.Read(k * 8e-5, {whirl + noise(g), k < 200 ? 0.5 * whirl + noise(g) : 1e-5});
+    const int fault = m.TakeNewFault();
+    if (fault >= 0 && first < 0) {
+      first = k;
+      EXPECT_EQ(fault, 1);
+    }
+  }
+  EXPECT_GE(first, 200);
+  EXPECT_LE(first, 207);
+  EXPECT_FALSE(m.faulty(0));
+}
+
+}  // namespace
+}  // namespace ambrig

@@ -1,0 +1,40 @@
+#pragma once
+/// The flexible rig of TU Munich (examples/tum_mbtr) as text that tests change.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/base/read_file.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
+
+namespace ambrig::testing {
+
+inline const std::string kTumFolder = std::string(AMBRIG_SOURCE_DIR) + "/examples/tum_mbtr/";
+
+inline std::string Replaced(std::string text, const std::string& from, const std::string& to) {
+  const std::size_t at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// The rig's text with its shaft inside, so that tests can change both; then `changes`, from and
+/// to.
+inline std::string TumRigText(
+    const std::vector<std::pair<std::string, std::string>>& changes = {}) {
+  const std::string shaft = ReadFile(kTumFolder + "shaft.toml");
+  std::string text = Replaced(ReadFile(kTumFolder + "rig.toml"), "file = \"shaft.toml\"",
+                              "modes = 4\nelements_per_section = 4");
+  text =
+      Replaced(text, "[amplifier]", shaft.substr(shaft.find("[rotor.materials")) + "\n[amplifier]");
+  for (const auto& [from, to] : changes) text = Replaced(text, from, to);
+  return text;
+}
+
+inline RigParameters TumRig(const std::string& text) {
+  return ReadRigText(text, kTumFolder + "rig.toml");
+}
+
+}  // namespace ambrig::testing
