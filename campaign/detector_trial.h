@@ -11,6 +11,7 @@
 #include <memory>
 #include <vector>
 
+#include "faulttolerance/supervision/supervisor.h"
 #include "fdd/detectors/coil_detector.h"
 #include "fdd/detectors/statistic_level.h"
 #include "fdd/measurement/detection_feed.h"

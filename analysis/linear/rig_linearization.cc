@@ -6,6 +6,7 @@
 #include "actuators/magnetics/coil_network.h"
 #include "rig/rig_assembly.h"
 #include "rotor/motion/linear_rotor.h"
+#include "simulation/sampled/start_state.h"
 
 namespace ambrig {
 
