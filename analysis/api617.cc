@@ -2,8 +2,8 @@
 
 namespace ambrig {
 
-SeparationMargin JudgeSeparation(double critical, double amplification, double lowest,
-                                 double highest) {
+SeparationMargin AssessSeparation(double critical, double amplification, double lowest,
+                                  double highest) {
   SeparationMargin m;
   const bool above = critical > highest, below = critical < lowest;
   if (above) m.actual = 100 * (critical / highest - 1);

@@ -16,8 +16,8 @@ struct SeparationMargin {
 };
 
 /// Speeds in one unit; AF, or a bound above it.
-SeparationMargin JudgeSeparation(double critical, double amplification, double lowest,
-                                 double highest);
+SeparationMargin AssessSeparation(double critical, double amplification, double lowest,
+                                  double highest);
 
 inline constexpr double kLeastLogDecrement = 0.1;
 

@@ -37,7 +37,7 @@ class Analysis {
     out_.supports = AnalyseSupports(out_.point, kModes);
     AtOperatingSpeeds();
     OverSpeed();
-    Judge();
+    AssessStandards();
     Measure(rig);
     return std::move(out_);
   }
@@ -105,7 +105,7 @@ class Analysis {
         SweepUnbalance(out_.point, loops, StandardUnbalance(out_.point, out_.options.highest));
   }
 
-  void Judge() {
+  void AssessStandards() {
     const AnalysisOptions& o = out_.options;
     for (const UnbalanceSweep& sweep : out_.unbalance)
       for (const OrderTrack& track : sweep.tracks) {
@@ -120,7 +120,7 @@ class Analysis {
         for (const ResponsePeak& peak : track.peaks)
           out_.separation.push_back(
               {track.bearing, sweep.unbalance.name, peak,
-               JudgeSeparation(peak.speed, peak.amplification, o.lowest, o.highest)});
+               AssessSeparation(peak.speed, peak.amplification, o.lowest, o.highest)});
       }
   }
 

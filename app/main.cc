@@ -17,7 +17,7 @@ constexpr const char* kExamples = R"(Examples:
   ambrig check scenarios/library --jobs 2                     every scenario with expectations
   ambrig campaign scenarios/campaigns/single_coils.toml       many runs on all cores, resumable
   ambrig detectors scenarios/studies/detectors.toml           detectors of coil faults: ROC, delays
-  ambrig witness scenarios/library/drop_at_1500rpm.toml       contact by two models: do they agree?
+  ambrig crosscheck scenarios/library/drop_at_1500rpm.toml    contact by two independent models
   ambrig rotor convert rotor.json shaft.toml                  a shaft from ROSS's file, or to it
   ambrig design study.toml                                    controllers compared: Pareto front, report
   ambrig redistribute rig.toml --bearing A --failed 3         currents after a coil failure
@@ -41,7 +41,7 @@ int Main(int argc, char** argv) {
   ambrig::AddCampaign(app, work);
   ambrig::AddMerge(app, work);
   ambrig::AddDetectors(app, work);
-  ambrig::AddWitness(app, work);
+  ambrig::AddCrosscheck(app, work);
   ambrig::AddRotor(app, work);
   ambrig::AddDesign(app, work);
   ambrig::AddRedistribute(app, work);
@@ -53,7 +53,7 @@ int Main(int argc, char** argv) {
   ambrig::AddExplain(app, work);
   ambrig::AddAdopt(app, work);
   ambrig::AddHide(app, work);
-  ambrig::AddJudge(app, work);
+  ambrig::AddScore(app, work);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

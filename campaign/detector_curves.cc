@@ -93,7 +93,7 @@ double Area(const FalseAlarmCurve& healthy, const FaultCurve& c) {
   return sum / kSteps;
 }
 
-void Judge(DetectorCurves& d, const DetectorStudy& study) {
+void SummariseAtBudget(DetectorCurves& d, const DetectorStudy& study) {
   const auto within = [&](double share) { return share <= study.budget; };
   const auto it = std::find_if(d.all.share.begin(), d.all.share.end(), within);
   d.budget_level = static_cast<int>((it == d.all.share.end() ? it - 1 : it) - d.all.share.begin());
@@ -141,7 +141,7 @@ std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& row
       FaultCurve& c = Named(d.faults, &FaultCurve::kind, name);
       Fill(c, list, T);
     }
-    Judge(d, study);
+    SummariseAtBudget(d, study);
     out.push_back(std::move(d));
   }
   return out;

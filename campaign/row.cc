@@ -99,7 +99,7 @@ std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r) {
           NumberText(m.coil_periods),
           NumberText(LargestOrbit(p, r)),
           NumberText(LargestOrbit(r, p.bearing)),
-          NumberText(m.late_orbit),
+          NumberText(m.settled_orbit),
           NumberText(m.min_clearance_left),
           NumberText(m.longest_contact),
           NumberText(m.peak_current),

@@ -165,8 +165,8 @@ PlannedRun RunPlan::Make(std::size_t run) const {
     const bool ranged = ParameterRange(p.rig, t.path, &lo, &hi, &unit);
     const double z = draw[k++];
     if (!value) continue;
-    const double drawn = (std::isnan(t.fitted) ? *value : t.fitted) + t.sd * z;
-    t.fitted = ranged ? std::clamp(drawn, lo, hi) : drawn;
+    const double drawn = (std::isnan(t.true_value) ? *value : t.true_value) + t.sd * z;
+    t.true_value = ranged ? std::clamp(drawn, lo, hi) : drawn;
   }
   AddFaults(p.at, p.scenario);
   AddLoad(p);

@@ -23,7 +23,7 @@ struct SetCapacity {
 struct PlannedRun {
   std::size_t run = 0;
   RunIndex at;
-  RigParameters rig;  // tolerances carry this draw as `fitted`: the plant's values
+  RigParameters rig;  // tolerances carry this draw as `true_value`: what the plant has
   Scenario scenario;
   std::string bearing;  // that the faults and the load act on
   SetCapacity theory;

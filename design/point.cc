@@ -50,8 +50,8 @@ double RunFigure(const FigureSpec& f, const RigParameters& rig, const RunResult&
   switch (f.info->kind) {
     case FigureKind::kOrbit:
       return orbit;
-    case FigureKind::kLateOrbit:
-      return r.metrics.late_orbit;
+    case FigureKind::kSettledOrbit:
+      return r.metrics.settled_orbit;
     case FigureKind::kPlaneOrbit:
       return std::ranges::max(PlaneDistance(r.record, f.plane));
     case FigureKind::kClearanceUsed:
@@ -153,8 +153,8 @@ RigParameters Drawn(RigParameters rig, const std::vector<double>& draw) {
     const bool ranged = ParameterRange(rig, t.path, &lo, &hi, &unit);
     const double z = draw[k++];
     if (!value) continue;
-    const double drawn = (std::isnan(t.fitted) ? *value : t.fitted) + t.sd * z;
-    t.fitted = ranged ? std::clamp(drawn, lo, hi) : drawn;
+    const double drawn = (std::isnan(t.true_value) ? *value : t.true_value) + t.sd * z;
+    t.true_value = ranged ? std::clamp(drawn, lo, hi) : drawn;
   }
   return rig;
 }

@@ -39,7 +39,7 @@ enum class FigureKind {
   kNoiseForce,
   kAmplification,
   kOrbit,
-  kLateOrbit,
+  kSettledOrbit,
   kPlaneOrbit,
   kClearanceUsed,
   kPeakCurrent,

@@ -70,7 +70,7 @@ int RigParameters::periods_per_control() const {
 RigParameters TrueRig(const RigParameters& rig) {
   RigParameters out = rig;
   for (const Tolerance& t : rig.tolerances)
-    if (!std::isnan(t.fitted)) SetParameter(out, t.path, t.fitted);
+    if (!std::isnan(t.true_value)) SetParameter(out, t.path, t.true_value);
   return out;
 }
 
@@ -96,8 +96,8 @@ bool SetParameter(RigParameters& rig, const std::string& path, double value) {
   VisitTables(rig, [&](const std::string& section, auto& p, const auto& fields) {
     for (const auto& f : fields) {
       if (path != section + "." + std::string(f.key)) continue;
-      p.*f.at =
-          rig.beam && path.ends_with(".sensor.z") ? value + rig.z_drawn - rig.z_origin : value;
+      p.*f.at = rig.beam && path.ends_with(".sensor.z") ? value + rig.nominal_com_z - rig.z_origin
+                                                        : value;
       found = true;
     }
   });

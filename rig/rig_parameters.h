@@ -79,7 +79,7 @@ struct RigParameters {
   // of every z here in the file's own [m]: a beam's centre of mass
   double z_origin = 0;
   // the same as the file has it, before a calibration: of scenarios
-  double z_drawn = 0;
+  double nominal_com_z = 0;
   std::vector<ShaftPlane> stations;  // named planes of a beam rotor, z as the bearings'
   AmplifierParameters amplifier;
   ControllerParameters controller;
@@ -107,7 +107,7 @@ RigParameters TrueRig(const RigParameters& rig);
 /// The number behind a path such as "rotor.mass", "bearings.A.gap" or "rotor.section[2].od" (of a
 /// shaft: those with an sd); nullptr when there is none.
 const double* ParameterAt(const RigParameters& rig, const std::string& path);
-/// Another value of it, and of all that follows from it. A sensor's z counts from z_drawn. False
+/// Another value of it, and of all that follows from it. A sensor's z counts from nominal_com_z. False
 /// when there is no such number.
 bool SetParameter(RigParameters& rig, const std::string& path, double value);
 /// Its range from the parameter table.

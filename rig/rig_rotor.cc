@@ -37,7 +37,7 @@ void ReadBeamRotor(const TomlTable& t, RigParameters& rig) {
   if (rig.beam->modes > kMaxModes)
     t.Fail("modes", fmt::format("= {}, allowed: 0 to {}", rig.beam->modes, kMaxModes));
   t.Read(rig.rotor, kBeamRotorFields);
-  rig.z_origin = rig.z_drawn = TakeShaft(rig);
+  rig.z_origin = rig.nominal_com_z = TakeShaft(rig);
   for (ShaftPlane p : rig.beam->planes) {
     p.z -= rig.z_origin;
     rig.stations.push_back(p);
@@ -120,7 +120,7 @@ void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
     place(t, "sensor", b.sensor.z);
     if (!std::isnan(b.auxiliary_z)) place(t, "auxiliary", b.auxiliary_z);
     for (Tolerance& k : rig.tolerances)
-      if (k.path == "bearings." + b.name + ".sensor.z") k.fitted -= rig.z_origin;
+      if (k.path == "bearings." + b.name + ".sensor.z") k.true_value -= rig.z_origin;
   }
 }
 

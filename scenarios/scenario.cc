@@ -238,7 +238,7 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   s.noise = root.Bool("noise", true);
   s.fault_tolerant = root.Bool("fault_tolerance", true);
   s.redistribution = root.Choice("redistribution", s.redistribution, "auto,matrix,force-by-force");
-  s.hand_over = root.Choice("hand_over", s.hand_over, kHandOverNames);
+  s.current_transition = root.Choice("hand_over", s.current_transition, kCurrentTransitionNames);
   s.stiffness_compensation = root.Bool("stiffness_compensation", true);
   s.drop_limit = PositiveTime(root, "drop_limit", 0.1);
   const Targets targets = TargetsOfRig(rig);

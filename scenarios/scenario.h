@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 #include "rig/rig_parameters.h"
 #include "rotor/motion/speed_profile.h"
 #include "scenarios/excitation.h"
@@ -49,10 +49,11 @@ struct Scenario {
   double duration = 0, record_rate = 0;
   std::uint64_t seed = 1;
   bool noise = true;
-  bool fault_tolerant = true;                // detection and redistribution act
-  std::string redistribution = "auto";       // auto, matrix, force-by-force (fault_supervisor.h)
-  std::string hand_over = kDefaultHandOver;  // faulttolerance/supervision/hand_over_policy.h
-  bool stiffness_compensation = true;        // of a failed bearing's other negative stiffness
+  bool fault_tolerant = true;           // detection and redistribution act
+  std::string redistribution = "auto";  // auto, matrix, force-by-force (fault_supervisor.h)
+  std::string current_transition =
+      kDefaultCurrentTransition;       // faulttolerance/supervision/current_transition_policy.h
+  bool stiffness_compensation = true;  // of a failed bearing's other negative stiffness
   StartState start = StartState::kLevitated;
   std::map<std::string, std::array<double, 2>> clamp;
   SpeedProfile speed;

@@ -30,7 +30,7 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
     FaultSupervisorOptions watch;
     watch.slopes = options.for_report;
     watch.redistribution = scenario.redistribution;
-    watch.hand_over = scenario.hand_over;
+    watch.current_transition = scenario.current_transition;
     watch.stiffness_compensation = scenario.stiffness_compensation;
     watch.cache_dir = RedistributionCacheDirectory();
     supervisor = std::make_unique<FaultSupervisor>(rig, watch);
@@ -76,14 +76,14 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
   }
   std::stable_sort(result.events.begin(), result.events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
-  JudgeDetection(scenario, result);
+  ScoreDetection(scenario, result);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;
   return result;
 }
 
-void JudgeDetection(const Scenario& scenario, RunResult& result) {
+void ScoreDetection(const Scenario& scenario, RunResult& result) {
   RunMetrics& m = result.metrics;
   m.detection_delay = m.redistribution_delay = -1;
   for (const FaultSpec& fault : scenario.faults) {

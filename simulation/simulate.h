@@ -32,6 +32,6 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
 Fidelity FidelityByName(const std::string& name);
 
 /// Delays and false alarms of a run, judged with the scenario's faults in hand.
-void JudgeDetection(const Scenario& scenario, RunResult& result);
+void ScoreDetection(const Scenario& scenario, RunResult& result);
 
 }  // namespace ambrig

@@ -116,7 +116,7 @@ def Cases(binary, work):
         "run-scenario": ({"rig.toml": RIG, "s.toml": SCENARIO}, ["s.toml"], run),
         "run-averaged": ({"rig.toml": RIG, "s.toml": SCENARIO}, ["rig.toml", "s.toml"], run + " --fidelity averaged"),
         "check": ({"rig.toml": RIG, "s.toml": SCENARIO}, ["s.toml"], "check s.toml --jobs 1 --json j.json"),
-        "witness": ({"rig.toml": RIG, "s.toml": SCENARIO}, ["rig.toml", "s.toml"], "witness s.toml --json j.json"),
+        "crosscheck": ({"rig.toml": RIG, "s.toml": SCENARIO}, ["rig.toml", "s.toml"], "crosscheck s.toml --json j.json"),
         "redistribute": ({"rig.toml": RIG}, ["rig.toml"], "redistribute rig.toml --bearing A --failed 3 --json j.json"),
         "analyze": ({"rig.toml": RIG}, ["rig.toml"], "analyze rig.toml --speed 3000 --json j.json"),
         "analyze-beam": (beam, ["rig.toml", "shaft.toml"], "analyze rig.toml --speed 3000 --json j.json"),

@@ -33,8 +33,8 @@ struct Flow {
 };
 
 Flow PeriodFlow(const RigLinearization& l, double T) {
-  const Index n = l.stiffness.rows(), p = l.bearing.rows(), g = l.push.cols(), d = p + g,
-              c = 2 * n + 2 * p;
+  const Index n = l.stiffness.rows(), p = l.bearing.rows(), g = l.disturbance_input.cols(),
+              d = p + g, c = 2 * n + 2 * p;
   MatrixXd A = MatrixXd::Zero(c, c), U = MatrixXd::Zero(c, p), F = MatrixXd::Zero(c, d);
   A.block(0, n, n, n).setIdentity();
   A.block(n, 0, n, n) = l.stiffness + l.force * l.magnet * l.bearing;
@@ -44,12 +44,12 @@ Flow PeriodFlow(const RigLinearization& l, double T) {
     const Index i = 2 * n + a;
     A.block(n, i, n, 1) = k.force * l.force.col(a);
     A(i, i) = -k.resistance / k.inductance;
-    A.block(i, n, 1, n) = -k.motion / k.inductance * l.bearing.row(a);
+    A.block(i, n, 1, n) = -k.back_emf_constant / k.inductance * l.bearing.row(a);
     A(i + p, i) = 1;
     U(i, a) = k.volts / k.inductance;
   }
   F.block(n, 0, n, p) = l.force;
-  F.block(n, p, n, g) = l.push;
+  F.block(n, p, n, g) = l.disturbance_input;
   MatrixXd augmented = MatrixXd::Zero(c + d, c + d);  // a constant force, by the matrix exponential
   augmented.topLeftCorner(c, c) = A * T;
   augmented.topRightCorner(c, d) = F * T;
@@ -139,7 +139,7 @@ SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::s
   RigLinearization l = LineariseRig(rig, controllers ? *controllers : rig, Omega, weights);
   KeepAxes(l, axes);
   const Layout at{l.stiffness.rows(), l.bearing.rows()};
-  const Index m = at.set_point, p = at.p, g = l.push.cols();
+  const Index m = at.set_point, p = at.p, g = l.disturbance_input.cols();
   // The set-points that the last tick left act over the whole of a controller period.
   const Step tick = Repeated(SwitchingPeriod(l, rig.amplifier, at), rig.periods_per_control());
   SampledPlant out;
@@ -154,7 +154,7 @@ SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::s
   out.G = MatrixXd::Zero(m + p, g);
   out.G.topRows(m) = tick.E.rightCols(g);
   out.V = MatrixXd::Zero(g, m + p);
-  out.V.leftCols(at.n) = l.weighed;
+  out.V.leftCols(at.n) = l.performance_output;
   out.C = MatrixXd::Zero(p, m + p);
   out.C.leftCols(at.n) = l.sensor;
   Scale(out, TypicalSizes(l, at, rig.amplifier.kp));

@@ -71,7 +71,8 @@ AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingCo
     return sum;
   };
   a.inductance = along(i, 0);
-  a.motion = Slope([&](double at) { return along(bias, at); }, 1e-3 * b.lanes.gap_offset[0]);
+  a.back_emf_constant =
+      Slope([&](double at) { return along(bias, at); }, 1e-3 * b.lanes.gap_offset[0]);
   PowerAmplifier amplifier(rig.amplifier);
   const BridgeImperfection ideal;
   const double v = operating_force / a.force;
@@ -106,16 +107,17 @@ void AddWeights(const RigParameters& rig, const RotorModel& rotor, const ShaftWe
   const Eigen::Index n = inverse_mass.rows();
   const auto planes = static_cast<Eigen::Index>(weights.planes.size());
   const auto modes = static_cast<Eigen::Index>(weights.modes ? rig.modes.size() : 0);
-  out.weighed = MatrixXd::Zero(2 * (planes + modes), n);
-  out.push = MatrixXd::Zero(n, 2 * (planes + modes));
+  out.performance_output = MatrixXd::Zero(2 * (planes + modes), n);
+  out.disturbance_input = MatrixXd::Zero(n, 2 * (planes + modes));
   for (Eigen::Index k = 0; k < planes; ++k) {
     const PlaneWeight& w = weights.planes[static_cast<std::size_t>(k)];
     const BearingParameters* b = rig.Find(w.at);
     const ShaftPlane* station = rig.FindStation(w.at);
     Require(b || station, "a plane of the rig");
     const PlaneMap at = rotor.MakePlane(b ? b->z : station->z);
-    out.weighed.middleRows(2 * k, 2) = PlaneRows(rotor, at) / w.position_weight;
-    out.push.middleCols(2 * k, 2) = w.force_noise * inverse_mass * ForceColumns(rotor, at);
+    out.performance_output.middleRows(2 * k, 2) = PlaneRows(rotor, at) / w.position_weight;
+    out.disturbance_input.middleCols(2 * k, 2) =
+        w.force_noise * inverse_mass * ForceColumns(rotor, at);
   }
   for (Eigen::Index k = 0; k < modes; ++k) {
     const BendingMode& mode = rig.modes[static_cast<std::size_t>(k)];
@@ -124,8 +126,8 @@ void AddWeights(const RigParameters& rig, const RotorModel& rotor, const ShaftWe
     for (Eigen::Index side = 0; side < 2; ++side) {
       const Eigen::Index row = 2 * (planes + k) + side,
                          d = rotor.mode_dof(static_cast<std::size_t>(k)) + side;
-      out.weighed(row, d) = 1 / eta;
-      out.push(d, row) = error;
+      out.performance_output(row, d) = 1 / eta;
+      out.disturbance_input(d, row) = error;
     }
   }
 }
@@ -205,8 +207,8 @@ void KeepAxes(RigLinearization& l, const std::vector<std::size_t>& axes) {
   l.bearing = l.bearing(axes, keep).eval();
   l.sensor = l.sensor(axes, keep).eval();
   l.force = l.force(keep, axes).eval();
-  l.weighed = l.weighed(all, keep).eval();
-  l.push = l.push(keep, all).eval();
+  l.performance_output = l.performance_output(all, keep).eval();
+  l.disturbance_input = l.disturbance_input(keep, all).eval();
   l.stiffness = l.stiffness(keep, keep).eval();
   l.damping = l.damping(keep, keep).eval();
 }

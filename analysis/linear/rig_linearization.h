@@ -21,23 +21,23 @@ struct ShaftWeights {
 
 /// One axis' magnet and amplifier in its own current pattern, v: its amplitude [A].
 struct AxisActuator {
-  double force = 0;       // k c0 [N/A]
-  double command = 0;     // k c0 as the controller believes [N/A]
-  double inductance = 0;  // [H]
-  double motion = 0;      // kb [V s/m]
-  double resistance = 0;  // [ohm]
-  double volts = 0;       // of mean voltage per volt asked for [-]
-  double edge = 0;        // mean edge of the switching period, share of it
+  double force = 0;              // k c0 [N/A]
+  double command = 0;            // k c0 as the controller believes [N/A]
+  double inductance = 0;         // [H]
+  double back_emf_constant = 0;  // kb [V s/m]
+  double resistance = 0;         // [ohm]
+  double volts = 0;              // of mean voltage per volt asked for [-]
+  double edge = 0;               // mean edge of the switching period, share of it
 };
 
-/// n coordinates, p axes: q'' = stiffness q + damping q' + force (f + magnet bearing q) + push d.
+/// n coordinates, p axes: q'' = stiffness q + damping q' + force (f + magnet bearing q) + disturbance_input d.
 struct RigLinearization {
   Eigen::MatrixXd stiffness, damping;  // n x n, as accelerations
   Eigen::MatrixXd bearing, sensor;     // displacement of each axis per coordinate (p x n)
   Eigen::MatrixXd force;               // acceleration per force on an axis (n x p)
   Eigen::MatrixXd magnet;              // d f / d x, p x p: negative stiffness [N/m]
   // of the weights: outputs (rows x n), accelerations per disturbance d (n x columns)
-  Eigen::MatrixXd weighed, push;
+  Eigen::MatrixXd performance_output, disturbance_input;
   std::vector<AxisActuator> actuators;
 };
 

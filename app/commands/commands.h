@@ -38,8 +38,8 @@ void AddCompare(CLI::App& app, Work& work);
 void AddExplain(CLI::App& app, Work& work);
 void AddAdopt(CLI::App& app, Work& work);
 void AddHide(CLI::App& app, Work& work);
-void AddJudge(CLI::App& app, Work& work);
-void AddWitness(CLI::App& app, Work& work);
+void AddScore(CLI::App& app, Work& work);
+void AddCrosscheck(CLI::App& app, Work& work);
 void AddRotor(CLI::App& app, Work& work);
 
 /// Files as given and the `wanted` ones in the given folders, sorted. @throws InputError (`none`:

@@ -32,7 +32,7 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
             {"false_alarms", m.false_alarms},
             {"coil_periods", m.coil_periods},
             {"longest_contact", m.longest_contact},
-            {"late_orbit", m.late_orbit},
+            {"late_orbit", m.settled_orbit},
             {"real_time_factor", m.real_time_factor}}},
           {"touchdown", result.touchdown},
           {"drop", result.drop},

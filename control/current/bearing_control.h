@@ -8,7 +8,7 @@
 #include "actuators/electronics/amplifier.h"
 #include "actuators/magnetics/lane.h"
 #include "control/current/current_map.h"
-#include "control/current/hand_over.h"
+#include "control/current/current_transition.h"
 
 namespace ambrig {
 
@@ -16,7 +16,8 @@ struct BearingControl {
   std::string name;
   int coils = 0;
   CurrentMap map;
-  std::shared_ptr<HandOver> hand_over;  // on the way to `map`'s currents; empty: there
+  std::shared_ptr<CurrentTransition>
+      current_transition;  // on the way to `map`'s currents; empty: there
   std::array<PowerAmplifier, kLanes> amplifier;
   Lane set_point;                       // in force, without excitation [A]
   Lane commanded;                       // with the coil's current excitation [A]

@@ -133,13 +133,13 @@ bool TomlTable::IsArray(std::string_view key) const {
 }
 
 double TomlTable::NumberOr(std::string_view key, double fallback, double* sd,
-                           double* fitted) const {
+                           double* true_value) const {
   if (sd) *sd = 0;
   const toml::node* n = node_->Get(key);
   if (!n) return fallback;
   if (const auto* t = n->as_table()) {
     for (const auto& [k, v] : *t)
-      if (k.str() != "value" && k.str() != "sd" && !(fitted && k.str() == "fitted"))
+      if (k.str() != "value" && k.str() != "sd" && !(true_value && k.str() == "fitted"))
         throw InputError(
             fmt::format("{}.{}: unknown key, allowed: value, sd", Where(key), k.str()));
     const auto* value = t->get("value");
@@ -152,10 +152,10 @@ double TomlTable::NumberOr(std::string_view key, double fallback, double* sd,
             fmt::format("{}.sd = {}, allowed: a number of 0 or more", Where(key), TextOf(*s)));
       if (sd) *sd = NumberOf(*s);
     }
-    if (const auto* f = t->get("fitted"); f && fitted) {
+    if (const auto* f = t->get("fitted"); f && true_value) {
       if (!f->is_number() || !std::isfinite(NumberOf(*f)))
         throw InputError(fmt::format("{}.fitted = {}, allowed: a number", Where(key), TextOf(*f)));
-      *fitted = NumberOf(*f);
+      *true_value = NumberOf(*f);
     }
     n = value;
   }

@@ -13,12 +13,13 @@
 
 namespace ambrig {
 
-/// One `{ value, sd }` of a file: the one-sigma knowledge of a parameter. `fitted` is what a
-/// calibration found (`ambrig adopt` writes it): the plant has it, the controller keeps `value`.
+/// One `{ value, sd }` of a file: the one-sigma knowledge of a parameter. `true_value` is what the
+/// simulated plant has while the controller keeps `value`: a calibration's result (the key `fitted` of
+/// a rig file, written by `ambrig adopt`) or the draw of a Monte Carlo campaign.
 struct Tolerance {
-  std::string path;           // "rotor.mass", "bearings.A.gap"
-  double sd = 0;              // same unit as the value
-  double fitted = kRequired;  // nan: not calibrated
+  std::string path;               // "rotor.mass", "bearings.A.gap"
+  double sd = 0;                  // same unit as the value
+  double true_value = kRequired;  // same unit; nan: the plant has `value` too
 };
 
 /// A TOML table (or the file's root) with its place in the file. Keys that were asked for are
@@ -70,12 +71,12 @@ class TomlTable {
   template <class P, std::size_t n>
   void Read(P& p, const Field<P> (&fields)[n], std::vector<Tolerance>* tolerances = nullptr) const {
     for (const Field<P>& f : fields) {
-      double sd = 0, fitted = kRequired;
-      p.*f.at = NumberOr(f.key, p.*f.at, &sd, &fitted);
+      double sd = 0, true_value = kRequired;
+      p.*f.at = NumberOr(f.key, p.*f.at, &sd, &true_value);
       if (std::isnan(p.*f.at)) RejectMisspelt(f.key);
-      if ((sd > 0 || !std::isnan(fitted)) && tolerances)
+      if ((sd > 0 || !std::isnan(true_value)) && tolerances)
         tolerances->push_back(
-            {(path().empty() ? "" : path() + ".") + std::string(f.key), sd, fitted});
+            {(path().empty() ? "" : path() + ".") + std::string(f.key), sd, true_value});
     }
     CheckRanges(p, fields, [&](std::string_view key) { return Where(key); });
   }
@@ -90,7 +91,7 @@ class TomlTable {
  private:
   struct Node;
   double NumberOr(std::string_view key, double fallback, double* sd,
-                  double* fitted = nullptr) const;
+                  double* true_value = nullptr) const;
   explicit TomlTable(std::shared_ptr<const Node> node);
   std::shared_ptr<Node> Inside(const std::string& name) const;
   std::shared_ptr<const Node> node_;

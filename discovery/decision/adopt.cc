@@ -96,7 +96,7 @@ FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenO
   FitResult best;
   best.ratio_fit = kInfinity;
   for (std::size_t k = 0; k < std::min<std::size_t>(candidates.size(), 3); ++k) {
-    FitResult fit = FitBriefly(model, base, candidates[k], what.effective);
+    FitResult fit = FitBriefly(model, base, candidates[k], what.effective_sample_size);
     if (fit.converged && fit.ratio_fit < best.ratio_fit) best = std::move(fit);
   }
   return best;
@@ -182,7 +182,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   AdoptedRigText(ReadFile(c.rig_file), nominal, {});  // can be written: known before the long work
   a.before = Compare(model, nominal, false);
   FitOptions fit;
-  fit.effective = a.before.effective;
+  fit.effective_sample_size = a.before.effective_sample_size;
   progress(0.2, "rig parameters");
   const FitResult base = Fit(model, nominal, fit);
   a.ladder = {{"", a.before.ratio_fit, a.before.ratio_validate},
@@ -191,7 +191,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     a.fit = base;  // it stands in the rig file and was fitted with the rig parameters
   } else {
     ScreenOptions what;
-    what.effective = fit.effective;
+    what.effective_sample_size = fit.effective_sample_size;
     what.effect = effect;
     what.target = target;
     what.progress = [&](double f, const std::string& text) { progress(0.3 + 0.3 * f, text); };

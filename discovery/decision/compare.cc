@@ -62,7 +62,7 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
   if (progress) progress(0.05, "noise floor");
   const NoiseFloor floor = FindFloor(model, h);
   c.predicted = floor.clean;
-  c.effective = floor.effective;
+  c.effective_sample_size = floor.effective_sample_size;
   c.residual = Residual(model, c.predicted);
   c.ratio = Ratio(model, c.residual, Which::kAll);
   c.ratio_fit = Ratio(model, c.residual, Which::kFit);

@@ -30,7 +30,7 @@ struct Comparison {
   double ratio = 0, ratio_fit = 0, ratio_validate = 0;
   std::vector<std::string> words;  // the worst places, named
   std::vector<double> predicted, residual;
-  double effective = 0;  // independent numbers among the residuals
+  double effective_sample_size = 0;  // independent numbers among the residuals
 };
 
 Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks = true,

@@ -40,7 +40,7 @@ class Explainer {
     const NoiseFloor floor = FindFloor(full_, nominal);
     for (std::size_t t = 0; t < full_.targets().size(); ++t)
       model_.targets()[t].floor = full_.targets()[t].floor;
-    out_.effective = floor.effective;
+    out_.effective_sample_size = floor.effective_sample_size;
     const FitResult as_filed = At(nominal);
     const std::vector<double>& r0 = as_filed.residual;
     out_.nominal_ratio_validate = Validated(r0);
@@ -95,7 +95,7 @@ class Explainer {
 
   FitOptions Options(const Eigen::MatrixXd* jacobian) const {
     FitOptions o;
-    o.effective = out_.effective;
+    o.effective_sample_size = out_.effective_sample_size;
     o.base_jacobian = jacobian;
     return o;
   }
@@ -117,7 +117,9 @@ class Explainer {
            now.ratio_fit * now.ratio_fit < 1.04;
   }
 
-  double ScoreOf(const FitResult& fit) const { return Score(model_, fit, out_.effective); }
+  double ScoreOf(const FitResult& fit) const {
+    return Score(model_, fit, out_.effective_sample_size);
+  }
   double Gain(const FitResult& before, const FitResult& after) const {
     return ScoreOf(before) - ScoreOf(after);
   }
@@ -127,7 +129,7 @@ class Explainer {
     if (Finished(now)) return false;
     const double from = 0.08 + 0.3 * round;
     EffectRound ranked =
-        RankEffects({full_, model_, bank_, out_.effective, options_.candidates,
+        RankEffects({full_, model_, bank_, out_.effective_sample_size, options_.candidates,
                      [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }},
                     now, round);
     const std::vector<RankedEffect>& ranking = ranked.ranking;
@@ -156,7 +158,7 @@ class Explainer {
     Progress(0.86, "noise floor of the model found");
     const std::vector<Target> before = full_.targets();
     try {
-      out_.effective = FindFloor(full_, now.hypothesis).effective;
+      out_.effective_sample_size = FindFloor(full_, now.hypothesis).effective_sample_size;
     } catch (const InputError&) {
       return false;  // with noise it does not hold its rotor
     }
@@ -191,13 +193,13 @@ class Explainer {
   void TryPairs(const FitResult& base, FitResult& now) {
     if (out_.ranking.empty() || (out_.adopted.size() < 2 && Finished(now))) return;
     Progress(0.8, "pairs of effects");
-    for (const CandidatePair& p : ScreenPairs(model_, base, out_.effective, bank_, 3)) {
+    for (const CandidatePair& p : ScreenPairs(model_, base, out_.effective_sample_size, bank_, 3)) {
       if (AlreadyTried(p) || p.score > ScoreOf(base)) continue;
       Progress(0.82, "fitting " + Named(p.first) + " with " + Named(p.second));
       Hypothesis h = base.hypothesis;
       h.AddEffect(p.first);
       h.AddEffect(p.second);
-      FitResult fit = FitOn(model_, base, h, out_.effective);
+      FitResult fit = FitOn(model_, base, h, out_.effective_sample_size);
       const bool more = out_.adopted.size() < 2;
       if (!fit.converged || Gain(now, fit) < (more ? 20 : 0) ||
           (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_)))
@@ -228,7 +230,7 @@ class Explainer {
       for (std::size_t k = 0; k < out_.adopted.size(); ++k)
         if (k != drop) h.AddEffect(out_.adopted[k]);
       Progress(0.9, "without " + out_.adopted[drop].name);
-      FitResult without = FitOn(model_, base, h, out_.effective);
+      FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
       if (WorthAdopting(without, now, Gain(without, now), 1, 0)) {
         ++drop;
         continue;

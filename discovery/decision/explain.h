@@ -42,7 +42,7 @@ struct Explanation {
   std::vector<Candidate> screened;  // of the first round
   std::vector<std::string> warnings;
   FitResult final_fit;
-  double effective = 0, seconds = 0;
+  double effective_sample_size = 0, seconds = 0;
   long runs = 0;
 };
 

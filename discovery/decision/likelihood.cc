@@ -25,19 +25,19 @@ double Misfit(double ratio, double n) {
   return excess < 0 ? n * excess : kModelNumbers * std::log1p(excess * n / kModelNumbers);
 }
 
-double Score(const CaseModel& model, double ratio_fit, double ratio_validate, double effective,
-             int parameters, double penalty) {
+double Score(const CaseModel& model, double ratio_fit, double ratio_validate,
+             double effective_sample_size, int parameters, double penalty) {
   double fit = 0, validate = 0;
   for (const Target& t : model.targets())
     (Counts(model, t, Which::kFit) ? fit : validate) += static_cast<double>(t.count);
   const double share = fit / (fit + validate);
-  const double n = std::min(effective, kFloorNumbers);
+  const double n = std::min(effective_sample_size, kFloorNumbers);
   const auto misfit = [n](double ratio) { return Misfit(std::max(1.0, ratio), n); };
   return share * misfit(ratio_fit) + (1 - share) * misfit(ratio_validate) + penalty +
-         parameters * std::log(std::min(effective, kModelNumbers));
+         parameters * std::log(std::min(effective_sample_size, kModelNumbers));
 }
 
-double Score(const CaseModel& model, const FitResult& fit, double effective) {
+double Score(const CaseModel& model, const FitResult& fit, double effective_sample_size) {
   int of_effects = 0;
   for (std::size_t k = 0; k < fit.hypothesis.rig.effects.size(); ++k) {
     const auto n =
@@ -47,7 +47,8 @@ double Score(const CaseModel& model, const FitResult& fit, double effective) {
   }
   std::set<std::string> laws;
   for (const EffectInstance& e : fit.hypothesis.rig.effects) laws.insert(e.name);
-  return Score(model, fit.ratio_fit, fit.ratio_validate, effective, of_effects, fit.penalty) +
+  return Score(model, fit.ratio_fit, fit.ratio_validate, effective_sample_size, of_effects,
+               fit.penalty) +
          kLaw * static_cast<double>(laws.size());
 }
 

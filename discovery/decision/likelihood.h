@@ -19,12 +19,12 @@ double MisfitWeight(double ratio, double n);
 int PricedParameters(int count);
 
 /// Misfit of both kinds of records, the prior's penalty of the rig parameters and the price of
-/// `parameters` more numbers: smaller is better. `effective`: independent numbers among the
+/// `parameters` more numbers: smaller is better. `effective_sample_size`: independent numbers among the
 /// residuals; not more count than the floor itself is known by, and below the floor nothing is
 /// better.
-double Score(const CaseModel& model, double ratio_fit, double ratio_validate, double effective,
-             int parameters, double penalty);
+double Score(const CaseModel& model, double ratio_fit, double ratio_validate,
+             double effective_sample_size, int parameters, double penalty);
 /// Of a fit, with a price per kind of effect.
-double Score(const CaseModel& model, const FitResult& fit, double effective);
+double Score(const CaseModel& model, const FitResult& fit, double effective_sample_size);
 
 }  // namespace ambrig

@@ -101,7 +101,7 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
       }
     rows_effective += per_channel * static_cast<double>(of.size() * of.size()) / spread;
   }
-  floor.effective = rows_effective;
+  floor.effective_sample_size = rows_effective;
   floor.clean = *clean;
   return floor;
 }

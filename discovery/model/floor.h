@@ -9,8 +9,8 @@ namespace ambrig {
 RigParameters WithCaseNoise(const RigParameters& rig, const std::map<std::string, double>& noise);
 
 struct NoiseFloor {
-  double effective = 0;       // independent numbers among all residuals (they are coloured)
-  std::vector<double> clean;  // the noise-free prediction that was used
+  double effective_sample_size = 0;  // independent numbers among all residuals (they are coloured)
+  std::vector<double> clean;         // the noise-free prediction that was used
 };
 
 /// Sets the floor of every target (rms) and returns the effective count.

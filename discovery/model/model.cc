@@ -27,9 +27,9 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
     p.lo = std::max(p.lo, p.value - 8 * t.sd);
     p.hi = std::min(p.hi, p.value + 8 * t.sd);
     h.free.push_back(p);
-    if (!std::isnan(t.fitted)) h.Set(h.free.size() - 1, t.fitted);
+    if (!std::isnan(t.true_value)) h.Set(h.free.size() - 1, t.true_value);
   }
-  for (Tolerance& t : h.rig.tolerances) t.fitted = kRequired;  // now in the values
+  for (Tolerance& t : h.rig.tolerances) t.true_value = kRequired;  // now in the values
   // A formula that the user wrote is there to be fitted, and so is what an adoption found: { value,
   // sd }.
   const std::vector<EffectInstance> own = std::move(h.rig.effects);

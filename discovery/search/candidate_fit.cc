@@ -51,7 +51,8 @@ bool SameValley(const EffectInstance& a, const EffectInstance& b) {
 /// The starts of a resonance that explain most when they are simulated: the linear step knows sizes
 /// and neighbouring frequencies badly where the loop answers strongly.
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
-                                   const std::vector<EffectInstance>& starts, double effective) {
+                                   const std::vector<EffectInstance>& starts,
+                                   double effective_sample_size) {
   constexpr std::size_t kFitted = 2;
   std::vector<Hypothesis> all;
   for (const EffectInstance& e : starts) {
@@ -64,9 +65,10 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
     for (std::size_t k = 0; k < runs.size(); ++k) {
       if (!runs[k]) continue;
       const std::vector<double> residual = Residual(model, *runs[k]);
-      order.emplace_back(Score(model, Ratio(model, residual, Which::kFit),
-                               Ratio(model, residual, Which::kValidate), effective, 0, 0),
-                         k);
+      order.emplace_back(
+          Score(model, Ratio(model, residual, Which::kFit),
+                Ratio(model, residual, Which::kValidate), effective_sample_size, 0, 0),
+          k);
     }
   } catch (const InputError&) {
     return starts;  // refused: no start of it is any good
@@ -84,9 +86,9 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
 }  // namespace
 
 FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
-                     double effective) {
+                     double effective_sample_size) {
   FitOptions brief;
-  brief.effective = effective;
+  brief.effective_sample_size = effective_sample_size;
   brief.base_jacobian = &now.jacobian;
   brief.reached = now.ratio_fit;
   brief.iterations = candidate.narrow ? 12 : 4;
@@ -94,7 +96,7 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
   brief.sensitivities = false;
   std::vector<EffectInstance> starts = {candidate.effect};
   starts.insert(starts.end(), candidate.other_starts.begin(), candidate.other_starts.end());
-  if (candidate.narrow) starts = BestOf(model, now, starts, effective);
+  if (candidate.narrow) starts = BestOf(model, now, starts, effective_sample_size);
   // a wrong valley of a resonance may explain most
   const double enough = candidate.narrow ? 0.1 : 0.5;
   FitResult best;
@@ -103,8 +105,8 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
     Hypothesis h = now.hypothesis;
     h.AddEffect(start);
     FitResult fit = candidate.narrow ? FitResonance(model, h, brief) : TryFit(model, h, brief);
-    if (!fit.converged || Score(model, fit, effective) >= best_score) continue;
-    best_score = Score(model, fit, effective);
+    if (!fit.converged || Score(model, fit, effective_sample_size) >= best_score) continue;
+    best_score = Score(model, fit, effective_sample_size);
     best = std::move(fit);
     // found its way
     if (best.ratio_fit * best.ratio_fit - 1 < enough * (now.ratio_fit * now.ratio_fit - 1)) break;
@@ -114,9 +116,9 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
 }
 
 FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
-                double effective) {
+                double effective_sample_size) {
   FitOptions full;
-  full.effective = effective;
+  full.effective_sample_size = effective_sample_size;
   full.base_jacobian = &now.jacobian;
   full.reached = now.ratio_fit;
   return TryFit(model, start, full);

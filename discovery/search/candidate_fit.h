@@ -7,11 +7,11 @@ namespace ambrig {
 /// Short fits from each of the candidate's starts; the best one, without sensitivities. Not
 /// converged where no start leads anywhere.
 FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
-                     double effective);
+                     double effective_sample_size);
 
 /// The fit to the end, from what the short one found. `now` lends its sensitivities to the first
 /// pass.
 FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
-                double effective);
+                double effective_sample_size);
 
 }  // namespace ambrig

@@ -37,7 +37,7 @@ class Ranker {
 
   EffectRound Run() {
     ScreenOptions screen;
-    screen.effective = s_.effective;
+    screen.effective_sample_size = s_.effective_sample_size;
     screen.progress = [&](double f, const std::string& text) {
       s_.progress(0.6 * f, "screening " + text);
     };
@@ -50,7 +50,7 @@ class Ranker {
     FitToTheEnd();
     Sort();
     if (!ranking_.empty() && ranking_[0].fit.jacobian.size() == 0) {
-      ranking_[0].fit = FitOn(s_.model, now_, ranking_[0].fit.hypothesis, s_.effective);
+      ranking_[0].fit = FitOn(s_.model, now_, ranking_[0].fit.hypothesis, s_.effective_sample_size);
       Note(ranking_[0]);
     }
     SetProbabilities();
@@ -60,7 +60,7 @@ class Ranker {
  private:
   void FitThePromising() {
     const std::vector<Candidate>& candidates = out_.screened;
-    const double here = Score(s_.model, now_, s_.effective);
+    const double here = Score(s_.model, now_, s_.effective_sample_size);
     std::size_t next = 0;
     for (; next < candidates.size() && static_cast<int>(ranking_.size()) < s_.candidates; ++next) {
       const Candidate& c = candidates[next];
@@ -79,7 +79,7 @@ class Ranker {
     s_.progress(0.6 + 0.07 * std::min(4.0, static_cast<double>(ranking_.size())),
                 "fitting " + Named(c.effect));
     RankedEffect r;
-    r.fit = FitBriefly(s_.model, now_, c, s_.effective);
+    r.fit = FitBriefly(s_.model, now_, c, s_.effective_sample_size);
     r.screened_ratio = c.ratio_validate;
     if (!r.fit.converged) return;
     Note(r);
@@ -91,7 +91,7 @@ class Ranker {
     for (std::size_t k = 0; k < std::min<std::size_t>(ranking_.size(), 2); ++k) {
       if (k > 0 && ranking_[k].score > ranking_[0].score + kOpen) break;
       s_.progress(0.95, "full fit of " + Named(ranking_[k].effect));
-      FitResult fit = FitOn(s_.model, now_, ranking_[k].fit.hypothesis, s_.effective);
+      FitResult fit = FitOn(s_.model, now_, ranking_[k].fit.hypothesis, s_.effective_sample_size);
       if (!fit.converged) continue;
       ranking_[k].fit = std::move(fit);
       Note(ranking_[k]);
@@ -101,7 +101,7 @@ class Ranker {
   /// Values and score of the fit of a ranked effect.
   void Note(RankedEffect& r) const {
     r.effect = FittedEffect(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
-    r.score = Score(s_.model, r.fit, s_.effective);
+    r.score = Score(s_.model, r.fit, s_.effective_sample_size);
   }
 
   void Sort() {

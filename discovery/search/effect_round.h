@@ -23,8 +23,8 @@ std::string Named(const EffectInstance& e);
 struct RoundSetting {
   const CaseModel &full, &model;  // all rows: frequencies; some: the fits
   SignatureBank& bank;
-  double effective = 1;  // independent numbers among the residuals
-  int candidates = 5;    // fitted in full
+  double effective_sample_size = 1;  // independent numbers among the residuals
+  int candidates = 5;                // fitted in full
   std::function<void(double, const std::string&)> progress;  // of this round, 0 to 1
 };
 

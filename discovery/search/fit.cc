@@ -49,9 +49,9 @@ class CompressedCost : public ceres::CostFunction {
   }
 
   /// Weight of a residual when the model leaves `ratio` times the noise.
-  void Believe(double ratio) {
-    weight_ =
-        std::sqrt(MisfitWeight(ratio, options_.effective) / static_cast<double>(model_.size()));
+  void SetMisfitWeight(double ratio) {
+    weight_ = std::sqrt(MisfitWeight(ratio, options_.effective_sample_size) /
+                        static_cast<double>(model_.size()));
   }
   /// Sensitivities of the rig parameters are taken anew.
   void Refresh() {
@@ -127,7 +127,7 @@ class CompressedCost : public ceres::CostFunction {
 };
 
 /// Covariance of the optimum and what a user should know about it.
-void Judge(const CompressedCost& cost, FitResult& result) {
+void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
   Hypothesis& h = result.hypothesis;
   const std::size_t p = h.free.size();
   result.jacobian = cost.FullJacobian(h, result.predicted);
@@ -203,7 +203,7 @@ void Fail(FitResult& result) {
 }
 
 /// Prediction, ratios and prior's penalty at the hypothesis of the result.
-bool Look(const CaseModel& model, FitResult& result) {
+bool EvaluateAtPoint(const CaseModel& model, FitResult& result) {
   const auto predicted = model.Predict(result.hypothesis);
   if (!predicted) return false;
   result.predicted = *predicted;
@@ -223,7 +223,7 @@ bool Look(const CaseModel& model, FitResult& result) {
 FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options) {
   FitResult result;
   result.hypothesis = start;
-  if (!Look(model, result)) {
+  if (!EvaluateAtPoint(model, result)) {
     Fail(result);
     return result;
   }
@@ -234,21 +234,21 @@ FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions&
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = start.Coordinate(k);
   for (int pass = 0; pass < options.passes && options.iterations > 0; ++pass) {
     const double before = result.ratio_fit;
-    cost.Believe(std::min(before, options.reached));
+    cost.SetMisfitWeight(std::min(before, options.reached));
     if (pass > 0) cost.Refresh();
     if (!Solve(cost, start, options.iterations, x)) {
       result.converged = pass > 0;
       break;
     }
     result.hypothesis = cost.At(x.data());
-    if (!Look(model, result)) {
+    if (!EvaluateAtPoint(model, result)) {
       Fail(result);
       return result;
     }
     if (result.ratio_fit > 0.98 * before || before <= 1) break;
   }
-  cost.Believe(result.ratio_fit);
-  if (options.sensitivities) Judge(cost, result);
+  cost.SetMisfitWeight(result.ratio_fit);
+  if (options.sensitivities) EstimateCovariance(cost, result);
   return result;
 }
 

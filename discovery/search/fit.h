@@ -15,8 +15,8 @@ struct FitOptions {
   int iterations = 4;  // of each pass
   // each with a new weight and new sensitivities of the rig parameters
   int passes = 4;
-  bool sensitivities = true;  // sd, warnings and Jacobian at the optimum
-  double effective = 1;       // independent numbers among the residuals
+  bool sensitivities = true;         // sd, warnings and Jacobian at the optimum
+  double effective_sample_size = 1;  // independent numbers among the residuals
   // ratio_fit of a hypothesis within this one: what the errors are weighed by when the start is worse
   double reached = kInfinity;
   // its first columns: the rig parameters, for the first pass

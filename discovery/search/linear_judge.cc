@@ -17,10 +17,10 @@ int Priced(const SignatureBank::Entry& entry) {
 }  // namespace
 
 LinearJudge::LinearJudge(const CaseModel& model, const FitResult& base, SignatureBank& bank,
-                         double effective)
+                         double effective_sample_size)
     : model_(model),
       base_(base),
-      effective_(effective),
+      effective_sample_size_(effective_sample_size),
       nb_(base.jacobian.cols()),
       bank_(bank.Products(model)) {
   Eigen::MatrixXd columns(static_cast<Index>(model.size()), nb_ + 1);
@@ -92,7 +92,8 @@ LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int
         free.push_back(nb_ + 1 + k);
       else
         c(nb_ + 1 + k) = -fixed[static_cast<std::size_t>(k)];
-    const double weight = MisfitWeight(ratio, effective_) / static_cast<double>(model_.size());
+    const double weight =
+        MisfitWeight(ratio, effective_sample_size_) / static_cast<double>(model_.size());
     const Eigen::VectorXd known = g.fit * c;
     Eigen::MatrixXd A = weight * g.fit(free, free);
     Eigen::VectorXd b = -weight * known(free);
@@ -130,7 +131,8 @@ LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int
     }
     ratio = std::max(1.0, s.ratio_fit);
   }
-  s.score = Score(model_, s.ratio_fit, s.ratio_validate, effective_, parameters, penalty);
+  s.score =
+      Score(model_, s.ratio_fit, s.ratio_validate, effective_sample_size_, parameters, penalty);
   return s;
 }
 

@@ -26,7 +26,8 @@ class LinearJudge {
  public:
   /// `base`: the fit so far with its sensitivities; `bank` may hold effects that `base` has
   /// already.
-  LinearJudge(const CaseModel& model, const FitResult& base, SignatureBank& bank, double effective);
+  LinearJudge(const CaseModel& model, const FitResult& base, SignatureBank& bank,
+              double effective_sample_size);
 
   Candidate Single(const SignatureBank::Entry& entry) const;
   CandidatePair Pair(const SignatureBank::Entry& first, const SignatureBank::Entry& second) const;
@@ -49,7 +50,7 @@ class LinearJudge {
 
   const CaseModel& model_;
   const FitResult& base_;
-  double effective_;
+  double effective_sample_size_;
   Eigen::Index nb_;  // free parameters of the base
   Gram own_, with_;  // [rig columns, residual] among themselves and with the bank
   const Gram& bank_;

@@ -95,8 +95,8 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
 /// Best start of every (effect, target) that the fit does not hold yet, with the next best beside
 /// it.
 std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, SignatureBank& bank,
-                            double effective) {
-  const LinearJudge judge(model, base, bank, effective);
+                            double effective_sample_size) {
+  const LinearJudge judge(model, base, bank, effective_sample_size);
   std::vector<Candidate> all, out;
   for (const SignatureBank::Entry& entry : bank.entries()) {
     if (Present(base.hypothesis, entry.group.probes[0])) continue;
@@ -132,7 +132,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
     };
   };
   bank.Simulate(model, base, GroupsToRun(model, base, peaks, false, options, bank), part(0, 0.7));
-  std::vector<Candidate> out = Rank(model, base, bank, options.effective);
+  std::vector<Candidate> out = Rank(model, base, bank, options.effective_sample_size);
   if (again) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {
@@ -141,14 +141,15 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
   if (!options.effect.empty() || out.empty() || open(base.ratio_fit, out[0].ratio_fit) ||
       open(base.ratio_validate, out[0].ratio_validate)) {
     bank.Simulate(model, base, GroupsToRun(model, base, peaks, true, options, bank), part(0.7, 1));
-    out = Rank(model, base, bank, options.effective);
+    out = Rank(model, base, bank, options.effective_sample_size);
   }
   return out;
 }
 
 std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& base,
-                                       double effective, SignatureBank& bank, std::size_t count) {
-  const LinearJudge judge(model, base, bank, effective);
+                                       double effective_sample_size, SignatureBank& bank,
+                                       std::size_t count) {
+  const LinearJudge judge(model, base, bank, effective_sample_size);
   const auto& entries = bank.entries();
   // with a later entry, one per (effect, target)
   std::vector<std::vector<CandidatePair>> best_of(entries.size());

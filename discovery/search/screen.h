@@ -10,7 +10,7 @@
 namespace ambrig {
 
 struct ScreenOptions {
-  double effective = 1;
+  double effective_sample_size = 1;
   std::string effect, target;  // only this one, at this target only; empty: all
   std::function<void(double, const std::string&)> progress;
 };
@@ -24,6 +24,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
 
 /// The pairs of effects out of the bank that would explain most together, best first.
 std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& base,
-                                       double effective, SignatureBank& bank, std::size_t count);
+                                       double effective_sample_size, SignatureBank& bank,
+                                       std::size_t count);
 
 }  // namespace ambrig

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
-constexpr double kBusDoubt = 0.05, kBusNoise = 6;
+constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
 constexpr double kTrueWithin = 0.15;  // of the force in command
 // of the equations that a linearised W leaves open
 constexpr double kTrueResidual = 1;
@@ -69,7 +69,7 @@ FaultSupervisor::FaultSupervisor(const RigParameters& nominal,
     : rig_(nominal), options_(options), T_(1 / nominal.amplifier.switching_frequency), feed_(rig_) {
   const AmplifierParameters& a = rig_.amplifier;
   // Mean of as many readings as their noise asks for: one, of a quiet one.
-  const double noisy = kBusNoise * a.bus_noise / (kBusDoubt * a.bus_voltage);
+  const double noisy = kBusNoise * a.bus_noise / (kBusUncertainty * a.bus_voltage);
   bus_weight_ = 1 / std::max(1.0, noisy * noisy);
   bus_ = a.bus_voltage;
   for (const BearingParameters& b : rig_.bearings) {
@@ -176,7 +176,7 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingContro
   if (w.bearing->kind == BearingKind::kRadial) {
     resistance = w.bearing->radial.resistance;
     cls = NewMap(w, force, &control.map);
-    control.hand_over = NewHandOver(w, old, force, control);
+    control.current_transition = NewCurrentTransition(w, old, force, control);
   } else if (w.bearing->kind == BearingKind::kThrust) {
     resistance = w.bearing->thrust.resistance;
     cls = "exact";
@@ -198,7 +198,7 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingContro
   // The set-points that come next.
   const CurrentMap& map = control.map;
   SetPointVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
-  if (control.hand_over) next = control.hand_over->Clone()->Step(next, force);
+  if (control.current_transition) next = control.current_transition->Clone()->Step(next, force);
   for (int j = 0; j < control.coils; ++j) {
     PowerAmplifier& a = control.amplifier[static_cast<std::size_t>(j)];
     PowerAmplifier held = a;
@@ -238,10 +238,10 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
   return ToText(found.cls);
 }
 
-std::unique_ptr<HandOver> FaultSupervisor::NewHandOver(const Watched& w, const CurrentMap& old,
-                                                       const Eigen::Vector2d& force,
-                                                       const BearingControl& control) const {
-  HandOverStart s;
+std::unique_ptr<CurrentTransition> FaultSupervisor::NewCurrentTransition(
+    const Watched& w, const CurrentMap& old, const Eigen::Vector2d& force,
+    const BearingControl& control) const {
+  TransitionStart s;
   s.bearing = RedistributionProblemOf(rig_, *w.bearing);
   s.bearing.turns_left = w.turns_left;
   const CurrentMap& map = control.map;
@@ -254,7 +254,7 @@ std::unique_ptr<HandOver> FaultSupervisor::NewHandOver(const Watched& w, const C
   s.leakage = w.bearing->radial.leakage_inductance;
   s.voltage = kVoltageShare * rig_.amplifier.bus_voltage;
   s.period = 1 / rig_.controller.rate;
-  return MakeHandOver(options_.hand_over, s);
+  return MakeCurrentTransition(options_.current_transition, s);
 }
 
 void FaultSupervisor::TraceSlopes(double t) {

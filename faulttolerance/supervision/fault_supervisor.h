@@ -13,7 +13,7 @@
 #include <memory>
 
 #include "faulttolerance/redistribution/redistribution_table.h"
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 #include "faulttolerance/supervision/supervisor.h"
 #include "fdd/detectors/bearing_detector.h"
 #include "fdd/measurement/detection_feed.h"
@@ -27,7 +27,7 @@ struct FaultSupervisorOptions {
   /// leaves open is small), else force by force (faulttolerance/redistribution/force_inverse.h) where that holds,
   /// else the W of least error. matrix: always W. force-by-force: always that, where it holds.
   std::string redistribution = "auto";
-  std::string hand_over = kDefaultHandOver;
+  std::string current_transition = kDefaultCurrentTransition;
   bool stiffness_compensation = true;  // f + (K_healthy - K_W) x
   bool slopes = false;                 // slope traces round the first alarm, for the report
   std::string cache_dir;               // of the redistribution tables; empty: memory only
@@ -60,9 +60,9 @@ class FaultSupervisor : public Supervisor {
   /// record.
   std::string NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map);
   /// The way from the set-points in force to those of the new map.
-  std::unique_ptr<HandOver> NewHandOver(const Watched& w, const CurrentMap& old,
-                                        const Eigen::Vector2d& force,
-                                        const BearingControl& control) const;
+  std::unique_ptr<CurrentTransition> NewCurrentTransition(const Watched& w, const CurrentMap& old,
+                                                          const Eigen::Vector2d& force,
+                                                          const BearingControl& control) const;
   void TraceSlopes(double t);
 
   const RigParameters rig_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fdd/measurement/motion_doubt.h"
+#include "fdd/measurement/motion_uncertainty.h"
 
 namespace ambrig {
 
@@ -40,7 +40,7 @@ void BearingDetector::Keep(const MeasuredPeriod& in) {
   ++count_;
 }
 
-void BearingDetector::SilenceFalseSensors() {
+void BearingDetector::MaskFaultyCurrentReadings() {
   KeptPeriod& kept = ring_[static_cast<std::size_t>((count_ - 1) % kRing)];
   for (int j = 0; j < kLanes; ++j) off_for_[j] = kept.duty[j] <= 0 ? off_for_[j] + 1 : 0;
   if (!any_false_reading_) return;
@@ -62,12 +62,12 @@ void BearingDetector::SilenceFalseSensors() {
 }
 
 double BearingDetector::UnknownPotential() const {
-  double doubt = 0;
+  double uncertainty = 0;
   for (int k = 0; any_unknown_ && k < model_.coils; ++k)
     if (unknown_mmf_[static_cast<std::size_t>(k)])
-      doubt += std::abs(model_.n[k]) * slopes_.permeance.middle[k] *
-               std::max(slopes_.largest[k], kLeastUnknownCurrent);
-  return doubt / slopes_.permeance.total;
+      uncertainty += std::abs(model_.n[k]) * slopes_.permeance.middle[k] *
+                     std::max(slopes_.largest[k], kLeastUnknownCurrent);
+  return uncertainty / slopes_.permeance.total;
 }
 
 void BearingDetector::Residuals(const MeasuredPeriod& in) {
@@ -77,12 +77,12 @@ void BearingDetector::Residuals(const MeasuredPeriod& in) {
     ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
   // What an unknown MMF was at the first sample stays unknown: the motion turns it into a voltage.
   const double potential_rate = UnknownPotential() / (s_.sampling.step * s_.sampling.samples);
-  if (!in.doubt.any())
+  if (!in.uncertainty.any())
     return chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, nullptr,
                           potential_rate);
-  Lane doubt[2];
-  ResidualDoubt(model_, slopes_, in.doubt, doubt);
-  chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, doubt,
+  Lane uncertainty[2];
+  ResidualUncertainty(model_, slopes_, in.uncertainty, uncertainty);
+  chart_.Compute(model_, s_.sampling, s_, learning_.known(), slopes_, watched_, uncertainty,
                  potential_rate);
 }
 
@@ -96,10 +96,10 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
   int largest = -1;
   double most = s_.cap;
   // A new reading moves the position at once.
-  const Lane doubt = LinkageDoubt(model_, slopes_, in.doubt.position);
+  const Lane uncertainty = LinkageUncertainty(model_, slopes_, in.uncertainty.position);
   for (int j = 0; j < model_.coils; ++j) {
     const double step =
-        std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) - doubt[j] / h;
+        std::abs((slopes_.first[j] - last_linkage[j]) / h - last_voltage[j]) - uncertainty[j] / h;
     if (step < s_.cap || (!Holds(0, j) && !Holds(1, j)) || in.adc[0][j] < kZeroCurrent) continue;
     const double own =
         model_.SelfInductance(j, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
@@ -115,7 +115,7 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
 BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
   Alarm out;
   Keep(measured);
-  SilenceFalseSensors();
+  MaskFaultyCurrentReadings();
   MeasuredPeriod& in = ring_[static_cast<std::size_t>((count_ - 1) % kRing)].in;
   const Lane last_linkage = slopes_.last, last_voltage = slopes_.after;
   Residuals(in);

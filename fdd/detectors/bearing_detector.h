@@ -76,7 +76,7 @@ class BearingDetector {
   void Keep(const MeasuredPeriod& in);
   /// Coils with a false reading whose bridge the controller has kept off carry nothing: zero
   /// replaces the reading in the period just kept, and the coil counts as lost.
-  void SilenceFalseSensors();
+  void MaskFaultyCurrentReadings();
   LinkageModel LearnedModel() const;
   int Largest() const;  // coil of the largest residual
   /// Coil without whose current all other coils' equations hold best; `clear`: by far.

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "fdd/measurement/motion_doubt.h"
+#include "fdd/measurement/motion_uncertainty.h"
 
 namespace ambrig {
 
@@ -12,8 +12,8 @@ constexpr double kClosestGap = 0.4;  // of the nominal: nearer, its error rules 
 
 LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup)
     : model_(setup.model), s_(setup.settings) {
-  tolerance_.doubt[0] = s_.leakage_sd * s_.leakage_sd;
-  tolerance_.doubt[2] = s_.gap_sd * s_.gap_sd;
+  tolerance_.uncertainty[0] = s_.leakage_sd * s_.leakage_sd;
+  tolerance_.uncertainty[2] = s_.gap_sd * s_.gap_sd;
   for (int j = 0; j < model_.coils; ++j) watched_[j] = 1;
   const Lane P = model_.Permeance(0, 0);
   centred_ = *std::max_element(P.v, P.v + kLanes);
@@ -21,10 +21,10 @@ LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup)
 
 bool LinkageResidual::Compute(const MeasuredPeriod& in) {
   ComputePeriodSlopes(model_, s_.sampling, in, &slopes_);
-  Lane doubt[2];
-  if (in.doubt.any()) ResidualDoubt(model_, slopes_, in.doubt, doubt);
+  Lane uncertainty[2];
+  if (in.uncertainty.any()) ResidualUncertainty(model_, slopes_, in.uncertainty, uncertainty);
   chart_.Compute(model_, s_.sampling, s_, tolerance_, slopes_, watched_,
-                 in.doubt.any() ? doubt : nullptr, 0);
+                 in.uncertainty.any() ? uncertainty : nullptr, 0);
   return in.comparable && slopes_.permeance.largest * kClosestGap < centred_;
 }
 

@@ -37,13 +37,13 @@ struct Terms {
 template <class V>
 [[gnu::always_inline]] inline void Phase(const Terms<V>& c, const ChartSettings& s,
                                          const ModelError& known, const PhaseSlopes& p, int q,
-                                         const Lane* doubt, ResidualChart* r) {
+                                         const Lane* uncertainty, ResidualChart* r) {
   const V zero = 0.0, one = 1, nothing = kZeroCurrent;
   const V di = LoadAs<V>(p.current.v), flux = LoadAs<V>(p.linkage.v) - c.leakage * di;
-  const V uncertain = doubt ? LoadAs<V>(doubt[q].v) : zero;
+  const V uncertain = uncertainty ? LoadAs<V>(uncertainty[q].v) : zero;
   const V variance = c.noise * (LoadAs<V>(p.scale.v) * c.per_step) +
-                     di * (di * known.doubt[0] - flux * known.doubt[1]) +
-                     flux * flux * known.doubt[2] + c.moved + uncertain * uncertain;
+                     di * (di * known.uncertainty[0] - flux * known.uncertainty[1]) +
+                     flux * flux * known.uncertainty[2] + c.moved + uncertain * uncertain;
   const V wider = Min(Max(LoadAs<V>(r->size[q].v) * (1 / kNormalSize), one), 5),
           total = variance * (wider * wider);
   const V inverse_width = InverseRoot(total);
@@ -64,7 +64,7 @@ template <class V>
 
 struct Circumstance {
   const Lane* watched;
-  const Lane* doubt;
+  const Lane* uncertainty;
   double step, potential_rate;
 };
 
@@ -85,8 +85,8 @@ template <class V>
   c.watched = LoadAs<V>(at.watched->v);
   c.largest = LoadAs<V>(slopes.largest.v);
   c.per_step = 1 / at.step;
-  Phase(c, s, known, slopes.phase[0], 0, at.doubt, r);
-  Phase(c, s, known, slopes.phase[1], 1, at.doubt, r);
+  Phase(c, s, known, slopes.phase[0], 0, at.uncertainty, r);
+  Phase(c, s, known, slopes.phase[1], 1, at.uncertainty, r);
 }
 AMBRIG_WHOLE void ComputeWhole(const LinkageModel& m, const Circumstance& at,
                                const ChartSettings& s, const ModelError& known,
@@ -133,10 +133,10 @@ AMBRIG_WIDE double BeyondNoise(const Lane& own, const LinkageStep& step, double 
 
 void ResidualChart::Compute(const LinkageModel& m, const SamplingSettings& sampling,
                             const ChartSettings& s, const ModelError& known,
-                            const PeriodSlopes& slopes, const Lane& watched, const Lane* doubt,
-                            double potential_rate) {
-  (whole_lanes ? ComputeWhole : ComputeHalves)(m, {&watched, doubt, sampling.step, potential_rate},
-                                               s, known, slopes, this);
+                            const PeriodSlopes& slopes, const Lane& watched,
+                            const Lane* uncertainty, double potential_rate) {
+  (whole_lanes ? ComputeWhole : ComputeHalves)(
+      m, {&watched, uncertainty, sampling.step, potential_rate}, s, known, slopes, this);
 }
 
 double ResidualChart::Cusum(const ChartSettings& s) {

@@ -20,7 +20,7 @@ struct ChartSettings {
 /// variance of a residual owes to what is not known of them (coefficients of di², -di flux, flux²).
 struct ModelError {
   double leakage = 0, gap = 0;
-  double doubt[3] = {0, 0, 0};
+  double uncertainty[3] = {0, 0, 0};
 };
 
 /// Linkages at the last sample of one period and the first of the next [Wb], the voltage between
@@ -39,12 +39,12 @@ struct ResidualChart {
   Lane G[3];
   Lane own;  // self-inductance [H]
 
-  /// Residuals of one period. `watched`: coils that may be judged; `doubt`: what the motion may add
+  /// Residuals of one period. `watched`: coils that may be judged; `uncertainty`: what the motion may add
   /// to the residuals of both phases [V], nullptr: nothing; `potential_rate` [A/s]: by how much the
   /// rotor's potential may be wrong, over the period (unknown ampere-turns).
   void Compute(const LinkageModel& m, const SamplingSettings& sampling, const ChartSettings& s,
                const ModelError& known, const PeriodSlopes& slopes, const Lane& watched,
-               const Lane* doubt, double potential_rate);
+               const Lane* uncertainty, double potential_rate);
   /// Adds the period; returns the largest G.
   double Cusum(const ChartSettings& s);
   /// Whether any linkage may step by more than `limit` times its noise, beyond what is expected.

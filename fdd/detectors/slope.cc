@@ -65,13 +65,13 @@ bool SlopeDetector::Sample(long code, double i0) {
   since_ += s_.converter.period;
   if (static_cast<int>(queue_.size()) < s_.samples_per_period) return false;
   const bool due = since_ >= s_.cycle * (1 - 1e-9);
-  const bool fresh = due && Judge(i0);
+  const bool fresh = due && EvaluateStatistic(i0);
   if (due) since_ = 0;
   queue_.clear();
   return fresh;
 }
 
-bool SlopeDetector::Judge(double i0) {
+bool SlopeDetector::EvaluateStatistic(double i0) {
   last_ = MeanSlopesOf(s_.converter, queue_);
   if (flagged()) return false;
   const SlopeRange up = IncreasingRange(s_.circuit, i0, s_.margin),

@@ -84,7 +84,7 @@ class SlopeDetector {
   const MeanSlopes& slopes() const { return last_; }
 
  private:
-  bool Judge(double i0);
+  bool EvaluateStatistic(double i0);
 
   SlopeDetectorSettings s_;
   std::vector<long> queue_;

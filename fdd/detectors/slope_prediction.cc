@@ -39,7 +39,7 @@ void SlopePrediction::Predict(const MeasuredPeriod& in, Lane* current) const {
   }
 }
 
-double SlopePrediction::Judge(int j, const MeasuredPeriod& in, const Lane* current) {
+double SlopePrediction::EvaluateStatistic(int j, const MeasuredPeriod& in, const Lane* current) {
   for (std::size_t k = 0; k < measured_.size(); ++k) {
     measured_[k] = (in.adc[k + 1][j] - in.adc[k][j]) / s_.sampling.step;
     predicted_[k] = (current[k + 1][j] - current[k][j]) / s_.sampling.step;
@@ -63,7 +63,7 @@ Lane SlopePrediction::Period(const MeasuredPeriod& in) {
   Lane out, current[64];
   if (in.comparable) {
     Predict(in, current);
-    for (int j = 0; j < model_.coils; ++j) out[j] = Judge(j, in, current);
+    for (int j = 0; j < model_.coils; ++j) out[j] = EvaluateStatistic(j, in, current);
   }
   resistance_.Add(in);
   return out;

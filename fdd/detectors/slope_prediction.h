@@ -24,7 +24,7 @@ class SlopePrediction : public CoilDetector {
  private:
   /// Currents of a healthy bearing at every sample. [A]
   void Predict(const MeasuredPeriod& in, Lane* current) const;
-  double Judge(int j, const MeasuredPeriod& in, const Lane* current);
+  double EvaluateStatistic(int j, const MeasuredPeriod& in, const Lane* current);
 
   LinkageModel model_;
   DetectorSettings s_;

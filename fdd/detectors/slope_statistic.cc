@@ -49,7 +49,8 @@ SlopeCircuit SlopeStatistic::CircuitOf(int j, const MeasuredPeriod& in,
   return c;
 }
 
-double SlopeStatistic::Judge(int j, const MeasuredPeriod& in, const MovingPermeance& P) {
+double SlopeStatistic::EvaluateStatistic(int j, const MeasuredPeriod& in,
+                                         const MovingPermeance& P) {
   for (int k = 0; k < s_.sampling.samples; ++k)
     codes_[static_cast<std::size_t>(k)] = converter_.Code(in.adc[k][j]);
   const MeanSlopes slopes = MeanSlopesOf(converter_, codes_);
@@ -74,7 +75,7 @@ Lane SlopeStatistic::Period(const MeasuredPeriod& in) {
     model_.Permeance(from, to, &P);
   }
   for (int j = 0; j < model_.coils; ++j)
-    if (due) held_[j] = Judge(j, in, P);
+    if (due) held_[j] = EvaluateStatistic(j, in, P);
   if (online) resistance_.Add(in);
   return held_;
 }

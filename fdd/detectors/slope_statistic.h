@@ -33,7 +33,7 @@ class SlopeStatistic : public CoilDetector {
 
  private:
   SlopeCircuit CircuitOf(int j, const MeasuredPeriod& in, const MovingPermeance& P) const;
-  double Judge(int j, const MeasuredPeriod& in, const MovingPermeance& P);
+  double EvaluateStatistic(int j, const MeasuredPeriod& in, const MovingPermeance& P);
 
   LinkageModel model_;
   DetectorSettings s_;

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "fdd/examination/fault_hypotheses.h"
-#include "fdd/measurement/motion_doubt.h"
+#include "fdd/measurement/motion_uncertainty.h"
 
 namespace ambrig {
 
@@ -43,7 +43,7 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
     ComputePeriodSlopes(m, s.sampling, p.in, &now);
     const bool radial = m.coupling == Coupling::kFloatingRotor;
     const double own = m.SelfInductance(j, now.permeance.middle, radial ? now.permeance.total : 1);
-    const double moved = LinkageDoubt(m, now, 1)[j];
+    const double moved = LinkageUncertainty(m, now, 1)[j];
     for (int k = 0; k < s.sampling.samples; ++k) {
       const Lane& i = p.adc[static_cast<std::size_t>(k)];
       const double at = static_cast<double>(k) / s.sampling.samples;
@@ -64,9 +64,9 @@ double UnexplainedStep(const LinkageModel& m, const DetectorSettings& s,
         const double on = k == 0 ? 0 : std::clamp(now.edge[j] - t, 0.0, s.sampling.step);
         const double driven =
             on * now.phase[0].voltage[j] + (s.sampling.step - on) * now.phase[1].voltage[j];
-        const double doubt =
-            moved * (k == 0 ? p.in.doubt.position : p.in.doubt.velocity * s.sampling.step);
-        double step = (std::abs(lambda - last_lambda - driven) - doubt) / own;
+        const double uncertainty = moved * (k == 0 ? p.in.uncertainty.position
+                                                   : p.in.uncertainty.velocity * s.sampling.step);
+        double step = (std::abs(lambda - last_lambda - driven) - uncertainty) / own;
         // A step of the other reading on the same core looks the same, but for this reading.
         if (m.coupling == Coupling::kSides) step = std::min(step, std::abs(i[j] - last_reading));
         if (i[j] > kZeroCurrent) most = std::max(most, step);

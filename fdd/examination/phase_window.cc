@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "fdd/measurement/motion_doubt.h"
+#include "fdd/measurement/motion_uncertainty.h"
 #include "fdd/measurement/period_slopes.h"
 
 namespace ambrig {
@@ -83,8 +83,8 @@ void AddWindows(const LinkageModel& m, const DetectorSettings& s, const KeptPeri
   if (!p.in.comparable) return;
   PeriodSlopes now;
   ComputePeriodSlopes(m, s.sampling, p.in, &now);
-  Lane doubt[2];
-  if (p.in.doubt.any()) ResidualDoubt(m, now, p.in.doubt, doubt);
+  Lane uncertainty[2];
+  if (p.in.uncertainty.any()) ResidualUncertainty(m, now, p.in.uncertainty, uncertainty);
   double flux[64];
   FluxFromOthers(m, s, p, now, j, flux);
   const bool radial = m.coupling == Coupling::kFloatingRotor;
@@ -112,7 +112,7 @@ void AddWindows(const LinkageModel& m, const DetectorSettings& s, const KeptPeri
     w.noise_l = per_amp * m.leakage[j];
     w.noise_own = per_amp * own;
     w.sd_e = std::sqrt(std::pow(own * per_amp, 2) + std::pow(s.gap_sd * shared, 2) + leak * leak +
-                       s.voltage_sd * s.voltage_sd + doubt[q][j] * doubt[q][j]);
+                       s.voltage_sd * s.voltage_sd + uncertainty[q][j] * uncertainty[q][j]);
     w.sd_f = std::sqrt((m.coils - 1) * w.noise_l * w.noise_l + std::pow(0.01 * w.F, 2) +
                        s.leakage_sd * s.leakage_sd * 4e8 + s.voltage_sd * s.voltage_sd);
     out->push_back(w);

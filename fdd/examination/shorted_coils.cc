@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "fdd/measurement/motion_doubt.h"
+#include "fdd/measurement/motion_uncertainty.h"
 
 namespace ambrig {
 
@@ -64,8 +64,8 @@ void AddEquations(const LinkageModel& m, const DetectorSettings& s, const KeptPe
   if (!p.in.comparable) return;
   PeriodSlopes now;
   ComputePeriodSlopes(m, s.sampling, p.in, &now);
-  Lane doubt[2];
-  if (p.in.doubt.any()) ResidualDoubt(m, now, p.in.doubt, doubt);
+  Lane uncertainty[2];
+  if (p.in.uncertainty.any()) ResidualUncertainty(m, now, p.in.uncertainty, uncertainty);
   for (int j = 0; j < m.coils; ++j) {
     if (!judged[static_cast<std::size_t>(j)] || now.largest[j] >= s.adc_limit) continue;
     for (int q = 0; q < 2; ++q) {
@@ -82,7 +82,7 @@ void AddEquations(const LinkageModel& m, const DetectorSettings& s, const KeptPe
       e.sd_own =
           std::hypot(own * s.current_noise * std::sqrt(SlopeVariance(count, s.sampling.step)),
                      s.leakage_sd * a.current[j]);
-      e.sd = std::hypot(s.gap_sd * e.v, s.voltage_sd, doubt[q][j]);
+      e.sd = std::hypot(s.gap_sd * e.v, s.voltage_sd, uncertainty[q][j]);
       out->push_back(e);
     }
   }
@@ -93,7 +93,7 @@ struct Fit {
   double cost = 0, worst = 0;  // sum of squares; largest residual [sd]
 };
 
-void Judge(const std::vector<Equation>& equations, Fit* fit) {
+void EvaluateFit(const std::vector<Equation>& equations, Fit* fit) {
   fit->cost = fit->worst = 0;
   for (const Equation& e : equations) {
     const double z = e.Error(fit->a) / e.Size(fit->a);
@@ -106,7 +106,7 @@ void Judge(const std::vector<Equation>& equations, Fit* fit) {
 Fit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils, double start) {
   Fit best;
   for (int j : coils) best.a[j] = start;
-  Judge(equations, &best);
+  EvaluateFit(equations, &best);
   double damping = 1e-3;
   for (int step = 0; step < 40 && damping < 1e6; ++step) {
     Normal H = Normal::Zero();
@@ -133,7 +133,7 @@ Fit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils,
       double& a = next.a[coils[static_cast<std::size_t>(r)]];
       a = std::clamp(a + change[r], kFewestTurns, kMostTurns);
     }
-    Judge(equations, &next);
+    EvaluateFit(equations, &next);
     if (!(next.cost < best.cost)) {
       damping *= 10;
       continue;

@@ -9,7 +9,7 @@ namespace ambrig {
 namespace {
 
 using V = LaneVector;
-constexpr double kDoubt = 3;  // tolerances count this many times
+constexpr double kToleranceFactor = 3;  // tolerances count this many times
 // of the tolerances: coils differ within a bearing
 constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;
 constexpr double kMemory = 500, kSizeMemory = 200;  // periods
@@ -71,9 +71,11 @@ void ModelLearning::Solve() {
       std::clamp((p1 * pull_[0] - info_[1] * pull_[1]) / det, -5 * leakage_sd_, 5 * leakage_sd_);
   known_.gap = std::clamp((p0 * pull_[1] - info_[1] * pull_[0]) / det, -5 * gap_sd_, 5 * gap_sd_);
   // Covariance of what is left.
-  known_.doubt[0] = kDoubt * kDoubt * p1 / det + kLeastLeakage * kLeastLeakage / leak;
-  known_.doubt[1] = -2 * kDoubt * kDoubt * info_[1] / det;
-  known_.doubt[2] = kDoubt * kDoubt * p0 / det + kLeastGap * kLeastGap / gap;
+  known_.uncertainty[0] =
+      kToleranceFactor * kToleranceFactor * p1 / det + kLeastLeakage * kLeastLeakage / leak;
+  known_.uncertainty[1] = -2 * kToleranceFactor * kToleranceFactor * info_[1] / det;
+  known_.uncertainty[2] =
+      kToleranceFactor * kToleranceFactor * p0 / det + kLeastGap * kLeastGap / gap;
 }
 
 }  // namespace ambrig

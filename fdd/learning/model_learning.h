@@ -5,7 +5,7 @@
 ///   e = -(leakage error) di + (gap error) flux       di: slope of the current, flux: of n φ
 ///
 /// Bayes: normal equations with forgetting over the maker's tolerances as a prior. Coils differ
-/// within a bearing, so that some of the tolerances stays in doubt however much was learned.
+/// within a bearing, so that some of the tolerances stays in uncertainty however much was learned.
 #include "fdd/detectors/residual_chart.h"
 
 namespace ambrig {

@@ -147,8 +147,8 @@ void DetectionFeed::WatchImpacts() {
     double departure = 0;
     for (std::size_t a = 0; a < axis_names_.size(); ++a)
       if (Uses(v, a)) departure = std::max(departure, positions_.Departure(a));
-    v.doubt.position = change + kParabola * departure;
-    v.doubt.velocity = v.doubt.position / step;
+    v.uncertainty.position = change + kParabola * departure;
+    v.uncertainty.velocity = v.uncertainty.position / step;
     for (std::size_t a = v.first_axis; a < v.end_axis; ++a) struck_[a] = kParabola * change;
   }
 }
@@ -183,7 +183,7 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
       v, v.weights, [&](std::size_t axis) { return start_[axis]; }, &in.x0, &in.y0);
   Place(
       v, v.weights, [&](std::size_t axis) { return end_[axis]; }, &in.x1, &in.y1);
-  in.doubt = v.doubt;
+  in.uncertainty = v.uncertainty;
   bool sensed = sensed_;
   for (std::size_t a = 0; a < axis_names_.size(); ++a)
     if (positions_.faulty(a) && Uses(v, a)) sensed = false;

@@ -39,7 +39,7 @@ class DetectionFeed {
     std::size_t group = 0;  // of `impacts_`
     // of the sensor planes, radial: at the bearing, at its stop
     std::vector<double> weights, auxiliary_weights;
-    MotionDoubt doubt;  // until the next reading
+    MotionUncertainty uncertainty;  // until the next reading
   };
   bool Uses(const View& v, std::size_t axis) const;
   /// After a reading: whether the shaft may strike an auxiliary bearing before the next one, or has

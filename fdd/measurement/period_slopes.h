@@ -17,7 +17,7 @@ namespace ambrig {
 inline constexpr double kZeroCurrent = 0.03;  // [A] below: the diodes may block
 
 /// Bounds of what is not known of the shaft's motion at a bearing plane.
-struct MotionDoubt {
+struct MotionUncertainty {
   double velocity = 0;  // [m/s]
   double position = 0;  // [m]
   bool any() const { return velocity > 0 || position > 0; }
@@ -31,7 +31,7 @@ struct MeasuredPeriod {
   const Lane* set_point = nullptr;        // that the current loops followed [A]; may be absent
   double bus = 0;                         // mean over the period [V]
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [m]
-  MotionDoubt doubt;                      // of these positions
+  MotionUncertainty uncertainty;          // of these positions
   bool comparable = true;  // false: bus or position unknown, nothing can be concluded
 };
 

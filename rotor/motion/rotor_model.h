@@ -144,9 +144,9 @@ class RotorModel {
   void StepUnder(MotionState& s, const DofVector& forced, double stator_x, double stator_y,
                  double dt, bool near_contact) const;
   /// Whether nothing but given forces and gyroscopics acts: a rigid rotor, touching nothing.
-  bool FliesFreely(bool near_contact) const { return dof_ == 5 && !near_contact && terms.empty(); }
+  bool IsUnforced(bool near_contact) const { return dof_ == 5 && !near_contact && terms.empty(); }
   /// StepOnce, to rounding, of a rotor that flies freely.
-  void Fly(MotionState& s, const DofVector& forced, double dt) const;
+  void StepUnforced(MotionState& s, const DofVector& forced, double dt) const;
 
   RotorParameters p_;
   std::array<double, 3> g_;

@@ -128,7 +128,7 @@ void RotorModel::StepOnce(MotionState& s, const DofVector& Q, double stator_x, d
 
 void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stator_x,
                            double stator_y, double dt, bool near_contact) const {
-  if (FliesFreely(near_contact)) return Fly(s, forced, dt);
+  if (IsUnforced(near_contact)) return StepUnforced(s, forced, dt);
   const bool free_spin = SpeedIsFree(s.t) && p_.inertia_polar > 0;
   MotionState stage = s;
   DofVector k_v[4], k_a[4];
@@ -169,7 +169,7 @@ void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stato
   }
 }
 
-void RotorModel::Fly(MotionState& s, const DofVector& forced, double dt) const {
+void RotorModel::StepUnforced(MotionState& s, const DofVector& forced, double dt) const {
   const bool free_spin = SpeedIsFree(s.t) && p_.inertia_polar > 0;
   const double half = 0.5 * dt, w = dt / 6;
   double a[5];

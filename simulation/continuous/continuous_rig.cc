@@ -45,7 +45,8 @@ ContinuousRig::ContinuousRig(SampledRig& rig, const IntegratorOptions& options) 
   }
   for (const LoadSpec& l : rig.scenario.loads) {
     DofVector Q{};
-    rig.plant.rotor.MakePlane(l.z + (rig.rig.z_drawn - rig.rig.z_origin)).AddForce(l.fx, l.fy, Q);
+    rig.plant.rotor.MakePlane(l.z + (rig.rig.nominal_com_z - rig.rig.z_origin))
+        .AddForce(l.fx, l.fy, Q);
     Q[2] += l.fz;
     load_Q_.push_back(Q);
   }

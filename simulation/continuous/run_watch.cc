@@ -18,7 +18,8 @@ void RunWatch::Period(long long n, double copper, double peak_current) {
     const double orbit = std::hypot(b.true_x, b.true_y);
     double& most = m.max_orbit[b.plant->name];
     most = std::max(most, orbit);
-    if (rig_.motion.t > 0.9 * rig_.scenario.duration) m.late_orbit = std::max(m.late_orbit, orbit);
+    if (rig_.motion.t > 0.9 * rig_.scenario.duration)
+      m.settled_orbit = std::max(m.settled_orbit, orbit);
   }
   contacts_.Period(rig_.motion, n == 0, result_);
 }

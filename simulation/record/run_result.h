@@ -28,7 +28,7 @@ struct RunMetrics {
   double false_alarms = 0;
   double coil_periods = 0;  // healthy coil-periods watched
   double real_time_factor = 0;
-  double late_orbit = 0;       // largest orbit of the last tenth of the run [m]
+  double settled_orbit = 0;    // largest orbit of the last tenth of the run [m]
   double longest_contact = 0;  // [s]
 };
 

@@ -89,7 +89,7 @@ void PositionLoop::Tick(long long n, double Omega, const std::vector<BearingCont
     const double fx = force_[a], fy = planar ? force_[a + 1] : 0;
     auto set =
         control[k].map.SetPoints(fx, fy, planar ? readings_[a] : 0, planar ? readings_[a + 1] : 0);
-    if (control[k].hand_over) set = control[k].hand_over->Step(set, {fx, fy});
+    if (control[k].current_transition) set = control[k].current_transition->Step(set, {fx, fy});
     for (int j = 0; j < kLanes; ++j) next.values[k][j] = set[j];
   }
   under_way_.push_back(std::move(next));

@@ -25,7 +25,7 @@ void SwitchingEngine::Watch(long long n) {
     if (clamped_) continue;
     const double orbit_sq = b.true_x * b.true_x + b.true_y * b.true_y;
     b.max_orbit_sq = std::max(b.max_orbit_sq, orbit_sq);
-    if (late) late_orbit_sq_ = std::max(late_orbit_sq_, orbit_sq);
+    if (late) settled_orbit_sq_ = std::max(settled_orbit_sq_, orbit_sq);
   }
   if (!clamped_) contacts_->Period(motion_, n == 0, result_);
   WatchFaults(n);
@@ -71,7 +71,7 @@ void SwitchingEngine::Verdict() {
   RunMetrics& m = result_.metrics;
   if (!clamped_)
     for (const BearingRun& b : bearings_) m.max_orbit[b.plant->name] = std::sqrt(b.max_orbit_sq);
-  m.late_orbit = std::sqrt(late_orbit_sq_);
+  m.settled_orbit = std::sqrt(settled_orbit_sq_);
   m.copper_loss = periods_ > 0 ? loss_sum_ / static_cast<double>(periods_) : 0;
   contacts_->Finish(motion_, result_);
   if (options_.snapshots) Snapshot("end of the run");

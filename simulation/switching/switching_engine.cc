@@ -33,7 +33,8 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
   periods_ = static_cast<long long>(std::ceil(scenario_.duration / T_ - 1e-6));
   plant_.rotor.SetSpeed(scenario_.speed, scenario_.speed_free_from);
   for (const LoadSpec& l : scenario_.loads)
-    plant_.rotor.AddLoad(l.z + (rig_.z_drawn - rig_.z_origin), l.fx, l.fy, l.fz, l.start, l.stop);
+    plant_.rotor.AddLoad(l.z + (rig_.nominal_com_z - rig_.z_origin), l.fx, l.fy, l.fz, l.start,
+                         l.stop);
   std::size_t axis = 0;
   int auxiliary = 0;
   for (std::size_t k = 0; k < rig_.bearings.size(); ++k) {

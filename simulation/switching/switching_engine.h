@@ -110,7 +110,7 @@ class SwitchingEngine {
   std::optional<RunRecord> record_;
   RunResult result_;
   std::optional<ContactWatch> contacts_;
-  double loss_sum_ = 0, touching_ = 0, late_orbit_sq_ = 0;
+  double loss_sum_ = 0, touching_ = 0, settled_orbit_sq_ = 0;
   PeriodMeasurement measurement_;
   std::optional<MeasurementNoise> noise_;
   std::optional<PositionLoop> loop_;

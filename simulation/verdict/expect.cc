@@ -65,7 +65,7 @@ std::vector<ExpectResult> CheckExpectations(const Scenario& s, const RunResult& 
   if (e.max_false_alarms)
     out.push_back(AtMost("max_false_alarms", *e.max_false_alarms, r.metrics.false_alarms, true));
   if (e.rests_within)
-    out.push_back(AtMost("rests_within", *e.rests_within, r.metrics.late_orbit, true));
+    out.push_back(AtMost("rests_within", *e.rests_within, r.metrics.settled_orbit, true));
   return out;
 }
 

@@ -26,16 +26,16 @@ TEST(Standards, Zones) {
 
 TEST(Standards, SeparationMargins) {
   // AF 5: 17 (1 - 1/3.5) = 12.14 below, 22.14 above.
-  const SeparationMargin below = JudgeSeparation(850, 5, 1000, 2000),
-                         above = JudgeSeparation(2400, 5, 1000, 2000);
+  const SeparationMargin below = AssessSeparation(850, 5, 1000, 2000),
+                         above = AssessSeparation(2400, 5, 1000, 2000);
   EXPECT_NEAR(below.required, 17 * (1 - 1 / 3.5), 1e-12);
   EXPECT_NEAR(below.actual, 15, 1e-9);
   EXPECT_TRUE(below.met);
   EXPECT_NEAR(above.required, 10 + 17 * (1 - 1 / 3.5), 1e-12);
   EXPECT_NEAR(above.actual, 20, 1e-9);
   EXPECT_FALSE(above.met);
-  EXPECT_TRUE(JudgeSeparation(1500, 2.4, 1000, 2000).met);   // critically damped
-  EXPECT_FALSE(JudgeSeparation(1500, 2.6, 1000, 2000).met);  // inside the range
+  EXPECT_TRUE(AssessSeparation(1500, 2.4, 1000, 2000).met);   // critically damped
+  EXPECT_FALSE(AssessSeparation(1500, 2.6, 1000, 2000).met);  // inside the range
 }
 
 // k at low frequency: k_p - k_s and the integrator's -i k_i/ω; every piece known in closed form.

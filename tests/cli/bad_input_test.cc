@@ -78,8 +78,9 @@ TEST_F(BadInput, UnknownEffectSuggests) {
   EXPECT_NE(o.text.find("did you mean eddy-currents?"), std::string::npos) << o.text;
 }
 TEST_F(BadInput, HelpOfEveryCommand) {
-  for (const char* command : {"run", "check", "campaign", "merge", "redistribute", "effects",
-                              "parameters", "compare", "explain", "adopt", "hide", "judge"}) {
+  for (const char* command :
+       {"run", "check", "campaign", "merge", "redistribute", "effects", "parameters", "compare",
+        "explain", "adopt", "hide", "score", "judge"}) {
     const Outcome o = Ambrig(std::string(command) + " --help");
     EXPECT_EQ(o.exit, 0) << command;
     EXPECT_NE(o.text.find("Example"), std::string::npos) << command;

@@ -10,7 +10,7 @@
 
 #include "discovery/model/floor.h"
 #include "discovery/model/residual.h"
-#include "discovery/practice/judge.h"
+#include "discovery/practice/case_score.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {

@@ -184,7 +184,7 @@ TEST(ShaftCalibration, AFitFindsTheShaft) {
   const Comparison before = Compare(model, nominal, false);
   EXPECT_GT(before.ratio_fit, 2);
   FitOptions options;
-  options.effective = before.effective;
+  options.effective_sample_size = before.effective_sample_size;
   const FitResult fit = Fit(model, nominal, options);
   EXPECT_LT(fit.ratio_fit, 1.2);
   for (std::size_t k = 0; k < 2; ++k) {

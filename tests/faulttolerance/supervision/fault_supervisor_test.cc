@@ -126,7 +126,7 @@ Outcome Simulated(const std::string& scenario, const RigParameters& truth, bool 
   engine.record = false;
   engine.supervisor = &supervisor;
   o.result = SwitchingEngine(truth, o.scenario, engine).Run();
-  JudgeDetection(o.scenario, o.result);
+  ScoreDetection(o.scenario, o.result);
   o.coil_periods = supervisor.coil_periods();
   return o;
 }

@@ -1,6 +1,6 @@
 // Bounds of what an unknown motion does to the coils' equations, against the simulator's own
 // stator.
-#include "fdd/measurement/motion_doubt.h"
+#include "fdd/measurement/motion_uncertainty.h"
 
 #include <gtest/gtest.h>
 
@@ -15,17 +15,17 @@ using namespace testing_bench;
 
 constexpr double kModelError = 0.15;  // [V] of the equations themselves at these speeds
 
-/// Largest |e| over all coils and phases, and whether every one is within what the doubt allows.
+/// Largest |e| over all coils and phases, and whether every one is within what the uncertainty allows.
 struct Seen {
   double largest = 0, largest_bound = 0;
   bool within = true;
 };
-Seen Judge(const MeasuredPeriod& in, const Bench& bench) {
+Seen Evaluate(const MeasuredPeriod& in, const Bench& bench) {
   const LinkageModel model = MakeLinkageModel(Reference());
   PeriodSlopes s;
   ComputePeriodSlopes(model, bench.Sampling(), in, &s);
   Lane bound[2];
-  ResidualDoubt(model, s, in.doubt, bound);
+  ResidualUncertainty(model, s, in.uncertainty, bound);
   Seen out;
   for (int q = 0; q < 2; ++q)
     for (int j = 0; j < kLanes; ++j) {
@@ -39,7 +39,7 @@ Seen Judge(const MeasuredPeriod& in, const Bench& bench) {
 
 // The shaft is thrown back although the positions say that it goes on: no coil is off by more than
 // the bound, and the bound is no larger than a few times what happens.
-TEST(ResidualDoubt, HoldsForAnUnseenVelocityInAllDirections) {
+TEST(ResidualUncertainty, HoldsForAnUnseenVelocityInAllDirections) {
   for (int k = 0; k < 12; ++k)
     for (double v : {0.1, 0.4}) {
       Bench bench;
@@ -52,15 +52,15 @@ TEST(ResidualDoubt, HoldsForAnUnseenVelocityInAllDirections) {
       MeasuredPeriod in = bench.Run();
       in.x1 = in.x0;
       in.y1 = in.y0;
-      in.doubt = {v, 0.5 * v * kT};  // in the middle of the period half of the way
-      const Seen seen = Judge(in, bench);
+      in.uncertainty = {v, 0.5 * v * kT};  // in the middle of the period half of the way
+      const Seen seen = Evaluate(in, bench);
       EXPECT_TRUE(seen.within) << k << " " << v;
       EXPECT_GT(seen.largest, 10 * v) << k;
       EXPECT_LT(seen.largest_bound, 8 * seen.largest) << k;
     }
 }
 
-TEST(ResidualDoubt, HoldsForAPositionThatIsWrong) {
+TEST(ResidualUncertainty, HoldsForAPositionThatIsWrong) {
   for (int k = 0; k < 12; ++k) {
     Bench bench;
     const double ux = std::cos(k * 0.5236), uy = std::sin(k * 0.5236), wrong = 1e-5;
@@ -70,23 +70,23 @@ TEST(ResidualDoubt, HoldsForAPositionThatIsWrong) {
     MeasuredPeriod in = bench.Run();
     in.x0 = in.x1 += wrong * ux;
     in.y0 = in.y1 += wrong * uy;
-    in.doubt = {0, 1.2 * wrong};  // the gap that counts is the smaller one
-    const Seen seen = Judge(in, bench);
+    in.uncertainty = {0, 1.2 * wrong};  // the gap that counts is the smaller one
+    const Seen seen = Evaluate(in, bench);
     EXPECT_TRUE(seen.within) << k;
     EXPECT_GT(seen.largest, 0.5) << k;
     EXPECT_LT(seen.largest_bound, 8 * seen.largest) << k;
   }
 }
 
-TEST(ResidualDoubt, NothingWithoutDoubt) {
+TEST(ResidualUncertainty, NothingWithoutUncertainty) {
   Bench bench;
   PeriodSlopes s;
   const LinkageModel model = MakeLinkageModel(Reference());
   ComputePeriodSlopes(model, bench.Sampling(), bench.Run(), &s);
   Lane bound[2];
-  ResidualDoubt(model, s, {}, bound);
+  ResidualUncertainty(model, s, {}, bound);
   for (int j = 0; j < kLanes; ++j)
-    EXPECT_EQ(bound[0][j] + bound[1][j] + LinkageDoubt(model, s, 0)[j], 0);
+    EXPECT_EQ(bound[0][j] + bound[1][j] + LinkageUncertainty(model, s, 0)[j], 0);
 }
 
 }  // namespace

@@ -11,13 +11,13 @@
 ///     so fast that one coil of the coupled network is at its limit
 #include <string>
 
-#include "control/current/hand_over.h"
+#include "control/current/current_transition.h"
 #include "faulttolerance/redistribution/force_forms.h"
 
 namespace ambrig {
 
 /// All a policy may know.
-struct HandOverStart {
+struct TransitionStart {
   Coils now = Coils::Zero();          // set-points in force, 0 in lost coils [A]
   Coils bias_before = Coils::Zero();  // [A]
   Coils bias_after = Coils::Zero();   // [A]
@@ -28,23 +28,25 @@ struct HandOverStart {
 };
 
 /// "jump,ramp,...": for file readers.
-inline constexpr const char* kHandOverNames = "jump,ramp,bias-first,force-preserving,time-optimal";
-inline constexpr const char* kDefaultHandOver = "jump";
+inline constexpr const char* kCurrentTransitionNames =
+    "jump,ramp,bias-first,force-preserving,time-optimal";
+inline constexpr const char* kDefaultCurrentTransition = "jump";
 
 /// @throws std::logic_error for another name.
-std::unique_ptr<HandOver> MakeHandOver(const std::string& name, const HandOverStart& start);
+std::unique_ptr<CurrentTransition> MakeCurrentTransition(const std::string& name,
+                                                         const TransitionStart& start);
 
 /// Inductances of the coupled coils, rotor centred [H]; a unit row for coils without turns.
-CoilForm InductanceOf(const HandOverStart& start);
+CoilForm InductanceOf(const TransitionStart& start);
 
 // One file each.
-std::unique_ptr<HandOver> MakeJump();
-std::unique_ptr<HandOver> MakeRamp(const HandOverStart& start);
-std::unique_ptr<HandOver> MakeBiasFirst(const HandOverStart& start);
-std::unique_ptr<HandOver> MakeForcePreserving(const HandOverStart& start);
-std::unique_ptr<HandOver> MakeTimeOptimal(const HandOverStart& start);
+std::unique_ptr<CurrentTransition> MakeJump();
+std::unique_ptr<CurrentTransition> MakeRamp(const TransitionStart& start);
+std::unique_ptr<CurrentTransition> MakeBiasFirst(const TransitionStart& start);
+std::unique_ptr<CurrentTransition> MakeForcePreserving(const TransitionStart& start);
+std::unique_ptr<CurrentTransition> MakeTimeOptimal(const TransitionStart& start);
 
 /// Largest change of each set-point in one period by its own inductance and `voltage` [A].
-Coils RampStep(const HandOverStart& start);
+Coils RampStep(const TransitionStart& start);
 
 }  // namespace ambrig

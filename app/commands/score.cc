@@ -1,4 +1,4 @@
-/// ambrig judge: explain many cases whose answers are known, and count.
+/// ambrig score: explain many cases whose answers are known, and count.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "app/pages/html.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
-#include "discovery/practice/judge.h"
+#include "discovery/practice/case_score.h"
 
 namespace ambrig {
 
@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-struct JudgeCommand {
+struct ScoreCommand {
   CommonOptions common;
   std::vector<std::string> paths;
   std::string answers, output = "judged";
@@ -108,7 +108,7 @@ std::string Truth(const Answer& a) {
   return Listed(first, a.verdicts.empty() ? "?" : a.verdicts[0]);
 }
 
-void PrintLine(const Judgement& j) {
+void PrintLine(const CaseScore& j) {
   fmt::print("{:<22} {:<40} {:<44} {:>7.3f} {:>7.3f} {:>6.0f} s  {}\n", j.name, Truth(j.answer),
              Listed(j.finding.adopted, j.finding.verdict), j.finding.nominal_ratio,
              j.finding.final_ratio, j.finding.seconds,
@@ -117,9 +117,9 @@ void PrintLine(const Judgement& j) {
                              : Coloured("wrong", "red"));
 }
 
-Json MatrixJson(const std::vector<Judgement>& all) {
+Json MatrixJson(const std::vector<CaseScore>& all) {
   Json cases = Json::array(), tallies = Json::array(), confusion = Json::object();
-  for (const Judgement& j : all)
+  for (const CaseScore& j : all)
     cases.push_back({{"case", j.name},
                      {"truth", Truth(j.answer)},
                      {"found", Listed(j.finding.adopted, j.finding.verdict)},
@@ -136,7 +136,7 @@ Json MatrixJson(const std::vector<Judgement>& all) {
   return {{"cases", cases}, {"tallies", tallies}, {"confusion", confusion}};
 }
 
-void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
+void WriteReport(const std::vector<CaseScore>& all, const std::string& file) {
   HtmlReport report("How often explain is right",
                     Counted(all.size(), "case") +
                         (all.size() == 1 ? " with a known answer" : " with known answers"));
@@ -164,7 +164,7 @@ void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
                  names, values, "cases");
   report.Heading("Every case");
   rows.clear();
-  for (const Judgement& j : all)
+  for (const CaseScore& j : all)
     rows.push_back({j.name, Truth(j.answer), Listed(j.finding.adopted, j.finding.verdict),
                     fmt::format("{:.3f}", j.finding.nominal_ratio),
                     fmt::format("{:.3f}", j.finding.final_ratio),
@@ -180,15 +180,15 @@ void WriteReport(const std::vector<Judgement>& all, const std::string& file) {
   report.Write(file);
 }
 
-int RunJudge(const JudgeCommand& o) {
+int RunScore(const ScoreCommand& o) {
   const std::vector<fs::path> folders = CaseFolders(o.paths);
   std::vector<Answer> answers;  // all of them first: complain before hours of work
   for (const fs::path& f : folders) answers.push_back(AnswerOf(f, o.answers));
   std::error_code error;
   fs::create_directories(o.output, error);
   if (error) ThrowCannotWrite(o.output, error.value());
-  std::vector<Judgement> all;
-  Progress progress("judge");
+  std::vector<CaseScore> all;
+  Progress progress("score");
   fmt::print("{:<22} {:<40} {:<44} {:>7} {:>7} {:>8}\n", "case", "hidden", "found", "before",
              "after", "time");
   for (std::size_t k = 0; k < folders.size(); ++k) {
@@ -206,7 +206,7 @@ int RunJudge(const JudgeCommand& o) {
       WriteFileAtomically(file.string(), j.dump(1) + "\n");
       finding = FindingOf(j);
     }
-    all.push_back(Judge(name, answers[k], *finding));
+    all.push_back(ScoreCase(name, answers[k], *finding));
     progress.Clear();
     PrintLine(all.back());
     std::fflush(stdout);
@@ -224,25 +224,25 @@ int RunJudge(const JudgeCommand& o) {
 
 }  // namespace
 
-void AddJudge(CLI::App& app, Work& work) {
-  auto options = std::make_shared<JudgeCommand>();
+void AddScore(CLI::App& app, Work& work) {
+  auto options = std::make_shared<ScoreCommand>();
   CLI::App* command = app.add_subcommand(
-      "judge", "explain cases with known answers and count: the confusion matrix");
+      "score", "explain cases with known answers: hit rates and confusion matrix");
+  command->alias("judge");  // name until version 0.1, kept for one release
   command->add_option("folder", options->paths, "folders of cases, or folders that hold them")
       ->required();
   command->add_option("--answers", options->answers,
                       "answers file; else answers.toml beside the cases or FOLDER.answer.toml");
   command
-      ->add_option(
-          "-o,--out", options->output,
-          "folder for each case's result; what is there and young enough is not done again")
+      ->add_option("-o,--out", options->output,
+                   "folder for each case's result; up-to-date results are reused")
       ->capture_default_str();
   command->add_flag("--again", options->again, "explain every case anew");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig judge ../shared/data/hidden-effects -o judged --html "
-      "matrix.html\nStopped? The same command goes on where it stopped.");
-  command->callback([options, &work] { work = [options] { return RunJudge(*options); }; });
+      "Example:\n  ambrig score ../shared/data/hidden-effects -o scored --html "
+      "matrix.html\nRe-run the command to resume an interrupted one.");
+  command->callback([options, &work] { work = [options] { return RunScore(*options); }; });
 }
 
 }  // namespace ambrig

@@ -1,4 +1,4 @@
-#include "app/pages/witness_report.h"
+#include "app/pages/crosscheck_report.h"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ constexpr double kMicro = 1e6, kMilli = 1e3;
 
 Cell Micrometres(double value) { return Cell(fmt::format("{:.1f}", value * kMicro)); }
 
-std::vector<Cell> FigureRow(const std::string& name, const WitnessRun& run, double parted) {
+std::vector<Cell> FigureRow(const std::string& name, const CrosscheckRun& run, double parted) {
   const DropFigures& f = run.figures;
   std::string rest;
   for (std::size_t b = 0; b < f.rest.size(); ++b)
@@ -42,7 +42,7 @@ struct Window {
 };
 
 /// From a little before the first touch to the end, or to 60 ms after it.
-Window FromTouch(const ContactWitness& w, bool zoom) {
+Window FromTouch(const ContactCrosscheck& w, bool zoom) {
   const DropPaths& p = w.model.paths;
   const double touch =
       w.model.figures.first.empty() ? w.ode.figures.touchdown_time : w.model.figures.touchdown_time;
@@ -63,9 +63,9 @@ std::vector<double> Part(const std::vector<double>& values, const Window& w, dou
 }
 
 /// Largest radius of either witness's centre within the window [m].
-double Reach(const ContactWitness& w, const Window& window) {
+double Reach(const ContactCrosscheck& w, const Window& window) {
   double reach = 0;
-  for (const WitnessRun* run : {&w.model, &w.ode})
+  for (const CrosscheckRun* run : {&w.model, &w.ode})
     for (const CentrePath& p : run->paths.bearings) {
       reach = std::max(reach, p.clearance);
       for (std::size_t k = window.begin; k < window.begin + window.size; ++k)
@@ -74,7 +74,7 @@ double Reach(const ContactWitness& w, const Window& window) {
   return reach;
 }
 
-Figure Orbits(const ContactWitness& w) {
+Figure Orbits(const ContactCrosscheck& w) {
   Grid grid;
   grid.rows = 2;
   grid.columns = static_cast<int>(w.model.paths.bearings.size());
@@ -109,7 +109,7 @@ Figure Orbits(const ContactWitness& w) {
   return figure;
 }
 
-Figure Radii(const ContactWitness& w) {
+Figure Radii(const ContactCrosscheck& w) {
   Grid grid;
   grid.rows = static_cast<int>(w.model.paths.bearings.size());
   for (const CentrePath& p : w.model.paths.bearings) grid.titles.push_back("bearing " + p.bearing);
@@ -122,7 +122,7 @@ Figure Radii(const ContactWitness& w) {
   for (std::size_t k = 0; k < zoom.size; ++k) t[k] = w.model.paths.TimeAt(zoom.begin + k) * kMilli;
   for (int k = 0; k < grid.rows; ++k) {
     SetAxes(figure, k, k + 1 == grid.rows ? "time [ms]" : "", "radius [µm]");
-    const std::pair<const char*, const WitnessRun*> runs[] = {
+    const std::pair<const char*, const CrosscheckRun*> runs[] = {
         {"compliant, other noise", &w.other_noise}, {"compliant", &w.model}, {"on ODE", &w.ode}};
     const char* colours[] = {"@gray/60", "@blue", "@orange"};
     for (std::size_t r = 0; r < 3; ++r) {
@@ -141,8 +141,8 @@ Figure Radii(const ContactWitness& w) {
   return figure;
 }
 
-void AddScenario(HtmlReport& report, const WitnessedScenario& s) {
-  const ContactWitness& w = s.witness;
+void AddScenario(HtmlReport& report, const CrosscheckedScenario& s) {
+  const ContactCrosscheck& w = s.crosscheck;
   report.Heading(s.name);
   report.Text("`" + s.file + "`");
   report.Verdict(w.verdicts_agree() ? Verdict::kOk : Verdict::kFail,
@@ -163,7 +163,8 @@ void AddScenario(HtmlReport& report, const WitnessedScenario& s) {
 
 }  // namespace
 
-void WriteWitnessReport(const std::vector<WitnessedScenario>& scenarios, const std::string& path) {
+void WriteCrosscheckReport(const std::vector<CrosscheckedScenario>& scenarios,
+                           const std::string& path) {
   HtmlReport report("Two witnesses of contact", Counted(scenarios.size(), "scenario"));
   report.Text(
       "The same scenarios with the rotor on compliant auxiliary bearings and with the rotor as "
@@ -171,16 +172,17 @@ void WriteWitnessReport(const std::vector<WitnessedScenario>& scenarios, const s
       "bodies of the Open Dynamics Engine; magnets, loops and faults are the same in both.");
   report.Heading("Verdicts");
   std::vector<std::vector<Cell>> rows;
-  for (const WitnessedScenario& s : scenarios) {
-    const ContactWitness& w = s.witness;
+  for (const CrosscheckedScenario& s : scenarios) {
+    const ContactCrosscheck& w = s.crosscheck;
     rows.push_back(
         {Cell(s.name), Cell(std::to_string(s.seed)), Cell(VerdictName(w.model.figures)),
          Cell(VerdictName(w.ode.figures)),
          Cell(w.verdicts_agree() ? "✓ agree" : "✗ differ", w.verdicts_agree() ? "ok" : "fail")});
   }
   report.Table({"scenario", "seed", "compliant", "on ODE", ""}, rows);
-  for (const WitnessedScenario& s : scenarios)
-    if (s.witness.contact() && !s.witness.model.paths.bearings.empty()) AddScenario(report, s);
+  for (const CrosscheckedScenario& s : scenarios)
+    if (s.crosscheck.contact() && !s.crosscheck.model.paths.bearings.empty())
+      AddScenario(report, s);
   report.Write(path);
 }
 

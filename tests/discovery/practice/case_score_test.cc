@@ -1,5 +1,5 @@
 // Findings against answers: what counts as right, and the counts.
-#include "discovery/practice/judge.h"
+#include "discovery/practice/case_score.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -15,32 +15,33 @@ namespace {
 const NamedEffect kHum = {"sensor-hum", "A"}, kGain = {"sensor-gain", "B.y"},
                   kBow = {"shaft-bow", "rig"};
 
-TEST(Judge, OneEffectMustBeFirstAndAlone) {
+TEST(CaseScore, OneEffectMustBeFirstAndAlone) {
   const Answer answer = {{"effect"}, {{kHum}}};
-  const Judgement right = Judge("a", answer, {"effect", kHum, {kHum}});
+  const CaseScore right = ScoreCase("a", answer, {"effect", kHum, {kHum}});
   EXPECT_TRUE(right.right());
   EXPECT_TRUE(right.first_right);
-  const Judgement more = Judge("a", answer, {"effect", kHum, {kHum, kBow}});
+  const CaseScore more = ScoreCase("a", answer, {"effect", kHum, {kHum, kBow}});
   EXPECT_FALSE(more.right());
   EXPECT_EQ(more.invented, 1U);
-  EXPECT_FALSE(Judge("a", answer, {"unknown", kBow, {}}).right());
+  EXPECT_FALSE(ScoreCase("a", answer, {"unknown", kBow, {}}).right());
   // The right name at the wrong place is wrong.
-  EXPECT_EQ(Judge("a", answer, {"effect", {"sensor-hum", "B"}, {{"sensor-hum", "B"}}}).found, 0U);
+  EXPECT_EQ(ScoreCase("a", answer, {"effect", {"sensor-hum", "B"}, {{"sensor-hum", "B"}}}).found,
+            0U);
 }
 
-TEST(Judge, EitherAnswerOfASlotCountsButOnlyOnce) {
+TEST(CaseScore, EitherAnswerOfASlotCountsButOnlyOnce) {
   const Answer answer = {{"effect"}, {{kHum, kBow}, {kGain}}};
-  EXPECT_TRUE(Judge("a", answer, {"effect", kGain, {kGain, kBow}}).right());
-  EXPECT_EQ(Judge("a", answer, {"effect", kHum, {kHum, kBow}}).found, 1U);
+  EXPECT_TRUE(ScoreCase("a", answer, {"effect", kGain, {kGain, kBow}}).right());
+  EXPECT_EQ(ScoreCase("a", answer, {"effect", kHum, {kHum, kBow}}).found, 1U);
 }
 
-TEST(Judge, TalliesAndConfusion) {
-  std::vector<Judgement> all = {
-      Judge("1", {{"effect"}, {{kHum}}}, {"effect", kHum, {kHum}, 5, 1.1}),
-      Judge("2", {{"effect"}, {{kGain}}}, {"effect", kBow, {kBow}, 5, 1.7}),
-      Judge("3", {{"none"}, {}}, {"none", {}, {}, 1, 1}),
-      Judge("4", {{"unknown"}, {}}, {"effect", kBow, {kBow}, 9, 2}),
-      Judge("5", {{"effect"}, {{kHum}, {kGain}}}, {"effect", kHum, {kHum, kGain}, 9, 1})};
+TEST(CaseScore, TalliesAndConfusion) {
+  std::vector<CaseScore> all = {
+      ScoreCase("1", {{"effect"}, {{kHum}}}, {"effect", kHum, {kHum}, 5, 1.1}),
+      ScoreCase("2", {{"effect"}, {{kGain}}}, {"effect", kBow, {kBow}, 5, 1.7}),
+      ScoreCase("3", {{"none"}, {}}, {"none", {}, {}, 1, 1}),
+      ScoreCase("4", {{"unknown"}, {}}, {"effect", kBow, {kBow}, 9, 2}),
+      ScoreCase("5", {{"effect"}, {{kHum}, {kGain}}}, {"effect", kHum, {kHum, kGain}, 9, 1})};
   std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // by the first two words
   for (const Tally& t : Tallies(all))
     counts[t.kind.substr(0, t.kind.find(' ', t.kind.find(' ') + 1))] = {t.right, t.cases};
@@ -58,7 +59,7 @@ TEST(Judge, TalliesAndConfusion) {
   EXPECT_EQ(confusion.at("unknown").at("shaft-bow"), 1);
 }
 
-TEST(Judge, ReadsAnswersAndNamesWhatIsWrongWithThem) {
+TEST(CaseScore, ReadsAnswersAndNamesWhatIsWrongWithThem) {
   const std::string file = std::filesystem::temp_directory_path() /
                            ("ambrig_answers_" + std::to_string(::getpid()) + ".toml");
   std::ofstream(file)

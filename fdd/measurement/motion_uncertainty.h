@@ -14,10 +14,10 @@
 namespace ambrig {
 
 /// By how much each coil's residual may be wrong in both phases [V].
-void ResidualDoubt(const LinkageModel& m, const PeriodSlopes& slopes, const MotionDoubt& doubt,
-                   Lane out[2]);
+void ResidualUncertainty(const LinkageModel& m, const PeriodSlopes& slopes,
+                         const MotionUncertainty& uncertainty, Lane out[2]);
 
 /// By how much each coil's linkage may be wrong when the position is [Wb].
-Lane LinkageDoubt(const LinkageModel& m, const PeriodSlopes& slopes, double position);
+Lane LinkageUncertainty(const LinkageModel& m, const PeriodSlopes& slopes, double position);
 
 }  // namespace ambrig

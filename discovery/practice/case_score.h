@@ -25,7 +25,7 @@ struct Finding {
   double nominal_ratio = 0, final_ratio = 0, seconds = 0;
 };
 
-struct Judgement {
+struct CaseScore {
   std::string name;
   Answer answer;
   Finding finding;
@@ -36,18 +36,18 @@ struct Judgement {
   bool right() const { return verdict_right && found == answer.slots.size() && invented == 0; }
 };
 
-Judgement Judge(const std::string& name, const Answer& answer, const Finding& finding);
+CaseScore ScoreCase(const std::string& name, const Answer& answer, const Finding& finding);
 
 /// Cases of one kind (single effect, two effects, none, ...): how many, how many right.
 struct Tally {
   std::string kind;
   std::size_t cases = 0, right = 0;
 };
-std::vector<Tally> Tallies(const std::vector<Judgement>& all);
+std::vector<Tally> Tallies(const std::vector<CaseScore>& all);
 
 /// Confusion matrix: rows what was hidden, columns what was found first ("none", "parameters",
 /// "unknown" without one), counts.
-std::map<std::string, std::map<std::string, int>> Confusion(const std::vector<Judgement>& all);
+std::map<std::string, std::map<std::string, int>> Confusion(const std::vector<CaseScore>& all);
 
 /// Answers of a file in the form of shared/data/hidden-effects/answers.toml, by case.
 /// @throws InputError

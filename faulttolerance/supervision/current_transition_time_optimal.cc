@@ -1,12 +1,12 @@
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 
 namespace ambrig {
 
 namespace {
 
-class TimeOptimal : public HandOver {
+class TimeOptimal : public CurrentTransition {
  public:
-  explicit TimeOptimal(const HandOverStart& s)
+  explicit TimeOptimal(const TransitionStart& s)
       : now_(s.now), rate_(InductanceOf(s) / s.period), voltage_(s.voltage) {
     for (int j = 0; j < 8; ++j)
       if (s.bearing.turns_left[j] == 0) rate_.row(j).setZero();
@@ -19,7 +19,9 @@ class TimeOptimal : public HandOver {
     return now_;
   }
   bool done() const override { return done_; }
-  std::unique_ptr<HandOver> Clone() const override { return std::make_unique<TimeOptimal>(*this); }
+  std::unique_ptr<CurrentTransition> Clone() const override {
+    return std::make_unique<TimeOptimal>(*this);
+  }
 
  private:
   SetPointVector now_;
@@ -30,7 +32,7 @@ class TimeOptimal : public HandOver {
 
 }  // namespace
 
-std::unique_ptr<HandOver> MakeTimeOptimal(const HandOverStart& start) {
+std::unique_ptr<CurrentTransition> MakeTimeOptimal(const TransitionStart& start) {
   return std::make_unique<TimeOptimal>(start);
 }
 

@@ -1,5 +1,5 @@
 // Every hand-over arrives; each keeps what its name promises on the way.
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace ambrig {
 namespace {
 
 struct Way {
-  HandOverStart start;
+  TransitionStart start;
   SetPointVector wanted;
   Eigen::Vector2d force;
 };
@@ -20,7 +20,7 @@ struct Way {
 /// One open coil of the reference bearing: W - 1 W_f (facts.md 1.3) under a force of 12 N.
 Way CoilOneOpens() {
   Way w;
-  HandOverStart& s = w.start;
+  TransitionStart& s = w.start;
   s.bearing = MakeRedistributionProblem(std::numbers::pi / 8, "NSNSNSNS");
   const DistributionMatrix healthy = HealthyDistribution(s.bearing);
   DistributionMatrix left = s.bearing.sign.asDiagonal() * (healthy);
@@ -45,15 +45,15 @@ Way CoilOneOpens() {
 
 std::vector<std::string> Names() {
   std::vector<std::string> names;
-  std::stringstream list(kHandOverNames);
+  std::stringstream list(kCurrentTransitionNames);
   for (std::string one; std::getline(list, one, ',');) names.push_back(one);
   return names;
 }
 
-TEST(HandOver, EveryPolicyArrivesAndThenHandsThrough) {
+TEST(CurrentTransition, EveryPolicyArrivesAndThenHandsThrough) {
   const Way w = CoilOneOpens();
   for (const std::string& name : Names()) {
-    const auto policy = MakeHandOver(name, w.start);
+    const auto policy = MakeCurrentTransition(name, w.start);
     int steps = 0;
     SetPointVector at = w.start.now;
     while (steps < 100 && (steps == 0 || !policy->done())) {
@@ -67,12 +67,12 @@ TEST(HandOver, EveryPolicyArrivesAndThenHandsThrough) {
   }
 }
 
-TEST(HandOver, NoCoilOfTheRampGoesFasterThanItsVoltageAllows) {
+TEST(CurrentTransition, NoCoilOfTheRampGoesFasterThanItsVoltageAllows) {
   const Way w = CoilOneOpens();
   const Coils step = RampStep(w.start);
   EXPECT_NEAR(step[1], 24 * 80e-6 / 1.75e-3, 1e-3);  // physics.md: 1.75 mH
   for (const char* name : {"ramp", "bias-first", "force-preserving"}) {
-    const auto policy = MakeHandOver(name, w.start);
+    const auto policy = MakeCurrentTransition(name, w.start);
     SetPointVector last = w.start.now;
     for (int n = 0; n < 12 && !policy->done(); ++n) {
       const SetPointVector now = policy->Step(w.wanted, w.force);
@@ -83,9 +83,9 @@ TEST(HandOver, NoCoilOfTheRampGoesFasterThanItsVoltageAllows) {
   }
 }
 
-TEST(HandOver, TimeOptimalKeepsOneCoilAtTheLimitAndNoneBeyond) {
+TEST(CurrentTransition, TimeOptimalKeepsOneCoilAtTheLimitAndNoneBeyond) {
   const Way w = CoilOneOpens();
-  const auto policy = MakeHandOver("time-optimal", w.start);
+  const auto policy = MakeCurrentTransition("time-optimal", w.start);
   const CoilForm L = InductanceOf(w.start);
   SetPointVector last = w.start.now;
   while (!policy->done()) {
@@ -100,11 +100,11 @@ TEST(HandOver, TimeOptimalKeepsOneCoilAtTheLimitAndNoneBeyond) {
   }
 }
 
-TEST(HandOver, ForceIsKeptOnTheWayWhereARampLosesIt) {
+TEST(CurrentTransition, ForceIsKeptOnTheWayWhereARampLosesIt) {
   const Way w = CoilOneOpens();
   const NetworkForce network(w.start.bearing);
   const auto worst = [&](const char* name) {
-    const auto policy = MakeHandOver(name, w.start);
+    const auto policy = MakeCurrentTransition(name, w.start);
     double most = 0;
     policy->Step(w.wanted, w.force);
     while (!policy->done())

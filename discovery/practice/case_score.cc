@@ -1,4 +1,4 @@
-#include "discovery/practice/judge.h"
+#include "discovery/practice/case_score.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 
 namespace ambrig {
 
-Judgement Judge(const std::string& name, const Answer& answer, const Finding& finding) {
-  Judgement j = {name, answer, finding};
+CaseScore ScoreCase(const std::string& name, const Answer& answer, const Finding& finding) {
+  CaseScore j = {name, answer, finding};
   const auto in = [](const std::vector<NamedEffect>& list, const NamedEffect& e) {
     return std::find(list.begin(), list.end(), e) != list.end();
   };
@@ -30,7 +30,7 @@ Judgement Judge(const std::string& name, const Answer& answer, const Finding& fi
   return j;
 }
 
-std::vector<Tally> Tallies(const std::vector<Judgement>& all) {
+std::vector<Tally> Tallies(const std::vector<CaseScore>& all) {
   std::vector<Tally> out = {{"one effect: right one first"},
                             {"two effects: both found"},
                             {"no effect: none invented"},
@@ -41,7 +41,7 @@ std::vector<Tally> Tallies(const std::vector<Judgement>& all) {
     ++out[k].cases;
     out[k].right += right ? 1 : 0;
   };
-  for (const Judgement& j : all) {
+  for (const CaseScore& j : all) {
     const std::size_t present = j.answer.slots.size();
     const bool unknown = std::find(j.answer.verdicts.begin(), j.answer.verdicts.end(), "unknown") !=
                          j.answer.verdicts.end();
@@ -56,9 +56,9 @@ std::vector<Tally> Tallies(const std::vector<Judgement>& all) {
   return out;
 }
 
-std::map<std::string, std::map<std::string, int>> Confusion(const std::vector<Judgement>& all) {
+std::map<std::string, std::map<std::string, int>> Confusion(const std::vector<CaseScore>& all) {
   std::map<std::string, std::map<std::string, int>> out;
-  for (const Judgement& j : all) {
+  for (const CaseScore& j : all) {
     const bool named = j.finding.verdict == "effect" && !j.finding.adopted.empty();
     if (j.answer.slots.empty()) {
       ++out[j.answer.verdicts.empty() ? "?" : j.answer.verdicts[0]]

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "app/pages/witness_report.h"
+#include "app/pages/crosscheck_report.h"
 
 namespace ambrig {
 
@@ -10,7 +10,7 @@ using Json = nlohmann::ordered_json;
 
 Json OrNull(double value) { return value < 0 ? Json(nullptr) : Json(value); }
 
-Json FiguresJson(const WitnessRun& run) {
+Json FiguresJson(const CrosscheckRun& run) {
   const DropFigures& f = run.figures;
   Json rest = Json::object();
   for (std::size_t b = 0; b < f.rest.size(); ++b) rest[run.paths.bearings[b].bearing] = f.rest[b];
@@ -34,8 +34,8 @@ std::string VerdictName(const DropFigures& figures) {
   return figures.drop ? "dropped" : figures.touchdown ? "touched down" : "stayed up";
 }
 
-nlohmann::ordered_json WitnessJson(const WitnessedScenario& s) {
-  const ContactWitness& w = s.witness;
+nlohmann::ordered_json CrosscheckJson(const CrosscheckedScenario& s) {
+  const ContactCrosscheck& w = s.crosscheck;
   Json json = {{"file", s.file},
                {"name", s.name},
                {"seed", s.seed},

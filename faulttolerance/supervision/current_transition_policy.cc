@@ -1,11 +1,11 @@
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 
 #include "core/base/errors.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
 
-CoilForm InductanceOf(const HandOverStart& s) {
+CoilForm InductanceOf(const TransitionStart& s) {
   const RedistributionProblem& b = s.bearing;
   const Coils m = b.turns * b.turns_left.cwiseProduct(b.sign);
   const double P = kMu0 * b.pole_area / b.gap;
@@ -15,17 +15,18 @@ CoilForm InductanceOf(const HandOverStart& s) {
   return L;
 }
 
-Coils RampStep(const HandOverStart& s) {
+Coils RampStep(const TransitionStart& s) {
   return s.voltage * s.period * InductanceOf(s).diagonal().cwiseInverse();
 }
 
-std::unique_ptr<HandOver> MakeHandOver(const std::string& name, const HandOverStart& start) {
+std::unique_ptr<CurrentTransition> MakeCurrentTransition(const std::string& name,
+                                                         const TransitionStart& start) {
   if (name == "jump") return MakeJump();
   if (name == "ramp") return MakeRamp(start);
   if (name == "bias-first") return MakeBiasFirst(start);
   if (name == "force-preserving") return MakeForcePreserving(start);
   if (name == "time-optimal") return MakeTimeOptimal(start);
-  Require(false, "a hand-over policy");
+  Require(false, "a current transition policy");
   return nullptr;
 }
 

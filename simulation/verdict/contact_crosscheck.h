@@ -16,21 +16,21 @@
 
 namespace ambrig {
 
-struct WitnessOptions {
+struct CrosscheckOptions {
   OdeOptions ode;
   bool other_noise = true;               // the third run
   std::function<void(double)> progress;  // fraction of all runs
   const std::atomic<bool>* stop = nullptr;
 };
 
-struct WitnessRun {
+struct CrosscheckRun {
   DropFigures figures;
   DropPaths paths;
   std::vector<RunEvent> events;
 };
 
-struct ContactWitness {
-  WitnessRun model, ode, other_noise;
+struct ContactCrosscheck {
+  CrosscheckRun model, ode, other_noise;
   double parted_ode = -1, parted_noise = -1;  // [s] from `model` by kPartedShare, -1: never
   long ode_steps = 0, ode_warnings = 0;
 
@@ -45,7 +45,7 @@ inline constexpr double kPartedShare = 0.05;  // of the clearance
 
 /// @throws InputError for what ODE's rigid rotor cannot show and for clamped scenarios,
 /// Interrupted when stopped.
-ContactWitness WitnessContact(const RigParameters& rig, const Scenario& scenario,
-                              const WitnessOptions& options = {});
+ContactCrosscheck CrosscheckContact(const RigParameters& rig, const Scenario& scenario,
+                                    const CrosscheckOptions& options = {});
 
 }  // namespace ambrig

@@ -1,4 +1,4 @@
-#include "fdd/measurement/motion_doubt.h"
+#include "fdd/measurement/motion_uncertainty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,16 +32,16 @@ Lane Sensitivity(const LinkageModel& m, const PeriodSlopes& s) {
 
 }  // namespace
 
-void ResidualDoubt(const LinkageModel& m, const PeriodSlopes& slopes, const MotionDoubt& doubt,
-                   Lane out[2]) {
+void ResidualUncertainty(const LinkageModel& m, const PeriodSlopes& slopes,
+                         const MotionUncertainty& uncertainty, Lane out[2]) {
   const Lane moved = Sensitivity(m, slopes);
   for (int q = 0; q < 2; ++q)
     for (int j = 0; j < m.coils; ++j)
-      out[q][j] = moved[j] * doubt.velocity +
-                  std::abs(slopes.phase[q].linkage[j]) * PerGap(m, slopes, j) * doubt.position;
+      out[q][j] = moved[j] * uncertainty.velocity + std::abs(slopes.phase[q].linkage[j]) *
+                                                        PerGap(m, slopes, j) * uncertainty.position;
 }
 
-Lane LinkageDoubt(const LinkageModel& m, const PeriodSlopes& slopes, double position) {
+Lane LinkageUncertainty(const LinkageModel& m, const PeriodSlopes& slopes, double position) {
   Lane out = Sensitivity(m, slopes);
   for (double& v : out.v) v *= position;
   return out;

@@ -1,6 +1,6 @@
 /// Does it drop? The library's scenarios with contact by both witnesses, and the figures of a drop
 /// on paths that are known.
-#include "simulation/verdict/contact_witness.h"
+#include "simulation/verdict/contact_crosscheck.h"
 
 #include <gtest/gtest.h>
 
@@ -15,19 +15,19 @@ namespace {
 
 constexpr double kClearance = 2e-4;  // [m] of the reference rig
 
-ContactWitness Library(const std::string& name) {
+ContactCrosscheck Library(const std::string& name) {
   const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/" + name + ".toml";
   const RigParameters rig = ReadRig(RigOfScenario(file));
-  WitnessOptions options;
+  CrosscheckOptions options;
   options.other_noise = false;
-  return WitnessContact(rig, ReadScenario(file, rig), options);
+  return CrosscheckContact(rig, ReadScenario(file, rig), options);
 }
 
 class Drop : public testing::TestWithParam<const char*> {};
 
 // Until bouncing has made much of little: verdict, first touch, first rebound, and a common path.
 TEST_P(Drop, BothWitnessesSeeTheSameFallAndTheSameVerdict) {
-  const ContactWitness w = Library(GetParam());
+  const ContactCrosscheck w = Library(GetParam());
   EXPECT_TRUE(w.contact());
   EXPECT_TRUE(w.verdicts_agree());
   EXPECT_TRUE(w.model.figures.drop);
@@ -39,12 +39,12 @@ TEST_P(Drop, BothWitnessesSeeTheSameFallAndTheSameVerdict) {
   EXPECT_EQ(w.ode_warnings, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(ContactWitness, Drop,
+INSTANTIATE_TEST_SUITE_P(ContactCrosscheck, Drop,
                          testing::Values("drop_at_0rpm", "drop_at_1500rpm", "drop_at_12000rpm",
                                          "drop_at_60000rpm"));
 
-TEST(ContactWitness, WhirlIsBackwardAtRollingSpeedByBoth) {
-  const ContactWitness w = Library("drop_at_12000rpm");
+TEST(ContactCrosscheck, WhirlIsBackwardAtRollingSpeedByBoth) {
+  const ContactCrosscheck w = Library("drop_at_12000rpm");
   EXPECT_EQ(w.model.figures.whirl, ContactWhirl::kBackward);
   EXPECT_EQ(w.ode.figures.whirl, ContactWhirl::kBackward);
   // The journal rolls in the race: centre speed Omega R, over Omega c = 150; overshoot on the way.
@@ -68,7 +68,7 @@ class HeldOrPulled : public testing::TestWithParam<Held> {};
 // With the magnets' help the paths stay together to the end: every figure can be compared.
 TEST_P(HeldOrPulled, BothWitnessesAgreeThroughout) {
   const Held& c = GetParam();
-  const ContactWitness w = Library(c.name);
+  const ContactCrosscheck w = Library(c.name);
   const DropFigures &a = w.model.figures, &b = w.ode.figures;
   EXPECT_TRUE(w.contact());
   EXPECT_EQ(a.touchdown, c.touchdown);
@@ -83,7 +83,7 @@ TEST_P(HeldOrPulled, BothWitnessesAgreeThroughout) {
   EXPECT_NEAR(a.fall_severity, b.fall_severity, 5e-3 * a.fall_severity);
 }
 
-INSTANTIATE_TEST_SUITE_P(ContactWitness, HeldOrPulled,
+INSTANTIATE_TEST_SUITE_P(ContactCrosscheck, HeldOrPulled,
                          testing::Values(Held{"fault_at_sixty_percent_orbit", true, false, 1e-7},
                                          Held{"lift_off", false, false, 1e-7},
                                          Held{"sensor_loss", true, true, 1e-7},
@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(ContactWitness, HeldOrPulled,
 
 // physics.md section 8: in contact at the end of the run. A rotor without magnets that is in the
 // air of a bounce at the last instant has dropped all the same.
-TEST(ContactWitness, ABouncingRotorHasDroppedWhateverTheNoise) {
+TEST(ContactCrosscheck, ABouncingRotorHasDroppedWhateverTheNoise) {
   const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/drop_at_0rpm.toml";
   const RigParameters rig = ReadRig(RigOfScenario(file));
   Scenario scenario = ReadScenario(file, rig);
@@ -105,22 +105,22 @@ TEST(ContactWitness, ABouncingRotorHasDroppedWhateverTheNoise) {
   EXPECT_GT(in_the_air, 0) << "no run ended in the air: the case is not tested";
 }
 
-TEST(ContactWitness, RefusesWhatDoesNotMove) {
+TEST(ContactCrosscheck, RefusesWhatDoesNotMove) {
   const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/lift_off.toml";
   const RigParameters rig = ReadRig(RigOfScenario(file));
   Scenario scenario = ReadScenario(file, rig);
   scenario.start = StartState::kClamped;
-  EXPECT_THROW(WitnessContact(rig, scenario), InputError);
+  EXPECT_THROW(CrosscheckContact(rig, scenario), InputError);
 }
 
-TEST(ContactWitness, RefusesAFlexibleRotor) {
+TEST(ContactCrosscheck, RefusesAFlexibleRotor) {
   const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/lift_off.toml";
   RigParameters rig = ReadRig(RigOfScenario(file));
   BendingMode mode;
   mode.omega = 2000;
   mode.shape = {{-0.2, 0.3}, {0.2, 0.3}};
   rig.modes.push_back(mode);
-  EXPECT_THROW(WitnessContact(rig, ReadScenario(file, rig)), InputError);
+  EXPECT_THROW(CrosscheckContact(rig, ReadScenario(file, rig)), InputError);
 }
 
 /// A path: falls to the bottom at 1 m/s, springs back by 30 um, then whirls backward twice.

@@ -1,12 +1,12 @@
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 
 namespace ambrig {
 
 namespace {
 
-class Ramp : public HandOver {
+class Ramp : public CurrentTransition {
  public:
-  explicit Ramp(const HandOverStart& s) : now_(s.now), step_(RampStep(s)) {}
+  explicit Ramp(const TransitionStart& s) : now_(s.now), step_(RampStep(s)) {}
   SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d&) override {
     if (done_) return wanted;
     now_ += (wanted - now_).cwiseMin(step_).cwiseMax(-step_);
@@ -14,7 +14,9 @@ class Ramp : public HandOver {
     return now_;
   }
   bool done() const override { return done_; }
-  std::unique_ptr<HandOver> Clone() const override { return std::make_unique<Ramp>(*this); }
+  std::unique_ptr<CurrentTransition> Clone() const override {
+    return std::make_unique<Ramp>(*this);
+  }
 
  private:
   SetPointVector now_;
@@ -24,7 +26,7 @@ class Ramp : public HandOver {
 
 }  // namespace
 
-std::unique_ptr<HandOver> MakeRamp(const HandOverStart& start) {
+std::unique_ptr<CurrentTransition> MakeRamp(const TransitionStart& start) {
   return std::make_unique<Ramp>(start);
 }
 

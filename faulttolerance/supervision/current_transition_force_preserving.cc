@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "faulttolerance/redistribution/network_force.h"
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 
 namespace ambrig {
 
@@ -11,9 +11,9 @@ constexpr int kCorrections = 3;
 // periods: where the force cannot be kept on the way, the way ends all the same
 constexpr int kLongest = 60;
 
-class ForcePreserving : public HandOver {
+class ForcePreserving : public CurrentTransition {
  public:
-  explicit ForcePreserving(const HandOverStart& s)
+  explicit ForcePreserving(const TransitionStart& s)
       : now_(s.now),
         step_(RampStep(s)),
         network_(s.bearing),
@@ -41,7 +41,7 @@ class ForcePreserving : public HandOver {
     return now_;
   }
   bool done() const override { return done_; }
-  std::unique_ptr<HandOver> Clone() const override {
+  std::unique_ptr<CurrentTransition> Clone() const override {
     return std::make_unique<ForcePreserving>(*this);
   }
 
@@ -56,7 +56,7 @@ class ForcePreserving : public HandOver {
 
 }  // namespace
 
-std::unique_ptr<HandOver> MakeForcePreserving(const HandOverStart& start) {
+std::unique_ptr<CurrentTransition> MakeForcePreserving(const TransitionStart& start) {
   return std::make_unique<ForcePreserving>(start);
 }
 

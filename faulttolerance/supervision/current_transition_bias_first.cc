@@ -1,12 +1,12 @@
-#include "faulttolerance/supervision/hand_over_policy.h"
+#include "faulttolerance/supervision/current_transition_policy.h"
 
 namespace ambrig {
 
 namespace {
 
-class BiasFirst : public HandOver {
+class BiasFirst : public CurrentTransition {
  public:
-  explicit BiasFirst(const HandOverStart& s)
+  explicit BiasFirst(const TransitionStart& s)
       : bias_(s.bias_before.cwiseProduct(Live(s))),
         control_(s.now - bias_),
         bias_after_(s.bias_after),
@@ -26,10 +26,12 @@ class BiasFirst : public HandOver {
     return (bias_ + control_).cwiseMax(least_).cwiseMin(most_);
   }
   bool done() const override { return done_; }
-  std::unique_ptr<HandOver> Clone() const override { return std::make_unique<BiasFirst>(*this); }
+  std::unique_ptr<CurrentTransition> Clone() const override {
+    return std::make_unique<BiasFirst>(*this);
+  }
 
  private:
-  static Coils Live(const HandOverStart& s) {
+  static Coils Live(const TransitionStart& s) {
     return (s.bearing.turns_left.array() > 0).cast<double>();
   }
   SetPointVector Toward(const SetPointVector& from, const SetPointVector& to) const {
@@ -44,7 +46,7 @@ class BiasFirst : public HandOver {
 
 }  // namespace
 
-std::unique_ptr<HandOver> MakeBiasFirst(const HandOverStart& start) {
+std::unique_ptr<CurrentTransition> MakeBiasFirst(const TransitionStart& start) {
   return std::make_unique<BiasFirst>(start);
 }
 

@@ -1,4 +1,4 @@
-#include "simulation/verdict/contact_witness.h"
+#include "simulation/verdict/contact_crosscheck.h"
 
 #include <fmt/format.h>
 
@@ -11,24 +11,24 @@ namespace {
 /// Passes on to an OdeRotor and keeps its counts past the engine's life.
 class CountedOdeRotor : public RotorStepper {
  public:
-  CountedOdeRotor(const RotorModel& model, const OdeOptions& options, ContactWitness& witness)
-      : rotor_(model, options), witness_(witness) {}
+  CountedOdeRotor(const RotorModel& model, const OdeOptions& options, ContactCrosscheck& crosscheck)
+      : rotor_(model, options), crosscheck_(crosscheck) {}
   void Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y,
             double dt) override {
     rotor_.Step(s, Q, stator_x, stator_y, dt);
-    witness_.ode_steps = rotor_.steps();
-    witness_.ode_warnings = rotor_.warnings();
+    crosscheck_.ode_steps = rotor_.steps();
+    crosscheck_.ode_warnings = rotor_.warnings();
   }
 
  private:
   OdeRotor rotor_;
-  ContactWitness& witness_;
+  ContactCrosscheck& crosscheck_;
 };
 
-WitnessRun RunOnce(const RigParameters& rig, const Scenario& scenario,
-                   const SimulateOptions& options) {
+CrosscheckRun RunOnce(const RigParameters& rig, const Scenario& scenario,
+                      const SimulateOptions& options) {
   RunResult result = Simulate(rig, scenario, options);
-  WitnessRun run;
+  CrosscheckRun run;
   const RigParameters plant = TrueRig(rig);  // the clearance that the rotor has
   run.paths = CentrePaths(plant, result.record);
   run.figures = MakeDropFigures(plant, result, run.paths);
@@ -38,12 +38,12 @@ WitnessRun RunOnce(const RigParameters& rig, const Scenario& scenario,
 
 }  // namespace
 
-ContactWitness WitnessContact(const RigParameters& rig, const Scenario& scenario,
-                              const WitnessOptions& options) {
+ContactCrosscheck CrosscheckContact(const RigParameters& rig, const Scenario& scenario,
+                                    const CrosscheckOptions& options) {
   if (scenario.start == StartState::kClamped)
     throw InputError(fmt::format(
         "{}: nothing moves in a clamped scenario, allowed: levitated, resting", scenario.file));
-  ContactWitness w;
+  ContactCrosscheck w;
   int done = 0;
   SimulateOptions simulate;
   simulate.record_rate = rig.amplifier.switching_frequency;

@@ -1,4 +1,4 @@
-/// ambrig witness: scenarios with the compliant rotor and with the rotor on the Open Dynamics
+/// ambrig crosscheck: scenarios with the compliant rotor and with the rotor on the Open Dynamics
 /// Engine; figures of the drop, verdicts, agreement.
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/progress.h"
-#include "app/pages/witness_report.h"
+#include "app/pages/crosscheck_report.h"
 #include "core/base/counted.h"
 #include "rig/rig_file.h"
 #include "scenarios/scenario.h"
@@ -15,14 +15,14 @@ namespace ambrig {
 
 namespace {
 
-struct WitnessCommand {
+struct CrosscheckCommand {
   CommonOptions common;
   std::vector<std::string> paths;
   double step_us = 1;
   int seeds = 1;
 };
 
-std::string Rest(const WitnessRun& run) {
+std::string Rest(const CrosscheckRun& run) {
   std::string text;
   for (std::size_t b = 0; b < run.figures.rest.size(); ++b)
     text += fmt::format("{}{} ({:.0f}, {:.0f})", b > 0 ? "  " : "", run.paths.bearings[b].bearing,
@@ -30,7 +30,7 @@ std::string Rest(const WitnessRun& run) {
   return text;
 }
 
-void PrintRow(const char* name, const WitnessRun& run, double parted) {
+void PrintRow(const char* name, const CrosscheckRun& run, double parted) {
   const DropFigures& f = run.figures;
   const std::string touch =
       f.first.empty() ? "-" : fmt::format("{} {:.3f}", f.first, f.touchdown_time * 1e3);
@@ -41,8 +41,8 @@ void PrintRow(const char* name, const WitnessRun& run, double parted) {
              parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3), Rest(run));
 }
 
-void Print(const WitnessedScenario& s) {
-  const ContactWitness& w = s.witness;
+void Print(const CrosscheckedScenario& s) {
+  const ContactCrosscheck& w = s.crosscheck;
   fmt::print("{}  {}\n",
              w.verdicts_agree() ? Coloured("agree ", "green") : Coloured("DIFFER", "red"),
              Coloured(s.name, "bold"));
@@ -60,12 +60,12 @@ void Print(const WitnessedScenario& s) {
 }
 
 /// Where bouncing has made the paths unlike, what is left to compare is how often what happens.
-void PrintTally(const std::vector<WitnessedScenario>& all, int seeds) {
-  const auto tally = [&](const char* name, WitnessRun ContactWitness::*run) {
+void PrintTally(const std::vector<CrosscheckedScenario>& all, int seeds) {
+  const auto tally = [&](const char* name, CrosscheckRun ContactCrosscheck::*run) {
     std::size_t drops = 0, backward = 0, forward = 0;
     double low = kInfinity, high = 0;
     for (std::size_t k = all.size() - static_cast<std::size_t>(seeds); k < all.size(); ++k) {
-      const DropFigures& f = (all[k].witness.*run).figures;
+      const DropFigures& f = (all[k].crosscheck.*run).figures;
       drops += f.drop ? 1 : 0;
       backward += f.whirl == ContactWhirl::kBackward ? 1 : 0;
       forward += f.whirl == ContactWhirl::kForward ? 1 : 0;
@@ -77,29 +77,29 @@ void PrintTally(const std::vector<WitnessedScenario>& all, int seeds) {
         "um\n",
         name, seeds, drops, backward, forward, low * 1e6, high * 1e6);
   };
-  tally("compliant", &ContactWitness::model);
-  tally("on ODE", &ContactWitness::ode);
+  tally("compliant", &ContactCrosscheck::model);
+  tally("on ODE", &ContactCrosscheck::ode);
 }
 
-WitnessedScenario WitnessOne(const std::string& file, const RigParameters& rig,
-                             const Scenario& scenario, const WitnessCommand& command,
-                             bool other_noise) {
+CrosscheckedScenario CrosscheckOne(const std::string& file, const RigParameters& rig,
+                                   const Scenario& scenario, const CrosscheckCommand& command,
+                                   bool other_noise) {
   Progress progress(scenario.name);
-  WitnessOptions options;
+  CrosscheckOptions options;
   options.ode.step = command.step_us * 1e-6;
   options.ode.far_step = std::max(options.ode.far_step, options.ode.step);
   options.other_noise = other_noise;
   options.stop = &interrupted;
   options.progress = [&](double f) { progress.Update(f); };
   try {
-    return {file, scenario.name, scenario.seed, WitnessContact(rig, scenario, options)};
+    return {file, scenario.name, scenario.seed, CrosscheckContact(rig, scenario, options)};
   } catch (const InputError& e) {
     throw InputError(fmt::format("{}: {}", file, e.what()));
   }
 }
 
-int Witness(const WitnessCommand& command) {
-  std::vector<WitnessedScenario> all;
+int Crosscheck(const CrosscheckCommand& command) {
+  std::vector<CrosscheckedScenario> all;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   std::size_t differ = 0, touched = 0;
   for (const std::string& file : FindScenarios(command.paths)) {
@@ -111,13 +111,14 @@ int Witness(const WitnessCommand& command) {
       continue;
     }
     for (int k = 0; k < command.seeds; ++k, ++scenario.seed) {
-      WitnessedScenario s = WitnessOne(file, rig, scenario, command, k == 0);
+      CrosscheckedScenario s = CrosscheckOne(file, rig, scenario, command, k == 0);
       if (k == 0) Print(s);
-      json.push_back(WitnessJson(s));
-      differ += s.witness.verdicts_agree() ? 0 : 1;
-      touched += s.witness.contact() ? 1 : 0;
+      json.push_back(CrosscheckJson(s));
+      differ += s.crosscheck.verdicts_agree() ? 0 : 1;
+      touched += s.crosscheck.contact() ? 1 : 0;
       if (command.common.html.empty() || k > 0)  // paths are large
-        for (WitnessRun* run : {&s.witness.model, &s.witness.ode, &s.witness.other_noise})
+        for (CrosscheckRun* run :
+             {&s.crosscheck.model, &s.crosscheck.ode, &s.crosscheck.other_noise})
           run->paths = {};
       all.push_back(std::move(s));
     }
@@ -125,17 +126,20 @@ int Witness(const WitnessCommand& command) {
   }
   fmt::print("{}, {} with contact, differing verdicts: {}\n", Counted(all.size(), "run"), touched,
              differ);
-  if (!command.common.html.empty()) WriteWitnessReport(all, command.common.html);
+  if (!command.common.html.empty()) WriteCrosscheckReport(all, command.common.html);
   command.common.WriteJson(json);
   return differ > 0 ? 1 : 0;
 }
 
 }  // namespace
 
-void AddWitness(CLI::App& app, Work& work) {
-  auto command = std::make_shared<WitnessCommand>();
-  CLI::App* sub = app.add_subcommand(
-      "witness", "does it drop? the contact model beside a rotor on the Open Dynamics Engine");
+void AddCrosscheck(CLI::App& app, Work& work) {
+  auto command = std::make_shared<CrosscheckCommand>();
+  CLI::App* sub =
+      app.add_subcommand("crosscheck",
+                         "simulate contact with the compliant model and with the Open Dynamics "
+                         "Engine, and compare touchdown, whirl, orbit and rest");
+  sub->alias("witness");  // name until version 0.1, kept for one release
   sub->add_option("scenario", command->paths, "scenario files, or folders of them")->required();
   sub->add_option("--step", command->step_us, "longest step of ODE near contact [us]")
       ->check(CLI::Range(0.05, 10.0))
@@ -146,9 +150,9 @@ void AddWitness(CLI::App& app, Work& work) {
       ->capture_default_str();
   command->common.AddTo(*sub);
   sub->footer(
-      "Example:\n  ambrig witness scenarios/library/drop_at_12000rpm.toml --html witness.html\n"
+      "Example:\n  ambrig crosscheck scenarios/library/drop_at_12000rpm.toml --html contact.html\n"
       "Exit code 1 when a verdict differs.");
-  sub->callback([command, &work] { work = [command] { return Witness(*command); }; });
+  sub->callback([command, &work] { work = [command] { return Crosscheck(*command); }; });
 }
 
 }  // namespace ambrig
