@@ -1,4 +1,4 @@
-// ambrig witness: table, JSON, report, exit codes.
+// ambrig crosscheck: table, JSON, report, exit codes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -31,7 +31,7 @@ class WitnessCommand : public testing::Test {
   Outcome Witness(const std::string& arguments) const {
     Outcome out;
     FILE* pipe =
-        popen((std::string(AMBRIG_BINARY) + " witness " + arguments + " 2>&1").c_str(), "r");
+        popen((std::string(AMBRIG_BINARY) + " crosscheck " + arguments + " 2>&1").c_str(), "r");
     char buffer[512];
     while (std::fgets(buffer, sizeof buffer, pipe)) out.text += buffer;
     out.exit = WEXITSTATUS(pclose(pipe));
