@@ -5,7 +5,7 @@
 ///   below the lowest speed      SM = 17 (1 - 1/(AF - 1.5)) per cent of the lowest operating speed
 ///   above the highest speed     SM = 10 + 17 (1 - 1/(AF - 1.5)) per cent of the highest
 ///   first forward mode          log decrement > 0.1
-/// Source: facts.md section 3 (formulas known to the field with high confidence; not read in the
+/// Source: published_values.md 4 (formulas known to the field with high confidence; not read in the
 /// standard itself).
 namespace ambrig {
 

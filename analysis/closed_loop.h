@@ -5,7 +5,7 @@
 ///   x = [plant | integrals of the current loops | their feedback | controller | forces under way]
 ///   x_(k+1) = Phi x_k + Gamma u_k,   y_k = C x_k + D u_k
 ///
-///   t_k            readings; controller; its forces are on their way (physics.md section 4)
+///   t_k            readings; controller; its forces are on their way (base_model.md section 4)
 ///   every period   duty from set-point and last period's mean current; plant (period_map.h)
 ///   t_(k+1)        those forces become set-points, `loop-delay` later at the current loops
 ///

@@ -9,7 +9,7 @@
 ///   δf = F_λ I_λ⁻¹ δi + (F_r - F_λ I_λ⁻¹ I_r) δr
 ///
 /// r is the shaft centre at the bearing plane in stator axes (x, y) [m]; of a thrust bearing z, of
-/// an opposed pair its own axis, along x. Source: shared/design/physics.md section 2.
+/// an opposed pair its own axis, along x. Source: docs/theory/base_model.md section 2.
 #include <Eigen/Dense>
 #include <vector>
 

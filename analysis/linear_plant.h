@@ -7,7 +7,7 @@
 ///
 /// with r the shaft at the magnets. Coordinates that no bearing moves, not even through others (z
 /// without a thrust bearing, races, what an opposed pair on a bench cannot reach), are left out.
-/// Source: shared/design/physics.md sections 1 and 2; rotor/motion/linear_rotor.h, linear_bearing.h.
+/// Source: base_model.md sections 1 and 2; rotor/motion/linear_rotor.h, linear_bearing.h.
 #include <Eigen/Dense>
 #include <vector>
 

@@ -8,7 +8,7 @@
 ///   knee      slew / (2π largest usable force): above it a full-size sine is cut [Hz]
 ///
 /// Static capacity: the least over directions of the smaller of linear and f_max, and what the
-/// weight leaves of it. Source: shared/design/physics.md sections 2 to 4; Schweitzer & Maslen 2009,
+/// weight leaves of it. Source: base_model.md sections 2 to 4; Schweitzer & Maslen 2009,
 /// 3.4.
 #include "analysis/operating_point.h"
 

@@ -10,7 +10,7 @@ namespace ambrig {
 
 namespace {
 
-// Below this a run's start holds a coil at the bridge's lower limit (physics.md section 3).
+// Below this a run's start holds a coil at the bridge's lower limit (base_model.md section 3).
 constexpr double kInterrupted = 0.2;  // [A]
 
 std::size_t U(int k) { return static_cast<std::size_t>(k); }

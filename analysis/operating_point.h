@@ -1,7 +1,7 @@
 #pragma once
 /// Where a rig is linearised: levitated at rest, every sensor reads zero, the coils carry what
 /// holds the weight. What turns with the shaft is no part of it; speed enters the derivatives only.
-/// Source: shared/design/physics.md sections 3 and 4.
+/// Source: docs/theory/base_model.md sections 3 and 4.
 #include <memory>
 #include <string>
 #include <vector>

@@ -5,7 +5,7 @@
 ///   x(T) = e^{AT} x(0) + Σ_j e^{A (T - t_j)} e_j ΔU_j dt_j/dd δd_j
 ///
 /// (an `ideal` amplifier: a step of voltage over the whole period), and the feedback is the mean of
-/// the ADC's samples at k T/n before and after the edges. Source: shared/design/physics.md section
+/// the ADC's samples at k T/n before and after the edges. Source: docs/theory/base_model.md section
 /// 3.
 #include <Eigen/Dense>
 

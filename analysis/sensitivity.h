@@ -5,7 +5,7 @@
 ///
 /// the loop's return ratio cut at that axis. An AMB's loop is unstable when open, so its gain may
 /// neither rise nor fall too far: margins on both sides. Axis by axis they say nothing of changes
-/// of several loops at once: disk_margin.h. Source: ISO 14839-3:2006; facts.md 3.
+/// of several loops at once: disk_margin.h. Source: ISO 14839-3:2006; published_values.md 4.
 #include "analysis/disk_margin.h"
 #include "analysis/transfer_function.h"
 

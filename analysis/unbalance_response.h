@@ -5,7 +5,7 @@
 /// Unbalance of API 617: U = 6350 W/N per plane [g mm, kg, rpm], W the static load of the plane, N
 /// the rated speed: `static` in phase at the bearings, `couple` opposed there, `middle` all of it
 /// at the centre of mass. Amplification factor AF = N_c/(N_2 - N_1) at 0.707 of the peak. Source:
-/// API 617 8th ed.; facts.md 3.
+/// API 617 8th ed.; docs/theory/published_values.md 4.
 #include "analysis/closed_loop.h"
 
 namespace ambrig {

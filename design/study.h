@@ -90,7 +90,8 @@ struct Study {
   std::vector<std::size_t> Objectives() const;
 };
 
-/// @throws InputError "file:line: key = value, allowed ..." for every mistake, in the rigs and scenarios too.
+/// @throws InputError "file:line: key = value, allowed ..." for every mistake, in the rigs and
+/// scenarios too.
 Study ReadStudy(const std::string& file);
 
 }  // namespace ambrig

@@ -3,7 +3,7 @@
 ///   f.
 /// Sensors and gaps move with the base. From force to relative motion this puts a pole at f and a
 /// zero at f √(M/(M + m)) of a rigid rotor, equal in x and y and without gyroscopic split
-/// (facts.md 5.4).
+/// (docs/theory/published_values.md 7).
 #include "core/math/constants.h"
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"

@@ -1,4 +1,4 @@
-/// Misaligned coupling: a force at twice the speed, not growing with it (facts.md 5.4):
+/// Misaligned coupling: a force at twice the speed, not growing with it (published_values.md 7):
 ///   f = (c cos 2 theta - s sin 2 theta, c sin 2 theta + s cos 2 theta)
 /// The other shaft carries the reaction, not the stator.
 #include "effects/effects_motion.h"

@@ -1,6 +1,6 @@
 /// Cross-coupled stiffness of a seal or impeller:  fx = -k y,  fy = +k x  on the rotor, the
 /// opposite on the stator. k > 0 drives the forward whirl: unstable once k > c w of the whirl's
-/// mode (facts.md 5.4; Alford k = beta T/(D h), 1e3 to 1e7 N/m).
+/// mode (docs/theory/published_values.md 7; Alford k = beta T/(D h), 1e3 to 1e7 N/m).
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
 

@@ -4,7 +4,7 @@
 /// What the reluctance of laminations, whose flux enters from their faces, has beyond its value at
 /// rest, in units of the gap's reluctance:
 ///
-///   T(s) = ρ (z coth z - 1),  z = sqrt(s τ),  ρ sqrt(τ) = 1/sqrt(ω_c)      (facts.md 5.1, ladder)
+///   T(s) = ρ (z coth z - 1),  z = sqrt(s τ),  ρ sqrt(τ) = 1/sqrt(ω_c)
 ///
 /// ρ is the iron path over the gap, ω_c = 2 pi cutoff where the half-order asymptote sqrt(s/ω_c)
 /// equals the gap. ρ = 0 leaves the pure half order at all frequencies. T(0) = 0. Realised as

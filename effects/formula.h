@@ -1,20 +1,18 @@
 #pragma once
 /// The effect `formula`: a law that the user writes in the rig file.
 ///
-///   target       quantity                       what it means
-///   plane        force = { x, y }               on the rotor at that plane, its opposite on the
-///   stator [N];
-///                                               "z": force = "..." along z
-///   plane        reading = { x, y }             the sensors read this instead of x, y [m]
-///   axis         force = "..", reading = ".."   the same for one axis
-///   coil,bearing voltage = ".."                 in series with the coil (with each coil) [V]
-///   rig          torque = ".."                  on the rotor, where the speed is not prescribed [N
-///   m]
+///   target           quantity                       meaning
+///   plane            force = { x, y }               on the rotor at that plane, its opposite on the
+///                                                   stator [N]; for "z": force = "..." along z
+///   plane            reading = { x, y }             what the sensors read instead of x, y [m]
+///   axis             force = "..", reading = ".."   the same for one axis
+///   coil, bearing    voltage = ".."                 in series with the coil (with each coil) [V]
+///   rig              torque = ".."                  on a rotor of free speed [N m]
 ///
 /// Known inside: x, y, vx, vy (shaft centre at the plane; a thrust bearing's x is z; rig: at the
 /// centre of mass; in a reading: what the sensor would read), theta, omega, t, bus; except for
 /// "rig" also i1..i8 of the bearing; for a coil i, its own current; the parameters;
-/// FormulaFunctions(). Source: shared/design/effects.md.
+/// FormulaFunctions(). Source: docs/effects.md.
 #include <string>
 #include <vector>
 

@@ -8,7 +8,7 @@
 /// coercive. A loop between ±B of at least `width` costs 4 N coercive A (B - width/2) of energy:
 /// the closed form of the test. `width` is the flux density after a turning point within which the
 /// branch crosses over by half: the whole crossing takes 2 width. A run starts on the virgin curve.
-/// Source: facts.md 5.1 (hysteresis); Hc of the loops in data/measured/bh_steel_msl.
+/// Source: published_values.md 7 (hysteresis); Hc of the loops in data/measured/bh_steel_msl.
 #include <cmath>
 #include <memory>
 

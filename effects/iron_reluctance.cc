@@ -1,7 +1,7 @@
 /// Iron in series with each gap: R = (g + path)/(mu0 A), path = l_fe/mu_r.
 ///
 /// Force still is phi²/(2 mu0 A) per pole, so current and position stiffness both fall while
-/// ki/ks = (g0 + path)/i0 grows (facts.md 5.1). Limit: linear iron; see saturation.
+/// ki/ks = (g0 + path)/i0 grows (published_values.md 7). Limit: linear iron; see saturation.
 #include "effects/coil_targets.h"
 #include "effects/effects_magnetic.h"
 

@@ -1,6 +1,6 @@
 /// The magnetic centre is not the sensor's zero: the gaps see the shaft at (x - dx, y - dy).
 /// Force on a shaft at the sensors' zero: -ks (dx, dy), ks > 0 the negative stiffness, carried by
-/// the static current i0 d/g0 (facts.md 5.1).
+/// the static current i0 d/g0 (docs/theory/published_values.md 7).
 #include "effects/coil_targets.h"
 #include "effects/effects_magnetic.h"
 

@@ -1,5 +1,5 @@
 /// Internal damping: friction that turns with the shaft (shrink fits, sleeves, composite shafts).
-///   f = -d (r' - i Omega r),  i.e.  fx = -d (x' + Omega y),  fy = -d (y' - Omega x) (facts.md 5.4)
+///   f = -d (r' - i Omega r),  i.e.  fx = -d (x' + Omega y),  fy = -d (y' - Omega x)
 /// damps a mode of frequency w below Omega = w and drives its forward whirl above.
 /// With bending modes in the rig, r is the bent part of the displacement at the radial planes (a
 /// rigid body does not deform); without, r is the displacement itself. d is the total: n planes

@@ -3,7 +3,7 @@
 ///
 /// B counts over the gap's area. Iron of a smaller section a A holds B/a: its knee appears at a
 /// times the steel's (1.4 to 1.6 T), so a slender yoke has a knee of 0.3 T here. `path` is the
-/// iron's length. No memory; U and flux by Newton. Source: facts.md 5.1 (saturation),
+/// iron's length. No memory; U and flux by Newton. Source: published_values.md 7 (saturation),
 /// data/measured/bh_steel_msl.
 #include <cmath>
 #include <memory>

@@ -1,5 +1,6 @@
 /// A sensor whose gain is not that of its data sheet:  reading = gain * displacement
-/// (facts.md 5.3). Scales the stiffness and damping that the controller makes on that axis.
+/// (published_values.md 7). Scales the stiffness and damping that the controller makes on that
+/// axis.
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
 

@@ -1,7 +1,7 @@
 /// Mains hum picked up by the cables of a plane's sensors:
 ///   reading += Σ_n c_n cos(2 pi n f t) + s_n sin(2 pi n f t),  n = 1, 3, 5,
 /// both sensors alike, t the record's time, so that the phase is the same in every record
-/// (effects.md). Rectifiers on the mains make odd harmonics. Not filtered by the sensor
+/// (docs/effects.md). Rectifiers on the mains make odd harmonics. Not filtered by the sensor
 /// electronics.
 #include <array>
 #include <cmath>

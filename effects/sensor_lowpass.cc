@@ -1,7 +1,7 @@
 /// First-order sensor electronics:  tau y' = u - y,  tau = 1/(2 pi cutoff).
 /// Between two calls u runs straight from u0 to u1 (slope s over dt), for which exactly
 ///   y1 = u1 - s tau + (y0 - u0 + s tau) exp(-dt/tau).
-/// The first reading of a run is settled: y = u. Range 2 to 20 kHz (facts.md 5.3).
+/// The first reading of a run is settled: y = u. Range 2 to 20 kHz (published_values.md 7).
 #include <array>
 #include <cmath>
 

@@ -1,5 +1,5 @@
 /// Sensor axes turned against the bearing's:  x' = x cos a + y sin a,  y' = -x sin a + y cos a.
-/// The loop gains an antisymmetric stiffness k sin a at any speed (facts.md 5.3).
+/// The loop gains an antisymmetric stiffness k sin a at any speed (published_values.md 7).
 #include <cmath>
 
 #include "effects/effects_motion.h"

@@ -1,7 +1,7 @@
 /// Run-out: the sensed surface is not round or not concentric, and turns with the rotor.
 /// A probe at angle a reads in addition
 ///   sum over n = 1 ... 7 of  c_n cos n(a - theta) + s_n sin n(a - theta),
-/// a = 0 for x, 90 degrees for y; the same at any speed (facts.md 5.3, effects.md "Phases"). A
+/// a = 0 for x, 90 degrees for y; the same at any speed (published_values.md 7, docs/effects.md). A
 /// ground surface has lobes: orders above the second are small, but far over the noise of a good
 /// sensor.
 #include <array>

@@ -2,7 +2,7 @@
 ///   b(z) = (c, s) z/z_ref,  z_ref the largest |z| of the radial bearing planes,
 /// turned by theta, whatever the speed. It moves gaps, journals and readings; the mass axis itself
 /// is the model's coordinate, so at equal b everywhere a bow would be an unbalance: hence the shape
-/// is antisymmetric about the centre of mass (effects.md). Size 1 to 30 um (facts.md 5.4).
+/// is antisymmetric about the centre of mass. Size 1 to 30 um (published_values.md 7).
 #include <algorithm>
 #include <cmath>
 

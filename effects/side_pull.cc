@@ -1,5 +1,6 @@
 /// Unbalanced magnetic pull of a motor (or a magnet coupling):  f = k r  along the displacement, a
-/// negative stiffness; the stator feels the opposite. k = pi R L B²/(2 mu0 g) (facts.md 5.4).
+/// negative stiffness; the stator feels the opposite. k = pi R L B²/(2 mu0 g) (published_values.md
+/// 7).
 #include "effects/effects_motion.h"
 #include "effects/plane_targets.h"
 

@@ -1,6 +1,6 @@
 /// Drag of the gas around the rotor:  torque = -drag Omega |Omega|, felt where the speed is not
 /// prescribed (Ip Omega' = torque). Alone it gives Omega = Omega0/(1 + drag Omega0 t/Ip)
-/// (facts.md 5.4).
+/// (docs/theory/published_values.md 7).
 #include <cmath>
 
 #include "effects/effects_motion.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// rig.toml. Source: shared/design/formats.md, rig.toml.
+/// rig.toml. Source: docs/guide/files.md.
 #include <string>
 
 #include "rig/rig_parameters.h"

@@ -107,8 +107,8 @@ RigParameters TrueRig(const RigParameters& rig);
 /// The number behind a path such as "rotor.mass", "bearings.A.gap" or "rotor.section[2].od" (of a
 /// shaft: those with an sd); nullptr when there is none.
 const double* ParameterAt(const RigParameters& rig, const std::string& path);
-/// Another value of it, and of all that follows from it. A sensor's z counts from nominal_com_z. False
-/// when there is no such number.
+/// Another value of it, and of all that follows from it. A sensor's z counts from nominal_com_z.
+/// False when there is no such number.
 bool SetParameter(RigParameters& rig, const std::string& path, double value);
 /// Its range from the parameter table.
 bool ParameterRange(const RigParameters& rig, const std::string& path, double* lo, double* hi,

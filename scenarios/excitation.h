@@ -1,6 +1,6 @@
 #pragma once
 /// Commanded signals of a scenario: force, reference, current or duty over time.
-/// Every kind is zero outside [start, stop). Source: shared/design/formats.md.
+/// Every kind is zero outside [start, stop). Source: docs/guide/files.md.
 #include <string>
 #include <vector>
 

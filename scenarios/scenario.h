@@ -1,5 +1,5 @@
 #pragma once
-/// One run of the rig: NAME.toml. Source: shared/design/formats.md.
+/// One run of the rig: NAME.toml. Source: docs/guide/files.md.
 #include <array>
 #include <map>
 #include <optional>

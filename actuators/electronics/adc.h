@@ -1,6 +1,6 @@
 #pragma once
 /// Current measurement of one coil: gain, offset, noise, then a signed ADC of m bits over ±range.
-/// Source: shared/design/physics.md section 3 (1), 6.
+/// Source: docs/theory/base_model.md section 3 (1), 6.
 #include <cmath>
 
 namespace ambrig {

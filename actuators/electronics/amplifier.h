@@ -8,7 +8,7 @@
 ///   d = d0 + (kp e + integral) / (2 U_d or U_d), clamped to duty_limits with the increment of the
 ///   integral dropped when the tentative d is beyond the limit on the side that e pushes to.
 ///
-/// Source: shared/design/physics.md section 3; seed paper Eq. 1, 5, 11.
+/// Source: docs/theory/base_model.md section 3; [loadcurrentslope] Eq. 1, 5, 11.
 #include <string>
 
 #include "core/base/parameters.h"

@@ -1,7 +1,7 @@
 #pragma once
 /// The magnetic circuit of one bearing in continuous time, for the reference and averaged engines.
-/// Written on its own from physics.md, as a witness for actuators/magnetics/stator_lanes: windings on poles,
-/// whatever they are driven by.
+/// Written on its own from base_model.md, as a witness for actuators/magnetics/stator_lanes:
+/// windings on poles, whatever they are driven by.
 ///
 ///   pole p:    φ_p R_p(g_p) = Σ_w n_w i_w - U,  Σ φ_p = 0 (floating rotor) or U = 0   [Wb]
 ///   winding w: λ_w = n_w φ_p + L_w i_w          (L_w: its leakage)                    [Wb]
@@ -10,7 +10,7 @@
 ///   φ_p = G_p (m_p - U),  G_p = 1/(R_p + Σ n²/L),  m_p = Σ n λ/L
 ///
 /// The same equations differentiated give dφ/dt and di/dt from dλ/dt and the gaps' speeds.
-/// Source: shared/design/physics.md section 2, 6.
+/// Source: docs/theory/base_model.md section 2, 6.
 #include <array>
 #include <vector>
 

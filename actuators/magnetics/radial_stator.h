@@ -9,7 +9,7 @@
 ///   f     = Σ phi_j² (cos γ_j, sin γ_j) / (2 mu0 A)       force on the rotor [N]
 ///
 /// r = (x, y) is the shaft centre at the bearing plane, stator axes [m]; i the coil currents [A].
-/// Source: docs/theory/stator.md; shared/design/physics.md section 2.
+/// Source: docs/theory/stator.md; docs/theory/base_model.md section 2.
 #include <Eigen/Dense>
 #include <string>
 

@@ -13,7 +13,7 @@
 /// block (off, i = 0) has c = 0: it carries no current and its linkage follows the others' flux.
 /// Because every λ depends on its own voltage only, blocking inside a step leaves no error.
 ///
-/// Source: shared/design/physics.md sections 2, 3, 6; engine.md.
+/// Source: docs/theory/base_model.md sections 2, 3, 6; docs/theory/engine.md.
 #include <array>
 #include <functional>
 #include <vector>

@@ -5,7 +5,7 @@
 ///   f   = phi² / (mu0 A)                                         pull of one side [N]
 ///
 /// Coils 1, 2 pull towards +z, coils 3, 4 towards -z. Mutual inductance of a side: N² P.
-/// Source: shared/design/physics.md section 2.
+/// Source: docs/theory/base_model.md section 2.
 #include "core/base/parameters.h"
 
 namespace ambrig {

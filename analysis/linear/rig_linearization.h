@@ -2,7 +2,7 @@
 /// The nominal rig in small motions about levitation (bias c0, weight carried): rotor, magnets and
 /// amplifiers of every axis, each axis with its own pattern of currents. Not in it: effects,
 /// contact, ripple, clamping; the coupling of a bearing's other current patterns (second order in
-/// weight/bias). Source: shared/design/physics.md sections 1 to 4; docs/theory/linearisation.md.
+/// weight/bias). Source: docs/theory/base_model.md sections 1 to 4; docs/theory/linearisation.md.
 #include <Eigen/Dense>
 #include <optional>
 #include <vector>
@@ -30,7 +30,8 @@ struct AxisActuator {
   double edge = 0;               // mean edge of the switching period, share of it
 };
 
-/// n coordinates, p axes: q'' = stiffness q + damping q' + force (f + magnet bearing q) + disturbance_input d.
+/// n coordinates, p axes: q'' = stiffness q + damping q' + force (f + magnet bearing q) +
+/// disturbance_input d.
 struct RigLinearization {
   Eigen::MatrixXd stiffness, damping;  // n x n, as accelerations
   Eigen::MatrixXd bearing, sensor;     // displacement of each axis per coordinate (p x n)

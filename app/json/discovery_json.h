@@ -6,7 +6,7 @@
 
 namespace ambrig {
 
-/// JSON of `ambrig compare` and `ambrig explain` (shared/design/formats.md).
+/// JSON of `ambrig compare` and `ambrig explain` (docs/guide/files.md).
 nlohmann::ordered_json CompareJson(const Comparison& comparison);
 nlohmann::ordered_json ExplainJson(const Explanation& explanation);
 

@@ -6,7 +6,7 @@
 
 namespace ambrig {
 
-/// The JSON of `ambrig run` (shared/design/formats.md).
+/// The JSON of `ambrig run` (docs/guide/files.md).
 nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result,
                                const std::vector<ExpectResult>& expect);
 

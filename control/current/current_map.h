@@ -1,7 +1,7 @@
 #pragma once
 /// Currents from forces by bias-current linearisation: i_set = W [c0, vx, vy]', v = f/(k c0),
 /// set-points clamped to [0, i_max] (two-quadrant bridges) or ±i_max.
-/// Healthy: row j of W = [1, cos γ_j, sin γ_j]. Source: shared/design/physics.md sections 4, 5.
+/// Healthy: row j of W = [1, cos γ_j, sin γ_j]. Source: docs/theory/base_model.md sections 4, 5.
 ///
 /// After a failure W may have another negative stiffness than the controller was made for, in other
 /// directions: `stiffness_change` = K_healthy - K_now [N/m] makes it up from the measured position,

@@ -66,7 +66,7 @@ struct ControllerParameters {
   double gyroscopic_compensation = 0;
   std::optional<UnbalanceControlParameters> unbalance;
 
-  /// The base controller of physics.md: one PID per axis and nothing else.
+  /// The base controller of docs/theory/base_model.md: one PID per axis and nothing else.
   bool IsPlainPid() const {
     return kind == "pid" && filters.empty() && schedule.empty() && !unbalance;
   }

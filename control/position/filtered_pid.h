@@ -3,9 +3,9 @@
 ///
 ///   f = F_n(z) ... F_1(z) (kp e - kd d + integral) + excitation, clamped to ±f_max
 ///
-/// with the PID of control/position/pid.h (its increment is dropped when this raw f is beyond the limit on
-/// the side that e pushes to). Without filters and schedule it is that PID. Source:
-/// shared/design/physics.md section 4.
+/// with the PID of control/position/pid.h (its increment is dropped when this raw f is beyond the
+/// limit on the side that e pushes to). Without filters and schedule it is that PID. Source:
+/// docs/theory/base_model.md section 4.
 #include "control/position/filter.h"
 #include "control/position/gain_schedule.h"
 

@@ -5,7 +5,7 @@
 ///   f = kp e - kd d + integral + excitation, clamped to ±f_max;  integral += ki Ts e
 ///
 /// f uses the integral before this step's increment; the increment is dropped when the raw f is
-/// beyond the limit on the side that e pushes to. Source: shared/design/physics.md section 4.
+/// beyond the limit on the side that e pushes to. Source: docs/theory/base_model.md section 4.
 #include "control/position/position_controller.h"
 #include "core/base/parameters.h"
 

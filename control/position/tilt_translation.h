@@ -2,16 +2,17 @@
 /// Centralised control of a rigid body: one PID for its translation and one for its tilt in either
 /// radial plane, instead of one per sensor.
 ///
-///   reading  y_k = c + z_k theta at the sensors -> centre c [m], tilt theta [rad] by least squares
-///   force    F = PID(c) [N], M = PID(theta) [N m] -> f_k with sum f = F, sum z_k f = M,
-///     least norm (exact for two)
-///   gyro     M_x += g Omega Ip theta_y',  M_y -= g Omega Ip theta_x'   (g = 1:
-///     the gyroscopic moment is cancelled)
+///   reading  y_k = c + z_k theta at the sensors -> centre c [m], tilt theta [rad], least squares
+///   force    F = PID(c) [N], M = PID(theta) [N m]
+///   axes     sum f_k = F, sum z_k f_k = M, least norm (exact for two planes)
+///   gyro     M_x += g Omega Ip theta_y',  M_y -= g Omega Ip theta_x'
+///
+/// g = 1 cancels the gyroscopic moment of the rotor.
 ///
 /// theta_x = beta in the x-z plane, theta_y = -alpha in the y-z plane; z from the centre of mass.
 /// The rates are those of the PIDs' derivative filters. Forces are clamped to ±f_max per axis;
 /// while one is, the plane's integrals stop. Source: Schweitzer, Maslen (eds.), Magnetic Bearings,
-/// 2009, chapter 8; equations of physics.md section 1.
+/// 2009, chapter 8; equations of docs/theory/base_model.md section 1.
 #include <array>
 
 #include "control/position/pid.h"

@@ -14,8 +14,8 @@
 namespace ambrig {
 
 /// One `{ value, sd }` of a file: the one-sigma knowledge of a parameter. `true_value` is what the
-/// simulated plant has while the controller keeps `value`: a calibration's result (the key `fitted` of
-/// a rig file, written by `ambrig adopt`) or the draw of a Monte Carlo campaign.
+/// simulated plant has while the controller keeps `value`: a calibration's result (the key `fitted`
+/// of a rig file, written by `ambrig adopt`) or the draw of a Monte Carlo campaign.
 struct Tolerance {
   std::string path;               // "rotor.mass", "bearings.A.gap"
   double sd = 0;                  // same unit as the value

@@ -1,6 +1,6 @@
 #pragma once
 /// A case: measurements beside the model that should explain them. Source:
-/// shared/design/formats.md.
+/// docs/guide/files.md.
 #include <map>
 #include <string>
 #include <vector>

@@ -19,8 +19,8 @@ double MisfitWeight(double ratio, double n);
 int PricedParameters(int count);
 
 /// Misfit of both kinds of records, the prior's penalty of the rig parameters and the price of
-/// `parameters` more numbers: smaller is better. `effective_sample_size`: independent numbers among the
-/// residuals; not more count than the floor itself is known by, and below the floor nothing is
+/// `parameters` more numbers: smaller is better. `effective_sample_size`: independent numbers among
+/// the residuals; not more count than the floor itself is known by, and below the floor nothing is
 /// better.
 double Score(const CaseModel& model, double ratio_fit, double ratio_validate,
              double effective_sample_size, int parameters, double penalty);

@@ -13,7 +13,7 @@ namespace ambrig {
 /// + mu Rubs(v) t), n its direction, t across it the way that the rotor turns, v the speed of
 /// sliding; always, or in a bump that comes back every period. The lobe is the rotor's high spot.
 struct SideContact {
-  static constexpr double kSlow = 0.01;  // [m/s], as in physics.md section 8
+  static constexpr double kSlow = 0.01;  // [m/s], as in docs/theory/base_model.md section 8
 
   // [rad], [m], [s], -, -, [m], [rad]
   double angle = 0, gap = 0, period = 0, phase = 0, duty = 1, lobe = 0, high = 0;

@@ -1,10 +1,13 @@
 #pragma once
 /// Each part of the model fed with measured inputs, so that an error shows where it arises:
-///   controller  measured readings -> set-points          coil   measured set-points,
-///     readings -> currents
-///   force       measured currents -> load cell (clamped)  rotor  measured currents and readings -> missing force
-///   sensor      the held position -> readings (clamped)
-/// A block's ratio is its rms error over that of a noisy run of the model itself.
+///
+///   controller   measured readings                  -> set-points
+///   coil         measured set-points and readings   -> currents
+///   force        measured currents                  -> load cell (clamped rotor)
+///   rotor        measured currents and readings     -> unmodelled force
+///   sensor       the clamped position               -> readings
+///
+/// The ratio of a block is its rms error over that of a noisy run of the model itself.
 #include <map>
 #include <string>
 

@@ -49,7 +49,7 @@ std::vector<Tally> Tallies(const std::vector<CaseScore>& all);
 /// "unknown" without one), counts.
 std::map<std::string, std::map<std::string, int>> Confusion(const std::vector<CaseScore>& all);
 
-/// Answers of a file in the form of shared/data/hidden-effects/answers.toml, by case.
+/// Answers of a file in the form of docs/guide/files.md (answers), by case.
 /// @throws InputError
 std::map<std::string, Answer> ReadAnswers(const std::string& file);
 

@@ -26,12 +26,12 @@ struct HiddenCase {
   std::string worst_channel;
 };
 
-/// @throws InputError for unknown names, and where no size of the effect shows in these records with
-/// the rotor held; Interrupted when `stop` is set.
+/// @throws InputError for unknown names, and where no size of the effect shows in these records
+/// with the rotor held; Interrupted when `stop` is set.
 HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
                 const std::atomic<bool>* stop = nullptr);
 
-/// case.toml, and the answer in the form of shared/data/hidden-effects/answers.toml under `name`.
+/// case.toml, and the answer in the form of docs/guide/files.md (answers) under `name`.
 std::string CaseText(const HiddenCase& hidden);
 std::string AnswerText(const HiddenCase& hidden, const HideRequest& request,
                        const std::string& name);

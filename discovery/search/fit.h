@@ -1,8 +1,8 @@
 #pragma once
 /// Maximum-a-posteriori fit of a hypothesis to the fit records: errors over the noise floor, rig
 /// parameters under their Gaussian prior, bounds kept (Ceres, Levenberg-Marquardt). The door to
-/// Ceres. The weight of the errors follows the ratio reached (discovery/decision/likelihood.h) and is
-/// renewed from pass to pass.
+/// Ceres. The weight of the errors follows the ratio reached (discovery/decision/likelihood.h) and
+/// is renewed from pass to pass.
 #include <Eigen/Dense>
 #include <string>
 #include <vector>
@@ -17,7 +17,8 @@ struct FitOptions {
   int passes = 4;
   bool sensitivities = true;         // sd, warnings and Jacobian at the optimum
   double effective_sample_size = 1;  // independent numbers among the residuals
-  // ratio_fit of a hypothesis within this one: what the errors are weighed by when the start is worse
+  // ratio_fit of a hypothesis within this one: what the errors are weighed by when the start is
+  // worse
   double reached = kInfinity;
   // its first columns: the rig parameters, for the first pass
   const Eigen::MatrixXd* base_jacobian = nullptr;

@@ -1,6 +1,6 @@
 #pragma once
-/// Generalised bias-current linearisation after coil failures (physics.md section 5): finds W with
-/// i = W [c0, vx, vy]' such that F = k c0 v at the centre, failed rows zero, currents within
+/// Generalised bias-current linearisation after coil failures (base_model.md section 5): finds W
+/// with i = W [c0, vx, vy]' such that F = k c0 v at the centre, failed rows zero, currents within
 /// [0, i_max] (two quadrants) on the disc |v| <= rho c0. Many deterministic starts on the
 /// equations, then an interior-point search from each (force_forms.h, interior_point.h).
 ///

@@ -2,16 +2,21 @@
 /// Force of a heteropolar bearing with eight poles as quadratic forms of its coil currents, rotor
 /// centred, ideal iron, all gaps meeting at the rotor (docs/theory/stator.md).
 ///
-///   m_j = tau_j s_j i_j                  coil's magnetomotive force over N (tau_j turns left,
-///   0..1) B_j = m_j - mean(m)                  flux of pole j in units of mu0 N A / g0 F   = (mu0
-///   N^2 A / 2 g0^2) sum_j B_j^2 (cos gamma_j, sin gamma_j)
+///   m_j = tau_j s_j i_j                 magnetomotive force of coil j over N; tau_j: turns left [-]
+///   B_j = m_j - mean(m)                 flux density of pole j in units of mu0 N / g0
+///   F   = (mu0 N^2 A / 2 g0^2) sum_j B_j^2 (cos gamma_j, sin gamma_j)
 ///
 /// With i = c0 b + W_v v, W = [b wx wy], and k = 4 mu0 N^2 A / g0^2 the force is F = k c0 v exactly
-/// if
-///   b'Qb = 0,  b'Qx wx = 1, b'Qy wx = 0,  b'Qx wy = 0, b'Qy wy = 1,  w'Qw = 0 (three pairs)
-/// (12 equations, Qx = forms.Q[0], Qy = forms.Q[1], scaled so that 1 is the entry k/2).
-/// Negative stiffness at v = 0: dF/dx = (k c0^2 / g0) [b'Rxx b, b'Rxy b; ., b'Ryy b], symmetric and
-/// never negative; the healthy W row [1, cos gamma, sin gamma] has the identity.
+/// if these 12 equations hold (Qx = forms.Q[0], Qy = forms.Q[1], scaled so that 1 is the entry k/2):
+///
+///   b'Q b = 0,   w'Q w = 0 (three pairs),   for Q = Qx and Q = Qy
+///   b'Qx wx = 1,  b'Qy wx = 0,  b'Qx wy = 0,  b'Qy wy = 1
+///
+/// Negative stiffness at v = 0, symmetric and never negative:
+///
+///   dF/dx = (k c0^2 / g0) [b'Rxx b, b'Rxy b; b'Rxy b, b'Ryy b]
+///
+/// The healthy W row [1, cos gamma, sin gamma] has the identity.
 /// Leakage adds to the inductance, not to the forms.
 #include <Eigen/Dense>
 #include <array>

@@ -1,6 +1,6 @@
 #pragma once
 /// Force of an eight-pole bearing on its rotor as a function of all coil currents, at any rotor
-/// position: the reluctance network of physics.md section 2, with the turns that failures left.
+/// position: the reluctance network of base_model.md section 2, with the turns that failures left.
 ///
 ///   m_j = N tau_j s_j i_j, P_j = mu0 A / g_j, g_j = g0 - x cos gamma_j - y sin gamma_j
 ///   phi_j = P_j (m_j - sum P m / sum P),  F = sum phi_j^2 (cos gamma_j, sin gamma_j) / (2 mu0 A)

@@ -1,5 +1,5 @@
 #pragma once
-/// What `ambrig redistribute --json` prints (formats.md): class, W and capacities of failure sets.
+/// What `ambrig redistribute --json` prints (files.md): class, W and capacities of failure sets.
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>

@@ -1,14 +1,11 @@
 #pragma once
-/// Policies for moving the currents to a new distribution, by name:
+/// Policies for the transition of the currents to a new distribution, by name:
 ///
 ///   jump              all set-points at once; the current loops run into their voltage limit
 ///   ramp              each set-point at most as fast as its coil's voltage allows
-///   bias-first        the new bias at the ramp's pace while the old control part is kept,
-///     then that
-///   force-preserving  all on one line,
-///     set back onto the wanted force at every step (network_force.h)
-///   time-optimal      all on one line,
-///     so fast that one coil of the coupled network is at its limit
+///   bias-first        the new bias as by `ramp` with the old control currents; then the new ones
+///   force-preserving  a straight line, corrected to the wanted force at every step (network_force.h)
+///   time-optimal      a straight line, so fast that one coil of the coupled network is at its limit
 #include <string>
 
 #include "control/current/current_transition.h"

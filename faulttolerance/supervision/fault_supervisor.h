@@ -24,8 +24,9 @@ namespace ambrig {
 struct FaultSupervisorOptions {
   bool redistribute = true;
   /// auto: W when it is exact or its force at the command of now is true within 15 % (and what W
-  /// leaves open is small), else force by force (faulttolerance/redistribution/force_inverse.h) where that holds,
-  /// else the W of least error. matrix: always W. force-by-force: always that, where it holds.
+  /// leaves open is small), else force by force (faulttolerance/redistribution/force_inverse.h)
+  /// where that holds, else the W of least error. matrix: always W. force-by-force: always that,
+  /// where it holds.
   std::string redistribution = "auto";
   std::string current_transition = kDefaultCurrentTransition;
   bool stiffness_compensation = true;  // f + (K_healthy - K_W) x

@@ -6,8 +6,8 @@
 /// the distance from the corridor between the set-point and such a follower counts:
 ///   p <- p + clamp((i_set - p) T kp/L, ± T U_d/L),
 ///     L of coils that switch together (slope_statistic.h)
-/// Source: Loesch, ISMB8 2002 (threshold on |i_ref - i|), gated by the predicted slew (facts.md
-/// section 6).
+/// Source: Loesch, ISMB8 2002 (threshold on |i_ref - i|), gated by the predicted slew
+/// (docs/theory/published_values.md 8).
 #include "fdd/detectors/coil_detector.h"
 
 namespace ambrig {

@@ -39,9 +39,9 @@ struct ResidualChart {
   Lane G[3];
   Lane own;  // self-inductance [H]
 
-  /// Residuals of one period. `watched`: coils that may be judged; `uncertainty`: what the motion may add
-  /// to the residuals of both phases [V], nullptr: nothing; `potential_rate` [A/s]: by how much the
-  /// rotor's potential may be wrong, over the period (unknown ampere-turns).
+  /// Residuals of one period. `watched`: coils that may be judged; `uncertainty`: what the motion
+  /// may add to the residuals of both phases [V], nullptr: nothing; `potential_rate` [A/s]: by how
+  /// much the rotor's potential may be wrong, over the period (unknown ampere-turns).
   void Compute(const LinkageModel& m, const SamplingSettings& sampling, const ChartSettings& s,
                const ModelError& known, const PeriodSlopes& slopes, const Lane& watched,
                const Lane* uncertainty, double potential_rate);

@@ -11,7 +11,7 @@
 /// 18 samples a period at 450 kHz and 25 kHz. The algorithm looks once per cycle (1.75 ms in the
 /// paper; 0: every period). In a coupled stator neighbours and motion move these slopes by far more
 /// than the limits: there use bearing_detector.h.
-/// Source: seed paper sections 2 to 4.
+/// Source: [loadcurrentslope] (docs/references.bib), sections 2 to 4.
 #include <vector>
 
 #include "fdd/diagnosis.h"

@@ -1,8 +1,8 @@
 #pragma once
 /// The paper's mean slopes against limits that are recomputed in every period from all that the
 /// controller knows: measured bus, learned resistance, sensed gap and its motion, and the switch
-/// states of the neighbours (facts.md, trap 2: they move a coupled coil's slope by more than its
-/// own faults).
+/// states of the neighbours (published_values.md 1.2: they move a coupled coil's slope by more than
+/// its own faults).
 ///
 ///   i(0) measured;  λ(k+1) = λ(k) + ∫v dt - R i h,  i = L(x, y)^-1 λ
 ///     currents of a healthy bearing

@@ -7,8 +7,8 @@
 ///
 /// with A_j = slope(n_j² P_j i_j + L_j i_j), B_jk = slope(n_j P_j n_k P_k i_k / Σ P) and the share
 /// a_j of the model's turns that is left: nonlinear least squares over residuals of known size,
-/// then the fewest coils that explain them. Turns that are bypassed (facts.md section 0: L -> a² L,
-/// R -> a R); a closed loop of shorted turns carries a current of its own and fits no a. A coil
+/// then the fewest coils that explain them. Turns that are bypassed (published_values.md 1: L -> a²
+/// L, R -> a R); a closed loop of shorted turns carries a current of its own and fits no a. A coil
 /// without current (open) adds no equation and no flux, so shorts are found beside it.
 #include <vector>
 

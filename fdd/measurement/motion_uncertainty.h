@@ -8,7 +8,7 @@
 ///   (dλ_j/dt) x/g_j
 ///
 /// so that |e_j| may reach (|λ_j|/g_j + |n_j| P_j Σ_k |λ_k/n_k|/g_k / Σ P) δv + |slope(λ_j)|
-/// δx/g_j, to first order. Source: physics.md section 2.
+/// δx/g_j, to first order. Source: docs/theory/base_model.md section 2.
 #include "fdd/measurement/period_slopes.h"
 
 namespace ambrig {

@@ -6,7 +6,8 @@
 ///   dλ_j/dt = v_j - R i_j        so   e_j = slope(λ_j) + R mean(i_j) - v_j   [V]
 ///
 /// is zero but for noise and tolerances, whatever the neighbours do: what they switch is in their
-/// currents. (Plain current slopes of a coupled stator move by tens of percent: facts.md, trap 2.)
+/// currents. (Plain current slopes of a coupled stator move by tens of percent: published_values.md
+/// 1.2.)
 #include <array>
 
 #include "actuators/electronics/amplifier.h"

@@ -7,7 +7,7 @@
 ///   thrust   λ_j = n_j P_j (n_j i_j + n_o i_o) + L_l i_j, o the other winding of the side
 ///   opposed  λ_j = n_j P_j n_j i_j + L_l i_j
 ///
-/// n_j: signed turns. Source: shared/design/physics.md section 2.
+/// n_j: signed turns. Source: docs/theory/base_model.md section 2.
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/stator_lanes.h"
 #include "actuators/magnetics/thrust_stator.h"

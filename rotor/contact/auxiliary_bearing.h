@@ -6,7 +6,7 @@
 ///   race (optional inertia J, drag d): J w' = friction * R - d w; mount (optional): mass,
 ///     stiffness, damping
 ///
-/// Source: shared/design/physics.md section 8; restitution oracle facts.md section 4.
+/// Source: base_model.md section 8; restitution oracle published_values.md 5.
 #include "core/base/parameters.h"
 
 namespace ambrig {

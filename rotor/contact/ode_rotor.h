@@ -20,7 +20,7 @@
 /// is of order one in Omega h. Instead each step goes over the angular momentum L:
 ///   half a step of the axis under L, ODE's step with that ω, L from its ω⁺, ω from L and the new
 ///   axis,
-/// of order two, and exact in L. Source: docs/theory/contact.md; shared/design/physics.md 1, 8.
+/// of order two, and exact in L. Source: docs/theory/contact.md; docs/theory/base_model.md 1, 8.
 #include <memory>
 
 #include "rotor/motion/rotor_model.h"

@@ -12,7 +12,7 @@ inline constexpr std::size_t kMaxPlane = 4 + 2 * kMaxModes;  // coordinates that
 using DofVector = std::array<double, kMaxDof>;
 
 /// State of the rotor and of everything that moves with it. The first five coordinates are those of
-/// physics.md section 1: x, y, z [m], alpha about x, beta about y [rad]; then bending modes, the
+/// base_model.md section 1: x, y, z [m], alpha about x, beta about y [rad]; then bending modes, the
 /// stator's base, races on mounts.
 struct MotionState {
   double t = 0;                 // [s]

@@ -15,7 +15,7 @@
 /// (eta_x, eta_y) of each bending mode, mass normalised, and races on mounts or a base in the order
 /// of assembly. z is a free mass even where the rig has no thrust bearing: leave row and column 2
 /// out then. A sampled controller, amplifiers and magnets are not in here.
-/// Source: shared/design/physics.md section 1; docs/theory/rotor.md.
+/// Source: docs/theory/base_model.md section 1; docs/theory/rotor.md.
 #include <Eigen/Dense>
 #include <array>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 /// Position readings of one plane: shaft-centre displacement at the sensor's own z, through a chain
-/// of reading maps (sensor effects and faults), plus noise. Source: shared/design/physics.md
+/// of reading maps (sensor effects and faults), plus noise. Source: docs/theory/base_model.md
 /// section 4.
 #include <memory>
 #include <vector>

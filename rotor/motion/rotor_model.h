@@ -10,7 +10,7 @@
 /// A radial force at z gives Mx = -z fy, My = z fx; the shaft centre there sits at
 /// (x + z beta, y - z alpha). On a moving base the coordinates are relative to the base, so gaps
 /// and readings need no correction; the rotor feels minus the base's acceleration.
-/// Source: shared/design/physics.md sections 1 and 8.
+/// Source: docs/theory/base_model.md sections 1 and 8.
 #include <memory>
 #include <string>
 #include <vector>

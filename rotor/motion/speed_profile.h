@@ -1,6 +1,6 @@
 #pragma once
 /// Prescribed spin speed: piecewise linear Omega(t), theta(0) = 0; before the first and after the
-/// last point the speed is constant. Source: shared/design/formats.md.
+/// last point the speed is constant. Source: docs/guide/files.md.
 #include <vector>
 
 namespace ambrig {

@@ -1,6 +1,6 @@
 #pragma once
 /// Beam rotor: shaft of Timoshenko elements with disks, sleeves and spring/damper supports.
-/// Axes and signs of physics.md section 1: node dofs (x, y, alpha about x, beta about y); the
+/// Axes and signs of base_model.md section 1: node dofs (x, y, alpha about x, beta about y); the
 /// section rotation is beta in the x-z plane and -alpha in the y-z plane. Shaft and disks are
 /// round, so both planes share M, K, C and couple through J alone. With plane dofs (w, psi) per
 /// node:

@@ -11,7 +11,8 @@
 ///   phi_k fx eta_yk'' + 2 zeta_k w_k eta_yk' + w_k² eta_yk - Omega ( J_k0 beta'  + sum J_kl
 ///   eta_xl') = sum phi_k fy
 /// Free-free modes are orthogonal to the rigid ones, so mass and stiffness stay diagonal; only the
-/// gyroscopic J couples (kept in full). With n = 0 this is the rigid rotor of physics.md. Units SI.
+/// gyroscopic J couples (kept in full). With n = 0 this is the rigid rotor of base_model.md. Units
+/// SI.
 #include <Eigen/Dense>
 #include <vector>
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Faults that a scenario or a campaign may name: one table of kinds, one of their parameters,
-/// walked by the readers and by docs/parameters.md. Source: shared/design/physics.md section 6.
+/// walked by the readers and by docs/parameters.md. Source: docs/theory/base_model.md section 6.
 #include <map>
 #include <span>
 #include <string>

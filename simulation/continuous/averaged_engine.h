@@ -11,7 +11,7 @@
 /// closed loop.
 ///
 /// Not here: iron laws, copper heating, a bus with impedance, records faster than the switching
-/// (InputError). Source: shared/design/physics.md section 3.
+/// (InputError). Source: docs/theory/base_model.md section 3.
 #include "simulation/continuous/equilibrium.h"
 #include "simulation/continuous/reference_engine.h"
 

@@ -15,7 +15,7 @@
 ///
 /// where `drive` is the work of the motor that keeps a prescribed speed, and of the scenario's
 /// loads. (Races, mounts, bases and effects have energies and losses of their own, not counted.)
-/// Source: shared/design/physics.md sections 1 to 3, 6, 8.
+/// Source: docs/theory/base_model.md sections 1 to 3, 6, 8.
 #include <memory>
 #include <vector>
 

@@ -8,7 +8,7 @@
 ///
 /// At standstill: what turns with the shaft (unbalance) has no equilibrium. Where the axes do not
 /// hold every coordinate (one magnet on a bench) there is no unique one and `converged` is false.
-/// Source: shared/design/physics.md sections 1, 2, 4.
+/// Source: docs/theory/base_model.md sections 1, 2, 4.
 #include "simulation/sampled/sampled_rig.h"
 
 namespace ambrig {

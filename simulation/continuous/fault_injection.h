@@ -1,6 +1,6 @@
 #pragma once
 /// Faults of a scenario for the continuous-time engines, at the ADC instant nearest to their time
-/// (the switching engine's instants). Source: shared/design/physics.md section 6.
+/// (the switching engine's instants). Source: docs/theory/base_model.md section 6.
 #include <vector>
 
 #include "simulation/continuous/continuous_rig.h"

@@ -8,7 +8,7 @@
 /// carry again, contacts. Between events everything is smooth.
 ///
 /// Not here: iron laws, copper heating and a bus with impedance (InputError).
-/// Source: shared/design/physics.md.
+/// Source: docs/theory/base_model.md.
 #include <atomic>
 #include <functional>
 

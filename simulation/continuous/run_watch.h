@@ -1,7 +1,7 @@
 #pragma once
 /// Events and figures of a run of the continuous-time engines, once per switching period: contact,
 /// touchdown, drop, orbit, currents, copper loss. The rules are the switching engine's.
-/// Source: shared/design/physics.md section 8 (verdict terms).
+/// Source: docs/theory/base_model.md section 8 (verdict terms).
 #include "simulation/sampled/sampled_rig.h"
 #include "simulation/verdict/contact_watch.h"
 

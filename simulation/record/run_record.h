@@ -1,7 +1,7 @@
 #pragma once
 /// The record of a run while it grows: its channels and rows, the same in every fidelity. A row
 /// shows what the controller knows at the start of a period, or, in a burst, at every so many ADC
-/// samples. Source: shared/design/formats.md "Record".
+/// samples. Source: docs/guide/files.md "Record".
 #include <string>
 #include <vector>
 

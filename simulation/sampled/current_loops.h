@@ -1,6 +1,6 @@
 #pragma once
 /// The current loops of all coils at the start of a switching period, the same in every fidelity:
-/// set-points and what the scenario adds to them become duties. Source: shared/design/physics.md
+/// set-points and what the scenario adds to them become duties. Source: docs/theory/base_model.md
 /// section 3.
 #include "faulttolerance/supervision/supervisor.h"
 #include "simulation/sampled/command_plan.h"

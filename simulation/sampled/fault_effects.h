@@ -1,6 +1,6 @@
 #pragma once
 /// What a fault does to sensors and bridges, the same in every fidelity; how a coil breaks or
-/// shorts is each engine's own. Source: shared/design/physics.md section 6.
+/// shorts is each engine's own. Source: docs/theory/base_model.md section 6.
 #include "effects/plant.h"
 #include "rig/rig_parameters.h"
 #include "scenarios/faults/fault_spec.h"

@@ -1,5 +1,5 @@
 #pragma once
-/// The controller's clock of a rig, the same in every fidelity (physics.md section 4):
+/// The controller's clock of a rig, the same in every fidelity (base_model.md section 4):
 ///
 ///   t_n = n T, n % M == 0   the sensors are read; the position loop computes set-points from them
 ///   t_(n+M)                 those set-points are in force, and in a record

@@ -1,7 +1,7 @@
 #pragma once
 /// The sampled side of a rig for the engines that run the plant in continuous time (reference,
 /// averaged): start states, readings, position loop, current loops, rows of the record.
-/// The clocks are those of physics.md sections 3 and 4, as in the switching engine:
+/// The clocks are those of docs/theory/base_model.md sections 3 and 4, as in the switching engine:
 ///
 ///   t_n = n T        readings; set-points that are due; duty of period n from the feedback of n-1
 ///   n % M == 0       position loop; its set-points act one controller period later
@@ -25,7 +25,7 @@ namespace ambrig {
 struct SampledOptions {
   double record_rate = 0;  // 0: the scenario's
   bool noise = false;      // false: none, whatever the scenario says
-  double warm_up = -1;     // [s] before t = 0; negative: physics.md's
+  double warm_up = -1;     // [s] before t = 0; negative: docs/theory/base_model.md's
   const RigParameters* nominal = nullptr;
   Supervisor* supervisor = nullptr;
 };

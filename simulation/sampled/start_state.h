@@ -1,5 +1,5 @@
 #pragma once
-/// How a run begins, the same in every fidelity. Source: shared/design/physics.md section 3.
+/// How a run begins, the same in every fidelity. Source: docs/theory/base_model.md section 3.
 #include "effects/plant.h"
 #include "faulttolerance/supervision/supervisor.h"
 #include "scenarios/scenario.h"

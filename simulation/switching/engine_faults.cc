@@ -1,5 +1,5 @@
 /// Coil, amplifier and sensor faults of a scenario, put into the plant at their ADC sample.
-/// Source: shared/design/physics.md section 6.
+/// Source: docs/theory/base_model.md section 6.
 #include "simulation/sampled/fault_effects.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/switching_engine.h"

@@ -1,5 +1,5 @@
 /// Events and figures of a run: orbit, contact, touchdown, drop, currents, copper loss.
-/// Source: shared/design/physics.md section 8 (verdict terms), formats.md `ambrig run --json`.
+/// Source: base_model.md section 8 (verdict terms), files.md `ambrig run --json`.
 #include <algorithm>
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #pragma once
 /// The fast engine: lockstep samples at the ADC rate with the exact switching edge inside a sample,
 /// one period of all bearings, then one step of the rotor, then the controller's clock.
-/// Timing: shared/design/physics.md sections 3 and 4. Structure: docs/theory/engine.md.
+/// Timing: docs/theory/base_model.md sections 3 and 4. Structure: docs/theory/engine.md.
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -29,7 +29,7 @@ struct EngineOptions {
   double lost_after = kInfinity;
   bool watch = true;                // events and figures of the verdict
   bool force_general_path = false;  // tests: the slow path must give the same record
-  // [s] before t = 0; negative: physics.md's (tests: shorter)
+  // [s] before t = 0; negative: docs/theory/base_model.md's (tests: shorter)
   double warm_up = -1;
   // tests of convergence: finer steps inside a sample
   int substeps = 1;

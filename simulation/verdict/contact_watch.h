@@ -7,7 +7,7 @@
 /// A rotor that nothing carries bounces: while it hops it is in contact all the same. A contact is
 /// over only when the journal has been free for longer than a bounce through the whole clearance
 /// takes, 2 √(4 c/g) = 18 ms for 0.2 mm. Lift-off events and the longest contact count every hop.
-/// Source: shared/design/physics.md section 8.
+/// Source: docs/theory/base_model.md section 8.
 #include <vector>
 
 #include "rotor/motion/rotor_model.h"

@@ -18,7 +18,7 @@ class Bearing : public testing::Test {
   const StatorLanes& lanes_ = plant_.bearings[0].lanes;
 };
 
-// facts.md 1.3: f = 4 kappa i0 (ix, iy), k_s = 4 kappa i0²/g0; leakage changes neither.
+// published_values.md 2.1: f = 4 kappa i0 (ix, iy), k_s = 4 kappa i0²/g0; leakage changes neither.
 TEST_F(Bearing, CentredConstants) {
   const RadialStatorParameters& p = rig_.bearings[0].radial;
   const double kappa = kMu0 * p.turns * p.turns * p.pole_area / (p.gap * p.gap), i0 = 2;
@@ -74,7 +74,7 @@ TEST_F(Bearing, DerivativesAreThoseOfTheDisplacedCircuit) {
     EXPECT_LT((slope.head<8>() - b.I_lambda.col(j)).norm(), 1e-6 * b.I_lambda.norm());
     EXPECT_LT((slope.tail<2>() - b.F_lambda.col(j)).norm(), 1e-6 * b.F_lambda.norm());
   }
-  // Reciprocity: dλ/dx at constant current is df/di at constant position (facts.md, trap 4).
+  // Reciprocity: dλ/dx at constant current is df/di at constant position (published_values.md 1.3).
   EXPECT_LT((b.Inductance() * -b.I_r - b.ForceOfCurrent().transpose()).norm(),
             1e-9 * b.ForceOfCurrent().norm());
 }

@@ -29,7 +29,8 @@ Stiffness StiffnessOf(Plant& plant, double bias) {
           (ForceX(plant, bias, 0, dx) - ForceX(plant, bias, 0, -dx)) / (2 * dx)};
 }
 
-// facts.md 5.1: iron path p per gap: B and dB/dx as with g_eff = g0 + p, so ki/ks = g_eff/i0.
+// published_values.md 7: iron path p per gap: B and dB/dx as with g_eff = g0 + p, so ki/ks =
+// g_eff/i0.
 TEST(IronReluctance, StiffnessRatioIsTheEffectiveGapOverTheBias) {
   const RigParameters rig = ReferenceRig();
   const double g0 = rig.bearings[0].radial.gap, path = 30e-6, bias = 2;

@@ -1,6 +1,6 @@
 #pragma once
-/// Independent evaluation of the bearing's force from the fluxes of physics.md section 2, any rotor
-/// position, without the quadratic forms under test.
+/// Independent evaluation of the bearing's force from the fluxes of base_model.md section 2, any
+/// rotor position, without the quadratic forms under test.
 #include <cmath>
 
 #include "core/math/constants.h"

@@ -1,5 +1,5 @@
 /// Rigid rotor: gyroscopic motion in closed form, the order of the engine's steps, and the
-/// eigenvalues of a published set (facts.md 2.3).
+/// eigenvalues of a published set (docs/theory/published_values.md 3).
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -77,7 +77,8 @@ TEST(Gyroscopics, TheStepOfAFreeFlightIsTheGeneralOne) {
   }
 }
 
-/// Linear rig of facts.md 2.3: x' = A x of (q, v), from the model's accelerations column by column.
+/// Linear rig of published_values.md 3: x' = A x of (q, v), from the model's accelerations column
+/// by column.
 struct PublishedRig {
   static constexpr RotorParameters kRotor = {2.3, 6e-2, 8e-4, 0.01};
   static constexpr double kArm[2] = {-0.241, 0.139}, kSensor[2] = {-0.241, 0.119};

@@ -3,7 +3,7 @@
 /// with speed v. Independent of k, n and the mass: with a = h v, e is the root in (0, 1] of
 ///   a - ln(1 + a) = -a e - ln(1 - a e),
 /// from dv/dp = -(k pⁿ/m)(1 + h v)/v integrated over approach and rebound.
-/// Source: facts.md section 4 (contact laws and their actual restitution).
+/// Source: docs/theory/published_values.md 5 (contact laws and their actual restitution).
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
-// The records of two independent simulators that follow physics.md (tests/data/base-records, copied
-// from the contract's data): readings within 20 nm, currents within 2 mA, load cell within 0.5 N,
-// and 2 um after the first contact of lift-off.
+// The records of two independent simulators that follow base_model.md (tests/data/base-records,
+// copied from the contract's data): readings within 20 nm, currents within 2 mA, load cell within
+// 0.5 N, and 2 um after the first contact of lift-off.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -70,7 +70,7 @@ TEST(SwitchingEngine, GeneralPathGivesTheFastPathsRecord) {
           << a.channels[c].name << " row " << k;
 }
 
-// formats.md: load cells give the mean force over the period before t, in a burst as in rows of
+// files.md: load cells give the mean force over the period before t, in a burst as in rows of
 // whole periods.
 TEST(SwitchingEngine, LoadCellOfABurstHoldsThePeriodBefore) {
   const std::string folder = std::string(AMBRIG_SOURCE_DIR) + "/tests/data/base-records/";

@@ -24,7 +24,7 @@ double Mean(const CoilVoltage& v, double bus, double T) {
   return sum / T;
 }
 
-// physics.md section 3: on +U_d - 2 U_s for d T, off -(U_d + 2 U_c); the other bridges likewise.
+// base_model.md section 3: on +U_d - 2 U_s for d T, off -(U_d + 2 U_c); the other bridges likewise.
 TEST(Amplifier, MeanVoltageOfEveryModulation) {
   const double T = 40e-6, U = 30, Us = 0.125, Uc = 0.70;
   for (double d : {0.1, 0.5, 0.73, 0.98}) {

@@ -1,5 +1,5 @@
-/// The witness's magnetics against the closed forms of actuators/magnetics/radial_stator.h and the thrust
-/// bearing.
+/// The witness's magnetics against the closed forms of actuators/magnetics/radial_stator.h and the
+/// thrust bearing.
 #include "actuators/magnetics/coil_network.h"
 
 #include <gtest/gtest.h>
@@ -109,7 +109,7 @@ TEST(CoilNetwork, ThrustBearingClosedForm) {
   for (std::size_t j = 0; j < 4; ++j) EXPECT_NEAR(s.i[j], i[j], 1e-13);
 }
 
-// A short right after the event: flux and every turn's current as before (shared/design/physics.md
+// A short right after the event: flux and every turn's current as before (docs/theory/base_model.md
 // section 6).
 TEST(CoilNetwork, AShortLeavesFluxAndTurnCurrentsContinuous) {
   Radial r;

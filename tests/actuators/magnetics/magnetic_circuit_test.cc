@@ -1,5 +1,5 @@
 /// The magnetic circuit of the lanes against closed forms: inductances, flux balance, force as the
-/// gradient of the co-energy, force constants of facts.md 0 and 1.3.
+/// gradient of the co-energy, force constants of docs/theory/published_values.md 1, 2.1.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -35,7 +35,7 @@ TEST(MagneticCircuit, LanesCarryTheInductanceMatrix) {
   EXPECT_LT((InductanceOf(lanes, kX, kY) - expected).norm(), 1e-15 * expected.norm() * 8);
 }
 
-// physics.md section 2: 1.75 mH a coil; seven patterns see 1.95 mH, the flux-free one 0.35 mH.
+// base_model.md section 2: 1.75 mH a coil; seven patterns see 1.95 mH, the flux-free one 0.35 mH.
 TEST(MagneticCircuit, ReferenceInductances) {
   StatorLanes lanes = LanesOf("A");
   const CoilMatrix L = InductanceOf(lanes, 0, 0);
@@ -54,7 +54,7 @@ struct GapRow {
 void PrintTo(const GapRow& row, std::ostream* out) { *out << row.x << " gaps off centre"; }
 class PublishedGaps : public ::testing::TestWithParam<GapRow> {};
 
-// facts.md, trap 1: rotor moved towards pole 1. Four digits printed.
+// docs/theory/published_values.md 1.1: rotor moved towards pole 1. Four digits printed.
 TEST_P(PublishedGaps, SelfAndMutualInductance) {
   RadialStatorParameters p = ReferenceRig().bearings[0].radial;
   p.first_pole_angle_deg = 0;
@@ -152,7 +152,7 @@ TEST_P(EveryStator, FluxBalances) {
 INSTANTIATE_TEST_SUITE_P(Reference, EveryStator, ::testing::Values("A", "Z"),
                          [](const auto& p) { return p.param; });
 
-// physics.md section 2: f = phi²/(mu0 A) a side, phi = mu0 A N (i1 + i2)/(2 g).
+// docs/theory/base_model.md section 2: f = phi²/(mu0 A) a side, phi = mu0 A N (i1 + i2)/(2 g).
 TEST(MagneticCircuit, ThrustForceClosedForm) {
   StatorLanes lanes = LanesOf("Z");
   const ThrustStatorParameters& p = ReferenceRig().Find("Z")->thrust;
@@ -167,9 +167,9 @@ TEST(MagneticCircuit, ThrustForceClosedForm) {
   EXPECT_NEAR(f, pull(3.2, p.gap - z) - pull(2.0, p.gap + z), 1e-12 * f);
 }
 
-// facts.md 1.3: F = 4 kappa c0 v, k_i = 4 kappa c0, k_s = 4 kappa c0²/g0, hence k_i/k_s = g0/c0.
-// The reference rig: kappa 4 N/A², k_i 32 N/A, k_s 1.6e5 N/m (facts.md 1.6), 144 N with 6 A (1.6
-// too).
+// published_values.md 2.1: F = 4 kappa c0 v, k_i = 4 kappa c0, k_s = 4 kappa c0²/g0, hence k_i/k_s
+// = g0/c0. The reference rig: kappa 4 N/A², k_i 32 N/A, k_s 1.6e5 N/m (published_values.md 2.3),
+// 144 N with 6 A (1.6 too).
 TEST(MagneticCircuit, ForceConstantAndNegativeStiffnessOfTheHealthyBearing) {
   StatorLanes lanes = LanesOf("A");
   const double c0 = 2, kappa = kL0 / 4e-4;
@@ -196,7 +196,8 @@ TEST(MagneticCircuit, ForceConstantAndNegativeStiffnessOfTheHealthyBearing) {
   EXPECT_NEAR(RadialStator(ReferenceRig().bearings[0].radial).ForceConstant() * c0, ki, 1e-12 * ki);
 }
 
-// facts.md 1.3.2: subtracting one coil's current from all of them changes no flux, anywhere.
+// published_values.md 2.1: subtracting one coil's current from all of them changes no flux,
+// anywhere.
 TEST(MagneticCircuit, TheFluxFreePatternCarriesNoForce) {
   StatorLanes lanes = LanesOf("A");
   lanes.unipolar = false;

@@ -13,7 +13,7 @@ constexpr double kT = 40e-6;
 // A trapezoid's step errs by (h/τ)³/12 of the distance to the settled current, 60 A at most here.
 constexpr double kPerStep = 60 * (kT / 18 / 3.5e-3) * (kT / 18 / 3.5e-3) * (kT / 18 / 3.5e-3) / 12;
 
-/// A single uncoupled coil of the seed paper: 1.75 mH, 0.5 ohm.
+/// A single uncoupled coil of [loadcurrentslope]: 1.75 mH, 0.5 ohm.
 StatorLanes PaperCoil(double h) {
   StatorLanes lanes;
   lanes.coupling = Coupling::kNone;
@@ -29,9 +29,9 @@ StatorLanes PaperCoil(double h) {
   return lanes;
 }
 
-// facts.md 0: with U_d - 2 U_s = 29.75 V the slope at zero current is 17 000 A/s less 0.25 V / 1.75
-// mH at 0.5 A: 16 857.1 A/s, and 16 761.1 after 20 us of Eq. 9. The trapezoid holds them to (R
-// h/2L)²/3.
+// published_values.md 1: with U_d - 2 U_s = 29.75 V the slope at zero current is 17 000 A/s less
+// 0.25 V / 1.75 mH at 0.5 A: 16 857.1 A/s, and 16 761.1 after 20 us of Eq. 9. The trapezoid holds
+// them to (R h/2L)²/3.
 TEST(StatorLanes, PaperSlopesOfOneCoil) {
   const double h = kT / 18;
   StatorLanes lanes = PaperCoil(h);
@@ -116,7 +116,8 @@ TEST(StatorLanes, DiodesEndTheCurrent) {
   }
 }
 
-// facts.md, trap 2: leakage a tenth of L0 = N² mu0 A/g0, NSNSNSNS, no resistance; slopes in U/L0.
+// published_values.md 1.2: leakage a tenth of L0 = N² mu0 A/g0, NSNSNSNS, no resistance; slopes in
+// U/L0.
 TEST(StatorLanes, SlopesOfCoupledCoils) {
   const auto slopes = [](int opened, const Lane& volts) {
     StatorLanes lanes = LanesOf("A");

@@ -58,7 +58,8 @@ struct Bound {
   double capacity;
 };
 
-// Lower bounds of facts.md 1.6 and 1.4, printed to three digits: half of the last one is allowed.
+// Lower bounds of published_values.md 2.3, 2.2, printed to three digits: half of the last one is
+// allowed.
 constexpr double kPrinted = 5e-4;
 
 TEST(DistributionSolver, TwoQuadrantCapacitiesOfNsns) {
@@ -116,7 +117,7 @@ TEST(DistributionSolver, FluxLimitedCapacities) {
     EXPECT_GE(BestFluxCapacity(Broken(b.failed), {}), b.capacity - kPrinted) << Name(b.failed);
 }
 
-// physics.md 4: the controller's kp is 4e5 N/m; a stiffness of 6.8e5 dropped the rotor.
+// base_model.md 4: the controller's kp is 4e5 N/m; a stiffness of 6.8e5 dropped the rotor.
 TEST(DistributionSolver, ControlPolicyKeepsTheStiffnessNearTheHealthyOne) {
   const DistributionMatrix healthy = HealthyDistribution(Broken({}));
   const double K_healthy =
@@ -145,7 +146,7 @@ TEST(DistributionSolver, ShareTradesStiffnessForCapacity) {
     const double K = LargestEigenvalue(d.stiffness);
     EXPECT_GE(d.rho, rho * 0.999);
     EXPECT_GT(K, last);
-    if (rho == 0.2) {  // facts.md 1.6: 0.3e5 is reachable
+    if (rho == 0.2) {  // docs/theory/published_values.md 2.3: 0.3e5 is reachable
       EXPECT_LT(K, 0.35e5);
     }
     last = K;

@@ -32,10 +32,11 @@ double Residual(const RedistributionProblem& p, const DistributionMatrix& W) {
 
 TEST(ForceForms, ReferenceRigHasTheNumbersOfTheDesign) {
   const RedistributionProblem p = Rig();
-  EXPECT_NEAR(ForceFactor(p) * 9, 144, 0.01);  // facts.md 1.6: capacity 1 is 144 N
+  EXPECT_NEAR(ForceFactor(p) * 9, 144, 0.01);  // published_values.md 2.3: capacity 1 is 144 N
   const DistributionMatrix W = HealthyDistribution(p);
   EXPECT_LT(Residual(p, W), 1e-15);
-  // K = k c0^2 / g0 (facts.md 1.3, ks = 4 kappa i0^2 / g0) in both directions: 1.6e5 N/m.
+  // K = k c0^2 / g0 (published_values.md 2.1, ks = 4 kappa i0^2 / g0) in both directions: 1.6e5
+  // N/m.
   const double K = ForceFactor(p) * 4 / p.gap;
   EXPECT_LT((NegativeStiffness(p, MakeForceForms(p), W) / K - Eigen::Matrix2d::Identity()).norm(),
             1e-14);
@@ -70,7 +71,7 @@ TEST(ForceForms, StiffnessIsTheDerivativeOfTheForce) {
   }
 }
 
-// facts.md 1.3, closed forms 2 to 4.
+// docs/theory/published_values.md 2.1, closed forms 2 to 4.
 TEST(ForceForms, SingleCoilByShiftingAllCurrents) {
   const RedistributionProblem healthy = Rig();
   const DistributionMatrix mmf = healthy.sign.asDiagonal() * HealthyDistribution(healthy);

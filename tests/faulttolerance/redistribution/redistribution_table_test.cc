@@ -67,7 +67,7 @@ TEST(BearingSymmetry, MappedDistributionSolvesTheMappedSet) {
   }
 }
 
-/// facts.md 1.4: the algebraic classes of all 255 sets.
+/// docs/theory/published_values.md 2.2: the algebraic classes of all 255 sets.
 TEST(RedistributionTable, CountsOfAllSets) {
   for (const char* winding : {"NSNSNSNS", "NNSSNNSS"}) {
     DistributionOptions few;  // the classes do not depend on it

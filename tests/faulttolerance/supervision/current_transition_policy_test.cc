@@ -17,7 +17,8 @@ struct Way {
   Eigen::Vector2d force;
 };
 
-/// One open coil of the reference bearing: W - 1 W_f (facts.md 1.3) under a force of 12 N.
+/// One open coil of the reference bearing: W - 1 W_f (published_values.md 2.1) under a force of 12
+/// N.
 Way CoilOneOpens() {
   Way w;
   TransitionStart& s = w.start;
@@ -70,7 +71,7 @@ TEST(CurrentTransition, EveryPolicyArrivesAndThenHandsThrough) {
 TEST(CurrentTransition, NoCoilOfTheRampGoesFasterThanItsVoltageAllows) {
   const Way w = CoilOneOpens();
   const Coils step = RampStep(w.start);
-  EXPECT_NEAR(step[1], 24 * 80e-6 / 1.75e-3, 1e-3);  // physics.md: 1.75 mH
+  EXPECT_NEAR(step[1], 24 * 80e-6 / 1.75e-3, 1e-3);  // docs/theory/base_model.md: 1.75 mH
   for (const char* name : {"ramp", "bias-first", "force-preserving"}) {
     const auto policy = MakeCurrentTransition(name, w.start);
     SetPointVector last = w.start.now;

@@ -13,7 +13,7 @@
 namespace ambrig {
 namespace {
 
-// shared/design/rig.toml.
+// examples/reference/rig.toml.
 constexpr const char* kRig = R"(
 name = "reference"
 gravity = [0.0, -9.81, 0.0]

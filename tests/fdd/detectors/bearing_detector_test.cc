@@ -45,8 +45,9 @@ TEST(PeriodSlopes, HealthyCoilsObeyTheirEquationsOffCentreAndMoving) {
 }
 
 TEST(PeriodSlopes, OneOpenCoilMovesAllSlopesButOnlyItsOwnResidual) {
-  // facts.md trap 2. With m_k = s_k di_k/dt, L0 (m_k - Σm/8) + L_l m_k = s_k v and m_j = 0 the
-  // slopes of the others change by -+(L0/8)/(L0/8 + L_l): 56 % for L_l = 0.1 L0, 36 % for this rig.
+  // published_values.md 1.2. With m_k = s_k di_k/dt, L0 (m_k - Σm/8) + L_l m_k = s_k v and m_j = 0
+  // the slopes of the others change by -+(L0/8)/(L0/8 + L_l): 56 % for L_l = 0.1 L0, 36 % for this
+  // rig.
   Bench healthy, broken;
   healthy.x0 = healthy.y0 = broken.x0 = broken.y0 = 0;
   healthy.Run();  // settle at the centre

@@ -32,7 +32,7 @@ TEST(Glrt, IsTheLargestOverAllTimesOfChange) {
   }
 }
 
-// facts.md section 6: P(g > h) = erfc(sqrt h) for one channel; two channels: e^-h.
+// docs/theory/published_values.md 8: P(g > h) = erfc(sqrt h) for one channel; two channels: e^-h.
 TEST(Glrt, FalseAlarmsOfOneWindowAreChiSquare) {
   constexpr int kSamples = 400000, kBlock = 500;
   for (int channels : {1, 2})

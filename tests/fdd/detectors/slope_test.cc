@@ -1,4 +1,4 @@
-// The seed paper's detector against the paper's own numbers.
+// The detector of [loadcurrentslope] against the numbers of that paper.
 #include "fdd/detectors/slope.h"
 
 #include <gtest/gtest.h>
@@ -67,7 +67,7 @@ SlopeConverter FineConverter() {
 
 TEST(PaperSlope, Equation9GivesThePublishedRange) {
   SlopeCircuit c;
-  c.switch_drop = 0.125;  // 2 U_s = 0.25 V, facts.md section 0
+  c.switch_drop = 0.125;  // 2 U_s = 0.25 V, docs/theory/published_values.md 1
   const SlopeRange range = IncreasingRange(c, 0.5);
   EXPECT_NEAR(range.low, 16761, 0.5);
   EXPECT_NEAR(range.high, 16857, 0.5);
@@ -116,7 +116,7 @@ TEST(PaperSlope, ErrorBudgetOfSection41) {
   EXPECT_NEAR(IncreasingSlope(shifted, 0.5) - k, 570, 2);  // 1 V of bus pumping
   shifted = c;
   shifted.inductance -= 0.011e-3;
-  const double by_gap = IncreasingSlope(shifted, 0.5) - k;  // facts.md: 106, the paper: 120
+  const double by_gap = IncreasingSlope(shifted, 0.5) - k;  // computed 106, published 120
   EXPECT_GT(by_gap, 100);
   EXPECT_LT(by_gap, 120);
 }

@@ -15,7 +15,8 @@ using namespace testing_bench;
 
 constexpr double kModelError = 0.15;  // [V] of the equations themselves at these speeds
 
-/// Largest |e| over all coils and phases, and whether every one is within what the uncertainty allows.
+/// Largest |e| over all coils and phases, and whether every one is within what the uncertainty
+/// allows.
 struct Seen {
   double largest = 0, largest_bound = 0;
   bool within = true;

@@ -10,7 +10,8 @@
 namespace ambrig {
 namespace {
 
-constexpr AuxiliaryParameters kReference = {2e-4, 2e7, 1.0, 0.5, 0.15};  // shared/design/rig.toml
+// Auxiliary bearing of examples/reference/rig.toml.
+constexpr AuxiliaryParameters kReference = {2e-4, 2e7, 1.0, 0.5, 0.15};
 constexpr double kJournal = 0.03;
 
 TEST(AuxiliaryBearing, NothingInsideTheClearance) {

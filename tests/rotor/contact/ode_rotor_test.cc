@@ -83,7 +83,7 @@ TEST(OdeRotor, ReboundsWithTheRestitutionOfTheLaw) {
 }
 
 TEST(Restitution, HasTheKnownValues) {
-  // facts.md section 4: Hunt and Crossley's factor 1.5 (1 - e)/v gives other than nominal e.
+  // published_values.md 5: Hunt and Crossley's factor 1.5 (1 - e)/v gives other than nominal e.
   EXPECT_NEAR(Restitution(1.5 * 0.1 / 0.06, 0.06), 0.90902, 5e-6);
   EXPECT_NEAR(Restitution(1.5 * 0.24 / 0.06, 0.06), 0.80573, 5e-6);
   EXPECT_NEAR(Restitution(1.5 * 0.5 / 0.06, 0.06), 0.66296, 5e-6);

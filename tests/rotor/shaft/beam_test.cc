@@ -199,7 +199,7 @@ TEST(BeamMatrices, RigidMotionsGiveTheTotals) {
   EXPECT_NEAR(shift.dot(lumped.M * tilt), 0, 1e-10 * t.mass);
 }
 
-// physics.md section 1: a free spinning body nutates forward with (Ip/It) Omega.
+// docs/theory/base_model.md section 1: a free spinning body nutates forward with (Ip/It) Omega.
 TEST(BeamMatrices, FreeRotorNutatesLikeARigidBody) {
   BeamDefinition d = UniformShaft(0.3, 0.08, 4);
   d.disks = {{0.15, 12.0, 0.05, 0.09, "disk"}};

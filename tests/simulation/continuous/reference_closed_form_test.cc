@@ -12,8 +12,8 @@
 namespace ambrig {
 namespace {
 
-/// One magnet on a bench: 48 V bridge, R 0.5 ohm, L 5 mH, 20 kHz (facts.md 4.3). 20 samples per
-/// period put the edge of duty 0.55 on a sample.
+/// One magnet on a bench: 48 V bridge, R 0.5 ohm, L 5 mH, 20 kHz (published_values.md 6). 20
+/// samples per period put the edge of duty 0.55 on a sample.
 RigParameters BridgeRig() {
   return ReadRigText(R"(
 name = "bridge"

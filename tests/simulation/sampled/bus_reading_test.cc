@@ -1,4 +1,4 @@
-/// The measured bus: what detection is given is what the record holds (formats.md "Record"), noise
+/// The measured bus: what detection is given is what the record holds (files.md "Record"), noise
 /// included.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-/// When a command acts: the clocks of physics.md sections 3 and 4, exact to the period, in all
+/// When a command acts: the clocks of base_model.md sections 3 and 4, exact to the period, in all
 /// three fidelities. A run with a command is compared with the same run without it: the same bits
 /// before.
 #include <gtest/gtest.h>

@@ -89,7 +89,7 @@ INSTANTIATE_TEST_SUITE_P(ContactCrosscheck, HeldOrPulled,
                                          Held{"sensor_loss", true, true, 1e-7},
                                          Held{"switch_stuck_on", true, true, 5e-6}));
 
-// physics.md section 8: in contact at the end of the run. A rotor without magnets that is in the
+// base_model.md section 8: in contact at the end of the run. A rotor without magnets that is in the
 // air of a bounce at the last instant has dropped all the same.
 TEST(ContactCrosscheck, ABouncingRotorHasDroppedWhateverTheNoise) {
   const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/drop_at_0rpm.toml";
