@@ -27,12 +27,14 @@ double In(const TomlTable& t, const char* key, double fallback, double lo, doubl
 }
 
 std::vector<CoilDetectorKind> ReadDetectors(const TomlTable& t) {
-  const auto all = CoilDetectorKinds();
+  std::vector<CoilDetectorKind> all;  // that have a statistic
+  for (const CoilDetectorKind& k : CoilDetectorKinds())
+    if (k.make) all.push_back(k);
   std::string names;
   for (const CoilDetectorKind& k : all)
     names += fmt::format("{}{}", names.empty() ? "" : ", ", k.name);
   std::vector<CoilDetectorKind> out;
-  if (!t.Has("detectors")) return {all.begin(), all.end()};
+  if (!t.Has("detectors")) return all;
   for (const std::string& name : t.Strings("detectors")) {
     const auto it = std::find_if(all.begin(), all.end(),
                                  [&](const CoilDetectorKind& k) { return k.name == name; });

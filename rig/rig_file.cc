@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/base/read_file.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_rotor.h"
 
@@ -223,6 +224,17 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
   if (thrust > 1) all->Fail("", "at most one thrust bearing");
 }
 
+void ReadDetection(const TomlTable& root, DetectionParameters& d) {
+  const auto t = root.Table("detection");
+  if (!t) return;
+  d.kind = t->String("kind", d.kind);
+  d.where = t->Where("kind");
+  t->Read(d, kDetectionFields);
+  d.commissioning = t->String("commissioning", "");
+  if (!d.commissioning.empty()) d.commissioning = Beside(root.file(), d.commissioning);
+  t->RejectUnknownKeys();
+}
+
 RigParameters Read(const TomlTable& root) {
   RigParameters rig;
   rig.file = root.file();
@@ -242,6 +254,7 @@ RigParameters Read(const TomlTable& root) {
   PlaceOnShaft(root, rig);
   ReadController(controller, rig);
   ReadOtherControllers(root, rig);
+  ReadDetection(root, rig.detection);
   const EffectTargets known = TargetsOfEffects(rig);
   for (const TomlTable& t : root.Tables("effect")) rig.effects.push_back(ReadEffect(t, known));
   root.RejectUnknownKeys();

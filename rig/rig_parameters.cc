@@ -159,6 +159,7 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[bearings.A.sensor]", kSensorFields);
   add("[bearings.A.auxiliary]", kAuxiliaryFields);
   add("[bearings.A.controller]", kPidFields);
+  add("[detection]", kDetectionFields);
   return rows;
 }
 

@@ -13,6 +13,7 @@
 #include "control/position/controller_file.h"
 #include "core/base/toml.h"
 #include "effects/effect.h"
+#include "rig/detection_parameters.h"
 #include "rotor/contact/auxiliary_bearing.h"
 #include "rotor/motion/position_sensor.h"
 #include "rotor/motion/rotor_model.h"
@@ -86,6 +87,7 @@ struct RigParameters {
   // [controllers.NAME], for changing over in a run
   std::vector<ControllerParameters> other_controllers;
   std::vector<BearingParameters> bearings;
+  DetectionParameters detection;
   std::vector<EffectInstance> effects;
   std::vector<Tolerance> tolerances;
 

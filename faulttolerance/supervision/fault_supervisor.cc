@@ -58,7 +58,7 @@ std::string CoilName(const std::string& bearing, int coil) {
 struct FaultSupervisor::Watched {
   const BearingParameters* bearing = nullptr;
   std::size_t index = 0;
-  std::unique_ptr<BearingDetector> detector;
+  std::unique_ptr<RunDetector> detector;
   std::unique_ptr<RedistributionTable> table;
   Coils turns_left = Coils::Ones();
   int alarmed = -1;  // coil that the alarm was raised for
@@ -76,17 +76,13 @@ FaultSupervisor::FaultSupervisor(const RigParameters& nominal,
     auto w = std::make_unique<Watched>();
     w->bearing = &b;
     w->index = watched_.size();
-    const LinkageModel model = LinkageModelOf(b);
-    w->detector = std::make_unique<BearingDetector>(model, DetectorSettingsOf(rig_, b, model));
+    w->detector =
+        MakeRunDetector(rig_.detection.kind, rig_.detection.where, RunDetectorSetupOf(rig_, b));
     watched_.push_back(std::move(w));
   }
 }
 
 FaultSupervisor::~FaultSupervisor() = default;
-
-const BearingDetector& FaultSupervisor::detector(std::size_t bearing) const {
-  return *watched_[bearing]->detector;
-}
 
 void FaultSupervisor::WatchBus(double t, double reading, std::vector<RunEvent>& events) {
   const double nominal = rig_.amplifier.bus_voltage;
@@ -123,8 +119,9 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
                                    std::vector<BearingControl>& control,
                                    std::vector<RunEvent>& events) {
   Watched& w = *watched_[k];
-  const MeasuredPeriod in = feed_.Period(k, m);
-  const BearingDetector::Alarm alarm = w.detector->Period(in);
+  MeasuredPeriod in = feed_.Period(k, m);
+  in.set_point = &control[k].commanded;
+  const DetectorAlarm alarm = w.detector->Period(in);
   coil_periods_ += w.bearing->coils();
   if (alarm.coil < 0) return;
   const double t = m.t + T_;
@@ -152,7 +149,7 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
     events.push_back(
         {t, "classified", CoilName(w.bearing->name, d.coil), ToText(d.cls), d.fraction});
   }
-  if (!options_.redistribute) return;
+  if (!options_.redistribute || w.detector->doubtful()) return;
   Disable(w, alarm.diagnosis, control[k]);
   for (const Diagnosis& d : alarm.more) Disable(w, d, control[k]);
   // Set-points that come from outside are not spread over other coils.
@@ -263,8 +260,12 @@ void FaultSupervisor::TraceSlopes(double t) {
   row.t = t;
   for (const auto& w : watched_) {
     std::array<Lane, 3> lanes{};
-    for (int j = 0; j < w->bearing->coils(); ++j)
-      w->detector->Band(j, &lanes[0][j], &lanes[1][j], &lanes[2][j]);
+    for (int j = 0; j < w->bearing->coils(); ++j) {
+      const SlopeBand band = w->detector->Band(j);
+      lanes[0][j] = band.slope;
+      lanes[1][j] = band.expected;
+      lanes[2][j] = band.half_width;
+    }
     row.bearings.push_back(lanes);
   }
   rows_.push_back(std::move(row));

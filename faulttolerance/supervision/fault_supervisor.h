@@ -1,6 +1,6 @@
 #pragma once
-/// Fault tolerance of a rig at run time: one detector per bearing (fdd/), built from the nominal
-/// rig, then redistribution of the currents (faulttolerance/) over the coils that are left.
+/// Fault tolerance of a rig at run time: one detector per bearing, that of the rig's [detection]
+/// (fdd/detectors/run_detector.h), built from the nominal rig, then redistribution of the currents (faulttolerance/) over the coils that are left.
 ///
 /// After a diagnosis of a coil fault, in the same period:
 ///   - a lost coil (open, amplifier, switch, sensor) is disabled; a partial short keeps 1 - s turns
@@ -15,7 +15,7 @@
 #include "faulttolerance/redistribution/redistribution_table.h"
 #include "faulttolerance/supervision/current_transition_policy.h"
 #include "faulttolerance/supervision/supervisor.h"
-#include "fdd/detectors/bearing_detector.h"
+#include "fdd/detectors/run_detector.h"
 #include "fdd/measurement/detection_feed.h"
 #include "rig/rig_parameters.h"
 
@@ -45,7 +45,6 @@ class FaultSupervisor : public Supervisor {
   void Finish(RunResult& result) override;
 
   double coil_periods() const { return coil_periods_; }
-  const BearingDetector& detector(std::size_t bearing) const;
 
  private:
   struct Watched;

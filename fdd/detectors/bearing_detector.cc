@@ -108,11 +108,40 @@ int BearingDetector::StepBetweenPeriods(const Lane& last_linkage, const Lane& la
     most = step / sd;
     largest = j;
   }
-  if (largest >= 0) chart_.G[0][largest] += 2 * s_.threshold;
   return largest;
 }
 
-BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
+BearingDetector::Alarm BearingDetector::Watch(const MeasuredPeriod& in, int stepped,
+                                              const int* flagged) {
+  Alarm out;
+  double most = in.comparable ? chart_.Cusum(s_) : chart_.LargestSum();
+  if (stepped >= 0) {
+    chart_.G[0][stepped] += 2 * s_.threshold;
+    most = chart_.LargestSum();
+  }
+  const bool own_alarm = !s_.watch_only && most > s_.threshold;
+  const bool alarm = flagged ? *flagged >= 0 : own_alarm, calm = in.comparable && most < kCalm;
+  if (calm) calm_at_ = count_;
+  if (calm && count_ % kLearnEvery == 0) learning_.Learn(model_, slopes_, kLearnEvery, &chart_);
+  if (!alarm) return out;
+  alarm_at_ = count_;
+  bool clear = false;
+  if (flagged) {
+    suspect_ = *flagged;
+    clear = true;
+  } else {
+    suspect_ = Suspect(LastPeriods(2), &clear);
+    if (stepped >= 0 && !clear) {
+      suspect_ = stepped;
+      clear = true;
+    }
+  }
+  raised_ = out.raised = clear;
+  out.coil = clear ? suspect_ : -1;
+  return out;
+}
+
+BearingDetector::Alarm BearingDetector::Next(const MeasuredPeriod& measured, const int* flagged) {
   Alarm out;
   Keep(measured);
   MaskFaultyCurrentReadings();
@@ -120,34 +149,16 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
   const Lane last_linkage = slopes_.last, last_voltage = slopes_.after;
   Residuals(in);
   const bool follows = follows_;
-  const bool comparable = in.comparable && slopes_.permeance.largest * kClosestGap < centred_;
-  in.comparable = comparable;
-  follows_ = comparable && !any_unknown_;
+  in.comparable = in.comparable && slopes_.permeance.largest * kClosestGap < centred_;
+  follows_ = in.comparable && !any_unknown_;
   if (paused_ > 0) {
     --paused_;
-    if (comparable && chart_.LargestResidual() < kCalmResidual) calm_at_ = count_;
+    if (in.comparable && chart_.LargestResidual() < kCalmResidual) calm_at_ = count_;
     return out;
   }
   if (alarm_at_ < 0) {
-    double most = comparable ? chart_.Cusum(s_) : chart_.LargestSum();
-    int stepped = -1;
-    if (comparable && follows && !any_unknown_)
-      stepped = StepBetweenPeriods(last_linkage, last_voltage, in);
-    if (stepped >= 0) most = chart_.LargestSum();
-    const bool alarm = !s_.watch_only && most > s_.threshold, calm = comparable && most < kCalm;
-    if (calm) calm_at_ = count_;
-    if (calm && count_ % kLearnEvery == 0) learning_.Learn(model_, slopes_, kLearnEvery, &chart_);
-    if (!alarm) return out;
-    alarm_at_ = count_;
-    bool clear = false;
-    suspect_ = Suspect(LastPeriods(2), &clear);
-    if (stepped >= 0 && !clear) {
-      suspect_ = stepped;
-      clear = true;
-    }
-    raised_ = out.raised = clear;
-    out.coil = clear ? suspect_ : -1;
-    return out;
+    const bool steps = in.comparable && follows && !any_unknown_;
+    return Watch(in, steps ? StepBetweenPeriods(last_linkage, last_voltage, in) : -1, flagged);
   }
   out.more = ExamineTogether();
   const Diagnosis d = out.more.empty() ? Examine() : out.more.front();
@@ -173,13 +184,12 @@ BearingDetector::Alarm BearingDetector::Period(const MeasuredPeriod& measured) {
   return out;
 }
 
-void BearingDetector::Band(int coil, double* slope, double* expected, double* half_width) const {
+SlopeBand BearingDetector::Band(int coil) const {
   const bool radial = model_.coupling == Coupling::kFloatingRotor;
   const double own =
       model_.SelfInductance(coil, slopes_.permeance.middle, radial ? slopes_.permeance.total : 1);
-  *slope = slopes_.phase[0].current[coil];
-  *expected = *slope - chart_.e[0][coil] / own;
-  *half_width = 4 * chart_.sd[0][coil] / own;
+  const double slope = slopes_.phase[0].current[coil];
+  return {slope, slope - chart_.e[0][coil] / own, 4 * chart_.sd[0][coil] / own};
 }
 
 }  // namespace ambrig

@@ -23,42 +23,43 @@
 /// A coil with a false sensor carries nothing once its bridge has been kept off for 1 ms: its MMF
 /// is known again, and its reading is taken as zero, also when a second fault is examined.
 ///
+/// Another detector may watch instead (examined_detector.h): then its flags raise the alarm, and the
+/// sums serve to tell when the bearing was healthy last.
+///
 /// A residual counts only where its equation holds: at least 4 samples in the phase, no current at
 /// zero in the off phase (diodes block), no clipped ADC, a known bus and position, no gap nearly
 /// closed.
 #include <array>
 #include <vector>
 
-#include "fdd/detectors/kept_period.h"
-#include "fdd/diagnosis.h"
+#include "fdd/detectors/run_detector.h"
 #include "fdd/learning/model_learning.h"
 
 namespace ambrig {
 
-class BearingDetector {
+class BearingDetector : public RunDetector {
  public:
   enum class Coil { kHealthy, kLost, kShort, kUnknownMmf };
-  struct Alarm {
-    bool raised = false;  // in this period, for `coil`
-    bool cleared = false;
-    int coil = -1;
-    Diagnosis diagnosis;          // cls other than kNone: decided in this period
-    std::vector<Diagnosis> more;  // of other coils, decided together with it
-  };
+  using Alarm = DetectorAlarm;
 
   BearingDetector(const LinkageModel& model, const DetectorSettings& settings);
 
-  Alarm Period(const MeasuredPeriod& in);
+  Alarm Period(const MeasuredPeriod& in) override { return Next(in, nullptr); }
+  /// The same when another detector watches: `flagged` is the coil that it finds faulty in this
+  /// period, from 0, -1: none.
+  Alarm PeriodWatchedBy(int flagged, const MeasuredPeriod& in) { return Next(in, &flagged); }
   /// Nothing is concluded from the next periods (a switch-over of currents, a start).
   void Pause(int periods) { paused_ = periods; }
 
   /// Expected on-phase slope of a healthy coil given everything else that was measured, and the
   /// half-width of its band [A/s]; from the last period.
-  void Band(int coil, double* slope, double* expected, double* half_width) const;
+  SlopeBand Band(int coil) const override;
   const PeriodSlopes& slopes() const { return slopes_; }
   const Lane& z(int phase) const { return chart_.z[phase]; }
   const ResidualChart& chart() const { return chart_; }
   Coil state(int j) const { return state_[static_cast<std::size_t>(j)]; }
+  /// Nominal circuit with the faults that were diagnosed so far.
+  const LinkageModel& model() const { return model_; }
   double leakage_error() const { return learning_.known().leakage; }  // learned [H]
   double gap_error() const { return learning_.known().gap; }          // learned, relative
 
@@ -66,6 +67,10 @@ class BearingDetector {
   static constexpr int kRing = 20;                // periods kept
   static constexpr int kLongestExamination = 12;  // [periods]
 
+  /// `flagged`: nullptr where the sums of the chart raise the alarm.
+  Alarm Next(const MeasuredPeriod& measured, const int* flagged);
+  /// While nothing is examined: whether this period raises the alarm, and for which coil.
+  Alarm Watch(const MeasuredPeriod& in, int stepped, const int* flagged);
   void Residuals(const MeasuredPeriod& in);
   /// By how much the rotor's potential may be wrong for coils of unknown MMF [A turns].
   double UnknownPotential() const;

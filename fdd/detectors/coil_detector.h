@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-#include "fdd/detectors/bearing_detector.h"
+#include "fdd/detectors/run_detector.h"
 
 namespace ambrig {
 
@@ -17,17 +17,18 @@ class CoilDetector {
   virtual Lane Period(const MeasuredPeriod& in) = 0;
 };
 
-/// A bearing as the controller knows it: nominal circuit, sampling, noise and the maker's
-/// tolerances.
-struct CoilDetectorSetup {
-  LinkageModel model;
-  DetectorSettings settings;
-};
-
+/// One row of detector_catalogue.cc.
 struct CoilDetectorKind {
   std::string_view name, unit, doc;
   double threshold;  // that its source or its code uses; nan: none
+  /// Of its statistic in a run where the rig file names none: the lowest one with at most 1e-4
+  /// false alarms per coil and 10 ms in scenarios/studies/detectors.toml (docs/guide/detectors.md).
+  double run_threshold;
+  /// Its statistic, for studies and for runs; nullptr: it has none.
   std::unique_ptr<CoilDetector> (*make)(const CoilDetectorSetup& setup);
+  /// Of a detector that classifies by itself; nullptr: its alarms are examined
+  /// (examined_detector.h).
+  std::unique_ptr<RunDetector> (*make_run)(const RunDetectorSetup& setup) = nullptr;
 };
 
 /// All of them, see detector_catalogue.cc.

@@ -78,6 +78,16 @@ DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParam
   return s;
 }
 
+RunDetectorSetup RunDetectorSetupOf(const RigParameters& rig, const BearingParameters& b) {
+  RunDetectorSetup s;
+  s.model = LinkageModelOf(b);
+  s.settings = DetectorSettingsOf(rig, b, s.model);
+  s.bearing = b.name;
+  s.threshold = rig.detection.threshold;
+  s.commissioning = rig.detection.commissioning;
+  return s;
+}
+
 DetectionFeed::DetectionFeed(const RigParameters& nominal)
     : rig_(nominal),
       T_(1 / nominal.amplifier.switching_frequency),

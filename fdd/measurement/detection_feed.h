@@ -7,7 +7,7 @@
 /// only, and for as long as the parabola holds readings from before. How far the last readings
 /// departed from the parabola counts too.
 #include "control/measurements.h"
-#include "fdd/detectors/bearing_detector.h"
+#include "fdd/detectors/run_detector.h"
 #include "fdd/measurement/position_monitor.h"
 #include "rig/rig_parameters.h"
 
@@ -18,6 +18,9 @@ LinkageModel LinkageModelOf(const BearingParameters& b);
 /// Sampling, noise and tolerances as the rig file gives them; `rig` must outlive them.
 DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b,
                                     const LinkageModel& m);
+
+/// All that a detector of a run is told of the bearing beforehand; `rig` must outlive it.
+RunDetectorSetup RunDetectorSetupOf(const RigParameters& rig, const BearingParameters& b);
 
 class DetectionFeed {
  public:

@@ -95,14 +95,13 @@ TEST(PeriodSlopes, ExpectedSlopeOfAnOpenCoilIsTheHealthyOne) {
   s.sampling = bench.Sampling();
   BearingDetector detector(MakeLinkageModel(Reference()), s);
   detector.Period(bench.Run());
-  double slope = 0, expected = 0, width = 0;
-  detector.Band(1, &slope, &expected, &width);
-  EXPECT_NEAR(slope, expected, width);
+  const SlopeBand healthy = detector.Band(1);
+  EXPECT_NEAR(healthy.slope, healthy.expected, healthy.half_width);
   bench.lanes.Break(1, bench.x0, bench.y0);
   detector.Period(bench.Run());
-  detector.Band(1, &slope, &expected, &width);
-  EXPECT_NEAR(slope, 0, 1);
-  EXPECT_GT(expected - slope, 2 * width);
+  const SlopeBand open = detector.Band(1);
+  EXPECT_NEAR(open.slope, 0, 1);
+  EXPECT_GT(open.expected - open.slope, 2 * open.half_width);
 }
 
 TEST(PositionMonitor, FollowsAParabolaExactly) {

@@ -1,0 +1,23 @@
+#pragma once
+/// [detection] of a rig file: which detector of coil faults watches the rig in a run. The names of
+/// the detectors are those of fdd/detectors/detector_catalogue.cc, which checks `kind` when a run
+/// begins.
+#include <string>
+
+#include "core/base/parameters.h"
+
+namespace ambrig {
+
+struct DetectionParameters {
+  std::string kind = "coupled";
+  double threshold = 0;       // of the detector's statistic; 0: the catalogue's
+  std::string commissioning;  // file of a commissioned detector, beside the rig file; may be empty
+  std::string where = "detection.kind";  // "file:line: detection.kind", for errors
+};
+
+inline constexpr Field<DetectionParameters> kDetectionFields[] = {
+    {"threshold", &DetectionParameters::threshold, "-", 0, 1e9,
+     "of the detector's statistic, in its unit; 0: that of docs/guide/detectors.md"},
+};
+
+}  // namespace ambrig
