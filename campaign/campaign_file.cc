@@ -12,6 +12,7 @@
 #include "core/base/read_file.h"
 #include "faulttolerance/redistribution/redistribution_table.h"
 #include "rig/rig_file.h"
+#include "scenarios/faults/fault_file.h"
 
 namespace ambrig {
 
@@ -100,7 +101,7 @@ std::vector<std::string> Bearings(const TomlTable& t, const RigParameters& rig) 
 CampaignFaultKind ReadKind(const TomlTable& t) {
   constexpr FaultTarget kCoil[] = {FaultTarget::kCoil};
   CampaignFaultKind k;
-  k.kind = ReadFaultKind(t, FaultKindNames(kCoil), &k.parameters).kind;
+  k.kind = ReadFault(t, FaultKindNames(kCoil), &k.parameters).kind;
   k.label = k.kind;
   for (const auto& [key, value] : k.parameters) k.label += fmt::format(" {}={}", key, value);
   t.RejectUnknownKeys();

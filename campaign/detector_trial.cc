@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "simulation/sampled/fault_effects.h"
+#include "scenarios/faults/faulted_plant.h"
 
 namespace ambrig {
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/base/counted.h"
+#include "scenarios/faults/fault.h"
 #include "simulation/simulate.h"
 
 namespace ambrig {
@@ -42,7 +43,7 @@ Faults CountFaults(const Scenario& s, const RunResult& r) {
     std::string last;
     for (const RunEvent& e : r.events)
       if (matches(e, "classified")) last = e.fault_class;
-    n.right_class += last == f.kind ? 1 : 0;
+    n.right_class += last == FaultByKind(f.kind).seen_as ? 1 : 0;
   }
   return n;
 }

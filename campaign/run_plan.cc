@@ -6,6 +6,7 @@
 #include "core/math/constants.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "rig/rig_assembly.h"
+#include "scenarios/faults/fault.h"
 
 namespace ambrig {
 
@@ -18,7 +19,10 @@ constexpr double kPositionReached = 0.75;                // of the time up to th
 
 /// Turns of a coil that the controller can still use after the fault. [-]
 double TurnsLeft(const CampaignFaultKind& k) {
-  return k.kind == "partial-short" ? 1 - k.parameters.at("fraction") : 0;
+  const Fault& fault = FaultByKind(k.kind);
+  FaultSpec spec;
+  spec.parameters = k.parameters;
+  return fault.turns_left ? fault.turns_left(spec) : 0;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "scenarios/scenario.h"
 #include "core/base/counted.h"
+#include "scenarios/faults/fault_file.h"
 
 #include <fmt/format.h>
 
@@ -154,7 +155,7 @@ void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
     if (!(f.time >= 0 && f.time < s.duration))
       t.Fail("time",
              fmt::format("= {} s, allowed: 0 to below the duration of {} s", f.time, s.duration));
-    const FaultKind& kind = ReadFaultKind(t, FaultKindNames(kAll), &f.parameters);
+    const Fault& kind = ReadFault(t, FaultKindNames(kAll), &f.parameters);
     f.kind = kind.kind;
     f.target = t.String("target", kind.target == FaultTarget::kRig ? "rig" : "");
     const std::vector<std::string> allowed = kind.target == FaultTarget::kCoil ? targets.coils
@@ -207,7 +208,7 @@ void ReadExpect(const TomlTable& root, Scenario& s) {
   flag("touchdown", s.expect.touchdown);
   flag("drop", s.expect.drop);
   flag("redistributed", s.expect.redistributed);
-  if (t->Has("classified")) s.expect.classified = t->Choice("classified", "", FaultKindNames(kAll));
+  if (t->Has("classified")) s.expect.classified = t->Choice("classified", "", FaultClassNames());
   t->RejectUnknownKeys();
 }
 

@@ -15,7 +15,7 @@ MAY_INCLUDE = {
     "rig": "core actuators rotor control effects",
     "fdd": "core actuators control rig",
     "faulttolerance": "core actuators control rig fdd",
-    "scenarios": "core rig faulttolerance",
+    "scenarios": "core effects rig faulttolerance",
     "analysis/linear": "core actuators rotor control rig",
     "simulation": "core actuators rotor control effects rig fdd faulttolerance scenarios analysis/linear",
     "analysis": "core actuators rotor control effects rig faulttolerance simulation scenarios analysis/linear",

@@ -5,7 +5,7 @@
 #include "app/commands/commands.h"
 #include "app/pages/html.h"
 #include "rig/rig_parameters.h"
-#include "scenarios/faults/fault_spec.h"
+#include "scenarios/faults/fault.h"
 
 namespace ambrig {
 
@@ -27,6 +27,25 @@ const char* TargetText(FaultTarget target) {
   return "";
 }
 
+/// "the coil detector, as open".
+std::string ObserverText(const Fault& fault) {
+  const char* who = "";
+  switch (fault.observer) {
+    case FaultObserver::kNobody:
+      return "nobody";
+    case FaultObserver::kCoilDetector:
+      who = "the coil detector";
+      break;
+    case FaultObserver::kPositionMonitor:
+      who = "the position monitor";
+      break;
+    case FaultObserver::kBusMonitor:
+      who = "the bus monitor";
+      break;
+  }
+  return fmt::format("{}, as {}", who, fault.seen_as);
+}
+
 std::vector<Line> RigLines() {
   std::vector<Line> lines;
   for (const ParameterRow& r : RigParameterRows())
@@ -38,18 +57,18 @@ std::vector<Line> RigLines() {
 
 std::vector<Line> FaultLines() {
   std::vector<Line> lines;
-  for (const FaultKind& k : FaultKinds()) {
-    const std::string section = fmt::format("[[fault]] kind = \"{}\"", k.kind);
-    lines.push_back(
-        {section, "", "", "", "", fmt::format("Target: {}; {}", TargetText(k.target), k.doc)});
-    for (const FaultParameter& p : FaultParameters())
-      if (p.kind == k.kind)
-        lines.push_back(
-            {section, fmt::format("parameters.{}", p.key), std::string(p.unit), "",
-             p.flag ? "true, false"
-                    : fmt::format("{}{:g} to {}{:g}", p.ends_allowed ? "" : "above ", p.lo,
-                                  p.ends_allowed || std::isinf(p.hi) ? "" : "below ", p.hi),
-             std::string(p.doc)});
+  for (const Fault* fault : Faults()) {
+    const std::string section = fmt::format("[[fault]] kind = \"{}\"", fault->kind);
+    lines.push_back({section, "", "", "", "",
+                     fmt::format("Target: {}; {}. Seen by: {}", TargetText(fault->target),
+                                 fault->doc, ObserverText(*fault))});
+    for (const FaultParameter& p : fault->parameters)
+      lines.push_back({section, fmt::format("parameters.{}", p.key), std::string(p.unit), "",
+                       p.flag
+                           ? "true, false"
+                           : fmt::format("{}{:g} to {}{:g}", p.ends_allowed ? "" : "above ", p.lo,
+                                         p.ends_allowed || std::isinf(p.hi) ? "" : "below ", p.hi),
+                       std::string(p.doc)});
   }
   return lines;
 }

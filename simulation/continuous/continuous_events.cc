@@ -166,19 +166,21 @@ void ContinuousRig::HandleRoots(const std::vector<int>& roots) {
   restart_ = true;  // contacts change their law by themselves
 }
 
-void ContinuousRig::InjectCoil(std::size_t k, int coil, const FaultSpec& fault) {
+void ContinuousRig::BreakCoil(std::size_t k, int coil) {
+  bearings_[k].network.Break(coil);
+  Refresh();
+  restart_ = true;
+}
+
+void ContinuousRig::ShortTurns(std::size_t k, int coil, double share, double resistance) {
   Bearing& b = bearings_[k];
-  if (fault.kind == "open") {
-    b.network.Break(coil);
-  } else if (fault.kind == "partial-short" && !b.network.windings[U(coil)].broken) {
-    const double s = fault.Get("fraction", 0), r = fault.Get("short_resistance", kInfinity);
-    int loop = -1;
-    if (std::isfinite(r)) {
-      loop = b.loops.front();
-      b.loops.erase(b.loops.begin());
-    }
-    b.network.Short(coil, loop, s, r, now_[k], y_.data() + b.at);
+  int loop = -1;
+  if (std::isfinite(resistance)) {
+    loop = b.loops.front();
+    b.loops.erase(b.loops.begin());
   }
+  if (!b.network.windings[U(coil)].broken)
+    b.network.Short(coil, loop, share, resistance, now_[k], y_.data() + b.at);
   Refresh();
   restart_ = true;
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/faults/fault.h"
+
 namespace ambrig {
 
 namespace {
@@ -30,9 +32,8 @@ ContinuousRig::ContinuousRig(SampledRig& rig, const IntegratorOptions& options) 
     bearings_.emplace_back(rig.plant.bearings[k].lanes);
     const std::string prefix = rig.plant.bearings[k].name + ".coil";
     for (const FaultSpec& f : rig.scenario.faults) {
-      if (f.kind != "partial-short" || !f.target.starts_with(prefix) ||
-          !std::isfinite(f.Get("short_resistance", kInfinity)))
-        continue;
+      const Fault& fault = FaultByKind(f.kind);
+      if (!f.target.starts_with(prefix) || !fault.adds_winding || !fault.adds_winding(f)) continue;
       CoilNetwork& network = bearings_.back().network;
       if (network.windings.size() == kMaxWindings)
         throw InputError(fmt::format(

@@ -52,8 +52,10 @@ class ContinuousRig {
   void SetVoltage(std::size_t b, int j, double volts, bool driven);
   /// Integrates to local time tau [s], handling every event on the way.
   void AdvanceTo(double tau);
-  /// Puts a coil fault into the network.
-  void InjectCoil(std::size_t b, int coil, const FaultSpec& fault);
+  // Faults of a coil's circuit.
+  void BreakCoil(std::size_t b, int coil);
+  /// A share of the coil's turns, closed by `resistance` [ohm]; infinite: bypassed.
+  void ShortTurns(std::size_t b, int coil, double share, double resistance);
   /// Copies motion and mean forces back to the sampled side.
   void EndPeriod();
 
@@ -73,7 +75,7 @@ class ContinuousRig {
     std::size_t force_at = 0, charge_at = 0;
     std::array<double, kLanes> volts{};
     std::array<bool, kLanes> driven{};
-    std::vector<int> loops;  // per partial short of the scenario, in its order
+    std::vector<int> loops;  // per fault of the scenario that adds a winding, in its order
     explicit Bearing(const StatorLanes& lanes) : network(lanes) {}
   };
   void LayOut();

@@ -2,12 +2,35 @@
 
 #include <cmath>
 
-#include "simulation/sampled/fault_effects.h"
+#include "scenarios/faults/faulted_plant.h"
 
 namespace ambrig {
 
 namespace {
+
 constexpr double kSame = 1e-10;  // [s] two instants that are one
+
+/// The coils as networks of windings (actuators/magnetics/coil_network.h).
+class FaultedNetwork : public FaultedPlant {
+ public:
+  FaultedNetwork(SampledRig& rig, ContinuousRig& plant, const FaultPlace& place)
+      : FaultedPlant(rig.plant, place, rig.rig.amplifier.bus_voltage), rig_(plant) {}
+
+  double Current() const override { return rig_.Current(place_.bearing, place_.coil); }
+  void BreakCoil() override { rig_.BreakCoil(place_.bearing, place_.coil); }
+  void ShortTurns(double fraction, double resistance) override {
+    rig_.ShortTurns(place_.bearing, place_.coil, fraction, resistance);
+  }
+
+ private:
+  ContinuousRig& rig_;
+};
+
+/// Whether voltages must be set again.
+bool VoltagesChanged(const FaultedPlant& plant) {
+  return plant.bridge_changed() || plant.bus_changed();
+}
+
 }  // namespace
 
 FaultInjection::FaultInjection(SampledRig& rig, ContinuousRig& plant, RunResult& result)
@@ -26,9 +49,10 @@ void FaultInjection::Instants(long long n, std::vector<double>& out) const {
   for (std::size_t k = next_; k < rig_.scenario.faults.size(); ++k) {
     const FaultSpec& f = rig_.scenario.faults[k];
     add(Snapped(f));
-    if (f.kind == "bus-sag") add(f.time + f.Get("duration", kInfinity));
+    const Fault& fault = FaultByKind(f.kind);
+    if (fault.duration) add(f.time + fault.duration(f));
   }
-  add(bus_back_at_);
+  add(ends_.next());
 }
 
 bool FaultInjection::Due(long long n, double tau) {
@@ -37,28 +61,22 @@ bool FaultInjection::Due(long long n, double tau) {
   bool changed = false;
   while (next_ < rig_.scenario.faults.size() && Snapped(rig_.scenario.faults[next_]) <= t + kSame)
     changed = Inject(rig_.scenario.faults[next_++]) || changed;
-  if (bus_back_at_ <= t + kSame) {
-    rig_.plant.bus.source = rig_.plant.bus.voltage = rig_.rig.amplifier.bus_voltage;
-    bus_back_at_ = kInfinity;
-    changed = true;
+  while (ends_.next() <= t + kSame) {
+    const FaultSpec& spec = ends_.Take();
+    FaultedNetwork plant(rig_, plant_, PlaceOf(spec, rig_.rig));
+    FaultByKind(spec.kind).end(plant);
+    changed = changed || VoltagesChanged(plant);
   }
   return changed;
 }
 
 bool FaultInjection::Inject(const FaultSpec& f) {
   result_.events.push_back({f.time, "fault", f.target, f.kind, f.Get("fraction", 0)});
-  if (f.kind == "bus-sag") {
-    rig_.plant.bus.source = rig_.plant.bus.voltage =
-        f.Get("voltage", 0.8 * rig_.rig.amplifier.bus_voltage);
-    bus_back_at_ = f.time + f.Get("duration", kInfinity);
-    return true;
-  }
-  const FaultPlace place = PlaceOf(f, rig_.rig);
-  const double current = place.coil < 0 ? 0 : plant_.Current(place.bearing, place.coil);
-  const bool bridge = ApplyToPlant(f, place, current, *rig_.bearings[place.bearing].plant);
-  if (f.kind == "open" || f.kind == "partial-short")
-    plant_.InjectCoil(place.bearing, place.coil, f);
-  return bridge;
+  const Fault& fault = FaultByKind(f.kind);
+  FaultedNetwork plant(rig_, plant_, PlaceOf(f, rig_.rig));
+  fault.apply(f, plant);
+  ends_.Add(fault, f);
+  return VoltagesChanged(plant);
 }
 
 }  // namespace ambrig

@@ -3,6 +3,7 @@
 /// (the switching engine's instants). Source: docs/theory/base_model.md section 6.
 #include <vector>
 
+#include "scenarios/faults/fault_ends.h"
 #include "simulation/continuous/continuous_rig.h"
 
 namespace ambrig {
@@ -24,7 +25,7 @@ class FaultInjection {
   ContinuousRig& plant_;
   RunResult& result_;
   std::size_t next_ = 0;
-  double bus_back_at_ = kInfinity;
+  FaultEnds ends_;
 };
 
 }  // namespace ambrig

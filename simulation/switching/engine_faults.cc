@@ -1,47 +1,62 @@
-/// Coil, amplifier and sensor faults of a scenario, put into the plant at their ADC sample.
+/// Faults of a scenario, put into the switching engine's plant at their ADC sample.
 /// Source: docs/theory/base_model.md section 6.
-#include "simulation/sampled/fault_effects.h"
+#include "scenarios/faults/faulted_plant.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
 
-void SwitchingEngine::Inject(const FaultSpec& fault) {
-  Event("fault", fault.target, fault.kind, fault.Get("fraction", 0), fault.time);
-  if (options_.snapshots) Snapshot("before the fault of " + fault.target);
-  if (fault.kind == "bus-sag") {
-    plant_.bus.source = fault.Get("voltage", 0.8 * rig_.amplifier.bus_voltage);
-    if (plant_.bus.stiff()) plant_.bus.voltage = plant_.bus.source;
-    bus_restore_at_ = fault.time + fault.Get("duration", kInfinity);
-    return;
+/// The coils in lanes (actuators/magnetics/stator_lanes.h).
+class SwitchingEngine::FaultedLanes : public FaultedPlant {
+ public:
+  FaultedLanes(SwitchingEngine& engine, const FaultPlace& place)
+      : FaultedPlant(engine.plant_, place, engine.rig_.amplifier.bus_voltage),
+        run_(engine.bearings_[place.bearing]) {}
+
+  double Current() const override { return run_.plant->lanes.i[place_.coil]; }
+  void BreakCoil() override { run_.plant->lanes.Break(place_.coil, run_.x, run_.y); }
+  void ShortTurns(double fraction, double resistance) override {
+    StatorLanes& lanes = run_.plant->lanes;
+    if (lanes.open[static_cast<std::size_t>(place_.coil)]) return;
+    lanes.ShortTurns(place_.coil, fraction, resistance, run_.x, run_.y);
+    run_.plant->base_resistance[place_.coil] *= 1 - fraction;
   }
-  const FaultPlace place = PlaceOf(fault, rig_);
+
+ private:
+  BearingRun& run_;
+};
+
+void SwitchingEngine::Inject(const FaultSpec& spec) {
+  Event("fault", spec.target, spec.kind, spec.Get("fraction", 0), spec.time);
+  if (options_.snapshots) Snapshot("before the fault of " + spec.target);
+  const Fault& fault = FaultByKind(spec.kind);
+  const FaultPlace place = PlaceOf(spec, rig_);
+  FaultedLanes plant(*this, place);
+  fault.apply(spec, plant);
+  fault_ends_.Add(fault, spec);
+  AfterFault(place, plant);
+}
+
+void SwitchingEngine::EndFaultsBefore(double t) {
+  while (fault_ends_.next() < t) {
+    const FaultSpec& spec = fault_ends_.Take();
+    const FaultPlace place = PlaceOf(spec, rig_);
+    FaultedLanes plant(*this, place);
+    FaultByKind(spec.kind).end(plant);
+    AfterFault(place, plant);
+  }
+}
+
+void SwitchingEngine::AfterFault(const FaultPlace& place, const FaultedPlant& changed) {
   BearingRun& b = bearings_[place.bearing];
-  const bool bridge =
-      ApplyToPlant(fault, place, place.coil < 0 ? 0 : b.plant->lanes.i[place.coil], *b.plant);
-  if (place.coil < 0) return;
-  InjectCoil(fault, b, place.coil);
-  if (!bridge) return;
+  if (changed.sensor_changed()) b.plain_sensors = false;
+  if (!changed.bridge_changed()) return;
   // The bridge changes in the middle of its period: rebuild this coil's voltage pattern.
   const auto j = static_cast<std::size_t>(place.coil);
   b.only_edge_moves = false;
   SetPattern(b, place.coil,
              control_[b.index].amplifier[j].Pattern(control_[b.index].duty[place.coil],
                                                     b.plant->bridge[j]));
-}
-
-void SwitchingEngine::InjectCoil(const FaultSpec& fault, BearingRun& b, int coil) {
-  StatorLanes& lanes = b.plant->lanes;
-  const auto j = static_cast<std::size_t>(coil);
-  b.faulty[j] = true;
-  if (fault.kind == "open") {
-    lanes.Break(coil, b.x, b.y);
-  } else if (fault.kind == "partial-short" && !lanes.open[j]) {
-    const double s = fault.Get("fraction", 0);
-    lanes.ShortTurns(coil, s, fault.Get("short_resistance", kInfinity), b.x, b.y);
-    b.plant->base_resistance[coil] *= 1 - s;
-  }
-  if (fault.kind == "current-sensor") b.plain_sensors = false;
 }
 
 }  // namespace ambrig

@@ -78,8 +78,8 @@ void SwitchingEngine::RunMagnetics(long long n) {
     due.push_back(&scenario_.faults[next_fault_++]);
   // Faults and a moving bus tie the bearings together sample by sample; an iron law or a late edge
   // concerns its own bearing only.
-  const bool lockstep =
-      options_.force_general_path || !due.empty() || !plant_.bus.stiff() || bus_restore_at_ < end;
+  const bool lockstep = options_.force_general_path || !due.empty() || !plant_.bus.stiff() ||
+                        fault_ends_.next() < end;
   if (lockstep) {
     RunSamplesInLockstep(n, due);
   } else {
@@ -134,11 +134,7 @@ void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const 
           bus.capacitance > 0 ? std::exp(-h / (bus.resistance * bus.capacitance)) : 0;
       plant_.bus.voltage = settled + (bus.voltage - settled) * keep;
     }
-    if (t + h > bus_restore_at_) {
-      plant_.bus.source = rig_.amplifier.bus_voltage;
-      if (plant_.bus.stiff()) plant_.bus.voltage = plant_.bus.source;
-      bus_restore_at_ = kInfinity;
-    }
+    EndFaultsBefore(t + h);
   }
   for (; done < due.size(); ++done) Inject(*due[done]);
   for (BearingRun& b : bearings_) b.plant->lanes.EndPeriod();

@@ -11,6 +11,7 @@
 #include "faulttolerance/supervision/supervisor.h"
 #include "rig/rig_assembly.h"
 #include "rotor/motion/rotor_stepper.h"
+#include "scenarios/faults/fault_ends.h"
 #include "simulation/record/run_record.h"
 #include "simulation/record/run_result.h"
 #include "simulation/sampled/command_plan.h"
@@ -20,6 +21,9 @@
 #include "simulation/verdict/contact_watch.h"
 
 namespace ambrig {
+
+class FaultedPlant;
+struct FaultPlace;
 
 struct EngineOptions {
   double record_rate = 0;  // 0: the scenario's
@@ -74,7 +78,9 @@ class SwitchingEngine {
   void Watch(long long n);
   void WatchFaults(long long n);
   void Inject(const FaultSpec& fault);
-  void InjectCoil(const FaultSpec& fault, BearingRun& b, int coil);
+  void EndFaultsBefore(double t);
+  /// What follows from a change of the plant at `place`.
+  void AfterFault(const FaultPlace& place, const FaultedPlant& changed);
   void BusAt(double t);
   void StartRecord();
   void HeatCopper();
@@ -103,7 +109,7 @@ class SwitchingEngine {
   bool clamped_ = false, controller_on_ = true;
   long long warm_ = 0, periods_ = 0;
   std::size_t next_fault_ = 0;
-  double bus_restore_at_ = kInfinity;
+  FaultEnds fault_ends_;
   std::vector<const FaultSpec*> due_faults_;
   std::vector<StatorLanes::PeriodOfBearing> together_;
 
