@@ -2,7 +2,7 @@
 #include <csignal>
 #include <cstdio>
 
-#include "app/commands/analyze.h"
+#include "app/commands/commands.h"
 #include "core/base/errors.h"
 #include "core/base/memory_reuse.h"
 
@@ -36,24 +36,7 @@ int Main(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "ambrig 0.1.0");
   ambrig::Work work;
-  ambrig::AddRun(app, work);
-  ambrig::AddCheck(app, work);
-  ambrig::AddCampaign(app, work);
-  ambrig::AddMerge(app, work);
-  ambrig::AddDetectors(app, work);
-  ambrig::AddCrosscheck(app, work);
-  ambrig::AddRotor(app, work);
-  ambrig::AddDesign(app, work);
-  ambrig::AddRedistribute(app, work);
-  ambrig::AddAnalyze(app, work);
-  ambrig::AddValidate(app, work);
-  ambrig::AddEffects(app, work);
-  ambrig::AddParameters(app, work);
-  ambrig::AddCompare(app, work);
-  ambrig::AddExplain(app, work);
-  ambrig::AddAdopt(app, work);
-  ambrig::AddHide(app, work);
-  ambrig::AddScore(app, work);
+  ambrig::AddCommands(app, work);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

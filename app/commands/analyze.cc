@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "analysis/iso14839.h"
-#include "app/commands/analyze.h"
+#include "app/commands/commands.h"
 #include "app/commands/progress.h"
 #include "app/json/analysis_json.h"
 #include "app/pages/analysis_report.h"

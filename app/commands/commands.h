@@ -25,22 +25,8 @@ struct CommonOptions {
 /// A command's work; returns the exit code.
 using Work = std::function<int()>;
 
-void AddRun(CLI::App& app, Work& work);
-void AddCheck(CLI::App& app, Work& work);
-void AddCampaign(CLI::App& app, Work& work);
-void AddDetectors(CLI::App& app, Work& work);
-void AddMerge(CLI::App& app, Work& work);
-void AddRedistribute(CLI::App& app, Work& work);
-void AddEffects(CLI::App& app, Work& work);
-void AddParameters(CLI::App& app, Work& work);
-void AddDesign(CLI::App& app, Work& work);
-void AddCompare(CLI::App& app, Work& work);
-void AddExplain(CLI::App& app, Work& work);
-void AddAdopt(CLI::App& app, Work& work);
-void AddHide(CLI::App& app, Work& work);
-void AddScore(CLI::App& app, Work& work);
-void AddCrosscheck(CLI::App& app, Work& work);
-void AddRotor(CLI::App& app, Work& work);
+/// All of them, see catalogue.cc.
+void AddCommands(CLI::App& app, Work& work);
 
 /// Files as given and the `wanted` ones in the given folders, sorted. @throws InputError (`none`:
 /// nothing found)

@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "analysis/validation.h"
-#include "app/commands/analyze.h"
+#include "app/commands/commands.h"
 #include "core/base/counted.h"
 #include "core/base/errors.h"
 

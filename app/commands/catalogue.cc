@@ -1,0 +1,37 @@
+/// The commands of `ambrig` in the order of its help: one line per command, which lives in a file
+/// of this folder. Its function adds the options to the command line and sets the work.
+#include "app/commands/commands.h"
+
+#define AMBRIG_COMMANDS(COMMAND) \
+  COMMAND(Run)                   \
+  COMMAND(Check)                 \
+  COMMAND(Campaign)              \
+  COMMAND(Merge)                 \
+  COMMAND(Detectors)             \
+  COMMAND(Crosscheck)            \
+  COMMAND(Rotor)                 \
+  COMMAND(Design)                \
+  COMMAND(Redistribute)          \
+  COMMAND(Analyze)               \
+  COMMAND(Validate)              \
+  COMMAND(Effects)               \
+  COMMAND(Parameters)            \
+  COMMAND(Compare)               \
+  COMMAND(Explain)               \
+  COMMAND(Adopt)                 \
+  COMMAND(Hide)                  \
+  COMMAND(Score)
+
+namespace ambrig {
+
+#define AMBRIG_DECLARE(name) void Add##name(CLI::App& app, Work& work);
+AMBRIG_COMMANDS(AMBRIG_DECLARE)
+#undef AMBRIG_DECLARE
+
+void AddCommands(CLI::App& app, Work& work) {
+#define AMBRIG_ADD(name) Add##name(app, work);
+  AMBRIG_COMMANDS(AMBRIG_ADD)
+#undef AMBRIG_ADD
+}
+
+}  // namespace ambrig
