@@ -1,6 +1,6 @@
 /// Constant error of the output voltage, and a duty below which nothing comes out (minimum pulse).
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

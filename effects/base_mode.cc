@@ -5,7 +5,7 @@
 /// zero at f √(M/(M + m)) of a rigid rotor, equal in x and y and without gyroscopic split
 /// (docs/theory/published_values.md 7).
 #include "core/math/constants.h"
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -19,6 +19,7 @@ EffectDescription BaseMode() {
       "bearings\n"
       "push on the rotor. A pole and a zero appear near its frequency in every radial axis.";
   d.target = TargetKind::kRig;
+  d.needs.levitation = true;
   d.parameters = {
       {"mass", "kg", kInfinity, 1e-2, kInfinity, 10, 500, "stator and what moves with it"},
       {"frequency", "Hz", 60, 0.5, 2e3, 20, 200, "of stator on base, rotor clamped off"},

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -18,6 +18,8 @@ EffectDescription BaseVibration() {
       "rotor,\n"
       "which sees the negative of the floor's acceleration, at all planes alike.";
   d.target = TargetKind::kRig;
+  d.needs.levitation = true;
+  d.tone = true;
   d.parameters = {{"frequency", "Hz", 25, 0.1, 5e3, 10, 200, "of the floor"},
                   {"cx", "m/s2", 0, -1e3, 1e3, 0.02, 2, "along x, cosine at t = 0"},
                   {"sx", "m/s2", 0, -1e3, 1e3, 0.02, 2, "along x, sine"},

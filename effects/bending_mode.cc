@@ -14,7 +14,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -93,6 +93,8 @@ EffectDescription BendingModeEffect() {
       "gains\n"
       "that differ in size and sign between bearings and sensors.";
   d.target = TargetKind::kRig;
+  d.needs.levitation = true;
+  d.switches_pair = true;
   d.parameters = {
       {"frequency", "Hz", 300, 5, 5e3, 100, 1500, "of the free shaft at rest"},
       {"damping", "-", 0.005, 0, 0.5, 0.001, 0.02, "ratio"},

@@ -1,7 +1,7 @@
 /// A supply that is not stiff: source, resistance, then a capacitance at the amplifiers,
 /// C dU/dt = (U_source - U)/R - i_drawn. Braking coils feed their energy back and lift the bus.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

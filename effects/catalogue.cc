@@ -3,33 +3,55 @@
 #include <fmt/format.h>
 
 #include "core/base/errors.h"
-#include "effects/effects_magnetic.h"
-#include "effects/effects_motion.h"
+
+// The one written list, in the order of docs/effects.md.
+#define AMBRIG_EFFECTS(EFFECT) \
+  EFFECT(IronReluctance)       \
+  EFFECT(Saturation)           \
+  EFFECT(Hysteresis)           \
+  EFFECT(EddyCurrents)         \
+  EFFECT(Fringing)             \
+  EFFECT(MagneticOffset)       \
+  EFFECT(TurnMismatch)         \
+  EFFECT(CopperHeating)        \
+  EFFECT(BusImpedance)         \
+  EFFECT(FreewheelDrop)        \
+  EFFECT(AmplifierOffset)      \
+  EFFECT(DeadTime)             \
+  EFFECT(CurrentSensorGain)    \
+  EFFECT(CurrentSensorOffset)  \
+  EFFECT(LoopDelay)            \
+  EFFECT(SensorGain)           \
+  EFFECT(SensorOffset)         \
+  EFFECT(SensorRotation)       \
+  EFFECT(SensorLowpass)        \
+  EFFECT(SensorRunout)         \
+  EFFECT(SensorHum)            \
+  EFFECT(Unbalance)            \
+  EFFECT(ShaftBow)             \
+  EFFECT(BendingModeEffect)    \
+  EFFECT(RotatingDamping)      \
+  EFFECT(CrossCoupling)        \
+  EFFECT(SidePull)             \
+  EFFECT(CouplingMisalignment) \
+  EFFECT(Windage)              \
+  EFFECT(BaseMode)             \
+  EFFECT(BaseVibration)        \
+  EFFECT(ConstantLoad)         \
+  EFFECT(ContactFriction)      \
+  EFFECT(ContactMount)         \
+  EFFECT(Formula)
 
 namespace ambrig {
 
-/// The one written list, in the order of docs/effects.md.
+#define AMBRIG_DECLARE(name) EffectDescription name();
+AMBRIG_EFFECTS(AMBRIG_DECLARE)
+#undef AMBRIG_DECLARE
+
 const std::vector<EffectDescription>& Catalogue() {
-  static const std::vector<EffectDescription> all = {
-      IronReluctance(),    Saturation(),
-      Hysteresis(),        EddyCurrents(),
-      Fringing(),          MagneticOffset(),
-      TurnMismatch(),      CopperHeating(),
-      BusImpedance(),      FreewheelDrop(),
-      AmplifierOffset(),   DeadTime(),
-      CurrentSensorGain(), CurrentSensorOffset(),
-      LoopDelay(),         SensorGain(),
-      SensorOffset(),      SensorRotation(),
-      SensorLowpass(),     SensorRunout(),
-      SensorHum(),         Unbalance(),
-      ShaftBow(),          BendingModeEffect(),
-      RotatingDamping(),   CrossCoupling(),
-      SidePull(),          CouplingMisalignment(),
-      Windage(),           BaseMode(),
-      BaseVibration(),     ConstantLoad(),
-      ContactFriction(),   ContactMount(),
-      Formula(),
-  };
+#define AMBRIG_MAKE(name) name(),
+  static const std::vector<EffectDescription> all = {AMBRIG_EFFECTS(AMBRIG_MAKE)};
+#undef AMBRIG_MAKE
   return all;
 }
 

@@ -1,5 +1,5 @@
 /// A constant force on the rotor at a plane: belt, tilt, hose. Its reaction goes past the stator.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -13,6 +13,7 @@ EffectDescription ConstantLoad() {
       "carries\n"
       "it with static currents that fall with the bias.";
   d.target = TargetKind::kPlane;
+  d.needs.levitation = true;
   d.parameters = {{"fx", "N", 0, -1e6, 1e6, 0.5, 30, "along x"},
                   {"fy", "N", 0, -1e6, 1e6, 0.5, 30, "along y"}};
   d.at_stations = true;

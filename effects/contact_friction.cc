@@ -1,7 +1,7 @@
 /// Friction of one auxiliary bearing, other than in the rig file (lubricant lost, coating worn).
 /// friction >= 0 is the coefficient itself. A negative value is minus a fraction of the rig's own,
 /// so that -1 is exactly "as in the rig" (1 * mu = mu, bit for bit) and the parameter has no jump.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -15,6 +15,7 @@ EffectDescription ContactFriction() {
       "is\n"
       "driven up the wall and slowed down accordingly; backward whirl comes with high friction.";
   d.target = TargetKind::kPlane;
+  d.needs.contact = true;
   d.parameters = {{"friction", "-", -1, -1, 2, 0.05, 0.5,
                    "coefficient; negative: minus a fraction of the rig's own"}};
   d.off_when_null = {"friction"};

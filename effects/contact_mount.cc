@@ -1,7 +1,7 @@
 /// The race of an auxiliary bearing stands on a resilient mount: mass, spring and damper between
 /// race and stator in both radial directions. Above 1e12 N/m, four decades over any contact, it is
 /// rigid.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -15,6 +15,7 @@ EffectDescription ContactMount() {
       "rotor,\n"
       "which makes impacts longer and softer and takes energy out of the rebound.";
   d.target = TargetKind::kPlane;
+  d.needs.contact = true;
   d.parameters = {{"stiffness", "N/m", kInfinity, 1, kInfinity, 1e6, 1e8, "of the mount"},
                   {"damping", "N s/m", 0, 0, 1e7, 100, 1e4, "of the mount"},
                   {"mass", "kg", 0.1, 1e-4, 100, 0.05, 1, "race and holder"}};

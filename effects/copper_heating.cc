@@ -1,7 +1,7 @@
 /// Copper that warms up: R = R20 (1 + 0.00393 dT), time_constant dT' = rise_per_watt R i² - dT,
 /// dT = 0 at the start of every record (docs/effects.md). Each coil on its own.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

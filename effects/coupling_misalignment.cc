@@ -1,7 +1,7 @@
 /// Misaligned coupling: a force at twice the speed, not growing with it (published_values.md 7):
 ///   f = (c cos 2 theta - s sin 2 theta, c sin 2 theta + s cos 2 theta)
 /// The other shaft carries the reaction, not the stator.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -15,6 +15,7 @@ EffectDescription CouplingMisalignment() {
       "per\n"
       "turn and push with a force that depends on their stiffness, not on the speed.";
   d.target = TargetKind::kPlane;
+  d.needs.rotation = d.needs.levitation = true;
   d.parameters = {{"c", "N", 0, -1e4, 1e4, 0.2, 20, "along x at theta = 0"},
                   {"s", "N", 0, -1e4, 1e4, 0.2, 20, "along y at theta = 0"}};
   d.at_stations = true;

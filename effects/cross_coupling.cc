@@ -1,7 +1,7 @@
 /// Cross-coupled stiffness of a seal or impeller:  fx = -k y,  fy = +k x  on the rotor, the
 /// opposite on the stator. k > 0 drives the forward whirl: unstable once k > c w of the whirl's
 /// mode (docs/theory/published_values.md 7; Alford k = beta T/(D h), 1e3 to 1e7 N/m).
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -15,6 +15,8 @@ EffectDescription CrossCoupling() {
       "whirl\n"
       "gains energy, the backward whirl loses it.";
   d.target = TargetKind::kPlane;
+  d.needs.levitation = true;
+  d.acts_on = kOnRadial;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 5e3, 2e5, "k of fx = -k y, fy = +k x"}};
   d.at_stations = true;
   d.off_when_null = {"stiffness"};

@@ -1,6 +1,6 @@
 /// A current sensor that reads gain * i: the current loop then drives i_set/gain through the coil.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

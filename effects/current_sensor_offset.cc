@@ -1,6 +1,6 @@
 /// A current sensor that reads i + offset: the current loop then drives i_set - offset.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

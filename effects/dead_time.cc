@@ -1,7 +1,7 @@
 /// Both switches of a bridge wait `time` before they turn on: the on-phase starts that much later,
 /// its end stays (dV = -2 U_d f_sw time for a bi-state bridge with current flowing).
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

@@ -19,7 +19,7 @@
 #include "actuators/magnetics/lane_vector.h"
 #include "effects/coil_targets.h"
 #include "effects/diffusion_fit.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

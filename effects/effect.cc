@@ -80,6 +80,10 @@ std::vector<std::string> TargetsOf(const EffectDescription& d, const EffectTarge
       break;
   }
   if (d.at_stations) add(known.stations);
+  std::erase_if(out, [&](const std::string& name) {
+    const auto it = known.kind.find(name);
+    return it != known.kind.end() && (it->second & d.acts_on) == 0;
+  });
   std::vector<std::string> unique;
   for (const auto& t : out)
     if (std::find(unique.begin(), unique.end(), t) == unique.end()) unique.push_back(t);

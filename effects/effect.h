@@ -2,6 +2,7 @@
 /// What an effect is: optional physics that the base model does not have. One file per effect, one
 /// line in effects/catalogue.cc. An effect attaches to seams of the plant (effects/plant.h); with
 /// all its parameters at their null values it is not constructed at all, so the bits do not change.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,19 @@ enum class TargetKind {
   kAny
 };
 
+/// Bits: the kinds of bearing at which an effect can act, as a target or behind one (a plane, an
+/// axis, a coil).
+enum ActsOn : unsigned { kOnRadial = 1, kOnThrust = 2, kOnOpposed = 4, kOnAll = 7 };
+
+/// What a run must have for the effect to show in its record.
+struct EffectNeeds {
+  bool rotation = false;      // a turning shaft
+  bool levitation = false;    // a shaft that is free to move
+  bool contact = false;       // a shaft on its auxiliary bearings
+  bool free_speed = false;    // a speed that follows the moments
+  bool freewheeling = false;  // bridges that let the current circulate through one diode
+};
+
 /// One parameter of an effect: physical bounds, null value, and where it is usually found.
 struct EffectParameter {
   std::string name, unit;
@@ -38,6 +52,8 @@ struct EffectParameter {
 struct EffectTargets {
   std::vector<std::string> bearings, planes, coils, axes;
   std::vector<std::string> stations;  // named planes of a beam rotor
+  // names above (and "z", the plane of a thrust bearing) -> kind of their bearing, a bit of ActsOn
+  std::map<std::string, unsigned> kind;
 };
 
 /// An effect as a rig file names it.
@@ -49,6 +65,8 @@ struct EffectInstance {
   std::vector<std::pair<std::string, std::string>> formulas;  // formula effect: "force.x" -> text
   std::string where;                                          // file:line
 
+  /// A law that its user wrote: its table stands in the rig file.
+  bool IsFormula() const { return !formulas.empty(); }
   double Value(const std::string& parameter) const;
   void Set(const std::string& parameter, double value);
   /// Every parameter at its null value: nothing is built. Parameters that say where or how (a
@@ -67,6 +85,13 @@ struct EffectDescription {
   std::string shows_in;  // which record shows it
   std::string confused_with;
   bool at_stations = false;  // a plane may also be a disk or station of a beam rotor
+  unsigned acts_on = kOnAll;
+  EffectNeeds needs;
+  bool users_own = false;      // law and parameters stand in the rig file: nothing can be proposed
+  bool tone = false;           // one line of unknown frequency, not a resonance
+  bool mains = false;          // that line is the mains' or a multiple
+  bool switches_pair = false;  // its two switches act together, with equal or opposite sign
+  std::string whole_periods;   // parameter [s] that acts in whole switching periods; empty: none
   void (*apply)(const EffectInstance&, Plant&) = nullptr;
   // before planes exist: adds modes to the shaft
   void (*shape)(const EffectInstance&, Plant&) = nullptr;

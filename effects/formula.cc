@@ -4,7 +4,7 @@
 #include <iterator>
 #include <optional>
 
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/formula_parser.h"
 #include "effects/plane_targets.h"
 
@@ -169,6 +169,7 @@ EffectDescription Formula() {
       "written in the rig file with parameters of its own; fitted and adopted like any other "
       "effect.";
   d.target = TargetKind::kAny;
+  d.users_own = true;
   d.shows_in = "depends on the formula";
   d.confused_with = "depends on the formula";
   d.apply = Apply;

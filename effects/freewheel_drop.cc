@@ -2,7 +2,7 @@
 /// sees -drop until its current ends (base model: 0). Other bridges have their drops in the rig
 /// file.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 
@@ -15,6 +15,7 @@ EffectDescription FreewheelDrop() {
       "nearly\n"
       "constant voltage, so the current falls faster than R alone would make it.";
   d.target = TargetKind::kCoilOrBearing;
+  d.needs.freewheeling = true;
   d.parameters = {
       {"drop", "V", 0, 0, 100, 0.2, 2, "voltage against the current while the switch is off"}};
   d.off_when_null = {"drop"};

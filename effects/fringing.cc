@@ -1,7 +1,7 @@
 /// Flux that bulges out of the gap: pole area A (1 + coefficient g/g0), so
 /// R(g) = g / (mu0 A (1 + coefficient g/g0)) and the pull is (1/2) phi² dR/dg.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

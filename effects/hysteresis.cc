@@ -14,7 +14,7 @@
 
 #include "actuators/magnetics/lane_vector.h"
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

@@ -3,7 +3,7 @@
 /// Force still is phi²/(2 mu0 A) per pole, so current and position stiffness both fall while
 /// ki/ks = (g0 + path)/i0 grows (published_values.md 7). Limit: linear iron; see saturation.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

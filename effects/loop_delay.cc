@@ -1,7 +1,7 @@
 /// Set-points reach the current loops `time` later than the record's s channels say; they wait for
 /// the next PWM start, so the delay in effect is a whole number of switching periods.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 
@@ -14,6 +14,8 @@ EffectDescription LoopDelay() {
       "start:\n"
       "phase falls in proportion to frequency, no gain changes, stability margins shrink.";
   d.target = TargetKind::kRig;
+  d.needs.levitation = true;
+  d.whole_periods = "time";
   d.parameters = {
       {"time", "s", 0, 0, 5e-3, 4e-5, 4e-4, "beyond the base model's one controller period"}};
   d.off_when_null = {"time"};

@@ -2,7 +2,7 @@
 /// Force on a shaft at the sensors' zero: -ks (dx, dy), ks > 0 the negative stiffness, carried by
 /// the static current i0 d/g0 (docs/theory/published_values.md 7).
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

@@ -4,7 +4,7 @@
 /// With bending modes in the rig, r is the bent part of the displacement at the radial planes (a
 /// rigid body does not deform); without, r is the displacement itself. d is the total: n planes
 /// carry d/n each.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -32,6 +32,7 @@ EffectDescription RotatingDamping() {
       "a\n"
       "mode's frequency it feeds a forward whirl at that frequency instead of damping it.";
   d.target = TargetKind::kRig;
+  d.needs.rotation = d.needs.levitation = true;
   d.parameters = {{"damping", "N s/m", 0, 0, 1e6, 1, 1e3, "d, shared by the radial planes"}};
   d.off_when_null = {"damping"};
   d.shows_in = "fast records with force excitation: forward whirl less damped, backward more";

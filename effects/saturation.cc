@@ -10,7 +10,7 @@
 
 #include "actuators/magnetics/lane_vector.h"
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 #include "effects/steel_curve.h"
 
 namespace ambrig {

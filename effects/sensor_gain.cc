@@ -1,7 +1,7 @@
 /// A sensor whose gain is not that of its data sheet:  reading = gain * displacement
 /// (published_values.md 7). Scales the stiffness and damping that the controller makes on that
 /// axis.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -21,6 +21,7 @@ EffectDescription SensorHum() {
       "read as\n"
       "motion along the diagonal, and the bearing answers with a force.";
   d.target = TargetKind::kPlane;
+  d.tone = d.mains = true;
   d.parameters = {{"frequency", "Hz", 50, 0.1, 1e4, 50, 300, "50 or 60 Hz, or a multiple"},
                   {"c", "m", 0, -1e-3, 1e-3, 2e-7, 1e-5, "cosine at t = 0 of the record"},
                   {"s", "m", 0, -1e-3, 1e-3, 2e-7, 1e-5, "sine at t = 0 of the record"},

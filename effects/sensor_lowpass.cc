@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -48,6 +48,7 @@ EffectDescription SensorLowpass() {
       "the\n"
       "position late and loses phase, so damping, above a few hundred hertz.";
   d.target = TargetKind::kPlaneOrRig;
+  d.needs.levitation = true;
   d.parameters = {{"cutoff", "Hz", kInfinity, 10, kInfinity, 300, 2e4, "-3 dB frequency"}};
   d.off_when_null = {"cutoff"};
   d.shows_in = "wide-band force excitation: less damping; clamped records do not show it";

@@ -1,7 +1,7 @@
 /// A sensor that reads `offset` with the shaft at zero:  reading = displacement + offset, after the
 /// gain (published_values.md 7). The integrator moves the shaft by -offset; gaps and static
 /// currents follow.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {

@@ -2,7 +2,7 @@
 /// The loop gains an antisymmetric stiffness k sin a at any speed (published_values.md 7).
 #include <cmath>
 
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -15,6 +15,7 @@ EffectDescription SensorRotation() {
       "Both sensors of a plane are turned by an angle: each axis reads part of the other one.\n"
       "The control force then has a cross part: one whirl direction loses damping, at any speed.";
   d.target = TargetKind::kPlane;
+  d.acts_on = kOnRadial;
   d.parameters = {
       {"angle", "rad", 0, -1.6, 1.6, 0.01, 0.1, "sensor axes against the bearing's, x towards y"}};
   d.off_when_null = {"angle"};

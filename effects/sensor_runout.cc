@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -42,6 +42,7 @@ EffectDescription SensorRunout() {
       "once per turn and in harmonics, the same size at any speed; the bearing answers with a "
       "force.";
   d.target = TargetKind::kPlane;
+  d.needs.rotation = true;
   for (int n = 1; n <= kOrders; ++n) {
     const double usual = n == 1 ? 1e-6 : n == 2 ? 5e-7 : 5e-8;
     for (const char* part : {"c", "s"}) {

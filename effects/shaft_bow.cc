@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -37,6 +37,7 @@ EffectDescription ShaftBow() {
       "it\n"
       "and the magnets' gaps follow it once per turn, the same size at any speed.";
   d.target = TargetKind::kRig;
+  d.needs.rotation = d.needs.levitation = true;
   d.parameters = {{"c", "m", 0, -1e-3, 1e-3, 1e-6, 3e-5,
                    "along the mark, at z = + the largest |z| of the bearing planes"},
                   {"s", "m", 0, -1e-3, 1e-3, 1e-6, 3e-5, "90 degrees ahead of the mark"}};

@@ -1,7 +1,7 @@
 /// Unbalanced magnetic pull of a motor (or a magnet coupling):  f = k r  along the displacement, a
 /// negative stiffness; the stator feels the opposite. k = pi R L B²/(2 mu0 g) (published_values.md
 /// 7).
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -15,6 +15,7 @@ EffectDescription SidePull() {
       "one\n"
       "plane, independent of the bearing's currents.";
   d.target = TargetKind::kPlaneOrZ;
+  d.needs.levitation = true;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 1e4, 5e5, "k of f = k r; > 0 destabilises"}};
   d.at_stations = true;
   d.off_when_null = {"stiffness"};

@@ -1,7 +1,7 @@
 /// One coil has ratio times the turns of the drawing: flux linkage and MMF in proportion, its
 /// resistance too (same wire), its leakage inductance with the square.
 #include "effects/coil_targets.h"
-#include "effects/effects_magnetic.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 

@@ -3,7 +3,7 @@
 ///   degrees,
 /// the second term being the tangential part of a run-up. The spin torque of the rotor's own
 /// acceleration on u (of order u a) is left out: it is below windage by orders of magnitude.
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -17,6 +17,7 @@ EffectDescription Unbalance() {
       "plane\n"
       "takes a static unbalance, both planes are needed for a couple.";
   d.target = TargetKind::kPlane;
+  d.needs.rotation = d.needs.levitation = true;
   d.parameters = {
       {"c", "kg m", 0, -1e-2, 1e-2, 1e-6, 1e-4, "along the rotor's mark (x at theta = 0)"},
       {"s", "kg m", 0, -1e-2, 1e-2, 1e-6, 1e-4, "90 degrees ahead of the mark"}};

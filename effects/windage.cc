@@ -3,7 +3,7 @@
 /// (docs/theory/published_values.md 7).
 #include <cmath>
 
-#include "effects/effects_motion.h"
+#include "effects/effect.h"
 #include "effects/plane_targets.h"
 
 namespace ambrig {
@@ -16,6 +16,7 @@ EffectDescription Windage() {
       "The gas around the rotor drags on it with the square of the speed: a free rotor slows down\n"
       "along a hyperbola.";
   d.target = TargetKind::kRig;
+  d.needs.free_speed = true;
   d.parameters = {{"drag", "N m s2", 0, 0, 1, 1e-9, 1e-6, "torque over the square of the speed"}};
   d.off_when_null = {"drag"};
   d.shows_in = "coast-downs only: speed and angle against time";

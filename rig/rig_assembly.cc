@@ -149,6 +149,14 @@ LinearRotor LinearRotorOf(const Plant& plant, double speed) {
   return out;
 }
 
+namespace {
+unsigned ActsOnBit(BearingKind kind) {
+  return kind == BearingKind::kRadial   ? kOnRadial
+         : kind == BearingKind::kThrust ? kOnThrust
+                                        : kOnOpposed;
+}
+}  // namespace
+
 EffectTargets TargetsOfEffects(const RigParameters& rig) {
   EffectTargets known;
   for (const ShaftPlane& s : rig.stations) known.stations.push_back(s.name);
@@ -158,6 +166,10 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
     for (int j = 1; j <= b.coils(); ++j)
       known.coils.push_back(b.name + ".coil" + std::to_string(j));
     for (const auto& axis : b.Axes()) known.axes.push_back(axis);
+    const unsigned kind = ActsOnBit(b.kind);
+    known.kind[b.name] = known.kind[known.planes.back()] = kind;
+    for (int j = 1; j <= b.coils(); ++j) known.kind[b.name + ".coil" + std::to_string(j)] = kind;
+    for (const auto& axis : b.Axes()) known.kind[axis] = kind;
   }
   return known;
 }

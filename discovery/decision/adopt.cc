@@ -30,7 +30,7 @@ std::string EffectText(const EffectInstance& e) {
   if (!e.label.empty()) text += fmt::format("label = \"{}\"\n", e.label);
   text += fmt::format("target = \"{}\"\nparameters = {{ ", e.target);
   for (std::size_t k = 0; k < e.table.size(); ++k) {
-    const bool formula = e.name == "formula";
+    const bool formula = e.IsFormula();
     text += fmt::format("{}{} = ", k == 0 ? "" : ", ", e.table[k].name);
     if (!formula && (k >= e.sd.size() || e.sd[k] <= 0)) {
       text += TomlNumber(e.values[k]);
@@ -170,8 +170,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     if (options.progress) options.progress(f, text);
   };
   const EffectDescription& d = EffectNamed(effect);
-  const bool formula = effect == "formula";
-  const auto is_formula = [](const EffectInstance& e) { return e.name == "formula"; };
+  const bool formula = d.users_own;
+  const auto is_formula = [](const EffectInstance& e) { return e.IsFormula(); };
   if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))
     throw InputError(c.rig_file + ": has no [[effect]] name = \"formula\" to fit; write one first");
   if (!formula) CheckTarget(d, c, target);

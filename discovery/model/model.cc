@@ -37,7 +37,7 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
   for (const EffectInstance& e : own) {
     const std::size_t before = h.free.size();
     h.AddEffect(e);
-    if (e.name == "formula") continue;
+    if (e.IsFormula()) continue;
     for (std::size_t k = h.free.size(); k-- > before;)
       if (e.sd[h.free[k].row] <= 0) h.free.erase(h.free.begin() + static_cast<std::ptrdiff_t>(k));
   }

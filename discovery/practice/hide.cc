@@ -43,7 +43,7 @@ EffectInstance DrawEffect(const EffectDescription& d, const std::string& target,
                                                                    Uniform(seed, kSizes, index))
                                          : p.null_value;
     const double sign = Uniform(seed, kSizes, index + 1) < 0.5 ? -1 : 1;
-    if (d.id == "sensor-hum" && p.name == "frequency") e.values[k] = sign > 0 ? 50 : 60;
+    if (d.mains && p.name == "frequency") e.values[k] = sign > 0 ? 50 : 60;
     // an optional extra stays out
     else if (!d.Switches(p))
       e.values[k] = p.null_value == 0 ? 0 : size;
@@ -158,10 +158,10 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   std::vector<const EffectDescription*> descriptions;
   for (const auto& [id, target] : request.effects) {
     const EffectDescription* d = &EffectNamed(id);
-    if (d->id == "formula")
+    if (d->users_own)
       throw InputError("formula: a law of one's own cannot be drawn; hide one of the catalogue");
-    needs.contact = needs.contact || id.starts_with("contact-");
-    needs.free_speed = needs.free_speed || id == "windage";
+    needs.contact = needs.contact || d->needs.contact;
+    needs.free_speed = needs.free_speed || d->needs.free_speed;
     descriptions.push_back(d);
   }
   out.records = Examination(rig, request.seed, needs);

@@ -69,8 +69,7 @@ std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, st
 std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string& target,
                                    const EffectParameter& p, const ResidualPeaks& peaks) {
   std::vector<double> seeds;
-  const bool tone = d.id == "sensor-hum" || d.id == "base-vibration";
-  if (tone) {
+  if (d.tone) {
     if (const auto it = peaks.coherent.find(target); it != peaks.coherent.end()) seeds = it->second;
     AppendApart(seeds, {50, 60}, 0.01);
   } else {
@@ -134,19 +133,19 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
   for (double f : frequencies) {
     EffectInstance at = null;
     if (frequency < d.parameters.size()) at.values[frequency] = f;
-    if (d.id == "bending-mode") {
+    if (d.switches_pair) {
       for (ProbeGroup& g :
            GainPatterns(at, finite[0], finite[1], kSoughtGain * d.parameters[finite[0]].typical_hi))
         groups.push_back(std::move(g));
       continue;
     }
-    if (d.id == "loop-delay") {  // acts in whole switching periods
+    if (!d.whole_periods.empty()) {
       const double T = 1 / model.data().rig.amplifier.switching_frequency;
       for (int k = 1; k <= 6; ++k) {
         ProbeGroup g;
         g.linear = false;
         EffectInstance e = at;
-        e.Set("time", k * T * (1 - 1e-6));
+        e.Set(d.whole_periods, k * T * (1 - 1e-6));
         g.probes.push_back(e);
         groups.push_back(g);
       }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "rig/rig_assembly.h"
 
@@ -14,7 +13,7 @@ namespace {
 
 /// Effects that no record of the case could show.
 bool CannotShow(const EffectDescription& d, const CaseModel& model) {
-  if (d.id == "formula") return true;
+  if (d.users_own) return true;
   const Case& c = model.data();
   bool moving = false, free_speed = false, contact = false, levitated = false;
   for (const CaseRecord& r : c.records) {
@@ -25,25 +24,10 @@ bool CannotShow(const EffectDescription& d, const CaseModel& model) {
     levitated = levitated || r.scenario.start != StartState::kClamped;
   }
   const bool chopper = c.rig.amplifier.modulation == Modulation::kChopper;
-  if (d.id == "freewheel-drop") return !chopper;
-  if (d.id == "windage") return !free_speed;
-  if (d.id == "contact-friction" || d.id == "contact-mount") return !contact;
-  static const std::set<std::string> turning = {"unbalance", "shaft-bow", "sensor-runout",
-                                                "coupling-misalignment", "rotating-damping"};
-  if (turning.contains(d.id) && !moving) return true;
-  static const std::set<std::string> rotor = {"unbalance",
-                                              "shaft-bow",
-                                              "bending-mode",
-                                              "rotating-damping",
-                                              "cross-coupling",
-                                              "side-pull",
-                                              "coupling-misalignment",
-                                              "base-mode",
-                                              "base-vibration",
-                                              "constant-load",
-                                              "loop-delay",
-                                              "sensor-lowpass"};
-  return rotor.contains(d.id) && !levitated;
+  const EffectNeeds& needs = d.needs;
+  return (needs.rotation && !moving) || (needs.levitation && !levitated) ||
+         (needs.contact && !contact) || (needs.free_speed && !free_speed) ||
+         (needs.freewheeling && !chopper);
 }
 
 bool SeeksFrequency(const EffectDescription& d) {
