@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "control/position/controller_kind.h"
 #include "rig/rig_rotor.h"
 
 namespace ambrig {
@@ -128,11 +129,8 @@ bool ParameterRange(const RigParameters& rig, const std::string& path, double* l
 
 std::vector<ParameterRow> RigParameterRows() {
   std::vector<ParameterRow> rows;
-  const auto add = [&]<class P, std::size_t n>(const std::string& section,
-                                               const Field<P>(&fields)[n]) {
-    for (const Field<P>& f : fields)
-      rows.push_back({section, std::string(f.key), std::string(f.unit), std::string(f.doc), f.lo,
-                      f.hi, P{}.*f.at});
+  const auto add = [&](const std::string& section, const auto& fields) {
+    AddRows(rows, section, fields);
   };
   add("[rotor]", kRotorFields);
   add("[rotor.materials.NAME]", kMaterialFields);
@@ -140,19 +138,9 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[[rotor.disk]]", kDiskFields);
   add("[amplifier]", kAmplifierFields);
   add("[controller]", kControllerFields);
-  add("[controller]", kPidFields);
-  add("[[controller.schedule]]", kPidPointFields);
-  add("[[controller.filter]] kind = \"notch\"", kNotchFields);
-  add("[[controller.filter]] kind = \"lead-lag\"", kLeadLagFields);
-  add("[[controller.filter]] kind = \"low-pass\"", kLowPassFields);
+  for (const ControllerKind* kind : ControllerKinds())
+    if (kind->document) kind->document(rows);
   add("[controller.unbalance]", kUnbalanceControlFields);
-  add("[controller] kind = \"lqg\"", kLqgFields);
-  add("[controller] kind = \"h-infinity\"", kHInfinityFields);
-  add("[[controller.plane]]", kPlaneWeightFields);
-  add("[controller.modes]", kModeWeightFields);
-  add("[controller] kind = \"tilt-translation\"", kTiltTranslationFields);
-  add("[controller] kind = \"tilt-translation\", translation", kTranslationFields);
-  add("[controller] kind = \"tilt-translation\", tilt", kTiltFields);
   add("[bearings.A] kind = \"radial\"", kRadialStatorFields);
   add("[bearings.Z] kind = \"thrust\"", kThrustStatorFields);
   add("[bearings.M] kind = \"opposed\"", kOpposedStatorFields);

@@ -11,6 +11,7 @@
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/thrust_stator.h"
 #include "control/position/controller_file.h"
+#include "core/base/parameter_rows.h"
 #include "core/base/toml.h"
 #include "effects/effect.h"
 #include "rig/detection_parameters.h"
@@ -117,11 +118,6 @@ bool ParameterRange(const RigParameters& rig, const std::string& path, double* l
                     std::string* unit);
 
 /// Every parameter table of a rig file: section, key, unit, range, doc, for help and docs.
-/// `fallback`: nan where the file must give it.
-struct ParameterRow {
-  std::string section, key, unit, doc;
-  double lo, hi, fallback;
-};
 std::vector<ParameterRow> RigParameterRows();
 
 }  // namespace ambrig

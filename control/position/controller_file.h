@@ -1,6 +1,7 @@
 #pragma once
-/// The controllers that a rig file may name: [controller] and, for changing over in a run,
+/// The controllers that a rig file may name (controller_kind.h): [controller] and, for changing over in a run,
 /// [controllers.NAME]. Keys: docs/guide/controllers.md; numbers: docs/parameters.md.
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,9 +16,6 @@
 #include "control/synthesis/plane_weight.h"
 
 namespace ambrig {
-
-inline constexpr char kControllerKinds[] =
-    "pid, transfer-function, state-space, lqg, h-infinity, tilt-translation";
 
 /// PID gains at one speed; what is not given is the controller's own.
 struct PidPoint {
@@ -45,6 +43,11 @@ struct SystemPoint {
   StateSpace system;
 };
 
+/// Numbers that a kind of controller keeps to itself: its file derives from this.
+struct ControllerSettings {
+  virtual ~ControllerSettings() = default;
+};
+
 struct ControllerParameters {
   PidParameters pid;  // f_max of every kind; gains 0 unless the kind is pid
   double rate = kRequired;
@@ -65,6 +68,7 @@ struct ControllerParameters {
   CoordinateGains translation, tilt;
   double gyroscopic_compensation = 0;
   std::optional<UnbalanceControlParameters> unbalance;
+  std::shared_ptr<const ControllerSettings> own;  // of a kind whose numbers are not above
 
   /// The base controller of docs/theory/base_model.md: one PID per axis and nothing else.
   bool IsPlainPid() const {

@@ -1,0 +1,63 @@
+#pragma once
+/// What a kind of controller is: one file per kind under control/position/kinds/ with its keys, its
+/// tables for the documentation and the controller itself; one line each in kinds/catalogue.cc.
+/// Nobody else knows a kind by its name.
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "control/position/controller_file.h"
+#include "control/position/position_controller.h"
+#include "control/synthesis/sampled_plant.h"
+#include "core/base/parameter_rows.h"
+
+namespace ambrig {
+
+/// What a kind's keys may refer to.
+struct ControllerNames {
+  const std::vector<std::string>& axes;    // that it controls, in the rig's order
+  const std::vector<std::string>& planes;  // of bearings, disks and stations
+};
+
+/// The nominal rig as a controller is made for it.
+struct ControllerSite {
+  struct Bearing {
+    std::string name;
+    bool radial = true;
+    double z = 0, sensor_z = 0;  // [m]
+  };
+  std::vector<std::string> axes;  // that it controls
+  std::vector<double> f_max;      // of each [N]
+  std::vector<Bearing> bearings;  // that it controls
+  double period = 0;              // of the controller [s]
+  double inertia_polar = 0;       // of the rotor [kg m²]
+  /// The linear plant with all delays at this speed [rad/s], as the controller's synthesis keys
+  /// want it.
+  std::function<SampledPlant(const ControllerParameters& c, double speed)> plant;
+};
+
+struct ControllerKind {
+  std::string_view name;  // as files write it
+  std::string_view doc;
+  /// The keys of the kind; f_max is read already.
+  void (*read)(const TomlTable& t, const ControllerNames& names, ControllerParameters& c);
+  /// For all axes of the site. @throws InputError when a synthesis fails.
+  std::unique_ptr<PositionController> (*make)(const ControllerParameters& c,
+                                              const ControllerSite& site);
+  /// Its numbers for `ambrig parameters`; nullptr: none.
+  void (*document)(std::vector<ParameterRow>& rows) = nullptr;
+  /// One PID for each axis by itself: it also serves where every bearing has its own controller.
+  bool per_axis = false;
+};
+
+/// All kinds, see kinds/catalogue.cc.
+std::span<const ControllerKind* const> ControllerKinds();
+/// "pid, transfer-function, ..."
+std::string ControllerKindNames();
+/// @throws std::logic_error for a name that is not in the catalogue.
+const ControllerKind& ControllerKindByName(std::string_view name);
+
+}  // namespace ambrig
