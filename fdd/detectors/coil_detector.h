@@ -17,7 +17,8 @@ class CoilDetector {
   virtual Lane Period(const MeasuredPeriod& in) = 0;
 };
 
-/// One row of detector_catalogue.cc.
+/// A kind of detector: each one's file has a function that returns it, and detector_catalogue.cc has
+/// one line with the function's name.
 struct CoilDetectorKind {
   std::string_view name, unit, doc;
   double threshold;  // that its source or its code uses; nan: none
@@ -30,6 +31,12 @@ struct CoilDetectorKind {
   /// (examined_detector.h).
   std::unique_ptr<RunDetector> (*make_run)(const RunDetectorSetup& setup) = nullptr;
 };
+
+/// Maker of a kind that needs nothing but the setup.
+template <class Detector>
+std::unique_ptr<CoilDetector> MakeDetector(const CoilDetectorSetup& setup) {
+  return std::make_unique<Detector>(setup);
+}
 
 /// All of them, see detector_catalogue.cc.
 std::span<const CoilDetectorKind> CoilDetectorKinds();

@@ -22,4 +22,18 @@ Lane CoupledDetector::Period(const MeasuredPeriod& in) {
   return out;
 }
 
+CoilDetectorKind Coupled() {
+  return {"coupled",
+          "-",
+          "this program's: coupled residuals, learned leakage and gap",
+          9,
+          9,
+          MakeDetector<CoupledDetector>,
+          [](const RunDetectorSetup& s) -> std::unique_ptr<RunDetector> {
+            DetectorSettings settings = s.settings;
+            if (s.threshold > 0) settings.threshold = s.threshold;
+            return std::make_unique<BearingDetector>(s.model, settings);
+          }};
+}
+
 }  // namespace ambrig

@@ -40,4 +40,9 @@ Lane CurrentErrorDetector::Period(const MeasuredPeriod& in) {
   return out;
 }
 
+CoilDetectorKind CurrentError() {
+  return {"current-error", "A",   "mean current against its set-point, five periods in a row",
+          kRequired,       0.178, MakeDetector<CurrentErrorDetector>};
+}
+
 }  // namespace ambrig

@@ -30,4 +30,9 @@ Lane CusumDetector::Period(const MeasuredPeriod& in) {
   return out;
 }
 
+CoilDetectorKind CusumOfResiduals() {
+  return {"cusum",   "-",  "two-sided sums on the coupled residuals",
+          kRequired, 22.1, MakeDetector<CusumDetector>};
+}
+
 }  // namespace ambrig

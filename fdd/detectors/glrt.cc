@@ -36,4 +36,9 @@ Lane GlrtDetector::Period(const MeasuredPeriod& in) {
   return out;
 }
 
+CoilDetectorKind GlrtOfResiduals() {
+  return {"glrt",    "-", "likelihood ratio on the coupled residuals, unknown change",
+          kRequired, 124, MakeDetector<GlrtDetector>};
+}
+
 }  // namespace ambrig

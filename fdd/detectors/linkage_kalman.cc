@@ -82,4 +82,9 @@ Lane LinkageKalman::Period(const MeasuredPeriod& in) {
   return out;
 }
 
+CoilDetectorKind KalmanOfLinkages() {
+  return {"kalman",  "-",  "innovations of a filter of all linkages, chi-square over 18",
+          kRequired, 11.6, MakeDetector<LinkageKalman>};
+}
+
 }  // namespace ambrig

@@ -5,12 +5,12 @@
 ///
 /// There are two ways to be one:
 ///   - A detector that flags only (coil_detector.h: a statistic per coil and a threshold) needs
-///     nothing more than its row in detector_catalogue.cc. examined_detector.h makes a RunDetector
+///     nothing more than its line in detector_catalogue.cc. examined_detector.h makes a RunDetector
 ///     of it: the alarm is the detector's, the class and the size of the fault come from the
 ///     examination of the raw samples that bearing_detector.h has (coil_examination.h). An alarm
 ///     that the examination does not confirm within 12 periods is cleared, and no coil is touched.
-///   - A detector that classifies by itself derives from RunDetector and gives its row in
-///     detector_catalogue.cc a `make_run`. BearingDetector ("coupled") is one.
+///   - A detector that classifies by itself derives from RunDetector and gives its kind
+///     (CoilDetectorKind) a `make_run`. BearingDetector ("coupled") is one.
 ///
 /// A detector learns nothing from outside beside RunDetectorSetup and what Period() is given.
 #include <memory>

@@ -69,4 +69,13 @@ Lane SlopePrediction::Period(const MeasuredPeriod& in) {
   return out;
 }
 
+CoilDetectorKind PaperCoupled() {
+  return {"paper-coupled",
+          "700 A/s",
+          "the same, and from the neighbours' switch states",
+          1,
+          4.53,
+          MakeDetector<SlopePrediction>};
+}
+
 }  // namespace ambrig

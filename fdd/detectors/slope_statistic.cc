@@ -80,4 +80,43 @@ Lane SlopeStatistic::Period(const MeasuredPeriod& in) {
   return held_;
 }
 
+namespace {
+
+constexpr double kPaperCycle = 1.75e-3;  // [s]
+
+template <SlopeStatistic::Thresholds thresholds>
+std::unique_ptr<CoilDetector> EveryPeriod(const CoilDetectorSetup& s) {
+  return std::make_unique<SlopeStatistic>(s, thresholds);
+}
+
+}  // namespace
+
+CoilDetectorKind Paper() {
+  return {"paper",
+          "700 A/s",
+          "slopes against fixed theoretical limits, once in 1.75 ms",
+          1,
+          8.06,
+          [](const CoilDetectorSetup& s) -> std::unique_ptr<CoilDetector> {
+            return std::make_unique<SlopeStatistic>(s, SlopeStatistic::Thresholds::kFixed,
+                                                    kPaperCycle);
+          }};
+}
+CoilDetectorKind PaperEveryPeriod() {
+  return {"paper-every-period",
+          "700 A/s",
+          "the same in every switching period",
+          1,
+          8.66,
+          EveryPeriod<SlopeStatistic::Thresholds::kFixed>};
+}
+CoilDetectorKind PaperOnline() {
+  return {"paper-online",
+          "700 A/s",
+          "the same, limits from measured bus, resistance and gap",
+          1,
+          4.53,
+          EveryPeriod<SlopeStatistic::Thresholds::kOnline>};
+}
+
 }  // namespace ambrig
