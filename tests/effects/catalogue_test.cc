@@ -79,6 +79,34 @@ TEST_P(EveryEffect, NullLeavesEveryBitOfTheRecord) {
     EXPECT_EQ(c.samples, record.Find(c.name)->samples) << c.name;
 }
 
+// A run without contact, free speed and freewheeling bridges cannot show what needs them.
+TEST_P(EveryEffect, WhatARunLacksLeavesEveryBitOfTheRecord) {
+  const EffectDescription& d = GetParam();
+  if (!d.needs.contact && !d.needs.free_speed && !d.needs.freewheeling)
+    GTEST_SKIP() << "needs none of them";
+  const RigParameters rig = ReferenceRig();
+  static const Record base = RunText(rig, LevitatedText()).record;
+  RigParameters with = rig;
+  with.effects.push_back(Tiny(d, FirstTarget(d, rig), 1));
+  EXPECT_FALSE(with.effects.back().IsNull());
+  const Record record = RunText(with, LevitatedText()).record;
+  for (const Channel& c : base.channels)
+    EXPECT_EQ(c.samples, record.Find(c.name)->samples) << c.name;
+}
+
+TEST(Effects, TargetsAreThoseWhoseBearingTheEffectCanActOn) {
+  EffectTargets known;
+  known.planes = {"A", "z", "M"};
+  known.kind = {{"A", kOnRadial}, {"z", kOnThrust}, {"M", kOnOpposed}};
+  EffectDescription d;
+  d.target = TargetKind::kPlaneOrZ;
+  EXPECT_EQ(TargetsOf(d, known), (std::vector<std::string>{"A", "z", "M"}));
+  d.acts_on = kOnRadial;
+  EXPECT_EQ(TargetsOf(d, known), (std::vector<std::string>{"A"}));
+  d.acts_on = kOnThrust | kOnOpposed;
+  EXPECT_EQ(TargetsOf(d, known), (std::vector<std::string>{"z", "M"}));
+}
+
 // Parameters 100 times nearer to null: the effect is 100 times smaller (the half-order law: 10
 // times), down to what the fast and the general path differ by, 2e-7 of a channel.
 TEST_P(EveryEffect, VanishesWithoutAJump) {
