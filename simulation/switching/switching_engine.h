@@ -77,6 +77,7 @@ class SwitchingEngine {
   void MoveRotor(long long n);
   void Watch(long long n);
   void WatchFaults(long long n);
+  class FaultedLanes;
   void Inject(const FaultSpec& fault);
   void EndFaultsBefore(double t);
   /// What follows from a change of the plant at `place`.
