@@ -181,7 +181,7 @@ TEST(FaultSupervisor, EveryDetectorOfTheCatalogueBringsTheRigThroughAnOpenCoil) 
     EXPECT_EQ(o.Class("A.coil3"), "open") << k.name;
     EXPECT_LT(o.result.metrics.detection_delay, 2.5e-3) << k.name;
     EXPECT_EQ(o.When("redistributed"), o.When("classified")) << k.name;
-    EXPECT_FALSE(o.result.metrics.drop) << k.name;
+    EXPECT_FALSE(o.result.drop) << k.name;
     EXPECT_LT(o.result.metrics.max_orbit.at("A"), 60e-6) << k.name;
   }
 }

@@ -12,7 +12,7 @@ namespace {
 
 using namespace testing_bench;
 
-RunDetectorSetup SetupOf(const Bench& bench) {
+RunDetectorSetup RunSetupOf(const Bench& bench) {
   RunDetectorSetup s;
   s.model = MakeLinkageModel(Reference());
   s.settings.sampling = bench.Sampling();
@@ -40,7 +40,7 @@ CoilDetectorKind Planted() {
 TEST(RunDetector, AnUnknownNameIsOneLineThatNamesAllDetectors) {
   Bench bench;
   try {
-    MakeRunDetector("coupeld", "rig.toml:7: detection.kind", SetupOf(bench));
+    MakeRunDetector("coupeld", "rig.toml:7: detection.kind", RunSetupOf(bench));
     FAIL();
   } catch (const InputError& e) {
     EXPECT_EQ(std::string(e.what()).find("rig.toml:7: detection.kind = \"coupeld\", allowed: "), 0);
@@ -54,7 +54,7 @@ TEST(RunDetector, EveryDetectorOfTheCatalogueWatchesAHealthyBearingWithoutADiagn
     if (!k.make) continue;  // commissioned ones need their file
     Bench bench;
     bench.x0 = bench.y0 = 0;
-    const auto detector = MakeRunDetector(std::string(k.name), "", SetupOf(bench));
+    const auto detector = MakeRunDetector(std::string(k.name), "", RunSetupOf(bench));
     for (int n = 0; n < 40; ++n) {
       MeasuredPeriod in = bench.Run();
       const Lane set_point = bench.adc[0];
@@ -68,7 +68,7 @@ TEST(RunDetector, EveryDetectorOfTheCatalogueWatchesAHealthyBearingWithoutADiagn
 TEST(RunDetector, AFlagOfAHealthyCoilIsExaminedClearedAndHeldOff) {
   Bench bench;
   bench.x0 = bench.y0 = 0;
-  ExaminedDetector detector(Planted(), SetupOf(bench));
+  ExaminedDetector detector(Planted(), RunSetupOf(bench));
   std::vector<int> raised, cleared;
   for (int n = 0; n < 100; ++n) {
     const DetectorAlarm a = detector.Period(bench.Run());
@@ -88,7 +88,7 @@ TEST(RunDetector, AFlagOfAHealthyCoilIsExaminedClearedAndHeldOff) {
 
 TEST(RunDetector, TheThresholdOfTheRigFileReplacesTheCataloguesOne) {
   Bench bench;
-  RunDetectorSetup setup = SetupOf(bench);
+  RunDetectorSetup setup = RunSetupOf(bench);
   EXPECT_EQ(ExaminedDetector(Planted(), setup).threshold(), 1);
   setup.threshold = 2.5;
   ExaminedDetector deaf(Planted(), setup);
@@ -100,7 +100,7 @@ TEST(RunDetector, TheThresholdOfTheRigFileReplacesTheCataloguesOne) {
 TEST(RunDetector, TheExaminationNamesTheFaultyCoilOfAnAlarmThatNamesAnother) {
   Bench bench;
   bench.x0 = bench.y0 = 0;
-  ExaminedDetector detector(Planted(), SetupOf(bench));
+  ExaminedDetector detector(Planted(), RunSetupOf(bench));
   for (int n = 0; n < 8; ++n) detector.Period(bench.Run());
   bench.lanes.Break(2, 0, 0);
   Diagnosis found;
