@@ -31,7 +31,11 @@ class AlwaysCoil3 : public CoilDetector {
 };
 
 CoilDetectorKind Planted() {
-  return {"planted", "-", "coil 3 always", kRequired, 1,
+  return {"planted",
+          "-",
+          "coil 3 always",
+          kRequired,
+          1,
           [](const CoilDetectorSetup&) -> std::unique_ptr<CoilDetector> {
             return std::make_unique<AlwaysCoil3>();
           }};
