@@ -8,6 +8,7 @@
 
 #include "analysis/closed_loop.h"
 #include "core/math/constants.h"
+#include "core/record/channels.h"
 #include "simulation/simulate.h"
 
 namespace ambrig {
@@ -66,7 +67,7 @@ std::vector<double> Commands(const Record& record, const OperatingPoint& point, 
       (W.transpose() * W).ldlt().solve(W.transpose()).row(1 + static_cast<Eigen::Index>(side));
   std::vector<double> f(record.rows(), 0.0);
   for (int j = 0; j < control.coils; ++j) {
-    const Channel* set = record.Find(fmt::format("{}.s{}", control.name, j + 1));
+    const Channel* set = Find(record, {ChannelKind::kSetPoint, control.name, j});
     Require(set != nullptr, "set-points in the record");
     for (std::size_t k = 0; k < f.size(); ++k)
       f[k] += control.map.k * control.map.c0 * row(j) * set->samples[k];

@@ -6,8 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
-#include "core/base/fingerprint.h"
-#include "core/base/read_file.h"
 
 namespace ambrig {
 
@@ -39,31 +37,21 @@ JournalHeader ParseHeader(std::string_view text, const std::string& path) {
   throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
 }
 
-JournalContent Parse(const std::string& text, const std::string& path) {
-  JournalContent out;
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    const bool whole = end < text.size();
-    const std::string_view content =
-        whole ? Unchecked(std::string_view(text).substr(begin, end - begin)) : std::string_view{};
-    begin = end + 1;
-    if (++number == 1) {
-      out.header = ParseHeader(content, path);
-      continue;
-    }
-    if (content.empty()) {
-      ++out.damaged;
-      continue;
-    }
-    Row row = ParseRow(content, fmt::format("{}:{}", path, number));
-    if (row.run >= out.header.runs)
-      throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, number, row.run,
-                                   out.header.runs - 1));
+/// Takes the rows of the journal at `path` into `content`.
+JournalVisitor Into(JournalContent& content, const std::string& path) {
+  const auto header = [&content, path](std::string_view text) {
+    content.header = ParseHeader(text, path);
+  };
+  const auto entry = [&content, path](const JournalEntry& e) {
+    Row row = ParseRow(e.text, fmt::format("{}:{}", path, e.line));
+    if (row.run >= content.header.runs)
+      throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, e.line, row.run,
+                                   content.header.runs - 1));
     const std::size_t run = row.run;
-    out.rows.insert_or_assign(run, std::move(row));
-  }
-  return out;
+    content.rows.insert_or_assign(run, std::move(row));
+    return true;
+  };
+  return {header, entry};
 }
 
 }  // namespace
@@ -79,38 +67,26 @@ JournalContent ReadJournal(const std::string& folder) {
   if (!HasJournal(folder))
     throw InputError(
         fmt::format("{}: no campaign's results, allowed: a folder with journal.txt", folder));
-  const std::string path = PathOf(folder), text = ReadFile(path);
-  if (text.empty())
-    throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
-  return Parse(text, path);
+  JournalContent out;
+  out.damaged = ReadJournalFile(PathOf(folder), Into(out, PathOf(folder)));
+  return out;
 }
 
-Journal::Journal(const std::string& folder, const JournalHeader& header) : file_(PathOf(folder)) {
-  const std::string& path = file_.path();
-  const std::string text = ReadFile(path);
-  // Without a whole first line nothing was recorded yet.
-  if (text.find('\n') == std::string::npos) {
-    file_.Truncate(0);
-    file_.Append(CheckedLine(HeaderText(header)));
-    return;
-  }
-  JournalContent content = Parse(text, path);
-  if (content.header.fingerprint != header.fingerprint || content.header.runs != header.runs)
+CampaignJournal::CampaignJournal(const std::string& folder, const JournalHeader& header)
+    : journal_(PathOf(folder), HeaderText(header), Into(content_, PathOf(folder))) {
+  const JournalHeader& found = content_.header;
+  if (found.fingerprint.empty()) return;  // begun just now
+  if (found.fingerprint != header.fingerprint || found.runs != header.runs)
     throw InputError(
         fmt::format("{}: holds runs of {} before it, its rig or a scenario was changed; allowed: "
                     "the same files, or another folder with -o",
-                    path, content.header.file));
-  rows_ = std::move(content.rows);
-  damaged_ = content.damaged;
-  // A half line is ended, so that the next one stands alone.
-  if (!text.ends_with('\n')) file_.Append("\n");
+                    journal_.path(), found.file));
 }
 
-void Journal::Append(const Row& row) {
-  const std::string line = CheckedLine(row.Csv());
+void CampaignJournal::Append(const Row& row) {
+  journal_.Append(row.Csv());
   const std::scoped_lock lock(mutex_);
-  file_.Append(line);
-  rows_.insert_or_assign(row.run, row);
+  content_.rows.insert_or_assign(row.run, row);
 }
 
 void WriteTable(const std::string& folder, const Rows& rows) {

@@ -1,14 +1,13 @@
 #pragma once
-/// The journal of a campaign: one line a finished run, appended and handed to the system at once.
-/// kill -9 loses no line; a line that was cut off (full disk, power) is found by its check sum and
-/// its run is done again. One process at a time writes a journal.
+/// The journal of a campaign (core/base/journal.h): one line for every finished run. A run whose line
+/// is damaged is done again.
 #include <map>
 #include <mutex>
 #include <string>
 
 #include "campaign/campaign_file.h"
 #include "campaign/row.h"
-#include "core/base/append_file.h"
+#include "core/base/journal.h"
 
 namespace ambrig {
 
@@ -31,22 +30,21 @@ struct JournalContent {
 JournalContent ReadJournal(const std::string& folder);
 bool HasJournal(const std::string& folder);
 
-class Journal {
+class CampaignJournal {
  public:
   /// Makes the folder, begins a journal or goes on with the one that is there (its rows are read).
   /// @throws InputError when it is of another campaign or rig, in use, or cannot be written.
-  Journal(const std::string& folder, const JournalHeader& header);
-  const Rows& rows() const { return rows_; }
-  std::size_t damaged() const { return damaged_; }
+  CampaignJournal(const std::string& folder, const JournalHeader& header);
+  const Rows& rows() const { return content_.rows; }
+  std::size_t damaged() const { return journal_.damaged(); }
   /// Thread-safe; on return the line is in the system's hands. @throws InputError (full disk ...)
   void Append(const Row& row);
-  Rows TakeRows() { return std::move(rows_); }
+  Rows TakeRows() { return std::move(content_.rows); }
 
  private:
-  AppendFile file_;
+  JournalContent content_;
+  Journal journal_;
   std::mutex mutex_;
-  Rows rows_;
-  std::size_t damaged_ = 0;
 };
 
 /// FOLDER/table.csv: header and the rows by run. @throws InputError

@@ -10,6 +10,7 @@
 #include "core/base/counted.h"
 #include "scenarios/faults/fault.h"
 #include "simulation/simulate.h"
+#include "simulation/verdict/detection_score.h"
 
 namespace ambrig {
 
@@ -23,29 +24,6 @@ std::string OneCell(std::string text) {
   for (char& ch : text)
     if (ch == ',' || ch == '\n' || ch == '\r' || ch == '\t' || ch == '"') ch = ' ';
   return text;
-}
-
-struct Faults {
-  std::size_t detected = 0, right_class = 0;
-};
-
-Faults CountFaults(const Scenario& s, const RunResult& r) {
-  Faults n;
-  for (const FaultSpec& f : s.faults) {
-    const auto matches = [&](const RunEvent& e, const char* kind) {
-      return e.kind == kind && e.target == f.target && e.t >= f.time;
-    };
-    n.detected += std::any_of(r.events.begin(), r.events.end(),
-                              [&](const RunEvent& e) { return matches(e, "detected"); })
-                      ? 1
-                      : 0;
-    // The last diagnosis counts: a class may be refined while more is seen of the coil.
-    std::string last;
-    for (const RunEvent& e : r.events)
-      if (matches(e, "classified")) last = e.fault_class;
-    n.right_class += last == FaultByKind(f.kind).seen_as ? 1 : 0;
-  }
-  return n;
 }
 
 double LargestOrbit(const RunResult& r, const std::string& bearing) {
@@ -85,15 +63,15 @@ std::vector<std::string> Conditions(const RunPlan& plan, const PlannedRun& p) {
 
 std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r) {
   const RunMetrics& m = r.metrics;
-  const Faults n = CountFaults(p.scenario, r);
+  const DetectionScore score = ScoreDetection(p.scenario.faults, r.events);
   const bool finite = std::isfinite(LargestOrbit(p, r)) && std::isfinite(m.copper_loss) &&
                       std::isfinite(m.peak_current);
   if (!finite) throw std::runtime_error("the run is not finite");
   return {r.drop        ? "drop"
           : r.touchdown ? "touchdown"
                         : "up",
-          std::to_string(n.detected),
-          std::to_string(n.right_class),
+          std::to_string(score.detected()),
+          std::to_string(score.right_class()),
           Optional(m.detection_delay),
           Optional(m.redistribution_delay),
           NumberText(m.false_alarms),

@@ -36,7 +36,7 @@ std::string ReadIfThere(const fs::path& file) {
 
 class SlurmRun {
  public:
-  SlurmRun(const RunPlan& plan, const std::string& folder, Journal& journal,
+  SlurmRun(const RunPlan& plan, const std::string& folder, CampaignJournal& journal,
            const SlurmOptions& options)
       : campaign_(plan.campaign()),
         folder_(fs::absolute(folder) / "shards"),
@@ -162,7 +162,7 @@ class SlurmRun {
 
   const Campaign& campaign_;
   fs::path folder_;
-  Journal& journal_;
+  CampaignJournal& journal_;
   SlurmOptions options_;
   std::vector<ShardState> shards_;
   std::vector<std::string> jobs_;
@@ -170,7 +170,7 @@ class SlurmRun {
 
 }  // namespace
 
-void RunOnSlurm(const RunPlan& plan, const std::string& folder, Journal& journal,
+void RunOnSlurm(const RunPlan& plan, const std::string& folder, CampaignJournal& journal,
                 const SlurmOptions& options, const std::atomic<bool>* stop,
                 const std::function<void(std::size_t)>& finished) {
   SlurmRun run(plan, folder, journal, options);

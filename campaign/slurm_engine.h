@@ -25,7 +25,7 @@ inline constexpr int kMostTasks = 1000;  // Slurm's default MaxArraySize is 1001
 /// `finished(gathered)`: after new rows, how many of the campaign's are there.
 /// @throws InputError when Slurm refuses, or a shard makes no progress in several attempts;
 /// Interrupted when stopped (tasks are cancelled).
-void RunOnSlurm(const RunPlan& plan, const std::string& folder, Journal& journal,
+void RunOnSlurm(const RunPlan& plan, const std::string& folder, CampaignJournal& journal,
                 const SlurmOptions& options, const std::atomic<bool>* stop,
                 const std::function<void(std::size_t)>& finished);
 

@@ -5,6 +5,7 @@
 
 #include "analysis/linear/control_plant.h"
 #include "core/base/toml_edit.h"
+#include "core/record/channels.h"
 #include "design/linear_figures.h"
 #include "rig/rig_file.h"
 #include "simulation/sampled/controller_setup.h"
@@ -136,7 +137,7 @@ std::string RigTextOfPoint(const DesignCandidate& c, const std::vector<double>& 
   std::vector<TomlEdit> edits;
   for (std::size_t k = 0; k < values.size(); ++k)
     for (const std::string& path : c.variables[k].paths) edits.push_back({path, values[k]});
-  return EditedToml(c.rig_text, c.rig_file, edits);
+  return WithAbsoluteFiles(EditedToml(c.rig_text, c.rig_file, edits), c.rig_file);
 }
 
 RigParameters RigOfPoint(const DesignCandidate& c, const std::vector<double>& values) {
@@ -186,7 +187,8 @@ Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector
 }
 
 std::vector<double> PlaneDistance(const Record& record, const std::string& plane) {
-  const Channel *x = record.Find(plane + ".r.x"), *y = record.Find(plane + ".r.y");
+  const Channel *x = Find(record, {ChannelKind::kTruePosition, plane, 0}),
+                *y = Find(record, {ChannelKind::kTruePosition, plane, 1});
   Require(x && y && !x->samples.empty(), "a plane that is recorded");
   std::vector<double> out;
   for (std::size_t k = 0; k < x->samples.size(); ++k)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "analysis/linear/control_plant.h"
+#include "core/record/channels.h"
 #include "design/linear_figures.h"
 #include "design/pareto.h"
 #include "design/point.h"
@@ -24,7 +25,8 @@ ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParamet
   trace.orbit.assign(trace.t.size(), 0.0);
   for (const BearingParameters& b : rig.bearings) {
     if (b.kind == BearingKind::kThrust) continue;
-    const Channel *x = result.record.Find(b.name + ".x"), *y = result.record.Find(b.name + ".y");
+    const Channel *x = Find(result.record, {ChannelKind::kReading, b.name, 0}),
+                  *y = Find(result.record, {ChannelKind::kReading, b.name, 1});
     for (std::size_t k = 0; x && k < trace.orbit.size(); ++k)
       trace.orbit[k] = std::max(trace.orbit[k], std::hypot(x->samples[k], y ? y->samples[k] : 0.0));
   }

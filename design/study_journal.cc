@@ -6,8 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/base/fingerprint.h"
-#include "core/base/read_file.h"
+#include "core/base/errors.h"
 
 namespace ambrig {
 
@@ -41,45 +40,36 @@ bool ParseNumbers(std::string_view text, std::vector<double>& out) {
   return true;
 }
 
+/// Takes the points of the journal at `path` into `known`.
+JournalVisitor Into(std::map<std::string, Evaluation>& known, const Study& study,
+                    const std::string& path) {
+  const auto header = [&study, path](std::string_view text) {
+    if (!text.starts_with(fmt::format("ambrig study 1\t{}\t", study.fingerprint)))
+      throw InputError(
+          fmt::format("{}: holds another study, or this one before it, a rig or a scenario was "
+                      "changed; allowed: the same files, or another folder with -o",
+                      path));
+  };
+  const auto entry = [&known, &study](const JournalEntry& line) {
+    const std::size_t a = line.text.find('\t'),
+                      b = a == std::string_view::npos ? a : line.text.find('\t', a + 1);
+    Evaluation e;
+    if (b == std::string_view::npos ||
+        !ParseNumbers(line.text.substr(a + 1, b - a - 1), e.figures) ||
+        e.figures.size() != study.figures.size())
+      return false;
+    e.note = line.text.substr(b + 1);
+    known[std::string(line.text.substr(0, a))] = e;
+    return true;
+  };
+  return {header, entry};
+}
+
 }  // namespace
 
-StudyJournal::StudyJournal(const std::string& folder, const Study& study) : file_(PathOf(folder)) {
-  const std::string header = fmt::format("ambrig study 1\t{}\t{}", study.fingerprint, study.file);
-  const std::string text = ReadFile(file_.path());
-  if (text.find('\n') == std::string::npos) {
-    file_.Truncate(0);
-    file_.Append(CheckedLine(header));
-    return;
-  }
-  std::size_t number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = text.find('\n', begin);
-    const std::string_view line =
-        end == std::string::npos ? std::string_view{}
-                                 : Unchecked(std::string_view(text).substr(begin, end - begin));
-    begin = end == std::string::npos ? text.size() : end + 1;
-    if (++number == 1) {
-      if (!line.starts_with(fmt::format("ambrig study 1\t{}\t", study.fingerprint)))
-        throw InputError(
-            fmt::format("{}: holds another study, or this one before it, a rig or a scenario was "
-                        "changed; allowed: the same "
-                        "files, or another folder with -o",
-                        file_.path()));
-      continue;
-    }
-    const std::size_t a = line.find('\t'),
-                      b = a == std::string_view::npos ? a : line.find('\t', a + 1);
-    Evaluation e;
-    if (b == std::string_view::npos || !ParseNumbers(line.substr(a + 1, b - a - 1), e.figures) ||
-        e.figures.size() != study.figures.size()) {
-      ++damaged_;
-      continue;
-    }
-    e.note = line.substr(b + 1);
-    known_[std::string(line.substr(0, a))] = e;
-  }
-  if (!text.ends_with('\n')) file_.Append("\n");
-}
+StudyJournal::StudyJournal(const std::string& folder, const Study& study)
+    : journal_(PathOf(folder), fmt::format("ambrig study 1\t{}\t{}", study.fingerprint, study.file),
+               Into(known_, study, PathOf(folder))) {}
 
 std::optional<Evaluation> StudyJournal::Find(std::size_t candidate,
                                              const std::vector<double>& values) const {
@@ -93,7 +83,7 @@ void StudyJournal::Add(std::size_t candidate, const std::vector<double>& values,
   const std::string key = Key(candidate, values);
   const std::scoped_lock lock(mutex_);
   if (known_.contains(key)) return;
-  file_.Append(CheckedLine(fmt::format("{}\t{}\t{}", key, Numbers(e.figures), e.note)));
+  journal_.Append(fmt::format("{}\t{}\t{}", key, Numbers(e.figures), e.note));
   known_[key] = e;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-/// What a study has evaluated so far: a line per point, appended when it is done. kill -9 loses no
-/// line; a damaged one is found by its check sum and its point is done again.
+/// What a study has evaluated so far (core/base/journal.h): a line per point, appended when it is
+/// done. A point whose line is damaged is done again.
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 
-#include "core/base/append_file.h"
+#include "core/base/journal.h"
 #include "design/point.h"
 
 namespace ambrig {
@@ -19,13 +19,12 @@ class StudyJournal {
   std::optional<Evaluation> Find(std::size_t candidate, const std::vector<double>& values) const;
   void Add(std::size_t candidate, const std::vector<double>& values, const Evaluation& e);
   std::size_t size() const;
-  std::size_t damaged() const { return damaged_; }
+  std::size_t damaged() const { return journal_.damaged(); }
 
  private:
   mutable std::mutex mutex_;
-  AppendFile file_;
   std::map<std::string, Evaluation> known_;
-  std::size_t damaged_ = 0;
+  Journal journal_;
 };
 
 }  // namespace ambrig

@@ -10,6 +10,7 @@
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"
 #include "simulation/switching/switching_engine.h"
+#include "simulation/verdict/detection_score.h"
 
 namespace ambrig {
 
@@ -81,31 +82,6 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;
   return result;
-}
-
-void ScoreDetection(const Scenario& scenario, RunResult& result) {
-  RunMetrics& m = result.metrics;
-  m.detection_delay = m.redistribution_delay = -1;
-  for (const FaultSpec& fault : scenario.faults) {
-    double detected = kInfinity, redistributed = kInfinity;
-    for (const RunEvent& e : result.events) {
-      if (e.t < fault.time) continue;
-      if (e.kind == "detected" && e.target == fault.target) detected = std::min(detected, e.t);
-      if (e.kind == "redistributed") redistributed = std::min(redistributed, e.t);
-    }
-    if (std::isfinite(detected))
-      m.detection_delay = std::max(m.detection_delay, detected - fault.time);
-    if (std::isfinite(redistributed))
-      m.redistribution_delay = std::max(m.redistribution_delay, redistributed - fault.time);
-  }
-  m.false_alarms = 0;
-  for (const RunEvent& e : result.events) {
-    if (e.kind != "detected") continue;
-    bool real = false;
-    for (const FaultSpec& fault : scenario.faults)
-      real = real || (fault.target == e.target && e.t >= fault.time);
-    if (!real) m.false_alarms += 1;
-  }
 }
 
 }  // namespace ambrig

@@ -31,7 +31,4 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
 /// Fidelity by its name on the command line. @throws InputError
 Fidelity FidelityByName(const std::string& name);
 
-/// Delays and false alarms of a run, judged with the scenario's faults in hand.
-void ScoreDetection(const Scenario& scenario, RunResult& result);
-
 }  // namespace ambrig

@@ -68,7 +68,8 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
              no_report ? "" : fmt::format(", report {}", html));
 }
 
-void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard, Journal& journal) {
+void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard,
+             CampaignJournal& journal) {
   const auto pending = PendingRuns(plan.campaign().runs(), shard, journal.rows());
   if (pending.empty()) return;
   Progress progress("campaign");
@@ -87,7 +88,7 @@ void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard, 
   });
 }
 
-void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, Journal& journal) {
+void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, CampaignJournal& journal) {
   SlurmOptions slurm;
   slurm.program = std::filesystem::read_symlink("/proc/self/exe").string();
   slurm.tasks = o.tasks;
@@ -114,7 +115,7 @@ int RunCampaign(CampaignOptions o) {
   if (o.engine == "slurm" && !o.shard.empty())
     throw InputError("--shard: allowed with --engine local only (slurm makes its own)");
   const JournalHeader header = HeaderOf(plan.campaign());
-  Journal journal(o.out, header);
+  CampaignJournal journal(o.out, header);
   if (!journal.rows().empty())
     fmt::print("{}: goes on after {} done before{}\n", o.out, Counted(journal.rows().size(), "run"),
                journal.damaged() > 0
@@ -143,7 +144,7 @@ struct MergeOptions {
 
 int Merge(const MergeOptions& o) {
   const JournalContent merged = MergeJournals(o.folders, o.partial);
-  Journal journal(o.out, merged.header);
+  CampaignJournal journal(o.out, merged.header);
   for (const auto& [run, row] : merged.rows)
     if (!journal.rows().contains(run)) journal.Append(row);
   Conclude(o.common, o.no_report, o.out, merged.header, journal.rows());

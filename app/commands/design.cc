@@ -133,7 +133,9 @@ int Repeat(const Study& study, const StudyResult& result, const DesignOptions& o
   for (const StudyScenario& s : study.scenarios) {
     const std::string stem = std::filesystem::path(s.file).stem().string(),
                       file = (folder / (stem + ".toml")).string();
-    WriteFileAtomically(file, EditedToml(s.text, s.file, {{"rig", std::string("rig.toml")}}));
+    WriteFileAtomically(
+        file,
+        WithAbsoluteFiles(EditedToml(s.text, s.file, {{"rig", std::string("rig.toml")}}), s.file));
     const Scenario scenario = ReadScenario(file, rig);
     SimulateOptions options;
     options.fidelity = study.fidelity;

@@ -31,7 +31,7 @@ void WriteStudyTable(const DetectorStudyPlan& plan, const Rows& rows, const std:
   WriteFileAtomically((std::filesystem::path(folder) / "table.csv").string(), text);
 }
 
-void RunAll(const DetectorStudyPlan& plan, int jobs, Journal& journal) {
+void RunAll(const DetectorStudyPlan& plan, int jobs, CampaignJournal& journal) {
   std::vector<std::size_t> pending;
   for (std::size_t run = 0; run < plan.study().runs(); ++run)
     if (!journal.rows().contains(run)) pending.push_back(run);
@@ -54,7 +54,7 @@ int RunDetectors(DetectorsCommand o) {
   const DetectorStudyPlan plan(ReadDetectorStudy(o.file));
   if (o.out.empty())
     o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
-  Journal journal(o.out, plan.Header());
+  CampaignJournal journal(o.out, plan.Header());
   if (!journal.rows().empty())
     fmt::print("{}: goes on after {} done before\n", o.out, Counted(journal.rows().size(), "run"));
   try {

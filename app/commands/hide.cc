@@ -8,6 +8,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
+#include "core/base/toml_edit.h"
 #include "core/record/hdf5.h"
 #include "discovery/practice/hide.h"
 #include "rig/rig_file.h"
@@ -48,7 +49,7 @@ int RunHide(const HideCommand& o) {
     WriteFileAtomically(stem + ".toml", hidden.records[r].toml);
     WriteHdf5(hidden.data.records[r].data, stem + ".h5");
   }
-  WriteFileAtomically((folder / "rig.toml").string(), ReadFile(o.rig));
+  WriteFileAtomically((folder / "rig.toml").string(), WithAbsoluteFiles(ReadFile(o.rig), o.rig));
   WriteFileAtomically((folder / "case.toml").string(), CaseText(hidden));
   std::string name = folder.filename().string();
   if (name.empty()) name = folder.parent_path().filename().string();

@@ -8,6 +8,7 @@
 #include "app/figures/series.h"
 #include "app/pages/discovery_parts.h"
 #include "core/math/fft.h"
+#include "core/record/channels.h"
 
 namespace ambrig {
 namespace {
@@ -201,18 +202,17 @@ class Pool {
     return out;
   }
 
-  /// Names of one kind at the channel's bearing (or anywhere, for the bus).
-  std::vector<std::string> Names(const std::string& kind, const std::string& of) const {
-    const std::string bearing = of.substr(0, of.find('.'));
+  /// Names of one kind at the channel's bearing (or anywhere, for a channel of the whole rig).
+  std::vector<std::string> Names(ChannelKind kind, const std::string& of) const {
+    const auto about = ParseChannel(of);
     std::vector<std::string> out;
     for (const std::size_t r : records_)
       for (const Channel& c : model_.data().records[r].data.channels) {
-        const bool prescribed = c.name == "omega" || c.name == "theta" ||
-                                c.name.find(".r.") != std::string::npos || c.name == "r.z";
-        const bool here = of == "bus" || c.name.substr(0, c.name.find('.')) == bearing;
-        if (!prescribed && here && ChannelKind(c.name) == kind &&
-            std::ranges::find(out, c.name) == out.end())
-          out.push_back(c.name);
+        const auto id = ParseChannel(c.name);
+        if (!id || id->kind != kind) continue;
+        const bool here =
+            !about || about->row().scope == ChannelScope::kRig || id->plane == about->plane;
+        if (here && std::ranges::find(out, c.name) == out.end()) out.push_back(c.name);
       }
     return out;
   }
@@ -224,9 +224,9 @@ class Pool {
   std::string unit_;
 };
 
-Binned BestOf(const Pool& pool, const std::string& kind, const std::string& unit,
-              const std::string& channel) {
+Binned BestOf(const Pool& pool, ChannelKind kind, const std::string& channel) {
   Binned best;
+  const std::string unit(RowOf(kind).unit);
   for (const std::string& name : pool.Names(kind, channel)) {
     Binned b = BinOver(name, unit, pool.Series(name), pool.error());
     if (best.at.empty() || b.share > best.share) best = std::move(b);
@@ -239,8 +239,8 @@ Binned BestOf(const Pool& pool, const std::string& kind, const std::string& unit
 std::optional<Figure> DependenceFigure(const CaseModel& model, const std::vector<double>& predicted,
                                        const std::string& channel) {
   const Pool pool(model, predicted, channel);
-  std::vector<Binned> all = {BestOf(pool, "reading", "m", channel),
-                             BestOf(pool, "current", "A", channel),
+  std::vector<Binned> all = {BestOf(pool, ChannelKind::kReading, channel),
+                             BestOf(pool, ChannelKind::kCoilCurrent, channel),
                              BinOver("speed", "Hz", pool.Speed(), pool.error())};
   std::erase_if(all, [](const Binned& b) { return b.at.size() < 2; });
   if (all.empty()) return {};

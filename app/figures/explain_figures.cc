@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "app/figures/response_figures.h"
+#include "core/record/channels.h"
 #include "discovery/model/floor.h"
 
 namespace ambrig {
@@ -21,7 +22,7 @@ std::vector<std::string> WorstPlaces(const CaseModel& model, const std::vector<d
     if (out.size() == 5 || ratio < 1.15) break;
     const CaseRecord& r = model.data().records[t->record];
     out.push_back(fmt::format("**{}** ({}) in {} (*{}*): {:.1f} times the noise",
-                              ChannelName(model, *t), ChannelKind(ChannelName(model, *t)),
+                              ChannelName(model, *t), ChannelWords(ChannelName(model, *t)),
                               ShortName(r.data_file), r.scenario.name, ratio));
   }
   return out;
@@ -38,9 +39,9 @@ std::vector<Target> MostTelling(const ExplainScene& s, std::size_t count) {
   std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Target> out;
   for (const auto& [gain, t] : order) {
-    const std::string kind = ChannelKind(ChannelName(s.model, *t));
+    const std::string_view kind = ChannelWords(ChannelName(s.model, *t));
     const bool known = std::ranges::any_of(
-        out, [&](const Target& o) { return ChannelKind(ChannelName(s.model, o)) == kind; });
+        out, [&](const Target& o) { return ChannelWords(ChannelName(s.model, o)) == kind; });
     if (out.size() < count && gain > 0.1 && !known && t->count >= 64) out.push_back(*t);
   }
   return out;

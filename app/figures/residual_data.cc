@@ -5,6 +5,7 @@
 #include <map>
 #include <random>
 
+#include "core/record/channels.h"
 #include "discovery/model/floor.h"
 
 namespace ambrig {
@@ -12,23 +13,6 @@ namespace ambrig {
 std::string ShortName(const std::string& data_file) {
   const std::string name = data_file.substr(data_file.find_last_of('/') + 1);
   return name.substr(0, name.find_last_of('.'));
-}
-
-std::string ChannelKind(const std::string& channel) {
-  if (channel == "bus") return "bus";
-  const std::size_t dot = channel.find('.');
-  switch (dot == std::string::npos ? 'x' : channel[dot + 1]) {
-    case 'i':
-      return "current";
-    case 's':
-      return "set-point";
-    case 'd':
-      return "duty";
-    case 'f':
-      return "load cell";
-    default:
-      return "reading";
-  }
 }
 
 const std::string& ChannelName(const CaseModel& model, const Target& t) {
@@ -59,10 +43,10 @@ std::vector<Target> WorstTargets(const CaseModel& model, const std::vector<doubl
     if (t.record == record) all.emplace_back(TargetRatio(model, residual, t), &t);
   std::ranges::stable_sort(all, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Target> out;
-  std::map<std::string, std::size_t> kinds;
+  std::map<std::string_view, std::size_t> kinds;
   for (const auto& [ratio, t] : all) {
     if (out.size() == count || (ratio < 1.05 && !out.empty())) break;
-    if (++kinds[ChannelKind(ChannelName(model, *t))] <= per_kind) out.push_back(*t);
+    if (++kinds[ChannelWords(ChannelName(model, *t))] <= per_kind) out.push_back(*t);
   }
   return out;
 }

@@ -10,9 +10,6 @@ namespace ambrig {
 /// "record-3" of "some/where/record-3.h5".
 std::string ShortName(const std::string& data_file);
 
-/// "reading", "current", "set-point", "duty", "load cell" or "bus", from the channel's name.
-std::string ChannelKind(const std::string& channel);
-
 const std::string& ChannelName(const CaseModel& model, const Target& t);
 
 struct ChannelView {

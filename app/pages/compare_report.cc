@@ -9,6 +9,7 @@
 #include "app/pages/discovery_parts.h"
 #include "app/pages/discovery_report.h"
 #include "app/pages/format.h"
+#include "core/record/channels.h"
 
 namespace ambrig {
 namespace {
@@ -125,7 +126,7 @@ void AddChannelTable(HtmlReport& report, const CaseRecord& record, const RecordC
   std::vector<std::vector<Cell>> rows;
   for (const ChannelError& e : all) {
     const std::string unit = Unit(record, e.channel);
-    rows.push_back({e.channel, ChannelKind(e.channel), FormatSi(e.rms_error, unit),
+    rows.push_back({e.channel, std::string(ChannelWords(e.channel)), FormatSi(e.rms_error, unit),
                     FormatSi(e.noise, unit), RatioCell(e.ratio),
                     fmt::format("{:.2f} %", 100 * e.nrmse), fmt::format("{:.2f}", e.whiteness)});
   }
@@ -159,7 +160,7 @@ void AddMotionFigures(HtmlReport& report, const View& v, std::size_t record,
   if (const auto response = ResponseFigure(v.model, v.comparison.predicted, record))
     report.AddFigure(*response);
   for (const Target& t : worst) {
-    if (ChannelKind(ChannelName(v.model, t)) != "reading") continue;
+    if (!IsOfKind(ChannelName(v.model, t), ChannelKind::kReading)) continue;
     if (const auto orders = OrderFigure(v.model, v.comparison.predicted, t))
       report.AddFigure(*orders);
     return;
@@ -187,9 +188,9 @@ std::vector<std::string> WorstNames(const Comparison& c, std::size_t count) {
   for (const auto& [name, ratio] : worst) order.emplace_back(ratio, name);
   std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<std::string> out;
-  std::map<std::string, int> kinds;
+  std::map<std::string_view, int> kinds;
   for (const auto& [ratio, name] : order)
-    if (out.size() < count && (ratio > 1.05 || out.empty()) && ++kinds[ChannelKind(name)] <= 2)
+    if (out.size() < count && (ratio > 1.05 || out.empty()) && ++kinds[ChannelWords(name)] <= 2)
       out.push_back(name);
   return out;
 }

@@ -6,6 +6,7 @@
 
 #include "app/pages/format.h"
 #include "core/base/read_file.h"
+#include "rig/rig_channels.h"
 
 namespace ambrig {
 
@@ -19,8 +20,8 @@ std::string ShortName(const std::string& target) {
   return dot == std::string::npos ? target : target.substr(0, dot) + target.substr(dot + 5);
 }
 
-std::vector<double> ChannelOf(const Record& record, const std::string& name) {
-  const Channel* c = record.Find(name);
+std::vector<double> ChannelOf(const Record& record, const ChannelId& id) {
+  const Channel* c = Find(record, id);
   return c ? c->samples : std::vector<double>{};
 }
 
@@ -32,18 +33,18 @@ void FillBearings(const RigParameters& rig, const RunResult& result, RunReportDa
     r.clearance = b.auxiliary ? b.auxiliary->clearance : b.radial.gap;
     for (int j = 0; j < kPoles; ++j)
       r.pole_angles.push_back((b.radial.first_pole_angle_deg + 45.0 * j) * kPi / 180);
-    r.x = ChannelOf(result.record, b.name + ".r.x");
-    r.y = ChannelOf(result.record, b.name + ".r.y");
-    for (int j = 1; j <= kPoles; ++j)
-      r.currents.push_back(ChannelOf(result.record, fmt::format("{}.i{}", b.name, j)));
+    r.x = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 0});
+    r.y = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 1});
+    for (const ChannelId& current : ChannelsOf(b, ChannelKind::kCoilCurrent))
+      r.currents.push_back(ChannelOf(result.record, current));
     data.bearings.push_back(std::move(r));
   }
 }
 
 void FillStations(const RigParameters& rig, const RunResult& result, RunReportData& data) {
   for (const ShaftPlane& s : rig.stations) {
-    ReportStation r{s.name, ChannelOf(result.record, s.name + ".r.x"),
-                    ChannelOf(result.record, s.name + ".r.y")};
+    ReportStation r{s.name, ChannelOf(result.record, {ChannelKind::kTruePosition, s.name, 0}),
+                    ChannelOf(result.record, {ChannelKind::kTruePosition, s.name, 1})};
     if (!r.x.empty()) data.stations.push_back(std::move(r));
   }
 }
@@ -66,6 +67,61 @@ void FillSnapshots(const Scenario& scenario, const RunResult& result, RunReportD
   }
 }
 
+void FillVerdict(const RunResult& result, const std::vector<ExpectResult>& expect,
+                 RunReportData& data) {
+  const bool met = AllMet(expect);
+  data.verdict = !met || result.drop ? Verdict::kFail
+                 : result.touchdown  ? Verdict::kWarn
+                                     : Verdict::kOk;
+  data.verdict_text = result.drop ? "The rotor dropped."
+                      : result.touchdown
+                          ? "The rotor touched an auxiliary bearing but did not stay on it."
+                          : "The rotor stayed up, without touching an auxiliary bearing.";
+  if (!expect.empty())
+    data.verdict_text += met ? " Every expectation is met." : " An expectation is not met.";
+  for (const ExpectResult& e : expect) data.expect.push_back({e.key, e.wanted, e.got, e.met});
+}
+
+void FillMetrics(const RunMetrics& m, RunReportData& data) {
+  for (const auto& [name, orbit] : m.max_orbit)
+    data.metrics.emplace_back("peak orbit " + name, FormatSi(orbit, "m"));
+  data.metrics.emplace_back("least clearance left", FormatSi(m.min_clearance_left, "m"));
+  data.metrics.emplace_back("detection delay", MilliSeconds(m.detection_delay));
+  data.metrics.emplace_back("redistribution delay", MilliSeconds(m.redistribution_delay));
+  data.metrics.emplace_back(
+      "false alarms", fmt::format("{:.0f} in {:.3g} coil-periods", m.false_alarms, m.coil_periods));
+  data.metrics.emplace_back("peak coil current", FormatSi(m.peak_current, "A"));
+  data.metrics.emplace_back("copper loss, mean", FormatSi(m.copper_loss, "W"));
+  data.metrics.emplace_back("speed of the simulation",
+                            fmt::format("{:.1f} x real time", m.real_time_factor));
+}
+
+void FillChannels(const Record& record, RunReportData& data) {
+  data.theta = ChannelOf(record, {ChannelKind::kAngle});
+  const auto rpm = [&](std::vector<double> v) {
+    for (double& x : v) x *= 30 / kPi;
+    return v;
+  };
+  data.channels.push_back({"speed", "rpm", rpm(ChannelOf(record, {ChannelKind::kSpeed}))});
+  const ChannelId axial{ChannelKind::kReading, "", 2}, bus{ChannelKind::kBus};
+  if (Find(record, axial))
+    data.channels.push_back(
+        {axial.name(), std::string(axial.row().unit), ChannelOf(record, axial)});
+  data.channels.push_back({bus.name(), std::string(bus.row().unit), ChannelOf(record, bus)});
+}
+
+void FillSlopes(const RunResult& result, RunReportData& data) {
+  for (const SlopeTrace& s : result.slopes) {
+    ReportSlope r;
+    r.coil = ShortName(s.coil);
+    r.t = s.t;
+    r.slope = s.slope;
+    r.low = s.low;
+    r.high = s.high;
+    data.slopes.push_back(std::move(r));
+  }
+}
+
 }  // namespace
 
 std::string EventText(const RunEvent& e) {
@@ -79,56 +135,19 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
                                 const RunResult& result, const std::vector<ExpectResult>& expect,
                                 const std::string& fidelity) {
   RunReportData data;
-  const RunMetrics& m = result.metrics;
   data.name = scenario.name;
   data.subtitle =
       fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
-  const bool met = AllMet(expect);
-  data.verdict = !met               ? Verdict::kFail
-                 : result.drop      ? Verdict::kFail
-                 : result.touchdown ? Verdict::kWarn
-                                    : Verdict::kOk;
-  data.verdict_text = result.drop ? "The rotor dropped."
-                      : result.touchdown
-                          ? "The rotor touched an auxiliary bearing but did not stay on it."
-                          : "The rotor stayed up, without touching an auxiliary bearing.";
-  if (!expect.empty())
-    data.verdict_text += met ? " Every expectation is met." : " An expectation is not met.";
-  for (const auto& [name, orbit] : m.max_orbit)
-    data.metrics.emplace_back("peak orbit " + name, FormatSi(orbit, "m"));
-  data.metrics.emplace_back("least clearance left", FormatSi(m.min_clearance_left, "m"));
-  data.metrics.emplace_back("detection delay", MilliSeconds(m.detection_delay));
-  data.metrics.emplace_back("redistribution delay", MilliSeconds(m.redistribution_delay));
-  data.metrics.emplace_back(
-      "false alarms", fmt::format("{:.0f} in {:.3g} coil-periods", m.false_alarms, m.coil_periods));
-  data.metrics.emplace_back("peak coil current", FormatSi(m.peak_current, "A"));
-  data.metrics.emplace_back("copper loss, mean", FormatSi(m.copper_loss, "W"));
-  data.metrics.emplace_back("speed of the simulation",
-                            fmt::format("{:.1f} x real time", m.real_time_factor));
-  for (const ExpectResult& e : expect) data.expect.push_back({e.key, e.wanted, e.got, e.met});
+  FillVerdict(result, expect, data);
+  FillMetrics(result.metrics, data);
   for (const RunEvent& e : result.events)
     data.events.push_back({e.t, e.kind, ShortName(e.target), EventText(e)});
   data.rate = result.record.rate;
   data.start = result.record.start;
   FillBearings(rig, result, data);
   FillStations(rig, result, data);
-  data.theta = ChannelOf(result.record, "theta");
-  const auto rpm = [&](std::vector<double> v) {
-    for (double& x : v) x *= 30 / kPi;
-    return v;
-  };
-  data.channels.push_back({"speed", "rpm", rpm(ChannelOf(result.record, "omega"))});
-  if (result.record.Find("z")) data.channels.push_back({"z", "m", ChannelOf(result.record, "z")});
-  data.channels.push_back({"bus", "V", ChannelOf(result.record, "bus")});
-  for (const SlopeTrace& s : result.slopes) {
-    ReportSlope r;
-    r.coil = ShortName(s.coil);
-    r.t = s.t;
-    r.slope = s.slope;
-    r.low = s.low;
-    r.high = s.high;
-    data.slopes.push_back(std::move(r));
-  }
+  FillChannels(result.record, data);
+  FillSlopes(result, data);
   FillSnapshots(scenario, result, data);
   data.scenario_toml = ReadFile(scenario.file);
   data.rig_toml = ReadFile(rig.file);

@@ -11,6 +11,7 @@
 #include "core/base/units.h"
 #include "core/record/csv.h"
 #include "core/record/read_record.h"
+#include "rig/rig_channels.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -19,20 +20,9 @@ namespace {
 
 /// Channels a run of this rig has, with their SI unit.
 std::map<std::string, std::string> KnownChannels(const RigParameters& rig) {
-  std::map<std::string, std::string> known = {{"bus", "V"}, {"omega", "rad/s"}, {"theta", "rad"}};
-  for (const BearingParameters& b : rig.bearings) {
-    for (const std::string& axis : b.Axes()) {
-      known[axis] = "m";
-      known[b.kind == BearingKind::kThrust ? "r.z"
-                                           : b.name + ".r." + axis.substr(axis.size() - 1)] = "m";
-    }
-    for (int j = 1; j <= b.coils(); ++j) {
-      known[fmt::format("{}.i{}", b.name, j)] = "A";
-      known[fmt::format("{}.s{}", b.name, j)] = "A";
-      known[fmt::format("{}.d{}", b.name, j)] = "-";
-    }
-    for (const char* f : {".fx", ".fy", ".fz"}) known[b.name + f] = "N";
-  }
+  std::map<std::string, std::string> known;
+  for (const ChannelRow& row : kChannels)
+    for (const ChannelId& id : ChannelsOf(rig, row.kind)) known[id.name()] = row.unit;
   return known;
 }
 
@@ -130,19 +120,18 @@ void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
 /// Whether something moves this coil's current in a clamped record: more than one constant
 /// set-point.
 bool Moved(const Scenario& s, const std::string& channel) {
-  const auto dot = channel.find(".i");
-  if (dot == std::string::npos) return false;
-  const std::string coil = channel.substr(0, dot) + ".coil" + channel.substr(dot + 2);
+  const auto id = ParseChannel(channel);
+  if (!id || id->kind != ChannelKind::kCoilCurrent) return false;
+  const std::string coil = fmt::format("{}.coil{}", id->plane, id->index + 1);
   return std::any_of(s.excitations.begin(), s.excitations.end(), [&](const Excitation& e) {
     return e.target == coil && !(e.kind == "step" && e.start <= 0);
   });
 }
 
 bool MayBeConstant(const Scenario& s, const std::string& channel) {
-  const auto dot = channel.find('.');
-  const char kind = dot == std::string::npos ? channel[0] : channel[dot + 1];
   if (s.start == StartState::kClamped) return !Moved(s, channel);
-  return kind == 's' || kind == 'd' || kind == 'b' || kind == 'o' || kind == 't';
+  const auto id = ParseChannel(channel);
+  return id && id->row().may_be_constant;
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <sstream>
+#include <filesystem>
 
 #include "core/base/read_file.h"
+#include "core/base/toml_edit.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/screen.h"
 #include "effects/catalogue.h"
@@ -18,66 +18,6 @@ namespace ambrig {
 
 namespace {
 
-std::string TomlNumber(double v) {
-  if (std::isinf(v)) return v > 0 ? "inf" : "-inf";
-  std::string text = fmt::format("{:.9g}", v);
-  if (text.find_first_of(".e") == std::string::npos) text += ".0";
-  return text;
-}
-
-std::string EffectText(const EffectInstance& e) {
-  std::string text = fmt::format("\n[[effect]]\nname = \"{}\"\n", e.name);
-  if (!e.label.empty()) text += fmt::format("label = \"{}\"\n", e.label);
-  text += fmt::format("target = \"{}\"\nparameters = {{ ", e.target);
-  for (std::size_t k = 0; k < e.table.size(); ++k) {
-    const bool formula = e.IsFormula();
-    text += fmt::format("{}{} = ", k == 0 ? "" : ", ", e.table[k].name);
-    if (!formula && (k >= e.sd.size() || e.sd[k] <= 0)) {
-      text += TomlNumber(e.values[k]);
-      continue;
-    }
-    text += fmt::format("{{ value = {}", TomlNumber(e.values[k]));
-    if (k < e.sd.size() && e.sd[k] > 0) text += fmt::format(", sd = {}", TomlNumber(e.sd[k]));
-    if (formula) {
-      if (e.table[k].has_null)
-        text += fmt::format(", null = {}", TomlNumber(e.table[k].null_value));
-      text += fmt::format(", min = {}, max = {}, unit = \"{}\"", TomlNumber(e.table[k].lo),
-                          TomlNumber(e.table[k].hi), e.table[k].unit);
-    }
-    text += " }";
-  }
-  text += " }\n";
-  // force, reading: inline tables; voltage, torque: texts
-  std::map<std::string, std::string> kinds;
-  for (const auto& [where, formula] : e.formulas) {
-    const auto dot = where.find('.');
-    if (dot == std::string::npos) {
-      text += fmt::format("{} = \"{}\"\n", where, formula);
-    } else {
-      std::string& inside = kinds[where.substr(0, dot)];
-      inside +=
-          fmt::format("{}{} = \"{}\"", inside.empty() ? "" : ", ", where.substr(dot + 1), formula);
-    }
-  }
-  for (const auto& [kind, inside] : kinds) text += fmt::format("{} = {{ {} }}\n", kind, inside);
-  return text;
-}
-
-/// The text without its [[effect]] tables.
-std::string WithoutEffects(const std::string& text) {
-  std::istringstream in(text);
-  std::string out, line;
-  bool inside = false;
-  while (std::getline(in, line)) {
-    const std::string trimmed = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (trimmed.starts_with("["))
-      inside = trimmed.starts_with("[[effect]]") || trimmed.starts_with("[effect.");
-    if (!inside) out += line + "\n";
-  }
-  while (out.ends_with("\n\n")) out.pop_back();
-  return out;
-}
-
 void CheckTarget(const EffectDescription& d, const Case& c, const std::string& wanted) {
   std::string names;
   for (const auto& t : TargetsOf(d, TargetsOfEffects(c.rig))) {
@@ -86,6 +26,12 @@ void CheckTarget(const EffectDescription& d, const Case& c, const std::string& w
   }
   throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id,
                                names.empty() ? "no target of this rig" : names));
+}
+
+bool SameFolder(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  return fs::absolute(a).lexically_normal().parent_path() ==
+         fs::absolute(b).lexically_normal().parent_path();
 }
 
 /// The effect at the named target, or where it explains most.
@@ -104,65 +50,6 @@ FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenO
 
 }  // namespace
 
-std::string AdoptedRigText(const std::string& text, const Hypothesis& h,
-                           const std::vector<EffectInstance>& effects) {
-  std::map<std::string, const FreeParameter*> fitted;  // by path
-  for (const FreeParameter& p : h.free)
-    if (p.effect < 0) fitted[p.path] = &p;
-  std::istringstream in(WithoutEffects(text));
-  std::string out, section, line;
-  std::vector<std::string> copies;  // fitted values of numbers that a bearing has from `like`
-  std::map<std::string, bool> written;
-  std::map<std::string, int> tables;  // [[...]] so far
-  const auto flush_inherited = [&] {
-    // A `like` bearing inherits value and sd; its own calibration needs its own line.
-    if (section.rfind("bearings.", 0) != 0) return;
-    for (const auto& [path, p] : fitted) {
-      if (written[path] || path.rfind(section + ".", 0) != 0) continue;
-      const std::string key = path.substr(section.size() + 1);
-      if (key.find('.') != std::string::npos) continue;
-      out += fmt::format("{} = {{ value = {}, sd = {}, fitted = {} }}\n", key, TomlNumber(p->start),
-                         TomlNumber(p->sd), TomlNumber(p->value));
-      written[path] = true;
-    }
-  };
-  while (std::getline(in, line)) {
-    const std::string trimmed = line.substr(std::min(line.find_first_not_of(" \t"), line.size()));
-    if (trimmed.starts_with("[[")) {
-      flush_inherited();
-      section = trimmed.substr(2, trimmed.find(']') - 2);
-      section += fmt::format("[{}]", ++tables[section]);  // as paths count them
-    } else if (trimmed.starts_with("[")) {
-      flush_inherited();
-      section = trimmed.substr(1, trimmed.find(']') - 1);
-    }
-    const auto equals = trimmed.find('=');
-    std::string key = equals == std::string::npos ? "" : trimmed.substr(0, equals);
-    while (!key.empty() && (key.back() == ' ' || key.back() == '\t')) key.pop_back();
-    const auto it = fitted.find(section + "." + key);
-    if (!key.empty() && it != fitted.end() && !written[it->first] &&
-        line.find('{') != std::string::npos && line.find('}') != std::string::npos) {
-      const std::string comment = line.substr(line.find('}') + 1);
-      out += fmt::format("{} = {{ value = {}, sd = {}, fitted = {} }}{}\n", key,
-                         TomlNumber(it->second->start), TomlNumber(it->second->sd),
-                         TomlNumber(it->second->value), comment);
-      written[it->first] = true;
-      continue;
-    }
-    out += line + "\n";
-  }
-  flush_inherited();
-  for (const auto& [path, p] : fitted)
-    if (path.starts_with("rotor.") && !written[path])
-      throw InputError(
-          fmt::format("{} has its sd in the shaft's own file, allowed with adopt: the shaft's "
-                      "tables in the rig file, each number "
-                      "with its sd on a line of its own",
-                      path));
-  for (const EffectInstance& e : effects) out += EffectText(e);
-  return out;
-}
-
 Adoption Adopt(const Case& c, const std::string& effect, const std::string& target,
                const std::string& output, const ExplainOptions& options) {
   const auto progress = [&](double f, const std::string& text) {
@@ -179,7 +66,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   CaseModel model(c);
   model.stop = options.stop;
   const Hypothesis nominal = Hypothesis::Base(c.rig);
-  AdoptedRigText(ReadFile(c.rig_file), nominal, {});  // can be written: known before the long work
+  const std::string rig_text = ReadFile(c.rig_file);
+  AdoptedRigText(rig_text, nominal, c.rig.effects);  // can be written: known before the long work
   a.before = Compare(model, nominal, false);
   FitOptions fit;
   fit.effective_sample_size = a.before.effective_sample_size;
@@ -205,7 +93,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   }
   for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k)
     a.effects.push_back(FittedEffect(a.fit, k));
-  a.rig_text = AdoptedRigText(ReadFile(c.rig_file), a.fit.hypothesis, a.effects);
+  a.rig_text = AdoptedRigText(rig_text, a.fit.hypothesis, a.effects);
+  if (!SameFolder(c.rig_file, output)) a.rig_text = WithAbsoluteFiles(a.rig_text, c.rig_file);
   progress(0.9, "compare again");
   a.adopted_case = std::make_unique<Case>(c);
   a.adopted_case->rig = ReadRigText(a.rig_text, output);  // must read back

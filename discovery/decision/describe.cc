@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "discovery/decision/missing_force.h"
 #include "discovery/practice/examination.h"
 #include "discovery/search/residual_peaks.h"
@@ -22,7 +23,7 @@ Worst FindWorst(const CaseModel& model, const FitResult& fit, bool readings_only
   Worst worst;
   for (const Target& t : model.targets()) {
     const std::string& name = model.data().records[t.record].data.channels[t.channel].name;
-    if (readings_only && !(name.ends_with(".x") || name.ends_with(".y") || name == "z")) continue;
+    if (readings_only && !IsOfKind(name, ChannelKind::kReading)) continue;
     const double r = TargetRatio(model, fit.residual, t);
     if (r > worst.ratio) worst = {&t, r};
   }
@@ -63,7 +64,8 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
   if (reading.target) {
     const CaseRecord& r = model.data().records[reading.target->record];
     const std::string channel = r.data.channels[reading.target->channel].name;
-    const std::string plane = channel.substr(0, channel.find('.'));
+    const auto id = ParseChannel(channel);
+    const std::string plane = id && !id->plane.empty() ? id->plane : channel;
     u.where = "plane " + plane + ", worst at " + channel;
     if (const auto force = DescribeMissingForce(model, fit.hypothesis, plane)) {
       u.dependence = fmt::format("{} ({:.0f} % of the missing force of {:.2g} N rms)", force->on,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "discovery/model/floor.h"
 
 namespace ambrig {
@@ -25,7 +26,7 @@ BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t
       if (at < s->samples.size()) c.samples[k] = s->samples[at];
     }
     const auto it = model.data().noise.find(c.name);
-    if (it != model.data().noise.end() && c.name.find(".f") != std::string::npos)
+    if (it != model.data().noise.end() && IsOfKind(c.name, ChannelKind::kLoadCell))
       for (std::size_t k = 0; k < c.samples.size(); ++k)
         c.samples[k] += it->second * (k % 2 == 0 ? 1 : -1);
   }

@@ -1,7 +1,5 @@
 #include "discovery/model/blocks.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +8,7 @@
 #include "core/record/missing_samples.h"
 #include "discovery/model/residual_force.h"
 #include "rig/rig_assembly.h"
+#include "rig/rig_channels.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
@@ -34,13 +33,21 @@ void Put(BlockErrors& out, const std::string& block, const Mean& mean) {
 }
 
 /// What drives a block: readings, set-points, currents; not a load cell or a thermometer.
-bool Drives(const RigParameters& rig, const std::string& channel) {
-  for (const BearingParameters& b : rig.bearings) {
-    for (const std::string& axis : b.Axes())
-      if (channel == axis) return true;
-    if (channel.starts_with(b.name + ".s") || channel.starts_with(b.name + ".i")) return true;
+bool Drives(const std::string& channel) {
+  const auto id = ParseChannel(channel);
+  return id && (id->kind == ChannelKind::kReading || id->kind == ChannelKind::kSetPoint ||
+                id->kind == ChannelKind::kCoilCurrent);
+}
+
+/// Channels of a bearing in their order; empty unless the record has them all.
+std::vector<const Channel*> AllOf(const Record& record, const BearingParameters& b,
+                                  ChannelKind kind) {
+  std::vector<const Channel*> out;
+  for (const ChannelId& id : ChannelsOf(b, kind)) {
+    out.push_back(Find(record, id));
+    if (!out.back()) return {};
   }
-  return false;
+  return out;
 }
 
 /// The PID on measured readings; its unknown start (integral) is taken from the first set-points.
@@ -55,23 +62,21 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
   Mean error;
   for (const BearingParameters& b : nominal.bearings) {
     if (b.kind != BearingKind::kRadial) continue;
-    const Channel *y[2] = {d.Find(b.name + ".x"), d.Find(b.name + ".y")}, *s[kPoles];
-    bool complete = y[0] && y[1];
-    for (int j = 0; j < kPoles; ++j)
-      complete = (s[j] = d.Find(fmt::format("{}.s{}", b.name, j + 1))) && complete;
-    if (!complete) continue;
+    const auto y = AllOf(d, b, ChannelKind::kReading), s = AllOf(d, b, ChannelKind::kSetPoint);
+    if (y.empty() || s.empty()) continue;
     const RadialStator stator(b.radial);
     const PidParameters& pid = PidOf(nominal, b);
     const double Ts = 1 / nominal.controller.rate, kc = ForceConstant(b) * BiasCurrent(nominal, b);
-    for (int side = 0; side < 2; ++side) {
+    for (std::size_t side = 0; side < 2; ++side) {
       const CoilVector& direction = side == 0 ? stator.cosine() : stator.sine();
       const auto force = [&](std::size_t k) {  // f = k c0 v, v by projection on the healthy W
         double v = 0;
-        for (int j = 0; j < kPoles; ++j) v += direction[j] * s[j]->samples[k] / 4;
+        for (std::size_t j = 0; j < s.size(); ++j)
+          v += direction[static_cast<Eigen::Index>(j)] * s[j]->samples[k] / 4;
         return kc * v;
       };
       PidState state;
-      const std::string axis = b.Axes()[static_cast<std::size_t>(side)];
+      const std::string axis = b.Axes()[side];
       const std::size_t settle = 30;  // the derivative's memory
       double offset = 0;
       std::vector<double> errors;
@@ -108,7 +113,7 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   bool readings = true, set_points = false;
   for (const BearingParameters& b : rig.bearings) {
     for (const auto& axis : b.Axes()) readings = readings && d.Find(axis);
-    set_points = set_points || d.Find(b.name + ".s1");
+    set_points = set_points || Find(d, {ChannelKind::kSetPoint, b.name, 0});
   }
   if (!set_points || (!readings && scenario.start != StartState::kClamped)) return;
   Record forced = d;
@@ -134,9 +139,8 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
       std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kSettle * d.rate));
   Mean error;
   for (const BearingParameters& b : rig.bearings)
-    for (int j = 1; j <= b.coils(); ++j) {
-      const Channel *m = d.Find(fmt::format("{}.i{}", b.name, j)),
-                    *p = simulated.Find(fmt::format("{}.i{}", b.name, j));
+    for (const ChannelId& current : ChannelsOf(b, ChannelKind::kCoilCurrent)) {
+      const Channel *m = Find(d, current), *p = Find(simulated, current);
       if (!m || !p) continue;
       for (std::size_t k = settle; k < d.rows() && k + shift < p->samples.size(); ++k)
         if (data.Sound(k)) error.Add(m->samples[k] - p->samples[k + shift]);
@@ -152,22 +156,20 @@ void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, co
     const auto it = scenario.clamp.find(b.name);
     const std::array<double, 2> at =
         it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
-    const Channel *fx = d.Find(b.name + ".fx"), *fy = d.Find(b.name + ".fy");
-    const Channel* current[kPoles] = {};
-    bool complete = b.kind == BearingKind::kRadial && fx && fy;
-    for (int j = 0; complete && j < kPoles; ++j)
-      complete = (current[j] = d.Find(fmt::format("{}.i{}", b.name, j + 1))) != nullptr;
-    if (complete) {
+    if (b.kind != BearingKind::kRadial) continue;
+    const auto cell = AllOf(d, b, ChannelKind::kLoadCell),
+               current = AllOf(d, b, ChannelKind::kCoilCurrent);
+    if (!cell.empty() && !current.empty()) {
       const RadialStator stator(b.radial);
       for (std::size_t k = 0; k < d.rows(); ++k) {
         CoilVector i;
-        for (int j = 0; j < kPoles; ++j) i[j] = current[j]->samples[k];
+        for (std::size_t j = 0; j < current.size(); ++j)
+          i[static_cast<Eigen::Index>(j)] = current[j]->samples[k];
         const Eigen::Vector2d f = stator.Force({at[0], at[1]}, i);
-        force.Add(fx->samples[k] - f.x());
-        force.Add(fy->samples[k] - f.y());
+        force.Add(cell[0]->samples[k] - f.x());
+        force.Add(cell[1]->samples[k] - f.y());
       }
     }
-    if (b.kind != BearingKind::kRadial) continue;
     // The reading of a rigid, held shaft at the sensor's own plane.
     const BearingParameters* other = nullptr;
     for (const auto& o : rig.bearings)
@@ -208,8 +210,7 @@ void RotorBlock(const RigParameters& rig, const Scenario& scenario, const Bridge
 BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal,
                      const Scenario& scenario, const Record& d) {
   BlockErrors out;
-  const BridgedRecord bridged =
-      BridgeMissing(d, kSettle, [&](const std::string& name) { return Drives(rig, name); });
+  const BridgedRecord bridged = BridgeMissing(d, kSettle, Drives);
   ControllerBlock(nominal, scenario, bridged, out);
   CoilBlock(rig, nominal, scenario, bridged, out);
   // row by row: a missing sample leaves out its own row

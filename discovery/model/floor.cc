@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
+
 namespace ambrig {
 
 namespace {
@@ -14,15 +16,14 @@ double Rms(const std::vector<double>& v, std::size_t first, std::size_t count) {
 }
 
 /// Least that an error of this channel can mean: a step of its converter, or the file's rounding.
-double Resolution(const RigParameters& rig, const std::string& channel, double full_scale) {
-  const auto dot = channel.find('.');
-  const char kind = channel[dot == std::string::npos ? 0 : dot + 1];
-  if (kind == 'i' || kind == 's') return 1e-5 * rig.amplifier.adc_range;
-  if (kind == 'd') return 1e-5;
-  if (channel == "bus") return 1e-4 * rig.amplifier.bus_voltage;
-  if (kind == 'f') return 1e-3;
-  if (channel == "omega") return 0.05;  // [rad/s], of a free-running rotor
-  return std::max(1e-9, 1e-6 * full_scale);
+double Resolution(const RigParameters& rig, const ChannelRow& channel, double full_scale) {
+  using Range = ChannelResolution::Range;
+  const ChannelResolution& r = channel.resolution;
+  const double range = r.range == Range::kAdc          ? rig.amplifier.adc_range
+                       : r.range == Range::kBusVoltage ? rig.amplifier.bus_voltage
+                       : r.range == Range::kSignal     ? full_scale
+                                                       : 0;
+  return std::max(r.least, r.part * range);
 }
 
 /// Samples per independent one: 1 + 2 Σ ρ², lags up to 200.
@@ -45,7 +46,7 @@ double Correlation(const std::vector<double>& v, std::size_t first, std::size_t 
 RigParameters WithCaseNoise(const RigParameters& rig, const std::map<std::string, double>& noise) {
   RigParameters out = rig;
   for (const auto& [channel, rms] : noise) {
-    if (channel == "bus") out.amplifier.bus_noise = rms;
+    if (IsOfKind(channel, ChannelKind::kBus)) out.amplifier.bus_noise = rms;
     for (BearingParameters& b : out.bearings)
       for (const std::string& axis : b.Axes())
         if (axis == channel) b.sensor.noise = rms;
@@ -69,15 +70,17 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
   for (Target& t : model.targets()) {
     const CaseRecord& record = model.data().records[t.record];
     const std::string& channel = record.data.channels[t.channel].name;
+    const auto id = ParseChannel(channel);
+    Require(id.has_value(), "targets are channels of the rig");
     const double a = Rms(d1, t.first, t.count), b = Rms(d2, t.first, t.count);
     double square = 0.5 * (a * a + b * b);
     const auto it = model.data().noise.find(channel);
     // load cells: noise of their own
-    const bool reader_noise = channel.find(".f") != std::string::npos;
+    const bool reader_noise = id->kind == ChannelKind::kLoadCell;
     if (it != model.data().noise.end())
       square = reader_noise ? square + it->second * it->second
                             : std::max(square, it->second * it->second);
-    t.floor = std::max(std::sqrt(square), Resolution(h.rig, channel, t.full_scale));
+    t.floor = std::max(std::sqrt(square), Resolution(h.rig, id->row(), t.full_scale));
   }
   // Independent rows times independent channels: the latter from the spread of their correlations.
   double rows_effective = 0;

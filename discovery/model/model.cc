@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "rig/rig_assembly.h"
 #include "simulation/switching/switching_engine.h"
 
@@ -99,11 +100,13 @@ CaseModel::CaseModel(const Case& c, std::size_t thin) : case_(c) {
     for (std::size_t ch = 0; ch < record.data.channels.size(); ++ch) {
       const Channel& channel = record.data.channels[ch];
       const bool free_speed = record.scenario.speed_free_from < record.scenario.duration;
-      const bool prescribed = channel.name == "theta" || (channel.name == "omega" && !free_speed);
-      const bool truth = channel.name.find(".r.") != std::string::npos || channel.name == "r.z";
-      const bool command = record.scenario.start == StartState::kClamped &&
-                           channel.name.find(".s") != std::string::npos;
-      if (prescribed || truth || command || !record.quality[ch].use) continue;
+      const auto id = ParseChannel(channel.name);
+      if (!id || id->row().reader == ChannelReader::kSimulator) continue;
+      const bool prescribed =
+          id->kind == ChannelKind::kAngle || (id->kind == ChannelKind::kSpeed && !free_speed);
+      const bool command =
+          record.scenario.start == StartState::kClamped && id->kind == ChannelKind::kSetPoint;
+      if (prescribed || command || !record.quality[ch].use) continue;
       Target t;
       t.record = r;
       t.channel = ch;

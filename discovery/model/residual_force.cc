@@ -1,11 +1,11 @@
 #include "discovery/model/residual_force.h"
 
-#include <fmt/format.h>
-
+#include <array>
 #include <cmath>
 
 #include "actuators/magnetics/radial_stator.h"
 #include "core/record/missing_samples.h"
+#include "rig/rig_channels.h"
 
 namespace ambrig {
 
@@ -36,110 +36,168 @@ std::vector<double> Smooth(const std::vector<double>& y, double rate, double cut
   return out;
 }
 
-std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig,
-                                                   const Scenario& scenario, const Record& data,
-                                                   double cutoff) {
+namespace {
+
+using Bearings = std::array<const BearingParameters*, 2>;
+
+/// The two radial bearings of a rigid rotor in free motion; nullopt for anything else.
+std::optional<Bearings> RadialPair(const RigParameters& rig, const Scenario& scenario) {
   if (scenario.start == StartState::kClamped) return std::nullopt;
   if (!rig.modes.empty()) return std::nullopt;  // two sensors do not tell how a shaft is bent
-  std::vector<const BearingParameters*> bearings;
-  for (const auto& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial) bearings.push_back(&b);
-  if (bearings.size() != 2) return std::nullopt;
-  // one NaN would be smoothed into all its neighbours
-  const Record d = BridgeMissing(data, 0, [](const std::string&) { return true; }).record;
-  const std::size_t n = d.rows();
-  ResidualForce out;
-  // Readings at the sensor planes -> shaft centre at the bearing planes (rigid, nominal geometry).
-  std::vector<double> sensor[4];
-  for (std::size_t k = 0; k < 2; ++k)
-    for (std::size_t side = 0; side < 2; ++side) {
-      const Channel* c = d.Find(bearings[k]->name + (side == 0 ? ".x" : ".y"));
-      if (!c) return std::nullopt;
-      sensor[2 * k + side] = c->samples;
-    }
-  const double zs0 = bearings[0]->sensor.z, zs1 = bearings[1]->sensor.z;
-  const auto at_plane = [&](double z, std::size_t side, int derivative) {
-    std::vector<double> mixed(n);
-    const double w = (z - zs0) / (zs1 - zs0);
-    for (std::size_t k = 0; k < n; ++k)
-      mixed[k] = (1 - w) * sensor[side][k] + w * sensor[2 + side][k];
-    return Smooth(mixed, d.rate, cutoff, derivative);
-  };
-  const Channel* omega = d.Find("omega");
-  const Channel* theta = d.Find("theta");
-  for (std::size_t k = 0; k < n; ++k) {
+  Bearings pair{};
+  std::size_t found = 0;
+  for (const BearingParameters& b : rig.bearings) {
+    if (b.kind != BearingKind::kRadial) continue;
+    if (found < 2) pair[found] = &b;
+    ++found;
+  }
+  return found == 2 ? std::optional(pair) : std::nullopt;
+}
+
+/// Readings at the two sensor planes, as motion of a rigid shaft (nominal geometry).
+class MeasuredMotion {
+ public:
+  MeasuredMotion(const Record& d, const Bearings& bearings, double cutoff)
+      : rate_(d.rate), cutoff_(cutoff), z_{bearings[0]->sensor.z, bearings[1]->sensor.z} {
+    for (std::size_t k = 0; k < 2; ++k)
+      for (const ChannelId& id : ChannelsOf(*bearings[k], ChannelKind::kReading)) {
+        const Channel* c = Find(d, id);
+        if (c) readings_.push_back(c->samples);
+      }
+  }
+  bool complete() const { return readings_.size() == 4; }
+
+  /// Centre of the shaft in plane z, side 0 x or 1 y: its derivative 0, 1 or 2 [m, m/s, m/s2].
+  std::vector<double> At(double z, std::size_t side, int derivative) const {
+    std::vector<double> mixed(readings_[0].size());
+    const double w = (z - z_[0]) / (z_[1] - z_[0]);
+    for (std::size_t k = 0; k < mixed.size(); ++k)
+      mixed[k] = (1 - w) * readings_[side][k] + w * readings_[2 + side][k];
+    return Smooth(mixed, rate_, cutoff_, derivative);
+  }
+
+ private:
+  double rate_, cutoff_;
+  std::array<double, 2> z_;
+  std::vector<std::vector<double>> readings_;  // A.x, A.y, B.x, B.y
+};
+
+void FillTurning(const Record& d, const Scenario& scenario, ResidualForce& out) {
+  const Channel* omega = Find(d, {ChannelKind::kSpeed});
+  const Channel* theta = Find(d, {ChannelKind::kAngle});
+  for (std::size_t k = 0; k < d.rows(); ++k) {
     const double t = d.TimeAt(k);
     out.t.push_back(t);
     out.omega.push_back(omega ? omega->samples[k] : scenario.speed.Speed(t));
     out.theta.push_back(theta ? theta->samples[k] : scenario.speed.Angle(t));
   }
-  for (const BearingParameters* b : bearings) {
+}
+
+/// Magnetic force of the measured currents at the measured place; false without all currents.
+bool FillMagneticForce(const Record& d, const BearingParameters& b, double cutoff,
+                       ResidualForce::Plane& plane) {
+  std::vector<const Channel*> current;
+  for (const ChannelId& id : ChannelsOf(b, ChannelKind::kCoilCurrent)) {
+    current.push_back(Find(d, id));
+    if (!current.back()) return false;
+  }
+  const RadialStator stator(b.radial);
+  std::vector<double> fx(d.rows()), fy(d.rows());
+  for (std::size_t k = 0; k < d.rows(); ++k) {
+    CoilVector i;
+    for (std::size_t j = 0; j < current.size(); ++j)
+      i[static_cast<Eigen::Index>(j)] = current[j]->samples[k];
+    const Eigen::Vector2d f = stator.Force({plane.x[k], plane.y[k]}, i);
+    fx[k] = f.x();
+    fy[k] = f.y();
+  }
+  plane.magnetic_x = Smooth(fx, d.rate, cutoff);
+  plane.magnetic_y = Smooth(fy, d.rate, cutoff);
+  return true;
+}
+
+/// Force [N] and moment [N m] about the centre of mass.
+struct Wrench {
+  double Fx = 0, Fy = 0, Mx = 0, My = 0;
+};
+
+/// A motion of the shaft in one direction: of its centre of mass, and its slope along z.
+struct CentreAndSlope {
+  double centre = 0, slope = 0;
+};
+
+/// What a rigid rotor needs for its motion less weight and loads: F = m a,
+/// M = It a'' + gyroscopic part. `ax`, `ay`: accelerations; the rates are those of the slopes.
+Wrench NeededWrench(const RigParameters& rig, const Scenario& scenario, double t, double omega,
+                    const CentreAndSlope& ax, const CentreAndSlope& ay, double x_slope_rate,
+                    double y_slope_rate) {
+  const double It = rig.rotor.inertia_transverse, Ip = rig.rotor.inertia_polar;
+  // x + z beta, y - z alpha: slopes are beta and -alpha.
+  const double beta_dd = ax.slope, alpha_dd = -ay.slope;
+  const double beta_d = x_slope_rate, alpha_d = -y_slope_rate;
+  Wrench w;
+  w.Fx = rig.rotor.mass * (ax.centre - rig.gravity[0]);
+  w.Fy = rig.rotor.mass * (ay.centre - rig.gravity[1]);
+  w.My = It * beta_dd - Ip * omega * alpha_d;
+  w.Mx = It * alpha_dd + Ip * omega * beta_d;
+  for (const LoadSpec& l : scenario.loads)
+    if (t >= l.start && t < l.stop) {
+      w.Fx -= l.fx;
+      w.Fy -= l.fy;
+      w.My -= l.z * l.fx;
+      w.Mx += l.z * l.fy;
+    }
+  return w;
+}
+
+/// The wrench that the motion needs, as forces in the two planes, less the magnetic forces there.
+void FillMissingForce(const RigParameters& rig, const Scenario& scenario,
+                      const MeasuredMotion& motion, const Bearings& bearings, ResidualForce& out) {
+  const double zA = bearings[0]->z, zB = bearings[1]->z;
+  const std::vector<double> axA = motion.At(zA, 0, 2), ayA = motion.At(zA, 1, 2),
+                            axB = motion.At(zB, 0, 2), ayB = motion.At(zB, 1, 2);
+  const auto slope = [&](double at_a, double at_b) { return (at_b - at_a) / (zB - zA); };
+  const auto centre = [&](double at_a, double at_b) {
+    const double s = slope(at_a, at_b);
+    return CentreAndSlope{at_a - s * zA, s};
+  };
+  ResidualForce::Plane &A = out.planes[0], &B = out.planes[1];
+  for (std::size_t k = 0; k < out.t.size(); ++k) {
+    const Wrench w =
+        NeededWrench(rig, scenario, out.t[k], out.omega[k], centre(axA[k], axB[k]),
+                     centre(ayA[k], ayB[k]), slope(A.vx[k], B.vx[k]), slope(A.vy[k], B.vy[k]));
+    const double fxB = (w.My - zA * w.Fx) / (zB - zA), fyB = (-w.Mx - zA * w.Fy) / (zB - zA);
+    A.fx.push_back(w.Fx - fxB - A.magnetic_x[k]);
+    A.fy.push_back(w.Fy - fyB - A.magnetic_y[k]);
+    B.fx.push_back(fxB - B.magnetic_x[k]);
+    B.fy.push_back(fyB - B.magnetic_y[k]);
+  }
+}
+
+}  // namespace
+
+std::optional<ResidualForce> EstimateResidualForce(const RigParameters& rig,
+                                                   const Scenario& scenario, const Record& data,
+                                                   double cutoff) {
+  const auto bearings = RadialPair(rig, scenario);
+  if (!bearings) return std::nullopt;
+  // one NaN would be smoothed into all its neighbours
+  const Record d = BridgeMissing(data, 0, [](const std::string&) { return true; }).record;
+  const MeasuredMotion motion(d, *bearings, cutoff);
+  if (!motion.complete()) return std::nullopt;
+  ResidualForce out;
+  FillTurning(d, scenario, out);
+  for (const BearingParameters* b : *bearings) {
     ResidualForce::Plane plane;
     plane.bearing = b->name;
-    plane.x = at_plane(b->z, 0, 0);
-    plane.y = at_plane(b->z, 1, 0);
-    plane.vx = at_plane(b->z, 0, 1);
-    plane.vy = at_plane(b->z, 1, 1);
-    const RadialStator stator(b->radial);
-    std::vector<double> fx(n), fy(n);
-    const Channel* current[kPoles];
-    for (int j = 0; j < kPoles; ++j) {
-      current[j] = d.Find(fmt::format("{}.i{}", b->name, j + 1));
-      if (!current[j]) return std::nullopt;
-    }
-    for (std::size_t k = 0; k < n; ++k) {
-      CoilVector i;
-      for (int j = 0; j < kPoles; ++j) i[j] = current[j]->samples[k];
-      const Eigen::Vector2d f = stator.Force({plane.x[k], plane.y[k]}, i);
-      fx[k] = f.x();
-      fy[k] = f.y();
-    }
-    plane.magnetic_x = Smooth(fx, d.rate, cutoff);
-    plane.magnetic_y = Smooth(fy, d.rate, cutoff);
+    plane.x = motion.At(b->z, 0, 0);
+    plane.y = motion.At(b->z, 1, 0);
+    plane.vx = motion.At(b->z, 0, 1);
+    plane.vy = motion.At(b->z, 1, 1);
+    if (!FillMagneticForce(d, *b, cutoff, plane)) return std::nullopt;
     out.planes.push_back(std::move(plane));
   }
-  // Rigid motion needs F = m a and M = It a'' + gyroscopic part; solved for the two plane forces.
-  const double zA = bearings[0]->z, zB = bearings[1]->z, m = rig.rotor.mass,
-               It = rig.rotor.inertia_transverse, Ip = rig.rotor.inertia_polar;
-  std::vector<double> a[4], v[4];
-  for (std::size_t side = 0; side < 2; ++side) {
-    a[side] = at_plane(zA, side, 2);
-    a[2 + side] = at_plane(zB, side, 2);
-    v[side] = out.planes[0].vx;
-    v[2 + side] = out.planes[1].vx;
-  }
-  for (auto& p : out.planes) {
-    p.fx.resize(n);
-    p.fy.resize(n);
-  }
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto motion = [&](double at_a, double at_b, double* centre, double* slope) {
-      *slope = (at_b - at_a) / (zB - zA);
-      *centre = at_a - *slope * zA;
-    };
-    double ax, sax, ay, say, vx, svx, vy, svy;
-    motion(a[0][k], a[2][k], &ax, &sax);
-    motion(a[1][k], a[3][k], &ay, &say);
-    motion(out.planes[0].vx[k], out.planes[1].vx[k], &vx, &svx);
-    motion(out.planes[0].vy[k], out.planes[1].vy[k], &vy, &svy);
-    // x + z beta, y - z alpha: slopes are beta and -alpha.
-    const double beta_dd = sax, alpha_dd = -say, beta_d = svx, alpha_d = -svy;
-    double Fx = m * (ax - rig.gravity[0]), Fy = m * (ay - rig.gravity[1]);
-    double My = It * beta_dd - Ip * out.omega[k] * alpha_d,
-           Mx = It * alpha_dd + Ip * out.omega[k] * beta_d;
-    for (const LoadSpec& l : scenario.loads)
-      if (out.t[k] >= l.start && out.t[k] < l.stop) {
-        Fx -= l.fx;
-        Fy -= l.fy;
-        My -= l.z * l.fx;
-        Mx += l.z * l.fy;
-      }
-    const double fxB = (My - zA * Fx) / (zB - zA), fyB = (-Mx - zA * Fy) / (zB - zA);
-    out.planes[0].fx[k] = Fx - fxB - out.planes[0].magnetic_x[k];
-    out.planes[0].fy[k] = Fy - fyB - out.planes[0].magnetic_y[k];
-    out.planes[1].fx[k] = fxB - out.planes[1].magnetic_x[k];
-    out.planes[1].fy[k] = fyB - out.planes[1].magnetic_y[k];
-  }
+  FillMissingForce(rig, scenario, motion, *bearings, out);
   return out;
 }
 

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
 #include <filesystem>
+#include <iterator>
 
 #include "core/base/errors.h"
 #include "core/base/fingerprint.h"
@@ -12,10 +12,6 @@
 namespace ambrig {
 
 namespace {
-
-struct EntryHead {
-  std::uint64_t key_bytes = 0, rows = 0, fine = 0, check = 0;
-};
 
 template <class T>
 void Add(std::string& bytes, const T& value) {
@@ -27,8 +23,8 @@ void AddText(std::string& bytes, const std::string& text) {
   bytes += text;
 }
 
-/// The exact values of all that a hypothesis may move.
-std::string BytesOf(const RunKey& key) {
+/// The exact values of all that a hypothesis may move, as hexadecimal digits.
+std::string TextOf(const RunKey& key) {
   std::string bytes;
   Add(bytes, key.record);
   Add(bytes, key.noise);
@@ -43,7 +39,10 @@ std::string BytesOf(const RunKey& key) {
     for (const double v : e.values) Add(bytes, v);
     for (const auto& [port, law] : e.formulas) AddText(bytes, port + "=" + law);
   }
-  return bytes;
+  std::string text;
+  for (const char byte : bytes)
+    fmt::format_to(std::back_inserter(text), "{:02x}", static_cast<unsigned char>(byte));
+  return text;
 }
 
 /// Case, data and program: what is the same for all entries of a store.
@@ -55,78 +54,53 @@ std::string BeginOf(const Case& c) {
     for (const Excitation& e : r.scenario.excitations)
       for (const double v : e.samples) print = Fingerprint(fmt::format("{} ", v), print);
   }
-  return fmt::format("ambrig simulations {:016x}\n", print);
-}
-
-std::uint64_t CheckOf(std::string_view key, const double* rows, std::size_t count) {
-  return Fingerprint({reinterpret_cast<const char*>(rows), count * sizeof(double)},
-                     Fingerprint(key));
+  return fmt::format("ambrig simulations 2 {:016x}", print);
 }
 
 }  // namespace
 
 RunStore::RunStore(const std::string& folder, const Case& c)
-    : file_((std::filesystem::path(folder) / "simulations.bin").string()), begin_(BeginOf(c)) {
-  std::string found(begin_.size(), ' ');
-  if (!file_.ReadAt(0, found.data(), found.size())) {  // nothing, or not even a whole first line
-    file_.Truncate(0);
-    file_.Append(begin_);
-    end_ = begin_.size();
-    return;
-  }
-  if (found != begin_)
-    throw InputError(
-        fmt::format("{}: holds the simulations of another case or of another build; allowed: the "
-                    "same files and program, or another folder",
-                    file_.path()));
-  ReadAll();
-}
+    : RunStore((std::filesystem::path(folder) / "simulations.bin").string(), BeginOf(c)) {}
 
-void RunStore::ReadAll() {
-  EntryHead head;
-  std::string key;
-  std::vector<double> rows;
-  for (end_ = begin_.size(); file_.ReadAt(end_, reinterpret_cast<char*>(&head), sizeof head);) {
-    const std::size_t at = end_ + sizeof head;
-    if (head.key_bytes > 1'000'000 || head.rows > 100'000'000) break;
-    key.resize(head.key_bytes);
-    rows.resize(head.rows);
-    if (!file_.ReadAt(at, key.data(), key.size())) break;
-    if (!file_.ReadAt(at + key.size(), reinterpret_cast<char*>(rows.data()),
-                      rows.size() * sizeof(double)))
-      break;
-    if (CheckOf(key, rows.data(), rows.size()) != head.check) break;
-    places_[key] = {at + key.size(), rows.size(), head.fine != 0};
-    end_ = at + key.size() + rows.size() * sizeof(double);
-  }
-  file_.Truncate(end_);
+RunStore::RunStore(const std::string& path, const std::string& begin)
+    : journal_(path, begin, Into(path, begin)) {}
+
+JournalVisitor RunStore::Into(const std::string& path, const std::string& begin) {
+  const auto header = [path, begin](std::string_view text) {
+    if (text != begin)
+      throw InputError(
+          fmt::format("{}: holds the simulations of another case or of another build; allowed: the "
+                      "same files and program, or another folder",
+                      path));
+  };
+  const auto entry = [this](const JournalEntry& e) {
+    entries_[std::string(e.text)] = {e.offset, e.bytes / sizeof(double), e.bytes > 0};
+    return true;
+  };
+  return {header, entry};
 }
 
 std::optional<bool> RunStore::Find(const RunKey& key, double* out) const {
-  Place place;
+  Entry entry;
   {
     const std::scoped_lock lock(mutex_);
-    const auto found = places_.find(BytesOf(key));
-    if (found == places_.end()) return std::nullopt;
-    place = found->second;
+    const auto found = entries_.find(TextOf(key));
+    if (found == entries_.end()) return std::nullopt;
+    entry = found->second;
   }
-  if (place.fine &&
-      !file_.ReadAt(place.offset, reinterpret_cast<char*>(out), place.rows * sizeof(double)))
+  if (entry.fine &&
+      !journal_.ReadData(entry.offset, reinterpret_cast<char*>(out), entry.rows * sizeof(double)))
     return std::nullopt;
-  return place.fine;
+  return entry.fine;
 }
 
 void RunStore::Keep(const RunKey& key, bool fine, const double* rows) {
   const std::size_t count = fine ? key.rows : 0;
-  const std::string id = BytesOf(key);
-  std::string bytes;
-  Add(bytes, EntryHead{id.size(), count, fine ? 1U : 0U, CheckOf(id, rows, count)});
-  bytes += id;
-  bytes.append(reinterpret_cast<const char*>(rows), count * sizeof(double));
+  const std::string text = TextOf(key);
+  const std::size_t offset =
+      journal_.Append(text, {reinterpret_cast<const char*>(rows), count * sizeof(double)});
   const std::scoped_lock lock(mutex_);
-  file_.Append(bytes);
-  places_[id] = {end_ + sizeof(EntryHead) + id.size(), count, fine};
-  end_ += bytes.size();
+  entries_[text] = {offset, count, fine};
 }
 
 }  // namespace ambrig

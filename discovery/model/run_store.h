@@ -1,6 +1,6 @@
 #pragma once
-/// The simulations of an explain run on disk: an interrupted one, called again, finds them and goes
-/// on where it stopped, with the same bits. Entries are told apart by everything that a prediction
+/// The simulations of an explain run on disk (core/base/journal.h): an interrupted one, called
+/// again, finds them and goes on where it stopped, with the same bits. Entries are told apart by everything that a prediction
 /// depends on; a store of another case or another build is refused.
 #include <cstdint>
 #include <map>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/append_file.h"
+#include "core/base/journal.h"
 #include "discovery/case/case.h"
 
 namespace ambrig {
@@ -25,7 +25,7 @@ struct RunKey {
 
 class RunStore {
  public:
-  /// FOLDER/simulations.bin, begun or gone on with; an entry that was cut off is dropped.
+  /// FOLDER/simulations.bin, begun or gone on with; an entry that was cut off is left out.
   /// @throws InputError
   RunStore(const std::string& folder, const Case& c);
 
@@ -34,21 +34,20 @@ class RunStore {
   /// Thread-safe. @throws InputError (full disk ...)
   void Keep(const RunKey& key, bool fine, const double* rows);
 
-  std::size_t size() const { return places_.size(); }
-  const std::string& path() const { return file_.path(); }
+  std::size_t size() const { return entries_.size(); }
+  const std::string& path() const { return journal_.path(); }
 
  private:
-  struct Place {
+  struct Entry {
     std::size_t offset = 0, rows = 0;
     bool fine = false;
   };
-  void ReadAll();
+  RunStore(const std::string& path, const std::string& begin);
+  JournalVisitor Into(const std::string& path, const std::string& begin);
 
-  AppendFile file_;
-  std::string begin_;
-  std::size_t end_ = 0;  // bytes
   mutable std::mutex mutex_;
-  std::map<std::string, Place> places_;
+  std::map<std::string, Entry> entries_;  // by the text of their keys
+  Journal journal_;
 };
 
 }  // namespace ambrig

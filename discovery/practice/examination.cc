@@ -7,6 +7,7 @@
 
 #include "core/math/constants.h"
 #include "core/math/noise.h"
+#include "rig/rig_channels.h"
 
 namespace ambrig {
 
@@ -195,19 +196,20 @@ Case EmptyCase(const RigParameters& rig, const std::vector<ExaminationRecord>& r
     const auto rows = static_cast<std::size_t>(
         std::floor(r.scenario.duration * r.scenario.record_rate * (1 + 1e-12)));
     const bool clamped = r.scenario.start == StartState::kClamped;
-    const auto add = [&](const std::string& name, const char* unit) {
-      r.data.channels.push_back({name, unit, std::vector<double>(rows, 0)});
+    const auto add = [&](const std::vector<ChannelId>& channels) {
+      for (const ChannelId& id : channels)
+        r.data.channels.push_back(
+            {id.name(), std::string(id.row().unit), std::vector<double>(rows, 0)});
     };
     for (const BearingParameters& b : rig.bearings) {
-      for (const std::string& axis : b.Axes()) add(axis, "m");
-      for (const char* kind : {"i", "s"})
-        for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.{}{}", b.name, kind, j), "A");
+      for (const ChannelKind kind :
+           {ChannelKind::kReading, ChannelKind::kCoilCurrent, ChannelKind::kSetPoint})
+        add(ChannelsOf(b, kind));
       if (clamped && !e.burst && b.kind == BearingKind::kRadial)
-        for (const char* f : {".fx", ".fy"}) add(b.name + f, "N");
+        add(ChannelsOf(b, ChannelKind::kLoadCell));
     }
-    add("bus", "V");
-    add("omega", "rad/s");
-    add("theta", "rad");
+    for (const ChannelKind kind : {ChannelKind::kBus, ChannelKind::kSpeed, ChannelKind::kAngle})
+      add(ChannelsOf(rig, kind));
     for (const Channel& ch : r.data.channels)
       r.quality.push_back({ch.name, "good", true, std::vector<char>(rows, 1), 0, 0});
     c.records.push_back(std::move(r));

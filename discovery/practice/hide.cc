@@ -10,6 +10,7 @@
 #include "discovery/model/residual.h"
 #include "effects/catalogue.h"
 #include "rig/rig_assembly.h"
+#include "rig/rig_channels.h"
 
 namespace ambrig {
 
@@ -139,8 +140,7 @@ void Measure(const CaseModel& model, const Hypothesis& truth, std::uint64_t seed
       ch.samples.assign(from->samples.begin(),
                         from->samples.begin() + static_cast<std::ptrdiff_t>(std::min(
                                                     from->samples.size(), ch.samples.size())));
-      const bool cells = ch.name.ends_with(".fx") || ch.name.ends_with(".fy");
-      if (!cells) continue;
+      if (!IsOfKind(ch.name, ChannelKind::kLoadCell)) continue;
       for (std::size_t k = 0; k < ch.samples.size(); ++k)
         ch.samples[k] += load_cell_noise *
                          Normal(seed, kLoadCells + static_cast<std::uint32_t>(r), (cell << 32) + k);
@@ -167,10 +167,11 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   out.records = Examination(rig, request.seed, needs);
   out.data = EmptyCase(rig, out.records);
   const double load_cell_noise = kLoadCellNoise * rig.rotor.mass * 9.81;
-  out.data.noise["bus"] = 0.005;
+  out.data.noise[ChannelId{ChannelKind::kBus}.name()] = 0.005;
   for (const BearingParameters& b : rig.bearings)
     if (b.kind == BearingKind::kRadial)
-      out.data.noise[b.name + ".fx"] = out.data.noise[b.name + ".fy"] = load_cell_noise;
+      for (const ChannelId& cell : ChannelsOf(b, ChannelKind::kLoadCell))
+        out.data.noise[cell.name()] = load_cell_noise;
   CaseModel model(out.data);
   model.stop = stop;
   Hypothesis truth;

@@ -5,6 +5,7 @@
 #include <complex>
 
 #include "core/math/constants.h"
+#include "core/record/channels.h"
 
 namespace ambrig {
 
@@ -14,9 +15,9 @@ constexpr std::size_t kCoherentPeaks = 3, kSpectrumPeaks = 4;
 
 bool IsReading(const CaseModel& model, const Target& t) {
   const CaseRecord& record = model.data().records[t.record];
-  const std::string& channel = record.data.channels[t.channel].name;
-  return record.scenario.start != StartState::kClamped &&
-         (channel.ends_with(".x") || channel.ends_with(".y"));
+  const auto id = ParseChannel(record.data.channels[t.channel].name);
+  return record.scenario.start != StartState::kClamped && id && id->kind == ChannelKind::kReading &&
+         !id->plane.empty();
 }
 
 /// Fourier sum of one target's residual at f, phase zero at the scenario's start.
@@ -60,7 +61,7 @@ std::vector<double> CoherentPower(const CaseModel& model, const std::vector<doub
     for (const Target& t : model.targets()) {
       if (!IsReading(model, t)) continue;
       const std::string& channel = model.data().records[t.record].data.channels[t.channel].name;
-      if (channel.rfind(plane + ".", 0) == 0) sums[channel] += SumAt(model, residual, t, f[k]);
+      if (ParseChannel(channel)->plane == plane) sums[channel] += SumAt(model, residual, t, f[k]);
     }
     for (const auto& [channel, sum] : sums) power[k] += std::norm(sum);
   }

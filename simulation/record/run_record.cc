@@ -1,8 +1,8 @@
 #include "simulation/record/run_record.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
+
+#include "rig/rig_channels.h"
 
 namespace ambrig {
 
@@ -24,66 +24,80 @@ RunRecord::RunRecord(const RigParameters& rig, const Scenario& scenario, double 
   AddChannels(static_cast<std::size_t>(std::ceil(scenario.duration * record_.rate)) + 1);
 }
 
-void RunRecord::AddChannels(std::size_t rows) {
-  const auto add = [&](const std::string& name, const char* unit) {
-    record_.channels.push_back({name, unit, {}});
-    record_.channels.back().samples.resize(rows);
-  };
-  for (const BearingParameters& b : rig_.bearings)
-    for (const std::string& axis : b.Axes()) add(axis, "m");
-  for (const BearingParameters& b : rig_.bearings) {
-    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.i{}", b.name, j), "A");
-    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.s{}", b.name, j), "A");
-    for (int j = 1; j <= b.coils(); ++j) add(fmt::format("{}.d{}", b.name, j), "-");
-    if (clamped_) {
-      add(b.kind == BearingKind::kThrust ? b.name + ".fz" : b.name + ".fx", "N");
-      if (b.kind == BearingKind::kRadial) add(b.name + ".fy", "N");
-    } else {
-      add(b.kind == BearingKind::kThrust ? "r.z" : b.name + ".r.x", "m");
-      if (b.kind == BearingKind::kRadial) add(b.name + ".r.y", "m");
-    }
+void RunRecord::Add(const std::vector<ChannelId>& channels, Column column, std::size_t rows) {
+  for (const ChannelId& id : channels) {
+    record_.channels.push_back({id.name(), std::string(id.row().unit), std::vector<double>(rows)});
+    column.kind = id.kind;
+    column.index = id.index;
+    columns_.push_back(column);
+    if (id.kind == ChannelKind::kReading) ++column.owner;  // each axis has a reading of its own
   }
-  for (const ShaftPlane& s : rig_.stations) {  // true positions of a beam rotor's named planes
-    if (clamped_) break;
-    add(s.name + ".r.x", "m");
-    add(s.name + ".r.y", "m");
-  }
-  add("omega", "rad/s");
-  add("theta", "rad");
-  add("bus", "V");
 }
 
-void RunRecord::Row(long long n, int sample) {
+void RunRecord::AddChannels(std::size_t rows) {
+  // A shaft that is held stands in load cells; its true position says nothing.
+  const ChannelKind held = clamped_ ? ChannelKind::kLoadCell : ChannelKind::kTruePosition;
+  Add(ChannelsOf(rig_, ChannelKind::kReading), {ChannelKind::kReading}, rows);
+  for (std::size_t b = 0; b < rig_.bearings.size(); ++b)
+    for (const ChannelKind kind :
+         {ChannelKind::kCoilCurrent, ChannelKind::kSetPoint, ChannelKind::kDuty, held})
+      Add(ChannelsOf(rig_.bearings[b], kind), {kind, b}, rows);
+  for (std::size_t s = 0; s < rig_.stations.size() && !clamped_; ++s)
+    Add(ChannelsOf(rig_.stations[s]), {ChannelKind::kTruePosition, s, 0, true}, rows);
+  for (const ChannelKind kind : {ChannelKind::kSpeed, ChannelKind::kAngle, ChannelKind::kBus})
+    Add(ChannelsOf(rig_, kind), {kind}, rows);
+}
+
+double RunRecord::BearingValue(const Column& column, int sample) const {
+  const SampledBearing& b = *source_.bearings[column.owner];
+  const BearingControl& control = source_.control[b.index];
+  const bool burst = row_samples_ > 0, second = column.index == 1;
+  switch (column.kind) {
+    case ChannelKind::kCoilCurrent:
+      return burst ? b.adc[sample][column.index] : control.feedback[column.index];
+    case ChannelKind::kSetPoint:
+      return control.set_point[column.index];
+    case ChannelKind::kDuty:
+      return control.duty[column.index];
+    case ChannelKind::kTruePosition:
+      return second ? b.true_y : b.true_x;
+    default:
+      // Rows of a burst are written when their period is over; the load cell holds the one before.
+      if (burst) return second ? b.fy_before : b.fx_before;
+      return second ? b.fy : b.fx;
+  }
+}
+
+double RunRecord::Value(const Column& column, long long n, int sample) const {
   const MotionState& motion = source_.motion;
   const RotorModel& rotor = source_.plant.rotor;
   const double inside = sample * T_ / samples_, t = static_cast<double>(n) * T_ + inside;
+  switch (column.kind) {
+    case ChannelKind::kReading: {
+      const bool at_tick = sample == 0 && n % M_ == 0;
+      return at_tick ? source_.loop.readings()[column.owner]
+                     : source_.loop.Reading(column.owner, n);
+    }
+    case ChannelKind::kSpeed:
+      return rotor.SpeedIsFree(t) ? motion.Omega : scenario_.speed.Speed(t);
+    case ChannelKind::kAngle:
+      return rotor.SpeedIsFree(t) ? motion.theta + motion.Omega * inside : scenario_.speed.Angle(t);
+    case ChannelKind::kBus:
+      return source_.noise.BusReading(source_.plant.bus.voltage,
+                                      scenario_.noise ? rig_.amplifier.bus_noise : 0, n, sample);
+    default:
+      break;
+  }
+  if (!column.station) return BearingValue(column, sample);
+  const auto [x, y] = rotor.Position(motion, source_.plant.stations[column.owner].second);
+  return column.index == 1 ? y : x;
+}
+
+void RunRecord::Row(long long n, int sample) {
   if (row_ == record_.rows())
     for (Channel& c : record_.channels) c.samples.resize(row_ + 1);
-  auto channel = record_.channels.begin();
-  const auto put = [&](double value) { (channel++)->samples[row_] = value; };
-  const bool at_tick = sample == 0 && n % M_ == 0;
-  for (std::size_t a = 0; a < source_.loop.axes(); ++a)
-    put(at_tick ? source_.loop.readings()[a] : source_.loop.Reading(a, n));
-  for (const SampledBearing* b : source_.bearings) {
-    const BearingControl& k = source_.control[b->index];
-    for (int j = 0; j < k.coils; ++j) put(row_samples_ > 0 ? b->adc[sample][j] : k.feedback[j]);
-    for (int j = 0; j < k.coils; ++j) put(k.set_point[j]);
-    for (int j = 0; j < k.coils; ++j) put(k.duty[j]);
-    // Rows of a burst are written when their period is over; the load cell holds the one before it.
-    put(!clamped_ ? b->true_x : row_samples_ > 0 ? b->fx_before : b->fx);
-    if (b->axes > 1) put(!clamped_ ? b->true_y : row_samples_ > 0 ? b->fy_before : b->fy);
-  }
-  for (const auto& [name, plane] : source_.plant.stations) {
-    if (clamped_) break;
-    const auto [x, y] = rotor.Position(motion, plane);
-    put(x);
-    put(y);
-  }
-  const bool free_spin = rotor.SpeedIsFree(t);
-  put(free_spin ? motion.Omega : scenario_.speed.Speed(t));
-  put(free_spin ? motion.theta + motion.Omega * inside : scenario_.speed.Angle(t));
-  put(source_.noise.BusReading(source_.plant.bus.voltage,
-                               scenario_.noise ? rig_.amplifier.bus_noise : 0, n, sample));
+  for (std::size_t k = 0; k < columns_.size(); ++k)
+    record_.channels[k].samples[row_] = Value(columns_[k], n, sample);
   ++row_;
 }
 

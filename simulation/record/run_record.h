@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/record/record.h"
+#include "core/record/channels.h"
 #include "faulttolerance/supervision/supervisor.h"
 #include "rig/rig_assembly.h"
 #include "rotor/motion/rotor_model.h"
@@ -43,8 +43,19 @@ class RunRecord {
   Record Take();
 
  private:
+  /// Where the values of one channel come from.
+  struct Column {
+    ChannelKind kind;
+    std::size_t owner = 0;  // axis of a reading, else bearing or station
+    int index = 0;          // direction or coil
+    bool station = false;
+  };
+
   void AddChannels(std::size_t rows);
+  void Add(const std::vector<ChannelId>& channels, Column column, std::size_t rows);
   void Row(long long n, int sample);
+  double Value(const Column& column, long long n, int sample) const;
+  double BearingValue(const Column& column, int sample) const;
 
   const RigParameters& rig_;
   const Scenario& scenario_;
@@ -54,7 +65,8 @@ class RunRecord {
   int samples_, M_;                        // ADC samples per period, periods per controller period
   int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples
   Record record_;
-  std::size_t row_ = 0;  // the next one
+  std::vector<Column> columns_;  // one per channel of the record
+  std::size_t row_ = 0;          // the next one
 };
 
 }  // namespace ambrig

@@ -1,10 +1,9 @@
 /// Teacher-forced coils: measured set-points and measured readings drive the amplifiers and the
 /// gaps, so that an error of the coil block shows where it arises. Discovery compares its currents.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/switching_engine.h"
 
@@ -46,19 +45,19 @@ void SwitchingEngine::ForcedPosition(const BearingRun& b, double t, double* x, d
   for (const BearingParameters& p : nominal_.bearings) {
     if (p.kind != BearingKind::kRadial || found > 1) continue;
     z[found] = p.sensor.z;
-    reading[2 * found] = At(d, d.Find(p.name + ".x"), t);
-    reading[2 * found + 1] = At(d, d.Find(p.name + ".y"), t);
+    reading[2 * found] = At(d, Find(d, {ChannelKind::kReading, p.name, 0}), t);
+    reading[2 * found + 1] = At(d, Find(d, {ChannelKind::kReading, p.name, 1}), t);
     ++found;
   }
   if (b.plant->thrust) {
-    *x = At(d, d.Find("z"), t);
+    *x = At(d, Find(d, {ChannelKind::kReading, "", 2}), t);
     *y = 0;
   } else if (found == 2) {  // rigid shaft between the two sensor planes
     const double w = (b.plant->z - z[0]) / (z[1] - z[0]);
     *x = (1 - w) * reading[0] + w * reading[2];
     *y = (1 - w) * reading[1] + w * reading[3];
   } else {
-    *x = At(d, d.Find(b.plant->name + ".x"), t);
+    *x = At(d, Find(d, {ChannelKind::kReading, b.plant->name, 0}), t);
     *y = 0;
   }
   *x -= b.plant->offset_x;
@@ -73,7 +72,7 @@ void SwitchingEngine::FollowData(long long n) {
   for (BearingRun& b : bearings_) {
     BearingControl& c = control_[b.index];
     for (int j = 0; j < c.coils; ++j) {
-      const Channel* s = d.Find(fmt::format("{}.s{}", b.plant->name, j + 1));
+      const Channel* s = Find(d, {ChannelKind::kSetPoint, b.plant->name, j});
       if (s && !s->samples.empty())
         c.set_point[j] = s->samples[std::min(row, s->samples.size() - 1)];
     }

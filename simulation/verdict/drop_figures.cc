@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/record/channels.h"
 
 namespace ambrig {
 
@@ -57,12 +58,12 @@ DropPaths CentrePaths(const RigParameters& rig, const Record& record) {
   paths.start = record.start;
   for (const BearingParameters& b : rig.bearings) {
     if (b.kind != BearingKind::kRadial || !b.auxiliary) continue;
-    const Channel* x = record.Find(b.name + ".r.x");
-    const Channel* y = record.Find(b.name + ".r.y");
+    const Channel* x = Find(record, {ChannelKind::kTruePosition, b.name, 0});
+    const Channel* y = Find(record, {ChannelKind::kTruePosition, b.name, 1});
     Require(x && y && !x->samples.empty(), "the record has the path of the shaft's centre");
     paths.bearings.push_back({b.name, b.auxiliary->clearance, x->samples, y->samples});
   }
-  if (const Channel* omega = record.Find("omega")) paths.Omega = omega->samples;
+  if (const Channel* omega = Find(record, {ChannelKind::kSpeed})) paths.Omega = omega->samples;
   Require(!paths.Omega.empty(), "the record has the speed");
   return paths;
 }

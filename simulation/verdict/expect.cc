@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "simulation/verdict/detection_score.h"
+
 namespace ambrig {
 
 namespace {
@@ -18,28 +20,17 @@ ExpectResult Equal(const std::string& key, bool wanted, bool got) {
 }
 
 /// Every fault of the scenario has an alarm of its own target, the latest of them within the limit.
-ExpectResult Detected(const Scenario& s, const RunResult& r) {
-  const double limit = *s.expect.detected_within;
-  double worst = -1;
-  for (const FaultSpec& fault : s.faults) {
-    double first = kInfinity;
-    for (const RunEvent& e : r.events)
-      if (e.kind == "detected" && e.target == fault.target && e.t >= fault.time)
-        first = std::min(first, e.t - fault.time);
-    worst = std::max(worst, first);
-  }
-  return AtMost("detected_within", limit, worst, worst >= 0 && std::isfinite(worst));
+ExpectResult Detected(const Scenario& s, const DetectionScore& score) {
+  return AtMost("detected_within", *s.expect.detected_within, score.longest_detection(),
+                score.all_detected() && !score.faults.empty());
 }
 
 /// The last class given to each faulty target is the wanted one.
-ExpectResult Classified(const Scenario& s, const RunResult& r) {
+ExpectResult Classified(const Scenario& s, const DetectionScore& score) {
   std::string got;
-  bool met = !s.faults.empty();
-  for (const FaultSpec& fault : s.faults) {
-    std::string last = "none";
-    for (const RunEvent& e : r.events)
-      if (e.kind == "classified" && e.target == fault.target && e.t >= fault.time)
-        last = e.fault_class;
+  bool met = !score.faults.empty();
+  for (const FaultScore& fault : score.faults) {
+    const std::string last = fault.last_class.empty() ? "none" : fault.last_class;
     met = met && last == *s.expect.classified;
     if (got.find(last) == std::string::npos) got += (got.empty() ? "" : ", ") + last;
   }
@@ -51,8 +42,9 @@ ExpectResult Classified(const Scenario& s, const RunResult& r) {
 std::vector<ExpectResult> CheckExpectations(const Scenario& s, const RunResult& r) {
   std::vector<ExpectResult> out;
   const Expectation& e = s.expect;
-  if (e.detected_within) out.push_back(Detected(s, r));
-  if (e.classified) out.push_back(Classified(s, r));
+  const DetectionScore score = ScoreDetection(s.faults, r.events);
+  if (e.detected_within) out.push_back(Detected(s, score));
+  if (e.classified) out.push_back(Classified(s, score));
   if (e.touchdown) out.push_back(Equal("touchdown", *e.touchdown, r.touchdown));
   if (e.drop) out.push_back(Equal("drop", *e.drop, r.drop));
   if (e.redistributed)

@@ -293,14 +293,7 @@ TEST(Autocorrelations, OfAlternatingSigns) {
   EXPECT_DOUBLE_EQ(a[2], 0.5);
 }
 
-TEST(ReportNames, ShortAndKind) {
-  EXPECT_EQ(ShortName("a/b.c/record-3.h5"), "record-3");
-  EXPECT_EQ(ChannelKind("A.i3"), "current");
-  EXPECT_EQ(ChannelKind("A.fx"), "load cell");
-  EXPECT_EQ(ChannelKind("A.s4"), "set-point");
-  EXPECT_EQ(ChannelKind("z"), "reading");
-  EXPECT_EQ(ChannelKind("bus"), "bus");
-}
+TEST(ReportNames, Short) { EXPECT_EQ(ShortName("a/b.c/record-3.h5"), "record-3"); }
 
 }  // namespace
 }  // namespace ambrig

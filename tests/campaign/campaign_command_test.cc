@@ -151,7 +151,7 @@ TEST(CampaignCommand, WrongOptionsAreSaidInOneLine) {
 TEST(CampaignCommand, FolderInUseIsRefused) {
   const CampaignFolder f;
   const Campaign c = ReadCampaign(f.File("c.toml"));
-  const Journal journal(f.File("out"), HeaderOf(c));
+  const CampaignJournal journal(f.File("out"), HeaderOf(c));
   const Outcome second = f.Ambrig("campaign c.toml -o out");
   EXPECT_EQ(second.exit, 2);
   EXPECT_NE(second.text.find("another ambrig writes there"), std::string::npos) << second.text;

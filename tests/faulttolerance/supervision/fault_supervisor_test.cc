@@ -10,6 +10,7 @@
 #include "rig/rig_file.h"
 #include "simulation/simulate.h"
 #include "simulation/switching/switching_engine.h"
+#include "simulation/verdict/detection_score.h"
 
 namespace ambrig {
 namespace {

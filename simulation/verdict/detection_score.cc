@@ -1,0 +1,67 @@
+#include "simulation/verdict/detection_score.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+namespace {
+
+FaultScore ScoreOf(const FaultSpec& fault, const std::vector<RunEvent>& events) {
+  FaultScore score;
+  for (const RunEvent& e : events) {
+    if (e.t < fault.time) continue;
+    const double after = e.t - fault.time;
+    if (e.kind == "redistributed" && !score.redistributed) score.redistributed = after;
+    if (e.target != fault.target) continue;
+    if (e.kind == "detected" && !score.detected) score.detected = after;
+    if (e.kind == "classified") score.last_class = e.fault_class;
+  }
+  score.right_class = score.last_class == fault.kind;
+  return score;
+}
+
+bool IsFalse(const RunEvent& alarm, const std::vector<FaultSpec>& faults) {
+  return std::ranges::none_of(
+      faults, [&](const FaultSpec& f) { return f.target == alarm.target && alarm.t >= f.time; });
+}
+
+double Longest(const std::vector<FaultScore>& faults, std::optional<double> FaultScore::*delay) {
+  double longest = -1;
+  for (const FaultScore& f : faults) longest = std::max(longest, (f.*delay).value_or(-1));
+  return longest;
+}
+
+}  // namespace
+
+std::size_t DetectionScore::detected() const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(faults, [](const FaultScore& f) { return f.detected.has_value(); }));
+}
+
+std::size_t DetectionScore::right_class() const {
+  return static_cast<std::size_t>(std::ranges::count_if(faults, &FaultScore::right_class));
+}
+
+double DetectionScore::longest_detection() const { return Longest(faults, &FaultScore::detected); }
+
+double DetectionScore::longest_redistribution() const {
+  return Longest(faults, &FaultScore::redistributed);
+}
+
+DetectionScore ScoreDetection(const std::vector<FaultSpec>& faults,
+                              const std::vector<RunEvent>& events) {
+  DetectionScore score;
+  for (const FaultSpec& fault : faults) score.faults.push_back(ScoreOf(fault, events));
+  score.false_alarms = static_cast<std::size_t>(std::ranges::count_if(
+      events, [&](const RunEvent& e) { return e.kind == "detected" && IsFalse(e, faults); }));
+  return score;
+}
+
+void ScoreDetection(const Scenario& scenario, RunResult& result) {
+  const DetectionScore score = ScoreDetection(scenario.faults, result.events);
+  result.metrics.detection_delay = score.longest_detection();
+  result.metrics.redistribution_delay = score.longest_redistribution();
+  result.metrics.false_alarms = static_cast<double>(score.false_alarms);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,97 @@
+#include "simulation/verdict/detection_score.h"
+
+#include <gtest/gtest.h>
+
+#include "simulation/verdict/expect.h"
+
+namespace ambrig {
+namespace {
+
+FaultSpec Fault(double time, const std::string& target, const std::string& kind = "open") {
+  FaultSpec f;
+  f.time = time;
+  f.target = target;
+  f.kind = kind;
+  return f;
+}
+
+RunEvent Alarm(double t, const std::string& target) { return {t, "detected", target, "", 0}; }
+RunEvent Class(double t, const std::string& target, const std::string& kind) {
+  return {t, "classified", target, kind, 0};
+}
+
+TEST(DetectionScore, FirstAlarmOfEachTargetAfterItsFault) {
+  const DetectionScore score =
+      ScoreDetection({Fault(1, "A.coil1"), Fault(2, "B.coil2"), Fault(3, "A.coil5")},
+                     {Alarm(1.25, "A.coil1"),
+                      Alarm(1.5, "A.coil1"),
+                      {1.75, "redistributed", "A", "", 0},
+                      Alarm(2.5, "B.coil2")});
+  ASSERT_EQ(score.faults.size(), 3u);
+  EXPECT_EQ(score.faults[0].detected, 0.25);
+  EXPECT_EQ(score.faults[1].detected, 0.5);
+  EXPECT_EQ(score.faults[2].detected, std::nullopt);
+  EXPECT_EQ(score.faults[0].redistributed, 0.75);
+  EXPECT_EQ(score.faults[1].redistributed, std::nullopt);
+  EXPECT_EQ(score.detected(), 2u);
+  EXPECT_FALSE(score.all_detected());
+  EXPECT_EQ(score.longest_detection(), 0.5);
+  EXPECT_EQ(score.longest_redistribution(), 0.75);
+  EXPECT_EQ(score.false_alarms, 0u);
+}
+
+TEST(DetectionScore, AlarmsOfHealthyTargetsAndBeforeTheFaultAreFalse) {
+  const DetectionScore score =
+      ScoreDetection({Fault(1, "A.coil1")}, {Alarm(0.5, "A.coil1"),
+                                             Alarm(1, "A.coil1"),
+                                             Alarm(1.5, "A.coil2"),
+                                             {1.75, "alarm_cleared", "A.coil2", "", 0}});
+  EXPECT_EQ(score.false_alarms, 2u);
+  EXPECT_EQ(score.faults[0].detected, 0.0);
+}
+
+TEST(DetectionScore, TheLastClassCounts) {
+  const std::vector<FaultSpec> faults = {Fault(1, "A.coil1", "partial-short"),
+                                         Fault(1, "A.coil2", "open"), Fault(1, "A.coil3", "open")};
+  const DetectionScore score =
+      ScoreDetection(faults, {Class(0.5, "A.coil3", "open"), Class(1.25, "A.coil1", "open"),
+                              Class(1.5, "A.coil1", "partial-short"), Class(1.5, "A.coil2", "open"),
+                              Class(2, "A.coil2", "partial-short")});
+  EXPECT_TRUE(score.faults[0].right_class);
+  EXPECT_FALSE(score.faults[1].right_class);
+  EXPECT_EQ(score.faults[1].last_class, "partial-short");
+  EXPECT_EQ(score.faults[2].last_class, "");
+  EXPECT_EQ(score.right_class(), 1u);
+}
+
+TEST(DetectionScore, OfAHealthyRun) {
+  const DetectionScore score = ScoreDetection({}, {Alarm(1, "A.coil1")});
+  EXPECT_EQ(score.longest_detection(), -1);
+  EXPECT_EQ(score.longest_redistribution(), -1);
+  EXPECT_EQ(score.false_alarms, 1u);
+  EXPECT_TRUE(score.all_detected());
+}
+
+// [expect] asks for every fault, the metrics tell the longest delay of those that were seen.
+TEST(DetectionScore, ExpectationsWantEveryFault) {
+  Scenario s;
+  s.faults = {Fault(1, "A.coil1"), Fault(1, "A.coil2")};
+  s.expect.detected_within = 0.5;
+  s.expect.classified = "open";
+  RunResult r;
+  r.events = {Alarm(1.25, "A.coil1"), Class(1.25, "A.coil1", "open")};
+  EXPECT_FALSE(AllMet(CheckExpectations(s, r)));
+  ScoreDetection(s, r);
+  EXPECT_EQ(r.metrics.detection_delay, 0.25);
+  r.events.push_back(Alarm(1.5, "A.coil2"));
+  r.events.push_back(Class(1.5, "A.coil2", "open"));
+  EXPECT_TRUE(AllMet(CheckExpectations(s, r)));
+  *s.expect.detected_within = 0.25;
+  const auto results = CheckExpectations(s, r);
+  EXPECT_FALSE(results[0].met);
+  EXPECT_EQ(results[0].got, "0.5");
+  EXPECT_TRUE(results[1].met);
+}
+
+}  // namespace
+}  // namespace ambrig
