@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenarios/faults/fault.h"
+
 namespace ambrig {
 
 namespace {
@@ -16,7 +18,7 @@ FaultScore ScoreOf(const FaultSpec& fault, const std::vector<RunEvent>& events) 
     if (e.kind == "detected" && !score.detected) score.detected = after;
     if (e.kind == "classified") score.last_class = e.fault_class;
   }
-  score.right_class = score.last_class == fault.kind;
+  score.right_class = score.last_class == FaultByKind(fault.kind).seen_as;
   return score;
 }
 
