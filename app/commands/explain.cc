@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -55,10 +56,28 @@ void Print(const Explanation& e) {
                  ParametersText(r.effect));
     }
   }
-  fmt::print("verdict: {}\n", Coloured(e.verdict, e.verdict == "unknown" ? "yellow" : "green"));
+  fmt::print(
+      "verdict: {}; {}\n",
+      Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"),
+      e.remainder.text);
+  for (const DataFault& f : e.data) fmt::print("  data: {}\n", FaultText(f));
+  if (e.verdict == "effect")
+    fmt::print("  explained: {:.1f} % of the error above the noise, {:.2f} -> {:.2f} floors\n",
+               100 * e.closure.explained, e.closure.floors_before, e.closure.floors_after);
+  std::string set;
+  for (const SetMember& m : e.set)
+    set += fmt::format("{}{}{} {:.0f} %", set.empty() ? "" : ", ", m.effect,
+                       m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
+  fmt::print("  95 % set: {}\n", set);
   for (const EffectInstance& a : e.adopted)
     fmt::print("  adopted {} at {}: {}\n", a.name, a.target, ParametersText(a));
   for (const std::string& s : e.parameter_shifts) fmt::print("  parameter {}\n", s);
+  for (const NuisanceFound& n : e.nuisances)
+    if (std::abs(n.value) > 3 * n.sd)
+      fmt::print("  {} in {}: {:.3g} +- {:.2g} {}\n", n.name, n.record, n.value, n.sd, n.unit);
+  for (std::size_t k = 0; k < e.hidden.size() && k < 6; ++k)
+    fmt::print("  not seen: {} at {} up to {} = {:.3g} {}\n", e.hidden[k].effect,
+               e.hidden[k].target, e.hidden[k].parameter, e.hidden[k].size, e.hidden[k].unit);
   for (const Confusable& c : e.confusable)
     fmt::print("  {} or {}: to tell them apart, measure: {}\n", c.first, c.second, c.record);
   for (const std::string& w : e.warnings) fmt::print("  warning: {}\n", w);

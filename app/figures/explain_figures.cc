@@ -80,6 +80,8 @@ void AddSignatures(HtmlReport& report, const ExplainScene& s, const Target& t) {
 ExplainScene::ExplainScene(const Case& c, const Explanation& e) : explanation(e), model(c) {
   try {
     const Hypothesis base = Hypothesis::Base(c.rig);
+    if (e.noise.estimated) model.noise_model = e.noise;
+    model.LimitToHeld(base);
     plain = FindFloor(model, base).clean;
     noise = NoiseSample(model, base, plain);
   } catch (const InputError&) {

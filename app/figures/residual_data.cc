@@ -64,7 +64,7 @@ double Rms(const std::vector<double>& v, const Target& t) {
 std::vector<double> NoiseSample(const CaseModel& model, const Hypothesis& h,
                                 const std::vector<double>& clean) {
   Hypothesis noisy = h;
-  noisy.rig = WithCaseNoise(h.rig, model.data().noise);
+  noisy.rig = WithNoise(h.rig, model.noise_model);
   auto sample = model.PredictNoisy(noisy, 13);
   if (!sample) return {};
   std::vector<double>& n = *sample;

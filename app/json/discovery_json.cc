@@ -37,6 +37,71 @@ Json RankingJson(const std::vector<RankedEffect>& ranking) {
   return all;
 }
 
+Json DataJson(const std::vector<DataFault>& faults) {
+  Json all = Json::array();
+  for (const DataFault& f : faults)
+    all.push_back({{"record", f.record},
+                   {"channel", f.channel},
+                   {"fault", f.fault},
+                   {"factor", Number(f.factor)},
+                   {"seconds", Number(f.seconds)},
+                   {"with", f.with},
+                   {"mend", f.mend},
+                   {"probability", f.probability}});
+  return all;
+}
+
+Json NoiseJson(const NoiseModel& noise) {
+  Json all = Json::object();
+  for (const auto& [channel, c] : noise.channels)
+    all[channel] = {
+        {"stated", Number(c.stated)}, {"estimated", Number(c.estimated)}, {"used", Number(c.used)}};
+  return all;
+}
+
+Json SetJson(const std::vector<SetMember>& set) {
+  Json all = Json::array();
+  for (const SetMember& m : set)
+    all.push_back({{"effect", m.effect}, {"target", m.target}, {"probability", m.probability}});
+  return all;
+}
+
+Json RemainderJson(const Remainder& r) {
+  Json where = Json::array();
+  for (const RemainderPlace& p : r.where)
+    where.push_back({{"record", p.record}, {"channel", p.channel}, {"ratio", Number(p.ratio)}});
+  return {{"kind", r.kind}, {"where", where}, {"text", r.text}};
+}
+
+Json ClosureJson(const Closure& c) {
+  return {{"explained", c.explained},
+          {"floors_before", Number(c.floors_before)},
+          {"floors_after", Number(c.floors_after)},
+          {"test", {{"before", Number(c.test_before)}, {"after", Number(c.test_after)}}}};
+}
+
+Json NuisancesJson(const std::vector<NuisanceFound>& nuisances) {
+  Json all = Json::array();
+  for (const NuisanceFound& n : nuisances)
+    all.push_back({{"record", n.record},
+                   {"name", n.name},
+                   {"unit", n.unit},
+                   {"value", Number(n.value)},
+                   {"sd", Number(n.sd)}});
+  return all;
+}
+
+Json HiddenJson(const std::vector<VisibleSize>& hidden) {
+  Json all = Json::array();
+  for (const VisibleSize& v : hidden)
+    all.push_back({{"effect", v.effect},
+                   {"target", v.target},
+                   {"parameter", v.parameter},
+                   {"unit", v.unit},
+                   {"size", Number(v.size)}});
+  return all;
+}
+
 }  // namespace
 
 Json CompareJson(const Comparison& c) {
@@ -57,10 +122,9 @@ Json CompareJson(const Comparison& c) {
                        {"channels", channels},
                        {"blocks", blocks}});
   }
-  return {{"records", records},
-          {"ratio", c.ratio},
-          {"ratio_fit", c.ratio_fit},
-          {"ratio_validate", c.ratio_validate},
+  return {{"records", records},       {"ratio", c.ratio},
+          {"ratio_fit", c.ratio_fit}, {"ratio_validate", c.ratio_validate},
+          {"data", DataJson(c.data)}, {"noise", NoiseJson(c.noise)},
           {"words", c.words}};
 }
 
@@ -79,6 +143,13 @@ Json ExplainJson(const Explanation& e) {
   Json out = {{"verdict", e.verdict},
               {"ranking", RankingJson(e.ranking)},
               {"adopted", adopted},
+              {"set", SetJson(e.set)},
+              {"closure", ClosureJson(e.closure)},
+              {"remainder", RemainderJson(e.remainder)},
+              {"data", DataJson(e.data)},
+              {"noise", NoiseJson(e.noise)},
+              {"nuisances", NuisancesJson(e.nuisances)},
+              {"hidden", HiddenJson(e.hidden)},
               {"base_ratio_validate", e.base_ratio_validate},
               {"final_ratio_validate", e.final_ratio_validate},
               {"nominal_ratio_validate", e.nominal_ratio_validate},

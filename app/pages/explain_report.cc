@@ -30,11 +30,52 @@ std::string Evidence(const Explanation& e) {
           : "");
 }
 
+std::vector<std::string> Faults(const Explanation& e) {
+  std::vector<std::string> out;
+  for (const DataFault& f : e.data) out.push_back(FaultText(f));
+  return out;
+}
+
+/// The names that may be right, what is explained, and what is not.
+void AddKnown(HtmlReport& report, const Explanation& e) {
+  std::string set;
+  for (const SetMember& m : e.set)
+    set += fmt::format("{}**{}{}** ({:.0f} %)", set.empty() ? "" : ", ", m.effect,
+                       m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
+  report.KeyValues({{"95 % set", set},
+                    {"explained", fmt::format("{:.1f} % of the error above the noise, {:.2f} to "
+                                              "{:.2f} floors over all records",
+                                              100 * e.closure.explained, e.closure.floors_before,
+                                              e.closure.floors_after)},
+                    {"remainder", e.remainder.text}});
+  if (!e.hidden.empty()) {
+    std::vector<std::vector<Cell>> rows;
+    for (const VisibleSize& v : e.hidden)
+      if (std::isfinite(v.size) && rows.size() < 20)
+        rows.push_back({v.effect + " at " + v.target, v.parameter, FormatSi(v.size, v.unit)});
+    report.Table({"effect", "parameter", "could be this large"}, rows,
+                 "What was not seen: sizes below these (three of their own sd) leave no trace in "
+                 "these records.");
+  }
+  if (e.nuisances.empty()) return;
+  std::vector<std::vector<Cell>> rows;
+  for (const NuisanceFound& n : e.nuisances)
+    if (std::abs(n.value) > 2 * n.sd)
+      rows.push_back({n.record, n.name,
+                      fmt::format("{} ± {}", FormatSi(n.value, n.unit), FormatSi(n.sd, n.unit))});
+  report.Table({"record", "what differs", "amount"}, rows,
+               "What differs from record to record; fitted with everything else.");
+}
+
 void AddVerdict(HtmlReport& report, const Explanation& e) {
   report.Heading("Verdict");
   if (e.verdict == "effect")
     report.Verdict(Verdict::kOk, fmt::format("**The rig has what the model lacks: {}.** {}",
                                              Names(e.adopted), Evidence(e)));
+  else if (e.verdict == "data")
+    report.Verdict(Verdict::kWarn,
+                   "**The data are wrong.** Nothing was fitted to them. Mend what stands below, "
+                   "then call explain again.");
   else if (e.verdict == "parameters")
     report.Verdict(Verdict::kInfo,
                    "**No effect is missing; the rig's parameters differ from the rig file** within "
@@ -49,6 +90,8 @@ void AddVerdict(HtmlReport& report, const Explanation& e) {
     report.Verdict(Verdict::kWarn,
                    "**Something is missing, and no effect of the catalogue explains it.** " +
                        Evidence(e) + " What it looks like, and a law to try, stand below.");
+  if (!e.data.empty()) report.Text(List(Faults(e)));
+  AddKnown(report, e);
 }
 
 void AddMeaning(HtmlReport& report, const Case& c, const Explanation& e) {
@@ -127,6 +170,8 @@ void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
     next.push_back(
         "Nothing needs to be added. To look for smaller effects, measure with more excitation or "
         "for longer.");
+  if (e.verdict == "data")
+    next.push_back("Put the lines above into the case file, or repeat the measurement.");
   if (e.verdict == "unknown")
     next.push_back(
         "Try the law above, or measure a record that isolates the block named above: clamped for "

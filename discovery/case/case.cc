@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
@@ -28,6 +29,9 @@ std::map<std::string, std::string> KnownChannels(const RigParameters& rig) {
 
 struct Mapping {
   std::string column, unit;
+  double gain = 1;  // on top of the unit
+  double late = 0;  // [s] by which the column comes late
+  bool use = true;
 };
 
 std::map<std::string, Mapping> ReadMapping(const TomlTable& record,
@@ -50,6 +54,11 @@ std::map<std::string, Mapping> ReadMapping(const TomlTable& record,
       const TomlTable t = *channels->Table(channel);
       m.column = t.String("column", channel);
       m.unit = t.String("unit", "");
+      m.gain = t.Number("gain", 1);
+      m.late = t.Number("late", 0);
+      m.use = t.Bool("use", true);
+      if (!(std::abs(m.gain) > 0 && std::isfinite(m.gain)))
+        t.Fail("gain", fmt::format("= {}, allowed: any but 0", m.gain));
       t.RejectUnknownKeys();
     }
     map[channel] = m;
@@ -67,15 +76,27 @@ void NoteOnce(Case& c, const std::string& file, const std::string& text) {
   c.notes.push_back(file + ": " + text);
 }
 
+/// The column as if it had come in time; rows without a sample are no numbers.
+void MoveEarlier(std::vector<double>& y, double rows) {
+  const std::vector<double> late = y;
+  const auto by = std::lround(rows);
+  const auto n = static_cast<long>(y.size());
+  for (long k = 0; k < n; ++k)
+    y[static_cast<std::size_t>(k)] = k + by >= 0 && k + by < n
+                                         ? late[static_cast<std::size_t>(k + by)]
+                                         : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Columns renamed to rig channels, units converted, unknown columns left out with a note.
 Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapping,
-                   const std::map<std::string, std::string>& known, const TomlTable& table,
-                   Case& c) {
+                   const std::map<std::string, std::string>& known, const TomlTable& table, Case& c,
+                   std::map<std::string, ColumnSource>& sources) {
   Record out;
   out.rate = raw.rate;
   out.start = raw.start;
   for (const auto& [channel, unit] : known) {
     const auto it = mapping.find(channel);
+    if (it != mapping.end() && !it->second.use) continue;
     const std::string column = it == mapping.end() ? channel : it->second.column;
     const Channel* found = raw.Find(column);
     if (!found) {
@@ -89,8 +110,12 @@ Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapp
     const std::string from =
         it != mapping.end() && !it->second.unit.empty() ? it->second.unit : found->unit;
     const double factor =
-        from.empty() ? 1 : UnitFactor(from, unit, table.Where("data") + ": channel " + channel);
+        (from.empty() ? 1 : UnitFactor(from, unit, table.Where("data") + ": channel " + channel)) *
+        (it == mapping.end() ? 1 : it->second.gain);
     for (double& v : converted.samples) v *= factor;
+    if (it != mapping.end() && it->second.late != 0)
+      MoveEarlier(converted.samples, it->second.late * raw.rate);
+    sources[channel] = {column, unit, factor};
     converted.unit = unit;
     out.channels.push_back(std::move(converted));
   }
@@ -128,6 +153,57 @@ bool Moved(const Scenario& s, const std::string& channel) {
   });
 }
 
+/// Rows before the scenario begins.
+void CutBefore(Record& data) {
+  if (data.start >= 0) return;
+  const auto rows = static_cast<std::ptrdiff_t>(std::ceil(-data.start * data.rate - 1e-9));
+  if (rows <= 0 || static_cast<std::size_t>(rows) >= data.rows()) return;
+  for (Channel& ch : data.channels) ch.samples.erase(ch.samples.begin(), ch.samples.begin() + rows);
+  data.start += static_cast<double>(rows) / data.rate;
+}
+
+/// Rows behind the scenario's end, when the record was moved there.
+void CutBehind(Record& data, double duration) {
+  const auto most = static_cast<std::size_t>(
+      std::max(0.0, std::floor((duration - data.start) * data.rate * (1 + 1e-12) + 1)));
+  for (Channel& ch : data.channels)
+    if (ch.samples.size() > most) ch.samples.resize(most);
+}
+
+/// Times that the case file leaves out: rows without a number.
+void LeaveOut(Record& data, const std::vector<std::vector<double>>& spans, const TomlTable& t) {
+  for (const std::vector<double>& span : spans) {
+    if (span.size() != 2 || !(span[0] <= span[1]))
+      t.Fail("leave_out", "allowed: [[from, to], ...] in s of the scenario");
+    for (Channel& ch : data.channels)
+      for (std::size_t k = 0; k < ch.samples.size(); ++k)
+        if (const double at = data.TimeAt(k); at >= span[0] && at <= span[1])
+          ch.samples[k] = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+double PositiveNumber(const TomlTable& t, const std::string& key) {
+  const double v = t.Number(key, 0);
+  if (!(v >= 0 && std::isfinite(v))) t.Fail(key, fmt::format("= {}, allowed: 0 or more", v));
+  return v;
+}
+
+NuisancePriors ReadNuisances(const TomlTable& root,
+                             const std::map<std::string, std::string>& known) {
+  NuisancePriors n;
+  const auto t = root.Table("nuisance");
+  if (!t) return n;
+  if (const auto zero = t->Table("sensor_zero"))
+    for (const std::string& channel : zero->Keys()) {
+      if (!known.contains(channel)) zero->Fail(channel, "is no channel of this rig");
+      n.sensor_zero[channel] = PositiveNumber(*zero, channel);
+    }
+  n.time_shift = PositiveNumber(*t, "time_shift");
+  n.input_gain = PositiveNumber(*t, "input_gain");
+  t->RejectUnknownKeys();
+  return n;
+}
+
 bool MayBeConstant(const Scenario& s, const std::string& channel) {
   if (s.start == StartState::kClamped) return !Moved(s, channel);
   const auto id = ParseChannel(channel);
@@ -154,6 +230,7 @@ Case ReadCase(const std::string& path) {
         noise->Fail(channel, fmt::format("= {}, allowed: 0 or more", v));
       c.noise[channel] = v;
     }
+  c.nuisances = ReadNuisances(root, known);
   const auto tables = root.Tables("record");
   if (tables.empty())
     root.Fail("record", "is missing, allowed: one or more [[record]] with scenario and data");
@@ -162,12 +239,20 @@ Case ReadCase(const std::string& path) {
     CaseRecord r;
     r.scenario_file = Beside(file, t.String("scenario"));
     r.data_file = Beside(file, t.String("data"));
-    r.validate = t.Choice("use", "fit", "fit, validate") == "validate";
+    r.validate = t.Choice("use", "fit", "fit, validate, test") != "fit";
     r.scenario = ReadScenario(r.scenario_file, c.rig);
-    const double offset = t.Number("time_offset", 0);  // scenario time of the logger's zero [s]
-    r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c);
+    r.time_offset = t.Number("time_offset", 0);
+    if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time")
+      t.Fail("kind", fmt::format("= \"{}\" is not compared yet, allowed: \"time\"", kind));
+    r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c, r.sources);
+    const auto left_out = t.Rows("leave_out");
     t.RejectUnknownKeys();
-    r.data.start += offset;
+    r.data.start += r.time_offset;
+    if (r.time_offset != 0) {
+      CutBefore(r.data);
+      CutBehind(r.data, r.scenario.duration);
+    }
+    LeaveOut(r.data, left_out, t);
     if (r.data.channels.empty())
       t.Fail("data", fmt::format("= {} holds no channel of this rig", r.data_file));
     CheckAgainstScenario(r, t);

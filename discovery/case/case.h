@@ -1,6 +1,5 @@
 #pragma once
-/// A case: measurements beside the model that should explain them. Source:
-/// docs/guide/files.md.
+/// A case: measurements beside the model that should explain them. Format: docs/guide/files.md.
 #include <map>
 #include <string>
 #include <vector>
@@ -11,18 +10,35 @@
 
 namespace ambrig {
 
+/// Where a channel of a record comes from.
+struct ColumnSource {
+  std::string column, si;  // its name in the data file; the channel's SI unit
+  double factor = 1;       // SI per number in the file
+};
+
 struct CaseRecord {
   std::string scenario_file, data_file;
   Scenario scenario;
-  Record data;  // rig channel names, SI
-  bool validate = false;
+  Record data;                          // rig channel names, SI
+  bool validate = false;                // kept from the fits; "test" records are too
   std::vector<ChannelQuality> quality;  // one per channel of data
+  std::map<std::string, ColumnSource> sources;
+  double time_offset = 0;  // [s] scenario time of the logger's zero
+};
+
+/// Standard deviations of what may differ from record to record; 0: it may not.
+struct NuisancePriors {
+  std::map<std::string, double> sensor_zero;  // by channel [m], [A]
+  double time_shift = 0;                      // [s]
+  double input_gain = 0;                      // of all commanded signals [-]
+  bool any() const { return !sensor_zero.empty() || time_shift > 0 || input_gain > 0; }
 };
 
 struct Case {
   std::string file, rig_file;
   RigParameters rig;
   std::map<std::string, double> noise;  // rms by channel, SI
+  NuisancePriors nuisances;
   std::vector<CaseRecord> records;
   std::vector<std::string> notes;  // what the data-quality pass left out
 };

@@ -60,7 +60,14 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
                    const std::function<void(double, const std::string&)>& progress) {
   Comparison c;
   if (progress) progress(0.05, "noise floor");
+  const std::vector<std::string> lost = model.LimitToHeld(h);
+  FindFloor(model, h);
+  std::vector<double> stated;
+  for (const Target& t : model.targets()) stated.push_back(t.floor);
+  c.noise = EstimateNoise(model, h);
+  model.noise_model = c.noise;
   const NoiseFloor floor = FindFloor(model, h);
+  c.data = InspectDataBelow(model, floor.clean, h, stated);
   c.predicted = floor.clean;
   c.effective_sample_size = floor.effective_sample_size;
   c.residual = Residual(model, c.predicted);
@@ -88,7 +95,10 @@ Comparison Compare(CaseModel& model, const Hypothesis& h, bool blocks,
     if (blocks) out.blocks = BlockRatios(model, h, r);
     c.records.push_back(std::move(out));
   }
-  c.words = Words(c);
+  c.words = lost;
+  for (const DataFault& f : c.data) c.words.push_back("data: " + FaultText(f));
+  for (const std::string& line : NoiseRemarks(c.noise)) c.words.push_back(line);
+  for (const std::string& line : Words(c)) c.words.push_back(line);
   return c;
 }
 

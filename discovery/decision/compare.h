@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "discovery/data/data_gate.h"
 #include "discovery/model/block_ratios.h"
 #include "discovery/model/residual.h"
 
@@ -26,6 +27,8 @@ struct RecordComparison {
 };
 
 struct Comparison {
+  std::vector<DataFault> data;  // gross errors of the data
+  NoiseModel noise;
   std::vector<RecordComparison> records;
   double ratio = 0, ratio_fit = 0, ratio_validate = 0;
   std::vector<std::string> words;  // the worst places, named

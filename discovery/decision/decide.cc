@@ -8,8 +8,9 @@ namespace {
 constexpr double kAgrees = 1.05;  // ratio on unseen records that counts as the floor
 // discovery.md: what an effect of the catalogue should reach
 constexpr double kGood = 1.5;
-constexpr double kCompelling = 200;     // gain of the score that no detail of another law brings
-constexpr double kMostExplained = 0.9;  // of the squared error above the floor
+constexpr double kCompelling = 200;  // gain of the score that no detail of another law brings
+constexpr double kDoubtfulShift = 3, kNeverParameter = 5;  // sd
+constexpr double kMostExplained = 0.9;                     // of the squared error above the floor
 }  // namespace
 
 double ExplainedShare(double before, double after) {
@@ -42,13 +43,19 @@ bool WorthAdopting(const FitResult& before, const FitResult& after, double score
   return share > 0.75 || (share > 0.4 && (fall > 0.1 * first_fall || score_gain > kCompelling));
 }
 
-std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted) {
-  if (any_adopted)
-    return final_ratio < kGood || ExplainedShare(base, final_ratio) > kMostExplained ? "effect"
-                                                                                     : "unknown";
-  if (base < kAgrees * 1.05) return nominal < kAgrees ? "none" : "parameters";
+double StageRatios::Answered() const { return std::max({fit, validate, worst_record / 1.1}); }
+
+std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
+                      const ParameterNeed& need, bool any_established) {
+  if (any_established) return "effect";
+  const double after = base.Answered(), before = nominal.Answered();
+  if (before < kAgrees * 1.02) return "none";
+  const bool possible = need.largest_shift < kNeverParameter && need.believable &&
+                        (need.largest_shift < kDoubtfulShift || need.constant);
+  if (!possible) return "unknown";
+  if (after < kAgrees * 1.05) return "parameters";
   // Parameters explain all but a trace of a large misfit, and nothing else helps.
-  if (base < kGood && ExplainedShare(nominal, base) > kMostExplained) return "parameters";
+  if (after < kGood && ExplainedShare(before, after) > kMostExplained) return "parameters";
   return "unknown";
 }
 

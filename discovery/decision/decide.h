@@ -20,7 +20,24 @@ bool Believable(const FitResult& fit);
 bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round,
                    double first_fall);
 
-/// "effect", "parameters", "none" or "unknown" from the ratios on unseen records.
-std::string VerdictOf(double nominal, double base, double final_ratio, bool any_adopted);
+/// Errors over the noise of one stage of the search: fitted records, unseen ones, the worst record.
+struct StageRatios {
+  double fit = 0, validate = 0, worst_record = 0;
+  /// The largest that a verdict has to answer for.
+  double Answered() const;
+};
+
+/// What the rig parameters had to do to explain the records alone.
+struct ParameterNeed {
+  double largest_shift = 0;  // of its own sd [-]
+  bool believable = true;    // all shifts together, see Believable
+  bool constant = true;      // those beyond 3 sd are the same in every record (drift test)
+};
+
+/// "effect", "parameters", "none" or "unknown". Every record counts, fitted or not. An effect that
+/// was established is named whatever remains; five sd are never parameters, three only where the
+/// records agree on the shift.
+std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
+                      const ParameterNeed& need, bool any_established);
 
 }  // namespace ambrig

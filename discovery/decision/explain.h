@@ -6,6 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "discovery/data/data_gate.h"
+#include "discovery/decision/decide.h"
+#include "discovery/decision/evidence.h"
 #include "discovery/model/floor.h"
 #include "discovery/model/run_store.h"
 #include "discovery/search/effect_round.h"
@@ -29,10 +32,17 @@ struct Unexplained {
 };
 
 struct Explanation {
-  std::string verdict;                     // effect | parameters | none | unknown
+  std::string verdict;                     // effect | parameters | none | unknown | data
   std::vector<RankedEffect> ranking;       // of the first round, best first
   std::vector<RankedEffect> second_round;  // of the last round that found anything or nothing
-  std::vector<EffectInstance> adopted;
+  std::vector<EffectInstance> adopted;     // established, whatever remains
+  std::vector<SetMember> set;              // holds the right answer with 95 %
+  Closure closure;
+  Remainder remainder;
+  std::vector<DataFault> data;
+  NoiseModel noise;
+  std::vector<NuisanceFound> nuisances;
+  std::vector<VisibleSize> hidden;            // how large each effect could be without being seen
   std::vector<std::string> parameter_shifts;  // "bearings.A.gap +1.2 sd"
   double nominal_ratio_validate = 0, base_ratio_validate = 0, final_ratio_validate = 0;
   double base_ratio_fit = 0, final_ratio_fit = 0;

@@ -11,7 +11,7 @@ namespace ambrig {
 BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record) {
   const CaseRecord& r = model.data().records[record];
   Hypothesis noisy = h;
-  noisy.rig = WithCaseNoise(h.rig, model.data().noise);
+  noisy.rig = WithNoise(h.rig, model.noise_model);
   CaseRecord own = r;
   const Record simulated = model.Simulated(noisy, record, true, 21);
   // The model's own noisy record, cut to the rows and channels of the data.

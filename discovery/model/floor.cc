@@ -15,6 +15,14 @@ double Rms(const std::vector<double>& v, std::size_t first, std::size_t count) {
   return std::sqrt(sum / static_cast<double>(std::max<std::size_t>(count, 1)));
 }
 
+/// rms over the rows that count; rows behind a record's horizon are zero in all predictions.
+double CountedRms(const CaseModel& model, const std::vector<double>& v, const Target& t) {
+  double sum = 0, n = 0;
+  for (std::size_t k = t.first; k < t.first + t.count; ++k)
+    if (model.ok()[k]) sum += v[k] * v[k], n += 1;
+  return n > 0 ? std::sqrt(sum / n) : Rms(v, t.first, t.count);
+}
+
 /// Least that an error of this channel can mean: a step of its converter, or the file's rounding.
 double Resolution(const RigParameters& rig, const ChannelRow& channel, double full_scale) {
   using Range = ChannelResolution::Range;
@@ -43,43 +51,31 @@ double Correlation(const std::vector<double>& v, std::size_t first, std::size_t 
 
 }  // namespace
 
-RigParameters WithCaseNoise(const RigParameters& rig, const std::map<std::string, double>& noise) {
-  RigParameters out = rig;
-  for (const auto& [channel, rms] : noise) {
-    if (IsOfKind(channel, ChannelKind::kBus)) out.amplifier.bus_noise = rms;
-    for (BearingParameters& b : out.bearings)
-      for (const std::string& axis : b.Axes())
-        if (axis == channel) b.sensor.noise = rms;
-  }
-  return out;
-}
-
 NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
   NoiseFloor floor;
   Hypothesis noisy = h;
-  noisy.rig = WithCaseNoise(h.rig, model.data().noise);
+  noisy.rig = WithNoise(h.rig, model.noise_model);
   const auto clean = model.Predict(h);
   const auto first = model.PredictNoisy(noisy, 11), second = model.PredictNoisy(noisy, 12);
-  if (!clean || !first || !second)
+  if (!clean)
     throw InputError(model.data().file + ": the model does not hold its rotor in these records");
   std::vector<double> d1(clean->size()), d2(clean->size());
   for (std::size_t k = 0; k < d1.size(); ++k) {
-    d1[k] = (*first)[k] - (*clean)[k];
-    d2[k] = (*second)[k] - (*clean)[k];
+    // where noise alone drops the rotor, the stated noise of each channel is all that is known
+    d1[k] = first ? (*first)[k] - (*clean)[k] : second ? (*second)[k] - (*clean)[k] : 0;
+    d2[k] = second ? (*second)[k] - (*clean)[k] : d1[k];
   }
   for (Target& t : model.targets()) {
     const CaseRecord& record = model.data().records[t.record];
     const std::string& channel = record.data.channels[t.channel].name;
     const auto id = ParseChannel(channel);
     Require(id.has_value(), "targets are channels of the rig");
-    const double a = Rms(d1, t.first, t.count), b = Rms(d2, t.first, t.count);
+    const double a = CountedRms(model, d1, t), b = CountedRms(model, d2, t);
     double square = 0.5 * (a * a + b * b);
-    const auto it = model.data().noise.find(channel);
     // load cells: noise of their own
     const bool reader_noise = id->kind == ChannelKind::kLoadCell;
-    if (it != model.data().noise.end())
-      square = reader_noise ? square + it->second * it->second
-                            : std::max(square, it->second * it->second);
+    if (const double used = model.noise_model.Used(channel); std::isfinite(used))
+      square = reader_noise ? square + used * used : std::max(square, used * used);
     t.floor = std::max(std::sqrt(square), Resolution(h.rig, id->row(), t.full_scale));
   }
   // Independent rows times independent channels: the latter from the spread of their correlations.

@@ -5,9 +5,6 @@
 
 namespace ambrig {
 
-/// Noise of the case put into the rig: sensors, bus.
-RigParameters WithCaseNoise(const RigParameters& rig, const std::map<std::string, double>& noise);
-
 struct NoiseFloor {
   double effective_sample_size = 0;  // independent numbers among all residuals (they are coloured)
   std::vector<double> clean;         // the noise-free prediction that was used

@@ -27,6 +27,7 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
           J(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c)) =
               ((*runs[c])[k] - predicted[k]) / t.floor / change[c];
   }
+  if (model.nuisances.any()) model.nuisances.Eliminate(J);
   return J;
 }
 

@@ -8,92 +8,40 @@
 
 #include "core/record/channels.h"
 #include "rig/rig_assembly.h"
+#include "simulation/switching/lost_rotor.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
 
-Hypothesis Hypothesis::Base(const RigParameters& rig) {
-  Hypothesis h;
-  h.rig = rig;
-  for (const Tolerance& t : rig.tolerances) {
-    FreeParameter p;
-    p.path = t.path;
-    const double* at = ParameterAt(h.rig, t.path);
-    if (!at || t.sd <= 0) continue;
-    // the prior's mean; a calibration found earlier is where the fit starts
-    p.value = p.start = *at;
-    p.sd = p.step = t.sd;
-    std::string unit;
-    ParameterRange(rig, t.path, &p.lo, &p.hi, &unit);
-    p.lo = std::max(p.lo, p.value - 8 * t.sd);
-    p.hi = std::min(p.hi, p.value + 8 * t.sd);
-    h.free.push_back(p);
-    if (!std::isnan(t.true_value)) h.Set(h.free.size() - 1, t.true_value);
+namespace {
+
+constexpr double kBeforeLoss = 0.015;  // [s] between the last row that counts and the loss
+constexpr double kLeastHeld = 0.05;    // [s] of a record that are worth comparing
+constexpr double kTouch = 0.85;        // of the clearance: the measured rotor was at its stop
+
+/// Whether the readings of a levitated record reach the auxiliary bearings.
+bool Touches(const RigParameters& rig, const CaseRecord& record) {
+  for (const BearingParameters& b : rig.bearings) {
+    if (!b.auxiliary) continue;
+    double most = 0;
+    const std::vector<std::string> axes = b.Axes();
+    const Channel *x = record.data.Find(axes[0]),
+                  *y = axes.size() > 1 ? record.data.Find(axes[1]) : nullptr;
+    if (!x) continue;
+    for (std::size_t k = 0; k < x->samples.size(); ++k) {
+      const double at = std::hypot(x->samples[k], y ? y->samples[k] : 0);
+      if (std::isfinite(at)) most = std::max(most, at);
+    }
+    // what is far outside is a wrong unit, no contact
+    if (most > kTouch * b.auxiliary->clearance && most < 5 * b.auxiliary->clearance) return true;
   }
-  for (Tolerance& t : h.rig.tolerances) t.true_value = kRequired;  // now in the values
-  // A formula that the user wrote is there to be fitted, and so is what an adoption found: { value,
-  // sd }.
-  const std::vector<EffectInstance> own = std::move(h.rig.effects);
-  h.rig.effects.clear();
-  for (const EffectInstance& e : own) {
-    const std::size_t before = h.free.size();
-    h.AddEffect(e);
-    if (e.IsFormula()) continue;
-    for (std::size_t k = h.free.size(); k-- > before;)
-      if (e.sd[h.free[k].row] <= 0) h.free.erase(h.free.begin() + static_cast<std::ptrdiff_t>(k));
-  }
-  return h;
+  return false;
 }
 
-void Hypothesis::AddEffect(const EffectInstance& effect) {
-  const int index = static_cast<int>(rig.effects.size());
-  rig.effects.push_back(effect);
-  for (std::size_t row = 0; row < effect.table.size(); ++row) {
-    const EffectParameter& e = effect.table[row];
-    FreeParameter p;
-    p.path = fmt::format("{}@{}.{}", effect.name, effect.target, e.name);
-    p.effect = index;
-    p.row = row;
-    p.value = p.start = effect.values[row];
-    p.lo = e.lo;
-    p.hi = e.hi;
-    if (!std::isfinite(p.value)) continue;  // at a null of infinity: not moved
-    const double typical = std::max(std::abs(e.typical_hi), std::abs(e.typical_lo));
-    p.step = 0.3 * typical;
-    if (p.step == 0) p.step = std::isfinite(e.hi) && std::isfinite(e.lo) ? 0.05 * (e.hi - e.lo) : 1;
-    // Sizes over decades move in ratios; signed ones and distances from a null (a gain of 1) in
-    // steps.
-    const bool distance =
-        std::isfinite(e.null_value) && std::abs(e.typical_hi) <= 0.5 * std::abs(e.null_value);
-    p.logarithmic = !distance && e.typical_lo > 0 && e.typical_hi / e.typical_lo > 2.5 &&
-                    e.lo >= 0 && p.value > 0;
-    free.push_back(p);
-  }
-}
+}  // namespace
 
-void Hypothesis::Set(std::size_t parameter, double value) {
-  FreeParameter& p = free[parameter];
-  p.value = std::clamp(value, p.lo, p.hi);
-  if (p.effect >= 0) {
-    rig.effects[static_cast<std::size_t>(p.effect)].values[p.row] = p.value;
-  } else {
-    SetParameter(rig, p.path, p.value);
-  }
-}
-
-double Hypothesis::Coordinate(std::size_t parameter) const {
-  const FreeParameter& p = free[parameter];
-  return p.logarithmic ? std::log(p.value / p.start) / 0.3 : (p.value - p.start) / p.step;
-}
-
-double Hypothesis::ValueAt(std::size_t parameter, double coordinate) const {
-  const FreeParameter& p = free[parameter];
-  const double v =
-      p.logarithmic ? p.start * std::exp(0.3 * coordinate) : p.start + p.step * coordinate;
-  return std::clamp(v, p.lo, p.hi);
-}
-
-CaseModel::CaseModel(const Case& c, std::size_t thin) : case_(c) {
+CaseModel::CaseModel(const Case& c, std::size_t thin)
+    : noise_model(StatedNoise(c.rig, c.noise)), case_(c) {
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const CaseRecord& record = c.records[r];
     plans_.push_back(std::make_unique<CommandPlan>(c.rig, record.scenario));
@@ -127,7 +75,59 @@ CaseModel::CaseModel(const Case& c, std::size_t thin) : case_(c) {
       if (n > 0) t.full_scale = std::sqrt(std::max(0.0, square / n - mean * mean / n / n));
       targets_.push_back(t);
     }
+    touches_.push_back(Touches(c.rig, record) ? 1 : 0);
   }
+  sound_ = ok_;
+  horizon_.assign(c.records.size(), kInfinity);
+}
+
+void CaseModel::ApplyHorizons() {
+  memo_.Clear();
+  ok_ = sound_;
+  for (const Target& t : targets_) {
+    const Record& data = case_.records[t.record].data;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      if (data.TimeAt(sample_[k]) >= horizon_[t.record]) ok_[k] = 0;
+  }
+}
+
+std::vector<std::string> CaseModel::LimitToHeld(const Hypothesis& h) {
+  std::vector<std::string> lines;
+  std::vector<double> found(case_.records.size(), kInfinity);
+  horizon_ = found;
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t r) {
+    try {
+      Simulated(h, r, false, 1);
+    } catch (const LostRotor& lost) {
+      found[r] = std::max(0.0, lost.time - kBeforeLoss);
+    } catch (const std::runtime_error& e) {
+      if (dynamic_cast<const Interrupted*>(&e) || dynamic_cast<const InputError*>(&e)) throw;
+      found[r] = 0;
+    }
+  });
+  horizon_ = found;
+  for (std::size_t r = 0; r < found.size(); ++r) {
+    const CaseRecord& record = case_.records[r];
+    if (found[r] == kInfinity) continue;
+    if (found[r] < record.data.start + kLeastHeld) horizon_[r] = 0;
+    lines.push_back(
+        horizon_[r] == 0
+            ? record.data_file + ": the model does not hold its rotor here; the record is left out"
+            : fmt::format("{}: the model does not hold its rotor beyond {:.3g} s; compared up to "
+                          "there",
+                          record.data_file, horizon_[r]));
+  }
+  ApplyHorizons();
+  return lines;
+}
+
+void CaseModel::LimitAs(const CaseModel& other) {
+  horizon_ = other.horizon_;
+  ApplyHorizons();
+}
+
+bool CaseModel::limited() const {
+  return std::any_of(horizon_.begin(), horizon_.end(), [](double h) { return h < kInfinity; });
 }
 
 Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
@@ -141,9 +141,10 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.watch = false;
   options.nominal = &case_.rig;
+  scenario.duration = std::min(scenario.duration, std::max(horizon_[record], 1 / r.data.rate));
   // A hypothesis that drops a rotor which the measured rig held is no explanation; do not watch it
   // bounce.
-  if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty())
+  if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty() && !touches_[record])
     options.lost_after = 0.01;
   options.stop = stop;
   ++runs;
@@ -161,9 +162,21 @@ std::pair<std::size_t, std::size_t> CaseModel::RowsOf(std::size_t record) const 
 
 bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool noise,
                            std::uint64_t seed, std::vector<double>& out) const {
+  const auto [first, end] = RowsOf(record);
+  const std::string what = noise ? "" : MemoKey(rig, case_.records[record], record);
+  if (!noise)
+    if (const std::optional<bool> known = memo_.Find(what, out.data() + first)) return *known;
+  const bool fine = SimulateOrFind(rig, record, noise, seed, out);
+  if (!noise) memo_.Keep(what, fine, out.data() + first, end - first);
+  return fine;
+}
+
+bool CaseModel::SimulateOrFind(const RigParameters& rig, std::size_t record, bool noise,
+                               std::uint64_t seed, std::vector<double>& out) const {
   if (!store) return SimulateRecord(rig, record, noise, seed, out);
   const auto [first, end] = RowsOf(record);
-  const RunKey key{rig, record, noise, seed, end - first};
+  const RunKey key{rig,  record,      noise,
+                   seed, end - first, horizon_[record] < kInfinity ? horizon_[record] : 0};
   if (const std::optional<bool> known = store->Find(key, out.data() + first)) return *known;
   const bool fine = SimulateRecord(rig, record, noise, seed, out);
   store->Keep(key, fine, out.data() + first);
@@ -172,6 +185,7 @@ bool CaseModel::FillRecord(const RigParameters& rig, std::size_t record, bool no
 
 bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, bool noise,
                                std::uint64_t seed, std::vector<double>& out) const {
+  if (horizon_[record] == 0) return true;  // left out
   Hypothesis h;
   h.rig = rig;
   Record simulated;

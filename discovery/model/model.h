@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "discovery/case/case.h"
+#include "discovery/model/noise_model.h"
+#include "discovery/model/nuisances.h"
+#include "discovery/model/run_memo.h"
 #include "discovery/model/run_store.h"
 #include "simulation/sampled/command_plan.h"
 
@@ -75,6 +78,16 @@ class CaseModel {
   /// Full simulated record of one record's scenario.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;
 
+  /// Records that this hypothesis does not hold to their end count up to there only, those that it
+  /// loses at once do not count. Returns one line for each.
+  std::vector<std::string> LimitToHeld(const Hypothesis& h);
+  /// Counts as many rows of each record as `other`, a model of the same case.
+  void LimitAs(const CaseModel& other);
+  /// Whether some record counts in part only.
+  bool limited() const;
+
+  NoiseModel noise_model;             // as stated, until EstimateNoise
+  Nuisances nuisances;                // eliminated from every residual; none at first
   mutable std::atomic<long> runs{0};  // record simulations so far
   const std::atomic<bool>* stop = nullptr;
   RunStore* store = nullptr;  // looked up before a record is simulated
@@ -84,15 +97,25 @@ class CaseModel {
   std::pair<std::size_t, std::size_t> RowsOf(std::size_t record) const;
   bool SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                       std::vector<double>& out) const;
+  /// From the disk where a store is kept, else simulated.
+  bool SimulateOrFind(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
+                      std::vector<double>& out) const;
   bool FillRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                   std::vector<double>& out) const;
 
+  /// Rows behind a record's horizon do not count.
+  void ApplyHorizons();
+
   const Case& case_;
+  std::vector<double> horizon_;  // [s] of each record's scenario that is simulated; infinity: all
+  std::vector<char> touches_;    // of each record: the measured rotor touches something
+  std::vector<char> sound_;      // rows as the data-quality pass left them
   std::vector<Target> targets_;
   std::vector<double> measured_;
   std::vector<char> ok_;
   std::vector<std::size_t> sample_;
   std::vector<std::unique_ptr<CommandPlan>> plans_;
+  mutable RunMemo memo_;
 };
 
 }  // namespace ambrig

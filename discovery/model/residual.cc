@@ -10,6 +10,7 @@ std::vector<double> Residual(const CaseModel& model, const std::vector<double>& 
   for (const Target& t : model.targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
       r[k] = model.ok()[k] ? (model.measured()[k] - predicted[k]) / t.floor : 0;
+  if (model.nuisances.any()) model.nuisances.Eliminate(r.data());
   return r;
 }
 
@@ -37,6 +38,19 @@ double Ratio(const CaseModel& model, const std::vector<double>& residual, Which 
     }
   }
   return n > 0 ? std::sqrt(sum / n) : 0;
+}
+
+double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual) {
+  std::vector<double> sum(model.data().records.size()), n(sum.size());
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      sum[t.record] += residual[k] * residual[k];
+      n[t.record] += model.ok()[k];
+    }
+  double worst = 0;
+  for (std::size_t r = 0; r < n.size(); ++r)
+    if (n[r] > 0) worst = std::max(worst, std::sqrt(sum[r] / n[r]));
+  return worst;
 }
 
 double WorstRatio(const CaseModel& model, const std::vector<double>& residual, Which which) {

@@ -16,6 +16,8 @@ bool Counts(const CaseModel& model, const Target& t, Which which);
 /// Root mean square of a residual over the chosen records: 1 means nothing is left but noise.
 double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which);
 double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t);
+/// Largest ratio of any single record.
+double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual);
 /// Largest ratio of any single channel.
 double WorstRatio(const CaseModel& model, const std::vector<double>& residual, Which which);
 

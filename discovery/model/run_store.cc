@@ -30,6 +30,7 @@ std::string TextOf(const RunKey& key) {
   Add(bytes, key.noise);
   Add(bytes, key.seed);
   Add(bytes, key.rows);
+  Add(bytes, key.horizon);
   const RigParameters& rig = key.rig;
   for (const Tolerance& t : rig.tolerances)
     if (const double* value = ParameterAt(rig, t.path)) Add(bytes, *value);

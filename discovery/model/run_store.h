@@ -21,6 +21,7 @@ struct RunKey {
   bool noise = false;
   std::uint64_t seed = 0;
   std::size_t rows = 0;  // predicted
+  double horizon = 0;    // [s] up to which it was simulated; 0: to its end
 };
 
 class RunStore {

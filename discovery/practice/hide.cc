@@ -191,7 +191,7 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   }
   for (const EffectInstance& e : out.effects) truth.rig.effects.push_back(e);
   out.truth = truth.rig;
-  truth.rig = WithCaseNoise(truth.rig, out.data.noise);
+  truth.rig = WithNoise(truth.rig, StatedNoise(truth.rig, out.data.noise));
   Measure(model, truth, request.seed, load_cell_noise, out.data);
   return out;
 }

@@ -54,6 +54,7 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
   constexpr std::size_t kFitted = 2;
+  constexpr double kWorthFitting = 4;  // of the score
   std::vector<Hypothesis> all;
   for (const EffectInstance& e : starts) {
     all.push_back(now.hypothesis);
@@ -75,6 +76,9 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
   }
   std::sort(order.begin(), order.end());
   std::vector<EffectInstance> out;
+  // a resonance of which no start explains anything is not there
+  const double here = Score(model, now.ratio_fit, now.ratio_validate, effective_sample_size, 0, 0);
+  if (order.empty() || order[0].first > here - kWorthFitting) return out;
   for (const auto& [score, k] : order)
     if (out.size() < kFitted && std::none_of(out.begin(), out.end(), [&](const EffectInstance& o) {
           return SameValley(o, starts[k]);

@@ -168,6 +168,24 @@ Candidate LinearJudge::Single(const SignatureBank::Entry& entry) const {
   return c;
 }
 
+double LinearJudge::LeastVisible(const SignatureBank::Entry& entry, Index column) const {
+  const Index at = entry.first + column;
+  const double weight = MisfitWeight(std::max(1.0, base_.ratio_fit), effective_sample_size_) /
+                        static_cast<double>(model_.size());
+  Eigen::MatrixXd own = weight * own_.fit.topLeftCorner(nb_, nb_);
+  for (Index k = 0; k < nb_; ++k)
+    own(k, k) += base_.hypothesis.free[static_cast<std::size_t>(k)].sd > 0 ? 1 : 1e-9;
+  const Eigen::VectorXd with = weight * with_.fit.col(at).head(nb_);
+  const double information = weight * bank_.fit(at, at) - with.dot(own.ldlt().solve(with));
+  return information > 0 ? 3 / std::sqrt(information) : kInfinity;
+}
+
+double LinearJudge::SignatureSize(const SignatureBank::Entry& entry, Index column) const {
+  const Index at = entry.first + column;
+  return std::sqrt((bank_.fit(at, at) + bank_.validate(at, at)) /
+                   std::max(1.0, n_fit_ + n_validate_));
+}
+
 CandidatePair LinearJudge::Pair(const SignatureBank::Entry& first,
                                 const SignatureBank::Entry& second) const {
   std::vector<Column> columns = ColumnsOf(first);

@@ -30,6 +30,10 @@ class LinearJudge {
               double effective_sample_size);
 
   Candidate Single(const SignatureBank::Entry& entry) const;
+  /// The amount of one signature that would be 3 sd of its own beside the rig parameters.
+  double LeastVisible(const SignatureBank::Entry& entry, Eigen::Index column) const;
+  /// rms of a signature over all rows, over the floor.
+  double SignatureSize(const SignatureBank::Entry& entry, Eigen::Index column) const;
   CandidatePair Pair(const SignatureBank::Entry& first, const SignatureBank::Entry& second) const;
 
  private:

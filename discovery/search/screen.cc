@@ -11,6 +11,8 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kInvisible = 1e-3;  // rms of a usual size's signature, over the floor
+
 /// Effects that no record of the case could show.
 bool CannotShow(const EffectDescription& d, const CaseModel& model) {
   if (d.users_own) return true;
@@ -62,6 +64,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
     if (!options.effect.empty() && d.id != options.effect) continue;
     if (options.effect.empty() && (CannotShow(d, model) || (again && !coils && !SeeksFrequency(d))))
       continue;
+    if (options.coarse && (coils || SeeksFrequency(d))) continue;
     for (const std::string& target : TargetsOf(d, targets)) {
       if (!options.target.empty() && target != options.target) continue;
       const bool coil = target.find(".coil") != std::string::npos;
@@ -84,6 +87,11 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
   std::vector<Candidate> all, out;
   for (const SignatureBank::Entry& entry : bank.entries()) {
     if (Present(base.hypothesis, entry.group.probes[0])) continue;
+    // An effect that changes nothing here (it cannot act on this bearing, or nothing excites it).
+    double most = 0;
+    for (Eigen::Index k = 0; k < entry.count(); ++k)
+      most = std::max(most, judge.SignatureSize(entry, k));
+    if (most < kInvisible) continue;
     all.push_back(judge.Single(entry));
     if (!std::isfinite(all.back().score)) all.pop_back();
   }
@@ -117,7 +125,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
   };
   bank.Simulate(model, base, GroupsToRun(model, base, peaks, false, options, bank), part(0, 0.7));
   std::vector<Candidate> out = Rank(model, base, bank, options.effective_sample_size);
-  if (again) return out;
+  if (again || options.coarse) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {
     return after * after - 1 > 0.12 * std::max(0.05, before * before - 1);
@@ -127,6 +135,33 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
     bank.Simulate(model, base, GroupsToRun(model, base, peaks, true, options, bank), part(0.7, 1));
     out = Rank(model, base, bank, options.effective_sample_size);
   }
+  return out;
+}
+
+std::vector<VisibleSize> VisibleSizes(const CaseModel& model, const FitResult& base,
+                                      double effective_sample_size, SignatureBank& bank) {
+  const LinearJudge judge(model, base, bank, effective_sample_size);
+  std::vector<std::pair<double, VisibleSize>> all;
+  for (const SignatureBank::Entry& entry : bank.entries()) {
+    const ProbeGroup& g = entry.group;
+    if (!g.linear || g.narrow || Present(base.hypothesis, g.probes[0])) continue;
+    for (Eigen::Index k = 0; k < entry.count(); ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const EffectParameter& p = g.probes[i].table[g.rows[i]];
+      const double usual = std::abs(g.probes[i].values[g.rows[i]] - p.null_value),
+                   least = judge.LeastVisible(entry, k);
+      const VisibleSize v = {g.probes[i].name, g.probes[i].target, p.name, p.unit, least * usual};
+      if (std::none_of(all.begin(), all.end(), [&](const auto& o) {
+            return o.second.effect == v.effect && o.second.target == v.target &&
+                   o.second.parameter == v.parameter;
+          }))
+        all.emplace_back(least, v);
+    }
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<VisibleSize> out;
+  for (const auto& [share, v] : all) out.push_back(v);
   return out;
 }
 

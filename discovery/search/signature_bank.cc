@@ -68,12 +68,15 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
       entry.group.rows.clear();
       for (std::size_t k = 0; k < groups[first].probes.size(); ++k, ++at) {
         if (!runs[at]) continue;
+        std::vector<double> signature(model.size());
         for (const Target& t : model.targets())
           for (std::size_t row = t.first; row < t.first + t.count; ++row)
-            columns_(static_cast<Index>(row), used_) =
-                model.ok()[row]
-                    ? static_cast<float>(((*runs[at])[row] - base.predicted[row]) / t.floor)
-                    : 0.0F;
+            if (model.ok()[row])
+              signature[row] = ((*runs[at])[row] - base.predicted[row]) / t.floor;
+        if (model.nuisances.any()) model.nuisances.Eliminate(signature.data());
+        columns_.col(used_) =
+            Eigen::Map<const Eigen::VectorXd>(signature.data(), static_cast<Index>(model.size()))
+                .cast<float>();
         ++used_;
         entry.group.probes.push_back(groups[first].probes[k]);
         if (entry.group.linear) entry.group.rows.push_back(groups[first].rows[k]);

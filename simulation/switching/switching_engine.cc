@@ -8,6 +8,7 @@
 #include "simulation/continuous/equilibrium.h"
 #include "simulation/sampled/start_state.h"
 #include "simulation/switching/bearing_run.h"
+#include "simulation/switching/lost_rotor.h"
 
 namespace ambrig {
 
@@ -197,7 +198,7 @@ void SwitchingEngine::MoveRotor(long long n) {
   if (options_.lost_after < kInfinity && plant_.rotor.NearContact(motion_, 0)) {
     touching_ += T_;
     if (touching_ > options_.lost_after)
-      throw std::runtime_error(scenario_.name + ": the rotor is lost");
+      throw LostRotor(scenario_.name + ": the rotor is lost", motion_.t);
   }
   const double per_period = 1 / T_;
   for (std::size_t d = 0; d < dof; ++d)
@@ -205,8 +206,9 @@ void SwitchingEngine::MoveRotor(long long n) {
   for (BearingRun& b : bearings_) {
     b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
     if (!std::isfinite(b.x) || !std::isfinite(b.y))
-      throw std::runtime_error(
-          fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t));
+      throw LostRotor(
+          fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t),
+          motion_.t);
   }
 }
 

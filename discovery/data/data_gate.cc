@@ -1,0 +1,94 @@
+#include "discovery/data/data_gate.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ambrig {
+
+namespace {
+
+/// The columns of a record that the model predicts.
+std::vector<GateColumn> ColumnsOf(const CaseModel& model, const std::vector<double>& predicted,
+                                  std::size_t record) {
+  std::vector<GateColumn> out;
+  const CaseRecord& r = model.data().records[record];
+  for (const Target& t : model.targets()) {
+    if (t.record != record) continue;
+    GateColumn c;
+    const Channel& channel = r.data.channels[t.channel];
+    c.name = channel.name;
+    c.floor = t.floor;
+    c.column.measured.resize(t.count);
+    c.column.predicted.resize(t.count);
+    c.column.ok.resize(t.count);
+    for (std::size_t k = 0; k < t.count; ++k) {
+      const double y = channel.samples[model.sample(t.first + k)];
+      c.column.ok[k] = std::isfinite(y) && std::isfinite(predicted[t.first + k]) ? 1 : 0;
+      c.column.measured[k] = c.column.ok[k] ? y / t.floor : 0;
+      c.column.predicted[k] = c.column.ok[k] ? predicted[t.first + k] / t.floor : 0;
+    }
+    c.match = MatchOf(c.column);
+    out.push_back(std::move(c));
+  }
+  return out;
+}
+
+std::string Quantity(const DataFault& f) {
+  if (f.fault == "unit") return fmt::format("is {:.4g} times what it should be", f.factor);
+  if (f.fault == "sign") return "has the wrong sign";
+  if (f.fault == "swap") return "is exchanged with " + f.with;
+  if (f.fault == "lag")
+    return fmt::format("comes {:.4g} ms {}", 1e3 * std::abs(f.seconds),
+                       f.seconds > 0 ? "late" : "early");
+  if (f.fault == "clip") return fmt::format("is clipped for {:.4g} ms", 1e3 * f.seconds);
+  if (f.fault == "freeze") return fmt::format("stands still for {:.4g} ms", 1e3 * f.seconds);
+  if (f.fault == "lost") return fmt::format("lacks {:.4g} ms in the middle", 1e3 * f.seconds);
+  if (f.fault == "range") return "holds values that cannot be";
+  return f.with.empty() ? "does not belong to its scenario" : "belongs to the scenario " + f.with;
+}
+
+}  // namespace
+
+std::string KindOf(const std::string& channel) {
+  const auto dot = channel.rfind('.');
+  std::string kind = dot == std::string::npos ? channel : channel.substr(dot + 1);
+  while (!kind.empty() && std::isdigit(static_cast<unsigned char>(kind.back()))) kind.pop_back();
+  return kind;
+}
+
+std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<double>& predicted,
+                                   const Hypothesis& h) {
+  std::vector<DataFault> out;
+  for (std::size_t r = 0; r < model.data().records.size(); ++r) {
+    std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
+    CheckRange(model, r, columns, out);
+    CheckHeld(model, r, columns, out);
+    CheckSpeed(model, r, out);
+    CheckUnits(model, r, columns, out);
+    CheckSwaps(model, r, columns, out);
+    CheckTimes(model, r, columns, out);
+    CheckScenario(model, h, r, columns, out);
+  }
+  return out;
+}
+
+std::vector<DataFault> InspectDataBelow(CaseModel& model, const std::vector<double>& predicted,
+                                        const Hypothesis& h, const std::vector<double>& stated) {
+  std::vector<double> own;
+  for (std::size_t t = 0; t < stated.size(); ++t) {
+    own.push_back(model.targets()[t].floor);
+    model.targets()[t].floor = std::min(stated[t], own[t]);
+  }
+  std::vector<DataFault> out = InspectData(model, predicted, h);
+  for (std::size_t t = 0; t < own.size(); ++t) model.targets()[t].floor = own[t];
+  return out;
+}
+
+std::string FaultText(const DataFault& f) {
+  return fmt::format("{}: {} {}{}", f.record, f.channel.empty() ? "the record" : f.channel,
+                     Quantity(f), f.mend.empty() ? "" : "; to mend it: " + f.mend);
+}
+
+}  // namespace ambrig

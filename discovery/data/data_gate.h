@@ -1,0 +1,65 @@
+#pragma once
+/// Errors of the data as hypotheses, tried before any fit: a wrong unit, sign, column, clock or
+/// scenario changes what a logger wrote and nothing else, so that undoing it brings the column back
+/// to the model's prediction. What the rig itself does differently changes other columns too and
+/// is left to the fits. Only gross errors are named; method: docs/theory/discovery.md.
+#include <string>
+#include <vector>
+
+#include "discovery/data/signal_match.h"
+#include "discovery/model/model.h"
+
+namespace ambrig {
+
+struct DataFault {
+  std::string record, channel;  // data file; "" for all columns of the record
+  std::string fault;   // unit | sign | swap | lag | clip | freeze | lost | range | scenario
+  double factor = 1;   // measured over what it should be: unit, sign
+  double seconds = 0;  // late (positive), lost, frozen or clipped time
+  std::string with;    // the other column or the scenario that fits
+  std::string mend;    // a line to paste into the record's table of the case file
+  double probability = 0;
+};
+
+/// One column of one record as the gate sees it.
+struct GateColumn {
+  std::string name;
+  MatchedColumn column;    // over the noise floor, samples that are no numbers left out
+  Match match;             // of it
+  double floor = 1;        // of the channel [SI]
+  bool explained = false;  // a fault was found: later checks leave it out
+};
+
+/// Faults of all records of the case. `predicted`: of the rig file as it is; floors are set.
+/// `model` holds all rows. Records of `lost` have no prediction and are looked at by value only.
+std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<double>& predicted,
+                                   const Hypothesis& h);
+
+/// The same with each floor not above `stated` (per target): a gross error is no noise, whatever its
+/// differences look like. The model's floors stay as they are.
+std::vector<DataFault> InspectDataBelow(CaseModel& model, const std::vector<double>& predicted,
+                                        const Hypothesis& h, const std::vector<double>& stated);
+
+/// "record-3.h5: A.i3 looks like mA: channels.\"A.i3\" = ..."
+std::string FaultText(const DataFault& fault);
+
+// The checks, one per kind; each marks the columns that it explains. `record`: number in the case.
+void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out);
+void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+               std::vector<DataFault>& out);
+void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out);
+void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out);
+void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out);
+void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
+/// Against the predictions of the other records' scenarios.
+void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                   std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+
+/// "i" of "A.i3", "x" of "A.x", "bus", "omega": what a column measures.
+std::string KindOf(const std::string& channel);
+
+}  // namespace ambrig

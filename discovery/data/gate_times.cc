@@ -1,0 +1,231 @@
+// Clocks and scenarios: records that come late, that lost a block, or that another command made.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "discovery/data/data_gate.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kGross = 10;          // floors
+constexpr double kMoves = 8;           // floors: a column that moves less tells no time
+constexpr double kLeast = 5e-4;        // [s]: a smaller shift is a matter of the fit
+constexpr double kLeastColumn = 1e-3;  // [s], of a single column: electronics delay too
+constexpr double kMost = 0.2;          // of the record
+constexpr std::size_t kColumns = 5;    // that move most are looked at
+constexpr std::size_t kRows = 6000;    // about: longer records are thinned
+
+/// Every `step`-th row, movements scaled to 1, for a search over many shifts.
+MatchedColumn Thinned(const GateColumn& c, std::size_t step) {
+  MatchedColumn out;
+  for (std::size_t k = 0; k < c.column.size(); k += step) {
+    out.measured.push_back(c.column.measured[k] / c.match.predicted_move);
+    out.predicted.push_back(c.column.predicted[k] / c.match.predicted_move);
+    out.ok.push_back(c.column.ok[k]);
+  }
+  return out;
+}
+
+/// The columns that move most and have no fault of their own.
+std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& columns,
+                                             std::size_t most) {
+  std::vector<const GateColumn*> out;
+  for (const GateColumn& c : columns)
+    if (!c.explained && c.match.predicted_move > kMoves && c.match.measured_move > kMoves)
+      out.push_back(&c);
+  std::stable_sort(out.begin(), out.end(), [](const auto* a, const auto* b) {
+    return a->match.predicted_move > b->match.predicted_move;
+  });
+  if (out.size() > most) out.resize(most);
+  return out;
+}
+
+struct FoundShift {
+  double late = 0, from = 0;  // [s], [s] after the first row
+  double left = 1;            // share of the error that remains
+};
+
+FoundShift ShiftOf(const std::vector<const GateColumn*>& columns, double rate) {
+  FoundShift f;
+  if (columns.empty()) return f;
+  const std::size_t rows = columns[0]->column.size();
+  const std::size_t step = std::max<std::size_t>(1, rows / kRows);
+  std::vector<MatchedColumn> thin;
+  for (const GateColumn* c : columns) thin.push_back(Thinned(*c, step));
+  const auto most = static_cast<long>(kMost * static_cast<double>(thin[0].size()));
+  const Shift s = BestShift(thin, most);
+  const double seconds = static_cast<double>(step) / rate;
+  f.late = static_cast<double>(s.late) * seconds;
+  f.from = static_cast<double>(s.from) * seconds;
+  f.left = s.before > 0 ? s.after / s.before : 1;
+  return f;
+}
+
+DataFault TimeFault(const CaseRecord& r, const std::string& channel, const FoundShift& s) {
+  const double length = static_cast<double>(r.data.rows()) / r.data.rate;
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = channel;
+  const bool lost = s.from > 0.03 * length && s.late < 0;
+  f.fault = lost ? "lost" : "lag";
+  f.seconds = lost ? -s.late : s.late;
+  f.probability = std::clamp(1 - s.left * s.left, 0.5, 0.999);
+  if (lost)
+    f.mend = fmt::format("leave_out = [[{:.6g}, {:.6g}]]", r.data.start + s.from - 2 / r.data.rate,
+                         r.data.start + length);
+  else if (channel.empty())
+    f.mend = fmt::format("time_offset = {:.6g}", r.time_offset - s.late);
+  else
+    f.mend = fmt::format("channels.\"{}\" = {{ late = {:.6g} }}", channel, s.late);
+  return f;
+}
+
+}  // namespace
+
+void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  if (r.scenario.start == StartState::kResting) return;
+  const std::vector<const GateColumn*> moving = MovingColumns(columns, kColumns);
+  const bool gross = std::any_of(moving.begin(), moving.end(), [](const GateColumn* c) {
+    return c->match.error > kGross && c->match.error > 0.1 * c->match.predicted_move;
+  });
+  if (gross) {
+    const FoundShift s = ShiftOf(moving, r.data.rate);
+    if (std::abs(s.late) >= kLeast && s.left < 0.4) {
+      out.push_back(TimeFault(r, "", s));
+      for (GateColumn& c : columns) c.explained = true;
+      return;
+    }
+  }
+  std::vector<std::pair<GateColumn*, FoundShift>> late;
+  for (GateColumn& c : columns) {
+    if (c.explained || c.match.predicted_move < kMoves || c.match.error < kGross ||
+        c.match.error < 0.1 * c.match.predicted_move)
+      continue;
+    const FoundShift s = ShiftOf({&c}, r.data.rate);
+    if (std::abs(s.late) >= kLeastColumn && s.left < 0.3) late.emplace_back(&c, s);
+  }
+  // a rig that is late is so in all its columns; a logger's own delay is in one or two
+  if (late.size() > 2) return;
+  for (const auto& [c, s] : late) {
+    out.push_back(TimeFault(r, c->name, s));
+    c->explained = true;
+  }
+}
+
+void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  const Channel* omega = r.data.Find("omega");
+  if (!omega || r.scenario.speed_free_from < r.scenario.duration) return;
+  MatchedColumn c;
+  double most = 0;
+  for (std::size_t k = 0; k < omega->samples.size(); ++k) {
+    const double y = omega->samples[k], p = r.scenario.speed.Speed(r.data.TimeAt(k));
+    c.ok.push_back(std::isfinite(y) ? 1 : 0);
+    c.measured.push_back(std::isfinite(y) ? y : 0);
+    c.predicted.push_back(p);
+    most = std::max(most, std::abs(p));
+  }
+  const double before = ErrorAgainst(c.measured, c.predicted, c.ok);
+  if (before < 5 + 0.05 * most) return;
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = "omega";
+  f.probability = 0.98;
+  for (const auto& [factor, line] : {std::pair{60 / (2 * kPi), "unit = \"rpm\""},
+                                     {1 / (2 * kPi), "unit = \"Hz\""},
+                                     {2 * kPi / 60, "gain = 9.5492966"},
+                                     {2 * kPi, "gain = 0.15915494"},
+                                     {-1.0, "gain = -1"}}) {
+    if (ErrorAgainst(c.measured, c.predicted, c.ok, factor) / std::abs(factor) > 0.1 * before)
+      continue;
+    f.fault = factor < 0 ? "sign" : "unit";
+    f.factor = factor;
+    f.mend = fmt::format("channels.\"omega\" = {{ {} }}", line);
+    out.push_back(f);
+    return;
+  }
+  f.fault = "scenario";
+  f.channel = "";
+  out.push_back(f);
+}
+
+namespace {
+
+/// Error of the moving columns against predictions by name, over their movement.
+double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Record& other,
+                          std::size_t skip) {
+  double sum = 0, n = 0;
+  for (const GateColumn* c : moving) {
+    const Channel* p = other.Find(c->name);
+    if (!p) return kInfinity;
+    std::vector<double> predicted(c->column.size());
+    for (std::size_t k = 0; k < predicted.size(); ++k)
+      predicted[k] = p->samples[std::min(skip + k, p->samples.size() - 1)] / c->floor;
+    sum += std::pow(
+        ErrorAgainst(c->column.measured, predicted, c->column.ok) / c->match.measured_move, 2);
+    n += 1;
+  }
+  return n > 0 ? std::sqrt(sum / n) : kInfinity;
+}
+
+}  // namespace
+
+void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                   std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  if (r.scenario.start == StartState::kResting) return;
+  std::vector<const GateColumn*> moving;
+  double correlation = 0, error = 0;
+  for (const GateColumn& c : columns)
+    if (!c.explained && c.match.measured_move > kMoves && c.match.error > kGross)
+      moving.push_back(&c);
+  if (moving.size() < 2) return;
+  for (const GateColumn* c : moving) {
+    correlation += c->match.correlation / static_cast<double>(moving.size());
+    error +=
+        std::pow(c->match.error / c->match.measured_move, 2) / static_cast<double>(moving.size());
+  }
+  error = std::sqrt(error);
+  if (correlation > 0.5 || error < 0.7) return;
+  DataFault f;
+  f.record = r.data_file;
+  f.fault = "scenario";
+  double least = 0.35 * error;
+  for (std::size_t k = 0; k < model.data().records.size(); ++k) {
+    const CaseRecord& o = model.data().records[k];
+    if (k == record || o.scenario.start != r.scenario.start || o.scenario_file == r.scenario_file ||
+        std::abs(o.data.rate - r.data.rate) > 1e-6 * r.data.rate)
+      continue;
+    try {
+      const Record p = model.Simulated(h, k, false, 1);
+      if (std::abs(p.rate - r.data.rate) > 1e-6 * p.rate) continue;
+      const auto skip = static_cast<std::size_t>(std::lround(r.data.start * p.rate));
+      const double left = ErrorAgainstRecord(moving, p, skip);
+      if (left >= least) continue;
+      least = left;
+      f.with = o.scenario_file;
+      f.probability = std::clamp(1 - std::pow(left / error, 2), 0.5, 0.999);
+    } catch (const std::runtime_error&) {
+      continue;  // that scenario cannot be run
+    }
+  }
+  const bool strange = correlation < 0.15 && [&] {
+    const auto n = std::count_if(moving.begin(), moving.end(), [](const GateColumn* c) {
+      return c->match.predicted_move > 3 * kMoves;
+    });
+    return n >= 4 && 2 * n > static_cast<long>(columns.size());
+  }();
+  if (f.with.empty() && !strange) return;
+  if (f.with.empty()) f.probability = 0.9;
+  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", f.with);
+  out.push_back(f);
+  for (GateColumn& c : columns) c.explained = true;
+}
+
+}  // namespace ambrig

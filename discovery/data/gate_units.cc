@@ -1,0 +1,168 @@
+// Units, signs and exchanged columns: what a factor or another column brings back to the model.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "discovery/data/data_gate.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kGross = 10;  // floors: below it a fit may speak first
+
+/// A factor that a mistake makes, and what has to be so for it to be believed.
+struct Mistake {
+  double factor;
+  double left;         // largest share of the error that may remain
+  double correlation;  // least correlation with the prediction
+  bool alone;          // the other columns of the record must be far better than this one
+};
+
+/// Prefixes need no shape: nothing real is a thousand times off. A factor of two has to fit
+/// perfectly and alone, because an effect inside the loop may come near it.
+const std::vector<Mistake>& Mistakes() {
+  static const std::vector<Mistake> kAll = {
+      {1e3, 0.25, 0, false},
+      {1e-3, 0.25, 0, false},
+      {1e6, 0.25, 0, false},
+      {1e-6, 0.25, 0, false},
+      {60 / (2 * kPi), 0.15, 0.9, false},
+      {2 * kPi / 60, 0.15, 0.9, false},
+      {180 / kPi, 0.15, 0.9, false},
+      {kPi / 180, 0.15, 0.9, false},
+      {2 * kPi, 0.15, 0.9, true},
+      {1 / (2 * kPi), 0.15, 0.9, true},
+      {9.81, 0.15, 0.9, true},
+      {1 / 9.81, 0.15, 0.9, true},
+      {25.4, 0.15, 0.9, true},
+      {1 / 25.4, 0.15, 0.9, true},
+      {2, 0.08, 0.98, true},
+      {0.5, 0.08, 0.98, true},
+      {std::sqrt(2.0), 0.05, 0.99, true},
+      {std::sqrt(0.5), 0.05, 0.99, true},
+  };
+  return kAll;
+}
+
+/// rms of measured/factor - predicted, over the error as it is.
+double Left(const GateColumn& c, double factor) {
+  return ErrorAgainst(c.column.measured, c.column.predicted, c.column.ok, factor) /
+         std::abs(factor) / c.match.error;
+}
+
+/// Median error of the record's other columns.
+double OthersError(const std::vector<GateColumn>& columns, const GateColumn& of) {
+  std::vector<double> errors;
+  for (const GateColumn& c : columns)
+    if (&c != &of) errors.push_back(c.match.error);
+  if (errors.empty()) return 0;
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                   errors.end());
+  return errors[errors.size() / 2];
+}
+
+/// The line that gives the column its right unit, or a gain where no unit does.
+std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor) {
+  const auto it = r.sources.find(channel);
+  const ColumnSource source = it == r.sources.end() ? ColumnSource{channel, "", 1} : it->second;
+  const double right = source.factor / factor;  // SI per number in the file
+  static constexpr std::array<std::pair<double, const char*>, 4> kPrefixes = {
+      {{1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e3, "k"}}};
+  for (const auto& [size, prefix] : kPrefixes)
+    if (std::abs(right / size - 1) < 1e-6)
+      return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}{}\" }}", channel,
+                         source.column, prefix, source.si);
+  return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}\", gain = {:.9g} }}",
+                     channel, source.column, source.si, source.factor / factor);
+}
+
+DataFault FaultOf(const CaseRecord& r, const std::string& channel, const char* fault, double left) {
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = channel;
+  f.fault = fault;
+  f.probability = std::clamp(1 - left * left, 0.5, 0.999);
+  return f;
+}
+
+const Mistake* BestMistake(const GateColumn& c, double others, double* left) {
+  const Mistake* best = nullptr;
+  *left = 1;
+  for (const Mistake& m : Mistakes()) {
+    const double rest = Left(c, m.factor);
+    if (rest > m.left || rest >= *left || c.match.correlation < m.correlation) continue;
+    // what is seen against the noise must shrink by as much: numbers that are nearly nothing
+    // everywhere explain any prediction of nearly nothing
+    if (c.match.correlation < 0.3 && m.factor < 1 &&
+        c.match.measured_rms > 0.1 * c.match.predicted_rms)
+      continue;
+    if (m.alone && (c.match.error < 2 * kGross || others > 0.2 * c.match.error)) continue;
+    best = &m;
+    *left = rest;
+  }
+  return best;
+}
+
+}  // namespace
+
+void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  for (GateColumn& c : columns) {
+    if (c.explained || c.match.error < kGross) continue;
+    double left = 1;
+    const double others = OthersError(columns, c);
+    if (const Mistake* m = BestMistake(c, others, &left)) {
+      DataFault f = FaultOf(r, c.name, "unit", left);
+      f.factor = m->factor;
+      f.mend = UnitLine(r, c.name, m->factor);
+      out.push_back(f);
+      c.explained = true;
+    } else if (c.match.correlation < -0.7 && Left(c, -1) < 0.3) {
+      DataFault f = FaultOf(r, c.name, "sign", Left(c, -1));
+      f.factor = -1;
+      f.mend = UnitLine(r, c.name, -1);
+      out.push_back(f);
+      c.explained = true;
+    }
+  }
+}
+
+void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  const auto kind = [](const GateColumn& c) {
+    const std::string k = KindOf(c.name);
+    return k == "y" ? std::string("x") : k == "fy" ? std::string("fx") : k;
+  };
+  const auto against = [](const GateColumn& a, const GateColumn& b) {  // a's data, b's prediction
+    std::vector<double> predicted = b.column.predicted;
+    for (double& p : predicted) p *= b.floor / a.floor;
+    return ErrorAgainst(a.column.measured, predicted, a.column.ok);
+  };
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    for (std::size_t j = i + 1; j < columns.size(); ++j) {
+      GateColumn &a = columns[i], &b = columns[j];
+      if (a.explained || b.explained || kind(a) != kind(b)) continue;
+      const double before = std::hypot(a.match.error, b.match.error);
+      if (std::min(a.match.error, b.match.error) < 0.7 * kGross || before < 1.5 * kGross) continue;
+      const double after = std::hypot(against(a, b), against(b, a));
+      if (after > 0.35 * before) continue;
+      DataFault f = FaultOf(r, a.name, "swap", after / before);
+      f.with = b.name;
+      const auto column = [&](const std::string& name) {
+        const auto it = r.sources.find(name);
+        return it == r.sources.end() ? name : it->second.column;
+      };
+      f.mend = fmt::format("channels = {{ \"{}\" = \"{}\", \"{}\" = \"{}\" }}", a.name,
+                           column(b.name), b.name, column(a.name));
+      out.push_back(f);
+      a.explained = b.explained = true;
+    }
+}
+
+}  // namespace ambrig

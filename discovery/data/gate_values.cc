@@ -1,0 +1,149 @@
+// Values that cannot be, that stand still, or that end at a limit which the model exceeds.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/data/data_gate.h"
+#include "discovery/data/held_values.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kAbsurd = 4;         // times the largest value that a channel can show
+constexpr double kFewAbsurd = 0.05;   // of the rows; more: the column's unit is wrong
+constexpr std::size_t kClipRun = 4;   // equal neighbours at the extreme
+constexpr double kClipShare = 0.005;  // of the rows
+constexpr double kBeyond = 5;         // floors by which the prediction passes the extreme
+
+/// Largest value that the channel can show [SI]; infinity where nothing limits it.
+double LimitOf(const RigParameters& rig, const std::string& channel) {
+  const std::string kind = KindOf(channel);
+  if (kind == "i" || kind == "s") return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
+  if (kind == "d") return 1;
+  if (kind == "bus") return 2 * rig.amplifier.bus_voltage;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& axis : b.Axes())
+      if (axis == channel)
+        return b.kind == BearingKind::kRadial   ? 2 * b.radial.gap
+               : b.kind == BearingKind::kThrust ? 2 * b.thrust.gap
+                                                : 2 * b.opposed.gap;
+  return kInfinity;
+}
+
+std::string LeaveOut(const CaseRecord& r, std::size_t first, std::size_t count) {
+  return fmt::format("leave_out = [[{:.6g}, {:.6g}]]", r.data.TimeAt(first) - 0.5 / r.data.rate,
+                     r.data.TimeAt(first + count) + 0.5 / r.data.rate);
+}
+
+const Channel& ChannelOf(const CaseRecord& r, const std::string& name) {
+  return *r.data.Find(name);
+}
+
+}  // namespace
+
+void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  for (GateColumn& c : columns) {
+    const double limit = kAbsurd * LimitOf(model.data().rig, c.name) / c.floor;
+    const double usual = kAbsurd * 50 * (c.match.predicted_rms + 1);
+    const double most = std::isfinite(limit) ? limit : usual;
+    std::size_t beyond = 0, first = 0;
+    for (std::size_t k = 0; k < c.column.size(); ++k)
+      if (c.column.ok[k] && std::abs(c.column.measured[k]) > most) {
+        if (beyond++ == 0) first = k;
+      }
+    if (beyond == 0 ||
+        static_cast<double>(beyond) > kFewAbsurd * static_cast<double>(c.column.size()))
+      continue;
+    for (std::size_t k = 0; k < c.column.size(); ++k)
+      if (std::abs(c.column.measured[k]) > most) c.column.ok[k] = 0, c.column.measured[k] = 0;
+    c.match = MatchOf(c.column);
+    DataFault f;
+    f.record = r.data_file;
+    f.channel = c.name;
+    f.fault = "range";
+    f.seconds = static_cast<double>(beyond) / r.data.rate;
+    f.mend = LeaveOut(r, first, 1);
+    f.probability = 0.999;
+    out.push_back(f);
+  }
+}
+
+namespace {
+
+/// Time at the column's own extreme that the prediction passes by several floors.
+std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, double extreme,
+                        double sign) {
+  std::size_t rows = 0;
+  double beyond = 0;
+  for (const HeldStretch& s : HeldStretches(y, kClipRun)) {
+    if (s.value != extreme) continue;
+    rows += s.count;
+    for (std::size_t k = s.first; k < s.first + s.count; ++k)
+      beyond += sign * (c.column.predicted[k] - extreme / c.floor);
+  }
+  return rows > 0 && beyond > kBeyond * static_cast<double>(rows) ? rows : 0;
+}
+
+void Held(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
+          std::vector<DataFault>& out) {
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = channel;
+  f.fault = s.value == 0 ? "lost" : "freeze";
+  f.seconds = static_cast<double>(s.count) / r.data.rate;
+  f.mend = LeaveOut(r, s.first, s.count - 1);
+  f.probability = 0.99;
+  out.push_back(f);
+}
+
+/// A column that the data-quality pass refused: it stands still where it should move.
+void StuckColumns(const CaseRecord& r, std::vector<DataFault>& out) {
+  for (std::size_t k = 0; k < r.quality.size(); ++k)
+    if (!r.quality[k].use && r.quality[k].verdict.starts_with("stuck") &&
+        r.scenario.start != StartState::kClamped)
+      Held(r, r.quality[k].channel, {0, r.data.rows(), r.data.channels[k].samples[0]}, out);
+}
+
+}  // namespace
+
+void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+               std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  StuckColumns(r, out);
+  for (GateColumn& c : columns) {
+    const std::string kind = KindOf(c.name);
+    const std::vector<double>& y = ChannelOf(r, c.name).samples;
+    // set-points and duties stand at their limits when the controller asks for more
+    if (kind == "d" || kind == "omega" || y.size() != c.column.size()) continue;
+    const auto [low, high] = std::minmax_element(y.begin(), y.end());
+    // a coarse converter repeats values everywhere
+    if (UsualHold(y) > 3) continue;
+    if (kind != "s" && *low < *high) {
+      const std::size_t rows = ClippedRows(c, y, *high, 1) + ClippedRows(c, y, *low, -1);
+      if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
+        DataFault f;
+        f.record = r.data_file;
+        f.channel = c.name;
+        f.fault = "clip";
+        f.seconds = static_cast<double>(rows) / r.data.rate;
+        f.mend = fmt::format("channels.\"{}\".use = false", c.name);
+        f.probability = 0.98;
+        out.push_back(f);
+        c.explained = true;
+        continue;
+      }
+    }
+    if (r.scenario.start == StartState::kResting) continue;
+    const HeldStretch s = FrozenStretch(y);
+    if (s.count == 0 || (kind == "s" && (s.value == *low || s.value == *high))) continue;
+    if (s.value != 0 && (s.value == *low || s.value == *high)) continue;
+    Held(r, c.name, s, out);
+    c.explained = true;
+  }
+}
+
+}  // namespace ambrig

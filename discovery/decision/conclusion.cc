@@ -1,0 +1,85 @@
+#include "discovery/decision/conclusion.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/decision/drift_test.h"
+#include "discovery/decision/likelihood.h"
+
+namespace ambrig {
+
+StageRatios RatiosOf(const CaseModel& model, const FitResult& fit) {
+  return {fit.ratio_fit, fit.ratio_validate, WorstRecordRatio(model, fit.residual)};
+}
+
+ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effective_sample_size,
+                     std::vector<std::string>& warnings) {
+  ParameterNeed need;
+  need.believable = Believable(fit);
+  const double weight = MisfitWeight(std::max(1.0, fit.ratio_fit), effective_sample_size) /
+                        static_cast<double>(std::max<std::size_t>(1, model.size()));
+  for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k) {
+    const FreeParameter& p = fit.hypothesis.free[k];
+    if (p.effect >= 0 || p.sd <= 0) continue;
+    const double shift = std::abs(fit.hypothesis.Coordinate(k));
+    need.largest_shift = std::max(need.largest_shift, shift);
+    if (shift < 3 || fit.jacobian.cols() <= static_cast<Eigen::Index>(k)) continue;
+    const DriftTest test = TestDrift(model, fit, k, weight);
+    need.constant = need.constant && test.holds;
+    warnings.push_back(fmt::format(
+        "{} had to move by {:+.1f} sd; the records {} (Q = {:.1f}, {} degrees of freedom): measure "
+        "it, or look for what it stands in for",
+        p.path, fit.hypothesis.Coordinate(k),
+        test.holds ? "agree on that" : "do not agree on one value", test.q, test.freedom));
+  }
+  return need;
+}
+
+namespace {
+
+/// The members of the set when no effect is named: the verdict itself and the best candidate.
+void SetWithout(Explanation& out, double named) {
+  out.set = CredibleSet(out.ranking, out.verdict == "unknown" ? named : 0);
+  for (SetMember& m : out.set)
+    if (m.effect == "unknown" && out.verdict != "unknown") m.effect = out.verdict;
+}
+
+}  // namespace
+
+void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult& base,
+              const FitResult& last, Explanation& out) {
+  const bool any = !out.adopted.empty();
+  out.closure = ClosureOf(model, base.residual, last.residual);
+  const StageRatios first = RatiosOf(model, nominal), parameters = RatiosOf(model, base),
+                    end = RatiosOf(model, last);
+  const double share =
+      std::min(ExplainedShare(parameters.fit, end.fit),
+               parameters.validate > 1.1 ? ExplainedShare(parameters.validate, end.validate) : 1.0);
+  const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
+  // An effect that leaves more than it explains is a patch on something unknown.
+  const bool established = any && named >= 0.5;
+  if (any && !established) out.adopted.clear();
+  const ParameterNeed need =
+      NeedOf(model, established ? last : base, out.effective_sample_size, out.warnings);
+  out.verdict = VerdictOf(first, parameters, need, established);
+  if (established)
+    out.set = CredibleSet(out.ranking, named);
+  else
+    SetWithout(out, any ? named : 0.2);
+  out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);
+}
+
+void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out) {
+  out.verdict = "data";
+  double wrong = 0;
+  for (const DataFault& f : out.data) wrong = std::max(wrong, f.probability);
+  out.set = {{"data", "", wrong}};
+  if (wrong < 0.95) out.set.push_back({"unknown", "", 1 - wrong});
+  out.closure = ClosureOf(model, nominal.residual, nominal.residual);
+  out.remainder = RemainderOf(model, nominal.residual, nominal.residual, out.closure, false);
+  out.remainder.text = "the data are wrong: mend them before anything is fitted";
+}
+
+}  // namespace ambrig

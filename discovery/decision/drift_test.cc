@@ -1,0 +1,59 @@
+#include "discovery/decision/drift_test.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ambrig {
+
+namespace {
+
+/// The value that 99 of 100 chi-squared numbers with this freedom do not exceed (Wilson-Hilferty).
+double ChiSquared99(int freedom) {
+  const double n = freedom, z = 2.3263, c = 2 / (9 * n);
+  return n * std::pow(1 - c + z * std::sqrt(c), 3);
+}
+
+}  // namespace
+
+DriftTest TestDrift(const std::vector<double>& value, const std::vector<double>& weight) {
+  DriftTest out;
+  double total = 0, mean = 0, most = 0;
+  for (const double w : weight) most = std::max(most, w);
+  int seen = 0;
+  for (std::size_t k = 0; k < value.size(); ++k) {
+    if (weight[k] < 1e-6 * most || weight[k] <= 0) continue;  // does not see the parameter
+    total += weight[k];
+    mean += weight[k] * value[k];
+    ++seen;
+  }
+  if (seen < 2) return out;
+  mean /= total;
+  for (std::size_t k = 0; k < value.size(); ++k)
+    if (weight[k] >= 1e-6 * most) out.q += weight[k] * std::pow(value[k] - mean, 2);
+  out.freedom = seen - 1;
+  out.holds = out.q <= ChiSquared99(out.freedom);
+  return out;
+}
+
+DriftTest TestDrift(const CaseModel& model, const FitResult& fit, std::size_t parameter,
+                    double weight) {
+  std::map<std::size_t, std::pair<double, double>> of_record;  // J'J, J'r
+  const auto column = fit.jacobian.col(static_cast<Eigen::Index>(parameter));
+  for (const Target& t : model.targets()) {
+    auto& [square, product] = of_record[t.record];
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      const double j = column(static_cast<Eigen::Index>(k));
+      square += j * j;
+      product += j * fit.residual[k];
+    }
+  }
+  std::vector<double> value, information;
+  for (const auto& [record, sums] : of_record) {
+    value.push_back(sums.first > 0 ? sums.second / sums.first : 0);
+    information.push_back(weight * sums.first);
+  }
+  return TestDrift(value, information);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,112 @@
+#include "discovery/decision/evidence.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/decision/decide.h"
+#include "effects/catalogue.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kSeen = 3;           // sd from nothing
+constexpr double kSet = 0.95;         // probability of the set
+constexpr double kAboveFloor = 1.15;  // a channel's ratio that is worth a word
+constexpr std::size_t kPlaces = 8;
+// Name probability: half at a share of 0.45; an explanation down to the floor is a name.
+constexpr double kHalfShare = 0.45, kSlope = 12, kAtFloor = 1.15;
+
+}  // namespace
+
+Closure ClosureOf(const CaseModel& model, const std::vector<double>& before,
+                  const std::vector<double>& after) {
+  Closure c;
+  c.floors_before = Ratio(model, before, Which::kAll);
+  c.floors_after = Ratio(model, after, Which::kAll);
+  c.test_before = Ratio(model, before, Which::kValidate);
+  c.test_after = Ratio(model, after, Which::kValidate);
+  c.explained = ExplainedShare(c.floors_before, c.floors_after);
+  return c;
+}
+
+Remainder RemainderOf(const CaseModel& model, const std::vector<double>& before,
+                      const std::vector<double>& after, const Closure& closure, bool any_effect) {
+  Remainder out;
+  double least_share = 1;
+  for (const Target& t : model.targets()) {
+    const double ratio = TargetRatio(model, after, t), was = TargetRatio(model, before, t);
+    if (ratio < kAboveFloor) continue;
+    const CaseRecord& r = model.data().records[t.record];
+    out.where.push_back({r.data_file, r.data.channels[t.channel].name, ratio});
+    if (ratio > 2) least_share = std::min(least_share, ExplainedShare(std::max(was, ratio), ratio));
+  }
+  std::stable_sort(out.where.begin(), out.where.end(),
+                   [](const auto& a, const auto& b) { return a.ratio > b.ratio; });
+  if (out.where.size() > kPlaces) out.where.resize(kPlaces);
+  if (closure.floors_after < 1.05 && (out.where.empty() || out.where[0].ratio < 1.3)) {
+    out.where.clear();
+    out.text = "the noise floor is reached on all records: nothing is left to explain";
+    return out;
+  }
+  const bool law = any_effect && closure.explained > 0.9 && least_share > 1.0 / 3;
+  out.kind = law ? "law-variation" : "other";
+  const std::string worst =
+      out.where.empty()
+          ? ""
+          : fmt::format(", most at {} in {} ({:.1f} times the noise)", out.where[0].channel,
+                        out.where[0].record, out.where[0].ratio);
+  out.text =
+      law ? fmt::format(
+                "{:.2f} times the noise stays{}: as large as the details of this law "
+                "usually leave",
+                closure.floors_after, worst)
+          : fmt::format("{:.2f} times the noise stays unexplained{}: of another origin than {}",
+                        closure.floors_after, worst,
+                        any_effect ? "what was found" : "the rig's parameters");
+  return out;
+}
+
+double NameProbability(double share, double floors_after) {
+  const double at_floor = floors_after < kAtFloor ? 3 : 0;
+  return 1 / (1 + std::exp(-(kSlope * (share - kHalfShare) + at_floor)));
+}
+
+std::vector<SetMember> CredibleSet(std::vector<RankedEffect>& ranking, double named) {
+  std::vector<SetMember> all;
+  for (RankedEffect& r : ranking) {
+    r.probability *= named;
+    all.push_back({r.effect.name, r.effect.target, r.probability});
+  }
+  all.push_back({"unknown", "", ranking.empty() ? 1 : 1 - named});
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.probability > b.probability; });
+  std::vector<SetMember> set;
+  double sum = 0;
+  for (const SetMember& m : all) {
+    if (sum >= kSet) break;
+    set.push_back(m);
+    sum += m.probability;
+  }
+  return set;
+}
+
+bool HasSize(const EffectInstance& effect) {
+  const EffectDescription* d = FindEffect(effect.name);
+  for (std::size_t k = 0; k < effect.table.size(); ++k) {
+    const EffectParameter& p = effect.table[k];
+    if (!p.has_null || (d && !d->Switches(p))) continue;
+    const double sd = k < effect.sd.size() ? effect.sd[k] : 0, value = effect.values[k];
+    if (!std::isfinite(value)) continue;  // at a null of infinity
+    // a null of infinity: 1/value is seen against its own sd
+    const double distance =
+        std::isfinite(p.null_value) ? std::abs(value - p.null_value) : std::abs(value);
+    if (distance == 0) continue;
+    if (sd <= 0 || distance >= kSeen * sd) return true;
+  }
+  return false;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,59 @@
+#pragma once
+/// What is known after the search, in three answers instead of one threshold: the names that may be
+/// right (with "unknown" among them), the share of the error that they explain, and what remains.
+#include <string>
+#include <vector>
+
+#include "discovery/search/effect_round.h"
+
+namespace ambrig {
+
+/// A member of the set that holds the right answer with 95 %. `effect` may be "none", "data" or
+/// "unknown"; these have no target.
+struct SetMember {
+  std::string effect, target;
+  double probability = 0;
+};
+
+/// How far an explanation closes the error, over all records: 1 of `explained` leaves the noise.
+struct Closure {
+  double explained = 0;                        // share of the squared error above the floor
+  double floors_before = 0, floors_after = 0;  // rms over the noise floor, all records
+  double test_before = 0, test_after = 0;      // of the records that were not fitted
+};
+
+struct RemainderPlace {
+  std::string record, channel;
+  double ratio = 0;
+};
+
+struct Remainder {
+  std::string kind = "none";  // none | law-variation | other
+  std::vector<RemainderPlace> where;
+  std::string text;
+};
+
+/// `before`: rig parameters alone, `after`: everything that was found; residuals over the floor.
+Closure ClosureOf(const CaseModel& model, const std::vector<double>& before,
+                  const std::vector<double>& after);
+
+/// The channels and records that stay above the floor, worst first. What is left is of the law's
+/// usual variation when the explanation closes nine tenths of the error and no channel keeps more
+/// than a third of its own; else it is of another origin.
+Remainder RemainderOf(const CaseModel& model, const std::vector<double>& before,
+                      const std::vector<double>& after, const Closure& closure, bool any_effect);
+
+/// How probable it is that one of the fitted candidates, and not something unknown, made the error:
+/// rises with the share that the best one explains, on the fitted and on the unseen records.
+/// `share`: the smaller of both, `floors_after`: the larger error that remains.
+double NameProbability(double share, double floors_after);
+
+/// Scales the probabilities of a ranking (they sum to 1 among its members) to `named` and returns
+/// the smallest set that holds 95 %, "unknown" included, best first.
+std::vector<SetMember> CredibleSet(std::vector<RankedEffect>& ranking, double named);
+
+/// Whether at least one size of the effect (a parameter that switches it off at its null) is known
+/// to differ from nothing by three of its own sd. A size whose sd is not known counts as seen.
+bool HasSize(const EffectInstance& effect);
+
+}  // namespace ambrig

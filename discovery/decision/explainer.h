@@ -1,0 +1,72 @@
+#pragma once
+/// The search behind Explain: its state and its steps. Steps that add, swap or remove effects stand in
+/// explainer_steps.cc, the rest in explain.cc.
+#include "discovery/decision/explain.h"
+
+namespace ambrig {
+
+class Explainer {
+ public:
+  Explainer(const Case& c, const ExplainOptions& options);
+  Explanation Run();
+
+ private:
+  /// Stated noise, a look at the data with it, then the noise that the records show.
+  void PrepareNoise(const Hypothesis& nominal);
+  /// The nuisances that the case declares, or those that usually are.
+  void UseNuisances(const Hypothesis& h, const std::vector<double>& predicted, bool declared_only);
+  void SetNuisances(const std::vector<NuisanceKind>& kinds);
+  /// Wrong data: nothing is fitted to them.
+  void Stop(const FitResult& as_filed);
+  void Search(const Hypothesis& nominal, const FitResult& as_filed);
+  /// Zeros, clocks and inputs that differ from record to record, where the case declares none.
+  /// `alone`: only when they explain nearly all that is left, before any effect is sought.
+  bool TryNuisances(FitResult& now, bool alone);
+  /// The amounts of the nuisances at the end.
+  void ReportNuisances(const FitResult& now);
+  /// An effect that the last fit leaves without a size goes again.
+  void DropSizeless(const FitResult& base, FitResult& now);
+  /// How large what was not found could still be.
+  void FindHidden(const FitResult& now);
+  void Progress(double fraction, const std::string& text) const;
+  double Validated(const std::vector<double>& residual) const;
+  FitOptions Options(const Eigen::MatrixXd* jacobian) const;
+  FitResult FitNow(const Hypothesis& start, const Eigen::MatrixXd* jacobian) const;
+  /// The point itself, with its sensitivities.
+  FitResult At(const Hypothesis& h) const;
+  bool Finished(const FitResult& now) const;
+  double ScoreOf(const FitResult& fit) const;
+  double Gain(const FitResult& before, const FitResult& after) const;
+  /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
+  bool AdoptBest(FitResult& now, int round);
+  /// The model with the effect may hold a rotor that the rig file's loses: then all rows count.
+  void Release(FitResult& now);
+  /// A rig whose loop is nearly unstable with the hidden effect passes more noise than the rig
+  /// file's: what seems unexplained may be noise of the model found. True when the floor was
+  /// renewed.
+  bool RenewFloor(const FitResult& as_filed, FitResult& base, FitResult& now);
+  /// The same point seen with all rows.
+  FitResult AllRows(const FitResult& fit) const;
+  /// The effect that explains most alone may be none of two that are there: the best pairs of the
+  /// screening are fitted too where one effect does not explain nearly all.
+  void TryPairs(const FitResult& base, FitResult& now);
+  /// The steps one by one have fitted this pair, or one with more in it.
+  bool AlreadyTried(const CandidatePair& p) const;
+  /// An effect that its successors made needless goes again.
+  void Backward(const FitResult& base, FitResult& now);
+  /// A last fit with fresh sensitivities of everything.
+  void Polish(FitResult& now);
+  void NoteShifts(const FitResult& base);
+  /// Pairs that these records leave open, and the record that would decide.
+  void FindConfusable();
+
+  ExplainOptions options_;
+  CaseModel full_, model_;  // with all rows: floor and frequencies; with some: the search
+  RigParameters rig_;
+  Explanation out_;
+  SignatureBank bank_;
+  bool floor_renewed_ = false;
+  double first_fall_ = 0;  // of the squared ratio on unseen records, by the first effect
+};
+
+}  // namespace ambrig

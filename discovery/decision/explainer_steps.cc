@@ -1,0 +1,207 @@
+// Steps of the search: effects and nuisances are added, exchanged and taken away.
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/decision/conclusion.h"
+#include "discovery/decision/explainer.h"
+#include "discovery/decision/likelihood.h"
+#include "discovery/decision/nuisance_choice.h"
+#include "discovery/search/candidate_fit.h"
+
+namespace ambrig {
+
+/// Zeros, clocks and inputs that differ from record to record, where the case declares none.
+/// `alone`: only when they explain nearly all that is left, before any effect is sought.
+bool Explainer::TryNuisances(FitResult& now, bool alone) {
+  const StageRatios before = RatiosOf(model_, now);
+  if (full_.data().nuisances.any() || full_.nuisances.any() || before.Answered() < 1.1)
+    return false;
+  Progress(0.05, "what may differ from record to record");
+  const FitResult all = AllRows(now);
+  if (all.predicted.empty()) return false;
+  const double weight =
+      MisfitWeight(1, out_.effective_sample_size) / static_cast<double>(full_.size());
+  const std::vector<NuisanceKind> chosen = ChooseNuisances(
+      full_, NuisanceKindsOf(full_, now.hypothesis, all.predicted, false), all.residual, weight);
+  if (chosen.empty()) return false;
+  const SignatureBank bank = bank_;
+  SetNuisances(chosen);
+  FitResult with = FitNow(now.hypothesis, nullptr);
+  const StageRatios after = RatiosOf(model_, with);
+  const double share = ExplainedShare(before.Answered(), after.Answered());
+  if (alone ? share < 0.8 || after.Answered() > 1.2 : share < 0.3) {
+    full_.nuisances = model_.nuisances = Nuisances();
+    bank_ = bank;
+    return false;
+  }
+  now = std::move(with);
+  out_.ladder.push_back(
+      {"zeros, clocks and inputs of each record", now.ratio_fit, now.ratio_validate});
+  return true;
+}
+
+/// The amounts of the nuisances at the end.
+void Explainer::ReportNuisances(const FitResult& now) {
+  if (!full_.nuisances.any()) return;
+  const Nuisances used = full_.nuisances;
+  full_.nuisances = Nuisances();
+  out_.nuisances = used.Amounts(full_, AllRows(now).residual);
+  full_.nuisances = used;
+}
+
+/// An effect that the last fit leaves without a size goes again.
+void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
+  const auto sizeless = std::find_if(out_.adopted.begin(), out_.adopted.end(),
+                                     [](const EffectInstance& e) { return !HasSize(e); });
+  if (sizeless == out_.adopted.end()) return;
+  out_.warnings.push_back(Named(*sizeless) + " lies within 3 sd of nothing: it is not named");
+  out_.adopted.erase(sizeless);
+  Hypothesis h = base.hypothesis;
+  for (const EffectInstance& e : out_.adopted) h.AddEffect(e);
+  now = out_.adopted.empty() ? base : FitOn(model_, base, h, out_.effective_sample_size);
+  for (std::size_t k = 0; k < out_.adopted.size(); ++k)
+    out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
+  out_.ladder.push_back({"without an effect of no size", now.ratio_fit, now.ratio_validate});
+  DropSizeless(base, now);
+}
+
+bool Explainer::Finished(const FitResult& now) const {
+  // Nothing that an effect could still win (see WorthAdopting), with parameters that can be
+  // believed.
+  return Believable(now) && now.ratio_validate * now.ratio_validate < 1.025 &&
+         now.ratio_fit * now.ratio_fit < 1.04;
+}
+
+/// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
+bool Explainer::AdoptBest(FitResult& now, int round) {
+  if (Finished(now)) return false;
+  const double from = 0.08 + 0.3 * round;
+  EffectRound ranked =
+      RankEffects({full_, model_, bank_, out_.effective_sample_size, options_.candidates,
+                   [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }},
+                  now, round);
+  const std::vector<RankedEffect>& ranking = ranked.ranking;
+  if (round == 0) out_.screened = std::move(ranked.screened);
+  (round == 0 ? out_.ranking : out_.second_round) = ranking;
+  if (ranking.empty() || !HasSize(ranking[0].effect) ||
+      !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_))
+    return false;
+  if (round == 0)
+    first_fall_ = now.ratio_validate * now.ratio_validate -
+                  ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
+  now = ranking[0].fit;
+  out_.adopted.push_back(ranking[0].effect);
+  out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});
+  Release(now);
+  if (options_.checkpoint) options_.checkpoint(out_);
+  return true;
+}
+
+/// The model with the effect may hold a rotor that the rig file's loses: then all rows count.
+void Explainer::Release(FitResult& now) {
+  if (!full_.limited()) return;
+  full_.LimitToHeld(now.hypothesis);
+  model_.LimitAs(full_);
+  now = FitNow(now.hypothesis, nullptr);
+  bank_ = SignatureBank();
+}
+
+/// A rig whose loop is nearly unstable with the hidden effect passes more noise than the rig
+/// file's: what seems unexplained may be noise of the model found. True when the floor was
+/// renewed.
+bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult& now) {
+  if (out_.adopted.empty() || now.ratio_validate < 1.5 ||
+      ExplainedShare(base.ratio_validate, now.ratio_validate) > 0.9)
+    return false;
+  Progress(0.86, "noise floor of the model found");
+  const std::vector<Target> before = full_.targets();
+  try {
+    out_.effective_sample_size = FindFloor(full_, now.hypothesis).effective_sample_size;
+  } catch (const InputError&) {
+    return false;  // with noise it does not hold its rotor
+  }
+  const double old = now.ratio_validate;
+  for (std::size_t t = 0; t < before.size(); ++t)
+    model_.targets()[t].floor = full_.targets()[t].floor =
+        std::max(before[t].floor, full_.targets()[t].floor);
+  base = At(base.hypothesis);
+  now = FitNow(now.hypothesis, nullptr);
+  out_.nominal_ratio_validate = At(as_filed.hypothesis).ratio_validate;
+  out_.base_ratio_fit = base.ratio_fit;
+  out_.base_ratio_validate = base.ratio_validate;
+  first_fall_ = std::pow(base.ratio_validate, 2) - std::pow(now.ratio_validate, 2);
+  bank_ = SignatureBank();
+  if (now.ratio_validate < 0.8 * old) {
+    out_.ladder.push_back({"noise floor of this model", now.ratio_fit, now.ratio_validate});
+    floor_renewed_ = true;
+  }
+  return true;
+}
+
+/// The effect that explains most alone may be none of two that are there: the best pairs of the
+/// screening are fitted too where one effect does not explain nearly all.
+void Explainer::TryPairs(const FitResult& base, FitResult& now) {
+  if (out_.ranking.empty() || (out_.adopted.size() < 2 && Finished(now))) return;
+  Progress(0.8, "pairs of effects");
+  for (const CandidatePair& p : ScreenPairs(model_, base, out_.effective_sample_size, bank_, 3)) {
+    if (AlreadyTried(p) || p.score > ScoreOf(base)) continue;
+    Progress(0.82, "fitting " + Named(p.first) + " with " + Named(p.second));
+    Hypothesis h = base.hypothesis;
+    h.AddEffect(p.first);
+    h.AddEffect(p.second);
+    FitResult fit = FitOn(model_, base, h, out_.effective_sample_size);
+    const bool more = out_.adopted.size() < 2;
+    if (!fit.converged || Gain(now, fit) < (more ? 20 : 0) ||
+        (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_)))
+      continue;
+    now = std::move(fit);
+    out_.adopted = {FittedEffect(now, rig_.effects.size()),
+                    FittedEffect(now, rig_.effects.size() + 1)};
+    out_.ladder.resize(2);
+    out_.ladder.push_back(
+        {Named(p.first) + " and " + Named(p.second), now.ratio_fit, now.ratio_validate});
+  }
+}
+
+/// The steps one by one have fitted this pair, or one with more in it.
+bool Explainer::AlreadyTried(const CandidatePair& p) const {
+  int found = 0;
+  for (const EffectInstance& e : out_.adopted)
+    for (const EffectInstance* o : {&p.first, &p.second})
+      found += e.name == o->name && e.target == o->target ? 1 : 0;
+  return found == 2 || (found == 1 && out_.adopted.size() == 1);
+}
+
+/// An effect that its successors made needless goes again.
+void Explainer::Backward(const FitResult& base, FitResult& now) {
+  if (out_.adopted.size() < 2) return;
+  for (std::size_t drop = 0; drop < out_.adopted.size() && out_.adopted.size() > 1;) {
+    Hypothesis h = base.hypothesis;
+    for (std::size_t k = 0; k < out_.adopted.size(); ++k)
+      if (k != drop) h.AddEffect(out_.adopted[k]);
+    Progress(0.9, "without " + out_.adopted[drop].name);
+    FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
+    if (WorthAdopting(without, now, Gain(without, now), 1, 0)) {
+      ++drop;
+      continue;
+    }
+    out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(drop));
+    now = std::move(without);
+    out_.ladder.push_back(
+        {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
+  }
+}
+
+/// A last fit with fresh sensitivities of everything.
+void Explainer::Polish(FitResult& now) {
+  if (out_.adopted.empty()) return;
+  Progress(0.94, "final fit");
+  FitResult polished = FitNow(now.hypothesis, nullptr);
+  if (polished.ratio_fit <= now.ratio_fit * 1.0005) now = std::move(polished);
+  for (std::size_t k = 0; k < out_.adopted.size(); ++k)
+    out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
+  out_.ladder.back().ratio_fit = now.ratio_fit;
+  out_.ladder.back().ratio_validate = now.ratio_validate;
+}
+
+}  // namespace ambrig

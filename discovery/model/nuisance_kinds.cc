@@ -1,0 +1,180 @@
+// The columns of the nuisances: what one sd of each does to every row of a case.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/model/model.h"
+#include "discovery/model/nuisances.h"
+#include "effects/catalogue.h"
+
+namespace ambrig {
+
+using Eigen::Index;
+
+namespace {
+
+// Usual sizes where the case declares none.
+constexpr double kZeroOfClearance = 0.01;  // of a position sensor
+constexpr double kZeroOfCurrent = 0.002;   // of the current converter's range
+constexpr double kZeroOfBus = 0.003;       // of the bus voltage
+constexpr double kZeroOfForce = 0.01;      // of the rotor's weight
+constexpr double kTimeShift = 1e-4;        // [s]
+constexpr double kInputGain = 0.01;
+
+double Clearance(const BearingParameters& b) {
+  if (b.auxiliary) return b.auxiliary->clearance;
+  return 0.5 * (b.kind == BearingKind::kRadial   ? b.radial.gap
+                : b.kind == BearingKind::kThrust ? b.thrust.gap
+                                                 : b.opposed.gap);
+}
+
+/// Usual zero of a channel [its unit]; 0: it has none.
+double UsualZero(const RigParameters& rig, const std::string& channel) {
+  for (const BearingParameters& b : rig.bearings) {
+    for (const std::string& axis : b.Axes())
+      if (axis == channel) return kZeroOfClearance * Clearance(b);
+    if (channel.starts_with(b.name + ".i")) return kZeroOfCurrent * rig.amplifier.adc_range;
+    if (channel.starts_with(b.name + ".f")) return kZeroOfForce * rig.rotor.mass * 9.81;
+  }
+  return channel == "bus" ? kZeroOfBus * rig.amplifier.bus_voltage : 0;
+}
+
+class Builder {
+ public:
+  Builder(const CaseModel& model, const Hypothesis& h, const std::vector<double>& predicted,
+          bool declared_only)
+      : model_(model), h_(h), predicted_(predicted), declared_only_(declared_only) {}
+
+  std::vector<NuisanceKind> Run() {
+    const NuisancePriors& priors = model_.data().nuisances;
+    for (const auto& [channel, unit] : Channels()) {
+      const auto declared = priors.sensor_zero.find(channel);
+      const bool own = declared != priors.sensor_zero.end();
+      const double sd = own              ? declared->second
+                        : declared_only_ ? 0
+                                         : UsualZero(model_.data().rig, channel);
+      if (sd <= 0) continue;
+      InLoop(channel, unit, sd);
+      Logged(channel, unit, sd);
+    }
+    const double shift = priors.time_shift > 0 ? priors.time_shift
+                         : declared_only_      ? 0
+                                               : kTimeShift;
+    if (shift > 0) Clock(shift);
+    const double gain = priors.input_gain > 0 ? priors.input_gain : declared_only_ ? 0 : kInputGain;
+    if (gain > 0) Input(gain);
+    return std::move(out_);
+  }
+
+ private:
+  std::vector<std::pair<std::string, std::string>> Channels() const {
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const Target& t : model_.targets()) {
+      const Channel& c = model_.data().records[t.record].data.channels[t.channel];
+      const std::pair<std::string, std::string> item{c.name, c.unit};
+      if (std::find(out.begin(), out.end(), item) == out.end()) out.push_back(item);
+    }
+    return out;
+  }
+
+  NuisanceKind Kind(const std::string& name, const char* group, const std::string& unit,
+                    double sd) const {
+    NuisanceKind k = {name, group, unit, sd,
+                      Eigen::VectorXd::Zero(static_cast<Index>(model_.size()))};
+    return k;
+  }
+
+  /// The difference of a changed prediction, per sd of the change.
+  void Simulated(NuisanceKind kind, const std::optional<std::vector<double>>& changed, double sds) {
+    if (!changed) return;
+    for (const Target& t : model_.targets())
+      for (std::size_t k = t.first; k < t.first + t.count; ++k)
+        if (model_.ok()[k])
+          kind.column(static_cast<Index>(k)) = ((*changed)[k] - predicted_[k]) / t.floor / sds;
+    out_.push_back(std::move(kind));
+  }
+
+  /// A zero that the control loop sees.
+  void InLoop(const std::string& channel, const std::string& unit, double sd) {
+    const RigParameters& rig = model_.data().rig;
+    std::string effect, target;
+    for (const BearingParameters& b : rig.bearings) {
+      for (const std::string& axis : b.Axes())
+        if (axis == channel) effect = "sensor-offset", target = axis;
+      // the currents' loops only where the case asks for it: a simulation for every coil
+      if (channel.starts_with(b.name + ".i") &&
+          model_.data().nuisances.sensor_zero.contains(channel))
+        effect = "current-sensor-offset",
+        target = b.name + ".coil" + channel.substr(b.name.size() + 2);
+    }
+    if (effect.empty()) return;
+    Hypothesis moved = h_;
+    EffectInstance e = MakeInstance(EffectNamed(effect), target);
+    e.Set("offset", sd);
+    moved.rig.effects.push_back(e);
+    Simulated(Kind("zero of " + channel, "sensor-zero", unit, sd), model_.Predict(moved), 1);
+  }
+
+  /// A zero of the logger alone, and its drift over the record.
+  void Logged(const std::string& channel, const std::string& unit, double sd) {
+    NuisanceKind zero = Kind("logger zero of " + channel, "logger-zero", unit, sd),
+                 drift = Kind("drift of " + channel, "drift", unit, sd);
+    for (const Target& t : model_.targets()) {
+      if (model_.data().records[t.record].data.channels[t.channel].name != channel) continue;
+      for (std::size_t k = 0; k < t.count; ++k) {
+        if (!model_.ok()[t.first + k]) continue;
+        const auto row = static_cast<Index>(t.first + k);
+        zero.column(row) = sd / t.floor;
+        drift.column(row) =
+            sd / t.floor * (2 * static_cast<double>(k) / static_cast<double>(t.count) - 1);
+      }
+    }
+    out_.push_back(std::move(zero));
+    out_.push_back(std::move(drift));
+  }
+
+  /// The record's clock late by `sd`: the prediction's slope.
+  void Clock(double sd) {
+    NuisanceKind kind = Kind("time shift", "time-shift", "s", sd);
+    for (const Target& t : model_.targets()) {
+      const double rate = model_.data().records[t.record].data.rate;
+      for (std::size_t k = t.first + 1; k + 1 < t.first + t.count; ++k)
+        if (model_.ok()[k] && model_.ok()[k - 1] && model_.ok()[k + 1])
+          kind.column(static_cast<Index>(k)) =
+              -sd * 0.5 * rate * (predicted_[k + 1] - predicted_[k - 1]) / t.floor;
+    }
+    out_.push_back(std::move(kind));
+  }
+
+  /// All commanded signals larger by `sd`.
+  void Input(double sd) {
+    Case larger = model_.data();
+    bool any = false;
+    for (CaseRecord& r : larger.records)
+      for (Excitation& e : r.scenario.excitations) {
+        e.amplitude *= 1 + sd;
+        any = true;
+      }
+    if (!any) return;
+    CaseModel trial(larger);
+    trial.stop = model_.stop;
+    Simulated(Kind("input gain", "input-gain", "-", sd), trial.Predict(h_), 1);
+  }
+
+  const CaseModel& model_;
+  const Hypothesis& h_;
+  const std::vector<double>& predicted_;
+  bool declared_only_;
+  std::vector<NuisanceKind> out_;
+};
+
+}  // namespace
+
+std::vector<NuisanceKind> NuisanceKindsOf(const CaseModel& model, const Hypothesis& h,
+                                          const std::vector<double>& predicted,
+                                          bool declared_only) {
+  return Builder(model, h, predicted, declared_only).Run();
+}
+
+}  // namespace ambrig

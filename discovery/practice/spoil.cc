@@ -1,0 +1,130 @@
+#include "discovery/practice/spoil.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/noise.h"
+#include "discovery/data/data_gate.h"
+
+namespace ambrig {
+
+namespace {
+
+using Samples = std::vector<double>;
+
+constexpr double kLate = 0.02;    // [s]
+constexpr double kLost = 0.08;    // of the record
+constexpr double kFrozen = 0.15;  // of the record
+
+double Movement(const Samples& y) {
+  const auto [low, high] = std::minmax_element(y.begin(), y.end());
+  return y.empty() ? 0 : *high - *low;
+}
+
+Channel& Moving(CaseRecord& r, const std::string& wanted, std::uint64_t seed) {
+  std::vector<Channel*> all;
+  for (Channel& c : r.data.channels) {
+    const std::string kind = KindOf(c.name);
+    if (!wanted.empty() && c.name == wanted) return c;
+    if ((kind == "x" || kind == "y" || kind == "z" || kind == "i") && Movement(c.samples) > 0)
+      all.push_back(&c);
+  }
+  if (!wanted.empty() || all.empty())
+    throw InputError(fmt::format("{}: no such column in {}", wanted, r.data_file));
+  return *all[static_cast<std::size_t>(Uniform(seed, 303, 0) * static_cast<double>(all.size()))];
+}
+
+void Late(Samples& y, std::size_t rows) {
+  if (rows >= y.size()) return;
+  const double first = y.front();
+  y.insert(y.begin(), rows, first);
+  y.resize(y.size() - rows);
+}
+
+void Clip(Samples& y) {
+  const double top = 0.6 * *std::max_element(y.begin(), y.end()),
+               low = 0.6 * *std::min_element(y.begin(), y.end());
+  for (double& v : y) v = top > 0 ? std::min(v, top) : std::max(v, low);
+}
+
+Channel& NextOfKind(CaseRecord& r, const Channel& of) {
+  const std::string kind = KindOf(of.name), bearing = of.name.substr(0, of.name.find('.'));
+  Channel* best = nullptr;
+  double most = 0;
+  for (Channel& c : r.data.channels) {
+    const std::string other = KindOf(c.name);
+    const bool alike =
+        other == kind || (kind == "x" && other == "y") || (kind == "y" && other == "x");
+    if (&c == &of || !alike || c.name.substr(0, c.name.find('.')) != bearing) continue;
+    double apart = 0;
+    for (std::size_t k = 0; k < c.samples.size(); ++k)
+      apart += std::pow(c.samples[k] - of.samples[k], 2);
+    if (apart > most) most = apart, best = &c;
+  }
+  if (!best) throw InputError(of.name + ": has no column to be exchanged with");
+  return *best;
+}
+
+std::string ExchangeData(Case& c, std::size_t record) {
+  CaseRecord& r = c.records[record];
+  for (std::size_t k = 0; k < c.records.size(); ++k) {
+    CaseRecord& o = c.records[k];
+    if (k == record || o.scenario.start != r.scenario.start || o.data.rate != r.data.rate ||
+        o.data.rows() != r.data.rows())
+      continue;
+    std::swap(r.data, o.data);
+    return "data exchanged with those of " + o.data_file;
+  }
+  throw InputError(r.data_file + ": no other record has as many rows at its rate");
+}
+
+}  // namespace
+
+std::string Spoil(Case& c, std::size_t record, const Spoiling& what, std::uint64_t seed) {
+  CaseRecord& r = c.records.at(record);
+  const auto rows = r.data.rows();
+  if (what.fault == "scenario") return ExchangeData(c, record);
+  if (what.fault == "lag") {
+    for (Channel& ch : r.data.channels)
+      Late(ch.samples, static_cast<std::size_t>(std::lround(kLate * r.data.rate)));
+    return fmt::format("{}: all columns {} s late", r.data_file, kLate);
+  }
+  if (what.fault == "lost") {
+    const auto from = static_cast<std::ptrdiff_t>(0.45 * static_cast<double>(rows)),
+               count = static_cast<std::ptrdiff_t>(kLost * static_cast<double>(rows));
+    for (Channel& ch : r.data.channels)
+      ch.samples.erase(ch.samples.begin() + from, ch.samples.begin() + from + count);
+    for (ChannelQuality& q : r.quality) q.ok.resize(rows - static_cast<std::size_t>(count), 1);
+    return fmt::format("{}: {} rows lost from {:.4g} s on", r.data_file, count,
+                       r.data.TimeAt(static_cast<std::size_t>(from)));
+  }
+  Channel& ch = Moving(r, what.channel, seed);
+  Samples& y = ch.samples;
+  if (what.fault == "unit") {
+    for (double& v : y) v *= 1000;
+  } else if (what.fault == "sign") {
+    for (double& v : y) v = -v;
+  } else if (what.fault == "swap") {
+    Channel& other = NextOfKind(r, ch);
+    std::swap(y, other.samples);
+    return fmt::format("{}: {} and {} exchanged", r.data_file, ch.name, other.name);
+  } else if (what.fault == "clip") {
+    Clip(y);
+  } else if (what.fault == "freeze") {
+    const auto from = static_cast<std::size_t>(0.4 * static_cast<double>(rows));
+    for (std::size_t k = from;
+         k < from + static_cast<std::size_t>(kFrozen * static_cast<double>(rows)); ++k)
+      y[k] = y[from];
+  } else if (what.fault == "range") {
+    y[rows / 3] = 1e4 * (std::abs(y[rows / 3]) + Movement(y));
+  } else {
+    throw InputError(fmt::format(
+        "{}: no such mistake, allowed: unit, sign, swap, lag, clip, freeze, lost, range, scenario",
+        what.fault));
+  }
+  return fmt::format("{}: {} of {}", r.data_file, what.fault, ch.name);
+}
+
+}  // namespace ambrig

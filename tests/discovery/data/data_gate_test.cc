@@ -1,0 +1,132 @@
+// Mistakes put into simulated records are named with record, channel and amount; sound records and
+// records of a rig with an effect are left alone.
+#include "discovery/data/data_gate.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "discovery/model/floor.h"
+#include "discovery/practice/examination.h"
+#include "discovery/practice/spoil.h"
+#include "effects/catalogue.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+namespace {
+
+RigParameters RadialRig() {
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  std::erase_if(rig.bearings,
+                [](const BearingParameters& b) { return b.kind == BearingKind::kThrust; });
+  return rig;
+}
+
+/// Two records as a logger writes them: steps at rest, and clamped current ramps.
+Case Measured(const std::vector<EffectInstance>& effects = {}, double mass_shift = 0) {
+  std::vector<ExaminationRecord> chosen;
+  for (const ExaminationRecord& r : Examination(RadialRig(), 4))
+    if (r.title == "steps of reference and load at rest" || r.title == "clamped, current ramps")
+      chosen.push_back(r);
+  Case c = EmptyCase(RadialRig(), chosen);
+  const CaseModel model(c);
+  Hypothesis truth;
+  truth.rig = RadialRig();
+  truth.rig.rotor.mass += mass_shift;
+  truth.rig.effects = effects;
+  for (std::size_t r = 0; r < c.records.size(); ++r) {
+    const Record run = model.Simulated(truth, r, true, 70 + r);
+    for (Channel& ch : c.records[r].data.channels) {
+      const auto& from = run.Find(ch.name)->samples;
+      std::copy_n(from.begin(), std::min(from.size(), ch.samples.size()), ch.samples.begin());
+    }
+  }
+  return c;
+}
+
+std::vector<DataFault> FaultsOf(const Case& c) {
+  CaseModel model(c);
+  const Hypothesis h = Hypothesis::Base(c.rig);
+  const NoiseFloor floor = FindFloor(model, h);
+  return InspectData(model, floor.clean, h);
+}
+
+std::size_t RecordNamed(const Case& c, const std::string& title) {
+  for (std::size_t r = 0; r < c.records.size(); ++r)
+    if (c.records[r].data_file == title) return r;
+  return 99;
+}
+
+const char* kSteps = "steps of reference and load at rest";
+const char* kClamped = "clamped, current ramps";
+
+TEST(DataGate, SoundRecordsPass) { EXPECT_TRUE(FaultsOf(Measured()).empty()); }
+
+// What the rig does differently is no error of the data: a fit has to say what it is.
+TEST(DataGate, EffectsAndParametersPass) {
+  for (const auto& [name, target, parameter, value] :
+       {std::tuple{"sensor-gain", "A.x", "gain", 1.08},
+        {"side-pull", "B", "stiffness", 4e4},
+        {"iron-reluctance", "A", "path", 6e-5},
+        {"current-sensor-offset", "B.coil2", "offset", 0.1},
+        {"loop-delay", "rig", "time", 1.6e-4},
+        {"turn-mismatch", "A.coil3", "ratio", 0.94}}) {
+    EffectInstance e = MakeInstance(EffectNamed(name), target);
+    e.Set(parameter, value);
+    const auto faults = FaultsOf(Measured({e}));
+    EXPECT_TRUE(faults.empty()) << name << ": " << FaultText(faults[0]);
+  }
+  EXPECT_TRUE(FaultsOf(Measured({}, 0.1)).empty());
+}
+
+struct Mistake {
+  const char *record, *fault, *channel;
+};
+
+class DataGateFinds : public testing::TestWithParam<Mistake> {};
+
+TEST_P(DataGateFinds, TheMistakeAndNothingElse) {
+  const Mistake m = GetParam();
+  Case c = Measured();
+  Spoil(c, RecordNamed(c, m.record), {m.fault, m.channel}, 1);
+  const auto faults = FaultsOf(c);
+  ASSERT_FALSE(faults.empty());
+  for (const DataFault& f : faults) {
+    EXPECT_EQ(f.fault, m.fault) << FaultText(f);
+    EXPECT_EQ(f.record, m.record);
+    EXPECT_FALSE(f.mend.empty());
+    EXPECT_GT(f.probability, 0.8);
+  }
+  const DataFault& f = faults[0];
+  const std::string fault = m.fault;
+  const bool whole = fault == "lag" || fault == "lost";
+  if (whole)
+    EXPECT_EQ(f.channel, "");
+  else
+    EXPECT_TRUE(f.channel == m.channel || f.with == m.channel) << f.channel;
+  EXPECT_EQ(faults.size(), 1U);
+  if (fault == "unit") EXPECT_DOUBLE_EQ(f.factor, 1000);
+  if (fault == "lag") EXPECT_NEAR(f.seconds, 0.02, 5e-4);
+  if (fault == "lost") EXPECT_NEAR(f.seconds, 0.08 * 0.35, 2e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Mistakes, DataGateFinds,
+    testing::Values(Mistake{kSteps, "unit", "A.x"}, Mistake{kSteps, "unit", "B.i3"},
+                    Mistake{kSteps, "sign", "A.y"}, Mistake{kSteps, "sign", "B.i3"},
+                    Mistake{kSteps, "swap", "A.x"}, Mistake{kSteps, "lag", ""},
+                    Mistake{kSteps, "lost", ""}, Mistake{kSteps, "freeze", "B.x"},
+                    Mistake{kSteps, "range", "A.x"}, Mistake{kClamped, "unit", "A.i1"},
+                    Mistake{kClamped, "sign", "A.fx"}, Mistake{kClamped, "swap", "A.i1"},
+                    Mistake{kClamped, "clip", "B.i1"}, Mistake{kClamped, "lag", ""},
+                    Mistake{kClamped, "freeze", "A.fy"}, Mistake{kClamped, "range", "bus"}),
+    [](const auto& info) {
+      std::string name = std::string(info.param.record == kSteps ? "Steps" : "Clamped") +
+                         info.param.fault + info.param.channel;
+      std::erase_if(name, [](char ch) { return !std::isalnum(static_cast<unsigned char>(ch)); });
+      return name;
+    });
+
+}  // namespace
+}  // namespace ambrig
