@@ -57,7 +57,7 @@ TEST(CampaignCommand, KillLosesNoFinishedRunAndResumesToTheSameBytes) {
   const std::string kept = f.Read("cut/journal.txt");
   const Outcome resumed = f.Ambrig("campaign c.toml -o cut --no-report");
   ASSERT_EQ(resumed.exit, 0) << resumed.text;
-  EXPECT_NE(resumed.text.find("goes on after " + std::to_string(before.size()) + " runs"),
+  EXPECT_NE(resumed.text.find("resumed, " + std::to_string(before.size()) + " runs"),
             std::string::npos)
       << resumed.text;
   // nothing was done twice
@@ -93,7 +93,7 @@ TEST(CampaignCommand, DamagedLinesAreDoneAgain) {
   journal[at] = 'O';
   f.Write("out/journal.txt", journal.substr(0, journal.size() - 20));
   const Outcome again = f.Ambrig("campaign c.toml -o out --no-report");
-  EXPECT_NE(again.text.find("goes on after 30 runs done before, 2 damaged lines done again"),
+  EXPECT_NE(again.text.find("resumed, 30 runs done before, 2 damaged lines done again"),
             std::string::npos)
       << again.text;
   EXPECT_EQ(f.Read("out/table.csv"), table);
