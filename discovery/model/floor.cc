@@ -60,7 +60,7 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
   const auto clean = model.Predict(h);
   const auto first = model.PredictNoisy(noisy, 11), second = model.PredictNoisy(noisy, 12);
   if (!clean || !first || !second)
-    throw InputError(model.data().file + ": the model does not hold its rotor in these records");
+    throw InputError(model.data().file + ": the model loses levitation in these records");
   std::vector<double> d1(clean->size()), d2(clean->size());
   for (std::size_t k = 0; k < d1.size(); ++k) {
     d1[k] = (*first)[k] - (*clean)[k];

@@ -206,7 +206,7 @@ void SwitchingEngine::MoveRotor(long long n) {
     b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
     if (!std::isfinite(b.x) || !std::isfinite(b.y))
       throw std::runtime_error(
-          fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t));
+          fmt::format("{}: the motion diverged at t = {} s", scenario_.name, motion_.t));
   }
 }
 
