@@ -43,7 +43,8 @@ void PlaceCoils(OperatingPoint& p, std::size_t k) {
     const std::string name = fmt::format("{}.coil{}", control.name, j + 1);
     if (!c.commanded)
       p.notes.push_back(
-          fmt::format("{} carries {:.3g} A, a limit of its set-point: it does not follow the force",
+          fmt::format("{} carries {:.3g} A, a limit of its set-point: its current cannot follow "
+                      "the force command",
                       name, c.current));
     else if (c.current <= kInterrupted && amplifier.quadrants < 3)
       p.notes.push_back(fmt::format(

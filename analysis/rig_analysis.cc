@@ -140,7 +140,7 @@ class Analysis {
       for (int k = 0; k < count; ++k) {
         Say(0.75 + 0.25 * (static_cast<double>(a) + static_cast<double>(k) / count) /
                        static_cast<double>(out_.capacity.size()),
-            "sines injected into the switching rig");
+            "injecting sines into the switching rig");
         SineTest test;
         test.axis = a;
         test.frequency = low * std::pow(high / low, count > 1 ? k / (count - 1.0) : 0.5);

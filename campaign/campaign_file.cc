@@ -33,7 +33,7 @@ std::vector<double> List(const TomlTable& t, const char* key, const std::vector<
       t.Fail(key, fmt::format("= {}, allowed: {} to {} {}", values[k], lo, hi, unit));
     for (std::size_t j = 0; j < k; ++j)
       if (values[j] == values[k])
-        t.Fail(key, fmt::format("= {} stands twice, allowed: different values", values[k]));
+        t.Fail(key, fmt::format("= {} is given twice, allowed: different values", values[k]));
   }
   return values;
 }
@@ -72,7 +72,7 @@ std::vector<std::vector<int>> CoilSets(const TomlTable& t) {
     }
     std::sort(set.begin(), set.end());
     if (std::count(sets.begin(), sets.end(), set) > 0)
-      t.Fail("sets", fmt::format("= set {} stands twice", sets.size() + 1));
+      t.Fail("sets", fmt::format("= set {} is given twice", sets.size() + 1));
     sets.push_back(set);
   }
   if (sets.empty()) t.Fail("sets", "= [], allowed: e.g. [[1], [1, 2]]");
@@ -172,7 +172,7 @@ void ReadOperation(const TomlTable& root, Campaign& c) {
   if (c.rig.controller.kind != "pid" &&
       std::any_of(c.positions.begin(), c.positions.end(), [](double p) { return p != 0; }))
     t->Fail("positions", fmt::format("other than 0 with kind = \"{}\" in {}, allowed: with a PID, "
-                                     "whose way to a reference is known",
+                                     "whose reference response is known",
                                      c.rig.controller.kind, c.rig.file));
   c.position_angle = In(*t, "position_angle_deg", 0, -360, 360, "deg") * std::numbers::pi / 180;
   t->RejectUnknownKeys();

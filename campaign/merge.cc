@@ -27,9 +27,10 @@ JournalContent MergeJournals(const std::vector<std::string>& folders, bool parti
     JournalContent part = ReadJournal(folder);
     if (all.header.fingerprint.empty()) all.header = part.header;
     if (part.header.fingerprint != all.header.fingerprint || part.header.runs != all.header.runs)
-      throw InputError(fmt::format(
-          "{}: is of another campaign, rig or version of them than {}; allowed: shards of one",
-          folder, folders.front()));
+      throw InputError(
+          fmt::format("{}: belongs to another campaign, rig or version of them than {}; allowed: "
+                      "shards of one campaign",
+                      folder, folders.front()));
     all.damaged += part.damaged;
     for (auto& [run, row] : part.rows) {
       const auto [it, fresh] = all.rows.try_emplace(run, row);

@@ -213,7 +213,7 @@ const std::vector<FigureInfo>& FigureInfos() {
        false},
       {FigureKind::kOrbit, "orbit", "m",
        "largest distance of the shaft from the centre of a radial bearing", true},
-      {FigureKind::kSettledOrbit, "late_orbit", "m", "the same over the last tenth of the run",
+      {FigureKind::kSettledOrbit, "late_orbit", "m", "largest orbit over the last tenth of the run",
        true},
       {FigureKind::kPlaneOrbit, "plane_orbit", "m",
        "largest distance of a disk or station from where it stood at the start (in the record)",

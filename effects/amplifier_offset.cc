@@ -9,9 +9,8 @@ EffectDescription AmplifierOffset() {
   d.id = "amplifier-offset";
   d.title = "Offset and dead duty of the amplifier";
   d.physics =
-      "The bridge gives a constant voltage more or less than asked for, and pulses shorter than a "
-      "least\n"
-      "duty do not come out at all.";
+      "The bridge adds a constant voltage to the commanded one, and pulses shorter than a minimum "
+      "duty\nare suppressed.";
   d.target = TargetKind::kCoilOrBearing;
   d.parameters = {{"offset", "V", 0, -100, 100, 0.05, 2, "added while the bridge drives the coil"},
                   {"dead_duty", "-", 0, 0, 0.5, 0.02, 0.1, "no pulse below this duty"}};

@@ -15,13 +15,13 @@ EffectDescription BaseMode() {
   d.id = "base-mode";
   d.title = "Compliant base";
   d.physics =
-      "The stator is not fixed: it moves on its base as a mass on a spring, pushed by what the "
-      "bearings\n"
-      "push on the rotor. A pole and a zero appear near its frequency in every radial axis.";
+      "The stator is not fixed: it moves on its base as a mass on a spring under the "
+      "reaction\nforces of the bearings. A pole and a zero appear near its frequency in every "
+      "radial axis.";
   d.target = TargetKind::kRig;
   d.needs.levitation = true;
   d.parameters = {
-      {"mass", "kg", kInfinity, 1e-2, kInfinity, 10, 500, "stator and what moves with it"},
+      {"mass", "kg", kInfinity, 1e-2, kInfinity, 10, 500, "moving mass of stator and base"},
       {"frequency", "Hz", 60, 0.5, 2e3, 20, 200, "of stator on base, rotor clamped off"},
       {"damping", "-", 0.02, 0, 2, 0.005, 0.1, "ratio"}};
   d.off_when_null = {"mass"};

@@ -66,7 +66,7 @@ const EffectDescription& EffectNamed(const std::string& id) {
   std::string all;
   for (const EffectDescription& d : Catalogue()) all += (all.empty() ? "" : ", ") + d.id;
   const std::string near = Nearest(id, all);
-  throw InputError(fmt::format("{} is no effect{}, allowed: {}", id,
+  throw InputError(fmt::format("unknown effect {}{}, allowed: {}", id,
                                near.empty() ? "" : ", did you mean " + near + "?", all));
 }
 

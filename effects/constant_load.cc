@@ -9,9 +9,8 @@ EffectDescription ConstantLoad() {
   d.id = "constant-load";
   d.title = "Constant load";
   d.physics =
-      "A belt, a hose or a tilt of the rig pushes the rotor with a constant force: the bearing "
-      "carries\n"
-      "it with static currents that fall with the bias.";
+      "A belt, a hose or a tilt of the rig loads the rotor with a constant force: the bearing "
+      "carries\nit with static currents that decrease with the bias.";
   d.target = TargetKind::kPlane;
   d.needs.levitation = true;
   d.parameters = {{"fx", "N", 0, -1e6, 1e6, 0.5, 30, "along x"},

@@ -11,9 +11,8 @@ EffectDescription ContactFriction() {
   d.id = "contact-friction";
   d.title = "Friction of an auxiliary bearing";
   d.physics =
-      "The auxiliary bearing rubs more or less than its drawing says: after a touch-down the rotor "
-      "is\n"
-      "driven up the wall and slowed down accordingly; backward whirl comes with high friction.";
+      "The friction of the auxiliary bearing differs from its nominal value: after a touchdown it "
+      "drives\nthe rotor up the race and brakes it; high friction causes backward whirl.";
   d.target = TargetKind::kPlane;
   d.needs.contact = true;
   d.parameters = {{"friction", "-", -1, -1, 2, 0.05, 0.5,

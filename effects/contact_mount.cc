@@ -11,9 +11,8 @@ EffectDescription ContactMount() {
   d.id = "contact-mount";
   d.title = "Resilient mount of an auxiliary bearing";
   d.physics =
-      "The auxiliary bearing sits in a tolerance ring or elastomer: its race gives way under the "
-      "rotor,\n"
-      "which makes impacts longer and softer and takes energy out of the rebound.";
+      "The auxiliary bearing sits in a tolerance ring or elastomer: its race yields under the "
+      "rotor,\nwhich makes impacts longer and softer and dissipates energy of the rebound.";
   d.target = TargetKind::kPlane;
   d.needs.contact = true;
   d.parameters = {{"stiffness", "N/m", kInfinity, 1, kInfinity, 1e6, 1e8, "of the mount"},

@@ -11,9 +11,8 @@ EffectDescription CouplingMisalignment() {
   d.id = "coupling-misalignment";
   d.title = "Misaligned coupling";
   d.physics =
-      "The shaft that drives the rotor is not in line with it: the coupling's elements bend twice "
-      "per\n"
-      "turn and push with a force that depends on their stiffness, not on the speed.";
+      "The driving shaft is misaligned with the rotor: the coupling's elements bend twice per turn "
+      "and\nexert a force that depends on their stiffness, not on the speed.";
   d.target = TargetKind::kPlane;
   d.needs.rotation = d.needs.levitation = true;
   d.parameters = {{"c", "N", 0, -1e4, 1e4, 0.2, 20, "along x at theta = 0"},

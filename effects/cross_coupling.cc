@@ -11,9 +11,8 @@ EffectDescription CrossCoupling() {
   d.id = "cross-coupling";
   d.title = "Cross-coupled stiffness (seal, impeller)";
   d.physics =
-      "The fluid in a seal or impeller pushes the rotor sideways to its displacement: the forward "
-      "whirl\n"
-      "gains energy, the backward whirl loses it.";
+      "The fluid in a seal or impeller exerts a force perpendicular to the displacement: the "
+      "forward\nwhirl gains energy, the backward whirl loses it.";
   d.target = TargetKind::kPlane;
   d.needs.levitation = true;
   d.acts_on = kOnRadial;

@@ -9,9 +9,9 @@ EffectDescription CurrentSensorGain() {
   d.id = "current-sensor-gain";
   d.title = "Gain error of a current sensor";
   d.physics =
-      "The sensor reads gain times the current. The tight current loop hides it in the reading: "
-      "the true\n"
-      "current is set-point over gain, and with it MMF, slope and force of that coil.";
+      "The sensor reads gain times the current. The current loop removes the error from the "
+      "reading: the\ntrue current is set-point over gain, and with it MMF, slope and force of that "
+      "coil.";
   d.target = TargetKind::kCoilOrBearing;
   d.parameters = {
       {"gain", "-", 1, 0.2, 5, 0.01, 0.1, "reading over current; typical: distance from 1"}};

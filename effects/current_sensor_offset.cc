@@ -9,9 +9,9 @@ EffectDescription CurrentSensorOffset() {
   d.id = "current-sensor-offset";
   d.title = "Offset of a current sensor";
   d.physics =
-      "The sensor adds a constant to the current. The current loop hides it in the reading; the "
-      "coil\n"
-      "carries that much less, which pulls the shaft with a static force that grows with the bias.";
+      "The sensor adds a constant to the current. The current loop removes the offset from "
+      "the\nreading; the coil carries that much less, which causes a static force that grows with "
+      "the bias.";
   d.target = TargetKind::kCoilOrBearing;
   d.parameters = {{"offset", "A", 0, -100, 100, 0.01, 0.2, "reading minus current"}};
   d.off_when_null = {"offset"};

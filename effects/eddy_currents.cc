@@ -113,9 +113,8 @@ EffectDescription EddyCurrents() {
   d.id = "eddy-currents";
   d.title = "Eddy currents in the iron";
   d.physics =
-      "Changing flux is kept out of the laminations by the currents it induces and diffuses in "
-      "with the\n"
-      "square root of time: force and inductance fall by 10 dB a decade, phase tends to -45 "
+      "Changing flux induces currents in the laminations that oppose it; it diffuses in with the "
+      "square\nroot of time: force and inductance fall by 10 dB a decade, phase tends to -45 "
       "degrees.";
   d.target = TargetKind::kBearing;
   d.parameters = {

@@ -107,7 +107,7 @@ EffectInstance ReadEffect(const TomlTable& t, const EffectTargets& known) {
   for (const auto& c : Catalogue()) all += (all.empty() ? "" : ", ") + c.id;
   if (!d) {
     const std::string near = Nearest(name, all);
-    t.Fail("name", fmt::format("= \"{}\" is no effect{}; `ambrig effects` lists them", name,
+    t.Fail("name", fmt::format("= \"{}\": unknown effect{}; `ambrig effects` lists them", name,
                                near.empty() ? "" : fmt::format(", did you mean {}?", near)));
   }
   EffectInstance e = MakeInstance(*d, "");

@@ -18,10 +18,10 @@ bool Contains(const std::vector<std::string>& names, const std::string& name) {
 void CheckName(const TomlTable& parameters, const std::string& key,
                const std::vector<std::string>& known) {
   if (Contains(known, key))
-    parameters.Fail(key, "is a name that formulas know already, allowed: any other");
+    parameters.Fail(key, "is a reserved name of formulas, allowed: any other name");
   if (!IsFormulaName(key))
     parameters.Fail(key,
-                    "is no name for a parameter, allowed: letters, digits and _, and none of " +
+                    "is not a valid parameter name, allowed: letters, digits and _, and none of " +
                         FormulaFunctions());
 }
 

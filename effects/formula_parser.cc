@@ -31,7 +31,7 @@ std::string Forbidden(const std::string& text) {
   for (std::size_t k = 0; k < text.size(); ++k) {
     if (text[k] == '(') ++depth;
     if (text[k] == ')') --depth;
-    if (text[k] == ',' && depth == 0) return "one formula only, no list";
+    if (text[k] == ',' && depth == 0) return "one formula is allowed, not a list";
     if (text[k] != '=') continue;
     const bool second = k > 0 && std::string("=<>!").find(text[k - 1]) != std::string::npos;
     const bool first = k + 1 < text.size() && text[k + 1] == '=';

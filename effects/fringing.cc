@@ -10,8 +10,8 @@ EffectDescription Fringing() {
   d.id = "fringing";
   d.title = "Fringing of the gap field";
   d.physics =
-      "Flux bulges out at the pole's edges, so the pole acts as if its area grew with the gap:\n"
-      "A (1 + coefficient g/g0). Force falls less steeply with the gap than 1/g³.";
+      "Flux fringes at the edges of the pole, so the effective pole area grows with the gap:\nA (1 "
+      "+ coefficient g/g0). Force falls less steeply with the gap than 1/g³.";
   d.target = TargetKind::kBearing;
   d.parameters = {
       {"coefficient", "-", 0, -0.5, 2, 0.01, 0.15, "growth of the area per nominal gap"}};

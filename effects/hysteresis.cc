@@ -87,9 +87,8 @@ EffectDescription Hysteresis() {
   d.id = "hysteresis";
   d.title = "Hysteresis of the iron";
   d.physics =
-      "The iron's MMF depends on where its flux turned last: rising and falling branches lie twice "
-      "the\n"
-      "coercive current apart, minor loops close, and remanence stays when the current ends.";
+      "The iron's MMF depends on the last reversal of its flux: rising and falling branches lie "
+      "twice the\ncoercive current apart, minor loops close, and remanence stays at zero current.";
   d.target = TargetKind::kBearing;
   d.parameters = {
       {"coercive", "A", 0, 0, 10, 0.005, 0.2, "half the width of the loop, as current of one coil"},

@@ -11,9 +11,9 @@ EffectDescription MagneticOffset() {
   d.id = "magnetic-offset";
   d.title = "Magnetic centre off the sensor's zero";
   d.physics =
-      "The stator sits beside the sensors' zero: with the shaft at zero the gaps differ, and the "
-      "bearing\n"
-      "pulls with the negative stiffness times the offset; the static current grows with the bias.";
+      "The magnetic centre is offset from the sensors' zero: with the shaft at zero the gaps "
+      "differ, and\nthe bearing exerts the negative stiffness times the offset; the static current "
+      "grows with the bias.";
   d.target = TargetKind::kBearing;
   d.parameters = {{"dx", "m", 0, -1e-3, 1e-3, 5e-6, 5e-5, "magnetic centre along x (thrust: z)"},
                   {"dy", "m", 0, -1e-3, 1e-3, 5e-6, 5e-5, "magnetic centre along y"}};

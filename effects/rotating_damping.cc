@@ -29,8 +29,7 @@ EffectDescription RotatingDamping() {
   d.title = "Internal (rotating) damping";
   d.physics =
       "Friction inside the shaft or its fits acts on the motion seen by the turning rotor: above "
-      "a\n"
-      "mode's frequency it feeds a forward whirl at that frequency instead of damping it.";
+      "a\nmode's frequency it destabilises the forward whirl of that mode instead of damping it.";
   d.target = TargetKind::kRig;
   d.needs.rotation = d.needs.levitation = true;
   d.parameters = {{"damping", "N s/m", 0, 0, 1e6, 1, 1e3, "d, shared by the radial planes"}};

@@ -18,8 +18,7 @@ EffectDescription SensorHum() {
   d.title = "Mains hum on position sensors";
   d.physics =
       "The cables of both sensors of a plane pick up the mains: a sine at a fixed frequency is "
-      "read as\n"
-      "motion along the diagonal, and the bearing answers with a force.";
+      "read as\nmotion along the diagonal, and the controller responds with a force.";
   d.target = TargetKind::kPlane;
   d.tone = d.mains = true;
   d.parameters = {{"frequency", "Hz", 50, 0.1, 1e4, 50, 300, "50 or 60 Hz, or a multiple"},

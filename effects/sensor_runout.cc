@@ -38,9 +38,8 @@ EffectDescription SensorRunout() {
   d.title = "Run-out of the sensed surface";
   d.physics =
       "The surface in front of the probes is out of round or off centre: its error is read as "
-      "motion,\n"
-      "once per turn and in harmonics, the same size at any speed; the bearing answers with a "
-      "force.";
+      "motion,\nonce per turn and in harmonics, the same size at any speed; the controller "
+      "responds with a force.";
   d.target = TargetKind::kPlane;
   d.needs.rotation = true;
   for (int n = 1; n <= kOrders; ++n) {

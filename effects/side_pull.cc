@@ -9,11 +9,10 @@ namespace ambrig {
 EffectDescription SidePull() {
   EffectDescription d;
   d.id = "side-pull";
-  d.title = "Side pull of a motor";
+  d.title = "Unbalanced magnetic pull of a motor";
   d.physics =
-      "The motor's field pulls the rotor further the way it has moved: a negative stiffness at "
-      "one\n"
-      "plane, independent of the bearing's currents.";
+      "The field of a motor attracts the rotor in the direction of its displacement (UMP): a "
+      "negative\nstiffness at one plane, independent of the bearing's currents.";
   d.target = TargetKind::kPlaneOrZ;
   d.needs.levitation = true;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 1e4, 5e5, "k of f = k r; > 0 destabilises"}};

@@ -8,7 +8,7 @@ namespace ambrig {
 EffectDescription TurnMismatch() {
   EffectDescription d;
   d.id = "turn-mismatch";
-  d.title = "Coil with other turns than the drawing";
+  d.title = "Coil whose number of turns differs from the nominal one";
   d.physics =
       "One coil was wound with more or fewer turns: its MMF and linkage scale with the ratio, its\n"
       "resistance with the ratio, its leakage inductance with the ratio squared.";

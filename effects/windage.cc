@@ -13,8 +13,8 @@ EffectDescription Windage() {
   d.id = "windage";
   d.title = "Windage";
   d.physics =
-      "The gas around the rotor drags on it with the square of the speed: a free rotor slows down\n"
-      "along a hyperbola.";
+      "The drag of the surrounding gas grows with the square of the speed: the speed of a free "
+      "rotor\ndecays hyperbolically.";
   d.target = TargetKind::kRig;
   d.needs.free_speed = true;
   d.parameters = {{"drag", "N m s2", 0, 0, 1, 1e-9, 1e-6, "torque over the square of the speed"}};

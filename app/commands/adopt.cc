@@ -70,12 +70,13 @@ int RunAdopt(const AdoptCommand& o) {
 
 void AddAdopt(CLI::App& app, Work& work) {
   auto options = std::make_shared<AdoptCommand>();
-  CLI::App* command =
-      app.add_subcommand("adopt", "add an effect with fitted parameters, compare again");
+  CLI::App* command = app.add_subcommand(
+      "adopt", "add an effect with fitted parameters to the rig file and compare again");
   command->add_option("case", options->file, "case file (TOML)")->required();
   command->add_option("effect", options->effect, "effect of the catalogue (ambrig effects)")
       ->required();
-  command->add_option("--target", options->target, "where; default: the target that fits best");
+  command->add_option("--target", options->target,
+                      "target of the effect (default: the one with the best fit)");
   command->add_option("-o,--output", options->output,
                       "new rig file (default: RIG_adopted.toml beside the rig)");
   options->common.AddTo(*command);

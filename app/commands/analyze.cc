@@ -90,9 +90,11 @@ void PrintSensitivity(const RigAnalysis& a) {
                  s.speed / kRpm, x.axis, x.peak, x.peak_frequency, Zone(x.zone),
                  fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up), x.phase_margin * 180 / kPi,
                  x.delay_margin * 1e6);
-  fmt::print("\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n",
-             Coloured("joint margin: every loop changed at once, each in its own way", "bold"),
-             "rpm", "disk [-]", "gain x from..to", "phase", "at [Hz]", "axes");
+  fmt::print(
+      "\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n",
+      Coloured("simultaneous-loop disk margin: independent perturbations of all loops at once",
+               "bold"),
+      "rpm", "disk [-]", "gain x from..to", "phase", "at [Hz]", "axes");
   for (const Sensitivity& s : a.sensitivity)
     for (const JointMargin& m : s.joint) {
       std::vector<std::string> axes;
@@ -148,7 +150,7 @@ void PrintStandards(const RigAnalysis& a) {
 void Print(const RigAnalysis& a) {
   const RigParameters& rig = a.point.rig();
   fmt::print(
-      "{}: {} axes, {} coils, controller {:g} Hz, operating {:.0f} to {:.0f} rpm, looked at up to "
+      "{}: {} axes, {} coils, controller {:g} Hz, operating {:.0f} to {:.0f} rpm, analysed up to "
       "{:.0f} rpm\n",
       Coloured(rig.name, "bold"), a.capacity.size(),
       [&] {
@@ -163,8 +165,8 @@ void Print(const RigAnalysis& a) {
   PrintSensitivity(a);
   PrintModes(a);
   PrintStandards(a);
-  fmt::print("\n{}\n", a.stable() ? Coloured("closed loop stable at every speed looked at", "green")
-                                  : Coloured("closed loop UNSTABLE at some speed", "red"));
+  fmt::print("\n{}\n", a.stable() ? Coloured("closed loop stable at every speed analysed", "green")
+                                  : Coloured("closed loop UNSTABLE at one or more speeds", "red"));
 }
 
 int RunAnalyze(const AnalyzeCommand& c) {

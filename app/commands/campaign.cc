@@ -117,7 +117,7 @@ int RunCampaign(CampaignOptions o) {
   const JournalHeader header = HeaderOf(plan.campaign());
   CampaignJournal journal(o.out, header);
   if (!journal.rows().empty())
-    fmt::print("{}: goes on after {} done before{}\n", o.out, Counted(journal.rows().size(), "run"),
+    fmt::print("{}: resumed, {} done before{}\n", o.out, Counted(journal.rows().size(), "run"),
                journal.damaged() > 0
                    ? fmt::format(", {} done again", Counted(journal.damaged(), "damaged line"))
                    : "");
@@ -127,7 +127,7 @@ int RunCampaign(CampaignOptions o) {
     else
       RunHere(plan, o, shard, journal);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n",
+    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}; re-run the command to resume\n",
                journal.rows().size(), Counted(header.runs, "run"), o.out);
     return 130;
   }
@@ -171,19 +171,19 @@ void AddCampaign(CLI::App& app, Work& work) {
       ->capture_default_str();
   command
       ->add_option("--tasks", options->tasks,
-                   "slurm: array tasks (default: so many that each takes minutes)")
+                   "slurm: number of array tasks (default: chosen so that a task takes minutes)")
       ->check(CLI::Range(1, kMostTasks));
   command->add_option("--sbatch", options->sbatch,
                       "slurm: further options of sbatch, e.g. \"--partition=long --time=60\"");
-  command->add_option("--poll", options->poll, "slurm: seconds between looks at the queue")
+  command->add_option("--poll", options->poll, "slurm: seconds between queries of the queue")
       ->check(CLI::Range(0.1, 3600.0))
       ->capture_default_str();
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o out/single_coils\n"
-      "The same command goes on where a stopped or killed one was. Rerun one row:\n"
-      "  ambrig run --from-campaign scenarios/campaigns/single_coils.toml --row 17");
+      "Example:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o "
+      "out/single_coils\nRe-run the command to resume an interrupted one. Repeat one row:\n  "
+      "ambrig run --from-campaign scenarios/campaigns/single_coils.toml --row 17");
   command->callback([options, &work] { work = [options] { return RunCampaign(*options); }; });
 }
 
@@ -192,7 +192,7 @@ void AddMerge(CLI::App& app, Work& work) {
   CLI::App* command = app.add_subcommand("merge", "shards of a campaign as one table and report");
   command->add_option("folder", options->folders, "folders of the shards")->required();
   command->add_option("-o,--out", options->out, "folder of the merged campaign")->required();
-  command->add_flag("--partial", options->partial, "also when runs are missing");
+  command->add_flag("--partial", options->partial, "merge even when runs are missing");
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
   command->footer("Example:\n  ambrig merge out/part1 out/part2 -o out/all");

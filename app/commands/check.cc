@@ -141,7 +141,8 @@ int Check(const CheckOptions& options) {
 
 void AddCheck(CLI::App& app, Work& work) {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = app.add_subcommand("check", "run every scenario with [expect] under PATH");
+  CLI::App* command =
+      app.add_subcommand("check", "run all scenarios with [expect] under PATH as regression tests");
   command->add_option("path", options->paths, "scenario files or folders")->required();
   command->add_option("--junit", options->junit, "write a JUnit XML file")->type_name("FILE");
   command->add_option("--jobs", options->jobs, "scenarios at the same time (default: all cores)")

@@ -52,9 +52,10 @@ int RunCompare(const CompareOptions& o) {
 
 void AddCompare(CLI::App& app, Work& work) {
   auto options = std::make_shared<CompareOptions>();
-  CLI::App* command = app.add_subcommand("compare", "model beside measurement: where it fails");
+  CLI::App* command = app.add_subcommand(
+      "compare", "compare model and measurement, channel by channel and block by block");
   command->add_option("case", options->file, "case file (TOML)")->required();
-  command->add_flag("--no-blocks", options->no_blocks, "skip the blocks fed with measured inputs");
+  command->add_flag("--no-blocks", options->no_blocks, "skip the block tests with measured inputs");
   options->common.AddTo(*command);
   command->footer("Example:\n  ambrig compare case.toml --html compare.html");
   command->callback([options, &work] { work = [options] { return RunCompare(*options); }; });

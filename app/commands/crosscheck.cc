@@ -107,7 +107,7 @@ int Crosscheck(const CrosscheckCommand& command) {
     Scenario scenario = ReadScenario(file, rig);
     const bool named = std::count(command.paths.begin(), command.paths.end(), file) > 0;
     if (scenario.start == StartState::kClamped && !named) {
-      fmt::print("skip    {}: clamped, nothing moves\n", scenario.name);
+      fmt::print("skip    {}: clamped rotor\n", scenario.name);
       continue;
     }
     for (int k = 0; k < command.seeds; ++k, ++scenario.seed) {

@@ -97,7 +97,7 @@ void Print(const Study& study, const StudyResult& result, const std::vector<std:
     front += p.front ? 1 : 0;
     feasible += p.feasible ? 1 : 0;
   }
-  fmt::print("{}\n  points             {}, {} keep all limits, {} on the Pareto front\n",
+  fmt::print("{}\n  points             {}, {} feasible, {} Pareto-optimal\n",
              Coloured(study.name, "bold"), result.points.size(), feasible, front);
   for (std::size_t c = 0; c < shown.size(); ++c) {
     const StudyPoint& p = result.points[shown[c]];
@@ -186,7 +186,8 @@ int RunDesign(DesignOptions o) {
     try {
       result = RunStudy(study, options);
     } catch (const Interrupted&) {
-      fmt::print(stderr, "ambrig: stopped; what is done is kept in {}, the same command goes on\n",
+      fmt::print(stderr,
+                 "ambrig: stopped; results so far are kept in {}; re-run the command to resume\n",
                  o.out);
       return 130;
     }
@@ -229,7 +230,7 @@ int RunDesign(DesignOptions o) {
 void AddDesign(CLI::App& app, Work& work) {
   auto options = std::make_shared<DesignOptions>();
   CLI::App* command = app.add_subcommand(
-      "design", "controllers compared, their numbers swept or optimised: Pareto front");
+      "design", "compare controllers, sweep or optimise their parameters: Pareto front");
   command->add_option("study", options->file, "study file (TOML)")->required();
   command->add_option("-o,--out", options->out,
                       "folder of journal, table.csv, study.json, report.html (default: out/NAME)");
@@ -237,15 +238,14 @@ void AddDesign(CLI::App& app, Work& work) {
       ->check(CLI::Range(0, 1024));
   command
       ->add_option("--point", options->point,
-                   "write this point's rig and scenarios, run them again")
+                   "write the rig and scenarios of this point and repeat its runs")
       ->check(CLI::Range(0LL, 100000000LL));
   command->add_flag("--no-report", options->no_report, "no HTML");
   options->common.AddTo(*command);
   command->footer(
       "Example:\n  ambrig design examples/design/study.toml\n  ambrig design "
-      "examples/design/study.toml --point 17\n"
-      "Stopped or killed, the same command goes on where it was. Exit code 1 when no point keeps "
-      "all limits, or a repeated point differs.");
+      "examples/design/study.toml --point 17\nRe-run the command to resume an interrupted one. "
+      "Exit code 1 when no point is feasible, or a repeated point differs.");
   command->callback([options, &work] { work = [options] { return RunDesign(*options); }; });
 }
 

@@ -56,11 +56,11 @@ int RunDetectors(DetectorsCommand o) {
     o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
   CampaignJournal journal(o.out, plan.Header());
   if (!journal.rows().empty())
-    fmt::print("{}: goes on after {} done before\n", o.out, Counted(journal.rows().size(), "run"));
+    fmt::print("{}: resumed, {} done before\n", o.out, Counted(journal.rows().size(), "run"));
   try {
     RunAll(plan, o.jobs, journal);
   } catch (const Interrupted&) {
-    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}, the same command goes on\n",
+    fmt::print(stderr, "ambrig: stopped; {} of {} kept in {}; re-run the command to resume\n",
                journal.rows().size(), Counted(plan.study().runs(), "run"), o.out);
     return 130;
   }
@@ -86,7 +86,8 @@ int RunDetectors(DetectorsCommand o) {
 void AddDetectors(CLI::App& app, Work& work) {
   auto options = std::make_shared<DetectorsCommand>();
   CLI::App* command = app.add_subcommand(
-      "detectors", "detectors of coil faults compared: ROC curves, delay against false alarms");
+      "detectors",
+      "compare detectors of coil faults: ROC curves, detection delay against false alarms");
   command->add_option("study", options->file, "study file (TOML)")->required();
   command->add_option("-o,--out", options->out,
                       "folder of journal.txt, table.csv, curves, report.html (default: out/NAME)");
@@ -95,8 +96,8 @@ void AddDetectors(CLI::App& app, Work& work) {
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig detectors scenarios/studies/detectors.toml -o out/detectors\n"
-      "The same command goes on where a stopped or killed one was.");
+      "Example:\n  ambrig detectors scenarios/studies/detectors.toml -o out/detectors\nRe-run the "
+      "command to resume an interrupted one.");
   command->callback([options, &work] { work = [options] { return RunDetectors(*options); }; });
 }
 

@@ -76,7 +76,8 @@ void AddEffects(CLI::App& app, Work& work) {
     bool markdown = false;
   };
   auto options = std::make_shared<Options>();
-  CLI::App* command = app.add_subcommand("effects", "the catalogue of physical effects");
+  CLI::App* command =
+      app.add_subcommand("effects", "list the catalogue of physical effects, or describe one");
   command->add_option("name", options->name, "one effect in detail");
   command->add_flag("--markdown", options->markdown, "print docs/effects.md");
   options->common.AddTo(*command);

@@ -79,12 +79,13 @@ void Print(const Explanation& e) {
     fmt::print("  not seen: {} at {} up to {} = {:.3g} {}\n", e.hidden[k].effect,
                e.hidden[k].target, e.hidden[k].parameter, e.hidden[k].size, e.hidden[k].unit);
   for (const Confusable& c : e.confusable)
-    fmt::print("  {} or {}: to tell them apart, measure: {}\n", c.first, c.second, c.record);
+    fmt::print("  {} or {}: a record that discriminates between them: {}\n", c.first, c.second,
+               c.record);
   for (const std::string& w : e.warnings) fmt::print("  warning: {}\n", w);
   if (e.verdict == "unknown") {
     fmt::print("  {}\n", e.unexplained.text);
     if (!e.unexplained.formula.empty())
-      fmt::print("  a law to try in the rig file ([[effect]] name = \"formula\"): {}\n",
+      fmt::print("  a candidate law for the rig file ([[effect]] name = \"formula\"): {}\n",
                  e.unexplained.formula);
   }
   fmt::print("{} in {:.1f} s\n", Counted(e.runs, "record simulation"), e.seconds);
@@ -125,7 +126,7 @@ int RunExplain(const ExplainCommand& o) {
   o.common.WriteJson(ExplainJson(e));
   if (!o.common.html.empty()) WriteExplainReport(c, e, o.common.html);
   if (!o.law.empty() && e.unexplained.formula.empty())
-    fmt::print("no law to propose: {} is not written\n", o.law);
+    fmt::print("no candidate law: {} is not written\n", o.law);
   if (!o.law.empty() && !e.unexplained.formula.empty())
     WriteFileAtomically(o.law, e.unexplained.formula + "\n");
   if (store) std::filesystem::remove(store->path());  // answered: nothing to go on with
@@ -136,29 +137,29 @@ int RunExplain(const ExplainCommand& o) {
 
 void AddExplain(CLI::App& app, Work& work) {
   auto options = std::make_shared<ExplainCommand>();
-  CLI::App* command =
-      app.add_subcommand("explain", "which effect is missing: ranked, with evidence");
+  CLI::App* command = app.add_subcommand(
+      "explain", "find which physical effect the model lacks: ranked candidates with evidence");
   command->add_option("case", options->file, "case file (TOML)")->required();
   command->add_option("--candidates", options->candidates, "effects fitted in full per round")
       ->capture_default_str()
       ->check(CLI::Range(1, 60));
   command->add_flag("--verbose", options->verbose, "print every step with its time to stderr");
   command
-      ->add_option(
-          "--law", options->law,
-          "verdict unknown: write the law to try here, an [[effect]] to append to the rig file")
+      ->add_option("--law", options->law,
+                   "with the verdict unknown: write the candidate law to this file, an [[effect]] "
+                   "to append to the rig file")
       ->type_name("FILE");
   command
       ->add_option("--resume", options->resume,
                    "keep the simulations in this folder (some 100 MB) until the answer is written; "
-                   "the same command goes on where it was stopped")
+                   "re-run the command to resume")
       ->type_name("FOLDER");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig explain case.toml --json answer.json --html answer.html\n"
-      "  ambrig explain case.toml --law law.toml; cat rig.toml law.toml > rig_2.toml\n"
-      "  ambrig explain case.toml --resume work       # Ctrl-C, then the same again: goes on\n"
-      "Intermediate results are written to the JSON file as they come (verdict \"unfinished\").");
+      "Examples:\n  ambrig explain case.toml --json answer.json --html answer.html\n  ambrig "
+      "explain case.toml --law law.toml; cat rig.toml law.toml > rig_2.toml\n  ambrig explain "
+      "case.toml --resume work       # after Ctrl-C: resumes\nIntermediate results are written to "
+      "the JSON file as they come (verdict \"unfinished\").");
   command->callback([options, &work] { work = [options] { return RunExplain(*options); }; });
 }
 

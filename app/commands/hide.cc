@@ -68,7 +68,7 @@ int RunHide(const HideCommand& o) {
 
 void AddHide(CLI::App& app, Work& work) {
   auto options = std::make_shared<HideCommand>();
-  CLI::App* command = app.add_subcommand("hide", "make a case with a hidden effect to practise on");
+  CLI::App* command = app.add_subcommand("hide", "generate a synthetic case with a hidden effect");
   command->add_option("effect", options->effects,
                       "effects to hide, NAME or NAME@TARGET; none: parameters only");
   command->add_option("--rig", options->rig, "rig file as its user believes it")->required();
@@ -76,7 +76,9 @@ void AddHide(CLI::App& app, Work& work) {
       ->add_option("-o,--out", options->output,
                    "folder of the case; the answer goes to FOLDER.answer.toml")
       ->capture_default_str();
-  command->add_option("--seed", options->request.seed, "draws sizes, targets, parameters and noise")
+  command
+      ->add_option("--seed", options->request.seed,
+                   "seed of the random sizes, targets, parameters and noise")
       ->capture_default_str();
   command->add_flag("--exact", options->exact, "keep every rig parameter at its nominal value");
   command->footer(

@@ -95,10 +95,9 @@ void PrintMarkdown(const std::vector<Line>& lines) {
 void PrintPage() {
   fmt::print(
       "# Parameters\n\nMade by `ambrig parameters --markdown`; a test keeps it so. What else rig "
-      "and scenario files hold: "
-      "[guide/files.md](guide/files.md).\n\n## Numbers of a rig file\n\nSI units. A number may be "
-      "written "
-      "`{{ value = 4.2, sd = 0.01 }}`: sd is how well the maker knows it.\n");
+      "and scenario files hold: [guide/files.md](guide/files.md).\n\n## Numbers of a rig "
+      "file\n\nSI units. A number may be written `{{ value = 4.2, sd = 0.01 }}`: sd is its "
+      "one-sigma tolerance.\n");
   PrintMarkdown(RigLines());
   fmt::print("\n## Faults of a scenario\n");
   PrintMarkdown(FaultLines());
@@ -118,7 +117,7 @@ void AddParameters(CLI::App& app, Work& work) {
   };
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand(
-      "parameters", "every number of a rig file, every fault: unit, range, default");
+      "parameters", "list all parameters of rig files and faults: unit, range, default");
   command->add_flag("--markdown", options->markdown, "print docs/parameters.md");
   options->common.AddTo(*command);
   command->footer("Example:\n  ambrig parameters | grep gap");

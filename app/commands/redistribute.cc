@@ -36,7 +36,7 @@ std::vector<std::vector<int>> FailedSets(const std::string& text) {
       }
       if (used != word.size() || coil < 1 || coil > kPoles)
         throw InputError(
-            fmt::format("--failed = {}: \"{}\" is no coil, allowed: 1 to {}, e.g. 1,2 or 1;1,2",
+            fmt::format("--failed = {}: unknown coil \"{}\", allowed: 1 to {}, e.g. 1,2 or 1;1,2",
                         text, word, kPoles));
       if (std::find(set.begin(), set.end(), coil) != set.end())
         throw InputError(fmt::format("--failed = {}: coil {} is named twice", text, coil));
@@ -129,7 +129,7 @@ int Redistribute(const RedistributeOptions& o) {
 void AddRedistribute(CLI::App& app, Work& work) {
   auto options = std::make_shared<RedistributeOptions>();
   CLI::App* command =
-      app.add_subcommand("redistribute", "current distribution after coil failures");
+      app.add_subcommand("redistribute", "compute the current distribution after coil failures");
   command->add_option("rig", options->rig, "rig file (TOML)")->required();
   command->add_option("--bearing", options->bearing, "radial bearing")->capture_default_str();
   command->add_option("--failed", options->failed,

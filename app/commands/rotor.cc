@@ -51,8 +51,8 @@ int Run(const Convert& c) {
 
 void AddRotor(CLI::App& app, Work& work) {
   auto options = std::make_shared<Convert>();
-  CLI::App* rotor =
-      app.add_subcommand("rotor", "beam rotors: convert between ROSS's file and ambrig's");
+  CLI::App* rotor = app.add_subcommand(
+      "rotor", "convert beam rotors between the file formats of ROSS and ambrig");
   rotor->require_subcommand(1);
   CLI::App* convert =
       rotor->add_subcommand("convert", "a shaft from ROSS's rotor file to a [rotor], or back");

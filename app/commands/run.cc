@@ -137,11 +137,12 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
 
 void AddRun(CLI::App& app, Work& work) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "simulate scenarios: timeline, record, report");
+  CLI::App* command =
+      app.add_subcommand("run", "simulate scenarios; write record, figures and report");
   command->add_option("scenario", options->scenarios, "scenario files (TOML)");
   CLI::Option* campaign = command
                               ->add_option("--from-campaign", options->campaign,
-                                           "campaign file: repeat one of its rows")
+                                           "campaign file of which one row is repeated")
                               ->type_name("FILE");
   command->add_option("--row", options->row, "run of that campaign, from 0")->needs(campaign);
   command->add_option("--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")

@@ -137,7 +137,7 @@ Json MatrixJson(const std::vector<CaseScore>& all) {
 }
 
 void WriteReport(const std::vector<CaseScore>& all, const std::string& file) {
-  HtmlReport report("How often explain is right",
+  HtmlReport report("Accuracy of explain",
                     Counted(all.size(), "case") +
                         (all.size() == 1 ? " with a known answer" : " with known answers"));
   report.Heading("Counts");
@@ -145,7 +145,7 @@ void WriteReport(const std::vector<CaseScore>& all, const std::string& file) {
   for (const Tally& t : Tallies(all))
     rows.push_back({t.kind, fmt::format("{} of {}", t.right, t.cases)});
   report.Table({"kind of case", "right"}, rows);
-  report.Heading("What was hidden and what was found");
+  report.Heading("Hidden and identified effects");
   const auto confusion = Confusion(all);
   std::vector<std::string> columns, names;
   for (const auto& [truth, given] : confusion) {
@@ -160,8 +160,10 @@ void WriteReport(const std::vector<CaseScore>& all, const std::string& file) {
     for (const std::string& c : columns)
       values.back().push_back(confusion.at(truth).contains(c) ? confusion.at(truth).at(c) : 0);
   }
-  report.Heatmap("Rows: hidden. Columns: found. All on the diagonal would be right.", columns,
-                 names, values, "cases");
+  report.Heatmap(
+      "Confusion matrix. Rows: hidden effect; columns: identified effect. Correct answers lie on "
+      "the diagonal.",
+      columns, names, values, "cases");
   report.Heading("Every case");
   rows.clear();
   for (const CaseScore& j : all)

@@ -105,7 +105,7 @@ int RunValidate(const ValidateCommand& c) {
 void AddValidate(CLI::App& app, Work& work) {
   auto c = std::make_shared<ValidateCommand>();
   CLI::App* command =
-      app.add_subcommand("validate", "published rotors and rigs beside what this program computes");
+      app.add_subcommand("validate", "compare published rotors and rigs with computed values");
   command->add_option("path", c->paths, "validation files, or folders of NAME.validation.toml")
       ->required();
   command->add_flag("--markdown", c->markdown, "the table of docs/validation.md");

@@ -250,12 +250,12 @@ std::optional<Figure> DependenceFigure(const CaseModel& model, const std::vector
   grid.panel_height = 220;
   for (const Binned& b : all)
     grid.titles.push_back(fmt::format("against {}: explains {:.0f} %", b.on, 100 * b.share));
-  Figure figure = MakeFigure(fmt::format("Error of {} (all its records together) against measured "
-                                         "position, current and speed: mean in each bin, "
-                                         "shade one standard deviation. A flat line at zero means "
-                                         "that the error does not depend on it.",
-                                         channel),
-                             grid);
+  Figure figure = MakeFigure(
+      fmt::format("Error of {} (all its records together) against measured position, current and "
+                  "speed: mean in each bin, shade one standard deviation. A flat line at zero "
+                  "means that the error is independent of that quantity.",
+                  channel),
+      grid);
   double largest = 0;
   for (const Binned& b : all)
     largest = std::max({largest, LargestSize(b.low), LargestSize(b.high)});

@@ -69,9 +69,9 @@ void AddSignatures(HtmlReport& report, const ExplainScene& s, const Target& t) {
   report.AddFigure(SignatureFigure(
       s.model, t, all,
       fmt::format("Signatures: what each candidate (with the rig parameters fitted beside it) adds "
-                  "to the plain model in {} of {}, over what the plain model leaves "
-                  "unexplained. The right one lies on the black line everywhere, the others only "
-                  "here and there. The best-ranked is green.",
+                  "to the plain model in {} of {}, over what the plain model leaves unexplained. "
+                  "The signature of the true effect follows the black line everywhere; those of "
+                  "others follow it only in places. The best-ranked is green.",
                   ChannelName(s.model, t), ShortName(s.model.data().records[t.record].data_file))));
 }
 
@@ -96,11 +96,10 @@ ExplainScene::ExplainScene(const Case& c, const Explanation& e) : explanation(e)
 }
 
 void AddPlainFailure(HtmlReport& report, const ExplainScene& s) {
-  report.Heading("Where the plain model failed");
+  report.Heading("Errors of the model of the rig file");
   if (!s.usable) {
     report.Text(
-        "The model of the rig file does not hold its rotor in these records, so there is no error "
-        "to draw.");
+        "The model of the rig file loses levitation in these records; no error can be shown.");
     return;
   }
   const auto worst = WorstPlaces(s.model, s.plain_residual);
@@ -119,13 +118,12 @@ void AddPlainFailure(HtmlReport& report, const ExplainScene& s) {
 
 void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
   const bool found = s.explanation.verdict == "effect";
-  report.Heading(found ? "Why that one" : "What fitting changed");
+  report.Heading(found ? "Evidence for the accepted effect" : "Change by the parameter fit");
   if (!s.usable) return;
   const std::vector<Target> telling = MostTelling(s, 3);
   if (telling.empty()) {
     report.Text(
-        "No channel gained enough to be worth a picture: neither parameters nor effects moved the "
-        "error.");
+        "No figure: neither parameters nor effects reduced the error of any channel noticeably.");
     return;
   }
   const std::string name = FinalName(s.explanation);
@@ -133,9 +131,9 @@ void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
                                              {name, "@green", &s.final_prediction}};
   report.AddFigure(
       TimeFigure(s.model, telling, both,
-                 "The most telling channels, one of each kind. Top: the whole record. Middle: "
-                 "where the plain model "
-                 "erred most. Bottom: the errors; what lies inside the grey band is noise."));
+                 "The channels with the largest change, one of each kind. Top: the whole record. "
+                 "Middle: the stretch with the largest error of the plain model. Bottom: the "
+                 "errors; what lies inside the grey band is noise."));
   if (found) AddSignatures(report, s, telling.front());
   report.AddFigure(SpectrumFigure(
       s.model, telling, both, s.noise,
@@ -144,12 +142,12 @@ void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
 
 void AddWhatIsLeft(HtmlReport& report, const ExplainScene& s) {
   if (!s.usable) return;
-  report.Heading("What is left");
+  report.Heading("Residual");
   const auto worst = WorstPlaces(s.model, s.final_residual);
   if (worst.empty())
     report.Text("Nothing: no channel of any record errs by more than 15 % over its noise.");
   else
-    report.Text("After everything that was fitted, these stand out most:\n\n" + List(worst));
+    report.Text("Largest remaining errors after all fits:\n\n" + List(worst));
   AddRatioMap(report, s.model, s.final_residual,
               "Error over noise after everything that was fitted; compare with the same map of the "
               "plain model above, in the same colours.",

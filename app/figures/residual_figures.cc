@@ -216,10 +216,10 @@ Figure SignatureFigure(const CaseModel& model, const Target& channel,
     std::vector<double> added = ViewOf(model, *predictions[k].values, channel).model;
     for (std::size_t i = 0; i < added.size(); ++i)
       added[i] = (added[i] - first.model[i]) * unit.factor;
-    Line(figure, panel, "what the rig file leaves unexplained", Cut(first.t, zoom),
+    Line(figure, panel, "residual of the rig file's model", Cut(first.t, zoom),
          Cut(Scaled(first.residual, unit.factor), zoom), "@ink", k == 1, 1.6);
-    Line(figure, panel, k == 1 ? "what the best-ranked adds" : "what another candidate adds",
-         Cut(first.t, zoom), Cut(added, zoom), k == 1 ? "@green" : "@orange", k <= 2);
+    Line(figure, panel, k == 1 ? "best-ranked effect" : "another candidate", Cut(first.t, zoom),
+         Cut(added, zoom), k == 1 ? "@green" : "@orange", k <= 2);
     SetAxes(figure, panel, "time [s]", fmt::format("{} [{}]", first.channel, unit.name));
   }
   return figure;

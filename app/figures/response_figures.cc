@@ -108,11 +108,9 @@ std::optional<Figure> OrderFigure(const CaseModel& model, const std::vector<doub
   grid.titles = {"order 1: " + v.channel + ", " + v.record, "error, order by order"};
   grid.panel_height = 230;
   Figure figure = MakeFigure(
-      "Order tracks: what turns with the rotor, once per turn (order 1), twice (order 2) and so "
-      "on. Unbalance "
-      "and bow are order 1, a run-out of the sensed surface is every order, a stiffness that "
-      "differs between two "
-      "directions of the shaft is order 2.",
+      "Order tracks: motion synchronous with the rotor, once per turn (order 1), twice (order 2) "
+      "and so on. Unbalance and bow are order 1, a run-out of the sensed surface is every order, a "
+      "stiffness that differs between two directions of the shaft is order 2.",
       grid);
   const auto line = [&](int p, const std::string& name, const OrderTrack& t, std::size_t o,
                         const Style& style) {
@@ -239,11 +237,9 @@ std::optional<Figure> ResponseFigure(const CaseModel& model, const std::vector<d
   for (const ForceAxis& a : axes) grid.titles.push_back(a.excitation->target);
   Figure figure = MakeFigure(
       "Response to the injected force: displacement per newton, in closed loop. Where the model's "
-      "line leaves the "
-      "measured points, stiffness (low frequencies), damping (the hump) or delay (phase at high "
-      "ones) is wrong. "
-      "Points that scatter at high frequencies are noise. Lines too near to those of another axis "
-      "are left out.",
+      "line leaves the measured points, stiffness (low frequencies), damping (the hump) or delay "
+      "(phase at high ones) is wrong. Points that scatter at high frequencies are noise. Curves "
+      "that coincide with those of another axis are omitted.",
       grid);
   const Scenario& s = model.data().records[record].scenario;
   for (int c = 0; c < columns; ++c) {

@@ -182,7 +182,7 @@ Figure PositionFigure(const RunReportData& data, const RunStages& stages, bool z
   grid.rows = static_cast<int>(data.bearings.size());
   for (const ReportBearing& b : data.bearings) grid.titles.push_back("bearing " + b.name);
   Figure figure = MakeFigure(
-      zoom ? "Shaft position round the fault." : "Shaft position over the whole run, as sensed.",
+      zoom ? "Shaft position about the fault." : "Shaft position over the whole run, as sensed.",
       grid);
   const Cut cut = MakeCut(data, stages, zoom, Rows(data));
   double peak = 0;
@@ -210,10 +210,9 @@ Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zo
   grid.panel_height = 240;
   grid.rows = static_cast<int>(data.bearings.size());
   for (const ReportBearing& b : data.bearings) grid.titles.push_back("bearing " + b.name);
-  std::string caption =
-      zoom ? "Coil currents round the fault: the faulty coil's falls or changes its "
-             "ripple, the others take over."
-           : "Coil currents over the whole run.";
+  std::string caption = zoom ? "Coil currents about the fault: the current of the faulty coil "
+                               "decays or changes its ripple; the other coils compensate."
+                             : "Coil currents over the whole run.";
   if (!stages.coil.empty()) caption += " The faulty coil is drawn bold.";
   Figure figure = MakeFigure(caption, grid);
   const Cut cut = MakeCut(data, stages, zoom, Rows(data));

@@ -154,12 +154,11 @@ std::optional<Figure> SlopeHistogram(const ReportSlope& s, const RunStages& stag
       error.push_back(s.slope[k] - 0.5 * (s.low[k] + s.high[k]));
   std::erase_if(error, [](double e) { return !std::isfinite(e); });
   if (error.size() < 30) return {};
-  Figure figure = MakeFigure(fmt::format(
-      "How far the measured slope of {} lies from the middle of its expected band while the coil "
-      "is "
-      "healthy: {} periods. The band must be wider than this, and a fault farther away. (Paper: "
-      "figure 11.)",
-      s.coil, error.size()));
+  Figure figure = MakeFigure(
+      fmt::format("Deviation of the measured slope of {} from the middle of its expected band "
+                  "while the coil is healthy: {} periods. The band must be wider than this "
+                  "distribution, and a fault must lie outside the band. (Paper: figure 11.)",
+                  s.coil, error.size()));
   figure.narrow = 640;
   const int bins =
       std::clamp(static_cast<int>(std::sqrt(static_cast<double>(error.size()))), 8, 60);

@@ -120,12 +120,12 @@ bool SpeedVaries(const RunReportData& data) {
 Figure WaterfallFigure(const RunReportData& data) {
   const std::vector<Plane> planes = PlanesOf(data);
   const SpeedRun run = MakeSpeedRun(data);
-  Figure figure = PanelPerPlane(
-      planes, 260,
-      "Waterfall: amplitude of the shaft centre's motion over time and frequency; forward whirl "
-      "has "
-      "positive, backward whirl negative frequencies. The line is the shaft's own turning: what "
-      "follows it is order 1, what stays level is a mode of the rotor in its bearings.");
+  Figure figure =
+      PanelPerPlane(planes, 260,
+                    "Waterfall: amplitude of the shaft centre's motion over time and frequency; "
+                    "forward whirl has positive, backward whirl negative frequencies. The line is "
+                    "the rotational frequency: components that follow it are of order 1; "
+                    "horizontal ones are modes of the rotor in its bearings.");
   double peak = 0;
   for (const Plane& p : planes) peak = std::max({peak, LargestSize(p.x), LargestSize(p.y)});
   const DisplayUnit unit = ChooseUnit(peak, "m");

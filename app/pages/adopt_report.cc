@@ -24,14 +24,16 @@ void AddWords(HtmlReport& report, const Comparison& before, const Comparison& af
                is = after.ratio_validate > 0 ? after.ratio_validate : after.ratio;
   if (is >= 0.99 * was)
     report.Verdict(Verdict::kWarn,
-                   fmt::format("**{} did not help**: {}. Take it out again.", what, numbers));
+                   fmt::format("**{} did not reduce the error**: {}. Remove it from the rig file.",
+                               what, numbers));
   else if (is < 1.1)
-    report.Verdict(Verdict::kOk,
-                   fmt::format("**{}, adopted, leaves nothing but noise**: {}.", what, numbers));
+    report.Verdict(
+        Verdict::kOk,
+        fmt::format("**{} explains the measurements within their noise**: {}.", what, numbers));
   else
     report.Verdict(Verdict::kInfo,
-                   fmt::format("**{}, adopted, lowers the error, but something is left**: {}. "
-                               "`ambrig explain` with the new rig file asks what.",
+                   fmt::format("**{} reduces the error, but a residual remains**: {}. Run `ambrig "
+                               "explain` with the new rig file to examine it.",
                                what, numbers));
   AddReadingHelp(report);
 }
@@ -66,10 +68,10 @@ void AddBeforeAfter(HtmlReport& report, const CaseModel& model, const Comparison
                     const Comparison& after) {
   report.Heading("Before and after");
   AddRatioMap(report, before, "Before: error over noise of every channel in every record.");
-  AddRatioMap(
-      report, after,
-      "After, with the new rig file. Places that stay dark are not explained by what was adopted.",
-      LargestRatio(before));
+  AddRatioMap(report, after,
+              "After, with the new rig file. Cells that stay dark are not explained by the adopted "
+              "effects.",
+              LargestRatio(before));
   if (before.predicted.size() != model.size() || after.predicted.size() != model.size()) return;
   const std::vector<Target> gained =
       MostImproved(model, Residual(model, before.predicted), after.residual, 3);
@@ -77,8 +79,8 @@ void AddBeforeAfter(HtmlReport& report, const CaseModel& model, const Comparison
   report.AddFigure(
       TimeFigure(model, gained,
                  {{"before", "@orange", &before.predicted}, {"after", "@green", &after.predicted}},
-                 "The channels that gained most. Top: whole record; middle: where the old model "
-                 "erred most; bottom: the errors, grey: noise."));
+                 "Channels with the largest improvement. Top: whole record; middle: stretch with "
+                 "the largest error of the old model; bottom: errors, noise in grey."));
   report.AddFigure(SpectrumFigure(
       model, gained,
       {{"model before", "@orange", &before.predicted}, {"model after", "@green", &after.predicted}},
@@ -92,18 +94,18 @@ void AddBeforeAfter(HtmlReport& report, const CaseModel& model, const Comparison
 void WriteAdoptReport(const CaseModel& model, const Comparison& before, const Comparison& after,
                       const std::vector<LadderStep>& ladder, const std::string& path) {
   HtmlReport report("Effect adopted", model.data().file);
-  report.Heading("What it changed");
+  report.Heading("Result");
   AddWords(report, before, after, ladder);
-  report.Heading("The ladder");
+  report.Heading("Error after each step");
   AddLadder(report, ladder);
   const auto rows = EffectRows(model.data().rig);
   if (!rows.empty()) {
-    report.Heading("What is believed now");
+    report.Heading("Effects of the new rig file");
     report.Table({"effect", "parameter", "value ± sd", "meaning"}, rows,
                  "The effects in the new rig file.");
   }
   AddBeforeAfter(report, model, before, after);
-  report.Heading("What is left");
+  report.Heading("Residual");
   report.Text(List(after.words));
   report.Write(path);
 }

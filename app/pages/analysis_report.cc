@@ -86,14 +86,12 @@ void AddJoint(HtmlReport& report, const RigAnalysis& a) {
   if (rows.empty()) return;
   report.Table(
       {"speed [rpm]", "axes together", "joint disk margin", "least of one alone", "gain down to",
-       "gain up to", "phase [deg]", "at", "a change that reaches the limit"},
+       "gain up to", "phase [deg]", "at", "a perturbation at the limit"},
       rows,
       "Every loop of the group is multiplied by a complex factor of its own, all at once: it stays "
-      "stable while no factor leaves "
-      "the disk whose real diameter is the two gains (or, at unchanged gain, no phase the one "
-      "shown). From an upper bound of the "
-      "structured singular value of S - 1/2 with diagonal scaling. Axes that do not move one "
-      "another stand alone.");
+      "stable while no factor leaves the disk whose real diameter is the two gains (or, at "
+      "unchanged gain, no phase the one shown). From an upper bound of the structured singular "
+      "value of S - 1/2 with diagonal scaling. Axes without coupling form groups of one.");
 }
 
 void AddSensitivity(HtmlReport& report, const RigAnalysis& a) {
@@ -109,12 +107,12 @@ void AddSensitivity(HtmlReport& report, const RigAnalysis& a) {
                       FormatSi(x.peak_frequency, "Hz"), ZoneCell(x.zone), Factor(x.gain_down),
                       Factor(x.gain_up), fmt::format("{:.1f}", x.phase_margin * 180 / kPi),
                       FormatSi(x.phase_frequency, "Hz"), FormatSi(x.delay_margin, "s")});
-  report.Table(
-      {"speed [rpm]", "axis", "peak |S|", "at", "zone", "gain down to", "gain up to",
-       "phase margin [deg]", "at", "delay margin"},
-      rows,
-      "The loop stays stable while its gain is multiplied by anything between the two factors, or "
-      "delayed by less than the last column, at this axis alone: all axes together bear less.");
+  report.Table({"speed [rpm]", "axis", "peak |S|", "at", "zone", "gain down to", "gain up to",
+                "phase margin [deg]", "at", "delay margin"},
+               rows,
+               "The loop stays stable while its gain is multiplied by anything between the two "
+               "factors, or delayed by less than the last column, at this axis alone: "
+               "simultaneous-loop margins are smaller.");
   AddJoint(report, a);
   report.AddFigure(SensitivityFigure(a));
   if (!a.measured.empty()) {
@@ -150,7 +148,7 @@ void AddRotor(HtmlReport& report, const RigAnalysis& a) {
                  "Where a damped frequency equals the speed.");
   report.AddFigure(ModeShapeFigure(a));
   report.AddFigure(RootLocusFigure(a));
-  report.Heading("Rotor without its controller", 3);
+  report.Heading("Rotor without magnetic bearings", 3);
   if (!a.supports.free.empty() || !a.supports.supported.empty())
     report.AddFigure(RotorModeFigure(a));
   if (!a.supports.map.empty()) report.AddFigure(CriticalMapFigure(a));

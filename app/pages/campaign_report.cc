@@ -74,7 +74,7 @@ void Delays(HtmlReport& report, const Rows& rows) {
       by_kind[row.At("kind")].push_back(row.Number("detection_delay") * 1e6);
   if (by_kind.empty()) return;
   report.Heading("Detection delay");
-  report.Text("From the fault to the alarm, the slowest coil of each run.");
+  report.Text("Delay from the fault to the alarm; the slowest coil of each run.");
   std::vector<std::vector<Cell>> table;
   for (auto& [kind, values] : by_kind) {
     std::sort(values.begin(), values.end());
@@ -137,9 +137,8 @@ void Capacity(HtmlReport& report, const Rows& rows) {
   report.Heading("Capacity against theory");
   report.Text(
       "Theory: `k c0² rho` of the set's current distribution, at most the controller's largest "
-      "force. Held: the largest "
-      "load beside the weight at which every run of the set stayed up; a loaded set below the line "
-      "was not tried further or fell.");
+      "force. Held: the largest load beside the weight at which every run of the set stayed up; a "
+      "set below the line was not loaded further, or dropped.");
   std::map<std::string, std::array<std::vector<double>, 2>> points;  // class -> theory, held
   for (const auto& [name, list] : by_set) {
     std::map<double, bool> held;

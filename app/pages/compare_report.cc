@@ -30,8 +30,8 @@ std::string BlockMeaning(const std::string& block) {
        "sensors"},
       {"force", "measured currents in, load cells out: magnetic force of the clamped rotor"},
       {"rotor",
-       "measured currents and readings in, missing force out: forces and motion of the rotor"},
-      {"sensor", "the held position in, readings out: position sensors"}};
+       "measured currents and readings in, unmodelled force out: forces and motion of the rotor"},
+      {"sensor", "the clamped position in, readings out: position sensors"}};
   const auto at = kMeaning.find(block);
   return at == kMeaning.end() ? "" : at->second;
 }
@@ -49,8 +49,9 @@ void AddVerdict(HtmlReport& report, const Comparison& c) {
     report.Verdict(Verdict::kOk,
                    "**Model and measurement agree within the noise**: " + numbers + ".");
   else
-    report.Verdict(c.ratio < 2 ? Verdict::kWarn : Verdict::kFail,
-                   "**The model misses something**: " + numbers + ".");
+    report.Verdict(
+        c.ratio < 2 ? Verdict::kWarn : Verdict::kFail,
+        "**The model does not explain the measurement within its noise**: " + numbers + ".");
 }
 
 /// The words of a comparison name data files with their folders; a reader wants the record.
@@ -66,10 +67,10 @@ std::vector<std::string> ShortWords(const Comparison& c) {
 }
 
 void AddOverview(HtmlReport& report, const View& v) {
-  report.Heading("Where the model fails");
+  report.Heading("Errors by record and channel");
   AddVerdict(report, v.comparison);
   AddReadingHelp(report);
-  report.Text("The worst places, worst first:\n\n" + List(ShortWords(v.comparison)));
+  report.Text("Largest errors, in descending order:\n\n" + List(ShortWords(v.comparison)));
   if (!v.model.data().notes.empty())
     report.Text("Left out by the data-quality pass:\n\n" + List(v.model.data().notes));
   AddRatioMap(report, v.comparison,
@@ -91,7 +92,7 @@ void AddBlocks(HtmlReport& report, const Comparison& c) {
     for (const auto& [block, ratio] : r.blocks)
       if (std::ranges::find(names, block) == names.end()) names.push_back(block);
   if (names.empty()) return;
-  report.Heading("Which block is it?");
+  report.Heading("Errors by block");
   report.Text(
       "Each part of the model was fed with *measured* inputs, so that the error of one does not "
       "spread to the others; its error is divided "
@@ -111,7 +112,7 @@ void AddBlocks(HtmlReport& report, const Comparison& c) {
     rows.push_back(row);
   }
   report.Table(columns, rows,
-               "Error of each block over its own noise; – where a record cannot tell.");
+               "Error of each block over its own noise; – where a record does not determine it.");
   report.Text(List(meaning));
 }
 
@@ -144,15 +145,15 @@ void AddChannelFigures(HtmlReport& report, const View& v, const std::vector<Targ
       v.model, worst, models,
       "The worst channels in time. Top: the whole record. Middle: the stretch where the error is "
       "largest (shaded above). Bottom: measured less model; inside the grey band it is noise."));
-  report.AddFigure(SpectrumFigure(
-      v.model, worst, models, v.noise,
-      "Spectrum of that error over the noise. Where the lines meet, the model is right; "
-      "peaks above the noise are what it lacks."));
+  report.AddFigure(
+      SpectrumFigure(v.model, worst, models, v.noise,
+                     "Spectrum of that error over the noise. Where the curves coincide the model "
+                     "is adequate; peaks above the noise are unmodelled."));
   report.AddFigure(WhitenessFigure(
       v.model, worst, models, v.noise,
-      "Is the error random? Its autocorrelation beside that of the noise alone (which "
-      "the control loop colours): a line that stays up is an offset, a slow or ringing one "
-      "structure that a model could still explain."));
+      "Whiteness of the error: its autocorrelation beside that of the noise alone (coloured by the "
+      "control loop). A constant level indicates an offset; slow or oscillating correlation "
+      "indicates structure that a model could still explain."));
 }
 
 void AddMotionFigures(HtmlReport& report, const View& v, std::size_t record,
@@ -196,7 +197,7 @@ std::vector<std::string> WorstNames(const Comparison& c, std::size_t count) {
 }
 
 void AddDependence(HtmlReport& report, const View& v) {
-  report.Heading("What does the error depend on?");
+  report.Heading("Dependence of the error");
   report.Text(
       "The shape of these lines is often the law itself: a slope against position is a stiffness, "
       "a kink a contact or a clipped "

@@ -84,9 +84,8 @@ Figure Orbits(const ContactCrosscheck& w) {
     for (const CentrePath& p : w.model.paths.bearings)
       grid.titles.push_back("bearing " + p.bearing + part);
   Figure figure = MakeFigure(
-      "Path of the shaft's centre from 10 ms before the first touch, by both witnesses. Dashed: "
-      "the "
-      "clearance.",
+      "Path of the shaft's centre from 10 ms before the first contact, by both contact models. "
+      "Dashed: the clearance.",
       grid);
   for (int panel = 0; panel < figure.panels; ++panel) {
     const Window window = FromTouch(w, panel < grid.columns);
@@ -115,7 +114,8 @@ Figure Radii(const ContactCrosscheck& w) {
   for (const CentrePath& p : w.model.paths.bearings) grid.titles.push_back("bearing " + p.bearing);
   Figure figure = MakeFigure(
       "Distance of the shaft's centre from the middle in the first 60 ms of contact. Where all "
-      "three part, the difference between the witnesses is no larger than that of another noise.",
+      "three diverge, the difference between the models is no larger than that of another noise "
+      "seed.",
       grid);
   const Window zoom = FromTouch(w, true);
   std::vector<double> t(zoom.size);
@@ -147,15 +147,15 @@ void AddScenario(HtmlReport& report, const CrosscheckedScenario& s) {
   report.Text("`" + s.file + "`");
   report.Verdict(w.verdicts_agree() ? Verdict::kOk : Verdict::kFail,
                  w.verdicts_agree()
-                     ? "Both witnesses say: " + VerdictName(w.model.figures) + "."
+                     ? "Both models agree: " + VerdictName(w.model.figures) + "."
                      : fmt::format("The compliant model says {}, the one on ODE {}.",
                                    VerdictName(w.model.figures), VerdictName(w.ode.figures)));
   report.Table({"rotor", "verdict", "touch [ms]", "rebound [µm]", "peak [µm]", "whirl (turns)",
                 "rest (x, y) [µm]", "speed / Ωc", "speed / √(2gc)", "parts at [ms]"},
                {FigureRow("compliant", w.model, -1), FigureRow("on ODE", w.ode, w.parted_ode),
                 FigureRow("compliant, other noise", w.other_noise, w.parted_noise)},
-               "Parting: the first time at which the centre is 5 % of the clearance away from the "
-               "first row's.");
+               "Divergence: the first time at which the centre is 5 % of the clearance away from "
+               "that of the first row.");
   if (!w.contact()) return;
   report.AddFigure(Orbits(w));
   report.AddFigure(Radii(w));
@@ -165,7 +165,7 @@ void AddScenario(HtmlReport& report, const CrosscheckedScenario& s) {
 
 void WriteCrosscheckReport(const std::vector<CrosscheckedScenario>& scenarios,
                            const std::string& path) {
-  HtmlReport report("Two witnesses of contact", Counted(scenarios.size(), "scenario"));
+  HtmlReport report("Crosscheck of two contact models", Counted(scenarios.size(), "scenario"));
   report.Text(
       "The same scenarios with the rotor on compliant auxiliary bearings and with the rotor as "
       "rigid "

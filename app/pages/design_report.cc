@@ -69,7 +69,7 @@ void Summary(HtmlReport& report, const Study& study, const StudyResult& result,
     }
     rows.push_back(row);
   }
-  report.Heading("Candidates side by side");
+  report.Heading("Comparison of the candidates");
   report.Text(
       "Of every candidate one point: on the Pareto front, where its largest objective over the "
       "first candidate's start is least. Figures are the worst "
@@ -89,8 +89,7 @@ void Scatter(HtmlReport& report, const Study& study, const StudyResult& result) 
   if (pairs.empty()) return;
   report.Heading("Pareto front");
   report.Text(
-      "Every point that keeps the limits; the large ones are on the front. Small is good in both "
-      "directions.");
+      "All feasible points; large markers are Pareto-optimal. Smaller is better on both axes.");
   Grid grid;
   grid.columns = pairs.size() > 1 ? 2 : 1;
   grid.rows = (static_cast<int>(pairs.size()) + grid.columns - 1) / grid.columns;
@@ -139,8 +138,8 @@ void ParallelCoordinates(HtmlReport& report, const Study& study, const StudyResu
     high.push_back(b);
   }
   if (shown.size() < 2) return;
-  Figure figure =
-      MakeFigure("The front's points, a line each: 0 is the least of the front, 1 the largest");
+  Figure figure = MakeFigure(
+      "Pareto-optimal points, one line each: 0 is the least value on the front, 1 the largest");
   std::vector<bool> named(study.candidates.size(), false);
   for (const StudyPoint& p : result.points) {
     if (!p.front) continue;
@@ -197,7 +196,7 @@ void PlaneFigures(HtmlReport& report, const Study& study, const std::vector<Poin
 }
 
 void Responses(HtmlReport& report, const Study& study, const std::vector<PointResponses>& shown) {
-  report.Heading("Answers of the points shown");
+  report.Heading("Responses of the points shown");
   Figure linear = MakeFigure(
       "Linear loop: first axis after a unit load there; largest sensitivity over axes and speeds",
       {1, 2, false, {}, 320});
@@ -244,7 +243,7 @@ void FrontTable(HtmlReport& report, const Study& study, const StudyResult& resul
     row.emplace_back(fmt::format("ambrig design {} --point {}", study.file, k));
     rows.push_back(row);
   }
-  report.Heading("Points of the front");
+  report.Heading("Pareto-optimal points");
   report.Table(columns, rows);
 }
 
@@ -260,9 +259,9 @@ void WriteDesignReport(const Study& study, const StudyResult& result,
       study.name, fmt::format("design study, {}, {}", Counted(study.candidates.size(), "candidate"),
                               study.fingerprint));
   report.Verdict(front > 0 ? Verdict::kOk : Verdict::kFail,
-                 front > 0 ? fmt::format("All limits are kept by {} of {}; beaten by none: {}.",
+                 front > 0 ? fmt::format("{} of {} points are feasible, {} are Pareto-optimal.",
                                          feasible, Counted(result.points.size(), "point"), front)
-                           : fmt::format("None of {} keeps all limits.",
+                           : fmt::format("None of {} points is feasible.",
                                          Counted(result.points.size(), "point")));
   Summary(report, study, result, shown);
   if (front > 0) {

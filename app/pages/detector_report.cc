@@ -98,7 +98,7 @@ void AtBudget(HtmlReport& report, const DetectorStudy& study,
 void OwnThresholds(HtmlReport& report, const std::vector<DetectorCurves>& curves) {
   report.Heading("False alarms at the thresholds of the sources");
   report.Text(
-      "What the detectors that name a threshold do with it: share of healthy coils' windows with "
+      "False alarms of the detectors whose source gives a threshold: share of healthy windows with "
       "an alarm, by running condition.");
   std::vector<std::string> columns = {"detector", "threshold"};
   for (const FalseAlarmCurve& c : curves.front().scenarios) columns.push_back(c.scenario);
@@ -126,7 +126,7 @@ void Areas(HtmlReport& report, const std::vector<DetectorCurves>& curves) {
   }
   report.Text(
       "Area under the ROC curves over the logarithm of the false alarms: 1 = no error at any "
-      "threshold, 0.1 = blind.");
+      "threshold, 0.1 = no better than chance.");
   report.Heatmap("Area under each curve above", columns, rows, values, "area");
 }
 
@@ -138,7 +138,7 @@ void WriteDetectorReport(const DetectorStudy& study, const std::vector<DetectorC
                     fmt::format("study of {} on {}, {}", Counted(curves.size(), "detector"),
                                 Counted(study.runs(), "run"), study.fingerprint));
   if (curves.front().all.windows == 0 || curves.front().faults.empty()) {
-    report.Verdict(Verdict::kFail, "No run could be finished: nothing to compare.");
+    report.Verdict(Verdict::kFail, "No run was completed: there is nothing to compare.");
     report.Write(path);
     return;
   }

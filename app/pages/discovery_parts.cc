@@ -46,9 +46,9 @@ void LadderFigure(HtmlReport& report, const std::vector<LadderStep>& ladder) {
   Grid grid;
   grid.panel_height = 240;
   Figure figure = MakeFigure(
-      "The ladder: error over noise against what is believed, step by step. A step that lowers "
-      "only the fitted records is a "
-      "patch; one that lowers the unseen ones as well is physics. At 1 nothing is left but noise.",
+      "Error over noise after each step of the identification. A step that reduces the error of "
+      "the fitted records only is overfitting; one that reduces that of the unseen records as well "
+      "generalises. At 1 only noise remains.",
       grid);
   std::vector<std::string> names;
   std::vector<double> fit, unseen;
@@ -83,7 +83,7 @@ Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<st
     for (const double v : row)
       largest = std::isfinite(v) && scale == 0 ? std::max(largest, v) : largest;
   std::string note = largest > 10 ? " The colour ends at 10." : "";
-  if (!printed) note += " Point at a cell for its number.";
+  if (!printed) note += " Hover over a cell to read its value.";
   Figure figure = MakeFigure(caption + note, grid);
   AddHeatmap(figure, 0, columns, rows, values, "error / noise", printed ? 3 : 0);
   figure.traces.back().update({{"zmin", 1}, {"zmax", std::min(largest, 10.0)}});
@@ -142,7 +142,7 @@ void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder) {
                          share < -1 ? "ok" : "muted")});
     last = s.ratio_validate;
   }
-  report.Table({"what is believed", "fitted records", "unseen records", "change on unseen"}, rows,
+  report.Table({"model", "fitted records", "unseen records", "change on unseen"}, rows,
                "Error over noise, step by step.");
 }
 

@@ -26,7 +26,7 @@ std::string Evidence(const Explanation& e) {
       "adjusted) to **{:.2f}** (final).{}",
       e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate,
       std::max(e.final_ratio_validate, e.final_ratio_fit) > 1.15
-          ? " Not everything is explained: *What is left* shows the rest."
+          ? " A residual remains, shown under *Residual*."
           : "");
 }
 
@@ -70,12 +70,13 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
 void AddVerdict(HtmlReport& report, const Explanation& e) {
   report.Heading("Verdict");
   if (e.verdict == "effect")
-    report.Verdict(Verdict::kOk, fmt::format("**The rig has what the model lacks: {}.** {}",
-                                             Names(e.adopted), Evidence(e)));
+    report.Verdict(Verdict::kOk,
+                   fmt::format("**Identified: {}.** {}", Names(e.adopted), Evidence(e)));
   else if (e.verdict == "data")
-    report.Verdict(Verdict::kWarn,
-                   "**The data are wrong.** Nothing was fitted to them. Mend what stands below, "
-                   "then call explain again.");
+    report.Verdict(
+        Verdict::kWarn,
+        "**The data are wrong.** Nothing was fitted to them. Apply the corrections listed "
+        "below, then run explain again.");
   else if (e.verdict == "parameters")
     report.Verdict(Verdict::kInfo,
                    "**No effect is missing; the rig's parameters differ from the rig file** within "
@@ -89,7 +90,7 @@ void AddVerdict(HtmlReport& report, const Explanation& e) {
   else
     report.Verdict(Verdict::kWarn,
                    "**Something is missing, and no effect of the catalogue explains it.** " +
-                       Evidence(e) + " What it looks like, and a law to try, stand below.");
+                       Evidence(e) + " Its description and a candidate law follow below.");
   if (!e.data.empty()) report.Text(List(Faults(e)));
   AddKnown(report, e);
 }
@@ -122,8 +123,8 @@ std::string ShortPaths(std::string text, const Case& c) {
 void AddUnknown(HtmlReport& report, const Case& c, const Explanation& e) {
   if (e.verdict != "unknown") return;
   const Unexplained& u = e.unexplained;
-  report.Heading("What no effect explains");
-  report.Text(u.text.empty() ? "Nothing more can be said from these records."
+  report.Heading("Unexplained residual");
+  report.Text(u.text.empty() ? "These records allow no further description."
                              : ShortPaths(u.text, c));
   std::vector<std::pair<std::string, std::string>> keys;
   for (const auto& [key, value] : {std::pair("block", u.block), {"where", u.where}})
@@ -134,24 +135,22 @@ void AddUnknown(HtmlReport& report, const Case& c, const Explanation& e) {
   if (!keys.empty()) report.KeyValues(keys);
   if (u.formula.empty()) return;
   report.Text(
-      "A law of this shape follows the missing force best. Paste it into the rig file, give its "
-      "parameters rough starting values and "
-      "bounds, and run `ambrig adopt CASE formula`: it is fitted like any effect, and the error "
-      "should fall on the unseen records.");
+      "A law of this form fits the unmodelled force best. Paste it into the rig file, give its "
+      "parameters rough starting values and bounds, and run `ambrig adopt CASE formula`: it is "
+      "fitted like any effect, and the error should fall on the unseen records.");
   report.Code(FormulaSnippet(u));
 }
 
 void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
-  report.Heading("What to do next");
+  report.Heading("Recommended next steps");
   std::vector<std::string> next;
   for (const Confusable& p : e.confusable)
     next.push_back(fmt::format(
-        "These records leave open whether it is **{}** or **{}**. To tell them apart, measure: {}.",
+        "These records do not discriminate between **{}** and **{}**. A record that does: {}.",
         p.first, p.second, p.record));
   if (e.verdict == "effect") {
     if (e.confusable.empty())
-      next.push_back(
-          "No other candidate comes near: no further record is needed to tell it apart.");
+      next.push_back("No other candidate is close; no further record is needed to discriminate.");
     for (const EffectInstance& a : e.adopted) {
       const EffectDescription* d = FindEffect(a.name);
       if (d && !d->shows_in.empty())
@@ -159,8 +158,8 @@ void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
             fmt::format("To know the parameters of {} better, measure what shows it: {}.",
                         EffectName(a), d->shows_in));
       next.push_back(
-          fmt::format("To believe it: `ambrig adopt {} {} --target {}` writes a new rig file and "
-                      "compares again.",
+          fmt::format("To add it to the rig: `ambrig adopt {} {} --target {}` writes a new rig "
+                      "file and compares again.",
                       c.file, a.name, a.target));
     }
   }
@@ -186,7 +185,7 @@ void AddWarnings(HtmlReport& report, const Explanation& e) {
         "the last fit found no better point; its parameters are those it started from");
   if (warnings.empty()) return;
   report.Heading("Warnings");
-  report.Verdict(Verdict::kWarn, "Read these before you trust a number:");
+  report.Verdict(Verdict::kWarn, "Warnings of the fits:");
   report.Text(List(warnings));
 }
 
@@ -197,7 +196,7 @@ void WriteExplainReport(const Case& c, const Explanation& e, const std::string& 
   HtmlReport report("Which effect is missing?", c.file);
   AddVerdict(report, e);
   AddMeaning(report, c, e);
-  report.Heading("The ladder");
+  report.Heading("Error after each step");
   AddLadder(report, e.ladder);
   AddPlainFailure(report, scene);
   AddRanking(report, e);

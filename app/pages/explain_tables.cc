@@ -29,9 +29,9 @@ std::string SecondCaption(const Explanation& e) {
   const bool taken = std::ranges::any_of(
       e.second_round, [&](const RankedEffect& r) { return Adopted(e, r.effect); });
   return std::string("Candidates for one more effect beside what was found before. ") +
-         (taken ? "The green one was believed as well."
-                : "None lowers the error by enough to be believed; what it gains is as likely a "
-                  "patch on another error.");
+         (taken
+              ? "The green one met the acceptance criterion as well."
+              : "None meets the acceptance criterion; the improvement may be due to overfitting.");
 }
 
 void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,
@@ -57,11 +57,11 @@ void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,
   report.Table(columns, rows,
                first_round
                    ? std::string("Candidates fitted in full, best first. *Before*: rig parameters "
-                                 "fitted, no effect. Probabilities are among these "
-                                 "candidates, each parameter at its price.") +
-                         (e.verdict == "unknown"
-                              ? " None was believed: the best of them leaves too much unexplained."
-                              : "")
+                                 "fitted, no effect. Probabilities are relative to these "
+                                 "candidates, with a penalty per parameter.") +
+                         (e.verdict == "unknown" ? " No candidate met the acceptance criterion: "
+                                                   "the best one leaves too large a residual."
+                                                 : "")
                    : SecondCaption(e));
 }
 
@@ -78,7 +78,7 @@ void AboutEffect(HtmlReport& report, const RankedEffect& r, std::set<std::string
 }  // namespace
 
 void AddRanking(HtmlReport& report, const Explanation& e) {
-  report.Heading("The candidates, ranked");
+  report.Heading("Ranked candidates");
   if (e.ranking.empty()) {
     report.Text(
         e.verdict == "none" || e.verdict == "parameters"
@@ -88,7 +88,7 @@ void AddRanking(HtmlReport& report, const Explanation& e) {
   }
   RankingTable(report, e.ranking, e, true);
   if (!e.second_round.empty()) RankingTable(report, e.second_round, e, false);
-  report.Heading("What these effects are", 3);
+  report.Heading("Description of these effects", 3);
   std::set<std::string> told;
   for (const RankedEffect& r : e.ranking) AboutEffect(report, r, told);
   if (!e.second_round.empty()) AboutEffect(report, e.second_round.front(), told);
@@ -96,7 +96,7 @@ void AddRanking(HtmlReport& report, const Explanation& e) {
 
 void AddScreening(HtmlReport& report, const Explanation& e) {
   if (e.screened.empty()) return;
-  report.Heading("A first look at everything", 3);
+  report.Heading("Screening of all effects", 3);
   std::vector<std::string> names;
   std::vector<double> unseen;
   for (std::size_t k = 0; k < e.screened.size() && k < 15; ++k) {
@@ -187,7 +187,7 @@ std::string FarShifts(const FitResult& fit) {
 void AddCost(HtmlReport& report, const Explanation& e) {
   const auto added = AddedRows(e.adopted), shifts = ShiftRows(e.final_fit);
   if (added.empty() && shifts.empty()) return;
-  report.Heading("What it costs to believe it");
+  report.Heading("Penalty of the accepted effect");
   if (!added.empty()) {
     report.Text(
         fmt::format("{} more number{} in the model. A value many sd from the one that switches the "
@@ -207,7 +207,7 @@ void AddCost(HtmlReport& report, const Explanation& e) {
   if (const std::string far = FarShifts(e.final_fit); !far.empty())
     report.Verdict(Verdict::kWarn,
                    "**Beyond their tolerances here: " + far +
-                       ".** Measure them, or look for what else they stand in for.");
+                       ".** Measure them, or look for another effect that they compensate.");
   report.Table({"rig parameter", "rig file ± tolerance", "fitted ± sd", "shift"}, shifts);
 }
 

@@ -68,8 +68,8 @@ void AddDetection(HtmlReport& report, const RunReportData& data, const RunStages
 
 void AddSources(HtmlReport& report, const RunReportData& data) {
   if (data.scenario_toml.empty() && data.rig_toml.empty()) return;
-  report.Heading("What was run");
-  report.Text("Every parameter as resolved, defaults included: enough to run it again.");
+  report.Heading("Scenario and rig as resolved");
+  report.Text("All parameters as resolved, defaults included: sufficient to repeat the run.");
   for (const auto& [name, text] :
        {std::pair("Scenario", &data.scenario_toml), {"Rig", &data.rig_toml}}) {
     if (text->empty()) continue;
@@ -85,7 +85,7 @@ HtmlReport MakeRunReport(const RunReportData& data) {
   const RunStages stages = FindStages(data);
   HtmlReport report(data.name, data.subtitle);
   if (!data.description.empty()) report.Text(data.description);
-  report.Heading("What happened");
+  report.Heading("Course of the run");
   if (!data.verdict_text.empty()) report.Verdict(data.verdict, data.verdict_text);
   if (!data.metrics.empty()) report.KeyValues(data.metrics);
   AddTimeline(report, data, stages);
@@ -109,7 +109,7 @@ HtmlReport MakeRunReport(const RunReportData& data) {
   }
   AddDetection(report, data, stages);
   if (!data.snapshots.empty()) {
-    report.Heading("The stator");
+    report.Heading("Stator cross-sections");
     report.AddFigure(SnapshotFigure(data));
   }
   if (!data.channels.empty()) {

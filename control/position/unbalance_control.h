@@ -30,7 +30,7 @@ inline constexpr Field<UnbalanceControlParameters> kUnbalanceControlFields[] = {
     {"bandwidth", &UnbalanceControlParameters::bandwidth, "1/s", 1e-3, 1e3,
      "rate at which the amplitude is learned"},
     {"phase_deg", &UnbalanceControlParameters::phase_deg, "deg", -180, 180,
-     "turns the update, for speeds near the bearing's own frequencies"},
+     "phase of the update, for speeds near the natural frequencies of the bearing"},
 };
 
 class UnbalanceControl : public PositionController {

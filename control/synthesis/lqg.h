@@ -28,7 +28,7 @@ struct LqgParameters {
 inline constexpr Field<LqgParameters> kLqgFields[] = {
     {"position_weight", &LqgParameters::position_weight, "m", 1e-9, 1, "deviation that costs 1"},
     {"integral_weight", &LqgParameters::integral_weight, "m s", 1e-12, 1,
-     "integral of the deviation that costs 1"},
+     "integral of the deviation with unit cost"},
     {"force_weight", &LqgParameters::force_weight, "N", 1e-6, 1e9, "force that costs 1"},
     {"force_noise", &LqgParameters::force_noise, "N", 1e-9, 1e9,
      "rms of forces at the bearings, new every controller period"},

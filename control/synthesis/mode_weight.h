@@ -22,7 +22,7 @@ struct ModeWeight {
 
 inline constexpr Field<ModeWeight> kModeWeightFields[] = {
     {"deflection", &ModeWeight::deflection, "m", 1e-9, 1e3,
-     "largest deflection of a bending mode that costs 1"},
+     "largest deflection of a bending mode with unit cost"},
     {"uncertainty", &ModeWeight::uncertainty, "-", 0, 0.5,
      "relative error of the modes' frequencies"},
 };

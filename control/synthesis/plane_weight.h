@@ -17,7 +17,7 @@ struct PlaneWeight {
 
 inline constexpr Field<PlaneWeight> kPlaneWeightFields[] = {
     {"position_weight", &PlaneWeight::position_weight, "m", 1e-9, 1e3,
-     "deviation of the plane that costs 1"},
+     "deviation of the plane with unit cost"},
     {"force_noise", &PlaneWeight::force_noise, "N", 0, 1e9,
      "disturbing force there, as force_noise of the bearings"},
 };

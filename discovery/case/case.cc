@@ -44,7 +44,7 @@ std::map<std::string, Mapping> ReadMapping(const TomlTable& record,
   for (const std::string& channel : channels->Keys()) {
     if (!known.contains(channel)) {
       const std::string near = Nearest(channel, names);
-      channels->Fail(channel, "is no channel of this rig" +
+      channels->Fail(channel, "is not a channel of this rig" +
                                   (near.empty() ? "" : ", did you mean " + near + "?"));
     }
     Mapping m;
@@ -224,7 +224,7 @@ Case ReadCase(const std::string& path) {
   const auto known = KnownChannels(c.rig);
   if (const auto noise = root.Table("noise"))
     for (const std::string& channel : noise->Keys()) {
-      if (!known.contains(channel)) noise->Fail(channel, "is no channel of this rig");
+      if (!known.contains(channel)) noise->Fail(channel, "is not a channel of this rig");
       const double v = noise->Number(channel);
       if (!(v >= 0 && std::isfinite(v)))
         noise->Fail(channel, fmt::format("= {}, allowed: 0 or more", v));
@@ -254,7 +254,7 @@ Case ReadCase(const std::string& path) {
     }
     LeaveOut(r.data, left_out, t);
     if (r.data.channels.empty())
-      t.Fail("data", fmt::format("= {} holds no channel of this rig", r.data_file));
+      t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
     CheckAgainstScenario(r, t);
     for (const Channel& ch : r.data.channels) {
       r.quality.push_back(InspectChannel(ch, MayBeConstant(r.scenario, ch.name)));
@@ -271,7 +271,8 @@ Case ReadCase(const std::string& path) {
       std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
   if (!any_validate && c.records.size() > 2) {  // every third record is kept back
     for (std::size_t k = 2; k < c.records.size(); k += 3) c.records[k].validate = true;
-    c.notes.push_back("no record is marked \"validate\": every third one is kept back for that");
+    c.notes.push_back(
+        "no record is marked \"validate\": every third record is reserved for validation");
   }
   return c;
 }

@@ -85,7 +85,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     what.progress = [&](double f, const std::string& text) { progress(0.3 + 0.3 * f, text); };
     a.fit = FitEffect(model, base, what);
     if (!a.fit.converged)
-      throw InputError(fmt::format("{}: no fit of {} holds the rotor", c.file, effect));
+      throw InputError(
+          fmt::format("{}: the model loses levitation in every fit of {}", c.file, effect));
     progress(0.7, "final fit");
     a.fit = Fit(model, a.fit.hypothesis, fit);
     const EffectInstance& e = a.fit.hypothesis.rig.effects.back();

@@ -68,13 +68,13 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
     const std::string plane = id && !id->plane.empty() ? id->plane : channel;
     u.where = "plane " + plane + ", worst at " + channel;
     if (const auto force = DescribeMissingForce(model, fit.hypothesis, plane)) {
-      u.dependence = fmt::format("{} ({:.0f} % of the missing force of {:.2g} N rms)", force->on,
+      u.dependence = fmt::format("{} ({:.0f} % of the unmodelled force of {:.2g} N rms)", force->on,
                                  100 * force->share, force->rms);
       u.formula = force->formula;
     }
   }
   u.text = fmt::format(
-      "{} in {}: {:.1f} times the noise at {}{}; the error stands out at {}; it depends most on "
+      "{} in {}: {:.1f} times the noise at {}{}; the error is largest at {}; it depends most on "
       "{}.",
       u.block, record.data_file, any.ratio, record.data.channels[any.target->channel].name,
       reading.target ? "; " + u.where : "", FrequencyText(model, u.frequencies, any.target->record),
@@ -84,7 +84,7 @@ Unexplained Describe(const CaseModel& model, const FitResult& fit) {
 
 std::string SeparatingRecord(const CaseModel& model, const Hypothesis& first,
                              const Hypothesis& second) {
-  std::string best = "none of the scenarios tried tells them apart";
+  std::string best = "none of the simulated scenarios discriminates between them";
   double most = 2;
   for (const ExaminationRecord& item : Examination(model.data().rig, 1)) {
     try {

@@ -143,7 +143,7 @@ MissingForce ContactLaw(const ForceSamples& s, const std::string& plane) {
   const double k = c.push, mu = c.drag / k, angle = std::remainder(c.angle, 2 * kPi);
   std::string
       on = fmt::format(
-          "position on one side: something pushes back from {:.0f} degrees (from x towards y)",
+          "position on one side: a restoring force acts from {:.0f} degrees (from x towards y)",
           angle * 180 / kPi),
       gate;
   const auto within = [](const char* name, double value, double reach, const char* unit) {

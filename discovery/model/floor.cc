@@ -57,8 +57,7 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
   noisy.rig = WithNoise(h.rig, model.noise_model);
   const auto clean = model.Predict(h);
   const auto first = model.PredictNoisy(noisy, 11), second = model.PredictNoisy(noisy, 12);
-  if (!clean)
-    throw InputError(model.data().file + ": the model does not hold its rotor in these records");
+  if (!clean) throw InputError(model.data().file + ": the model loses levitation in these records");
   std::vector<double> d1(clean->size()), d2(clean->size());
   for (std::size_t k = 0; k < d1.size(); ++k) {
     // where noise alone drops the rotor, the stated noise of each channel is all that is known

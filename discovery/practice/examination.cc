@@ -176,8 +176,8 @@ std::vector<ExaminationRecord> Examination(const RigParameters& rig, std::uint64
     }
   levitated("multisine at 180 Hz", 0.3, 1131, 1131, w.Multisine(0.3), true);
   levitated("steps at 100 Hz", 0.3, 628, 628, w.Steps(0.3, 0.2), true);
-  out.push_back({"clamped elsewhere, current ramps",
-                 w.Head("clamped elsewhere, current ramps", 0.15, rate, "clamped") +
+  out.push_back({"clamped off centre, current ramps",
+                 w.Head("clamped off centre, current ramps", 0.15, rate, "clamped") +
                      w.Clamped(0.15, "ramp", 0.9 * most),
                  true, false});
   return out;

@@ -102,7 +102,8 @@ std::string DrawTarget(const EffectDescription& d, const RigParameters& rig,
     if (t == wanted) return t;
     names += (names.empty() ? "" : ", ") + t;
   }
-  if (possible.empty()) throw InputError(fmt::format("{}: this rig has no target for it", d.id));
+  if (possible.empty())
+    throw InputError(fmt::format("{}: this rig has no target for this effect", d.id));
   if (!wanted.empty())
     throw InputError(fmt::format("{}@{}: no such target, allowed: {}", d.id, wanted, names));
   return possible[static_cast<std::size_t>(Uniform(seed, kTargets, slot) *
@@ -122,8 +123,9 @@ EffectInstance VisibleEffect(const CaseModel& model, const Hypothesis& truth,
     if (shown->ratio >= kLeastRatio && shown->ratio <= kMostRatio) return h.rig.effects.back();
     k *= !with ? 0.5 : shown->ratio < kLeastRatio ? 2.0 : 0.7;
   }
-  throw InputError(fmt::format("{}@{}: no size of it shows in these records with the rotor held",
-                               d.id, drawn.target));
+  throw InputError(fmt::format(
+      "{}@{}: no size of this effect is visible in these records without losing levitation", d.id,
+      drawn.target));
 }
 
 /// What the loggers of the true rig would have written.
@@ -159,7 +161,9 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   for (const auto& [id, target] : request.effects) {
     const EffectDescription* d = &EffectNamed(id);
     if (d->users_own)
-      throw InputError("formula: a law of one's own cannot be drawn; hide one of the catalogue");
+      throw InputError(
+          "formula: a user-defined law cannot be drawn at random, allowed: an effect of the "
+          "catalogue");
     needs.contact = needs.contact || d->needs.contact;
     needs.free_speed = needs.free_speed || d->needs.free_speed;
     descriptions.push_back(d);

@@ -149,7 +149,7 @@ void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
     if (f.effect < 0) continue;
     if (influence(i) < 1e-6) {
       result.warnings.push_back(
-          f.path + " has no influence on these records near its value (or acts in steps)");
+          f.path + " has no influence on these records near its value (or acts in discrete steps)");
       result.sd[k] = 0;  // not known from here
       continue;
     }
@@ -198,7 +198,7 @@ bool Solve(CompressedCost& cost, const Hypothesis& start, int iterations, std::v
 }
 
 void Fail(FitResult& result) {
-  result.warnings.push_back("the model does not hold its rotor at this point");
+  result.warnings.push_back("the model loses levitation at this point");
   result.ratio_fit = result.ratio_validate = kInfinity;
 }
 

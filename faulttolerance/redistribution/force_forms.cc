@@ -50,7 +50,7 @@ double ControlSize(const DistributionMatrix& W, int j) { return std::hypot(W(j, 
 RedistributionProblem MakeRedistributionProblem(double first_angle, const char* winding) {
   const std::string letters = winding;
   if (letters.size() != 8 || letters.find_first_not_of("NS") != std::string::npos)
-    throw InputError("winding = \"" + letters + "\", allowed eight letters N or S");
+    throw InputError("winding = \"" + letters + "\", allowed: eight letters N or S");
   RedistributionProblem p;
   for (int j = 0; j < 8; ++j) {
     p.angle[j] = first_angle + j * std::numbers::pi / 4;

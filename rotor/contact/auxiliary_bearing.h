@@ -31,7 +31,7 @@ inline constexpr Field<AuxiliaryParameters> kAuxiliaryFields[] = {
     {"damping", &AuxiliaryParameters::damping, "s/m", 0, 1e4, "h"},
     {"friction", &AuxiliaryParameters::friction, "-", 0, 2, "mu"},
     {"race_inertia", &AuxiliaryParameters::race_inertia, "kg m2", 0, 10,
-     "inner race about its axis; 0: it stands still"},
+     "inner race about its axis; 0: it does not rotate"},
     {"race_drag", &AuxiliaryParameters::race_drag, "N m s", 0, 10, "drag torque over race speed"},
     {"mount_stiffness", &AuxiliaryParameters::mount_stiffness, "N/m", 1, kInfinity,
      "race on a resilient mount; inf: rigid"},

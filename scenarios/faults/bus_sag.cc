@@ -16,7 +16,7 @@ const Fault& BusSag() {
   static constexpr Fault fault{
       .kind = "bus-sag",
       .target = FaultTarget::kRig,
-      .doc = "the supply falls, for a while or for good",
+      .doc = "the supply voltage drops, temporarily or permanently",
       .observer = FaultObserver::kBusMonitor,
       .seen_as = "bus-sag",
       .parameters = kParameters,

@@ -8,7 +8,7 @@ namespace {
 constexpr FaultParameter kParameters[] = {
     {"gain", "-", -100, 100, true, false, "factor on the reading", 1},
     {"offset", "A", -1e4, 1e4, true, false, "added to the reading"},
-    {"stuck", "-", 0, 1, true, true, "the reading stays where it is"},
+    {"stuck", "-", 0, 1, true, true, "the reading is frozen"},
 };
 
 void Apply(const FaultSpec& f, FaultedPlant& plant) {

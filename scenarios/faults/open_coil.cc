@@ -7,7 +7,7 @@ const Fault& OpenCoil() {
   static constexpr Fault fault{
       .kind = "open",
       .target = FaultTarget::kCoil,
-      .doc = "the current is gone within one ADC sample and stays away",
+      .doc = "the current goes to zero within one ADC sample and stays zero",
       .observer = FaultObserver::kCoilDetector,
       .seen_as = "open",
       .apply = [](const FaultSpec&, FaultedPlant& plant) { plant.BreakCoil(); },

@@ -19,7 +19,7 @@ const Fault& PartialShort() {
   static constexpr Fault fault{
       .kind = "partial-short",
       .target = FaultTarget::kCoil,
-      .doc = "a fraction of the turns that are still driven is shorted",
+      .doc = "a fraction of the remaining driven turns is shorted",
       .observer = FaultObserver::kCoilDetector,
       .seen_as = "partial-short",
       .parameters = kParameters,

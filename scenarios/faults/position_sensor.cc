@@ -7,7 +7,7 @@ namespace {
 
 constexpr FaultParameter kParameters[] = {
     {"offset", "m", -1, 1, true, false, "added to the reading"},
-    {"stuck", "-", 0, 1, true, true, "the reading stays where it is"},
+    {"stuck", "-", 0, 1, true, true, "the reading is frozen"},
     {"lost", "-", 0, 1, true, true, "the reading is zero"},
 };
 

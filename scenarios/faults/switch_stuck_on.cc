@@ -7,7 +7,7 @@ const Fault& SwitchStuckOn() {
   static constexpr Fault fault{
       .kind = "switch-stuck-on",
       .target = FaultTarget::kCoil,
-      .doc = "the bridge drives up all the time",
+      .doc = "the bridge applies the full bus voltage permanently",
       .observer = FaultObserver::kCoilDetector,
       .seen_as = "switch-stuck-on",
       .apply = [](const FaultSpec&, FaultedPlant& plant) { plant.Bridge().stuck_on = true; },

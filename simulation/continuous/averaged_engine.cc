@@ -23,7 +23,7 @@ class AveragedRun : public ContinuousRun {
  public:
   AveragedRun(const RigParameters& rig, const Scenario& scenario, const AveragedOptions& options)
       : ContinuousRun(rig, scenario, options), mean_(rig_.bearings.size()) {
-    Require(!options.sampled.supervisor, "no detector: averaged currents have no slopes");
+    Require(!options.sampled.supervisor, "no detector: averaged currents have no ripple");
     const double rate =
         options.sampled.record_rate > 0 ? options.sampled.record_rate : scenario.record_rate;
     if (rate * rig_.T > 1 + 1e-9)

@@ -206,9 +206,8 @@ void SwitchingEngine::MoveRotor(long long n) {
   for (BearingRun& b : bearings_) {
     b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
     if (!std::isfinite(b.x) || !std::isfinite(b.y))
-      throw LostRotor(
-          fmt::format("{}: the motion became infinite at t = {} s", scenario_.name, motion_.t),
-          motion_.t);
+      throw LostRotor(fmt::format("{}: the motion diverged at t = {} s", scenario_.name, motion_.t),
+                      motion_.t);
   }
 }
 

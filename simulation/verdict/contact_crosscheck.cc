@@ -41,8 +41,8 @@ CrosscheckRun RunOnce(const RigParameters& rig, const Scenario& scenario,
 ContactCrosscheck CrosscheckContact(const RigParameters& rig, const Scenario& scenario,
                                     const CrosscheckOptions& options) {
   if (scenario.start == StartState::kClamped)
-    throw InputError(fmt::format(
-        "{}: nothing moves in a clamped scenario, allowed: levitated, resting", scenario.file));
+    throw InputError(
+        fmt::format("{}: the rotor is clamped, allowed: levitated, resting", scenario.file));
   ContactCrosscheck w;
   int done = 0;
   SimulateOptions simulate;

@@ -183,7 +183,7 @@ TEST_F(AnalyzeCommand, WritesSummaryJsonAndPage) {
   const auto json = ReadText(folder_ / "out/rig.analysis.json");
   EXPECT_NE(json.find("\"zone\": \"A\""), std::string::npos);
   EXPECT_NE(json.find("\"worst_gain\""), std::string::npos);
-  EXPECT_NE(o.text.find("joint margin"), std::string::npos);
+  EXPECT_NE(o.text.find("simultaneous-loop disk margin"), std::string::npos);
   EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("Campbell diagram"),
             std::string::npos);
   EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("joint disk margin"),

@@ -179,12 +179,11 @@ TEST_F(DiscoveryReport, CompareHasEveryPicture) {
   WriteCompareReport(*model_, *before_, folder.File("c.html"));
   const std::string html = Read(folder.File("c.html"));
   ExpectSelfContained(html);
-  ExpectSections(html,
-                 {"Where the model fails", "Which block is it?", "What does the error depend on?",
-                  "record-1: multisine", "record-2: spinning"});
+  ExpectSections(html, {"Errors by record and channel", "Errors by block",
+                        "Dependence of the error", "record-1: multisine", "record-2: spinning"});
   for (const char* words :
        {"Order tracks", "Response to the injected force", "The worst channels in time",
-        "Spectrum of that error", "Is the error random?", "bands of frequency", "4.50",
+        "Spectrum of that error", "Whiteness of the error", "bands of frequency", "4.50",
         "nothing was &lt;left&gt; out"})
     EXPECT_THAT(html, HasSubstr(words));
   EXPECT_THAT(html, Not(HasSubstr("folder/record-1.h5:"))) << "words name records, not paths";
@@ -193,17 +192,17 @@ TEST_F(DiscoveryReport, CompareHasEveryPicture) {
 TEST_F(DiscoveryReport, ExplainTeaches) {
   const std::string html = ExplainHtml(Found());
   ExpectSelfContained(html);
-  ExpectSections(html,
-                 {"Verdict", "The ladder", "Where the plain model failed", "The candidates, ranked",
-                  "A first look at everything", "Why that one", "What it costs to believe it",
-                  "What is left", "What to do next", "Warnings"});
+  ExpectSections(
+      html, {"Verdict", "Error after each step", "Errors of the model of the rig file",
+             "Ranked candidates", "Screening of all effects", "Evidence for the accepted effect",
+             "Penalty of the accepted effect", "Residual", "Recommended next steps", "Warnings"});
   for (const char* words :
-       {"The rig has what the model lacks: side-pull at A", "5.25 times the noise", "97.0 %",
-        "20.00 ± 0.30\u00a0kN/m", "slow roll at 5 Hz", "Signatures",
-        "ambrig adopt folder/case.toml side-pull --target A", "strongly correlated"})
+       {"Identified: side-pull at A", "5.25 times the noise", "97.0 %", "20.00 ± 0.30\u00a0kN/m",
+        "slow roll at 5 Hz", "Signatures", "ambrig adopt folder/case.toml side-pull --target A",
+        "strongly correlated"})
     EXPECT_THAT(html, HasSubstr(words));
   EXPECT_THAT(html, HasSubstr(FindEffect("side-pull")->title));
-  EXPECT_THAT(html, Not(HasSubstr("What no effect explains</h")));
+  EXPECT_THAT(html, Not(HasSubstr("Unexplained residual</h")));
 }
 
 TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
@@ -218,7 +217,8 @@ TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
                    "\"0\" }  # c = 2.1e-05 m, mu: friction",
                    {120.0}};
   const std::string html = ExplainHtml(e);
-  ExpectSections(html, {"What no effect explains", "What fitting changed", "What to do next"});
+  ExpectSections(html,
+                 {"Unexplained residual", "Change by the parameter fit", "Recommended next steps"});
   EXPECT_THAT(html, HasSubstr("Something is missing"));
   EXPECT_THAT(html, HasSubstr("120\u00a0Hz"));
 }
@@ -255,16 +255,16 @@ TEST_F(DiscoveryReport, AdoptShowsBeforeAndAfter) {
   WriteAdoptReport(model, *before_, after, Found().ladder, folder.File("a.html"));
   const std::string html = Read(folder.File("a.html"));
   ExpectSelfContained(html);
-  ExpectSections(html, {"What it changed", "The ladder", "What is believed now", "Before and after",
-                        "What is left"});
-  EXPECT_THAT(html, HasSubstr("The channels that gained most"));
+  ExpectSections(html, {"Result", "Error after each step", "Effects of the new rig file",
+                        "Before and after", "Residual"});
+  EXPECT_THAT(html, HasSubstr("Channels with the largest improvement"));
 }
 
 TEST_F(DiscoveryReport, AnEffectThatDoesNotHelpIsSaidSo) {
   const TemporaryFolder folder;
   WriteAdoptReport(*model_, *before_, *before_, {{"", 2, 2}, {"windage at rig", 2, 2}},
                    folder.File("a.html"));
-  EXPECT_THAT(Read(folder.File("a.html")), HasSubstr("windage at rig did not help"));
+  EXPECT_THAT(Read(folder.File("a.html")), HasSubstr("windage at rig did not reduce the error"));
 }
 
 // A model that equals the measurement but for a line of known size at order 1 gives that size.

@@ -64,8 +64,9 @@ TEST_F(RunReport, LoadsNothingFromOutside) {
 
 TEST_F(RunReport, HasEverySection) {
   for (const char* section :
-       {"What happened", "Timeline", "Expectations", "Orbits", "Positions", "Coil currents",
-        "Fault detection", "All coils", "The stator", "Further channels", "What was run"})
+       {"Course of the run", "Timeline", "Expectations", "Orbits", "Positions", "Coil currents",
+        "Fault detection", "All coils", "Stator cross-sections", "Further channels",
+        "Scenario and rig as resolved"})
     EXPECT_EQ(Count(*html_, std::string(">") + section + "</h"), 1u) << section;
   EXPECT_EQ(Count(*html_, "<figure id="), 12u);
   EXPECT_EQ(Count(*html_, "<figcaption>"), 12u);
@@ -88,7 +89,7 @@ TEST(RunReportParts, EmptyRunGivesAReportWithoutFigures) {
   d.name = "nothing";
   const std::string html = MakeRunReport(d).Html();
   EXPECT_EQ(Count(html, "<figure id="), 0u);
-  EXPECT_THAT(html, HasSubstr("What happened"));
+  EXPECT_THAT(html, HasSubstr("Course of the run"));
 }
 
 TEST(RunReportParts, HealthyRunHasNoFaultFigures) {

@@ -65,7 +65,7 @@ TEST_F(WitnessCommand, WritesTableJsonAndReport) {
   EXPECT_FALSE(all[1].contains("other_noise"));
   EXPECT_TRUE(all[2]["verdicts_agree"]);
   const std::string page = Text("w.html");
-  EXPECT_THAT(page, HasSubstr("Both witnesses say: touched down."));
+  EXPECT_THAT(page, HasSubstr("Both models agree: touched down."));
   EXPECT_THAT(page, HasSubstr("lift-off from the auxiliary bearings"));
 }
 

@@ -102,8 +102,8 @@ TEST_F(Design, Optimises) {
 TEST_F(Design, ReportStandsAlone) {
   ASSERT_EQ(Ambrig("design study.toml -o out").exit, 0);
   const std::string html = ReadText(folder_ / "out/report.html");
-  for (const char* part : {"Candidates side by side", "Pareto front", "Answers of the points shown",
-                           "Points of the front"})
+  for (const char* part : {"Comparison of the candidates", "Pareto front",
+                           "Responses of the points shown", "Pareto-optimal points"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
 }
 

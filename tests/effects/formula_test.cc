@@ -170,9 +170,9 @@ TEST(Formula, MistakesAreOneClearLine) {
   EXPECT_THAT(Complaint("rig", "torque = \"i1\""), HasSubstr("unknown name \"i1\""));
   EXPECT_THAT(Complaint("A", ""), HasSubstr("has no formula"));
   EXPECT_THAT(Complaint("A", "parameters = { t = 1.0 }\nforce = { x = \"t\" }"),
-              HasSubstr("know already"));
+              HasSubstr("reserved name"));
   EXPECT_THAT(Complaint("A", "parameters = { max = 1.0 }\nforce = { x = \"1\" }"),
-              HasSubstr("no name for a parameter"));
+              HasSubstr("not a valid parameter name"));
   EXPECT_THAT(
       Complaint("A", "parameters = { k = { value = 2.0, max = 1.0 } }\nforce = { x = \"k\" }"),
       HasSubstr("allowed -inf to 1"));
