@@ -8,7 +8,6 @@
 #include <filesystem>
 
 #include "core/base/counted.h"
-#include "scenarios/faults/fault.h"
 #include "simulation/simulate.h"
 #include "simulation/verdict/detection_score.h"
 

@@ -75,7 +75,7 @@ void FillVerdict(const RunResult& result, const std::vector<ExpectResult>& expec
                                      : Verdict::kOk;
   data.verdict_text = result.drop ? "The rotor dropped."
                       : result.touchdown
-                          ? "The rotor touched an auxiliary bearing but did not stay on it."
+                          ? "The rotor touched an auxiliary bearing and recovered."
                           : "The rotor stayed up, without touching an auxiliary bearing.";
   if (!expect.empty())
     data.verdict_text += met ? " Every expectation is met." : " An expectation is not met.";

@@ -87,7 +87,9 @@ TEST_F(JournalTest, CutAnywhere) {
     EXPECT_LE(journal.damaged(), 1u) << size;
     EXPECT_GE(found_.size() - 1, most) << size;
     most = found_.size() - 1;
-    if (size < header) EXPECT_EQ(found_.size(), 1u) << size;
+    if (size < header) {
+      EXPECT_EQ(found_.size(), 1u) << size;
+    }
   }
   EXPECT_EQ(most, 2u);
 }
