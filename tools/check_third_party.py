@@ -1,0 +1,135 @@
+#!/usr/bin/env python3
+"""Fails when docs/third_party.md and what is really linked or bundled differ. Run by ctest.
+
+    tools/check_third_party.py [BUILD_DIRECTORY]
+
+Compared are the tables of the page with
+  - the packages that CMake looks for (find_package, pkg_check_modules, find_library),
+  - the Debian libraries that tools/setup.sh installs,
+  - the dependencies in web/package-lock.json,
+  - the licences in /usr/share/doc/PACKAGE/copyright, where the package is installed,
+  - with a build directory: the libraries on the link line of `ambrig`, by the source package they come from.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+PAGE = pathlib.Path("docs/third_party.md")
+TOOLS = {"PkgConfig", "Python3"}  # found by CMake, linked to nothing
+
+
+def tables():
+    """Rows of every table of the page, as dictionaries by heading."""
+    rows, heading = [], None
+    for line in PAGE.read_text().splitlines():
+        cells = [cell.strip() for cell in line.strip().strip("|").split("|")]
+        if not line.startswith("|"):
+            heading = None
+        elif heading is None:
+            heading = cells
+        elif not set(line) <= set("|- "):
+            rows.append(dict(zip(heading, cells)))
+    return rows
+
+
+def found_by_cmake():
+    text = "\n".join(p.read_text() for p in [pathlib.Path("CMakeLists.txt"), *pathlib.Path("cmake").glob("*.cmake")])
+    text = re.sub(r"#.*", "", text)
+    names = set(re.findall(r"find_package\(\s*(\w+)", text)) - TOOLS
+    names |= set(re.findall(r"find_library\(\s*\w+\s+(\w+)", text))
+    for arguments in re.findall(r"pkg_check_modules\(\s*\w+([^)]*)\)", text):
+        names |= {word for word in arguments.split() if not word.isupper() and word != "IMPORTED_TARGET"}
+    return names
+
+
+def installed_by_setup():
+    packages = re.search(r"^packages=\((.*?)^\)", pathlib.Path("tools/setup.sh").read_text(), re.S | re.M)[1]
+    words = re.sub(r"#.*", "", packages).split()
+    return {word for word in words if word.endswith("-dev")}
+
+
+def bundled():
+    lock = json.loads(pathlib.Path("web/package-lock.json").read_text())
+    return {path.removeprefix("node_modules/"): entry.get("license", "")
+            for path, entry in lock["packages"].items() if path and not entry.get("dev")}
+
+
+def output_of(*command):
+    done = subprocess.run(command, capture_output=True, text=True)
+    return done.stdout if done.returncode == 0 else ""
+
+
+def source_of(package):
+    return output_of("dpkg-query", "-W", "-f=${source:Package}\n", package).split("\n")[0]
+
+
+def licences_of(package):
+    """Licences that the package's copyright file names; None when the package is not installed."""
+    file = pathlib.Path("/usr/share/doc") / package / "copyright"
+    if not file.exists():
+        return None
+    lines = re.findall(r"^\s*License:\s*(.*)$", file.read_text(errors="replace"), re.M)
+    return {word for line in lines for word in re.split(r"\s+(?:or|and|with)\s+|,\s*", line.strip())}
+
+
+def linked_libraries(build):
+    """Libraries outside the build directory on the link line of ambrig, as ninja has it."""
+    ninja = (build / "build.ninja").read_text()
+    line = re.search(r"^build ambrig: .*?^  LINK_LIBRARIES = (.*?)$", ninja, re.S | re.M)
+    if not line:
+        sys.exit(f"{build}/build.ninja: no link line of ambrig")
+    return sorted({word for word in line[1].split() if word.startswith("/")})
+
+
+def owner_of(library):
+    path = pathlib.Path(library)
+    for candidate in (path, path.resolve()):
+        found = output_of("dpkg", "-S", str(candidate))
+        if found:
+            return found.split(":")[0].split(",")[0]
+    return ""
+
+
+def compare(what, ours, theirs):
+    return ([f"docs/third_party.md does not list {name} ({what})" for name in sorted(theirs - ours)] +
+            [f"docs/third_party.md lists {name}, but it is not there ({what})" for name in sorted(ours - theirs)])
+
+
+def check_link_line(build, listed):
+    sources = {source_of(package) for package in listed} - {""}
+    bad = []
+    for library in linked_libraries(build):
+        owner = owner_of(library)
+        if not owner:
+            bad.append(f"{library} is linked, but belongs to no Debian package")
+        elif source_of(owner) not in sources:
+            bad.append(f"docs/third_party.md does not list {owner}, which {library} belongs to")
+    return bad
+
+
+def main():
+    rows = tables()
+    debian = {row["Package"]: row["Licence"] for row in rows if "Package" in row}
+    direct = {row["Package"] for row in rows if "Found by CMake as" in row}
+    names = {row["Found by CMake as"] for row in rows if row.get("Found by CMake as", "-") != "-"}
+    npm = {row["npm package"]: row["Licence"] for row in rows if "npm package" in row}
+    bad = compare("CMakeLists.txt, cmake/", names, found_by_cmake())
+    bad += compare("tools/setup.sh", direct, installed_by_setup())
+    bad += compare("web/package-lock.json", set(npm), set(bundled()))
+    for package, licence in debian.items():
+        known = licences_of(package)
+        if known is not None and licence not in known:
+            bad.append(f"{package}: licence {licence}, its copyright file has: {', '.join(sorted(known))}")
+    for package, licence in bundled().items():
+        if npm.get(package, licence) != licence:
+            bad.append(f"{package}: licence {npm[package]}, web/package-lock.json has {licence}")
+    if len(sys.argv) > 1 and output_of("dpkg", "--version"):
+        bad += check_link_line(pathlib.Path(sys.argv[1]), debian)
+    print("\n".join(bad))
+    return bool(bad)
+
+
+if __name__ == "__main__":
+    sys.exit(main())
