@@ -51,8 +51,8 @@ ClosedLoop::ClosedLoop(const OperatingPoint& point, LinearPlant plant)
   controller_ = LineariseController(point.rig(), Ts_, plant_.speed);
   kp_ = a.kp;
   ki_T_ = a.ki * period_.T;
-  const PowerAmplifier bridge(a);
-  duty_per_volt_ = bridge.DutyFromVoltage(1) - bridge.DutyFromVoltage(0);
+  const CurrentRegulator regulator(a);
+  duty_per_volt_ = regulator.DutyFromVoltage(1) - regulator.DutyFromVoltage(0);
   late_ = static_cast<int>(std::ceil(point.plant().loop_delay / period_.T - 1e-6));
   const Index coils = static_cast<Index>(plant_.coils.size());
   const Index history = 1 + (late_ + M_ - 1) / M_;  // commands f_(k-1), f_(k-2), ... still needed

@@ -7,7 +7,7 @@ namespace ambrig {
 
 LinearController LineariseController(const RigParameters& rig, double Ts, double speed) {
   if (!rig.controller.IsPlainPid()) {
-    const StateSpace k = MakeController(rig, rig.controller)->Linear(speed);
+    const StateSpace k = MakeController(NominalRig(rig), rig.controller)->Linear(speed);
     return {k.A, k.B, Eigen::MatrixXd::Zero(k.states(), k.inputs()),
             k.C, k.D, Eigen::MatrixXd::Zero(k.outputs(), k.inputs())};
   }

@@ -37,9 +37,9 @@ void PlaceCoils(OperatingPoint& p, std::size_t k) {
     CoilPoint& c = coils[U(j)];
     c.current = set[j];
     c.commanded = set[j] == free[j];
-    PowerAmplifier bridge(amplifier);
-    bridge.HoldCurrent(std::max(c.current, 1.01 * kInterrupted), b.plant->base_resistance[j]);
-    c.duty = bridge.DutyFromVoltage(bridge.integral());
+    CurrentRegulator regulator(amplifier);
+    regulator.HoldCurrent(std::max(c.current, 1.01 * kInterrupted), b.plant->base_resistance[j]);
+    c.duty = regulator.DutyFromVoltage(regulator.integral());
     const std::string name = fmt::format("{}.coil{}", control.name, j + 1);
     if (!c.commanded)
       p.notes.push_back(
@@ -83,7 +83,7 @@ std::vector<std::string> OperatingPoint::Axes() const {
 
 OperatingPoint FindOperatingPoint(const RigParameters& rig) {
   OperatingPoint p;
-  p.sampled = std::make_unique<SampledRig>(rig, AtRest(), SampledOptions{});
+  p.sampled = std::make_unique<SampledDataLoop>(rig, AtRest(), SampledOptions{});
   p.sampled->Start();
   const auto shares = WeightShares(p.rig());
   for (const SampledBearing& b : p.sampled->bearings)

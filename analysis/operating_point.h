@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/linear_bearing.h"
-#include "simulation/sampled/sampled_rig.h"
+#include "simulation/sampled/sampled_data_loop.h"
 
 namespace ambrig {
 
@@ -19,7 +19,7 @@ struct CoilPoint {
 };
 
 struct OperatingPoint {
-  std::unique_ptr<SampledRig> sampled;  // plant, maps, amplifiers as a run would start
+  std::unique_ptr<SampledDataLoop> sampled;  // plant, maps, amplifiers as a run would start
   MotionState motion;
   std::vector<double> force;                  // per axis [N]
   std::vector<std::vector<CoilPoint>> coils;  // per bearing

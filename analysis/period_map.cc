@@ -19,7 +19,7 @@ struct Edge {
 
 Edge EdgeOf(const AmplifierParameters& p, double bus, double duty) {
   const double T = 1 / p.switching_frequency;
-  const CoilVoltage v = PowerAmplifier(p).Pattern(duty, {});
+  const CoilVoltage v = IdealBridgeVoltage(p, duty);
   if (p.modulation == Modulation::kIdeal) return {0, bus, true};
   const double step = (v.gain[1] - v.gain[2]) * bus + v.drop[1] - v.drop[2];
   // Tri-state: |2d - 1| of the period is driven, on above one half, off below.

@@ -58,7 +58,7 @@ BENCHMARK(EngineInHalves)->Unit(benchmark::kMillisecond);
 
 /// The bearings' fast path alone: the first radial bearing, or all of the rig (20 coils).
 void UpdateLoop(benchmark::State& state) {
-  Plant plant = BuildPlant(Rig());
+  Plant plant = BuildPlant(TrueRig(Rig()));
   VoltagePattern pattern;
   Lane currents;
   for (int j = 0; j < kLanes; ++j) {

@@ -199,7 +199,7 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
     p.scenario.duration =
         std::min(p.scenario.duration, p.scenario.faults.front().time + study_.trial.window + 1e-4);
   try {
-    DetectorTrial trial(p.rig, p.scenario, study_.detectors, study_.trial);
+    DetectorTrial trial(NominalRig(p.rig), p.scenario, study_.detectors, study_.trial);
     EngineOptions engine;
     engine.record = false;
     engine.supervisor = &trial;

@@ -41,13 +41,13 @@ struct TrialSettings {
 
 class DetectorTrial : public Supervisor {
  public:
-  /// The first fault of the scenario, if any, on one coil. `nominal` must outlive it.
-  DetectorTrial(const RigParameters& nominal, const Scenario& scenario,
+  /// The first fault of the scenario, if any, on one coil.
+  DetectorTrial(const NominalRig& nominal, const Scenario& scenario,
                 const std::vector<CoilDetectorKind>& kinds, const TrialSettings& settings);
   ~DetectorTrial() override;
 
-  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
-                   std::vector<RunEvent>& events) override;
+  void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
+                   SupervisorOutput& out) override;
   /// One per kind. A fault's window that the run did not reach: throws std::logic_error.
   std::vector<DetectorOutcome> Take();
 
@@ -56,7 +56,7 @@ class DetectorTrial : public Supervisor {
   void CountHealthy(OneDetector& d, const std::vector<Lane>& statistic);
   void CountFaulty(OneDetector& d, const Lane& statistic, int period);
 
-  const RigParameters& rig_;
+  const NominalRig rig_;
   DetectionFeed feed_;
   std::vector<std::unique_ptr<OneDetector>> detectors_;
   std::vector<bool> watched_;  // per bearing

@@ -49,7 +49,7 @@ RunPlan::RunPlan(const Campaign& campaign) : campaign_(campaign) {
   for (const BearingParameters& b : campaign_.rig.bearings)
     if (b.kind == BearingKind::kRadial)
       tables_[b.name] = std::make_unique<RedistributionTable>(
-          RedistributionProblemOf(campaign_.rig, b), RedistributionCacheDirectory());
+          RedistributionProblemOf(NominalRig(campaign_.rig), b), RedistributionCacheDirectory());
 }
 
 SetCapacity RunPlan::Theory(const FailureSet& set, const CampaignFaultKind& kind) const {

@@ -24,6 +24,7 @@ add_test(NAME layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/che
 add_test(NAME planted_change COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/planted_change.py ${CMAKE_BINARY_DIR}
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 set_tests_properties(planted_change PROPERTIES TIMEOUT 600)
+add_test(NAME layers_self_test COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py --self-test)
 # The rigs that a person may copy.
 add_test(NAME examples COMMAND ambrig check ${CMAKE_SOURCE_DIR}/examples --jobs 2)
 # The pages that commands print are what the commands print.

@@ -21,6 +21,7 @@ struct PeriodMeasurement {
   std::vector<BearingMeasurement> bearings;
   const std::vector<double>* readings = nullptr;  // last noisy position readings per axis [m]
   double reading_time = 0;                        // [s]
+  double speed = 0;                               // reading of the speed sensor [rad/s]
   bool position_loop = true;                      // false: clamped, set-points come from outside
 };
 

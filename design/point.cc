@@ -91,7 +91,7 @@ bool EvaluateLinear(const Study& study, const RigParameters& rig,
   for (const double speed : study.speeds) top = std::max(top, std::abs(speed));
   for (const double error : study.frequency_errors)
     for (const double speed : study.speeds) {
-      RigParameters plant = TrueRig(rig);
+      RigParameters plant = *TrueRig(rig);
       for (BendingMode& mode : plant.modes) mode.omega *= 1 + error;
       const LinearFigures f = LinearFiguresOf(MakeControlPlant(plant, AllAxes(rig), speed, &rig),
                                               controller.Linear(speed), SensorNoise(rig), speed,
@@ -166,7 +166,7 @@ Evaluation Evaluate(const Study& study, std::size_t candidate, const std::vector
   out.figures.assign(study.figures.size(), 0.0);
   try {
     const RigParameters nominal = RigOfPoint(study.candidates[candidate], values);
-    const auto controller = MakeController(nominal, nominal.controller);
+    const auto controller = MakeController(NominalRig(nominal), nominal.controller);
     for (const std::vector<double>& draw : study.draws) {
       const RigParameters rig = Drawn(nominal, draw);
       if (!EvaluateLinear(study, rig, *controller, out)) {

@@ -49,7 +49,7 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
   for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = k;
   const double speed = study.speeds.front();
   const SampledPlant plant = MakeControlPlant(rig, axes, speed);
-  const auto controller = MakeController(rig, rig.controller);
+  const auto controller = MakeController(NominalRig(rig), rig.controller);
   const StateSpace K = controller->Linear(speed);
   const auto samples = static_cast<std::size_t>(kStepLength / plant.Ts);
   const Eigen::MatrixXd step = LoadStep(plant, K, 0, samples);

@@ -7,11 +7,12 @@
 #include <vector>
 
 #include "actuators/electronics/adc.h"
-#include "actuators/electronics/amplifier.h"
+#include "actuators/electronics/power_bridge.h"
 #include "actuators/magnetics/flux_law.h"
 #include "actuators/magnetics/stator_lanes.h"
 #include "rotor/motion/position_sensor.h"
 #include "rotor/motion/rotor_model.h"
+#include "rotor/motion/speed_sensor.h"
 
 namespace ambrig {
 
@@ -71,6 +72,8 @@ struct Plant {
   BusSupply& bus = *bus_place;
   /// Named planes of a beam rotor: disks, stations.
   std::vector<std::pair<std::string, PlaneMap>> stations;
+  PowerBridge bridge;  // the law of every coil's bridge
+  SpeedSensor speed_sensor;
   double loop_delay = 0;  // [s] set-points reach the current loops this much later
 
   BearingPlant* Find(const std::string& name) {

@@ -130,6 +130,16 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
   return b;
 }
 
+void ReadSpeedSensor(const TomlTable& root, RigParameters& rig) {
+  const auto t = root.Table("speed_sensor");
+  if (!t) return;
+  t->Read(rig.speed_sensor, kSpeedSensorFields, &rig.tolerances);
+  const double pulses = rig.speed_sensor.pulses_per_revolution;
+  if (pulses != std::floor(pulses))
+    t->Fail("pulses_per_revolution", fmt::format("= {}, allowed: an integer", pulses));
+  t->RejectUnknownKeys();
+}
+
 void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
   AmplifierParameters& a = rig.amplifier;
   const std::string m = t.Choice("modulation", "bi-state", "bi-state, tri-state, chopper, ideal");
@@ -249,6 +259,7 @@ RigParameters Read(const TomlTable& root) {
   };
   ReadRotor(section("rotor"), rig);
   ReadAmplifier(section("amplifier"), rig);
+  ReadSpeedSensor(root, rig);
   const TomlTable controller = section("controller");
   ReadBearings(root, rig);
   PlaceOnShaft(root, rig);

@@ -15,6 +15,7 @@ void VisitTables(Rig& rig, const Visit& visit) {
   // a beam's mass and inertia follow from its shaft
   if (!rig.beam) visit("rotor", rig.rotor, kRotorFields);
   visit("amplifier", rig.amplifier, kAmplifierFields);
+  visit("speed_sensor", rig.speed_sensor, kSpeedSensorFields);
   visit("controller", rig.controller, kControllerFields);
   visit("controller", rig.controller.pid, kPidFields);
   for (auto& b : rig.bearings) {
@@ -68,11 +69,14 @@ int RigParameters::periods_per_control() const {
   return static_cast<int>(std::lround(amplifier.switching_frequency / controller.rate));
 }
 
-RigParameters TrueRig(const RigParameters& rig) {
-  RigParameters out = rig;
-  for (const Tolerance& t : rig.tolerances)
-    if (!std::isnan(t.true_value)) SetParameter(out, t.path, t.true_value);
-  return out;
+std::vector<std::string> ParameterPaths(const RigParameters& rig) {
+  std::vector<std::string> paths;
+  VisitTables(rig, [&](const std::string& section, const auto&, const auto& fields) {
+    for (const auto& f : fields) paths.push_back(section + "." + std::string(f.key));
+  });
+  if (rig.beam)
+    for (const ShaftParameter& p : rig.beam->parameters) paths.push_back(p.path);
+  return paths;
 }
 
 const double* ParameterAt(const RigParameters& rig, const std::string& path) {
@@ -137,6 +141,7 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[[rotor.section]]", kShaftSectionFields);
   add("[[rotor.disk]]", kDiskFields);
   add("[amplifier]", kAmplifierFields);
+  add("[speed_sensor]", kSpeedSensorFields);
   add("[controller]", kControllerFields);
   for (const ControllerKind* kind : ControllerKinds())
     if (kind->document) kind->document(rows);

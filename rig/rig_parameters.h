@@ -1,13 +1,15 @@
 #pragma once
-/// The parameters of a rig, as its user believes it to be, and the way to each number by its path
-/// in rig.toml.
+/// The parameters of a rig as its file gives them, and the way to each number by its path in
+/// rig.toml. A file may hold two values of one number: the drawing's, which NominalRig
+/// (rig/nominal_rig.h) hands to controllers and detectors, and the calibrated one of its tolerance,
+/// which TrueRig (rig/true_rig.h) hands to the plant.
 #include <array>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "actuators/electronics/amplifier.h"
+#include "actuators/electronics/amplifier_parameters.h"
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/thrust_stator.h"
 #include "control/position/controller_file.h"
@@ -16,8 +18,10 @@
 #include "effects/effect.h"
 #include "rig/detection_parameters.h"
 #include "rotor/contact/auxiliary_bearing.h"
-#include "rotor/motion/position_sensor.h"
-#include "rotor/motion/rotor_model.h"
+#include "rotor/motion/bending_mode.h"
+#include "rotor/motion/rotor_parameters.h"
+#include "rotor/motion/sensor_parameters.h"
+#include "rotor/motion/speed_sensor_parameters.h"
 #include "rotor/shaft/beam_file.h"
 
 namespace ambrig {
@@ -87,6 +91,7 @@ struct RigParameters {
   ControllerParameters controller;
   // [controllers.NAME], for changing over in a run
   std::vector<ControllerParameters> other_controllers;
+  SpeedSensorParameters speed_sensor;
   std::vector<BearingParameters> bearings;
   DetectionParameters detection;
   std::vector<EffectInstance> effects;
@@ -104,9 +109,8 @@ std::vector<std::string> AxisNames(const RigParameters& rig);
 /// Those that [controller] has: of bearings without a controller of their own.
 std::vector<std::size_t> ControlledAxes(const RigParameters& rig);
 
-/// The rig with its calibrated values in place of the drawing's: what the plant is built from.
-RigParameters TrueRig(const RigParameters& rig);
-
+/// Paths of all numbers of the rig's parameter tables, and of a beam's shaft.
+std::vector<std::string> ParameterPaths(const RigParameters& rig);
 /// The number behind a path such as "rotor.mass", "bearings.A.gap" or "rotor.section[2].od" (of a
 /// shaft: those with an sd); nullptr when there is none.
 const double* ParameterAt(const RigParameters& rig, const std::string& path);

@@ -34,7 +34,7 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
     watch.current_transition = scenario.current_transition;
     watch.stiffness_compensation = scenario.stiffness_compensation;
     watch.cache_dir = RedistributionCacheDirectory();
-    supervisor = std::make_unique<FaultSupervisor>(rig, watch);
+    supervisor = std::make_unique<FaultSupervisor>(NominalRig(rig), watch);
     engine.supervisor = supervisor.get();
   }
   return SwitchingEngine(rig, scenario, engine).Run();

@@ -1,5 +1,13 @@
 #!/usr/bin/env python3
-"""Fails when a folder includes from a folder it may not know (docs/architecture.md). Run by ctest."""
+"""Checks who includes whom (docs/architecture.md). Run by ctest, with --self-test too.
+
+Three rules over every #include of the sources:
+  layers   a room includes from itself and from the rooms that MAY_INCLUDE names;
+  bans     what runs in the controller never includes a header of the plant (BANNED), not even
+           through another header, where it would be in sight all the same;
+  doors    a library is included by the files that DOORS names and by no other.
+Every file and folder named here must exist, so that no rule outlives what it is about.
+"""
 import pathlib
 import re
 import sys
@@ -15,7 +23,7 @@ MAY_INCLUDE = {
     "rig": "core actuators rotor control effects",
     "fdd": "core actuators control rig",
     "faulttolerance": "core actuators control rig fdd",
-    "scenarios": "core effects rig faulttolerance",
+    "scenarios": "core rotor effects rig faulttolerance",
     "analysis/linear": "core actuators rotor control rig",
     "simulation": "core actuators rotor control effects rig fdd faulttolerance scenarios analysis/linear",
     "analysis": "core actuators rotor control effects rig faulttolerance simulation scenarios analysis/linear",
@@ -25,8 +33,35 @@ MAY_INCLUDE = {
     "app": "core effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd",
     "bench": "core actuators rotor control fdd faulttolerance effects rig scenarios simulation discovery",
 }
-# What runs in the controller may not look at the true fault, only at what it measures.
-BANNED = {"fdd": ["actuators/coil_fault.h"], "faulttolerance": ["actuators/coil_fault.h"]}
+
+# Headers of the plant: the bridge, the magnetics that are simulated, the moving rotor and its contacts,
+# the speed sensor, the true rig, what puts faults in.
+PLANT_HEADERS = """
+actuators/electronics/current_measurement.h
+actuators/electronics/power_bridge.h
+actuators/magnetics/coil_network.h
+actuators/magnetics/flux_law.h
+actuators/magnetics/running_stator.h
+actuators/magnetics/stator_lanes.h
+actuators/magnetics/stator_loop.h
+effects/plant.h
+rig/rig_assembly.h
+rig/rig_file.h
+rig/true_rig.h
+rotor/contact/ode_rotor.h
+rotor/contact/ode_world.h
+rotor/motion/position_sensor.h
+rotor/motion/rotor_model.h
+rotor/motion/rotor_stepper.h
+rotor/motion/speed_sensor.h
+scenarios/faults/fault.h
+scenarios/faults/fault_spec.h
+scenarios/faults/faulted_plant.h
+simulation/sampled/sampled_data_loop.h
+""".split()
+# What runs in the controller sees what it measures and the nominal rig only.
+BANNED = {room: PLANT_HEADERS for room in ("control", "fdd", "faulttolerance")}
+
 # One door per library: the only files that may include it.
 DOORS = {
     "toml++/": ["core/base/toml_node.h"],
@@ -35,12 +70,24 @@ DOORS = {
     "core/base/toml_place.h": ["core/base/toml_edit.cc", "core/base/toml_place.cc"],
     "hdf5.h": ["core/record/hdf5.cc"],
     "matio.h": ["core/record/mat.cc"],
+    "sundials/": ["core/math/cvode.cc"],
+    "arkode/": ["core/math/cvode.cc"],
+    "cvode/": ["core/math/cvode.cc"],
+    "kinsol/": ["core/math/cvode.cc"],
+    "nvector/": ["core/math/cvode.cc"],
+    "sunlinsol/": ["core/math/cvode.cc"],
+    "sunmatrix/": ["core/math/cvode.cc"],
     "ode/": ["rotor/contact/ode_world.cc"],
-    "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model/model.cc", "discovery/search/screen.cc"],
+    "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model/model.cc",
+                   "discovery/search/screen.cc"],
     "ceres/": ["discovery/search/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],
     "nlopt": ["design/nlopt_search.cc"],
+    "pugixml": ["app/commands/check.cc"],
+    "CLI/": ["app/commands/commands.h"],
 }
+
+INCLUDE = re.compile(r'\s*#include (["<])([^">]+)[">]')
 
 
 def room_of(path):
@@ -50,24 +97,85 @@ def room_of(path):
     return two if two in MAY_INCLUDE else parts[0]
 
 
+def includes_of(root):
+    """Path -> [(line, own header?, included path)] of every source in the rooms below `root`."""
+    found = {}
+    for top in sorted({room.split("/")[0] for room in MAY_INCLUDE}):
+        for file in sorted((root / top).rglob("*.[hc]*")):
+            matches = ((n, INCLUDE.match(line)) for n, line in enumerate(file.read_text().splitlines(), 1))
+            found[file.relative_to(root).as_posix()] = [(n, m[1] == '"', m[2]) for n, m in matches if m]
+    return found
+
+
+def way_to(banned, path, includes, seen):
+    """The chain of own headers from `path` to a banned one, [] when there is none."""
+    if path in banned:
+        return [path]
+    if path in seen:
+        return []
+    seen.add(path)
+    for _, own, target in includes.get(path, []):
+        chain = way_to(banned, target, includes, seen) if own else []
+        if chain:
+            return [path, *chain]
+    return []
+
+
+def dead_names(exists):
+    """Rooms, banned headers and doors that this file names and that do not exist."""
+    named = {*MAY_INCLUDE, *PLANT_HEADERS, *(door for doors in DOORS.values() for door in doors)}
+    return [f"tools/check_layers.py names {name}, which does not exist" for name in sorted(named) if not exists(name)]
+
+
+def complaints(file, includes):
+    """What is wrong with the includes of one file, a line each."""
+    bad, room = [], room_of(file)
+    known, banned = {room, *MAY_INCLUDE[room].split()}, BANNED.get(room, [])
+    for number, own, path in includes[file]:
+        if own and room_of(path) not in known:
+            bad.append(f"{file}:{number}: {room} may not include from {room_of(path)}")
+        chain = way_to(banned, path, includes, set()) if own and banned else []
+        if chain:
+            bad.append(f"{file}:{number}: {room} may not see {' <- '.join(reversed(chain))}")
+        for library, doors in DOORS.items():
+            if path.startswith(library) and file not in doors:
+                bad.append(f"{file}:{number}: only {', '.join(doors)} may include {path}")
+    return bad
+
+
+def check(root):
+    includes = includes_of(root)
+    return dead_names(lambda name: (root / name).exists()) + [b for f in includes for b in complaints(f, includes)]
+
+
+def self_test(root):
+    """Plants one violation of every rule beside the sources and sees each of them caught."""
+    plants = [("core/planted.h", '#include "app/json/run_json.h"', "core may not include from app"),
+              ("rig/planted.cc", '#include "simulation/simulate.h"', "rig may not include from simulation")]
+    for room in BANNED:
+        plants += [(f"{room}/planted.cc", f'#include "{header}"', f"{room} may not see {header}")
+                   for header in PLANT_HEADERS]
+    for library in DOORS:
+        quoted = f'"{library}"' if library.endswith(".h") and "/" in library else f"<{library}>"
+        plants.append(("analysis/planted.cc", f"#include {quoted}", f"may include {library}"))
+    # through a header of the room's own, which the chain names
+    plants.append(("fdd/planted.cc", '#include "fdd/planted.h"', "fdd may not see effects/plant.h <- fdd/planted.h"))
+    sources = includes_of(root)
+    sources["fdd/planted.h"] = [(1, True, "effects/plant.h")]
+    missed = []
+    for path, line, complaint in plants:
+        match = INCLUDE.match(line)
+        planted = {**sources, path: [(1, match[1] == '"', match[2])]}
+        if not any(b.startswith(path + ":1:") and complaint in b for b in complaints(path, planted)):
+            missed.append(f"not caught: {line} in {path}")
+    if len(dead_names(lambda name: (root / name).exists() and name != "effects/plant.h")) != 1:
+        missed.append("not caught: a ban of a file that does not exist")
+    return missed
+
+
 def main():
-    bad = []
-    for file in sorted(path for top in {room.split("/")[0] for room in MAY_INCLUDE}
-                       for path in pathlib.Path(top).rglob("*.[hc]*")):
-        room = room_of(str(file))
-        known = {room, *MAY_INCLUDE[room].split()}
-        for number, line in enumerate(file.read_text().splitlines(), 1):
-            match = re.match(r'\s*#include ["<]([^">]+)[">]', line)
-            if not match:
-                continue
-            path = match[1]
-            if '"' in line and room_of(path) not in known:
-                bad.append(f"{file}:{number}: {room} may not include from {room_of(path)}")
-            if path in BANNED.get(room, []):
-                bad.append(f"{file}:{number}: {room} may not see {path}")
-            for library, doors in DOORS.items():
-                if path.startswith(library) and str(file) not in doors:
-                    bad.append(f"{file}:{number}: only {', '.join(doors)} may include {path}")
+    root = pathlib.Path(__file__).resolve().parent.parent
+    bad = self_test(root) if sys.argv[1:] == ["--self-test"] else check(root)
     print("\n".join(bad))
     return bool(bad)
 

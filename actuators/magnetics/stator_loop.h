@@ -1,14 +1,11 @@
 #pragma once
 /// The innermost loop of the fast engine: samples of one switching period of one bearing, or of
 /// several side by side (ideal iron, no shorted turns, constant bus). Equations: stator_lanes.h.
+#include "actuators/magnetics/coupling.h"
 #include "actuators/magnetics/gap_reluctance.h"
 #include "actuators/magnetics/lane.h"
 
 namespace ambrig {
-
-/// What ties the coils of a bearing together: the potential of the rotor (radial), a core for two
-/// windings (thrust: four coils, the first four lanes), nothing (opposed magnets).
-enum class Coupling { kFloatingRotor, kSides, kNone };
 
 /// How the voltage of every coil runs over one switching period: v0 until t1, v1 until t2, then v2.
 /// Each voltage is gain * bus + drop; `gain` tells which of the three closes the switches.

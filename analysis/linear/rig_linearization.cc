@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "actuators/magnetics/coil_network.h"
+#include "rig/nominal_control.h"
 #include "rig/rig_assembly.h"
 #include "rotor/motion/linear_rotor.h"
-#include "simulation/sampled/start_state.h"
 
 namespace ambrig {
 
@@ -73,17 +73,16 @@ AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingCo
   a.inductance = along(i, 0);
   a.back_emf_constant =
       Slope([&](double at) { return along(bias, at); }, 1e-3 * b.lanes.gap_offset[0]);
-  PowerAmplifier amplifier(rig.amplifier);
-  const BridgeImperfection ideal;
+  CurrentRegulator regulator = control.regulator[0];
   const double v = operating_force / a.force;
   double duty = 0;
   for (int j = 0; j < control.coils; ++j) {
-    amplifier.HoldCurrent(control.map.c0 * control.map.W(j, 0) + pattern[j] * v,
+    regulator.HoldCurrent(control.map.c0 * control.map.W(j, 0) + pattern[j] * v,
                           b.base_resistance[j]);
-    duty += amplifier.DutyFromVoltage(amplifier.integral()) * pattern[j] * pattern[j] / norm;
+    duty += regulator.DutyFromVoltage(regulator.integral()) * pattern[j] * pattern[j] / norm;
   }
   const auto mean = [&](double d) {
-    const CoilVoltage p = amplifier.Pattern(d, ideal);
+    const CoilVoltage p = IdealBridgeVoltage(rig.amplifier, d);
     const double T = 1 / rig.amplifier.switching_frequency,
                  length[3] = {p.t1, p.t2 - p.t1, T - p.t2};
     double sum = 0;
@@ -93,8 +92,8 @@ AxisActuator ActuatorOf(const RigParameters& rig, std::size_t k, const BearingCo
   };
   const double h = 1e-3;
   a.volts = (mean(duty + h) - mean(duty - h)) / (2 * h) *
-            (amplifier.DutyFromVoltage(1) - amplifier.DutyFromVoltage(0));
-  const CoilVoltage p = amplifier.Pattern(duty, ideal);
+            (regulator.DutyFromVoltage(1) - regulator.DutyFromVoltage(0));
+  const CoilVoltage p = IdealBridgeVoltage(rig.amplifier, duty);
   a.edge = rig.amplifier.modulation == Modulation::kIdeal
                ? 0.5
                : p.t2 * rig.amplifier.switching_frequency;
@@ -158,7 +157,7 @@ RigLinearization LineariseRig(const RigParameters& given, const RigParameters& c
   RigParameters rig = given;  // nominal: no effects, no calibration
   rig.effects.clear();
   for (BearingParameters& b : rig.bearings) b.auxiliary.reset();
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig::AsDrawn(NominalRig(rig)));
   const LinearRotor rotor = LinearRotorOf(plant, Omega);
   const Eigen::Index n = rotor.M.rows();
   // no base: M is diagonal
@@ -172,6 +171,7 @@ RigLinearization LineariseRig(const RigParameters& given, const RigParameters& c
   out.sensor.resize(axes, n);
   out.force.resize(n, axes);
   out.magnet = MatrixXd::Zero(axes, axes);
+  const NominalRig nominal(controllers);
   const auto shares = WeightShares(rig);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     const LinearPort& port = rotor.ports[k];
@@ -180,7 +180,7 @@ RigLinearization LineariseRig(const RigParameters& given, const RigParameters& c
     out.sensor.middleRows(first, sides) = port.C;
     out.force.middleCols(first, sides) = inverse_mass * port.B;
     const BearingPlant& b = plant.bearings[k];
-    const BearingControl control = MakeBearingControl(rig, controllers, k, b.lanes);
+    const BearingControl control = MakeBearingControl(nominal, k);
     const CoilNetwork network(b.lanes);
     for (Eigen::Index side = 0; side < sides; ++side)
       out.actuators.push_back(ActuatorOf(rig, k, control, b, network,

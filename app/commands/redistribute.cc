@@ -93,8 +93,8 @@ int Redistribute(const RedistributeOptions& o) {
   const auto sets = FailedSets(o.failed);
   DistributionOptions best;
   best.policy = DistributionPolicy::kCapacity;
-  const RedistributionTable table(RedistributionProblemOf(rig, *b), RedistributionCacheDirectory(),
-                                  best);
+  const RedistributionTable table(RedistributionProblemOf(NominalRig(rig), *b),
+                                  RedistributionCacheDirectory(), best);
   {
     Progress progress("redistribute");
     for (std::size_t k = 0; k < sets.size(); ++k) {

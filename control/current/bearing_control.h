@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "actuators/electronics/amplifier.h"
 #include "actuators/magnetics/lane.h"
 #include "control/current/current_map.h"
+#include "control/current/current_regulator.h"
 #include "control/current/current_transition.h"
 
 namespace ambrig {
@@ -18,7 +18,7 @@ struct BearingControl {
   CurrentMap map;
   std::shared_ptr<CurrentTransition>
       current_transition;  // on the way to `map`'s currents; empty: there
-  std::array<PowerAmplifier, kLanes> amplifier;
+  std::array<CurrentRegulator, kLanes> regulator;
   Lane set_point;                       // in force, without excitation [A]
   Lane commanded;                       // with the coil's current excitation [A]
   Lane duty, feedback;                  // of this period [-]; mean of the last period's samples [A]

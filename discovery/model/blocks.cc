@@ -129,7 +129,8 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   quiet.noise = false;
   EngineOptions options;
   options.forced = &forced;
-  options.nominal = &nominal;
+  const NominalRig known(nominal);
+  options.nominal = &known;
   options.watch = false;
   options.record_rate = RecordRateFor(rig, d.rate);
   const Record simulated = SwitchingEngine(rig, quiet, options).Run().record;

@@ -140,7 +140,8 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.commands = plans_[record].get();
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.watch = false;
-  options.nominal = &case_.rig;
+  const NominalRig nominal(case_.rig);
+  options.nominal = &nominal;
   scenario.duration = std::min(scenario.duration, std::max(horizon_[record], 1 / r.data.rate));
   // A hypothesis that drops a rotor which the measured rig held is no explanation; do not watch it
   // bounce.

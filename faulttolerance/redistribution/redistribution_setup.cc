@@ -2,11 +2,11 @@
 
 #include <cstdlib>
 
-#include "rig/rig_assembly.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 
-RedistributionProblem RedistributionProblemOf(const RigParameters& rig,
+RedistributionProblem RedistributionProblemOf(const NominalRig& rig,
                                               const BearingParameters& bearing) {
   Require(bearing.kind == BearingKind::kRadial, "a radial bearing");
   const RadialStator stator(bearing.radial);
@@ -19,9 +19,9 @@ RedistributionProblem RedistributionProblemOf(const RigParameters& rig,
   p.turns = bearing.radial.turns;
   p.pole_area = bearing.radial.pole_area;
   p.gap = bearing.radial.gap;
-  p.c0 = BiasCurrent(rig, bearing);
-  p.i_max = rig.amplifier.i_max;
-  p.quadrants = static_cast<int>(rig.amplifier.quadrants);
+  p.c0 = BiasCurrent(*rig, bearing);
+  p.i_max = rig->amplifier.i_max;
+  p.quadrants = static_cast<int>(rig->amplifier.quadrants);
   return p;
 }
 

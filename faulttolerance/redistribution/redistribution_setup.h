@@ -4,11 +4,11 @@
 #include <string>
 
 #include "faulttolerance/redistribution/redistribution_table.h"
-#include "rig/rig_parameters.h"
+#include "rig/nominal_rig.h"
 
 namespace ambrig {
 
-RedistributionProblem RedistributionProblemOf(const RigParameters& rig,
+RedistributionProblem RedistributionProblemOf(const NominalRig& rig,
                                               const BearingParameters& bearing);
 
 /// $AMBRIG_CACHE, else $XDG_CACHE_HOME/ambrig, else ~/.cache/ambrig; empty when none can be had.

@@ -7,7 +7,7 @@
 
 #include "faulttolerance/redistribution/inverse_allocation.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
-#include "rig/rig_assembly.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 
@@ -64,20 +64,22 @@ struct FaultSupervisor::Watched {
   int alarmed = -1;  // coil that the alarm was raised for
 };
 
-FaultSupervisor::FaultSupervisor(const RigParameters& nominal,
-                                 const FaultSupervisorOptions& options)
-    : rig_(nominal), options_(options), T_(1 / nominal.amplifier.switching_frequency), feed_(rig_) {
-  const AmplifierParameters& a = rig_.amplifier;
+FaultSupervisor::FaultSupervisor(const NominalRig& nominal, const FaultSupervisorOptions& options)
+    : rig_(nominal),
+      options_(options),
+      T_(1 / nominal->amplifier.switching_frequency),
+      feed_(rig_) {
+  const AmplifierParameters& a = rig_->amplifier;
   // Mean of as many readings as their noise asks for: one, of a quiet one.
   const double noisy = kBusNoise * a.bus_noise / (kBusUncertainty * a.bus_voltage);
   bus_weight_ = 1 / std::max(1.0, noisy * noisy);
   bus_ = a.bus_voltage;
-  for (const BearingParameters& b : rig_.bearings) {
+  for (const BearingParameters& b : rig_->bearings) {
     auto w = std::make_unique<Watched>();
     w->bearing = &b;
     w->index = watched_.size();
     w->detector =
-        MakeRunDetector(rig_.detection.kind, rig_.detection.where, RunDetectorSetupOf(rig_, b));
+        MakeRunDetector(rig_->detection.kind, rig_->detection.where, RunDetectorSetupOf(rig_, b));
     watched_.push_back(std::move(w));
   }
 }
@@ -85,7 +87,7 @@ FaultSupervisor::FaultSupervisor(const RigParameters& nominal,
 FaultSupervisor::~FaultSupervisor() = default;
 
 void FaultSupervisor::WatchBus(double t, double reading, std::vector<RunEvent>& events) {
-  const double nominal = rig_.amplifier.bus_voltage;
+  const double nominal = rig_->amplifier.bus_voltage;
   const double bus = bus_ += bus_weight_ * (reading - bus_);
   if (!bus_sagged_ && bus < kBusSag * nominal) {
     bus_sagged_ = true;
@@ -105,22 +107,23 @@ void FaultSupervisor::WatchPositions(const PeriodMeasurement& m, std::vector<Run
   events.push_back({t, "classified", name, ToText(FaultClass::kPositionSensor), 0});
 }
 
-void FaultSupervisor::AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
-                                  std::vector<RunEvent>& events) {
+void FaultSupervisor::AfterPeriod(const PeriodMeasurement& m,
+                                  const std::vector<BearingControl>& control,
+                                  SupervisorOutput& out) {
   const double bus = m.bearings.front().bus;
   feed_.Read(m);
-  WatchBus(m.t + T_, bus, events);
-  WatchPositions(m, events);
-  for (std::size_t k = 0; k < watched_.size(); ++k) WatchBearing(k, m, control, events);
+  WatchBus(m.t + T_, bus, out.events);
+  WatchPositions(m, out.events);
+  for (std::size_t k = 0; k < watched_.size(); ++k) WatchBearing(k, m, control[k], out);
   if (options_.slopes) TraceSlopes(m.t);
 }
 
 void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
-                                   std::vector<BearingControl>& control,
-                                   std::vector<RunEvent>& events) {
+                                   const BearingControl& control, SupervisorOutput& out) {
   Watched& w = *watched_[k];
+  std::vector<RunEvent>& events = out.events;
   MeasuredPeriod in = feed_.Period(k, m);
-  in.set_point = &control[k].commanded;
+  in.set_point = &control.commanded;
   const DetectorAlarm alarm = w.detector->Period(in);
   coil_periods_ += w.bearing->coils();
   if (alarm.coil < 0) return;
@@ -150,64 +153,73 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
         {t, "classified", CoilName(w.bearing->name, d.coil), ToText(d.cls), d.fraction});
   }
   if (!options_.redistribute || w.detector->doubtful()) return;
-  Disable(w, alarm.diagnosis, control[k]);
-  for (const Diagnosis& d : alarm.more) Disable(w, d, control[k]);
+  Disable(w, alarm.diagnosis, out);
+  for (const Diagnosis& d : alarm.more) Disable(w, d, out);
   // Set-points that come from outside are not spread over other coils.
-  if (m.position_loop) Redistribute(w, alarm.diagnosis, control[k], events);
+  if (m.position_loop) Redistribute(w, alarm.diagnosis, control, out);
 }
 
-void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, BearingControl& control) {
+void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out) {
   const bool lost = d.cls != FaultClass::kPartialShort;
   w.turns_left[d.coil] = lost ? 0 : w.turns_left[d.coil] * (1 - d.fraction);
-  if (lost) control.disabled[static_cast<std::size_t>(d.coil)] = true;
+  if (lost) out.actions.push_back(DisableCoil{w.index, d.coil});
 }
 
-void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, BearingControl& control,
-                                   std::vector<RunEvent>& events) {
-  const CurrentMap old = control.map;
-  std::string cls;
-  double resistance = 0;
+void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, const BearingControl& control,
+                                   SupervisorOutput& out) {
+  ReplaceMap change{w.index, control.map, control.current_transition};
+  CurrentMap& map = change.map;
   SetPointVector now = SetPointVector::Zero();
   for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
-  const Eigen::Vector2d force = ForceBehind(old, now);
+  const Eigen::Vector2d force = ForceBehind(control.map, now);
+  std::string cls;
   if (w.bearing->kind == BearingKind::kRadial) {
-    resistance = w.bearing->radial.resistance;
-    cls = NewMap(w, force, &control.map);
-    control.current_transition = NewCurrentTransition(w, old, force, control);
-  } else if (w.bearing->kind == BearingKind::kThrust) {
-    resistance = w.bearing->thrust.resistance;
-    cls = "exact";
-    for (int side = 0; side < 2; ++side) {
-      const double a = w.turns_left[2 * side], b = w.turns_left[2 * side + 1];
-      // Ampere-turns 2 (c0 ± v) of the side, shared in proportion to the turns that are left.
-      const double share = a * a + b * b > 0 ? 2 / (a * a + b * b) : 0;
-      if (share == 0) cls = "none";
-      for (int q = 0; q < 2; ++q) {
-        const double scale = share * (q == 0 ? a : b);
-        control.map.W.row(2 * side + q) << scale, (side == 0 ? scale : -scale), 0;
-      }
-    }
+    cls = NewMap(w, force, &map);
+    change.current_transition = NewCurrentTransition(w, map, force, control);
   } else {
-    cls = "none";
-    if (w.turns_left[d.coil] == 0) control.map.W.row(d.coil).setZero();
-    resistance = w.bearing->opposed.resistance;
+    cls = NewMapOfSides(w, d, &map);
   }
   // The set-points that come next.
-  const CurrentMap& map = control.map;
   SetPointVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
-  if (control.current_transition) next = control.current_transition->Clone()->Step(next, force);
+  if (change.current_transition) next = change.current_transition->Clone()->Step(next, force);
+  out.actions.push_back(std::move(change));
+  MoveIntegrals(w, control, next, out);
+  out.events.push_back({d.time, "redistributed", w.bearing->name, cls, 0});
+}
+
+std::string FaultSupervisor::NewMapOfSides(const Watched& w, const Diagnosis& d, CurrentMap* map) {
+  if (w.bearing->kind != BearingKind::kThrust) {
+    if (w.turns_left[d.coil] == 0) map->W.row(d.coil).setZero();
+    return "none";
+  }
+  std::string cls = "exact";
+  for (int side = 0; side < 2; ++side) {
+    const double a = w.turns_left[2 * side], b = w.turns_left[2 * side + 1];
+    // Ampere-turns 2 (c0 ± v) of the side, shared in proportion to the turns that are left.
+    const double share = a * a + b * b > 0 ? 2 / (a * a + b * b) : 0;
+    if (share == 0) cls = "none";
+    for (int q = 0; q < 2; ++q) {
+      const double scale = share * (q == 0 ? a : b);
+      map->W.row(2 * side + q) << scale, (side == 0 ? scale : -scale), 0;
+    }
+  }
+  return cls;
+}
+
+void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& control,
+                                    const SetPointVector& next, SupervisorOutput& out) {
+  const double resistance = CoilResistance(*w.bearing);
   for (int j = 0; j < control.coils; ++j) {
-    PowerAmplifier& a = control.amplifier[static_cast<std::size_t>(j)];
-    PowerAmplifier held = a;
-    held.HoldCurrent(now[j], resistance);
+    const double now = control.set_point[j];
+    CurrentRegulator held = control.regulator[static_cast<std::size_t>(j)];
+    const double integral = held.integral();
+    held.HoldCurrent(now, resistance);
     const double before = held.integral();
     held.HoldCurrent(next[j], resistance * w.turns_left[j]);
-    if (now[j] > 0.2 && next[j] > 0.2)
-      a.set_integral(a.integral() + held.integral() - before);
-    else
-      a.set_integral(held.integral());
+    const bool moves = now > 0.2 && next[j] > 0.2;
+    out.actions.push_back(
+        SetIntegral{w.index, j, moves ? integral + held.integral() - before : held.integral()});
   }
-  events.push_back({d.time, "redistributed", w.bearing->name, cls, 0});
 }
 
 std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
@@ -236,12 +248,12 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
 }
 
 std::unique_ptr<CurrentTransition> FaultSupervisor::NewCurrentTransition(
-    const Watched& w, const CurrentMap& old, const Eigen::Vector2d& force,
+    const Watched& w, const CurrentMap& map, const Eigen::Vector2d& force,
     const BearingControl& control) const {
   TransitionStart s;
   s.bearing = RedistributionProblemOf(rig_, *w.bearing);
   s.bearing.turns_left = w.turns_left;
-  const CurrentMap& map = control.map;
+  const CurrentMap& old = control.map;
   for (int j = 0; j < 8; ++j)
     if (w.turns_left[j] > 0) s.now[j] = control.set_point[j];
   // Without a matrix the bias is what the currents without a force would be.
@@ -249,8 +261,8 @@ std::unique_ptr<CurrentTransition> FaultSupervisor::NewCurrentTransition(
   s.bias_after = map.allocation ? map.allocation->Step(force.x(), force.y(), 0, 0)
                                 : SetPointVector(map.c0 * map.W.col(0));
   s.leakage = w.bearing->radial.leakage_inductance;
-  s.voltage = kVoltageShare * rig_.amplifier.bus_voltage;
-  s.period = 1 / rig_.controller.rate;
+  s.voltage = kVoltageShare * rig_->amplifier.bus_voltage;
+  s.period = 1 / rig_->controller.rate;
   return MakeCurrentTransition(options_.current_transition, s);
 }
 
@@ -272,9 +284,10 @@ void FaultSupervisor::TraceSlopes(double t) {
   while (first_alarm_ < 0 && rows_.front().t < t - kTraceBefore) rows_.pop_front();
 }
 
-void FaultSupervisor::Finish(RunResult& result) {
-  result.metrics.coil_periods = coil_periods_;
-  if (!options_.slopes || rows_.empty()) return;
+SupervisorSummary FaultSupervisor::Summary() const {
+  SupervisorSummary summary;
+  summary.coil_periods = coil_periods_;
+  if (!options_.slopes || rows_.empty()) return summary;
   const Watched& w = *watched_[alarm_bearing_];
   const int coils = w.bearing->coils();
   std::vector<int> shown;
@@ -292,8 +305,9 @@ void FaultSupervisor::Finish(RunResult& result) {
       trace.low.push_back(a[1][j] - a[2][j]);
       trace.high.push_back(a[1][j] + a[2][j]);
     }
-    result.slopes.push_back(std::move(trace));
+    summary.slopes.push_back(std::move(trace));
   }
+  return summary;
 }
 
 }  // namespace ambrig

@@ -6,7 +6,7 @@
 ///   - a lost coil (open, amplifier, switch, sensor) is disabled; a partial short keeps 1 - s turns
 ///   - W of the bearing's failure set replaces the map: the next set-points use it, the force
 ///     command of the position loop stays as it is (bumpless in force)
-///   - every amplifier's integral is moved by what its new current needs (bumpless in voltage)
+///   - every regulator's integral is moved by what its new current needs (bumpless in voltage)
 /// Thrust bearings: the winding that is left on a side carries the missing ampere-turns.
 #include <deque>
 #include <map>
@@ -17,7 +17,7 @@
 #include "faulttolerance/supervision/supervisor.h"
 #include "fdd/detectors/run_detector.h"
 #include "fdd/measurement/detection_feed.h"
-#include "rig/rig_parameters.h"
+#include "rig/nominal_rig.h"
 
 namespace ambrig {
 
@@ -36,13 +36,12 @@ struct FaultSupervisorOptions {
 
 class FaultSupervisor : public Supervisor {
  public:
-  FaultSupervisor(const RigParameters& nominal, const FaultSupervisorOptions& options);
+  FaultSupervisor(const NominalRig& nominal, const FaultSupervisorOptions& options);
   ~FaultSupervisor() override;
 
-  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
-                   std::vector<RunEvent>& events) override;
-  /// Adds the slope traces and the number of coil-periods watched.
-  void Finish(RunResult& result) override;
+  void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
+                   SupervisorOutput& out) override;
+  SupervisorSummary Summary() const override;
 
   double coil_periods() const { return coil_periods_; }
 
@@ -50,22 +49,27 @@ class FaultSupervisor : public Supervisor {
   struct Watched;
   void WatchBus(double t, double reading, std::vector<RunEvent>& events);
   void WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events);
-  void WatchBearing(std::size_t k, const PeriodMeasurement& m, std::vector<BearingControl>& control,
-                    std::vector<RunEvent>& events);
+  void WatchBearing(std::size_t k, const PeriodMeasurement& m, const BearingControl& control,
+                    SupervisorOutput& out);
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
-  static void Disable(Watched& w, const Diagnosis& d, BearingControl& control);
-  void Redistribute(Watched& w, const Diagnosis& d, BearingControl& control,
-                    std::vector<RunEvent>& events);
+  static void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
+  void Redistribute(Watched& w, const Diagnosis& d, const BearingControl& control,
+                    SupervisorOutput& out);
+  /// The map of a bearing whose coils do not share a rotor; returns its class for the record.
+  static std::string NewMapOfSides(const Watched& w, const Diagnosis& d, CurrentMap* map);
+  /// Every regulator's integral is moved by what its new current needs.
+  static void MoveIntegrals(const Watched& w, const BearingControl& control,
+                            const SetPointVector& next, SupervisorOutput& out);
   /// The radial bearing's new map for `force` [N] after its faults; returns its class for the
   /// record.
   std::string NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map);
   /// The way from the set-points in force to those of the new map.
-  std::unique_ptr<CurrentTransition> NewCurrentTransition(const Watched& w, const CurrentMap& old,
+  std::unique_ptr<CurrentTransition> NewCurrentTransition(const Watched& w, const CurrentMap& map,
                                                           const Eigen::Vector2d& force,
                                                           const BearingControl& control) const;
   void TraceSlopes(double t);
 
-  const RigParameters rig_;
+  const NominalRig rig_;
   FaultSupervisorOptions options_;
   double T_ = 0;  // [s]
   bool bus_sagged_ = false;

@@ -1,21 +1,43 @@
 #pragma once
-/// Seam between the engine and what watches it in the controller: fault detection and
-/// redistribution. It sees what a real controller sees, never the plant.
+/// Seam between the engine and what watches a run in the controller: fault detection and
+/// redistribution. A supervisor is given what the controller measured and what it commands, both
+/// const, and answers with actions and events of its own. It never sees the plant, the scenario's
+/// faults or the result of the run.
+#include <string>
 #include <vector>
 
-#include "control/current/bearing_control.h"
+#include "control/current/control_action.h"
 #include "control/measurements.h"
-#include "simulation/record/run_result.h"
+#include "core/record/run_event.h"
 
 namespace ambrig {
+
+/// The answer to one switching period. The engine clears it, and applies the actions in their order.
+struct SupervisorOutput {
+  std::vector<ControlAction> actions;
+  std::vector<RunEvent> events;  // alarms and what follows from them
+};
+
+/// Slope of one coil against what the detector expects, one row per switching period.
+struct SlopeTrace {
+  std::string coil;
+  std::vector<double> t, slope, low, high;  // [s], [A/s]
+};
+
+/// What a supervisor has to tell when a run is over.
+struct SupervisorSummary {
+  double coil_periods = 0;         // coils watched, times periods
+  std::vector<SlopeTrace> slopes;  // of the first alarm
+};
 
 class Supervisor {
  public:
   virtual ~Supervisor() = default;
-  /// After period n is measured; may change maps, integrals, `disabled`, and add events.
-  virtual void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
-                           std::vector<RunEvent>& events) = 0;
-  virtual void Finish(RunResult&) {}
+  /// After switching period m.period is measured. `control`: one entry per bearing, as it was during
+  /// the period.
+  virtual void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
+                           SupervisorOutput& out) = 0;
+  virtual SupervisorSummary Summary() const { return {}; }
 };
 
 }  // namespace ambrig

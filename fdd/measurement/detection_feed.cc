@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "rig/rig_assembly.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 
@@ -55,8 +55,9 @@ LinkageModel LinkageModelOf(const BearingParameters& b) {
   return m;
 }
 
-DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b,
+DetectorSettings DetectorSettingsOf(const NominalRig& nominal, const BearingParameters& b,
                                     const LinkageModel& m) {
+  const RigParameters& rig = *nominal;
   const AmplifierParameters& a = rig.amplifier;
   DetectorSettings s;
   s.sampling.samples = rig.samples_per_period();
@@ -78,24 +79,24 @@ DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParam
   return s;
 }
 
-RunDetectorSetup RunDetectorSetupOf(const RigParameters& rig, const BearingParameters& b) {
+RunDetectorSetup RunDetectorSetupOf(const NominalRig& rig, const BearingParameters& b) {
   RunDetectorSetup s;
   s.model = LinkageModelOf(b);
   s.settings = DetectorSettingsOf(rig, b, s.model);
   s.bearing = b.name;
-  s.threshold = rig.detection.threshold;
-  s.commissioning = rig.detection.commissioning;
+  s.threshold = rig->detection.threshold;
+  s.commissioning = rig->detection.commissioning;
   return s;
 }
 
-DetectionFeed::DetectionFeed(const RigParameters& nominal)
+DetectionFeed::DetectionFeed(const NominalRig& nominal)
     : rig_(nominal),
-      T_(1 / nominal.amplifier.switching_frequency),
-      bus_(nominal.amplifier.bus_voltage),
-      last_bus_(nominal.amplifier.bus_voltage) {
+      T_(1 / nominal->amplifier.switching_frequency),
+      bus_(nominal->amplifier.bus_voltage),
+      last_bus_(nominal->amplifier.bus_voltage) {
   std::vector<double> sensor_z;
   double largest_noise = 0;
-  for (const BearingParameters& b : rig_.bearings) {
+  for (const BearingParameters& b : rig_->bearings) {
     const std::size_t axis = axis_names_.size();
     if (b.kind == BearingKind::kRadial) {
       planes_.push_back({b.sensor.z, static_cast<int>(axis), static_cast<int>(axis) + 1});
@@ -197,7 +198,8 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
   bool sensed = sensed_;
   for (std::size_t a = 0; a < axis_names_.size(); ++a)
     if (positions_.faulty(a) && Uses(v, a)) sensed = false;
-  const double step = kBusStep * rig_.amplifier.bus_voltage + kBusNoise * rig_.amplifier.bus_noise;
+  const double step =
+      kBusStep * rig_->amplifier.bus_voltage + kBusNoise * rig_->amplifier.bus_noise;
   in.comparable = sensed && std::abs(b.bus - last_bus_) < step;
   return in;
 }

@@ -9,23 +9,23 @@
 #include "control/measurements.h"
 #include "fdd/detectors/run_detector.h"
 #include "fdd/measurement/position_monitor.h"
-#include "rig/rig_parameters.h"
+#include "rig/nominal_rig.h"
 
 namespace ambrig {
 
 /// Nominal circuit of a bearing.
 LinkageModel LinkageModelOf(const BearingParameters& b);
-/// Sampling, noise and tolerances as the rig file gives them; `rig` must outlive them.
-DetectorSettings DetectorSettingsOf(const RigParameters& rig, const BearingParameters& b,
+/// Sampling, noise and tolerances as the rig file gives them; `rig` or a copy of it must outlive
+/// them.
+DetectorSettings DetectorSettingsOf(const NominalRig& rig, const BearingParameters& b,
                                     const LinkageModel& m);
 
 /// All that a detector of a run is told of the bearing beforehand; `rig` must outlive it.
-RunDetectorSetup RunDetectorSetupOf(const RigParameters& rig, const BearingParameters& b);
+RunDetectorSetup RunDetectorSetupOf(const NominalRig& rig, const BearingParameters& b);
 
 class DetectionFeed {
  public:
-  /// `nominal` must outlive it.
-  explicit DetectionFeed(const RigParameters& nominal);
+  explicit DetectionFeed(const NominalRig& nominal);
 
   /// A new period; then Period(k) of every bearing.
   void Read(const PeriodMeasurement& m);
@@ -53,7 +53,7 @@ class DetectionFeed {
   void Place(const View& v, const std::vector<double>& weights, const Of& of, double* x,
              double* y) const;
 
-  const RigParameters& rig_;
+  const NominalRig rig_;
   double T_ = 0, bus_ = 0, last_bus_ = 0;  // [s], [V]
   std::vector<std::string> axis_names_;
   std::vector<SensedPlane> planes_;

@@ -10,7 +10,7 @@
 /// 1.2.)
 #include <array>
 
-#include "actuators/electronics/amplifier.h"
+#include "actuators/electronics/amplifier_parameters.h"
 #include "fdd/model/linkage_model.h"
 
 namespace ambrig {

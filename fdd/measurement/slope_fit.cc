@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "actuators/electronics/coil_voltage.h"
 #include "actuators/magnetics/whole_lane_vector.h"
 
 namespace ambrig {
@@ -102,7 +103,7 @@ AMBRIG_WIDE void FitHalves(const LinkageModel& m, double step, PeriodSlopes* out
 BridgeVoltage VoltageOf(const AmplifierParameters& p, double duty, double bus) {
   const double T = 1 / p.switching_frequency;
   BridgeVoltage out;
-  const CoilVoltage v = PowerAmplifier(p).Pattern(duty, {});
+  const CoilVoltage v = IdealBridgeVoltage(p, duty);
   const int first = v.t1 >= T ? 0 : 1;
   out.edge = first == 0 ? T : v.t2;
   out.on = v.gain[first] * bus + v.drop[first];

@@ -8,8 +8,10 @@
 ///   opposed  λ_j = n_j P_j n_j i_j + L_l i_j
 ///
 /// n_j: signed turns. Source: docs/theory/base_model.md section 2.
+#include "actuators/magnetics/coupling.h"
+#include "actuators/magnetics/gap_reluctance.h"
+#include "actuators/magnetics/lane.h"
 #include "actuators/magnetics/radial_stator.h"
-#include "actuators/magnetics/stator_lanes.h"
 #include "actuators/magnetics/thrust_stator.h"
 
 namespace ambrig {

@@ -8,7 +8,7 @@
 /// the shaft centre at its sensor's plane. Of a whole rig, with the ports filled in the order of
 /// its bearings (rig/rig_assembly.h):
 ///
-///   const Plant plant = BuildPlant(rig);
+///   const Plant plant = BuildPlant(true_rig);
 ///   const LinearRotor linear = LinearRotorOf(plant, Omega);
 ///
 /// Its coordinates are those of MotionState::q: x, y, z, alpha about x, beta about y, then

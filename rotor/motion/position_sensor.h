@@ -5,20 +5,9 @@
 #include <memory>
 #include <vector>
 
-#include "core/base/parameters.h"
 #include "rotor/motion/force_term.h"
 
 namespace ambrig {
-
-struct SensorParameters {
-  double z = kRequired;  // a thrust bearing's sensor has none
-  double noise = 0;
-};
-
-inline constexpr Field<SensorParameters> kSensorFields[] = {
-    {"z", &SensorParameters::z, "m", -100, 100, "sensor plane"},
-    {"noise", &SensorParameters::noise, "m", 0, 1, "rms of one reading"},
-};
 
 /// Seam of the sensors: changes the reading (x, y) of a plane [m]. Called once per switching period
 /// in order of time, so a map may keep a filter's state.

@@ -30,39 +30,38 @@ class AveragedRun : public ContinuousRun {
       throw InputError(
           "a record_rate above the switching frequency needs --fidelity switching or reference");
     if (scenario.start == StartState::kLevitated) {
-      const Equilibrium e = LevitatedEquilibrium(rig_);
-      if (e.usable())
-        rig_.StartFrom(e.force, e.q);
-      else
+      const Equilibrium e = rig_.StartInEquilibrium();
+      if (!e.usable())
         result_.notes.push_back("no unique equilibrium (" + e.message +
                                 "): started from the centre");
+    }
+    for (SampledBearing& b : rig_.bearings) {
+      b.measurement.noisy = false;
+      b.measurement.samples = 1;
     }
     Settle();
   }
 
  private:
   void SetVoltages(double) override {
-    for (const ContinuousBearing& b : rig_.bearings)
+    for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         bool driven;
-        const double v = MeanVoltage(b.voltage[static_cast<std::size_t>(j)], rig_.plant.bus.voltage,
-                                     rig_.T, &driven);
+        const double v = MeanVoltage(voltage_[b.index][static_cast<std::size_t>(j)],
+                                     rig_.plant.bus.voltage, rig_.T, &driven);
         plant_->SetVoltage(b.index, j, v, driven);
       }
   }
 
   double Measure(long long n) override {
     double peak = 0;
-    std::vector<const Lane*> truth;
-    for (ContinuousBearing& b : rig_.bearings) {
-      b.measurement.noisy = false;
+    for (SampledBearing& b : rig_.bearings) {
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         mean_[b.index][j] = plant_->MeanCurrent(b.index, j, rig_.T);
         peak = std::max(peak, mean_[b.index][j]);
       }
-      truth.push_back(&mean_[b.index]);
+      rig_.Measure(n, b, &mean_[b.index]);
     }
-    rig_.Measure(n, truth, 1);
     return peak;
   }
 

@@ -26,7 +26,7 @@ void RefuseWhatIsNotHere(const Plant& plant) {
 }
 }  // namespace
 
-ContinuousRig::ContinuousRig(SampledRig& rig, const IntegratorOptions& options) : rig_(rig) {
+ContinuousRig::ContinuousRig(SampledDataLoop& rig, const IntegratorOptions& options) : rig_(rig) {
   RefuseWhatIsNotHere(rig.plant);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     bearings_.emplace_back(rig.plant.bearings[k].lanes);

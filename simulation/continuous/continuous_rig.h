@@ -21,7 +21,7 @@
 
 #include "actuators/magnetics/coil_network.h"
 #include "core/math/cvode.h"
-#include "simulation/sampled/sampled_rig.h"
+#include "simulation/sampled/sampled_data_loop.h"
 
 namespace ambrig {
 
@@ -41,7 +41,7 @@ struct EnergyBalance {
 
 class ContinuousRig {
  public:
-  ContinuousRig(SampledRig& rig, const IntegratorOptions& options);
+  ContinuousRig(SampledDataLoop& rig, const IntegratorOptions& options);
 
   /// Coils carry the set-points at the present motion.
   void Settle();
@@ -90,7 +90,7 @@ class ContinuousRig {
   void Restart();
   void Refresh();
 
-  SampledRig& rig_;
+  SampledDataLoop& rig_;
   std::vector<Bearing> bearings_;
   std::vector<DofVector> load_Q_;  // of every load of the scenario
   DofVector active_load_{};

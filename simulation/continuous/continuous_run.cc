@@ -6,7 +6,7 @@ namespace ambrig {
 
 ContinuousRun::ContinuousRun(const RigParameters& rig, const Scenario& scenario,
                              const ReferenceOptions& options)
-    : options_(options), rig_(rig, scenario, options.sampled) {
+    : options_(options), rig_(rig, scenario, options.sampled), voltage_(rig_.bearings.size()) {
   rig_.Start();
 }
 
@@ -18,38 +18,38 @@ void ContinuousRun::Settle() {
 }
 
 RunResult ContinuousRun::Run(std::vector<EnergyBalance>* energies) {
-  rig_.RecordStart();
-  for (long long n = -rig_.warm; n < rig_.periods; ++n) {
-    if (options_.stop && options_.stop->load()) throw Interrupted();
-    if (options_.progress && (n & 63) == 0)
-      options_.progress(static_cast<double>(n + rig_.warm) /
-                        static_cast<double>(rig_.periods + rig_.warm));
+  rig_.StartRecord();
+  rig_.ForEachPeriod(options_, 4, [&](long long n) {
     Period(n);
     if (energies) energies->push_back(plant_->Energies());
-  }
+  });
   watch_->Finish();
   result_.record = rig_.TakeRecord();
-  if (options_.sampled.supervisor) options_.sampled.supervisor->Finish(result_);
+  AddSummary(options_.sampled.supervisor, result_);
   return std::move(result_);
 }
 
 void ContinuousRun::Period(long long n) {
   rig_.AtPeriodStart(n);
+  SetPatterns();
   plant_->BeginPeriod(n);
   const double copper = plant_->Energies().copper;
   FillInstants(n);
   for (double tau : instants_) {
     plant_->AdvanceTo(tau);
-    if (faults_->Due(n, tau)) RebuildPatterns();
+    if (faults_->Due(n, tau)) SetPatterns();
     AtInstant(tau);
     SetVoltages(tau);
   }
   plant_->AdvanceTo(rig_.T);
   const double peak = Measure(n);
+  rig_.EndMeasurement(n);
   plant_->EndPeriod();
   rig_.UpdatePositions();
-  watch_->Period(n, (plant_->Energies().copper - copper) / rig_.T, peak);
-  rig_.AfterPeriod(n, result_);
+  if (n < 0) return;
+  watch_->Coils((plant_->Energies().copper - copper) / rig_.T, peak);
+  watch_->Period(n);
+  rig_.Supervise(n, result_);
 }
 
 void ContinuousRun::FillInstants(long long n) {
@@ -70,10 +70,11 @@ void ContinuousRun::FillInstants(long long n) {
   instants_.erase(std::unique(instants_.begin(), instants_.end(), same), instants_.end());
 }
 
-void ContinuousRun::RebuildPatterns() {
-  for (ContinuousBearing& b : rig_.bearings)
+void ContinuousRun::SetPatterns() {
+  for (const SampledBearing& b : rig_.bearings)
     for (int j = 0; j < rig_.control[b.index].coils; ++j)
-      b.voltage[static_cast<std::size_t>(j)] = rig_.PatternOf(b, j);
+      voltage_[b.index][static_cast<std::size_t>(j)] =
+          rig_.PatternOf(b, j, rig_.control[b.index].feedback[j]);
 }
 
 }  // namespace ambrig

@@ -7,7 +7,7 @@
 
 #include "simulation/continuous/fault_injection.h"
 #include "simulation/continuous/reference_engine.h"
-#include "simulation/continuous/run_watch.h"
+#include "simulation/verdict/run_watch.h"
 
 namespace ambrig {
 
@@ -33,18 +33,20 @@ class ContinuousRun {
   virtual void AtInstant(double /*tau*/) {}
   /// Voltages of all coils from tau on.
   virtual void SetVoltages(double tau) = 0;
-  /// The end of period n: feedback and rows. Returns the largest current of the period [A].
+  /// The end of period n: measurements of all bearings. Returns the largest current of the period
+  /// [A].
   virtual double Measure(long long n) = 0;
 
   const ReferenceOptions options_;
-  SampledRig rig_;
+  SampledDataLoop rig_;
+  std::vector<std::array<CoilVoltage, kLanes>> voltage_;  // of this period, per bearing
   std::optional<ContinuousRig> plant_;
   RunResult result_;
 
  private:
   void Period(long long n);
   void FillInstants(long long n);
-  void RebuildPatterns();
+  void SetPatterns();
 
   std::optional<FaultInjection> faults_;
   std::optional<RunWatch> watch_;

@@ -4,6 +4,8 @@
 
 #include "actuators/magnetics/coil_network.h"
 #include "core/math/cvode.h"
+#include "rig/rig_figures.h"
+#include "simulation/sampled/sampled_data_loop.h"
 
 namespace ambrig {
 
@@ -11,12 +13,12 @@ namespace {
 
 /// Everything that the equations need besides their unknowns.
 struct Balance {
-  const SampledRig& rig;
+  const SampledDataLoop& rig;
   std::vector<CoilNetwork> networks;
   std::size_t axes = 0, dof = 0;
   std::vector<bool> fixed;  // coordinates that no force moves: held at zero
 
-  explicit Balance(const SampledRig& r)
+  explicit Balance(const SampledDataLoop& r)
       : rig(r), dof(static_cast<std::size_t>(r.plant.rotor.dof())), fixed(dof, false) {
     for (const BearingPlant& b : r.plant.bearings) networks.emplace_back(b.lanes);
     for (const SampledBearing& b : r.bearings) axes += b.axes;
@@ -57,7 +59,7 @@ struct Balance {
 
 }  // namespace
 
-Equilibrium LevitatedEquilibrium(const SampledRig& rig) {
+Equilibrium LevitatedEquilibrium(const SampledDataLoop& rig) {
   const Balance balance(rig);
   const std::size_t n = balance.axes + balance.dof;
   // Sizes that matter: the rotor's weight, a micrometre, the acceleration of gravity.
@@ -93,7 +95,7 @@ Equilibrium LevitatedEquilibrium(const SampledRig& rig) {
 }
 
 Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Scenario& scenario) {
-  SampledRig sampled(rig, scenario, {});
+  SampledDataLoop sampled(rig, scenario, {});
   sampled.Start();
   return LevitatedEquilibrium(sampled);
 }

@@ -9,9 +9,16 @@
 /// At standstill: what turns with the shaft (unbalance) has no equilibrium. Where the axes do not
 /// hold every coordinate (one magnet on a bench) there is no unique one and `converged` is false.
 /// Source: docs/theory/base_model.md sections 1, 2, 4.
-#include "simulation/sampled/sampled_rig.h"
+#include <string>
+#include <vector>
+
+#include "actuators/magnetics/lane.h"
+#include "rotor/motion/force_term.h"
+#include "scenarios/scenario.h"
 
 namespace ambrig {
+
+class SampledDataLoop;
 
 struct Equilibrium {
   std::vector<double> force;  // per axis [N]
@@ -24,7 +31,7 @@ struct Equilibrium {
   bool usable() const { return converged; }
 };
 
-Equilibrium LevitatedEquilibrium(const SampledRig& rig);
+Equilibrium LevitatedEquilibrium(const SampledDataLoop& rig);
 /// The same for an engine without a sampled rig of its own.
 Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Scenario& scenario);
 

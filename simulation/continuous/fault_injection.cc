@@ -13,7 +13,7 @@ constexpr double kSame = 1e-10;  // [s] two instants that are one
 /// The coils as networks of windings (actuators/magnetics/coil_network.h).
 class FaultedNetwork : public FaultedPlant {
  public:
-  FaultedNetwork(SampledRig& rig, ContinuousRig& plant, const FaultPlace& place)
+  FaultedNetwork(SampledDataLoop& rig, ContinuousRig& plant, const FaultPlace& place)
       : FaultedPlant(rig.plant, place, rig.rig.amplifier.bus_voltage), rig_(plant) {}
 
   double Current() const override { return rig_.Current(place_.bearing, place_.coil); }
@@ -33,7 +33,7 @@ bool VoltagesChanged(const FaultedPlant& plant) {
 
 }  // namespace
 
-FaultInjection::FaultInjection(SampledRig& rig, ContinuousRig& plant, RunResult& result)
+FaultInjection::FaultInjection(SampledDataLoop& rig, ContinuousRig& plant, RunResult& result)
     : rig_(rig), plant_(plant), result_(result) {}
 
 double FaultInjection::Snapped(const FaultSpec& f) const {
@@ -75,6 +75,7 @@ bool FaultInjection::Inject(const FaultSpec& f) {
   const Fault& fault = FaultByKind(f.kind);
   FaultedNetwork plant(rig_, plant_, PlaceOf(f, rig_.rig));
   fault.apply(f, plant);
+  if (plant.sensor_changed()) rig_.bearings[PlaceOf(f, rig_.rig).bearing].plain_sensors = false;
   ends_.Add(fault, f);
   return VoltagesChanged(plant);
 }

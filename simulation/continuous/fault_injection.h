@@ -10,7 +10,7 @@ namespace ambrig {
 
 class FaultInjection {
  public:
-  FaultInjection(SampledRig& rig, ContinuousRig& plant, RunResult& result);
+  FaultInjection(SampledDataLoop& rig, ContinuousRig& plant, RunResult& result);
   /// Local instants [s] of period n at which something happens.
   void Instants(long long n, std::vector<double>& out) const;
   /// Injects what is due at local time tau of period n; true when a bridge or the bus changed, so
@@ -21,7 +21,7 @@ class FaultInjection {
   double Snapped(const FaultSpec& f) const;
   bool Inject(const FaultSpec& f);
 
-  SampledRig& rig_;
+  SampledDataLoop& rig_;
   ContinuousRig& plant_;
   RunResult& result_;
   std::size_t next_ = 0;

@@ -23,10 +23,10 @@ class ReferenceRun : public ContinuousRun {
     next_sample_ = 0;
     peak_ = 0;
     for (int k = 1; k < rig_.samples; ++k) instants.push_back(k * rig_.h);
-    for (const ContinuousBearing& b : rig_.bearings)
+    for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j)
-        for (double t :
-             {b.voltage[static_cast<std::size_t>(j)].t1, b.voltage[static_cast<std::size_t>(j)].t2})
+        for (double t : {voltage_[b.index][static_cast<std::size_t>(j)].t1,
+                         voltage_[b.index][static_cast<std::size_t>(j)].t2})
           if (t > kSameInstant && t < rig_.T - kSameInstant) instants.push_back(t);
   }
 
@@ -35,7 +35,7 @@ class ReferenceRun : public ContinuousRun {
     if (k >= static_cast<std::size_t>(rig_.samples) ||
         tau < static_cast<double>(k) * rig_.h - kSameInstant)
       return;
-    for (const ContinuousBearing& b : rig_.bearings)
+    for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
         samples_[b.index][k][j] = plant_->Current(b.index, j);
         peak_ = std::max(peak_, samples_[b.index][k][j]);
@@ -44,18 +44,15 @@ class ReferenceRun : public ContinuousRun {
   }
 
   double Measure(long long n) override {
-    std::vector<const Lane*> truth;
-    for (const auto& s : samples_) truth.push_back(s.data());
-    rig_.Measure(n, truth, rig_.samples);
-    rig_.RecordBurst(n);
+    for (SampledBearing& b : rig_.bearings) rig_.Measure(n, b, samples_[b.index].data());
     return peak_;
   }
 
   /// Piece of every coil's pattern that begins at or before tau.
   void SetVoltages(double tau) override {
-    for (const ContinuousBearing& b : rig_.bearings)
+    for (const SampledBearing& b : rig_.bearings)
       for (int j = 0; j < rig_.control[b.index].coils; ++j) {
-        const CoilVoltage& v = b.voltage[static_cast<std::size_t>(j)];
+        const CoilVoltage& v = voltage_[b.index][static_cast<std::size_t>(j)];
         const int piece = tau < v.t1 - kSameInstant ? 0 : (tau < v.t2 - kSameInstant ? 1 : 2);
         plant_->SetVoltage(b.index, j, v.gain[piece] * rig_.plant.bus.voltage + v.drop[piece],
                            v.gain[piece] > 0);

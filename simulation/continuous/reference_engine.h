@@ -9,18 +9,13 @@
 ///
 /// Not here: iron laws, copper heating and a bus with impedance (InputError).
 /// Source: docs/theory/base_model.md.
-#include <atomic>
-#include <functional>
-
 #include "simulation/continuous/continuous_rig.h"
 
 namespace ambrig {
 
-struct ReferenceOptions {
-  SampledOptions sampled;  // record rate, noise (off), warm-up
+struct ReferenceOptions : RunControl {
+  SampledOptions sampled = {.noise = false};
   IntegratorOptions integrator;
-  std::function<void(double)> progress = {};
-  const std::atomic<bool>* stop = nullptr;  // set: throw Interrupted
 };
 
 /// @throws InputError for what it cannot do, Interrupted when stopped.

@@ -6,17 +6,10 @@
 #include <vector>
 
 #include "core/record/record.h"
+#include "core/record/run_event.h"
+#include "faulttolerance/supervision/supervisor.h"
 
 namespace ambrig {
-
-struct RunEvent {
-  double t = 0;  // [s]
-  // fault | detected | classified | redistributed | alarm_cleared | touchdown | lift_off | drop
-  std::string kind;
-  std::string target;       // "A.coil3", "A"
-  std::string fault_class;  // "open", ...
-  double fraction = 0;      // of shorted turns
-};
 
 struct RunMetrics {
   std::map<std::string, double> max_orbit;  // per bearing, from t = 0 [m]
@@ -40,12 +33,6 @@ struct FluxSnapshot {
   double x = 0, y = 0;                // [m]
 };
 
-/// Slope of one coil against what the detector expects, one row per switching period.
-struct SlopeTrace {
-  std::string coil;
-  std::vector<double> t, slope, low, high;  // [s], [A/s]
-};
-
 struct RunResult {
   Record record;
   std::vector<RunEvent> events;
@@ -55,5 +42,8 @@ struct RunResult {
   std::vector<SlopeTrace> slopes;
   std::vector<std::string> notes;
 };
+
+/// What the supervisor has to tell when the run is over; null: nothing.
+void AddSummary(const Supervisor* supervisor, RunResult& result);
 
 }  // namespace ambrig

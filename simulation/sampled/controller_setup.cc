@@ -6,7 +6,6 @@
 #include "control/position/axis_groups.h"
 #include "control/position/controller_kind.h"
 #include "control/position/unbalance_control.h"
-#include "rig/rig_assembly.h"
 
 namespace ambrig {
 
@@ -53,15 +52,16 @@ ControllerSite SiteOf(const RigParameters& rig, const ControllerParameters& c, d
 
 }  // namespace
 
-std::vector<double> ForceLimits(const RigParameters& rig, const ControllerParameters& c) {
+std::vector<double> ForceLimits(const NominalRig& rig, const ControllerParameters& c) {
   std::vector<double> out;
-  for (const Axis& a : AxesOf(rig))
+  for (const Axis& a : AxesOf(*rig))
     out.push_back(a.bearing->controller ? a.bearing->controller->f_max : c.pid.f_max);
   return out;
 }
 
-std::unique_ptr<PositionController> MakeController(const RigParameters& rig,
+std::unique_ptr<PositionController> MakeController(const NominalRig& nominal,
                                                    const ControllerParameters& c) {
+  const RigParameters& rig = *nominal;
   const auto axes = AxesOf(rig);
   const double Ts = rig.periods_per_control() / rig.amplifier.switching_frequency;
   if (c.IsPlainPid()) {
@@ -90,17 +90,17 @@ std::unique_ptr<PositionController> MakeController(const RigParameters& rig,
   return std::make_unique<AxisGroups>(std::move(groups));
 }
 
-std::unique_ptr<ControllerSwitch> MakeControllerSwitch(const RigParameters& rig) {
+std::unique_ptr<ControllerSwitch> MakeControllerSwitch(const NominalRig& rig) {
   std::vector<std::unique_ptr<PositionController>> all;
-  all.push_back(MakeController(rig, rig.controller));
-  std::vector<double> limits = ForceLimits(rig, rig.controller);
-  for (const ControllerParameters& c : rig.other_controllers) {
+  all.push_back(MakeController(rig, rig->controller));
+  std::vector<double> limits = ForceLimits(rig, rig->controller);
+  for (const ControllerParameters& c : rig->other_controllers) {
     all.push_back(MakeController(rig, c));
     const auto more = ForceLimits(rig, c);
     for (std::size_t k = 0; k < limits.size(); ++k) limits[k] = std::max(limits[k], more[k]);
   }
   return std::make_unique<ControllerSwitch>(
-      std::move(all), limits, rig.periods_per_control() / rig.amplifier.switching_frequency);
+      std::move(all), limits, rig->periods_per_control() / rig->amplifier.switching_frequency);
 }
 
 }  // namespace ambrig

@@ -26,8 +26,7 @@ void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
     BearingControl& c = control[k];
     const Lane& target = target_[k];
     for (int j = 0; j < c.coils; ++j)
-      c.duty[j] = first_period_ ? amplifier_.duty_min
-                                : c.amplifier[U(j)].CurrentLoop(target[j], c.feedback[j]);
+      c.duty[j] = first_period_ ? duty_min_ : c.regulator[U(j)].Duty(target[j], c.feedback[j]);
     for (int j = 0; j < c.coils; ++j)
       if (c.disabled[U(j)]) c.duty[j] = 0;
   }
@@ -35,7 +34,7 @@ void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
   if (at < 0) return;
   for (const CommandPlan::Signal& s : commands_.duty)
     control[U(s.bearing)].duty[s.index] =
-        std::clamp(CommandPlan::At(s, at), std::min(0.0, amplifier_.duty_min), 1.0);
+        std::clamp(CommandPlan::At(s, at), std::min(0.0, duty_min_), 1.0);
 }
 
 }  // namespace ambrig

@@ -2,7 +2,8 @@
 /// The current loops of all coils at the start of a switching period, the same in every fidelity:
 /// set-points and what the scenario adds to them become duties. Source: docs/theory/base_model.md
 /// section 3.
-#include "faulttolerance/supervision/supervisor.h"
+#include "control/current/bearing_control.h"
+#include "rig/nominal_rig.h"
 #include "simulation/sampled/command_plan.h"
 
 namespace ambrig {
@@ -17,8 +18,8 @@ class CurrentLoops {
   };
 
   /// `commands` must outlive the loops.
-  CurrentLoops(const AmplifierParameters& amplifier, const CommandPlan& commands)
-      : amplifier_(amplifier), commands_(commands) {}
+  CurrentLoops(const NominalRig& nominal, const CommandPlan& commands)
+      : duty_min_(nominal->amplifier.duty_min), commands_(commands) {}
 
   void Follow(SetPoints source) { source_ = source; }
   /// The first period after everything was switched on: no feedback yet, least duty.
@@ -29,7 +30,7 @@ class CurrentLoops {
  private:
   void Targets(long long n, std::vector<BearingControl>& control);
 
-  AmplifierParameters amplifier_;
+  double duty_min_;  // [-]
   const CommandPlan& commands_;
   SetPoints source_ = SetPoints::kOfTheController;
   bool first_period_ = false;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "rig/rig_assembly.h"
 #include "simulation/sampled/controller_setup.h"
 
 namespace ambrig {
@@ -11,24 +10,24 @@ namespace {
 constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
 }  // namespace
 
-PositionLoop::PositionLoop(const RigParameters& rig, Plant& plant, const CommandPlan& commands,
+PositionLoop::PositionLoop(const NominalRig& nominal, Plant& plant, const CommandPlan& commands,
                            MeasurementNoise& noise, bool noisy)
     : plant_(plant),
       commands_(commands),
       noise_(noise),
       noisy_(noisy),
-      T_(1 / rig.amplifier.switching_frequency),
-      M_(rig.periods_per_control()) {
-  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
+      T_(1 / nominal->amplifier.switching_frequency),
+      M_(nominal->periods_per_control()) {
+  for (std::size_t k = 0; k < nominal->bearings.size(); ++k) {
     first_axis_.push_back(axes_.size());
-    const std::size_t sides = rig.bearings[k].Axes().size();
+    const std::size_t sides = nominal->bearings[k].Axes().size();
     for (std::size_t side = 0; side < sides; ++side) axes_.push_back({k, side});
   }
   first_axis_.push_back(axes_.size());
   if (commands_.switches.empty()) {
-    controller_ = MakeController(rig, rig.controller);
+    controller_ = MakeController(nominal, nominal->controller);
   } else {
-    auto changing = MakeControllerSwitch(rig);
+    auto changing = MakeControllerSwitch(nominal);
     switch_ = changing.get();
     controller_ = std::move(changing);
   }
@@ -41,6 +40,7 @@ void PositionLoop::Hold(const std::vector<double>& force) {
 }
 
 void PositionLoop::ReadSensors(const MotionState& motion) {
+  plant_.speed_sensor.Read(motion);
   for (BearingPlant& b : plant_.bearings) {
     PositionSensor& s = b.sensor;
     const PlanePoint p = plant_.rotor.Position(motion, s.map);
@@ -60,6 +60,7 @@ double PositionLoop::Reading(std::size_t axis, long long n) {
 
 void PositionLoop::Sample(long long n, double t) {
   reading_time_ = t;
+  speed_reading_ = plant_.speed_sensor.reading();
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     readings_[a] = Reading(a, n);
     SensorFault& fault = plant_.bearings[axes_[a].bearing].sensor.fault[axes_[a].side];
@@ -67,7 +68,7 @@ void PositionLoop::Sample(long long n, double t) {
   }
 }
 
-void PositionLoop::Tick(long long n, double Omega, const std::vector<BearingControl>& control) {
+void PositionLoop::Tick(long long n, const std::vector<BearingControl>& control) {
   for (auto* v : {&reference_, &excitation_}) std::fill(v->begin(), v->end(), 0.0);
   if (n >= 0) {
     for (const auto& s : commands_.reference)
@@ -78,7 +79,7 @@ void PositionLoop::Tick(long long n, double Omega, const std::vector<BearingCont
   if (switch_)
     for (const CommandPlan::Switch& s : commands_.switches)
       if (s.tick == n / M_ && n >= 0) switch_->SwitchTo(s.controller);
-  controller_->Step(readings_, reference_, excitation_, Omega, force_);
+  controller_->Step(readings_, reference_, excitation_, speed_reading_, force_);
   UnderWay next = std::move(spare_);
   next.due = n + M_;
   next.recorded = false;

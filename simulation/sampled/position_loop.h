@@ -7,9 +7,10 @@
 #include <memory>
 #include <vector>
 
+#include "control/current/bearing_control.h"
 #include "control/position/controller_switch.h"
 #include "effects/plant.h"
-#include "faulttolerance/supervision/supervisor.h"
+#include "rig/nominal_rig.h"
 #include "scenarios/scenario.h"
 #include "simulation/sampled/command_plan.h"
 #include "simulation/sampled/measurement_noise.h"
@@ -20,24 +21,25 @@ class PositionLoop {
  public:
   /// `plant`, `commands` and `noise` must outlive the loop; `noisy`: readings with the sensors'
   /// noise. `nominal`: the rig as the controller's designer knows it.
-  PositionLoop(const RigParameters& nominal, Plant& plant, const CommandPlan& commands,
+  PositionLoop(const NominalRig& nominal, Plant& plant, const CommandPlan& commands,
                MeasurementNoise& noise, bool noisy);
 
   /// Starts with these forces per axis [N] while the readings rest at zero.
   void Hold(const std::vector<double>& force);
-  /// Where the sensors see the shaft, before noise and faults.
+  /// Where the sensors see the shaft and how fast it turns, before noise and faults.
   void ReadSensors(const MotionState& s);
   /// What sensor `axis` hands over in period n [m].
   double Reading(std::size_t axis, long long n);
   /// Readings of the controller, at time t [s] of period n.
   void Sample(long long n, double t);
   /// Position loop of period n, a multiple of M; its set-points are on their way.
-  void Tick(long long n, double Omega, const std::vector<BearingControl>& control);
+  void Tick(long long n, const std::vector<BearingControl>& control);
   /// Set-points that are due in period n, into `set_point` and `commanded`.
   void Apply(long long n, std::vector<BearingControl>& control);
 
   const std::vector<double>& readings() const { return readings_; }
   double reading_time() const { return reading_time_; }
+  double speed_reading() const { return speed_reading_; }
   std::size_t axes() const { return axes_.size(); }
 
  private:
@@ -61,7 +63,7 @@ class PositionLoop {
   std::unique_ptr<PositionController> controller_;
   ControllerSwitch* switch_ = nullptr;  // the same, when the scenario changes over
   std::vector<double> readings_, reference_, excitation_, force_;  // per axis
-  double reading_time_ = 0;
+  double reading_time_ = 0, speed_reading_ = 0;                    // [s], [rad/s]
   std::vector<UnderWay> under_way_;
   UnderWay spare_;  // its memory: no allocation in the loop
 };

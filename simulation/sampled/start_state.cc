@@ -3,59 +3,48 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "rig/rig_assembly.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 
-BearingControl MakeBearingControl(const RigParameters& rig, const RigParameters& nominal,
-                                  std::size_t k, const StatorLanes& lanes) {
-  const BearingParameters& p = rig.bearings[k];
-  BearingControl c;
-  c.name = p.name;
-  c.coils = p.coils();
-  c.amplifier.fill(PowerAmplifier(rig.amplifier));
-  c.map.k = ForceConstant(nominal.bearings[k]);
-  c.map.c0 = BiasCurrent(rig, p);
-  c.map.i_max = rig.amplifier.i_max;
-  c.map.unipolar = rig.amplifier.quadrants < 3;
-  for (int j = 0; j < c.coils; ++j) c.map.W.row(j) << 1, lanes.direction_x[j], lanes.direction_y[j];
-  return c;
+void HoldSetPoints(const NominalRig& nominal, std::vector<BearingControl>& control) {
+  for (std::size_t k = 0; k < control.size(); ++k) {
+    const double resistance = CoilResistance(nominal->bearings[k]);
+    for (int j = 0; j < control[k].coils; ++j)
+      control[k].regulator[static_cast<std::size_t>(j)].HoldCurrent(control[k].set_point[j],
+                                                                    resistance);
+  }
 }
 
-void HoldSetPoints(BearingControl& control, const Lane& resistance) {
-  for (int j = 0; j < control.coils; ++j)
-    control.amplifier[static_cast<std::size_t>(j)].HoldCurrent(control.set_point[j], resistance[j]);
-}
-
-void StartWithForces(const RigParameters& rig, const std::vector<double>& force, const Plant& plant,
-                     std::vector<BearingControl>& control, MotionState& s) {
-  double fx = 0, fy = 0;
+PlanePoint StartWithForces(const NominalRig& nominal, const std::vector<double>& force,
+                           std::vector<BearingControl>& control) {
+  PlanePoint sum;
   std::size_t axis = 0;
-  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
-    const bool planar = rig.bearings[k].Axes().size() > 1;
+  for (std::size_t k = 0; k < control.size(); ++k) {
+    const bool planar = nominal->bearings[k].Axes().size() > 1;
     const double f[2] = {force[axis], planar ? force[axis + 1] : 0};
     axis += planar ? 2 : 1;
     BearingControl& c = control[k];
     const auto set = c.map.SetPoints(f[0], f[1]);
     for (int j = 0; j < c.coils; ++j) c.set_point[j] = set[j];
-    HoldSetPoints(c, plant.bearings[k].base_resistance);
     if (!planar) continue;
-    fx += f[0];
-    fy += f[1];
+    sum.x += f[0];
+    sum.y += f[1];
   }
-  plant.rotor.SettleBase(s, fx, fy);
+  HoldSetPoints(nominal, control);
+  return sum;
 }
 
 void SwitchOn(std::vector<BearingControl>& control) {
   for (BearingControl& c : control) {
     c.set_point = Lane{};
-    for (PowerAmplifier& a : c.amplifier) a.ResetToLowerLimit();
+    for (CurrentRegulator& a : c.regulator) a.ResetToLowerLimit();
   }
 }
 
-void PlaceClamped(const RigParameters& rig, const Scenario& scenario, MotionState& s) {
+void PlaceClamped(const TrueRig& rig, const Scenario& scenario, MotionState& s) {
   double n = 0, sz = 0, szz = 0, sx = 0, sy = 0, szx = 0, szy = 0;
-  for (const BearingParameters& b : rig.bearings) {
+  for (const BearingParameters& b : rig->bearings) {
     const auto it = scenario.clamp.find(b.name);
     const std::array<double, 2> at =
         it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;

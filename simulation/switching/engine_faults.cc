@@ -10,7 +10,7 @@ namespace ambrig {
 class SwitchingEngine::FaultedLanes : public FaultedPlant {
  public:
   FaultedLanes(SwitchingEngine& engine, const FaultPlace& place)
-      : FaultedPlant(engine.plant_, place, engine.rig_.amplifier.bus_voltage),
+      : FaultedPlant(engine.plant_, place, engine.loop_.rig.amplifier.bus_voltage),
         run_(engine.bearings_[place.bearing]) {}
 
   double Current() const override { return run_.plant->lanes.i[place_.coil]; }
@@ -27,10 +27,10 @@ class SwitchingEngine::FaultedLanes : public FaultedPlant {
 };
 
 void SwitchingEngine::Inject(const FaultSpec& spec) {
-  Event("fault", spec.target, spec.kind, spec.Get("fraction", 0), spec.time);
+  result_.events.push_back({spec.time, "fault", spec.target, spec.kind, spec.Get("fraction", 0)});
   if (options_.snapshots) Snapshot("before the fault of " + spec.target);
   const Fault& fault = FaultByKind(spec.kind);
-  const FaultPlace place = PlaceOf(spec, rig_);
+  const FaultPlace place = PlaceOf(spec, loop_.rig);
   FaultedLanes plant(*this, place);
   fault.apply(spec, plant);
   fault_ends_.Add(fault, spec);
@@ -40,7 +40,7 @@ void SwitchingEngine::Inject(const FaultSpec& spec) {
 void SwitchingEngine::EndFaultsBefore(double t) {
   while (fault_ends_.next() < t) {
     const FaultSpec& spec = fault_ends_.Take();
-    const FaultPlace place = PlaceOf(spec, rig_);
+    const FaultPlace place = PlaceOf(spec, loop_.rig);
     FaultedLanes plant(*this, place);
     FaultByKind(spec.kind).end(plant);
     AfterFault(place, plant);
@@ -49,14 +49,11 @@ void SwitchingEngine::EndFaultsBefore(double t) {
 
 void SwitchingEngine::AfterFault(const FaultPlace& place, const FaultedPlant& changed) {
   BearingRun& b = bearings_[place.bearing];
-  if (changed.sensor_changed()) b.plain_sensors = false;
+  if (changed.sensor_changed()) b.side->plain_sensors = false;
   if (!changed.bridge_changed()) return;
   // The bridge changes in the middle of its period: rebuild this coil's voltage pattern.
-  const auto j = static_cast<std::size_t>(place.coil);
   b.only_edge_moves = false;
-  SetPattern(b, place.coil,
-             control_[b.index].amplifier[j].Pattern(control_[b.index].duty[place.coil],
-                                                    b.plant->bridge[j]));
+  SetPattern(b, place.coil);
 }
 
 }  // namespace ambrig

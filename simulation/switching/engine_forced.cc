@@ -10,6 +10,8 @@
 namespace ambrig {
 
 namespace {
+constexpr double kDrivenWarmUp = 0.01;  // [s] before t = 0
+
 double At(const Record& record, const Channel* c, double t) {
   if (!c || c->samples.empty()) return 0;
   const double row =
@@ -22,27 +24,20 @@ double At(const Record& record, const Channel* c, double t) {
 
 void SwitchingEngine::StartForced() {
   // Set-points of a clamped run hold the coils' excitations already.
-  current_loops_->Follow(scenario_.start == StartState::kClamped
-                             ? CurrentLoops::SetPoints::kMeasuredWhole
-                             : CurrentLoops::SetPoints::kMeasured);
-  clamped_ = true;
-  controller_on_ = false;
-  warm_ = std::llround(0.01 / T_);
-  motion_.t = -static_cast<double>(warm_) * T_;
-  FollowData(-warm_);
-  for (BearingRun& b : bearings_) {
-    BearingControl& c = control_[b.index];
-    for (int j = 0; j < c.coils; ++j)
-      c.amplifier[static_cast<std::size_t>(j)].HoldCurrent(c.set_point[j],
-                                                           b.plant->base_resistance[j]);
-  }
+  loop_.PrepareDriven(scenario_.start == StartState::kClamped
+                          ? CurrentLoops::SetPoints::kMeasuredWhole
+                          : CurrentLoops::SetPoints::kMeasured,
+                      kDrivenWarmUp);
+  FollowData(-loop_.warm);
+  loop_.StartDriven();
 }
 
-void SwitchingEngine::ForcedPosition(const BearingRun& b, double t, double* x, double* y) const {
+void SwitchingEngine::ForcedPosition(const SampledBearing& b, double t, double* x,
+                                     double* y) const {
   const Record& d = *options_.forced;
   double reading[4], z[2];
   std::size_t found = 0;
-  for (const BearingParameters& p : nominal_.bearings) {
+  for (const BearingParameters& p : loop_.nominal->bearings) {
     if (p.kind != BearingKind::kRadial || found > 1) continue;
     z[found] = p.sensor.z;
     reading[2 * found] = At(d, Find(d, {ChannelKind::kReading, p.name, 0}), t);
@@ -60,8 +55,6 @@ void SwitchingEngine::ForcedPosition(const BearingRun& b, double t, double* x, d
     *x = At(d, Find(d, {ChannelKind::kReading, b.plant->name, 0}), t);
     *y = 0;
   }
-  *x -= b.plant->offset_x;
-  *y -= b.plant->offset_y;
 }
 
 void SwitchingEngine::FollowData(long long n) {
@@ -70,16 +63,16 @@ void SwitchingEngine::FollowData(long long n) {
   const auto row =
       static_cast<std::size_t>(std::max(0.0, std::floor((t - d.start) * d.rate + 1e-6)));
   for (BearingRun& b : bearings_) {
-    BearingControl& c = control_[b.index];
+    BearingControl& c = loop_.control[b.side->index];
     for (int j = 0; j < c.coils; ++j) {
       const Channel* s = Find(d, {ChannelKind::kSetPoint, b.plant->name, j});
       if (s && !s->samples.empty())
         c.set_point[j] = s->samples[std::min(row, s->samples.size() - 1)];
     }
     c.commanded = c.set_point;
-    ForcedPosition(b, static_cast<double>(n) * T_, &b.true_x, &b.true_y);
-    b.x = b.true_x;
-    b.y = b.true_y;
+    PlanePoint p;
+    ForcedPosition(*b.side, static_cast<double>(n) * T_, &p.x, &p.y);
+    b.MoveTo(p);
   }
 }
 

@@ -15,25 +15,23 @@ constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
 }  // namespace
 
 void SwitchingEngine::SetPatterns(BearingRun& b) {
-  const BearingControl& c = control_[b.index];
+  const BearingControl& c = loop_.control[b.side->index];
   if (b.only_edge_moves) {
     for (int j = 0; j < c.coils; ++j) b.pattern.t2[j] = c.duty[j] * T_;
     return;
   }
-  b.only_edge_moves = rig_.amplifier.modulation == Modulation::kBiState;
+  b.only_edge_moves = loop_.rig.amplifier.modulation == Modulation::kBiState;
   for (int j = 0; j < c.coils; ++j) {
     const auto lane = static_cast<std::size_t>(j);
-    BridgeImperfection bridge = b.plant->bridge[lane];
+    const BridgeImperfection& bridge = b.plant->bridge[lane];
     b.only_edge_moves = b.only_edge_moves && bridge.dead_time == 0 && bridge.dead_duty == 0 &&
                         !bridge.off && !bridge.stuck_on && b.plant->voltage[lane].empty();
-    for (const auto& term : b.plant->voltage[lane])
-      bridge.voltage_offset +=
-          term->Voltage({motion_.t, b.plant->lanes.i[j], plant_.bus.voltage, b.x, b.y, &motion_});
-    SetPattern(b, j, c.amplifier[lane].Pattern(c.duty[j], bridge));
+    SetPattern(b, j);
   }
 }
 
-void SwitchingEngine::SetPattern(BearingRun& b, int j, const CoilVoltage& v) {
+void SwitchingEngine::SetPattern(BearingRun& b, int j) const {
+  const CoilVoltage v = loop_.PatternOf(*b.side, j, b.plant->lanes.i[j]);
   b.pattern.t1[j] = v.t1;
   b.pattern.t2[j] = v.t2;
   for (int q = 0; q < 3; ++q) {
@@ -61,11 +59,13 @@ void SwitchingEngine::PredictPositions() {
 }
 
 void SwitchingEngine::RunMagnetics(long long n) {
-  if (!clamped_ && !options_.forced) PredictPositions();
+  if (!loop_.clamped) PredictPositions();
   for (BearingRun& b : bearings_) {
     if (options_.forced) {
-      ForcedPosition(b, motion_.t + T_, &b.x_next, &b.y_next);
-    } else if (clamped_) {
+      ForcedPosition(*b.side, motion_.t + T_, &b.x_next, &b.y_next);
+      b.x_next -= b.plant->offset_x;
+      b.y_next -= b.plant->offset_y;
+    } else if (loop_.clamped) {
       b.x_next = b.x;
       b.y_next = b.y;
     }
@@ -86,13 +86,13 @@ void SwitchingEngine::RunMagnetics(long long n) {
     RunBearings();
   }
   for (BearingRun& b : bearings_) {
-    b.fx_before = std::exchange(b.fx, b.plant->lanes.fx);
-    b.fy_before = std::exchange(b.fy, b.plant->lanes.fy);
+    b.side->fx_before = std::exchange(b.side->fx, b.plant->lanes.fx);
+    b.side->fy_before = std::exchange(b.side->fy, b.plant->lanes.fy);
   }
 }
 
 void SwitchingEngine::RunBearings() {
-  const int steps = samples_ * options_.substeps;
+  const int steps = loop_.samples * options_.substeps;
   together_.clear();
   for (BearingRun& b : bearings_) {
     StatorLanes& lanes = b.plant->lanes;
@@ -112,7 +112,7 @@ void SwitchingEngine::RunBearings() {
 }
 
 void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const FaultSpec*>& due) {
-  const int steps = samples_ * options_.substeps;
+  const int steps = loop_.samples * options_.substeps;
   const double h = T_ / steps, start = static_cast<double>(n) * T_;
   for (BearingRun& b : bearings_) b.plant->lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
   std::size_t done = 0;
@@ -141,14 +141,13 @@ void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const 
 }
 
 void SwitchingEngine::Measure(long long n) {
-  if (scenario_.noise) noise_->DrawCurrents(n);
   for (BearingRun& b : bearings_) {
+    Lane* samples = b.plant->lanes.samples;
     if (options_.substeps > 1)
-      for (int k = 1; k < samples_; ++k)
-        b.plant->lanes.samples[k] = b.plant->lanes.samples[k * options_.substeps];
-    MeasureCurrents(b.measurement, b.plant->lanes.samples, b.plant->current_sensor.data(),
-                    b.plain_sensors, noise_->Currents(b.index), b.adc, &b.current);
+      for (int k = 1; k < loop_.samples; ++k) samples[k] = samples[k * options_.substeps];
+    loop_.Measure(n, *b.side, samples);
   }
+  loop_.EndMeasurement(n);
 }
 
 }  // namespace ambrig

@@ -29,9 +29,9 @@ CrosscheckRun RunOnce(const RigParameters& rig, const Scenario& scenario,
                       const SimulateOptions& options) {
   RunResult result = Simulate(rig, scenario, options);
   CrosscheckRun run;
-  const RigParameters plant = TrueRig(rig);  // the clearance that the rotor has
-  run.paths = CentrePaths(plant, result.record);
-  run.figures = MakeDropFigures(plant, result, run.paths);
+  const TrueRig plant(rig);  // the clearance that the rotor has
+  run.paths = CentrePaths(*plant, result.record);
+  run.figures = MakeDropFigures(*plant, result, run.paths);
   run.events = std::move(result.events);
   return run;
 }

@@ -14,7 +14,7 @@ namespace {
 class Bearing : public testing::Test {
  protected:
   const RigParameters rig_ = BaseRig();
-  const Plant plant_ = BuildPlant(rig_);
+  const Plant plant_ = BuildPlant(TrueRig(rig_));
   const StatorLanes& lanes_ = plant_.bearings[0].lanes;
 };
 

@@ -101,7 +101,7 @@ TEST(RunPlan, DrawsMoveThePlantWithinItsToleranceAndNotTheController) {
   for (std::size_t draw = 0; draw < 64; ++draw) {
     const PlannedRun p = plan.Make(draw);
     EXPECT_EQ(p.rig.rotor.mass, 4.2);
-    const double z = (TrueRig(p.rig).rotor.mass - 4.2) / 0.01;
+    const double z = (TrueRig(p.rig)->rotor.mass - 4.2) / 0.01;
     sum += z / 64;
     squares += z * z / 64;
   }

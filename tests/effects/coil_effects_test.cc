@@ -34,7 +34,8 @@ Stiffness StiffnessOf(Plant& plant, double bias) {
 TEST(IronReluctance, StiffnessRatioIsTheEffectiveGapOverTheBias) {
   const RigParameters rig = ReferenceRig();
   const double g0 = rig.bearings[0].radial.gap, path = 30e-6, bias = 2;
-  Plant with = PlantWith("iron-reluctance", "A", {{"path", path}}), without = BuildPlant(rig);
+  Plant with = PlantWith("iron-reluctance", "A", {{"path", path}}),
+        without = BuildPlant(TrueRig(rig));
   const Stiffness iron = StiffnessOf(with, bias), ideal = StiffnessOf(without, bias);
   EXPECT_NEAR(ideal.ki / ideal.ks, g0 / bias, 1e-6 * g0);
   EXPECT_NEAR(iron.ki / iron.ks, (g0 + path) / bias, 1e-6 * g0);
@@ -47,7 +48,7 @@ TEST(IronReluctance, StiffnessRatioIsTheEffectiveGapOverTheBias) {
 TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {
   const double c = 0.12;
   Plant with = PlantWith("fringing", "A", {{"coefficient", c}}),
-        without = BuildPlant(ReferenceRig());
+        without = BuildPlant(TrueRig(ReferenceRig()));
   EXPECT_NEAR(RestFlux(with, Currents(2))[0] / RestFlux(without, Currents(2))[0], 1 + c, 1e-12);
   EXPECT_NEAR(StiffnessOf(with, 2).ki / StiffnessOf(without, 2).ki, 1, 1e-6);
   // ks: the same pull 1/g² in place of (1/g²): f = mu0 A (N i)²/(2 g²) whatever c.
@@ -57,7 +58,7 @@ TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {
 TEST(MagneticOffset, ForceAtZeroIsStiffnessTimesOffset) {
   const double dx = 1e-6, bias = 2;
   Plant with = PlantWith("magnetic-offset", "A", {{"dx", dx}}),
-        without = BuildPlant(ReferenceRig());
+        without = BuildPlant(TrueRig(ReferenceRig()));
   const Stiffness s = StiffnessOf(without, bias);
   // Cubic term of the force: (dx/g0)² relative.
   EXPECT_NEAR(ForceX(with, bias, 0, 0), -s.ks * dx, 1e-4 * s.ks * dx);
@@ -67,7 +68,7 @@ TEST(MagneticOffset, ForceAtZeroIsStiffnessTimesOffset) {
 
 TEST(TurnMismatch, ScalesMmfResistanceAndLeakage) {
   Plant with = PlantWith("turn-mismatch", "A.coil3", {{"ratio", 0.9}}),
-        without = BuildPlant(ReferenceRig());
+        without = BuildPlant(TrueRig(ReferenceRig()));
   const StatorLanes &a = with.bearings[0].lanes, &b = without.bearings[0].lanes;
   EXPECT_DOUBLE_EQ(a.n[2], 0.9 * b.n[2]);
   EXPECT_DOUBLE_EQ(a.resistance[2], 0.9 * b.resistance[2]);
@@ -170,9 +171,8 @@ TEST(Chopper, DropAndOffsetEnterTheMeanVoltage) {
   RigParameters rig = ReferenceRig();
   rig.amplifier.modulation = Modulation::kChopper;
   const auto at = [&](const std::string& id, const Values& v) {
-    const Plant plant = BuildPlant(WithEffect(rig, id, "A.coil4", v));
-    const PowerAmplifier amplifier(rig.amplifier);
-    const CoilVoltage c = amplifier.Pattern(0.4, plant.bearings[0].bridge[3]);
+    const Plant plant = BuildPlant(TrueRig(WithEffect(rig, id, "A.coil4", v)));
+    const CoilVoltage c = plant.bridge.Pattern(0.4, plant.bearings[0].bridge[3]);
     const double T = 1 / rig.amplifier.switching_frequency, bus = rig.amplifier.bus_voltage;
     return ((c.gain[0] * bus + c.drop[0]) * c.t1 + (c.gain[1] * bus + c.drop[1]) * (c.t2 - c.t1) +
             (c.gain[2] * bus + c.drop[2]) * (T - c.t2)) /

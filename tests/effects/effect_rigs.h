@@ -32,7 +32,7 @@ inline RigParameters WithEffect(RigParameters rig, const std::string& id, const 
 }
 
 inline Plant PlantWith(const std::string& id, const std::string& target, const Values& values) {
-  return BuildPlant(WithEffect(ReferenceRig(), id, target, values));
+  return BuildPlant(TrueRig(WithEffect(ReferenceRig(), id, target, values)));
 }
 
 /// All eight coils of bearing A at the same current.

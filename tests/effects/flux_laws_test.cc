@@ -92,7 +92,7 @@ TEST(EddyCurrents, StepsReproduceTheFrequencyResponse) {
 
 TEST(EddyCurrents, VanishAtRest) {
   Plant with = PlantWith("eddy-currents", "A", {{"cutoff", 500}}),
-        without = BuildPlant(ReferenceRig());
+        without = BuildPlant(TrueRig(ReferenceRig()));
   EXPECT_EQ(RestFlux(with, Currents(2))[0], RestFlux(without, Currents(2))[0]);
   // After a jump the drop decays, at long times as 1/sqrt(pi ω_c t) gap reluctances.
   FluxLaw& law = *with.bearings[0].laws.at(0);
@@ -216,7 +216,7 @@ TEST(Hysteresis, RemembersTurningPointsAndForgetsInnerLoops) {
 
 TEST(Hysteresis, CoerciveCurrentAddsToTheCoil) {
   Plant with = PlantWith("hysteresis", "A", {{"coercive", 0.1}, {"width", 0.05}}),
-        without = BuildPlant(ReferenceRig());
+        without = BuildPlant(TrueRig(ReferenceRig()));
   // On the virgin curve far beyond the width the iron takes the coercive current away.
   EXPECT_NEAR(RestFlux(with, Currents(2))[0] / RestFlux(without, Currents(2))[0], 1.9 / 2, 1e-9);
 }

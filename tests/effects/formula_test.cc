@@ -32,7 +32,7 @@ parameters = { k = { value = 1e6, null = 0.0, min = 0.0, max = 1e7, unit = "N/m"
 force = { x = "-k * max(x - c, 0)", y = "0" })toml";
 
 TEST(Formula, SealRubOfTheCatalogue) {
-  Plant plant = BuildPlant(Rig(Effect("B", kSealRub)));
+  Plant plant = BuildPlant(TrueRig(Rig(Effect("B", kSealRub))));
   MotionState s;
   s.q[0] = 3e-5;
   EXPECT_NEAR(Forces(plant, s).Q[0], -20, 1e-12);
@@ -60,12 +60,12 @@ TEST(Formula, WithoutNullsIsAlwaysOn) {
   const RigParameters rig =
       Rig(Effect("A", "parameters = { load = 3.0 }\nforce = { y = \"-load\" }"));
   EXPECT_FALSE(rig.effects[0].IsNull());
-  EXPECT_EQ(Forces(BuildPlant(rig), MotionState{}).Q[1], -3);
+  EXPECT_EQ(Forces(BuildPlant(TrueRig(rig)), MotionState{}).Q[1], -3);
 }
 
 TEST(Formula, SameForceAsCrossCoupling) {
-  Plant formula = BuildPlant(
-      Rig(Effect("A", "parameters = { k = 4e4 }\nforce = { x = \"-k * y\", y = \"k * x\" }")));
+  Plant formula = BuildPlant(TrueRig(
+      Rig(Effect("A", "parameters = { k = 4e4 }\nforce = { x = \"-k * y\", y = \"k * x\" }"))));
   Plant effect = PlantOf({{"cross-coupling", "A", {{"stiffness", 4e4}}}});
   MotionState s;
   for (std::size_t d = 0; d < 5; ++d) s.q[d] = 1e-5 * (static_cast<double>(d) - 1.7);
@@ -73,9 +73,10 @@ TEST(Formula, SameForceAsCrossCoupling) {
 }
 
 TEST(Formula, KnowsMotionCurrentsBusAndConditions) {
-  Plant plant = BuildPlant(Rig(Effect("A",
-                                      "force = { x = \"1e3*vx + theta + 2*omega + 3*t + i3 - i4 + "
-                                      "bus\", y = \"omega > 10 ? tanh(1) : sign(-2) + pi\" }")));
+  Plant plant =
+      BuildPlant(TrueRig(Rig(Effect("A",
+                                    "force = { x = \"1e3*vx + theta + 2*omega + 3*t + i3 - i4 + "
+                                    "bus\", y = \"omega > 10 ? tanh(1) : sign(-2) + pi\" }"))));
   MotionState s;
   s.v[0] = 1e-3;
   s.theta = 0.5;
@@ -91,32 +92,33 @@ TEST(Formula, KnowsMotionCurrentsBusAndConditions) {
 }
 
 TEST(Formula, FollowsAPlantThatMoves) {
-  Plant first = BuildPlant(Rig(Effect("A", "force = { x = \"bus + i1\" }")));
+  Plant first = BuildPlant(TrueRig(Rig(Effect("A", "force = { x = \"bus + i1\" }"))));
   const Plant plant = std::move(first);
   plant.bus.voltage = 12;
   EXPECT_EQ(Forces(plant, MotionState{}).Q[0], 12);
 }
 
 TEST(Formula, ReadingTorqueVoltage) {
-  Plant reading =
-      BuildPlant(Rig(Effect("B.y", "parameters = { q = 60.0 }\nreading = \"y * (1 + q * y)\"")));
+  Plant reading = BuildPlant(
+      TrueRig(Rig(Effect("B.y", "parameters = { q = 60.0 }\nreading = \"y * (1 + q * y)\""))));
   MotionState s;
   s.q[0] = 1e-4;
   s.q[1] = 2e-4;
   EXPECT_EQ(Reading(reading, 1, s).first, 1e-4);
   EXPECT_NEAR(Reading(reading, 1, s).second, 2e-4 * (1 + 60 * 2e-4), 1e-18);
 
-  Plant torque = BuildPlant(Rig(Effect("rig", "torque = \"-1e-3 * omega\"")));
+  Plant torque = BuildPlant(TrueRig(Rig(Effect("rig", "torque = \"-1e-3 * omega\""))));
   s.Omega = 500;
   EXPECT_NEAR(Forces(torque, s).torque, -0.5, 1e-15);
 
-  Plant voltage = BuildPlant(Rig(Effect("A.coil3", "voltage = \"-0.1 * i + 1e3 * x + omega\"")));
+  Plant voltage =
+      BuildPlant(TrueRig(Rig(Effect("A.coil3", "voltage = \"-0.1 * i + 1e3 * x + omega\""))));
   ASSERT_EQ(voltage.bearings[0].voltage[2].size(), 1u);
   EXPECT_TRUE(voltage.bearings[0].voltage[1].empty());
   EXPECT_NEAR(voltage.bearings[0].voltage[2][0]->Voltage({0, 2, 30, 1e-3, 0, &s}), -0.2 + 1 + 500,
               1e-12);
 
-  Plant axial = BuildPlant(Rig(Effect("z", "force = \"-1e5 * x\"")));
+  Plant axial = BuildPlant(TrueRig(Rig(Effect("z", "force = \"-1e5 * x\""))));
   s.q[2] = 2e-5;
   EXPECT_NEAR(Forces(axial, s).Q[2], -2, 1e-12);
 }

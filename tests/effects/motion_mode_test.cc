@@ -120,7 +120,7 @@ TEST(MotionContact, FrictionNeedsAnAuxiliaryBearing) {
   RigParameters rig = RigWith({{"contact-friction", "A", {{"friction", 0.3}}}});
   rig.bearings[0].auxiliary.reset();
   try {
-    BuildPlant(rig);
+    BuildPlant(TrueRig(rig));
     FAIL();
   } catch (const InputError& e) {
     EXPECT_NE(std::string(e.what()).find("needs an auxiliary bearing"), std::string::npos)
@@ -132,10 +132,10 @@ TEST(MotionContact, RotorRestsLowerOnAMount) {
   RigParameters rig =
       RigWith({{"contact-mount", "A", {{"stiffness", 5e6}, {"damping", 500}, {"mass", 0.2}}}});
   rig.gravity = {0, -9.81, 0};
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig(rig));
   RigParameters base = Rig();
   base.gravity = rig.gravity;
-  const Plant rigid = BuildPlant(base);
+  const Plant rigid = BuildPlant(TrueRig(base));
   MotionState soft, hard;
   plant.rotor.Rest(soft);
   rigid.rotor.Rest(hard);

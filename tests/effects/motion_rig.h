@@ -92,7 +92,9 @@ inline RigParameters RigWith(const std::vector<Named>& effects) {
   return rig;
 }
 
-inline Plant PlantOf(const std::vector<Named>& effects) { return BuildPlant(RigWith(effects)); }
+inline Plant PlantOf(const std::vector<Named>& effects) {
+  return BuildPlant(TrueRig(RigWith(effects)));
+}
 
 /// What the sensors of bearing `k` read.
 inline std::pair<double, double> Reading(Plant& plant, std::size_t k, const MotionState& state) {

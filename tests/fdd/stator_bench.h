@@ -59,7 +59,7 @@ struct Bench {
   MeasuredPeriod Run() {
     VoltagePattern pattern;
     for (int j = 0; j < kLanes; ++j) {
-      const CoilVoltage v = PowerAmplifier(amplifier).Pattern(duty[j], {});
+      const CoilVoltage v = IdealBridgeVoltage(amplifier, duty[j]);
       pattern.t1[j] = v.t1;
       pattern.t2[j] = v.t2;
       for (int q = 0; q < 3; ++q) {

@@ -93,7 +93,7 @@ TEST(FlexibleRotor, WithoutModesItIsTheRigidRotor) {
 // Free decay of each mode against eta = e^{-zeta w t} (cos wd t + zeta/√(1-zeta²) sin wd t).
 TEST(FlexibleRotor, AModeRingsDownAtItsFrequencyAndDamping) {
   const double zeta = 0.004;
-  const Plant plant = BuildPlant(FreeShaft(zeta));
+  const Plant plant = BuildPlant(TrueRig(FreeShaft(zeta)));
   for (std::size_t k = 0; k < 4; ++k) {
     const double w = plant.rotor.modes()[k].omega, wd = w * std::sqrt(1 - zeta * zeta);
     const auto d = static_cast<std::size_t>(plant.rotor.mode_dof(k));
@@ -114,7 +114,7 @@ TEST(FlexibleRotor, AModeRingsDownAtItsFrequencyAndDamping) {
 
 // Nothing dissipates: energy stays while the gyroscopic coupling of a fast rotor mixes everything.
 TEST(FlexibleRotor, KeepsItsEnergyAtSpeed) {
-  const Plant plant = BuildPlant(FreeShaft());
+  const Plant plant = BuildPlant(TrueRig(FreeShaft()));
   MotionState s;
   s.Omega = 500;
   RotorModel& rotor = const_cast<RotorModel&>(plant.rotor);
@@ -140,7 +140,7 @@ std::vector<WhirlMode> Bending(const LinearRotor& linear, double speed, std::siz
 // of the modes left out are what is missing.
 TEST(FlexibleRotor, SplitsLikeTheBeam) {
   const RigParameters rig = FreeShaft(0, 8);
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig(rig));
   BeamDefinition d = rig.beam->definition;
   const LinearRotor full = Assemble(BuildBeam(d));
   for (double speed : {100.0, 314.159, 1000.0}) {
@@ -169,7 +169,7 @@ TEST(FlexibleRotor, SplitsLikeTheBeam) {
 // The nonlinear model moves as its linear equations say: one whirl mode followed over ten turns.
 TEST(FlexibleRotor, WhirlsAsItsEigenvector) {
   const double speed = 314.159;
-  const Plant plant = BuildPlant(FreeShaft(0.003));
+  const Plant plant = BuildPlant(TrueRig(FreeShaft(0.003)));
   RotorModel& rotor = const_cast<RotorModel&>(plant.rotor);
   rotor.SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, speed}}));
   const LinearRotor linear = LinearRotorOf(plant, speed);
@@ -195,7 +195,7 @@ TEST(FlexibleRotor, WhirlsAsItsEigenvector) {
 std::complex<double> Compliance(int modes, double w) {
   const RigParameters rig =
       TumRig(Replaced(TumRigText(), "modes = 4", fmt::format("modes = {}", modes)));
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig(rig));
   const LinearRotor linear = LinearRotorOf(plant);
   Eigen::MatrixXcd Z = (linear.K - w * w * linear.M).cast<std::complex<double>>();
   for (const LinearPort& p : linear.ports)
@@ -256,7 +256,7 @@ TEST(FlexibleRotor, StartsSaggedAndStill) {
 TEST(FlexibleRotor, RestsInEquilibriumOnItsAuxiliaryBearings) {
   RigParameters rig = Mbtr();
   rig.effects.clear();
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig(rig));
   MotionState s;
   plant.rotor.Rest(s);
   DofVector a{};
@@ -296,7 +296,7 @@ TEST(FlexibleRotor, FidelitiesAgree) {
 TEST(FlexibleRotor, SensorsReadTheBentShaftAtTheirOwnPlane) {
   RigParameters rig = FreeShaft();
   rig = TumRig(Replaced(TumRigText(), "sensor = { z = 0.113", "sensor = { z = 0.155"));
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig(rig));
   const ReducedRotor reduced = BuildReduced(*rig.beam);
   MotionState s;
   for (std::size_t k = 0; k < 4; ++k) s.q[static_cast<std::size_t>(plant.rotor.mode_dof(k))] = 1e-3;

@@ -83,7 +83,7 @@ TEST(ShaftWeights, AreReciprocal) {
 double Radius(const RigParameters& rig, double error) {
   RigParameters plant = rig;
   for (BendingMode& m : plant.modes) m.omega *= 1 + error;
-  const auto controller = MakeController(rig, rig.controller);
+  const auto controller = MakeController(NominalRig(rig), rig.controller);
   double worst = 0;
   for (const double speed : {0.0, 157.0, 314.0})
     worst = std::max(
@@ -120,7 +120,7 @@ TEST(ShaftWeights, HInfinityOverSpeeds) {
 TEST(ShaftWeights, ModelModes) {
   const auto order = [](double modes) {
     const RigParameters rig = Tum("lqg", {{"controller.model_modes", modes}});
-    return MakeController(rig, rig.controller)->Linear(0).states();
+    return MakeController(NominalRig(rig), rig.controller)->Linear(0).states();
   };
   EXPECT_EQ(order(4) - order(3), 4);
   EXPECT_EQ(order(6), order(100));

@@ -22,7 +22,7 @@ CoilVector SomeCurrents() {
 struct Radial {
   RigParameters rig = BaseRig();
   RadialStator stator{rig.bearings[0].radial};
-  CoilNetwork network{BuildPlant(rig).bearings[0].lanes};
+  CoilNetwork network{BuildPlant(TrueRig(rig)).bearings[0].lanes};
 };
 
 // λ = L i by the inductance matrix; back by the O(n) circuit: rounding of a matrix of condition 6.
@@ -89,7 +89,7 @@ TEST(CoilNetwork, ForceIsTheGradientOfTheFieldEnergy) {
 // phi = P N (i1 + i2), P = mu0 A/(2 g), f = phi²/(mu0 A), mutual inductance N² P.
 TEST(CoilNetwork, ThrustBearingClosedForm) {
   const RigParameters rig = ReadRig(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml");
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig(rig));
   const std::size_t k = rig.bearings.size() - 1;
   ASSERT_EQ(rig.bearings[k].kind, BearingKind::kThrust);
   const ThrustStatorParameters& p = rig.bearings[k].thrust;

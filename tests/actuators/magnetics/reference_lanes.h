@@ -16,7 +16,7 @@ inline const RigParameters& ReferenceRig() {
 
 /// Bearing "A", "B" (radial) or "Z" (thrust), steps of 1/18 of 40 us.
 inline StatorLanes LanesOf(const std::string& bearing) {
-  Plant plant = BuildPlant(ReferenceRig());
+  Plant plant = BuildPlant(TrueRig(ReferenceRig()));
   for (BearingPlant& b : plant.bearings)
     if (b.name == bearing) {
       b.lanes.SetStep(40e-6 / 18);

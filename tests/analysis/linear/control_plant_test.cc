@@ -70,7 +70,7 @@ std::complex<double> SineFit(const Record& r, const std::string& channel, double
 TEST(ControlPlant, ClosedLoopOfTheSwitchingEngine) {
   const RigParameters rig = RigWith("kind = \"pid\"\n" + kPidGains);
   const SampledPlant plant = MakeControlPlant(rig, {0, 1, 2, 3, 4}, 0);
-  const auto controller = MakeController(rig, rig.controller);
+  const auto controller = MakeController(NominalRig(rig), rig.controller);
   for (const double hertz : {40.0, 120.0, 400.0}) {
     const Scenario s = ReadScenarioText(
         "name = \"sine\"\nduration = 0.2\nnoise = false\nfault_tolerance = "

@@ -7,6 +7,7 @@
 #include "core/base/read_file.h"
 #include "discovery/decision/adopt.h"
 #include "rig/rig_file.h"
+#include "rig/true_rig.h"
 
 namespace ambrig {
 namespace {
@@ -75,7 +76,7 @@ TEST_F(AdoptedRigTextTest, AFittedNumberIsPutBesideItsValue) {
   EXPECT_THAT(
       NewLines(text_, out),
       testing::ElementsAre("mass = { value = 4.2, sd = 0.01, fitted = 4.207 }            # kg"));
-  EXPECT_EQ(TrueRig(Read(out)).rotor.mass, 4.207);
+  EXPECT_EQ(TrueRig(Read(out))->rotor.mass, 4.207);
 }
 
 TEST_F(AdoptedRigTextTest, CommentsAndOrderStay) {
@@ -83,7 +84,7 @@ TEST_F(AdoptedRigTextTest, CommentsAndOrderStay) {
   for (std::size_t k = 0; k < h.free.size(); ++k) h.Set(k, h.free[k].value + 0.25 * h.free[k].step);
   const std::string once = AdoptedRigText(text_, h, h.rig.effects);
   EXPECT_EQ(Comments(once), Comments(text_));
-  const RigParameters found = TrueRig(Read(once));
+  const RigParameters found = *TrueRig(Read(once));
   for (const FreeParameter& p : h.free)
     if (p.effect < 0)
       EXPECT_NEAR(*ParameterAt(found, p.path), p.value, 1e-8 * std::abs(p.value)) << p.path;
@@ -94,7 +95,7 @@ TEST_F(AdoptedRigTextTest, CommentsAndOrderStay) {
 TEST_F(AdoptedRigTextTest, ABearingThatIsLikeAnotherGetsLinesOfItsOwn) {
   Hypothesis h = Hypothesis::Base(Read(text_));
   h.Set(Index(h, "bearings.B.gap"), 4.02e-4);
-  const RigParameters found = TrueRig(Read(AdoptedRigText(text_, h, h.rig.effects)));
+  const RigParameters found = *TrueRig(Read(AdoptedRigText(text_, h, h.rig.effects)));
   EXPECT_EQ(found.Find("B")->radial.gap, 4.02e-4);
   EXPECT_EQ(found.Find("A")->radial.gap, 4e-4);
 }

@@ -69,7 +69,7 @@ TEST(ShaftCalibration, FittedNumbersAreTheTruth) {
     ExpectSameRotor(rig, drawn, n.path);  // the controller's
     ASSERT_EQ(rig.tolerances.size(), 1u);
     EXPECT_EQ(rig.tolerances[0].path, n.path);
-    const RigParameters truth = TrueRig(rig);
+    const RigParameters truth = *TrueRig(rig);
     ExpectSameRotor(truth, TumRig(TumRigText({{n.line, n.plain}})), n.path);
     EXPECT_EQ(*ParameterAt(truth, n.path), n.value);
     EXPECT_GT(std::abs(truth.rotor.mass / drawn.rotor.mass - 1) +
@@ -157,7 +157,8 @@ CaseRecord Measured(const RigParameters& rig, const RigParameters& truth) {
       "kind = \"chirp\"\namplitude = 3.0\nf0 = 8.0\nf1 = 240.0\n",
       kTumFolder + "chirp.toml", rig);
   EngineOptions options;
-  options.nominal = &rig;
+  const NominalRig nominal(rig);
+  options.nominal = &nominal;
   const Record whole = SwitchingEngine(truth, r.scenario, options).Run().record;
   r.data.rate = whole.rate;
   for (const char* name : {"A.x", "A.y", "B.x", "B.y", "A.i1", "A.i5", "B.i1", "B.i5"}) {
@@ -198,7 +199,7 @@ TEST(ShaftCalibration, AFitFindsTheShaft) {
       TumRigText({{"E = 2.11e11", "E = { value = 2.11e11, sd = 4e9 }"},
                   {"modal_damping = 0.002", "modal_damping = { value = 0.002, sd = 1e-3 }"}}),
       fit.hypothesis, {});
-  ExpectSameRotor(TrueRig(TumRig(text)), fit.hypothesis.rig, "adopted");
+  ExpectSameRotor(*TrueRig(TumRig(text)), fit.hypothesis.rig, "adopted");
 }
 
 // The k-th table of [[rotor.section]] is the k-th line that is written; of a shaft's own file
@@ -211,7 +212,7 @@ TEST(ShaftCalibration, AdoptedTextOfTables) {
   const std::string adopted = AdoptedRigText(text, h, {});
   EXPECT_NE(adopted.find("od = { value = 0.0096, sd = 0.0001, fitted = 0.0098 }  # turned"),
             std::string::npos);
-  EXPECT_NEAR(TrueRig(TumRig(adopted)).beam->definition.sections[1].od, 0.0098, 1e-15);
+  EXPECT_NEAR(TrueRig(TumRig(adopted))->beam->definition.sections[1].od, 0.0098, 1e-15);
   EXPECT_THROW(AdoptedRigText(ReadFile(kTumFolder + "rig.toml"), h, {}), InputError);
 }
 

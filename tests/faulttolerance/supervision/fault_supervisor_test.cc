@@ -125,7 +125,7 @@ Outcome Simulated(const std::string& scenario, const RigParameters& truth, bool 
   options.cache_dir = ::testing::TempDir() + "ambrig_fdd_tables";  // solved once, then read
   RigParameters nominal = Rig();
   nominal.detection = truth.detection;
-  FaultSupervisor supervisor(nominal, options);
+  FaultSupervisor supervisor(NominalRig(nominal), options);
   EngineOptions engine;
   engine.record = false;
   engine.supervisor = &supervisor;

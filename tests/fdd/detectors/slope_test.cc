@@ -8,22 +8,23 @@
 #include <functional>
 #include <random>
 
-#include "actuators/electronics/amplifier.h"
+#include "actuators/electronics/coil_voltage.h"
+#include "control/current/current_regulator.h"
 
 namespace ambrig {
 namespace {
 
-/// One uncoupled RL coil behind the simulator's own power amplifier, exact between edges.
+/// One uncoupled RL coil behind the simulator's own regulator and bridge, exact between edges.
 class RlCoil {
  public:
   RlCoil(double inductance, double resistance, const AmplifierParameters& a)
-      : L(inductance), R(resistance), a_(a), amplifier_(a_) {
-    amplifier_.HoldCurrent(0, R);
+      : L(inductance), R(resistance), a_(a), regulator_(a_) {
+    regulator_.HoldCurrent(0, R);
   }
   /// One period at a set-point; calls `sample` with i at its 18 instants.
   void Period(double set, const std::function<void(double)>& sample) {
-    const double duty = amplifier_.CurrentLoop(set, mean_), T = 1 / a_.switching_frequency;
-    const CoilVoltage v = amplifier_.Pattern(duty, {});
+    const double duty = regulator_.Duty(set, mean_), T = 1 / a_.switching_frequency;
+    const CoilVoltage v = IdealBridgeVoltage(a_, duty);
     double sum = 0;
     for (int k = 0; k < 18; ++k) {
       sample(i);
@@ -44,7 +45,7 @@ class RlCoil {
     i = open ? 0 : std::max(0.0, settled + (i - settled) * std::exp(-R / L * dt));
   }
   AmplifierParameters a_;
-  PowerAmplifier amplifier_;
+  CurrentRegulator regulator_;
   double mean_ = 0;
 };
 

@@ -71,7 +71,7 @@ TEST(LinearRotor, AccelerationsAreTheModels) {
       rig.gravity = {0, 0, 0};  // a constant, no part of the matrices
       for (const char* other : effects)
         if (*other && (twice || other == effect)) rig.effects.push_back(Effect(other));
-      const Plant plant = BuildPlant(rig);
+      const Plant plant = BuildPlant(TrueRig(rig));
       const double speed = 700;
       const LinearRotor linear = LinearRotorOf(plant, speed);
       const Small m = RandomMotion(plant, linear, speed, 5);
@@ -93,7 +93,7 @@ TEST(LinearRotor, AlsoOfABeamWithFullGyroscopicCoupling) {
   RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/tum_mbtr/rig.toml");
   rig.gravity = {0, 0, 0};
   rig.effects.clear();
-  const Plant plant = BuildPlant(rig);
+  const Plant plant = BuildPlant(TrueRig(rig));
   const double speed = 700;
   const LinearRotor linear = LinearRotorOf(plant, speed);
   const Small m = RandomMotion(plant, linear, speed, 3);
@@ -110,7 +110,7 @@ TEST(LinearRotor, AlsoOfABeamWithFullGyroscopicCoupling) {
 }
 
 TEST(LinearRotor, PortsReadAndPushWhereTheRigDoes) {
-  const Plant plant = BuildPlant(ReferenceRig());
+  const Plant plant = BuildPlant(TrueRig(ReferenceRig()));
   const LinearRotor linear = LinearRotorOf(plant);
   ASSERT_EQ(linear.ports.size(), 3u);
   const LinearPort& a = linear.ports[0];

@@ -14,7 +14,7 @@ namespace {
 // solver used).
 TEST(Equilibrium, MagnetsCarryTheWeight) {
   const RigParameters rig = BaseRig();
-  SampledRig sampled(rig, BaseScenario("steps", rig), {});
+  SampledDataLoop sampled(rig, BaseScenario("steps", rig), {});
   const Equilibrium e = LevitatedEquilibrium(sampled);
   ASSERT_TRUE(e.usable()) << e.message;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero(), moment = sum;
@@ -39,7 +39,7 @@ TEST(Equilibrium, MagnetsCarryTheWeight) {
 // axis.
 TEST(Equilibrium, FindsTheForcesOfAnOffsetMagnet) {
   const RigParameters rig = BaseRig();
-  SampledRig sampled(rig, BaseScenario("steps", rig), {});
+  SampledDataLoop sampled(rig, BaseScenario("steps", rig), {});
   const Equilibrium centred = LevitatedEquilibrium(sampled);
   sampled.plant.bearings[0].offset_x = 1e-6;  // the shaft sits 1 um towards -x of the magnet
   const Equilibrium e = LevitatedEquilibrium(sampled);

@@ -13,8 +13,8 @@ constexpr double kNoise = 0.03;  // [V rms]
 
 class Listener : public Supervisor {
  public:
-  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>&,
-                   std::vector<RunEvent>&) override {
+  void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>&,
+                   SupervisorOutput&) override {
     for (const BearingMeasurement& b : m.bearings) EXPECT_EQ(b.bus, m.bearings.front().bus);
     if (m.period >= 0) bus.push_back(m.bearings.front().bus);
   }

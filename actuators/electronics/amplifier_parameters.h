@@ -1,0 +1,54 @@
+#pragma once
+/// Parameters of the power amplifier, one bridge with its current regulator per coil. The regulator
+/// (control/current/current_regulator.h) is built from the nominal ones, the bridge
+/// (actuators/electronics/power_bridge.h) from the true ones.
+#include <string>
+
+#include "core/base/parameters.h"
+
+namespace ambrig {
+
+enum class Modulation { kBiState, kTriState, kChopper, kIdeal };
+
+/// Bi-state and tri-state bridges swing over 2 U_d around a duty of 0.5; the others over U_d from 0.
+inline bool SwingsBothWays(Modulation m) {
+  return m == Modulation::kBiState || m == Modulation::kTriState;
+}
+
+struct AmplifierParameters {
+  double bus_voltage = kRequired;
+  double switch_drop = 0;
+  double diode_drop = 0;
+  double switching_frequency = kRequired;
+  double kp = kRequired;
+  double ki = kRequired;
+  double adc_samples_per_period = 18;
+  double adc_bits = 12;
+  double adc_range = 10;
+  double current_noise = 0;
+  double bus_noise = 0;
+  double i_max = kRequired;
+  double quadrants = 2;
+  double duty_min = 0.02, duty_max = 0.98;  // duty_limits = [min, max]
+  Modulation modulation = Modulation::kBiState;
+};
+
+inline constexpr Field<AmplifierParameters> kAmplifierFields[] = {
+    {"bus_voltage", &AmplifierParameters::bus_voltage, "V", 1e-3, 1e5, "U_d"},
+    {"switch_drop", &AmplifierParameters::switch_drop, "V", 0, 100, "U_s, per switch"},
+    {"diode_drop", &AmplifierParameters::diode_drop, "V", 0, 100, "U_c, per diode"},
+    {"switching_frequency", &AmplifierParameters::switching_frequency, "Hz", 10, 1e7, "f_sw"},
+    {"kp", &AmplifierParameters::kp, "V/A", 0, 1e6, "proportional gain of the current loop"},
+    {"ki", &AmplifierParameters::ki, "V/(A s)", 0, 1e9, "integral gain of the current loop"},
+    {"adc_samples_per_period", &AmplifierParameters::adc_samples_per_period, "-", 2, 64,
+     "current samples per switching period"},
+    {"adc_bits", &AmplifierParameters::adc_bits, "-", 4, 24, "resolution, signed over the range"},
+    {"adc_range", &AmplifierParameters::adc_range, "A", 1e-3, 1e5, "reads -range to +range"},
+    {"current_noise", &AmplifierParameters::current_noise, "A", 0, 1e3, "rms per ADC sample"},
+    {"bus_noise", &AmplifierParameters::bus_noise, "V", 0, 1e3, "rms of the bus voltage reading"},
+    {"i_max", &AmplifierParameters::i_max, "A", 1e-6, 1e5, "largest set-point"},
+    {"quadrants", &AmplifierParameters::quadrants, "-", 2, 4,
+     "2: currents never negative; 4: any sign"},
+};
+
+}  // namespace ambrig

@@ -1,0 +1,37 @@
+#pragma once
+/// The bridge of one coil, a part of the plant: it turns the duty of a switching period into pieces
+/// of constant voltage.
+///
+///   bi-state   on: +U_d - 2 U_s; off: -(U_d + 2 U_c)
+///   tri-state  as bi-state, with freewheeling at -(U_s + U_c)
+///   chopper    on: +U_d; off: 0 (freewheel diode ideal)
+///   ideal      duty * U_d
+///
+/// Source: docs/theory/base_model.md section 3; [loadcurrentslope] Eq. 1, 5, 11.
+#include "actuators/electronics/coil_voltage.h"
+
+namespace ambrig {
+
+/// What an effect or a fault may change of one coil's bridge.
+struct BridgeImperfection {
+  double dead_time = 0;       // [s] both switches wait before they turn on
+  double freewheel_drop = 0;  // [V] chopper: the coil sees -drop while the switch is off
+  double voltage_offset = 0;  // [V] constant error
+  double dead_duty = 0;       // [-] duty below which nothing comes out
+  bool off = false;           // amplifier-off
+  bool stuck_on = false;      // switch-stuck-on
+};
+
+class PowerBridge {
+ public:
+  PowerBridge() = default;
+  explicit PowerBridge(const AmplifierParameters& p) : p_(p) {}
+
+  /// Voltages of a period with `duty`.
+  CoilVoltage Pattern(double duty, const BridgeImperfection& imperfection) const;
+
+ private:
+  AmplifierParameters p_;
+};
+
+}  // namespace ambrig

@@ -1,0 +1,38 @@
+#pragma once
+/// What a supervisor may ask of the controller: the only ways in which fault detection acts on a
+/// run. The engine applies them between two switching periods.
+#include <cstddef>
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "control/current/bearing_control.h"
+
+namespace ambrig {
+
+/// The coil's bridge is kept off from the next period on.
+struct DisableCoil {
+  std::size_t bearing = 0;
+  int coil = 0;
+};
+
+/// Another map from forces to set-points, and the way of the set-points there (empty: at once).
+struct ReplaceMap {
+  std::size_t bearing = 0;
+  CurrentMap map;
+  std::shared_ptr<CurrentTransition> current_transition;
+};
+
+/// Another integral of a coil's current regulator.
+struct SetIntegral {
+  std::size_t bearing = 0;
+  int coil = 0;
+  double volts = 0;  // [V]
+};
+
+using ControlAction = std::variant<DisableCoil, ReplaceMap, SetIntegral>;
+
+/// Carries out one action on the controller of the rig, one entry of `control` per bearing.
+void Apply(const ControlAction& action, std::vector<BearingControl>& control);
+
+}  // namespace ambrig

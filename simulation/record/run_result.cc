@@ -1,0 +1,12 @@
+#include "simulation/record/run_result.h"
+
+namespace ambrig {
+
+void AddSummary(const Supervisor* supervisor, RunResult& result) {
+  if (!supervisor) return;
+  SupervisorSummary summary = supervisor->Summary();
+  result.metrics.coil_periods = summary.coil_periods;
+  result.slopes = std::move(summary.slopes);
+}
+
+}  // namespace ambrig

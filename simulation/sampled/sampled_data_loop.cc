@@ -1,0 +1,143 @@
+#include "simulation/sampled/sampled_data_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rig/nominal_control.h"
+
+namespace ambrig {
+
+namespace {
+
+std::size_t U(int k) { return static_cast<std::size_t>(k); }
+
+Scenario WithNoise(Scenario s, bool noise) {
+  s.noise = s.noise && noise;
+  return s;
+}
+
+}  // namespace
+
+SampledDataLoop::SampledDataLoop(const RigParameters& given, const Scenario& s,
+                                 const SampledOptions& o)
+    : true_rig(given),
+      nominal(o.nominal ? *o.nominal : NominalRig(given)),
+      as_drawn(!o.nominal && !HasCalibration(given)),
+      scenario(WithNoise(s, o.noise)),
+      options(o),
+      plant(BuildPlant(true_rig)),
+      own_commands_(o.commands ? nullptr : std::make_unique<CommandPlan>(*nominal, scenario)),
+      commands_(o.commands ? o.commands : own_commands_.get()),
+      current_loops_(nominal, *commands_) {
+  T = 1 / rig.amplifier.switching_frequency;
+  samples = rig.samples_per_period();
+  h = T / samples;
+  M = nominal->periods_per_control();
+  periods = static_cast<long long>(std::ceil(scenario.duration / T - 1e-6));
+  plant.rotor.SetSpeed(scenario.speed, scenario.speed_free_from);
+  std::size_t axes = 0;
+  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
+    AddBearing(k, axes);
+    axes += bearings.back().axes;
+  }
+  noise_.emplace(scenario.seed, CoilsOf(rig), axes, samples);
+  loop_.emplace(nominal, plant, *commands_, *noise_, scenario.noise);
+}
+
+void SampledDataLoop::AddBearing(std::size_t k, std::size_t first_axis) {
+  const BearingParameters& p = rig.bearings[k];
+  SampledBearing b;
+  b.index = k;
+  b.plant = &plant.bearings[k];
+  b.first_axis = first_axis;
+  b.axes = p.Axes().size();
+  b.measurement = {samples,
+                   p.coils(),
+                   scenario.noise,
+                   rig.amplifier.quadrants < 3,
+                   rig.amplifier.current_noise,
+                   Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
+  for (const CurrentSensor& s : b.plant->current_sensor)
+    if (s.gain != 1 || s.offset != 0) b.plain_sensors = false;
+  bearings.push_back(b);
+  control.push_back(MakeBearingControl(nominal, k));
+}
+
+void SampledDataLoop::Look(const RunControl& watcher, long long n) const {
+  if (watcher.stop && watcher.stop->load()) throw Interrupted();
+  if (watcher.progress)
+    watcher.progress(static_cast<double>(n + warm) / static_cast<double>(periods + warm));
+}
+
+void SampledDataLoop::UpdatePositions() {
+  for (SampledBearing& b : bearings) {
+    const PlanePoint p = plant.rotor.Position(motion, b.plant->plane);
+    b.true_x = p.x;
+    b.true_y = p.y;
+  }
+}
+
+void SampledDataLoop::AtPeriodStart(long long n) {
+  motion.t = static_cast<double>(n) * T;
+  plant.rotor.SetSpin(motion);
+  loop_->ReadSensors(motion);
+  loop_->Apply(n, control);
+  if (n % M == 0) {
+    loop_->Sample(n, motion.t);
+    if (controller_on_) loop_->Tick(n, control);
+  }
+  current_loops_.Period(n, control);
+  if (record_) record_->AtPeriodStart(n);  // a row shows this period's duty
+}
+
+CoilVoltage SampledDataLoop::PatternOf(const SampledBearing& b, int j, double current) const {
+  BridgeImperfection bridge = b.plant->bridge[U(j)];
+  for (const auto& term : b.plant->voltage[U(j)])
+    bridge.voltage_offset +=
+        term->Voltage({motion.t, current, plant.bus.voltage, b.true_x - b.plant->offset_x,
+                       b.true_y - b.plant->offset_y, &motion});
+  return plant.bridge.Pattern(control[b.index].duty[j], bridge);
+}
+
+void SampledDataLoop::Measure(long long n, SampledBearing& b, const Lane* truth) {
+  if (scenario.noise) noise_->DrawCurrents(n);
+  MeasureCurrents(b.measurement, truth, b.plant->current_sensor.data(), b.plain_sensors,
+                  noise_->Currents(b.index), b.adc, &b.current);
+}
+
+void SampledDataLoop::EndMeasurement(long long n) {
+  if (record_) record_->AfterMeasurement(n);
+  for (const SampledBearing& b : bearings) control[b.index].feedback = b.current.mean;
+}
+
+std::size_t SampledDataLoop::Supervise(long long n, RunResult& result) {
+  if (!options.supervisor || n < 0) return 0;
+  PeriodMeasurement& m = measurement_;
+  m.period = n;
+  m.t = static_cast<double>(n) * T;
+  m.samples = samples;
+  m.readings = &loop_->readings();
+  m.reading_time = loop_->reading_time();
+  m.speed = loop_->speed_reading();
+  m.position_loop = controller_on_;
+  m.bearings.clear();
+  // The bus at the period's end: the next one's first reading.
+  const double bus =
+      noise_->BusReading(plant.bus.voltage, scenario.noise ? rig.amplifier.bus_noise : 0, n + 1, 0);
+  for (const SampledBearing& b : bearings)
+    m.bearings.push_back({b.adc, &control[b.index].duty, bus});
+  supervision_.actions.clear();
+  supervision_.events.clear();
+  options.supervisor->AfterPeriod(m, control, supervision_);
+  for (const ControlAction& action : supervision_.actions) Apply(action, control);
+  result.events.insert(result.events.end(), supervision_.events.begin(), supervision_.events.end());
+  return supervision_.events.size();
+}
+
+void SampledDataLoop::StartRecord() {
+  RowSource source{plant, motion, *loop_, *noise_, control, {}};
+  for (const SampledBearing& b : bearings) source.bearings.push_back(&b);
+  record_.emplace(rig, scenario, options.record_rate, clamped, source);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,128 @@
+#pragma once
+/// The sampled side of a run, one for all engines: start states, readings, position loop, current
+/// regulators, measurements, the supervisor and its actions, rows of the record. What an engine adds
+/// is how the plant moves from t_n to t_(n+1). The clocks are those of docs/theory/base_model.md sections 3
+/// and 4:
+///
+///   t_n = n T        readings; set-points that are due; duty of period n from the feedback of n-1
+///   n % M == 0       position loop; its set-points act one controller period later
+///
+/// It is the only place at which the true rig (plant) and the nominal rig (controllers) meet.
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "faulttolerance/supervision/supervisor.h"
+#include "rig/rig_assembly.h"
+#include "scenarios/scenario.h"
+#include "simulation/continuous/equilibrium.h"
+#include "simulation/record/run_record.h"
+#include "simulation/record/run_result.h"
+#include "simulation/sampled/command_plan.h"
+#include "simulation/sampled/current_loops.h"
+#include "simulation/sampled/measurement_noise.h"
+#include "simulation/sampled/position_loop.h"
+#include "simulation/sampled/sampled_bearing.h"
+
+namespace ambrig {
+
+struct SampledOptions {
+  double record_rate = 0;  // 0: the scenario's
+  bool noise = true;       // false: none, whatever the scenario says
+  // [s] before t = 0; negative: docs/theory/base_model.md's (tests: shorter)
+  double warm_up = -1;
+  // what the controller knows; default: the rig file's values
+  const NominalRig* nominal = nullptr;
+  Supervisor* supervisor = nullptr;
+  const CommandPlan* commands = nullptr;  // shared between runs of one scenario
+};
+
+/// Who may look at a run while it goes on, and stop it.
+struct RunControl {
+  std::function<void(double)> progress = {};  // fraction done
+  const std::atomic<bool>* stop = nullptr;    // set: throw Interrupted
+};
+
+class SampledDataLoop {
+ public:
+  /// `rig`: as its file gives it. The plant gets its true values, the controllers the nominal ones.
+  SampledDataLoop(const RigParameters& rig, const Scenario& scenario,
+                  const SampledOptions& options);
+  SampledDataLoop(const SampledDataLoop&) = delete;
+  SampledDataLoop& operator=(const SampledDataLoop&) = delete;
+
+  /// The scenario's start: motion, set-points, integrals. The coils then carry the set-points.
+  void Start();
+  /// Coils driven by measured data over a rotor that stands: no position loop, `warm_up` [s] before
+  /// t = 0. The engine then gives set-points and calls StartDriven.
+  void PrepareDriven(CurrentLoops::SetPoints source, double warm_up);
+  void StartDriven();
+  /// A levitated start in the equilibrium of the shaft instead of its centre.
+  Equilibrium StartInEquilibrium();
+
+  /// Calls period(n) for every period from the warm-up to the end, asking `watcher` every
+  /// `every` periods (a power of two). @throws Interrupted when stopped.
+  template <class Period>
+  void ForEachPeriod(const RunControl& watcher, long long every, const Period& period) const {
+    for (long long n = -warm; n < periods; ++n) {
+      if ((n & (every - 1)) == 0) Look(watcher, n);
+      period(n);
+    }
+  }
+  /// Everything that is sampled at t_n, before the plant moves on.
+  void AtPeriodStart(long long n);
+  /// Voltages of coil j over this period with the imperfections of its bridge. `current`: of the coil
+  /// now [A].
+  CoilVoltage PatternOf(const SampledBearing& b, int j, double current) const;
+  /// The true samples of period n of one bearing (b.measurement.samples of them).
+  void Measure(long long n, SampledBearing& b, const Lane* truth);
+  /// All bearings of period n are measured: feedback, rows inside the period.
+  void EndMeasurement(long long n);
+  /// What was measured in period n goes to the supervisor; its actions are carried out, its events go
+  /// into the result. Returns how many events came.
+  std::size_t Supervise(long long n, RunResult& result);
+  /// Shaft centres at the bearings from `motion`.
+  void UpdatePositions();
+
+  void StartRecord();
+  Record TakeRecord() { return record_ ? record_->Take() : Record{}; }
+  const CommandPlan& commands() const { return *commands_; }
+
+  const TrueRig true_rig;
+  const RigParameters& rig = *true_rig;
+  const NominalRig nominal;
+  const bool as_drawn;      // the true rig is the nominal one
+  const Scenario scenario;  // noise as asked for
+  const SampledOptions options;
+  Plant plant;
+  MotionState motion;
+  std::vector<SampledBearing> bearings;
+  std::vector<BearingControl> control;
+  double T = 0, h = 0;      // switching period, ADC sample [s]
+  int M = 1, samples = 18;  // periods per controller period, ADC samples per period
+  bool clamped = false;     // nothing moves the rotor
+  long long warm = 0, periods = 0;
+
+ private:
+  void AddBearing(std::size_t k, std::size_t first_axis);
+  void StartLevitated();
+  void StartClamped();
+  void StartResting();
+  void HoldForces(const std::vector<double>& force);
+  void FinishStart();
+  void Look(const RunControl& watcher, long long n) const;
+
+  std::unique_ptr<CommandPlan> own_commands_;
+  const CommandPlan* commands_;
+  std::optional<PositionLoop> loop_;
+  CurrentLoops current_loops_;
+  bool controller_on_ = true;
+  std::optional<MeasurementNoise> noise_;
+  std::optional<RunRecord> record_;
+  PeriodMeasurement measurement_;  // kept: no allocation in the loop
+  SupervisorOutput supervision_;
+};
+
+}  // namespace ambrig

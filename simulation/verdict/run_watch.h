@@ -1,0 +1,30 @@
+#pragma once
+/// Events and figures of a run, once per switching period, the same in every fidelity: contact,
+/// touchdown, drop, orbit, currents, copper loss. Verdict terms: simulation/verdict/contact_watch.h.
+#include "simulation/sampled/sampled_data_loop.h"
+#include "simulation/verdict/contact_watch.h"
+
+namespace ambrig {
+
+class RunWatch {
+ public:
+  RunWatch(const SampledDataLoop& loop, RunResult& result);
+  /// Copper loss of some coils over a period [W], their largest current [A].
+  void Coils(double copper, double peak_current) {
+    copper_sum_ += copper;
+    result_.metrics.peak_current = std::max(result_.metrics.peak_current, peak_current);
+  }
+  /// After period n, with the motion at its end.
+  void Period(long long n);
+  void Finish();
+
+ private:
+  const SampledDataLoop& loop_;
+  RunResult& result_;
+  ContactWatch contacts_;
+  double copper_sum_ = 0;
+  std::vector<double> orbit_squared_;  // per bearing, largest distance from the centre [m²]
+  double late_squared_ = 0;            // largest in the last tenth of the run [m²]
+};
+
+}  // namespace ambrig
