@@ -4,72 +4,12 @@
 #include <cmath>
 
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rotor/motion/linear_rotor.h"
 
 namespace ambrig {
 
 namespace {
-
-void FillRadial(const BearingParameters& b, StatorLanes& lanes) {
-  const RadialStator stator(b.radial);
-  lanes.coupling = Coupling::kFloatingRotor;
-  lanes.coils = kPoles;
-  lanes.reluctance.per_metre = 1 / (kMu0 * b.radial.pole_area);
-  lanes.reluctance.gap0 = b.radial.gap;
-  for (int j = 0; j < kPoles; ++j) {
-    lanes.n[j] = stator.sense()[j] * b.radial.turns;
-    lanes.leakage[j] = b.radial.leakage_inductance;
-    lanes.resistance[j] = b.radial.resistance;
-    lanes.direction_x[j] = stator.cosine()[j];
-    lanes.direction_y[j] = stator.sine()[j];
-    lanes.gap_offset[j] = b.radial.gap;
-  }
-}
-
-void FillThrust(const BearingParameters& b, StatorLanes& lanes) {
-  lanes.coupling = Coupling::kSides;
-  lanes.coils = kThrustCoils;
-  lanes.reluctance.per_metre = 2 / (kMu0 * b.thrust.pole_area);
-  lanes.reluctance.gap0 = b.thrust.gap;
-  for (int j = 0; j < kThrustCoils; ++j) {
-    lanes.n[j] = b.thrust.turns;
-    lanes.leakage[j] = b.thrust.leakage_inductance;
-    lanes.resistance[j] = b.thrust.resistance;
-    lanes.direction_x[j] = j < 2 ? 1 : -1;  // along z
-    lanes.gap_offset[j] = b.thrust.gap;
-  }
-}
-
-void FillOpposed(const BearingParameters& b, StatorLanes& lanes) {
-  const OpposedStatorParameters& p = b.opposed;
-  lanes.coupling = Coupling::kNone;
-  lanes.coils = b.coils();
-  // One "turn": N² P(g) = L_0/(1 + g/g_c).
-  lanes.reluctance.per_metre = 1 / (p.gap_constant * p.inductance_near);
-  lanes.reluctance.offset = 1 / p.inductance_near;
-  lanes.reluctance.gap0 = p.gap;
-  for (int j = 0; j < lanes.coils; ++j) {
-    lanes.n[j] = 1;
-    lanes.leakage[j] = p.inductance_far;
-    lanes.resistance[j] = p.resistance;
-    lanes.direction_x[j] = j == 0 ? 1 : -1;
-    lanes.gap_offset[j] = p.gap;
-  }
-}
-
-PlaneMap PlaneOf(const BearingParameters& b, const RotorModel& rotor, double z) {
-  if (b.kind == BearingKind::kRadial) return rotor.MakePlane(z);
-  PlaneMap map;
-  map.z = z;
-  if (b.kind == BearingKind::kThrust) {
-    map.Add(2, 1, 0);
-  } else {
-    const double a = b.opposed.angle_deg * kPi / 180;
-    map.Add(0, std::cos(a), 0);
-    map.Add(1, std::sin(a), 0);
-  }
-  return map;
-}
 
 BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, RotorModel& rotor) {
   BearingPlant plant;
@@ -77,29 +17,18 @@ BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, R
   plant.z = b.z;
   plant.thrust = b.kind == BearingKind::kThrust;
   plant.opposed = b.kind == BearingKind::kOpposed;
-  plant.plane = PlaneOf(b, rotor, b.z);
-  plant.sensor.map = PlaneOf(b, rotor, b.sensor.z);
+  const BearingKindTable& kind = TableOf(b.kind);
+  plant.plane = kind.plane(b, rotor, b.z);
+  plant.sensor.map = kind.plane(b, rotor, b.sensor.z);
   plant.sensor.noise = b.sensor.noise;
   for (int j = 0; j < kLanes; ++j) {
     plant.lanes.gap_offset[j] = 1;  // inert lanes: harmless numbers
     plant.lanes.leakage[j] = 1;
   }
-  switch (b.kind) {
-    case BearingKind::kRadial:
-      FillRadial(b, plant.lanes);
-      break;
-    case BearingKind::kThrust:
-      FillThrust(b, plant.lanes);
-      break;
-    case BearingKind::kOpposed:
-      FillOpposed(b, plant.lanes);
-      break;
-  }
+  kind.fill_lanes(b, plant.lanes);
   plant.lanes.unipolar = rig.amplifier.quadrants < 3;
   plant.base_resistance = plant.lanes.resistance;
-  if (b.auxiliary && b.kind == BearingKind::kRadial)
-    rotor.AddAuxiliary(b.name, std::isnan(b.auxiliary_z) ? b.z : b.auxiliary_z, *b.auxiliary);
-  if (b.auxiliary && b.kind == BearingKind::kThrust) rotor.SetAxialStop(*b.auxiliary);
+  if (b.auxiliary && kind.add_auxiliary) kind.add_auxiliary(b, rotor);
   return plant;
 }
 
@@ -120,7 +49,7 @@ Plant BuildPlant(const TrueRig& true_rig) {
   plant.bridge = PowerBridge(rig.amplifier);
   plant.speed_sensor = SpeedSensor(rig.speed_sensor);
   for (const BearingParameters& b : rig.bearings) {
-    if (b.kind == BearingKind::kThrust) plant.rotor.axial_free = true;
+    if (TableOf(b.kind).axial) plant.rotor.axial_free = true;
     plant.bearings.push_back(MakeBearing(rig, b, plant.rotor));
   }
   for (const ShaftPlane& s : rig.stations)

@@ -3,26 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ambrig {
+#include "rig/bearing_kinds/bearing_kind.h"
 
-namespace {
-unsigned ActsOnBit(BearingKind kind) {
-  return kind == BearingKind::kRadial   ? kOnRadial
-         : kind == BearingKind::kThrust ? kOnThrust
-                                        : kOnOpposed;
-}
-}  // namespace
+namespace ambrig {
 
 EffectTargets TargetsOfEffects(const RigParameters& rig) {
   EffectTargets known;
   for (const ShaftPlane& s : rig.stations) known.stations.push_back(s.name);
   for (const auto& b : rig.bearings) {
-    known.planes.push_back(b.kind == BearingKind::kThrust ? "z" : b.name);
+    const BearingKindTable& table = TableOf(b.kind);
+    known.planes.push_back(table.axial ? "z" : b.name);
     known.bearings.push_back(b.name);
     for (int j = 1; j <= b.coils(); ++j)
       known.coils.push_back(b.name + ".coil" + std::to_string(j));
     for (const auto& axis : b.Axes()) known.axes.push_back(axis);
-    const unsigned kind = ActsOnBit(b.kind);
+    const unsigned kind = table.acts_on;
     known.kind[b.name] = known.kind[known.planes.back()] = kind;
     for (int j = 1; j <= b.coils(); ++j) known.kind[b.name + ".coil" + std::to_string(j)] = kind;
     for (const auto& axis : b.Axes()) known.kind[axis] = kind;
@@ -30,28 +25,11 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
   return known;
 }
 
-double ForceConstant(const BearingParameters& b) {
-  switch (b.kind) {
-    case BearingKind::kRadial:
-      return RadialStator(b.radial).ForceConstant();
-    case BearingKind::kThrust:
-      return 4 * kMu0 * b.thrust.turns * b.thrust.turns * b.thrust.pole_area /
-             (b.thrust.gap * b.thrust.gap);
-    case BearingKind::kOpposed: {
-      // f = (1/2) (c0 + v)² L' - (1/2) (c0 - v)² L' = 2 c0 v L', one coil alone: c0 v L' about c0.
-      const auto& p = b.opposed;
-      const double slope =
-          p.inductance_near / (p.gap_constant * std::pow(1 + p.gap / p.gap_constant, 2));
-      return (p.coils > 1 ? 2 : 1) * slope;
-    }
-  }
-  return 0;
-}
+double ForceConstant(const BearingParameters& b) { return TableOf(b.kind).force_constant(b); }
 
 double BiasCurrent(const RigParameters& rig, const BearingParameters& b) {
-  if (b.kind == BearingKind::kThrust) return b.thrust.bias_current;
-  if (b.kind == BearingKind::kOpposed && b.opposed.bias_current > 0) return b.opposed.bias_current;
-  return rig.controller.bias_current;
+  const double own = TableOf(b.kind).own_bias(b);
+  return own > 0 ? own : rig.controller.bias_current;
 }
 
 std::vector<int> CoilsOf(const RigParameters& rig) {
@@ -66,33 +44,11 @@ const PidParameters& PidOf(const RigParameters& rig, const BearingParameters& b)
 
 std::vector<std::array<double, 2>> CoilDirections(const BearingParameters& b) {
   std::vector<std::array<double, 2>> out;
-  switch (b.kind) {
-    case BearingKind::kRadial: {
-      const RadialStator stator(b.radial);
-      for (int j = 0; j < kPoles; ++j) out.push_back({stator.cosine()[j], stator.sine()[j]});
-      break;
-    }
-    case BearingKind::kThrust:
-      for (int j = 0; j < kThrustCoils; ++j) out.push_back({j < 2 ? 1.0 : -1.0, 0});
-      break;
-    case BearingKind::kOpposed:
-      for (int j = 0; j < b.coils(); ++j) out.push_back({j == 0 ? 1.0 : -1.0, 0});
-      break;
-  }
+  for (int j = 0; j < b.coils(); ++j) out.push_back(TableOf(b.kind).coil_direction(b, j));
   return out;
 }
 
-double CoilResistance(const BearingParameters& b) {
-  switch (b.kind) {
-    case BearingKind::kRadial:
-      return b.radial.resistance;
-    case BearingKind::kThrust:
-      return b.thrust.resistance;
-    case BearingKind::kOpposed:
-      return b.opposed.resistance;
-  }
-  return 0;
-}
+double CoilResistance(const BearingParameters& b) { return TableOf(b.kind).coil_resistance(b); }
 
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {
   // Least-norm forces f_k with Σ f = -m g and Σ z f = 0; exact for two bearings.
@@ -109,11 +65,8 @@ std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {
     if (b.kind == BearingKind::kRadial) {
       const double share = (szz - b.z * sz) / (n * szz - sz * sz);
       out.push_back({-m * rig.gravity[0] * share, -m * rig.gravity[1] * share});
-    } else if (b.kind == BearingKind::kThrust) {
-      out.push_back({-m * rig.gravity[2], 0});
     } else {
-      const double a = b.opposed.angle_deg * kPi / 180;
-      out.push_back({-m * (rig.gravity[0] * std::cos(a) + rig.gravity[1] * std::sin(a)), 0});
+      out.push_back({TableOf(b.kind).weight(b, m, rig.gravity), 0});
     }
   }
   return out;

@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "core/base/read_file.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_rotor.h"
 
@@ -43,37 +44,6 @@ void ReadAuxiliary(const TomlTable& bearing, BearingParameters& b, double gap) {
   }
 }
 
-void CheckWinding(const TomlTable& t, const std::string& winding) {
-  if (winding.size() != kPoles || winding.find_first_not_of("NS") != std::string::npos)
-    t.Fail("winding",
-           fmt::format("= \"{}\", allowed: eight letters N or S, e.g. NSNSNSNS", winding));
-}
-
-double Gap(const BearingParameters& b) {
-  return b.kind == BearingKind::kRadial   ? b.radial.gap
-         : b.kind == BearingKind::kThrust ? b.thrust.gap
-                                          : b.opposed.gap;
-}
-
-void ReadStator(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
-  switch (b.kind) {
-    case BearingKind::kRadial: {
-      const long long poles = t.Integer("poles", kPoles);
-      if (poles != kPoles) t.Fail("poles", fmt::format("= {}, allowed: 8", poles));
-      b.radial.winding = t.String("winding", b.radial.winding);
-      CheckWinding(t, b.radial.winding);
-      t.Read(b.radial, kRadialStatorFields, tolerances);
-      break;
-    }
-    case BearingKind::kThrust:
-      t.Read(b.thrust, kThrustStatorFields, tolerances);
-      break;
-    case BearingKind::kOpposed:
-      t.Read(b.opposed, kOpposedStatorFields, tolerances);
-      break;
-  }
-}
-
 PidParameters ReadPid(const TomlTable& t) {
   PidParameters p;
   t.Read(p, kPidFields);
@@ -101,15 +71,9 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
   }
   b.name = name;
   b.auxiliary_z = kRequired;  // a place of its own is not copied
-  const char* kinds = "radial, thrust, opposed";
-  const std::string fallback = like.empty()                     ? "radial"
-                               : b.kind == BearingKind::kRadial ? "radial"
-                               : b.kind == BearingKind::kThrust ? "thrust"
-                                                                : "opposed";
-  const std::string kind = t.Choice("kind", fallback, kinds);
-  b.kind = kind == "radial"   ? BearingKind::kRadial
-           : kind == "thrust" ? BearingKind::kThrust
-                              : BearingKind::kOpposed;
+  const std::string kind = t.Choice("kind", std::string(TableOf(b.kind).name), BearingKindNames());
+  for (const BearingKindTable* k : BearingKinds())
+    if (k->name == kind) b.kind = k->kind;
   if (b.kind == BearingKind::kRadial) {
     b.z = t.Number("z", like.empty() ? kRequired : b.z);
     if (std::isnan(b.z)) t.Fail("z", "is missing, allowed: -100 to 100 m (bearing plane)");
@@ -119,9 +83,9 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
     b.z = t.Number("z", 0);
     if (!(std::abs(b.z) <= 100)) t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m", b.z));
   }
-  ReadStator(t, b, &tolerances);
+  TableOf(b.kind).read(t, b, &tolerances);
   if (like.empty() || t.Has("sensor")) ReadSensor(t, b, &tolerances);
-  ReadAuxiliary(t, b, Gap(b));
+  ReadAuxiliary(t, b, TableOf(b.kind).gap(b));
   if (const auto c = t.Table("controller")) {
     b.controller = ReadPid(*c);
     c->RejectUnknownKeys();

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "control/position/controller_kind.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_rotor.h"
 
 namespace ambrig {
@@ -30,12 +31,6 @@ void VisitTables(Rig& rig, const Visit& visit) {
 }
 
 }  // namespace
-
-std::vector<std::string> BearingParameters::Axes() const {
-  if (kind == BearingKind::kThrust) return {"z"};
-  if (kind == BearingKind::kOpposed) return {name + ".x"};
-  return {name + ".x", name + ".y"};
-}
 
 std::vector<std::string> AxisNames(const RigParameters& rig) {
   std::vector<std::string> names;
@@ -146,9 +141,7 @@ std::vector<ParameterRow> RigParameterRows() {
   for (const ControllerKind* kind : ControllerKinds())
     if (kind->document) kind->document(rows);
   add("[controller.unbalance]", kUnbalanceControlFields);
-  add("[bearings.A] kind = \"radial\"", kRadialStatorFields);
-  add("[bearings.Z] kind = \"thrust\"", kThrustStatorFields);
-  add("[bearings.M] kind = \"opposed\"", kOpposedStatorFields);
+  for (const BearingKindTable* kind : BearingKinds()) kind->document(rows);
   add("[bearings.A.sensor]", kSensorFields);
   add("[bearings.A.auxiliary]", kAuxiliaryFields);
   add("[bearings.A.controller]", kPidFields);
