@@ -29,7 +29,7 @@ double ForceConstant(const BearingParameters& b) { return TableOf(b.kind).force_
 
 double BiasCurrent(const RigParameters& rig, const BearingParameters& b) {
   const double own = TableOf(b.kind).own_bias(b);
-  return own > 0 ? own : rig.controller.bias_current;
+  return std::isnan(own) ? rig.controller.bias_current : own;
 }
 
 std::vector<int> CoilsOf(const RigParameters& rig) {

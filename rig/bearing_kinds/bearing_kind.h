@@ -28,7 +28,7 @@ struct BearingKindTable {
   double (*gap)(const BearingParameters& b);              // rotor centred [m]
   double (*coil_resistance)(const BearingParameters& b);  // [ohm]
   double (*force_constant)(const BearingParameters& b);   // k of f = k c0 v [N/A²]
-  /// Its own bias current [A]; 0: the controller's.
+  /// Its own bias current [A]; nan: the controller's.
   double (*own_bias)(const BearingParameters& b);
   /// Direction (x, y) in which coil j pulls; along the axis of a bearing with one axis (±1, 0).
   std::array<double, 2> (*coil_direction)(const BearingParameters& b, int j);

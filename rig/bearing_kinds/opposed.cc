@@ -67,7 +67,10 @@ const BearingKindTable& OpposedBearing() {
       .gap = [](const BearingParameters& b) { return b.opposed.gap; },
       .coil_resistance = [](const BearingParameters& b) { return b.opposed.resistance; },
       .force_constant = ForceConstantOf,
-      .own_bias = [](const BearingParameters& b) { return b.opposed.bias_current; },
+      .own_bias =
+          [](const BearingParameters& b) {
+            return b.opposed.bias_current > 0 ? b.opposed.bias_current : kRequired;
+          },
       .coil_direction =
           [](const BearingParameters&, int j) {
             return std::array<double, 2>{j == 0 ? 1.0 : -1.0, 0};

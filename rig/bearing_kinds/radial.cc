@@ -63,7 +63,7 @@ const BearingKindTable& RadialBearing() {
       .coil_resistance = [](const BearingParameters& b) { return b.radial.resistance; },
       .force_constant =
           [](const BearingParameters& b) { return RadialStator(b.radial).ForceConstant(); },
-      .own_bias = [](const BearingParameters&) { return 0.0; },
+      .own_bias = [](const BearingParameters&) { return kRequired; },
       .coil_direction = CoilDirection,
       .weight = nullptr,
       .fill_lanes = FillLanes,
