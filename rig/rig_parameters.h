@@ -66,7 +66,11 @@ struct BearingParameters {
   double auxiliary_z = kRequired;           // nan: at the bearing's plane [m]
   std::optional<PidParameters> controller;  // its own instead of the rig's
 
-  int coils() const;
+  int coils() const {
+    return kind == BearingKind::kRadial   ? kPoles
+           : kind == BearingKind::kThrust ? kThrustCoils
+                                          : static_cast<int>(opposed.coils);
+  }
   /// Names of the controlled axes: "A.x", "A.y"; "z"; "M.x".
   std::vector<std::string> Axes() const;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// What distinguishes the kinds of bearing, one file per kind beside this one: coils, axes, keys of
+/// What distinguishes the kinds of bearing, one file per kind beside this one: axes, keys of
 /// the rig file, nominal figures, and the parts of the plant. The rest of rig/ asks this table.
 #include <array>
 #include <span>
@@ -18,7 +18,6 @@ struct BearingKindTable {
   unsigned acts_on;       // its bit of ActsOn
   bool axial;             // acts along the shaft; a plane of this kind is called "z"
 
-  int (*coils)(const BearingParameters& b);
   /// Names of the controlled axes.
   std::vector<std::string> (*axes)(const BearingParameters& b);
   /// The stator's keys.

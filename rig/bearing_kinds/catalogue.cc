@@ -31,7 +31,6 @@ std::string BearingKindNames() {
   return names;
 }
 
-int BearingParameters::coils() const { return TableOf(kind).coils(*this); }
 std::vector<std::string> BearingParameters::Axes() const { return TableOf(kind).axes(*this); }
 
 }  // namespace ambrig

@@ -54,7 +54,6 @@ const BearingKindTable& OpposedBearing() {
       .name = "opposed",
       .acts_on = kOnOpposed,
       .axial = false,
-      .coils = [](const BearingParameters& b) { return static_cast<int>(b.opposed.coils); },
       .axes = [](const BearingParameters& b) { return std::vector<std::string>{b.name + ".x"}; },
       .read =
           [](const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {

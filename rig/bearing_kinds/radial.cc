@@ -49,7 +49,6 @@ const BearingKindTable& RadialBearing() {
       .name = "radial",
       .acts_on = kOnRadial,
       .axial = false,
-      .coils = [](const BearingParameters&) { return kPoles; },
       .axes =
           [](const BearingParameters& b) {
             return std::vector<std::string>{b.name + ".x", b.name + ".y"};

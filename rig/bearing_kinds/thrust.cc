@@ -39,7 +39,6 @@ const BearingKindTable& ThrustBearing() {
       .name = "thrust",
       .acts_on = kOnThrust,
       .axial = true,
-      .coils = [](const BearingParameters&) { return kThrustCoils; },
       .axes = [](const BearingParameters&) { return std::vector<std::string>{"z"}; },
       .read =
           [](const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
