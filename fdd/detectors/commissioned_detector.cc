@@ -1,0 +1,212 @@
+#include "fdd/detectors/commissioned_detector.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kInARow = 3;             // periods
+constexpr double kAgree = 0.35;        // of the larger phase's c
+constexpr double kGross = 0.5;         // |c|
+constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
+constexpr double kReversed = -1.2;     // c of a phase: the bridge drives the other way
+constexpr double kGrossAbove = 2;      // c, outside the commissioned range
+constexpr double kNoiseOfBand = 6;     // a window's noise is below its band over this
+constexpr double kLeastMiss = 0.3;     // [A] of a set-point
+constexpr int kMissedTwice = 2;        // periods in a row
+constexpr int kCoilsAtOnce = 3;        // beyond their bands: the model's fault
+constexpr double kPatternGrows = 3;    // over commissioning
+constexpr double kLeastPattern = 0.1;  // that is doubted
+constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rules
+// without commissioning, beside the floors: what effects of usual size do to nominal models
+constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
+constexpr double kNoCurrent = 0.12;  // [A]
+
+}  // namespace
+
+CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
+                                           const CommissionedBearing& commissioned)
+    : model_(commissioned),
+      sampling_(setup.settings.sampling),
+      settings_{setup.settings.current_noise, setup.settings.adc_limit},
+      gap_(setup.model.gap_offset[0]),
+      filter_(setup.model, setup.settings.sampling, commissioned.circuit),
+      windows_(setup.model) {
+  for (int j = 0; j < setup.model.coils; ++j) share_[j] = 1;
+  SetBands();
+}
+
+void CommissionedDetector::SetBands() {
+  for (int w = 0; w < kExcessWindows; ++w)
+    for (int j = 0; j < kLanes; ++j)
+      band_[w][j] = model_.learnt
+                        ? std::max(kExcessFloor[w], kBandOverHealthy * model_.largest[w][j])
+                        : kUncommissioned[w];
+}
+
+void CommissionedDetector::SetTurns(int coil, double share) {
+  share_[coil] = share;
+  filter_.SetTurns(coil, share);
+  if (share == 0) windows_.Leave(coil);
+  windows_.Clear();
+  Pause(25);
+}
+
+void CommissionedDetector::Restore(int coil) {
+  share_[coil] = 1;
+  filter_.SetTurns(coil, 1);
+  windows_.Return(coil);
+  windows_.Clear();
+  Pause(25);
+}
+
+void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
+  current_error_ = Lane{};
+  if (!in.set_point) return;
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    double mean = 0;
+    for (int k = 0; k < sampling_.samples; ++k) mean += in.adc[k][j];
+    const double miss = std::abs((*in.set_point)[j] - mean / sampling_.samples);
+    current_error_[j] = std::min(miss, last_miss_[j]);
+    last_miss_[j] = miss;
+    const double limit = std::max(kLeastMiss, kBandOverHealthy * model_.current_error[j]);
+    false_current_[j] = miss > limit ? false_current_[j] + 1 : 0;
+  }
+}
+
+void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
+  touching_ = in.doubt.any();
+  out_of_range_ = false;
+  for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j)
+    out_of_range_ =
+        out_of_range_ || (share_[j] > 0 && period_.largest_flux[j] > model_.largest_flux[j]);
+}
+
+int CommissionedDetector::Ratios() {
+  const int coils = filter_.nominal().coils;
+  ratio_ = Lane{};
+  for (int j = 0; j < coils; ++j) {
+    Recent& r = recent_[static_cast<std::size_t>(j)];
+    const auto place = static_cast<std::size_t>(count_ % 3);
+    r.top[place] = excess_.top[0][j] + excess_.top[1][j];
+    r.bottom[place] = excess_.bottom[0][j] + excess_.bottom[1][j];
+    now_[j] = r.bottom[place] > 0.5 ? r.top[place] / r.bottom[place] : 0;
+    const double limit = now_[j] > 0 && out_of_range_ ? kGrossAbove : kGross;
+    const bool gross = std::abs(now_[j]) > limit;
+    if (gross) ratio_[j] = std::abs(now_[j]) / kGrossBand;
+    // What a fault throws at its neighbours in its first period would stay in their windows.
+    apart_[j] = gross || touching_ || out_of_range_ || excess_.gross[j] > 0 ? 1 : 0;
+  }
+  windows_.Add(excess_, apart_);
+  for (int w = 0; w < kExcessWindows; ++w) {
+    const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
+    for (int j = 0; j < coils; ++j)
+      if (!(apart_[j] > 0)) ratio_[j] = std::max(ratio_[j], std::abs(c[j]) / band_[w][j]);
+  }
+  return static_cast<int>(std::max_element(ratio_.v, ratio_.v + coils) - ratio_.v);
+}
+
+bool CommissionedDetector::Doubtful() const {
+  if (!model_.usable() || out_of_range_) return true;
+  int beyond = 0;
+  for (double r : ratio_.v) beyond += r > 1;
+  return beyond >= kCoilsAtOnce ||
+         windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
+}
+
+bool CommissionedDetector::PhasesAgree(int coil) const {
+  for (const int periods : {3, 40}) {
+    const double on = windows_.OfPhase(coil, 0, periods), off = windows_.OfPhase(coil, 1, periods);
+    if (on * off > 0 &&
+        std::min(std::abs(on), std::abs(off)) >= kAgree * std::max(std::abs(on), std::abs(off)))
+      return true;
+  }
+  return false;
+}
+
+bool CommissionedDetector::CurrentIsFalse(int coil) const {
+  return false_current_[coil] >= kMissedTwice;
+}
+
+CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
+  Outcome out;
+  ++count_;
+  filter_.Period(in, &period_);
+  WatchCurrents(in);
+  const double nearest = kClosestGap * gap_;
+  const bool comparable = in.comparable && std::hypot(in.x1, in.y1) < gap_ - nearest;
+  if (!comparable) {
+    ratio_ = Lane{};
+    suspect_ = -1;
+    return out;
+  }
+  ComputeSlopeExcess(filter_, model_.coils, settings_, period_, share_, &excess_);
+  WatchRange(in);
+  const int coil = Ratios();
+  if (paused_ > 0) {
+    --paused_;
+    suspect_ = -1;
+    return out;
+  }
+  out.doubtful = Doubtful();
+  out.alarm = ratio_[coil] > 1;
+  if (!out.alarm) {
+    suspect_ = -1;
+    return out;
+  }
+  if (coil != suspect_) {
+    suspect_ = coil;
+    streak_ = 0;
+    onset_ = in.t;
+  }
+  if (++streak_ < static_cast<int>(kInARow)) return out;
+  out.excess = RecentExcess(coil);
+  const bool false_current = CurrentIsFalse(coil);
+  const bool decided = out.doubtful ? std::abs(out.excess) > kGross && false_current
+                                    : PhasesAgree(coil) || false_current;
+  if (!decided) return out;
+  out.decided = true;
+  out.diagnosis = Classify(coil, out.excess, in.t);
+  return out;
+}
+
+double CommissionedDetector::RecentExcess(int coil) const {
+  const Recent& r = recent_[static_cast<std::size_t>(coil)];
+  double top = 0, bottom = 0;
+  for (std::size_t k = 0; k < kInARow; ++k) {
+    top += r.top[k];
+    bottom += r.bottom[k];
+  }
+  return bottom > 0.5 ? top / bottom : 0;
+}
+
+Diagnosis CommissionedDetector::Classify(int coil, double excess, double time) const {
+  Diagnosis d;
+  d.coil = coil;
+  d.time = time + sampling_.samples * sampling_.step;
+  d.onset = onset_;
+  d.confidence = 1;
+  const double on = windows_.OfPhase(coil, 0, 3), off = windows_.OfPhase(coil, 1, 3);
+  if (period_.largest[coil] < kNoCurrent) {
+    d.cls = FaultClass::kOpen;
+  } else if (on < kReversed && std::abs(off) < kGross) {
+    d.cls = FaultClass::kAmplifierOff;
+  } else if (off < kReversed && std::abs(on) < kGross) {
+    d.cls = FaultClass::kSwitchStuckOn;
+  } else if (excess > 0) {
+    d.cls = FaultClass::kPartialShort;
+    d.fraction = 1 - 1 / std::sqrt(1 + excess);
+  } else {
+    d.cls = FaultClass::kCurrentSensor;
+  }
+  return d;
+}
+
+Lane CommissionedDetector::Period(const MeasuredPeriod& in) {
+  Watch(in);
+  return ratio_;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,88 @@
+#pragma once
+/// The commissioned detector of one bearing: which coil's linkage moves by more or less than its
+/// voltage accounts for (slope_excess.h), against what this bearing did when it was healthy.
+///
+/// A coil's ratio is the largest |c|/band over the windows, band = max(floor, 1.5 times the largest
+/// of commissioning). The coil of the largest ratio is blamed when it stays above 1 in three
+/// periods in a row and a second witness agrees: either c of the on and of the off phase have one
+/// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point.
+///
+/// Only gross values count in a period in which a phase starts at zero current, the shaft may be
+/// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2).
+///
+/// Doubtful: not commissioned, grade too bad, outside the range, three coils beyond their bands at
+/// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
+/// blamed only where both witnesses are gross: |c| > 0.5 and a false current.
+#include "fdd/detectors/coil_detector.h"
+#include "fdd/detectors/excess_windows.h"
+
+namespace ambrig {
+
+class CommissionedDetector : public CoilDetector {
+ public:
+  struct Outcome {
+    bool alarm = false;     // some coil's ratio is above 1 in this period
+    bool decided = false;   // `diagnosis` holds
+    bool doubtful = false;  // of the model, in this period
+    Diagnosis diagnosis;
+    double excess = 0;  // c of the decided coil, the periods of the decision [-]
+  };
+
+  CommissionedDetector(const CoilDetectorSetup& setup, const CommissionedBearing& commissioned);
+
+  Outcome Watch(const MeasuredPeriod& in);
+  /// Ratio of every coil.
+  Lane Period(const MeasuredPeriod& in) override;
+
+  /// A coil that is not judged any more; `share` of its turns carries on, 0: none.
+  void SetTurns(int coil, double share);
+  /// Nothing is concluded from the next periods.
+  void Pause(int periods) { paused_ = std::max(paused_, periods); }
+  /// Takes back what SetTurns said, and forgets what was seen of it.
+  void Restore(int coil);
+
+  const Lane& ratio() const { return ratio_; }
+  Lane Excess(int window) const { return windows_.Used(window, 1); }
+  const CommissionedBearing& commissioned() const { return model_; }
+  const ExcessWindows& windows() const { return windows_; }
+  const FluxPeriod& period() const { return period_; }
+  const Lane& current_error() const { return current_error_; }
+  /// |c| of this period alone, all phases [-].
+  const Lane& now() const { return now_; }
+
+ private:
+  static constexpr std::size_t kInARow = 3;  // periods
+  struct Recent {
+    double top[kInARow] = {}, bottom[kInARow] = {};
+  };
+  void SetBands();
+  void WatchCurrents(const MeasuredPeriod& in);
+  void WatchRange(const MeasuredPeriod& in);
+  /// Ratios of this period; returns the coil of the largest.
+  int Ratios();
+  double RecentExcess(int coil) const;
+  bool Doubtful() const;
+  bool PhasesAgree(int coil) const;
+  bool CurrentIsFalse(int coil) const;
+  Diagnosis Classify(int coil, double excess, double time) const;
+
+  CommissionedBearing model_;
+  SamplingSettings sampling_;
+  ExcessSettings settings_;
+  double gap_ = 0;  // nominal [m]
+  FluxFilter filter_;
+  ExcessWindows windows_;
+  FluxPeriod period_;
+  SlopeExcess excess_;
+  Lane share_;                                      // of the turns; 0: not judged
+  Lane band_[kExcessWindows];                       // of |c|
+  Lane ratio_, now_, apart_;      // apart_: 1 where only gross values count
+  Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
+  std::array<Recent, kLanes> recent_;
+  bool out_of_range_ = false, touching_ = false;
+  int suspect_ = -1, streak_ = 0, paused_ = 8;
+  double onset_ = 0;  // of the streak [s]
+  long long count_ = 0;
+};
+
+}  // namespace ambrig

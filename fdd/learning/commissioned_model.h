@@ -1,0 +1,60 @@
+#pragma once
+/// What the commissioning of a healthy bearing found: its circuit, its coils, and how far healthy
+/// running came from them. Everything that the commissioned detector knows beside the nominal rig.
+#include <string>
+#include <vector>
+
+#include "fdd/model/slope_excess.h"
+
+namespace ambrig {
+
+/// Windows over which the statistic is averaged [periods], and the least bands on each.
+inline constexpr int kExcessWindows = 5;
+inline constexpr int kExcessWindow[kExcessWindows] = {1, 3, 10, 40, 160};
+inline constexpr double kExcessFloor[kExcessWindows] = {0.30, 0.15, 0.08, 0.05, 0.04};
+/// Bands stand at this many times what healthy running reached.
+inline constexpr double kBandOverHealthy = 1.5;
+/// Mean square of the fit's residuals over their expected size, above which the model does not
+/// express the plant and is refused.
+inline constexpr double kWorstGrade = 3;
+
+struct CommissionedBearing {
+  std::string name;
+  FluxCircuit circuit;
+  CoilEquations coils;
+  bool learnt = false;           // false: nominal values with wide bands
+  double grade = 0;              // cost per row of the fit [-]
+  long long rows = 0;            // of the fit
+  Lane largest[kExcessWindows];  // |c| of healthy running, per coil and window [-]
+  Lane largest_flux;             // |psi| [A]
+  Lane current_error;            // |set-point - mean| over two periods [A]
+  double pattern = 0;            // largest common, cos or sin part of c over ten periods [-]
+
+  /// Whether the detector may rely on it.
+  bool usable() const { return learnt && grade <= kWorstGrade; }
+};
+
+/// The nominal circuit and coils of a bearing that was not commissioned.
+inline CommissionedBearing NominalBearing(const std::string& name, const LinkageModel& m) {
+  CommissionedBearing b;
+  b.name = name;
+  for (int j = 0; j < m.coils; ++j) {
+    b.coils.gain[j] = 1;
+    b.coils.leakage[j] = m.leakage[j];
+    b.coils.resistance[j] = m.resistance[j];
+  }
+  return b;
+}
+
+struct CommissionedModel {
+  std::string learnt_on;  // content hash of the rig that the run was made with
+  std::vector<CommissionedBearing> bearings;
+
+  const CommissionedBearing* Find(const std::string& name) const {
+    for (const CommissionedBearing& b : bearings)
+      if (b.name == name) return &b;
+    return nullptr;
+  }
+};
+
+}  // namespace ambrig

@@ -1,0 +1,153 @@
+#include "fdd/learning/commissioning_file.h"
+
+#include <fmt/format.h>
+
+#include "core/base/fingerprint.h"
+#include "core/base/toml.h"
+#include "fdd/measurement/detection_feed.h"
+
+namespace ambrig {
+
+namespace {
+
+std::string Numbers(const double* v, int n) {
+  std::string text;
+  for (int k = 0; k < n; ++k) text += fmt::format("{}{}", k ? ", " : "", v[k]);
+  return "[" + text + "]";
+}
+
+/// Every number of a parameter table, in its order.
+template <class P, std::size_t n>
+void Append(const P& p, const Field<P> (&fields)[n], std::string* text) {
+  for (const Field<P>& f : fields) *text += fmt::format("{}={};", f.key, p.*f.at);
+}
+
+void ReadLane(const TomlTable& t, const std::string& key, int coils, double lo, double hi,
+              Lane* out) {
+  const auto v = t.Numbers(key);
+  if (static_cast<int>(v.size()) != coils)
+    t.Fail(key, fmt::format("has {} numbers, allowed: {}, one per coil", v.size(), coils));
+  for (int j = 0; j < coils; ++j) {
+    if (!(v[static_cast<std::size_t>(j)] >= lo && v[static_cast<std::size_t>(j)] <= hi))
+      t.Fail(key, fmt::format("= {}, allowed: {} to {}", v[static_cast<std::size_t>(j)], lo, hi));
+    (*out)[j] = v[static_cast<std::size_t>(j)];
+  }
+}
+
+double In(const TomlTable& t, const char* key, double lo, double hi) {
+  const double v = t.Number(key);
+  if (!(v >= lo && v <= hi)) t.Fail(key, fmt::format("= {}, allowed: {} to {}", v, lo, hi));
+  return v;
+}
+
+std::vector<double> Exactly(const TomlTable& t, const char* key, std::size_t n) {
+  const auto v = t.Numbers(key);
+  if (v.size() != n) t.Fail(key, fmt::format("has {} numbers, allowed: {}", v.size(), n));
+  return v;
+}
+
+CommissionedBearing ReadBearing(const TomlTable& t, const std::string& name) {
+  CommissionedBearing b;
+  b.name = name;
+  b.learnt = true;
+  const int coils = static_cast<int>(In(t, "coils", 1, kLanes));
+  b.grade = In(t, "grade", 0, 1e9);
+  b.rows = t.Integer("rows", 0);
+  const auto zero = Exactly(t, "sensor_zero", 2), knee = Exactly(t, "knee", 2),
+             relaxation = Exactly(t, "relaxation", kRelaxations);
+  b.circuit.dx = zero[0];
+  b.circuit.dy = zero[1];
+  b.circuit.path = In(t, "iron_path", -1, 10);
+  b.circuit.fringing = In(t, "fringing", -1, 10);
+  b.circuit.knee7 = knee[0];
+  b.circuit.knee15 = knee[1];
+  for (std::size_t m = 0; m < kRelaxations; ++m) b.circuit.relaxation[m] = relaxation[m];
+  ReadLane(t, "gain", coils, 1e-3, 1e3, &b.coils.gain);
+  ReadLane(t, "leakage", coils, -1e3, 1e3, &b.coils.leakage);
+  ReadLane(t, "resistance", coils, -1e4, 1e4, &b.coils.resistance);
+  for (int w = 0; w < kExcessWindows; ++w)
+    ReadLane(t, fmt::format("largest_{}", kExcessWindow[w]), coils, 0, 1e3, &b.largest[w]);
+  ReadLane(t, "largest_flux", coils, 0, 1e6, &b.largest_flux);
+  ReadLane(t, "current_error", coils, 0, 1e6, &b.current_error);
+  b.pattern = In(t, "pattern", 0, 1e3);
+  t.RejectUnknownKeys();
+  return b;
+}
+
+int CoilsIn(const CommissionedBearing& b) {
+  int n = 0;
+  while (n < kLanes && b.coils.gain[n] > 0) ++n;
+  return n;
+}
+
+std::string BearingText(const CommissionedBearing& b) {
+  const int n = CoilsIn(b);
+  const FluxCircuit& c = b.circuit;
+  std::string text = fmt::format(
+      "\n[bearings.{}]\ncoils = {}\ngrade = {}    # mean square of the residuals over their "
+      "expected size; above {} it is refused\nrows = {}\n",
+      b.name, n, b.grade, kWorstGrade, b.rows);
+  text += fmt::format(
+      "# these trade against each other: together they predict fluxes, one alone says nothing\n"
+      "sensor_zero = [{}, {}]    # m\niron_path = {}\nfringing = {}\nrelaxation = {}    # residues "
+      "at 100 Hz, 1.2, 12 and 120 kHz\nknee = [{}, {}]\n",
+      c.dx, c.dy, c.path, c.fringing, Numbers(c.relaxation.data(), kRelaxations), c.knee7,
+      c.knee15);
+  text += fmt::format("gain = {}\nleakage = {}    # H\nresistance = {}    # ohm\n",
+                      Numbers(b.coils.gain.v, n), Numbers(b.coils.leakage.v, n),
+                      Numbers(b.coils.resistance.v, n));
+  text += "# what healthy running reached: relative excess of the slope over so many periods\n";
+  for (int w = 0; w < kExcessWindows; ++w)
+    text += fmt::format("largest_{} = {}\n", kExcessWindow[w], Numbers(b.largest[w].v, n));
+  text += fmt::format("largest_flux = {}    # A over the nominal gap\ncurrent_error = {}    # A\n",
+                      Numbers(b.largest_flux.v, n), Numbers(b.current_error.v, n));
+  return text + fmt::format("pattern = {}\n", b.pattern);
+}
+
+}  // namespace
+
+std::string ContentHashOf(const RigParameters& nominal) {
+  std::string text;
+  Append(nominal.amplifier, kAmplifierFields, &text);
+  for (const BearingParameters& b : nominal.bearings) {
+    text += fmt::format("|{} {} {} {};", b.name, static_cast<int>(b.kind), b.z, b.sensor.z);
+    const LinkageModel m = LinkageModelOf(b);
+    text += fmt::format("{} {} {} {}", m.reluctance.per_metre, m.reluctance.offset,
+                        m.reluctance.iron_path, m.reluctance.fringing);
+    for (int j = 0; j < m.coils; ++j)
+      text += fmt::format(";{} {} {} {} {} {}", m.n[j], m.leakage[j], m.resistance[j],
+                          m.direction_x[j], m.direction_y[j], m.gap_offset[j]);
+  }
+  return fmt::format("{:016x}", Fingerprint(text));
+}
+
+std::string CommissioningText(const CommissionedModel& model) {
+  std::string text =
+      "# Written by ambrig commission: what the detector learnt of the healthy machine.\n"
+      "[commissioning]\n";
+  text += fmt::format("learnt_on = \"{}\"    # of the rig's nominal values\n", model.learnt_on);
+  for (const CommissionedBearing& b : model.bearings)
+    if (b.learnt) text += BearingText(b);
+  return text;
+}
+
+CommissionedModel ReadCommissioning(const std::string& file, const std::string& learnt_on) {
+  const TomlTable root = TomlTable::FromFile(file);
+  const auto head = root.Table("commissioning"), bearings = root.Table("bearings");
+  if (!head)
+    root.Fail("commissioning", "is missing, allowed: a table, as ambrig commission writes");
+  if (!bearings) root.Fail("bearings", "is missing, allowed: tables [bearings.NAME]");
+  CommissionedModel model;
+  model.learnt_on = head->String("learnt_on");
+  head->RejectUnknownKeys();
+  if (!learnt_on.empty() && model.learnt_on != learnt_on)
+    head->Fail("learnt_on", fmt::format("= \"{}\", but the rig's nominal values are those of {}: "
+                                        "allowed: a file that ambrig commission wrote of this rig",
+                                        model.learnt_on, learnt_on));
+  for (const std::string& name : bearings->Keys())
+    model.bearings.push_back(ReadBearing(*bearings->Table(name), name));
+  root.RejectUnknownKeys();
+  return model;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,231 @@
+#include "fdd/learning/commissioning_fit.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kCircuit = 8, kWithKnee = 10;  // parameters of the circuit
+constexpr double kHuber = 2;                 // [expected sizes]
+constexpr double kKneePays = 0.98;           // of the cost
+constexpr int kMostSteps = 25;
+// A row in so many counts once against the priors: rows repeat each other, and without the priors
+// the fit would follow what noise prefers.
+constexpr double kRowsPerPrior = 500;
+constexpr double kSettled = 1e-4;  // relative fall of the cost
+// priors of a coil: gain, and leakage and resistance relative to the nominal
+constexpr double kGainSd = 0.15, kLeakageSd = 0.3, kResistanceSd = 0.12;
+// of dx/g0, dy/g0, path, fringing, residues, knee terms; and the steps of the differences
+constexpr double kSd[kWithKnee] = {0.1, 0.1, 0.3, 0.3, 30, 30, 30, 30, 1, 1};
+constexpr double kStep[kWithKnee] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-4, 1e-4};
+constexpr double kLeast[kWithKnee] = {-0.25, -0.25, -0.2, -0.5, 0, 0, 0, 0, 0, 0};
+constexpr double kMost[kWithKnee] = {0.25, 0.25, 1, 2, 100, 100, 100, 100, 10, 10};
+// residues of a half-order law whose drop equals the gap's at these frequencies [Hz]
+constexpr double kStarts[] = {1e7, 1e5, 3e4, 1e4, 2e3, 400};
+
+using Parameters = Eigen::Matrix<double, kWithKnee, 1>;
+
+FluxCircuit CircuitOf(const Parameters& p, double gap) {
+  FluxCircuit c;
+  c.dx = p[0] * gap;
+  c.dy = p[1] * gap;
+  c.path = p[2];
+  c.fringing = p[3];
+  for (int m = 0; m < kRelaxations; ++m) c.relaxation[static_cast<std::size_t>(m)] = p[4 + m];
+  c.knee7 = p[8];
+  c.knee15 = p[9];
+  return c;
+}
+
+Parameters StartAt(double cutoff) {
+  Parameters p = Parameters::Zero();
+  for (int m = 0; m < kRelaxations; ++m) p[4 + m] = std::sqrt(kRelaxationPoles[m] / cutoff);
+  return p;
+}
+
+double HuberCost(double z) {
+  const double a = std::abs(z);
+  return a < kHuber ? z * z : 2 * kHuber * a - kHuber * kHuber;
+}
+
+class Fit {
+ public:
+  Fit(const LinkageModel& nominal, const SamplingSettings& sampling, const ExcessSettings& settings,
+      const CommissioningLog& log)
+      : nominal_(nominal),
+        rows_(nominal, sampling, settings, log),
+        inductance_(FluxFilter(nominal, sampling, {}).inductances()),
+        huber_(rows_.rows().size(), 1.0),
+        prior_(static_cast<double>(size()) / kRowsPerPrior) {}
+
+  std::size_t size() const { return rows_.rows().size(); }
+
+  /// Coils fitted to this circuit; `z`: residuals over their expected size. Returns the cost.
+  double Evaluate(const Parameters& p, std::vector<double>* z, CoilEquations* coils) {
+    rows_.FluxSlopes(CircuitOf(p, nominal_.gap_offset[0]), &slopes_);
+    *coils = SolveCoils();
+    z->resize(size());
+    double cost = PriorOf(p);
+    for (std::size_t n = 0; n < size(); ++n) {
+      const CommissioningRow& r = rows_.rows()[n];
+      const double e = coils->gain[r.coil] * inductance_[r.coil] * slopes_[n] +
+                       coils->leakage[r.coil] * r.current + coils->resistance[r.coil] * r.mean -
+                       r.voltage;
+      (*z)[n] = e * r.weight;
+      cost += HuberCost((*z)[n]);
+    }
+    return cost;
+  }
+
+  /// Descends from p along the parameters first .. last - 1; p becomes the best, its cost returned.
+  double Descend(Parameters* p, int first, int last, CoilEquations* coils) {
+    std::vector<double> z;
+    double cost = Evaluate(*p, &z, coils), damping = 1e-3;
+    for (int step = 0; step < kMostSteps; ++step) {
+      for (std::size_t n = 0; n < size(); ++n)
+        huber_[n] = std::min(1.0, kHuber / std::max(std::abs(z[n]), 1e-12));
+      Linearise(*p, z, first, last);
+      double next = cost;
+      for (int tries = 0; tries < 6; ++tries, damping *= 10) {
+        Parameters q = *p;
+        Eigen::MatrixXd damped = normal_;
+        damped.diagonal() *= 1 + damping;
+        const Eigen::VectorXd move = damped.ldlt().solve(gradient_);
+        for (int k = first; k < last; ++k)
+          q[k] = std::clamp(q[k] - move[k - first], kLeast[k], kMost[k]);
+        CoilEquations tried;
+        std::vector<double> z_tried;
+        next = Evaluate(q, &z_tried, &tried);
+        if (!(next < cost)) continue;
+        *p = q;
+        *coils = tried;
+        z.swap(z_tried);
+        damping = std::max(damping / 10, 1e-6);
+        break;
+      }
+      if (!(next < cost)) break;
+      const bool settled = cost - next < kSettled * cost;
+      cost = next;
+      if (settled) break;
+    }
+    return cost;
+  }
+
+ private:
+  double PriorOf(const Parameters& p) const {
+    double sum = 0;
+    for (int k = 0; k < kWithKnee; ++k) sum += std::pow(p[k] / kSd[k], 2);
+    return prior_ * sum;
+  }
+
+  CoilEquations SolveCoils() const {
+    Eigen::Matrix3d A[kLanes];
+    Eigen::Vector3d b[kLanes];
+    for (int j = 0; j < nominal_.coils; ++j) {
+      const double sd[3] = {kGainSd, kLeakageSd * nominal_.leakage[j],
+                            kResistanceSd * nominal_.resistance[j]};
+      const double at[3] = {1, nominal_.leakage[j], nominal_.resistance[j]};
+      A[j].setZero();
+      for (int k = 0; k < 3; ++k) {
+        A[j](k, k) = prior_ / (sd[k] * sd[k]);
+        b[j][k] = A[j](k, k) * at[k];
+      }
+    }
+    for (std::size_t n = 0; n < size(); ++n) {
+      const CommissioningRow& r = rows_.rows()[n];
+      const double w = huber_[n] * r.weight * r.weight;
+      const Eigen::Vector3d x(inductance_[r.coil] * slopes_[n], r.current, r.mean);
+      A[r.coil] += w * x * x.transpose();
+      b[r.coil] += w * r.voltage * x;
+    }
+    CoilEquations out;
+    for (int j = 0; j < nominal_.coils; ++j) {
+      const Eigen::Vector3d found = A[j].ldlt().solve(b[j]);
+      out.gain[j] = found[0];
+      out.leakage[j] = found[1];
+      out.resistance[j] = found[2];
+    }
+    return out;
+  }
+
+  void Linearise(const Parameters& p, const std::vector<double>& z, int first, int last) {
+    const int count = last - first;
+    std::vector<std::vector<double>> J(static_cast<std::size_t>(count));
+    CoilEquations unused;
+    for (int k = 0; k < count; ++k) {
+      Parameters q = p;
+      const double h = kStep[first + k] * std::max(1.0, std::abs(p[first + k]));
+      q[first + k] += h;
+      std::vector<double>& column = J[static_cast<std::size_t>(k)];
+      Evaluate(q, &column, &unused);
+      for (std::size_t n = 0; n < size(); ++n) column[n] = (column[n] - z[n]) / h;
+    }
+    normal_ = Eigen::MatrixXd::Zero(count, count);
+    gradient_ = Eigen::VectorXd::Zero(count);
+    for (int a = 0; a < count; ++a) {
+      const auto& Ja = J[static_cast<std::size_t>(a)];
+      for (int b = 0; b <= a; ++b) {
+        const auto& Jb = J[static_cast<std::size_t>(b)];
+        double sum = 0;
+        for (std::size_t n = 0; n < size(); ++n) sum += huber_[n] * Ja[n] * Jb[n];
+        normal_(a, b) = normal_(b, a) = sum;
+      }
+      for (std::size_t n = 0; n < size(); ++n) gradient_[a] += huber_[n] * Ja[n] * z[n];
+      const double prior = prior_ / (kSd[first + a] * kSd[first + a]);
+      normal_(a, a) += prior;
+      gradient_[a] += prior * p[first + a];
+    }
+  }
+
+  const LinkageModel& nominal_;
+  CommissioningRows rows_;
+  Lane inductance_;
+  std::vector<double> huber_, slopes_;
+  double prior_;  // weight of the priors
+  Eigen::MatrixXd normal_;
+  Eigen::VectorXd gradient_;
+};
+
+}  // namespace
+
+CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel& nominal,
+                                     const SamplingSettings& sampling,
+                                     const ExcessSettings& settings, const CommissioningLog& log) {
+  CommissionedBearing out = NominalBearing(name, nominal);
+  Fit fit(nominal, sampling, settings, log);
+  if (fit.size() < 100) return out;
+  std::vector<double> z;
+  CoilEquations coils;
+  Parameters best = StartAt(kStarts[0]);
+  double least = kInfinity;
+  for (const double cutoff : kStarts) {
+    const Parameters p = StartAt(cutoff);
+    const double cost = fit.Evaluate(p, &z, &coils);
+    if (!(cost < least)) continue;
+    least = cost;
+    best = p;
+  }
+  double cost = fit.Descend(&best, 0, kCircuit, &coils);
+  // The knee alone, then all together, where it pays.
+  Parameters knee = best;
+  CoilEquations bent = coils;
+  if (fit.Descend(&knee, kCircuit, kWithKnee, &bent) < kKneePays * cost) {
+    const double whole = fit.Descend(&knee, 0, kWithKnee, &bent);
+    if (whole < kKneePays * cost) {
+      best = knee;
+      cost = whole;
+      coils = bent;
+    }
+  }
+  out.circuit = CircuitOf(best, nominal.gap_offset[0]);
+  out.coils = coils;
+  out.learnt = true;
+  out.rows = static_cast<long long>(fit.size());
+  out.grade = cost / static_cast<double>(fit.size());
+  return out;
+}
+
+}  // namespace ambrig

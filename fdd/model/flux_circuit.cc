@@ -1,0 +1,252 @@
+#include "fdd/model/flux_circuit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "actuators/magnetics/whole_lane_vector.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kSkippedAtStart = 2;  // samples of a period
+constexpr double kFewest = 3;       // samples of a phase
+constexpr double kLeastGap = 0.05;  // of the nominal one, as in linkage_model.cc
+constexpr double kKnee7 = 1 / 729.0, kKnee15 = 1 / 4782969.0;  // 3^-6, 3^-14 [A^-6], [A^-14]
+
+/// Iron terms' value less tangent times psi, and the tangent, at the last psi.
+template <class V>
+struct Tangent {
+  V rest, slope;
+  [[gnu::always_inline]] Tangent(const V& psi, double sb, double sa) {
+    const V p2 = psi * psi, p6 = p2 * p2 * p2, p14 = p6 * p6 * p2;
+    const V seventh = p6 * (sb * kKnee7), fifteenth = p14 * (sa * kKnee15);
+    slope = seventh * 7.0 + fifteenth * 15.0;
+    rest = (seventh + fifteenth) * psi - slope * psi;
+  }
+};
+
+/// Sums over the counted samples of a phase.
+template <class V>
+struct PhaseSums {
+  V y, ky, i, ki, count, k_sum;
+  template <class Mask>
+  [[gnu::always_inline]] void Add(const Mask& in, double k, const V& psi, const V& current) {
+    const V yk = Select(in, psi, 0.0), ik = Select(in, current, 0.0), one = Select(in, 1, 0.0);
+    y += yk;
+    ky += yk * k;
+    i += ik;
+    ki += ik * k;
+    count += one;
+    k_sum += one * k;
+  }
+};
+
+template <class V>
+[[gnu::always_inline]] inline void Finish(const PhaseSums<V>& s, const V& sense, double step,
+                                          FluxPhase* out) {
+  const auto few = s.count < kFewest - 0.5;
+  const V n = Select(few, 2, s.count), spread = n * (n * n - 1) * (step / 12),
+          per = Select(few, 0.0, 1 / spread), mean = s.i / Select(few, 1, n), middle = s.k_sum / n;
+  Store(out->samples.v, Select(few, 0.0, s.count));
+  Store(out->flux.v, sense * (s.ky - middle * s.y) * per);
+  Store(out->current.v, (s.ki - middle * s.i) * per);
+  Store(out->mean.v, Select(few, 0.0, mean));
+  Store(out->scale.v, per * (1 / step));
+}
+
+struct Constants {
+  const Lane *sense, *turns, *edge;
+  double knee7, knee15, step;
+  int samples;
+};
+
+template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
+[[gnu::always_inline]] inline void Run(const Constants& c, const FluxFilter::Step& step,
+                                       const Lane* adc, FluxFilter::State* state, FluxPeriod* out) {
+  const V zero = 0.0, sense = LoadAs<V>(c.sense->v), ampere_turns = sense * LoadAs<V>(c.turns->v),
+          far = 1e30;
+  // Samples k with k h <= edge are on.
+  const V last_on = LoadAs<V>(c.edge->v) * (1 / c.step) + 1e-9;
+  V psi = LoadAs<V>(state->psi.v), held[kRelaxations];
+  for (int m = 0; kRelaxes && m < kRelaxations; ++m) held[m] = LoadAs<V>(state->held[m].v);
+  V rho = LoadAs<V>(step.rho.v) + step.total;
+  const V rho_change = LoadAs<V>(step.rho_change.v) * (1.0 / c.samples),
+          rho_end = rho + rho_change * static_cast<double>(c.samples);
+  V inverse = 1 / rho;
+  const V inverse_change = (1 / rho_end - inverse) * (1.0 / c.samples);
+  V largest = zero, most = -far, least_on = far, least_off = far, share = zero;
+  PhaseSums<V> on_sums, off_sums;
+  for (int k = 0; k < c.samples; ++k) {
+    const V current = LoadAs<V>(adc[k].v);
+    V source = ampere_turns * current, kept = zero;
+    if constexpr (kRelaxes) {
+      kept = held[0] + held[1] + (held[2] + held[3]) - psi * step.total;
+      source = source - kept;
+    }
+    if constexpr (kCoupling == Coupling::kSides)
+      source = ampere_turns * current + Partner(ampere_turns * current) - kept;
+    V per = inverse;
+    if constexpr (kKnee) {
+      const Tangent<V> iron(psi, c.knee7, c.knee15);
+      source = source - iron.rest;
+      per = 1 / (rho + iron.slope);
+    }
+    V now;
+    if constexpr (kCoupling == Coupling::kFloatingRotor) {
+      const double total = Sum(per);
+      now = (source - Sum(source * per) / total) * per;
+      if (k == 0) share = per - per * per * (1 / total);
+    } else {
+      now = source * per;
+      if (k == 0) share = per;
+    }
+    if constexpr (kRelaxes) {
+      const V change = now - psi;
+      for (int m = 0; m < kRelaxations; ++m)
+        held[m] = held[m] * step.decay[m] + change * step.gain[m];
+    }
+    psi = now;
+    rho += rho_change;
+    inverse += inverse_change;
+    largest = Max(largest, Max(now, -now));
+    most = Max(most, current);
+    const V place = static_cast<double>(k);
+    const auto on = place<last_on, off = place> last_on + 1.0;
+    least_on = Min(Select(on, current, far), least_on);
+    least_off = Min(Select(on, far, current), least_off);
+    if (k < kSkippedAtStart) continue;
+    on_sums.Add(on, k, now, current);
+    off_sums.Add(off, k, now, current);
+  }
+  Store(state->psi.v, psi);
+  for (int m = 0; kRelaxes && m < kRelaxations; ++m) Store(state->held[m].v, held[m]);
+  Store(out->flux.v, psi);
+  Store(out->largest_flux.v, largest);
+  Store(out->largest.v, most);
+  Store(out->own.v, share);
+  Store(out->phase[0].least.v, least_on);
+  Store(out->phase[1].least.v, least_off);
+  Finish<V>(on_sums, sense, c.step, &out->phase[0]);
+  Finish<V>(off_sums, sense, c.step, &out->phase[1]);
+}
+
+template <class V, Coupling kCoupling>
+[[gnu::always_inline]] inline void Pick(bool relaxes, bool knee, const Constants& c,
+                                        const FluxFilter::Step& step, const Lane* adc,
+                                        FluxFilter::State* state, FluxPeriod* out) {
+  if (knee)
+    Run<V, kCoupling, true, true>(c, step, adc, state, out);
+  else if (relaxes)
+    Run<V, kCoupling, true, false>(c, step, adc, state, out);
+  else
+    Run<V, kCoupling, false, false>(c, step, adc, state, out);
+}
+
+#define AMBRIG_FLUX_LOOP(name, attribute, vector, coupling)                                      \
+  attribute void name(bool relaxes, bool knee, const Constants& c, const FluxFilter::Step& step, \
+                      const Lane* adc, FluxFilter::State* state, FluxPeriod* out) {              \
+    Pick<vector, Coupling::coupling>(relaxes, knee, c, step, adc, state, out);                   \
+  }
+AMBRIG_FLUX_LOOP(RadialWhole, AMBRIG_WHOLE, WholeLaneVector, kFloatingRotor)
+AMBRIG_FLUX_LOOP(RadialHalves, AMBRIG_WIDE, LaneVector, kFloatingRotor)
+AMBRIG_FLUX_LOOP(SidesHalves, AMBRIG_WIDE, LaneVector, kSides)
+AMBRIG_FLUX_LOOP(SeparateHalves, AMBRIG_WIDE, LaneVector, kNone)
+#undef AMBRIG_FLUX_LOOP
+
+/// Lanes without a coil take next to no flux.
+AMBRIG_WIDE void ReluctanceAt(const LinkageModel& m, const FluxCircuit& circuit,
+                              const Lane& per_nominal, double x, double y, Lane* rho) {
+  const LaneVector zero, offset = Load(m.gap_offset.v);
+  const auto coil = offset > zero;
+  const LaneVector g =
+      Max(offset - Load(m.direction_x.v) * x - Load(m.direction_y.v) * y, offset * kLeastGap);
+  LaneVector value = m.reluctance.Value(g) * Load(per_nominal.v) + circuit.path;
+  if (circuit.fringing != 0)
+    value = value / Max((g / Select(coil, offset, 1) - 1) * circuit.fringing + 1, 0.1);
+  Store(rho->v, Select(coil, value, 1e12));
+}
+
+}  // namespace
+
+FluxFilter::FluxFilter(const LinkageModel& nominal, const SamplingSettings& sampling,
+                       const FluxCircuit& circuit)
+    : model_(nominal), sampling_(sampling), circuit_(circuit) {
+  const double h = sampling_.step;
+  for (int m = 0; m < kRelaxations; ++m) {
+    const auto lane = static_cast<std::size_t>(m);
+    const double x = 2 * std::numbers::pi * kRelaxationPoles[m] * h;
+    const double b = circuit_.relaxation[lane] * -std::expm1(-x) / x;
+    step_.decay[m] = std::exp(-x);
+    step_.gain[m] = step_.decay[m] * b;
+    step_.total += b;
+    relaxing_ = relaxing_ || circuit_.relaxation[lane] != 0;
+  }
+  for (int j = 0; j < kLanes; ++j) {
+    if (j >= model_.coils) continue;
+    turns_[j] = 1;
+    sense_[j] = model_.n[j] < 0 ? -1 : 1;
+    per_nominal_[j] = 1 / model_.reluctance.Value(model_.gap_offset[j]);
+    inductance_[j] = model_.n[j] * model_.n[j] * per_nominal_[j];
+  }
+}
+
+Lane FluxFilter::Reluctance(double x, double y) const {
+  Lane rho;
+  ReluctanceAt(model_, circuit_, per_nominal_, x - circuit_.dx, y - circuit_.dy, &rho);
+  return rho;
+}
+
+void FluxFilter::Begin(const MeasuredPeriod& in, FluxPeriod* out) {
+  started_ = true;
+  // At rest: run the first sample alone, without relaxations, twice for the tangent.
+  state_ = State{};
+  MeasuredPeriod still = in;
+  still.x1 = in.x0;
+  still.y1 = in.y0;
+  const Step kept = step_;
+  for (int m = 0; m < kRelaxations; ++m) step_.decay[m] = step_.gain[m] = 0;
+  step_.total = 0;
+  std::array<Lane, 64> first;
+  for (int k = 0; k < sampling_.samples; ++k) first[static_cast<std::size_t>(k)] = in.adc[0];
+  still.adc = first.data();
+  Period(still, out);
+  step_ = kept;
+  state_.psi = out->flux;
+  for (Lane& held : state_.held) held = Lane{};
+}
+
+void FluxFilter::SetBridge(const MeasuredPeriod& in, Lane* edge, FluxPeriod* out) const {
+  const AmplifierParameters& a = *sampling_.amplifier;
+  const bool only_edge_moves = a.modulation == Modulation::kBiState;
+  BridgeVoltage v = VoltageOf(a, 0.5, in.bus);
+  for (int j = 0; j < model_.coils; ++j) {
+    if (only_edge_moves)
+      v.edge = (*in.duty)[j] / a.switching_frequency;
+    else
+      v = VoltageOf(a, (*in.duty)[j], in.bus);
+    (*edge)[j] = v.edge > 0 ? v.edge : -1;
+    out->phase[0].voltage[j] = v.on;
+    out->phase[1].voltage[j] = v.off;
+  }
+}
+
+void FluxFilter::Period(const MeasuredPeriod& in, FluxPeriod* out) {
+  if (!started_) Begin(in, out);
+  step_.rho = Reluctance(in.x0, in.y0);
+  const Lane end = Reluctance(in.x1, in.y1);
+  for (int j = 0; j < kLanes; ++j) step_.rho_change[j] = end[j] - step_.rho[j];
+  Lane edge;
+  SetBridge(in, &edge, out);
+  const Constants c{&sense_,        &turns_,          &edge, circuit_.knee7, circuit_.knee15,
+                    sampling_.step, sampling_.samples};
+  const bool knee = circuit_.knee7 != 0 || circuit_.knee15 != 0;
+  const auto run = model_.coupling == Coupling::kFloatingRotor
+                       ? (whole_lanes ? RadialWhole : RadialHalves)
+                   : model_.coupling == Coupling::kSides ? SidesHalves
+                                                         : SeparateHalves;
+  run(relaxing_ || knee, knee, c, step_, in.adc, &state_, out);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,12 @@
+#pragma once
+/// What remains of the statistic in healthy running, over displacement, its speed, and the current.
+#include "fdd/detectors/commissioned_detector.h"
+#include "fdd/learning/commissioning_log.h"
+#include "simulation/commissioning/commission.h"
+
+namespace ambrig {
+
+std::vector<ExcessScatter> ScatterOf(const CoilDetectorSetup& setup, const CommissioningLog& log,
+                                     const CommissionedBearing& bearing);
+
+}  // namespace ambrig
