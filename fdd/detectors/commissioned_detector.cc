@@ -108,12 +108,21 @@ int CommissionedDetector::Ratios() {
   return static_cast<int>(std::max_element(ratio_.v, ratio_.v + coils) - ratio_.v);
 }
 
-bool CommissionedDetector::Doubtful() const {
-  if (!model_.usable() || out_of_range_) return true;
+bool CommissionedDetector::Disturbed() const {
   int beyond = 0;
   for (double r : ratio_.v) beyond += r > 1;
   return beyond >= kCoilsAtOnce ||
          windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
+}
+
+bool CommissionedDetector::Decided(int coil, double excess) const {
+  const bool gross = excess < -kGross || excess > kGrossAbove;
+  if (model_.usable() && (!out_of_range_ || gross) && !Disturbed())
+    return PhasesAgree(coil) || CurrentIsFalse(coil);
+  // Errors of the nominal circuit keep flux out: they make c positive, in many coils alike.
+  int many = 0;
+  for (double c : now_.v) many += c > kGross;
+  return gross && CurrentIsFalse(coil) && (excess < 0 || many < kCoilsAtOnce);
 }
 
 bool CommissionedDetector::PhasesAgree(int coil) const {
@@ -150,7 +159,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     suspect_ = -1;
     return out;
   }
-  out.doubtful = Doubtful();
+  out.doubtful = !model_.usable() || out_of_range_ || Disturbed();
   out.alarm = ratio_[coil] > 1;
   if (!out.alarm) {
     suspect_ = -1;
@@ -163,10 +172,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   }
   if (++streak_ < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
-  const bool false_current = CurrentIsFalse(coil);
-  const bool decided = out.doubtful ? std::abs(out.excess) > kGross && false_current
-                                    : PhasesAgree(coil) || false_current;
-  if (!decided) return out;
+  if (!Decided(coil, out.excess)) return out;
   out.decided = true;
   out.diagnosis = Classify(coil, out.excess, in.t);
   return out;

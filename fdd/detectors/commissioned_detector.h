@@ -12,7 +12,9 @@
 ///
 /// Doubtful: not commissioned, grade too bad, outside the range, three coils beyond their bands at
 /// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
-/// blamed only where both witnesses are gross: |c| > 0.5 and a false current.
+/// blamed only where c < -0.5 or > 2; unless the flux alone is outside the range, also its current
+/// must be false, and fewer than three coils may have c > 0.5: what a nominal circuit does not know
+/// keeps flux out, which makes c positive in many coils alike.
 #include "fdd/detectors/coil_detector.h"
 #include "fdd/detectors/excess_windows.h"
 
@@ -45,6 +47,7 @@ class CommissionedDetector : public CoilDetector {
   Lane Excess(int window) const { return windows_.Used(window, 1); }
   const CommissionedBearing& commissioned() const { return model_; }
   const ExcessWindows& windows() const { return windows_; }
+  double band(int window, int coil) const { return band_[window][coil]; }
   const FluxPeriod& period() const { return period_; }
   const Lane& current_error() const { return current_error_; }
   /// |c| of this period alone, all phases [-].
@@ -61,7 +64,9 @@ class CommissionedDetector : public CoilDetector {
   /// Ratios of this period; returns the coil of the largest.
   int Ratios();
   double RecentExcess(int coil) const;
-  bool Doubtful() const;
+  /// The model's own errors show: several coils at once, or a pattern over the bearing.
+  bool Disturbed() const;
+  bool Decided(int coil, double excess) const;
   bool PhasesAgree(int coil) const;
   bool CurrentIsFalse(int coil) const;
   Diagnosis Classify(int coil, double excess, double time) const;
@@ -76,7 +81,7 @@ class CommissionedDetector : public CoilDetector {
   SlopeExcess excess_;
   Lane share_;                                      // of the turns; 0: not judged
   Lane band_[kExcessWindows];                       // of |c|
-  Lane ratio_, now_, apart_;      // apart_: 1 where only gross values count
+  Lane ratio_, now_, apart_;                        // apart_: 1 where only gross values count
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kLanes> recent_;
   bool out_of_range_ = false, touching_ = false;

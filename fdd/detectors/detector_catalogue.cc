@@ -15,7 +15,8 @@
   DETECTOR(GlrtOfResiduals)        \
   DETECTOR(CusumOfResiduals)       \
   DETECTOR(KalmanOfLinkages)       \
-  DETECTOR(Coupled)
+  DETECTOR(Coupled)                \
+  DETECTOR(Commissioned)
 
 namespace ambrig {
 

@@ -20,6 +20,8 @@ inline constexpr double kWorstGrade = 3;
 
 struct CommissionedBearing {
   std::string name;
+  std::string
+      learnt_on;  // content hash of the nominal bearing and amplifier (commissioning_file.h)
   FluxCircuit circuit;
   CoilEquations coils;
   bool learnt = false;           // false: nominal values with wide bands
@@ -47,7 +49,6 @@ inline CommissionedBearing NominalBearing(const std::string& name, const Linkage
 }
 
 struct CommissionedModel {
-  std::string learnt_on;  // content hash of the rig that the run was made with
   std::vector<CommissionedBearing> bearings;
 
   const CommissionedBearing* Find(const std::string& name) const {

@@ -4,7 +4,6 @@
 
 #include "core/base/fingerprint.h"
 #include "core/base/toml.h"
-#include "fdd/measurement/detection_feed.h"
 
 namespace ambrig {
 
@@ -50,6 +49,7 @@ CommissionedBearing ReadBearing(const TomlTable& t, const std::string& name) {
   CommissionedBearing b;
   b.name = name;
   b.learnt = true;
+  b.learnt_on = t.String("learnt_on");
   const int coils = static_cast<int>(In(t, "coils", 1, kLanes));
   b.grade = In(t, "grade", 0, 1e9);
   b.rows = t.Integer("rows", 0);
@@ -84,9 +84,10 @@ std::string BearingText(const CommissionedBearing& b) {
   const int n = CoilsIn(b);
   const FluxCircuit& c = b.circuit;
   std::string text = fmt::format(
-      "\n[bearings.{}]\ncoils = {}\ngrade = {}    # mean square of the residuals over their "
+      "\n[bearings.{}]\nlearnt_on = \"{}\"    # nominal values\ncoils = {}\ngrade = {}    # mean "
+      "square of the residuals over their "
       "expected size; above {} it is refused\nrows = {}\n",
-      b.name, n, b.grade, kWorstGrade, b.rows);
+      b.name, b.learnt_on, n, b.grade, kWorstGrade, b.rows);
   text += fmt::format(
       "# these trade against each other: together they predict fluxes, one alone says nothing\n"
       "sensor_zero = [{}, {}]    # m\niron_path = {}\nfringing = {}\nrelaxation = {}    # residues "
@@ -106,48 +107,52 @@ std::string BearingText(const CommissionedBearing& b) {
 
 }  // namespace
 
-std::string ContentHashOf(const RigParameters& nominal) {
+std::string ContentHashOf(const LinkageModel& m, const AmplifierParameters& amplifier) {
   std::string text;
-  Append(nominal.amplifier, kAmplifierFields, &text);
-  for (const BearingParameters& b : nominal.bearings) {
-    text += fmt::format("|{} {} {} {};", b.name, static_cast<int>(b.kind), b.z, b.sensor.z);
-    const LinkageModel m = LinkageModelOf(b);
-    text += fmt::format("{} {} {} {}", m.reluctance.per_metre, m.reluctance.offset,
-                        m.reluctance.iron_path, m.reluctance.fringing);
-    for (int j = 0; j < m.coils; ++j)
-      text += fmt::format(";{} {} {} {} {} {}", m.n[j], m.leakage[j], m.resistance[j],
-                          m.direction_x[j], m.direction_y[j], m.gap_offset[j]);
-  }
+  Append(amplifier, kAmplifierFields, &text);
+  text += fmt::format("|{} {} {} {} {}", static_cast<int>(m.coupling), m.reluctance.per_metre,
+                      m.reluctance.offset, m.reluctance.iron_path, m.reluctance.fringing);
+  for (int j = 0; j < m.coils; ++j)
+    text += fmt::format(";{} {} {} {} {} {}", m.n[j], m.leakage[j], m.resistance[j],
+                        m.direction_x[j], m.direction_y[j], m.gap_offset[j]);
   return fmt::format("{:016x}", Fingerprint(text));
 }
 
 std::string CommissioningText(const CommissionedModel& model) {
   std::string text =
-      "# Written by ambrig commission: what the detector learnt of the healthy machine.\n"
-      "[commissioning]\n";
-  text += fmt::format("learnt_on = \"{}\"    # of the rig's nominal values\n", model.learnt_on);
+      "# Written by ambrig commission: what the detector learnt of the healthy machine.\n";
   for (const CommissionedBearing& b : model.bearings)
     if (b.learnt) text += BearingText(b);
   return text;
 }
 
-CommissionedModel ReadCommissioning(const std::string& file, const std::string& learnt_on) {
+CommissionedModel ReadCommissioning(const std::string& file) {
   const TomlTable root = TomlTable::FromFile(file);
-  const auto head = root.Table("commissioning"), bearings = root.Table("bearings");
-  if (!head)
-    root.Fail("commissioning", "is missing, allowed: a table, as ambrig commission writes");
-  if (!bearings) root.Fail("bearings", "is missing, allowed: tables [bearings.NAME]");
+  const auto bearings = root.Table("bearings");
+  if (!bearings)
+    root.Fail("bearings",
+              "is missing, allowed: tables [bearings.NAME], as ambrig commission writes");
   CommissionedModel model;
-  model.learnt_on = head->String("learnt_on");
-  head->RejectUnknownKeys();
-  if (!learnt_on.empty() && model.learnt_on != learnt_on)
-    head->Fail("learnt_on", fmt::format("= \"{}\", but the rig's nominal values are those of {}: "
-                                        "allowed: a file that ambrig commission wrote of this rig",
-                                        model.learnt_on, learnt_on));
   for (const std::string& name : bearings->Keys())
     model.bearings.push_back(ReadBearing(*bearings->Table(name), name));
   root.RejectUnknownKeys();
   return model;
+}
+
+CommissionedBearing ReadCommissionedBearing(const std::string& file, const std::string& name,
+                                            const LinkageModel& nominal,
+                                            const AmplifierParameters& amplifier) {
+  if (file.empty()) return NominalBearing(name, nominal);
+  const CommissionedModel model = ReadCommissioning(file);
+  const CommissionedBearing* found = model.Find(name);
+  if (!found) return NominalBearing(name, nominal);
+  const std::string hash = ContentHashOf(nominal, amplifier);
+  if (found->learnt_on != hash)
+    throw InputError(fmt::format(
+        "{}: bearings.{}.learnt_on = \"{}\", allowed: \"{}\" - the nominal values of the rig have "
+        "changed since; run ambrig commission again",
+        file, name, found->learnt_on, hash));
+  return *found;
 }
 
 }  // namespace ambrig

@@ -55,7 +55,6 @@ CommissioningResult Commission(const RigParameters& rig, const CommissioningOpti
                       "of {} s ({}), allowed: smaller signals (--circle, --pulse, "
                       "--chirp) or a lower --speed",
                       rig.file, e.t, scenario.duration, e.target));
-  out.model.learnt_on = ContentHashOf(rig);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     if (options.stop && options.stop->load()) throw Interrupted();
     const LinkageModel model = LinkageModelOf(rig.bearings[k]);
@@ -63,6 +62,7 @@ CommissioningResult Commission(const RigParameters& rig, const CommissioningOpti
     const ExcessSettings settings{setup.settings.current_noise, setup.settings.adc_limit};
     CommissionedBearing found = FitCommissioning(rig.bearings[k].name, model,
                                                  setup.settings.sampling, settings, logger.log(k));
+    found.learnt_on = ContentHashOf(model, rig.amplifier);
     AddHealthyBands(setup, logger.log(k), &found);
     out.scatter.push_back(ScatterOf(setup, logger.log(k), found));
     out.model.bearings.push_back(std::move(found));

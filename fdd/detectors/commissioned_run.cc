@@ -1,0 +1,53 @@
+#include "fdd/detectors/commissioned_run.h"
+
+#include "fdd/learning/commissioning_file.h"
+
+namespace ambrig {
+
+CommissionedRun::CommissionedRun(const CoilDetectorSetup& setup,
+                                 const CommissionedBearing& commissioned)
+    : watch_(setup, commissioned), model_(setup.model) {
+  for (double& v : share_.v) v = 1;
+}
+
+DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
+  DetectorAlarm alarm;
+  const CommissionedDetector::Outcome seen = watch_.Watch(in);
+  doubtful_ = seen.doubtful && !seen.decided;
+  if (!seen.decided) return alarm;
+  const Diagnosis& d = seen.diagnosis;
+  alarm.raised = true;
+  alarm.coil = d.coil;
+  alarm.diagnosis = d;
+  share_[d.coil] = d.cls == FaultClass::kPartialShort ? share_[d.coil] * (1 - d.fraction) : 0;
+  watch_.SetTurns(d.coil, share_[d.coil]);
+  return alarm;
+}
+
+SlopeBand CommissionedRun::Band(int coil) const {
+  // The relative excess of the linkage moves the current's slope the other way, by as much.
+  const FluxPhase& on = watch_.period().phase[0];
+  SlopeBand band;
+  band.slope = on.current[coil];
+  band.expected = band.slope * (1 - watch_.windows().OfPhase(coil, 0, 1));
+  band.half_width = std::abs(band.expected) * watch_.band(0, coil);
+  return band;
+}
+
+CoilDetectorKind Commissioned() {
+  return {"commissioned",
+          "-",
+          "relative excess of the linkages' slopes over what the healthy machine showed",
+          1,
+          1,
+          [](const CoilDetectorSetup& s) -> std::unique_ptr<CoilDetector> {
+            return std::make_unique<CommissionedDetector>(s, NominalBearing("", s.model));
+          },
+          [](const RunDetectorSetup& s) -> std::unique_ptr<RunDetector> {
+            return std::make_unique<CommissionedRun>(
+                s, ReadCommissionedBearing(s.commissioning, s.bearing, s.model,
+                                           *s.settings.sampling.amplifier));
+          }};
+}
+
+}  // namespace ambrig
