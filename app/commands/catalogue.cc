@@ -8,6 +8,7 @@
   COMMAND(Campaign)              \
   COMMAND(Merge)                 \
   COMMAND(Detectors)             \
+  COMMAND(Commission)            \
   COMMAND(Crosscheck)            \
   COMMAND(Rotor)                 \
   COMMAND(Design)                \

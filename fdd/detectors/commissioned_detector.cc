@@ -77,7 +77,7 @@ void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
 }
 
 void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
-  touching_ = in.doubt.any();
+  touching_ = in.uncertainty.any();
   out_of_range_ = false;
   for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j)
     out_of_range_ =

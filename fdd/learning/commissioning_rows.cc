@@ -34,7 +34,7 @@ CommissioningRows::CommissioningRows(const LinkageModel& nominal, const Sampling
       for (int q = 0; q < 2; ++q)
         for (int j = 0; j < nominal.coils; ++j) {
           const FluxPhase& p = period.phase[q];
-          holds[q][j] = holds[q][j] && in.comparable && !in.doubt.any() &&
+          holds[q][j] = holds[q][j] && in.comparable && !in.uncertainty.any() &&
                         judged.bottom[q][j] > 0 && !(judged.gross[j] > 0);
           const double own = filter.inductances()[j] * period.own[j] + nominal.leakage[j];
           sum[q][j].current += p.current[j] / kAverage;

@@ -1,0 +1,97 @@
+/// ambrig commission: the fault detection gets to know a healthy rig.
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "app/commands/commands.h"
+#include "app/commands/progress.h"
+#include "app/pages/commission_report.h"
+#include "core/base/atomic_file.h"
+#include "core/base/read_file.h"
+#include "fdd/learning/commissioning_file.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+
+namespace {
+
+struct CommissionCommand {
+  CommonOptions common;
+  std::string rig, out;
+  CommissioningPlan plan;
+};
+
+constexpr const char* kFirstLine = "# Written by ambrig commission";
+
+/// rig.toml -> rig.commissioning.toml, beside it.
+std::string DefaultOutput(const std::string& rig) {
+  const std::filesystem::path path(rig);
+  return (path.parent_path() / (path.stem().string() + ".commissioning.toml")).string();
+}
+
+int RunCommission(CommissionCommand c) {
+  const RigParameters rig = ReadRig(c.rig);
+  if (c.out.empty()) c.out = DefaultOutput(c.rig);
+  if (std::filesystem::exists(c.out) && !ReadFile(c.out).starts_with(kFirstLine))
+    throw InputError(fmt::format(
+        "-o = {}: the file exists and is not one that ambrig commission wrote, allowed: another "
+        "name",
+        c.out));
+  if (rig.bearings.front().kind == BearingKind::kOpposed) c.plan.speed = 0;
+  CommissioningResult result;
+  {
+    Progress progress("commission");
+    CommissioningOptions options;
+    options.plan = c.plan;
+    options.stop = &interrupted;
+    options.progress = [&](double done) { progress.Update(done); };
+    result = Commission(rig, options);
+  }
+  WriteFileAtomically(c.out, CommissioningText(result.model));
+  fmt::print("{}", CommissionText(rig, result));
+  fmt::print(
+      "written: {}; in the rig file:\n[detection]\nkind = \"commissioned\"\ncommissioning = "
+      "\"{}\"\n",
+      c.out, std::filesystem::path(c.out).filename().string());
+  c.common.WriteJson(CommissionJson(rig, result));
+  if (!c.common.html.empty()) WriteCommissionReport(rig, result, c.common.html);
+  bool usable = true;
+  for (const CommissionedBearing& b : result.model.bearings) usable = usable && b.usable();
+  return usable ? 0 : 1;
+}
+
+}  // namespace
+
+void AddCommission(CLI::App& app, Work& work) {
+  auto c = std::make_shared<CommissionCommand>();
+  CLI::App* command = app.add_subcommand(
+      "commission", "let the fault detection learn a healthy rig; writes RIG.commissioning.toml");
+  command->add_option("rig", c->rig, "rig file (TOML); the run is made with its effects")
+      ->required();
+  command->add_option("-o,--out", c->out, "file to write (default: RIG.commissioning.toml)");
+  command->add_option("--duration", c->plan.duration, "of the run [s]")
+      ->check(CLI::Range(0.1, 10.0))
+      ->capture_default_str();
+  command->add_option("--speed", c->plan.speed, "at its end [rad/s]")
+      ->check(CLI::Range(0.0, 1e5))
+      ->capture_default_str();
+  command->add_option("--current", c->plan.current, "amplitude of a coil's three tones, each [A]")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--circle", c->plan.circle, "radius of the small whirl over the clearance")
+      ->check(CLI::Range(0.0, 0.9))
+      ->capture_default_str();
+  command->add_option("--chirp", c->plan.chirp, "force of the chirp over the controller's f_max")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--pulse", c->plan.pulse, "largest force over the controller's f_max")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  c->common.AddTo(*command);
+  command->footer(
+      "Example:\n  ambrig commission rig.toml --html out/commission.html\n"
+      "Exit code 1 when a bearing cannot be expressed by the model (grade above 3).");
+  command->callback([c, &work] { work = [c] { return RunCommission(*c); }; });
+}
+
+}  // namespace ambrig

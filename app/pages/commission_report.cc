@@ -1,0 +1,199 @@
+#include "app/pages/commission_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/pages/html.h"
+#include "fdd/measurement/detection_feed.h"
+
+namespace ambrig {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kOwnPart = 0.9;  // of c that a bypassed share makes
+constexpr int kInARow = 3;        // periods that a decision takes
+constexpr double kSpread = 2;     // the noise of a window stays this share of its band away
+
+double ExcessOfShort(double s) { return kOwnPart * (1 / ((1 - s) * (1 - s)) - 1); }
+double ShortOfExcess(double c) { return 1 - 1 / std::sqrt(1 + c / kOwnPart); }
+
+double BandOf(const CommissionedBearing& b, int w, int coil) {
+  return std::max(kExcessFloor[w], kBandOverHealthy * b.largest[w][coil]);
+}
+
+/// Periods after which c stands beyond the band: the window fills while the fault lasts.
+double PeriodsTo(const CommissionedBearing& b, int coil, double c) {
+  double best = -1;
+  for (int w = 0; w < kExcessWindows; ++w) {
+    const double need = BandOf(b, w, coil) + b.largest[w][coil] / kSpread;
+    if (c < need) continue;
+    const double periods = std::ceil(kExcessWindow[w] * need / c) + kInARow - 1;
+    if (best < 0 || periods < best) best = periods;
+  }
+  return best;
+}
+
+std::string Ms(double seconds) { return seconds < 0 ? "-" : fmt::format("{:.2f}", seconds * 1e3); }
+
+int CoilsOf(const RigParameters& rig, const CommissionedBearing& b) {
+  return rig.Find(b.name)->coils();
+}
+
+Json ScatterJson(const std::vector<ExcessScatter>& scatter) {
+  Json out = Json::array();
+  for (const ExcessScatter& s : scatter) {
+    Json bins = Json::array();
+    for (const auto& bin : s.bins)
+      bins.push_back({{"from", bin.from},
+                      {"to", bin.to},
+                      {"rms", bin.rms},
+                      {"largest", bin.largest},
+                      {"values", bin.periods}});
+    out.push_back({{"quantity", s.quantity}, {"unit", s.unit}, {"bins", bins}});
+  }
+  return out;
+}
+
+}  // namespace
+
+Detectable DetectableIn(const CommissionedBearing& b, int coil, double period) {
+  Detectable d;
+  double least = kInfinity;
+  for (int w = 0; w < kExcessWindows; ++w)
+    least = std::min(least, BandOf(b, w, coil) + b.largest[w][coil] / kSpread);
+  d.smallest_short = ShortOfExcess(least);
+  d.smallest_delay = period * PeriodsTo(b, coil, ExcessOfShort(d.smallest_short) * (1 + 1e-9));
+  const double tenth = PeriodsTo(b, coil, ExcessOfShort(0.1));
+  d.tenth_delay = tenth < 0 ? -1 : tenth * period;
+  d.open_delay = kInARow * period;
+  return d;
+}
+
+double RippleInductance(const RigParameters& rig, const CommissionedBearing& b, int coil) {
+  const LinkageModel m = LinkageModelOf(*rig.Find(b.name));
+  const SamplingSettings sampling{
+      rig.samples_per_period(), 1 / (rig.amplifier.switching_frequency * rig.samples_per_period()),
+      &rig.amplifier};
+  FluxFilter filter(m, sampling, b.circuit);
+  const std::vector<Lane> adc(64);
+  const Lane duty;
+  MeasuredPeriod in;
+  in.adc = adc.data();
+  in.duty = &duty;
+  in.bus = rig.amplifier.bus_voltage;
+  FluxPeriod period;
+  filter.Period(in, &period);
+  return b.coils.gain[coil] * filter.inductances()[coil] * period.own[coil] + b.coils.leakage[coil];
+}
+
+Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
+  const double T = 1 / rig.amplifier.switching_frequency;
+  Json bearings = Json::array();
+  for (std::size_t k = 0; k < r.model.bearings.size(); ++k) {
+    const CommissionedBearing& b = r.model.bearings[k];
+    Json coils = Json::array();
+    for (int j = 0; j < CoilsOf(rig, b); ++j) {
+      const Detectable d = DetectableIn(b, j, T);
+      const double L = RippleInductance(rig, b, j);
+      coils.push_back({{"coil", j + 1},
+                       {"gain", b.coils.gain[j]},
+                       {"leakage", b.coils.leakage[j]},
+                       {"resistance", b.coils.resistance[j]},
+                       {"ripple_inductance", L},
+                       {"slope", rig.amplifier.bus_voltage / L},
+                       {"time_constant", L / b.coils.resistance[j]},
+                       {"largest_excess", b.largest[2][j]},
+                       {"smallest_short", d.smallest_short},
+                       {"smallest_short_delay", d.smallest_delay},
+                       {"tenth_delay", d.tenth_delay < 0 ? Json(nullptr) : Json(d.tenth_delay)},
+                       {"open_delay", d.open_delay}});
+    }
+    bearings.push_back({{"name", b.name},
+                        {"usable", b.usable()},
+                        {"grade", b.grade},
+                        {"rows", b.rows},
+                        {"sensor_zero", {b.circuit.dx, b.circuit.dy}},
+                        {"relaxation", b.circuit.relaxation},
+                        {"coils", coils},
+                        {"scatter", ScatterJson(r.scatter[k])}});
+  }
+  return {{"rig", rig.name}, {"bearings", bearings}};
+}
+
+std::string CommissionText(const RigParameters& rig, const CommissioningResult& r) {
+  const double T = 1 / rig.amplifier.switching_frequency;
+  std::string text = fmt::format("{:<8} {:>6} {:>12} {:>10} {:>10} {:>10} {:>14} {:>12} {:>12}\n",
+                                 "coil", "grade", "ripple L [mH]", "R [ohm]", "L/R [ms]", "scatter",
+                                 "least short [%]", "its delay", "10 % delay");
+  for (const CommissionedBearing& b : r.model.bearings)
+    for (int j = 0; j < CoilsOf(rig, b); ++j) {
+      const Detectable d = DetectableIn(b, j, T);
+      const double L = RippleInductance(rig, b, j);
+      text += fmt::format(
+          "{:<8} {:>6.2f} {:>12.3f} {:>10.3f} {:>10.2f} {:>10.4f} {:>14.1f} {:>9} ms {:>9} ms\n",
+          fmt::format("{}.coil{}", b.name, j + 1), b.grade, L * 1e3, b.coils.resistance[j],
+          L / b.coils.resistance[j] * 1e3, b.largest[2][j], 100 * d.smallest_short,
+          Ms(d.smallest_delay), Ms(d.tenth_delay));
+    }
+  text +=
+      "scatter: largest relative excess of the slope over ten healthy periods; delays by the "
+      "learnt bands.\n";
+  for (const CommissionedBearing& b : r.model.bearings)
+    if (!b.usable())
+      text += fmt::format(
+          "bearing {}: grade {:.2f} is above {}: the model does not express this "
+          "plant; the detector will not rely on it\n",
+          b.name, b.grade, kWorstGrade);
+  return text;
+}
+
+void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& r,
+                           const std::string& file) {
+  const double T = 1 / rig.amplifier.switching_frequency;
+  HtmlReport report("Commissioning of the fault detection", "rig " + rig.name);
+  report.Text(
+      "The detector watched the healthy machine and learnt how the flux linkage of every coil "
+      "follows its voltage. What remains in healthy running sets the bands; a fault must leave "
+      "them.");
+  for (std::size_t k = 0; k < r.model.bearings.size(); ++k) {
+    const CommissionedBearing& b = r.model.bearings[k];
+    report.Heading("Bearing " + b.name);
+    report.Verdict(b.usable() ? Verdict::kOk : Verdict::kFail,
+                   fmt::format("Grade {:.2f} over {} rows; {}", b.grade, b.rows,
+                               b.usable() ? "the model expresses this bearing"
+                                          : "refused: the model does not express this bearing"));
+    std::vector<std::vector<Cell>> rows;
+    for (int j = 0; j < CoilsOf(rig, b); ++j) {
+      const Detectable d = DetectableIn(b, j, T);
+      const double L = RippleInductance(rig, b, j);
+      rows.push_back({Cell(std::to_string(j + 1)), Cell(fmt::format("{:.3f}", L * 1e3)),
+                      Cell(fmt::format("{:.0f}", rig.amplifier.bus_voltage / L)),
+                      Cell(fmt::format("{:.3f}", b.coils.resistance[j])),
+                      Cell(fmt::format("{:.4f}", b.largest[2][j])),
+                      Cell(fmt::format("{:.1f}", 100 * d.smallest_short)),
+                      Cell(Ms(d.smallest_delay)), Cell(Ms(d.tenth_delay)), Cell(Ms(d.open_delay))});
+    }
+    report.Table({"coil", "ripple inductance [mH]", "slope at the nominal bus [A/s]", "R [ohm]",
+                  "largest healthy excess [-]", "smallest short [% of the turns]", "its delay [ms]",
+                  "10 % short [ms]", "open [ms]"},
+                 rows);
+    for (const ExcessScatter& s : r.scatter[k]) {
+      std::vector<std::vector<Cell>> bins;
+      for (const auto& bin : s.bins)
+        bins.push_back({Cell(fmt::format("{:.3g} to {:.3g}", bin.from, bin.to)),
+                        Cell(fmt::format("{:.4f}", bin.rms)),
+                        Cell(fmt::format("{:.4f}", bin.largest)),
+                        Cell(std::to_string(bin.periods))});
+      report.Table(
+          {fmt::format("{} [{}]", s.quantity, s.unit), "excess, rms", "excess, largest", "values"},
+          bins, "Scatter of the healthy excess over ten periods against " + s.quantity);
+    }
+  }
+  report.Write(file);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,77 @@
+#include "fdd/detectors/excess_windows.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/noise.h"
+#include "tests/fdd/stator_bench.h"
+
+namespace ambrig {
+namespace {
+
+LinkageModel Radial() { return MakeLinkageModel(testing_bench::Reference()); }
+
+SlopeExcess PeriodOf(const Lane& c, double weight) {
+  SlopeExcess p;
+  for (int j = 0; j < kLanes; ++j)
+    for (int q = 0; q < 2; ++q) {
+      p.bottom[q][j] = weight;
+      p.top[q][j] = weight * c[j];
+    }
+  return p;
+}
+
+TEST(ExcessWindows, WhatIsCommonOrShiftsTheShaftDropsOut) {
+  ExcessWindows windows(Radial());
+  const LinkageModel m = Radial();
+  Lane c;
+  for (int j = 0; j < kLanes; ++j) c[j] = 0.3 + 0.2 * m.direction_x[j] - 0.1 * m.direction_y[j];
+  windows.Add(PeriodOf(c, 1000), {});
+  for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(windows.Used(0, 1)[j], 0, 1e-12);
+  EXPECT_NEAR(windows.Pattern(0), 0.3, 1e-12);
+}
+
+TEST(ExcessWindows, OneCoilKeepsItsExcess) {
+  ExcessWindows windows(Radial());
+  Lane c;
+  c[2] = 0.22;
+  windows.Add(PeriodOf(c, 1000), {});
+  EXPECT_NEAR(windows.Used(0, 1)[2], 0.22, 1e-12);
+  for (int j = 0; j < kLanes; ++j)
+    if (j != 2) EXPECT_EQ(windows.Used(0, 1)[j], 0) << j;  // their raw value is zero
+}
+
+TEST(ExcessWindows, WindowsAreRatiosOfSumsForEver) {
+  ExcessWindows windows(Radial());
+  std::vector<double> top, bottom;
+  for (int n = 0; n < 1200; ++n) {
+    Lane c;
+    c[5] = Normal(3, 1, static_cast<std::uint64_t>(n));
+    const double weight = 500 + 400 * std::sin(0.1 * n);
+    windows.Add(PeriodOf(c, weight), {});
+    top.push_back(2 * weight * c[5]);
+    bottom.push_back(2 * weight);
+    for (int w = 0; w < kExcessWindows; ++w) {
+      if (n + 1 < kExcessWindow[w]) continue;
+      double a = 0, b = 0;
+      for (int k = 0; k < kExcessWindow[w]; ++k) {
+        a += top[top.size() - 1 - static_cast<std::size_t>(k)];
+        b += bottom[bottom.size() - 1 - static_cast<std::size_t>(k)];
+      }
+      ASSERT_NEAR(windows.Raw(w)[5], a / b, 1e-9) << n << " " << w;
+    }
+  }
+}
+
+TEST(ExcessWindows, AWindowNoisierThanAskedForSaysNothing) {
+  ExcessWindows windows(Radial());
+  Lane c;
+  c[0] = 1;
+  windows.Add(PeriodOf(c, 50), {});  // sd of c: 1/sqrt(100)
+  EXPECT_EQ(windows.Used(0, 0.09)[0], 0);
+  EXPECT_NEAR(windows.Used(0, 0.11)[0], 1, 1e-12);
+}
+
+}  // namespace
+}  // namespace ambrig

@@ -1,0 +1,155 @@
+/// Commissioned detectors on plants that are not their model: the switching engine with effects.
+#include "simulation/commissioning/commission.h"
+
+#include <gtest/gtest.h>
+
+#include "fdd/measurement/detection_feed.h"
+#include "tests/effects/effect_rigs.h"
+
+namespace ambrig {
+namespace {
+
+/// Detectors of all bearings beside a run; none acts.
+class Onlooker : public Supervisor {
+ public:
+  Onlooker(const RigParameters& rig, const CommissionedModel& model) : feed_(rig) {
+    for (const BearingParameters& b : rig.bearings) {
+      const LinkageModel m = LinkageModelOf(b);
+      const CommissionedBearing* found = model.Find(b.name);
+      watch_.push_back(std::make_unique<CommissionedDetector>(
+          CoilDetectorSetup{m, DetectorSettingsOf(rig, b, m)},
+          found ? *found : NominalBearing(b.name, m)));
+    }
+  }
+  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
+                   std::vector<RunEvent>&) override {
+    feed_.Read(m);
+    for (std::size_t k = 0; k < watch_.size(); ++k) {
+      MeasuredPeriod in = feed_.Period(k, m);
+      in.set_point = &control[k].commanded;
+      const auto seen = watch_[k]->Watch(in);
+      if (!seen.decided) continue;
+      ++decisions;
+      if (decisions > 1) continue;
+      bearing = k;
+      first = seen.diagnosis;
+    }
+  }
+  int decisions = 0;
+  std::size_t bearing = 0;
+  Diagnosis first;
+
+ private:
+  DetectionFeed feed_;
+  std::vector<std::unique_ptr<CommissionedDetector>> watch_;
+};
+
+/// Load steps in a run-up, an orbit of a third of the clearance.
+std::string Operation(const std::string& fault = "") {
+  return R"(name = "operation"
+rig = "rig.toml"
+duration = 0.05
+record_rate = 1000.0
+seed = 9
+[start]
+state = "levitated"
+[speed]
+profile = [[0.0, 0.0], [0.05, 600.0]]
+[[excitation]]
+target = "A.x"
+port = "reference"
+kind = "sine"
+start = 0.0
+stop = 0.05
+frequency = 40.0
+amplitude = 5e-5
+[[excitation]]
+target = "A.y"
+port = "force"
+kind = "step"
+start = 0.02
+stop = 0.05
+amplitude = -10.0
+)" + fault;
+}
+
+std::string FaultText(const std::string& what) {
+  return "[[fault]]\ntarget = \"A.coil3\"\ntime = 0.0300123\n" + what;
+}
+
+constexpr double kFault = 0.0300123;
+
+Onlooker Watched(const RigParameters& rig, const CommissionedModel& model,
+                 const std::string& text) {
+  const Scenario scenario = ReadScenarioText(text, "operation.toml", rig);
+  Onlooker onlooker(rig, model);
+  EngineOptions engine;
+  engine.record = false;
+  engine.supervisor = &onlooker;
+  SwitchingEngine(rig, scenario, engine).Run();
+  return onlooker;
+}
+
+class CommissionedPlant : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    rig = WithEffect(ReferenceRig(), "eddy-currents", "A", {{"cutoff", 1000}});
+    rig = WithEffect(rig, "sensor-offset", "A.x", {{"offset", 1e-5}});
+    CommissioningOptions options;
+    options.plan.duration = 0.2;
+    model = Commission(rig, options).model;
+  }
+  static RigParameters rig;
+  static CommissionedModel model;
+};
+RigParameters CommissionedPlant::rig;
+CommissionedModel CommissionedPlant::model;
+
+TEST_F(CommissionedPlant, EddyCurrentsAreLearntAndHarmNothing) {
+  ASSERT_TRUE(model.Find("A")->usable());
+  EXPECT_LT(model.Find("A")->grade, 1);
+  // The residues carry the iron: a half-order law at 1 kHz has sqrt(f/1 kHz) at 120 kHz.
+  EXPECT_GT(model.Find("A")->circuit.relaxation[3], 3);
+  EXPECT_EQ(Watched(rig, model, Operation()).decisions, 0);
+}
+
+TEST_F(CommissionedPlant, AnOpenCoilIsFoundWithinAQuarterMillisecond) {
+  const Onlooker seen = Watched(rig, model, Operation(FaultText("kind = \"open\"\n")));
+  ASSERT_GT(seen.decisions, 0);
+  EXPECT_EQ(seen.bearing, 0U);
+  EXPECT_EQ(seen.first.coil, 2);
+  EXPECT_EQ(seen.first.cls, FaultClass::kOpen);
+  EXPECT_LT(seen.first.time - kFault, 0.25e-3);
+  EXPECT_GT(seen.first.time, kFault);
+}
+
+TEST_F(CommissionedPlant, ShortsAreFoundWithTheirShareOfTheTurns) {
+  for (const double share : {0.5, 0.1}) {
+    const Onlooker seen =
+        Watched(rig, model,
+                Operation(FaultText("kind = \"partial-short\"\nparameters = { fraction = " +
+                                    std::to_string(share) + " }\n")));
+    ASSERT_GT(seen.decisions, 0) << share;
+    EXPECT_EQ(seen.first.coil, 2) << share;
+    EXPECT_EQ(seen.first.cls, FaultClass::kPartialShort) << share;
+    EXPECT_NEAR(seen.first.fraction, share, 0.04) << share;
+    EXPECT_LT(seen.first.time - kFault, 0.5e-3) << share;
+  }
+}
+
+TEST_F(CommissionedPlant, WithoutCommissioningNothingIsDoneToAHealthyMachine) {
+  EXPECT_EQ(Watched(rig, {}, Operation()).decisions, 0);
+  const Onlooker open = Watched(rig, {}, Operation(FaultText("kind = \"open\"\n")));
+  ASSERT_GT(open.decisions, 0);
+  EXPECT_EQ(open.first.coil, 2);
+  EXPECT_LT(open.first.time - kFault, 0.5e-3);
+}
+
+TEST(Commission, AMachineThatTouchesInItsRunIsRefused) {
+  CommissioningOptions options;
+  options.plan.circle = 0.9;
+  EXPECT_THROW(Commission(ReferenceRig(), options), InputError);
+}
+
+}  // namespace
+}  // namespace ambrig
