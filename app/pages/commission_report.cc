@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kOwnPart = 0.9;  // of c that a bypassed share makes
-constexpr int kInARow = 3;        // periods that a decision takes
+constexpr int kOfDecision = 3;    // periods that a decision takes
 constexpr double kSpread = 2;     // the noise of a window stays this share of its band away
 
 double ExcessOfShort(double s) { return kOwnPart * (1 / ((1 - s) * (1 - s)) - 1); }
@@ -31,7 +31,7 @@ double PeriodsTo(const CommissionedBearing& b, int coil, double c) {
   for (int w = 0; w < kExcessWindows; ++w) {
     const double need = BandOf(b, w, coil) + b.largest[w][coil] / kSpread;
     if (c < need) continue;
-    const double periods = std::ceil(kExcessWindow[w] * need / c) + kInARow - 1;
+    const double periods = std::ceil(kExcessWindow[w] * need / c) + kOfDecision - 1;
     if (best < 0 || periods < best) best = periods;
   }
   return best;
@@ -69,7 +69,7 @@ Detectable DetectableIn(const CommissionedBearing& b, int coil, double period) {
   d.smallest_delay = period * PeriodsTo(b, coil, ExcessOfShort(d.smallest_short) * (1 + 1e-9));
   const double tenth = PeriodsTo(b, coil, ExcessOfShort(0.1));
   d.tenth_delay = tenth < 0 ? -1 : tenth * period;
-  d.open_delay = kInARow * period;
+  d.open_delay = kOfDecision * period;
   return d;
 }
 

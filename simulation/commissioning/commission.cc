@@ -16,12 +16,12 @@ namespace {
 /// Keeps what the controller measures; acts on nothing.
 class MeasurementLogger : public Supervisor {
  public:
-  explicit MeasurementLogger(const RigParameters& nominal) : feed_(nominal) {
-    for (std::size_t k = 0; k < nominal.bearings.size(); ++k)
-      logs_.emplace_back(nominal.samples_per_period());
+  explicit MeasurementLogger(const NominalRig& nominal) : feed_(nominal) {
+    for (std::size_t k = 0; k < nominal->bearings.size(); ++k)
+      logs_.emplace_back(nominal->samples_per_period());
   }
-  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
-                   std::vector<RunEvent>&) override {
+  void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
+                   SupervisorOutput&) override {
     feed_.Read(m);
     for (std::size_t k = 0; k < logs_.size(); ++k) {
       MeasuredPeriod in = feed_.Period(k, m);
@@ -40,7 +40,8 @@ class MeasurementLogger : public Supervisor {
 
 CommissioningResult Commission(const RigParameters& rig, const CommissioningOptions& options) {
   const Scenario scenario = CommissioningScenario(rig, options.plan);
-  MeasurementLogger logger(rig);
+  const NominalRig nominal(rig);
+  MeasurementLogger logger(nominal);
   EngineOptions engine;
   engine.record = false;
   engine.supervisor = &logger;
@@ -57,8 +58,8 @@ CommissioningResult Commission(const RigParameters& rig, const CommissioningOpti
                       rig.file, e.t, scenario.duration, e.target));
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     if (options.stop && options.stop->load()) throw Interrupted();
-    const LinkageModel model = LinkageModelOf(rig.bearings[k]);
-    const CoilDetectorSetup setup{model, DetectorSettingsOf(rig, rig.bearings[k], model)};
+    const LinkageModel model = LinkageModelOf(nominal->bearings[k]);
+    const CoilDetectorSetup setup{model, DetectorSettingsOf(nominal, rig.bearings[k], model)};
     const ExcessSettings settings{setup.settings.current_noise, setup.settings.adc_limit};
     CommissionedBearing found = FitCommissioning(rig.bearings[k].name, model,
                                                  setup.settings.sampling, settings, logger.log(k));

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
-#include "rig/rig_assembly.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 

@@ -39,7 +39,9 @@ TEST(ExcessWindows, OneCoilKeepsItsExcess) {
   windows.Add(PeriodOf(c, 1000), {});
   EXPECT_NEAR(windows.Used(0, 1)[2], 0.22, 1e-12);
   for (int j = 0; j < kLanes; ++j)
-    if (j != 2) EXPECT_EQ(windows.Used(0, 1)[j], 0) << j;  // their raw value is zero
+    if (j != 2) {
+      EXPECT_EQ(windows.Used(0, 1)[j], 0) << j;  // their raw value is zero
+    }
 }
 
 TEST(ExcessWindows, WindowsAreRatiosOfSumsForEver) {

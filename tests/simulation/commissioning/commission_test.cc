@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "fdd/detectors/commissioned_detector.h"
 #include "fdd/measurement/detection_feed.h"
 #include "tests/effects/effect_rigs.h"
 
@@ -12,8 +13,8 @@ namespace {
 /// Detectors of all bearings beside a run; none acts.
 class Onlooker : public Supervisor {
  public:
-  Onlooker(const RigParameters& rig, const CommissionedModel& model) : feed_(rig) {
-    for (const BearingParameters& b : rig.bearings) {
+  Onlooker(const NominalRig& rig, const CommissionedModel& model) : feed_(rig) {
+    for (const BearingParameters& b : rig->bearings) {
       const LinkageModel m = LinkageModelOf(b);
       const CommissionedBearing* found = model.Find(b.name);
       watch_.push_back(std::make_unique<CommissionedDetector>(
@@ -21,8 +22,8 @@ class Onlooker : public Supervisor {
           found ? *found : NominalBearing(b.name, m)));
     }
   }
-  void AfterPeriod(const PeriodMeasurement& m, std::vector<BearingControl>& control,
-                   std::vector<RunEvent>&) override {
+  void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
+                   SupervisorOutput&) override {
     feed_.Read(m);
     for (std::size_t k = 0; k < watch_.size(); ++k) {
       MeasuredPeriod in = feed_.Period(k, m);
@@ -79,13 +80,13 @@ std::string FaultText(const std::string& what) {
 
 constexpr double kFault = 0.0300123;
 
-Onlooker Watched(const RigParameters& rig, const CommissionedModel& model,
-                 const std::string& text) {
+std::unique_ptr<Onlooker> Watched(const RigParameters& rig, const CommissionedModel& model,
+                                  const std::string& text) {
   const Scenario scenario = ReadScenarioText(text, "operation.toml", rig);
-  Onlooker onlooker(rig, model);
+  auto onlooker = std::make_unique<Onlooker>(NominalRig(rig), model);
   EngineOptions engine;
   engine.record = false;
-  engine.supervisor = &onlooker;
+  engine.supervisor = onlooker.get();
   SwitchingEngine(rig, scenario, engine).Run();
   return onlooker;
 }
@@ -110,39 +111,39 @@ TEST_F(CommissionedPlant, EddyCurrentsAreLearntAndHarmNothing) {
   EXPECT_LT(model.Find("A")->grade, 1);
   // The residues carry the iron: a half-order law at 1 kHz has sqrt(f/1 kHz) at 120 kHz.
   EXPECT_GT(model.Find("A")->circuit.relaxation[3], 3);
-  EXPECT_EQ(Watched(rig, model, Operation()).decisions, 0);
+  EXPECT_EQ(Watched(rig, model, Operation())->decisions, 0);
 }
 
 TEST_F(CommissionedPlant, AnOpenCoilIsFoundWithinAQuarterMillisecond) {
-  const Onlooker seen = Watched(rig, model, Operation(FaultText("kind = \"open\"\n")));
-  ASSERT_GT(seen.decisions, 0);
-  EXPECT_EQ(seen.bearing, 0U);
-  EXPECT_EQ(seen.first.coil, 2);
-  EXPECT_EQ(seen.first.cls, FaultClass::kOpen);
-  EXPECT_LT(seen.first.time - kFault, 0.25e-3);
-  EXPECT_GT(seen.first.time, kFault);
+  const auto seen = Watched(rig, model, Operation(FaultText("kind = \"open\"\n")));
+  ASSERT_GT(seen->decisions, 0);
+  EXPECT_EQ(seen->bearing, 0U);
+  EXPECT_EQ(seen->first.coil, 2);
+  EXPECT_EQ(seen->first.cls, FaultClass::kOpen);
+  EXPECT_LT(seen->first.time - kFault, 0.25e-3);
+  EXPECT_GT(seen->first.time, kFault);
 }
 
 TEST_F(CommissionedPlant, ShortsAreFoundWithTheirShareOfTheTurns) {
   for (const double share : {0.5, 0.1}) {
-    const Onlooker seen =
+    const auto seen =
         Watched(rig, model,
                 Operation(FaultText("kind = \"partial-short\"\nparameters = { fraction = " +
                                     std::to_string(share) + " }\n")));
-    ASSERT_GT(seen.decisions, 0) << share;
-    EXPECT_EQ(seen.first.coil, 2) << share;
-    EXPECT_EQ(seen.first.cls, FaultClass::kPartialShort) << share;
-    EXPECT_NEAR(seen.first.fraction, share, 0.04) << share;
-    EXPECT_LT(seen.first.time - kFault, 0.5e-3) << share;
+    ASSERT_GT(seen->decisions, 0) << share;
+    EXPECT_EQ(seen->first.coil, 2) << share;
+    EXPECT_EQ(seen->first.cls, FaultClass::kPartialShort) << share;
+    EXPECT_NEAR(seen->first.fraction, share, 0.04) << share;
+    EXPECT_LT(seen->first.time - kFault, 0.5e-3) << share;
   }
 }
 
 TEST_F(CommissionedPlant, WithoutCommissioningNothingIsDoneToAHealthyMachine) {
-  EXPECT_EQ(Watched(rig, {}, Operation()).decisions, 0);
-  const Onlooker open = Watched(rig, {}, Operation(FaultText("kind = \"open\"\n")));
-  ASSERT_GT(open.decisions, 0);
-  EXPECT_EQ(open.first.coil, 2);
-  EXPECT_LT(open.first.time - kFault, 0.5e-3);
+  EXPECT_EQ(Watched(rig, {}, Operation())->decisions, 0);
+  const auto open = Watched(rig, {}, Operation(FaultText("kind = \"open\"\n")));
+  ASSERT_GT(open->decisions, 0);
+  EXPECT_EQ(open->first.coil, 2);
+  EXPECT_LT(open->first.time - kFault, 0.5e-3);
 }
 
 TEST(Commission, AMachineThatTouchesInItsRunIsRefused) {
