@@ -1,5 +1,6 @@
 #pragma once
 /// The simulator's own stator of one bearing, driven by given duties: what detectors are tested on.
+#include "actuators/electronics/coil_voltage.h"
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/stator_lanes.h"
 #include "core/math/noise.h"
