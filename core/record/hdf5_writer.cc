@@ -2,6 +2,7 @@
 
 #include "core/base/atomic_file.h"
 #include "core/record/hdf5_library.h"
+#include "core/record/time_base.h"
 
 namespace ambrig {
 namespace {

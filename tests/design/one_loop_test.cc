@@ -32,8 +32,7 @@ TEST_P(OneLoop, AnalysisAndDesignHaveTheSameSensitivity) {
 
 INSTANTIATE_TEST_SUITE_P(Controllers, OneLoop,
                          ::testing::Values("kind = \"pid\"\n" + kPidGains, kTiltTranslation,
-                                           kTransfer,
-                                           std::string("kind = \"lqg\"\n")));
+                                           kTransfer, std::string("kind = \"lqg\"\n")));
 
 }  // namespace
 }  // namespace ambrig
