@@ -84,7 +84,7 @@ DOORS = {
                    "discovery/search/screen.cc"],
     "ceres/": ["discovery/search/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],
-    "nlopt": ["design/nlopt_search.cc"],
+    "nlopt": ["design/nlopt_search.cc", "faulttolerance/redistribution/program_search.cc"],
     "pugixml": ["app/commands/check.cc"],
     "CLI/": ["app/commands/commands.h"],
 }
