@@ -1,13 +1,10 @@
 #pragma once
 /// The exact linearisation of a levitated rig under its sampled controller, from tick to tick of
-/// the position loop (t_k = k Ts), delays and current loops included:
+/// the position loop (t_k = k Ts): the loop's plant (analysis/linear/loop_plant.h) closed by the
+/// linear controller,
 ///
-///   x = [plant | integrals of the current loops | their feedback | controller | forces under way]
+///   x = [plant, current loops, forces under way | controller]
 ///   x_(k+1) = Phi x_k + Gamma u_k,   y_k = C x_k + D u_k
-///
-///   t_k            readings; controller; its forces are on their way (base_model.md section 4)
-///   every period   duty from set-point and last period's mean current; plant (period_map.h)
-///   t_(k+1)        those forces become set-points, `loop-delay` later at the current loops
 ///
 /// Inputs per axis: reference [m], force excitation [N], error of the sensor [m]. Outputs per axis:
 /// reading [m], force command after the injection point [N], shaft at the magnets [m], force of the
@@ -18,27 +15,21 @@
 #include <string>
 #include <vector>
 
+#include "analysis/linear/loop_plant.h"
 #include "analysis/linear_controller.h"
-#include "analysis/period_map.h"
 
 namespace ambrig {
-
-/// What acts on the plant continuously as Re(. e^{iωt}).
-struct HarmonicInput {
-  double omega = 0;         // [rad/s]
-  Eigen::VectorXcd pushed;  // (m) generalised forces on the kept coordinates
-};
 
 class ClosedLoop {
  public:
   ClosedLoop(const OperatingPoint& point, double speed);
   ClosedLoop(const OperatingPoint& point, LinearPlant plant);
 
-  double Ts() const { return Ts_; }
-  double speed() const { return plant_.speed; }
-  const LinearPlant& plant() const { return plant_; }
+  double Ts() const { return open_.Ts(); }
+  double speed() const { return plant().speed; }
+  const LinearPlant& plant() const { return open_.plant(); }
   Eigen::Index states() const { return Phi.rows(); }
-  Eigen::Index axes() const { return plant_.axes(); }
+  Eigen::Index axes() const { return open_.axes(); }
 
   // Columns of Gamma and D; rows of C and D.
   Eigen::Index Reference(Eigen::Index axis) const { return axis; }
@@ -60,20 +51,12 @@ class ClosedLoop {
   const Eigen::VectorXd& scale() const { return scale_; }
 
  private:
-  template <class Matrix>
-  struct Signals;
-  template <class Matrix, class Disturb>
-  void Tick(Matrix& x, const Signals<Matrix>& signals, Disturb&& disturb) const;
+  void Close();
   void FillOutputs();
   void Balance();
 
-  LinearPlant plant_;
-  PeriodMap period_;
+  LoopPlant open_;
   LinearController controller_;
-  Eigen::MatrixXd set_points_;  // (coils x axes) [A/N]
-  double Ts_ = 0, kp_ = 0, ki_T_ = 0, duty_per_volt_ = 0;
-  int M_ = 1, late_ = 0;  // periods of the controller; of the loop's delay
-  Eigen::Index at_integral_ = 0, at_feedback_ = 0, at_controller_ = 0, at_force_ = 0;
   Eigen::VectorXd scale_;
 };
 

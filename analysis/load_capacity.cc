@@ -61,30 +61,32 @@ double AxisCapacity::usable() const { return std::min(linear, commanded); }
 std::vector<AxisCapacity> FindCapacity(const OperatingPoint& point) {
   std::vector<AxisCapacity> out;
   const auto names = point.Axes();
-  for (const SampledBearing& b : point.sampled->bearings) {
-    const BearingControl& control = point.sampled->control[b.index];
-    const LinearBearing& linear = point.bearings[b.index];
+  for (std::size_t bearing = 0; bearing < point.bearings.size(); ++bearing) {
+    const BearingControl& control = point.control()[bearing];
+    const LinearBearing& linear = point.bearings[bearing];
+    const std::size_t first = point.FirstAxis(bearing);
     const Eigen::MatrixXd ki = linear.ForceOfCurrent(), L = linear.Inductance();
-    for (std::size_t side = 0; side < b.axes; ++side) {
+    for (std::size_t side = 0; side < point.AxisCount(bearing); ++side) {
       const auto k = static_cast<Eigen::Index>(side);
       Eigen::VectorXd w(static_cast<Eigen::Index>(linear.coils.size()));
       for (Eigen::Index j = 0; j < w.size(); ++j)
         w(j) = control.map.W(linear.coils[static_cast<std::size_t>(j)], 1 + k);
       AxisCapacity c;
-      c.axis = names[b.first_axis + side];
+      c.axis = names[first + side];
       c.k_i = ki.row(k) * w;
       c.k_s = linear.NegativeStiffness()(k, k);
       const double scale = control.map.k * control.map.c0;
       c.linear = scale * LinearLimit(control, k);
-      c.commanded = PidOf(point.rig(), point.rig().bearings[b.index]).f_max;
-      c.largest = LargestForce(control, b.plant->lanes, k, scale * 4 * control.map.i_max);
-      c.weight = point.force[b.first_axis + side];
+      c.commanded = PidOf(point.rig(), point.rig().bearings[bearing]).f_max;
+      c.largest = LargestForce(control, point.plant().bearings[bearing].lanes, k,
+                               scale * 4 * control.map.i_max);
+      c.weight = point.force[first + side];
       if (std::abs(c.weight) < 1e-9 * scale) c.weight = 0;  // rounding of the equilibrium
       const Eigen::VectorXd volts = L * w;
       c.slew = kInfinity;
       for (Eigen::Index j = 0; j < w.size(); ++j) {
         const CoilPoint& at =
-            point.coils[b.index]
+            point.coils[bearing]
                        [static_cast<std::size_t>(linear.coils[static_cast<std::size_t>(j)])];
         if (volts(j) == 0) continue;
         const double left = VoltageLeft(point.rig().amplifier, point.plant().bus.voltage, at.duty);

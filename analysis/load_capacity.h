@@ -10,7 +10,7 @@
 /// Static capacity: the least over directions of the smaller of linear and f_max, and what the
 /// weight leaves of it. Source: base_model.md sections 2 to 4; Schweitzer & Maslen 2009,
 /// 3.4.
-#include "analysis/operating_point.h"
+#include "analysis/linear/operating_point.h"
 
 namespace ambrig {
 

@@ -60,8 +60,8 @@ Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, doub
 /// coils.
 std::vector<double> Commands(const Record& record, const OperatingPoint& point, std::size_t b,
                              std::size_t side) {
-  const BearingControl& control = point.sampled->control[b];
-  const Eigen::Index columns = point.sampled->bearings[b].axes > 1 ? 3 : 2;
+  const BearingControl& control = point.control()[b];
+  const Eigen::Index columns = point.AxisCount(b) > 1 ? 3 : 2;
   const Eigen::MatrixXd W = control.map.W.topLeftCorner(control.coils, columns);
   const Eigen::RowVectorXd row =
       (W.transpose() * W).ldlt().solve(W.transpose()).row(1 + static_cast<Eigen::Index>(side));
@@ -80,9 +80,7 @@ std::vector<double> Commands(const Record& record, const OperatingPoint& point, 
 Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test,
                            const std::atomic<bool>* stop) {
   const OperatingPoint point = FindOperatingPoint(rig);
-  std::size_t bearing = 0;
-  for (const SampledBearing& b : point.sampled->bearings)
-    if (test.axis >= b.first_axis) bearing = b.index;
+  const std::size_t bearing = point.BearingOf(test.axis);
   Scenario s;
   s.name = "sensitivity " + point.Axes()[test.axis];
   s.noise = false;
@@ -108,7 +106,7 @@ Complex MeasureSensitivity(const RigParameters& rig, const SineTest& test,
                     test.amplitude, test.frequency, point.Axes()[test.axis]));
   const Record& record = run.record;
   const std::vector<double> f =
-      Commands(record, point, bearing, test.axis - point.sampled->bearings[bearing].first_axis);
+      Commands(record, point, bearing, test.axis - point.FirstAxis(bearing));
   // A row's set-points were computed one tick earlier, from the excitation at that instant.
   const double Ts = 1 / rig.controller.rate, omega = 2 * kPi * test.frequency;
   std::vector<double> t, y;

@@ -6,7 +6,7 @@
 ///              negative stiffness; undamped, so that frequencies are those of modes, not of poles
 ///   map        the same with every radial bearing at one common k (undamped critical speed map)
 /// Radial coordinates only. Source: docs/theory/rotor.md; API 684 for the map.
-#include "analysis/linear_plant.h"
+#include "analysis/linear/linear_plant.h"
 #include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {

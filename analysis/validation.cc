@@ -223,14 +223,14 @@ std::vector<double> OfRig(const RigParameters& rig, const TomlTable& check,
     if (quantity == "k_i") return {c.k_i};
     if (quantity == "k_s") return {c.k_s};
     if (quantity == "unstable pole") return {std::sqrt(c.k_s / rig.rotor.mass)};
-    for (const SampledBearing& b : point.sampled->bearings) {
-      const auto names = rig.bearings[b.index].Axes();
+    for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
+      const auto names = rig.bearings[k].Axes();
       const auto side = std::find(names.begin(), names.end(), axis) - names.begin();
       if (side == static_cast<std::ptrdiff_t>(names.size())) continue;
-      const bool radial = rig.bearings[b.index].kind == BearingKind::kRadial;
-      const double k_i = radial ? HorseshoeGain(point, b.index, side) : c.k_i;
+      const bool radial = rig.bearings[k].kind == BearingKind::kRadial;
+      const double k_i = radial ? HorseshoeGain(point, k, side) : c.k_i;
       if (quantity == "horseshoe k_i" && radial) return {k_i};
-      if (quantity == "force constant") return {ForceConstantOf(rig, rig.bearings[b.index], k_i)};
+      if (quantity == "force constant") return {ForceConstantOf(rig, rig.bearings[k], k_i)};
     }
     check.Fail("quantity", fmt::format("\"{}\" is no quantity of this rig", quantity));
   }

@@ -25,6 +25,13 @@ add_test(NAME planted_change COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/t
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 set_tests_properties(planted_change PROPERTIES TIMEOUT 600)
 add_test(NAME layers_self_test COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py --self-test)
+# No file over 300 lines, no function over 60.
+add_test(NAME sizes COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_sizes.py
+         core actuators control analysis tests
+         WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# docs/third_party.md lists what is linked.
+add_test(NAME third_party COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_third_party.py ${CMAKE_BINARY_DIR}
+         WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 # The rigs that a person may copy.
 add_test(NAME examples COMMAND ambrig check ${CMAKE_SOURCE_DIR}/examples --jobs 2)
 # The pages that commands print are what the commands print.

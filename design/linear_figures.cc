@@ -20,11 +20,11 @@ constexpr double kLowest = 0.5, kHighest = 2000;  // [Hz]
 class Loop {
  public:
   Loop(const StateSpace& P, const StateSpace& K, double Ts) : P_(P), K_(K), Ts_(Ts) {}
-  /// |S_kk| of every axis.
+  /// |S_kk| of every axis, at the force command.
   Eigen::VectorXd Sensitivity(double hertz) const {
     const std::complex<double> z = std::polar(1.0, 2 * kPi * hertz * Ts_);
     const MatrixXcd G = P_.At(z);
-    return (MatrixXcd::Identity(G.rows(), G.rows()) - G * K_.At(z)).inverse().diagonal().cwiseAbs();
+    return (MatrixXcd::Identity(G.cols(), G.cols()) - K_.At(z) * G).inverse().diagonal().cwiseAbs();
   }
 
  private:

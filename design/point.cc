@@ -89,13 +89,14 @@ bool EvaluateLinear(const Study& study, const RigParameters& rig,
                     const PositionController& controller, Evaluation& out) {
   double top = 0;
   for (const double speed : study.speeds) top = std::max(top, std::abs(speed));
-  for (const double error : study.frequency_errors)
+  for (const double error : study.frequency_errors) {
+    RigParameters plant = *TrueRig(rig);
+    for (BendingMode& mode : plant.modes) mode.omega *= 1 + error;
+    const OperatingPoint point(TrueRig::AsDrawn(NominalRig(plant)), NominalRig(rig));
     for (const double speed : study.speeds) {
-      RigParameters plant = *TrueRig(rig);
-      for (BendingMode& mode : plant.modes) mode.omega *= 1 + error;
-      const LinearFigures f = LinearFiguresOf(MakeControlPlant(plant, AllAxes(rig), speed, &rig),
-                                              controller.Linear(speed), SensorNoise(rig), speed,
-                                              ControlledAxes(rig), top);
+      const LinearFigures f = LinearFiguresOf(
+          MakeControlPlant(point, AllAxes(rig), speed, CurrentModel::kCoils),
+          controller.Linear(speed), SensorNoise(rig), speed, ControlledAxes(rig), top);
       if (!f.stable()) {
         out.note = "unstable at " + NumberText(speed) + " rad/s";
         if (error != 0)
@@ -104,6 +105,7 @@ bool EvaluateLinear(const Study& study, const RigParameters& rig,
       }
       AddLinear(study, f, out);
     }
+  }
   return true;
 }
 

@@ -48,7 +48,8 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
   std::vector<std::size_t> axes(AxisNames(rig).size());
   for (std::size_t k = 0; k < axes.size(); ++k) axes[k] = k;
   const double speed = study.speeds.front();
-  const SampledPlant plant = MakeControlPlant(rig, axes, speed);
+  const OperatingPoint at_rest = FindOperatingPoint(rig);
+  const SampledPlant plant = MakeControlPlant(at_rest, axes, speed, CurrentModel::kCoils);
   const auto controller = MakeController(NominalRig(rig), rig.controller);
   const StateSpace K = controller->Linear(speed);
   const auto samples = static_cast<std::size_t>(kStepLength / plant.Ts);
@@ -62,7 +63,7 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
                                            static_cast<double>(k) / (kCurvePoints - 1)));
   out.sensitivity.assign(out.hertz.size(), 0.0);
   for (const double Omega : study.speeds) {
-    const SampledPlant at = MakeControlPlant(rig, axes, Omega);
+    const SampledPlant at = MakeControlPlant(at_rest, axes, Omega, CurrentModel::kCoils);
     const StateSpace loop = controller->Linear(Omega);
     for (const std::size_t axis : ControlledAxes(rig)) {
       const auto curve = SensitivityCurve(at, loop, axis, out.hertz);

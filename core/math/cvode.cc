@@ -2,89 +2,14 @@
 
 #include <arkode/arkode_erkstep.h>
 #include <cvode/cvode.h>
-#include <fmt/format.h>
-#include <kinsol/kinsol.h>
-#include <nvector/nvector_serial.h>
-#include <sundials/sundials_context.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
-#include <algorithm>
-#include <cmath>
-#include <exception>
-#include <stdexcept>
-#include <utility>
-
-#include "core/base/errors.h"
+#include "core/math/sundials.h"
 
 namespace ambrig {
 
 namespace {
 
-/// Frees a SUNDIALS object whose destructor takes it by value.
-template <typename T, void (*kFree)(T)>
-struct Owned {
-  T value = nullptr;
-  Owned() = default;
-  explicit Owned(T v) : value(v) { Require(v != nullptr, "SUNDIALS has memory"); }
-  Owned(const Owned&) = delete;
-  Owned& operator=(const Owned&) = delete;
-  ~Owned() {
-    if (value) kFree(value);
-  }
-  operator T() const { return value; }
-};
-void FreeMatrix(SUNMatrix m) { SUNMatDestroy(m); }
-void FreeLinear(SUNLinearSolver s) { SUNLinSolFree(s); }
-void FreeVector(N_Vector v) { N_VDestroy(v); }
-using Vector = Owned<N_Vector, FreeVector>;
-using Matrix = Owned<SUNMatrix, FreeMatrix>;
-using Linear = Owned<SUNLinearSolver, FreeLinear>;
-
-struct Context {
-  SUNContext value = nullptr;
-  Context() { Require(SUNContext_Create(nullptr, &value) == 0, "a SUNDIALS context"); }
-  Context(const Context&) = delete;
-  Context& operator=(const Context&) = delete;
-  ~Context() { SUNContext_Free(&value); }
-  operator SUNContext() const { return value; }
-};
-
-N_Vector NewVector(const std::vector<double>& v, SUNContext context) {
-  N_Vector out = N_VNew_Serial(static_cast<sunindextype>(v.size()), context);
-  if (out) std::copy(v.begin(), v.end(), N_VGetArrayPointer(out));
-  return out;
-}
-
-/// SUNDIALS' last words and what a callback threw (it must not pass through C code).
-struct Report {
-  std::string message;
-  std::exception_ptr thrown;
-
-  static void Handler(int code, const char* module, const char* function, char* text, void* data) {
-    if (code < 0)
-      static_cast<Report*>(data)->message = fmt::format("{} {}: {}", module, function, text);
-  }
-  /// 0 fine, 1 try again with a smaller step, -1 give up.
-  template <typename Call>
-  int Guard(double* out, std::size_t n, const Call& call) {
-    try {
-      call();
-    } catch (...) {
-      thrown = std::current_exception();
-      return -1;
-    }
-    for (std::size_t k = 0; k < n; ++k)
-      if (!std::isfinite(out[k])) return 1;
-    return 0;
-  }
-  void Check(int code, const char* what) {
-    if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
-    if (code >= 0) return;
-    throw std::runtime_error(message.empty() ? fmt::format("{} failed with code {}", what, code)
-                                             : message);
-  }
-};
+using namespace sundials;
 
 /// What both integrators have in common.
 struct Integrator {
@@ -235,69 +160,6 @@ long Cvode::steps() const {
   long n = 0;
   impl_->report.Check(CVodeGetNumSteps(impl_->memory, &n), "CVodeGetNumSteps");
   return n;
-}
-
-namespace {
-
-struct KinsolProblem {
-  const std::function<void(const double*, double*)>* function;
-  std::size_t size;
-  Report report;
-  static int Function(N_Vector u, N_Vector F, void* data) {
-    auto* self = static_cast<KinsolProblem*>(data);
-    double* out = N_VGetArrayPointer(F);
-    return self->report.Guard(out, self->size,
-                              [&] { (*self->function)(N_VGetArrayPointer(u), out); });
-  }
-};
-
-void FreeKinsol(void* memory) { KINFree(&memory); }
-
-std::vector<double> Inverse(std::vector<double> v) {
-  for (double& x : v) x = 1 / x;
-  return v;
-}
-
-}  // namespace
-
-KinsolOutcome SolveKinsol(const std::function<void(const double* u, double* F)>& function,
-                          const std::vector<double>& start, const std::vector<double>& u_scale,
-                          const std::vector<double>& f_scale, double tolerance) {
-  const std::size_t n = start.size();
-  Require(u_scale.size() == n && f_scale.size() == n, "one scale per unknown and equation");
-  const Context context;
-  KinsolProblem problem{&function, n, {}};
-  Report& report = problem.report;
-  const Vector u(NewVector(start, context)), us(NewVector(Inverse(u_scale), context)),
-      fs(NewVector(Inverse(f_scale), context));
-  const Matrix matrix(
-      SUNDenseMatrix(static_cast<sunindextype>(n), static_cast<sunindextype>(n), context));
-  const Linear linear(SUNLinSol_Dense(u, matrix, context));
-  const Owned<void*, FreeKinsol> memory(KINCreate(context));
-  report.Check(KINSetErrHandlerFn(memory, Report::Handler, &report), "KINSetErrHandlerFn");
-  report.Check(KINSetUserData(memory, &problem), "KINSetUserData");
-  report.Check(KINInit(memory, KinsolProblem::Function, u), "KINInit");
-  report.Check(KINSetLinearSolver(memory, linear, matrix), "KINSetLinearSolver");
-  report.Check(KINSetFuncNormTol(memory, tolerance), "KINSetFuncNormTol");
-  report.Check(KINSetMaxSetupCalls(memory, 1), "KINSetMaxSetupCalls");
-  report.Check(KINSetNumMaxIters(memory, 200), "KINSetNumMaxIters");
-  const int code = KINSol(memory, u, KIN_LINESEARCH, us, fs);
-  if (report.thrown) report.Check(code, "KINSol");
-  KinsolOutcome out;
-  out.u.assign(N_VGetArrayPointer(u), N_VGetArrayPointer(u) + n);
-  std::vector<double> F(n);
-  function(out.u.data(), F.data());
-  for (std::size_t k = 0; k < n; ++k)
-    out.residual = std::max(out.residual, std::abs(F[k]) / f_scale[k]);
-  long iterations = 0;
-  report.Check(KINGetNumNonlinSolvIters(memory, &iterations), "KINGetNumNonlinSolvIters");
-  out.iterations = static_cast<int>(iterations);
-  // A line search that cannot go on is fine where the residual is already small.
-  out.converged = out.residual <= tolerance;
-  if (!out.converged)
-    out.message =
-        report.message.empty() ? fmt::format("KINSol ended with code {}", code) : report.message;
-  return out;
 }
 
 }  // namespace ambrig

@@ -1,8 +1,7 @@
 #pragma once
-/// The only door to SUNDIALS: integrators with root finding (CVODE, ARKODE) and KINSOL.
+/// The door to the integrators of SUNDIALS with root finding, CVODE and ARKODE:
 ///
 ///   y' = f(t, y), stopped exactly at a given time or where a root function changes sign
-///   F(u) = 0
 ///
 /// Every return code is checked; a failure is a std::runtime_error with SUNDIALS' own words. What a
 /// right-hand side throws comes out of Advance unchanged. A right-hand side that is not finite
@@ -76,19 +75,5 @@ class Cvode : public OdeSolver {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
-
-struct KinsolOutcome {
-  std::vector<double> u;
-  double residual = 0;  // largest |F| in the given scale
-  int iterations = 0;
-  bool converged = false;
-  std::string message;  // why not
-};
-
-/// Solves F(u) = 0 by Newton with line search, dense differenced Jacobian. `u_scale`, `f_scale`:
-/// typical sizes of u and F; converged when every |F| / f_scale < tolerance.
-KinsolOutcome SolveKinsol(const std::function<void(const double* u, double* F)>& function,
-                          const std::vector<double>& start, const std::vector<double>& u_scale,
-                          const std::vector<double>& f_scale, double tolerance = 1e-10);
 
 }  // namespace ambrig

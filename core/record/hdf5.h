@@ -1,6 +1,7 @@
 #pragma once
 /// Records as HDF5 files: one 1-D dataset per channel with string attribute `unit`; root attributes
-/// `rate` [Hz], `start` [s] and any further texts. The only file that knows the HDF5 library.
+/// `rate` [Hz], `start` [s] and any further texts. Only hdf5_reader.cc and
+/// hdf5_writer.cc know the HDF5 library.
 #include <mutex>
 #include <string>
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "faulttolerance/redistribution/interior_point.h"
+#include "faulttolerance/redistribution/program_search.h"
 
 namespace ambrig {
 namespace {
@@ -74,7 +74,7 @@ struct Candidate {
 /// Search from one W; nothing when it ends outside the bounds. The equations are met to rounding.
 std::optional<Candidate> Search(const DistributionProgram& program,
                                 const DistributionMatrix& start) {
-  const InteriorPointResult r = SolveInteriorPoint(program, program.FromMatrix(start), 200, 1e-7);
+  const ProgramSearch r = SearchProgram(program, program.FromMatrix(start), 1e-7);
   if (!(r.infeasibility < kFeasible)) return {};
   SmallVector x = r.x;
   if (program.equations() > 0 && SolveEquations(program, x, 2 * kLargestEntry, 20) > kSolved)

@@ -2,7 +2,7 @@
 /// Generalised bias-current linearisation after coil failures (base_model.md section 5): finds W
 /// with i = W [c0, vx, vy]' such that F = k c0 v at the centre, failed rows zero, currents within
 /// [0, i_max] (two quadrants) on the disc |v| <= rho c0. Many deterministic starts on the
-/// equations, then an interior-point search from each (force_forms.h, interior_point.h).
+/// equations, then a search by NLopt from each (force_forms.h, program_search.h).
 ///
 /// Three classes, algebraic, signs of the currents left aside: exact (all 12 equations), linearised
 /// (no bias force and full gain at v = 0; what is left grows with |v|^2), none.

@@ -12,7 +12,7 @@
 ///
 /// Not here: iron laws, copper heating, a bus with impedance, records faster than the switching
 /// (InputError). Source: docs/theory/base_model.md section 3.
-#include "simulation/continuous/equilibrium.h"
+#include "analysis/linear/equilibrium.h"
 #include "simulation/continuous/reference_engine.h"
 
 namespace ambrig {

@@ -14,10 +14,10 @@
 #include <optional>
 #include <vector>
 
+#include "analysis/linear/equilibrium.h"
 #include "faulttolerance/supervision/supervisor.h"
 #include "rig/rig_assembly.h"
 #include "scenarios/scenario.h"
-#include "simulation/continuous/equilibrium.h"
 #include "simulation/record/run_record.h"
 #include "simulation/record/run_result.h"
 #include "simulation/sampled/command_plan.h"

@@ -44,14 +44,15 @@ void SampledDataLoop::StartLevitated() {
 }
 
 Equilibrium SampledDataLoop::StartInEquilibrium() {
-  const Equilibrium e = LevitatedEquilibrium(*this);
+  const Equilibrium e = LevitatedEquilibrium(rig, plant, control);
   if (!e.usable()) return e;
   motion.q = e.q;
   if (as_drawn) {
     HoldForces(e.force);
   } else {
     // The controller holds what its designer computes for the rig as drawn.
-    const Equilibrium drawn = LevitatedEquilibrium(*nominal, scenario);
+    const Plant as_designed = BuildPlant(TrueRig::AsDrawn(nominal));
+    const Equilibrium drawn = LevitatedEquilibrium(*nominal, as_designed, control);
     HoldForces(drawn.usable() ? drawn.force : WeightOverAxes(*nominal));
   }
   FinishStart();

@@ -5,13 +5,20 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <complex>
 #include <random>
+#include <vector>
 
 #include "analysis/sensitivity.h"
 #include "analysis/structured_singular_value.h"
 #include "core/math/constants.h"
 #include "rig/rig_file.h"
 #include "tests/cli/cli_run.h"
+
+extern "C" void ab13md_(const char* fact, const int* n, std::complex<double>* z, const int* ldz,
+                        const int* m, const int* nblock, const int* itype, double* x, double* bound,
+                        double* d, double* g, int* iwork, double* dwork, const int* ldwork,
+                        std::complex<double>* zwork, const int* lzwork, int* info, int);
 
 namespace ambrig {
 namespace {
@@ -89,6 +96,27 @@ TEST(StructuredSingularValue, TheBoundIsTheLeastOfManyScalings) {
         x.array().exp().matrix().asDiagonal() * M * (-x).array().exp().matrix().asDiagonal();
     EXPECT_GE(scaled.jacobiSvd().singularValues()(0), upper.value * (1 - 1.01e-4));
   }
+}
+
+// SLICOT's interior-point method AB13MD for the same bound.
+TEST(StructuredSingularValue, TheBoundIsThatOfSlicot) {
+  std::mt19937 random(5);
+  for (int n = 2; n <= 5; ++n)
+    for (int example = 0; example < 3; ++example) {
+      MatrixXcd M = Matrix(n, random), z = M;
+      const int work = 2 * n * n * n + 9 * n * n + 44 * n, zwork = 6 * n * n * n + 12 * (n * n + n);
+      std::vector<int> block(static_cast<std::size_t>(n), 1), kind(block.size(), 2),
+          integers(static_cast<std::size_t>(4 * n));
+      std::vector<double> x(static_cast<std::size_t>(2 * n)), d(block.size()), g(block.size()),
+          w(static_cast<std::size_t>(work));
+      std::vector<Complex> zw(static_cast<std::size_t>(zwork));
+      double bound = 0;
+      int info = -1;
+      ab13md_("N", &n, z.data(), &n, &n, block.data(), kind.data(), x.data(), &bound, d.data(),
+              g.data(), integers.data(), w.data(), &work, zw.data(), &zwork, &info, 1);
+      ASSERT_EQ(info, 0);
+      EXPECT_NEAR(LeastUpperBound(M).value / bound, 1, 1e-4) << n;
+    }
 }
 
 // Doyle's spinning body: two integrators coupled by the speed a. Each loop alone has an infinite

@@ -49,7 +49,7 @@ TEST(Stiffness, OfTheBearingWhenSlow) {
   const PidParameters& pid = rig.controller.pid;
   const AxisCapacity c = FindCapacity(point)[0];
   // Nominal force per command is k c0 of the centred bearing; at the operating point k_i differs.
-  const double gain = c.k_i / (point.sampled->control[0].map.k * point.sampled->control[0].map.c0);
+  const double gain = c.k_i / (point.control()[0].map.k * point.control()[0].map.c0);
   const std::complex<double> expected =
       gain * std::complex<double>(pid.kp, omega * pid.kd - pid.ki / omega) - c.k_s;
   // Delay of 1.5 controller periods and the current loop turns the command by about 1 %.

@@ -21,11 +21,11 @@ namespace ambrig {
 namespace {
 
 using testing::kTumFolder;
+using testing::Mbtr;
+using testing::Quiet;
 using testing::Replaced;
 using testing::TumRig;
 using testing::TumRigText;
-
-RigParameters Mbtr() { return ReadRig(kTumFolder + "rig.toml"); }
 
 /// Without unbalance and losses, floating freely, nothing to touch.
 RigParameters FreeShaft(double damping = 0, int modes = 4) {
@@ -39,14 +39,6 @@ RigParameters FreeShaft(double damping = 0, int modes = 4) {
   rig.gravity = {0, 0, 0};
   for (BearingParameters& b : rig.bearings) b.auxiliary.reset();
   return rig;
-}
-
-Scenario Quiet(const RigParameters& rig, double duration, double speed) {
-  return ReadScenarioText(
-      fmt::format("duration = {}\nrecord_rate = 12500.0\nnoise = false\n[speed]\nprofile = "
-                  "[[0.0, {}]]\n",
-                  duration, NumberText(speed)),
-      kTumFolder + "test.toml", rig);
 }
 
 TEST(FlexibleRotor, InlineAndInAFileAreOneRig) {
@@ -228,31 +220,6 @@ TEST(FlexibleRotor, ConvergesWithTheModesKept) {
   EXPECT_LT(before, 1e-3);
 }
 
-// A levitated start is in equilibrium, sag included: the disk hangs at rest, as deep as statics
-// say.
-TEST(FlexibleRotor, StartsSaggedAndStill) {
-  RigParameters rig = Mbtr();
-  rig.effects.clear();
-  const Record record = SwitchingEngine(rig, Quiet(rig, 0.06, 0), {}).Run().record;
-  const auto &y = record.Find("disk.r.y")->samples, &a = record.Find("A.r.y")->samples,
-             &b = record.Find("B.r.y")->samples;
-  BeamDefinition d = rig.beam->definition;
-  d.supports = {IsotropicSupport(0.113, 1e12, 0), IsotropicSupport(0.623, 1e12, 0)};
-  const BeamRotor beam = BuildBeam(d);
-  const LinearRotor pinned = Assemble(beam);
-  Eigen::VectorXd g = Eigen::VectorXd::Zero(pinned.M.rows());
-  for (const auto& xy : pinned.xy) g(xy[1]) = -9.81;
-  const Eigen::VectorXd rest = pinned.K.llt().solve(pinned.M * g);
-  const double sag = rest(pinned.xy[static_cast<std::size_t>(NodeAt(beam, 0.363))][1]);
-  EXPECT_LT(sag, -5e-4);  // most of a millimetre
-  const double share = (0.363 - 0.113) / (0.623 - 0.113);
-  const auto [low, high] = std::minmax_element(y.begin(), y.end());
-  // The switching ripple starts without its mean force being exact: a tremble, no ringing.
-  EXPECT_LT(*high - *low, 2e-6);
-  // Four modes carry the static shape to 0.5 %.
-  EXPECT_NEAR(y.back() - (1 - share) * a.back() - share * b.back(), sag, 5e-3 * std::abs(sag));
-}
-
 TEST(FlexibleRotor, RestsInEquilibriumOnItsAuxiliaryBearings) {
   RigParameters rig = Mbtr();
   rig.effects.clear();
@@ -267,32 +234,6 @@ TEST(FlexibleRotor, RestsInEquilibriumOnItsAuxiliaryBearings) {
   EXPECT_LT(s.q[static_cast<std::size_t>(plant.rotor.mode_dof(0)) + 1], -1e-5);
 }
 
-// A blow to the disk of the turning, levitated rotor: three fidelities, one trajectory.
-TEST(FlexibleRotor, FidelitiesAgree) {
-  const RigParameters rig = Mbtr();
-  Scenario scenario = Quiet(rig, 0.03, 300);
-  scenario.loads = {{rig.FindStation("disk")->z, false, 3, -6, 0, 0.002, 0.006}};
-  const double warm_up = 0.01;
-  ReferenceOptions r;
-  r.sampled.warm_up = warm_up;
-  const Record reference = RunReference(rig, scenario, r).record;
-  const auto fast = [&](int substeps) {
-    EngineOptions o;
-    o.warm_up = warm_up;
-    o.substeps = substeps;
-    return Compare(SwitchingEngine(rig, scenario, o).Run().record, reference);
-  };
-  const Difference once = fast(1), four = fast(4);
-  EXPECT_GT(once.rows, 300u);
-  EXPECT_LT(once.position, 1e-7);  // of a millimetre of motion of the disk
-  EXPECT_LT(once.current, 5e-3);
-  EXPECT_LE(four.current_rms, once.current_rms);
-  AveragedOptions m = DefaultAveragedOptions();
-  m.sampled.warm_up = warm_up;
-  const Record mean = RunAveraged(rig, scenario, m).record;
-  EXPECT_LT(Compare(mean, reference).position, 2e-6);
-}
-
 TEST(FlexibleRotor, SensorsReadTheBentShaftAtTheirOwnPlane) {
   RigParameters rig = FreeShaft();
   rig = TumRig(Replaced(TumRigText(), "sensor = { z = 0.113", "sensor = { z = 0.155"));
@@ -305,69 +246,6 @@ TEST(FlexibleRotor, SensorsReadTheBentShaftAtTheirOwnPlane) {
   EXPECT_NEAR(plant.bearings[0].plane.X(s.q), 1e-3 * magnet.phi.sum(), 1e-12);
   const ModalStation between = StationAt(reduced, 0.2171);  // inside an element
   EXPECT_NEAR(plant.rotor.MakePlane(0.2171 - rig.z_origin).X(s.q), 1e-3 * between.phi.sum(), 1e-12);
-}
-
-struct Mistake {
-  std::string from, to;
-  std::vector<std::string> says;
-};
-
-TEST(FlexibleRotor, MistakesAreOneLine) {
-  const Mistake mistakes[] = {
-      {"modes = 4", "modes = 9", {"rotor.modes = 9", "allowed: 0 to 8"}},
-      {"modes = 4", "modes = -1", {"rotor.modes", "allowed"}},
-      {"z = 0.623\nsensor",
-       "z = 0.9\nsensor",
-       {"bearings.B.z = 0.9 m", "on the shaft, 0 to 0.702 m"}},
-      {"sensor = { z = 0.113", "sensor = { z = -0.2", {"bearings.A.sensor", "on the shaft"}},
-      {"auxiliary = { clearance",
-       "auxiliary = { z = 2.0, clearance",
-       {"bearings.A.auxiliary", "on the shaft"}},
-      {"length = 0.094",
-       "length = { value = 0.094, sd = 1e-4 }",
-       {"rotor.section[1].length", "has an sd", "diameters"}},
-      {"journal_radius = 0.0048", "", {"rotor.journal_radius: is missing"}},
-      {"name = \"disk\"", "name = \"A\"", {"bearings.A", "disk or station"}},
-      {"name = \"disk\"", "name = \"lamination_a\"", {"\"lamination_a\" is taken"}},
-      {"target = \"disk\"", "target = \"disc\"", {"disc", "did you mean disk?"}},
-      {"[amplifier]",
-       "[[rotor.support]]\nz = 0.1\nk = 1e5\n[amplifier]",
-       {"rotor.support", "for analysis"}},
-      {"switching_frequency = 25000.0",
-       "switching_frequency = 400.0",
-       {"rotor.modes = 4, allowed: 0 to 3", "mode 4 at 213 Hz",
-        "half the switching frequency of 400 Hz"}},
-  };
-  for (const Mistake& m : mistakes) {
-    std::string message = "no error";
-    try {
-      std::string text = Replaced(TumRigText(), m.from, m.to);
-      if (m.to.find("400.0") != std::string::npos)
-        text = Replaced(text, "rate = 12500.0", "rate = 400.0");
-      TumRig(text);
-    } catch (const InputError& e) {
-      message = e.what();
-    }
-    for (const std::string& part : m.says)
-      EXPECT_NE(message.find(part), std::string::npos) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    EXPECT_NE(message.find("rig.toml:"), std::string::npos) << message;
-  }
-}
-
-TEST(FlexibleRotor, ShaftFilesThatAreNone) {
-  const std::string text = ReadFile(kTumFolder + "rig.toml");
-  for (const auto& [file, part] : {std::pair{"nowhere.toml", "nowhere.toml"},
-                                   {"shaft.txt", "a .toml or .json file"},
-                                   {"nowhere.json", "nowhere.json"},
-                                   {"run_up.toml", "no shaft element"}}) {
-    try {
-      TumRig(Replaced(text, "shaft.toml\"", std::string(file) + "\""));
-      ADD_FAILURE() << file;
-    } catch (const InputError& e) {
-      EXPECT_NE(std::string(e.what()).find(part), std::string::npos) << e.what();
-    }
-  }
 }
 
 }  // namespace

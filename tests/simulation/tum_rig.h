@@ -1,5 +1,6 @@
 #pragma once
 /// The flexible rig of TU Munich (examples/tum_mbtr) as text that tests change.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -9,6 +10,7 @@
 #include "core/base/read_file.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
+#include "scenarios/scenario.h"
 
 namespace ambrig::testing {
 
@@ -35,6 +37,17 @@ inline std::string TumRigText(
 
 inline RigParameters TumRig(const std::string& text) {
   return ReadRigText(text, kTumFolder + "rig.toml");
+}
+
+inline RigParameters Mbtr() { return ReadRig(kTumFolder + "rig.toml"); }
+
+/// Nothing recorded but the motion, at one speed [rad/s].
+inline Scenario Quiet(const RigParameters& rig, double duration, double speed) {
+  return ReadScenarioText(
+      fmt::format("duration = {}\nrecord_rate = 12500.0\nnoise = false\n[speed]\nprofile = "
+                  "[[0.0, {}]]\n",
+                  duration, NumberText(speed)),
+      kTumFolder + "test.toml", rig);
 }
 
 }  // namespace ambrig::testing

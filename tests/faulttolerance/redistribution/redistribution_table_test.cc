@@ -149,7 +149,7 @@ TEST(RedistributionTable, CacheGivesTheSameBitsAndSurvivesDamage) {
   for (const std::string& bad :
        {std::string(), good.substr(0, good.size() / 2), std::string("[1, 2"), std::string("[]"),
         std::string(R"({"version": -1, "entries": []})"),
-        std::string(R"({"version": 1, "entries": [{"turns": "x"}]})"), wrong_number}) {
+        std::string(R"({"version": 2, "entries": [{"turns": "x"}]})"), wrong_number}) {
     std::ofstream(file) << bad;
     EXPECT_EQ(RedistributionTable(Rig(), directory.path()).Lookup(failed).W, W);
     EXPECT_EQ(Contents(file), good);

@@ -15,7 +15,7 @@ namespace {
 TEST(Equilibrium, MagnetsCarryTheWeight) {
   const RigParameters rig = BaseRig();
   SampledDataLoop sampled(rig, BaseScenario("steps", rig), {});
-  const Equilibrium e = LevitatedEquilibrium(sampled);
+  const Equilibrium e = LevitatedEquilibrium(sampled.rig, sampled.plant, sampled.control);
   ASSERT_TRUE(e.usable()) << e.message;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero(), moment = sum;
   for (std::size_t k = 0; k < 2; ++k) {
@@ -40,9 +40,9 @@ TEST(Equilibrium, MagnetsCarryTheWeight) {
 TEST(Equilibrium, FindsTheForcesOfAnOffsetMagnet) {
   const RigParameters rig = BaseRig();
   SampledDataLoop sampled(rig, BaseScenario("steps", rig), {});
-  const Equilibrium centred = LevitatedEquilibrium(sampled);
+  const Equilibrium centred = LevitatedEquilibrium(sampled.rig, sampled.plant, sampled.control);
   sampled.plant.bearings[0].offset_x = 1e-6;  // the shaft sits 1 um towards -x of the magnet
-  const Equilibrium e = LevitatedEquilibrium(sampled);
+  const Equilibrium e = LevitatedEquilibrium(sampled.rig, sampled.plant, sampled.control);
   ASSERT_TRUE(e.usable()) << e.message;
   const RadialStatorParameters& p = rig.bearings[0].radial;
   const double c0 = rig.controller.bias_current;

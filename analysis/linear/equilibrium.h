@@ -8,17 +8,14 @@
 ///
 /// At standstill: what turns with the shaft (unbalance) has no equilibrium. Where the axes do not
 /// hold every coordinate (one magnet on a bench) there is no unique one and `converged` is false.
-/// Source: docs/theory/base_model.md sections 1, 2, 4.
 #include <string>
 #include <vector>
 
-#include "actuators/magnetics/lane.h"
-#include "rotor/motion/force_term.h"
-#include "scenarios/scenario.h"
+#include "control/current/bearing_control.h"
+#include "effects/plant.h"
+#include "rig/rig_parameters.h"
 
 namespace ambrig {
-
-class SampledDataLoop;
 
 struct Equilibrium {
   std::vector<double> force;  // per axis [N]
@@ -31,8 +28,11 @@ struct Equilibrium {
   bool usable() const { return converged; }
 };
 
-Equilibrium LevitatedEquilibrium(const SampledDataLoop& rig);
-/// The same for an engine without a sampled rig of its own.
-Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Scenario& scenario);
+/// Controlled axes of a bearing: 2 of a radial one, else 1.
+std::size_t AxesOf(const BearingPlant& bearing);
+
+/// `rig`: true values, for the first guess; `control`: the maps between forces and set-points.
+Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Plant& plant,
+                                 const std::vector<BearingControl>& control);
 
 }  // namespace ambrig

@@ -36,4 +36,15 @@ struct LinearBearing {
 /// when the bridges have two quadrants.
 LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, double x, double y);
 
+/// The same bearing when its coils carry only p given patterns of current, i = P v, and v takes the
+/// place of the coils' currents. Linkages count along the patterns, P⁺ λ, with P⁺ = (PᵀP)⁻¹Pᵀ:
+///
+///   P⁺ λ = (P⁺ L P) v - P⁺ L I_r r,   L = I_λ⁻¹
+///
+/// The patterns of the axes leave out what the other patterns of the coils (bias) do in between;
+/// exact at constant current. `pattern`: n x p, rows in the order of `coils`.
+LinearBearing OntoPatterns(const LinearBearing& bearing, const Eigen::MatrixXd& pattern);
+/// P⁺ [p x n].
+Eigen::MatrixXd PatternInverse(const Eigen::MatrixXd& pattern);
+
 }  // namespace ambrig

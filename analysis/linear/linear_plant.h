@@ -5,20 +5,37 @@
 ///   x = [q, q', λ]      q: kept coordinates of the rotor, λ: linkages of the coils that carry
 ///   M q'' + (D + Ω G) q' + K q = Σ B f,   λ' = v - R i,   i = I_λ λ + I_r r,   f = F_λ λ + F_r r
 ///
-/// with r the shaft at the magnets. Coordinates that no bearing moves, not even through others (z
+/// with r the shaft at the magnets. The currents are those of the coils or, for a controller's
+/// synthesis, which wants few states, the amplitudes of the axes' patterns (OntoPatterns). Coordinates that no bearing moves, not even through others (z
 /// without a thrust bearing, races, what an opposed pair on a bench cannot reach), are left out.
 /// Source: base_model.md sections 1 and 2; rotor/motion/linear_rotor.h, linear_bearing.h.
 #include <Eigen/Dense>
 #include <vector>
 
-#include "analysis/operating_point.h"
+#include "analysis/linear/operating_point.h"
 #include "rotor/motion/linear_rotor.h"
 
 namespace ambrig {
 
+/// How the coil currents of a plant are modelled.
+enum class CurrentModel {
+  kCoils,         // every coil by itself: exact
+  kAxisPatterns,  // one current per axis, in the pattern that its force asks for
+};
+
+/// A coil that takes part in a current; its share of the pattern's linkage (1 of a coil by itself).
+struct CoilShare {
+  int lane = 0;
+  double share = 1;
+};
+
+/// One current of the plant: a coil's, or the amplitude of an axis' pattern.
 struct PlantCoil {
   std::size_t bearing = 0;
-  int lane = 0;
+  int lane = 0;  // of the coil; of a pattern: the side of the bearing, 0 or 1
+  std::vector<CoilShare> shares;
+  Eigen::Index axis = 0;    // of the plant, the first of the bearing
+  Eigen::VectorXd command;  // set-point per force of the bearing's axes [A/N]
 };
 
 struct LinearPlant {
@@ -42,6 +59,10 @@ struct LinearPlant {
 /// The same with a rotor that moves as `pushed` accelerates it and by nothing else [m/s2].
 LinearPlant WithDrivenRotor(LinearPlant plant);
 
-LinearPlant LinearisePlant(const OperatingPoint& point, double speed);
+/// Of these axes, whole bearings in ascending order; the magnets of others exert no force. Default:
+/// all.
+LinearPlant LinearisePlant(const OperatingPoint& point, double speed,
+                           CurrentModel currents = CurrentModel::kCoils,
+                           const std::vector<std::size_t>* axes = nullptr);
 
 }  // namespace ambrig

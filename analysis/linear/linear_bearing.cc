@@ -1,4 +1,4 @@
-#include "analysis/linear_bearing.h"
+#include "analysis/linear/linear_bearing.h"
 
 #include <cmath>
 
@@ -77,6 +77,23 @@ LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, do
     column(rate, out.I_r.col(axis));
     out.F_r.col(axis) = ForceChange(lanes, s, rate, x, y, dx, dy);
   }
+  return out;
+}
+
+Eigen::MatrixXd PatternInverse(const Eigen::MatrixXd& pattern) {
+  return (pattern.transpose() * pattern).ldlt().solve(pattern.transpose());
+}
+
+LinearBearing OntoPatterns(const LinearBearing& b, const Eigen::MatrixXd& pattern) {
+  const Eigen::MatrixXd along = PatternInverse(pattern), L = b.Inductance();
+  LinearBearing out;
+  for (Eigen::Index k = 0; k < pattern.cols(); ++k) out.coils.push_back(static_cast<int>(k));
+  out.current = along * b.current;
+  out.resistance = (along * b.resistance.asDiagonal() * pattern).diagonal();
+  out.I_lambda = (along * L * pattern).inverse();
+  out.I_r = out.I_lambda * along * L * b.I_r;
+  out.F_lambda = b.ForceOfCurrent() * pattern * out.I_lambda;
+  out.F_r = b.NegativeStiffness() + b.ForceOfCurrent() * pattern * out.I_r;
   return out;
 }
 

@@ -9,7 +9,7 @@
 /// 3.
 #include <Eigen/Dense>
 
-#include "analysis/linear_plant.h"
+#include "analysis/linear/linear_plant.h"
 
 namespace ambrig {
 
@@ -18,8 +18,10 @@ struct PeriodMap {
   int samples = 0;                    // of the ADC in a period
   Eigen::MatrixXd state;              // (n x n) x(T) of x(0)
   Eigen::MatrixXd duty;               // (n x c) x(T) of duties
+  Eigen::MatrixXd push;               // (n x m) x(T) of constant generalised forces on q
   Eigen::MatrixXd feedback_of_state;  // (c x n)
   Eigen::MatrixXd feedback_of_duty;   // (c x c)
+  Eigen::MatrixXd feedback_of_push;   // (c x m)
 };
 
 PeriodMap MakePeriodMap(const OperatingPoint& point, const LinearPlant& plant);

@@ -1,6 +1,6 @@
 // Derivatives of the magnetic circuit: closed forms of the centred bearing, and differences of the
 // exact circuit at a displaced one.
-#include "analysis/linear_bearing.h"
+#include "analysis/linear/linear_bearing.h"
 
 #include <gtest/gtest.h>
 

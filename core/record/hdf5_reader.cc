@@ -1,72 +1,17 @@
-#include "core/record/hdf5.h"
-
-#include <hdf5.h>
-
-#include <algorithm>
 #include <filesystem>
 #include <new>
 #include <optional>
 #include <set>
-#include <utility>
 
-#include "core/base/atomic_file.h"
-#include "core/base/errors.h"
+#include "core/record/hdf5_library.h"
 #include "core/record/time_base.h"
 
 namespace ambrig {
 namespace {
 
+using namespace hdf5;
+
 constexpr hsize_t kMaxRows = hsize_t{1} << 31;  // a damaged header must not ask for all memory
-constexpr hsize_t kChunkRows = 1 << 14;
-
-/// One thread at a time; and the library prints errors unless told not to.
-class Library {
- public:
-  Library() : lock_(Hdf5Mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-
- private:
-  std::scoped_lock<std::mutex> lock_;
-};
-
-/// An HDF5 identifier that is closed at the end of its scope.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-  ~Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-
-  bool usable() const { return id_ >= 0; }
-  operator hid_t() const { return id_; }  // NOLINT: reads as the identifier it is
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
-
-/// The library's own words for the failure at hand, without a full stop; empty when it has none.
-std::string Reason() {
-  std::string text;
-  H5Ewalk2(
-      H5E_DEFAULT, H5E_WALK_UPWARD,
-      [](unsigned n, const H5E_error2_t* error, void* out) -> herr_t {
-        if (n == 0 && error->desc != nullptr) *static_cast<std::string*>(out) = error->desc;
-        return 0;
-      },
-      &text);
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
-
-[[noreturn]] void Fail(const std::string& path, const std::string& what) {
-  const std::string reason = Reason();
-  throw InputError(path + ": " + what + (reason.empty() ? "" : " (" + reason + ")"));
-}
-
-// ---- reading ------------------------------------------------------------------------------------
 
 std::optional<std::string> ReadText(hid_t object, const std::string& name) {
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
@@ -191,94 +136,6 @@ Handle OpenForReading(const std::string& path) {
   return file;
 }
 
-// ---- writing ------------------------------------------------------------------------------------
-
-/// Every call of the library goes through here; what fails here is lack of memory, not the disk.
-template <class Result>
-Result Check(Result result, const std::string& path, const std::string& what) {
-  if (result < 0) Fail("cannot write " + path, what);
-  return result;
-}
-
-class Writer {
- public:
-  explicit Writer(const std::string& path) : path_(path) {}
-
-  /// In memory, so that no full disk can interrupt the library half-way.
-  std::string Image(const Record& record) const {
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    Check(H5Pset_fapl_core(access, 1 << 20, 0), path_, "memory file");
-    const Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
-    Check(H5Pset_obj_track_times(creation, 0), path_, "no times");
-    // Brings newer object headers, whose attributes may exceed 64 kB: the parameters of a whole
-    // rig. (The newer superblock would too, but HDF5 1.10 returns its image with a wrong checksum.)
-    Check(H5Pset_attr_creation_order(creation, H5P_CRT_ORDER_TRACKED), path_, "attribute order");
-    Check(H5Pset_link_creation_order(creation, H5P_CRT_ORDER_TRACKED | H5P_CRT_ORDER_INDEXED),
-          path_, "order");
-    const Handle file(H5Fcreate("record", H5F_ACC_TRUNC, creation, access), H5Fclose);
-    Check(hid_t{file}, path_, "no file");
-    for (const Channel& c : record.channels) WriteChannel(file, c);
-    WriteNumber(file, "rate", record.rate);
-    WriteNumber(file, "start", record.start);
-    for (const auto& [name, text] : record.attributes) WriteText(file, name, text);
-    Check(H5Fflush(file, H5F_SCOPE_GLOBAL), path_, "flush");
-    std::string bytes(
-        static_cast<std::size_t>(Check(H5Fget_file_image(file, nullptr, 0), path_, "size")), '\0');
-    Check(H5Fget_file_image(file, bytes.data(), bytes.size()), path_, "image");
-    return bytes;
-  }
-
- private:
-  void WriteChannel(hid_t file, const Channel& c) const {
-    const hsize_t rows = c.samples.size();
-    const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    Check(H5Pset_obj_track_times(creation, 0), path_, "no times");
-    if (rows > 0) {
-      const hsize_t chunk = std::min(rows, kChunkRows);
-      Check(H5Pset_chunk(creation, 1, &chunk), path_, "chunks");
-      Check(H5Pset_shuffle(creation), path_, "shuffle");
-      Check(H5Pset_deflate(creation, 4), path_, "deflate");
-    }
-    const Handle dataset(
-        H5Dcreate2(file, c.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),
-        H5Dclose);
-    Check(hid_t{dataset}, path_, "channel " + c.name);
-    if (rows > 0)
-      Check(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, c.samples.data()),
-            path_, "channel " + c.name);
-    WriteText(dataset, "unit", c.unit);
-  }
-
-  void WriteText(hid_t object, const std::string& name, const std::string& text) const {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose), type(H5Tcopy(H5T_C_S1), H5Tclose);
-    Check(H5Tset_size(type, text.size() + 1), path_, name);
-    Check(H5Tset_cset(type, H5T_CSET_UTF8), path_, name);
-    const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-                           H5Aclose);
-    Check(hid_t{attribute}, path_, "attribute " + name);
-    Check(H5Awrite(attribute, type, text.c_str()), path_, "attribute " + name);
-  }
-
-  void WriteNumber(hid_t object, const char* name, double value) const {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle attribute(
-        H5Acreate2(object, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-    Check(hid_t{attribute}, path_, name);
-    Check(H5Awrite(attribute, H5T_NATIVE_DOUBLE, &value), path_, name);
-  }
-
-  const std::string& path_;
-};
-
-/// A slash would make groups, which reading turns into dots: another name than was written.
-void CheckWritable(const Record& record, const std::string& where) {
-  for (const Channel& c : record.channels)
-    if (c.name.empty() || c.name == "." || c.name.find('/') != std::string::npos)
-      throw InputError(where + ": channel name '" + c.name + "'");
-  CheckRecord(record, where);
-}
-
 }  // namespace
 
 std::mutex& Hdf5Mutex() {
@@ -303,16 +160,6 @@ Record ReadHdf5(const std::string& path) try {
   return record;
 } catch (const std::bad_alloc&) {
   throw InputError(path + ": too large for the memory of this machine");
-}
-
-void WriteHdf5(const Record& record, const std::string& path) {
-  CheckWritable(record, "cannot write " + path);
-  std::string image;
-  {
-    const Library library;
-    image = Writer(path).Image(record);
-  }
-  WriteFileAtomically(path, image);
 }
 
 }  // namespace ambrig

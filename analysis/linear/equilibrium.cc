@@ -1,0 +1,107 @@
+#include "analysis/linear/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "actuators/magnetics/coil_network.h"
+#include "core/math/kinsol.h"
+#include "rig/rig_assembly.h"
+
+namespace ambrig {
+
+namespace {
+
+/// Everything that the equations need besides their unknowns.
+struct Balance {
+  const Plant& plant;
+  const std::vector<BearingControl>& control;
+  std::vector<CoilNetwork> networks;
+  std::vector<std::size_t> first_axis;  // per bearing
+  std::size_t axes = 0, dof = 0;
+  std::vector<bool> fixed;  // coordinates that no force moves: held at zero
+
+  Balance(const Plant& p, const std::vector<BearingControl>& c)
+      : plant(p), control(c), dof(static_cast<std::size_t>(p.rotor.dof())), fixed(dof, false) {
+    for (const BearingPlant& b : plant.bearings) {
+      networks.emplace_back(b.lanes);
+      first_axis.push_back(axes);
+      axes += AxesOf(b);
+    }
+    fixed[2] = !plant.rotor.axial_free;
+    for (const AuxiliaryPlane& aux : plant.rotor.auxiliaries())
+      if (aux.race_dof >= 0) fixed[static_cast<std::size_t>(aux.race_dof)] = true;  // turns freely
+  }
+
+  SetPointVector SetPoints(std::size_t k, const double* force) const {
+    const double* f = force + first_axis[k];
+    return control[k].map.SetPoints(f[0], AxesOf(plant.bearings[k]) > 1 ? f[1] : 0);
+  }
+
+  void Equations(const double* u, double* F) const {
+    MotionState s;
+    std::copy(u + axes, u + axes + dof, s.q.begin());
+    DofVector Q{}, a{};
+    double stator_x = 0, stator_y = 0, torque = 0;
+    for (std::size_t k = 0; k < plant.bearings.size(); ++k) {
+      const BearingPlant& b = plant.bearings[k];
+      const auto set = SetPoints(k, u);
+      double lambda[kMaxWindings];
+      auto [x, y] = plant.rotor.Position(s, b.plane);
+      x -= b.offset_x;
+      y -= b.offset_y;
+      NetworkState n;
+      networks[k].Linkages(set.data(), x, y, lambda);
+      networks[k].Solve(lambda, x, y, n);
+      b.plane.AddForce(n.fx, n.fy, Q);
+      if (b.thrust) continue;
+      stator_x += n.fx;
+      stator_y += n.fy;
+    }
+    plant.rotor.Accelerations(s, Q, stator_x, stator_y, a, &torque);
+    for (std::size_t d = 0; d < dof; ++d) F[d] = fixed[d] ? s.q[d] : a[d];
+    for (std::size_t k = 0; k < plant.bearings.size(); ++k) {
+      const PlanePoint reading = plant.rotor.Position(s, plant.bearings[k].sensor.map);
+      F[dof + first_axis[k]] = reading.x;
+      if (AxesOf(plant.bearings[k]) > 1) F[dof + first_axis[k] + 1] = reading.y;
+    }
+  }
+};
+
+}  // namespace
+
+std::size_t AxesOf(const BearingPlant& bearing) {
+  return bearing.thrust || bearing.opposed ? 1 : 2;
+}
+
+Equilibrium LevitatedEquilibrium(const RigParameters& rig, const Plant& plant,
+                                 const std::vector<BearingControl>& control) {
+  const Balance balance(plant, control);
+  const std::size_t n = balance.axes + balance.dof;
+  // Sizes that matter: the rotor's weight, a micrometre, the acceleration of gravity.
+  double g = 0;
+  for (double component : rig.gravity) g = std::max(g, std::abs(component));
+  g = std::max(g, 0.1);
+  std::vector<double> start = WeightOverAxes(rig), u_scale(n, 1e-6), f_scale(n, 1e-6);
+  start.resize(n, 0.0);
+  std::fill_n(u_scale.begin(), balance.axes, rig.rotor.mass * g);
+  for (std::size_t d = 0; d < balance.dof; ++d)
+    if (!balance.fixed[d]) f_scale[d] = g;
+  const KinsolOutcome out = SolveKinsol(
+      [&](const double* u, double* F) { balance.Equations(u, F); }, start, u_scale, f_scale, 1e-9);
+  Equilibrium e;
+  e.residual = out.residual;
+  e.iterations = out.iterations;
+  e.converged = out.converged;
+  e.message = out.message;
+  e.force.assign(out.u.begin(), out.u.begin() + static_cast<std::ptrdiff_t>(balance.axes));
+  std::copy(out.u.begin() + static_cast<std::ptrdiff_t>(balance.axes), out.u.end(), e.q.begin());
+  for (std::size_t k = 0; k < plant.bearings.size(); ++k) {
+    const auto set = balance.SetPoints(k, e.force.data());
+    Lane current;
+    for (int j = 0; j < control[k].coils; ++j) current[j] = set[j];
+    e.current.push_back(current);
+  }
+  return e;
+}
+
+}  // namespace ambrig

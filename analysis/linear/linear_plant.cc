@@ -1,0 +1,199 @@
+#include "analysis/linear/linear_plant.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "rig/rig_assembly.h"
+
+namespace ambrig {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Coordinates that a bearing moves, directly or through the rotor's matrices, in rising order.
+std::vector<int> Moved(const LinearRotor& r, double speed) {
+  const Index n = r.M.rows();
+  std::vector<bool> moved(static_cast<std::size_t>(n), false);
+  const auto tiny = [](double w) { return std::abs(w) < 1e-12; };
+  for (const LinearPort& p : r.ports)
+    for (Index d = 0; d < n; ++d)
+      if (!p.B.row(d).isZero(1e-12)) moved[static_cast<std::size_t>(d)] = true;
+  for (bool grown = true; grown;) {
+    grown = false;
+    for (Index d = 0; d < n; ++d)
+      for (Index e = 0; e < n; ++e) {
+        if (moved[static_cast<std::size_t>(d)] || !moved[static_cast<std::size_t>(e)] || d == e)
+          continue;
+        if (tiny(r.M(d, e)) && tiny(r.K(d, e)) && tiny(r.D(d, e) + speed * r.G(d, e))) continue;
+        moved[static_cast<std::size_t>(d)] = grown = true;
+      }
+  }
+  std::vector<int> kept;
+  for (Index d = 0; d < n; ++d)
+    if (moved[static_cast<std::size_t>(d)]) kept.push_back(static_cast<int>(d));
+  return kept;
+}
+
+LinearRotor Restrict(const LinearRotor& r, const std::vector<int>& kept) {
+  LinearRotor out;
+  out.M = r.M(kept, kept);
+  out.G = r.G(kept, kept);
+  out.D = r.D(kept, kept);
+  out.K = r.K(kept, kept);
+  for (const auto& [x, y] : r.xy) {
+    const auto at_x = std::find(kept.begin(), kept.end(), x),
+               at_y = std::find(kept.begin(), kept.end(), y);
+    if (at_x != kept.end() && at_y != kept.end())
+      out.xy.push_back(
+          {static_cast<int>(at_x - kept.begin()), static_cast<int>(at_y - kept.begin())});
+  }
+  for (const LinearPort& p : r.ports) {
+    LinearPort port = p;
+    port.B = p.B(kept, Eigen::all);
+    port.C = p.C(Eigen::all, kept);
+    port.gap = p.gap(Eigen::all, kept);
+    out.ports.push_back(port);
+  }
+  return out;
+}
+
+/// One bearing of the plant: its magnets in the currents chosen, and what those currents are.
+struct BearingPart {
+  LinearBearing magnets;
+  std::vector<PlantCoil> currents;
+};
+
+/// Set-points of a bearing's coils per force of its axes (coils that carry x axes) [A/N]; zero where
+/// a set-point is at its limit.
+MatrixXd SetPointsPerForce(const OperatingPoint& point, std::size_t k) {
+  const CurrentMap& map = point.control()[k].map;
+  const std::vector<int>& coils = point.bearings[k].coils;
+  MatrixXd out =
+      MatrixXd::Zero(static_cast<Index>(coils.size()), static_cast<Index>(point.AxisCount(k)));
+  for (Index row = 0; row < out.rows(); ++row) {
+    const int lane = coils[static_cast<std::size_t>(row)];
+    if (!point.coils[k][static_cast<std::size_t>(lane)].commanded) continue;
+    for (Index side = 0; side < out.cols(); ++side)
+      out(row, side) = map.W(lane, 1 + side) / (map.k * map.c0);
+  }
+  return out;
+}
+
+BearingPart PartOf(const OperatingPoint& point, std::size_t k, CurrentModel currents) {
+  const MatrixXd set = SetPointsPerForce(point, k);
+  const LinearBearing& exact = point.bearings[k];
+  BearingPart out;
+  if (currents == CurrentModel::kCoils) {
+    out.magnets = exact;
+    for (Index j = 0; j < set.rows(); ++j) {
+      const int lane = exact.coils[static_cast<std::size_t>(j)];
+      out.currents.push_back({k, lane, {{lane, 1}}, 0, set.row(j)});
+    }
+    return out;
+  }
+  const CurrentMap& map = point.control()[k].map;
+  const MatrixXd pattern = set * (map.k * map.c0), along = PatternInverse(pattern);
+  out.magnets = OntoPatterns(exact, pattern);
+  for (Index side = 0; side < pattern.cols(); ++side) {
+    PlantCoil c{k, static_cast<int>(side), {}, 0, VectorXd::Zero(pattern.cols())};
+    for (Index j = 0; j < pattern.rows(); ++j)
+      if (pattern(j, side) != 0)
+        c.shares.push_back(
+            {exact.coils[static_cast<std::size_t>(j)], along(side, j) * pattern(j, side)});
+    c.command(side) = 1 / (map.k * map.c0);
+    out.currents.push_back(c);
+  }
+  return out;
+}
+
+/// Bearings of these axes, ascending.
+std::vector<std::size_t> BearingsOf(const OperatingPoint& point,
+                                    const std::vector<std::size_t>* axes) {
+  std::vector<std::size_t> out(point.bearings.size());
+  std::iota(out.begin(), out.end(), 0);
+  if (!axes) return out;
+  std::vector<std::size_t> expected;
+  std::erase_if(out, [&](std::size_t k) {
+    return std::find(axes->begin(), axes->end(), point.FirstAxis(k)) == axes->end();
+  });
+  for (const std::size_t k : out)
+    for (std::size_t side = 0; side < point.AxisCount(k); ++side)
+      expected.push_back(point.FirstAxis(k) + side);
+  Require(expected == *axes, "whole bearings, in ascending order");
+  return out;
+}
+
+/// Sizes and zeros of a plant whose rotor and currents are known.
+void Resize(LinearPlant& p) {
+  const Index m = p.rotor.M.rows(), c = static_cast<Index>(p.coils.size()), n = 2 * m + c;
+  Index axes = 0;
+  for (const LinearPort& port : p.rotor.ports) axes += port.C.rows();
+  p.A.setZero(n, n);
+  p.pushed.setZero(n, m);
+  p.current.setZero(c, n);
+  for (MatrixXd* rows : {&p.reading, &p.position, &p.force}) rows->setZero(axes, n);
+}
+
+}  // namespace
+
+LinearPlant WithDrivenRotor(LinearPlant p) {
+  const Index m = p.m();
+  p.A.middleRows(m, m).setZero();
+  p.pushed.setZero();
+  p.pushed.middleRows(m, m).setIdentity();
+  return p;
+}
+
+LinearPlant LinearisePlant(const OperatingPoint& point, double speed, CurrentModel currents,
+                           const std::vector<std::size_t>* axes) {
+  LinearPlant p;
+  p.speed = speed;
+  LinearRotor whole = LinearRotorOf(point.plant(), speed);
+  std::vector<LinearPort> ports;
+  std::vector<BearingPart> parts;
+  Index axis = 0;
+  for (const std::size_t k : BearingsOf(point, axes)) {
+    ports.push_back(whole.ports[k]);
+    parts.push_back(PartOf(point, k, currents));
+    for (PlantCoil& c : parts.back().currents) c.axis = axis;
+    axis += ports.back().C.rows();
+    p.coils.insert(p.coils.end(), parts.back().currents.begin(), parts.back().currents.end());
+  }
+  whole.ports = ports;
+  p.coordinate = Moved(whole, speed);
+  p.rotor = Restrict(whole, p.coordinate);
+  Resize(p);
+  const Index m = p.m(), coils = static_cast<Index>(p.coils.size());
+  VectorXd resistance(coils);
+  MatrixXd pull = MatrixXd::Zero(m, p.n());  // generalised magnetic forces
+  Index c = 0, a = 0;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const LinearBearing& b = parts[k].magnets;
+    const LinearPort& port = p.rotor.ports[k];
+    const Index nc = b.I_lambda.rows(), na = port.C.rows();
+    p.current.block(c, 0, nc, m) = b.I_r.leftCols(na) * port.gap;
+    p.current.block(c, 2 * m + c, nc, nc) = b.I_lambda;
+    resistance.segment(c, nc) = b.resistance;
+    p.reading.block(a, 0, na, m) = port.C;
+    p.position.block(a, 0, na, m) = port.gap;
+    p.force.block(a, 0, na, m) = b.F_r.topLeftCorner(na, na) * port.gap;
+    p.force.block(a, 2 * m + c, na, nc) = b.F_lambda.topRows(na);
+    pull += port.B * p.force.middleRows(a, na);
+    c += nc;
+    a += na;
+  }
+  const Eigen::PartialPivLU<MatrixXd> mass(p.rotor.M);
+  p.A.block(0, m, m, m).setIdentity();
+  p.A.middleRows(m, m) = mass.solve(pull);
+  p.A.block(m, 0, m, m) -= mass.solve(p.rotor.K);
+  p.A.block(m, m, m, m) -= mass.solve(p.rotor.D + speed * p.rotor.G);
+  p.A.bottomRows(coils) = (-resistance).asDiagonal() * p.current;
+  p.pushed.middleRows(m, m) = mass.solve(MatrixXd::Identity(m, m));
+  return p;
+}
+
+}  // namespace ambrig

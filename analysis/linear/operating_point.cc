@@ -1,0 +1,115 @@
+#include "analysis/linear/operating_point.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "rig/nominal_control.h"
+#include "rig/rig_assembly.h"
+
+namespace ambrig {
+
+namespace {
+
+// Below this a run's start holds a coil at the bridge's lower limit (base_model.md section 3).
+constexpr double kInterrupted = 0.2;  // [A]
+
+std::size_t U(int k) { return static_cast<std::size_t>(k); }
+
+}  // namespace
+
+OperatingPoint::Model::Model(const TrueRig& true_rig, const NominalRig& known)
+    : rig(true_rig), nominal(known), plant(BuildPlant(rig)) {
+  for (std::size_t k = 0; k < plant.bearings.size(); ++k)
+    control.push_back(MakeBearingControl(nominal, k));
+}
+
+void OperatingPoint::PlaceCoils(std::size_t k) {
+  const BearingControl& own = control()[k];
+  const AmplifierParameters& amplifier = rig().amplifier;
+  const double* f = force.data() + FirstAxis(k);
+  const double fx = f[0], fy = AxisCount(k) > 1 ? f[1] : 0;
+  const auto set = own.map.SetPoints(fx, fy);
+  const Eigen::Vector3d command(own.map.c0, fx / (own.map.k * own.map.c0),
+                                fy / (own.map.k * own.map.c0));
+  const Eigen::VectorXd free = own.map.W * command;
+  std::vector<CoilPoint> placed(U(own.coils));
+  for (int j = 0; j < own.coils; ++j) {
+    CoilPoint& c = placed[U(j)];
+    c.current = set[j];
+    c.commanded = set[j] == free[j];
+    CurrentRegulator regulator(amplifier);
+    regulator.HoldCurrent(std::max(c.current, 1.01 * kInterrupted),
+                       plant().bearings[k].base_resistance[j]);
+    c.duty = regulator.DutyFromVoltage(regulator.integral());
+    const std::string name = fmt::format("{}.coil{}", own.name, j + 1);
+    if (!c.commanded)
+      notes.push_back(
+          fmt::format("{} carries {:.3g} A, a limit of its set-point: its current cannot follow "
+                      "the force command",
+                      name, c.current));
+    else if (c.current <= kInterrupted && amplifier.quadrants < 3)
+      notes.push_back(fmt::format(
+          "{} carries {:.3g} A: a current that its diodes interrupt counts as continuous", name,
+          c.current));
+  }
+  coils.push_back(placed);
+}
+
+void OperatingPoint::NoteWhatIsLeftOut() {
+  for (const BearingPlant& b : plant().bearings) {
+    if (!b.lanes.laws.empty())
+      notes.push_back(
+          fmt::format("bearing {}: effects of its iron are not in the linear model", b.name));
+    if (!b.sensor.maps.empty())
+      notes.push_back(fmt::format(
+          "bearing {}: effects of its position sensors are not in the linear model", b.name));
+    for (const CurrentSensor& s : b.current_sensor)
+      if (s.gain != 1) {
+        notes.push_back(fmt::format(
+            "bearing {}: errors of its current sensors are not in the linear model", b.name));
+        break;
+      }
+  }
+  if (!plant().bus.stiff()) notes.push_back("the bus counts as stiff in the linear model");
+}
+
+std::vector<std::string> OperatingPoint::Axes() const { return AxisNames(rig()); }
+
+std::size_t OperatingPoint::FirstAxis(std::size_t bearing) const {
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < bearing; ++k) first += AxisCount(k);
+  return first;
+}
+
+std::size_t OperatingPoint::BearingOf(std::size_t axis) const {
+  std::size_t k = 0;
+  while (FirstAxis(k) + AxisCount(k) <= axis) ++k;
+  return k;
+}
+
+OperatingPoint::OperatingPoint(const TrueRig& true_rig, const NominalRig& known)
+    : force(WeightOverAxes(*true_rig)), model_(std::make_shared<Model>(true_rig, known)) {
+  const Equilibrium e = LevitatedEquilibrium(rig(), plant(), control());
+  if (e.usable()) {
+    force = e.force;
+    motion.q = e.q;
+  } else {
+    notes.push_back("no unique equilibrium (" + e.message + "): linearised at the centre");
+  }
+  for (std::size_t k = 0; k < plant().bearings.size(); ++k) {
+    PlaceCoils(k);
+    const BearingPlant& b = plant().bearings[k];
+    const auto [x, y] = plant().rotor.Position(motion, b.plane);
+    Lane current{};
+    for (int j = 0; j < b.lanes.coils; ++j) current[j] = coils[k][U(j)].current;
+    bearings.push_back(LineariseBearing(b.lanes, current, x - b.offset_x, y - b.offset_y));
+  }
+  NoteWhatIsLeftOut();
+}
+
+OperatingPoint FindOperatingPoint(const RigParameters& rig) {
+  return {TrueRig(rig), NominalRig(rig)};
+}
+
+}  // namespace ambrig
