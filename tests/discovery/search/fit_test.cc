@@ -1,0 +1,123 @@
+// The fit on problems that are linear in the unknowns: optimum, covariance, warnings in closed form.
+#include "discovery/search/fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "discovery/decision/likelihood.h"
+#include "discovery/model/jacobian.h"
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kX[] = {2e-5, 4e-5, 6e-5, 5e-5};
+
+LinearCase CaseOf(double gain, double offset) {
+  return {{std::begin(kX), std::end(kX)}, gain, offset};
+}
+
+// d(gain x)/d(gain) = x, in units of the floor, per step of the coordinate; no other row moves.
+TEST(Jacobian, IsTheDerivativeOfALinearReading) {
+  const LinearCase c = CaseOf(1, 0);
+  const Hypothesis h = c.With({LinearCase::Gain(1.02), LinearCase::Offset(1e-6)});
+  const auto predicted = c.model.Predict(h);
+  ASSERT_TRUE(predicted);
+  const Eigen::MatrixXd J = Jacobian(c.model, h, *predicted, {0, 1});
+  for (const Target& t : c.model.targets()) {
+    const bool moves = t.channel == 0;  // A.x
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      const auto row = static_cast<Eigen::Index>(k);
+      EXPECT_NEAR(J(row, 0), moves ? c.x[t.record] / LinearCase::kFloor * h.free[0].step : 0, 1e-8);
+      EXPECT_NEAR(J(row, 1), moves ? h.free[1].step / LinearCase::kFloor : 0, 1e-8);
+    }
+  }
+}
+
+// The differences turn round where the parameter stands at its upper bound.
+TEST(Jacobian, AtTheUpperBoundItLooksBack) {
+  const LinearCase c = CaseOf(1, 0);
+  Hypothesis h = c.With({LinearCase::Gain(1.02)});
+  h.free[0].hi = h.free[0].value;
+  const auto predicted = c.model.Predict(h);
+  ASSERT_TRUE(predicted);
+  const Eigen::MatrixXd J = Jacobian(c.model, h, *predicted, {0});
+  EXPECT_NEAR(J(0, 0), kX[0] / LinearCase::kFloor * h.free[0].step, 1e-8);
+}
+
+TEST(Fit, FindsGainAndOffsetThatMadeTheData) {
+  const LinearCase c = CaseOf(1.07, 3e-6);
+  FitOptions options;
+  options.effective_sample_size = 300;
+  const FitResult fit =
+      Fit(c.model, c.With({LinearCase::Gain(1.01), LinearCase::Offset(1e-6)}), options);
+  EXPECT_TRUE(fit.converged);
+  EXPECT_NEAR(FittedEffect(fit, 0).Value("gain"), 1.07, 2e-3);
+  EXPECT_NEAR(FittedEffect(fit, 1).Value("offset"), 3e-6, 1e-7);
+  EXPECT_LT(fit.ratio_fit, 0.05);
+  EXPECT_LT(fit.ratio_validate, 0.05);  // the record kept back has the same law
+  EXPECT_EQ(fit.penalty, 0);            // neither has a prior
+}
+
+// weight² Jᵀ J with weight² = n/rows at the noise floor: sd = floor / √(n/rows Σ x²).
+TEST(Fit, StandardDeviationIsThatOfTheLinearProblem) {
+  const LinearCase c = CaseOf(1.07, 0);
+  FitOptions options;
+  options.effective_sample_size = 120;
+  const FitResult fit = Fit(c.model, c.With({LinearCase::Gain(1.02)}), options);
+  double sum = 0;
+  for (std::size_t r = 0; r < c.fit_records(); ++r) sum += LinearCase::kRows * c.x[r] * c.x[r];
+  const double weight = 120 / static_cast<double>(c.model.size());
+  EXPECT_NEAR(fit.sd[0], LinearCase::kFloor / std::sqrt(weight * sum), 1e-3 * fit.sd[0]);
+  EXPECT_EQ(FittedEffect(fit, 0).sd[0], fit.sd[0]);
+}
+
+// Data that lie beyond a bound leave the parameter there, with a warning and the error that remains.
+TEST(Fit, StaysInsideBoundsAndSaysSo) {
+  const LinearCase c = CaseOf(1.07, 0);
+  Hypothesis start = c.With({LinearCase::Gain(1.02)});
+  start.free[0].hi = 1.04;
+  FitOptions options;
+  options.effective_sample_size = 300;
+  const FitResult fit = Fit(c.model, start, options);
+  EXPECT_NEAR(fit.hypothesis.free[0].value, 1.04, 1e-9);
+  double square = 0;  // rms of (1.07 - 1.04) x over A.x and the A.y that agree
+  for (std::size_t r = 0; r < c.fit_records(); ++r) square += std::pow(0.03 * c.x[r], 2);
+  EXPECT_NEAR(fit.ratio_fit, std::sqrt(square / 6) / LinearCase::kFloor, 1e-6);
+  EXPECT_THAT(fit.warnings, testing::Contains(testing::HasSubstr("is at its bound 1.04")));
+}
+
+// Records at one position cannot tell a gain from an offset.
+TEST(Fit, NamesWhatTheRecordsCannotTellApart) {
+  const LinearCase c{{4e-5, 4e-5, 4e-5}, 1.05, 0};
+  FitOptions options;
+  options.effective_sample_size = 300;
+  const FitResult fit =
+      Fit(c.model, c.With({LinearCase::Gain(1.01), LinearCase::Offset(1e-6)}), options);
+  EXPECT_THAT(fit.warnings, testing::Contains(testing::HasSubstr("are correlated by -1.000")));
+  EXPECT_LT(fit.ratio_fit, 0.1);
+}
+
+TEST(Fit, NamesAParameterWithoutInfluence) {
+  const LinearCase c{{0, 0, 0}, 1, 5e-6};  // a gain of nothing
+  FitOptions options;
+  options.effective_sample_size = 300;
+  const FitResult fit = Fit(c.model, c.With({LinearCase::Gain(1.05)}), options);
+  EXPECT_THAT(fit.warnings, testing::Contains(testing::HasSubstr("has no influence")));
+  EXPECT_EQ(fit.sd[0], 0);
+  EXPECT_NEAR(fit.hypothesis.free[0].value, 1.05, 1e-6);
+}
+
+// Nothing to fit: the figures of the start, 5 µm over the floor in half of the rows.
+TEST(Fit, WithoutFreeParametersItIsAnEvaluation) {
+  const LinearCase c{{1e-5, 3e-5}, 1, 5e-6};
+  const FitResult fit = Fit(c.model, c.With({}), {});
+  EXPECT_TRUE(fit.converged);
+  EXPECT_NEAR(fit.ratio_fit, 5 / std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(fit.ratio_validate, 5 / std::sqrt(2.0), 1e-9);
+}
+
+}  // namespace
+}  // namespace ambrig

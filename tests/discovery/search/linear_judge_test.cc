@@ -1,0 +1,134 @@
+// Signatures, linear steps and rankings on readings that are linear in gain and offset.
+#include "discovery/search/linear_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "discovery/decision/likelihood.h"
+#include "discovery/search/effect_round.h"
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kN = 300;  // independent numbers
+const std::vector<double> kX = {2e-5, 4e-5, 6e-5, 5e-5};
+
+/// A bank with the probes of sensor-gain and sensor-offset at A.x, in this order.
+SignatureBank BankOf(const LinearCase& c, const FitResult& base) {
+  SignatureBank bank;
+  for (const char* id : {"sensor-gain", "sensor-offset"})
+    bank.Simulate(c.model, base, ProbesOf(EffectNamed(id), "A.x", c.model, {}), nullptr);
+  return bank;
+}
+
+const SignatureBank::Entry& EntryOf(const SignatureBank& bank, const std::string& effect) {
+  for (const SignatureBank::Entry& e : bank.entries())
+    if (e.group.probes[0].name == effect) return e;
+  throw std::runtime_error("no entry of " + effect);
+}
+
+/// What a probe changes in a reading at position x [m].
+double Change(const EffectInstance& probe, double x) {
+  return probe.name == "sensor-gain" ? (probe.Value("gain") - 1) * x : probe.Value("offset");
+}
+
+TEST(SignatureBank, ProductsAreSumsOverTheRowsOfEitherKind) {
+  const LinearCase c(kX, 1, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank = BankOf(c, base);
+  const Gram& g = bank.Products(c.model);
+  for (const SignatureBank::Entry& a : bank.entries())
+    for (const SignatureBank::Entry& b : bank.entries()) {
+      double fit = 0, validate = 0;
+      for (std::size_t r = 0; r < kX.size(); ++r)
+        (r < c.fit_records() ? fit : validate) +=
+            LinearCase::kRows * Change(a.group.probes[0], kX[r]) *
+            Change(b.group.probes[0], kX[r]) / (LinearCase::kFloor * LinearCase::kFloor);
+      EXPECT_NEAR(g.fit(a.first, b.first), fit, 1e-5 * std::abs(fit));
+      EXPECT_NEAR(g.validate(a.first, b.first), validate, 1e-5 * std::abs(validate));
+    }
+  EXPECT_TRUE(bank.Holds(EntryOf(bank, "sensor-gain").group.probes[0]));
+  EXPECT_FALSE(bank.Holds(LinearCase::Gain(1.2345)));
+}
+
+TEST(SignatureBank, ProductsWithOneColumnAreThoseOfTheDefinition) {
+  const LinearCase c(kX, 1, 0);
+  const FitResult base = c.Base();
+  const SignatureBank bank = BankOf(c, base);
+  const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(c.model.size()), 1);
+  const Gram g = bank.ProductsWith(c.model, ones);
+  const SignatureBank::Entry& e = EntryOf(bank, "sensor-offset");
+  const double size = e.group.probes[0].Value("offset") / LinearCase::kFloor;
+  EXPECT_NEAR(g.fit(0, e.first), 3 * LinearCase::kRows * size, 1e-5 * std::abs(150 * size));
+  EXPECT_NEAR(g.validate(0, e.first), LinearCase::kRows * size, 1e-5 * std::abs(50 * size));
+  const Gram rows = RowProducts(c.model, ones, ones);  // A.x and A.y
+  EXPECT_EQ(rows.fit(0, 0), 2 * 3 * LinearCase::kRows);
+  EXPECT_EQ(rows.validate(0, 0), 2 * LinearCase::kRows);
+}
+
+TEST(LinearJudge, OneStepFindsTheOffsetOfTheData) {
+  const LinearCase c(kX, 1, 7e-6);
+  const FitResult base = c.Base();
+  SignatureBank bank = BankOf(c, base);
+  const Candidate found =
+      LinearJudge(c.model, base, bank, kN).Single(EntryOf(bank, "sensor-offset"));
+  EXPECT_NEAR(found.effect.Value("offset"), 7e-6, 1e-10);
+  EXPECT_LT(found.ratio_fit, 1e-3);
+  EXPECT_LT(found.ratio_validate, 1e-3);
+  EXPECT_NEAR(found.score, Score(c.model, 0, 0, kN, 1, 0), 1e-9);  // one number, no misfit
+}
+
+// A gain cannot make an offset: Σ (o - a x)² is least for a = o Σ x/Σ x², over A.x and A.y.
+TEST(LinearJudge, TheWrongEffectLeavesTheErrorOfLeastSquares) {
+  const double o = 7e-6;
+  const LinearCase c(kX, 1, o);
+  const FitResult base = c.Base();
+  SignatureBank bank = BankOf(c, base);
+  const Candidate found = LinearJudge(c.model, base, bank, kN).Single(EntryOf(bank, "sensor-gain"));
+  double s = 0, ss = 0;
+  for (std::size_t r = 0; r < c.fit_records(); ++r) s += kX[r], ss += kX[r] * kX[r];
+  const double a = o * s / ss, n = 2 * static_cast<double>(c.fit_records());
+  double left = 0;
+  for (std::size_t r = 0; r < c.fit_records(); ++r) left += std::pow(o - a * kX[r], 2);
+  EXPECT_NEAR(found.effect.Value("gain"), 1 + a, 1e-6);
+  EXPECT_NEAR(found.ratio_fit, std::sqrt(left / n) / LinearCase::kFloor, 1e-4);
+  EXPECT_NEAR(found.ratio_validate,
+              std::abs(o - a * kX.back()) / std::sqrt(2.0) / LinearCase::kFloor, 1e-4);
+}
+
+TEST(LinearJudge, APairSolvesBothAtOnce) {
+  const LinearCase c(kX, 1.06, -4e-6);
+  const FitResult base = c.Base();
+  SignatureBank bank = BankOf(c, base);
+  const LinearJudge judge(c.model, base, bank, kN);
+  const CandidatePair pair =
+      judge.Pair(EntryOf(bank, "sensor-gain"), EntryOf(bank, "sensor-offset"));
+  EXPECT_NEAR(pair.first.Value("gain"), 1.06, 1e-5);
+  EXPECT_NEAR(pair.second.Value("offset"), -4e-6, 1e-9);
+  EXPECT_LT(pair.ratio_validate, 2e-3);
+  for (const char* one : {"sensor-gain", "sensor-offset"})
+    EXPECT_GT(judge.Single(EntryOf(bank, one)).score, pair.score) << one;
+  const auto pairs = ScreenPairs(c.model, base, kN, bank, 3);
+  ASSERT_FALSE(pairs.empty());
+  EXPECT_NEAR(pairs[0].score, pair.score, 1e-9);
+}
+
+// An effect of the catalogue is found among those of the same plane, at its size, and by its price.
+TEST(EffectRound, TheEffectThatMadeTheDataIsRankedFirst) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  ScreenOptions options;
+  options.effective_sample_size = kN;
+  options.target = "A.x";
+  const std::vector<Candidate> all = Screen(c.model, base, {}, options, bank);
+  ASSERT_GE(all.size(), 2U);
+  EXPECT_EQ(all[0].effect.name, "sensor-gain");
+  EXPECT_NEAR(all[0].effect.Value("gain"), 1.08, 1e-5);
+  for (std::size_t k = 1; k < all.size(); ++k) EXPECT_LE(all[k - 1].score, all[k].score);
+}
+
+}  // namespace
+}  // namespace ambrig
