@@ -96,7 +96,8 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
   });
   if (gross) {
     const FoundShift s = ShiftOf(moving, r.data.rate);
-    if (std::abs(s.late) >= kLeast && s.left < 0.4) {
+    const double most = s.from > 0 ? 0.3 : 0.4;  // an instant more to choose
+    if (std::abs(s.late) >= kLeast && s.left < most) {
       out.push_back(TimeFault(r, "", s));
       for (GateColumn& c : columns) c.explained = true;
       return;

@@ -95,11 +95,9 @@ const Mistake* BestMistake(const GateColumn& c, double others, double* left) {
   for (const Mistake& m : Mistakes()) {
     const double rest = Left(c, m.factor);
     if (rest > m.left || rest >= *left || c.match.correlation < m.correlation) continue;
-    // what is seen against the noise must shrink by as much: numbers that are nearly nothing
-    // everywhere explain any prediction of nearly nothing
-    if (c.match.correlation < 0.3 && m.factor < 1 &&
-        c.match.measured_rms > 0.1 * c.match.predicted_rms)
-      continue;
+    // divided by the factor the column must still show what the model expects, its noise at least:
+    // a movement that the model lacks is no unit
+    if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) continue;
     if (m.alone && (c.match.error < 2 * kGross || others > 0.2 * c.match.error)) continue;
     best = &m;
     *left = rest;

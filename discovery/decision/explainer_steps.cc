@@ -26,14 +26,19 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
   if (chosen.empty()) return false;
   const SignatureBank bank = bank_;
   SetNuisances(chosen);
-  FitResult with = FitNow(now.hypothesis, nullptr);
-  const StageRatios after = RatiosOf(model_, with);
-  const double share = ExplainedShare(before.Answered(), after.Answered());
-  if (alone ? share < 0.8 || after.Answered() > 1.2 : share < 0.3) {
+  const auto give_up = [&] {
     full_.nuisances = model_.nuisances = Nuisances();
     bank_ = bank;
     return false;
-  }
+  };
+  // what they explain without a fit says whether one is worth it
+  const FitResult same = AllRows(now);
+  if (ExplainedShare(before.Answered(), RatiosOf(full_, same).Answered()) < (alone ? 0.6 : 0.2))
+    return give_up();
+  FitResult with = FitNow(now.hypothesis, nullptr);
+  const StageRatios after = RatiosOf(model_, with);
+  const double share = ExplainedShare(before.Answered(), after.Answered());
+  if (alone ? share < 0.8 || after.Answered() > 1.2 : share < 0.3) return give_up();
   now = std::move(with);
   out_.ladder.push_back(
       {"zeros, clocks and inputs of each record", now.ratio_fit, now.ratio_validate});
