@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "analysis/iso14839.h"
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/analysis_json.h"
 #include "app/pages/analysis_report.h"
@@ -67,6 +69,45 @@ AnalysisOptions OptionsOf(const AnalyzeCommand& c) {
   return o;
 }
 
+/// Speeds [rpm] at which the loop is unstable, neighbours as a range: "0 to 3000, 9000".
+std::string UnstableSpeeds(const RigAnalysis& a) {
+  std::string text;
+  for (std::size_t k = 0; k < a.rows.size(); ++k) {
+    if (a.rows[k].stable() || (k > 0 && !a.rows[k - 1].stable())) continue;
+    std::size_t last = k;
+    while (last + 1 < a.rows.size() && !a.rows[last + 1].stable()) ++last;
+    text += fmt::format("{}{:.0f}", text.empty() ? "" : ", ", a.rows[k].speed / kRpm);
+    if (last > k) text += fmt::format(" to {:.0f}", a.rows[last].speed / kRpm);
+  }
+  return text;
+}
+
+/// Axes in zones C and D of a stable loop: "z (D)".
+std::string PoorAxes(const RigAnalysis& a) {
+  std::map<std::string, char> worst;
+  for (const Sensitivity& s : a.sensitivity)
+    for (const AxisSensitivity& x : s.axes) worst[x.axis] = std::max(worst[x.axis], x.zone);
+  std::string text;
+  for (const auto& [axis, zone] : worst)
+    if (zone > 'B') text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", axis, zone);
+  return text;
+}
+
+void PrintVerdict(const RigAnalysis& a) {
+  if (!a.stable()) {
+    fmt::print("{}\n",
+               Coloured(fmt::format("closed loop UNSTABLE at {} rpm", UnstableSpeeds(a)), "red"));
+    return;
+  }
+  const std::string poor = PoorAxes(a);
+  fmt::print("{}\n", Coloured("closed loop stable at every speed analysed", "green"));
+  if (!poor.empty())
+    fmt::print("{}\n", Coloured("sensitivity outside zones A and B: " + poor, "red"));
+}
+
+/// Above this damping a response has no peak: no critical speed to a reader.
+bool HasResonance(double zeta) { return zeta < std::sqrt(0.5); }
+
 std::string Zone(char zone) {
   return Coloured(std::string(1, zone), zone == 'A' ? "green" : zone == 'B' ? "yellow" : "red");
 }
@@ -86,10 +127,14 @@ void PrintSensitivity(const RigAnalysis& a) {
              "peak |S|", "at [Hz]", "zone", "gain x from..to", "phase", "delay");
   for (const Sensitivity& s : a.sensitivity)
     for (const AxisSensitivity& x : s.axes)
-      fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n",
-                 s.speed / kRpm, x.axis, x.peak, x.peak_frequency, Zone(x.zone),
-                 fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up), x.phase_margin * 180 / kPi,
-                 x.delay_margin * 1e6);
+      if (!s.stable)
+        fmt::print("{:>9.0f} {:<6} {:>8} {:>10} {:>5} {:>18} {:>10} {:>12}\n", s.speed / kRpm,
+                   x.axis, "-", "-", "-", "-", "-", "-");
+      else
+        fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n",
+                   s.speed / kRpm, x.axis, x.peak, x.peak_frequency, Zone(x.zone),
+                   fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up),
+                   x.phase_margin * 180 / kPi, x.delay_margin * 1e6);
   fmt::print(
       "\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n",
       Coloured("simultaneous-loop disk margin: independent perturbations of all loops at once",
@@ -128,8 +173,9 @@ void PrintModes(const RigAnalysis& a) {
                    m.zeta, m.log_decrement, SenseName(m.sense()));
   }
   for (const DampedCritical& c : a.criticals)
-    fmt::print("  critical speed {:.0f} rpm, {}, log decrement {:.3f}\n", c.speed / kRpm,
-               SenseName(c.mode.sense()), c.mode.log_decrement);
+    if (HasResonance(c.mode.zeta))
+      fmt::print("  critical speed {:.0f} rpm, {}, log decrement {:.3f}\n", c.speed / kRpm,
+                 SenseName(c.mode.sense()), c.mode.log_decrement);
 }
 
 void PrintStandards(const RigAnalysis& a) {
@@ -160,18 +206,30 @@ void Print(const RigAnalysis& a) {
       }(),
       rig.controller.rate, a.options.lowest / kRpm, a.options.highest / kRpm,
       a.options.fastest / kRpm);
+  PrintVerdict(a);
   for (const std::string& note : a.point.notes) fmt::print("  note: {}\n", note);
   PrintCapacity(a);
   PrintSensitivity(a);
   PrintModes(a);
   PrintStandards(a);
-  fmt::print("\n{}\n", a.stable() ? Coloured("closed loop stable at every speed analysed", "green")
-                                  : Coloured("closed loop UNSTABLE at one or more speeds", "red"));
+}
+
+/// Most rigs are called rig.toml: their folder tells them apart.
+std::string OutputBase(const AnalyzeCommand& c) {
+  const std::filesystem::path rig = std::filesystem::absolute(c.rig).lexically_normal();
+  std::string name = rig.stem().string();
+  if (name == "rig") name = rig.parent_path().filename().string() + ".rig";
+  return (std::filesystem::path(c.out) / (name + ".analysis")).string();
 }
 
 int RunAnalyze(const AnalyzeCommand& c) {
   AnalysisOptions options = OptionsOf(c);
   const RigParameters rig = ReadRig(c.rig);
+  const std::string base = OutputBase(c);
+  std::vector<std::string> files;
+  if (!c.out.empty()) files = {base + ".json", base + ".html"};
+  c.common.CheckOutputs({c.rig}, files);
+  if (!c.out.empty()) PrepareFolder(c.out);
   RigAnalysis analysis;
   {
     Progress progress("analyze");
@@ -184,14 +242,9 @@ int RunAnalyze(const AnalyzeCommand& c) {
   c.common.WriteJson(json);
   if (!c.common.html.empty()) WriteAnalysisReport(analysis, c.rig, c.common.html);
   if (c.out.empty()) return analysis.stable() ? 0 : 1;
-  std::error_code failed;
-  std::filesystem::create_directories(c.out, failed);
-  if (failed) throw InputError(fmt::format("-o {}: {}", c.out, failed.message()));
-  const std::filesystem::path base =
-      std::filesystem::path(c.out) / (std::filesystem::path(c.rig).stem().string() + ".analysis");
-  WriteFileAtomically(base.string() + ".json", json.dump(2) + "\n");
-  WriteAnalysisReport(analysis, c.rig, base.string() + ".html");
-  fmt::print("written: {0}.json, {0}.html\n", base.string());
+  WriteFileAtomically(base + ".json", MarkedJson(json));
+  WriteAnalysisReport(analysis, c.rig, base + ".html");
+  fmt::print("written: {0}.json, {0}.html\n", base);
   return analysis.stable() ? 0 : 1;
 }
 
@@ -207,7 +260,7 @@ void AddAnalyze(CLI::App& app, Work& work) {
   command
       ->add_option("--max-speed", c->fastest,
                    "end of the Campbell diagram [rpm] (default: 1.5 operating speeds)")
-      ->check(CLI::Range(1.0, 1e7));
+      ->check(NumberIn(1, 1e7, "rpm"));
   command->add_option("--response", c->responses,
                       "frequency response INPUT:OUTPUT, e.g. A.x.force:B.x; may be repeated");
   command
@@ -217,16 +270,16 @@ void AddAnalyze(CLI::App& app, Work& work) {
   command
       ->add_option("--sine", c->sine,
                    "amplitude of those sines [N] (default: a hundredth of the capacity)")
-      ->check(CLI::Range(1e-9, 1e6));
-  command->add_option("-o,--out", c->out, "folder for RIG.analysis.json and RIG.analysis.html");
+      ->check(NumberIn(1e-9, 1e6, "N"));
+  command->add_option(
+      "-o,--out", c->out,
+      "folder for NAME.analysis.json and .html; of a rig.toml NAME is its folder.rig");
   c->common.AddTo(*command);
   command->footer(
       "Examples:\n"
       "  ambrig analyze examples/reference/rig.toml --speed 3000:9000 -o out\n"
-      "  ambrig analyze rig.toml --measure 12 --html rig.html       sensitivity, computed and "
-      "measured\n"
-      "  ambrig analyze rig.toml --response A.x.load:A.x --response A.x.force:A.i1 --json "
-      "rig.json\n"
+      "  ambrig analyze examples/reference/rig.toml --measure 3 --html rig.html\n"
+      "  ambrig analyze examples/reference/rig.toml --response A.x.load:A.x --json rig.json\n"
       "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft, "
       ".magnet, or a coil A.i1;\n"
       "of a named plane of a beam rotor: disk.x.load, disk.x.\n"
