@@ -132,7 +132,7 @@ void AddWeights(const RigParameters& rig, const RotorModel& rotor, const ShaftWe
 }
 
 /// d f / d x of a bearing at set-points `set`, axes x axes. [N/m]
-MatrixXd NegativeStiffness(const CoilNetwork& network, const SetPointVector& set, Eigen::Index axes,
+MatrixXd NegativeStiffness(const CoilNetwork& network, const CoilVector& set, Eigen::Index axes,
                            double gap) {
   MatrixXd out(axes, axes);
   for (Eigen::Index side = 0; side < axes; ++side)
