@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
+
 namespace ambrig {
 
 namespace {
-std::size_t U(int d) { return static_cast<std::size_t>(d); }
 double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // A step turns the fastest mode by this much: Runge-Kutta then errs by (wh)^4/120 = 8e-7 of its
@@ -54,17 +55,17 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
     auto [x, y] = Position(s, aux.map);
     double vx = aux.map.X(s.v), vy = aux.map.Y(s.v);
     if (aux.mount_dof >= 0) {
-      const std::size_t d = U(aux.mount_dof);
+      const std::size_t d = AsSize(aux.mount_dof);
       x -= s.q[d];
       y -= s.q[d + 1];
       vx -= s.v[d];
       vy -= s.v[d + 1];
     }
-    const double race = aux.race_dof >= 0 ? s.v[U(aux.race_dof)] : 0;
+    const double race = aux.race_dof >= 0 ? s.v[AsSize(aux.race_dof)] : 0;
     const ContactForce c =
         RadialContact(aux.parameters, p_.journal_radius, x, y, vx, vy, s.Omega, race);
     if (aux.mount_dof >= 0) {
-      const std::size_t d = U(aux.mount_dof);
+      const std::size_t d = AsSize(aux.mount_dof);
       const AuxiliaryParameters& p = aux.parameters;
       const double mx = -p.mount_stiffness * s.q[d] - p.mount_damping * s.v[d];
       const double my = -p.mount_stiffness * s.q[d + 1] - p.mount_damping * s.v[d + 1];
@@ -76,7 +77,8 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
       f.stator_x += c.fx;
       f.stator_y += c.fy;
     }
-    if (aux.race_dof >= 0) f.Q[U(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
+    if (aux.race_dof >= 0)
+      f.Q[AsSize(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
     if (c.penetration <= 0) continue;
     aux.map.AddForce(c.fx, c.fy, f.Q);
     f.torque += c.torque;
@@ -85,7 +87,7 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   shaft_.AddForces(s, f.Q);
   double ax = f.base_ax, ay = f.base_ay;
   if (base_dof_ >= 0) {
-    const std::size_t d = U(base_dof_);
+    const std::size_t d = AsSize(base_dof_);
     // Relative to the floor, which may itself accelerate.
     a[d] =
         (-base_.stiffness * s.q[d] - base_.damping * s.v[d] - f.stator_x) / base_.mass - f.base_ax;
@@ -102,11 +104,11 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   a[4] = (f.Q[4] + p_.inertia_polar * s.Omega * s.v[3]) / p_.inertia_transverse;
   for (int d = 5; d < dof_; ++d)
     if (base_dof_ < 0 || (d != base_dof_ && d != base_dof_ + 1))
-      a[U(d)] = f.Q[U(d)] * inverse_mass_[U(d)];
+      a[AsSize(d)] = f.Q[AsSize(d)] * inverse_mass_[AsSize(d)];
   for (const AuxiliaryPlane& aux : aux_) {  // mounts, too, are seen from the base
     if (aux.mount_dof < 0) continue;
-    a[U(aux.mount_dof)] -= ax;
-    a[U(aux.mount_dof) + 1] -= ay;
+    a[AsSize(aux.mount_dof)] -= ax;
+    a[AsSize(aux.mount_dof) + 1] -= ay;
   }
   *torque = f.torque;
 }
@@ -137,7 +139,7 @@ void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stato
   for (std::size_t k = 0; k < 4; ++k) {
     stage.t = s.t + c[k] * dt;
     if (k > 0)
-      for (std::size_t d = 0; d < U(dof_); ++d) {
+      for (std::size_t d = 0; d < AsSize(dof_); ++d) {
         stage.q[d] = s.q[d] + c[k] * dt * k_v[k - 1][d];
         stage.v[d] = s.v[d] + c[k] * dt * k_a[k - 1][d];
       }
@@ -151,10 +153,10 @@ void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stato
     Accelerations(stage, forced, stator_x, stator_y, k_a[k], &torque, near_contact);
     k_w[k] = free_spin ? torque / p_.inertia_polar : 0;
     stage_w[k] = stage.Omega;
-    for (std::size_t d = 0; d < U(dof_); ++d) k_v[k][d] = stage.v[d];
+    for (std::size_t d = 0; d < AsSize(dof_); ++d) k_v[k][d] = stage.v[d];
   }
   const double w = dt / 6;
-  for (std::size_t d = 0; d < U(dof_); ++d) {
+  for (std::size_t d = 0; d < AsSize(dof_); ++d) {
     s.q[d] += w * (k_v[0][d] + 2 * (k_v[1][d] + k_v[2][d]) + k_v[3][d]);
     s.v[d] += w * (k_a[0][d] + 2 * (k_a[1][d] + k_a[2][d]) + k_a[3][d]);
   }
@@ -210,8 +212,8 @@ double RotorModel::Penetration(const MotionState& s, std::size_t plane) const {
   const AuxiliaryPlane& aux = aux_[plane];
   auto [x, y] = Position(s, aux.map);
   if (aux.mount_dof >= 0) {
-    x -= s.q[U(aux.mount_dof)];
-    y -= s.q[U(aux.mount_dof) + 1];
+    x -= s.q[AsSize(aux.mount_dof)];
+    y -= s.q[AsSize(aux.mount_dof) + 1];
   }
   return Length(x, y) - aux.parameters.clearance;
 }
@@ -261,7 +263,8 @@ double RotorModel::StiffnessRate(const MotionState& s) const {
     const double stiffness = p.exponent * p.stiffness * std::pow(reach, p.exponent - 1);
     const double arm = aux.map.z;
     double mobility = 1 / p_.mass + arm * arm / p_.inertia_transverse;
-    for (int c = 4; c < aux.map.count; ++c) mobility += aux.map.wx[U(c)] * aux.map.wx[U(c)];
+    for (int c = 4; c < aux.map.count; ++c)
+      mobility += aux.map.wx[AsSize(c)] * aux.map.wx[AsSize(c)];
     if (aux.mount_dof >= 0) {
       mobility += 1 / p.mount_mass;
       rate = std::max(
