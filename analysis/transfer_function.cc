@@ -7,6 +7,7 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
+#include "core/record/channels.h"
 
 namespace ambrig {
 
@@ -20,7 +21,8 @@ using Eigen::VectorXcd;
 TransferFunction::TransferFunction(const OperatingPoint& point, const ClosedLoop& loop)
     : loop_(loop), axes_(point.Axes()) {
   for (const PlantCoil& c : loop.plant().coils)
-    coils_.push_back(fmt::format("{}.i{}", point.rig().bearings[c.bearing].name, c.lane + 1));
+    coils_.push_back(
+        ChannelId{ChannelKind::kCoilCurrent, point.rig().bearings[c.bearing].name, c.lane}.name());
   const Eigen::ComplexSchur<MatrixXcd> schur(loop.Phi.cast<Complex>());
   Require(schur.info() == Eigen::Success, "converged eigenvalues of the closed loop");
   T_ = schur.matrixT();

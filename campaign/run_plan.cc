@@ -57,7 +57,7 @@ SetCapacity RunPlan::Theory(const FailureSet& set, const CampaignFaultKind& kind
   const double most = PidOf(campaign_.rig, b).f_max;
   const auto table = tables_.find(set.bearing);
   if (table == tables_.end()) return {"healthy", most};
-  Coils turns = Coils::Ones();
+  CoilVector turns = CoilVector::Ones();
   for (const int coil : set.coils) turns[coil - 1] = TurnsLeft(kind);
   const Distribution d = table->second->Lookup(turns);
   const double c0 = BiasCurrent(campaign_.rig, b), k = ForceConstant(b);
@@ -122,7 +122,7 @@ void RunPlan::AddPosition(PlannedRun& p) const {
   // without the lead e the shaft would run past the reference by ks / (kp - ks) until the integral
   // has settled.
   const PidParameters& pid = PidOf(p.rig, b);
-  const double ks = tables_.at(b.name)->Lookup(Coils(Coils::Ones())).stiffness(0, 0);
+  const double ks = tables_.at(b.name)->Lookup(CoilVector(CoilVector::Ones())).stiffness(0, 0);
   const auto samples = static_cast<std::size_t>(std::ceil(p.scenario.duration * rate)) + 1;
   double lead = 0, before = 0;
   for (std::size_t k = 0; k < samples; ++k) {

@@ -1,16 +1,22 @@
 #include "rig/rig_channels.h"
 
+#include "core/base/errors.h"
+
 namespace ambrig {
 
 namespace {
 
 constexpr int kAxialDirection = 2;
 
-/// Directions that a bearing acts in: x and y, z, or x alone along its own axis.
+/// Directions that a bearing acts in, from the names of its axes: its readings are called as they.
 std::vector<int> DirectionsOf(const BearingParameters& b) {
-  if (b.kind == BearingKind::kThrust) return {kAxialDirection};
-  if (b.kind == BearingKind::kOpposed) return {0};
-  return {0, 1};
+  std::vector<int> out;
+  for (const std::string& axis : b.Axes()) {
+    const auto id = ParseChannel(axis);
+    Require(id && id->kind == ChannelKind::kReading, "an axis is called as its reading");
+    out.push_back(id->index);
+  }
+  return out;
 }
 
 /// The name along the shaft does not tell the bearing, for there is one thrust bearing.

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
+
 namespace ambrig {
 
 namespace {
-std::size_t U(int k) { return static_cast<std::size_t>(k); }
 constexpr double kLeastGap = 0.02;  // of the nominal one: there the shaft has reached the pole
 }  // namespace
 
@@ -23,7 +24,7 @@ CoilNetwork::CoilNetwork(const StatorLanes& lanes) : reluctance_(lanes.reluctanc
     w.leakage = lanes.leakage[j];
     w.resistance = lanes.resistance[j];
     windings.push_back(w);
-    const std::size_t p = U(w.pole);
+    const std::size_t p = AsSize(w.pole);
     dx_[p] = lanes.direction_x[j];
     dy_[p] = lanes.direction_y[j];
     gap_[p] = lanes.gap_offset[j];
@@ -31,7 +32,7 @@ CoilNetwork::CoilNetwork(const StatorLanes& lanes) : reluctance_(lanes.reluctanc
 }
 
 std::size_t CoilNetwork::ReserveLoop(int coil) {
-  Winding w = windings[U(coil)];
+  Winding w = windings[AsSize(coil)];
   w.coil = -1;
   w.live = false;
   windings.push_back(w);
@@ -39,7 +40,7 @@ std::size_t CoilNetwork::ReserveLoop(int coil) {
 }
 
 double CoilNetwork::Gap(int pole, double x, double y) const {
-  const std::size_t p = U(pole);
+  const std::size_t p = AsSize(pole);
   return std::max(gap_[p] - x * dx_[p] - y * dy_[p], kLeastGap * reluctance_.gap0);
 }
 
@@ -48,12 +49,12 @@ void CoilNetwork::Solve(const double* lambda, double x, double y, NetworkState& 
   for (std::size_t w = 0; w < windings.size(); ++w) {
     const Winding& k = windings[w];
     if (!Carries(k)) continue;
-    own[U(k.pole)] += k.n * k.n / k.leakage;
-    m[U(k.pole)] += k.n * lambda[w] / k.leakage;
+    own[AsSize(k.pole)] += k.n * k.n / k.leakage;
+    m[AsSize(k.pole)] += k.n * lambda[w] / k.leakage;
   }
   double sum_G = 0, sum_Gm = 0;
   for (int q = 0; q < poles_; ++q) {
-    const std::size_t p = U(q);
+    const std::size_t p = AsSize(q);
     const double g = Gap(q, x, y);
     G[p] = 1 / (reluctance_.Value(g) + own[p]);
     pull[p] = 0.5 * reluctance_.Slope(g);
@@ -63,7 +64,7 @@ void CoilNetwork::Solve(const double* lambda, double x, double y, NetworkState& 
   const double potential = floating_ ? sum_Gm / sum_G : 0;
   s.fx = s.fy = 0;
   for (int q = 0; q < poles_; ++q) {
-    const std::size_t p = U(q);
+    const std::size_t p = AsSize(q);
     s.phi[p] = G[p] * (m[p] - potential);
     const double f = pull[p] * s.phi[p] * s.phi[p];
     s.fx += f * dx_[p];
@@ -71,7 +72,7 @@ void CoilNetwork::Solve(const double* lambda, double x, double y, NetworkState& 
   }
   for (std::size_t w = 0; w < windings.size(); ++w) {
     const Winding& k = windings[w];
-    s.i[w] = Carries(k) ? (lambda[w] - k.n * s.phi[U(k.pole)]) / k.leakage : 0;
+    s.i[w] = Carries(k) ? (lambda[w] - k.n * s.phi[AsSize(k.pole)]) / k.leakage : 0;
   }
 }
 
@@ -81,12 +82,12 @@ void CoilNetwork::Rates(const NetworkState& s, const double* slope, double x, do
   for (std::size_t w = 0; w < windings.size(); ++w) {
     const Winding& k = windings[w];
     if (!Carries(k)) continue;
-    own[U(k.pole)] += k.n * k.n / k.leakage;
-    m[U(k.pole)] += k.n * slope[w] / k.leakage;
+    own[AsSize(k.pole)] += k.n * k.n / k.leakage;
+    m[AsSize(k.pole)] += k.n * slope[w] / k.leakage;
   }
   double sum_G = 0, sum_Gm = 0;
   for (int q = 0; q < poles_; ++q) {
-    const std::size_t p = U(q);
+    const std::size_t p = AsSize(q);
     const double g = Gap(q, x, y);
     G[p] = 1 / (reluctance_.Value(g) + own[p]);
     m[p] += s.phi[p] * reluctance_.Slope(g) * (vx * dx_[p] + vy * dy_[p]);  // g' = -v·d
@@ -94,36 +95,36 @@ void CoilNetwork::Rates(const NetworkState& s, const double* slope, double x, do
     sum_Gm += G[p] * m[p];
   }
   const double potential = floating_ ? sum_Gm / sum_G : 0;
-  for (int q = 0; q < poles_; ++q) r.phi[U(q)] = G[U(q)] * (m[U(q)] - potential);
+  for (int q = 0; q < poles_; ++q) r.phi[AsSize(q)] = G[AsSize(q)] * (m[AsSize(q)] - potential);
   for (std::size_t w = 0; w < windings.size(); ++w) {
     const Winding& k = windings[w];
-    r.i[w] = Carries(k) ? (slope[w] - k.n * r.phi[U(k.pole)]) / k.leakage : 0;
+    r.i[w] = Carries(k) ? (slope[w] - k.n * r.phi[AsSize(k.pole)]) / k.leakage : 0;
   }
 }
 
 void CoilNetwork::Linkages(const double* current, double x, double y, double* lambda) const {
   std::array<double, kLanes> mmf{}, P{};
   for (std::size_t w = 0; w < windings.size(); ++w)
-    if (windings[w].live) mmf[U(windings[w].pole)] += windings[w].n * current[w];
+    if (windings[w].live) mmf[AsSize(windings[w].pole)] += windings[w].n * current[w];
   double top = 0, sum = 0;
   for (int q = 0; q < poles_; ++q) {
-    P[U(q)] = 1 / reluctance_.Value(Gap(q, x, y));
-    top += P[U(q)] * mmf[U(q)];
-    sum += P[U(q)];
+    P[AsSize(q)] = 1 / reluctance_.Value(Gap(q, x, y));
+    top += P[AsSize(q)] * mmf[AsSize(q)];
+    sum += P[AsSize(q)];
   }
   const double potential = floating_ ? top / sum : 0;
   for (std::size_t w = 0; w < windings.size(); ++w) {
-    const std::size_t p = U(windings[w].pole);
+    const std::size_t p = AsSize(windings[w].pole);
     lambda[w] = windings[w].n * P[p] * (mmf[p] - potential) + windings[w].leakage * current[w];
   }
 }
 
 void CoilNetwork::Short(int coil, int loop, double s, double r, const NetworkState& now,
                         double* lambda) {
-  Winding& w = windings[U(coil)];
-  const double phi = now.phi[U(w.pole)], current = now.i[U(coil)];
+  Winding& w = windings[AsSize(coil)];
+  const double phi = now.phi[AsSize(w.pole)], current = now.i[AsSize(coil)];
   if (loop >= 0) {
-    Winding& l = windings[U(loop)];
+    Winding& l = windings[AsSize(loop)];
     l.pole = w.pole;
     l.n = s * w.n;
     l.leakage = s * s * w.leakage;
@@ -142,7 +143,7 @@ double CoilNetwork::FieldEnergy(const NetworkState& s, double x, double y) const
   for (std::size_t w = 0; w < windings.size(); ++w)
     energy += 0.5 * windings[w].leakage * s.i[w] * s.i[w];
   for (int q = 0; q < poles_; ++q)
-    energy += 0.5 * reluctance_.Value(Gap(q, x, y)) * s.phi[U(q)] * s.phi[U(q)];
+    energy += 0.5 * reluctance_.Value(Gap(q, x, y)) * s.phi[AsSize(q)] * s.phi[AsSize(q)];
   return energy;
 }
 

@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "actuators/magnetics/coil_network.h"
+#include "core/base/index.h"
 
 namespace ambrig {
 
 namespace {
-
-std::size_t U(int k) { return static_cast<std::size_t>(k); }
 
 /// d²R/dg² of a pole's reluctance [1/(H m²)]: zero but for fringing.
 double Curvature(const GapReluctance& r, double g) {
@@ -23,9 +22,9 @@ Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s,
   const int per_pole = lanes.coupling == Coupling::kSides ? 2 : 1;
   for (int j = 0; j < lanes.coils; j += per_pole) {
     const Eigen::Vector2d d(lanes.direction_x[j], lanes.direction_y[j]);
-    const double g = lanes.gap_offset[j] - d.x() * x - d.y() * y, phi = s.phi[U(j / per_pole)];
+    const double g = lanes.gap_offset[j] - d.x() * x - d.y() * y, phi = s.phi[AsSize(j / per_pole)];
     const double closing = d.x() * dx + d.y() * dy;
-    out += d * (lanes.reluctance.Slope(g) * phi * rate.phi[U(j / per_pole)] -
+    out += d * (lanes.reluctance.Slope(g) * phi * rate.phi[AsSize(j / per_pole)] -
                 0.5 * Curvature(lanes.reluctance, g) * closing * phi * phi);
   }
   return out;
@@ -42,9 +41,9 @@ LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, do
   LinearBearing out;
   double carried[kMaxWindings] = {}, lambda[kMaxWindings] = {}, slope[kMaxWindings] = {};
   for (int j = 0; j < lanes.coils; ++j) {
-    network.windings[U(j)].conducts = !lanes.unipolar || current[j] > 0;
-    network.windings[U(j)].broken = lanes.open[U(j)];
-    if (!network.windings[U(j)].conducts || lanes.open[U(j)]) continue;
+    network.windings[AsSize(j)].conducts = !lanes.unipolar || current[j] > 0;
+    network.windings[AsSize(j)].broken = lanes.open[AsSize(j)];
+    if (!network.windings[AsSize(j)].conducts || lanes.open[AsSize(j)]) continue;
     carried[j] = current[j];
     out.coils.push_back(j);
   }
@@ -58,11 +57,12 @@ LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, do
   out.I_r.resize(n, 2);
   out.F_lambda.resize(2, n);
   const auto column = [&](const NetworkRates& rate, auto&& to) {
-    for (Eigen::Index k = 0; k < n; ++k) to(k) = rate.i[U(out.coils[U(static_cast<int>(k))])];
+    for (Eigen::Index k = 0; k < n; ++k)
+      to(k) = rate.i[AsSize(out.coils[AsSize(static_cast<int>(k))])];
   };
   NetworkRates rate;
   for (Eigen::Index k = 0; k < n; ++k) {
-    const int coil = out.coils[U(static_cast<int>(k))];
+    const int coil = out.coils[AsSize(static_cast<int>(k))];
     out.current(k) = current[coil];
     out.resistance(k) = lanes.resistance[coil];
     slope[coil] = 1;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/base/index.h"
 #include "rig/nominal_control.h"
 #include "rig/rig_assembly.h"
 
@@ -13,8 +14,6 @@ namespace {
 
 // Below this a run's start holds a coil at the bridge's lower limit (base_model.md section 3).
 constexpr double kInterrupted = 0.2;  // [A]
-
-std::size_t U(int k) { return static_cast<std::size_t>(k); }
 
 }  // namespace
 
@@ -33,14 +32,14 @@ void OperatingPoint::PlaceCoils(std::size_t k) {
   const Eigen::Vector3d command(own.map.c0, fx / (own.map.k * own.map.c0),
                                 fy / (own.map.k * own.map.c0));
   const Eigen::VectorXd free = own.map.W * command;
-  std::vector<CoilPoint> placed(U(own.coils));
+  std::vector<CoilPoint> placed(AsSize(own.coils));
   for (int j = 0; j < own.coils; ++j) {
-    CoilPoint& c = placed[U(j)];
+    CoilPoint& c = placed[AsSize(j)];
     c.current = set[j];
     c.commanded = set[j] == free[j];
     CurrentRegulator regulator(amplifier);
     regulator.HoldCurrent(std::max(c.current, 1.01 * kInterrupted),
-                       plant().bearings[k].base_resistance[j]);
+                          plant().bearings[k].base_resistance[j]);
     c.duty = regulator.DutyFromVoltage(regulator.integral());
     const std::string name = fmt::format("{}.coil{}", own.name, j + 1);
     if (!c.commanded)
@@ -102,7 +101,7 @@ OperatingPoint::OperatingPoint(const TrueRig& true_rig, const NominalRig& known)
     const BearingPlant& b = plant().bearings[k];
     const auto [x, y] = plant().rotor.Position(motion, b.plane);
     Lane current{};
-    for (int j = 0; j < b.lanes.coils; ++j) current[j] = coils[k][U(j)].current;
+    for (int j = 0; j < b.lanes.coils; ++j) current[j] = coils[k][AsSize(j)].current;
     bearings.push_back(LineariseBearing(b.lanes, current, x - b.offset_x, y - b.offset_y));
   }
   NoteWhatIsLeftOut();

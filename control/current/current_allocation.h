@@ -3,15 +3,15 @@
 /// memory of its last currents, told where the rotor is. One call per controller period.
 #include <Eigen/Dense>
 
-namespace ambrig {
+#include "actuators/magnetics/radial_stator.h"
 
-using SetPointVector = Eigen::Matrix<double, 8, 1>;  // [A]
+namespace ambrig {
 
 class CurrentAllocation {
  public:
   virtual ~CurrentAllocation() = default;
-  /// Forces [N] and the rotor's position [m], as measured, to set-points.
-  virtual SetPointVector Step(double fx, double fy, double x, double y) = 0;
+  /// Forces [N] and the rotor's position [m], as measured, to set-points [A].
+  virtual CoilVector Step(double fx, double fy, double x, double y) = 0;
   /// The forces of the last call [N].
   virtual Eigen::Vector2d LastForce() const = 0;
 };

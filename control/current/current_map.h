@@ -22,11 +22,11 @@ struct CurrentMap {
   std::shared_ptr<CurrentAllocation> allocation;
 
   /// Forces [N], position [m] -> set-points [A].
-  SetPointVector SetPoints(double fx, double fy, double x = 0, double y = 0) const {
+  CoilVector SetPoints(double fx, double fy, double x = 0, double y = 0) const {
     const Eigen::Vector2d f = Eigen::Vector2d(fx, fy) + stiffness_change * Eigen::Vector2d(x, y);
-    const SetPointVector set =
+    const CoilVector set =
         allocation ? allocation->Step(f.x(), f.y(), x, y)
-                   : SetPointVector(W * Eigen::Vector3d(c0, f.x() / (k * c0), f.y() / (k * c0)));
+                   : CoilVector(W * Eigen::Vector3d(c0, f.x() / (k * c0), f.y() / (k * c0)));
     return set.cwiseMax(unipolar ? 0.0 : -i_max).cwiseMin(i_max);
   }
 };

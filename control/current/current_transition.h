@@ -12,7 +12,7 @@ class CurrentTransition {
  public:
   virtual ~CurrentTransition() = default;
   /// `wanted`: set-points of the new map for `force` [N]. Returns what is commanded now.
-  virtual SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d& force) = 0;
+  virtual CoilVector Step(const CoilVector& wanted, const Eigen::Vector2d& force) = 0;
   /// The new map's set-points have been reached; Step hands them through.
   virtual bool done() const = 0;
   virtual std::unique_ptr<CurrentTransition> Clone() const = 0;

@@ -234,6 +234,60 @@ bool MayBeConstant(const Scenario& s, const std::string& channel) {
   return id && id->row().may_be_constant;
 }
 
+void ReadNoise(const TomlTable& root, const std::map<std::string, std::string>& known, Case& c) {
+  const auto noise = root.Table("noise");
+  if (!noise) return;
+  for (const std::string& channel : noise->Keys()) {
+    if (!known.contains(channel)) noise->Fail(channel, "is not a channel of this rig");
+    const std::string& unit = known.at(channel);
+    c.noise[channel] =
+        Within(*noise, channel, kRequired, {unit, 0, LargestNoise(unit), "rms of the noise"});
+  }
+}
+
+/// One [[record]]: its scenario, its data in the rig's channels and what their quality is.
+CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::string>& known,
+                          Case& c) {
+  CaseRecord r;
+  r.scenario_file = ExistingFile(t, "scenario");
+  r.data_file = ExistingFile(t, "data");
+  r.validate = t.Choice("use", "fit", "fit, validate, test") != "fit";
+  r.scenario = ReadScenario(r.scenario_file, c.rig);
+  r.time_offset =
+      Within(t, "time_offset", 0, {"s", -1e5, 1e5, "scenario time of the logger's zero"});
+  if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time")
+    t.Fail("kind", fmt::format("= \"{}\" is not compared yet, allowed: \"time\"", kind));
+  r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c, r.sources);
+  const auto left_out = t.Rows("leave_out");
+  RejectReused(c, r, t);
+  t.RejectUnknownKeys();
+  r.data.start += r.time_offset;
+  if (r.time_offset != 0) {
+    CutBefore(r.data);
+    CutBehind(r.data, r.scenario.duration);
+  }
+  LeaveOut(r.data, left_out, t);
+  if (r.data.channels.empty())
+    t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
+  CheckAgainstScenario(r, t);
+  for (const Channel& ch : r.data.channels) {
+    r.quality.push_back(InspectChannel(ch, MayBeConstant(r.scenario, ch.name)));
+    if (!r.quality.back().verdict.starts_with("good"))
+      c.notes.push_back(fmt::format("{}: {}: {}", r.data_file, ch.name, r.quality.back().verdict));
+  }
+  return r;
+}
+
+/// Without any record marked "validate" every third one is kept back for that.
+void ReserveForValidation(Case& c) {
+  const bool any =
+      std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
+  if (any || c.records.size() <= 2) return;
+  for (std::size_t k = 2; k < c.records.size(); k += 3) c.records[k].validate = true;
+  c.notes.push_back(
+      "no record is marked \"validate\": every third record is reserved for validation");
+}
+
 }  // namespace
 
 Case ReadCase(const std::string& path) {
@@ -246,6 +300,7 @@ Case ReadCase(const std::string& path) {
   c.rig_file = ExistingFile(root, "rig", "rig.toml");
   c.rig = ReadRig(c.rig_file);
   const auto known = KnownChannels(c.rig);
+<<<<<<< HEAD
   if (const auto noise = root.Table("noise"))
     for (const std::string& channel : noise->Keys()) {
       if (!known.contains(channel)) noise->Fail(channel, "is not a channel of this rig");
@@ -253,10 +308,14 @@ Case ReadCase(const std::string& path) {
       c.noise[channel] =
           Within(*noise, channel, kRequired, {unit, 0, LargestNoise(unit), "rms of the noise"});
     }
+=======
+  ReadNoise(root, known, c);
+>>>>>>> refs/heads/vocabulary
   c.nuisances = ReadNuisances(root, known);
   const auto tables = root.Tables("record");
   if (tables.empty())
     root.Fail("record", "is missing, allowed: one or more [[record]] with scenario and data");
+<<<<<<< HEAD
   bool any_fit = false;
   for (const TomlTable& t : tables) {
     CaseRecord r;
@@ -290,15 +349,13 @@ Case ReadCase(const std::string& path) {
     any_fit = any_fit || !r.validate;
     c.records.push_back(std::move(r));
   }
+=======
+  for (const TomlTable& t : tables) c.records.push_back(ReadCaseRecord(t, known, c));
+>>>>>>> refs/heads/vocabulary
   root.RejectUnknownKeys();
-  if (!any_fit) root.Fail("record", "has no record with use = \"fit\", allowed: at least one");
-  const bool any_validate =
-      std::any_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; });
-  if (!any_validate && c.records.size() > 2) {  // every third record is kept back
-    for (std::size_t k = 2; k < c.records.size(); k += 3) c.records[k].validate = true;
-    c.notes.push_back(
-        "no record is marked \"validate\": every third record is reserved for validation");
-  }
+  if (std::all_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; }))
+    root.Fail("record", "has no record with use = \"fit\", allowed: at least one");
+  ReserveForValidation(c);
   return c;
 }
 

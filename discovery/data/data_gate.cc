@@ -51,13 +51,6 @@ std::string Quantity(const DataFault& f) {
 
 }  // namespace
 
-std::string KindOf(const std::string& channel) {
-  const auto dot = channel.rfind('.');
-  std::string kind = dot == std::string::npos ? channel : channel.substr(dot + 1);
-  while (!kind.empty() && std::isdigit(static_cast<unsigned char>(kind.back()))) kind.pop_back();
-  return kind;
-}
-
 std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<double>& predicted,
                                    const Hypothesis& h) {
   std::vector<DataFault> out;

@@ -59,7 +59,4 @@ void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFaul
 void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
                    std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 
-/// "i" of "A.i3", "x" of "A.x", "bus", "omega": what a column measures.
-std::string KindOf(const std::string& channel);
-
 }  // namespace ambrig

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
 
 namespace ambrig {
@@ -121,7 +122,7 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
 
 void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
-  const Channel* omega = r.data.Find("omega");
+  const Channel* omega = Find(r.data, {ChannelKind::kSpeed});
   if (!omega || r.scenario.speed_free_from < r.scenario.duration) return;
   MatchedColumn c;
   double most = 0;

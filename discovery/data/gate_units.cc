@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
 
 namespace ambrig {
@@ -133,9 +134,9 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
 void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
-  const auto kind = [](const GateColumn& c) {
-    const std::string k = KindOf(c.name);
-    return k == "y" ? std::string("x") : k == "fy" ? std::string("fx") : k;
+  const auto kind = [](const GateColumn& c) {  // columns along the shaft are a kind of their own
+    const auto id = ParseChannel(c.name);
+    return std::pair(id->kind, id->row().scope == ChannelScope::kDirection && id->index == 2);
   };
   const auto against = [](const GateColumn& a, const GateColumn& b) {  // a's data, b's prediction
     std::vector<double> predicted = b.column.predicted;

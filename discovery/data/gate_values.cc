@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
 #include "discovery/data/held_values.h"
 
@@ -19,10 +20,12 @@ constexpr double kBeyond = 5;         // floors by which the prediction passes t
 
 /// Largest value that the channel can show [SI]; infinity where nothing limits it.
 double LimitOf(const RigParameters& rig, const std::string& channel) {
-  const std::string kind = KindOf(channel);
-  if (kind == "i" || kind == "s") return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
-  if (kind == "d") return 1;
-  if (kind == "bus") return 2 * rig.amplifier.bus_voltage;
+  const auto id = ParseChannel(channel);
+  if (!id) return kInfinity;
+  if (id->kind == ChannelKind::kCoilCurrent || id->kind == ChannelKind::kSetPoint)
+    return std::max(rig.amplifier.adc_range, rig.amplifier.i_max);
+  if (id->kind == ChannelKind::kDuty) return 1;
+  if (id->kind == ChannelKind::kBus) return 2 * rig.amplifier.bus_voltage;
   for (const BearingParameters& b : rig.bearings)
     for (const std::string& axis : b.Axes())
       if (axis == channel)
@@ -115,14 +118,16 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
   const CaseRecord& r = model.data().records[record];
   StuckColumns(r, out);
   for (GateColumn& c : columns) {
-    const std::string kind = KindOf(c.name);
+    const bool set_point = IsOfKind(c.name, ChannelKind::kSetPoint);
     const std::vector<double>& y = ChannelOf(r, c.name).samples;
     // set-points and duties stand at their limits when the controller asks for more
-    if (kind == "d" || kind == "omega" || y.size() != c.column.size()) continue;
+    if (IsOfKind(c.name, ChannelKind::kDuty) || IsOfKind(c.name, ChannelKind::kSpeed) ||
+        y.size() != c.column.size())
+      continue;
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
     // a coarse converter repeats values everywhere
     if (UsualHold(y) > 3) continue;
-    if (kind != "s" && *low < *high) {
+    if (!set_point && *low < *high) {
       const std::size_t rows = ClippedRows(c, y, *high, 1) + ClippedRows(c, y, *low, -1);
       if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
         DataFault f;
@@ -139,7 +144,7 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
     }
     if (r.scenario.start == StartState::kResting) continue;
     const HeldStretch s = FrozenStretch(y);
-    if (s.count == 0 || (kind == "s" && (s.value == *low || s.value == *high))) continue;
+    if (s.count == 0 || (set_point && (s.value == *low || s.value == *high))) continue;
     if (s.value != 0 && (s.value == *low || s.value == *high)) continue;
     Held(r, c.name, s, out);
     c.explained = true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "discovery/data/noise_estimate.h"
 #include "discovery/model/model.h"
 
@@ -17,17 +18,15 @@ constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none
 
 using ByChannel = std::map<std::string, std::vector<double>>;
 
-bool IsCurrent(const std::string& channel) {
-  const auto dot = channel.find(".i");
-  return dot != std::string::npos && dot + 2 < channel.size();
+bool IsCurrent(const std::string& channel) { return IsOfKind(channel, ChannelKind::kCoilCurrent); }
+
+/// Channels whose noise is their sensor's own, not what comes round the control loop.
+bool IsDirect(const std::string& channel) {
+  return IsOfKind(channel, ChannelKind::kBus) || IsOfKind(channel, ChannelKind::kLoadCell) ||
+         IsOfKind(channel, ChannelKind::kReading);
 }
-bool IsLoadCell(const std::string& channel) {
-  return channel.ends_with(".fx") || channel.ends_with(".fy") || channel.ends_with(".fz");
-}
-bool IsAxis(const RigParameters& rig, const std::string& channel) {
-  const std::vector<std::string> axes = AxisNames(rig);
-  return std::find(axes.begin(), axes.end(), channel) != axes.end();
-}
+
+std::string BusName() { return ChannelId{ChannelKind::kBus}.name(); }
 
 /// White noise of a - b in every target, by channel.
 template <class Chosen>
@@ -109,7 +108,7 @@ NoiseModel StatedNoise(const RigParameters& rig, const std::map<std::string, dou
   for (const BearingParameters& b : rig.bearings)
     for (const std::string& axis : b.Axes())
       if (b.sensor.noise > 0) state(axis, b.sensor.noise);
-  if (rig.amplifier.bus_noise > 0) state("bus", rig.amplifier.bus_noise);
+  if (rig.amplifier.bus_noise > 0) state(BusName(), rig.amplifier.bus_noise);
   for (const auto& [channel, rms] : of_case) state(channel, rms);
   return noise;
 }
@@ -117,7 +116,7 @@ NoiseModel StatedNoise(const RigParameters& rig, const std::map<std::string, dou
 RigParameters WithNoise(const RigParameters& rig, const NoiseModel& noise) {
   RigParameters out = rig;
   if (std::isfinite(noise.current_sample)) out.amplifier.current_noise = noise.current_sample;
-  if (const double bus = noise.Used("bus"); std::isfinite(bus)) out.amplifier.bus_noise = bus;
+  if (const double bus = noise.Used(BusName()); std::isfinite(bus)) out.amplifier.bus_noise = bus;
   for (BearingParameters& b : out.bearings) {
     double square = 0, n = 0;  // both axes of a sensor have one number
     for (const std::string& axis : b.Axes())
@@ -131,9 +130,7 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
   NoiseModel noise = StatedNoise(h.rig, model.data().noise);
   const auto clean = model.Predict(h);
   if (!clean) return noise;
-  const ByChannel direct = WhiteParts(model, model.measured(), *clean, [&](const std::string& c) {
-    return c == "bus" || IsLoadCell(c) || IsAxis(h.rig, c);
-  });
+  const ByChannel direct = WhiteParts(model, model.measured(), *clean, IsDirect);
   for (const auto& [channel, parts] : direct) {
     ChannelNoise& c = noise.channels[channel];
     c.estimated = LowerQuartileOf(parts);  // a model's error only adds to it

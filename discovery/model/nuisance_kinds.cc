@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
 #include "discovery/model/model.h"
 #include "discovery/model/nuisances.h"
 #include "effects/catalogue.h"
@@ -31,13 +32,14 @@ double Clearance(const BearingParameters& b) {
 
 /// Usual zero of a channel [its unit]; 0: it has none.
 double UsualZero(const RigParameters& rig, const std::string& channel) {
-  for (const BearingParameters& b : rig.bearings) {
+  for (const BearingParameters& b : rig.bearings)
     for (const std::string& axis : b.Axes())
       if (axis == channel) return kZeroOfClearance * Clearance(b);
-    if (channel.starts_with(b.name + ".i")) return kZeroOfCurrent * rig.amplifier.adc_range;
-    if (channel.starts_with(b.name + ".f")) return kZeroOfForce * rig.rotor.mass * 9.81;
-  }
-  return channel == "bus" ? kZeroOfBus * rig.amplifier.bus_voltage : 0;
+  const auto id = ParseChannel(channel);
+  if (!id) return 0;
+  if (id->kind == ChannelKind::kCoilCurrent) return kZeroOfCurrent * rig.amplifier.adc_range;
+  if (id->kind == ChannelKind::kLoadCell) return kZeroOfForce * rig.rotor.mass * 9.81;
+  return id->kind == ChannelKind::kBus ? kZeroOfBus * rig.amplifier.bus_voltage : 0;
 }
 
 class Builder {
@@ -99,14 +101,14 @@ class Builder {
   void InLoop(const std::string& channel, const std::string& unit, double sd) {
     const RigParameters& rig = model_.data().rig;
     std::string effect, target;
-    for (const BearingParameters& b : rig.bearings) {
-      for (const std::string& axis : b.Axes())
-        if (axis == channel) effect = "sensor-offset", target = axis;
-      // the currents' loops only where the case asks for it: a simulation for every coil
-      if (channel.starts_with(b.name + ".i") &&
-          model_.data().nuisances.sensor_zero.contains(channel))
-        effect = "current-sensor-offset",
-        target = b.name + ".coil" + channel.substr(b.name.size() + 2);
+    for (const std::string& axis : AxisNames(rig))
+      if (axis == channel) effect = "sensor-offset", target = axis;
+    // the currents' loops only where the case asks for it: a simulation for every coil
+    const auto id = ParseChannel(channel);
+    if (id && id->kind == ChannelKind::kCoilCurrent &&
+        model_.data().nuisances.sensor_zero.contains(channel)) {
+      effect = "current-sensor-offset";
+      target = fmt::format("{}.coil{}", id->plane, id->index + 1);
     }
     if (effect.empty()) return;
     Hypothesis moved = h_;

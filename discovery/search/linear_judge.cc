@@ -74,6 +74,24 @@ Gram LinearJudge::Assemble(const std::vector<Column>& columns) const {
   return g;
 }
 
+namespace {
+
+/// The free amount furthest outside its limits; -1: all are inside.
+template <class Columns>
+Index WorstOutside(const Columns& columns, const Eigen::VectorXd& amount,
+                   const std::vector<double>& fixed) {
+  Index worst = -1;
+  double most = 1e-9;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const double a = amount(static_cast<Index>(k));
+    const double outside = std::max(columns[k].lo - a, a - columns[k].hi);
+    if (std::isnan(fixed[k]) && outside > most) most = outside, worst = static_cast<Index>(k);
+  }
+  return worst;
+}
+
+}  // namespace
+
 LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int parameters) const {
   const Gram g = Assemble(columns);
   const Index m = static_cast<Index>(columns.size());
@@ -115,14 +133,7 @@ LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int
                            ? std::sqrt(std::max(0.0, c.dot(g.validate * c)) / n_validate_)
                            : s.ratio_fit;
     // The amount furthest outside its limits stays at the limit.
-    Index worst = -1;
-    double most = 1e-9;
-    for (Index k = 0; k < m; ++k) {
-      const Column& l = columns[static_cast<std::size_t>(k)];
-      const double outside = std::max(l.lo - s.amount(k), s.amount(k) - l.hi);
-      if (std::isnan(fixed[static_cast<std::size_t>(k)]) && outside > most)
-        most = outside, worst = k;
-    }
+    const Index worst = WorstOutside(columns, s.amount, fixed);
     if (worst >= 0) {
       const Column& l = columns[static_cast<std::size_t>(worst)];
       fixed[static_cast<std::size_t>(worst)] = std::clamp(s.amount(worst), l.lo, l.hi);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace ambrig {
 
@@ -103,77 +104,104 @@ std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInst
   return forms;
 }
 
+/// The rows of an effect by what a probe does with them, and the effect at its null with its shape at
+/// the middle of the usual range.
+struct ProbePlan {
+  EffectInstance null;
+  std::vector<std::size_t> finite, infinite, shape;  // switches by their null; what shapes the law
+  std::optional<std::size_t> frequency;
+};
+
+ProbePlan PlanOf(const EffectDescription& d, const std::string& target) {
+  ProbePlan plan{MakeInstance(d, target), {}, {}, {}, {}};
+  for (std::size_t k = 0; k < d.parameters.size(); ++k) {
+    const EffectParameter& p = d.parameters[k];
+    if (d.Switches(p)) {
+      (std::isfinite(p.null_value) ? plan.finite : plan.infinite).push_back(k);
+      continue;
+    }
+    // A shape parameter whose null is inside its usual range (an optional extra) stays at its null.
+    if (p.name == "frequency")
+      plan.frequency = k;
+    else if (p.name == "damping" && IsResonance(d))
+      plan.null.values[k] = kSoughtDamping;
+    else if (p.typical_lo > 0 || p.typical_hi < 0)
+      plan.null.values[k] = Middle(p);
+    plan.shape.push_back(k);
+  }
+  return plan;
+}
+
+/// An effect that acts in whole switching periods T [s]: the first six.
+std::vector<ProbeGroup> WholePeriods(const EffectDescription& d, const EffectInstance& at,
+                                     double T) {
+  std::vector<ProbeGroup> groups;
+  for (int k = 1; k <= 6; ++k) {
+    ProbeGroup g;
+    g.linear = false;
+    g.probes.push_back(at);
+    g.probes[0].Set(d.whole_periods, k * T * (1 - 1e-6));
+    groups.push_back(g);
+  }
+  return groups;
+}
+
+/// A switch whose null is infinite: one probe each of several finite sizes.
+std::vector<ProbeGroup> FromInfinity(const EffectDescription& d, const ProbePlan& plan,
+                                     const EffectInstance& at, std::size_t k) {
+  std::vector<ProbeGroup> groups;
+  const EffectParameter& p = d.parameters[k];
+  for (const EffectInstance& form : FormsOf(d, at, plan.shape, false))
+    for (double value : LogGrid(p.typical_lo, p.typical_hi, IsResonance(d) ? 1 : 4)) {
+      ProbeGroup g;
+      g.linear = false;
+      if (IsResonance(d)) g.scaling = {{k, -1.0}};  // a mass
+      g.probes.push_back(form);
+      g.probes[0].values[k] = value;
+      groups.push_back(g);
+    }
+  return groups;
+}
+
+/// Switches whose null is finite: linear, one probe of each.
+std::vector<ProbeGroup> FromNull(const EffectDescription& d, const ProbePlan& plan,
+                                 const EffectInstance& at) {
+  std::vector<ProbeGroup> groups;
+  if (plan.finite.empty()) return groups;
+  for (const EffectInstance& form : FormsOf(d, at, plan.shape, true)) {
+    ProbeGroup g;
+    for (std::size_t k : plan.finite) {
+      g.probes.push_back(form);
+      g.probes.back().values[k] = d.parameters[k].null_value + SizeFromNull(d.parameters[k]);
+      g.rows.push_back(k);
+    }
+    groups.push_back(g);
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target,
                                  const CaseModel& model, const ResidualPeaks& peaks) {
-  EffectInstance null = MakeInstance(d, target);
-  std::vector<std::size_t> finite, infinite, shape;
-  std::size_t frequency = d.parameters.size();
-  for (std::size_t k = 0; k < d.parameters.size(); ++k) {
-    const EffectParameter& p = d.parameters[k];
-    if (d.Switches(p)) {
-      (std::isfinite(p.null_value) ? finite : infinite).push_back(k);
-    } else {
-      // A shape parameter whose null is inside its usual range (an optional extra) stays at its
-      // null.
-      if (p.name == "frequency")
-        frequency = k;
-      else if (p.name == "damping" && IsResonance(d))
-        null.values[k] = kSoughtDamping;
-      else if (p.typical_lo > 0 || p.typical_hi < 0)
-        null.values[k] = Middle(p);
-      shape.push_back(k);
-    }
-  }
+  const ProbePlan plan = PlanOf(d, target);
   std::vector<double> frequencies = {0};
-  if (frequency < d.parameters.size())
-    frequencies = FrequencySeeds(d, target, d.parameters[frequency], peaks);
+  if (plan.frequency) frequencies = FrequencySeeds(d, target, d.parameters[*plan.frequency], peaks);
   std::vector<ProbeGroup> groups;
-  for (double f : frequencies) {
-    EffectInstance at = null;
-    if (frequency < d.parameters.size()) at.values[frequency] = f;
+  const auto add = [&](const std::vector<ProbeGroup>& more) {
+    groups.insert(groups.end(), more.begin(), more.end());
+  };
+  for (const double f : frequencies) {
+    EffectInstance at = plan.null;
+    if (plan.frequency) at.values[*plan.frequency] = f;
     if (d.switches_pair) {
-      for (ProbeGroup& g :
-           GainPatterns(at, finite[0], finite[1], kSoughtGain * d.parameters[finite[0]].typical_hi))
-        groups.push_back(std::move(g));
-      continue;
-    }
-    if (!d.whole_periods.empty()) {
-      const double T = 1 / model.data().rig.amplifier.switching_frequency;
-      for (int k = 1; k <= 6; ++k) {
-        ProbeGroup g;
-        g.linear = false;
-        EffectInstance e = at;
-        e.Set(d.whole_periods, k * T * (1 - 1e-6));
-        g.probes.push_back(e);
-        groups.push_back(g);
-      }
-      continue;
-    }
-    for (std::size_t k : infinite) {
-      const EffectParameter& p = d.parameters[k];
-      for (const EffectInstance& form : FormsOf(d, at, shape, false))
-        for (double value : LogGrid(p.typical_lo, p.typical_hi, IsResonance(d) ? 1 : 4)) {
-          ProbeGroup g;
-          g.linear = false;
-          if (IsResonance(d)) g.scaling = {{k, -1.0}};  // a mass
-          EffectInstance e = form;
-          e.values[k] = value;
-          g.probes.push_back(e);
-          groups.push_back(g);
-        }
-    }
-    if (finite.empty()) continue;
-    for (const EffectInstance& form : FormsOf(d, at, shape, true)) {
-      ProbeGroup g;
-      for (std::size_t k : finite) {
-        EffectInstance e = form;
-        e.values[k] = d.parameters[k].null_value + SizeFromNull(d.parameters[k]);
-        g.probes.push_back(e);
-        g.rows.push_back(k);
-      }
-      groups.push_back(g);
+      const std::size_t a = plan.finite[0];
+      add(GainPatterns(at, a, plan.finite[1], kSoughtGain * d.parameters[a].typical_hi));
+    } else if (!d.whole_periods.empty()) {
+      add(WholePeriods(d, at, 1 / model.data().rig.amplifier.switching_frequency));
+    } else {
+      for (const std::size_t k : plan.infinite) add(FromInfinity(d, plan, at, k));
+      add(FromNull(d, plan, at));
     }
   }
   for (ProbeGroup& g : groups) g.narrow = IsResonance(d);

@@ -32,8 +32,8 @@ std::vector<BearingSymmetry> FindSymmetries(const RedistributionProblem& p) {
   return found;
 }
 
-Coils Mapped(const BearingSymmetry& g, const Coils& per_coil) {
-  Coils image;
+CoilVector Mapped(const BearingSymmetry& g, const CoilVector& per_coil) {
+  CoilVector image;
   for (int j = 0; j < 8; ++j) image[g.to[j]] = per_coil[j];
   return image;
 }
@@ -57,9 +57,9 @@ DistributionMatrix MappedBack(const BearingSymmetry& g, const DistributionMatrix
 }
 
 const BearingSymmetry& ToCanonical(const std::vector<BearingSymmetry>& symmetries,
-                                   const Coils& per_coil) {
+                                   const CoilVector& per_coil) {
   const auto before = [&](const BearingSymmetry& a, const BearingSymmetry& b) {
-    const Coils x = Mapped(a, per_coil), y = Mapped(b, per_coil);
+    const CoilVector x = Mapped(a, per_coil), y = Mapped(b, per_coil);
     return std::lexicographical_compare(x.begin(), x.end(), y.begin(), y.end());
   };
   return *std::min_element(symmetries.begin(), symmetries.end(), before);

@@ -18,12 +18,12 @@ struct BearingSymmetry {
 /// At least the identity. NSNSNSNS has 16, NNSSNNSS 8.
 std::vector<BearingSymmetry> FindSymmetries(const RedistributionProblem& problem);
 
-Coils Mapped(const BearingSymmetry& symmetry, const Coils& per_coil);
+CoilVector Mapped(const BearingSymmetry& symmetry, const CoilVector& per_coil);
 DistributionMatrix Mapped(const BearingSymmetry& symmetry, const DistributionMatrix& W);
 DistributionMatrix MappedBack(const BearingSymmetry& symmetry, const DistributionMatrix& W);
 
 /// The symmetry whose image of `per_coil` comes first in lexicographic order.
 const BearingSymmetry& ToCanonical(const std::vector<BearingSymmetry>& symmetries,
-                                   const Coils& per_coil);
+                                   const CoilVector& per_coil);
 
 }  // namespace ambrig

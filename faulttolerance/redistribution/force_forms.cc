@@ -65,13 +65,13 @@ double ForceFactor(const RedistributionProblem& p) {
 
 ForceForms MakeForceForms(const RedistributionProblem& p) {
   ForceForms forms;
-  const Coils c = p.angle.array().cos(), s = p.angle.array().sin();
+  const CoilVector c = p.angle.array().cos(), s = p.angle.array().sin();
   forms.flux = (CoilForm::Identity() - CoilForm::Constant(1.0 / 8)) *
                p.sign.cwiseProduct(p.turns_left).asDiagonal();
   const auto through_flux = [&](const CoilForm& form) -> CoilForm {
     return forms.flux.transpose() * form * forms.flux / 4;
   };
-  const auto stiffness = [&](const Coils& u, const Coils& v) {
+  const auto stiffness = [&](const CoilVector& u, const CoilVector& v) {
     return through_flux(CoilForm(u.cwiseProduct(v).asDiagonal()) - u * v.transpose() / 8);
   };
   forms.Q = {through_flux(c.asDiagonal()), through_flux(s.asDiagonal())};
@@ -91,13 +91,13 @@ Eigen::Vector<double, 12> EquationErrors(const ForceForms& forms, const Distribu
 
 DistributionMatrix HealthyDistribution(const RedistributionProblem& p) {
   DistributionMatrix W;
-  W << Coils::Ones(), p.angle.array().cos().matrix(), p.angle.array().sin().matrix();
+  W << CoilVector::Ones(), p.angle.array().cos().matrix(), p.angle.array().sin().matrix();
   return W;
 }
 
 Eigen::Matrix2d NegativeStiffness(const RedistributionProblem& p, const ForceForms& forms,
                                   const DistributionMatrix& W) {
-  const Coils b = W.col(0);
+  const CoilVector b = W.col(0);
   Eigen::Vector3d kappa;
   for (int e = 0; e < 3; ++e) kappa[e] = b.dot(forms.R[e] * b);
   Eigen::Matrix2d K;

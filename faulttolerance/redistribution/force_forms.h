@@ -21,23 +21,25 @@
 #include <Eigen/Dense>
 #include <array>
 
+#include "actuators/magnetics/radial_stator.h"
+
 namespace ambrig {
 
-using Coils = Eigen::Vector<double, 8>;
 using CoilForm = Eigen::Matrix<double, 8, 8>;
 using DistributionMatrix = Eigen::Matrix<double, 8, 3>;  // rows [b, wx, wy], without unit
 
 /// The bearing whose currents are to be distributed, and what its amplifiers can give.
 struct RedistributionProblem {
-  Coils angle = Coils::Zero();       // gamma_j [rad]
-  Coils sign = Coils::Ones();        // winding sense, +1 or -1
-  Coils turns_left = Coils::Ones();  // 1 healthy, 0 failed, 1 - s with the fraction s shorted
-  double turns = 50;                 // N, per healthy coil
-  double pole_area = 2.0372e-4;      // A [m2]
-  double gap = 4e-4;                 // g0 [m]
-  double c0 = 2;                     // bias current of the healthy bearing [A]
-  double i_max = 6;                  // [A]
-  int quadrants = 2;                 // 2: currents never negative; 4: any sign
+  CoilVector angle = CoilVector::Zero();  // gamma_j [rad]
+  CoilVector sign = CoilVector::Ones();   // winding sense, +1 or -1
+  CoilVector turns_left =
+      CoilVector::Ones();        // 1 healthy, 0 failed, 1 - s with the fraction s shorted
+  double turns = 50;             // N, per healthy coil
+  double pole_area = 2.0372e-4;  // A [m2]
+  double gap = 4e-4;             // g0 [m]
+  double c0 = 2;                 // bias current of the healthy bearing [A]
+  double i_max = 6;              // [A]
+  int quadrants = 2;             // 2: currents never negative; 4: any sign
 };
 
 /// Eight poles at first + (j-1) 45 degrees; winding is a text of N and S.

@@ -34,7 +34,7 @@ ForceInverse::ForceInverse(const RedistributionProblem& bearing, const ForceInve
   for (int j = 0; j < 8; ++j) live_[j] = p_.turns_left[j] > 0 ? 1 : 0;
 }
 
-void ForceInverse::SetCurrents(const Coils& current) {
+void ForceInverse::SetCurrents(const CoilVector& current) {
   i_ = current.cwiseProduct(live_).cwiseMin(p_.i_max).cwiseMax(p_.quadrants == 2 ? 0 : -p_.i_max);
 }
 
@@ -59,7 +59,8 @@ double ForceInverse::Merit() const {
          o_.mu * std::log(std::max(det, 1e-12));
 }
 
-void ForceInverse::Iterate(const Eigen::Vector2d& force, const Coils& low, const Coils& high) {
+void ForceInverse::Iterate(const Eigen::Vector2d& force, const CoilVector& low,
+                           const CoilVector& high) {
   ForceGradient J;
   const Eigen::Vector2d missing = force - network_.Force(i_, &J);
   const double scale = 1 / (8 * p_.c0 * p_.c0);
@@ -67,10 +68,10 @@ void ForceInverse::Iterate(const Eigen::Vector2d& force, const Coils& low, const
   D += (kDamping * unit_ * unit_) * Eigen::Matrix2d::Identity();
   // Gradient and a positive diagonal in place of the Hessian.
   const ForceGradient y = D.inverse() * J;
-  const Coils gradient =
+  const CoilVector gradient =
       2 * scale * p_.turns_left.cwiseProduct(i_) - 4 * o_.mu * network_.Contract(y);
-  const Coils inverse = (2 * scale * p_.turns_left.array() + 4 * o_.mu * scale).inverse();
-  Coils d = Coils::Zero(), lo = low - i_, hi = high - i_;
+  const CoilVector inverse = (2 * scale * p_.turns_left.array() + 4 * o_.mu * scale).inverse();
+  CoilVector d = CoilVector::Zero(), lo = low - i_, hi = high - i_;
   std::array<bool, 8> fixed{};
   for (int j = 0; j < 8; ++j) fixed[static_cast<std::size_t>(j)] = live_[j] == 0 || hi[j] <= lo[j];
   for (int round = 0; round < 8; ++round) {
@@ -96,8 +97,8 @@ void ForceInverse::Iterate(const Eigen::Vector2d& force, const Coils& low, const
   }
   // Shorter where the force would be missed by more than before: past the end of a branch whole
   // steps swing.
-  const Coils before = i_;
-  Coils best = i_;
+  const CoilVector before = i_;
+  CoilVector best = i_;
   double least = missing.norm();
   const double allowed = kAllowedMiss + 0.5 * least;
   for (double share = 1; share > 0.1; share /= 2) {
@@ -112,10 +113,11 @@ void ForceInverse::Iterate(const Eigen::Vector2d& force, const Coils& low, const
   i_ = best;
 }
 
-const Coils& ForceInverse::Step(const Eigen::Vector2d& force, double x, double y) {
+const CoilVector& ForceInverse::Step(const Eigen::Vector2d& force, double x, double y) {
   network_.MoveTo(x, y);
   const double least = p_.quadrants == 2 ? 0 : -p_.i_max;
-  const Coils low = (i_.array() - o_.slew).max(least), high = (i_.array() + o_.slew).min(p_.i_max);
+  const CoilVector low = (i_.array() - o_.slew).max(least),
+                   high = (i_.array() + o_.slew).min(p_.i_max);
   for (int n = 0; n < o_.iterations; ++n) Iterate(force, low, high);
   return i_;
 }
@@ -123,7 +125,7 @@ const Coils& ForceInverse::Step(const Eigen::Vector2d& force, double x, double y
 bool ForceInverse::Start(const Eigen::Vector2d& force, double x, double y) {
   network_.MoveTo(x, y);
   const double least = p_.quadrants == 2 ? 0 : -p_.i_max;
-  Coils best = i_;
+  CoilVector best = i_;
   double lowest = 1e30;
   for (int start = 0; start < o_.starts; ++start) {
     for (int j = 0; j < 8; ++j) {

@@ -33,11 +33,11 @@ class ForceInverse {
   /// ones. False when none gives the force with control left (least_gain() > 0.02).
   bool Start(const Eigen::Vector2d& force, double x = 0, double y = 0);
   /// Currents of the next period [A]: as near to `force` as range and slew allow.
-  const Coils& Step(const Eigen::Vector2d& force, double x = 0, double y = 0);
+  const CoilVector& Step(const Eigen::Vector2d& force, double x = 0, double y = 0);
   /// Goes on from these currents instead.
-  void SetCurrents(const Coils& current);
+  void SetCurrents(const CoilVector& current);
 
-  const Coils& current() const { return i_; }
+  const CoilVector& current() const { return i_; }
   Eigen::Vector2d force() const {
     return network_.Force(i_);
   }  // of the network, at the last position
@@ -47,15 +47,15 @@ class ForceInverse {
   const NetworkForce& network() const { return network_; }
 
  private:
-  void Iterate(const Eigen::Vector2d& force, const Coils& low, const Coils& high);
+  void Iterate(const Eigen::Vector2d& force, const CoilVector& low, const CoilVector& high);
   double Merit() const;
 
   RedistributionProblem p_;
   ForceInverseOptions o_;
   NetworkForce network_;
-  double unit_;  // k c0 [N/A]
-  Coils live_;   // 1: has turns
-  Coils i_ = Coils::Zero();
+  double unit_;      // k c0 [N/A]
+  CoilVector live_;  // 1: has turns
+  CoilVector i_ = CoilVector::Zero();
 };
 
 /// What the inverse holds of a failure set.

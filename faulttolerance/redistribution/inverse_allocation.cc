@@ -9,7 +9,7 @@ constexpr double kMissed = 0.1, kMissedForce = 2;  // of the force, [N]
 constexpr int kPatience = 8, kRest = 200;          // periods of missing, periods between searches
 }  // namespace
 
-SetPointVector InverseAllocation::Step(double fx, double fy, double x, double y) {
+CoilVector InverseAllocation::Step(double fx, double fy, double x, double y) {
   force_ = {fx, fy};
   const Eigen::Vector2d wanted = force_ + stiffness_ * Eigen::Vector2d(x, y);
   inverse_.Step(wanted, x, y);

@@ -13,7 +13,7 @@ class InverseAllocation : public CurrentAllocation {
  public:
   InverseAllocation(const ForceInverse& started, const Eigen::Matrix2d& stiffness)
       : inverse_(started), stiffness_(stiffness) {}
-  SetPointVector Step(double fx, double fy, double x, double y) override;
+  CoilVector Step(double fx, double fy, double x, double y) override;
   Eigen::Vector2d LastForce() const override { return force_; }
   int searches() const { return searches_; }
 

@@ -22,39 +22,39 @@ NetworkForce::NetworkForce(const RedistributionProblem& b)
 void NetworkForce::MoveTo(double x, double y) {
   x_ = x;
   y_ = y;
-  const Coils gap = (gap_ - x * cosine_.array() - y * sine_.array()).max(kLeastGap * gap_);
+  const CoilVector gap = (gap_ - x * cosine_.array() - y * sine_.array()).max(kLeastGap * gap_);
   permeance_ = kMu0 * area_ * gap.cwiseInverse();
   inverse_total_ = 1 / permeance_.sum();
 }
 
-Coils NetworkForce::Flux(const Coils& i) const {
-  const Coils m = turns_.cwiseProduct(i);
+CoilVector NetworkForce::Flux(const CoilVector& i) const {
+  const CoilVector m = turns_.cwiseProduct(i);
   return permeance_.cwiseProduct((m.array() - permeance_.dot(m) * inverse_total_).matrix());
 }
 
-Eigen::Vector2d NetworkForce::Force(const Coils& i) const {
-  const Coils pull = Flux(i).cwiseAbs2() / (2 * kMu0 * area_);
+Eigen::Vector2d NetworkForce::Force(const CoilVector& i) const {
+  const CoilVector pull = Flux(i).cwiseAbs2() / (2 * kMu0 * area_);
   return {pull.dot(cosine_), pull.dot(sine_)};
 }
 
-Eigen::Vector2d NetworkForce::Force(const Coils& i, ForceGradient* gradient) const {
-  const Coils phi = Flux(i) / (kMu0 * area_);
-  const auto row = [&](const Coils& direction) {
-    const Coils w = phi.cwiseProduct(direction);
+Eigen::Vector2d NetworkForce::Force(const CoilVector& i, ForceGradient* gradient) const {
+  const CoilVector phi = Flux(i) / (kMu0 * area_);
+  const auto row = [&](const CoilVector& direction) {
+    const CoilVector w = phi.cwiseProduct(direction);
     const double mean = permeance_.dot(w) * inverse_total_;
     gradient->row(&direction == &sine_) =
         turns_.cwiseProduct(permeance_).cwiseProduct((w.array() - mean).matrix()).transpose();
   };
   row(cosine_);
   row(sine_);
-  const Coils pull = phi.cwiseAbs2() * (0.5 * kMu0 * area_);
+  const CoilVector pull = phi.cwiseAbs2() * (0.5 * kMu0 * area_);
   return {pull.dot(cosine_), pull.dot(sine_)};
 }
 
-Coils NetworkForce::Contract(const ForceGradient& y) const {
-  Coils sum = Coils::Zero();
+CoilVector NetworkForce::Contract(const ForceGradient& y) const {
+  CoilVector sum = CoilVector::Zero();
   for (int a = 0; a < 2; ++a) {
-    const Coils w =
+    const CoilVector w =
         Flux(y.row(a).transpose()).cwiseProduct(a == 0 ? cosine_ : sine_) / (2 * kMu0 * area_);
     sum += turns_.cwiseProduct(permeance_)
                .cwiseProduct((w.array() - permeance_.dot(w) * inverse_total_).matrix());
@@ -62,7 +62,7 @@ Coils NetworkForce::Contract(const ForceGradient& y) const {
   return sum;
 }
 
-Eigen::Matrix2d NetworkForce::Stiffness(const Coils& current) const {
+Eigen::Matrix2d NetworkForce::Stiffness(const CoilVector& current) const {
   NetworkForce at = *this;
   const double h = 1e-3 * gap_;
   Eigen::Matrix2d k;

@@ -20,19 +20,19 @@ class NetworkForce {
   void MoveTo(double x, double y);
 
   /// [N]
-  Eigen::Vector2d Force(const Coils& current) const;
+  Eigen::Vector2d Force(const CoilVector& current) const;
   /// Force and dF/di [N/A]. Zero columns for coils without turns.
-  Eigen::Vector2d Force(const Coils& current, ForceGradient* gradient) const;
+  Eigen::Vector2d Force(const CoilVector& current, ForceGradient* gradient) const;
   /// sum_a Q^a y_a, where F_a = i'Q^a i: contraction of the second derivative [N/A^2 of y].
-  Coils Contract(const ForceGradient& y) const;
+  CoilVector Contract(const ForceGradient& y) const;
   /// dF/dx at fixed currents [N/m].
-  Eigen::Matrix2d Stiffness(const Coils& current) const;
+  Eigen::Matrix2d Stiffness(const CoilVector& current) const;
 
  private:
-  Coils Flux(const Coils& current) const;
+  CoilVector Flux(const CoilVector& current) const;
 
   double area_, gap_, x_ = 0, y_ = 0;
-  Coils cosine_, sine_, turns_, permeance_;  // turns: N tau s
+  CoilVector cosine_, sine_, turns_, permeance_;  // turns: N tau s
   double inverse_total_ = 0;
 };
 

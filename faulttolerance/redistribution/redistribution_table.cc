@@ -58,8 +58,8 @@ RedistributionTable::RedistributionTable(const RedistributionProblem& problem,
   Load();
 }
 
-Coils RedistributionTable::TurnsLeft(const std::vector<int>& failed) const {
-  Coils turns_left = Coils::Ones();
+CoilVector RedistributionTable::TurnsLeft(const std::vector<int>& failed) const {
+  CoilVector turns_left = CoilVector::Ones();
   for (const int coil : failed) {
     Require(1 <= coil && coil <= 8, "coils are numbered 1 to 8");
     turns_left[coil - 1] = 0;
@@ -77,10 +77,10 @@ Distribution RedistributionTable::Lookup(const std::vector<int>& failed) const {
   return Lookup(TurnsLeft(failed));
 }
 
-Distribution RedistributionTable::Lookup(const Coils& turns_left) const {
+Distribution RedistributionTable::Lookup(const CoilVector& turns_left) const {
   Require((turns_left.array() >= 0).all() && (turns_left.array() <= 1).all(), "turns left 0 to 1");
   const BearingSymmetry& g = ToCanonical(symmetries_, turns_left);
-  const Coils canonical = Mapped(g, turns_left);
+  const CoilVector canonical = Mapped(g, turns_left);
   Key key;  // a coil with few turns left counts as failed: its current would have to be huge
   for (int j = 0; j < 8; ++j) key[j] = static_cast<int>(std::lround(canonical[j] * kGrid));
   std::unique_lock lock(mutex_);
@@ -96,7 +96,7 @@ Distribution RedistributionTable::Lookup(const Coils& turns_left) const {
 
 double RedistributionTable::FluxCapacity(const std::vector<int>& failed) const {
   const BearingSymmetry& g = ToCanonical(symmetries_, TurnsLeft(failed));
-  const Coils canonical = Mapped(g, TurnsLeft(failed));
+  const CoilVector canonical = Mapped(g, TurnsLeft(failed));
   Key key;
   for (int j = 0; j < 8; ++j) key[j] = canonical[j] > 0 ? kGrid : 0;
   const std::scoped_lock lock(mutex_);

@@ -29,7 +29,7 @@ class RedistributionTable {
   /// does not depend on the order of calls.
   Distribution Lookup(const std::vector<int>& failed) const;
   /// turns_left per coil: 1 healthy, 0 open, 1 - s for a short of the fraction s.
-  Distribution Lookup(const Coils& turns_left) const;
+  Distribution Lookup(const CoilVector& turns_left) const;
   /// Best flux-limited capacity of any exact W of the set; of the set's own W when none is exact.
   double FluxCapacity(const std::vector<int>& failed) const;
 
@@ -44,7 +44,7 @@ class RedistributionTable {
     std::optional<double> flux_capacity;
   };
 
-  Coils TurnsLeft(const std::vector<int>& failed) const;
+  CoilVector TurnsLeft(const std::vector<int>& failed) const;
   RedistributionProblem AtGrid(const Key& key) const;
   Entry& Find(const Key& key) const;  // mutex held
   void Load() const;

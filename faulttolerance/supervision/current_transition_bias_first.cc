@@ -13,13 +13,13 @@ class BiasFirst : public CurrentTransition {
         step_(RampStep(s)),
         least_(s.bearing.quadrants == 2 ? 0 : -s.bearing.i_max),
         most_(s.bearing.i_max) {}
-  SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d&) override {
+  CoilVector Step(const CoilVector& wanted, const Eigen::Vector2d&) override {
     if (done_) return wanted;
-    const SetPointVector bias = Toward(bias_, bias_after_);
+    const CoilVector bias = Toward(bias_, bias_after_);
     if (bias != bias_) {
       bias_ = bias;
     } else {
-      const SetPointVector control = wanted - bias_;
+      const CoilVector control = wanted - bias_;
       control_ = Toward(control_, control);
       done_ = control_ == control;
     }
@@ -31,15 +31,15 @@ class BiasFirst : public CurrentTransition {
   }
 
  private:
-  static Coils Live(const TransitionStart& s) {
+  static CoilVector Live(const TransitionStart& s) {
     return (s.bearing.turns_left.array() > 0).cast<double>();
   }
-  SetPointVector Toward(const SetPointVector& from, const SetPointVector& to) const {
+  CoilVector Toward(const CoilVector& from, const CoilVector& to) const {
     return from + (to - from).cwiseMin(step_).cwiseMax(-step_);
   }
 
-  SetPointVector bias_, control_, bias_after_;
-  Coils step_;
+  CoilVector bias_, control_, bias_after_;
+  CoilVector step_;
   double least_, most_;
   bool done_ = false;
 };

@@ -21,16 +21,15 @@ class ForcePreserving : public CurrentTransition {
         most_(s.bearing.i_max),
         damping_(1e-4 * ForceFactor(s.bearing) * ForceFactor(s.bearing) * s.bearing.c0 *
                  s.bearing.c0) {}
-  SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d& force) override {
+  CoilVector Step(const CoilVector& wanted, const Eigen::Vector2d& force) override {
     if (done_) return wanted;
-    const SetPointVector way = wanted - now_;
+    const CoilVector way = wanted - now_;
     double share = 1;
     for (int j = 0; j < 8; ++j)
       if (std::abs(way[j]) > step_[j]) share = std::min(share, step_[j] / std::abs(way[j]));
     done_ = share == 1 || ++periods_ >= kLongest;
     if (done_) return now_ = wanted;
-    const SetPointVector low = (now_ - step_).cwiseMax(least_),
-                         high = (now_ + step_).cwiseMin(most_);
+    const CoilVector low = (now_ - step_).cwiseMax(least_), high = (now_ + step_).cwiseMin(most_);
     now_ += share * way;
     for (int n = 0; n < kCorrections; ++n) {  // least change of the currents that gives the force
       ForceGradient J;
@@ -46,8 +45,8 @@ class ForcePreserving : public CurrentTransition {
   }
 
  private:
-  SetPointVector now_;
-  Coils step_;
+  CoilVector now_;
+  CoilVector step_;
   NetworkForce network_;
   double least_, most_, damping_;
   int periods_ = 0;

@@ -6,9 +6,7 @@ namespace {
 
 class Jump : public CurrentTransition {
  public:
-  SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d&) override {
-    return wanted;
-  }
+  CoilVector Step(const CoilVector& wanted, const Eigen::Vector2d&) override { return wanted; }
   bool done() const override { return true; }
   std::unique_ptr<CurrentTransition> Clone() const override {
     return std::make_unique<Jump>(*this);

@@ -7,7 +7,7 @@ namespace ambrig {
 
 CoilForm InductanceOf(const TransitionStart& s) {
   const RedistributionProblem& b = s.bearing;
-  const Coils m = b.turns * b.turns_left.cwiseProduct(b.sign);
+  const CoilVector m = b.turns * b.turns_left.cwiseProduct(b.sign);
   const double P = kMu0 * b.pole_area / b.gap;
   CoilForm L = P * (CoilForm(m.cwiseAbs2().asDiagonal()) - m * m.transpose() / 8);
   for (int j = 0; j < 8; ++j)
@@ -15,7 +15,7 @@ CoilForm InductanceOf(const TransitionStart& s) {
   return L;
 }
 
-Coils RampStep(const TransitionStart& s) {
+CoilVector RampStep(const TransitionStart& s) {
   return s.voltage * s.period * InductanceOf(s).diagonal().cwiseInverse();
 }
 

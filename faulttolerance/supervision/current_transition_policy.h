@@ -15,13 +15,13 @@ namespace ambrig {
 
 /// All a policy may know.
 struct TransitionStart {
-  Coils now = Coils::Zero();          // set-points in force, 0 in lost coils [A]
-  Coils bias_before = Coils::Zero();  // [A]
-  Coils bias_after = Coils::Zero();   // [A]
-  RedistributionProblem bearing;      // with the turns that are left
-  double leakage = 0;                 // inductance of a healthy coil [H]
-  double voltage = 0;                 // that the bridges can spare for a change [V]
-  double period = 0;                  // of the controller [s]
+  CoilVector now = CoilVector::Zero();          // set-points in force, 0 in lost coils [A]
+  CoilVector bias_before = CoilVector::Zero();  // [A]
+  CoilVector bias_after = CoilVector::Zero();   // [A]
+  RedistributionProblem bearing;                // with the turns that are left
+  double leakage = 0;                           // inductance of a healthy coil [H]
+  double voltage = 0;                           // that the bridges can spare for a change [V]
+  double period = 0;                            // of the controller [s]
 };
 
 /// "jump,ramp,...": for file readers.
@@ -44,6 +44,6 @@ std::unique_ptr<CurrentTransition> MakeForcePreserving(const TransitionStart& st
 std::unique_ptr<CurrentTransition> MakeTimeOptimal(const TransitionStart& start);
 
 /// Largest change of each set-point in one period by its own inductance and `voltage` [A].
-Coils RampStep(const TransitionStart& start);
+CoilVector RampStep(const TransitionStart& start);
 
 }  // namespace ambrig

@@ -7,7 +7,7 @@ namespace {
 class Ramp : public CurrentTransition {
  public:
   explicit Ramp(const TransitionStart& s) : now_(s.now), step_(RampStep(s)) {}
-  SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d&) override {
+  CoilVector Step(const CoilVector& wanted, const Eigen::Vector2d&) override {
     if (done_) return wanted;
     now_ += (wanted - now_).cwiseMin(step_).cwiseMax(-step_);
     done_ = now_ == wanted;
@@ -19,8 +19,8 @@ class Ramp : public CurrentTransition {
   }
 
  private:
-  SetPointVector now_;
-  Coils step_;
+  CoilVector now_;
+  CoilVector step_;
   bool done_ = false;
 };
 

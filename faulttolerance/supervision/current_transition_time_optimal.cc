@@ -11,11 +11,11 @@ class TimeOptimal : public CurrentTransition {
     for (int j = 0; j < 8; ++j)
       if (s.bearing.turns_left[j] == 0) rate_.row(j).setZero();
   }
-  SetPointVector Step(const SetPointVector& wanted, const Eigen::Vector2d&) override {
+  CoilVector Step(const CoilVector& wanted, const Eigen::Vector2d&) override {
     if (done_) return wanted;
     const double needed = (rate_ * (wanted - now_)).cwiseAbs().maxCoeff();  // [V] of the worst coil
     done_ = needed <= voltage_;
-    now_ = done_ ? wanted : SetPointVector(now_ + voltage_ / needed * (wanted - now_));
+    now_ = done_ ? wanted : CoilVector(now_ + voltage_ / needed * (wanted - now_));
     return now_;
   }
   bool done() const override { return done_; }
@@ -24,7 +24,7 @@ class TimeOptimal : public CurrentTransition {
   }
 
  private:
-  SetPointVector now_;
+  CoilVector now_;
   CoilForm rate_;  // [V/A]
   double voltage_;
   bool done_ = false;

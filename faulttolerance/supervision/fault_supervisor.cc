@@ -42,7 +42,7 @@ Eigen::Matrix2d OnlyMore(const Eigen::Matrix2d& change) {
 }
 
 /// The force command behind set-points.
-Eigen::Vector2d ForceBehind(const CurrentMap& map, const SetPointVector& now) {
+Eigen::Vector2d ForceBehind(const CurrentMap& map, const CoilVector& now) {
   if (map.allocation) return map.allocation->LastForce();
   const Eigen::Matrix<double, 8, 2> gain = map.W.rightCols<2>();
   const Eigen::Matrix2d normal = gain.transpose() * gain + 1e-9 * Eigen::Matrix2d::Identity();
@@ -60,7 +60,7 @@ struct FaultSupervisor::Watched {
   std::size_t index = 0;
   std::unique_ptr<RunDetector> detector;
   std::unique_ptr<RedistributionTable> table;
-  Coils turns_left = Coils::Ones();
+  CoilVector turns_left = CoilVector::Ones();
   int alarmed = -1;  // coil that the alarm was raised for
 };
 
@@ -169,7 +169,7 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, const Bearing
                                    SupervisorOutput& out) {
   ReplaceMap change{w.index, control.map, control.current_transition};
   CurrentMap& map = change.map;
-  SetPointVector now = SetPointVector::Zero();
+  CoilVector now = CoilVector::Zero();
   for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
   const Eigen::Vector2d force = ForceBehind(control.map, now);
   std::string cls;
@@ -180,7 +180,7 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, const Bearing
     cls = NewMapOfSides(w, d, &map);
   }
   // The set-points that come next.
-  SetPointVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
+  CoilVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
   if (change.current_transition) next = change.current_transition->Clone()->Step(next, force);
   out.actions.push_back(std::move(change));
   MoveIntegrals(w, control, next, out);
@@ -207,7 +207,7 @@ std::string FaultSupervisor::NewMapOfSides(const Watched& w, const Diagnosis& d,
 }
 
 void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& control,
-                                    const SetPointVector& next, SupervisorOutput& out) {
+                                    const CoilVector& next, SupervisorOutput& out) {
   const double resistance = CoilResistance(*w.bearing);
   for (int j = 0; j < control.coils; ++j) {
     const double now = control.set_point[j];
@@ -257,9 +257,9 @@ std::unique_ptr<CurrentTransition> FaultSupervisor::NewCurrentTransition(
   for (int j = 0; j < 8; ++j)
     if (w.turns_left[j] > 0) s.now[j] = control.set_point[j];
   // Without a matrix the bias is what the currents without a force would be.
-  s.bias_before = old.allocation ? s.now : Coils(old.c0 * old.W.col(0));
+  s.bias_before = old.allocation ? s.now : CoilVector(old.c0 * old.W.col(0));
   s.bias_after = map.allocation ? map.allocation->Step(force.x(), force.y(), 0, 0)
-                                : SetPointVector(map.c0 * map.W.col(0));
+                                : CoilVector(map.c0 * map.W.col(0));
   s.leakage = w.bearing->radial.leakage_inductance;
   s.voltage = kVoltageShare * rig_->amplifier.bus_voltage;
   s.period = 1 / rig_->controller.rate;

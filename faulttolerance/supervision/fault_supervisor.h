@@ -58,8 +58,8 @@ class FaultSupervisor : public Supervisor {
   /// The map of a bearing whose coils do not share a rotor; returns its class for the record.
   static std::string NewMapOfSides(const Watched& w, const Diagnosis& d, CurrentMap* map);
   /// Every regulator's integral is moved by what its new current needs.
-  static void MoveIntegrals(const Watched& w, const BearingControl& control,
-                            const SetPointVector& next, SupervisorOutput& out);
+  static void MoveIntegrals(const Watched& w, const BearingControl& control, const CoilVector& next,
+                            SupervisorOutput& out);
   /// The radial bearing's new map for `force` [N] after its faults; returns its class for the
   /// record.
   std::string NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/base/index.h"
 #include "core/math/constants.h"
 #include "rotor/contact/ode_rotor_rig.h"
 
@@ -17,8 +18,7 @@ using Eigen::Vector3d;
 constexpr double kLockedInertia = 1e9;  // [kg m2] bodies that are not to turn: base, still race
 constexpr double kNoMass = 1e-4;        // [kg] a turning race without a mount belongs to the stator
 
-std::size_t U(int d) { return static_cast<std::size_t>(d); }
-Vector3d Radial(const DofVector& q, int d) { return {q[U(d)], q[U(d) + 1], 0}; }
+Vector3d Radial(const DofVector& q, int d) { return {q[AsSize(d)], q[AsSize(d) + 1], 0}; }
 
 }  // namespace
 
@@ -73,7 +73,7 @@ void OdeRotor::Rig::Load(const MotionState& s) {
     world_.SetPose(race.body, base + out + Vector3d(0, 0, race.plane->map.z),
                    Eigen::Matrix3d::Identity());
     world_.SetVelocity(race.body, base_v + out_v);
-    const double turning = race.turns ? s.v[U(race.plane->race_dof)] : 0;
+    const double turning = race.turns ? s.v[AsSize(race.plane->race_dof)] : 0;
     world_.SetTurning(race.body, Vector3d(0, 0, turning));
   }
 }
@@ -83,8 +83,8 @@ void OdeRotor::Rig::Store(MotionState& s, double h) const {
   const Vector3d x = world_.Place(rotor_) - base, v = world_.Velocity(rotor_) - base_v;
   const Vector3d omega = world_.Turning(rotor_), e = Axis(), de = omega.cross(e);
   for (int k = 0; k < 3; ++k) {
-    s.q[U(k)] = x[k];
-    s.v[U(k)] = v[k];
+    s.q[AsSize(k)] = x[k];
+    s.v[AsSize(k)] = v[k];
   }
   const Vector3d u = e / e.z(), du = de / e.z() - e * de.z() / (e.z() * e.z());
   s.q[3] = -u.y();
@@ -93,8 +93,8 @@ void OdeRotor::Rig::Store(MotionState& s, double h) const {
   s.v[4] = du.x();
   const auto put = [&](int d, const Vector3d& place, const Vector3d& velocity) {
     for (int k = 0; k < 2; ++k) {
-      s.q[U(d + k)] = place[k];
-      s.v[U(d + k)] = velocity[k];
+      s.q[AsSize(d + k)] = place[k];
+      s.v[AsSize(d + k)] = velocity[k];
     }
   };
   if (base_ >= 0) put(model_.base_dof(), base, base_v);
@@ -103,7 +103,7 @@ void OdeRotor::Rig::Store(MotionState& s, double h) const {
       put(race.plane->mount_dof, world_.Place(race.body) - base,
           world_.Velocity(race.body) - base_v);
     if (!race.turns) continue;
-    const std::size_t d = U(race.plane->race_dof);
+    const std::size_t d = AsSize(race.plane->race_dof);
     s.v[d] = world_.Turning(race.body).z();
     s.q[d] += h * s.v[d];
   }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
 #include "rotor/shaft/reduction.h"
 
 namespace ambrig {
 
 namespace {
-std::size_t U(int d) { return static_cast<std::size_t>(d); }
 constexpr std::size_t kAlpha = 3, kBeta = 4;
 constexpr int kPiecesPerElement = 4;  // a cone's shape is no cubic; a quarter of it nearly is
 
@@ -57,8 +57,8 @@ std::vector<BendingMode> BendingModes(const ReducedRotor& r) {
   std::vector<BendingMode> out;
   for (int k = 0; k < r.modes(); ++k) {
     BendingMode mode;
-    mode.omega = r.omega[U(k)];
-    mode.damping = r.zeta[U(k)];
+    mode.omega = r.omega[AsSize(k)];
+    mode.damping = r.zeta[AsSize(k)];
     mode.gyroscopic = r.J(1 + k, 1 + k);
     mode.gyroscopic_tilt = r.J(1 + k, 0);
     for (int l = 0; l < k; ++l) mode.gyroscopic_other.push_back(r.J(1 + k, 1 + l));
@@ -89,7 +89,7 @@ void ModalShaft::Add(const BendingMode& mode, int dof) {
 void ModalShaft::AddForces(const MotionState& s, DofVector& Q) const {
   for (std::size_t k = 0; k < modes_.size(); ++k) {
     const BendingMode& mode = modes_[k];
-    const std::size_t d = U(dof_[k]);
+    const std::size_t d = AsSize(dof_[k]);
     const double c = 2 * mode.damping * mode.omega, w2 = mode.omega * mode.omega;
     const double gyro = mode.gyroscopic * s.Omega;
     Q[d] -= c * s.v[d] + w2 * s.q[d] + gyro * s.v[d + 1];
@@ -102,7 +102,7 @@ void ModalShaft::AddForces(const MotionState& s, DofVector& Q) const {
       Q[kBeta] -= tilt * s.v[d + 1];
     }
     for (std::size_t l = 0; l < mode.gyroscopic_other.size(); ++l) {
-      const std::size_t o = U(dof_[l]);
+      const std::size_t o = AsSize(dof_[l]);
       const double g = mode.gyroscopic_other[l] * s.Omega;
       Q[d] -= g * s.v[o + 1];
       Q[d + 1] += g * s.v[o];
@@ -123,7 +123,7 @@ void ModalShaft::AddTo(PlaneMap& plane) const {
 double ModalShaft::Energy(const MotionState& s) const {
   double e = 0;
   for (std::size_t k = 0; k < modes_.size(); ++k)
-    for (std::size_t d = U(dof_[k]); d < U(dof_[k]) + 2; ++d)
+    for (std::size_t d = AsSize(dof_[k]); d < AsSize(dof_[k]) + 2; ++d)
       e += 0.5 * s.v[d] * s.v[d] + 0.5 * modes_[k].omega * modes_[k].omega * s.q[d] * s.q[d];
   return e;
 }

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
+
 #include "rotor/motion/rotor_model.h"
 
 namespace ambrig {
 
-namespace {
-std::size_t U(int d) { return static_cast<std::size_t>(d); }
-}  // namespace
+namespace {}  // namespace
 
 double RotorModel::StiffnessRate(const MotionState& s) const {
   // Fastest rate [1/s] among the contacts: impact, regularised friction on journal and race,
@@ -23,7 +23,8 @@ double RotorModel::StiffnessRate(const MotionState& s) const {
     const double stiffness = p.exponent * p.stiffness * std::pow(reach, p.exponent - 1);
     const double arm = aux.map.z;
     double mobility = 1 / p_.mass + arm * arm / p_.inertia_transverse;
-    for (int c = 4; c < aux.map.count; ++c) mobility += aux.map.wx[U(c)] * aux.map.wx[U(c)];
+    for (int c = 4; c < aux.map.count; ++c)
+      mobility += aux.map.wx[AsSize(c)] * aux.map.wx[AsSize(c)];
     if (aux.mount_dof >= 0) {
       mobility += 1 / p.mount_mass;
       rate = std::max(

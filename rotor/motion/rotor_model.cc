@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace ambrig {
+#include "core/base/index.h"
 
-namespace {
-std::size_t U(int d) { return static_cast<std::size_t>(d); }
-}  // namespace
+namespace ambrig {
 
 RotorModel::RotorModel(const RotorParameters& parameters, const std::array<double, 3>& gravity)
     : p_(parameters),
@@ -16,7 +14,7 @@ RotorModel::RotorModel(const RotorParameters& parameters, const std::array<doubl
 
 int RotorModel::NewDof(double mass) {
   if (dof_ >= kMaxDof) throw InputError("too many moving parts in one rig (modes, mounts, races)");
-  inverse_mass_[U(dof_)] = 1 / mass;
+  inverse_mass_[AsSize(dof_)] = 1 / mass;
   return dof_++;
 }
 
@@ -61,7 +59,7 @@ void RotorModel::SetMount(std::size_t k, double stiffness, double damping, doubl
     plane.mount_dof = NewDof(mass);
     NewDof(mass);
   }
-  inverse_mass_[U(plane.mount_dof)] = inverse_mass_[U(plane.mount_dof) + 1] = 1 / mass;
+  inverse_mass_[AsSize(plane.mount_dof)] = inverse_mass_[AsSize(plane.mount_dof) + 1] = 1 / mass;
 }
 
 void RotorModel::SetBase(double mass, double stiffness, double damping) {
@@ -88,7 +86,7 @@ void RotorModel::Rest(MotionState& s) const {
   const double load[2] = {p_.mass * g * z1 / (z1 - z0), -p_.mass * g * z0 / (z1 - z0)};
   double depth[2];
   for (std::size_t m = 0; m < modes().size(); ++m) {  // the shaft sags between what carries it
-    const std::size_t d = U(mode_dof(m));
+    const std::size_t d = AsSize(mode_dof(m));
     const double push = -modes()[m].Gain(z0) * load[0] - modes()[m].Gain(z1) * load[1];
     const double sag = push / (modes()[m].omega * modes()[m].omega);
     s.q[d] = nx * sag;
@@ -101,8 +99,8 @@ void RotorModel::Rest(MotionState& s) const {
     depth[k] -= nx * aux.map.X(s.q) + ny * aux.map.Y(s.q);
     if (aux.mount_dof < 0) continue;
     const double sag = load[k] / aux.parameters.mount_stiffness;
-    s.q[U(aux.mount_dof)] = nx * sag;
-    s.q[U(aux.mount_dof) + 1] = ny * sag;
+    s.q[AsSize(aux.mount_dof)] = nx * sag;
+    s.q[AsSize(aux.mount_dof) + 1] = ny * sag;
     depth[k] += sag;
   }
   const double slope = (depth[1] - depth[0]) / (z1 - z0), centre = depth[0] - slope * z0;
@@ -119,8 +117,8 @@ void RotorModel::Rest(MotionState& s) const {
 
 void RotorModel::SettleBase(MotionState& s, double stator_x, double stator_y) const {
   if (base_dof_ < 0) return;
-  s.q[U(base_dof_)] = -stator_x / base_.stiffness;
-  s.q[U(base_dof_) + 1] = -stator_y / base_.stiffness;
+  s.q[AsSize(base_dof_)] = -stator_x / base_.stiffness;
+  s.q[AsSize(base_dof_) + 1] = -stator_y / base_.stiffness;
 }
 
 double RotorModel::Energy(const MotionState& s) const {

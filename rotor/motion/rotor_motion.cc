@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
+
 namespace ambrig {
 
 namespace {
-std::size_t U(int d) { return static_cast<std::size_t>(d); }
 double Length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // A step turns the fastest mode by this much: Runge-Kutta then errs by (wh)^4/120 = 8e-7 of its
@@ -20,16 +21,16 @@ void AddContact(const AuxiliaryPlane& aux, double journal_radius, PlanePoint jou
                 const MotionState& s, RotorForces& f) {
   double x = journal.x, y = journal.y, vx = aux.map.X(s.v), vy = aux.map.Y(s.v);
   if (aux.mount_dof >= 0) {
-    const std::size_t d = U(aux.mount_dof);
+    const std::size_t d = AsSize(aux.mount_dof);
     x -= s.q[d];
     y -= s.q[d + 1];
     vx -= s.v[d];
     vy -= s.v[d + 1];
   }
-  const double race = aux.race_dof >= 0 ? s.v[U(aux.race_dof)] : 0;
+  const double race = aux.race_dof >= 0 ? s.v[AsSize(aux.race_dof)] : 0;
   const ContactForce c = RadialContact(aux.parameters, journal_radius, x, y, vx, vy, s.Omega, race);
   if (aux.mount_dof >= 0) {
-    const std::size_t d = U(aux.mount_dof);
+    const std::size_t d = AsSize(aux.mount_dof);
     const AuxiliaryParameters& p = aux.parameters;
     const double mx = -p.mount_stiffness * s.q[d] - p.mount_damping * s.v[d];
     const double my = -p.mount_stiffness * s.q[d + 1] - p.mount_damping * s.v[d + 1];
@@ -41,7 +42,8 @@ void AddContact(const AuxiliaryPlane& aux, double journal_radius, PlanePoint jou
     f.stator_x += c.fx;
     f.stator_y += c.fy;
   }
-  if (aux.race_dof >= 0) f.Q[U(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
+  if (aux.race_dof >= 0)
+    f.Q[AsSize(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
   if (c.penetration <= 0) return;
   aux.map.AddForce(c.fx, c.fy, f.Q);
   f.torque += c.torque;
@@ -90,15 +92,61 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   f.stator_x = stator_x;
   f.stator_y = stator_y;
   for (const auto& term : terms) term->Add(s, f);
+<<<<<<< HEAD
   for (const AuxiliaryPlane& aux : aux_)
     if (near_contact || aux.mount_dof >= 0 || aux.race_dof >= 0)
       AddContact(aux, p_.journal_radius, Position(s, aux.map), s, f);
+=======
+  for (const AuxiliaryPlane& aux : aux_) {
+    if (!near_contact && aux.mount_dof < 0 && aux.race_dof < 0) continue;
+    auto [x, y] = Position(s, aux.map);
+    double vx = aux.map.X(s.v), vy = aux.map.Y(s.v);
+    if (aux.mount_dof >= 0) {
+      const std::size_t d = AsSize(aux.mount_dof);
+      x -= s.q[d];
+      y -= s.q[d + 1];
+      vx -= s.v[d];
+      vy -= s.v[d + 1];
+    }
+    const double race = aux.race_dof >= 0 ? s.v[AsSize(aux.race_dof)] : 0;
+    const ContactForce c =
+        RadialContact(aux.parameters, p_.journal_radius, x, y, vx, vy, s.Omega, race);
+    if (aux.mount_dof >= 0) {
+      const std::size_t d = AsSize(aux.mount_dof);
+      const AuxiliaryParameters& p = aux.parameters;
+      const double mx = -p.mount_stiffness * s.q[d] - p.mount_damping * s.v[d];
+      const double my = -p.mount_stiffness * s.q[d + 1] - p.mount_damping * s.v[d + 1];
+      f.Q[d] += mx - c.fx;
+      f.Q[d + 1] += my - c.fy;
+      f.stator_x += mx;  // what the stator pushes, through the mount
+      f.stator_y += my;
+    } else {
+      f.stator_x += c.fx;
+      f.stator_y += c.fy;
+    }
+    if (aux.race_dof >= 0)
+      f.Q[AsSize(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
+    if (c.penetration <= 0) continue;
+    aux.map.AddForce(c.fx, c.fy, f.Q);
+    f.torque += c.torque;
+  }
+>>>>>>> refs/heads/vocabulary
   if (has_axial_ && axial_free) f.Q[2] += AxialContact(axial_, s.q[2], s.v[2]);
   shaft_.AddForces(s, f.Q);
   double ax = f.base_ax, ay = f.base_ay;
   if (base_dof_ >= 0) {
-    const std::size_t d = U(base_dof_);
+<<<<<<< HEAD
+    const std::size_t d = AsSize(base_dof_);
     AccelerateBase(base_, d, s, f, a);
+=======
+    const std::size_t d = AsSize(base_dof_);
+    // Relative to the floor, which may itself accelerate.
+    a[d] =
+        (-base_.stiffness * s.q[d] - base_.damping * s.v[d] - f.stator_x) / base_.mass - f.base_ax;
+    a[d + 1] =
+        (-base_.stiffness * s.q[d + 1] - base_.damping * s.v[d + 1] - f.stator_y) / base_.mass -
+        f.base_ay;
+>>>>>>> refs/heads/vocabulary
     ax += a[d];
     ay += a[d + 1];
   }
@@ -109,11 +157,11 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   a[4] = (f.Q[4] + p_.inertia_polar * s.Omega * s.v[3]) / p_.inertia_transverse;
   for (int d = 5; d < dof_; ++d)
     if (base_dof_ < 0 || (d != base_dof_ && d != base_dof_ + 1))
-      a[U(d)] = f.Q[U(d)] * inverse_mass_[U(d)];
+      a[AsSize(d)] = f.Q[AsSize(d)] * inverse_mass_[AsSize(d)];
   for (const AuxiliaryPlane& aux : aux_) {  // mounts, too, are seen from the base
     if (aux.mount_dof < 0) continue;
-    a[U(aux.mount_dof)] -= ax;
-    a[U(aux.mount_dof) + 1] -= ay;
+    a[AsSize(aux.mount_dof)] -= ax;
+    a[AsSize(aux.mount_dof) + 1] -= ay;
   }
   *torque = f.torque;
 }
@@ -144,7 +192,7 @@ void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stato
   for (std::size_t k = 0; k < 4; ++k) {
     stage.t = s.t + c[k] * dt;
     if (k > 0)
-      for (std::size_t d = 0; d < U(dof_); ++d) {
+      for (std::size_t d = 0; d < AsSize(dof_); ++d) {
         stage.q[d] = s.q[d] + c[k] * dt * k_v[k - 1][d];
         stage.v[d] = s.v[d] + c[k] * dt * k_a[k - 1][d];
       }
@@ -158,10 +206,10 @@ void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stato
     Accelerations(stage, forced, stator_x, stator_y, k_a[k], &torque, near_contact);
     k_w[k] = free_spin ? torque / p_.inertia_polar : 0;
     stage_w[k] = stage.Omega;
-    for (std::size_t d = 0; d < U(dof_); ++d) k_v[k][d] = stage.v[d];
+    for (std::size_t d = 0; d < AsSize(dof_); ++d) k_v[k][d] = stage.v[d];
   }
   const double w = dt / 6;
-  for (std::size_t d = 0; d < U(dof_); ++d) {
+  for (std::size_t d = 0; d < AsSize(dof_); ++d) {
     s.q[d] += w * (k_v[0][d] + 2 * (k_v[1][d] + k_v[2][d]) + k_v[3][d]);
     s.v[d] += w * (k_a[0][d] + 2 * (k_a[1][d] + k_a[2][d]) + k_a[3][d]);
   }
@@ -217,8 +265,8 @@ double RotorModel::Penetration(const MotionState& s, std::size_t plane) const {
   const AuxiliaryPlane& aux = aux_[plane];
   auto [x, y] = Position(s, aux.map);
   if (aux.mount_dof >= 0) {
-    x -= s.q[U(aux.mount_dof)];
-    y -= s.q[U(aux.mount_dof) + 1];
+    x -= s.q[AsSize(aux.mount_dof)];
+    y -= s.q[AsSize(aux.mount_dof) + 1];
   }
   return Length(x, y) - aux.parameters.clearance;
 }
@@ -256,6 +304,40 @@ double RotorModel::MountRate() const {
   return rate;
 }
 
+<<<<<<< HEAD
+=======
+double RotorModel::StiffnessRate(const MotionState& s) const {
+  // Fastest rate [1/s] among the contacts: impact, regularised friction on journal and race,
+  // mounts.
+  double rate = 0;
+  for (std::size_t k = 0; k < aux_.size(); ++k) {
+    const AuxiliaryPlane& aux = aux_[k];
+    const AuxiliaryParameters& p = aux.parameters;
+    const double depth = std::max(Penetration(s, k), 0.0);
+    const double reach = std::max(depth, 1e-6);
+    const double stiffness = p.exponent * p.stiffness * std::pow(reach, p.exponent - 1);
+    const double arm = aux.map.z;
+    double mobility = 1 / p_.mass + arm * arm / p_.inertia_transverse;
+    for (int c = 4; c < aux.map.count; ++c)
+      mobility += aux.map.wx[AsSize(c)] * aux.map.wx[AsSize(c)];
+    if (aux.mount_dof >= 0) {
+      mobility += 1 / p.mount_mass;
+      rate = std::max(
+          {rate, std::sqrt(p.mount_stiffness / p.mount_mass), p.mount_damping / p.mount_mass});
+    }
+    rate = std::max(rate, std::sqrt(stiffness * mobility));
+    const double normal = p.stiffness * std::pow(depth, p.exponent);
+    double tangential =
+        mobility + p_.journal_radius * p_.journal_radius / std::max(p_.inertia_polar, 1e-9);
+    if (aux.race_dof >= 0) tangential += p_.journal_radius * p_.journal_radius / p.race_inertia;
+    rate = std::max(
+        {rate, p.friction * normal / kSlidingSpeed * tangential, p.damping * normal * mobility});
+  }
+  if (has_axial_ && axial_free) rate = std::max(rate, std::sqrt(axial_.stiffness / p_.mass));
+  return rate;
+}
+
+>>>>>>> refs/heads/vocabulary
 void RotorModel::Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y,
                       double dt) const {
   const int modal =

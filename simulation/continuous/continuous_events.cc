@@ -3,22 +3,23 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/index.h"
+
 #include "simulation/continuous/continuous_rig.h"
+#include "simulation/sampled/instants.h"
 
 namespace ambrig {
 
 namespace {
-std::size_t U(int k) { return static_cast<std::size_t>(k); }
 constexpr double kNoCurrent = 1e-9;  // [A] counts as zero when the diodes are looked at
 constexpr double kNoRise = 1e-3;     // [A/s] a slope that is zero to rounding
 constexpr int kBlockRounds = 8, kMostRounds = 200;
-constexpr double kSame = 1e-14;  // [s] two instants of a period that are one
 }  // namespace
 
 void ContinuousRig::Settle() {
   const bool unipolar = rig_.plant.bearings[0].lanes.unipolar;
   if (!rig_.clamped) {
-    const std::size_t dof = U(rig_.plant.rotor.dof());
+    const std::size_t dof = AsSize(rig_.plant.rotor.dof());
     std::copy(rig_.motion.q.begin(), rig_.motion.q.begin() + static_cast<std::ptrdiff_t>(dof),
               y_.begin() + static_cast<std::ptrdiff_t>(q_at_));
     std::copy(rig_.motion.v.begin(), rig_.motion.v.begin() + static_cast<std::ptrdiff_t>(dof),
@@ -33,7 +34,7 @@ void ContinuousRig::Settle() {
     double current[kMaxWindings] = {}, px, py;
     for (int j = 0; j < b.network.coils; ++j) {
       current[j] = rig_.control[k].set_point[j];
-      b.network.windings[U(j)].conducts = !unipolar || current[j] > 0;
+      b.network.windings[AsSize(j)].conducts = !unipolar || current[j] > 0;
     }
     Place(k, rig_.motion, &px, &py);
     b.network.Linkages(current, px, py, y_.data() + b.at);
@@ -61,10 +62,10 @@ void ContinuousRig::BeginPeriod(long long n) {
 }
 
 void ContinuousRig::SetVoltage(std::size_t b, int j, double volts, bool driven) {
-  if (bearings_[b].volts[U(j)] == volts && bearings_[b].driven[U(j)] == driven)
+  if (bearings_[b].volts[AsSize(j)] == volts && bearings_[b].driven[AsSize(j)] == driven)
     return;  // a mere sample
-  bearings_[b].volts[U(j)] = volts;
-  bearings_[b].driven[U(j)] = driven;
+  bearings_[b].volts[AsSize(j)] = volts;
+  bearings_[b].driven[AsSize(j)] = driven;
   restart_ = true;
 }
 
@@ -84,16 +85,16 @@ void ContinuousRig::DecideConduction(std::size_t k, int must_block, int must_car
     b.network.Rates(now_[k], slope, px, py, vx, vy, r);
   };
   const auto carry = [&](int j) {
-    Winding& w = b.network.windings[U(j)];
+    Winding& w = b.network.windings[AsSize(j)];
     w.conducts = true;
-    y_[b.at + U(j)] = b.network.OpenLinkage(now_[k], U(j));
+    y_[b.at + AsSize(j)] = b.network.OpenLinkage(now_[k], AsSize(j));
   };
   b.network.Solve(y_.data() + b.at, px, py, now_[k]);
-  if (must_block >= 0) b.network.windings[U(must_block)].conducts = false;
+  if (must_block >= 0) b.network.windings[AsSize(must_block)].conducts = false;
   if (must_carry >= 0) carry(must_carry);
   for (int j = 0; j < b.network.coils; ++j) {
-    const Winding& w = b.network.windings[U(j)];
-    if (!w.broken && !w.conducts && b.driven[U(j)] && j != must_block) carry(j);
+    const Winding& w = b.network.windings[AsSize(j)];
+    if (!w.broken && !w.conducts && b.driven[AsSize(j)] && j != must_block) carry(j);
   }
   // All at once first; should that not settle, one at a time by the lowest index, which ends for
   // the positive definite inductance (Murty 1974).
@@ -102,14 +103,14 @@ void ContinuousRig::DecideConduction(std::size_t k, int must_block, int must_car
     const bool one = round >= kBlockRounds;
     bool changed = false;
     for (int j = 0; j < b.network.coils && !(one && changed); ++j) {
-      Winding& w = b.network.windings[U(j)];
+      Winding& w = b.network.windings[AsSize(j)];
       if (w.broken) continue;
       if (w.conducts) {
-        if (now_[k].i[U(j)] > kNoCurrent || r.i[U(j)] >= -kNoRise) continue;
+        if (now_[k].i[AsSize(j)] > kNoCurrent || r.i[AsSize(j)] >= -kNoRise) continue;
         w.conducts = false;
       } else {
-        if (!one || !b.driven[U(j)] || j == must_block) continue;
-        if (b.volts[U(j)] - w.n * r.phi[U(w.pole)] <= kNoRise * w.leakage) continue;
+        if (!one || !b.driven[AsSize(j)] || j == must_block) continue;
+        if (b.volts[AsSize(j)] - w.n * r.phi[AsSize(w.pole)] <= kNoRise * w.leakage) continue;
         carry(j);
       }
       changed = true;
@@ -142,7 +143,7 @@ void ContinuousRig::AdvanceTo(double tau) {
   for (const LoadSpec& l : rig_.scenario.loads)
     for (double edge : {l.start, l.stop})
       if (std::abs(t0_ + tau_ - edge) < 1e-12) restart_ = true;
-  while (tau - tau_ > kSame) {
+  while (tau - tau_ > kSameInstant) {
     if (restart_) {
       Restart();
       solver_->Restart(tau_, y_, tau - tau_);
@@ -160,7 +161,7 @@ void ContinuousRig::HandleRoots(const std::vector<int>& roots) {
   for (std::size_t k = 0; k < bearings_.size() && rig_.plant.bearings[0].lanes.unipolar; ++k)
     for (int j = 0; j < bearings_[k].network.coils; ++j, ++r) {
       if (roots[r] == 0) continue;
-      const bool conducts = bearings_[k].network.windings[U(j)].conducts;
+      const bool conducts = bearings_[k].network.windings[AsSize(j)].conducts;
       DecideConduction(k, conducts ? j : -1, conducts ? -1 : j);
     }
   restart_ = true;  // contacts change their law by themselves
@@ -179,7 +180,7 @@ void ContinuousRig::ShortTurns(std::size_t k, int coil, double share, double res
     loop = b.loops.front();
     b.loops.erase(b.loops.begin());
   }
-  if (!b.network.windings[U(coil)].broken)
+  if (!b.network.windings[AsSize(coil)].broken)
     b.network.Short(coil, loop, share, resistance, now_[k], y_.data() + b.at);
   Refresh();
   restart_ = true;
@@ -195,7 +196,7 @@ void ContinuousRig::EndPeriod() {
 }
 
 double ContinuousRig::MeanCurrent(std::size_t b, int j, double over) const {
-  return y_[bearings_[b].charge_at + U(j)] / over;
+  return y_[bearings_[b].charge_at + AsSize(j)] / over;
 }
 
 EnergyBalance ContinuousRig::Energies() const {

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
 #include "scenarios/faults/fault.h"
 
 namespace ambrig {
 
 namespace {
-std::size_t U(int k) { return static_cast<std::size_t>(k); }
 constexpr std::size_t kEnergies = 5;  // electrical, drive, copper, contact, magnetic work
 
 void RefuseWhatIsNotHere(const Plant& plant) {
@@ -68,12 +68,12 @@ void ContinuousRig::LayOut() {
     return at;
   };
   for (Bearing& b : bearings_) {
-    b.at = add(b.network.windings.size(), 1e-13);  // [Wb]
-    b.force_at = add(2, 1e-12);                    // [N s]
-    b.charge_at = add(U(b.network.coils), 1e-13);  // [A s]
+    b.at = add(b.network.windings.size(), 1e-13);       // [Wb]
+    b.force_at = add(2, 1e-12);                         // [N s]
+    b.charge_at = add(AsSize(b.network.coils), 1e-13);  // [A s]
   }
   energy_at_ = add(kEnergies, 1e-12);  // [J]
-  const std::size_t dof = rig_.clamped ? 0 : U(rig_.plant.rotor.dof());
+  const std::size_t dof = rig_.clamped ? 0 : AsSize(rig_.plant.rotor.dof());
   q_at_ = add(dof, 1e-15);                     // [m]
   v_at_ = add(dof, 1e-12);                     // [m/s]
   spin_at_ = add(rig_.clamped ? 0 : 2, 1e-9);  // [rad], [rad/s]
@@ -87,7 +87,7 @@ OdeProblem ContinuousRig::MakeProblem(const IntegratorOptions& options) {
   p.root = [this](double tau, const double* y, double* g) { Roots(tau, y, g); };
   for (const Bearing& b : bearings_)
     if (rig_.plant.bearings[0].lanes.unipolar)
-      p.directions.insert(p.directions.end(), U(b.network.coils), -1);
+      p.directions.insert(p.directions.end(), AsSize(b.network.coils), -1);
   if (!rig_.clamped)
     p.directions.insert(p.directions.end(), rig_.plant.rotor.auxiliaries().size() + 1, 0);
   p.roots = static_cast<int>(p.directions.size());
@@ -100,7 +100,7 @@ MotionState ContinuousRig::MotionOf(double tau, const double* y) const {
   MotionState s = rig_.motion;
   s.t = t0_ + tau;
   if (rig_.clamped) return s;
-  const std::size_t dof = U(rig_.plant.rotor.dof());
+  const std::size_t dof = AsSize(rig_.plant.rotor.dof());
   std::copy(y + q_at_, y + q_at_ + dof, s.q.begin());
   std::copy(y + v_at_, y + v_at_ + dof, s.v.begin());
   if (free_spin_) {
@@ -125,7 +125,7 @@ void ContinuousRig::Slopes(const Bearing& b, const NetworkState& s, double* slop
   for (std::size_t w = 0; w < b.network.windings.size(); ++w) {
     const Winding& k = b.network.windings[w];
     const bool carries = k.live && !k.broken && k.conducts;
-    const double v = k.coil < 0 ? 0 : b.volts[U(k.coil)];
+    const double v = k.coil < 0 ? 0 : b.volts[AsSize(k.coil)];
     slope[w] = carries ? v - k.resistance * s.i[w] : 0;
   }
 }
@@ -145,8 +145,8 @@ void ContinuousRig::Rhs(double tau, const double* y, double* f) const {
       const Winding& winding = b.network.windings[w];
       copper += winding.live ? winding.resistance * n.i[w] * n.i[w] : 0;
       if (winding.coil < 0) continue;
-      electrical += b.volts[U(winding.coil)] * n.i[w];
-      f[b.charge_at + U(winding.coil)] = n.i[w];
+      electrical += b.volts[AsSize(winding.coil)] * n.i[w];
+      f[b.charge_at + AsSize(winding.coil)] = n.i[w];
     }
     f[b.force_at] = n.fx;
     f[b.force_at + 1] = n.fy;
@@ -168,7 +168,7 @@ void ContinuousRig::Rhs(double tau, const double* y, double* f) const {
   DofVector a{};
   double torque = 0;
   rig_.plant.rotor.Accelerations(s, Q, stator_x, stator_y, a, &torque);
-  const std::size_t dof = U(rig_.plant.rotor.dof());
+  const std::size_t dof = AsSize(rig_.plant.rotor.dof());
   for (std::size_t d = 0; d < dof; ++d) {
     f[q_at_ + d] = s.v[d];
     f[v_at_ + d] = a[d];
@@ -211,10 +211,10 @@ void ContinuousRig::Roots(double tau, const double* y, double* g) const {
     NetworkRates r;
     bool rates = false;
     for (int j = 0; j < b.network.coils; ++j) {
-      const Winding& w = b.network.windings[U(j)];
+      const Winding& w = b.network.windings[AsSize(j)];
       *g = 1;
-      if (!w.broken && w.conducts) *g = n.i[U(j)];
-      if (!w.broken && !w.conducts && b.driven[U(j)]) {
+      if (!w.broken && w.conducts) *g = n.i[AsSize(j)];
+      if (!w.broken && !w.conducts && b.driven[AsSize(j)]) {
         if (!rates) {
           const PlaneMap& plane = rig_.plant.bearings[k].plane;
           Slopes(b, n, slope);
@@ -222,7 +222,7 @@ void ContinuousRig::Roots(double tau, const double* y, double* g) const {
                           rig_.clamped ? 0 : plane.Y(s.v), r);
           rates = true;
         }
-        *g = w.n * r.phi[U(w.pole)] - b.volts[U(j)];
+        *g = w.n * r.phi[AsSize(w.pole)] - b.volts[AsSize(j)];
       }
       ++g;
     }

@@ -7,11 +7,10 @@
 
 #include "simulation/continuous/fault_injection.h"
 #include "simulation/continuous/reference_engine.h"
+#include "simulation/sampled/instants.h"
 #include "simulation/verdict/run_watch.h"
 
 namespace ambrig {
-
-inline constexpr double kSameInstant = 1e-14;  // [s] two instants of a period that are one
 
 class ContinuousRun {
  public:

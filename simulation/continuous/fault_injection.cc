@@ -3,12 +3,11 @@
 #include <cmath>
 
 #include "scenarios/faults/faulted_plant.h"
+#include "simulation/sampled/instants.h"
 
 namespace ambrig {
 
 namespace {
-
-constexpr double kSame = 1e-10;  // [s] two instants that are one
 
 /// The coils as networks of windings (actuators/magnetics/coil_network.h).
 class FaultedNetwork : public FaultedPlant {
@@ -43,7 +42,7 @@ double FaultInjection::Snapped(const FaultSpec& f) const {
 void FaultInjection::Instants(long long n, std::vector<double>& out) const {
   const double t0 = static_cast<double>(n) * rig_.T;
   const auto add = [&](double t) {
-    if (std::isfinite(t) && t > t0 - kSame && t < t0 + rig_.T - kSame)
+    if (std::isfinite(t) && t > t0 - kSameTime && t < t0 + rig_.T - kSameTime)
       out.push_back(std::max(t - t0, 0.0));
   };
   for (std::size_t k = next_; k < rig_.scenario.faults.size(); ++k) {
@@ -59,9 +58,10 @@ bool FaultInjection::Due(long long n, double tau) {
   if (n < 0) return false;
   const double t = static_cast<double>(n) * rig_.T + tau;
   bool changed = false;
-  while (next_ < rig_.scenario.faults.size() && Snapped(rig_.scenario.faults[next_]) <= t + kSame)
+  while (next_ < rig_.scenario.faults.size() &&
+         Snapped(rig_.scenario.faults[next_]) <= t + kSameTime)
     changed = Inject(rig_.scenario.faults[next_++]) || changed;
-  while (ends_.next() <= t + kSame) {
+  while (ends_.next() <= t + kSameTime) {
     const FaultSpec& spec = ends_.Take();
     FaultedNetwork plant(rig_, plant_, PlaceOf(spec, rig_.rig));
     FaultByKind(spec.kind).end(plant);

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-namespace ambrig {
+#include "core/base/index.h"
 
-namespace {
-std::size_t U(int k) { return static_cast<std::size_t>(k); }
-}  // namespace
+namespace ambrig {
 
 void CurrentLoops::Targets(long long at, std::vector<BearingControl>& control) {
   const bool scenario = source_ == SetPoints::kOfTheScenario;
@@ -15,7 +13,7 @@ void CurrentLoops::Targets(long long at, std::vector<BearingControl>& control) {
     target_[k] = scenario ? Lane{} : control[k].commanded;
   if (at >= 0 && source_ != SetPoints::kMeasuredWhole)
     for (const CommandPlan::Signal& s : commands_.current)
-      target_[U(s.bearing)][s.index] += CommandPlan::At(s, at);
+      target_[AsSize(s.bearing)][s.index] += CommandPlan::At(s, at);
   for (std::size_t k = 0; scenario && k < control.size(); ++k) control[k].set_point = target_[k];
 }
 
@@ -26,14 +24,14 @@ void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {
     BearingControl& c = control[k];
     const Lane& target = target_[k];
     for (int j = 0; j < c.coils; ++j)
-      c.duty[j] = first_period_ ? duty_min_ : c.regulator[U(j)].Duty(target[j], c.feedback[j]);
+      c.duty[j] = first_period_ ? duty_min_ : c.regulator[AsSize(j)].Duty(target[j], c.feedback[j]);
     for (int j = 0; j < c.coils; ++j)
-      if (c.disabled[U(j)]) c.duty[j] = 0;
+      if (c.disabled[AsSize(j)]) c.duty[j] = 0;
   }
   first_period_ = false;
   if (at < 0) return;
   for (const CommandPlan::Signal& s : commands_.duty)
-    control[U(s.bearing)].duty[s.index] =
+    control[AsSize(s.bearing)].duty[s.index] =
         std::clamp(CommandPlan::At(s, at), std::min(0.0, duty_min_), 1.0);
 }
 

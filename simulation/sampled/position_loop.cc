@@ -3,12 +3,9 @@
 #include <algorithm>
 
 #include "simulation/sampled/controller_setup.h"
+#include "simulation/sampled/instants.h"
 
 namespace ambrig {
-
-namespace {
-constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
-}  // namespace
 
 PositionLoop::PositionLoop(const NominalRig& nominal, Plant& plant, const CommandPlan& commands,
                            MeasurementNoise& noise, bool noisy)
@@ -103,7 +100,8 @@ void PositionLoop::Apply(long long n, std::vector<BearingControl>& control) {
     if (!u.recorded)
       for (std::size_t k = 0; k < control.size(); ++k) control[k].set_point = u.values[k];
     u.recorded = true;
-    if (static_cast<double>(u.due) * T_ + plant_.loop_delay > static_cast<double>(n) * T_ + kTiny)
+    if (static_cast<double>(u.due) * T_ + plant_.loop_delay >
+        static_cast<double>(n) * T_ + kSameTime)
       continue;
     for (std::size_t k = 0; k < control.size(); ++k) control[k].commanded = u.values[k];
     ++done;

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/index.h"
 #include "rig/nominal_control.h"
 
 namespace ambrig {
 
 namespace {
-
-std::size_t U(int k) { return static_cast<std::size_t>(k); }
 
 Scenario WithNoise(Scenario s, bool noise) {
   s.noise = s.noise && noise;
@@ -91,8 +90,8 @@ void SampledDataLoop::AtPeriodStart(long long n) {
 }
 
 CoilVoltage SampledDataLoop::PatternOf(const SampledBearing& b, int j, double current) const {
-  BridgeImperfection bridge = b.plant->bridge[U(j)];
-  for (const auto& term : b.plant->voltage[U(j)])
+  BridgeImperfection bridge = b.plant->bridge[AsSize(j)];
+  for (const auto& term : b.plant->voltage[AsSize(j)])
     bridge.voltage_offset +=
         term->Voltage({motion.t, current, plant.bus.voltage, b.true_x - b.plant->offset_x,
                        b.true_y - b.plant->offset_y, &motion});

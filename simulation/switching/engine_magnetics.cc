@@ -5,14 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "simulation/sampled/instants.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
-
-namespace {
-constexpr double kTiny = 1e-10;  // [s] instants equal to rounding
-}  // namespace
 
 void SwitchingEngine::SetPatterns(BearingRun& b) {
   const BearingControl& c = loop_.control[b.side->index];
@@ -74,7 +71,7 @@ void SwitchingEngine::RunMagnetics(long long n) {
   std::vector<const FaultSpec*>& due = due_faults_;
   due.clear();
   while (n >= 0 && next_fault_ < scenario_.faults.size() &&
-         scenario_.faults[next_fault_].time < end - kTiny)
+         scenario_.faults[next_fault_].time < end - kSameTime)
     due.push_back(&scenario_.faults[next_fault_++]);
   // Faults and a moving bus tie the bearings together sample by sample; an iron law or a late edge
   // concerns its own bearing only.

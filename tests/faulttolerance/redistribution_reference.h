@@ -8,10 +8,10 @@
 
 namespace ambrig::testing_reference {
 
-inline Eigen::Vector2d DirectForce(const RedistributionProblem& p, const Coils& i,
+inline Eigen::Vector2d DirectForce(const RedistributionProblem& p, const CoilVector& i,
                                    const Eigen::Vector2d& r) {
   double sum_P = 0, sum_Pm = 0;
-  Coils P, m;
+  CoilVector P, m;
   for (int j = 0; j < 8; ++j) {
     const double gap = p.gap - r.x() * std::cos(p.angle[j]) - r.y() * std::sin(p.angle[j]);
     P[j] = kMu0 * p.pole_area / gap;

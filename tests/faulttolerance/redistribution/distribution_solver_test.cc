@@ -42,7 +42,7 @@ void ExpectServesItsDisc(const RedistributionProblem& p, const Distribution& d) 
     for (int n = 0; n < 180; ++n) {
       const double r = d.rho * p.c0 * ring / 12, angle = 2 * pi * n / 180;
       const Eigen::Vector3d command(p.c0, r * std::cos(angle), r * std::sin(angle));
-      const Coils i = d.W * command;
+      const CoilVector i = d.W * command;
       // Rounding of a sum of squares of the currents.
       EXPECT_LT((DirectForce(p, i, {0, 0}) - k * p.c0 * command.tail<2>()).norm(),
                 1e-11 * k * i.squaredNorm());

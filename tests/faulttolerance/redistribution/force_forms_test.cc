@@ -50,7 +50,7 @@ TEST(ForceForms, FormsAreTheFluxForce) {
   const ForceForms forms = MakeForceForms(p);
   const double half_k = ForceFactor(p) / 2;
   for (int n = 0; n < 20; ++n) {
-    const Coils i = Coils::Random() * 5;
+    const CoilVector i = CoilVector::Random() * 5;
     const Eigen::Vector2d f = DirectForce(p, i, {0, 0});
     for (int axis = 0; axis < 2; ++axis)
       EXPECT_NEAR(half_k * i.dot(forms.Q[axis] * i), f[axis], 1e-12 * half_k * i.squaredNorm());
@@ -61,7 +61,7 @@ TEST(ForceForms, StiffnessIsTheDerivativeOfTheForce) {
   RedistributionProblem p = Rig();
   p.turns_left[2] = 0.6;
   const DistributionMatrix W = DistributionMatrix::Random();
-  const Coils bias = p.c0 * W.col(0);
+  const CoilVector bias = p.c0 * W.col(0);
   const Eigen::Matrix2d K = NegativeStiffness(p, MakeForceForms(p), W);
   const double h = 1e-4 * p.gap;  // central difference: error (h/g)^2 = 1e-8 of the scale
   for (int axis = 0; axis < 2; ++axis) {
@@ -78,7 +78,7 @@ TEST(ForceForms, SingleCoilByShiftingAllCurrents) {
   for (int f = 0; f < 8; ++f) {
     RedistributionProblem p = healthy;
     p.turns_left[f] = 0;
-    const DistributionMatrix shifted = mmf - Coils::Ones() * mmf.row(f);
+    const DistributionMatrix shifted = mmf - CoilVector::Ones() * mmf.row(f);
     const DistributionMatrix W = FromMmf(p, shifted);
     EXPECT_LT(Residual(p, W), 1e-15);
     EXPECT_NEAR(W.col(0).squaredNorm(), 16, 1e-12);  // copper loss of the bias doubles

@@ -21,13 +21,15 @@ RedistributionProblem Bearing(const std::vector<int>& failed, const char* windin
   return p;
 }
 
-Coils SomeCurrents() { return (Coils() << 2.1, 0.4, 3.3, 1.9, 0.2, 2.7, 1.1, 0.6).finished(); }
+CoilVector SomeCurrents() {
+  return (CoilVector() << 2.1, 0.4, 3.3, 1.9, 0.2, 2.7, 1.1, 0.6).finished();
+}
 
 TEST(NetworkForce, IsTheQuadraticFormAtTheCentre) {
   RedistributionProblem p = Bearing({3});
   p.turns_left[5] = 0.6;
   const ForceForms forms = MakeForceForms(p);
-  const Coils i = SomeCurrents();
+  const CoilVector i = SomeCurrents();
   const Eigen::Vector2d f = NetworkForce(p).Force(i);
   const double half = ForceFactor(p) / 2;  // forms are scaled so that 1 is the entry k/2
   EXPECT_NEAR(f.x(), half * i.dot(forms.Q[0] * i), 1e-12 * half);
@@ -39,14 +41,14 @@ TEST(NetworkForce, GradientAndContractionAreItsDerivatives) {
   p.turns_left[6] = 0.5;
   NetworkForce network(p);
   network.MoveTo(6e-5, -9e-5);
-  const Coils i = SomeCurrents();
+  const CoilVector i = SomeCurrents();
   ForceGradient J, plus, minus, y = ForceGradient::Zero();
   network.Force(i, &J);
   y.row(0) << 1, -2, 0.5, 0.3, -0.7, 1.1, 0.2, -0.4;
   y.row(1) << 0.3, 0.1, -1.5, 0.9, 0.6, -0.8, 1.2, 0.7;
-  const Coils contracted = network.Contract(y);
+  const CoilVector contracted = network.Contract(y);
   for (int j = 0; j < 8; ++j) {
-    const Coils h = 1e-4 * Coils::Unit(j);
+    const CoilVector h = 1e-4 * CoilVector::Unit(j);
     const Eigen::Vector2d slope =
         (network.Force(i + h, &plus) - network.Force(i - h, &minus)) / 2e-4;
     EXPECT_NEAR((slope - J.col(j)).norm(), 0, 1e-8) << j;
@@ -59,13 +61,14 @@ TEST(ForceInverse, TurnsAForceRoundWithoutAJumpAtAnyPosition) {
   for (const std::vector<int>& set : {std::vector<int>{}, {1}, {2, 3}, {1, 4, 6}, {1, 4, 6, 7}}) {
     ForceInverse inverse(Bearing(set));
     ASSERT_TRUE(inverse.Start({0, kWeight})) << set.size();
-    Coils last = inverse.current();
+    CoilVector last = inverse.current();
     double largest = 0;
     for (int n = 0; n <= 600; ++n) {
       // within what the set can carry
       const double a = 0.02 * n, r = std::min(set.size() > 2 ? 4.0 : 8.0, 0.2 * n);
       const Eigen::Vector2d wanted(r * std::cos(a), kWeight + r * std::sin(a));
-      const Coils& i = inverse.Step(wanted, 2e-5 * std::sin(0.03 * n), -2e-5 * std::sin(0.05 * n));
+      const CoilVector& i =
+          inverse.Step(wanted, 2e-5 * std::sin(0.03 * n), -2e-5 * std::sin(0.05 * n));
       EXPECT_NEAR((inverse.force() - wanted).norm(), 0, 0.3) << set.size() << " at " << n;
       EXPECT_GE(i.minCoeff(), 0);
       EXPECT_LE(i.maxCoeff(), 6);
@@ -94,8 +97,8 @@ TEST(ForceInverse, SlewLimitIsKept) {
   options.slew = 0.05;
   ForceInverse inverse(Bearing({5}), options);
   ASSERT_TRUE(inverse.Start({0, 0}));
-  const Coils before = inverse.current();
-  const Coils after = inverse.Step({20, 20});
+  const CoilVector before = inverse.current();
+  const CoilVector after = inverse.Step({20, 20});
   EXPECT_LE((after - before).cwiseAbs().maxCoeff(), 0.05 + 1e-12);
 }
 

@@ -121,7 +121,7 @@ TEST(RedistributionTable, CapacityPolicyKeepsThePromiseOfTheClass) {
 
 TEST(RedistributionTable, PartialShortBetweenGridPointsIsExact) {
   const RedistributionTable table(Rig());
-  Coils turns_left = Coils::Ones();
+  CoilVector turns_left = CoilVector::Ones();
   for (const double s : {0.013, 0.37, 0.512, 0.981}) {
     turns_left[5] = 1 - s;
     const Distribution d = table.Lookup(turns_left);

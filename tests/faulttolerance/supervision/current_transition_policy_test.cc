@@ -13,7 +13,7 @@ namespace {
 
 struct Way {
   TransitionStart start;
-  SetPointVector wanted;
+  CoilVector wanted;
   Eigen::Vector2d force;
 };
 
@@ -56,27 +56,27 @@ TEST(CurrentTransition, EveryPolicyArrivesAndThenHandsThrough) {
   for (const std::string& name : Names()) {
     const auto policy = MakeCurrentTransition(name, w.start);
     int steps = 0;
-    SetPointVector at = w.start.now;
+    CoilVector at = w.start.now;
     while (steps < 100 && (steps == 0 || !policy->done())) {
       at = policy->Step(w.wanted, w.force);
       ++steps;
     }
     EXPECT_NEAR((at - w.wanted).norm(), 0, 1e-9) << name;
     EXPECT_LE(steps, 12) << name;
-    const SetPointVector other = 1.1 * w.wanted;
+    const CoilVector other = 1.1 * w.wanted;
     EXPECT_EQ(policy->Step(other, w.force), other) << name;
   }
 }
 
 TEST(CurrentTransition, NoCoilOfTheRampGoesFasterThanItsVoltageAllows) {
   const Way w = CoilOneOpens();
-  const Coils step = RampStep(w.start);
+  const CoilVector step = RampStep(w.start);
   EXPECT_NEAR(step[1], 24 * 80e-6 / 1.75e-3, 1e-3);  // docs/theory/base_model.md: 1.75 mH
   for (const char* name : {"ramp", "bias-first", "force-preserving"}) {
     const auto policy = MakeCurrentTransition(name, w.start);
-    SetPointVector last = w.start.now;
+    CoilVector last = w.start.now;
     for (int n = 0; n < 12 && !policy->done(); ++n) {
-      const SetPointVector now = policy->Step(w.wanted, w.force);
+      const CoilVector now = policy->Step(w.wanted, w.force);
       for (int j = 0; j < 8; ++j)
         EXPECT_LE(std::abs(now[j] - last[j]), step[j] + 1e-9) << name << " coil " << j + 1;
       last = now;
@@ -88,10 +88,10 @@ TEST(CurrentTransition, TimeOptimalKeepsOneCoilAtTheLimitAndNoneBeyond) {
   const Way w = CoilOneOpens();
   const auto policy = MakeCurrentTransition("time-optimal", w.start);
   const CoilForm L = InductanceOf(w.start);
-  SetPointVector last = w.start.now;
+  CoilVector last = w.start.now;
   while (!policy->done()) {
-    const SetPointVector now = policy->Step(w.wanted, w.force);
-    Coils volts = L * (now - last) / w.start.period;
+    const CoilVector now = policy->Step(w.wanted, w.force);
+    CoilVector volts = L * (now - last) / w.start.period;
     volts[0] = 0;  // open
     EXPECT_LE(volts.cwiseAbs().maxCoeff(), 24 + 1e-9);
     if (!policy->done()) {
