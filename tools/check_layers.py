@@ -86,7 +86,7 @@ DOORS = {
     "muParser": ["effects/formula_parser.cc"],
     "nlopt": ["design/nlopt_search.cc", "faulttolerance/redistribution/program_search.cc"],
     "pugixml": ["app/commands/check.cc"],
-    "CLI/": ["app/commands/commands.h"],
+    "CLI/": ["app/commands/commands.h", "app/commands/outputs.h"],
 }
 
 INCLUDE = re.compile(r'\s*#include (["<])([^">]+)[">]')

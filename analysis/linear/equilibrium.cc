@@ -32,7 +32,7 @@ struct Balance {
       if (aux.race_dof >= 0) fixed[static_cast<std::size_t>(aux.race_dof)] = true;  // turns freely
   }
 
-  SetPointVector SetPoints(std::size_t k, const double* force) const {
+  CoilVector SetPoints(std::size_t k, const double* force) const {
     const double* f = force + first_axis[k];
     return control[k].map.SetPoints(f[0], AxesOf(plant.bearings[k]) > 1 ? f[1] : 0);
   }
