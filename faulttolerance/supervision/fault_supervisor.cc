@@ -7,6 +7,7 @@
 
 #include "faulttolerance/redistribution/inverse_allocation.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "faulttolerance/supervision/map_checks.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -16,38 +17,8 @@ namespace {
 constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
-constexpr double kTrueWithin = 0.15;  // of the force in command
-// of the equations that a linearised W leaves open
-constexpr double kTrueResidual = 1;
 constexpr double kVoltageShare = 0.8;                       // of the bus, to change currents with
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
-
-/// Whether W gives the force that it is asked for: a linearised one, clamped at zero current, may
-/// give another.
-bool TrueAt(const Eigen::Vector2d& force, const RedistributionProblem& left,
-            const Distribution& found, const CurrentMap& map) {
-  if (found.cls != SolvabilityClass::kLinearised) return found.cls == SolvabilityClass::kExact;
-  if (found.residual > kTrueResidual) return false;
-  return (NetworkForce(left).Force(map.SetPoints(force.x(), force.y())) - force).norm() <=
-         kTrueWithin * force.norm();
-}
-
-/// Of a change of stiffness what is negative: directions in which W pulls the rotor away more than
-/// the healthy bearing would. Where it pulls less the controller is stiffer than planned, which
-/// wants no help.
-Eigen::Matrix2d OnlyMore(const Eigen::Matrix2d& change) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
-  const Eigen::Matrix2d& v = eigen.eigenvectors();
-  return v * eigen.eigenvalues().cwiseMin(0.0).asDiagonal() * v.transpose();
-}
-
-/// The force command behind set-points.
-Eigen::Vector2d ForceBehind(const CurrentMap& map, const SetPointVector& now) {
-  if (map.allocation) return map.allocation->LastForce();
-  const Eigen::Matrix<double, 8, 2> gain = map.W.rightCols<2>();
-  const Eigen::Matrix2d normal = gain.transpose() * gain + 1e-9 * Eigen::Matrix2d::Identity();
-  return map.k * map.c0 * (normal.inverse() * gain.transpose() * (now - map.c0 * map.W.col(0)));
-}
 
 std::string CoilName(const std::string& bearing, int coil) {
   return fmt::format("{}.coil{}", bearing, coil + 1);
@@ -171,7 +142,7 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, const Bearing
   CurrentMap& map = change.map;
   SetPointVector now = SetPointVector::Zero();
   for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
-  const Eigen::Vector2d force = ForceBehind(control.map, now);
+  const Eigen::Vector2d force = CommandedForce(control.map, now);
   std::string cls;
   if (w.bearing->kind == BearingKind::kRadial) {
     cls = NewMap(w, force, &map);
@@ -235,7 +206,7 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
   const Distribution found = w.table->Lookup(w.turns_left);
   map->W = found.W;
   const bool matrix = options_.redistribution == "matrix" ||
-                      (options_.redistribution == "auto" && TrueAt(force, left, found, *map));
+                      (options_.redistribution == "auto" && GivesForce(force, left, found, *map));
   if (!matrix) {
     ForceInverse inverse(left);
     if (inverse.Start(force)) {
@@ -243,7 +214,8 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
       return "force by force";
     }
   }
-  if (options_.stiffness_compensation) map->stiffness_change = OnlyMore(healthy - found.stiffness);
+  if (options_.stiffness_compensation)
+    map->stiffness_change = DestabilisingPart(healthy - found.stiffness);
   return ToText(found.cls);
 }
 
