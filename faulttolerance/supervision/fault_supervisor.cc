@@ -7,6 +7,7 @@
 
 #include "faulttolerance/redistribution/inverse_allocation.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "faulttolerance/supervision/map_checks.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -16,12 +17,10 @@ namespace {
 constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
-constexpr double kTrueWithin = 0.15;  // of the force in command
-// of the equations that a linearised W leaves open
-constexpr double kTrueResidual = 1;
 constexpr double kVoltageShare = 0.8;                       // of the bus, to change currents with
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
+<<<<<<< HEAD
 /// Whether W gives the force that it is asked for: a linearised one, clamped at zero current, may
 /// give another.
 bool TrueAt(const Eigen::Vector2d& force, const RedistributionProblem& left,
@@ -49,6 +48,8 @@ Eigen::Vector2d ForceBehind(const CurrentMap& map, const CoilVector& now) {
   return map.k * map.c0 * (normal.inverse() * gain.transpose() * (now - map.c0 * map.W.col(0)));
 }
 
+=======
+>>>>>>> main
 std::string CoilName(const std::string& bearing, int coil) {
   return fmt::format("{}.coil{}", bearing, coil + 1);
 }
@@ -171,7 +172,7 @@ void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, const Bearing
   CurrentMap& map = change.map;
   CoilVector now = CoilVector::Zero();
   for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
-  const Eigen::Vector2d force = ForceBehind(control.map, now);
+  const Eigen::Vector2d force = CommandedForce(control.map, now);
   std::string cls;
   if (w.bearing->kind == BearingKind::kRadial) {
     cls = NewMap(w, force, &map);
@@ -235,7 +236,7 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
   const Distribution found = w.table->Lookup(w.turns_left);
   map->W = found.W;
   const bool matrix = options_.redistribution == "matrix" ||
-                      (options_.redistribution == "auto" && TrueAt(force, left, found, *map));
+                      (options_.redistribution == "auto" && GivesForce(force, left, found, *map));
   if (!matrix) {
     ForceInverse inverse(left);
     if (inverse.Start(force)) {
@@ -243,7 +244,8 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
       return "force by force";
     }
   }
-  if (options_.stiffness_compensation) map->stiffness_change = OnlyMore(healthy - found.stiffness);
+  if (options_.stiffness_compensation)
+    map->stiffness_change = DestabilisingPart(healthy - found.stiffness);
   return ToText(found.cls);
 }
 
