@@ -300,58 +300,12 @@ Case ReadCase(const std::string& path) {
   c.rig_file = ExistingFile(root, "rig", "rig.toml");
   c.rig = ReadRig(c.rig_file);
   const auto known = KnownChannels(c.rig);
-<<<<<<< HEAD
-  if (const auto noise = root.Table("noise"))
-    for (const std::string& channel : noise->Keys()) {
-      if (!known.contains(channel)) noise->Fail(channel, "is not a channel of this rig");
-      const std::string& unit = known.at(channel);
-      c.noise[channel] =
-          Within(*noise, channel, kRequired, {unit, 0, LargestNoise(unit), "rms of the noise"});
-    }
-=======
   ReadNoise(root, known, c);
->>>>>>> refs/heads/vocabulary
   c.nuisances = ReadNuisances(root, known);
   const auto tables = root.Tables("record");
   if (tables.empty())
     root.Fail("record", "is missing, allowed: one or more [[record]] with scenario and data");
-<<<<<<< HEAD
-  bool any_fit = false;
-  for (const TomlTable& t : tables) {
-    CaseRecord r;
-    r.scenario_file = ExistingFile(t, "scenario");
-    r.data_file = ExistingFile(t, "data");
-    r.validate = t.Choice("use", "fit", "fit, validate, test") != "fit";
-    r.scenario = ReadScenario(r.scenario_file, c.rig);
-    r.time_offset =
-        Within(t, "time_offset", 0, {"s", -1e5, 1e5, "scenario time of the logger's zero"});
-    if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time")
-      t.Fail("kind", fmt::format("= \"{}\" is not compared yet, allowed: \"time\"", kind));
-    r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c, r.sources);
-    const auto left_out = t.Rows("leave_out");
-    RejectReused(c, r, t);
-    t.RejectUnknownKeys();
-    r.data.start += r.time_offset;
-    if (r.time_offset != 0) {
-      CutBefore(r.data);
-      CutBehind(r.data, r.scenario.duration);
-    }
-    LeaveOut(r.data, left_out, t);
-    if (r.data.channels.empty())
-      t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
-    CheckAgainstScenario(r, t);
-    for (const Channel& ch : r.data.channels) {
-      r.quality.push_back(InspectChannel(ch, MayBeConstant(r.scenario, ch.name)));
-      if (!r.quality.back().verdict.starts_with("good"))
-        c.notes.push_back(
-            fmt::format("{}: {}: {}", r.data_file, ch.name, r.quality.back().verdict));
-    }
-    any_fit = any_fit || !r.validate;
-    c.records.push_back(std::move(r));
-  }
-=======
   for (const TomlTable& t : tables) c.records.push_back(ReadCaseRecord(t, known, c));
->>>>>>> refs/heads/vocabulary
   root.RejectUnknownKeys();
   if (std::all_of(c.records.begin(), c.records.end(), [](const auto& r) { return r.validate; }))
     root.Fail("record", "has no record with use = \"fit\", allowed: at least one");

@@ -20,36 +20,6 @@ constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
 constexpr double kVoltageShare = 0.8;                       // of the bus, to change currents with
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
-<<<<<<< HEAD
-/// Whether W gives the force that it is asked for: a linearised one, clamped at zero current, may
-/// give another.
-bool TrueAt(const Eigen::Vector2d& force, const RedistributionProblem& left,
-            const Distribution& found, const CurrentMap& map) {
-  if (found.cls != SolvabilityClass::kLinearised) return found.cls == SolvabilityClass::kExact;
-  if (found.residual > kTrueResidual) return false;
-  return (NetworkForce(left).Force(map.SetPoints(force.x(), force.y())) - force).norm() <=
-         kTrueWithin * force.norm();
-}
-
-/// Of a change of stiffness what is negative: directions in which W pulls the rotor away more than
-/// the healthy bearing would. Where it pulls less the controller is stiffer than planned, which
-/// wants no help.
-Eigen::Matrix2d OnlyMore(const Eigen::Matrix2d& change) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
-  const Eigen::Matrix2d& v = eigen.eigenvectors();
-  return v * eigen.eigenvalues().cwiseMin(0.0).asDiagonal() * v.transpose();
-}
-
-/// The force command behind set-points.
-Eigen::Vector2d ForceBehind(const CurrentMap& map, const CoilVector& now) {
-  if (map.allocation) return map.allocation->LastForce();
-  const Eigen::Matrix<double, 8, 2> gain = map.W.rightCols<2>();
-  const Eigen::Matrix2d normal = gain.transpose() * gain + 1e-9 * Eigen::Matrix2d::Identity();
-  return map.k * map.c0 * (normal.inverse() * gain.transpose() * (now - map.c0 * map.W.col(0)));
-}
-
-=======
->>>>>>> main
 std::string CoilName(const std::string& bearing, int coil) {
   return fmt::format("{}.coil{}", bearing, coil + 1);
 }

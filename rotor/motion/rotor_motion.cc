@@ -92,61 +92,15 @@ void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double 
   f.stator_x = stator_x;
   f.stator_y = stator_y;
   for (const auto& term : terms) term->Add(s, f);
-<<<<<<< HEAD
   for (const AuxiliaryPlane& aux : aux_)
     if (near_contact || aux.mount_dof >= 0 || aux.race_dof >= 0)
       AddContact(aux, p_.journal_radius, Position(s, aux.map), s, f);
-=======
-  for (const AuxiliaryPlane& aux : aux_) {
-    if (!near_contact && aux.mount_dof < 0 && aux.race_dof < 0) continue;
-    auto [x, y] = Position(s, aux.map);
-    double vx = aux.map.X(s.v), vy = aux.map.Y(s.v);
-    if (aux.mount_dof >= 0) {
-      const std::size_t d = AsSize(aux.mount_dof);
-      x -= s.q[d];
-      y -= s.q[d + 1];
-      vx -= s.v[d];
-      vy -= s.v[d + 1];
-    }
-    const double race = aux.race_dof >= 0 ? s.v[AsSize(aux.race_dof)] : 0;
-    const ContactForce c =
-        RadialContact(aux.parameters, p_.journal_radius, x, y, vx, vy, s.Omega, race);
-    if (aux.mount_dof >= 0) {
-      const std::size_t d = AsSize(aux.mount_dof);
-      const AuxiliaryParameters& p = aux.parameters;
-      const double mx = -p.mount_stiffness * s.q[d] - p.mount_damping * s.v[d];
-      const double my = -p.mount_stiffness * s.q[d + 1] - p.mount_damping * s.v[d + 1];
-      f.Q[d] += mx - c.fx;
-      f.Q[d + 1] += my - c.fy;
-      f.stator_x += mx;  // what the stator pushes, through the mount
-      f.stator_y += my;
-    } else {
-      f.stator_x += c.fx;
-      f.stator_y += c.fy;
-    }
-    if (aux.race_dof >= 0)
-      f.Q[AsSize(aux.race_dof)] += c.race_torque - aux.parameters.race_drag * race;
-    if (c.penetration <= 0) continue;
-    aux.map.AddForce(c.fx, c.fy, f.Q);
-    f.torque += c.torque;
-  }
->>>>>>> refs/heads/vocabulary
   if (has_axial_ && axial_free) f.Q[2] += AxialContact(axial_, s.q[2], s.v[2]);
   shaft_.AddForces(s, f.Q);
   double ax = f.base_ax, ay = f.base_ay;
   if (base_dof_ >= 0) {
-<<<<<<< HEAD
     const std::size_t d = AsSize(base_dof_);
     AccelerateBase(base_, d, s, f, a);
-=======
-    const std::size_t d = AsSize(base_dof_);
-    // Relative to the floor, which may itself accelerate.
-    a[d] =
-        (-base_.stiffness * s.q[d] - base_.damping * s.v[d] - f.stator_x) / base_.mass - f.base_ax;
-    a[d + 1] =
-        (-base_.stiffness * s.q[d + 1] - base_.damping * s.v[d + 1] - f.stator_y) / base_.mass -
-        f.base_ay;
->>>>>>> refs/heads/vocabulary
     ax += a[d];
     ay += a[d + 1];
   }
@@ -304,40 +258,6 @@ double RotorModel::MountRate() const {
   return rate;
 }
 
-<<<<<<< HEAD
-=======
-double RotorModel::StiffnessRate(const MotionState& s) const {
-  // Fastest rate [1/s] among the contacts: impact, regularised friction on journal and race,
-  // mounts.
-  double rate = 0;
-  for (std::size_t k = 0; k < aux_.size(); ++k) {
-    const AuxiliaryPlane& aux = aux_[k];
-    const AuxiliaryParameters& p = aux.parameters;
-    const double depth = std::max(Penetration(s, k), 0.0);
-    const double reach = std::max(depth, 1e-6);
-    const double stiffness = p.exponent * p.stiffness * std::pow(reach, p.exponent - 1);
-    const double arm = aux.map.z;
-    double mobility = 1 / p_.mass + arm * arm / p_.inertia_transverse;
-    for (int c = 4; c < aux.map.count; ++c)
-      mobility += aux.map.wx[AsSize(c)] * aux.map.wx[AsSize(c)];
-    if (aux.mount_dof >= 0) {
-      mobility += 1 / p.mount_mass;
-      rate = std::max(
-          {rate, std::sqrt(p.mount_stiffness / p.mount_mass), p.mount_damping / p.mount_mass});
-    }
-    rate = std::max(rate, std::sqrt(stiffness * mobility));
-    const double normal = p.stiffness * std::pow(depth, p.exponent);
-    double tangential =
-        mobility + p_.journal_radius * p_.journal_radius / std::max(p_.inertia_polar, 1e-9);
-    if (aux.race_dof >= 0) tangential += p_.journal_radius * p_.journal_radius / p.race_inertia;
-    rate = std::max(
-        {rate, p.friction * normal / kSlidingSpeed * tangential, p.damping * normal * mobility});
-  }
-  if (has_axial_ && axial_free) rate = std::max(rate, std::sqrt(axial_.stiffness / p_.mass));
-  return rate;
-}
-
->>>>>>> refs/heads/vocabulary
 void RotorModel::Step(MotionState& s, const DofVector& Q, double stator_x, double stator_y,
                       double dt) const {
   const int modal =
