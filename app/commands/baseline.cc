@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/errors.h"
+#include "core/record/channels.h"
 #include "core/record/hdf5.h"
 
 namespace ambrig {
@@ -15,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "A.x", "A.i3", "z", "omega", "bus": what a rig's own logger would keep.
+/// Readings, currents, speed and bus: what a rig's own logger would keep.
 bool KeptByDefault(const std::string& name) {
-  const std::size_t dot = name.find('.');
-  if (dot == std::string::npos) return name == "z" || name == "omega" || name == "bus";
-  const std::string tail = name.substr(dot + 1);
-  return tail == "x" || tail == "y" || (tail.size() > 1 && tail[0] == 'i');
+  const auto id = ParseChannel(name);
+  if (!id) return false;
+  return id->kind == ChannelKind::kReading || id->kind == ChannelKind::kCoilCurrent ||
+         id->kind == ChannelKind::kSpeed || id->kind == ChannelKind::kBus;
 }
 
 bool Kept(const BaselineOptions& o, const std::string& name) {

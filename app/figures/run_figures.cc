@@ -232,10 +232,9 @@ Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zo
         style = {.color = "@red", .width = 3};
         name = full_name + " (faulty)";
       }
-      // Dashes mean something only where a line can be followed.
+      // dashes mean something only where a line can be followed
       if (!zoom && full_name != stages.coil) style = {.color = kCoilColors[j % 8], .width = 1};
-      // One legend for all panels.
-      style.legend = named.insert(name).second;
+      style.legend = named.insert(name).second;  // one legend for all panels
       AddLine(figure, p, name, cut.t, cut.Of(b.currents[j]), style);
     }
     SetAxes(figure, p, cut.title, "current [A]", cut.range);
@@ -292,11 +291,9 @@ Figure SnapshotFigure(const RunReportData& data) {
   }
   return StatorFigure(
       "The bearing in cross-section at chosen instants. Poles are coloured by their flux (blue: "
-      "into "
-      "the rotor, orange: out of it), coils at the poles' sides by their current (green); the "
-      "deeper, "
-      "the larger. A faulty coil is dotted red. The shaft's displacement is drawn in proportion to "
-      "the clearance (dashed): shown in the middle, how far the centre has moved.",
+      "into the rotor, orange: out of it), coils at the poles' sides by their current (green); the "
+      "deeper, the larger. A faulty coil is dotted red. The shaft's displacement is drawn in "
+      "proportion to the clearance (dashed): in the middle, how far the centre has moved.",
       views);
 }
 

@@ -13,6 +13,9 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
     if (e.fraction != 0) j["fraction"] = e.fraction;
     events.push_back(j);
   }
+  Json actions = Json::array();
+  for (const CoilAction& a : result.actions)
+    actions.push_back({{"t", a.t}, {"coil", a.coil}, {"action", a.action}, {"reason", a.reason}});
   const RunMetrics& m = result.metrics;
   Json orbit = Json::object();
   for (const auto& [name, value] : m.max_orbit) orbit[name] = value;
@@ -36,6 +39,7 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
             {"real_time_factor", m.real_time_factor}}},
           {"touchdown", result.touchdown},
           {"drop", result.drop},
+          {"fault_tolerance", {{"actions", actions}, {"doubtful", result.doubtful}}},
           {"expect", wanted},
           {"notes", result.notes}};
 }

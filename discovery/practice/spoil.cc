@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/math/noise.h"
+#include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
 
 namespace ambrig {
@@ -26,10 +27,10 @@ double Movement(const Samples& y) {
 Channel& Moving(CaseRecord& r, const std::string& wanted, std::uint64_t seed) {
   std::vector<Channel*> all;
   for (Channel& c : r.data.channels) {
-    const std::string kind = KindOf(c.name);
     if (!wanted.empty() && c.name == wanted) return c;
-    if ((kind == "x" || kind == "y" || kind == "z" || kind == "i") && Movement(c.samples) > 0)
-      all.push_back(&c);
+    const bool reading = IsOfKind(c.name, ChannelKind::kReading),
+               current = IsOfKind(c.name, ChannelKind::kCoilCurrent);
+    if ((reading || current) && Movement(c.samples) > 0) all.push_back(&c);
   }
   if (!wanted.empty() || all.empty())
     throw InputError(fmt::format("{}: no such column in {}", wanted, r.data_file));
@@ -50,14 +51,13 @@ void Clip(Samples& y) {
 }
 
 Channel& NextOfKind(CaseRecord& r, const Channel& of) {
-  const std::string kind = KindOf(of.name), bearing = of.name.substr(0, of.name.find('.'));
+  const auto id = ParseChannel(of.name);
   Channel* best = nullptr;
   double most = 0;
   for (Channel& c : r.data.channels) {
-    const std::string other = KindOf(c.name);
-    const bool alike =
-        other == kind || (kind == "x" && other == "y") || (kind == "y" && other == "x");
-    if (&c == &of || !alike || c.name.substr(0, c.name.find('.')) != bearing) continue;
+    const auto other = ParseChannel(c.name);
+    if (&c == &of || !id || !other || other->kind != id->kind || other->plane != id->plane)
+      continue;
     double apart = 0;
     for (std::size_t k = 0; k < c.samples.size(); ++k)
       apart += std::pow(c.samples[k] - of.samples[k], 2);

@@ -32,7 +32,8 @@ struct FaultSupervisor::Watched {
   std::unique_ptr<RunDetector> detector;
   std::unique_ptr<RedistributionTable> table;
   CoilVector turns_left = CoilVector::Ones();
-  int alarmed = -1;  // coil that the alarm was raised for
+  int alarmed = -1;       // coil that the alarm was raised for
+  bool doubtful = false;  // its detector has doubted its model in this run
 };
 
 FaultSupervisor::FaultSupervisor(const NominalRig& nominal, const FaultSupervisorOptions& options)
@@ -97,6 +98,10 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
   in.set_point = &control.commanded;
   const DetectorAlarm alarm = w.detector->Period(in);
   coil_periods_ += w.bearing->coils();
+  if (w.detector->doubtful() && !w.doubtful) {
+    w.doubtful = doubtful_ = true;
+    events.push_back({m.t + T_, "doubtful", w.bearing->name, "model doubtful", 0});
+  }
   if (alarm.coil < 0) return;
   const double t = m.t + T_;
   const std::string name = CoilName(w.bearing->name, alarm.coil);
@@ -134,6 +139,9 @@ void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& 
   const bool lost = d.cls != FaultClass::kPartialShort;
   w.turns_left[d.coil] = lost ? 0 : w.turns_left[d.coil] * (1 - d.fraction);
   if (lost) out.actions.push_back(DisableCoil{w.index, d.coil});
+  actions_.push_back(
+      {d.time, CoilName(w.bearing->name, d.coil), lost ? "disable" : "derate",
+       lost ? ToText(d.cls) : fmt::format("{}, {:.3f} of the turns", ToText(d.cls), d.fraction)});
 }
 
 void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, const BearingControl& control,
@@ -259,6 +267,8 @@ void FaultSupervisor::TraceSlopes(double t) {
 SupervisorSummary FaultSupervisor::Summary() const {
   SupervisorSummary summary;
   summary.coil_periods = coil_periods_;
+  summary.actions = actions_;
+  summary.doubtful = doubtful_;
   if (!options_.slopes || rows_.empty()) return summary;
   const Watched& w = *watched_[alarm_bearing_];
   const int coils = w.bearing->coils();

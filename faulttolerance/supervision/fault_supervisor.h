@@ -52,7 +52,7 @@ class FaultSupervisor : public Supervisor {
   void WatchBearing(std::size_t k, const PeriodMeasurement& m, const BearingControl& control,
                     SupervisorOutput& out);
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
-  static void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
+  void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
   void Redistribute(Watched& w, const Diagnosis& d, const BearingControl& control,
                     SupervisorOutput& out);
   /// The map of a bearing whose coils do not share a rotor; returns its class for the record.
@@ -76,6 +76,8 @@ class FaultSupervisor : public Supervisor {
   double bus_ = 0, bus_weight_ = 1;  // smoothed reading [V]; share of each new one
   DetectionFeed feed_;
   std::vector<std::unique_ptr<Watched>> watched_;
+  std::vector<CoilAction> actions_;
+  bool doubtful_ = false;
   double coil_periods_ = 0;
 
   struct SlopeRow {

@@ -24,8 +24,18 @@ struct SlopeTrace {
   std::vector<double> t, slope, low, high;  // [s], [A/s]
 };
 
+/// What fault tolerance did to one coil, and why.
+struct CoilAction {
+  double t = 0;        // [s]
+  std::string coil;    // "A.coil3"
+  std::string action;  // disable | restore | probe | derate: fewer turns are counted on
+  std::string reason;  // class of the fault, size
+};
+
 /// What a supervisor has to tell when a run is over.
 struct SupervisorSummary {
+  std::vector<CoilAction> actions;
+  bool doubtful = false;           // some detector doubted its model during the run
   double coil_periods = 0;         // coils watched, times periods
   std::vector<SlopeTrace> slopes;  // of the first alarm
 };

@@ -9,8 +9,6 @@
 
 namespace ambrig {
 
-namespace {}  // namespace
-
 double RotorModel::StiffnessRate(const MotionState& s) const {
   // Fastest rate [1/s] among the contacts: impact, regularised friction on journal and race,
   // mounts.

@@ -7,6 +7,8 @@ void AddSummary(const Supervisor* supervisor, RunResult& result) {
   SupervisorSummary summary = supervisor->Summary();
   result.metrics.coil_periods = summary.coil_periods;
   result.slopes = std::move(summary.slopes);
+  result.actions = std::move(summary.actions);
+  result.doubtful = summary.doubtful;
 }
 
 }  // namespace ambrig

@@ -40,6 +40,8 @@ struct RunResult {
   bool touchdown = false, drop = false;
   std::vector<FluxSnapshot> snapshots;
   std::vector<SlopeTrace> slopes;
+  std::vector<CoilAction> actions;  // of fault tolerance
+  bool doubtful = false;            // a detector doubted its model during the run
   std::vector<std::string> notes;
 };
 

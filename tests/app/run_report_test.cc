@@ -1,26 +1,22 @@
 #include "app/pages/run_report.h"
 
 #include <gmock/gmock.h>
-#include <sys/wait.h>
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 
 #include "core/base/errors.h"
+#include "tests/app/browser.h"
 #include "tests/app/demo_run.h"
 
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 namespace fs = std::filesystem;
 
-class RunReport : public testing::Test {
+class RunReport : public ::testing::Test {
  protected:
   static void SetUpTestSuite() { html_ = new std::string(MakeRunReport(demo::Run()).Html()); }
   static void TearDownTestSuite() { delete html_; }
@@ -103,7 +99,7 @@ TEST(RunReportParts, HealthyRunHasNoFaultFigures) {
 }
 
 TEST(RunReportParts, UnwritablePathIsOneLineAndLeavesNothing) {
-  const fs::path folder = fs::path(testing::TempDir()) / "report_taken";
+  const fs::path folder = fs::path(::testing::TempDir()) / "report_taken";
   fs::create_directories(folder);
   try {
     WriteRunReport(RunReportData{}, folder);
@@ -116,32 +112,14 @@ TEST(RunReportParts, UnwritablePathIsOneLineAndLeavesNothing) {
 
 // The page as a browser builds it: every figure drawn, no error on the console.
 TEST_F(RunReport, DrawsEveryFigureInABrowser) {
-  if (std::system("command -v chromium > /dev/null 2>&1") != 0) GTEST_SKIP() << "no chromium";
-  const fs::path folder = fs::path(testing::TempDir()) / "ambrig_report_browser";
-  fs::create_directories(folder);
-  const fs::path page = folder / "run.html";
-  WriteRunReport(demo::Run(), page);
-  const std::string command =
-      "chromium --headless --no-sandbox --disable-gpu --no-first-run "
-      "--disable-background-networking "
-      "--disable-component-update --disable-sync --user-data-dir=" +
-      (folder / "profile").string() +
-      " --window-size=1300,14000 --virtual-time-budget=8000 --enable-logging=stderr --dump-dom "
-      "file://" +
-      page.string() + " 2> " + (folder / "console.txt").string();
-  FILE* pipe = popen(command.c_str(), "r");
-  ASSERT_NE(pipe, nullptr);
-  std::string dom;
-  std::array<char, 65536> buffer{};
-  for (std::size_t n = 0; (n = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
-    dom.append(buffer.data(), n);
-  ASSERT_EQ(WEXITSTATUS(pclose(pipe)), 0);
-  EXPECT_EQ(Count(dom, "class=\"plot js-plotly-plot\""), 12u);
-  EXPECT_THAT(dom, Not(testing::ContainsRegex("data-title=\"[^\"]*([Cc]loud|[Ss]hare)")));
-  std::ifstream file(folder / "console.txt");
-  const std::string console{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_THAT(console, Not(HasSubstr("CONSOLE"))) << console;
-  fs::remove_all(folder);
+  if (!testing::HasBrowser()) GTEST_SKIP() << "no chromium";
+  const testing::TemporaryFolder folder;
+  WriteRunReport(demo::Run(), folder.File("run.html"));
+  const testing::BuiltPage built = testing::BuildInBrowser(folder.File("run.html"));
+  ASSERT_EQ(built.exit_code, 0);
+  EXPECT_EQ(built.figures(), 12u);
+  EXPECT_THAT(built.dom, Not(::testing::ContainsRegex("data-title=\"[^\"]*([Cc]loud|[Ss]hare)")));
+  EXPECT_TRUE(built.clean()) << built.console;
 }
 
 }  // namespace

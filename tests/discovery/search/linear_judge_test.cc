@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
-#include "discovery/search/effect_round.h"
+#include "discovery/search/screen.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -75,8 +75,9 @@ TEST(LinearJudge, OneStepFindsTheOffsetOfTheData) {
   const Candidate found =
       LinearJudge(c.model, base, bank, kN).Single(EntryOf(bank, "sensor-offset"));
   EXPECT_NEAR(found.effect.Value("offset"), 7e-6, 1e-10);
-  EXPECT_LT(found.ratio_fit, 1e-3);
-  EXPECT_LT(found.ratio_validate, 1e-3);
+  // Products are in single precision: of a ratio of 5, √1e-7 of it may stay.
+  EXPECT_LT(found.ratio_fit, 5e-3);
+  EXPECT_LT(found.ratio_validate, 5e-3);
   EXPECT_NEAR(found.score, Score(c.model, 0, 0, kN, 1, 0), 1e-9);  // one number, no misfit
 }
 
@@ -93,7 +94,7 @@ TEST(LinearJudge, TheWrongEffectLeavesTheErrorOfLeastSquares) {
   double left = 0;
   for (std::size_t r = 0; r < c.fit_records(); ++r) left += std::pow(o - a * kX[r], 2);
   EXPECT_NEAR(found.effect.Value("gain"), 1 + a, 1e-6);
-  EXPECT_NEAR(found.ratio_fit, std::sqrt(left / n) / LinearCase::kFloor, 1e-4);
+  EXPECT_NEAR(found.ratio_fit, std::sqrt(left / n) / LinearCase::kFloor, 1e-3);
   EXPECT_NEAR(found.ratio_validate,
               std::abs(o - a * kX.back()) / std::sqrt(2.0) / LinearCase::kFloor, 1e-4);
 }
@@ -107,7 +108,7 @@ TEST(LinearJudge, APairSolvesBothAtOnce) {
       judge.Pair(EntryOf(bank, "sensor-gain"), EntryOf(bank, "sensor-offset"));
   EXPECT_NEAR(pair.first.Value("gain"), 1.06, 1e-5);
   EXPECT_NEAR(pair.second.Value("offset"), -4e-6, 1e-9);
-  EXPECT_LT(pair.ratio_validate, 2e-3);
+  EXPECT_LT(pair.ratio_validate, 5e-3);
   for (const char* one : {"sensor-gain", "sensor-offset"})
     EXPECT_GT(judge.Single(EntryOf(bank, one)).score, pair.score) << one;
   const auto pairs = ScreenPairs(c.model, base, kN, bank, 3);
@@ -116,7 +117,7 @@ TEST(LinearJudge, APairSolvesBothAtOnce) {
 }
 
 // An effect of the catalogue is found among those of the same plane, at its size, and by its price.
-TEST(EffectRound, TheEffectThatMadeTheDataIsRankedFirst) {
+TEST(Screen, TheEffectThatMadeTheDataIsRankedFirst) {
   const LinearCase c(kX, 1.08, 0);
   const FitResult base = c.Base();
   SignatureBank bank;
