@@ -1,8 +1,8 @@
 #include "discovery/model/run_memo.h"
 
 #include <algorithm>
-#include <set>
 
+#include "effects/catalogue.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {
@@ -24,15 +24,15 @@ bool Turns(const Scenario& s) {
          s.speed.Speed(s.duration) != 0 || s.speed_free_from < s.duration;
 }
 
-/// Whether an effect that acts on the rotor alone leaves a held rotor's record as it is; and one
-/// that needs rotation a record at rest.
-bool Feels(const EffectInstance& e, bool clamped, bool turns) {
-  static const std::set<std::string> kRotor = {
-      "unbalance", "bending-mode",  "rotating-damping",      "cross-coupling",
-      "side-pull", "base-mode",     "coupling-misalignment", "base-vibration",
-      "windage",   "constant-load", "contact-friction",      "contact-mount"};
-  if (clamped && kRotor.contains(e.name)) return false;
-  return turns || e.name != "unbalance";
+/// A held rotor's record does not feel what acts on a free one only. Not so a delay of the set-points
+/// and what turns the surface under a sensor.
+bool Feels(const EffectInstance& e, bool clamped) {
+  const EffectDescription* d = FindEffect(e.name);
+  if (!clamped || !d || e.IsFormula()) return true;
+  const EffectNeeds& n = d->needs;
+  if (n.contact || n.free_speed) return false;
+  return !(n.levitation && !n.rotation && d->whole_periods.empty() &&
+           d->target != TargetKind::kPlaneOrRig);
 }
 
 bool FeelsParameter(const std::string& path, bool clamped, bool turns) {
@@ -51,7 +51,7 @@ std::string MemoKey(const RigParameters& rig, const CaseRecord& record, std::siz
     if (const double* value = ParameterAt(rig, t.path))
       if (FeelsParameter(t.path, clamped, turns)) Add(bytes, *value);
   for (const EffectInstance& e : rig.effects) {
-    if (!Feels(e, clamped, turns)) continue;
+    if (!Feels(e, clamped)) continue;
     AddText(bytes, e.name);
     AddText(bytes, e.target);
     for (const double v : e.values) Add(bytes, v);
