@@ -1,6 +1,10 @@
 #include <fmt/format.h>
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
+#include <new>
+#include <system_error>
 
 #include "app/commands/commands.h"
 #include "core/base/errors.h"
@@ -11,6 +15,14 @@ std::atomic<bool> interrupted{false};
 }
 
 namespace {
+
+constexpr const char* kStart =
+    R"(ambrig: magnetic-bearing rigs, simulated, broken, compared with measurements, explained.
+
+  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml
+                                                a coil breaks; then open out/...html
+  ambrig --help                                 all commands
+)";
 
 constexpr const char* kExamples = R"(Examples:
   ambrig run scenarios/library/coil_a3_opens_1500rpm.toml     what happens when coil A3 breaks
@@ -28,12 +40,37 @@ constexpr const char* kExamples = R"(Examples:
 
 Exit codes: 0 done, 1 an expectation is not met, 2 wrong input, 3 program error, 130 interrupted.)";
 
+/// A message of one line, whatever a file's own text put into it.
+std::string OneLine(const std::string& text) {
+  constexpr std::size_t kLongest = 1000;
+  std::string line = text.size() > kLongest ? text.substr(0, kLongest) + " ..." : text;
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+  return line;
+}
+
+/// What is wrong with a command line: a command that does not exist is named before all else.
+std::string Complaint(const CLI::App& app, const std::vector<std::string>& arguments,
+                      const std::string& error) {
+  if (arguments.empty() || arguments[0].starts_with('-')) return error + " (see ambrig --help)";
+  std::string names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+    names += (names.empty() ? "" : ", ") + sub->get_name();
+  if (app.get_subcommand_no_throw(arguments[0]) != nullptr)
+    return fmt::format("{} (see ambrig {} --help)", error, arguments[0]);
+  const std::string near = ambrig::Nearest(arguments[0], names);
+  return fmt::format("{} is no command{}; allowed: {}", arguments[0],
+                     near.empty() ? "" : fmt::format(", did you mean {}?", near), names);
+}
+
+/// Output that was not read to its end (`ambrig parameters | head`) is no error.
+bool IsClosedPipe(const std::system_error& e) { return e.code().value() == EPIPE; }
+
 int Main(int argc, char** argv) {
   ambrig::KeepFreedMemory();
   CLI::App app{
       "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain"};
   app.footer(kExamples);
-  app.require_subcommand(1);
   app.set_version_flag("--version", "ambrig 0.1.0");
   ambrig::Work work;
   ambrig::AddCommands(app, work);
@@ -41,10 +78,13 @@ int Main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
-    fmt::print(stderr, "ambrig: {} (see ambrig --help)\n", e.what());
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    fmt::print(stderr, "ambrig: {}\n", OneLine(Complaint(app, arguments, e.what())));
     return 2;
   }
-  return work ? work() : 2;
+  if (work) return work();
+  fmt::print("{}", kStart);
+  return 0;
 }
 
 }  // namespace
@@ -56,13 +96,23 @@ int main(int argc, char** argv) {
   try {
     return Main(argc, argv);
   } catch (const ambrig::InputError& e) {
-    fmt::print(stderr, "ambrig: {}\n", e.what());
+    fmt::print(stderr, "ambrig: {}\n", OneLine(e.what()));
     return 2;
   } catch (const ambrig::Interrupted&) {
     fmt::print(stderr, "ambrig: interrupted, nothing half-written is left\n");
     return 130;
+  } catch (const std::filesystem::filesystem_error& e) {
+    fmt::print(stderr, "ambrig: {}: {}\n", e.path1().string(), e.code().message());
+    return 2;
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "ambrig: this needs more memory than the machine has\n");
+    return 2;
+  } catch (const std::system_error& e) {
+    if (IsClosedPipe(e)) return 0;
+    fmt::print(stderr, "ambrig: program error: {}\n", OneLine(e.what()));
+    return 3;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "ambrig: program error: {}\n", e.what());
+    fmt::print(stderr, "ambrig: program error: {}\n", OneLine(e.what()));
     return 3;
   }
 }

@@ -10,6 +10,7 @@
 #include "core/base/counted.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
+#include "core/base/toml_checked.h"
 #include "faulttolerance/redistribution/redistribution_table.h"
 #include "rig/rig_file.h"
 #include "scenarios/faults/fault_file.h"
@@ -222,13 +223,15 @@ void ReadSeeds(const TomlTable& root, Campaign& c) {
 /// The scenarios' common ground: files, or one plain levitated run described in place.
 std::string ReadScenarios(const TomlTable& root, Campaign& c) {
   std::string texts;
-  const double limit = root.Number("drop_limit", 0.1);
-  if (!(limit > 0 && limit <= 1e5))
-    root.Fail("drop_limit", fmt::format("= {}, allowed: above 0 to 1e5 s", limit));
+  constexpr Range kLength{"s", 1e-6, 1e5, "length of time"};
+  const double limit = Within(root, "drop_limit", 0.1, kLength);
   if (root.Has("scenarios")) {
     if (root.Has("duration")) root.Fail("duration", "is given, but the scenarios have their own");
     for (const auto& name : root.Strings("scenarios")) {
       const std::string file = Beside(c.file, name);
+      if (!std::filesystem::is_regular_file(file))
+        root.Fail("scenarios",
+                  fmt::format("= \"{}\", allowed: scenario files ({}: no such file)", name, file));
       c.scenarios.push_back(ReadScenario(file, c.rig));
       if (!c.scenarios.back().faults.empty())
         root.Fail("scenarios", fmt::format("{} has faults, allowed: only those of [faults]", file));
@@ -240,9 +243,7 @@ std::string ReadScenarios(const TomlTable& root, Campaign& c) {
   } else {
     Scenario s;
     s.name = s.file = "levitated";
-    s.duration = root.Number("duration");
-    if (!(s.duration > 0 && s.duration <= 1e5))
-      root.Fail("duration", fmt::format("= {}, allowed: above 0 to 1e5 s", s.duration));
+    s.duration = Within(root, "duration", kRequired, kLength);
     c.scenarios.push_back(s);
   }
   for (Scenario& s : c.scenarios) {
@@ -266,7 +267,7 @@ Campaign ReadCampaign(const std::string& file) {
   Campaign c;
   c.file = file;
   c.name = root.String("name", std::filesystem::path(file).stem().string());
-  c.rig = ReadRig(Beside(file, root.String("rig")));
+  c.rig = ReadRig(ExistingFile(root, "rig"));
   std::string texts = ReadFile(file) + ReadFile(c.rig.file);
   for (const BendingMode& m : c.rig.modes) texts += fmt::format("{} ", m.omega);  // of a beam file
   texts += ReadScenarios(root, c);

@@ -10,6 +10,7 @@
 #include "core/base/counted.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
+#include "core/base/toml_checked.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
@@ -138,8 +139,8 @@ DetectorStudy ReadDetectorStudy(const std::string& file) {
   DetectorStudy s;
   s.file = file;
   s.name = root.String("name", std::filesystem::path(file).stem().string());
-  s.healthy = ReadCampaign(Beside(file, root.String("healthy")));
-  s.faulty = ReadCampaign(Beside(file, root.String("faulty")));
+  s.healthy = ReadCampaign(ExistingFile(root, "healthy"));
+  s.faulty = ReadCampaign(ExistingFile(root, "faulty"));
   s.detectors = ReadDetectors(root);
   s.trial.begin = In(root, "begin", s.trial.begin, 0, 10, "s");
   s.trial.settle = In(root, "settle", s.trial.settle, 0, 10, "s");

@@ -9,6 +9,7 @@
 #include "campaign/parameter_draw.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
+#include "core/base/toml_checked.h"
 #include "core/base/toml_edit.h"
 #include "design/point.h"
 #include "rig/rig_file.h"
@@ -55,10 +56,10 @@ DesignVariable ReadVariable(const TomlTable& t, const DesignCandidate& c) {
   return v;
 }
 
-DesignCandidate ReadCandidate(const TomlTable& t, const std::string& file) {
+DesignCandidate ReadCandidate(const TomlTable& t) {
   DesignCandidate c;
   c.name = t.String("name");
-  c.rig_file = Beside(file, t.String("rig"));
+  c.rig_file = ExistingFile(t, "rig");
   c.rig_text = ReadFile(c.rig_file);
   ReadRigText(c.rig_text, c.rig_file);
   for (const TomlTable& v : t.Tables("variable")) c.variables.push_back(ReadVariable(v, c));
@@ -121,7 +122,8 @@ FigureSpec ReadFigure(const TomlTable& t, const Study& s, bool objective) {
     f.name += " of " + f.plane;
   }
   f.name = t.String("name", f.name);
-  if (t.Has("at_most")) f.at_most = t.Number("at_most");
+  if (t.Has("at_most"))
+    f.at_most = Within(t, "at_most", kRequired, {f.info->unit, -1e15, 1e15, "limit of the figure"});
   if (!objective && !f.at_most)
     t.Fail("at_most", fmt::format("is missing, allowed: a number in {}", f.info->unit));
   t.RejectUnknownKeys();
@@ -157,9 +159,7 @@ void ReadSpread(const TomlTable& root, Study& s) {
   if (!t) return;
   const auto draws = static_cast<int>(Whole(*t, "draws", 0, 1, 1e4));
   const auto seed = static_cast<std::uint64_t>(Whole(*t, "seed", 1, 0, 1e9));
-  const double scale = t->Number("scale", 1);
-  if (!(scale >= 0 && scale <= 10))
-    t->Fail("scale", fmt::format("= {}, allowed: 0 to 10 (times the sd)", scale));
+  const double scale = Within(*t, "scale", 1, {"-", 0, 10, "times the sd"});
   std::size_t most = 0;
   for (const DesignCandidate& c : s.candidates) {
     std::size_t n = 0;
@@ -245,7 +245,7 @@ Study ReadStudy(const std::string& file) {
   s.file = file;
   s.name = root.String("name", file);
   for (const TomlTable& t : root.Tables("candidate")) {
-    s.candidates.push_back(ReadCandidate(t, file));
+    s.candidates.push_back(ReadCandidate(t));
     for (std::size_t k = 0; k + 1 < s.candidates.size(); ++k)
       if (s.candidates[k].name == s.candidates.back().name)
         t.Fail("name", fmt::format("= \"{}\" stands twice", s.candidates[k].name));
@@ -254,7 +254,7 @@ Study ReadStudy(const std::string& file) {
     root.Fail("candidate", "is missing, allowed: [[candidate]] with name and rig");
   for (const TomlTable& t : root.Tables("scenario")) {
     StudyScenario k;
-    k.file = Beside(file, t.String("file"));
+    k.file = ExistingFile(t, "file");
     k.text = ReadFile(k.file);
     k.name = t.String("name");
     t.RejectUnknownKeys();

@@ -126,6 +126,7 @@ EffectInstance ReadEffect(const TomlTable& t, const EffectTargets& known) {
       if (!(row.lo <= e.values[k] && e.values[k] <= row.hi))
         ThrowOutOfRange(p->Where(row.name), row.name, e.values[k], row.unit, row.lo, row.hi,
                         row.doc);
+      CheckSpread(p->Where(row.name), e.sd[k], e.values[k], row.lo, row.hi, row.unit);
     }
     p->RejectUnknownKeys();
   }

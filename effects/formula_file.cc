@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/toml_checked.h"
 #include "effects/formula.h"
 #include "effects/formula_parser.h"
 
@@ -41,7 +42,7 @@ void ReadParameter(const TomlTable& parameters, const std::string& key, EffectIn
     row.lo = p.Number("min", -kInfinity);
     row.hi = p.Number("max", kInfinity);
     row.unit = p.String("unit", "-");
-    sd = p.Number("sd", 0);
+    sd = Within(p, "sd", 0, {row.unit, 0, 1e12, "one-sigma spread"});
     p.RejectUnknownKeys();
     const auto check = [&](const char* what, double v) {
       if (!(row.lo <= v && v <= row.hi))
@@ -63,35 +64,55 @@ void ReadParameter(const TomlTable& parameters, const std::string& key, EffectIn
   effect.sd.push_back(sd);
 }
 
-/// Parses the formula and evaluates it off centre and, for what rests there, at the centre.
-void Check(const std::string& text, const std::string& where, const EffectInstance& effect) {
+/// Largest value of a quantity that a rig can have [SI].
+Range RangeOf(const std::string& quantity) {
+  if (quantity == "voltage") return {"V", -1e5, 1e5, "in series with a coil"};
+  if (quantity == "torque") return {"N m", -1e6, 1e6, "on the rotor"};
+  if (quantity == "reading") return {"m", -1, 1, "what a sensor reads"};
+  return {"N", -1e8, 1e8, "on the rotor"};
+}
+
+/// Where a formula is tried: off centre to both sides, and at the centre.
+struct Trial {
+  double sign;
+  const char* at;
+};
+constexpr Trial kTrials[] = {{1, "at x = y = 1e-5 m"},
+                             {-1, "at x = y = -1e-5 m"},
+                             {0, "with the shaft at rest at x = y = 0"}};
+
+/// Parses the formula and evaluates it where the rotor certainly comes to be.
+void Check(const std::string& text, const std::string& where, const EffectInstance& effect,
+           const std::string& quantity) {
   std::vector<std::string> names = FormulaNames(FormulaTargetOf(effect.target));
   const std::size_t known = names.size();
   for (const EffectParameter& p : effect.table) names.push_back(p.name);
   const FormulaExpression formula(text, names, where);
-  for (const bool centred : {false, true}) {
+  const Range range = RangeOf(quantity.substr(0, quantity.find('.')));
+  const std::string shown = text.size() > 60 ? text.substr(0, 57) + "..." : text;
+  for (const Trial& trial : kTrials) {
     std::vector<double> values(names.size());
     for (std::size_t k = 0; k < known; ++k) {
       const char first = names[k][0];
       values[k] = 1 + 0.01 * static_cast<double>(k);  // currents, angle, time
       if (names[k] == "bus") values[k] = 30;
       if (names[k] == "omega") values[k] = 100;
-      if (first == 'x' || first == 'y') values[k] = centred ? 0 : 1e-5;
-      if (first == 'v') values[k] = centred ? 0 : 1e-3;
+      if (first == 'x' || first == 'y') values[k] = trial.sign * 1e-5;
+      if (first == 'v') values[k] = trial.sign * 1e-3;
     }
     std::copy(effect.values.begin(), effect.values.end(),
               values.begin() + static_cast<std::ptrdiff_t>(known));
-    if (const double v = formula(values.data()); !std::isfinite(v))
-      throw InputError(
-          fmt::format("{} = \"{}\": gives {} {}", where, text, v,
-                      centred ? "with the shaft at rest at x = y = 0" : "at x = y = 1e-5 m"));
+    const double v = formula(values.data());
+    if (!(range.lo <= v && v <= range.hi))
+      throw InputError(fmt::format("{} = \"{}\": gives {} {} {}, allowed {} to {} {}", where, shown,
+                                   v, range.unit, trial.at, range.lo, range.hi, range.unit));
   }
 }
 
 void Add(const TomlTable& table, const std::string& table_key, const std::string& name,
          EffectInstance& effect) {
   const std::string text = table.String(table_key);
-  Check(text, table.Where(table_key), effect);
+  Check(text, table.Where(table_key), effect, name);
   effect.formulas.emplace_back(name, text);
 }
 

@@ -7,13 +7,17 @@
 #include <tuple>
 
 #include "core/base/read_file.h"
+#include "core/base/toml_checked.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
+#include "rig/rig_checks.h"
 #include "rig/rig_rotor.h"
 
 namespace ambrig {
 
 namespace {
+
+constexpr Range kPlace{"m", -100, 100, "place along the shaft"};
 
 void ReadSensor(const TomlTable& bearing, BearingParameters& b,
                 std::vector<Tolerance>* tolerances) {
@@ -30,7 +34,8 @@ void ReadAuxiliary(const TomlTable& bearing, BearingParameters& b, double gap) {
   if (t) {
     AuxiliaryParameters p = b.auxiliary.value_or(AuxiliaryParameters{});
     t->Read(p, kAuxiliaryFields);
-    if (b.kind == BearingKind::kRadial && t->Has("z")) b.auxiliary_z = t->Number("z");
+    if (b.kind == BearingKind::kRadial && t->Has("z"))
+      b.auxiliary_z = Within(*t, "z", kRequired, kPlace);
     t->RejectUnknownKeys();
     b.auxiliary = p;
     if (p.clearance >= gap)
@@ -75,13 +80,9 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
   for (const BearingKindTable* k : BearingKinds())
     if (k->name == kind) b.kind = k->kind;
   if (b.kind == BearingKind::kRadial) {
-    b.z = t.Number("z", like.empty() ? kRequired : b.z);
-    if (std::isnan(b.z)) t.Fail("z", "is missing, allowed: -100 to 100 m (bearing plane)");
-    if (!(std::abs(b.z) <= 100))
-      t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m (bearing plane)", b.z));
+    b.z = Within(t, "z", like.empty() ? kRequired : b.z, kPlace);
   } else {
-    b.z = t.Number("z", 0);
-    if (!(std::abs(b.z) <= 100)) t.Fail("z", fmt::format("= {} m, allowed: -100 to 100 m", b.z));
+    b.z = Within(t, "z", 0, kPlace);
   }
   TableOf(b.kind).read(t, b, &tolerances);
   if (like.empty() || t.Has("sensor")) ReadSensor(t, b, &tolerances);
@@ -113,8 +114,9 @@ void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
                                     : Modulation::kIdeal;
   t.Read(a, kAmplifierFields, &rig.tolerances);
   const auto limits = t.Numbers("duty_limits", {a.duty_min, a.duty_max});
+  const char* bounds = m == "ideal" ? "-1 to 1" : "0 to 1";
   if (limits.size() != 2 || !(limits[0] >= -1 && limits[0] < limits[1] && limits[1] <= 1))
-    t.Fail("duty_limits", "allowed: [min, max] with min < max, within 0 to 1");
+    t.Fail("duty_limits", fmt::format("allowed: [min, max] with min < max, within {}", bounds));
   a.duty_min = limits[0];
   a.duty_max = limits[1];
   if (a.duty_min < 0 && m != "ideal")
@@ -213,7 +215,8 @@ RigParameters Read(const TomlTable& root) {
   RigParameters rig;
   rig.file = root.file();
   rig.name = root.String("name", "rig");
-  const auto g = root.Numbers("gravity", {0, -9.81, 0});
+  const auto g =
+      AllWithin(root, "gravity", {0, -9.81, 0}, {"m/s2", -1000, 1000, "acceleration of free fall"});
   if (g.size() != 3) root.Fail("gravity", "allowed: [gx, gy, gz] in m/s2");
   rig.gravity = {g[0], g[1], g[2]};
   const auto section = [&](const char* key) {
@@ -232,6 +235,7 @@ RigParameters Read(const TomlTable& root) {
   ReadDetection(root, rig.detection);
   const EffectTargets known = TargetsOfEffects(rig);
   for (const TomlTable& t : root.Tables("effect")) rig.effects.push_back(ReadEffect(t, known));
+  CheckRig(root, rig);
   root.RejectUnknownKeys();
   return rig;
 }

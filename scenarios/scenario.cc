@@ -1,12 +1,15 @@
 #include "scenarios/scenario.h"
-#include "core/base/counted.h"
-#include "scenarios/faults/fault_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+
+#include "core/base/counted.h"
+#include "core/base/toml_checked.h"
+#include "rig/rig_checks.h"
+#include "scenarios/faults/fault_file.h"
 
 namespace ambrig {
 
@@ -40,10 +43,10 @@ std::string DirectoryOf(const std::string& file) {
   return parent.empty() ? "." : parent;
 }
 
+constexpr Range kTime{"s", -1e5, 1e5, "scenario time"};
+
 double PositiveTime(const TomlTable& t, const char* key, double fallback) {
-  const double v = t.Number(key, fallback);
-  if (!(v > 0 && v <= 1e5)) t.Fail(key, fmt::format("= {} s, allowed: above 0 to 1e5 s", v));
-  return v;
+  return Within(t, key, fallback, {"s", 1e-6, 1e5, "length of time"});
 }
 
 void ReadSpeed(const TomlTable& root, Scenario& s) {
@@ -52,6 +55,9 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
   const auto rows = t->Rows("profile");
   if (rows.empty()) t->Fail("profile", "is missing, allowed: [[t, Omega], ...] in s and rad/s");
   for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (std::abs(rows[k][0]) > 1e5)
+      t->Fail("profile",
+              fmt::format("row {}: t = {} s, allowed: -1e5 to 1e5 s", k + 1, rows[k][0]));
     if (rows[k].size() != 2)
       t->Fail("profile", fmt::format("row {} has {}, allowed: [t, Omega]", k + 1,
                                      Counted(rows[k].size(), "entry")));
@@ -64,7 +70,7 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
               fmt::format("row {}: Omega = {} rad/s, allowed: -1e5 to 1e5", k + 1, rows[k][1]));
   }
   s.speed = SpeedProfile(rows);
-  s.speed_free_from = t->Number("free_from", kInfinity);
+  s.speed_free_from = Within(*t, "free_from", kInfinity, kTime);
   t->RejectUnknownKeys();
 }
 
@@ -124,10 +130,15 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
       l.z = b ? b->z : station->z;
       l.axial = b && b->kind == BearingKind::kThrust;
     } else {
-      l.z = t.Number("z") - rig.z_origin;
+      const auto [lo, hi] = ShaftExtent(rig);
+      l.z = Within(t, "z", kRequired,
+                   {"m", lo + rig.z_origin, hi + rig.z_origin, "a place on the shaft"}) -
+            rig.z_origin;
     }
-    const auto f =
-        t.IsNumber("force") ? std::vector<double>{t.Number("force")} : t.Numbers("force");
+    constexpr Range kForce{"N", -1e8, 1e8, "force of a load"};
+    const auto f = t.IsNumber("force")
+                       ? std::vector<double>{Within(t, "force", kRequired, kForce)}
+                       : (t.Has("force") ? AllWithin(t, "force", {}, kForce) : t.Numbers("force"));
     if (f.empty() || f.size() > 3) t.Fail("force", "allowed: [fx, fy] or [fx, fy, fz] in N");
     if (l.axial && f.size() == 1) {
       l.fz = f[0];
@@ -136,13 +147,19 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
       l.fy = f.size() > 1 ? f[1] : 0;
       l.fz = f.size() > 2 ? f[2] : 0;
     }
-    l.start = t.Number("start", 0);
-    l.stop = t.Number("stop", s.duration);
+    l.start = Within(t, "start", 0, kTime);
+    l.stop = Within(t, "stop", s.duration, kTime);
     if (!(l.stop > l.start))
       t.Fail("stop", fmt::format("= {} s, allowed: later than start = {} s", l.stop, l.start));
     t.RejectUnknownKeys();
     s.loads.push_back(l);
   }
+}
+
+/// Two states of one part at one instant: a coil with its bridge, or one sensor.
+bool Contradicts(const FaultSpec& a, const FaultSpec& b) {
+  const bool sensors = a.kind.ends_with("-sensor") == b.kind.ends_with("-sensor");
+  return a.time == b.time && a.target == b.target && sensors;
 }
 
 constexpr FaultTarget kAll[] = {FaultTarget::kCoil, FaultTarget::kAxis, FaultTarget::kRig};
@@ -166,6 +183,11 @@ void ReadFaults(const TomlTable& root, const Targets& targets, Scenario& s) {
       t.Fail("target",
              fmt::format("= \"{}\" with kind {}, allowed: {}", f.target, f.kind, Join(allowed)));
     t.RejectUnknownKeys();
+    for (const FaultSpec& other : s.faults)
+      if (Contradicts(f, other))
+        t.Fail("kind", fmt::format("= \"{}\" on {} at {} s, where {} is set at the same instant, "
+                                   "allowed: one of them",
+                                   f.kind, f.target, f.time, other.kind));
     s.faults.push_back(f);
   }
   std::stable_sort(s.faults.begin(), s.faults.end(),
@@ -186,6 +208,11 @@ void ReadSwitches(const TomlTable& root, const RigParameters& rig, Scenario& s) 
       t.Fail("to", fmt::format("= \"{}\", allowed: controllers of the rig: {}", change.to,
                                Join(allowed)));
     t.RejectUnknownKeys();
+    for (const SwitchSpec& other : s.switches)
+      if (other.time == change.time)
+        t.Fail("time", fmt::format("= {} s, where the scenario changes to \"{}\", allowed: one "
+                                   "change at one instant",
+                                   change.time, other.to));
     s.switches.push_back(change);
   }
   std::stable_sort(s.switches.begin(), s.switches.end(),
@@ -195,16 +222,16 @@ void ReadSwitches(const TomlTable& root, const RigParameters& rig, Scenario& s) 
 void ReadExpect(const TomlTable& root, Scenario& s) {
   const auto t = root.Table("expect");
   if (!t) return;
-  const auto number = [&](const char* key, std::optional<double>& out) {
-    if (t->Has(key)) out = t->Number(key);
+  const auto number = [&](const char* key, std::optional<double>& out, const Range& range) {
+    if (t->Has(key)) out = Within(*t, key, kRequired, range);
   };
   const auto flag = [&](const char* key, std::optional<bool>& out) {
     if (t->Has(key)) out = t->Bool(key, false);
   };
-  number("detected_within", s.expect.detected_within);
-  number("max_orbit", s.expect.max_orbit);
-  number("max_false_alarms", s.expect.max_false_alarms);
-  number("rests_within", s.expect.rests_within);
+  number("detected_within", s.expect.detected_within, {"s", 0, 1e5, "delay of the detection"});
+  number("max_orbit", s.expect.max_orbit, {"m", 0, 1, "largest orbit"});
+  number("max_false_alarms", s.expect.max_false_alarms, {"-", 0, 1e9, "alarms without a fault"});
+  number("rests_within", s.expect.rests_within, {"m", 0, 1, "orbit at the end"});
   flag("touchdown", s.expect.touchdown);
   flag("drop", s.expect.drop);
   flag("redistributed", s.expect.redistributed);
@@ -229,9 +256,9 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   s.name = root.String("name", std::filesystem::path(s.file).stem().string());
   s.rig_file = root.String("rig", "rig.toml");
   s.duration = PositiveTime(root, "duration", kRequired);
-  s.record_rate = root.Number("record_rate", rig.controller.rate);
-  if (!(s.record_rate > 0))
-    root.Fail("record_rate", fmt::format("= {} Hz, allowed: above 0", s.record_rate));
+  s.record_rate = Within(root, "record_rate", rig.controller.rate,
+                         {"Hz", std::min(1 / s.duration, rig.controller.rate), 1e9,
+                          "rows per second, at least one in the duration"});
   CheckRate(root, rig, s.record_rate);
   const long long seed = root.Integer("seed", 1);
   if (seed < 0) root.Fail("seed", fmt::format("= {}, allowed: 0 or more", seed));
@@ -266,8 +293,7 @@ Scenario ReadScenarioText(const std::string& text, const std::string& file,
 
 std::string RigOfScenario(const std::string& file) {
   const TomlTable root = TomlTable::FromFile(file);
-  const std::string rig = root.String("rig", "rig.toml");
-  return rig.starts_with('/') ? rig : DirectoryOf(file) + "/" + rig;
+  return ExistingFile(root, "rig", "rig.toml");
 }
 
 bool HasExpectations(const std::string& file) {

@@ -16,7 +16,7 @@ CoilVoltage BridgeVoltage(const AmplifierParameters& p, double duty, const Bridg
   };
   if (b.off) duty = 0;
   if (b.stuck_on) duty = 1;
-  if (duty < b.dead_duty) duty = 0;
+  if (std::abs(duty) < b.dead_duty) duty = 0;  // an ideal amplifier's duty has a sign
   const double wheel = -(p.switch_drop + p.diode_drop);
   const double off_drop = p.quadrants < 3 ? -2 * p.diode_drop : 2 * p.switch_drop;
   switch (p.modulation) {

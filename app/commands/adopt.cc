@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/discovery_json.h"
 #include "app/pages/discovery_report.h"
@@ -52,6 +53,7 @@ int RunAdopt(const AdoptCommand& o) {
   const std::string output =
       !o.output.empty() ? o.output
                         : (rig.parent_path() / (rig.stem().string() + "_adopted.toml")).string();
+  o.common.CheckOutputs({o.file, c.rig_file}, {output});
   Progress progress("adopt");
   ExplainOptions options;
   options.stop = &interrupted;
@@ -78,7 +80,8 @@ void AddAdopt(CLI::App& app, Work& work) {
   command->add_option("--target", options->target,
                       "target of the effect (default: the one with the best fit)");
   command->add_option("-o,--output", options->output,
-                      "new rig file (default: RIG_adopted.toml beside the rig)");
+                      "new rig file (default: RIG_adopted.toml beside the rig)")
+      ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(
       "Example:\n  ambrig adopt case.toml eddy-currents --target A -o rig_with_eddy.toml");

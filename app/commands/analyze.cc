@@ -6,6 +6,7 @@
 
 #include "analysis/iso14839.h"
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/analysis_json.h"
 #include "app/pages/analysis_report.h"
@@ -169,9 +170,22 @@ void Print(const RigAnalysis& a) {
                                   : Coloured("closed loop UNSTABLE at one or more speeds", "red"));
 }
 
+/// Most rigs are called rig.toml: their folder tells them apart.
+std::string OutputBase(const AnalyzeCommand& c) {
+  const std::filesystem::path rig = std::filesystem::absolute(c.rig).lexically_normal();
+  std::string name = rig.stem().string();
+  if (name == "rig") name = rig.parent_path().filename().string() + ".rig";
+  return (std::filesystem::path(c.out) / (name + ".analysis")).string();
+}
+
 int RunAnalyze(const AnalyzeCommand& c) {
   AnalysisOptions options = OptionsOf(c);
   const RigParameters rig = ReadRig(c.rig);
+  const std::string base = OutputBase(c);
+  std::vector<std::string> files;
+  if (!c.out.empty()) files = {base + ".json", base + ".html"};
+  c.common.CheckOutputs({c.rig}, files);
+  if (!c.out.empty()) PrepareFolder(c.out);
   RigAnalysis analysis;
   {
     Progress progress("analyze");
@@ -184,14 +198,9 @@ int RunAnalyze(const AnalyzeCommand& c) {
   c.common.WriteJson(json);
   if (!c.common.html.empty()) WriteAnalysisReport(analysis, c.rig, c.common.html);
   if (c.out.empty()) return analysis.stable() ? 0 : 1;
-  std::error_code failed;
-  std::filesystem::create_directories(c.out, failed);
-  if (failed) throw InputError(fmt::format("-o {}: {}", c.out, failed.message()));
-  const std::filesystem::path base =
-      std::filesystem::path(c.out) / (std::filesystem::path(c.rig).stem().string() + ".analysis");
-  WriteFileAtomically(base.string() + ".json", json.dump(2) + "\n");
-  WriteAnalysisReport(analysis, c.rig, base.string() + ".html");
-  fmt::print("written: {0}.json, {0}.html\n", base.string());
+  WriteFileAtomically(base + ".json", MarkedJson(json));
+  WriteAnalysisReport(analysis, c.rig, base + ".html");
+  fmt::print("written: {0}.json, {0}.html\n", base);
   return analysis.stable() ? 0 : 1;
 }
 
@@ -207,7 +216,7 @@ void AddAnalyze(CLI::App& app, Work& work) {
   command
       ->add_option("--max-speed", c->fastest,
                    "end of the Campbell diagram [rpm] (default: 1.5 operating speeds)")
-      ->check(CLI::Range(1.0, 1e7));
+      ->check(NumberIn(1, 1e7, "rpm"));
   command->add_option("--response", c->responses,
                       "frequency response INPUT:OUTPUT, e.g. A.x.force:B.x; may be repeated");
   command
@@ -217,8 +226,10 @@ void AddAnalyze(CLI::App& app, Work& work) {
   command
       ->add_option("--sine", c->sine,
                    "amplitude of those sines [N] (default: a hundredth of the capacity)")
-      ->check(CLI::Range(1e-9, 1e6));
-  command->add_option("-o,--out", c->out, "folder for RIG.analysis.json and RIG.analysis.html");
+      ->check(NumberIn(1e-9, 1e6, "N"));
+  command->add_option(
+      "-o,--out", c->out,
+      "folder for NAME.analysis.json and .html; of a rig.toml NAME is its folder.rig");
   c->common.AddTo(*command);
   command->footer(
       "Examples:\n"

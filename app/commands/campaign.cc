@@ -3,9 +3,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/run_size.h"
 #include "app/pages/campaign_report.h"
 #include "campaign/journal.h"
 #include "campaign/merge.h"
@@ -107,6 +110,18 @@ void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, CampaignJournal
   });
 }
 
+/// How long the whole campaign will take, when that is worth a word.
+void PrintEstimate(const Campaign& c, int jobs) {
+  double seconds = 0;
+  for (const Scenario& s : c.scenarios) seconds += RunSeconds(c.rig, s);
+  seconds *= static_cast<double>(c.runs()) / static_cast<double>(c.scenarios.size());
+  const auto cores = jobs > 0 ? static_cast<unsigned>(jobs) : std::thread::hardware_concurrency();
+  seconds /= std::max(1U, cores);
+  if (seconds > 60)
+    fmt::print("{}: {}, about {} on {}\n", c.name, Counted(c.runs(), "run"), DurationText(seconds),
+               Counted(cores, "core"));
+}
+
 int RunCampaign(CampaignOptions o) {
   const RunPlan plan(ReadCampaign(o.file));
   const Shard shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
@@ -115,6 +130,9 @@ int RunCampaign(CampaignOptions o) {
   if (o.engine == "slurm" && !o.shard.empty())
     throw InputError("--shard: allowed with --engine local only (slurm makes its own)");
   const JournalHeader header = HeaderOf(plan.campaign());
+  o.common.CheckOutputs({o.file, plan.campaign().rig.file});
+  PrintEstimate(plan.campaign(), o.jobs);
+  PrepareFolder(o.out);
   CampaignJournal journal(o.out, header);
   if (!journal.rows().empty())
     fmt::print("{}: resumed, {} done before{}\n", o.out, Counted(journal.rows().size(), "run"),
@@ -176,7 +194,7 @@ void AddCampaign(CLI::App& app, Work& work) {
   command->add_option("--sbatch", options->sbatch,
                       "slurm: further options of sbatch, e.g. \"--partition=long --time=60\"");
   command->add_option("--poll", options->poll, "slurm: seconds between queries of the queue")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(NumberIn(0.1, 3600, "s"))
       ->capture_default_str();
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/run_json.h"
 #include "app/pages/html.h"
@@ -106,6 +107,7 @@ void WriteReport(const std::string& path, const std::vector<CheckRow>& rows) {
 
 int Check(const CheckOptions& options) {
   const std::vector<std::string> files = FindScenarios(options.paths);
+  options.common.CheckOutputs(files, {options.junit});
   std::vector<CheckRow> rows(files.size());
   std::atomic<std::size_t> done{0};
   {
@@ -144,7 +146,9 @@ void AddCheck(CLI::App& app, Work& work) {
   CLI::App* command =
       app.add_subcommand("check", "run all scenarios with [expect] under PATH as regression tests");
   command->add_option("path", options->paths, "scenario files or folders")->required();
-  command->add_option("--junit", options->junit, "write a JUnit XML file")->type_name("FILE");
+  command->add_option("--junit", options->junit, "write a JUnit XML file")
+      ->type_name("FILE")
+      ->check(OutputFile());
   command->add_option("--jobs", options->jobs, "scenarios at the same time (default: all cores)")
       ->check(CLI::Range(1, 1024));
   options->common.AddTo(*command);

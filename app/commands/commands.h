@@ -17,7 +17,12 @@ extern std::atomic<bool> interrupted;
 /// Options that every command has.
 struct CommonOptions {
   std::string json, html;
+  bool force = false;  // overwrite what ambrig did not make
   void AddTo(CLI::App& command);
+  /// Before the work: the output files may be written and replace no `inputs` and nothing that
+  /// ambrig did not make; `more`: files of the command's own. @throws InputError
+  void CheckOutputs(const std::vector<std::string>& inputs,
+                    std::vector<std::string> more = {}) const;
   /// Writes the JSON if asked for (temporary name, then renamed).
   void WriteJson(const nlohmann::ordered_json& document) const;
 };

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
 #include "scenarios/scenario.h"
@@ -12,13 +13,25 @@
 namespace ambrig {
 
 void CommonOptions::AddTo(CLI::App& command) {
-  command.add_option("--json", json, "write the result as JSON to FILE")->type_name("FILE");
+  command.add_option("--json", json, "write the result as JSON to FILE")
+      ->type_name("FILE")
+      ->check(OutputFile());
   command.add_option("--html", html, "write the report as one HTML file to FILE")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(OutputFile());
+  command.add_flag("--force", force, "overwrite files that ambrig did not make");
+}
+
+void CommonOptions::CheckOutputs(const std::vector<std::string>& inputs,
+                                 std::vector<std::string> more) const {
+  more.push_back(json);
+  more.push_back(html);
+  for (const std::string& file : more) RefuseInputAsOutput(file, inputs);
+  RefuseOverwriting(more, force);
 }
 
 void CommonOptions::WriteJson(const nlohmann::ordered_json& document) const {
-  if (!json.empty()) WriteFileAtomically(json, document.dump(2) + "\n");
+  if (!json.empty()) WriteFileAtomically(json, MarkedJson(document));
 }
 
 std::vector<std::string> FindFiles(const std::vector<std::string>& paths,
@@ -32,8 +45,11 @@ std::vector<std::string> FindFiles(const std::vector<std::string>& paths,
       files.push_back(path);
       continue;
     }
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(path))
-      if (wanted(entry.path())) files.push_back(entry.path().string());
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator entry(path, error), end;
+    for (; !error && entry != end; entry.increment(error))
+      if (wanted(entry->path())) files.push_back(entry->path().string());
+    if (error) throw InputError(fmt::format("{}: {}", path, error.message()));
   }
   std::sort(files.begin(), files.end());
   if (files.empty()) throw InputError(none);

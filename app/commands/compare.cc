@@ -18,6 +18,7 @@ struct CompareOptions {
 
 int RunCompare(const CompareOptions& o) {
   const Case c = ReadCase(o.file);
+  o.common.CheckOutputs({o.file, c.rig_file});
   for (const std::string& note : c.notes) fmt::print("data: {}\n", note);
   CaseModel model(c);
   model.stop = &interrupted;

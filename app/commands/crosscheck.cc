@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/pages/crosscheck_report.h"
 #include "core/base/counted.h"
@@ -142,7 +143,7 @@ void AddCrosscheck(CLI::App& app, Work& work) {
   sub->alias("witness");  // name until version 0.1, kept for one release
   sub->add_option("scenario", command->paths, "scenario files, or folders of them")->required();
   sub->add_option("--step", command->step_us, "longest step of ODE near contact [us]")
-      ->check(CLI::Range(0.05, 10.0))
+      ->check(NumberIn(0.05, 10, "us"))
       ->capture_default_str();
   sub->add_option("--seeds", command->seeds,
                   "runs of each scenario, with the next seeds of the noise")

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/discovery_json.h"
 #include "app/pages/discovery_report.h"
@@ -93,6 +94,7 @@ void Print(const Explanation& e) {
 
 int RunExplain(const ExplainCommand& o) {
   const Case c = ReadCase(o.file);
+  o.common.CheckOutputs({o.file, c.rig_file}, {o.law});
   for (const std::string& note : c.notes) fmt::print("data: {}\n", note);
   std::unique_ptr<RunStore> store;
   if (!o.resume.empty()) store = std::make_unique<RunStore>(o.resume, c);
@@ -148,6 +150,7 @@ void AddExplain(CLI::App& app, Work& work) {
       ->add_option("--law", options->law,
                    "with the verdict unknown: write the candidate law to this file, an [[effect]] "
                    "to append to the rig file")
+      ->check(OutputFile())
       ->type_name("FILE");
   command
       ->add_option("--resume", options->resume,

@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <set>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
@@ -20,9 +22,32 @@ namespace {
 struct HideCommand {
   std::vector<std::string> effects;
   std::string rig, output = "hidden-case";
-  bool exact = false;
+  bool exact = false, force = false;
   HideRequest request;
 };
+
+std::string AnswerFile(const std::filesystem::path& folder) {
+  return (folder.has_filename() ? folder : folder.parent_path()).string() + ".answer.toml";
+}
+
+/// What a case's folder holds, as far as it exists.
+std::vector<std::string> FilesOf(const HideCommand& o) {
+  std::vector<std::string> files{AnswerFile(o.output)};
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(o.output, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name == "case.toml" || name == "rig.toml" || name.starts_with("record-"))
+      files.push_back(entry.path().string());
+  }
+  return files;
+}
+
+void RejectRepeated(const std::vector<std::pair<std::string, std::string>>& effects) {
+  std::set<std::string> seen;
+  for (const auto& [name, target] : effects)
+    if (!seen.insert(name).second)
+      throw InputError(fmt::format("{} is named twice, allowed: each effect once", name));
+}
 
 int RunHide(const HideCommand& o) {
   HideRequest request = o.request;
@@ -33,15 +58,15 @@ int RunHide(const HideCommand& o) {
                                  at == std::string::npos ? "" : text.substr(at + 1));
   }
   const RigParameters rig = ReadRig(o.rig);
+  RejectRepeated(request.effects);
+  PrepareFolder(o.output);
+  RefuseOverwriting(FilesOf(o), o.force);
   if (!rig.effects.empty())
     throw InputError(o.rig + ": has effects of its own; hide them in a rig without");
   Progress progress("hide");
   progress.Update(0.1, "drawing and measuring");
   const HiddenCase hidden = Hide(rig, request, &interrupted);
   const std::filesystem::path folder(o.output);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) ThrowCannotWrite(folder.string(), error.value());
   for (std::size_t r = 0; r < hidden.records.size(); ++r) {
     progress.Update(0.8 + 0.2 * static_cast<double>(r) / static_cast<double>(hidden.records.size()),
                     "writing");
@@ -53,8 +78,7 @@ int RunHide(const HideCommand& o) {
   WriteFileAtomically((folder / "case.toml").string(), CaseText(hidden));
   std::string name = folder.filename().string();
   if (name.empty()) name = folder.parent_path().filename().string();
-  const std::string answer =
-      (folder.has_filename() ? folder : folder.parent_path()).string() + ".answer.toml";
+  const std::string answer = AnswerFile(folder);
   WriteFileAtomically(answer, AnswerText(hidden, request, name));
   progress.Clear();
   fmt::print(
@@ -79,8 +103,10 @@ void AddHide(CLI::App& app, Work& work) {
   command
       ->add_option("--seed", options->request.seed,
                    "seed of the random sizes, targets, parameters and noise")
+      ->check(NumberIn(0, 9e15, "(an integer)"))
       ->capture_default_str();
   command->add_flag("--exact", options->exact, "keep every rig parameter at its nominal value");
+  command->add_flag("--force", options->force, "overwrite files that ambrig did not make");
   command->footer(
       "Examples:\n  ambrig hide sensor-gain --rig scenarios/library/rigs/reference.toml -o "
       "practice\n"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/pages/html.h"
 #include "rotor/shaft/convert_shaft.h"
 
@@ -21,6 +22,7 @@ std::string Joined(const std::vector<std::string>& words) {
 }
 
 int Run(const Convert& c) {
+  c.common.CheckOutputs({c.in}, {c.out});
   const ShaftConversion done = ConvertShaft(c.in, c.out);
   const std::string lost = done.not_carried.empty() ? "nothing" : Joined(done.not_carried);
   fmt::print("{}: {} -> {}\n", c.out, done.from_ross ? "ROSS" : "ambrig",
@@ -60,7 +62,7 @@ void AddRotor(CLI::App& app, Work& work) {
       ->add_option("IN", options->in,
                    "ROSS's file (.toml, .json), or a .toml with [rotor] kind = \"beam\"")
       ->required();
-  convert->add_option("OUT", options->out, "the other kind")->required();
+  convert->add_option("OUT", options->out, "the other kind")->required()->check(OutputFile());
   options->common.AddTo(*convert);
   convert->footer(
       "Examples:\n  ambrig rotor convert rotor.json shaft.toml    then, in a rig: [rotor] kind = "

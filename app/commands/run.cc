@@ -5,7 +5,9 @@
 #include <set>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/run_size.h"
 #include "app/json/run_json.h"
 #include "app/pages/run_report_data.h"
 #include "campaign/run_plan.h"
@@ -27,7 +29,7 @@ struct RunOptions {
   std::string campaign;
   long long row = -1;
   double rate = 0;
-  bool csv = false, quiet = false, no_html = false;
+  bool csv = false, quiet = false, no_html = false, long_runs = false;
 };
 
 void PrintTimeline(const Scenario& scenario, const RunResult& result,
@@ -95,6 +97,17 @@ RunInput FromCampaign(const std::string& file, long long row) {
   return in;
 }
 
+/// Memory, rate and output files, before any work.
+void CheckBefore(const RunInput& in, const RunOptions& options) {
+  if (options.rate > 0) CheckRecordRate(in.rig, options.rate, "--rate");
+  CheckRunSize(in.rig, in.scenario, options.rate, options.long_runs);
+  const std::string stem = (std::filesystem::path(options.out) / in.stem).string();
+  std::vector<std::string> files{stem + ".h5", stem + ".json"};
+  if (!options.no_html) files.push_back(stem + ".html");
+  if (options.csv) files.push_back(stem + ".csv");
+  options.common.CheckOutputs({in.scenario.file, in.rig.file}, files);
+}
+
 int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json& all) {
   const RigParameters& rig = in.rig;
   const Scenario& scenario = in.scenario;
@@ -109,16 +122,14 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   progress.Clear();
   const auto expect = CheckExpectations(scenario, result);
   const std::filesystem::path stem = std::filesystem::path(options.out) / in.stem;
-  std::error_code error;
-  std::filesystem::create_directories(options.out, error);
-  if (error) throw InputError(fmt::format("cannot write {}: {}", options.out, error.message()));
+  result.record.attributes["made_by"] = "ambrig run";
   result.record.attributes["scenario"] = in.text;
   result.record.attributes["rig"] = ReadFile(rig.file);
   result.record.attributes["fidelity"] = options.fidelity;
   WriteHdf5(result.record, stem.string() + ".h5");
   if (options.csv) WriteCsv(result.record, stem.string() + ".csv");
   const auto json = RunJson(scenario, result, expect);
-  WriteFileAtomically(stem.string() + ".json", json.dump(2) + "\n");
+  WriteFileAtomically(stem.string() + ".json", MarkedJson(json));
   if (!options.no_html) {
     const RunReportData data = MakeRunReportData(rig, scenario, result, expect, options.fidelity);
     WriteRunReport(data, stem.string() + ".html");
@@ -147,8 +158,11 @@ void AddRun(CLI::App& app, Work& work) {
   command->add_option("--row", options->row, "run of that campaign, from 0")->needs(campaign);
   command->add_option("--out", options->out, "folder of NAME.h5, NAME.json, NAME.html")
       ->capture_default_str();
-  command->add_option("--rate", options->rate,
-                      "rows of the record per second [Hz] (default: the scenario's)");
+  command
+      ->add_option("--rate", options->rate,
+                   "rows of the record per second [Hz] (default: the scenario's)")
+      ->check(NumberIn(1e-3, 1e9, "Hz"));
+  command->add_flag("--long", options->long_runs, "also runs that will take more than an hour");
   command->add_option("--fidelity", options->fidelity, "switching | reference | averaged")
       ->capture_default_str();
   command->add_flag("--csv", options->csv, "also write the record as NAME.csv");
@@ -162,17 +176,21 @@ void AddRun(CLI::App& app, Work& work) {
     work = [options] {
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
       int code = 0;
-      std::set<std::string> stems;
+      std::vector<RunInput> inputs;
       if (options->campaign.empty() == options->scenarios.empty())
         throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
       if (!options->campaign.empty())
-        code = RunOne(FromCampaign(options->campaign, options->row), *options, all);
+        inputs.push_back(FromCampaign(options->campaign, options->row));
+      std::set<std::string> stems;
       for (const std::string& file : options->scenarios) {
         if (!stems.insert(std::filesystem::path(file).stem().string()).second)
           throw InputError(
               fmt::format("{}: another scenario of that file name would be overwritten", file));
-        code = std::max(code, RunOne(FromScenario(file), *options, all));
+        inputs.push_back(FromScenario(file));
       }
+      for (const RunInput& in : inputs) CheckBefore(in, *options);
+      PrepareFolder(options->out);
+      for (const RunInput& in : inputs) code = std::max(code, RunOne(in, *options, all));
       options->common.WriteJson(all.size() == 1 ? all[0] : all);
       return code;
     };

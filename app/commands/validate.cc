@@ -6,6 +6,7 @@
 
 #include "analysis/validation.h"
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "core/base/counted.h"
 #include "core/base/errors.h"
 
@@ -110,7 +111,8 @@ void AddValidate(CLI::App& app, Work& work) {
       ->required();
   command->add_flag("--markdown", c->markdown, "the table of docs/validation.md");
   command->add_option("--json", c->common.json, "write the rows as JSON to FILE")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(OutputFile());
   command->footer(
       "Example:\n  ambrig validate examples/validation\nExit code 1 when a row differs by more "
       "than its file allows.");

@@ -76,7 +76,8 @@ void ThrowCannotWrite(const std::string& path, int error_number) {
 AtomicFile::AtomicFile(const std::string& path)
     : path_(path), target_(ResolveLinks(path)), temporary_(TemporaryName(target_)) {
   // Renaming over a device or a folder would replace the device, or fail only after all the work.
-  if (std::filesystem::is_directory(target_)) ThrowCannotWrite(path_, EISDIR);
+  std::error_code ignored;  // what cannot be looked at cannot be created either
+  if (std::filesystem::is_directory(target_, ignored)) ThrowCannotWrite(path_, EISDIR);
   if (IsSpecial(target_)) throw InputError("cannot write " + path_ + ": not a regular file");
   if (!Descriptor(temporary_, O_CREAT | O_EXCL | O_WRONLY).usable()) ThrowCannotWrite(path_, errno);
 }

@@ -209,7 +209,13 @@ std::string TomlTable::String(std::string_view key, const std::string& fallback)
   if (!n->is_string())
     throw InputError(
         fmt::format("{} = {} is {}, allowed: a string", Where(key), TextOf(*n), TypeName(*n)));
-  return n->value<std::string>().value();
+  const std::string text = n->value<std::string>().value();
+  // A zero byte would end a file name half-way, a control character break a message's one line.
+  for (const char c : text)
+    if (static_cast<unsigned char>(c) < 32 && c != '\t' && c != '\n' && c != '\r')
+      Fail(key, fmt::format("holds the control character {}, allowed: printable text",
+                            static_cast<int>(c)));
+  return text;
 }
 
 std::string TomlTable::Choice(std::string_view key, const std::string& fallback,

@@ -7,12 +7,32 @@
 #include "core/base/errors.h"
 #include "core/base/parameters.h"
 #include "core/base/units.h"
+#include "core/record/column_names.h"
 
 namespace ambrig {
 
-bool IsTimeName(std::string_view name) {
-  return name == "t" || name == "time" || name == "t_s" || name == "time_s";
+namespace {
+
+/// "Time (ms)" -> "time", "ms"; the second is empty when the name holds no unit of time.
+std::pair<std::string, std::string> SplitTimeName(std::string_view name) {
+  std::string text;
+  for (const char c : name)
+    if (c != ' ') text += c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c;
+  for (const std::string unit : {"ms", "us", "ns", "s"})
+    for (const std::string& tail : {"_" + unit, "(" + unit + ")"})
+      if (text.size() > tail.size() && text.ends_with(tail))
+        return {text.substr(0, text.size() - tail.size()), unit};
+  return {text, ""};
 }
+
+}  // namespace
+
+bool IsTimeName(std::string_view name) {
+  const std::string base = SplitTimeName(name).first;
+  return base == "t" || base == "time";
+}
+
+std::string TimeUnitOf(std::string_view name) { return SplitTimeName(name).second; }
 
 TimeBase UniformTimeBase(const std::vector<double>& t, const std::string& where,
                          std::size_t header_rows, double tolerance) {
@@ -52,12 +72,13 @@ void TakeTimeChannel(Record& record, const std::string& where, std::size_t heade
   if (it == record.channels.end()) return;
   Channel time = std::move(*it);
   record.channels.erase(it);
-  if (!time.unit.empty()) {
-    const double factor = UnitFactor(time.unit, "s", where + ": " + time.name);
+  const std::string unit = time.unit.empty() ? TimeUnitOf(time.name) : time.unit;
+  if (!unit.empty()) {
+    const double factor = UnitFactor(unit, "s", where + ": " + time.name);
     for (double& t : time.samples) t *= factor;
   }
   if (record.rate != 0 && time.samples.size() < 2) return;
-  const TimeBase base = UniformTimeBase(time.samples, where, header_rows);
+  const TimeBase base = UniformTimeBase(time.samples, where + ": column " + time.name, header_rows);
   if (record.rate == 0) {
     record.rate = base.rate;
     record.start = base.start;
@@ -84,7 +105,9 @@ void CheckLengths(const Record& record, const std::string& where) {
 void CheckRecord(const Record& record, const std::string& where) {
   if (record.channels.empty()) throw InputError(where + ": no channels");
   CheckLengths(record, where);
-  if (record.rate == 0) throw InputError(where + ": neither a rate [Hz] nor a time channel t");
+  if (record.rate == 0)
+    throw InputError(where + ": neither a rate [Hz] nor a time channel, allowed: " + kTimeNames +
+                     "; there are: " + ColumnsOf(record, "time"));
   if (!(record.rate > 0) || !std::isfinite(record.rate))
     throw InputError(where + ": rate = " + NumberText(record.rate) + " Hz, must be positive");
   if (!std::isfinite(record.start))

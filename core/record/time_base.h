@@ -8,8 +8,13 @@
 
 namespace ambrig {
 
-/// t, time, and with their unit in the name t_s, time_s.
+/// t, time, in any case, also with their unit in the name: t_s, t_ms, Time (ms), time_us.
 bool IsTimeName(std::string_view name);
+/// The unit in such a name ("ms"), empty without one.
+std::string TimeUnitOf(std::string_view name);
+/// What IsTimeName takes, for messages.
+inline constexpr const char* kTimeNames =
+    "t, time (s), t [ms], t_ms, Time (ms), with units s, ms, us, ns";
 
 struct TimeBase {
   double rate;   // [Hz]

@@ -9,7 +9,9 @@
 
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
+#include "core/base/toml_checked.h"
 #include "core/base/units.h"
+#include "core/record/column_names.h"
 #include "core/record/csv.h"
 #include "core/record/read_record.h"
 #include "rig/rig_channels.h"
@@ -66,6 +68,16 @@ std::map<std::string, Mapping> ReadMapping(const TomlTable& record,
   return map;
 }
 
+/// Noise above this is no noise of that quantity [SI].
+double LargestNoise(const std::string& unit) {
+  if (unit == "m") return 0.1;
+  if (unit == "A") return 1e4;
+  if (unit == "V") return 1e5;
+  if (unit == "N") return 1e6;
+  if (unit == "rad/s") return 1e4;
+  return 10;  // duty, rad
+}
+
 /// One line for all files of which the same is to be said.
 void NoteOnce(Case& c, const std::string& file, const std::string& text) {
   for (std::string& note : c.notes) {
@@ -98,11 +110,12 @@ Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapp
     const auto it = mapping.find(channel);
     if (it != mapping.end() && !it->second.use) continue;
     const std::string column = it == mapping.end() ? channel : it->second.column;
-    const Channel* found = raw.Find(column);
+    const Channel* found = it == mapping.end() ? raw.Find(column) : FindColumn(raw, column);
     if (!found) {
       if (it != mapping.end())
-        throw InputError(fmt::format("{}: column \"{}\" of {} is not in the data file",
-                                     table.Where("channels"), column, channel));
+        throw InputError(fmt::format("{}: column \"{}\" of {} is not in {}, allowed: {}",
+                                     table.Where("channels"), column, channel, table.String("data"),
+                                     ColumnsOf(raw, column)));
       continue;
     }
     Channel converted = *found;
@@ -122,7 +135,7 @@ Record MapChannels(const Record& raw, const std::map<std::string, Mapping>& mapp
   std::string ignored;
   for (const Channel& ch : raw.channels) {
     bool used = known.contains(ch.name) && !mapping.contains(ch.name);
-    for (const auto& [channel, m] : mapping) used = used || m.column == ch.name;
+    for (const auto& [channel, m] : mapping) used = used || FindColumn(raw, m.column) == &ch;
     if (!used && ch.name != "t") ignored += (ignored.empty() ? "" : ", ") + ch.name;
   }
   if (!ignored.empty())
@@ -188,6 +201,17 @@ double PositiveNumber(const TomlTable& t, const std::string& key) {
   return v;
 }
 
+/// A record that is fitted says nothing when it validates.
+void RejectReused(const Case& c, const CaseRecord& r, const TomlTable& t) {
+  std::error_code ignored;
+  for (const CaseRecord& other : c.records)
+    if (other.validate != r.validate &&
+        std::filesystem::equivalent(other.data_file, r.data_file, ignored))
+      t.Fail("data", fmt::format("= {} is fitted and validated, allowed: a record that the fit "
+                                 "does not see",
+                                 r.data_file));
+}
+
 NuisancePriors ReadNuisances(const TomlTable& root,
                              const std::map<std::string, std::string>& known) {
   NuisancePriors n;
@@ -219,16 +243,15 @@ Case ReadCase(const std::string& path) {
   const TomlTable root = TomlTable::FromFile(file);
   Case c;
   c.file = file;
-  c.rig_file = Beside(file, root.String("rig", "rig.toml"));
+  c.rig_file = ExistingFile(root, "rig", "rig.toml");
   c.rig = ReadRig(c.rig_file);
   const auto known = KnownChannels(c.rig);
   if (const auto noise = root.Table("noise"))
     for (const std::string& channel : noise->Keys()) {
       if (!known.contains(channel)) noise->Fail(channel, "is not a channel of this rig");
-      const double v = noise->Number(channel);
-      if (!(v >= 0 && std::isfinite(v)))
-        noise->Fail(channel, fmt::format("= {}, allowed: 0 or more", v));
-      c.noise[channel] = v;
+      const std::string& unit = known.at(channel);
+      c.noise[channel] =
+          Within(*noise, channel, kRequired, {unit, 0, LargestNoise(unit), "rms of the noise"});
     }
   c.nuisances = ReadNuisances(root, known);
   const auto tables = root.Tables("record");
@@ -237,15 +260,17 @@ Case ReadCase(const std::string& path) {
   bool any_fit = false;
   for (const TomlTable& t : tables) {
     CaseRecord r;
-    r.scenario_file = Beside(file, t.String("scenario"));
-    r.data_file = Beside(file, t.String("data"));
+    r.scenario_file = ExistingFile(t, "scenario");
+    r.data_file = ExistingFile(t, "data");
     r.validate = t.Choice("use", "fit", "fit, validate, test") != "fit";
     r.scenario = ReadScenario(r.scenario_file, c.rig);
-    r.time_offset = t.Number("time_offset", 0);
+    r.time_offset = Within(t, "time_offset", 0,
+                           {"s", -1e5, 1e5, "scenario time of the logger's zero"});
     if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time")
       t.Fail("kind", fmt::format("= \"{}\" is not compared yet, allowed: \"time\"", kind));
     r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c, r.sources);
     const auto left_out = t.Rows("leave_out");
+    RejectReused(c, r, t);
     t.RejectUnknownKeys();
     r.data.start += r.time_offset;
     if (r.time_offset != 0) {

@@ -16,7 +16,13 @@ namespace ambrig {
 namespace {
 
 constexpr int kGrid = 20;    // steps of a coil's turns
-constexpr int kVersion = 2;  // of solver and file: raise it when results change
+constexpr int kVersion = 3;  // of solver and file: raise it when results change
+
+/// Check sum of an entry as the file has it, without the sum itself.
+std::string Checksum(nlohmann::json item) {
+  item.erase("checksum");
+  return fmt::format("{:016x}", Fingerprint(item.dump()));
+}
 
 /// Fingerprint of everything the results depend on.
 std::uint64_t Hash(const RedistributionProblem& p, const DistributionOptions& o) {
@@ -118,6 +124,7 @@ void RedistributionTable::Load() const {
     const nlohmann::json root = nlohmann::json::parse(stream);
     if (root.at("version") != kVersion) return;
     for (const nlohmann::json& item : root.at("entries")) {
+      if (item.at("checksum") != Checksum(item)) continue;  // edited or damaged
       const Key key = item.at("turns").get<Key>();
       Entry entry{ClassFrom(item.at("class").get<std::string>()), {}, {}};
       for (int j = 0; j < 8; ++j)
@@ -127,7 +134,7 @@ void RedistributionTable::Load() const {
       if (residual == item.at("residual").get<double>()) entries_.try_emplace(key, entry);
     }
   } catch (const nlohmann::json::exception&) {
-    // Damaged: what could be read is valid by its residual, the rest is computed again.
+    // Damaged: what could be read is valid by its check sum, the rest is computed again.
   }
 }
 
@@ -140,6 +147,7 @@ void RedistributionTable::Save() const {
     for (int j = 0; j < 8; ++j) item["W"].push_back({entry.W(j, 0), entry.W(j, 1), entry.W(j, 2)});
     item["residual"] = Describe(AtGrid(key), entry.cls, entry.W).residual;
     if (entry.flux_capacity) item["flux"] = *entry.flux_capacity;
+    item["checksum"] = Checksum(item);
     root["entries"].push_back(item);
   }
   std::error_code error;

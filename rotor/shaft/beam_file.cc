@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/base/counted.h"
+#include "core/base/toml_checked.h"
 #include "rotor/shaft/beam_mesh.h"
 #include "rotor/shaft/ross_file.h"
 #include "rotor/shaft/shaft_file.h"
@@ -58,6 +59,7 @@ void RejectSd(const TomlTable& row, std::initializer_list<const char*> keys,
   }
 }
 
+constexpr Range kPlace{"m", -1e3, 1e3, "place on the shaft axis"};
 constexpr Field<ShaftSection> kLeftEnd[] = {kShaftSectionFields[1], kShaftSectionFields[2]};
 static_assert(kLeftEnd[0].key == std::string_view("od") &&
               kLeftEnd[1].key == std::string_view("id"));
@@ -72,7 +74,7 @@ ShaftSection ReadSection(const TomlTable& row, const Materials& materials, bool 
   ShaftSection s;
   s.stiff = stiff;
   s.name = row.String("name", "");
-  s.z0 = stiff ? row.Number("z0", z0) : row.Number("z0");
+  s.z0 = Within(row, "z0", stiff ? z0 : kRequired, kPlace);
   row.Read(s, kLeftEnd);  // the right end is the same unless given
   s.od_right = s.od;
   s.id_right = s.id;
@@ -97,7 +99,9 @@ Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tole
     for (const char* key : {"mass", "inertia_diametral", "inertia_polar"})
       if (row.Has(key))
         row.Fail(key, "is given beside width, allowed: either mass and inertias or width, od, id");
-    const double width = row.Number("width"), od = row.Number("od"), id = row.Number("id", 0.0);
+    constexpr Range kSize{"m", 0, 100, "size of the disk"};
+    const double width = Within(row, "width", kRequired, kSize),
+                 od = Within(row, "od", kRequired, kSize), id = Within(row, "id", 0.0, kSize);
     if (!(width > 0)) row.Fail("width", fmt::format("{} m, allowed above 0", NumberText(width)));
     if (!(id >= 0 && od > id))
       row.Fail("od", fmt::format("{} m, allowed above id = {} m", NumberText(od), NumberText(id)));
@@ -117,7 +121,9 @@ Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tole
 }
 
 SpringSupport ReadSupport(const TomlTable& row, std::vector<Tolerance>* tolerances) {
-  SpringSupport s = IsotropicSupport(kRequired, row.Number("k", 0.0), row.Number("c", 0.0));
+  SpringSupport s =
+      IsotropicSupport(kRequired, Within(row, "k", 0.0, {"N/m", -1e15, 1e15, "stiffness"}),
+                       Within(row, "c", 0.0, {"N s/m", -1e12, 1e12, "damping"}));
   row.Read(s, kSpringSupportFields, tolerances);
   s.name = row.String("name", "");
   row.RejectUnknownKeys();
@@ -192,7 +198,7 @@ void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* t
   }
   for (const TomlTable& row : rotor.Tables("support"))
     d.supports.push_back(ReadSupport(row, tolerances));
-  for (double station : rotor.Numbers("stations", {})) d.stations.push_back(station);
+  for (double station : AllWithin(rotor, "stations", {}, kPlace)) d.stations.push_back(station);
 }
 
 void AddPlane(const TomlTable& row, const std::string& name, double z, BeamFile& out) {
@@ -207,10 +213,10 @@ void AddPlane(const TomlTable& row, const std::string& name, double z, BeamFile&
 
 void ReadPlanes(const TomlTable& rotor, BeamFile& out, const std::vector<Tolerance>* tolerances) {
   for (const TomlTable& row : rotor.Tables("disk"))
-    AddPlane(row, row.String("name", ""), row.Number("z"), out);
+    AddPlane(row, row.String("name", ""), Within(row, "z", kRequired, kPlace), out);
   for (const TomlTable& row : rotor.Tables("station")) {
     RejectSd(row, {"z"}, tolerances);
-    const double z = row.Number("z");
+    const double z = Within(row, "z", kRequired, kPlace);
     AddPlane(row, row.String("name"), z, out);
     row.RejectUnknownKeys();
     out.definition.stations.push_back(z);
@@ -248,8 +254,9 @@ void FromRoss(const std::string& file, const std::function<void(const std::strin
 void ReadShaftFile(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
   if (rotor.Has("section")) rotor.Fail("section", "is given beside file, allowed: one of them");
   const std::filesystem::path given = rotor.String("file");
-  const std::filesystem::path folder = std::filesystem::path(rotor.file()).parent_path();
-  const std::string file = (given.is_absolute() ? given : folder / given).string();
+  if (given.extension() != ".toml" && given.extension() != ".json")
+    rotor.Fail("file", fmt::format("= \"{}\", allowed: a .toml or .json file", given.string()));
+  const std::string file = ExistingFile(rotor, "file");
   if (given.extension() == ".toml") {
     const TomlTable root = TomlTable::FromFile(file);
     if (const auto own = root.Table("rotor")) {
@@ -258,8 +265,6 @@ void ReadShaftFile(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>
       root.RejectUnknownKeys();
       return;
     }
-  } else if (given.extension() != ".json") {
-    rotor.Fail("file", fmt::format("= \"{}\", allowed: a .toml or .json file", given.string()));
   }
   FromRoss(
       file, [&](const std::string& name, double z) { AddPlane(rotor, name, z, out); }, out,

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/counted.h"
+#include "core/base/json_file.h"
 #include "core/base/toml.h"
 
 namespace ambrig {
@@ -102,14 +102,7 @@ std::vector<double> Numbers(const nlohmann::json& value) {
 }
 
 std::vector<Element> FromJson(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(fmt::format("{}: cannot open the file for reading", file));
-  nlohmann::json root;
-  try {
-    in >> root;
-  } catch (const nlohmann::json::exception& e) {  // numbers beyond a double too
-    throw InputError(fmt::format("{}: not valid JSON: {}", file, e.what()));
-  }
+  const nlohmann::json root = ReadJson(file);
   std::vector<Element> out;
   for (const auto& [key, table] : root.items()) {
     if (!table.is_object()) continue;

@@ -6,6 +6,7 @@
 
 #include "control/position/kinds/read_system.h"
 #include "control/position/state_space_controller.h"
+#include "core/base/toml_checked.h"
 
 namespace ambrig {
 
@@ -45,9 +46,7 @@ StateSpace ReadSystem(const TomlTable& t, std::size_t axes, double rate) {
   if (!t.Has("file")) return MatricesOf(t, axes, rate);
   for (const char* key : {"A", "B", "C", "D"})
     if (t.Has(key)) t.Fail(key, "is given beside file, allowed: one of both");
-  const std::string file = t.String("file");
-  const auto beside = std::filesystem::path(t.file()).parent_path() / file;
-  const TomlTable inner = TomlTable::FromFile(file.starts_with('/') ? file : beside.string());
+  const TomlTable inner = TomlTable::FromFile(ExistingFile(t, "file"));
   const StateSpace s = MatricesOf(inner, axes, rate);
   inner.RejectUnknownKeys();
   return s;
@@ -62,7 +61,8 @@ void Read(const TomlTable& t, const ControllerNames& names, ControllerParameters
   }
   double before = -1;
   for (const TomlTable& p : points) {
-    SystemPoint s{p.Number("speed"), ReadSystem(p, axes, c.rate)};
+    SystemPoint s{Within(p, "speed", kRequired, {"rad/s", 0, 1e5, "of the rotor"}),
+                  ReadSystem(p, axes, c.rate)};
     if (!(s.speed >= 0 && s.speed <= 1e5))
       p.Fail("speed", fmt::format("= {} rad/s, allowed: 0 to 1e5", s.speed));
     CheckAscending(p, before, s.speed);

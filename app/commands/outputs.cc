@@ -1,0 +1,121 @@
+#include "app/commands/outputs.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "core/base/atomic_file.h"
+#include "core/base/errors.h"
+#include "core/base/read_file.h"
+
+namespace ambrig {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Creates a temporary file beside the path and removes it. @throws InputError with the reason.
+void TryToWrite(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
+    return;  // a device or a pipe is written in place
+  AtomicFile probe(path);
+}
+
+bool Contains(const std::string& text, std::string_view mark) {
+  return text.find(mark) != std::string::npos;
+}
+
+}  // namespace
+
+CLI::Validator NumberIn(double lo, double hi, const std::string& unit) {
+  const std::string allowed = fmt::format("{:g} to {:g} {}", lo, hi, unit);
+  return CLI::Validator(
+      [lo, hi, allowed](std::string& text) {
+        std::size_t used = 0;
+        double value = lo - 1;
+        try {
+          value = std::stod(text, &used);
+        } catch (const std::exception&) {
+          used = std::string::npos;
+        }
+        return used == text.size() && value >= lo && value <= hi
+                   ? std::string()
+                   : fmt::format("{}, allowed: {}", text, allowed);
+      },
+      allowed, "NUMBER");
+}
+
+CLI::Validator OutputFile() {
+  return CLI::Validator(
+      [](std::string& path) {
+        try {
+          TryToWrite(path);
+        } catch (const InputError& e) {
+          return std::string(e.what());
+        }
+        return std::string();
+      },
+      "", "OUTPUT");
+}
+
+void PrepareFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error && !fs::is_directory(folder, error))
+    error = std::make_error_code(std::errc::not_a_directory);
+  if (error) throw InputError(fmt::format("cannot write {}: {}", folder, error.message()));
+  TryToWrite((fs::path(folder) / "probe").string());
+}
+
+bool MadeByAmbrig(const std::string& file) {
+  const std::string extension = fs::path(file).extension().string();
+  const std::string text = ReadFile(file, extension == ".h5" ? std::string::npos : 4096);
+  if (text.empty()) return true;  // nothing is lost
+  if (extension == ".html") return Contains(text, "name=\"generator\" content=\"ambrig");
+  if (extension == ".h5") return Contains(text, "made_by") && Contains(text, "ambrig");
+  if (extension == ".xml") return Contains(text, "name=\"ambrig check\"");
+  if (extension == ".csv") {  // has no room for a mark: made with the JSON beside it
+    const std::string beside = fs::path(file).replace_extension(".json").string();
+    std::error_code error;
+    return fs::is_regular_file(beside, error) && MadeByAmbrig(beside);
+  }
+  if (extension == ".json") return Contains(text, "\"made_by\": \"ambrig");
+  return Contains(text.substr(0, 200), "made by ambrig");
+}
+
+void RefuseOverwriting(const std::vector<std::string>& files, bool force) {
+  if (force) return;
+  for (const std::string& file : files) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error) || MadeByAmbrig(file)) continue;
+    throw InputError(fmt::format(
+        "{} exists and is not an output of ambrig, allowed: another name, or --force to "
+        "overwrite it",
+        file));
+  }
+}
+
+void RefuseInputAsOutput(const std::string& output, const std::vector<std::string>& inputs) {
+  std::error_code error;
+  for (const std::string& input : inputs)
+    if (!output.empty() && fs::equivalent(output, input, error))
+      throw InputError(
+          fmt::format("{} is read by this command, allowed: another file for its output", output));
+}
+
+std::string MarkedJson(nlohmann::ordered_json document) {
+  nlohmann::ordered_json marked{{"made_by", "ambrig"}};
+  if (document.is_array()) {
+    if (!document.empty() && document[0].is_object()) {
+      marked.update(document[0]);
+      document[0] = marked;
+    }
+    return document.dump(2) + "\n";
+  }
+  marked.update(document);
+  return marked.dump(2) + "\n";
+}
+
+}  // namespace ambrig

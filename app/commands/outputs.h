@@ -1,0 +1,32 @@
+#pragma once
+/// What a command writes is checked before its work starts: folders exist or can be made, files can
+/// be written, nothing that ambrig did not make is overwritten without --force.
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace ambrig {
+
+/// Of an option that takes a number: from lo to hi, never nan.
+CLI::Validator NumberIn(double lo, double hi, const std::string& unit);
+
+/// Of an option that names a file to write: it is no folder, and its folder can be written.
+CLI::Validator OutputFile();
+
+/// Makes the folder, if need be, and tries that files can be written there. @throws InputError
+void PrepareFolder(const std::string& folder);
+
+/// Whether a file carries the mark of what ambrig writes (JSON, HTML, HDF5, CSV, TOML).
+bool MadeByAmbrig(const std::string& file);
+
+/// @throws InputError when one of the files exists and ambrig did not make it, unless forced.
+void RefuseOverwriting(const std::vector<std::string>& files, bool force);
+
+/// @throws InputError when the output would replace one of the files that the command reads.
+void RefuseInputAsOutput(const std::string& output, const std::vector<std::string>& inputs);
+
+/// Text of a JSON document with the mark: "made_by" first.
+std::string MarkedJson(nlohmann::ordered_json document);
+
+}  // namespace ambrig

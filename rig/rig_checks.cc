@@ -1,0 +1,108 @@
+#include "rig/rig_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace ambrig {
+
+namespace {
+
+/// "rig.toml:31: bearings.A.gap", the line of the innermost table that the file has.
+std::string WhereOf(const TomlTable& root, const std::string& path) {
+  TomlTable at = root;
+  std::string rest = path;
+  for (std::size_t dot = rest.find('.'); dot != std::string::npos; dot = rest.find('.')) {
+    if (!at.IsTable(rest.substr(0, dot))) break;
+    at = *at.Table(rest.substr(0, dot));
+    rest = rest.substr(dot + 1);
+  }
+  return rest.find('.') == std::string::npos && at.Has(rest) ? at.Where(rest)
+                                                             : at.Where() + ": " + path;
+}
+
+void CheckBias(const TomlTable& t, const RigParameters& rig, double bias) {
+  if (bias <= rig.amplifier.i_max) return;
+  t.Fail("bias_current", fmt::format("= {} A, allowed: at most the amplifier's i_max = {} A", bias,
+                                     rig.amplifier.i_max));
+}
+
+void CheckWinding(const TomlTable& t, const std::string& winding) {
+  if (winding.find('N') != std::string::npos && winding.find('S') != std::string::npos) return;
+  t.Fail("winding", fmt::format("= \"{}\", allowed: both letters N and S (with all poles alike "
+                                "the flux has no way back)",
+                                winding));
+}
+
+void CheckSensor(const TomlTable& t, const BearingParameters& b, const RigParameters& rig) {
+  const auto [lo, hi] = ShaftExtent(rig);
+  if (b.sensor.z >= lo && b.sensor.z <= hi) return;
+  t.Fail("sensor", fmt::format("has z = {} m, allowed: on the shaft, {:g} to {:g} m",
+                               b.sensor.z + rig.z_origin, lo + rig.z_origin, hi + rig.z_origin));
+}
+
+void CheckEffects(const TomlTable& root, const RigParameters& rig) {
+  const std::vector<TomlTable> tables = root.Tables("effect");
+  std::map<std::pair<std::string, std::string>, std::string> seen;
+  for (std::size_t k = 0; k < rig.effects.size(); ++k) {
+    const EffectInstance& e = rig.effects[k];
+    if (e.name == "formula") continue;  // laws of the user's own may add up
+    const auto [it, fresh] = seen.emplace(std::pair(e.name, e.target), e.where);
+    if (!fresh)
+      tables[k].Fail("name", fmt::format("= \"{}\" on {} stands twice (first {}), allowed: once",
+                                         e.name, e.target, it->second));
+  }
+}
+
+/// Spreads of the rig's own numbers; a shaft's are checked with its tables.
+void CheckSpreads(const TomlTable& root, const RigParameters& rig) {
+  for (const Tolerance& k : rig.tolerances) {
+    double lo = 0, hi = 0;
+    std::string unit;
+    const double* value = ParameterAt(rig, k.path);
+    if (value == nullptr || !ParameterRange(rig, k.path, &lo, &hi, &unit)) continue;
+    CheckSpread(WhereOf(root, k.path), k.sd, *value, lo, hi, unit);
+  }
+}
+
+}  // namespace
+
+std::pair<double, double> ShaftExtent(const RigParameters& rig) {
+  double lo = kInfinity, hi = -kInfinity;
+  if (rig.beam) {
+    for (const ShaftSection& s : rig.beam->definition.sections) {
+      if (!s.stiff) continue;
+      lo = std::min(lo, s.z0);
+      hi = std::max(hi, s.z0 + s.length);
+    }
+    return {lo - rig.z_origin, hi - rig.z_origin};
+  }
+  for (const BearingParameters& b : rig.bearings) {
+    if (b.kind != BearingKind::kRadial) continue;
+    lo = std::min(lo, b.z);
+    hi = std::max(hi, b.z);
+  }
+  if (lo > hi) return {-kInfinity, kInfinity};  // a point has no axis
+  return {std::min(lo - (hi - lo), 0.0), std::max(hi + (hi - lo), 0.0)};
+}
+
+void CheckRig(const TomlTable& root, const RigParameters& rig) {
+  CheckSpreads(root, rig);
+  CheckBias(*root.Table("controller"), rig, rig.controller.bias_current);
+  const TomlTable bearings = *root.Table("bearings");
+  for (const BearingParameters& b : rig.bearings) {
+    const TomlTable t = *bearings.Table(b.name);
+    if (b.kind == BearingKind::kRadial) {
+      CheckWinding(t, b.radial.winding);
+      CheckSensor(t, b, rig);
+    } else {
+      CheckBias(t, rig,
+                b.kind == BearingKind::kThrust ? b.thrust.bias_current : b.opposed.bias_current);
+    }
+  }
+  CheckEffects(root, rig);
+}
+
+}  // namespace ambrig
