@@ -22,11 +22,15 @@ struct ClosedLoopMode {
   Whirl sense() const;
 };
 
+/// Of the largest |z|. An integrator that nothing reads (ki = 0) stands at z = 1 and moves nothing;
+/// rounding puts it to either side, so the circle is this much wider.
+inline bool IsStable(double spectral_radius) { return spectral_radius < 1 + 1e-9; }
+
 struct ClosedLoopModes {
   double speed = 0;                   // [rad/s]
   double spectral_radius = 0;         // largest |z|
   std::vector<ClosedLoopMode> modes;  // oscillatory, by frequency
-  bool stable() const { return spectral_radius < 1; }
+  bool stable() const { return IsStable(spectral_radius); }
 };
 
 /// All modes up to `highest` Hz (0: the controller's Nyquist frequency).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/closed_loop_modes.h"
 #include "analysis/iso14839.h"
 #include "core/math/constants.h"
 
@@ -56,9 +57,10 @@ Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction&
                             double rated) {
   const ClosedLoop& loop = transfer.loop();
   const double nyquist = 0.5 / loop.Ts(), highest = SensitivityRange(rated / (2 * kPi));
-  const bool stable = transfer.eigenvalues().cwiseAbs().maxCoeff() < 1;
+  const bool stable = IsStable(transfer.eigenvalues().cwiseAbs().maxCoeff());
   Sensitivity out;
   out.speed = loop.speed();
+  out.stable = stable;
   out.frequency = FrequencyGrid(transfer, 0.5, 0.98 * nyquist, 400);
   const auto names = point.Axes();
   for (const std::string& name : names) {

@@ -26,6 +26,7 @@ struct AxisSensitivity {
 
 struct Sensitivity {
   double speed = 0;               // [rad/s]
+  bool stable = true;             // false: peaks and margins of the axes mean nothing
   std::vector<double> frequency;  // [Hz], below the controller's Nyquist frequency
   std::vector<AxisSensitivity> axes;
   std::vector<JointMargin> joint;  // of all axes that move one another; empty: unstable already

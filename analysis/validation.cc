@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "analysis/load_capacity.h"
+#include "analysis/validation_checks.h"
 #include "core/base/counted.h"
 #include "core/math/constants.h"
 #include "rig/rig_assembly.h"
@@ -130,7 +131,8 @@ std::vector<double> UnbalanceAmplitudes(const Subject& s, const TomlTable& check
   const LinearRotor rotor = Assemble(beam);
   const auto u = check.Table("unbalance");
   if (!u) check.Fail("unbalance", "is missing, allowed: { z, magnitude, at }");
-  const int node = NodeAt(beam, u->Number("z")), at = NodeAt(beam, u->Number("at"));
+  const int node = NodeOf(beam, *u, "z", u->Number("z")),
+            at = NodeOf(beam, *u, "at", u->Number("at"));
   const double magnitude = u->Number("magnitude");
   u->RejectUnknownKeys();
   std::vector<double> out;
@@ -181,12 +183,14 @@ std::vector<double> OfRotor(const Subject& s, const TomlTable& check, const std:
   if (quantity == "free bending") return Frequencies(FreeModes(beam, count).omega, unit);
   if (quantity == "pinned") {
     std::vector<int> held;
-    for (double z : check.Numbers("planes")) held.push_back(2 * NodeAt(beam, z));
+    for (double z : check.Numbers("planes")) held.push_back(2 * NodeOf(beam, check, "planes", z));
     return Frequencies(HeldModes(beam, held, count).omega, unit);
   }
   if (quantity == "critical speeds") {
     std::vector<double> out;
-    for (const CriticalSpeed& c : CriticalSpeeds(Assemble(beam), count))
+    const LinearRotor rotor = Assemble(beam);
+    CheckSprings(check, rotor);
+    for (const CriticalSpeed& c : CriticalSpeeds(rotor, count))
       out.push_back(FromSi(unit, c.speed));
     return out;
   }

@@ -19,8 +19,8 @@ namespace {
 constexpr const char* kStart =
     R"(ambrig: magnetic-bearing rigs, simulated, broken, compared with measurements, explained.
 
-  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml
-                                                a coil breaks; then open out/...html
+  ambrig tour                                   three lessons of two minutes, files included
+  ambrig run SCENARIO                           what happens in a run; then open out/NAME.html
   ambrig --help                                 all commands
 )";
 
@@ -54,10 +54,11 @@ std::string Complaint(const CLI::App& app, const std::vector<std::string>& argum
                       const std::string& error) {
   if (arguments.empty() || arguments[0].starts_with('-')) return error + " (see ambrig --help)";
   std::string names;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (sub->get_name() == arguments[0])
+      return fmt::format("{} (see ambrig {} --help)", error, arguments[0]);
     names += (names.empty() ? "" : ", ") + sub->get_name();
-  if (app.get_subcommand_no_throw(arguments[0]) != nullptr)
-    return fmt::format("{} (see ambrig {} --help)", error, arguments[0]);
+  }
   const std::string near = ambrig::Nearest(arguments[0], names);
   return fmt::format("{} is no command{}; allowed: {}", arguments[0],
                      near.empty() ? "" : fmt::format(", did you mean {}?", near), names);

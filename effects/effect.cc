@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/toml_checked.h"
 #include "effects/catalogue.h"
 #include "effects/formula.h"
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/toml_checked.h"
+
 namespace ambrig {
 
 namespace {

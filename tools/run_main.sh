@@ -17,4 +17,12 @@ if [ -e "out/$name.html" ]; then
   echo "The report:  $PWD/out/$name.html   (one file; any browser, no network needed)"
   echo "The record:  $PWD/out/$name.h5"
 fi
+cat <<'END'
+
+Next:
+  build/release/ambrig tour                                           three lessons, files included
+  build/release/ambrig run scenarios/library/drop_at_1500rpm.toml     the rotor falls into its bearings
+  build/release/ambrig hide sensor-gain --rig scenarios/library/rigs/reference.toml -o practice
+                                                                      physics to find (docs/guide/hidden_effect.md)
+END
 exit "$verdict"

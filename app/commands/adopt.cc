@@ -79,12 +79,14 @@ void AddAdopt(CLI::App& app, Work& work) {
       ->required();
   command->add_option("--target", options->target,
                       "target of the effect (default: the one with the best fit)");
-  command->add_option("-o,--output", options->output,
-                      "new rig file (default: RIG_adopted.toml beside the rig)")
+  command
+      ->add_option("-o,--output", options->output,
+                   "new rig file (default: RIG_adopted.toml beside the rig)")
       ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig adopt case.toml eddy-currents --target A -o rig_with_eddy.toml");
+      "Examples:\n  ambrig adopt practice/case.toml sensor-gain\n"
+      "  ambrig adopt practice/case.toml eddy-currents --target A -o rig_with_eddy.toml");
   command->callback([options, &work] { work = [options] { return RunAdopt(*options); }; });
 }
 

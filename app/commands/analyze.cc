@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "analysis/iso14839.h"
 #include "app/commands/commands.h"
@@ -68,6 +69,45 @@ AnalysisOptions OptionsOf(const AnalyzeCommand& c) {
   return o;
 }
 
+/// Speeds [rpm] at which the loop is unstable, neighbours as a range: "0 to 3000, 9000".
+std::string UnstableSpeeds(const RigAnalysis& a) {
+  std::string text;
+  for (std::size_t k = 0; k < a.rows.size(); ++k) {
+    if (a.rows[k].stable() || (k > 0 && !a.rows[k - 1].stable())) continue;
+    std::size_t last = k;
+    while (last + 1 < a.rows.size() && !a.rows[last + 1].stable()) ++last;
+    text += fmt::format("{}{:.0f}", text.empty() ? "" : ", ", a.rows[k].speed / kRpm);
+    if (last > k) text += fmt::format(" to {:.0f}", a.rows[last].speed / kRpm);
+  }
+  return text;
+}
+
+/// Axes in zones C and D of a stable loop: "z (D)".
+std::string PoorAxes(const RigAnalysis& a) {
+  std::map<std::string, char> worst;
+  for (const Sensitivity& s : a.sensitivity)
+    for (const AxisSensitivity& x : s.axes) worst[x.axis] = std::max(worst[x.axis], x.zone);
+  std::string text;
+  for (const auto& [axis, zone] : worst)
+    if (zone > 'B') text += fmt::format("{}{} ({})", text.empty() ? "" : ", ", axis, zone);
+  return text;
+}
+
+void PrintVerdict(const RigAnalysis& a) {
+  if (!a.stable()) {
+    fmt::print("{}\n",
+               Coloured(fmt::format("closed loop UNSTABLE at {} rpm", UnstableSpeeds(a)), "red"));
+    return;
+  }
+  const std::string poor = PoorAxes(a);
+  fmt::print("{}\n", Coloured("closed loop stable at every speed analysed", "green"));
+  if (!poor.empty())
+    fmt::print("{}\n", Coloured("sensitivity outside zones A and B: " + poor, "red"));
+}
+
+/// Above this damping a response has no peak: no critical speed to a reader.
+bool HasResonance(double zeta) { return zeta < std::sqrt(0.5); }
+
 std::string Zone(char zone) {
   return Coloured(std::string(1, zone), zone == 'A' ? "green" : zone == 'B' ? "yellow" : "red");
 }
@@ -87,10 +127,14 @@ void PrintSensitivity(const RigAnalysis& a) {
              "peak |S|", "at [Hz]", "zone", "gain x from..to", "phase", "delay");
   for (const Sensitivity& s : a.sensitivity)
     for (const AxisSensitivity& x : s.axes)
-      fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n",
-                 s.speed / kRpm, x.axis, x.peak, x.peak_frequency, Zone(x.zone),
-                 fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up), x.phase_margin * 180 / kPi,
-                 x.delay_margin * 1e6);
+      if (!s.stable)
+        fmt::print("{:>9.0f} {:<6} {:>8} {:>10} {:>5} {:>18} {:>10} {:>12}\n", s.speed / kRpm,
+                   x.axis, "-", "-", "-", "-", "-", "-");
+      else
+        fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n",
+                   s.speed / kRpm, x.axis, x.peak, x.peak_frequency, Zone(x.zone),
+                   fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up),
+                   x.phase_margin * 180 / kPi, x.delay_margin * 1e6);
   fmt::print(
       "\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n",
       Coloured("simultaneous-loop disk margin: independent perturbations of all loops at once",
@@ -129,8 +173,9 @@ void PrintModes(const RigAnalysis& a) {
                    m.zeta, m.log_decrement, SenseName(m.sense()));
   }
   for (const DampedCritical& c : a.criticals)
-    fmt::print("  critical speed {:.0f} rpm, {}, log decrement {:.3f}\n", c.speed / kRpm,
-               SenseName(c.mode.sense()), c.mode.log_decrement);
+    if (HasResonance(c.mode.zeta))
+      fmt::print("  critical speed {:.0f} rpm, {}, log decrement {:.3f}\n", c.speed / kRpm,
+                 SenseName(c.mode.sense()), c.mode.log_decrement);
 }
 
 void PrintStandards(const RigAnalysis& a) {
@@ -161,13 +206,12 @@ void Print(const RigAnalysis& a) {
       }(),
       rig.controller.rate, a.options.lowest / kRpm, a.options.highest / kRpm,
       a.options.fastest / kRpm);
+  PrintVerdict(a);
   for (const std::string& note : a.point.notes) fmt::print("  note: {}\n", note);
   PrintCapacity(a);
   PrintSensitivity(a);
   PrintModes(a);
   PrintStandards(a);
-  fmt::print("\n{}\n", a.stable() ? Coloured("closed loop stable at every speed analysed", "green")
-                                  : Coloured("closed loop UNSTABLE at one or more speeds", "red"));
 }
 
 /// Most rigs are called rig.toml: their folder tells them apart.
@@ -234,10 +278,8 @@ void AddAnalyze(CLI::App& app, Work& work) {
   command->footer(
       "Examples:\n"
       "  ambrig analyze examples/reference/rig.toml --speed 3000:9000 -o out\n"
-      "  ambrig analyze rig.toml --measure 12 --html rig.html       sensitivity, computed and "
-      "measured\n"
-      "  ambrig analyze rig.toml --response A.x.load:A.x --response A.x.force:A.i1 --json "
-      "rig.json\n"
+      "  ambrig analyze examples/reference/rig.toml --measure 3 --html rig.html\n"
+      "  ambrig analyze examples/reference/rig.toml --response A.x.load:A.x --json rig.json\n"
       "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft, "
       ".magnet, or a coil A.i1;\n"
       "of a named plane of a beam rotor: disk.x.load, disk.x.\n"

@@ -199,8 +199,9 @@ void AddCampaign(CLI::App& app, Work& work) {
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o "
-      "out/single_coils\nRe-run the command to resume an interrupted one. Repeat one row:\n  "
+      "Examples:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o out/single_coils\n"
+      "  ambrig campaign scenarios/campaigns/survival_small.toml --shard 1/2 -o out/part1\nRe-run "
+      "the command to resume an interrupted one. Repeat one row:\n  "
       "ambrig run --from-campaign scenarios/campaigns/single_coils.toml --row 17");
   command->callback([options, &work] { work = [options] { return RunCampaign(*options); }; });
 }
@@ -213,7 +214,9 @@ void AddMerge(CLI::App& app, Work& work) {
   command->add_flag("--partial", options->partial, "merge even when runs are missing");
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig merge out/part1 out/part2 -o out/all");
+  command->footer(
+      "Examples:\n  ambrig merge out/part1 out/part2 -o out/all\n"
+      "  ambrig merge out/part1 -o out/half --partial");
   command->callback([options, &work] { work = [options] { return Merge(*options); }; });
 }
 

@@ -3,8 +3,10 @@
 #include "app/commands/commands.h"
 
 #define AMBRIG_COMMANDS(COMMAND) \
+  COMMAND(Tour)                  \
   COMMAND(Run)                   \
   COMMAND(Check)                 \
+  COMMAND(Diff)                  \
   COMMAND(Campaign)              \
   COMMAND(Merge)                 \
   COMMAND(Detectors)             \

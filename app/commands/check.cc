@@ -4,17 +4,23 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <mutex>
+#include <optional>
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "app/commands/baseline.h"
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/run_json.h"
+#include "app/pages/difference_report.h"
 #include "app/pages/html.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "core/base/read_file.h"
+#include "core/record/hdf5.h"
 #include "rig/rig_file.h"
 #include "simulation/simulate.h"
 
@@ -27,6 +33,7 @@ struct CheckOptions {
   std::vector<std::string> paths;
   std::string junit;
   int jobs = 0;
+  BaselineOptions baseline;
 };
 
 struct CheckRow {
@@ -34,10 +41,35 @@ struct CheckRow {
   std::vector<ExpectResult> expect;
   nlohmann::ordered_json json;
   double seconds = 0;
-  bool met() const { return error.empty() && AllMet(expect); }
+  std::optional<RunDifference> difference;  // from the baseline
+  RunFiles before, now;                     // for the page: kept where they differ
+  bool met() const {
+    return error.empty() && AllMet(expect) && (!difference || difference->agrees());
+  }
 };
 
-CheckRow CheckOne(const std::string& file) {
+/// The run beside its baseline; with --accept it becomes the baseline.
+void CheckBaseline(const BaselineOptions& o, const RigParameters& rig, RunResult& result,
+                   CheckRow& row) {
+  RunFiles now{row.file, std::move(result.record), nlohmann::json(row.json.at("events"))};
+  const std::string file = BaselineFile(o, row.file);
+  if (o.accept) {
+    WriteHdf5(BaselineRecord(o, now,
+                             {{"scenario", ReadFile(row.file)},
+                              {"rig", ReadFile(rig.file)},
+                              {"program", "ambrig 0.1.0"}}),
+              file);
+    return;
+  }
+  RunFiles before = ReadBaseline(file);
+  row.difference = CompareToBaseline(before, now, BaselineTolerances(o));
+  row.json["baseline"] = DifferenceJson(*row.difference);
+  if (row.difference->agrees()) return;
+  row.before = std::move(before);
+  row.now = std::move(now);
+}
+
+CheckRow CheckOne(const std::string& file, const BaselineOptions& baseline) {
   CheckRow row;
   row.file = file;
   const auto begin = std::chrono::steady_clock::now();
@@ -45,12 +77,14 @@ CheckRow CheckOne(const std::string& file) {
     const RigParameters rig = ReadRig(RigOfScenario(file));
     const Scenario scenario = ReadScenario(file, rig);
     row.name = scenario.name;
-    if (!scenario.expect.any()) throw InputError(fmt::format("{}: has no [expect]", file));
+    if (!scenario.expect.any() && baseline.folder.empty())
+      throw InputError(fmt::format("{}: has no [expect]", file));
     SimulateOptions options;
     options.stop = &interrupted;
-    const RunResult result = Simulate(rig, scenario, options);
+    RunResult result = Simulate(rig, scenario, options);
     row.expect = CheckExpectations(scenario, result);
     row.json = RunJson(scenario, result, row.expect);
+    if (!baseline.folder.empty()) CheckBaseline(baseline, rig, result, row);
   } catch (const Interrupted&) {
     throw;
   } catch (const std::exception& e) {
@@ -67,6 +101,9 @@ std::string Complaint(const CheckRow& row) {
     if (!e.met)
       text +=
           fmt::format("{}{}: wanted {}, got {}", text.empty() ? "" : "; ", e.key, e.wanted, e.got);
+  if (row.difference && !row.difference->agrees())
+    for (const std::string& line : DifferenceLines(*row.difference, 3))
+      text += (text.empty() ? "" : "; ") + line;
   return text;
 }
 
@@ -105,9 +142,30 @@ void WriteReport(const std::string& path, const std::vector<CheckRow>& rows) {
   report.Write(path);
 }
 
+/// What differs from the baselines, with both curves.
+void WriteBaselineReport(const std::string& path, const std::vector<CheckRow>& rows) {
+  std::vector<DifferencePage> pages;
+  for (const CheckRow& r : rows)
+    if (r.difference && !r.difference->agrees())
+      pages.push_back({r.name, &r.before, &r.now, &*r.difference});
+  if (!pages.empty()) WriteDifferenceReport(pages, path);
+}
+
+/// One scenario on the screen: what is not met stands below it, so that a line fits 80 columns.
+void PrintRow(const CheckRow& row) {
+  const std::string name = row.name.empty() ? row.file : row.name;
+  fmt::print("{}  {:<58} {:7.2f} s\n",
+             row.met() ? Coloured("met    ", "green") : Coloured("NOT MET", "red"),
+             name.size() > 58 ? name.substr(0, 55) + "..." : name, row.seconds);
+  if (!row.met()) fmt::print("    {}\n", Complaint(row));
+}
+
 int Check(const CheckOptions& options) {
   const std::vector<std::string> files = FindScenarios(options.paths);
   options.common.CheckOutputs(files, {options.junit});
+  if (options.baseline.accept && options.baseline.folder.empty())
+    throw InputError("--accept: allowed together with --baseline DIR");
+  if (options.baseline.accept) PrepareFolder(options.baseline.folder);
   std::vector<CheckRow> rows(files.size());
   std::atomic<std::size_t> done{0};
   {
@@ -116,7 +174,7 @@ int Check(const CheckOptions& options) {
                                               : std::thread::hardware_concurrency();
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, jobs);
     tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t k) {
-      rows[k] = CheckOne(files[k]);
+      rows[k] = CheckOne(files[k], options.baseline);
       progress.Update(static_cast<double>(++done) / static_cast<double>(files.size()), files[k]);
     });
   }
@@ -124,9 +182,7 @@ int Check(const CheckOptions& options) {
   std::size_t failed = 0;
   for (const CheckRow& row : rows) {
     failed += row.met() ? 0 : 1;
-    fmt::print("{}  {:<55} {:6.2f} s  {}\n",
-               row.met() ? Coloured("met    ", "green") : Coloured("NOT MET", "red"),
-               row.name.empty() ? row.file : row.name, row.seconds, Complaint(row));
+    PrintRow(row);
     json.push_back(row.json.is_null()
                        ? nlohmann::ordered_json{{"file", row.file}, {"error", row.error}}
                        : row.json);
@@ -135,6 +191,14 @@ int Check(const CheckOptions& options) {
              failed);
   if (!options.junit.empty()) WriteJunit(options.junit, rows);
   if (!options.common.html.empty()) WriteReport(options.common.html, rows);
+  if (!options.baseline.folder.empty()) {
+    const auto page = (std::filesystem::path(options.baseline.folder) / "difference.html").string();
+    WriteBaselineReport(page, rows);
+    if (options.baseline.accept)
+      fmt::print("baselines stored in {}\n", options.baseline.folder);
+    else if (failed > 0)
+      fmt::print("curves of what differs: {}\n", page);
+  }
   options.common.WriteJson(json);
   return failed > 0 ? 1 : 0;
 }
@@ -149,10 +213,26 @@ void AddCheck(CLI::App& app, Work& work) {
   command->add_option("--junit", options->junit, "write a JUnit XML file")
       ->type_name("FILE")
       ->check(OutputFile());
+  command
+      ->add_option("--baseline", options->baseline.folder,
+                   "compare each run with the record stored here (NAME.baseline.h5)")
+      ->type_name("DIR");
+  command->add_flag("--accept", options->baseline.accept, "store these runs as the baselines");
+  command->add_option("--channels", options->baseline.channels,
+                      "channels that --accept stores, e.g. A.x 'A.i*' (default: readings, "
+                      "currents, speed, bus)");
+  command->add_option("--rows", options->baseline.rows, "rows that --accept stores at most")
+      ->check(CLI::Range(2, 1000000))
+      ->capture_default_str();
   command->add_option("--jobs", options->jobs, "scenarios at the same time (default: all cores)")
       ->check(CLI::Range(1, 1024));
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig check scenarios/library --jobs 2 --junit check.xml");
+  command->footer(
+      "Examples:\n  ambrig check scenarios/library --jobs 2 --junit check.xml\n"
+      "  ambrig check my_scenarios --baseline baselines --accept    stores what is right today\n"
+      "  ambrig check my_scenarios --baseline baselines             finds what has changed\n"
+      "Tolerances: DIR/tolerances.toml (ambrig diff --help). Exit code 1 when something is not "
+      "met.");
   command->callback([options, &work] { work = [options] { return Check(*options); }; });
 }
 

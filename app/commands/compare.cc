@@ -58,7 +58,9 @@ void AddCompare(CLI::App& app, Work& work) {
   command->add_option("case", options->file, "case file (TOML)")->required();
   command->add_flag("--no-blocks", options->no_blocks, "skip the block tests with measured inputs");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig compare case.toml --html compare.html");
+  command->footer(
+      "Examples:\n  ambrig compare practice/case.toml --html compare.html\n"
+      "  ambrig compare practice/case.toml --no-blocks");
   command->callback([options, &work] { work = [options] { return RunCompare(*options); }; });
 }
 

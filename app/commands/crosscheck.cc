@@ -151,7 +151,8 @@ void AddCrosscheck(CLI::App& app, Work& work) {
       ->capture_default_str();
   command->common.AddTo(*sub);
   sub->footer(
-      "Example:\n  ambrig crosscheck scenarios/library/drop_at_12000rpm.toml --html contact.html\n"
+      "Examples:\n  ambrig crosscheck scenarios/library/drop_at_12000rpm.toml --html contact.html\n"
+      "  ambrig crosscheck scenarios/library/drop_at_0rpm.toml --seeds 3\n"
       "Exit code 1 when a verdict differs.");
   sub->callback([command, &work] { work = [command] { return Crosscheck(*command); }; });
 }

@@ -243,7 +243,7 @@ void AddDesign(CLI::App& app, Work& work) {
   command->add_flag("--no-report", options->no_report, "no HTML");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig design examples/design/study.toml\n  ambrig design "
+      "Examples:\n  ambrig design examples/design/study.toml\n  ambrig design "
       "examples/design/study.toml --point 17\nRe-run the command to resume an interrupted one. "
       "Exit code 1 when no point is feasible, or a repeated point differs.");
   command->callback([options, &work] { work = [options] { return RunDesign(*options); }; });

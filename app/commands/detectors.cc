@@ -96,7 +96,8 @@ void AddDetectors(CLI::App& app, Work& work) {
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig detectors scenarios/studies/detectors.toml -o out/detectors\nRe-run the "
+      "Examples:\n  ambrig detectors scenarios/studies/detectors_small.toml -o out/small\n"
+      "  ambrig detectors scenarios/studies/detectors.toml -o out/detectors\nRe-run the "
       "command to resume an interrupted one.");
   command->callback([options, &work] { work = [options] { return RunDetectors(*options); }; });
 }

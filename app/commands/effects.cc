@@ -81,7 +81,7 @@ void AddEffects(CLI::App& app, Work& work) {
   command->add_option("name", options->name, "one effect in detail");
   command->add_flag("--markdown", options->markdown, "print docs/effects.md");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig effects eddy-currents");
+  command->footer("Examples:\n  ambrig effects\n  ambrig effects eddy-currents");
   command->callback([options, &work] {
     work = [options] {
       nlohmann::ordered_json all = nlohmann::ordered_json::array();

@@ -120,7 +120,8 @@ void AddParameters(CLI::App& app, Work& work) {
       "parameters", "list all parameters of rig files and faults: unit, range, default");
   command->add_flag("--markdown", options->markdown, "print docs/parameters.md");
   options->common.AddTo(*command);
-  command->footer("Example:\n  ambrig parameters | grep gap");
+  command->footer(
+      "Examples:\n  ambrig parameters | grep gap\n  ambrig parameters --html parameters.html");
   command->callback([options, &work] {
     work = [options] {
       std::vector<Line> lines = RigLines();

@@ -136,7 +136,9 @@ void AddRedistribute(CLI::App& app, Work& work) {
                       "failed coils, e.g. 1,2 ; several sets 1;1,2 (default: all 255 sets)");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig redistribute rig.toml --bearing A --failed 1,2 --json w.json");
+      "Examples:\n"
+      "  ambrig redistribute examples/reference/rig.toml --bearing A --failed 1,2 --json w.json\n"
+      "  ambrig redistribute examples/reference/rig.toml --failed '3;3,4'");
   command->callback([options, &work] { work = [options] { return Redistribute(*options); }; });
 }
 

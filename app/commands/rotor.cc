@@ -56,6 +56,9 @@ void AddRotor(CLI::App& app, Work& work) {
   CLI::App* rotor = app.add_subcommand(
       "rotor", "convert beam rotors between the file formats of ROSS and ambrig");
   rotor->require_subcommand(1);
+  rotor->footer(
+      "Examples:\n  ambrig rotor convert examples/tum_mbtr/rig.toml rotor.json\n"
+      "  ambrig rotor convert rotor.json shaft.toml");
   CLI::App* convert =
       rotor->add_subcommand("convert", "a shaft from ROSS's rotor file to a [rotor], or back");
   convert
@@ -65,9 +68,10 @@ void AddRotor(CLI::App& app, Work& work) {
   convert->add_option("OUT", options->out, "the other kind")->required()->check(OutputFile());
   options->common.AddTo(*convert);
   convert->footer(
-      "Examples:\n  ambrig rotor convert rotor.json shaft.toml    then, in a rig: [rotor] kind = "
-      "\"beam\", file = "
-      "\"shaft.toml\"\n  ambrig rotor convert rig.toml rotor.json      for ross.Rotor.load");
+      "Examples:\n  ambrig rotor convert examples/tum_mbtr/rig.toml rotor.json\n"
+      "  ambrig rotor convert rotor.json shaft.toml\n"
+      "The first is for ross.Rotor.load; the second gives a shaft for a rig: [rotor] kind = "
+      "\"beam\", file = \"shaft.toml\".");
   convert->callback([options, &work] { work = [options] { return Run(*options); }; });
 }
 

@@ -170,7 +170,8 @@ void AddRun(CLI::App& app, Work& work) {
   command->add_flag("--quiet", options->quiet, "print nothing");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml --out out --csv\n"
+      "Examples:\n  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml --out out --csv\n"
+      "  ambrig run scenarios/library/load_step.toml --rate 25000 --no-report\n"
       "Exit code 1 when an [expect] of a scenario is not met.");
   command->callback([options, &work] {
     work = [options] {

@@ -242,8 +242,8 @@ void AddScore(CLI::App& app, Work& work) {
   command->add_flag("--again", options->again, "explain every case anew");
   options->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig score cases -o scored --html "
-      "matrix.html\nRe-run the command to resume an interrupted one.");
+      "Examples:\n  ambrig score practice --html matrix.html\n"
+      "  ambrig score cases -o scored --again\nRe-run the command to resume an interrupted one.");
   command->callback([options, &work] { work = [options] { return RunScore(*options); }; });
 }
 

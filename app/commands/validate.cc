@@ -114,7 +114,9 @@ void AddValidate(CLI::App& app, Work& work) {
       ->type_name("FILE")
       ->check(OutputFile());
   command->footer(
-      "Example:\n  ambrig validate examples/validation\nExit code 1 when a row differs by more "
+      "Examples:\n  ambrig validate examples/validation\n"
+      "  ambrig validate examples/validation/mbc500.validation.toml --json rows.json\nExit code 1 "
+      "when a row differs by more "
       "than its file allows.");
   command->callback([c, &work] { work = [c] { return RunValidate(*c); }; });
 }

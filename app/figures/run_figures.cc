@@ -128,8 +128,12 @@ std::vector<Mark> EventMarks(const RunReportData& data, double t0, double factor
       {"fault", "@red"},           {"detected", "@orange"},   {"classified", "@purple"},
       {"redistributed", "@green"}, {"touchdown", "@red"},     {"drop", "@red"},
       {"lift_off", "@sky"},        {"alarm_cleared", "@gray"}};
+  constexpr std::size_t kContactsMarked = 6;  // the lines of a bouncing rotor would cover its curve
   std::vector<Mark> marks;
+  std::size_t contacts = 0;
   for (const ReportEvent& e : data.events) {
+    const bool contact = e.kind == "touchdown" || e.kind == "lift_off";
+    if (contact && ++contacts > kContactsMarked) continue;
     const auto color = kColors.find(e.kind);
     std::string label = e.kind;
     std::ranges::replace(label, '_', ' ');

@@ -50,20 +50,25 @@ Json JointJson(const JointMargin& m, const Sensitivity& s) {
 
 Json SensitivityJson(const Sensitivity& s) {
   Json axes = Json::array();
+  const auto of_stable = [&](double x) { return s.stable ? Number(x) : Json(nullptr); };
   for (const AxisSensitivity& a : s.axes)
     axes.push_back({{"axis", a.axis},
-                    {"peak", a.peak},
-                    {"frequency", a.peak_frequency},
+                    {"peak", of_stable(a.peak)},
+                    {"frequency", of_stable(a.peak_frequency)},
                     {"zone", std::string(1, a.zone)},
-                    {"gain_up", Number(a.gain_up)},
-                    {"gain_down", a.gain_down},
-                    {"phase_margin", Number(a.phase_margin)},
-                    {"delay_margin", Number(a.delay_margin)},
-                    {"disk_margin", Number(a.disk_margin)},
+                    {"gain_up", of_stable(a.gain_up)},
+                    {"gain_down", of_stable(a.gain_down)},
+                    {"phase_margin", of_stable(a.phase_margin)},
+                    {"delay_margin", of_stable(a.delay_margin)},
+                    {"disk_margin", of_stable(a.disk_margin)},
                     {"S", Parts(a.S)}});
   Json joint = Json::array();
   for (const JointMargin& m : s.joint) joint.push_back(JointJson(m, s));
-  return {{"speed", s.speed}, {"frequency", s.frequency}, {"axes", axes}, {"joint", joint}};
+  return {{"speed", s.speed},
+          {"stable", s.stable},
+          {"frequency", s.frequency},
+          {"axes", axes},
+          {"joint", joint}};
 }
 
 Json ModeJson(const ClosedLoopMode& m) {

@@ -102,11 +102,17 @@ void AddSensitivity(HtmlReport& report, const RigAnalysis& a) {
       "up to three times the highest operating speed or 2 kHz, whichever is higher.");
   std::vector<std::vector<Cell>> rows;
   for (const Sensitivity& s : a.sensitivity)
-    for (const AxisSensitivity& x : s.axes)
+    for (const AxisSensitivity& x : s.axes) {
+      if (!s.stable) {
+        rows.push_back({fmt::format("{:.0f}", s.speed / kRpm), x.axis, "-", "-",
+                        Cell("unstable", "fail"), "-", "-", "-", "-", "-"});
+        continue;
+      }
       rows.push_back({fmt::format("{:.0f}", s.speed / kRpm), x.axis, fmt::format("{:.3f}", x.peak),
                       FormatSi(x.peak_frequency, "Hz"), ZoneCell(x.zone), Factor(x.gain_down),
                       Factor(x.gain_up), fmt::format("{:.1f}", x.phase_margin * 180 / kPi),
                       FormatSi(x.phase_frequency, "Hz"), FormatSi(x.delay_margin, "s")});
+    }
   report.Table({"speed [rpm]", "axis", "peak |S|", "at", "zone", "gain down to", "gain up to",
                 "phase margin [deg]", "at", "delay margin"},
                rows,
@@ -136,11 +142,13 @@ void AddRotor(HtmlReport& report, const RigAnalysis& a) {
   report.Heading("Rotor dynamics");
   report.AddFigure(CampbellFigure(a));
   std::vector<std::vector<Cell>> rows;
-  for (const DampedCritical& c : a.criticals)
+  for (const DampedCritical& c : a.criticals) {
+    if (c.mode.zeta >= std::sqrt(0.5)) continue;  // no peak of a response
     rows.push_back({fmt::format("{:.0f}", c.speed / kRpm), SenseName(c.mode.sense()),
                     fmt::format("{:.3f}", c.mode.zeta),
                     Cell(fmt::format("{:.3f}", c.mode.log_decrement),
                          c.mode.log_decrement > kLeastLogDecrement ? "ok" : "fail")});
+  }
   if (rows.empty())
     report.Text("No mode of the rotor meets the speed in this range.");
   else
@@ -152,6 +160,14 @@ void AddRotor(HtmlReport& report, const RigAnalysis& a) {
   if (!a.supports.free.empty() || !a.supports.supported.empty())
     report.AddFigure(RotorModeFigure(a));
   if (!a.supports.map.empty()) report.AddFigure(CriticalMapFigure(a));
+}
+
+/// Whether every axis has a PID with an integral part.
+bool Integrates(const RigParameters& rig) {
+  if (rig.controller.kind != "pid") return false;
+  return std::all_of(rig.bearings.begin(), rig.bearings.end(), [&](const BearingParameters& b) {
+    return (b.controller ? *b.controller : rig.controller.pid).ki > 0;
+  });
 }
 
 void AddUnbalance(HtmlReport& report, const RigAnalysis& a) {
@@ -166,8 +182,10 @@ void AddUnbalance(HtmlReport& report, const RigAnalysis& a) {
                     fmt::format("{:.4f}", d.largest / d.clearance), ZoneCell(d.zone)});
   report.Table({"unbalance", "bearing", "largest orbit", "clearance", "ratio", "zone"}, rows,
                "ISO 14839-2 over the operating speeds: A up to 0.3, B up to 0.4, C up to 0.5 of "
-               "the least clearance (the auxiliary bearing's). "
-               "Static offset is zero: the controller integrates.");
+               "the least clearance (the auxiliary bearing's)." +
+                   std::string(Integrates(a.point.rig())
+                                   ? " Static offset is zero: the controller integrates."
+                                   : ""));
   rows.clear();
   for (const SeparationRow& s : a.separation)
     rows.push_back({s.unbalance, s.bearing, fmt::format("{:.0f}", s.peak.speed / kRpm),

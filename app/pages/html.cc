@@ -26,7 +26,8 @@ constexpr std::string_view kHead =
     R"(script-src 'unsafe-inline'; img-src data: blob:; font-src data:; base-uri 'none'; form-action 'none'">
 )";
 
-constexpr int kLegendHeight = 28;  // [px], of the 84 below a figure (MakeFigure)
+constexpr std::size_t kWideTable = 7;  // more columns are set smaller and wrap
+constexpr int kLegendHeight = 28;      // [px], of the 84 below a figure (MakeFigure)
 
 const char* StyleName(Verdict kind) {
   switch (kind) {
@@ -143,7 +144,8 @@ void HtmlReport::KeyValues(const std::vector<std::pair<std::string, std::string>
 
 void HtmlReport::Table(const std::vector<std::string>& columns,
                        const std::vector<std::vector<Cell>>& rows, std::string_view caption) {
-  body_ += "<div class=\"table\"><table>\n";
+  body_ += columns.size() > kWideTable ? "<div class=\"table wide\"><table>\n"
+                                       : "<div class=\"table\"><table>\n";
   if (!caption.empty()) body_ += fmt::format("<caption>{}</caption>\n", InlineMarkup(caption));
   body_ += "<thead><tr>";
   for (const std::string& c : columns)
@@ -237,9 +239,13 @@ std::string HtmlReport::Html() const {
       "<noscript><p class=\"verdict warn\">The figures need JavaScript; it is inside this file, "
       "nothing is loaded.</p></noscript>\n";
   out += body_;
-  out += "</main>\n<script>";
-  out += PlotlyJs();
-  out += "</script>\n<script>\n";
+  out += "</main>\n";
+  if (figures_ > 0) {  // a page of text and tables stays small
+    out += "<script>";
+    out += PlotlyJs();
+    out += "</script>\n";
+  }
+  out += "<script>\n";
   out += ReportJs();
   out += "</script>\n</body>\n</html>\n";
   return out;

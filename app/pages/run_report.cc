@@ -21,6 +21,8 @@ void AddExpectations(HtmlReport& report, const RunReportData& data) {
   report.Table({"expectation", "wanted", "got", ""}, rows, "From the scenario's [expect].");
 }
 
+constexpr std::size_t kEventsShown = 20;  // a bouncing rotor has hundreds
+
 void AddTimeline(HtmlReport& report, const RunReportData& data, const RunStages& stages) {
   if (data.events.empty()) return;
   report.Heading("Timeline", 3);
@@ -42,7 +44,13 @@ void AddTimeline(HtmlReport& report, const RunReportData& data, const RunStages&
                            : ""),
          e.target, e.text});
   }
-  report.Table({"time [s]", "after the fault", "event", "where", "what"}, rows);
+  const std::vector<std::string> columns{"time [s]", "after the fault", "event", "where", "what"};
+  const std::size_t first = std::min(rows.size(), kEventsShown);
+  report.Table(columns, {rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(first)});
+  if (first == rows.size()) return;
+  report.BeginDetails(fmt::format("{} more events", rows.size() - first));
+  report.Table(columns, {rows.begin() + static_cast<std::ptrdiff_t>(first), rows.end()});
+  report.EndDetails();
 }
 
 void AddDetection(HtmlReport& report, const RunReportData& data, const RunStages& stages) {

@@ -264,8 +264,8 @@ Case ReadCase(const std::string& path) {
     r.data_file = ExistingFile(t, "data");
     r.validate = t.Choice("use", "fit", "fit, validate, test") != "fit";
     r.scenario = ReadScenario(r.scenario_file, c.rig);
-    r.time_offset = Within(t, "time_offset", 0,
-                           {"s", -1e5, 1e5, "scenario time of the logger's zero"});
+    r.time_offset =
+        Within(t, "time_offset", 0, {"s", -1e5, 1e5, "scenario time of the logger's zero"});
     if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time")
       t.Fail("kind", fmt::format("= \"{}\" is not compared yet, allowed: \"time\"", kind));
     r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c, r.sources);

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "control/position/kinds/read_system.h"
 #include "control/position/state_space_controller.h"

@@ -1,0 +1,24 @@
+#pragma once
+/// Events of two runs (the "events" of NAME.json) beside each other: which came, went or moved.
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace ambrig {
+
+struct EventDifference {
+  enum class Kind { kCame, kWent, kMoved };
+  Kind kind = Kind::kCame;
+  std::string event;             // "detected A.coil3", with the class when there is one
+  double before = 0, after = 0;  // [s]; of a moved one both
+};
+
+/// The k-th event of a kind, target and class in the one is the k-th in the other; it has moved when
+/// its times differ by more than `tolerance` [s]. Earliest first.
+std::vector<EventDifference> CompareEvents(const nlohmann::json& a, const nlohmann::json& b,
+                                           double tolerance);
+
+/// "detected A.coil3 moved from 20.12 ms to 20.20 ms".
+std::string EventDifferenceText(const EventDifference& e);
+
+}  // namespace ambrig

@@ -1,0 +1,96 @@
+#include "app/pages/difference_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/figures/series.h"
+#include "app/pages/format.h"
+#include "app/pages/html.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr std::size_t kMostFigures = 6;
+
+/// Channels beyond their tolerance, the worst in terms of it first.
+std::vector<const ChannelDifference*> Worst(const RecordDifference& d) {
+  std::vector<const ChannelDifference*> out;
+  for (const ChannelDifference& c : d.channels)
+    if (c.bad()) out.push_back(&c);
+  std::stable_sort(out.begin(), out.end(),
+                   [](const auto* x, const auto* y) { return x->first < y->first; });
+  return out;
+}
+
+void AddCurves(HtmlReport& report, const DifferencePage& run, const ChannelDifference& c) {
+  const Channel* a = run.a->record.Find(c.channel);
+  const Channel* b = run.b->record.Find(c.channel);
+  std::vector<std::vector<double>> times, values;
+  double largest = 0;
+  for (const Channel* k : {a, b})
+    if (k) largest = std::max(largest, LargestSize(k->samples));
+  const DisplayUnit unit = ChooseUnit(largest, c.unit);
+  std::vector<HtmlReport::Series> series;
+  times.reserve(2);
+  values.reserve(2);
+  const auto add = [&](const char* name, const RunFiles& of, const Channel* k) {
+    if (!k) return;
+    times.push_back(Scaled(UniformTime(of.record.start, of.record.rate, k->samples.size()), 1e3));
+    values.push_back(Scaled(k->samples, unit.factor));
+    series.push_back({name, times.back(), values.back()});
+  };
+  add("before", *run.a, a);
+  add("now", *run.b, b);
+  const std::string caption =
+      c.rows == 0 ? fmt::format("{}: {}.", c.channel, VerdictText(c.verdict))
+                  : fmt::format("{}: {} from {:.6g} ms on, largest difference {} at {:.6g} ms.",
+                                c.channel, VerdictText(c.verdict), c.first * 1e3,
+                                FormatSi(c.worst, c.unit), c.worst_at * 1e3);
+  report.TimeSeries(caption, "time [ms]", fmt::format("{} [{}]", c.channel, unit.name), series);
+}
+
+void AddTables(HtmlReport& report, const RunDifference& d) {
+  if (!d.events.empty()) {
+    std::vector<std::vector<Cell>> rows;
+    for (const EventDifference& e : d.events)
+      rows.push_back({Cell(EventDifferenceText(e), "fail")});
+    report.Table({"events"}, rows);
+  }
+  std::vector<std::vector<Cell>> rows;
+  for (const ChannelDifference& c : d.record.channels)
+    rows.push_back({Cell(c.channel), Cell(VerdictText(c.verdict), c.bad() ? "fail" : "ok"),
+                    Cell(c.bad() ? fmt::format("{:.6g} ms", c.first * 1e3) : "-"),
+                    Cell(c.worst > 0 ? FormatSi(c.worst, c.unit) : "-"),
+                    Cell(c.rms > 0 ? FormatSi(c.rms, c.unit) : "-"),
+                    Cell(fmt::format("{} of {}", c.beyond, c.rows))});
+  report.Table({"channel", "verdict", "first", "largest difference", "rms", "rows beyond"}, rows);
+}
+
+}  // namespace
+
+void WriteDifferenceReport(const std::vector<DifferencePage>& runs, const std::string& path) {
+  HtmlReport report("Runs compared", runs.size() == 1
+                                         ? runs[0].difference->a + " and " + runs[0].difference->b
+                                         : "stored records beside new ones");
+  for (const DifferencePage& run : runs) {
+    const RunDifference& d = *run.difference;
+    report.Heading(run.name);
+    report.Verdict(d.agrees() ? Verdict::kOk : Verdict::kFail,
+                   d.identical() ? "No bit differs."
+                   : d.agrees()  ? "Everything is within the tolerances."
+                                 : "Something differs beyond the tolerances.");
+    std::string list;
+    for (const std::string& line : DifferenceLines(d)) list += "- " + line + "\n";
+    if (!list.empty()) report.Text(list);
+    AddTables(report, d);
+    std::size_t figures = 0;
+    for (const ChannelDifference* c : Worst(d.record))
+      if (figures++ < kMostFigures) AddCurves(report, run, *c);
+  }
+  report.Write(path);
+}
+
+}  // namespace ambrig
