@@ -55,7 +55,7 @@ std::string Complaint(const CLI::App& app, const std::vector<std::string>& argum
   if (arguments.empty() || arguments[0].starts_with('-')) return error + " (see ambrig --help)";
   std::string names;
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (sub->get_name() == arguments[0])
+    if (sub->check_name(arguments[0]))
       return fmt::format("{} (see ambrig {} --help)", error, arguments[0]);
     names += (names.empty() ? "" : ", ") + sub->get_name();
   }
