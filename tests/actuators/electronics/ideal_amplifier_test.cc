@@ -2,7 +2,7 @@
 // with a duty below their dead one.
 #include <gtest/gtest.h>
 
-#include "actuators/electronics/amplifier.h"
+#include "actuators/electronics/power_bridge.h"
 
 namespace ambrig {
 namespace {
@@ -21,7 +21,7 @@ AmplifierParameters Ideal() {
 }
 
 double MeanVoltage(const AmplifierParameters& p, double duty, const BridgeImperfection& bridge) {
-  const CoilVoltage v = PowerAmplifier(p).Pattern(duty, bridge);
+  const CoilVoltage v = PowerBridge(p).Pattern(duty, bridge);
   const double T = 1 / p.switching_frequency, part[3] = {v.t1, v.t2 - v.t1, T - v.t2};
   double sum = 0;
   for (int k = 0; k < 3; ++k) sum += part[k] * (v.gain[k] * p.bus_voltage + v.drop[k]);

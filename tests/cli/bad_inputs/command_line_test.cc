@@ -137,7 +137,9 @@ TEST_P(BadCommands, OneLineNothingWritten) {
   const std::string before = Files();
   const Outcome o = Ambrig(GetParam().arguments);
   EXPECT_EQ(o.exit, GetParam().exit) << o.text;
-  if (GetParam().exit == 2) EXPECT_EQ(o.lines(), 1) << o.text;
+  if (GetParam().exit == 2) {
+    EXPECT_EQ(o.lines(), 1) << o.text;
+  }
   EXPECT_NE(o.text.find(GetParam().said), std::string::npos) << o.text;
   EXPECT_EQ(Files(), before) << o.text;
   EXPECT_EQ(ReadText(folder_ / "rig.toml"), ReferenceRigText());
