@@ -23,10 +23,9 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kRpm = kPi / 30;
 constexpr const char* kQuantities =
-    "mass,centre of mass,transverse inertia,polar inertia,free bending,pinned,natural "
-    "frequencies,damped frequencies,"
-    "damping ratios,critical speeds,unbalance response,eigenvalues,unstable poles,k_i,horseshoe "
-    "k_i,k_s,force constant,unstable pole";
+    "mass,centre of mass,transverse inertia,polar inertia,free bending,pinned,natural frequencies,"
+    "damped frequencies,damping ratios,critical speeds,unbalance response,eigenvalues,"
+    "unstable poles,k_i,horseshoe k_i,k_s,force constant,unstable pole";
 
 /// The rotor of a validation file.
 struct Subject {
@@ -131,8 +130,8 @@ std::vector<double> UnbalanceAmplitudes(const Subject& s, const TomlTable& check
   const LinearRotor rotor = Assemble(beam);
   const auto u = check.Table("unbalance");
   if (!u) check.Fail("unbalance", "is missing, allowed: { z, magnitude, at }");
-  const int node = NodeOf(beam, *u, "z", u->Number("z")),
-            at = NodeOf(beam, *u, "at", u->Number("at"));
+  const int node = NodeOf(beam, *u, "z", u->Number("z"));
+  const int at = NodeOf(beam, *u, "at", u->Number("at"));
   const double magnitude = u->Number("magnitude");
   u->RejectUnknownKeys();
   std::vector<double> out;

@@ -132,8 +132,7 @@ std::vector<Mark> EventMarks(const RunReportData& data, double t0, double factor
   std::vector<Mark> marks;
   std::size_t contacts = 0;
   for (const ReportEvent& e : data.events) {
-    const bool contact = e.kind == "touchdown" || e.kind == "lift_off";
-    if (contact && ++contacts > kContactsMarked) continue;
+    if ((e.kind == "touchdown" || e.kind == "lift_off") && ++contacts > kContactsMarked) continue;
     const auto color = kColors.find(e.kind);
     std::string label = e.kind;
     std::ranges::replace(label, '_', ' ');
@@ -292,11 +291,9 @@ Figure SnapshotFigure(const RunReportData& data) {
   }
   return StatorFigure(
       "The bearing in cross-section at chosen instants. Poles are coloured by their flux (blue: "
-      "into "
-      "the rotor, orange: out of it), coils at the poles' sides by their current (green); the "
-      "deeper, "
-      "the larger. A faulty coil is dotted red. The shaft's displacement is drawn in proportion to "
-      "the clearance (dashed): shown in the middle, how far the centre has moved.",
+      "into the rotor, orange: out of it), coils at the poles' sides by their current (green); the "
+      "deeper, the larger. Faulty coils are dotted red. The shaft's displacement is drawn in "
+      "proportion to the clearance (dashed): shown in the middle, how far the centre has moved.",
       views);
 }
 
