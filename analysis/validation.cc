@@ -23,10 +23,9 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double kRpm = kPi / 30;
 constexpr const char* kQuantities =
-    "mass,centre of mass,transverse inertia,polar inertia,free bending,pinned,natural "
-    "frequencies,damped frequencies,"
-    "damping ratios,critical speeds,unbalance response,eigenvalues,unstable poles,k_i,horseshoe "
-    "k_i,k_s,force constant,unstable pole";
+    "mass,centre of mass,transverse inertia,polar inertia,free bending,pinned,natural frequencies,"
+    "damped frequencies,damping ratios,critical speeds,unbalance response,eigenvalues,"
+    "unstable poles,k_i,horseshoe k_i,k_s,force constant,unstable pole";
 
 /// The rotor of a validation file.
 struct Subject {

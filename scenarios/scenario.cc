@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/counted.h"
+#include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "rig/rig_checks.h"
 #include "scenarios/faults/fault_file.h"
@@ -38,10 +39,7 @@ Targets TargetsOfRig(const RigParameters& rig) {
   return t;
 }
 
-std::string DirectoryOf(const std::string& file) {
-  const auto parent = std::filesystem::path(file).parent_path().string();
-  return parent.empty() ? "." : parent;
-}
+constexpr Range kTime{"s", -1e5, 1e5, "scenario time"};
 
 constexpr Range kTime{"s", -1e5, 1e5, "scenario time"};
 
@@ -106,7 +104,7 @@ void ReadStart(const TomlTable& root, const Targets& targets, const RigParameter
 
 void ReadExcitations(const TomlTable& root, const Targets& targets, Scenario& s) {
   for (const TomlTable& t : root.Tables("excitation")) {
-    Excitation e = ReadExcitation(t, DirectoryOf(s.file), s.duration);
+    Excitation e = ReadExcitation(t, Beside(s.file, "."), s.duration);
     const bool coil = e.port == "current" || e.port == "duty";
     const auto& allowed = coil ? targets.coils : targets.axes;
     if (std::find(allowed.begin(), allowed.end(), e.target) == allowed.end())

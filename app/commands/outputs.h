@@ -1,10 +1,7 @@
 #pragma once
 /// What a command writes is checked before its work starts: folders exist or can be made, files can
 /// be written, nothing that ambrig did not make is overwritten without --force.
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
+#include "app/commands/commands.h"
 
 namespace ambrig {
 
