@@ -41,8 +41,6 @@ Targets TargetsOfRig(const RigParameters& rig) {
 
 constexpr Range kTime{"s", -1e5, 1e5, "scenario time"};
 
-constexpr Range kTime{"s", -1e5, 1e5, "scenario time"};
-
 double PositiveTime(const TomlTable& t, const char* key, double fallback) {
   return Within(t, key, fallback, {"s", 1e-6, 1e5, "length of time"});
 }
