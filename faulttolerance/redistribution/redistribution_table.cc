@@ -18,6 +18,12 @@ namespace {
 constexpr int kGrid = 20;    // steps of a coil's turns
 constexpr int kVersion = 3;  // of solver and file: raise it when results change
 
+/// Check sum of an entry as the file has it, without the sum itself.
+std::string Checksum(nlohmann::json item) {
+  item.erase("checksum");
+  return fmt::format("{:016x}", Fingerprint(item.dump()));
+}
+
 /// Fingerprint of everything the results depend on.
 std::uint64_t Hash(const RedistributionProblem& p, const DistributionOptions& o) {
   std::string text = fmt::format("{} {} {} {} {} {} {}", kVersion, p.turns, p.pole_area, p.gap,
