@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "rig/true_rig.h"
 #include "simulation/simulate.h"
 
 namespace ambrig {
