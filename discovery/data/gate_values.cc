@@ -12,11 +12,12 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kAbsurd = 4;         // times the largest value that a channel can show
-constexpr double kFewAbsurd = 0.05;   // of the rows; more: the column's unit is wrong
-constexpr std::size_t kClipRun = 4;   // equal neighbours at the extreme
-constexpr double kClipShare = 0.005;  // of the rows
-constexpr double kBeyond = 5;         // floors by which the prediction passes the extreme
+constexpr double kAbsurd = 4;             // times the largest value that a channel can show
+constexpr double kFewAbsurd = 0.05;       // of the rows; more: the column's unit is wrong
+constexpr std::size_t kClipRun = 4;       // equal neighbours at the extreme
+constexpr double kClipShare = 0.005;      // of the rows
+constexpr double kFrozenSetPoint = 0.08;  // of the rows
+constexpr double kBeyond = 5;             // floors by which the prediction passes the extreme
 
 /// Largest value that the channel can show [SI]; infinity where nothing limits it.
 double LimitOf(const RigParameters& rig, const std::string& channel) {
@@ -145,6 +146,9 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
     if (r.scenario.start == StartState::kResting) continue;
     const HeldStretch s = FrozenStretch(y);
     if (s.count == 0 || (set_point && (s.value == *low || s.value == *high))) continue;
+    // a force at its limit holds single set-points for some rows
+    if (set_point && static_cast<double>(s.count) < kFrozenSetPoint * static_cast<double>(y.size()))
+      continue;
     if (s.value != 0 && (s.value == *low || s.value == *high)) continue;
     Held(r, c.name, s, out);
     c.explained = true;

@@ -14,6 +14,9 @@ namespace ambrig {
 namespace {
 
 constexpr double kAgrees = 1.5;  // factor between stated and estimated noise
+// of the currents, whose ripple a wrong law of the iron changes at every edge: more than a factor of
+// two is needed before their noise is held to be larger than stated
+constexpr double kCurrentAgrees = 2.5;
 constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none is stated
 
 using ByChannel = std::map<std::string, std::vector<double>>;
@@ -43,9 +46,10 @@ ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
   return out;
 }
 
-void Choose(ChannelNoise& c) {
+/// `larger`: factor by which the estimate may exceed what is stated.
+void Choose(ChannelNoise& c, double larger = kAgrees) {
   const bool usable = std::isfinite(c.estimated) && c.estimated > 0;
-  const bool agrees = std::isfinite(c.stated) && usable && c.estimated < kAgrees * c.stated &&
+  const bool agrees = std::isfinite(c.stated) && usable && c.estimated < larger * c.stated &&
                       c.stated < kAgrees * c.estimated;
   c.used = agrees || !usable ? (std::isfinite(c.stated) ? c.stated : 0) : c.estimated;
 }
@@ -83,13 +87,13 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
     ChannelNoise& c = noise.channels[channel];
     if (stated > 0 && std::isnan(c.stated)) c.stated = size;
     c.estimated = factor * size;
-    Choose(c);
+    Choose(c, kCurrentAgrees);
     all.push_back(trial * factor);
   }
   ChannelNoise common;
   common.stated = stated > 0 ? stated : std::nan("");
   common.estimated = MedianOf(all);
-  Choose(common);
+  Choose(common, kCurrentAgrees);
   if (common.used != stated && std::isfinite(common.estimated)) noise.current_sample = common.used;
 }
 
@@ -144,7 +148,7 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
 std::vector<std::string> NoiseRemarks(const NoiseModel& noise) {
   std::vector<std::string> out;
   for (const auto& [channel, c] : noise.channels) {
-    if (!std::isfinite(c.estimated) || c.used != c.estimated) continue;
+    if (!std::isfinite(c.estimated) || c.used != c.estimated || c.used == c.stated) continue;
     out.push_back(std::isfinite(c.stated)
                       ? fmt::format("noise of {}: stated {:.3g}, the records show {:.3g}: the "
                                     "latter is used",
