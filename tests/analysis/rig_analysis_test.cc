@@ -180,16 +180,20 @@ TEST_F(AnalyzeCommand, WritesSummaryJsonAndPage) {
   const Outcome o = Ambrig("analyze rig.toml --speed 3000 -o out");
   EXPECT_EQ(o.exit, 0) << o.text;
   EXPECT_NE(o.text.find("ISO 14839-3"), std::string::npos);
-  const auto json = ReadText(folder_ / "out/rig.analysis.json");
+  const auto json =
+      ReadText(folder_ / "out" / (folder_.filename().string() + ".rig.analysis.json"));
   EXPECT_NE(json.find("\"zone\": \"A\""), std::string::npos);
   EXPECT_NE(json.find("\"worst_gain\""), std::string::npos);
   EXPECT_NE(o.text.find("simultaneous-loop disk margin"), std::string::npos);
-  EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("Campbell diagram"),
+  EXPECT_NE(ReadText(folder_ / "out" / (folder_.filename().string() + ".rig.analysis.html"))
+                .find("Campbell diagram"),
             std::string::npos);
-  EXPECT_NE(ReadText(folder_ / "out/rig.analysis.html").find("joint disk margin"),
+  EXPECT_NE(ReadText(folder_ / "out" / (folder_.filename().string() + ".rig.analysis.html"))
+                .find("joint disk margin"),
             std::string::npos);
   const Outcome again = Ambrig("analyze rig.toml --speed 3000 -o again");
-  EXPECT_EQ(json, ReadText(folder_ / "again/rig.analysis.json"));
+  EXPECT_EQ(json,
+            ReadText(folder_ / "again" / (folder_.filename().string() + ".rig.analysis.json")));
 }
 
 }  // namespace

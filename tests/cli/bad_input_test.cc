@@ -51,7 +51,7 @@ TEST_F(BadInput, MissingRig) {
 }
 TEST_F(BadInput, RigIsAFolder) {
   ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", ".")),
-                  "is a folder, allowed: a TOML file");
+                  "allowed: a file (.: is a folder)");
 }
 TEST_F(BadInput, FileWithoutAnEnd) {
   Write("rig.toml", ReferenceRigText());

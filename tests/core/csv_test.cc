@@ -72,7 +72,17 @@ TEST_F(Csv, OptionsGiveUnitsAndRate) {
   EXPECT_EQ(r.start, 0.25);
   EXPECT_EQ(r.Find("z")->unit, "um");
   EXPECT_EQ(Error("t,z\n0,1\n1,2\n", {{}, 2.0, 0.0}), ": rate = 2 Hz, but the times have 1 Hz");
-  EXPECT_EQ(Error("x,z\n0,1\n1,2\n"), ": neither a rate [Hz] nor a time channel t");
+  EXPECT_EQ(Error("x,z\n0,1\n1,2\n"),
+            ": neither a rate [Hz] nor a time channel, allowed: t, time (s), t [ms], t_ms, Time "
+            "(ms), with units s, ms, us, ns; there are: x, z");
+}
+
+TEST_F(Csv, TimeByTheNamesThatLoggersGive) {
+  for (const char* head : {"t_ms,z", "Time [ms],z", "Time (ms),z", "TIME_ms,z"}) {
+    const Record r = Read(std::string(head) + "\n0,1\n10,2\n20,3\n");
+    EXPECT_DOUBLE_EQ(r.rate, 100) << head;
+    EXPECT_EQ(r.channels.size(), 1U) << head;
+  }
 }
 
 TEST_F(Csv, ErrorsNameLineAndColumn) {
@@ -91,11 +101,12 @@ TEST_F(Csv, ErrorsNameLineAndColumn) {
 }
 
 TEST_F(Csv, TimeThatIsNotUniformIsReportedWithItsRow) {
-  EXPECT_EQ(Error("t,z\n0,1\n0.1,2\n0.3,3\n0.4,4\n"),
-            ": row 4: time 0.3 s is not uniform: step 0.19999999999999998 s, expected 0.1 s");
-  EXPECT_EQ(Error("t,z\n0,1\n0.1,2\n0.1,3\n"), ": row 4: time 0.1 s does not increase");
-  EXPECT_EQ(Error("t,z\n0,1\n,2\n0.2,3\n"), ": row 3: time nan s is not a number");
-  EXPECT_EQ(Error("t,z\n0,1\n"), ": a time column needs at least two rows");
+  EXPECT_EQ(
+      Error("t,z\n0,1\n0.1,2\n0.3,3\n0.4,4\n"),
+      ": column t: row 4: time 0.3 s is not uniform: step 0.19999999999999998 s, expected 0.1 s");
+  EXPECT_EQ(Error("t,z\n0,1\n0.1,2\n0.1,3\n"), ": column t: row 4: time 0.1 s does not increase");
+  EXPECT_EQ(Error("t,z\n0,1\n,2\n0.2,3\n"), ": column t: row 3: time nan s is not a number");
+  EXPECT_EQ(Error("t,z\n0,1\n"), ": column t: a time column needs at least two rows");
   // A drift of 1 % per row: no single step looks wrong, the whole does.
   std::string drift = "t,z\n";
   for (int k = 0; k < 40; ++k) drift += std::to_string(k + 0.001 * k * k) + ",1\n";

@@ -53,7 +53,7 @@ const BadCommand kCommands[] = {
     {"diff a.csv b.csv --tolerances t.toml", "t.toml:2: all.relativ: unknown key"},
     {"diff a.csv b.csv --json a.csv", "a.csv is read by this command"},
     {"diff untimed.csv a.csv", "neither a rate [Hz] nor a time channel, allowed: t, time (s)"},
-    {"diff backwards.csv a.csv", "column t, row 4: time 0.1 s does not increase"},
+    {"diff backwards.csv a.csv", "column t: row 4: time 0.1 s does not increase"},
     {"analyze rig.toml --speed fast", "--speed = fast, allowed: rpm"},
     {"analyze rig.toml --speed 9:3", "the lower speed first"},
     {"analyze rig.toml --speed nan", "--speed = nan, allowed: rpm"},
