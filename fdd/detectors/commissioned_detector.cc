@@ -99,6 +99,10 @@ int CommissionedDetector::Ratios() {
     // What a fault throws at its neighbours in its first period would stay in their windows.
     apart_[j] = gross || touching_ || out_of_range_ || excess_.gross[j] > 0 ? 1 : 0;
   }
+  // What a model does not express keeps flux out in many coils: those are not the suspects.
+  if (!model_.usable() && GrossCoils() >= kCoilsAtOnce)
+    for (int j = 0; j < coils; ++j)
+      if (now_[j] > 0) ratio_[j] = 0;
   windows_.Add(excess_, apart_);
   for (int w = 0; w < kExcessWindows; ++w) {
     const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
@@ -115,14 +119,17 @@ bool CommissionedDetector::Disturbed() const {
          windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
 }
 
+int CommissionedDetector::GrossCoils() const {
+  int many = 0;
+  for (double c : now_.v) many += c > kGross;
+  return many;
+}
+
 bool CommissionedDetector::Decided(int coil, double excess) const {
   const bool gross = excess < -kGross || excess > kGrossAbove;
   if (model_.usable() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil);
-  // Errors of the nominal circuit keep flux out: they make c positive, in many coils alike.
-  int many = 0;
-  for (double c : now_.v) many += c > kGross;
-  return gross && CurrentIsFalse(coil) && (excess < 0 || many < kCoilsAtOnce);
+  return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
 }
 
 bool CommissionedDetector::PhasesAgree(int coil) const {

@@ -66,6 +66,7 @@ class CommissionedDetector : public CoilDetector {
   double RecentExcess(int coil) const;
   /// The model's own errors show: several coils at once, or a pattern over the bearing.
   bool Disturbed() const;
+  int GrossCoils() const;  // with c > 0.5 in this period
   bool Decided(int coil, double excess) const;
   bool PhasesAgree(int coil) const;
   bool CurrentIsFalse(int coil) const;
