@@ -51,6 +51,7 @@ void CommissionedDetector::SetTurns(int coil, double share) {
   filter_.SetTurns(coil, share);
   if (share == 0) windows_.Leave(coil);
   windows_.Clear();
+  changed_ = true;
   Pause(25);
 }
 
@@ -100,7 +101,7 @@ int CommissionedDetector::Ratios() {
     apart_[j] = gross || touching_ || out_of_range_ || excess_.gross[j] > 0 ? 1 : 0;
   }
   // What a model does not express keeps flux out in many coils: those are not the suspects.
-  if (!model_.usable() && GrossCoils() >= kCoilsAtOnce)
+  if (!Relies() && GrossCoils() >= kCoilsAtOnce)
     for (int j = 0; j < coils; ++j)
       if (now_[j] > 0) ratio_[j] = 0;
   windows_.Add(excess_, apart_);
@@ -127,7 +128,7 @@ int CommissionedDetector::GrossCoils() const {
 
 bool CommissionedDetector::Decided(int coil, double excess) const {
   const bool gross = excess < -kGross || excess > kGrossAbove;
-  if (model_.usable() && (!out_of_range_ || gross) && !Disturbed())
+  if (Relies() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil);
   return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
 }
@@ -166,7 +167,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     suspect_ = -1;
     return out;
   }
-  out.doubtful = !model_.usable() || out_of_range_ || Disturbed();
+  out.doubtful = !Relies() || out_of_range_ || Disturbed();
   out.alarm = ratio_[coil] > 1;
   if (!out.alarm) {
     suspect_ = -1;
