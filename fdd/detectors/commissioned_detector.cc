@@ -51,6 +51,7 @@ void CommissionedDetector::SetTurns(int coil, double share) {
   filter_.SetTurns(coil, share);
   if (share == 0) windows_.Leave(coil);
   windows_.Clear();
+  changed_ = true;
   Pause(25);
 }
 
@@ -99,6 +100,10 @@ int CommissionedDetector::Ratios() {
     // What a fault throws at its neighbours in its first period would stay in their windows.
     apart_[j] = gross || touching_ || out_of_range_ || excess_.gross[j] > 0 ? 1 : 0;
   }
+  // What a model does not express keeps flux out in many coils: those are not the suspects.
+  if (!Relies() && GrossCoils() >= kCoilsAtOnce)
+    for (int j = 0; j < coils; ++j)
+      if (now_[j] > 0) ratio_[j] = 0;
   windows_.Add(excess_, apart_);
   for (int w = 0; w < kExcessWindows; ++w) {
     const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
@@ -115,14 +120,17 @@ bool CommissionedDetector::Disturbed() const {
          windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
 }
 
-bool CommissionedDetector::Decided(int coil, double excess) const {
-  const bool gross = excess < -kGross || excess > kGrossAbove;
-  if (model_.usable() && (!out_of_range_ || gross) && !Disturbed())
-    return PhasesAgree(coil) || CurrentIsFalse(coil);
-  // Errors of the nominal circuit keep flux out: they make c positive, in many coils alike.
+int CommissionedDetector::GrossCoils() const {
   int many = 0;
   for (double c : now_.v) many += c > kGross;
-  return gross && CurrentIsFalse(coil) && (excess < 0 || many < kCoilsAtOnce);
+  return many;
+}
+
+bool CommissionedDetector::Decided(int coil, double excess) const {
+  const bool gross = excess < -kGross || excess > kGrossAbove;
+  if (Relies() && (!out_of_range_ || gross) && !Disturbed())
+    return PhasesAgree(coil) || CurrentIsFalse(coil);
+  return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
 }
 
 bool CommissionedDetector::PhasesAgree(int coil) const {
@@ -159,7 +167,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     suspect_ = -1;
     return out;
   }
-  out.doubtful = !model_.usable() || out_of_range_ || Disturbed();
+  out.doubtful = !Relies() || out_of_range_ || Disturbed();
   out.alarm = ratio_[coil] > 1;
   if (!out.alarm) {
     suspect_ = -1;

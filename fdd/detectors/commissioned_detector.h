@@ -10,7 +10,7 @@
 /// Only gross values count in a period in which a phase starts at zero current, the shaft may be
 /// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2).
 ///
-/// Doubtful: not commissioned, grade too bad, outside the range, three coils beyond their bands at
+/// Doubtful: not commissioned, grade too bad, a coil given up before, outside the range, three coils beyond their bands at
 /// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
 /// blamed only where c < -0.5 or > 2; unless the flux alone is outside the range, also its current
 /// must be false, and fewer than three coils may have c > 0.5: what a nominal circuit does not know
@@ -66,6 +66,9 @@ class CommissionedDetector : public CoilDetector {
   double RecentExcess(int coil) const;
   /// The model's own errors show: several coils at once, or a pattern over the bearing.
   bool Disturbed() const;
+  /// Whether the learnt model holds: usable, and the coils are those it was learnt on.
+  bool Relies() const { return model_.usable() && !changed_; }
+  int GrossCoils() const;  // with c > 0.5 in this period
   bool Decided(int coil, double excess) const;
   bool PhasesAgree(int coil) const;
   bool CurrentIsFalse(int coil) const;
@@ -85,6 +88,7 @@ class CommissionedDetector : public CoilDetector {
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kLanes> recent_;
   bool out_of_range_ = false, touching_ = false;
+  bool changed_ = false;  // a coil was given up or lost turns: other currents than commissioned
   int suspect_ = -1, streak_ = 0, paused_ = 8;
   double onset_ = 0;  // of the streak [s]
   long long count_ = 0;

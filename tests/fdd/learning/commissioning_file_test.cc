@@ -11,6 +11,7 @@
 namespace ambrig {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 CommissionedBearing Learnt() {
@@ -82,7 +83,7 @@ TEST(CommissioningFile, MistakesAreNamedWithTheirPlace) {
     ReadCommissioning(Written(text));
     FAIL();
   } catch (const InputError& e) {
-    EXPECT_THAT(e.what(), HasSubstr("gain has 9 numbers, allowed: 8"));
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("gain"), HasSubstr("has 9 numbers, allowed: 8")));
   }
 }
 
