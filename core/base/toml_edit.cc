@@ -143,9 +143,9 @@ class Editor {
     for (std::size_t s = k; s < steps_.size(); ++s) key += (s > k ? "." : "") + steps_[s].key;
     const std::string line = key + " = " + written + '\n';
     if (k > 0 && HeaderIsOfAnother(k)) return text_ + "\n[" + HeaderOf(k) + "]\n" + line;
-    const std::size_t end = k == 0 ? places_.EndOfRoot(root_) : places_.EndOfOwn(*way_[k]);
-    const std::size_t at = end == 0 ? places_.Top() : places_.NextLine(end - 1);
-    const std::string indentation = end == 0 ? "" : places_.Indentation(end - 1);
+    const TomlSpan last = k == 0 ? places_.LastOfRoot(root_) : places_.LastOf(*way_[k]);
+    const std::size_t at = last.end == 0 ? places_.Top() : places_.NextLine(last.end - 1);
+    const std::string indentation = last.end == 0 ? "" : places_.Indentation(last.begin);
     const bool ended = at == 0 || text_[at - 1] == '\n';
     return text_.substr(0, at) + (ended ? "" : "\n") + indentation + line + text_.substr(at);
   }

@@ -56,17 +56,16 @@ bool TomlPlaces::HasHeader(const toml::node& node) const {
   return node.is_table() && !node.as_table()->is_inline() && text_[Of(node).begin] == '[';
 }
 
-std::size_t TomlPlaces::EndOfValues(const toml::table& table, std::size_t end) const {
+TomlSpan TomlPlaces::LastValue(const toml::table& table, TomlSpan last) const {
   for (auto&& [key, child] : table) {
     if (HasHeader(child)) continue;
     const toml::table* dotted = child.as_table();
-    end = dotted && !dotted->is_inline() ? EndOfValues(*dotted, end) : std::max(end, Of(child).end);
+    if (dotted && !dotted->is_inline())
+      last = LastValue(*dotted, last);
+    else if (const TomlSpan span = Of(child); span.end > last.end)
+      last = span;
   }
-  return end;
-}
-
-std::size_t TomlPlaces::EndOfOwn(const toml::table& table) const {
-  return EndOfValues(table, Of(table).end);
+  return last;
 }
 
 std::size_t TomlPlaces::Top() const {
@@ -83,8 +82,7 @@ std::vector<TomlSpan> TomlPlaces::Blocks(const toml::node& node) const {
       for (const TomlSpan& span : Blocks(child)) out.push_back(span);
   const toml::table* table = node.as_table();
   if (!table || !HasHeader(node)) return out;
-  const std::size_t end = EndOfOwn(*table);
-  out.push_back({LineBegin(Of(node).begin), NextLine(end - 1)});
+  out.push_back({LineBegin(Of(node).begin), NextLine(LastOf(*table).end - 1)});
   for (auto&& [key, child] : *table)
     if (HasHeader(child))
       for (const TomlSpan& span : Blocks(child)) out.push_back(span);

@@ -29,11 +29,11 @@ class TomlPlaces {
 
   /// A table, or an array of tables, that is written with headers [a] or [[a]].
   bool HasHeader(const toml::node& node) const;
-  /// The end of the last value that stands under the table's own header, also by dotted keys; the
-  /// end of the header when there is none.
-  std::size_t EndOfOwn(const toml::table& table) const;
-  /// The same of the values before the first header; 0 when there is none.
-  std::size_t EndOfRoot(const toml::table& root) const { return EndOfValues(root, 0); }
+  /// The last value that stands under the table's own header, also by dotted keys; the header when
+  /// there is none.
+  TomlSpan LastOf(const toml::table& table) const { return LastValue(table, Of(table)); }
+  /// The same of the values before the first header; empty when there is none.
+  TomlSpan LastOfRoot(const toml::table& root) const { return LastValue(root, {}); }
   /// Where a first value may stand before the first header: behind the comment of the whole file.
   std::size_t Top() const;
   /// Lines of a table and of the tables with headers inside it: from each header to its last value.
@@ -41,7 +41,7 @@ class TomlPlaces {
 
  private:
   std::size_t Offset(const toml::source_position& position) const;
-  std::size_t EndOfValues(const toml::table& table, std::size_t end) const;
+  TomlSpan LastValue(const toml::table& table, TomlSpan last) const;
 
   const std::string& text_;
   std::vector<std::size_t> lines_;  // where each begins

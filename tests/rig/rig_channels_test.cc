@@ -36,7 +36,8 @@ TEST(RigChannels, OfTheThreeKindsOfBearings) {
   EXPECT_THAT(Names(ChannelsOf(a, ChannelKind::kLoadCell)), ElementsAre("A.fx", "A.fy"));
   EXPECT_THAT(Names(ChannelsOf(z, ChannelKind::kLoadCell)), ElementsAre("Z.fz"));
   EXPECT_THAT(Names(ChannelsOf(z, ChannelKind::kTruePosition)), ElementsAre("r.z"));
-  EXPECT_THAT(Names(ChannelsOf(z, ChannelKind::kCoilCurrent)), ElementsAre("Z.i1", "Z.i2"));
+  EXPECT_THAT(Names(ChannelsOf(z, ChannelKind::kCoilCurrent)),
+              ElementsAre("Z.i1", "Z.i2", "Z.i3", "Z.i4"));
   EXPECT_THAT(Names(ChannelsOf(m, ChannelKind::kDuty)), ElementsAre("M.d1", "M.d2"));
   EXPECT_EQ(ChannelsOf(a, ChannelKind::kSetPoint).size(), 8u);
   EXPECT_TRUE(ChannelsOf(a, ChannelKind::kBus).empty());
