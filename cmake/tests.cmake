@@ -1,5 +1,13 @@
 # One test program per folder of tests/, from every *_test.cc in it; each TEST is a ctest case.
 include(GoogleTest)
+if(AMBRIG_PRECOMPILED_HEADERS)
+  file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/test_headers.cc CONTENT "// Made by cmake/tests.cmake.\n")
+  add_library(ambrig_test_headers OBJECT ${CMAKE_BINARY_DIR}/test_headers.cc)
+  target_link_libraries(ambrig_test_headers PRIVATE ambrig_app GTest::gmock)
+  target_precompile_headers(ambrig_test_headers PRIVATE ${AMBRIG_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+  # Chooses its instruction set before the first header.
+  set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/core/noise_test.cc PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
+endif()
 file(GLOB test_folders RELATIVE ${CMAKE_SOURCE_DIR}/tests ${CMAKE_SOURCE_DIR}/tests/*)
 foreach(folder IN LISTS test_folders)
   file(GLOB_RECURSE test_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${folder}/*_test.cc)
@@ -9,6 +17,9 @@ foreach(folder IN LISTS test_folders)
     target_compile_definitions(test_${folder} PRIVATE AMBRIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                AMBRIG_BINARY="$<TARGET_FILE:ambrig>")
     add_dependencies(test_${folder} ambrig)
+    if(AMBRIG_PRECOMPILED_HEADERS)
+      target_precompile_headers(test_${folder} REUSE_FROM ambrig_test_headers)
+    endif()
     # A private Slurm beside other work misses its own time limits: the tests of campaigns go one by one.
     set(lock "")
     if(folder STREQUAL "campaign")

@@ -82,6 +82,7 @@ bool Row(double a, double place, const Line& line, double span, ChannelDifferenc
   }
   d.rms += (a - b) * (a - b);
   if (std::abs(a - b) > d.worst) d.worst = std::abs(a - b);
+  if (span > 0 && !(line.Holds(place - span) && line.Holds(place + span))) return false;
   const double away = span > 0 ? line.Distance(a, place, span) : std::abs(a - b);
   return !(away <= d.allowed && (d.allowed > 0 || span > 0));
 }

@@ -7,6 +7,7 @@
 
 #include "campaign/row.h"
 #include "campaign/run_plan.h"
+#include "rig/true_rig.h"
 #include "tests/campaign/campaign_folder.h"
 
 namespace ambrig::testing {

@@ -96,7 +96,7 @@ std::unique_ptr<CoilDetector> MakeBlind(const CoilDetectorSetup&) {
 TEST(DetectorStudy, ABlindDetectorIsRankedLastAndByChanceAlone) {
   DetectorStudy study = ReadDetectorStudy(kSmall);
   study.detectors.insert(study.detectors.begin() + 2,
-                         {"blind", "-", "a clock", kRequired, MakeBlind});
+                         {"blind", "-", "a clock", kRequired, kRequired, MakeBlind});
   const DetectorStudyPlan plan(study);
   Rows rows;
   for (std::size_t run = 0; run < study.runs(); ++run) rows[run] = plan.Simulate(run, nullptr);

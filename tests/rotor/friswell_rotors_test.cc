@@ -6,8 +6,6 @@
 namespace ambrig {
 namespace {
 
-Disk FriswellDisk(double z, double od) { return DiskFromGeometry(z, 0.07, 0.05, od, 7810); }
-
 BeamDefinition TwoDiskRotor(int elements, double kxx, double kyy, double c) {
   BeamDefinition d = FriswellShaft(elements);
   d.disks = {FriswellDisk(0.5, 0.28), FriswellDisk(1.0, 0.35)};

@@ -22,6 +22,8 @@ inline ShaftSection Uniform(double z0, double length, double od, const Material&
   return s;
 }
 
+inline Disk FriswellDisk(double z, double od) { return DiskFromGeometry(z, 0.07, 0.05, od, 7810); }
+
 inline std::vector<double> NaturalFrequencies(const BeamDefinition& d, double speed, int count) {
   std::vector<double> out;
   for (const WhirlMode& m : WhirlModes(Assemble(BuildBeam(d)), speed, count))

@@ -101,14 +101,21 @@ TEST_P(DataGateFinds, TheMistakeAndNothingElse) {
   const DataFault& f = faults[0];
   const std::string fault = m.fault;
   const bool whole = fault == "lag" || fault == "lost";
-  if (whole)
+  if (whole) {
     EXPECT_EQ(f.channel, "");
-  else
+  } else {
     EXPECT_TRUE(f.channel == m.channel || f.with == m.channel) << f.channel;
+  }
   EXPECT_EQ(faults.size(), 1U);
-  if (fault == "unit") EXPECT_DOUBLE_EQ(f.factor, 1000);
-  if (fault == "lag") EXPECT_NEAR(f.seconds, 0.02, 5e-4);
-  if (fault == "lost") EXPECT_NEAR(f.seconds, 0.08 * 0.35, 2e-3);
+  if (fault == "unit") {
+    EXPECT_DOUBLE_EQ(f.factor, 1000);
+  }
+  if (fault == "lag") {
+    EXPECT_NEAR(f.seconds, 0.02, 5e-4);
+  }
+  if (fault == "lost") {
+    EXPECT_NEAR(f.seconds, 0.08 * 0.35, 2e-3);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -121,9 +128,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{kClamped, "sign", "A.fx"}, Mistake{kClamped, "swap", "A.i1"},
                     Mistake{kClamped, "clip", "B.i1"}, Mistake{kClamped, "lag", ""},
                     Mistake{kClamped, "freeze", "A.fy"}, Mistake{kClamped, "range", "bus"}),
-    [](const auto& info) {
-      std::string name = std::string(info.param.record == kSteps ? "Steps" : "Clamped") +
-                         info.param.fault + info.param.channel;
+    [](const auto& mistake) {
+      std::string name = std::string(mistake.param.record == kSteps ? "Steps" : "Clamped") +
+                         mistake.param.fault + mistake.param.channel;
       std::erase_if(name, [](char ch) { return !std::isalnum(static_cast<unsigned char>(ch)); });
       return name;
     });

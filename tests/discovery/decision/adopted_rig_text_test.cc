@@ -86,8 +86,9 @@ TEST_F(AdoptedRigTextTest, CommentsAndOrderStay) {
   EXPECT_EQ(Comments(once), Comments(text_));
   const RigParameters found = *TrueRig(Read(once));
   for (const FreeParameter& p : h.free)
-    if (p.effect < 0)
+    if (p.effect < 0) {
       EXPECT_NEAR(*ParameterAt(found, p.path), p.value, 1e-8 * std::abs(p.value)) << p.path;
+    }
   // A second adoption of the same changes nothing.
   EXPECT_EQ(AdoptedRigText(once, h, h.rig.effects), once);
 }

@@ -29,14 +29,15 @@ TEST(FaultSupervisor, NoAlarmFromRestOverTouchdownsNorFromABusThatMoves) {
   const Outcome lift = Simulated("duration = 0.2\n[start]\nstate = \"resting\"\n", Drawn(11, 1));
   EXPECT_EQ(lift.When("detected"), kInfinity);
   const Outcome sag = Simulated(
-      Spin(0.08, 157, 3) + Fault(0.02, "rig", "bus-sag", "voltage = 22.0, duration = 0.02"), Rig());
+      Spin(0.08, 157, 3) + FaultTable(0.02, "rig", "bus-sag", "voltage = 22.0, duration = 0.02"),
+      Rig());
   EXPECT_EQ(sag.Class("rig"), "bus-sag");
   EXPECT_EQ(sag.result.metrics.false_alarms, 0);
 }
 
 TEST(FaultSupervisor, StuckPositionSensorIsNotBlamedOnACoil) {
-  const Outcome o =
-      Simulated(Spin(0.03, 157, 3) + Fault(0.02, "A.x", "position-sensor", "stuck = true"), Rig());
+  const Outcome o = Simulated(
+      Spin(0.03, 157, 3) + FaultTable(0.02, "A.x", "position-sensor", "stuck = true"), Rig());
   EXPECT_EQ(o.Class("A.x"), "position-sensor");
   EXPECT_EQ(o.result.metrics.false_alarms, 0);
 }
@@ -49,7 +50,7 @@ TEST(FaultSupervisor, SurvivesEverySingleOpenAndHalfShort) {
       const std::string target = fmt::format("A.coil{}", coil);
       const Outcome o = Simulated(
           Spin(0.06, 157, static_cast<unsigned>(coil)) +
-              Fault(0.01, target, kind, kind == std::string("open") ? "" : "fraction = 0.5"),
+              FaultTable(0.01, target, kind, kind == std::string("open") ? "" : "fraction = 0.5"),
           Rig());
       EXPECT_EQ(o.Class(target), kind);
       EXPECT_FALSE(o.result.touchdown) << target;
@@ -60,11 +61,11 @@ TEST(FaultSupervisor, SurvivesEverySingleOpenAndHalfShort) {
 }
 
 TEST(FaultSupervisor, FaultsInSequenceInAllBearings) {
-  const Outcome o =
-      Simulated(Spin(0.1, 1257, 5) + Fault(0.02, "A.coil3", "open") +
-                    Fault(0.04, "A.coil6", "partial-short", "fraction = 0.3") +
-                    Fault(0.06, "B.coil1", "amplifier-off") + Fault(0.08, "Z.coil1", "open"),
-                Rig());
+  const Outcome o = Simulated(Spin(0.1, 1257, 5) + FaultTable(0.02, "A.coil3", "open") +
+                                  FaultTable(0.04, "A.coil6", "partial-short", "fraction = 0.3") +
+                                  FaultTable(0.06, "B.coil1", "amplifier-off") +
+                                  FaultTable(0.08, "Z.coil1", "open"),
+                              Rig());
   EXPECT_EQ(o.Class("A.coil3"), "open");
   EXPECT_EQ(o.Class("A.coil6"), "partial-short");
   EXPECT_EQ(o.Class("B.coil1"), "amplifier-off");
@@ -86,8 +87,8 @@ TEST(FaultSupervisor, AFaultAfterAFalseSensorIsJudgedWithoutIt) {
           Second{"current-sensor", "offset = 0.3"}, Second{"open", ""}}) {
       ++seed;
       const Outcome o =
-          Simulated(Spin(0.06, 157, seed) + Fault(0.02, "A.coil2", "current-sensor", first) +
-                        Fault(0.05, "A.coil5", second.kind, second.parameters),
+          Simulated(Spin(0.06, 157, seed) + FaultTable(0.02, "A.coil2", "current-sensor", first) +
+                        FaultTable(0.05, "A.coil5", second.kind, second.parameters),
                     Drawn(seed, 1));
       const std::string what = std::string(first) + ", " + second.kind + " " + second.parameters;
       EXPECT_EQ(o.Class("A.coil2"), "current-sensor") << what;
@@ -106,7 +107,7 @@ TEST(FaultSupervisor, ASwitchStuckOnIsNotBlamedOnANeighbour) {
   for (int coil = 1; coil <= 8; ++coil) {
     const std::string target = fmt::format("A.coil{}", coil);
     const Outcome o = Simulated(Spin(0.0218, 157, static_cast<unsigned>(coil)) +
-                                    Fault(0.0200077, target, "switch-stuck-on"),
+                                    FaultTable(0.0200077, target, "switch-stuck-on"),
                                 Rig());
     EXPECT_TRUE(o.result.touchdown) << target;
     EXPECT_EQ(o.Class(target), "switch-stuck-on");
@@ -126,8 +127,8 @@ TEST(FaultSupervisor, ARotorThatBouncesIsNotBlamedOnHealthyCoils) {
   for (const Run& r :
        {Run{"A.coil3", 1256.64, 1}, Run{"A.coil6", 1256.64, 2}, Run{"A.coil1", 0, 3},
         Run{"A.coil5", 157.08, 4}, Run{"B.coil4", 157.08, 5}, Run{"B.coil7", 1256.64, 6}}) {
-    const Outcome o =
-        Simulated(Spin(0.12, r.Omega, r.seed) + Fault(0.02, r.target, "switch-stuck-on"), Rig());
+    const Outcome o = Simulated(
+        Spin(0.12, r.Omega, r.seed) + FaultTable(0.02, r.target, "switch-stuck-on"), Rig());
     EXPECT_EQ(o.Class(r.target), "switch-stuck-on");
     EXPECT_TRUE(o.result.drop) << r.target;
     EXPECT_EQ(o.result.metrics.false_alarms, 0) << r.target << " at " << r.Omega;
@@ -146,7 +147,7 @@ TEST(FaultSupervisor, ABlowIsNoFaultAndAFaultAfterABlowIsOne) {
   }
   for (const char* target : {"A.coil2", "A.coil6", "B.coil4"}) {
     const Outcome o =
-        Simulated(Spin(0.04, 157, 9) + blow + Fault(0.0245, target, "open"), Drawn(9, 1));
+        Simulated(Spin(0.04, 157, 9) + blow + FaultTable(0.0245, target, "open"), Drawn(9, 1));
     EXPECT_EQ(o.Class(target), "open");
     EXPECT_LT(o.result.metrics.detection_delay, 1e-3) << target;
     EXPECT_EQ(o.result.metrics.false_alarms, 0) << target;
@@ -164,7 +165,7 @@ TEST(FaultSupervisor, NamesAFaultOfAClampedRig) {
         "amplitude = 2.0\n",
         coil);
   for (const char* kind : {"open", "switch-stuck-on"}) {
-    const Outcome o = Simulated(clamped + Fault(0.01, "A.coil3", kind), Drawn(7, 1));
+    const Outcome o = Simulated(clamped + FaultTable(0.01, "A.coil3", kind), Drawn(7, 1));
     EXPECT_EQ(o.Class("A.coil3"), kind);
     EXPECT_LT(o.result.metrics.detection_delay, 0.2e-3) << kind;
     EXPECT_EQ(o.result.metrics.false_alarms, 0) << kind;
@@ -174,7 +175,7 @@ TEST(FaultSupervisor, NamesAFaultOfAClampedRig) {
 
 TEST(FaultSupervisor, SlopeTracesShowTheFaultyCoilLeaveItsBand) {
   const Outcome o =
-      Simulated(Spin(0.03, 157, 3) + Fault(0.02, "A.coil3", "open"), Rig(), true, true);
+      Simulated(Spin(0.03, 157, 3) + FaultTable(0.02, "A.coil3", "open"), Rig(), true, true);
   ASSERT_EQ(o.result.slopes.size(), 4u);
   const SlopeTrace& s = o.result.slopes.front();
   EXPECT_EQ(s.coil, "A.coil3");

@@ -17,7 +17,7 @@ TEST_P(EveryClass, IsNamedWithinTenPeriodsOnAnyCoilOfADrawnRig) {
   unsigned seed = 1;
   for (const char* coil : {"A.coil3", "A.coil6", "B.coil1", "B.coil8", "Z.coil2"}) {
     const double t = 0.01 + 7.7e-6 * seed;
-    const Outcome o = Simulated(Spin(0.0112, 157, seed) + Fault(t, coil, c.kind, c.parameters),
+    const Outcome o = Simulated(Spin(0.0112, 157, seed) + FaultTable(t, coil, c.kind, c.parameters),
                                 Drawn(seed, 1), false);
     ++seed;
     EXPECT_EQ(o.Class(coil), c.kind) << coil;
@@ -37,7 +37,7 @@ TEST(FaultSupervisor, EveryDetectorOfTheCatalogueBringsTheRigThroughAnOpenCoil) 
     if (!k.make) continue;  // commissioned ones need their file
     RigParameters rig = Rig();
     rig.detection.kind = k.name;
-    const Outcome o = Simulated(Spin(0.05, 157, 1) + Fault(0.02, "A.coil3", "open"), rig);
+    const Outcome o = Simulated(Spin(0.05, 157, 1) + FaultTable(0.02, "A.coil3", "open"), rig);
     EXPECT_EQ(o.Class("A.coil3"), "open") << k.name;
     EXPECT_LT(o.result.metrics.detection_delay, 2.5e-3) << k.name;
     EXPECT_EQ(o.When("redistributed"), o.When("classified")) << k.name;
@@ -52,7 +52,7 @@ TEST_P(EveryClass, OfTwoWindingsOnOneCoreTheRightOneIsNamed) {
   for (unsigned seed = 1; seed <= 16; ++seed) {
     const std::string coil = fmt::format("Z.coil{}", 1 + seed % 4);
     const double t = 0.01 + 7.7e-6 * seed;
-    const Outcome o = Simulated(Spin(0.0112, 157, seed) + Fault(t, coil, c.kind, c.parameters),
+    const Outcome o = Simulated(Spin(0.0112, 157, seed) + FaultTable(t, coil, c.kind, c.parameters),
                                 Drawn(seed, 1), false);
     EXPECT_EQ(o.Class(coil), c.kind) << coil << " seed " << seed;
     EXPECT_EQ(o.result.metrics.false_alarms, 0) << coil << " seed " << seed;
@@ -74,7 +74,7 @@ TEST(FaultSupervisor, HalfShortsTogetherAreNamedAndTheRotorStays) {
        {std::vector<int>{2, 3}, {1, 4}, {1, 2, 3}, {1, 2, 3, 4, 5, 6, 7, 8}}) {
     std::string s = Spin(0.06, 157, 3);
     for (int coil : set)
-      s += Fault(0.02, fmt::format("A.coil{}", coil), "partial-short", "fraction = 0.5");
+      s += FaultTable(0.02, fmt::format("A.coil{}", coil), "partial-short", "fraction = 0.5");
     const Outcome o = Simulated(s, Rig());
     for (int coil : set) {
       const std::string target = fmt::format("A.coil{}", coil);
@@ -90,10 +90,10 @@ TEST(FaultSupervisor, HalfShortsTogetherAreNamedAndTheRotorStays) {
 // The second fault comes while the first is examined, or in the pause after it.
 TEST(FaultSupervisor, ShortsWithinAHalfMillisecondAreNamed) {
   for (double gap : {60e-6, 120e-6, 180e-6, 260e-6, 400e-6}) {
-    const Outcome o =
-        Simulated(Spin(0.03, 157, 5) + Fault(0.02, "A.coil3", "partial-short", "fraction = 0.5") +
-                      Fault(0.02 + gap, "A.coil6", "partial-short", "fraction = 0.2"),
-                  Rig());
+    const Outcome o = Simulated(
+        Spin(0.03, 157, 5) + FaultTable(0.02, "A.coil3", "partial-short", "fraction = 0.5") +
+            FaultTable(0.02 + gap, "A.coil6", "partial-short", "fraction = 0.2"),
+        Rig());
     EXPECT_EQ(o.Class("A.coil3"), "partial-short") << gap;
     EXPECT_EQ(o.Class("A.coil6"), "partial-short") << gap;
     EXPECT_NEAR(o.Fraction("A.coil3"), 0.5, 0.05) << gap;

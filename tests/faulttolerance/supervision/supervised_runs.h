@@ -135,8 +135,8 @@ inline Outcome Simulated(const std::string& scenario, const RigParameters& truth
   return o;
 }
 
-inline std::string Fault(double t, const std::string& target, const std::string& kind,
-                         const std::string& parameters = "") {
+inline std::string FaultTable(double t, const std::string& target, const std::string& kind,
+                              const std::string& parameters = "") {
   return fmt::format("[[fault]]\ntime = {:.9f}\ntarget = \"{}\"\nkind = \"{}\"\n{}\n", t, target,
                      kind, parameters.empty() ? "" : "parameters = { " + parameters + " }");
 }

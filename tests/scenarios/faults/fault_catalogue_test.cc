@@ -30,7 +30,9 @@ TEST(FaultCatalogue, EveryKindIsDescribedAndSeenAsAClassOfFaultDetection) {
     EXPECT_NE(f->apply, nullptr) << f->kind;
     EXPECT_EQ(f->duration != nullptr, f->end != nullptr) << f->kind;
     EXPECT_EQ(f->observer == FaultObserver::kNobody, f->seen_as.empty()) << f->kind;
-    if (!f->seen_as.empty()) EXPECT_TRUE(Classes().contains(std::string(f->seen_as))) << f->kind;
+    if (!f->seen_as.empty()) {
+      EXPECT_TRUE(Classes().contains(std::string(f->seen_as))) << f->kind;
+    }
     for (const FaultParameter& p : f->parameters) {
       EXPECT_FALSE(p.key.empty() || p.unit.empty() || p.doc.empty()) << f->kind;
       EXPECT_LT(p.lo, p.hi) << f->kind << " " << p.key;
