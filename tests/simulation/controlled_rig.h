@@ -42,13 +42,13 @@ inline const std::string kTransfer =
     "4.0e5]\ndenominator = [4.0e-10, 4.0e-5, 1.0]\n";
 
 /// Every kind of controller that levitates the reference rig.
-struct ControllerKind {
+struct TestedController {
   const char* name;
   std::string controller;
   double load_orbit;  // [m] within which 20 N at A are held from then on
 };
 
-inline std::vector<ControllerKind> ControllerKinds() {
+inline std::vector<TestedController> LevitatingControllers() {
   const std::string pid = "kind = \"pid\"\n" + kPidGains;
   return {{"filters",
            pid + "[[controller.filter]]\nkind = \"notch\"\nfrequency = 2500.0\nwidth = 400.0\n"

@@ -22,7 +22,7 @@ Scenario LoadStepAtSpeed(const RigParameters& rig, const std::string& more = "")
 }
 
 TEST(Controllers, LevitateInTheSwitchingEngine) {
-  for (const ControllerKind& k : ControllerKinds()) {
+  for (const TestedController& k : LevitatingControllers()) {
     const RigParameters rig = RigWith(k.controller);
     const RunResult r = Simulate(rig, LoadStepAtSpeed(rig), {});
     EXPECT_FALSE(r.touchdown) << k.name;
@@ -54,7 +54,7 @@ TEST(Controllers, SameInEveryFidelity) {
 
 // Linear loops are stable where the runs levitate, with every kind.
 TEST(Controllers, LinearLoopsAreStable) {
-  for (const ControllerKind& k : ControllerKinds()) {
+  for (const TestedController& k : LevitatingControllers()) {
     const RigParameters rig = RigWith(k.controller);
     const SampledPlant plant = MakeControlPlant(rig, {0, 1, 2, 3, 4}, 300);
     EXPECT_LT(SpectralRadius(LoopMatrix(
