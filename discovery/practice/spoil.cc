@@ -38,9 +38,10 @@ Channel& Moving(CaseRecord& r, const std::string& wanted, std::uint64_t seed) {
 }
 
 void Late(Samples& y, std::size_t rows) {
-  if (rows >= y.size()) return;
-  const double first = y.front();
-  y.insert(y.begin(), rows, first);
+  if (rows + 1 >= y.size()) return;
+  // Before the scenario the rig did what it does at its start: the first rows, backwards.
+  const Samples earlier(y.begin() + 1, y.begin() + 1 + static_cast<std::ptrdiff_t>(rows));
+  y.insert(y.begin(), earlier.rbegin(), earlier.rend());
   y.resize(y.size() - rows);
 }
 

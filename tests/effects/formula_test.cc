@@ -160,7 +160,7 @@ TEST(Formula, MistakesAreOneClearLine) {
   EXPECT_THAT(Complaint("A", "force = { x = \"2 * \" }"), HasSubstr("ends too early"));
   EXPECT_THAT(Complaint("A", "force = { x = \"\" }"), HasSubstr("is empty"));
   EXPECT_THAT(Complaint("A", "force = { x = \"x = 3\" }"), HasSubstr("compare with \"==\""));
-  EXPECT_THAT(Complaint("A", "force = { x = \"x, y\" }"), HasSubstr("one formula only"));
+  EXPECT_THAT(Complaint("A", "force = { x = \"x, y\" }"), HasSubstr("one formula is allowed"));
   EXPECT_THAT(Complaint("A", "force = { x = \"x / sqrt(x^2 + y^2)\" }"),
               HasSubstr("with the shaft at rest"));
   EXPECT_THAT(Complaint("A", "force = { x = \"sqrt(-1 - x)\" }"), HasSubstr("gives"));

@@ -152,7 +152,7 @@ class CommandLine : public CliFolder {};
 // A reader that has seen enough is no error; a cache that cannot be read costs time only.
 TEST_F(CommandLine, ClosedPipe) {
   const Outcome o =
-      Shell(std::string("(") + AMBRIG_BINARY + " parameters; echo exit $? >&2) | head -1");
+      Shell(std::string("{ (") + AMBRIG_BINARY + " parameters; echo exit $? >&2) | head -1; }");
   EXPECT_NE(o.text.find("exit 0"), std::string::npos) << o.text;
   EXPECT_EQ(o.text.find("error"), std::string::npos) << o.text;
 }

@@ -110,7 +110,7 @@ TEST(LinearJudge, APairSolvesBothAtOnce) {
   EXPECT_NEAR(pair.second.Value("offset"), -4e-6, 1e-9);
   EXPECT_LT(pair.ratio_validate, 5e-3);
   for (const char* one : {"sensor-gain", "sensor-offset"})
-    EXPECT_GT(judge.Single(EntryOf(bank, one)).score, pair.score) << one;
+    EXPECT_GT(judge.Single(EntryOf(bank, one)).ratio_fit, pair.ratio_fit) << one;
   const auto pairs = ScreenPairs(c.model, base, kN, bank, 3);
   ASSERT_FALSE(pairs.empty());
   EXPECT_NEAR(pairs[0].score, pair.score, 1e-9);

@@ -210,7 +210,7 @@ TEST(ShaftCalibration, AdoptedTextOfTables) {
   Hypothesis h = Hypothesis::Base(TumRig(text));
   h.Set(0, 0.0098);
   const std::string adopted = AdoptedRigText(text, h, {});
-  EXPECT_NE(adopted.find("od = { value = 0.0096, sd = 0.0001, fitted = 0.0098 }  # turned"),
+  EXPECT_NE(adopted.find("od = { value = 0.0096, sd = 1e-4, fitted = 0.0098 }  # turned"),
             std::string::npos);
   EXPECT_NEAR(TrueRig(TumRig(adopted))->beam->definition.sections[1].od, 0.0098, 1e-15);
   EXPECT_THROW(AdoptedRigText(ReadFile(kTumFolder + "rig.toml"), h, {}), InputError);
