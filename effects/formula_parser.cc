@@ -87,7 +87,9 @@ FormulaExpression::FormulaExpression(const std::string& text, const std::vector<
   mu::Parser& parser = inside_->parser;
   inside_->values.assign(names.size(), 0.0);
   const auto fail = [&](const std::string& why) {
-    throw InputError(fmt::format("{} = \"{}\": {}", where, text, why));
+    constexpr std::size_t kShown = 80;  // characters: a formula may be longer than a message
+    const std::string shown = text.size() > kShown ? text.substr(0, kShown) + "..." : text;
+    throw InputError(fmt::format("{} = \"{}\": {}", where, shown, why));
   };
   if (const std::string why = Forbidden(text); !why.empty()) fail(why);
   try {

@@ -89,7 +89,8 @@ void AddCommission(CLI::App& app, Work& work) {
       ->capture_default_str();
   c->common.AddTo(*command);
   command->footer(
-      "Example:\n  ambrig commission rig.toml --html out/commission.html\n"
+      "Examples:\n  ambrig commission rig.toml --html out/commission.html\n"
+      "  ambrig commission rig.toml -o rig.commissioning.toml --json out/commission.json\n"
       "Exit code 1 when a bearing cannot be expressed by the model (grade above 3).");
   command->callback([c, &work] { work = [c] { return RunCommission(*c); }; });
 }

@@ -59,7 +59,7 @@ const Number kNumbers[] = {
     {"load[1].start", "[[load]]\nplane = \"A\"\nforce = [1.0, 0.0]\nstop = 0.009\nstart = $\n",
      "0.001", -1e5, 1e5},
     {"load[1].stop", "[[load]]\nplane = \"A\"\nforce = [1.0, 0.0]\nstop = $\n", "0.005", -1e5, 1e5},
-    {"load[1].force", "[[load]]\nplane = \"Z\"\nforce = $\n", "1.0", -1e8, 1e8},
+    {"load[1].force", "[[load]]\nplane = \"Z\"\nforce = [$]\n", "1.0", -1e8, 1e8},
     {"expect.detected_within", "[expect]\ndetected_within = $\n", "0.001", 0, 1e5},
     {"expect.max_orbit", "[expect]\nmax_orbit = $\n", "1e-4", 0, 1},
     {"expect.max_false_alarms", "[expect]\nmax_false_alarms = $\n", "0", 0, 1e9},
