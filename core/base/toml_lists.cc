@@ -22,8 +22,9 @@ std::vector<double> TomlTable::Numbers(std::string_view key,
   std::vector<double> out;
   for (const auto& v : *a) {
     if (!v.is_number() || !std::isfinite(NumberOf(v)))
-      throw InputError(fmt::format("{} = {}: entry {} is not a finite number, allowed: finite numbers", Where(key),
-                                   TextOf(*n), out.size() + 1));
+      throw InputError(
+          fmt::format("{} = {}: entry {} is not a finite number, allowed: finite numbers",
+                      Where(key), TextOf(*n), out.size() + 1));
     out.push_back(NumberOf(v));
   }
   return out;

@@ -30,7 +30,7 @@ struct Mistake {
 
 TEST(CampaignFile, EveryMistakeIsOneLineWithItsPlace) {
   const Mistake mistakes[] = {
-      {"duration = 0.01", "durations = 0.01", "duration: is missing"},
+      {"duration = 0.01", "durations = 0.01", "durations: unknown key, did you mean duration?"},
       {"duration = 0.01", "duration = 0.01\ncolour = 1", "c.toml:4: colour: unknown key"},
       {"duration = 0.01", "duration = -1", "c.toml:3: duration = -1"},
       {"rig = \"rig.toml\"", "rig = \"no.toml\"", "no.toml"},
