@@ -105,7 +105,7 @@ class BadCommands : public CliFolder, public testing::WithParamInterface<BadComm
     Write("nul.toml", Replaced(s, "\"rig.toml\"", "\"rig.toml\\u0000x\""));
     Write("locked.h5", "no HDF5 at all");
     std::string rows = "t,A.x,A.i1\n";
-    for (int k = 0; k < 10; ++k) rows += "0." + std::to_string(k) + ",1,2\n";
+    for (int k = 0; k < 10; ++k) rows += "0.00" + std::to_string(k) + ",1,2\n";
     Write("a.csv", rows);
     Write("b.csv", rows);
     Write("untimed.csv", "x,z\n0,1\n1,2\n");
