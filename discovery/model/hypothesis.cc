@@ -63,6 +63,8 @@ void Hypothesis::AddEffect(const EffectInstance& effect) {
         std::isfinite(e.null_value) && std::abs(e.typical_hi) <= 0.5 * std::abs(e.null_value);
     p.logarithmic = !distance && e.typical_lo > 0 && e.typical_hi / e.typical_lo > 2.5 &&
                     e.lo >= 0 && p.value > 0;
+    // as good as nothing; a ratio never gets there
+    if (p.logarithmic) p.lo = std::max(e.lo, 1e-3 * e.typical_lo);
     free.push_back(p);
   }
 }

@@ -77,7 +77,7 @@ class CompressedCost : public ceres::CostFunction {
       residuals[0] = std::sqrt(FitGram(model_, Eigen::MatrixXd(r.size(), 0), r)(0, 0)) * weight_;
       return true;
     }
-    Eigen::MatrixXd gram = weight_ * weight_ * FitGram(model_, FullJacobian(h, *predicted), r);
+    Eigen::MatrixXd gram = weight_ * weight_ * FitGram(model_, FullJacobian(h), r);
     // a prediction that rises lowers the residual
     gram.topRightCorner(static_cast<Index>(p_), 1) *= -1;
     gram.bottomLeftCorner(1, static_cast<Index>(p_)) *= -1;
@@ -96,17 +96,17 @@ class CompressedCost : public ceres::CostFunction {
   }
 
   /// Columns of all parameters; those of the rig are computed once, those of effects here.
-  Eigen::MatrixXd FullJacobian(const Hypothesis& h, const std::vector<double>& predicted) const {
+  Eigen::MatrixXd FullJacobian(const Hypothesis& h) const {
     Eigen::MatrixXd J(static_cast<Index>(model_.size()), static_cast<Index>(p_));
     if (base_jacobian_.size() == 0) {
       if (reuse_)
         base_jacobian_ = options_.base_jacobian->leftCols(static_cast<Index>(base_.size()));
       else
-        base_jacobian_ = Jacobian(model_, h, predicted, base_);
+        base_jacobian_ = Jacobian(model_, h, base_);
     }
     for (std::size_t k = 0; k < base_.size(); ++k)
       J.col(static_cast<Index>(base_[k])) = base_jacobian_.col(static_cast<Index>(k));
-    const Eigen::MatrixXd moving = Jacobian(model_, h, predicted, effect_, kEffectStep);
+    const Eigen::MatrixXd moving = Jacobian(model_, h, effect_, kEffectStep);
     for (std::size_t k = 0; k < effect_.size(); ++k)
       J.col(static_cast<Index>(effect_[k])) = moving.col(static_cast<Index>(k));
     return J;
@@ -130,7 +130,7 @@ class CompressedCost : public ceres::CostFunction {
 void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
   Hypothesis& h = result.hypothesis;
   const std::size_t p = h.free.size();
-  result.jacobian = cost.FullJacobian(h, result.predicted);
+  result.jacobian = cost.FullJacobian(h);
   const auto n = static_cast<Index>(p);
   Eigen::MatrixXd information =
       cost.weight() * cost.weight() *
