@@ -19,6 +19,7 @@
   COMMAND(Validate)              \
   COMMAND(Effects)               \
   COMMAND(Parameters)            \
+  COMMAND(Channels)              \
   COMMAND(Compare)               \
   COMMAND(Explain)               \
   COMMAND(Adopt)                 \

@@ -73,6 +73,17 @@ constexpr Unit kUnits[] = {
     {"N/um", "N/m", 1e6},
     {"N/A", "N/A", 1},
     {"N s/m", "N s/m", 1},
+    {"dB", "dB", 1},
+};
+
+/// Words for units, in small letters.
+constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+    {"volt", "V"},      {"volts", "V"},    {"ampere", "A"},   {"amperes", "A"},
+    {"amp", "A"},       {"amps", "A"},     {"newton", "N"},   {"newtons", "N"},
+    {"meter", "m"},     {"meters", "m"},   {"metre", "m"},    {"metres", "m"},
+    {"sec", "s"},       {"second", "s"},   {"seconds", "s"},  {"micron", "um"},
+    {"microns", "um"},  {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},
+    {"radians", "rad"}, {"hertz", "Hz"},   {"hz", "Hz"},
 };
 
 void ReplaceAll(std::string& text, std::string_view from, std::string_view to) {
@@ -106,6 +117,11 @@ std::string Normalise(std::string_view unit) {
   if (out == "1") return "-";
   if (out == "kgm2") return "kg m2";
   if (out == "Nm") return "N m";
+  std::string small = out;
+  for (char& c : small)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+  for (const auto& [word, sign] : kWords)
+    if (small == word) return std::string(sign);
   return out;
 }
 
@@ -137,6 +153,12 @@ std::string SiUnit(std::string_view unit) {
   for (const Unit& u : kUnits)
     if (u.name == name) return std::string(u.si);
   return name;
+}
+
+bool KnownUnit(std::string_view unit) {
+  const std::string name = Normalise(unit);
+  return std::any_of(std::begin(kUnits), std::end(kUnits),
+                     [&name](const Unit& u) { return u.name == name; });
 }
 
 void ConvertToSi(Record& record) {

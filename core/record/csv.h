@@ -1,11 +1,11 @@
 #pragma once
-/// Records as text: a header such as `t [s],A.x [um],bus` and one row per sample. The separator
-/// (tab, semicolon or comma) is the header's; with the first two a decimal comma is understood.
-/// An empty cell is NaN. Lines that start with # before the header are comments.
+/// Records as text: a header such as `t [s],A.x [um],bus` and one row per sample, in any of the
+/// spellings of text_table.h.
 #include <map>
 #include <string>
 
 #include "core/record/record.h"
+#include "core/record/text_table.h"
 
 namespace ambrig {
 
@@ -19,6 +19,9 @@ struct CsvOptions {
 /// @throws InputError "FILE:LINE:COLUMN: ..." for what is no number, "FILE: row N: ..." for a time
 /// that is not uniform (rows are lines of the file).
 Record ReadCsv(const std::string& path, const CsvOptions& options = {});
+
+/// The same of a table that was read already.
+Record RecordOfTable(TextTable table, const std::string& path, const CsvOptions& options = {});
 
 /// Shortest text of each number that reads back as the same double. Attributes are not written.
 /// @throws InputError

@@ -1,9 +1,10 @@
 #pragma once
-/// Records as MATLAB files, through libmatio (the only file that knows it).
+/// Records as MATLAB files, through libmatio (which the files mat*.cc of this folder alone know).
 ///
 /// One variable per channel, a vector of any number type; scalars `rate` [Hz] and `start` [s], or a
 /// vector t or time. As a MATLAB name has no dots: A_x (one capital, underscore) is "A.x", and the
-/// fields of a struct A are "A.x", "A.y". An optional struct `units` holds texts: units.A_x = 'um'.
+/// fields of a struct A are "A.x", "A.y"; columns of a matrix m are "m(1)", "m(2)". Structs of dSPACE
+/// ControlDesk and of Simulink ("structure with time") bring names and time: mat_structs.h. An optional struct `units` holds texts: units.A_x = 'um'.
 #include <string>
 
 #include "core/record/record.h"

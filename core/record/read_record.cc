@@ -1,61 +1,77 @@
 #include "core/record/read_record.h"
 
-#include <algorithm>
 #include <filesystem>
 
 #include "core/base/errors.h"
+#include "core/base/parameters.h"
 #include "core/base/read_file.h"
-#include "core/record/csv.h"
-#include "core/record/hdf5.h"
-#include "core/record/mat.h"
+#include "core/record/formats/format.h"
+#include "core/record/text_cells.h"
 
 namespace ambrig {
 namespace {
 
-enum class Kind { kHdf5, kCsv, kMat, kUnknown };
+/// Files of instruments that cannot be read, by how they begin, and the way round.
+struct Foreign {
+  std::string_view begin, what;
+};
+constexpr Foreign kForeign[] = {
+    {"MDF     ", "an MDF file (MF4); export it as CSV or MAT, e.g. asammdf -> export mat"},
+    {"UnFinMF ", "an MDF file that was not finished; finish it and export it as CSV or MAT"},
+    {"PAR1", "a Parquet file; export it as CSV, e.g. pandas.read_parquet(...).to_csv(...)"},
+    {"TDSh", "the index of a TDMS file; the data are in the file .tdms beside it"},
+    {"PK\x03\x04", "a ZIP archive or spreadsheet; unpack it or save the sheet as CSV"},
+    {"\x1f\x8b", "compressed with gzip; unpack it (gunzip)"},
+    {"\xff\xfe", "UTF-16 text; save it as UTF-8"},
+    {"\xfe\xff", "UTF-16 text; save it as UTF-8"},
+};
 
-std::string Extension(const std::string& path) {
-  std::string text = std::filesystem::path(path).extension().string();
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return text;
+bool HasExtension(const RecordFormat& format, const std::string& extension) {
+  for (Cells words(format.extensions, ' '); words.Next();)
+    if (!extension.empty() && words.cell() == extension) return true;
+  return false;
 }
 
-Kind ByExtension(const std::string& extension) {
-  if (extension == ".h5" || extension == ".hdf5") return Kind::kHdf5;
-  if (extension == ".csv" || extension == ".txt" || extension == ".tsv") return Kind::kCsv;
-  if (extension == ".mat") return Kind::kMat;
-  return Kind::kUnknown;
-}
-
-// A v7.3 MAT file has 512 bytes of its own before the HDF5 signature, so the order matters.
-Kind ByContent(const std::string& start) {
-  if (start.starts_with("MATLAB ")) return Kind::kMat;
-  if (start.starts_with("\x89HDF\r\n\x1a\n")) return Kind::kHdf5;
-  const auto is_text = [](char c) {
-    return static_cast<unsigned char>(c) >= 32 || c == '\t' || c == '\n' || c == '\r';
-  };
-  const bool text = !start.empty() && std::all_of(start.begin(), start.end(), is_text);
-  return text && start.find_first_of(",;\t") != std::string::npos ? Kind::kCsv : Kind::kUnknown;
+const RecordFormat& FormatOf(const std::string& path) {
+  const std::string begin = ReadFile(path, kRecognised);
+  for (const RecordFormat& f : RecordFormats())
+    if (f.recognises(begin)) return f;
+  for (const Foreign& f : kForeign)
+    if (begin.starts_with(f.begin)) throw InputError(path + ": is " + std::string(f.what));
+  const std::string extension = LowerCase(std::filesystem::path(path).extension().string());
+  std::string allowed;
+  for (const RecordFormat& f : RecordFormats()) {
+    if (HasExtension(f, extension)) return f;
+    allowed += (allowed.empty() ? "" : ", ") + std::string(f.name) +
+               (f.extensions.empty() ? "" : " (" + std::string(f.extensions) + ")");
+  }
+  throw InputError(path + ": unknown kind of file, allowed " + allowed);
 }
 
 }  // namespace
 
+Measurement ReadMeasurement(const std::string& path, std::string* format) {
+  const RecordFormat& f = FormatOf(path);
+  if (format != nullptr) *format = f.name;
+  return f.read(path);
+}
+
 Record ReadRecord(const std::string& path) {
-  Kind kind = ByExtension(Extension(path));
-  if (kind == Kind::kUnknown) kind = ByContent(ReadFile(path, 512));
-  switch (kind) {
-    case Kind::kHdf5:
-      return ReadHdf5(path);
-    case Kind::kCsv:
-      return ReadCsv(path);
-    case Kind::kMat:
-      return ReadMat(path);
-    case Kind::kUnknown:
-      break;
+  std::string format;
+  Measurement m = ReadMeasurement(path, &format);
+  const FrequencyResponses& f = m.frequency;
+  if (m.record.channels.empty()) {
+    const std::string axis =
+        f.frequency.empty() ? "" : " from " + NumberText(f.frequency.front()) + " to " +
+                                       NumberText(f.frequency.back()) + " Hz";
+    throw InputError(path + ": holds frequency responses (" + std::to_string(f.responses.size()) +
+                     ", " + std::to_string(f.points()) + " points" + axis +
+                     "), allowed here: a record over time");
   }
-  throw InputError(path +
-                   ": unknown kind of file, allowed HDF5 (.h5 .hdf5), CSV (.csv .txt), MAT (.mat)");
+  if (!f.responses.empty())
+    m.record.notes.push_back(path + ": " + std::to_string(f.responses.size()) +
+                             " frequency responses, left out");
+  return std::move(m.record);
 }
 
 }  // namespace ambrig

@@ -1,0 +1,34 @@
+#pragma once
+/// What the file of an instrument holds: a record over time, frequency responses, or both.
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "core/record/record.h"
+
+namespace ambrig {
+
+struct FrequencyResponse {
+  std::string name;  // "A.x/A.fx": response over reference, as far as the file says
+  std::string unit;  // of the response, or of response over reference
+  std::vector<std::complex<double>> values;
+};
+
+/// Frequency responses on one axis.
+struct FrequencyResponses {
+  std::vector<double> frequency = {};  // [Hz]; empty: the file does not say
+  std::vector<FrequencyResponse> responses = {};
+
+  std::size_t points() const { return responses.empty() ? 0 : responses.front().values.size(); }
+};
+
+struct Measurement {
+  Record record = {};  // without channels: nothing over time; notes also of the responses
+  FrequencyResponses frequency = {};
+};
+
+/// Equal lengths, frequencies that increase; names and units as UTF-8.
+/// @throws InputError starting with `where`
+void CheckResponses(FrequencyResponses& responses, const std::string& where);
+
+}  // namespace ambrig
