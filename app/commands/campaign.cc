@@ -8,8 +8,8 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
-#include "app/commands/run_size.h"
 #include "app/commands/screen.h"
+#include "app/commands/work_size.h"
 #include "app/pages/campaign_report.h"
 #include "app/pages/format.h"
 #include "campaign/journal.h"
@@ -28,7 +28,7 @@ struct CampaignOptions {
   std::string sbatch;
   int jobs = 0, tasks = 0;
   double poll = 2;
-  bool no_report = false;
+  bool no_report = false, long_runs = false;
 };
 
 nlohmann::ordered_json Json(const JournalHeader& header, const RowCounts& n) {
@@ -112,18 +112,6 @@ void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, CampaignJournal
   });
 }
 
-/// How long the whole campaign will take, when that is worth a word.
-void PrintEstimate(const Campaign& c, int jobs) {
-  double seconds = 0;
-  for (const Scenario& s : c.scenarios) seconds += RunSeconds(c.rig, s);
-  seconds *= static_cast<double>(c.runs()) / static_cast<double>(c.scenarios.size());
-  const auto cores = jobs > 0 ? static_cast<unsigned>(jobs) : std::thread::hardware_concurrency();
-  seconds /= std::max(1U, cores);
-  if (seconds > 60)
-    fmt::print("{}: {}, about {} on {}\n", c.name, Counted(c.runs(), "run"), DurationText(seconds),
-               Counted(cores, "core"));
-}
-
 int RunCampaign(CampaignOptions o) {
   const RunPlan plan(ReadCampaign(o.file));
   const Shard shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
@@ -133,7 +121,6 @@ int RunCampaign(CampaignOptions o) {
     throw InputError("--shard: allowed with --engine local only (slurm makes its own)");
   const JournalHeader header = HeaderOf(plan.campaign());
   o.common.CheckOutputs({o.file, plan.campaign().rig.file});
-  PrintEstimate(plan.campaign(), o.jobs);
   PrepareStudyFolder(o.out, {"table.csv", "report.html"}, o.common.force);
   CampaignJournal journal(o.out, header);
   if (!journal.rows().empty())
@@ -141,6 +128,12 @@ int RunCampaign(CampaignOptions o) {
                journal.damaged() > 0
                    ? fmt::format(", {} done again", Counted(journal.damaged(), "damaged line"))
                    : "");
+  if (o.engine == "local")
+    CheckWorkSize(
+        o.file,
+        CampaignSize(plan.campaign(), PendingRuns(header.runs, shard, journal.rows()).size(),
+                     o.jobs),
+        o.long_runs);
   try {
     if (o.engine == "slurm")
       RunOnCluster(plan, o, journal);
@@ -201,6 +194,7 @@ void AddCampaign(CLI::App& app, Work& work) {
       ->check(NumberIn(0.1, 3600, "s"))
       ->capture_default_str();
   command->add_flag("--no-report", options->no_report, "no report.html");
+  command->add_flag("--long", options->long_runs, "also what will take more than a day");
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n"

@@ -11,6 +11,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
+#include "app/commands/work_size.h"
 #include "app/json/discovery_json.h"
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
@@ -24,7 +25,7 @@ struct ExplainCommand {
   CommonOptions common;
   std::string file, resume, law;
   int candidates = 5;
-  bool verbose = false;
+  bool verbose = false, long_runs = false;
 };
 
 std::string ParametersText(const EffectInstance& e) {
@@ -126,6 +127,7 @@ int RunExplain(const ExplainCommand& o) {
   const Case c = ReadCase(o.file);
   o.common.CheckOutputs({o.file, c.rig_file}, {o.law});
   for (const std::string& note : c.notes) PrintLine("data: " + note, 6);
+  CheckWorkSize(o.file, ExplainSize(c), o.long_runs);
   std::unique_ptr<RunStore> store;
   if (!o.resume.empty()) store = std::make_unique<RunStore>(o.resume, c);
   if (store && store->size() > 0)
@@ -175,6 +177,7 @@ void AddExplain(CLI::App& app, Work& work) {
   command->add_option("--candidates", options->candidates, "effects fitted in full per round")
       ->capture_default_str()
       ->check(CLI::Range(1, 60));
+  command->add_flag("--long", options->long_runs, "also what will take more than a day");
   command->add_flag("--verbose", options->verbose, "print every step with its time to stderr");
   command
       ->add_option("--law", options->law,

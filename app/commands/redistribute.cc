@@ -42,9 +42,14 @@ std::vector<std::vector<int>> FailedSets(const std::string& text) {
         throw InputError(fmt::format("--failed = {}: coil {} is named twice", text, coil));
       set.push_back(coil);
     }
+    if (set.empty())
+      throw InputError(fmt::format(
+          "--failed = {}: a set without a coil, allowed: 1 to {}, e.g. 1,2 or 1;1,2", text, kPoles));
     std::sort(set.begin(), set.end());
     sets.push_back(set);
   }
+  if (sets.empty())
+    throw InputError(fmt::format("--failed = {}: no coil, allowed: 1 to {}", text, kPoles));
   return sets;
 }
 
