@@ -10,6 +10,7 @@
 #include "app/commands/screen.h"
 #include "core/base/errors.h"
 #include "core/base/memory_reuse.h"
+#include "core/math/no_solution.h"
 
 namespace ambrig {
 std::atomic<bool> interrupted{false};
@@ -18,18 +19,18 @@ std::atomic<bool> interrupted{false};
 namespace {
 
 constexpr const char* kStart =
-    R"(ambrig: magnetic-bearing rigs, simulated, broken, compared with measurements, explained.
+    R"(ambrig: magnetic-bearing rigs - simulate, break, compare with measurements, explain
 
-  ambrig tour                                   three lessons of two minutes, files included
-  ambrig run SCENARIO                           what happens in a run; then open out/NAME.html
-  ambrig --help                                 all commands
+  ambrig tour            three lessons of two minutes, files included
+  ambrig run SCENARIO    what happens in a run; then open out/NAME.html
+  ambrig --help          all commands
 )";
 
 constexpr const char* kExamples = R"(Examples:
-  ambrig tour                              files for three lessons of two minutes
-  ambrig run tour/coil_opens.toml          coil A3 breaks: timeline, record, report
-  ambrig run tour/my_fault.toml            a fault of your own: edit the file, repeat
-  ambrig analyze tour/rig.toml             modes, margins, sensitivity, unbalance
+  ambrig tour                       files for three lessons of two minutes
+  ambrig run tour/coil_opens.toml   coil A3 breaks: timeline, record, report
+  ambrig run tour/my_fault.toml     a fault of your own: edit the file, repeat
+  ambrig analyze tour/rig.toml      modes, margins, sensitivity, unbalance
 
 Every command has examples: ambrig COMMAND --help. The examples of campaign,
 check, design, explain and others use the folders scenarios and examples of
@@ -77,7 +78,8 @@ bool IsClosedPipe(const std::system_error& e) { return e.code().value() == EPIPE
 int Main(int argc, char** argv) {
   ambrig::KeepFreedMemory();
   CLI::App app{
-      "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain"};
+      "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain",
+      "ambrig"};
   app.set_version_flag("--version", "ambrig 0.1.0");
   app.formatter(std::make_shared<NarrowHelp>());
   ambrig::Work work;
@@ -105,6 +107,9 @@ int main(int argc, char** argv) {
   try {
     return Main(argc, argv);
   } catch (const ambrig::InputError& e) {
+    fmt::print(stderr, "ambrig: {}\n", OneLine(e.what()));
+    return 2;
+  } catch (const ambrig::NoSolution& e) {
     fmt::print(stderr, "ambrig: {}\n", OneLine(e.what()));
     return 2;
   } catch (const ambrig::Interrupted&) {

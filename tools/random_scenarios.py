@@ -4,7 +4,7 @@
 Every number of a rig file is drawn: near that of an example rig, or anywhere in the range that
 `ambrig parameters` names for it. What `ambrig` refuses is drawn again with fewer numbers far off,
 until it is accepted. A run must end by itself, with exit code 0 and with finite numbers only;
-its outcome (stayed up, touched down, dropped, lost) is counted.
+its outcome (stayed up, touched down, dropped, beyond the model, no solution) is counted.
 
   tools/random_scenarios.py build/release/ambrig                     100 scenarios, as CI does
   tools/random_scenarios.py build/release/ambrig -n 100000 -j 2      hours
@@ -120,7 +120,7 @@ def draw_rig(rng, numbers, far):
     rig["controller"]["rate"] = amplifier["switching_frequency"] / rng.choice([1, 1, 2, 2, 3, 5])
     rig["gravity"] = [rng.choice([0.0, rng.gauss(0, 5)]), rng.choice([0.0, -9.81, rng.gauss(0, 20)]), 0.0]
     if rng.random() < 0.5:
-        rig["detection"] = {"kind": rng.choice(["coupled", "coupled-grlt", "current-error", "cusum"])}
+        rig["detection"] = {"kind": rng.choice(["coupled", "glrt", "current-error", "cusum"])}
     return rig
 
 
@@ -219,6 +219,8 @@ def run(ambrig, folder, fidelity):
         return "HUNG", f"longer than {TIMEOUT} s"
     message = done.stderr.strip()
     if done.returncode == 2:
+        if "could not be integrated" in message or "diverged" in message:
+            return "no solution", ""
         return ("refused", message) if message.count("\n") == 0 else ("MANY LINES", message)
     if done.returncode != 0:
         return "CRASHED", f"exit code {done.returncode}: {message}"

@@ -91,8 +91,8 @@ void AddCommission(CLI::App& app, Work& work) {
   c->common.AddTo(*command);
   command->footer(
       "Examples:\n"
-      "  ambrig commission examples/reference/rig.toml -o learnt.toml --html learnt.html\n"
-      "  ambrig commission examples/reference/rig.toml -o learnt.toml --json learnt.json\n"
+      "  ambrig commission examples/reference/rig.toml -o learnt.toml\n"
+      "  ambrig commission examples/reference/rig.toml -o learnt.toml --html seen.html\n"
       "Exit code 1 when a bearing cannot be expressed by the model (grade above 3).");
   command->callback([c, &work] { work = [c] { return RunCommission(*c); }; });
 }

@@ -35,13 +35,13 @@ void PrintRow(const char* name, const CrosscheckRun& run, double parted) {
   const DropFigures& f = run.figures;
   const std::string touch =
       f.first.empty() ? "-" : fmt::format("{} {:.3f}", f.first, f.touchdown_time * 1e3);
-  const std::string severity = f.severity > 0 ? fmt::format("{:.4f}", f.severity) : "-";
+  const std::string severity = f.severity > 0 ? fmt::format("{:.4f}", f.severity) : "";
   fmt::print("  {:<11} {:<13} {:>10} {:>8.1f} {:>8.1f}  {:<8} {:>+6.1f} {:>8}\n", name,
              VerdictName(f), touch, f.rebound * 1e6, f.peak_orbit * 1e6, WhirlName(f.whirl), f.turns,
              parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3));
   if (!f.first.empty())
-    fmt::print("    peak speed of the centre: {} Omega c, {:.2f} sqrt(2 g c); rests at {} um\n",
-               severity, f.fall_severity, Rest(run));
+    fmt::print("    peak speed of the centre: {:.2f} sqrt(2 g c){}\n    rests at (x, y) [um]: {}\n",
+               f.fall_severity, severity.empty() ? "" : ", " + severity + " Omega c", Rest(run));
 }
 
 void Print(const CrosscheckedScenario& s) {

@@ -110,7 +110,7 @@ void AddHide(CLI::App& app, Work& work) {
   command->footer(
       "Examples:\n"
       "  ambrig hide sensor-gain --rig examples/reference/rig.toml -o practice\n"
-      "  ambrig hide unbalance@A cross-coupling@B --rig examples/reference/rig.toml -o two\n"
+      "  ambrig hide unbalance@A side-pull --rig examples/reference/rig.toml -o two\n"
       "  ambrig hide --rig examples/reference/rig.toml --seed 7 -o parameters-only");
   command->callback([options, &work] { work = [options] { return RunHide(*options); }; });
 }

@@ -142,7 +142,7 @@ void AddRedistribute(CLI::App& app, Work& work) {
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n"
-      "  ambrig redistribute examples/reference/rig.toml --bearing A --failed 1,2 --json w.json\n"
+      "  ambrig redistribute examples/reference/rig.toml --bearing A --failed 1,2\n"
       "  ambrig redistribute examples/reference/rig.toml --failed '3;3,4'");
   command->callback([options, &work] { work = [options] { return Redistribute(*options); }; });
 }

@@ -40,15 +40,17 @@ std::size_t ScreenWidth(std::string_view text) {
   return width;
 }
 
-std::string Wrapped(std::string_view text, std::size_t indent, std::size_t columns) {
+std::string Wrapped(std::string_view given, std::size_t indent, std::size_t columns) {
+  std::string text(given);
+  std::ranges::replace(text, '\n', ' ');
   std::string out;
   std::size_t used = 0;
   bool first_word = true;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t begin = std::min(text.find_first_not_of(' ', at), text.size());
     const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string_view word = text.substr(begin, end - begin);
-    const std::string_view gap = text.substr(at, begin - at);
+    const std::string_view word = std::string_view(text).substr(begin, end - begin);
+    const std::string_view gap = std::string_view(text).substr(at, begin - at);
     if (word.empty()) break;
     if (!first_word && used + gap.size() + ScreenWidth(word) > columns) {
       out += '\n' + std::string(indent, ' ');

@@ -137,6 +137,8 @@ std::map<std::string, double> StationOrbits(const RigParameters& rig, const Reco
 
 std::string EventText(const RunEvent& e) {
   std::string text = e.fault_class;
+  if (e.kind == "redistributed" && text == "exact") text += " (force law as when healthy)";
+  if (e.kind == "redistributed" && text == "linearised") text += " (holds near zero force)";
   if (e.fraction > 0)
     text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);
   return text;

@@ -41,8 +41,9 @@ std::vector<std::string> ExamplesOf(const std::string& command) {
 void ExpectNarrow(const std::string& text, const std::string& call) {
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
-    if (line.find('/') == std::string::npos && line.find('{') == std::string::npos)
+    if (line.find_first_of("/{") == std::string::npos) {
       EXPECT_LE(ScreenWidth(line), kScreenColumns) << "ambrig " << call << ":\n" << line;
+    }
 }
 
 /// A folder that sees the project's files and may be written to.
@@ -126,7 +127,7 @@ TEST_P(HelpExamples, RunAsTheyStand) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Commands, HelpExamples, testing::ValuesIn(kExamples),
-                         [](const auto& info) { return std::string(info.param.command); });
+                         [](const auto& of) { return std::string(of.param.command); });
 
 TEST_F(Help, EveryCommandsExamplesAreRun) {
   std::set<std::string> run;
