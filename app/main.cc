@@ -19,7 +19,7 @@ std::atomic<bool> interrupted{false};
 namespace {
 
 constexpr const char* kStart =
-    R"(ambrig: magnetic-bearing rigs - simulate, break, compare with measurements, explain
+    R"(ambrig: magnetic-bearing rigs - simulate, break, compare, explain
 
   ambrig tour            three lessons of two minutes, files included
   ambrig run SCENARIO    what happens in a run; then open out/NAME.html

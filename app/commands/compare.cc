@@ -81,7 +81,8 @@ void AddCompare(CLI::App& app, Work& work) {
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n  ambrig compare examples/rub/case.toml --html compare.html\n"
-      "  ambrig compare examples/rub/case.toml --no-blocks");
+      "  ambrig compare examples/rub/case.toml --no-blocks\n"
+      "A case of your own to start from: ambrig hide --help.");
   command->callback([options, &work] { work = [options] { return RunCompare(*options); }; });
 }
 

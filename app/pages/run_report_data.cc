@@ -47,6 +47,10 @@ std::vector<ReportStation> StationsOf(const RigParameters& rig, const Record& re
   for (const ShaftPlane& s : rig.stations) {
     ReportStation r{s.name, ChannelOf(record, {ChannelKind::kTruePosition, s.name, 0}),
                     ChannelOf(record, {ChannelKind::kTruePosition, s.name, 1})};
+    for (std::vector<double>* path : {&r.x, &r.y}) {
+      const double start = path->empty() ? 0 : path->front();  // a heavy shaft hangs through
+      for (double& v : *path) v -= start;
+    }
     if (!r.x.empty()) stations.push_back(std::move(r));
   }
   return stations;

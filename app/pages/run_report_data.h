@@ -12,7 +12,8 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
                                 const RunResult& result, const std::vector<ExpectResult>& expect,
                                 const std::string& fidelity);
 
-/// Peak orbit [m] of every named plane of a beam rotor, at the rows of the record.
+/// Peak orbit [m] of every named plane of a beam rotor about its place at the start, at the rows of
+/// the record.
 std::map<std::string, double> StationOrbits(const RigParameters& rig, const Record& record);
 
 /// One line for a person: "detected open at A.coil3" and the like.
