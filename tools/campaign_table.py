@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Median, mean and worst of a column of a campaign's table.csv, as a markdown table.
 
-  tools/campaign_table.py out/hand_over/table.csv --rows scenario --columns kind --of failed_orbit
+  tools/campaign_table.py out/hand_over/table.csv --rows scenario --columns kind --of bearing_orbit
 """
 import argparse
 import collections

@@ -46,7 +46,7 @@ def output_of(command, ambrig, root):
     """The block's lines, indented as code."""
     done = subprocess.run(["bash", "-c", command], cwd=folder_of_work(root), text=True,
                           env=environment(ambrig), capture_output=True)
-    if done.returncode not in (0, 1):
+    if done.returncode not in (0, 1) or not done.stdout.strip():
         sys.exit(f"docs: {command}: exit code {done.returncode}: {done.stderr}")
     lines = [line for line in done.stdout.rstrip().split("\n") if not TIMED.search(line)]
     if any(line.startswith("|") for line in lines):  # a table of the page's own
