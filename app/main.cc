@@ -7,8 +7,10 @@
 #include <system_error>
 
 #include "app/commands/commands.h"
+#include "app/commands/screen.h"
 #include "core/base/errors.h"
 #include "core/base/memory_reuse.h"
+#include "core/math/no_solution.h"
 
 namespace ambrig {
 std::atomic<bool> interrupted{false};
@@ -17,28 +19,34 @@ std::atomic<bool> interrupted{false};
 namespace {
 
 constexpr const char* kStart =
-    R"(ambrig: magnetic-bearing rigs, simulated, broken, compared with measurements, explained.
+    R"(ambrig: magnetic-bearing rigs - simulate, break, compare, explain
 
-  ambrig tour                                   three lessons of two minutes, files included
-  ambrig run SCENARIO                           what happens in a run; then open out/NAME.html
-  ambrig --help                                 all commands
+  ambrig tour            three lessons of two minutes, files included
+  ambrig run SCENARIO    what happens in a run; then open out/NAME.html
+  ambrig --help          all commands
 )";
 
 constexpr const char* kExamples = R"(Examples:
-  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml     what happens when coil A3 breaks
-  ambrig check scenarios/library --jobs 2                     every scenario with expectations
-  ambrig campaign scenarios/campaigns/single_coils.toml       many runs on all cores, resumable
-  ambrig detectors scenarios/studies/detectors.toml           detectors of coil faults: ROC, delays
-  ambrig crosscheck scenarios/library/drop_at_1500rpm.toml    contact by two independent models
-  ambrig rotor convert rotor.json shaft.toml                  a shaft from ROSS's file, or to it
-  ambrig design study.toml                                    controllers compared: Pareto front, report
-  ambrig redistribute rig.toml --bearing A --failed 3         currents after a coil failure
-  ambrig analyze rig.toml --speed 3000:9000 -o out            modes, margins, sensitivity, unbalance
-  ambrig compare case.toml                                    model beside measurement
-  ambrig explain case.toml                                    which physical effect is missing
-  ambrig adopt case.toml eddy-currents --target A             add it, compare again
+  ambrig tour                       files for three lessons of two minutes
+  ambrig run tour/coil_opens.toml   coil A3 breaks: timeline, record, report
+  ambrig run tour/my_fault.toml     a fault of your own: edit the file, repeat
+  ambrig analyze tour/rig.toml      modes, margins, sensitivity, unbalance
+
+Every command has examples: ambrig COMMAND --help. The examples of campaign,
+check, design, explain and others use the folders scenarios and examples of
+the project.
 
 Exit codes: 0 done, 1 an expectation is not met, 2 wrong input, 3 program error, 130 interrupted.)";
+
+/// Help within 80 columns.
+class NarrowHelp : public CLI::Formatter {
+ public:
+  std::string make_help(const CLI::App* app, std::string name,
+                        CLI::AppFormatMode mode) const override {
+    const std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
+    return mode == CLI::AppFormatMode::Sub ? text : ambrig::WrappedHelp(text);
+  }
+};
 
 /// A message of one line, whatever a file's own text put into it.
 std::string OneLine(const std::string& text) {
@@ -70,11 +78,13 @@ bool IsClosedPipe(const std::system_error& e) { return e.code().value() == EPIPE
 int Main(int argc, char** argv) {
   ambrig::KeepFreedMemory();
   CLI::App app{
-      "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain"};
-  app.footer(kExamples);
+      "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain",
+      "ambrig"};
   app.set_version_flag("--version", "ambrig 0.1.0");
+  app.formatter(std::make_shared<NarrowHelp>());
   ambrig::Work work;
   ambrig::AddCommands(app, work);
+  app.footer(kExamples);  // after the commands, which would inherit it
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -97,6 +107,9 @@ int main(int argc, char** argv) {
   try {
     return Main(argc, argv);
   } catch (const ambrig::InputError& e) {
+    fmt::print(stderr, "ambrig: {}\n", OneLine(e.what()));
+    return 2;
+  } catch (const ambrig::NoSolution& e) {
     fmt::print(stderr, "ambrig: {}\n", OneLine(e.what()));
     return 2;
   } catch (const ambrig::Interrupted&) {

@@ -9,6 +9,7 @@
 #include "faulttolerance/supervision/fault_supervisor.h"
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"
+#include "simulation/switching/lost_rotor.h"
 #include "simulation/switching/switching_engine.h"
 #include "simulation/verdict/detection_score.h"
 
@@ -48,7 +49,17 @@ RunResult RunContinuous(const RigParameters& rig, const Scenario& scenario,
   o.sampled.record_rate = options.record_rate;
   o.progress = options.progress;
   o.stop = options.stop;
-  return run(rig, scenario, o);
+  try {
+    return run(rig, scenario, o);
+  } catch (const LostRotor&) {
+    throw;
+  } catch (const NoSolution& e) {
+    throw NoSolution(fmt::format(
+        "{}: the {} equations of this rig and scenario could not be integrated ({}); allowed: "
+        "--fidelity switching, or numbers less extreme",
+        scenario.file, options.fidelity == Fidelity::kReference ? "reference" : "averaged",
+        e.what()));
+  }
 }
 
 }  // namespace

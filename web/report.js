@@ -92,6 +92,14 @@
     figures.forEach(draw);
   });
 
+  // A table that does not fit says so.
+  const tables = Array.from(document.querySelectorAll(".table"));
+  function markWide() {
+    tables.forEach((t) => t.classList.toggle("scrolls", t.scrollWidth > t.clientWidth + 1));
+  }
+  window.addEventListener("resize", markWide);
+  markWide();
+
   // The contents show where the reader is: the last heading above the upper third of the window.
   const links = new Map(Array.from(document.querySelectorAll("nav a"), (a) => [a.hash.slice(1), a]));
   const headings = Array.from(document.querySelectorAll("main h2, main h3"));

@@ -85,8 +85,9 @@ void AddAdopt(CLI::App& app, Work& work) {
       ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig adopt practice/case.toml sensor-gain\n"
-      "  ambrig adopt practice/case.toml eddy-currents --target A -o rig_with_eddy.toml");
+      "Examples (after ambrig hide, see its --help):\n"
+      "  ambrig adopt practice/case.toml sensor-gain\n"
+      "  ambrig adopt practice/case.toml eddy-currents --target A -o with_eddy.toml");
   command->callback([options, &work] { work = [options] { return RunAdopt(*options); }; });
 }
 

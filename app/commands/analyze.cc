@@ -9,6 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/json/analysis_json.h"
 #include "app/pages/analysis_report.h"
 #include "core/base/atomic_file.h"
@@ -113,38 +114,41 @@ std::string Zone(char zone) {
 }
 
 void PrintCapacity(const RigAnalysis& a) {
-  fmt::print("\n{}\n{:<6} {:>9} {:>11} {:>10} {:>10} {:>10} {:>12} {:>9}\n",
-             Coloured("bearings at the operating point", "bold"), "axis", "k_i [N/A]", "k_s [N/m]",
-             "static [N]", "weight [N]", "peak [N]", "slew [N/s]", "knee [Hz]");
+  fmt::print("\n{}\n", Coloured("bearings at the operating point: force per current, negative "
+                                "stiffness, forces", "bold"));
+  fmt::print("{:<5} {:>9} {:>10} {:>10} {:>10} {:>9} {:>10} {:>9}\n", "axis", "k_i [N/A]",
+             "k_s [N/m]", "static [N]", "weight [N]", "peak [N]", "slew [N/s]", "knee [Hz]");
   for (const AxisCapacity& c : a.capacity)
-    fmt::print("{:<6} {:>9.4g} {:>11.5g} {:>10.4g} {:>10.4g} {:>10.4g} {:>12.4g} {:>9.4g}\n",
+    fmt::print("{:<5} {:>9.4g} {:>10.5g} {:>10.4g} {:>10.4g} {:>9.4g} {:>10.4g} {:>9.4g}\n",
                c.axis, c.k_i, c.k_s, c.usable(), c.weight, c.largest, c.slew, c.knee);
 }
 
 void PrintSensitivity(const RigAnalysis& a) {
-  fmt::print("\n{}\n{:>9} {:<6} {:>8} {:>10} {:>5} {:>18} {:>10} {:>12}\n",
-             Coloured("sensitivity (ISO 14839-3), all other loops closed", "bold"), "rpm", "axis",
-             "peak |S|", "at [Hz]", "zone", "gain x from..to", "phase", "delay");
+  fmt::print("\n{}\n",
+             Coloured("sensitivity (ISO 14839-3), all other loops closed; margins of gain, phase, "
+                      "delay", "bold"));
+  fmt::print("{:>7} {:<5} {:>8} {:>8} {:>4} {:>17} {:>11} {:>10}\n", "rpm", "axis", "peak |S|",
+             "at [Hz]", "zone", "gain x from..to", "phase [deg]", "delay [us]");
   for (const Sensitivity& s : a.sensitivity)
     for (const AxisSensitivity& x : s.axes)
       if (!s.stable)
-        fmt::print("{:>9.0f} {:<6} {:>8} {:>10} {:>5} {:>18} {:>10} {:>12}\n", s.speed / kRpm,
+        fmt::print("{:>7.0f} {:<5} {:>8} {:>8} {:>4} {:>17} {:>11} {:>10}\n", s.speed / kRpm,
                    x.axis, "-", "-", "-", "-", "-", "-");
       else
-        fmt::print("{:>9.0f} {:<6} {:>8.3f} {:>10.1f} {:>5} {:>18} {:>8.1f} ° {:>9.1f} us\n",
+        fmt::print("{:>7.0f} {:<5} {:>8.3f} {:>8.1f} {:>4} {:>17} {:>11.1f} {:>10.1f}\n",
                    s.speed / kRpm, x.axis, x.peak, x.peak_frequency, Zone(x.zone),
                    fmt::format("{:.3f}..{:.3f}", x.gain_down, x.gain_up),
                    x.phase_margin * 180 / kPi, x.delay_margin * 1e6);
   fmt::print(
-      "\n{}\n{:>9} {:>10} {:>18} {:>10} {:>10}  {}\n",
+      "\n{}\n{:>7} {:>8} {:>17} {:>11} {:>8}  {}\n",
       Coloured("simultaneous-loop disk margin: independent perturbations of all loops at once",
                "bold"),
-      "rpm", "disk [-]", "gain x from..to", "phase", "at [Hz]", "axes");
+      "rpm", "disk [-]", "gain x from..to", "phase [deg]", "at [Hz]", "axes");
   for (const Sensitivity& s : a.sensitivity)
     for (const JointMargin& m : s.joint) {
       std::vector<std::string> axes;
       for (std::size_t k : m.axes) axes.push_back(s.axes[k].axis);
-      fmt::print("{:>9.0f} {:>10.3f} {:>18} {:>8.1f} ° {:>10.1f}  {}\n", s.speed / kRpm, m.alpha,
+      fmt::print("{:>7.0f} {:>8.3f} {:>17} {:>11.1f} {:>8.1f}  {}\n", s.speed / kRpm, m.alpha,
                  fmt::format("{:.3f}..{:.3f}", DiskGainDown(m.alpha), DiskGainUp(m.alpha)),
                  DiskPhase(m.alpha) * 180 / kPi, m.frequency, fmt::join(axes, " "));
     }
@@ -156,9 +160,9 @@ void PrintSensitivity(const RigAnalysis& a) {
 
 void PrintModes(const RigAnalysis& a) {
   const auto line = [](const std::string& name, const std::vector<RotorMode>& modes) {
-    fmt::print("  {:<22}", name);
-    for (const RotorMode& m : modes) fmt::print(" {:.2f}", m.frequency);
-    fmt::print("{} Hz\n", modes.empty() ? " none" : "");
+    std::string text = fmt::format("  {:<22}", name);
+    for (const RotorMode& m : modes) text += fmt::format(" {:.2f}", m.frequency);
+    fmt::print("{}\n", Wrapped(text + (modes.empty() ? " none" : " Hz"), 25));
   };
   fmt::print("\n{}\n", Coloured("rotor at rest", "bold"));
   line("free", a.supports.free);
@@ -196,8 +200,8 @@ void PrintStandards(const RigAnalysis& a) {
 void Print(const RigAnalysis& a) {
   const RigParameters& rig = a.point.rig();
   fmt::print(
-      "{}: {} axes, {} coils, controller {:g} Hz, operating {:.0f} to {:.0f} rpm, analysed up to "
-      "{:.0f} rpm\n",
+      "{}: {} axes, {} coils, controller {:g} Hz,\noperating {:.0f} to {:.0f} rpm, analysed up "
+      "to {:.0f} rpm\n",
       Coloured(rig.name, "bold"), a.capacity.size(),
       [&] {
         int n = 0;
@@ -207,7 +211,7 @@ void Print(const RigAnalysis& a) {
       rig.controller.rate, a.options.lowest / kRpm, a.options.highest / kRpm,
       a.options.fastest / kRpm);
   PrintVerdict(a);
-  for (const std::string& note : a.point.notes) fmt::print("  note: {}\n", note);
+  for (const std::string& note : a.point.notes) fmt::print("{}\n", Wrapped("  note: " + note, 8));
   PrintCapacity(a);
   PrintSensitivity(a);
   PrintModes(a);
@@ -279,10 +283,9 @@ void AddAnalyze(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig analyze examples/reference/rig.toml --speed 3000:9000 -o out\n"
       "  ambrig analyze examples/reference/rig.toml --measure 3 --html rig.html\n"
-      "  ambrig analyze examples/reference/rig.toml --response A.x.load:A.x --json rig.json\n"
-      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft, "
-      ".magnet, or a coil A.i1;\n"
-      "of a named plane of a beam rotor: disk.x.load, disk.x.\n"
+      "  ambrig analyze examples/reference/rig.toml --response A.x.load:A.x\n"
+      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft,\n"
+      ".magnet, or a coil A.i1; of a named plane of a beam rotor: disk.x.load, disk.x.\n"
       "Exit code 1 when the closed loop is unstable.");
   command->callback([c, &work] { work = [c] { return RunAnalyze(*c); }; });
 }

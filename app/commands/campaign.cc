@@ -8,8 +8,10 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
-#include "app/commands/run_size.h"
+#include "app/commands/screen.h"
+#include "app/commands/work_size.h"
 #include "app/pages/campaign_report.h"
+#include "app/pages/format.h"
 #include "campaign/journal.h"
 #include "campaign/merge.h"
 #include "campaign/run_rows.h"
@@ -26,7 +28,7 @@ struct CampaignOptions {
   std::string sbatch;
   int jobs = 0, tasks = 0;
   double poll = 2;
-  bool no_report = false;
+  bool no_report = false, long_runs = false;
 };
 
 nlohmann::ordered_json Json(const JournalHeader& header, const RowCounts& n) {
@@ -61,14 +63,14 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
   if (n.error > 0)
     fmt::print("  {}\n",
                Coloured(fmt::format("not finished       {} (column note)", n.error), "red"));
-  fmt::print("  false alarms       {:.0f} in {:.3g} healthy coil-periods\n", n.false_alarms,
-             n.coil_periods);
+  fmt::print("  false alarms       {}\n", FalseAlarmText(n.false_alarms, n.coil_periods));
   if (n.faults > 0)
-    fmt::print("  faults             {}, not detected {}, worst delay {:.1f} us\n", n.faults,
-               n.undetected, n.worst_delay * 1e6);
-  fmt::print("  largest orbit      {:.2f} um (runs that stayed up)\n", n.largest_orbit * 1e6);
+    fmt::print("  faults             {}, not detected {}, longest delay {}\n", n.faults,
+               n.undetected, n.worst_delay > 0 ? ScreenSi(n.worst_delay, "s") : "-");
+  fmt::print("  largest orbit      {} (runs that stayed up)\n",
+             n.up > 0 ? ScreenSi(n.largest_orbit, "m") : "-");
   fmt::print("  written            {}/table.csv{}\n", out,
-             no_report ? "" : fmt::format(", report {}", html));
+             no_report ? "" : " and report.html");
 }
 
 void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard,
@@ -86,7 +88,7 @@ void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard,
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(
         static_cast<double>(n) / static_cast<double>(pending.size()),
-        fmt::format("{} of {}, {:.1f} runs/s, {} dropped", n, Counted(pending.size(), "run"),
+        fmt::format("{}/{} runs, {:.1f}/s, {} dropped", n, pending.size(),
                     static_cast<double>(n) / seconds, dropped.load()));
   });
 }
@@ -105,21 +107,9 @@ void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, CampaignJournal
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(static_cast<double>(done - before) / static_cast<double>(runs - before),
-                    fmt::format("{} of {}, {:.1f} runs/s", done, Counted(runs, "run"),
+                    fmt::format("{}/{} runs, {:.1f}/s", done, runs,
                                 static_cast<double>(done - before) / seconds));
   });
-}
-
-/// How long the whole campaign will take, when that is worth a word.
-void PrintEstimate(const Campaign& c, int jobs) {
-  double seconds = 0;
-  for (const Scenario& s : c.scenarios) seconds += RunSeconds(c.rig, s);
-  seconds *= static_cast<double>(c.runs()) / static_cast<double>(c.scenarios.size());
-  const auto cores = jobs > 0 ? static_cast<unsigned>(jobs) : std::thread::hardware_concurrency();
-  seconds /= std::max(1U, cores);
-  if (seconds > 60)
-    fmt::print("{}: {}, about {} on {}\n", c.name, Counted(c.runs(), "run"), DurationText(seconds),
-               Counted(cores, "core"));
 }
 
 int RunCampaign(CampaignOptions o) {
@@ -131,14 +121,19 @@ int RunCampaign(CampaignOptions o) {
     throw InputError("--shard: allowed with --engine local only (slurm makes its own)");
   const JournalHeader header = HeaderOf(plan.campaign());
   o.common.CheckOutputs({o.file, plan.campaign().rig.file});
-  PrintEstimate(plan.campaign(), o.jobs);
-  PrepareFolder(o.out);
+  PrepareStudyFolder(o.out, {"table.csv", "report.html"}, o.common.force);
   CampaignJournal journal(o.out, header);
   if (!journal.rows().empty())
     fmt::print("{}: resumed, {} done before{}\n", o.out, Counted(journal.rows().size(), "run"),
                journal.damaged() > 0
                    ? fmt::format(", {} done again", Counted(journal.damaged(), "damaged line"))
                    : "");
+  if (o.engine == "local")
+    CheckWorkSize(
+        o.file,
+        CampaignSize(plan.campaign(), PendingRuns(header.runs, shard, journal.rows()).size(),
+                     o.jobs),
+        o.long_runs);
   try {
     if (o.engine == "slurm")
       RunOnCluster(plan, o, journal);
@@ -162,6 +157,8 @@ struct MergeOptions {
 
 int Merge(const MergeOptions& o) {
   const JournalContent merged = MergeJournals(o.folders, o.partial);
+  o.common.CheckOutputs({});
+  PrepareStudyFolder(o.out, {"table.csv", "report.html"}, o.common.force);
   CampaignJournal journal(o.out, merged.header);
   for (const auto& [run, row] : merged.rows)
     if (!journal.rows().contains(run)) journal.Append(row);
@@ -197,12 +194,15 @@ void AddCampaign(CLI::App& app, Work& work) {
       ->check(NumberIn(0.1, 3600, "s"))
       ->capture_default_str();
   command->add_flag("--no-report", options->no_report, "no report.html");
+  command->add_flag("--long", options->long_runs, "also what will take more than a day");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig campaign scenarios/campaigns/single_coils.toml -o out/single_coils\n"
-      "  ambrig campaign scenarios/campaigns/survival_small.toml --shard 1/2 -o out/part1\nRe-run "
-      "the command to resume an interrupted one. Repeat one row:\n  "
-      "ambrig run --from-campaign scenarios/campaigns/single_coils.toml --row 17");
+      "Examples:\n"
+      "  ambrig campaign scenarios/campaigns/one_blow.toml -o out/contact\n"
+      "  ambrig campaign scenarios/campaigns/one_blow.toml --shard 1/2 -o part1\n"
+      "  ambrig run --from-campaign scenarios/campaigns/one_blow.toml --row 1\n"
+      "Re-run the command to resume an interrupted one; the last example repeats one\nrow of the "
+      "table with its record and report.");
   command->callback([options, &work] { work = [options] { return RunCampaign(*options); }; });
 }
 
@@ -215,8 +215,9 @@ void AddMerge(CLI::App& app, Work& work) {
   command->add_flag("--no-report", options->no_report, "no report.html");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig merge out/part1 out/part2 -o out/all\n"
-      "  ambrig merge out/part1 -o out/half --partial");
+      "Examples (after both shards of a campaign, see ambrig campaign --help):\n"
+      "  ambrig merge part1 part2 -o all\n"
+      "  ambrig merge part1 -o half --partial");
   command->callback([options, &work] { work = [options] { return Merge(*options); }; });
 }
 

@@ -14,6 +14,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/json/run_json.h"
 #include "app/pages/difference_report.h"
 #include "app/pages/html.h"
@@ -156,8 +157,8 @@ void PrintRow(const CheckRow& row) {
   const std::string name = row.name.empty() ? row.file : row.name;
   fmt::print("{}  {:<58} {:7.2f} s\n",
              row.met() ? Coloured("met    ", "green") : Coloured("NOT MET", "red"),
-             name.size() > 58 ? name.substr(0, 55) + "..." : name, row.seconds);
-  if (!row.met()) fmt::print("    {}\n", Complaint(row));
+             Shortened(name, 58), row.seconds);
+  if (!row.met()) fmt::print("{}\n", Wrapped("    " + Complaint(row), 4));
 }
 
 int Check(const CheckOptions& options) {
@@ -175,7 +176,8 @@ int Check(const CheckOptions& options) {
     tbb::global_control limit(tbb::global_control::max_allowed_parallelism, jobs);
     tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t k) {
       rows[k] = CheckOne(files[k], options.baseline);
-      progress.Update(static_cast<double>(++done) / static_cast<double>(files.size()), files[k]);
+      progress.Update(static_cast<double>(++done) / static_cast<double>(files.size()),
+                      std::filesystem::path(files[k]).filename().string());
     });
   }
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
@@ -228,11 +230,13 @@ void AddCheck(CLI::App& app, Work& work) {
       ->check(CLI::Range(1, 1024));
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig check scenarios/library --jobs 2 --junit check.xml\n"
-      "  ambrig check my_scenarios --baseline baselines --accept    stores what is right today\n"
-      "  ambrig check my_scenarios --baseline baselines             finds what has changed\n"
-      "Tolerances: DIR/tolerances.toml (ambrig diff --help). Exit code 1 when something is not "
-      "met.");
+      "Examples:\n"
+      "  ambrig check scenarios/library/lift_off.toml --junit check.xml\n"
+      "  ambrig check examples/reference --baseline stored --accept\n"
+      "  ambrig check examples/reference --baseline stored\n"
+      "The second stores what is right today, the third finds what has changed.\n"
+      "Tolerances: DIR/tolerances.toml (ambrig diff --help). Exit code 1 when something is\n"
+      "not met.");
   command->callback([options, &work] { work = [options] { return Check(*options); }; });
 }
 

@@ -38,6 +38,7 @@ int RunCommission(CommissionCommand c) {
         "name",
         c.out));
   if (rig.bearings.front().kind == BearingKind::kOpposed) c.plan.speed = 0;
+  c.common.CheckOutputs({c.rig, c.out});
   CommissioningResult result;
   {
     Progress progress("commission");
@@ -89,8 +90,9 @@ void AddCommission(CLI::App& app, Work& work) {
       ->capture_default_str();
   c->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig commission rig.toml --html out/commission.html\n"
-      "  ambrig commission rig.toml -o rig.commissioning.toml --json out/commission.json\n"
+      "Examples:\n"
+      "  ambrig commission examples/reference/rig.toml -o learnt.toml\n"
+      "  ambrig commission examples/reference/rig.toml -o learnt.toml --html seen.html\n"
       "Exit code 1 when a bearing cannot be expressed by the model (grade above 3).");
   command->callback([c, &work] { work = [c] { return RunCommission(*c); }; });
 }

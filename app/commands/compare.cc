@@ -1,9 +1,14 @@
 /// ambrig compare: the model beside the measurement.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+
 #include "app/commands/commands.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/json/discovery_json.h"
+#include "app/pages/discovery_parts.h"
 #include "app/pages/discovery_report.h"
 
 namespace ambrig {
@@ -16,10 +21,41 @@ struct CompareOptions {
   bool no_blocks = false;
 };
 
+/// The data file's own name: its folder is the same for all.
+std::string FileName(const std::string& path) {
+  return std::filesystem::path(path).filename().string();
+}
+
+void PrintRecord(const RecordComparison& r) {
+  const ChannelError* worst = nullptr;
+  for (const ChannelError& e : r.channels)
+    if (!worst || e.ratio > worst->ratio) worst = &e;
+  fmt::print("{:<22} {:<28} {:>7.2f}  {}\n", Shortened(FileName(r.data), 22),
+             Shortened(r.scenario, 28), r.ratio,
+             worst ? fmt::format("{} {:.2f}", worst->channel, worst->ratio) : "-");
+  for (const auto& [block, ratio] : r.blocks)
+    fmt::print("    block {:<40} {:>7.2f}\n", block, ratio);
+}
+
+void Print(const Comparison& comparison) {
+  fmt::print("error over noise: rms of measured less model over that of the noise; 1: only noise\n");
+  fmt::print("{:<22} {:<28} {:>7}  {}\n", "record", "scenario", "error", "worst channel");
+  for (const RecordComparison& r : comparison.records) PrintRecord(r);
+  const bool unseen = std::any_of(comparison.records.begin(), comparison.records.end(),
+                                  [](const RecordComparison& r) { return r.validate; });
+  fmt::print("error over noise, all records: {:.3f}{}\n", comparison.ratio,
+             unseen ? fmt::format(" (to be fitted {:.3f}, unseen {:.3f})", comparison.ratio_fit,
+                                  comparison.ratio_validate)
+                    : "");
+  for (const std::string& w : comparison.words) fmt::print("{}\n", Wrapped("  " + w, 4));
+  if (const std::string text = BlockText(comparison); !text.empty())
+    fmt::print("{}\n", Wrapped("  " + text, 4));
+}
+
 int RunCompare(const CompareOptions& o) {
   const Case c = ReadCase(o.file);
   o.common.CheckOutputs({o.file, c.rig_file});
-  for (const std::string& note : c.notes) fmt::print("data: {}\n", note);
+  for (const std::string& note : c.notes) fmt::print("{}\n", Wrapped("data: " + note, 6));
   CaseModel model(c);
   model.stop = &interrupted;
   Comparison comparison;
@@ -28,22 +64,7 @@ int RunCompare(const CompareOptions& o) {
     comparison = Compare(model, Hypothesis::Base(c.rig), !o.no_blocks,
                          [&](double f, const std::string& text) { progress.Update(f, text); });
   }
-  fmt::print("{:<28} {:<34} {:>8}  worst channel\n", "record", "scenario", "ratio");
-  for (const RecordComparison& r : comparison.records) {
-    const ChannelError* worst = nullptr;
-    for (const ChannelError& e : r.channels)
-      if (!worst || e.ratio > worst->ratio) worst = &e;
-    fmt::print("{:<28} {:<34} {:>8.2f}  {}\n",
-               r.data.size() > 28 ? r.data.substr(r.data.size() - 28) : r.data, r.scenario, r.ratio,
-               worst ? fmt::format("{} {:.2f}", worst->channel, worst->ratio) : "-");
-    for (const auto& [block, ratio] : r.blocks)
-      fmt::print("    block {:<12} {:.2f}\n", block, ratio);
-  }
-  fmt::print(
-      "ratio of the error to the noise floor: {:.3f} (fit {:.3f}, unseen {:.3f}); 1 means nothing "
-      "is left to explain\n",
-      comparison.ratio, comparison.ratio_fit, comparison.ratio_validate);
-  for (const std::string& w : comparison.words) fmt::print("  {}\n", w);
+  Print(comparison);
   o.common.WriteJson(CompareJson(comparison));
   if (!o.common.html.empty()) WriteCompareReport(model, comparison, o.common.html);
   return 0;
@@ -59,8 +80,9 @@ void AddCompare(CLI::App& app, Work& work) {
   command->add_flag("--no-blocks", options->no_blocks, "skip the block tests with measured inputs");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig compare practice/case.toml --html compare.html\n"
-      "  ambrig compare practice/case.toml --no-blocks");
+      "Examples:\n  ambrig compare examples/rub/case.toml --html compare.html\n"
+      "  ambrig compare examples/rub/case.toml --no-blocks\n"
+      "A case of your own to start from: ambrig hide --help.");
   command->callback([options, &work] { work = [options] { return RunCompare(*options); }; });
 }
 

@@ -35,11 +35,13 @@ void PrintRow(const char* name, const CrosscheckRun& run, double parted) {
   const DropFigures& f = run.figures;
   const std::string touch =
       f.first.empty() ? "-" : fmt::format("{} {:.3f}", f.first, f.touchdown_time * 1e3);
-  const std::string severity = f.severity > 0 ? fmt::format("{:.4f}", f.severity) : "-";
-  fmt::print("  {:<12} {:<13} {:>10} {:>8.1f} {:>8.1f}  {:<8} {:>+7.1f} {:>8} {:>6.2f} {:>9}  {}\n",
-             name, VerdictName(f), touch, f.rebound * 1e6, f.peak_orbit * 1e6, WhirlName(f.whirl),
-             f.turns, severity, f.fall_severity,
-             parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3), Rest(run));
+  const std::string severity = f.severity > 0 ? fmt::format("{:.4f}", f.severity) : "";
+  fmt::print("  {:<11} {:<13} {:>10} {:>8.1f} {:>8.1f}  {:<8} {:>+6.1f} {:>8}\n", name,
+             VerdictName(f), touch, f.rebound * 1e6, f.peak_orbit * 1e6, WhirlName(f.whirl), f.turns,
+             parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3));
+  if (!f.first.empty())
+    fmt::print("    peak speed of the centre: {:.2f} sqrt(2 g c){}\n    rests at (x, y) [um]: {}\n",
+               f.fall_severity, severity.empty() ? "" : ", " + severity + " Omega c", Rest(run));
 }
 
 void Print(const CrosscheckedScenario& s) {
@@ -51,9 +53,10 @@ void Print(const CrosscheckedScenario& s) {
     fmt::print("  no contact in either\n");
     return;
   }
-  fmt::print("  {:<12} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>7} {:>8} {:>6} {:>9}  {}\n", "rotor",
-             "verdict", "touch ms", "rebnd um", "peak um", "whirl", "turns", "v/Oc", "v/fall",
-             "parts ms", "rest um");
+  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>8}\n", "", "", "touch", "rebound",
+             "peak", "", "", "apart");
+  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>8}\n", "rotor", "verdict", "at [ms]",
+             "[um]", "[um]", "whirl", "turns", "at [ms]");
   PrintRow("compliant", w.model, -1);
   PrintRow("on ODE", w.ode, w.parted_ode);
   PrintRow("other noise", w.other_noise, w.parted_noise);
@@ -74,8 +77,7 @@ void PrintTally(const std::vector<CrosscheckedScenario>& all, int seeds) {
       high = std::max(high, f.peak_orbit);
     }
     fmt::print(
-        "  {:<12} of {} seeds: {} dropped, {} whirl backward, {} forward, peak {:.1f} to {:.1f} "
-        "um\n",
+        "  {:<10} of {} seeds: {} dropped, {} backward, {} forward, peak {:.1f} to {:.1f} um\n",
         name, seeds, drops, backward, forward, low * 1e6, high * 1e6);
   };
   tally("compliant", &ContactCrosscheck::model);
@@ -100,10 +102,12 @@ CrosscheckedScenario CrosscheckOne(const std::string& file, const RigParameters&
 }
 
 int Crosscheck(const CrosscheckCommand& command) {
+  const std::vector<std::string> files = FindScenarios(command.paths);
+  command.common.CheckOutputs(files);
   std::vector<CrosscheckedScenario> all;
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   std::size_t differ = 0, touched = 0;
-  for (const std::string& file : FindScenarios(command.paths)) {
+  for (const std::string& file : files) {
     const RigParameters rig = ReadRig(RigOfScenario(file));
     Scenario scenario = ReadScenario(file, rig);
     const bool named = std::count(command.paths.begin(), command.paths.end(), file) > 0;
@@ -151,9 +155,12 @@ void AddCrosscheck(CLI::App& app, Work& work) {
       ->capture_default_str();
   command->common.AddTo(*sub);
   sub->footer(
-      "Examples:\n  ambrig crosscheck scenarios/library/drop_at_12000rpm.toml --html contact.html\n"
+      "Examples:\n"
+      "  ambrig crosscheck scenarios/library/drop_at_12000rpm.toml --html contact.html\n"
       "  ambrig crosscheck scenarios/library/drop_at_0rpm.toml --seeds 3\n"
-      "Exit code 1 when a verdict differs.");
+      "Apart: from when on the centres are further apart than a share of the clearance.\n"
+      "Omega c: speed of a synchronous whirl round the whole clearance c; sqrt(2 g c): of\n"
+      "a free fall through it. Exit code 1 when a verdict differs.");
   sub->callback([command, &work] { work = [command] { return Crosscheck(*command); }; });
 }
 

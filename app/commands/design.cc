@@ -7,7 +7,9 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/json/run_json.h"
 #include "app/pages/design_report.h"
 #include "app/pages/run_report_data.h"
@@ -105,10 +107,10 @@ void Print(const Study& study, const StudyResult& result, const std::vector<std:
                p.front      ? Coloured("on the front", "green")
                : p.feasible ? "keeps all limits"
                             : Coloured("breaks a limit", "red"));
-    if (!p.result.note.empty()) fmt::print("    {}\n", p.result.note);
+    if (!p.result.note.empty()) fmt::print("{}\n", Wrapped("    " + p.result.note, 4));
     for (std::size_t j = 0; j < study.figures.size(); ++j)
-      fmt::print("    {:<28} {:.4g} {}\n", study.figures[j].name, p.result.figures[j],
-                 study.figures[j].info->unit == "-" ? "" : study.figures[j].info->unit);
+      fmt::print("    {:<36} {:>12}\n", study.figures[j].name,
+                 ScreenSi(p.result.figures[j], study.figures[j].info->unit));
   }
 }
 
@@ -159,8 +161,8 @@ int Repeat(const Study& study, const StudyResult& result, const DesignOptions& o
   const Evaluation again = Evaluate(study, p.candidate, p.values, &interrupted);
   const bool same = again.figures == p.result.figures;
   for (std::size_t j = 0; j < study.figures.size(); ++j)
-    fmt::print("  {:<28} {:.6g} {}\n", study.figures[j].name, again.figures[j],
-               study.figures[j].info->unit);
+    fmt::print("  {:<36} {:>14}\n", study.figures[j].name,
+               ScreenSi(again.figures[j], study.figures[j].info->unit, 6));
   fmt::print("  {} the study's figures\n  written            {}\n",
              same ? "equal to" : Coloured("NOT equal to", "red"), folder.string());
   o.common.WriteJson(PointJson(study, result, k));
@@ -171,6 +173,8 @@ int RunDesign(DesignOptions o) {
   const Study study = ReadStudy(o.file);
   if (o.out.empty())
     o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
+  o.common.CheckOutputs({o.file});
+  PrepareStudyFolder(o.out, {"table.csv", "study.json", "report.html"}, o.common.force);
   StudyResult result;
   {
     Progress progress("design");
@@ -243,9 +247,10 @@ void AddDesign(CLI::App& app, Work& work) {
   command->add_flag("--no-report", options->no_report, "no HTML");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig design examples/design/study.toml\n  ambrig design "
-      "examples/design/study.toml --point 17\nRe-run the command to resume an interrupted one. "
-      "Exit code 1 when no point is feasible, or a repeated point differs.");
+      "Examples:\n  ambrig design examples/design/small.toml\n"
+      "  ambrig design examples/design/small.toml --point 1\n"
+      "Re-run the command to resume an interrupted one. Exit code 1 when no point is\n"
+      "feasible, or a repeated point differs.");
   command->callback([options, &work] { work = [options] { return RunDesign(*options); }; });
 }
 

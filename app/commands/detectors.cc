@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/pages/detector_report.h"
 #include "campaign/run_rows.h"
@@ -45,7 +46,7 @@ void RunAll(const DetectorStudyPlan& plan, int jobs, CampaignJournal& journal) {
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
-                    fmt::format("{} of {}, {:.1f} runs/s", n, Counted(pending.size(), "run"),
+                    fmt::format("{}/{} runs, {:.1f}/s", n, pending.size(),
                                 static_cast<double>(n) / seconds));
   });
 }
@@ -54,6 +55,9 @@ int RunDetectors(DetectorsCommand o) {
   const DetectorStudyPlan plan(ReadDetectorStudy(o.file));
   if (o.out.empty())
     o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
+  o.common.CheckOutputs({o.file});
+  PrepareStudyFolder(o.out, {"table.csv", "curves.txt", "curves.json", "report.html"},
+                     o.common.force);
   CampaignJournal journal(o.out, plan.Header());
   if (!journal.rows().empty())
     fmt::print("{}: resumed, {} done before\n", o.out, Counted(journal.rows().size(), "run"));

@@ -67,8 +67,10 @@ void AddDiff(CLI::App& app, Work& work) {
   o->common.AddTo(*command);
   command->footer(
       "Examples:\n"
-      "  ambrig diff before/coil_opens.h5 out/coil_opens.h5\n"
-      "  ambrig diff before/coil_opens.h5 out/coil_opens.h5 --relative 0.001 --html diff.html\n"
+      "  ambrig run examples/reference/coil_opens.toml --out before\n"
+      "  ambrig run examples/reference/coil_opens.toml --out now\n"
+      "  ambrig diff before/coil_opens.h5 now/coil_opens.h5\n"
+      "  ambrig diff before/coil_opens.h5 now/coil_opens.h5 --html d.html --force\n"
       "Events are read from NAME.json beside each record. Exit code 1 when something differs.");
   command->callback([o, &work] { work = [o] { return RunDiff(*o); }; });
 }

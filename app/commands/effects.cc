@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/screen.h"
 #include "app/pages/html.h"
 #include "effects/catalogue.h"
 
@@ -57,14 +58,20 @@ nlohmann::ordered_json EffectJson(const EffectDescription& d) {
 }
 
 void PrintOne(const EffectDescription& d) {
-  fmt::print(
-      "{} - {}\n  target         {}\n  physics        {}\n  shows in       {}\n  confused with  "
-      "{}\n  parameters\n",
-      Coloured(d.id, "bold"), d.title, TargetText(d.target), d.physics, d.shows_in,
-      d.confused_with);
-  for (const EffectParameter& p : d.parameters)
-    fmt::print("    {:<16} [{}]  null {}, {} to {}, usually {} to {}: {}\n", p.name, p.unit,
-               p.null_value, p.lo, p.hi, p.typical_lo, p.typical_hi, p.doc);
+  const auto line = [](const char* name, const std::string& text) {
+    fmt::print("{}\n", Wrapped(fmt::format("  {:<14} {}", name, text), 17));
+  };
+  fmt::print("{} - {}\n", Coloured(d.id, "bold"), d.title);
+  line("target", TargetText(d.target));
+  line("physics", d.physics);
+  line("shows in", d.shows_in);
+  line("confused with", d.confused_with);
+  fmt::print("  parameters\n");
+  for (const EffectParameter& p : d.parameters) {
+    fmt::print("{}\n", Wrapped(fmt::format("    {} [{}]: {}", p.name, p.unit, p.doc), 6));
+    fmt::print("      off at {}, possible {} to {}, usual {} to {}\n", p.null_value, p.lo, p.hi,
+               p.typical_lo, p.typical_hi);
+  }
 }
 
 }  // namespace
@@ -84,6 +91,7 @@ void AddEffects(CLI::App& app, Work& work) {
   command->footer("Examples:\n  ambrig effects\n  ambrig effects eddy-currents");
   command->callback([options, &work] {
     work = [options] {
+      options->common.CheckOutputs({});
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
       if (!options->name.empty()) EffectNamed(options->name);
       HtmlReport report("The catalogue of effects", "ambrig effects");
@@ -108,7 +116,9 @@ void AddEffects(CLI::App& app, Work& work) {
         } else if (!options->name.empty()) {
           PrintOne(d);
         } else {
-          fmt::print("{:<24} {:<16} {}\n", d.id, TargetText(d.target), d.title);
+          fmt::print("{}\n", Wrapped(fmt::format("{:<22} {:<15} {}", d.id, TargetText(d.target),
+                                                 d.title),
+                                     39));
         }
       }
       options->common.WriteJson(all);

@@ -10,6 +10,8 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
+#include "app/commands/work_size.h"
 #include "app/json/discovery_json.h"
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
@@ -23,7 +25,7 @@ struct ExplainCommand {
   CommonOptions common;
   std::string file, resume, law;
   int candidates = 5;
-  bool verbose = false;
+  bool verbose = false, long_runs = false;
 };
 
 std::string ParametersText(const EffectInstance& e) {
@@ -35,33 +37,42 @@ std::string ParametersText(const EffectInstance& e) {
   return text;
 }
 
-void Print(const Explanation& e) {
-  fmt::print(
-      "error over the noise floor on unseen records: rig file {:.3f}, parameters fitted {:.3f}, "
-      "final {:.3f}\n",
-      e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate);
-  fmt::print("{:>4} {:<24} {:<10} {:>6} {:>9} {:>9}  parameters\n", "", "effect", "target", "prob.",
-             "fit", "unseen");
-  for (std::size_t k = 0; k < e.ranking.size(); ++k) {
-    const RankedEffect& r = e.ranking[k];
-    fmt::print("{:>4} {:<24} {:<10} {:>6.3f} {:>9.3f} {:>9.3f}  {}\n", k + 1, r.effect.name,
-               r.effect.target, r.probability, r.fit.ratio_fit, r.fit.ratio_validate,
-               ParametersText(r.effect));
+void PrintLine(const std::string& text, std::size_t indent = 4) {
+  fmt::print("{}\n", Wrapped(text, indent));
+}
+
+void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most) {
+  fmt::print("{:>4} {:<32} {:<14} {:>6} {:>8} {:>8}\n", "", "effect", "target", "prob.", "fitted",
+             "unseen");
+  for (std::size_t k = 0; k < std::min(most, ranking.size()); ++k) {
+    const RankedEffect& r = ranking[k];
+    fmt::print("{:>4} {:<32} {:<14} {:>6.3f} {:>8.3f} {:>8.3f}\n", k + 1,
+               Shortened(r.effect.name, 32), Shortened(r.effect.target, 14), r.probability,
+               r.fit.ratio_fit, r.fit.ratio_validate);
+    if (const std::string text = ParametersText(r.effect); !text.empty())
+      PrintLine("       " + text, 7);
   }
-  if (!e.second_round.empty()) {
-    fmt::print("after adopting the first:\n");
-    for (std::size_t k = 0; k < e.second_round.size() && k < 3; ++k) {
-      const RankedEffect& r = e.second_round[k];
-      fmt::print("{:>4} {:<24} {:<10} {:>6.3f} {:>9.3f} {:>9.3f}  {}\n", k + 1, r.effect.name,
-                 r.effect.target, r.probability, r.fit.ratio_fit, r.fit.ratio_validate,
-                 ParametersText(r.effect));
-    }
-  }
-  fmt::print(
-      "verdict: {}; {}\n",
-      Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"),
-      e.remainder.text);
-  for (const DataFault& f : e.data) fmt::print("  data: {}\n", FaultText(f));
+}
+
+/// Why the first of the ranking was not taken, where it was not.
+std::string WhyNot(const Explanation& e) {
+  if (e.ranking.empty() || !e.adopted.empty() || e.verdict == "effect") return "";
+  const RankedEffect& best = e.ranking.front();
+  const std::string name = best.effect.name + " at " + best.effect.target;
+  if (e.verdict == "unknown")
+    return fmt::format(
+        "{} is not adopted: with it {:.2f} times the noise is left on the fitted and {:.2f} on the "
+        "unseen records, which the noise alone does not make. Its probability counts only the "
+        "candidates listed.",
+        name, best.fit.ratio_fit, best.fit.ratio_validate);
+  return fmt::format(
+      "{} is not adopted: without it the rig file and its tolerances explain the records to {:.3f} "
+      "of the noise, with it to {:.3f}.",
+      name, e.base_ratio_validate, best.fit.ratio_validate);
+}
+
+void PrintFindings(const Explanation& e) {
+  for (const DataFault& f : e.data) PrintLine("  data: " + FaultText(f));
   if (e.verdict == "effect")
     fmt::print("  explained: {:.1f} % of the error above the noise, {:.2f} -> {:.2f} floors\n",
                100 * e.closure.explained, e.closure.floors_before, e.closure.floors_after);
@@ -69,25 +80,45 @@ void Print(const Explanation& e) {
   for (const SetMember& m : e.set)
     set += fmt::format("{}{}{} {:.0f} %", set.empty() ? "" : ", ", m.effect,
                        m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
-  fmt::print("  95 % set: {}\n", set);
+  PrintLine("  95 % set: " + set);
   for (const EffectInstance& a : e.adopted)
-    fmt::print("  adopted {} at {}: {}\n", a.name, a.target, ParametersText(a));
-  for (const std::string& s : e.parameter_shifts) fmt::print("  parameter {}\n", s);
+    PrintLine(fmt::format("  adopted {} at {}: {}", a.name, a.target, ParametersText(a)));
+  for (const std::string& s : e.parameter_shifts) PrintLine("  parameter " + s);
   for (const NuisanceFound& n : e.nuisances)
     if (std::abs(n.value) > 3 * n.sd)
-      fmt::print("  {} in {}: {:.3g} +- {:.2g} {}\n", n.name, n.record, n.value, n.sd, n.unit);
+      PrintLine(
+          fmt::format("  {} in {}: {:.3g} +- {:.2g} {}", n.name, n.record, n.value, n.sd, n.unit));
   for (std::size_t k = 0; k < e.hidden.size() && k < 6; ++k)
-    fmt::print("  not seen: {} at {} up to {} = {:.3g} {}\n", e.hidden[k].effect,
-               e.hidden[k].target, e.hidden[k].parameter, e.hidden[k].size, e.hidden[k].unit);
+    PrintLine(fmt::format("  not seen: {} at {} up to {} = {:.3g} {}", e.hidden[k].effect,
+                          e.hidden[k].target, e.hidden[k].parameter, e.hidden[k].size,
+                          e.hidden[k].unit));
   for (const Confusable& c : e.confusable)
-    fmt::print("  {} or {}: a record that discriminates between them: {}\n", c.first, c.second,
-               c.record);
-  for (const std::string& w : e.warnings) fmt::print("  warning: {}\n", w);
+    PrintLine(fmt::format("  {} or {}: a record that discriminates between them: {}", c.first,
+                          c.second, c.record));
+  for (const std::string& w : e.warnings) PrintLine("  warning: " + w);
+}
+
+void Print(const Explanation& e) {
+  fmt::print("error over noise, unseen records: rig file {:.3f}, parameters fitted {:.3f},\n"
+             "final {:.3f} (1: only noise is left)\n",
+             e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate);
+  if (!e.ranking.empty()) PrintRanking(e.ranking, e.ranking.size());
+  if (!e.second_round.empty()) {
+    fmt::print("one more effect, after the first was adopted:\n");
+    PrintRanking(e.second_round, 3);
+  }
+  fmt::print("verdict: {}\n",
+             Coloured(e.verdict,
+                      e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"));
+  PrintLine("  " + e.remainder.text, 2);
+  if (const std::string why = WhyNot(e); !why.empty()) PrintLine("  " + why, 2);
+  PrintFindings(e);
   if (e.verdict == "unknown") {
-    fmt::print("  {}\n", e.unexplained.text);
-    if (!e.unexplained.formula.empty())
-      fmt::print("  a candidate law for the rig file ([[effect]] name = \"formula\"): {}\n",
-                 e.unexplained.formula);
+    PrintLine("  " + e.unexplained.text, 2);
+    if (!e.unexplained.formula.empty()) {
+      fmt::print("  a candidate law for the rig file ([[effect]] name = \"formula\"):\n");
+      fmt::print("    {}\n", e.unexplained.formula);
+    }
   }
   fmt::print("{} in {:.1f} s\n", Counted(e.runs, "record simulation"), e.seconds);
 }
@@ -95,7 +126,8 @@ void Print(const Explanation& e) {
 int RunExplain(const ExplainCommand& o) {
   const Case c = ReadCase(o.file);
   o.common.CheckOutputs({o.file, c.rig_file}, {o.law});
-  for (const std::string& note : c.notes) fmt::print("data: {}\n", note);
+  for (const std::string& note : c.notes) PrintLine("data: " + note, 6);
+  CheckWorkSize(o.file, ExplainSize(c), o.long_runs);
   std::unique_ptr<RunStore> store;
   if (!o.resume.empty()) store = std::make_unique<RunStore>(o.resume, c);
   if (store && store->size() > 0)
@@ -145,6 +177,7 @@ void AddExplain(CLI::App& app, Work& work) {
   command->add_option("--candidates", options->candidates, "effects fitted in full per round")
       ->capture_default_str()
       ->check(CLI::Range(1, 60));
+  command->add_flag("--long", options->long_runs, "also what will take more than a day");
   command->add_flag("--verbose", options->verbose, "print every step with its time to stderr");
   command
       ->add_option("--law", options->law,
@@ -159,10 +192,12 @@ void AddExplain(CLI::App& app, Work& work) {
       ->type_name("FOLDER");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig explain case.toml --json answer.json --html answer.html\n  ambrig "
-      "explain case.toml --law law.toml; cat rig.toml law.toml > rig_2.toml\n  ambrig explain "
-      "case.toml --resume work       # after Ctrl-C: resumes\nIntermediate results are written to "
-      "the JSON file as they come (verdict \"unfinished\").");
+      "Examples:\n"
+      "  ambrig explain examples/rub/case.toml --json answer.json --html answer.html\n"
+      "  ambrig explain examples/rub/case.toml --law law.toml --resume work\n"
+      "The second goes on after Ctrl-C when it is called again; law.toml is a candidate law\n"
+      "to append to the rig file. Intermediate results are written to the JSON file as they\n"
+      "come (verdict \"unfinished\").");
   command->callback([options, &work] { work = [options] { return RunExplain(*options); }; });
 }
 

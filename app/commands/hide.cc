@@ -108,10 +108,10 @@ void AddHide(CLI::App& app, Work& work) {
   command->add_flag("--exact", options->exact, "keep every rig parameter at its nominal value");
   command->add_flag("--force", options->force, "overwrite files that ambrig did not make");
   command->footer(
-      "Examples:\n  ambrig hide sensor-gain --rig scenarios/library/rigs/reference.toml -o "
-      "practice\n"
-      "  ambrig hide unbalance@A cross-coupling@B --rig rig.toml --seed 7 -o two\n  ambrig hide "
-      "--rig rig.toml -o parameters-only");
+      "Examples:\n"
+      "  ambrig hide sensor-gain --rig examples/reference/rig.toml -o practice\n"
+      "  ambrig hide unbalance@A side-pull --rig examples/reference/rig.toml -o two\n"
+      "  ambrig hide --rig examples/reference/rig.toml --seed 7 -o parameters-only");
   command->callback([options, &work] { work = [options] { return RunHide(*options); }; });
 }
 

@@ -97,6 +97,16 @@ void RefuseOverwriting(const std::vector<std::string>& files, bool force) {
   }
 }
 
+void PrepareStudyFolder(const std::string& folder, const std::vector<std::string>& files,
+                        bool force) {
+  PrepareFolder(folder);
+  std::error_code error;
+  if (force || fs::exists(fs::path(folder) / "journal.txt", error)) return;
+  std::vector<std::string> paths;
+  for (const std::string& file : files) paths.push_back((fs::path(folder) / file).string());
+  RefuseOverwriting(paths, force);
+}
+
 void RefuseInputAsOutput(const std::string& output, const std::vector<std::string>& inputs) {
   std::error_code error;
   for (const std::string& input : inputs)

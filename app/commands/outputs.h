@@ -20,6 +20,11 @@ bool MadeByAmbrig(const std::string& file);
 /// @throws InputError when one of the files exists and ambrig did not make it, unless forced.
 void RefuseOverwriting(const std::vector<std::string>& files, bool force);
 
+/// Folder of a long work that keeps a journal there: made if need be, tried, and refused when it
+/// holds one of `files` without the journal, that is another's. @throws InputError
+void PrepareStudyFolder(const std::string& folder, const std::vector<std::string>& files,
+                        bool force);
+
 /// @throws InputError when the output would replace one of the files that the command reads.
 void RefuseInputAsOutput(const std::string& output, const std::vector<std::string>& inputs);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/screen.h"
 #include "app/pages/html.h"
 #include "rig/rig_parameters.h"
 #include "scenarios/faults/fault.h"
@@ -103,6 +104,20 @@ void PrintPage() {
   PrintMarkdown(FaultLines());
 }
 
+/// Two lines a number, the section in each first one, so that `| grep gap` says it.
+void PrintText(const std::vector<Line>& lines) {
+  for (const Line& l : lines) {
+    if (l.key.empty()) {
+      fmt::print("{}\n", Wrapped(fmt::format("{}: {}", l.section, l.doc), 4));
+      continue;
+    }
+    fmt::print("{}\n", Wrapped(fmt::format("{} {} [{}] = {}, allowed {}", l.section, l.key, l.unit,
+                                           l.fallback.empty() ? "-" : l.fallback, l.allowed),
+                               4));
+    fmt::print("{}\n", Wrapped("    " + l.doc, 4));
+  }
+}
+
 nlohmann::ordered_json LineJson(const Line& l) {
   return {{"section", l.section},  {"key", l.key},         {"unit", l.unit},
           {"default", l.fallback}, {"allowed", l.allowed}, {"doc", l.doc}};
@@ -121,9 +136,11 @@ void AddParameters(CLI::App& app, Work& work) {
   command->add_flag("--markdown", options->markdown, "print docs/parameters.md");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig parameters | grep gap\n  ambrig parameters --html parameters.html");
+      "Examples:\n  ambrig parameters | grep gap\n"
+      "  ambrig parameters --html parameters.html");
   command->callback([options, &work] {
     work = [options] {
+      options->common.CheckOutputs({});
       std::vector<Line> lines = RigLines();
       const std::vector<Line> faults = FaultLines();
       lines.insert(lines.end(), faults.begin(), faults.end());
@@ -133,10 +150,8 @@ void AddParameters(CLI::App& app, Work& work) {
         all.push_back(LineJson(l));
         rows.push_back({Cell(l.section), Cell(l.key), Cell(l.unit), Cell(l.fallback),
                         Cell(l.allowed), Cell(l.doc)});
-        if (!options->markdown)
-          fmt::print("{:<36} {:<26} {:<8} {:<10} {:<20} {}\n", l.section, l.key, l.unit, l.fallback,
-                     l.allowed, l.doc);
       }
+      if (!options->markdown) PrintText(lines);
       if (options->markdown) PrintPage();
       options->common.WriteJson(all);
       if (!options->common.html.empty()) {

@@ -1,10 +1,13 @@
 #include "app/commands/progress.h"
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "app/commands/screen.h"
 
 namespace ambrig {
 namespace {
@@ -41,6 +44,15 @@ std::string ProgressText(double fraction, double elapsed, int width) {
   return text;
 }
 
+std::string ProgressLine(std::string_view title, double fraction, double elapsed,
+                         std::string_view text, std::size_t columns) {
+  // A line as wide as the terminal wraps on some; a title leaves room for the bar.
+  const std::size_t room = std::max<std::size_t>(columns, 2) - 1;
+  std::string line = Shortened(title, room / 3) + " " + ProgressText(fraction, elapsed);
+  if (!text.empty()) line += "  " + std::string(text);
+  return Shortened(line, room);
+}
+
 Progress::Progress(std::string title)
     : Progress(std::move(title), STDERR_FILENO, ::isatty(STDERR_FILENO) == 1) {}
 
@@ -63,11 +75,17 @@ void Progress::Update(double fraction, std::string_view text) {
   Draw(fraction, text, now);
 }
 
+std::size_t Progress::Columns() const {
+  winsize size{};
+  return ::ioctl(file_, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kScreenColumns;
+}
+
 void Progress::Draw(double fraction, std::string_view text, Clock::time_point now) {
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   const std::lock_guard lock(mutex_);
   // \r and "erase to the end of the line": the bar stays on one line.
-  Put(file_, fmt::format("\r{} {}  {}\x1b[K", title_, ProgressText(fraction, elapsed), text));
+  Put(file_,
+      fmt::format("\r{}\x1b[K", ProgressLine(title_, fraction, elapsed, text, Columns())));
   drawn_ = true;
 }
 

@@ -26,6 +26,8 @@ class Progress {
   void Clear();
 
  private:
+  /// Columns of the terminal, 80 where it does not say.
+  std::size_t Columns() const;
   void Draw(double fraction, std::string_view text, Clock::time_point now);
 
   const std::string title_;
@@ -37,7 +39,11 @@ class Progress {
   bool drawn_ = false;
 };
 
+/// Title, bar and text of one line of the terminal, never as wide as `columns`: the text is cut.
+std::string ProgressLine(std::string_view title, double fraction, double elapsed,
+                         std::string_view text, std::size_t columns);
+
 /// "[#######-----]  58 %  00:12 left" : the bar's text for a fraction after `elapsed` seconds.
-std::string ProgressText(double fraction, double elapsed, int width = 24);
+std::string ProgressText(double fraction, double elapsed, int width = 16);
 
 }  // namespace ambrig

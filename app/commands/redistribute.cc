@@ -42,9 +42,14 @@ std::vector<std::vector<int>> FailedSets(const std::string& text) {
         throw InputError(fmt::format("--failed = {}: coil {} is named twice", text, coil));
       set.push_back(coil);
     }
+    if (set.empty())
+      throw InputError(fmt::format(
+          "--failed = {}: a set without a coil, allowed: 1 to {}, e.g. 1,2 or 1;1,2", text, kPoles));
     std::sort(set.begin(), set.end());
     sets.push_back(set);
   }
+  if (sets.empty())
+    throw InputError(fmt::format("--failed = {}: no coil, allowed: 1 to {}", text, kPoles));
   return sets;
 }
 
@@ -137,7 +142,7 @@ void AddRedistribute(CLI::App& app, Work& work) {
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n"
-      "  ambrig redistribute examples/reference/rig.toml --bearing A --failed 1,2 --json w.json\n"
+      "  ambrig redistribute examples/reference/rig.toml --bearing A --failed 1,2\n"
       "  ambrig redistribute examples/reference/rig.toml --failed '3;3,4'");
   command->callback([options, &work] { work = [options] { return Redistribute(*options); }; });
 }

@@ -8,7 +8,9 @@
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/run_size.h"
+#include "app/commands/screen.h"
 #include "app/json/run_json.h"
+#include "app/pages/format.h"
 #include "app/pages/run_report_data.h"
 #include "campaign/run_plan.h"
 #include "core/base/atomic_file.h"
@@ -33,6 +35,7 @@ struct RunOptions {
 };
 
 void PrintTimeline(const Scenario& scenario, const RunResult& result,
+                   const std::map<std::string, double>& stations,
                    const std::vector<ExpectResult>& expect) {
   fmt::print("{}\n", Coloured(scenario.name, "bold"));
   std::size_t shown = 0, contacts = 0;
@@ -45,21 +48,25 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result,
   if (contacts > 12) fmt::print("  ... and {} more contacts\n", contacts - 12);
   if (shown == 0) fmt::print("  no events\n");
   const RunMetrics& m = result.metrics;
-  for (const auto& [name, orbit] : m.max_orbit)
-    fmt::print("  peak orbit {}       {:8.2f} um\n", name, orbit * 1e6);
+  const auto orbits = [](const std::map<std::string, double>& peaks) {
+    for (const auto& [name, orbit] : peaks)
+      fmt::print("  {:<22} {:8.2f} um\n", "peak orbit " + name, orbit * 1e6);
+  };
+  orbits(m.max_orbit);
+  orbits(stations);
   if (!m.max_orbit.empty())
-    fmt::print("  clearance left     {:8.2f} um\n", m.min_clearance_left * 1e6);
-  fmt::print("  peak current       {:8.3f} A\n  copper loss        {:8.2f} W\n", m.peak_current,
-             m.copper_loss);
-  if (m.coil_periods > 0)
-    fmt::print("  false alarms       {:8.0f} in {:.3g} healthy coil-periods\n", m.false_alarms,
-               m.coil_periods);
-  fmt::print("  speed              {:8.1f} x real time\n", m.real_time_factor);
-  for (const std::string& note : result.notes) fmt::print("  note: {}\n", note);
+    fmt::print("  {:<22} {:8.2f} um\n", "clearance left", m.min_clearance_left * 1e6);
+  fmt::print("  {:<22} {:8.3f} A\n  {:<22} {:8.2f} W\n", "peak coil current", m.peak_current,
+             "copper loss, mean", m.copper_loss);
+  fmt::print("  {:<22} {}\n", "false alarms", FalseAlarmText(m.false_alarms, m.coil_periods));
+  fmt::print("  {:<22} {:8.1f} x real time\n", "computed at", m.real_time_factor);
+  for (const std::string& note : result.notes)
+    fmt::print("{}\n", Wrapped("  note: " + note, 8));
   for (const ExpectResult& e : expect)
     fmt::print("  expect {:<18} wanted {:<14} got {:<14} {}\n", e.key, e.wanted, e.got,
                e.met ? Coloured("met", "green") : Coloured("NOT MET", "red"));
-  fmt::print("  verdict            {}\n", result.drop ? Coloured("rotor dropped", "red")
+  fmt::print("  {:<22} {}\n", "verdict",
+             result.drop ? Coloured("rotor dropped", "red")
                                           : result.touchdown
                                               ? Coloured("touched down, did not drop", "yellow")
                                               : Coloured("rotor stayed up", "green"));
@@ -136,9 +143,9 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
     if (!options.common.html.empty()) WriteRunReport(data, options.common.html);
   }
   if (!options.quiet) {
-    PrintTimeline(scenario, result, expect);
-    fmt::print("  written            {}.h5 .json{}{}\n", stem.string(), options.csv ? " .csv" : "",
-               options.no_html ? "" : fmt::format(", report {}.html", stem.string()));
+    PrintTimeline(scenario, result, StationOrbits(rig, result.record), expect);
+    fmt::print("  {:<22} {}.h5 .json{}{}\n", "written", stem.string(), options.csv ? " .csv" : "",
+               options.no_html ? "" : " .html (report)");
   }
   all.push_back(json);
   return AllMet(expect) ? 0 : 1;

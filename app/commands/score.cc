@@ -7,7 +7,9 @@
 #include <optional>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/json/discovery_json.h"
 #include "app/pages/html.h"
 #include "core/base/atomic_file.h"
@@ -109,12 +111,14 @@ std::string Truth(const Answer& a) {
 }
 
 void PrintLine(const CaseScore& j) {
-  fmt::print("{:<22} {:<40} {:<44} {:>7.3f} {:>7.3f} {:>6.0f} s  {}\n", j.name, Truth(j.answer),
-             Listed(j.finding.adopted, j.finding.verdict), j.finding.nominal_ratio,
-             j.finding.final_ratio, j.finding.seconds,
-             j.right()       ? Coloured("right", "green")
-             : j.first_right ? Coloured("in part", "yellow")
-                             : Coloured("wrong", "red"));
+  const char* mark = j.right() ? "right" : j.first_right ? "in part" : "wrong";
+  const char* colour = j.right() ? "green" : j.first_right ? "yellow" : "red";
+  fmt::print("{:<34} {:>9.3f} {:>9.3f} {:>6.0f} s  {}\n", Shortened(j.name, 34),
+             j.finding.nominal_ratio, j.finding.final_ratio, j.finding.seconds,
+             Coloured(mark, colour));
+  fmt::print("{}\n", Wrapped("    hidden: " + Truth(j.answer), 12));
+  fmt::print("{}\n",
+             Wrapped("    found:  " + Listed(j.finding.adopted, j.finding.verdict), 12));
 }
 
 Json MatrixJson(const std::vector<CaseScore>& all) {
@@ -186,13 +190,12 @@ int RunScore(const ScoreCommand& o) {
   const std::vector<fs::path> folders = CaseFolders(o.paths);
   std::vector<Answer> answers;  // all of them first: complain before hours of work
   for (const fs::path& f : folders) answers.push_back(AnswerOf(f, o.answers));
-  std::error_code error;
-  fs::create_directories(o.output, error);
-  if (error) ThrowCannotWrite(o.output, error.value());
+  o.common.CheckOutputs({o.answers});
+  PrepareFolder(o.output);
   std::vector<CaseScore> all;
   Progress progress("score");
-  fmt::print("{:<22} {:<40} {:<44} {:>7} {:>7} {:>8}\n", "case", "hidden", "found", "before",
-             "after", "time");
+  fmt::print("{:<34} {:>9} {:>9} {:>8}\n", "case", "before", "after", "time");
+  fmt::print("(before, after: error over the noise of the unseen records)\n");
   for (std::size_t k = 0; k < folders.size(); ++k) {
     const std::string name = folders[k].filename().string();
     const fs::path file = fs::path(o.output) / (name + ".json");
@@ -242,8 +245,10 @@ void AddScore(CLI::App& app, Work& work) {
   command->add_flag("--again", options->again, "explain every case anew");
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig score practice --html matrix.html\n"
-      "  ambrig score cases -o scored --again\nRe-run the command to resume an interrupted one.");
+      "Examples (after ambrig hide, see its --help):\n"
+      "  ambrig score practice --html matrix.html\n"
+      "  ambrig score practice -o scored --again\n"
+      "Re-run the command to resume an interrupted one.");
   command->callback([options, &work] { work = [options] { return RunScore(*options); }; });
 }
 

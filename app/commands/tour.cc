@@ -24,19 +24,22 @@ constexpr const char* kLessons =
 1  The main run: a coil breaks, the rotor stays up
      cd {0}
      ambrig run coil_opens.toml --out out
-   Look at: the events "fault", "detected", "redistributed" (0.1 ms apart), the peak orbit [um]
-   beside the clearance, the verdict. The same with curves: out/coil_opens.html, in any browser.
+   Look at: the events "fault", "detected", "redistributed" (0.1 ms apart), the peak
+   orbit beside the clearance, the verdict. The same with curves, in any browser:
+   out/coil_opens.html
 
 2  A fault of your own: half of the turns of coil B6 are shorted
      ambrig run my_fault.toml --out out
-   Open my_fault.toml: change target, kind, fraction or the speed and run it again.
-   Look at: "classified ... partial-short" and the fraction that it found. What may stand in the
-   file: ambrig parameters. Now take the controller's answer away: fault_tolerance = false.
+   Open my_fault.toml: change target, kind, fraction or the speed, run it again.
+   Look at: "classified ... partial-short" and the share of the turns that it found.
+   What may stand in the file: ambrig parameters. Now take the controller's answer
+   away: fault_tolerance = false.
 
 3  A hidden effect: physics that the model lacks
      ambrig hide sensor-gain --rig rig.toml --seed 3 -o practice
      ambrig compare practice/case.toml
-   Look at: the error over the noise floor, and the record and channel where it is largest.
+   Look at: the error over the noise, and the record and channel where it is
+   largest (1: only noise is left).
    Then (some minutes): ambrig explain practice/case.toml --html explain.html
    The answer lies sealed in practice.answer.toml.
 

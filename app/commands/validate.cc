@@ -7,6 +7,7 @@
 #include "analysis/validation.h"
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
+#include "app/commands/screen.h"
 #include "core/base/counted.h"
 #include "core/base/errors.h"
 
@@ -67,14 +68,18 @@ void PrintMarkdown(const std::vector<ValidationRow>& rows) {
 void PrintText(const std::vector<ValidationRow>& rows) {
   for (const ValidationRow& r : rows) {
     const char* colour = r.low() ? "yellow" : r.agrees() ? "green" : "red";
-    fmt::print("{:<24} {:<36} {:>12} of {:.2g} %  {}\n", r.name, r.quantity + " [" + r.unit + "]",
-               PerCent(r.difference), 100 * r.tolerance, Coloured(Verdict(r), colour));
-    if (!r.agrees())
-      fmt::print("    published {}\n    ours      {}\n", Figures(r.published), Figures(r.ours));
+    fmt::print("{}\n", Shortened(fmt::format("{}: {} [{}]", r.name, r.quantity, r.unit),
+                                 kScreenColumns));
+    fmt::print("    {:>12} off, allowed {:.2g} %: {}\n", PerCent(r.difference), 100 * r.tolerance,
+               Coloured(Verdict(r), colour));
+    if (r.agrees()) continue;
+    fmt::print("{}\n", Wrapped("    published " + Figures(r.published), 14));
+    fmt::print("{}\n", Wrapped("    ours      " + Figures(r.ours), 14));
   }
 }
 
 int RunValidate(const ValidateCommand& c) {
+  c.common.CheckOutputs({});
   std::vector<ValidationRow> rows;
   for (const std::string& file :
        FindFiles(c.paths, IsValidation, "no NAME.validation.toml found")) {
@@ -113,11 +118,11 @@ void AddValidate(CLI::App& app, Work& work) {
   command->add_option("--json", c->common.json, "write the rows as JSON to FILE")
       ->type_name("FILE")
       ->check(OutputFile());
+  command->add_flag("--force", c->common.force, "overwrite files that ambrig did not make");
   command->footer(
       "Examples:\n  ambrig validate examples/validation\n"
-      "  ambrig validate examples/validation/mbc500.validation.toml --json rows.json\nExit code 1 "
-      "when a row differs by more "
-      "than its file allows.");
+      "  ambrig validate examples/validation/mbc500.validation.toml --json rows.json\n"
+      "Exit code 1 when a row differs by more than its file allows.");
   command->callback([c, &work] { work = [c] { return RunValidate(*c); }; });
 }
 

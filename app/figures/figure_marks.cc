@@ -1,4 +1,6 @@
 // What is drawn on top of the data: circles, texts, regions, levels and marked instants.
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 #include "app/figures/figure.h"
@@ -101,10 +103,12 @@ void AddMarks(Figure& figure, std::span<const Mark> marks, std::array<double, 2>
   const double near = 0.11 * (range[1] - range[0]);
   int group = 0;
   for (std::size_t i = 0; i < inside.size(); ++group) {
-    std::string text = inside[i].label;
+    std::vector<std::string> labels{inside[i].label};  // each once: a bouncing rotor repeats its own
     std::size_t end = i + 1;
     for (; end < inside.size() && inside[end].x - inside[end - 1].x < near; ++end)
-      if (!text.ends_with(inside[end].label)) text += " · " + inside[end].label;
+      if (std::ranges::find(labels, inside[end].label) == labels.end())
+        labels.push_back(inside[end].label);
+    const std::string text = fmt::format("{}", fmt::join(labels, " · "));
     const bool right_half = inside[i].x > 0.5 * (range[0] + range[1]);
     json a = Annotation(text, inside[i].color, 11);
     a.update({{"xref", "x"},

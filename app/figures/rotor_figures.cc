@@ -7,6 +7,8 @@
 
 #include "app/json/analysis_json.h"
 #include "app/pages/format.h"
+#include "core/base/counted.h"
+#include "core/base/parameters.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
@@ -37,6 +39,38 @@ std::vector<double> OnFileAxis(const RigAnalysis& a, std::vector<double> z) {
   return z;
 }
 
+bool Oscillates(const ModeTrack& t) { return t.of_rotor() && t.modes.front().zeta <= 0.97; }
+
+/// Upper end of the frequency axis [Hz]: 1X and the modes that it may meet or that lie a few times
+/// above, not those so far away that what matters would lie at the bottom.
+double CampbellTop(const RigAnalysis& a) {
+  const double end_1x = a.options.fastest / (2 * kPi);
+  double lowest = kInfinity;
+  for (const ModeTrack& t : a.tracks)
+    if (Oscillates(t)) lowest = std::min(lowest, t.modes.front().frequency);
+  const double far = 4 * std::max(end_1x, std::isfinite(lowest) ? lowest : 0.0);
+  double top = 1.3 * end_1x;
+  for (const ModeTrack& t : a.tracks)
+    if (Oscillates(t) && t.modes.back().frequency < far)
+      top = std::max(top, 1.15 * t.modes.back().frequency);
+  return top;
+}
+
+/// Modes that the axis leaves out, for the caption.
+std::string HiddenModes(const RigAnalysis& a, double top) {
+  std::size_t hidden = 0;
+  double lowest = kInfinity;
+  for (const ModeTrack& t : a.tracks)
+    if (Oscillates(t) && t.modes.front().frequency > top && t.modes.back().frequency > top) {
+      ++hidden;
+      lowest = std::min(lowest, t.modes.front().frequency);
+    }
+  if (hidden == 0) return "";
+  return fmt::format(" {} above this axis (from {} on): zoom out to see them.",
+                     Counted(hidden, "mode") + (hidden == 1 ? " lies" : " lie"),
+                     FormatSi(lowest, "Hz"));
+}
+
 }  // namespace
 
 Figure CampbellFigure(const RigAnalysis& a) {
@@ -45,21 +79,19 @@ Figure CampbellFigure(const RigAnalysis& a) {
   grid.panel_height = 300;
   grid.titles = {"damped natural frequency", "logarithmic decrement"};
   Figure f = MakeFigure(
-      "Campbell diagram of the closed loop: rotor modes with magnets, current loops, controller "
+      std::string("Campbell diagram of the closed loop: rotor modes with magnets, current loops, controller "
       "and delays. Blue turns forward, "
       "orange backward, grey neither; a critical speed is where a line meets 1X. Below: the log "
       "decrement of the same modes; "
-      "API 617 asks for more than 0.1 of the first forward mode.",
+      "API 617 asks for more than 0.1 of the first forward mode.") +
+          HiddenModes(a, CampbellTop(a)),
       grid);
-  double top = 1.3 * a.options.fastest / (2 * kPi);
-  for (const ModeTrack& t : a.tracks)
-    if (t.of_rotor() && t.modes.front().zeta < 0.9)
-      top = std::max(top, 1.15 * t.modes.back().frequency);
+  const double top = CampbellTop(a);
   SetAxes(f, 0, "speed [rpm]", "frequency [Hz]", {}, std::array<double, 2>{0, top});
   SetAxes(f, 1, "speed [rpm]", "log decrement [-]");
   bool named[3] = {false, false, false};
   for (const ModeTrack& t : a.tracks) {
-    if (!t.of_rotor() || t.modes.front().zeta > 0.97) continue;
+    if (!Oscillates(t)) continue;
     std::vector<double> hz, dec;
     for (const ClosedLoopMode& m : t.modes) {
       hz.push_back(m.frequency);

@@ -68,38 +68,6 @@ double Peak(const ReportBearing& b, std::size_t begin, std::size_t size) {
 constexpr const char* kCoilColors[] = {"@blue", "@orange", "@green", "@purple",
                                        "@sky",  "@brown",  "@gray",  "@ink"};
 
-struct Stage {
-  const char* name;
-  const char* color;
-  double from, to;  // [s]
-};
-
-std::vector<Stage> Stages(const RunStages& s) {
-  if (!s.fault) return {{"whole run", "@blue", s.whole[0], s.whole[1]}};
-  if (!s.reaction)
-    return {{"after the fault", "@red", *s.fault, s.whole[1]},
-            {"before the fault", "@blue", s.whole[0], *s.fault}};
-  // Drawn in this order: the long steady part lies below, the short one on top.
-  return {{"after the reaction", "@green", *s.reaction, s.whole[1]},
-          {"before the fault", "@blue", s.whole[0], *s.fault},
-          {"fault to reaction", "@red", *s.fault, *s.reaction}};
-}
-
-void AddStageOrbits(Figure& figure, int panel, const RunReportData& data, const ReportBearing& b,
-                    const RunStages& stages, double factor, bool legend) {
-  for (const Stage& stage : Stages(stages)) {
-    RunStages part = stages;
-    part.whole = {stage.from, stage.to};
-    const Cut cut = MakeCut(data, part, false, b.x.size());
-    Style style;
-    style.color = stage.color;
-    style.width = std::string_view(stage.color) == "@red" ? 2.2 : 1.1;
-    style.legend = legend;
-    AddOrbit(figure, panel, stage.name, Scaled(cut.Of(b.x), factor), Scaled(cut.Of(b.y), factor),
-             style);
-  }
-}
-
 }  // namespace
 
 RunStages FindStages(const RunReportData& data) {
@@ -112,6 +80,7 @@ RunStages FindStages(const RunReportData& data) {
       s.fault = e.t;
       s.coil = e.target;
     }
+    if (e.kind == "fault") s.coils.insert(e.target);
     const bool reaction =
         e.kind == "detected" || e.kind == "classified" || e.kind == "redistributed";
     // Later faults have reactions of their own; the window is for the first.
@@ -142,43 +111,6 @@ std::vector<Mark> EventMarks(const RunReportData& data, double t0, double factor
         {(e.t - t0) * factor, label, color == kColors.end() ? "@muted" : color->second});
   }
   return marks;
-}
-
-Figure OrbitFigure(const RunReportData& data, const RunStages& stages) {
-  double peak = 0, clearance = 0;
-  Grid grid;
-  grid.columns = static_cast<int>(data.bearings.size());
-  for (const ReportBearing& b : data.bearings) {
-    grid.titles.push_back("bearing " + b.name);
-    peak = std::max(peak, Peak(b, 0, b.x.size()));
-    clearance = std::max(clearance, b.clearance);
-  }
-  // A small orbit is a dot inside the clearance; then a second row shows it large.
-  const bool close_up = peak < 0.4 * clearance;
-  grid.rows = close_up ? 2 : 1;
-  if (close_up)
-    for (const ReportBearing& b : data.bearings) grid.titles.push_back(b.name + ", close-up");
-  grid.shared_x = false;
-  grid.panel_height = 360;
-  std::string caption =
-      "Path of the shaft's centre in each radial bearing. The dashed circle is the clearance of "
-      "the "
-      "auxiliary bearing: beyond it the shaft touches.";
-  if (close_up) caption += " Below, the same paths enlarged.";
-  Figure figure = MakeFigure(caption, grid);
-  const DisplayUnit unit = ChooseUnit(clearance > 0 ? clearance : peak, "m");
-  for (int p = 0; p < figure.panels; ++p) {
-    const ReportBearing& b = data.bearings[static_cast<std::size_t>(p % grid.columns)];
-    const double reach = p < grid.columns ? std::max(b.clearance, Peak(b, 0, b.x.size())) : peak;
-    const double limit = 1.12 * reach * unit.factor;
-    const std::array<double, 2> range = {-limit, limit};
-    SetAxes(figure, p, InUnit("x", unit), InUnit("y", unit), range, range);
-    EqualAspect(figure, p);
-    AddStageOrbits(figure, p, data, b, stages, unit.factor, p == 0);
-    if (p < grid.columns)
-      AddCircle(figure, p, 0, 0, b.clearance * unit.factor, "@ink", "", 1.5, "dash");
-  }
-  return figure;
 }
 
 Figure PositionFigure(const RunReportData& data, const RunStages& stages, bool zoom) {
@@ -217,10 +149,13 @@ Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zo
   std::string caption = zoom ? "Coil currents about the fault: the current of the faulty coil "
                                "decays or changes its ripple; the other coils compensate."
                              : "Coil currents over the whole run.";
-  if (!stages.coil.empty()) caption += " The faulty coil is drawn bold.";
+  if (!stages.coils.empty())
+    caption += stages.coils.size() > 1 ? " Coils with a fault are drawn bold."
+                                       : " The faulty coil is drawn bold.";
   Figure figure = MakeFigure(caption, grid);
   const Cut cut = MakeCut(data, stages, zoom, Rows(data));
   std::set<std::string> named;
+  int bold = 0;  // the second of two faulty coils is dashed
   for (int p = 0; p < grid.rows; ++p) {
     const ReportBearing& b = data.bearings[static_cast<std::size_t>(p)];
     for (std::size_t j = 0; j < b.currents.size(); ++j) {
@@ -228,12 +163,13 @@ Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zo
       std::string name = fmt::format("coil {}", j + 1);
       const std::string full_name = fmt::format("{}{}", b.name, j + 1);
       style.width = 1.2;
-      if (full_name == stages.coil) {
-        style = {.color = "@red", .width = 3};
+      const bool faulty = stages.coils.contains(full_name);
+      if (faulty) {
+        style = {.color = "@red", .width = 3, .dash = SeriesStyle(4 * bold++).dash};
         name = full_name + " (faulty)";
       }
       // dashes mean something only where a line can be followed
-      if (!zoom && full_name != stages.coil) style = {.color = kCoilColors[j % 8], .width = 1};
+      if (!zoom && !faulty) style = {.color = kCoilColors[j % 8], .width = 1};
       style.legend = named.insert(name).second;  // one legend for all panels
       AddLine(figure, p, name, cut.t, cut.Of(b.currents[j]), style);
     }

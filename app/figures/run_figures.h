@@ -1,6 +1,8 @@
 #pragma once
 /// The figures of a run's report, one function each (run_report.h has the data).
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "app/pages/run_report.h"
@@ -11,6 +13,7 @@ namespace ambrig {
 struct RunStages {
   std::optional<double> fault, reaction;  // [s]
   std::string coil;                       // the first faulty one
+  std::set<std::string> coils;            // all that a fault names
   std::array<double, 2> whole{};          // [s]
   std::array<double, 2> window{};         // round the fault, [s]
 };

@@ -91,6 +91,13 @@ double LargestSize(std::span<const double> values) {
   return largest;
 }
 
+double LargestRadius(std::span<const double> x, std::span<const double> y) {
+  double squared = 0;
+  for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i)
+    if (const double here = x[i] * x[i] + y[i] * y[i]; here > squared) squared = here;
+  return std::sqrt(squared);
+}
+
 std::vector<double> Scaled(std::span<const double> values, double factor) {
   std::vector<double> out(values.begin(), values.end());
   for (double& v : out) v *= factor;

@@ -37,6 +37,9 @@ struct DisplayUnit {
 DisplayUnit ChooseUnit(double largest, std::string_view unit);
 double LargestSize(std::span<const double> values);  // NaN and inf ignored; 0 when empty
 
+/// Greatest distance of the points (x, y) from (0, 0); NaN left out, 0 when empty.
+double LargestRadius(std::span<const double> x, std::span<const double> y);
+
 std::vector<double> Scaled(std::span<const double> values, double factor);
 
 }  // namespace ambrig

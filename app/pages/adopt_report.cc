@@ -35,7 +35,7 @@ void AddWords(HtmlReport& report, const Comparison& before, const Comparison& af
                    fmt::format("**{} reduces the error, but a residual remains**: {}. Run `ambrig "
                                "explain` with the new rig file to examine it.",
                                what, numbers));
-  AddReadingHelp(report);
+  AddReadingHelp(report, true);
 }
 
 std::vector<std::vector<Cell>> EffectRows(const RigParameters& rig) {

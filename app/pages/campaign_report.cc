@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/figures/series.h"
 #include "app/pages/format.h"
 #include "app/pages/html.h"
 #include "campaign/merge.h"
@@ -138,7 +139,7 @@ void Capacity(HtmlReport& report, const Rows& rows) {
   report.Text(
       "Theory: `k c0² rho` of the set's current distribution, at most the controller's largest "
       "force. Held: the largest load beside the weight at which every run of the set stayed up; a "
-      "set below the line was not loaded further, or dropped.");
+      "set below the dashed line was not loaded further, or dropped.");
   std::map<std::string, std::array<std::vector<double>, 2>> points;  // class -> theory, held
   for (const auto& [name, list] : by_set) {
     std::map<double, bool> held;
@@ -159,6 +160,14 @@ void Capacity(HtmlReport& report, const Rows& rows) {
     style.markers = true;
     AddLine(figure, 0, cls, xy[0], xy[1], style);
   }
+  double reach = 0;
+  for (const auto& [cls, xy] : points)
+    for (const auto& values : xy) reach = std::max(reach, LargestSize(values));
+  Style line;
+  line.color = "@muted";
+  line.dash = "dash";
+  AddLine(figure, 0, "held = theory", std::vector<double>{0, reach},
+          std::vector<double>{0, reach}, line);
   SetAxes(figure, 0, "capacity by theory [N]", "load held [N]");
   report.AddFigure(figure);
 }
@@ -179,9 +188,8 @@ void WriteCampaignReport(const JournalHeader& header, const Rows& rows, const st
                     {"faults", std::to_string(n.faults)},
                     {"not detected", std::to_string(n.undetected)},
                     {"last class not the true one", std::to_string(n.wrong_class)},
-                    {"worst detection delay", FormatSi(n.worst_delay, "s")},
-                    {"false alarms", fmt::format("{:.0f} in {:.3g} healthy coil-periods",
-                                                 n.false_alarms, n.coil_periods)},
+                    {"worst detection delay", n.worst_delay > 0 ? FormatSi(n.worst_delay, "s") : "–"},
+                    {"false alarms", FalseAlarmText(n.false_alarms, n.coil_periods)},
                     {"largest orbit of runs that stayed up", FormatSi(n.largest_orbit, "m")}});
   if (!rows.empty()) {
     SurvivalMaps(report, rows);

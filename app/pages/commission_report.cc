@@ -126,27 +126,30 @@ Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
 
 std::string CommissionText(const RigParameters& rig, const CommissioningResult& r) {
   const double T = 1 / rig.amplifier.switching_frequency;
-  std::string text = fmt::format("{:<8} {:>6} {:>12} {:>10} {:>10} {:>10} {:>14} {:>12} {:>12}\n",
-                                 "coil", "grade", "ripple L [mH]", "R [ohm]", "L/R [ms]", "scatter",
-                                 "least short [%]", "its delay", "10 % delay");
+  constexpr const char* kRow = "{:<9} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n";
+  std::string text =
+      fmt::format(kRow, "", "", "ripple L", "R", "L/R", "scatter", "least", "its", "10 %") +
+      fmt::format(kRow, "", "", "", "", "", "", "short", "delay", "delay") +
+      fmt::format(kRow, "coil", "grade", "[mH]", "[ohm]", "[ms]", "[-]", "[%]", "[ms]", "[ms]");
   for (const CommissionedBearing& b : r.model.bearings)
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
       const Detectable d = DetectableIn(b, j, T);
       const double L = RippleInductance(rig, b, j);
       text += fmt::format(
-          "{:<8} {:>6.2f} {:>12.3f} {:>10.3f} {:>10.2f} {:>10.4f} {:>14.1f} {:>9} ms {:>9} ms\n",
+          "{:<9} {:>6.2f} {:>8.3f} {:>8.3f} {:>8.2f} {:>8.4f} {:>8.1f} {:>8} {:>8}\n",
           fmt::format("{}.coil{}", b.name, j + 1), b.grade, L * 1e3, b.coils.resistance[j],
           L / b.coils.resistance[j] * 1e3, b.largest[2][j], 100 * d.smallest_short,
           Ms(d.smallest_delay), Ms(d.tenth_delay));
     }
   text +=
-      "scatter: largest relative excess of the slope over ten healthy periods; delays by the "
-      "learnt bands.\n";
+      "grade: what the model leaves unexplained, above 3 it is not used; scatter: largest\n"
+      "relative excess of the slope over ten healthy periods; least short: share of the turns\n"
+      "that is noticed; delays by the learnt bands.\n";
   for (const CommissionedBearing& b : r.model.bearings)
     if (!b.usable())
       text += fmt::format(
           "bearing {}: grade {:.2f} is above {}: the model does not express this "
-          "plant; the detector will not rely on it\n",
+          "plant;\nthe detector will not rely on it\n",
           b.name, b.grade, kWorstGrade);
   return text;
 }

@@ -42,9 +42,10 @@ Cell RatioCell(double ratio) {
 
 void AddVerdict(HtmlReport& report, const Comparison& c) {
   const double unseen = c.ratio_validate > 0 ? c.ratio_validate : c.ratio;
-  const std::string numbers =
-      fmt::format("error over noise {:.2f} over all records (fitted {:.2f}, unseen {:.2f})",
-                  c.ratio, c.ratio_fit, c.ratio_validate);
+  const std::string numbers = fmt::format(
+      "error over noise {:.2f} over all records ({:.2f} on those that explain fits, {:.2f} on the "
+      "unseen)",
+      c.ratio, c.ratio_fit, c.ratio_validate);
   if (std::max(unseen, c.ratio) < 1.1)
     report.Verdict(Verdict::kOk,
                    "**Model and measurement agree within the noise**: " + numbers + ".");
@@ -69,7 +70,7 @@ std::vector<std::string> ShortWords(const Comparison& c) {
 void AddOverview(HtmlReport& report, const View& v) {
   report.Heading("Errors by record and channel");
   AddVerdict(report, v.comparison);
-  AddReadingHelp(report);
+  AddReadingHelp(report, false);
   report.Text("Largest errors, in descending order:\n\n" + List(ShortWords(v.comparison)));
   if (!v.model.data().notes.empty())
     report.Text("Left out by the data-quality pass:\n\n" + List(v.model.data().notes));
@@ -113,6 +114,7 @@ void AddBlocks(HtmlReport& report, const Comparison& c) {
   }
   report.Table(columns, rows,
                "Error of each block over its own noise; – where a record does not determine it.");
+  report.Text("**Answer:** " + BlockText(c));
   report.Text(List(meaning));
 }
 
@@ -172,7 +174,7 @@ void AddRecord(HtmlReport& report, const View& v, std::size_t record) {
   const RecordComparison& r = v.comparison.records[record];
   report.Heading(fmt::format("{}: {}", ShortName(r.data), r.scenario), 3);
   report.Text(fmt::format("Error over noise **{:.2f}**, {} record.", r.ratio,
-                          r.validate ? "unseen" : "fitted"));
+                          r.validate ? "unseen" : "to be fitted"));
   const std::vector<Target> worst = WorstTargets(v.model, v.comparison.residual, record, 3);
   if (!worst.empty() && worst.front().count >= 64) AddChannelFigures(report, v, worst);
   AddMotionFigures(report, v, record,

@@ -42,13 +42,15 @@ DisplayUnit UnitOf(const StudyResult& result, const Study& study, std::size_t fi
 
 void Summary(HtmlReport& report, const Study& study, const StudyResult& result,
              const std::vector<PointResponses>& shown) {
-  std::vector<std::string> columns{"candidate",    "points",      "meet limits",
-                                   "on the front", "point shown", "its numbers"};
+  // A line a figure, a column a candidate: figures are many, candidates few.
+  std::vector<std::string> columns{"figure"};
+  std::vector<std::vector<Cell>> rows{
+      {"points"}, {"meet limits"}, {"on the front"}, {"point shown"}, {"its numbers"}};
   for (const FigureSpec& f : study.figures)
-    columns.push_back(f.name +
-                      (f.at_most ? fmt::format(" (at most {})", ValueText(f, *f.at_most)) : ""));
-  std::vector<std::vector<Cell>> rows;
+    rows.push_back(
+        {f.name + (f.at_most ? fmt::format(" (at most {})", ValueText(f, *f.at_most)) : "")});
   for (std::size_t c = 0; c < study.candidates.size(); ++c) {
+    columns.push_back(study.candidates[c].name);
     std::size_t all = 0, feasible = 0, front = 0;
     for (const StudyPoint& p : result.points) {
       if (p.candidate != c) continue;
@@ -57,17 +59,17 @@ void Summary(HtmlReport& report, const Study& study, const StudyResult& result,
       front += p.front ? 1 : 0;
     }
     const StudyPoint& p = result.points[shown[c].point];
-    std::vector<Cell> row{
-        study.candidates[c].name,       std::to_string(all),
-        std::to_string(feasible),       std::to_string(front),
-        std::to_string(shown[c].point), VariablesText(study.candidates[c], p.values)};
+    rows[0].emplace_back(std::to_string(all));
+    rows[1].emplace_back(std::to_string(feasible));
+    rows[2].emplace_back(std::to_string(front));
+    rows[3].emplace_back(std::to_string(shown[c].point));
+    rows[4].emplace_back(VariablesText(study.candidates[c], p.values));
     for (std::size_t k = 0; k < study.figures.size(); ++k) {
-      const bool bad =
-          !std::isfinite(p.result.figures[k]) ||
-          (study.figures[k].at_most && p.result.figures[k] > *study.figures[k].at_most);
-      row.emplace_back(ValueText(study.figures[k], p.result.figures[k]), bad ? "fail" : "");
+      const double value = p.result.figures[k];
+      const bool bad = !std::isfinite(value) ||
+                       (study.figures[k].at_most && value > *study.figures[k].at_most);
+      rows[5 + k].emplace_back(ValueText(study.figures[k], value), bad ? "fail" : "");
     }
-    rows.push_back(row);
   }
   report.Heading("Comparison of the candidates");
   report.Text(
@@ -231,7 +233,6 @@ void Responses(HtmlReport& report, const Study& study, const std::vector<PointRe
 void FrontTable(HtmlReport& report, const Study& study, const StudyResult& result) {
   std::vector<std::string> columns{"point", "candidate", "numbers"};
   for (const FigureSpec& f : study.figures) columns.push_back(f.name);
-  columns.push_back("repeat");
   std::vector<std::vector<Cell>> rows;
   for (std::size_t k = 0; k < result.points.size() && rows.size() < kMostRows; ++k) {
     const StudyPoint& p = result.points[k];
@@ -240,10 +241,12 @@ void FrontTable(HtmlReport& report, const Study& study, const StudyResult& resul
                           VariablesText(study.candidates[p.candidate], p.values)};
     for (std::size_t j = 0; j < study.figures.size(); ++j)
       row.emplace_back(ValueText(study.figures[j], p.result.figures[j]));
-    row.emplace_back(fmt::format("ambrig design {} --point {}", study.file, k));
     rows.push_back(row);
   }
   report.Heading("Pareto-optimal points");
+  report.Text(fmt::format("Rig, scenarios, records and reports of point N again: `ambrig design {} "
+                          "--point N`.",
+                          study.file));
   report.Table(columns, rows);
 }
 

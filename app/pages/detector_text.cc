@@ -24,27 +24,45 @@ std::string Delay(double seconds) {
                              : fmt::format("{:.1f} ms", seconds * 1e3);
 }
 
-/// One line a detector, one column a kind: detected share and median delay at a level of each.
+constexpr std::size_t kKindsBesideThreshold = 2, kKindsAlone = 4;  // that 80 columns hold
+
+/// Kinds [first, last) of one detector at a level: share detected and median delay.
+std::string Cells(const DetectorCurves& d, std::size_t level, std::size_t first, std::size_t last) {
+  std::string text;
+  for (std::size_t k = first; k < last; ++k)
+    text += fmt::format("{:>14}", fmt::format("{:.1f} % {:>6}", 100 * d.faults[k].detected[level],
+                                              Delay(d.faults[k].median[level])));
+  return text;
+}
+
+/// One line a detector, one column a kind: detected share and median delay at a level of each; as
+/// many tables below each other as it takes to stay within 80 columns.
 template <class LevelOfDetector>
 std::string Table(const std::vector<DetectorCurves>& curves, const std::vector<std::size_t>& order,
                   const LevelOfDetector& level_of) {
-  std::string text = fmt::format("  {:<20}{:>12}{:>12}", "", "threshold", "false al.");
-  const auto& faults = curves.front().faults;
-  for (std::size_t k = 0; k < faults.size(); ++k)
-    text += fmt::format("{:>16}", fmt::format("[{}]", k + 1));
-  text += '\n';
-  for (const std::size_t i : order) {
-    const DetectorCurves& d = curves[i];
-    const int level = level_of(d);
-    if (level < 0) continue;
-    const auto at = static_cast<std::size_t>(level);
-    text += fmt::format("  {:<20}{:>12}{:>12.2e}", d.name,
-                        fmt::format("{:.4g}{}", ValueOf(level), d.unit == "A" ? " A" : ""),
-                        d.all.share[at]);
-    for (const FaultCurve& c : d.faults)
-      text += fmt::format("{:>16}",
-                          fmt::format("{:.1f} % {:>7}", 100 * c.detected[at], Delay(c.median[at])));
+  const std::size_t kinds = curves.front().faults.size();
+  std::string text;
+  for (std::size_t first = 0; first < kinds;) {
+    const std::size_t last =
+        std::min(kinds, first + (first == 0 ? kKindsBesideThreshold : kKindsAlone));
+    text += fmt::format("  {:<20}", "detector");
+    if (first == 0) text += fmt::format("{:>12}{:>12}", "threshold", "false al.");
+    for (std::size_t k = first; k < last; ++k)
+      text += fmt::format("{:>14}", fmt::format("[{}]", k + 1));
     text += '\n';
+    for (const std::size_t i : order) {
+      const DetectorCurves& d = curves[i];
+      const int level = level_of(d);
+      if (level < 0) continue;
+      const auto at = static_cast<std::size_t>(level);
+      text += fmt::format("  {:<20}", d.name);
+      if (first == 0)
+        text += fmt::format("{:>12}{:>12.2e}",
+                            fmt::format("{:.4g}{}", ValueOf(level), d.unit == "A" ? " A" : ""),
+                            d.all.share[at]);
+      text += Cells(d, at, first, last) + '\n';
+    }
+    first = last;
   }
   return text;
 }
@@ -101,8 +119,8 @@ std::string DetectorText(const DetectorStudy& study, const std::vector<DetectorC
     text += fmt::format("  [{}] {} ({})\n", k + 1, first.faults[k].kind,
                         Counted(first.faults[k].runs, "run"));
   text += fmt::format(
-      "at most {:.3g} false alarms per coil and window; detected within one window, median delay; "
-      "best first\n",
+      "at most {:.3g} false alarms (false al.) per coil and window; share detected within\n"
+      "one window and median delay; best first\n",
       study.budget);
   text += Table(curves, Ranking(curves), [](const DetectorCurves& d) { return d.budget_level; });
   text += "at the thresholds of their sources\n";

@@ -97,16 +97,18 @@ double LargestRatio(const Comparison& c) {
   return largest;
 }
 
-void AddReadingHelp(HtmlReport& report) {
+void AddReadingHelp(HtmlReport& report, bool fitted) {
   report.Text(
       "How to read the numbers: the **error over noise** is the rms of measured less model, "
       "divided by the rms that "
       "the measurement noise alone makes in that channel after its way round the control loop. "
       "**1** means that nothing is left to "
-      "explain; 3 means an error three times as large as the noise. Records are *fitted* "
-      "(parameters were adjusted to them) or *unseen* (kept "
-      "back, only used to judge). A cause is believed when the error falls on the unseen records "
-      "too.");
+      "explain; 3 means an error three times as large as the noise. " +
+      std::string(fitted ? "Records are *fitted* (parameters were adjusted to them) or *unseen* "
+                           "(kept back, only used to judge). A cause is believed when the error "
+                           "falls on the unseen records too."
+                         : "Nothing was fitted here. `ambrig explain` will adjust parameters to "
+                           "the records *to be fitted* and judge by the *unseen* ones."));
 }
 
 void AddRatioMap(HtmlReport& report, const Comparison& c, const std::string& caption,
@@ -144,6 +146,33 @@ void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder) {
   }
   report.Table({"model", "fitted records", "unseen records", "change on unseen"}, rows,
                "Error over noise, step by step.");
+}
+
+std::string BlockText(const Comparison& c) {
+  std::string name;
+  double largest = 0, whole = 0;
+  for (const RecordComparison& r : c.records)
+    for (const auto& [block, ratio] : r.blocks)
+      if (ratio > largest) {
+        largest = ratio;
+        name = block;
+        whole = r.ratio;
+      }
+  for (const RecordComparison& r : c.records)
+    if (!r.blocks.empty()) whole = std::max(whole, r.ratio);
+  if (name.empty()) return "";
+  if (largest > 1.5)
+    return fmt::format("The largest error of a block is {:.2f} times its noise, of the {} block.",
+                       largest, name);
+  if (whole < 1.5)
+    return fmt::format("No block stands out: the largest is {} with {:.2f} times its noise.", name,
+                       largest);
+  return fmt::format(
+      "The blocks do not tell where the error sits: the whole model is {:.2f} times the noise off, "
+      "but no block alone ({} at most, {:.2f} times its own noise). Fed with measured, noisy "
+      "inputs a block is blunter than the loop, in which a small error accumulates; ambrig explain "
+      "looks at the whole loop.",
+      whole, name, largest);
 }
 
 std::string List(const std::vector<std::string>& lines) {

@@ -12,7 +12,8 @@
 namespace ambrig {
 
 /// How to read "error over noise", once per report.
-void AddReadingHelp(HtmlReport& report);
+/// `fitted`: parameters were adjusted to some of the records (explain), or will be (compare).
+void AddReadingHelp(HtmlReport& report, bool fitted);
 
 /// `scale`: the largest ratio that the colours are chosen for, 0: of this map; two maps to be
 /// compared share one.
@@ -32,6 +33,9 @@ void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder);
 Figure RatioFigure(const std::vector<std::string>& columns, const std::vector<std::string>& rows,
                    const std::vector<std::vector<double>>& values, const std::string& caption,
                    double scale = 0);
+
+/// Which block the error sits in, or that the block tests do not tell; empty without them.
+std::string BlockText(const Comparison& c);
 
 std::string List(const std::vector<std::string>& lines);
 /// "eddy-currents at A"

@@ -107,7 +107,7 @@ void AddMeaning(HtmlReport& report, const Case& c, const Explanation& e) {
        {"candidates screened", fmt::format("{}", e.screened.size())},
        {"record simulations", fmt::format("{}", e.runs)},
        {"time", FormatSi(e.seconds, "s")}});
-  AddReadingHelp(report);
+  AddReadingHelp(report, true);
   if (!c.notes.empty()) report.Text("Left out by the data-quality pass:\n\n" + List(c.notes));
 }
 

@@ -61,6 +61,11 @@ std::string FormatSi(double value, std::string_view unit, int digits) {
          std::string(kPrefix[static_cast<std::size_t>(group + 4)]) + std::string(unit);
 }
 
+std::string FalseAlarmText(double alarms, double coil_periods) {
+  if (!(coil_periods > 0)) return "not watched";
+  return fmt::format("{:.0f} in {:.3g} switching periods of healthy coils", alarms, coil_periods);
+}
+
 std::string Rpm(double speed) { return fmt::format("{:.0f} rpm", speed * 30 / kPi); }
 
 std::string HtmlEscape(std::string_view text) {

@@ -13,6 +13,10 @@ std::string FormatSi(double value, std::string_view unit, int digits = 3);
 /// Without unit: at most `digits` significant ones, no exponent between 1e-4 and 1e7.
 std::string FormatNumber(double value, int digits = 4);
 
+/// "2 in 1.2e+06 switching periods of healthy coils": a detector judges each coil once a period;
+/// "not watched" when it judged none.
+std::string FalseAlarmText(double alarms, double coil_periods);
+
 /// "12000 rpm" of a speed [rad/s].
 std::string Rpm(double speed);
 

@@ -28,7 +28,7 @@ struct ReportBearing {
   std::vector<std::vector<double>> currents;  // (coil)(row) [A]
 };
 
-/// True motion of a named plane of a beam rotor.
+/// True motion of a named plane of a beam rotor, from its place at the start on.
 struct ReportStation {
   std::string name;          // "disk"
   std::vector<double> x, y;  // at the record's times [m]

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/figures/series.h"
 #include "app/pages/format.h"
 #include "core/base/read_file.h"
 #include "rig/rig_channels.h"
@@ -12,7 +13,7 @@ namespace ambrig {
 
 namespace {
 
-std::string MilliSeconds(double t) { return t < 0 ? "-" : fmt::format("{:.3g} ms", t * 1e3); }
+std::string MilliSeconds(double t) { return t < 0 ? "–" : fmt::format("{:.3g} ms", t * 1e3); }
 
 /// "A.coil3" -> "A3".
 std::string ShortName(const std::string& target) {
@@ -41,12 +42,18 @@ void FillBearings(const RigParameters& rig, const RunResult& result, RunReportDa
   }
 }
 
-void FillStations(const RigParameters& rig, const RunResult& result, RunReportData& data) {
+std::vector<ReportStation> StationsOf(const RigParameters& rig, const Record& record) {
+  std::vector<ReportStation> stations;
   for (const ShaftPlane& s : rig.stations) {
-    ReportStation r{s.name, ChannelOf(result.record, {ChannelKind::kTruePosition, s.name, 0}),
-                    ChannelOf(result.record, {ChannelKind::kTruePosition, s.name, 1})};
-    if (!r.x.empty()) data.stations.push_back(std::move(r));
+    ReportStation r{s.name, ChannelOf(record, {ChannelKind::kTruePosition, s.name, 0}),
+                    ChannelOf(record, {ChannelKind::kTruePosition, s.name, 1})};
+    for (std::vector<double>* path : {&r.x, &r.y}) {
+      const double start = path->empty() ? 0 : path->front();  // a heavy shaft hangs through
+      for (double& v : *path) v -= start;
+    }
+    if (!r.x.empty()) stations.push_back(std::move(r));
   }
+  return stations;
 }
 
 void FillSnapshots(const Scenario& scenario, const RunResult& result, RunReportData& data) {
@@ -85,14 +92,16 @@ void FillVerdict(const RunResult& result, const std::vector<ExpectResult>& expec
 void FillMetrics(const RunMetrics& m, RunReportData& data) {
   for (const auto& [name, orbit] : m.max_orbit)
     data.metrics.emplace_back("peak orbit " + name, FormatSi(orbit, "m"));
+  for (const ReportStation& s : data.stations)
+    data.metrics.emplace_back("peak orbit " + s.name,
+                              FormatSi(LargestRadius(s.x, s.y), "m"));
   data.metrics.emplace_back("least clearance left", FormatSi(m.min_clearance_left, "m"));
   data.metrics.emplace_back("detection delay", MilliSeconds(m.detection_delay));
   data.metrics.emplace_back("redistribution delay", MilliSeconds(m.redistribution_delay));
-  data.metrics.emplace_back(
-      "false alarms", fmt::format("{:.0f} in {:.3g} coil-periods", m.false_alarms, m.coil_periods));
+  data.metrics.emplace_back("false alarms", FalseAlarmText(m.false_alarms, m.coil_periods));
   data.metrics.emplace_back("peak coil current", FormatSi(m.peak_current, "A"));
   data.metrics.emplace_back("copper loss, mean", FormatSi(m.copper_loss, "W"));
-  data.metrics.emplace_back("speed of the simulation",
+  data.metrics.emplace_back("computed at",
                             fmt::format("{:.1f} x real time", m.real_time_factor));
 }
 
@@ -124,8 +133,16 @@ void FillSlopes(const RunResult& result, RunReportData& data) {
 
 }  // namespace
 
+std::map<std::string, double> StationOrbits(const RigParameters& rig, const Record& record) {
+  std::map<std::string, double> out;
+  for (const ReportStation& s : StationsOf(rig, record)) out[s.name] = LargestRadius(s.x, s.y);
+  return out;
+}
+
 std::string EventText(const RunEvent& e) {
   std::string text = e.fault_class;
+  if (e.kind == "redistributed" && text == "exact") text += " (force law as when healthy)";
+  if (e.kind == "redistributed" && text == "linearised") text += " (holds near zero force)";
   if (e.fraction > 0)
     text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);
   return text;
@@ -139,13 +156,13 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
   data.subtitle =
       fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
   FillVerdict(result, expect, data);
+  data.stations = StationsOf(rig, result.record);
   FillMetrics(result.metrics, data);
   for (const RunEvent& e : result.events)
     data.events.push_back({e.t, e.kind, ShortName(e.target), EventText(e)});
   data.rate = result.record.rate;
   data.start = result.record.start;
   FillBearings(rig, result, data);
-  FillStations(rig, result, data);
   FillChannels(result.record, data);
   FillSlopes(result, data);
   FillSnapshots(scenario, result, data);

@@ -10,12 +10,12 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/base/errors.h"
+#include "core/math/no_solution.h"
 
 namespace ambrig::sundials {
 
@@ -79,8 +79,7 @@ struct Report {
   void Check(int code, const char* what) {
     if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
     if (code >= 0) return;
-    throw std::runtime_error(message.empty() ? fmt::format("{} failed with code {}", what, code)
-                                             : message);
+    throw NoSolution(message.empty() ? fmt::format("{} failed with code {}", what, code) : message);
   }
 };
 

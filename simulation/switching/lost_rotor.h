@@ -1,12 +1,14 @@
 #pragma once
-/// Thrown by a run that was told to end when its rotor touches for too long.
-#include <stdexcept>
+/// Thrown by a run that was told to end when its rotor touches for too long, or whose motion left
+/// all bounds.
 #include <string>
+
+#include "core/math/no_solution.h"
 
 namespace ambrig {
 
-struct LostRotor : std::runtime_error {
-  LostRotor(const std::string& text, double t) : std::runtime_error(text), time(t) {}
+struct LostRotor : NoSolution {
+  LostRotor(const std::string& text, double t) : NoSolution(text), time(t) {}
   double time;  // [s] of the scenario
 };
 

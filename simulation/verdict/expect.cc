@@ -10,8 +10,17 @@ namespace ambrig {
 
 namespace {
 
-ExpectResult AtMost(const std::string& key, double limit, double got, bool exists) {
-  return {key, fmt::format("<= {}", limit), exists ? fmt::format("{:.6g}", got) : "none",
+/// A quantity in the unit that a reader is shown: factor 1e6 and "um" of metres.
+struct Shown {
+  double factor = 1;
+  const char* unit = "";
+};
+constexpr Shown kMilliSeconds{1e3, " ms"}, kMicroMetres{1e6, " um"};
+
+ExpectResult AtMost(const std::string& key, double limit, double got, bool exists,
+                    const Shown& shown = {}) {
+  return {key, fmt::format("<= {:.6g}{}", limit * shown.factor, shown.unit),
+          exists ? fmt::format("{:.6g}{}", got * shown.factor, shown.unit) : "none",
           exists && got <= limit};
 }
 
@@ -22,7 +31,7 @@ ExpectResult Equal(const std::string& key, bool wanted, bool got) {
 /// Every fault of the scenario has an alarm of its own target, the latest of them within the limit.
 ExpectResult Detected(const Scenario& s, const DetectionScore& score) {
   return AtMost("detected_within", *s.expect.detected_within, score.longest_detection(),
-                score.all_detected() && !score.faults.empty());
+                score.all_detected() && !score.faults.empty(), kMilliSeconds);
 }
 
 /// The last class given to each faulty target is the wanted one.
@@ -52,12 +61,13 @@ std::vector<ExpectResult> CheckExpectations(const Scenario& s, const RunResult& 
   if (e.max_orbit) {
     double most = 0;
     for (const auto& [name, orbit] : r.metrics.max_orbit) most = std::max(most, orbit);
-    out.push_back(AtMost("max_orbit", *e.max_orbit, most, true));
+    out.push_back(AtMost("max_orbit", *e.max_orbit, most, true, kMicroMetres));
   }
   if (e.max_false_alarms)
     out.push_back(AtMost("max_false_alarms", *e.max_false_alarms, r.metrics.false_alarms, true));
   if (e.rests_within)
-    out.push_back(AtMost("rests_within", *e.rests_within, r.metrics.settled_orbit, true));
+    out.push_back(
+        AtMost("rests_within", *e.rests_within, r.metrics.settled_orbit, true, kMicroMetres));
   return out;
 }
 

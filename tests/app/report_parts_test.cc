@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/figures/figure.h"
 #include "app/figures/series.h"
 #include "app/pages/format.h"
@@ -134,6 +135,17 @@ TEST(FigureParts, MarksCloseTogetherShareALabel) {
   EXPECT_EQ(f.layout["shapes"].size(), 3u);
 }
 
+// A rotor that bounces: each word once, not a label as long as the figure is wide.
+TEST(FigureParts, MarksOfABouncingRotorShareAShortLabel) {
+  Figure f = MakeFigure("c");
+  std::vector<Mark> marks;
+  for (int k = 0; k < 6; ++k)
+    marks.push_back({1 + 0.01 * k, k % 2 == 0 ? "touchdown" : "lift off"});
+  AddMarks(f, marks, {0, 10});
+  ASSERT_EQ(f.layout["annotations"].size(), 1u);
+  EXPECT_EQ(f.layout["annotations"][0]["text"], "touchdown · lift off");
+}
+
 TEST(Html, TextBlocksAndTable) {
   HtmlReport r("T", "S");
   r.Text("one\ntwo\n\n- a\n- b\nafter");
@@ -150,6 +162,36 @@ TEST(ProgressBar, TextAndTimeLeft) {
   EXPECT_EQ(ProgressText(0, 10, 4), "[----]   0 %");
   EXPECT_EQ(ProgressText(1, 3661, 4), "[####] 100 %  1:01:01");
   EXPECT_EQ(ProgressText(std::nan(""), 1, 4), "[----]   0 %");
+}
+
+// One line of a terminal, or it scrolls with every redraw.
+TEST(ProgressBar, StaysNarrowerThanTheTerminal) {
+  const std::string text = "123/456 runs, 3.1/s, 12 dropped, and then something longer than that";
+  for (const std::size_t columns : {20u, 40u, 80u, 200u}) {
+    const std::string line = ProgressLine("a scenario with a long name of its own, at 12 000 rpm",
+                                          0.5, 100, text, columns);
+    EXPECT_LT(ScreenWidth(line), columns) << line;
+  }
+  EXPECT_EQ(ProgressLine("campaign", 0.5, 10, "12/24 runs, 3.1/s, 2 dropped", 80),
+            "campaign [########--------]  50 %  00:10 left  12/24 runs, 3.1/s, 2 dropped");
+}
+
+TEST(Screen, WrapsAtSpacesAndKeepsPathsWhole) {
+  EXPECT_EQ(Wrapped("  note: one two three four", 8, 16), "  note: one two\n        three\n"
+                                                           "        four");
+  EXPECT_EQ(Wrapped("see /a/very/long/path/that/stays.toml", 2, 12),
+            "see\n  /a/very/long/path/that/stays.toml");
+  EXPECT_EQ(ScreenWidth("\033[32mµm\033[0m"), 2u);
+  EXPECT_EQ(Shortened("abcdefgh", 6), "abc...");
+  EXPECT_EQ(ScreenSi(3.62e-5, "m"), "36.2 um");
+  EXPECT_EQ(ScreenSi(std::nan(""), "m"), "-");
+}
+
+TEST(Screen, HelpGoesOnBelowItsDescription) {
+  EXPECT_EQ(WrappedHelp("  --rate NUMBER   rows of the record per second", 40),
+            "  --rate NUMBER   rows of the record per\n                  second");
+  const std::string example = "  ambrig run a/very/long/path/of/a/scenario.toml --out out";
+  EXPECT_EQ(WrappedHelp(example, 40), example);
 }
 
 TEST(ProgressBar, ManyThreadsOneLineAndSilentWithoutTerminal) {

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <regex>
+#include <set>
 
+#include "app/figures/run_figures.h"
 #include "core/base/errors.h"
 #include "tests/app/browser.h"
 #include "tests/app/demo_run.h"
@@ -86,6 +88,45 @@ TEST(RunReportParts, EmptyRunGivesAReportWithoutFigures) {
   const std::string html = MakeRunReport(d).Html();
   EXPECT_EQ(Count(html, "<figure id="), 0u);
   EXPECT_THAT(html, HasSubstr("Course of the run"));
+}
+
+// Pages without a figure do not carry the library of 1 MB.
+TEST(RunReportParts, NoPlotNoLibrary) {
+  RunReportData d;
+  d.name = "nothing";
+  EXPECT_LT(MakeRunReport(d).Html().size(), 100'000u);
+}
+
+TEST(RunReportParts, EveryFaultyCoilIsBold) {
+  RunReportData d = demo::Run();
+  d.events.push_back({demo::kRedistributed + 1e-3, "fault", "B6", "open coil"});
+  const Figure figure = CurrentFigure(d, FindStages(d), true);
+  std::set<std::string> bold;
+  for (const auto& trace : figure.traces)
+    if (trace["line"]["width"] == 3) bold.insert(trace["name"].get<std::string>());
+  EXPECT_EQ(bold, (std::set<std::string>{"A3 (faulty)", "B6 (faulty)"}));
+}
+
+// The disk of a flexible shaft moves more than the bearings.
+TEST(RunReportParts, StationsHaveTheirOrbits) {
+  RunReportData d = demo::Run();
+  EXPECT_EQ(OrbitFigure(d, FindStages(d)).panels, 4);  // two bearings, and a close-up of each
+  ReportStation disk{"disk", d.bearings[0].x, d.bearings[0].y};
+  for (double& x : disk.x) x *= 30;
+  d.stations = {disk};
+  const Figure figure = OrbitFigure(d, FindStages(d));
+  EXPECT_EQ(figure.panels, 3);
+  EXPECT_EQ(figure.layout["annotations"][2]["text"], "<b>disk</b>");
+}
+
+// Hundreds of contacts: twenty rows stand open, and six lines cross the curves.
+TEST(RunReportParts, ABouncingRotorDoesNotCoverTheReport) {
+  RunReportData d = demo::Run();
+  for (int k = 0; k < 260; ++k)
+    d.events.push_back({1.01 + 1e-3 * k, k % 2 == 0 ? "touchdown" : "lift_off", "A", ""});
+  const std::string html = MakeRunReport(d).Html();
+  EXPECT_THAT(html, HasSubstr("244 more events</summary>"));
+  EXPECT_EQ(EventMarks(d).size(), 10u);  // four of the fault, six contacts
 }
 
 TEST(RunReportParts, HealthyRunHasNoFaultFigures) {

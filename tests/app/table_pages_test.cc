@@ -8,6 +8,7 @@
 
 #include "app/pages/campaign_report.h"
 #include "app/pages/crosscheck_report.h"
+#include "app/pages/html.h"
 #include "tests/app/browser.h"
 
 namespace ambrig {
@@ -68,7 +69,7 @@ TEST(CampaignPage, SaysWhatTheRowsSay) {
   const std::string dom = Page(built);
   EXPECT_EQ(built.figures(), 3U);  // one survival map, one histogram, capacity
   EXPECT_THAT(dom, HasSubstr("2 of 4 runs stayed up, 1 touched down, 1 dropped."));
-  EXPECT_THAT(dom, HasSubstr("0 in 4e+03 healthy coil-periods"));
+  EXPECT_THAT(dom, HasSubstr("0 in 4e+03 switching periods of healthy coils"));
   EXPECT_THAT(dom, HasSubstr("Survival: open, 1500"));
   for (const char* value : {">50&nbsp;µm<", "300&nbsp;µs", "800&nbsp;µm", "210&nbsp;µm"})
     EXPECT_THAT(dom, HasSubstr(value));
@@ -98,6 +99,32 @@ TEST(CampaignPage, NoRowsNoFigures) {
   const std::string html{std::istreambuf_iterator<char>(in), {}};
   EXPECT_THAT(html, HasSubstr("0 of 0 runs stayed up"));
   EXPECT_THAT(html, Not(HasSubstr("<figure id=")));
+}
+
+// The line that the text speaks of is drawn: what is held as theory says.
+TEST(CampaignPage, CapacityHasItsLine) {
+  const TemporaryFolder folder;
+  WriteCampaignReport({"four runs", "/files/c.toml", "1234", 4}, FourRuns(), folder.File("c.html"));
+  std::ifstream in(folder.File("c.html"));
+  const std::string html{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_THAT(html, HasSubstr("\"name\":\"held = theory\""));
+  EXPECT_THAT(html, HasSubstr("below the dashed line"));
+}
+
+// At 1300 px: a table of fourteen columns fits, one of sixty says that it does not.
+TEST(WidePages, TablesFitOrSayThatTheyDoNot) {
+  if (!testing::HasBrowser()) GTEST_SKIP() << "no chromium";
+  const TemporaryFolder folder;
+  const auto page = [&](std::size_t columns) {
+    HtmlReport report("wide", "test");
+    const std::vector<Cell> row(columns, Cell("100 %, 45.3\u00a0µs (98 %)"));
+    report.Table(std::vector<std::string>(columns, "current-sensor, gain 0.8"), {row, row});
+    const std::string file = folder.File(std::to_string(columns) + ".html");
+    report.Write(file);
+    return testing::BuildInBrowser(file);
+  };
+  EXPECT_EQ(page(14).Count("scrolls\""), 0U);
+  EXPECT_EQ(page(60).Count("scrolls\""), 1U);
 }
 
 /// A centre on a circle of the radius given from 20 ms on, at rest in the middle before.

@@ -2,6 +2,7 @@
 // in the project's folder; ambrig alone and `ambrig tour` lead somewhere.
 #include <set>
 
+#include "app/commands/screen.h"
 #include "tests/cli/cli_run.h"
 
 namespace ambrig {
@@ -28,12 +29,21 @@ std::vector<std::string> ExamplesOf(const std::string& command) {
   std::vector<std::string> out;
   std::istringstream lines(o.text);
   for (std::string line; std::getline(lines, line);) {
-    if (!line.starts_with("  ambrig " + command)) continue;
+    if (!line.starts_with("  ambrig ")) continue;
     line = line.substr(std::string("  ambrig ").size());
     if (const auto remark = line.find("   "); remark != std::string::npos) line.resize(remark);
     out.push_back(line);
   }
   return out;
+}
+
+/// No line is wider than 80 columns, but for one that holds a path or a file's text.
+void ExpectNarrow(const std::string& text, const std::string& call) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find_first_of("/{") == std::string::npos) {
+      EXPECT_LE(ScreenWidth(line), kScreenColumns) << "ambrig " << call << ":\n" << line;
+    }
 }
 
 /// A folder that sees the project's files and may be written to.
@@ -53,17 +63,77 @@ TEST_F(Help, EveryCommandHasTwoExamples) {
   for (const std::string& c : commands) EXPECT_GE(ExamplesOf(c).size(), 2U) << c;
 }
 
-/// Those that take seconds; the others' are run by the tests of their own rooms.
-TEST_F(Help, ExamplesRunAsTheyStand) {
-  Shell("cd " + folder_.string() + " && " + AMBRIG_BINARY +
-        " run examples/reference/coil_opens.toml --out before --quiet --no-report && mkdir out && "
-        "cp before/coil_opens.h5 before/coil_opens.json out/");
-  for (const char* command : {"tour", "run", "diff", "effects", "parameters", "rotor",
-                              "redistribute", "analyze", "validate"})
-    for (const std::string& example : ExamplesOf(command)) {
-      const Outcome o = Ambrig(example);
-      EXPECT_EQ(o.exit, 0) << "ambrig " << example << "\n" << o.text;
-    }
+// Every line of every help text fits a terminal of 80 columns.
+TEST_F(Help, LinesFitTheTerminal) {
+  std::vector<std::string> calls = {"", "--help", "rotor convert --help"};
+  for (const std::string& c : Commands()) calls.push_back(c + " --help");
+  for (const std::string& call : calls) ExpectNarrow(Ambrig(call).text, call);
+}
+
+// A command's help ends with its own examples, not with those of the whole program.
+TEST_F(Help, FootersAreTheCommandsOwn) {
+  for (const std::string& c : Commands())
+    EXPECT_EQ(Ambrig(c + " --help").text.find("ambrig tour/"), std::string::npos) << c;
+  EXPECT_NE(Ambrig("rotor --help").text.find("ambrig rotor convert"), std::string::npos);
+}
+
+struct Examples {
+  const char* command;
+  std::vector<const char*> before = {};  // what the help says to do first
+  bool dear = false;                     // minutes: only with AMBRIG_DEAR=1 (nightly)
+};
+
+const Examples kExamples[] = {
+    {"tour"},
+    {"run"},
+    {"check"},
+    {"diff"},
+    {"campaign"},
+    {"merge",
+     {"campaign scenarios/campaigns/one_blow.toml --shard 1/2 -o part1",
+      "campaign scenarios/campaigns/one_blow.toml --shard 2/2 -o part2"}},
+    {"detectors", {}, true},
+    {"commission"},
+    {"crosscheck"},
+    {"rotor"},
+    {"design"},
+    {"redistribute"},
+    {"analyze"},
+    {"validate"},
+    {"effects"},
+    {"parameters"},
+    {"compare"},
+    {"explain", {}, true},
+    {"adopt", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
+    {"hide"},
+    {"score", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
+};
+
+class HelpExamples : public Help, public testing::WithParamInterface<Examples> {};
+
+TEST_P(HelpExamples, RunAsTheyStand) {
+  const Examples& e = GetParam();
+  if (e.dear && std::getenv("AMBRIG_DEAR") == nullptr)
+    GTEST_SKIP() << "takes minutes: AMBRIG_DEAR=1 runs it";
+  for (const char* first : e.before) {
+    const Outcome o = Ambrig(first);
+    ASSERT_EQ(o.exit, 0) << first << "\n" << o.text;
+  }
+  for (const std::string& example : ExamplesOf(e.command)) {
+    const Outcome o = Ambrig(example);
+    EXPECT_EQ(o.exit, 0) << "ambrig " << example << "\n" << o.text;
+    ExpectNarrow(o.text, example);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, HelpExamples, testing::ValuesIn(kExamples),
+                         [](const auto& of) { return std::string(of.param.command); });
+
+TEST_F(Help, EveryCommandsExamplesAreRun) {
+  std::set<std::string> run;
+  for (const Examples& e : kExamples) run.insert(e.command);
+  const std::vector<std::string> all = Commands();
+  EXPECT_EQ(run, std::set<std::string>(all.begin(), all.end()));
 }
 
 TEST_F(Help, AloneItSaysWhereToBegin) {

@@ -3,27 +3,36 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "rig/rig_file.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
 namespace {
 
-Record RunOf(bool whole) {
+/// Past the fault, the detection and the change of the currents.
+RunResult RunOf(bool whole) {
   const std::string library = AMBRIG_SOURCE_DIR "/scenarios/library/";
   const RigParameters rig = ReadRig(library + "rigs/reference.toml");
   Scenario s = ReadScenario(library + "coil_a3_opens_1500rpm.toml", rig);
-  s.duration = 0.06;
+  s.duration = s.faults.front().time + 0.02;
   const bool before = whole_lanes;
   whole_lanes = whole;
-  Record record = SwitchingEngine(rig, s, {}).Run().record;
+  RunResult result = SwitchingEngine(rig, s, {}).Run();
   whole_lanes = before;
-  return record;
+  return result;
 }
 
 TEST(WholeLanes, SameBits) {
   if (!HasWholeLanes()) GTEST_SKIP() << "no 512-bit registers here";
-  const Record whole = RunOf(true), halves = RunOf(false);
+  const RunResult of_whole = RunOf(true), of_halves = RunOf(false);
+  const Record &whole = of_whole.record, &halves = of_halves.record;
+  const auto redistributed = [](const RunResult& r) {
+    return std::any_of(r.events.begin(), r.events.end(),
+                       [](const RunEvent& e) { return e.kind == "redistributed"; });
+  };
+  EXPECT_TRUE(redistributed(of_whole) && redistributed(of_halves));
   ASSERT_EQ(whole.channels.size(), halves.channels.size());
   std::size_t rows = 0;
   for (std::size_t c = 0; c < whole.channels.size(); ++c) {

@@ -1,0 +1,74 @@
+#include "app/commands/work_size.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "app/commands/run_size.h"
+#include "core/base/counted.h"
+#include "core/base/errors.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kLongest = 24 * 3600;  // [s] of computing, without being told
+constexpr double kWorthAWord = 60;      // [s]
+
+// Of examples/rub and examples/mls2em: simulations of a record, from the first fit to the verdict.
+constexpr double kSimulationsPerRecord = 900;
+// Columns beside the data while fitting: derivatives by every toleranced parameter and candidate.
+constexpr double kColumnsOfAFit = 120;
+constexpr double kMemoryOfRuns = 130e6;  // [bytes] predictions that are kept
+
+unsigned Cores(int jobs) {
+  return jobs > 0 ? static_cast<unsigned>(jobs) : std::max(1U, std::thread::hardware_concurrency());
+}
+
+}  // namespace
+
+WorkSize CampaignSize(const Campaign& campaign, std::size_t runs, int jobs) {
+  WorkSize size;
+  size.cores = Cores(jobs);
+  for (const Scenario& s : campaign.scenarios) {
+    size.seconds += RunSeconds(campaign.rig, s);
+    size.bytes = std::max(size.bytes, RunMemory(campaign.rig, s, 0));
+  }
+  size.seconds *= static_cast<double>(runs) / static_cast<double>(campaign.scenarios.size());
+  size.seconds /= size.cores;
+  size.bytes *= std::min<double>(size.cores, static_cast<double>(std::max<std::size_t>(runs, 1)));
+  return size;
+}
+
+WorkSize ExplainSize(const Case& c) {
+  WorkSize size;
+  size.cores = Cores(0);
+  double numbers = 0, record = 0;
+  for (const CaseRecord& r : c.records) {
+    size.seconds += RunSeconds(c.rig, r.scenario);
+    record = std::max(record, RunMemory(c.rig, r.scenario, 0));
+    numbers += static_cast<double>(r.data.rows() * r.data.channels.size());
+  }
+  size.seconds *= kSimulationsPerRecord / size.cores;
+  size.bytes = numbers * sizeof(double) * kColumnsOfAFit + record * size.cores + kMemoryOfRuns;
+  return size;
+}
+
+void CheckWorkSize(const std::string& file, const WorkSize& size, bool long_runs) {
+  const double allowed = 0.9 * FreeMemory();
+  if (size.bytes > allowed)
+    throw InputError(fmt::format(
+        "{}: needs about {:.1f} GB, allowed: {:.1f} GB of free memory (fewer rows or records, or "
+        "fewer jobs)",
+        file, size.bytes / 1e9, allowed / 1e9));
+  if (size.seconds > kLongest && !long_runs)
+    throw InputError(fmt::format("{}: would take about {} on {}, allowed: {} unless --long is given",
+                                 file, DurationText(size.seconds), Counted(size.cores, "core"),
+                                 DurationText(kLongest)));
+  if (size.seconds > kWorthAWord)
+    fmt::print("{}: about {} on {}\n", file, DurationText(size.seconds),
+               Counted(size.cores, "core"));
+}
+
+}  // namespace ambrig
