@@ -22,6 +22,7 @@
   COMMAND(Compare)               \
   COMMAND(Explain)               \
   COMMAND(Adopt)                 \
+  COMMAND(Refine)                \
   COMMAND(Hide)                  \
   COMMAND(Score)
 
