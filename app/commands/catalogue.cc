@@ -23,6 +23,7 @@
   COMMAND(Explain)               \
   COMMAND(Adopt)                 \
   COMMAND(Refine)                \
+  COMMAND(Plan)                  \
   COMMAND(Hide)                  \
   COMMAND(Score)
 

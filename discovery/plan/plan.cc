@@ -20,6 +20,7 @@ using Eigen::Index;
 namespace {
 
 constexpr double kUnknownSize = 3;         // sd of an effect's number without records, in steps
+constexpr double kDrawnSize = 0.3;         // the same in simulated records: about its usual size
 constexpr double kBusNoise = 0.005;        // [V]
 constexpr double kLoadCellNoise = 0.0012;  // of the rotor's weight
 constexpr std::size_t kRows = 150000;
@@ -99,14 +100,15 @@ Plan PlanForCase(const Case& c, const EffectNames& names, const PlanOptions& opt
     progress(0.02 + 0.25 * static_cast<double>(rivals.size()) / static_cast<double>(names.size()),
              effect);
     if (effect == "nothing") {
-      rivals.push_back(
-          {effect, "", base.hypothesis, PrecisionOf(thin, base, fit.effective_sample_size)});
+      const Eigen::MatrixXd P = PrecisionOf(thin, base, fit.effective_sample_size);
+      rivals.push_back({effect, "", base.hypothesis, P, P});
       continue;
     }
     const NamedLaw law = FitNamedLaw(thin, effect, target, fit.effective_sample_size,
                                      [](double, const std::string&) {});
-    rivals.push_back({effect, law.fit.hypothesis.rig.effects[law.index].target, law.fit.hypothesis,
-                      PrecisionOf(thin, law.fit, fit.effective_sample_size)});
+    const Eigen::MatrixXd P = PrecisionOf(thin, law.fit, fit.effective_sample_size);
+    rivals.push_back(
+        {effect, law.fit.hypothesis.rig.effects[law.index].target, law.fit.hypothesis, P, P});
   }
   Planner planner(c.rig, AbilitiesOf(c), noise, rivals, base.hypothesis, options);
   Plan plan = planner.Run();

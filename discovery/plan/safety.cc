@@ -36,7 +36,7 @@ double Orbit(const Record& record, const BearingParameters& b, double from) {
 /// Largest share of samples of any coil at a limit of the duty.
 double Saturated(const Record& record, const RigParameters& rig, const BearingParameters& b) {
   double most = 0;
-  const double lo = rig.amplifier.duty_limits[0], hi = rig.amplifier.duty_limits[1];
+  const double lo = rig.amplifier.duty_min, hi = rig.amplifier.duty_max;
   for (const ChannelId& id : ChannelsOf(b, ChannelKind::kDuty)) {
     const Channel* d = record.Find(id.name());
     if (!d || d->samples.empty()) continue;
