@@ -40,6 +40,9 @@
   EFFECT(ConstantLoad)         \
   EFFECT(ContactFriction)      \
   EFFECT(ContactMount)         \
+  EFFECT(BhCurve)              \
+  EFFECT(EddyImpedance)        \
+  EFFECT(PlayHysteresis)       \
   EFFECT(Formula)
 
 namespace ambrig {

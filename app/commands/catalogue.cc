@@ -23,6 +23,8 @@
   COMMAND(Compare)               \
   COMMAND(Explain)               \
   COMMAND(Adopt)                 \
+  COMMAND(Refine)                \
+  COMMAND(Plan)                  \
   COMMAND(Hide)                  \
   COMMAND(Score)
 

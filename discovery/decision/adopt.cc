@@ -57,7 +57,11 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     if (options.progress) options.progress(f, text);
   };
   const EffectDescription& d = EffectNamed(effect);
-  const bool formula = d.users_own;
+  const bool formula = d.id == "formula";
+  if (d.users_own && !formula)
+    throw InputError(d.id +
+                     " is what `ambrig refine` writes, allowed: an effect that `ambrig "
+                     "explain` proposes");
   const auto is_formula = [](const EffectInstance& e) { return e.IsFormula(); };
   if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))
     throw InputError(c.rig_file + ": has no [[effect]] name = \"formula\" to fit; write one first");

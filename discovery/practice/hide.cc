@@ -162,8 +162,9 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
     const EffectDescription* d = &EffectNamed(id);
     if (d->users_own)
       throw InputError(
-          "formula: a user-defined law cannot be drawn at random, allowed: an effect of the "
-          "catalogue");
+          id +
+          ": a law of the rig file's own cannot be drawn at random, allowed: an effect that "
+          "`ambrig explain` proposes");
     needs.contact = needs.contact || d->needs.contact;
     needs.free_speed = needs.free_speed || d->needs.free_speed;
     descriptions.push_back(d);

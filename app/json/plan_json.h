@@ -1,0 +1,11 @@
+#pragma once
+#include <nlohmann/json.hpp>
+
+#include "discovery/plan/plan.h"
+
+namespace ambrig {
+
+/// JSON of `ambrig plan` (docs/guide/files.md). `scenario`: the file that was written.
+nlohmann::ordered_json PlanJson(const Plan& plan, const std::string& scenario);
+
+}  // namespace ambrig

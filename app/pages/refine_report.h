@@ -1,0 +1,11 @@
+#pragma once
+/// The report of `ambrig refine`: the law with its band, where it is supported, and what it changed.
+#include <string>
+
+#include "discovery/shape/refine.h"
+
+namespace ambrig {
+
+void WriteRefineReport(const Refinement& r, const std::string& rig, const std::string& path);
+
+}  // namespace ambrig

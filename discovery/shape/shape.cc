@@ -1,0 +1,59 @@
+#include "discovery/shape/shape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/errors.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr std::array<const char*, 4> kIron = {"saturation", "iron-reluctance", "eddy-currents",
+                                              "hysteresis"};
+constexpr std::array<const char*, 3> kMotion = {"side-pull", "cross-coupling", "windage"};
+
+template <class Names>
+bool Holds(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::vector<double> Shape::Sizes() const {
+  std::vector<double> out;
+  for (const std::size_t row : rows) out.push_back(effect.values[row]);
+  return out;
+}
+
+std::string RefinableEffects() {
+  std::string all;
+  for (const char* name : kIron) all += (all.empty() ? "" : ", ") + std::string(name);
+  for (const char* name : kMotion) all += ", " + std::string(name);
+  return all;
+}
+
+bool IsRefinable(const std::string& effect) {
+  return Holds(kIron, effect) || Holds(kMotion, effect);
+}
+
+bool DependsOnFlux(const std::string& effect) {
+  return Holds(kIron, effect) && effect != "eddy-currents";
+}
+
+Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach) {
+  if (Holds(kIron, named.name)) return IronShape(named, rig, reach);
+  if (Holds(kMotion, named.name)) return MotionShape(named, reach);
+  throw InputError(
+      fmt::format("{} has no curve to refine, allowed: {}", named.name, RefinableEffects()));
+}
+
+Eigen::MatrixXd Differences(Eigen::Index n, int order) {
+  Eigen::MatrixXd D = Eigen::MatrixXd::Identity(n, n);
+  for (int k = 0; k < order; ++k) D = (D.bottomRows(D.rows() - 1) - D.topRows(D.rows() - 1)).eval();
+  return D;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,54 @@
+#pragma once
+/// The law of a named effect in a free shape: a sum whose sizes are fitted, smooth unless the
+/// records say otherwise. Each shape is an effect that the engines run (bh-curve, eddy-impedance,
+/// play-hysteresis, or a formula made of ramps), starting where the catalogue's law was fitted.
+#include <Eigen/Dense>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "effects/effect.h"
+#include "rig/rig_parameters.h"
+
+namespace ambrig {
+
+struct Shape {
+  EffectInstance effect;          // at its start
+  std::vector<std::size_t> rows;  // of its table: the sizes that are fitted
+  Eigen::VectorXd step;           // natural step of each size, its unit
+  Eigen::MatrixXd roughness;      // rows of differences of the sizes (in steps) that are penalised
+  std::vector<double> knots;  // u where each size acts; NaN: it belongs to no place of the curve
+  std::string u_name, u_unit, value_name, value_unit;
+  std::vector<double> u;  // where the curve is given
+  bool logarithmic = false;
+  /// Value of the curve at u for the sizes given (their own units).
+  std::function<double(const std::vector<double>& sizes, double u)> value;
+
+  std::vector<double> Sizes() const;
+};
+
+/// How far the records drive what the law depends on.
+struct ShapeReach {
+  double density = 0;  // largest flux density of the bearing's poles [T]
+  double radius = 0;   // largest displacement of the plane [m]
+  double speed = 0;    // largest speed [rad/s]
+};
+
+/// Effects of the catalogue whose law can be refined, "eddy-currents, saturation, ...".
+std::string RefinableEffects();
+bool IsRefinable(const std::string& effect);
+/// Whether the shape depends on the flux density of a bearing.
+bool DependsOnFlux(const std::string& effect);
+
+/// The shape that replaces `named`, a fitted effect of the catalogue. @throws InputError when the
+/// effect has none, or the records do not move it.
+Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach);
+
+/// Second differences of n neighbours (or first ones).
+Eigen::MatrixXd Differences(Eigen::Index n, int order);
+
+// of iron_shapes.cc and motion_shapes.cc
+Shape IronShape(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach);
+Shape MotionShape(const EffectInstance& named, const ShapeReach& reach);
+
+}  // namespace ambrig

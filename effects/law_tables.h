@@ -1,0 +1,14 @@
+#pragma once
+/// Sizes of the laws that stand as tables or sums in a rig file, shared with what fits them.
+#include <cmath>
+
+namespace ambrig {
+
+inline constexpr int kBhNodes = 13;       // of bh-curve, evenly from 0 to its reach
+inline constexpr int kRelaxations = 10;   // of eddy-impedance
+inline constexpr int kPlayOperators = 8;  // of play-hysteresis
+
+/// Corner frequency of a relaxation of eddy-impedance, half a decade apart. [Hz]
+inline double RelaxationFrequency(int k) { return 5e5 * std::pow(10.0, 0.5 * (k - 9)); }
+
+}  // namespace ambrig

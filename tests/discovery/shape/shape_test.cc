@@ -1,0 +1,82 @@
+#include "discovery/shape/shape.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "core/base/errors.h"
+#include "effects/diffusion_fit.h"
+#include "effects/steel_curve.h"
+#include "tests/effects/effect_rigs.h"
+
+namespace ambrig {
+namespace {
+
+EffectInstance Named(const std::string& id, const Values& values, const std::string& at = "A") {
+  EffectInstance e = MakeInstance(EffectNamed(id), at);
+  for (const auto& [name, value] : values) e.Set(name, value);
+  return e;
+}
+
+// The start is the law that was named. Between two nodes 1/12 of the reach apart the path is linear
+// where the steel's slope bends: 3 % of the largest drop.
+TEST(Shape, StartsAtTheSteelCurve) {
+  const Shape s = ShapeOf(Named("saturation", {{"knee", 0.5}, {"path", 0.08}}), ReferenceRig(),
+                          {.density = 0.55});
+  double H, slope;
+  SteelCurve(0.55 / 0.5, &H, &slope);
+  const double most = 0.08 * H;
+  for (const double B : s.u) {
+    SteelCurve(B / 0.5, &H, &slope);
+    EXPECT_NEAR(s.value(s.Sizes(), B), 0.08 * H, 0.03 * most) << B;
+  }
+}
+
+// Ten relaxations against the half order of diffusion and against laminations.
+TEST(Shape, StartsAtTheDiffusionLaw) {
+  const RigParameters rig = ReferenceRig();
+  for (const double path : {0.0, 3e-5}) {
+    const Shape s = ShapeOf(Named("eddy-currents", {{"cutoff", 3000}, {"path", path}}), rig, {});
+    const double rho = path / rig.Find("A")->radial.gap;
+    for (double f = 60; f < 1e5; f *= 1.3) {
+      const std::complex<double> wanted = Diffusion({0, 2 * kPi * f}, 3000, rho);
+      EXPECT_NEAR(s.value(s.Sizes(), f), std::abs(wanted), 0.05 * std::abs(wanted) + 1e-3) << f;
+    }
+  }
+}
+
+TEST(Shape, HysteresisKeepsItsCoerciveCurrent) {
+  const Shape s = ShapeOf(Named("hysteresis", {{"coercive", 0.08}, {"width", 0.2}}), ReferenceRig(),
+                          {.density = 0.6});
+  EXPECT_NEAR(s.value(s.Sizes(), 0.4), 0.08, 1e-12);  // all operators slip beyond twice the width
+}
+
+// The formula in the rig file and the curve in the report are the same law: read back, the formula
+// pulls as the curve says.
+TEST(Shape, PullFormulaSaysWhatTheCurveSays) {
+  Shape s = ShapeOf(Named("side-pull", {{"stiffness", 4e4}}), ReferenceRig(), {.radius = 6e-5});
+  for (std::size_t k = 0; k < s.rows.size(); ++k)
+    s.effect.values[s.rows[k]] = 1e4 * static_cast<double>(k + 1);
+  RigParameters rig = ReferenceRig();
+  rig.effects = {s.effect};
+  Plant plant = BuildPlant(TrueRig(rig));
+  MotionState m{};
+  m.q[0] = 3e-5;
+  m.q[1] = -4e-5;
+  RotorForces forces;
+  forces.Q = {};
+  for (const auto& term : plant.rotor.terms) term->Add(m, forces);
+  const double r = 5e-5, f = s.value(s.Sizes(), r);
+  EXPECT_NEAR(forces.Q[0], f * 0.6, 1e-9 * f);
+  EXPECT_NEAR(forces.Q[1], -f * 0.8, 1e-9 * f);
+}
+
+TEST(Shape, RefusesWhatHasNoCurve) {
+  EXPECT_THROW(ShapeOf(Named("loop-delay", {}, "rig"), ReferenceRig(), {}), InputError);
+  EXPECT_THROW(ShapeOf(Named("saturation", {{"knee", 0.5}}), ReferenceRig(), {}), InputError);
+  EXPECT_THROW(ShapeOf(Named("side-pull", {{"stiffness", 1e4}}), ReferenceRig(), {}), InputError);
+}
+
+}  // namespace
+}  // namespace ambrig
