@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/toml_checked.h"
 #include "rotor/shaft/beam_mesh.h"
 
 namespace ambrig {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/toml.h"
+#include "core/base/toml_checked.h"
 #include "rotor/shaft/beam.h"
 #include "rotor/shaft/beam_file.h"
 

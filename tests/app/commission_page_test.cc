@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "fdd/measurement/detection_feed.h"
 #include "rig/rig_file.h"
 #include "tests/app/html_page.h"
 #include "tests/cli/cli_run.h"

@@ -13,7 +13,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
 
-RunFiles Run(const std::string& file) {
+RunFiles StoredRun(const std::string& file) {
   RunFiles r;
   r.file = file;
   r.record.rate = 1000;
@@ -40,7 +40,7 @@ std::string Page(const RunFiles& a, const RunFiles& b, const RunDifference& d) {
 }
 
 TEST(DifferencePage, EqualRunsHaveNothingToShow) {
-  const RunFiles a = Run("old.h5"), b = Run("new.h5");
+  const RunFiles a = StoredRun("old.h5"), b = StoredRun("new.h5");
   const RunDifference d = Compared(a, b);
   EXPECT_TRUE(d.identical());
   EXPECT_THAT(DifferenceLines(d), IsEmpty());
@@ -56,8 +56,8 @@ TEST(DifferencePage, EqualRunsHaveNothingToShow) {
 
 // The current leaves at 40 ms, the position at 60 ms; an event moved and one came.
 TEST(DifferencePage, TheFirstChannelToLeaveComesFirst) {
-  const RunFiles a = Run("old.h5");
-  RunFiles b = Run("new.h5");
+  const RunFiles a = StoredRun("old.h5");
+  RunFiles b = StoredRun("new.h5");
   for (std::size_t k = 60; k < 100; ++k) b.record.channels[0].samples[k] += 3e-6;
   for (std::size_t k = 40; k < 100; ++k) b.record.channels[1].samples[k] += 0.25;
   b.events[0]["t"] = 0.021;
@@ -87,8 +87,8 @@ TEST(DifferencePage, TheFirstChannelToLeaveComesFirst) {
 }
 
 TEST(DifferencePage, WithinTheTolerancesItAgreesButIsNotTheSame) {
-  const RunFiles a = Run("old.h5");
-  RunFiles b = Run("new.h5");
+  const RunFiles a = StoredRun("old.h5");
+  RunFiles b = StoredRun("new.h5");
   b.record.channels[0].samples[10] += 1e-9;
   const RunDifference d = Compared(a, b, 1e-8);
   EXPECT_TRUE(d.agrees());
@@ -97,8 +97,8 @@ TEST(DifferencePage, WithinTheTolerancesItAgreesButIsNotTheSame) {
 }
 
 TEST(DifferencePage, ALostChannelIsNamedWithoutNumbers) {
-  const RunFiles a = Run("old.h5");
-  RunFiles b = Run("new.h5");
+  const RunFiles a = StoredRun("old.h5");
+  RunFiles b = StoredRun("new.h5");
   b.record.channels.pop_back();
   b.events = nullptr;
   const RunDifference d = Compared(a, b);

@@ -19,7 +19,7 @@ std::vector<std::string> Keys(const nlohmann::ordered_json& j) {
   return out;
 }
 
-RunResult Run() {
+RunResult MadeRun() {
   RunResult r;
   RunEvent fault;
   fault.t = 0.1;
@@ -44,7 +44,7 @@ TEST(RunJson, EventsCarryClassAndFractionOnlyWhereThereIsOne) {
   Scenario s;
   s.name = "short";
   s.seed = 42;
-  const auto j = RunJson(s, Run(), {});
+  const auto j = RunJson(s, MadeRun(), {});
   EXPECT_EQ(j["name"], "short");
   EXPECT_EQ(j["seed"], 42);
   EXPECT_THAT(Keys(j["events"][0]), ElementsAre("t", "kind", "target"));
@@ -58,7 +58,7 @@ TEST(RunJson, EventsCarryClassAndFractionOnlyWhereThereIsOne) {
 
 // A delay that did not happen is null, not -1.
 TEST(RunJson, WhatDidNotHappenIsNull) {
-  const auto m = RunJson({}, Run(), {})["metrics"];
+  const auto m = RunJson({}, MadeRun(), {})["metrics"];
   EXPECT_EQ(m["detection_delay"], 2e-4);
   EXPECT_TRUE(m["redistribution_delay"].is_null());
   EXPECT_EQ(m["max_orbit"]["B"], 1e-5);
@@ -66,8 +66,8 @@ TEST(RunJson, WhatDidNotHappenIsNull) {
 }
 
 TEST(RunJson, ExpectationsSayWantedGotAndMet) {
-  const auto j =
-      RunJson({}, Run(), {{"touchdown", "false", "true", false}, {"drop", "false", "false", true}});
+  const auto j = RunJson({}, MadeRun(),
+                         {{"touchdown", "false", "true", false}, {"drop", "false", "false", true}});
   EXPECT_THAT(Keys(j["expect"]), ElementsAre("touchdown", "drop"));
   EXPECT_EQ(j["expect"]["touchdown"]["wanted"], "false");
   EXPECT_EQ(j["expect"]["touchdown"]["got"], "true");

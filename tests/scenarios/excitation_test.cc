@@ -13,7 +13,7 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// One [[excitation]] on force at A.x from 0.1 s to 0.3 s of a scenario of 0.5 s.
 Excitation Read(const std::string& more, const std::string& folder = ".") {
@@ -84,7 +84,7 @@ TEST(Excitation, AChirpSweepsFromOneFrequencyToTheOther) {
   EXPECT_NEAR(e.Value(0.1 + 1e-5) / 1e-5, 2 * kPi * 10, 0.1);  // its slope at the start
 }
 
-class ExcitationSamples : public testing::Test {
+class ExcitationSamples : public ::testing::Test {
  protected:
   std::string Folder() const { return folder_.File("."); }
   void Write(const std::string& text) const { std::ofstream(folder_.File("u.csv")) << text; }
