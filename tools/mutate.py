@@ -81,7 +81,7 @@ class Build:
         self.compile = {os.path.realpath(e["file"]): shlex.split(e["command"]) for e in entries}
         self.links = {}
 
-    def compile_mutant(self, original, mutated, prefix):
+    def compile_mutant(self, original, mutated):
         """The object of the mutated source, or None where it does not compile."""
         command = list(self.compile[os.path.realpath(original)])
         if command[0].endswith("ccache"):
@@ -89,7 +89,7 @@ class Build:
         target = self.scratch / "mutant.o"
         command[command.index("-o") + 1] = str(target)
         command[-1] = str(mutated)
-        done = subprocess.run([*prefix, *command, "-w"], cwd=self.folder, capture_output=True)
+        done = subprocess.run([*command, "-w"], cwd=self.folder, capture_output=True)
         return target if done.returncode == 0 else None
 
     def link_command(self, program):
@@ -100,13 +100,13 @@ class Build:
             self.links[program] = shlex.split(line)
         return list(self.links[program])
 
-    def link(self, program, mutant, prefix):
+    def link(self, program, mutant):
         command = self.link_command(program)
         target = self.scratch / program
         at = command.index("-o")
         command[at + 1] = str(target)
         command.insert(at, str(mutant))
-        subprocess.run([*prefix, *command], cwd=self.folder, check=True, capture_output=True)
+        subprocess.run(command, cwd=self.folder, check=True, capture_output=True)
         return target
 
 
@@ -116,13 +116,15 @@ class Suite:
 
     QUICK = 0.3  # [s]
 
-    def __init__(self, program, scratch, prefix, pattern):
-        self.program = program
-        out = scratch / "tests.json"
-        done = run([*prefix, str(program), f"--gtest_output=json:{out}",
-                    *([f"--gtest_filter={pattern}"] if pattern else [])], 3600)
-        if done is None or done.returncode != 0:
-            sys.exit(f"{program.name} fails without a mutant")
+    def __init__(self, program, scratch, pattern):
+        """Runs the healthy program once; `scratch` keeps what it said for later calls."""
+        out = scratch / (program.name + ".json")
+        if not out.exists():
+            done = subprocess.run([str(program), f"--gtest_output=json:{out}",
+                                   *([f"--gtest_filter={pattern}"] if pattern else [])], cwd=ROOT, capture_output=True)
+            if done.returncode != 0:
+                out.unlink(missing_ok=True)
+                sys.exit(f"{program.name} fails without a mutant")
         self.tests = []  # (name, folder of its file, seconds)
         for suite in json.loads(out.read_text())["testsuites"]:
             for test in suite["testsuite"]:
@@ -139,21 +141,16 @@ class Suite:
         return [([t[0] for t in part], sum(t[2] for t in part)) for part in parts if part]
 
 
-def run(command, limit):
-    """The finished process, or None after `limit` seconds."""
-    try:
-        return subprocess.run(command, cwd=ROOT, capture_output=True, timeout=limit)
-    except subprocess.TimeoutExpired:
-        return None
-
-
-def killed(program, phases, patience, prefix):
+def killed(program, phases, patience):
     """Whether some test notices the mutant."""
     for tests, seconds in phases:
-        limit = ["timeout", str(int(10 + patience * seconds))]
-        done = run([*prefix, *limit, str(program), "--gtest_brief=1", "--gtest_fail_fast",
-                    "--gtest_filter=" + ":".join(tests)], None)
-        if done is None or done.returncode != 0:
+        try:
+            done = subprocess.run([str(program), "--gtest_brief=1", "--gtest_fail_fast",
+                                   "--gtest_filter=" + ":".join(tests)], cwd=ROOT, capture_output=True,
+                                  timeout=10 + patience * seconds)
+        except subprocess.TimeoutExpired:
+            return True
+        if done.returncode != 0:
             return True
     return False
 
@@ -196,20 +193,18 @@ class Mutant:
         return all(self.row("")[key] == row[key] for key in ("file", "kind", "before", "after"))
 
 
-def judge(mutant, build, suites, options, scratch):
+def judge(mutant, options, scratch):
     """killed, survived or invalid."""
+    build = Build((ROOT / options.build).resolve(), scratch)
     program = "test_" + mutant.name.split("/")[0]
-    prefix = shlex.split(options.prefix)
-    if program not in suites:
-        suites[program] = Suite(build.folder / program, scratch, prefix, options.filter)
+    suite = Suite(build.folder / program, scratch, options.filter)
     mutated = scratch / mutant.file.name
     mutated.write_text(mutant.text)
-    compiled = build.compile_mutant(mutant.file, mutated, prefix)
+    compiled = build.compile_mutant(mutant.file, mutated)
     if not compiled:
         return "invalid"
-    linked = build.link(program, compiled, prefix)
-    dead = killed(linked, suites[program].phases(mutant.name), options.patience, prefix)
-    return "killed" if dead else "survived"
+    linked = build.link(program, compiled)
+    return "killed" if killed(linked, suite.phases(mutant.name), options.patience) else "survived"
 
 
 def parsed():
@@ -220,10 +215,12 @@ def parsed():
     parser.add_argument("--build", default="build/release")
     parser.add_argument("--patience", type=float, default=5, help="time limit over the healthy run")
     parser.add_argument("--filter", default="", help="--gtest_filter of the test programs")
-    parser.add_argument("--prefix", default="", help="command put before every compiler, linker and test")
+    parser.add_argument("--prefix", default="", help="command that runs the work on each mutant, e.g. nice")
     parser.add_argument("--journal", help="one JSON line per mutant; a run that finds some there goes on after them")
     parser.add_argument("--again", help="judge the survivors of this journal anew instead of choosing mutants")
     parser.add_argument("--out", help="write the table to this file")
+    parser.add_argument("--only", type=int, help="judge this mutant alone and print the verdict as JSON")
+    parser.add_argument("--scratch", help="folder for objects and programs (default: a temporary one)")
     parser.add_argument("--list", action="store_true", help="show the mutants, run nothing")
     return parser.parse_args()
 
@@ -248,16 +245,21 @@ def main():
         for m in mutants:
             print(f"{m.name}:{m.line}: {m.kind}: {m.before.strip()}  ->  {m.after.strip()}")
         return 0
+    if o.only is not None:
+        print(json.dumps(mutants[o.only].row(judge(mutants[o.only], o, pathlib.Path(o.scratch)))))
+        return 0
     journal = pathlib.Path(o.journal) if o.journal else None
-    rows, suites = [], {}
+    rows = []
     known = [json.loads(line) for line in journal.read_text().splitlines()] if journal and journal.exists() else []
     with tempfile.TemporaryDirectory() as scratch:
-        scratch = pathlib.Path(scratch)
-        build = Build((ROOT / o.build).resolve(), scratch)
         for k, mutant in enumerate(mutants):
             row = known[k] if k < len(known) and mutant.same(known[k]) else None
             if row is None:
-                row = mutant.row(judge(mutant, build, suites, o, scratch))
+                done = subprocess.run([*shlex.split(o.prefix), sys.executable, *sys.argv, "--only", str(k),
+                                       "--scratch", o.scratch or scratch], stdout=subprocess.PIPE, text=True)
+                if done.returncode != 0:
+                    return done.returncode
+                row = json.loads(done.stdout.splitlines()[-1])
                 if journal:
                     with journal.open("a") as file:
                         file.write(json.dumps(row) + "\n")

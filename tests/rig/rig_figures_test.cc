@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/clearance.h"
 #include "tests/actuators/magnetics/reference_lanes.h"
 
 namespace ambrig {
@@ -96,6 +97,21 @@ TEST(ForceConstant, OfAnOpposedBearingIsTheSlopeOfItsInductance) {
   EXPECT_NEAR(ForceConstant(b), 2 * slope, 1e-6 * slope);
   b.opposed.coils = 1;
   EXPECT_NEAR(ForceConstant(b), slope, 1e-6 * slope);
+}
+
+// The stop where there is one; else half of the way to the poles.
+TEST(Clearance, IsThatOfTheAuxiliaryBearing) {
+  BearingParameters a = *ReferenceRig().Find("A"), z = *ReferenceRig().Find("Z");
+  EXPECT_EQ(ClearanceOf(a), 2e-4);
+  EXPECT_EQ(ClearanceOf(z), 2.5e-4);
+  a.radial.gap = z.thrust.gap = 8e-4;
+  EXPECT_EQ(ClearanceOf(a), 2e-4);
+  a.auxiliary.reset();
+  z.auxiliary.reset();
+  EXPECT_EQ(ClearanceOf(a), 4e-4);
+  EXPECT_EQ(ClearanceOf(z), 4e-4);
+  const RigParameters magnet = Example("mls2em");
+  EXPECT_EQ(GapOf(magnet.bearings[0]), magnet.bearings[0].opposed.gap);
 }
 
 TEST(BearingKinds, StandInTheOrderOfTheEnumerationAndAreNamed) {
