@@ -94,7 +94,7 @@ TEST_F(Conclusion, AParameterThatMovedFarIsNamedWithWhatTheRecordsSayOfIt) {
   std::vector<std::string> warnings;
   const ParameterNeed need =
       NeedOf(case_.model, Moved(1, 4, {1, 1, 1, 1}), kN, warnings);  // all ask for the same
-  EXPECT_DOUBLE_EQ(need.largest_shift, 4);
+  EXPECT_NEAR(need.largest_shift, 4, 1e-9);
   EXPECT_FALSE(need.believable);  // 16 of 1 prior
   EXPECT_TRUE(need.constant);
   ASSERT_EQ(warnings.size(), 1u);
@@ -105,7 +105,7 @@ TEST_F(Conclusion, AParameterThatMovedFarIsNamedWithWhatTheRecordsSayOfIt) {
 TEST_F(Conclusion, RecordsThatDoNotAgreeOnAParameterAreSaidSo) {
   std::vector<std::string> warnings;
   const ParameterNeed need = NeedOf(case_.model, Moved(5, -3.5, {1, -1, 1, -1}), 1e4, warnings);
-  EXPECT_DOUBLE_EQ(need.largest_shift, 3.5);
+  EXPECT_NEAR(need.largest_shift, 3.5, 1e-9);
   EXPECT_FALSE(need.constant);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], HasSubstr("-3.5 sd; the records do not agree on one value"));
@@ -114,7 +114,7 @@ TEST_F(Conclusion, RecordsThatDoNotAgreeOnAParameterAreSaidSo) {
 TEST_F(Conclusion, ASmallShiftNeedsNoWord) {
   std::vector<std::string> warnings;
   const ParameterNeed need = NeedOf(case_.model, Moved(1, 1.2, {1, 1, 1, 1}), kN, warnings);
-  EXPECT_DOUBLE_EQ(need.largest_shift, 1.2);
+  EXPECT_NEAR(need.largest_shift, 1.2, 1e-9);
   EXPECT_TRUE(need.believable);
   EXPECT_TRUE(warnings.empty());
 }

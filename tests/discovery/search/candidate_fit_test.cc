@@ -99,7 +99,7 @@ TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
 
 // A second round adds to what was found and does not name it again.
 TEST(RankEffects, ASecondRoundFindsWhatTheFirstLeft) {
-  const LinearCase c(kX, 1.1, -8e-6);
+  const LinearCase c({2e-5, 4e-5, 6e-5, -5e-5}, 1.1, -8e-6);
   const FitResult base = c.Base();
   SignatureBank bank;
   Told told;
