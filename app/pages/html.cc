@@ -10,6 +10,7 @@
 #include "app/pages/format.h"
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
+#include "core/base/parameters.h"
 
 namespace ambrig {
 namespace {
@@ -191,10 +192,10 @@ void HtmlReport::TimeSeries(const std::string& caption, const std::string& x_tit
   Figure figure = MakeFigure(caption);
   SetAxes(figure, 0, x_title, y_title);
   int k = 0;
-  std::array<double, 2> range = {0, 0};
+  std::array<double, 2> range = {kInfinity, -kInfinity};  // of all series
   for (const Series& s : series) {
     AddLine(figure, 0, s.name, s.x, s.y, SeriesStyle(k++));
-    if (!s.x.empty()) range = {s.x.front(), std::max(range[1], s.x.back())};
+    if (!s.x.empty()) range = {std::min(range[0], s.x.front()), std::max(range[1], s.x.back())};
   }
   AddMarks(figure, marks, range);
   AddFigure(figure);

@@ -7,6 +7,7 @@
 #include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
 #include "discovery/data/held_values.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -29,10 +30,7 @@ double LimitOf(const RigParameters& rig, const std::string& channel) {
   if (id->kind == ChannelKind::kBus) return 2 * rig.amplifier.bus_voltage;
   for (const BearingParameters& b : rig.bearings)
     for (const std::string& axis : b.Axes())
-      if (axis == channel)
-        return b.kind == BearingKind::kRadial   ? 2 * b.radial.gap
-               : b.kind == BearingKind::kThrust ? 2 * b.thrust.gap
-                                                : 2 * b.opposed.gap;
+      if (axis == channel) return 2 * GapOf(b);
   return kInfinity;
 }
 

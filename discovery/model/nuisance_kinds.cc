@@ -8,6 +8,7 @@
 #include "discovery/model/model.h"
 #include "discovery/model/nuisances.h"
 #include "effects/catalogue.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -23,18 +24,11 @@ constexpr double kZeroOfForce = 0.01;      // of the rotor's weight
 constexpr double kTimeShift = 1e-4;        // [s]
 constexpr double kInputGain = 0.01;
 
-double Clearance(const BearingParameters& b) {
-  if (b.auxiliary) return b.auxiliary->clearance;
-  return 0.5 * (b.kind == BearingKind::kRadial   ? b.radial.gap
-                : b.kind == BearingKind::kThrust ? b.thrust.gap
-                                                 : b.opposed.gap);
-}
-
 /// Usual zero of a channel [its unit]; 0: it has none.
 double UsualZero(const RigParameters& rig, const std::string& channel) {
   for (const BearingParameters& b : rig.bearings)
     for (const std::string& axis : b.Axes())
-      if (axis == channel) return kZeroOfClearance * Clearance(b);
+      if (axis == channel) return kZeroOfClearance * ClearanceOf(b);
   const auto id = ParseChannel(channel);
   if (!id) return 0;
   if (id->kind == ChannelKind::kCoilCurrent) return kZeroOfCurrent * rig.amplifier.adc_range;

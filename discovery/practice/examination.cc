@@ -7,6 +7,7 @@
 
 #include "core/math/constants.h"
 #include "core/math/noise.h"
+#include "rig/clearance.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -25,14 +26,6 @@ class Draw {
   std::uint64_t seed_;
   std::uint32_t next_ = 0;
 };
-
-/// Room that the rotor has before something touches. [m]
-double Clearance(const BearingParameters& b) {
-  if (b.auxiliary) return b.auxiliary->clearance;
-  return 0.5 * (b.kind == BearingKind::kRadial   ? b.radial.gap
-                : b.kind == BearingKind::kThrust ? b.thrust.gap
-                                                 : b.opposed.gap);
-}
 
 struct Writer {
   const RigParameters& rig;
@@ -98,7 +91,7 @@ struct Writer {
       const std::vector<std::string> own = bearing.Axes();
       const double start = 0.05 * duration + slot * static_cast<double>(b);
       text += Excitation(own[b % own.size()], "reference", "step", start, start + 0.7 * slot,
-                         share * Clearance(bearing) * draw.Uniform(0.8, 1.1) * (b % 2 ? -1 : 1));
+                         share * ClearanceOf(bearing) * draw.Uniform(0.8, 1.1) * (b % 2 ? -1 : 1));
       if (bearing.kind != BearingKind::kRadial) continue;
       const double from = 0.05 * duration + slot * static_cast<double>(n + b);
       text += fmt::format(
@@ -114,7 +107,7 @@ struct Writer {
     std::string places, text;
     for (const BearingParameters& b : rig.bearings) {
       if (b.kind != BearingKind::kRadial) continue;
-      const double reach = 0.5 * Clearance(b);
+      const double reach = 0.5 * ClearanceOf(b);
       places += fmt::format("{}{} = [{:.3g}, {:.3g}]", places.empty() ? "" : ", ", b.name,
                             draw.Uniform(-reach, reach), draw.Uniform(-reach, reach));
       const int coils = b.coils();

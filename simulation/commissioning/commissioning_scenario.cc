@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "rig/clearance.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -15,8 +16,7 @@ namespace {
 constexpr double kLowestTone = 60, kHighestTone = 2000;  // [Hz]
 constexpr double kCircleTurns = 3, kFastestCircle = 25;  // of the reference; [Hz]
 constexpr double kFirstChirp = 20, kLastChirp = 600;     // [Hz]
-constexpr double kThrustShare = 0.4;     // of f_max: its negative stiffness is the larger one
-constexpr double kClearanceOfGap = 0.5;  // where no stop is given
+constexpr double kThrustShare = 0.4;  // of f_max: its negative stiffness is the larger one
 
 Excitation Signal(const std::string& target, const std::string& port, const std::string& kind,
                   double start, double stop, double amplitude) {
@@ -47,13 +47,6 @@ void AddTones(const RigParameters& rig, const CommissioningPlan& plan, Scenario*
       }
       s->excitations.push_back(e);
     }
-}
-
-double ClearanceOf(const BearingParameters& b) {
-  if (b.auxiliary) return b.auxiliary->clearance;
-  return kClearanceOfGap * (b.kind == BearingKind::kRadial   ? b.radial.gap
-                            : b.kind == BearingKind::kThrust ? b.thrust.gap
-                                                             : b.opposed.gap);
 }
 
 void AddCircles(const RigParameters& rig, const CommissioningPlan& plan, Scenario* s) {

@@ -51,10 +51,10 @@ inline std::string ScenarioText(const std::string& more) {
   return "name = \"t\"\nrig = \"rig.toml\"\nduration = 0.01\nrecord_rate = 12500.0\n" + more;
 }
 
-class CliFolder : public testing::Test {
+class CliFolder : public ::testing::Test {
  protected:
   void SetUp() override {
-    std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::replace(name.begin(), name.end(), '/', '_');
     folder_ = std::filesystem::temp_directory_path() /
               ("ambrig_cli_" + std::to_string(::getpid()) + "_" + name);

@@ -1,0 +1,107 @@
+// The whole search on measurements whose cause is written down: nothing, an effect, wrong data.
+#include "discovery/decision/explain.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <cmath>
+
+#include "core/base/errors.h"
+#include "tests/discovery/measured_case.h"
+
+namespace ambrig {
+namespace {
+
+std::vector<MeasuredPlace> Places(double gain, double offset = 0) {
+  return {{2e-5, 3e-5, gain, offset},
+          {-6e-5, 1e-5, gain, offset},
+          {5e-5, -4e-5, gain, offset},
+          {-3e-5, -5e-5, gain, offset}};
+}
+
+ExplainOptions Short() {
+  ExplainOptions o;
+  o.candidates = 2;
+  o.rounds = 1;
+  return o;
+}
+
+TEST(Explain, MeasurementsOfTheRigAsDrawnNeedNothing) {
+  const Case c = MeasuredCase(Places(1));
+  const Explanation e = Explain(c, Short());
+  EXPECT_EQ(e.verdict, "none");
+  EXPECT_TRUE(e.adopted.empty());
+  EXPECT_NEAR(e.nominal_ratio_validate, 1, 0.1);
+  ASSERT_FALSE(e.set.empty());
+  EXPECT_EQ(e.set[0].effect, "none");
+  EXPECT_EQ(e.remainder.kind, "none");
+  EXPECT_GT(e.runs, 0);
+}
+
+TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
+  const Case c = MeasuredCase(Places(1, 3e-6));
+  std::vector<double> fractions;
+  ExplainOptions o = Short();
+  o.progress = [&](double f, const std::string&) { fractions.push_back(f); };
+  int checkpoints = 0;
+  o.checkpoint = [&](const Explanation& so_far) {
+    ++checkpoints;
+    EXPECT_EQ(so_far.adopted.size(), 1u);
+  };
+  const Explanation e = Explain(c, o);
+  ASSERT_EQ(e.verdict, "effect");
+  ASSERT_EQ(e.adopted.size(), 1u);
+  EXPECT_EQ(e.adopted[0].name, "sensor-offset");
+  EXPECT_EQ(e.adopted[0].target, "A.x");
+  EXPECT_NEAR(e.adopted[0].Value("offset"), 3e-6, 2e-7);
+  EXPECT_GT(e.nominal_ratio_validate, 3);
+  EXPECT_NEAR(e.final_ratio_validate, 1, 0.15);
+  EXPECT_GT(e.closure.explained, 0.95);
+  ASSERT_GE(e.ladder.size(), 3u);
+  EXPECT_EQ(e.ladder[1].added, "parameters");
+  EXPECT_EQ(e.ladder[2].added, "sensor-offset at A.x");
+  double sum = 0;
+  for (const RankedEffect& r : e.ranking) sum += r.probability;
+  EXPECT_LE(sum, 1 + 1e-9);
+  EXPECT_EQ(checkpoints, 1);
+  EXPECT_EQ(fractions.back(), 1);
+}
+
+// Held at one place per record, a gain is another zero in every record: it is told as that, not as an effect.
+TEST(Explain, WhatDiffersFromRecordToRecordIsANuisance) {
+  const Case c = MeasuredCase(Places(1.08));
+  const Explanation e = Explain(c, Short());
+  EXPECT_EQ(e.verdict, "parameters");
+  EXPECT_TRUE(e.adopted.empty());
+  ASSERT_EQ(e.nuisances.size(), 4u);
+  for (std::size_t r = 0; r < 4; ++r) {
+    EXPECT_EQ(e.nuisances[r].name, "zero of A.x");
+    EXPECT_NEAR(e.nuisances[r].value, 0.08 * Places(1)[r].x, 3e-7) << r;
+  }
+  EXPECT_NEAR(e.final_ratio_validate, 1, 0.15);
+}
+
+// A column in µm in a file said to be in m: nothing is fitted to it.
+TEST(Explain, WrongDataEndTheSearch) {
+  Case c = MeasuredCase(Places(1));
+  for (CaseRecord& r : c.records)
+    for (double& v : r.data.channels[0].samples) v *= 1000;
+  const Explanation e = Explain(c, Short());
+  EXPECT_EQ(e.verdict, "data");
+  ASSERT_FALSE(e.data.empty());
+  EXPECT_EQ(e.data[0].channel, "A.x");
+  EXPECT_TRUE(e.ranking.empty());
+  EXPECT_TRUE(e.adopted.empty());
+  EXPECT_EQ(e.final_ratio_validate, e.nominal_ratio_validate);
+}
+
+TEST(Explain, StopsWhenAsked) {
+  const Case c = MeasuredCase(Places(1.08));
+  std::atomic<bool> stop{true};
+  ExplainOptions o = Short();
+  o.stop = &stop;
+  EXPECT_THROW(Explain(c, o), Interrupted);
+}
+
+}  // namespace
+}  // namespace ambrig

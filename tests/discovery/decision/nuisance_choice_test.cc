@@ -1,0 +1,118 @@
+// Nuisances: what they take off a residual in closed form, and which of them a residual asks for.
+#include "discovery/decision/nuisance_choice.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+using Eigen::Index;
+
+class NuisanceTest : public testing::Test {
+ protected:
+  /// A kind that is `size` floors in every row of a channel (0: A.x, 1: A.y), all records.
+  NuisanceKind Zero(std::size_t channel, double size = 10) const {
+    NuisanceKind k;
+    k.name = channel == 0 ? "zero of A.x" : "zero of A.y";
+    k.group = "sensor-zero";
+    k.unit = "m";
+    k.sd = size * LinearCase::kFloor;
+    k.column = Eigen::VectorXd::Zero(static_cast<Index>(case_.model.size()));
+    for (const Target& t : case_.model.targets())
+      if (t.channel == channel)
+        k.column.segment(static_cast<Index>(t.first), static_cast<Index>(t.count))
+            .setConstant(size);
+    return k;
+  }
+  /// `of_record[r]` floors in A.x of record r.
+  std::vector<double> Offsets(const std::vector<double>& of_record) const {
+    std::vector<double> r(case_.model.size(), 0);
+    for (const Target& t : case_.model.targets())
+      if (t.channel == 0)
+        for (std::size_t k = t.first; k < t.first + t.count; ++k) r[k] = of_record[t.record];
+    return r;
+  }
+
+  static constexpr double kWeight = 0.5;
+  LinearCase case_{{2e-5, 4e-5, 6e-5, 5e-5}, 1, 0};
+};
+
+// Of an offset r in n rows a zero of c floors per sd takes n c²/(n c² + 1/weight), record by record.
+TEST_F(NuisanceTest, EliminationIsTheRidgeSolutionOfEachRecord) {
+  Nuisances n;
+  EXPECT_FALSE(n.any());
+  n.Use(case_.model, {Zero(0)}, kWeight);
+  EXPECT_TRUE(n.any());
+  std::vector<double> r = Offsets({3, -5, 0, 12});
+  const std::vector<double> before = r;
+  n.Eliminate(r.data());
+  const double square = LinearCase::kRows * 100.0, left = 1 - square / (square + 1 / kWeight);
+  for (std::size_t k = 0; k < r.size(); ++k) EXPECT_NEAR(r[k], left * before[k], 1e-12);
+  const auto amounts = n.Amounts(case_.model, before);
+  ASSERT_EQ(amounts.size(), 4u);
+  EXPECT_EQ(amounts[3].record, "at 5e-05 m");
+  EXPECT_EQ(amounts[3].name, "zero of A.x");
+  EXPECT_NEAR(amounts[3].value, (1 - left) * 12e-6, 1e-15);
+  EXPECT_NEAR(amounts[3].sd, 10e-6 / std::sqrt(kWeight * square + 1), 1e-12);
+}
+
+TEST_F(NuisanceTest, ColumnsOfAFitLoseTheSameAsTheResidual) {
+  Nuisances n;
+  n.Use(case_.model, {Zero(0), Zero(1)}, kWeight);
+  const std::vector<double> r = Offsets({1, 2, 3, 4});
+  Eigen::MatrixXd columns(static_cast<Index>(r.size()), 2);
+  columns.col(0) = Eigen::Map<const Eigen::VectorXd>(r.data(), static_cast<Index>(r.size()));
+  columns.col(1) = -3 * columns.col(0);
+  std::vector<double> same = r;
+  n.Eliminate(same.data());
+  n.Eliminate(columns);
+  for (std::size_t k = 0; k < r.size(); ++k) {
+    EXPECT_DOUBLE_EQ(columns(static_cast<Index>(k), 0), same[k]);
+    EXPECT_NEAR(columns(static_cast<Index>(k), 1), -3 * same[k], 1e-12);
+  }
+}
+
+TEST_F(NuisanceTest, WhatARecordDoesNotFeelIsLeftOut) {
+  Nuisances n;
+  n.Use(case_.model, {Zero(0, 1e-4)}, kWeight);
+  EXPECT_FALSE(n.any());
+}
+
+// Thinned kinds are the same numbers at the rows that remain.
+TEST_F(NuisanceTest, AThinnedModelSeesTheSameKinds) {
+  const CaseModel thin(case_.data, 5);
+  NuisanceKind k = Zero(0);
+  for (Index row = 0; row < k.column.size(); ++row) k.column(row) = static_cast<double>(row);
+  const auto few = Thinned({k}, case_.model, thin);
+  ASSERT_EQ(few[0].column.size(), static_cast<Index>(thin.size()));
+  for (std::size_t t = 0; t < thin.targets().size(); ++t)
+    for (std::size_t row = 0; row < thin.targets()[t].count; ++row) {
+      const std::size_t at = thin.targets()[t].first + row;
+      EXPECT_EQ(few[0].column(static_cast<Index>(at)),
+                static_cast<double>(case_.model.targets()[t].first + thin.sample(at)));
+    }
+}
+
+TEST_F(NuisanceTest, ZerosThatDifferFromRecordToRecordAreChosen) {
+  const auto chosen =
+      ChooseNuisances(case_.model, {Zero(1), Zero(0)}, Offsets({6, -6, 5, -4}), kWeight);
+  ASSERT_EQ(chosen.size(), 1u);
+  EXPECT_EQ(chosen[0].name, "zero of A.x");
+}
+
+// The same offset in every record is an effect of the rig, not a nuisance.
+TEST_F(NuisanceTest, WhatIsTheSameInEveryRecordIsLeftToTheSearch) {
+  EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, Offsets({6, 6, 6, 6}), kWeight).empty());
+}
+
+TEST_F(NuisanceTest, ASmallGainIsNotWorthItsPrice) {
+  EXPECT_TRUE(
+      ChooseNuisances(case_.model, {Zero(0)}, Offsets({0.5, -0.5, 0.5, -0.5}), kWeight).empty());
+}
+
+}  // namespace
+}  // namespace ambrig

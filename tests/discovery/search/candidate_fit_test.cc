@@ -1,0 +1,136 @@
+// Fits of candidates and their ranking, on readings that are linear in gain and offset.
+#include "discovery/search/candidate_fit.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "discovery/decision/likelihood.h"
+#include "discovery/search/effect_round.h"
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kN = 300;
+const std::vector<double> kX = {2e-5, 4e-5, 6e-5, 5e-5};
+
+Candidate From(const EffectInstance& start) {
+  Candidate c;
+  c.effect = start;
+  return c;
+}
+
+TEST(FitBriefly, ReachesTheOptimumOfALinearProblem) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult fit = FitBriefly(c.model, c.Base(), From(LinearCase::Gain(1.01)), kN);
+  ASSERT_TRUE(fit.converged);
+  EXPECT_NEAR(fit.hypothesis.rig.effects[0].Value("gain"), 1.08, 2e-3);
+  EXPECT_LT(fit.ratio_validate, 0.2);
+  EXPECT_EQ(fit.jacobian.size(), 0);  // no sensitivities of a short fit
+}
+
+// A start that the case refuses is passed over, and no start at all is no fit.
+TEST(FitBriefly, TakesTheOtherStartWhereTheFirstIsRefused) {
+  const LinearCase c(kX, 1.08, 0);
+  Candidate candidate = From(LinearCase::Gain(1.01));
+  candidate.effect.target = "nowhere";
+  FitResult fit = FitBriefly(c.model, c.Base(), candidate, kN);
+  EXPECT_FALSE(fit.converged);
+  EXPECT_TRUE(std::isinf(fit.ratio_fit));
+  candidate.other_starts = {LinearCase::Gain(1.2)};
+  fit = FitBriefly(c.model, c.Base(), candidate, kN);
+  ASSERT_TRUE(fit.converged);
+  EXPECT_EQ(fit.hypothesis.rig.effects.size(), 1u);
+  EXPECT_EQ(fit.hypothesis.rig.effects[0].target, "A.x");
+}
+
+TEST(FitOn, GivesSensitivitiesAndStandardDeviations) {
+  const LinearCase c(kX, 1.08, 2e-6);
+  const FitResult base = c.Base();
+  const FitResult fit =
+      FitOn(c.model, base, c.With({LinearCase::Gain(1.05), LinearCase::Offset(1e-6)}), kN);
+  ASSERT_TRUE(fit.converged);
+  EXPECT_EQ(fit.jacobian.cols(), 2);
+  ASSERT_EQ(fit.sd.size(), 2u);
+  EXPECT_GT(fit.sd[0], 0);
+  EXPECT_NEAR(fit.hypothesis.free[1].value, 2e-6, 2e-7);
+}
+
+/// Records every text of progress.
+struct Told {
+  std::vector<std::string> texts;
+  std::function<void(double, const std::string&)> Listener() {
+    return [this](double f, const std::string& text) {
+      EXPECT_GE(f, 0);
+      EXPECT_LE(f, 1);
+      texts.push_back(text);
+    };
+  }
+};
+
+TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  Told told;
+  const EffectRound round = RankEffects({c.model, c.model, bank, kN, 3, told.Listener()}, base, 0);
+  ASSERT_GE(round.ranking.size(), 2u);
+  const RankedEffect& best = round.ranking[0];
+  EXPECT_EQ(Named(best.effect), "sensor-gain at A.x");
+  EXPECT_NEAR(best.effect.Value("gain"), 1.08, 2e-3);
+  EXPECT_GT(best.effect.sd[0], 0);  // of a full fit
+  EXPECT_GT(best.fit.jacobian.size(), 0);
+  EXPECT_NEAR(best.screened_ratio, best.fit.ratio_validate, 0.1);  // linear: the promise is kept
+  double sum = 0;
+  for (std::size_t k = 0; k < round.ranking.size(); ++k) {
+    const RankedEffect& r = round.ranking[k];
+    sum += r.probability;
+    EXPECT_NEAR(r.score, Score(c.model, r.fit, kN), 1e-9);
+    EXPECT_NEAR(std::log(r.probability / best.probability), -0.5 * (r.score - best.score), 1e-6);
+    if (k > 0) {
+      EXPECT_GE(r.score, round.ranking[k - 1].score);
+    }
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+  EXPECT_FALSE(round.screened.empty());
+  EXPECT_THAT(told.texts, testing::Contains("full fit of sensor-gain at A.x"));
+}
+
+// A second round adds to what was found and does not name it again.
+TEST(RankEffects, ASecondRoundFindsWhatTheFirstLeft) {
+  const LinearCase c({2e-5, 4e-5, 6e-5, -5e-5}, 1.1, -8e-6);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  Told told;
+  const RoundSetting setting{c.model, c.model, bank, kN, 3, told.Listener()};
+  FitResult now = FitOn(c.model, base, c.With({LinearCase::Gain(1.05)}), kN);
+  ASSERT_TRUE(now.converged);
+  ASSERT_GT(now.ratio_validate, 1);
+  const EffectRound round = RankEffects(setting, now, 1);
+  ASSERT_FALSE(round.ranking.empty());
+  EXPECT_EQ(Named(round.ranking[0].effect), "sensor-offset at A.x");
+  EXPECT_NEAR(round.ranking[0].effect.Value("offset"), -8e-6, 3e-7);
+  EXPECT_EQ(round.ranking[0].fit.hypothesis.rig.effects.size(), 2u);
+  for (const RankedEffect& r : round.ranking)
+    EXPECT_FALSE(r.effect.name == "sensor-gain" && r.effect.target == "A.x");
+}
+
+TEST(VisibleSizes, AreThreeStandardDeviationsOfEachEffect) {
+  const LinearCase c(kX, 1, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  bank.Simulate(c.model, base, ProbesOf(EffectNamed("sensor-offset"), "A.x", c.model, {}), nullptr);
+  const std::vector<VisibleSize> sizes = VisibleSizes(c.model, base, kN, bank);
+  ASSERT_EQ(sizes.size(), 1u);
+  EXPECT_EQ(sizes[0].effect, "sensor-offset");
+  EXPECT_EQ(sizes[0].target, "A.x");
+  EXPECT_EQ(sizes[0].unit, "m");
+  // One offset in the 3 x 50 fitted rows of A.x, each of weight kN over all rows.
+  const double weight = kN / static_cast<double>(c.model.size());
+  EXPECT_NEAR(sizes[0].size, 3 * LinearCase::kFloor / std::sqrt(weight * 3 * LinearCase::kRows),
+              0.05 * sizes[0].size);
+}
+
+}  // namespace
+}  // namespace ambrig

@@ -1,0 +1,207 @@
+// What a rig file says arrives in the parameters, once, with its spreads; mistakes are one line each.
+#include "rig/rig_file.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "core/base/errors.h"
+#include "core/base/read_file.h"
+#include "rig/rig_checks.h"
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+RigParameters Read(const std::string& text) { return ReadRigText(text, "rig.toml"); }
+
+/// The message of the mistake that the reference rig has once `from` became `to`.
+std::string Message(const std::string& from, const std::string& to) {
+  try {
+    Read(Replaced(ReferenceRigText(), from, to));
+  } catch (const InputError& e) {
+    const std::string text = e.what();
+    EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+    return text;
+  }
+  return "no mistake";
+}
+
+const Tolerance* ToleranceOf(const RigParameters& rig, const std::string& path) {
+  for (const Tolerance& t : rig.tolerances)
+    if (t.path == path) return &t;
+  return nullptr;
+}
+
+TEST(RigFile, NumbersArriveInSi) {
+  const RigParameters rig = Read(ReferenceRigText());
+  EXPECT_EQ(rig.name, "reference");
+  EXPECT_EQ(rig.rotor.mass, 4.2);
+  EXPECT_EQ(rig.gravity[1], -9.81);
+  EXPECT_EQ(rig.amplifier.modulation, Modulation::kBiState);
+  EXPECT_EQ(rig.amplifier.duty_min, 0.02);
+  EXPECT_EQ(rig.samples_per_period(), 18);
+  EXPECT_EQ(rig.periods_per_control(), 2);
+  EXPECT_EQ(rig.Find("A")->radial.first_pole_angle_deg, 22.5);
+  EXPECT_EQ(rig.Find("C"), nullptr);
+}
+
+// `like` copies values and spreads, not the place of its own auxiliary bearing.
+TEST(RigFile, ABearingLikeAnotherHasItsValuesAndSpreads) {
+  const RigParameters rig = Read(ReferenceRigText());
+  const BearingParameters &a = *rig.Find("A"), &b = *rig.Find("B");
+  EXPECT_EQ(b.radial.gap, a.radial.gap);
+  EXPECT_EQ(b.auxiliary->clearance, a.auxiliary->clearance);
+  EXPECT_EQ(b.z, 0.13);
+  EXPECT_EQ(b.sensor.z, 0.145);
+  ASSERT_NE(ToleranceOf(rig, "bearings.B.gap"), nullptr);
+  EXPECT_EQ(ToleranceOf(rig, "bearings.B.gap")->sd, ToleranceOf(rig, "bearings.A.gap")->sd);
+  const RigParameters own =
+      Read(Replaced(ReferenceRigText(), "z = 0.130", "z = 0.130\ngap = 5.0e-4"));
+  EXPECT_EQ(own.Find("B")->radial.gap, 5e-4);
+  EXPECT_EQ(ToleranceOf(own, "bearings.B.gap"), nullptr);  // a number without an sd of its own
+  EXPECT_NE(ToleranceOf(own, "bearings.A.gap"), nullptr);
+}
+
+TEST(RigFile, BearingsComeByKindAndName) {
+  const std::string text = ReferenceRigText();
+  const RigParameters rig = Read(text);
+  std::vector<std::string> names;
+  for (const BearingParameters& b : rig.bearings) names.push_back(b.name);
+  EXPECT_THAT(names, ElementsAre("A", "B", "Z"));
+  EXPECT_EQ(rig.bearings[2].kind, BearingKind::kThrust);
+  EXPECT_EQ(rig.bearings[2].controller->f_max, 120);
+  EXPECT_FALSE(rig.bearings[0].controller);
+}
+
+TEST(RigFile, OtherControllersShareRateAndBias) {
+  const RigParameters rig =
+      Read(ReferenceRigText() +
+           "\n[controllers.soft]\nkind = \"pid\"\nkp = 2.0e5\nkd = 600.0\nki = 1.0e6\n"
+           "derivative_time_constant = 2.0e-4\nf_max = 40.0\n");
+  ASSERT_EQ(rig.other_controllers.size(), 1u);
+  EXPECT_EQ(rig.other_controllers[0].name, "soft");
+  EXPECT_EQ(rig.other_controllers[0].pid.kp, 2e5);
+  EXPECT_EQ(rig.other_controllers[0].rate, rig.controller.rate);
+  EXPECT_EQ(rig.other_controllers[0].bias_current, rig.controller.bias_current);
+}
+
+// Every number of every table: written once, read back, inside its range, and no path twice.
+TEST(RigParameters, EveryPathLeadsToOneNumberInsideItsRange) {
+  RigParameters rig = Read(ReferenceRigText());
+  std::set<std::string> seen;
+  for (const std::string& path : ParameterPaths(rig)) {
+    EXPECT_TRUE(seen.insert(path).second) << path;
+    double lo = 0, hi = 0;
+    std::string unit;
+    ASSERT_TRUE(ParameterRange(rig, path, &lo, &hi, &unit)) << path;
+    EXPECT_FALSE(unit.empty()) << path;
+    EXPECT_LT(lo, hi) << path;
+    const double value = *ParameterAt(rig, path);
+    if (std::isnan(value)) continue;  // not given
+    EXPECT_GE(value, lo) << path;
+    EXPECT_LE(value, hi) << path;
+    EXPECT_TRUE(SetParameter(rig, path, value + 0.125)) << path;
+    EXPECT_EQ(*ParameterAt(rig, path), value + 0.125) << path;
+    EXPECT_TRUE(SetParameter(rig, path, value)) << path;
+  }
+  EXPECT_EQ(ParameterAt(rig, "rotor.colour"), nullptr);
+  EXPECT_FALSE(SetParameter(rig, "bearings.C.gap", 1));
+  double lo, hi;
+  std::string unit;
+  EXPECT_FALSE(ParameterRange(rig, "gap", &lo, &hi, &unit));
+}
+
+TEST(RigParameters, EveryRowOfThePageIsDescribed) {
+  std::set<std::string> sections;
+  for (const ParameterRow& row : RigParameterRows()) {
+    sections.insert(row.section);
+    EXPECT_FALSE(row.doc.empty()) << row.section << row.key;
+    EXPECT_FALSE(row.unit.empty()) << row.section << row.key;
+    EXPECT_LT(row.lo, row.hi) << row.section << row.key;
+    if (!std::isnan(row.fallback) && std::isfinite(row.fallback)) {
+      EXPECT_GE(row.fallback, row.lo) << row.section << row.key;
+      EXPECT_LE(row.fallback, row.hi) << row.section << row.key;
+    }
+  }
+  for (const char* section : {"[rotor]", "[amplifier]", "[bearings.A] kind = \"radial\"",
+                              "[bearings.Z] kind = \"thrust\"", "[bearings.M] kind = \"opposed\""})
+    EXPECT_TRUE(sections.contains(section)) << section;
+}
+
+// A stretch to either side of the bearings as long as their distance, at least to the centre of mass.
+TEST(ShaftExtent, OfARigidRotorReachesBeyondItsBearings) {
+  RigParameters rig = Read(ReferenceRigText());
+  const auto [lo, hi] = ShaftExtent(rig);
+  EXPECT_DOUBLE_EQ(lo, -0.12 - 0.25);
+  EXPECT_DOUBLE_EQ(hi, 0.13 + 0.25);
+  for (BearingParameters& b : rig.bearings) b.z += 1;  // both on one side
+  EXPECT_EQ(ShaftExtent(rig).first, 0);
+}
+
+TEST(ShaftExtent, OfABeamIsTheBeam) {
+  const RigParameters rig = ReadRig(AMBRIG_SOURCE_DIR "/examples/tum_mbtr/rig.toml");
+  double length = 0;
+  for (const ShaftSection& s : rig.beam->definition.sections)
+    if (s.stiff) length += s.length;
+  const auto [lo, hi] = ShaftExtent(rig);
+  EXPECT_NEAR(hi - lo, length, 1e-12);
+  EXPECT_LT(lo, 0);  // z counts from the centre of mass
+  EXPECT_GT(hi, 0);
+  for (const BearingParameters& b : rig.bearings) EXPECT_TRUE(lo < b.z && b.z < hi) << b.name;
+}
+
+TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
+  EXPECT_THAT(
+      Message("clearance = 2.0e-4", "clearance = 6.0e-4"),
+      StartsWith("rig.toml:49: bearings.A.auxiliary.clearance = 0.0006 m, allowed: smaller"));
+  EXPECT_THAT(Message("z = 0.130", "z = -0.120"),
+              HasSubstr("bearings.B.z = -0.12 m, allowed: another plane than bearing A"));
+  EXPECT_THAT(Message("like = \"A\"", "like = \"C\""),
+              HasSubstr("bearings.B.like = \"C\", allowed: a bearing with its own values: A"));
+  EXPECT_THAT(
+      Message("rate = 12500.0", "rate = 12000.0"),
+      HasSubstr("controller.rate = 12000 Hz, allowed: the switching frequency of 25000 Hz"));
+  EXPECT_THAT(Message("i_max = 6.0", "i_max = 12.0"),
+              HasSubstr("amplifier.i_max = 12 A, allowed: at most adc_range = 10 A"));
+  EXPECT_THAT(Message("bias_current = 2.0", "bias_current = 7.0"),
+              HasSubstr("controller.bias_current = 7 A, allowed: at most the amplifier's i_max"));
+  EXPECT_THAT(Message("duty_limits = [0.02, 0.98]", "duty_limits = [0.98, 0.02]"),
+              HasSubstr("amplifier.duty_limits"));
+  EXPECT_THAT(Message("winding = \"NSNSNSNS\"", "winding = \"NNNNNNNN\""),
+              HasSubstr("both letters N and S"));
+  EXPECT_THAT(Message("inertia_polar = { value = 0.0042", "inertia_polar = { value = 0.09"),
+              HasSubstr("rotor.inertia_polar = 0.09 kg m2, allowed: at most twice"));
+  EXPECT_THAT(Message("sensor = { z = -0.135", "sensor = { z = -0.9"),
+              HasSubstr("bearings.A.sensor has z = -0.9 m, allowed: on the shaft"));
+  EXPECT_THAT(Message("adc_samples_per_period = 18", "adc_samples_per_period = 17.5"),
+              HasSubstr("amplifier.adc_samples_per_period = 17.5, allowed: an integer"));
+  EXPECT_THAT(Message("sd = 4.0e-6", "sd = 5.0e-4"), HasSubstr("bearings.A.gap.sd"));
+}
+
+TEST(RigFile, ABearingIsNotEnough) {
+  EXPECT_THAT(Message("[bearings.B]\nlike = \"A\"                                   # same values, "
+                      "other places\nz = 0.130\nsensor = { z = 0.145, noise = 2.0e-7 }",
+                      ""),
+              HasSubstr("a rigid rotor needs at least two radial bearings"));
+}
+
+TEST(RigFile, AnEffectStandsOnceOnItsTarget) {
+  const std::string pull =
+      "\n[[effect]]\nname = \"side-pull\"\ntarget = \"A\"\nparameters = { stiffness = 1.0e4 }\n";
+  EXPECT_EQ(Read(ReferenceRigText() + pull).effects.size(), 1u);
+  try {
+    Read(ReferenceRigText() + pull + pull);
+    FAIL() << "twice";
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), HasSubstr("\"side-pull\" on A stands twice (first rig.toml:"));
+  }
+}
+
+}  // namespace
+}  // namespace ambrig
