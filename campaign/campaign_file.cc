@@ -20,7 +20,7 @@ namespace ambrig {
 namespace {
 
 // of the enumeration and the rows: raise it when row k means another run
-constexpr int kFormat = 1;
+constexpr int kFormat = 2;
 constexpr std::size_t kMostRuns = 10'000'000;
 
 std::vector<double> List(const TomlTable& t, const char* key, const std::vector<double>& fallback,
@@ -121,7 +121,8 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
   for (const auto& b : bearings)
     for (const auto& coils : CoilSets(*t)) c.sets.push_back({b, coils});
   for (const TomlTable& k : t->Tables("kind")) c.kinds.push_back(ReadKind(k));
-  const bool healthy = c.sets.front().coils.empty();
+  const bool healthy =
+      std::all_of(c.sets.begin(), c.sets.end(), [](const auto& s) { return s.coils.empty(); });
   if (healthy && !c.kinds.empty())
     t->Fail("kind", "is given, but sets = \"none\"; allowed: other sets");
   if (c.kinds.empty())
@@ -137,11 +138,20 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
   std::sort(onsets.begin(), onsets.end(), std::greater<>());  // simultaneous first
   onsets.erase(std::unique(onsets.begin(), onsets.end()), onsets.end());
   if (onsets.empty()) t->Fail("onset", "= [], allowed: simultaneous, sequential");
-  for (std::size_t s = 0; s < c.sets.size(); ++s)
-    for (std::size_t k = 0; k < c.kinds.size(); ++k)
+  for (std::size_t s = 0; s < c.sets.size(); ++s) {
+    if (c.sets[s].coils.empty() && !healthy) {
+      // A healthy set among others: no kind applies.
+      if (c.kinds.back().kind != "none") c.kinds.push_back({"none", "none", {}});
+      c.cases.push_back({s, c.kinds.size() - 1, false});
+      continue;
+    }
+    for (std::size_t k = 0; k < c.kinds.size(); ++k) {
+      if (c.kinds[k].kind == "none" && !healthy) continue;
       for (std::size_t o = 0; o < onsets.size(); ++o)
         if (o == 0 || c.sets[s].coils.size() > 1)
           c.cases.push_back({s, k, onsets[o] == "sequential"});
+    }
+  }
   c.fault_time = In(*t, "time", 0.02, 0, 1e5, "s");
   c.spacing = In(*t, "spacing", 0.02, 1e-6, 1e5, "s");
   c.phases = List(*t, "phases", {0.0}, 0, 1, "(share of the control period)");
@@ -205,6 +215,15 @@ void ReadSpread(const TomlTable& root, Campaign& c) {
   t->RejectUnknownKeys();
 }
 
+void ReadPlantsOf(const TomlTable& root, Campaign& c) {
+  const auto t = root.Table("plants");
+  if (!t) return;
+  if (root.Has("spread"))
+    root.Fail("spread", "is given beside [plants], allowed: plants.scale, as each plant has a draw");
+  c.without = t->Bool("without", false);
+  c.plants = ReadPlants(*t, c.rig);
+}
+
 void ReadSeeds(const TomlTable& root, Campaign& c) {
   c.seeds.clear();
   if (root.IsArray("seeds")) {
@@ -259,7 +278,8 @@ std::string ReadScenarios(const TomlTable& root, Campaign& c) {
 
 std::size_t Campaign::runs() const {
   return scenarios.size() * cases.size() * phases.size() * std::max<std::size_t>(speeds.size(), 1) *
-         loads.size() * positions.size() * draws.size() * seeds.size();
+         loads.size() * positions.size() * draws.size() * seeds.size() *
+         std::max<std::size_t>(plants.size(), 1);
 }
 
 Campaign ReadCampaign(const std::string& file) {
@@ -274,12 +294,14 @@ Campaign ReadCampaign(const std::string& file) {
   ReadFaults(root, c);
   ReadOperation(root, c);
   ReadSpread(root, c);
+  ReadPlantsOf(root, c);
   ReadSeeds(root, c);
   root.RejectUnknownKeys();
   double runs = 1;
   for (const std::size_t n :
        {c.cases.size(), c.phases.size(), c.loads.size(), c.positions.size(), c.draws.size(),
-        c.seeds.size(), c.scenarios.size(), std::max<std::size_t>(c.speeds.size(), 1)})
+        c.seeds.size(), c.scenarios.size(), std::max<std::size_t>(c.speeds.size(), 1),
+        std::max<std::size_t>(c.plants.size(), 1)})
     runs *= static_cast<double>(n);
   if (runs > static_cast<double>(kMostRuns))
     root.Fail("", fmt::format("describes {:.3g} runs, allowed: up to {}", runs, kMostRuns));

@@ -201,6 +201,7 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
 }
 
 void ReadDetection(const TomlTable& root, DetectionParameters& d) {
+  d.kind = "commissioned";  // TEMPORARY: moves to the header
   const auto t = root.Table("detection");
   if (!t) return;
   d.kind = t->String("kind", d.kind);

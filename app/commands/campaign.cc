@@ -12,6 +12,7 @@
 #include "app/pages/campaign_report.h"
 #include "campaign/journal.h"
 #include "campaign/merge.h"
+#include "campaign/plant_table.h"
 #include "campaign/run_rows.h"
 #include "campaign/slurm_engine.h"
 #include "core/base/counted.h"
@@ -67,7 +68,8 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
     fmt::print("  faults             {}, not detected {}, worst delay {:.1f} us\n", n.faults,
                n.undetected, n.worst_delay * 1e6);
   fmt::print("  largest orbit      {:.2f} um (runs that stayed up)\n", n.largest_orbit * 1e6);
-  fmt::print("  written            {}/table.csv{}\n", out,
+  const bool plants = WritePlantTables(out, rows);
+  fmt::print("  written            {}/table.csv{}{}\n", out, plants ? ", plants.md" : "",
              no_report ? "" : fmt::format(", report {}", html));
 }
 

@@ -23,6 +23,12 @@ constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rule
 // without commissioning, beside the floors: what effects of usual size do to nominal models
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
 constexpr double kNoCurrent = 0.12;  // [A]
+constexpr double kWider = 2.5;       // bands, once coils were given up or lost turns
+constexpr double kWhole = 0.12;      // of c, from that of a coil that has lost no turns after all
+constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
+constexpr int kAfterProbe = 8;                                      // periods
+
+double PeriodOf(const SamplingSettings& s) { return s.samples * s.step; }
 
 }  // namespace
 
@@ -33,7 +39,8 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       settings_{setup.settings.current_noise, setup.settings.adc_limit},
       gap_(setup.model.gap_offset[0]),
       filter_(setup.model, setup.settings.sampling, commissioned.circuit),
-      windows_(setup.model) {
+      windows_(setup.model),
+      jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
   for (int j = 0; j < setup.model.coils; ++j) share_[j] = 1;
   SetBands();
 }
@@ -41,9 +48,9 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
 void CommissionedDetector::SetBands() {
   for (int w = 0; w < kExcessWindows; ++w)
     for (int j = 0; j < kLanes; ++j)
-      band_[w][j] = model_.learnt
-                        ? std::max(kExcessFloor[w], kBandOverHealthy * model_.largest[w][j])
-                        : kUncommissioned[w];
+      band_[w][j] = model_.learnt ? wider_ * std::max(kExcessFloor[w],
+                                                      kBandOverHealthy * model_.largest[w][j])
+                                  : kUncommissioned[w];
 }
 
 void CommissionedDetector::SetTurns(int coil, double share) {
@@ -51,7 +58,8 @@ void CommissionedDetector::SetTurns(int coil, double share) {
   filter_.SetTurns(coil, share);
   if (share == 0) windows_.Leave(coil);
   windows_.Clear();
-  changed_ = true;
+  wider_ = kWider;
+  SetBands();
   Pause(25);
 }
 
@@ -60,11 +68,33 @@ void CommissionedDetector::Restore(int coil) {
   filter_.SetTurns(coil, 1);
   windows_.Return(coil);
   windows_.Clear();
+  wider_ = 1;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (share_[j] < 1) wider_ = kWider;
+  SetBands();
   Pause(25);
+}
+
+void CommissionedDetector::BeginProbe(int coil) {
+  probe_.Begin(coil, idle_[coil], Relies() ? kProbeBand : kUncommissionedProbeBand);
+  filter_.SetTurns(coil, 1);
+  suspect_ = -1;
+}
+
+void CommissionedDetector::EndProbe() {
+  filter_.SetTurns(probe_.coil(), share_[probe_.coil()]);
+  probe_.End();
+  windows_.Clear();
+  Pause(kAfterProbe);
 }
 
 void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
   current_error_ = Lane{};
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    if (share_[j] > 0) continue;
+    idle_[j] = 0;
+    for (int k = 0; k < sampling_.samples; ++k) idle_[j] += in.adc[k][j] / sampling_.samples;
+  }
   if (!in.set_point) return;
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     double mean = 0;
@@ -148,16 +178,24 @@ bool CommissionedDetector::CurrentIsFalse(int coil) const {
 }
 
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
-  Outcome out;
   ++count_;
   filter_.Period(in, &period_);
   WatchCurrents(in);
+  const int stepped = jumps_.Period(in, now_);
   const double nearest = kClosestGap * gap_;
   const bool comparable = in.comparable && std::hypot(in.x1, in.y1) < gap_ - nearest;
   if (!comparable) {
     ratio_ = Lane{};
     suspect_ = -1;
-    return out;
+    return {};
+  }
+  if (probe_.running()) {
+    Lane probed;
+    probed[probe_.coil()] = 1;
+    ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
+    probe_.Add(excess_);
+    ratio_ = Lane{};
+    return {};
   }
   ComputeSlopeExcess(filter_, model_.coils, settings_, period_, share_, &excess_);
   WatchRange(in);
@@ -165,8 +203,22 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   if (paused_ > 0) {
     --paused_;
     suspect_ = -1;
-    return out;
+    jumps_.Forget();
+    return {};
   }
+  Outcome out = Judge(in, coil);
+  if (out.decided) {
+    jumps_.Forget();
+  } else if (stepped >= 0 && share_[stepped] > 0) {
+    out.alarm = out.decided = true;
+    out.diagnosis = {
+        stepped, FaultClass::kCurrentSensor, 0, in.t + PeriodOf(sampling_), jumps_.onset(), 1};
+  }
+  return out;
+}
+
+CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& in, int coil) {
+  Outcome out;
   out.doubtful = !Relies() || out_of_range_ || Disturbed();
   out.alarm = ratio_[coil] > 1;
   if (!out.alarm) {
@@ -180,9 +232,10 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   }
   if (++streak_ < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
-  if (!Decided(coil, out.excess)) return out;
-  out.decided = true;
-  out.diagnosis = Classify(coil, out.excess, in.t);
+  const double whole = share_[coil] * share_[coil] - 1;
+  out.whole = share_[coil] < 1 && std::abs(out.excess - whole) < kWhole && PhasesAgree(coil);
+  out.decided = out.whole || Decided(coil, out.excess);
+  if (out.decided) out.diagnosis = Classify(coil, out.excess, in.t);
   return out;
 }
 
@@ -199,7 +252,7 @@ double CommissionedDetector::RecentExcess(int coil) const {
 Diagnosis CommissionedDetector::Classify(int coil, double excess, double time) const {
   Diagnosis d;
   d.coil = coil;
-  d.time = time + sampling_.samples * sampling_.step;
+  d.time = time + PeriodOf(sampling_);
   d.onset = onset_;
   d.confidence = 1;
   const double on = windows_.OfPhase(coil, 0, 3), off = windows_.OfPhase(coil, 1, 3);
