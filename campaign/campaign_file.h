@@ -50,6 +50,7 @@ struct Campaign {
   std::vector<std::uint64_t> seeds{1};
   std::vector<CampaignPlant> plants;  // empty: the rig file's alone
   bool without = false;               // every run is made a second time without fault tolerance
+  double commissioning = 0.4;         // length of the plants' commissioning runs [s]
 
   std::size_t runs() const;
 };

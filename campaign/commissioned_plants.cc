@@ -13,12 +13,12 @@
 namespace ambrig {
 
 CommissionedPlants::CommissionedPlants(const Campaign& campaign) : campaign_(campaign) {
-  std::string folder =
-      (std::filesystem::temp_directory_path() / "ambrig-plants-XXXXXX").string();
+  std::string folder = (std::filesystem::temp_directory_path() / "ambrig-plants-XXXXXX").string();
   if (!mkdtemp(folder.data()))
-    throw InputError(fmt::format("{}: no folder for the plants' commissioning can be made, allowed: "
-                                 "another TMPDIR",
-                                 folder));
+    throw InputError(
+        fmt::format("{}: no folder for the plants' commissioning can be made, allowed: "
+                    "another TMPDIR",
+                    folder));
   folder_ = folder;
   for (std::size_t k = 0; k < campaign.plants.size(); ++k)
     entries_.push_back(std::make_unique<Entry>());
@@ -33,7 +33,9 @@ std::string CommissionedPlants::Commissioned(std::size_t plant) const {
   RigParameters rig = campaign_.rig;
   ApplyPlant(campaign_.plants[plant], &rig);
   try {
-    const CommissioningResult result = Commission(rig, {});
+    CommissioningOptions options;
+    options.plan.duration = campaign_.commissioning;
+    const CommissioningResult result = Commission(rig, options);
     const std::string file = fmt::format("{}/{}.commissioning.toml", folder_, plant);
     WriteFileAtomically(file, CommissioningText(result.model));
     return file;

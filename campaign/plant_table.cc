@@ -61,8 +61,10 @@ void Add(const Row& r, Group* g) {
 }
 
 void Append(const Group& from, Group* to, const std::string& prefix) {
-  for (const auto& [of, set] : {std::pair{&from.plants, &to->plants}, {&from.acted, &to->acted},
-                                {&from.harmed, &to->harmed}, {&from.doubtful, &to->doubtful}})
+  for (const auto& [of, set] : {std::pair{&from.plants, &to->plants},
+                                {&from.acted, &to->acted},
+                                {&from.harmed, &to->harmed},
+                                {&from.doubtful, &to->doubtful}})
     for (const std::string& p : *of) set->insert(prefix + p);
   to->coil_periods += from.coil_periods;
   for (const auto& [kind, f] : from.kinds) {

@@ -118,8 +118,8 @@ std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig
   for (long long k = 0; k < mixtures; ++k) {
     Draw draw(seed * 104729 + static_cast<std::uint64_t>(k) + 1);
     std::vector<const EffectDescription*> left = effects;
-    const auto n = static_cast<std::size_t>(of[0]) +
-                   draw.Index(static_cast<std::size_t>(of[1] - of[0]) + 1);
+    const auto n =
+        static_cast<std::size_t>(of[0]) + draw.Index(static_cast<std::size_t>(of[1] - of[0]) + 1);
     CampaignPlant p;
     p.effect = "mixture";
     for (std::size_t m = 0; m < n; ++m) {

@@ -61,9 +61,9 @@ std::vector<std::string> Conditions(const RunPlan& plan, const PlannedRun& p) {
           p.plant ? OneCell(p.plant->effect) : "",
           p.plant ? OneCell(p.plant->label) : "",
           p.plant ? NumberText(p.plant->scale) : "",
-          !p.plant                                    ? ""
-          : p.rig.detection.commissioning.empty()     ? "no"
-                                                      : "yes"};
+          !p.plant                                  ? ""
+          : p.rig.detection.commissioning == "none" ? "no"
+                                                    : "yes"};
 }
 
 const char* Verdict(const RunResult& r) {

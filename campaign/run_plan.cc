@@ -165,7 +165,9 @@ PlannedRun RunPlan::Make(std::size_t run) const {
   if (!campaign_.plants.empty()) {
     p.plant = &campaign_.plants[p.at.plant];
     ApplyPlant(*p.plant, &p.rig);
-    p.rig.detection.commissioning = p.plant->commissioned ? commissioned_->FileOf(p.at.plant) : "";
+    p.rig.detection.commissioning =
+        p.plant->commissioned ? commissioned_->FileOf(p.at.plant) : "none";
+    if (p.rig.detection.commissioning.empty()) p.rig.detection.commissioning = "none";
   }
   AddFaults(p.at, p.scenario);
   AddLoad(p);

@@ -28,8 +28,8 @@ struct PlannedRun {
   Scenario scenario;
   std::string bearing;  // that the faults and the load act on
   SetCapacity theory;
-  double speed = 0;  // at the fault [rad/s]
-  double load = 0;   // added to the weight [N]
+  double speed = 0;                      // at the fault [rad/s]
+  double load = 0;                       // added to the weight [N]
   const CampaignPlant* plant = nullptr;  // of the campaign's [plants]
 };
 

@@ -208,7 +208,7 @@ void ReadDetection(const TomlTable& root, DetectionParameters& d) {
   d.where = t->Where("kind");
   t->Read(d, kDetectionFields);
   d.commissioning = t->String("commissioning", "");
-  if (!d.commissioning.empty()) d.commissioning = Beside(root.file(), d.commissioning);
+  if (!d.commissioning.empty() && d.commissioning != "none") d.commissioning = Beside(root.file(), d.commissioning);
   t->RejectUnknownKeys();
 }
 

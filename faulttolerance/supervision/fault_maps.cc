@@ -1,8 +1,8 @@
 /// The maps that FaultSupervisor goes to when coils are lost or come back.
 #include <cmath>
 
-#include "faulttolerance/redistribution/inverse_allocation.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "faulttolerance/supervision/failure_map.h"
 #include "faulttolerance/supervision/fault_supervisor.h"
 #include "faulttolerance/supervision/map_checks.h"
 #include "faulttolerance/supervision/watched_bearing.h"
@@ -81,26 +81,8 @@ std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, Cu
   if (!w.table)
     w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing),
                                                     options_.cache_dir);
-  RedistributionProblem left = w.table->problem();
-  const Eigen::Matrix2d healthy =
-      Describe(left, SolvabilityClass::kExact, HealthyDistribution(left)).stiffness;
-  left.turns_left = w.turns_left;
-  map->allocation = nullptr;
-  map->stiffness_change.setZero();
-  const Distribution found = w.table->Lookup(w.turns_left);
-  map->W = found.W;
-  const bool matrix = options_.redistribution == "matrix" ||
-                      (options_.redistribution == "auto" && GivesForce(force, left, found, *map));
-  if (!matrix) {
-    ForceInverse inverse(left);
-    if (inverse.Start(force)) {
-      map->allocation = std::make_shared<InverseAllocation>(inverse, healthy);
-      return "force by force";
-    }
-  }
-  if (options_.stiffness_compensation)
-    map->stiffness_change = DestabilisingPart(healthy - found.stiffness);
-  return ToText(found.cls);
+  return MapAfterFailure(*w.table, w.turns_left, force,
+                         {options_.redistribution, options_.stiffness_compensation}, map);
 }
 
 std::unique_ptr<CurrentTransition> FaultSupervisor::NewCurrentTransition(

@@ -8,14 +8,14 @@ namespace ambrig {
 namespace {
 
 constexpr int kInARow = 3;             // periods
-constexpr double kAgree = 0.35;        // of the larger phase's c
 constexpr double kGross = 0.5;         // |c|
 constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
-constexpr double kReversed = -1.2;     // c of a phase: the bridge drives the other way
+constexpr int kLevelWindow = 2;        // over which coils are compared: ten periods
+constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
+constexpr double kCompanion = 0.5;     // of the largest |c|: a fault of its own
 constexpr double kGrossAbove = 2;      // c, outside the commissioned range
 constexpr double kNoiseOfBand = 6;     // a window's noise is below its band over this
 constexpr double kLeastMiss = 0.3;     // [A] of a set-point
-constexpr int kMissedTwice = 2;        // periods in a row
 constexpr int kCoilsAtOnce = 3;        // beyond their bands: the model's fault
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
@@ -78,7 +78,7 @@ void CommissionedDetector::Restore(int coil) {
 void CommissionedDetector::BeginProbe(int coil) {
   probe_.Begin(coil, idle_[coil], Relies() ? kProbeBand : kUncommissionedProbeBand);
   filter_.SetTurns(coil, 1);
-  suspect_ = -1;
+  streak_ = Lane{};
 }
 
 void CommissionedDetector::EndProbe() {
@@ -127,6 +127,7 @@ int CommissionedDetector::Ratios() {
     const double limit = now_[j] > 0 && out_of_range_ ? kGrossAbove : kGross;
     const bool gross = std::abs(now_[j]) > limit;
     if (gross) ratio_[j] = std::abs(now_[j]) / kGrossBand;
+    level_[j] = gross ? std::abs(now_[j]) : 0;
     // What a fault throws at its neighbours in its first period would stay in their windows.
     apart_[j] = gross || touching_ || out_of_range_ || excess_.gross[j] > 0 ? 1 : 0;
   }
@@ -137,15 +138,20 @@ int CommissionedDetector::Ratios() {
   windows_.Add(excess_, apart_);
   for (int w = 0; w < kExcessWindows; ++w) {
     const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
-    for (int j = 0; j < coils; ++j)
-      if (!(apart_[j] > 0)) ratio_[j] = std::max(ratio_[j], std::abs(c[j]) / band_[w][j]);
+    for (int j = 0; j < coils; ++j) {
+      if (apart_[j] > 0) continue;
+      ratio_[j] = std::max(ratio_[j], std::abs(c[j]) / band_[w][j]);
+      if (w == kLevelWindow) level_[j] = std::abs(c[j]);
+    }
   }
   return static_cast<int>(std::max_element(ratio_.v, ratio_.v + coils) - ratio_.v);
 }
 
 bool CommissionedDetector::Disturbed() const {
+  // A fault stands out from what it throws at its neighbours; the model's errors are alike.
+  const double alike = kAlike * *std::max_element(level_.v, level_.v + kLanes);
   int beyond = 0;
-  for (double r : ratio_.v) beyond += r > 1;
+  for (int j = 0; j < kLanes; ++j) beyond += ratio_[j] > 1 && level_[j] >= alike;
   return beyond >= kCoilsAtOnce ||
          windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
 }
@@ -163,20 +169,6 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
 }
 
-bool CommissionedDetector::PhasesAgree(int coil) const {
-  for (const int periods : {3, 40}) {
-    const double on = windows_.OfPhase(coil, 0, periods), off = windows_.OfPhase(coil, 1, periods);
-    if (on * off > 0 &&
-        std::min(std::abs(on), std::abs(off)) >= kAgree * std::max(std::abs(on), std::abs(off)))
-      return true;
-  }
-  return false;
-}
-
-bool CommissionedDetector::CurrentIsFalse(int coil) const {
-  return false_current_[coil] >= kMissedTwice;
-}
-
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
   filter_.Period(in, &period_);
@@ -185,8 +177,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   const double nearest = kClosestGap * gap_;
   const bool comparable = in.comparable && std::hypot(in.x1, in.y1) < gap_ - nearest;
   if (!comparable) {
-    ratio_ = Lane{};
-    suspect_ = -1;
+    ratio_ = streak_ = Lane{};
     return {};
   }
   if (probe_.running()) {
@@ -202,7 +193,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   const int coil = Ratios();
   if (paused_ > 0) {
     --paused_;
-    suspect_ = -1;
+    streak_ = Lane{};
     jumps_.Forget();
     return {};
   }
@@ -221,54 +212,28 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   Outcome out;
   out.doubtful = !Relies() || out_of_range_ || Disturbed();
   out.alarm = ratio_[coil] > 1;
-  if (!out.alarm) {
-    suspect_ = -1;
-    return out;
-  }
-  if (coil != suspect_) {
-    suspect_ = coil;
-    streak_ = 0;
-    onset_ = in.t;
-  }
-  if (++streak_ < static_cast<int>(kInARow)) return out;
+  CountStreaks(in.t);
+  if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
   const double whole = share_[coil] * share_[coil] - 1;
   out.whole = share_[coil] < 1 && std::abs(out.excess - whole) < kWhole && PhasesAgree(coil);
   out.decided = out.whole || Decided(coil, out.excess);
-  if (out.decided) out.diagnosis = Classify(coil, out.excess, in.t);
+  if (!out.decided) return out;
+  out.diagnosis = Classify(coil, out.excess, in.t);
+  if (!out.whole) out.more = Companions(coil, out.excess, in.t);
   return out;
 }
 
-double CommissionedDetector::RecentExcess(int coil) const {
-  const Recent& r = recent_[static_cast<std::size_t>(coil)];
-  double top = 0, bottom = 0;
-  for (std::size_t k = 0; k < kInARow; ++k) {
-    top += r.top[k];
-    bottom += r.bottom[k];
+void CommissionedDetector::CountStreaks(double t) {
+  const double least = kCompanion * *std::max_element(ratio_.v, ratio_.v + kLanes);
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    if (!(ratio_[j] > 1) || ratio_[j] < least) {
+      streak_[j] = 0;
+      continue;
+    }
+    if (streak_[j] == 0) onset_[j] = t;
+    ++streak_[j];
   }
-  return bottom > 0.5 ? top / bottom : 0;
-}
-
-Diagnosis CommissionedDetector::Classify(int coil, double excess, double time) const {
-  Diagnosis d;
-  d.coil = coil;
-  d.time = time + PeriodOf(sampling_);
-  d.onset = onset_;
-  d.confidence = 1;
-  const double on = windows_.OfPhase(coil, 0, 3), off = windows_.OfPhase(coil, 1, 3);
-  if (period_.largest[coil] < kNoCurrent) {
-    d.cls = FaultClass::kOpen;
-  } else if (on < kReversed && std::abs(off) < kGross) {
-    d.cls = FaultClass::kAmplifierOff;
-  } else if (off < kReversed && std::abs(on) < kGross) {
-    d.cls = FaultClass::kSwitchStuckOn;
-  } else if (excess > 0) {
-    d.cls = FaultClass::kPartialShort;
-    d.fraction = 1 - 1 / std::sqrt(1 + excess);
-  } else {
-    d.cls = FaultClass::kCurrentSensor;
-  }
-  return d;
 }
 
 Lane CommissionedDetector::Period(const MeasuredPeriod& in) {

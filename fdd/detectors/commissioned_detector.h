@@ -35,7 +35,8 @@ class CommissionedDetector : public CoilDetector {
     bool decided = false;   // `diagnosis` holds
     bool doubtful = false;  // of the model, in this period
     Diagnosis diagnosis;
-    double excess = 0;   // c of the decided coil, the periods of the decision [-]
+    std::vector<Diagnosis> more;  // of other coils, decided together with it
+    double excess = 0;            // c of the decided coil, the periods of the decision [-]
     bool whole = false;  // the decided coil has lost turns before and behaves as if it had them all
   };
 
@@ -83,6 +84,9 @@ class CommissionedDetector : public CoilDetector {
   /// Whether the learnt model holds: usable, and the coils are those it was learnt on.
   bool Relies() const { return model_.usable(); }
   int GrossCoils() const;  // with c > 0.5 in this period
+  void CountStreaks(double t);
+  /// Other coils whose own c is as gross as that of the coil that was decided.
+  std::vector<Diagnosis> Companions(int decided, double excess, double time) const;
   bool Decided(int coil, double excess) const;
   bool PhasesAgree(int coil) const;
   bool CurrentIsFalse(int coil) const;
@@ -99,6 +103,7 @@ class CommissionedDetector : public CoilDetector {
   Lane share_;                                      // of the turns; 0: not judged
   Lane band_[kExcessWindows];                       // of |c|
   Lane ratio_, now_, apart_;                        // apart_: 1 where only gross values count
+  Lane level_;                                      // |c|, of gross coils now, else of ten periods
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kLanes> recent_;
   bool out_of_range_ = false, touching_ = false;
@@ -106,8 +111,8 @@ class CommissionedDetector : public CoilDetector {
   Lane idle_;         // mean reading of coils without turns [A]
   CoilProbe probe_;
   JumpWatch jumps_;
-  int suspect_ = -1, streak_ = 0, paused_ = 8;
-  double onset_ = 0;  // of the streak [s]
+  Lane streak_, onset_;  // periods in a row that a coil was suspect; since [s]
+  int paused_ = 8;
   long long count_ = 0;
 };
 

@@ -25,9 +25,15 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   }
   alarm.raised = true;
   alarm.diagnosis = d;
+  alarm.more = seen.more;
+  Lose(d);
+  for (const Diagnosis& other : alarm.more) Lose(other);
+  return alarm;
+}
+
+void CommissionedRun::Lose(const Diagnosis& d) {
   share_[d.coil] = d.cls == FaultClass::kPartialShort ? share_[d.coil] * (1 - d.fraction) : 0;
   watch_.SetTurns(d.coil, share_[d.coil]);
-  return alarm;
 }
 
 bool CommissionedRun::BeginProbe(int coil) {

@@ -17,6 +17,8 @@ class CommissionedRun : public RunDetector {
   void EndProbe(bool healthy) override;
 
  private:
+  void Lose(const Diagnosis& d);
+
   CommissionedDetector watch_;
   LinkageModel model_;
   Lane share_;       // of the turns
