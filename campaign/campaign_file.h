@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/parameter_draw.h"
+#include "campaign/plants.h"
 #include "scenarios/scenario.h"
 
 namespace ambrig {
@@ -47,6 +48,9 @@ struct Campaign {
   // [draw][tolerance with sd]: normal deviates; one empty: nominal
   std::vector<std::vector<double>> draws;
   std::vector<std::uint64_t> seeds{1};
+  std::vector<CampaignPlant> plants;  // empty: the rig file's alone
+  bool without = false;               // every run is made a second time without fault tolerance
+  double commissioning = 0.4;         // length of the plants' commissioning runs [s]
 
   std::size_t runs() const;
 };

@@ -57,18 +57,37 @@ std::vector<std::string> Conditions(const RunPlan& plan, const PlannedRun& p) {
           NumberText(p.theory.capacity),
           NumberText(c.positions[p.at.position]),
           std::to_string(p.at.draw),
-          std::to_string(p.scenario.seed)};
+          std::to_string(p.scenario.seed),
+          p.plant ? OneCell(p.plant->effect) : "",
+          p.plant ? OneCell(p.plant->label) : "",
+          p.plant ? NumberText(p.plant->scale) : "",
+          !p.plant                                  ? ""
+          : p.rig.detection.commissioning == "none" ? "no"
+                                                    : "yes"};
 }
 
-std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r) {
+const char* Verdict(const RunResult& r) {
+  return r.drop ? "drop" : r.touchdown ? "touchdown" : "up";
+}
+
+/// Actions of fault tolerance on coils that have no fault at that time.
+std::size_t FalseActions(const PlannedRun& p, const RunResult& r) {
+  return static_cast<std::size_t>(std::ranges::count_if(r.actions, [&](const CoilAction& a) {
+    return (a.action == "disable" || a.action == "derate") &&
+           std::ranges::none_of(p.scenario.faults, [&](const FaultSpec& f) {
+             return f.target == a.coil && f.time <= a.t;
+           });
+  }));
+}
+
+std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r,
+                                 const RunResult* without) {
   const RunMetrics& m = r.metrics;
   const DetectionScore score = ScoreDetection(p.scenario.faults, r.events);
   const bool finite = std::isfinite(LargestOrbit(p, r)) && std::isfinite(m.copper_loss) &&
                       std::isfinite(m.peak_current);
   if (!finite) throw std::runtime_error("the run is not finite");
-  return {r.drop        ? "drop"
-          : r.touchdown ? "touchdown"
-                        : "up",
+  return {Verdict(r),
           std::to_string(score.detected()),
           std::to_string(score.right_class()),
           Optional(m.detection_delay),
@@ -82,6 +101,11 @@ std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r) {
           NumberText(m.longest_contact),
           NumberText(m.peak_current),
           NumberText(m.copper_loss),
+          std::to_string(FalseActions(p, r)),
+          std::to_string(std::ranges::count(r.actions, "restore", &CoilAction::action)),
+          r.doubtful ? "yes" : "no",
+          without ? Verdict(*without) : "",
+          without ? NumberText(LargestOrbit(p, *without)) : "",
           ""};
 }
 
@@ -103,6 +127,10 @@ const std::vector<std::string>& RowColumns() {
                                                 "position",
                                                 "draw",
                                                 "seed",
+                                                "effect",
+                                                "plant",
+                                                "spread [sd]",
+                                                "commissioned",
                                                 "verdict",
                                                 "detected",
                                                 "right_class",
@@ -117,6 +145,11 @@ const std::vector<std::string>& RowColumns() {
                                                 "longest_contact [s]",
                                                 "peak_current [A]",
                                                 "copper_loss [W]",
+                                                "false_actions",
+                                                "restored",
+                                                "doubtful",
+                                                "verdict_without",
+                                                "orbit_without [m]",
                                                 "note"};
   return columns;
 }
@@ -179,7 +212,13 @@ Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* s
     options.record = false;
     options.stop = stop;
     const RunResult result = Simulate(p.rig, p.scenario, options);
-    const auto outcome = Outcome(p, result);
+    RunResult without;
+    if (plan.campaign().without) {
+      Scenario plain = p.scenario;
+      plain.fault_tolerant = false;
+      without = Simulate(p.rig, plain, options);
+    }
+    const auto outcome = Outcome(p, result, plan.campaign().without ? &without : nullptr);
     row.cells.insert(row.cells.end(), outcome.begin(), outcome.end());
   } catch (const Interrupted&) {
     throw;

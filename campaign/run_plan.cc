@@ -42,10 +42,12 @@ RunIndex IndexOf(const Campaign& c, std::size_t run) {
   at.phase = take(c.phases.size());
   at.fault = take(c.cases.size());
   at.scenario = take(c.scenarios.size());
+  at.plant = take(std::max<std::size_t>(c.plants.size(), 1));
   return at;
 }
 
 RunPlan::RunPlan(const Campaign& campaign) : campaign_(campaign) {
+  if (!campaign_.plants.empty()) commissioned_ = std::make_unique<CommissionedPlants>(campaign_);
   for (const BearingParameters& b : campaign_.rig.bearings)
     if (b.kind == BearingKind::kRadial)
       tables_[b.name] = std::make_unique<RedistributionTable>(
@@ -159,18 +161,13 @@ PlannedRun RunPlan::Make(std::size_t run) const {
     p.scenario.speed = SpeedProfile({{0, omega}});
   }
   p.speed = p.scenario.speed.Speed(campaign_.fault_time);
-  const std::vector<double>& draw = campaign_.draws[p.at.draw];
-  std::size_t k = 0;
-  for (Tolerance& t : p.rig.tolerances) {
-    if (!(t.sd > 0) || draw.empty()) continue;
-    const double* value = ParameterAt(p.rig, t.path);
-    double lo = 0, hi = 0;
-    std::string unit;
-    const bool ranged = ParameterRange(p.rig, t.path, &lo, &hi, &unit);
-    const double z = draw[k++];
-    if (!value) continue;
-    const double drawn = (std::isnan(t.true_value) ? *value : t.true_value) + t.sd * z;
-    t.true_value = ranged ? std::clamp(drawn, lo, hi) : drawn;
+  DrawTolerances(campaign_.draws[p.at.draw], &p.rig);
+  if (!campaign_.plants.empty()) {
+    p.plant = &campaign_.plants[p.at.plant];
+    ApplyPlant(*p.plant, &p.rig);
+    p.rig.detection.commissioning =
+        p.plant->commissioned ? commissioned_->FileOf(p.at.plant) : "none";
+    if (p.rig.detection.commissioning.empty()) p.rig.detection.commissioning = "none";
   }
   AddFaults(p.at, p.scenario);
   AddLoad(p);

@@ -2,6 +2,7 @@
 /// Run k of a campaign: which case, under which conditions, and the rig and scenario to simulate.
 /// Any run can be made by its number alone, in any order, on any machine.
 #include "campaign/campaign_file.h"
+#include "campaign/commissioned_plants.h"
 #include "faulttolerance/redistribution/redistribution_table.h"
 
 namespace ambrig {
@@ -9,7 +10,7 @@ namespace ambrig {
 /// Indices of run k in the campaign's lists; the last one counts fastest.
 struct RunIndex {
   std::size_t scenario = 0, fault = 0, phase = 0, speed = 0, load = 0, position = 0, draw = 0,
-              seed = 0;
+              seed = 0, plant = 0;
 };
 
 RunIndex IndexOf(const Campaign& c, std::size_t run);
@@ -27,13 +28,16 @@ struct PlannedRun {
   Scenario scenario;
   std::string bearing;  // that the faults and the load act on
   SetCapacity theory;
-  double speed = 0;  // at the fault [rad/s]
-  double load = 0;   // added to the weight [N]
+  double speed = 0;                      // at the fault [rad/s]
+  double load = 0;                       // added to the weight [N]
+  const CampaignPlant* plant = nullptr;  // of the campaign's [plants]
 };
 
 class RunPlan {
  public:
   explicit RunPlan(const Campaign& campaign);
+  RunPlan(const RunPlan&) = delete;
+  RunPlan& operator=(const RunPlan&) = delete;
   const Campaign& campaign() const { return campaign_; }
   /// Thread-safe. @throws std::logic_error for run >= campaign().runs().
   PlannedRun Make(std::size_t run) const;
@@ -46,6 +50,7 @@ class RunPlan {
 
   Campaign campaign_;
   std::map<std::string, std::unique_ptr<RedistributionTable>> tables_;
+  std::unique_ptr<CommissionedPlants> commissioned_;
 };
 
 }  // namespace ambrig

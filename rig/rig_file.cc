@@ -201,13 +201,14 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
 }
 
 void ReadDetection(const TomlTable& root, DetectionParameters& d) {
+  d.kind = "commissioned";  // TEMPORARY: moves to the header
   const auto t = root.Table("detection");
   if (!t) return;
   d.kind = t->String("kind", d.kind);
   d.where = t->Where("kind");
   t->Read(d, kDetectionFields);
   d.commissioning = t->String("commissioning", "");
-  if (!d.commissioning.empty()) d.commissioning = Beside(root.file(), d.commissioning);
+  if (!d.commissioning.empty() && d.commissioning != "none") d.commissioning = Beside(root.file(), d.commissioning);
   t->RejectUnknownKeys();
 }
 

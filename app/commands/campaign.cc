@@ -14,6 +14,7 @@
 #include "app/pages/format.h"
 #include "campaign/journal.h"
 #include "campaign/merge.h"
+#include "campaign/plant_table.h"
 #include "campaign/run_rows.h"
 #include "campaign/slurm_engine.h"
 #include "core/base/counted.h"
@@ -69,8 +70,9 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
                n.undetected, n.worst_delay > 0 ? ScreenSi(n.worst_delay, "s") : "-");
   fmt::print("  largest orbit      {} (runs that stayed up)\n",
              n.up > 0 ? ScreenSi(n.largest_orbit, "m") : "-");
-  fmt::print("  written            {}/table.csv{}\n", out,
-             no_report ? "" : " and report.html");
+  const bool plants = WritePlantTables(out, rows);
+  fmt::print("  written            {}/table.csv{}{}\n", out, plants ? ", plants.md" : "",
+             no_report ? "" : fmt::format(", report {}", html));
 }
 
 void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard,

@@ -23,15 +23,9 @@ struct CommissionCommand {
 
 constexpr const char* kFirstLine = "# Written by ambrig commission";
 
-/// rig.toml -> rig.commissioning.toml, beside it.
-std::string DefaultOutput(const std::string& rig) {
-  const std::filesystem::path path(rig);
-  return (path.parent_path() / (path.stem().string() + ".commissioning.toml")).string();
-}
-
 int RunCommission(CommissionCommand c) {
   const RigParameters rig = ReadRig(c.rig);
-  if (c.out.empty()) c.out = DefaultOutput(c.rig);
+  if (c.out.empty()) c.out = CommissioningFileOf(c.rig);
   if (std::filesystem::exists(c.out) && !ReadFile(c.out).starts_with(kFirstLine))
     throw InputError(fmt::format(
         "-o = {}: the file exists and is not one that ambrig commission wrote, allowed: another "
@@ -51,9 +45,11 @@ int RunCommission(CommissionCommand c) {
   WriteFileAtomically(c.out, CommissioningText(result.model));
   fmt::print("{}", CommissionText(rig, result));
   fmt::print(
-      "written: {}; in the rig file:\n[detection]\nkind = \"commissioned\"\ncommissioning = "
-      "\"{}\"\n",
-      c.out, std::filesystem::path(c.out).filename().string());
+      "written: {}; {}\n", c.out,
+      c.out == CommissioningFileOf(c.rig)
+          ? "runs of this rig find it by itself"
+          : fmt::format("in the rig file:\n[detection]\ncommissioning = \"{}\"",
+                        std::filesystem::path(c.out).filename().string()));
   c.common.WriteJson(CommissionJson(rig, result));
   if (!c.common.html.empty()) WriteCommissionReport(rig, result, c.common.html);
   bool usable = true;

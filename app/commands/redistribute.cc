@@ -5,9 +5,11 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/progress.h"
-#include "app/pages/html.h"
+#include "app/pages/redistribute_report.h"
 #include "faulttolerance/redistribution/redistribution_json.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "rig/nominal_control.h"
+#include "rig/rig_figures.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -53,37 +55,30 @@ std::vector<std::vector<int>> FailedSets(const std::string& text) {
   return sets;
 }
 
-std::string SetText(const nlohmann::json& failed) {
-  std::string text;
-  for (const auto& j : failed) text += (text.empty() ? "{" : ",") + std::to_string(j.get<int>());
-  return text + "}";
+/// What runs do with each set, and what their map pulls.
+FailureSetFigures FiguresOf(const RedistributionTable& table, const CurrentMap& healthy,
+                            const std::vector<int>& failed, const RedistributionFigures& f) {
+  FailureSetFigures out;
+  out.failed = failed;
+  RedistributionProblem left = table.problem();
+  for (const int coil : failed) left.turns_left[coil - 1] = 0;
+  CurrentMap map = healthy;
+  const std::string cls = MapAfterFailure(table, left.turns_left, f.load, {}, &map);
+  out.reach = ReachOfMap(left, map, f.load, f.most);
+  out.map = map.allocation || cls == "none" ? cls : "W, " + cls;
+  for (int k = 0; k < MapReach::kDirections; ++k)  // not above what the healthy bearing is used for
+    out.reach.radius[k] = std::min(out.reach.radius[k], f.healthy.radius[k]);
+  out.reach.worst = std::min(out.reach.worst, out.reach.radius[out.reach.worst_direction]);
+  out.reach.margin = std::min(out.reach.margin, f.healthy.margin);
+  return out;
 }
 
-void WriteReport(const RedistributeOptions& o, const nlohmann::json& json) {
-  HtmlReport report("Current distribution after coil failures",
-                    fmt::format("rig {}, bearing {}", o.rig, o.bearing));
-  report.Heading("Failure sets");
-  report.Text(
-      "Exact: the force is k c0 v for every command. Linearised: no bias force and full gain at "
-      "the operating "
-      "point only. Capacities are relative to the healthy bearing.");
-  std::vector<std::vector<Cell>> rows;
-  for (const auto& s : json["sets"]) {
-    const std::string cls = s["class"];
-    rows.push_back({Cell(SetText(s["failed"])),
-                    Cell(cls, cls == "exact"        ? "ok"
-                              : cls == "linearised" ? "warn"
-                                                    : "fail"),
-                    Cell(fmt::format("{:.2e}", s["residual"].get<double>())),
-                    Cell(fmt::format("{:.3f}", s["rho"].get<double>())),
-                    Cell(s["unipolar"].get<bool>() ? "yes" : "no"),
-                    Cell(fmt::format("{:.3f}", s["capacity"]["flux"].get<double>())),
-                    Cell(fmt::format("{:.3f}", s["capacity"]["current"].get<double>()))});
-  }
-  report.Table(
-      {"failed", "class", "residual", "rho", "unipolar", "capacity, flux", "capacity, current"},
-      rows);
-  report.Write(o.common.html);
+nlohmann::json JsonOf(const MapReach& r, const Eigen::Vector2d& load) {
+  return {{"carries", r.carries},
+          {"margin", load.norm() > 0 ? nlohmann::json(r.margin) : nlohmann::json(nullptr)},
+          {"worst", r.worst},
+          {"worst_direction_deg", r.worst_direction * 360 / MapReach::kDirections},
+          {"radius", r.radius}};
 }
 
 int Redistribute(const RedistributeOptions& o) {
@@ -96,27 +91,35 @@ int Redistribute(const RedistributeOptions& o) {
     throw InputError(fmt::format("--bearing = {}, allowed: {}", o.bearing, known));
   }
   const auto sets = FailedSets(o.failed);
-  DistributionOptions best;
-  best.policy = DistributionPolicy::kCapacity;
-  const RedistributionTable table(RedistributionProblemOf(NominalRig(rig), *b),
-                                  RedistributionCacheDirectory(), best);
+  const NominalRig nominal(rig);
+  const RedistributionTable table(RedistributionProblemOf(nominal, *b),
+                                  RedistributionCacheDirectory());
+  const auto index = static_cast<std::size_t>(b - rig.bearings.data());
+  const CurrentMap healthy = MakeBearingControl(nominal, index).map;
+  RedistributionFigures f;
+  f.rig = o.rig;
+  f.bearing = o.bearing;
+  const auto share = WeightShares(rig)[index];
+  f.load = {share[0], share[1]};
+  f.most = PidOf(rig, *b).f_max;
+  f.healthy = ReachOfMap(table.problem(), healthy, f.load, f.most);
   {
     Progress progress("redistribute");
     for (std::size_t k = 0; k < sets.size(); ++k) {
       if (interrupted) throw Interrupted();
-      table.Lookup(sets[k]);
+      f.sets.push_back(FiguresOf(table, healthy, sets[k], f));
       progress.Update(static_cast<double>(k + 1) / static_cast<double>(sets.size()),
                       fmt::format("set {} of {}", k + 1, sets.size()));
     }
   }
-  const nlohmann::json json = RedistributionJson(o.bearing, table, sets);
-  fmt::print("{:<20} {:<11} {:>9} {:>7} {:>9} {:>9} {:>9}\n", "failed", "class", "residual", "rho",
-             "unipolar", "cap.flux", "cap.cur.");
-  for (const auto& s : json["sets"])
-    fmt::print("{:<20} {:<11} {:>9.1e} {:>7.3f} {:>9} {:>9.3f} {:>9.3f}\n", SetText(s["failed"]),
-               s["class"].get<std::string>(), s["residual"].get<double>(), s["rho"].get<double>(),
-               s["unipolar"].get<bool>() ? "yes" : "no", s["capacity"]["flux"].get<double>(),
-               s["capacity"]["current"].get<double>());
+  nlohmann::json json = RedistributionJson(o.bearing, table, sets);
+  json["load"] = {f.load.x(), f.load.y()};
+  json["healthy"] = JsonOf(f.healthy, f.load);
+  for (std::size_t k = 0; k < sets.size(); ++k) {
+    json["sets"][k]["map"] = f.sets[k].map;
+    json["sets"][k]["force"] = JsonOf(f.sets[k].reach, f.load);
+  }
+  fmt::print("{}", RedistributionText(f));
   if (sets.size() == 1) {
     fmt::print("W (rows: coils; i = W [c0, vx, vy]'), k = {:.6g} N/A2, c0 = {} A\n",
                json["k"].get<double>(), json["c0"].get<double>());
@@ -125,7 +128,7 @@ int Redistribute(const RedistributeOptions& o) {
                  row[2].get<double>());
   }
   o.common.WriteJson(json);
-  if (!o.common.html.empty()) WriteReport(o, json);
+  if (!o.common.html.empty()) WriteRedistributionReport(rig, f, o.common.html);
   return 0;
 }
 

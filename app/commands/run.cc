@@ -77,6 +77,7 @@ struct RunInput {
   RigParameters rig;
   Scenario scenario;
   std::string stem, text;  // name of the output files; the input as a person wrote it
+  std::shared_ptr<RunPlan> plan;  // of a campaign: holds the files that `rig` names
 };
 
 RunInput FromScenario(const std::string& file) {
@@ -89,15 +90,16 @@ RunInput FromScenario(const std::string& file) {
 }
 
 RunInput FromCampaign(const std::string& file, long long row) {
-  const RunPlan plan(ReadCampaign(file));
-  const std::size_t runs = plan.campaign().runs();
+  const auto plan = std::make_shared<RunPlan>(ReadCampaign(file));
+  const std::size_t runs = plan->campaign().runs();
   if (row < 0 || static_cast<std::size_t>(row) >= runs)
     throw InputError(fmt::format("--row = {}, allowed: 0 to {}", row, runs - 1));
-  PlannedRun p = plan.Make(static_cast<std::size_t>(row));
+  PlannedRun p = plan->Make(static_cast<std::size_t>(row));
   RunInput in;
+  in.plan = plan;
   in.rig = std::move(p.rig);
   in.scenario = std::move(p.scenario);
-  in.scenario.name = fmt::format("{}, row {}", plan.campaign().name, row);
+  in.scenario.name = fmt::format("{}, row {}", plan->campaign().name, row);
   in.scenario.file = file;
   in.stem = fmt::format("{}_row_{}", std::filesystem::path(file).stem().string(), row);
   in.text = fmt::format("# row {} of\n{}", row, ReadFile(file));

@@ -23,6 +23,7 @@ struct BearingControl {
   Lane commanded;                       // with the coil's current excitation [A]
   Lane duty, feedback;                  // of this period [-]; mean of the last period's samples [A]
   std::array<bool, kLanes> disabled{};  // bridge kept off by the controller
+  Lane probe;  // 0, or what a coil's loop follows instead of `commanded` [A]
 };
 
 }  // namespace ambrig

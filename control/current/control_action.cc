@@ -21,6 +21,16 @@ struct Applier {
     BearingControl& c = Of(a.bearing);
     c.disabled[Coil(c, a.coil)] = true;
   }
+  void operator()(const EnableCoil& a) const {
+    BearingControl& c = Of(a.bearing);
+    c.disabled[Coil(c, a.coil)] = false;
+    c.probe[a.coil] = 0;
+  }
+  void operator()(const ProbeCoil& a) const {
+    BearingControl& c = Of(a.bearing);
+    c.disabled[Coil(c, a.coil)] = !(a.current > 0);
+    c.probe[a.coil] = a.current;
+  }
   void operator()(const ReplaceMap& a) const {
     BearingControl& c = Of(a.bearing);
     c.map = a.map;

@@ -16,6 +16,20 @@ struct DisableCoil {
   int coil = 0;
 };
 
+/// The coil's bridge works again.
+struct EnableCoil {
+  std::size_t bearing = 0;
+  int coil = 0;
+};
+
+/// The coil's bridge works and its loop follows this current instead of the map's set-point; 0: the
+/// probe is over, the bridge is kept off.
+struct ProbeCoil {
+  std::size_t bearing = 0;
+  int coil = 0;
+  double current = 0;  // [A]
+};
+
 /// Another map from forces to set-points, and the way of the set-points there (empty: at once).
 struct ReplaceMap {
   std::size_t bearing = 0;
@@ -30,7 +44,7 @@ struct SetIntegral {
   double volts = 0;  // [V]
 };
 
-using ControlAction = std::variant<DisableCoil, ReplaceMap, SetIntegral>;
+using ControlAction = std::variant<DisableCoil, EnableCoil, ProbeCoil, ReplaceMap, SetIntegral>;
 
 /// Carries out one action on the controller of the rig, one entry of `control` per bearing.
 void Apply(const ControlAction& action, std::vector<BearingControl>& control);

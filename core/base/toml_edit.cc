@@ -192,14 +192,15 @@ class Editor {
   std::vector<const toml::table*> way_;
 };
 
-/// Strings under a key `file`, anywhere in the document.
+/// Strings under a key `file` or `commissioning`, anywhere in the document.
 void FindFiles(const toml::node& node, std::vector<const toml::node*>& out) {
   if (const toml::array* a = node.as_array())
     for (const toml::node& child : *a) FindFiles(child, out);
   const toml::table* t = node.as_table();
   if (!t) return;
   for (auto&& [key, child] : *t) {
-    if (key.str() == "file" && child.is_string())
+    const bool learnt = key.str() == "commissioning" && child.value_or(std::string()) != "none";
+    if ((key.str() == "file" || learnt) && child.is_string())
       out.push_back(&child);
     else
       FindFiles(child, out);

@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "faulttolerance/redistribution/inverse_allocation.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
-#include "faulttolerance/supervision/map_checks.h"
+#include "faulttolerance/supervision/watched_bearing.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -17,7 +16,7 @@ namespace {
 constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
-constexpr double kVoltageShare = 0.8;                       // of the bus, to change currents with
+constexpr double kProbeCurrent = 0.4;                       // of a coil's bias current
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
 std::string CoilName(const std::string& bearing, int coil) {
@@ -25,16 +24,6 @@ std::string CoilName(const std::string& bearing, int coil) {
 }
 
 }  // namespace
-
-struct FaultSupervisor::Watched {
-  const BearingParameters* bearing = nullptr;
-  std::size_t index = 0;
-  std::unique_ptr<RunDetector> detector;
-  std::unique_ptr<RedistributionTable> table;
-  CoilVector turns_left = CoilVector::Ones();
-  int alarmed = -1;       // coil that the alarm was raised for
-  bool doubtful = false;  // its detector has doubted its model in this run
-};
 
 FaultSupervisor::FaultSupervisor(const NominalRig& nominal, const FaultSupervisorOptions& options)
     : rig_(nominal),
@@ -50,6 +39,7 @@ FaultSupervisor::FaultSupervisor(const NominalRig& nominal, const FaultSuperviso
     auto w = std::make_unique<Watched>();
     w->bearing = &b;
     w->index = watched_.size();
+    w->bias = BiasCurrent(*rig_, b);
     w->detector =
         MakeRunDetector(rig_->detection.kind, rig_->detection.where, RunDetectorSetupOf(rig_, b));
     watched_.push_back(std::move(w));
@@ -102,8 +92,9 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
     w.doubtful = doubtful_ = true;
     events.push_back({m.t + T_, "doubtful", w.bearing->name, "model doubtful", 0});
   }
-  if (alarm.coil < 0) return;
   const double t = m.t + T_;
+  if (options_.redistribute) Probe(w, t, in, m.position_loop, control, out);
+  if (alarm.coil < 0) return;
   const std::string name = CoilName(w.bearing->name, alarm.coil);
   if (alarm.raised) w.alarmed = alarm.coil;
   if (alarm.diagnosis.cls != FaultClass::kNone && alarm.coil != w.alarmed) {
@@ -121,6 +112,8 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
     }
   }
   if (alarm.cleared) events.push_back({t, "alarm_cleared", name, "", 0});
+  if (alarm.restored && options_.redistribute)
+    Restore(w, alarm.coil, t, "all its turns carry", m.position_loop, control, out);
   if (alarm.diagnosis.cls == FaultClass::kNone) return;
   events.push_back({t, "classified", name, ToText(alarm.diagnosis.cls), alarm.diagnosis.fraction});
   for (const Diagnosis& d : alarm.more) {
@@ -132,118 +125,56 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
   Disable(w, alarm.diagnosis, out);
   for (const Diagnosis& d : alarm.more) Disable(w, d, out);
   // Set-points that come from outside are not spread over other coils.
-  if (m.position_loop) Redistribute(w, alarm.diagnosis, control, out);
+  if (m.position_loop) Redistribute(w, t, control, out);
 }
 
 void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out) {
   const bool lost = d.cls != FaultClass::kPartialShort;
   w.turns_left[d.coil] = lost ? 0 : w.turns_left[d.coil] * (1 - d.fraction);
-  if (lost) out.actions.push_back(DisableCoil{w.index, d.coil});
+  if (lost) {
+    out.actions.push_back(DisableCoil{w.index, d.coil});
+    w.probes.GivenUp(d.coil, d.cls, d.time);
+  }
   actions_.push_back(
       {d.time, CoilName(w.bearing->name, d.coil), lost ? "disable" : "derate",
        lost ? ToText(d.cls) : fmt::format("{}, {:.3f} of the turns", ToText(d.cls), d.fraction)});
 }
 
-void FaultSupervisor::Redistribute(Watched& w, const Diagnosis& d, const BearingControl& control,
-                                   SupervisorOutput& out) {
-  ReplaceMap change{w.index, control.map, control.current_transition};
-  CurrentMap& map = change.map;
-  CoilVector now = CoilVector::Zero();
-  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
-  const Eigen::Vector2d force = CommandedForce(control.map, now);
-  std::string cls;
-  if (w.bearing->kind == BearingKind::kRadial) {
-    cls = NewMap(w, force, &map);
-    change.current_transition = NewCurrentTransition(w, map, force, control);
-  } else {
-    cls = NewMapOfSides(w, d, &map);
+void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
+                            const BearingControl& control, SupervisorOutput& out) {
+  if (in.comparable) w.probes.Orbit(t, std::hypot(in.x1, in.y1));
+  const int coil = w.probed;
+  if (coil < 0) {
+    const int due = in.comparable ? w.probes.Due(t) : -1;
+    if (due < 0 || !w.detector->BeginProbe(due)) return;
+    w.probed = due;
+    const double current = kProbeCurrent * w.bias;
+    CurrentRegulator held = control.regulator[static_cast<std::size_t>(due)];
+    held.HoldCurrent(current, CoilResistance(*w.bearing));
+    out.actions.push_back(SetIntegral{w.index, due, held.integral()});
+    out.actions.push_back(ProbeCoil{w.index, due, current});
+    return;
   }
-  // The set-points that come next.
-  CoilVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
-  if (change.current_transition) next = change.current_transition->Clone()->Step(next, force);
-  out.actions.push_back(std::move(change));
-  MoveIntegrals(w, control, next, out);
-  out.events.push_back({d.time, "redistributed", w.bearing->name, cls, 0});
+  const ProbeAnswer answer = w.detector->Probed();
+  if (answer == ProbeAnswer::kNone) return;
+  const bool healthy = answer == ProbeAnswer::kHealthy;
+  w.probed = -1;
+  w.detector->EndProbe(healthy);
+  w.probes.Answer(coil, healthy, t);
+  out.actions.push_back(ProbeCoil{w.index, coil, 0});
+  actions_.push_back({t, CoilName(w.bearing->name, coil), "probe", healthy ? "healthy" : "faulty"});
+  if (healthy) Restore(w, coil, t, "healthy when probed", position_loop, control, out);
 }
 
-std::string FaultSupervisor::NewMapOfSides(const Watched& w, const Diagnosis& d, CurrentMap* map) {
-  if (w.bearing->kind != BearingKind::kThrust) {
-    if (w.turns_left[d.coil] == 0) map->W.row(d.coil).setZero();
-    return "none";
-  }
-  std::string cls = "exact";
-  for (int side = 0; side < 2; ++side) {
-    const double a = w.turns_left[2 * side], b = w.turns_left[2 * side + 1];
-    // Ampere-turns 2 (c0 ± v) of the side, shared in proportion to the turns that are left.
-    const double share = a * a + b * b > 0 ? 2 / (a * a + b * b) : 0;
-    if (share == 0) cls = "none";
-    for (int q = 0; q < 2; ++q) {
-      const double scale = share * (q == 0 ? a : b);
-      map->W.row(2 * side + q) << scale, (side == 0 ? scale : -scale), 0;
-    }
-  }
-  return cls;
-}
-
-void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& control,
-                                    const CoilVector& next, SupervisorOutput& out) {
-  const double resistance = CoilResistance(*w.bearing);
-  for (int j = 0; j < control.coils; ++j) {
-    const double now = control.set_point[j];
-    CurrentRegulator held = control.regulator[static_cast<std::size_t>(j)];
-    const double integral = held.integral();
-    held.HoldCurrent(now, resistance);
-    const double before = held.integral();
-    held.HoldCurrent(next[j], resistance * w.turns_left[j]);
-    const bool moves = now > 0.2 && next[j] > 0.2;
-    out.actions.push_back(
-        SetIntegral{w.index, j, moves ? integral + held.integral() - before : held.integral()});
-  }
-}
-
-std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
-  if (!w.table)
-    w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing),
-                                                    options_.cache_dir);
-  RedistributionProblem left = w.table->problem();
-  const Eigen::Matrix2d healthy =
-      Describe(left, SolvabilityClass::kExact, HealthyDistribution(left)).stiffness;
-  left.turns_left = w.turns_left;
-  map->allocation = nullptr;
-  map->stiffness_change.setZero();
-  const Distribution found = w.table->Lookup(w.turns_left);
-  map->W = found.W;
-  const bool matrix = options_.redistribution == "matrix" ||
-                      (options_.redistribution == "auto" && GivesForce(force, left, found, *map));
-  if (!matrix) {
-    ForceInverse inverse(left);
-    if (inverse.Start(force)) {
-      map->allocation = std::make_shared<InverseAllocation>(inverse, healthy);
-      return "force by force";
-    }
-  }
-  if (options_.stiffness_compensation)
-    map->stiffness_change = DestabilisingPart(healthy - found.stiffness);
-  return ToText(found.cls);
-}
-
-std::unique_ptr<CurrentTransition> FaultSupervisor::NewCurrentTransition(
-    const Watched& w, const CurrentMap& map, const Eigen::Vector2d& force,
-    const BearingControl& control) const {
-  TransitionStart s;
-  s.bearing = RedistributionProblemOf(rig_, *w.bearing);
-  s.bearing.turns_left = w.turns_left;
-  const CurrentMap& old = control.map;
-  for (int j = 0; j < 8; ++j)
-    if (w.turns_left[j] > 0) s.now[j] = control.set_point[j];
-  // Without a matrix the bias is what the currents without a force would be.
-  s.bias_before = old.allocation ? s.now : CoilVector(old.c0 * old.W.col(0));
-  s.bias_after = map.allocation ? map.allocation->Step(force.x(), force.y(), 0, 0)
-                                : CoilVector(map.c0 * map.W.col(0));
-  s.leakage = w.bearing->radial.leakage_inductance;
-  s.voltage = kVoltageShare * rig_->amplifier.bus_voltage;
-  s.period = 1 / rig_->controller.rate;
-  return MakeCurrentTransition(options_.current_transition, s);
+void FaultSupervisor::Restore(Watched& w, int coil, double t, const std::string& reason,
+                              bool position_loop, const BearingControl& control,
+                              SupervisorOutput& out) {
+  const std::string name = CoilName(w.bearing->name, coil);
+  w.turns_left[coil] = 1;
+  out.actions.push_back(EnableCoil{w.index, coil});
+  out.events.push_back({t, "restored", name, reason, 0});
+  actions_.push_back({t, name, "restore", reason});
+  if (position_loop) Redistribute(w, t, control, out);
 }
 
 void FaultSupervisor::TraceSlopes(double t) {

@@ -7,6 +7,7 @@
 ///   - W of the bearing's failure set replaces the map: the next set-points use it, the force
 ///     command of the position loop stays as it is (bumpless in force)
 ///   - every regulator's integral is moved by what its new current needs (bumpless in voltage)
+///   - a coil that was switched off is looked at again and may return (coil_probes.h)
 /// Thrust bearings: the winding that is left on a side carries the missing ampere-turns.
 #include <deque>
 #include <map>
@@ -53,10 +54,14 @@ class FaultSupervisor : public Supervisor {
                     SupervisorOutput& out);
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
   void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
-  void Redistribute(Watched& w, const Diagnosis& d, const BearingControl& control,
-                    SupervisorOutput& out);
+  void Redistribute(Watched& w, double t, const BearingControl& control, SupervisorOutput& out);
+  /// A second look at coils that were given up.
+  void Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
+             const BearingControl& control, SupervisorOutput& out);
+  void Restore(Watched& w, int coil, double t, const std::string& reason, bool position_loop,
+               const BearingControl& control, SupervisorOutput& out);
   /// The map of a bearing whose coils do not share a rotor; returns its class for the record.
-  static std::string NewMapOfSides(const Watched& w, const Diagnosis& d, CurrentMap* map);
+  static std::string NewMapOfSides(const Watched& w, CurrentMap* map);
   /// Every regulator's integral is moved by what its new current needs.
   static void MoveIntegrals(const Watched& w, const BearingControl& control, const CoilVector& next,
                             SupervisorOutput& out);

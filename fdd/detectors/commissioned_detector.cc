@@ -8,14 +8,14 @@ namespace ambrig {
 namespace {
 
 constexpr int kInARow = 3;             // periods
-constexpr double kAgree = 0.35;        // of the larger phase's c
 constexpr double kGross = 0.5;         // |c|
 constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
-constexpr double kReversed = -1.2;     // c of a phase: the bridge drives the other way
+constexpr int kLevelWindow = 2;        // over which coils are compared: ten periods
+constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
+constexpr double kCompanion = 0.5;     // of the largest |c|: a fault of its own
 constexpr double kGrossAbove = 2;      // c, outside the commissioned range
 constexpr double kNoiseOfBand = 6;     // a window's noise is below its band over this
 constexpr double kLeastMiss = 0.3;     // [A] of a set-point
-constexpr int kMissedTwice = 2;        // periods in a row
 constexpr int kCoilsAtOnce = 3;        // beyond their bands: the model's fault
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
@@ -23,6 +23,12 @@ constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rule
 // without commissioning, beside the floors: what effects of usual size do to nominal models
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
 constexpr double kNoCurrent = 0.12;  // [A]
+constexpr double kWider = 2.5;       // bands, once coils were given up or lost turns
+constexpr double kWhole = 0.12;      // of c, from that of a coil that has lost no turns after all
+constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
+constexpr int kAfterProbe = 8;                                      // periods
+
+double PeriodOf(const SamplingSettings& s) { return s.samples * s.step; }
 
 }  // namespace
 
@@ -33,7 +39,8 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       settings_{setup.settings.current_noise, setup.settings.adc_limit},
       gap_(setup.model.gap_offset[0]),
       filter_(setup.model, setup.settings.sampling, commissioned.circuit),
-      windows_(setup.model) {
+      windows_(setup.model),
+      jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
   for (int j = 0; j < setup.model.coils; ++j) share_[j] = 1;
   SetBands();
 }
@@ -41,9 +48,9 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
 void CommissionedDetector::SetBands() {
   for (int w = 0; w < kExcessWindows; ++w)
     for (int j = 0; j < kLanes; ++j)
-      band_[w][j] = model_.learnt
-                        ? std::max(kExcessFloor[w], kBandOverHealthy * model_.largest[w][j])
-                        : kUncommissioned[w];
+      band_[w][j] = model_.learnt ? wider_ * std::max(kExcessFloor[w],
+                                                      kBandOverHealthy * model_.largest[w][j])
+                                  : kUncommissioned[w];
 }
 
 void CommissionedDetector::SetTurns(int coil, double share) {
@@ -51,7 +58,8 @@ void CommissionedDetector::SetTurns(int coil, double share) {
   filter_.SetTurns(coil, share);
   if (share == 0) windows_.Leave(coil);
   windows_.Clear();
-  changed_ = true;
+  wider_ = kWider;
+  SetBands();
   Pause(25);
 }
 
@@ -60,11 +68,33 @@ void CommissionedDetector::Restore(int coil) {
   filter_.SetTurns(coil, 1);
   windows_.Return(coil);
   windows_.Clear();
+  wider_ = 1;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (share_[j] < 1) wider_ = kWider;
+  SetBands();
   Pause(25);
+}
+
+void CommissionedDetector::BeginProbe(int coil) {
+  probe_.Begin(coil, idle_[coil], Relies() ? kProbeBand : kUncommissionedProbeBand);
+  filter_.SetTurns(coil, 1);
+  streak_ = Lane{};
+}
+
+void CommissionedDetector::EndProbe() {
+  filter_.SetTurns(probe_.coil(), share_[probe_.coil()]);
+  probe_.End();
+  windows_.Clear();
+  Pause(kAfterProbe);
 }
 
 void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
   current_error_ = Lane{};
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    if (share_[j] > 0) continue;
+    idle_[j] = 0;
+    for (int k = 0; k < sampling_.samples; ++k) idle_[j] += in.adc[k][j] / sampling_.samples;
+  }
   if (!in.set_point) return;
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     double mean = 0;
@@ -97,6 +127,7 @@ int CommissionedDetector::Ratios() {
     const double limit = now_[j] > 0 && out_of_range_ ? kGrossAbove : kGross;
     const bool gross = std::abs(now_[j]) > limit;
     if (gross) ratio_[j] = std::abs(now_[j]) / kGrossBand;
+    level_[j] = gross ? std::abs(now_[j]) : 0;
     // What a fault throws at its neighbours in its first period would stay in their windows.
     apart_[j] = gross || touching_ || out_of_range_ || excess_.gross[j] > 0 ? 1 : 0;
   }
@@ -107,15 +138,20 @@ int CommissionedDetector::Ratios() {
   windows_.Add(excess_, apart_);
   for (int w = 0; w < kExcessWindows; ++w) {
     const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
-    for (int j = 0; j < coils; ++j)
-      if (!(apart_[j] > 0)) ratio_[j] = std::max(ratio_[j], std::abs(c[j]) / band_[w][j]);
+    for (int j = 0; j < coils; ++j) {
+      if (apart_[j] > 0) continue;
+      ratio_[j] = std::max(ratio_[j], std::abs(c[j]) / band_[w][j]);
+      if (w == kLevelWindow) level_[j] = std::abs(c[j]);
+    }
   }
   return static_cast<int>(std::max_element(ratio_.v, ratio_.v + coils) - ratio_.v);
 }
 
 bool CommissionedDetector::Disturbed() const {
+  // A fault stands out from what it throws at its neighbours; the model's errors are alike.
+  const double alike = kAlike * *std::max_element(level_.v, level_.v + kLanes);
   int beyond = 0;
-  for (double r : ratio_.v) beyond += r > 1;
+  for (int j = 0; j < kLanes; ++j) beyond += ratio_[j] > 1 && level_[j] >= alike;
   return beyond >= kCoilsAtOnce ||
          windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
 }
@@ -133,89 +169,71 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
 }
 
-bool CommissionedDetector::PhasesAgree(int coil) const {
-  for (const int periods : {3, 40}) {
-    const double on = windows_.OfPhase(coil, 0, periods), off = windows_.OfPhase(coil, 1, periods);
-    if (on * off > 0 &&
-        std::min(std::abs(on), std::abs(off)) >= kAgree * std::max(std::abs(on), std::abs(off)))
-      return true;
-  }
-  return false;
-}
-
-bool CommissionedDetector::CurrentIsFalse(int coil) const {
-  return false_current_[coil] >= kMissedTwice;
-}
-
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
-  Outcome out;
   ++count_;
   filter_.Period(in, &period_);
   WatchCurrents(in);
+  const int stepped = jumps_.Period(in, now_);
   const double nearest = kClosestGap * gap_;
   const bool comparable = in.comparable && std::hypot(in.x1, in.y1) < gap_ - nearest;
   if (!comparable) {
+    ratio_ = streak_ = Lane{};
+    return {};
+  }
+  if (probe_.running()) {
+    Lane probed;
+    probed[probe_.coil()] = 1;
+    ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
+    probe_.Add(excess_);
     ratio_ = Lane{};
-    suspect_ = -1;
-    return out;
+    return {};
   }
   ComputeSlopeExcess(filter_, model_.coils, settings_, period_, share_, &excess_);
   WatchRange(in);
   const int coil = Ratios();
   if (paused_ > 0) {
     --paused_;
-    suspect_ = -1;
-    return out;
+    streak_ = Lane{};
+    jumps_.Forget();
+    return {};
   }
-  out.doubtful = !Relies() || out_of_range_ || Disturbed();
-  out.alarm = ratio_[coil] > 1;
-  if (!out.alarm) {
-    suspect_ = -1;
-    return out;
+  Outcome out = Judge(in, coil);
+  if (out.decided) {
+    jumps_.Forget();
+  } else if (stepped >= 0 && share_[stepped] > 0) {
+    out.alarm = out.decided = true;
+    out.diagnosis = {
+        stepped, FaultClass::kCurrentSensor, 0, in.t + PeriodOf(sampling_), jumps_.onset(), 1};
   }
-  if (coil != suspect_) {
-    suspect_ = coil;
-    streak_ = 0;
-    onset_ = in.t;
-  }
-  if (++streak_ < static_cast<int>(kInARow)) return out;
-  out.excess = RecentExcess(coil);
-  if (!Decided(coil, out.excess)) return out;
-  out.decided = true;
-  out.diagnosis = Classify(coil, out.excess, in.t);
   return out;
 }
 
-double CommissionedDetector::RecentExcess(int coil) const {
-  const Recent& r = recent_[static_cast<std::size_t>(coil)];
-  double top = 0, bottom = 0;
-  for (std::size_t k = 0; k < kInARow; ++k) {
-    top += r.top[k];
-    bottom += r.bottom[k];
-  }
-  return bottom > 0.5 ? top / bottom : 0;
+CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& in, int coil) {
+  Outcome out;
+  out.doubtful = !Relies() || out_of_range_ || Disturbed();
+  out.alarm = ratio_[coil] > 1;
+  CountStreaks(in.t);
+  if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
+  out.excess = RecentExcess(coil);
+  const double whole = share_[coil] * share_[coil] - 1;
+  out.whole = share_[coil] < 1 && std::abs(out.excess - whole) < kWhole && PhasesAgree(coil);
+  out.decided = out.whole || Decided(coil, out.excess);
+  if (!out.decided) return out;
+  out.diagnosis = Classify(coil, out.excess, in.t);
+  if (!out.whole) out.more = Companions(coil, out.excess, in.t);
+  return out;
 }
 
-Diagnosis CommissionedDetector::Classify(int coil, double excess, double time) const {
-  Diagnosis d;
-  d.coil = coil;
-  d.time = time + sampling_.samples * sampling_.step;
-  d.onset = onset_;
-  d.confidence = 1;
-  const double on = windows_.OfPhase(coil, 0, 3), off = windows_.OfPhase(coil, 1, 3);
-  if (period_.largest[coil] < kNoCurrent) {
-    d.cls = FaultClass::kOpen;
-  } else if (on < kReversed && std::abs(off) < kGross) {
-    d.cls = FaultClass::kAmplifierOff;
-  } else if (off < kReversed && std::abs(on) < kGross) {
-    d.cls = FaultClass::kSwitchStuckOn;
-  } else if (excess > 0) {
-    d.cls = FaultClass::kPartialShort;
-    d.fraction = 1 - 1 / std::sqrt(1 + excess);
-  } else {
-    d.cls = FaultClass::kCurrentSensor;
+void CommissionedDetector::CountStreaks(double t) {
+  const double least = kCompanion * *std::max_element(ratio_.v, ratio_.v + kLanes);
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    if (!(ratio_[j] > 1) || ratio_[j] < least) {
+      streak_[j] = 0;
+      continue;
+    }
+    if (streak_[j] == 0) onset_[j] = t;
+    ++streak_[j];
   }
-  return d;
 }
 
 Lane CommissionedDetector::Period(const MeasuredPeriod& in) {

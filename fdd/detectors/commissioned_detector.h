@@ -10,13 +10,21 @@
 /// Only gross values count in a period in which a phase starts at zero current, the shaft may be
 /// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2).
 ///
-/// Doubtful: not commissioned, grade too bad, a coil given up before, outside the range, three coils beyond their bands at
+/// Doubtful: not commissioned, grade too bad, outside the range, three coils beyond their bands at
 /// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
 /// blamed only where c < -0.5 or > 2; unless the flux alone is outside the range, also its current
 /// must be false, and fewer than three coils may have c > 0.5: what a nominal circuit does not know
 /// keeps flux out, which makes c positive in many coils alike.
+///
+/// After a coil was given up or lost turns, the others carry other currents than commissioned: their
+/// bands are 2.5 times as wide from then on.
+///
+/// A reading that steps by what no voltage can make, without a slope that is wrong afterwards, is a
+/// current sensor's fault (jump_watch.h).
 #include "fdd/detectors/coil_detector.h"
+#include "fdd/detectors/coil_probe.h"
 #include "fdd/detectors/excess_windows.h"
+#include "fdd/detectors/jump_watch.h"
 
 namespace ambrig {
 
@@ -27,7 +35,9 @@ class CommissionedDetector : public CoilDetector {
     bool decided = false;   // `diagnosis` holds
     bool doubtful = false;  // of the model, in this period
     Diagnosis diagnosis;
-    double excess = 0;  // c of the decided coil, the periods of the decision [-]
+    std::vector<Diagnosis> more;  // of other coils, decided together with it
+    double excess = 0;            // c of the decided coil, the periods of the decision [-]
+    bool whole = false;  // the decided coil has lost turns before and behaves as if it had them all
   };
 
   CommissionedDetector(const CoilDetectorSetup& setup, const CommissionedBearing& commissioned);
@@ -42,6 +52,10 @@ class CommissionedDetector : public CoilDetector {
   void Pause(int periods) { paused_ = std::max(paused_, periods); }
   /// Takes back what SetTurns said, and forgets what was seen of it.
   void Restore(int coil);
+  /// A current is asked of a coil that has no turns: its slopes are watched, no coil is judged.
+  void BeginProbe(int coil);
+  void EndProbe();
+  const CoilProbe& probe() const { return probe_; }
 
   const Lane& ratio() const { return ratio_; }
   Lane Excess(int window) const { return windows_.Used(window, 1); }
@@ -64,11 +78,15 @@ class CommissionedDetector : public CoilDetector {
   /// Ratios of this period; returns the coil of the largest.
   int Ratios();
   double RecentExcess(int coil) const;
+  Outcome Judge(const MeasuredPeriod& in, int coil);
   /// The model's own errors show: several coils at once, or a pattern over the bearing.
   bool Disturbed() const;
   /// Whether the learnt model holds: usable, and the coils are those it was learnt on.
-  bool Relies() const { return model_.usable() && !changed_; }
+  bool Relies() const { return model_.usable(); }
   int GrossCoils() const;  // with c > 0.5 in this period
+  void CountStreaks(double t);
+  /// Other coils whose own c is as gross as that of the coil that was decided.
+  std::vector<Diagnosis> Companions(int decided, double excess, double time) const;
   bool Decided(int coil, double excess) const;
   bool PhasesAgree(int coil) const;
   bool CurrentIsFalse(int coil) const;
@@ -85,12 +103,16 @@ class CommissionedDetector : public CoilDetector {
   Lane share_;                                      // of the turns; 0: not judged
   Lane band_[kExcessWindows];                       // of |c|
   Lane ratio_, now_, apart_;                        // apart_: 1 where only gross values count
+  Lane level_;                                      // |c|, of gross coils now, else of ten periods
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kLanes> recent_;
   bool out_of_range_ = false, touching_ = false;
-  bool changed_ = false;  // a coil was given up or lost turns: other currents than commissioned
-  int suspect_ = -1, streak_ = 0, paused_ = 8;
-  double onset_ = 0;  // of the streak [s]
+  double wider_ = 1;  // of the bands, since coils were given up or lost turns
+  Lane idle_;         // mean reading of coils without turns [A]
+  CoilProbe probe_;
+  JumpWatch jumps_;
+  Lane streak_, onset_;  // periods in a row that a coil was suspect; since [s]
+  int paused_ = 8;
   long long count_ = 0;
 };
 

@@ -16,12 +16,37 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   doubtful_ = seen.doubtful && !seen.decided;
   if (!seen.decided) return alarm;
   const Diagnosis& d = seen.diagnosis;
-  alarm.raised = true;
   alarm.coil = d.coil;
+  if (seen.whole && taken_back_[d.coil] == 0) {
+    alarm.restored = true;
+    taken_back_[d.coil] = share_[d.coil] = 1;
+    watch_.Restore(d.coil);
+    return alarm;
+  }
+  alarm.raised = true;
   alarm.diagnosis = d;
+  alarm.more = seen.more;
+  Lose(d);
+  for (const Diagnosis& other : alarm.more) Lose(other);
+  return alarm;
+}
+
+void CommissionedRun::Lose(const Diagnosis& d) {
   share_[d.coil] = d.cls == FaultClass::kPartialShort ? share_[d.coil] * (1 - d.fraction) : 0;
   watch_.SetTurns(d.coil, share_[d.coil]);
-  return alarm;
+}
+
+bool CommissionedRun::BeginProbe(int coil) {
+  watch_.BeginProbe(coil);
+  return true;
+}
+
+void CommissionedRun::EndProbe(bool healthy) {
+  const int coil = watch_.probe().coil();
+  watch_.EndProbe();
+  if (!healthy) return;
+  share_[coil] = 1;
+  watch_.Restore(coil);
 }
 
 SlopeBand CommissionedRun::Band(int coil) const {

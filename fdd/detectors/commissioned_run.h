@@ -12,11 +12,17 @@ class CommissionedRun : public RunDetector {
   SlopeBand Band(int coil) const override;
   /// Of the last period; a decision that stands in spite of the doubt is acted on.
   bool doubtful() const override { return doubtful_; }
+  bool BeginProbe(int coil) override;
+  ProbeAnswer Probed() const override { return watch_.probe().answer(); }
+  void EndProbe(bool healthy) override;
 
  private:
+  void Lose(const Diagnosis& d);
+
   CommissionedDetector watch_;
   LinkageModel model_;
-  Lane share_;  // of the turns
+  Lane share_;       // of the turns
+  Lane taken_back_;  // 1: its loss of turns was taken back once, the next one is final
   bool doubtful_ = false;
 };
 

@@ -25,8 +25,9 @@ namespace ambrig {
 /// What a period led to. `coil`: of the alarm that was raised, cleared or diagnosed, from 0; -1:
 /// none.
 struct DetectorAlarm {
-  bool raised = false;   // in this period, for `coil`
-  bool cleared = false;  // in this period: the alarm of `coil` was a false one
+  bool raised = false;    // in this period, for `coil`
+  bool cleared = false;   // in this period: the alarm of `coil` was a false one
+  bool restored = false;  // in this period: `coil` has all its turns, its diagnosis was a false one
   int coil = -1;
   Diagnosis diagnosis;          // cls other than kNone: decided in this period
   std::vector<Diagnosis> more;  // of other coils, decided together with it
@@ -37,6 +38,9 @@ struct DetectorAlarm {
 struct SlopeBand {
   double slope = 0, expected = 0, half_width = 0;
 };
+
+/// Of a coil that was given up and that a small current is driven through.
+enum class ProbeAnswer { kNone, kHealthy, kFaulty };
 
 class RunDetector {
  public:
@@ -49,6 +53,14 @@ class RunDetector {
   /// Whether it doubts its own model (not commissioned, outside the commissioned range): then the
   /// supervisor reports but changes no current.
   virtual bool doubtful() const { return false; }
+
+  /// A second look at a coil that was given up: from the next period on a small current is asked of
+  /// it. Returns false where the detector cannot take one. No coil is diagnosed meanwhile.
+  virtual bool BeginProbe(int) { return false; }
+  /// What the probe that runs has shown so far.
+  virtual ProbeAnswer Probed() const { return ProbeAnswer::kNone; }
+  /// The current is taken away again; `healthy`: the coil is judged like the others from now on.
+  virtual void EndProbe(bool /*healthy*/) {}
 };
 
 /// A bearing as the controller knows it: nominal circuit, sampling, noise and tolerances.

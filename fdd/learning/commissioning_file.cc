@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
 #include "core/base/fingerprint.h"
 #include "core/base/toml.h"
 
@@ -137,6 +139,19 @@ CommissionedModel ReadCommissioning(const std::string& file) {
     model.bearings.push_back(ReadBearing(*bearings->Table(name), name));
   root.RejectUnknownKeys();
   return model;
+}
+
+std::string CommissioningFileOf(const std::string& rig_file) {
+  const std::filesystem::path path(rig_file);
+  return (path.parent_path() / (path.stem().string() + ".commissioning.toml")).string();
+}
+
+bool FitsBearing(const std::string& file, const std::string& name, const LinkageModel& nominal,
+                 const AmplifierParameters& amplifier) {
+  if (!std::filesystem::is_regular_file(file)) return false;
+  const CommissionedModel model = ReadCommissioning(file);
+  const CommissionedBearing* found = model.Find(name);
+  return found && found->learnt_on == ContentHashOf(nominal, amplifier);
 }
 
 CommissionedBearing ReadCommissionedBearing(const std::string& file, const std::string& name,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fdd/learning/commissioning_file.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -86,6 +87,13 @@ RunDetectorSetup RunDetectorSetupOf(const NominalRig& rig, const BearingParamete
   s.bearing = b.name;
   s.threshold = rig->detection.threshold;
   s.commissioning = rig->detection.commissioning;
+  if (s.commissioning == "none") {
+    s.commissioning.clear();
+  } else if (s.commissioning.empty()) {
+    // What was learnt of other nominal values is no commissioning of this rig.
+    const std::string beside = CommissioningFileOf(rig->file);
+    if (FitsBearing(beside, b.name, s.model, rig->amplifier)) s.commissioning = beside;
+  }
   return s;
 }
 

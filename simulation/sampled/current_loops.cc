@@ -15,6 +15,9 @@ void CurrentLoops::Targets(long long at, std::vector<BearingControl>& control) {
     for (const CommandPlan::Signal& s : commands_.current)
       target_[AsSize(s.bearing)][s.index] += CommandPlan::At(s, at);
   for (std::size_t k = 0; scenario && k < control.size(); ++k) control[k].set_point = target_[k];
+  for (std::size_t k = 0; k < control.size(); ++k)
+    for (int j = 0; j < control[k].coils; ++j)
+      if (control[k].probe[j] > 0) target_[k][j] = control[k].probe[j];
 }
 
 void CurrentLoops::Period(long long n, std::vector<BearingControl>& control) {

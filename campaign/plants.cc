@@ -1,0 +1,191 @@
+#include "campaign/plants.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "campaign/parameter_draw.h"
+#include "effects/catalogue.h"
+#include "rig/rig_figures.h"
+#include "rig/true_rig.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr long long kMostMixtures = 100000;
+
+/// Numbers that depend on the seed and on their order only.
+class Draw {
+ public:
+  explicit Draw(std::uint64_t seed) : state_(Mixed(seed)) {}
+  double Uniform() {
+    state_ = Mixed(state_);
+    return (static_cast<double>(state_ >> 11) + 0.5) * 0x1p-53;
+  }
+  std::size_t Index(std::size_t n) {
+    return std::min(n - 1, static_cast<std::size_t>(Uniform() * static_cast<double>(n)));
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+/// `size`: 0 the weak end of the usual range, 1 the strong one.
+double ValueOf(const EffectParameter& p, double size, bool negative) {
+  if (!(p.typical_lo > 0 && p.typical_hi > 0)) return p.null_value;
+  const bool falls = std::isinf(p.null_value);  // the smaller the stronger
+  const double weak = falls ? p.typical_hi : p.typical_lo,
+               strong = falls ? p.typical_lo : p.typical_hi;
+  const double distance = weak * std::pow(strong / weak, size);
+  if (falls) return distance;
+  const double signed_distance = negative && p.lo <= p.null_value - distance ? -distance : distance;
+  return std::clamp(p.null_value + signed_distance, p.lo, p.hi);
+}
+
+std::vector<std::string> TargetsIn(const EffectDescription& d, const RigParameters& rig,
+                                   Draw& draw) {
+  std::vector<std::string> all = TargetsOf(d, TargetsOfEffects(rig)), radial;
+  for (const BearingParameters& b : rig.bearings)
+    if (b.kind == BearingKind::kRadial && std::count(all.begin(), all.end(), b.name) > 0)
+      radial.push_back(b.name);
+  if (!radial.empty() && d.target != TargetKind::kPlane && d.target != TargetKind::kPlaneOrZ &&
+      d.target != TargetKind::kPlaneOrRig)
+    return radial;
+  if (std::count(all.begin(), all.end(), "rig") > 0) return {"rig"};
+  if (all.empty()) return {};
+  return {all[draw.Index(all.size())]};
+}
+
+void Add(const EffectDescription& d, const RigParameters& rig, double size, Draw& draw,
+         CampaignPlant* plant) {
+  for (const std::string& target : TargetsIn(d, rig, draw)) {
+    EffectInstance e = MakeInstance(d, target);
+    for (std::size_t k = 0; k < e.table.size(); ++k)
+      if (d.Switches(e.table[k])) e.values[k] = ValueOf(e.table[k], size, draw.Uniform() < 0.5);
+    plant->effects.push_back(std::move(e));
+  }
+}
+
+std::vector<const EffectDescription*> EffectsOf(const TomlTable& t, const RigParameters& rig) {
+  std::vector<const EffectDescription*> out;
+  std::vector<std::string> known;
+  for (const EffectDescription& d : Catalogue())
+    if (!d.users_own && !TargetsOf(d, TargetsOfEffects(rig)).empty()) known.push_back(d.id);
+  for (const std::string& id : t.Has("effects") ? t.Strings("effects") : known) {
+    if (std::count(known.begin(), known.end(), id) == 0)
+      t.Fail("effects", fmt::format("= \"{}\", allowed: {}", id, fmt::join(known, ", ")));
+    out.push_back(FindEffect(id));
+  }
+  return out;
+}
+
+std::vector<std::string> SizesOf(const TomlTable& t) {
+  const std::vector<std::string> sizes =
+      t.Has("sizes") ? t.Strings("sizes") : std::vector<std::string>{"low", "typical", "high"};
+  for (const std::string& s : sizes)
+    if (s != "low" && s != "typical" && s != "high")
+      t.Fail("sizes", fmt::format("= \"{}\", allowed: low, typical, high", s));
+  return sizes;
+}
+
+double Share(const std::string& size) { return size == "low" ? 0 : size == "high" ? 1 : 0.5; }
+
+/// Machines by their effects alone; the first has none.
+std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig,
+                                    std::uint64_t seed) {
+  const auto effects = EffectsOf(t, rig);
+  std::vector<CampaignPlant> out(1);
+  out[0].label = out[0].effect = "none";
+  for (const EffectDescription* d : effects)
+    for (const std::string& size : SizesOf(t)) {
+      CampaignPlant p;
+      p.effect = d->id;
+      p.size = size;
+      p.label = d->id + " " + size;
+      Draw draw(seed * 7919 + out.size());
+      Add(*d, rig, Share(size), draw, &p);
+      out.push_back(std::move(p));
+    }
+  const long long mixtures = t.Integer("mixtures", 0);
+  if (mixtures < 0 || mixtures > kMostMixtures)
+    t.Fail("mixtures", fmt::format("= {}, allowed: 0 to {}", mixtures, kMostMixtures));
+  const std::vector<double> of = t.Numbers("mixture_of", {3, 6});
+  if (of.size() != 2 || of[0] < 1 || of[1] < of[0] ||
+      (mixtures > 0 && of[1] > static_cast<double>(effects.size())))
+    t.Fail("mixture_of", fmt::format("allowed: [least, most], from 1 to {}", effects.size()));
+  for (long long k = 0; k < mixtures; ++k) {
+    Draw draw(seed * 104729 + static_cast<std::uint64_t>(k) + 1);
+    std::vector<const EffectDescription*> left = effects;
+    const auto n =
+        static_cast<std::size_t>(of[0]) + draw.Index(static_cast<std::size_t>(of[1] - of[0]) + 1);
+    CampaignPlant p;
+    p.effect = "mixture";
+    for (std::size_t m = 0; m < n; ++m) {
+      const std::size_t which = draw.Index(left.size());
+      p.label += (m > 0 ? "+" : "") + left[which]->id;
+      Add(*left[which], rig, draw.Uniform(), draw, &p);
+      left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));
+    }
+    out.push_back(std::move(p));
+  }
+  return out;
+}
+
+std::vector<bool> CommissionedOf(const TomlTable& t) {
+  const std::string which = t.Choice("commissioned", "both", "both, yes, no");
+  if (which == "both") return {false, true};
+  return {which == "yes"};
+}
+
+}  // namespace
+
+std::vector<CampaignPlant> ReadPlants(const TomlTable& t, const RigParameters& rig) {
+  const long long seed = t.Integer("seed", 1);
+  if (seed < 0) t.Fail("seed", fmt::format("= {}, allowed: 0 or more", seed));
+  const std::vector<double> scales =
+      t.IsNumber("scale") ? std::vector<double>{t.Number("scale")} : t.Numbers("scale", {1.0});
+  for (const double s : scales)
+    if (!(s >= 0 && s <= 10)) t.Fail("scale", fmt::format("= {}, allowed: 0 to 10 sd", s));
+  if (scales.empty()) t.Fail("scale", "= [], allowed: at least one number from 0 to 10 sd");
+  const std::vector<bool> commissioned = CommissionedOf(t);
+  const auto start = static_cast<std::uint64_t>(seed);
+  std::vector<CampaignPlant> out;
+  for (const CampaignPlant& machine : Machines(t, rig, start))
+    for (const double scale : scales) {
+      CampaignPlant p = machine;
+      p.scale = scale;
+      Draw draw(start * 15485863 + out.size());
+      for (const Tolerance& tolerance : rig.tolerances)
+        if (tolerance.sd > 0) p.deviates.push_back(scale * NormalQuantile(draw.Uniform()));
+      for (const bool learnt : commissioned) {
+        p.commissioned = learnt;
+        out.push_back(p);
+      }
+    }
+  t.RejectUnknownKeys();
+  return out;
+}
+
+void DrawTolerances(const std::vector<double>& deviates, RigParameters* rig) {
+  std::size_t k = 0;
+  for (Tolerance& t : rig->tolerances) {
+    if (!(t.sd > 0) || deviates.empty()) continue;
+    const double* value = ParameterAt(*rig, t.path);
+    double lo = 0, hi = 0;
+    std::string unit;
+    const bool ranged = ParameterRange(*rig, t.path, &lo, &hi, &unit);
+    const double z = deviates[k++];
+    if (!value) continue;
+    const double drawn = (std::isnan(t.true_value) ? *value : t.true_value) + t.sd * z;
+    t.true_value = ranged ? std::clamp(drawn, lo, hi) : drawn;
+  }
+}
+
+void ApplyPlant(const CampaignPlant& plant, RigParameters* rig) {
+  rig->effects.insert(rig->effects.end(), plant.effects.begin(), plant.effects.end());
+  DrawTolerances(plant.deviates, rig);
+}
+
+}  // namespace ambrig

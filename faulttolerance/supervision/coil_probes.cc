@@ -1,0 +1,62 @@
+#include "faulttolerance/supervision/coil_probes.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kSlice = 0.02;                      // [s] orbits are compared over
+constexpr double kFirst = 10e-3, kWhenGrown = 2e-3;  // [s] after the action
+constexpr double kLonger = 4;
+constexpr int kLooks = 3;
+constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;  // of the orbit; [m]
+
+}  // namespace
+
+void CoilProbes::Orbit(double t, double displacement) {
+  if (t >= slice_ends_) {
+    slice_[1] = std::exchange(slice_[0], 0);
+    slice_ends_ = t + kSlice;
+  }
+  slice_[0] = std::max(slice_[0], displacement);
+  for (auto& [coil, look] : looks_) look.orbit_after = std::max(look.orbit_after, displacement);
+}
+
+bool CoilProbes::Grown(const Look& look) const {
+  return look.orbit_after > kGrowth * look.orbit_before + kLeastGrowth;
+}
+
+void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
+  if (cls == FaultClass::kSwitchStuckOn || returned_[coil] > 0) return;
+  Look look;
+  look.given_up = t;
+  look.next = t + kFirst;
+  look.wait = kFirst;
+  look.orbit_before = std::max(slice_[0], slice_[1]);
+  look.left = kLooks;
+  looks_[coil] = look;
+}
+
+int CoilProbes::Due(double t) {
+  for (auto& [coil, look] : looks_) {
+    const bool early = look.left == kLooks && t > look.given_up + kWhenGrown && Grown(look);
+    if (look.left > 0 && (t >= look.next || early)) return coil;
+  }
+  return -1;
+}
+
+void CoilProbes::Answer(int coil, bool healthy, double t) {
+  if (healthy) {
+    returned_[coil] = 1;
+    looks_.erase(coil);
+    return;
+  }
+  Look& look = looks_[coil];
+  --look.left;
+  look.wait *= kLonger;
+  look.next = t + look.wait;
+}
+
+}  // namespace ambrig

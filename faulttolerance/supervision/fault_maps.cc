@@ -1,0 +1,107 @@
+/// The maps that FaultSupervisor goes to when coils are lost or come back.
+#include <cmath>
+
+#include "faulttolerance/redistribution/redistribution_setup.h"
+#include "faulttolerance/supervision/failure_map.h"
+#include "faulttolerance/supervision/fault_supervisor.h"
+#include "faulttolerance/supervision/map_checks.h"
+#include "faulttolerance/supervision/watched_bearing.h"
+#include "rig/rig_figures.h"
+
+namespace ambrig {
+
+namespace {
+constexpr double kVoltageShare = 0.8;  // of the bus, to change currents with
+}
+
+void FaultSupervisor::Redistribute(Watched& w, double t, const BearingControl& control,
+                                   SupervisorOutput& out) {
+  if (!w.healthy) w.healthy = control.map;
+  ReplaceMap change{w.index, control.map, control.current_transition};
+  CurrentMap& map = change.map;
+  CoilVector now = CoilVector::Zero();
+  for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];
+  const Eigen::Vector2d force = CommandedForce(control.map, now);
+  std::string cls = "exact";
+  if ((w.turns_left.array() == 1).all())
+    map = *w.healthy;
+  else if (w.bearing->kind == BearingKind::kRadial)
+    cls = NewMap(w, force, &map);
+  else
+    cls = NewMapOfSides(w, &map);
+  if (w.bearing->kind == BearingKind::kRadial) {
+    change.current_transition = NewCurrentTransition(w, map, force, control);
+  }
+  // The set-points that come next.
+  CoilVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
+  if (change.current_transition) next = change.current_transition->Clone()->Step(next, force);
+  out.actions.push_back(std::move(change));
+  MoveIntegrals(w, control, next, out);
+  out.events.push_back({t, "redistributed", w.bearing->name, cls, 0});
+}
+
+std::string FaultSupervisor::NewMapOfSides(const Watched& w, CurrentMap* map) {
+  if (w.bearing->kind != BearingKind::kThrust) {
+    map->W = w.healthy->W;
+    for (int j = 0; j < w.bearing->coils(); ++j)
+      if (w.turns_left[j] == 0) map->W.row(j).setZero();
+    return "none";
+  }
+  std::string cls = "exact";
+  for (int side = 0; side < 2; ++side) {
+    const double a = w.turns_left[2 * side], b = w.turns_left[2 * side + 1];
+    // Ampere-turns 2 (c0 ± v) of the side, shared in proportion to the turns that are left.
+    const double share = a * a + b * b > 0 ? 2 / (a * a + b * b) : 0;
+    if (share == 0) cls = "none";
+    for (int q = 0; q < 2; ++q) {
+      const double scale = share * (q == 0 ? a : b);
+      map->W.row(2 * side + q) << scale, (side == 0 ? scale : -scale), 0;
+    }
+  }
+  return cls;
+}
+
+void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& control,
+                                    const CoilVector& next, SupervisorOutput& out) {
+  const double resistance = CoilResistance(*w.bearing);
+  for (int j = 0; j < control.coils; ++j) {
+    const double now = control.set_point[j];
+    CurrentRegulator held = control.regulator[static_cast<std::size_t>(j)];
+    const double integral = held.integral();
+    held.HoldCurrent(now, resistance);
+    const double before = held.integral();
+    held.HoldCurrent(next[j], resistance * w.turns_left[j]);
+    const bool moves = now > 0.2 && next[j] > 0.2;
+    out.actions.push_back(
+        SetIntegral{w.index, j, moves ? integral + held.integral() - before : held.integral()});
+  }
+}
+
+std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
+  if (!w.table)
+    w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing),
+                                                    options_.cache_dir);
+  return MapAfterFailure(*w.table, w.turns_left, force,
+                         {options_.redistribution, options_.stiffness_compensation}, map);
+}
+
+std::unique_ptr<CurrentTransition> FaultSupervisor::NewCurrentTransition(
+    const Watched& w, const CurrentMap& map, const Eigen::Vector2d& force,
+    const BearingControl& control) const {
+  TransitionStart s;
+  s.bearing = RedistributionProblemOf(rig_, *w.bearing);
+  s.bearing.turns_left = w.turns_left;
+  const CurrentMap& old = control.map;
+  for (int j = 0; j < 8; ++j)
+    if (w.turns_left[j] > 0) s.now[j] = control.set_point[j];
+  // Without a matrix the bias is what the currents without a force would be.
+  s.bias_before = old.allocation ? s.now : CoilVector(old.c0 * old.W.col(0));
+  s.bias_after = map.allocation ? map.allocation->Step(force.x(), force.y(), 0, 0)
+                                : CoilVector(map.c0 * map.W.col(0));
+  s.leakage = w.bearing->radial.leakage_inductance;
+  s.voltage = kVoltageShare * rig_->amplifier.bus_voltage;
+  s.period = 1 / rig_->controller.rate;
+  return MakeCurrentTransition(options_.current_transition, s);
+}
+
+}  // namespace ambrig

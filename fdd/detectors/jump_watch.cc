@@ -1,0 +1,50 @@
+#include "fdd/detectors/jump_watch.h"
+
+#include <cmath>
+
+namespace ambrig {
+
+namespace {
+constexpr int kPeriods = 6;          // after the jump, for the slopes to tell
+constexpr double kMissed = 0.35;     // of the jump, in the period after it
+constexpr double kRightSlope = 0.3;  // |c|, mean of the periods
+}  // namespace
+
+JumpWatch::JumpWatch(const LinkageModel& nominal, const SamplingSettings& sampling, double noise)
+    : jump_(nominal, sampling, noise), coils_(nominal.coils), samples_(sampling.samples) {}
+
+bool JumpWatch::Confirmed(const MeasuredPeriod& in) const {
+  if (!in.set_point) return false;
+  double mean = 0;
+  for (int k = 0; k < samples_; ++k) mean += in.adc[k][coil_];
+  return (mean / samples_ - (*in.set_point)[coil_]) / step_ > kMissed;
+}
+
+int JumpWatch::Period(const MeasuredPeriod& in, const Lane& now) {
+  const Lane jumps = jump_.Period(in);
+  if (coil_ < 0) {
+    double most = 0;
+    for (int j = 0; j < coils_; ++j)
+      if (std::abs(jumps[j]) > most) {
+        most = std::abs(jumps[j]);
+        coil_ = j;
+        step_ = jumps[j];
+      }
+    periods_ = 0;
+    excess_ = 0;
+    onset_ = in.t;
+    return -1;
+  }
+  if (++periods_ == 1 && !Confirmed(in)) {
+    coil_ = -1;
+    return -1;
+  }
+  // The slopes of a period with a jump say nothing; those after it do.
+  excess_ += now[coil_];
+  if (periods_ < kPeriods) return -1;
+  const int coil = coil_;
+  coil_ = -1;
+  return std::abs(excess_) < kRightSlope * kPeriods ? coil : -1;
+}
+
+}  // namespace ambrig

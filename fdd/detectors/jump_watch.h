@@ -1,0 +1,30 @@
+#pragma once
+/// Current sensors whose offset steps: a reading jumps by what no voltage can make, afterwards all
+/// slopes are right. Two witnesses: the jump itself (reading_jump.h), and the current that misses
+/// its set-point to the same side in the next period. A fault of the coil itself shows in its slopes
+/// within a few periods and is decided there.
+#include "fdd/measurement/reading_jump.h"
+
+namespace ambrig {
+
+class JumpWatch {
+ public:
+  JumpWatch(const LinkageModel& nominal, const SamplingSettings& sampling, double noise);
+
+  /// One period; `now`: c of every coil in it. Returns the coil whose sensor stepped, -1: none.
+  int Period(const MeasuredPeriod& in, const Lane& now);
+  /// Another explanation was found.
+  void Forget() { coil_ = -1; }
+  double onset() const { return onset_; }
+
+ private:
+  bool Confirmed(const MeasuredPeriod& in) const;
+
+  ReadingJump jump_;
+  int coils_ = 0, samples_ = 0;
+  int coil_ = -1, periods_ = 0;
+  double step_ = 0, onset_ = 0;  // [A], [s]
+  double excess_ = 0;            // sum of its c
+};
+
+}  // namespace ambrig

@@ -1,0 +1,134 @@
+// Campaigns over plants that have effects of their own.
+#include "campaign/plants.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "campaign/plant_table.h"
+#include "campaign/row.h"
+#include "campaign/run_plan.h"
+#include "tests/campaign/campaign_folder.h"
+
+namespace ambrig::testing {
+namespace {
+
+std::string Reality(const std::string& plants, const std::string& kinds = "") {
+  return R"(rig = "rig.toml"
+duration = 0.03
+[faults]
+bearings = ["A"]
+sets = [[], [3]]
+time = 0.015
+[[faults.kind]]
+kind = "open"
+)" + kinds +
+         "[plants]\n" + plants;
+}
+
+Campaign Read(const CampaignFolder& f, const std::string& text) {
+  f.Write("c.toml", text);
+  return ReadCampaign(f.File("c.toml"));
+}
+
+TEST(Plants, SizesAreTheEndsAndTheMiddleOfTheUsualRange) {
+  const CampaignFolder f;
+  const Campaign c = Read(f, Reality("effects = [\"eddy-currents\", \"sensor-offset\"]\n"
+                                     "commissioned = \"no\"\n"));
+  ASSERT_EQ(c.plants.size(), 7U);
+  EXPECT_TRUE(c.plants[0].effects.empty());
+  const double cutoff[] = {30000, 3000, 300};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const CampaignPlant& p = c.plants[1 + k];
+    EXPECT_EQ(p.effect, "eddy-currents");
+    ASSERT_EQ(p.effects.size(), 2U);  // both radial bearings
+    EXPECT_EQ(p.effects[0].target, "A");
+    EXPECT_EQ(p.effects[1].target, "B");
+    EXPECT_NEAR(p.effects[0].Value("cutoff"), cutoff[k], 1e-6 * cutoff[k]);
+  }
+  // A healthy set and one with one kind of fault, for every plant.
+  EXPECT_EQ(c.runs(), 14U);
+}
+
+TEST(Plants, EachHasItsOwnDrawAndMixturesTheirOwnEffects) {
+  const CampaignFolder f;
+  const std::string text =
+      Reality("sizes = []\nmixtures = 20\nmixture_of = [3, 6]\nscale = [1.0, 3.0]\nseed = 4\n");
+  const Campaign c = Read(f, text), again = Read(f, text);
+  ASSERT_EQ(c.plants.size(), 21U * 2 * 2);
+  std::set<std::string> labels;
+  for (std::size_t k = 0; k < c.plants.size(); ++k) {
+    const CampaignPlant& p = c.plants[k];
+    EXPECT_EQ(p.deviates, again.plants[k].deviates);
+    EXPECT_EQ(p.commissioned, k % 2 == 1);
+    if (k % 2 == 1) EXPECT_EQ(p.deviates, c.plants[k - 1].deviates);  // the same machine
+    if (k >= 2) EXPECT_NE(p.deviates, c.plants[k - 2].deviates);
+    labels.insert(p.label);
+    const auto several = 1 + std::count(p.label.begin(), p.label.end(), '+');
+    if (p.effect == "mixture") {
+      EXPECT_GE(several, 3) << p.label;
+      EXPECT_LE(several, 6) << p.label;
+    }
+  }
+  EXPECT_GT(labels.size(), 15U);
+}
+
+TEST(Plants, MistakesAreOneLineWithTheirPlace) {
+  const CampaignFolder f;
+  const std::pair<const char*, const char*> mistakes[] = {
+      {"effects = [\"eddy\"]\n", "plants.effects = \"eddy\", allowed: "},
+      {"effects = [\"formula\"]\n", "plants.effects = \"formula\", allowed: "},
+      {"sizes = [\"huge\"]\n", "plants.sizes = \"huge\", allowed: low, typical, high"},
+      {"mixtures = -1\n", "plants.mixtures = -1"},
+      {"mixtures = 2\nmixture_of = [4, 2]\n", "plants.mixture_of"},
+      {"scale = [20.0]\n", "plants.scale = 20"},
+      {"scale = []\n", "plants.scale = []"},
+      {"commissioned = \"maybe\"\n", "plants.commissioned = \"maybe\""},
+      {"commissioning_duration = 0.0\n", "plants.commissioning_duration = 0"},
+      {"colour = 1\n", "plants.colour: unknown key"},
+      {"seed = -1\n", "plants.seed = -1"}};
+  for (const auto& [text, said] : mistakes)
+    EXPECT_NE(ErrorText<InputError>([&] { Read(f, Reality(text)); }).find(said), std::string::npos)
+        << text << ErrorText<InputError>([&] { Read(f, Reality(text)); });
+}
+
+// The small version of scenarios/campaigns/reality.toml: nothing is done to healthy machines,
+// whatever they have, and a coil that opens is found, with and without commissioning.
+TEST(Plants, HealthyOnesAreLeftAloneAndOpenCoilsAreFound) {
+  const CampaignFolder f;
+  const Campaign c = Read(
+      f,
+      Reality("effects = [\"eddy-currents\"]\nsizes = [\"high\"]\ncommissioning_duration = 0.15\n"
+              "scale = 2.0\nwithout = true\n"));
+  const RunPlan plan(c);
+  Rows rows;
+  for (std::size_t run = 0; run < c.runs(); ++run) {
+    const Row row = rows[run] = SimulateRow(plan, run, nullptr);
+    ASSERT_NE(row.At("verdict"), "error") << row.At("note");
+    EXPECT_EQ(row.At("verdict"), "up");
+    EXPECT_EQ(row.Number("false_actions"), 0) << row.At("plant");
+    if (row.Number("failed") > 0) {
+      EXPECT_EQ(row.Number("detected"), 1) << row.At("plant");
+      EXPECT_LT(row.Number("detection_delay"), 0.5e-3) << row.At("plant");
+    } else {
+      EXPECT_LT(row.Number("peak_orbit"), 1.1 * row.Number("orbit_without"));
+    }
+  }
+  const std::string text = PlantTables(rows);
+  EXPECT_NE(text.find("Not commissioned:"), std::string::npos);
+  EXPECT_NE(text.find("| eddy-currents high | 1 | 0 | 0 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| 1/1, "), std::string::npos) << text;
+}
+
+TEST(Plants, TheBoundOfAShareIsClopperAndPearsons) {
+  EXPECT_NEAR(UpperBound95(0, 100), 1 - std::pow(0.05, 0.01), 1e-9);
+  EXPECT_NEAR(UpperBound95(0, 3000), 3.0 / 3000, 0.01 / 3000 * 3);
+  EXPECT_NEAR(UpperBound95(4, 155), 0.058, 5e-4);  // tables of the binomial distribution
+  EXPECT_EQ(UpperBound95(0, 0), 1);
+  EXPECT_EQ(UpperBound95(7, 7), 1);
+}
+
+}  // namespace
+}  // namespace ambrig::testing

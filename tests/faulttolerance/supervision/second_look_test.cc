@@ -1,0 +1,95 @@
+// Coils that were given up are looked at again: on plants with effects that the detection does not
+// know.
+#include "faulttolerance/supervision/coil_probes.h"
+#include "tests/effects/effect_rigs.h"
+#include "tests/faulttolerance/supervision/supervised_runs.h"
+
+namespace ambrig {
+namespace {
+
+/// Eddy currents, hysteresis and a moved sensor, watched by a detection that was not commissioned.
+RigParameters Strange() {
+  RigParameters rig = Rig();
+  rig.detection.kind = "commissioned";
+  for (const char* bearing : {"A", "B"}) {
+    rig = WithEffect(rig, "eddy-currents", bearing, {{"cutoff", 3000}});
+    rig = WithEffect(rig, "hysteresis", bearing, {{"coercive", 0.02}});
+  }
+  return WithEffect(rig, "sensor-offset", "A.x", {{"offset", 5e-6}});
+}
+
+std::size_t Count(const Outcome& o, const std::string& action, const std::string& reason = "") {
+  return static_cast<std::size_t>(
+      std::count_if(o.result.actions.begin(), o.result.actions.end(), [&](const CoilAction& a) {
+        return a.action == action && (reason.empty() || a.reason == reason);
+      }));
+}
+
+TEST(SecondLook, ACoilWhoseAmplifierCameBackReturnsAndIsWatchedAgain) {
+  const Outcome o = Simulated(Spin(0.1, 157, 3) +
+                                  FaultTable(0.02, "A.coil4", "amplifier-off", "duration = 5e-3") +
+                                  FaultTable(0.07, "A.coil4", "open"),
+                              Strange());
+  EXPECT_EQ(Count(o, "probe", "healthy"), 1U);
+  EXPECT_EQ(Count(o, "restore"), 1U);
+  EXPECT_EQ(Count(o, "disable"), 2U);  // and again when it truly opens
+  EXPECT_EQ(o.result.actions[0].coil, "A.coil4");
+  EXPECT_LT(o.When("restored"), 0.04);
+  EXPECT_GT(o.When("restored"), 0.025);
+  EXPECT_EQ(o.Class("A.coil4"), "amplifier-off");
+  EXPECT_LT(o.result.metrics.max_orbit.at("A"), 40e-6);
+  EXPECT_EQ(o.result.metrics.false_alarms, 0);
+}
+
+TEST(SecondLook, ACoilThatIsTrulyLostStaysOff) {
+  struct Case {
+    const char *kind, *parameters;
+  };
+  for (const Case& c :
+       {Case{"open", ""}, Case{"amplifier-off", ""}, Case{"current-sensor", "stuck = true"},
+        Case{"current-sensor", "gain = 0.4"}, Case{"current-sensor", "offset = 0.8"}}) {
+    const Outcome o = Simulated(
+        Spin(0.09, 157, 3) + FaultTable(0.02, "A.coil4", c.kind, c.parameters), Strange());
+    EXPECT_EQ(Count(o, "disable"), 1U) << c.kind << c.parameters;
+    EXPECT_EQ(Count(o, "probe"), 2U) << c.kind << c.parameters;  // after 10 and 50 ms
+    EXPECT_EQ(Count(o, "restore"), 0U) << c.kind << c.parameters;
+    EXPECT_LT(o.result.metrics.max_orbit.at("A"), 60e-6) << c.kind << c.parameters;
+    EXPECT_EQ(o.result.metrics.false_alarms, 0) << c.kind << c.parameters;
+  }
+}
+
+TEST(SecondLook, AnActionAfterWhichTheOrbitGrowsIsDoubtedAtOnce) {
+  CoilProbes probes;
+  double t = 0;
+  const auto run = [&](double seconds, double orbit) {
+    for (const double end = t + seconds; t < end; t += 40e-6) {
+      probes.Orbit(t, orbit);
+      if (probes.Due(t) >= 0) return true;
+    }
+    return false;
+  };
+  EXPECT_FALSE(run(0.05, 10e-6));
+  probes.GivenUp(2, FaultClass::kOpen, t);
+  const double given_up = t;
+  EXPECT_TRUE(run(0.05, 40e-6));
+  EXPECT_NEAR(t - given_up, 2e-3, 1e-4);
+  probes.Answer(2, false, t);
+  EXPECT_FALSE(run(0.03, 40e-6));  // the next look takes its time
+  EXPECT_TRUE(run(0.02, 40e-6));
+}
+
+TEST(SecondLook, AHealthyCoilReturnsOnceAndASwitchThatStaysOnIsNeverProbed) {
+  CoilProbes probes;
+  probes.GivenUp(1, FaultClass::kSwitchStuckOn, 0);
+  EXPECT_EQ(probes.Due(1), -1);
+  probes.GivenUp(3, FaultClass::kOpen, 0);
+  EXPECT_EQ(probes.Due(0.005), -1);
+  EXPECT_EQ(probes.Due(0.011), 3);
+  probes.Answer(3, true, 0.011);
+  EXPECT_EQ(probes.Due(1), -1);
+  probes.GivenUp(3, FaultClass::kOpen, 1);
+  EXPECT_EQ(probes.Due(2), -1);
+}
+
+}  // namespace
+}  // namespace ambrig
