@@ -110,7 +110,8 @@ void AddChannels(CLI::App& app, Work& work) {
   o->common.AddTo(*command);
   command->footer(
       "Examples:\n"
-      "  ambrig channels run_07.tdms sweep.csv\n"
+      "  ambrig channels examples/mls2em/data/*.csv\n"
+      "  ambrig channels run_07.tdms sweep.csv --json channels.json\n"
       "Format, rate, channels with unit and range, what is left out and why; nothing is converted.");
   command->callback([o, &work] { work = [o] { return RunChannels(*o); }; });
 }
