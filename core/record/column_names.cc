@@ -35,8 +35,8 @@ std::string LastPart(const std::string& path) {
 }  // namespace
 
 const Channel* FindColumn(const Record& record, const std::string& name) {
-  for (const std::string& spelling : {name, CsvName(name), HdfName(name), MatName(name),
-                                      LastPart(name)})
+  for (const std::string& spelling :
+       {name, CsvName(name), HdfName(name), MatName(name), LastPart(name)})
     if (const Channel* c = record.Find(spelling)) return c;
   return nullptr;
 }

@@ -77,7 +77,8 @@ class MatReader {
     } else {
       for (std::size_t c = 0; c < columns; ++c) {
         const auto from = samples.begin() + static_cast<std::ptrdiff_t>(c * rows);
-        record_.channels.push_back({name + '(' + std::to_string(c + 1) + ')', "",
+        record_.channels.push_back({name + '(' + std::to_string(c + 1) + ')',
+                                    "",
                                     {from, from + static_cast<std::ptrdiff_t>(rows)}});
       }
     }

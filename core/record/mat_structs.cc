@@ -51,7 +51,8 @@ std::vector<std::vector<double>> Columns(const matvar_t& v, std::size_t rows,
   if (!time_first && !time_last) return out;
   for (std::size_t c = 0; c < n; ++c) {
     std::vector<double> column(rows);
-    for (std::size_t k = 0; k < rows; ++k) column[k] = time_first ? all[c * rows + k] : all[k * n + c];
+    for (std::size_t k = 0; k < rows; ++k)
+      column[k] = time_first ? all[c * rows + k] : all[k * n + c];
     out.push_back(std::move(column));
   }
   return out;
@@ -83,8 +84,7 @@ std::optional<TimedStruct> ReadDspace(const matvar_t& v, const std::string& name
   for (std::size_t k = 0; k < signals; ++k) paths.push_back(TextOf(FieldOf(*y, "Name", k)));
   const std::vector<std::string> names = ShortNames(paths);
   for (std::size_t k = 0; k < signals; ++k) {
-    const std::string of =
-        names[k].empty() ? name + ".Y(" + std::to_string(k + 1) + ')' : names[k];
+    const std::string of = names[k].empty() ? name + ".Y(" + std::to_string(k + 1) + ')' : names[k];
     const matvar_t *data = FieldOf(*y, "Data", k), *index = FieldOf(*y, "XIndex", k);
     std::size_t axis = 0;
     if (IsArray(index)) {

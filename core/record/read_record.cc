@@ -61,8 +61,9 @@ Record ReadRecord(const std::string& path) {
   Measurement m = ReadMeasurement(path, &format);
   const FrequencyResponses& f = m.frequency;
   if (m.record.channels.empty()) {
-    const std::string axis =
-        f.frequency.empty() ? "" : " from " + NumberText(f.frequency.front()) + " to " +
+    const std::string axis = f.frequency.empty()
+                                 ? ""
+                                 : " from " + NumberText(f.frequency.front()) + " to " +
                                        NumberText(f.frequency.back()) + " Hz";
     throw InputError(path + ": holds frequency responses (" + std::to_string(f.responses.size()) +
                      ", " + std::to_string(f.points()) + " points" + axis +

@@ -77,9 +77,8 @@ TEST_P(DamagedFiles, LengthsThatAskForMore) {
   const MemoryLimit limit;
   const bool binary = whole_.find('\0') != std::string::npos;
   const std::size_t step = whole_.size() > 3000 ? 11 : 1;
-  for (const std::string& large :
-       {binary ? std::string("\xff\xff\xff\x7f") : std::string("9999"),
-        binary ? std::string("\0\0\0\x10", 4) : std::string("-1E9")})
+  for (const std::string& large : {binary ? std::string("\xff\xff\xff\x7f") : std::string("9999"),
+                                   binary ? std::string("\0\0\0\x10", 4) : std::string("-1E9")})
     for (std::size_t at = 0; at + large.size() <= whole_.size(); at += step) {
       std::string bytes = whole_;
       Read(bytes.replace(at, large.size(), large), "at " + std::to_string(at));

@@ -12,8 +12,8 @@ namespace ambrig {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using testing::ErrorText;
+using ::testing::HasSubstr;
 
 class FrequencyTable : public ::testing::Test {
  protected:
@@ -36,8 +36,9 @@ class FrequencyTable : public ::testing::Test {
 TEST_F(FrequencyTable, Bode100MagnitudeAndPhaseAsTwoTraces) {
   // Latin-1 as well as UTF-8 signs of the degree; decimal commas.
   for (const char* degree : {"\xc2\xb0", "\xb0", "deg"}) {
-    const Measurement m = Read(std::string("Frequency (Hz);Trace 1: Gain: Magnitude (dB);Trace 2: Gain: Phase (") +
-                               degree + ")\r\n10;0;90\r\n20,5;-20;180\r\n");
+    const Measurement m =
+        Read(std::string("Frequency (Hz);Trace 1: Gain: Magnitude (dB);Trace 2: Gain: Phase (") +
+             degree + ")\r\n10;0;90\r\n20,5;-20;180\r\n");
     EXPECT_TRUE(m.record.channels.empty());
     EXPECT_THAT(m.frequency.frequency, ElementsAre(10, 20.5));
     ASSERT_EQ(m.frequency.responses.size(), 1U);
@@ -49,8 +50,8 @@ TEST_F(FrequencyTable, Bode100MagnitudeAndPhaseAsTwoTraces) {
 }
 
 TEST_F(FrequencyTable, Bode100RealAndImaginaryParts) {
-  const Measurement m = Read(
-      "Frequency (Hz);Trace 1: Gain: Real ;Trace 1: Gain: Imag \n1;2;3\n2;4;5\n");
+  const Measurement m =
+      Read("Frequency (Hz);Trace 1: Gain: Real ;Trace 1: Gain: Imag \n1;2;3\n2;4;5\n");
   ASSERT_EQ(m.frequency.responses.size(), 1U);
   EXPECT_THAT(m.frequency.responses[0].values,
               ElementsAre(std::complex<double>(2, 3), std::complex<double>(4, 5)));
@@ -88,14 +89,14 @@ TEST_F(FrequencyTable, Errors) {
   EXPECT_EQ(Error("f,Re(x),Im(x)\n2,2,3\n1,2,3\n"),
             ": frequency 2 = 1 Hz, allowed: finite, not negative, increasing");
   EXPECT_THAT(Error("f,Re(x)\n2,2\n"), HasSubstr("frequencies, but no response: allowed are"));
-  EXPECT_EQ(Error("f,Re(x) [mm],Im(x) [m]\n2,2,2\n"), ": Re(x) [mm] and Im(x) [m]: allowed: one unit");
+  EXPECT_EQ(Error("f,Re(x) [mm],Im(x) [m]\n2,2,2\n"),
+            ": Re(x) [mm] and Im(x) [m]: allowed: one unit");
 }
 
 TEST_F(FrequencyTable, TracesOfAnSr785HaveNoFrequencies) {
   // The example of the manual: a 400 line FFT, shortened.
   std::string text = "5\n";
-  for (int k = 0; k < 5; ++k)
-    text += std::to_string(k) + ".000, " + std::to_string(k) + ".500\n";
+  for (int k = 0; k < 5; ++k) text += std::to_string(k) + ".000, " + std::to_string(k) + ".500\n";
   const Measurement m = Read(text);
   EXPECT_TRUE(m.frequency.frequency.empty());
   ASSERT_EQ(m.frequency.points(), 5U);

@@ -6,9 +6,7 @@
 
 namespace ambrig::testing {
 
-inline std::string InstrumentFolder() {
-  return AMBRIG_SOURCE_DIR "/tests/core/data/instruments";
-}
+inline std::string InstrumentFolder() { return AMBRIG_SOURCE_DIR "/tests/core/data/instruments"; }
 inline std::string InstrumentFile(const std::string& name) {
   return InstrumentFolder() + '/' + name;
 }

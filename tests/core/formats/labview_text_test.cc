@@ -12,8 +12,8 @@ namespace ambrig {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using testing::ErrorText;
+using ::testing::HasSubstr;
 using testing::InstrumentFile;
 
 TEST(LabviewText, DecimalCommaWithoutAColumnOfTimes) {
@@ -58,9 +58,10 @@ TEST(LabviewText, EmptyChannelsAreLeftOutWithANote) {
 TEST(LabviewText, UnevenTimesAreRefusedWithTheirRow) {
   const std::string path = InstrumentFile("lvm_comments.lvm");
   EXPECT_EQ(ErrorText<InputError>([&] { ReadRecord(path); }),
-            path + ": X_Value of PressM-co ABS. (MPa): row 3: time 1.208397 s is not uniform: step "
-                   "0.8795189999999999 s, expected 0.328878 s"
-                   "");
+            path +
+                ": X_Value of PressM-co ABS. (MPa): row 3: time 1.208397 s is not uniform: step "
+                "0.8795189999999999 s, expected 0.328878 s"
+                "");
 }
 
 class Segments : public ::testing::Test {
@@ -97,10 +98,11 @@ TEST_F(Segments, ThatFollowEachOtherAreOneRecord) {
     EXPECT_EQ(r.rate, 2);
     EXPECT_THAT(r.Find("z")->samples, ElementsAre(1, 2, 3, 4)) << x0;
   }
-  EXPECT_EQ(Error(Head("Tab") + Segment("12:00:00", "0.0", "\t1\n\t2\n") +
-                  Segment("12:00:02", "0.0", "\t3\n\t4\n")),
-            ": segment 2 of z begins at 2 s, expected 1 s; segments with gaps between them are records "
-            "of their own");
+  EXPECT_EQ(
+      Error(Head("Tab") + Segment("12:00:00", "0.0", "\t1\n\t2\n") +
+            Segment("12:00:02", "0.0", "\t3\n\t4\n")),
+      ": segment 2 of z begins at 2 s, expected 1 s; segments with gaps between them are records "
+      "of their own");
   EXPECT_EQ(Error(Head("Tab") + Segment("12:00:00", "0.0", "\t1\n\t2\n") +
                   Segment("12:00:01", "0.0", "\t3\n\t4\n", "y")),
             ": segment 2 has other channels than the first; they are records of their own");
@@ -116,8 +118,10 @@ TEST_F(Segments, CommasAsSeparators) {
 }
 
 TEST_F(Segments, Errors) {
-  EXPECT_EQ(Error(Head("Tab") + Segment("12:00:00", "0.0", "\t1\n\t2x\n")), ":19:2: '2x' is not a number");
-  EXPECT_EQ(Error("LabVIEW Measurement\nSeparator\tBar\n"), ":2: 'Separator\tBar', allowed: Tab, Comma");
+  EXPECT_EQ(Error(Head("Tab") + Segment("12:00:00", "0.0", "\t1\n\t2x\n")),
+            ":19:2: '2x' is not a number");
+  EXPECT_EQ(Error("LabVIEW Measurement\nSeparator\tBar\n"),
+            ":2: 'Separator\tBar', allowed: Tab, Comma");
   EXPECT_EQ(Error("LabVIEW Measurement\nX_Columns\tNo\n"),
             ":2: the head of the file does not end with ***End_of_Header***");
   EXPECT_EQ(Error(Head("Tab")), ": no segment of data behind the head");

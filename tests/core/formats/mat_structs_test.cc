@@ -13,12 +13,12 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 using testing::ErrorText;
+using ::testing::HasSubstr;
 using testing::InstrumentFile;
 using testing::SignalX;
 using testing::SignalY;
+using ::testing::StartsWith;
 
 TEST(MatStructs, DspaceBringsNamesUnitsAndTime) {
   const Record r = ReadMat(InstrumentFile("mat_dspace.mat"));

@@ -13,10 +13,10 @@ namespace {
 using ::testing::AllOf;
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Pointwise;
 using testing::ErrorText;
+using ::testing::HasSubstr;
 using testing::InstrumentFile;
+using ::testing::Pointwise;
 using testing::SignalX;
 using testing::SignalY;
 
@@ -58,13 +58,15 @@ TEST(Tdms, TimeStampsAreTheTimeBase) {
   EXPECT_EQ(r.channels[0].name, "log/bus");  // two groups have a channel "bus"
   EXPECT_EQ(r.rows(), 300U);
   EXPECT_EQ(r.channels[0].samples[299], 299);
-  EXPECT_THAT(r.notes, ElementsAre(HasSubstr("slow/bus is not as long as the channel of times, left out")));
+  EXPECT_THAT(r.notes,
+              ElementsAre(HasSubstr("slow/bus is not as long as the channel of times, left out")));
 }
 
 TEST(Tdms, DaqmxRawDataAreRefused) {
   const std::string path = InstrumentFile("tdms_daqmx.tdms");
-  EXPECT_THAT(ErrorText<InputError>([&] { ReadRecord(path); }),
-              AllOf(HasSubstr(path + ": byte "), HasSubstr("DAQmx raw data, which cannot be read; save")));
+  EXPECT_THAT(
+      ErrorText<InputError>([&] { ReadRecord(path); }),
+      AllOf(HasSubstr(path + ": byte "), HasSubstr("DAQmx raw data, which cannot be read; save")));
 }
 
 TEST(Tdms, DamageIsNamedByItsByte) {
@@ -80,12 +82,13 @@ TEST(Tdms, DamageIsNamedByItsByte) {
   EXPECT_EQ(error(8, std::string(4, '\1')), ": byte 12: version 16843009, allowed 4712, 4713");
   // The number of objects, and the length of the first path.
   EXPECT_THAT(error(28, "\xff\xff\xff\x7f"), HasSubstr(": byte "));
-  EXPECT_EQ(error(32, "\xff\xff\xff\x7f"),
-            ": byte 36: 2147483647 bytes expected, the file has " + std::to_string(whole.size() - 36));
+  EXPECT_EQ(error(32, "\xff\xff\xff\x7f"), ": byte 36: 2147483647 bytes expected, the file has " +
+                                               std::to_string(whole.size() - 36));
   const std::size_t index = whole.find("/'bench'/'A.x'") + 14;  // length, type, dimension, values
   EXPECT_THAT(error(index + 4, std::string("\x0b", 1)),
               HasSubstr("values of type 0xb, allowed integers, single, double"));
-  EXPECT_THAT(error(index + 12, "\xff\xff\xff\xff\xff"), HasSubstr("a chunk of raw data larger than the file"));
+  EXPECT_THAT(error(index + 12, "\xff\xff\xff\xff\xff"),
+              HasSubstr("a chunk of raw data larger than the file"));
   EXPECT_THAT(error(0, "TDSh"), HasSubstr("is the index of a TDMS file; the data are in"));
 }
 
@@ -95,8 +98,10 @@ TEST(Tdms, UnknownScalesAreRefused) {
   std::string bytes = testing::ReadBytes(InstrumentFile("tdms_little.tdms"));
   bytes.replace(bytes.find("Linear", bytes.find("Scale_Type")), 6, "Tabled");
   testing::WriteBytes(path, bytes);
-  EXPECT_EQ(ErrorText<InputError>([&] { ReadRecord(path); }),
-            path + ": bench/A.i1 has a scale of kind 'Tabled', allowed: Linear, Polynomial; save it scaled");
+  EXPECT_EQ(
+      ErrorText<InputError>([&] { ReadRecord(path); }),
+      path +
+          ": bench/A.i1 has a scale of kind 'Tabled', allowed: Linear, Polynomial; save it scaled");
 }
 
 }  // namespace

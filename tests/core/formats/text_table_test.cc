@@ -15,8 +15,8 @@ namespace ambrig {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using testing::ErrorText;
+using ::testing::HasSubstr;
 
 class TextTables : public ::testing::Test {
  protected:
@@ -35,8 +35,8 @@ class TextTables : public ::testing::Test {
 
 TEST_F(TextTables, UnitsInHeads) {
   // Latin-1 for the micro sign; a bracket that holds no unit belongs to the name.
-  const Record r = Read(
-      "Time (s);x (\xb5m);Force (left);i / A;u [V]\n0,0;1,5;2;3;4\n0,5;2,5;3;4;5\n");
+  const Record r =
+      Read("Time (s);x (\xb5m);Force (left);i / A;u [V]\n0,0;1,5;2;3;4\n0,5;2,5;3;4;5\n");
   EXPECT_EQ(r.rate, 2);
   ASSERT_EQ(r.channels.size(), 4U);
   EXPECT_EQ(r.channels[0].name, "x");
@@ -73,7 +73,8 @@ TEST_F(TextTables, SpreadsheetHabits) {
 
 TEST_F(TextTables, DatesAndTimesOfDayBecomeSeconds) {
   const char* files[] = {
-      "timestamp,x\n2024-05-01T23:59:59.500,1\n2024-05-02T00:00:00.000,2\n2024-05-02T00:00:00.500,3\n",
+      "timestamp,x\n2024-05-01T23:59:59.500,1\n2024-05-02T00:00:00.000,2\n2024-05-02T00:00:00.500,"
+      "3\n",
       "time;x\n01.05.2024 23:59:59,5;1\n02.05.2024 00:00:00,0;2\n02.05.2024 00:00:00,5;3\n",
       "Date,Time,x\n2024/05/01,23:59:59.5,1\n2024/05/02,00:00:00.0,2\n2024/05/02,00:00:00.5,3\n",
       "t,x\n2024-05-01 23:59:59.5Z,1\n2024-05-02 01:00:00+01:00,2\n2024-05-01T19:00:00.5-0500,3\n"};
@@ -118,8 +119,8 @@ TEST(DateTimes, Instants) {
   EXPECT_EQ(seconds("2024-02-29 12:34:56+02:00"), 1709202896);
   EXPECT_EQ(seconds("12:34"), 45240);
   EXPECT_DOUBLE_EQ(ParseDateTime("12:34:56.123456789")->fraction, 0.123456789);
-  for (const char* text : {"", "1.5", "2024", "2024-13-01", "2024-1-1T", "24:00:00", "12:60", "12:0",
-                           "12:00:00.", "12:00:00x", "2024-05-01T12:00:00+2", "31.02.2024"})
+  for (const char* text : {"", "1.5", "2024", "2024-13-01", "2024-1-1T", "24:00:00", "12:60",
+                           "12:0", "12:00:00.", "12:00:00x", "2024-05-01T12:00:00+2", "31.02.2024"})
     EXPECT_FALSE(ParseDateTime(text)) << text;
 }
 

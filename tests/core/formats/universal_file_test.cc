@@ -14,13 +14,13 @@ namespace {
 
 using ::testing::DoubleNear;
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Pointwise;
-using ::testing::StartsWith;
 using testing::ErrorText;
+using ::testing::HasSubstr;
 using testing::InstrumentFile;
+using ::testing::Pointwise;
 using testing::SignalX;
 using testing::SignalY;
+using ::testing::StartsWith;
 
 // E13.5 has six digits: half a unit of the last one of numbers below 10.
 constexpr double kSixDigits = 5e-6;
@@ -38,7 +38,8 @@ TEST(UniversalFile, SeveralFunctionsBecomeOneRecordAndItsResponses) {
   EXPECT_THAT(r.channels[0].samples, Pointwise(DoubleNear(kSixDigits), SignalX()));
   EXPECT_EQ(r.channels[1].name, "A.i1");
   EXPECT_THAT(r.channels[1].samples, Pointwise(DoubleNear(1e-12), SignalY()));
-  EXPECT_THAT(r.notes, ElementsAre(HasSubstr("B.x has 10 rows at 300")));  // six digits of uneven times
+  EXPECT_THAT(r.notes,
+              ElementsAre(HasSubstr("B.x has 10 rows at 300")));  // six digits of uneven times
   ASSERT_EQ(m.frequency.responses.size(), 2U);
   EXPECT_THAT(m.frequency.frequency, ElementsAre(10, 12.5, 15, 17.5, 20, 22.5, 25, 27.5, 30, 32.5));
   const double near[] = {kSixDigits, 1e-12};  // single and double precision
@@ -81,7 +82,8 @@ TEST(UniversalFile, FilesOfOtherPrograms) {
   EXPECT_EQ(sine.rows(), 250U);
   EXPECT_EQ(sine.channels[0].unit, "g");
   for (std::size_t k = 0; k < 250; ++k)  // 5 Hz; stored as singles within doubles
-    EXPECT_NEAR(sine.channels[0].samples[k], std::sin(0.1 * M_PI * static_cast<double>(k + 1)), 1e-6);
+    EXPECT_NEAR(sine.channels[0].samples[k], std::sin(0.1 * M_PI * static_cast<double>(k + 1)),
+                1e-6);
   const Record catman = ReadRecord(InstrumentFile("uff_catman.uff"));
   EXPECT_EQ(catman.rate, 20000);
   EXPECT_EQ(catman.rows(), 13U);
@@ -99,8 +101,9 @@ TEST(UniversalFile, FilesOfOtherPrograms) {
 TEST(UniversalFile, ResponsesAreNoRecordOverTime) {
   const std::string path = InstrumentFile("uff_latin1.uff");
   EXPECT_EQ(ErrorText<InputError>([&] { ReadRecord(path); }),
-            path + ": holds frequency responses (1, 6 points from 0 to 0.976565 Hz), allowed here: a "
-                   "record over time");
+            path +
+                ": holds frequency responses (1, 6 points from 0 to 0.976565 Hz), allowed here: a "
+                "record over time");
 }
 
 TEST(UniversalFile, DamageIsNamedByLineOrByte) {
@@ -114,13 +117,15 @@ TEST(UniversalFile, DamageIsNamedByLineOrByte) {
     const std::string text = ErrorText<InputError>([&] { ReadMeasurement(path); });
     return text.starts_with(path) ? text.substr(path.size()) : "wrong file: " + text;
   };
-  EXPECT_EQ(error("uff_ascii.unv", "         2        10", "         7        10"),
-            ":13: ordinate type 7, allowed 2, 4 (real), 5, 6 (complex) in a record 7 of 3I10,3E13.5");
+  EXPECT_EQ(
+      error("uff_ascii.unv", "         2        10", "         7        10"),
+      ":13: ordinate type 7, allowed 2, 4 (real), 5, 6 (complex) in a record 7 of 3I10,3E13.5");
   EXPECT_EQ(error("uff_ascii.unv", "         2        10", "         2999999999"),
             ":20: the function ends after 10 of 999999999 numbers");
   EXPECT_EQ(error("uff_ascii.unv", "  5.64642E-01", "  5.6x642E-01"),
             ":18: '5.6x642E-01' is not a number");
-  EXPECT_EQ(error("uff_catman.uff", "    -1\n    58", "    -1\n    57"), ": no data set 58 (function) in the file");
+  EXPECT_EQ(error("uff_catman.uff", "    -1\n    58", "    -1\n    57"),
+            ": no data set 58 (function) in the file");
   EXPECT_THAT(error("uff_binary_double.uff", "         4       250", "         4  99999999"),
               ::testing::AllOf(StartsWith(": byte "), HasSubstr("99999999 points of 8 bytes")));
   EXPECT_THAT(error("uff_binary_double.uff", "58b     1     2", "58b     1     1"),
