@@ -59,7 +59,7 @@ TEST(LabviewText, UnevenTimesAreRefusedWithTheirRow) {
   const std::string path = InstrumentFile("lvm_comments.lvm");
   EXPECT_EQ(ErrorText<InputError>([&] { ReadRecord(path); }),
             path +
-                ": X_Value of PressM-co ABS. (MPa): row 3: time 1.208397 s is not uniform: step "
+                ": X_Value of Pressão ABS. (MPa): row 3: time 1.208397 s is not uniform: step "
                 "0.8795189999999999 s, expected 0.328878 s"
                 "");
 }

@@ -57,7 +57,7 @@ def write_uff_ascii():
     out += uff_head("coil", 1, ("A.i1", 6, -2, "NONE", 0, 0), (4, N, 1, 0.5, 1 / 3000), axes, "    58")
     out += uff_columns([e20(v) for v in Y], 4) + ["    -1"]
     out += uff_head("uneven", 1, ("B.x", 7, 3, "NONE", 0, 0), (4, N, 0, 0, 0), [TIME, (8, "d", "um"), NONE, NONE], "    58")
-    out += uff_columns([c for k in range(N) for c in (e13(0.5 + k / 3000), e20(X[k]))], 4) + ["    -1"]
+    out += uff_columns([c for k in range(N) for c in (e13(0.5 + k / 1500), e20(X[k]))], 4) + ["    -1"]
     for ordinate, name in ((5, "H1"), (6, "H2")):
         axes = [(18, "Frequency", "Hz"), (8, "d", "m"), (13, "f", "N"), NONE]
         out += uff_head(name, 4, ("A.x", 5, 1, name, 9, 2), (ordinate, N, 1, 10, 2.5), axes, "    58")
