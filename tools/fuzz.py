@@ -13,6 +13,7 @@ import json
 import pathlib
 import random
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -131,6 +132,14 @@ def Cases(binary, work):
         "validate": ({p.name: p.read_bytes() for p in published.glob("mbc500*")}, None, "validate . --json j.json"),
         "convert-shaft": ({"a.toml": beam["shaft.toml"]}, ["a.toml"], "rotor convert a.toml b.json"),
     }
+    instruments = {p.name: p.read_bytes() for p in sorted((ROOT / "tests/core/data/instruments").glob("*.*"))
+                   if p.suffix not in (".py", ".md")}
+    for name, data in instruments.items():
+        kind = "instrument-" + name.rsplit(".", 1)[0].replace("_", "-")
+        out[kind] = ({name: data}, [name], f"channels {name} --json j.json")
+    out["compare-tdms"] = ({"rig.toml": RIG, "s.toml": PLAIN, "case.toml": both(b"tdms_little.tdms"),
+                            "tdms_little.tdms": instruments["tdms_little.tdms"]}, ["tdms_little.tdms"],
+                           "compare case.toml --json j.json")
     if (record / "r.json").exists():
         out["convert-ross"] = ({"r.json": (record / "r.json").read_bytes()}, ["r.json"], "rotor convert r.json b.toml")
     return out
@@ -218,8 +227,9 @@ def Main():
     p.add_argument("binary")
     p.add_argument("--runs", type=int, default=1000)
     p.add_argument("--seed", type=int, default=1)
-    p.add_argument("--only", help="one kind of case")
+    p.add_argument("--only", help="kinds of cases that begin so")
     p.add_argument("--timeout", type=float, default=60, help="[s] of one run")
+    p.add_argument("--memory", type=float, help="[MB] of address space of one run; not for sanitizers, which reserve terabytes")
     p.add_argument("--keep", default="out/fuzz", help="folder of findings")
     o = p.parse_args()
     binary = str(pathlib.Path(o.binary).resolve())
@@ -228,7 +238,11 @@ def Main():
     with tempfile.TemporaryDirectory(prefix="ambrig_fuzz_") as temporary:
         work = pathlib.Path(temporary)
         cases = Cases(binary, work)
-        names = [o.only] if o.only else list(cases)
+        names = [n for n in cases if n.startswith(o.only or "")]
+        if not names:
+            p.error(f"--only {o.only}: allowed: the beginning of one of {', '.join(cases)}")
+        limit = int((o.memory or 0) * 1e6)
+        bounded = (lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit))) if limit else None
         for n in range(o.runs):
             r = random.Random(f"{o.seed} {n}")
             name = names[n % len(names)]
@@ -236,14 +250,14 @@ def Main():
             files = dict(files)
             for _ in range(r.choice([1, 1, 1, 2, 4])):
                 victim = r.choice(victims or list(files))
-                mutate = MutateText if victim.endswith((".toml", ".csv", ".json")) else MutateBytes
+                mutate = MutateText if victim.endswith((".toml", ".csv", ".json", ".lvm", ".unv")) else MutateBytes
                 files[victim] = mutate(r, files[victim])
             folder = work / "now"
             folder.mkdir()
             for file, text in files.items():
                 (folder / file).write_bytes(text)
             try:
-                done = subprocess.run([binary, *command.split()], cwd=folder, capture_output=True, timeout=o.timeout)
+                done = subprocess.run([binary, *command.split()], cwd=folder, capture_output=True, timeout=o.timeout, preexec_fn=bounded)
                 verdict, words = Verdict(done, folder, files), done.stderr.decode(errors="replace")
                 counts[done.returncode] = counts.get(done.returncode, 0) + 1
             except subprocess.TimeoutExpired:

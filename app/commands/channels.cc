@@ -60,10 +60,10 @@ nlohmann::ordered_json ResponsesJson(const FrequencyResponses& f) {
   nlohmann::ordered_json responses = nlohmann::ordered_json::array();
   const bool axis = !f.frequency.empty();
   if (!f.responses.empty())
-    fmt::print("  frequency responses, {} points{}\n", f.points(),
-               axis ? fmt::format(" from {:.6g} to {:.6g} Hz", f.frequency.front(),
-                                  f.frequency.back())
-                    : "");
+    fmt::print(
+        "  frequency responses, {} points{}\n", f.points(),
+        axis ? fmt::format(" from {:.6g} to {:.6g} Hz", f.frequency.front(), f.frequency.back())
+             : "");
   for (const FrequencyResponse& r : f.responses) {
     std::vector<double> size;
     for (const auto& v : r.values) size.push_back(std::abs(v));
@@ -110,8 +110,10 @@ void AddChannels(CLI::App& app, Work& work) {
   o->common.AddTo(*command);
   command->footer(
       "Examples:\n"
-      "  ambrig channels run_07.tdms sweep.csv\n"
-      "Format, rate, channels with unit and range, what is left out and why; nothing is converted.");
+      "  ambrig channels examples/mls2em/data/*.csv\n"
+      "  ambrig channels run_07.tdms sweep.csv --json channels.json\n"
+      "Format, rate, channels with unit and range, what is left out and why; nothing is "
+      "converted.");
   command->callback([o, &work] { work = [o] { return RunChannels(*o); }; });
 }
 

@@ -78,11 +78,10 @@ constexpr Unit kUnits[] = {
 
 /// Words for units, in small letters.
 constexpr std::pair<std::string_view, std::string_view> kWords[] = {
-    {"volt", "V"},      {"volts", "V"},    {"ampere", "A"},   {"amperes", "A"},
-    {"amp", "A"},       {"amps", "A"},     {"newton", "N"},   {"newtons", "N"},
-    {"meter", "m"},     {"meters", "m"},   {"metre", "m"},    {"metres", "m"},
-    {"sec", "s"},       {"second", "s"},   {"seconds", "s"},  {"micron", "um"},
-    {"microns", "um"},  {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},
+    {"volt", "V"},      {"volts", "V"},    {"ampere", "A"},   {"amperes", "A"},   {"amp", "A"},
+    {"amps", "A"},      {"newton", "N"},   {"newtons", "N"},  {"meter", "m"},     {"meters", "m"},
+    {"metre", "m"},     {"metres", "m"},   {"sec", "s"},      {"second", "s"},    {"seconds", "s"},
+    {"micron", "um"},   {"microns", "um"}, {"degree", "deg"}, {"degrees", "deg"}, {"radian", "rad"},
     {"radians", "rad"}, {"hertz", "Hz"},   {"hz", "Hz"},
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/errors.h"
+#include "core/record/text_table.h"
 
 namespace ambrig {
 
@@ -21,15 +22,21 @@ std::string MatName(std::string name) {
   return name;
 }
 
-std::string CsvName(const std::string& head) {
-  const std::string name = head.substr(0, head.find('['));
-  return name.substr(0, name.find_last_not_of(' ') + 1);
+std::string CsvName(const std::string& head) { return ParseHead(head).name; }
+
+/// The rule of readers of files with paths, /'group'/'A.x' of TDMS, "Model Root"/"A.x" of dSPACE:
+/// the last part where that tells all apart.
+std::string LastPart(const std::string& path) {
+  std::string name = path.substr(path.rfind('/') + 1);
+  for (const char quote : {'"', '\''}) std::erase(name, quote);
+  return name;
 }
 
 }  // namespace
 
 const Channel* FindColumn(const Record& record, const std::string& name) {
-  for (const std::string& spelling : {name, CsvName(name), HdfName(name), MatName(name)})
+  for (const std::string& spelling :
+       {name, CsvName(name), HdfName(name), MatName(name), LastPart(name)})
     if (const Channel* c = record.Find(spelling)) return c;
   return nullptr;
 }

@@ -23,12 +23,10 @@ struct PartWord {
   Part part;
 };
 constexpr PartWord kWords[] = {
-    {"re", Part::kReal},           {"real", Part::kReal},
-    {"im", Part::kImaginary},      {"imag", Part::kImaginary},
-    {"imaginary", Part::kImaginary}, {"abs", Part::kMagnitude},
-    {"mag", Part::kMagnitude},     {"magnitude", Part::kMagnitude},
-    {"amplitude", Part::kMagnitude}, {"phi", Part::kPhase},
-    {"arg", Part::kPhase},         {"phase", Part::kPhase},
+    {"re", Part::kReal},        {"real", Part::kReal},           {"im", Part::kImaginary},
+    {"imag", Part::kImaginary}, {"imaginary", Part::kImaginary}, {"abs", Part::kMagnitude},
+    {"mag", Part::kMagnitude},  {"magnitude", Part::kMagnitude}, {"amplitude", Part::kMagnitude},
+    {"phi", Part::kPhase},      {"arg", Part::kPhase},           {"phase", Part::kPhase},
     {"angle", Part::kPhase},
 };
 
@@ -52,7 +50,8 @@ std::optional<PartColumn> ParsePart(const Channel& c) {
   const std::string_view name = Trim(c.name);
   if (const std::size_t open = name.find('('); open != std::string_view::npos && name.back() == ')')
     if (const auto part = PartOf(name.substr(0, open)))
-      return PartColumn{&c, std::string(Trim(name.substr(open + 1, name.size() - open - 2))), *part};
+      return PartColumn{&c, std::string(Trim(name.substr(open + 1, name.size() - open - 2))),
+                        *part};
   const std::size_t gap = name.find_last_of(" :_.");
   const std::size_t from = gap == std::string_view::npos ? 0 : gap + 1;
   const auto part = PartOf(name.substr(from));
@@ -98,9 +97,9 @@ FrequencyResponse Combine(const PartColumn& a, const PartColumn& b, const std::s
   for (std::size_t k = 0; k < a.column->samples.size(); ++k) {
     const double first = a.column->samples[k], second = b.column->samples[k];
     const double size = decibel ? std::pow(10, first / 20) : first;
-    r.values.push_back(a.part == Part::kReal ? std::complex<double>(first, second)
-                                             : size * std::exp(std::complex<double>(
-                                                          0, angle * second)));
+    r.values.push_back(a.part == Part::kReal
+                           ? std::complex<double>(first, second)
+                           : size * std::exp(std::complex<double>(0, angle * second)));
   }
   return r;
 }
@@ -125,10 +124,10 @@ Measurement ResponsesOfTable(const TextTable& table, const std::string& path) {
   Measurement out;
   out.record.notes = table.notes;
   const Channel& axis = table.columns.front();
-  const double hertz = axis.unit.empty()               ? 1
-                       : SiUnit(axis.unit) == "rad/s" ? UnitFactor(axis.unit, "rad/s") /
-                                                            (2 * std::numbers::pi)
-                                                      : UnitFactor(axis.unit, "Hz");
+  const double hertz = axis.unit.empty() ? 1
+                       : SiUnit(axis.unit) == "rad/s"
+                           ? UnitFactor(axis.unit, "rad/s") / (2 * std::numbers::pi)
+                           : UnitFactor(axis.unit, "Hz");
   for (const double f : axis.samples) out.frequency.frequency.push_back(hertz * f);
   std::vector<PartColumn> parts;
   const auto left_out = [&](const Channel& c, const std::string& why) {
@@ -142,8 +141,7 @@ Measurement ResponsesOfTable(const TextTable& table, const std::string& path) {
   }
   for (PartColumn& p : parts) {
     if (p.part == Part::kImaginary || p.part == Part::kPhase) continue;
-    PartColumn* other =
-        Partner(parts, p, p.part == Part::kReal ? Part::kImaginary : Part::kPhase);
+    PartColumn* other = Partner(parts, p, p.part == Part::kReal ? Part::kImaginary : Part::kPhase);
     if (other == nullptr) continue;
     p.used = other->used = true;
     out.frequency.responses.push_back(Combine(p, *other, path));
@@ -151,7 +149,8 @@ Measurement ResponsesOfTable(const TextTable& table, const std::string& path) {
   for (const PartColumn& p : parts)
     if (!p.used) left_out(*p.column, "has no partner (real with imaginary, magnitude with phase)");
   if (out.frequency.responses.empty())
-    throw InputError(path + ": frequencies, but no response: allowed are Re(x) and Im(x), x: Real " +
+    throw InputError(path +
+                     ": frequencies, but no response: allowed are Re(x) and Im(x), x: Real " +
                      "and x: Imag, x: Magnitude (dB) and x: Phase (deg)");
   CheckResponses(out.frequency, path);
   return out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <mutex>
+#include <new>
 #include <vector>
 
 #include "core/base/errors.h"
@@ -77,7 +78,8 @@ class MatReader {
     } else {
       for (std::size_t c = 0; c < columns; ++c) {
         const auto from = samples.begin() + static_cast<std::ptrdiff_t>(c * rows);
-        record_.channels.push_back({name + '(' + std::to_string(c + 1) + ')', "",
+        record_.channels.push_back({name + '(' + std::to_string(c + 1) + ')',
+                                    "",
                                     {from, from + static_cast<std::ptrdiff_t>(rows)}});
       }
     }
@@ -98,17 +100,13 @@ class MatReader {
       timed_.insert(timed_.end(), timed->channels.begin(), timed->channels.end());
       return;
     }
-    char* const* names = Mat_VarGetStructFieldnames(v);
-    for (unsigned k = 0; k < Mat_VarGetNumberOfFields(v); ++k)
-      if (matvar_t* field = Mat_VarGetStructFieldByIndex(v, k, 0))
-        Add(field, name + '.' + names[k]);
+    for (const std::string& part : FieldNames(*v))
+      if (matvar_t* field = FieldOf(*v, part)) Add(field, name + '.' + part);
   }
 
   void ReadUnits(matvar_t* v) {
-    char* const* names = Mat_VarGetStructFieldnames(v);
-    for (unsigned k = 0; k < Mat_VarGetNumberOfFields(v); ++k)
-      if (const matvar_t* field = Mat_VarGetStructFieldByIndex(v, k, 0))
-        units_[ChannelName(names[k])] = Text(*field);
+    for (const std::string& name : FieldNames(*v))
+      if (const matvar_t* field = FieldOf(*v, name)) units_[ChannelName(name)] = Text(*field);
   }
 
   /// Channels with a time of their own, and the plain vectors that are as long.
@@ -141,11 +139,13 @@ class MatReader {
 
 }  // namespace
 
-Record ReadMat(const std::string& path) {
+Record ReadMat(const std::string& path) try {
   if (ReadFile(path, 128).size() < 128) throw InputError(path + ": not a MAT file");
   Record record = MatReader(path).Read();
   FinishRecord(record, path);
   return record;
+} catch (const std::bad_alloc&) {
+  throw InputError(path + ": damaged, or too large for the memory of this machine");
 }
 
 }  // namespace ambrig

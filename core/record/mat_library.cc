@@ -49,8 +49,8 @@ double MostBytes(const std::string& bytes) {
 }
 
 double Elements(const matvar_t& v) {
-  double n = 1;
-  for (int d = 0; d < v.rank; ++d) n *= static_cast<double>(v.dims[d]);
+  double n = v.dims == nullptr ? 0 : 1;
+  for (int d = 0; v.dims != nullptr && d < v.rank; ++d) n *= static_cast<double>(v.dims[d]);
   return n;
 }
 
@@ -106,10 +106,25 @@ std::string Text(const matvar_t& v) {
   return text;
 }
 
-const matvar_t* FieldOf(const matvar_t& v, const char* name, std::size_t index) {
-  if (v.class_type != MAT_C_STRUCT || v.data == nullptr) return nullptr;
-  if (!(static_cast<double>(index) < Elements(v))) return nullptr;
-  return Mat_VarGetStructFieldByName(const_cast<matvar_t*>(&v), name, index);
+std::vector<std::string> FieldNames(const matvar_t& v) {
+  std::vector<std::string> names;
+  if (v.class_type != MAT_C_STRUCT || v.data == nullptr) return names;
+  char* const* all = Mat_VarGetStructFieldnames(&v);
+  if (all == nullptr) return names;
+  for (unsigned k = 0; k < Mat_VarGetNumberOfFields(const_cast<matvar_t*>(&v)); ++k)
+    names.emplace_back(all[k] == nullptr ? "" : all[k]);
+  return names;
+}
+
+// Not by the library's own look-up: it believes the sizes of a damaged file.
+matvar_t* FieldOf(const matvar_t& v, const std::string& name, std::size_t index) {
+  const std::vector<std::string> names = FieldNames(v);
+  const auto it = std::find(names.begin(), names.end(), name);
+  if (it == names.end()) return nullptr;
+  const auto field = static_cast<std::size_t>(it - names.begin());
+  const std::size_t held = v.nbytes / sizeof(matvar_t*);
+  if (index >= held / names.size()) return nullptr;
+  return static_cast<matvar_t* const*>(v.data)[index * names.size() + field];
 }
 
 }  // namespace ambrig::mat

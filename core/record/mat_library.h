@@ -32,7 +32,9 @@ std::vector<double> Numbers(const matvar_t& v, std::size_t n);
 /// Text of a char row; empty for anything else.
 std::string Text(const matvar_t& v);
 
+/// Empty for what is no struct.
+std::vector<std::string> FieldNames(const matvar_t& v);
 /// The field of element `index` of a struct (array), nullptr when absent.
-const matvar_t* FieldOf(const matvar_t& v, const char* name, std::size_t index = 0);
+matvar_t* FieldOf(const matvar_t& v, const std::string& name, std::size_t index = 0);
 
 }  // namespace ambrig::mat

@@ -15,6 +15,12 @@ using Check = std::function<void(const matvar_t&, const std::string&)>;
 
 bool IsArray(const matvar_t* v) { return v != nullptr && IsNumeric(*v) && Elements(*v) > 0; }
 
+/// How many structs an array holds.
+std::size_t StructElements(const matvar_t& v) {
+  const std::size_t fields = FieldNames(v).size();
+  return fields == 0 ? 0 : v.nbytes / sizeof(matvar_t*) / fields;
+}
+
 std::string TextOf(const matvar_t* v) { return v == nullptr ? "" : Text(*v); }
 
 /// "Model Root"/"AMB"/"x" -> x
@@ -51,7 +57,8 @@ std::vector<std::vector<double>> Columns(const matvar_t& v, std::size_t rows,
   if (!time_first && !time_last) return out;
   for (std::size_t c = 0; c < n; ++c) {
     std::vector<double> column(rows);
-    for (std::size_t k = 0; k < rows; ++k) column[k] = time_first ? all[c * rows + k] : all[k * n + c];
+    for (std::size_t k = 0; k < rows; ++k)
+      column[k] = time_first ? all[c * rows + k] : all[k * n + c];
     out.push_back(std::move(column));
   }
   return out;
@@ -78,18 +85,18 @@ std::optional<TimedStruct> ReadDspace(const matvar_t& v, const std::string& name
       y->class_type != MAT_C_STRUCT || !IsArray(FieldOf(*x, "Data")))
     return std::nullopt;
   TimedStruct out;
-  const auto signals = static_cast<std::size_t>(Elements(*y));
+  const std::size_t signals = StructElements(*y);
   std::vector<std::string> paths;
   for (std::size_t k = 0; k < signals; ++k) paths.push_back(TextOf(FieldOf(*y, "Name", k)));
   const std::vector<std::string> names = ShortNames(paths);
   for (std::size_t k = 0; k < signals; ++k) {
-    const std::string of =
-        names[k].empty() ? name + ".Y(" + std::to_string(k + 1) + ')' : names[k];
+    const std::string of = names[k].empty() ? name + ".Y(" + std::to_string(k + 1) + ')' : names[k];
     const matvar_t *data = FieldOf(*y, "Data", k), *index = FieldOf(*y, "XIndex", k);
     std::size_t axis = 0;
     if (IsArray(index)) {
       const double number = Samples(*index, of, check).front();
-      if (number >= 1 && number <= Elements(*x)) axis = static_cast<std::size_t>(number) - 1;
+      if (number >= 1 && number <= static_cast<double>(StructElements(*x)))
+        axis = static_cast<std::size_t>(number) - 1;
     }
     const matvar_t* time = FieldOf(*x, "Data", axis);
     if (!IsArray(data) || !IsArray(time)) {
@@ -111,7 +118,7 @@ std::optional<TimedStruct> ReadSimulink(const matvar_t& v, const std::string& na
   TimedStruct out;
   const std::vector<double> t = Samples(*time, name + ".time", check);
   const TimeBase base = UniformTimeBase(t, path + ": " + name + ".time");
-  const auto count = static_cast<std::size_t>(Elements(*signals));
+  const std::size_t count = StructElements(*signals);
   for (std::size_t k = 0; k < count; ++k) {
     std::string of = TextOf(FieldOf(*signals, "label", k));
     if (of.empty()) of = count == 1 ? name : name + ".signals(" + std::to_string(k + 1) + ')';

@@ -1,9 +1,10 @@
 #include "core/record/read_record.h"
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "core/base/errors.h"
-#include "core/base/parameters.h"
 #include "core/base/read_file.h"
 #include "core/record/formats/format.h"
 #include "core/record/text_cells.h"
@@ -62,11 +63,13 @@ Record ReadRecord(const std::string& path) {
   const FrequencyResponses& f = m.frequency;
   if (m.record.channels.empty()) {
     const std::string axis =
-        f.frequency.empty() ? "" : " from " + NumberText(f.frequency.front()) + " to " +
-                                       NumberText(f.frequency.back()) + " Hz";
-    throw InputError(path + ": holds frequency responses (" + std::to_string(f.responses.size()) +
-                     ", " + std::to_string(f.points()) + " points" + axis +
-                     "), allowed here: a record over time");
+        f.frequency.empty()
+            ? ""
+            : fmt::format(" from {:.6g} to {:.6g} Hz", f.frequency.front(), f.frequency.back());
+    throw InputError(
+        fmt::format("{}: holds frequency responses ({}, {} points{}), allowed here: a "
+                    "record over time",
+                    path, f.responses.size(), f.points(), axis));
   }
   if (!f.responses.empty())
     m.record.notes.push_back(path + ": " + std::to_string(f.responses.size()) +

@@ -67,8 +67,7 @@ class TableReader {
     for (Cells cells(line, separator_); cells.Next();) {
       const std::string cell = Utf8(cells.cell());
       // Some loggers end every line with a separator.
-      if (cell.empty() && cells.column() > Trim(line).size() && !columns_.empty())
-        break;
+      if (cell.empty() && cells.column() > Trim(line).size() && !columns_.empty()) break;
       double ignored = 0;
       if (ToNumber(cell, ignored))
         Fail(lines_.number(), cells.column(), "header expected, e.g. t [s],A.x [um]");
@@ -120,8 +119,7 @@ class TableReader {
     for (Cells cells(line, separator_); cells.Next(); ++k) {
       if (k == columns_.size() && cells.cell().empty() && cells.column() > Trim(line).size()) break;
       if (k == columns_.size())
-        Fail(lines_.number(), cells.column(),
-             "more cells than the header's " + std::to_string(k));
+        Fail(lines_.number(), cells.column(), "more cells than the header's " + std::to_string(k));
       ReadCell(columns_[k], cells, row);
     }
     if (k < columns_.size())
@@ -145,8 +143,8 @@ class TableReader {
       return;
     }
     const auto instant = ParseDateTime(cell);
-    if (!instant || (row > 1 && (instant->has_date != column.has_date ||
-                                 instant->has_time != column.has_time)))
+    if (!instant ||
+        (row > 1 && (instant->has_date != column.has_date || instant->has_time != column.has_time)))
       Fail(lines_.number(), cells.column(),
            column.channel.name + ": '" + Utf8(cell.substr(0, 60)) +
                "' is not a date or time of day like '" + Utf8(column.first.substr(0, 60)) + "'");

@@ -16,8 +16,8 @@ namespace ambrig {
 
 struct TextTable {
   std::vector<Channel> columns = {};
-  std::size_t header_rows = 0;      // lines of the file before the first row
-  std::string first_instant = {};   // of the columns of dates, as it stands in the file
+  std::size_t header_rows = 0;     // lines of the file before the first row
+  std::string first_instant = {};  // of the columns of dates, as it stands in the file
   std::vector<std::string> notes = {};
 };
 

@@ -8,6 +8,7 @@
 #include "core/base/parameters.h"
 #include "core/base/units.h"
 #include "core/record/column_names.h"
+#include "core/record/text_cells.h"
 
 namespace ambrig {
 
@@ -115,6 +116,11 @@ void CheckRecord(const Record& record, const std::string& where) {
 }
 
 void FinishRecord(Record& record, const std::string& where, std::size_t header_rows) {
+  for (Channel& c : record.channels) {
+    c.name = Utf8(c.name);
+    c.unit = Utf8(c.unit);
+  }
+  for (std::string& note : record.notes) note = Utf8(note);
   CheckLengths(record, where);
   TakeTimeChannel(record, where, header_rows);
   CheckRecord(record, where);

@@ -39,12 +39,11 @@ Record OneTimeBase(std::vector<TimedChannel> channels, const std::string& path) 
     if (SameBase(base, c))
       record.channels.push_back(std::move(c.channel));
     else
-      record.notes.push_back(path + ": " + c.channel.name + " has " +
-                             std::to_string(c.channel.samples.size()) + " rows at " +
-                             NumberText(c.rate) + " Hz from " + NumberText(c.start) +
-                             " s on, others have " + std::to_string(base.channel.samples.size()) +
-                             " at " + NumberText(base.rate) + " Hz from " +
-                             NumberText(base.start) + " s on; left out");
+      record.notes.push_back(
+          path + ": " + c.channel.name + " has " + std::to_string(c.channel.samples.size()) +
+          " rows at " + NumberText(c.rate) + " Hz from " + NumberText(c.start) +
+          " s on, others have " + std::to_string(base.channel.samples.size()) + " at " +
+          NumberText(base.rate) + " Hz from " + NumberText(base.start) + " s on; left out");
   }
   return record;
 }

@@ -18,8 +18,8 @@ bool Says(const std::string& page, const std::string& text) {
   return page.find(text) != std::string::npos;
 }
 
-TEST(RecordsPage, NamesEveryKindOfChannel) {
-  const std::string page = Page("records.md");
+TEST(ChannelNamesPage, NamesEveryKindOfChannel) {
+  const std::string page = Page("channel_names.md");
   for (const ChannelRow& row : kChannels) {
     ChannelId id{row.kind, row.scope == ChannelScope::kRig ? "" : "A", 0};
     EXPECT_TRUE(Says(page, "`" + id.name() + "`")) << id.name();
@@ -27,8 +27,8 @@ TEST(RecordsPage, NamesEveryKindOfChannel) {
 }
 
 /// Every unit that a channel may come in stands in the page, and the program takes it.
-TEST(RecordsPage, UnitsAreTaken) {
-  const std::string page = Page("records.md");
+TEST(ChannelNamesPage, UnitsAreTaken) {
+  const std::string page = Page("channel_names.md");
   const std::pair<const char*, const char*> rows[] = {{"| length | ", "m"},  {"| force | ", "N"},
                                                       {"| current | ", "A"}, {"| voltage | ", "V"},
                                                       {"| angle | ", "rad"}, {"| time | ", "s"}};

@@ -31,6 +31,16 @@ TEST(ReadRecord, KnowsKindsByExtensionAndByContent) {
   }
 }
 
+TEST(ReadRecord, TheContentDecidesBeforeTheExtension) {
+  const TemporaryFolder folder;
+  const Record r{1000.0, 0.5, {{"A.x", "um", {1, 2, 3}}}};
+  WriteHdf5(r, folder.File("a.csv"));
+  WriteMat(r, folder.File("b.h5"));
+  WriteCsv(r, folder.File("c.mat"));
+  for (const std::string& name : folder.Names())
+    EXPECT_EQ(ReadRecord(folder.File(name)).Find("A.x")->samples, r.channels[0].samples) << name;
+}
+
 TEST(ReadRecord, OtherFilesAreRefused) {
   const TemporaryFolder folder;
   const std::string path = folder.File("a.bin");
@@ -38,8 +48,19 @@ TEST(ReadRecord, OtherFilesAreRefused) {
   EXPECT_EQ(error(), path + ": no such file");
   testing::WriteBytes(path, std::string("\0\1\2,", 4));
   EXPECT_EQ(error(), path +
-                         ": unknown kind of file, allowed HDF5 (.h5 .hdf5), CSV (.csv .txt), "
-                         "MAT (.mat)");
+                         ": unknown kind of file, allowed MAT (.mat), HDF5 (.h5 .hdf5), TDMS "
+                         "(.tdms), UFF 58 (.unv .uff .uf), LVM (.lvm), SR785 trace, CSV (.csv .txt "
+                         ".tsv)");
+  const std::pair<std::string, const char*> foreign[] = {
+      {"MDF     4.10", "MDF file (MF4); export it as CSV or MAT"},
+      {"PAR1", "Parquet file; export it as CSV"},
+      {"PK\x03\x04", "spreadsheet"},
+      {"TDSh", "index of a TDMS file"},
+      {std::string("\xff\xfet\0", 4), "UTF-16 text"}};
+  for (const auto& [bytes, what] : foreign) {
+    testing::WriteBytes(path, bytes);
+    EXPECT_NE(error().find(what), std::string::npos) << error();
+  }
 }
 
 }  // namespace

@@ -29,10 +29,10 @@ constexpr int kPeriodDigits = 6;  // of Delta_X
 /// One channel of one segment.
 struct Piece {
   std::string name, unit;
-  double x0 = 0, step = 0;                // [s] of Delta_X; 0: not stated
-  std::optional<DateTime> instant = {};   // of its date and time
-  std::vector<double> x = {}, y = {};     // x: only where the file has a column of it
-  bool over_time = true;                  // X_Dimension
+  double x0 = 0, step = 0;               // [s] of Delta_X; 0: not stated
+  std::optional<DateTime> instant = {};  // of its date and time
+  std::vector<double> x = {}, y = {};    // x: only where the file has a column of it
+  bool over_time = true;                 // X_Dimension
 };
 
 class LvmReader {
@@ -158,8 +158,8 @@ class LvmReader {
       const bool read = columns_[k].y || k == 0 || (k + 1 < columns_.size() && columns_[k + 1].y);
       if (read && !cells.cell().empty() && !ToNumber(cells.cell(), value))
         throw InputError(path_ + ':' + std::to_string(lines_.number()) + ':' +
-                         std::to_string(cells.column()) + ": '" +
-                         Utf8(cells.cell().substr(0, 60)) + "' is not a number");
+                         std::to_string(cells.column()) + ": '" + Utf8(cells.cell().substr(0, 60)) +
+                         "' is not a number");
       numbers_.push_back(value);
     }
     for (std::size_t k = 0; k < columns_.size(); ++k) {
@@ -213,12 +213,13 @@ TimedChannel Join(const std::vector<std::vector<Piece>>& segments, std::size_t k
     out.channel.samples.insert(out.channel.samples.end(), p.y.begin(), p.y.end());
     x.insert(x.end(), p.x.begin(), p.x.end());
     if (s == 0 || !p.x.empty() || !(first.step > 0)) continue;
-    const double expected = first.x0 + first.step * static_cast<double>(out.channel.samples.size() -
-                                                                       p.y.size());
+    const double expected =
+        first.x0 + first.step * static_cast<double>(out.channel.samples.size() - p.y.size());
     // Clocks of computers stamp the blocks; a fifth of a period is no gap.
     if (std::abs(StartOf(p, first) - expected) > 0.2 * first.step || p.step != first.step)
-      throw InputError(path + ": segment " + std::to_string(s + 1) + " of " + p.name + " begins at " +
-                       NumberText(StartOf(p, first)) + " s, expected " + NumberText(expected) +
+      throw InputError(path + ": segment " + std::to_string(s + 1) + " of " + p.name +
+                       " begins at " + NumberText(StartOf(p, first)) + " s, expected " +
+                       NumberText(expected) +
                        " s; segments with gaps between them are records of their own");
   }
   // X_Value may have too few digits for the rate; where it agrees with Delta_X, that tells more.

@@ -126,10 +126,9 @@ Record Assemble(std::vector<TimedChannel> channels, const std::string& path) {
   std::vector<std::string> notes;
   const bool any = std::any_of(channels.begin(), channels.end(),
                                [&](const TimedChannel& c) { return !untimed(c); });
-  const auto time =
-      std::find_if(channels.begin(), channels.end(), [](const TimedChannel& c) {
-        return IsTimeName(c.channel.name.substr(c.channel.name.rfind('/') + 1));
-      });
+  const auto time = std::find_if(channels.begin(), channels.end(), [](const TimedChannel& c) {
+    return IsTimeName(c.channel.name.substr(c.channel.name.rfind('/') + 1));
+  });
   if (!any && time != channels.end() && time->channel.name.find('/') != std::string::npos)
     time->channel.name = time->channel.name.substr(time->channel.name.rfind('/') + 1);
   const std::size_t rows = time == channels.end() ? 0 : time->channel.samples.size();
@@ -152,10 +151,10 @@ Measurement Read(const std::string& path) {
   std::vector<TdmsChannel> channels = ReadTdmsChannels(path, bytes);
   std::vector<std::string> notes;
   std::erase_if(channels, [&](const TdmsChannel& c) {
-    const char* why = c.text                ? " holds text"
-                      : OverFrequency(c)    ? " is not over time"
-                      : c.samples.empty()   ? " has no samples"
-                                            : nullptr;
+    const char* why = c.text              ? " holds text"
+                      : OverFrequency(c)  ? " is not over time"
+                      : c.samples.empty() ? " has no samples"
+                                          : nullptr;
     if (why != nullptr) notes.push_back(path + ": " + Name(c) + why + ", left out");
     return why != nullptr;
   });

@@ -111,8 +111,9 @@ class TdmsReader {
   }
 
   [[noreturn]] void FailAtDaqmx() const {
-    in_.Fail("DAQmx raw data, which cannot be read; save the file again without raw logging, e.g. "
-             "with the TDMS viewer of DIAdem or LabVIEW, or log with 'TDMS Write'");
+    in_.Fail(
+        "DAQmx raw data, which cannot be read; save the file again without raw logging, e.g. "
+        "with the TDMS viewer of DIAdem or LabVIEW, or log with 'TDMS Write'");
   }
 
   std::string Text() { return Utf8(in_.Take(in_.Number<std::uint32_t>())); }
@@ -261,7 +262,7 @@ class TdmsReader {
   std::vector<std::optional<RawIndex>> before_;  // of each object, its last description
   std::vector<std::size_t> place_;               // of each object in the list
   std::vector<Entry> list_;
-  std::map<std::size_t, TdmsInstant> origins_;   // first time stamps of channels that hold them
+  std::map<std::size_t, TdmsInstant> origins_;  // first time stamps of channels that hold them
 };
 
 }  // namespace

@@ -62,8 +62,7 @@ std::vector<std::string> Names(const std::vector<const UniversalFunction*>& func
   };
   const Naming ways[] = {
       [&](const UniversalFunction& f) {
-        return f.response.name.empty() ? ""
-                                       : f.response.name + reference(f, f.reference.name);
+        return f.response.name.empty() ? "" : f.response.name + reference(f, f.reference.name);
       },
       [&](const UniversalFunction& f) {
         const std::string response = f.response.text();
@@ -152,8 +151,7 @@ Measurement Read(const std::string& path) {
       responses.push_back(&f);
     else
       notes.push_back(path + ": function " + std::to_string(k + 1) + " is of type " +
-                      std::to_string(f.type) + (f.complex ? ", complex" : ", real") +
-                      ", left out");
+                      std::to_string(f.type) + (f.complex ? ", complex" : ", real") + ", left out");
   }
   if (over_time.empty() && responses.empty())
     throw InputError(path + ": neither a real time response (type 1) nor a complex frequency " +
