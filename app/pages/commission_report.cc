@@ -142,9 +142,9 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
           Ms(d.smallest_delay), Ms(d.tenth_delay));
     }
   text +=
-      "grade: what the model leaves unexplained, above 3 it is not used; scatter: largest\n"
-      "relative excess of the slope over ten healthy periods; least short: share of the turns\n"
-      "that is noticed; delays by the learnt bands.\n";
+      "grade: what the model leaves unexplained, above 3 it is not used; scatter:\n"
+      "largest relative excess of the slope over ten healthy periods; least short:\n"
+      "share of the turns that is noticed; delays by the learnt bands.\n";
   for (const CommissionedBearing& b : r.model.bearings)
     if (!b.usable())
       text += fmt::format(

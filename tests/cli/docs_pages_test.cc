@@ -33,7 +33,7 @@ TEST(RecordsPage, UnitsAreTaken) {
                                                       {"| current | ", "A"}, {"| voltage | ", "V"},
                                                       {"| angle | ", "rad"}, {"| time | ", "s"}};
   for (const auto& [head, si] : rows) {
-    const auto at = page.find(head);
+    const auto at = page.rfind(head);  // the table of units comes last
     ASSERT_NE(at, std::string::npos) << head;
     std::istringstream units(
         page.substr(at + std::string(head).size(), page.find(" |", at + 20) - at));
