@@ -103,7 +103,7 @@ std::pair<double, double> ShaftExtent(const RigParameters& rig) {
 void CheckRig(const TomlTable& root, const RigParameters& rig) {
   CheckSpreads(root, rig);
   CheckBias(*root.Table("controller"), rig, rig.controller.bias_current);
-  CheckForce(*root.Table("controller"), rig, rig.controller.position.pid.f_max);
+  CheckForce(*root.Table("controller"), rig, rig.controller.pid.f_max);
   const TomlTable bearings = *root.Table("bearings");
   for (const BearingParameters& b : rig.bearings) {
     const TomlTable t = *bearings.Table(b.name);
