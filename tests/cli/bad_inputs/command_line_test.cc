@@ -169,8 +169,7 @@ TEST_F(CommandLine, UnreadableCache) {
 TEST_F(CommandLine, SetsWithoutACoil) {
   Write("rig.toml", ReferenceRigText());
   for (const char* failed : {"';;'", "';'", "'1;;2'"}) {
-    const Outcome o =
-        Ambrig(std::string("redistribute rig.toml --bearing A --failed ") + failed);
+    const Outcome o = Ambrig(std::string("redistribute rig.toml --bearing A --failed ") + failed);
     EXPECT_EQ(o.exit, 2) << o.text;
     EXPECT_NE(o.text.find("a set without a coil, allowed: 1 to 8"), std::string::npos) << o.text;
   }
