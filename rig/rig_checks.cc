@@ -31,6 +31,16 @@ void CheckBias(const TomlTable& t, const RigParameters& rig, double bias) {
                                      rig.amplifier.i_max));
 }
 
+/// A largest force that cannot move the rotor noticeably is a slip of the unit.
+void CheckForce(const TomlTable& t, const RigParameters& rig, double f_max) {
+  constexpr double kLeastAcceleration = 1e-5;  // [m/s2]
+  const double* mass = ParameterAt(rig, "rotor.mass");
+  if (!mass || f_max >= kLeastAcceleration * *mass) return;
+  t.Fail("f_max", fmt::format("= {} N, allowed: at least {:.2g} N, which moves the rotor of {} kg "
+                              "with {} m/s2",
+                              f_max, kLeastAcceleration * *mass, *mass, kLeastAcceleration));
+}
+
 void CheckWinding(const TomlTable& t, const std::string& winding) {
   if (winding.find('N') != std::string::npos && winding.find('S') != std::string::npos) return;
   t.Fail("winding", fmt::format("= \"{}\", allowed: both letters N and S (with all poles alike "
@@ -93,6 +103,7 @@ std::pair<double, double> ShaftExtent(const RigParameters& rig) {
 void CheckRig(const TomlTable& root, const RigParameters& rig) {
   CheckSpreads(root, rig);
   CheckBias(*root.Table("controller"), rig, rig.controller.bias_current);
+  CheckForce(*root.Table("controller"), rig, rig.controller.pid.f_max);
   const TomlTable bearings = *root.Table("bearings");
   for (const BearingParameters& b : rig.bearings) {
     const TomlTable t = *bearings.Table(b.name);

@@ -115,18 +115,20 @@ std::string Zone(char zone) {
 
 void PrintCapacity(const RigAnalysis& a) {
   fmt::print("\n{}\n", Coloured("bearings at the operating point: force per current, negative "
-                                "stiffness, forces", "bold"));
+                                "stiffness, forces",
+                                "bold"));
   fmt::print("{:<5} {:>9} {:>10} {:>10} {:>10} {:>9} {:>10} {:>9}\n", "axis", "k_i [N/A]",
              "k_s [N/m]", "static [N]", "weight [N]", "peak [N]", "slew [N/s]", "knee [Hz]");
   for (const AxisCapacity& c : a.capacity)
-    fmt::print("{:<5} {:>9.4g} {:>10.5g} {:>10.4g} {:>10.4g} {:>9.4g} {:>10.4g} {:>9.4g}\n",
-               c.axis, c.k_i, c.k_s, c.usable(), c.weight, c.largest, c.slew, c.knee);
+    fmt::print("{:<5} {:>9.4g} {:>10.5g} {:>10.4g} {:>10.4g} {:>9.4g} {:>10.4g} {:>9.4g}\n", c.axis,
+               c.k_i, c.k_s, c.usable(), c.weight, c.largest, c.slew, c.knee);
 }
 
 void PrintSensitivity(const RigAnalysis& a) {
   fmt::print("\n{}\n",
              Coloured("sensitivity (ISO 14839-3), all other loops closed; margins of gain, phase, "
-                      "delay", "bold"));
+                      "delay",
+                      "bold"));
   fmt::print("{:>7} {:<5} {:>8} {:>8} {:>4} {:>17} {:>11} {:>10}\n", "rpm", "axis", "peak |S|",
              "at [Hz]", "zone", "gain x from..to", "phase [deg]", "delay [us]");
   for (const Sensitivity& s : a.sensitivity)

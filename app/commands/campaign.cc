@@ -71,8 +71,9 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
   fmt::print("  largest orbit      {} (runs that stayed up)\n",
              n.up > 0 ? ScreenSi(n.largest_orbit, "m") : "-");
   const bool plants = WritePlantTables(out, rows);
-  fmt::print("  written            {}/table.csv{}{}\n", out, plants ? ", plants.md" : "",
-             no_report ? "" : fmt::format(", report {}", html));
+  fmt::print("  written            {}/table.csv{}{}
+", out, plants ? ", plants.md" : "",
+             no_report ? "" : " and report.html");
 }
 
 void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard,
@@ -88,10 +89,9 @@ void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard,
     const std::size_t n = ++done;
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    progress.Update(
-        static_cast<double>(n) / static_cast<double>(pending.size()),
-        fmt::format("{}/{} runs, {:.1f}/s, {} dropped", n, pending.size(),
-                    static_cast<double>(n) / seconds, dropped.load()));
+    progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
+                    fmt::format("{}/{} runs, {:.1f}/s, {} dropped", n, pending.size(),
+                                static_cast<double>(n) / seconds, dropped.load()));
   });
 }
 
@@ -131,11 +131,10 @@ int RunCampaign(CampaignOptions o) {
                    ? fmt::format(", {} done again", Counted(journal.damaged(), "damaged line"))
                    : "");
   if (o.engine == "local")
-    CheckWorkSize(
-        o.file,
-        CampaignSize(plan.campaign(), PendingRuns(header.runs, shard, journal.rows()).size(),
-                     o.jobs),
-        o.long_runs);
+    CheckWorkSize(o.file,
+                  CampaignSize(plan.campaign(),
+                               PendingRuns(header.runs, shard, journal.rows()).size(), o.jobs),
+                  o.long_runs);
   try {
     if (o.engine == "slurm")
       RunOnCluster(plan, o, journal);

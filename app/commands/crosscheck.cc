@@ -37,8 +37,8 @@ void PrintRow(const char* name, const CrosscheckRun& run, double parted) {
       f.first.empty() ? "-" : fmt::format("{} {:.3f}", f.first, f.touchdown_time * 1e3);
   const std::string severity = f.severity > 0 ? fmt::format("{:.4f}", f.severity) : "";
   fmt::print("  {:<11} {:<13} {:>10} {:>8.1f} {:>8.1f}  {:<8} {:>+6.1f} {:>8}\n", name,
-             VerdictName(f), touch, f.rebound * 1e6, f.peak_orbit * 1e6, WhirlName(f.whirl), f.turns,
-             parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3));
+             VerdictName(f), touch, f.rebound * 1e6, f.peak_orbit * 1e6, WhirlName(f.whirl),
+             f.turns, parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3));
   if (!f.first.empty())
     fmt::print("    peak speed of the centre: {:.2f} sqrt(2 g c){}\n    rests at (x, y) [um]: {}\n",
                f.fall_severity, severity.empty() ? "" : ", " + severity + " Omega c", Rest(run));
@@ -55,8 +55,8 @@ void Print(const CrosscheckedScenario& s) {
   }
   fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>8}\n", "", "", "touch", "rebound",
              "peak", "", "", "apart");
-  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>8}\n", "rotor", "verdict", "at [ms]",
-             "[um]", "[um]", "whirl", "turns", "at [ms]");
+  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>8}\n", "rotor", "verdict",
+             "at [ms]", "[um]", "[um]", "whirl", "turns", "at [ms]");
   PrintRow("compliant", w.model, -1);
   PrintRow("on ODE", w.ode, w.parted_ode);
   PrintRow("other noise", w.other_noise, w.parted_noise);

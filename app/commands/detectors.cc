@@ -45,9 +45,9 @@ void RunAll(const DetectorStudyPlan& plan, int jobs, CampaignJournal& journal) {
     const std::size_t n = ++done;
     const double seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    progress.Update(static_cast<double>(n) / static_cast<double>(pending.size()),
-                    fmt::format("{}/{} runs, {:.1f}/s", n, pending.size(),
-                                static_cast<double>(n) / seconds));
+    progress.Update(
+        static_cast<double>(n) / static_cast<double>(pending.size()),
+        fmt::format("{}/{} runs, {:.1f}/s", n, pending.size(), static_cast<double>(n) / seconds));
   });
 }
 

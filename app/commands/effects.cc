@@ -116,9 +116,9 @@ void AddEffects(CLI::App& app, Work& work) {
         } else if (!options->name.empty()) {
           PrintOne(d);
         } else {
-          fmt::print("{}\n", Wrapped(fmt::format("{:<22} {:<15} {}", d.id, TargetText(d.target),
-                                                 d.title),
-                                     39));
+          fmt::print(
+              "{}\n",
+              Wrapped(fmt::format("{:<22} {:<15} {}", d.id, TargetText(d.target), d.title), 39));
         }
       }
       options->common.WriteJson(all);

@@ -99,17 +99,18 @@ void PrintFindings(const Explanation& e) {
 }
 
 void Print(const Explanation& e) {
-  fmt::print("error over noise, unseen records: rig file {:.3f}, parameters fitted {:.3f},\n"
-             "final {:.3f} (1: only noise is left)\n",
-             e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate);
+  fmt::print(
+      "error over noise, unseen records: rig file {:.3f}, parameters fitted {:.3f},\n"
+      "final {:.3f} (1: only noise is left)\n",
+      e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate);
   if (!e.ranking.empty()) PrintRanking(e.ranking, e.ranking.size());
   if (!e.second_round.empty()) {
     fmt::print("one more effect, after the first was adopted:\n");
     PrintRanking(e.second_round, 3);
   }
-  fmt::print("verdict: {}\n",
-             Coloured(e.verdict,
-                      e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"));
+  fmt::print(
+      "verdict: {}\n",
+      Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"));
   PrintLine("  " + e.remainder.text, 2);
   if (const std::string why = WhyNot(e); !why.empty()) PrintLine("  " + why, 2);
   PrintFindings(e);

@@ -84,8 +84,7 @@ void Progress::Draw(double fraction, std::string_view text, Clock::time_point no
   const double elapsed = std::chrono::duration<double>(now - begin_).count();
   const std::lock_guard lock(mutex_);
   // \r and "erase to the end of the line": the bar stays on one line.
-  Put(file_,
-      fmt::format("\r{}\x1b[K", ProgressLine(title_, fraction, elapsed, text, Columns())));
+  Put(file_, fmt::format("\r{}\x1b[K", ProgressLine(title_, fraction, elapsed, text, Columns())));
   drawn_ = true;
 }
 

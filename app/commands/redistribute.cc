@@ -45,8 +45,9 @@ std::vector<std::vector<int>> FailedSets(const std::string& text) {
       set.push_back(coil);
     }
     if (set.empty())
-      throw InputError(fmt::format(
-          "--failed = {}: a set without a coil, allowed: 1 to {}, e.g. 1,2 or 1;1,2", text, kPoles));
+      throw InputError(
+          fmt::format("--failed = {}: a set without a coil, allowed: 1 to {}, e.g. 1,2 or 1;1,2",
+                      text, kPoles));
     std::sort(set.begin(), set.end());
     sets.push_back(set);
   }

@@ -60,16 +60,14 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result,
              "copper loss, mean", m.copper_loss);
   fmt::print("  {:<22} {}\n", "false alarms", FalseAlarmText(m.false_alarms, m.coil_periods));
   fmt::print("  {:<22} {:8.1f} x real time\n", "computed at", m.real_time_factor);
-  for (const std::string& note : result.notes)
-    fmt::print("{}\n", Wrapped("  note: " + note, 8));
+  for (const std::string& note : result.notes) fmt::print("{}\n", Wrapped("  note: " + note, 8));
   for (const ExpectResult& e : expect)
     fmt::print("  expect {:<18} wanted {:<14} got {:<14} {}\n", e.key, e.wanted, e.got,
                e.met ? Coloured("met", "green") : Coloured("NOT MET", "red"));
   fmt::print("  {:<22} {}\n", "verdict",
-             result.drop ? Coloured("rotor dropped", "red")
-                                          : result.touchdown
-                                              ? Coloured("touched down, did not drop", "yellow")
-                                              : Coloured("rotor stayed up", "green"));
+             result.drop        ? Coloured("rotor dropped", "red")
+             : result.touchdown ? Coloured("touched down, did not drop", "yellow")
+                                : Coloured("rotor stayed up", "green"));
 }
 
 /// What is simulated and where it came from.

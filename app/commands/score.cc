@@ -117,8 +117,7 @@ void PrintLine(const CaseScore& j) {
              j.finding.nominal_ratio, j.finding.final_ratio, j.finding.seconds,
              Coloured(mark, colour));
   fmt::print("{}\n", Wrapped("    hidden: " + Truth(j.answer), 12));
-  fmt::print("{}\n",
-             Wrapped("    found:  " + Listed(j.finding.adopted, j.finding.verdict), 12));
+  fmt::print("{}\n", Wrapped("    found:  " + Listed(j.finding.adopted, j.finding.verdict), 12));
 }
 
 Json MatrixJson(const std::vector<CaseScore>& all) {

@@ -81,8 +81,7 @@ std::string Shortened(std::string_view text, std::size_t columns) {
 std::string ScreenSi(double value, std::string_view unit, int digits) {
   if (!std::isfinite(value)) return "-";
   std::string text = FormatSi(value, unit, digits);
-  for (const auto& [from, to] :
-       {std::pair("\u00a0", " "), {"\u202f", ""}, {"µ", "u"}, {"−", "-"}})
+  for (const auto& [from, to] : {std::pair("\u00a0", " "), {"\u202f", ""}, {"µ", "u"}, {"−", "-"}})
     ReplaceAll(text, from, to);
   return text;
 }

@@ -68,8 +68,8 @@ void PrintMarkdown(const std::vector<ValidationRow>& rows) {
 void PrintText(const std::vector<ValidationRow>& rows) {
   for (const ValidationRow& r : rows) {
     const char* colour = r.low() ? "yellow" : r.agrees() ? "green" : "red";
-    fmt::print("{}\n", Shortened(fmt::format("{}: {} [{}]", r.name, r.quantity, r.unit),
-                                 kScreenColumns));
+    fmt::print("{}\n",
+               Shortened(fmt::format("{}: {} [{}]", r.name, r.quantity, r.unit), kScreenColumns));
     fmt::print("    {:>12} off, allowed {:.2g} %: {}\n", PerCent(r.difference), 100 * r.tolerance,
                Coloured(Verdict(r), colour));
     if (r.agrees()) continue;

@@ -63,9 +63,9 @@ void CheckWorkSize(const std::string& file, const WorkSize& size, bool long_runs
         "fewer jobs)",
         file, size.bytes / 1e9, allowed / 1e9));
   if (size.seconds > kLongest && !long_runs)
-    throw InputError(fmt::format("{}: would take about {} on {}, allowed: {} unless --long is given",
-                                 file, DurationText(size.seconds), Counted(size.cores, "core"),
-                                 DurationText(kLongest)));
+    throw InputError(fmt::format(
+        "{}: would take about {} on {}, allowed: {} unless --long is given", file,
+        DurationText(size.seconds), Counted(size.cores, "core"), DurationText(kLongest)));
   if (size.seconds > kWorthAWord)
     fmt::print("{}: about {} on {}\n", file, DurationText(size.seconds),
                Counted(size.cores, "core"));

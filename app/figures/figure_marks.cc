@@ -103,7 +103,8 @@ void AddMarks(Figure& figure, std::span<const Mark> marks, std::array<double, 2>
   const double near = 0.11 * (range[1] - range[0]);
   int group = 0;
   for (std::size_t i = 0; i < inside.size(); ++group) {
-    std::vector<std::string> labels{inside[i].label};  // each once: a bouncing rotor repeats its own
+    std::vector<std::string> labels{
+        inside[i].label};  // each once: a bouncing rotor repeats its own
     std::size_t end = i + 1;
     for (; end < inside.size() && inside[end].x - inside[end - 1].x < near; ++end)
       if (std::ranges::find(labels, inside[end].label) == labels.end())

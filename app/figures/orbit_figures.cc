@@ -68,7 +68,8 @@ std::string Caption(bool close_up, bool stations) {
   std::string text =
       "Path of the shaft's centre in each radial bearing. The dashed circle is the clearance of "
       "the auxiliary bearing: beyond it the shaft touches.";
-  if (stations) text += " Named planes of the shaft beside them, about where they stood at the start.";
+  if (stations)
+    text += " Named planes of the shaft beside them, about where they stood at the start.";
   if (close_up) text += " Below, the same paths enlarged.";
   return text;
 }

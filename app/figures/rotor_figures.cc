@@ -78,14 +78,15 @@ Figure CampbellFigure(const RigAnalysis& a) {
   grid.rows = 2;
   grid.panel_height = 300;
   grid.titles = {"damped natural frequency", "logarithmic decrement"};
-  Figure f = MakeFigure(
-      std::string("Campbell diagram of the closed loop: rotor modes with magnets, current loops, controller "
-      "and delays. Blue turns forward, "
-      "orange backward, grey neither; a critical speed is where a line meets 1X. Below: the log "
-      "decrement of the same modes; "
-      "API 617 asks for more than 0.1 of the first forward mode.") +
-          HiddenModes(a, CampbellTop(a)),
-      grid);
+  Figure f = MakeFigure(std::string("Campbell diagram of the closed loop: rotor modes with "
+                                    "magnets, current loops, controller "
+                                    "and delays. Blue turns forward, "
+                                    "orange backward, grey neither; a critical speed is where a "
+                                    "line meets 1X. Below: the log "
+                                    "decrement of the same modes; "
+                                    "API 617 asks for more than 0.1 of the first forward mode.") +
+                            HiddenModes(a, CampbellTop(a)),
+                        grid);
   const double top = CampbellTop(a);
   SetAxes(f, 0, "speed [rpm]", "frequency [Hz]", {}, std::array<double, 2>{0, top});
   SetAxes(f, 1, "speed [rpm]", "log decrement [-]");

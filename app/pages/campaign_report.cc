@@ -166,8 +166,8 @@ void Capacity(HtmlReport& report, const Rows& rows) {
   Style line;
   line.color = "@muted";
   line.dash = "dash";
-  AddLine(figure, 0, "held = theory", std::vector<double>{0, reach},
-          std::vector<double>{0, reach}, line);
+  AddLine(figure, 0, "held = theory", std::vector<double>{0, reach}, std::vector<double>{0, reach},
+          line);
   SetAxes(figure, 0, "capacity by theory [N]", "load held [N]");
   report.AddFigure(figure);
 }
@@ -183,14 +183,15 @@ void WriteCampaignReport(const JournalHeader& header, const Rows& rows, const st
                                       : Verdict::kOk,
                  fmt::format("{} of {} stayed up, {} touched down, {} dropped.", n.up,
                              Counted(n.rows, "run"), n.touchdown, n.drop));
-  report.KeyValues({{"runs done", fmt::format("{} of {}", n.rows, header.runs)},
-                    {"not finished (error)", std::to_string(n.error)},
-                    {"faults", std::to_string(n.faults)},
-                    {"not detected", std::to_string(n.undetected)},
-                    {"last class not the true one", std::to_string(n.wrong_class)},
-                    {"worst detection delay", n.worst_delay > 0 ? FormatSi(n.worst_delay, "s") : "–"},
-                    {"false alarms", FalseAlarmText(n.false_alarms, n.coil_periods)},
-                    {"largest orbit of runs that stayed up", FormatSi(n.largest_orbit, "m")}});
+  report.KeyValues(
+      {{"runs done", fmt::format("{} of {}", n.rows, header.runs)},
+       {"not finished (error)", std::to_string(n.error)},
+       {"faults", std::to_string(n.faults)},
+       {"not detected", std::to_string(n.undetected)},
+       {"last class not the true one", std::to_string(n.wrong_class)},
+       {"worst detection delay", n.worst_delay > 0 ? FormatSi(n.worst_delay, "s") : "–"},
+       {"false alarms", FalseAlarmText(n.false_alarms, n.coil_periods)},
+       {"largest orbit of runs that stayed up", FormatSi(n.largest_orbit, "m")}});
   if (!rows.empty()) {
     SurvivalMaps(report, rows);
     Delays(report, rows);

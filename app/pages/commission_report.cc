@@ -135,16 +135,16 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
       const Detectable d = DetectableIn(b, j, T);
       const double L = RippleInductance(rig, b, j);
-      text += fmt::format(
-          "{:<9} {:>6.2f} {:>8.3f} {:>8.3f} {:>8.2f} {:>8.4f} {:>8.1f} {:>8} {:>8}\n",
-          fmt::format("{}.coil{}", b.name, j + 1), b.grade, L * 1e3, b.coils.resistance[j],
-          L / b.coils.resistance[j] * 1e3, b.largest[2][j], 100 * d.smallest_short,
-          Ms(d.smallest_delay), Ms(d.tenth_delay));
+      text +=
+          fmt::format("{:<9} {:>6.2f} {:>8.3f} {:>8.3f} {:>8.2f} {:>8.4f} {:>8.1f} {:>8} {:>8}\n",
+                      fmt::format("{}.coil{}", b.name, j + 1), b.grade, L * 1e3,
+                      b.coils.resistance[j], L / b.coils.resistance[j] * 1e3, b.largest[2][j],
+                      100 * d.smallest_short, Ms(d.smallest_delay), Ms(d.tenth_delay));
     }
   text +=
-      "grade: what the model leaves unexplained, above 3 it is not used; scatter: largest\n"
-      "relative excess of the slope over ten healthy periods; least short: share of the turns\n"
-      "that is noticed; delays by the learnt bands.\n";
+      "grade: what the model leaves unexplained, above 3 it is not used; scatter:\n"
+      "largest relative excess of the slope over ten healthy periods; least short:\n"
+      "share of the turns that is noticed; delays by the learnt bands.\n";
   for (const CommissionedBearing& b : r.model.bearings)
     if (!b.usable())
       text += fmt::format(

@@ -66,8 +66,8 @@ void Summary(HtmlReport& report, const Study& study, const StudyResult& result,
     rows[4].emplace_back(VariablesText(study.candidates[c], p.values));
     for (std::size_t k = 0; k < study.figures.size(); ++k) {
       const double value = p.result.figures[k];
-      const bool bad = !std::isfinite(value) ||
-                       (study.figures[k].at_most && value > *study.figures[k].at_most);
+      const bool bad =
+          !std::isfinite(value) || (study.figures[k].at_most && value > *study.figures[k].at_most);
       rows[5 + k].emplace_back(ValueText(study.figures[k], value), bad ? "fail" : "");
     }
   }
@@ -244,9 +244,10 @@ void FrontTable(HtmlReport& report, const Study& study, const StudyResult& resul
     rows.push_back(row);
   }
   report.Heading("Pareto-optimal points");
-  report.Text(fmt::format("Rig, scenarios, records and reports of point N again: `ambrig design {} "
-                          "--point N`.",
-                          study.file));
+  report.Text(
+      fmt::format("Rig, scenarios, records and reports of point N again: `ambrig design {} "
+                  "--point N`.",
+                  study.file));
   report.Table(columns, rows);
 }
 

@@ -93,16 +93,14 @@ void FillMetrics(const RunMetrics& m, RunReportData& data) {
   for (const auto& [name, orbit] : m.max_orbit)
     data.metrics.emplace_back("peak orbit " + name, FormatSi(orbit, "m"));
   for (const ReportStation& s : data.stations)
-    data.metrics.emplace_back("peak orbit " + s.name,
-                              FormatSi(LargestRadius(s.x, s.y), "m"));
+    data.metrics.emplace_back("peak orbit " + s.name, FormatSi(LargestRadius(s.x, s.y), "m"));
   data.metrics.emplace_back("least clearance left", FormatSi(m.min_clearance_left, "m"));
   data.metrics.emplace_back("detection delay", MilliSeconds(m.detection_delay));
   data.metrics.emplace_back("redistribution delay", MilliSeconds(m.redistribution_delay));
   data.metrics.emplace_back("false alarms", FalseAlarmText(m.false_alarms, m.coil_periods));
   data.metrics.emplace_back("peak coil current", FormatSi(m.peak_current, "A"));
   data.metrics.emplace_back("copper loss, mean", FormatSi(m.copper_loss, "W"));
-  data.metrics.emplace_back("computed at",
-                            fmt::format("{:.1f} x real time", m.real_time_factor));
+  data.metrics.emplace_back("computed at", fmt::format("{:.1f} x real time", m.real_time_factor));
 }
 
 void FillChannels(const Record& record, RunReportData& data) {

@@ -177,8 +177,9 @@ TEST(ProgressBar, StaysNarrowerThanTheTerminal) {
 }
 
 TEST(Screen, WrapsAtSpacesAndKeepsPathsWhole) {
-  EXPECT_EQ(Wrapped("  note: one two three four", 8, 16), "  note: one two\n        three\n"
-                                                           "        four");
+  EXPECT_EQ(Wrapped("  note: one two three four", 8, 16),
+            "  note: one two\n        three\n"
+            "        four");
   EXPECT_EQ(Wrapped("see /a/very/long/path/that/stays.toml", 2, 12),
             "see\n  /a/very/long/path/that/stays.toml");
   EXPECT_EQ(ScreenWidth("\033[32mµm\033[0m"), 2u);

@@ -123,8 +123,8 @@ TEST(WidePages, TablesFitOrSayThatTheyDoNot) {
     report.Write(file);
     return testing::BuildInBrowser(file);
   };
-  EXPECT_EQ(page(14).Count("scrolls\""), 0U);
-  EXPECT_EQ(page(60).Count("scrolls\""), 1U);
+  EXPECT_EQ(page(14).Count("wide scrolls\""), 0U);
+  EXPECT_EQ(page(60).Count("wide scrolls\""), 1U);
 }
 
 /// A centre on a circle of the radius given from 20 ms on, at rest in the middle before.

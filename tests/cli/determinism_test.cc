@@ -45,8 +45,8 @@ TEST_F(Determinism, AnotherMathematicalLibraryIsWithinRounding) {
                   "plain")
                 .exit,
             0);
-  const Outcome o = Ambrig(
-      "diff fused/coil_a3_opens_1500rpm.h5 plain/coil_a3_opens_1500rpm.h5 --relative 1e-9");
+  const Outcome o =
+      Ambrig("diff fused/coil_a3_opens_1500rpm.h5 plain/coil_a3_opens_1500rpm.h5 --relative 1e-9");
   EXPECT_EQ(o.exit, 0) << o.text;
 }
 

@@ -33,7 +33,7 @@ TEST(ChannelNamesPage, UnitsAreTaken) {
                                                       {"| current | ", "A"}, {"| voltage | ", "V"},
                                                       {"| angle | ", "rad"}, {"| time | ", "s"}};
   for (const auto& [head, si] : rows) {
-    const auto at = page.find(head);
+    const auto at = page.rfind(head);  // the table of units comes last
     ASSERT_NE(at, std::string::npos) << head;
     std::istringstream units(
         page.substr(at + std::string(head).size(), page.find(" |", at + 20) - at));
@@ -71,8 +71,8 @@ TEST(FormulasPage, NamesFunctionsAndVariables) {
   std::istringstream functions(FormulaFunctions());
   for (std::string f; std::getline(functions, f, ',');)
     EXPECT_TRUE(Says(page, f.substr(f.find_first_not_of(' ')))) << f;
-  for (const FormulaTarget target : {FormulaTarget::kRig, FormulaTarget::kPlane,
-                                     FormulaTarget::kAxis, FormulaTarget::kCoil})
+  for (const FormulaTarget target :
+       {FormulaTarget::kRig, FormulaTarget::kPlane, FormulaTarget::kAxis, FormulaTarget::kCoil})
     for (const std::string& name : FormulaNames(target))
       EXPECT_TRUE(name[0] == 'i' || Says(page, "`" + name + "`")) << name;
 }
@@ -83,8 +83,8 @@ class DocsPages : public CliFolder {};
 TEST_F(DocsPages, TheFormulaOfThePageRuns) {
   const std::string page = Page("formulas.md");
   const auto begin = page.find("```toml\n") + 8, end = page.find("```", begin);
-  const Outcome o = Run(ReferenceRigText() + "\n" + page.substr(begin, end - begin),
-                        ScenarioText(""));
+  const Outcome o =
+      Run(ReferenceRigText() + "\n" + page.substr(begin, end - begin), ScenarioText(""));
   EXPECT_EQ(o.exit, 0) << o.text;
 }
 

@@ -166,6 +166,31 @@ TEST_F(CommandLine, UnreadableCache) {
   EXPECT_EQ(o.exit, 0) << o.text;
 }
 
+TEST_F(CommandLine, SetsWithoutACoil) {
+  Write("rig.toml", ReferenceRigText());
+  for (const char* failed : {"';;'", "';'", "'1;;2'"}) {
+    const Outcome o = Ambrig(std::string("redistribute rig.toml --bearing A --failed ") + failed);
+    EXPECT_EQ(o.exit, 2) << o.text;
+    EXPECT_NE(o.text.find("a set without a coil, allowed: 1 to 8"), std::string::npos) << o.text;
+  }
+}
+
+// Tables of a campaign or a study that another program wrote stay.
+TEST_F(CommandLine, ForeignTablesStay) {
+  Write("table.csv", "mine\n");
+  const std::string library = AMBRIG_SOURCE_DIR;
+  for (const std::string& work :
+       {"campaign " + library + "/scenarios/campaigns/one_blow.toml -o .",
+        "design " + library + "/examples/design/small.toml -o .",
+        "detectors " + library + "/scenarios/studies/detectors_small.toml -o ."}) {
+    const Outcome o = Ambrig(work);
+    EXPECT_EQ(o.exit, 2) << o.text;
+    EXPECT_NE(o.text.find("table.csv exists and is not an output of ambrig"), std::string::npos)
+        << o.text;
+    EXPECT_EQ(ReadText(folder_ / "table.csv"), "mine\n");
+  }
+}
+
 TEST_F(CommandLine, RunsOverWhatItMadeAndForcesTheRest) {
   Write("rig.toml", ReferenceRigText());
   Write("s.toml", ScenarioText(""));

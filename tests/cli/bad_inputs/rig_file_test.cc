@@ -191,6 +191,9 @@ TEST(BadRigInputs, Contradictions) {
        Replaced(rig, "z = -0.135", "z = 50.0"),
        {"bearings.A.sensor", "50 m", "allowed: on the shaft"}},
       {"force", Replaced(rig, "f_max = 60.0", "f_max = 1e-10"), {"controller.f_max", "allowed"}},
+      {"force that moves nothing",
+       Replaced(rig, "f_max = 60.0", "f_max = 1e-9"),
+       {"controller.f_max = 1e-09 N", "allowed: at least"}},
       {"effect twice",
        rig + "[[effect]]\nname = \"sensor-gain\"\ntarget = \"A.x\"\nparameters = { gain = 1.01 }\n"
              "[[effect]]\nname = \"sensor-gain\"\ntarget = \"A.x\"\nparameters = { gain = 1.02 }\n",
