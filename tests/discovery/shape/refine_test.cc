@@ -1,0 +1,88 @@
+// The whole of `refine`: bursts of a held bearing whose iron is solid in one part and laminated in
+// another. Its impedance is the sum of two diffusion laws with other thicknesses, which is neither the
+// catalogue's law (one of them) nor made by the free shape's code.
+#include "discovery/shape/refine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "discovery/practice/examination.h"
+#include "effects/diffusion_fit.h"
+#include "rig/rig_file.h"
+#include "tests/effects/effect_rigs.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kSolid = 3e4, kLaminated = 4000, kPath = 2e-4;  // [Hz], [Hz], [m]
+
+Case MeasuredBursts(std::uint64_t seed) {
+  const std::string file =
+      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
+  RigParameters rig = ReadRig(file);
+  std::vector<ExaminationRecord> bursts;
+  for (const ExaminationRecord& e : Examination(rig, seed))
+    if (e.burst) bursts.push_back(e);
+  Case c = EmptyCase(rig, bursts);
+  c.file = "bursts";
+  c.rig_file = file;
+  Hypothesis truth = Hypothesis::Base(rig);
+  truth.rig = WithEffect(truth.rig, "eddy-currents", "A", {{"cutoff", kSolid}});
+  truth.rig =
+      WithEffect(truth.rig, "eddy-currents", "A", {{"cutoff", kLaminated}, {"path", kPath}});
+  // at the converters' rate a logger has the currents only
+  for (CaseRecord& r : c.records)
+    for (std::size_t k = 0; k < r.quality.size(); ++k)
+      r.quality[k].use = r.data.channels[k].name.starts_with("A.i");
+  const CaseModel model(c);
+  for (std::size_t r = 0; r < c.records.size(); ++r) {
+    const Record run = model.Simulated(truth, r, true, seed + r);
+    for (Channel& ch : c.records[r].data.channels)
+      ch.samples.assign(
+          run.Find(ch.name)->samples.begin(),
+          run.Find(ch.name)->samples.begin() + static_cast<std::ptrdiff_t>(ch.samples.size()));
+  }
+  return c;
+}
+
+TEST(Refine, FindsTheShapeAndWritesARigThatRuns) {
+  const Case c = MeasuredBursts(11);
+  const Refinement r = Refine(c, "eddy-currents", "A", "/tmp/refined.toml", {});
+  EXPECT_GT(r.ratio_before, 1.2);
+  EXPECT_LT(r.ratio_after, 1.1);
+  EXPECT_FALSE(r.any_unseen);
+  ASSERT_LT(r.supported_lo, r.supported_hi);
+  const double gap = c.rig.Find("A")->radial.gap;
+  int compared = 0;
+  for (const CurvePoint& p : r.curve) {
+    if (p.u < 300 || p.u > 5e4 || p.support < kSupported || !p.visited) continue;
+    const std::complex<double> s(0, 2 * kPi * p.u),
+        law = Diffusion(s, kSolid, 0) + Diffusion(s, kLaminated, kPath / gap);
+    // the simulated laws are sums of eight relaxations, within 3 % of gap and iron together
+    EXPECT_NEAR(p.value, std::abs(law), 4 * p.sd + 0.03 * (1 + std::abs(law))) << p.u;
+    ++compared;
+  }
+  EXPECT_GT(compared, 15);
+  const RigParameters refined = ReadRigText(r.rig_text, "refined.toml");
+  ASSERT_EQ(refined.effects.size(), c.rig.effects.size() + 1);
+  EXPECT_EQ(refined.effects.back().name, "eddy-impedance");
+  EXPECT_EQ(refined.effects.back().target, "A");
+}
+
+TEST(Refine, NamesWhatCanBeRefined) {
+  const Case c = MeasuredBursts(12);
+  for (const auto& [effect, target, word] : {std::tuple{"loop-delay", "rig", "has no curve"},
+                                             std::tuple{"eddy-curents", "", "did you mean"},
+                                             std::tuple{"saturation", "C", "no such target"}})
+    try {
+      Refine(c, effect, target, "/tmp/refined.toml", {});
+      ADD_FAILURE() << effect;
+    } catch (const InputError& e) {
+      EXPECT_NE(std::string(e.what()).find(word), std::string::npos) << e.what();
+    }
+}
+
+}  // namespace
+}  // namespace ambrig
