@@ -108,8 +108,8 @@ TEST_F(CaseChannels, RemarksOfSeveralFilesAreJoined) {
 }
 
 TEST_F(CaseChannels, MistakesNameChannelColumnAndWhatThereIs) {
-  EXPECT_THAT(Message("\"A.xx\" = \"probe 7\"\n"),
-              HasSubstr("is not a channel of this rig, did you mean A.x?"));
+  EXPECT_THAT(Message("\"omgea\" = \"probe 7\"\n"),
+              HasSubstr("is not a channel of this rig, did you mean omega?"));
   EXPECT_THAT(Message("\"B.x\" = \"probe 9\"\n"),
               HasSubstr("column \"probe 9\" of B.x is not in log.csv, allowed: "));
   EXPECT_THAT(Message("\"A.x\" = { gain = 0.0 }\n"), HasSubstr("gain = 0, allowed: any but 0"));
