@@ -32,7 +32,7 @@ class AnalysisPage : public ::testing::Test {
     o.lowest = 3000 * kRpm;
     o.highest = 6000 * kRpm;
     o.fastest = 9000 * kRpm;
-    o.responses = {{"A.x.force", "A.x.sensor"}};
+    o.responses = {{"A.x.force", "A.x"}};
     analysis_ =
         std::make_unique<RigAnalysis>(Analyse(ReadRigText(ReferenceRigText(), "rig.toml"), o));
     html_ = testing::Written(
