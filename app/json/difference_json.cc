@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "core/base/counted.h"
 #include "core/base/json_file.h"
 #include "core/base/units.h"
 #include "core/record/read_record.h"
@@ -50,7 +51,7 @@ std::vector<std::string> DifferenceLines(const RunDifference& d, std::size_t mos
                       c.channel, VerdictText(c.verdict), c.first * 1e3, c.beyond, c.rows, c.worst,
                       c.unit, c.worst_at * 1e3, c.allowed));
   }
-  if (bad > shown) lines.push_back(fmt::format("and {} more channels", bad - shown));
+  if (bad > shown) lines.push_back("and " + Counted(bad - shown, "more channel"));
   return lines;
 }
 

@@ -262,11 +262,11 @@ void WriteDesignReport(const Study& study, const StudyResult& result,
   HtmlReport report(
       study.name, fmt::format("design study, {}, {}", Counted(study.candidates.size(), "candidate"),
                               study.fingerprint));
-  report.Verdict(front > 0 ? Verdict::kOk : Verdict::kFail,
-                 front > 0 ? fmt::format("{} of {} points are feasible, {} are Pareto-optimal.",
-                                         feasible, Counted(result.points.size(), "point"), front)
-                           : fmt::format("None of {} points is feasible.",
-                                         Counted(result.points.size(), "point")));
+  report.Verdict(
+      front > 0 ? Verdict::kOk : Verdict::kFail,
+      front > 0 ? fmt::format("{} of {} are feasible, {} are Pareto-optimal.", feasible,
+                              Counted(result.points.size(), "point"), front)
+                : fmt::format("None of {} is feasible.", Counted(result.points.size(), "point")));
   Summary(report, study, result, shown);
   if (front > 0) {
     Scatter(report, study, result);

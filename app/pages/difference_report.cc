@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kMostFigures = 6;
 
-/// Channels beyond their tolerance, the worst in terms of it first.
+/// Channels beyond their tolerance, the one that leaves it first at the head.
 std::vector<const ChannelDifference*> Worst(const RecordDifference& d) {
   std::vector<const ChannelDifference*> out;
   for (const ChannelDifference& c : d.channels)

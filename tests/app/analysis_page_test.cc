@@ -32,7 +32,7 @@ class AnalysisPage : public ::testing::Test {
     o.lowest = 3000 * kRpm;
     o.highest = 6000 * kRpm;
     o.fastest = 9000 * kRpm;
-    o.responses = {{"A.x", "A.x"}};
+    o.responses = {{"A.x.force", "A.x"}};
     analysis_ =
         std::make_unique<RigAnalysis>(Analyse(ReadRigText(ReferenceRigText(), "rig.toml"), o));
     html_ = testing::Written(
@@ -129,7 +129,7 @@ TEST_F(AnalysisPage, ModesAreConsistent) {
   }
   EXPECT_GT(modes, 10u);
   EXPECT_FALSE(json_["rotor"]["supports"].empty());
-  EXPECT_EQ(json_["responses"][0]["input"], "A.x");
+  EXPECT_EQ(json_["responses"][0]["input"], "A.x.force");
 }
 
 TEST(AnalysisPageUnstable, SaysSoInsteadOfMargins) {

@@ -85,7 +85,7 @@ TEST_F(DetectorPage, TheBestAtEqualFalseAlarmsComesFirst) {
   EXPECT_THAT(words, HasSubstr("At equal false alarms"));
   const std::size_t table = words.find("\nfault\nruns\n");
   ASSERT_NE(table, std::string::npos);
-  EXPECT_EQ(words.compare(table, 26, "\nfault\nruns\nripple\nslope\n", 0, 26), 0)
+  EXPECT_EQ(words.compare(table, 25, "\nfault\nruns\nripple\nslope\n"), 0)
       << words.substr(table, 40);
   EXPECT_THAT(words, HasSubstr("25.0 %"));  // the share of shorts that slope finds
   EXPECT_THAT(words, HasSubstr("100 %, 500"));
@@ -94,7 +94,7 @@ TEST_F(DetectorPage, TheBestAtEqualFalseAlarmsComesFirst) {
 
 TEST_F(DetectorPage, OnlyDetectorsWithAThresholdOfTheirSourceAreHeldToIt) {
   const std::string page = Page(), words = testing::Words(page);
-  const std::string own = words.substr(words.find("thresholds of the sources"));
+  const std::string own = words.substr(words.rfind("thresholds of the sources"));
   EXPECT_THAT(own, HasSubstr("slope\n2 A\n"));
   EXPECT_THAT(own, Not(HasSubstr("ripple\n")));
   EXPECT_THAT(own, HasSubstr("0.5 of 4000"));  // level of 2 A lies below 200

@@ -161,7 +161,7 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
       Message("clearance = 2.0e-4", "clearance = 6.0e-4"),
       StartsWith("rig.toml:49: bearings.A.auxiliary.clearance = 0.0006 m, allowed: smaller"));
   EXPECT_THAT(Message("z = 0.130", "z = -0.120"),
-              HasSubstr("bearings.B.z = -0.12 m, allowed: another plane than bearing A"));
+              HasSubstr("bearings.A.z = -0.12 m, allowed: another plane than bearing B"));
   EXPECT_THAT(Message("like = \"A\"", "like = \"C\""),
               HasSubstr("bearings.B.like = \"C\", allowed: a bearing with its own values: A"));
   EXPECT_THAT(
@@ -178,7 +178,7 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
   EXPECT_THAT(Message("inertia_polar = { value = 0.0042", "inertia_polar = { value = 0.09"),
               HasSubstr("rotor.inertia_polar = 0.09 kg m2, allowed: at most twice"));
   EXPECT_THAT(Message("sensor = { z = -0.135", "sensor = { z = -0.9"),
-              HasSubstr("bearings.A.sensor has z = -0.9 m, allowed: on the shaft"));
+              HasSubstr("bearings.A.sensor: has z = -0.9 m, allowed: on the shaft"));
   EXPECT_THAT(Message("adc_samples_per_period = 18", "adc_samples_per_period = 17.5"),
               HasSubstr("amplifier.adc_samples_per_period = 17.5, allowed: an integer"));
   EXPECT_THAT(Message("sd = 4.0e-6", "sd = 5.0e-4"), HasSubstr("bearings.A.gap.sd"));

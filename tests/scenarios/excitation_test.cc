@@ -117,10 +117,10 @@ TEST_F(ExcitationSamples, MistakesNameFileColumnAndPlace) {
 
 TEST(ExcitationMistakes, AreOneLineWithTheAllowedValues) {
   EXPECT_THAT(Message("kind = \"sine\"\namplitude = 1.0"),
-              HasSubstr("s.toml:1: excitation[0].frequency"));
+              HasSubstr("s.toml:1: excitation[1].frequency"));
   EXPECT_THAT(Message("kind = \"square\"\namplitude = 1.0"),
               HasSubstr("allowed: multisine, sine, chirp, step, pulse, ramp, samples"));
-  EXPECT_THAT(Message("kind = \"step\""), HasSubstr("excitation[0].amplitude"));
+  EXPECT_THAT(Message("kind = \"step\""), HasSubstr("excitation[1].amplitude"));
   EXPECT_THAT(Message("kind = \"step\"\namplitude = 1.0\nport = \"reference\"\ncolour = 1"),
               HasSubstr("colour"));
   EXPECT_THAT(
@@ -130,7 +130,7 @@ TEST(ExcitationMistakes, AreOneLineWithTheAllowedValues) {
               HasSubstr("at least one frequency"));
   EXPECT_THAT(
       Message("kind = \"multisine\"\namplitude = 1.0\nfrequencies = [1.0, 2.0]\nphases = [0.0]"),
-      HasSubstr("phases has 1 entry, allowed: 2 as in frequencies"));
+      HasSubstr("phases: has 1 entry, allowed: 2 as in frequencies"));
   EXPECT_THAT(Message("kind = \"sine\"\namplitude = 1.0\nfrequency = -5.0"),
               HasSubstr("frequency = -5 Hz"));
 }

@@ -66,7 +66,7 @@ TEST(ScenarioFile, SpeedsRunThroughTheirRows) {
   EXPECT_THAT(Message("[speed]\nprofile = [[0.0, 1.0], [0.0, 2.0]]\n"),
               HasSubstr("goes back in time"));
   EXPECT_THAT(Message("[speed]\nprofile = [[0.0]]\n"), HasSubstr("row 1 has 1 entry"));
-  EXPECT_THAT(Message("[speed]\n"), HasSubstr("profile is missing"));
+  EXPECT_THAT(Message("[speed]\n"), HasSubstr("speed.profile: is missing"));
 }
 
 TEST(ScenarioFile, LoadsActAtBearingsStationsOrPlaces) {
