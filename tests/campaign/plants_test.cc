@@ -20,7 +20,8 @@ std::string Reality(const std::string& plants, const std::string& kinds = "") {
 duration = 0.03
 [faults]
 bearings = ["A"]
-sets = [[], [3]]
+healthy = true
+sets = [[3]]
 time = 0.015
 [[faults.kind]]
 kind = "open"
