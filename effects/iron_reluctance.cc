@@ -1,11 +1,48 @@
 /// Iron in series with each gap: R = (g + path)/(mu0 A), path = l_fe/mu_r.
 ///
 /// Force still is phi²/(2 mu0 A) per pole, so current and position stiffness both fall while
-/// ki/ks = (g0 + path)/i0 grows (published_values.md 7). Limit: linear iron; see saturation.
+/// ki/ks = (g0 + path)/i0 grows (published_values.md 7).
+///
+/// The permeability of steel rises from its initial value to a maximum at 0.6 to 1 T (Bozorth,
+/// Ferromagnetism, 1951, ch. 11): the MMF grows steeply at first and less than in proportion
+/// above. `threshold` is that part, threshold x/(1 + x) with x = B/0.2 T. Limit: no knee; see
+/// saturation.
+#include <memory>
+
+#include "actuators/magnetics/lane_vector.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 
 namespace ambrig {
+
+namespace {
+
+constexpr double kThresholdDensity = 0.2;  // [T] at which half of the threshold is reached
+
+AMBRIG_WIDE void AddDrop(double x_per_flux, double threshold, const double* phi, double* drop,
+                         double* slope) {
+  const LaneVector x = Load(phi) * x_per_flux, away = LaneVector(1.0) + Abs(x);
+  Store(drop, Load(drop) + threshold * x / away);
+  Store(slope, Load(slope) + threshold * x_per_flux / (away * away));
+}
+
+class MagnetisingThreshold final : public FluxLaw {
+ public:
+  MagnetisingThreshold(double x_per_flux, double threshold)
+      : x_per_flux_(x_per_flux), threshold_(threshold) {}
+  void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
+    AddDrop(x_per_flux_, threshold_, phi.v, drop->v, slope->v);
+  }
+  void Steady(const Lane& phi, Lane* drop, Lane* slope) const override { Drop(phi, drop, slope); }
+  void Commit(const Lane&) override {}
+  void Settle(const Lane&) override {}
+
+ private:
+  double x_per_flux_;  // 1/(0.2 T A) [1/Wb]
+  double threshold_;   // [A]
+};
+
+}  // namespace
 
 EffectDescription IronReluctance() {
   EffectDescription d;
@@ -16,13 +53,19 @@ EffectDescription IronReluctance() {
       "longer\n"
       "by l_fe/mu_r, while the pull per flux stays the same.";
   d.target = TargetKind::kBearing;
-  d.parameters = {{"path", "m", 0, 0, 1e-3, 5e-6, 5e-5, "iron length over mu_r, per gap"}};
-  d.off_when_null = {"path"};
+  d.parameters = {{"path", "m", 0, 0, 1e-3, 5e-6, 5e-5, "iron length over mu_r, per gap"},
+                  {"threshold", "A", 0, 0, 200, 1, 10,
+                   "MMF per gap that the iron needs at low flux, beyond path"}};
+  d.off_when_null = {"path", "threshold"};
   d.shows_in =
       "clamped current steps and ramps: less force and less inductance at every rotor position";
   d.confused_with = "a larger gap (whose force falls faster with position), fewer turns, fringing";
   d.apply = [](const EffectInstance& e, Plant& plant) {
-    TargetBearing(e, plant).lanes.reluctance.iron_path = e.Value("path");
+    BearingPlant& b = TargetBearing(e, plant);
+    b.lanes.reluctance.iron_path = e.Value("path");
+    if (e.Value("threshold") > 0)
+      b.laws.push_back(std::make_unique<MagnetisingThreshold>(DensityPerFlux(b) / kThresholdDensity,
+                                                              e.Value("threshold")));
   };
   return d;
 }

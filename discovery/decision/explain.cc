@@ -189,7 +189,7 @@ FitResult Explainer::AllRows(const FitResult& fit) const {
 void Explainer::NoteShifts(const FitResult& base) {
   for (std::size_t k = 0; k < base.hypothesis.free.size(); ++k) {
     const double sds = base.hypothesis.Coordinate(k);
-    if (std::abs(sds) > 1)
+    if (std::abs(sds) > 1 && base.hypothesis.free[k].effect < 0)
       out_.parameter_shifts.push_back(
           fmt::format("{} {:+.2f} sd", base.hypothesis.free[k].path, sds));
   }

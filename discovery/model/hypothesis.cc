@@ -44,6 +44,10 @@ Hypothesis Hypothesis::Base(const RigParameters& rig) {
 void Hypothesis::AddEffect(const EffectInstance& effect) {
   const int index = static_cast<int>(rig.effects.size());
   rig.effects.push_back(effect);
+  // where several sizes stand beside each other, one may be nothing
+  const bool several = std::count_if(effect.table.begin(), effect.table.end(), [](const auto& e) {
+                         return e.has_null && std::isfinite(e.null_value);
+                       }) > 1;
   for (std::size_t row = 0; row < effect.table.size(); ++row) {
     const EffectParameter& e = effect.table[row];
     FreeParameter p;
@@ -61,8 +65,10 @@ void Hypothesis::AddEffect(const EffectInstance& effect) {
     // steps.
     const bool distance =
         std::isfinite(e.null_value) && std::abs(e.typical_hi) <= 0.5 * std::abs(e.null_value);
-    p.logarithmic = !distance && e.typical_lo > 0 && e.typical_hi / e.typical_lo > 2.5 &&
-                    e.lo >= 0 && p.value > 0;
+    p.logarithmic = !distance && !(e.null_value == 0 && several) && e.typical_lo > 0 &&
+                    e.typical_hi / e.typical_lo > 2.5 && e.lo >= 0 && p.value > 0;
+    // as good as nothing; a ratio never gets there
+    if (p.logarithmic) p.lo = std::max(e.lo, 1e-3 * e.typical_lo);
     free.push_back(p);
   }
 }

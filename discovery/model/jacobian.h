@@ -8,9 +8,8 @@
 namespace ambrig {
 
 /// Column j: d(prediction/floor)/d(coordinate j), by one-sided differences of `fraction` of a step.
-/// Hypotheses that fall out of control leave a zero column.
+/// Coarse predictions are enough for that. Hypotheses that fall out of control leave a zero column.
 Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
-                         const std::vector<double>& predicted,
                          const std::vector<std::size_t>& parameters, double fraction = 0.3);
 
 }  // namespace ambrig

@@ -18,6 +18,7 @@ namespace {
 constexpr double kBeforeLoss = 0.015;  // [s] between the last row that counts and the loss
 constexpr double kLeastHeld = 0.05;    // [s] of a record that are worth comparing
 constexpr double kTouch = 0.85;        // of the clearance: the measured rotor was at its stop
+constexpr double kCoarseSamples = 6;   // of the current, in a switching period
 
 /// Whether the readings of a levitated record reach the auxiliary bearings.
 bool Touches(const RigParameters& rig, const CaseRecord& record) {
@@ -140,7 +141,9 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   options.commands = plans_[record].get();
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.watch = false;
-  const NominalRig nominal(case_.rig);
+  RigParameters drawing = case_.rig;
+  drawing.amplifier.adc_samples_per_period = h.rig.amplifier.adc_samples_per_period;
+  const NominalRig nominal(drawing);
   options.nominal = &nominal;
   scenario.duration = std::min(scenario.duration, std::max(horizon_[record], 1 / r.data.rate));
   // A hypothesis that drops a rotor which the measured rig held is no explanation; do not watch it
@@ -221,14 +224,20 @@ std::optional<std::vector<double>> CaseModel::Predict(const Hypothesis& h) const
 }
 
 std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
-    const std::vector<Hypothesis>& all) const {
+    const std::vector<Hypothesis>& all, Fidelity fidelity) const {
   const std::size_t records = case_.records.size();
+  std::vector<RigParameters> rigs;
+  for (const Hypothesis& h : all) {
+    rigs.push_back(h.rig);
+    double& samples = rigs.back().amplifier.adc_samples_per_period;
+    if (fidelity == Fidelity::kCoarse) samples = std::min(samples, kCoarseSamples);
+  }
   std::vector<std::optional<std::vector<double>>> out(all.size());
   for (auto& o : out) o.emplace(measured_.size(), 0.0);
   std::vector<char> fine(all.size() * records, 1);
   tbb::parallel_for(std::size_t{0}, all.size() * records, [&](std::size_t task) {
     const std::size_t k = task / records, r = task % records;
-    fine[task] = FillRecord(all[k].rig, r, false, 1, *out[k]) ? 1 : 0;
+    fine[task] = FillRecord(rigs[k], r, false, 1, *out[k]) ? 1 : 0;
   });
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t r = 0; r < records; ++r)

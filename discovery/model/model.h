@@ -52,6 +52,10 @@ struct Target {
   double full_scale = 0;                // rms of the data about its mean
 };
 
+/// How finely the current samples of a switching period are resolved. Differences between two coarse
+/// predictions are sensitivities that err by about 1 %, at a third of the cost.
+enum class Fidelity { kAsSampled, kCoarse };
+
 /// Runs hypotheses against the records of a case.
 class CaseModel {
  public:
@@ -72,9 +76,10 @@ class CaseModel {
   std::optional<std::vector<double>> Predict(const Hypothesis& h) const;
   /// The same with noise of a seed: what the data would look like again.
   std::optional<std::vector<double>> PredictNoisy(const Hypothesis& h, std::uint64_t seed) const;
-  /// Many at once on all cores, in order.
+  /// Many at once on all cores, in order. What is predicted coarsely is to be compared with coarse
+  /// predictions only.
   std::vector<std::optional<std::vector<double>>> PredictAll(
-      const std::vector<Hypothesis>& all) const;
+      const std::vector<Hypothesis>& all, Fidelity fidelity = Fidelity::kAsSampled) const;
   /// Full simulated record of one record's scenario.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;
 

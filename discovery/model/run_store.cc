@@ -32,6 +32,7 @@ std::string TextOf(const RunKey& key) {
   Add(bytes, key.rows);
   Add(bytes, key.horizon);
   const RigParameters& rig = key.rig;
+  Add(bytes, rig.amplifier.adc_samples_per_period);
   for (const Tolerance& t : rig.tolerances)
     if (const double* value = ParameterAt(rig, t.path)) Add(bytes, *value);
   for (const EffectInstance& e : rig.effects) {
@@ -55,7 +56,7 @@ std::string BeginOf(const Case& c) {
     for (const Excitation& e : r.scenario.excitations)
       for (const double v : e.samples) print = Fingerprint(fmt::format("{} ", v), print);
   }
-  return fmt::format("ambrig simulations 2 {:016x}", print);
+  return fmt::format("ambrig simulations 3 {:016x}", print);
 }
 
 }  // namespace

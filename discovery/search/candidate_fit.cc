@@ -125,6 +125,8 @@ FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& 
   full.effective_sample_size = effective_sample_size;
   full.base_jacobian = &now.jacobian;
   full.reached = now.ratio_fit;
+  full.iterations = 6;
+  full.tolerance = 1e-4;
   return TryFit(model, start, full);
 }
 

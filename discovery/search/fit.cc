@@ -15,6 +15,16 @@ namespace {
 using Eigen::Index;
 
 constexpr double kEffectStep = 0.01;  // of a parameter's natural step: resonances are narrow
+constexpr double kBelieved = 3;       // sd of a rig parameter within its tolerance
+constexpr double kBeyond = 5;         // each further sd counts as so many
+
+/// The prior's residual of a rig parameter that stands `sds` from its mean, and its slope. Gaussian
+/// within three sd; a part further off is hardly the part of the drawing, and an effect that is
+/// missing must not be paid with it.
+double PriorResidual(double sds) {
+  return sds + std::copysign((kBeyond - 1) * std::max(0.0, std::abs(sds) - kBelieved), sds);
+}
+double PriorSlope(double sds) { return std::abs(sds) > kBelieved ? kBeyond : 1; }
 
 /// [J r]ᵀ[J r] over the rows of the fit records.
 Eigen::MatrixXd FitGram(const CaseModel& model, const Eigen::MatrixXd& J,
@@ -72,12 +82,12 @@ class CompressedCost : public ceres::CostFunction {
     const std::vector<double> r = Residual(model_, *predicted);
     std::fill_n(residuals, num_residuals(), 0.0);
     for (std::size_t k = 0; k < p_; ++k)
-      residuals[p_ + 1 + k] = hypothesis_.free[k].sd > 0 ? x[0][k] : 0;
+      residuals[p_ + 1 + k] = hypothesis_.free[k].sd > 0 ? PriorResidual(x[0][k]) : 0;
     if (!jacobians || !jacobians[0]) {
       residuals[0] = std::sqrt(FitGram(model_, Eigen::MatrixXd(r.size(), 0), r)(0, 0)) * weight_;
       return true;
     }
-    Eigen::MatrixXd gram = weight_ * weight_ * FitGram(model_, FullJacobian(h, *predicted), r);
+    Eigen::MatrixXd gram = weight_ * weight_ * FitGram(model_, FullJacobian(h), r);
     // a prediction that rises lowers the residual
     gram.topRightCorner(static_cast<Index>(p_), 1) *= -1;
     gram.bottomLeftCorner(1, static_cast<Index>(p_)) *= -1;
@@ -91,22 +101,22 @@ class CompressedCost : public ceres::CostFunction {
       residuals[k] = R(static_cast<Index>(k), static_cast<Index>(p_));
     for (std::size_t k = 0; k < p_; ++k)
       if (hypothesis_.free[k].sd > 0)
-        out(static_cast<Index>(p_ + 1 + k), static_cast<Index>(k)) = 1;
+        out(static_cast<Index>(p_ + 1 + k), static_cast<Index>(k)) = PriorSlope(x[0][k]);
     return true;
   }
 
   /// Columns of all parameters; those of the rig are computed once, those of effects here.
-  Eigen::MatrixXd FullJacobian(const Hypothesis& h, const std::vector<double>& predicted) const {
+  Eigen::MatrixXd FullJacobian(const Hypothesis& h) const {
     Eigen::MatrixXd J(static_cast<Index>(model_.size()), static_cast<Index>(p_));
     if (base_jacobian_.size() == 0) {
       if (reuse_)
         base_jacobian_ = options_.base_jacobian->leftCols(static_cast<Index>(base_.size()));
       else
-        base_jacobian_ = Jacobian(model_, h, predicted, base_);
+        base_jacobian_ = Jacobian(model_, h, base_);
     }
     for (std::size_t k = 0; k < base_.size(); ++k)
       J.col(static_cast<Index>(base_[k])) = base_jacobian_.col(static_cast<Index>(k));
-    const Eigen::MatrixXd moving = Jacobian(model_, h, predicted, effect_, kEffectStep);
+    const Eigen::MatrixXd moving = Jacobian(model_, h, effect_, kEffectStep);
     for (std::size_t k = 0; k < effect_.size(); ++k)
       J.col(static_cast<Index>(effect_[k])) = moving.col(static_cast<Index>(k));
     return J;
@@ -130,7 +140,7 @@ class CompressedCost : public ceres::CostFunction {
 void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
   Hypothesis& h = result.hypothesis;
   const std::size_t p = h.free.size();
-  result.jacobian = cost.FullJacobian(h, result.predicted);
+  result.jacobian = cost.FullJacobian(h);
   const auto n = static_cast<Index>(p);
   Eigen::MatrixXd information =
       cost.weight() * cost.weight() *
@@ -166,7 +176,8 @@ void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
 }
 
 /// One pass of the solver from and to x. Returns whether it found a usable point.
-bool Solve(CompressedCost& cost, const Hypothesis& start, int iterations, std::vector<double>& x) {
+bool Solve(CompressedCost& cost, const Hypothesis& start, const FitOptions& options,
+           std::vector<double>& x) {
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);
@@ -182,9 +193,9 @@ bool Solve(CompressedCost& cost, const Hypothesis& start, int iterations, std::v
       problem.SetParameterUpperBound(x.data(), static_cast<int>(k), std::max(bound(f.hi), x[k]));
   }
   ceres::Solver::Options solver;
-  solver.max_num_iterations = iterations;
+  solver.max_num_iterations = options.iterations;
   solver.linear_solver_type = ceres::DENSE_QR;
-  solver.function_tolerance = 1e-3;
+  solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = 1e-4;
   solver.gradient_tolerance = 1e-12;
   solver.initial_trust_region_radius = 10;
@@ -214,7 +225,7 @@ bool EvaluateAtPoint(const CaseModel& model, FitResult& result) {
   result.penalty = 0;
   for (std::size_t k = 0; k < result.hypothesis.free.size(); ++k)
     if (result.hypothesis.free[k].sd > 0)
-      result.penalty += std::pow(result.hypothesis.Coordinate(k), 2);
+      result.penalty += std::pow(PriorResidual(result.hypothesis.Coordinate(k)), 2);
   return true;
 }
 
@@ -236,7 +247,7 @@ FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions&
     const double before = result.ratio_fit;
     cost.SetMisfitWeight(std::min(before, options.reached));
     if (pass > 0) cost.Refresh();
-    if (!Solve(cost, start, options.iterations, x)) {
+    if (!Solve(cost, start, options, x)) {
       result.converged = pass > 0;
       break;
     }

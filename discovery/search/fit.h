@@ -15,6 +15,7 @@ struct FitOptions {
   int iterations = 4;  // of each pass
   // each with a new weight and new sensitivities of the rig parameters
   int passes = 4;
+  double tolerance = 1e-3;           // of the cost: a step that gains less is the last
   bool sensitivities = true;         // sd, warnings and Jacobian at the optimum
   double effective_sample_size = 1;  // independent numbers among the residuals
   // ratio_fit of a hypothesis within this one: what the errors are weighed by when the start is
@@ -29,7 +30,8 @@ struct FitResult {
   std::vector<double> predicted, residual;
   std::vector<double> sd;  // of the free parameters, their own units
   double ratio_fit = 0, ratio_validate = 0;
-  double penalty = 0;  // Σ (shift/sd)² of the rig parameters
+  // Σ (shift/sd)² of the rig parameters, what lies beyond 3 sd counted five times
+  double penalty = 0;
   bool converged = false;
   std::vector<std::string> warnings;  // at a bound, without influence, strongly correlated
   Eigen::MatrixXd jacobian;           // of prediction/floor, a column per free parameter

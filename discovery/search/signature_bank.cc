@@ -40,6 +40,9 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
                              const std::vector<ProbeGroup>& groups,
                              const std::function<void(double, const std::string&)>& progress) {
   constexpr std::size_t kChunk = 24;  // predictions of a chunk are in memory together
+  if (groups.empty()) return;
+  const auto without = model.PredictAll({base.hypothesis}, Fidelity::kCoarse)[0];
+  if (!without) return;
   for (std::size_t first = 0; first < groups.size();) {
     std::vector<Hypothesis> all;
     std::size_t last = first;
@@ -54,7 +57,7 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
     if (progress)
       progress(static_cast<double>(first) / static_cast<double>(groups.size()),
                groups[first].probes[0].name);
-    const auto runs = model.PredictAll(all);
+    const auto runs = model.PredictAll(all, Fidelity::kCoarse);
     if (used_ + static_cast<Index>(all.size()) > columns_.cols())
       columns_.conservativeResize(
           static_cast<Index>(model.size()),
@@ -71,8 +74,7 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
         std::vector<double> signature(model.size());
         for (const Target& t : model.targets())
           for (std::size_t row = t.first; row < t.first + t.count; ++row)
-            if (model.ok()[row])
-              signature[row] = ((*runs[at])[row] - base.predicted[row]) / t.floor;
+            if (model.ok()[row]) signature[row] = ((*runs[at])[row] - (*without)[row]) / t.floor;
         if (model.nuisances.any()) model.nuisances.Eliminate(signature.data());
         columns_.col(used_) =
             Eigen::Map<const Eigen::VectorXd>(signature.data(), static_cast<Index>(model.size()))

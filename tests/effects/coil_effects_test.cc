@@ -43,6 +43,21 @@ TEST(IronReluctance, StiffnessRatioIsTheEffectiveGapOverTheBias) {
   EXPECT_NEAR(iron.ks / ideal.ks, std::pow(g0 / (g0 + path), 3), 1e-6);
 }
 
+// Far below 0.2 T the threshold is a path of mu0 threshold/0.2 T; at 0.2 T it takes half its MMF.
+TEST(IronReluctance, ThresholdIsAPathAtLowFluxAndHalfItsMmfAtItsDensity) {
+  const double threshold = 4, low = 1e-3;
+  Plant with = PlantWith("iron-reluctance", "A", {{"threshold", threshold}}),
+        path = PlantWith("iron-reluctance", "A", {{"path", kMu0 * threshold / 0.2}}),
+        ideal = BuildPlant(TrueRig(ReferenceRig()));
+  EXPECT_NEAR(RestFlux(with, Currents(low))[0] / RestFlux(path, Currents(low))[0], 1, 1e-3);
+  // the current that raises the flux of ideal iron by the MMF that iron takes at that flux
+  const BearingParameters b = ReferenceRig().bearings[0];
+  const double at = 0.2 * b.radial.gap / kMu0, turns = b.radial.turns;
+  EXPECT_NEAR(RestFlux(with, Currents((at + threshold / 2) / turns))[0] /
+                  RestFlux(ideal, Currents(at / turns))[0],
+              1, 1e-6);
+}
+
 // Pull = (1/2) phi² dR/dg with R = g / (mu0 A (1 + c g/g0)): force at the centre is (1 + c)² (1 +
 // c)^-2 = that of ideal iron at equal currents, while L grows by 1 + c.
 TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {

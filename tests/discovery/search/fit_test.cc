@@ -23,9 +23,7 @@ LinearCase CaseOf(double gain, double offset) {
 TEST(Jacobian, IsTheDerivativeOfALinearReading) {
   const LinearCase c = CaseOf(1, 0);
   const Hypothesis h = c.With({LinearCase::Gain(1.02), LinearCase::Offset(1e-6)});
-  const auto predicted = c.model.Predict(h);
-  ASSERT_TRUE(predicted);
-  const Eigen::MatrixXd J = Jacobian(c.model, h, *predicted, {0, 1});
+  const Eigen::MatrixXd J = Jacobian(c.model, h, {0, 1});
   for (const Target& t : c.model.targets()) {
     const bool moves = t.channel == 0;  // A.x
     for (std::size_t k = t.first; k < t.first + t.count; ++k) {
@@ -41,9 +39,7 @@ TEST(Jacobian, AtTheUpperBoundItLooksBack) {
   const LinearCase c = CaseOf(1, 0);
   Hypothesis h = c.With({LinearCase::Gain(1.02)});
   h.free[0].hi = h.free[0].value;
-  const auto predicted = c.model.Predict(h);
-  ASSERT_TRUE(predicted);
-  const Eigen::MatrixXd J = Jacobian(c.model, h, *predicted, {0});
+  const Eigen::MatrixXd J = Jacobian(c.model, h, {0});
   EXPECT_NEAR(J(0, 0), kX[0] / LinearCase::kFloor * h.free[0].step, 1e-8);
 }
 
