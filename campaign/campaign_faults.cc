@@ -86,6 +86,7 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
     return;
   }
   const auto bearings = Bearings(*t, c.rig);
+  if (t->Bool("healthy", false)) c.sets.push_back({bearings.front(), {}});
   for (const auto& b : bearings)
     for (const auto& coils : CoilSets(*t)) c.sets.push_back({b, coils});
   for (const TomlTable& k : t->Tables("kind")) c.kinds.push_back(ReadKind(k));

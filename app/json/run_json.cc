@@ -22,26 +22,29 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
   Json wanted = Json::object();
   for (const ExpectResult& e : expect)
     wanted[e.key] = {{"wanted", e.wanted}, {"got", e.got}, {"met", e.met}};
-  return {{"name", scenario.name},
-          {"seed", scenario.seed},
-          {"events", events},
-          {"metrics",
-           {{"max_orbit", orbit},
-            {"min_clearance_left", m.min_clearance_left},
-            {"peak_current", m.peak_current},
-            {"copper_loss", m.copper_loss},
-            {"detection_delay", or_null(m.detection_delay)},
-            {"redistribution_delay", or_null(m.redistribution_delay)},
-            {"false_alarms", m.false_alarms},
-            {"coil_periods", m.coil_periods},
-            {"longest_contact", m.longest_contact},
-            {"late_orbit", m.settled_orbit},
-            {"real_time_factor", m.real_time_factor}}},
-          {"touchdown", result.touchdown},
-          {"drop", result.drop},
-          {"fault_tolerance", {{"actions", actions}, {"doubtful", result.doubtful}}},
-          {"expect", wanted},
-          {"notes", result.notes}};
+  Json json = {{"name", scenario.name},
+               {"seed", scenario.seed},
+               {"events", events},
+               {"metrics",
+                {{"max_orbit", orbit},
+                 {"min_clearance_left", m.min_clearance_left},
+                 {"peak_current", m.peak_current},
+                 {"copper_loss", m.copper_loss},
+                 {"detection_delay", or_null(m.detection_delay)},
+                 {"redistribution_delay", or_null(m.redistribution_delay)},
+                 {"false_alarms", m.false_alarms},
+                 {"coil_periods", m.coil_periods},
+                 {"longest_contact", m.longest_contact},
+                 {"late_orbit", m.settled_orbit},
+                 {"real_time_factor", m.real_time_factor}}},
+               {"touchdown", result.touchdown},
+               {"drop", result.drop},
+               {"fault_tolerance", {{"actions", actions}, {"doubtful", result.doubtful}}},
+               {"expect", wanted},
+               {"notes", result.notes}};
+  for (const RunEvent& e : result.events)
+    if (e.kind == "model_invalid") json["model_invalid_after"] = e.t;
+  return json;
 }
 
 }  // namespace ambrig

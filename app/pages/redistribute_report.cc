@@ -103,8 +103,8 @@ std::string RedistributionText(const RedistributionFigures& f) {
     text += Line(f, SetText(s.failed), s.map, s.reach);
     carry += s.reach.carries;
   }
-  text += fmt::format("load: ({:.2f}, {:.2f}) N; commands up to {:.6g} N an axis\n", f.load.x(),
-                      f.load.y(), f.most);
+  text += fmt::format("load: ({:.2f}, {:.2f}) N; commands up to {:.6g} N an axis\n",
+                      f.load.x() + 0.0, f.load.y() + 0.0, f.most);
   if (f.sets.size() == 1) {
     const FailureSetFigures& s = f.sets.front();
     text += !s.reach.carries ? "the load is NOT carried: the rotor drops\n"

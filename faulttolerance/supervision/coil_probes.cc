@@ -39,9 +39,9 @@ void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
   looks_[coil] = look;
 }
 
-int CoilProbes::Due(double t) {
-  for (auto& [coil, look] : looks_) {
-    const bool early = look.left == kLooks && t > look.given_up + kWhenGrown && Grown(look);
+int CoilProbes::Due(double t) const {
+  for (const auto& [coil, look] : looks_) {
+    const bool early = !look.early && t > look.given_up + kWhenGrown && Grown(look);
     if (look.left > 0 && (t >= look.next || early)) return coil;
   }
   return -1;
@@ -54,6 +54,8 @@ void CoilProbes::Answer(int coil, bool healthy, double t) {
     return;
   }
   Look& look = looks_[coil];
+  look.early = true;
+  if (t < look.next) return;  // the early look came beside the others
   --look.left;
   look.wait *= kLonger;
   look.next = t + look.wait;

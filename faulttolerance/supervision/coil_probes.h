@@ -1,9 +1,9 @@
 #pragma once
 /// When the coils of one bearing that were given up are looked at again. A small current is asked of
 /// a coil for at most 1.4 ms (fdd/detectors/coil_probe.h); one that behaves as a healthy coil does
-/// returns. The first look comes 10 ms after the action, or after 2 ms when the orbit has grown by
-/// then: an action that made it worse is the first to be doubted. Two more follow, each after four
-/// times as long. A coil that came back once and is given up again is given up for good.
+/// returns. The first look comes 10 ms after the action, two more follow, each after four times as
+/// long, and one before them, after 2 ms, when the orbit has grown by then: an action that made it
+/// worse is the first to be doubted. A coil that came back once and is given up again is given up for good.
 ///
 /// Not looked at: a switch that stays on (the current could not be taken away again).
 #include <map>
@@ -19,12 +19,13 @@ class CoilProbes {
   void Orbit(double t, double displacement);
   void GivenUp(int coil, FaultClass cls, double t);
   /// The coil whose probe is due, -1: none.
-  int Due(double t);
+  int Due(double t) const;
   /// The answer to the probe of `coil` at t.
   void Answer(int coil, bool healthy, double t);
 
  private:
   struct Look {
+    bool early = false;                        // the look after growth is done, or its time is over
     double next = 0;                           // [s]
     double wait = 0;                           // that led there [s]
     double given_up = 0;                       // [s]

@@ -47,17 +47,20 @@ std::string FaultSupervisor::NewMapOfSides(const Watched& w, CurrentMap* map) {
       if (w.turns_left[j] == 0) map->W.row(j).setZero();
     return "none";
   }
-  std::string cls = "exact";
+  // A side without turns: the other one pulls for forces its own way only, and has no bias, which
+  // would press the shaft to its stop. Twice v then gives the largest force of before.
+  const auto turns = [&](int side) { return w.turns_left[2 * side] + w.turns_left[2 * side + 1]; };
+  const bool one_way = turns(0) == 0 || turns(1) == 0;
   for (int side = 0; side < 2; ++side) {
     const double a = w.turns_left[2 * side], b = w.turns_left[2 * side + 1];
     // Ampere-turns 2 (c0 ± v) of the side, shared in proportion to the turns that are left.
     const double share = a * a + b * b > 0 ? 2 / (a * a + b * b) : 0;
-    if (share == 0) cls = "none";
     for (int q = 0; q < 2; ++q) {
-      const double scale = share * (q == 0 ? a : b);
-      map->W.row(2 * side + q) << scale, (side == 0 ? scale : -scale), 0;
+      const double scale = share * (q == 0 ? a : b), v = (one_way ? 2 : 1) * scale;
+      map->W.row(2 * side + q) << (one_way ? 0 : scale), (side == 0 ? v : -v), 0;
     }
   }
+  const std::string cls = turns(0) + turns(1) == 0 ? "none" : one_way ? "one way" : "exact";
   return cls;
 }
 

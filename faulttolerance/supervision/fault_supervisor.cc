@@ -112,8 +112,8 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
     }
   }
   if (alarm.cleared) events.push_back({t, "alarm_cleared", name, "", 0});
-  if (alarm.restored && options_.redistribute)
-    Restore(w, alarm.coil, t, "all its turns carry", m.position_loop, control, out);
+  if (alarm.restored > 0 && options_.redistribute)
+    Restore(w, alarm.coil, alarm.restored, t, "turns that carry", m.position_loop, control, out);
   if (alarm.diagnosis.cls == FaultClass::kNone) return;
   events.push_back({t, "classified", name, ToText(alarm.diagnosis.cls), alarm.diagnosis.fraction});
   for (const Diagnosis& d : alarm.more) {
@@ -163,17 +163,17 @@ void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool
   w.probes.Answer(coil, healthy, t);
   out.actions.push_back(ProbeCoil{w.index, coil, 0});
   actions_.push_back({t, CoilName(w.bearing->name, coil), "probe", healthy ? "healthy" : "faulty"});
-  if (healthy) Restore(w, coil, t, "healthy when probed", position_loop, control, out);
+  if (healthy) Restore(w, coil, 1, t, "healthy when probed", position_loop, control, out);
 }
 
-void FaultSupervisor::Restore(Watched& w, int coil, double t, const std::string& reason,
-                              bool position_loop, const BearingControl& control,
-                              SupervisorOutput& out) {
+void FaultSupervisor::Restore(Watched& w, int coil, double turns, double t,
+                              const std::string& reason, bool position_loop,
+                              const BearingControl& control, SupervisorOutput& out) {
   const std::string name = CoilName(w.bearing->name, coil);
-  w.turns_left[coil] = 1;
+  w.turns_left[coil] = turns;
   out.actions.push_back(EnableCoil{w.index, coil});
-  out.events.push_back({t, "restored", name, reason, 0});
-  actions_.push_back({t, name, "restore", reason});
+  out.events.push_back({t, "restored", name, reason, 1 - turns});
+  actions_.push_back({t, name, "restore", fmt::format("{}, {:.3f} of the turns", reason, turns)});
   if (position_loop) Redistribute(w, t, control, out);
 }
 

@@ -58,8 +58,8 @@ class FaultSupervisor : public Supervisor {
   /// A second look at coils that were given up.
   void Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
              const BearingControl& control, SupervisorOutput& out);
-  void Restore(Watched& w, int coil, double t, const std::string& reason, bool position_loop,
-               const BearingControl& control, SupervisorOutput& out);
+  void Restore(Watched& w, int coil, double turns, double t, const std::string& reason,
+               bool position_loop, const BearingControl& control, SupervisorOutput& out);
   /// The map of a bearing whose coils do not share a rotor; returns its class for the record.
   static std::string NewMapOfSides(const Watched& w, CurrentMap* map);
   /// Every regulator's integral is moved by what its new current needs.

@@ -24,7 +24,6 @@ constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rule
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
 constexpr double kNoCurrent = 0.12;  // [A]
 constexpr double kWider = 2.5;       // bands, once coils were given up or lost turns
-constexpr double kWhole = 0.12;      // of c, from that of a coil that has lost no turns after all
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 
@@ -63,9 +62,9 @@ void CommissionedDetector::SetTurns(int coil, double share) {
   Pause(25);
 }
 
-void CommissionedDetector::Restore(int coil) {
-  share_[coil] = 1;
-  filter_.SetTurns(coil, 1);
+void CommissionedDetector::Restore(int coil, double share) {
+  share_[coil] = share;
+  filter_.SetTurns(coil, share);
   windows_.Return(coil);
   windows_.Clear();
   wider_ = 1;
@@ -215,12 +214,11 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   CountStreaks(in.t);
   if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
-  const double whole = share_[coil] * share_[coil] - 1;
-  out.whole = share_[coil] < 1 && std::abs(out.excess - whole) < kWhole && PhasesAgree(coil);
-  out.decided = out.whole || Decided(coil, out.excess);
+  out.turns = MoreTurns(coil, out.excess);
+  out.decided = out.turns > 0 || Decided(coil, out.excess);
   if (!out.decided) return out;
   out.diagnosis = Classify(coil, out.excess, in.t);
-  if (!out.whole) out.more = Companions(coil, out.excess, in.t);
+  if (out.turns == 0) out.more = Companions(coil, out.excess, in.t);
   return out;
 }
 

@@ -37,7 +37,9 @@ class CommissionedDetector : public CoilDetector {
     Diagnosis diagnosis;
     std::vector<Diagnosis> more;  // of other coils, decided together with it
     double excess = 0;            // c of the decided coil, the periods of the decision [-]
-    bool whole = false;  // the decided coil has lost turns before and behaves as if it had them all
+    // share of its turns that the decided coil truly has, where it had been taken for one with fewer;
+    // 0: not so
+    double turns = 0;
   };
 
   CommissionedDetector(const CoilDetectorSetup& setup, const CommissionedBearing& commissioned);
@@ -50,8 +52,8 @@ class CommissionedDetector : public CoilDetector {
   void SetTurns(int coil, double share);
   /// Nothing is concluded from the next periods.
   void Pause(int periods) { paused_ = std::max(paused_, periods); }
-  /// Takes back what SetTurns said, and forgets what was seen of it.
-  void Restore(int coil);
+  /// Takes back what SetTurns said, and forgets what was seen of it; `share` of the turns carries.
+  void Restore(int coil, double share = 1);
   /// A current is asked of a coil that has no turns: its slopes are watched, no coil is judged.
   void BeginProbe(int coil);
   void EndProbe();
@@ -78,6 +80,7 @@ class CommissionedDetector : public CoilDetector {
   /// Ratios of this period; returns the coil of the largest.
   int Ratios();
   double RecentExcess(int coil) const;
+  double MoreTurns(int coil, double excess) const;
   Outcome Judge(const MeasuredPeriod& in, int coil);
   /// The model's own errors show: several coils at once, or a pattern over the bearing.
   bool Disturbed() const;

@@ -4,6 +4,10 @@
 
 namespace ambrig {
 
+namespace {
+constexpr double kMostTakenBack = 3;  // losses of turns of one coil, the next one is final
+}
+
 CommissionedRun::CommissionedRun(const CoilDetectorSetup& setup,
                                  const CommissionedBearing& commissioned)
     : watch_(setup, commissioned), model_(setup.model) {
@@ -17,10 +21,11 @@ DetectorAlarm CommissionedRun::Period(const MeasuredPeriod& in) {
   if (!seen.decided) return alarm;
   const Diagnosis& d = seen.diagnosis;
   alarm.coil = d.coil;
-  if (seen.whole && taken_back_[d.coil] == 0) {
-    alarm.restored = true;
-    taken_back_[d.coil] = share_[d.coil] = 1;
-    watch_.Restore(d.coil);
+  if (seen.turns > 0 && taken_back_[d.coil] < kMostTakenBack) {
+    alarm.restored = seen.turns;
+    ++taken_back_[d.coil];
+    share_[d.coil] = seen.turns;
+    watch_.Restore(d.coil, seen.turns);
     return alarm;
   }
   alarm.raised = true;

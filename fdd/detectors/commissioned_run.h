@@ -22,7 +22,7 @@ class CommissionedRun : public RunDetector {
   CommissionedDetector watch_;
   LinkageModel model_;
   Lane share_;       // of the turns
-  Lane taken_back_;  // 1: its loss of turns was taken back once, the next one is final
+  Lane taken_back_;  // how often a loss of turns was taken back
   bool doubtful_ = false;
 };
 

@@ -7,12 +7,14 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kAgree = 0.35;      // of the larger phase's c
-constexpr double kGross = 0.5;       // |c|
-constexpr double kReversed = -1.2;   // c of a phase: the bridge drives the other way
-constexpr double kCompanion = 0.5;   // of the largest |c|: a fault of its own
-constexpr int kMissedTwice = 2;      // periods in a row
-constexpr double kNoCurrent = 0.12;  // [A]
+constexpr double kAgree = 0.35;        // of the larger phase's c
+constexpr double kGross = 0.5;         // |c|
+constexpr double kReversed = -1.2;     // c of a phase: the bridge drives the other way
+constexpr double kCompanion = 0.5;     // of the largest |c|: a fault of its own
+constexpr int kMissedTwice = 2;        // periods in a row
+constexpr double kMostRegained = 0.9;  // |c|
+constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
+constexpr double kNoCurrent = 0.12;                         // [A]
 
 }  // namespace
 
@@ -24,6 +26,14 @@ bool CommissionedDetector::PhasesAgree(int coil) const {
       return true;
   }
   return false;
+}
+
+// Taken for one with fewer turns than it has, a coil's linkages move by less than they should:
+// c = (share/turns)^2 - 1.
+double CommissionedDetector::MoreTurns(int coil, double excess) const {
+  if (share_[coil] >= 1 || excess >= 0 || excess < -kMostRegained || !PhasesAgree(coil)) return 0;
+  const double turns = share_[coil] / std::sqrt(1 + excess);
+  return turns > kMoreThanAll ? 0 : turns > kAsGoodAsAll ? 1 : turns;
 }
 
 bool CommissionedDetector::CurrentIsFalse(int coil) const {

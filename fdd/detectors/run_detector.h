@@ -25,9 +25,10 @@ namespace ambrig {
 /// What a period led to. `coil`: of the alarm that was raised, cleared or diagnosed, from 0; -1:
 /// none.
 struct DetectorAlarm {
-  bool raised = false;    // in this period, for `coil`
-  bool cleared = false;   // in this period: the alarm of `coil` was a false one
-  bool restored = false;  // in this period: `coil` has all its turns, its diagnosis was a false one
+  bool raised = false;   // in this period, for `coil`
+  bool cleared = false;  // in this period: the alarm of `coil` was a false one
+  // In this period: `coil` has this share of its turns, more than it was taken to have; 0: not so.
+  double restored = 0;
   int coil = -1;
   Diagnosis diagnosis;          // cls other than kNone: decided in this period
   std::vector<Diagnosis> more;  // of other coils, decided together with it

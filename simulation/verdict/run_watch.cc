@@ -1,9 +1,26 @@
 #include "simulation/verdict/run_watch.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace ambrig {
+
+namespace {
+
+constexpr const char* kInvalid = "model_invalid";
+
+/// Said once: where the shaft is past a pole face there is no model, and nothing is a figure.
+void PastThePoles(double t, const std::string& bearing, RunResult& result) {
+  if (std::ranges::count(result.events, kInvalid, &RunEvent::kind) > 0) return;
+  result.events.push_back({t, kInvalid, bearing, "", 0});
+  result.notes.push_back(fmt::format(
+      "past the poles of {} from t = {:.4f} s: the model is invalid after, orbits end at the gap",
+      bearing, t));
+}
+
+}  // namespace
 
 RunWatch::RunWatch(const SampledDataLoop& loop, RunResult& result)
     : loop_(loop),
@@ -16,6 +33,13 @@ void RunWatch::Period(long long n) {
   const bool late = loop_.motion.t > 0.9 * loop_.scenario.duration;
   for (const SampledBearing& b : loop_.bearings) {
     const double squared = b.true_x * b.true_x + b.true_y * b.true_y;
+    const double gap = b.plant->lanes.gap_offset[0];
+    if (squared > gap * gap) {
+      PastThePoles(loop_.motion.t, b.plant->name, result_);
+      orbit_squared_[b.index] = gap * gap;
+      if (late) late_squared_ = std::max(late_squared_, gap * gap);
+      continue;
+    }
     orbit_squared_[b.index] = std::max(orbit_squared_[b.index], squared);
     if (late) late_squared_ = std::max(late_squared_, squared);
   }
@@ -30,6 +54,11 @@ void RunWatch::Finish() {
   m.settled_orbit = std::sqrt(late_squared_);
   m.copper_loss = loop_.periods > 0 ? copper_sum_ / static_cast<double>(loop_.periods) : 0;
   contacts_.Finish(loop_.motion, result_);
+  if (std::ranges::count(result_.events, kInvalid, &RunEvent::kind) == 0) return;
+  double widest = 0;
+  for (const SampledBearing& b : loop_.bearings)
+    widest = std::max(widest, b.plant->lanes.gap_offset[0]);
+  m.min_clearance_left = std::max(m.min_clearance_left, -widest);
 }
 
 }  // namespace ambrig

@@ -20,7 +20,8 @@ std::string Reality(const std::string& plants, const std::string& kinds = "") {
 duration = 0.03
 [faults]
 bearings = ["A"]
-sets = [[], [3]]
+healthy = true
+sets = [[3]]
 time = 0.015
 [[faults.kind]]
 kind = "open"
@@ -63,8 +64,12 @@ TEST(Plants, EachHasItsOwnDrawAndMixturesTheirOwnEffects) {
     const CampaignPlant& p = c.plants[k];
     EXPECT_EQ(p.deviates, again.plants[k].deviates);
     EXPECT_EQ(p.commissioned, k % 2 == 1);
-    if (k % 2 == 1) EXPECT_EQ(p.deviates, c.plants[k - 1].deviates);  // the same machine
-    if (k >= 2) EXPECT_NE(p.deviates, c.plants[k - 2].deviates);
+    if (k % 2 == 1) {
+      EXPECT_EQ(p.deviates, c.plants[k - 1].deviates);  // the same machine
+    }
+    if (k >= 2) {
+      EXPECT_NE(p.deviates, c.plants[k - 2].deviates);
+    }
     labels.insert(p.label);
     const auto several = 1 + std::count(p.label.begin(), p.label.end(), '+');
     if (p.effect == "mixture") {

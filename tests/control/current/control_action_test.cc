@@ -35,11 +35,29 @@ TEST(ControlAction, EachChangesWhatItNamesAndNothingElse) {
   EXPECT_TRUE(control[1].disabled[2]);
 }
 
+TEST(ControlAction, AProbeEndsOffAndAnEnabledCoilFollowsItsMap) {
+  std::vector<BearingControl> control = TwoBearings();
+  Apply(DisableCoil{1, 2}, control);
+  Apply(ProbeCoil{1, 2, 0.8}, control);
+  EXPECT_FALSE(control[1].disabled[2]);
+  EXPECT_EQ(control[1].probe[2], 0.8);
+  EXPECT_EQ(control[1].probe[1], 0);
+  Apply(ProbeCoil{1, 2, 0}, control);
+  EXPECT_TRUE(control[1].disabled[2]);
+  EXPECT_EQ(control[1].probe[2], 0);
+  Apply(ProbeCoil{1, 2, 0.8}, control);
+  Apply(EnableCoil{1, 2}, control);
+  EXPECT_FALSE(control[1].disabled[2]);
+  EXPECT_EQ(control[1].probe[2], 0);
+}
+
 TEST(ControlAction, ACoilOrBearingThatIsNotThereIsTheCallersMistake) {
   std::vector<BearingControl> control = TwoBearings();
   EXPECT_THROW(Apply(DisableCoil{2, 0}, control), std::logic_error);
   EXPECT_THROW(Apply(DisableCoil{0, 4}, control), std::logic_error);
   EXPECT_THROW(Apply(SetIntegral{0, -1, 0}, control), std::logic_error);
+  EXPECT_THROW(Apply(EnableCoil{0, 4}, control), std::logic_error);
+  EXPECT_THROW(Apply(ProbeCoil{0, 4, 1}, control), std::logic_error);
 }
 
 }  // namespace

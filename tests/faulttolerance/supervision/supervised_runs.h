@@ -76,6 +76,8 @@ bias_current = 1.5
 sensor = { noise = 2.0e-7 }
 controller = { kp = 3.0e5, kd = 900.0, ki = 4.0e6, derivative_time_constant = 1.5e-4, f_max = 120.0 }
 auxiliary = { clearance = 2.5e-4, stiffness = 2.0e7, exponent = 1.0, damping = 0.5, friction = 0.15 }
+[detection]
+kind = "coupled"
 )";
 
 inline const RigParameters& Rig() {
