@@ -86,27 +86,43 @@ void Simulate(const CaseModel& model, const FitResult& now, double effective_sam
   }
 }
 
-/// A loop that the resonance brings near its limit answers out of all proportion to the size: each
-/// start grows as long as it explains more, and one that loses the rotor shrinks until it holds it.
-void Climb(const CaseModel& model, const FitResult& now, double effective_sample_size,
-           std::vector<SimulatedStart>& starts) {
-  constexpr int kSteps = 6;
-  constexpr double kUp = 1.6, kDown = 1.0 / 6;
-  std::vector<SimulatedStart> moving = starts;
-  for (int step = 0; step < kSteps && !moving.empty(); ++step) {
-    std::vector<SimulatedStart> next;
-    for (const SimulatedStart& s : moving)
-      next.push_back({Scaled(s.effect, std::isfinite(s.score) ? kUp : kDown)});
-    Simulate(model, now, effective_sample_size, next);
-    std::vector<SimulatedStart> better;
-    for (std::size_t k = 0; k < next.size(); ++k) {
-      if (next[k].score < moving[k].score)
-        better.push_back(next[k]);
-      else if (!std::isfinite(moving[k].score))
-        better.push_back(next[k]);  // still lost
+/// Neighbours of a resonance: larger, smaller, lower, higher, and with less at one of two gains.
+std::vector<SimulatedStart> Neighbours(const EffectInstance& e) {
+  std::vector<SimulatedStart> out = {{Scaled(e, 1.6)}, {Scaled(e, 0.4)}};
+  const bool pair = EffectNamed(e.name).switches_pair;
+  for (std::size_t k = 0; k < e.table.size(); ++k) {
+    const EffectParameter& p = e.table[k];
+    const bool frequency = p.name == "frequency",
+               gain = pair && EffectNamed(e.name).Switches(p) && std::isfinite(p.null_value);
+    for (const double factor : {0.94, 1.06}) {
+      if (!frequency) continue;
+      out.push_back({e});
+      out.back().effect.values[k] = std::clamp(e.values[k] * factor, p.lo, p.hi);
     }
-    starts.insert(starts.end(), better.begin(), better.end());
-    moving = std::move(better);
+    if (!gain) continue;
+    out.push_back({e});
+    out.back().effect.values[k] *= 0.5;
+  }
+  return out;
+}
+
+/// A loop that the resonance brings near its limit answers out of all proportion to the size, and
+/// at another frequency than the resonance's own: each start moves to the neighbour that explains
+/// most until none explains more; one that loses the rotor shrinks until it holds it.
+void Climb(const CaseModel& model, const FitResult& now, double effective_sample_size,
+           SimulatedStart& start) {
+  constexpr int kSteps = 8;
+  for (int step = 0; step < kSteps; ++step) {
+    std::vector<SimulatedStart> next;
+    if (std::isfinite(start.score))
+      next = Neighbours(start.effect);
+    else
+      next = {{Scaled(start.effect, 1.0 / 6)}};
+    Simulate(model, now, effective_sample_size, next);
+    const auto best = std::min_element(
+        next.begin(), next.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
+    if (std::isfinite(start.score) && best->score >= start.score) return;
+    start = *best;
   }
 }
 
@@ -115,7 +131,7 @@ void Climb(const CaseModel& model, const FitResult& now, double effective_sample
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
-  constexpr std::size_t kClimbed = 6, kFitted = 2;
+  constexpr std::size_t kClimbed = 5, kFitted = 2;
   constexpr double kWorthFitting = 4;  // of the score
   std::vector<SimulatedStart> order;
   for (const EffectInstance& e : starts) order.push_back({e});
@@ -132,7 +148,7 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
           std::none_of(distinct.begin(), distinct.end(),
                        [&](const auto& o) { return SameValley(o.effect, s.effect); }))
         distinct.push_back(s);
-    Climb(model, now, effective_sample_size, distinct);
+    for (SimulatedStart& start : distinct) Climb(model, now, effective_sample_size, start);
     order.insert(order.end(), distinct.begin(), distinct.end());
     sort();
   } catch (const InputError&) {

@@ -14,7 +14,7 @@ struct Candidate {
   // of the same effect at the same target, worse at first sight
   std::vector<EffectInstance> other_starts;
 };
-constexpr std::size_t kOtherStarts = 1, kResonanceStarts = 9;
+constexpr std::size_t kOtherStarts = 1, kResonanceStarts = 15;
 
 /// Two effects at once: what each starts from, and what they would leave together.
 struct CandidatePair {
