@@ -17,7 +17,7 @@
 namespace ambrig {
 namespace {
 
-constexpr std::size_t kAllowed = std::size_t{1} << 29;  // [bytes] beyond what the test has now
+constexpr std::size_t kAllowed = std::size_t{1} << 27;  // [bytes] beyond what the test has now
 
 std::size_t AddressSpace() {
   std::ifstream in("/proc/self/statm");
@@ -94,6 +94,9 @@ TEST_P(DamagedFiles, CutAtEveryByte) {
 }
 
 TEST_P(DamagedFiles, LengthsThatAskForMore) {
+#ifdef AMBRIG_SANITIZED
+  GTEST_SKIP() << "the sanitizer ends the program where an allocation fails";
+#endif
   const MemoryLimit limit;
   const bool binary = whole_.find('\0') != std::string::npos;
   const std::size_t step = 1 + whole_.size() / 400;
@@ -108,7 +111,7 @@ TEST_P(DamagedFiles, LengthsThatAskForMore) {
 TEST_P(DamagedFiles, BytesAtRandom) {
   const MemoryLimit limit;
   std::mt19937 random(1);
-  for (int k = 0; k < 300; ++k) {
+  for (int k = 0; k < 100; ++k) {
     std::string bytes = whole_;
     for (int n = 0; n < 1 + k % 5; ++n)
       bytes[random() % bytes.size()] = static_cast<char>(random() % 256);
