@@ -3,7 +3,7 @@
 everything on (noise, detection, a coil fault; no report, which holds at most 4000 points a curve), recorded at 25 Hz, and what it grew by for
 each second of the rig beyond the record itself.
 
-  tools/memory_growth.py build/release/ambrig                     1 s and 9 s (ctest)
+  tools/memory_growth.py build/release/ambrig                     9 s and 30 s (ctest)
   tools/memory_growth.py build/release/ambrig --long 600          minutes; sharper
 
 Exit code 1 when 24 h would need more than --limit MB.
@@ -49,9 +49,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("ambrig", type=lambda p: str(pathlib.Path(p).resolve()))
-    parser.add_argument("--short", type=float, default=1, help="s of the rig")
-    parser.add_argument("--long", type=float, default=9, help="s of the rig")
-    parser.add_argument("--limit", type=float, default=6000, help="MB in 24 h beside the record")
+    parser.add_argument("--short", type=float, default=9, help="s of the rig")
+    parser.add_argument("--long", type=float, default=30, help="s of the rig")
+    parser.add_argument("--limit", type=float, default=2000, help="MB in 24 h beside the record")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="memory_growth_") as name:
         first = min(peak(options.ambrig, options.short, pathlib.Path(name)) for _ in range(2))
