@@ -38,6 +38,17 @@ TEST(Shape, StartsAtTheSteelCurve) {
   }
 }
 
+// Steel needs MMF at low flux beyond its path: threshold x/(1 + x), x = B/0.2 T. Trapezoidal rule as
+// above; the drop's second derivative falls from 2 threshold/(0.2 T)² in size.
+TEST(Shape, StartsAtTheReluctanceOfSteel) {
+  constexpr double kReach = 0.6, kPath = 2e-5, kThreshold = 5, h = kReach / 12;
+  const Shape s = ShapeOf(Named("iron-reluctance", {{"path", kPath}, {"threshold", kThreshold}}),
+                          ReferenceRig(), {.density = kReach});
+  const double most = 1.5 * h * h / 12 * 2 * kThreshold / 0.04;
+  for (const double B : s.u)
+    EXPECT_NEAR(s.value(s.Sizes(), B), kPath * B / kMu0 + kThreshold * B / (0.2 + B), most) << B;
+}
+
 // Ten relaxations against the half order of diffusion and against laminations.
 TEST(Shape, StartsAtTheDiffusionLaw) {
   const RigParameters rig = ReferenceRig();
