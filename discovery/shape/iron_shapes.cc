@@ -78,9 +78,9 @@ Shape BhShape(const EffectInstance& named, const ShapeReach& reach) {
       SteelCurve(reach.density * k / (kBhNodes - 1) / knee, &H, &slope);
       at *= kMu0 * slope / knee;
     }
-    path.push_back(at);
     if (named.name == "iron-reluctance")
       at += ThresholdPath(named, reach.density * k / (kBhNodes - 1));
+    path.push_back(at);
     s.knots.push_back(reach.density * k / (kBhNodes - 1));
   }
   AddSizes(s, 1, path);
