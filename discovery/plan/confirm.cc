@@ -93,7 +93,7 @@ void Planner::Confirm(const Scored& best, Plan& plan) {
       ++out.draws;
       out.right += *right ? 1 : 0;
     }
-    out.probability = std::min(ProbabilityRight(best.distances[p]), 0.9999);
+    out.probability = std::min(ProbabilityRight(best.distances[p]), 0.999);
     // what the simulated records contradict is not promised
     if (out.draws > 0 && out.right < out.draws)
       out.probability = std::min(out.probability, static_cast<double>(out.right) / out.draws);

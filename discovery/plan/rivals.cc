@@ -48,10 +48,9 @@ bool ViewOf(const TrialRecord& trial, const Rival& rival, const std::vector<doub
   std::vector<std::size_t> rig, effects;
   for (std::size_t k = 0; k < rival.hypothesis.free.size(); ++k)
     (rival.hypothesis.free[k].effect < 0 ? rig : effects).push_back(k);
-  const Eigen::MatrixXd of_rig = Jacobian(*trial.model, rival.hypothesis, *predicted, rig,
-                                          kRigDifference),
-                        of_effects = Jacobian(*trial.model, rival.hypothesis, *predicted, effects,
-                                              kEffectDifference);
+  const Eigen::MatrixXd of_rig = Jacobian(*trial.model, rival.hypothesis, rig, kRigDifference),
+                        of_effects =
+                            Jacobian(*trial.model, rival.hypothesis, effects, kEffectDifference);
   const auto n = static_cast<Index>(rival.hypothesis.free.size());
   const bool law = !rival.target.empty();
   view->columns.resize(static_cast<Index>(predicted->size()), n + (law ? kLawBlocks : 0));

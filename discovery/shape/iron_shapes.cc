@@ -57,6 +57,14 @@ double BhDrop(const std::vector<double>& path, double reach, double B) {
   return sum / kMu0;
 }
 
+/// Incremental path of the iron's MMF at low flux, threshold x/(1 + x) with x = B/0.2 T
+/// (effects/iron_reluctance.cc). [m]
+double ThresholdPath(const EffectInstance& reluctance, double B) {
+  constexpr double kHalf = 0.2;  // [T]
+  const double away = 1 + B / kHalf;
+  return kMu0 * reluctance.Value("threshold") / (kHalf * away * away);
+}
+
 Shape BhShape(const EffectInstance& named, const ShapeReach& reach) {
   Shape s;
   s.effect = MakeInstance(EffectNamed("bh-curve"), named.target);
@@ -70,6 +78,8 @@ Shape BhShape(const EffectInstance& named, const ShapeReach& reach) {
       SteelCurve(reach.density * k / (kBhNodes - 1) / knee, &H, &slope);
       at *= kMu0 * slope / knee;
     }
+    if (named.name == "iron-reluctance")
+      at += ThresholdPath(named, reach.density * k / (kBhNodes - 1));
     path.push_back(at);
     s.knots.push_back(reach.density * k / (kBhNodes - 1));
   }

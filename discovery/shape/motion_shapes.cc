@@ -73,12 +73,15 @@ Shape RampShape(const EffectInstance& named, double most, const std::string& uni
 
 Shape PullShape(const EffectInstance& named, double radius) {
   const double stiffness = named.Value("stiffness");
-  Shape s = RampShape(named, radius, "N/m", [&](double) { return stiffness; });
-  // at the centre neither direction exists: the force is zero there
-  const std::string r = "sqrt(x*x + y*y + 1e-20)", force = Ramps(r, radius / kStretches) + "/" + r;
   const bool along = named.name == "side-pull";
-  s.effect.formulas = {{"force.x", (along ? "x*" : "-y*") + force},
-                       {"force.y", (along ? "y*" : "x*") + force}};
+  Shape s = RampShape(named, radius, "N/m", [&](double) { return stiffness; });
+  // a motor pulls from its own centre; at the centre neither direction exists, the force is zero
+  const std::string x = along ? fmt::format("(x - {:.9g})", named.Value("ex")) : "x",
+                    y = along ? fmt::format("(y - {:.9g})", named.Value("ey")) : "y",
+                    r = fmt::format("sqrt({0}*{0} + {1}*{1} + 1e-20)", x, y),
+                    force = Ramps(r, radius / kStretches) + "/" + r;
+  s.effect.formulas = {{"force.x", (along ? x : "-" + y) + "*" + force},
+                       {"force.y", (along ? y : x) + "*" + force}};
   s.u_name = "displacement";
   s.u_unit = "m";
   s.value_name = along ? "force along the displacement" : "force across the displacement";

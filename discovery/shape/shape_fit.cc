@@ -49,13 +49,13 @@ class ShapeProblem {
     if (rig_.size() == 0 || fresh) {
       std::vector<std::size_t> own;
       for (Index k = 0; k < first_; ++k) own.push_back(static_cast<std::size_t>(k));
-      rig_ = Jacobian(model_, now_.hypothesis, now_.predicted, own);
+      rig_ = Jacobian(model_, now_.hypothesis, own);
     }
     std::vector<std::size_t> sizes;
     for (Index k = first_; k < all_; ++k) sizes.push_back(static_cast<std::size_t>(k));
     columns.leftCols(first_) = rig_;
     columns.middleCols(first_, all_ - first_) =
-        Jacobian(model_, now_.hypothesis, now_.predicted, sizes, kDifference);
+        Jacobian(model_, now_.hypothesis, sizes, kDifference);
     columns.col(all_) =
         Eigen::Map<const Eigen::VectorXd>(now_.residual.data(), static_cast<Index>(model_.size()));
     gram_ = RowProducts(model_, columns, columns).fit;

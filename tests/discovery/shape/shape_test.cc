@@ -38,6 +38,17 @@ TEST(Shape, StartsAtTheSteelCurve) {
   }
 }
 
+// Steel needs MMF at low flux beyond its path: threshold x/(1 + x), x = B/0.2 T. Trapezoidal rule as
+// above; the drop's second derivative falls from 2 threshold/(0.2 T)² in size.
+TEST(Shape, StartsAtTheReluctanceOfSteel) {
+  constexpr double kReach = 0.6, kPath = 2e-5, kThreshold = 5, h = kReach / 12;
+  const Shape s = ShapeOf(Named("iron-reluctance", {{"path", kPath}, {"threshold", kThreshold}}),
+                          ReferenceRig(), {.density = kReach});
+  const double most = 1.5 * h * h / 12 * 2 * kThreshold / 0.04;
+  for (const double B : s.u)
+    EXPECT_NEAR(s.value(s.Sizes(), B), kPath * B / kMu0 + kThreshold * B / (0.2 + B), most) << B;
+}
+
 // Ten relaxations against the half order of diffusion and against laminations.
 TEST(Shape, StartsAtTheDiffusionLaw) {
   const RigParameters rig = ReferenceRig();
@@ -60,15 +71,16 @@ TEST(Shape, HysteresisKeepsItsCoerciveCurrent) {
 // The formula in the rig file and the curve in the report are the same law: read back, the formula
 // pulls as the curve says.
 TEST(Shape, PullFormulaSaysWhatTheCurveSays) {
-  Shape s = ShapeOf(Named("side-pull", {{"stiffness", 4e4}}), ReferenceRig(), {.radius = 6e-5});
+  Shape s = ShapeOf(Named("side-pull", {{"stiffness", 4e4}, {"ex", 1e-5}, {"ey", -2e-5}}),
+                    ReferenceRig(), {.radius = 6e-5});
   for (std::size_t k = 0; k < s.rows.size(); ++k)
     s.effect.values[s.rows[k]] = 1e4 * static_cast<double>(k + 1);
   RigParameters rig = ReferenceRig();
   rig.effects = {s.effect};
   Plant plant = BuildPlant(TrueRig(rig));
   MotionState m{};
-  m.q[0] = 3e-5;
-  m.q[1] = -4e-5;
+  m.q[0] = 4e-5;  // 30 um and -40 um from the motor's centre
+  m.q[1] = -6e-5;
   RotorForces forces;
   forces.Q = {};
   for (const auto& term : plant.rotor.terms) term->Add(m, forces);
