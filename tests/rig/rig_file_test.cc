@@ -205,6 +205,14 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
   EXPECT_THAT(Message("sd = 4.0e-6", "sd = 5.0e-4"), HasSubstr("bearings.A.gap.sd"));
 }
 
+TEST(RigFile, EveryTableRefusesKeysThatItDoesNotKnow) {
+  for (const std::string table :
+       {"[rotor]", "[amplifier]", "[controller]", "[bearings.A]", "[bearings.Z]"})
+    EXPECT_THAT(Message(table, table + "\ncolour = 1"), HasSubstr(".colour: unknown key")) << table;
+  EXPECT_THAT(Message("noise = 2.0e-7 }               # m, m rms", "noise = 2.0e-7, colour = 1 }"),
+              HasSubstr("sensor.colour: unknown key"));
+}
+
 TEST(RigFile, ABearingIsNotEnough) {
   EXPECT_THAT(Message("[bearings.B]\nlike = \"A\"                                   # same values, "
                       "other places\nz = 0.130\nsensor = { z = 0.145, noise = 2.0e-7 }",
