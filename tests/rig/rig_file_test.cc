@@ -208,7 +208,9 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
 TEST(RigFile, EveryTableRefusesKeysThatItDoesNotKnow) {
   for (const std::string table :
        {"[rotor]", "[amplifier]", "[controller]", "[bearings.A]", "[bearings.Z]"})
-    EXPECT_THAT(Message(table, table + "\ncolour = 1"), HasSubstr(".colour: unknown key")) << table;
+    EXPECT_THAT(Message("\n" + table + "\n", "\n" + table + "\ncolour = 1\n"),
+                HasSubstr(".colour: unknown key"))
+        << table;
   EXPECT_THAT(Message("noise = 2.0e-7 }               # m, m rms", "noise = 2.0e-7, colour = 1 }"),
               HasSubstr("sensor.colour: unknown key"));
 }
