@@ -9,7 +9,7 @@ of the build and linked before the folder's library into the folder's test progr
 build stay as they are. The tests of the mutant's own room come first, slow ones last, and the first failure
 ends them. The mutant is killed when the program fails, crashes or takes longer than --patience times the
 healthy run; one that does not compile does not count. Prints and writes a table of the survivors: each is a
-missing test, or equivalent to the original (docs/mutants.md says why). The build must hold the test
+missing test, or equivalent to the original (say why where the figure is reported). The build must hold the test
 programs (cmake --build ... --target test_FOLDER).
 """
 import argparse

@@ -51,6 +51,13 @@ TEST(RigFile, NumbersArriveInSi) {
   EXPECT_EQ(rig.Find("C"), nullptr);
 }
 
+TEST(RigFile, DutyLimitsAreWhatTheFileSays) {
+  const RigParameters rig =
+      Read(Replaced(ReferenceRigText(), "duty_limits = [0.02, 0.98]", "duty_limits = [0.1, 0.7]"));
+  EXPECT_EQ(rig.amplifier.duty_min, 0.1);
+  EXPECT_EQ(rig.amplifier.duty_max, 0.7);
+}
+
 // `like` copies values and spreads, not the place of its own auxiliary bearing.
 TEST(RigFile, ABearingLikeAnotherHasItsValuesAndSpreads) {
   const RigParameters rig = Read(ReferenceRigText());
@@ -89,6 +96,20 @@ TEST(RigFile, OtherControllersShareRateAndBias) {
   EXPECT_EQ(rig.other_controllers[0].pid.kp, 2e5);
   EXPECT_EQ(rig.other_controllers[0].rate, rig.controller.rate);
   EXPECT_EQ(rig.other_controllers[0].bias_current, rig.controller.bias_current);
+}
+
+// What a detector that is not in the catalogue is answered with: the place where the file named it.
+TEST(RigFile, TheDetectorRemembersItsLine) {
+  const RigParameters rig = Read(ReferenceRigText() + "\n[detection]\nkind = \"coupled\"\n");
+  EXPECT_EQ(rig.detection.kind, "coupled");
+  EXPECT_THAT(rig.detection.where, StartsWith("rig.toml:"));
+  EXPECT_THAT(rig.detection.where, HasSubstr("detection.kind"));
+}
+
+TEST(RigFile, TheSpeedSensorHasWholePulses) {
+  const std::string sensor = "\n[speed_sensor]\npulses_per_revolution = ";
+  EXPECT_EQ(Read(ReferenceRigText() + sensor + "60.0\n").speed_sensor.pulses_per_revolution, 60);
+  EXPECT_THROW(Read(ReferenceRigText() + sensor + "60.5\n"), InputError);
 }
 
 // Every number of every table: written once, read back, inside its range, and no path twice.
@@ -182,6 +203,16 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
   EXPECT_THAT(Message("adc_samples_per_period = 18", "adc_samples_per_period = 17.5"),
               HasSubstr("amplifier.adc_samples_per_period = 17.5, allowed: an integer"));
   EXPECT_THAT(Message("sd = 4.0e-6", "sd = 5.0e-4"), HasSubstr("bearings.A.gap.sd"));
+}
+
+TEST(RigFile, EveryTableRefusesKeysThatItDoesNotKnow) {
+  for (const std::string table :
+       {"[rotor]", "[amplifier]", "[controller]", "[bearings.A]", "[bearings.Z]"})
+    EXPECT_THAT(Message("\n" + table + "\n", "\n" + table + "\ncolour = 1\n"),
+                HasSubstr(".colour: unknown key"))
+        << table;
+  EXPECT_THAT(Message("noise = 2.0e-7 }               # m, m rms", "noise = 2.0e-7, colour = 1 }"),
+              HasSubstr("sensor.colour: unknown key"));
 }
 
 TEST(RigFile, ABearingIsNotEnough) {
