@@ -127,6 +127,10 @@ void CaseModel::LimitAs(const CaseModel& other) {
   ApplyHorizons();
 }
 
+bool CaseModel::touches() const {
+  return std::any_of(touches_.begin(), touches_.end(), [](char t) { return t != 0; });
+}
+
 bool CaseModel::limited() const {
   return std::any_of(horizon_.begin(), horizon_.end(), [](double h) { return h < kInfinity; });
 }

@@ -88,6 +88,8 @@ class CaseModel {
   std::vector<std::string> LimitToHeld(const Hypothesis& h);
   /// Counts as many rows of each record as `other`, a model of the same case.
   void LimitAs(const CaseModel& other);
+  /// Whether the measured rotor reaches its auxiliary bearings in some record.
+  bool touches() const;
   /// Whether some record counts in part only.
   bool limited() const;
 

@@ -1,8 +1,10 @@
 #include "discovery/search/candidate_fit.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "discovery/decision/likelihood.h"
+#include "effects/catalogue.h"
 
 namespace ambrig {
 
@@ -48,42 +50,103 @@ bool SameValley(const EffectInstance& a, const EffectInstance& b) {
   return true;
 }
 
+/// The same resonance with `factor` times the answer, which goes with the square of its two gains or
+/// with one over its mass.
+EffectInstance Scaled(const EffectInstance& e, double factor) {
+  EffectInstance out = e;
+  const EffectDescription& d = EffectNamed(e.name);
+  for (std::size_t k = 0; k < e.table.size(); ++k) {
+    const EffectParameter& p = e.table[k];
+    if (!d.Switches(p)) continue;
+    const double scale = std::isfinite(p.null_value) ? std::sqrt(factor) : 1 / factor;
+    out.values[k] = std::clamp(e.values[k] * scale, p.lo, p.hi);
+  }
+  return out;
+}
+
+struct SimulatedStart {
+  EffectInstance effect;
+  double score = kInfinity;  // infinity: the rotor is lost
+};
+
+/// What each start explains as it stands.
+void Simulate(const CaseModel& model, const FitResult& now, double effective_sample_size,
+              std::vector<SimulatedStart>& starts) {
+  std::vector<Hypothesis> all;
+  for (const SimulatedStart& s : starts) {
+    all.push_back(now.hypothesis);
+    all.back().AddEffect(s.effect);
+  }
+  const auto runs = model.PredictAll(all);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (!runs[k]) continue;
+    const std::vector<double> residual = Residual(model, *runs[k]);
+    starts[k].score = Score(model, Ratio(model, residual, Which::kFit),
+                            Ratio(model, residual, Which::kValidate), effective_sample_size, 0, 0);
+  }
+}
+
+/// A loop that the resonance brings near its limit answers out of all proportion to the size: each
+/// start grows as long as it explains more, and one that loses the rotor shrinks until it holds it.
+void Climb(const CaseModel& model, const FitResult& now, double effective_sample_size,
+           std::vector<SimulatedStart>& starts) {
+  constexpr int kSteps = 6;
+  constexpr double kUp = 1.6, kDown = 1.0 / 6;
+  std::vector<SimulatedStart> moving = starts;
+  for (int step = 0; step < kSteps && !moving.empty(); ++step) {
+    std::vector<SimulatedStart> next;
+    for (const SimulatedStart& s : moving)
+      next.push_back({Scaled(s.effect, std::isfinite(s.score) ? kUp : kDown)});
+    Simulate(model, now, effective_sample_size, next);
+    std::vector<SimulatedStart> better;
+    for (std::size_t k = 0; k < next.size(); ++k) {
+      if (next[k].score < moving[k].score)
+        better.push_back(next[k]);
+      else if (!std::isfinite(moving[k].score))
+        better.push_back(next[k]);  // still lost
+    }
+    starts.insert(starts.end(), better.begin(), better.end());
+    moving = std::move(better);
+  }
+}
+
 /// The starts of a resonance that explain most when they are simulated: the linear step knows sizes
 /// and neighbouring frequencies badly where the loop answers strongly.
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
-  constexpr std::size_t kFitted = 2;
+  constexpr std::size_t kClimbed = 6, kFitted = 2;
   constexpr double kWorthFitting = 4;  // of the score
-  std::vector<Hypothesis> all;
-  for (const EffectInstance& e : starts) {
-    all.push_back(now.hypothesis);
-    all.back().AddEffect(e);
-  }
-  std::vector<std::pair<double, std::size_t>> order;
+  std::vector<SimulatedStart> order;
+  for (const EffectInstance& e : starts) order.push_back({e});
+  const auto sort = [&] {
+    std::stable_sort(order.begin(), order.end(),
+                     [](const auto& a, const auto& b) { return a.score < b.score; });
+  };
   try {
-    const auto runs = model.PredictAll(all);
-    for (std::size_t k = 0; k < runs.size(); ++k) {
-      if (!runs[k]) continue;
-      const std::vector<double> residual = Residual(model, *runs[k]);
-      order.emplace_back(
-          Score(model, Ratio(model, residual, Which::kFit),
-                Ratio(model, residual, Which::kValidate), effective_sample_size, 0, 0),
-          k);
-    }
+    Simulate(model, now, effective_sample_size, order);
+    sort();
+    std::vector<SimulatedStart> distinct;
+    for (const SimulatedStart& s : order)
+      if (distinct.size() < kClimbed &&
+          std::none_of(distinct.begin(), distinct.end(),
+                       [&](const auto& o) { return SameValley(o.effect, s.effect); }))
+        distinct.push_back(s);
+    Climb(model, now, effective_sample_size, distinct);
+    order.insert(order.end(), distinct.begin(), distinct.end());
+    sort();
   } catch (const InputError&) {
     return starts;  // refused: no start of it is any good
   }
-  std::sort(order.begin(), order.end());
   std::vector<EffectInstance> out;
   // a resonance of which no start explains anything is not there
   const double here = Score(model, now.ratio_fit, now.ratio_validate, effective_sample_size, 0, 0);
-  if (order.empty() || order[0].first > here - kWorthFitting) return out;
-  for (const auto& [score, k] : order)
-    if (out.size() < kFitted && std::none_of(out.begin(), out.end(), [&](const EffectInstance& o) {
-          return SameValley(o, starts[k]);
-        }))
-      out.push_back(starts[k]);
+  if (order.empty() || order[0].score > here - kWorthFitting) return out;
+  for (const SimulatedStart& s : order)
+    if (out.size() < kFitted && std::isfinite(s.score) &&
+        std::none_of(out.begin(), out.end(),
+                     [&](const EffectInstance& o) { return SameValley(o, s.effect); }))
+      out.push_back(s.effect);
   return out;
 }
 

@@ -14,10 +14,12 @@ namespace {
 
 constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
 
-/// Whether the linear screening promises at least half of what adoption would ask for.
+/// Whether the linear screening promises at least half of what adoption would ask for, on unseen
+/// records or, where these hardly show the effect, much on the fitted ones.
 bool Promising(const FitResult& now, const Candidate& c) {
   const double fall = now.ratio_validate * now.ratio_validate - c.ratio_validate * c.ratio_validate;
-  return fall > 0.012 && ExplainedShare(now.ratio_validate, c.ratio_validate) > 0.17;
+  return (fall > 0.012 && ExplainedShare(now.ratio_validate, c.ratio_validate) > 0.17) ||
+         ExplainedShare(now.ratio_fit, c.ratio_fit) > 0.3;
 }
 
 /// The best fit so far explains nearly all, and this candidate promises far less.
@@ -66,8 +68,8 @@ class Ranker {
       const Candidate& c = candidates[next];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
       if (c.score > here && (ranking_.size() >= 2 || round_ > 0)) break;
-      if (Decided(now_, ranking_, c) || (round_ > 0 && !Promising(now_, c))) break;
-      FitTheStart(c);
+      if (Decided(now_, ranking_, c)) break;
+      if (round_ == 0 || Promising(now_, c)) FitTheStart(c);
     }
     // A resonance shows only when it is fitted; later rounds try that where much is left.
     for (; next < candidates.size() && (round_ == 0 || now_.ratio_validate > 1.3); ++next)

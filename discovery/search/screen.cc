@@ -17,7 +17,7 @@ constexpr double kInvisible = 1e-3;  // rms of a usual size's signature, over th
 bool CannotShow(const EffectDescription& d, const CaseModel& model) {
   if (d.users_own) return true;
   const Case& c = model.data();
-  bool moving = false, free_speed = false, contact = false, levitated = false;
+  bool moving = false, free_speed = false, contact = model.touches(), levitated = false;
   for (const CaseRecord& r : c.records) {
     moving = moving || r.scenario.speed.Speed(0) != 0 ||
              r.scenario.speed.Speed(r.scenario.duration) != 0;
@@ -128,7 +128,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
   if (again || options.coarse) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {
-    return after * after - 1 > 0.12 * std::max(0.05, before * before - 1);
+    return after * after - 1 > std::max(0.01, 0.03 * (before * before - 1));
   };
   if (!options.effect.empty() || out.empty() || open(base.ratio_fit, out[0].ratio_fit) ||
       open(base.ratio_validate, out[0].ratio_validate)) {
