@@ -43,12 +43,11 @@ int RunCommission(CommissionCommand c) {
   }
   WriteFileAtomically(c.out, CommissioningText(result.model));
   fmt::print("{}", CommissionText(rig, result));
-  fmt::print(
-      "written: {}; {}\n", c.out,
-      c.out == CommissioningFileOf(c.rig)
-          ? "runs of this rig find it by itself"
-          : fmt::format("in the rig file:\n[detection]\ncommissioning = \"{}\"",
-                        std::filesystem::path(c.out).filename().string()));
+  fmt::print("written: {}; {}\n", c.out,
+             c.out == CommissioningFileOf(c.rig)
+                 ? "runs of this rig find it by itself"
+                 : fmt::format("in the rig file:\n[detection]\ncommissioning = \"{}\"",
+                               std::filesystem::path(c.out).filename().string()));
   c.common.WriteJson(CommissionJson(rig, result));
   if (!c.common.html.empty()) WriteCommissionReport(rig, result, c.common.html);
   bool usable = true;

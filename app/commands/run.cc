@@ -69,7 +69,7 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result,
 struct RunInput {
   RigParameters rig;
   Scenario scenario;
-  std::string stem, text;  // name of the output files; the input as a person wrote it
+  std::string stem, text;         // name of the output files; the input as a person wrote it
   std::shared_ptr<RunPlan> plan;  // of a campaign: holds the files that `rig` names
 };
 
