@@ -1,6 +1,6 @@
 #pragma once
-/// What the detection learns of the plants of a campaign, each commissioned once a process, in files
-/// of a folder that lives as long as this object.
+/// What the detection learns of the plants of a campaign, each commissioned once a process, in
+/// files of a folder that lives as long as this object.
 #include <memory>
 #include <mutex>
 
@@ -16,8 +16,8 @@ class CommissionedPlants {
   CommissionedPlants(const CommissionedPlants&) = delete;
   CommissionedPlants& operator=(const CommissionedPlants&) = delete;
 
-  /// Commissioning file of plant k. Empty where the machine cannot be commissioned (it touches in its
-  /// commissioning run): it then runs as one that was not. Thread-safe.
+  /// Commissioning file of plant k. Empty where the machine cannot be commissioned (it touches in
+  /// its commissioning run): it then runs as one that was not. Thread-safe.
   std::string FileOf(std::size_t plant);
 
  private:

@@ -3,10 +3,10 @@
 /// their fault detection do not know, and parameters drawn from the sd in the rig file. [plants] of
 /// a campaign file; docs/guide/campaign.md explains the keys by example.
 ///
-/// An effect of "low" size has the weak end of its usual range (`ambrig effects`), "high" the strong
-/// end, "typical" their geometric mean; what does not switch it on keeps its default. It acts on all
-/// radial bearings, on the rig, or on one coil, axis or plane that is drawn. A mixture has some
-/// effects of the list, each between both ends (evenly in the logarithm).
+/// An effect of "low" size has the weak end of its usual range (`ambrig effects`), "high" the
+/// strong end, "typical" their geometric mean; what does not switch it on keeps its default. It
+/// acts on all radial bearings, on the rig, or on one coil, axis or plane that is drawn. A mixture
+/// has some effects of the list, each between both ends (evenly in the logarithm).
 #include <string>
 #include <vector>
 

@@ -11,15 +11,15 @@ struct FailureMapOptions {
   bool stiffness_compensation = true;
 };
 
-/// Puts the map for `turns_left` in the place of `map`, at a command of `force` [N]. Returns its class
-/// for the record: "exact", "linearised", "none", "force by force".
+/// Puts the map for `turns_left` in the place of `map`, at a command of `force` [N]. Returns its
+/// class for the record: "exact", "linearised", "none", "force by force".
 std::string MapAfterFailure(const RedistributionTable& table, const CoilVector& turns_left,
                             const Eigen::Vector2d& force, const FailureMapOptions& options,
                             CurrentMap* map);
 
-/// Forces that a map truly gives at the centre, told by the reluctance network (network_force.h), which
-/// made neither W nor its figures: set-points are clamped to the amplifiers' range, then the network
-/// says what they pull.
+/// Forces that a map truly gives at the centre, told by the reluctance network (network_force.h),
+/// which made neither W nor its figures: set-points are clamped to the amplifiers' range, then the
+/// network says what they pull.
 struct MapReach {
   static constexpr int kDirections = 24;
   bool carries = false;  // the load itself

@@ -1,6 +1,7 @@
 #pragma once
 /// Fault tolerance of a rig at run time: one detector per bearing, that of the rig's [detection]
-/// (fdd/detectors/run_detector.h), built from the nominal rig, then redistribution of the currents (faulttolerance/) over the coils that are left.
+/// (fdd/detectors/run_detector.h), built from the nominal rig, then redistribution of the currents
+/// (faulttolerance/) over the coils that are left.
 ///
 /// After a diagnosis of a coil fault, in the same period:
 ///   - a lost coil (open, amplifier, switch, sensor) is disabled; a partial short keeps 1 - s turns

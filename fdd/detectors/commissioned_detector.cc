@@ -165,6 +165,8 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   const bool gross = excess < -kGross || excess > kGrossAbove;
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil);
+  // Inside what was learnt no error of the model is as large: several coils have failed at once.
+  if (Relies() && !out_of_range_ && gross) return PhasesAgree(coil);
   return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
 }
 

@@ -16,8 +16,8 @@
 /// must be false, and fewer than three coils may have c > 0.5: what a nominal circuit does not know
 /// keeps flux out, which makes c positive in many coils alike.
 ///
-/// After a coil was given up or lost turns, the others carry other currents than commissioned: their
-/// bands are 2.5 times as wide from then on.
+/// After a coil was given up or lost turns, the others carry other currents than commissioned:
+/// their bands are 2.5 times as wide from then on.
 ///
 /// A reading that steps by what no voltage can make, without a slope that is wrong afterwards, is a
 /// current sensor's fault (jump_watch.h).
@@ -37,8 +37,8 @@ class CommissionedDetector : public CoilDetector {
     Diagnosis diagnosis;
     std::vector<Diagnosis> more;  // of other coils, decided together with it
     double excess = 0;            // c of the decided coil, the periods of the decision [-]
-    // share of its turns that the decided coil truly has, where it had been taken for one with fewer;
-    // 0: not so
+    // share of its turns that the decided coil truly has, where it had been taken for one with
+    // fewer; 0: not so
     double turns = 0;
   };
 

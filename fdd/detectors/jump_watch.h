@@ -1,8 +1,8 @@
 #pragma once
 /// Current sensors whose offset steps: a reading jumps by what no voltage can make, afterwards all
 /// slopes are right. Two witnesses: the jump itself (reading_jump.h), and the current that misses
-/// its set-point to the same side in the next period. A fault of the coil itself shows in its slopes
-/// within a few periods and is decided there.
+/// its set-point to the same side in the next period. A fault of the coil itself shows in its
+/// slopes within a few periods and is decided there.
 #include "fdd/measurement/reading_jump.h"
 
 namespace ambrig {

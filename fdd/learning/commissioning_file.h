@@ -13,8 +13,8 @@ std::string CommissioningText(const CommissionedModel& model);
 /// @throws InputError file:line for every mistake.
 CommissionedModel ReadCommissioning(const std::string& file);
 
-/// rig.toml -> rig.commissioning.toml, beside it: what `ambrig commission` writes and what a run finds
-/// by itself.
+/// rig.toml -> rig.commissioning.toml, beside it: what `ambrig commission` writes and what a run
+/// finds by itself.
 std::string CommissioningFileOf(const std::string& rig_file);
 
 /// The bearing `name` of a file, nominal when the file's name is empty or the file has no such
