@@ -75,6 +75,21 @@ CampaignFaultKind ReadKind(const TomlTable& t) {
   return k;
 }
 
+/// simultaneous before sequential, each once.
+std::vector<std::string> Onsets(const TomlTable& t) {
+  std::vector<std::string> onsets = t.Has("onset") && !t.IsString("onset")
+                                        ? t.Strings("onset")
+                                        : std::vector{t.String("onset", "simultaneous")};
+  for (const auto& o : onsets)
+    if (o != "simultaneous" && o != "sequential")
+      t.Fail("onset",
+             fmt::format("= \"{}\", allowed: simultaneous, sequential, or a list of both", o));
+  std::sort(onsets.begin(), onsets.end(), std::greater<>());  // simultaneous first
+  onsets.erase(std::unique(onsets.begin(), onsets.end()), onsets.end());
+  if (onsets.empty()) t.Fail("onset", "= [], allowed: simultaneous, sequential");
+  return onsets;
+}
+
 }  // namespace
 
 void ReadFaults(const TomlTable& root, Campaign& c) {
@@ -97,16 +112,7 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
   if (c.kinds.empty())
     c.kinds = {healthy ? CampaignFaultKind{"none", "none", {}}
                        : CampaignFaultKind{"open", "open", {}}};
-  std::vector<std::string> onsets = t->Has("onset") && !t->IsString("onset")
-                                        ? t->Strings("onset")
-                                        : std::vector{t->String("onset", "simultaneous")};
-  for (const auto& o : onsets)
-    if (o != "simultaneous" && o != "sequential")
-      t->Fail("onset",
-              fmt::format("= \"{}\", allowed: simultaneous, sequential, or a list of both", o));
-  std::sort(onsets.begin(), onsets.end(), std::greater<>());  // simultaneous first
-  onsets.erase(std::unique(onsets.begin(), onsets.end()), onsets.end());
-  if (onsets.empty()) t->Fail("onset", "= [], allowed: simultaneous, sequential");
+  const std::vector<std::string> onsets = Onsets(*t);
   for (std::size_t s = 0; s < c.sets.size(); ++s) {
     if (c.sets[s].coils.empty() && !healthy) {
       // A healthy set among others: no kind applies.

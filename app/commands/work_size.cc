@@ -16,8 +16,8 @@ namespace {
 constexpr double kLongest = 24 * 3600;  // [s] of computing, without being told
 constexpr double kWorthAWord = 60;      // [s]
 
-// Of examples/rub and examples/mls2em: simulations of a record, from the first fit to the verdict.
-constexpr double kSimulationsPerRecord = 900;
+// Simulations of a record from the first fit to the verdict: 400 to 800 in cases of 6 or 7 records.
+constexpr double kSimulationsPerRecord = 800;
 // Columns beside the data while fitting: derivatives by every toleranced parameter and candidate.
 constexpr double kColumnsOfAFit = 120;
 constexpr double kMemoryOfRuns = 130e6;  // [bytes] predictions that are kept
