@@ -34,6 +34,10 @@ bool WorthAdopting(const FitResult& before, const FitResult& after, double score
   if (round == 0 && score_gain > kCompelling &&
       ExplainedShare(before.ratio_fit, after.ratio_fit) > 0.5 && a < 1.005 * b)
     return true;
+  // The same of a second effect that explains most of what the fit records leave.
+  if (round > 0 && score_gain > kCompelling && a < b &&
+      ExplainedShare(before.ratio_fit, after.ratio_fit) > 0.75)
+    return true;
   // Unseen records decide: the error must fall by more than integrators differ (1 % of the floor's
   // power), and by a good part of what is left; a second effect by more than a law's own detail.
   const double fall = b * b - a * a;

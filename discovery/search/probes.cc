@@ -204,7 +204,8 @@ std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& 
       add(FromNull(d, plan, at));
     }
   }
-  for (ProbeGroup& g : groups) g.narrow = IsResonance(d);
+  // Impacts answer to their law as resonances do to theirs: only a simulation tells.
+  for (ProbeGroup& g : groups) g.narrow = IsResonance(d) || d.needs.contact;
   return groups;
 }
 
