@@ -1,4 +1,4 @@
-// LVM files of LabVIEW programs (SOURCE.md), and segments after the specification.
+// LVM files and segments after the specification (SOURCE.md).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,15 +18,15 @@ using testing::InstrumentFile;
 
 TEST(LabviewText, DecimalCommaWithoutAColumnOfTimes) {
   std::string format;
-  Record r = ReadMeasurement(InstrumentFile("lvm_short.lvm"), &format).record;
+  Record r = ReadMeasurement(InstrumentFile("lvm_comma.lvm"), &format).record;
   EXPECT_EQ(format, "LVM");
-  EXPECT_EQ(r.rate, 25600);  // Delta_X 3,906250E-5
+  EXPECT_EQ(r.rate, 8000);  // Delta_X 1,250000E-4
   EXPECT_EQ(r.rows(), 10U);
   ASSERT_EQ(r.channels.size(), 2U);
-  EXPECT_EQ(r.channels[0].name, "Excitation (Trigger)");
+  EXPECT_EQ(r.channels[0].name, "Load cell (left)");
   EXPECT_EQ(r.channels[0].unit, "Newtons");
-  EXPECT_EQ(r.channels[0].samples[6], 1.046658);
-  EXPECT_EQ(r.channels[1].samples[9], 1.212775);
+  EXPECT_EQ(r.channels[0].samples[6], 0.973848);
+  EXPECT_EQ(r.channels[1].samples[9], 6.5);
   ConvertToSi(r);
   EXPECT_EQ(r.channels[0].unit, "N");
   EXPECT_EQ(r.channels[1].unit, "m/s2");
@@ -36,12 +36,12 @@ TEST(LabviewText, AColumnOfTimesForEveryChannel) {
   const Record r = ReadRecord(InstrumentFile("lvm_multi.lvm"));
   EXPECT_EQ(r.rate, 51200);
   ASSERT_EQ(r.channels.size(), 2U);
-  EXPECT_EQ(r.channels[0].name, "Voltage");
+  EXPECT_EQ(r.channels[0].name, "Supply");
   EXPECT_EQ(r.channels[0].unit, "Volts");
-  EXPECT_THAT(r.channels[0].samples, ElementsAre(-0.035229, -0.034882, -0.034191));
-  EXPECT_EQ(r.channels[1].name, "Acceleration");
+  EXPECT_THAT(r.channels[0].samples, ElementsAre(0, 0.29552, 0.564642));
+  EXPECT_EQ(r.channels[1].name, "Foot");
   EXPECT_EQ(r.channels[1].unit, "g");
-  EXPECT_THAT(r.channels[1].samples, ElementsAre(0.532608, 0.502991, 0.467541));
+  EXPECT_THAT(r.channels[1].samples, ElementsAre(-2.5, -1.5, -0.5));
 }
 
 TEST(LabviewText, EmptyChannelsAreLeftOutWithANote) {
@@ -49,19 +49,18 @@ TEST(LabviewText, EmptyChannelsAreLeftOutWithANote) {
   EXPECT_EQ(r.rate, 1000);
   std::vector<std::string> names;
   for (const Channel& c : r.channels) names.push_back(c.name);
-  EXPECT_THAT(names, ElementsAre("Dev0/Ai0", "Dev0/Ai2", "Dev0/Ai0 1"));
-  EXPECT_EQ(r.channels[1].samples[2], 7.250977);
+  EXPECT_THAT(names, ElementsAre("Rack0/Ai0", "Rack0/Ai2", "Rack0/Ai0 1"));
+  EXPECT_EQ(r.channels[1].samples[2], -0.5);
   EXPECT_EQ(r.notes.size(), 4U);
   EXPECT_THAT(r.notes[0], HasSubstr("Untitled has no rows, left out"));
 }
 
 TEST(LabviewText, UnevenTimesAreRefusedWithTheirRow) {
-  const std::string path = InstrumentFile("lvm_comments.lvm");
+  const std::string path = InstrumentFile("lvm_uneven.lvm");
   EXPECT_EQ(ErrorText<InputError>([&] { ReadRecord(path); }),
             path +
-                ": X_Value of Pressão ABS. (MPa): row 3: time 1.208397 s is not uniform: step "
-                "0.8795189999999999 s, expected 0.328878 s"
-                "");
+                ": X_Value of Öldruck (MPa): row 3: time 1.25 s is not uniform: step 1 s, expected "
+                "0.25 s");
 }
 
 class Segments : public ::testing::Test {
