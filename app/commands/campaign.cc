@@ -71,15 +71,8 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
   fmt::print("  largest orbit      {} (runs that stayed up)\n",
              n.up > 0 ? ScreenSi(n.largest_orbit, "m") : "-");
   const bool plants = WritePlantTables(out, rows);
-  fmt::print(
-      "  written            {}/table.csv{}{}
-      ", out, plants ? ",
-      plants.md
-          " : "
-          ",
-          no_report
-          ? ""
-          : " and report.html");
+  fmt::print("  written            {}/table.csv{}{}\n", out, plants ? ", plants.md" : "",
+             no_report ? "" : " and report.html");
 }
 
 void RunHere(const RunPlan& plan, const CampaignOptions& o, const Shard& shard,

@@ -76,7 +76,7 @@ void AddResult(HtmlReport& report, const Refinement& r) {
   else
     report.Verdict(r.ratio_after < 1.1 ? Verdict::kOk : Verdict::kInfo, text);
   if (!r.warnings.empty()) report.Text(List(r.warnings));
-  AddReadingHelp(report);
+  AddReadingHelp(report, true);
 }
 
 void AddSizes(HtmlReport& report, const Refinement& r) {
