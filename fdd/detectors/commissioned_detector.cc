@@ -201,7 +201,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   Outcome out = Judge(in, coil);
   if (out.decided) {
     jumps_.Forget();
-  } else if (stepped >= 0 && share_[stepped] > 0) {
+  } else if (stepped >= 0 && share_[stepped] == 1) {
     out.alarm = out.decided = true;
     out.diagnosis = {
         stepped, FaultClass::kCurrentSensor, 0, in.t + PeriodOf(sampling_), jumps_.onset(), 1};

@@ -1,4 +1,5 @@
 /// What the commissioned detector says of a coil that stands out: its witnesses, its class.
+#include <algorithm>
 #include <cmath>
 
 #include "fdd/detectors/commissioned_detector.h"
@@ -78,6 +79,10 @@ Diagnosis CommissionedDetector::Classify(int coil, double excess, double time) c
   } else if (excess > 0) {
     d.cls = FaultClass::kPartialShort;
     d.fraction = 1 - 1 / std::sqrt(1 + excess);
+  } else if (share_[coil] < 1 && excess > -kMostRegained && !CurrentIsFalse(coil)) {
+    // A loop that closes through its own resistance was taken for more turns than it has.
+    d.cls = FaultClass::kPartialShort;
+    d.fraction = std::max(0.0, 1 - share_[coil] / std::sqrt(1 + excess));
   } else {
     d.cls = FaultClass::kCurrentSensor;
   }
