@@ -24,13 +24,13 @@ std::string Delay(double seconds) {
                              : fmt::format("{:.1f} ms", seconds * 1e3);
 }
 
-constexpr std::size_t kKindsBesideThreshold = 2, kKindsAlone = 4;  // that 80 columns hold
+constexpr std::size_t kKindsBesideThreshold = 2, kKindsAlone = 3;  // that 80 columns hold
 
 /// Kinds [first, last) of one detector at a level: share detected and median delay.
 std::string Cells(const DetectorCurves& d, std::size_t level, std::size_t first, std::size_t last) {
   std::string text;
   for (std::size_t k = first; k < last; ++k)
-    text += fmt::format("{:>14}", fmt::format("{:.1f} % {:>6}", 100 * d.faults[k].detected[level],
+    text += fmt::format("{:>16}", fmt::format("{:.1f} % {:>7}", 100 * d.faults[k].detected[level],
                                               Delay(d.faults[k].median[level])));
   return text;
 }
@@ -48,7 +48,7 @@ std::string Table(const std::vector<DetectorCurves>& curves, const std::vector<s
     text += fmt::format("  {:<20}", "detector");
     if (first == 0) text += fmt::format("{:>12}{:>12}", "threshold", "false al.");
     for (std::size_t k = first; k < last; ++k)
-      text += fmt::format("{:>14}", fmt::format("[{}]", k + 1));
+      text += fmt::format("{:>16}", fmt::format("[{}]", k + 1));
     text += '\n';
     for (const std::size_t i : order) {
       const DetectorCurves& d = curves[i];

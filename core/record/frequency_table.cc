@@ -82,7 +82,10 @@ PartColumn* Partner(std::vector<PartColumn>& parts, const PartColumn& of, Part w
 }
 
 FrequencyResponse Combine(const PartColumn& a, const PartColumn& b, const std::string& path) {
-  FrequencyResponse r{a.of.empty() ? "response" : a.of, a.column->unit, {}};
+  FrequencyResponse
+      r;  // member by member: g++ 12 destroys a braced one twice when what follows throws
+  r.name = a.of.empty() ? std::string("response") : a.of;
+  r.unit = a.column->unit;
   if (a.part == Part::kReal && a.column->unit != b.column->unit)
     throw InputError(path + ": " + a.column->name + " [" + a.column->unit + "] and " +
                      b.column->name + " [" + b.column->unit + "]: allowed: one unit");

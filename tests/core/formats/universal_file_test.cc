@@ -123,7 +123,7 @@ TEST(UniversalFile, DamageIsNamedByLineOrByte) {
             ":20: the function ends after 10 of 999999999 numbers");
   EXPECT_EQ(error("uff_ascii.unv", "  5.64642E-01", "  5.6x642E-01"),
             ":18: '5.6x642E-01' is not a number");
-  EXPECT_EQ(error("uff_casing.uff", "    58", "    57"), ": no data set 58 (function) in the file");
+  EXPECT_EQ(error("uff_units.uff", "    58", "    57"), ": no data set 58 (function) in the file");
   EXPECT_THAT(error("uff_binary_double.uff", "         4       250", "         4  99999999"),
               ::testing::AllOf(StartsWith(": byte "), HasSubstr("99999999 points of 8 bytes")));
   EXPECT_THAT(error("uff_binary_double.uff", "58b     1     2", "58b     1     1"),
