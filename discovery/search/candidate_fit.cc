@@ -131,38 +131,42 @@ void Climb(const CaseModel& model, const FitResult& now, double effective_sample
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
-  constexpr std::size_t kClimbed = 5, kFitted = 2;
+  constexpr std::size_t kClimbed = 5;
   constexpr double kWorthFitting = 4;  // of the score
-  std::vector<SimulatedStart> order;
+  std::vector<SimulatedStart> order, climbed;
   for (const EffectInstance& e : starts) order.push_back({e});
-  const auto sort = [&] {
-    std::stable_sort(order.begin(), order.end(),
+  const auto sort = [](std::vector<SimulatedStart>& list) {
+    std::stable_sort(list.begin(), list.end(),
                      [](const auto& a, const auto& b) { return a.score < b.score; });
   };
   try {
     Simulate(model, now, effective_sample_size, order);
-    sort();
-    std::vector<SimulatedStart> distinct;
+    sort(order);
     for (const SimulatedStart& s : order)
-      if (distinct.size() < kClimbed &&
-          std::none_of(distinct.begin(), distinct.end(),
+      if (climbed.size() < kClimbed &&
+          std::none_of(climbed.begin(), climbed.end(),
                        [&](const auto& o) { return SameValley(o.effect, s.effect); }))
-        distinct.push_back(s);
-    for (SimulatedStart& start : distinct) Climb(model, now, effective_sample_size, start);
-    order.insert(order.end(), distinct.begin(), distinct.end());
-    sort();
+        climbed.push_back(s);
+    for (SimulatedStart& start : climbed) Climb(model, now, effective_sample_size, start);
+    sort(climbed);
   } catch (const InputError&) {
     return starts;  // refused: no start of it is any good
   }
   std::vector<EffectInstance> out;
   // a resonance of which no start explains anything is not there
   const double here = Score(model, now.ratio_fit, now.ratio_validate, effective_sample_size, 0, 0);
-  if (order.empty() || order[0].score > here - kWorthFitting) return out;
-  for (const SimulatedStart& s : order)
-    if (out.size() < kFitted && std::isfinite(s.score) &&
-        std::none_of(out.begin(), out.end(),
-                     [&](const EffectInstance& o) { return SameValley(o, s.effect); }))
+  const auto take = [&](const std::vector<SimulatedStart>& from) {
+    for (const SimulatedStart& s : from) {
+      if (s.score > here - kWorthFitting) return;
+      if (std::any_of(out.begin(), out.end(),
+                      [&](const EffectInstance& o) { return SameValley(o, s.effect); }))
+        continue;
       out.push_back(s.effect);
+      return;
+    }
+  };
+  take(order);  // the best as it stands: where it is near, a fit finds its way
+  take(climbed);
   return out;
 }
 

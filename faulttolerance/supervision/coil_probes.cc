@@ -29,7 +29,9 @@ bool CoilProbes::Grown(const Look& look) const {
 }
 
 void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
-  if (cls == FaultClass::kSwitchStuckOn || returned_[coil] > 0) return;
+  // A test current is no witness where the reading of the current itself is doubted.
+  if (cls == FaultClass::kSwitchStuckOn || cls == FaultClass::kCurrentSensor || returned_[coil] > 0)
+    return;
   Look look;
   look.given_up = t;
   look.next = t + kFirst;
