@@ -64,7 +64,7 @@ nlohmann::ordered_json ResponsesJson(const FrequencyResponses& f) {
         "  frequency responses, {} points{}\n", f.points(),
         axis ? fmt::format(" from {:.6g} to {:.6g} Hz", f.frequency.front(), f.frequency.back())
              : "");
-  for (const FrequencyResponse& r : f.responses) {
+  for (const MeasuredResponse& r : f.responses) {
     std::vector<double> size;
     for (const auto& v : r.values) size.push_back(std::abs(v));
     const Extent e = ExtentOf(size);

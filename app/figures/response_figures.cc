@@ -184,8 +184,7 @@ Response MultisineResponse(const Scenario& s, const Excitation& e, const Channel
 Response WelchResponse(const ChannelView& v, const std::vector<double>& u,
                        const std::vector<double>& y) {
   Response r;
-  const FrequencyResponse h =
-      EstimateResponse(u, y, v.rate, std::max<std::size_t>(8, u.size() / 3));
+  const ResponseEstimate h = EstimateResponse(u, y, v.rate, std::max<std::size_t>(8, u.size() / 3));
   const double strongest = LargestSize(h.coherence);
   for (std::size_t k = 1; k < h.frequency.size(); ++k)
     if (h.coherence[k] > 0.6 * strongest) Push(r, h.frequency[k], h.response[k]);

@@ -167,7 +167,7 @@ std::optional<Figure> OrderFigure(const RunReportData& data) {
     for (const Line& line : {Line{"order 1, forward", 1, true},
                              {"order 2, forward", 2, true},
                              {"order 1, backward", 1, false}}) {
-      const OrderTrack track = TrackOrder(orbit, data.theta, line.order, run.span, run.hop);
+      const TrackedOrder track = TrackOrder(orbit, data.theta, line.order, run.span, run.hop);
       std::vector<double> speed, size;
       for (std::size_t i = 0; i < track.t.size(); ++i) {
         const double a = std::abs(line.forward ? track.forward[i] : track.backward[i]);

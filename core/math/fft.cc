@@ -133,15 +133,15 @@ PowerDensity WelchPsd(std::span<const double> x, double rate, std::size_t segmen
   return out;
 }
 
-FrequencyResponse EstimateResponse(std::span<const double> input, std::span<const double> output,
-                                   double rate, std::size_t segment, Window window) {
+ResponseEstimate EstimateResponse(std::span<const double> input, std::span<const double> output,
+                                  double rate, std::size_t segment, Window window) {
   Require(input.size() == output.size(), "input as long as output");
   Segments in(input, segment, window), out(output, segment, window);
   const std::size_t lines = segment / 2 + 1;
   std::vector<double> xx(lines), yy(lines);
   std::vector<Complex> xy(lines);
-  FrequencyResponse result{Frequencies(segment, rate), std::vector<Complex>(lines),
-                           std::vector<double>(lines)};
+  ResponseEstimate result{Frequencies(segment, rate), std::vector<Complex>(lines),
+                          std::vector<double>(lines)};
   for (; !in.Done(); ++result.segments) {
     const std::vector<Complex> X = in.Next(), Y = out.Next();
     for (std::size_t k = 0; k < lines; ++k) {

@@ -41,7 +41,7 @@ struct PowerDensity {
 PowerDensity WelchPsd(std::span<const double> x, double rate, std::size_t segment,
                       Window window = Window::kHann);
 
-struct FrequencyResponse {
+struct ResponseEstimate {
   std::vector<double> frequency;               // [Hz]
   std::vector<std::complex<double>> response;  // H1, output per input; 0 where nothing is put in
   std::vector<double> coherence;               // 0 .. 1; 1 always if there is one segment only
@@ -49,7 +49,7 @@ struct FrequencyResponse {
 };
 
 /// H1 is unbiased by noise in the output. Rectangular: for signals periodic in the segment.
-FrequencyResponse EstimateResponse(std::span<const double> input, std::span<const double> output,
-                                   double rate, std::size_t segment, Window window = Window::kHann);
+ResponseEstimate EstimateResponse(std::span<const double> input, std::span<const double> output,
+                                  double rate, std::size_t segment, Window window = Window::kHann);
 
 }  // namespace ambrig

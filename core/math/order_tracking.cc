@@ -51,10 +51,10 @@ Complex WeightedMean(const Orbit& orbit, const std::vector<double>& w, std::size
 
 }  // namespace
 
-OrderTrack TrackOrder(const Orbit& orbit, std::span<const double> theta, double order, double span,
-                      double hop) {
+TrackedOrder TrackOrder(const Orbit& orbit, std::span<const double> theta, double order,
+                        double span, double hop) {
   Require(theta.size() == orbit.x.size(), "an angle per sample");
-  OrderTrack out;
+  TrackedOrder out;
   const std::vector<double> w = HannWeights(WindowSize(orbit, span));
   EachWindow(orbit, w.size(), hop, [&](std::size_t at, double t) {
     const Complex mean = WeightedMean(orbit, w, at);

@@ -23,14 +23,14 @@ struct Orbit {
   double rate = 1, start = 0;    // [Hz], [s]
 };
 
-struct OrderTrack {
+struct TrackedOrder {
   std::vector<double> t;                                // centres of the windows [s]
   std::vector<std::complex<double>> forward, backward;  // Z_n and Z_-n [m]
 };
 
 /// `theta`: shaft angle [rad], unwrapped, one per sample; `span` [s]; one value every `hop` [s].
-OrderTrack TrackOrder(const Orbit& orbit, std::span<const double> theta, double order, double span,
-                      double hop);
+TrackedOrder TrackOrder(const Orbit& orbit, std::span<const double> theta, double order,
+                        double span, double hop);
 
 struct WaterfallSpectrum {
   std::vector<double> t;                       // centres of the windows [s]

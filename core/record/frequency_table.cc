@@ -81,9 +81,8 @@ PartColumn* Partner(std::vector<PartColumn>& parts, const PartColumn& of, Part w
   return find([&](const std::string& name) { return WithoutTrace(name) == plain; });
 }
 
-FrequencyResponse Combine(const PartColumn& a, const PartColumn& b, const std::string& path) {
-  FrequencyResponse
-      r;  // member by member: g++ 12 destroys a braced one twice when what follows throws
+MeasuredResponse Combine(const PartColumn& a, const PartColumn& b, const std::string& path) {
+  MeasuredResponse r;
   r.name = a.of.empty() ? std::string("response") : a.of;
   r.unit = a.column->unit;
   if (a.part == Part::kReal && a.column->unit != b.column->unit)
@@ -161,7 +160,7 @@ Measurement ResponsesOfTable(const TextTable& table, const std::string& path) {
 
 void CheckResponses(FrequencyResponses& responses, const std::string& where) {
   std::vector<std::string> names;
-  for (FrequencyResponse& r : responses.responses) {
+  for (MeasuredResponse& r : responses.responses) {
     r.name = Utf8(r.name);
     r.unit = Utf8(r.unit);
     if (std::count(names.begin(), names.end(), r.name) > 0)

@@ -8,7 +8,7 @@
 
 namespace ambrig {
 
-struct FrequencyResponse {
+struct MeasuredResponse {
   std::string name;  // "A.x/A.fx": response over reference, as far as the file says
   std::string unit;  // of the response, or of response over reference
   std::vector<std::complex<double>> values;
@@ -17,7 +17,7 @@ struct FrequencyResponse {
 /// Frequency responses on one axis.
 struct FrequencyResponses {
   std::vector<double> frequency = {};  // [Hz]; empty: the file does not say
-  std::vector<FrequencyResponse> responses = {};
+  std::vector<MeasuredResponse> responses = {};
 
   std::size_t points() const { return responses.empty() ? 0 : responses.front().values.size(); }
 };

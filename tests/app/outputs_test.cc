@@ -98,7 +98,7 @@ Scenario Long(double duration) {
 
 // Two copies of rows x columns doubles; columns: omega, theta, bus, two per axis, three per coil.
 TEST(RunSize, MemoryAndTimeAreKnownBefore) {
-  const RigParameters& rig = ReferenceRig();
+  const RigParameters& rig = ReferenceLanesRig();
   EXPECT_EQ(RecordColumns(rig, false), 3u + 2 * 5 + 3 * 20);
   EXPECT_DOUBLE_EQ(RunMemory(rig, Long(2), 0), 2 * 25001 * 73 * 8.0);
   EXPECT_DOUBLE_EQ(RunMemory(rig, Long(2), 25000), 2 * 50001 * 73 * 8.0);
@@ -110,7 +110,7 @@ TEST(RunSize, MemoryAndTimeAreKnownBefore) {
 }
 
 TEST(RunSize, WhatIsTooLongOrTooLargeIsRefused) {
-  const RigParameters& rig = ReferenceRig();
+  const RigParameters& rig = ReferenceLanesRig();
   EXPECT_NO_THROW(CheckRunSize(rig, Long(10), 0, false));
   EXPECT_THAT(ErrorText<InputError>([&] { CheckRunSize(rig, Long(30000), 1, false); }),
               HasSubstr("would take about 83 min, allowed: 60 min unless --long is given"));
@@ -157,7 +157,7 @@ class RunReportDataTest : public ::testing::Test {
     return MakeRunReportData(rig_, scenario_, result_, expect, "switching");
   }
   TemporaryFolder folder_;
-  RigParameters rig_ = ReferenceRig();
+  RigParameters rig_ = ReferenceLanesRig();
   Scenario scenario_;
   RunResult result_;
 };

@@ -122,7 +122,7 @@ TEST(Fft, ResponseToAPeriodicSignalIsExact) {
   // 0.8^720 = 1e-70 of the start is left after two periods.
   x.erase(x.begin(), x.begin() + 720);
   y.erase(y.begin(), y.begin() + 720);
-  const FrequencyResponse h = EstimateResponse(x, y, rate, period, Window::kRectangular);
+  const ResponseEstimate h = EstimateResponse(x, y, rate, period, Window::kRectangular);
   for (std::size_t k = 1; k <= period / 2; ++k) {
     EXPECT_LT(std::abs(h.response[k] - FilterResponse(h.frequency[k], rate)), 1e-10) << k;
     EXPECT_NEAR(h.coherence[k], 1, 1e-10);
@@ -136,7 +136,7 @@ TEST(Fft, OutputNoiseLowersTheCoherenceNotTheResponse) {
   const std::vector<double> x = White(400000, 4), noise = White(400000, 5);
   std::vector<double> y = Filter(x);
   for (std::size_t k = 0; k < y.size(); ++k) y[k] += s * noise[k];
-  const FrequencyResponse h = EstimateResponse(x, y, rate, 512);
+  const ResponseEstimate h = EstimateResponse(x, y, rate, 512);
   const double n = h.segments / 1.1;
   for (std::size_t k : {3u, 10u, 40u, 100u, 200u}) {
     const Complex H = FilterResponse(h.frequency[k], rate);
@@ -150,7 +150,7 @@ TEST(Fft, OutputNoiseLowersTheCoherenceNotTheResponse) {
 
 TEST(Fft, NothingPutInGivesNoResponse) {
   const std::vector<double> zero(100, 0.0), x = White(100, 6);
-  const FrequencyResponse h = EstimateResponse(zero, x, 1, 50);
+  const ResponseEstimate h = EstimateResponse(zero, x, 1, 50);
   for (std::size_t k = 0; k <= 25; ++k) {
     EXPECT_EQ(h.response[k], 0.0);
     EXPECT_EQ(h.coherence[k], 0.0);

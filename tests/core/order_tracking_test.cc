@@ -30,7 +30,7 @@ struct Signal {
 
 TEST(OrderTracking, FindsForwardAndBackwardParts) {
   const Signal s;
-  const OrderTrack track = TrackOrder(s.orbit(), s.theta, 1, 0.4, 0.1);
+  const TrackedOrder track = TrackOrder(s.orbit(), s.theta, 1, 0.4, 0.1);
   ASSERT_GT(track.t.size(), 30u);
   int compared = 0;
   for (std::size_t k = 0; k < track.t.size(); ++k) {
@@ -46,7 +46,7 @@ TEST(OrderTracking, FindsForwardAndBackwardParts) {
 
 TEST(OrderTracking, TooFewTurnsAreNoNumber) {
   const Signal s;
-  const OrderTrack track = TrackOrder(s.orbit(), s.theta, 1, 0.1, 0.1);  // two turns at 20 Hz
+  const TrackedOrder track = TrackOrder(s.orbit(), s.theta, 1, 0.1, 0.1);  // two turns at 20 Hz
   EXPECT_TRUE(std::isnan(track.forward.front().real()));
   EXPECT_FALSE(std::isnan(track.forward.back().real()));
 }

@@ -23,7 +23,7 @@ static_assert(!std::is_invocable_v<decltype(MakeBearingControl), TrueRig, std::s
 double Other(double value) { return value == 0 ? 0.01 : 1.01 * value; }
 
 TEST(NominalAndTrueRig, EveryParameterHasTwoValuesOnceItIsCalibrated) {
-  const RigParameters drawn = ReferenceRig();
+  const RigParameters drawn = ReferenceLanesRig();
   const std::vector<std::string> paths = ParameterPaths(drawn);
   EXPECT_GT(paths.size(), 60u);
   for (const std::string& path : paths) {
@@ -43,7 +43,7 @@ TEST(NominalAndTrueRig, EveryParameterHasTwoValuesOnceItIsCalibrated) {
 }
 
 TEST(NominalAndTrueRig, ThePlantIsBuiltFromTheTrueValuesAndTheControlFromTheDrawn) {
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = ReferenceLanesRig();
   rig.tolerances.push_back({"bearings.A.first_pole_angle_deg", 0, 30});
   rig.tolerances.push_back({"bearings.A.resistance", 0, 0.6});
   rig.tolerances.push_back({"amplifier.bus_voltage", 0, 28});

@@ -30,7 +30,7 @@ double Sum(const RigParameters& rig, int side, int power) {
 
 // Forces and moments about the centre of mass balance the weight, whatever the number of bearings.
 TEST(WeightShares, BalanceForceAndMoment) {
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = ReferenceLanesRig();
   rig.gravity = {3, -9.81, 0.5};
   BearingParameters third = rig.bearings[0];
   third.name = "C";
@@ -47,7 +47,7 @@ TEST(WeightShares, BalanceForceAndMoment) {
 
 // Two bearings are a lever.
 TEST(WeightShares, OfTwoBearingsAreALever) {
-  const RigParameters rig = ReferenceRig();
+  const RigParameters rig = ReferenceLanesRig();
   const double a = rig.bearings[0].z, b = rig.bearings[1].z, w = rig.rotor.mass * 9.81;
   const auto shares = WeightShares(rig);
   EXPECT_NEAR(shares[0][1], w * b / (b - a), 1e-9);
@@ -58,7 +58,7 @@ TEST(WeightShares, OfTwoBearingsAreALever) {
 
 // k c0 is the slope of the force at the centre over the control current v, i = W (c0, v, 0).
 TEST(ForceConstant, IsTheSlopeOfARadialBearingsForce) {
-  const RigParameters& rig = ReferenceRig();
+  const RigParameters& rig = ReferenceLanesRig();
   const BearingParameters& b = *rig.Find("A");
   const RadialStator stator(b.radial);
   const double c0 = BiasCurrent(rig, b), h = 1e-4;
@@ -74,7 +74,7 @@ TEST(ForceConstant, IsTheSlopeOfARadialBearingsForce) {
 
 // Flux of a side N (i1 + i2) mu0 A/(2 g), Maxwell stress over both rings.
 TEST(ForceConstant, OfAThrustBearingFollowsFromItsFlux) {
-  const BearingParameters& b = *ReferenceRig().Find("Z");
+  const BearingParameters& b = *ReferenceLanesRig().Find("Z");
   const ThrustStatorParameters& p = b.thrust;
   const auto side = [&](double i) {
     const double phi = p.turns * 2 * i * kMu0 * p.pole_area / (2 * p.gap);
@@ -101,7 +101,7 @@ TEST(ForceConstant, OfAnOpposedBearingIsTheSlopeOfItsInductance) {
 
 // The stop where there is one; else half of the way to the poles.
 TEST(Clearance, IsThatOfTheAuxiliaryBearing) {
-  BearingParameters a = *ReferenceRig().Find("A"), z = *ReferenceRig().Find("Z");
+  BearingParameters a = *ReferenceLanesRig().Find("A"), z = *ReferenceLanesRig().Find("Z");
   EXPECT_EQ(ClearanceOf(a), 2e-4);
   EXPECT_EQ(ClearanceOf(z), 2.5e-4);
   a.radial.gap = z.thrust.gap = 8e-4;
@@ -126,7 +126,7 @@ TEST(BearingKinds, StandInTheOrderOfTheEnumerationAndAreNamed) {
 
 // The coils of a bearing pull in all directions alike: their sum is zero, Σ d d' is a multiple of 1.
 TEST(CoilDirections, AreBalanced) {
-  for (const BearingParameters& b : ReferenceRig().bearings) {
+  for (const BearingParameters& b : ReferenceLanesRig().bearings) {
     double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
     for (const auto& [dx, dy] : CoilDirections(b)) {
       EXPECT_NEAR(std::hypot(dx, dy), 1, 1e-12);
@@ -142,7 +142,7 @@ TEST(CoilDirections, AreBalanced) {
 }
 
 TEST(RigFigures, BiasCoilsAndControllersOfEachBearing) {
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = ReferenceLanesRig();
   EXPECT_THAT(CoilsOf(rig), ElementsAre(8, 8, 4));
   EXPECT_EQ(BiasCurrent(rig, rig.bearings[0]), rig.controller.bias_current);
   EXPECT_EQ(BiasCurrent(rig, rig.bearings[2]), 1.5);
@@ -154,7 +154,7 @@ TEST(RigFigures, BiasCoilsAndControllersOfEachBearing) {
 }
 
 TEST(RigFigures, EffectsFindTheirTargets) {
-  const EffectTargets t = TargetsOfEffects(ReferenceRig());
+  const EffectTargets t = TargetsOfEffects(ReferenceLanesRig());
   EXPECT_THAT(t.bearings, ElementsAre("A", "B", "Z"));
   EXPECT_THAT(t.planes, ElementsAre("A", "B", "z"));
   EXPECT_THAT(t.axes, ElementsAre("A.x", "A.y", "B.x", "B.y", "z"));
@@ -167,7 +167,7 @@ TEST(RigFigures, EffectsFindTheirTargets) {
 // Rates that the engine can give: the switching frequency over an integer, or a divisor of the
 // samples of a period times it.
 TEST(RecordRateFor, IsTheNextRateThatTheEngineHas) {
-  const RigParameters& rig = ReferenceRig();  // 25 kHz, 18 samples
+  const RigParameters& rig = ReferenceLanesRig();  // 25 kHz, 18 samples
   EXPECT_DOUBLE_EQ(RecordRateFor(rig, 25e3), 25e3);
   EXPECT_DOUBLE_EQ(RecordRateFor(rig, 12.5e3), 12.5e3);
   EXPECT_DOUBLE_EQ(RecordRateFor(rig, 9000), 12.5e3);  // 25 kHz over 2, not over 3

@@ -14,7 +14,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 Scenario Read(const std::string& more, const std::string& top = "") {
-  return ReadScenarioText("duration = 0.5\n" + top + more, "folder/run.toml", ReferenceRig());
+  return ReadScenarioText("duration = 0.5\n" + top + more, "folder/run.toml", ReferenceLanesRig());
 }
 
 std::string Message(const std::string& more, const std::string& top = "") {
@@ -31,7 +31,7 @@ TEST(ScenarioFile, DefaultsAreALevitatedRotorAtRestWithFaultTolerance) {
   EXPECT_EQ(s.name, "run");  // the file's name
   EXPECT_EQ(s.rig_file, "rig.toml");
   EXPECT_EQ(s.duration, 0.5);
-  EXPECT_EQ(s.record_rate, ReferenceRig().controller.rate);
+  EXPECT_EQ(s.record_rate, ReferenceLanesRig().controller.rate);
   EXPECT_EQ(s.seed, 1u);
   EXPECT_TRUE(s.noise && s.fault_tolerant && s.stiffness_compensation);
   EXPECT_EQ(s.start, StartState::kLevitated);
@@ -75,7 +75,7 @@ TEST(ScenarioFile, LoadsActAtBearingsStationsOrPlaces) {
       "[[load]]\nz = 0.05\nforce = [0.0, 0.0, 3.0]\n"
       "[[load]]\nplane = \"Z\"\nforce = 4.0\nstop = 0.2\n");
   ASSERT_EQ(s.loads.size(), 3u);
-  EXPECT_EQ(s.loads[0].z, ReferenceRig().Find("B")->z);
+  EXPECT_EQ(s.loads[0].z, ReferenceLanesRig().Find("B")->z);
   EXPECT_EQ(s.loads[0].fy, 2);
   EXPECT_EQ(s.loads[0].start, 0.1);
   EXPECT_EQ(s.loads[0].stop, 0.5);  // the duration

@@ -41,7 +41,7 @@ Measurement Read(const std::string& path) {
   Lines lines(text);
   lines.Next();
   const std::size_t points = Points(lines.line());
-  FrequencyResponse trace{"trace", "", {}};
+  MeasuredResponse trace{"trace", "", {}};
   while (lines.Next()) {
     if (Trim(lines.line()).empty()) continue;
     std::complex<double> value;

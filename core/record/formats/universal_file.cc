@@ -128,7 +128,7 @@ FrequencyResponses Responses(const std::vector<const UniversalFunction*>& functi
                       ", left out");
       continue;
     }
-    FrequencyResponse r{names[k], ResponseUnit(f), {}};
+    MeasuredResponse r{names[k], ResponseUnit(f), {}};
     for (std::size_t n = 0; n < f.real.size(); ++n)
       r.values.emplace_back(f.real[n], f.imaginary[n]);
     out.responses.push_back(std::move(r));

@@ -31,7 +31,8 @@ CoilMatrix InductanceOf(StatorLanes& lanes, double x, double y) {
 // Two derivations: poles with a common node, and the matrix N² S (P - P 1 1ᵀ P / 1ᵀP1) S + L_l I.
 TEST(MagneticCircuit, LanesCarryTheInductanceMatrix) {
   StatorLanes lanes = LanesOf("A");
-  const CoilMatrix expected = RadialStator(ReferenceRig().bearings[0].radial).Inductance({kX, kY});
+  const CoilMatrix expected =
+      RadialStator(ReferenceLanesRig().bearings[0].radial).Inductance({kX, kY});
   EXPECT_LT((InductanceOf(lanes, kX, kY) - expected).norm(), 1e-15 * expected.norm() * 8);
 }
 
@@ -56,7 +57,7 @@ class PublishedGaps : public ::testing::TestWithParam<GapRow> {};
 
 // docs/theory/published_values.md 1.1: rotor moved towards pole 1. Four digits printed.
 TEST_P(PublishedGaps, SelfAndMutualInductance) {
-  RadialStatorParameters p = ReferenceRig().bearings[0].radial;
+  RadialStatorParameters p = ReferenceLanesRig().bearings[0].radial;
   p.first_pole_angle_deg = 0;
   const double unit = p.turns * p.turns * kMu0 * p.pole_area / p.gap;
   const auto [x, near, far, mutual] = GetParam();
@@ -155,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(Reference, EveryStator, ::testing::Values("A", "Z"),
 // docs/theory/base_model.md section 2: f = phi²/(mu0 A) a side, phi = mu0 A N (i1 + i2)/(2 g).
 TEST(MagneticCircuit, ThrustForceClosedForm) {
   StatorLanes lanes = LanesOf("Z");
-  const ThrustStatorParameters& p = ReferenceRig().Find("Z")->thrust;
+  const ThrustStatorParameters& p = ReferenceLanesRig().Find("Z")->thrust;
   const double z = 6e-5;
   lanes.Settle({{1.8, 1.4, 1.1, 0.9}}, z, 0);
   const auto pull = [&](double amperes, double gap) {
@@ -193,7 +194,8 @@ TEST(MagneticCircuit, ForceConstantAndNegativeStiffnessOfTheHealthyBearing) {
   EXPECT_NEAR(ki, 32, 1e-4 * ki);
   EXPECT_NEAR(ki / ks, 4e-4 / c0, 1e-6 * ki / ks);
   EXPECT_NEAR(force(0, 3, 0, 3).x(), 144, 0.02);
-  EXPECT_NEAR(RadialStator(ReferenceRig().bearings[0].radial).ForceConstant() * c0, ki, 1e-12 * ki);
+  EXPECT_NEAR(RadialStator(ReferenceLanesRig().bearings[0].radial).ForceConstant() * c0, ki,
+              1e-12 * ki);
 }
 
 // published_values.md 2.1: subtracting one coil's current from all of them changes no flux,

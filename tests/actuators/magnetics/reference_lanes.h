@@ -8,7 +8,7 @@
 
 namespace ambrig {
 
-inline const RigParameters& ReferenceRig() {
+inline const RigParameters& ReferenceLanesRig() {
   static const RigParameters rig =
       ReadRig(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml");
   return rig;
@@ -16,7 +16,7 @@ inline const RigParameters& ReferenceRig() {
 
 /// Bearing "A", "B" (radial) or "Z" (thrust), steps of 1/18 of 40 us.
 inline StatorLanes LanesOf(const std::string& bearing) {
-  Plant plant = BuildPlant(TrueRig(ReferenceRig()));
+  Plant plant = BuildPlant(TrueRig(ReferenceLanesRig()));
   for (BearingPlant& b : plant.bearings)
     if (b.name == bearing) {
       b.lanes.SetStep(40e-6 / 18);

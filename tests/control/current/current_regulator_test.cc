@@ -12,7 +12,7 @@ namespace ambrig {
 namespace {
 
 AmplifierParameters Reference(Modulation m = Modulation::kBiState) {
-  AmplifierParameters p = ReferenceRig().amplifier;
+  AmplifierParameters p = ReferenceLanesRig().amplifier;
   p.modulation = m;
   return p;
 }

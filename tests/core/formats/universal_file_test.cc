@@ -43,7 +43,7 @@ TEST(UniversalFile, SeveralFunctionsBecomeOneRecordAndItsResponses) {
   EXPECT_THAT(m.frequency.frequency, ElementsAre(10, 12.5, 15, 17.5, 20, 22.5, 25, 27.5, 30, 32.5));
   const double near[] = {kSixDigits, 1e-12};  // single and double precision
   for (int k : {0, 1}) {
-    const FrequencyResponse& h = m.frequency.responses[static_cast<std::size_t>(k)];
+    const MeasuredResponse& h = m.frequency.responses[static_cast<std::size_t>(k)];
     EXPECT_EQ(h.name, k == 0 ? "A.x/H1" : "A.x/H2");
     EXPECT_EQ(h.unit, "m/N");
     for (std::size_t n = 0; n < h.values.size(); ++n) {

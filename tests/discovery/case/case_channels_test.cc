@@ -40,7 +40,7 @@ class CaseChannels : public testing::Test {
     return "no mistake";
   }
 
-  const std::map<std::string, std::string> known_ = KnownChannels(ReferenceRig());
+  const std::map<std::string, std::string> known_ = KnownChannels(ReferenceLanesRig());
   std::optional<TomlTable> table_;
   std::map<std::string, ColumnSource> sources_;
   Record raw_;

@@ -38,16 +38,16 @@ class FaultEffect : public testing::Test {
     return f;
   }
   Watched Apply(const FaultSpec& f) {
-    Watched w(plant_, PlaceOf(f, ReferenceRig()));
+    Watched w(plant_, PlaceOf(f, ReferenceLanesRig()));
     FaultByKind(f.kind).apply(f, w);
     return w;
   }
   BearingPlant& B() { return plant_.bearings[1]; }
-  Plant plant_ = BuildPlant(TrueRig(ReferenceRig()));
+  Plant plant_ = BuildPlant(TrueRig(ReferenceLanesRig()));
 };
 
 TEST_F(FaultEffect, PlacesAreCoilsAndSidesOfBearings) {
-  const RigParameters& rig = ReferenceRig();
+  const RigParameters& rig = ReferenceLanesRig();
   const auto place = [&](const char* target) { return PlaceOf(Spec("open", target), rig); };
   EXPECT_EQ(place("A.coil1").coil, 0);
   EXPECT_EQ(place("B.coil8").bearing, 1u);
@@ -140,7 +140,7 @@ TEST_F(FaultEffect, ASoftBusFollowsItsSource) {
 }
 
 TEST_F(FaultEffect, APartThatIsNotThereIsTheCallersMistake) {
-  Watched w(plant_, PlaceOf(Spec("open", "rig"), ReferenceRig()));
+  Watched w(plant_, PlaceOf(Spec("open", "rig"), ReferenceLanesRig()));
   EXPECT_THROW(w.Bridge(), std::logic_error);
   EXPECT_THROW(w.CoilSensor(), std::logic_error);
   EXPECT_THROW(w.Reading(), std::logic_error);

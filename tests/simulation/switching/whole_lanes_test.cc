@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "rig/rig_file.h"
-#include "simulation/switching/switching_engine.h"
+#include "simulation/simulate.h"
 
 namespace ambrig {
 namespace {
@@ -19,7 +19,7 @@ RunResult RunOf(bool whole) {
   s.duration = s.faults.front().time + 0.02;
   const bool before = whole_lanes;
   whole_lanes = whole;
-  RunResult result = SwitchingEngine(rig, s, {}).Run();
+  RunResult result = Simulate(rig, s, {});
   whole_lanes = before;
   return result;
 }

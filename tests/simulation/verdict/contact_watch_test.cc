@@ -35,7 +35,7 @@ class ContactWatchTest : public ::testing::Test {
     return out;
   }
 
-  Plant plant_ = BuildPlant(TrueRig(ReferenceRig()));  // clearance 0.2 mm at A and B
+  Plant plant_ = BuildPlant(TrueRig(ReferenceLanesRig()));  // clearance 0.2 mm at A and B
   Scenario scenario_;
   RunResult result_;
 };

@@ -42,7 +42,7 @@ TEST(DropFigures, TheFirstTouchIsInterpolated) {
                              Path(
                                  "B", 1000, [](double t) { return (t - 0.01005) * 0.01; }, Zero)},
                             100);
-  const DropFigures f = MakeDropFigures(ReferenceRig(), {}, d);
+  const DropFigures f = MakeDropFigures(ReferenceLanesRig(), {}, d);
   EXPECT_EQ(f.first, "B");
   EXPECT_NEAR(f.touchdown_time, 0.5 + 0.03005, 1e-9);
   EXPECT_FALSE(f.touchdown);  // the run's own verdict, not the path's
@@ -56,7 +56,7 @@ TEST(DropFigures, APathInsideTouchesNothing) {
   const DropPaths d = Paths({Path(
                                 "A", 500, [](double) { return 1e-4; }, Zero)},
                             100);
-  const DropFigures f = MakeDropFigures(ReferenceRig(), {}, d);
+  const DropFigures f = MakeDropFigures(ReferenceLanesRig(), {}, d);
   EXPECT_TRUE(f.first.empty());
   EXPECT_EQ(f.touchdown_time, -1);
   EXPECT_EQ(f.peak_orbit, 0);
@@ -74,7 +74,7 @@ DropPaths Whirling(double turns, double Omega) {
 }
 
 TEST(DropFigures, WhirlIsCountedWithTheRotation) {
-  const RigParameters& rig = ReferenceRig();
+  const RigParameters& rig = ReferenceLanesRig();
   DropFigures f = MakeDropFigures(rig, {}, Whirling(3, 200));
   EXPECT_NEAR(f.turns, 3, 1e-6);
   EXPECT_EQ(f.whirl, ContactWhirl::kForward);
@@ -98,7 +98,8 @@ TEST(DropFigures, TheReboundIsTheClearanceRegained) {
     const double u = (t - 0.041) / 0.02;
     return -(0.25 + 0.77 * std::min(1.0, u * u)) * kClearance;
   };
-  const DropFigures f = MakeDropFigures(ReferenceRig(), {}, Paths({Path("A", 1000, Zero, y)}, 100));
+  const DropFigures f =
+      MakeDropFigures(ReferenceLanesRig(), {}, Paths({Path("A", 1000, Zero, y)}, 100));
   EXPECT_NEAR(f.touchdown_time, 0.52, 2e-4);
   EXPECT_NEAR(f.rebound, 0.75 * kClearance, 0.01 * kClearance);
 }
@@ -120,13 +121,13 @@ TEST(DropFigures, PathsAreThoseOfBearingsWithAStop) {
   r.rate = kRate;
   for (const char* name : {"A.r.x", "A.r.y", "B.r.x", "B.r.y", "omega"})
     r.channels.push_back({name, "m", {1, 2, 3}});
-  const DropPaths d = CentrePaths(ReferenceRig(), r);
+  const DropPaths d = CentrePaths(ReferenceLanesRig(), r);
   ASSERT_EQ(d.bearings.size(), 2u);
   EXPECT_EQ(d.bearings[1].bearing, "B");
   EXPECT_EQ(d.bearings[0].clearance, kClearance);
   EXPECT_EQ(d.Omega.size(), 3u);
   r.channels.erase(r.channels.begin());
-  EXPECT_THROW(CentrePaths(ReferenceRig(), r), std::logic_error);
+  EXPECT_THROW(CentrePaths(ReferenceLanesRig(), r), std::logic_error);
 }
 
 }  // namespace
