@@ -111,7 +111,7 @@ void AddChannels(CLI::App& app, Work& work) {
   command->footer(
       "Examples:\n"
       "  ambrig channels examples/mls2em/data/*.csv\n"
-      "  ambrig channels run_07.tdms sweep.csv --json channels.json\n"
+      "  ambrig channels examples/mls2em/data/*.csv --json channels.json\n"
       "Format, rate, channels with unit and range, what is left out and why; nothing is "
       "converted.");
   command->callback([o, &work] { work = [o] { return RunChannels(*o); }; });

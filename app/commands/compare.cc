@@ -38,8 +38,7 @@ void PrintRecord(const RecordComparison& r) {
 }
 
 void Print(const Comparison& comparison) {
-  fmt::print(
-      "error over noise: rms of measured less model over that of the noise; 1: only noise\n");
+  fmt::print("error over noise: rms of measured less model over the noise's; 1: only noise\n");
   fmt::print("{:<22} {:<28} {:>7}  {}\n", "record", "scenario", "error", "worst channel");
   for (const RecordComparison& r : comparison.records) PrintRecord(r);
   const bool unseen = std::any_of(comparison.records.begin(), comparison.records.end(),

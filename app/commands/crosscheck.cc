@@ -36,7 +36,7 @@ void PrintRow(const char* name, const CrosscheckRun& run, double parted) {
   const std::string touch =
       f.first.empty() ? "-" : fmt::format("{} {:.3f}", f.first, f.touchdown_time * 1e3);
   const std::string severity = f.severity > 0 ? fmt::format("{:.4f}", f.severity) : "";
-  fmt::print("  {:<11} {:<13} {:>10} {:>8.1f} {:>8.1f}  {:<8} {:>+6.1f} {:>8}\n", name,
+  fmt::print("  {:<11} {:<13} {:>10} {:>8.1f} {:>8.1f}  {:<8} {:>+6.1f} {:>6}\n", name,
              VerdictName(f), touch, f.rebound * 1e6, f.peak_orbit * 1e6, WhirlName(f.whirl),
              f.turns, parted < 0 ? "-" : fmt::format("{:.1f}", parted * 1e3));
   if (!f.first.empty())
@@ -53,10 +53,10 @@ void Print(const CrosscheckedScenario& s) {
     fmt::print("  no contact in either\n");
     return;
   }
-  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>8}\n", "", "", "touch", "rebound",
+  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>6}\n", "", "", "touch", "rebound",
              "peak", "", "", "apart");
-  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>8}\n", "rotor", "verdict",
-             "at [ms]", "[um]", "[um]", "whirl", "turns", "at [ms]");
+  fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>6}\n", "rotor", "verdict",
+             "at [ms]", "[um]", "[um]", "whirl", "turns", "[ms]");
   PrintRow("compliant", w.model, -1);
   PrintRow("on ODE", w.ode, w.parted_ode);
   PrintRow("other noise", w.other_noise, w.parted_noise);
@@ -77,7 +77,7 @@ void PrintTally(const std::vector<CrosscheckedScenario>& all, int seeds) {
       high = std::max(high, f.peak_orbit);
     }
     fmt::print(
-        "  {:<10} of {} seeds: {} dropped, {} backward, {} forward, peak {:.1f} to {:.1f} um\n",
+        "  {:<9} of {} seeds: {} dropped, {} backward, {} forward, peak {:.1f} to {:.1f} um\n",
         name, seeds, drops, backward, forward, low * 1e6, high * 1e6);
   };
   tally("compliant", &ContactCrosscheck::model);

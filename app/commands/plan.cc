@@ -153,9 +153,9 @@ void AddPlan(CLI::App& app, Work& work) {
       ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig plan case.toml --json plan.json --html plan.html\n  ambrig plan "
-      "case.toml --between eddy-currents@A iron-reluctance@A\n  ambrig plan rig.toml --learn "
-      "saturation@A hysteresis@A --clamp -o first.toml");
+      "Examples:\n"
+      "  ambrig plan examples/reference/rig.toml --learn side-pull@A cross-coupling@A\n"
+      "  ambrig plan practice/case.toml --json plan.json --html plan.html");
   command->callback([options, &work] { work = [options] { return RunPlan(*options); }; });
 }
 

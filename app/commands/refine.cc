@@ -83,8 +83,8 @@ void AddRefine(CLI::App& app, Work& work) {
       ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig refine case.toml saturation@B --json law.json --html law.html\n"
-      "  ambrig refine case.toml eddy-currents -o rig_2.toml\n"
+      "Examples:\n  ambrig refine practice/case.toml saturation@A --json law.json --html law.html\n"
+      "  ambrig refine practice/case.toml saturation -o rig_2.toml\n"
       "The curve is a result where it is supported; outside it is a continuation.");
   command->callback([options, &work] { work = [options] { return RunRefine(*options); }; });
 }

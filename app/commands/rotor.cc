@@ -27,8 +27,8 @@ int Run(const Convert& c) {
   const std::string lost = done.not_carried.empty() ? "nothing" : Joined(done.not_carried);
   fmt::print("{}: {} -> {}\n", c.out, done.from_ross ? "ROSS" : "ambrig",
              done.from_ross ? "ambrig" : "ROSS");
-  fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m, free bending {:.2f} Hz\n", done.mass,
-             done.z_com, fmt::join(done.free_bending, " "));
+  fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m,\n  free bending {:.2f} Hz\n",
+             done.mass, done.z_com, fmt::join(done.free_bending, " "));
   if (!done.not_carried.empty()) fmt::print("  not carried over: {}\n", lost);
   c.common.WriteJson({{"in", c.in},
                       {"out", c.out},

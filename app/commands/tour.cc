@@ -24,15 +24,15 @@ constexpr const char* kLessons =
 1  The main run: a coil breaks, the rotor stays up
      cd {0}
      ambrig run coil_opens.toml --out out
-   Look at: the events "fault", "detected", "redistributed" (0.1 ms apart), the peak
-   orbit beside the clearance, the verdict. The same with curves, in any browser:
+   Look at: the events "fault", "detected", "redistributed" (0.1 ms apart),
+   the peak orbit beside the clearance, the verdict. With curves, in any browser:
    out/coil_opens.html
 
 2  A fault of your own: half of the turns of coil B6 are shorted
      ambrig run my_fault.toml --out out
    Open my_fault.toml: change target, kind, fraction or the speed, run it again.
-   Look at: "classified ... partial-short" and the share of the turns that it found.
-   What may stand in the file: ambrig parameters. Now take the controller's answer
+   Look at: "classified ... partial-short" and the share of turns that it found.
+   What may stand in the file: ambrig parameters. Now take the answer
    away: fault_tolerance = false.
 
 3  A hidden effect: physics that the model lacks

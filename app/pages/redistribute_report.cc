@@ -16,15 +16,13 @@ namespace {
 constexpr std::size_t kMostPictures = 12;
 
 constexpr const char* kLegend =
-    "map       what a run goes to: W (a matrix from forces to currents, exact for every force or "
-    "linearised),\n"
-    "          force by force (currents sought for each force), or none\n"
-    "carries   whether its currents, clamped to the amplifiers' range, truly pull the load; "
-    "margin: "
-    "how many\n"
-    "          times the load they still pull\n"
-    "worst     force that can be added to the load in the worst direction [N], and that direction "
-    "[deg]\n";
+    "map       what a run goes to: W (a matrix from forces to currents, exact for\n"
+    "          every force or linearised), force by force (currents sought for each\n"
+    "          force), or none\n"
+    "carries   whether its currents, clamped to the amplifiers' range, truly pull the\n"
+    "          load; margin: how many times the load they still pull\n"
+    "worst     force that can be added to the load in the worst direction [N], and\n"
+    "          that direction [deg]\n";
 
 int Degrees(const MapReach& r) { return r.worst_direction * 360 / MapReach::kDirections; }
 

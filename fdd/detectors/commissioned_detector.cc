@@ -7,6 +7,7 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
 constexpr int kInARow = 3;             // periods
 constexpr double kGross = 0.5;         // |c|
 constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
@@ -155,6 +156,12 @@ bool CommissionedDetector::Disturbed() const {
          windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
 }
 
+double CommissionedDetector::LargestNow() const {
+  double most = 0;
+  for (double c : now_.v) most = std::max(most, std::abs(c));
+  return most;
+}
+
 int CommissionedDetector::GrossCoils() const {
   int many = 0;
   for (double c : now_.v) many += c > kGross;
@@ -166,7 +173,9 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil);
   // Inside what was learnt no error of the model is as large: several coils have failed at once.
-  if (Relies() && !out_of_range_ && gross) return PhasesAgree(coil);
+  // What these throw at a healthy neighbour is smaller.
+  if (Relies() && !out_of_range_ && gross)
+    return PhasesAgree(coil) && std::abs(excess) > kOfTheLargest * LargestNow();
   return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
 }
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <set>
 
 #include "effects/catalogue.h"
@@ -31,14 +32,16 @@ TEST_F(CatalogueCommands, EffectsAreThoseOfTheCatalogue) {
   const Json all = JsonOf("effects");
   ASSERT_EQ(all.size(), Catalogue().size());
   const Outcome list = Ambrig("effects");
-  EXPECT_EQ(static_cast<std::size_t>(list.lines()), Catalogue().size());
+  EXPECT_GE(static_cast<std::size_t>(list.lines()), Catalogue().size());
+  // long titles go on in the next line
+  const std::string words = std::regex_replace(list.text, std::regex("\\s+"), " ");
   std::size_t k = 0;
   for (const EffectDescription& d : Catalogue()) {
     EXPECT_EQ(all[k]["name"], d.id);
     EXPECT_EQ(all[k]["parameters"].size(), d.parameters.size()) << d.id;
     EXPECT_FALSE(all[k]["target"].get<std::string>().empty()) << d.id;
     EXPECT_FALSE(all[k]["physics"].get<std::string>().empty()) << d.id;
-    EXPECT_THAT(list.text, HasSubstr(d.title)) << d.id;
+    EXPECT_THAT(words, HasSubstr(d.title)) << d.id;
     ++k;
   }
 }

@@ -54,7 +54,7 @@ TEST_F(WitnessCommand, WritesTableJsonAndReport) {
                             "lift_off.toml --seeds 2 --json " + json + " --html " + html);
   EXPECT_EQ(o.exit, 0) << o.text;
   EXPECT_THAT(o.text, HasSubstr("agree   A3 opens while the shaft whirls"));
-  EXPECT_THAT(o.text, HasSubstr("of 2 seeds: 0 dropped, 0 whirl backward, 2 forward"));
+  EXPECT_THAT(o.text, HasSubstr("of 2 seeds: 0 dropped, 0 backward, 2 forward"));
   EXPECT_THAT(o.text, HasSubstr("4 runs, 4 with contact, differing verdicts: 0"));
   const auto all = nlohmann::json::parse(Text("w.json"));
   ASSERT_EQ(all.size(), 4u);

@@ -106,6 +106,9 @@ const Examples kExamples[] = {
     {"explain", {}, true},
     {"adopt", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
     {"hide"},
+    {"channels"},
+    {"refine", {"hide saturation@A --rig examples/reference/rig.toml -o practice"}, true},
+    {"plan", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
     {"score", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
 };
 

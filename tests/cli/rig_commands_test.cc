@@ -45,8 +45,8 @@ TEST_F(RigCommands, RedistributeSilencesTheFailedCoils) {
   EXPECT_GT(j["sets"][0]["capacity"]["flux"], j["sets"][1]["capacity"]["flux"]);
   EXPECT_THAT(o.text, HasSubstr("{1,2}"));
   const std::string words = testing::Words(ReadText(folder_ / "w.html"));
-  EXPECT_THAT(words, HasSubstr("\n{1}\nexact\n"));
-  EXPECT_THAT(words, HasSubstr("\n{1,2}\nexact\n"));
+  EXPECT_THAT(words, HasSubstr("\n{1}\nW, exact\nyes\n"));
+  EXPECT_THAT(words, HasSubstr("\n{1,2}\nW, exact\nyes\n"));
 }
 
 // The force of an exact W, computed here from the poles: quadratic in (c0, v), its linear part k c0 v,

@@ -89,7 +89,7 @@ TEST(DetectionScore, ExpectationsWantEveryFault) {
   *s.expect.detected_within = 0.25;
   const auto results = CheckExpectations(s, r);
   EXPECT_FALSE(results[0].met);
-  EXPECT_EQ(results[0].got, "0.5");
+  EXPECT_EQ(results[0].got, "500 ms");
   EXPECT_TRUE(results[1].met);
 }
 
