@@ -25,7 +25,7 @@ constexpr const char* kLessons =
      cd {0}
      ambrig run coil_opens.toml --out out
    Look at: the events "fault", "detected", "redistributed" (0.1 ms apart),
-   the peak orbit beside the clearance, the verdict. With curves, in any browser:
+   the peak orbit beside the clearance, the verdict. With curves, in a browser:
    out/coil_opens.html
 
 2  A fault of your own: half of the turns of coil B6 are shorted

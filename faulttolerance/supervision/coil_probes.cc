@@ -29,16 +29,20 @@ bool CoilProbes::Grown(const Look& look) const {
 }
 
 void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
-  // A test current is no witness where the reading of the current itself is doubted.
-  if (cls == FaultClass::kSwitchStuckOn || cls == FaultClass::kCurrentSensor || returned_[coil] > 0)
-    return;
+  if (cls == FaultClass::kSwitchStuckOn || returned_[coil] > 0) return;
   Look look;
   look.given_up = t;
   look.next = t + kFirst;
   look.wait = kFirst;
   look.orbit_before = std::max(slice_[0], slice_[1]);
   look.left = kLooks;
+  look.false_current = cls == FaultClass::kCurrentSensor;
   looks_[coil] = look;
+}
+
+bool CoilProbes::FalseCurrent(int coil) const {
+  const auto it = looks_.find(coil);
+  return it != looks_.end() && it->second.false_current;
 }
 
 int CoilProbes::Due(double t) const {

@@ -21,6 +21,9 @@ class CoilProbes {
   void GivenUp(int coil, FaultClass cls, double t);
   /// The coil whose probe is due, -1: none.
   int Due(double t) const;
+  /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
+  /// witness then only to a detector that does not doubt its model.
+  bool FalseCurrent(int coil) const;
   /// The answer to the probe of `coil` at t.
   void Answer(int coil, bool healthy, double t);
 
@@ -32,6 +35,7 @@ class CoilProbes {
     double given_up = 0;                       // [s]
     double orbit_before = 0, orbit_after = 0;  // [m]
     int left = 0;                              // looks to come
+    bool false_current = false;
   };
   bool Grown(const Look& look) const;
 

@@ -146,6 +146,7 @@ void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool
   const int coil = w.probed;
   if (coil < 0) {
     const int due = in.comparable ? w.probes.Due(t) : -1;
+    w.doubted = w.detector->doubtful();
     if (due < 0 || !w.detector->BeginProbe(due)) return;
     w.probed = due;
     const double current = kProbeCurrent * w.bias;
@@ -157,7 +158,8 @@ void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool
   }
   const ProbeAnswer answer = w.detector->Probed();
   if (answer == ProbeAnswer::kNone) return;
-  const bool healthy = answer == ProbeAnswer::kHealthy;
+  const bool healthy =
+      answer == ProbeAnswer::kHealthy && !(w.probes.FalseCurrent(coil) && w.doubted);
   w.probed = -1;
   w.detector->EndProbe(healthy);
   w.probes.Answer(coil, healthy, t);

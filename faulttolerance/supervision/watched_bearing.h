@@ -18,6 +18,7 @@ struct FaultSupervisor::Watched {
   double bias = 0;                    // of a coil [A]
   CoilProbes probes;
   int probed = -1;        // coil that a current is asked of now
+  bool doubted = false;   // whether the detector doubted its model when that began
   int alarmed = -1;       // coil that the alarm was raised for
   bool doubtful = false;  // its detector has doubted its model in this run
 };

@@ -86,9 +86,9 @@ class CommissionedDetector : public CoilDetector {
   bool Disturbed() const;
   /// Whether the learnt model holds: usable, and the coils are those it was learnt on.
   bool Relies() const { return model_.usable(); }
-  int GrossCoils() const;
+  int GrossCoils() const;  // with c > 0.5 in this period
   /// Largest |c| of this period.
-  double LargestNow() const;  // with c > 0.5 in this period
+  double LargestNow() const;
   void CountStreaks(double t);
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(int decided, double excess, double time) const;

@@ -68,8 +68,8 @@ TEST(SecondLook, ACoilThatIsTrulyLostStaysOff) {
   }
 }
 
-// Where the reading of the current is doubted a test current proves nothing.
-TEST(SecondLook, ACoilWithAFalseCurrentSensorIsNotProbed) {
+// Where the reading of the current is doubted, and the model too, a test current proves nothing.
+TEST(SecondLook, WithoutCommissioningAFalseCurrentSensorIsNotRestored) {
   for (const char* parameters : {"stuck = true", "gain = 0.4"}) {
     const Outcome o =
         Simulated(Spin(0.09, 157, 3) + FaultTable(0.02, "A.coil4", "current-sensor", parameters),
