@@ -16,7 +16,7 @@ add_test(NAME docs_dear_blocks
 set_tests_properties(docs_dear_blocks PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 7200)
 # A few of the random scenarios (tools/random_scenarios.py -n 100000 takes hours).
 add_test(NAME random_scenarios
-         COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/random_scenarios.py $<TARGET_FILE:ambrig> -n 100 -j 2
+         COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/random_scenarios.py $<TARGET_FILE:ambrig> -n 30 -j 2
          WORKING_DIRECTORY ${CMAKE_BINARY_DIR})
 set_tests_properties(random_scenarios PROPERTIES TIMEOUT 900)
 # A run of a day fits in memory: two short ones here, `--long 600` sharper.

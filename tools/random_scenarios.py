@@ -30,7 +30,7 @@ import tomllib
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 RIGS = ["scenarios/library/rigs/reference.toml", "examples/small_spindle/rig.toml",
         "examples/heavy_compressor/rig.toml"]
-TIMEOUT = 120  # s of one run
+TIMEOUT = 600  # s of one run: stiff contact in the reference engine takes minutes
 MEMORY = 4 << 30  # bytes of one run
 
 

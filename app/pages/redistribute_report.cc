@@ -63,7 +63,7 @@ void AddPictures(const BearingParameters& bearing, const RedistributionFigures& 
   report.AddFigure(StatorFigure("Poles; failed coils are marked.", std::span(&view, 1)));
   Figure figure = MakeFigure(
       "Forces on the shaft that the map truly gives: outer line healthy, inner line with the set "
-      "failed, cross: the load.");
+      "failed, dot: the load.");
   std::vector<double> hx, hy, x, y;
   Polygon(f, f.healthy, &hx, &hy);
   Style healthy, left, load;
