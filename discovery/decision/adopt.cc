@@ -34,20 +34,6 @@ bool SameFolder(const std::string& a, const std::string& b) {
          fs::absolute(b).lexically_normal().parent_path();
 }
 
-/// The effect at the named target, or where it explains most.
-FitResult FitEffect(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {
-  SignatureBank bank;
-  const std::vector<Candidate> candidates =
-      Screen(model, base, FindPeaks(model, base.residual), what, bank);
-  FitResult best;
-  best.ratio_fit = kInfinity;
-  for (std::size_t k = 0; k < std::min<std::size_t>(candidates.size(), 3); ++k) {
-    FitResult fit = FitBriefly(model, base, candidates[k], what.effective_sample_size);
-    if (fit.converged && fit.ratio_fit < best.ratio_fit) best = std::move(fit);
-  }
-  return best;
-}
-
 }  // namespace
 
 Adoption Adopt(const Case& c, const std::string& effect, const std::string& target,
@@ -87,7 +73,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     what.effect = effect;
     what.target = target;
     what.progress = [&](double f, const std::string& text) { progress(0.3 + 0.3 * f, text); };
-    a.fit = FitEffect(model, base, what);
+    a.fit = FitScreened(model, base, what);
     if (!a.fit.converged)
       throw InputError(
           fmt::format("{}: the model loses levitation in every fit of {}", c.file, effect));

@@ -53,7 +53,7 @@ struct Target {
 };
 
 /// How finely the current samples of a switching period are resolved. Differences between two coarse
-/// predictions are sensitivities that err by about 1 %, at a third of the cost.
+/// predictions are sensitivities that err by a few percent, at less cost.
 enum class Fidelity { kAsSampled, kCoarse };
 
 /// Runs hypotheses against the records of a case.

@@ -92,16 +92,13 @@ std::vector<SimulatedStart> Neighbours(const EffectInstance& e) {
   const bool pair = EffectNamed(e.name).switches_pair;
   for (std::size_t k = 0; k < e.table.size(); ++k) {
     const EffectParameter& p = e.table[k];
-    const bool frequency = p.name == "frequency",
-               gain = pair && EffectNamed(e.name).Switches(p) && std::isfinite(p.null_value);
-    for (const double factor : {0.94, 1.06}) {
-      if (!frequency) continue;
+    const auto add = [&](double factor) {
       out.push_back({e});
       out.back().effect.values[k] = std::clamp(e.values[k] * factor, p.lo, p.hi);
-    }
-    if (!gain) continue;
-    out.push_back({e});
-    out.back().effect.values[k] *= 0.5;
+    };
+    if (p.name == "frequency")
+      for (const double factor : {0.94, 1.06}) add(factor);
+    if (pair && EffectNamed(e.name).Switches(p) && std::isfinite(p.null_value)) add(0.5);
   }
   return out;
 }
@@ -211,6 +208,20 @@ FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& 
   full.iterations = 6;
   full.tolerance = 1e-4;
   return TryFit(model, start, full);
+}
+
+FitResult FitScreened(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {
+  constexpr std::size_t kTried = 3;
+  SignatureBank bank;
+  const std::vector<Candidate> candidates =
+      Screen(model, base, FindPeaks(model, base.residual), what, bank);
+  FitResult best;
+  best.ratio_fit = kInfinity;
+  for (std::size_t k = 0; k < std::min(candidates.size(), kTried); ++k) {
+    FitResult fit = FitBriefly(model, base, candidates[k], what.effective_sample_size);
+    if (fit.converged && fit.ratio_fit < best.ratio_fit) best = std::move(fit);
+  }
+  return best;
 }
 
 }  // namespace ambrig

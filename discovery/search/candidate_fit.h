@@ -1,6 +1,7 @@
 #pragma once
 /// Fits of an effect that the screening proposed, on top of what is believed so far.
 #include "discovery/search/linear_judge.h"
+#include "discovery/search/screen.h"
 
 namespace ambrig {
 
@@ -13,5 +14,9 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
 /// pass.
 FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
                 double effective_sample_size);
+
+/// The best of the short fits of what the screening of `what` puts first: a named effect at its
+/// target, or where it explains most. Not converged where nothing leads anywhere.
+FitResult FitScreened(const CaseModel& model, const FitResult& base, const ScreenOptions& what);
 
 }  // namespace ambrig

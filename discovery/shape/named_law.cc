@@ -34,20 +34,6 @@ std::size_t Known(const Hypothesis& h, const std::string& effect, const std::str
   return k;
 }
 
-/// Short fits of the best candidates of the screening.
-FitResult BestFit(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {
-  SignatureBank bank;
-  const std::vector<Candidate> all =
-      Screen(model, base, FindPeaks(model, base.residual), what, bank);
-  FitResult best;
-  best.ratio_fit = kInfinity;
-  for (std::size_t k = 0; k < std::min<std::size_t>(all.size(), 3); ++k) {
-    FitResult fit = FitBriefly(model, base, all[k], what.effective_sample_size);
-    if (fit.converged && fit.ratio_fit < best.ratio_fit) best = std::move(fit);
-  }
-  return best;
-}
-
 }  // namespace
 
 NamedLaw FitNamedLaw(const CaseModel& model, const std::string& effect, const std::string& target,
@@ -75,7 +61,7 @@ NamedLaw FitNamedLaw(const CaseModel& model, const std::string& effect, const st
     what.effective_sample_size = effective_sample_size;
     what.effect = effect;
     what.target = target;
-    out.fit = BestFit(model, out.base, what);
+    out.fit = FitScreened(model, out.base, what);
     if (out.fit.converged) out.fit = Fit(model, out.fit.hypothesis, options);
   }
   if (!out.fit.converged)

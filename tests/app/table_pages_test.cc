@@ -10,24 +10,15 @@
 #include "app/pages/crosscheck_report.h"
 #include "app/pages/html.h"
 #include "tests/app/browser.h"
+#include "tests/campaign/table_rows.h"
 
 namespace ambrig {
 namespace {
 
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::RowOf;
 using testing::TemporaryFolder;
-
-Row RowOf(std::size_t run, const std::map<std::string, std::string>& cells) {
-  Row row;
-  row.run = run;
-  for (const std::string& column : RowColumns()) {
-    const auto it = cells.find(column.substr(0, column.find(" [")));
-    row.cells.push_back(it == cells.end() ? "" : it->second);
-  }
-  row.cells[0] = std::to_string(run);
-  return row;
-}
 
 /// One open coil at two loads: held, touched, dropped; and the same run at the lower load again.
 Rows FourRuns() {

@@ -6,19 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "tests/campaign/table_rows.h"
+
 namespace ambrig {
 namespace {
 
-Row RowOf(std::size_t run, const std::map<std::string, std::string>& cells) {
-  Row row;
-  row.run = run;
-  for (const std::string& column : RowColumns()) {
-    const auto it = cells.find(column.substr(0, column.find(" [")));
-    row.cells.push_back(it == cells.end() ? "" : it->second);
-  }
-  row.cells[0] = std::to_string(run);
-  return row;
-}
+using testing::RowOf;
 
 Row Finished(std::size_t run, const char* verdict, const char* failed, const char* detected,
              const char* right, const char* delay, const char* orbit) {
