@@ -6,7 +6,8 @@
 /// It/m),
 ///   gain(z) = Σ_k c_k phi_k(z/L),   the c that meets both gains with least Σ (c_k b_k⁴)²,
 /// b_k = 4.7300, 7.8532, 10.9956, 14.1372: the lowest mode alone where it fits, and no wild shape
-/// where a bearing sits on a node. Straight beyond the ends. `gyro` couples the planes: ± gyro
+/// where a bearing sits on a node. Straight beyond the ends. A shaft that is no uniform rod bends as
+/// one of `length` times L: sensors beside the magnets tell. `gyro` couples the planes: ± gyro
 /// Omega eta' (a thin shaft: 0).
 #include <fmt/format.h>
 
@@ -100,7 +101,8 @@ EffectDescription BendingModeEffect() {
       {"damping", "-", 0.005, 0, 0.5, 0.001, 0.02, "ratio"},
       {"gain_a", "kg^-1/2", 0, -20, 20, 0.05, 1, "mode shape at the first radial bearing"},
       {"gain_b", "kg^-1/2", 0, -20, 20, 0.05, 1, "mode shape at the second radial bearing"},
-      {"gyro", "-", 0, -2, 2, 0.02, 0.3, "gyroscopic coupling of its two planes"}};
+      {"gyro", "-", 0, -2, 2, 0.02, 0.3, "gyroscopic coupling of its two planes"},
+      {"length", "-", 1, 0.5, 2, 0.9, 1.1, "of the bending shaft, over a uniform rod's"}};
   d.off_when_null = {"gain_a", "gain_b"};
   d.shows_in = "wide-band force excitation near its frequency, impulses; both ends together";
   d.confused_with =
@@ -114,7 +116,8 @@ EffectDescription BendingModeEffect() {
     mode.damping = e.Value("damping");
     mode.gyroscopic = e.Value("gyro");
     mode.shape = ShapeThrough(plant.planes, e.Value("gain_a"), e.Value("gain_b"),
-                              std::sqrt(12 * rotor.inertia_transverse / rotor.mass));
+                              e.Value("length") *
+                                  std::sqrt(12 * rotor.inertia_transverse / rotor.mass));
     plant.rotor.AddBendingMode(mode);
   };
   return d;

@@ -120,6 +120,7 @@ bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult
     return false;
   Progress(0.86, "noise floor of the model found");
   const std::vector<Target> before = full_.targets();
+  const double sample_size = out_.effective_sample_size;
   try {
     out_.effective_sample_size = FindFloor(full_, now.hypothesis).effective_sample_size;
   } catch (const InputError&) {
@@ -129,7 +130,15 @@ bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult
   for (std::size_t t = 0; t < before.size(); ++t)
     model_.targets()[t].floor = full_.targets()[t].floor =
         std::max(before[t].floor, full_.targets()[t].floor);
-  base = At(base.hypothesis);
+  const FitResult renewed = At(base.hypothesis);
+  // A found model that is all but unstable passes so much noise that nothing would stand out.
+  if (std::pow(renewed.ratio_validate, 2) - 1 < 0.25 * (std::pow(base.ratio_validate, 2) - 1)) {
+    for (std::size_t t = 0; t < before.size(); ++t)
+      model_.targets()[t].floor = full_.targets()[t].floor = before[t].floor;
+    out_.effective_sample_size = sample_size;
+    return false;
+  }
+  base = renewed;
   now = FitNow(now.hypothesis, nullptr);
   out_.nominal_ratio_validate = At(as_filed.hypothesis).ratio_validate;
   out_.base_ratio_fit = base.ratio_fit;

@@ -228,7 +228,7 @@ std::optional<std::vector<double>> CaseModel::Predict(const Hypothesis& h) const
 }
 
 std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
-    const std::vector<Hypothesis>& all, Fidelity fidelity) const {
+    const std::vector<Hypothesis>& all, Fidelity fidelity, const QuickLook* look) const {
   const std::size_t records = case_.records.size();
   std::vector<RigParameters> rigs;
   for (const Hypothesis& h : all) {
@@ -237,10 +237,15 @@ std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
     if (fidelity == Fidelity::kCoarse) samples = std::min(samples, kCoarseSamples);
   }
   std::vector<std::optional<std::vector<double>>> out(all.size());
-  for (auto& o : out) o.emplace(measured_.size(), 0.0);
+  for (auto& o : out)
+    if (look)
+      o = look->rest;
+    else
+      o.emplace(measured_.size(), 0.0);
   std::vector<char> fine(all.size() * records, 1);
   tbb::parallel_for(std::size_t{0}, all.size() * records, [&](std::size_t task) {
     const std::size_t k = task / records, r = task % records;
+    if (look && !look->records[r]) return;
     fine[task] = FillRecord(rigs[k], r, false, 1, *out[k]) ? 1 : 0;
   });
   for (std::size_t k = 0; k < all.size(); ++k)

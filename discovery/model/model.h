@@ -56,6 +56,12 @@ struct Target {
 /// predictions are sensitivities that err by a few percent, at less cost.
 enum class Fidelity { kAsSampled, kCoarse };
 
+/// A prediction of some records only (one flag each): the rows of the others are those of `rest`.
+struct QuickLook {
+  std::vector<char> records;
+  std::vector<double> rest;
+};
+
 /// Runs hypotheses against the records of a case.
 class CaseModel {
  public:
@@ -77,9 +83,10 @@ class CaseModel {
   /// The same with noise of a seed: what the data would look like again.
   std::optional<std::vector<double>> PredictNoisy(const Hypothesis& h, std::uint64_t seed) const;
   /// Many at once on all cores, in order. What is predicted coarsely is to be compared with coarse
-  /// predictions only.
+  /// predictions only. With a `look`, some records only.
   std::vector<std::optional<std::vector<double>>> PredictAll(
-      const std::vector<Hypothesis>& all, Fidelity fidelity = Fidelity::kAsSampled) const;
+      const std::vector<Hypothesis>& all, Fidelity fidelity = Fidelity::kAsSampled,
+      const QuickLook* look = nullptr) const;
   /// Full simulated record of one record's scenario.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;
 

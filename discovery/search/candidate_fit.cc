@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
-#include "effects/catalogue.h"
+#include "discovery/search/start_search.h"
 
 namespace ambrig {
 
@@ -42,89 +42,8 @@ FitResult FitResonance(const CaseModel& model, const Hypothesis& start, const Fi
   return TryFit(model, h, options);
 }
 
-/// Whether two starts of a resonance differ in size only.
-bool SameValley(const EffectInstance& a, const EffectInstance& b) {
-  for (std::size_t k = 0; k < a.values.size(); ++k)
-    if (a.table[k].name == "frequency" ? a.values[k] != b.values[k] : a.values[k] * b.values[k] < 0)
-      return false;
-  return true;
-}
-
-/// The same resonance with `factor` times the answer, which goes with the square of its two gains or
-/// with one over its mass.
-EffectInstance Scaled(const EffectInstance& e, double factor) {
-  EffectInstance out = e;
-  const EffectDescription& d = EffectNamed(e.name);
-  for (std::size_t k = 0; k < e.table.size(); ++k) {
-    const EffectParameter& p = e.table[k];
-    if (!d.Switches(p)) continue;
-    const double scale = std::isfinite(p.null_value) ? std::sqrt(factor) : 1 / factor;
-    out.values[k] = std::clamp(e.values[k] * scale, p.lo, p.hi);
-  }
-  return out;
-}
-
-struct SimulatedStart {
-  EffectInstance effect;
-  double score = kInfinity;  // infinity: the rotor is lost
-};
-
-/// What each start explains as it stands.
-void Simulate(const CaseModel& model, const FitResult& now, double effective_sample_size,
-              std::vector<SimulatedStart>& starts) {
-  std::vector<Hypothesis> all;
-  for (const SimulatedStart& s : starts) {
-    all.push_back(now.hypothesis);
-    all.back().AddEffect(s.effect);
-  }
-  const auto runs = model.PredictAll(all);
-  for (std::size_t k = 0; k < runs.size(); ++k) {
-    if (!runs[k]) continue;
-    const std::vector<double> residual = Residual(model, *runs[k]);
-    starts[k].score = Score(model, Ratio(model, residual, Which::kFit),
-                            Ratio(model, residual, Which::kValidate), effective_sample_size, 0, 0);
-  }
-}
-
-/// Neighbours of a resonance: larger, smaller, lower, higher, and with less at one of two gains.
-std::vector<SimulatedStart> Neighbours(const EffectInstance& e) {
-  std::vector<SimulatedStart> out = {{Scaled(e, 1.6)}, {Scaled(e, 0.4)}};
-  const bool pair = EffectNamed(e.name).switches_pair;
-  for (std::size_t k = 0; k < e.table.size(); ++k) {
-    const EffectParameter& p = e.table[k];
-    const auto add = [&](double factor) {
-      out.push_back({e});
-      out.back().effect.values[k] = std::clamp(e.values[k] * factor, p.lo, p.hi);
-    };
-    if (p.name == "frequency")
-      for (const double factor : {0.94, 1.06}) add(factor);
-    if (pair && EffectNamed(e.name).Switches(p) && std::isfinite(p.null_value)) add(0.5);
-  }
-  return out;
-}
-
-/// A loop that the resonance brings near its limit answers out of all proportion to the size, and
-/// at another frequency than the resonance's own: each start moves to the neighbour that explains
-/// most until none explains more; one that loses the rotor shrinks until it holds it.
-void Climb(const CaseModel& model, const FitResult& now, double effective_sample_size,
-           SimulatedStart& start) {
-  constexpr int kSteps = 8;
-  for (int step = 0; step < kSteps; ++step) {
-    std::vector<SimulatedStart> next;
-    if (std::isfinite(start.score))
-      next = Neighbours(start.effect);
-    else
-      next = {{Scaled(start.effect, 1.0 / 6)}};
-    Simulate(model, now, effective_sample_size, next);
-    const auto best = std::min_element(
-        next.begin(), next.end(), [](const auto& a, const auto& b) { return a.score < b.score; });
-    if (std::isfinite(start.score) && best->score >= start.score) return;
-    start = *best;
-  }
-}
-
-/// The starts of a resonance that explain most when they are simulated: the linear step knows sizes
-/// and neighbouring frequencies badly where the loop answers strongly.
+/// The starts that explain most when they are simulated: the best as it stands, and the best that is
+/// reached from it or another.
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
@@ -137,34 +56,34 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                      [](const auto& a, const auto& b) { return a.score < b.score; });
   };
   try {
-    Simulate(model, now, effective_sample_size, order);
+    const StartSearch search(model, now, effective_sample_size);
+    search.Simulate(order);
     sort(order);
     for (const SimulatedStart& s : order)
       if (climbed.size() < kClimbed &&
           std::none_of(climbed.begin(), climbed.end(),
                        [&](const auto& o) { return SameValley(o.effect, s.effect); }))
         climbed.push_back(s);
-    for (SimulatedStart& start : climbed) Climb(model, now, effective_sample_size, start);
+    for (SimulatedStart& start : climbed) search.Climb(start);
     sort(climbed);
+    std::vector<EffectInstance> out;
+    // what explains nothing wherever it starts is not there
+    const auto take = [&](const std::vector<SimulatedStart>& from) {
+      for (const SimulatedStart& s : from) {
+        if (s.score > search.here() - kWorthFitting) return;
+        if (std::any_of(out.begin(), out.end(),
+                        [&](const EffectInstance& o) { return SameValley(o, s.effect); }))
+          continue;
+        out.push_back(s.effect);
+        return;
+      }
+    };
+    take(climbed);
+    take(order);  // where the best is near as it stands, a fit finds its way
+    return out;
   } catch (const InputError&) {
     return starts;  // refused: no start of it is any good
   }
-  std::vector<EffectInstance> out;
-  // a resonance of which no start explains anything is not there
-  const double here = Score(model, now.ratio_fit, now.ratio_validate, effective_sample_size, 0, 0);
-  const auto take = [&](const std::vector<SimulatedStart>& from) {
-    for (const SimulatedStart& s : from) {
-      if (s.score > here - kWorthFitting) return;
-      if (std::any_of(out.begin(), out.end(),
-                      [&](const EffectInstance& o) { return SameValley(o, s.effect); }))
-        continue;
-      out.push_back(s.effect);
-      return;
-    }
-  };
-  take(order);  // the best as it stands: where it is near, a fit finds its way
-  take(climbed);
-  return out;
 }
 
 }  // namespace

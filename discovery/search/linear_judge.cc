@@ -175,7 +175,8 @@ Candidate LinearJudge::Single(const SignatureBank::Entry& entry) const {
   Candidate c = {Start(entry, s.amount, 0), s.score, s.ratio_fit, s.ratio_validate,
                  entry.group.narrow,        {}};
   // Beside its true frequency a resonance seems smaller than it is.
-  if (c.narrow) c.other_starts.push_back(Start(entry, 2 * s.amount, 0));
+  if (c.narrow && !entry.group.scaling.empty())
+    c.other_starts.push_back(Start(entry, 2 * s.amount, 0));
   return c;
 }
 

@@ -6,6 +6,14 @@
 
 namespace ambrig {
 
+bool IsResonance(const EffectDescription& d) {
+  const auto has = [&](const char* name) {
+    return std::any_of(d.parameters.begin(), d.parameters.end(),
+                       [&](const EffectParameter& p) { return p.name == name; });
+  };
+  return has("frequency") && has("damping");
+}
+
 namespace {
 
 double Middle(const EffectParameter& p) {
@@ -40,14 +48,6 @@ constexpr double kSoughtDamping = 0.05;
 constexpr double kSoughtSpacing = 1.1;  // of neighbouring frequencies, about its width
 // of its usual top: large gains shift the loop's resonance, a small probe misses that
 constexpr double kSoughtGain = 0.4;
-
-bool IsResonance(const EffectDescription& d) {
-  const auto has = [&](const char* name) {
-    return std::any_of(d.parameters.begin(), d.parameters.end(),
-                       [&](const EffectParameter& p) { return p.name == name; });
-  };
-  return has("frequency") && has("damping");
-}
 
 /// It answers to its gains squared: both signs of their ratio, the size to be found.
 std::vector<ProbeGroup> GainPatterns(const EffectInstance& at, std::size_t a, std::size_t b,

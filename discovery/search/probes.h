@@ -18,6 +18,9 @@ struct ProbeGroup {
   bool narrow = false;  // a resonance: off its frequency the signature tells little
 };
 
+/// Whether the effect is one of a frequency and a damping.
+bool IsResonance(const EffectDescription& d);
+
 /// Frequencies are tried where the error stands out (`peaks`) and over their usual range.
 std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target,
                                  const CaseModel& model, const ResidualPeaks& peaks);

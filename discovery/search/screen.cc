@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/search/start_search.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {
@@ -53,6 +54,19 @@ bool Same(const EffectInstance& a, const EffectInstance& b) {
   return a.name == b.name && a.target == b.target;
 }
 
+/// The probes of a resonance that explain something of what `base` leaves; all where that cannot be
+/// tried.
+std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
+                                const std::vector<ProbeGroup>& probes,
+                                double effective_sample_size) {
+  if (Present(base.hypothesis, probes[0].probes[0])) return {};
+  try {
+    return ScanResonance(StartSearch(model, base, effective_sample_size), probes);
+  } catch (const InputError&) {
+    return probes;
+  }
+}
+
 /// Probes of one kind of target (coils or the others) that the bank does not hold yet.
 std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& base,
                                     const ResidualPeaks& peaks, bool coils,
@@ -71,7 +85,9 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
       if (coil != coils ||
           (coil && options.target.empty() && OnlyCoil(model.data().rig, d, target)))
         continue;
-      for (ProbeGroup& g : ProbesOf(d, target, model, peaks))
+      std::vector<ProbeGroup> probes = ProbesOf(d, target, model, peaks);
+      if (IsResonance(d)) probes = Scanned(model, base, probes, options.effective_sample_size);
+      for (ProbeGroup& g : probes)
         if (!Present(base.hypothesis, g.probes[0]) && !bank.Holds(g.probes[0]))
           groups.push_back(std::move(g));
     }

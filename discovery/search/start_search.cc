@@ -1,0 +1,192 @@
+#include "discovery/search/start_search.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "discovery/decision/likelihood.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr std::size_t kLookedAt = 2;  // records at most
+constexpr double kMuchOfWorst = 0.4;  // of the worst record's error: the next one is looked at too
+
+/// The fitted records of free rotors with the largest error.
+QuickLook WorstRecords(const CaseModel& model, const FitResult& now) {
+  const std::vector<CaseRecord>& records = model.data().records;
+  std::vector<double> sum(records.size(), 0.0);
+  for (const Target& t : model.targets()) {
+    const CaseRecord& record = records[t.record];
+    if (record.validate || record.scenario.start == StartState::kClamped) continue;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      sum[t.record] += now.residual[k] * now.residual[k];
+  }
+  std::vector<std::size_t> order(records.size());
+  for (std::size_t r = 0; r < order.size(); ++r) order[r] = r;
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return sum[a] > sum[b]; });
+  QuickLook look{std::vector<char>(records.size(), 0), now.predicted};
+  for (std::size_t k = 0; k < std::min(kLookedAt, order.size()); ++k)
+    if (sum[order[k]] > kMuchOfWorst * sum[order[0]]) look.records[order[k]] = 1;
+  if (sum[order[0]] == 0) look.records.assign(records.size(), 1);
+  return look;
+}
+
+/// The same resonance with `factor` times the answer, which goes with the square of its two gains or
+/// with one over its mass.
+EffectInstance Scaled(const EffectInstance& e, double factor) {
+  EffectInstance out = e;
+  const EffectDescription& d = EffectNamed(e.name);
+  for (std::size_t k = 0; k < e.table.size(); ++k) {
+    const EffectParameter& p = e.table[k];
+    if (!d.Switches(p)) continue;
+    const double scale = std::isfinite(p.null_value) ? std::sqrt(factor) : 1 / factor;
+    out.values[k] = std::clamp(e.values[k] * scale, p.lo, p.hi);
+  }
+  return out;
+}
+
+/// The rows of the two gains of an effect that has them.
+std::vector<std::size_t> GainRows(const EffectInstance& e) {
+  std::vector<std::size_t> rows;
+  const EffectDescription& d = EffectNamed(e.name);
+  if (!d.switches_pair) return rows;
+  for (std::size_t k = 0; k < e.table.size(); ++k)
+    if (d.Switches(e.table[k]) && std::isfinite(e.table[k].null_value)) rows.push_back(k);
+  return rows;
+}
+
+/// How far the neighbours of a start stand off, coarse to fine.
+struct Steps {
+  double larger, smaller;  // of the answer
+  double frequency;        // share
+  double gain;             // of one of two gains, less; 1 over it, more
+  double damping;          // less; 1 over it, more. 1: as it was sought
+};
+constexpr Steps kSteps[] = {
+    {1.6, 0.4, 0.06, 0.5, 1}, {1.25, 0.8, 0.025, 0.8, 0.6}, {1.08, 0.93, 0.008, 0.92, 0.85}};
+
+/// Larger, smaller, lower, higher, with more and less at one of two gains, more and less damped.
+std::vector<SimulatedStart> Neighbours(const EffectInstance& e, const Steps& steps) {
+  std::vector<SimulatedStart> out = {{Scaled(e, steps.larger)}, {Scaled(e, steps.smaller)}};
+  const auto add = [&](std::size_t row, double factor) {
+    out.push_back({e});
+    out.back().effect.values[row] =
+        std::clamp(e.values[row] * factor, e.table[row].lo, e.table[row].hi);
+  };
+  const bool resonance = IsResonance(EffectNamed(e.name));
+  for (std::size_t k = 0; k < e.table.size(); ++k) {
+    if (e.table[k].name == "frequency")
+      for (const double factor : {1 - steps.frequency, 1 + steps.frequency}) add(k, factor);
+    if (resonance && steps.damping < 1 && e.table[k].name == "damping")
+      for (const double factor : {steps.damping, 1 / steps.damping}) add(k, factor);
+  }
+  for (const std::size_t row : GainRows(e))
+    for (const double factor : {steps.gain, 1 / steps.gain}) add(row, factor);
+  return out;
+}
+
+bool Better(const SimulatedStart& a, const SimulatedStart& b) { return a.score < b.score; }
+
+/// Sizes and patterns of one probe of a resonance.
+std::vector<SimulatedStart> SizesOf(const EffectInstance& e) {
+  std::vector<SimulatedStart> out;
+  for (const double factor : {4.0, 1.0, 0.25, 0.0625}) out.push_back({Scaled(e, factor)});
+  // nearly alone at one of its two gains (a gain of zero would leave the fit no slope)
+  const std::vector<std::size_t> gains = GainRows(e);
+  for (const std::size_t row : gains)
+    for (const double factor : {1.0, 0.125}) {
+      out.push_back({Scaled(e, factor)});
+      out.back().effect.values[row] *= 0.25;
+    }
+  return out;
+}
+
+}  // namespace
+
+StartSearch::StartSearch(const CaseModel& model, const FitResult& now,
+                         double effective_sample_size)
+    : model_(model),
+      now_(now),
+      effective_sample_size_(effective_sample_size),
+      look_(WorstRecords(model, now)) {
+  const auto run = model.PredictAll({now.hypothesis}, Fidelity::kCoarse, &look_)[0];
+  if (!run) throw InputError("the model does not hold its rotor here");
+  const std::vector<double> residual = Residual(model, *run);
+  here_ = Score(model, Ratio(model, residual, Which::kFit),
+                Ratio(model, residual, Which::kValidate), effective_sample_size, 0, 0);
+}
+
+void StartSearch::Simulate(std::vector<SimulatedStart>& starts) const {
+  constexpr std::size_t kChunk = 32;  // predictions in memory together
+  for (std::size_t first = 0; first < starts.size(); first += kChunk) {
+    const std::size_t last = std::min(starts.size(), first + kChunk);
+    std::vector<Hypothesis> all;
+    for (std::size_t k = first; k < last; ++k) {
+      all.push_back(now_.hypothesis);
+      all.back().AddEffect(starts[k].effect);
+    }
+    const auto runs = model_.PredictAll(all, Fidelity::kCoarse, &look_);
+    for (std::size_t k = first; k < last; ++k) {
+      if (!runs[k - first]) continue;
+      const std::vector<double> residual = Residual(model_, *runs[k - first]);
+      starts[k].score =
+          Score(model_, Ratio(model_, residual, Which::kFit),
+                Ratio(model_, residual, Which::kValidate), effective_sample_size_, 0, 0);
+    }
+  }
+}
+
+void StartSearch::Climb(SimulatedStart& start) const {
+  constexpr int kMost = 12;  // moves with steps of one kind
+  for (int shrink = 0; shrink < kMost && !std::isfinite(start.score); ++shrink) {
+    std::vector<SimulatedStart> smaller = {{Scaled(start.effect, 1.0 / 6)}};
+    Simulate(smaller);
+    start = smaller[0];
+  }
+  if (!std::isfinite(start.score)) return;
+  for (const Steps& steps : kSteps)
+    for (int move = 0; move < kMost; ++move) {
+      std::vector<SimulatedStart> next = Neighbours(start.effect, steps);
+      Simulate(next);
+      const auto best = std::min_element(next.begin(), next.end(), Better);
+      if (best->score >= start.score) break;
+      start = *best;
+    }
+}
+
+bool SameValley(const EffectInstance& a, const EffectInstance& b) {
+  for (std::size_t k = 0; k < a.values.size(); ++k)
+    if (a.table[k].name == "frequency" ? std::abs(std::log(a.values[k] / b.values[k])) > 0.08
+                                       : a.values[k] * b.values[k] < 0)
+      return false;
+  return true;
+}
+
+std::vector<ProbeGroup> ScanResonance(const StartSearch& search,
+                                      const std::vector<ProbeGroup>& groups) {
+  constexpr std::size_t kKept = 5;
+  constexpr double kWorthKeeping = 4;  // of the score
+  std::vector<SimulatedStart> starts;
+  for (const ProbeGroup& g : groups)
+    for (SimulatedStart& s : SizesOf(g.probes[0])) starts.push_back(std::move(s));
+  search.Simulate(starts);
+  std::stable_sort(starts.begin(), starts.end(), Better);
+  std::vector<ProbeGroup> out;
+  for (const SimulatedStart& s : starts) {
+    if (out.size() >= kKept || s.score > search.here() - kWorthKeeping) break;
+    if (std::any_of(out.begin(), out.end(), [&](const ProbeGroup& g) {
+          return SameValley(g.probes[0], s.effect);
+        }))
+      continue;
+    ProbeGroup g;
+    g.linear = false;
+    g.narrow = true;
+    g.probes.push_back(s.effect);
+    out.push_back(std::move(g));
+  }
+  return out;
+}
+
+}  // namespace ambrig

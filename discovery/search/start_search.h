@@ -1,0 +1,51 @@
+#pragma once
+/// Starts of effects that answer to their law far from linearly (resonances, contact): only a simulation
+/// tells what a start explains, so many are simulated, on the records that show most of the error.
+#include <vector>
+
+#include "discovery/search/fit.h"
+#include "discovery/search/probes.h"
+
+namespace ambrig {
+
+/// A start and its score (likelihood.h) with the rig parameters as they are; infinity: the rotor is
+/// lost.
+struct SimulatedStart {
+  EffectInstance effect;
+  double score = kInfinity;
+};
+
+/// Where starts are tried: on top of `now`, on the fitted records of free rotors that hold most of its
+/// error. Throws InputError where the plant refuses the effect.
+class StartSearch {
+ public:
+  StartSearch(const CaseModel& model, const FitResult& now, double effective_sample_size);
+
+  /// Score without an effect, same fidelity as the starts' scores.
+  double here() const { return here_; }
+  /// Fills in the scores.
+  void Simulate(std::vector<SimulatedStart>& starts) const;
+  /// Moves a start to the neighbour (size, frequency, one of two gains) that explains most until none
+  /// explains more: a loop that a resonance brings near its limit answers out of all proportion to
+  /// the size, and at another frequency than the resonance's own. One that loses the rotor shrinks
+  /// until it holds it.
+  void Climb(SimulatedStart& start) const;
+
+ private:
+  const CaseModel& model_;
+  const FitResult& now_;
+  double effective_sample_size_;
+  QuickLook look_;
+  double here_ = 0;
+};
+
+/// Whether two starts differ in size only: frequency and the signs of their values are the same.
+bool SameValley(const EffectInstance& a, const EffectInstance& b);
+
+/// The probes of one resonance (`groups`: a frequency each) tried in several sizes and patterns of
+/// their gains: those that explain most, each as a probe of finite size. Empty where none explains
+/// anything.
+std::vector<ProbeGroup> ScanResonance(const StartSearch& search,
+                                      const std::vector<ProbeGroup>& groups);
+
+}  // namespace ambrig
