@@ -10,7 +10,9 @@ constexpr double kAgrees = 1.05;  // ratio on unseen records that counts as the 
 constexpr double kGood = 1.5;
 constexpr double kCompelling = 200;  // gain of the score that no detail of another law brings
 constexpr double kDoubtfulShift = 3, kNeverParameter = 5;  // sd
-constexpr double kMostExplained = 0.9;                     // of the squared error above the floor
+// what a law's own detail leaves of the squared ratio that it explains, and at most
+constexpr double kDetail = 0.02, kMostDetail = 0.1;
+constexpr double kMostExplained = 0.9;  // of the squared error above the floor
 }  // namespace
 
 double ExplainedShare(double before, double after) {
@@ -42,6 +44,7 @@ bool WorthAdopting(const FitResult& before, const FitResult& after, double score
   // power), and by a good part of what is left; a second effect by more than a law's own detail.
   const double fall = b * b - a * a;
   if (fall < 0.015 + 0.01 * round) return false;
+  if (round > 0 && fall < std::min(kDetail * first_fall, kMostDetail)) return false;
   const double share = ExplainedShare(b, a);
   if (round == 0) return share > 0.25;
   return share > 0.75 || (share > 0.4 && (fall > 0.1 * first_fall || score_gain > kCompelling));

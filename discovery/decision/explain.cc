@@ -102,7 +102,8 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.base_ratio_fit = base.ratio_fit;
   out_.base_ratio_validate = base.ratio_validate;
   out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
-  TryNuisances(base, true);
+  const FitResult bare = base;
+  if (TryNuisances(base, true) && OneEffectInstead(bare, base)) base = bare;
   FitResult now = base;
   for (int round = 0; round < options_.rounds; ++round)
     if (!AdoptBest(now, round)) break;
@@ -133,7 +134,8 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
 /// How large what was not found could still be.
 void Explainer::FindHidden(const FitResult& now) {
   Progress(0.96, "how large could an effect be without being seen?");
-  if (bank_.entries().empty()) {
+  if (bank_.entries().empty() || bank_.partial()) {
+    bank_ = SignatureBank();
     ScreenOptions coarse;
     coarse.effective_sample_size = out_.effective_sample_size;
     coarse.coarse = true;

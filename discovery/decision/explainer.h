@@ -22,6 +22,9 @@ class Explainer {
   /// Zeros, clocks and inputs that differ from record to record, where the case declares none.
   /// `alone`: only when they explain nearly all that is left, before any effect is sought.
   bool TryNuisances(FitResult& now, bool alone);
+  /// Whether one effect explains as much as the nuisances of every record together, which are many:
+  /// they are then given up, and the search for effects starts from `bare`.
+  bool OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances);
   /// The amounts of the nuisances at the end.
   void ReportNuisances(const FitResult& now);
   /// An effect that the last fit leaves without a size goes again.

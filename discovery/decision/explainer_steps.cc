@@ -45,6 +45,32 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
   return true;
 }
 
+/// Whether one effect explains as much as the nuisances of every record together, which are many:
+/// they are then given up, and the search for effects starts from `bare`.
+bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances) {
+  const Nuisances full = full_.nuisances, thinned = model_.nuisances;
+  full_.nuisances = model_.nuisances = Nuisances();
+  bank_ = SignatureBank();
+  const double reached = RatiosOf(model_, with_nuisances).Answered();
+  ScreenOptions screen;
+  screen.effective_sample_size = out_.effective_sample_size;
+  const std::vector<Candidate> candidates = Screen(model_, bare, ResidualPeaks(), screen, bank_);
+  const std::size_t tried = std::min<std::size_t>(candidates.size(), 3);
+  for (std::size_t k = 0; k < tried; ++k) {
+    if (ExplainedShare(bare.ratio_fit, candidates[k].ratio_fit) < 0.6) break;
+    Progress(0.07, Named(candidates[k].effect) + " in place of the nuisances");
+    const FitResult fit = FitBriefly(model_, bare, candidates[k], out_.effective_sample_size);
+    if (!fit.converged || RatiosOf(model_, fit).Answered() > std::max(1.1, 1.03 * reached))
+      continue;
+    out_.ladder.pop_back();
+    return true;
+  }
+  full_.nuisances = full;
+  model_.nuisances = thinned;
+  bank_ = SignatureBank();
+  return false;
+}
+
 /// The amounts of the nuisances at the end.
 void Explainer::ReportNuisances(const FitResult& now) {
   if (!full_.nuisances.any()) return;

@@ -25,11 +25,14 @@ bool Promising(const FitResult& now, const Candidate& c) {
 /// The best fit so far explains nearly all, and this candidate promises far less.
 bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
              const Candidate& next) {
+  constexpr double kAtFloor = 0.02;  // of the squared ratio
   if (ranking.size() < 2) return false;
-  double best = kInfinity;
-  for (const RankedEffect& r : ranking) best = std::min(best, r.fit.ratio_validate);
-  return ExplainedShare(now.ratio_validate, best) > 0.9 &&
-         next.ratio_validate * next.ratio_validate - 1 > 4 * (best * best - 1);
+  const auto best = std::min_element(
+      ranking.begin(), ranking.end(),
+      [](const auto& a, const auto& b) { return a.fit.ratio_validate < b.fit.ratio_validate; });
+  const double left = best->fit.ratio_validate * best->fit.ratio_validate - 1;
+  return ExplainedShare(now.ratio_validate, best->fit.ratio_validate) > 0.9 &&
+         next.ratio_validate * next.ratio_validate - 1 > 4 * std::max(left, kAtFloor);
 }
 
 class Ranker {
@@ -48,6 +51,8 @@ class Ranker {
         predicted ? FindPeaks(s_.full, Residual(s_.full, *predicted)) : ResidualPeaks();
     out_.screened = Screen(s_.model, now_, peaks, screen, s_.bank);
     FitThePromising();
+    Sort();
+    FitRivalsOfTheBest();
     Sort();
     FitToTheEnd();
     Sort();
@@ -68,13 +73,38 @@ class Ranker {
       const Candidate& c = candidates[next];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
       if (c.score > here && (ranking_.size() >= 2 || round_ > 0)) break;
-      if (Decided(now_, ranking_, c)) break;
+      if (Decided(now_, ranking_, c)) continue;
       if (round_ == 0 || Promising(now_, c)) FitTheStart(c);
     }
     // A resonance shows only when it is fitted; later rounds try that where much is left.
     for (; next < candidates.size() && (round_ == 0 || now_.ratio_validate > 1.3); ++next)
       if (candidates[next].narrow && !Decided(now_, ranking_, candidates[next]))
         FitTheStart(candidates[next]);
+  }
+
+  /// Other laws at the place of the best: their linear promise says little of how they compare, and a
+  /// name given without them would be too sure.
+  void FitRivalsOfTheBest() {
+    constexpr int kRivals = 3;
+    constexpr double kSome = 0.3;  // of the error above the noise, by the linear promise
+    if (ranking_.empty()) return;
+    const EffectInstance best = ranking_[0].effect;
+    int fitted = 0;
+    for (const Candidate& c : out_.screened) {
+      if (c.effect.target != best.target || c.narrow || Ranked(c.effect) || fitted == kRivals)
+        continue;
+      if (std::max(ExplainedShare(now_.ratio_fit, c.ratio_fit),
+                   ExplainedShare(now_.ratio_validate, c.ratio_validate)) < kSome)
+        continue;
+      FitTheStart(c);
+      ++fitted;
+    }
+  }
+
+  bool Ranked(const EffectInstance& e) const {
+    return std::any_of(ranking_.begin(), ranking_.end(), [&](const RankedEffect& r) {
+      return r.effect.name == e.name && r.effect.target == e.target;
+    });
   }
 
   void FitTheStart(const Candidate& c) {

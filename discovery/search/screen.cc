@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/search/quick_look.h"
 #include "discovery/search/start_search.h"
 #include "rig/rig_assembly.h"
 
@@ -54,14 +55,14 @@ bool Same(const EffectInstance& a, const EffectInstance& b) {
   return a.name == b.name && a.target == b.target;
 }
 
-/// The probes of a resonance that explain something of what `base` leaves; all where that cannot be
+/// The probes of a narrow effect that explain something of what `base` leaves; all where that cannot be
 /// tried.
 std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
                                 const std::vector<ProbeGroup>& probes,
                                 double effective_sample_size) {
   if (Present(base.hypothesis, probes[0].probes[0])) return {};
   try {
-    return ScanResonance(StartSearch(model, base, effective_sample_size), probes);
+    return ScanStarts(StartSearch(model, base, effective_sample_size), probes);
   } catch (const InputError&) {
     return probes;
   }
@@ -86,7 +87,8 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
           (coil && options.target.empty() && OnlyCoil(model.data().rig, d, target)))
         continue;
       std::vector<ProbeGroup> probes = ProbesOf(d, target, model, peaks);
-      if (IsResonance(d)) probes = Scanned(model, base, probes, options.effective_sample_size);
+      if (IsResonance(d) || d.needs.contact)
+        probes = Scanned(model, base, probes, options.effective_sample_size);
       for (ProbeGroup& g : probes)
         if (!Present(base.hypothesis, g.probes[0]) && !bank.Holds(g.probes[0]))
           groups.push_back(std::move(g));
@@ -133,6 +135,7 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
 std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                               const ResidualPeaks& peaks, const ScreenOptions& options,
                               SignatureBank& bank) {
+  if (!options.coarse) bank.LookAt(model, RecordsShowing(model, base));
   const bool again = !bank.entries().empty();
   const auto part = [&](double from, double to) {
     return [&options, from, to](double f, const std::string& text) {

@@ -8,6 +8,8 @@ namespace {
 
 using Eigen::Index;
 
+constexpr std::size_t kChunk = 24;  // predictions of a chunk are in memory together
+
 struct Span {
   Index first = 0, count = 0;
   bool validate = false;
@@ -36,56 +38,105 @@ Gram RowProducts(const CaseModel& model, const Eigen::MatrixXd& a, const Eigen::
   return g;
 }
 
+std::vector<std::vector<float>> SignatureBank::Signatures(const CaseModel& model,
+                                                          const Hypothesis& base,
+                                                          const std::vector<EffectInstance>& probes,
+                                                          const QuickLook* look) const {
+  std::vector<Hypothesis> all;
+  for (const EffectInstance& e : probes) {
+    all.push_back(base);
+    all.back().rig.effects.push_back(e);
+  }
+  all.push_back(base);
+  const auto runs = model.PredictAll(all, Fidelity::kCoarse, look);
+  const auto& without = runs.back();
+  std::vector<std::vector<float>> out(probes.size());
+  std::vector<double> signature(model.size());
+  for (std::size_t k = 0; without && k < probes.size(); ++k) {
+    if (!runs[k]) continue;
+    std::fill(signature.begin(), signature.end(), 0.0);
+    for (const Target& t : model.targets())
+      for (std::size_t row = t.first; row < t.first + t.count; ++row)
+        if (model.ok()[row]) signature[row] = ((*runs[k])[row] - (*without)[row]) / t.floor;
+    if (model.nuisances.any()) model.nuisances.Eliminate(signature.data());
+    out[k].assign(signature.begin(), signature.end());
+  }
+  return out;
+}
+
 void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
                              const std::vector<ProbeGroup>& groups,
                              const std::function<void(double, const std::string&)>& progress) {
-  constexpr std::size_t kChunk = 24;  // predictions of a chunk are in memory together
   if (groups.empty()) return;
-  const auto without = model.PredictAll({base.hypothesis}, Fidelity::kCoarse)[0];
-  if (!without) return;
+  const auto hypothesis = std::make_shared<const Hypothesis>(base.hypothesis);
   for (std::size_t first = 0; first < groups.size();) {
-    std::vector<Hypothesis> all;
+    std::vector<EffectInstance> probes;
     std::size_t last = first;
     while (last < groups.size() &&
-           (last == first || all.size() + groups[last].probes.size() <= kChunk)) {
-      for (const EffectInstance& e : groups[last].probes) {
-        all.push_back(base.hypothesis);
-        all.back().rig.effects.push_back(e);
-      }
-      ++last;
-    }
+           (last == first || probes.size() + groups[last].probes.size() <= kChunk))
+      for (const EffectInstance& e : groups[last++].probes) probes.push_back(e);
     if (progress)
       progress(static_cast<double>(first) / static_cast<double>(groups.size()),
                groups[first].probes[0].name);
-    const auto runs = model.PredictAll(all, Fidelity::kCoarse);
-    if (used_ + static_cast<Index>(all.size()) > columns_.cols())
+    const auto signatures = Signatures(model, *hypothesis, probes, look_ ? &*look_ : nullptr);
+    if (used_ + static_cast<Index>(probes.size()) > columns_.cols())
       columns_.conservativeResize(
           static_cast<Index>(model.size()),
           std::max<Index>(2 * columns_.cols(), used_ + 4 * static_cast<Index>(kChunk)));
     std::size_t at = 0;
     for (; first < last; ++first) {
-      Entry entry;
-      entry.first = used_;
-      entry.group = groups[first];
+      Entry entry{groups[first], used_, hypothesis};
       entry.group.probes.clear();
       entry.group.rows.clear();
       for (std::size_t k = 0; k < groups[first].probes.size(); ++k, ++at) {
-        if (!runs[at]) continue;
-        std::vector<double> signature(model.size());
-        for (const Target& t : model.targets())
-          for (std::size_t row = t.first; row < t.first + t.count; ++row)
-            if (model.ok()[row]) signature[row] = ((*runs[at])[row] - (*without)[row]) / t.floor;
-        if (model.nuisances.any()) model.nuisances.Eliminate(signature.data());
-        columns_.col(used_) =
-            Eigen::Map<const Eigen::VectorXd>(signature.data(), static_cast<Index>(model.size()))
-                .cast<float>();
-        ++used_;
+        if (signatures[at].empty()) continue;
+        columns_.col(used_++) = Eigen::Map<const Eigen::VectorXf>(signatures[at].data(),
+                                                                  static_cast<Index>(model.size()));
         entry.group.probes.push_back(groups[first].probes[k]);
         if (entry.group.linear) entry.group.rows.push_back(groups[first].rows[k]);
       }
       if (!entry.group.probes.empty()) entries_.push_back(std::move(entry));
     }
   }
+}
+
+void SignatureBank::LookAt(const CaseModel& model, const QuickLook& look) {
+  if (!look_ && !entries_.empty()) return;  // has all
+  QuickLook missing = look;
+  bool any = false;
+  for (std::size_t r = 0; look_ && r < look.records.size(); ++r) {
+    missing.records[r] = look.records[r] && !look_->records[r];
+    any = any || missing.records[r];
+    look_->records[r] = look_->records[r] || look.records[r];
+  }
+  if (!look_) look_ = look;
+  if (!any) return;
+  for (std::size_t begin = 0; begin < entries_.size();) {
+    std::size_t end = begin, probes = 0;
+    while (end < entries_.size() && probes < kChunk && entries_[end].base == entries_[begin].base)
+      probes += entries_[end++].group.probes.size();
+    Fill(model, begin, end, missing);
+    begin = end;
+  }
+  multiplied_ = 0;
+  products_ = Gram();
+}
+
+void SignatureBank::Fill(const CaseModel& model, std::size_t begin, std::size_t end,
+                         const QuickLook& look) {
+  std::vector<EffectInstance> probes;
+  for (std::size_t k = begin; k < end; ++k)
+    probes.insert(probes.end(), entries_[k].group.probes.begin(), entries_[k].group.probes.end());
+  const auto signatures = Signatures(model, *entries_[begin].base, probes, &look);
+  for (std::size_t k = 0; k < signatures.size(); ++k) {
+    if (signatures[k].empty()) continue;  // the rotor is lost there: nothing known of these rows
+    columns_.col(entries_[begin].first + static_cast<Index>(k)) +=
+        Eigen::Map<const Eigen::VectorXf>(signatures[k].data(), static_cast<Index>(model.size()));
+  }
+}
+
+bool SignatureBank::partial() const {
+  return look_ && std::count(look_->records.begin(), look_->records.end(), 0) > 0;
 }
 
 bool SignatureBank::Holds(const EffectInstance& probe) const {

@@ -3,6 +3,8 @@
 /// round ranks the same effects against a new residual without simulating them again.
 #include <Eigen/Dense>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,15 +21,22 @@ struct Gram {
 class SignatureBank {
  public:
   struct Entry {
-    ProbeGroup group;        // only the probes that the rotor survived
-    Eigen::Index first = 0;  // column of its first probe
+    ProbeGroup group;                        // only the probes that the rotor survived
+    Eigen::Index first = 0;                  // column of its first probe
+    std::shared_ptr<const Hypothesis> base;  // what its probes stand on
     Eigen::Index count() const { return static_cast<Eigen::Index>(group.probes.size()); }
   };
 
-  /// Simulates the groups' probes on top of `base` and adds their signatures.
+  /// Simulates the groups' probes on top of `base` and adds their signatures. With a bank limited to
+  /// some records the others' rows are zero.
   void Simulate(const CaseModel& model, const FitResult& base,
                 const std::vector<ProbeGroup>& groups,
                 const std::function<void(double, const std::string&)>& progress);
+  /// Signatures of the records of `look` only, until more are asked for: what the bank lacks of them
+  /// is then simulated.
+  void LookAt(const CaseModel& model, const QuickLook& look);
+  /// Whether some record was left out.
+  bool partial() const;
 
   const std::vector<Entry>& entries() const { return entries_; }
   bool Holds(const EffectInstance& probe) const;
@@ -37,7 +46,15 @@ class SignatureBank {
   Gram ProductsWith(const CaseModel& model, const Eigen::MatrixXd& a) const;
 
  private:
+  /// Fills rows of the look's records into the columns of the entries begin to end, of one base.
+  void Fill(const CaseModel& model, std::size_t begin, std::size_t end, const QuickLook& look);
+  /// The signature of each probe on one base; empty: the rotor is lost.
+  std::vector<std::vector<float>> Signatures(const CaseModel& model, const Hypothesis& base,
+                                             const std::vector<EffectInstance>& probes,
+                                             const QuickLook* look) const;
+
   std::vector<Entry> entries_;
+  std::optional<QuickLook> look_;
   Eigen::MatrixXf columns_;  // spare columns at the end
   Eigen::Index used_ = 0, multiplied_ = 0;
   Gram products_;

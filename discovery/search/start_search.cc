@@ -4,34 +4,11 @@
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
+#include "discovery/search/quick_look.h"
 
 namespace ambrig {
 
 namespace {
-
-constexpr std::size_t kLookedAt = 2;  // records at most
-constexpr double kMuchOfWorst = 0.4;  // of the worst record's error: the next one is looked at too
-
-/// The fitted records of free rotors with the largest error.
-QuickLook WorstRecords(const CaseModel& model, const FitResult& now) {
-  const std::vector<CaseRecord>& records = model.data().records;
-  std::vector<double> sum(records.size(), 0.0);
-  for (const Target& t : model.targets()) {
-    const CaseRecord& record = records[t.record];
-    if (record.validate || record.scenario.start == StartState::kClamped) continue;
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      sum[t.record] += now.residual[k] * now.residual[k];
-  }
-  std::vector<std::size_t> order(records.size());
-  for (std::size_t r = 0; r < order.size(); ++r) order[r] = r;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sum[a] > sum[b]; });
-  QuickLook look{std::vector<char>(records.size(), 0), now.predicted};
-  for (std::size_t k = 0; k < std::min(kLookedAt, order.size()); ++k)
-    if (sum[order[k]] > kMuchOfWorst * sum[order[0]]) look.records[order[k]] = 1;
-  if (sum[order[0]] == 0) look.records.assign(records.size(), 1);
-  return look;
-}
 
 /// The same resonance with `factor` times the answer, which goes with the square of its two gains or
 /// with one over its mass.
@@ -90,12 +67,11 @@ std::vector<SimulatedStart> Neighbours(const EffectInstance& e, const Steps& ste
 bool Better(const SimulatedStart& a, const SimulatedStart& b) { return a.score < b.score; }
 
 /// Sizes and patterns of one probe of a resonance.
-std::vector<SimulatedStart> SizesOf(const EffectInstance& e) {
+std::vector<SimulatedStart> SizesOfResonance(const EffectInstance& e) {
   std::vector<SimulatedStart> out;
   for (const double factor : {4.0, 1.0, 0.25, 0.0625}) out.push_back({Scaled(e, factor)});
   // nearly alone at one of its two gains (a gain of zero would leave the fit no slope)
-  const std::vector<std::size_t> gains = GainRows(e);
-  for (const std::size_t row : gains)
+  for (const std::size_t row : GainRows(e))
     for (const double factor : {1.0, 0.125}) {
       out.push_back({Scaled(e, factor)});
       out.back().effect.values[row] *= 0.25;
@@ -103,10 +79,27 @@ std::vector<SimulatedStart> SizesOf(const EffectInstance& e) {
   return out;
 }
 
+/// Sizes over the usual range of an effect of contact: a rebound that comes a little later changes all
+/// that follows, so no size tells what its neighbour would explain.
+std::vector<SimulatedStart> SizesOfContact(const EffectInstance& e) {
+  constexpr int kSizes = 14;
+  std::vector<SimulatedStart> out;
+  const EffectDescription& d = EffectNamed(e.name);
+  for (std::size_t k = 0; k < e.table.size(); ++k) {
+    const EffectParameter& p = e.table[k];
+    if (!d.Switches(p)) continue;
+    for (int n = 0; n < kSizes; ++n) {
+      out.push_back({e});
+      out.back().effect.values[k] =
+          p.typical_lo * std::pow(p.typical_hi / p.typical_lo, n / (kSizes - 1.0));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
-StartSearch::StartSearch(const CaseModel& model, const FitResult& now,
-                         double effective_sample_size)
+StartSearch::StartSearch(const CaseModel& model, const FitResult& now, double effective_sample_size)
     : model_(model),
       now_(now),
       effective_sample_size_(effective_sample_size),
@@ -164,21 +157,24 @@ bool SameValley(const EffectInstance& a, const EffectInstance& b) {
   return true;
 }
 
-std::vector<ProbeGroup> ScanResonance(const StartSearch& search,
-                                      const std::vector<ProbeGroup>& groups) {
+std::vector<ProbeGroup> ScanStarts(const StartSearch& search,
+                                   const std::vector<ProbeGroup>& groups) {
   constexpr std::size_t kKept = 5;
   constexpr double kWorthKeeping = 4;  // of the score
   std::vector<SimulatedStart> starts;
-  for (const ProbeGroup& g : groups)
-    for (SimulatedStart& s : SizesOf(g.probes[0])) starts.push_back(std::move(s));
+  for (const ProbeGroup& g : groups) {
+    const EffectInstance& e = g.probes[0];
+    const bool resonance = IsResonance(EffectNamed(e.name));
+    for (SimulatedStart& s : resonance ? SizesOfResonance(e) : SizesOfContact(e))
+      starts.push_back(std::move(s));
+  }
   search.Simulate(starts);
   std::stable_sort(starts.begin(), starts.end(), Better);
   std::vector<ProbeGroup> out;
   for (const SimulatedStart& s : starts) {
     if (out.size() >= kKept || s.score > search.here() - kWorthKeeping) break;
-    if (std::any_of(out.begin(), out.end(), [&](const ProbeGroup& g) {
-          return SameValley(g.probes[0], s.effect);
-        }))
+    if (std::any_of(out.begin(), out.end(),
+                    [&](const ProbeGroup& g) { return SameValley(g.probes[0], s.effect); }))
       continue;
     ProbeGroup g;
     g.linear = false;

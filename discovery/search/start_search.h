@@ -42,10 +42,10 @@ class StartSearch {
 /// Whether two starts differ in size only: frequency and the signs of their values are the same.
 bool SameValley(const EffectInstance& a, const EffectInstance& b);
 
-/// The probes of one resonance (`groups`: a frequency each) tried in several sizes and patterns of
-/// their gains: those that explain most, each as a probe of finite size. Empty where none explains
-/// anything.
-std::vector<ProbeGroup> ScanResonance(const StartSearch& search,
-                                      const std::vector<ProbeGroup>& groups);
+/// The probes of one narrow effect (`groups`: of a resonance, a frequency each) tried in several
+/// sizes and patterns of their gains: those that explain most, each as a probe of finite size. Empty
+/// where none explains anything.
+std::vector<ProbeGroup> ScanStarts(const StartSearch& search,
+                                   const std::vector<ProbeGroup>& groups);
 
 }  // namespace ambrig

@@ -73,6 +73,29 @@ TEST(MotionMode, GainsOfTheUniformBeamGiveItsFirstMode) {
   EXPECT_NEAR(plant.rotor.modes().back().Gain(-0.135), 2 * 0.6333250 / std::sqrt(4.2), 0.01);
 }
 
+// A shaft that bends as a rod of 1.1 times the length has the first mode of that rod: the gain at a
+// sensor beside the magnet is another one, the gains at the magnets stay.
+TEST(MotionMode, LengthStretchesTheShape) {
+  const double length = std::sqrt(12 * 0.036 / 4.2);
+  const auto gain = [](const Plant& plant, double z) { return plant.rotor.modes().back().Gain(z); };
+  const auto bent = [](double stretch) {
+    return PlantOf({{"bending-mode",
+                     "rig",
+                     {{"frequency", 330}, {"gain_a", 0.5}, {"gain_b", 0.5}, {"length", stretch}}}});
+  };
+  const Plant rod = bent(1), longer = bent(1.1);
+  for (const double z : {-0.12, 0.12}) EXPECT_NEAR(gain(longer, z), gain(rod, z), 2e-3);
+  EXPECT_GT(std::abs(gain(longer, 0.135) - gain(rod, 0.135)), 5e-3);
+  double sum = 0, square = 0;
+  constexpr int kParts = 2000;
+  for (int k = 0; k < kParts; ++k) {
+    const double g = gain(longer, 1.1 * length * ((k + 0.5) / kParts - 0.5));
+    sum += g / kParts;
+    square += g * g / kParts;
+  }
+  EXPECT_NEAR(sum, 0, 5e-4 * std::sqrt(square)) << "no rigid motion of the rod of that length";
+}
+
 TEST(MotionMode, BearingOnANodeDoesNotMakeAWildShape) {
   // +-0.12 m lies 6 mm beside the odd mode's nodes: its gains alone would ask for 1/0.043 of it.
   Plant plant = Bending(-0.3, 0.3);

@@ -3,8 +3,11 @@
 // misfit.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "discovery/practice/examination.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/start_search.h"
 #include "effects/catalogue.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
@@ -77,6 +80,48 @@ TEST_F(ResonanceStartTest, StartsAreJudgedByTheirSimulation) {
   const FitResult fit = FitBriefly(model, base, candidate, 1e5);
   ASSERT_TRUE(fit.converged);
   EXPECT_NEAR(FittedEffect(fit, 0).Value("frequency"), 35, 0.4);
+}
+
+// Frequencies far apart and one damping: the valley is found by simulation in several sizes, and the
+// climb ends beside the truth without a single sensitivity.
+TEST_F(ResonanceStartTest, AScanAndAClimbEndBesideTheTruth) {
+  CaseModel model(data_, 4);
+  const FitResult base = Simulated(model);
+  std::vector<ProbeGroup> grid;
+  for (const double frequency : {20.0, 26.0, 33.0, 43.0, 70.0, 120.0}) {
+    ProbeGroup g;
+    g.linear = false;
+    g.narrow = true;
+    g.probes = {BaseOf(70, frequency, 0.05)};
+    grid.push_back(g);
+  }
+  const StartSearch search(model, base, 1e5);
+  const std::vector<ProbeGroup> starts = ScanStarts(search, grid);
+  ASSERT_FALSE(starts.empty());
+  for (std::size_t k = 1; k < starts.size(); ++k)
+    EXPECT_FALSE(SameValley(starts[0].probes[0], starts[k].probes[0]));
+  std::vector<SimulatedStart> start = {{starts[0].probes[0]}};
+  search.Simulate(start);
+  EXPECT_LT(start[0].score, search.here());
+  SimulatedStart climbed = start[0];
+  search.Climb(climbed);
+  EXPECT_LT(climbed.score, start[0].score);
+  EXPECT_NEAR(climbed.effect.Value("frequency"), 35, 2.5);
+  EXPECT_NEAR(std::log(climbed.effect.Value("mass") / 90), 0, 0.35);
+}
+
+// Sizes of either kind are one valley, other frequencies and other signs are not.
+TEST(SameValley, IsOneFrequencyAndOnePatternOfSigns) {
+  EXPECT_TRUE(SameValley(BaseOf(50, 35, 0.05), BaseOf(300, 36, 0.02)));
+  EXPECT_FALSE(SameValley(BaseOf(50, 35, 0.05), BaseOf(50, 40, 0.05)));
+  EffectInstance a = MakeInstance(EffectNamed("bending-mode"), "rig"), b = a;
+  a.Set("gain_a", 0.3);
+  a.Set("gain_b", 0.3);
+  b.Set("gain_a", 0.1);
+  b.Set("gain_b", -0.1);
+  EXPECT_FALSE(SameValley(a, b));
+  b.Set("gain_b", 0.2);
+  EXPECT_TRUE(SameValley(a, b));
 }
 
 }  // namespace

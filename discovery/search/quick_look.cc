@@ -1,0 +1,77 @@
+#include "discovery/search/quick_look.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+namespace {
+
+constexpr std::size_t kLookedAt = 2;  // worst records at most
+constexpr double kMuchOfWorst = 0.4;  // of the worst record's error: the next one is looked at too
+constexpr double kShown = 0.9;        // of the squared error above the noise
+constexpr double kPlain = 2;          // ratio above which a part of the records tells
+
+struct RecordError {
+  std::size_t record = 0;
+  double square = 0, rows = 0;  // Σ r² and number of the rows that count
+  double Excess() const { return std::max(0.0, square - rows); }
+};
+
+/// Largest error above the noise first.
+std::vector<RecordError> ErrorsOf(const CaseModel& model, const FitResult& now) {
+  std::vector<RecordError> errors(model.data().records.size());
+  for (std::size_t r = 0; r < errors.size(); ++r) errors[r].record = r;
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      errors[t.record].square += now.residual[k] * now.residual[k];
+      errors[t.record].rows += model.ok()[k];
+    }
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const auto& a, const auto& b) { return a.Excess() > b.Excess(); });
+  return errors;
+}
+
+}  // namespace
+
+QuickLook WorstRecords(const CaseModel& model, const FitResult& now) {
+  const std::vector<CaseRecord>& records = model.data().records;
+  QuickLook look{std::vector<char>(records.size(), 0), now.predicted};
+  std::size_t taken = 0;
+  double worst = 0;
+  for (const RecordError& e : ErrorsOf(model, now)) {
+    const CaseRecord& record = records[e.record];
+    if (record.validate || record.scenario.start == StartState::kClamped) continue;
+    if (taken == kLookedAt || e.Excess() <= kMuchOfWorst * worst) break;
+    worst = std::max(worst, e.Excess());
+    look.records[e.record] = 1;
+    ++taken;
+  }
+  if (taken == 0) look.records.assign(records.size(), 1);
+  return look;
+}
+
+QuickLook RecordsShowing(const CaseModel& model, const FitResult& now) {
+  const std::vector<CaseRecord>& records = model.data().records;
+  QuickLook look{std::vector<char>(records.size(), 0), now.predicted};
+  if (now.ratio_fit < kPlain) {
+    look.records.assign(records.size(), 1);
+    return look;
+  }
+  const std::vector<RecordError> errors = ErrorsOf(model, now);
+  for (const bool validate : {false, true}) {
+    double total = 0, taken = 0;
+    for (const RecordError& e : errors)
+      if (records[e.record].validate == validate) total += e.Excess();
+    bool any = false;
+    for (const RecordError& e : errors) {
+      if (records[e.record].validate != validate) continue;
+      if (any && taken >= kShown * total) break;
+      look.records[e.record] = 1;
+      taken += e.Excess();
+      any = true;
+    }
+  }
+  return look;
+}
+
+}  // namespace ambrig
