@@ -68,18 +68,13 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
     sort(climbed);
     std::vector<EffectInstance> out;
     // what explains nothing wherever it starts is not there
-    const auto take = [&](const std::vector<SimulatedStart>& from) {
-      for (const SimulatedStart& s : from) {
-        if (s.score > search.here() - kWorthFitting) return;
-        if (std::any_of(out.begin(), out.end(),
-                        [&](const EffectInstance& o) { return SameValley(o, s.effect); }))
-          continue;
-        out.push_back(s.effect);
-        return;
-      }
+    const auto explains = [&](const SimulatedStart& s) {
+      return s.score <= search.here() - kWorthFitting;
     };
-    take(climbed);
-    take(order);  // where the best is near as it stands, a fit finds its way
+    // where the best is near as it stands, a fit finds its way
+    if (explains(order[0]) && !SameValley(order[0].effect, climbed[0].effect))
+      out.push_back(order[0].effect);
+    if (explains(climbed[0])) out.push_back(climbed[0].effect);
     return out;
   } catch (const InputError&) {
     return starts;  // refused: no start of it is any good
