@@ -18,7 +18,7 @@ namespace {
 
 // of the worst channel: to be seen, and not grotesque
 constexpr double kLeastRatio = 5, kMostRatio = 60;
-constexpr double kLoadCellNoise = 0.0012;  // of the rotor's weight, rms
+constexpr double kHiddenLoadCellNoise = 0.0012;  // of the rotor's weight, rms
 
 /// Streams of random numbers of one seed.
 enum Stream : std::uint32_t { kParameters = 101, kTargets, kSizes, kLoadCells };
@@ -58,7 +58,7 @@ EffectInstance DrawEffect(const EffectDescription& d, const std::string& target,
 }
 
 /// The effect with its switches `k` times as far from their nulls, at most twice what is usual.
-EffectInstance Scaled(const EffectDescription& d, const EffectInstance& e, double k) {
+EffectInstance ScaledEffect(const EffectDescription& d, const EffectInstance& e, double k) {
   EffectInstance out = e;
   for (std::size_t row = 0; row < d.parameters.size(); ++row) {
     const EffectParameter& p = d.parameters[row];
@@ -117,7 +117,7 @@ EffectInstance VisibleEffect(const CaseModel& model, const Hypothesis& truth,
   double k = 1;
   for (int attempt = 0; attempt < 12; ++attempt) {
     Hypothesis h = truth;
-    h.rig.effects.push_back(Scaled(d, drawn, k));
+    h.rig.effects.push_back(ScaledEffect(d, drawn, k));
     const auto with = model.Predict(h);
     *shown = with ? WorstChannel(model, *with, without) : Shown{kInfinity, ""};
     if (shown->ratio >= kLeastRatio && shown->ratio <= kMostRatio) return h.rig.effects.back();
@@ -171,7 +171,7 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   }
   out.records = Examination(rig, request.seed, needs);
   out.data = EmptyCase(rig, out.records);
-  const double load_cell_noise = kLoadCellNoise * rig.rotor.mass * 9.81;
+  const double load_cell_noise = kHiddenLoadCellNoise * rig.rotor.mass * 9.81;
   out.data.noise[ChannelId{ChannelKind::kBus}.name()] = 0.005;
   for (const BearingParameters& b : rig.bearings)
     if (b.kind == BearingKind::kRadial)

@@ -52,7 +52,7 @@ bool SameValley(const EffectInstance& a, const EffectInstance& b) {
 
 /// The same resonance with `factor` times the answer, which goes with the square of its two gains or
 /// with one over its mass.
-EffectInstance Scaled(const EffectInstance& e, double factor) {
+EffectInstance ScaledInstance(const EffectInstance& e, double factor) {
   EffectInstance out = e;
   const EffectDescription& d = EffectNamed(e.name);
   for (std::size_t k = 0; k < e.table.size(); ++k) {
@@ -88,7 +88,7 @@ void Simulate(const CaseModel& model, const FitResult& now, double effective_sam
 
 /// Neighbours of a resonance: larger, smaller, lower, higher, and with less at one of two gains.
 std::vector<SimulatedStart> Neighbours(const EffectInstance& e) {
-  std::vector<SimulatedStart> out = {{Scaled(e, 1.6)}, {Scaled(e, 0.4)}};
+  std::vector<SimulatedStart> out = {{ScaledInstance(e, 1.6)}, {ScaledInstance(e, 0.4)}};
   const bool pair = EffectNamed(e.name).switches_pair;
   for (std::size_t k = 0; k < e.table.size(); ++k) {
     const EffectParameter& p = e.table[k];
@@ -114,7 +114,7 @@ void Climb(const CaseModel& model, const FitResult& now, double effective_sample
     if (std::isfinite(start.score))
       next = Neighbours(start.effect);
     else
-      next = {{Scaled(start.effect, 1.0 / 6)}};
+      next = {{ScaledInstance(start.effect, 1.0 / 6)}};
     Simulate(model, now, effective_sample_size, next);
     const auto best = std::min_element(
         next.begin(), next.end(), [](const auto& a, const auto& b) { return a.score < b.score; });

@@ -41,7 +41,7 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
                              const std::function<void(double, const std::string&)>& progress) {
   constexpr std::size_t kChunk = 24;  // predictions of a chunk are in memory together
   if (groups.empty()) return;
-  const auto without = model.PredictAll({base.hypothesis}, Fidelity::kCoarse)[0];
+  const auto without = model.PredictAll({base.hypothesis}, ModelFidelity::kCoarse)[0];
   if (!without) return;
   for (std::size_t first = 0; first < groups.size();) {
     std::vector<Hypothesis> all;
@@ -57,7 +57,7 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
     if (progress)
       progress(static_cast<double>(first) / static_cast<double>(groups.size()),
                groups[first].probes[0].name);
-    const auto runs = model.PredictAll(all, Fidelity::kCoarse);
+    const auto runs = model.PredictAll(all, ModelFidelity::kCoarse);
     if (used_ + static_cast<Index>(all.size()) > columns_.cols())
       columns_.conservativeResize(
           static_cast<Index>(model.size()),
