@@ -3,7 +3,7 @@
 
     tools/check_unity.py
 
-The release preset compiles several sources of a folder as one (cmake/folders.cmake). A name of an unnamed namespace that
+With AMBRIG_UNITY several sources of a folder are compiled as one (cmake/folders.cmake). A name of an unnamed namespace that
 stands in two sources of a folder then does not compile or, worse, overloads: each must be unique in its folder.
 """
 import collections
@@ -17,7 +17,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 APART = re.compile(r"^(actuators|fdd|bench|tests)/|catalogue\.cc$|^core/math/(noise_\w+|cvode|kinsol)\.cc$"
                    r"|/(ode_world|nlopt_search|program_search)\.cc$|^discovery/search/fit\.cc$")
 DECLARATION = [
-    re.compile(r"^(?:struct|class|enum class|enum|union) (\w+)[^;]*$"),
+    re.compile(r"^(?:struct|class|enum class|enum|union) (\w+)(?!;)\b(?=.*[{:]|$)"),
     re.compile(r"^(?:inline |static )*(?:constexpr|const) [^=({]*?(\w+)(?:\[\w*\])*\s*(?:=|\{)"),
     re.compile(r"^[A-Za-z_\[][^=;{}]*?[\s&*>](\w+)\((?!.*\)\s*;$)"),
 ]

@@ -21,7 +21,7 @@ constexpr double kLeastRatio = 5, kMostRatio = 60;
 constexpr double kHiddenLoadCellNoise = 0.0012;  // of the rotor's weight, rms
 
 /// Streams of random numbers of one seed.
-enum Stream : std::uint32_t { kParameters = 101, kTargets, kSizes, kLoadCells };
+enum HideStream : std::uint32_t { kParameters = 101, kTargets, kSizeStream, kLoadCells };
 
 RigParameters DrawRig(const RigParameters& rig, const HideRequest& request) {
   RigParameters truth = rig;
@@ -40,10 +40,11 @@ EffectInstance DrawEffect(const EffectDescription& d, const std::string& target,
   for (std::size_t k = 0; k < d.parameters.size(); ++k) {
     const EffectParameter& p = d.parameters[k];
     const auto index = slot * 64 + 2 * static_cast<std::uint32_t>(k);
-    const double size = p.typical_lo > 0 ? p.typical_lo * std::pow(p.typical_hi / p.typical_lo,
-                                                                   Uniform(seed, kSizes, index))
-                                         : p.null_value;
-    const double sign = Uniform(seed, kSizes, index + 1) < 0.5 ? -1 : 1;
+    const double size = p.typical_lo > 0
+                            ? p.typical_lo * std::pow(p.typical_hi / p.typical_lo,
+                                                      Uniform(seed, kSizeStream, index))
+                            : p.null_value;
+    const double sign = Uniform(seed, kSizeStream, index + 1) < 0.5 ? -1 : 1;
     if (d.mains && p.name == "frequency") e.values[k] = sign > 0 ? 50 : 60;
     // an optional extra stays out
     else if (!d.Switches(p))

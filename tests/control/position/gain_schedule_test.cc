@@ -68,9 +68,9 @@ TEST(PidSchedule, MixesEveryGain) {
   value = 1;
   const PidParameters half = schedule.At(-100), quarter = schedule.At(50), end = schedule.At(900);
   for (const Field<PidParameters>& f : kPidFields) {
-    EXPECT_DOUBLE_EQ(half.*f.at, 3 * value) << f.name;
-    EXPECT_DOUBLE_EQ(quarter.*f.at, 2 * value) << f.name;
-    EXPECT_DOUBLE_EQ(end.*f.at, 5 * value) << f.name;
+    EXPECT_DOUBLE_EQ(half.*f.at, 3 * value) << f.key;
+    EXPECT_DOUBLE_EQ(quarter.*f.at, 2 * value) << f.key;
+    EXPECT_DOUBLE_EQ(end.*f.at, 5 * value) << f.key;
     value += 1;
   }
 }
