@@ -119,9 +119,9 @@ std::vector<UnbalanceSweep> SweepUnbalance(const OperatingPoint& point,
       for (std::size_t k = 0; k < first.size(); ++k) {
         const Eigen::Index a = first[k];
         OrderTrack& t = sweep.tracks[k];
-        t.amplitude.push_back(Orbit(y(loop.Reading(a)), y(loop.Reading(a + 1))).major);
+        t.amplitude.push_back(AxesOfOrbit(y(loop.Reading(a)), y(loop.Reading(a + 1))).major);
         t.phase.push_back(std::arg(y(loop.Reading(a))));
-        t.force.push_back(Orbit(y(loop.Force(a)), y(loop.Force(a + 1))).major);
+        t.force.push_back(AxesOfOrbit(y(loop.Force(a)), y(loop.Force(a + 1))).major);
       }
     }
     for (OrderTrack& t : sweep.tracks) t.peaks = FindPeaks(sweep.speed, t.amplitude);

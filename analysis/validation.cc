@@ -21,7 +21,6 @@ namespace ambrig {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr double kRpm = kPi / 30;
 constexpr const char* kQuantities =
     "mass,centre of mass,transverse inertia,polar inertia,free bending,pinned,natural frequencies,"
     "damped frequencies,damping ratios,critical speeds,unbalance response,eigenvalues,"

@@ -21,7 +21,7 @@ namespace ambrig {
 namespace {
 
 // of the enumeration and the rows: raise it when row k means another run
-constexpr int kFormat = 2;
+constexpr int kFileFormat = 2;
 constexpr std::size_t kMostRuns = 10'000'000;
 
 void ReadOperation(const TomlTable& root, Campaign& c) {
@@ -164,7 +164,8 @@ Campaign ReadCampaign(const std::string& file) {
     runs *= static_cast<double>(n);
   if (runs > static_cast<double>(kMostRuns))
     root.Fail("", fmt::format("describes {:.3g} runs, allowed: up to {}", runs, kMostRuns));
-  c.fingerprint = fmt::format("{:016x}", Fingerprint(texts, Fingerprint(std::to_string(kFormat))));
+  c.fingerprint =
+      fmt::format("{:016x}", Fingerprint(texts, Fingerprint(std::to_string(kFileFormat))));
   return c;
 }
 

@@ -39,7 +39,7 @@ void Finish(FalseAlarmCurve& c) {
   for (double& s : c.share) s /= static_cast<double>(std::max(c.windows, 1L));
 }
 
-struct Fault {
+struct FaultOutcome {
   double first_period_end = 0;  // from the fault [s]
   const DetectorOutcome* outcome = nullptr;
 };
@@ -50,17 +50,17 @@ const LevelReached* FirstAt(const std::vector<LevelReached>& list, int level) {
   return nullptr;
 }
 
-double Quantile(const std::vector<double>& sorted, double q) {
+double UpperQuantile(const std::vector<double>& sorted, double q) {
   return sorted[static_cast<std::size_t>(std::ceil(q * static_cast<double>(sorted.size())) - 1)];
 }
 
-void Fill(FaultCurve& c, const std::vector<Fault>& faults, double T) {
+void Fill(FaultCurve& c, const std::vector<FaultOutcome>& faults, double T) {
   c.runs = static_cast<long>(faults.size());
   const auto n = static_cast<double>(faults.size());
   for (int level = 0; level < kStatisticLevels; ++level) {
     std::vector<double> delays;
     double detected = 0, named = 0;
-    for (const Fault& f : faults) {
+    for (const FaultOutcome& f : faults) {
       const LevelReached* own = FirstAt(f.outcome->coil, level);
       const LevelReached* any = FirstAt(f.outcome->bearing, level);
       delays.push_back(own ? f.first_period_end + own->period * T : kNever);
@@ -70,8 +70,8 @@ void Fill(FaultCurve& c, const std::vector<Fault>& faults, double T) {
     std::sort(delays.begin(), delays.end());
     c.detected.push_back(detected / n);
     c.named.push_back(named / n);
-    c.median.push_back(Quantile(delays, 0.5));
-    c.late.push_back(Quantile(delays, 0.95));
+    c.median.push_back(UpperQuantile(delays, 0.5));
+    c.late.push_back(UpperQuantile(delays, 0.95));
   }
 }
 
@@ -122,7 +122,7 @@ std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& row
     d.doc = kind.doc;
     d.documented = kind.threshold;
     d.all.scenario = "all";
-    std::vector<std::pair<std::string, std::vector<Fault>>> faults;
+    std::vector<std::pair<std::string, std::vector<FaultOutcome>>> faults;
     for (const DetectorStudyRow& row : parsed) {
       if (row.outcomes.empty()) continue;  // could not be finished
       if (!row.faulty) {
@@ -131,7 +131,7 @@ std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& row
         continue;
       }
       auto& list =
-          Named(faults, &std::pair<std::string, std::vector<Fault>>::first, row.kind).second;
+          Named(faults, &std::pair<std::string, std::vector<FaultOutcome>>::first, row.kind).second;
       list.push_back(
           {(std::floor(row.fault_time / T + 1e-6) + 1) * T - row.fault_time, &row.outcomes[k]});
     }

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "campaign/campaign_values.h"
+#include "campaign/row.h"
 #include "core/base/counted.h"
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
@@ -17,15 +19,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kFormat = 1;  // of the rows: raise it when a cell means something else
-
-double In(const TomlTable& t, const char* key, double fallback, double lo, double hi,
-          const char* unit) {
-  const double v = t.Number(key, fallback);
-  if (!(v >= lo && v <= hi))
-    t.Fail(key, fmt::format("= {}, allowed: {} to {} {}", v, lo, hi, unit));
-  return v;
-}
+constexpr int kRowFormat = 1;  // of the rows: raise it when a cell means something else
 
 std::vector<CoilDetectorKind> ReadDetectors(const TomlTable& t) {
   std::vector<CoilDetectorKind> all;  // that have a statistic
@@ -95,12 +89,6 @@ std::string FaultyText(const DetectorOutcome& o) {
   return text;
 }
 
-std::string OneCell(std::string text) {
-  for (char& ch : text)
-    if (ch == ',' || ch == '\n' || ch == '\r' || ch == '\t' || ch == '"') ch = ' ';
-  return text;
-}
-
 std::vector<std::string> Words(const std::string& text) {
   std::vector<std::string> out;
   for (std::size_t begin = 0; begin < text.size();) {
@@ -160,7 +148,8 @@ DetectorStudy ReadDetectorStudy(const std::string& file) {
   CheckHealthy(root, s);
   CheckFaulty(root, s);
   const std::string texts = ReadFile(file) + s.healthy.fingerprint + s.faulty.fingerprint;
-  s.fingerprint = fmt::format("{:016x}", Fingerprint(texts, Fingerprint(std::to_string(kFormat))));
+  s.fingerprint =
+      fmt::format("{:016x}", Fingerprint(texts, Fingerprint(std::to_string(kRowFormat))));
   return s;
 }
 

@@ -42,7 +42,7 @@ std::string GroupOf(const Row& r) {
   return r.At("effect") == "mixture" ? "mixtures" : r.At("plant");
 }
 
-void Add(const Row& r, Group* g) {
+void AddToGroup(const Row& r, Group* g) {
   const std::string plant = r.At("plant") + " " + r.At("spread");
   const bool acted = r.Number("false_actions") > 0;
   if (r.Number("failed") > 0) {
@@ -76,7 +76,7 @@ void Append(const Group& from, Group* to, const std::string& prefix) {
   }
 }
 
-double Quantile(std::vector<double> v, double share) {
+double QuantileOf(std::vector<double> v, double share) {
   std::sort(v.begin(), v.end());
   const auto last = static_cast<double>(v.size() - 1);
   return v[static_cast<std::size_t>(std::ceil(share * last))];
@@ -85,8 +85,8 @@ double Quantile(std::vector<double> v, double share) {
 std::string Text(const Found& f) {
   std::string text = fmt::format("{}/{}", f.found, f.runs);
   if (!f.delay.empty())
-    text += fmt::format(", {:.2f}, {:.2f} ms", 1e3 * Quantile(f.delay, 0.5),
-                        1e3 * Quantile(f.delay, 0.95));
+    text += fmt::format(", {:.2f}, {:.2f} ms", 1e3 * QuantileOf(f.delay, 0.5),
+                        1e3 * QuantileOf(f.delay, 0.95));
   if (f.blamed > 0) text += fmt::format(", wrong coil {}", f.blamed);
   return text;
 }
@@ -150,7 +150,7 @@ std::string PlantTables(const Rows& rows) {
   std::map<std::string, std::map<std::string, Group>> tables;  // commissioned, effect and size
   for (const auto& [run, row] : rows)
     if (!row.At("plant").empty() && row.At("verdict") != "error")
-      Add(row, &tables[row.At("commissioned")][GroupOf(row)]);
+      AddToGroup(row, &tables[row.At("commissioned")][GroupOf(row)]);
   std::string text;
   for (const auto& [learnt, groups] : tables)
     text += fmt::format("{}{}\n\n{}", text.empty() ? "" : "\n",

@@ -58,8 +58,8 @@ std::vector<std::string> TargetsIn(const EffectDescription& d, const RigParamete
   return {all[draw.Index(all.size())]};
 }
 
-void Add(const EffectDescription& d, const RigParameters& rig, double size, Draw& draw,
-         CampaignPlant* plant) {
+void AddPlant(const EffectDescription& d, const RigParameters& rig, double size, Draw& draw,
+              CampaignPlant* plant) {
   for (const std::string& target : TargetsIn(d, rig, draw)) {
     EffectInstance e = MakeInstance(d, target);
     for (std::size_t k = 0; k < e.table.size(); ++k)
@@ -105,7 +105,7 @@ std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig
       p.size = size;
       p.label = d->id + " " + size;
       Draw draw(seed * 7919 + out.size());
-      Add(*d, rig, Share(size), draw, &p);
+      AddPlant(*d, rig, Share(size), draw, &p);
       out.push_back(std::move(p));
     }
   const long long mixtures = t.Integer("mixtures", 0);
@@ -125,7 +125,7 @@ std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig
     for (std::size_t m = 0; m < n; ++m) {
       const std::size_t which = draw.Index(left.size());
       p.label += (m > 0 ? "+" : "") + left[which]->id;
-      Add(*left[which], rig, draw.Uniform(), draw, &p);
+      AddPlant(*left[which], rig, draw.Uniform(), draw, &p);
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));
     }
     out.push_back(std::move(p));

@@ -19,12 +19,6 @@ namespace {
 std::string Optional(double v) { return v < 0 || !std::isfinite(v) ? "" : NumberText(v); }
 
 /// One line without separators, whatever an error says.
-std::string OneCell(std::string text) {
-  for (char& ch : text)
-    if (ch == ',' || ch == '\n' || ch == '\r' || ch == '\t' || ch == '"') ch = ' ';
-  return text;
-}
-
 double LargestOrbit(const RunResult& r, const std::string& bearing) {
   const auto it = r.metrics.max_orbit.find(bearing);
   return it == r.metrics.max_orbit.end() ? 0 : it->second;
@@ -110,6 +104,12 @@ std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r,
 }
 
 }  // namespace
+
+std::string OneCell(std::string text) {
+  for (char& ch : text)
+    if (ch == ',' || ch == '\n' || ch == '\r' || ch == '\t' || ch == '"') ch = ' ';
+  return text;
+}
 
 const std::vector<std::string>& RowColumns() {
   static const std::vector<std::string> columns{"run",

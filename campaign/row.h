@@ -12,6 +12,9 @@ namespace ambrig {
 /// Header of the table; the order of Row's values.
 const std::vector<std::string>& RowColumns();
 
+/// The text without what ends a cell of the table: commas, quotes, tabs, ends of lines become blanks.
+std::string OneCell(std::string text);
+
 struct Row {
   std::size_t run = 0;
   std::vector<std::string> cells;  // as in RowColumns(), the first is the run

@@ -9,6 +9,31 @@ set(AMBRIG_COMMON_HEADERS <algorithm> <array> <cmath> <complex> <filesystem> <fu
                           <set> <string> <vector> <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp>)
 option(AMBRIG_PRECOMPILED_HEADERS "compile the common headers once" ON)
 
+# A unity build compiles several sources of a target as one: headers are read and templates made once
+# for all of them (docs/decisions/005-build-time.md). Names of a folder's unnamed namespaces must then
+# differ (tools/check_unity.py, run by ctest).
+option(AMBRIG_UNITY "compile the sources of a folder together" OFF)
+set(AMBRIG_UNITY_BATCH 12)
+
+# ambrig_unity(TARGET [SOURCES...]): all sources of the target but
+#   - those that choose their instruction set or are the fast loop, whose code must not hang on its neighbours,
+#   - doors to libraries, whose macros stay behind the door,
+#   - the catalogues, which tools/planted_change.py compiles once more.
+function(ambrig_unity target)
+  if(NOT AMBRIG_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${AMBRIG_UNITY_BATCH})
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    if(source MATCHES "catalogue\\.cc$|/core/math/noise_|/core/math/(cvode|kinsol)\\.cc$|/ode_world\\.cc$")
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    elseif(source MATCHES "/nlopt_search\\.cc$|/program_search\\.cc$|/discovery/search/fit\\.cc$")
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
+endfunction()
+
 function(ambrig_folder name)
   cmake_parse_arguments(ARG "" "ROOM" "PUBLIC;PRIVATE;EXCEPT" ${ARGN})
   set(room ${name})

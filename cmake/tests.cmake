@@ -36,6 +36,9 @@ add_test(NAME planted_change COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/t
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 set_tests_properties(planted_change PROPERTIES TIMEOUT 600)
 add_test(NAME layers_self_test COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py --self-test)
+# What a unity build needs (AMBRIG_UNITY).
+add_test(NAME unity_names COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_unity.py
+         WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 # No file over 300 lines, no function over 60.
 add_test(NAME sizes COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_sizes.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

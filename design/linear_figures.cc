@@ -55,7 +55,7 @@ std::vector<std::complex<double>> Oscillations(const Eigen::VectorXcd& z, double
 
 /// Frequencies for the sensitivity [Hz], ascending: logarithmic, and where the loop rings, which
 /// such a grid steps over.
-std::vector<double> Grid(const std::vector<std::complex<double>>& poles, double highest) {
+std::vector<double> FrequencyGrid(const std::vector<std::complex<double>>& poles, double highest) {
   std::vector<double> grid;
   for (int k = 0; k < kFrequencies; ++k)
     grid.push_back(kLowest *
@@ -86,8 +86,8 @@ LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K,
   for (const std::complex<double> s : poles)
     if (s.imag() <= top)
       out.amplification = std::max(out.amplification, std::abs(s) / (-2 * s.real()));
-  const std::vector<double> grid =
-      Grid(poles, std::min(std::max(kHighest, 3 * std::abs(Omega) / (2 * kPi)), 0.49 / plant.Ts));
+  const std::vector<double> grid = FrequencyGrid(
+      poles, std::min(std::max(kHighest, 3 * std::abs(Omega) / (2 * kPi)), 0.49 / plant.Ts));
   std::fill(out.axis_sensitivity.begin(), out.axis_sensitivity.end(), 0.0);
   const Loop loop(P, K, plant.Ts);
   std::vector<Eigen::VectorXd> S;

@@ -17,7 +17,7 @@ struct Call {
   std::exception_ptr error;  // must not cross C
 };
 
-double Evaluate(unsigned n, const double* x, double*, void* data) {
+double EvaluateCandidate(unsigned n, const double* x, double*, void* data) {
   Call& call = *static_cast<Call*>(data);
   try {
     return (*call.f)(std::vector<double>(x, x + n));
@@ -39,7 +39,7 @@ std::vector<double> SearchUnitCube(const std::function<double(const std::vector<
   std::vector<double> x = start;
   for (double& v : x) v = std::clamp(v, 0.0, 1.0);
   double least = 0;
-  nlopt_set_min_objective(search, Evaluate, &call);
+  nlopt_set_min_objective(search, EvaluateCandidate, &call);
   nlopt_set_lower_bounds1(search, 0);
   nlopt_set_upper_bounds1(search, 1);
   nlopt_set_initial_step1(search, kFirstStep);

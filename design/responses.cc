@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kStepLength = 0.03;  // [s]
 constexpr int kCurvePoints = 300;
-constexpr double kLowest = 1, kHighest = 2000;  // [Hz]
+constexpr double kLowestGrid = 1, kHighestGrid = 2000;  // [Hz]
 
 ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParameters& rig,
                       RunResult result) {
@@ -59,8 +59,9 @@ PointResponses ResponsesOf(const Study& study, const StudyResult& result, std::s
     out.step.push_back(step(0, static_cast<Eigen::Index>(k)));
   }
   for (int k = 0; k < kCurvePoints; ++k)
-    out.hertz.push_back(kLowest * std::pow(std::min(kHighest, 0.49 / plant.Ts) / kLowest,
-                                           static_cast<double>(k) / (kCurvePoints - 1)));
+    out.hertz.push_back(kLowestGrid *
+                        std::pow(std::min(kHighestGrid, 0.49 / plant.Ts) / kLowestGrid,
+                                 static_cast<double>(k) / (kCurvePoints - 1)));
   out.sensitivity.assign(out.hertz.size(), 0.0);
   for (const double Omega : study.speeds) {
     const SampledPlant at = MakeControlPlant(at_rest, axes, Omega, CurrentModel::kCoils);

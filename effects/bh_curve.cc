@@ -10,6 +10,7 @@
 #include <cmath>
 #include <memory>
 
+#include "actuators/magnetics/memoryless_law.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 #include "effects/law_tables.h"
@@ -18,7 +19,7 @@ namespace ambrig {
 
 namespace {
 
-class TableLaw final : public FluxLaw {
+class TableLaw final : public MemorylessLaw {
  public:
   /// `path`: kBhNodes values [m]; `spacing` of the nodes [Wb]; `per_metre` [1/(H m)].
   TableLaw(const double* path, double spacing, double per_metre) : spacing_(spacing) {
@@ -37,9 +38,6 @@ class TableLaw final : public FluxLaw {
       (*slope)[j] += slope_[k] + bend * part;
     }
   }
-  void Steady(const Lane& phi, Lane* drop, Lane* slope) const override { Drop(phi, drop, slope); }
-  void Commit(const Lane&) override {}
-  void Settle(const Lane&) override {}
 
  private:
   double spacing_;                                     // [Wb]

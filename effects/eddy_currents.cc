@@ -39,7 +39,7 @@ struct States {
   Lane base;                // drop of the next step less slope * φ [A]
 };
 
-AMBRIG_WIDE void Advance(const StepCoefficients& c, double gap, const double* phi, States& s) {
+AMBRIG_WIDE void AdvanceEddy(const StepCoefficients& c, double gap, const double* phi, States& s) {
   const V now = Load(phi), change = (now - Load(s.phi.v)) * gap;
   V kept;
   for (int k = 0; k < kDiffusionPoles; ++k) {
@@ -51,8 +51,8 @@ AMBRIG_WIDE void Advance(const StepCoefficients& c, double gap, const double* ph
   Store(s.base.v, kept - now * (gap * c.slope));
 }
 
-AMBRIG_WIDE void AddDrop(const double* base, double tangent, const double* phi, double* drop,
-                         double* slope) {
+AMBRIG_WIDE void AddEddyDrop(const double* base, double tangent, const double* phi, double* drop,
+                             double* slope) {
   Store(drop, Load(drop) + Load(base) + Load(phi) * tangent);
   Store(slope, Load(slope) + tangent);
 }
@@ -77,12 +77,12 @@ class EddyLaw final : public FluxLaw {
   }
 
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddDrop(states_.base.v, gap_ * step_.slope, phi.v, drop->v, slope->v);
+    AddEddyDrop(states_.base.v, gap_ * step_.slope, phi.v, drop->v, slope->v);
   }
 
   void Steady(const Lane&, Lane*, Lane*) const override {}
 
-  void Commit(const Lane& phi) override { Advance(step_, gap_, phi.v, states_); }
+  void Commit(const Lane& phi) override { AdvanceEddy(step_, gap_, phi.v, states_); }
 
   void Settle(const Lane& phi) override {
     for (Lane& e : states_.e) e = Lane{};

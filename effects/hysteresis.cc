@@ -35,8 +35,8 @@ struct Stops {
   return Min(Max(free, -r), r);
 }
 
-AMBRIG_WIDE void AddDrop(const Stops& stops, const double* radius, double weight, const double* phi,
-                         double* drop, double* slope) {
+AMBRIG_WIDE void AddHysteresisDrop(const Stops& stops, const double* radius, double weight,
+                                   const double* phi, double* drop, double* slope) {
   const V change = Load(phi) - Load(stops.phi.v);
   V sum = Load(drop), tangents = Load(slope);
   for (int k = 0; k < kStops; ++k) {
@@ -49,7 +49,7 @@ AMBRIG_WIDE void AddDrop(const Stops& stops, const double* radius, double weight
   Store(slope, tangents);
 }
 
-AMBRIG_WIDE void Advance(const double* radius, const double* phi, Stops& stops) {
+AMBRIG_WIDE void AdvanceStops(const double* radius, const double* phi, Stops& stops) {
   const V now = Load(phi), change = now - Load(stops.phi.v);
   for (int k = 0; k < kStops; ++k)
     Store(stops.s[k].v, Held(Load(stops.s[k].v) + change, radius[k]));
@@ -63,15 +63,15 @@ class HysteresisLaw final : public FluxLaw {
     for (int k = 0; k < kStops; ++k) radius_[k] = width * (k + 0.5) / kStops;
   }
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddDrop(stops_, radius_, weight_, phi.v, drop->v, slope->v);
+    AddHysteresisDrop(stops_, radius_, weight_, phi.v, drop->v, slope->v);
   }
   void Steady(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddDrop(Stops{}, radius_, weight_, phi.v, drop->v, slope->v);
+    AddHysteresisDrop(Stops{}, radius_, weight_, phi.v, drop->v, slope->v);
   }
-  void Commit(const Lane& phi) override { Advance(radius_, phi.v, stops_); }
+  void Commit(const Lane& phi) override { AdvanceStops(radius_, phi.v, stops_); }
   void Settle(const Lane& phi) override {
     stops_ = Stops{};
-    Advance(radius_, phi.v, stops_);
+    AdvanceStops(radius_, phi.v, stops_);
   }
 
  private:

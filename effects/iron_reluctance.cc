@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "actuators/magnetics/lane_vector.h"
+#include "actuators/magnetics/memoryless_law.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 
@@ -19,23 +20,20 @@ namespace {
 
 constexpr double kThresholdDensity = 0.2;  // [T] at which half of the threshold is reached
 
-AMBRIG_WIDE void AddDrop(double x_per_flux, double threshold, const double* phi, double* drop,
-                         double* slope) {
+AMBRIG_WIDE void AddReluctanceDrop(double x_per_flux, double threshold, const double* phi,
+                                   double* drop, double* slope) {
   const LaneVector x = Load(phi) * x_per_flux, away = LaneVector(1.0) + Abs(x);
   Store(drop, Load(drop) + threshold * x / away);
   Store(slope, Load(slope) + threshold * x_per_flux / (away * away));
 }
 
-class MagnetisingThreshold final : public FluxLaw {
+class MagnetisingThreshold final : public MemorylessLaw {
  public:
   MagnetisingThreshold(double x_per_flux, double threshold)
       : x_per_flux_(x_per_flux), threshold_(threshold) {}
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddDrop(x_per_flux_, threshold_, phi.v, drop->v, slope->v);
+    AddReluctanceDrop(x_per_flux_, threshold_, phi.v, drop->v, slope->v);
   }
-  void Steady(const Lane& phi, Lane* drop, Lane* slope) const override { Drop(phi, drop, slope); }
-  void Commit(const Lane&) override {}
-  void Settle(const Lane&) override {}
 
  private:
   double x_per_flux_;  // 1/(0.2 T A) [1/Wb]

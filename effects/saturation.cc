@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "actuators/magnetics/lane_vector.h"
+#include "actuators/magnetics/memoryless_law.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 #include "effects/steel_curve.h"
@@ -17,23 +18,20 @@ namespace ambrig {
 
 namespace {
 
-AMBRIG_WIDE void AddDrop(double x_per_flux, double path, const double* phi, double* drop,
-                         double* slope) {
+AMBRIG_WIDE void AddSaturationDrop(double x_per_flux, double path, const double* phi, double* drop,
+                                   double* slope) {
   LaneVector H, tangent;
   SteelCurve(Load(phi) * x_per_flux, &H, &tangent);
   Store(drop, Load(drop) + path * H);
   Store(slope, Load(slope) + path * x_per_flux * tangent);
 }
 
-class SaturationLaw final : public FluxLaw {
+class SaturationLaw final : public MemorylessLaw {
  public:
   SaturationLaw(double x_per_flux, double path) : x_per_flux_(x_per_flux), path_(path) {}
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddDrop(x_per_flux_, path_, phi.v, drop->v, slope->v);
+    AddSaturationDrop(x_per_flux_, path_, phi.v, drop->v, slope->v);
   }
-  void Steady(const Lane& phi, Lane* drop, Lane* slope) const override { Drop(phi, drop, slope); }
-  void Commit(const Lane&) override {}
-  void Settle(const Lane&) override {}
 
  private:
   double x_per_flux_;  // 1/(knee A) [1/Wb]

@@ -216,7 +216,7 @@ void ReadDetection(const TomlTable& root, DetectionParameters& d) {
   t->RejectUnknownKeys();
 }
 
-RigParameters Read(const TomlTable& root) {
+RigParameters RigOfTable(const TomlTable& root) {
   RigParameters rig;
   rig.file = root.file();
   rig.name = root.String("name", "rig");
@@ -247,9 +247,9 @@ RigParameters Read(const TomlTable& root) {
 
 }  // namespace
 
-RigParameters ReadRig(const std::string& file) { return Read(TomlTable::FromFile(file)); }
+RigParameters ReadRig(const std::string& file) { return RigOfTable(TomlTable::FromFile(file)); }
 RigParameters ReadRigText(const std::string& text, const std::string& file_name) {
-  return Read(TomlTable::FromText(text, file_name));
+  return RigOfTable(TomlTable::FromText(text, file_name));
 }
 
 }  // namespace ambrig

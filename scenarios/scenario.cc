@@ -39,7 +39,7 @@ Targets TargetsOfRig(const RigParameters& rig) {
   return t;
 }
 
-constexpr Range kTime{"s", -1e5, 1e5, "scenario time"};
+constexpr Range kScenarioTime{"s", -1e5, 1e5, "scenario time"};
 
 double PositiveTime(const TomlTable& t, const char* key, double fallback) {
   return Within(t, key, fallback, {"s", 1e-6, 1e5, "length of time"});
@@ -66,7 +66,7 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
               fmt::format("row {}: Omega = {} rad/s, allowed: -1e5 to 1e5", k + 1, rows[k][1]));
   }
   s.speed = SpeedProfile(rows);
-  s.speed_free_from = Within(*t, "free_from", kInfinity, kTime);
+  s.speed_free_from = Within(*t, "free_from", kInfinity, kScenarioTime);
   t->RejectUnknownKeys();
 }
 
@@ -143,8 +143,8 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
       l.fy = f.size() > 1 ? f[1] : 0;
       l.fz = f.size() > 2 ? f[2] : 0;
     }
-    l.start = Within(t, "start", 0, kTime);
-    l.stop = Within(t, "stop", s.duration, kTime);
+    l.start = Within(t, "start", 0, kScenarioTime);
+    l.stop = Within(t, "stop", s.duration, kScenarioTime);
     if (!(l.stop > l.start))
       t.Fail("stop", fmt::format("= {} s, allowed: later than start = {} s", l.stop, l.start));
     t.RejectUnknownKeys();

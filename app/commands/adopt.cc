@@ -20,7 +20,7 @@ struct AdoptCommand {
   std::string file, effect, target, output;
 };
 
-void Print(const Adoption& a, const std::string& output) {
+void PrintAdoption(const Adoption& a, const std::string& output) {
   const EffectInstance& e = a.effects.back();
   fmt::print("{} at {}\n", e.name, e.target);
   for (std::size_t k = 0; k < e.table.size(); ++k)
@@ -61,7 +61,7 @@ int RunAdopt(const AdoptCommand& o) {
   const Adoption a = Adopt(c, o.effect, o.target, output, options);
   WriteFileAtomically(output, a.rig_text);
   progress.Clear();
-  Print(a, output);
+  PrintAdoption(a, output);
   o.common.WriteJson(AdoptionJson(a, output));
   if (!o.common.html.empty())
     WriteAdoptReport(*a.model, a.before, a.after, a.ladder, o.common.html);

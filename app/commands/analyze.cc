@@ -20,8 +20,6 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kRpm = kPi / 30;  // [rad/s]
-
 struct AnalyzeCommand {
   CommonOptions common;
   std::string rig, speed = "6000", out;
@@ -30,7 +28,7 @@ struct AnalyzeCommand {
   int measured = 0;
 };
 
-double Rpm(const std::string& option, const std::string& text) {
+double RpmOption(const std::string& option, const std::string& text) {
   std::size_t used = 0;
   double value = -1;
   try {
@@ -47,9 +45,9 @@ double Rpm(const std::string& option, const std::string& text) {
 AnalysisOptions OptionsOf(const AnalyzeCommand& c) {
   AnalysisOptions o;
   const std::size_t colon = c.speed.find(':');
-  o.lowest = Rpm("speed", c.speed.substr(0, colon)) * kRpm;
+  o.lowest = RpmOption("speed", c.speed.substr(0, colon)) * kRpm;
   o.highest =
-      colon == std::string::npos ? o.lowest : Rpm("speed", c.speed.substr(colon + 1)) * kRpm;
+      colon == std::string::npos ? o.lowest : RpmOption("speed", c.speed.substr(colon + 1)) * kRpm;
   if (o.highest < o.lowest)
     throw InputError(fmt::format("--speed = {}, allowed: the lower speed first", c.speed));
   o.fastest = c.fastest > 0 ? c.fastest * kRpm : o.highest > 0 ? 1.5 * o.highest : 9000 * kRpm;
@@ -199,7 +197,7 @@ void PrintStandards(const RigAnalysis& a) {
                s.margin.met ? Coloured("met", "green") : Coloured("NOT MET", "red"));
 }
 
-void Print(const RigAnalysis& a) {
+void PrintAnalysis(const RigAnalysis& a) {
   const RigParameters& rig = a.point.rig();
   fmt::print(
       "{}: {} axes, {} coils, controller {:g} Hz,\noperating {:.0f} to {:.0f} rpm, analysed up "
@@ -243,7 +241,7 @@ int RunAnalyze(const AnalyzeCommand& c) {
     analysis = Analyse(rig, options);
   }
   analysis.options.progress = nullptr;
-  Print(analysis);
+  PrintAnalysis(analysis);
   const nlohmann::ordered_json json = AnalysisJson(analysis);
   c.common.WriteJson(json);
   if (!c.common.html.empty()) WriteAnalysisReport(analysis, c.rig, c.common.html);

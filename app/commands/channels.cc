@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/commands/commands.h"
+#include "app/json/json_number.h"
 #include "core/record/read_record.h"
 
 namespace ambrig {
@@ -15,10 +16,6 @@ struct ChannelsCommand {
   CommonOptions common;
   std::vector<std::string> files;
 };
-
-nlohmann::ordered_json Number(double v) {
-  return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
-}
 
 struct Extent {
   double least = std::nan(""), most = std::nan("");
@@ -36,7 +33,7 @@ Extent ExtentOf(const std::vector<double>& samples) {
   return e;
 }
 
-std::string Figure(double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : "-"; }
+std::string FigureText(double v) { return std::isfinite(v) ? fmt::format("{:.6g}", v) : "-"; }
 
 nlohmann::ordered_json RecordJson(const Record& r) {
   nlohmann::ordered_json channels = nlohmann::ordered_json::array();
@@ -45,12 +42,12 @@ nlohmann::ordered_json RecordJson(const Record& r) {
   for (const Channel& c : r.channels) {
     const Extent e = ExtentOf(c.samples);
     fmt::print("    {:<24} {:<8} {:>12} to {:>12}{}\n", c.name,
-               c.unit.empty() ? "" : '[' + c.unit + ']', Figure(e.least), Figure(e.most),
+               c.unit.empty() ? "" : '[' + c.unit + ']', FigureText(e.least), FigureText(e.most),
                e.missing == 0 ? "" : fmt::format(", {} missing", e.missing));
     channels.push_back({{"name", c.name},
                         {"unit", c.unit},
-                        {"min", Number(e.least)},
-                        {"max", Number(e.most)},
+                        {"min", FiniteOrNull(e.least)},
+                        {"max", FiniteOrNull(e.most)},
                         {"missing", e.missing}});
   }
   return {{"rate", r.rate}, {"start", r.start}, {"rows", r.rows()}, {"channels", channels}};
@@ -69,11 +66,11 @@ nlohmann::ordered_json ResponsesJson(const FrequencyResponses& f) {
     for (const auto& v : r.values) size.push_back(std::abs(v));
     const Extent e = ExtentOf(size);
     fmt::print("    {:<24} {:<8} {:>12} to {:>12} (magnitude)\n", r.name,
-               r.unit.empty() ? "" : '[' + r.unit + ']', Figure(e.least), Figure(e.most));
+               r.unit.empty() ? "" : '[' + r.unit + ']', FigureText(e.least), FigureText(e.most));
     responses.push_back({{"name", r.name},
                          {"unit", r.unit},
-                         {"least_magnitude", Number(e.least)},
-                         {"most_magnitude", Number(e.most)}});
+                         {"least_magnitude", FiniteOrNull(e.least)},
+                         {"most_magnitude", FiniteOrNull(e.most)}});
   }
   nlohmann::ordered_json out = {{"points", f.points()}};
   if (axis) out["from"] = f.frequency.front();

@@ -95,7 +95,7 @@ CheckRow CheckOne(const std::string& file, const BaselineOptions& baseline) {
   return row;
 }
 
-std::string Complaint(const CheckRow& row) {
+std::string RowComplaint(const CheckRow& row) {
   if (!row.error.empty()) return row.error;
   std::string text;
   for (const ExpectResult& e : row.expect)
@@ -124,20 +124,20 @@ void WriteJunit(const std::string& path, const std::vector<CheckRow>& rows) {
     test.append_attribute("time") = row.seconds;
     if (row.met()) continue;
     test.append_child(row.error.empty() ? "failure" : "error").append_attribute("message") =
-        Complaint(row).c_str();
+        RowComplaint(row).c_str();
   }
   std::ostringstream out;
   document.save(out, "  ");
   WriteFileAtomically(path, out.str());
 }
 
-void WriteReport(const std::string& path, const std::vector<CheckRow>& rows) {
+void WriteCheckReport(const std::string& path, const std::vector<CheckRow>& rows) {
   HtmlReport report("ambrig check", Counted(rows.size(), "scenario"));
   std::vector<std::vector<Cell>> cells;
   for (const CheckRow& r : rows)
     cells.push_back({Cell(r.name), Cell(r.file),
-                     Cell(r.met() ? "met" : "not met", r.met() ? "ok" : "fail"), Cell(Complaint(r)),
-                     Cell(fmt::format("{:.2f}", r.seconds))});
+                     Cell(r.met() ? "met" : "not met", r.met() ? "ok" : "fail"),
+                     Cell(RowComplaint(r)), Cell(fmt::format("{:.2f}", r.seconds))});
   report.Heading("Scenarios");
   report.Table({"scenario", "file", "verdict", "what is not met", "seconds"}, cells);
   report.Write(path);
@@ -153,12 +153,12 @@ void WriteBaselineReport(const std::string& path, const std::vector<CheckRow>& r
 }
 
 /// One scenario on the screen: what is not met stands below it, so that a line fits 80 columns.
-void PrintRow(const CheckRow& row) {
+void PrintCheckRow(const CheckRow& row) {
   const std::string name = row.name.empty() ? row.file : row.name;
   fmt::print("{}  {:<58} {:7.2f} s\n",
              row.met() ? Coloured("met    ", "green") : Coloured("NOT MET", "red"),
              Shortened(name, 58), row.seconds);
-  if (!row.met()) fmt::print("{}\n", Wrapped("    " + Complaint(row), 4));
+  if (!row.met()) fmt::print("{}\n", Wrapped("    " + RowComplaint(row), 4));
 }
 
 int Check(const CheckOptions& options) {
@@ -184,7 +184,7 @@ int Check(const CheckOptions& options) {
   std::size_t failed = 0;
   for (const CheckRow& row : rows) {
     failed += row.met() ? 0 : 1;
-    PrintRow(row);
+    PrintCheckRow(row);
     json.push_back(row.json.is_null()
                        ? nlohmann::ordered_json{{"file", row.file}, {"error", row.error}}
                        : row.json);
@@ -192,7 +192,7 @@ int Check(const CheckOptions& options) {
   fmt::print("{}, {} met, {} not met\n", Counted(rows.size(), "scenario"), rows.size() - failed,
              failed);
   if (!options.junit.empty()) WriteJunit(options.junit, rows);
-  if (!options.common.html.empty()) WriteReport(options.common.html, rows);
+  if (!options.common.html.empty()) WriteCheckReport(options.common.html, rows);
   if (!options.baseline.folder.empty()) {
     const auto page = (std::filesystem::path(options.baseline.folder) / "difference.html").string();
     WriteBaselineReport(page, rows);

@@ -37,7 +37,7 @@ void PrintRecord(const RecordComparison& r) {
     fmt::print("    block {:<40} {:>7.2f}\n", block, ratio);
 }
 
-void Print(const Comparison& comparison) {
+void PrintComparison(const Comparison& comparison) {
   fmt::print("error over noise: rms of measured less model over the noise's; 1: only noise\n");
   fmt::print("{:<22} {:<28} {:>7}  {}\n", "record", "scenario", "error", "worst channel");
   for (const RecordComparison& r : comparison.records) PrintRecord(r);
@@ -64,7 +64,7 @@ int RunCompare(const CompareOptions& o) {
     comparison = Compare(model, Hypothesis::Base(c.rig), !o.no_blocks,
                          [&](double f, const std::string& text) { progress.Update(f, text); });
   }
-  Print(comparison);
+  PrintComparison(comparison);
   o.common.WriteJson(CompareJson(comparison));
   if (!o.common.html.empty()) WriteCompareReport(model, comparison, o.common.html);
   return 0;

@@ -31,7 +31,7 @@ std::string Rest(const CrosscheckRun& run) {
   return text;
 }
 
-void PrintRow(const char* name, const CrosscheckRun& run, double parted) {
+void PrintCrosscheckRow(const char* name, const CrosscheckRun& run, double parted) {
   const DropFigures& f = run.figures;
   const std::string touch =
       f.first.empty() ? "-" : fmt::format("{} {:.3f}", f.first, f.touchdown_time * 1e3);
@@ -44,7 +44,7 @@ void PrintRow(const char* name, const CrosscheckRun& run, double parted) {
                f.fall_severity, severity.empty() ? "" : ", " + severity + " Omega c", Rest(run));
 }
 
-void Print(const CrosscheckedScenario& s) {
+void PrintCrosscheck(const CrosscheckedScenario& s) {
   const ContactCrosscheck& w = s.crosscheck;
   fmt::print("{}  {}\n",
              w.verdicts_agree() ? Coloured("agree ", "green") : Coloured("DIFFER", "red"),
@@ -57,9 +57,9 @@ void Print(const CrosscheckedScenario& s) {
              "peak", "", "", "apart");
   fmt::print("  {:<11} {:<13} {:>10} {:>8} {:>8}  {:<8} {:>6} {:>6}\n", "rotor", "verdict",
              "at [ms]", "[um]", "[um]", "whirl", "turns", "[ms]");
-  PrintRow("compliant", w.model, -1);
-  PrintRow("on ODE", w.ode, w.parted_ode);
-  PrintRow("other noise", w.other_noise, w.parted_noise);
+  PrintCrosscheckRow("compliant", w.model, -1);
+  PrintCrosscheckRow("on ODE", w.ode, w.parted_ode);
+  PrintCrosscheckRow("other noise", w.other_noise, w.parted_noise);
   if (w.ode_warnings > 0) fmt::print("  note: ODE's solver gave {} warnings\n", w.ode_warnings);
 }
 
@@ -117,7 +117,7 @@ int Crosscheck(const CrosscheckCommand& command) {
     }
     for (int k = 0; k < command.seeds; ++k, ++scenario.seed) {
       CrosscheckedScenario s = CrosscheckOne(file, rig, scenario, command, k == 0);
-      if (k == 0) Print(s);
+      if (k == 0) PrintCrosscheck(s);
       json.push_back(CrosscheckJson(s));
       differ += s.crosscheck.verdicts_agree() ? 0 : 1;
       touched += s.crosscheck.contact() ? 1 : 0;

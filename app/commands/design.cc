@@ -93,7 +93,8 @@ void WriteTable(const Study& study, const StudyResult& result, const std::string
   WriteFileAtomically(path, text);
 }
 
-void Print(const Study& study, const StudyResult& result, const std::vector<std::size_t>& shown) {
+void PrintStudy(const Study& study, const StudyResult& result,
+                const std::vector<std::size_t>& shown) {
   std::size_t front = 0, feasible = 0;
   for (const StudyPoint& p : result.points) {
     front += p.front ? 1 : 0;
@@ -204,7 +205,7 @@ int RunDesign(DesignOptions o) {
   const auto json = StudyJson(study, result, shown);
   WriteFileAtomically((std::filesystem::path(o.out) / "study.json").string(), json.dump(2) + "\n");
   o.common.WriteJson(json);
-  Print(study, result, shown);
+  PrintStudy(study, result, shown);
   if (!o.no_report || !o.common.html.empty()) {
     std::vector<PointResponses> responses;
     for (const std::size_t k : shown) {

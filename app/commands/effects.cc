@@ -10,7 +10,7 @@ namespace ambrig {
 
 namespace {
 
-const char* TargetText(TargetKind kind) {
+const char* EffectTargetText(TargetKind kind) {
   switch (kind) {
     case TargetKind::kRig:
       return "rig";
@@ -34,7 +34,7 @@ const char* TargetText(TargetKind kind) {
   return "";
 }
 
-nlohmann::ordered_json EffectJson(const EffectDescription& d) {
+nlohmann::ordered_json DescriptionJson(const EffectDescription& d) {
   nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
   const auto number = [](double v) {
     return std::isfinite(v) ? nlohmann::ordered_json(v)
@@ -50,7 +50,7 @@ nlohmann::ordered_json EffectJson(const EffectDescription& d) {
                           {"doc", p.doc}});
   return {{"name", d.id},
           {"title", d.title},
-          {"target", TargetText(d.target)},
+          {"target", EffectTargetText(d.target)},
           {"physics", d.physics},
           {"parameters", parameters},
           {"shows_in", d.shows_in},
@@ -62,7 +62,7 @@ void PrintOne(const EffectDescription& d) {
     fmt::print("{}\n", Wrapped(fmt::format("  {:<14} {}", name, text), 17));
   };
   fmt::print("{} - {}\n", Coloured(d.id, "bold"), d.title);
-  line("target", TargetText(d.target));
+  line("target", EffectTargetText(d.target));
   line("physics", d.physics);
   line("shows in", d.shows_in);
   line("confused with", d.confused_with);
@@ -102,23 +102,23 @@ void AddEffects(CLI::App& app, Work& work) {
             "Usual sizes of what switches an effect on count from its null.\n");
       for (const EffectDescription& d : Catalogue()) {
         if (!options->name.empty() && d.id != options->name) continue;
-        all.push_back(EffectJson(d));
-        rows.push_back({Cell(d.id), Cell(TargetText(d.target)), Cell(d.physics), Cell(d.shows_in),
-                        Cell(d.confused_with)});
+        all.push_back(DescriptionJson(d));
+        rows.push_back({Cell(d.id), Cell(EffectTargetText(d.target)), Cell(d.physics),
+                        Cell(d.shows_in), Cell(d.confused_with)});
         if (options->markdown) {
           fmt::print(
               "\n## {}\n\n{}. Target: {}. {}\n\nShows in: {}. Confused with: {}.\n\n| parameter | "
               "unit | null | possible | usual | meaning |\n|---|---|---|---|---|---|\n",
-              d.id, d.title, TargetText(d.target), d.physics, d.shows_in, d.confused_with);
+              d.id, d.title, EffectTargetText(d.target), d.physics, d.shows_in, d.confused_with);
           for (const EffectParameter& p : d.parameters)
             fmt::print("| `{}` | {} | {} | {} to {} | {} to {} | {} |\n", p.name, p.unit,
                        p.null_value, p.lo, p.hi, p.typical_lo, p.typical_hi, p.doc);
         } else if (!options->name.empty()) {
           PrintOne(d);
         } else {
-          fmt::print(
-              "{}\n",
-              Wrapped(fmt::format("{:<22} {:<15} {}", d.id, TargetText(d.target), d.title), 39));
+          fmt::print("{}\n", Wrapped(fmt::format("{:<22} {:<15} {}", d.id,
+                                                 EffectTargetText(d.target), d.title),
+                                     39));
         }
       }
       options->common.WriteJson(all);

@@ -28,7 +28,7 @@ struct ExplainCommand {
   bool verbose = false, long_runs = false;
 };
 
-std::string ParametersText(const EffectInstance& e) {
+std::string ShortParametersText(const EffectInstance& e) {
   std::string text;
   for (std::size_t k = 0; k < e.table.size(); ++k)
     text += fmt::format("{}{} = {:.4g}{}{}", k == 0 ? "" : ", ", e.table[k].name, e.values[k],
@@ -37,7 +37,7 @@ std::string ParametersText(const EffectInstance& e) {
   return text;
 }
 
-void PrintLine(const std::string& text, std::size_t indent = 4) {
+void PrintWrapped(const std::string& text, std::size_t indent = 4) {
   fmt::print("{}\n", Wrapped(text, indent));
 }
 
@@ -49,8 +49,8 @@ void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most) {
     fmt::print("{:>4} {:<32} {:<14} {:>6.3f} {:>8.3f} {:>8.3f}\n", k + 1,
                Shortened(r.effect.name, 32), Shortened(r.effect.target, 14), r.probability,
                r.fit.ratio_fit, r.fit.ratio_validate);
-    if (const std::string text = ParametersText(r.effect); !text.empty())
-      PrintLine("       " + text, 7);
+    if (const std::string text = ShortParametersText(r.effect); !text.empty())
+      PrintWrapped("       " + text, 7);
   }
 }
 
@@ -72,7 +72,7 @@ std::string WhyNot(const Explanation& e) {
 }
 
 void PrintFindings(const Explanation& e) {
-  for (const DataFault& f : e.data) PrintLine("  data: " + FaultText(f));
+  for (const DataFault& f : e.data) PrintWrapped("  data: " + FaultText(f));
   if (e.verdict == "effect")
     fmt::print("  explained: {:.1f} % of the error above the noise, {:.2f} -> {:.2f} floors\n",
                100 * e.closure.explained, e.closure.floors_before, e.closure.floors_after);
@@ -80,25 +80,25 @@ void PrintFindings(const Explanation& e) {
   for (const SetMember& m : e.set)
     set += fmt::format("{}{}{} {:.0f} %", set.empty() ? "" : ", ", m.effect,
                        m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
-  PrintLine("  95 % set: " + set);
+  PrintWrapped("  95 % set: " + set);
   for (const EffectInstance& a : e.adopted)
-    PrintLine(fmt::format("  adopted {} at {}: {}", a.name, a.target, ParametersText(a)));
-  for (const std::string& s : e.parameter_shifts) PrintLine("  parameter " + s);
+    PrintWrapped(fmt::format("  adopted {} at {}: {}", a.name, a.target, ShortParametersText(a)));
+  for (const std::string& s : e.parameter_shifts) PrintWrapped("  parameter " + s);
   for (const NuisanceFound& n : e.nuisances)
     if (std::abs(n.value) > 3 * n.sd)
-      PrintLine(
+      PrintWrapped(
           fmt::format("  {} in {}: {:.3g} +- {:.2g} {}", n.name, n.record, n.value, n.sd, n.unit));
   for (std::size_t k = 0; k < e.hidden.size() && k < 6; ++k)
-    PrintLine(fmt::format("  not seen: {} at {} up to {} = {:.3g} {}", e.hidden[k].effect,
-                          e.hidden[k].target, e.hidden[k].parameter, e.hidden[k].size,
-                          e.hidden[k].unit));
+    PrintWrapped(fmt::format("  not seen: {} at {} up to {} = {:.3g} {}", e.hidden[k].effect,
+                             e.hidden[k].target, e.hidden[k].parameter, e.hidden[k].size,
+                             e.hidden[k].unit));
   for (const Confusable& c : e.confusable)
-    PrintLine(fmt::format("  {} or {}: a record that discriminates between them: {}", c.first,
-                          c.second, c.record));
-  for (const std::string& w : e.warnings) PrintLine("  warning: " + w);
+    PrintWrapped(fmt::format("  {} or {}: a record that discriminates between them: {}", c.first,
+                             c.second, c.record));
+  for (const std::string& w : e.warnings) PrintWrapped("  warning: " + w);
 }
 
-void Print(const Explanation& e) {
+void PrintExplanation(const Explanation& e) {
   fmt::print(
       "error over noise, unseen records: rig file {:.3f}, parameters fitted {:.3f},\n"
       "final {:.3f} (1: only noise is left)\n",
@@ -111,11 +111,11 @@ void Print(const Explanation& e) {
   fmt::print(
       "verdict: {}\n",
       Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"));
-  PrintLine("  " + e.remainder.text, 2);
-  if (const std::string why = WhyNot(e); !why.empty()) PrintLine("  " + why, 2);
+  PrintWrapped("  " + e.remainder.text, 2);
+  if (const std::string why = WhyNot(e); !why.empty()) PrintWrapped("  " + why, 2);
   PrintFindings(e);
   if (e.verdict == "unknown") {
-    PrintLine("  " + e.unexplained.text, 2);
+    PrintWrapped("  " + e.unexplained.text, 2);
     if (!e.unexplained.formula.empty()) {
       fmt::print("  a candidate law for the rig file ([[effect]] name = \"formula\"):\n");
       fmt::print("    {}\n", e.unexplained.formula);
@@ -127,7 +127,7 @@ void Print(const Explanation& e) {
 int RunExplain(const ExplainCommand& o) {
   const Case c = ReadCase(o.file);
   o.common.CheckOutputs({o.file, c.rig_file}, {o.law});
-  for (const std::string& note : c.notes) PrintLine("data: " + note, 6);
+  for (const std::string& note : c.notes) PrintWrapped("data: " + note, 6);
   CheckWorkSize(o.file, ExplainSize(c), o.long_runs);
   std::unique_ptr<RunStore> store;
   if (!o.resume.empty()) store = std::make_unique<RunStore>(o.resume, c);
@@ -157,7 +157,7 @@ int RunExplain(const ExplainCommand& o) {
       };
     e = Explain(c, options);
   }
-  Print(e);
+  PrintExplanation(e);
   o.common.WriteJson(ExplainJson(e));
   if (!o.common.html.empty()) WriteExplainReport(c, e, o.common.html);
   if (!o.law.empty() && e.unexplained.formula.empty())

@@ -12,11 +12,11 @@ namespace ambrig {
 
 namespace {
 
-struct Line {
+struct ParameterLine {
   std::string section, key, unit, fallback, allowed, doc;
 };
 
-const char* TargetText(FaultTarget target) {
+const char* FaultTargetText(FaultTarget target) {
   switch (target) {
     case FaultTarget::kCoil:
       return "coil";
@@ -47,8 +47,8 @@ std::string ObserverText(const Fault& fault) {
   return fmt::format("{}, as {}", who, fault.seen_as);
 }
 
-std::vector<Line> RigLines() {
-  std::vector<Line> lines;
+std::vector<ParameterLine> RigLines() {
+  std::vector<ParameterLine> lines;
   for (const ParameterRow& r : RigParameterRows())
     lines.push_back({r.section, r.key, r.unit,
                      std::isnan(r.fallback) ? "required" : NumberText(r.fallback),
@@ -56,12 +56,12 @@ std::vector<Line> RigLines() {
   return lines;
 }
 
-std::vector<Line> FaultLines() {
-  std::vector<Line> lines;
+std::vector<ParameterLine> FaultLines() {
+  std::vector<ParameterLine> lines;
   for (const Fault* fault : Faults()) {
     const std::string section = fmt::format("[[fault]] kind = \"{}\"", fault->kind);
     lines.push_back({section, "", "", "", "",
-                     fmt::format("Target: {}; {}. Seen by: {}", TargetText(fault->target),
+                     fmt::format("Target: {}; {}. Seen by: {}", FaultTargetText(fault->target),
                                  fault->doc, ObserverText(*fault))});
     for (const FaultParameter& p : fault->parameters)
       lines.push_back({section, fmt::format("parameters.{}", p.key), std::string(p.unit), "",
@@ -75,10 +75,10 @@ std::vector<Line> FaultLines() {
 }
 
 /// A heading, a sentence (a line without key) and one table per section.
-void PrintMarkdown(const std::vector<Line>& lines) {
+void PrintParametersMarkdown(const std::vector<ParameterLine>& lines) {
   std::string section;
   bool in_table = false;
-  for (const Line& l : lines) {
+  for (const ParameterLine& l : lines) {
     if (l.section != section) fmt::print("\n### `{}`\n", l.section);
     if (l.section != section) in_table = false;
     section = l.section;
@@ -99,14 +99,14 @@ void PrintPage() {
       "and scenario files hold: [guide/files.md](guide/files.md).\n\n## Numbers of a rig "
       "file\n\nSI units. A number may be written `{{ value = 4.2, sd = 0.01 }}`: sd is its "
       "one-sigma tolerance.\n");
-  PrintMarkdown(RigLines());
+  PrintParametersMarkdown(RigLines());
   fmt::print("\n## Faults of a scenario\n");
-  PrintMarkdown(FaultLines());
+  PrintParametersMarkdown(FaultLines());
 }
 
 /// Two lines a number, the section in each first one, so that `| grep gap` says it.
-void PrintText(const std::vector<Line>& lines) {
-  for (const Line& l : lines) {
+void PrintParametersText(const std::vector<ParameterLine>& lines) {
+  for (const ParameterLine& l : lines) {
     if (l.key.empty()) {
       fmt::print("{}\n", Wrapped(fmt::format("{}: {}", l.section, l.doc), 4));
       continue;
@@ -118,7 +118,7 @@ void PrintText(const std::vector<Line>& lines) {
   }
 }
 
-nlohmann::ordered_json LineJson(const Line& l) {
+nlohmann::ordered_json LineJson(const ParameterLine& l) {
   return {{"section", l.section},  {"key", l.key},         {"unit", l.unit},
           {"default", l.fallback}, {"allowed", l.allowed}, {"doc", l.doc}};
 }
@@ -141,17 +141,17 @@ void AddParameters(CLI::App& app, Work& work) {
   command->callback([options, &work] {
     work = [options] {
       options->common.CheckOutputs({});
-      std::vector<Line> lines = RigLines();
-      const std::vector<Line> faults = FaultLines();
+      std::vector<ParameterLine> lines = RigLines();
+      const std::vector<ParameterLine> faults = FaultLines();
       lines.insert(lines.end(), faults.begin(), faults.end());
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
       std::vector<std::vector<Cell>> rows;
-      for (const Line& l : lines) {
+      for (const ParameterLine& l : lines) {
         all.push_back(LineJson(l));
         rows.push_back({Cell(l.section), Cell(l.key), Cell(l.unit), Cell(l.fallback),
                         Cell(l.allowed), Cell(l.doc)});
       }
-      if (!options->markdown) PrintText(lines);
+      if (!options->markdown) PrintParametersText(lines);
       if (options->markdown) PrintPage();
       options->common.WriteJson(all);
       if (!options->common.html.empty()) {

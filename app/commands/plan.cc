@@ -30,7 +30,7 @@ struct PlanCommand {
   std::int64_t seed = 1;
 };
 
-EffectNames Names(const std::vector<std::string>& texts) {
+EffectNames EffectNamesOf(const std::vector<std::string>& texts) {
   EffectNames out;
   for (const std::string& t : texts) {
     const std::size_t at = t.find('@');
@@ -48,7 +48,7 @@ std::string ScenarioText(const Plan& plan, const std::string& rig, const std::st
   return EditedToml(plan.toml, output, {{"rig", TomlLiteral{fmt::format("\"{}\"", path)}}});
 }
 
-void Print(const Plan& plan, const std::string& output) {
+void PrintPlan(const Plan& plan, const std::string& output) {
   fmt::print("{:<34} {:>6} {:>14} {:>14}\n", "scenario", "size", "distance [sd]", "orbit [um]");
   for (std::size_t k = 0; k < plan.tried.size() && k < 10; ++k) {
     const TriedScenario& t = plan.tried[k];
@@ -62,7 +62,7 @@ void Print(const Plan& plan, const std::string& output) {
 }
 
 Plan PlanOfCase(const PlanCommand& o, const Case& c, const PlanOptions& options) {
-  if (!o.between.empty()) return PlanForCase(c, Names(o.between), options);
+  if (!o.between.empty()) return PlanForCase(c, EffectNamesOf(o.between), options);
   ExplainOptions explain;
   explain.stop = &interrupted;
   explain.progress = [&](double f, const std::string& text) {
@@ -74,7 +74,7 @@ Plan PlanOfCase(const PlanCommand& o, const Case& c, const PlanOptions& options)
   return PlanForCase(c, NamesLeft(e), options);
 }
 
-int RunPlan(const PlanCommand& o) {
+int RunPlanCommand(const PlanCommand& o) {
   const std::string text = ReadFile(o.file);
   const bool is_case = TomlTable::FromText(text, o.file).Has("record");
   if (is_case && !o.learn.empty())
@@ -103,13 +103,13 @@ int RunPlan(const PlanCommand& o) {
     plan = PlanOfCase(o, c, options);
   } else {
     const RigParameters rig = ReadRig(o.file);
-    plan =
-        PlanForRig(rig, Names(o.learn), StatedAbilities(rig, 2 * kPi * o.speed, o.clamp), options);
+    plan = PlanForRig(rig, EffectNamesOf(o.learn), StatedAbilities(rig, 2 * kPi * o.speed, o.clamp),
+                      options);
   }
   const std::string scenario = ScenarioText(plan, rig_file, output);
   WriteFileAtomically(output, scenario);
   progress.Clear();
-  Print(plan, output);
+  PrintPlan(plan, output);
   o.common.WriteJson(PlanJson(plan, output));
   plan.toml = scenario;
   if (!o.common.html.empty()) WritePlanReport(plan, o.file, output, o.common.html);
@@ -156,7 +156,7 @@ void AddPlan(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig plan examples/reference/rig.toml --learn side-pull@A cross-coupling@A\n"
       "  ambrig plan practice/case.toml --json plan.json --html plan.html");
-  command->callback([options, &work] { work = [options] { return RunPlan(*options); }; });
+  command->callback([options, &work] { work = [options] { return RunPlanCommand(*options); }; });
 }
 
 }  // namespace ambrig

@@ -19,7 +19,7 @@ struct RefineCommand {
   std::string file, effect, output;
 };
 
-void Print(const Refinement& r, const std::string& output) {
+void PrintRefinement(const Refinement& r, const std::string& output) {
   const char* unseen = r.any_unseen ? "unseen" : "all";
   fmt::print("{} at {}: {} against {}\n", r.effect, r.target, r.shape.value_name, r.shape.u_name);
   fmt::print("  {:>12} {:>12} {:>10} {:>8} {:>12}\n", fmt::format("u [{}]", r.shape.u_unit),
@@ -58,7 +58,7 @@ int RunRefine(const RefineCommand& o) {
              output, options);
   WriteFileAtomically(output, r.rig_text);
   progress.Clear();
-  Print(r, output);
+  PrintRefinement(r, output);
   nlohmann::ordered_json json = RefineJson(r);
   json["rig"] = output;
   o.common.WriteJson(json);

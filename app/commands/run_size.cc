@@ -14,8 +14,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kGiga = 1e9;      // [bytes]
-constexpr double kLongest = 3600;  // [s] of computing, without being told
+constexpr double kGiga = 1e9;         // [bytes]
+constexpr double kLongestRun = 3600;  // [s] of computing, without being told
 
 /// Of the machine, from its own account [bytes].
 double AvailableMemory() {
@@ -91,11 +91,11 @@ void CheckRunSize(const RigParameters& rig, const Scenario& scenario, double rat
         "record_rate or a shorter duration)",
         scenario.file, needed / kGiga, allowed / kGiga));
   const double seconds = RunSeconds(rig, scenario);
-  if (seconds > kLongest && !long_runs)
+  if (seconds > kLongestRun && !long_runs)
     throw InputError(fmt::format(
         "{}: {} s of the rig would take about {}, allowed: {} unless "
         "--long is given",
-        scenario.file, scenario.duration, DurationText(seconds), DurationText(kLongest)));
+        scenario.file, scenario.duration, DurationText(seconds), DurationText(kLongestRun)));
 }
 
 }  // namespace ambrig

@@ -110,7 +110,7 @@ std::string Truth(const Answer& a) {
   return Listed(first, a.verdicts.empty() ? "?" : a.verdicts[0]);
 }
 
-void PrintLine(const CaseScore& j) {
+void PrintScoreLine(const CaseScore& j) {
   const char* mark = j.right() ? "right" : j.first_right ? "in part" : "wrong";
   const char* colour = j.right() ? "green" : j.first_right ? "yellow" : "red";
   fmt::print("{:<34} {:>9.3f} {:>9.3f} {:>6.0f} s  {}\n", Shortened(j.name, 34),
@@ -139,7 +139,7 @@ Json MatrixJson(const std::vector<CaseScore>& all) {
   return {{"cases", cases}, {"tallies", tallies}, {"confusion", confusion}};
 }
 
-void WriteReport(const std::vector<CaseScore>& all, const std::string& file) {
+void WriteScoreReport(const std::vector<CaseScore>& all, const std::string& file) {
   HtmlReport report("Accuracy of explain",
                     Counted(all.size(), "case") +
                         (all.size() == 1 ? " with a known answer" : " with known answers"));
@@ -212,7 +212,7 @@ int RunScore(const ScoreCommand& o) {
     }
     all.push_back(ScoreCase(name, answers[k], *finding));
     progress.Clear();
-    PrintLine(all.back());
+    PrintScoreLine(all.back());
     std::fflush(stdout);
   }
   fmt::print("\n");
@@ -222,7 +222,7 @@ int RunScore(const ScoreCommand& o) {
     for (const auto& [found, n] : given)
       fmt::print("  {:<24} {:<28} {:>3}{}\n", truth, found, n, truth == found ? "" : "   <-");
   o.common.WriteJson(MatrixJson(all));
-  if (!o.common.html.empty()) WriteReport(all, o.common.html);
+  if (!o.common.html.empty()) WriteScoreReport(all, o.common.html);
   return 0;
 }
 

@@ -41,7 +41,7 @@ std::string Verdict(const ValidationRow& r) {
   return r.agrees() ? "agrees" : "DIFFERS";
 }
 
-void PrintMarkdown(const std::vector<ValidationRow>& rows) {
+void PrintValidationMarkdown(const std::vector<ValidationRow>& rows) {
   fmt::print(
       "# Published rotors and rigs beside ours\n\n"
       "Written by `ambrig validate examples/validation --markdown > docs/validation.md`; ctest "
@@ -65,7 +65,7 @@ void PrintMarkdown(const std::vector<ValidationRow>& rows) {
   }
 }
 
-void PrintText(const std::vector<ValidationRow>& rows) {
+void PrintValidationText(const std::vector<ValidationRow>& rows) {
   for (const ValidationRow& r : rows) {
     const char* colour = r.low() ? "yellow" : r.agrees() ? "green" : "red";
     fmt::print("{}\n",
@@ -86,7 +86,7 @@ int RunValidate(const ValidateCommand& c) {
     if (interrupted) throw Interrupted();
     for (ValidationRow& row : Validate(file)) rows.push_back(std::move(row));
   }
-  c.markdown ? PrintMarkdown(rows) : PrintText(rows);
+  c.markdown ? PrintValidationMarkdown(rows) : PrintValidationText(rows);
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const ValidationRow& r : rows)
     json.push_back({{"name", r.name},

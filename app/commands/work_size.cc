@@ -13,8 +13,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLongest = 24 * 3600;  // [s] of computing, without being told
-constexpr double kWorthAWord = 60;      // [s]
+constexpr double kLongestWork = 24 * 3600;  // [s] of computing, without being told
+constexpr double kWorthAWord = 60;          // [s]
 
 // Simulations of a record from the first fit to the verdict: 400 to 800 in cases of 6 or 7 records.
 constexpr double kSimulationsPerRecord = 800;
@@ -62,10 +62,10 @@ void CheckWorkSize(const std::string& file, const WorkSize& size, bool long_runs
         "{}: needs about {:.1f} GB, allowed: {:.1f} GB of free memory (fewer rows or records, or "
         "fewer jobs)",
         file, size.bytes / 1e9, allowed / 1e9));
-  if (size.seconds > kLongest && !long_runs)
+  if (size.seconds > kLongestWork && !long_runs)
     throw InputError(fmt::format(
         "{}: would take about {} on {}, allowed: {} unless --long is given", file,
-        DurationText(size.seconds), Counted(size.cores, "core"), DurationText(kLongest)));
+        DurationText(size.seconds), Counted(size.cores, "core"), DurationText(kLongestWork)));
   if (size.seconds > kWorthAWord)
     fmt::print("{}: about {} on {}\n", file, DurationText(size.seconds),
                Counted(size.cores, "core"));

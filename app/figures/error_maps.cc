@@ -7,13 +7,13 @@
 #include "app/figures/response_figures.h"
 #include "app/figures/series.h"
 #include "app/pages/discovery_parts.h"
+#include "core/math/constants.h"
 #include "core/math/fft.h"
 #include "core/record/channels.h"
 
 namespace ambrig {
 namespace {
 
-constexpr double kTurn = 2 * 3.14159265358979323846;
 const std::vector<double> kEdges = {0, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 1e4, 1e6};
 
 std::string BandName(std::size_t band) {
@@ -66,7 +66,8 @@ std::vector<double> BandPower(const std::vector<double>& x, double rate) {
   return out;
 }
 
-std::vector<double> Cut(const std::vector<double>& flat, const Target& t, const RecordSlice& s) {
+std::vector<double> CutToSlice(const std::vector<double>& flat, const Target& t,
+                               const RecordSlice& s) {
   const auto begin = flat.begin() + static_cast<std::ptrdiff_t>(t.first);
   return {begin + static_cast<std::ptrdiff_t>(s.first),
           begin + static_cast<std::ptrdiff_t>(s.last)};
@@ -79,8 +80,8 @@ std::vector<double> BandRatios(const CaseModel& model, const std::vector<double>
   const double rate = model.data().records[s.record].data.rate;
   for (const Target& t : model.targets()) {
     if (t.record != s.record) continue;
-    const std::vector<double> error = BandPower(Cut(residual, t, s), rate),
-                              floor = BandPower(Cut(noise, t, s), rate);
+    const std::vector<double> error = BandPower(CutToSlice(residual, t, s), rate),
+                              floor = BandPower(CutToSlice(noise, t, s), rate);
     // Noise may leave a band nearly empty; what is lost beside its whole power is no yardstick.
     double least = 0;
     for (const double power : floor) least += std::isfinite(power) ? 1e-4 * power : 0;

@@ -22,7 +22,7 @@ std::string AxisKey(char letter, int panel) {
 // Times at 450 kHz after some seconds need nine digits; what is drawn upwards needs five.
 constexpr int kXDigits = 10, kYDigits = 5;
 
-json LineStyle(const Style& s) {
+json LineStyleJson(const Style& s) {
   return {{"color", s.color}, {"width", s.width}, {"dash", s.dash}};
 }
 
@@ -33,7 +33,7 @@ json Trace(int panel, const std::string& name, const Style& style) {
   if (style.markers)
     t["marker"] = {{"color", style.color}, {"size", style.size}};
   else
-    t["line"] = LineStyle(style);
+    t["line"] = LineStyleJson(style);
   if (style.steps) t["line"]["shape"] = "hv";
   return t;
 }

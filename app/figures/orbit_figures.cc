@@ -35,7 +35,7 @@ struct Plane {
   double peak;  // [m]
 };
 
-std::vector<Plane> PlanesOf(const RunReportData& data) {
+std::vector<Plane> OrbitPlanesOf(const RunReportData& data) {
   std::vector<Plane> planes;
   for (const ReportBearing& b : data.bearings)
     planes.push_back({"bearing " + b.name, b.clearance, &b.x, &b.y, LargestRadius(b.x, b.y)});
@@ -77,7 +77,7 @@ std::string Caption(bool close_up, bool stations) {
 }  // namespace
 
 Figure OrbitFigure(const RunReportData& data, const RunStages& stages) {
-  const std::vector<Plane> planes = PlanesOf(data);
+  const std::vector<Plane> planes = OrbitPlanesOf(data);
   double peak = 0, clearance = 0, reach = 0;
   for (const Plane& p : planes) {
     peak = std::max(peak, p.peak);

@@ -33,13 +33,14 @@ Stretch WorstStretch(const ChannelView& v) {
   return out;
 }
 
-std::vector<double> Cut(const std::vector<double>& x, Stretch s) {
+std::vector<double> CutToStretch(const std::vector<double>& x, Stretch s) {
   return {x.begin() + static_cast<std::ptrdiff_t>(s.first),
           x.begin() + static_cast<std::ptrdiff_t>(s.last)};
 }
 
-void Line(Figure& figure, int panel, const std::string& name, const std::vector<double>& x,
-          const std::vector<double>& y, const std::string& color, bool legend, double width = 1.3) {
+void AddResidualLine(Figure& figure, int panel, const std::string& name,
+                     const std::vector<double>& x, const std::vector<double>& y,
+                     const std::string& color, bool legend, double width = 1.3) {
   const Points p = Decimate(x, y, kPoints);
   Style style;
   style.color = color;
@@ -48,7 +49,7 @@ void Line(Figure& figure, int panel, const std::string& name, const std::vector<
   AddLine(figure, panel, name, p.x, p.y, style);
 }
 
-DisplayUnit UnitOf(const CaseModel& model, const Target& t, double largest) {
+DisplayUnit UnitOfTarget(const CaseModel& model, const Target& t, double largest) {
   return ChooseUnit(largest, model.data().records[t.record].data.channels[t.channel].unit);
 }
 
@@ -73,17 +74,17 @@ void TimePanels(Figure& figure, const CaseModel& model, const Target& t, int c, 
                 const std::vector<NamedPrediction>& predictions) {
   const ChannelView first = ViewOf(model, *predictions[0].values, t);
   const Stretch zoom = WorstStretch(first);
-  const DisplayUnit unit = UnitOf(model, t, LargestSize(first.measured));
-  const DisplayUnit error = UnitOf(model, t, std::max(LargestSize(first.residual), t.floor));
+  const DisplayUnit unit = UnitOfTarget(model, t, LargestSize(first.measured));
+  const DisplayUnit error = UnitOfTarget(model, t, std::max(LargestSize(first.residual), t.floor));
   const auto whole = [&](int row, const std::string& name, const std::vector<double>& y,
                          const std::string& color, double width, bool legend) {
-    Line(figure, row * columns + c, name, first.t, Scaled(y, row == 2 ? error.factor : unit.factor),
-         color, legend, width);
+    AddResidualLine(figure, row * columns + c, name, first.t,
+                    Scaled(y, row == 2 ? error.factor : unit.factor), color, legend, width);
   };
   const auto part = [&](const std::string& name, const std::vector<double>& y,
                         const std::string& color, double width) {
-    Line(figure, columns + c, name, Cut(first.t, zoom), Cut(Scaled(y, unit.factor), zoom), color,
-         false, width);
+    AddResidualLine(figure, columns + c, name, CutToStretch(first.t, zoom),
+                    CutToStretch(Scaled(y, unit.factor), zoom), color, false, width);
   };
   whole(0, "measured", first.measured, "@ink", 1.8, c == 0);
   part("measured", first.measured, "@ink", 1.8);
@@ -134,7 +135,7 @@ Density AmplitudeDensity(const std::vector<double>& x, double rate, double facto
   return d;
 }
 
-std::vector<double> Rows(const std::vector<double>& flat, const Target& t) {
+std::vector<double> RowsOfTarget(const std::vector<double>& flat, const Target& t) {
   return {flat.begin() + static_cast<std::ptrdiff_t>(t.first),
           flat.begin() + static_cast<std::ptrdiff_t>(t.first + t.count)};
 }
@@ -159,16 +160,16 @@ Figure SpectrumFigure(const CaseModel& model, const std::vector<Target>& channel
     if (t.count < 8) continue;
     const ChannelView first = ViewOf(model, *predictions[0].values, t);
     const DisplayUnit unit =
-        UnitOf(model, t, LargestSize(AmplitudeDensity(first.residual, first.rate, 1).a));
+        UnitOfTarget(model, t, LargestSize(AmplitudeDensity(first.residual, first.rate, 1).a));
     for (const NamedPrediction& p : predictions) {
       const Density d =
           AmplitudeDensity(ViewOf(model, *p.values, t).residual, first.rate, unit.factor);
-      Line(figure, c, "error of " + p.name, d.f, d.a, p.color, c == 0);
+      AddResidualLine(figure, c, "error of " + p.name, d.f, d.a, p.color, c == 0);
     }
     const double flat = t.floor * unit.factor / std::sqrt(first.rate / 2);
     Density n{{first.rate / 1000, first.rate / 2}, {flat, flat}};
-    if (!noise.empty()) n = AmplitudeDensity(Rows(noise, t), first.rate, unit.factor);
-    Line(figure, c, "noise alone", n.f, n.a, "@gray", c == 0);
+    if (!noise.empty()) n = AmplitudeDensity(RowsOfTarget(noise, t), first.rate, unit.factor);
+    AddResidualLine(figure, c, "noise alone", n.f, n.a, "@gray", c == 0);
     SetAxes(figure, c, "frequency [Hz]", fmt::format("error density [{}/√Hz]", unit.name));
     LogAxes(figure, c, true, true);
     DecadeTicks(figure, c);
@@ -187,10 +188,11 @@ Figure WhitenessFigure(const CaseModel& model, const std::vector<Target>& channe
     for (std::size_t k = 0; k < lags; ++k)
       lag[k] = 1e3 * static_cast<double>(k) / model.data().records[t.record].data.rate;
     for (const NamedPrediction& p : predictions)
-      Line(figure, c, "error of " + p.name, lag,
-           Autocorrelation(ViewOf(model, *p.values, t).residual, lags), p.color, c == 0);
+      AddResidualLine(figure, c, "error of " + p.name, lag,
+                      Autocorrelation(ViewOf(model, *p.values, t).residual, lags), p.color, c == 0);
     if (!noise.empty())
-      Line(figure, c, "noise alone", lag, Autocorrelation(Rows(noise, t), lags), "@gray", c == 0);
+      AddResidualLine(figure, c, "noise alone", lag, Autocorrelation(RowsOfTarget(noise, t), lags),
+                      "@gray", c == 0);
     SetAxes(figure, c, "lag [ms]", c == 0 ? "autocorrelation [-]" : "", {},
             std::array{-1.05, 1.05});
   }
@@ -210,16 +212,17 @@ Figure SignatureFigure(const CaseModel& model, const Target& channel,
   const std::size_t length = worst.last - worst.first;  // shown with as much on both sides
   const Stretch zoom = {worst.first > length ? worst.first - length : 0,
                         std::min(whole.last, worst.last + length)};
-  const DisplayUnit unit = UnitOf(model, channel, LargestSize(first.residual));
+  const DisplayUnit unit = UnitOfTarget(model, channel, LargestSize(first.residual));
   for (std::size_t k = 1; k < predictions.size(); ++k) {
     const int panel = static_cast<int>(k) - 1;
     std::vector<double> added = ViewOf(model, *predictions[k].values, channel).model;
     for (std::size_t i = 0; i < added.size(); ++i)
       added[i] = (added[i] - first.model[i]) * unit.factor;
-    Line(figure, panel, "residual of the rig file's model", Cut(first.t, zoom),
-         Cut(Scaled(first.residual, unit.factor), zoom), "@ink", k == 1, 1.6);
-    Line(figure, panel, k == 1 ? "best-ranked effect" : "another candidate", Cut(first.t, zoom),
-         Cut(added, zoom), k == 1 ? "@green" : "@orange", k <= 2);
+    AddResidualLine(figure, panel, "residual of the rig file's model", CutToStretch(first.t, zoom),
+                    CutToStretch(Scaled(first.residual, unit.factor), zoom), "@ink", k == 1, 1.6);
+    AddResidualLine(figure, panel, k == 1 ? "best-ranked effect" : "another candidate",
+                    CutToStretch(first.t, zoom), CutToStretch(added, zoom),
+                    k == 1 ? "@green" : "@orange", k <= 2);
     SetAxes(figure, panel, "time [s]", fmt::format("{} [{}]", first.channel, unit.name));
   }
   return figure;

@@ -9,19 +9,19 @@
 
 #include "app/figures/series.h"
 #include "app/pages/format.h"
+#include "core/math/constants.h"
 #include "core/math/fft.h"
 
 namespace ambrig {
 namespace {
 
-constexpr double kTurn = 2 * 3.14159265358979323846;
 using Complex = std::complex<double>;
 
 bool UnderForce(const Scenario& s) {
   return std::ranges::any_of(s.excitations, [](const Excitation& e) { return e.port == "force"; });
 }
 
-Style LineStyle(const std::string& color, bool legend, bool markers = false) {
+Style ResponseStyle(const std::string& color, bool legend, bool markers = false) {
   Style style;
   style.color = color;
   style.legend = legend;
@@ -33,7 +33,7 @@ Style LineStyle(const std::string& color, bool legend, bool markers = false) {
 
 constexpr int kOrders = 4;
 
-struct OrderTrack {
+struct OrderCurve {
   std::vector<double> at;  // speed [Hz] or time [s]
   std::array<std::vector<double>, kOrders> size;
 };
@@ -65,14 +65,14 @@ bool RunsUp(const SpeedProfile& speed, double t0, double t1) {
   return std::abs(speed.Speed(t1) - speed.Speed(t0)) > kTurn * 10;
 }
 
-OrderTrack TrackOrders(const ChannelView& v, const std::vector<double>& series,
+OrderCurve TrackOrders(const ChannelView& v, const std::vector<double>& series,
                        const SpeedProfile& speed) {
   const std::vector<double> x = Filled(series);
   std::vector<double> theta;
   for (const double t : v.t) theta.push_back(speed.Angle(t));
   const bool runs_up = RunsUp(speed, v.t.front(), v.t.back());
   const std::size_t least = static_cast<std::size_t>(0.02 * v.rate) + 40;
-  OrderTrack track;
+  OrderCurve track;
   for (std::size_t first = 0; first < x.size();) {
     std::size_t last = std::min(first + least, x.size());
     while (last < x.size() && theta[last - 1] - theta[first] < 4 * kTurn) ++last;
@@ -95,10 +95,10 @@ std::optional<Figure> OrderFigure(const CaseModel& model, const std::vector<doub
   const CaseRecord& record = model.data().records[channel.record];
   const ChannelView v = ViewOf(model, predicted, channel);
   if (UnderForce(record.scenario)) return {};
-  const OrderTrack measured = TrackOrders(v, v.measured, record.scenario.speed);
+  const OrderCurve measured = TrackOrders(v, v.measured, record.scenario.speed);
   if (measured.at.size() < 2) return {};
-  const OrderTrack modelled = TrackOrders(v, v.model, record.scenario.speed);
-  const OrderTrack error = TrackOrders(v, v.residual, record.scenario.speed);
+  const OrderCurve modelled = TrackOrders(v, v.model, record.scenario.speed);
+  const OrderCurve error = TrackOrders(v, v.residual, record.scenario.speed);
   double largest = 0;
   for (const auto& s : measured.size) largest = std::max(largest, LargestSize(s));
   const DisplayUnit unit = ChooseUnit(largest, record.data.channels[channel.channel].unit);
@@ -112,12 +112,12 @@ std::optional<Figure> OrderFigure(const CaseModel& model, const std::vector<doub
       "and so on. Unbalance and bow are order 1, a run-out of the sensed surface is every order, a "
       "stiffness that differs between two directions of the shaft is order 2.",
       grid);
-  const auto line = [&](int p, const std::string& name, const OrderTrack& t, std::size_t o,
+  const auto line = [&](int p, const std::string& name, const OrderCurve& t, std::size_t o,
                         const Style& style) {
     AddLine(figure, p, name, t.at, Scaled(t.size[o], unit.factor), style);
   };
-  line(0, "measured", measured, 0, LineStyle("@ink", true));
-  line(0, "model", modelled, 0, LineStyle("@orange", true));
+  line(0, "measured", measured, 0, ResponseStyle("@ink", true));
+  line(0, "model", modelled, 0, ResponseStyle("@orange", true));
   for (int o = 0; o < kOrders; ++o) {
     Style style = SeriesStyle(o);
     line(1, fmt::format("error, order {}", o + 1), error, static_cast<std::size_t>(o), style);
@@ -216,9 +216,9 @@ std::vector<ForceAxis> ForceAxes(const CaseModel& model, std::size_t record) {
 void ResponsePanels(Figure& figure, int c, int columns, const std::string& name, const Response& r,
                     const std::string& color) {
   AddLine(figure, c, name, r.f, r.magnitude,
-          LineStyle(color, c == 0, r.lines && name == "measured"));
+          ResponseStyle(color, c == 0, r.lines && name == "measured"));
   AddLine(figure, columns + c, name, r.f, r.phase,
-          LineStyle(color, false, r.lines && name == "measured"));
+          ResponseStyle(color, false, r.lines && name == "measured"));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ void AddPath(Figure& figure, int panel, const std::string& path, const std::stri
        {"line", {{"color", line}, {"width", width}, {"dash", dash}}}});
 }
 
-int Percent(double value, double largest) {
+int PercentOf(double value, double largest) {
   return largest > 0 ? static_cast<int>(std::lround(100 * std::min(1.0, std::abs(value) / largest)))
                      : 0;
 }
@@ -59,12 +59,12 @@ void DrawPole(Figure& figure, int panel, const StatorView& view, std::size_t j,
   const std::string body =
       TurnedRectangle(angle, kPoleFace, kYokeInner + 0.03, -kPoleHalf, kPoleHalf);
   AddPath(figure, panel, body, "@paper", "@muted", 0);
-  AddPath(figure, panel, body, fmt::format("{}/{}", color, Percent(view.flux[j], scale.flux)),
+  AddPath(figure, panel, body, fmt::format("{}/{}", color, PercentOf(view.flux[j], scale.flux)),
           "@muted", 1);
   for (const double side : {-1.0, 1.0}) {
     const double s0 = side * kPoleHalf, s1 = side * (kPoleHalf + kCoilWidth);
     const std::string coil = TurnedRectangle(angle, kCoilFrom, kCoilTo, s0, s1);
-    const int fill = view.current.empty() ? 0 : Percent(view.current[j], scale.current);
+    const int fill = view.current.empty() ? 0 : PercentOf(view.current[j], scale.current);
     AddPath(figure, panel, coil, fmt::format("@green/{}", fill), failed ? "@red" : "@muted",
             failed ? 2.2 : 0.8, failed ? "dot" : "solid");
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/figures/series.h"
 #include "app/json/analysis_json.h"
 #include "app/pages/format.h"
 #include "core/base/counted.h"
@@ -14,18 +15,11 @@
 namespace ambrig {
 namespace {
 
-constexpr double kRpm = kPi / 30;
-
-std::vector<double> Scaled(std::vector<double> x, double factor) {
-  for (double& v : x) v *= factor;
-  return x;
-}
-
 const char* WhirlColour(Whirl w) {
   return w == Whirl::kForward ? "@blue" : w == Whirl::kBackward ? "@orange" : "@muted";
 }
 
-Style Plain(const std::string& colour, const std::string& dash = "solid") {
+Style PlainLine(const std::string& colour, const std::string& dash = "solid") {
   Style s;
   s.color = colour;
   s.dash = dash;
@@ -98,7 +92,7 @@ Figure CampbellFigure(const RigAnalysis& a) {
       hz.push_back(m.frequency);
       dec.push_back(m.log_decrement);
     }
-    Style style = Plain(WhirlColour(t.sense()));
+    Style style = PlainLine(WhirlColour(t.sense()));
     bool& known = named[static_cast<int>(t.sense())];
     style.legend = !known;
     known = true;
@@ -109,13 +103,13 @@ Figure CampbellFigure(const RigAnalysis& a) {
   }
   const double end = a.options.fastest;
   AddLine(f, 0, "1X", std::vector<double>{0, end / kRpm}, std::vector<double>{0, end / (2 * kPi)},
-          Plain("@ink", "dash"));
+          PlainLine("@ink", "dash"));
   std::vector<double> x, y;
   for (const DampedCritical& c : a.criticals) {
     x.push_back(c.speed / kRpm);
     y.push_back(c.speed / (2 * kPi));
   }
-  Style dots = Plain("@red");
+  Style dots = PlainLine("@red");
   dots.markers = true;
   dots.size = 8;
   if (!x.empty()) AddLine(f, 0, "critical speed", x, y, dots);
@@ -162,7 +156,7 @@ Figure ModeShapeFigure(const RigAnalysis& a) {
     }
     const int panel = static_cast<int>(k);
     SetAxes(f, panel, "z [m]", "", {}, std::array<double, 2>{-1.15, 1.15});
-    Style style = Plain(WhirlColour(modes[k]->sense()));
+    Style style = PlainLine(WhirlColour(modes[k]->sense()));
     style.legend = false;
     AddLine(f, panel, "x", shown, x, style);
     style.dash = "dash";
@@ -173,7 +167,7 @@ Figure ModeShapeFigure(const RigAnalysis& a) {
         at.push_back(b.z + a.point.rig().z_origin);
         zero.push_back(0);
       }
-    Style dot = Plain("@ink");
+    Style dot = PlainLine("@ink");
     dot.markers = true;
     dot.legend = false;
     AddLine(f, panel, "bearings", at, zero, dot);
@@ -225,7 +219,7 @@ Figure CriticalMapFigure(const RigAnalysis& a) {
         forward = row.speeds[n].whirl > 0;
       }
     AddLine(f, 0, fmt::format("{} {}", n + 1, forward ? "forward" : "backward"), x, y,
-            Plain(forward ? "@blue" : "@orange"));
+            PlainLine(forward ? "@blue" : "@orange"));
   }
   if (a.supports.map.empty()) return f;
   double low = 1e300, high = 0;
@@ -237,7 +231,7 @@ Figure CriticalMapFigure(const RigAnalysis& a) {
   for (const SupportStiffness& s : a.supports.supports)
     if (s.net() > 0 && high > 0) {
       AddLine(f, 0, s.bearing, std::vector<double>{s.net(), s.net()},
-              std::vector<double>{low, high}, Plain("@muted", "dot"));
+              std::vector<double>{low, high}, PlainLine("@muted", "dot"));
     }
   return f;
 }

@@ -48,7 +48,7 @@ Cut MakeCut(const RunReportData& data, const RunStages& stages, bool zoom, std::
   return cut;
 }
 
-std::size_t Rows(const RunReportData& data) {
+std::size_t RowsOfRun(const RunReportData& data) {
   return data.bearings.empty() ? 0 : data.bearings.front().x.size();
 }
 
@@ -73,7 +73,7 @@ constexpr const char* kCoilColors[] = {"@blue", "@orange", "@green", "@purple",
 RunStages FindStages(const RunReportData& data) {
   RunStages s;
   const double end =
-      data.start + static_cast<double>(std::max<std::size_t>(Rows(data), 1) - 1) / data.rate;
+      data.start + static_cast<double>(std::max<std::size_t>(RowsOfRun(data), 1) - 1) / data.rate;
   s.whole = {data.start, end};
   for (const ReportEvent& e : data.events) {
     if (e.kind == "fault" && !s.fault) {
@@ -120,7 +120,7 @@ Figure PositionFigure(const RunReportData& data, const RunStages& stages, bool z
   Figure figure = MakeFigure(
       zoom ? "Shaft position about the fault." : "Shaft position over the whole run, as sensed.",
       grid);
-  const Cut cut = MakeCut(data, stages, zoom, Rows(data));
+  const Cut cut = MakeCut(data, stages, zoom, RowsOfRun(data));
   double peak = 0;
   for (const ReportBearing& b : data.bearings) peak = std::max(peak, Peak(b, cut.begin, cut.size));
   const DisplayUnit unit = ChooseUnit(peak, "m");
@@ -153,7 +153,7 @@ Figure CurrentFigure(const RunReportData& data, const RunStages& stages, bool zo
     caption += stages.coils.size() > 1 ? " Coils with a fault are drawn bold."
                                        : " The faulty coil is drawn bold.";
   Figure figure = MakeFigure(caption, grid);
-  const Cut cut = MakeCut(data, stages, zoom, Rows(data));
+  const Cut cut = MakeCut(data, stages, zoom, RowsOfRun(data));
   std::set<std::string> named;
   int bold = 0;  // the second of two faulty coils is dashed
   for (int p = 0; p < grid.rows; ++p) {

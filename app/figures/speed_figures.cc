@@ -16,13 +16,13 @@ constexpr double kWindows = 120;       // columns of a waterfall
 constexpr double kLeastChange = 0.05;  // of the highest speed
 constexpr double kFloor = 1e-4;        // of the largest amplitude: below it all is one colour
 
-struct Plane {
+struct SpeedPlane {
   std::string title;
   std::span<const double> x, y;
 };
 
-std::vector<Plane> PlanesOf(const RunReportData& data) {
-  std::vector<Plane> planes;
+std::vector<SpeedPlane> SpeedPlanesOf(const RunReportData& data) {
+  std::vector<SpeedPlane> planes;
   for (const ReportBearing& b : data.bearings)
     if (!b.x.empty()) planes.push_back({"bearing " + b.name, b.x, b.y});
   for (const ReportStation& s : data.stations)
@@ -99,18 +99,18 @@ void AddMap(Figure& figure, int panel, const WaterfallSpectrum& w, double factor
 }
 
 /// One panel a plane, one below the other.
-Figure PanelPerPlane(const std::vector<Plane>& planes, int height, const char* caption) {
+Figure PanelPerPlane(const std::vector<SpeedPlane>& planes, int height, const char* caption) {
   Grid grid;
   grid.rows = static_cast<int>(planes.size());
   grid.panel_height = height;
-  for (const Plane& p : planes) grid.titles.push_back(p.title);
+  for (const SpeedPlane& p : planes) grid.titles.push_back(p.title);
   return MakeFigure(caption, grid);
 }
 
 }  // namespace
 
 bool SpeedVaries(const RunReportData& data) {
-  if (data.theta.size() < 64 || PlanesOf(data).empty()) return false;
+  if (data.theta.size() < 64 || SpeedPlanesOf(data).empty()) return false;
   const std::vector<double> f = SpeedOf(data);
   const auto [low, high] = std::ranges::minmax(f);
   const SpeedRun run = MakeSpeedRun(data);
@@ -118,7 +118,7 @@ bool SpeedVaries(const RunReportData& data) {
 }
 
 Figure WaterfallFigure(const RunReportData& data) {
-  const std::vector<Plane> planes = PlanesOf(data);
+  const std::vector<SpeedPlane> planes = SpeedPlanesOf(data);
   const SpeedRun run = MakeSpeedRun(data);
   Figure figure =
       PanelPerPlane(planes, 260,
@@ -127,7 +127,7 @@ Figure WaterfallFigure(const RunReportData& data) {
                     "the rotational frequency: components that follow it are of order 1; "
                     "horizontal ones are modes of the rotor in its bearings.");
   double peak = 0;
-  for (const Plane& p : planes) peak = std::max({peak, LargestSize(p.x), LargestSize(p.y)});
+  for (const SpeedPlane& p : planes) peak = std::max({peak, LargestSize(p.x), LargestSize(p.y)});
   const DisplayUnit unit = ChooseUnit(peak, "m");
   const double f_max = std::min(data.rate / 2.56, std::max(5 * run.top, 50.0));
   const std::vector<double> time = UniformTime(data.start, data.rate, run.speed.size());
@@ -147,7 +147,7 @@ Figure WaterfallFigure(const RunReportData& data) {
 }
 
 std::optional<Figure> OrderFigure(const RunReportData& data) {
-  const std::vector<Plane> planes = PlanesOf(data);
+  const std::vector<SpeedPlane> planes = SpeedPlanesOf(data);
   const SpeedRun run = MakeSpeedRun(data);
   Figure figure = PanelPerPlane(
       planes, 220,

@@ -3,15 +3,13 @@
 #include <cmath>
 
 #include "analysis/iso14839.h"
+#include "app/json/json_number.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A number, or null where there is none (a gain that may grow without limit).
-Json Number(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
 
 Json Parts(const std::vector<std::complex<double>>& values) {
   Json re = Json::array(), im = Json::array();
@@ -23,10 +21,16 @@ Json Parts(const std::vector<std::complex<double>>& values) {
 }
 
 Json CapacityJson(const AxisCapacity& c) {
-  return {{"axis", c.axis},        {"k_i", c.k_i},       {"k_s", c.k_s},
-          {"static", c.usable()},  {"linear", c.linear}, {"largest", c.largest},
-          {"f_max", c.commanded},  {"weight", c.weight}, {"slew", Number(c.slew)},
-          {"knee", Number(c.knee)}};
+  return {{"axis", c.axis},
+          {"k_i", c.k_i},
+          {"k_s", c.k_s},
+          {"static", c.usable()},
+          {"linear", c.linear},
+          {"largest", c.largest},
+          {"f_max", c.commanded},
+          {"weight", c.weight},
+          {"slew", FiniteOrNull(c.slew)},
+          {"knee", FiniteOrNull(c.knee)}};
 }
 
 Json JointJson(const JointMargin& m, const Sensitivity& s) {
@@ -34,23 +38,23 @@ Json JointJson(const JointMargin& m, const Sensitivity& s) {
   for (std::size_t k = 0; k < m.axes.size(); ++k) {
     axes.push_back(s.axes[m.axes[k]].axis);
     if (k >= m.factor.size()) continue;
-    gain.push_back(Number(std::abs(m.factor[k])));
-    phase.push_back(Number(std::arg(m.factor[k])));
+    gain.push_back(FiniteOrNull(std::abs(m.factor[k])));
+    phase.push_back(FiniteOrNull(std::arg(m.factor[k])));
   }
   return {{"axes", axes},
-          {"disk_margin", Number(m.alpha)},
+          {"disk_margin", FiniteOrNull(m.alpha)},
           {"gain_down", DiskGainDown(m.alpha)},
-          {"gain_up", Number(DiskGainUp(m.alpha))},
+          {"gain_up", FiniteOrNull(DiskGainUp(m.alpha))},
           {"phase", DiskPhase(m.alpha)},
           {"frequency", m.frequency},
-          {"reached", Number(m.reached)},
+          {"reached", FiniteOrNull(m.reached)},
           {"worst_gain", gain},
           {"worst_phase", phase}};
 }
 
 Json SensitivityJson(const Sensitivity& s) {
   Json axes = Json::array();
-  const auto of_stable = [&](double x) { return s.stable ? Number(x) : Json(nullptr); };
+  const auto of_stable = [&](double x) { return s.stable ? FiniteOrNull(x) : Json(nullptr); };
   for (const AxisSensitivity& a : s.axes)
     axes.push_back({{"axis", a.axis},
                     {"peak", of_stable(a.peak)},
@@ -145,22 +149,22 @@ Json UnbalanceJson(const UnbalanceSweep& s, double origin) {
 }
 
 template <class Items, class Make>
-Json List(const Items& items, Make&& make) {
+Json ListJson(const Items& items, Make&& make) {
   Json out = Json::array();
   for (const auto& item : items) out.push_back(make(item));
   return out;
 }
 
 Json StandardsJson(const RigAnalysis& a) {
-  return {{"displacement", List(a.displacement,
-                                [](const DisplacementRow& d) {
-                                  return Json{{"bearing", d.bearing},
-                                              {"unbalance", d.unbalance},
-                                              {"largest", d.largest},
-                                              {"clearance", d.clearance},
-                                              {"zone", std::string(1, d.zone)}};
-                                })},
-          {"separation", List(a.separation, [](const SeparationRow& s) {
+  return {{"displacement", ListJson(a.displacement,
+                                    [](const DisplacementRow& d) {
+                                      return Json{{"bearing", d.bearing},
+                                                  {"unbalance", d.unbalance},
+                                                  {"largest", d.largest},
+                                                  {"clearance", d.clearance},
+                                                  {"zone", std::string(1, d.zone)}};
+                                    })},
+          {"separation", ListJson(a.separation, [](const SeparationRow& s) {
              return Json{{"bearing", s.bearing},
                          {"unbalance", s.unbalance},
                          {"critical", s.peak.speed},
@@ -184,9 +188,9 @@ Json AnalysisJson(const RigAnalysis& a) {
       {"lowest", a.options.lowest}, {"highest", a.options.highest}, {"fastest", a.options.fastest}};
   out["stable"] = a.stable();
   out["notes"] = a.point.notes;
-  out["capacity"] = List(a.capacity, CapacityJson);
-  out["sensitivity"] = List(a.sensitivity, SensitivityJson);
-  out["measured_sensitivity"] = List(a.measured, [&](const MeasuredPoint& p) {
+  out["capacity"] = ListJson(a.capacity, CapacityJson);
+  out["sensitivity"] = ListJson(a.sensitivity, SensitivityJson);
+  out["measured_sensitivity"] = ListJson(a.measured, [&](const MeasuredPoint& p) {
     return Json{{"axis", a.capacity[p.axis].axis},
                 {"frequency", p.frequency},
                 {"measured", std::abs(p.measured)},
@@ -195,20 +199,20 @@ Json AnalysisJson(const RigAnalysis& a) {
   const double origin = a.point.rig().z_origin;
   out["rotor"] = SupportsJson(a.supports, origin);
   out["campbell"] = CampbellJson(a);
-  out["critical_speeds"] = List(a.criticals, [](const DampedCritical& c) {
+  out["critical_speeds"] = ListJson(a.criticals, [](const DampedCritical& c) {
     return Json{{"speed", c.speed},
                 {"log_decrement", c.mode.log_decrement},
                 {"whirl", SenseName(c.mode.sense())}};
   });
   out["unbalance"] =
-      List(a.unbalance, [&](const UnbalanceSweep& s) { return UnbalanceJson(s, origin); });
+      ListJson(a.unbalance, [&](const UnbalanceSweep& s) { return UnbalanceJson(s, origin); });
   out["standards"] = StandardsJson(a);
   out["dynamic_stiffness"] = {
       {"frequency", a.stiffness.frequency},
-      {"axes", List(a.stiffness.axes, [](const AxisStiffness& s) {
+      {"axes", ListJson(a.stiffness.axes, [](const AxisStiffness& s) {
          return Json{{"axis", s.axis}, {"bearing", Parts(s.bearing)}, {"rotor", Parts(s.rotor)}};
        })}};
-  out["responses"] = List(a.responses, [](const ResponseCurve& c) {
+  out["responses"] = ListJson(a.responses, [](const ResponseCurve& c) {
     Json r = {
         {"input", c.input}, {"output", c.output}, {"unit", c.unit}, {"frequency", c.frequency}};
     r.update(Parts(c.values));

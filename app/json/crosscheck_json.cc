@@ -8,7 +8,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json OrNull(double value) { return value < 0 ? Json(nullptr) : Json(value); }
+Json UnlessNegative(double value) { return value < 0 ? Json(nullptr) : Json(value); }
 
 Json FiguresJson(const CrosscheckRun& run) {
   const DropFigures& f = run.figures;
@@ -18,7 +18,7 @@ Json FiguresJson(const CrosscheckRun& run) {
           {"touchdown", f.touchdown},
           {"drop", f.drop},
           {"first_touched", f.first},
-          {"touchdown_time", OrNull(f.touchdown_time)},
+          {"touchdown_time", UnlessNegative(f.touchdown_time)},
           {"first_rebound", f.rebound},
           {"peak_orbit", f.peak_orbit},
           {"whirl", WhirlName(f.whirl)},
@@ -42,8 +42,8 @@ nlohmann::ordered_json CrosscheckJson(const CrosscheckedScenario& s) {
                {"contact", w.contact()},
                {"verdicts_agree", w.verdicts_agree()},
                {"whirl_agrees", w.model.figures.whirl == w.ode.figures.whirl},
-               {"parted_ode", OrNull(w.parted_ode)},
-               {"parted_other_noise", OrNull(w.parted_noise)},
+               {"parted_ode", UnlessNegative(w.parted_ode)},
+               {"parted_other_noise", UnlessNegative(w.parted_noise)},
                {"ode_steps", w.ode_steps},
                {"ode_warnings", w.ode_warnings},
                {"compliant", FiguresJson(w.model)},

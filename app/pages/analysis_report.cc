@@ -16,14 +16,12 @@
 namespace ambrig {
 namespace {
 
-constexpr double kRpm = kPi / 30;
-
 Cell ZoneCell(char zone) {
   return {std::string(1, zone), zone == 'A' ? "ok" : zone == 'B' ? "warn" : "fail"};
 }
 std::string Factor(double x) { return std::isfinite(x) ? fmt::format("{:.3f}", x) : "∞"; }
 
-void AddVerdict(HtmlReport& report, const RigAnalysis& a) {
+void AddAnalysisVerdict(HtmlReport& report, const RigAnalysis& a) {
   char worst = 'A';
   double peak = 0;
   for (const Sensitivity& s : a.sensitivity)
@@ -138,7 +136,7 @@ void AddSensitivity(HtmlReport& report, const RigAnalysis& a) {
   report.AddFigure(NyquistFigure(a));
 }
 
-void AddRotor(HtmlReport& report, const RigAnalysis& a) {
+void AddRotorTable(HtmlReport& report, const RigAnalysis& a) {
   report.Heading("Rotor dynamics");
   report.AddFigure(CampbellFigure(a));
   std::vector<std::vector<Cell>> rows;
@@ -213,7 +211,7 @@ void WriteAnalysisReport(const RigAnalysis& a, const std::string& rig_file,
                     fmt::format("rig {}, operating {:.0f} to {:.0f} rpm", rig_file,
                                 a.options.lowest / kRpm, a.options.highest / kRpm));
   report.Heading("Verdict");
-  AddVerdict(report, a);
+  AddAnalysisVerdict(report, a);
   report.Text(
       "The rig linearised exactly where it levitates: rotor, magnets, current loops with the moved "
       "switching edge, sampled controller and its "
@@ -221,7 +219,7 @@ void WriteAnalysisReport(const RigAnalysis& a, const std::string& rig_file,
   for (const std::string& note : a.point.notes) report.Text("- " + note);
   AddCapacity(report, a);
   AddSensitivity(report, a);
-  AddRotor(report, a);
+  AddRotorTable(report, a);
   AddUnbalance(report, a);
   report.Heading("Dynamic stiffness");
   report.AddFigure(StiffnessFigure(a));

@@ -40,7 +40,7 @@ Cell RatioCell(double ratio) {
   return {fmt::format("{:.2f}", ratio), ratio > 1.5 ? "fail" : ratio > 1.15 ? "warn" : "ok"};
 }
 
-void AddVerdict(HtmlReport& report, const Comparison& c) {
+void AddComparisonVerdict(HtmlReport& report, const Comparison& c) {
   const double unseen = c.ratio_validate > 0 ? c.ratio_validate : c.ratio;
   const std::string numbers = fmt::format(
       "error over noise {:.2f} over all records ({:.2f} on those that explain fits, {:.2f} on the "
@@ -69,7 +69,7 @@ std::vector<std::string> ShortWords(const Comparison& c) {
 
 void AddOverview(HtmlReport& report, const View& v) {
   report.Heading("Errors by record and channel");
-  AddVerdict(report, v.comparison);
+  AddComparisonVerdict(report, v.comparison);
   AddReadingHelp(report, false);
   report.Text("Largest errors, in descending order:\n\n" + List(ShortWords(v.comparison)));
   if (!v.model.data().notes.empty())

@@ -18,7 +18,7 @@ constexpr std::size_t kMostRows = 200, kMostPairs = 6;
 
 Style StyleOf(std::size_t candidate) { return SeriesStyle(static_cast<int>(candidate)); }
 
-std::string ValueText(const FigureSpec& f, double v) {
+std::string FigureValueText(const FigureSpec& f, double v) {
   if (!std::isfinite(v)) return "unstable";
   return f.info->unit == "-" ? FormatNumber(v) : FormatSi(v, f.info->unit);
 }
@@ -32,7 +32,7 @@ std::string VariablesText(const DesignCandidate& c, const std::vector<double>& v
 }
 
 /// Unit in which a figure is drawn.
-DisplayUnit UnitOf(const StudyResult& result, const Study& study, std::size_t figure) {
+DisplayUnit UnitOfFigure(const StudyResult& result, const Study& study, std::size_t figure) {
   double largest = 0;
   for (const StudyPoint& p : result.points)
     if (p.feasible) largest = std::max(largest, std::abs(p.result.figures[figure]));
@@ -48,7 +48,7 @@ void Summary(HtmlReport& report, const Study& study, const StudyResult& result,
       {"points"}, {"meet limits"}, {"on the front"}, {"point shown"}, {"its numbers"}};
   for (const FigureSpec& f : study.figures)
     rows.push_back(
-        {f.name + (f.at_most ? fmt::format(" (at most {})", ValueText(f, *f.at_most)) : "")});
+        {f.name + (f.at_most ? fmt::format(" (at most {})", FigureValueText(f, *f.at_most)) : "")});
   for (std::size_t c = 0; c < study.candidates.size(); ++c) {
     columns.push_back(study.candidates[c].name);
     std::size_t all = 0, feasible = 0, front = 0;
@@ -68,7 +68,7 @@ void Summary(HtmlReport& report, const Study& study, const StudyResult& result,
       const double value = p.result.figures[k];
       const bool bad =
           !std::isfinite(value) || (study.figures[k].at_most && value > *study.figures[k].at_most);
-      rows[5 + k].emplace_back(ValueText(study.figures[k], value), bad ? "fail" : "");
+      rows[5 + k].emplace_back(FigureValueText(study.figures[k], value), bad ? "fail" : "");
     }
   }
   report.Heading("Comparison of the candidates");
@@ -100,7 +100,7 @@ void Scatter(HtmlReport& report, const Study& study, const StudyResult& result) 
   Figure figure = MakeFigure("Objectives against each other", grid);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const auto [i, j] = pairs[k];
-    const DisplayUnit ux = UnitOf(result, study, i), uy = UnitOf(result, study, j);
+    const DisplayUnit ux = UnitOfFigure(result, study, i), uy = UnitOfFigure(result, study, j);
     for (std::size_t c = 0; c < study.candidates.size(); ++c)
       for (const bool front : {false, true}) {
         std::vector<double> x, y;
@@ -166,8 +166,8 @@ void ParallelCoordinates(HtmlReport& report, const Study& study, const StudyResu
     std::string name = HtmlEscape(f.name);  // in lines: many stand side by side
     for (std::size_t colon = 0; (colon = name.find(": ", colon)) != std::string::npos;)
       name.replace(colon, 2, ":<br>");
-    names.push_back(
-        fmt::format("{}<br>{} to<br>{}", name, ValueText(f, low[k]), ValueText(f, high[k])));
+    names.push_back(fmt::format("{}<br>{} to<br>{}", name, FigureValueText(f, low[k]),
+                                FigureValueText(f, high[k])));
     at.push_back(static_cast<double>(k));
   }
   figure.layout["xaxis"]["tickvals"] = at;
@@ -240,7 +240,7 @@ void FrontTable(HtmlReport& report, const Study& study, const StudyResult& resul
     std::vector<Cell> row{std::to_string(k), study.candidates[p.candidate].name,
                           VariablesText(study.candidates[p.candidate], p.values)};
     for (std::size_t j = 0; j < study.figures.size(); ++j)
-      row.emplace_back(ValueText(study.figures[j], p.result.figures[j]));
+      row.emplace_back(FigureValueText(study.figures[j], p.result.figures[j]));
     rows.push_back(row);
   }
   report.Heading("Pareto-optimal points");

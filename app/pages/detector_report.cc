@@ -13,7 +13,7 @@ namespace ambrig {
 
 namespace {
 
-std::string Percent(double share) {
+std::string PercentText(double share) {
   return share == 1 || share == 0 ? fmt::format("{:.0f} %", 100 * share)
                                   : fmt::format("{:.1f} %", 100 * share);
 }
@@ -85,9 +85,9 @@ void AtBudget(HtmlReport& report, const DetectorStudy& study,
       const FaultCurve& c = curves[i].faults[k];
       const auto at = static_cast<std::size_t>(curves[i].budget_level);
       const double share = c.detected[at];
-      std::string text = Percent(share);
+      std::string text = PercentText(share);
       if (std::isfinite(c.median[at])) text += ", " + FormatSi(c.median[at], "s");
-      if (c.named[at] != share) text += " (" + Percent(c.named[at]) + ")";
+      if (c.named[at] != share) text += " (" + PercentText(c.named[at]) + ")";
       line.emplace_back(text, share > 0.99 ? "ok" : share > 0.5 ? "warn" : "fail");
     }
     table.push_back(std::move(line));
@@ -146,7 +146,7 @@ void WriteDetectorReport(const DetectorStudy& study, const std::vector<DetectorC
   report.Verdict(
       Verdict::kInfo,
       fmt::format("Best at {:.3g} false alarms per coil and window: {}, {} of the faults found.",
-                  study.budget, best.name, Percent(best.score)));
+                  study.budget, best.name, PercentText(best.score)));
   report.KeyValues({{"runs", fmt::format("{} of {}", rows.size(), study.runs())},
                     {"healthy windows of single coils", std::to_string(best.all.windows)},
                     {"window", FormatSi(study.trial.window, "s")}});

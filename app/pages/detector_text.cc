@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "app/json/json_number.h"
 #include "app/pages/detector_report.h"
 #include "core/base/counted.h"
 
@@ -27,7 +28,8 @@ std::string Delay(double seconds) {
 constexpr std::size_t kKindsBesideThreshold = 2, kKindsAlone = 3;  // that 80 columns hold
 
 /// Kinds [first, last) of one detector at a level: share detected and median delay.
-std::string Cells(const DetectorCurves& d, std::size_t level, std::size_t first, std::size_t last) {
+std::string RowOfCells(const DetectorCurves& d, std::size_t level, std::size_t first,
+                       std::size_t last) {
   std::string text;
   for (std::size_t k = first; k < last; ++k)
     text += fmt::format("{:>16}", fmt::format("{:.1f} % {:>7}", 100 * d.faults[k].detected[level],
@@ -60,21 +62,19 @@ std::string Table(const std::vector<DetectorCurves>& curves, const std::vector<s
         text += fmt::format("{:>12}{:>12.2e}",
                             fmt::format("{:.4g}{}", ValueOf(level), d.unit == "A" ? " A" : ""),
                             d.all.share[at]);
-      text += Cells(d, at, first, last) + '\n';
+      text += RowOfCells(d, at, first, last) + '\n';
     }
     first = last;
   }
   return text;
 }
 
-Json OrNull(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-
 Json FaultJson(const FaultCurve& c, std::size_t level) {
   return {{"kind", c.kind},
           {"runs", c.runs},
           {"detected", c.detected[level]},
-          {"median_delay", OrNull(c.median[level])},
-          {"delay_95", OrNull(c.late[level])},
+          {"median_delay", FiniteOrNull(c.median[level])},
+          {"delay_95", FiniteOrNull(c.late[level])},
           {"named", c.named[level]},
           {"area", c.area}};
 }
@@ -92,7 +92,7 @@ Json CurveJson(const DetectorCurves& d) {
     Json detected = Json::array(), median = Json::array(), named = Json::array();
     for (const FaultCurve& c : d.faults) {
       detected.push_back(c.detected[k]);
-      median.push_back(OrNull(c.median[k]));
+      median.push_back(FiniteOrNull(c.median[k]));
       named.push_back(c.named[k]);
     }
     out.push_back({{"threshold", ValueOf(static_cast<int>(k))},
@@ -143,7 +143,7 @@ nlohmann::ordered_json DetectorJson(const DetectorStudy& study,
           {{"scenario", c.scenario}, {"windows", c.windows}, {"false_alarms", c.share[level]}});
     detectors.push_back({{"name", d.name},
                          {"unit", d.unit},
-                         {"documented_threshold", OrNull(d.documented)},
+                         {"documented_threshold", FiniteOrNull(d.documented)},
                          {"threshold", ValueOf(d.budget_level)},
                          {"false_alarms", d.all.share[level]},
                          {"score", d.score},

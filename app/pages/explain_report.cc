@@ -12,7 +12,7 @@
 namespace ambrig {
 namespace {
 
-std::string Names(const std::vector<EffectInstance>& effects) {
+std::string NamesOfEffects(const std::vector<EffectInstance>& effects) {
   std::string out;
   for (std::size_t k = 0; k < effects.size(); ++k)
     out += (k > 0 ? " and " : "") + EffectName(effects[k]);
@@ -67,11 +67,11 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
                "What differs from record to record; fitted with everything else.");
 }
 
-void AddVerdict(HtmlReport& report, const Explanation& e) {
+void AddExplanationVerdict(HtmlReport& report, const Explanation& e) {
   report.Heading("Verdict");
   if (e.verdict == "effect")
     report.Verdict(Verdict::kOk,
-                   fmt::format("**Identified: {}.** {}", Names(e.adopted), Evidence(e)));
+                   fmt::format("**Identified: {}.** {}", NamesOfEffects(e.adopted), Evidence(e)));
   else if (e.verdict == "data")
     report.Verdict(
         Verdict::kWarn,
@@ -194,7 +194,7 @@ void AddWarnings(HtmlReport& report, const Explanation& e) {
 void WriteExplainReport(const Case& c, const Explanation& e, const std::string& path) {
   const ExplainScene scene(c, e);
   HtmlReport report("Which effect is missing?", c.file);
-  AddVerdict(report, e);
+  AddExplanationVerdict(report, e);
   AddMeaning(report, c, e);
   report.Heading("Error after each step");
   AddLadder(report, e.ladder);

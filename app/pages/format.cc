@@ -25,7 +25,7 @@ std::string Grouped(std::string text) {
   return text;
 }
 
-std::string Plain(double value, int digits) {
+std::string PlainNumber(double value, int digits) {
   const double size = std::abs(value);
   if (value == 0) return "0";
   if (size < 1e-4 || size >= 1e7) return fmt::format("{:.{}g}", value, digits);
@@ -43,7 +43,7 @@ std::string Plain(double value, int digits) {
 std::string FormatNumber(double value, int digits) {
   if (std::isnan(value)) return "–";
   if (std::isinf(value)) return value > 0 ? "∞" : "−∞";
-  return Plain(value, digits);
+  return PlainNumber(value, digits);
 }
 
 std::string FormatSi(double value, std::string_view unit, int digits) {
@@ -57,7 +57,7 @@ std::string FormatSi(double value, std::string_view unit, int digits) {
   // Rounded first, so that 999.96e-6 becomes 1 mm and not 1000 um.
   const double rounded = std::stod(fmt::format("{:.{}e}", value, digits - 1));
   const double group = std::clamp(std::floor(std::log10(std::abs(rounded)) / 3), -4.0, 4.0);
-  return Plain(rounded / std::pow(10.0, 3 * group), digits) + gap +
+  return PlainNumber(rounded / std::pow(10.0, 3 * group), digits) + gap +
          std::string(kPrefix[static_cast<std::size_t>(group + 4)]) + std::string(unit);
 }
 

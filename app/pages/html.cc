@@ -54,7 +54,7 @@ bool LooksNumeric(std::string_view text) {
           std::isalpha(static_cast<unsigned char>(text[end])) == 0);
 }
 
-std::vector<std::string> Lines(std::string_view text) {
+std::vector<std::string> HtmlLines(std::string_view text) {
   std::vector<std::string> lines;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -123,7 +123,7 @@ void HtmlReport::Text(std::string_view text) {
     body_ += list ? "</ul>\n" : "</p>\n";
     block.clear();
   };
-  for (const std::string& line : Lines(text)) {
+  for (const std::string& line : HtmlLines(text)) {
     const bool item = line.starts_with("- ");
     if (line.empty() || (!block.empty() && item != block.back().starts_with("- "))) flush();
     if (!line.empty()) block.push_back(line);

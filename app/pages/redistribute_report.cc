@@ -30,8 +30,8 @@ std::string Margin(const RedistributionFigures& f, const MapReach& r) {
   return !r.carries || f.load.norm() == 0 ? "-" : fmt::format("{:.2f}", r.margin);
 }
 
-std::string Line(const RedistributionFigures& f, const std::string& set, const std::string& map,
-                 const MapReach& r) {
+std::string MapLine(const RedistributionFigures& f, const std::string& set, const std::string& map,
+                    const MapReach& r) {
   return fmt::format("{:<20} {:<15} {:<8} {:>7} {:>9} {:>6}\n", set, map, r.carries ? "yes" : "NO",
                      Margin(f, r), r.carries ? fmt::format("{:.1f}", r.worst) : "-",
                      r.carries ? std::to_string(Degrees(r)) : "-");
@@ -95,10 +95,10 @@ std::string SetText(const std::vector<int>& failed) {
 std::string RedistributionText(const RedistributionFigures& f) {
   std::string text = fmt::format("{:<20} {:<15} {:<8} {:>7} {:>9} {:>6}\n", "failed", "map",
                                  "carries", "margin", "worst [N]", "[deg]");
-  text += Line(f, "healthy", "W, exact", f.healthy);
+  text += MapLine(f, "healthy", "W, exact", f.healthy);
   std::size_t carry = 0;
   for (const FailureSetFigures& s : f.sets) {
-    text += Line(f, SetText(s.failed), s.map, s.reach);
+    text += MapLine(f, SetText(s.failed), s.map, s.reach);
     carry += s.reach.carries;
   }
   text += fmt::format("load: ({:.2f}, {:.2f}) N; commands up to {:.6g} N an axis\n",

@@ -16,7 +16,7 @@ namespace {
 std::string MilliSeconds(double t) { return t < 0 ? "–" : fmt::format("{:.3g} ms", t * 1e3); }
 
 /// "A.coil3" -> "A3".
-std::string ShortName(const std::string& target) {
+std::string ShortTargetName(const std::string& target) {
   const auto dot = target.find(".coil");
   return dot == std::string::npos ? target : target.substr(0, dot) + target.substr(dot + 5);
 }
@@ -120,7 +120,7 @@ void FillChannels(const Record& record, RunReportData& data) {
 void FillSlopes(const RunResult& result, RunReportData& data) {
   for (const SlopeTrace& s : result.slopes) {
     ReportSlope r;
-    r.coil = ShortName(s.coil);
+    r.coil = ShortTargetName(s.coil);
     r.t = s.t;
     r.slope = s.slope;
     r.low = s.low;
@@ -157,7 +157,7 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
   data.stations = StationsOf(rig, result.record);
   FillMetrics(result.metrics, data);
   for (const RunEvent& e : result.events)
-    data.events.push_back({e.t, e.kind, ShortName(e.target), EventText(e)});
+    data.events.push_back({e.t, e.kind, ShortTargetName(e.target), EventText(e)});
   data.rate = result.record.rate;
   data.start = result.record.start;
   FillBearings(rig, result, data);

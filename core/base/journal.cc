@@ -28,7 +28,7 @@ bool ParseAll(std::string_view text, T& value, int base) {
 }
 
 /// The parts of a line; false when it is none of a journal.
-bool ParseHead(std::string_view line, Head& head) {
+bool ParseJournalHead(std::string_view line, Head& head) {
   const std::size_t tab = line.rfind('\t');
   if (tab == std::string_view::npos) return false;
   head.text = line.substr(0, tab);
@@ -51,9 +51,9 @@ std::string Written(std::string_view text, std::string_view data) {
   return out += '\n';
 }
 
-class Reader {
+class JournalReader {
  public:
-  explicit Reader(const std::string& path) : in_(path, std::ios::binary) {
+  explicit JournalReader(const std::string& path) : in_(path, std::ios::binary) {
     std::error_code error;
     size_ = static_cast<std::size_t>(std::filesystem::file_size(path, error));
     if (!in_ || error) throw InputError(path + ": cannot be read");
@@ -73,7 +73,7 @@ class Reader {
   bool Entry(JournalEntry& entry, bool& has_data) {
     Head head;
     has_data = false;
-    if (!whole_ || !ParseHead(line_, head)) return false;
+    if (!whole_ || !ParseJournalHead(line_, head)) return false;
     has_data = head.bytes > 0;
     if (head.bytes > size_ - std::min(size_, at_)) return false;
     data_.resize(head.bytes);
@@ -99,7 +99,7 @@ class Reader {
 }  // namespace
 
 std::size_t ReadJournalFile(const std::string& path, const JournalVisitor& visit) {
-  Reader reader(path);
+  JournalReader reader(path);
   JournalEntry entry;
   bool has_data = false;
   visit.header(reader.NextLine() && reader.Entry(entry, has_data) ? entry.text

@@ -1,15 +1,13 @@
 #include "core/base/units.h"
 
 #include <algorithm>
-#include <numbers>
 #include <utility>
 
 #include "core/base/errors.h"
+#include "core/math/constants.h"
 
 namespace ambrig {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 struct Unit {
   std::string_view name;
@@ -77,7 +75,7 @@ constexpr Unit kUnits[] = {
 };
 
 /// Words for units, in small letters.
-constexpr std::pair<std::string_view, std::string_view> kWords[] = {
+constexpr std::pair<std::string_view, std::string_view> kUnitWords[] = {
     {"volt", "V"},      {"volts", "V"},    {"ampere", "A"},   {"amperes", "A"},   {"amp", "A"},
     {"amps", "A"},      {"newton", "N"},   {"newtons", "N"},  {"meter", "m"},     {"meters", "m"},
     {"metre", "m"},     {"metres", "m"},   {"sec", "s"},      {"second", "s"},    {"seconds", "s"},
@@ -119,7 +117,7 @@ std::string Normalise(std::string_view unit) {
   std::string small = out;
   for (char& c : small)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-  for (const auto& [word, sign] : kWords)
+  for (const auto& [word, sign] : kUnitWords)
     if (small == word) return std::string(sign);
   return out;
 }

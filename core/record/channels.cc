@@ -31,7 +31,7 @@ int DirectionOf(const ChannelRow& row, std::string_view text) {
 }
 
 /// `name` as a channel of `row`: PLANE.MARK and then a direction or the number of a coil.
-std::optional<ChannelId> Match(const ChannelRow& row, std::string_view name) {
+std::optional<ChannelId> MatchRow(const ChannelRow& row, std::string_view name) {
   if (row.scope == ChannelScope::kRig)
     return name == row.mark ? std::optional(ChannelId{row.kind, "", 0}) : std::nullopt;
   if (!row.axial.empty() && name == row.axial) return ChannelId{row.kind, "", kAxial};
@@ -63,7 +63,7 @@ std::string ChannelId::name() const {
 
 std::optional<ChannelId> ParseChannel(std::string_view name) {
   for (const ChannelRow& row : kChannels)
-    if (auto id = Match(row, name)) return id;
+    if (auto id = MatchRow(row, name)) return id;
   return std::nullopt;
 }
 

@@ -22,7 +22,7 @@ struct PartWord {
   std::string_view word;  // in small letters
   Part part;
 };
-constexpr PartWord kWords[] = {
+constexpr PartWord kPartWords[] = {
     {"re", Part::kReal},        {"real", Part::kReal},           {"im", Part::kImaginary},
     {"imag", Part::kImaginary}, {"imaginary", Part::kImaginary}, {"abs", Part::kMagnitude},
     {"mag", Part::kMagnitude},  {"magnitude", Part::kMagnitude}, {"amplitude", Part::kMagnitude},
@@ -32,7 +32,7 @@ constexpr PartWord kWords[] = {
 
 std::optional<Part> PartOf(std::string_view word) {
   const std::string small = LowerCase(Trim(word));
-  for (const PartWord& w : kWords)
+  for (const PartWord& w : kPartWords)
     if (w.word == small) return w.part;
   return std::nullopt;
 }

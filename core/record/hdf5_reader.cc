@@ -13,7 +13,7 @@ using namespace hdf5;
 
 constexpr hsize_t kMaxRows = hsize_t{1} << 31;  // a damaged header must not ask for all memory
 
-std::optional<std::string> ReadText(hid_t object, const std::string& name) {
+std::optional<std::string> ReadTextAttribute(hid_t object, const std::string& name) {
   const Handle attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT), H5Aclose);
   if (!attribute.usable()) return std::nullopt;
   const Handle type(H5Aget_type(attribute), H5Tclose), space(H5Aget_space(attribute), H5Sclose);
@@ -55,9 +55,9 @@ std::optional<hsize_t> VectorRows(hid_t dataset) {
   return dims[0] * dims[1];
 }
 
-class Reader {
+class Hdf5Traversal {
  public:
-  Reader(const std::string& path, Record& record) : path_(path), record_(record) {}
+  Hdf5Traversal(const std::string& path, Record& record) : path_(path), record_(record) {}
 
   void ReadGroup(hid_t group, const std::string& prefix) {
     H5O_info_t object = {};
@@ -76,8 +76,8 @@ class Reader {
 
   void ReadAttributes(hid_t file) {
     const auto visit = [](hid_t at, const char* name, const H5A_info_t*, void* self) -> herr_t {
-      const std::optional<std::string> text = ReadText(at, name);
-      if (text) static_cast<Reader*>(self)->record_.attributes[name] = *text;
+      const std::optional<std::string> text = ReadTextAttribute(at, name);
+      if (text) static_cast<Hdf5Traversal*>(self)->record_.attributes[name] = *text;
       return 0;
     };
     H5Aiterate2(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, visit, this);
@@ -110,7 +110,8 @@ class Reader {
     if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || !rows)
       return Note(name + " is not a vector of numbers, left out");
     if (*rows > kMaxRows) throw InputError(path_ + ": channel " + name + " has too many rows");
-    Channel channel{name, ReadText(dataset, "unit").value_or(""), std::vector<double>(*rows)};
+    Channel channel{name, ReadTextAttribute(dataset, "unit").value_or(""),
+                    std::vector<double>(*rows)};
     if (*rows > 0 && H5Dread(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT,
                              channel.samples.data()) < 0)
       Fail(path_, "channel " + name + " cannot be read");
@@ -150,7 +151,7 @@ Record ReadHdf5(const std::string& path) try {
     const Handle file = OpenForReading(path);
     record.rate = ReadNumber(file, "rate").value_or(0);
     record.start = ReadNumber(file, "start").value_or(0);
-    Reader reader(path, record);
+    Hdf5Traversal reader(path, record);
     reader.ReadAttributes(file);
     const Handle root(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose);
     if (!root.usable()) Fail(path, "damaged root group");

@@ -11,7 +11,7 @@ namespace ambrig::mat {
 
 namespace {
 
-using Check = std::function<void(const matvar_t&, const std::string&)>;
+using CheckStruct = std::function<void(const matvar_t&, const std::string&)>;
 
 bool IsArray(const matvar_t* v) { return v != nullptr && IsNumeric(*v) && Elements(*v) > 0; }
 
@@ -21,10 +21,10 @@ std::size_t StructElements(const matvar_t& v) {
   return fields == 0 ? 0 : v.nbytes / sizeof(matvar_t*) / fields;
 }
 
-std::string TextOf(const matvar_t* v) { return v == nullptr ? "" : Text(*v); }
+std::string TextOfVariable(const matvar_t* v) { return v == nullptr ? "" : Text(*v); }
 
 /// "Model Root"/"AMB"/"x" -> x
-std::string LastPart(const std::string& path) {
+std::string LastPartOfPath(const std::string& path) {
   std::string text;
   for (const char c : path)
     if (c != '"') text += c;
@@ -35,19 +35,19 @@ std::string LastPart(const std::string& path) {
 /// The last parts of paths where these tell all apart, else the paths.
 std::vector<std::string> ShortNames(const std::vector<std::string>& paths) {
   std::vector<std::string> names;
-  for (const std::string& path : paths) names.push_back(LastPart(path));
+  for (const std::string& path : paths) names.push_back(LastPartOfPath(path));
   const std::set<std::string> apart(names.begin(), names.end());
   return apart.size() == names.size() && !apart.contains("") ? names : paths;
 }
 
-std::vector<double> Samples(const matvar_t& v, const std::string& name, const Check& check) {
+std::vector<double> Samples(const matvar_t& v, const std::string& name, const CheckStruct& check) {
   check(v, name);
   return Numbers(v, static_cast<std::size_t>(Elements(v)));
 }
 
 /// Columns of values(rows x n), values(n x rows) with one row, or values(1 x 1 x rows).
 std::vector<std::vector<double>> Columns(const matvar_t& v, std::size_t rows,
-                                         const std::string& name, const Check& check) {
+                                         const std::string& name, const CheckStruct& check) {
   const std::vector<double> all = Samples(v, name, check);
   std::vector<std::vector<double>> out;
   if (rows == 0 || all.size() % rows != 0) return out;
@@ -67,7 +67,7 @@ std::vector<std::vector<double>> Columns(const matvar_t& v, std::size_t rows,
 /// Signals of one block on its times, named NAME or NAME(1), NAME(2) ...
 void AddColumns(TimedStruct& out, const matvar_t& values, const std::string& name,
                 const std::string& unit, const TimeBase& base, std::size_t rows,
-                const Check& check) {
+                const CheckStruct& check) {
   const auto columns = Columns(values, rows, name, check);
   if (columns.empty())
     out.notes.push_back(name + " has no " + std::to_string(rows) + " rows as its time, left out");
@@ -79,7 +79,7 @@ void AddColumns(TimedStruct& out, const matvar_t& values, const std::string& nam
 }
 
 std::optional<TimedStruct> ReadDspace(const matvar_t& v, const std::string& name,
-                                      const std::string& path, const Check& check) {
+                                      const std::string& path, const CheckStruct& check) {
   const matvar_t *x = FieldOf(v, "X"), *y = FieldOf(v, "Y");
   if (x == nullptr || y == nullptr || x->class_type != MAT_C_STRUCT ||
       y->class_type != MAT_C_STRUCT || !IsArray(FieldOf(*x, "Data")))
@@ -87,7 +87,7 @@ std::optional<TimedStruct> ReadDspace(const matvar_t& v, const std::string& name
   TimedStruct out;
   const std::size_t signals = StructElements(*y);
   std::vector<std::string> paths;
-  for (std::size_t k = 0; k < signals; ++k) paths.push_back(TextOf(FieldOf(*y, "Name", k)));
+  for (std::size_t k = 0; k < signals; ++k) paths.push_back(TextOfVariable(FieldOf(*y, "Name", k)));
   const std::vector<std::string> names = ShortNames(paths);
   for (std::size_t k = 0; k < signals; ++k) {
     const std::string of = names[k].empty() ? name + ".Y(" + std::to_string(k + 1) + ')' : names[k];
@@ -105,13 +105,13 @@ std::optional<TimedStruct> ReadDspace(const matvar_t& v, const std::string& name
     }
     const std::vector<double> t = Samples(*time, name + ".X", check);
     const TimeBase base = UniformTimeBase(t, path + ": " + name + ".X.Data");
-    AddColumns(out, *data, of, TextOf(FieldOf(*y, "Unit", k)), base, t.size(), check);
+    AddColumns(out, *data, of, TextOfVariable(FieldOf(*y, "Unit", k)), base, t.size(), check);
   }
   return out;
 }
 
 std::optional<TimedStruct> ReadSimulink(const matvar_t& v, const std::string& name,
-                                        const std::string& path, const Check& check) {
+                                        const std::string& path, const CheckStruct& check) {
   const matvar_t *time = FieldOf(v, "time"), *signals = FieldOf(v, "signals");
   if (!IsArray(time) || signals == nullptr || signals->class_type != MAT_C_STRUCT)
     return std::nullopt;
@@ -120,7 +120,7 @@ std::optional<TimedStruct> ReadSimulink(const matvar_t& v, const std::string& na
   const TimeBase base = UniformTimeBase(t, path + ": " + name + ".time");
   const std::size_t count = StructElements(*signals);
   for (std::size_t k = 0; k < count; ++k) {
-    std::string of = TextOf(FieldOf(*signals, "label", k));
+    std::string of = TextOfVariable(FieldOf(*signals, "label", k));
     if (of.empty()) of = count == 1 ? name : name + ".signals(" + std::to_string(k + 1) + ')';
     const matvar_t* values = FieldOf(*signals, "values", k);
     if (IsArray(values))
@@ -132,20 +132,20 @@ std::optional<TimedStruct> ReadSimulink(const matvar_t& v, const std::string& na
 }
 
 std::optional<TimedStruct> ReadTimeseries(const matvar_t& v, const std::string& name,
-                                          const std::string& path, const Check& check) {
+                                          const std::string& path, const CheckStruct& check) {
   const matvar_t *time = FieldOf(v, "Time"), *data = FieldOf(v, "Data");
   if (!IsArray(time) || !IsArray(data)) return std::nullopt;
   TimedStruct out;
   const std::vector<double> t = Samples(*time, name + ".Time", check);
   const TimeBase base = UniformTimeBase(t, path + ": " + name + ".Time");
-  AddColumns(out, *data, name, TextOf(FieldOf(v, "Unit")), base, t.size(), check);
+  AddColumns(out, *data, name, TextOfVariable(FieldOf(v, "Unit")), base, t.size(), check);
   return out;
 }
 
 }  // namespace
 
 std::optional<TimedStruct> ReadTimedStruct(const matvar_t& v, const std::string& name,
-                                           const std::string& path, const Check& check) {
+                                           const std::string& path, const CheckStruct& check) {
   for (const auto read : {ReadDspace, ReadSimulink, ReadTimeseries})
     if (auto out = read(v, name, path, check)) return out;
   return std::nullopt;

@@ -72,7 +72,8 @@ double Largest(const std::vector<double>& samples) {
 }
 
 /// One row; true when it is beyond the tolerance.
-bool Row(double a, double place, const Line& line, double span, ChannelDifference& d, bool* bits) {
+bool CompareRow(double a, double place, const Line& line, double span, ChannelDifference& d,
+                bool* bits) {
   const double b = line.At(place);
   if (SameBits(a, b)) return false;
   *bits = false;
@@ -104,7 +105,7 @@ ChannelDifference CompareChannel(const Record& a, const Record& b, const Channel
     const double place = line.Place(static_cast<double>(k)), before = d.worst;
     if (!line.Holds(place)) continue;
     ++d.rows;
-    if (Row(ca.samples[k], place, line, t.time * b.rate, d, &bits) && d.beyond++ == 0)
+    if (CompareRow(ca.samples[k], place, line, t.time * b.rate, d, &bits) && d.beyond++ == 0)
       d.first = a.TimeAt(k);
     if (d.worst > before) d.worst_at = a.TimeAt(k);
   }

@@ -70,7 +70,8 @@ void CutBehind(Record& data, double duration) {
 }
 
 /// Times that the case file leaves out: rows without a number.
-void LeaveOut(Record& data, const std::vector<std::vector<double>>& spans, const TomlTable& t) {
+void LeaveOutSpans(Record& data, const std::vector<std::vector<double>>& spans,
+                   const TomlTable& t) {
   for (const std::vector<double>& span : spans) {
     if (span.size() != 2 || !(span[0] <= span[1]))
       t.Fail("leave_out", "allowed: [[from, to], ...] in s of the scenario");
@@ -152,7 +153,7 @@ CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::s
     CutBefore(r.data);
     CutBehind(r.data, r.scenario.duration);
   }
-  LeaveOut(r.data, left_out, t);
+  LeaveOutSpans(r.data, left_out, t);
   if (r.data.channels.empty())
     t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
   CheckAgainstScenario(r, t);

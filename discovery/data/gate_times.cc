@@ -12,16 +12,16 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kGross = 10;          // floors
-constexpr double kMoves = 8;           // floors: a column that moves less tells no time
-constexpr double kLeast = 5e-4;        // [s]: a smaller shift is a matter of the fit
-constexpr double kLeastColumn = 1e-3;  // [s], of a single column: electronics delay too
-constexpr double kMost = 0.2;          // of the record
-constexpr std::size_t kColumns = 5;    // that move most are looked at
-constexpr std::size_t kRows = 6000;    // about: longer records are thinned
+constexpr double kGross = 10;            // floors
+constexpr double kMoves = 8;             // floors: a column that moves less tells no time
+constexpr double kLeast = 5e-4;          // [s]: a smaller shift is a matter of the fit
+constexpr double kLeastColumn = 1e-3;    // [s], of a single column: electronics delay too
+constexpr double kMostShift = 0.2;       // of the record
+constexpr std::size_t kColumns = 5;      // that move most are looked at
+constexpr std::size_t kGateRows = 6000;  // about: longer records are thinned
 
 /// Every `step`-th row, movements scaled to 1, for a search over many shifts.
-MatchedColumn Thinned(const GateColumn& c, std::size_t step) {
+MatchedColumn ThinnedColumn(const GateColumn& c, std::size_t step) {
   MatchedColumn out;
   for (std::size_t k = 0; k < c.column.size(); k += step) {
     out.measured.push_back(c.column.measured[k] / c.match.predicted_move);
@@ -54,10 +54,10 @@ FoundShift ShiftOf(const std::vector<const GateColumn*>& columns, double rate) {
   FoundShift f;
   if (columns.empty()) return f;
   const std::size_t rows = columns[0]->column.size();
-  const std::size_t step = std::max<std::size_t>(1, rows / kRows);
+  const std::size_t step = std::max<std::size_t>(1, rows / kGateRows);
   std::vector<MatchedColumn> thin;
-  for (const GateColumn* c : columns) thin.push_back(Thinned(*c, step));
-  const auto most = static_cast<long>(kMost * static_cast<double>(thin[0].size()));
+  for (const GateColumn* c : columns) thin.push_back(ThinnedColumn(*c, step));
+  const auto most = static_cast<long>(kMostShift * static_cast<double>(thin[0].size()));
   const Shift s = BestShift(thin, most);
   const double seconds = static_cast<double>(step) / rate;
   f.late = static_cast<double>(s.late) * seconds;

@@ -13,7 +13,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kGross = 10;  // floors: below it a fit may speak first
+constexpr double kGrossUnits = 10;  // floors: below it a fit may speak first
 
 /// A factor that a mistake makes, and what has to be so for it to be believed.
 struct Mistake {
@@ -99,7 +99,7 @@ const Mistake* BestMistake(const GateColumn& c, double others, double* left) {
     // divided by the factor the column must still show what the model expects, its noise at least:
     // a movement that the model lacks is no unit
     if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) continue;
-    if (m.alone && (c.match.error < 2 * kGross || others > 0.2 * c.match.error)) continue;
+    if (m.alone && (c.match.error < 2 * kGrossUnits || others > 0.2 * c.match.error)) continue;
     best = &m;
     *left = rest;
   }
@@ -112,7 +112,7 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   for (GateColumn& c : columns) {
-    if (c.explained || c.match.error < kGross) continue;
+    if (c.explained || c.match.error < kGrossUnits) continue;
     double left = 1;
     const double others = OthersError(columns, c);
     if (const Mistake* m = BestMistake(c, others, &left)) {
@@ -148,7 +148,8 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
       GateColumn &a = columns[i], &b = columns[j];
       if (a.explained || b.explained || kind(a) != kind(b)) continue;
       const double before = std::hypot(a.match.error, b.match.error);
-      if (std::min(a.match.error, b.match.error) < 0.7 * kGross || before < 1.5 * kGross) continue;
+      if (std::min(a.match.error, b.match.error) < 0.7 * kGrossUnits || before < 1.5 * kGrossUnits)
+        continue;
       const double after = std::hypot(against(a, b), against(b, a));
       if (after > 0.35 * before) continue;
       DataFault f = FaultOf(r, a.name, "swap", after / before);

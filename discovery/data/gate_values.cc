@@ -18,7 +18,7 @@ constexpr double kFewAbsurd = 0.05;       // of the rows; more: the column's uni
 constexpr std::size_t kClipRun = 4;       // equal neighbours at the extreme
 constexpr double kClipShare = 0.005;      // of the rows
 constexpr double kFrozenSetPoint = 0.08;  // of the rows
-constexpr double kBeyond = 5;             // floors by which the prediction passes the extreme
+constexpr double kBeyondFloors = 5;       // floors by which the prediction passes the extreme
 
 /// Largest value that the channel can show [SI]; infinity where nothing limits it.
 double LimitOf(const RigParameters& rig, const std::string& channel) {
@@ -87,7 +87,7 @@ std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, doubl
     for (std::size_t k = s.first; k < s.first + s.count; ++k)
       beyond += sign * (c.column.predicted[k] - extreme / c.floor);
   }
-  return rows > 0 && beyond > kBeyond * static_cast<double>(rows) ? rows : 0;
+  return rows > 0 && beyond > kBeyondFloors * static_cast<double>(rows) ? rows : 0;
 }
 
 void Held(const CaseRecord& r, const std::string& channel, const HeldStretch& s,

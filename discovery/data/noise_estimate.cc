@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kVarianceOfFourth = 70;  // 1 + 16 + 36 + 16 + 1
 constexpr double kMadToSd = 1.4826;
-constexpr std::size_t kLeast = 32;
+constexpr std::size_t kLeastSamples = 32;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 double Quantile(std::vector<double> values, double part) {
@@ -42,7 +42,7 @@ double WhiteNoiseOf(const double* error, const char* ok, std::size_t count) {
     size.push_back(std::abs(d));
     square += d * d;
   }
-  if (size.size() < kLeast) return kNan;
+  if (size.size() < kLeastSamples) return kNan;
   const auto n = static_cast<double>(size.size());
   const double median = MedianOf(std::move(size));
   // A coarse converter repeats values: more than half of the differences may be zero.

@@ -18,7 +18,7 @@ namespace ambrig {
 
 namespace {
 
-void CheckTarget(const EffectDescription& d, const Case& c, const std::string& wanted) {
+void CheckAdoptedTarget(const EffectDescription& d, const Case& c, const std::string& wanted) {
   std::string names;
   for (const auto& t : TargetsOf(d, TargetsOfEffects(c.rig))) {
     if (t == wanted || wanted.empty()) return;
@@ -51,7 +51,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   const auto is_formula = [](const EffectInstance& e) { return e.IsFormula(); };
   if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))
     throw InputError(c.rig_file + ": has no [[effect]] name = \"formula\" to fit; write one first");
-  if (!formula) CheckTarget(d, c, target);
+  if (!formula) CheckAdoptedTarget(d, c, target);
   Adoption a;
   CaseModel model(c);
   model.stop = options.stop;

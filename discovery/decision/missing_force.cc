@@ -19,7 +19,7 @@ constexpr std::size_t kMost = 1500;   // samples looked at
 constexpr double kMuchBetter = 0.08;  // of the power: what a law with more freedom must gain
 
 /// A law f = Σ c_k b_k with vector fields b_k, fitted with a constant force beside it.
-struct Field {
+struct ForceField {
   std::vector<double> x, y;
 };
 
@@ -28,7 +28,7 @@ struct Fit {
   std::vector<double> c;
 };
 
-Fit FitFields(const ForceSamples& s, const std::vector<Field>& fields) {
+Fit FitFields(const ForceSamples& s, const std::vector<ForceField>& fields) {
   const std::size_t n = s.fx.size(), m = fields.size();
   const auto columns = static_cast<Eigen::Index>(m + 2);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
@@ -72,8 +72,8 @@ std::string Effect(const std::string& plane, const std::string& label,
 }
 
 template <class Function>
-Field MakeField(const ForceSamples& s, Function f) {
-  Field out;
+ForceField MakeField(const ForceSamples& s, Function f) {
+  ForceField out;
   for (std::size_t k = 0; k < s.fx.size(); ++k) {
     const auto [x, y] = f(k);
     out.x.push_back(x);
@@ -86,7 +86,7 @@ Field MakeField(const ForceSamples& s, Function f) {
 std::vector<MissingForce> SmoothLaws(const ForceSamples& s, const std::string& plane) {
   using Pair = std::pair<double, double>;
   std::vector<MissingForce> out;
-  const auto add = [&](const std::string& on, const std::vector<Field>& fields,
+  const auto add = [&](const std::string& on, const std::vector<ForceField>& fields,
                        const std::vector<std::string>& names, const std::string& unit,
                        const std::string& x, const std::string& y) {
     const Fit fit = FitFields(s, fields);
@@ -96,21 +96,21 @@ std::vector<MissingForce> SmoothLaws(const ForceSamples& s, const std::string& p
     out.push_back({plane, 0, on, fit.share, Effect(plane, on, parameters, x, y)});
   };
   const auto linear = [&](const std::vector<double>& u, const std::vector<double>& v) {
-    return std::vector<Field>{MakeField(s,
-                                        [&](std::size_t k) {
-                                          return Pair{u[k], 0};
-                                        }),
-                              MakeField(s,
-                                        [&](std::size_t k) {
-                                          return Pair{v[k], 0};
-                                        }),
-                              MakeField(s,
-                                        [&](std::size_t k) {
-                                          return Pair{0, u[k]};
-                                        }),
-                              MakeField(s, [&](std::size_t k) {
-                                return Pair{0, v[k]};
-                              })};
+    return std::vector<ForceField>{MakeField(s,
+                                             [&](std::size_t k) {
+                                               return Pair{u[k], 0};
+                                             }),
+                                   MakeField(s,
+                                             [&](std::size_t k) {
+                                               return Pair{v[k], 0};
+                                             }),
+                                   MakeField(s,
+                                             [&](std::size_t k) {
+                                               return Pair{0, u[k]};
+                                             }),
+                                   MakeField(s, [&](std::size_t k) {
+                                     return Pair{0, v[k]};
+                                   })};
   };
   add("position (linear)", linear(s.x, s.y), {"kxx", "kxy", "kyx", "kyy"}, "N/m", "kxx*x + kxy*y",
       "kyx*x + kyy*y");

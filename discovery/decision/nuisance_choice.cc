@@ -9,9 +9,9 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kPrice = 20;     // of a kind, in 2 log likelihood, beside 3 for each record
-constexpr double kVarying = 0.4;  // share of the gain that only differing amounts explain
-constexpr std::size_t kMost = 8;  // kinds
+constexpr double kPrice = 20;          // of a kind, in 2 log likelihood, beside 3 for each record
+constexpr double kVarying = 0.4;       // share of the gain that only differing amounts explain
+constexpr std::size_t kMostKinds = 8;  // kinds
 
 struct Gain {
   double gain = 0, varying = 0;
@@ -49,7 +49,7 @@ std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
   Eigen::VectorXd left = Eigen::Map<const Eigen::VectorXd>(
       residual.data(), static_cast<Eigen::Index>(residual.size()));
   std::vector<NuisanceKind> chosen;
-  while (chosen.size() < kMost) {
+  while (chosen.size() < kMostKinds) {
     const NuisanceKind* best = nullptr;
     double most = 0;
     for (const NuisanceKind& kind : possible) {

@@ -74,14 +74,14 @@ std::vector<double> Along(const ForceSamples& s, double angle) {
   std::sort(along.begin(), along.end());
   return along;
 }
-double Quantile(const std::vector<double>& sorted, double q) {
+double SortedQuantile(const std::vector<double>& sorted, double q) {
   return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
 }
 
 /// Half the width that two thirds of them fill.
 double Spread(const ForceSamples& s, double angle) {
   const std::vector<double> along = Along(s, angle);
-  return 0.5 * (Quantile(along, 0.84) - Quantile(along, 0.16));
+  return 0.5 * (SortedQuantile(along, 0.84) - SortedQuantile(along, 0.16));
 }
 
 SideContact Better(const ForceSamples& s, const SideContact& best, SideContact c) {
@@ -95,7 +95,7 @@ SideContact StandingContact(const ForceSamples& s) {
     const double angle = 2 * kPi * d / 24;
     const std::vector<double> along = Along(s, angle);
     for (const double q : {0.02, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85})
-      best = Better(s, best, {angle, Quantile(along, q)});
+      best = Better(s, best, {angle, SortedQuantile(along, q)});
   }
   return best;
 }
@@ -111,7 +111,7 @@ std::vector<SideContact> PassingContacts(const ForceSamples& s) {
       for (const double q : {0.1, 0.3, 0.4, 0.5, 0.6})
         for (const double duty : {0.2, 0.35, 0.5, 0.65})
           for (double phase = 0; phase < 1; phase += 0.1)
-            best = Better(s, best, {angle, Quantile(along, q), period, phase, duty});
+            best = Better(s, best, {angle, SortedQuantile(along, q), period, phase, duty});
     }
     found.push_back(best);
   }

@@ -16,7 +16,7 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
     moved.push_back(std::move(m));
   }
   moved.push_back(h);
-  const auto runs = model.PredictAll(moved, Fidelity::kCoarse);
+  const auto runs = model.PredictAll(moved, ModelFidelity::kCoarse);
   const auto& here = runs.back();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.size()),
                                             static_cast<Eigen::Index>(parameters.size()));

@@ -228,13 +228,13 @@ std::optional<std::vector<double>> CaseModel::Predict(const Hypothesis& h) const
 }
 
 std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
-    const std::vector<Hypothesis>& all, Fidelity fidelity, const QuickLook* look) const {
+    const std::vector<Hypothesis>& all, ModelFidelity fidelity, const QuickLook* look) const {
   const std::size_t records = case_.records.size();
   std::vector<RigParameters> rigs;
   for (const Hypothesis& h : all) {
     rigs.push_back(h.rig);
     double& samples = rigs.back().amplifier.adc_samples_per_period;
-    if (fidelity == Fidelity::kCoarse) samples = std::min(samples, kCoarseSamples);
+    if (fidelity == ModelFidelity::kCoarse) samples = std::min(samples, kCoarseSamples);
   }
   std::vector<std::optional<std::vector<double>>> out(all.size());
   for (auto& o : out)

@@ -54,7 +54,7 @@ struct Target {
 
 /// How finely the current samples of a switching period are resolved. Differences between two coarse
 /// predictions are sensitivities that err by a few percent, at less cost.
-enum class Fidelity { kAsSampled, kCoarse };
+enum class ModelFidelity { kAsSampled, kCoarse };
 
 /// A prediction of some records only (one flag each): the rows of the others are those of `rest`.
 struct QuickLook {
@@ -85,7 +85,7 @@ class CaseModel {
   /// Many at once on all cores, in order. What is predicted coarsely is to be compared with coarse
   /// predictions only. With a `look`, some records only.
   std::vector<std::optional<std::vector<double>>> PredictAll(
-      const std::vector<Hypothesis>& all, Fidelity fidelity = Fidelity::kAsSampled,
+      const std::vector<Hypothesis>& all, ModelFidelity fidelity = ModelFidelity::kAsSampled,
       const QuickLook* look = nullptr) const;
   /// Full simulated record of one record's scenario.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;

@@ -13,7 +13,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kAgrees = 1.5;  // factor between stated and estimated noise
+constexpr double kNoiseAgrees = 1.5;  // factor between stated and estimated noise
 // of the currents, whose ripple a wrong law of the iron changes at every edge: more than a factor of
 // two is needed before their noise is held to be larger than stated
 constexpr double kCurrentAgrees = 2.5;
@@ -47,10 +47,10 @@ ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
 }
 
 /// `larger`: factor by which the estimate may exceed what is stated.
-void Choose(ChannelNoise& c, double larger = kAgrees) {
+void Choose(ChannelNoise& c, double larger = kNoiseAgrees) {
   const bool usable = std::isfinite(c.estimated) && c.estimated > 0;
   const bool agrees = std::isfinite(c.stated) && usable && c.estimated < larger * c.stated &&
-                      c.stated < kAgrees * c.estimated;
+                      c.stated < kNoiseAgrees * c.estimated;
   c.used = agrees || !usable ? (std::isfinite(c.stated) ? c.stated : 0) : c.estimated;
 }
 

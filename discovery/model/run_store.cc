@@ -14,32 +14,32 @@ namespace ambrig {
 namespace {
 
 template <class T>
-void Add(std::string& bytes, const T& value) {
+void AddBytes(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-void AddText(std::string& bytes, const std::string& text) {
-  Add(bytes, text.size());
+void AddCountedText(std::string& bytes, const std::string& text) {
+  AddBytes(bytes, text.size());
   bytes += text;
 }
 
 /// The exact values of all that a hypothesis may move, as hexadecimal digits.
 std::string TextOf(const RunKey& key) {
   std::string bytes;
-  Add(bytes, key.record);
-  Add(bytes, key.noise);
-  Add(bytes, key.seed);
-  Add(bytes, key.rows);
-  Add(bytes, key.horizon);
+  AddBytes(bytes, key.record);
+  AddBytes(bytes, key.noise);
+  AddBytes(bytes, key.seed);
+  AddBytes(bytes, key.rows);
+  AddBytes(bytes, key.horizon);
   const RigParameters& rig = key.rig;
-  Add(bytes, rig.amplifier.adc_samples_per_period);
+  AddBytes(bytes, rig.amplifier.adc_samples_per_period);
   for (const Tolerance& t : rig.tolerances)
-    if (const double* value = ParameterAt(rig, t.path)) Add(bytes, *value);
+    if (const double* value = ParameterAt(rig, t.path)) AddBytes(bytes, *value);
   for (const EffectInstance& e : rig.effects) {
-    AddText(bytes, e.name);
-    AddText(bytes, e.target);
-    for (const double v : e.values) Add(bytes, v);
-    for (const auto& [port, law] : e.formulas) AddText(bytes, port + "=" + law);
+    AddCountedText(bytes, e.name);
+    AddCountedText(bytes, e.target);
+    for (const double v : e.values) AddBytes(bytes, v);
+    for (const auto& [port, law] : e.formulas) AddCountedText(bytes, port + "=" + law);
   }
   std::string text;
   for (const char byte : bytes)

@@ -7,6 +7,7 @@
 
 #include "core/math/constants.h"
 #include "core/math/noise.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -16,13 +17,6 @@ constexpr int kLines = 15;          // of a multisine, per axis
 constexpr double kForce = 0.03;     // amplitude of a line, of the rotor's weight
 constexpr double kReference = 0.3;  // step of a reference, of the clearance
 constexpr double kLoad = 0.25;      // step of a load, of the weight
-
-double Clearance(const BearingParameters& b) {
-  if (b.auxiliary) return b.auxiliary->clearance;
-  return 0.5 * (b.kind == BearingKind::kRadial   ? b.radial.gap
-                : b.kind == BearingKind::kThrust ? b.thrust.gap
-                                                 : b.opposed.gap);
-}
 
 std::string Excited(const std::string& target, const std::string& port, const std::string& kind,
                     double start, double stop, double amplitude) {
@@ -87,7 +81,7 @@ class Writer {
       const std::vector<std::string> own = bearing.Axes();
       const double start = 0.05 * duration + slot * static_cast<double>(b);
       text += Excited(own[b % own.size()], "reference", "step", start, start + 0.7 * slot,
-                      size * kReference * Clearance(bearing) * (b % 2 ? -1 : 1));
+                      size * kReference * ClearanceOf(bearing) * (b % 2 ? -1 : 1));
       if (bearing.kind != BearingKind::kRadial || !able_.load) continue;
       const double from = 0.05 * duration + slot * static_cast<double>(n + b);
       text += fmt::format(

@@ -23,7 +23,7 @@ constexpr double kUnknownSize = 3;         // sd of an effect's number without r
 constexpr double kDrawnSize = 0.3;         // the same in simulated records: about its usual size
 constexpr double kBusNoise = 0.005;        // [V]
 constexpr double kLoadCellNoise = 0.0012;  // of the rotor's weight
-constexpr std::size_t kRows = 150000;
+constexpr std::size_t kPlanRows = 150000;
 
 /// What prior and records say of the free parameters, in coordinates.
 Eigen::MatrixXd PrecisionOf(const CaseModel& model, const FitResult& fit, double n) {
@@ -81,7 +81,7 @@ Plan PlanForCase(const Case& c, const EffectNames& names, const PlanOptions& opt
   std::size_t rows = 0;
   for (const CaseRecord& r : c.records)
     for (const Channel& channel : r.data.channels) rows += channel.samples.size();
-  CaseModel full(c), thin(c, std::clamp<std::size_t>(rows / kRows, 1, 12));
+  CaseModel full(c), thin(c, std::clamp<std::size_t>(rows / kPlanRows, 1, 12));
   full.stop = thin.stop = options.stop;
   progress(0, "noise floor");
   const Comparison filed = Compare(full, Hypothesis::Base(c.rig), false);

@@ -13,7 +13,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr std::size_t kRows = 60000;  // of a trial record that are looked at
+constexpr std::size_t kTrialRows = 60000;  // of a trial record that are looked at
 constexpr double kSizes[] = {1, 0.6, 0.35, 0.2};
 
 }  // namespace
@@ -57,7 +57,7 @@ TrialRecord Planner::Trial(const std::string& toml, const PlanCandidate& c) cons
   std::size_t rows = 0;
   for (const Channel& ch : record.data.channels) rows += ch.samples.size();
   trial.model =
-      std::make_unique<CaseModel>(*trial.data, std::clamp<std::size_t>(rows / kRows, 1, 12));
+      std::make_unique<CaseModel>(*trial.data, std::clamp<std::size_t>(rows / kTrialRows, 1, 12));
   trial.model->stop = options_.stop;
   return trial;
 }

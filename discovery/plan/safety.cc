@@ -7,6 +7,7 @@
 
 #include "core/base/errors.h"
 #include "core/record/channels.h"
+#include "rig/clearance.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -15,15 +16,8 @@ namespace {
 
 constexpr double kAtLimit = 1e-3;  // of the duty
 
-double Clearance(const BearingParameters& b) {
-  if (b.auxiliary) return b.auxiliary->clearance;
-  return 0.5 * (b.kind == BearingKind::kRadial   ? b.radial.gap
-                : b.kind == BearingKind::kThrust ? b.thrust.gap
-                                                 : b.opposed.gap);
-}
-
 /// Largest distance from the centre that the readings of a bearing reach, after `from`. [m]
-double Orbit(const Record& record, const BearingParameters& b, double from) {
+double OrbitOf(const Record& record, const BearingParameters& b, double from) {
   const std::vector<std::string> axes = b.Axes();
   const Channel *x = record.Find(axes[0]), *y = axes.size() > 1 ? record.Find(axes[1]) : nullptr;
   double most = 0;
@@ -66,11 +60,11 @@ SafetyResult CheckSafety(const TrialRecord& trial, const Rival& rival, const Saf
     // a rotor that lifts off starts at its stop, and a held one goes nowhere
     const double orbit = scenario.start == StartState::kClamped
                              ? 0
-                             : Orbit(record, b, levitated ? 0 : 0.5 * scenario.duration);
+                             : OrbitOf(record, b, levitated ? 0 : 0.5 * scenario.duration);
     out.largest_orbit = std::max(out.largest_orbit, orbit);
-    if (orbit > limits.orbit * Clearance(b))
+    if (orbit > limits.orbit * ClearanceOf(b))
       out.reason = fmt::format("orbit of {:.3g} um at {}, allowed {:.3g} um", 1e6 * orbit, b.name,
-                               1e6 * limits.orbit * Clearance(b));
+                               1e6 * limits.orbit * ClearanceOf(b));
     for (const ChannelId& id : ChannelsOf(b, ChannelKind::kCoilCurrent))
       if (const Channel* i = record.Find(id.name()))
         for (const double v : i->samples)

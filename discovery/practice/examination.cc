@@ -27,7 +27,7 @@ class Draw {
   std::uint32_t next_ = 0;
 };
 
-struct Writer {
+struct ExaminationWriter {
   const RigParameters& rig;
   Draw draw;
   double weight = 0;  // [N]
@@ -128,17 +128,17 @@ struct Writer {
 
 std::vector<ExaminationRecord> Examination(const RigParameters& rig, std::uint64_t seed,
                                            const ExaminationNeeds& needs) {
-  Writer w{rig, Draw(seed), rig.rotor.mass * 9.81};
+  ExaminationWriter w{rig, Draw(seed), rig.rotor.mass * 9.81};
   const double rate = rig.controller.rate,
                burst = rig.amplifier.switching_frequency * rig.amplifier.adc_samples_per_period;
   const double most = 0.8 * rig.amplifier.i_max - 1.2;
   std::vector<ExaminationRecord> out;
   const auto levitated = [&](const std::string& title, double duration, double from, double to,
                              const std::string& more, bool validate) {
-    out.push_back(
-        {title,
-         w.Head(title, duration, rate, "levitated") + Writer::Speed(from, to, duration) + more,
-         validate, false});
+    out.push_back({title,
+                   w.Head(title, duration, rate, "levitated") +
+                       ExaminationWriter::Speed(from, to, duration) + more,
+                   validate, false});
   };
   levitated("multisine at rest", 0.43, 0, 0, w.Multisine(0.43), false);
   levitated("multisine at 60 Hz", 0.35, 377, 377, w.Multisine(0.35), false);
@@ -156,8 +156,9 @@ std::vector<ExaminationRecord> Examination(const RigParameters& rig, std::uint64
     for (const bool validate : {false, true}) {
       const std::string title = validate ? "lift-off at 80 Hz" : "lift-off at 50 Hz";
       const double speed = validate ? 503 : 314;
-      out.push_back({title, w.Head(title, 0.2, rate, "resting") + Writer::Speed(speed, speed, 0.2),
-                     validate, false});
+      out.push_back(
+          {title, w.Head(title, 0.2, rate, "resting") + ExaminationWriter::Speed(speed, speed, 0.2),
+           validate, false});
     }
   if (needs.free_speed)
     for (const double speed : {1571.0, 900.0}) {

@@ -18,10 +18,10 @@ namespace {
 
 // of the worst channel: to be seen, and not grotesque
 constexpr double kLeastRatio = 5, kMostRatio = 60;
-constexpr double kLoadCellNoise = 0.0012;  // of the rotor's weight, rms
+constexpr double kHiddenLoadCellNoise = 0.0012;  // of the rotor's weight, rms
 
 /// Streams of random numbers of one seed.
-enum Stream : std::uint32_t { kParameters = 101, kTargets, kSizes, kLoadCells };
+enum HideStream : std::uint32_t { kParameters = 101, kTargets, kSizeStream, kLoadCells };
 
 RigParameters DrawRig(const RigParameters& rig, const HideRequest& request) {
   RigParameters truth = rig;
@@ -40,10 +40,11 @@ EffectInstance DrawEffect(const EffectDescription& d, const std::string& target,
   for (std::size_t k = 0; k < d.parameters.size(); ++k) {
     const EffectParameter& p = d.parameters[k];
     const auto index = slot * 64 + 2 * static_cast<std::uint32_t>(k);
-    const double size = p.typical_lo > 0 ? p.typical_lo * std::pow(p.typical_hi / p.typical_lo,
-                                                                   Uniform(seed, kSizes, index))
-                                         : p.null_value;
-    const double sign = Uniform(seed, kSizes, index + 1) < 0.5 ? -1 : 1;
+    const double size = p.typical_lo > 0
+                            ? p.typical_lo * std::pow(p.typical_hi / p.typical_lo,
+                                                      Uniform(seed, kSizeStream, index))
+                            : p.null_value;
+    const double sign = Uniform(seed, kSizeStream, index + 1) < 0.5 ? -1 : 1;
     if (d.mains && p.name == "frequency") e.values[k] = sign > 0 ? 50 : 60;
     // an optional extra stays out
     else if (!d.Switches(p))
@@ -58,7 +59,7 @@ EffectInstance DrawEffect(const EffectDescription& d, const std::string& target,
 }
 
 /// The effect with its switches `k` times as far from their nulls, at most twice what is usual.
-EffectInstance Scaled(const EffectDescription& d, const EffectInstance& e, double k) {
+EffectInstance ScaledEffect(const EffectDescription& d, const EffectInstance& e, double k) {
   EffectInstance out = e;
   for (std::size_t row = 0; row < d.parameters.size(); ++row) {
     const EffectParameter& p = d.parameters[row];
@@ -117,7 +118,7 @@ EffectInstance VisibleEffect(const CaseModel& model, const Hypothesis& truth,
   double k = 1;
   for (int attempt = 0; attempt < 12; ++attempt) {
     Hypothesis h = truth;
-    h.rig.effects.push_back(Scaled(d, drawn, k));
+    h.rig.effects.push_back(ScaledEffect(d, drawn, k));
     const auto with = model.Predict(h);
     *shown = with ? WorstChannel(model, *with, without) : Shown{kInfinity, ""};
     if (shown->ratio >= kLeastRatio && shown->ratio <= kMostRatio) return h.rig.effects.back();
@@ -171,7 +172,7 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   }
   out.records = Examination(rig, request.seed, needs);
   out.data = EmptyCase(rig, out.records);
-  const double load_cell_noise = kLoadCellNoise * rig.rotor.mass * 9.81;
+  const double load_cell_noise = kHiddenLoadCellNoise * rig.rotor.mass * 9.81;
   out.data.noise[ChannelId{ChannelKind::kBus}.name()] = 0.005;
   for (const BearingParameters& b : rig.bearings)
     if (b.kind == BearingKind::kRadial)

@@ -48,7 +48,7 @@ std::vector<std::vector<float>> SignatureBank::Signatures(const CaseModel& model
     all.back().rig.effects.push_back(e);
   }
   all.push_back(base);
-  const auto runs = model.PredictAll(all, Fidelity::kCoarse, look);
+  const auto runs = model.PredictAll(all, ModelFidelity::kCoarse, look);
   const auto& without = runs.back();
   std::vector<std::vector<float>> out(probes.size());
   std::vector<double> signature(model.size());

@@ -104,7 +104,7 @@ StartSearch::StartSearch(const CaseModel& model, const FitResult& now, double ef
       now_(now),
       effective_sample_size_(effective_sample_size),
       look_(WorstRecords(model, now)) {
-  const auto run = model.PredictAll({now.hypothesis}, Fidelity::kCoarse, &look_)[0];
+  const auto run = model.PredictAll({now.hypothesis}, ModelFidelity::kCoarse, &look_)[0];
   if (!run) throw InputError("the model does not hold its rotor here");
   const std::vector<double> residual = Residual(model, *run);
   here_ = Score(model, Ratio(model, residual, Which::kFit),
@@ -120,7 +120,7 @@ void StartSearch::Simulate(std::vector<SimulatedStart>& starts) const {
       all.push_back(now_.hypothesis);
       all.back().AddEffect(starts[k].effect);
     }
-    const auto runs = model_.PredictAll(all, Fidelity::kCoarse, &look_);
+    const auto runs = model_.PredictAll(all, ModelFidelity::kCoarse, &look_);
     for (std::size_t k = first; k < last; ++k) {
       if (!runs[k - first]) continue;
       const std::vector<double> residual = Residual(model_, *runs[k - first]);

@@ -13,6 +13,7 @@
 #include "effects/diffusion_fit.h"
 #include "effects/law_tables.h"
 #include "effects/steel_curve.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -28,12 +29,10 @@ std::vector<double> Evenly(double hi) {
   return u;
 }
 
-double GapOf(const RigParameters& rig, const std::string& target) {
+double GapAt(const RigParameters& rig, const std::string& target) {
   const BearingParameters* b = rig.Find(target);
   Require(b != nullptr, "the target of an iron effect is a bearing");
-  return b->kind == BearingKind::kRadial   ? b->radial.gap
-         : b->kind == BearingKind::kThrust ? b->thrust.gap
-                                           : b->opposed.gap;
+  return GapOf(*b);
 }
 
 /// An effect of the shape with its first `skip` rows set already, the others are the sizes.
@@ -125,7 +124,7 @@ std::vector<double> NearestRelaxations(const std::function<Complex(double)>& law
 Shape EddyShape(const EffectInstance& named, const RigParameters& rig) {
   Shape s;
   s.effect = MakeInstance(EffectNamed("eddy-impedance"), named.target);
-  const double gap = GapOf(rig, named.target), cutoff = named.Value("cutoff"),
+  const double gap = GapAt(rig, named.target), cutoff = named.Value("cutoff"),
                rho = named.Value("path") / gap;
   std::vector<double> sizes =
       NearestRelaxations([&](double f) { return Diffusion(Complex(0, 2 * kPi * f), cutoff, rho); });

@@ -13,7 +13,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kStretches = 6, kCurvePoints = 61;
+constexpr int kStretches = 6, kMotionCurvePoints = 61;
 
 /// "(k1*min(r,d) + k2*min(max(r-d,0),d) + ... + k6*max(r-5*d,0))"
 std::string Ramps(const std::string& r, double d) {
@@ -66,7 +66,7 @@ Shape RampShape(const EffectInstance& named, double most, const std::string& uni
   }
   s.step = Eigen::VectorXd::Constant(kStretches, std::max(0.3 * size, 1e-12));
   s.roughness = Differences(kStretches, 2);
-  for (int k = 0; k < kCurvePoints; ++k) s.u.push_back(most * k / (kCurvePoints - 1));
+  for (int k = 0; k < kMotionCurvePoints; ++k) s.u.push_back(most * k / (kMotionCurvePoints - 1));
   s.value = [d](const std::vector<double>& c, double u) { return RampSum(c, d, u); };
   return s;
 }

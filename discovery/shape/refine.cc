@@ -18,13 +18,13 @@ namespace ambrig {
 
 namespace {
 
-constexpr std::size_t kRows = 150000;  // that a fit looks at
+constexpr std::size_t kRefineRows = 150000;  // that a fit looks at
 
-std::size_t Thinning(const Case& c) {
+std::size_t RefineThinning(const Case& c) {
   std::size_t rows = 0;
   for (const CaseRecord& r : c.records)
     for (const Channel& channel : r.data.channels) rows += channel.samples.size();
-  return std::clamp<std::size_t>(rows / kRows, 1, 12);
+  return std::clamp<std::size_t>(rows / kRefineRows, 1, 12);
 }
 
 /// Floors, noise and declared nuisances of both models; the number of independent residuals.
@@ -153,7 +153,7 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
         fmt::format("{} has no curve to refine, allowed: {}", effect, RefinableEffects()));
   Refinement out;
   out.model = std::make_unique<CaseModel>(c);
-  CaseModel thin(c, Thinning(c));
+  CaseModel thin(c, RefineThinning(c));
   out.model->stop = thin.stop = options.stop;
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   AdoptedRigText(ReadFile(c.rig_file), nominal, c.rig.effects);  // known before the long work

@@ -62,46 +62,60 @@ struct Constants {
   int samples;
 };
 
+/// The circuit's state from sample to sample of a period.
 template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
-[[gnu::always_inline]] inline void Run(const Constants& c, const FluxFilter::Step& step,
-                                       const Lane* adc, FluxFilter::State* state, FluxPeriod* out) {
-  const V zero = 0.0, sense = LoadAs<V>(c.sense->v), ampere_turns = sense * LoadAs<V>(c.turns->v),
-          far = 1e30;
-  // Samples k with k h <= edge are on.
-  const V last_on = LoadAs<V>(c.edge->v) * (1 / c.step) + 1e-9;
-  V psi = LoadAs<V>(state->psi.v), held[kRelaxations];
-  for (int m = 0; kRelaxes && m < kRelaxations; ++m) held[m] = LoadAs<V>(state->held[m].v);
-  V rho = LoadAs<V>(step.rho.v) + step.total;
-  const V rho_change = LoadAs<V>(step.rho_change.v) * (1.0 / c.samples),
-          rho_end = rho + rho_change * static_cast<double>(c.samples);
-  V inverse = 1 / rho;
-  const V inverse_change = (1 / rho_end - inverse) * (1.0 / c.samples);
-  V largest = zero, most = -far, least_on = far, least_off = far, share = zero;
-  PhaseSums<V> on_sums, off_sums;
-  for (int k = 0; k < c.samples; ++k) {
-    const V current = LoadAs<V>(adc[k].v);
-    V source = ampere_turns * current, kept = zero;
+struct CircuitState {
+  const Constants& c;
+  const FluxFilter::Step& step;
+  const V ampere_turns;
+  V psi, held[kRelaxations], share;  // share: d psi/d i within the first sample
+  V rho, rho_change, inverse, inverse_change;
+
+  [[gnu::always_inline]] CircuitState(const Constants& constants, const FluxFilter::Step& of,
+                                      const V& sense, const FluxFilter::State& state)
+      : c(constants),
+        step(of),
+        ampere_turns(sense * LoadAs<V>(c.turns->v)),
+        psi(LoadAs<V>(state.psi.v)),
+        share(0.0) {
+    for (int m = 0; kRelaxes && m < kRelaxations; ++m) held[m] = LoadAs<V>(state.held[m].v);
+    rho = LoadAs<V>(step.rho.v) + step.total;
+    rho_change = LoadAs<V>(step.rho_change.v) * (1.0 / c.samples);
+    const V rho_end = rho + rho_change * static_cast<double>(c.samples);
+    inverse = 1 / rho;
+    inverse_change = (1 / rho_end - inverse) * (1.0 / c.samples);
+  }
+
+  /// MMF that is left for gap and path, s_j i_j less what the relaxations hold.
+  [[gnu::always_inline]] V Source(const V& current) const {
+    V source = ampere_turns * current, kept = 0.0;
     if constexpr (kRelaxes) {
       kept = held[0] + held[1] + (held[2] + held[3]) - psi * step.total;
       source = source - kept;
     }
     if constexpr (kCoupling == Coupling::kSides)
       source = ampere_turns * current + Partner(ampere_turns * current) - kept;
-    V per = inverse;
+    return source;
+  }
+
+  /// psi at sample k, with `current` [A].
+  [[gnu::always_inline]] V Solve(int k, const V& current) {
+    V source = Source(current), per = inverse;
     if constexpr (kKnee) {
       const Tangent<V> iron(psi, c.knee7, c.knee15);
       source = source - iron.rest;
       per = 1 / (rho + iron.slope);
     }
-    V now;
     if constexpr (kCoupling == Coupling::kFloatingRotor) {
       const double total = Sum(per);
-      now = (source - Sum(source * per) / total) * per;
       if (k == 0) share = per - per * per * (1 / total);
-    } else {
-      now = source * per;
-      if (k == 0) share = per;
+      return (source - Sum(source * per) / total) * per;
     }
+    if (k == 0) share = per;
+    return source * per;
+  }
+
+  [[gnu::always_inline]] void Advance(const V& now) {
     if constexpr (kRelaxes) {
       const V change = now - psi;
       for (int m = 0; m < kRelaxations; ++m)
@@ -110,6 +124,27 @@ template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
     psi = now;
     rho += rho_change;
     inverse += inverse_change;
+  }
+
+  [[gnu::always_inline]] void Keep(FluxFilter::State* state) const {
+    Store(state->psi.v, psi);
+    for (int m = 0; kRelaxes && m < kRelaxations; ++m) Store(state->held[m].v, held[m]);
+  }
+};
+
+template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
+[[gnu::always_inline]] inline void Run(const Constants& c, const FluxFilter::Step& step,
+                                       const Lane* adc, FluxFilter::State* state, FluxPeriod* out) {
+  const V sense = LoadAs<V>(c.sense->v), far = 1e30;
+  // Samples k with k h <= edge are on.
+  const V last_on = LoadAs<V>(c.edge->v) * (1 / c.step) + 1e-9;
+  CircuitState<V, kCoupling, kRelaxes, kKnee> circuit(c, step, sense, *state);
+  V largest = 0.0, most = -far, least_on = far, least_off = far;
+  PhaseSums<V> on_sums, off_sums;
+  for (int k = 0; k < c.samples; ++k) {
+    const V current = LoadAs<V>(adc[k].v);
+    const V now = circuit.Solve(k, current);
+    circuit.Advance(now);
     largest = Max(largest, Max(now, -now));
     most = Max(most, current);
     const V place = static_cast<double>(k);
@@ -120,12 +155,11 @@ template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
     on_sums.Add(on, k, now, current);
     off_sums.Add(off, k, now, current);
   }
-  Store(state->psi.v, psi);
-  for (int m = 0; kRelaxes && m < kRelaxations; ++m) Store(state->held[m].v, held[m]);
-  Store(out->flux.v, psi);
+  circuit.Keep(state);
+  Store(out->flux.v, circuit.psi);
   Store(out->largest_flux.v, largest);
   Store(out->largest.v, most);
-  Store(out->own.v, share);
+  Store(out->own.v, circuit.share);
   Store(out->phase[0].least.v, least_on);
   Store(out->phase[1].least.v, least_off);
   Finish<V>(on_sums, sense, c.step, &out->phase[0]);

@@ -7,7 +7,7 @@ namespace ambrig {
 
 namespace {
 
-double ForceConstantOf(const BearingParameters& b) {
+double OpposedForceConstant(const BearingParameters& b) {
   // f = (1/2) (c0 + v)² L' - (1/2) (c0 - v)² L' = 2 c0 v L', one coil alone: c0 v L' about c0.
   const auto& p = b.opposed;
   const double slope =
@@ -15,7 +15,7 @@ double ForceConstantOf(const BearingParameters& b) {
   return (p.coils > 1 ? 2 : 1) * slope;
 }
 
-void FillLanes(const BearingParameters& b, StatorLanes& lanes) {
+void FillOpposedLanes(const BearingParameters& b, StatorLanes& lanes) {
   const OpposedStatorParameters& p = b.opposed;
   lanes.coupling = Coupling::kNone;
   lanes.coils = b.coils();
@@ -32,7 +32,7 @@ void FillLanes(const BearingParameters& b, StatorLanes& lanes) {
   }
 }
 
-PlaneMap Plane(const BearingParameters& b, const RotorModel&, double z) {
+PlaneMap OpposedPlane(const BearingParameters& b, const RotorModel&, double z) {
   PlaneMap map;
   map.z = z;
   const double a = b.opposed.angle_deg * kPi / 180;
@@ -65,7 +65,7 @@ const BearingKindTable& OpposedBearing() {
           },
       .gap = [](const BearingParameters& b) { return b.opposed.gap; },
       .coil_resistance = [](const BearingParameters& b) { return b.opposed.resistance; },
-      .force_constant = ForceConstantOf,
+      .force_constant = OpposedForceConstant,
       .own_bias =
           [](const BearingParameters& b) {
             return b.opposed.bias_current > 0 ? b.opposed.bias_current : kRequired;
@@ -75,8 +75,8 @@ const BearingKindTable& OpposedBearing() {
             return std::array<double, 2>{j == 0 ? 1.0 : -1.0, 0};
           },
       .weight = Weight,
-      .fill_lanes = FillLanes,
-      .plane = Plane,
+      .fill_lanes = FillOpposedLanes,
+      .plane = OpposedPlane,
       .add_auxiliary = nullptr,
   };
   return table;

@@ -9,7 +9,7 @@ namespace ambrig {
 
 namespace {
 
-void Read(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
+void ReadRadial(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
   const long long poles = t.Integer("poles", kPoles);
   if (poles != kPoles) t.Fail("poles", fmt::format("= {}, allowed: 8", poles));
   std::string& winding = b.radial.winding;
@@ -25,7 +25,7 @@ std::array<double, 2> CoilDirection(const BearingParameters& b, int j) {
   return {stator.cosine()[j], stator.sine()[j]};
 }
 
-void FillLanes(const BearingParameters& b, StatorLanes& lanes) {
+void FillRadialLanes(const BearingParameters& b, StatorLanes& lanes) {
   const RadialStator stator(b.radial);
   lanes.coupling = Coupling::kFloatingRotor;
   lanes.coils = kPoles;
@@ -53,7 +53,7 @@ const BearingKindTable& RadialBearing() {
           [](const BearingParameters& b) {
             return std::vector<std::string>{b.name + ".x", b.name + ".y"};
           },
-      .read = Read,
+      .read = ReadRadial,
       .document =
           [](std::vector<ParameterRow>& rows) {
             AddRows(rows, "[bearings.A] kind = \"radial\"", kRadialStatorFields);
@@ -65,7 +65,7 @@ const BearingKindTable& RadialBearing() {
       .own_bias = [](const BearingParameters&) { return kRequired; },
       .coil_direction = CoilDirection,
       .weight = nullptr,
-      .fill_lanes = FillLanes,
+      .fill_lanes = FillRadialLanes,
       .plane = [](const BearingParameters&, const RotorModel& rotor,
                   double z) { return rotor.MakePlane(z); },
       .add_auxiliary =

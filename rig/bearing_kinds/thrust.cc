@@ -5,12 +5,12 @@ namespace ambrig {
 
 namespace {
 
-double ForceConstantOf(const BearingParameters& b) {
+double ThrustForceConstant(const BearingParameters& b) {
   return 4 * kMu0 * b.thrust.turns * b.thrust.turns * b.thrust.pole_area /
          (b.thrust.gap * b.thrust.gap);
 }
 
-void FillLanes(const BearingParameters& b, StatorLanes& lanes) {
+void FillThrustLanes(const BearingParameters& b, StatorLanes& lanes) {
   lanes.coupling = Coupling::kSides;
   lanes.coils = kThrustCoils;
   lanes.reluctance.per_metre = 2 / (kMu0 * b.thrust.pole_area);
@@ -24,7 +24,7 @@ void FillLanes(const BearingParameters& b, StatorLanes& lanes) {
   }
 }
 
-PlaneMap Plane(const BearingParameters&, const RotorModel&, double z) {
+PlaneMap ThrustPlane(const BearingParameters&, const RotorModel&, double z) {
   PlaneMap map;
   map.z = z;
   map.Add(2, 1, 0);
@@ -50,7 +50,7 @@ const BearingKindTable& ThrustBearing() {
           },
       .gap = [](const BearingParameters& b) { return b.thrust.gap; },
       .coil_resistance = [](const BearingParameters& b) { return b.thrust.resistance; },
-      .force_constant = ForceConstantOf,
+      .force_constant = ThrustForceConstant,
       .own_bias = [](const BearingParameters& b) { return b.thrust.bias_current; },
       .coil_direction =
           [](const BearingParameters&, int j) {
@@ -58,8 +58,8 @@ const BearingKindTable& ThrustBearing() {
           },
       .weight = [](const BearingParameters&, double mass,
                    const std::array<double, 3>& gravity) { return -mass * gravity[2]; },
-      .fill_lanes = FillLanes,
-      .plane = Plane,
+      .fill_lanes = FillThrustLanes,
+      .plane = ThrustPlane,
       .add_auxiliary = [](const BearingParameters& b,
                           RotorModel& rotor) { rotor.SetAxialStop(*b.auxiliary); },
   };

@@ -25,7 +25,7 @@ DofMap InY(int plane_dof) {
   return {4 * (plane_dof / 2) + (plane_dof % 2 ? 2 : 1), plane_dof % 2 ? -1.0 : 1.0};
 }
 
-void AddSupport(const SpringSupport& s, int node, LinearRotor& out) {
+void AddSupportAtNode(const SpringSupport& s, int node, LinearRotor& out) {
   const int x = 4 * node;
   Eigen::Matrix2d k, c;
   k << s.kxx, s.kxy, s.kyx, s.kyy;
@@ -36,7 +36,7 @@ void AddSupport(const SpringSupport& s, int node, LinearRotor& out) {
 
 /// Mass, first and second moment about z = 0 and polar inertia of a piece of shaft, by the theorem
 /// that a round section has I about its diameter and 2 I about its axis.
-void AddSection(const ShaftSection& s, double& m, double& mz, double& mzz, double& ip) {
+void AddSectionMass(const ShaftSection& s, double& m, double& mz, double& mzz, double& ip) {
   // Degree 4 in t for diameters, 2 more for z²: four Gauss points are exact.
   static constexpr double t[] = {0.06943184420297371, 0.33000947820757187, 0.66999052179242813,
                                  0.93056815579702629};
@@ -100,7 +100,7 @@ LinearRotor Assemble(const BeamRotor& r) {
       out.G(xa.index, yb.index) = yb.sign * r.J(a, b);
       out.G(ya.index, xb.index) = -ya.sign * r.J(a, b);
     }
-  for (const SpringSupport& s : r.supports) AddSupport(s, NodeAt(r, s.z), out);
+  for (const SpringSupport& s : r.supports) AddSupportAtNode(s, NodeAt(r, s.z), out);
   for (int i = 0; i < n / 2; ++i) out.xy.push_back({4 * i, 4 * i + 1});
   return out;
 }
@@ -108,7 +108,7 @@ LinearRotor Assemble(const BeamRotor& r) {
 RotorTotals Totals(const BeamRotor& r) {
   double m = 0, mz = 0, mzz = 0, ip = 0;
   for (const ShaftElement& e : r.elements)
-    for (const ShaftSection& layer : e.layers) AddSection(layer, m, mz, mzz, ip);
+    for (const ShaftSection& layer : e.layers) AddSectionMass(layer, m, mz, mzz, ip);
   for (const Disk& d : r.disks) {
     m += d.mass;
     mz += d.mass * d.z;

@@ -126,7 +126,7 @@ bool IsJson(const std::string& file) {
 bool IsShaft(const Element& e) { return e.kind == "ShaftElement" || e.kind == "ShaftElement6DoF"; }
 bool IsDisk(const Element& e) { return e.kind == "DiskElement" || e.kind == "DiskElement6DoF"; }
 
-Material ReadMaterial(const Element& e) {
+Material ReadRossMaterial(const Element& e) {
   const auto get = [&](const char* key) {
     const auto it = e.material.find(key);
     if (it == e.material.end()) e.Fail(fmt::format("material.{} is missing", key));
@@ -140,7 +140,7 @@ Material ReadMaterial(const Element& e) {
   return m;
 }
 
-ShaftSection ReadShaft(const Element& e) {
+ShaftSection ReadRossShaft(const Element& e) {
   ShaftSection s;
   s.name = e.name;
   s.length = e.Get("L");
@@ -148,14 +148,14 @@ ShaftSection ReadShaft(const Element& e) {
   s.id = e.Get("idl");
   s.od_right = e.Get("odr", s.od);
   s.id_right = e.Get("idr", s.id);
-  s.material = ReadMaterial(e);
+  s.material = ReadRossMaterial(e);
   s.stiff = s.material.E > kSleeveE;
   s.damping_mass = e.Get("alpha", 0);
   s.damping_stiffness = e.Get("beta", 0);
   return s;
 }
 
-Disk ReadDisk(const Element& e, double z) {
+Disk ReadRossDisk(const Element& e, double z) {
   const Disk d{z, e.Get("m"), e.Get("Id"), e.Get("Ip"), e.name};
   CheckRanges(d, kDiskFields,
               [&](std::string_view key) { return fmt::format("{}: {}", e.where, key); });
@@ -192,7 +192,7 @@ double PlaneOf(const Element& e, const std::vector<double>& z) {
   return z[e.Node()];
 }
 
-void ReadTheory(const Element& e, bool first, BeamTheory& theory) {
+void ReadRossTheory(const Element& e, bool first, BeamTheory& theory) {
   BeamTheory t = theory;
   t.shear = e.Get("shear_effects", 1) != 0;
   t.rotary_inertia = e.Get("rotary_inertia", 1) != 0;
@@ -226,7 +226,7 @@ double At(const Element& e, const std::string& key, double fallback, double spee
   return y[i - 1] + t * (y[i] - y[i - 1]);
 }
 
-SpringSupport ReadSupport(const Element& e, double z, double speed) {
+SpringSupport ReadRossSupport(const Element& e, double z, double speed) {
   if (e.Has("n_link"))
     e.Fail("n_link (a bearing on a housing) is not modelled, allowed: bearings to ground");
   SpringSupport s;
@@ -250,12 +250,12 @@ RossRotor ReadRoss(const std::string& file, double speed) {
   bool first = true;
   for (const Element& e : elements) {
     if (IsShaft(e)) {
-      d.sections.push_back(ReadShaft(e));
+      d.sections.push_back(ReadRossShaft(e));
       d.sections.back().z0 = PlaneOf(e, z);
-      ReadTheory(e, first, d.theory);
+      ReadRossTheory(e, first, d.theory);
       first = false;
     } else if (IsDisk(e)) {
-      d.disks.push_back(ReadDisk(e, PlaneOf(e, z)));
+      d.disks.push_back(ReadRossDisk(e, PlaneOf(e, z)));
     } else if (e.kind.find("MagneticBearing") == 0) {
       out.magnetic_bearings.push_back({e.name, PlaneOf(e, z)});
       d.stations.push_back(PlaneOf(e, z));
@@ -263,7 +263,7 @@ RossRotor ReadRoss(const std::string& file, double speed) {
       out.ignored.push_back(e.kind + "_" + e.name +
                             " (coefficients over speed and whirl frequency)");
     } else if (e.Has("kxx")) {
-      d.supports.push_back(ReadSupport(e, PlaneOf(e, z), speed));
+      d.supports.push_back(ReadRossSupport(e, PlaneOf(e, z), speed));
     } else if (e.kind == "parameters") {
       for (const char* damping : {"alpha", "beta", "modal_damping_ratio", "default_damping_ratio"})
         if (e.Get(damping, 0) != 0) out.ignored.push_back(std::string("parameters.") + damping);

@@ -13,10 +13,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kSleeveE = 1.0;  // [Pa]; E > 0 because ROSS derives Poisson's ratio from E and G_s
+constexpr double kSleeveEWritten =
+    1.0;  // [Pa]; E > 0 because ROSS derives Poisson's ratio from E and G_s
 
 Json MaterialTable(const ShaftSection& s) {
-  const double E = s.stiff ? s.material.E : kSleeveE;
+  const double E = s.stiff ? s.material.E : kSleeveEWritten;
   return {{"name", s.stiff ? "shaft" : "sleeve"},
           {"rho", s.material.rho},
           {"E", E},

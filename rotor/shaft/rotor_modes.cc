@@ -187,7 +187,7 @@ Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor,
   return dynamic.partialPivLu().solve(f);
 }
 
-OrbitAxes Orbit(Complex x, Complex y) {
+OrbitAxes AxesOfOrbit(Complex x, Complex y) {
   const double forward = std::abs(x + kI * y) / 2, backward = std::abs(x - kI * y) / 2;
   return {forward + backward, forward - backward};
 }

@@ -86,7 +86,7 @@ Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor,
 struct OrbitAxes {
   double major = 0, minor = 0;
 };
-OrbitAxes Orbit(std::complex<double> x, std::complex<double> y);
+OrbitAxes AxesOfOrbit(std::complex<double> x, std::complex<double> y);
 
 /// The rotor in the coordinates of its `count` lowest undamped modes at rest, for sweeps over many
 /// speeds; `shape` of its modes is in modal coordinates, q = basis * shape. No `xy` pairs are lost:

@@ -26,7 +26,7 @@ std::string Float(double v) {
   return text;
 }
 
-class Lines {
+class ShaftLines {
  public:
   void Table(const char* header) { text += fmt::format("\n[[rotor.{}]]\n", header); }
   void Put(const char* key, double value) { text += fmt::format("{} = {}\n", key, Float(value)); }
@@ -39,7 +39,7 @@ class Lines {
   std::string text;
 };
 
-void AddSection(const ShaftSection& s, Lines& out) {
+void AddSectionLines(const ShaftSection& s, ShaftLines& out) {
   out.Table(s.stiff ? "section" : "sleeve");
   out.Put("name", s.name);
   out.Put("z0", s.z0);
@@ -55,7 +55,7 @@ void AddSection(const ShaftSection& s, Lines& out) {
   out.PutUnless("damping_stiffness", s.damping_stiffness, 0);
 }
 
-void AddDisk(const Disk& d, Lines& out) {
+void AddDisk(const Disk& d, ShaftLines& out) {
   out.Table("disk");
   // Names are targets in scenarios: no dots and blanks.
   std::string name = d.name;
@@ -68,7 +68,7 @@ void AddDisk(const Disk& d, Lines& out) {
   out.Put("inertia_polar", d.inertia_polar);
 }
 
-void AddSupport(const SpringSupport& s, Lines& out) {
+void AddSupportLines(const SpringSupport& s, ShaftLines& out) {
   out.Table("support");
   out.Put("name", s.name);
   for (const auto& f : kSpringSupportFields)
@@ -82,7 +82,7 @@ const char* YesNo(bool b) { return b ? "true" : "false"; }
 std::string BeamText(const BeamFile& file) {
   const BeamDefinition& d = file.definition;
   const BeamTheory& t = d.theory;
-  Lines out;
+  ShaftLines out;
   out.text = fmt::format(
       "[rotor]\nkind = \"beam\"\nmodes = {}\nelements_per_section = {}\nmass = \"{}\"\nshear = "
       "{}\nrotary_inertia = "
@@ -99,7 +99,7 @@ std::string BeamText(const BeamFile& file) {
   list.clear();
   for (const double z : unnamed) list += (list.empty() ? "" : ", ") + Float(z);
   if (!list.empty()) out.text += fmt::format("stations = [{}]\n", list);
-  for (const ShaftSection& s : d.sections) AddSection(s, out);
+  for (const ShaftSection& s : d.sections) AddSectionLines(s, out);
   for (const Disk& disk : d.disks) AddDisk(disk, out);
   for (const ShaftPlane& p : file.planes) {
     const auto same = [&](const Disk& disk) { return disk.z == p.z; };
@@ -108,7 +108,7 @@ std::string BeamText(const BeamFile& file) {
     out.Put("name", p.name);
     out.Put("z", p.z);
   }
-  for (const SpringSupport& s : d.supports) AddSupport(s, out);
+  for (const SpringSupport& s : d.supports) AddSupportLines(s, out);
   return out.text;
 }
 

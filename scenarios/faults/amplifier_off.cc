@@ -5,7 +5,7 @@
 namespace ambrig {
 
 namespace {
-constexpr FaultParameter kParameters[] = {
+constexpr FaultParameter kAmplifierOffParameters[] = {
     {"duration", "s", 0, kInfinity, false, false, "inf (default): for good"},
 };
 }  // namespace
@@ -17,7 +17,7 @@ const Fault& AmplifierOff() {
       .doc = "both switches stay open, the diodes end the current",
       .observer = FaultObserver::kCoilDetector,
       .seen_as = "amplifier-off",
-      .parameters = kParameters,
+      .parameters = kAmplifierOffParameters,
       .apply = [](const FaultSpec&, FaultedPlant& plant) { plant.Bridge().off = true; },
       .duration = [](const FaultSpec& f) { return f.Get("duration", kInfinity); },
       .end = [](FaultedPlant& plant) { plant.Bridge().off = false; },

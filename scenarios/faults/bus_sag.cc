@@ -6,7 +6,7 @@ namespace ambrig {
 
 namespace {
 constexpr double kSag = 0.8;  // of the nominal bus, where the file names no voltage
-constexpr FaultParameter kParameters[] = {
+constexpr FaultParameter kBusSagParameters[] = {
     {"voltage", "V", 0, 1e5, true, false, "during the sag; default: 0.8 of the nominal one"},
     {"duration", "s", 0, kInfinity, false, false, "inf (default): for good"},
 };
@@ -19,7 +19,7 @@ const Fault& BusSag() {
       .doc = "the supply voltage drops, temporarily or permanently",
       .observer = FaultObserver::kBusMonitor,
       .seen_as = "bus-sag",
-      .parameters = kParameters,
+      .parameters = kBusSagParameters,
       .apply =
           [](const FaultSpec& f, FaultedPlant& plant) {
             plant.SetBus(f.Get("voltage", kSag * plant.nominal_bus()));

@@ -5,13 +5,13 @@ namespace ambrig {
 
 namespace {
 
-constexpr FaultParameter kParameters[] = {
+constexpr FaultParameter kCurrentSensorParameters[] = {
     {"gain", "-", -100, 100, true, false, "factor on the reading", 1},
     {"offset", "A", -1e4, 1e4, true, false, "added to the reading"},
     {"stuck", "-", 0, 1, true, true, "the reading is frozen"},
 };
 
-void Apply(const FaultSpec& f, FaultedPlant& plant) {
+void ApplyCurrentSensor(const FaultSpec& f, FaultedPlant& plant) {
   CurrentSensor& s = plant.CoilSensor();
   s.gain *= f.Get("gain", 1);
   s.offset += f.Get("offset", 0);
@@ -29,9 +29,9 @@ const Fault& CurrentSensorFault() {
       .doc = "the reading is wrong",
       .observer = FaultObserver::kCoilDetector,
       .seen_as = "current-sensor",
-      .parameters = kParameters,
+      .parameters = kCurrentSensorParameters,
       .must_change = true,
-      .apply = Apply,
+      .apply = ApplyCurrentSensor,
   };
   return fault;
 }

@@ -8,7 +8,7 @@
 namespace ambrig {
 
 namespace {
-constexpr FaultParameter kParameters[] = {
+constexpr FaultParameter kPartialShortParameters[] = {
     {"fraction", "-", 0, 1, false, false, "share of the turns", 0, true},
     {"short_resistance", "ohm", 0, kInfinity, true, false,
      "of the short; inf (default): turns bypassed", kInfinity},
@@ -22,7 +22,7 @@ const Fault& PartialShort() {
       .doc = "a fraction of the remaining driven turns is shorted",
       .observer = FaultObserver::kCoilDetector,
       .seen_as = "partial-short",
-      .parameters = kParameters,
+      .parameters = kPartialShortParameters,
       .apply =
           [](const FaultSpec& f, FaultedPlant& plant) {
             plant.ShortTurns(f.Get("fraction", 0), f.Get("short_resistance", kInfinity));

@@ -5,13 +5,13 @@ namespace ambrig {
 
 namespace {
 
-constexpr FaultParameter kParameters[] = {
+constexpr FaultParameter kPositionSensorParameters[] = {
     {"offset", "m", -1, 1, true, false, "added to the reading"},
     {"stuck", "-", 0, 1, true, true, "the reading is frozen"},
     {"lost", "-", 0, 1, true, true, "the reading is zero"},
 };
 
-void Apply(const FaultSpec& fault, FaultedPlant& plant) {
+void ApplyPositionSensor(const FaultSpec& fault, FaultedPlant& plant) {
   SensorFault& f = plant.Reading();
   f.offset += fault.Get("offset", 0);
   f.lost = f.lost || fault.Get("lost", 0) != 0;
@@ -27,9 +27,9 @@ const Fault& PositionSensorFault() {
       .doc = "the reading is wrong",
       .observer = FaultObserver::kPositionMonitor,
       .seen_as = "position-sensor",
-      .parameters = kParameters,
+      .parameters = kPositionSensorParameters,
       .must_change = true,
-      .apply = Apply,
+      .apply = ApplyPositionSensor,
   };
   return fault;
 }

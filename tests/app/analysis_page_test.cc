@@ -23,8 +23,6 @@ using testing::CountOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr double kRpm = kPi / 30;
-
 class AnalysisPage : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {

@@ -81,7 +81,7 @@ TEST(Friswell, UnbalanceResponse) {
     EXPECT_NEAR(std::abs(q(4 * disk1)), row[1], 5.1e-7 * row[1] * 2) << row[0];
     EXPECT_NEAR(std::abs(q(4 * disk2)), row[2], 5.1e-7 * row[2] * 2) << row[0];
     // Isotropic: a forward circle.
-    const OrbitAxes orbit = Orbit(q(4 * disk1), q(4 * disk1 + 1));
+    const OrbitAxes orbit = AxesOfOrbit(q(4 * disk1), q(4 * disk1 + 1));
     EXPECT_NEAR(orbit.minor, orbit.major, 1e-9 * orbit.major);
   }
 }

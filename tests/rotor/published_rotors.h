@@ -10,7 +10,6 @@
 
 namespace ambrig {
 
-inline constexpr double kRpm = kPi / 30;
 inline const Material kFriswellSteel{211e9, 7810, 211e9 / (2 * 81.2e9) - 1};
 
 inline ShaftSection Uniform(double z0, double length, double od, const Material& m) {

@@ -7,13 +7,13 @@ namespace ambrig {
 
 namespace {
 
-void Read(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
+void ReadHInfinity(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
   t.Read(c.h_infinity, kHInfinityFields);
   ReadSynthesis(t, names, c);
 }
 
-std::unique_ptr<PositionController> Make(const ControllerParameters& c,
-                                         const ControllerSite& site) {
+std::unique_ptr<PositionController> MakeHInfinity(const ControllerParameters& c,
+                                                  const ControllerSite& site) {
   std::vector<StateSpace> points;
   for (const double speed : c.speeds) {
     // of readings; StateSpaceController works on e = -y
@@ -26,7 +26,7 @@ std::unique_ptr<PositionController> Make(const ControllerParameters& c,
 }
 
 /// With the tables that every synthesis has.
-void Document(std::vector<ParameterRow>& rows) {
+void DocumentHInfinity(std::vector<ParameterRow>& rows) {
   AddRows(rows, "[controller] kind = \"h-infinity\"", kHInfinityFields);
   AddRows(rows, "[[controller.plane]]", kPlaneWeightFields);
   AddRows(rows, "[controller.modes]", kModeWeightFields);
@@ -38,9 +38,9 @@ const ControllerKind& HInfinityKind() {
   static constexpr ControllerKind kind{
       .name = "h-infinity",
       .doc = "H-infinity synthesis",
-      .read = Read,
-      .make = Make,
-      .document = Document,
+      .read = ReadHInfinity,
+      .make = MakeHInfinity,
+      .document = DocumentHInfinity,
   };
   return kind;
 }

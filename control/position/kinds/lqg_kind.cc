@@ -6,20 +6,20 @@ namespace ambrig {
 
 namespace {
 
-void Read(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
+void ReadLqg(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
   t.Read(c.lqg, kLqgFields);
   ReadSynthesis(t, names, c);
 }
 
-std::unique_ptr<PositionController> Make(const ControllerParameters& c,
-                                         const ControllerSite& site) {
+std::unique_ptr<PositionController> MakeLqg(const ControllerParameters& c,
+                                            const ControllerSite& site) {
   std::vector<LqgDesign> designs;
   for (const double speed : c.speeds)
     designs.push_back(DesignLqg(site.plant(c, speed), c.lqg, c.where));
   return std::make_unique<LqgController>(c.speeds, std::move(designs), site.f_max, site.period);
 }
 
-void Document(std::vector<ParameterRow>& rows) {
+void DocumentLqg(std::vector<ParameterRow>& rows) {
   AddRows(rows, "[controller] kind = \"lqg\"", kLqgFields);
 }
 
@@ -29,9 +29,9 @@ const ControllerKind& LqgKind() {
   static constexpr ControllerKind kind{
       .name = "lqg",
       .doc = "state feedback and Kalman filter",
-      .read = Read,
-      .make = Make,
-      .document = Document,
+      .read = ReadLqg,
+      .make = MakeLqg,
+      .document = DocumentLqg,
   };
   return kind;
 }

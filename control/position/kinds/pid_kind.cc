@@ -8,7 +8,7 @@ namespace ambrig {
 
 namespace {
 
-void Read(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
+void ReadPid(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
   t.Read(c.pid, kPidFields);
   for (const TomlTable& f : t.Tables("filter"))
     c.filters.push_back(ReadFilter(f, names.axes, c.rate));
@@ -39,8 +39,8 @@ PidSchedule ScheduleOf(const ControllerParameters& c) {
   return s;
 }
 
-std::unique_ptr<PositionController> Make(const ControllerParameters& c,
-                                         const ControllerSite& site) {
+std::unique_ptr<PositionController> MakePid(const ControllerParameters& c,
+                                            const ControllerSite& site) {
   if (c.filters.empty() && c.schedule.empty())
     return std::make_unique<DecentralisedPid>(std::vector<PidParameters>(site.axes.size(), c.pid),
                                               site.period);
@@ -55,7 +55,7 @@ std::unique_ptr<PositionController> Make(const ControllerParameters& c,
   return std::make_unique<FilteredPid>(std::move(axes), site.period);
 }
 
-void Document(std::vector<ParameterRow>& rows) {
+void DocumentPid(std::vector<ParameterRow>& rows) {
   AddRows(rows, "[controller]", kPidFields);
   AddRows(rows, "[[controller.schedule]]", kPidPointFields);
   AddRows(rows, "[[controller.filter]] kind = \"notch\"", kNotchFields);
@@ -69,9 +69,9 @@ const ControllerKind& PidKind() {
   static constexpr ControllerKind kind{
       .name = "pid",
       .doc = "one PID per axis",
-      .read = Read,
-      .make = Make,
-      .document = Document,
+      .read = ReadPid,
+      .make = MakePid,
+      .document = DocumentPid,
       .per_axis = true,
   };
   return kind;

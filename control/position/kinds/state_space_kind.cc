@@ -11,8 +11,8 @@ namespace ambrig {
 
 namespace {
 
-Eigen::MatrixXd Matrix(const TomlTable& t, const char* key, Eigen::Index rows,
-                       Eigen::Index columns) {
+Eigen::MatrixXd MatrixOf(const TomlTable& t, const char* key, Eigen::Index rows,
+                         Eigen::Index columns) {
   const auto all = t.Has(key) ? t.Rows(key) : std::vector<std::vector<double>>{};
   if (all.empty() && rows == 0) return Eigen::MatrixXd(0, columns);
   Eigen::MatrixXd m(rows, columns);
@@ -33,10 +33,10 @@ StateSpace MatricesOf(const TomlTable& t, std::size_t axes, double rate) {
   const auto n = t.Has("A") ? static_cast<Eigen::Index>(t.Rows("A").size()) : 0;
   if (n > 400) t.Fail("A", fmt::format("has {} rows, allowed: 0 to 400", n));
   StateSpace s;
-  s.A = Matrix(t, "A", n, n);
-  s.B = Matrix(t, "B", n, p);
-  s.C = n > 0 ? Matrix(t, "C", p, n) : Eigen::MatrixXd(p, 0);
-  s.D = t.Has("D") ? Matrix(t, "D", p, p) : Eigen::MatrixXd::Zero(p, p);
+  s.A = MatrixOf(t, "A", n, n);
+  s.B = MatrixOf(t, "B", n, p);
+  s.C = n > 0 ? MatrixOf(t, "C", p, n) : Eigen::MatrixXd(p, 0);
+  s.D = t.Has("D") ? MatrixOf(t, "D", p, p) : Eigen::MatrixXd::Zero(p, p);
   if (n == 0 && !t.Has("D")) t.Fail("D", "is missing, allowed: A, B, C and D, or D alone");
   return SampledSystem(t, s, rate, "z");
 }
@@ -51,7 +51,7 @@ StateSpace ReadSystem(const TomlTable& t, std::size_t axes, double rate) {
   return s;
 }
 
-void Read(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
+void ReadStateSpace(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
   const std::size_t axes = names.axes.size();
   const auto points = t.Tables("point");
   if (points.empty()) {
@@ -74,8 +74,8 @@ void Read(const TomlTable& t, const ControllerNames& names, ControllerParameters
   }
 }
 
-std::unique_ptr<PositionController> Make(const ControllerParameters& c,
-                                         const ControllerSite& site) {
+std::unique_ptr<PositionController> MakeStateSpace(const ControllerParameters& c,
+                                                   const ControllerSite& site) {
   std::vector<double> speeds;
   std::vector<StateSpace> points;
   for (const SystemPoint& s : c.systems) {
@@ -91,8 +91,8 @@ const ControllerKind& StateSpaceKind() {
   static constexpr ControllerKind kind{
       .name = "state-space",
       .doc = "a system of all axes, over the speed",
-      .read = Read,
-      .make = Make,
+      .read = ReadStateSpace,
+      .make = MakeStateSpace,
   };
   return kind;
 }

@@ -19,14 +19,14 @@ CoordinateGains ReadGains(const TomlTable& t, const char* key,
   return g;
 }
 
-void Read(const TomlTable& t, const ControllerNames&, ControllerParameters& c) {
+void ReadTiltTranslation(const TomlTable& t, const ControllerNames&, ControllerParameters& c) {
   c.translation = ReadGains(t, "translation", kTranslationFields);
   c.tilt = ReadGains(t, "tilt", kTiltFields);
   t.Read(c, kTiltTranslationFields);
 }
 
-std::unique_ptr<PositionController> Make(const ControllerParameters& c,
-                                         const ControllerSite& site) {
+std::unique_ptr<PositionController> MakeTiltTranslation(const ControllerParameters& c,
+                                                        const ControllerSite& site) {
   TiltTranslationGeometry g;
   g.inertia_polar = site.inertia_polar;
   for (const ControllerSite::Bearing& b : site.bearings) {
@@ -48,7 +48,7 @@ std::unique_ptr<PositionController> Make(const ControllerParameters& c,
                                            site.f_max, site.period);
 }
 
-void Document(std::vector<ParameterRow>& rows) {
+void DocumentTiltTranslation(std::vector<ParameterRow>& rows) {
   AddRows(rows, "[controller] kind = \"tilt-translation\"", kTiltTranslationFields);
   AddRows(rows, "[controller] kind = \"tilt-translation\", translation", kTranslationFields);
   AddRows(rows, "[controller] kind = \"tilt-translation\", tilt", kTiltFields);
@@ -60,9 +60,9 @@ const ControllerKind& TiltTranslationKind() {
   static constexpr ControllerKind kind{
       .name = "tilt-translation",
       .doc = "translation and tilt of the rotor",
-      .read = Read,
-      .make = Make,
-      .document = Document,
+      .read = ReadTiltTranslation,
+      .make = MakeTiltTranslation,
+      .document = DocumentTiltTranslation,
   };
   return kind;
 }

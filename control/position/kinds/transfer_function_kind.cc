@@ -43,7 +43,8 @@ AxisSystem ReadTransfer(const TomlTable& t, const std::vector<std::string>& axes
   return a;
 }
 
-void Read(const TomlTable& t, const ControllerNames& names, ControllerParameters& c) {
+void ReadTransferFunction(const TomlTable& t, const ControllerNames& names,
+                          ControllerParameters& c) {
   std::set<std::string> named;
   bool rest = false;
   for (const TomlTable& k : t.Tables("transfer")) {
@@ -76,8 +77,8 @@ StateSpace TransfersOf(const ControllerParameters& c, const std::vector<std::str
   return Append(parts);
 }
 
-std::unique_ptr<PositionController> Make(const ControllerParameters& c,
-                                         const ControllerSite& site) {
+std::unique_ptr<PositionController> MakeTransferFunction(const ControllerParameters& c,
+                                                         const ControllerSite& site) {
   return std::make_unique<StateSpaceController>(
       std::vector<double>{0}, std::vector<StateSpace>{TransfersOf(c, site.axes)}, site.f_max);
 }
@@ -88,8 +89,8 @@ const ControllerKind& TransferFunctionKind() {
   static constexpr ControllerKind kind{
       .name = "transfer-function",
       .doc = "one transfer function per axis",
-      .read = Read,
-      .make = Make,
+      .read = ReadTransferFunction,
+      .make = MakeTransferFunction,
   };
   return kind;
 }

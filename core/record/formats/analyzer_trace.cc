@@ -29,14 +29,14 @@ bool Pair(std::string_view line, std::complex<double>& value) {
   return !cells.Next();
 }
 
-bool Recognises(std::string_view begin) {
+bool IsAnalyzerTrace(std::string_view begin) {
   Lines lines(begin);
   if (!lines.Next() || Points(lines.line()) == 0 || !lines.Next()) return false;
   std::complex<double> ignored;
   return Pair(lines.line(), ignored);
 }
 
-Measurement Read(const std::string& path) {
+Measurement ReadAnalyzerTrace(const std::string& path) {
   const std::string text = ReadFile(path);
   Lines lines(text);
   lines.Next();
@@ -61,6 +61,6 @@ Measurement Read(const std::string& path) {
 
 }  // namespace
 
-RecordFormat AnalyzerTrace() { return {"SR785 trace", "", Recognises, Read}; }
+RecordFormat AnalyzerTrace() { return {"SR785 trace", "", IsAnalyzerTrace, ReadAnalyzerTrace}; }
 
 }  // namespace ambrig

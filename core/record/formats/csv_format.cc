@@ -20,7 +20,7 @@ bool LooksLikeCsv(std::string_view begin) {
          begin.find_first_of(",;\t") != std::string_view::npos;
 }
 
-Measurement Read(const std::string& path) {
+Measurement ReadCsvFile(const std::string& path) {
   TextTable table = ReadTextTable(path, ReadFile(path));
   if (IsFrequencyTable(table)) return ResponsesOfTable(table, path);
   return {RecordOfTable(std::move(table), path), {}};
@@ -28,6 +28,6 @@ Measurement Read(const std::string& path) {
 
 }  // namespace
 
-RecordFormat CsvFormat() { return {"CSV", ".csv .txt .tsv", LooksLikeCsv, Read}; }
+RecordFormat CsvFormat() { return {"CSV", ".csv .txt .tsv", LooksLikeCsv, ReadCsvFile}; }
 
 }  // namespace ambrig

@@ -24,7 +24,7 @@ namespace ambrig {
 namespace {
 
 constexpr std::string_view kEndOfHeader = "***End_of_Header***";
-constexpr int kPeriodDigits = 6;  // of Delta_X
+constexpr int kDeltaDigits = 6;  // of Delta_X
 
 /// One channel of one segment.
 struct Piece {
@@ -231,7 +231,7 @@ TimedChannel Join(const std::vector<std::vector<Piece>>& segments, std::size_t k
     if (!(first.step > 0))
       throw InputError(path + ": " + first.name + ": Delta_X = " + NumberText(first.step) +
                        ", allowed: above 0");
-    out.rate = RateOfPeriod(first.step, kPeriodDigits);
+    out.rate = RateOfPeriod(first.step, kDeltaDigits);
     out.start = x.empty() ? first.x0 : x[0];
   } else {
     const TimeBase base = UniformTimeBase(x, path + ": X_Value of " + first.name);
@@ -252,7 +252,7 @@ void CheckSegments(const std::vector<std::vector<Piece>>& segments, const std::s
   }
 }
 
-Measurement Read(const std::string& path) {
+Measurement ReadLabviewText(const std::string& path) {
   std::string text = ReadFile(path);
   if (text.starts_with("\xef\xbb\xbf")) text.erase(0, 3);
   std::vector<std::vector<Piece>> segments = LvmReader(path, text).Read();
@@ -277,13 +277,13 @@ Measurement Read(const std::string& path) {
   return out;
 }
 
-bool Recognises(std::string_view begin) {
+bool IsLabviewText(std::string_view begin) {
   if (begin.starts_with("\xef\xbb\xbf")) begin.remove_prefix(3);
   return begin.starts_with("LabVIEW Measurement");
 }
 
 }  // namespace
 
-RecordFormat LabviewText() { return {"LVM", ".lvm", Recognises, Read}; }
+RecordFormat LabviewText() { return {"LVM", ".lvm", IsLabviewText, ReadLabviewText}; }
 
 }  // namespace ambrig

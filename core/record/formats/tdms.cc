@@ -86,7 +86,7 @@ void ApplyScales(TdmsChannel& c, const std::string& path) {
     for (auto scale = chain.rbegin(); scale != chain.rend(); ++scale) x = (*scale)(x);
 }
 
-std::string Unit(const TdmsChannel& c) {
+std::string UnitOfChannel(const TdmsChannel& c) {
   const std::string* unit = c.Text("unit_string");
   if (unit == nullptr) unit = c.Text("NI_UnitDescription");
   return unit == nullptr ? "" : *unit;
@@ -98,7 +98,7 @@ bool OverFrequency(const TdmsChannel& c) {
 }
 
 /// Channel names, with the group's where two groups use one.
-std::vector<std::string> Names(const std::vector<TdmsChannel>& channels) {
+std::vector<std::string> ChannelNames(const std::vector<TdmsChannel>& channels) {
   std::multiset<std::string> all;
   for (const TdmsChannel& c : channels) all.insert(c.name);
   std::vector<std::string> names;
@@ -108,7 +108,7 @@ std::vector<std::string> Names(const std::vector<TdmsChannel>& channels) {
 
 /// A time base of the channels' own properties; rate 0 where they have none.
 TimedChannel WithTime(TdmsChannel& c, const std::string& name, const std::string& path) {
-  TimedChannel out{{name, c.timestamps ? "s" : Unit(c), std::move(c.samples)}};
+  TimedChannel out{{name, c.timestamps ? "s" : UnitOfChannel(c), std::move(c.samples)}};
   const double *step = c.Number("wf_increment"), *start = c.Number("wf_start_offset");
   if (step == nullptr || *step == 0 || IsTimeName(name)) return out;
   if (!(*step > 0) || !std::isfinite(*step))
@@ -146,7 +146,7 @@ Record Assemble(std::vector<TimedChannel> channels, const std::string& path) {
   return record;
 }
 
-Measurement Read(const std::string& path) {
+Measurement ReadTdms(const std::string& path) {
   const std::string bytes = ReadFile(path);
   std::vector<TdmsChannel> channels = ReadTdmsChannels(path, bytes);
   std::vector<std::string> notes;
@@ -158,7 +158,7 @@ Measurement Read(const std::string& path) {
     if (why != nullptr) notes.push_back(path + ": " + Name(c) + why + ", left out");
     return why != nullptr;
   });
-  const std::vector<std::string> names = Names(channels);
+  const std::vector<std::string> names = ChannelNames(channels);
   std::vector<TimedChannel> timed;
   for (std::size_t k = 0; k < channels.size(); ++k) {
     ApplyScales(channels[k], path);
@@ -174,7 +174,8 @@ Measurement Read(const std::string& path) {
 }  // namespace
 
 RecordFormat TdmsFormat() {
-  return {"TDMS", ".tdms", [](std::string_view begin) { return begin.starts_with("TDSm"); }, Read};
+  return {"TDMS", ".tdms", [](std::string_view begin) { return begin.starts_with("TDSm"); },
+          ReadTdms};
 }
 
 }  // namespace ambrig

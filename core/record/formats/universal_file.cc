@@ -19,9 +19,9 @@ namespace ambrig {
 namespace {
 
 constexpr int kTime = 17, kFrequency = 18;  // types of an axis
-constexpr int kPeriodDigits = 6;            // E13.5
+constexpr int kAbscissaDigits = 6;          // E13.5
 
-bool Recognises(std::string_view begin) {
+bool IsUniversalFile(std::string_view begin) {
   Lines lines(begin);
   while (lines.Next() && Trim(lines.line()).empty()) {
   }
@@ -55,7 +55,7 @@ bool IsResponse(const UniversalFunction& f) {
 }
 
 /// "A.x", "5+X", "A.x:5+X/B:1-Z": the shortest way of naming that tells all functions apart.
-std::vector<std::string> Names(const std::vector<const UniversalFunction*>& functions) {
+std::vector<std::string> FunctionNames(const std::vector<const UniversalFunction*>& functions) {
   using Naming = std::function<std::string(const UniversalFunction&)>;
   const auto reference = [](const UniversalFunction& f, const std::string& text) {
     return f.type == 1 || f.type == 0 || text.empty() ? "" : "/" + text;
@@ -92,7 +92,7 @@ TimedChannel TimeChannel(const UniversalFunction& f, const std::string& name,
     if (!(f.step > 0) || !std::isfinite(f.first))
       throw InputError(path + ": " + name + ": abscissa from " + std::to_string(f.first) +
                        " in steps of " + std::to_string(f.step) + " s, allowed: steps above 0");
-    c.rate = RateOfPeriod(f.step, kPeriodDigits);
+    c.rate = RateOfPeriod(f.step, kAbscissaDigits);
     c.start = f.first;
   } else {
     const TimeBase base = UniformTimeBase(f.x, path + ": abscissa of " + name);
@@ -102,7 +102,7 @@ TimedChannel TimeChannel(const UniversalFunction& f, const std::string& name,
   return c;
 }
 
-std::vector<double> Frequencies(const UniversalFunction& f) {
+std::vector<double> FrequenciesOf(const UniversalFunction& f) {
   if (!f.even) return f.x;
   std::vector<double> out(f.real.size());
   for (std::size_t k = 0; k < out.size(); ++k) out[k] = f.first + static_cast<double>(k) * f.step;
@@ -118,10 +118,10 @@ std::string ResponseUnit(const UniversalFunction& f) {
 FrequencyResponses Responses(const std::vector<const UniversalFunction*>& functions,
                              const std::string& path, std::vector<std::string>& notes) {
   FrequencyResponses out;
-  const std::vector<std::string> names = Names(functions);
+  const std::vector<std::string> names = FunctionNames(functions);
   for (std::size_t k = 0; k < functions.size(); ++k) {
     const UniversalFunction& f = *functions[k];
-    std::vector<double> axis = Frequencies(f);
+    std::vector<double> axis = FrequenciesOf(f);
     if (k == 0) out.frequency = axis;
     if (axis != out.frequency) {
       notes.push_back(path + ": " + names[k] + " has other frequencies than " + names[0] +
@@ -137,7 +137,7 @@ FrequencyResponses Responses(const std::vector<const UniversalFunction*>& functi
   return out;
 }
 
-Measurement Read(const std::string& path) {
+Measurement ReadUniversalFile(const std::string& path) {
   const std::string bytes = ReadFile(path);
   const std::vector<UniversalFunction> functions = ReadFunctions(path, bytes);
   if (functions.empty()) throw InputError(path + ": no data set 58 (function) in the file");
@@ -159,7 +159,7 @@ Measurement Read(const std::string& path) {
                      std::to_string(functions.front().type));
   Measurement out;
   std::vector<TimedChannel> channels;
-  const std::vector<std::string> names = Names(over_time);
+  const std::vector<std::string> names = FunctionNames(over_time);
   for (std::size_t k = 0; k < over_time.size(); ++k)
     channels.push_back(TimeChannel(*over_time[k], names[k], path));
   out.record = OneTimeBase(std::move(channels), path);
@@ -171,6 +171,8 @@ Measurement Read(const std::string& path) {
 
 }  // namespace
 
-RecordFormat UniversalFile() { return {"UFF 58", ".unv .uff .uf", Recognises, Read}; }
+RecordFormat UniversalFile() {
+  return {"UFF 58", ".unv .uff .uf", IsUniversalFile, ReadUniversalFile};
+}
 
 }  // namespace ambrig

@@ -14,7 +14,7 @@ namespace ambrig {
 namespace {
 
 /// A field of a line in columns; counted in characters, which writers of UTF-8 do.
-std::string Field(std::string_view line, std::size_t from, std::size_t width) {
+std::string FieldOfLine(std::string_view line, std::size_t from, std::size_t width) {
   const std::string text = Utf8(line);
   std::size_t begin = std::string::npos, end = text.size(), character = 0;
   for (std::size_t k = 0; k < text.size(); ++k) {
@@ -43,7 +43,8 @@ bool FortranNumber(std::string_view cell, double& value) {
 }
 
 UniversalAxis Axis(std::string_view line) {
-  return {static_cast<int>(Integer(Field(line, 0, 10))), Field(line, 26, 20), Field(line, 47, 20)};
+  return {static_cast<int>(Integer(FieldOfLine(line, 0, 10))), FieldOfLine(line, 26, 20),
+          FieldOfLine(line, 47, 20)};
 }
 
 std::vector<std::string_view> Words(std::string_view line) {
@@ -67,7 +68,7 @@ DataForm ReadForm(UniversalText& text, UniversalFunction& f) {
   bool good = true;
   const std::size_t from[] = {0, 10, 20, 30, 43}, width[] = {10, 10, 10, 13, 13};
   for (int k = 0; k < 5 && good; ++k)
-    good = FortranNumber(Field(text.line(), from[k], width[k]), v[k]);
+    good = FortranNumber(FieldOfLine(text.line(), from[k], width[k]), v[k]);
   if (!good) {
     const auto words = Words(text.line());
     good = words.size() >= 5;
@@ -75,9 +76,10 @@ DataForm ReadForm(UniversalText& text, UniversalFunction& f) {
   }
   const auto type = static_cast<int>(good && v[0] >= 0 && v[0] < 100 ? v[0] : -1);
   if (type != 2 && type != 4 && type != 5 && type != 6)
-    text.Fail("ordinate type " + Field(text.line(), 0, 10) +
+    text.Fail("ordinate type " + FieldOfLine(text.line(), 0, 10) +
               ", allowed 2, 4 (real), 5, 6 (complex) in a record 7 of 3I10,3E13.5");
-  if (!(v[1] >= 0 && v[1] < 1e15)) text.Fail("number of points " + Field(text.line(), 10, 10));
+  if (!(v[1] >= 0 && v[1] < 1e15))
+    text.Fail("number of points " + FieldOfLine(text.line(), 10, 10));
   f.complex = type >= 5;
   f.even = v[2] != 0;
   f.first = v[3];
@@ -90,13 +92,13 @@ DataForm ReadHead(UniversalText& text, UniversalFunction& f) {
     if (!text.Next() || text.AtMark()) text.Fail(std::string("the data set ends before ") + record);
     return text.line();
   };
-  for (std::string& id : f.id) id = Field(next("its text"), 0, 80);
+  for (std::string& id : f.id) id = FieldOfLine(next("its text"), 0, 80);
   const std::string_view dof = next("record 6");
-  f.type = static_cast<int>(Integer(Field(dof, 0, 5)));
-  f.response = {Field(dof, 31, 10), Integer(Field(dof, 41, 10)),
-                static_cast<int>(Integer(Field(dof, 51, 4)))};
-  f.reference = {Field(dof, 56, 10), Integer(Field(dof, 66, 10)),
-                 static_cast<int>(Integer(Field(dof, 76, 4)))};
+  f.type = static_cast<int>(Integer(FieldOfLine(dof, 0, 5)));
+  f.response = {FieldOfLine(dof, 31, 10), Integer(FieldOfLine(dof, 41, 10)),
+                static_cast<int>(Integer(FieldOfLine(dof, 51, 4)))};
+  f.reference = {FieldOfLine(dof, 56, 10), Integer(FieldOfLine(dof, 66, 10)),
+                 static_cast<int>(Integer(FieldOfLine(dof, 76, 4)))};
   next("record 7");
   const DataForm form = ReadForm(text, f);
   f.abscissa = Axis(next("record 8"));
@@ -130,7 +132,7 @@ bool InColumns(std::string_view line, const std::vector<std::size_t>& widths,
   return true;
 }
 
-void ReadText(UniversalText& text, UniversalFunction& f, const DataForm& form) {
+void ReadValuesAsText(UniversalText& text, UniversalFunction& f, const DataForm& form) {
   const std::size_t each = 1 + (f.even ? 0 : 1) + (f.complex ? 1 : 0);
   std::vector<std::size_t> widths(1, form.is_double ? 20 : 13);
   if (form.is_double && !f.even)
@@ -249,7 +251,7 @@ UniversalFunction ReadUniversalFunction(UniversalText& text) {
   if (binary)
     ReadBinary(text, f, form, order == "1");
   else
-    ReadText(text, f, form);
+    ReadValuesAsText(text, f, form);
   return f;
 }
 

@@ -14,7 +14,7 @@ namespace {
 
 /// rms of fine minus coarse change over rms of the fine change.
 double Error(const CaseModel& model, const std::vector<Hypothesis>& pair) {
-  const auto fine = model.PredictAll(pair), coarse = model.PredictAll(pair, Fidelity::kCoarse);
+  const auto fine = model.PredictAll(pair), coarse = model.PredictAll(pair, ModelFidelity::kCoarse);
   double error = 0, change = 0;
   for (const Target& t : model.targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k) {

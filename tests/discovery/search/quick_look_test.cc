@@ -18,7 +18,7 @@ TEST(QuickLook, RowsOfOtherRecordsAreTheOnesGiven) {
   Hypothesis h = base.hypothesis;
   h.AddEffect(LinearCase::Gain(1.2));
   const QuickLook look{{0, 1, 0, 0, 0}, std::vector<double>(c.model.size(), 7)};
-  const auto part = c.model.PredictAll({h}, Fidelity::kAsSampled, &look)[0];
+  const auto part = c.model.PredictAll({h}, ModelFidelity::kAsSampled, &look)[0];
   const auto all = c.model.Predict(h);
   ASSERT_TRUE(part && all);
   for (const Target& t : c.model.targets())

@@ -120,7 +120,7 @@ TEST(RotorModes, CriticalSpeedMapRisesToThePinnedShaft) {
 }
 
 TEST(RotorModes, OrbitAxes) {
-  const OrbitAxes forward = Orbit({3, 0}, {0, -2}), backward = Orbit({3, 0}, {0, 2});
+  const OrbitAxes forward = AxesOfOrbit({3, 0}, {0, -2}), backward = AxesOfOrbit({3, 0}, {0, 2});
   EXPECT_NEAR(forward.major, 3, 1e-15);
   EXPECT_NEAR(forward.minor, 2, 1e-15);
   EXPECT_NEAR(backward.minor, -2, 1e-15);

@@ -1,0 +1,15 @@
+#pragma once
+/// A law of the iron whose drop hangs on the present flux alone: a flux that has stood for ever
+/// drops what it drops now, and there is nothing to remember.
+#include "actuators/magnetics/flux_law.h"
+
+namespace ambrig {
+
+class MemorylessLaw : public FluxLaw {
+ public:
+  void Steady(const Lane& phi, Lane* drop, Lane* slope) const final { Drop(phi, drop, slope); }
+  void Commit(const Lane& /*phi*/) final {}
+  void Settle(const Lane& /*phi*/) final {}
+};
+
+}  // namespace ambrig
