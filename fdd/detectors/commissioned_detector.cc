@@ -8,7 +8,6 @@ namespace ambrig {
 namespace {
 
 constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
-constexpr int kInARow = 3;             // periods
 constexpr double kGross = 0.5;         // |c|
 constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
 constexpr int kLevelWindow = 2;        // over which coils are compared: ten periods
@@ -171,7 +170,8 @@ int CommissionedDetector::GrossCoils() const {
 bool CommissionedDetector::Decided(int coil, double excess) const {
   const bool gross = excess < -kGross || excess > kGrossAbove;
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
-    return PhasesAgree(coil) || CurrentIsFalse(coil);
+    return PhasesAgree(coil) || CurrentIsFalse(coil) || HasNoCurrent(coil);
+  if (gross && HasNoCurrent(coil)) return true;
   // Inside what was learnt no error of the model is as large: several coils have failed at once.
   // What these throw at a healthy neighbour is smaller.
   if (Relies() && !out_of_range_ && gross)
@@ -181,13 +181,15 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
 
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
+  joint_.Keep(in, sampling_.samples, filter_.state());
   filter_.Period(in, &period_);
   WatchCurrents(in);
   const int stepped = jumps_.Period(in, now_);
   const double nearest = kClosestGap * gap_;
   const bool comparable = in.comparable && std::hypot(in.x1, in.y1) < gap_ - nearest;
   if (!comparable) {
-    ratio_ = streak_ = Lane{};
+    ratio_ = streak_ = dead_ = Lane{};
+    joint_.Clear();
     return {};
   }
   if (probe_.running()) {
@@ -203,7 +205,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   const int coil = Ratios();
   if (paused_ > 0) {
     --paused_;
-    streak_ = Lane{};
+    streak_ = dead_ = Lane{};
     jumps_.Forget();
     return {};
   }
@@ -225,6 +227,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   CountStreaks(in.t);
   if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
+  if (JudgedTogether(in, &out)) return out;
   out.turns = MoreTurns(coil, out.excess);
   out.decided = out.turns > 0 || Decided(coil, out.excess);
   if (!out.decided) return out;
@@ -234,6 +237,11 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
 }
 
 void CommissionedDetector::CountStreaks(double t) {
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    const bool dead = period_.largest[j] < kNoCurrent && now_[j] < -kGross;
+    if (dead_[j] == 0) dead_since_[j] = t;
+    dead_[j] = dead ? dead_[j] + 1 : 0;
+  }
   const double least = kCompanion * *std::max_element(ratio_.v, ratio_.v + kLanes);
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     if (!(ratio_[j] > 1) || ratio_[j] < least) {

@@ -5,7 +5,13 @@
 /// A coil's ratio is the largest |c|/band over the windows, band = max(floor, 1.5 times the largest
 /// of commissioning). The coil of the largest ratio is blamed when it stays above 1 in three
 /// periods in a row and a second witness agrees: either c of the on and of the off phase have one
-/// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point.
+/// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point, or its
+/// reading is zero while the bridge drives.
+///
+/// Where c is gross, the shares of the turns of all coils are solved for together
+/// (joint_turns.h): several coils that fail at one instant move the c of each other and of healthy
+/// neighbours. All coils that have lost turns by that solution, and all without current, are
+/// blamed at once.
 ///
 /// Only gross values count in a period in which a phase starts at zero current, the shaft may be
 /// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2).
@@ -25,6 +31,7 @@
 #include "fdd/detectors/coil_probe.h"
 #include "fdd/detectors/excess_windows.h"
 #include "fdd/detectors/jump_watch.h"
+#include "fdd/examination/joint_turns.h"
 
 namespace ambrig {
 
@@ -90,6 +97,12 @@ class CommissionedDetector : public CoilDetector {
   /// Largest |c| of this period.
   double LargestNow() const;
   void CountStreaks(double t);
+  /// Which coils have failed, all judged together: no current, or shares of their turns that explain
+  /// all c. False: no such explanation.
+  bool JudgedTogether(const MeasuredPeriod& in, Outcome* out) const;
+  std::vector<Diagnosis> CoilsWithoutCurrent(double t) const;
+  /// Its reading is zero although the bridge drives.
+  bool HasNoCurrent(int coil) const;
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(int decided, double excess, double time) const;
   bool Decided(int coil, double excess) const;
@@ -116,7 +129,9 @@ class CommissionedDetector : public CoilDetector {
   Lane idle_;         // mean reading of coils without turns [A]
   CoilProbe probe_;
   JumpWatch jumps_;
-  Lane streak_, onset_;  // periods in a row that a coil was suspect; since [s]
+  JointTurns joint_;
+  Lane streak_, onset_;     // periods in a row that a coil was suspect; since [s]
+  Lane dead_, dead_since_;  // periods in a row without current though driven; since [s]
   int paused_ = 8;
   long long count_ = 0;
 };
