@@ -24,6 +24,7 @@ constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rule
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
 constexpr double kNoCurrent = 0.12;  // [A]
 constexpr double kWider = 2.5;       // bands, once coils were given up or lost turns
+constexpr double kWiderEach = 0.5;   // more, for each coil with fewer turns after the first
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 
@@ -57,9 +58,19 @@ void CommissionedDetector::SetTurns(int coil, double share) {
   filter_.SetTurns(coil, share);
   if (share == 0) windows_.Leave(coil);
   windows_.Clear();
-  wider_ = kWider;
+  SetWider();
   SetBands();
   Pause(25);
+}
+
+void CommissionedDetector::SetWider() {
+  double weaker = 0;  // coils that lost some of their turns: errors of their shares are in all c
+  wider_ = 1;
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    if (share_[j] < 1) wider_ = kWider;
+    weaker += share_[j] > 0 && share_[j] < 1;
+  }
+  if (weaker > 1) wider_ *= 1 + kWiderEach * (weaker - 1);
 }
 
 void CommissionedDetector::Restore(int coil, double share) {
@@ -67,24 +78,39 @@ void CommissionedDetector::Restore(int coil, double share) {
   filter_.SetTurns(coil, share);
   windows_.Return(coil);
   windows_.Clear();
-  wider_ = 1;
-  for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (share_[j] < 1) wider_ = kWider;
+  SetWider();
   SetBands();
   Pause(25);
 }
 
 void CommissionedDetector::BeginProbe(int coil) {
-  probe_.Begin(coil, idle_[coil], Relies() ? kProbeBand : kUncommissionedProbeBand);
-  filter_.SetTurns(coil, 1);
+  // A working coil may carry a little current.
+  const double idle = share_[coil] > 0 ? 0 : idle_[coil];
+  probe_.Begin(coil, idle, Relies() ? kProbeBand : kUncommissionedProbeBand);
+  filter_.SetTurns(coil, share_[coil] > 0 ? share_[coil] : 1);
   streak_ = Lane{};
 }
 
-void CommissionedDetector::EndProbe() {
-  filter_.SetTurns(probe_.coil(), share_[probe_.coil()]);
+Diagnosis CommissionedDetector::EndProbe(double t) {
+  const int coil = probe_.coil();
+  Diagnosis found;
+  if (share_[coil] > 0 && probe_.answer() == ProbeAnswer::kFaulty) {
+    found.coil = coil;
+    found.time = found.onset = t;
+    found.confidence = 1;
+    const double c = probe_.excess();
+    if (probe_.no_current()) {
+      found.cls = FaultClass::kOpen;
+    } else if (Relies() && c > kGross) {
+      found.cls = FaultClass::kPartialShort;
+      found.fraction = 1 - 1 / std::sqrt(1 + c);
+    }
+  }
+  filter_.SetTurns(coil, share_[coil]);
   probe_.End();
   windows_.Clear();
   Pause(kAfterProbe);
+  return found;
 }
 
 void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
@@ -194,9 +220,9 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   }
   if (probe_.running()) {
     Lane probed;
-    probed[probe_.coil()] = 1;
+    probed[probe_.coil()] = share_[probe_.coil()] > 0 ? share_[probe_.coil()] : 1;
     ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
-    probe_.Add(excess_);
+    probe_.Add(excess_, period_.largest[probe_.coil()]);
     ratio_ = Lane{};
     return {};
   }

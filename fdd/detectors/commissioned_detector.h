@@ -23,7 +23,8 @@
 /// keeps flux out, which makes c positive in many coils alike.
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
-/// their bands are 2.5 times as wide from then on.
+/// their bands are 2.5 times as wide from then on, and half as wide again for each further coil
+/// that lost turns.
 ///
 /// A reading that steps by what no voltage can make, without a slope that is wrong afterwards, is a
 /// current sensor's fault (jump_watch.h).
@@ -61,9 +62,11 @@ class CommissionedDetector : public CoilDetector {
   void Pause(int periods) { paused_ = std::max(paused_, periods); }
   /// Takes back what SetTurns said, and forgets what was seen of it; `share` of the turns carries.
   void Restore(int coil, double share = 1);
-  /// A current is asked of a coil that has no turns: its slopes are watched, no coil is judged.
+  /// A current is asked of a coil that has no turns, or is asked for none: its slopes are watched, no
+  /// coil is judged.
   void BeginProbe(int coil);
-  void EndProbe();
+  /// What it showed of a coil that had turns: no current, or a gross short; else class none.
+  Diagnosis EndProbe(double t);
   const CoilProbe& probe() const { return probe_; }
 
   const Lane& ratio() const { return ratio_; }
@@ -82,6 +85,7 @@ class CommissionedDetector : public CoilDetector {
     double top[kInARow] = {}, bottom[kInARow] = {};
   };
   void SetBands();
+  void SetWider();
   void WatchCurrents(const MeasuredPeriod& in);
   void WatchRange(const MeasuredPeriod& in);
   /// Ratios of this period; returns the coil of the largest.
