@@ -22,9 +22,9 @@ constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rules
 // without commissioning, beside the floors: what effects of usual size do to nominal models
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
-constexpr double kNoCurrent = 0.12;  // [A]
-constexpr double kWider = 2.5;       // bands, once coils were given up or lost turns
-constexpr double kWiderEach = 0.5;   // more, for each coil with fewer turns after the first
+constexpr double kNoCurrent = 0.12;    // [A]
+constexpr double kWider = 2.5;         // bands, once coils were given up or lost turns
+constexpr double kLeastWeaker = 0.25;  // of them, where a coil has fewer turns than it had
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 
@@ -46,11 +46,17 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
 }
 
 void CommissionedDetector::SetBands() {
+  // Errors of the share that a coil is believed to have left are in the c of all others.
+  double least = 0;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (share_[j] > 0 && share_[j] < 1) least = kLeastWeaker;
   for (int w = 0; w < kExcessWindows; ++w)
     for (int j = 0; j < kLanes; ++j)
-      band_[w][j] = model_.learnt ? wider_ * std::max(kExcessFloor[w],
-                                                      kBandOverHealthy * model_.largest[w][j])
-                                  : kUncommissioned[w];
+      band_[w][j] =
+          model_.learnt
+              ? std::max(least, wider_ * std::max(kExcessFloor[w],
+                                                  kBandOverHealthy * model_.largest[w][j]))
+              : kUncommissioned[w];
 }
 
 void CommissionedDetector::SetTurns(int coil, double share) {
@@ -64,13 +70,9 @@ void CommissionedDetector::SetTurns(int coil, double share) {
 }
 
 void CommissionedDetector::SetWider() {
-  double weaker = 0;  // coils that lost some of their turns: errors of their shares are in all c
   wider_ = 1;
-  for (int j = 0; j < filter_.nominal().coils; ++j) {
+  for (int j = 0; j < filter_.nominal().coils; ++j)
     if (share_[j] < 1) wider_ = kWider;
-    weaker += share_[j] > 0 && share_[j] < 1;
-  }
-  if (weaker > 1) wider_ *= 1 + kWiderEach * (weaker - 1);
 }
 
 void CommissionedDetector::Restore(int coil, double share) {

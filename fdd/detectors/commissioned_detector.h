@@ -23,8 +23,7 @@
 /// keeps flux out, which makes c positive in many coils alike.
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
-/// their bands are 2.5 times as wide from then on, and half as wide again for each further coil
-/// that lost turns.
+/// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns.
 ///
 /// A reading that steps by what no voltage can make, without a slope that is wrong afterwards, is a
 /// current sensor's fault (jump_watch.h).
