@@ -11,7 +11,8 @@ constexpr double kSlice = 0.02;                      // [s] orbits are compared 
 constexpr double kFirst = 10e-3, kWhenGrown = 2e-3;  // [s] after the action
 constexpr double kLonger = 4;
 constexpr int kLooks = 3;
-constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;  // of the orbit; [m]
+constexpr double kIdleFirst = 10e-3, kIdleAgain = 50e-3, kBetween = 8e-3;  // [s] of idle coils
+constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;                       // of the orbit; [m]
 
 }  // namespace
 
@@ -50,7 +51,25 @@ int CoilProbes::Due(double t) const {
     const bool early = !look.early && t > look.given_up + kWhenGrown && Grown(look);
     if (look.left > 0 && (t >= look.next || early)) return coil;
   }
+  return DueIdle(t);
+}
+
+void CoilProbes::Idle(int coil, bool idle, double t) {
+  IdleTime& at = idle_[static_cast<std::size_t>(coil)];
+  if (idle && !at.idle) at.next = std::max(at.next, t + kIdleFirst);
+  at.idle = idle;
+}
+
+int CoilProbes::DueIdle(double t) const {
+  if (t < idle_again_) return -1;
+  for (std::size_t coil = 0; coil < idle_.size(); ++coil)
+    if (idle_[coil].idle && t >= idle_[coil].next) return static_cast<int>(coil);
   return -1;
+}
+
+void CoilProbes::AnswerIdle(int coil, double t) {
+  idle_[static_cast<std::size_t>(coil)].next = t + kIdleAgain;
+  idle_again_ = t + kBetween;
 }
 
 void CoilProbes::Answer(int coil, bool healthy, double t) {

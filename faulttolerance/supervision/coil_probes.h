@@ -7,6 +7,10 @@
 /// given up for good.
 ///
 /// Not looked at: a switch that stays on (the current could not be taken away again).
+///
+/// A coil that works but has been asked for next to no current for 10 ms would not show a fault:
+/// the same current is asked of it then and every 50 ms.
+#include <array>
 #include <map>
 
 #include "actuators/magnetics/lane.h"
@@ -19,13 +23,17 @@ class CoilProbes {
   /// Displacement of the shaft at the bearing at the end of a period [m].
   void Orbit(double t, double displacement);
   void GivenUp(int coil, FaultClass cls, double t);
+  /// Whether a coil that works is asked for next to no current at t.
+  void Idle(int coil, bool idle, double t);
   /// The coil whose probe is due, -1: none.
   int Due(double t) const;
   /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
   /// witness then only to a detector that does not doubt its model.
   bool FalseCurrent(int coil) const;
-  /// The answer to the probe of `coil` at t.
+  /// The answer to the probe of `coil`, which was given up, at t.
   void Answer(int coil, bool healthy, double t);
+  /// The probe of the idle coil `coil` ended at t.
+  void AnswerIdle(int coil, double t);
 
  private:
   struct Look {
@@ -38,7 +46,15 @@ class CoilProbes {
     bool false_current = false;
   };
   bool Grown(const Look& look) const;
+  int DueIdle(double t) const;
 
+  /// Of a coil that works.
+  struct IdleTime {
+    bool idle = false;
+    double next = 0;  // probe, while it is idle [s]
+  };
+  std::array<IdleTime, kLanes> idle_;
+  double idle_again_ = 0;  // no idle coil is probed before [s]
   std::map<int, Look> looks_;
   Lane returned_;          // 1: came back once
   double slice_ends_ = 0;  // [s]

@@ -16,7 +16,8 @@ namespace {
 constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
-constexpr double kProbeCurrent = 0.4;                       // of a coil's bias current
+constexpr double kProbeCurrent = 0.4;  // of a coil's bias current
+constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows nothing
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
 std::string CoilName(const std::string& bearing, int coil) {
@@ -143,6 +144,10 @@ void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& 
 void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
                             const BearingControl& control, SupervisorOutput& out) {
   if (in.comparable) w.probes.Orbit(t, std::hypot(in.x1, in.y1));
+  for (int j = 0; j < control.coils; ++j) {
+    const bool works = w.turns_left[j] > 0 && position_loop && !in.uncertainty.any();
+    w.probes.Idle(j, works && control.commanded[j] < kIdleCurrent * w.bias, t);
+  }
   const int coil = w.probed;
   if (coil < 0) {
     const int due = in.comparable ? w.probes.Due(t) : -1;
@@ -158,14 +163,36 @@ void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool
   }
   const ProbeAnswer answer = w.detector->Probed();
   if (answer == ProbeAnswer::kNone) return;
+  if (w.turns_left[coil] > 0) {
+    EndIdleProbe(w, coil, t, control, out);
+    return;
+  }
   const bool healthy =
       answer == ProbeAnswer::kHealthy && !(w.probes.FalseCurrent(coil) && w.doubted);
   w.probed = -1;
-  w.detector->EndProbe(healthy);
+  w.detector->EndProbe(healthy, t);
   w.probes.Answer(coil, healthy, t);
   out.actions.push_back(ProbeCoil{w.index, coil, 0});
   actions_.push_back({t, CoilName(w.bearing->name, coil), "probe", healthy ? "healthy" : "faulty"});
   if (healthy) Restore(w, coil, 1, t, "healthy when probed", position_loop, control, out);
+}
+
+void FaultSupervisor::EndIdleProbe(Watched& w, int coil, double t, const BearingControl& control,
+                                   SupervisorOutput& out) {
+  w.probed = -1;
+  w.probes.AnswerIdle(coil, t);
+  const Diagnosis found = w.detector->EndProbe(false, t);
+  CurrentRegulator held = control.regulator[static_cast<std::size_t>(coil)];
+  held.HoldCurrent(control.commanded[coil], CoilResistance(*w.bearing));
+  out.actions.push_back(EnableCoil{w.index, coil});
+  out.actions.push_back(SetIntegral{w.index, coil, held.integral()});
+  if (found.cls == FaultClass::kNone) return;
+  const std::string name = CoilName(w.bearing->name, coil);
+  actions_.push_back({t, name, "probe", "faulty"});
+  out.events.push_back({t, "detected", name, "", 0});
+  out.events.push_back({t, "classified", name, ToText(found.cls), found.fraction});
+  Disable(w, found, out);
+  Redistribute(w, t, control, out);
 }
 
 void FaultSupervisor::Restore(Watched& w, int coil, double turns, double t,

@@ -56,9 +56,11 @@ class FaultSupervisor : public Supervisor {
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
   void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
   void Redistribute(Watched& w, double t, const BearingControl& control, SupervisorOutput& out);
-  /// A second look at coils that were given up.
+  /// A second look at coils that were given up, a first one at coils that lie idle.
   void Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
              const BearingControl& control, SupervisorOutput& out);
+  void EndIdleProbe(Watched& w, int coil, double t, const BearingControl& control,
+                    SupervisorOutput& out);
   void Restore(Watched& w, int coil, double turns, double t, const std::string& reason,
                bool position_loop, const BearingControl& control, SupervisorOutput& out);
   /// The map of a bearing whose coils do not share a rotor; returns its class for the record.

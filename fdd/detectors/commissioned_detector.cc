@@ -8,7 +8,6 @@ namespace ambrig {
 namespace {
 
 constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
-constexpr int kInARow = 3;             // periods
 constexpr double kGross = 0.5;         // |c|
 constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
 constexpr int kLevelWindow = 2;        // over which coils are compared: ten periods
@@ -23,8 +22,9 @@ constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rules
 // without commissioning, beside the floors: what effects of usual size do to nominal models
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
-constexpr double kNoCurrent = 0.12;  // [A]
-constexpr double kWider = 2.5;       // bands, once coils were given up or lost turns
+constexpr double kNoCurrent = 0.12;    // [A]
+constexpr double kWider = 2.5;         // bands, once coils were given up or lost turns
+constexpr double kLeastWeaker = 0.25;  // of them, where a coil has fewer turns than it had
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 
@@ -46,11 +46,17 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
 }
 
 void CommissionedDetector::SetBands() {
+  // Errors of the share that a coil is believed to have left are in the c of all others.
+  double least = 0;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (share_[j] > 0 && share_[j] < 1) least = kLeastWeaker;
   for (int w = 0; w < kExcessWindows; ++w)
     for (int j = 0; j < kLanes; ++j)
-      band_[w][j] = model_.learnt ? wider_ * std::max(kExcessFloor[w],
-                                                      kBandOverHealthy * model_.largest[w][j])
-                                  : kUncommissioned[w];
+      band_[w][j] =
+          model_.learnt
+              ? std::max(least, wider_ * std::max(kExcessFloor[w],
+                                                  kBandOverHealthy * model_.largest[w][j]))
+              : kUncommissioned[w];
 }
 
 void CommissionedDetector::SetTurns(int coil, double share) {
@@ -58,9 +64,15 @@ void CommissionedDetector::SetTurns(int coil, double share) {
   filter_.SetTurns(coil, share);
   if (share == 0) windows_.Leave(coil);
   windows_.Clear();
-  wider_ = kWider;
+  SetWider();
   SetBands();
   Pause(25);
+}
+
+void CommissionedDetector::SetWider() {
+  wider_ = 1;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (share_[j] < 1) wider_ = kWider;
 }
 
 void CommissionedDetector::Restore(int coil, double share) {
@@ -68,24 +80,39 @@ void CommissionedDetector::Restore(int coil, double share) {
   filter_.SetTurns(coil, share);
   windows_.Return(coil);
   windows_.Clear();
-  wider_ = 1;
-  for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (share_[j] < 1) wider_ = kWider;
+  SetWider();
   SetBands();
   Pause(25);
 }
 
 void CommissionedDetector::BeginProbe(int coil) {
-  probe_.Begin(coil, idle_[coil], Relies() ? kProbeBand : kUncommissionedProbeBand);
-  filter_.SetTurns(coil, 1);
+  // A working coil may carry a little current.
+  const double idle = share_[coil] > 0 ? 0 : idle_[coil];
+  probe_.Begin(coil, idle, Relies() ? kProbeBand : kUncommissionedProbeBand);
+  filter_.SetTurns(coil, share_[coil] > 0 ? share_[coil] : 1);
   streak_ = Lane{};
 }
 
-void CommissionedDetector::EndProbe() {
-  filter_.SetTurns(probe_.coil(), share_[probe_.coil()]);
+Diagnosis CommissionedDetector::EndProbe(double t) {
+  const int coil = probe_.coil();
+  Diagnosis found;
+  if (share_[coil] > 0 && probe_.answer() == ProbeAnswer::kFaulty) {
+    found.coil = coil;
+    found.time = found.onset = t;
+    found.confidence = 1;
+    const double c = probe_.excess();
+    if (probe_.no_current()) {
+      found.cls = FaultClass::kOpen;
+    } else if (Relies() && c > kGross) {
+      found.cls = FaultClass::kPartialShort;
+      found.fraction = 1 - 1 / std::sqrt(1 + c);
+    }
+  }
+  filter_.SetTurns(coil, share_[coil]);
   probe_.End();
   windows_.Clear();
   Pause(kAfterProbe);
+  return found;
 }
 
 void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
@@ -171,7 +198,8 @@ int CommissionedDetector::GrossCoils() const {
 bool CommissionedDetector::Decided(int coil, double excess) const {
   const bool gross = excess < -kGross || excess > kGrossAbove;
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
-    return PhasesAgree(coil) || CurrentIsFalse(coil);
+    return PhasesAgree(coil) || CurrentIsFalse(coil) || HasNoCurrent(coil);
+  if (gross && HasNoCurrent(coil)) return true;
   // Inside what was learnt no error of the model is as large: several coils have failed at once.
   // What these throw at a healthy neighbour is smaller.
   if (Relies() && !out_of_range_ && gross)
@@ -181,20 +209,22 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
 
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
+  joint_.Keep(in, sampling_.samples, filter_.state());
   filter_.Period(in, &period_);
   WatchCurrents(in);
   const int stepped = jumps_.Period(in, now_);
   const double nearest = kClosestGap * gap_;
   const bool comparable = in.comparable && std::hypot(in.x1, in.y1) < gap_ - nearest;
   if (!comparable) {
-    ratio_ = streak_ = Lane{};
+    ratio_ = streak_ = dead_ = Lane{};
+    joint_.Clear();
     return {};
   }
   if (probe_.running()) {
     Lane probed;
-    probed[probe_.coil()] = 1;
+    probed[probe_.coil()] = share_[probe_.coil()] > 0 ? share_[probe_.coil()] : 1;
     ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
-    probe_.Add(excess_);
+    probe_.Add(excess_, period_.largest[probe_.coil()]);
     ratio_ = Lane{};
     return {};
   }
@@ -203,7 +233,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   const int coil = Ratios();
   if (paused_ > 0) {
     --paused_;
-    streak_ = Lane{};
+    streak_ = dead_ = Lane{};
     jumps_.Forget();
     return {};
   }
@@ -225,6 +255,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   CountStreaks(in.t);
   if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
+  if (JudgedTogether(in, &out)) return out;
   out.turns = MoreTurns(coil, out.excess);
   out.decided = out.turns > 0 || Decided(coil, out.excess);
   if (!out.decided) return out;
@@ -234,6 +265,11 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
 }
 
 void CommissionedDetector::CountStreaks(double t) {
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    const bool dead = period_.largest[j] < kNoCurrent && now_[j] < -kGross;
+    if (dead_[j] == 0) dead_since_[j] = t;
+    dead_[j] = dead ? dead_[j] + 1 : 0;
+  }
   const double least = kCompanion * *std::max_element(ratio_.v, ratio_.v + kLanes);
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     if (!(ratio_[j] > 1) || ratio_[j] < least) {

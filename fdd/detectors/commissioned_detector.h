@@ -5,7 +5,13 @@
 /// A coil's ratio is the largest |c|/band over the windows, band = max(floor, 1.5 times the largest
 /// of commissioning). The coil of the largest ratio is blamed when it stays above 1 in three
 /// periods in a row and a second witness agrees: either c of the on and of the off phase have one
-/// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point.
+/// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point, or its
+/// reading is zero while the bridge drives.
+///
+/// Where c is gross, the shares of the turns of all coils are solved for together
+/// (joint_turns.h): several coils that fail at one instant move the c of each other and of healthy
+/// neighbours. All coils that have lost turns by that solution, and all without current, are
+/// blamed at once.
 ///
 /// Only gross values count in a period in which a phase starts at zero current, the shaft may be
 /// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2).
@@ -17,7 +23,7 @@
 /// keeps flux out, which makes c positive in many coils alike.
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
-/// their bands are 2.5 times as wide from then on.
+/// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns.
 ///
 /// A reading that steps by what no voltage can make, without a slope that is wrong afterwards, is a
 /// current sensor's fault (jump_watch.h).
@@ -25,6 +31,7 @@
 #include "fdd/detectors/coil_probe.h"
 #include "fdd/detectors/excess_windows.h"
 #include "fdd/detectors/jump_watch.h"
+#include "fdd/examination/joint_turns.h"
 
 namespace ambrig {
 
@@ -54,9 +61,11 @@ class CommissionedDetector : public CoilDetector {
   void Pause(int periods) { paused_ = std::max(paused_, periods); }
   /// Takes back what SetTurns said, and forgets what was seen of it; `share` of the turns carries.
   void Restore(int coil, double share = 1);
-  /// A current is asked of a coil that has no turns: its slopes are watched, no coil is judged.
+  /// A current is asked of a coil that has no turns, or is asked for none: its slopes are watched, no
+  /// coil is judged.
   void BeginProbe(int coil);
-  void EndProbe();
+  /// What it showed of a coil that had turns: no current, or a gross short; else class none.
+  Diagnosis EndProbe(double t);
   const CoilProbe& probe() const { return probe_; }
 
   const Lane& ratio() const { return ratio_; }
@@ -75,6 +84,7 @@ class CommissionedDetector : public CoilDetector {
     double top[kInARow] = {}, bottom[kInARow] = {};
   };
   void SetBands();
+  void SetWider();
   void WatchCurrents(const MeasuredPeriod& in);
   void WatchRange(const MeasuredPeriod& in);
   /// Ratios of this period; returns the coil of the largest.
@@ -90,6 +100,12 @@ class CommissionedDetector : public CoilDetector {
   /// Largest |c| of this period.
   double LargestNow() const;
   void CountStreaks(double t);
+  /// Which coils have failed, all judged together: no current, or shares of their turns that explain
+  /// all c. False: no such explanation.
+  bool JudgedTogether(const MeasuredPeriod& in, Outcome* out) const;
+  std::vector<Diagnosis> CoilsWithoutCurrent(double t) const;
+  /// Its reading is zero although the bridge drives.
+  bool HasNoCurrent(int coil) const;
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(int decided, double excess, double time) const;
   bool Decided(int coil, double excess) const;
@@ -116,7 +132,9 @@ class CommissionedDetector : public CoilDetector {
   Lane idle_;         // mean reading of coils without turns [A]
   CoilProbe probe_;
   JumpWatch jumps_;
-  Lane streak_, onset_;  // periods in a row that a coil was suspect; since [s]
+  JointTurns joint_;
+  Lane streak_, onset_;     // periods in a row that a coil was suspect; since [s]
+  Lane dead_, dead_since_;  // periods in a row without current though driven; since [s]
   int paused_ = 8;
   long long count_ = 0;
 };

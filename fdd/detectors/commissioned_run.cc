@@ -46,12 +46,18 @@ bool CommissionedRun::BeginProbe(int coil) {
   return true;
 }
 
-void CommissionedRun::EndProbe(bool healthy) {
+Diagnosis CommissionedRun::EndProbe(bool healthy, double t) {
   const int coil = watch_.probe().coil();
-  watch_.EndProbe();
-  if (!healthy) return;
-  share_[coil] = 1;
-  watch_.Restore(coil);
+  const Diagnosis found = watch_.EndProbe(t);
+  if (share_[coil] > 0) {
+    if (found.cls != FaultClass::kNone) Lose(found);
+    return found;
+  }
+  if (healthy) {
+    share_[coil] = 1;
+    watch_.Restore(coil);
+  }
+  return {};
 }
 
 SlopeBand CommissionedRun::Band(int coil) const {

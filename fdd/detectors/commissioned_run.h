@@ -14,7 +14,7 @@ class CommissionedRun : public RunDetector {
   bool doubtful() const override { return doubtful_; }
   bool BeginProbe(int coil) override;
   ProbeAnswer Probed() const override { return watch_.probe().answer(); }
-  void EndProbe(bool healthy) override;
+  Diagnosis EndProbe(bool healthy, double t) override;
 
  private:
   void Lose(const Diagnosis& d);

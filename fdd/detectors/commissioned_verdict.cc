@@ -16,6 +16,9 @@ constexpr int kMissedTwice = 2;        // periods in a row
 constexpr double kMostRegained = 0.9;  // |c|
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
 constexpr double kNoCurrent = 0.12;                         // [A]
+constexpr int kInARow = 3;                                  // periods
+constexpr double kGrossAbove = 2;                           // c, outside the commissioned range
+constexpr double kLeastLost = 0.1;  // of the turns, for coils that fail at once
 
 }  // namespace
 
@@ -39,6 +42,49 @@ double CommissionedDetector::MoreTurns(int coil, double excess) const {
 
 bool CommissionedDetector::CurrentIsFalse(int coil) const {
   return false_current_[coil] >= kMissedTwice;
+}
+
+bool CommissionedDetector::HasNoCurrent(int coil) const { return dead_[coil] >= kInARow; }
+
+std::vector<Diagnosis> CommissionedDetector::CoilsWithoutCurrent(double t) const {
+  std::vector<Diagnosis> out;
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    if (!HasNoCurrent(j)) continue;
+    out.push_back(Classify(j, RecentExcess(j), t));
+    out.back().onset = dead_since_[j];
+  }
+  return out;
+}
+
+bool CommissionedDetector::JudgedTogether(const MeasuredPeriod& in, Outcome* out) const {
+  if (!Relies() || !(LargestNow() > kGross)) return false;
+  const int coils = filter_.nominal().coils;
+  std::vector<Diagnosis> failed = CoilsWithoutCurrent(in.t);
+  Lane dead;
+  bool others = false;
+  for (int j = 0; j < coils; ++j) {
+    dead[j] = share_[j] > 0 && period_.largest[j] < kNoCurrent ? 1 : 0;
+    others = others || (dead[j] == 0 && std::abs(now_[j]) > kGross);
+  }
+  if (others) {
+    const auto shares = joint_.Solve(filter_, model_.coils, settings_, share_, dead);
+    if (!shares) return false;
+    const double least = out_of_range_ ? 1 - 1 / std::sqrt(1 + kGrossAbove) : kLeastLost;
+    for (int j = 0; j < coils; ++j) {
+      if (share_[j] == 0 || dead[j] > 0 || !(1 - (*shares)[j] / share_[j] > least)) continue;
+      const double left = (*shares)[j] / share_[j];
+      failed.push_back(Classify(j, 1 / (left * left) - 1, in.t));
+    }
+  }
+  if (failed.empty()) return false;
+  const double left = 1 - failed[0].fraction;
+  out->excess = failed[0].cls == FaultClass::kPartialShort ? 1 / (left * left) - 1
+                                                           : RecentExcess(failed[0].coil);
+  // One coil that lost turns needs its second witness.
+  out->decided = failed.size() > 1 || Decided(failed[0].coil, out->excess);
+  out->diagnosis = failed[0];
+  out->more.assign(failed.begin() + 1, failed.end());
+  return true;
 }
 
 std::vector<Diagnosis> CommissionedDetector::Companions(int decided, double excess,

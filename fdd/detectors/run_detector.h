@@ -40,7 +40,7 @@ struct SlopeBand {
   double slope = 0, expected = 0, half_width = 0;
 };
 
-/// Of a coil that was given up and that a small current is driven through.
+/// Of a coil that a small current is driven through.
 enum class ProbeAnswer { kNone, kHealthy, kFaulty };
 
 class RunDetector {
@@ -55,13 +55,14 @@ class RunDetector {
   /// supervisor reports but changes no current.
   virtual bool doubtful() const { return false; }
 
-  /// A second look at a coil that was given up: from the next period on a small current is asked of
-  /// it. Returns false where the detector cannot take one. No coil is diagnosed meanwhile.
+  /// A look at a coil that was given up, or that its loop asks for no current: from the next period
+  /// on a small current is asked of it. Returns false where the detector cannot take one. No coil is diagnosed meanwhile.
   virtual bool BeginProbe(int) { return false; }
   /// What the probe that runs has shown so far.
   virtual ProbeAnswer Probed() const { return ProbeAnswer::kNone; }
-  /// The current is taken away again; `healthy`: the coil is judged like the others from now on.
-  virtual void EndProbe(bool /*healthy*/) {}
+  /// The current is taken away again at t; `healthy`: a coil that was given up is judged like the
+  /// others from now on. Of a coil that had not been given up: its fault, if the probe showed one.
+  virtual Diagnosis EndProbe(bool /*healthy*/, double /*t*/) { return {}; }
 };
 
 /// A bearing as the controller knows it: nominal circuit, sampling, noise and tolerances.

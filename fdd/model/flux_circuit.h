@@ -78,6 +78,12 @@ class FluxFilter {
     Lane psi;
     Lane held[kRelaxations];
   };
+  const State& state() const { return state_; }
+  /// Goes on from a state of this filter or of another one of the same bearing.
+  void Resume(const State& state) {
+    state_ = state;
+    started_ = true;
+  }
   /// Constants of a period in lanes.
   struct Step {
     Lane rho, rho_change;                            // at its start, over the period

@@ -118,5 +118,50 @@ TEST(SecondLook, AHealthyCoilReturnsOnceAndASwitchThatStaysOnIsNeverProbed) {
   EXPECT_EQ(probes.Due(2), -1);
 }
 
+// Without A2 and A4 the currents of A6 and A8 are next to nothing: that they break shows only when
+// they are asked for some.
+TEST(SecondLook, IdleCoilsThatOpenAreFound) {
+  std::string faults;
+  for (const auto& [coil, t] : {std::pair{2, 0.02}, {4, 0.03}, {6, 0.04}, {8, 0.05}})
+    faults += FaultTable(t, fmt::format("A.coil{}", coil), "open");
+  const Outcome o = Simulated(Spin(0.14, 157, 3) + faults, Strange(10000));
+  for (const char* target : {"A.coil2", "A.coil4", "A.coil6", "A.coil8"})
+    EXPECT_EQ(o.Class(target), "open") << target;
+  EXPECT_EQ(o.result.metrics.false_alarms, 0);
+  EXPECT_FALSE(o.result.touchdown);
+  EXPECT_LT(o.result.metrics.max_orbit.at("A"), 40e-6);
+}
+
+// And idle coils that are well stay in use.
+TEST(SecondLook, IdleCoilsThatAreWellStayInUse) {
+  const std::string faults =
+      FaultTable(0.02, "A.coil2", "open") + FaultTable(0.03, "A.coil4", "open");
+  const Outcome o = Simulated(Spin(0.14, 157, 3) + faults, Strange(10000));
+  EXPECT_EQ(Count(o, "disable"), 2U);
+  EXPECT_EQ(o.result.metrics.false_alarms, 0);
+  EXPECT_LT(o.result.metrics.max_orbit.at("A"), 40e-6);
+}
+
+TEST(SecondLook, IdleCoilsAreAskedAfterTenMillisecondsAndThenNowAndAgain) {
+  CoilProbes probes;
+  const auto due_at = [&](double t) {
+    for (int j : {1, 5}) probes.Idle(j, true, t);
+    return probes.Due(t);
+  };
+  EXPECT_EQ(due_at(0), -1);
+  EXPECT_EQ(due_at(0.009), -1);
+  EXPECT_EQ(due_at(0.0101), 1);
+  probes.AnswerIdle(1, 0.0115);
+  EXPECT_EQ(due_at(0.012), -1);  // the others are judged in between
+  EXPECT_EQ(due_at(0.02), 5);
+  probes.AnswerIdle(5, 0.0215);
+  EXPECT_EQ(due_at(0.06), -1);
+  EXPECT_EQ(due_at(0.062), 1);
+  // One that works again is left alone.
+  probes.Idle(1, false, 0.0625);
+  probes.Idle(5, false, 0.0625);
+  EXPECT_EQ(probes.Due(0.2), -1);
+}
+
 }  // namespace
 }  // namespace ambrig

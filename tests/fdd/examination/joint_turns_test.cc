@@ -1,0 +1,102 @@
+// Shares of the turns of all coils, on the simulator's own stator whose gaps are not those that the
+// detector believes.
+#include "fdd/examination/joint_turns.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fdd/learning/commissioned_model.h"
+#include "tests/fdd/stator_bench.h"
+
+namespace ambrig {
+namespace {
+
+using namespace testing_bench;
+
+/// A stator with 2 % of iron beside its gaps, and what the nominal equations say of it.
+class JointTurnsBench {
+ public:
+  JointTurnsBench() {
+    bench_.noise = 0.004;
+    bench_.x0 = bench_.y0 = 0;
+    bench_.lanes.reluctance.iron_path = 0.02 * Reference().gap;
+    Run(6);
+  }
+  Bench& bench() { return bench_; }
+  /// Periods with the readings as they are, or one of them times `gain`.
+  void Run(int periods, int coil = 0, double gain = 1) {
+    for (int n = 0; n < periods; ++n) {
+      const MeasuredPeriod in = bench_.Run();
+      for (Lane& sample : bench_.adc) sample[coil] *= gain;
+      joint_.Keep(in, kSamples, filter_.state());
+      filter_.Period(in, &period_);
+    }
+  }
+  void Short(int coil, double share) {
+    bench_.lanes.ShortTurns(coil, share, kInfinity, bench_.x0, bench_.y0);
+  }
+  std::optional<Lane> Solve(const Lane& dead = {}) const {
+    const CommissionedBearing nominal = NominalBearing("A", filter_.nominal());
+    Lane all;
+    for (double& v : all.v) v = 1;
+    return joint_.Solve(filter_, nominal.coils, {}, all, dead);
+  }
+  JointTurns& joint() { return joint_; }
+
+ private:
+  Bench bench_;
+  FluxFilter filter_{MakeLinkageModel(Reference()), bench_.Sampling(), {}};
+  FluxPeriod period_;
+  JointTurns joint_;
+};
+
+TEST(JointTurns, EverySetOfShortedCoilsIsSolvedWithItsShares) {
+  for (unsigned set = 0; set < 256; set += 3) {
+    JointTurnsBench b;
+    const double lost[] = {0.5, 0.2, 0.3, 0.6, 0.15, 0.5, 0.4, 0.25};
+    for (int j = 0; j < kLanes; ++j)
+      if (set >> j & 1) b.Short(j, lost[j]);
+    b.Run(JointTurns::kKept);
+    const auto found = b.Solve();
+    ASSERT_TRUE(found) << set;
+    for (int j = 0; j < kLanes; ++j)
+      EXPECT_NEAR((*found)[j], set >> j & 1 ? 1 - lost[j] : 1, 0.04) << set << " " << j;
+  }
+}
+
+TEST(JointTurns, ACoilWithoutCurrentIsNoUnknown) {
+  JointTurnsBench b;
+  b.bench().lanes.Break(1, 0, 0);
+  b.Short(4, 0.5);
+  b.Run(JointTurns::kKept);
+  Lane dead;
+  dead[1] = 1;
+  const auto found = b.Solve(dead);
+  ASSERT_TRUE(found);
+  EXPECT_EQ((*found)[1], 1);
+  EXPECT_NEAR((*found)[4], 0.5, 0.03);
+  EXPECT_NEAR((*found)[0], 1, 0.04);
+  EXPECT_NEAR((*found)[2], 1, 0.04);
+}
+
+// A reading that is too small asks for more turns than the coil was ever given.
+TEST(JointTurns, AFalseReadingIsNotExplained) {
+  for (int coil = 0; coil < kLanes; ++coil) {
+    JointTurnsBench b;
+    b.Run(JointTurns::kKept, coil, 0.7);
+    EXPECT_FALSE(b.Solve()) << coil;
+  }
+}
+
+TEST(JointTurns, NothingIsSolvedFromFewerPeriodsThanItKeeps) {
+  JointTurnsBench b;
+  b.joint().Clear();
+  b.Run(JointTurns::kKept - 1);
+  EXPECT_FALSE(b.Solve());
+  b.Run(1);
+  EXPECT_TRUE(b.Solve());
+}
+
+}  // namespace
+}  // namespace ambrig
