@@ -113,6 +113,20 @@ TEST_F(NoSolutionOf, RecordsThatTheModelLosesAreLeftOut) {
   EXPECT_THAT(o.text, Not(HasSubstr("times what it should be")));
 }
 
+// A shaft without mass has no equation of motion, whatever the sign of its zero.
+TEST_F(NoSolutionOf, AShaftWithoutMassIsRefused) {
+  const std::filesystem::path tum =
+      std::filesystem::path(AMBRIG_SOURCE_DIR) / "examples" / "tum_mbtr";
+  std::filesystem::copy(tum, folder_ / "tum");
+  const std::string shaft = ReadText(tum / "shaft.toml");
+  for (const char* zero : {"0.0", "-0.0"}) {
+    Write("tum/shaft.toml", Replaced(shaft, "rho = 7860.0", std::string("rho = ") + zero));
+    ExpectOneLine(Ambrig("run tum/run_up.toml --out out"),
+                  "shaft.toml:12: rotor.materials.shaft_steel.rho = 0 kg/m3, allowed: above 0");
+    ExpectOneLine(Ambrig("analyze tum/rig.toml"), "rho");
+  }
+}
+
 struct Formula {
   const char *name, *law, *said;
 };
