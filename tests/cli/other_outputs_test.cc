@@ -34,7 +34,7 @@ const Call kCalls[] = {
     {"compare", "case.toml", "case.toml"},
     {"explain", "case.toml", "case.toml"},
     {"adopt", "case.toml sensor-gain --target A.x -o adopted.toml", "case.toml"},
-    {"refine", "case.toml saturation --target A -o refined.toml", "case.toml"},
+    {"refine", "case.toml saturation@A -o refined.toml", "case.toml"},
     {"plan", "case.toml -o next.toml", "case.toml"},
 };
 
