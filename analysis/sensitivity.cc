@@ -16,20 +16,34 @@ using Complex = std::complex<double>;
 /// Where a linear interpolation between two values is zero, as a fraction.
 double Crossing(double a, double b) { return a / (a - b); }
 
-/// Gains at which L touches -1: crossings of the negative real axis, |L| above or below one.
+constexpr double kSlowest = 1e-4;  // [Hz] where L of a loop without an integrator is real
+
+/// Frequencies below those that are shown, at which a slow or no integrator decides how far the
+/// gain may fall.
+std::vector<double> SlowFrequencies(double end) {
+  std::vector<double> out;
+  for (double f = kSlowest; f < end; f *= 2) out.push_back(f);
+  return out;
+}
+
+/// Gains at which L touches -1: crossings of the negative real axis, |L| above or below one. Without
+/// an integrator L begins on that axis.
 void GainMargins(const std::vector<Complex>& L, AxisSensitivity& s) {
   s.gain_up = kInfinity;
   s.gain_down = 0;
-  for (std::size_t k = 1; k < L.size(); ++k) {
-    if (L[k - 1].imag() * L[k].imag() > 0) continue;
-    const double t = Crossing(L[k - 1].imag(), L[k].imag());
-    const double real = std::lerp(L[k - 1].real(), L[k].real(), std::isfinite(t) ? t : 0.0);
-    if (real >= 0) continue;
+  const auto crosses = [&s](double real) {
+    if (real >= 0) return;
     const double factor = -1 / real;
     if (factor > 1)
       s.gain_up = std::min(s.gain_up, factor);
     else
       s.gain_down = std::max(s.gain_down, factor);
+  };
+  if (std::abs(L.front().imag()) < 0.01 * std::abs(L.front().real())) crosses(L.front().real());
+  for (std::size_t k = 1; k < L.size(); ++k) {
+    if (L[k - 1].imag() * L[k].imag() > 0) continue;
+    const double t = Crossing(L[k - 1].imag(), L[k].imag());
+    crosses(std::lerp(L[k - 1].real(), L[k].real(), std::isfinite(t) ? t : 0.0));
   }
 }
 
@@ -67,6 +81,16 @@ Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction&
     out.axes.emplace_back();
     out.axes.back().axis = name;
   }
+  std::vector<double> all = SlowFrequencies(out.frequency.front());
+  std::vector<std::vector<Complex>> slow(names.size());
+  for (const double f : all) {
+    const Eigen::MatrixXcd H = transfer(2 * kPi * f);
+    for (std::size_t a = 0; a < names.size(); ++a) {
+      const auto k = static_cast<Eigen::Index>(a);
+      slow[a].push_back(1.0 / H(loop.Command(k), loop.Excitation(k)) - 1.0);
+    }
+  }
+  all.insert(all.end(), out.frequency.begin(), out.frequency.end());
   std::vector<Eigen::MatrixXcd> S;  // of all axes together
   for (double f : out.frequency) {
     const Eigen::MatrixXcd H = transfer(2 * kPi * f);
@@ -76,8 +100,9 @@ Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction&
       out.axes[a].S.push_back(H(loop.Command(k), loop.Excitation(k)));
     }
   }
-  for (AxisSensitivity& s : out.axes) {
-    std::vector<Complex> L;
+  for (std::size_t a = 0; a < names.size(); ++a) {
+    AxisSensitivity& s = out.axes[a];
+    std::vector<Complex> L = slow[a];
     double off = 0;
     for (std::size_t k = 0; k < s.S.size(); ++k) {
       off = std::max(off, std::abs(s.S[k] - 0.5));
@@ -89,7 +114,7 @@ Sensitivity FindSensitivity(const OperatingPoint& point, const TransferFunction&
     s.zone = stable ? SensitivityZone(s.peak) : 'D';  // a peak of what diverges means nothing
     s.disk_margin = stable ? 1 / off : 0;
     GainMargins(L, s);
-    PhaseMargins(out.frequency, L, s);
+    PhaseMargins(all, L, s);
   }
   if (stable) out.joint = FindJointMargins(out.frequency, S);
   return out;

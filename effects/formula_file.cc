@@ -104,8 +104,10 @@ void Check(const std::string& text, const std::string& where, const EffectInstan
               values.begin() + static_cast<std::ptrdiff_t>(known));
     const double v = formula(values.data());
     if (!(range.lo <= v && v <= range.hi))
-      throw InputError(fmt::format("{} = \"{}\": gives {} {} {}, allowed {} to {} {}", where, shown,
-                                   v, range.unit, trial.at, range.lo, range.hi, range.unit));
+      throw InputError(
+          fmt::format("{} = \"{}\": gives {} {}, allowed {} to {} {}", where, shown,
+                      std::isnan(v) ? "no number" : fmt::format("{} {}", v, range.unit), trial.at,
+                      range.lo, range.hi, range.unit));
   }
 }
 

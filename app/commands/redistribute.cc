@@ -84,6 +84,7 @@ nlohmann::json JsonOf(const MapReach& r, const Eigen::Vector2d& load) {
 
 int Redistribute(const RedistributeOptions& o) {
   const RigParameters rig = ReadRig(o.rig);
+  o.common.CheckOutputs({o.rig, rig.file});
   const BearingParameters* b = rig.Find(o.bearing);
   if (!b || b->kind != BearingKind::kRadial) {
     std::string known;
@@ -141,8 +142,12 @@ void AddRedistribute(CLI::App& app, Work& work) {
       app.add_subcommand("redistribute", "compute the current distribution after coil failures");
   command->add_option("rig", options->rig, "rig file (TOML)")->required();
   command->add_option("--bearing", options->bearing, "radial bearing")->capture_default_str();
-  command->add_option("--failed", options->failed,
-                      "failed coils, e.g. 1,2 ; several sets 1;1,2 (default: all 255 sets)");
+  command
+      ->add_option("--failed", options->failed,
+                   "failed coils, e.g. 1,2 ; several sets 1;1,2 (default: all 255 sets)")
+      ->check([](const std::string& text) {
+        return text.empty() ? std::string("a set without a coil, allowed: e.g. 1,2 or 1;1,2") : "";
+      });
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n"

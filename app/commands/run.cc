@@ -143,7 +143,7 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
     if (!options.common.html.empty()) WriteRunReport(data, options.common.html);
   }
   if (!options.quiet) {
-    PrintTimeline(scenario, result, StationOrbits(rig, result.record), expect);
+    PrintTimeline(scenario, result, StationOrbits(rig, result), expect);
     fmt::print("  {:<22} {}.h5 .json{}{}\n", "written", stem.string(), options.csv ? " .csv" : "",
                options.no_html ? "" : " .html (report)");
   }

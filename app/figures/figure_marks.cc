@@ -101,7 +101,9 @@ void AddMarks(Figure& figure, std::span<const Mark> marks, std::array<double, 2>
                         {"line", {{"color", m.color}, {"width", 1.4}, {"dash", "dot"}}}});
   // One label for what is closer than a short word is wide.
   const double near = 0.11 * (range[1] - range[0]);
-  int group = 0;
+  // The first level belongs to the panel's title where that stands, at the left.
+  const bool at_title = !inside.empty() && inside[0].x < range[0] + 0.15 * (range[1] - range[0]);
+  int group = at_title ? 1 : 0;
   for (std::size_t i = 0; i < inside.size(); ++group) {
     std::vector<std::string> labels{
         inside[i].label};  // each once: a bouncing rotor repeats its own

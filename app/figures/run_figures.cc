@@ -1,6 +1,7 @@
 #include "app/figures/run_figures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +66,16 @@ double Peak(const ReportBearing& b, std::size_t begin, std::size_t size) {
   return std::sqrt(r2);
 }
 
+/// Targets of the faults from event `first` on that come at its instant.
+std::vector<std::string> FaultsAtOnce(const std::vector<ReportEvent>& events, std::size_t first) {
+  std::vector<std::string> out;
+  for (std::size_t k = first; k < events.size(); ++k) {
+    if (events[k].kind != "fault" || events[k].t != events[first].t) break;
+    out.push_back(events[k].target);
+  }
+  return out;
+}
+
 constexpr const char* kCoilColors[] = {"@blue", "@orange", "@green", "@purple",
                                        "@sky",  "@brown",  "@gray",  "@ink"};
 
@@ -99,14 +110,22 @@ std::vector<Mark> EventMarks(const RunReportData& data, double t0, double factor
       {"lift_off", "@sky"},        {"alarm_cleared", "@gray"}};
   constexpr std::size_t kContactsMarked = 6;  // the lines of a bouncing rotor would cover its curve
   std::vector<Mark> marks;
-  std::size_t contacts = 0;
+  std::size_t contacts = 0, again = 0;
   for (const ReportEvent& e : data.events) {
+    if (again > 0 && again-- > 0) continue;  // shares the mark of the faults at its instant
     const bool contact = e.kind == "touchdown" || e.kind == "lift_off";
     if (contact && ++contacts > kContactsMarked) continue;
     const auto color = kColors.find(e.kind);
     std::string label = e.kind;
     std::ranges::replace(label, '_', ' ');
-    if (e.kind == "fault" && !e.target.empty()) label += " " + e.target;
+    if (e.kind == "fault" && !e.target.empty()) {
+      const auto at_once =
+          FaultsAtOnce(data.events, static_cast<std::size_t>(&e - &data.events[0]));
+      label = at_once.size() == 1  ? "fault " + e.target
+              : at_once.size() < 4 ? fmt::format("faults {}", fmt::join(at_once, ", "))
+                                   : fmt::format("{} faults", at_once.size());
+      again = at_once.size() - 1;
+    }
     marks.push_back(
         {(e.t - t0) * factor, label, color == kColors.end() ? "@muted" : color->second});
   }
@@ -118,8 +137,7 @@ Figure PositionFigure(const RunReportData& data, const RunStages& stages, bool z
   grid.rows = static_cast<int>(data.bearings.size());
   for (const ReportBearing& b : data.bearings) grid.titles.push_back("bearing " + b.name);
   Figure figure = MakeFigure(
-      zoom ? "Shaft position about the fault." : "Shaft position over the whole run, as sensed.",
-      grid);
+      zoom ? "Shaft position about the fault." : "Shaft position over the whole run.", grid);
   const Cut cut = MakeCut(data, stages, zoom, RowsOfRun(data));
   double peak = 0;
   for (const ReportBearing& b : data.bearings) peak = std::max(peak, Peak(b, cut.begin, cut.size));

@@ -2,14 +2,36 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "app/pages/format.h"
 #include "core/base/counted.h"
 #include "core/base/json_file.h"
 #include "core/base/units.h"
 #include "core/record/read_record.h"
 
 namespace ambrig {
+
+namespace {
+
+/// A value with its unit and the prefix that a reader expects.
+std::string WithUnit(double value, const std::string& unit) {
+  std::string text = FormatSi(value, unit, 4);
+  for (const auto& [from, to] : {std::pair("\u00a0", " "), std::pair("µ", "u")})  // of a terminal
+    if (const auto at = text.find(from); at != std::string::npos)
+      text.replace(at, std::string_view(from).size(), to);
+  return text;
+}
+
+std::string LineOf(const ChannelDifference& c) {
+  if (c.rows == 0) return fmt::format("{}: {}", c.channel, VerdictText(c.verdict));
+  return fmt::format("{}: {} from {:.6g} ms, {} of {} rows, worst {} at {:.6g} ms (allowed {})",
+                     c.channel, VerdictText(c.verdict), c.first * 1e3, c.beyond, c.rows,
+                     WithUnit(c.worst, c.unit), c.worst_at * 1e3, WithUnit(c.allowed, c.unit));
+}
+
+}  // namespace
 
 RunFiles ReadRun(const std::string& record_file) {
   RunFiles out{record_file, ReadRecord(record_file), nullptr};
@@ -38,20 +60,12 @@ std::vector<std::string> DifferenceLines(const RunDifference& d, std::size_t mos
     lines.push_back(fmt::format("first: {} at {:.6g} ms", first->channel, first->first * 1e3));
   if (!d.record.length.empty()) lines.push_back("record " + d.record.length);
   for (const EventDifference& e : d.events) lines.push_back("event " + EventDifferenceText(e));
-  std::size_t shown = 0, bad = 0;
-  for (const ChannelDifference& c : d.record.channels) {
-    if (!c.bad() || ++bad > most) continue;
-    ++shown;
-    if (c.rows == 0)
-      lines.push_back(fmt::format("{}: {}", c.channel, VerdictText(c.verdict)));
-    else
-      lines.push_back(
-          fmt::format("{}: {} from {:.6g} ms, {} of {} rows, worst {:.4g} {} at {:.6g} "
-                      "ms (allowed {:.3g})",
-                      c.channel, VerdictText(c.verdict), c.first * 1e3, c.beyond, c.rows, c.worst,
-                      c.unit, c.worst_at * 1e3, c.allowed));
-  }
-  if (bad > shown) lines.push_back("and " + Counted(bad - shown, "more channel"));
+  std::vector<const ChannelDifference*> bad;
+  for (const ChannelDifference& c : d.record.channels)
+    if (c.bad()) bad.push_back(&c);
+  std::ranges::stable_sort(bad, {}, &ChannelDifference::first);
+  for (std::size_t k = 0; k < std::min(most, bad.size()); ++k) lines.push_back(LineOf(*bad[k]));
+  if (bad.size() > most) lines.push_back("and " + Counted(bad.size() - most, "more channel"));
   return lines;
 }
 

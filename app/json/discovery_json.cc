@@ -109,22 +109,25 @@ Json CompareJson(const Comparison& c) {
   for (const RecordComparison& r : c.records) {
     Json channels = Json::object(), blocks = Json::object();
     for (const ChannelError& e : r.channels)
-      channels[e.channel] = {{"nrmse", e.nrmse},
-                             {"rms_error", e.rms_error},
-                             {"noise", e.noise},
-                             {"ratio", e.ratio},
-                             {"whiteness", e.whiteness}};
-    for (const auto& [block, ratio] : r.blocks) blocks[block] = ratio;
+      channels[e.channel] = {{"nrmse", Number(e.nrmse)},
+                             {"rms_error", Number(e.rms_error)},
+                             {"noise", Number(e.noise)},
+                             {"ratio", Number(e.ratio)},
+                             {"whiteness", Number(e.whiteness)}};
+    for (const auto& [block, ratio] : r.blocks) blocks[block] = Number(ratio);
     records.push_back({{"data", r.data},
                        {"scenario", r.scenario},
                        {"use", r.validate ? "validate" : "fit"},
-                       {"ratio", r.ratio},
+                       {"ratio", Number(r.ratio)},
                        {"channels", channels},
                        {"blocks", blocks}});
   }
-  return {{"records", records},       {"ratio", c.ratio},
-          {"ratio_fit", c.ratio_fit}, {"ratio_validate", c.ratio_validate},
-          {"data", DataJson(c.data)}, {"noise", NoiseJson(c.noise)},
+  return {{"records", records},
+          {"ratio", Number(c.ratio)},
+          {"ratio_fit", Number(c.ratio_fit)},
+          {"ratio_validate", Number(c.ratio_validate)},
+          {"data", DataJson(c.data)},
+          {"noise", NoiseJson(c.noise)},
           {"words", c.words}};
 }
 
@@ -134,12 +137,13 @@ Json ExplainJson(const Explanation& e) {
   for (const EffectInstance& a : e.adopted) adopted.push_back(EffectJson(a));
   for (const Confusable& c : e.confusable) confusable.push_back({c.first, c.second, c.record});
   for (const LadderStep& s : e.ladder)
-    ladder.push_back(
-        {{"added", s.added}, {"ratio_fit", s.ratio_fit}, {"ratio_validate", s.ratio_validate}});
+    ladder.push_back({{"added", s.added},
+                      {"ratio_fit", Number(s.ratio_fit)},
+                      {"ratio_validate", Number(s.ratio_validate)}});
   for (std::size_t k = 0; k < e.screened.size() && k < 20; ++k)
     screened.push_back({{"effect", e.screened[k].effect.name},
                         {"target", e.screened[k].effect.target},
-                        {"ratio_validate", e.screened[k].ratio_validate}});
+                        {"ratio_validate", Number(e.screened[k].ratio_validate)}});
   Json out = {{"verdict", e.verdict},
               {"ranking", RankingJson(e.ranking)},
               {"adopted", adopted},
@@ -150,9 +154,9 @@ Json ExplainJson(const Explanation& e) {
               {"noise", NoiseJson(e.noise)},
               {"nuisances", NuisancesJson(e.nuisances)},
               {"hidden", HiddenJson(e.hidden)},
-              {"base_ratio_validate", e.base_ratio_validate},
-              {"final_ratio_validate", e.final_ratio_validate},
-              {"nominal_ratio_validate", e.nominal_ratio_validate},
+              {"base_ratio_validate", Number(e.base_ratio_validate)},
+              {"final_ratio_validate", Number(e.final_ratio_validate)},
+              {"nominal_ratio_validate", Number(e.nominal_ratio_validate)},
               {"confusable", confusable},
               {"second_round", RankingJson(e.second_round)},
               {"ladder", ladder},

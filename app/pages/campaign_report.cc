@@ -116,15 +116,15 @@ void WorstCases(HtmlReport& report, const JournalHeader& header, const Rows& row
   for (std::size_t k = 0; k < std::min(kWorst, order.size()); ++k) {
     const Row& r = *order[k];
     const int s = Severity(r);
-    table.push_back(
-        {Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")),
-         Cell(Rpm(std::stod(r.At("speed")))), Cell(r.At("load_given")),
-         Cell(r.At("verdict"), s > 1    ? "fail"
-                               : s == 1 ? "warn"
-                                        : "ok"),
-         Cell(FormatSi(r.Number("peak_orbit"), "m")),
-         Cell(FormatSi(r.Number("detection_delay"), "s")),
-         Cell(fmt::format("ambrig run --from-campaign {} --row {}", header.file, r.run), "muted")});
+    table.push_back({Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")),
+                     Cell(Rpm(std::stod(r.At("speed")))), Cell(r.At("load_given")),
+                     Cell(r.At("verdict"), s > 1    ? "fail"
+                                           : s == 1 ? "warn"
+                                                    : "ok"),
+                     Cell(FormatSi(r.Number("peak_orbit"), "m")),
+                     Cell(FormatSi(r.Number("detection_delay"), "s")),
+                     Cell(fmt::format("ambrig run --from-campaign {} --row {}", header.file, r.run),
+                          "muted path")});
   }
   report.Table({"run", "set", "class", "kind", "speed", "load", "verdict", "largest orbit", "delay",
                 "repeat"},
@@ -133,6 +133,8 @@ void WorstCases(HtmlReport& report, const JournalHeader& header, const Rows& row
 
 /// Largest static force that was held against what the theory allows.
 void Capacity(HtmlReport& report, const Rows& rows) {
+  if (std::ranges::none_of(rows, [](const auto& row) { return row.second.Number("load") > 0; }))
+    return;  // nothing was loaded: nothing to hold against theory
   std::map<std::string, std::vector<const Row*>> by_set;
   for (const auto& [run, row] : rows) by_set[row.At("set") + ", " + row.At("kind")].push_back(&row);
   report.Heading("Capacity against theory");
@@ -191,7 +193,7 @@ void WriteCampaignReport(const JournalHeader& header, const Rows& rows, const st
        {"last class not the true one", std::to_string(n.wrong_class)},
        {"worst detection delay", n.worst_delay > 0 ? FormatSi(n.worst_delay, "s") : "–"},
        {"false alarms", FalseAlarmText(n.false_alarms, n.coil_periods)},
-       {"largest orbit of runs that stayed up", FormatSi(n.largest_orbit, "m")}});
+       {"largest orbit of runs that stayed up", n.up > 0 ? FormatSi(n.largest_orbit, "m") : "–"}});
   if (!rows.empty()) {
     SurvivalMaps(report, rows);
     Delays(report, rows);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "app/pages/format.h"
@@ -16,6 +17,13 @@ namespace {
 std::string PercentText(double share) {
   return share == 1 || share == 0 ? fmt::format("{:.0f} %", 100 * share)
                                   : fmt::format("{:.1f} %", 100 * share);
+}
+
+/// "3.2 A"; a statistic in units of a source's own, "700 A/s", is so many times that.
+std::string ThresholdText(double value, const std::string& unit) {
+  if (unit.empty() || unit == "-") return fmt::format("{:.3g}", value);
+  return fmt::format("{:.3g}{} {}", value,
+                     std::isdigit(static_cast<unsigned char>(unit[0])) != 0 ? " ×" : "", unit);
 }
 
 Grid PanelPerKind(const std::vector<DetectorCurves>& curves) {
@@ -74,8 +82,7 @@ void AtBudget(HtmlReport& report, const DetectorStudy& study,
   std::vector<std::vector<Cell>> table;
   std::vector<Cell> thresholds = {Cell("threshold", "muted"), Cell("")};
   for (const std::size_t i : order)
-    thresholds.emplace_back(fmt::format("{:.3g} {}", ValueOf(curves[i].budget_level),
-                                        curves[i].unit == "-" ? "" : curves[i].unit),
+    thresholds.emplace_back(ThresholdText(ValueOf(curves[i].budget_level), curves[i].unit),
                             "muted");
   table.push_back(thresholds);
   for (std::size_t k = 0; k < curves.front().faults.size(); ++k) {
@@ -105,10 +112,11 @@ void OwnThresholds(HtmlReport& report, const std::vector<DetectorCurves>& curves
   std::vector<std::vector<Cell>> table;
   for (const DetectorCurves& d : curves) {
     if (std::isnan(d.documented)) continue;
-    std::vector<Cell> line = {Cell(d.name), Cell(fmt::format("{:.3g} {}", d.documented, d.unit))};
+    std::vector<Cell> line = {Cell(d.name), Cell(ThresholdText(d.documented, d.unit))};
     for (const FalseAlarmCurve& c : d.scenarios) {
       const double share = c.share[static_cast<std::size_t>(LevelAtLeast(d.documented))];
-      line.emplace_back(fmt::format("{:.3g} of {}", share, c.windows), share == 0 ? "ok" : "fail");
+      line.emplace_back(fmt::format("{} of {}", Percent(share), c.windows),
+                        share == 0 ? "ok" : "fail");
     }
     table.push_back(std::move(line));
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "app/figures/series.h"
 #include "app/pages/format.h"
@@ -149,21 +150,37 @@ void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder) {
 }
 
 std::string BlockText(const Comparison& c) {
-  std::string name;
-  double largest = 0, whole = 0;
-  for (const RecordComparison& r : c.records)
-    for (const auto& [block, ratio] : r.blocks)
-      if (ratio > largest) {
-        largest = ratio;
-        name = block;
-        whole = r.ratio;
-      }
-  for (const RecordComparison& r : c.records)
+  struct Worst {
+    double ratio = 0;
+    std::string block, record;
+  };
+  std::vector<Worst> blocks;  // each block where it errs most
+  double whole = 0;
+  for (const RecordComparison& r : c.records) {
     if (!r.blocks.empty()) whole = std::max(whole, r.ratio);
-  if (name.empty()) return "";
-  if (largest > 1.5)
-    return fmt::format("The largest error of a block is {:.2f} times its noise, of the {} block.",
-                       largest, name);
+    for (const auto& [block, ratio] : r.blocks) {
+      auto at = std::ranges::find(blocks, block, &Worst::block);
+      if (at == blocks.end()) at = blocks.insert(at, Worst{0, block, ""});
+      if (ratio > at->ratio) *at = {ratio, block, ShortName(r.data)};
+    }
+  }
+  if (blocks.empty()) return "";
+  std::ranges::stable_sort(blocks, std::greater(), &Worst::ratio);
+  const auto& [largest, name, record] = blocks.front();
+  if (largest > 1.5) {
+    std::string text =
+        fmt::format("The largest error of a block is {:.2f} times its noise, of the {} block in {}",
+                    largest, name, record);
+    if (blocks.size() > 1)
+      text += fmt::format("; next comes {} with {:.2f}", blocks[1].block, blocks[1].ratio);
+    // a block that errs far less than the loop round it does not explain the loop
+    if (whole > 3 * largest)
+      text += fmt::format(
+          ". The whole model is {:.2f} times the noise off, far more: the blocks alone do not tell "
+          "where it comes from, ambrig explain looks at the whole loop",
+          whole);
+    return text + ".";
+  }
   if (whole < 1.5)
     return fmt::format("No block stands out: the largest is {} with {:.2f} times its noise.", name,
                        largest);

@@ -48,7 +48,7 @@ std::string FormatNumber(double value, int digits) {
 
 std::string FormatSi(double value, std::string_view unit, int digits) {
   const bool plain = std::ranges::find(kNoPrefix, unit) != std::end(kNoPrefix);
-  const bool shown = !unit.empty() && unit != "-" && unit != "1";
+  const bool shown = !unit.empty() && unit != "-" && unit != "1" && !std::isnan(value);
   const std::string gap = shown ? "\u00a0" : "";
   if (plain || value == 0 || !std::isfinite(value))
     return FormatNumber(value, digits) + gap + (shown ? std::string(unit) : "");

@@ -48,7 +48,10 @@ bool LooksNumeric(std::string_view text) {
   if (text.starts_with("−")) text.remove_prefix(std::string_view("−").size());
   if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
   // "3 of 8" and "2.1 mm" are numbers to a reader's eye, "3dof-rotor" is not.
-  const std::size_t end = text.find_first_not_of("0123456789.,");
+  std::size_t end = text.find_first_not_of("0123456789.,");
+  if (end != std::string_view::npos && end + 2 < text.size() && text[end] == 'e' &&
+      (text[end + 1] == '-' || text[end + 1] == '+'))
+    end = text.find_first_not_of("0123456789", end + 2);
   return !text.empty() && std::isdigit(static_cast<unsigned char>(text[0])) != 0 &&
          (end == std::string_view::npos ||
           std::isalpha(static_cast<unsigned char>(text[end])) == 0);

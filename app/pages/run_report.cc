@@ -76,8 +76,8 @@ void AddDetection(HtmlReport& report, const RunReportData& data, const RunStages
 
 void AddSources(HtmlReport& report, const RunReportData& data) {
   if (data.scenario_toml.empty() && data.rig_toml.empty()) return;
-  report.Heading("Scenario and rig as resolved");
-  report.Text("All parameters as resolved, defaults included: sufficient to repeat the run.");
+  report.Heading("Scenario and rig files");
+  report.Text("As they were read. What they leave out has its default: `ambrig parameters`.");
   for (const auto& [name, text] :
        {std::pair("Scenario", &data.scenario_toml), {"Rig", &data.rig_toml}}) {
     if (text->empty()) continue;
@@ -95,6 +95,7 @@ HtmlReport MakeRunReport(const RunReportData& data) {
   if (!data.description.empty()) report.Text(data.description);
   report.Heading("Course of the run");
   if (!data.verdict_text.empty()) report.Verdict(data.verdict, data.verdict_text);
+  for (const std::string& note : data.notes) report.Verdict(Verdict::kWarn, note);
   if (!data.metrics.empty()) report.KeyValues(data.metrics);
   AddTimeline(report, data, stages);
   AddExpectations(report, data);

@@ -73,6 +73,7 @@ struct RunReportData {
   std::string subtitle;           // fidelity, seed, version, date: one line
   enum Verdict verdict = Verdict::kInfo;
   std::string verdict_text;                                  // one sentence
+  std::vector<std::string> notes;                            // what a reader must know besides
   std::vector<std::pair<std::string, std::string>> metrics;  // formatted (FormatSi)
   std::vector<ReportExpect> expect;
   std::vector<ReportEvent> events;
@@ -86,7 +87,7 @@ struct RunReportData {
   std::vector<ReportSlope> slopes;  // the faulty coils first
   std::vector<ReportSamples> samples;
   std::vector<ReportSnapshot> snapshots;
-  std::string scenario_toml, rig_toml;  // as resolved; shown folded
+  std::string scenario_toml, rig_toml;  // as they were read; shown folded
 };
 
 HtmlReport MakeRunReport(const RunReportData& data);

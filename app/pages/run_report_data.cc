@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 
 #include "app/figures/series.h"
@@ -26,6 +27,12 @@ std::vector<double> ChannelOf(const Record& record, const ChannelId& id) {
   return c ? c->samples : std::vector<double>{};
 }
 
+/// A path up to `end` [s] of the record; what comes after is no number.
+void EndPath(const Record& record, double end, std::vector<double>* path) {
+  for (std::size_t k = 0; k < path->size(); ++k)
+    if (record.TimeAt(k) > end) (*path)[k] = std::nan("");
+}
+
 void FillBearings(const RigParameters& rig, const RunResult& result, RunReportData& data) {
   for (const BearingParameters& b : rig.bearings) {
     if (b.kind != BearingKind::kRadial) continue;
@@ -36,13 +43,15 @@ void FillBearings(const RigParameters& rig, const RunResult& result, RunReportDa
       r.pole_angles.push_back((b.radial.first_pole_angle_deg + 45.0 * j) * kPi / 180);
     r.x = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 0});
     r.y = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 1});
+    for (std::vector<double>* path : {&r.x, &r.y}) EndPath(result.record, ModelEnd(result), path);
     for (const ChannelId& current : ChannelsOf(b, ChannelKind::kCoilCurrent))
       r.currents.push_back(ChannelOf(result.record, current));
     data.bearings.push_back(std::move(r));
   }
 }
 
-std::vector<ReportStation> StationsOf(const RigParameters& rig, const Record& record) {
+std::vector<ReportStation> StationsOf(const RigParameters& rig, const RunResult& result) {
+  const Record& record = result.record;
   std::vector<ReportStation> stations;
   for (const ShaftPlane& s : rig.stations) {
     ReportStation r{s.name, ChannelOf(record, {ChannelKind::kTruePosition, s.name, 0}),
@@ -50,6 +59,7 @@ std::vector<ReportStation> StationsOf(const RigParameters& rig, const Record& re
     for (std::vector<double>* path : {&r.x, &r.y}) {
       const double start = path->empty() ? 0 : path->front();  // a heavy shaft hangs through
       for (double& v : *path) v -= start;
+      EndPath(record, ModelEnd(result), path);
     }
     if (!r.x.empty()) stations.push_back(std::move(r));
   }
@@ -131,9 +141,15 @@ void FillSlopes(const RunResult& result, RunReportData& data) {
 
 }  // namespace
 
-std::map<std::string, double> StationOrbits(const RigParameters& rig, const Record& record) {
+double ModelEnd(const RunResult& result) {
+  for (const RunEvent& e : result.events)
+    if (e.kind == "model_invalid") return e.t;
+  return kInfinity;
+}
+
+std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunResult& result) {
   std::map<std::string, double> out;
-  for (const ReportStation& s : StationsOf(rig, record)) out[s.name] = LargestRadius(s.x, s.y);
+  for (const ReportStation& s : StationsOf(rig, result)) out[s.name] = LargestRadius(s.x, s.y);
   return out;
 }
 
@@ -154,7 +170,11 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
   data.subtitle =
       fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
   FillVerdict(result, expect, data);
-  data.stations = StationsOf(rig, result.record);
+  for (std::string note : result.notes) {
+    note[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(note[0])));
+    data.notes.push_back(note + ".");
+  }
+  data.stations = StationsOf(rig, result);
   FillMetrics(result.metrics, data);
   for (const RunEvent& e : result.events)
     data.events.push_back({e.t, e.kind, ShortTargetName(e.target), EventText(e)});

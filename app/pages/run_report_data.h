@@ -12,9 +12,13 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
                                 const RunResult& result, const std::vector<ExpectResult>& expect,
                                 const std::string& fidelity);
 
+/// Instant from which on the shaft is past a pole face and nothing of it is a figure [s]; infinity:
+/// never.
+double ModelEnd(const RunResult& result);
+
 /// Peak orbit [m] of every named plane of a beam rotor about its place at the start, at the rows of
-/// the record.
-std::map<std::string, double> StationOrbits(const RigParameters& rig, const Record& record);
+/// the record up to ModelEnd.
+std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunResult& result);
 
 /// One line for a person: "detected open at A.coil3" and the like.
 std::string EventText(const RunEvent& event);

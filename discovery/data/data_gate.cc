@@ -35,6 +35,16 @@ std::vector<GateColumn> ColumnsOf(const CaseModel& model, const std::vector<doub
   return out;
 }
 
+/// Whether the model predicts any of the record: not where it loses its rotor at once.
+bool Predicted(const CaseModel& model, std::size_t record) {
+  return std::ranges::any_of(model.targets(), [&](const Target& t) {
+    return t.record == record &&
+           std::any_of(model.ok().begin() + static_cast<std::ptrdiff_t>(t.first),
+                       model.ok().begin() + static_cast<std::ptrdiff_t>(t.first + t.count),
+                       [](char ok) { return ok != 0; });
+  });
+}
+
 std::string Quantity(const DataFault& f) {
   if (f.fault == "unit") return fmt::format("is {:.4g} times what it should be", f.factor);
   if (f.fault == "sign") return "has the wrong sign";
@@ -59,6 +69,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     CheckRange(model, r, columns, out);
     CheckHeld(model, r, columns, out);
     CheckSpeed(model, r, out);
+    if (!Predicted(model, r)) continue;
     CheckUnits(model, r, columns, out);
     CheckSwaps(model, r, columns, out);
     CheckTimes(model, r, columns, out);

@@ -63,10 +63,11 @@ ChannelQuality InspectChannel(const Channel& channel, bool constant_allowed) {
       for (std::size_t k = 0; k < y.size(); ++k) q.ok[k] = std::isfinite(y[k]) ? 1 : 0;
     }
   }
-  q.verdict = "good";
-  if (q.missing > 0) q.verdict = fmt::format("{} missing, left out", Counted(q.missing, "sample"));
+  std::string faults;
+  if (q.missing > 0) faults = Counted(q.missing, "sample") + " missing";
   if (q.clipped > 0)
-    q.verdict = fmt::format("clipped in {}, left out", Counted(q.clipped, "sample"));
+    faults += (faults.empty() ? "" : ", ") + ("clipped in " + Counted(q.clipped, "sample"));
+  q.verdict = faults.empty() ? "good" : faults + ", left out";
   return q;
 }
 

@@ -119,6 +119,11 @@ std::vector<std::string> CaseModel::LimitToHeld(const Hypothesis& h) {
                           record.data_file, horizon_[r]));
   }
   ApplyHorizons();
+  if (std::ranges::all_of(horizon_, [](double t) { return t == 0; }))
+    throw InputError(fmt::format(
+        "{}: the model does not hold its rotor in any record, allowed: a rig file that levitates "
+        "in the records' scenarios (ambrig run {})",
+        case_.rig_file, case_.records.empty() ? "" : case_.records.front().scenario_file));
   return lines;
 }
 

@@ -7,6 +7,12 @@
 namespace ambrig {
 namespace {
 
+/// Without mass a place of the shaft has no equation of motion; 0 and -0 are inside the closed range.
+void RequireMass(const TomlTable& row, const Material& m) {
+  if (!(m.rho > 0))
+    row.Fail("rho", "= 0 kg/m3, allowed: above 0 (0.001 is next to nothing and has a solution)");
+}
+
 /// `material = "name"`, overridden by E, rho, nu given beside it.
 Material ReadMaterial(const TomlTable& row, const Materials& materials,
                       std::vector<Tolerance>* tolerances, bool mass_only) {
@@ -18,6 +24,7 @@ Material ReadMaterial(const TomlTable& row, const Materials& materials,
     m = materials.at(row.Choice("material", "", names));
   }
   row.Read(m, kMaterialFields, tolerances);
+  RequireMass(row, m);
   return m;
 }
 
@@ -38,6 +45,7 @@ Materials ReadMaterials(const TomlTable& rotor, std::vector<Tolerance>* toleranc
     Material m;
     row.Read(m, kMaterialFields, tolerances);
     row.RejectUnknownKeys();
+    RequireMass(row, m);
     out[name] = m;
   }
   return out;

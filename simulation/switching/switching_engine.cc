@@ -102,8 +102,12 @@ void SwitchingEngine::MoveBearings() {
   for (BearingRun& b : bearings_) {
     b.MoveTo(plant_.rotor.Position(motion_, b.plant->plane));
     if (!std::isfinite(b.x) || !std::isfinite(b.y))
-      throw LostRotor(fmt::format("{}: the motion diverged at t = {} s", scenario_.name, motion_.t),
-                      motion_.t);
+      throw LostRotor(
+          fmt::format("{}: the motion diverged at t = {:.4g} s{}; allowed: forces, "
+                      "voltages and formulas that leave the rotor near its bearings",
+                      scenario_.file.empty() ? scenario_.name : scenario_.file, motion_.t,
+                      motion_.t < 0 ? ", while the loop settled before the start" : ""),
+          motion_.t);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rig/clearance.h"
+
 namespace ambrig {
 
 namespace {
@@ -55,10 +57,12 @@ void RunWatch::Finish() {
   m.copper_loss = loop_.periods > 0 ? copper_sum_ / static_cast<double>(loop_.periods) : 0;
   contacts_.Finish(loop_.motion, result_);
   if (std::ranges::count(result_.events, kInvalid, &RunEvent::kind) == 0) return;
-  double widest = 0;
+  // No deeper than where an orbit ends: at the pole faces.
+  double deepest = 0;
   for (const SampledBearing& b : loop_.bearings)
-    widest = std::max(widest, b.plant->lanes.gap_offset[0]);
-  m.min_clearance_left = std::max(m.min_clearance_left, -widest);
+    if (const BearingParameters* p = loop_.rig.Find(b.plant->name))
+      deepest = std::max(deepest, std::sqrt(orbit_squared_[b.index]) - ClearanceOf(*p));
+  m.min_clearance_left = std::max(m.min_clearance_left, -deepest);
 }
 
 }  // namespace ambrig

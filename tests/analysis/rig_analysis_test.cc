@@ -140,24 +140,45 @@ TEST(Analysis, OfTheReferenceRig) {
 }
 
 // A gain beyond its margins is unstable, within them stable: the controller's gains multiplied.
-TEST(Margins, GainMarginsAreWhereStabilityEnds) {
+/// Gain margins of the thrust axis, which moves alone, beside the gains at which the loop is truly
+/// unstable. `ki`: times the rig's.
+void ExpectMarginsAreWhereStabilityEnds(double ki) {
   RigParameters rig = ReferenceRig();
   rig.gravity = {0, 0, 0};
+  rig.bearings[2].controller->ki *= ki;
   const OperatingPoint point = FindOperatingPoint(rig);
   const ClosedLoop loop(point, 0);
   const Sensitivity s = FindSensitivity(point, TransferFunction(point, loop), 600);
-  const AxisSensitivity& z = s.axes[4];  // an axis of its own
-  const auto radius = [&](double factor) {
+  const AxisSensitivity& z = s.axes[4];
+  const auto stable = [&](double factor) {
     RigParameters changed = rig;
     PidParameters& pid = *changed.bearings[2].controller;
     for (double* g : {&pid.kp, &pid.kd, &pid.ki}) *g *= factor;
     const OperatingPoint at = FindOperatingPoint(changed);
-    return FindModes(at, ClosedLoop(at, 0)).spectral_radius;
+    return FindModes(at, ClosedLoop(at, 0)).stable();
   };
-  EXPECT_LT(radius(0.99 * z.gain_up), 1);
-  EXPECT_GT(radius(1.01 * z.gain_up), 1);
-  EXPECT_LT(radius(1.01 * z.gain_down), 1);
-  EXPECT_GT(radius(0.99 * z.gain_down), 1);
+  ASSERT_GT(z.gain_down, 0) << "an open loop is unstable: the magnets pull away";
+  EXPECT_TRUE(stable(0.99 * z.gain_up));
+  EXPECT_FALSE(stable(1.01 * z.gain_up));
+  EXPECT_TRUE(stable(1.01 * z.gain_down));
+  EXPECT_FALSE(stable(0.99 * z.gain_down));
+}
+
+TEST(Margins, GainMarginsAreWhereStabilityEnds) { ExpectMarginsAreWhereStabilityEnds(1); }
+
+// Without an integrator the stiffness decides at standstill how far the gain may fall: k_p = k_s.
+TEST(Margins, WithoutAnIntegratorTheGainMayFallToTheNegativeStiffness) {
+  ExpectMarginsAreWhereStabilityEnds(0);
+  ExpectMarginsAreWhereStabilityEnds(1e-4);
+  RigParameters rig = ReferenceRig();
+  rig.gravity = {0, 0, 0};
+  rig.controller.pid.ki = 0;
+  const OperatingPoint point = FindOperatingPoint(rig);
+  const Sensitivity s = FindSensitivity(point, TransferFunction(point, ClosedLoop(point, 0)), 600);
+  for (const std::size_t a : {0u, 1u, 2u, 3u}) {  // coupled with the other end: near it only
+    EXPECT_GT(s.axes[a].gain_down, 0.3) << s.axes[a].axis;
+    EXPECT_LT(s.axes[a].gain_down, 0.6) << s.axes[a].axis;
+  }
 }
 
 class AnalyzeCommand : public CliFolder {};

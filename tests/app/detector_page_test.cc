@@ -97,9 +97,17 @@ TEST_F(DetectorPage, OnlyDetectorsWithAThresholdOfTheirSourceAreHeldToIt) {
   const std::string own = words.substr(words.rfind("thresholds of the sources"));
   EXPECT_THAT(own, HasSubstr("slope\n2 A\n"));
   EXPECT_THAT(own, Not(HasSubstr("ripple\n")));
-  EXPECT_THAT(own, HasSubstr("0.5 of 4000"));  // level of 2 A lies below 200
+  EXPECT_THAT(own, HasSubstr("50.0 % of 4000"));  // level of 2 A lies below 200
   EXPECT_THAT(page, HasSubstr("idle &amp; warm"));
   EXPECT_EQ(CountOf(page, "<figure id="), 3u);  // ROC, areas, delays
+}
+
+// A threshold is a number of its unit; where the unit is a source's own size, a multiple of it.
+TEST_F(DetectorPage, ThresholdsHaveTheirUnits) {
+  curves_[0].unit = "700 A/s";
+  EXPECT_THAT(testing::Words(Page()), HasSubstr("slope\n2 × 700 A/s\n"));
+  curves_[0].unit = "-";
+  EXPECT_THAT(testing::Words(Page()), HasSubstr("slope\n2\n"));
 }
 
 TEST_F(DetectorPage, ABrowserDrawsEveryFigure) {

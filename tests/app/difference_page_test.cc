@@ -69,7 +69,9 @@ TEST(DifferencePage, TheFirstChannelToLeaveComesFirst) {
   EXPECT_EQ(lines[0], "first: A.i1 at 40 ms");
   EXPECT_THAT(lines[1], HasSubstr("detected A.coil3 moved from 20 ms to 21 ms"));
   EXPECT_THAT(lines[2], HasSubstr("touchdown A"));
-  EXPECT_THAT(lines[3], HasSubstr("A.x: differs from 60 ms, 40 of 100 rows, worst 3e-06 m"));
+  EXPECT_THAT(lines[3], HasSubstr("A.i1: differs from 40 ms, 60 of 100 rows, worst 250 mA"));
+  EXPECT_THAT(lines[4], HasSubstr("A.x: differs from 60 ms, 40 of 100 rows, worst 3 um"));
+  EXPECT_THAT(lines[4], HasSubstr("(allowed 1 nm)"));
   EXPECT_EQ(DifferenceLines(d, 1).back(), "and 1 more channel");
   const std::string page = Page(a, b, d), words = testing::Words(page);
   EXPECT_THAT(words, HasSubstr("Something differs beyond the tolerances."));

@@ -64,7 +64,7 @@ TEST_F(RunReport, HasEverySection) {
   for (const char* section :
        {"Course of the run", "Timeline", "Expectations", "Orbits", "Positions", "Coil currents",
         "Fault detection", "All coils", "Stator cross-sections", "Further channels",
-        "Scenario and rig as resolved"})
+        "Scenario and rig files"})
     EXPECT_EQ(Count(*html_, std::string(">") + section + "</h"), 1u) << section;
   EXPECT_EQ(Count(*html_, "<figure id="), 12u);
   EXPECT_EQ(Count(*html_, "<figcaption>"), 12u);

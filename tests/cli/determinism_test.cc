@@ -24,6 +24,36 @@ TEST_F(Determinism, ARecordHasTheSameBytes) {
   }
 }
 
+// Not on what the cache holds of current distributions, nor on the folder, the language or the zone.
+TEST_F(Determinism, CacheFolderAndLanguageDoNotMatter) {
+  const std::filesystem::path other = folder_ / "a folder";
+  std::filesystem::create_directories(other);
+  const std::string scenario = ScenarioText(
+      "[speed]\nprofile = [[0.0, 157.0]]\n[[fault]]\ntime = 0.003\ntarget = \"A.coil3\"\n"
+      "kind = \"open\"\n");
+  for (const std::string& prefix : {std::string(), std::string("a folder/")}) {
+    Write(prefix + "rig.toml", ReferenceRigText());
+    Write(prefix + "s.toml", scenario);
+  }
+  const std::string run =
+      std::string(AMBRIG_BINARY) + " run s.toml --quiet --no-report --csv --out ";
+  const std::string here =
+      "cd " + folder_.string() + " && AMBRIG_CACHE=" + (folder_ / "cache").string() + " ";
+  ASSERT_EQ(Shell(here + run + "cold").exit, 0);
+  ASSERT_FALSE(std::filesystem::is_empty(folder_ / "cache"));
+  ASSERT_EQ(Shell(here + run + "warm").exit, 0);
+  ASSERT_EQ(Shell("cd '" + other.string() + "' && AMBRIG_CACHE=" + (folder_ / "none").string() +
+                  " LC_ALL=de_DE.UTF-8 TZ=Asia/Tokyo " + run + "out")
+                .exit,
+            0);
+  const std::string cold = ReadText(folder_ / "cold/s.csv");
+  EXPECT_GT(cold.size(), 10000u);
+  EXPECT_TRUE(cold == ReadText(folder_ / "warm/s.csv"));
+  EXPECT_TRUE(cold == ReadText(other / "out/s.csv"));
+  EXPECT_NE(ReadText(folder_ / "cold/s.json").find("redistributed"), std::string::npos);
+  EXPECT_TRUE(ReadText(folder_ / "cold/s.h5") == ReadText(folder_ / "warm/s.h5"));
+}
+
 TEST_F(Determinism, AnotherSeedIsAnotherRecord) {
   Write("rig.toml", ReferenceRigText());
   for (const char* seed : {"1", "2"}) {

@@ -173,6 +173,10 @@ TEST_F(CommandLine, SetsWithoutACoil) {
     EXPECT_EQ(o.exit, 2) << o.text;
     EXPECT_NE(o.text.find("a set without a coil, allowed: 1 to 8"), std::string::npos) << o.text;
   }
+  const Outcome o = Ambrig("redistribute rig.toml --bearing A --failed ''");  // not all 255 sets
+  EXPECT_EQ(o.exit, 2) << o.text;
+  EXPECT_EQ(o.lines(), 1) << o.text;
+  EXPECT_NE(o.text.find("a set without a coil"), std::string::npos) << o.text;
 }
 
 // Tables of a campaign or a study that another program wrote stay.

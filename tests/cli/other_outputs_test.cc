@@ -1,0 +1,119 @@
+// What ambrig did not make is never overwritten, by any command: the file stays, exit code 2, one line,
+// before any work; and never what a command reads.
+#include <gmock/gmock.h>
+
+#include <chrono>
+
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::HasSubstr;
+
+/// How each command is called so that it would write; its inputs are made below.
+struct Call {
+  const char *command, *arguments;
+  const char* input = "";  // a file that it reads
+};
+
+const Call kCalls[] = {
+    {"run", "s.toml --out out --no-report", "s.toml"},
+    {"check", "e.toml"},
+    {"diff", "a.csv b.csv", "a.csv"},
+    {"campaign", "c.toml -o camp", "c.toml"},
+    {"commission", "rig.toml -o learnt.toml", "rig.toml"},
+    {"crosscheck", "e.toml"},
+    {"design", "examples/design/small.toml -o study"},
+    {"redistribute", "rig.toml --failed 1", "rig.toml"},
+    {"analyze", "rig.toml", "rig.toml"},
+    {"validate", "examples/validation"},
+    {"effects", ""},
+    {"parameters", ""},
+    {"channels", "a.csv", "a.csv"},
+    {"compare", "case.toml", "case.toml"},
+    {"explain", "case.toml", "case.toml"},
+    {"adopt", "case.toml sensor-gain --target A.x -o adopted.toml", "case.toml"},
+    {"refine", "case.toml saturation@A -o refined.toml", "case.toml"},
+    {"plan", "case.toml -o next.toml", "case.toml"},
+};
+
+class OtherOutputs : public CliFolder, public testing::WithParamInterface<Call> {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    for (const char* name : {"scenarios", "examples"})
+      std::filesystem::create_directory_symlink(std::filesystem::path(AMBRIG_SOURCE_DIR) / name,
+                                                folder_ / name);
+    Write("rig.toml", ReferenceRigText());
+    Write("s.toml", ScenarioText(""));
+    Write("e.toml", ScenarioText("[expect]\ndrop = false\n"));
+    std::string rows = "t,A.x\n";
+    for (int k = 0; k < 100; ++k) rows += std::to_string(k / 12500.0) + ",1e-6\n";
+    Write("a.csv", rows);
+    Write("b.csv", rows);
+    Write("c.toml", "rig = \"rig.toml\"\nduration = 0.01\n");
+    Write("case.toml",
+          "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"a.csv\"\n"
+          "[[record]]\nscenario = \"s.toml\"\ndata = \"b.csv\"\n");
+    Write("mine.json", "{ \"mine\": true }");
+    Write("mine.html", "<html>mine</html>");
+  }
+  void ExpectRefused(const Outcome& o, const std::string& said) const {
+    EXPECT_EQ(o.exit, 2) << o.text;
+    EXPECT_EQ(o.lines(), 1) << o.text;
+    EXPECT_THAT(o.text, HasSubstr(said));
+  }
+  std::string Called(const std::string& option) const {
+    return std::string(GetParam().command) + " " + GetParam().arguments + " " + option;
+  }
+};
+
+TEST_P(OtherOutputs, StayAsTheyAre) {
+  for (const char* kind : {"json", "html"}) {
+    const std::string file = std::string("mine.") + kind, before = ReadText(folder_ / file);
+    if (Ambrig(std::string(GetParam().command) + " --help").text.find(std::string("--") + kind) ==
+        std::string::npos)
+      continue;
+    const auto begin = std::chrono::steady_clock::now();
+    ExpectRefused(Ambrig(Called(std::string("--") + kind + " " + file)),
+                  file + " exists and is not an output of ambrig");
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+    EXPECT_EQ(ReadText(folder_ / file), before);
+  }
+}
+
+TEST_P(OtherOutputs, InputsAreNotOverwritten) {
+  const std::string input = GetParam().input;
+  if (input.empty()) GTEST_SKIP() << "reads no file of the user's own";
+  const std::string before = ReadText(folder_ / input);
+  const Outcome o = Ambrig(Called("--force --json " + input));
+  ExpectRefused(o, input + " is read by this command");
+  EXPECT_EQ(ReadText(folder_ / input), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(Commands, OtherOutputs, testing::ValuesIn(kCalls),
+                         [](const auto& of) { return std::string(of.param.command); });
+
+// A new command that writes JSON has its row above.
+TEST(OtherOutputsTable, HasEveryCommandWithOutputs) {
+  std::istringstream help(Shell(std::string(AMBRIG_BINARY) + " --help").text);
+  bool inside = false;
+  for (std::string line; std::getline(help, line);) {
+    if (line.find("ubcommands:") != std::string::npos) inside = true;
+    if (!inside || !line.starts_with("  ") || line.starts_with("  ambrig ") || line[2] == ' ')
+      continue;
+    const std::string command = line.substr(2, line.find_first_of(" ,", 2) - 2);
+    if (Shell(std::string(AMBRIG_BINARY) + " " + command + " --help").text.find("--json") ==
+        std::string::npos)
+      continue;
+    const bool listed = std::any_of(std::begin(kCalls), std::end(kCalls),
+                                    [&](const Call& c) { return command == c.command; });
+    const bool elsewhere = command == "merge" || command == "score" || command == "hide" ||
+                           command == "detectors" || command == "rotor" || command == "tour";
+    EXPECT_TRUE(listed || elsewhere) << command;
+  }
+}
+
+}  // namespace
+}  // namespace ambrig
