@@ -109,4 +109,13 @@ bool HasSize(const EffectInstance& effect) {
   return false;
 }
 
+bool HasSize(const FitResult& fit, std::size_t effect) {
+  EffectInstance e = FittedEffect(fit, effect);
+  for (std::size_t k = 0; k < fit.hypothesis.free.size() && k < fit.size_sd.size(); ++k) {
+    const FreeParameter& p = fit.hypothesis.free[k];
+    if (p.effect == static_cast<int>(effect)) e.sd[p.row] = fit.size_sd[k];
+  }
+  return HasSize(e);
+}
+
 }  // namespace ambrig

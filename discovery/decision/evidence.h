@@ -55,5 +55,8 @@ std::vector<SetMember> CredibleSet(std::vector<RankedEffect>& ranking, double na
 /// Whether at least one size of the effect (a parameter that switches it off at its null) is known
 /// to differ from nothing by three of its own sd. A size whose sd is not known counts as seen.
 bool HasSize(const EffectInstance& effect);
+/// The same of effect number `effect` of a fit, with the shape of its law held: a size that is known but
+/// for a time constant it goes with (a slow rise tells their quotient) is there all the same.
+bool HasSize(const FitResult& fit, std::size_t effect);
 
 }  // namespace ambrig

@@ -82,8 +82,11 @@ void Explainer::ReportNuisances(const FitResult& now) {
 
 /// An effect that the last fit leaves without a size goes again.
 void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
-  const auto sizeless = std::find_if(out_.adopted.begin(), out_.adopted.end(),
-                                     [](const EffectInstance& e) { return !HasSize(e); });
+  const auto sizeless =
+      std::find_if(out_.adopted.begin(), out_.adopted.end(), [&](const EffectInstance& e) {
+        return !HasSize(now,
+                        rig_.effects.size() + static_cast<std::size_t>(&e - out_.adopted.data()));
+      });
   if (sizeless == out_.adopted.end()) return;
   out_.warnings.push_back(Named(*sizeless) + " lies within 3 sd of nothing: it is not named");
   out_.adopted.erase(sizeless);
@@ -114,7 +117,8 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   const std::vector<RankedEffect>& ranking = ranked.ranking;
   if (round == 0) out_.screened = std::move(ranked.screened);
   (round == 0 ? out_.ranking : out_.second_round) = ranking;
-  if (ranking.empty() || !HasSize(ranking[0].effect) ||
+  if (ranking.empty() ||
+      !HasSize(ranking[0].fit, ranking[0].fit.hypothesis.rig.effects.size() - 1) ||
       !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_))
     return false;
   if (round == 0)

@@ -7,6 +7,7 @@
 
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
+#include "effects/catalogue.h"
 
 namespace ambrig {
 
@@ -136,6 +137,34 @@ class CompressedCost : public ceres::CostFunction {
   mutable Eigen::MatrixXd base_jacobian_;
 };
 
+/// A parameter of an effect's law that is no size of it (a frequency, a time constant).
+bool IsShape(const FreeParameter& p, const Hypothesis& h) {
+  if (p.effect < 0) return false;
+  const EffectInstance& e = h.rig.effects[static_cast<std::size_t>(p.effect)];
+  const EffectDescription* d = FindEffect(e.name);
+  return d && !d->Switches(e.table[p.row]);
+}
+
+/// sd of every parameter where the shape parameters of its own effect are held (information without
+/// their rows). [in coordinates]
+std::vector<double> SdOfSizes(const Hypothesis& h, const Eigen::MatrixXd& information) {
+  std::vector<double> sd(h.free.size(), 0);
+  for (int effect = 0; effect < static_cast<int>(h.rig.effects.size()); ++effect) {
+    std::vector<Index> rows;
+    for (std::size_t k = 0; k < h.free.size(); ++k)
+      if (h.free[k].effect != effect || !IsShape(h.free[k], h))
+        rows.push_back(static_cast<Index>(k));
+    const Eigen::MatrixXd part = information(rows, rows);
+    const Eigen::MatrixXd covariance =
+        part.ldlt().solve(Eigen::MatrixXd::Identity(part.rows(), part.cols()));
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      if (h.free[static_cast<std::size_t>(rows[r])].effect == effect)
+        sd[static_cast<std::size_t>(rows[r])] =
+            std::sqrt(std::max(0.0, covariance(static_cast<Index>(r), static_cast<Index>(r))));
+  }
+  return sd;
+}
+
 /// Covariance of the optimum and what a user should know about it.
 void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
   Hypothesis& h = result.hypothesis;
@@ -151,16 +180,18 @@ void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
     information(static_cast<Index>(k), static_cast<Index>(k)) += h.free[k].sd > 0 ? 1.0 : 1e-9;
   const Eigen::MatrixXd covariance =
       information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+  result.size_sd = SdOfSizes(h, information);
   for (std::size_t k = 0; k < p; ++k) {
     const auto i = static_cast<Index>(k);
     const FreeParameter& f = h.free[k];
     const double unit = f.logarithmic ? 0.3 * f.value : f.step;
+    result.size_sd[k] *= unit;
     result.sd[k] = unit * std::sqrt(std::max(0.0, covariance(i, i)));
     if (f.effect < 0) continue;
     if (influence(i) < 1e-6) {
       result.warnings.push_back(
           f.path + " has no influence on these records near its value (or acts in discrete steps)");
-      result.sd[k] = 0;  // not known from here
+      result.sd[k] = result.size_sd[k] = 0;  // not known from here
       continue;
     }
     if (f.value <= f.lo || f.value >= f.hi)

@@ -29,6 +29,8 @@ struct FitResult {
   Hypothesis hypothesis;  // at the optimum
   std::vector<double> predicted, residual;
   std::vector<double> sd;  // of the free parameters, their own units
+  // the same of an effect's sizes with the shape of its law held: what tells whether it is there
+  std::vector<double> size_sd;
   double ratio_fit = 0, ratio_validate = 0;
   // Σ (shift/sd)² of the rig parameters, what lies beyond 3 sd counted five times
   double penalty = 0;

@@ -24,7 +24,7 @@ TEST(HasSize, NeedsThreeOfItsOwnSd) {
   EXPECT_FALSE(HasSize(Gain(1.0, 0)));
 }
 
-// findings A16: both sizes are within their sd of nothing.
+// Both sizes are within their sd of nothing.
 TEST(HasSize, AnOffsetWithinItsSdIsNothing) {
   EffectInstance e = MakeInstance(EffectNamed("amplifier-offset"), "B");
   e.Set("offset", -0.000694);
@@ -42,6 +42,24 @@ TEST(HasSize, ANullOfInfinityIsAwayWhenTheInverseIs) {
   EXPECT_TRUE(HasSize(e));
   e.sd.assign(e.values.size(), 2000.0);
   EXPECT_FALSE(HasSize(e));
+}
+
+// A slow rise tells the quotient of size and time constant: each alone is unknown, and yet something is
+// there.
+TEST(HasSize, ASizeThatGoesWithATimeConstantIsJudgedWithThatHeld) {
+  EffectInstance e = MakeInstance(EffectNamed("copper-heating"), "B");
+  e.Set("rise_per_watt", 200);
+  e.Set("time_constant", 5);
+  FitResult fit;
+  fit.hypothesis.rig.effects.clear();
+  fit.hypothesis.AddEffect(e);
+  ASSERT_EQ(fit.hypothesis.free.size(), 2U);
+  fit.sd = {700, 18};
+  fit.size_sd = {3, 0};
+  EXPECT_FALSE(HasSize(FittedEffect(fit, 0)));
+  EXPECT_TRUE(HasSize(fit, 0));
+  fit.size_sd = {150, 0};
+  EXPECT_FALSE(HasSize(fit, 0));
 }
 
 TEST(CredibleSet, HoldsUnknownBesideTheNames) {

@@ -68,6 +68,7 @@ TEST(Fit, StandardDeviationIsThatOfTheLinearProblem) {
   const double weight = 120 / static_cast<double>(c.model.size());
   EXPECT_NEAR(fit.sd[0], LinearCase::kFloor / std::sqrt(weight * sum), 1e-3 * fit.sd[0]);
   EXPECT_EQ(FittedEffect(fit, 0).sd[0], fit.sd[0]);
+  EXPECT_NEAR(fit.size_sd[0], fit.sd[0], 1e-9 * fit.sd[0]);  // a gain has no shape to hold
 }
 
 // Data that lie beyond a bound leave the parameter there, with a warning and the error that remains.
