@@ -39,20 +39,6 @@ ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effect
 
 namespace {
 
-/// Share of the squared error above the noise that was explained, of all records together. What the
-/// unseen records hardly show may count little, but they must not contradict.
-double ShareOfAll(const StageRatios& before, const StageRatios& after) {
-  constexpr double kShows = 1.1;             // ratio from which unseen records have a say
-  constexpr double kMostBeyondUnseen = 0.5;  // of the share on them
-  const auto excess = [](double ratio) { return std::max(0.0, ratio * ratio - 1); };
-  const double fit = excess(before.fit), unseen = excess(before.validate),
-               of_fit = ExplainedShare(before.fit, after.fit),
-               of_unseen = ExplainedShare(before.validate, after.validate);
-  if (before.validate <= kShows) return of_fit;
-  const double together = (fit * of_fit + unseen * of_unseen) / (fit + unseen);
-  return std::min(together, of_unseen + kMostBeyondUnseen);
-}
-
 /// The members of the set when no effect is named: the verdict itself and the best candidate.
 void SetWithout(Explanation& out, double named) {
   out.set = CredibleSet(out.ranking, out.verdict == "unknown" ? named : 0);
@@ -68,7 +54,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   out.closure = ClosureOf(model, base.residual, last.residual);
   const StageRatios first = RatiosOf(model, nominal), parameters = RatiosOf(model, base),
                     end = RatiosOf(model, last);
-  const double share = ShareOfAll(parameters, end);
+  const double share = ShareOfAllRecords(parameters, end);
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
   const bool established = any && named >= 0.5;

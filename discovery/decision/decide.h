@@ -27,6 +27,11 @@ struct StageRatios {
   double Answered() const;
 };
 
+/// Share of the squared error above the noise that was explained, of fitted and unseen records
+/// together. Unseen records that hardly show an effect count little, but they must not contradict:
+/// the share is at most half above theirs.
+double ShareOfAllRecords(const StageRatios& before, const StageRatios& after);
+
 /// What the rig parameters had to do to explain the records alone.
 struct ParameterNeed {
   double largest_shift = 0;  // of its own sd [-]

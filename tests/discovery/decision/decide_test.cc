@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <algorithm>
 #include <vector>
 
@@ -84,6 +86,15 @@ TEST(WorthAdopting, ASecondEffectIsNoDetailOfTheFirst) {
   EXPECT_TRUE(WorthAdopting(before, most, 100, 1, 400));  // explains most of what is left
 }
 
+// 1.03 -> 1.005 explains most of what is left, but no more than the detail of a first law that won 5.
+TEST(WorthAdopting, ASecondEffectWinsMoreThanTheFirstLawsDetail) {
+  const FitResult before = FitWith(1.03, 1.03), after = FitWith(1.005, 1.005);
+  EXPECT_FALSE(WorthAdopting(before, after, 100, 1, 5));
+  EXPECT_TRUE(WorthAdopting(before, after, 100, 1, 1));
+  // at most a tenth of the noise's power is a law's detail, however strong the effect
+  EXPECT_TRUE(WorthAdopting(FitWith(1.06, 1.06), FitWith(1, 1), 100, 1, 1000));
+}
+
 TEST(WorthAdopting, BringsParametersBackToWhereTheyMayBe) {
   const FitResult strained = FitWith(1.5, 1.5, 4, 40), relaxed = FitWith(1.5, 1.5, 4, 2);
   EXPECT_TRUE(WorthAdopting(strained, relaxed, 30, 0, 0));
@@ -141,6 +152,19 @@ TEST(VerdictOf, ATraceOfALargeMisfitMayStay) {
   EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, false), "parameters");
   EXPECT_EQ(VerdictOf({20, 20, 20}, {1.6, 1.6, 1.6}, none, false), "unknown");
   EXPECT_EQ(VerdictOf({2, 2, 2}, {1.4, 1.4, 1.4}, none, false), "unknown");  // no trace of it
+}
+
+// Squared errors above the noise of 99 and 3: the fitted records hold nearly all of it.
+TEST(ShareOfAllRecords, WeighsEachKindByItsError) {
+  const double root = std::sqrt(1.99);  // leaves 0.99 of 99
+  EXPECT_NEAR(ShareOfAllRecords({10, 2, 0}, {root, 1, 0}), (99 * 0.99 + 3) / 102, 1e-12);
+  EXPECT_NEAR(ShareOfAllRecords({2, 2, 0}, {1, 2, 0}), 0.5, 1e-12);
+}
+
+TEST(ShareOfAllRecords, UnseenRecordsMayNotContradict) {
+  EXPECT_NEAR(ShareOfAllRecords({10, 2, 0}, {1, 2, 0}), 0.5, 1e-12);  // nothing of theirs explained
+  EXPECT_NEAR(ShareOfAllRecords({10, 2, 0}, {1, 2.5, 0}), 0.5, 1e-12);
+  EXPECT_NEAR(ShareOfAllRecords({10, 1.05, 0}, {1, 1.05, 0}), 1, 1e-12);  // they do not show it
 }
 
 }  // namespace

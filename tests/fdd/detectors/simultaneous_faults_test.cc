@@ -29,10 +29,13 @@ const std::vector<std::vector<int>> kSets = {
 void ExpectAllOpensNamed(const CommissionedRig& plant, const std::vector<int>& coils) {
   const auto seen = Concluded(plant.rig, &plant.bearing, Operation(Together(coils, "open"), 0.032));
   EXPECT_EQ(seen->Coils(), SetOf(coils)) << TextOf(coils);
+  double first = kInfinity;
   for (const Diagnosis& d : seen->found) {
     EXPECT_EQ(d.cls, FaultClass::kOpen) << TextOf(coils) << " " << d.coil + 1;
-    EXPECT_LT(d.time - kOnset, 0.25e-3) << TextOf(coils) << " " << d.coil + 1;
+    EXPECT_LT(d.time - kOnset, 2e-3) << TextOf(coils) << " " << d.coil + 1;
+    first = std::min(first, d.time - kOnset);
   }
+  EXPECT_LT(first, 0.25e-3) << TextOf(coils);
 }
 
 TEST(SimultaneousFaults, OpenCoilsAreAllNamedAndNoNeighbour) {
