@@ -115,7 +115,7 @@ void OwnThresholds(HtmlReport& report, const std::vector<DetectorCurves>& curves
     std::vector<Cell> line = {Cell(d.name), Cell(ThresholdText(d.documented, d.unit))};
     for (const FalseAlarmCurve& c : d.scenarios) {
       const double share = c.share[static_cast<std::size_t>(LevelAtLeast(d.documented))];
-      line.emplace_back(fmt::format("{} of {}", Percent(share), c.windows),
+      line.emplace_back(fmt::format("{} of {}", PercentText(share), c.windows),
                         share == 0 ? "ok" : "fail");
     }
     table.push_back(std::move(line));
