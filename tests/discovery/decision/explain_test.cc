@@ -67,16 +67,31 @@ TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
   EXPECT_EQ(fractions.back(), 1);
 }
 
-// Held at one place per record, a gain is another zero in every record: it is told as that, not as an effect.
-TEST(Explain, WhatDiffersFromRecordToRecordIsANuisance) {
+// Held at one place per record, a gain is another zero in every record: one number that explains them all
+// is preferred to as many as there are records.
+TEST(Explain, OneEffectIsPreferredToAsManyZerosAsRecords) {
   const Case c = MeasuredCase(Places(1.08));
   const Explanation e = Explain(c, Short());
+  EXPECT_EQ(e.verdict, "effect");
+  ASSERT_EQ(e.adopted.size(), 1u);
+  EXPECT_EQ(e.adopted[0].name, "sensor-gain");
+  EXPECT_EQ(e.adopted[0].target, "A.x");
+  EXPECT_NEAR(e.adopted[0].Value("gain"), 1.08, 5e-3);
+  EXPECT_TRUE(e.nuisances.empty());
+}
+
+// Zeros that follow no law are nuisances, not an effect.
+TEST(Explain, WhatDiffersFromRecordToRecordIsANuisance) {
+  std::vector<MeasuredPlace> places = Places(1);
+  const double zeros[] = {3e-6, -5e-6, 4e-6, -2e-6};
+  for (std::size_t r = 0; r < places.size(); ++r) places[r].offset = zeros[r % 4];
+  const Explanation e = Explain(MeasuredCase(places), Short());
   EXPECT_EQ(e.verdict, "parameters");
   EXPECT_TRUE(e.adopted.empty());
   ASSERT_EQ(e.nuisances.size(), 4u);
   for (std::size_t r = 0; r < 4; ++r) {
     EXPECT_EQ(e.nuisances[r].name, "zero of A.x");
-    EXPECT_NEAR(e.nuisances[r].value, 0.08 * Places(1)[r].x, 3e-7) << r;
+    EXPECT_NEAR(e.nuisances[r].value, zeros[r], 3e-7) << r;
   }
   EXPECT_NEAR(e.final_ratio_validate, 1, 0.15);
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-class NuisanceTest : public testing::Test {
+class NuisanceChoiceTest : public testing::Test {
  protected:
   /// A kind that is `size` floors in every row of a channel (0: A.x, 1: A.y), all records.
   NuisanceKind Zero(std::size_t channel, double size = 10) const {
@@ -42,7 +42,7 @@ class NuisanceTest : public testing::Test {
 };
 
 // Of an offset r in n rows a zero of c floors per sd takes n c²/(n c² + 1/weight), record by record.
-TEST_F(NuisanceTest, EliminationIsTheRidgeSolutionOfEachRecord) {
+TEST_F(NuisanceChoiceTest, EliminationIsTheRidgeSolutionOfEachRecord) {
   Nuisances n;
   EXPECT_FALSE(n.any());
   n.Use(case_.model, {Zero(0)}, kWeight);
@@ -60,7 +60,7 @@ TEST_F(NuisanceTest, EliminationIsTheRidgeSolutionOfEachRecord) {
   EXPECT_NEAR(amounts[3].sd, 10e-6 / std::sqrt(kWeight * square + 1), 1e-12);
 }
 
-TEST_F(NuisanceTest, ColumnsOfAFitLoseTheSameAsTheResidual) {
+TEST_F(NuisanceChoiceTest, ColumnsOfAFitLoseTheSameAsTheResidual) {
   Nuisances n;
   n.Use(case_.model, {Zero(0), Zero(1)}, kWeight);
   const std::vector<double> r = Offsets({1, 2, 3, 4});
@@ -76,14 +76,14 @@ TEST_F(NuisanceTest, ColumnsOfAFitLoseTheSameAsTheResidual) {
   }
 }
 
-TEST_F(NuisanceTest, WhatARecordDoesNotFeelIsLeftOut) {
+TEST_F(NuisanceChoiceTest, WhatARecordDoesNotFeelIsLeftOut) {
   Nuisances n;
   n.Use(case_.model, {Zero(0, 1e-4)}, kWeight);
   EXPECT_FALSE(n.any());
 }
 
 // Thinned kinds are the same numbers at the rows that remain.
-TEST_F(NuisanceTest, AThinnedModelSeesTheSameKinds) {
+TEST_F(NuisanceChoiceTest, AThinnedModelSeesTheSameKinds) {
   const CaseModel thin(case_.data, 5);
   NuisanceKind k = Zero(0);
   for (Index row = 0; row < k.column.size(); ++row) k.column(row) = static_cast<double>(row);
@@ -97,7 +97,7 @@ TEST_F(NuisanceTest, AThinnedModelSeesTheSameKinds) {
     }
 }
 
-TEST_F(NuisanceTest, ZerosThatDifferFromRecordToRecordAreChosen) {
+TEST_F(NuisanceChoiceTest, ZerosThatDifferFromRecordToRecordAreChosen) {
   const auto chosen =
       ChooseNuisances(case_.model, {Zero(1), Zero(0)}, Offsets({6, -6, 5, -4}), kWeight);
   ASSERT_EQ(chosen.size(), 1u);
@@ -105,11 +105,11 @@ TEST_F(NuisanceTest, ZerosThatDifferFromRecordToRecordAreChosen) {
 }
 
 // The same offset in every record is an effect of the rig, not a nuisance.
-TEST_F(NuisanceTest, WhatIsTheSameInEveryRecordIsLeftToTheSearch) {
+TEST_F(NuisanceChoiceTest, WhatIsTheSameInEveryRecordIsLeftToTheSearch) {
   EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, Offsets({6, 6, 6, 6}), kWeight).empty());
 }
 
-TEST_F(NuisanceTest, ASmallGainIsNotWorthItsPrice) {
+TEST_F(NuisanceChoiceTest, ASmallGainIsNotWorthItsPrice) {
   EXPECT_TRUE(
       ChooseNuisances(case_.model, {Zero(0)}, Offsets({0.5, -0.5, 0.5, -0.5}), kWeight).empty());
 }
