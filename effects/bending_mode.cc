@@ -115,9 +115,9 @@ EffectDescription BendingModeEffect() {
     mode.omega = 2 * kPi * e.Value("frequency");
     mode.damping = e.Value("damping");
     mode.gyroscopic = e.Value("gyro");
-    mode.shape = ShapeThrough(plant.planes, e.Value("gain_a"), e.Value("gain_b"),
-                              e.Value("length") *
-                                  std::sqrt(12 * rotor.inertia_transverse / rotor.mass));
+    mode.shape =
+        ShapeThrough(plant.planes, e.Value("gain_a"), e.Value("gain_b"),
+                     e.Value("length") * std::sqrt(12 * rotor.inertia_transverse / rotor.mass));
     plant.rotor.AddBendingMode(mode);
   };
   return d;

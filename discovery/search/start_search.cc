@@ -64,7 +64,7 @@ std::vector<SimulatedStart> Neighbours(const EffectInstance& e, const Steps& ste
   return out;
 }
 
-bool Better(const SimulatedStart& a, const SimulatedStart& b) { return a.score < b.score; }
+bool ExplainsMore(const SimulatedStart& a, const SimulatedStart& b) { return a.score < b.score; }
 
 /// Sizes and patterns of one probe of a resonance.
 std::vector<SimulatedStart> SizesOfResonance(const EffectInstance& e) {
@@ -143,7 +143,7 @@ void StartSearch::Climb(SimulatedStart& start) const {
     for (int move = 0; move < kMost; ++move) {
       std::vector<SimulatedStart> next = Neighbours(start.effect, steps);
       Simulate(next);
-      const auto best = std::min_element(next.begin(), next.end(), Better);
+      const auto best = std::min_element(next.begin(), next.end(), ExplainsMore);
       if (best->score >= start.score) break;
       start = *best;
     }
@@ -169,7 +169,7 @@ std::vector<ProbeGroup> ScanStarts(const StartSearch& search,
       starts.push_back(std::move(s));
   }
   search.Simulate(starts);
-  std::stable_sort(starts.begin(), starts.end(), Better);
+  std::stable_sort(starts.begin(), starts.end(), ExplainsMore);
   std::vector<ProbeGroup> out;
   for (const SimulatedStart& s : starts) {
     if (out.size() >= kKept || s.score > search.here() - kWorthKeeping) break;
