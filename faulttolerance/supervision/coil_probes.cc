@@ -46,6 +46,12 @@ bool CoilProbes::FalseCurrent(int coil) const {
   return it != looks_.end() && it->second.false_current;
 }
 
+bool CoilProbes::OtherFalseCurrent(int coil) const {
+  for (int other = 0; other < kLanes; ++other)
+    if (other != coil && (refuted_[other] > 0 || FalseCurrent(other))) return true;
+  return false;
+}
+
 int CoilProbes::Due(double t) const {
   for (const auto& [coil, look] : looks_) {
     const bool early = !look.early && t > look.given_up + kWhenGrown && Grown(look);
@@ -75,6 +81,7 @@ void CoilProbes::AnswerIdle(int coil, double t) {
 void CoilProbes::Answer(int coil, bool healthy, double t) {
   if (healthy) {
     returned_[coil] = 1;
+    if (FalseCurrent(coil)) refuted_[coil] = 1;
     looks_.erase(coil);
     return;
   }

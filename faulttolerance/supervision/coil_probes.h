@@ -30,6 +30,10 @@ class CoilProbes {
   /// Whether `coil` was given up because the reading of its current was wrong: a test current is a
   /// witness then only to a detector that does not doubt its model.
   bool FalseCurrent(int coil) const;
+  /// Whether another coil of the bearing waits for its probe after a false reading of its current, or
+  /// came back from one. Current sensors do not fail one after the other within milliseconds, a
+  /// model that is wrong says just that: such a conclusion is not to be acted on.
+  bool OtherFalseCurrent(int coil) const;
   /// The answer to the probe of `coil`, which was given up, at t.
   void Answer(int coil, bool healthy, double t);
   /// The probe of the idle coil `coil` ended at t.
@@ -57,6 +61,7 @@ class CoilProbes {
   double idle_again_ = 0;  // no idle coil is probed before [s]
   std::map<int, Look> looks_;
   Lane returned_;          // 1: came back once
+  Lane refuted_;           // 1: came back though the reading of its current was called wrong
   double slice_ends_ = 0;  // [s]
   double slice_[2] = {};   // largest displacement of this and of the last slice [m]
 };

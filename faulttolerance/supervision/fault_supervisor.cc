@@ -89,10 +89,7 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
   in.set_point = &control.commanded;
   const DetectorAlarm alarm = w.detector->Period(in);
   coil_periods_ += w.bearing->coils();
-  if (w.detector->doubtful() && !w.doubtful) {
-    w.doubtful = doubtful_ = true;
-    events.push_back({m.t + T_, "doubtful", w.bearing->name, "model doubtful", 0});
-  }
+  if (w.detector->doubtful()) Doubt(w, m.t + T_, events);
   const double t = m.t + T_;
   if (options_.redistribute) Probe(w, t, in, m.position_loop, control, out);
   if (alarm.coil < 0) return;
@@ -123,10 +120,20 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
         {t, "classified", CoilName(w.bearing->name, d.coil), ToText(d.cls), d.fraction});
   }
   if (!options_.redistribute || w.detector->doubtful()) return;
+  if (alarm.diagnosis.cls == FaultClass::kCurrentSensor && w.probes.OtherFalseCurrent(alarm.coil)) {
+    Doubt(w, t, events);
+    return;
+  }
   Disable(w, alarm.diagnosis, out);
   for (const Diagnosis& d : alarm.more) Disable(w, d, out);
   // Set-points that come from outside are not spread over other coils.
   if (m.position_loop) Redistribute(w, t, control, out);
+}
+
+void FaultSupervisor::Doubt(Watched& w, double t, std::vector<RunEvent>& events) {
+  if (w.doubtful) return;
+  w.doubtful = doubtful_ = true;
+  events.push_back({t, "doubtful", w.bearing->name, "model doubtful", 0});
 }
 
 void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out) {

@@ -53,6 +53,8 @@ class FaultSupervisor : public Supervisor {
   void WatchPositions(const PeriodMeasurement& m, std::vector<RunEvent>& events);
   void WatchBearing(std::size_t k, const PeriodMeasurement& m, const BearingControl& control,
                     SupervisorOutput& out);
+  /// Says once in a run that the model of the bearing is doubtful.
+  void Doubt(Watched& w, double t, std::vector<RunEvent>& events);
   /// What is left of the coil's turns; a lost coil's bridge is kept off.
   void Disable(Watched& w, const Diagnosis& d, SupervisorOutput& out);
   void Redistribute(Watched& w, double t, const BearingControl& control, SupervisorOutput& out);

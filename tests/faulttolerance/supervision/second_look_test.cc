@@ -163,5 +163,20 @@ TEST(SecondLook, IdleCoilsAreAskedAfterTenMillisecondsAndThenNowAndAgain) {
   EXPECT_EQ(probes.Due(0.2), -1);
 }
 
+// One current sensor after the other says that the model errs: only the first is acted on, and after a
+// probe has refuted it none of another coil.
+TEST(CoilProbes, AFalseCurrentMakesThoseOfOtherCoilsSuspect) {
+  CoilProbes probes;
+  probes.GivenUp(1, FaultClass::kOpen, 0.01);
+  EXPECT_FALSE(probes.OtherFalseCurrent(2));  // an open coil says nothing of readings
+  probes.GivenUp(3, FaultClass::kCurrentSensor, 0.02);
+  EXPECT_TRUE(probes.OtherFalseCurrent(4));
+  EXPECT_FALSE(probes.OtherFalseCurrent(3));
+  probes.Answer(3, true, 0.03);
+  EXPECT_FALSE(probes.FalseCurrent(3));
+  EXPECT_TRUE(probes.OtherFalseCurrent(4));
+  EXPECT_FALSE(probes.OtherFalseCurrent(3));  // it may truly fail again
+}
+
 }  // namespace
 }  // namespace ambrig
