@@ -57,7 +57,7 @@ void CoilNetwork::Solve(const double* lambda, double x, double y, NetworkState& 
     const std::size_t p = AsSize(q);
     const double g = Gap(q, x, y);
     G[p] = 1 / (reluctance_.Value(g) + own[p]);
-    pull[p] = 0.5 * reluctance_.Slope(g);
+    pull[p] = 0.5 * reluctance_.Pull(g);
     sum_G += G[p];
     sum_Gm += G[p] * m[p];
   }

@@ -263,7 +263,7 @@ void StatorLanes::Force(double x, double y, double* out_x, double* out_y) const 
   *out_x = *out_y = 0;
   for (int j = 0; j < coils; ++j) {
     if (coupling == Coupling::kSides && j % 2 == 1) continue;
-    const double pull = 0.5 * reluctance.Slope(GapAt(j, x, y)) * phi[j] * phi[j];
+    const double pull = 0.5 * reluctance.Pull(GapAt(j, x, y)) * phi[j] * phi[j];
     *out_x += pull * direction_x[j];
     *out_y += pull * direction_y[j];
   }

@@ -173,7 +173,7 @@ template <class V>
   const V inverse = 1 / ((first + nc) * (last + nc));  // one division for both
   Store(rel0, first);
   Store(rel1, last);
-  Store(slope, law.reluctance.Slope(V(0.5 * (start + end))));
+  Store(slope, law.reluctance.Pull(V(0.5 * (start + end))));
   Store(g0, (last + nc) * inverse);
   Store(dg, (first - last) * inverse);
 }

@@ -9,13 +9,7 @@ namespace ambrig {
 
 namespace {
 
-/// d²R/dg² of a pole's reluctance [1/(H m²)]: zero but for fringing.
-double Curvature(const GapReluctance& r, double g) {
-  const double a = 1 + r.fringing * g / r.gap0;
-  return -2 * r.per_metre * r.fringing / (r.gap0 * a * a * a);
-}
-
-/// Force of a change (dphi, dx, dy): f_p = R'(g) φ²/2 along the pole, g' = -d.
+/// Force of a change (dphi, dx, dy): f_p = Pull(g) φ²/2 along the pole, g' = -d.
 Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s,
                             const NetworkRates& rate, double x, double y, double dx, double dy) {
   Eigen::Vector2d out = Eigen::Vector2d::Zero();
@@ -24,8 +18,8 @@ Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s,
     const Eigen::Vector2d d(lanes.direction_x[j], lanes.direction_y[j]);
     const double g = lanes.gap_offset[j] - d.x() * x - d.y() * y, phi = s.phi[AsSize(j / per_pole)];
     const double closing = d.x() * dx + d.y() * dy;
-    out += d * (lanes.reluctance.Slope(g) * phi * rate.phi[AsSize(j / per_pole)] -
-                0.5 * Curvature(lanes.reluctance, g) * closing * phi * phi);
+    out += d * (lanes.reluctance.Pull(g) * phi * rate.phi[AsSize(j / per_pole)] -
+                0.5 * lanes.reluctance.PullSlope(g) * closing * phi * phi);
   }
   return out;
 }

@@ -142,6 +142,7 @@ int RunExplain(const ExplainCommand& o) {
     options.stop = &interrupted;
     options.store = store.get();
     const auto begin = std::chrono::steady_clock::now();
+    options.tell_runs = o.verbose;
     options.progress = [&](double f, const std::string& text) {
       progress.Update(f, text);
       if (o.verbose)

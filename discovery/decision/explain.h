@@ -60,6 +60,7 @@ struct ExplainOptions {
   int candidates = 5;  // fitted in full per round
   int rounds = 3;
   std::function<void(double, const std::string&)> progress;
+  bool tell_runs = false;  // the progress text ends with the number of record simulations so far
   std::function<void(const Explanation&)> checkpoint;  // results as they come
   const std::atomic<bool>* stop = nullptr;
   RunStore* store = nullptr;  // simulations of an earlier, interrupted call

@@ -12,6 +12,7 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kResonanceShows = 1.1;  // least ratio at which a later round seeks frequencies
 constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
 
 /// Whether the linear screening promises at least half of what adoption would ask for, on unseen
@@ -43,6 +44,8 @@ class Ranker {
   EffectRound Run() {
     ScreenOptions screen;
     screen.effective_sample_size = s_.effective_sample_size;
+    screen.frequencies =
+        round_ == 0 || std::max(now_.ratio_fit, now_.ratio_validate) > kResonanceShows;
     screen.progress = [&](double f, const std::string& text) {
       s_.progress(0.6 * f, "screening " + text);
     };

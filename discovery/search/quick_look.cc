@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kLookedAt = 2;  // worst records at most
 constexpr double kMuchOfWorst = 0.4;  // of the worst record's error: the next one is looked at too
 constexpr double kShown = 0.9;        // of the squared error above the noise
-constexpr double kPlain = 2;          // ratio above which a part of the records tells
+constexpr double kPlain = 1.3;        // ratio above which a part of the records tells
 
 double Excess(const RecordError& e) { return std::max(0.0, e.square - e.rows); }
 

@@ -77,8 +77,8 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
   const EffectTargets targets = TargetsOfEffects(model.data().rig);
   for (const EffectDescription& d : Catalogue()) {
     if (!options.effect.empty() && d.id != options.effect) continue;
-    if (options.effect.empty() && (CannotShow(d, model) || (again && !coils && !SeeksFrequency(d))))
-      continue;
+    const bool skipped = SeeksFrequency(d) ? !options.frequencies : again && !coils;
+    if (options.effect.empty() && (CannotShow(d, model) || skipped)) continue;
     if (options.coarse && (coils || SeeksFrequency(d))) continue;
     for (const std::string& target : TargetsOf(d, targets)) {
       if (!options.target.empty() && target != options.target) continue;

@@ -13,6 +13,7 @@ struct ScreenOptions {
   double effective_sample_size = 1;
   std::string effect, target;  // only this one, at this target only; empty: all
   bool coarse = false;         // no single coils, nothing that looks for a frequency
+  bool frequencies = true;     // effects that look for a frequency too
   std::function<void(double, const std::string&)> progress;
 };
 
