@@ -29,11 +29,18 @@ class VoltageTerm {
   virtual double Voltage(const CoilCircumstance& c) const = 0;
 };
 
-/// Copper that warms up: R = R20 (1 + 0.00393 dT), tau dT' = rise P - dT.
-struct CoilHeating {
+/// One thermal time constant of the coils of a bearing: tau dT' = rise P - dT.
+struct ThermalLag {
   double rise_per_watt = 0;  // [K/W], 0: none
   double time_constant = 1;  // [s]
   std::array<double, kLanes> dT{};
+};
+
+/// Copper that warms up, R = R20 (1 + 0.00393 dT): the winding against the stator's iron (fast) and the
+/// iron against the housing (slow); dT is the sum of both.
+struct CoilHeating {
+  ThermalLag slow, fast;
+  bool any() const { return slow.rise_per_watt > 0 || fast.rise_per_watt > 0; }
 };
 
 struct BearingPlant {

@@ -18,7 +18,7 @@ void RefuseWhatIsNotHere(const Plant& plant) {
     if (!b.lanes.laws.empty())
       throw InputError(
           fmt::format("bearing {}: effects of the iron need --fidelity switching", b.name));
-    if (b.heating.rise_per_watt > 0)
+    if (b.heating.any())
       throw InputError(
           fmt::format("bearing {}: effect copper-heating needs --fidelity switching", b.name));
   }

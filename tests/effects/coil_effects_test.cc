@@ -70,6 +70,19 @@ TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {
   EXPECT_LT(StiffnessOf(with, 2).ks, 1.001 * StiffnessOf(without, 2).ks);
 }
 
+// Pull = phi²/(2 mu0 A) of all flux: at equal currents the flux is 1 + c times that of ideal iron, the
+// force (1 + c)² times; half and half with virtual work, whose force is 1 times, the mean of both.
+TEST(Fringing, FluxThatPullsLikeTheFaceAddsToTheForceTwice) {
+  const double c = 0.12;
+  Plant face = PlantWith("fringing", "A", {{"coefficient", c}, {"face_pull", 1.0}}),
+        half = PlantWith("fringing", "A", {{"coefficient", c}, {"face_pull", 0.5}}),
+        without = BuildPlant(TrueRig(ReferenceRig()));
+  EXPECT_NEAR(RestFlux(face, Currents(2))[0] / RestFlux(without, Currents(2))[0], 1 + c, 1e-12);
+  const double ki = StiffnessOf(without, 2).ki;
+  EXPECT_NEAR(StiffnessOf(face, 2).ki / ki, std::pow(1 + c, 2), 1e-6);
+  EXPECT_NEAR(StiffnessOf(half, 2).ki / ki, 0.5 * (1 + std::pow(1 + c, 2)), 1e-6);
+}
+
 TEST(MagneticOffset, ForceAtZeroIsStiffnessTimesOffset) {
   const double dx = 1e-6, bias = 2;
   Plant with = PlantWith("magnetic-offset", "A", {{"dx", dx}}),
@@ -179,6 +192,30 @@ TEST(CopperHeating, DutyCarriesTheWarmResistance) {
   const double wanted = dv * DutyPerVolt(rig);
   EXPECT_NEAR(TailMean(warm.record, "A.d1", 250) - TailMean(cold.record, "A.d1", 250), wanted,
               0.05 * wanted);
+}
+
+// Two lags are the sum of two rises: settled, they warm the coil like one of the rises' sum; after a
+// time between the two, the slow one has hardly begun.
+TEST(CopperHeating, FastAndSlowRiseAddUp) {
+  const double rise = 12, high = 4, fast = 2e-3;
+  const std::string text = ClampedText(high, 0.08);
+  const RigParameters rig = ReferenceRig();
+  const auto duty = [&](const Values& v) {
+    return TailMean(RunText(WithEffect(rig, "copper-heating", "A", v), text).record, "A.d1", 250);
+  };
+  const double cold = TailMean(RunText(rig, text).record, "A.d1", 250),
+               one = duty({{"rise_per_watt", 2 * rise}, {"time_constant", fast}}),
+               both = duty({{"rise_per_watt", rise},
+                            {"time_constant", fast},
+                            {"fast_rise", rise},
+                            {"fast_time_constant", 0.5 * fast}}),
+               early = duty({{"rise_per_watt", rise},
+                             {"time_constant", 1e4},
+                             {"fast_rise", rise},
+                             {"fast_time_constant", fast}}),
+               single = duty({{"rise_per_watt", rise}, {"time_constant", fast}});
+  EXPECT_NEAR(both - cold, one - cold, 0.01 * (one - cold));
+  EXPECT_NEAR(early - cold, single - cold, 0.01 * (single - cold));
 }
 
 // A chopper without current loop: mean current = (d U - (1 - d) drop)/R.

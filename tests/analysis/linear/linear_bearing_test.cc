@@ -11,40 +11,10 @@
 namespace ambrig {
 namespace {
 
-class Bearing : public testing::Test {
- protected:
-  const RigParameters rig_ = BaseRig();
-  const Plant plant_ = BuildPlant(TrueRig(rig_));
-  const StatorLanes& lanes_ = plant_.bearings[0].lanes;
-};
-
-// published_values.md 2.1: f = 4 kappa i0 (ix, iy), k_s = 4 kappa i0²/g0; leakage changes neither.
-TEST_F(Bearing, CentredConstants) {
-  const RadialStatorParameters& p = rig_.bearings[0].radial;
-  const double kappa = kMu0 * p.turns * p.turns * p.pole_area / (p.gap * p.gap), i0 = 2;
-  Lane bias{};
-  for (int j = 0; j < kPoles; ++j) bias[j] = i0;
-  const LinearBearing b = LineariseBearing(lanes_, bias, 0, 0);
-  ASSERT_EQ(b.coils.size(), 8u);
-  const RadialStator stator(p);
-  const Eigen::Vector2d ki(b.ForceOfCurrent().row(0) * stator.cosine(),
-                           b.ForceOfCurrent().row(1) * stator.cosine());
-  EXPECT_NEAR(ki.x(), 4 * kappa * i0, 1e-9 * ki.x());
-  EXPECT_NEAR(ki.y(), 0, 1e-9 * ki.x());
-  const Eigen::Matrix2d ks = b.NegativeStiffness();
-  EXPECT_NEAR(ks(0, 0), 4 * kappa * i0 * i0 / p.gap, 1e-9 * ks(0, 0));
-  EXPECT_NEAR(ks(1, 1), ks(0, 0), 1e-9 * ks(0, 0));
-  EXPECT_NEAR(ks(0, 1), 0, 1e-9 * ks(0, 0));
-  // L of the stator itself.
-  EXPECT_LT((b.Inductance() - stator.Inductance({0, 0})).norm(), 1e-9 * b.Inductance().norm());
-}
-
-TEST_F(Bearing, DerivativesAreThoseOfTheDisplacedCircuit) {
-  const double x = 5e-5, y = -8e-5;
-  Lane current{};
-  for (int j = 0; j < kPoles; ++j) current[j] = 1 + 0.3 * j;
-  const LinearBearing b = LineariseBearing(lanes_, current, x, y);
-  const CoilNetwork network(lanes_);
+/// The linearisation of `lanes` at a displaced point against differences of its exact circuit.
+void CheckDerivatives(const StatorLanes& lanes, const Lane& current, double x, double y) {
+  const LinearBearing b = LineariseBearing(lanes, current, x, y);
+  const CoilNetwork network(lanes);
   double lambda[kMaxWindings] = {};
   network.Linkages(current.v, x, y, lambda);
   const auto solve = [&](double dx, double dy, int coil, double d) {
@@ -74,9 +44,61 @@ TEST_F(Bearing, DerivativesAreThoseOfTheDisplacedCircuit) {
     EXPECT_LT((slope.head<8>() - b.I_lambda.col(j)).norm(), 1e-6 * b.I_lambda.norm());
     EXPECT_LT((slope.tail<2>() - b.F_lambda.col(j)).norm(), 1e-6 * b.F_lambda.norm());
   }
+}
+
+class Bearing : public testing::Test {
+ protected:
+  const RigParameters rig_ = BaseRig();
+  const Plant plant_ = BuildPlant(TrueRig(rig_));
+  const StatorLanes& lanes_ = plant_.bearings[0].lanes;
+};
+
+// published_values.md 2.1: f = 4 kappa i0 (ix, iy), k_s = 4 kappa i0²/g0; leakage changes neither.
+TEST_F(Bearing, CentredConstants) {
+  const RadialStatorParameters& p = rig_.bearings[0].radial;
+  const double kappa = kMu0 * p.turns * p.turns * p.pole_area / (p.gap * p.gap), i0 = 2;
+  Lane bias{};
+  for (int j = 0; j < kPoles; ++j) bias[j] = i0;
+  const LinearBearing b = LineariseBearing(lanes_, bias, 0, 0);
+  ASSERT_EQ(b.coils.size(), 8u);
+  const RadialStator stator(p);
+  const Eigen::Vector2d ki(b.ForceOfCurrent().row(0) * stator.cosine(),
+                           b.ForceOfCurrent().row(1) * stator.cosine());
+  EXPECT_NEAR(ki.x(), 4 * kappa * i0, 1e-9 * ki.x());
+  EXPECT_NEAR(ki.y(), 0, 1e-9 * ki.x());
+  const Eigen::Matrix2d ks = b.NegativeStiffness();
+  EXPECT_NEAR(ks(0, 0), 4 * kappa * i0 * i0 / p.gap, 1e-9 * ks(0, 0));
+  EXPECT_NEAR(ks(1, 1), ks(0, 0), 1e-9 * ks(0, 0));
+  EXPECT_NEAR(ks(0, 1), 0, 1e-9 * ks(0, 0));
+  // L of the stator itself.
+  EXPECT_LT((b.Inductance() - stator.Inductance({0, 0})).norm(), 1e-9 * b.Inductance().norm());
+}
+
+constexpr double kX = 5e-5, kY = -8e-5;
+
+Lane UnequalCurrents() {
+  Lane current{};
+  for (int j = 0; j < kPoles; ++j) current[j] = 1 + 0.3 * j;
+  return current;
+}
+
+TEST_F(Bearing, DerivativesAreThoseOfTheDisplacedCircuit) {
+  CheckDerivatives(lanes_, UnequalCurrents(), kX, kY);
+  const LinearBearing b = LineariseBearing(lanes_, UnequalCurrents(), kX, kY);
   // Reciprocity: dλ/dx at constant current is df/di at constant position (published_values.md 1.3).
   EXPECT_LT((b.Inductance() * -b.I_r - b.ForceOfCurrent().transpose()).norm(),
             1e-9 * b.ForceOfCurrent().norm());
+}
+
+// A gap law of any kind: fringing flux that pulls by virtual work, like the face, and in between.
+TEST_F(Bearing, DerivativesFollowAnyLawOfTheGap) {
+  for (const double face_pull : {0.0, 0.4, 1.0}) {
+    StatorLanes lanes = lanes_;
+    lanes.reluctance.fringing = 0.2;
+    lanes.reluctance.iron_path = 2e-5;
+    lanes.reluctance.face_pull = face_pull;
+    CheckDerivatives(lanes, UnequalCurrents(), kX, kY);
+  }
 }
 
 // What a coil told 0 A cannot do: its diodes block, it carries nothing and is no state.
