@@ -29,18 +29,13 @@ class VoltageTerm {
   virtual double Voltage(const CoilCircumstance& c) const = 0;
 };
 
-/// One thermal time constant of the coils of a bearing: tau dT' = rise P - dT.
-struct ThermalLag {
+/// Copper that warms up: R = R20 (1 + 0.00393 dT), tau dT' = rise P - dT. P is the coil's own loss, and of
+/// the share that the stator's iron carries from coil to coil the mean loss of the bearing's coils.
+struct CoilHeating {
   double rise_per_watt = 0;  // [K/W], 0: none
   double time_constant = 1;  // [s]
+  double shared = 0;         // 0: each coil on its own; 1: all coils equally warm
   std::array<double, kLanes> dT{};
-};
-
-/// Copper that warms up, R = R20 (1 + 0.00393 dT): the winding against the stator's iron (fast) and the
-/// iron against the housing (slow); dT is the sum of both.
-struct CoilHeating {
-  ThermalLag slow, fast;
-  bool any() const { return slow.rise_per_watt > 0 || fast.rise_per_watt > 0; }
 };
 
 struct BearingPlant {

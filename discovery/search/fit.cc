@@ -8,6 +8,7 @@
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
 #include "discovery/search/size_sd.h"
+#include "effects/catalogue.h"
 
 namespace ambrig {
 
@@ -137,6 +138,14 @@ class CompressedCost : public ceres::CostFunction {
   mutable Eigen::MatrixXd base_jacobian_;
 };
 
+/// Sd of a value that acts in whole switching periods: of all values between two steps. 0 for others.
+double SdOfWholePeriods(const CaseModel& model, const RigParameters& rig, const FreeParameter& f) {
+  const EffectInstance& e = rig.effects[static_cast<std::size_t>(f.effect)];
+  const EffectDescription* d = FindEffect(e.name);
+  if (!d || d->whole_periods.empty() || e.table[f.row].name != d->whole_periods) return 0;
+  return 1 / model.data().rig.amplifier.switching_frequency / std::sqrt(12.0);
+}
+
 /// Covariance of the optimum and what a user should know about it.
 void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
   Hypothesis& h = result.hypothesis;
@@ -163,9 +172,11 @@ void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
     if (influence(i) < 1e-6) {
       result.warnings.push_back(
           f.path + " has no influence on these records near its value (or acts in discrete steps)");
-      result.sd[k] = result.size_sd[k] = 0;  // not known from here
+      result.sd[k] = SdOfWholePeriods(cost.model(), h.rig, f);
+      result.size_sd[k] = 0;  // not known from here
       continue;
     }
+    result.sd[k] = std::max(result.sd[k], SdOfWholePeriods(cost.model(), h.rig, f));
     if (f.value <= f.lo || f.value >= f.hi)
       result.warnings.push_back(fmt::format("{} is at its bound {}", f.path, f.value));
     for (std::size_t m = 0; m < p; ++m) {

@@ -18,7 +18,7 @@ void RefuseWhatIsNotHere(const Plant& plant) {
     if (!b.lanes.laws.empty())
       throw InputError(
           fmt::format("bearing {}: effects of the iron need --fidelity switching", b.name));
-    if (b.heating.any())
+    if (b.heating.rise_per_watt > 0)
       throw InputError(
           fmt::format("bearing {}: effect copper-heating needs --fidelity switching", b.name));
   }

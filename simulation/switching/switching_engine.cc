@@ -114,17 +114,19 @@ void SwitchingEngine::MoveBearings() {
 void SwitchingEngine::HeatCopper() {
   for (BearingRun& b : bearings_) {
     CoilHeating& heat = b.plant->heating;
-    if (!heat.any() || motion_.t < 0) continue;
+    if (heat.rise_per_watt <= 0 || motion_.t < 0) continue;
     StatorLanes& lanes = b.plant->lanes;
+    Lane power{};
+    double mean = 0;
     for (int j = 0; j < lanes.coils; ++j) {
-      const double power = lanes.resistance[j] * b.side->current.mean_square[j];
-      double rise = 0;
-      for (ThermalLag* lag : {&heat.slow, &heat.fast}) {
-        double& dT = lag->dT[static_cast<std::size_t>(j)];
-        dT += T_ / lag->time_constant * (lag->rise_per_watt * power - dT);
-        rise += dT;
-      }
-      lanes.resistance[j] = b.plant->base_resistance[j] * (1 + 0.00393 * rise);
+      power[j] = lanes.resistance[j] * b.side->current.mean_square[j];
+      mean += power[j] / lanes.coils;
+    }
+    for (int j = 0; j < lanes.coils; ++j) {
+      double& dT = heat.dT[static_cast<std::size_t>(j)];
+      const double loss = heat.shared == 0 ? power[j] : power[j] + heat.shared * (mean - power[j]);
+      dT += T_ / heat.time_constant * (heat.rise_per_watt * loss - dT);
+      lanes.resistance[j] = b.plant->base_resistance[j] * (1 + 0.00393 * dT);
     }
     lanes.SetStep(T_ / loop_.samples / options_.substeps);
   }

@@ -194,28 +194,39 @@ TEST(CopperHeating, DutyCarriesTheWarmResistance) {
               0.05 * wanted);
 }
 
-// Two lags are the sum of two rises: settled, they warm the coil like one of the rises' sum; after a
-// time between the two, the slow one has hardly begun.
-TEST(CopperHeating, FastAndSlowRiseAddUp) {
-  const double rise = 12, high = 4, fast = 2e-3;
-  const std::string text = ClampedText(high, 0.08);
+// Heat that is shared warms a coil beyond its own loss: with four coils at 4 A and four at 1 A the mean
+// loss is 8.5 R A². dT settles at rise P, R = R20 (1 + 0.00393 dT).
+TEST(CopperHeating, SharedHeatWarmsTheCoilsThatCarryLess) {
+  const double rise = 30, tau = 2e-3;
   const RigParameters rig = ReferenceRig();
-  const auto duty = [&](const Values& v) {
-    return TailMean(RunText(WithEffect(rig, "copper-heating", "A", v), text).record, "A.d1", 250);
-  };
-  const double cold = TailMean(RunText(rig, text).record, "A.d1", 250),
-               one = duty({{"rise_per_watt", 2 * rise}, {"time_constant", fast}}),
-               both = duty({{"rise_per_watt", rise},
-                            {"time_constant", fast},
-                            {"fast_rise", rise},
-                            {"fast_time_constant", 0.5 * fast}}),
-               early = duty({{"rise_per_watt", rise},
-                             {"time_constant", 1e4},
-                             {"fast_rise", rise},
-                             {"fast_time_constant", fast}}),
-               single = duty({{"rise_per_watt", rise}, {"time_constant", fast}});
-  EXPECT_NEAR(both - cold, one - cold, 0.01 * (one - cold));
-  EXPECT_NEAR(early - cold, single - cold, 0.01 * (single - cold));
+  std::string text = ClampedText(1, 0.08);
+  for (int j = 1; j <= 4; ++j)
+    text += "[[excitation]]\ntarget = \"A.coil" + std::to_string(j) +
+            "\"\nport = \"current\"\nkind = \"step\"\nstart = 0.0\nstop = 0.08\namplitude = 3\n";
+  const Record cold = RunText(rig, text).record;
+  const double r20 = rig.bearings[0].radial.resistance;
+  for (const double shared : {0.0, 0.5, 1.0}) {
+    const Record warm =
+        RunText(WithEffect(rig, "copper-heating", "A",
+                           {{"rise_per_watt", rise}, {"time_constant", tau}, {"shared", shared}}),
+                text)
+            .record;
+    double current[8], resistance[8];
+    double mean = 0;
+    for (int j = 0; j < 8; ++j) {
+      const std::string n = std::to_string(j + 1);
+      current[j] = TailMean(warm, "A.i" + n, 250);
+      resistance[j] = r20 + (TailMean(warm, "A.d" + n, 250) - TailMean(cold, "A.d" + n, 250)) /
+                                DutyPerVolt(rig) / current[j];
+      mean += resistance[j] * current[j] * current[j] / 8;
+    }
+    for (int j = 0; j < 8; ++j) {
+      const double loss = (1 - shared) * resistance[j] * current[j] * current[j] + shared * mean;
+      EXPECT_NEAR(resistance[j] - r20, r20 * 0.00393 * rise * loss,
+                  0.05 * r20 * 0.00393 * rise * loss + 2e-3)
+          << "coil " << j + 1 << ", shared " << shared;
+    }
+  }
 }
 
 // A chopper without current loop: mean current = (d U - (1 - d) drop)/R.

@@ -71,6 +71,18 @@ TEST(Fit, StandardDeviationIsThatOfTheLinearProblem) {
   EXPECT_NEAR(fit.size_sd[0], fit.sd[0], 1e-9 * fit.sd[0]);  // a gain has no shape to hold
 }
 
+// Every delay between two switching periods acts alike: its sd is that of an even spread over one.
+TEST(Fit, ADelayIsKnownToASwitchingPeriodAtBest) {
+  const LinearCase c = CaseOf(1.07, 0);
+  EffectInstance delay = MakeInstance(EffectNamed("loop-delay"), "rig");
+  delay.Set("time", 1e-4);
+  FitOptions options;
+  options.effective_sample_size = 300;
+  const FitResult fit = Fit(c.model, c.With({LinearCase::Gain(1.02), delay}), options);
+  ASSERT_EQ(fit.sd.size(), 2u);
+  EXPECT_NEAR(fit.sd[1], 1 / c.data.rig.amplifier.switching_frequency / std::sqrt(12.0), 1e-12);
+}
+
 // Data that lie beyond a bound leave the parameter there, with a warning and the error that remains.
 TEST(Fit, StaysInsideBoundsAndSaysSo) {
   const LinearCase c = CaseOf(1.07, 0);
