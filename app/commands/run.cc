@@ -191,7 +191,7 @@ void RefuseEqualNames(const std::vector<std::string>& scenarios) {
           fmt::format("{}: another scenario of that file name would be overwritten", file));
 }
 
-int RunAll(const RunOptions& options) {
+int RunScenarios(const RunOptions& options) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   if (options.campaign.empty() == options.scenarios.empty())
     throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
@@ -245,7 +245,7 @@ void AddRun(CLI::App& app, Work& work) {
       "Examples:\n  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml --out out --csv\n"
       "  ambrig run scenarios/library/load_step.toml --rate 25000 --no-report\n"
       "Exit code 1 when an [expect] of a scenario is not met, 2 when one was refused.");
-  command->callback([options, &work] { work = [options] { return RunAll(*options); }; });
+  command->callback([options, &work] { work = [options] { return RunScenarios(*options); }; });
 }
 
 }  // namespace ambrig
