@@ -36,7 +36,7 @@ struct RunOptions {
 };
 
 void PrintTimeline(const Scenario& scenario, const RunResult& result,
-                   const std::map<std::string, double>& stations,
+                   const std::map<std::string, double>& stations, bool contacts_possible,
                    const std::vector<ExpectResult>& expect) {
   fmt::print("{}\n", Coloured(scenario.name, "bold"));
   std::size_t shown = 0, contacts = 0;
@@ -56,7 +56,8 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result,
   orbits(m.max_orbit);
   orbits(stations);
   if (!m.max_orbit.empty())
-    fmt::print("  {:<22} {:8.2f} um\n", "clearance left", m.min_clearance_left * 1e6);
+    fmt::print("  {:<22} {:>8} um\n", "clearance left",
+               contacts_possible ? fmt::format("{:.2f}", m.min_clearance_left * 1e6) : "-");
   fmt::print("  {:<22} {:8.3f} A\n  {:<22} {:8.2f} W\n", "peak coil current", m.peak_current,
              "copper loss, mean", m.copper_loss);
   fmt::print("  {:<22} {}\n", "false alarms", FalseAlarmText(m.false_alarms, m.coil_periods));
@@ -149,7 +150,9 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
     if (!options.common.html.empty()) WriteRunReport(data, options.common.html);
   }
   if (!options.quiet) {
-    PrintTimeline(scenario, result, StationOrbits(rig, result), expect);
+    PrintTimeline(scenario, result, StationOrbits(rig, result), HasAuxiliary(rig), expect);
+    if (const std::string note = UncommissionedNote(rig, result); !note.empty())
+      fmt::print("{}\n", Wrapped("  note: " + note, 8));
     fmt::print("  {:<22} {}.h5 .json{}{}\n", "written", stem.string(), options.csv ? " .csv" : "",
                options.no_html ? "" : " .html (report)");
   }

@@ -58,5 +58,23 @@ TEST_F(RunCommand, AFolderIsToldWhatRunsIt) {
   EXPECT_THAT(o.text, HasSubstr("ambrig paper ."));
 }
 
+// Whoever has never heard of commissioning is told what "doubtful" means, on the screen and the page.
+TEST_F(RunCommand, AnUncommissionedRigIsToldHowToTeachIt) {
+  const Outcome o = Ambrig("run a.toml");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("model doubtful: gross faults only"));
+  EXPECT_THAT(o.text, HasSubstr("ambrig commission rig.toml"));
+  EXPECT_THAT(ReadText(folder_ / "out/a.html"), HasSubstr("ambrig commission rig.toml"));
+}
+
+// No auxiliary bearing, no clearance: a dash, not 0.
+TEST_F(RunCommand, WithoutAuxiliaryBearingsNoClearanceIsLeft) {
+  Write("rig.toml", ReadText(AMBRIG_SOURCE_DIR "/examples/validation/mbc500.toml"));
+  const Outcome o = Ambrig("run a.toml");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, ::testing::ContainsRegex("clearance left +- um"));
+  EXPECT_THAT(ReadText(folder_ / "out/a.html"), ::testing::Not(HasSubstr("clearance left")));
+}
+
 }  // namespace
 }  // namespace ambrig
