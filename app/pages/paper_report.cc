@@ -39,7 +39,7 @@ std::vector<PaperRow> PaperRows(const PaperStudy& s) {
 }
 
 std::string Found(const DiagnosisDelays& d) {
-  return fmt::format("{} of {}", d.named - d.too_early, d.runs);
+  return fmt::format("{} of {}", d.named, d.runs);
 }
 
 nlohmann::ordered_json DelaysJson(const DiagnosisDelays& d) {

@@ -79,7 +79,7 @@ PaperRun IdealCoil(const PaperRun& healthy) {
   PaperRun run = healthy;
   run.rig.effects.clear();
   run.scenario.noise = false;
-  run.scenario.excitations.clear();
+  std::erase_if(run.scenario.excitations, [](const Excitation& e) { return e.kind != "step"; });
   run.scenario.duration = 0.01;
   return run;
 }
