@@ -64,7 +64,8 @@ Figure PaperFigure4(const PaperStudy& study) {
   grid.rows = 2;
   grid.titles = {"(a) excitation signal", "(b) load current"};
   Figure figure = MakeFigure(
-      "Figure 4: desired current of the coil of 0.5 ohm and 2 mH, a step of 1 A, and the load "
+      "The paper's figure 4: desired current of the coil of 0.5 ohm and 2 mH, a step of 1 A, and "
+      "the load "
       "current that follows it, every sample of the converter.",
       grid);
   const double to = kStepAt + 6e-3;
@@ -81,7 +82,8 @@ Figure PaperFigure4(const PaperStudy& study) {
 
 Figure PaperFigure5(const PaperStudy& study) {
   Figure figure = MakeFigure(
-      "Figure 5: load current over three switching periods when the step has settled. The slope k "
+      "The paper's figure 5: load current over three switching periods when the step has settled. "
+      "The slope k "
       "of the coil of 0.5 ohm and 2 mH is half of k' of the coil of 0.2 ohm and 1 mH.");
   const char* names[] = {"k: 0.5 ohm, 2 mH", "k': 0.2 ohm, 1 mH"};
   const char* colours[] = {"@blue", "@orange"};
@@ -97,10 +99,10 @@ Figure PaperFigure5(const PaperStudy& study) {
 
 Figure PaperFigure11(const PaperStudy& study) {
   const std::vector<double>& k = study.healthy.slopes.increasing;
-  Figure figure = MakeFigure(
-      fmt::format("Figure 11: histogram of the equivalent slope of {} switching periods in a row. "
-                  "Shaded: the theoretical range of Eq. 9; dashed: that range widened by {} A/s.",
-                  k.size(), kPaperMargin));
+  Figure figure = MakeFigure(fmt::format(
+      "The paper's figure 11: histogram of the equivalent slope of {} switching periods in a row. "
+      "Shaded: the theoretical range of Eq. 9; dashed: that range widened by {} A/s.",
+      k.size(), kPaperMargin));
   AddHistogram(figure, 0, "k", k, 40);
   figure.traces.back()["showlegend"] = false;
   const auto [least, most] = std::minmax_element(k.begin(), k.end());
@@ -116,12 +118,12 @@ Figure PaperFigure11(const PaperStudy& study) {
 Figure PaperWaveform(const PaperRun& run, int number) {
   const double fault = FaultAt(run), act = run.look.flagged;
   const double from = fault - 15e-3, to = std::min(fault + 15e-3, run.scenario.duration);
-  Figure figure = MakeFigure(
-      fmt::format("Figure {}: current under pulse excitation, {}. A normal stage, B fault stage, C "
-                  "fault-tolerant stage{}.",
-                  number, FaultWords(run),
-                  act < 0 ? " (none: no flag)"
-                          : ", in which the bridge is switched off on the detector's flag"));
+  Figure figure = MakeFigure(fmt::format(
+      "The paper's figure {}: current under pulse excitation, {}. A normal stage, B fault stage, C "
+      "fault-tolerant stage{}.",
+      number, FaultWords(run),
+      act < 0 ? " (none: no flag)"
+              : ", in which the bridge is switched off on the detector's flag"));
   const PaperWindow w = WindowOf(run, from, to, 0, 1e-3);
   AddLine(figure, 0, "current", w.t, w.i, Thin("@blue"));
   AddRegion(figure, 0, from * 1e3, fault * 1e3, "A", "@blue/10");
@@ -137,10 +139,11 @@ Figure PaperSamplingPoints(const PaperRun& run, int number) {
   grid.shared_x = false;
   grid.panel_height = 300;
   grid.titles = {"(a) normal stage (A)", "(b) fault stage (B)"};
-  Figure figure = MakeFigure(fmt::format("Figure {}: sampling points of the load current, 18 in a "
-                                         "switching period, before and after the {}.",
-                                         number, FaultWords(run)),
-                             grid);
+  Figure figure =
+      MakeFigure(fmt::format("The paper's figure {}: sampling points of the load current, 18 in a "
+                             "switching period, before and after the {}.",
+                             number, FaultWords(run)),
+                 grid);
   const double T = PeriodOf(run), fault = FaultAt(run);
   const double begin[] = {fault - 10 * T, fault + 10 * T};
   double most = 0;
@@ -168,11 +171,11 @@ Figure PaperSlopeRange(const PaperRun& run, int number) {
     least = std::min(least, k.back());
     most = std::max(most, k.back());
   }
-  Figure figure = MakeFigure(
-      fmt::format("Figure {}: range of the equivalent slope. k'min = {:.0f} and k'max = {:.0f} A/s "
-                  "of the normal stage (Eq. 9 and {} A/s), k1 = {:.0f} and k2 = {:.0f} A/s, the "
-                  "largest and the smallest slope under {}.",
-                  number, low, high, kPaperMargin, most, least, FaultWords(run)));
+  Figure figure = MakeFigure(fmt::format(
+      "The paper's figure {}: range of the equivalent slope. k'min = {:.0f} and k'max = {:.0f} A/s "
+      "of the normal stage (Eq. 9 and {} A/s), k1 = {:.0f} and k2 = {:.0f} A/s, the "
+      "largest and the smallest slope under {}.",
+      number, low, high, kPaperMargin, most, least, FaultWords(run)));
   Style points = Thin("@blue");
   points.markers = true;
   points.size = 4;
@@ -192,11 +195,12 @@ Figure PaperFlag(const PaperRun& run, int number) {
   grid.rows = 2;
   grid.titles = {"fault-diagnosis flag, low for a fault", "load current"};
   Figure figure = MakeFigure(
-      fmt::format("Figure {}: time for fault diagnosis t_d under {}: {}; {:.2f} to {:.2f} ms, "
-                  "{:.2f} ms in the mean, with the fault at every place of the cycle.",
-                  number, FaultWords(run),
-                  flag < fault ? "none" : fmt::format("{:.2f} ms here", (flag - fault) * 1e3),
-                  run.delays.least * 1e3, run.delays.most * 1e3, run.delays.mean * 1e3),
+      fmt::format(
+          "The paper's figure {}: time for fault diagnosis t_d under {}: {}; {:.2f} to {:.2f} ms, "
+          "{:.2f} ms in the mean, with the fault at every place of the cycle.",
+          number, FaultWords(run),
+          flag < fault ? "none" : fmt::format("{:.2f} ms here", (flag - fault) * 1e3),
+          run.delays.least * 1e3, run.delays.most * 1e3, run.delays.mean * 1e3),
       grid);
   const auto after = [&](double t) { return (t - fault) * 1e3; };
   const std::vector<double> t{after(from), after(flag < 0 ? to : flag), after(to)};
