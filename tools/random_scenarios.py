@@ -149,7 +149,8 @@ def draw_rig(rng, numbers, far):
     amplifier = rig["amplifier"]
     amplifier["modulation"] = rng.choice(["bi-state", "tri-state", "chopper", "ideal"])
     # The controller is read at an integer fraction of the switching frequency.
-    rig["controller"]["rate"] = amplifier["switching_frequency"] / rng.choice([1, 1, 2, 2, 3, 5])
+    ratio = max(rng.choice([1, 1, 2, 2, 3, 5]), math.ceil(amplifier["switching_frequency"] / 1e6))
+    rig["controller"]["rate"] = amplifier["switching_frequency"] / ratio
     rig["gravity"] = [rng.choice([0.0, rng.gauss(0, 5)]), rng.choice([0.0, -9.81, rng.gauss(0, 20)]), 0.0]
     if rng.random() < 0.5:
         rig["detection"] = {"kind": rng.choice(["coupled", "glrt", "current-error", "cusum"])}

@@ -167,7 +167,9 @@ Figure PaperSlopeRange(const PaperRun& run, int number) {
     t.push_back((at - fault) * 1e3);
     k.push_back(run.slopes.increasing[n]);
     if (at < fault) low = run.slopes.low[n], high = run.slopes.high[n];
-    if (at < fault + PeriodOf(run)) continue;  // a period of both states is of neither
+    // A period of two states is of neither; from the flag on the bridge is off.
+    if (at < fault + PeriodOf(run) || (run.look.flagged > 0 && at > run.look.flagged - 1e-9))
+      continue;
     least = std::min(least, k.back());
     most = std::max(most, k.back());
   }

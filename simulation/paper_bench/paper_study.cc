@@ -74,10 +74,11 @@ class PaperWork {
   int parts_, done_ = 0;
 };
 
-/// The coil of the paper at rest: a stiff bus, no noise, no pulses.
+/// The coil of the paper at rest: a stiff bus, no noise, no pulses, codes that round nothing.
 PaperRun IdealCoil(const PaperRun& healthy) {
   PaperRun run = healthy;
   run.rig.effects.clear();
+  run.rig.amplifier.adc_bits = 24;
   run.scenario.noise = false;
   std::erase_if(run.scenario.excitations, [](const Excitation& e) { return e.kind != "step"; });
   run.scenario.duration = 0.01;
