@@ -48,15 +48,6 @@ class NarrowHelp : public CLI::Formatter {
   }
 };
 
-/// A message of one line, whatever a file's own text put into it.
-std::string PrintableLine(const std::string& text) {
-  constexpr std::size_t kLongest = 1000;
-  std::string line = text.size() > kLongest ? text.substr(0, kLongest) + " ..." : text;
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
-  return line;
-}
-
 /// What is wrong with a command line: a command that does not exist is named before all else.
 std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>& arguments,
                             const std::string& error) {
@@ -90,7 +81,8 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    fmt::print(stderr, "ambrig: {}\n", PrintableLine(OptionComplaint(app, arguments, e.what())));
+    fmt::print(stderr, "ambrig: {}\n",
+               ambrig::PrintableLine(OptionComplaint(app, arguments, e.what())));
     return 2;
   }
   if (work) return work();
@@ -107,10 +99,10 @@ int main(int argc, char** argv) {
   try {
     return Main(argc, argv);
   } catch (const ambrig::InputError& e) {
-    fmt::print(stderr, "ambrig: {}\n", PrintableLine(e.what()));
+    fmt::print(stderr, "ambrig: {}\n", ambrig::PrintableLine(e.what()));
     return 2;
   } catch (const ambrig::NoSolution& e) {
-    fmt::print(stderr, "ambrig: {}\n", PrintableLine(e.what()));
+    fmt::print(stderr, "ambrig: {}\n", ambrig::PrintableLine(e.what()));
     return 2;
   } catch (const ambrig::Interrupted&) {
     fmt::print(stderr, "ambrig: interrupted, nothing half-written is left\n");
@@ -123,10 +115,10 @@ int main(int argc, char** argv) {
     return 2;
   } catch (const std::system_error& e) {
     if (IsClosedPipe(e)) return 0;
-    fmt::print(stderr, "ambrig: program error: {}\n", PrintableLine(e.what()));
+    fmt::print(stderr, "ambrig: program error: {}\n", ambrig::PrintableLine(e.what()));
     return 3;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "ambrig: program error: {}\n", PrintableLine(e.what()));
+    fmt::print(stderr, "ambrig: program error: {}\n", ambrig::PrintableLine(e.what()));
     return 3;
   }
 }

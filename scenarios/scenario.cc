@@ -11,6 +11,7 @@
 #include "core/base/toml_checked.h"
 #include "rig/rig_checks.h"
 #include "scenarios/faults/fault_file.h"
+#include "scenarios/start_file.h"
 
 namespace ambrig {
 
@@ -67,36 +68,6 @@ void ReadSpeed(const TomlTable& root, Scenario& s) {
   }
   s.speed = SpeedProfile(rows);
   s.speed_free_from = Within(*t, "free_from", kInfinity, kScenarioTime);
-  t->RejectUnknownKeys();
-}
-
-void ReadStart(const TomlTable& root, const Targets& targets, const RigParameters& rig,
-               Scenario& s) {
-  const auto t = root.Table("start");
-  if (!t) return;
-  const std::string state = t->Choice("state", "levitated", "levitated, resting, clamped");
-  s.start = state == "levitated" ? StartState::kLevitated
-            : state == "resting" ? StartState::kResting
-                                 : StartState::kClamped;
-  if (const auto p = t->Table("position")) {
-    if (s.start != StartState::kClamped)
-      t->Fail("position", "is only allowed with state = \"clamped\"");
-    for (const auto& key : p->Keys()) {
-      const BearingParameters* b = rig.Find(key);
-      if (!b) p->Fail(key, "is no bearing, allowed: " + Join(targets.bearings));
-      std::vector<double> xy =
-          p->IsNumber(key) ? std::vector<double>{p->Number(key), 0.0} : p->Numbers(key);
-      if (xy.size() == 1) xy.push_back(0);
-      if (xy.size() != 2) p->Fail(key, "allowed: [x, y] in m");
-      const double gap = b->kind == BearingKind::kRadial   ? b->radial.gap
-                         : b->kind == BearingKind::kThrust ? b->thrust.gap
-                                                           : kInfinity;
-      if (std::hypot(xy[0], xy[1]) >= gap)
-        p->Fail(key,
-                fmt::format("= [{}, {}] m, allowed: inside the gap of {} m", xy[0], xy[1], gap));
-      s.clamp[key] = {xy[0], xy[1]};
-    }
-  }
   t->RejectUnknownKeys();
 }
 
@@ -266,7 +237,7 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   s.stiffness_compensation = root.Bool("stiffness_compensation", true);
   s.drop_limit = PositiveTime(root, "drop_limit", 0.1);
   const Targets targets = TargetsOfRig(rig);
-  ReadStart(root, targets, rig, s);
+  ReadStart(root, rig, s);
   ReadSpeed(root, s);
   ReadExcitations(root, targets, s);
   ReadLoads(root, targets, rig, s);

@@ -6,13 +6,20 @@ each second of the rig beyond the record itself.
   tools/memory_growth.py build/release/ambrig                     9 s and 30 s (ctest)
   tools/memory_growth.py build/release/ambrig --long 600          minutes; sharper
 
-Exit code 1 when 24 h would need more than --limit MB.
+  tools/memory_growth.py build/release/ambrig --day examples/limits/day.toml      24 h in one run
+
+`--day` runs a scenario as its file has it and logs the resident memory (--log, a line every ten
+seconds: wall time [s], MB). Exit code 1 when 24 h would need more than --limit MB, with --day when the
+memory grew by more than the record from the first quarter of the run to its end.
 """
 import argparse
+import json
 import os
 import pathlib
+import subprocess
 import sys
 import tempfile
+import time
 
 PROJECT = pathlib.Path(__file__).resolve().parent.parent
 SCENARIO = """name = "long"
@@ -45,6 +52,43 @@ def peak(ambrig, duration, folder):
     return usage.ru_maxrss * 1024
 
 
+def resident(process):
+    """Resident memory of a running process [bytes], None when it has ended."""
+    try:
+        for line in pathlib.Path(f"/proc/{process}/status").read_text().splitlines():
+            if line.startswith("VmRSS:"):
+                return int(line.split()[1]) * 1024
+    except OSError:
+        pass
+    return None
+
+
+def whole_run(ambrig, scenario, log):
+    """Runs a scenario and logs its memory; exit code."""
+    with tempfile.TemporaryDirectory(prefix="memory_growth_") as out:
+        begun, seen = time.monotonic(), []
+        process = subprocess.Popen([ambrig, "run", scenario, "--quiet", "--out", out, "--long", "--no-report"])
+        while process.poll() is None:
+            memory = resident(process.pid)
+            if memory:
+                seen.append((time.monotonic() - begun, memory / 1e6))
+                log.write("%.0f %.2f\n" % seen[-1])
+                log.flush()
+            time.sleep(10 if seen and seen[-1][0] > 30 else 1)
+        if process.returncode != 0:
+            sys.exit(f"memory_growth: {scenario} ended with {process.returncode}")
+        stem = pathlib.Path(scenario).stem
+        result = json.loads((pathlib.Path(out) / f"{stem}.json").read_text())
+        record = (pathlib.Path(out) / f"{stem}.h5").stat().st_size / 1e6
+    running = [mb for _, mb in seen[:-1]] or [seen[-1][1]]  # the record is written at the end
+    quarter = running[len(running) // 4]
+    print(f"{scenario}: {seen[-1][0]:.0f} s of computing; resident after a quarter {quarter:.2f} MB, "
+          f"at the end {running[-1]:.2f} MB, largest {max(mb for _, mb in seen):.2f} MB; record {record:.2f} MB; "
+          f"{'dropped' if result['drop'] else 'stayed up'}, "
+          f"false alarms {result['metrics']['false_alarms']:.0f}")
+    return 0 if running[-1] - quarter <= max(1.0, record) else 1
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -52,7 +96,11 @@ def main():
     parser.add_argument("--short", type=float, default=9, help="s of the rig")
     parser.add_argument("--long", type=float, default=30, help="s of the rig")
     parser.add_argument("--limit", type=float, default=2000, help="MB in 24 h beside the record")
+    parser.add_argument("--day", help="run this scenario as it stands, with its memory logged")
+    parser.add_argument("--log", type=argparse.FileType("w"), default=sys.stderr, help="of --day")
     options = parser.parse_args()
+    if options.day:
+        return whole_run(options.ambrig, options.day, options.log)
     with tempfile.TemporaryDirectory(prefix="memory_growth_") as name:
         first = min(peak(options.ambrig, options.short, pathlib.Path(name)) for _ in range(2))
         last = peak(options.ambrig, options.long, pathlib.Path(name))

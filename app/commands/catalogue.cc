@@ -11,6 +11,7 @@
   COMMAND(Merge)                 \
   COMMAND(Detectors)             \
   COMMAND(Commission)            \
+  COMMAND(Paper)                 \
   COMMAND(Crosscheck)            \
   COMMAND(Rotor)                 \
   COMMAND(Design)                \

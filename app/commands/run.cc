@@ -15,6 +15,7 @@
 #include "campaign/run_plan.h"
 #include "core/base/atomic_file.h"
 #include "core/base/read_file.h"
+#include "core/math/no_solution.h"
 #include "core/record/csv.h"
 #include "core/record/hdf5.h"
 #include "rig/rig_file.h"
@@ -31,11 +32,11 @@ struct RunOptions {
   std::string campaign;
   long long row = -1;
   double rate = 0;
-  bool csv = false, quiet = false, no_html = false, long_runs = false;
+  bool csv = false, quiet = false, no_html = false, long_runs = false, keep_going = false;
 };
 
 void PrintTimeline(const Scenario& scenario, const RunResult& result,
-                   const std::map<std::string, double>& stations,
+                   const std::map<std::string, double>& stations, bool contacts_possible,
                    const std::vector<ExpectResult>& expect) {
   fmt::print("{}\n", Coloured(scenario.name, "bold"));
   std::size_t shown = 0, contacts = 0;
@@ -55,7 +56,8 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result,
   orbits(m.max_orbit);
   orbits(stations);
   if (!m.max_orbit.empty())
-    fmt::print("  {:<22} {:8.2f} um\n", "clearance left", m.min_clearance_left * 1e6);
+    fmt::print("  {:<22} {:>8} um\n", "clearance left",
+               contacts_possible ? fmt::format("{:.2f}", m.min_clearance_left * 1e6) : "-");
   fmt::print("  {:<22} {:8.3f} A\n  {:<22} {:8.2f} W\n", "peak coil current", m.peak_current,
              "copper loss, mean", m.copper_loss);
   fmt::print("  {:<22} {}\n", "false alarms", FalseAlarmText(m.false_alarms, m.coil_periods));
@@ -79,6 +81,11 @@ struct RunInput {
 };
 
 RunInput FromScenario(const std::string& file) {
+  if (std::filesystem::is_directory(file))
+    throw InputError(
+        fmt::format("{}: a folder, allowed: scenario files (ambrig check {} runs those of a folder "
+                    "that have [expect]; the folder of the seed paper: ambrig paper {})",
+                    file, file, file));
   RunInput in;
   in.rig = ReadRig(RigOfScenario(file));
   in.scenario = ReadScenario(file, in.rig);
@@ -143,12 +150,69 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
     if (!options.common.html.empty()) WriteRunReport(data, options.common.html);
   }
   if (!options.quiet) {
-    PrintTimeline(scenario, result, StationOrbits(rig, result), expect);
+    PrintTimeline(scenario, result, StationOrbits(rig, result), HasAuxiliary(rig), expect);
+    if (const std::string note = UncommissionedNote(rig, result); !note.empty())
+      fmt::print("{}\n", Wrapped("  note: " + note, 8));
     fmt::print("  {:<22} {}.h5 .json{}{}\n", "written", stem.string(), options.csv ? " .csv" : "",
                options.no_html ? "" : " .html (report)");
   }
   all.push_back(json);
   return AllMet(expect) ? 0 : 1;
+}
+
+/// --keep-going: a scenario that is refused or cannot be solved is told and left out.
+int RunEach(const RunOptions& options, nlohmann::ordered_json& all) {
+  int code = 0;
+  const auto leave_out = [&](const std::string& file, const std::exception& e) {
+    const std::string what = e.what();
+    const std::string line = what.starts_with(file) ? what : file + ": " + what;
+    fmt::print(stderr, "ambrig: {}\n", PrintableLine(line));
+    std::fflush(stderr);
+    all.push_back({{"scenario", file}, {"error", what}});
+    code = 2;
+  };
+  for (const std::string& file : options.scenarios) {
+    try {
+      const RunInput in = FromScenario(file);
+      CheckBefore(in, options);
+      code = std::max(code, RunOne(in, options, all));
+    } catch (const InputError& e) {
+      leave_out(file, e);
+    } catch (const NoSolution& e) {
+      leave_out(file, e);
+    }
+  }
+  return code;
+}
+
+/// Each scenario writes files of its own name. @throws InputError
+void RefuseEqualNames(const std::vector<std::string>& scenarios) {
+  std::set<std::string> stems;
+  for (const std::string& file : scenarios)
+    if (!stems.insert(std::filesystem::path(file).stem().string()).second)
+      throw InputError(
+          fmt::format("{}: another scenario of that file name would be overwritten", file));
+}
+
+int RunScenarios(const RunOptions& options) {
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
+  if (options.campaign.empty() == options.scenarios.empty())
+    throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
+  RefuseEqualNames(options.scenarios);
+  int code = 0;
+  if (options.keep_going) {
+    PrepareFolder(options.out);
+    code = RunEach(options, all);
+  } else {
+    std::vector<RunInput> inputs;
+    if (!options.campaign.empty()) inputs.push_back(FromCampaign(options.campaign, options.row));
+    for (const std::string& file : options.scenarios) inputs.push_back(FromScenario(file));
+    for (const RunInput& in : inputs) CheckBefore(in, options);
+    PrepareFolder(options.out);
+    for (const RunInput& in : inputs) code = std::max(code, RunOne(in, options, all));
+  }
+  options.common.WriteJson(all.size() == 1 && !options.keep_going ? all[0] : all);
+  return code;
 }
 
 }  // namespace
@@ -172,6 +236,10 @@ void AddRun(CLI::App& app, Work& work) {
   command->add_flag("--long", options->long_runs, "also runs that will take more than an hour");
   command->add_option("--fidelity", options->fidelity, "switching | reference | averaged")
       ->capture_default_str();
+  command
+      ->add_flag("--keep-going", options->keep_going,
+                 "a scenario that is refused is told, the others are run")
+      ->excludes(campaign);
   command->add_flag("--csv", options->csv, "also write the record as NAME.csv");
   command->add_flag("--no-report", options->no_html, "no NAME.html");
   command->add_flag("--quiet", options->quiet, "print nothing");
@@ -179,30 +247,8 @@ void AddRun(CLI::App& app, Work& work) {
   command->footer(
       "Examples:\n  ambrig run scenarios/library/coil_a3_opens_1500rpm.toml --out out --csv\n"
       "  ambrig run scenarios/library/load_step.toml --rate 25000 --no-report\n"
-      "Exit code 1 when an [expect] of a scenario is not met.");
-  command->callback([options, &work] {
-    work = [options] {
-      nlohmann::ordered_json all = nlohmann::ordered_json::array();
-      int code = 0;
-      std::vector<RunInput> inputs;
-      if (options->campaign.empty() == options->scenarios.empty())
-        throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
-      if (!options->campaign.empty())
-        inputs.push_back(FromCampaign(options->campaign, options->row));
-      std::set<std::string> stems;
-      for (const std::string& file : options->scenarios) {
-        if (!stems.insert(std::filesystem::path(file).stem().string()).second)
-          throw InputError(
-              fmt::format("{}: another scenario of that file name would be overwritten", file));
-        inputs.push_back(FromScenario(file));
-      }
-      for (const RunInput& in : inputs) CheckBefore(in, *options);
-      PrepareFolder(options->out);
-      for (const RunInput& in : inputs) code = std::max(code, RunOne(in, *options, all));
-      options->common.WriteJson(all.size() == 1 ? all[0] : all);
-      return code;
-    };
-  });
+      "Exit code 1 when an [expect] of a scenario is not met, 2 when one was refused.");
+  command->callback([options, &work] { work = [options] { return RunScenarios(*options); }; });
 }
 
 }  // namespace ambrig

@@ -103,4 +103,12 @@ std::string WrappedHelp(std::string_view text, std::size_t columns) {
   return out;
 }
 
+std::string PrintableLine(const std::string& text) {
+  constexpr std::size_t kLongest = 1000;
+  std::string line = text.size() > kLongest ? text.substr(0, kLongest) + " ..." : text;
+  for (char& c : line)
+    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+  return line;
+}
+
 }  // namespace ambrig

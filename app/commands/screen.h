@@ -29,4 +29,7 @@ std::string ScreenSi(double value, std::string_view unit, int digits = 4);
 /// beginning of its description. Lines that begin with "  ambrig " are commands and stay.
 std::string WrappedHelp(std::string_view text, std::size_t columns = kScreenColumns);
 
+/// A message of one line, whatever a file's own text put into it.
+std::string PrintableLine(const std::string& text);
+
 }  // namespace ambrig

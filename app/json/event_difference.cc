@@ -22,6 +22,31 @@ Times TimesOf(const nlohmann::json& events) {
   return out;
 }
 
+/// Which of `longer` belongs to each of `shorter` (times in order): the choice that moves them least
+/// in all, so that one event more does not make all later ones look moved.
+std::vector<std::size_t> PartnersOf(const std::vector<double>& shorter,
+                                    const std::vector<double>& longer) {
+  constexpr std::size_t kMostCells = 4'000'000;
+  const std::size_t n = shorter.size(), more = longer.size() - n;
+  std::vector<std::size_t> partner(n);
+  for (std::size_t i = 0; i < n; ++i) partner[i] = i;
+  if (more == 0 || n * (more + 1) > kMostCells) return partner;
+  // least[i][k]: of the first i, of which the last belongs to number i - 1 + k at most
+  std::vector<std::vector<double>> least(n + 1, std::vector<double>(more + 1, 0));
+  const auto cost = [&](std::size_t i, std::size_t k) {
+    return least[i - 1][k] + std::abs(shorter[i - 1] - longer[i - 1 + k]);
+  };
+  for (std::size_t i = 1; i <= n; ++i)
+    for (std::size_t k = 0; k <= more; ++k)
+      least[i][k] = k == 0 ? cost(i, 0) : std::min(least[i][k - 1], cost(i, k));
+  std::size_t k = more;
+  for (std::size_t i = n; i > 0; --i) {
+    while (k > 0 && least[i][k - 1] <= cost(i, k)) --k;
+    partner[i - 1] = i - 1 + k;
+  }
+  return partner;
+}
+
 double First(const EventDifference& e) {
   if (e.kind == EventDifference::Kind::kMoved) return std::min(e.before, e.after);
   return e.kind == EventDifference::Kind::kCame ? e.after : e.before;
@@ -37,14 +62,20 @@ std::vector<EventDifference> CompareEvents(const nlohmann::json& a, const nlohma
   for (const auto& [name, ignored] : after) before.try_emplace(name);
   for (const auto& [name, old] : before) {
     const std::vector<double>& now = after[name];
-    for (std::size_t k = 0; k < std::max(old.size(), now.size()); ++k) {
-      if (k >= now.size())
-        out.push_back({Kind::kWent, name, old[k], 0});
-      else if (k >= old.size())
-        out.push_back({Kind::kCame, name, 0, now[k]});
-      else if (std::abs(old[k] - now[k]) > tolerance)
-        out.push_back({Kind::kMoved, name, old[k], now[k]});
+    const bool fewer = old.size() <= now.size();
+    const std::vector<double>&shorter = fewer ? old : now, &longer = fewer ? now : old;
+    std::vector<bool> alone(longer.size(), true);
+    const std::vector<std::size_t> partner = PartnersOf(shorter, longer);
+    for (std::size_t k = 0; k < shorter.size(); ++k) {
+      alone[partner[k]] = false;
+      const double was = fewer ? shorter[k] : longer[partner[k]],
+                   is = fewer ? longer[partner[k]] : shorter[k];
+      if (std::abs(was - is) > tolerance) out.push_back({Kind::kMoved, name, was, is});
     }
+    for (std::size_t k = 0; k < longer.size(); ++k)
+      if (alone[k])
+        out.push_back(fewer ? EventDifference{Kind::kCame, name, 0, longer[k]}
+                            : EventDifference{Kind::kWent, name, longer[k], 0});
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const auto& x, const auto& y) { return First(x) < First(y); });

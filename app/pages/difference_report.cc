@@ -52,13 +52,14 @@ void AddCurves(HtmlReport& report, const DifferencePage& run, const ChannelDiffe
   report.TimeSeries(caption, "time [ms]", fmt::format("{} [{}]", c.channel, unit.name), series);
 }
 
-void AddTables(HtmlReport& report, const RunDifference& d) {
-  if (!d.events.empty()) {
-    std::vector<std::vector<Cell>> rows;
-    for (const EventDifference& e : d.events)
-      rows.push_back({Cell(EventDifferenceText(e), "fail")});
-    report.Table({"events"}, rows);
-  }
+void AddEvents(HtmlReport& report, const RunDifference& d) {
+  if (d.events.empty()) return;
+  std::vector<std::vector<Cell>> rows;
+  for (const EventDifference& e : d.events) rows.push_back({Cell(EventDifferenceText(e), "fail")});
+  report.Table({"events"}, rows);
+}
+
+void AddChannels(HtmlReport& report, const RunDifference& d) {
   std::vector<std::vector<Cell>> rows;
   for (const ChannelDifference& c : d.record.channels)
     rows.push_back({Cell(c.channel), Cell(VerdictText(c.verdict), c.bad() ? "fail" : "ok"),
@@ -66,7 +67,11 @@ void AddTables(HtmlReport& report, const RunDifference& d) {
                     Cell(c.worst > 0 ? FormatSi(c.worst, c.unit) : "-"),
                     Cell(c.rms > 0 ? FormatSi(c.rms, c.unit) : "-"),
                     Cell(fmt::format("{} of {}", c.beyond, c.rows))});
-  report.Table({"channel", "verdict", "first", "largest difference", "rms", "rows beyond"}, rows);
+  report.Table({"channel", "verdict", "from", "largest difference", "rms of the difference",
+                "rows beyond the tolerance"},
+               rows,
+               "All channels; s: set-points, i: currents, d: duties (0 to 1), r: true position of "
+               "the shaft. Without tolerances one bit is a difference.");
 }
 
 }  // namespace
@@ -85,10 +90,11 @@ void WriteDifferenceReport(const std::vector<DifferencePage>& runs, const std::s
     std::string list;
     for (const std::string& line : DifferenceLines(d)) list += "- " + line + "\n";
     if (!list.empty()) report.Text(list);
-    AddTables(report, d);
+    AddEvents(report, d);
     std::size_t figures = 0;
     for (const ChannelDifference* c : Worst(d.record))
       if (figures++ < kMostFigures) AddCurves(report, run, *c);
+    AddChannels(report, d);
   }
   report.Write(path);
 }

@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <filesystem>
 
 #include "app/figures/series.h"
 #include "app/pages/format.h"
 #include "core/base/read_file.h"
+#include "fdd/learning/commissioning_file.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -153,10 +156,25 @@ std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunR
   return out;
 }
 
+std::string UncommissionedNote(const RigParameters& rig, const RunResult& result) {
+  if (!result.doubtful || !rig.detection.commissioning.empty() ||
+      std::filesystem::exists(CommissioningFileOf(rig.file)))
+    return "";
+  return fmt::format(
+      "the fault detection has not learnt this rig and acts on gross faults only (no current, half "
+      "of the turns); to teach it: ambrig commission {}",
+      rig.file);
+}
+
+bool HasAuxiliary(const RigParameters& rig) {
+  return std::ranges::any_of(rig.bearings, [](const auto& b) { return b.auxiliary.has_value(); });
+}
+
 std::string EventText(const RunEvent& e) {
   std::string text = e.fault_class;
   if (e.kind == "redistributed" && text == "exact") text += " (force law as when healthy)";
   if (e.kind == "redistributed" && text == "linearised") text += " (holds near zero force)";
+  if (e.kind == "doubtful") text += ": gross faults only";
   if (e.fraction > 0)
     text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);
   return text;
@@ -170,12 +188,17 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
   data.subtitle =
       fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
   FillVerdict(result, expect, data);
-  for (std::string note : result.notes) {
+  std::vector<std::string> notes = result.notes;
+  if (const std::string note = UncommissionedNote(rig, result); !note.empty())
+    notes.push_back(note);
+  for (std::string note : notes) {
     note[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(note[0])));
     data.notes.push_back(note + ".");
   }
   data.stations = StationsOf(rig, result);
   FillMetrics(result.metrics, data);
+  if (!HasAuxiliary(rig))
+    std::erase_if(data.metrics, [](const auto& m) { return m.first == "least clearance left"; });
   for (const RunEvent& e : result.events)
     data.events.push_back({e.t, e.kind, ShortTargetName(e.target), EventText(e)});
   data.rate = result.record.rate;

@@ -20,6 +20,13 @@ double ModelEnd(const RunResult& result);
 /// the record up to ModelEnd.
 std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunResult& result);
 
+/// For a run whose detector has not learnt the rig (ambrig commission): what that means; empty: it
+/// has, or has no need to.
+std::string UncommissionedNote(const RigParameters& rig, const RunResult& result);
+
+/// Whether the rig has an auxiliary bearing, to which a clearance can be left.
+bool HasAuxiliary(const RigParameters& rig);
+
 /// One line for a person: "detected open at A.coil3" and the like.
 std::string EventText(const RunEvent& event);
 

@@ -85,8 +85,10 @@ TEST_F(CommissionPage, TellsEveryCoil) {
       [&](const std::string& path) { WriteCommissionReport(rig_, result_, path); }));
   EXPECT_THAT(words, HasSubstr("Bearing A\n"));
   EXPECT_THAT(words, HasSubstr("Grade 1.25 over 5000 rows; the model expresses this bearing"));
-  EXPECT_THAT(words, HasSubstr("displacement [m]"));
-  EXPECT_THAT(words, HasSubstr("\n0 to 1e-05\n0.0020\n0.0060\n777\n"));
+  EXPECT_THAT(words, HasSubstr("displacement [µm]"));
+  EXPECT_THAT(words, HasSubstr("\n0 to 10\n0.0020\n0.0060\n777\n"));
+  for (const char* word : {"Grade", "Excess", "Ripple inductance", "Smallest short"})
+    EXPECT_THAT(words, HasSubstr(std::string(word) + "\n: ")) << word;
   EXPECT_THAT(words, HasSubstr("\n0.0100\n"));
   const std::string text = CommissionText(rig_, result_);
   for (int j = 1; j <= 8; ++j) EXPECT_THAT(text, HasSubstr(fmt::format("A.coil{} ", j)));

@@ -9,6 +9,7 @@
 #include "app/json/plan_json.h"
 #include "app/json/refine_json.h"
 #include "app/json/run_json.h"
+#include "app/pages/paper_report.h"
 #include "effects/catalogue.h"
 #include "tests/cli/cli_run.h"
 
@@ -53,6 +54,12 @@ void ExpectDocumented(const std::string& command, const Json& document,
   for (const std::string& key : named)
     EXPECT_TRUE(written.contains(key) || absent.contains(key))
         << command << " never writes " << key;
+}
+
+TEST(JsonDocs, Paper) {
+  PaperStudy study;
+  study.converters.resize(1);
+  ExpectDocumented("paper", PaperJson(study));
 }
 
 TEST(JsonDocs, Run) {

@@ -85,11 +85,53 @@ TEST_F(Baseline, LostChannelAndNan) {
   const std::string lost = r.channels[3].name;
   r.channels.erase(r.channels.begin() + 3);
   WriteHdf5(r, (folder_ / "b.h5").string());
-  const Outcome o = Ambrig("diff a/s.h5 b.h5 --relative 10");
+  const Outcome o = Ambrig("diff a/s.h5 b.h5 --relative 10 --html d.html");
   EXPECT_EQ(o.exit, 1);
+  for (const std::string& said : {lost + ": lost.", r.channels[0].name + ": not a number from 2.4"})
+    EXPECT_NE(ReadText(folder_ / "d.html").find(said), std::string::npos) << said;
   EXPECT_NE(o.text.find(lost + ": lost"), std::string::npos) << o.text;
   EXPECT_NE(o.text.find(r.channels[0].name + ": not a number from 2.4 ms"), std::string::npos)
       << o.text;
+}
+
+// A rig without its thrust bearing has no such channels any more; a NaN stands in what was stored.
+// Both are named on the screen, in the JUnit file and on the page, and a record that is as it was
+// differs in no bit from its baseline's rows.
+TEST_F(Baseline, CheckFindsALostChannelAndANan) {
+  ASSERT_EQ(Check("--accept").exit, 0);
+  const std::string rig = ReferenceRigText();
+  Write("rig.toml", rig.substr(0, rig.find("[bearings.Z]")));
+  const Outcome lost = Check("--junit c.xml");
+  EXPECT_EQ(lost.exit, 1) << lost.text;
+  EXPECT_NE(lost.text.find("Z.i1: lost"), std::string::npos) << lost.text;
+  EXPECT_NE(ReadText(folder_ / "c.xml").find("Z.i1: lost"), std::string::npos);
+  EXPECT_NE(ReadText(folder_ / "base/difference.html").find("Z.i1: lost."), std::string::npos);
+
+  Write("rig.toml", rig);
+  const std::string file = (folder_ / "base/s.baseline.h5").string();
+  Record r = ReadHdf5(file);
+  r.channels[0].samples[30] = std::numeric_limits<double>::quiet_NaN();
+  WriteHdf5(r, file);
+  const Outcome nan = Check("--junit c.xml");
+  EXPECT_EQ(nan.exit, 1) << nan.text;
+  const std::string found = r.channels[0].name + ": not a number from 2.4 ms";
+  EXPECT_NE(nan.text.find(found), std::string::npos) << nan.text;
+  EXPECT_NE(ReadText(folder_ / "c.xml").find(found), std::string::npos);
+  EXPECT_NE(ReadText(folder_ / "base/difference.html").find(found), std::string::npos);
+}
+
+// The fault's instant moves by one switching period, 40 us, less than a row of the record: no curve
+// may tell, the event does.
+TEST_F(Baseline, EventThatMovedByOneSwitchingPeriod) {
+  ASSERT_EQ(Check("--accept").exit, 0);
+  WriteScenario(0.00504);
+  const Outcome check = Check();
+  EXPECT_EQ(check.exit, 1) << check.text;
+  EXPECT_NE(check.text.find("event fault A.coil3 (open) moved from 5 ms to 5.04 ms"),
+            std::string::npos)
+      << check.text;
+  EXPECT_NE(ReadText(folder_ / "base/difference.html").find("moved from 5 ms to 5.04 ms"),
+            std::string::npos);
 }
 
 TEST_F(Baseline, StoredRecordsAreSmallAndSayWhereTheyComeFrom) {

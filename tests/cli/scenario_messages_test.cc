@@ -203,6 +203,33 @@ TEST_P(ScenarioMessages, OneLine) {
 INSTANTIATE_TEST_SUITE_P(Table, ScenarioMessages, testing::ValuesIn(kScenarioMistakes), NameOf);
 
 class BaseKeys : public CliFolder {};
+// A start that the rig cannot give is named with the scenario's own line.
+TEST_F(BaseKeys, StartsThatTheRigCannotGive) {
+  const std::string rig = ReferenceRigText(),
+                    resting = ScenarioText("[start]\nstate = \"resting\"\n");
+  ASSERT_EQ(Run(rig, resting).exit, 0);
+  const Outcome floats = Run(
+      Replaced(rig, "gravity = [0.0, -9.81, 0.0]", "gravity = [0.0, 0.0, -9.81]"), resting, "o1");
+  EXPECT_EQ(floats.exit, 2);
+  EXPECT_NE(floats.text.find("s.toml:6: start.state = \"resting\" without gravity"),
+            std::string::npos)
+      << floats.text;
+  const std::string magnet = ReadText(AMBRIG_SOURCE_DIR "/examples/validation/mbc500.toml");
+  const Outcome bare = Run(magnet, resting, "o2");
+  EXPECT_EQ(bare.exit, 2);
+  EXPECT_NE(bare.text.find("with 0 radial auxiliary bearings, allowed: two"), std::string::npos)
+      << bare.text;
+  const auto clamped = [](const char* x) {
+    return ScenarioText(std::string("[start]\nstate = \"clamped\"\nposition = { M = [") + x +
+                        ", 0.0] }\n");
+  };
+  const Outcome inside = Run(magnet, clamped("-5.0e-4"), "o3");  // both magnets: gap of 0.3 mm
+  EXPECT_EQ(inside.exit, 2);
+  EXPECT_NE(inside.text.find("allowed: inside the gap of 0.0003 m"), std::string::npos)
+      << inside.text;
+  EXPECT_EQ(Run(magnet, clamped("-2.0e-4"), "o4").exit, 0);
+}
+
 // What the scenario's own first lines may get wrong.
 TEST_F(BaseKeys, OneLineEach) {
   const std::pair<const char*, const char*> replaced[] = {

@@ -1,0 +1,82 @@
+#include "scenarios/start_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace ambrig {
+
+namespace {
+
+void CheckResting(const TomlTable& start, const RigParameters& rig) {
+  const auto catches = std::ranges::count_if(rig.bearings, [](const BearingParameters& b) {
+    return b.kind == BearingKind::kRadial && b.auxiliary.has_value();
+  });
+  if (catches < 2)
+    start.Fail("state", fmt::format("= \"resting\" with {} radial auxiliary bearings, allowed: two",
+                                    catches));
+  if (rig.gravity[0] == 0 && rig.gravity[1] == 0)
+    start.Fail("state",
+               "= \"resting\" without gravity across the shaft, allowed: gravity = [x, y, z] of "
+               "the rig with x or y other than 0");
+}
+
+/// Whether a shaft at (x, y) would stand in a pole.
+bool InPole(const BearingParameters& b, double x, double y) {
+  switch (b.kind) {
+    case BearingKind::kRadial:
+      return std::hypot(x, y) >= b.radial.gap;
+    case BearingKind::kThrust:
+      return std::abs(x) >= b.thrust.gap;
+    case BearingKind::kOpposed:  // one magnet: free on the other side
+      return x >= b.opposed.gap || (b.coils() > 1 && -x >= b.opposed.gap);
+  }
+  return false;
+}
+
+double GapOf(const BearingParameters& b) {
+  return b.kind == BearingKind::kRadial   ? b.radial.gap
+         : b.kind == BearingKind::kThrust ? b.thrust.gap
+                                          : b.opposed.gap;
+}
+
+void ReadPosition(const TomlTable& position, const std::string& key, const RigParameters& rig,
+                  Scenario& s) {
+  const BearingParameters* b = rig.Find(key);
+  if (!b) {
+    std::string names;
+    for (const BearingParameters& each : rig.bearings)
+      names += (names.empty() ? "" : ", ") + each.name;
+    position.Fail(key, "is no bearing, allowed: " + names);
+  }
+  std::vector<double> xy = position.IsNumber(key) ? std::vector<double>{position.Number(key), 0.0}
+                                                  : position.Numbers(key);
+  if (xy.size() == 1) xy.push_back(0);
+  if (xy.size() != 2) position.Fail(key, "allowed: [x, y] in m");
+  if (!std::isfinite(xy[0]) || !std::isfinite(xy[1]) || InPole(*b, xy[0], xy[1]))
+    position.Fail(
+        key, fmt::format("= [{}, {}] m, allowed: inside the gap of {} m", xy[0], xy[1], GapOf(*b)));
+  s.clamp[key] = {xy[0], xy[1]};
+}
+
+}  // namespace
+
+void ReadStart(const TomlTable& root, const RigParameters& rig, Scenario& s) {
+  const auto t = root.Table("start");
+  if (!t) return;
+  const std::string state = t->Choice("state", "levitated", "levitated, resting, clamped");
+  s.start = state == "levitated" ? StartState::kLevitated
+            : state == "resting" ? StartState::kResting
+                                 : StartState::kClamped;
+  if (s.start == StartState::kResting) CheckResting(*t, rig);
+  if (const auto p = t->Table("position")) {
+    if (s.start != StartState::kClamped)
+      t->Fail("position", "is only allowed with state = \"clamped\"");
+    for (const auto& key : p->Keys()) ReadPosition(*p, key, rig, s);
+  }
+  t->RejectUnknownKeys();
+}
+
+}  // namespace ambrig

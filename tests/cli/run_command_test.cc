@@ -1,0 +1,80 @@
+// ambrig run with several scenarios: all or nothing, or --keep-going; a folder is told what to do.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+class RunCommand : public CliFolder {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    Write("rig.toml", ReferenceRigText());
+    Write("a.toml", ScenarioText(""));
+    Write("wrong.toml", ScenarioText("speeed = 3\n"));
+    Write("b.toml", ScenarioText(""));
+  }
+};
+
+TEST_F(RunCommand, OneWrongFileStopsAllBeforeTheWork) {
+  const Outcome o = Ambrig("run a.toml wrong.toml b.toml --quiet --no-report");
+  EXPECT_EQ(o.exit, 2);
+  EXPECT_EQ(o.lines(), 1) << o.text;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/a.h5"));
+}
+
+TEST_F(RunCommand, KeepGoingRunsTheOthersAndNamesEachThatIsLeftOut) {
+  const Outcome o = Ambrig(
+      "run wrong.toml a.toml missing.toml b.toml --quiet --no-report --keep-going --json all.json");
+  EXPECT_EQ(o.exit, 2) << o.text;
+  EXPECT_EQ(o.lines(), 2) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("ambrig: wrong.toml:5: "));
+  EXPECT_THAT(o.text, HasSubstr("ambrig: missing.toml: "));
+  for (const char* name : {"out/a.h5", "out/a.json", "out/b.h5"})
+    EXPECT_TRUE(std::filesystem::exists(folder_ / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/wrong.json"));
+  const Json all = Json::parse(ReadText(folder_ / "all.json"));
+  ASSERT_EQ(all.size(), 4u);
+  EXPECT_EQ(all[0]["scenario"], "wrong.toml");
+  EXPECT_THAT(all[0]["error"].get<std::string>(), HasSubstr("speeed"));
+  EXPECT_EQ(all[1]["name"], "t");
+  // The same bits as alone.
+  const std::string together = ReadText(folder_ / "out/b.h5");
+  ASSERT_EQ(Ambrig("run b.toml --quiet --no-report").exit, 0);
+  EXPECT_EQ(ReadText(folder_ / "out/b.h5"), together);
+}
+
+TEST_F(RunCommand, AFolderIsToldWhatRunsIt) {
+  const Outcome o = Ambrig("run . --quiet");
+  EXPECT_EQ(o.exit, 2);
+  EXPECT_EQ(o.lines(), 1) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("a folder, allowed: scenario files"));
+  EXPECT_THAT(o.text, HasSubstr("ambrig paper ."));
+}
+
+// Whoever has never heard of commissioning is told what "doubtful" means, on the screen and the page.
+TEST_F(RunCommand, AnUncommissionedRigIsToldHowToTeachIt) {
+  const Outcome o = Ambrig("run a.toml");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("model doubtful: gross faults only"));
+  EXPECT_THAT(o.text, HasSubstr("ambrig commission rig.toml"));
+  EXPECT_THAT(ReadText(folder_ / "out/a.html"), HasSubstr("ambrig commission rig.toml"));
+}
+
+// No auxiliary bearing, no clearance: a dash, not 0.
+TEST_F(RunCommand, WithoutAuxiliaryBearingsNoClearanceIsLeft) {
+  Write("rig.toml", ReadText(AMBRIG_SOURCE_DIR "/examples/validation/mbc500.toml"));
+  const Outcome o = Ambrig("run a.toml");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, ::testing::ContainsRegex("clearance left +- um"));
+  EXPECT_THAT(ReadText(folder_ / "out/a.html"), ::testing::Not(HasSubstr("clearance left")));
+}
+
+}  // namespace
+}  // namespace ambrig
