@@ -8,14 +8,16 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kNoiseOfStep = 11;   // 8 sd of the difference of two samples
-constexpr int kAfterEdge = 3;         // intervals that dead time and errors of an edge may reach
-constexpr double kOfStep = 0.5;       // of the last period's step: it is no straight line
-constexpr double kNeighbours = 0.15;  // [A] what their edges change from period to period
-constexpr double kLeastJump = 0.2;    // [A]
-constexpr double kConducting = 0.12;  // [A]
-constexpr double kFewest = 1.5;       // intervals of a phase
-constexpr int kOn = 0, kOff = 1;      // phases; then the intervals 1 and 2 of a period
+constexpr double kNoiseOfStep = 11;     // 8 sd of the difference of two samples
+constexpr int kAfterEdge = 3;           // intervals that dead time and errors of an edge may reach
+constexpr double kOfStep = 0.5;         // of the last period's step: it is no straight line
+constexpr double kNeighbours = 0.15;    // [A] what their edges change from period to period
+constexpr double kLeastJump = 0.2;      // [A]
+constexpr double kConducting = 0.12;    // [A]
+constexpr double kOfEdge = 1.25;        // of the largest step beside an edge so far
+constexpr double kEdgeForgets = 0.999;  // a period
+constexpr double kFewest = 1.5;         // intervals of a phase
+constexpr int kOn = 0, kOff = 1;        // phases; then the intervals 1 and 2 of a period
 constexpr int kKnownSteps = kOff + kAfterEdge;
 
 struct Range {
@@ -44,11 +46,13 @@ struct Steps {
 };
 
 AMBRIG_WIDE void SumOfSteps(const Lane* adc, int samples, const Lane& edge, const Lane& limit,
-                            double noise, Lane* last, ReadingJump::PhaseStep* known, Lane* jumps) {
+                            double noise, ReadingJump::State* state, Lane* jumps) {
+  ReadingJump::PhaseStep* known = state->known;
   const LaneVector zero, one = 1.0, most = Load(limit.v), last_on = Load(edge.v);
-  const Range anywhere{-most, most, zero}, on = RangeOf(known[kOn], most, noise),
-                                           off = RangeOf(known[kOff], most, noise);
-  LaneVector before = Load(last->v), sum = zero;
+  LaneVector before = Load(state->last.v), sum = zero;
+  LaneVector fall = Load(state->fall.v) * kEdgeForgets, rise = Load(state->rise.v) * kEdgeForgets;
+  const Range anywhere{Min(-most, fall * kOfEdge - noise), Max(most, rise * kOfEdge + noise), zero},
+      on = RangeOf(known[kOn], most, noise), off = RangeOf(known[kOff], most, noise);
   Steps seen[kKnownSteps];
   for (int k = 0; k < samples; ++k) {
     const LaneVector now = Load(adc[k].v), step = now - before, place = static_cast<double>(k);
@@ -68,12 +72,17 @@ AMBRIG_WIDE void SumOfSteps(const Lane* adc, int samples, const Lane& edge, cons
         Select(step > high, step - expected, Select(step < low, step - expected, zero));
     const LaneVector regular = Select(Abs(beyond) > zero, zero, one);
     sum = sum + beyond;
+    const LaneVector at_edge = Select(in_on, zero, Select(in_off, zero, step));
+    fall = Min(fall, at_edge);
+    rise = Max(rise, at_edge);
     seen[starts ? kOff + k : kOn].Add(step, is_on * regular);
     if (k > 0) seen[kOff].Add(step, is_off * regular);
     before = now;
   }
   for (int q = 0; q < kKnownSteps; ++q) seen[q].Keep(&known[q], q > kOff ? kFewest + 1 : 1);
-  Store(last->v, before);
+  Store(state->last.v, before);
+  Store(state->fall.v, fall);
+  Store(state->rise.v, rise);
   Store(jumps->v, Select(Abs(sum) > kLeastJump, sum, zero));
 }
 
@@ -88,7 +97,7 @@ ReadingJump::ReadingJump(const LinkageModel& nominal, const SamplingSettings& sa
 }
 
 Lane ReadingJump::Period(const MeasuredPeriod& in) {
-  if (!started_) last_ = in.adc[0];
+  if (!started_) state_.last = in.adc[0];
   started_ = true;
   Lane limit, edge, jumps;
   const double noise = kNoiseOfStep * noise_;
@@ -97,10 +106,10 @@ Lane ReadingJump::Period(const MeasuredPeriod& in) {
     limit[j] = per_volt_[j] * std::abs(in.bus) + noise;
     edge[j] = (*in.duty)[j] * per_period;
   }
-  SumOfSteps(in.adc, sampling_.samples, edge, limit, noise, &last_, known_, &jumps);
+  SumOfSteps(in.adc, sampling_.samples, edge, limit, noise, &state_, &jumps);
   // Other bridges have more edges than the one of the duty.
   if (sampling_.amplifier->modulation != Modulation::kBiState)
-    for (PhaseStep& p : known_) p.count = Lane{};
+    for (PhaseStep& p : state_.known) p.count = Lane{};
   return jumps;
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 /// Steps of a current reading between two ADC samples that no voltage can make. Two limits:
 ///
-///   V h/L_leak   anywhere: the inductance of a coil is never below its leakage
+///   V h/L_leak   anywhere: the inductance of a coil is never below its leakage; beside edges at
+///                least 1.25 times what was seen there, of a coil with less leakage than drawn
 ///   s h + half   but for three intervals after the edge in a period: there the current goes on by
 ///                the steps that it made in the period before, however small the inductance is that
 ///                the iron's eddy currents leave
@@ -26,13 +27,17 @@ class ReadingJump {
   struct PhaseStep {
     Lane mean, count;  // [A], intervals
   };
+  struct State {
+    Lane last;           // sample [A]
+    PhaseStep known[4];  // on, off, intervals 1 and 2 of a period
+    Lane fall, rise;     // largest steps beside edges [A]
+  };
 
  private:
   SamplingSettings sampling_;
   Lane per_volt_;  // largest step over the bus voltage [A/V]
   double noise_ = 0;
-  Lane last_;
-  PhaseStep known_[4];  // on, off, intervals 1 and 2 of a period
+  State state_;
   bool started_ = false;
 };
 

@@ -88,6 +88,28 @@ TEST(CommissionedDecisions, NothingIsConcludedOfAHealthyMachine) {
   }
 }
 
+/// Eddy currents from 300 Hz on and less leakage than drawn: beside an edge the current steps by
+/// more than V h/L_leak.
+const CommissionedRig& ThickSheets() {
+  static const CommissionedRig made([] {
+    RigParameters rig = WithEffect(ReferenceRig(), "eddy-currents", "A", {{"cutoff", 300}});
+    for (Tolerance& t : rig.tolerances)
+      if (t.path == "bearings.A.leakage_inductance") t.true_value = 2.9e-4;
+    return rig;
+  }());
+  return made;
+}
+
+// It was taken for a current sensor that steps.
+TEST(CommissionedDecisions, StepsBesideAnEdgeAreTheMachinesOwn) {
+  const auto healthy = Concluded(ThickSheets().rig, &ThickSheets().bearing, Operation("", 0.08));
+  EXPECT_TRUE(healthy->found.empty());
+  EXPECT_FALSE(healthy->doubted);
+  const auto stepped = Concluded(ThickSheets().rig, &ThickSheets().bearing,
+                                 Operation(FaultOf(3, "current-sensor", "offset = 0.4")));
+  EXPECT_EQ(stepped->Coils(), std::set<int>{3});
+}
+
 // Three periods in a row: a reading that is wrong in one or two of them is no fault.
 TEST(CommissionedDecisions, ADecisionTakesThreePeriods) {
   for (const char* kind : {"open", "partial-short"}) {
