@@ -39,6 +39,23 @@ void Finish(FalseAlarmCurve& c) {
   for (double& s : c.share) s /= static_cast<double>(std::max(c.windows, 1L));
 }
 
+/// Largest level that each healthy plant came to, in any coil and window.
+using PlantLevels = std::map<std::string, int>;
+
+void AddPlant(PlantLevels& levels, const DetectorStudyRow& row, const DetectorOutcome& o) {
+  if (row.plant.empty() || o.windows.empty()) return;
+  int& level = levels[row.plant];
+  level = std::max(level, o.windows.rbegin()->first);
+}
+
+void CountPlants(const PlantLevels& levels, FalseAlarmCurve& c) {
+  c.plants = levels.size();
+  c.alarmed.assign(kStatisticLevels, 0);
+  for (const auto& [plant, level] : levels)
+    for (int k = 0; k <= std::min(level, kStatisticLevels - 1); ++k)
+      ++c.alarmed[static_cast<std::size_t>(k)];
+}
+
 struct FaultOutcome {
   double first_period_end = 0;  // from the fault [s]
   const DetectorOutcome* outcome = nullptr;
@@ -123,10 +140,12 @@ std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& row
     d.documented = kind.threshold;
     d.all.scenario = "all";
     std::vector<std::pair<std::string, std::vector<FaultOutcome>>> faults;
+    PlantLevels plants;
     for (const DetectorStudyRow& row : parsed) {
       if (row.outcomes.empty()) continue;  // could not be finished
       if (!row.faulty) {
         AddWindows(d.all, row.outcomes[k]);
+        AddPlant(plants, row, row.outcomes[k]);
         AddWindows(Named(d.scenarios, &FalseAlarmCurve::scenario, row.scenario), row.outcomes[k]);
         continue;
       }
@@ -136,6 +155,7 @@ std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& row
           {(std::floor(row.fault_time / T + 1e-6) + 1) * T - row.fault_time, &row.outcomes[k]});
     }
     Finish(d.all);
+    CountPlants(plants, d.all);
     for (FalseAlarmCurve& c : d.scenarios) Finish(c);
     for (const auto& [name, list] : faults) {
       FaultCurve& c = Named(d.faults, &FaultCurve::kind, name);

@@ -27,6 +27,9 @@ struct FalseAlarmCurve {
   std::string scenario;
   long windows = 0;           // of single coils
   std::vector<double> share;  // of the windows that reach the level
+  // healthy plants of a study over plants, and how many of them reach the level in some window
+  std::size_t plants = 0;
+  std::vector<std::size_t> alarmed;
 };
 
 struct DetectorCurves {

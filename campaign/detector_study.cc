@@ -19,7 +19,35 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kRowFormat = 1;  // of the rows: raise it when a cell means something else
+constexpr int kRowFormat = 2;  // of the rows: raise it when a cell means something else
+
+constexpr std::string_view kCommissioned = "commissioned", kStranger = "not-commissioned";
+
+const CoilDetectorKind& CommissionedKind() {
+  return *std::ranges::find(CoilDetectorKinds(), kCommissioned, &CoilDetectorKind::name);
+}
+
+/// The commissioned detector as it is before it has learnt anything.
+CoilDetectorKind Stranger() {
+  CoilDetectorKind kind = CommissionedKind();
+  kind.name = kStranger;
+  kind.make = [](const CoilDetectorSetup& s) {
+    CoilDetectorSetup bare = s;
+    bare.commissioning.clear();
+    return CommissionedKind().make(bare);
+  };
+  return kind;
+}
+
+/// Where plants were commissioned the detector that learnt them is compared with itself.
+void AddStranger(DetectorStudy* s) {
+  const auto learnt = [](const Campaign& c) {
+    return std::ranges::any_of(c.plants, &CampaignPlant::commissioned);
+  };
+  const auto it = std::ranges::find(s->detectors, kCommissioned, &CoilDetectorKind::name);
+  if (it != s->detectors.end() && (learnt(s->healthy) || learnt(s->faulty)))
+    s->detectors.insert(it + 1, Stranger());
+}
 
 std::vector<CoilDetectorKind> ReadDetectors(const TomlTable& t) {
   std::vector<CoilDetectorKind> all;  // that have a statistic
@@ -118,7 +146,7 @@ DetectorOutcome ParseOutcome(const std::string& cell, bool faulty) {
   return out;
 }
 
-constexpr std::size_t kConditions = 8;
+constexpr std::size_t kConditions = 9;
 
 }  // namespace
 
@@ -130,6 +158,7 @@ DetectorStudy ReadDetectorStudy(const std::string& file) {
   s.healthy = ReadCampaign(ExistingFile(root, "healthy"));
   s.faulty = ReadCampaign(ExistingFile(root, "faulty"));
   s.detectors = ReadDetectors(root);
+  AddStranger(&s);
   s.trial.begin = In(root, "begin", s.trial.begin, 0, 10, "s");
   s.trial.settle = In(root, "settle", s.trial.settle, 0, 10, "s");
   s.trial.window = In(root, "window", s.trial.window, 1e-4, 10, "s");
@@ -162,8 +191,8 @@ JournalHeader DetectorStudyPlan::Header() const {
 }
 
 std::vector<std::string> DetectorStudyPlan::Columns() const {
-  std::vector<std::string> out = {"run",  "part",           "scenario", "coil",
-                                  "kind", "fault_time [s]", "draw",     "seed"};
+  std::vector<std::string> out = {"run",  "part", "scenario", "coil", "kind", "fault_time [s]",
+                                  "draw", "seed", "plant"};
   for (const CoilDetectorKind& k : study_.detectors) out.emplace_back(k.name);
   out.emplace_back("note");
   return out;
@@ -183,7 +212,8 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
                faulty ? OneCell(plan.campaign().kinds[fault.kind].label) : "",
                faulty ? NumberText(p.scenario.faults.front().time) : "",
                std::to_string(p.at.draw),
-               std::to_string(p.scenario.seed)};
+               std::to_string(p.scenario.seed),
+               p.plant ? OneCell(fmt::format("{} {}", p.plant->label, p.plant->scale)) : ""};
   // A longer run would only repeat what nobody looks at.
   if (faulty)
     p.scenario.duration =
@@ -219,6 +249,7 @@ DetectorStudyRow ParseDetectorStudyRow(const Row& row, std::size_t detectors) {
   out.scenario = row.cells[2];
   out.coil = row.cells[3];
   out.kind = row.cells[4];
+  out.plant = row.cells[8];
   out.fault_time = out.faulty ? std::atof(row.cells[5].c_str()) : 0;
   out.note = row.cells.back();
   if (!out.note.empty()) return out;

@@ -43,7 +43,7 @@ struct DetectorStudyRow {
   bool faulty = false;
   double fault_time = 0;  // [s]
   // kind and coil of the fault: "partial-short fraction=0.1", "A:3"
-  std::string scenario, kind, coil, note;
+  std::string scenario, kind, coil, plant, note;
   // one per detector; empty when the run could not be finished
   std::vector<DetectorOutcome> outcomes;
 };

@@ -38,10 +38,8 @@ DetectorTrial::DetectorTrial(const NominalRig& nominal, const Scenario& scenario
                                             rig_->bearings[k].kind) > 0);
   for (const CoilDetectorKind& kind : kinds) {
     auto d = std::make_unique<OneDetector>();
-    for (const BearingParameters& b : rig_->bearings) {
-      const LinkageModel model = LinkageModelOf(b);
-      d->bearings.push_back(kind.make({model, DetectorSettingsOf(rig_, b, model)}));
-    }
+    for (const BearingParameters& b : rig_->bearings)
+      d->bearings.push_back(kind.make(RunDetectorSetupOf(rig_, b)));
     d->largest.resize(rig_->bearings.size());
     detectors_.push_back(std::move(d));
   }

@@ -7,15 +7,12 @@
 
 namespace ambrig {
 
-/// Upper end of the one-sided 95 % interval of a probability of which `hits` of `trials` were seen
-/// (Clopper and Pearson); about 3/n where none was. 1 without trials.
-double UpperBound95(std::size_t hits, std::size_t trials);
-
 /// Tables in Markdown, one for plants that were commissioned and one for those that were not. Empty
 /// when the rows are of no plants.
 std::string PlantTables(const Rows& rows);
 
-/// FOLDER/plants.md. Nothing is written when the rows are of no plants. @throws InputError
+/// FOLDER/plants.md and FOLDER/matrix.md (plant_matrix.h). Nothing is written when the rows are of
+/// no plants. @throws InputError
 bool WritePlantTables(const std::string& folder, const Rows& rows);
 
 }  // namespace ambrig

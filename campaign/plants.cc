@@ -168,6 +168,20 @@ std::vector<CampaignPlant> ReadPlants(const TomlTable& t, const RigParameters& r
   return out;
 }
 
+std::string EffectSizeText(const std::string& effect, const std::string& size) {
+  const EffectDescription* d = FindEffect(effect);
+  if (!d) return "";
+  const EffectInstance e = MakeInstance(*d, "");
+  std::string text;
+  for (const EffectParameter& p : e.table) {
+    if (!d->Switches(p) || !(p.typical_lo > 0 && p.typical_hi > 0)) continue;
+    const double rounded = std::stod(fmt::format("{:.3g}", ValueOf(p, Share(size), false)));
+    text += fmt::format("{}{} {:g}{}{}", text.empty() ? "" : ", ", p.name, rounded,
+                        p.unit == "-" ? "" : " ", p.unit == "-" ? "" : p.unit);
+  }
+  return text;
+}
+
 void DrawTolerances(const std::vector<double>& deviates, RigParameters* rig) {
   std::size_t k = 0;
   for (Tolerance& t : rig->tolerances) {

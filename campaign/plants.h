@@ -29,6 +29,10 @@ std::vector<CampaignPlant> ReadPlants(const TomlTable& table, const RigParameter
 /// Gives the rig the plant's effects and true values.
 void ApplyPlant(const CampaignPlant& plant, RigParameters* rig);
 
+/// "cutoff 300 Hz": what switches an effect on, at size "low", "typical" or "high". Empty for a name
+/// that is no effect's.
+std::string EffectSizeText(const std::string& effect, const std::string& size);
+
 /// True values `deviates` standard deviations off those in force; the nominal ones stay.
 void DrawTolerances(const std::vector<double>& deviates, RigParameters* rig);
 

@@ -71,7 +71,7 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
   fmt::print("  largest orbit      {} (runs that stayed up)\n",
              n.up > 0 ? ScreenSi(n.largest_orbit, "m") : "-");
   const bool plants = WritePlantTables(out, rows);
-  fmt::print("  written            {}/table.csv{}{}\n", out, plants ? ", plants.md" : "",
+  fmt::print("  written            {}/table.csv{}{}\n", out, plants ? ", plants.md, matrix.md" : "",
              no_report ? "" : " and report.html");
 }
 

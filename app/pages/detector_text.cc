@@ -69,6 +69,22 @@ std::string Table(const std::vector<DetectorCurves>& curves, const std::vector<s
   return text;
 }
 
+/// Of how many healthy plants a detector raises an alarm, at its budget's and at its own threshold.
+std::string PlantAlarms(const std::vector<DetectorCurves>& curves) {
+  std::string text =
+      fmt::format("healthy plants, of {}, with an alarm\n  {:<20}{:>20}{:>16}\n",
+                  curves.front().all.plants, "detector", "threshold above", "its own");
+  for (const std::size_t i : Ranking(curves)) {
+    const DetectorCurves& d = curves[i];
+    const auto at = [&](int level) {
+      return std::to_string(d.all.alarmed[static_cast<std::size_t>(level)]);
+    };
+    text += fmt::format("  {:<20}{:>20}{:>16}\n", d.name, at(d.budget_level),
+                        std::isnan(d.documented) ? "-" : at(LevelAtLeast(d.documented)));
+  }
+  return text;
+}
+
 Json FaultJson(const FaultCurve& c, std::size_t level) {
   return {{"kind", c.kind},
           {"runs", c.runs},
@@ -127,6 +143,7 @@ std::string DetectorText(const DetectorStudy& study, const std::vector<DetectorC
   text += Table(curves, Ranking(curves), [](const DetectorCurves& d) {
     return std::isnan(d.documented) ? -1 : LevelAtLeast(d.documented);
   });
+  if (first.all.plants > 0) text += PlantAlarms(curves);
   return text;
 }
 
@@ -138,6 +155,7 @@ nlohmann::ordered_json DetectorJson(const DetectorStudy& study,
     const auto level = static_cast<std::size_t>(d.budget_level);
     Json faults = Json::array(), healthy = Json::array();
     for (const FaultCurve& c : d.faults) faults.push_back(FaultJson(c, level));
+    const std::size_t alarmed = d.all.plants > 0 ? d.all.alarmed[level] : 0;
     for (const FalseAlarmCurve& c : d.scenarios)
       healthy.push_back(
           {{"scenario", c.scenario}, {"windows", c.windows}, {"false_alarms", c.share[level]}});
@@ -148,6 +166,8 @@ nlohmann::ordered_json DetectorJson(const DetectorStudy& study,
                          {"false_alarms", d.all.share[level]},
                          {"score", d.score},
                          {"mean_delay", d.mean_delay},
+                         {"plants", d.all.plants},
+                         {"plants_with_alarm", alarmed},
                          {"faults", faults},
                          {"healthy", healthy},
                          {"curve", CurveJson(d)}});

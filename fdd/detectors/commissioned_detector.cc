@@ -20,11 +20,7 @@ constexpr int kCoilsAtOnce = 3;        // beyond their bands: the model's fault
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rules
-// without commissioning, beside the floors: what effects of usual size do to nominal models
-constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
 constexpr double kNoCurrent = 0.12;    // [A]
-constexpr double kWider = 2.5;         // bands, once coils were given up or lost turns
-constexpr double kLeastWeaker = 0.25;  // of them, where a coil has fewer turns than it had
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 
@@ -43,46 +39,6 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
   for (int j = 0; j < setup.model.coils; ++j) share_[j] = 1;
   SetBands();
-}
-
-void CommissionedDetector::SetBands() {
-  // Errors of the share that a coil is believed to have left are in the c of all others.
-  double least = 0;
-  for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (share_[j] > 0 && share_[j] < 1) least = kLeastWeaker;
-  for (int w = 0; w < kExcessWindows; ++w)
-    for (int j = 0; j < kLanes; ++j)
-      band_[w][j] =
-          model_.learnt
-              ? std::max(least, wider_ * std::max(kExcessFloor[w],
-                                                  kBandOverHealthy * model_.largest[w][j]))
-              : kUncommissioned[w];
-}
-
-void CommissionedDetector::SetTurns(int coil, double share) {
-  share_[coil] = share;
-  filter_.SetTurns(coil, share);
-  if (share == 0) windows_.Leave(coil);
-  windows_.Clear();
-  SetWider();
-  SetBands();
-  Pause(25);
-}
-
-void CommissionedDetector::SetWider() {
-  wider_ = 1;
-  for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (share_[j] < 1) wider_ = kWider;
-}
-
-void CommissionedDetector::Restore(int coil, double share) {
-  share_[coil] = share;
-  filter_.SetTurns(coil, share);
-  windows_.Return(coil);
-  windows_.Clear();
-  SetWider();
-  SetBands();
-  Pause(25);
 }
 
 void CommissionedDetector::BeginProbe(int coil) {
@@ -229,6 +185,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     return {};
   }
   ComputeSlopeExcess(filter_, model_.coils, settings_, period_, share_, &excess_);
+  drift_.TakeOff(&excess_);
   WatchRange(in);
   const int coil = Ratios();
   if (paused_ > 0) {
@@ -238,6 +195,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     return {};
   }
   Outcome out = Judge(in, coil);
+  FollowDrift(out.doubtful || out.alarm);
   if (out.decided) {
     jumps_.Forget();
   } else if (stepped >= 0 && share_[stepped] == 1) {

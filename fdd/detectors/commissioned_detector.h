@@ -25,12 +25,16 @@
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
 /// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns.
 ///
+/// Slow drift (heating, a sensor's zero) is followed within bounds that leave a fault visible
+/// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5.
+///
 /// A reading that steps by what no voltage can make, without a slope that is wrong afterwards, is a
 /// current sensor's fault (jump_watch.h).
 #include "fdd/detectors/coil_detector.h"
 #include "fdd/detectors/coil_probe.h"
 #include "fdd/detectors/excess_windows.h"
 #include "fdd/detectors/jump_watch.h"
+#include "fdd/detectors/slow_drift.h"
 #include "fdd/examination/joint_turns.h"
 
 namespace ambrig {
@@ -67,6 +71,9 @@ class CommissionedDetector : public CoilDetector {
   /// What it showed of a coil that had turns: no current, or a gross short; else class none.
   Diagnosis EndProbe(double t);
   const CoilProbe& probe() const { return probe_; }
+  /// In commissioning nothing is taken for drift.
+  void IgnoreDrift() { follows_drift_ = false; }
+  const SlowDrift& drift() const { return drift_; }
 
   const Lane& ratio() const { return ratio_; }
   Lane Excess(int window) const { return windows_.Used(window, 1); }
@@ -100,6 +107,7 @@ class CommissionedDetector : public CoilDetector {
   /// Largest |c| of this period.
   double LargestNow() const;
   void CountStreaks(double t);
+  void FollowDrift(bool doubtful);
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.
   bool JudgedTogether(const MeasuredPeriod& in, Outcome* out) const;
@@ -133,6 +141,8 @@ class CommissionedDetector : public CoilDetector {
   CoilProbe probe_;
   JumpWatch jumps_;
   JointTurns joint_;
+  SlowDrift drift_;
+  bool follows_drift_ = true;
   Lane streak_, onset_;     // periods in a row that a coil was suspect; since [s]
   Lane dead_, dead_since_;  // periods in a row without current though driven; since [s]
   int paused_ = 8;

@@ -70,6 +70,16 @@ SlopeBand CommissionedRun::Band(int coil) const {
   return band;
 }
 
+namespace {
+
+/// What a file says of the bearing; nominal without a file.
+CommissionedBearing BearingOf(const CoilDetectorSetup& s) {
+  return ReadCommissionedBearing(s.commissioning, s.bearing, s.model,
+                                 *s.settings.sampling.amplifier);
+}
+
+}  // namespace
+
 CoilDetectorKind Commissioned() {
   return {"commissioned",
           "-",
@@ -77,12 +87,10 @@ CoilDetectorKind Commissioned() {
           1,
           1,
           [](const CoilDetectorSetup& s) -> std::unique_ptr<CoilDetector> {
-            return std::make_unique<CommissionedDetector>(s, NominalBearing("", s.model));
+            return std::make_unique<CommissionedDetector>(s, BearingOf(s));
           },
           [](const RunDetectorSetup& s) -> std::unique_ptr<RunDetector> {
-            return std::make_unique<CommissionedRun>(
-                s, ReadCommissionedBearing(s.commissioning, s.bearing, s.model,
-                                           *s.settings.sampling.amplifier));
+            return std::make_unique<CommissionedRun>(s, BearingOf(s));
           }};
 }
 

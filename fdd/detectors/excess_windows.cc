@@ -161,6 +161,15 @@ double ExcessWindows::OfPhase(int coil, int phase, int periods) const {
   return bottom > 0.5 ? top / bottom : 0;
 }
 
+Lane ExcessWindows::Common(const Lane& c) const {
+  Lane out;
+  for (int d = 0; d < directions_; ++d) {
+    const double along = Dot(basis_[d], c);
+    for (int j = 0; j < kLanes; ++j) out[j] += along * basis_[d][j];
+  }
+  return out;
+}
+
 double ExcessWindows::Pattern(int w) const {
   const Lane c = Raw(w);
   double most = 0;

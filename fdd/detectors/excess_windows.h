@@ -31,6 +31,8 @@ class ExcessWindows {
   Lane Raw(int w) const;
   /// c of one phase of one coil over the last `periods` <= 40; 0: not judged.
   double OfPhase(int coil, int phase, int periods) const;
+  /// Fit of [1, cos, sin] to c over the judged coils; 0 without a pattern.
+  Lane Common(const Lane& c) const;
   /// Largest common, cos or sin part of the raw c over window w [-].
   double Pattern(int w) const;
   long long count() const { return count_; }

@@ -35,7 +35,9 @@ int JumpWatch::Period(const MeasuredPeriod& in, const Lane& now) {
     onset_ = in.t;
     return -1;
   }
-  if (++periods_ == 1 && !Confirmed(in)) {
+  // What jumps in every period is a current of its own shape.
+  const bool again = jumps[coil_] * step_ > 0;
+  if (++periods_ == 1 && (again || !Confirmed(in))) {
     coil_ = -1;
     return -1;
   }

@@ -69,12 +69,12 @@ class RunDetector {
 struct CoilDetectorSetup {
   LinkageModel model;
   DetectorSettings settings;
+  std::string bearing = "";        // its name in the rig file
+  std::string commissioning = "";  // [detection] commissioning, a path; may be empty
 };
 
 struct RunDetectorSetup : CoilDetectorSetup {
-  std::string bearing;        // its name in the rig file
-  double threshold = 0;       // [detection] threshold, 0: the catalogue's
-  std::string commissioning;  // [detection] commissioning, a path; may be empty
+  double threshold = 0;  // [detection] threshold, 0: the catalogue's
 };
 
 /// The detector of [detection] kind. `where`: file, line and key for the error of an unknown name.

@@ -14,6 +14,7 @@ void AddHealthyBands(const CoilDetectorSetup& setup, const CommissioningLog& log
   CommissionedBearing open = *bearing;  // without a range: every period counts
   for (double& v : open.largest_flux.v) v = kInfinity;
   CommissionedDetector detector(setup, open);
+  detector.IgnoreDrift();
   for (std::size_t n = 0; n < log.size(); ++n) {
     detector.Watch(log.At(n));
     if (n < kSettle) continue;

@@ -1,6 +1,12 @@
 #pragma once
-/// Steps of a current reading between two ADC samples that no voltage can make: the inductance of a
-/// coil is never below its leakage, so a current moves by at most V h/L_leak from sample to sample.
+/// Steps of a current reading between two ADC samples that no voltage can make. Two limits:
+///
+///   V h/L_leak   anywhere: the inductance of a coil is never below its leakage; beside edges at
+///                least 1.25 times what was seen there, of a coil with less leakage than drawn
+///   s h + half   but for three intervals after the edge in a period: there the current goes on by
+///                the steps that it made in the period before, however small the inductance is that
+///                the iron's eddy currents leave
+///
 /// A sensor whose offset or gain steps shows such a step, and so does a coil whose current or turns
 /// vanish at once; the slopes afterwards tell which.
 #include "fdd/measurement/period_slopes.h"
@@ -13,14 +19,25 @@ class ReadingJump {
   ReadingJump(const LinkageModel& nominal, const SamplingSettings& sampling, double noise);
 
   /// Net sum of the impossible steps of every coil in this period, that from the last sample of the
-  /// period before included; 0: none [A]. A single wrong sample steps there and back: nothing.
+  /// period before included, if at least 0.2 A; 0: none [A]. A single wrong sample steps there and
+  /// back: nothing.
   Lane Period(const MeasuredPeriod& in);
+
+  /// Mean step of a phase, or of one interval, in the last period; count 0: not known.
+  struct PhaseStep {
+    Lane mean, count;  // [A], intervals
+  };
+  struct State {
+    Lane last;           // sample [A]
+    PhaseStep known[4];  // on, off, intervals 1 and 2 of a period
+    Lane fall, rise;     // largest steps beside edges [A]
+  };
 
  private:
   SamplingSettings sampling_;
   Lane per_volt_;  // largest step over the bus voltage [A/V]
   double noise_ = 0;
-  Lane last_;
+  State state_;
   bool started_ = false;
 };
 

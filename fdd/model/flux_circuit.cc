@@ -153,7 +153,7 @@ template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
     least_off = Min(Select(on, far, current), least_off);
     if (k < kSkippedAtStart) continue;
     on_sums.Add(on, k, now, current);
-    off_sums.Add(off, k, now, current);
+    off_sums.Add(Select(off, current, 0.0) > kConducts, k, now, current);
   }
   circuit.Keep(state);
   Store(out->flux.v, circuit.psi);

@@ -15,13 +15,16 @@
 /// such terms. The powers of psi are a tangent at the last sample: no iteration.
 ///
 /// Samples that do not count in the slopes: the first two of a period and the first after the edge,
-/// so that dead time up to 4 us and errors of the edge do no harm.
+/// so that dead time up to 4 us and errors of the edge do no harm; of an off phase those at which
+/// the diodes may have ceased to conduct.
 #include <array>
 
 #include "fdd/measurement/period_slopes.h"
 
 namespace ambrig {
 
+/// [A] below: the diodes may block, offsets of the ADC included
+inline constexpr double kConducts = 0.12;
 inline constexpr int kRelaxations = 4;
 inline constexpr double kRelaxationPoles[kRelaxations] = {100, 1200, 12e3, 120e3};  // [Hz]
 

@@ -7,7 +7,6 @@ namespace ambrig {
 namespace {
 
 constexpr double kVoltageError = 0.3;  // [V]
-constexpr double kNoCurrent = 0.12;    // [A] below: the diodes may block, offsets of ADC included
 
 template <class V>
 [[gnu::always_inline]] inline void Compute(const FluxFilter& filter, const CoilEquations& coils,
@@ -18,9 +17,7 @@ template <class V>
           leakage = left * left * LoadAs<V>(coils.leakage.v),
           resistance = left * LoadAs<V>(coils.resistance.v);
   const V noise = (main * left * LoadAs<V>(period.own.v) + leakage) * s.current_noise;
-  const V least_on = LoadAs<V>(period.phase[0].least.v),
-          least_off = LoadAs<V>(period.phase[1].least.v);
-  const auto starts_at_zero = least_on < kNoCurrent;
+  const auto starts_at_zero = LoadAs<V>(period.phase[0].least.v) < kConducts;
   V judged = Select(left > zero, 1, zero);
   judged = Select(LoadAs<V>(period.largest.v) < s.adc_limit, judged, zero);
   Store(out->gross.v, Select(starts_at_zero, judged, zero));
@@ -32,7 +29,6 @@ template <class V>
     V weight =
         judged / (noise * noise * LoadAs<V>(p.scale.v) + kVoltageError * kVoltageError) * drive;
     weight = Select(LoadAs<V>(p.samples.v) > zero, weight, zero);
-    if (q == 1) weight = Select(least_off < kNoCurrent, zero, weight);
     Store(out->top[q].v, weight * e);
     Store(out->bottom[q].v, weight * drive);
   }

@@ -31,17 +31,17 @@ TEST(DetectorCurves, OfRowsMadeByHand) {
   study.budget = 0.3;
   Rows rows;
   // Ten windows at level 10, 6 at 20, 3 at 30, 1 at 40: shares at or above 1, 0.5, 0.2, 0.05.
-  rows[0] = MakeRow(0, {"healthy", "quiet", "", "", "", "0", "1", "10:10 20:6", ""});
-  rows[1] = MakeRow(1, {"healthy", "whirl", "", "", "", "0", "1", "30:3 40:1", ""});
+  rows[0] = MakeRow(0, {"healthy", "quiet", "", "", "", "0", "1", "", "10:10 20:6", ""});
+  rows[1] = MakeRow(1, {"healthy", "whirl", "", "", "", "0", "1", "", "30:3 40:1", ""});
   // Faults at the end of a quarter period: the first decision comes 30 us after them.
   const std::string at = "0.06001";
-  rows[2] = MakeRow(2, {"faulty", "quiet", "A:1", "open", at, "0", "1",
+  rows[2] = MakeRow(2, {"faulty", "quiet", "A:1", "open", at, "0", "1", "",
                         "coil 0:15 2:35 bearing 0:15:1 2:35:1", ""});
-  rows[3] = MakeRow(3, {"faulty", "quiet", "A:2", "open", at, "0", "1",
+  rows[3] = MakeRow(3, {"faulty", "quiet", "A:2", "open", at, "0", "1", "",
                         "coil 0:15 9:25 bearing 0:33:0 9:35:0", ""});
-  rows[4] = MakeRow(4, {"faulty", "quiet", "A:3", "open", at, "0", "1",
+  rows[4] = MakeRow(4, {"faulty", "quiet", "A:3", "open", at, "0", "1", "",
                         "coil 0:15 4:50 bearing 0:15:1 4:50:1", ""});
-  rows[5] = MakeRow(5, {"faulty", "quiet", "A:4", "open", at, "0", "1", "", "error: lost"});
+  rows[5] = MakeRow(5, {"faulty", "quiet", "A:4", "open", at, "0", "1", "", "", "error: lost"});
   const auto curves = CurvesOf(study, rows);
   ASSERT_EQ(curves.size(), 1u);
   const DetectorCurves& d = curves[0];
@@ -74,7 +74,7 @@ TEST(DetectorCurves, OfRowsMadeByHand) {
   // that share: 1 (level 11 on) from 0.5, 1 (level 21) from 0.2, 2/3 (level 31) from 0.05.
   const double all = std::log10(20.0);
   EXPECT_NEAR(c.area, (std::log10(0.2 / 0.05) * 2 / 3 + std::log10(1 / 0.2)) / all, 0.01);
-  rows[6] = MakeRow(6, {"faulty", "quiet", "A:1", "open", at, "0", "1", "0:15", ""});
+  rows[6] = MakeRow(6, {"faulty", "quiet", "A:1", "open", at, "0", "1", "", "0:15", ""});
   EXPECT_THROW(CurvesOf(study, rows), InputError);
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "campaign/plant_groups.h"
 #include "campaign/plant_table.h"
 #include "campaign/row.h"
 #include "campaign/run_plan.h"

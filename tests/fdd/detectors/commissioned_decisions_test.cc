@@ -88,6 +88,28 @@ TEST(CommissionedDecisions, NothingIsConcludedOfAHealthyMachine) {
   }
 }
 
+/// Eddy currents from 300 Hz on and less leakage than drawn: beside an edge the current steps by
+/// more than V h/L_leak.
+const CommissionedRig& ThickSheets() {
+  static const CommissionedRig made([] {
+    RigParameters rig = WithEffect(ReferenceRig(), "eddy-currents", "A", {{"cutoff", 300}});
+    for (Tolerance& t : rig.tolerances)
+      if (t.path == "bearings.A.leakage_inductance") t.true_value = 2.9e-4;
+    return rig;
+  }());
+  return made;
+}
+
+// It was taken for a current sensor that steps.
+TEST(CommissionedDecisions, StepsBesideAnEdgeAreTheMachinesOwn) {
+  const auto healthy = Concluded(ThickSheets().rig, &ThickSheets().bearing, Operation("", 0.08));
+  EXPECT_TRUE(healthy->found.empty());
+  EXPECT_FALSE(healthy->doubted);
+  const auto stepped = Concluded(ThickSheets().rig, &ThickSheets().bearing,
+                                 Operation(FaultOf(3, "current-sensor", "offset = 0.4")));
+  EXPECT_EQ(stepped->Coils(), std::set<int>{3});
+}
+
 // Three periods in a row: a reading that is wrong in one or two of them is no fault.
 TEST(CommissionedDecisions, ADecisionTakesThreePeriods) {
   for (const char* kind : {"open", "partial-short"}) {
@@ -139,7 +161,8 @@ TEST(CommissionedDecisions, ADoubtedModelConcludesGrossFaultsOnly) {
 // The second fault is judged against the coils that are left.
 TEST(CommissionedDecisions, AFaultAfterAnotherIsFoundBesideIt) {
   for (const auto& [first, second] :
-       {std::pair{"partial-short", "open"}, std::pair{"partial-short", "partial-short"}}) {
+       {std::pair{"partial-short", "open"}, std::pair{"partial-short", "partial-short"},
+        std::pair{"open", "partial-short"}}) {
     const auto parameters = [](const std::string& kind) {
       return kind == "open" ? "" : "fraction = 0.5";
     };
@@ -153,6 +176,21 @@ TEST(CommissionedDecisions, AFaultAfterAnotherIsFoundBesideIt) {
     EXPECT_EQ(ToText(seen->found[1].cls), std::string(second));
     EXPECT_LT(seen->found[1].time - 0.0340077, 0.5e-3);
   }
+}
+
+// A step of a sensor's offset has no slope: the reading itself jumps, by more than the current does
+// where eddy currents leave little inductance.
+TEST(CommissionedDecisions, AStepOfACurrentSensorIsNamed) {
+  for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()})
+    for (const int coil : {3, 6})
+      for (const char* step : {"offset = 0.3", "offset = -0.3"}) {
+        const auto seen = Concluded(plant->rig, &plant->bearing,
+                                    Operation(FaultOf(coil, "current-sensor", step)));
+        ASSERT_FALSE(seen->found.empty()) << step << " coil " << coil;
+        EXPECT_EQ(seen->Coils(), std::set<int>{coil}) << step;
+        EXPECT_EQ(seen->found[0].cls, FaultClass::kCurrentSensor) << step;
+        EXPECT_LT(seen->found[0].time - kOnset, 0.5e-3) << step;
+      }
 }
 
 // A loop of shorted turns carries a current of its own, which keeps ripple out of the pole: the

@@ -1,0 +1,74 @@
+/// What the commissioned detector compares with: its bands, the turns that coils have left, and slow
+/// drift.
+#include <algorithm>
+#include <cmath>
+
+#include "fdd/detectors/commissioned_detector.h"
+
+namespace ambrig {
+
+namespace {
+
+// without commissioning, beside the floors: what effects of usual size do to nominal models
+constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
+constexpr double kWider = 2.5;           // bands, once coils were given up or lost turns
+constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turns than it had
+constexpr double kDriftNoiseOfBand = 6;  // a window's noise is below its band over this
+constexpr int kDriftEvery = 40;          // periods
+constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
+constexpr double kCalm = 0.5;            // of the bands
+
+}  // namespace
+
+void CommissionedDetector::SetBands() {
+  // Errors of the share that a coil is believed to have left are in the c of all others.
+  double least = 0;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (share_[j] > 0 && share_[j] < 1) least = kLeastWeaker;
+  for (int w = 0; w < kExcessWindows; ++w)
+    for (int j = 0; j < kLanes; ++j)
+      band_[w][j] =
+          model_.learnt
+              ? std::max(least, wider_ * std::max(kExcessFloor[w],
+                                                  kBandOverHealthy * model_.largest[w][j]))
+              : kUncommissioned[w];
+}
+
+void CommissionedDetector::SetTurns(int coil, double share) {
+  share_[coil] = share;
+  filter_.SetTurns(coil, share);
+  if (share == 0) windows_.Leave(coil);
+  windows_.Clear();
+  SetWider();
+  SetBands();
+  Pause(25);
+}
+
+void CommissionedDetector::SetWider() {
+  wider_ = 1;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (share_[j] < 1) wider_ = kWider;
+}
+
+void CommissionedDetector::Restore(int coil, double share) {
+  share_[coil] = share;
+  filter_.SetTurns(coil, share);
+  windows_.Return(coil);
+  windows_.Clear();
+  SetWider();
+  SetBands();
+  Pause(25);
+}
+
+void CommissionedDetector::FollowDrift(bool doubtful) {
+  if (!follows_drift_ || count_ % kDriftEvery != 0 || doubtful || touching_ || wider_ > 1) return;
+  for (const int w : kDriftWindows) {
+    const Lane c = windows_.Used(w, kExcessFloor[w] / kDriftNoiseOfBand);
+    for (int j = 0; j < filter_.nominal().coils; ++j)
+      if (std::abs(c[j]) > kCalm * band_[w][j]) return;
+  }
+  const Lane c = windows_.Raw(kDriftWindows[1]);
+  drift_.Follow(c, windows_.Common(c), kDriftEvery * sampling_.samples * sampling_.step);
+}
+
+}  // namespace ambrig

@@ -1,0 +1,94 @@
+// The matrix effect x fault against rows made by hand.
+#include "campaign/plant_matrix.h"
+
+#include <gtest/gtest.h>
+
+#include "campaign/plants.h"
+#include "tests/campaign/table_rows.h"
+
+namespace ambrig::testing {
+namespace {
+
+struct Seen {
+  std::string effect, plant, spread, learnt, kind, detected, delay, actions, verdict, without;
+  std::string orbit = "2e-06", orbit_without = "1e-06";
+};
+
+Rows RowsOf(const std::vector<Seen>& list) {
+  Rows rows;
+  for (const Seen& s : list) {
+    const std::size_t run = rows.size();
+    const bool faulty = !s.kind.empty();
+    rows[run] = RowOf(run, {{"failed", faulty ? "1" : "0"},
+                            {"kind", s.kind},
+                            {"effect", s.effect},
+                            {"plant", s.plant},
+                            {"spread", s.spread},
+                            {"commissioned", s.learnt},
+                            {"verdict", s.verdict},
+                            {"detected", s.detected},
+                            {"detection_delay", s.delay},
+                            {"false_alarms", s.actions},
+                            {"false_actions", s.actions},
+                            {"coil_periods", "1000"},
+                            {"peak_orbit", s.orbit},
+                            {"orbit_without", s.orbit_without},
+                            {"verdict_without", s.without}});
+  }
+  return rows;
+}
+
+const std::string kEddy = "eddy-currents";
+
+TEST(PlantMatrix, SaysAtWhichSizeDetectionBreaks) {
+  const std::string text = PlantMatrix(RowsOf({
+      {kEddy, kEddy + " low", "1", "yes", "open", "1", "1e-4", "0", "up", "up"},
+      {kEddy, kEddy + " low", "2", "yes", "open", "1", "2e-4", "0", "up", "drop"},
+      {kEddy, kEddy + " typical", "1", "yes", "open", "1", "3e-4", "0", "up", "drop"},
+      {kEddy, kEddy + " high", "1", "yes", "open", "0", "", "0", "drop", "drop"},
+      {kEddy, kEddy + " typical", "1", "yes", "amplifier-off", "1", "1e-4", "1", "up", "up"},
+      {kEddy, kEddy + " low", "1", "yes", "", "", "", "0", "up", "up"},
+  }));
+  // Missed at the strong end only; in contact once with fault tolerance, three times without.
+  EXPECT_NE(text.find("| eddy-currents | 1 | 1/1; 0.10, 0.10 ms; wrong coil 1; breaks at typical "
+                      "(cutoff 3000 Hz) | 3/4; 0.20, 0.30 ms; breaks at high (cutoff 300 Hz) | "
+                      "1, 3 |"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("**Commissioned plants, faults**"), std::string::npos);
+  EXPECT_EQ(text.find("not commissioned"), std::string::npos);
+}
+
+TEST(PlantMatrix, HealthyPlantsCountOnceWithTheBoundOfTheirShare) {
+  std::vector<Seen> rows;
+  for (const char* spread : {"1", "2"})
+    for (int operation = 0; operation < 3; ++operation) {
+      rows.push_back(
+          {"none", "none", spread, "no", "", "", "", operation == 2 ? "1" : "0", "up", "up"});
+      rows.back().orbit = operation == 1 ? "9e-06" : "3e-06";
+      rows.back().orbit_without = operation == 1 ? "9e-06" : "2e-06";
+    }
+  rows.push_back({"mixture", "a+b+c", "1", "no", "", "", "", "0", "drop", "up"});
+  const std::string text = PlantMatrix(RowsOf(rows));
+  // Both plants were acted on: their share may be 1. The worst ratio of orbits is 3/2.
+  EXPECT_NE(text.find("| no effect | 2/2, < 100 % | 2/2, < 100 % | 2/2, < 100 % | 0 | "
+                      "3, 2 um |"),
+            std::string::npos)
+      << text;
+  // One plant, not acted on: 1 - 0.05.
+  EXPECT_NE(text.find("| mixtures of effects | 0/1, < 95 % | 0/1, < 95 % | 1/1, < 100 % | 0 | "
+                      "- |"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| **all** | 2/3, "), std::string::npos) << text;
+  EXPECT_TRUE(PlantMatrix({}).empty());
+}
+
+TEST(PlantMatrix, SizesOfEffectsInTheirUnits) {
+  EXPECT_EQ(EffectSizeText("eddy-currents", "low"), "cutoff 30000 Hz");
+  EXPECT_EQ(EffectSizeText("eddy-currents", "high"), "cutoff 300 Hz");
+  EXPECT_EQ(EffectSizeText("none", "high"), "");
+}
+
+}  // namespace
+}  // namespace ambrig::testing
