@@ -26,7 +26,8 @@
   COMMAND(Refine)                \
   COMMAND(Plan)                  \
   COMMAND(Hide)                  \
-  COMMAND(Score)
+  COMMAND(Score)                 \
+  COMMAND(Practice)
 
 namespace ambrig {
 
