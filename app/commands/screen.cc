@@ -78,12 +78,14 @@ std::string Shortened(std::string_view text, std::size_t columns) {
   return out + "...";
 }
 
-std::string ScreenSi(double value, std::string_view unit, int digits) {
-  if (!std::isfinite(value)) return "-";
-  std::string text = FormatSi(value, unit, digits);
+std::string TerminalText(std::string text) {
   for (const auto& [from, to] : {std::pair("\u00a0", " "), {"\u202f", ""}, {"µ", "u"}, {"−", "-"}})
     ReplaceAll(text, from, to);
   return text;
+}
+
+std::string ScreenSi(double value, std::string_view unit, int digits) {
+  return std::isfinite(value) ? TerminalText(FormatSi(value, unit, digits)) : "-";
 }
 
 std::string WrappedHelp(std::string_view text, std::size_t columns) {

@@ -19,6 +19,9 @@ std::string Wrapped(std::string_view text, std::size_t indent,
 /// The text, or its beginning and "..." when it is wider than `columns`.
 std::string Shortened(std::string_view text, std::size_t columns);
 
+/// The text with the non-breaking spaces, micro and minus signs of a page as a terminal shows them.
+std::string TerminalText(std::string text);
+
 /// "36.2 um" of a value [unit], with an SI prefix and in ASCII; "-" when not finite.
 std::string ScreenSi(double value, std::string_view unit, int digits = 4);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/commands/screen.h"
 #include "app/pages/format.h"
 #include "core/base/counted.h"
 #include "core/base/json_file.h"
@@ -17,11 +18,7 @@ namespace {
 
 /// A value with its unit and the prefix that a reader expects.
 std::string WithUnit(double value, const std::string& unit) {
-  std::string text = FormatSi(value, unit, 4);
-  for (const auto& [from, to] : {std::pair("\u00a0", " "), std::pair("µ", "u")})  // of a terminal
-    if (const auto at = text.find(from); at != std::string::npos)
-      text.replace(at, std::string_view(from).size(), to);
-  return text;
+  return TerminalText(FormatSi(value, unit, 4));
 }
 
 std::string LineOf(const ChannelDifference& c) {

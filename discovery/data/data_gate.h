@@ -11,6 +11,9 @@
 
 namespace ambrig {
 
+/// Floors above which an error of a column is gross; below it a fit may speak first.
+inline constexpr double kGrossError = 10;
+
 struct DataFault {
   std::string record, channel;  // data file; "" for all columns of the record
   std::string fault;   // unit | sign | swap | lag | clip | freeze | lost | range | scenario

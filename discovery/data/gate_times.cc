@@ -12,7 +12,6 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kGross = 10;            // floors
 constexpr double kMoves = 8;             // floors: a column that moves less tells no time
 constexpr double kLeast = 5e-4;          // [s]: a smaller shift is a matter of the fit
 constexpr double kLeastColumn = 1e-3;    // [s], of a single column: electronics delay too
@@ -93,7 +92,7 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
   if (r.scenario.start == StartState::kResting) return;
   const std::vector<const GateColumn*> moving = MovingColumns(columns, kColumns);
   const bool gross = std::any_of(moving.begin(), moving.end(), [](const GateColumn* c) {
-    return c->match.error > kGross && c->match.error > 0.1 * c->match.predicted_move;
+    return c->match.error > kGrossError && c->match.error > 0.1 * c->match.predicted_move;
   });
   if (gross) {
     const FoundShift s = ShiftOf(moving, r.data.rate);
@@ -106,7 +105,7 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
   }
   std::vector<std::pair<GateColumn*, FoundShift>> late;
   for (GateColumn& c : columns) {
-    if (c.explained || c.match.predicted_move < kMoves || c.match.error < kGross ||
+    if (c.explained || c.match.predicted_move < kMoves || c.match.error < kGrossError ||
         c.match.error < 0.1 * c.match.predicted_move)
       continue;
     const FoundShift s = ShiftOf({&c}, r.data.rate);
@@ -185,7 +184,7 @@ void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t reco
   std::vector<const GateColumn*> moving;
   double correlation = 0, error = 0;
   for (const GateColumn& c : columns)
-    if (!c.explained && c.match.measured_move > kMoves && c.match.error > kGross)
+    if (!c.explained && c.match.measured_move > kMoves && c.match.error > kGrossError)
       moving.push_back(&c);
   if (moving.size() < 2) return;
   for (const GateColumn* c : moving) {

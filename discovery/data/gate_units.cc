@@ -13,8 +13,6 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kGrossUnits = 10;  // floors: below it a fit may speak first
-
 /// A factor that a mistake makes, and what has to be so for it to be believed.
 struct Mistake {
   double factor;
@@ -99,7 +97,7 @@ const Mistake* BestMistake(const GateColumn& c, double others, double* left) {
     // divided by the factor the column must still show what the model expects, its noise at least:
     // a movement that the model lacks is no unit
     if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) continue;
-    if (m.alone && (c.match.error < 2 * kGrossUnits || others > 0.2 * c.match.error)) continue;
+    if (m.alone && (c.match.error < 2 * kGrossError || others > 0.2 * c.match.error)) continue;
     best = &m;
     *left = rest;
   }
@@ -112,7 +110,7 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   for (GateColumn& c : columns) {
-    if (c.explained || c.match.error < kGrossUnits) continue;
+    if (c.explained || c.match.error < kGrossError) continue;
     double left = 1;
     const double others = OthersError(columns, c);
     if (const Mistake* m = BestMistake(c, others, &left)) {
@@ -148,7 +146,7 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
       GateColumn &a = columns[i], &b = columns[j];
       if (a.explained || b.explained || kind(a) != kind(b)) continue;
       const double before = std::hypot(a.match.error, b.match.error);
-      if (std::min(a.match.error, b.match.error) < 0.7 * kGrossUnits || before < 1.5 * kGrossUnits)
+      if (std::min(a.match.error, b.match.error) < 0.7 * kGrossError || before < 1.5 * kGrossError)
         continue;
       const double after = std::hypot(against(a, b), against(b, a));
       if (after > 0.35 * before) continue;

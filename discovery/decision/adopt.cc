@@ -8,6 +8,7 @@
 
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
+#include "discovery/case/effect_target.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/screen.h"
 #include "effects/catalogue.h"
@@ -17,16 +18,6 @@
 namespace ambrig {
 
 namespace {
-
-void CheckAdoptedTarget(const EffectDescription& d, const Case& c, const std::string& wanted) {
-  std::string names;
-  for (const auto& t : TargetsOf(d, TargetsOfEffects(c.rig))) {
-    if (t == wanted || wanted.empty()) return;
-    names += (names.empty() ? "" : ", ") + t;
-  }
-  throw InputError(fmt::format("--target = {}, allowed with {}: {}", wanted, d.id,
-                               names.empty() ? "no target of this rig" : names));
-}
 
 bool SameFolder(const std::string& a, const std::string& b) {
   namespace fs = std::filesystem;
@@ -51,7 +42,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   const auto is_formula = [](const EffectInstance& e) { return e.IsFormula(); };
   if (formula && std::none_of(c.rig.effects.begin(), c.rig.effects.end(), is_formula))
     throw InputError(c.rig_file + ": has no [[effect]] name = \"formula\" to fit; write one first");
-  if (!formula) CheckAdoptedTarget(d, c, target);
+  if (!formula)
+    RequireTarget(d, c.rig, target, fmt::format("--target = {}, allowed with {}:", target, d.id));
   Adoption a;
   CaseModel model(c);
   model.stop = options.stop;

@@ -82,14 +82,12 @@ void Explainer::ReportNuisances(const FitResult& now) {
 
 /// An effect that the last fit leaves without a size goes again.
 void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
-  const auto sizeless =
-      std::find_if(out_.adopted.begin(), out_.adopted.end(), [&](const EffectInstance& e) {
-        return !HasSize(now,
-                        rig_.effects.size() + static_cast<std::size_t>(&e - out_.adopted.data()));
-      });
-  if (sizeless == out_.adopted.end()) return;
-  out_.warnings.push_back(Named(*sizeless) + " lies within 3 sd of nothing: it is not named");
-  out_.adopted.erase(sizeless);
+  std::size_t sizeless = 0;
+  while (sizeless < out_.adopted.size() && HasSize(now, rig_.effects.size() + sizeless)) ++sizeless;
+  if (sizeless == out_.adopted.size()) return;
+  out_.warnings.push_back(Named(out_.adopted[sizeless]) +
+                          " lies within 3 sd of nothing: it is not named");
+  out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(sizeless));
   Hypothesis h = base.hypothesis;
   for (const EffectInstance& e : out_.adopted) h.AddEffect(e);
   now = out_.adopted.empty() ? base : FitOn(model_, base, h, out_.effective_sample_size);

@@ -40,16 +40,21 @@ double Ratio(const CaseModel& model, const std::vector<double>& residual, Which 
   return n > 0 ? std::sqrt(sum / n) : 0;
 }
 
-double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual) {
-  std::vector<double> sum(model.data().records.size()), n(sum.size());
+std::vector<RecordError> RecordErrors(const CaseModel& model, const std::vector<double>& residual) {
+  std::vector<RecordError> errors(model.data().records.size());
+  for (std::size_t r = 0; r < errors.size(); ++r) errors[r].record = r;
   for (const Target& t : model.targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k) {
-      sum[t.record] += residual[k] * residual[k];
-      n[t.record] += model.ok()[k];
+      errors[t.record].square += residual[k] * residual[k];
+      errors[t.record].rows += model.ok()[k];
     }
+  return errors;
+}
+
+double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual) {
   double worst = 0;
-  for (std::size_t r = 0; r < n.size(); ++r)
-    if (n[r] > 0) worst = std::max(worst, std::sqrt(sum[r] / n[r]));
+  for (const RecordError& e : RecordErrors(model, residual))
+    if (e.rows > 0) worst = std::max(worst, std::sqrt(e.square / e.rows));
   return worst;
 }
 

@@ -16,6 +16,12 @@ bool Counts(const CaseModel& model, const Target& t, Which which);
 /// Root mean square of a residual over the chosen records: 1 means nothing is left but noise.
 double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which);
 double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t);
+/// Error of one record: Σ r² and the number of the rows that count.
+struct RecordError {
+  std::size_t record = 0;
+  double square = 0, rows = 0;
+};
+std::vector<RecordError> RecordErrors(const CaseModel& model, const std::vector<double>& residual);
 /// Largest ratio of any single record.
 double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual);
 /// Largest ratio of any single channel.

@@ -11,23 +11,13 @@ constexpr double kMuchOfWorst = 0.4;  // of the worst record's error: the next o
 constexpr double kShown = 0.9;        // of the squared error above the noise
 constexpr double kPlain = 2;          // ratio above which a part of the records tells
 
-struct RecordError {
-  std::size_t record = 0;
-  double square = 0, rows = 0;  // Σ r² and number of the rows that count
-  double Excess() const { return std::max(0.0, square - rows); }
-};
+double Excess(const RecordError& e) { return std::max(0.0, e.square - e.rows); }
 
 /// Largest error above the noise first.
 std::vector<RecordError> ErrorsOf(const CaseModel& model, const FitResult& now) {
-  std::vector<RecordError> errors(model.data().records.size());
-  for (std::size_t r = 0; r < errors.size(); ++r) errors[r].record = r;
-  for (const Target& t : model.targets())
-    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
-      errors[t.record].square += now.residual[k] * now.residual[k];
-      errors[t.record].rows += model.ok()[k];
-    }
+  std::vector<RecordError> errors = RecordErrors(model, now.residual);
   std::stable_sort(errors.begin(), errors.end(),
-                   [](const auto& a, const auto& b) { return a.Excess() > b.Excess(); });
+                   [](const auto& a, const auto& b) { return Excess(a) > Excess(b); });
   return errors;
 }
 
@@ -41,8 +31,8 @@ QuickLook WorstRecords(const CaseModel& model, const FitResult& now) {
   for (const RecordError& e : ErrorsOf(model, now)) {
     const CaseRecord& record = records[e.record];
     if (record.validate || record.scenario.start == StartState::kClamped) continue;
-    if (taken == kLookedAt || e.Excess() <= kMuchOfWorst * worst) break;
-    worst = std::max(worst, e.Excess());
+    if (taken == kLookedAt || Excess(e) <= kMuchOfWorst * worst) break;
+    worst = std::max(worst, Excess(e));
     look.records[e.record] = 1;
     ++taken;
   }
@@ -61,13 +51,13 @@ QuickLook RecordsShowing(const CaseModel& model, const FitResult& now) {
   for (const bool validate : {false, true}) {
     double total = 0, taken = 0;
     for (const RecordError& e : errors)
-      if (records[e.record].validate == validate) total += e.Excess();
+      if (records[e.record].validate == validate) total += Excess(e);
     bool any = false;
     for (const RecordError& e : errors) {
       if (records[e.record].validate != validate) continue;
       if (any && taken >= kShown * total) break;
       look.records[e.record] = 1;
-      taken += e.Excess();
+      taken += Excess(e);
       any = true;
     }
   }

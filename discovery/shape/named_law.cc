@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/case/effect_target.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/screen.h"
 #include "discovery/shape/shape_fit.h"
@@ -14,16 +15,6 @@
 namespace ambrig {
 
 namespace {
-
-void CheckTarget(const std::string& effect, const std::string& target, const CaseModel& model) {
-  std::string all;
-  for (const std::string& t : TargetsOf(EffectNamed(effect), TargetsOfEffects(model.data().rig))) {
-    if (t == target || target.empty()) return;
-    all += (all.empty() ? "" : ", ") + t;
-  }
-  throw InputError(fmt::format("{}@{}: no such target, allowed: {}", effect, target,
-                               all.empty() ? "no target of this rig" : all));
-}
 
 /// Number of the effect in the rig file, or that of its effects when it is not there.
 std::size_t Known(const Hypothesis& h, const std::string& effect, const std::string& target) {
@@ -39,7 +30,8 @@ std::size_t Known(const Hypothesis& h, const std::string& effect, const std::str
 NamedLaw FitNamedLaw(const CaseModel& model, const std::string& effect, const std::string& target,
                      double effective_sample_size,
                      const std::function<void(double, const std::string&)>& progress) {
-  CheckTarget(effect, target, model);
+  RequireTarget(EffectNamed(effect), model.data().rig, target,
+                fmt::format("{}@{}: no such target, allowed:", effect, target));
   NamedLaw out;
   FitOptions options;
   options.effective_sample_size = effective_sample_size;

@@ -31,12 +31,7 @@ BearingDetector::BearingDetector(const LinkageModel& model, const DetectorSettin
 }
 
 void BearingDetector::Keep(const MeasuredPeriod& in) {
-  KeptPeriod& kept = ring_[static_cast<std::size_t>(count_ % kRing)];
-  kept.in = in;
-  std::copy(in.adc, in.adc + s_.sampling.samples, kept.adc.begin());
-  kept.duty = *in.duty;
-  kept.in.adc = kept.adc.data();
-  kept.in.duty = &kept.duty;
+  ring_[static_cast<std::size_t>(count_ % kRing)].Keep(in, s_.sampling.samples);
   ++count_;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// What the detector of one bearing is set to, and what it keeps of a switching period for an
 /// examination.
+#include <algorithm>
 #include <array>
 
 #include "fdd/detectors/residual_chart.h"
@@ -17,9 +18,17 @@ struct DetectorSettings : ChartSettings {
 
 /// One period as kept for an examination.
 struct KeptPeriod {
-  MeasuredPeriod in;
+  MeasuredPeriod in;  // its samples and duties are the ones beside it
   std::array<Lane, 64> adc;
   Lane duty;
+
+  void Keep(const MeasuredPeriod& period, int samples) {
+    in = period;
+    std::copy(period.adc, period.adc + samples, adc.begin());
+    duty = *period.duty;
+    in.adc = adc.data();
+    in.duty = &duty;
+  }
 };
 
 }  // namespace ambrig

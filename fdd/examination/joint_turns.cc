@@ -92,13 +92,8 @@ Eigen::VectorXd Step(Trial& trial, const Lane& share, const Excess& now,
 
 void JointTurns::Keep(const MeasuredPeriod& in, int samples, const FluxFilter::State& before) {
   const auto place = static_cast<std::size_t>(count_++ % kKept);
-  KeptPeriod& kept = period_[place];
-  kept.in = in;
-  std::copy(in.adc, in.adc + samples, kept.adc.begin());
-  kept.duty = *in.duty;
-  kept.in.adc = kept.adc.data();
-  kept.in.duty = &kept.duty;
-  kept.in.set_point = nullptr;
+  period_[place].Keep(in, samples);
+  period_[place].in.set_point = nullptr;
   before_[place] = before;
 }
 

@@ -6,6 +6,7 @@
 #include "fdd/detectors/commissioned_detector.h"
 #include "fdd/measurement/detection_feed.h"
 #include "tests/effects/effect_rigs.h"
+#include "tests/fdd/commissioned_plant.h"
 
 namespace ambrig {
 namespace {
@@ -45,33 +46,8 @@ class Onlooker : public Supervisor {
   std::vector<std::unique_ptr<CommissionedDetector>> watch_;
 };
 
-/// Load steps in a run-up, an orbit of a third of the clearance.
 std::string Operation(const std::string& fault = "") {
-  return R"(name = "operation"
-rig = "rig.toml"
-duration = 0.05
-record_rate = 1000.0
-seed = 9
-[start]
-state = "levitated"
-[speed]
-profile = [[0.0, 0.0], [0.05, 600.0]]
-[[excitation]]
-target = "A.x"
-port = "reference"
-kind = "sine"
-start = 0.0
-stop = 0.05
-frequency = 40.0
-amplitude = 5e-5
-[[excitation]]
-target = "A.y"
-port = "force"
-kind = "step"
-start = 0.02
-stop = 0.05
-amplitude = -10.0
-)" + fault;
+  return testing_plant::Operation(fault, 0.05);
 }
 
 std::string FaultText(const std::string& what) {
