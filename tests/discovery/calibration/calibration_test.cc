@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -86,7 +87,10 @@ TEST(CalibrationOfNames, SetHoldsWhatReachesTheLeast) {
   set = CalibratedSet(table, TwoNames(0.2, 0.7, 0.1), "parameters");
   ASSERT_EQ(set.size(), 1U);
   table.least = 0;
-  EXPECT_EQ(CalibratedSet(table, TwoNames(0.2, 0.7, 0.1), "none")[3].effect, "none");
+  set = CalibratedSet(table, TwoNames(0.2, 0.7, 0.1), "none");
+  EXPECT_EQ(set.size(), 5U);
+  EXPECT_TRUE(
+      std::any_of(set.begin(), set.end(), [](const auto& m) { return m.effect == "none"; }));
 }
 
 // Of an explanation: what the names leave is "unknown"; a quiet verdict has it instead.
