@@ -82,6 +82,10 @@ void WorkOff(const PracticeCommand& o, const std::vector<std::size_t>& pending) 
         journal->Append(PracticeResultJson(r).dump());
         progress.Clear();
         PrintResult(r);
+      } catch (const PracticeCaseNotMade& e) {
+        const std::scoped_lock lock(mutex);
+        progress.Clear();
+        fmt::print(stderr, "{}\n", Wrapped(fmt::format("left out: {}", e.what()), 4));
       } catch (...) {
         const std::scoped_lock lock(mutex);
         if (!failure) failure = std::current_exception();

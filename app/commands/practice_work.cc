@@ -46,6 +46,14 @@ JournalVisitor PracticeVisitor(const PracticeSetting& setting, const std::string
   return visit;
 }
 
+PracticeCase Made(const PracticeSetting& setting, std::size_t number) {
+  try {
+    return MakePracticeCase(setting.rigs, setting.seed, number, &interrupted);
+  } catch (const InputError& e) {
+    throw PracticeCaseNotMade(e.what());
+  }
+}
+
 }  // namespace
 
 std::string PracticeHeader(const PracticeSetting& setting) {
@@ -97,7 +105,7 @@ void WritePracticeCase(const PracticeCase& c, const std::string& folder) {
 PracticeResult RunPracticeCase(const PracticeSetting& setting, std::size_t number, bool make_only,
                                const std::function<void(double, const std::string&)>& progress) {
   progress(0, "making " + NameOfPracticeCase(number));
-  const PracticeCase c = MakePracticeCase(setting.rigs, setting.seed, number, &interrupted);
+  const PracticeCase c = Made(setting, number);
   WritePracticeCase(c, setting.folder);
   if (make_only) return ResultOf(c, {});
   const std::string folder = (fs::path(setting.folder) / c.name).string();

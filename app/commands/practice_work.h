@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "campaign/run_rows.h"
+#include "core/base/errors.h"
 #include "core/base/journal.h"
 #include "discovery/practice/practice_result.h"
 
@@ -30,6 +31,11 @@ std::string PracticeJournalName(const Shard& shard);
 /// @throws InputError for a journal of another setting.
 std::map<std::string, PracticeResult> FinishedCases(const PracticeSetting& setting);
 
+/// No draw of this case's laws shows on its rig: the case is left out.
+struct PracticeCaseNotMade : InputError {
+  using InputError::InputError;
+};
+
 /// Numbers of the shard's cases that are not finished.
 std::vector<std::size_t> PendingCases(const PracticeSetting& setting,
                                       const std::map<std::string, PracticeResult>& finished);
@@ -38,7 +44,7 @@ std::vector<std::size_t> PendingCases(const PracticeSetting& setting,
 void WritePracticeCase(const PracticeCase& c, const std::string& folder);
 
 /// Makes the case, unless `make_only` explains it, and returns what was said. An error of explain is a
-/// result too (failure). @throws Interrupted
+/// result too (failure). @throws Interrupted, PracticeCaseNotMade
 PracticeResult RunPracticeCase(const PracticeSetting& setting, std::size_t number, bool make_only,
                                const std::function<void(double, const std::string&)>& progress);
 

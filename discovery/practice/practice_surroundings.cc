@@ -20,7 +20,7 @@ namespace {
 /// Streams of random numbers of one case.
 enum SurroundingStream : std::uint32_t { kSizes = 241, kNoise, kPerRecord, kZeros };
 
-constexpr double kBusNoise = 0.005;      // [V] rms, usual
+constexpr double kUsualBusNoise = 0.005;      // [V] rms, usual
 constexpr double kZeroOfReach = 0.01;    // sd of a position sensor's zero, of the clearance
 constexpr double kInputSpread = 0.01;    // sd of the commanded signals' size
 constexpr double kClockSpread = 1e-4;    // [s] sd stated of the time shift; drawn: whole rows
@@ -86,7 +86,7 @@ Surroundings DrawSurroundings(const RigParameters& rig, std::uint64_t seed) {
   const char* const modes[] = {"stated", "not stated", "wrongly stated"};
   s.noise_mode = modes[draw.Of(3)];
   s.cell_noise = kHiddenLoadCellNoise * rig.rotor.mass * 9.81 * draw.Log(0.5, 3);
-  s.noise[ChannelId{ChannelKind::kBus}.name()] = kBusNoise * draw.Log(0.5, 4);
+  s.noise[ChannelId{ChannelKind::kBus}.name()] = kUsualBusNoise * draw.Log(0.5, 4);
   const double reading = s.noise_mode == "not stated" ? 1 : draw.Log(0.5, 3);
   if (s.noise_mode == "wrongly stated") s.current_factor = draw.Log(0.4, 2.5);
   for (const BearingParameters& b : rig.bearings) {
