@@ -98,6 +98,7 @@ class PracticeMaker {
     out_.nuisances = surroundings_.nuisance_mode;
     SetTrueNoise(surroundings_, truth_.rig, out_.data);
     HideLaws();
+    out_.truth = truth_.rig;
     FillRecords(surroundings_, truth_, seed_, stop_, out_.data);
     if (out_.kind == "data") Mistake();
     Answers(exact);

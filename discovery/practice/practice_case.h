@@ -28,6 +28,8 @@ struct PracticeCase {
   double worst_ratio = 0;  // change over the noise that the laws make, worst channel
   std::vector<ExaminationRecord> records;
   Case data;
+  RigParameters
+      truth;  // parameters, laws and noise of the true rig, without the records' nuisances
   std::string rig_text, case_text, answer_text;  // of rig.toml, case.toml, answers
 };
 

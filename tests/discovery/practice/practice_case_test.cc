@@ -10,6 +10,8 @@
 
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
+#include "discovery/model/floor.h"
+#include "discovery/model/residual.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "rig/rig_file.h"
 
@@ -51,6 +53,23 @@ TEST(PracticeCases, OneEffectAgainTheSame) {
   EXPECT_EQ(answer.slots, c.answer.slots);
   std::filesystem::remove(file);
   EXPECT_NE(MakePracticeCase(rigs, 2, 0).answer_text, c.answer_text);
+}
+
+// The true rig leaves the noise and nothing else where the records have no nuisances; the rig file's
+// leaves more.
+TEST(PracticeCases, OnlyTheTruthExplainsTheData) {
+  for (std::uint64_t seed = 1; seed < 20; ++seed) {
+    const PracticeCase c = MakePracticeCase(RadialReference(), seed, 0);
+    if (c.nuisances != "none") continue;
+    CaseModel model(c.data);
+    Hypothesis truth, believed = Hypothesis::Base(c.data.rig);
+    truth.rig = c.truth;
+    const NoiseFloor floor = FindFloor(model, truth);
+    EXPECT_NEAR(Ratio(model, Residual(model, floor.clean), Which::kAll), 1.0, 0.05);
+    EXPECT_GT(Ratio(model, Residual(model, *model.Predict(believed)), Which::kAll), 1.5);
+    return;
+  }
+  FAIL() << "every case has nuisances";
 }
 
 // Number 2 has wrong data: "data" is the one right verdict and the mistake is named.
