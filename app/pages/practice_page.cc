@@ -13,8 +13,7 @@ namespace {
 
 std::string ShareText(const Share& s) {
   if (s.of == 0) return "-";
-  return fmt::format("{} of {} ({:.0f} %, {:.0f} to {:.0f} %)", s.right, s.of, 100 * s.value,
-                     100 * s.lo, 100 * s.hi);
+  return fmt::format("{} of {} ({:.0f} to {:.0f} %)", s.right, s.of, 100 * s.lo, 100 * s.hi);
 }
 
 std::string KindText(const std::string& kind) {
@@ -30,9 +29,8 @@ void CountsTable(HtmlReport& report, const PracticeSummary& s, std::string_view 
   for (const PracticeCount& c : s.counts)
     rows.push_back({KindText(c.kind), ShareText(c.right), ShareText(c.verdict), ShareText(c.in_set),
                     fmt::format("{:.1f}", c.mean_set)});
-  report.Table({"kind of case", "all right", "verdict right", "right answer in the 95 % set",
-                "members of the set"},
-               rows, caption);
+  report.Table({"kind of case", "all right", "verdict right", "in the 95 % set", "set"}, rows,
+               caption);
 }
 
 std::string ErrorText(const CalibrationError& e) {
@@ -97,16 +95,17 @@ void CasesTable(HtmlReport& report, const std::vector<PracticeResult>& results) 
     const JudgedResult j = JudgeResult(r, nullptr);
     std::string laws;
     for (const std::string& law : r.laws) laws += (laws.empty() ? "" : ", ") + law;
-    rows.push_back({r.name, r.rig, HiddenText(r), r.mistake.empty() ? laws : r.mistake, SaidText(r),
-                    fmt::format("{:.2f}", j.best.probability),
-                    Cell(right ? "right" : "wrong", right ? "ok" : "fail"),
-                    Cell(j.in_set ? "in set" : "not in set", j.in_set ? "ok" : "fail"),
-                    "noise " + r.noise + ", nuisances " + r.nuisances,
-                    fmt::format("{:.0f}", r.finding.seconds)});
+    rows.push_back(
+        {r.name, r.rig, HiddenText(r), r.mistake.empty() ? laws : r.mistake, SaidText(r),
+         fmt::format("{:.2f}", j.best.probability),
+         Cell(std::string(right ? "right" : "wrong") + (j.in_set ? ", in set" : ", not in set"),
+              right && j.in_set   ? "ok"
+              : right || j.in_set ? "warn"
+                                  : "fail"),
+         r.noise + "; " + r.nuisances});
   }
-  report.Table(
-      {"case", "rig", "hidden", "law or mistake", "said", "p", "", "", "surroundings", "time [s]"},
-      rows);
+  report.Table({"case", "rig", "hidden", "law or mistake", "said", "p", "", "noise; nuisances"},
+               rows);
 }
 
 }  // namespace
@@ -117,9 +116,10 @@ void WritePracticeReport(const std::vector<PracticeResult>& results,
   HtmlReport report("Practice of explain",
                     Counted(results.size(), "case") + " with laws that are not the catalogue's");
   report.Heading("How often it is right");
-  CountsTable(report, as_computed,
-              "As computed. In brackets: share and its interval of 95 % (Wilson). All right: "
-              "verdict, every effect found, none invented.");
+  CountsTable(
+      report, as_computed,
+      "As computed. In brackets: the share's interval of 95 % (Wilson). All right: verdict, every "
+      "effect found, none invented. Set: mean number of members.");
   report.KeyValues({{"expected calibration error, as computed", ErrorText(as_computed.error)},
                     {"wrong data recognised", ShareText(as_computed.data_recognised)},
                     {"effects named from wrong data at a probability above one half",
@@ -131,7 +131,7 @@ void WritePracticeReport(const std::vector<PracticeResult>& results,
     report.Text(
         "Fitted with the law families of one half, judged here on the cases of the other half.");
     CountsTable(report, *calibrated, "Calibrated probabilities and conformal sets.");
-    report.KeyValues({{"expected calibration error, calibrated", ErrorText(calibrated->error)}});
+    report.Text("Expected calibration error, calibrated: " + ErrorText(calibrated->error) + ".");
     ReliabilityFigure(report, *calibrated, "calibrated");
   }
   report.Heading("What was said of every law family");
