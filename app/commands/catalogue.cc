@@ -27,7 +27,8 @@
   COMMAND(Refine)                \
   COMMAND(Plan)                  \
   COMMAND(Hide)                  \
-  COMMAND(Score)
+  COMMAND(Score)                 \
+  COMMAND(Practice)
 
 namespace ambrig {
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "discovery/calibration/calibration.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
@@ -215,7 +216,10 @@ void Explainer::FindConfusable() {
 }
 
 Explanation Explain(const Case& c, const ExplainOptions& options) {
-  return Explainer(c, options).Run();
+  Explanation e = Explainer(c, options).Run();
+  const CalibrationTable& table = StoredCalibration();
+  if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);
+  return e;
 }
 
 }  // namespace ambrig

@@ -64,6 +64,8 @@ struct ExplainOptions {
   std::function<void(const Explanation&)> checkpoint;  // results as they come
   const std::atomic<bool>* stop = nullptr;
   RunStore* store = nullptr;  // simulations of an earlier, interrupted call
+  // with the stored table (discovery/calibration/calibration.h), where enough cases stand behind it
+  bool calibrate = true;
 };
 
 Explanation Explain(const Case& c, const ExplainOptions& options);

@@ -80,7 +80,7 @@ TEST_F(BadInput, UnknownEffectSuggests) {
 TEST_F(BadInput, HelpOfEveryCommand) {
   for (const char* command :
        {"run", "check", "campaign", "merge", "redistribute", "effects", "parameters", "compare",
-        "explain", "adopt", "hide", "score", "judge"}) {
+        "explain", "adopt", "hide", "score", "judge", "practice"}) {
     const Outcome o = Ambrig(std::string(command) + " --help");
     EXPECT_EQ(o.exit, 0) << command;
     EXPECT_NE(o.text.find("Example"), std::string::npos) << command;

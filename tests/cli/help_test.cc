@@ -109,6 +109,7 @@ const Examples kExamples[] = {
     {"channels"},
     {"refine", {"hide saturation@A --rig examples/reference/rig.toml -o practice"}, true},
     {"plan", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
+    {"practice", {}, true},
     {"score", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
 };
 

@@ -36,6 +36,7 @@ const Call kCalls[] = {
     {"adopt", "case.toml sensor-gain --target A.x -o adopted.toml", "case.toml"},
     {"refine", "case.toml saturation@A -o refined.toml", "case.toml"},
     {"plan", "case.toml -o next.toml", "case.toml"},
+    {"practice", "rig.toml --cases 1 -o cases", "rig.toml"},
 };
 
 class OtherOutputs : public CliFolder, public testing::WithParamInterface<Call> {

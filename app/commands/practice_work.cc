@@ -1,0 +1,143 @@
+#include "app/commands/practice_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/commands/commands.h"
+#include "app/json/discovery_json.h"
+#include "app/json/practice_json.h"
+#include "core/base/atomic_file.h"
+#include "core/base/errors.h"
+#include "core/base/fingerprint.h"
+#include "core/base/read_file.h"
+#include "core/record/hdf5.h"
+
+namespace ambrig {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* const kAnswerEnding = ".answer.toml";
+
+JournalVisitor PracticeVisitor(const PracticeSetting& setting, const std::string& path,
+                               std::map<std::string, PracticeResult>& found) {
+  JournalVisitor visit;
+  visit.header = [&setting, path](std::string_view text) {
+    if (!text.empty() && text != PracticeHeader(setting))
+      throw InputError(fmt::format(
+          "{}: is the journal of other rigs or another seed, allowed: the same rigs and --seed, or "
+          "another folder",
+          path));
+  };
+  visit.entry = [&found](const JournalEntry& e) {
+    const auto json = nlohmann::ordered_json::parse(e.text, nullptr, false);
+    if (json.is_discarded()) return false;
+    try {
+      PracticeResult r = PracticeResultOf(json);
+      found[r.name] = std::move(r);
+    } catch (const nlohmann::json::exception&) {
+      return false;  // of an earlier version: the case is done again
+    }
+    return true;
+  };
+  return visit;
+}
+
+PracticeCase Made(const PracticeSetting& setting, std::size_t number) {
+  try {
+    return MakePracticeCase(setting.rigs, setting.seed, number, &interrupted);
+  } catch (const InputError& e) {
+    throw PracticeCaseNotMade(e.what());
+  }
+}
+
+}  // namespace
+
+std::string PracticeHeader(const PracticeSetting& setting) {
+  std::string text;
+  for (const PracticeRig& rig : setting.rigs) text += rig.text;
+  return fmt::format("practice seed {} rigs {}", setting.seed, Fingerprint(text));
+}
+
+std::string PracticeJournalName(const Shard& shard) {
+  return shard.count == 1 ? "journal.txt"
+                          : fmt::format("journal-{}-of-{}.txt", shard.index + 1, shard.count);
+}
+
+std::map<std::string, PracticeResult> FinishedCases(const PracticeSetting& setting) {
+  std::map<std::string, PracticeResult> found;
+  std::vector<fs::path> journals;
+  std::error_code error;
+  for (const auto& item : fs::directory_iterator(setting.folder, error)) {
+    const std::string name = item.path().filename().string();
+    if (name.starts_with("journal") && name.ends_with(".txt")) journals.push_back(item.path());
+  }
+  std::sort(journals.begin(), journals.end());
+  for (const fs::path& j : journals)
+    ReadJournalFile(j.string(), PracticeVisitor(setting, j.string(), found));
+  return found;
+}
+
+std::vector<std::size_t> PendingCases(const PracticeSetting& setting,
+                                      const std::map<std::string, PracticeResult>& finished) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 0; k < setting.cases; ++k)
+    if (setting.shard.Has(k) && !finished.contains(NameOfPracticeCase(k))) out.push_back(k);
+  return out;
+}
+
+void WritePracticeCase(const PracticeCase& c, const std::string& folder) {
+  const fs::path inside = fs::path(folder) / c.name;
+  fs::create_directories(inside);
+  for (std::size_t r = 0; r < c.records.size(); ++r) {
+    const std::string stem = (inside / fmt::format("record-{}", r + 1)).string();
+    WriteFileAtomically(stem + ".toml", c.records[r].toml);
+    WriteHdf5(c.data.records[r].data, stem + ".h5");
+  }
+  WriteFileAtomically((inside / "rig.toml").string(), c.rig_text);
+  WriteFileAtomically((inside / "case.toml").string(), c.case_text);
+  WriteFileAtomically((fs::path(folder) / (c.name + kAnswerEnding)).string(), c.answer_text);
+}
+
+PracticeResult RunPracticeCase(const PracticeSetting& setting, std::size_t number, bool make_only,
+                               const std::function<void(double, const std::string&)>& progress) {
+  progress(0, "making " + NameOfPracticeCase(number));
+  const PracticeCase c = Made(setting, number);
+  WritePracticeCase(c, setting.folder);
+  if (make_only) return ResultOf(c, {});
+  const std::string folder = (fs::path(setting.folder) / c.name).string();
+  try {
+    ExplainOptions options;
+    options.calibrate = false;
+    options.stop = &interrupted;
+    options.progress = [&](double f, const std::string& text) {
+      progress(f, c.name + ": " + text);
+    };
+    const Explanation e = Explain(ReadCase(folder), options);
+    WriteFileAtomically(folder + ".json", ExplainJson(e).dump(1) + "\n");
+    return ResultOf(c, e);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& error) {
+    PracticeResult r = ResultOf(c, {});
+    r.stated.members.clear();
+    r.finding.verdict = "failed";
+    r.failure = error.what();
+    return r;
+  }
+}
+
+void JoinAnswers(const std::string& folder) {
+  std::vector<fs::path> files;
+  for (const auto& item : fs::directory_iterator(folder))
+    if (item.path().filename().string().ends_with(kAnswerEnding)) files.push_back(item.path());
+  std::sort(files.begin(), files.end());
+  std::string text = "# made by ambrig practice: what each case hides\n";
+  for (const fs::path& f : files) text += "\n" + ReadFile(f.string());
+  WriteFileAtomically((fs::path(folder) / "answers.toml").string(), text);
+}
+
+}  // namespace ambrig

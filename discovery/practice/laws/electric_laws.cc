@@ -1,0 +1,54 @@
+/// Amplifiers and supplies: an offset whose size depends on the current, drops of one coil that
+/// depend on its current, current sensors with an error of two kinds at once, a source that is
+/// slower than the catalogue's beside a dead time.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "discovery/practice/laws/practice_law.h"
+
+namespace ambrig {
+
+namespace {
+
+std::vector<EffectInstance> OffsetOfCurrent(LawSetting s) {
+  const double u = s.draw.Sign() * 0.5 * s.size, share = s.draw.Between(0.1, 0.35);
+  // a formula of a whole bearing knows its coils by number
+  const char* current = s.target.find(".coil") == std::string::npos ? "i1" : "i";
+  return {FormulaAt(s.target, {{"voltage", fmt::format("{} * (1 + {} * ({} - 2))", Digits(u),
+                                                       Digits(share), current)}})};
+}
+
+std::vector<EffectInstance> SensorOfTwoErrors(LawSetting s) {
+  const double gain = s.draw.Sign() * 0.02 * s.size, zero = s.draw.Sign() * 0.1 * gain;
+  return {CatalogueEffect("current-sensor-gain", s.target, {{"gain", 1 + gain}}),
+          CatalogueEffect("current-sensor-offset", s.target, {{"offset", zero}})};
+}
+
+std::vector<EffectInstance> ZeroWithGain(LawSetting s) {
+  const double zero = s.draw.Sign() * 0.05 * s.size;
+  return {CatalogueEffect("current-sensor-offset", s.target, {{"offset", zero}}),
+          CatalogueEffect("current-sensor-gain", s.target, {{"gain", 1 + 0.04 * zero}})};
+}
+
+std::vector<EffectInstance> DelayAndFilter(LawSetting s) {
+  const double period = 1 / s.rig.amplifier.switching_frequency;
+  const double periods = std::max(1.0, std::round(s.draw.Between(1, 3) * s.size));
+  return {CatalogueEffect("loop-delay", "rig", {{"time", periods * period}}),
+          CatalogueEffect("sensor-lowpass", "rig", {{"cutoff", s.draw.Log(2e4, 6e4)}})};
+}
+
+}  // namespace
+
+std::vector<PracticeLaw> ElectricLaws() {
+  return {
+      {"offset-of-current", "offset of the current", "amplifier-offset", "current-sensor-gain",
+       OffsetOfCurrent},
+      {"current-gain-and-zero", "current sensors of two errors", "current-sensor-gain",
+       "current-sensor-gain", SensorOfTwoErrors},
+      {"current-zero-and-gain", "current sensors of two errors", "current-sensor-offset",
+       "current-sensor-offset", ZeroWithGain},
+      {"delay-and-filter", "delay beside a filter", "loop-delay", "loop-delay", DelayAndFilter}};
+}
+
+}  // namespace ambrig
