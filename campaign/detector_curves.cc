@@ -42,7 +42,7 @@ void Finish(FalseAlarmCurve& c) {
 /// Largest level that each healthy plant came to, in any coil and window.
 using PlantLevels = std::map<std::string, int>;
 
-void CountPlant(PlantLevels& levels, const DetectorStudyRow& row, const DetectorOutcome& o) {
+void AddPlantLevel(PlantLevels& levels, const DetectorStudyRow& row, const DetectorOutcome& o) {
   if (row.plant.empty() || o.windows.empty()) return;
   int& level = levels[row.plant];
   level = std::max(level, o.windows.rbegin()->first);
@@ -145,7 +145,7 @@ std::vector<DetectorCurves> CurvesOf(const DetectorStudy& study, const Rows& row
       if (row.outcomes.empty()) continue;  // could not be finished
       if (!row.faulty) {
         AddWindows(d.all, row.outcomes[k]);
-        CountPlant(plants, row, row.outcomes[k]);
+        AddPlantLevel(plants, row, row.outcomes[k]);
         AddWindows(Named(d.scenarios, &FalseAlarmCurve::scenario, row.scenario), row.outcomes[k]);
         continue;
       }

@@ -15,6 +15,7 @@ namespace ambrig {
 namespace {
 
 constexpr long long kMostMixtures = 100000;
+constexpr int kMostShown = 2;  // parameters of an effect in a table
 
 /// Numbers that depend on the seed and on their order only.
 class Draw {
@@ -173,8 +174,10 @@ std::string EffectSizeText(const std::string& effect, const std::string& size) {
   if (!d) return "";
   const EffectInstance e = MakeInstance(*d, "");
   std::string text;
+  int shown = 0;
   for (const EffectParameter& p : e.table) {
     if (!d->Switches(p) || !(p.typical_lo > 0 && p.typical_hi > 0)) continue;
+    if (++shown > kMostShown) return text + ", ...";
     const double rounded = std::stod(fmt::format("{:.3g}", ValueOf(p, Share(size), false)));
     text += fmt::format("{}{} {:g}{}{}", text.empty() ? "" : ", ", p.name, rounded,
                         p.unit == "-" ? "" : " ", p.unit == "-" ? "" : p.unit);

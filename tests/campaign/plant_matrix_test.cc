@@ -87,6 +87,8 @@ TEST(PlantMatrix, HealthyPlantsCountOnceWithTheBoundOfTheirShare) {
 TEST(PlantMatrix, SizesOfEffectsInTheirUnits) {
   EXPECT_EQ(EffectSizeText("eddy-currents", "low"), "cutoff 30000 Hz");
   EXPECT_EQ(EffectSizeText("eddy-currents", "high"), "cutoff 300 Hz");
+  EXPECT_EQ(EffectSizeText("unbalance", "high"), "c 0.0001 kg m, s 0.0001 kg m");
+  EXPECT_TRUE(EffectSizeText("sensor-runout", "high").ends_with(", ..."));
   EXPECT_EQ(EffectSizeText("none", "high"), "");
 }
 
