@@ -60,7 +60,10 @@ std::vector<std::string> DifferenceLines(const RunDifference& d, std::size_t mos
   std::vector<const ChannelDifference*> bad;
   for (const ChannelDifference& c : d.record.channels)
     if (c.bad()) bad.push_back(&c);
-  std::ranges::stable_sort(bad, {}, &ChannelDifference::first);
+  // What is missing or no number is told before what only differs.
+  std::ranges::stable_sort(bad, {}, [](const ChannelDifference* c) {
+    return std::pair(c->verdict == ChannelVerdict::kDiffers, c->first);
+  });
   for (std::size_t k = 0; k < std::min(most, bad.size()); ++k) lines.push_back(LineOf(*bad[k]));
   if (bad.size() > most) lines.push_back("and " + Counted(bad.size() - most, "more channel"));
   return lines;

@@ -15,13 +15,14 @@ namespace {
 
 constexpr std::size_t kMostFigures = 6;
 
-/// Channels beyond their tolerance, the one that leaves it first at the head.
+/// Channels beyond their tolerance: what is missing or no number, then the one that leaves first.
 std::vector<const ChannelDifference*> Worst(const RecordDifference& d) {
   std::vector<const ChannelDifference*> out;
   for (const ChannelDifference& c : d.channels)
     if (c.bad()) out.push_back(&c);
-  std::stable_sort(out.begin(), out.end(),
-                   [](const auto* x, const auto* y) { return x->first < y->first; });
+  std::ranges::stable_sort(out, {}, [](const ChannelDifference* c) {
+    return std::pair(c->verdict == ChannelVerdict::kDiffers, c->first);
+  });
   return out;
 }
 

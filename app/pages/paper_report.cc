@@ -38,9 +38,7 @@ std::vector<PaperRow> PaperRows(const PaperStudy& s) {
   };
 }
 
-std::string Found(const DiagnosisDelays& d) {
-  return fmt::format("{} of {}", d.named, d.runs);
-}
+std::string Found(const DiagnosisDelays& d) { return fmt::format("{} of {}", d.named, d.runs); }
 
 nlohmann::ordered_json DelaysJson(const DiagnosisDelays& d) {
   return {{"runs", d.runs}, {"found", d.found}, {"named", d.named},        {"least", d.least},

@@ -69,8 +69,11 @@ std::vector<ReportStation> StationsOf(const RigParameters& rig, const RunResult&
   return stations;
 }
 
-void FillSnapshots(const Scenario& scenario, const RunResult& result, RunReportData& data) {
+void FillSnapshots(const RigParameters& rig, const Scenario& scenario, const RunResult& result,
+                   RunReportData& data) {
   for (const FluxSnapshot& s : result.snapshots) {
+    const BearingParameters* bearing = rig.Find(s.bearing);  // poles are drawn round a shaft only
+    if (!bearing || bearing->kind != BearingKind::kRadial) continue;
     ReportSnapshot r;
     r.bearing = s.bearing;
     r.label = s.label;
@@ -206,7 +209,7 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
   FillBearings(rig, result, data);
   FillChannels(result.record, data);
   FillSlopes(result, data);
-  FillSnapshots(scenario, result, data);
+  FillSnapshots(rig, scenario, result, data);
   data.scenario_toml = ReadFile(scenario.file);
   data.rig_toml = ReadFile(rig.file);
   return data;

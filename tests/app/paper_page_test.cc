@@ -27,7 +27,7 @@ TEST(PaperPage, HasTheFiguresOfThePaperAndItsNumbers) {
                         [&](const std::string&path) { WritePaperReport(Study(), path); }),
                     words = testing::Words(html);
   for (const int figure : {4, 5, 11, 12, 13, 14, 15, 17, 18, 19, 20})
-    EXPECT_THAT(words, HasSubstr("The paper's figure " + std::to_string(figure) + ":"));
+    EXPECT_THAT(words, HasSubstr("s figure " + std::to_string(figure) + ": "));
   EXPECT_THAT(words, HasSubstr("In place of figure 16"));
   for (const char* number : {"16761 - 16857", "about 12", "about 570", "about 120", "about +-700",
                              "about 1.75", "about 2"})

@@ -63,7 +63,7 @@ TEST_F(RunCommand, AnUncommissionedRigIsToldHowToTeachIt) {
   const Outcome o = Ambrig("run a.toml");
   ASSERT_EQ(o.exit, 0) << o.text;
   EXPECT_THAT(o.text, HasSubstr("model doubtful: gross faults only"));
-  EXPECT_THAT(o.text, HasSubstr("ambrig commission rig.toml"));
+  EXPECT_THAT(o.text, HasSubstr("has not learnt this rig"));
   EXPECT_THAT(ReadText(folder_ / "out/a.html"), HasSubstr("ambrig commission rig.toml"));
 }
 
