@@ -20,11 +20,11 @@ namespace {
 /// Streams of random numbers of one case.
 enum SurroundingStream : std::uint32_t { kSizes = 241, kNoise, kPerRecord, kZeros };
 
-constexpr double kUsualBusNoise = 0.005;      // [V] rms, usual
-constexpr double kZeroOfReach = 0.01;    // sd of a position sensor's zero, of the clearance
-constexpr double kInputSpread = 0.01;    // sd of the commanded signals' size
-constexpr double kClockSpread = 1e-4;    // [s] sd stated of the time shift; drawn: whole rows
-constexpr double kShiftedRecords = 0.3;  // share of the records whose clock is one row off
+constexpr double kUsualBusNoise = 0.005;  // [V] rms, usual
+constexpr double kZeroOfReach = 0.01;     // sd of a position sensor's zero, of the clearance
+constexpr double kInputSpread = 0.01;     // sd of the commanded signals' size
+constexpr double kClockSpread = 1e-4;     // [s] sd stated of the time shift; drawn: whole rows
+constexpr double kShiftedRecords = 0.3;   // share of the records whose clock is one row off
 
 /// Rows later (> 0) or earlier; the row at the edge is repeated.
 void ShiftRows(Record& data, int rows) {
