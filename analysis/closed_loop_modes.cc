@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
@@ -41,7 +42,7 @@ Eigen::MatrixXd ShaftRows(const OperatingPoint& point, const LinearPlant& plant,
 std::vector<double> ShaftStations(const OperatingPoint& point) {
   double low = 0, high = 0;
   for (const BearingParameters& b : point.rig().bearings) {
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->two_axes) continue;
     low = std::min({low, b.z, b.sensor.z});
     high = std::max({high, b.z, b.sensor.z});
   }

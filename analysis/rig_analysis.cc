@@ -8,6 +8,7 @@
 #include "analysis/iso14839.h"
 #include "analysis/measured_sensitivity.h"
 #include "core/math/constants.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -111,7 +112,7 @@ class Analysis {
       for (const OrderTrack& track : sweep.tracks) {
         DisplacementRow row{track.bearing, sweep.unbalance.name, 0, 0, 'A'};
         const BearingParameters* b = out_.point.rig().Find(track.bearing);
-        row.clearance = b->auxiliary ? b->auxiliary->clearance : b->radial.gap;
+        row.clearance = b->auxiliary ? b->auxiliary->clearance : GapOf(*b);
         for (std::size_t k = 0; k < sweep.speed.size(); ++k)
           if (sweep.speed[k] >= o.lowest && sweep.speed[k] <= o.highest)
             row.largest = std::max(row.largest, track.amplitude[k]);

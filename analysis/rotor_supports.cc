@@ -6,6 +6,7 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {
@@ -105,9 +106,9 @@ RotorOnSupports AnalyseSupports(const OperatingPoint& point, int modes) {
     const BearingParameters& b = point.rig().bearings[k];
     const Eigen::Matrix2d ks = point.bearings[k].NegativeStiffness();
     SupportStiffness s{b.name, PidOf(point.rig(), b).kp,
-                       b.kind == BearingKind::kRadial ? 0.5 * ks.trace() : ks(0, 0)};
-    net.push_back(b.kind == BearingKind::kThrust ? 0.0 : s.net());
-    if (b.kind == BearingKind::kThrust) continue;
+                       b.kind->two_axes ? 0.5 * ks.trace() : ks(0, 0)};
+    net.push_back(b.kind->axial ? 0.0 : s.net());
+    if (b.kind->axial) continue;
     weight = std::max(weight, std::abs(s.proportional));
     out.supports.push_back(s);
   }

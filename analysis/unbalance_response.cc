@@ -6,6 +6,7 @@
 
 #include "analysis/closed_loop_modes.h"
 #include "core/math/constants.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
@@ -60,7 +61,7 @@ std::vector<UnbalanceCase> StandardUnbalance(const OperatingPoint& point, double
   // Static share of the mass per radial bearing, as if gravity were radial.
   std::vector<const BearingParameters*> radial;
   for (const BearingParameters& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial) radial.push_back(&b);
+    if (b.kind->two_axes) radial.push_back(&b);
   double n = 0, sz = 0, szz = 0;
   for (const auto* b : radial) {
     n += 1;
@@ -106,7 +107,7 @@ std::vector<UnbalanceSweep> SweepUnbalance(const OperatingPoint& point,
     std::vector<Eigen::Index> first;
     Eigen::Index axis = 0;
     for (const BearingParameters& b : point.rig().bearings) {
-      if (b.kind == BearingKind::kRadial) {
+      if (b.kind->two_axes) {
         sweep.tracks.emplace_back();
         sweep.tracks.back().bearing = b.name;
         first.push_back(axis);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "analysis/load_capacity.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 
 namespace ambrig {
@@ -29,8 +30,8 @@ double HorseshoeGain(const OperatingPoint& point, std::size_t bearing, Eigen::In
 
 /// f = k [(i0 + i)²/(g - x)² - (i0 - i)²/(g + x)²]: k from k_i = 4 k i0/g².
 double ForceConstantOf(const RigParameters& rig, const BearingParameters& b, double k_i) {
-  const double gap =
-      b.kind == BearingKind::kOpposed ? b.opposed.gap + b.opposed.gap_constant : b.radial.gap;
+  const GapReluctance r = b.kind->stator(b).reluctance;
+  const double gap = r.gap0 + r.offset / r.per_metre;
   return k_i * gap * gap / (4 * BiasCurrent(rig, b));
 }
 
@@ -49,7 +50,7 @@ std::vector<double> FiguresOfRig(const RigParameters& rig, const TomlTable& chec
       const auto names = rig.bearings[k].Axes();
       const auto side = std::find(names.begin(), names.end(), axis) - names.begin();
       if (side == static_cast<std::ptrdiff_t>(names.size())) continue;
-      const bool radial = rig.bearings[k].kind == BearingKind::kRadial;
+      const bool radial = rig.bearings[k].kind->two_axes;
       const double k_i = radial ? HorseshoeGain(point, k, side) : c.k_i;
       if (quantity == "horseshoe k_i" && radial) return {k_i};
       if (quantity == "force constant") return {ForceConstantOf(rig, rig.bearings[k], k_i)};

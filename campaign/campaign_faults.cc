@@ -7,6 +7,7 @@
 
 #include "campaign/campaign_values.h"
 #include "faulttolerance/redistribution/redistribution_table.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "scenarios/faults/fault_file.h"
 
 namespace ambrig {
@@ -50,7 +51,7 @@ std::vector<std::string> Bearings(const TomlTable& t, const RigParameters& rig) 
   std::string known;
   std::vector<std::string> radial;
   for (const auto& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial) {
+    if (b.kind->eight_poles) {
       known += (known.empty() ? "" : ", ") + b.name;
       radial.push_back(b.name);
     }

@@ -36,7 +36,8 @@ struct TrialSettings {
   double begin = 0.02;   // [s] detectors start; in a run with a fault: that much before it
   double settle = 0.01;  // [s] from there on nothing is counted
   double window = 0.01;  // [s]
-  std::vector<BearingKind> kinds = {BearingKind::kRadial};  // bearings whose coils count, healthy
+  // of the bearings whose coils count, healthy
+  std::vector<const BearingKind*> kinds = {&RadialBearing()};
 };
 
 class DetectorTrial : public Supervisor {

@@ -7,6 +7,7 @@
 
 #include "campaign/parameter_draw.h"
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
 #include "rig/true_rig.h"
 
@@ -49,7 +50,7 @@ std::vector<std::string> TargetsIn(const EffectDescription& d, const RigParamete
                                    Draw& draw) {
   std::vector<std::string> all = TargetsOf(d, TargetsOfEffects(rig)), radial;
   for (const BearingParameters& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial && std::count(all.begin(), all.end(), b.name) > 0)
+    if (b.kind->two_axes && std::count(all.begin(), all.end(), b.name) > 0)
       radial.push_back(b.name);
   if (!radial.empty() && d.target != TargetKind::kPlane && d.target != TargetKind::kPlaneOrZ &&
       d.target != TargetKind::kPlaneOrRig)

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/base/counted.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "simulation/simulate.h"
 #include "simulation/verdict/detection_score.h"
 
@@ -27,7 +28,7 @@ double LargestOrbit(const RunResult& r, const std::string& bearing) {
 double LargestOrbit(const PlannedRun& p, const RunResult& r) {
   double most = 0;
   for (const BearingParameters& b : p.rig.bearings)
-    if (b.kind != BearingKind::kThrust) most = std::max(most, LargestOrbit(r, b.name));
+    if (!b.kind->axial) most = std::max(most, LargestOrbit(r, b.name));
   return most;
 }
 

@@ -5,6 +5,7 @@
 
 #include "core/math/constants.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "scenarios/faults/fault.h"
 
@@ -49,7 +50,7 @@ RunIndex IndexOf(const Campaign& c, std::size_t run) {
 RunPlan::RunPlan(const Campaign& campaign) : campaign_(campaign) {
   if (!campaign_.plants.empty()) commissioned_ = std::make_unique<CommissionedPlants>(campaign_);
   for (const BearingParameters& b : campaign_.rig.bearings)
-    if (b.kind == BearingKind::kRadial)
+    if (b.kind->eight_poles)
       tables_[b.name] = std::make_unique<RedistributionTable>(
           RedistributionProblemOf(NominalRig(campaign_.rig), b), RedistributionCacheDirectory());
 }
@@ -113,7 +114,7 @@ void RunPlan::AddLoad(PlannedRun& p) const {
 void RunPlan::AddPosition(PlannedRun& p) const {
   const BearingParameters& b = *p.rig.Find(p.bearing);
   const double share = campaign_.positions[p.at.position];
-  if (share == 0 || !b.auxiliary || b.kind != BearingKind::kRadial) return;
+  if (share == 0 || !b.auxiliary || !b.kind->eight_poles) return;
   const double rate = p.rig.controller.rate, reach = kPositionReached * campaign_.fault_time;
   Excitation e;
   e.port = "reference";

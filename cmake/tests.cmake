@@ -31,7 +31,7 @@ endforeach()
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
 add_test(NAME layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
-# One file and one line for an effect, detector, fault, controller or command, as CONTRIBUTING.md says.
+# One file and one line for an effect, detector, fault, controller, bearing kind or command, as CONTRIBUTING.md says.
 add_test(NAME planted_change COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/planted_change.py ${CMAKE_BINARY_DIR}
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
 set_tests_properties(planted_change PROPERTIES TIMEOUT 600)

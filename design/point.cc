@@ -7,6 +7,7 @@
 #include "core/base/toml_edit.h"
 #include "core/record/channels.h"
 #include "design/linear_figures.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
 #include "simulation/sampled/controller_setup.h"
 
@@ -42,7 +43,7 @@ std::vector<double> SensorNoise(const RigParameters& rig) {
 double RunFigure(const FigureSpec& f, const RigParameters& rig, const RunResult& r) {
   double orbit = 0, used = 0;
   for (const BearingParameters& b : rig.bearings) {
-    if (b.kind == BearingKind::kThrust) continue;
+    if (b.kind->axial) continue;
     const auto it = r.metrics.max_orbit.find(b.name);
     const double most = it == r.metrics.max_orbit.end() ? 0 : it->second;
     orbit = std::max(orbit, most);

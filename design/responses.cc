@@ -8,6 +8,7 @@
 #include "design/linear_figures.h"
 #include "design/pareto.h"
 #include "design/point.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "simulation/sampled/controller_setup.h"
 
 namespace ambrig {
@@ -24,7 +25,7 @@ ScenarioTrace TraceOf(const Study& study, std::size_t scenario, const RigParamet
   for (std::size_t k = 0; k < result.record.rows(); ++k) trace.t.push_back(result.record.TimeAt(k));
   trace.orbit.assign(trace.t.size(), 0.0);
   for (const BearingParameters& b : rig.bearings) {
-    if (b.kind == BearingKind::kThrust) continue;
+    if (b.kind->axial) continue;
     const Channel *x = Find(result.record, {ChannelKind::kReading, b.name, 0}),
                   *y = Find(result.record, {ChannelKind::kReading, b.name, 1});
     for (std::size_t k = 0; x && k < trace.orbit.size(); ++k)

@@ -32,7 +32,7 @@ void ForEachTargetCoil(const EffectInstance& effect, Plant& plant, F f) {
 /// Flux density of a pole over its flux [T/Wb]. An opposed magnet's turns are unknown: there the
 /// flux is the linkage and the result is the flux density per turn.
 inline double DensityPerFlux(const BearingPlant& b) {
-  return kMu0 * b.lanes.reluctance.per_metre * (b.thrust ? 0.5 : 1.0);
+  return kMu0 * b.lanes.reluctance.per_metre * (b.lanes.coupling == Coupling::kSides ? 0.5 : 1.0);
 }
 
 /// Reluctance of a pole's gap, rotor centred [1/H].

@@ -4,7 +4,7 @@
 
 namespace ambrig {
 
-double GapOf(const BearingParameters& b) { return TableOf(b.kind).gap(b); }
+double GapOf(const BearingParameters& b) { return b.kind->stator(b).gap_offset[0]; }
 
 double ClearanceOf(const BearingParameters& b) {
   return b.auxiliary ? b.auxiliary->clearance : 0.5 * GapOf(b);

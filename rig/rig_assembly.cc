@@ -15,17 +15,17 @@ BearingPlant MakeBearing(const RigParameters& rig, const BearingParameters& b, R
   BearingPlant plant;
   plant.name = b.name;
   plant.z = b.z;
-  plant.thrust = b.kind == BearingKind::kThrust;
-  plant.opposed = b.kind == BearingKind::kOpposed;
-  const BearingKindTable& kind = TableOf(b.kind);
+  const BearingKind& kind = *b.kind;
+  plant.thrust = kind.axial;
+  plant.opposed = !kind.axial && !kind.two_axes;
   plant.plane = kind.plane(b, rotor, b.z);
   plant.sensor.map = kind.plane(b, rotor, b.sensor.z);
   plant.sensor.noise = b.sensor.noise;
-  for (int j = 0; j < kLanes; ++j) {
+  static_cast<StatorGeometry&>(plant.lanes) = kind.stator(b);
+  for (int j = plant.lanes.coils; j < kLanes; ++j) {
     plant.lanes.gap_offset[j] = 1;  // inert lanes: harmless numbers
     plant.lanes.leakage[j] = 1;
   }
-  kind.fill_lanes(b, plant.lanes);
   plant.lanes.unipolar = rig.amplifier.quadrants < 3;
   plant.base_resistance = plant.lanes.resistance;
   if (b.auxiliary && kind.add_auxiliary) kind.add_auxiliary(b, rotor);
@@ -42,14 +42,14 @@ Plant BuildPlant(const TrueRig& true_rig) {
     if (!e.IsNull()) live.emplace_back(FindEffect(e.name), &e);
   for (const BendingMode& mode : rig.modes) plant.rotor.AddBendingMode(mode);
   for (const BearingParameters& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial) plant.planes.emplace_back(b.name, b.z);
+    if (b.kind->two_axes) plant.planes.emplace_back(b.name, b.z);
   for (const auto& [description, instance] : live)
     if (description->shape) description->shape(*instance, plant);
   plant.bus.source = plant.bus.voltage = rig.amplifier.bus_voltage;
   plant.bridge = PowerBridge(rig.amplifier);
   plant.speed_sensor = SpeedSensor(rig.speed_sensor);
   for (const BearingParameters& b : rig.bearings) {
-    if (TableOf(b.kind).axial) plant.rotor.axial_free = true;
+    if (b.kind->axial) plant.rotor.axial_free = true;
     plant.bearings.push_back(MakeBearing(rig, b, plant.rotor));
   }
   for (const ShaftPlane& s : rig.stations)

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "core/base/toml_checked.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
@@ -92,7 +93,7 @@ std::pair<double, double> ShaftExtent(const RigParameters& rig) {
     return {lo - rig.z_origin, hi - rig.z_origin};
   }
   for (const BearingParameters& b : rig.bearings) {
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->two_axes) continue;
     lo = std::min(lo, b.z);
     hi = std::max(hi, b.z);
   }
@@ -107,13 +108,10 @@ void CheckRig(const TomlTable& root, const RigParameters& rig) {
   const TomlTable bearings = *root.Table("bearings");
   for (const BearingParameters& b : rig.bearings) {
     const TomlTable t = *bearings.Table(b.name);
-    if (b.kind == BearingKind::kRadial) {
-      CheckWinding(t, b.radial.winding);
-      CheckSensor(t, b, rig);
-    } else {
-      CheckBias(t, rig,
-                b.kind == BearingKind::kThrust ? b.thrust.bias_current : b.opposed.bias_current);
-    }
+    if (b.kind->eight_poles) CheckWinding(t, b.radial.winding);
+    if (b.kind->two_axes) CheckSensor(t, b, rig);
+    const double own = b.kind->own_bias(b);
+    if (!std::isnan(own)) CheckBias(t, rig, own);
   }
   CheckEffects(root, rig);
 }

@@ -11,13 +11,12 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
   EffectTargets known;
   for (const ShaftPlane& s : rig.stations) known.stations.push_back(s.name);
   for (const auto& b : rig.bearings) {
-    const BearingKindTable& table = TableOf(b.kind);
-    known.planes.push_back(table.axial ? "z" : b.name);
+    known.planes.push_back(b.kind->axial ? "z" : b.name);
     known.bearings.push_back(b.name);
     for (int j = 1; j <= b.coils(); ++j)
       known.coils.push_back(b.name + ".coil" + std::to_string(j));
     for (const auto& axis : b.Axes()) known.axes.push_back(axis);
-    const unsigned kind = table.acts_on;
+    const unsigned kind = b.kind->acts_on;
     known.kind[b.name] = known.kind[known.planes.back()] = kind;
     for (int j = 1; j <= b.coils(); ++j) known.kind[b.name + ".coil" + std::to_string(j)] = kind;
     for (const auto& axis : b.Axes()) known.kind[axis] = kind;
@@ -25,10 +24,10 @@ EffectTargets TargetsOfEffects(const RigParameters& rig) {
   return known;
 }
 
-double ForceConstant(const BearingParameters& b) { return TableOf(b.kind).force_constant(b); }
+double ForceConstant(const BearingParameters& b) { return b.kind->force_constant(b); }
 
 double BiasCurrent(const RigParameters& rig, const BearingParameters& b) {
-  const double own = TableOf(b.kind).own_bias(b);
+  const double own = b.kind->own_bias(b);
   return std::isnan(own) ? rig.controller.bias_current : own;
 }
 
@@ -43,18 +42,16 @@ const PidParameters& PidOf(const RigParameters& rig, const BearingParameters& b)
 }
 
 std::vector<std::array<double, 2>> CoilDirections(const BearingParameters& b) {
-  std::vector<std::array<double, 2>> out;
-  for (int j = 0; j < b.coils(); ++j) out.push_back(TableOf(b.kind).coil_direction(b, j));
-  return out;
+  return b.kind->stator(b).Directions();
 }
 
-double CoilResistance(const BearingParameters& b) { return TableOf(b.kind).coil_resistance(b); }
+double CoilResistance(const BearingParameters& b) { return b.kind->stator(b).resistance[0]; }
 
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {
   // Least-norm forces f_k with Σ f = -m g and Σ z f = 0; exact for two bearings.
   double n = 0, sz = 0, szz = 0;
   for (const auto& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial) {
+    if (b.kind->two_axes) {
       n += 1;
       sz += b.z;
       szz += b.z * b.z;
@@ -62,11 +59,12 @@ std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {
   std::vector<std::array<double, 2>> out;
   const double m = rig.rotor.mass;
   for (const auto& b : rig.bearings) {
-    if (b.kind == BearingKind::kRadial) {
+    if (b.kind->two_axes) {
       const double share = (szz - b.z * sz) / (n * szz - sz * sz);
       out.push_back({-m * rig.gravity[0] * share, -m * rig.gravity[1] * share});
     } else {
-      out.push_back({TableOf(b.kind).weight(b, m, rig.gravity), 0});
+      const std::array<double, 3> axis = b.kind->axis(b), &g = rig.gravity;
+      out.push_back({-m * (g[0] * axis[0] + g[1] * axis[1] + g[2] * axis[2]), 0});
     }
   }
   return out;

@@ -9,6 +9,7 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/clearance.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_checks.h"
 #include "rig/rig_rotor.h"
@@ -23,8 +24,10 @@ void ReadSensor(const TomlTable& bearing, BearingParameters& b,
                 std::vector<Tolerance>* tolerances) {
   const auto t = bearing.Table("sensor");
   if (!t) bearing.Fail("sensor", "is missing, allowed: { z = m, noise = m }");
-  if (b.kind == BearingKind::kThrust) b.sensor.z = 0;
-  if (b.kind == BearingKind::kOpposed && !std::isfinite(b.sensor.z)) b.sensor.z = b.z;
+  if (b.kind->axial)
+    b.sensor.z = 0;
+  else if (!b.kind->two_axes && !std::isfinite(b.sensor.z))
+    b.sensor.z = b.z;
   t->Read(b.sensor, kSensorFields, tolerances);
   t->RejectUnknownKeys();
 }
@@ -34,8 +37,7 @@ void ReadAuxiliary(const TomlTable& bearing, BearingParameters& b, double gap) {
   if (t) {
     AuxiliaryParameters p = b.auxiliary.value_or(AuxiliaryParameters{});
     t->Read(p, kAuxiliaryFields);
-    if (b.kind == BearingKind::kRadial && t->Has("z"))
-      b.auxiliary_z = Within(*t, "z", kRequired, kPlace);
+    if (b.kind->two_axes && t->Has("z")) b.auxiliary_z = Within(*t, "z", kRequired, kPlace);
     t->RejectUnknownKeys();
     b.auxiliary = p;
     if (p.clearance >= gap)
@@ -76,17 +78,16 @@ BearingParameters ReadBearing(const TomlTable& t, const std::string& name, const
   }
   b.name = name;
   b.auxiliary_z = kRequired;  // a place of its own is not copied
-  const std::string kind = t.Choice("kind", std::string(TableOf(b.kind).name), BearingKindNames());
-  for (const BearingKindTable* k : BearingKinds())
-    if (k->name == kind) b.kind = k->kind;
-  if (b.kind == BearingKind::kRadial) {
+  const std::string kind = t.Choice("kind", std::string(b.kind->name), BearingKindNames());
+  b.kind = FindBearingKind(kind);
+  if (b.kind->two_axes) {
     b.z = Within(t, "z", like.empty() ? kRequired : b.z, kPlace);
   } else {
     b.z = Within(t, "z", 0, kPlace);
   }
-  TableOf(b.kind).read(t, b, &tolerances);
+  b.kind->read(t, b, &tolerances);
   if (like.empty() || t.Has("sensor")) ReadSensor(t, b, &tolerances);
-  ReadAuxiliary(t, b, TableOf(b.kind).gap(b));
+  ReadAuxiliary(t, b, GapOf(b));
   if (const auto c = t.Table("controller")) {
     b.controller = ReadPid(*c);
     c->RejectUnknownKeys();
@@ -135,7 +136,7 @@ void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
 std::vector<std::string> PlaneNames(const RigParameters& rig) {
   std::vector<std::string> names;
   for (const BearingParameters& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial) names.push_back(b.name);
+    if (b.kind->two_axes) names.push_back(b.name);
   for (const ShaftPlane& s : rig.stations) names.push_back(s.name);
   return names;
 }
@@ -182,15 +183,18 @@ void ReadBearings(const TomlTable& root, RigParameters& rig) {
       if (t.Has("like") == (pass == 1))
         rig.bearings.push_back(ReadBearing(t, name, rig, rig.tolerances));
     }
+  // Those with two axes first, the one along the shaft last.
   std::sort(rig.bearings.begin(), rig.bearings.end(), [](const auto& a, const auto& b) {
-    return std::tie(a.kind, a.name) < std::tie(b.kind, b.name);
+    return std::tie(b.kind->two_axes, a.kind->axial, a.name) <
+           std::tie(a.kind->two_axes, b.kind->axial, b.name);
   });
   int radial = 0, thrust = 0, opposed = 0;
   for (const auto& b : rig.bearings) {
-    (b.kind == BearingKind::kRadial ? radial : b.kind == BearingKind::kThrust ? thrust : opposed)++;
+    radial += b.kind->two_axes;
+    thrust += b.kind->axial;
+    opposed += b.kind->alone;
     for (const auto& other : rig.bearings)
-      if (&b != &other && b.kind == BearingKind::kRadial && other.kind == BearingKind::kRadial &&
-          b.z == other.z)
+      if (&b != &other && b.kind->two_axes && other.kind->two_axes && b.z == other.z)
         all->Table(b.name)->Fail(
             "z", fmt::format("= {} m, allowed: another plane than bearing {}", b.z, other.name));
   }

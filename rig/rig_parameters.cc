@@ -10,24 +10,33 @@ namespace ambrig {
 
 namespace {
 
-/// Calls visit(section, struct reference, fields) for every numeric table of the rig.
-template <class Rig, class Visit>
-void VisitTables(Rig& rig, const Visit& visit) {
+/// Calls visit(path, place) for every number of the rig's tables.
+template <class Visit>
+void VisitNumbers(RigParameters& rig, const Visit& visit) {
+  const auto below = [&](const std::string& section) -> PlaceVisitor {
+    return [&visit, section](const ParameterPlace& p) {
+      visit(section + "." + std::string(p.key), p);
+    };
+  };
   // a beam's mass and inertia follow from its shaft
-  if (!rig.beam) visit("rotor", rig.rotor, kRotorFields);
-  visit("amplifier", rig.amplifier, kAmplifierFields);
-  visit("speed_sensor", rig.speed_sensor, kSpeedSensorFields);
-  visit("controller", rig.controller, kControllerFields);
-  visit("controller", rig.controller.pid, kPidFields);
-  for (auto& b : rig.bearings) {
+  if (!rig.beam) VisitPlaces(rig.rotor, kRotorFields, below("rotor"));
+  VisitPlaces(rig.amplifier, kAmplifierFields, below("amplifier"));
+  VisitPlaces(rig.speed_sensor, kSpeedSensorFields, below("speed_sensor"));
+  VisitPlaces(rig.controller, kControllerFields, below("controller"));
+  VisitPlaces(rig.controller.pid, kPidFields, below("controller"));
+  for (BearingParameters& b : rig.bearings) {
     const std::string section = "bearings." + b.name;
-    if (b.kind == BearingKind::kRadial) visit(section, b.radial, kRadialStatorFields);
-    if (b.kind == BearingKind::kThrust) visit(section, b.thrust, kThrustStatorFields);
-    if (b.kind == BearingKind::kOpposed) visit(section, b.opposed, kOpposedStatorFields);
-    visit(section + ".sensor", b.sensor, kSensorFields);
-    if (b.auxiliary) visit(section + ".auxiliary", *b.auxiliary, kAuxiliaryFields);
-    if (b.controller) visit(section + ".controller", *b.controller, kPidFields);
+    b.kind->numbers(b, below(section));
+    VisitPlaces(b.sensor, kSensorFields, below(section + ".sensor"));
+    if (b.auxiliary) VisitPlaces(*b.auxiliary, kAuxiliaryFields, below(section + ".auxiliary"));
+    if (b.controller) VisitPlaces(*b.controller, kPidFields, below(section + ".controller"));
   }
+}
+
+/// The same of a rig that stays as it is: the places are only read.
+template <class Visit>
+void VisitNumbers(const RigParameters& rig, const Visit& visit) {
+  VisitNumbers(const_cast<RigParameters&>(rig), visit);
 }
 
 }  // namespace
@@ -66,9 +75,7 @@ int RigParameters::periods_per_control() const {
 
 std::vector<std::string> ParameterPaths(const RigParameters& rig) {
   std::vector<std::string> paths;
-  VisitTables(rig, [&](const std::string& section, const auto&, const auto& fields) {
-    for (const auto& f : fields) paths.push_back(section + "." + std::string(f.key));
-  });
+  VisitNumbers(rig, [&](const std::string& path, const ParameterPlace&) { paths.push_back(path); });
   if (rig.beam)
     for (const ShaftParameter& p : rig.beam->parameters) paths.push_back(p.path);
   return paths;
@@ -76,9 +83,8 @@ std::vector<std::string> ParameterPaths(const RigParameters& rig) {
 
 const double* ParameterAt(const RigParameters& rig, const std::string& path) {
   const double* found = nullptr;
-  VisitTables(rig, [&](const std::string& section, const auto& p, const auto& fields) {
-    for (const auto& f : fields)
-      if (path == section + "." + std::string(f.key)) found = &(p.*f.at);
+  VisitNumbers(rig, [&](const std::string& at, const ParameterPlace& p) {
+    if (path == at) found = p.at;
   });
   if (rig.beam)
     for (const ShaftParameter& p : rig.beam->parameters)
@@ -93,13 +99,11 @@ bool SetParameter(RigParameters& rig, const std::string& path, double value) {
       return true;
     }
   bool found = false;
-  VisitTables(rig, [&](const std::string& section, auto& p, const auto& fields) {
-    for (const auto& f : fields) {
-      if (path != section + "." + std::string(f.key)) continue;
-      p.*f.at = rig.beam && path.ends_with(".sensor.z") ? value + rig.nominal_com_z - rig.z_origin
-                                                        : value;
-      found = true;
-    }
+  VisitNumbers(rig, [&](const std::string& at, const ParameterPlace& p) {
+    if (path != at) return;
+    *p.at =
+        rig.beam && path.ends_with(".sensor.z") ? value + rig.nominal_com_z - rig.z_origin : value;
+    found = true;
   });
   return found;
 }
@@ -107,14 +111,12 @@ bool SetParameter(RigParameters& rig, const std::string& path, double value) {
 bool ParameterRange(const RigParameters& rig, const std::string& path, double* lo, double* hi,
                     std::string* unit) {
   bool found = false;
-  VisitTables(rig, [&](const std::string& section, auto&, const auto& fields) {
-    for (const auto& f : fields)
-      if (path == section + "." + std::string(f.key)) {
-        *lo = f.lo;
-        *hi = f.hi;
-        *unit = f.unit;
-        found = true;
-      }
+  VisitNumbers(rig, [&](const std::string& at, const ParameterPlace& p) {
+    if (path != at) return;
+    *lo = p.lo;
+    *hi = p.hi;
+    *unit = p.unit;
+    found = true;
   });
   for (std::size_t k = 0; rig.beam && k < rig.beam->parameters.size(); ++k)
     if (const ShaftParameter& p = rig.beam->parameters[k]; p.path == path) {
@@ -141,7 +143,7 @@ std::vector<ParameterRow> RigParameterRows() {
   for (const ControllerKind* kind : ControllerKinds())
     if (kind->document) kind->document(rows);
   add("[controller.unbalance]", kUnbalanceControlFields);
-  for (const BearingKindTable* kind : BearingKinds()) kind->document(rows);
+  for (const BearingKind* kind : BearingKinds()) kind->document(rows);
   add("[bearings.A.sensor]", kSensorFields);
   add("[bearings.A.auxiliary]", kAuxiliaryFields);
   add("[bearings.A.controller]", kPidFields);

@@ -3,6 +3,7 @@
 /// rig.toml. A file may hold two values of one number: the drawing's, which NominalRig
 /// (rig/nominal_rig.h) hands to controllers and detectors, and the calibrated one of its tolerance,
 /// which TrueRig (rig/true_rig.h) hands to the plant.
+#include <any>
 #include <array>
 #include <map>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "actuators/electronics/amplifier_parameters.h"
+#include "actuators/magnetics/opposed_stator.h"
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/thrust_stator.h"
 #include "control/position/controller_file.h"
@@ -26,51 +28,23 @@
 
 namespace ambrig {
 
-/// One axis with one or two magnets facing each other: L(g) = L_inf + L_0/(1 + g/g_c).
-struct OpposedStatorParameters {
-  double angle_deg = 90;
-  double gap = kRequired;
-  double inductance_far = kRequired;
-  double inductance_near = kRequired;
-  double gap_constant = kRequired;
-  double resistance = kRequired;
-  double coils = 2;
-  double bias_current = 0;
-};
-
-inline constexpr Field<OpposedStatorParameters> kOpposedStatorFields[] = {
-    {"angle_deg", &OpposedStatorParameters::angle_deg, "deg", -360, 360,
-     "direction that coil 1 pulls to"},
-    {"gap", &OpposedStatorParameters::gap, "m", 1e-6, 1, "of each magnet, rotor centred"},
-    {"inductance_far", &OpposedStatorParameters::inductance_far, "H", 1e-9, 1e3, "L_inf, gap open"},
-    {"inductance_near", &OpposedStatorParameters::inductance_near, "H", 1e-9, 1e3,
-     "L_0, added at zero gap"},
-    {"gap_constant", &OpposedStatorParameters::gap_constant, "m", 1e-7, 10,
-     "g_c, where L_0's part has halved"},
-    {"resistance", &OpposedStatorParameters::resistance, "ohm", 1e-6, 1e4, "R, per coil"},
-    {"coils", &OpposedStatorParameters::coils, "-", 1, 2, "1: only the magnet that pulls to +"},
-    {"bias_current", &OpposedStatorParameters::bias_current, "A", 0, 1e4, "c0, both coils"},
-};
-
-enum class BearingKind { kRadial, kThrust, kOpposed };
+struct BearingKind;  // rig/bearing_kinds/bearing_kind.h
+const BearingKind& RadialBearing();
 
 struct BearingParameters {
   std::string name;
-  BearingKind kind = BearingKind::kRadial;
-  double z = 0;  // [m]
+  const BearingKind* kind = &RadialBearing();  // never nullptr
+  double z = 0;                                // [m]
   RadialStatorParameters radial;
   ThrustStatorParameters thrust;
   OpposedStatorParameters opposed;
+  std::any own;  // parameters of a kind that has another stator than these three
   SensorParameters sensor;
   std::optional<AuxiliaryParameters> auxiliary;
   double auxiliary_z = kRequired;           // nan: at the bearing's plane [m]
   std::optional<PidParameters> controller;  // its own instead of the rig's
 
-  int coils() const {
-    return kind == BearingKind::kRadial   ? kPoles
-           : kind == BearingKind::kThrust ? kThrustCoils
-                                          : static_cast<int>(opposed.coils);
-  }
+  int coils() const;
   /// Names of the controlled axes: "A.x", "A.y"; "z"; "M.x".
   std::vector<std::string> Axes() const;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rotor/shaft/shaft_parameters.h"
 
 namespace ambrig {
@@ -87,7 +88,7 @@ void SetShaft(RigParameters& rig, std::size_t parameter, double value) {
   rig.z_origin += moved;
   for (ShaftPlane& p : rig.stations) p.z -= moved;
   for (BearingParameters& b : rig.bearings) {
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->two_axes) continue;
     b.z -= moved;
     b.sensor.z -= moved;
     b.auxiliary_z -= moved;  // nan: at the bearing
@@ -114,7 +115,7 @@ void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
     if (rig.FindStation(b.name))
       bearings.Fail(b.name,
                     "is also the name of a disk or station of the shaft, allowed: another one");
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->two_axes) continue;
     const TomlTable t = *bearings.Table(b.name);
     place(t, "z", b.z);
     place(t, "sensor", b.sensor.z);

@@ -9,6 +9,8 @@
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
+#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/clearance.h"
 #include "rig/rig_checks.h"
 #include "scenarios/faults/fault_file.h"
 #include "scenarios/start_file.h"
@@ -32,7 +34,7 @@ Targets TargetsOfRig(const RigParameters& rig) {
   for (const auto& b : rig.bearings) {
     for (const auto& a : b.Axes()) t.axes.push_back(a);
     for (int j = 1; j <= b.coils(); ++j) t.coils.push_back(fmt::format("{}.coil{}", b.name, j));
-    if (b.kind != BearingKind::kThrust) t.planes.push_back(b.name);
+    if (!b.kind->axial) t.planes.push_back(b.name);
     t.bearings.push_back(b.name);
   }
   t.load_planes = t.bearings;
@@ -95,7 +97,7 @@ void ReadLoads(const TomlTable& root, const Targets& targets, const RigParameter
       if (!b && !station)
         t.Fail("plane", fmt::format("= \"{}\", allowed: {}", plane, Join(targets.load_planes)));
       l.z = b ? b->z : station->z;
-      l.axial = b && b->kind == BearingKind::kThrust;
+      l.axial = b && b->kind->axial;
     } else {
       const auto [lo, hi] = ShaftExtent(rig);
       l.z = Within(t, "z", kRequired,

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/clearance.h"
 
 namespace ambrig {
 
@@ -12,7 +14,7 @@ namespace {
 
 void CheckResting(const TomlTable& start, const RigParameters& rig) {
   const auto catches = std::ranges::count_if(rig.bearings, [](const BearingParameters& b) {
-    return b.kind == BearingKind::kRadial && b.auxiliary.has_value();
+    return b.kind->two_axes && b.auxiliary.has_value();
   });
   if (catches < 2)
     start.Fail("state", fmt::format("= \"resting\" with {} radial auxiliary bearings, allowed: two",
@@ -25,21 +27,10 @@ void CheckResting(const TomlTable& start, const RigParameters& rig) {
 
 /// Whether a shaft at (x, y) would stand in a pole.
 bool InPole(const BearingParameters& b, double x, double y) {
-  switch (b.kind) {
-    case BearingKind::kRadial:
-      return std::hypot(x, y) >= b.radial.gap;
-    case BearingKind::kThrust:
-      return std::abs(x) >= b.thrust.gap;
-    case BearingKind::kOpposed:  // one magnet: free on the other side
-      return x >= b.opposed.gap || (b.coils() > 1 && -x >= b.opposed.gap);
-  }
-  return false;
-}
-
-double GapOf(const BearingParameters& b) {
-  return b.kind == BearingKind::kRadial   ? b.radial.gap
-         : b.kind == BearingKind::kThrust ? b.thrust.gap
-                                          : b.opposed.gap;
+  const double gap = GapOf(b);
+  if (b.kind->two_axes) return std::hypot(x, y) >= gap;
+  // one magnet alone: free on the other side
+  return x >= gap || (b.coils() > 1 && -x >= gap);
 }
 
 void ReadPosition(const TomlTable& position, const std::string& key, const RigParameters& rig,

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
 """Checks who includes whom (docs/architecture.md). Run by ctest, with --self-test too.
 
-Three rules over every #include of the sources:
+Three rules over every #include of the sources, and one over their text:
   layers   a room includes from itself and from the rooms that MAY_INCLUDE names;
   bans     what runs in the controller never includes a header of the plant (BANNED), not even
            through another header, where it would be in sight all the same;
-  doors    a library is included by the files that DOORS names and by no other.
+  doors    a library is included by the files that DOORS names and by no other;
+  kinds    nobody but rig/bearing_kinds and the reader of rig files asks which kind a bearing is: what it
+           can do stands in the kind's own file (rig/bearing_kinds/bearing_kind.h).
 Every file and folder named here must exist, so that no rule outlives what it is about.
 """
 import pathlib
@@ -92,6 +94,10 @@ DOORS = {
     "CLI/": ["app/commands/commands.h", "app/commands/outputs.h"],
 }
 
+# A bearing's kind told by its name or by its row of the catalogue, instead of by what it can do.
+WHICH_KIND = re.compile(r"kind->name *[!=]=|[!=]= *&?(?:Radial|Thrust|Opposed)Bearing\(\)|FindBearingKind\(")
+MAY_ASK_WHICH = ("rig/bearing_kinds/", "rig/rig_file.cc")
+
 INCLUDE = re.compile(r'\s*#include (["<])([^">]+)[">]')
 
 
@@ -126,6 +132,14 @@ def way_to(banned, path, includes, seen):
     return []
 
 
+def asks_which_kind(file, text):
+    """A line for every comparison of a bearing's kind in a file that may make none."""
+    if file.startswith(MAY_ASK_WHICH):
+        return []
+    return [f"{file}:{n}: asks which kind a bearing is; allowed: what it can do (rig/bearing_kinds/bearing_kind.h)"
+            for n, line in enumerate(text.splitlines(), 1) if WHICH_KIND.search(line)]
+
+
 def dead_names(exists):
     """Rooms, banned headers and doors that this file names and that do not exist."""
     named = {*MAY_INCLUDE, *PLANT_HEADERS, *(door for doors in DOORS.values() for door in doors)}
@@ -150,7 +164,9 @@ def complaints(file, includes):
 
 def check(root):
     includes = includes_of(root)
-    return dead_names(lambda name: (root / name).exists()) + [b for f in includes for b in complaints(f, includes)]
+    named = dead_names(lambda name: (root / name).exists())
+    kinds = [b for f in includes for b in asks_which_kind(f, (root / f).read_text())]
+    return named + [b for f in includes for b in complaints(f, includes)] + kinds
 
 
 def self_test(root):
@@ -173,6 +189,10 @@ def self_test(root):
         planted = {**sources, path: [(1, match[1] == '"', match[2])]}
         if not any(b.startswith(path + ":1:") and complaint in b for b in complaints(path, planted)):
             missed.append(f"not caught: {line} in {path}")
+    for line in ('if (b.kind->name == "radial") return;', "return bearing.kind != &ThrustBearing();",
+                 'const bool z = b.kind == FindBearingKind("thrust");'):
+        if not asks_which_kind("fdd/planted.cc", line) or asks_which_kind("rig/bearing_kinds/planted.cc", line):
+            missed.append(f"not caught: {line}")
     if len(dead_names(lambda name: (root / name).exists() and name != "effects/plant.h")) != 1:
         missed.append("not caught: a ban of a file that does not exist")
     return missed

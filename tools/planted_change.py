@@ -3,11 +3,11 @@
 
     tools/planted_change.py BUILD_FOLDER
 
-In a scratch copy of the sources one effect, detector, fault, controller and command are added from the templates of
-tests/planted/: a new file where the table says, and one line where the table says. Then
+In a scratch copy of the sources one effect, detector, fault, controller, kind of bearing and command are added from the
+templates of tests/planted/: a new file where the table says, and one line where the table says. Then
   - nothing else may differ from the original: one new file a kind, one more line in each catalogue;
   - new files and catalogues are compiled with the build's own options and linked with the libraries of the build folder;
-  - the program that results lists, documents and runs all five together (tests/planted/scenario.toml).
+  - the program that results lists, documents and runs all six together (tests/planted/scenario.toml).
 """
 import difflib
 import json
@@ -22,7 +22,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 NAME = "planted_change"
-KINDS = ["effect", "detector", "fault", "controller", "command"]
+KINDS = ["effect", "detector", "fault", "controller", "bearing", "command"]
 
 
 def fail(text):
@@ -152,11 +152,14 @@ def check_program(program, scratch):
     if len(listed) != effects:
         fail(f"ambrig planted counts {effects} effects, ambrig effects {len(listed)}")
     page = run([program, "parameters", "--markdown"], scratch)
-    for text in ('[[fault]] kind = "planted-sensor"', '[controller] kind = "planted"', "stiffness"):
+    for text in ('[[fault]] kind = "planted-sensor"', '[controller] kind = "planted"', "stiffness", '[bearings.Z] kind = "planted-axial"'):
         if text not in page:
             fail(f"ambrig parameters does not tell of {text}")
     rig = (ROOT / "examples/reference/rig.toml").read_text()
     rig, found = re.subn(r'kind = "pid"\n', 'kind = "planted"\nstiffness = 4.0e5\ndamping = 900.0\n', rig)
+    rig, axial = re.subn(r'kind = "thrust"\n', 'kind = "planted-axial"\n', rig)
+    if axial != 1:
+        fail("examples/reference/rig.toml: no thrust bearing to replace")
     head, tail = rig.split("[controller]\n", 1)
     body, rest = tail.split("\n[", 1)
     body = "\n".join(line for line in body.split("\n") if not re.match(r"(kp|kd|ki|derivative_time_constant) =", line))

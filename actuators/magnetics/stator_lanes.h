@@ -19,9 +19,8 @@
 #include <vector>
 
 #include "actuators/magnetics/flux_law.h"
-#include "actuators/magnetics/gap_reluctance.h"
+#include "actuators/magnetics/stator_geometry.h"
 #include "actuators/magnetics/stator_loop.h"
-#include "core/base/parameters.h"
 
 namespace ambrig {
 
@@ -34,15 +33,10 @@ struct ShortedTurns {
   double target = 0;                          // λ* of the present step [Wb]
 };
 
-class StatorLanes {
+/// Its geometry is the true one: effects move gaps and change reluctances of this copy. Lanes beyond
+/// `coils` stay inert (no turns, blocked).
+class StatorLanes : public StatorGeometry {
  public:
-  Coupling coupling = Coupling::kFloatingRotor;
-  int coils = kLanes;
-  // Parameters by lane. Lanes beyond `coils` stay inert (no turns, blocked).
-  Lane n, leakage, resistance;    // signed turns, [H], [ohm]
-  Lane direction_x, direction_y;  // of the pull: cos γ, sin γ (thrust: z along x)
-  Lane gap_offset;                // g = gap_offset - x dx - y dy  [m]
-  GapReluctance reluctance;
   std::vector<FluxLaw*> laws;        // iron laws, empty for ideal iron
   std::vector<ShortedTurns> shorts;  // any number, several on one coil too
   std::array<bool, kLanes> open{};   // broken for good

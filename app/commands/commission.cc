@@ -9,6 +9,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/read_file.h"
 #include "fdd/learning/commissioning_file.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -31,7 +32,7 @@ int RunCommission(CommissionCommand c) {
         "-o = {}: the file exists and is not one that ambrig commission wrote, allowed: another "
         "name",
         c.out));
-  if (rig.bearings.front().kind == BearingKind::kOpposed) c.plan.speed = 0;
+  if (rig.bearings.front().kind->alone) c.plan.speed = 0;
   c.common.CheckOutputs({c.rig, c.out});
   CommissioningResult result;
   {

@@ -8,6 +8,7 @@
 #include "app/pages/redistribute_report.h"
 #include "faulttolerance/redistribution/redistribution_json.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/nominal_control.h"
 #include "rig/rig_figures.h"
 #include "rig/rig_file.h"
@@ -86,10 +87,10 @@ int Redistribute(const RedistributeOptions& o) {
   const RigParameters rig = ReadRig(o.rig);
   o.common.CheckOutputs({o.rig, rig.file});
   const BearingParameters* b = rig.Find(o.bearing);
-  if (!b || b->kind != BearingKind::kRadial) {
+  if (!b || !b->kind->eight_poles) {
     std::string known;
     for (const auto& k : rig.bearings)
-      if (k.kind == BearingKind::kRadial) known += (known.empty() ? "" : ", ") + k.name;
+      if (k.kind->eight_poles) known += (known.empty() ? "" : ", ") + k.name;
     throw InputError(fmt::format("--bearing = {}, allowed: {}", o.bearing, known));
   }
   const auto sets = FailedSets(o.failed);

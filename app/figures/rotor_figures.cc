@@ -11,6 +11,7 @@
 #include "core/base/counted.h"
 #include "core/base/parameters.h"
 #include "core/math/constants.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 namespace {
@@ -163,7 +164,7 @@ Figure ModeShapeFigure(const RigAnalysis& a) {
     AddLine(f, panel, "y", shown, y, style);
     std::vector<double> at, zero;
     for (const BearingParameters& b : a.point.rig().bearings)
-      if (b.kind == BearingKind::kRadial) {
+      if (b.kind->two_axes) {
         at.push_back(b.z + a.point.rig().z_origin);
         zero.push_back(0);
       }

@@ -11,6 +11,8 @@
 #include "app/pages/format.h"
 #include "core/base/read_file.h"
 #include "fdd/learning/commissioning_file.h"
+#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/clearance.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -38,12 +40,11 @@ void EndPath(const Record& record, double end, std::vector<double>* path) {
 
 void FillBearings(const RigParameters& rig, const RunResult& result, RunReportData& data) {
   for (const BearingParameters& b : rig.bearings) {
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->two_axes) continue;
     ReportBearing r;
     r.name = b.name;
-    r.clearance = b.auxiliary ? b.auxiliary->clearance : b.radial.gap;
-    for (int j = 0; j < kPoles; ++j)
-      r.pole_angles.push_back((b.radial.first_pole_angle_deg + 45.0 * j) * kPi / 180);
+    r.clearance = b.auxiliary ? b.auxiliary->clearance : GapOf(b);
+    r.pole_angles = b.kind->stator(b).Angles();
     r.x = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 0});
     r.y = ChannelOf(result.record, {ChannelKind::kTruePosition, b.name, 1});
     for (std::vector<double>* path : {&r.x, &r.y}) EndPath(result.record, ModelEnd(result), path);
@@ -73,7 +74,7 @@ void FillSnapshots(const RigParameters& rig, const Scenario& scenario, const Run
                    RunReportData& data) {
   for (const FluxSnapshot& s : result.snapshots) {
     const BearingParameters* bearing = rig.Find(s.bearing);  // poles are drawn round a shaft only
-    if (!bearing || bearing->kind != BearingKind::kRadial) continue;
+    if (!bearing || !bearing->kind->eight_poles) continue;
     ReportSnapshot r;
     r.bearing = s.bearing;
     r.label = s.label;

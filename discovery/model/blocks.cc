@@ -7,6 +7,7 @@
 #include "control/position/pid.h"
 #include "core/record/missing_samples.h"
 #include "discovery/model/residual_force.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 #include "simulation/switching/switching_engine.h"
@@ -61,7 +62,7 @@ void ControllerBlock(const RigParameters& nominal, const Scenario& scenario,
     return;
   Mean error;
   for (const BearingParameters& b : nominal.bearings) {
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->eight_poles) continue;
     const auto y = AllOf(d, b, ChannelKind::kReading), s = AllOf(d, b, ChannelKind::kSetPoint);
     if (y.empty() || s.empty()) continue;
     const RadialStator stator(b.radial);
@@ -157,7 +158,7 @@ void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, co
     const auto it = scenario.clamp.find(b.name);
     const std::array<double, 2> at =
         it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->eight_poles) continue;
     const auto cell = AllOf(d, b, ChannelKind::kLoadCell),
                current = AllOf(d, b, ChannelKind::kCoilCurrent);
     if (!cell.empty() && !current.empty()) {
@@ -174,7 +175,7 @@ void ForceAndSensorBlocks(const RigParameters& rig, const Scenario& scenario, co
     // The reading of a rigid, held shaft at the sensor's own plane.
     const BearingParameters* other = nullptr;
     for (const auto& o : rig.bearings)
-      if (o.kind == BearingKind::kRadial && o.name != b.name) other = &o;
+      if (o.kind->two_axes && o.name != b.name) other = &o;
     if (!other) continue;
     const auto ot = scenario.clamp.find(other->name);
     const std::array<double, 2> far =

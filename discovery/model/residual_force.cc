@@ -5,6 +5,7 @@
 
 #include "actuators/magnetics/radial_stator.h"
 #include "core/record/missing_samples.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -47,7 +48,7 @@ std::optional<Bearings> RadialPair(const RigParameters& rig, const Scenario& sce
   Bearings pair{};
   std::size_t found = 0;
   for (const BearingParameters& b : rig.bearings) {
-    if (b.kind != BearingKind::kRadial) continue;
+    if (!b.kind->eight_poles) continue;
     if (found < 2) pair[found] = &b;
     ++found;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
@@ -71,7 +72,7 @@ Abilities StatedAbilities(const RigParameters& rig, double top_speed, bool clamp
   a.coil_most = 0.75 * rig.amplifier.i_max;
   a.burst_rate = rig.amplifier.switching_frequency * rig.amplifier.adc_samples_per_period;
   for (const BearingParameters& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial && b.auxiliary)
+    if (b.kind->two_axes && b.auxiliary)
       a.clamp_at[b.name] = {0.4 * b.auxiliary->clearance, -0.3 * b.auxiliary->clearance};
   return a;
 }

@@ -7,6 +7,7 @@
 
 #include "core/math/constants.h"
 #include "core/math/noise.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 
 namespace ambrig {
@@ -82,7 +83,7 @@ class Writer {
       const double start = 0.05 * duration + slot * static_cast<double>(b);
       text += Excited(own[b % own.size()], "reference", "step", start, start + 0.7 * slot,
                       size * kReference * ClearanceOf(bearing) * (b % 2 ? -1 : 1));
-      if (bearing.kind != BearingKind::kRadial || !able_.load) continue;
+      if (!bearing.kind->two_axes || !able_.load) continue;
       const double from = 0.05 * duration + slot * static_cast<double>(n + b);
       text += fmt::format(
           "\n[[load]]\nplane = \"{}\"\nforce = [{:.2f}, {:.2f}]\nstart = {:.5f}\nstop = {:.5f}\n",

@@ -10,6 +10,7 @@
 #include "discovery/plan/planner.h"
 #include "discovery/search/signature_bank.h"
 #include "discovery/shape/named_law.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 
@@ -144,7 +145,7 @@ Plan PlanForRig(const RigParameters& rig, const EffectNames& effects, const Abil
   std::map<std::string, double> noise;
   noise[ChannelId{ChannelKind::kBus}.name()] = kBusNoise;
   for (const BearingParameters& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial)
+    if (b.kind->two_axes)
       for (const ChannelId& cell : ChannelsOf(b, ChannelKind::kLoadCell))
         noise[cell.name()] = kLoadCellNoise * rig.rotor.mass * 9.81;
   return Planner(rig, abilities, noise, rivals, base, options).Run();

@@ -7,6 +7,7 @@
 
 #include "core/math/constants.h"
 #include "core/math/noise.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/rig_channels.h"
 
@@ -92,7 +93,7 @@ struct ExaminationWriter {
       const double start = 0.05 * duration + slot * static_cast<double>(b);
       text += Excitation(own[b % own.size()], "reference", "step", start, start + 0.7 * slot,
                          share * ClearanceOf(bearing) * draw.Uniform(0.8, 1.1) * (b % 2 ? -1 : 1));
-      if (bearing.kind != BearingKind::kRadial) continue;
+      if (!bearing.kind->two_axes) continue;
       const double from = 0.05 * duration + slot * static_cast<double>(n + b);
       text += fmt::format(
           "\n[[load]]\nplane = \"{}\"\nforce = [{:.2f}, {:.2f}]\nstart = {:.4f}\nstop = {:.4f}\n",
@@ -106,7 +107,7 @@ struct ExaminationWriter {
   std::string Clamped(double duration, const char* kind, double more) {
     std::string places, text;
     for (const BearingParameters& b : rig.bearings) {
-      if (b.kind != BearingKind::kRadial) continue;
+      if (!b.kind->two_axes) continue;
       const double reach = 0.5 * ClearanceOf(b);
       places += fmt::format("{}{} = [{:.3g}, {:.3g}]", places.empty() ? "" : ", ", b.name,
                             draw.Uniform(-reach, reach), draw.Uniform(-reach, reach));
@@ -199,8 +200,7 @@ Case EmptyCase(const RigParameters& rig, const std::vector<ExaminationRecord>& r
       for (const ChannelKind kind :
            {ChannelKind::kReading, ChannelKind::kCoilCurrent, ChannelKind::kSetPoint})
         add(ChannelsOf(b, kind));
-      if (clamped && !e.burst && b.kind == BearingKind::kRadial)
-        add(ChannelsOf(b, ChannelKind::kLoadCell));
+      if (clamped && !e.burst && b.kind->two_axes) add(ChannelsOf(b, ChannelKind::kLoadCell));
     }
     for (const ChannelKind kind : {ChannelKind::kBus, ChannelKind::kSpeed, ChannelKind::kAngle})
       add(ChannelsOf(rig, kind));

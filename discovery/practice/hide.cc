@@ -7,6 +7,8 @@
 #include "discovery/practice/drawn_truth.h"
 #include "discovery/practice/measured_case.h"
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -32,7 +34,7 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   const double load_cell_noise = kHiddenLoadCellNoise * rig.rotor.mass * 9.81;
   out.data.noise[ChannelId{ChannelKind::kBus}.name()] = 0.005;
   for (const BearingParameters& b : rig.bearings)
-    if (b.kind == BearingKind::kRadial)
+    if (b.kind->two_axes)
       for (const ChannelId& cell : ChannelsOf(b, ChannelKind::kLoadCell))
         out.data.noise[cell.name()] = load_cell_noise;
   CaseModel model(out.data);

@@ -15,6 +15,7 @@
 #include "discovery/practice/practice_surroundings.h"
 #include "discovery/practice/spoil.h"
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/rig_channels.h"
 #include "rig/rig_file.h"
@@ -126,8 +127,7 @@ class PracticeMaker {
   LawSetting Setting(const ChosenLaw& c, std::size_t slot, double size) const {
     double reach = 1;
     for (const BearingParameters& b : believed_.bearings)
-      if (b.kind == BearingKind::kRadial && (reach == 1 || c.target.starts_with(b.name)))
-        reach = ClearanceOf(b);
+      if (b.kind->two_axes && (reach == 1 || c.target.starts_with(b.name))) reach = ClearanceOf(b);
     return {believed_, c.target,
             size,      believed_.rotor.mass * 9.81,
             reach,     PracticeDraw(seed_, kLaw + static_cast<std::uint32_t>(slot))};

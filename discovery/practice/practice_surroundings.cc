@@ -10,6 +10,7 @@
 #include "discovery/practice/laws/practice_law.h"
 #include "discovery/practice/measured_case.h"
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/rig_channels.h"
 
@@ -92,7 +93,7 @@ Surroundings DrawSurroundings(const RigParameters& rig, std::uint64_t seed) {
   for (const BearingParameters& b : rig.bearings) {
     for (const ChannelId& id : ChannelsOf(b, ChannelKind::kReading))
       s.noise[id.name()] = b.sensor.noise * reading;
-    if (b.kind == BearingKind::kRadial)
+    if (b.kind->two_axes)
       for (const ChannelId& id : ChannelsOf(b, ChannelKind::kLoadCell))
         s.noise[id.name()] = s.cell_noise;
   }
@@ -108,7 +109,7 @@ Surroundings DrawSurroundings(const RigParameters& rig, std::uint64_t seed) {
   s.nuisance_mode = nuisances == 0 ? "declared" : nuisances == 1 ? "not declared" : "none";
   if (nuisances < 2) {
     for (const BearingParameters& b : rig.bearings)
-      if (b.kind == BearingKind::kRadial)
+      if (b.kind->two_axes)
         for (const std::string& axis : b.Axes()) s.zero[axis] = kZeroOfReach * ClearanceOf(b);
     s.input_gain = kInputSpread;
     s.time_shift = kClockSpread;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "actuators/magnetics/stator_geometry.h"
 #include "core/base/errors.h"
 #include "core/math/constants.h"
 
@@ -47,15 +48,17 @@ double ControlSize(const DistributionMatrix& W, int j) { return std::hypot(W(j, 
 
 }  // namespace
 
-RedistributionProblem MakeRedistributionProblem(double first_angle, const char* winding) {
-  const std::string letters = winding;
-  if (letters.size() != 8 || letters.find_first_not_of("NS") != std::string::npos)
-    throw InputError("winding = \"" + letters + "\", allowed: eight letters N or S");
+RedistributionProblem RedistributionProblemOf(const RadialStatorParameters& stator) {
+  const StatorGeometry geometry = GeometryOf(stator);
+  const std::vector<double> angles = geometry.Angles();
   RedistributionProblem p;
-  for (int j = 0; j < 8; ++j) {
-    p.angle[j] = first_angle + j * std::numbers::pi / 4;
-    p.sign[j] = letters[j] == 'N' ? 1 : -1;
+  for (int j = 0; j < kPoles; ++j) {
+    p.angle[j] = angles[static_cast<std::size_t>(j)];
+    p.sign[j] = geometry.n[j] < 0 ? -1 : 1;
   }
+  p.turns = stator.turns;
+  p.pole_area = stator.pole_area;
+  p.gap = stator.gap;
   return p;
 }
 

@@ -42,9 +42,8 @@ struct RedistributionProblem {
   int quadrants = 2;             // 2: currents never negative; 4: any sign
 };
 
-/// Eight poles at first + (j-1) 45 degrees; winding is a text of N and S.
-/// @throws InputError when the winding is not eight letters N or S.
-RedistributionProblem MakeRedistributionProblem(double first_angle, const char* winding);
+/// Geometry and winding of a healthy bearing, for amplifiers as the defaults say.
+RedistributionProblem RedistributionProblemOf(const RadialStatorParameters& stator);
 
 /// k = 4 mu0 N^2 A / g0^2 [N/A2].
 double ForceFactor(const RedistributionProblem& problem);

@@ -2,23 +2,15 @@
 
 #include <cstdlib>
 
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
 
 RedistributionProblem RedistributionProblemOf(const NominalRig& rig,
                                               const BearingParameters& bearing) {
-  Require(bearing.kind == BearingKind::kRadial, "a radial bearing");
-  const RadialStator stator(bearing.radial);
-  RedistributionProblem p;
-  for (int j = 0; j < kPoles; ++j) {
-    p.angle[j] = std::atan2(stator.sine()[j], stator.cosine()[j]);
-    p.sign[j] = stator.sense()[j];
-    p.turns_left[j] = 1;
-  }
-  p.turns = bearing.radial.turns;
-  p.pole_area = bearing.radial.pole_area;
-  p.gap = bearing.radial.gap;
+  Require(bearing.kind->eight_poles, "a bearing with eight poles");
+  RedistributionProblem p = RedistributionProblemOf(bearing.radial);
   p.c0 = BiasCurrent(*rig, bearing);
   p.i_max = rig->amplifier.i_max;
   p.quadrants = static_cast<int>(rig->amplifier.quadrants);

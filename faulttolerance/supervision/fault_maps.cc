@@ -6,6 +6,7 @@
 #include "faulttolerance/supervision/fault_supervisor.h"
 #include "faulttolerance/supervision/map_checks.h"
 #include "faulttolerance/supervision/watched_bearing.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -25,43 +26,16 @@ void FaultSupervisor::Redistribute(Watched& w, double t, const BearingControl& c
   std::string cls = "exact";
   if ((w.turns_left.array() == 1).all())
     map = *w.healthy;
-  else if (w.bearing->kind == BearingKind::kRadial)
-    cls = NewMap(w, force, &map);
   else
-    cls = NewMapOfSides(w, &map);
-  if (w.bearing->kind == BearingKind::kRadial) {
+    cls = NewMap(w, force, &map);
+  if (w.bearing->kind->eight_poles)
     change.current_transition = NewCurrentTransition(w, map, force, control);
-  }
   // The set-points that come next.
   CoilVector next = map.allocation ? now : map.SetPoints(force.x(), force.y());
   if (change.current_transition) next = change.current_transition->Clone()->Step(next, force);
   out.actions.push_back(std::move(change));
   MoveIntegrals(w, control, next, out);
   out.events.push_back({t, "redistributed", w.bearing->name, cls, 0});
-}
-
-std::string FaultSupervisor::NewMapOfSides(const Watched& w, CurrentMap* map) {
-  if (w.bearing->kind != BearingKind::kThrust) {
-    map->W = w.healthy->W;
-    for (int j = 0; j < w.bearing->coils(); ++j)
-      if (w.turns_left[j] == 0) map->W.row(j).setZero();
-    return "none";
-  }
-  // A side without turns: the other one pulls for forces its own way only, and has no bias, which
-  // would press the shaft to its stop. Twice v then gives the largest force of before.
-  const auto turns = [&](int side) { return w.turns_left[2 * side] + w.turns_left[2 * side + 1]; };
-  const bool one_way = turns(0) == 0 || turns(1) == 0;
-  for (int side = 0; side < 2; ++side) {
-    const double a = w.turns_left[2 * side], b = w.turns_left[2 * side + 1];
-    // Ampere-turns 2 (c0 ± v) of the side, shared in proportion to the turns that are left.
-    const double share = a * a + b * b > 0 ? 2 / (a * a + b * b) : 0;
-    for (int q = 0; q < 2; ++q) {
-      const double scale = share * (q == 0 ? a : b), v = (one_way ? 2 : 1) * scale;
-      map->W.row(2 * side + q) << (one_way ? 0 : scale), (side == 0 ? v : -v), 0;
-    }
-  }
-  const std::string cls = turns(0) + turns(1) == 0 ? "none" : one_way ? "one way" : "exact";
-  return cls;
 }
 
 void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& control,
@@ -81,6 +55,10 @@ void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& cont
 }
 
 std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
+  if (!w.bearing->kind->eight_poles) {
+    map->W = w.healthy->W;
+    return w.bearing->kind->redistribute(*w.bearing, w.turns_left, *map);
+  }
   if (!w.table)
     w.table = std::make_unique<RedistributionTable>(RedistributionProblemOf(rig_, *w.bearing),
                                                     options_.cache_dir);

@@ -65,13 +65,10 @@ class FaultSupervisor : public Supervisor {
                     SupervisorOutput& out);
   void Restore(Watched& w, int coil, double turns, double t, const std::string& reason,
                bool position_loop, const BearingControl& control, SupervisorOutput& out);
-  /// The map of a bearing whose coils do not share a rotor; returns its class for the record.
-  static std::string NewMapOfSides(const Watched& w, CurrentMap* map);
   /// Every regulator's integral is moved by what its new current needs.
   static void MoveIntegrals(const Watched& w, const BearingControl& control, const CoilVector& next,
                             SupervisorOutput& out);
-  /// The radial bearing's new map for `force` [N] after its faults; returns its class for the
-  /// record.
+  /// The bearing's new map for `force` [N] after its faults; returns its class for the record.
   std::string NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map);
   /// The way from the set-points in force to those of the new map.
   std::unique_ptr<CurrentTransition> NewCurrentTransition(const Watched& w, const CurrentMap& map,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fdd/learning/commissioning_file.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -36,25 +37,7 @@ double ToleranceOf(const RigParameters& rig, const std::string& path, double lea
 
 }  // namespace
 
-LinkageModel LinkageModelOf(const BearingParameters& b) {
-  if (b.kind == BearingKind::kRadial) return MakeLinkageModel(b.radial);
-  if (b.kind == BearingKind::kThrust) return MakeLinkageModel(b.thrust);
-  const OpposedStatorParameters& p = b.opposed;
-  LinkageModel m;  // L(g) = L_inf + L_0/(1 + g/g_c), one "turn"
-  m.coupling = Coupling::kNone;
-  m.coils = b.coils();
-  m.reluctance.per_metre = 1 / (p.gap_constant * p.inductance_near);
-  m.reluctance.offset = 1 / p.inductance_near;
-  m.reluctance.gap0 = p.gap;
-  for (int j = 0; j < m.coils; ++j) {
-    m.n[j] = 1;
-    m.leakage[j] = p.inductance_far;
-    m.resistance[j] = p.resistance;
-    m.direction_x[j] = j == 0 ? 1 : -1;
-    m.gap_offset[j] = p.gap;
-  }
-  return m;
-}
+LinkageModel LinkageModelOf(const BearingParameters& b) { return {b.kind->stator(b)}; }
 
 DetectorSettings DetectorSettingsOf(const NominalRig& nominal, const BearingParameters& b,
                                     const LinkageModel& m) {
@@ -106,14 +89,13 @@ DetectionFeed::DetectionFeed(const NominalRig& nominal)
   double largest_noise = 0;
   for (const BearingParameters& b : rig_->bearings) {
     const std::size_t axis = axis_names_.size();
-    if (b.kind == BearingKind::kRadial) {
+    if (b.kind->two_axes) {
       planes_.push_back({b.sensor.z, static_cast<int>(axis), static_cast<int>(axis) + 1});
       sensor_z.push_back(b.sensor.z);
     }
     for (const std::string& name : b.Axes()) axis_names_.push_back(name);
     largest_noise = std::max(largest_noise, b.sensor.noise);
-    views_.push_back(
-        {&b, axis, axis_names_.size(), b.kind == BearingKind::kThrust ? 1U : 0U, {}, {}, {}});
+    views_.push_back({&b, axis, axis_names_.size(), b.kind->axial ? 1U : 0U, {}, {}, {}});
   }
   for (View& v : views_) {
     v.weights = PlaneWeights(sensor_z, v.bearing->z);
@@ -131,7 +113,7 @@ template <class Of>
 void DetectionFeed::Place(const View& v, const std::vector<double>& weights, const Of& of,
                           double* x, double* y) const {
   *x = *y = 0;
-  if (v.bearing->kind != BearingKind::kRadial) {
+  if (!v.bearing->kind->two_axes) {
     *x = of(v.first_axis);
     return;
   }
@@ -173,7 +155,7 @@ void DetectionFeed::WatchImpacts() {
 }
 
 bool DetectionFeed::Uses(const View& v, std::size_t axis) const {
-  if (v.bearing->kind != BearingKind::kRadial) return axis == v.first_axis;
+  if (!v.bearing->kind->two_axes) return axis == v.first_axis;
   const int a = static_cast<int>(axis);
   return std::any_of(planes_.begin(), planes_.end(),
                      [&](const SensedPlane& p) { return p.x_axis == a || p.y_axis == a; });

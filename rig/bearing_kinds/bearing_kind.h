@@ -1,50 +1,68 @@
 #pragma once
-/// What distinguishes the kinds of bearing, one file per kind beside this one: axes, keys of
-/// the rig file, nominal figures, and the parts of the plant. The rest of rig/ asks this table.
+/// What distinguishes the kinds of bearing, one file per kind beside this one: axes, keys of the rig
+/// file, nominal figures, what is left of it after failures, and its parts of the plant. Everything
+/// else asks this table what a bearing can do, not which one it is.
 #include <array>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "effects/plant.h"
+#include "actuators/magnetics/stator_geometry.h"
+#include "control/current/current_map.h"
+#include "core/base/parameter_places.h"
 #include "rig/rig_parameters.h"
 
 namespace ambrig {
 
-struct BearingKindTable {
-  BearingKind kind;
+class RotorModel;
+struct PlaneMap;
+
+struct BearingKind {
   std::string_view name;  // as files write it
   unsigned acts_on;       // its bit of ActsOn
-  bool axial;             // acts along the shaft; a plane of this kind is called "z"
 
+  // What it does to the shaft. One that neither acts along it nor holds a plane of it has one axis
+  // across the shaft.
+  bool axial = false;        // acts along the shaft; its plane is called "z"
+  bool two_axes = false;     // holds the shaft in both directions of a plane, x and y
+  bool eight_poles = false;  // by BearingParameters::radial; failed coils can be redistributed
+  bool alone = false;        // the only bearing of a rotor of kind "point"
+
+  int (*coils)(const BearingParameters& b);
   /// Names of the controlled axes.
   std::vector<std::string> (*axes)(const BearingParameters& b);
+  /// Of a bearing with one axis: its direction (x, y, z).
+  std::array<double, 3> (*axis)(const BearingParameters& b) = nullptr;
+
   /// The stator's keys.
   void (*read)(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances);
   void (*document)(std::vector<ParameterRow>& rows);
+  /// Its numbers, by key.
+  void (*numbers)(BearingParameters& b, const PlaceVisitor& visit);
 
-  double (*gap)(const BearingParameters& b);              // rotor centred [m]
-  double (*coil_resistance)(const BearingParameters& b);  // [ohm]
-  double (*force_constant)(const BearingParameters& b);   // k of f = k c0 v [N/A²]
+  StatorGeometry (*stator)(const BearingParameters& b);
+  double (*force_constant)(const BearingParameters& b);  // k of f = k c0 v [N/A²]
   /// Its own bias current [A]; nan: the controller's.
   double (*own_bias)(const BearingParameters& b);
-  /// Direction (x, y) in which coil j pulls; along the axis of a bearing with one axis (±1, 0).
-  std::array<double, 2> (*coil_direction)(const BearingParameters& b, int j);
-  /// Of a bearing with one axis: the force that carries this weight [N]; nullptr: the radial
-  /// bearings share the weight.
-  double (*weight)(const BearingParameters& b, double mass, const std::array<double, 3>& gravity);
+  /// Of a bearing without eight poles: changes the distribution matrix of `map` to what these shares
+  /// of the coils' turns can do; says how much that is: "exact", "one way" or "none".
+  std::string (*redistribute)(const BearingParameters& b, const CoilVector& turns_left,
+                              CurrentMap& map) = nullptr;
 
-  void (*fill_lanes)(const BearingParameters& b, StatorLanes& lanes);
   PlaneMap (*plane)(const BearingParameters& b, const RotorModel& rotor, double z);
   /// The auxiliary bearing that stands at it; nullptr: this kind has none.
-  void (*add_auxiliary)(const BearingParameters& b, RotorModel& rotor);
+  void (*add_auxiliary)(const BearingParameters& b, RotorModel& rotor) = nullptr;
 };
 
-/// In the order of BearingKind.
-std::span<const BearingKindTable* const> BearingKinds();
-const BearingKindTable& TableOf(BearingKind kind);
+std::span<const BearingKind* const> BearingKinds();
+/// nullptr: no kind has this name.
+const BearingKind* FindBearingKind(std::string_view name);
 /// "radial, thrust, opposed"
 std::string BearingKindNames();
+
+/// Of kinds with an axis each that fail coil by coil: the rows of coils without turns become zero.
+std::string DropLostCoils(const BearingParameters& b, const CoilVector& turns_left,
+                          CurrentMap& map);
 
 }  // namespace ambrig

@@ -1,7 +1,6 @@
 /// The kinds of bearing: one line per file of this folder.
 #include "rig/bearing_kinds/bearing_kind.h"
 
-// In the order of BearingKind.
 #define AMBRIG_BEARING_KINDS(KIND) \
   KIND(RadialBearing)              \
   KIND(ThrustBearing)              \
@@ -9,28 +8,15 @@
 
 namespace ambrig {
 
-#define AMBRIG_DECLARE(name) const BearingKindTable& name();
+#define AMBRIG_DECLARE(name) const BearingKind& name();
 AMBRIG_BEARING_KINDS(AMBRIG_DECLARE)
 #undef AMBRIG_DECLARE
 
-std::span<const BearingKindTable* const> BearingKinds() {
+std::span<const BearingKind* const> BearingKinds() {
 #define AMBRIG_ADDRESS(name) &name(),
-  static const BearingKindTable* const all[] = {AMBRIG_BEARING_KINDS(AMBRIG_ADDRESS)};
+  static const BearingKind* const all[] = {AMBRIG_BEARING_KINDS(AMBRIG_ADDRESS)};
 #undef AMBRIG_ADDRESS
   return all;
 }
-
-const BearingKindTable& TableOf(BearingKind kind) {
-  return *BearingKinds()[static_cast<std::size_t>(kind)];
-}
-
-std::string BearingKindNames() {
-  std::string names;
-  for (const BearingKindTable* k : BearingKinds())
-    names += (names.empty() ? "" : ", ") + std::string(k->name);
-  return names;
-}
-
-std::vector<std::string> BearingParameters::Axes() const { return TableOf(kind).axes(*this); }
 
 }  // namespace ambrig

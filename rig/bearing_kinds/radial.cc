@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "effects/plant.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
@@ -20,35 +21,15 @@ void ReadRadial(const TomlTable& t, BearingParameters& b, std::vector<Tolerance>
   t.Read(b.radial, kRadialStatorFields, tolerances);
 }
 
-std::array<double, 2> CoilDirection(const BearingParameters& b, int j) {
-  const RadialStator stator(b.radial);
-  return {stator.cosine()[j], stator.sine()[j]};
-}
-
-void FillRadialLanes(const BearingParameters& b, StatorLanes& lanes) {
-  const RadialStator stator(b.radial);
-  lanes.coupling = Coupling::kFloatingRotor;
-  lanes.coils = kPoles;
-  lanes.reluctance.per_metre = 1 / (kMu0 * b.radial.pole_area);
-  lanes.reluctance.gap0 = b.radial.gap;
-  for (int j = 0; j < kPoles; ++j) {
-    lanes.n[j] = stator.sense()[j] * b.radial.turns;
-    lanes.leakage[j] = b.radial.leakage_inductance;
-    lanes.resistance[j] = b.radial.resistance;
-    lanes.direction_x[j] = stator.cosine()[j];
-    lanes.direction_y[j] = stator.sine()[j];
-    lanes.gap_offset[j] = b.radial.gap;
-  }
-}
-
 }  // namespace
 
-const BearingKindTable& RadialBearing() {
-  static constexpr BearingKindTable table{
-      .kind = BearingKind::kRadial,
+const BearingKind& RadialBearing() {
+  static constexpr BearingKind kind{
       .name = "radial",
       .acts_on = kOnRadial,
-      .axial = false,
+      .two_axes = true,
+      .eight_poles = true,
+      .coils = [](const BearingParameters&) { return kPoles; },
       .axes =
           [](const BearingParameters& b) {
             return std::vector<std::string>{b.name + ".x", b.name + ".y"};
@@ -58,14 +39,14 @@ const BearingKindTable& RadialBearing() {
           [](std::vector<ParameterRow>& rows) {
             AddRows(rows, "[bearings.A] kind = \"radial\"", kRadialStatorFields);
           },
-      .gap = [](const BearingParameters& b) { return b.radial.gap; },
-      .coil_resistance = [](const BearingParameters& b) { return b.radial.resistance; },
+      .numbers =
+          [](BearingParameters& b, const PlaceVisitor& visit) {
+            VisitPlaces(b.radial, kRadialStatorFields, visit);
+          },
+      .stator = [](const BearingParameters& b) { return GeometryOf(b.radial); },
       .force_constant =
           [](const BearingParameters& b) { return RadialStator(b.radial).ForceConstant(); },
       .own_bias = [](const BearingParameters&) { return kRequired; },
-      .coil_direction = CoilDirection,
-      .weight = nullptr,
-      .fill_lanes = FillRadialLanes,
       .plane = [](const BearingParameters&, const RotorModel& rotor,
                   double z) { return rotor.MakePlane(z); },
       .add_auxiliary =
@@ -74,7 +55,7 @@ const BearingKindTable& RadialBearing() {
                                *b.auxiliary);
           },
   };
-  return table;
+  return kind;
 }
 
 }  // namespace ambrig

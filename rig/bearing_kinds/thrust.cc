@@ -1,4 +1,5 @@
 /// Two windings on each side of a thrust disk; one axis along the shaft.
+#include "effects/plant.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
@@ -10,20 +11,6 @@ double ThrustForceConstant(const BearingParameters& b) {
          (b.thrust.gap * b.thrust.gap);
 }
 
-void FillThrustLanes(const BearingParameters& b, StatorLanes& lanes) {
-  lanes.coupling = Coupling::kSides;
-  lanes.coils = kThrustCoils;
-  lanes.reluctance.per_metre = 2 / (kMu0 * b.thrust.pole_area);
-  lanes.reluctance.gap0 = b.thrust.gap;
-  for (int j = 0; j < kThrustCoils; ++j) {
-    lanes.n[j] = b.thrust.turns;
-    lanes.leakage[j] = b.thrust.leakage_inductance;
-    lanes.resistance[j] = b.thrust.resistance;
-    lanes.direction_x[j] = j < 2 ? 1 : -1;  // along z
-    lanes.gap_offset[j] = b.thrust.gap;
-  }
-}
-
 PlaneMap ThrustPlane(const BearingParameters&, const RotorModel&, double z) {
   PlaneMap map;
   map.z = z;
@@ -31,15 +18,36 @@ PlaneMap ThrustPlane(const BearingParameters&, const RotorModel&, double z) {
   return map;
 }
 
+/// Ampere-turns 2 (c0 ± v) of a side are shared in proportion to the turns that are left. A side
+/// without turns: the other one pulls for forces its own way only, and has no bias, which would press
+/// the shaft to its stop. Twice v then gives the largest force of before.
+std::string ShareSides(const BearingParameters&, const CoilVector& turns_left, CurrentMap& map) {
+  const auto turns = [&](int side) { return turns_left[2 * side] + turns_left[2 * side + 1]; };
+  const bool one_way = turns(0) == 0 || turns(1) == 0;
+  for (int side = 0; side < 2; ++side) {
+    const double a = turns_left[2 * side], b = turns_left[2 * side + 1];
+    const double share = a * a + b * b > 0 ? 2 / (a * a + b * b) : 0;
+    for (int q = 0; q < 2; ++q) {
+      const double scale = share * (q == 0 ? a : b), v = (one_way ? 2 : 1) * scale;
+      map.W.row(2 * side + q) << (one_way ? 0 : scale), (side == 0 ? v : -v), 0;
+    }
+  }
+  return turns(0) + turns(1) == 0 ? "none" : one_way ? "one way" : "exact";
+}
+
 }  // namespace
 
-const BearingKindTable& ThrustBearing() {
-  static constexpr BearingKindTable table{
-      .kind = BearingKind::kThrust,
+const BearingKind& ThrustBearing() {
+  static constexpr BearingKind kind{
       .name = "thrust",
       .acts_on = kOnThrust,
       .axial = true,
+      .coils = [](const BearingParameters&) { return kThrustCoils; },
       .axes = [](const BearingParameters&) { return std::vector<std::string>{"z"}; },
+      .axis =
+          [](const BearingParameters&) {
+            return std::array<double, 3>{0, 0, 1};
+          },
       .read =
           [](const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
             t.Read(b.thrust, kThrustStatorFields, tolerances);
@@ -48,22 +56,19 @@ const BearingKindTable& ThrustBearing() {
           [](std::vector<ParameterRow>& rows) {
             AddRows(rows, "[bearings.Z] kind = \"thrust\"", kThrustStatorFields);
           },
-      .gap = [](const BearingParameters& b) { return b.thrust.gap; },
-      .coil_resistance = [](const BearingParameters& b) { return b.thrust.resistance; },
+      .numbers =
+          [](BearingParameters& b, const PlaceVisitor& visit) {
+            VisitPlaces(b.thrust, kThrustStatorFields, visit);
+          },
+      .stator = [](const BearingParameters& b) { return GeometryOf(b.thrust); },
       .force_constant = ThrustForceConstant,
       .own_bias = [](const BearingParameters& b) { return b.thrust.bias_current; },
-      .coil_direction =
-          [](const BearingParameters&, int j) {
-            return std::array<double, 2>{j < 2 ? 1.0 : -1.0, 0};
-          },
-      .weight = [](const BearingParameters&, double mass,
-                   const std::array<double, 3>& gravity) { return -mass * gravity[2]; },
-      .fill_lanes = FillThrustLanes,
+      .redistribute = ShareSides,
       .plane = ThrustPlane,
       .add_auxiliary = [](const BearingParameters& b,
                           RotorModel& rotor) { rotor.SetAxialStop(*b.auxiliary); },
   };
-  return table;
+  return kind;
 }
 
 }  // namespace ambrig

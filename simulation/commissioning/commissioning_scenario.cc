@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/rig_figures.h"
 
@@ -55,7 +56,7 @@ void AddCircles(const RigParameters& rig, const CommissioningPlan& plan, Scenari
   bool second_plane = false;
   for (const BearingParameters& b : rig.bearings) {
     const auto axes = b.Axes();
-    const double share = b.kind == BearingKind::kThrust ? kThrustShare : 1;
+    const double share = b.kind->axial ? kThrustShare : 1;
     for (std::size_t a = 0; a < axes.size(); ++a)
       for (int part = 0; part < 2; ++part) {
         Excitation e = Signal(axes[a], "reference", "sine", part == 0 ? begin : middle,
@@ -65,7 +66,7 @@ void AddCircles(const RigParameters& rig, const CommissioningPlan& plan, Scenari
         if (part == 1 && second_plane) e.phase += kPi;
         s->excitations.push_back(e);
       }
-    second_plane = second_plane || b.kind == BearingKind::kRadial;
+    second_plane = second_plane || b.kind->two_axes;
   }
 }
 
@@ -73,7 +74,7 @@ void AddForces(const RigParameters& rig, const CommissioningPlan& plan, Scenario
   const double begin = 0.6 * plan.duration, middle = 0.85 * plan.duration;
   std::size_t axis = 0;
   for (const BearingParameters& b : rig.bearings) {
-    const double share = b.kind == BearingKind::kThrust ? kThrustShare : 1;
+    const double share = b.kind->axial ? kThrustShare : 1;
     const double f_max = share * PidOf(rig, b).f_max;
     for (const std::string& name : b.Axes()) {
       Excitation chirp = Signal(name, "force", "chirp", begin, middle, plan.chirp * f_max);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "simulation/simulate.h"
 
 namespace ambrig {
@@ -13,8 +14,7 @@ namespace ambrig {
 namespace {
 
 const OpposedStatorParameters& OneCoil(const RigParameters& rig) {
-  if (rig.bearings.size() != 1 || rig.bearings[0].kind != BearingKind::kOpposed ||
-      rig.bearings[0].coils() != 1)
+  if (rig.bearings.size() != 1 || !rig.bearings[0].kind->alone || rig.bearings[0].coils() != 1)
     throw InputError(fmt::format(
         "{}: the bearings, allowed: one of kind = \"opposed\" with coils = 1", rig.file));
   return rig.bearings[0].opposed;

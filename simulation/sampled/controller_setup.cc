@@ -6,6 +6,7 @@
 #include "control/position/axis_groups.h"
 #include "control/position/controller_kind.h"
 #include "control/position/unbalance_control.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
@@ -38,7 +39,7 @@ ControllerSite SiteOf(const RigParameters& rig, const ControllerParameters& c, d
   site.inertia_polar = rig.rotor.inertia_polar;
   for (const BearingParameters& b : rig.bearings) {
     if (b.controller) continue;
-    site.bearings.push_back({b.name, b.kind == BearingKind::kRadial, b.z, b.sensor.z});
+    site.bearings.push_back({b.name, b.kind->two_axes, b.z, b.sensor.z});
     for (const std::string& name : b.Axes()) {
       site.axes.push_back(name);
       site.f_max.push_back(c.pid.f_max);

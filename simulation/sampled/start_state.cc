@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -48,12 +49,10 @@ void PlaceClamped(const TrueRig& rig, const Scenario& scenario, MotionState& s) 
     const auto it = scenario.clamp.find(b.name);
     const std::array<double, 2> at =
         it == scenario.clamp.end() ? std::array<double, 2>{0, 0} : it->second;
-    if (b.kind == BearingKind::kThrust) {
-      s.q[2] = at[0];
-    } else if (b.kind == BearingKind::kOpposed) {
-      const double angle = b.opposed.angle_deg * kPi / 180;
-      s.q[0] = at[0] * std::cos(angle);
-      s.q[1] = at[0] * std::sin(angle);
+    if (!b.kind->two_axes) {
+      const std::array<double, 3> axis = b.kind->axis(b);
+      for (std::size_t c = 0; c < 3; ++c)
+        if (axis[c] != 0) s.q[c] = at[0] * axis[c];
     } else {
       n += 1;
       sz += b.z;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/switching_engine.h"
 
@@ -38,7 +39,7 @@ void SwitchingEngine::ForcedPosition(const SampledBearing& b, double t, double* 
   double reading[4], z[2];
   std::size_t found = 0;
   for (const BearingParameters& p : loop_.nominal->bearings) {
-    if (p.kind != BearingKind::kRadial || found > 1) continue;
+    if (!p.kind->two_axes || found > 1) continue;
     z[found] = p.sensor.z;
     reading[2 * found] = At(d, Find(d, {ChannelKind::kReading, p.name, 0}), t);
     reading[2 * found + 1] = At(d, Find(d, {ChannelKind::kReading, p.name, 1}), t);

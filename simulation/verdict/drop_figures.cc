@@ -5,6 +5,7 @@
 
 #include "core/math/constants.h"
 #include "core/record/channels.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
@@ -57,7 +58,7 @@ DropPaths CentrePaths(const RigParameters& rig, const Record& record) {
   paths.rate = record.rate;
   paths.start = record.start;
   for (const BearingParameters& b : rig.bearings) {
-    if (b.kind != BearingKind::kRadial || !b.auxiliary) continue;
+    if (!b.kind->two_axes || !b.auxiliary) continue;
     const Channel* x = Find(record, {ChannelKind::kTruePosition, b.name, 0});
     const Channel* y = Find(record, {ChannelKind::kTruePosition, b.name, 1});
     Require(x && y && !x->samples.empty(), "the record has the path of the shaft's centre");

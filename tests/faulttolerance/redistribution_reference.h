@@ -6,6 +6,23 @@
 #include "core/math/constants.h"
 #include "faulttolerance/redistribution/force_forms.h"
 
+namespace ambrig {
+
+/// The reference bearing, first pole at `first_angle` [rad].
+inline RedistributionProblem MakeRedistributionProblem(double first_angle, const char* winding) {
+  RadialStatorParameters s;
+  s.turns = 50;
+  s.pole_area = 2.0372e-4;
+  s.gap = 4e-4;
+  s.leakage_inductance = 3.5e-4;
+  s.resistance = 0.5;
+  s.first_pole_angle_deg = first_angle * 180 / kPi;
+  s.winding = winding;
+  return RedistributionProblemOf(s);
+}
+
+}  // namespace ambrig
+
 namespace ambrig::testing_reference {
 
 inline Eigen::Vector2d DirectForce(const RedistributionProblem& p, const CoilVector& i,

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -19,17 +20,16 @@ std::vector<std::string> Names(const std::vector<ChannelId>& channels) {
   return out;
 }
 
-BearingParameters Bearing(const std::string& name, BearingKind kind) {
+BearingParameters Bearing(const std::string& name, const char* kind) {
   BearingParameters b;
   b.name = name;
-  b.kind = kind;
+  b.kind = FindBearingKind(kind);
   return b;
 }
 
 TEST(RigChannels, OfTheThreeKindsOfBearings) {
-  const BearingParameters a = Bearing("A", BearingKind::kRadial),
-                          z = Bearing("Z", BearingKind::kThrust),
-                          m = Bearing("M", BearingKind::kOpposed);
+  const BearingParameters a = Bearing("A", "radial"), z = Bearing("Z", "thrust"),
+                          m = Bearing("M", "opposed");
   EXPECT_THAT(Names(ChannelsOf(a, ChannelKind::kReading)), ElementsAre("A.x", "A.y"));
   EXPECT_THAT(Names(ChannelsOf(z, ChannelKind::kReading)), ElementsAre("z"));
   EXPECT_THAT(Names(ChannelsOf(m, ChannelKind::kReading)), ElementsAre("M.x"));

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/read_file.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_checks.h"
 #include "tests/cli/cli_run.h"
 
@@ -81,7 +82,7 @@ TEST(RigFile, BearingsComeByKindAndName) {
   std::vector<std::string> names;
   for (const BearingParameters& b : rig.bearings) names.push_back(b.name);
   EXPECT_THAT(names, ElementsAre("A", "B", "Z"));
-  EXPECT_EQ(rig.bearings[2].kind, BearingKind::kThrust);
+  EXPECT_EQ(rig.bearings[2].kind, FindBearingKind("thrust"));
   EXPECT_EQ(rig.bearings[2].controller->f_max, 120);
   EXPECT_FALSE(rig.bearings[0].controller);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "discovery/practice/laws/practice_law.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
@@ -52,7 +53,7 @@ std::vector<EffectInstance> RotatingDamping(LawSetting s) {
   const std::string size =
       fmt::format("({} / (1 + sqrt(x * x + y * y) / {}))", Digits(d), Digits(knee));
   for (const BearingParameters& b : s.rig.bearings)
-    if (b.kind == BearingKind::kRadial)
+    if (b.kind->two_axes)
       out.push_back(FormulaAt(b.name, {{"force.x", "-" + size + " * (vx + omega * y)"},
                                        {"force.y", "-" + size + " * (vy - omega * x)"}}));
   return out;

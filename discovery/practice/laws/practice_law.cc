@@ -7,6 +7,7 @@
 
 #include "core/math/noise.h"
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -37,7 +38,7 @@ std::vector<std::string> TargetsOfLaw(const PracticeLaw& law, const RigParameter
     const std::string plane = t.substr(0, t.find('.'));
     if (t == "rig" ||
         std::any_of(rig.bearings.begin(), rig.bearings.end(), [&](const BearingParameters& b) {
-          return b.name == plane && b.kind == BearingKind::kRadial;
+          return b.name == plane && b.kind->two_axes;
         }))
       out.push_back(t);
   }

@@ -10,6 +10,7 @@
 #include "discovery/practice/examination.h"
 #include "discovery/practice/spoil.h"
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -18,8 +19,7 @@ namespace {
 RigParameters RadialRig() {
   RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
-  std::erase_if(rig.bearings,
-                [](const BearingParameters& b) { return b.kind == BearingKind::kThrust; });
+  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
   return rig;
 }
 

@@ -11,6 +11,7 @@
 #include "discovery/model/floor.h"
 #include "discovery/model/residual.h"
 #include "discovery/practice/case_score.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -19,8 +20,7 @@ namespace {
 RigParameters RadialRig() {
   RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
-  std::erase_if(rig.bearings,
-                [](const BearingParameters& b) { return b.kind == BearingKind::kThrust; });
+  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
   return rig;
 }
 

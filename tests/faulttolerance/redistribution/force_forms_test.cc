@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "core/base/errors.h"
 #include "core/math/constants.h"
 #include "tests/faulttolerance/redistribution_reference.h"
 
@@ -168,9 +167,18 @@ TEST(ForceForms, CapacityIsTheBestOverBiasScales) {
   EXPECT_NEAR(CurrentCapacity(p, W), best, 1e-4 * best);  // the scan's step
 }
 
-TEST(ForceForms, BadWindingIsOneLine) {
-  EXPECT_THROW(MakeRedistributionProblem(0, "NSNSNSN"), InputError);
-  EXPECT_THROW(MakeRedistributionProblem(0, "NSNSNSNX"), InputError);
+// The angles and signs are those of the drawing: pole j at first + (j-1) 45 degrees, N is +1.
+TEST(RedistributionProblem, HasTheDrawingsAnglesAndWinding) {
+  const RedistributionProblem p = MakeRedistributionProblem(0.3, "NNSSNSNS");
+  const double sign[8] = {1, 1, -1, -1, 1, -1, 1, -1};
+  for (int j = 0; j < 8; ++j) {
+    EXPECT_NEAR(std::remainder(p.angle[j] - (0.3 + j * pi / 4), 2 * pi), 0, 1e-14);
+    EXPECT_EQ(p.sign[j], sign[j]);
+    EXPECT_EQ(p.turns_left[j], 1);
+  }
+  EXPECT_EQ(p.turns, 50);
+  EXPECT_EQ(p.pole_area, 2.0372e-4);
+  EXPECT_EQ(p.gap, 4e-4);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "faulttolerance/redistribution/redistribution_table.h"
+#include "tests/faulttolerance/redistribution_reference.h"
 
 namespace ambrig {
 namespace {

@@ -9,6 +9,7 @@
 #include "actuators/magnetics/radial_stator.h"
 #include "faulttolerance/redistribution/bearing_symmetry.h"
 #include "faulttolerance/supervision/map_checks.h"
+#include "tests/faulttolerance/redistribution_reference.h"
 
 namespace ambrig {
 namespace {

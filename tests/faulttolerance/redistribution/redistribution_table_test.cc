@@ -11,6 +11,7 @@
 #include <string>
 
 #include "faulttolerance/redistribution/redistribution_json.h"
+#include "tests/faulttolerance/redistribution_reference.h"
 
 namespace ambrig {
 namespace {

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "faulttolerance/redistribution/network_force.h"
+#include "tests/faulttolerance/redistribution_reference.h"
 
 namespace ambrig {
 namespace {
