@@ -29,7 +29,7 @@ MAY_INCLUDE = {
     "analysis/linear": "core actuators rotor control effects rig",
     "simulation": "core actuators rotor control effects rig fdd faulttolerance scenarios analysis/linear",
     "analysis": "core actuators rotor control effects rig faulttolerance simulation scenarios analysis/linear",
-    "discovery": "core actuators control rotor effects rig scenarios simulation",
+    "discovery": "core actuators control rotor effects rig scenarios simulation analysis analysis/linear",
     "campaign": "core effects fdd faulttolerance rig scenarios simulation",
     "design": "core control rig scenarios simulation analysis/linear campaign",
     "app": "core effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd",

@@ -34,6 +34,7 @@ std::vector<RecordSlice> RecordSlices(const CaseModel& model) {
   std::vector<RecordSlice> out;
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
     const CaseRecord& record = model.data().records[r];
+    if (!OverTime(record)) continue;
     const std::size_t rows = record.data.rows();
     const auto hertz = [&](std::size_t row) {
       return record.scenario.speed.Speed(record.data.TimeAt(row)) / kTurn;

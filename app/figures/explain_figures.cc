@@ -6,6 +6,7 @@
 #include <cmath>
 #include <deque>
 
+#include "app/figures/bench_figures.h"
 #include "app/figures/response_figures.h"
 #include "core/record/channels.h"
 #include "discovery/model/floor.h"
@@ -32,6 +33,7 @@ std::vector<std::string> WorstPlaces(const CaseModel& model, const std::vector<d
 std::vector<Target> MostTelling(const ExplainScene& s, std::size_t count) {
   std::vector<std::pair<double, const Target*>> order;
   for (const Target& t : s.model.targets()) {
+    if (!OverTime(s.model.data().records[t.record])) continue;
     const double gain =
         TargetRatio(s.model, s.plain_residual, t) - TargetRatio(s.model, s.final_residual, t);
     order.emplace_back(s.model.data().records[t.record].validate ? 1.3 * gain : gain, &t);
@@ -73,6 +75,18 @@ void AddSignatures(HtmlReport& report, const ExplainScene& s, const Target& t) {
                   "The signature of the true effect follows the black line everywhere; those of "
                   "others follow it only in places. The best-ranked is green.",
                   ChannelName(s.model, t), ShortName(s.model.data().records[t.record].data_file))));
+}
+
+/// Frequency responses and tables before and after; whether there are any.
+bool AddBench(HtmlReport& report, const ExplainScene& s,
+              const std::vector<NamedPrediction>& models) {
+  bool any = false;
+  for (std::size_t r = 0; r < s.model.data().records.size(); ++r)
+    for (const Figure& f : BenchFigures(s.model, models, r)) {
+      report.AddFigure(f);
+      any = true;
+    }
+  return any;
 }
 
 }  // namespace
@@ -121,14 +135,16 @@ void AddWhyThatOne(HtmlReport& report, const ExplainScene& s) {
   report.Heading(found ? "Evidence for the accepted effect" : "Change by the parameter fit");
   if (!s.usable) return;
   const std::vector<Target> telling = MostTelling(s, 3);
-  if (telling.empty()) {
-    report.Text(
-        "No figure: neither parameters nor effects reduced the error of any channel noticeably.");
-    return;
-  }
   const std::string name = FinalName(s.explanation);
   const std::vector<NamedPrediction> both = {{"rig file", "@orange", &s.plain},
                                              {name, "@green", &s.final_prediction}};
+  const bool bench = AddBench(report, s, both);
+  if (telling.empty()) {
+    if (!bench)
+      report.Text(
+          "No figure: neither parameters nor effects reduced the error of any channel noticeably.");
+    return;
+  }
   report.AddFigure(
       TimeFigure(s.model, telling, both,
                  "The channels with the largest change, one of each kind. Top: the whole record. "

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "app/figures/bench_figures.h"
 #include "app/figures/residual_figures.h"
 #include "app/pages/discovery_parts.h"
 #include "app/pages/discovery_report.h"
@@ -53,7 +54,8 @@ std::vector<Target> MostImproved(const CaseModel& model, const std::vector<doubl
                                  const std::vector<double>& after, std::size_t count) {
   std::vector<std::pair<double, const Target*>> order;
   for (const Target& t : model.targets())
-    order.emplace_back(TargetRatio(model, before, t) - TargetRatio(model, after, t), &t);
+    if (OverTime(model.data().records[t.record]))
+      order.emplace_back(TargetRatio(model, before, t) - TargetRatio(model, after, t), &t);
   std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Target> out;
   for (const auto& [gain, t] : order) {
@@ -75,6 +77,11 @@ void AddBeforeAfter(HtmlReport& report, const CaseModel& model, const Comparison
   if (before.predicted.size() != model.size() || after.predicted.size() != model.size()) return;
   const std::vector<Target> gained =
       MostImproved(model, Residual(model, before.predicted), after.residual, 3);
+  for (std::size_t r = 0; r < model.data().records.size(); ++r)
+    for (const Figure& f : BenchFigures(
+             model,
+             {{"before", "@orange", &before.predicted}, {"after", "@green", &after.predicted}}, r))
+      report.AddFigure(f);
   if (gained.empty()) return;
   report.AddFigure(
       TimeFigure(model, gained,

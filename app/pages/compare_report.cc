@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "app/figures/bench_figures.h"
 #include "app/figures/residual_figures.h"
 #include "app/figures/response_figures.h"
 #include "app/pages/discovery_parts.h"
@@ -175,18 +176,28 @@ void AddRecord(HtmlReport& report, const View& v, std::size_t record) {
   report.Heading(fmt::format("{}: {}", ShortName(r.data), r.scenario), 3);
   report.Text(fmt::format("Error over noise **{:.2f}**, {} record.", r.ratio,
                           r.validate ? "unseen" : "to be fitted"));
+  const CaseRecord& data = v.model.data().records[record];
+  if (!OverTime(data)) {
+    for (const Figure& f :
+         BenchFigures(v.model, {{"model", "@orange", &v.comparison.predicted}}, record))
+      report.AddFigure(f);
+    return AddChannelTable(report, data, r);
+  }
   const std::vector<Target> worst = WorstTargets(v.model, v.comparison.residual, record, 3);
   if (!worst.empty() && worst.front().count >= 64) AddChannelFigures(report, v, worst);
   AddMotionFigures(report, v, record,
                    WorstTargets(v.model, v.comparison.residual, record, 1000, 1000));
-  AddChannelTable(report, v.model.data().records[record], r);
+  AddChannelTable(report, data, r);
 }
 
 /// Channels by their worst ratio in any record, two of a kind at most.
-std::vector<std::string> WorstNames(const Comparison& c, std::size_t count) {
+std::vector<std::string> WorstNames(const View& v, std::size_t count) {
   std::map<std::string, double> worst;
-  for (const RecordComparison& r : c.records)
-    for (const ChannelError& e : r.channels) worst[e.channel] = std::max(worst[e.channel], e.ratio);
+  for (std::size_t r = 0; r < v.comparison.records.size(); ++r) {
+    if (!OverTime(v.model.data().records[r])) continue;
+    for (const ChannelError& e : v.comparison.records[r].channels)
+      worst[e.channel] = std::max(worst[e.channel], e.ratio);
+  }
   std::vector<std::pair<double, std::string>> order;
   for (const auto& [name, ratio] : worst) order.emplace_back(ratio, name);
   std::ranges::stable_sort(order, [](const auto& a, const auto& b) { return a.first > b.first; });
@@ -199,13 +210,15 @@ std::vector<std::string> WorstNames(const Comparison& c, std::size_t count) {
 }
 
 void AddDependence(HtmlReport& report, const View& v) {
+  const std::vector<std::string> names = WorstNames(v, 4);
+  if (names.empty()) return;
   report.Heading("Dependence of the error");
   report.Text(
       "The shape of these lines is often the law itself: a slope against position is a stiffness, "
       "a kink a contact or a clipped "
       "amplifier, a slope against current a gain, a bend at large currents saturation, growth with "
       "speed something that turns.");
-  for (const std::string& name : WorstNames(v.comparison, 4))
+  for (const std::string& name : names)
     if (const auto figure = DependenceFigure(v.model, v.comparison.predicted, name))
       report.AddFigure(*figure);
 }

@@ -16,7 +16,7 @@ namespace ambrig {
 
 namespace {
 
-enum class Part { kReal, kImaginary, kMagnitude, kPhase };
+enum class Part { kReal, kImaginary, kMagnitude, kPhase, kCoherence };
 
 struct PartWord {
   std::string_view word;  // in small letters
@@ -27,7 +27,7 @@ constexpr PartWord kPartWords[] = {
     {"imag", Part::kImaginary}, {"imaginary", Part::kImaginary}, {"abs", Part::kMagnitude},
     {"mag", Part::kMagnitude},  {"magnitude", Part::kMagnitude}, {"amplitude", Part::kMagnitude},
     {"phi", Part::kPhase},      {"arg", Part::kPhase},           {"phase", Part::kPhase},
-    {"angle", Part::kPhase},
+    {"angle", Part::kPhase},    {"coherence", Part::kCoherence}, {"coh", Part::kCoherence},
 };
 
 std::optional<Part> PartOf(std::string_view word) {
@@ -142,7 +142,13 @@ Measurement ResponsesOfTable(const TextTable& table, const std::string& path) {
       left_out(table.columns[k], "is no real or imaginary part, magnitude or phase");
   }
   for (PartColumn& p : parts) {
-    if (p.part == Part::kImaginary || p.part == Part::kPhase) continue;
+    if (p.part == Part::kCoherence) {
+      out.frequency.coherence.push_back({p.of, p.column->samples});
+      if (p.column->unit == "%")
+        for (double& v : out.frequency.coherence.back().values) v /= 100;
+      p.used = true;
+    }
+    if (p.part != Part::kReal && p.part != Part::kMagnitude) continue;
     PartColumn* other = Partner(parts, p, p.part == Part::kReal ? Part::kImaginary : Part::kPhase);
     if (other == nullptr) continue;
     p.used = other->used = true;
@@ -170,6 +176,11 @@ void CheckResponses(FrequencyResponses& responses, const std::string& where) {
       throw InputError(where + ": response " + r.name + " has " + std::to_string(r.values.size()) +
                        " points, " + names.front() + " has " + std::to_string(responses.points()));
   }
+  for (const MeasuredCoherence& c : responses.coherence)
+    for (std::size_t k = 0; k < c.values.size(); ++k)
+      if (c.values[k] < -1e-6 || c.values[k] > 1 + 1e-6)
+        throw InputError(where + ": coherence " + c.name + ", point " + std::to_string(k + 1) +
+                         " = " + NumberText(c.values[k]) + ", allowed: 0 to 1");
   const std::vector<double>& f = responses.frequency;
   if (!f.empty() && f.size() != responses.points())
     throw InputError(where + ": " + std::to_string(f.size()) + " frequencies, " +

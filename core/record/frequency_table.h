@@ -17,6 +17,7 @@ bool IsFrequencyTable(const TextTable& table);
 
 /// Parts of one response are those whose heads agree but for Re/Im, Real/Imag, Abs/Phi,
 /// Magnitude/Phase, as `Re(NAME)` or behind NAME; what has no partner is left out with a note.
+/// `Coherence(NAME)` or a column `Coherence` is no part of a response but stands beside it.
 /// @throws InputError
 Measurement ResponsesOfTable(const TextTable& table, const std::string& path);
 

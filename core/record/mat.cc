@@ -11,6 +11,7 @@
 #include "core/record/hdf5.h"
 #include "core/record/mat_library.h"
 #include "core/record/mat_structs.h"
+#include "core/record/text_cells.h"
 #include "core/record/time_base.h"
 
 namespace ambrig {
@@ -19,6 +20,7 @@ namespace {
 using namespace mat;  // NOLINT: the door of the library
 
 constexpr std::size_t kMostColumns = 256;  // of a matrix whose columns are channels
+constexpr std::string_view kCoherence = "coherence";
 
 std::string ChannelName(std::string name) {
   if (name.size() > 2 && name[0] >= 'A' && name[0] <= 'Z' && name[1] == '_')
@@ -30,7 +32,7 @@ class MatReader {
  public:
   explicit MatReader(const std::string& path) : path_(path) {}
 
-  Record Read() {
+  Measurement Read() {
     const std::scoped_lock<std::mutex> lock(Hdf5Mutex());  // v7.3 is HDF5
     const File file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
     if (!file) throw InputError(path_ + ": not a MAT file of version 5 or 7.3");
@@ -47,18 +49,58 @@ class MatReader {
     }
     for (Channel& c : record_.channels)
       if (units_.contains(c.name)) c.unit = units_[c.name];
+    if (!frequency_.responses.empty()) return Responses();
     Merge();
     if (record_.channels.empty() && !object_.empty()) throw InputError(path_ + ": " + object_);
-    return std::move(record_);
+    return {std::move(record_), {}};
   }
 
  private:
+  /// Complex vectors and what stands beside them: their axis, their coherence.
+  Measurement Responses() {
+    Measurement out;
+    out.record.notes = std::move(record_.notes);
+    for (MeasuredResponse& r : frequency_.responses)
+      if (units_.contains(ChannelName(r.name))) r.unit = units_[ChannelName(r.name)];
+    for (Channel& c : record_.channels) {
+      const std::string name = LowerCase(c.name);
+      if (name == "f" || name == "freq" || name == "frequency")
+        frequency_.frequency = std::move(c.samples);
+      else if (name.ends_with(kCoherence))
+        frequency_.coherence.push_back({OfCoherence(c.name), std::move(c.samples)});
+      else
+        out.record.notes.push_back(path_ + ": " + c.name + " is not complex, left out");
+    }
+    CheckResponses(frequency_, path_);
+    out.frequency = std::move(frequency_);
+    return out;
+  }
+
+  /// The response of "coherence" (all: empty) or "NAME_coherence".
+  std::string OfCoherence(const std::string& name) const {
+    if (name.size() <= kCoherence.size() + 1) return "";
+    const std::string of = name.substr(0, name.size() - kCoherence.size() - 1);
+    for (const MeasuredResponse& r : frequency_.responses)
+      if (ChannelName(r.name) == of) return r.name;
+    return of;
+  }
+
+  void AddComplex(const matvar_t& v, const std::string& name) {
+    if (v.rank != 2 || std::min(v.dims[0], v.dims[1]) != 1 || v.data == nullptr)
+      return Note(name + " is no complex vector, left out");
+    if (const double bytes = Elements(v) * v.data_size; bytes > most_bytes_)
+      throw InputError(path_ + ": variable " + name + " cannot be read");
+    frequency_.responses.push_back(
+        {v.name == nullptr ? name : v.name, "", ComplexNumbers(v, v.dims[0] * v.dims[1])});
+  }
+
   void Add(matvar_t* v, const std::string& name) {
     if (v->class_type == MAT_C_STRUCT) return AddStruct(v, name);
     if (IsObject(*v)) {
       object_ = ObjectText(name);
       return Note(object_ + "; left out");
     }
+    if (IsComplex(*v)) return AddComplex(*v, name);
     const bool flat = v->rank == 2 && v->dims[0] > 0 && v->dims[1] > 0;
     if (!flat || !IsNumeric(*v)) return Note(name + " is not a vector of numbers, left out");
     const std::size_t rows = std::max(v->dims[0], v->dims[1]), columns = v->dims[1];
@@ -135,17 +177,20 @@ class MatReader {
   std::vector<TimedChannel> timed_;
   std::string object_;  // why the last object of MATLAB cannot be read
   Record record_;
+  FrequencyResponses frequency_;
 };
 
 }  // namespace
 
-Record ReadMat(const std::string& path) try {
+Measurement ReadMatMeasurement(const std::string& path) try {
   if (ReadFile(path, 128).size() < 128) throw InputError(path + ": not a MAT file");
-  Record record = MatReader(path).Read();
-  FinishRecord(record, path);
-  return record;
+  Measurement m = MatReader(path).Read();
+  if (m.frequency.responses.empty()) FinishRecord(m.record, path);
+  return m;
 } catch (const std::bad_alloc&) {
   throw InputError(path + ": damaged, or too large for the memory of this machine");
 }
+
+Record ReadMat(const std::string& path) { return ReadMatMeasurement(path).record; }
 
 }  // namespace ambrig

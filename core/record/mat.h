@@ -7,12 +7,16 @@
 /// ControlDesk and of Simulink ("structure with time") bring names and time: mat_structs.h. An optional struct `units` holds texts: units.A_x = 'um'.
 #include <string>
 
-#include "core/record/record.h"
+#include "core/record/measurement.h"
 
 namespace ambrig {
 
-/// v5 (also compressed) and v7.3. Other variables are left out with a note.
+/// v5 (also compressed) and v7.3. Other variables are left out with a note. Complex vectors are frequency
+/// responses on the axis `f`, `freq` or `frequency` [Hz], a real vector `coherence` or NAME_coherence as long
+/// as they are is their coherence; the file then holds no record over time.
 /// @throws InputError, one line that names the file.
+Measurement ReadMatMeasurement(const std::string& path);
+/// The record over time of the file. @throws InputError
 Record ReadMat(const std::string& path);
 
 /// Version 5, uncompressed. Attributes are not written. @throws InputError

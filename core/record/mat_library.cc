@@ -86,6 +86,22 @@ std::vector<double> Numbers(const matvar_t& v, std::size_t n) {
   }
 }
 
+bool IsComplex(const matvar_t& v) {
+  return v.class_type >= MAT_C_DOUBLE && v.class_type <= MAT_C_UINT64 && v.isComplex != 0;
+}
+
+std::vector<std::complex<double>> ComplexNumbers(const matvar_t& v, std::size_t n) {
+  const auto* split = static_cast<const mat_complex_split_t*>(v.data);
+  matvar_t part = v;  // its numbers only
+  part.data = split->Re;
+  const std::vector<double> re = Numbers(part, n);
+  part.data = split->Im;
+  const std::vector<double> im = Numbers(part, n);
+  std::vector<std::complex<double>> out(re.size());
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = {re[k], im[k]};
+  return out;
+}
+
 std::string Text(const matvar_t& v) {
   std::string text;
   if (v.class_type != MAT_C_CHAR || v.data == nullptr) return text;

@@ -3,6 +3,7 @@
 /// library's objects owned, its numbers and texts. Included by nobody else.
 #include <matio.h>
 
+#include <complex>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ double Elements(const matvar_t& v);
 
 bool IsNumeric(const matvar_t& v);  // real numbers of any type
 std::vector<double> Numbers(const matvar_t& v, std::size_t n);
+bool IsComplex(const matvar_t& v);  // complex numbers of any type
+std::vector<std::complex<double>> ComplexNumbers(const matvar_t& v, std::size_t n);
 /// Text of a char row; empty for anything else.
 std::string Text(const matvar_t& v);
 

@@ -14,10 +14,17 @@ struct MeasuredResponse {
   std::vector<std::complex<double>> values;
 };
 
+/// Coherence of a response, 0 to 1: the part of its output that its input explains.
+struct MeasuredCoherence {
+  std::string name;  // of the response; empty: of all in the file
+  std::vector<double> values;
+};
+
 /// Frequency responses on one axis.
 struct FrequencyResponses {
   std::vector<double> frequency = {};  // [Hz]; empty: the file does not say
   std::vector<MeasuredResponse> responses = {};
+  std::vector<MeasuredCoherence> coherence = {};
 
   std::size_t points() const { return responses.empty() ? 0 : responses.front().values.size(); }
 };

@@ -12,6 +12,7 @@
 #include "core/base/toml_checked.h"
 #include "core/record/channels.h"
 #include "core/record/read_record.h"
+#include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
 #include "rig/rig_file.h"
 
@@ -99,6 +100,30 @@ void RejectReused(const Case& c, const CaseRecord& r, const TomlTable& t) {
                                  r.data_file));
 }
 
+/// Positions that drive the gaps must be there, of every axis of a bearing that the record knows.
+void CheckImposedMotion(const CaseRecord& r, const RigParameters& rig, const TomlTable& t) {
+  std::string missing;
+  bool any = false;
+  for (const std::string& axis : AxisNames(rig))
+    if (r.data.Find(axis))
+      any = true;
+    else if (!r.scenario.clamp.contains(axis.substr(0, axis.find('.'))))
+      missing += (missing.empty() ? "" : ", ") + axis;
+  if (!any || !missing.empty())
+    t.Fail("imposed", fmt::format("= \"motion\" without {}, allowed: positions of all axes, "
+                                  "measured or held by the scenario (start \"clamped\")",
+                                  any ? missing : "any position"));
+  const bool set_points = std::ranges::any_of(
+      r.data.channels, [](const Channel& c) { return IsOfKind(c.name, ChannelKind::kSetPoint); });
+  if (!set_points && r.scenario.start != StartState::kClamped)
+    t.Fail(
+        "imposed",
+        "= \"motion\" without measured set-points, allowed: a scenario with start \"clamped\" that "
+        "commands the coils ([[excitation]] port \"current\" or \"duty\")");
+  if (!r.scenario.faults.empty())
+    t.Fail("imposed", "= \"motion\" of a scenario with faults, allowed: one without");
+}
+
 NuisancePriors ReadNuisances(const TomlTable& root,
                              const std::map<std::string, std::string>& known) {
   NuisancePriors n;
@@ -136,16 +161,25 @@ void ReadNoise(const TomlTable& root, const std::map<std::string, std::string>& 
 CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::string>& known,
                           Case& c) {
   CaseRecord r;
-  r.scenario_file = ExistingFile(t, "scenario");
   r.data_file = ExistingFile(t, "data");
   r.validate = t.Choice("use", "fit", "fit, validate, test") != "fit";
+  if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time") {
+    if (kind == "frf")
+      ReadResponseRecord(t, c, r);
+    else
+      ReadStaticRecord(t, c, r);
+    RejectReused(c, r, t);
+    t.RejectUnknownKeys();
+    return r;
+  }
+  r.scenario_file = ExistingFile(t, "scenario");
   r.scenario = ReadScenario(r.scenario_file, c.rig);
   r.time_offset =
       Within(t, "time_offset", 0, {"s", -1e5, 1e5, "scenario time of the logger's zero"});
-  if (const std::string kind = t.Choice("kind", "time", "time, frf, static"); kind != "time")
-    t.Fail("kind", fmt::format("= \"{}\" is not compared yet, allowed: \"time\"", kind));
   r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c, r.sources);
   const auto left_out = t.Rows("leave_out");
+  r.imposed_motion = t.Choice("imposed", "none", "none, motion") == "motion";
+  if (r.imposed_motion) CheckImposedMotion(r, c.rig, t);
   RejectReused(c, r, t);
   t.RejectUnknownKeys();
   r.data.start += r.time_offset;

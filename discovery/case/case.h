@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/record/record.h"
+#include "discovery/data/bench_tables.h"
 #include "discovery/data/data_quality.h"
 #include "scenarios/scenario.h"
 
@@ -17,10 +18,15 @@ struct ColumnSource {
 };
 
 struct CaseRecord {
-  std::string scenario_file, data_file;
+  RecordKind kind = RecordKind::kTime;
+  std::string scenario_file, data_file;  // no scenario file: hover, or a held rotor
   Scenario scenario;
-  Record data;                          // rig channel names, SI
-  bool validate = false;                // kept from the fits; "test" records are too
+  // rig channel names, SI; of a frequency response or a table every value over its sd, one row a point
+  Record data;
+  ResponseTable responses;      // of kind kFrf, as measured
+  StaticTable table;            // of kind kStatic, as measured
+  bool validate = false;        // kept from the fits; "test" records are too
+  bool imposed_motion = false;  // measured positions move the shaft, no rotor and no controller
   std::vector<ChannelQuality> quality;  // one per channel of data
   std::map<std::string, ColumnSource> sources;
   double time_offset = 0;  // [s] scenario time of the logger's zero

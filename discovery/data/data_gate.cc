@@ -65,6 +65,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
                                    const Hypothesis& h) {
   std::vector<DataFault> out;
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
+    if (!OverTime(model.data().records[r])) continue;
     std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
     CheckRange(model, r, columns, out);
     CheckHeld(model, r, columns, out);

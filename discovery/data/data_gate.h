@@ -58,6 +58,9 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
 void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
 void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
+/// Line of a case file that gives a column its right unit, or a gain where no unit does; `factor`:
+/// measured over what it should be.
+std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor);
 /// Against the predictions of the other records' scenarios.
 void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
                    std::vector<GateColumn>& columns, std::vector<DataFault>& out);

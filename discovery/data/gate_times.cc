@@ -200,7 +200,8 @@ void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t reco
   double least = 0.35 * error;
   for (std::size_t k = 0; k < model.data().records.size(); ++k) {
     const CaseRecord& o = model.data().records[k];
-    if (k == record || o.scenario.start != r.scenario.start || o.scenario_file == r.scenario_file ||
+    if (k == record || !OverTime(o) || o.scenario.start != r.scenario.start ||
+        o.scenario_file == r.scenario_file ||
         std::abs(o.data.rate - r.data.rate) > 1e-6 * r.data.rate)
       continue;
     try {

@@ -64,21 +64,6 @@ double OthersError(const std::vector<GateColumn>& columns, const GateColumn& of)
   return errors[errors.size() / 2];
 }
 
-/// The line that gives the column its right unit, or a gain where no unit does.
-std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor) {
-  const auto it = r.sources.find(channel);
-  const ColumnSource source = it == r.sources.end() ? ColumnSource{channel, "", 1} : it->second;
-  const double right = source.factor / factor;  // SI per number in the file
-  static constexpr std::array<std::pair<double, const char*>, 4> kPrefixes = {
-      {{1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e3, "k"}}};
-  for (const auto& [size, prefix] : kPrefixes)
-    if (std::abs(right / size - 1) < 1e-6)
-      return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}{}\" }}", channel,
-                         source.column, prefix, source.si);
-  return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}\", gain = {:.9g} }}",
-                     channel, source.column, source.si, source.factor / factor);
-}
-
 DataFault FaultOf(const CaseRecord& r, const std::string& channel, const char* fault, double left) {
   DataFault f;
   f.record = r.data_file;
@@ -105,6 +90,20 @@ const Mistake* BestMistake(const GateColumn& c, double others, double* left) {
 }
 
 }  // namespace
+
+std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor) {
+  const auto it = r.sources.find(channel);
+  const ColumnSource source = it == r.sources.end() ? ColumnSource{channel, "", 1} : it->second;
+  const double right = source.factor / factor;  // SI per number in the file
+  static constexpr std::array<std::pair<double, const char*>, 4> kPrefixes = {
+      {{1, ""}, {1e-3, "m"}, {1e-6, "u"}, {1e3, "k"}}};
+  for (const auto& [size, prefix] : kPrefixes)
+    if (std::abs(right / size - 1) < 1e-6)
+      return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}{}\" }}", channel,
+                         source.column, prefix, source.si);
+  return fmt::format("channels.\"{}\" = {{ column = \"{}\", unit = \"{}\", gain = {:.9g} }}",
+                     channel, source.column, source.si, source.factor / factor);
+}
 
 void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "discovery/model/point_floor.h"
 
 namespace ambrig {
 
@@ -49,6 +50,41 @@ double Correlation(const std::vector<double>& v, std::size_t first, std::size_t 
   return sum;
 }
 
+/// Independent rows times independent channels: the latter from the spread of their correlations.
+/// `noise`: of one noisy run.
+double IndependentRows(const CaseModel& model, const std::vector<double>& noise) {
+  double rows_effective = 0;
+  for (std::size_t r = 0; r < model.data().records.size(); ++r) {
+    std::vector<const Target*> of;
+    for (const Target& t : model.targets())
+      if (t.record == r) of.push_back(&t);
+    if (of.empty()) continue;
+    if (!OverTime(model.data().records[r])) {  // every point was measured by itself
+      for (const Target* t : of)
+        rows_effective += static_cast<double>(
+            std::count_if(model.ok().begin() + static_cast<std::ptrdiff_t>(t->first),
+                          model.ok().begin() + static_cast<std::ptrdiff_t>(t->first + t->count),
+                          [](char ok) { return ok != 0; }));
+      continue;
+    }
+    double per_channel = 0, spread = 0;
+    for (const Target* t : of)
+      per_channel += static_cast<double>(t->count) / Correlation(noise, t->first, t->count);
+    per_channel /= static_cast<double>(of.size());
+    for (const Target* a : of)
+      for (const Target* b : of) {
+        const double pa = Rms(noise, a->first, a->count), pb = Rms(noise, b->first, b->count);
+        double c = 0;
+        for (std::size_t k = 0; k < a->count; ++k) c += noise[a->first + k] * noise[b->first + k];
+        const double rho =
+            pa > 0 && pb > 0 ? c / static_cast<double>(a->count) / pa / pb : (a == b ? 1.0 : 0.0);
+        spread += rho * rho;
+      }
+    rows_effective += per_channel * static_cast<double>(of.size() * of.size()) / spread;
+  }
+  return rows_effective;
+}
+
 }  // namespace
 
 NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
@@ -64,8 +100,13 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
     d1[k] = first ? (*first)[k] - (*clean)[k] : second ? (*second)[k] - (*clean)[k] : 0;
     d2[k] = second ? (*second)[k] - (*clean)[k] : d1[k];
   }
-  for (Target& t : model.targets()) {
+  for (std::size_t n = 0; n < model.targets().size(); ++n) {
+    Target& t = model.targets()[n];
     const CaseRecord& record = model.data().records[t.record];
+    if (!OverTime(record)) {
+      t.floor = PointFloor(model, n, *clean);
+      continue;
+    }
     const std::string& channel = record.data.channels[t.channel].name;
     const auto id = ParseChannel(channel);
     Require(id.has_value(), "targets are channels of the rig");
@@ -77,29 +118,7 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
       square = reader_noise ? square + used * used : std::max(square, used * used);
     t.floor = std::max(std::sqrt(square), Resolution(h.rig, id->row(), t.full_scale));
   }
-  // Independent rows times independent channels: the latter from the spread of their correlations.
-  double rows_effective = 0;
-  for (std::size_t r = 0; r < model.data().records.size(); ++r) {
-    std::vector<const Target*> of;
-    for (const Target& t : model.targets())
-      if (t.record == r) of.push_back(&t);
-    if (of.empty()) continue;
-    double per_channel = 0, spread = 0;
-    for (const Target* t : of)
-      per_channel += static_cast<double>(t->count) / Correlation(d1, t->first, t->count);
-    per_channel /= static_cast<double>(of.size());
-    for (const Target* a : of)
-      for (const Target* b : of) {
-        const double pa = Rms(d1, a->first, a->count), pb = Rms(d1, b->first, b->count);
-        double c = 0;
-        for (std::size_t k = 0; k < a->count; ++k) c += d1[a->first + k] * d1[b->first + k];
-        const double rho =
-            pa > 0 && pb > 0 ? c / static_cast<double>(a->count) / pa / pb : (a == b ? 1.0 : 0.0);
-        spread += rho * rho;
-      }
-    rows_effective += per_channel * static_cast<double>(of.size() * of.size()) / spread;
-  }
-  floor.effective_sample_size = rows_effective;
+  floor.effective_sample_size = IndependentRows(model, d1);
   floor.clean = *clean;
   return floor;
 }

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/record/channels.h"
+#include "discovery/model/record_traits.h"
 #include "rig/rig_assembly.h"
 #include "simulation/switching/lost_rotor.h"
 #include "simulation/switching/switching_engine.h"
@@ -17,27 +17,7 @@ namespace {
 
 constexpr double kBeforeLoss = 0.015;  // [s] between the last row that counts and the loss
 constexpr double kLeastHeld = 0.05;    // [s] of a record that are worth comparing
-constexpr double kTouch = 0.85;        // of the clearance: the measured rotor was at its stop
 constexpr double kCoarseSamples = 6;   // of the current, in a switching period
-
-/// Whether the readings of a levitated record reach the auxiliary bearings.
-bool Touches(const RigParameters& rig, const CaseRecord& record) {
-  for (const BearingParameters& b : rig.bearings) {
-    if (!b.auxiliary) continue;
-    double most = 0;
-    const std::vector<std::string> axes = b.Axes();
-    const Channel *x = record.data.Find(axes[0]),
-                  *y = axes.size() > 1 ? record.data.Find(axes[1]) : nullptr;
-    if (!x) continue;
-    for (std::size_t k = 0; k < x->samples.size(); ++k) {
-      const double at = std::hypot(x->samples[k], y ? y->samples[k] : 0);
-      if (std::isfinite(at)) most = std::max(most, at);
-    }
-    // what is far outside is a wrong unit, no contact
-    if (most > kTouch * b.auxiliary->clearance && most < 5 * b.auxiliary->clearance) return true;
-  }
-  return false;
-}
 
 }  // namespace
 
@@ -45,24 +25,21 @@ CaseModel::CaseModel(const Case& c, std::size_t thin)
     : noise_model(StatedNoise(c.rig, c.noise)), case_(c) {
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const CaseRecord& record = c.records[r];
-    plans_.push_back(std::make_unique<CommandPlan>(c.rig, record.scenario));
+    predictors_.push_back(MakePredictor(c, record));
+    driving_.push_back(record.imposed_motion ? DrivingRecord(c.rig, record) : Record{});
+    const bool points = !OverTime(record);
+    plans_.push_back(points ? nullptr : std::make_unique<CommandPlan>(c.rig, record.scenario));
     for (std::size_t ch = 0; ch < record.data.channels.size(); ++ch) {
       const Channel& channel = record.data.channels[ch];
-      const bool free_speed = record.scenario.speed_free_from < record.scenario.duration;
-      const auto id = ParseChannel(channel.name);
-      if (!id || id->row().reader == ChannelReader::kSimulator) continue;
-      const bool prescribed =
-          id->kind == ChannelKind::kAngle || (id->kind == ChannelKind::kSpeed && !free_speed);
-      const bool command =
-          record.scenario.start == StartState::kClamped && id->kind == ChannelKind::kSetPoint;
-      if (prescribed || command || !record.quality[ch].use) continue;
+      if (!record.quality[ch].use || (!points && !IsPredicted(record, channel.name))) continue;
       Target t;
       t.record = r;
       t.channel = ch;
       t.first = measured_.size();
       double mean = 0, square = 0, n = 0;
-      for (std::size_t block = 0; block * thin < channel.samples.size(); ++block) {
-        const std::size_t k = block * thin + block % thin;
+      const std::size_t every = points ? 1 : thin;
+      for (std::size_t block = 0; block * every < channel.samples.size(); ++block) {
+        const std::size_t k = block * every + block % every;
         if (k >= channel.samples.size()) break;
         sample_.push_back(k);
         measured_.push_back(std::isfinite(channel.samples[k]) ? channel.samples[k] : 0);
@@ -76,7 +53,7 @@ CaseModel::CaseModel(const Case& c, std::size_t thin)
       if (n > 0) t.full_scale = std::sqrt(std::max(0.0, square / n - mean * mean / n / n));
       targets_.push_back(t);
     }
-    touches_.push_back(Touches(c.rig, record) ? 1 : 0);
+    touches_.push_back(!points && !record.imposed_motion && Touches(c.rig, record) ? 1 : 0);
   }
   sound_ = ok_;
   horizon_.assign(c.records.size(), kInfinity);
@@ -98,7 +75,11 @@ std::vector<std::string> CaseModel::LimitToHeld(const Hypothesis& h) {
   horizon_ = found;
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t r) {
     try {
-      Simulated(h, r, false, 1);
+      std::vector<std::vector<double>> ignored;
+      if (!predictors_[r])
+        Simulated(h, r, false, 1);
+      else if (!predictors_[r]->Predict(h.rig, ignored))
+        found[r] = 0;
     } catch (const LostRotor& lost) {
       found[r] = std::max(0.0, lost.time - kBeforeLoss);
     } catch (const std::runtime_error& e) {
@@ -143,6 +124,7 @@ bool CaseModel::limited() const {
 Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
                             std::uint64_t seed) const {
   const CaseRecord& r = case_.records[record];
+  Require(plans_[record] != nullptr, "a record over time");
   Scenario scenario = r.scenario;
   scenario.noise = noise;
   scenario.seed = seed;
@@ -159,6 +141,9 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   // bounce.
   if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty() && !touches_[record])
     options.lost_after = 0.01;
+  Record again;  // what a second measurement would have driven with
+  if (r.imposed_motion && noise) again = WithReadingNoise(driving_[record], h.rig, seed);
+  if (r.imposed_motion) options.forced = noise ? &again : &driving_[record];
   options.stop = stop;
   ++runs;
   return SwitchingEngine(h.rig, scenario, options).Run().record;
@@ -196,9 +181,26 @@ bool CaseModel::SimulateOrFind(const RigParameters& rig, std::size_t record, boo
   return fine;
 }
 
+bool CaseModel::PredictPoints(const RigParameters& rig, std::size_t record,
+                              std::vector<double>& out) const {
+  std::vector<std::vector<double>> columns;
+  ++runs;
+  try {
+    if (!predictors_[record]->Predict(rig, columns)) return false;
+  } catch (const std::runtime_error& e) {
+    if (dynamic_cast<const Interrupted*>(&e) || dynamic_cast<const InputError*>(&e)) throw;
+    return false;
+  }
+  for (const Target& t : targets_)
+    for (std::size_t k = t.first; t.record == record && k < t.first + t.count; ++k)
+      out[k] = columns[t.channel][sample_[k]];
+  return true;
+}
+
 bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, bool noise,
                                std::uint64_t seed, std::vector<double>& out) const {
   if (horizon_[record] == 0) return true;  // left out
+  if (predictors_[record]) return PredictPoints(rig, record, out);
   Hypothesis h;
   h.rig = rig;
   Record simulated;

@@ -10,6 +10,7 @@
 #include "discovery/case/case.h"
 #include "discovery/model/noise_model.h"
 #include "discovery/model/nuisances.h"
+#include "discovery/model/record_predictor.h"
 #include "discovery/model/run_memo.h"
 #include "discovery/model/run_store.h"
 #include "simulation/sampled/command_plan.h"
@@ -87,7 +88,7 @@ class CaseModel {
   std::vector<std::optional<std::vector<double>>> PredictAll(
       const std::vector<Hypothesis>& all, ModelFidelity fidelity = ModelFidelity::kAsSampled,
       const QuickLook* look = nullptr) const;
-  /// Full simulated record of one record's scenario.
+  /// Full simulated record of one record's scenario, which is over time.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;
 
   /// Records that this hypothesis does not hold to their end count up to there only, those that it
@@ -114,6 +115,8 @@ class CaseModel {
   /// From the disk where a store is kept, else simulated.
   bool SimulateOrFind(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                       std::vector<double>& out) const;
+  /// Of a record that is not over time.
+  bool PredictPoints(const RigParameters& rig, std::size_t record, std::vector<double>& out) const;
   bool FillRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                   std::vector<double>& out) const;
 
@@ -128,7 +131,9 @@ class CaseModel {
   std::vector<double> measured_;
   std::vector<char> ok_;
   std::vector<std::size_t> sample_;
-  std::vector<std::unique_ptr<CommandPlan>> plans_;
+  std::vector<std::unique_ptr<CommandPlan>> plans_;           // of records over time
+  std::vector<std::unique_ptr<RecordPredictor>> predictors_;  // of all others
+  std::vector<Record> driving_;  // of records with imposed motion, else empty
   mutable RunMemo memo_;
 };
 

@@ -67,6 +67,7 @@ class Builder {
   std::vector<std::pair<std::string, std::string>> Channels() const {
     std::vector<std::pair<std::string, std::string>> out;
     for (const Target& t : model_.targets()) {
+      if (!OverTime(model_.data().records[t.record])) continue;
       const Channel& c = model_.data().records[t.record].data.channels[t.channel];
       const std::pair<std::string, std::string> item{c.name, c.unit};
       if (std::find(out.begin(), out.end(), item) == out.end()) out.push_back(item);
@@ -117,7 +118,8 @@ class Builder {
     NuisanceKind zero = Kind("logger zero of " + channel, "logger-zero", unit, sd),
                  drift = Kind("drift of " + channel, "drift", unit, sd);
     for (const Target& t : model_.targets()) {
-      if (model_.data().records[t.record].data.channels[t.channel].name != channel) continue;
+      const CaseRecord& r = model_.data().records[t.record];
+      if (!OverTime(r) || r.data.channels[t.channel].name != channel) continue;
       for (std::size_t k = 0; k < t.count; ++k) {
         if (!model_.ok()[t.first + k]) continue;
         const auto row = static_cast<Index>(t.first + k);
@@ -134,6 +136,7 @@ class Builder {
   void Clock(double sd) {
     NuisanceKind kind = Kind("time shift", "time-shift", "s", sd);
     for (const Target& t : model_.targets()) {
+      if (!OverTime(model_.data().records[t.record])) continue;
       const double rate = model_.data().records[t.record].data.rate;
       for (std::size_t k = t.first + 1; k + 1 < t.first + t.count; ++k)
         if (model_.ok()[k] && model_.ok()[k - 1] && model_.ok()[k + 1])

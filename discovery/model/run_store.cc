@@ -52,7 +52,8 @@ std::string BeginOf(const Case& c) {
   std::uint64_t print = Fingerprint(ReadFile("/proc/self/exe"));
   print = Fingerprint(ReadFile(c.rig_file), Fingerprint(ReadFile(c.file), print));
   for (const CaseRecord& r : c.records) {
-    print = Fingerprint(ReadFile(r.data_file), Fingerprint(ReadFile(r.scenario_file), print));
+    print = Fingerprint(ReadFile(r.data_file), print);
+    if (!r.scenario_file.empty()) print = Fingerprint(ReadFile(r.scenario_file), print);
     for (const Excitation& e : r.scenario.excitations)
       for (const double v : e.samples) print = Fingerprint(fmt::format("{} ", v), print);
   }

@@ -32,6 +32,7 @@ bool IsOffCentre(const std::map<std::string, std::array<double, 2>>& clamp) {
 Abilities AbilitiesOf(const Case& c) {
   Abilities a;
   for (const CaseRecord& r : c.records) {
+    if (r.kind != RecordKind::kTime) continue;  // says nothing of what a run may be
     const Scenario& s = r.scenario;
     for (const double t : {0.0, 0.5, 1.0})
       a.top_speed = std::max(a.top_speed, std::abs(s.speed.Speed(t * s.duration)));
@@ -54,6 +55,7 @@ Abilities AbilitiesOf(const Case& c) {
     }
   }
   if (a.record_rate == 0) a.record_rate = a.burst_rate;
+  if (a.record_rate == 0) a.record_rate = c.rig.controller.rate;
   if (a.clamp && a.coil_most == 0) a.clamp = false;  // nothing was commanded: nothing can be
   return a;
 }

@@ -24,11 +24,20 @@ double At(const Record& record, const Channel* c, double t) {
 }  // namespace
 
 void SwitchingEngine::StartForced() {
-  // Set-points of a clamped run hold the coils' excitations already.
-  loop_.PrepareDriven(scenario_.start == StartState::kClamped
-                          ? CurrentLoops::SetPoints::kMeasuredWhole
-                          : CurrentLoops::SetPoints::kMeasured,
-                      kDrivenWarmUp);
+  using Source = CurrentLoops::SetPoints;
+  const Record& d = *options_.forced;
+  const bool measured = std::ranges::any_of(
+      d.channels, [](const Channel& c) { return IsOfKind(c.name, ChannelKind::kSetPoint); });
+  // Set-points of a clamped run hold the coils' excitations already; where none were measured the
+  // scenario's currents and duties drive.
+  const Source source = scenario_.start != StartState::kClamped ? Source::kMeasured
+                        : measured                              ? Source::kMeasuredWhole
+                                                                : Source::kOfTheScenario;
+  loop_.PrepareDriven(source, kDrivenWarmUp);
+  if (source == Source::kOfTheScenario)
+    for (const CommandPlan::Signal& s : loop_.commands().current)
+      loop_.control[static_cast<std::size_t>(s.bearing)].set_point[s.index] +=
+          CommandPlan::At(s, 0);
   FollowData(-loop_.warm);
   loop_.StartDriven();
 }

@@ -130,6 +130,35 @@ TEST(Mat, VectorOfTimesInsteadOfARate) {
   EXPECT_EQ(r.channels.size(), 1u);
 }
 
+// Written by the library's own split form: two arrays of one variable.
+TEST(Mat, ComplexVectorsAreFrequencyResponses) {
+  for (const mat_ft version : {MAT_FT_MAT5, MAT_FT_MAT73}) {
+    const TemporaryFolder folder;
+    const std::string path = folder.File("a.mat");
+    mat_t* file = Mat_CreateVer(path.c_str(), nullptr, version);
+    double re[] = {1, 0.5, -2}, im[] = {0, -1, 3};
+    mat_complex_split_t parts{re, im};
+    std::size_t dims[] = {3, 1};
+    matvar_t* all[] = {
+        Mat_VarCreate("S_ax", MAT_C_DOUBLE, MAT_T_DOUBLE, 2, dims, &parts, MAT_F_COMPLEX),
+        Doubles("freq", {10, 20, 40}), Doubles("S_ax_coherence", {1, 0.5, 0.25})};
+    for (matvar_t* v : all) {
+      Mat_VarWrite(file, v, MAT_COMPRESSION_NONE);
+      Mat_VarFree(v);
+    }
+    Mat_Close(file);
+    const Measurement m = ReadMeasurement(path);
+    EXPECT_TRUE(m.record.channels.empty());
+    EXPECT_THAT(m.frequency.frequency, ElementsAre(10, 20, 40));
+    ASSERT_EQ(m.frequency.responses.size(), 1u);
+    EXPECT_EQ(m.frequency.responses[0].name, "S_ax");
+    EXPECT_EQ(m.frequency.responses[0].values[2], std::complex<double>(-2, 3));
+    ASSERT_EQ(m.frequency.coherence.size(), 1u);
+    EXPECT_EQ(m.frequency.coherence[0].name, "S_ax");
+    EXPECT_THAT(m.frequency.coherence[0].values, ElementsAre(1, 0.5, 0.25));
+  }
+}
+
 TEST(Mat, UnequalLengthsAndDamageAreErrors) {
   const TemporaryFolder folder;
   const std::string path = folder.File("a.mat");

@@ -6,9 +6,7 @@ namespace ambrig {
 
 RecordFormat MatFormat() {
   return {"MAT", ".mat", [](std::string_view begin) { return begin.starts_with("MATLAB "); },
-          [](const std::string& path) {
-            return Measurement{ReadMat(path), {}};
-          }};
+          ReadMatMeasurement};
 }
 
 }  // namespace ambrig

@@ -54,6 +54,10 @@ bool IsResponse(const UniversalFunction& f) {
          (f.abscissa.type == kFrequency || f.abscissa.type <= 1);
 }
 
+bool IsCoherence(const UniversalFunction& f) {
+  return !f.complex && f.type == 6 && (f.abscissa.type == kFrequency || f.abscissa.type <= 1);
+}
+
 /// "A.x", "5+X", "A.x:5+X/B:1-Z": the shortest way of naming that tells all functions apart.
 std::vector<std::string> FunctionNames(const std::vector<const UniversalFunction*>& functions) {
   using Naming = std::function<std::string(const UniversalFunction&)>;
@@ -114,8 +118,17 @@ std::string ResponseUnit(const UniversalFunction& f) {
   return whole ? f.ordinate.unit : f.ordinate.unit + "/" + f.denominator.unit;
 }
 
+/// Coherences on the axis of the responses, by the names that responses have.
+void AddCoherence(const std::vector<const UniversalFunction*>& functions, FrequencyResponses& out) {
+  const std::vector<std::string> names = FunctionNames(functions);
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    if (FrequenciesOf(*functions[k]) == out.frequency)
+      out.coherence.push_back({names[k], functions[k]->real});
+}
+
 /// Frequency responses on the axis of the first; those on another one are left out.
 FrequencyResponses Responses(const std::vector<const UniversalFunction*>& functions,
+                             const std::vector<const UniversalFunction*>& coherence,
                              const std::string& path, std::vector<std::string>& notes) {
   FrequencyResponses out;
   const std::vector<std::string> names = FunctionNames(functions);
@@ -133,6 +146,7 @@ FrequencyResponses Responses(const std::vector<const UniversalFunction*>& functi
       r.values.emplace_back(f.real[n], f.imaginary[n]);
     out.responses.push_back(std::move(r));
   }
+  AddCoherence(coherence, out);
   CheckResponses(out, path);
   return out;
 }
@@ -141,7 +155,7 @@ Measurement ReadUniversalFile(const std::string& path) {
   const std::string bytes = ReadFile(path);
   const std::vector<UniversalFunction> functions = ReadFunctions(path, bytes);
   if (functions.empty()) throw InputError(path + ": no data set 58 (function) in the file");
-  std::vector<const UniversalFunction*> over_time, responses;
+  std::vector<const UniversalFunction*> over_time, responses, coherence;
   std::vector<std::string> notes;
   for (std::size_t k = 0; k < functions.size(); ++k) {
     const UniversalFunction& f = functions[k];
@@ -149,6 +163,8 @@ Measurement ReadUniversalFile(const std::string& path) {
       over_time.push_back(&f);
     else if (IsResponse(f))
       responses.push_back(&f);
+    else if (IsCoherence(f))
+      coherence.push_back(&f);
     else
       notes.push_back(path + ": function " + std::to_string(k + 1) + " is of type " +
                       std::to_string(f.type) + (f.complex ? ", complex" : ", real") + ", left out");
@@ -163,7 +179,7 @@ Measurement ReadUniversalFile(const std::string& path) {
   for (std::size_t k = 0; k < over_time.size(); ++k)
     channels.push_back(TimeChannel(*over_time[k], names[k], path));
   out.record = OneTimeBase(std::move(channels), path);
-  out.frequency = Responses(responses, path, notes);
+  out.frequency = Responses(responses, coherence, path, notes);
   out.record.notes.insert(out.record.notes.end(), notes.begin(), notes.end());
   if (!out.record.channels.empty()) FinishRecord(out.record, path);
   return out;

@@ -57,6 +57,21 @@ TEST_F(FrequencyTable, Bode100RealAndImaginaryParts) {
               ElementsAre(std::complex<double>(2, 3), std::complex<double>(4, 5)));
 }
 
+TEST_F(FrequencyTable, CoherenceStandsBesideItsResponse) {
+  const Measurement m = Read(
+      "f [Hz],Re(P),Im(P),Coherence(P),Re(S),Im(S),S coherence [%]\n1,2,3,0.9,4,5,80\n2,2,3,1,4,5,"
+      "75\n");
+  ASSERT_EQ(m.frequency.responses.size(), 2U);
+  ASSERT_EQ(m.frequency.coherence.size(), 2U);
+  EXPECT_EQ(m.frequency.coherence[0].name, "P");
+  EXPECT_THAT(m.frequency.coherence[0].values, ElementsAre(0.9, 1));
+  EXPECT_EQ(m.frequency.coherence[1].name, "S");
+  EXPECT_THAT(m.frequency.coherence[1].values, ElementsAre(0.8, 0.75));
+  EXPECT_TRUE(m.record.notes.empty());
+  EXPECT_THAT(Error("f [Hz],Re(P),Im(P),Coherence\n1,2,3,1.2\n"),
+              HasSubstr("point 1 = 1.2, allowed: 0 to 1"));
+}
+
 TEST_F(FrequencyTable, PartsByTheirNames) {
   const Measurement m = Read(
       "f [kHz],Re(x) [mm],Im(x) [mm],Abs(y) [A],Phi(y) [rad],z [V],Re(w)\n"

@@ -132,5 +132,32 @@ TEST(UniversalFile, DamageIsNamedByLineOrByte) {
               HasSubstr("allowed: steps above 0"));
 }
 
+/// Data set 58 of four points at 10, 20, 30, 40 Hz (records 6 to 11 by the specification).
+std::string FrequencyFunction(int type, int ordinate, const std::string& values) {
+  const std::string axis = "    0    0    0                 NONE                 NONE\n";
+  return "    -1\n    58\nNONE\nNONE\nNONE\nNONE\nNONE\n    " + std::to_string(type) +
+         "         1    1         0        A.x         1   1         F1         2   1\n" +
+         "         " + std::to_string(ordinate) +
+         "         4         1  1.00000E+01  1.00000E+01  0.00000E+00\n" + "        18" + axis +
+         "         0" + axis + "         0" + axis + "         0" + axis + values + "    -1\n";
+}
+
+// Type 6 is a coherence: of the response with the same names.
+TEST(UniversalFile, CoherenceOfAResponse) {
+  const testing::TemporaryFolder folder;
+  testing::WriteBytes(
+      folder.File("a.unv"),
+      FrequencyFunction(4, 5,
+                        "  1.00000E+00  0.00000E+00  2.00000E+00  1.00000E+00  3.00000E+00  "
+                        "2.00000E+00\n  4.00000E+00  3.00000E+00\n") +
+          FrequencyFunction(6, 2, "  1.00000E+00  9.00000E-01  8.00000E-01  5.00000E-01\n"));
+  const Measurement m = ReadMeasurement(folder.File("a.unv"));
+  ASSERT_EQ(m.frequency.responses.size(), 1U);
+  EXPECT_EQ(m.frequency.responses[0].values[3], std::complex<double>(4, 3));
+  ASSERT_EQ(m.frequency.coherence.size(), 1U);
+  EXPECT_EQ(m.frequency.coherence[0].name, m.frequency.responses[0].name);
+  EXPECT_THAT(m.frequency.coherence[0].values, ElementsAre(1, 0.9, 0.8, 0.5));
+}
+
 }  // namespace
 }  // namespace ambrig

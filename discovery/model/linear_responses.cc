@@ -1,0 +1,224 @@
+#include "discovery/model/linear_responses.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/closed_loop_modes.h"
+#include "analysis/transfer_function.h"
+#include "core/base/index.h"
+#include "core/math/constants.h"
+
+namespace ambrig {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+
+/// Constant set-points and duties of a held rotor's coils.
+struct HeldCommands {
+  std::vector<Lane> current, duty;
+  std::vector<std::array<bool, kLanes>> by_duty;
+};
+
+HeldCommands CommandsAtStart(const RigParameters& rig, const Scenario& s) {
+  HeldCommands out;
+  out.current.resize(rig.bearings.size());
+  out.duty.resize(rig.bearings.size());
+  out.by_duty.resize(rig.bearings.size());
+  for (const Excitation& e : StandingExcitations(s)) {
+    const auto p = ParseResponsePoint(rig, e.target + "." + e.port);
+    if (!p || !p->of_coil()) continue;
+    const bool duty = p->kind == PointKind::kDutyPort;
+    (duty ? out.duty : out.current)[p->bearing][p->index] += e.Value(1e-9);
+    if (duty) out.by_duty[p->bearing][AsSize(p->index)] = true;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Excitation> StandingExcitations(const Scenario& scenario) {
+  std::vector<Excitation> out;
+  for (const Excitation& e : scenario.excitations)
+    if ((e.kind == "step" || e.kind == "pulse") && e.start <= 0) {
+      out.push_back(e);
+      out.back().stop = kInfinity;
+    }
+  return out;
+}
+
+LinearResponses::~LinearResponses() = default;
+
+LinearResponses::LinearResponses(const RigParameters& rig, const RigParameters& drawing,
+                                 const Scenario& scenario)
+    : point_(std::make_unique<OperatingPoint>(TrueRig(rig), NominalRig(drawing))) {
+  if (scenario.start == StartState::kClamped)
+    Hold(drawing, scenario);
+  else
+    Levitate(scenario.speed.Speed(0));
+}
+
+void LinearResponses::Levitate(double speed) {
+  const LoopPlant open(*point_, LinearisePlant(*point_, speed));
+  loop_ = std::make_unique<ClosedLoop>(*point_, speed);
+  // The coils' feedback as further outputs.
+  const Index coils = static_cast<Index>(loop_->plant().coils.size());
+  feedback_row_ = loop_->C.rows();
+  loop_->C.conservativeResize(feedback_row_ + coils, Eigen::NoChange);
+  loop_->D.conservativeResize(feedback_row_ + coils, Eigen::NoChange);
+  loop_->C.bottomRows(coils).setZero();
+  loop_->D.bottomRows(coils).setZero();
+  for (Index j = 0; j < coils; ++j)
+    loop_->C(feedback_row_ + j, open.feedback() + j) = loop_->scale()(open.feedback() + j);
+  transfer_ = std::make_unique<TransferFunction>(*point_, *loop_);
+  stable_ = IsStable(transfer_->eigenvalues().cwiseAbs().maxCoeff());
+}
+
+void LinearResponses::Hold(const RigParameters& drawing, const Scenario& scenario) {
+  OperatingPoint& point = *point_;
+  const HeldCommands commands = CommandsAtStart(drawing, scenario);
+  for (std::size_t k = 0; k < point.bearings.size(); ++k) {
+    const BearingPlant& b = point.plant().bearings[k];
+    const auto clamp = scenario.clamp.find(b.name);
+    const double x = clamp == scenario.clamp.end() ? 0 : clamp->second[0],
+                 y = clamp == scenario.clamp.end() ? 0 : clamp->second[1];
+    Lane current = commands.current[k];
+    for (int j = 0; j < b.lanes.coils; ++j) {
+      CoilPoint& c = point.coils[k][AsSize(j)];
+      const double held = b.base_resistance[j] * current[j];
+      c.duty = point.control()[k].regulator[AsSize(j)].DutyFromVoltage(held);
+      if (commands.by_duty[k][AsSize(j)]) {
+        c.duty = commands.duty[k][j];
+        const CurrentRegulator& r = point.control()[k].regulator[AsSize(j)];
+        const double volts =
+            (c.duty - r.DutyFromVoltage(0)) / (r.DutyFromVoltage(1) - r.DutyFromVoltage(0));
+        current[j] = volts / b.base_resistance[j];
+      }
+      c.current = current[j];
+      c.commanded = true;
+    }
+    point.bearings[k] = LineariseBearing(b.lanes, current, x - b.offset_x, y - b.offset_y);
+  }
+  CloseCurrentLoops(commands.by_duty);
+}
+
+/// One switching period of the held coils under their regulators.
+void LinearResponses::CloseCurrentLoops(const std::vector<std::array<bool, kLanes>>& by_duty) {
+  const OperatingPoint& point = *point_;
+  const LinearPlant plant = WithDrivenRotor(LinearisePlant(point, 0));
+  const PeriodMap map = MakePeriodMap(point, plant);
+  const AmplifierParameters& a = point.nominal().amplifier;
+  const CurrentRegulator regulator(a);
+  const double per_volt = regulator.DutyFromVoltage(1) - regulator.DutyFromVoltage(0);
+  period_ = map.T;
+  for (const PlantCoil& c : plant.coils) coils_.emplace_back(c.bearing, c.lane);
+  const Index c = static_cast<Index>(coils_.size()), first = 2 * plant.m();
+  // duty = per_volt (kp e + integral'), integral' = integral + ki T e, e = s - feedback
+  const double gain = per_volt * (a.kp + a.ki * map.T), slope = a.ki * map.T;
+  MatrixXd duty_of_x = MatrixXd::Zero(c, 3 * c);
+  MatrixXd duty_of_s = gain * MatrixXd::Identity(c, c);
+  MatrixXd integral_of_fb = -slope * MatrixXd::Identity(c, c);
+  MatrixXd integral_of_s = slope * MatrixXd::Identity(c, c);
+  duty_of_x.middleCols(c, c) = per_volt * MatrixXd::Identity(c, c);
+  duty_of_x.rightCols(c) = -gain * MatrixXd::Identity(c, c);
+  for (Index j = 0; j < c; ++j) {  // whose duty is given has no loop
+    const auto [k, lane] = coils_[AsSize(j)];
+    if (!by_duty[k][AsSize(lane)]) continue;
+    duty_of_x.row(j).setZero();
+    duty_of_s.row(j).setZero();
+    integral_of_fb.row(j).setZero();
+    integral_of_s.row(j).setZero();
+  }
+  const MatrixXd flow = map.state.block(first, first, c, c), push = map.duty.middleRows(first, c),
+                 seen = map.feedback_of_state.middleCols(first, c);
+  state_.setZero(3 * c, 3 * c);
+  state_.topRows(c) = push * duty_of_x;
+  state_.topLeftCorner(c, c) += flow;
+  state_.block(c, c, c, c).setIdentity();
+  state_.block(c, 2 * c, c, c) = integral_of_fb;
+  state_.bottomRows(c) = map.feedback_of_duty * duty_of_x;
+  state_.bottomLeftCorner(c, c) += seen;
+  by_set_point_.resize(3 * c, c);
+  by_set_point_ << push * duty_of_s, integral_of_s, map.feedback_of_duty * duty_of_s;
+  by_duty_.resize(3 * c, c);
+  by_duty_ << push, MatrixXd::Zero(c, c), map.feedback_of_duty;
+}
+
+Complex LinearResponses::Levitated(const ResponsePoint& port, const ResponsePoint& out,
+                                   double f) const {
+  const double omega = 2 * kPi * f;
+  const TransferFunction::Input in = transfer_->FindInput(port.name);
+  if (!in.load && at_ != f) {
+    kept_ = (*transfer_)(omega);
+    at_ = f;
+  }
+  const MatrixXcd column =
+      in.load ? MatrixXcd(transfer_->Harmonic({omega, transfer_->LoadOn(in.column)}))
+              : MatrixXcd(kept_.col(in.column));
+  const auto row = [&](const std::string& name) {
+    return column(transfer_->FindOutput(name).row, 0);
+  };
+  const std::vector<PlantCoil>& coils = loop_->plant().coils;
+  switch (out.kind) {
+    case PointKind::kError:
+      return (port.kind == PointKind::kReferencePort && port.axis == out.axis ? 1.0 : 0.0) -
+             row(out.axis);
+    case PointKind::kCurrent:
+    case PointKind::kSetPoint:
+      for (std::size_t j = 0; j < coils.size(); ++j) {
+        if (coils[j].bearing != out.bearing || coils[j].lane != out.index) continue;
+        if (out.kind == PointKind::kCurrent)
+          return column(feedback_row_ + static_cast<Index>(j), 0);
+        // in force one tick after the command was computed
+        Complex s = 0;
+        for (Index side = 0; side < coils[j].command.size(); ++side)
+          s += coils[j].command(side) * column(loop_->Command(coils[j].axis + side), 0);
+        return s * std::polar(1.0, -omega * loop_->Ts());
+      }
+      return 0;
+    default:
+      return row(out.name);
+  }
+}
+
+Complex LinearResponses::Held(const ResponsePoint& port, const ResponsePoint& out, double f) const {
+  Index from = -1, to = -1;
+  const Index c = static_cast<Index>(coils_.size());
+  for (Index j = 0; j < c; ++j) {
+    const auto [bearing, lane] = coils_[AsSize(j)];
+    if (bearing == port.bearing && lane == port.index) from = j;
+    if (bearing == out.bearing && lane == out.index) to = j;
+  }
+  if (from < 0 || to < 0)
+    throw InputError(
+        fmt::format("{}: a coil without current has no response, allowed: a constant "
+                    "current in the scenario ([[excitation]] kind = \"step\")",
+                    from < 0 ? port.name : out.name));
+  if (out.kind == PointKind::kSetPoint)
+    return from == to && port.kind == PointKind::kCurrentPort ? 1 : 0;
+  MatrixXcd shifted = -state_.cast<Complex>();
+  shifted.diagonal().array() += std::polar(1.0, 2 * kPi * f * period_);
+  const MatrixXd& by = port.kind == PointKind::kDutyPort ? by_duty_ : by_set_point_;
+  return shifted.partialPivLu().solve(by.col(from).cast<Complex>())(2 * c + to);
+}
+
+Complex LinearResponses::Between(const ResponsePoint& port, const ResponsePoint& out,
+                                 double f) const {
+  if (out.port()) return out.name == port.name ? 1 : 0;
+  return transfer_ ? Levitated(port, out, f) : Held(port, out, f);
+}
+
+std::vector<Complex> LinearResponses::At(double f,
+                                         const std::vector<RigResponse>& responses) const {
+  std::vector<Complex> out;
+  for (const RigResponse& r : responses)
+    out.push_back(Between(r.excited, r.output, f) / Between(r.excited, r.input, f));
+  return out;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,81 @@
+#include "discovery/model/record_traits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/noise.h"
+#include "core/record/channels.h"
+#include "core/record/missing_samples.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr std::uint32_t kPositionStream = 0x4d000000;  // of the noise of imposed positions
+constexpr double kTouch = 0.85;  // of the clearance: the measured rotor was at its stop
+
+}  // namespace
+
+bool Touches(const RigParameters& rig, const CaseRecord& record) {
+  for (const BearingParameters& b : rig.bearings) {
+    if (!b.auxiliary) continue;
+    double most = 0;
+    const std::vector<std::string> axes = b.Axes();
+    const Channel *x = record.data.Find(axes[0]),
+                  *y = axes.size() > 1 ? record.data.Find(axes[1]) : nullptr;
+    if (!x) continue;
+    for (std::size_t k = 0; k < x->samples.size(); ++k) {
+      const double at = std::hypot(x->samples[k], y ? y->samples[k] : 0);
+      if (std::isfinite(at)) most = std::max(most, at);
+    }
+    // what is far outside is a wrong unit, no contact
+    if (most > kTouch * b.auxiliary->clearance && most < 5 * b.auxiliary->clearance) return true;
+  }
+  return false;
+}
+
+bool IsPredicted(const CaseRecord& record, const std::string& channel) {
+  const auto id = ParseChannel(channel);
+  if (!id || id->row().reader == ChannelReader::kSimulator) return false;
+  const bool free_speed = record.scenario.speed_free_from < record.scenario.duration;
+  const bool prescribed =
+      id->kind == ChannelKind::kAngle || (id->kind == ChannelKind::kSpeed && !free_speed);
+  const bool command =
+      record.scenario.start == StartState::kClamped && id->kind == ChannelKind::kSetPoint;
+  // what drives is not predicted
+  const bool drives = record.imposed_motion &&
+                      (id->kind == ChannelKind::kReading || id->kind == ChannelKind::kSetPoint);
+  return !prescribed && !command && !drives;
+}
+
+Record DrivingRecord(const RigParameters& rig, const CaseRecord& record) {
+  const auto drives = [](const std::string& name) {
+    return IsOfKind(name, ChannelKind::kReading) || IsOfKind(name, ChannelKind::kSetPoint);
+  };
+  Record out = BridgeMissing(record.data, 0, drives).record;
+  std::erase_if(out.channels, [&](const Channel& c) { return !drives(c.name); });
+  for (const BearingParameters& b : rig.bearings) {
+    const auto at = record.scenario.clamp.find(b.name);
+    const std::vector<std::string> axes = b.Axes();
+    for (std::size_t side = 0; at != record.scenario.clamp.end() && side < axes.size(); ++side)
+      if (!out.Find(axes[side]))
+        out.channels.push_back(
+            {axes[side], "m", std::vector<double>(record.data.rows(), at->second[side])});
+  }
+  return out;
+}
+
+Record WithReadingNoise(Record driving, const RigParameters& rig, std::uint64_t seed) {
+  std::uint32_t stream = kPositionStream;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& axis : b.Axes()) {
+      ++stream;
+      for (Channel& c : driving.channels)
+        if (c.name == axis)
+          for (std::size_t k = 0; k < c.samples.size(); ++k)
+            c.samples[k] += b.sensor.noise * Normal(seed, stream, k);
+    }
+  return driving;
+}
+
+}  // namespace ambrig

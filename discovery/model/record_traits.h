@@ -1,0 +1,24 @@
+#pragma once
+/// What a record over time holds for a model: which of its channels the engine predicts, and whether its
+/// rotor touches something.
+#include <cstdint>
+#include <string>
+
+#include "discovery/case/case.h"
+
+namespace ambrig {
+
+/// Whether the engine predicts this channel: not what the scenario or the clamp prescribes.
+bool IsPredicted(const CaseRecord& record, const std::string& channel);
+
+/// What drives a record with imposed motion: its positions (and set-points, where they were measured)
+/// without gaps; axes that were not measured stand where the scenario holds them.
+Record DrivingRecord(const RigParameters& rig, const CaseRecord& record);
+
+/// The same positions measured once more: with the sensors' noise of `rig` and a seed.
+Record WithReadingNoise(Record driving, const RigParameters& rig, std::uint64_t seed);
+
+/// Whether the readings of a levitated record reach the auxiliary bearings.
+bool Touches(const RigParameters& rig, const CaseRecord& record);
+
+}  // namespace ambrig
