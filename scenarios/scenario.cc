@@ -10,7 +10,6 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "rig/bearing_kinds/bearing_kind.h"
-#include "rig/clearance.h"
 #include "rig/rig_checks.h"
 #include "scenarios/faults/fault_file.h"
 #include "scenarios/start_file.h"

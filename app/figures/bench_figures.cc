@@ -66,8 +66,8 @@ std::vector<double> Sizes(const std::vector<Complex>& z) {
   return out;
 }
 
-/// Degrees, continuous from point to point; `near`: a curve to stay beside, or empty.
-std::vector<double> Degrees(const std::vector<Complex>& z, const std::vector<double>& near) {
+/// PhaseInDegrees, continuous from point to point; `near`: a curve to stay beside, or empty.
+std::vector<double> PhaseInDegrees(const std::vector<Complex>& z, const std::vector<double>& near) {
   std::vector<double> out;
   for (std::size_t k = 0; k < z.size(); ++k) {
     const double p = std::arg(z[k]) * 180 / kPi;
@@ -97,7 +97,7 @@ Figure BodeFigure(const std::vector<NamedPrediction>& models, const RigResponse&
                   r.name(), r.excited.name,
                   r.sd_known ? "" : ", estimated from the scatter of neighbouring points"),
       grid);
-  const std::vector<double> size = Sizes(d.measured), phase = Degrees(d.measured, {});
+  const std::vector<double> size = Sizes(d.measured), phase = PhaseInDegrees(d.measured, {});
   const DisplayUnit unit = ChooseUnit(LargestSize(size), r.unit == "-" ? "" : r.unit);
   AddLine(figure, 0, "measured", d.f, Scaled(size, unit.factor), PointStyle("@ink", true));
   AddLine(figure, 1, "measured", d.f, phase, PointStyle("@ink", true, false));
@@ -105,7 +105,7 @@ Figure BodeFigure(const std::vector<NamedPrediction>& models, const RigResponse&
     const std::string& color = models[m].color;
     AddLine(figure, 0, models[m].name, d.f, Scaled(Sizes(d.models[m]), unit.factor),
             PointStyle(color, false));
-    AddLine(figure, 1, models[m].name, d.f, Degrees(d.models[m], phase),
+    AddLine(figure, 1, models[m].name, d.f, PhaseInDegrees(d.models[m], phase),
             PointStyle(color, false, false));
     AddLine(figure, 2, models[m].name, d.f, ErrorsOverSd(d, d.models[m]),
             PointStyle(color, false, false));
