@@ -165,6 +165,7 @@ TEST(ShareOfAllRecords, UnseenRecordsMayNotContradict) {
   EXPECT_NEAR(ShareOfAllRecords({10, 2, 0}, {1, 2, 0}), 0.5, 1e-12);  // nothing of theirs explained
   EXPECT_NEAR(ShareOfAllRecords({10, 2, 0}, {1, 2.5, 0}), 0.5, 1e-12);
   EXPECT_NEAR(ShareOfAllRecords({10, 1.05, 0}, {1, 1.05, 0}), 1, 1e-12);  // they do not show it
+  EXPECT_NEAR(ShareOfAllRecords({10, 1.2, 0}, {1, 1.2, 0}), 0.5, 1e-12);  // a fifth above: they do
 }
 
 }  // namespace

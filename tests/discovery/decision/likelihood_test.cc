@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/discovery/linear_case.h"
+
 namespace ambrig {
 namespace {
 
@@ -33,6 +35,47 @@ TEST(Likelihood, FarAboveTheFloorOnlyThreeHundredNumbersCount) {
   };
   EXPECT_NEAR(halving(1e6), 300 * std::log(2.0), 0.1);
   EXPECT_NEAR(halving(1e4), halving(1e6), 1);
+}
+
+/// Three fit records and one unseen one of A.x and A.y.
+LinearCase Quarter() { return {{2e-5, 4e-5, 6e-5, 5e-5}, 1, 0}; }
+
+// Both kinds of record weigh by their rows: three quarters and one quarter here.
+TEST(Score, IsTheMisfitOfAllRecordsAndThePriceOfEveryNumber) {
+  const LinearCase c = Quarter();
+  const double n = 200;
+  EXPECT_NEAR(Score(c.model, 1, 1, n, 0, 0), 0, 1e-12);
+  EXPECT_NEAR(Score(c.model, 1.3, 1, n, 0, 0), 0.75 * Misfit(1.3, n), 1e-9);
+  EXPECT_NEAR(Score(c.model, 1, 1.3, n, 0, 0), 0.25 * Misfit(1.3, n), 1e-9);
+  EXPECT_NEAR(Score(c.model, 0.5, 0.9, n, 0, 0), 0,
+              1e-12);  // below the noise is not better than it
+  EXPECT_NEAR(Score(c.model, 1, 1, n, 3, 1.5), 1.5 + 3 * std::log(200.0), 1e-9);
+  // No number costs more than ln 300, however many rows there are, nor counts the floor beyond 1 %.
+  EXPECT_NEAR(Score(c.model, 1, 1, 1e6, 2, 0), 2 * std::log(300.0), 1e-9);
+  EXPECT_NEAR(Score(c.model, 1.01, 1.01, 1e6, 0, 0), Misfit(1.01, 1e4), 1e-9);
+}
+
+// A kind of effect costs 4 once, its numbers ln n each, six of one effect at most; the rig's own are
+// priced by their prior.
+TEST(Score, AnEffectCostsItsLawOnceAndItsNumbersEach) {
+  const LinearCase c = Quarter();
+  FitResult fit;
+  fit.ratio_fit = fit.ratio_validate = 1;
+  fit.penalty = 0.7;
+  fit.hypothesis = c.With({});
+  const double number = std::log(300.0);
+  EXPECT_NEAR(Score(c.model, fit, 1e5), 0.7, 1e-12);
+  fit.hypothesis = c.With({LinearCase::Gain(1.1)});
+  EXPECT_NEAR(Score(c.model, fit, 1e5), 0.7 + number + 4, 1e-9);
+  EffectInstance other = LinearCase::Gain(1.1);
+  other.target = "A.y";
+  fit.hypothesis = c.With({LinearCase::Gain(1.1), other});
+  EXPECT_NEAR(Score(c.model, fit, 1e5), 0.7 + 2 * number + 4, 1e-9);
+  fit.hypothesis = c.With({LinearCase::Gain(1.1), LinearCase::Offset(1e-6)});
+  EXPECT_NEAR(Score(c.model, fit, 1e5), 0.7 + 2 * number + 8, 1e-9);
+  EXPECT_EQ(PricedParameters(2), 2);
+  EXPECT_EQ(PricedParameters(6), 6);
+  EXPECT_EQ(PricedParameters(11), 6);
 }
 
 }  // namespace

@@ -97,6 +97,25 @@ TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
   EXPECT_THAT(told.texts, testing::Contains("full fit of sensor-gain at A.x"));
 }
 
+// One candidate is asked for, but a name given without the other laws of its place would be too sure: those
+// that promise a third of the error are fitted too, at this place only.
+TEST(RankEffects, RivalsAtThePlaceOfTheBestAreFittedToo) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  Told told;
+  const EffectRound round = RankEffects({c.model, c.model, bank, kN, 1, told.Listener()}, base, 0);
+  ASSERT_GE(round.ranking.size(), 2u);
+  EXPECT_EQ(Named(round.ranking[0].effect), "sensor-gain at A.x");
+  bool offset = false;
+  for (const RankedEffect& r : round.ranking) {
+    EXPECT_EQ(r.effect.target, "A.x");
+    offset = offset || r.effect.name == "sensor-offset";
+  }
+  EXPECT_TRUE(offset);
+  EXPECT_GT(round.ranking[0].probability, 0.99);  // of readings at four places a gain is plain
+}
+
 // A second round adds to what was found and does not name it again.
 TEST(RankEffects, ASecondRoundFindsWhatTheFirstLeft) {
   const LinearCase c({2e-5, 4e-5, 6e-5, -5e-5}, 1.1, -8e-6);

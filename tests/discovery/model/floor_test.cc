@@ -1,0 +1,77 @@
+// What noise alone makes of every channel, on held rotors whose noise is written down.
+#include "discovery/model/floor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/record/channels.h"
+#include "tests/discovery/measured_case.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kSensorNoise = 2e-7;  // [m], of the rig file
+
+Case Held() { return MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}}); }
+
+TEST(Floor, OfAReadingIsItsNoise) {
+  const Case c = Held();
+  CaseModel model(c);
+  const NoiseFloor floor = FindFloor(model, Hypothesis::Base(c.rig));
+  ASSERT_EQ(model.targets().size(), 12u);
+  for (const Target& t : model.targets()) {
+    EXPECT_GE(t.floor, kSensorNoise);         // never below what the file states
+    EXPECT_LT(t.floor, 1.12 * kSensorNoise);  // 800 draws: 2.5 % each, the largest of 12
+  }
+  ASSERT_EQ(floor.clean.size(), model.size());
+  EXPECT_NEAR(floor.clean[0], 2e-5, 1e-12);  // A.x of the first record, without noise
+}
+
+// White noise in channels that know nothing of each other: as many numbers as there are rows, but for
+// what the squares of chance correlations take (1 + 2 Σ 1/n over the lags: a third).
+TEST(Floor, WhiteRowsAreIndependent) {
+  const Case c = Held();
+  CaseModel model(c);
+  const NoiseFloor floor = FindFloor(model, Hypothesis::Base(c.rig));
+  const auto rows = static_cast<double>(model.size());
+  EXPECT_GT(floor.effective_sample_size, 0.5 * rows);
+  EXPECT_LT(floor.effective_sample_size, 0.75 * rows);
+}
+
+TEST(Floor, NoiseThatIsStatedCountsWhereItIsLarger) {
+  Case c = Held();
+  c.noise["A.x"] = 1e-6;
+  CaseModel model(c);
+  FindFloor(model, Hypothesis::Base(c.rig));
+  for (const Target& t : model.targets()) {
+    const std::string& name = c.records[t.record].data.channels[t.channel].name;
+    EXPECT_NEAR(t.floor, name == "A.x" ? 1e-6 : kSensorNoise,
+                0.12 * (name == "A.x" ? 1e-6 : kSensorNoise))
+        << name;
+  }
+}
+
+TEST(Floor, WithoutNoiseItIsTheResolution) {
+  Case c = Held();
+  for (BearingParameters& b : c.rig.bearings) b.sensor.noise = 0;
+  CaseModel model(c);
+  FindFloor(model, Hypothesis::Base(c.rig));
+  const ChannelResolution& r = RowOf(ChannelKind::kReading).resolution;
+  for (const Target& t : model.targets()) {
+    EXPECT_GE(t.floor, r.least);
+    EXPECT_LT(t.floor, 0.1 * kSensorNoise);
+  }
+}
+
+TEST(Floor, RowsThatDoNotCountDoNotMakeIt) {
+  Case c = Held();
+  for (CaseRecord& r : c.records)
+    for (auto& q : r.quality) std::fill(q.ok.begin() + 100, q.ok.end(), 0);
+  CaseModel model(c);
+  FindFloor(model, Hypothesis::Base(c.rig));
+  for (const Target& t : model.targets()) EXPECT_NEAR(t.floor, kSensorNoise, 0.25 * kSensorNoise);
+}
+
+}  // namespace
+}  // namespace ambrig

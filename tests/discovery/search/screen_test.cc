@@ -1,0 +1,152 @@
+// What the screening tries and in which order, on readings that are linear in gain and offset.
+#include "discovery/search/screen.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::Each;
+
+constexpr double kN = 300;
+const std::vector<double> kX = {2e-5, 4e-5, 6e-5, 5e-5};
+
+ScreenOptions Options() {
+  ScreenOptions o;
+  o.effective_sample_size = kN;
+  return o;
+}
+
+std::set<std::string> NamesOf(const std::vector<Candidate>& all) {
+  std::set<std::string> names;
+  for (const Candidate& c : all) names.insert(c.effect.name);
+  return names;
+}
+
+TEST(Screen, AsksForOneEffectOrOneTargetOnly) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  ScreenOptions o = Options();
+  o.effect = "sensor-gain";
+  const std::vector<Candidate> gains = Screen(c.model, base, {}, o, bank);
+  EXPECT_EQ(NamesOf(gains), (std::set<std::string>{"sensor-gain"}));
+  ASSERT_FALSE(gains.empty());
+  EXPECT_EQ(gains[0].effect.target, "A.x");
+  SignatureBank other;
+  o.effect.clear();
+  o.target = "A.y";  // held at zero, where nothing is read
+  for (const Candidate& k : Screen(c.model, base, {}, o, other)) EXPECT_EQ(k.effect.target, "A.y");
+}
+
+// A clamped rotor at rest shows nothing of what needs rotation or levitation: it is not tried.
+TEST(Screen, LeavesOutWhatTheseRecordsCannotShow) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  const std::vector<Candidate> all = Screen(c.model, base, {}, Options(), bank);
+  ASSERT_FALSE(all.empty());
+  for (const SignatureBank::Entry& e : bank.entries()) {
+    const EffectDescription& d = EffectNamed(e.group.probes[0].name);
+    EXPECT_FALSE(d.needs.rotation || d.needs.levitation || d.needs.contact || d.needs.free_speed)
+        << d.id;
+    EXPECT_FALSE(d.users_own) << d.id;
+  }
+}
+
+TEST(Screen, ACoarseOneTriesNoSingleCoilAndNoFrequency) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  ScreenOptions o = Options();
+  o.coarse = true;
+  const std::vector<Candidate> all = Screen(c.model, base, {}, o, bank);
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].effect.name, "sensor-gain");
+  for (const SignatureBank::Entry& e : bank.entries()) {
+    EXPECT_EQ(e.group.probes[0].target.find(".coil"), std::string::npos);
+    for (const EffectParameter& p : e.group.probes[0].table) EXPECT_NE(p.name, "frequency");
+  }
+}
+
+// What the fit has is not proposed again; what explains nothing more comes at its price.
+TEST(Screen, WhatTheFitHasIsNotProposedAgain) {
+  const LinearCase c(kX, 1.08, 0);
+  FitOptions options;
+  options.effective_sample_size = kN;
+  const FitResult fit = Fit(c.model, c.With({LinearCase::Gain(1.05)}), options);
+  ASSERT_TRUE(fit.converged);
+  SignatureBank bank;
+  ScreenOptions o = Options();
+  o.target = "A.x";
+  for (const Candidate& k : Screen(c.model, fit, {}, o, bank))
+    EXPECT_NE(k.effect.name, "sensor-gain");
+  for (const CandidatePair& p : ScreenPairs(c.model, fit, kN, bank, 5)) {
+    EXPECT_NE(p.first.name, "sensor-gain");
+    EXPECT_NE(p.second.name, "sensor-gain");
+  }
+}
+
+TEST(Screen, TellsOfItsProgressAndSimulatesNothingTwice) {
+  const LinearCase c(kX, 1.08, 0);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  std::vector<double> told;
+  ScreenOptions o = Options();
+  o.target = "A.x";
+  o.progress = [&](double f, const std::string&) { told.push_back(f); };
+  const std::vector<Candidate> first = Screen(c.model, base, {}, o, bank);
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_THAT(told, Each(::testing::AllOf(::testing::Ge(0), ::testing::Le(1))));
+  const long runs = c.model.runs;
+  const std::vector<Candidate> again = Screen(c.model, base, {}, o, bank);
+  EXPECT_EQ(c.model.runs, runs);
+  ASSERT_EQ(again.size(), first.size());
+  for (std::size_t k = 0; k < first.size(); ++k) {
+    EXPECT_EQ(again[k].effect.name, first[k].effect.name);
+    EXPECT_DOUBLE_EQ(again[k].score, first[k].score);
+  }
+}
+
+TEST(ScreenPairs, ComeInTheOrderOfTheirScoreAndOnceEach) {
+  const LinearCase c({2e-5, 4e-5, 6e-5, -5e-5}, 1.06, -4e-6);
+  const FitResult base = c.Base();
+  SignatureBank bank;
+  ScreenOptions o = Options();
+  o.target = "A.x";
+  Screen(c.model, base, {}, o, bank);
+  const std::vector<CandidatePair> pairs = ScreenPairs(c.model, base, kN, bank, 4);
+  ASSERT_GE(pairs.size(), 2u);
+  EXPECT_LE(pairs.size(), 4u);
+  std::set<std::pair<std::string, std::string>> seen;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    EXPECT_TRUE(seen.emplace(pairs[k].first.name, pairs[k].second.name).second);
+    EXPECT_NE(pairs[k].first.name, pairs[k].second.name);
+    if (k > 0) {
+      EXPECT_LE(pairs[k - 1].score, pairs[k].score);
+    }
+  }
+  const std::set<std::string> best{pairs[0].first.name, pairs[0].second.name};
+  EXPECT_EQ(best, (std::set<std::string>{"sensor-gain", "sensor-offset"}));
+}
+
+// An effect that the records show twice as strongly is visible at half the size.
+TEST(VisibleSizes, ScaleWithWhatIsSeen) {
+  const auto gain = [](double far) {
+    const LinearCase c({0.4 * far, far, -far, 0.5 * far}, 1, 0);
+    const FitResult base = c.Base();
+    SignatureBank bank;
+    bank.Simulate(c.model, base, ProbesOf(EffectNamed("sensor-gain"), "A.x", c.model, {}), nullptr);
+    return VisibleSizes(c.model, base, kN, bank).at(0).size;
+  };
+  EXPECT_NEAR(gain(3e-5) / gain(6e-5), 2, 1e-3);
+}
+
+}  // namespace
+}  // namespace ambrig
