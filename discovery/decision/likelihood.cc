@@ -12,6 +12,8 @@ constexpr double kModelNumbers = 300;  // independent numbers in what a wrong la
 constexpr double kFloorNumbers = 1e4;
 // price of one more kind of effect: the same cause twice is likelier than two
 constexpr double kLaw = 4;
+// sd of the share that a law with other details explains, over what the best law leaves
+constexpr double kLawVariation = 0.35;
 }  // namespace
 
 int PricedParameters(int count) { return std::min(count, 6); }
@@ -50,6 +52,21 @@ double Score(const CaseModel& model, const FitResult& fit, double effective_samp
   return Score(model, fit.ratio_fit, fit.ratio_validate, effective_sample_size, of_effects,
                fit.penalty) +
          kLaw * static_cast<double>(laws.size());
+}
+
+std::vector<double> Probabilities(const std::vector<double>& scores,
+                                  const std::vector<double>& shares) {
+  std::vector<double> out;
+  double sum = 0;
+  for (std::size_t k = 0; k < scores.size(); ++k) {
+    const double sd = kLawVariation * (1 - shares[0]), less = std::max(0.0, shares[0] - shares[k]);
+    const double by_score = -0.5 * (scores[k] - scores[0]),
+                 by_share = sd > 0 ? -0.5 * std::pow(less / sd, 2) : by_score;
+    out.push_back(std::exp(std::max(by_score, by_share)));
+    sum += out.back();
+  }
+  for (double& p : out) p /= sum;
+  return out;
 }
 
 }  // namespace ambrig

@@ -23,6 +23,11 @@ bool Promising(const FitResult& now, const Candidate& c) {
          ExplainedShare(now.ratio_fit, c.ratio_fit) > 0.3;
 }
 
+/// Of fitted and unseen records alike.
+double BothRatios(const FitResult& fit) {
+  return std::hypot(fit.ratio_fit, fit.ratio_validate) / std::sqrt(2.0);
+}
+
 /// The best fit so far explains nearly all, and this candidate promises far less.
 bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
              const Candidate& next) {
@@ -145,10 +150,13 @@ class Ranker {
   }
 
   void SetProbabilities() {
-    double sum = 0;
-    for (RankedEffect& r : ranking_)
-      sum += r.probability = std::exp(-0.5 * (r.score - ranking_[0].score));
-    for (RankedEffect& r : ranking_) r.probability /= sum;
+    std::vector<double> scores, shares;
+    for (const RankedEffect& r : ranking_) {
+      scores.push_back(r.score);
+      shares.push_back(ExplainedShare(BothRatios(now_), BothRatios(r.fit)));
+    }
+    const std::vector<double> probability = Probabilities(scores, shares);
+    for (std::size_t k = 0; k < ranking_.size(); ++k) ranking_[k].probability = probability[k];
   }
 
   const RoundSetting& s_;
