@@ -89,9 +89,9 @@ TEST_F(StudyFile, MistakesAreNamedWithWhatIsAllowed) {
   EXPECT_THAT(Mistake("[[objective]]\nof = \"peak_sensitivity\"\n[[objective]]\nof = "
                       "\"noise_force\"\nname = \"effort\"\n",
                       ""),
-              HasSubstr("objective is missing"));
+              HasSubstr("objective: is missing"));
   EXPECT_THAT(Mistake("at_most = 0.1\n", ""),
-              HasSubstr("at_most is missing, allowed: a number in s"));
+              HasSubstr("at_most: is missing, allowed: a number in s"));
   EXPECT_THAT(Mistake("of = \"noise_force\"", "of = \"orbit\"\nscenario = \"load\""),
               HasSubstr("= \"load\", allowed: a [[scenario]] first"));
   EXPECT_THAT(Mistake("of = \"noise_force\"", "of = \"plane_orbit\"\nscenario = \"x\""),
@@ -192,15 +192,15 @@ TEST_F(StudyFile, ASweepIsTheSamePointsForAnyNumberOfThreads) {
 // The grid of values, the first one running fastest, after the rig file's own numbers.
 TEST_F(StudyFile, ValuesAreTriedInAllCombinations) {
   std::string text =
-      Replaced(kText, "range = [3.0e5, 6.0e5]\nscale = \"log\"", "values = [4.0e5, 5.0e5]");
-  text = Replaced(text, "range = [500.0, 1500.0]", "values = [700.0, 900.0]");
+      Replaced(kText, "range = [3.0e5, 6.0e5]\nscale = \"log\"", "values = [4.1e5, 5.1e5]");
+  text = Replaced(text, "range = [500.0, 1500.0]", "values = [710.0, 910.0]");
   text = Replaced(text, "points = 5\n", "");
   const StudyResult r = RunIn(folder_, Read(text), "grid", 2);
   ASSERT_EQ(r.points.size(), 5u);
-  EXPECT_THAT(r.points[1].values, ElementsAre(4e5, 700));
-  EXPECT_THAT(r.points[2].values, ElementsAre(5e5, 700));
-  EXPECT_THAT(r.points[3].values, ElementsAre(4e5, 900));
-  EXPECT_THAT(r.points[4].values, ElementsAre(5e5, 900));
+  EXPECT_THAT(r.points[1].values, ElementsAre(4.1e5, 710));
+  EXPECT_THAT(r.points[2].values, ElementsAre(5.1e5, 710));
+  EXPECT_THAT(r.points[3].values, ElementsAre(4.1e5, 910));
+  EXPECT_THAT(r.points[4].values, ElementsAre(5.1e5, 910));
 }
 
 TEST_F(StudyFile, AStoppedStudyKeepsWhatItHas) {

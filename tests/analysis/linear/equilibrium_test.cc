@@ -81,23 +81,6 @@ TEST(Equilibrium, OnEndTheThrustBearingCarriesTheWeight) {
   EXPECT_LT((s.Magnets() - Eigen::Vector3d(0, 0, 4.2 * 9.81)).norm(), 1e-4);
 }
 
-// A sensor that reads 20 um too much: the shaft stands as much lower there, where the bearing's negative
-// stiffness changes the command; the magnets still carry the weight and no moment.
-TEST(Equilibrium, AnOffsetOfASensorMovesTheShaft) {
-  const Standing s(WithEffect(ReferenceRig(), "sensor-offset", "A.y", {{"offset", 2e-5}}));
-  ASSERT_TRUE(s.at.converged) << s.at.message;
-  MotionState m;
-  m.q = s.at.q;
-  PlaneMap sensor = s.plant.rotor.MakePlane(s.rig.bearings[0].sensor.z);
-  EXPECT_NEAR(s.plant.rotor.Position(m, sensor).y, -2e-5, 1e-10);
-  EXPECT_NEAR(s.plant.rotor.Position(m, sensor).x, 0, 1e-10);
-  sensor = s.plant.rotor.MakePlane(s.rig.bearings[1].sensor.z);
-  EXPECT_NEAR(s.plant.rotor.Position(m, sensor).y, 0, 1e-10);
-  EXPECT_LT((s.Magnets() - Eigen::Vector3d(0, 4.2 * 9.81, 0)).norm(), 1e-4);
-  const Standing centred(ReferenceRig());
-  EXPECT_GT(s.at.force[1], centred.at.force[1] + 1);  // below the centre it is pulled down
-}
-
 TEST(Equilibrium, ARotorTooHeavyHasNone) {
   RigParameters rig = ReferenceRig();
   rig.rotor.mass = 400;
