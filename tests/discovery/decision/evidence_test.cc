@@ -53,12 +53,12 @@ TEST(HasSize, ASizeThatGoesWithATimeConstantIsJudgedWithThatHeld) {
   FitResult fit;
   fit.hypothesis.rig.effects.clear();
   fit.hypothesis.AddEffect(e);
-  ASSERT_EQ(fit.hypothesis.free.size(), 2U);
-  fit.sd = {700, 18};
-  fit.size_sd = {3, 0};
+  ASSERT_EQ(fit.hypothesis.free.size(), 3U);
+  fit.sd = {700, 18, 0.1};
+  fit.size_sd = {3, 0, 0};
   EXPECT_FALSE(HasSize(FittedEffect(fit, 0)));
   EXPECT_TRUE(HasSize(fit, 0));
-  fit.size_sd = {150, 0};
+  fit.size_sd = {150, 0, 0};
   EXPECT_FALSE(HasSize(fit, 0));
 }
 

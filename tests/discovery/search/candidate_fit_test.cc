@@ -100,7 +100,7 @@ TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
 // One candidate is asked for, but a name given without the other laws of its place would be too sure: those
 // that promise a third of the error are fitted too, at this place only.
 TEST(RankEffects, RivalsAtThePlaceOfTheBestAreFittedToo) {
-  const LinearCase c(kX, 1.08, 0);
+  const LinearCase c(kX, 1.3, 0);
   const FitResult base = c.Base();
   SignatureBank bank;
   Told told;

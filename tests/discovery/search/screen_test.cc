@@ -119,7 +119,6 @@ TEST(ScreenPairs, ComeInTheOrderOfTheirScoreAndOnceEach) {
   const FitResult base = c.Base();
   SignatureBank bank;
   ScreenOptions o = Options();
-  o.target = "A.x";
   Screen(c.model, base, {}, o, bank);
   const std::vector<CandidatePair> pairs = ScreenPairs(c.model, base, kN, bank, 4);
   ASSERT_GE(pairs.size(), 2u);
