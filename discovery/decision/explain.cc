@@ -149,8 +149,8 @@ void Explainer::Progress(double fraction, const std::string& text) const {
   if (options_.stop && options_.stop->load()) throw Interrupted();
   if (!options_.progress) return;
   const long runs = full_.runs + model_.runs;
-  options_.progress(fraction, options_.tell_runs ? fmt::format("{} [{} simulations]", text, runs)
-                                                 : text);
+  options_.progress(fraction,
+                    options_.tell_runs ? fmt::format("{} [{} simulations]", text, runs) : text);
 }
 
 double Explainer::Validated(const std::vector<double>& residual) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "discovery/search/effect_round.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -125,14 +126,15 @@ TEST(ScreenPairs, ComeInTheOrderOfTheirScoreAndOnceEach) {
   EXPECT_LE(pairs.size(), 4u);
   std::set<std::pair<std::string, std::string>> seen;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    EXPECT_TRUE(seen.emplace(pairs[k].first.name, pairs[k].second.name).second);
-    EXPECT_NE(pairs[k].first.name, pairs[k].second.name);
+    const std::string first = Named(pairs[k].first), second = Named(pairs[k].second);
+    EXPECT_TRUE(seen.emplace(first, second).second);
+    EXPECT_NE(first, second);
     if (k > 0) {
       EXPECT_LE(pairs[k - 1].score, pairs[k].score);
     }
   }
-  const std::set<std::string> best{pairs[0].first.name, pairs[0].second.name};
-  EXPECT_EQ(best, (std::set<std::string>{"sensor-gain", "sensor-offset"}));
+  const std::set<std::string> best{Named(pairs[0].first), Named(pairs[0].second)};
+  EXPECT_EQ(best, (std::set<std::string>{"sensor-gain at A.x", "sensor-offset at A.x"}));
 }
 
 // An effect that the records show twice as strongly is visible at half the size.
