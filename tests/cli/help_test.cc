@@ -100,6 +100,7 @@ const Examples kExamples[] = {
     {"redistribute"},
     {"analyze"},
     {"validate"},
+    {"paper"},
     {"effects"},
     {"parameters"},
     {"compare"},

@@ -28,6 +28,7 @@ const Call kCalls[] = {
     {"redistribute", "rig.toml --failed 1", "rig.toml"},
     {"analyze", "rig.toml", "rig.toml"},
     {"validate", "examples/validation"},
+    {"paper", "examples/paper"},
     {"effects", ""},
     {"parameters", ""},
     {"channels", "a.csv", "a.csv"},

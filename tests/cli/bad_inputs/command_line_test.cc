@@ -16,7 +16,7 @@ const BadCommand kCommands[] = {
     {"simulate s.toml", "simulate is no command; allowed: "},
     {"run", "allowed: scenario files"},
     {"run none.toml", "none.toml: no such file"},
-    {"run .", "is a folder, allowed: a TOML file"},
+    {"run .", "a folder, allowed: scenario files"},
     {"run locked.h5", "not valid TOML"},
     {"run s.toml s.toml", "another scenario of that file name"},
     {"run s.toml --rate nan", "allowed: 0.001 to 1e+09 Hz"},
