@@ -116,7 +116,7 @@ TEST(Screen, TellsOfItsProgressAndSimulatesNothingTwice) {
 }
 
 TEST(ScreenPairs, ComeInTheOrderOfTheirScoreAndOnceEach) {
-  const LinearCase c({2e-5, 4e-5, 6e-5, -5e-5}, 1.06, -4e-6);
+  const LinearCase c({2e-5, 4e-5, 6e-5, -5e-5}, 1.3, -2e-5);
   const FitResult base = c.Base();
   SignatureBank bank;
   ScreenOptions o = Options();
