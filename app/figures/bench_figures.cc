@@ -66,7 +66,7 @@ std::vector<double> Sizes(const std::vector<Complex>& z) {
   return out;
 }
 
-/// PhaseInDegrees, continuous from point to point; `near`: a curve to stay beside, or empty.
+/// Phase [deg], continuous from point to point; `near`: a curve to stay beside, or empty.
 std::vector<double> PhaseInDegrees(const std::vector<Complex>& z, const std::vector<double>& near) {
   std::vector<double> out;
   for (std::size_t k = 0; k < z.size(); ++k) {

@@ -8,6 +8,7 @@
 #include "discovery/decision/compare.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/plan/planner.h"
+#include "discovery/practice/measured_case.h"
 #include "discovery/search/signature_bank.h"
 #include "discovery/shape/named_law.h"
 #include "rig/bearing_kinds/bearing_kind.h"
@@ -20,10 +21,8 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kUnknownSize = 3;         // sd of an effect's number without records, in steps
-constexpr double kDrawnSize = 0.3;         // the same in simulated records: about its usual size
-constexpr double kBusNoise = 0.005;        // [V]
-constexpr double kLoadCellNoise = 0.0012;  // of the rotor's weight
+constexpr double kUnknownSize = 3;  // sd of an effect's number without records, in steps
+constexpr double kDrawnSize = 0.3;  // the same in simulated records: about its usual size
 constexpr std::size_t kPlanRows = 150000;
 
 /// What prior and records say of the free parameters, in coordinates.
@@ -143,11 +142,11 @@ Plan PlanForRig(const RigParameters& rig, const EffectNames& effects, const Abil
         {effect, at, h, PriorPrecision(h, kUnknownSize), PriorPrecision(h, kDrawnSize)});
   }
   std::map<std::string, double> noise;
-  noise[ChannelId{ChannelKind::kBus}.name()] = kBusNoise;
+  noise[ChannelId{ChannelKind::kBus}.name()] = kUsualBusNoise;
   for (const BearingParameters& b : rig.bearings)
     if (b.kind->two_axes)
       for (const ChannelId& cell : ChannelsOf(b, ChannelKind::kLoadCell))
-        noise[cell.name()] = kLoadCellNoise * rig.rotor.mass * 9.81;
+        noise[cell.name()] = UsualLoadCellNoise(rig);
   return Planner(rig, abilities, noise, rivals, base, options).Run();
 }
 

@@ -96,4 +96,16 @@ std::map<std::string, Answer> ReadAnswers(const std::string& file) {
   return out;
 }
 
+std::string SlotsText(const std::vector<std::vector<NamedEffect>>& slots) {
+  std::string text;
+  for (const auto& slot : slots) {
+    std::string inside;
+    for (const auto& [effect, target] : slot)
+      inside += fmt::format("{}{{ effect = \"{}\", target = \"{}\" }}", inside.empty() ? "" : ", ",
+                            effect, target);
+    text += fmt::format("    [{}],\n", inside);
+  }
+  return text;
+}
+
 }  // namespace ambrig

@@ -53,4 +53,7 @@ std::map<std::string, std::map<std::string, int>> Confusion(const std::vector<Ca
 /// @throws InputError
 std::map<std::string, Answer> ReadAnswers(const std::string& file);
 
+/// The slots as such a file writes them: lines between "effects = [" and "]".
+std::string SlotsText(const std::vector<std::vector<NamedEffect>>& slots);
+
 }  // namespace ambrig

@@ -4,6 +4,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/model/floor.h"
+#include "discovery/practice/case_score.h"
 #include "discovery/practice/drawn_truth.h"
 #include "discovery/practice/measured_case.h"
 #include "effects/catalogue.h"
@@ -31,7 +32,7 @@ HiddenCase Hide(const RigParameters& rig, const HideRequest& request,
   }
   out.records = Examination(rig, request.seed, needs);
   out.data = EmptyCase(rig, out.records);
-  const double load_cell_noise = kHiddenLoadCellNoise * rig.rotor.mass * 9.81;
+  const double load_cell_noise = UsualLoadCellNoise(rig);
   out.data.noise[ChannelId{ChannelKind::kBus}.name()] = 0.005;
   for (const BearingParameters& b : rig.bearings)
     if (b.kind->two_axes)
@@ -84,9 +85,10 @@ std::string CaseText(const HiddenCase& hidden) {
 
 std::string AnswerText(const HiddenCase& hidden, const HideRequest& request,
                        const std::string& name) {
-  std::string effects, parameters, truth;
+  std::vector<std::vector<NamedEffect>> slots;
+  std::string parameters, truth;
   for (const EffectInstance& e : hidden.effects) {
-    effects += fmt::format("    [{{ effect = \"{}\", target = \"{}\" }}],\n", e.name, e.target);
+    slots.push_back({{e.name, e.target}});
     for (std::size_t k = 0; k < e.table.size(); ++k)
       parameters += fmt::format("{}\"{}.{}\" = {:.9g}", parameters.empty() ? "" : ", ", e.name,
                                 e.table[k].name, e.values[k]);
@@ -100,7 +102,7 @@ std::string AnswerText(const HiddenCase& hidden, const HideRequest& request,
   return fmt::format(
       "[\"{}\"]\nverdict = [\"{}\"]\neffects = [\n{}]\nparameters = {{ {} }}\nworst = \"{:.1f} "
       "times the noise at {}\"\nseed = {}\ntrue_parameters = {{ {} }}\n",
-      name, verdict, effects, parameters, hidden.worst_ratio,
+      name, verdict, SlotsText(slots), parameters, hidden.worst_ratio,
       hidden.worst_channel.empty() ? "-" : hidden.worst_channel, request.seed, truth);
 }
 

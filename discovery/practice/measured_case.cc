@@ -18,6 +18,8 @@ constexpr std::uint32_t kLoadCells = 104;  // stream of random numbers
 
 }  // namespace
 
+double UsualLoadCellNoise(const RigParameters& rig) { return 0.0012 * rig.rotor.mass * 9.81; }
+
 ShownChange WorstChannel(const CaseModel& model, const std::vector<double>& with,
                          const std::vector<double>& without) {
   ShownChange worst;

@@ -8,8 +8,10 @@
 
 namespace ambrig {
 
-/// rms of a load cell of the practice cases, of the rotor's weight.
-inline constexpr double kHiddenLoadCellNoise = 0.0012;
+/// Usual noise of what logs a rig, rms: of the bus [V], of a load cell [N], which goes with the rotor's
+/// weight.
+inline constexpr double kUsualBusNoise = 0.005;
+double UsualLoadCellNoise(const RigParameters& rig);
 
 /// The channel that a change moves most.
 struct ShownChange {

@@ -21,11 +21,10 @@ namespace {
 /// Streams of random numbers of one case.
 enum SurroundingStream : std::uint32_t { kSizes = 241, kNoise, kPerRecord, kZeros };
 
-constexpr double kUsualBusNoise = 0.005;  // [V] rms, usual
-constexpr double kZeroOfReach = 0.01;     // sd of a position sensor's zero, of the clearance
-constexpr double kInputSpread = 0.01;     // sd of the commanded signals' size
-constexpr double kClockSpread = 1e-4;     // [s] sd stated of the time shift; drawn: whole rows
-constexpr double kShiftedRecords = 0.3;   // share of the records whose clock is one row off
+constexpr double kZeroOfReach = 0.01;    // sd of a position sensor's zero, of the clearance
+constexpr double kInputSpread = 0.01;    // sd of the commanded signals' size
+constexpr double kClockSpread = 1e-4;    // [s] sd stated of the time shift; drawn: whole rows
+constexpr double kShiftedRecords = 0.3;  // share of the records whose clock is one row off
 
 /// Rows later (> 0) or earlier; the row at the edge is repeated.
 void ShiftRows(Record& data, int rows) {
@@ -86,7 +85,7 @@ Surroundings DrawSurroundings(const RigParameters& rig, std::uint64_t seed) {
   Surroundings s;
   const char* const modes[] = {"stated", "not stated", "wrongly stated"};
   s.noise_mode = modes[draw.Of(3)];
-  s.cell_noise = kHiddenLoadCellNoise * rig.rotor.mass * 9.81 * draw.Log(0.5, 3);
+  s.cell_noise = UsualLoadCellNoise(rig) * draw.Log(0.5, 3);
   s.noise[ChannelId{ChannelKind::kBus}.name()] = kUsualBusNoise * draw.Log(0.5, 4);
   const double reading = s.noise_mode == "not stated" ? 1 : draw.Log(0.5, 3);
   if (s.noise_mode == "wrongly stated") s.current_factor = draw.Log(0.4, 2.5);
@@ -173,20 +172,13 @@ std::string PracticeCaseText(const Surroundings& s, const std::vector<Examinatio
 }
 
 std::string PracticeAnswerText(const PracticeCase& c, std::uint64_t seed) {
-  std::string effects;
-  for (const auto& slot : c.answer.slots) {
-    std::string inside;
-    for (const auto& [effect, target] : slot)
-      inside += fmt::format("{}{{ effect = \"{}\", target = \"{}\" }}", inside.empty() ? "" : ", ",
-                            effect, target);
-    effects += fmt::format("    [{}],\n", inside);
-  }
   return fmt::format(
       "[\"{}\"]\nverdict = [{}]\neffects = [\n{}]\nkind = \"{}\"\nlaws = [{}]\nfamilies = "
       "[{}]\nrig = \"{}\"\nnoise = \"{}\"\nnuisances = \"{}\"\nmistake = \"{}\"\nuse = "
       "\"{}\"\nworst = {:.3g}\nseed = {}\n",
-      c.name, Quoted(c.answer.verdicts), effects, c.kind, Quoted(c.laws), Quoted(c.families), c.rig,
-      c.noise, c.nuisances, c.mistake, c.for_fit ? "fit" : "check", c.worst_ratio, seed);
+      c.name, Quoted(c.answer.verdicts), SlotsText(c.answer.slots), c.kind, Quoted(c.laws),
+      Quoted(c.families), c.rig, c.noise, c.nuisances, c.mistake, c.for_fit ? "fit" : "check",
+      c.worst_ratio, seed);
 }
 
 }  // namespace ambrig

@@ -35,9 +35,18 @@ void CommissionedDetector::SetBands() {
 }
 
 void CommissionedDetector::SetTurns(int coil, double share) {
+  if (share == 0) windows_.Leave(coil);
+  TakeShare(coil, share);
+}
+
+void CommissionedDetector::Restore(int coil, double share) {
+  windows_.Return(coil);
+  TakeShare(coil, share);
+}
+
+void CommissionedDetector::TakeShare(int coil, double share) {
   share_[coil] = share;
   filter_.SetTurns(coil, share);
-  if (share == 0) windows_.Leave(coil);
   windows_.Clear();
   SetWider();
   SetBands();
@@ -48,16 +57,6 @@ void CommissionedDetector::SetWider() {
   wider_ = 1;
   for (int j = 0; j < filter_.nominal().coils; ++j)
     if (share_[j] < 1) wider_ = kWider;
-}
-
-void CommissionedDetector::Restore(int coil, double share) {
-  share_[coil] = share;
-  filter_.SetTurns(coil, share);
-  windows_.Return(coil);
-  windows_.Clear();
-  SetWider();
-  SetBands();
-  Pause(25);
 }
 
 void CommissionedDetector::FollowDrift(bool doubtful) {

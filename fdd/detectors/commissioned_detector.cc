@@ -20,7 +20,6 @@ constexpr int kCoilsAtOnce = 3;        // beyond their bands: the model's fault
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rules
-constexpr double kNoCurrent = 0.12;    // [A]
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 
@@ -224,7 +223,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
 
 void CommissionedDetector::CountStreaks(double t) {
   for (int j = 0; j < filter_.nominal().coils; ++j) {
-    const bool dead = period_.largest[j] < kNoCurrent && now_[j] < -kGross;
+    const bool dead = period_.largest[j] < kConducts && now_[j] < -kGross;
     if (dead_[j] == 0) dead_since_[j] = t;
     dead_[j] = dead ? dead_[j] + 1 : 0;
   }

@@ -92,6 +92,8 @@ class CommissionedDetector : public CoilDetector {
   };
   void SetBands();
   void SetWider();
+  /// A coil has other turns left than believed: means and bands begin anew.
+  void TakeShare(int coil, double share);
   void WatchCurrents(const MeasuredPeriod& in);
   void WatchRange(const MeasuredPeriod& in);
   /// Ratios of this period; returns the coil of the largest.

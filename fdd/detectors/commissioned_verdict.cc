@@ -15,7 +15,6 @@ constexpr double kCompanion = 0.5;     // of the largest |c|: a fault of its own
 constexpr int kMissedTwice = 2;        // periods in a row
 constexpr double kMostRegained = 0.9;  // |c|
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
-constexpr double kNoCurrent = 0.12;                         // [A]
 constexpr int kInARow = 3;                                  // periods
 constexpr double kGrossAbove = 2;                           // c, outside the commissioned range
 constexpr double kLeastLost = 0.1;  // of the turns, for coils that fail at once
@@ -63,7 +62,7 @@ bool CommissionedDetector::JudgedTogether(const MeasuredPeriod& in, Outcome* out
   Lane dead;
   bool others = false;
   for (int j = 0; j < coils; ++j) {
-    dead[j] = share_[j] > 0 && period_.largest[j] < kNoCurrent ? 1 : 0;
+    dead[j] = share_[j] > 0 && period_.largest[j] < kConducts ? 1 : 0;
     others = others || (dead[j] == 0 && std::abs(now_[j]) > kGross);
   }
   if (others) {
@@ -116,7 +115,7 @@ Diagnosis CommissionedDetector::Classify(int coil, double excess, double time) c
   d.onset = onset_[coil];
   d.confidence = 1;
   const double on = windows_.OfPhase(coil, 0, 3), off = windows_.OfPhase(coil, 1, 3);
-  if (period_.largest[coil] < kNoCurrent) {
+  if (period_.largest[coil] < kConducts) {
     d.cls = FaultClass::kOpen;
   } else if (on < kReversed && std::abs(off) < kGross) {
     d.cls = FaultClass::kAmplifierOff;

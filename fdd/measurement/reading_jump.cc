@@ -13,7 +13,6 @@ constexpr int kAfterEdge = 3;           // intervals that dead time and errors o
 constexpr double kOfStep = 0.5;         // of the last period's step: it is no straight line
 constexpr double kNeighbours = 0.15;    // [A] what their edges change from period to period
 constexpr double kLeastJump = 0.2;      // [A]
-constexpr double kConducting = 0.12;    // [A]
 constexpr double kOfEdge = 1.25;        // of the largest step beside an edge so far
 constexpr double kEdgeForgets = 0.999;  // a period
 constexpr double kFewest = 1.5;         // intervals of a phase
@@ -58,7 +57,7 @@ AMBRIG_WIDE void SumOfSteps(const Lane* adc, int samples, const Lane& edge, cons
     const LaneVector now = Load(adc[k].v), step = now - before, place = static_cast<double>(k);
     const bool starts = k > 0 && k < kAfterEdge;
     // A current that ends in an off phase does not go on as it fell.
-    const LaneVector conducts = Select(Min(before, now) > kConducting, one, zero);
+    const LaneVector conducts = Select(Min(before, now) > kConducts, one, zero);
     const LaneVector is_on = k == 0 ? zero : Select(place < last_on, one, zero),
                      is_off =
                          k == 0 ? conducts : Select(place > last_on + kAfterEdge, conducts, zero);

@@ -23,8 +23,6 @@
 
 namespace ambrig {
 
-/// [A] below: the diodes may block, offsets of the ADC included
-inline constexpr double kConducts = 0.12;
 inline constexpr int kRelaxations = 4;
 inline constexpr double kRelaxationPoles[kRelaxations] = {100, 1200, 12e3, 120e3};  // [Hz]
 
