@@ -12,10 +12,6 @@
 #include "core/base/memory_reuse.h"
 #include "core/math/no_solution.h"
 
-namespace ambrig {
-std::atomic<bool> interrupted{false};
-}
-
 namespace {
 
 constexpr const char* kStart =

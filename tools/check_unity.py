@@ -14,7 +14,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Compiled one by one, as cmake/folders.cmake and CMakeLists.txt say.
-APART = re.compile(r"^(actuators|fdd|bench|tests)/|catalogue\.cc$|^core/math/(noise_\w+|cvode|kinsol)\.cc$"
+APART = re.compile(r"^(actuators|fdd|bench)/|catalogue\.cc$|^core/math/(noise_\w+|cvode|kinsol)\.cc$"
                    r"|/(ode_world|nlopt_search|program_search)\.cc$|^discovery/search/fit\.cc$")
 DECLARATION = [
     re.compile(r"^(?:struct|class|enum class|enum|union) (\w+)(?!;)\b(?=.*[{:]|$)"),
@@ -24,7 +24,9 @@ DECLARATION = [
 
 
 def folder_of(name):
-    return "analysis/linear" if name.startswith("analysis/linear/") else name.split("/")[0]
+    if name.startswith("analysis/linear/"):
+        return "analysis/linear"
+    return "/".join(name.split("/")[:2 if name.startswith("tests/") else 1])
 
 
 def names_of(text):
@@ -43,6 +45,8 @@ def names_of(text):
                 match = form.match(line)
                 if match:
                     names.add(match[1])
+                    if line.startswith("constexpr"):  # further constants of the same declaration
+                        names.update(re.findall(r", (k[A-Z]\w*) = ", line.split("//")[0]))
                     break
     return names
 
@@ -52,7 +56,7 @@ def clashes(files):
     seen = collections.defaultdict(list)
     for path, text in sorted(files.items()):
         if not APART.search(path):
-            for name in names_of(text):
+            for name in names_of(text) - {"PrintTo"}:  # GoogleTest's: one overload a type
                 seen[folder_of(path), name].append(path)
     return {key: paths for key, paths in seen.items() if len(paths) > 1}
 
@@ -61,6 +65,8 @@ def self_test():
     one = "namespace {\nconstexpr double kLeast = 1;\nvoid Add(int a,\n         int b) {\n}\n}  // namespace\n"
     assert set(clashes({"core/a.cc": one, "core/b.cc": one})) == {("core", "kLeast"), ("core", "Add")}
     assert not clashes({"core/a.cc": one, "rotor/b.cc": one})
+    assert not clashes({"tests/core/a.cc": one, "tests/rotor/b.cc": one})
+    assert clashes({"tests/core/math/a.cc": one, "tests/core/b.cc": one})
     assert not clashes({"fdd/a.cc": one, "fdd/b.cc": one})
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mutation run: how many small mistakes in the sources do the tests of the same folder notice?
 
-    python3 tools/mutate.py --folders fdd,rotor --count 30 --seed 1 --build build/release --out mutants.md
+    python3 tools/mutate.py --folders fdd,rotor --count 30 --seed 1 --build build/separate --out mutants.md
 
 Every mutant is one change at a random place of a .cc file: a relational, boundary, logical or arithmetic
 operator, a number, or a statement left out. Its object is compiled into a scratch folder with the command
@@ -9,8 +9,8 @@ of the build and linked before the folder's library into the folder's test progr
 build stay as they are. The tests of the mutant's own room come first, slow ones last, and the first failure
 ends them. The mutant is killed when the program fails, crashes or takes longer than --patience times the
 healthy run; one that does not compile does not count. Prints and writes a table of the survivors: each is a
-missing test, or equivalent to the original (say why where the figure is reported). The build must hold the test
-programs (cmake --build ... --target test_FOLDER).
+missing test, or equivalent to the original (say why where the figure is reported). The build must compile one source at a
+time (cmake --preset separate) and hold the test programs (cmake --build ... --target test_FOLDER).
 """
 import argparse
 import json
@@ -212,7 +212,7 @@ def parsed():
     parser.add_argument("--folders", default="fdd,faulttolerance,discovery,rotor")
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--build", default="build/release")
+    parser.add_argument("--build", default="build/separate")
     parser.add_argument("--patience", type=float, default=5, help="time limit over the healthy run")
     parser.add_argument("--filter", default="", help="--gtest_filter of the test programs")
     parser.add_argument("--prefix", default="", help="command that runs the work on each mutant, e.g. nice")

@@ -12,7 +12,7 @@
 namespace ambrig {
 
 /// Set by Ctrl-C; every long work looks at it.
-extern std::atomic<bool> interrupted;
+inline std::atomic<bool> interrupted{false};
 
 /// Options that every command has.
 struct CommonOptions {

@@ -18,7 +18,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-RigParameters ReferenceRig() { return ReadRigText(ReferenceRigText(), "rig.toml"); }
+RigParameters BaseRig() { return ReadRigText(ReferenceRigText(), "rig.toml"); }
 
 /// The base rig at a speed, with or without a delay of its loop.
 struct Linearised {
@@ -72,14 +72,14 @@ Eigen::MatrixXd SwitchingStep(const RigParameters& rig, const std::string& targe
   return y;
 }
 
-class StepResponse : public testing::TestWithParam<std::tuple<int, double>> {};
+class StepResponse : public ::testing::TestWithParam<std::tuple<int, double>> {};
 
 // Even part in the amplitude cancels, so what differs is of third order and the switching ripple's
 // (a few per mil of the force): 1 % of the largest reading of the tested axis over 20 ms.
 TEST_P(StepResponse, IsThatOfTheSwitchingRig) {
   const auto [axis, speed] = GetParam();
   const char* names[] = {"A.x", "A.y", "B.x", "B.y", "z"};
-  const RigParameters rig = ReferenceRig();
+  const RigParameters rig = BaseRig();
   const Linearised l(rig, speed);
   constexpr int kTicks = 250;
   const Eigen::MatrixXd linear = LinearStep(l.loop, axis, 0.5, kTicks),
@@ -90,12 +90,12 @@ TEST_P(StepResponse, IsThatOfTheSwitchingRig) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Axes, StepResponse,
-                         testing::Values(std::tuple(0, 0.0), std::tuple(3, 400.0),
-                                         std::tuple(4, 0.0)));
+                         ::testing::Values(std::tuple(0, 0.0), std::tuple(3, 400.0),
+                                           std::tuple(4, 0.0)));
 
 // The frequency response is the recursion's steady state.
 TEST(ClosedLoop, ResponseIsTheSteadyStateOfTheRecursion) {
-  const Linearised l(ReferenceRig(), 200);
+  const Linearised l(BaseRig(), 200);
   const TransferFunction transfer(l.point, l.loop);
   const double omega = 2 * kPi * 75;
   const Complex expected = transfer(omega)(l.loop.Reading(1), l.loop.Excitation(0));
@@ -116,7 +116,7 @@ TEST(ClosedLoop, ResponseIsTheSteadyStateOfTheRecursion) {
 
 // Far above every critical speed a rotor turns about its centre of mass: the shaft follows e = U/m.
 TEST(ClosedLoop, FastRotorTurnsAboutItsMass) {
-  const RigParameters rig = ReferenceRig();
+  const RigParameters rig = BaseRig();
   const double speed = 2 * kPi * 1500;
   const Linearised l(rig, speed);
   const double u = 1e-5;
@@ -136,7 +136,7 @@ TEST(ClosedLoop, FastRotorTurnsAboutItsMass) {
 TEST(ClosedLoop, LoadAtTheMagnetsIsAForceCommandWhenSlow) {
   // At 5 Hz delays vanish: a load of 1 N and a commanded force of 1 N move the shaft alike up to
   // the phase of the delay, (1.5 Ts + T/2) ω = 0.4 %.
-  const Linearised l(ReferenceRig());
+  const Linearised l(BaseRig());
   const TransferFunction transfer(l.point, l.loop);
   const double omega = 2 * kPi * 5;
   const Complex load = transfer.Harmonic({omega, transfer.LoadOn(0)})(l.loop.Reading(0));
@@ -160,7 +160,7 @@ TEST(ClosedLoop, LoopDelay) {
 
 // The witness that counts: a sine injected into the nonlinear switching rig, read back from its
 // set-points. Amplitude 1 N of 60: |S| within 2 %.
-class InjectedSine : public testing::TestWithParam<std::tuple<int, double, double>> {};
+class InjectedSine : public ::testing::TestWithParam<std::tuple<int, double, double>> {};
 
 /// The sine in the nonlinear switching rig against the linear model: complex S within 2 %.
 void ExpectMeasuredIsComputed(const RigParameters& rig, int axis, double frequency, double speed,
@@ -182,15 +182,15 @@ void ExpectMeasuredIsComputed(const RigParameters& rig, int axis, double frequen
 
 TEST_P(InjectedSine, ShowsTheComputedSensitivity) {
   const auto [axis, frequency, speed] = GetParam();
-  ExpectMeasuredIsComputed(ReferenceRig(), axis, frequency, speed, "reference rig");
+  ExpectMeasuredIsComputed(BaseRig(), axis, frequency, speed, "reference rig");
 }
 
 INSTANTIATE_TEST_SUITE_P(Frequencies, InjectedSine,
-                         testing::Values(std::tuple(0, 20.0, 0.0), std::tuple(0, 60.0, 0.0),
-                                         std::tuple(1, 110.0, 0.0), std::tuple(0, 200.0, 300.0),
-                                         std::tuple(3, 350.0, 0.0), std::tuple(2, 700.0, 300.0),
-                                         std::tuple(0, 1500.0, 0.0), std::tuple(4, 90.0, 0.0),
-                                         std::tuple(4, 400.0, 0.0)));
+                         ::testing::Values(std::tuple(0, 20.0, 0.0), std::tuple(0, 60.0, 0.0),
+                                           std::tuple(1, 110.0, 0.0), std::tuple(0, 200.0, 300.0),
+                                           std::tuple(3, 350.0, 0.0), std::tuple(2, 700.0, 300.0),
+                                           std::tuple(0, 1500.0, 0.0), std::tuple(4, 90.0, 0.0),
+                                           std::tuple(4, 400.0, 0.0)));
 
 // Whatever controls it. At 900 rad/s the unbalance control is at work.
 TEST(InjectedSineWith, EveryKindOfController) {
@@ -201,7 +201,7 @@ TEST(InjectedSineWith, EveryKindOfController) {
 
 // The flexible rig: its modes at 16.6 and 105.6 Hz ring for seconds, the measurement lasts tenths
 // of one.
-class InjectedSineFlexible : public testing::TestWithParam<std::tuple<int, double, double>> {};
+class InjectedSineFlexible : public ::testing::TestWithParam<std::tuple<int, double, double>> {};
 
 TEST_P(InjectedSineFlexible, ShowsTheComputedSensitivity) {
   const auto [axis, frequency, speed] = GetParam();
@@ -210,11 +210,11 @@ TEST_P(InjectedSineFlexible, ShowsTheComputedSensitivity) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Frequencies, InjectedSineFlexible,
-                         testing::Values(std::tuple(0, 15.0, 0.0), std::tuple(2, 20.0, 0.0),
-                                         std::tuple(1, 60.0, 0.0), std::tuple(3, 104.0, 0.0),
-                                         std::tuple(0, 180.0, 0.0), std::tuple(2, 400.0, 0.0),
-                                         std::tuple(0, 1500.0, 0.0), std::tuple(0, 20.0, 250.0),
-                                         std::tuple(3, 75.0, 250.0)));
+                         ::testing::Values(std::tuple(0, 15.0, 0.0), std::tuple(2, 20.0, 0.0),
+                                           std::tuple(1, 60.0, 0.0), std::tuple(3, 104.0, 0.0),
+                                           std::tuple(0, 180.0, 0.0), std::tuple(2, 400.0, 0.0),
+                                           std::tuple(0, 1500.0, 0.0), std::tuple(0, 20.0, 250.0),
+                                           std::tuple(3, 75.0, 250.0)));
 
 TEST(InjectedSineWith, EveryKindOfControllerOnTheFlexibleRig) {
   const std::string text = ReadText(AMBRIG_SOURCE_DIR "/examples/tum_mbtr/rig.toml");
@@ -231,7 +231,7 @@ TEST(InjectedSineWith, EveryKindOfControllerOnTheFlexibleRig) {
 }
 
 TEST(ClosedLoop, ModesOfTheBaseRig) {
-  const Linearised l(ReferenceRig(), 300);
+  const Linearised l(BaseRig(), 300);
   const ClosedLoopModes modes = FindModes(l.point, l.loop);
   EXPECT_TRUE(modes.stable());
   int rotor = 0, forward = 0, backward = 0;

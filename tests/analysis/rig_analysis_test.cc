@@ -11,7 +11,7 @@
 namespace ambrig {
 namespace {
 
-RigParameters ReferenceRig() { return ReadRigText(ReferenceRigText(), "rig.toml"); }
+RigParameters AnalysedRig() { return ReadRigText(ReferenceRigText(), "rig.toml"); }
 
 TEST(Standards, Zones) {
   EXPECT_EQ(SensitivityZone(3.0), 'A');
@@ -40,7 +40,7 @@ TEST(Standards, SeparationMargins) {
 
 // k at low frequency: k_p - k_s and the integrator's -i k_i/ω; every piece known in closed form.
 TEST(Stiffness, OfTheBearingWhenSlow) {
-  const RigParameters rig = ReferenceRig();
+  const RigParameters rig = AnalysedRig();
   const OperatingPoint point = FindOperatingPoint(rig);
   const ClosedLoop loop(point, 0);
   const TransferFunction transfer(point, loop);
@@ -59,7 +59,7 @@ TEST(Stiffness, OfTheBearingWhenSlow) {
 // One axis as mass on its bearing: rotor stiffness = K - m ω² for a pure translation. The thrust
 // axis is exactly that.
 TEST(Stiffness, LevitatedRotorIsBearingAndMass) {
-  const RigParameters rig = ReferenceRig();
+  const RigParameters rig = AnalysedRig();
   const OperatingPoint point = FindOperatingPoint(rig);
   const ClosedLoop loop(point, 0);
   const TransferFunction transfer(point, loop);
@@ -75,7 +75,7 @@ TEST(Stiffness, LevitatedRotorIsBearingAndMass) {
 
 // A rigid rotor on the net springs: f = sqrt(k Σ/m)/2π for translation; both bearings alike.
 TEST(Supports, RigidRotorOnSprings) {
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = AnalysedRig();
   rig.gravity = {0, 0, 0};
   const OperatingPoint point = FindOperatingPoint(rig);
   const RotorOnSupports s = AnalyseSupports(point, 4);
@@ -98,7 +98,7 @@ TEST(Supports, RigidRotorOnSprings) {
 }
 
 TEST(Capacity, OfTheReferenceRig) {
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = AnalysedRig();
   rig.gravity = {0, 0, 0};
   const auto c = FindCapacity(FindOperatingPoint(rig));
   const RadialStatorParameters& p = rig.bearings[0].radial;
@@ -120,7 +120,7 @@ TEST(Analysis, OfTheReferenceRig) {
   o.highest = 600;
   o.fastest = 900;
   o.responses = {{"A.x.load", "A.x"}, {"A.x.force", "A.i1"}};
-  const RigAnalysis a = Analyse(ReferenceRig(), o);
+  const RigAnalysis a = Analyse(AnalysedRig(), o);
   EXPECT_TRUE(a.stable());
   ASSERT_EQ(a.sensitivity.size(), 3u);
   for (const Sensitivity& s : a.sensitivity)
@@ -143,7 +143,7 @@ TEST(Analysis, OfTheReferenceRig) {
 /// Gain margins of the thrust axis, which moves alone, beside the gains at which the loop is truly
 /// unstable. `ki`: times the rig's.
 void ExpectMarginsAreWhereStabilityEnds(double ki) {
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = AnalysedRig();
   rig.gravity = {0, 0, 0};
   rig.bearings[2].controller->ki *= ki;
   const OperatingPoint point = FindOperatingPoint(rig);
@@ -170,7 +170,7 @@ TEST(Margins, GainMarginsAreWhereStabilityEnds) { ExpectMarginsAreWhereStability
 TEST(Margins, WithoutAnIntegratorTheGainMayFallToTheNegativeStiffness) {
   ExpectMarginsAreWhereStabilityEnds(0);
   ExpectMarginsAreWhereStabilityEnds(1e-4);
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = AnalysedRig();
   rig.gravity = {0, 0, 0};
   rig.controller.pid.ki = 0;
   const OperatingPoint point = FindOperatingPoint(rig);

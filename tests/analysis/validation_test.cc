@@ -11,7 +11,7 @@
 namespace ambrig {
 namespace {
 
-class Published : public testing::TestWithParam<const char*> {};
+class Published : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Published, FiguresAreMet) {
   const auto rows = Validate(std::string(AMBRIG_SOURCE_DIR "/examples/validation/") + GetParam() +
@@ -25,10 +25,10 @@ TEST_P(Published, FiguresAreMet) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Rigs, Published,
-                         testing::Values("friswell_5_9_1", "friswell_5_9_2", "friswell_5_9_5",
-                                         "friswell_5_9_9", "friswell_unbalance", "rappid",
-                                         "tum_mbtr", "ufu", "nelson_mcvaugh", "mse2011_rigid",
-                                         "mbc500", "tu_darmstadt_magnet", "ufu_magnet"));
+                         ::testing::Values("friswell_5_9_1", "friswell_5_9_2", "friswell_5_9_5",
+                                           "friswell_5_9_9", "friswell_unbalance", "rappid",
+                                           "tum_mbtr", "ufu", "nelson_mcvaugh", "mse2011_rigid",
+                                           "mbc500", "tu_darmstadt_magnet", "ufu_magnet"));
 
 class ValidationFile : public CliFolder {
  protected:

@@ -33,7 +33,7 @@ RunDifference Compared(const RunFiles& a, const RunFiles& b, double allowed = 0)
   return CompareRuns(a, b, t);
 }
 
-std::string Page(const RunFiles& a, const RunFiles& b, const RunDifference& d) {
+std::string DifferencePage(const RunFiles& a, const RunFiles& b, const RunDifference& d) {
   return testing::Written([&](const std::string& path) {
     WriteDifferenceReport({{"run 7", &a, &b, &d}}, path);
   });
@@ -44,7 +44,7 @@ TEST(DifferencePage, EqualRunsHaveNothingToShow) {
   const RunDifference d = Compared(a, b);
   EXPECT_TRUE(d.identical());
   EXPECT_THAT(DifferenceLines(d), IsEmpty());
-  const std::string page = Page(a, b, d), words = testing::Words(page);
+  const std::string page = DifferencePage(a, b, d), words = testing::Words(page);
   EXPECT_THAT(words, HasSubstr("No bit differs."));
   EXPECT_THAT(words, HasSubstr("old.h5 and new.h5"));
   EXPECT_EQ(testing::CountOf(page, "<figure id="), 0u);
@@ -73,7 +73,7 @@ TEST(DifferencePage, TheFirstChannelToLeaveComesFirst) {
   EXPECT_THAT(lines[4], HasSubstr("A.x: differs from 60 ms, 40 of 100 rows, worst 3 um"));
   EXPECT_THAT(lines[4], HasSubstr("(allowed 1 nm)"));
   EXPECT_EQ(DifferenceLines(d, 1).back(), "and 1 more channel");
-  const std::string page = Page(a, b, d), words = testing::Words(page);
+  const std::string page = DifferencePage(a, b, d), words = testing::Words(page);
   EXPECT_THAT(words, HasSubstr("Something differs beyond the tolerances."));
   EXPECT_THAT(words, HasSubstr("60 of 100"));
   EXPECT_EQ(testing::CountOf(page, "<figure id="), 2u);
@@ -95,7 +95,8 @@ TEST(DifferencePage, WithinTheTolerancesItAgreesButIsNotTheSame) {
   const RunDifference d = Compared(a, b, 1e-8);
   EXPECT_TRUE(d.agrees());
   EXPECT_FALSE(d.identical());
-  EXPECT_THAT(testing::Words(Page(a, b, d)), HasSubstr("Everything is within the tolerances."));
+  EXPECT_THAT(testing::Words(DifferencePage(a, b, d)),
+              HasSubstr("Everything is within the tolerances."));
 }
 
 TEST(DifferencePage, ALostChannelIsNamedWithoutNumbers) {
@@ -107,7 +108,7 @@ TEST(DifferencePage, ALostChannelIsNamedWithoutNumbers) {
   EXPECT_FALSE(d.events_known);
   EXPECT_THAT(DifferenceLines(d), ::testing::Contains("A.i1: lost"));
   EXPECT_EQ(DifferenceJson(d)["events_compared"], false);
-  EXPECT_THAT(testing::Words(Page(a, b, d)), HasSubstr("A.i1: lost."));
+  EXPECT_THAT(testing::Words(DifferencePage(a, b, d)), HasSubstr("A.i1: lost."));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ RankedEffect Ranked(const EffectInstance& e, double probability, double ratio) {
 
 /// The words that `add` puts into a report.
 template <class Add>
-std::string Page(const Add& add) {
+std::string TablesPage(const Add& add) {
   HtmlReport report("T", "S");
   add(report);
   return report.Html();
@@ -50,7 +50,7 @@ TEST(ExplainTables, TheRankingSaysWhatIsAdoptedAndWhatLosesTheRotor) {
   e.ranking = {Ranked(Gain(1.08, 0.002), 0.97, 1.02),
                Ranked(MakeInstance(EffectNamed("sensor-offset"), "A.x"), 0.03, kInfinity)};
   e.adopted = {e.ranking[0].effect};
-  const std::string html = Page([&](HtmlReport&r) { AddRanking(r, e); }),
+  const std::string html = TablesPage([&](HtmlReport&r) { AddRanking(r, e); }),
                     words = testing::Words(html);
   EXPECT_THAT(words, HasSubstr("\n1\nsensor-gain at A.x\n97.0 %\n4.750\n1.020\n1.020\n"));
   EXPECT_THAT(words, HasSubstr("\n2\nsensor-offset at A.x\n3.0 %\n4.750\nloses the rotor\n–\n"));
@@ -66,7 +66,9 @@ TEST(ExplainTables, ASecondRoundIsCalledOverfittingUnlessItWasTaken) {
   e.ranking = {Ranked(Gain(1.08, 0.002), 1, 1.3)};
   e.second_round = {Ranked(MakeInstance(EffectNamed("sensor-offset"), "A.x"), 1, 1.29)};
   e.adopted = {e.ranking[0].effect};
-  const auto words = [&] { return testing::Words(Page([&](HtmlReport& r) { AddRanking(r, e); })); };
+  const auto words = [&] {
+    return testing::Words(TablesPage([&](HtmlReport& r) { AddRanking(r, e); }));
+  };
   EXPECT_THAT(words(), HasSubstr("the improvement may be due to overfitting"));
   e.adopted.push_back(e.second_round[0].effect);
   EXPECT_THAT(words(), HasSubstr("The green one met the acceptance criterion as well."));
@@ -76,7 +78,7 @@ TEST(ExplainTables, WithoutCandidatesItSaysWhy) {
   Explanation e;
   const auto words = [&](const char* verdict) {
     e.verdict = verdict;
-    return testing::Words(Page([&](HtmlReport& r) { AddRanking(r, e); }));
+    return testing::Words(TablesPage([&](HtmlReport& r) { AddRanking(r, e); }));
   };
   EXPECT_THAT(words("parameters"), HasSubstr("nothing was left to explain"));
   EXPECT_THAT(words("unknown"), HasSubstr("None could be fitted to these records."));
@@ -85,12 +87,12 @@ TEST(ExplainTables, WithoutCandidatesItSaysWhy) {
 TEST(ExplainTables, ScreeningShowsTheFifteenBestAgainstTheErrorWithoutAny) {
   Explanation e;
   e.base_ratio_validate = 6.5;
-  EXPECT_EQ(CountOf(Page([&](HtmlReport& r) { AddScreening(r, e); }), "<figure"), 0u);
+  EXPECT_EQ(CountOf(TablesPage([&](HtmlReport& r) { AddScreening(r, e); }), "<figure"), 0u);
   Candidate c;
   c.effect = Gain(1.01, 0);
   c.ratio_validate = 2.5;
   e.screened.assign(40, c);
-  const std::string html = Page([&](HtmlReport& r) { AddScreening(r, e); });
+  const std::string html = TablesPage([&](HtmlReport& r) { AddScreening(r, e); });
   EXPECT_THAT(html, HasSubstr("15 of 40"));
   EXPECT_THAT(html, HasSubstr("\"x0\":6.5"));
 }
@@ -105,7 +107,7 @@ TEST(ExplainTables, TheCostNamesDistancesAndStrainedParameters) {
     if (p.path == "rotor.mass") e.final_fit.hypothesis.Set(k, p.start - 3 * p.sd);
   }
   e.final_fit.sd.assign(e.final_fit.hypothesis.free.size(), 0.001);
-  const std::string words = testing::Words(Page([&](HtmlReport& r) { AddCost(r, e); }));
+  const std::string words = testing::Words(TablesPage([&](HtmlReport& r) { AddCost(r, e); }));
   EXPECT_THAT(words, HasSubstr("1 more number in the model"));
   EXPECT_THAT(words, HasSubstr("\n40 sd\n"));
   EXPECT_THAT(words, HasSubstr("\nrotor.mass\n"));
@@ -157,7 +159,7 @@ TEST(DiscoveryParts, ValuesAndTheirSdHaveOneUnit) {
 }
 
 TEST(DiscoveryParts, TheLadderNamesEveryStep) {
-  const std::string html = Page([](HtmlReport& r) {
+  const std::string html = TablesPage([](HtmlReport& r) {
     AddLadder(r, {{"", 9, 8},
                   {"parameters", 8, 7.5},
                   {"eddy-currents at A", 1.2, 1.1},

@@ -29,13 +29,13 @@ Plan TwoNames() {
   return p;
 }
 
-std::string Page(const Plan& p) {
+std::string PlanPage(const Plan& p) {
   return testing::Written(
       [&](const std::string& path) { WritePlanReport(p, "case.toml", "next.toml", path); });
 }
 
 TEST(PlanPage, HasCardComparisonAndFile) {
-  const std::string html = Page(TwoNames()), words = testing::Words(html);
+  const std::string html = PlanPage(TwoNames()), words = testing::Words(html);
   for (const char* head : {"The next record", "Card", "Scenarios compared", "Scenario file"})
     EXPECT_THAT(words, HasSubstr(head));
   EXPECT_THAT(words, HasSubstr("Hold the rotor and pulse coil 1."));
@@ -47,7 +47,7 @@ TEST(PlanPage, HasCardComparisonAndFile) {
 
 // Scenarios that were refused stand in the table with their reason, without a bar.
 TEST(PlanPage, WhatWasRefusedIsSaidWithItsReason) {
-  const std::string html = Page(TwoNames()), words = testing::Words(html);
+  const std::string html = PlanPage(TwoNames()), words = testing::Words(html);
   EXPECT_THAT(words, HasSubstr("\nrun-up\n1\n-\n190.0\nlargest orbit 190 um, allowed 100 um\n"));
   EXPECT_THAT(words, HasSubstr("\ncurrent pulses\n0.5\n6.2\n-\nyes\n"));
   const auto bars = html.find("\"current pulses\"");
@@ -60,7 +60,7 @@ TEST(PlanPage, TheLeastCertainPairDecides) {
   const auto verdict = [](double probability) {
     Plan p = TwoNames();
     p.separates.push_back({"saturation at A", "nothing", 2, probability, 20, 30});
-    return Page(p);
+    return PlanPage(p);
   };
   EXPECT_THAT(testing::Words(verdict(0.95)), HasSubstr("at least 95.0 %"));
   EXPECT_THAT(testing::Words(verdict(0.6)), HasSubstr("at least 60.0 %"));
@@ -72,8 +72,8 @@ TEST(PlanPage, TheLeastCertainPairDecides) {
 TEST(PlanPage, WarningsAreShown) {
   Plan p = TwoNames();
   p.warnings = {"saturation at A cannot be told from nothing by any scenario"};
-  EXPECT_THAT(testing::Words(Page(p)), HasSubstr("cannot be told from nothing"));
-  EXPECT_EQ(testing::CountOf(Page(TwoNames()), "verdict warn"), 1u);  // that of no JavaScript
+  EXPECT_THAT(testing::Words(PlanPage(p)), HasSubstr("cannot be told from nothing"));
+  EXPECT_EQ(testing::CountOf(PlanPage(TwoNames()), "verdict warn"), 1u);  // that of no JavaScript
 }
 
 // Keys of docs/guide/files.md, and numbers as they are.

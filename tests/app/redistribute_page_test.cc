@@ -43,7 +43,7 @@ std::vector<std::string> Lines(const std::string& text) {
   return out;
 }
 
-std::string Page(const RedistributionFigures& f) {
+std::string RedistributePage(const RedistributionFigures& f) {
   const RigParameters rig = ReadRigText(ReferenceRigText(), "rig.toml");
   return testing::Written(
       [&](const std::string& path) { WriteRedistributionReport(rig, f, path); });
@@ -96,7 +96,7 @@ TEST(RedistributionWords, WithoutALoadThereIsNoMargin) {
 }
 
 TEST(RedistributionPage, SaysTheSameAsTheScreen) {
-  const std::string words = testing::Words(Page(Figures()));
+  const std::string words = testing::Words(RedistributePage(Figures()));
   EXPECT_THAT(words, HasSubstr("rig reference, bearing A"));
   EXPECT_THAT(words, HasSubstr("(0.00, -21.40) N"));
   EXPECT_THAT(words, HasSubstr("\n{3}\nW, exact\nyes\n1.90\n18.2\n90\n"));
@@ -106,13 +106,13 @@ TEST(RedistributionPage, SaysTheSameAsTheScreen) {
 
 // A drawing of the poles and one of the forces for each set; a set without a map draws none of its own.
 TEST(RedistributionPage, HasPicturesOfEverySetWhileTheyAreFew) {
-  const std::string html = Page(Figures());
+  const std::string html = RedistributePage(Figures());
   EXPECT_EQ(CountOf(html, "<figure id="), 4u);
   EXPECT_THAT(html, HasSubstr("{3} open"));
   EXPECT_THAT(html, HasSubstr("force x [N]"));
   RedistributionFigures many = Figures();
   many.sets.assign(13, many.sets.front());
-  const std::string table = Page(many);
+  const std::string table = RedistributePage(many);
   EXPECT_EQ(CountOf(table, "<figure id="), 0u);
   EXPECT_EQ(CountOf(testing::Words(table), "\n{3}\n"), 13u);
   EXPECT_THAT(testing::Words(table), Not(HasSubstr("Pictures")));
@@ -123,7 +123,7 @@ TEST(RedistributionPage, ForcesAreDrawnFromTheLoad) {
   RedistributionFigures f = Figures();
   f.load = {3, -20};
   f.sets.pop_back();
-  const std::string html = Page(f);
+  const std::string html = RedistributePage(f);
   EXPECT_THAT(html, HasSubstr("39.5"));  // 3 + 2 * 18.25
 }
 

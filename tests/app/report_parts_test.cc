@@ -17,8 +17,8 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
-using testing::Not;
+using ::testing::HasSubstr;
+using ::testing::Not;
 const std::string kGap = "\u00a0", kThin = "\u202f";
 
 TEST(Format, SiPrefixes) {

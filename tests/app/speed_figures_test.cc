@@ -59,7 +59,7 @@ std::vector<Json> FiguresOf(const std::string& html) {
   return out;
 }
 
-class SpeedFigures : public testing::Test {
+class SpeedFigures : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     for (const Json& figure : FiguresOf(MakeRunReport(RunUp()).Html()))

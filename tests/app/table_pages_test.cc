@@ -46,7 +46,7 @@ Rows FourRuns() {
           {3, with(3, "20", "touchdown", "0.00021", "0.0002", "1")}};
 }
 
-std::string Page(const testing::BuiltPage& p) {
+std::string TextOf(const testing::BuiltPage& p) {
   EXPECT_EQ(p.exit_code, 0);
   EXPECT_TRUE(p.clean()) << p.console;
   return p.dom;
@@ -57,7 +57,7 @@ TEST(CampaignPage, SaysWhatTheRowsSay) {
   const TemporaryFolder folder;
   WriteCampaignReport({"four runs", "/files/c.toml", "1234", 4}, FourRuns(), folder.File("c.html"));
   const testing::BuiltPage built = testing::BuildInBrowser(folder.File("c.html"));
-  const std::string dom = Page(built);
+  const std::string dom = TextOf(built);
   EXPECT_EQ(built.figures(), 3U);  // one survival map, one histogram, capacity
   EXPECT_THAT(dom, HasSubstr("2 of 4 runs stayed up, 1 touched down, 1 dropped."));
   EXPECT_THAT(dom, HasSubstr("0 in 4e+03 switching periods of healthy coils"));
@@ -162,7 +162,7 @@ TEST(CrosscheckPage, ShowsBothModelsAndTheirVerdicts) {
   const TemporaryFolder folder;
   WriteCrosscheckReport({ScenarioOf(true, true), ScenarioOf(true, false)}, folder.File("w.html"));
   const testing::BuiltPage built = testing::BuildInBrowser(folder.File("w.html"));
-  const std::string dom = Page(built);
+  const std::string dom = TextOf(built);
   EXPECT_EQ(built.figures(), 4U);  // orbits and radii of either scenario
   EXPECT_THAT(dom, HasSubstr("Both models agree: dropped."));
   EXPECT_THAT(dom, HasSubstr("The compliant model says dropped, the one on ODE touched down."));

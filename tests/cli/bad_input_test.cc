@@ -5,7 +5,7 @@
 namespace ambrig {
 namespace {
 
-class BadInput : public CliFolder {
+class BadInputs : public CliFolder {
  protected:
   /// One line, exit 2, names what it should, nothing written.
   void ExpectComplaint(const Outcome& o, const std::string& part) const {
@@ -16,68 +16,68 @@ class BadInput : public CliFolder {
   }
 };
 
-TEST_F(BadInput, GoodInputRuns) {
+TEST_F(BadInputs, GoodInputRuns) {
   const Outcome o = Run(ReferenceRigText(), ScenarioText(""));
   EXPECT_EQ(o.exit, 0) << o.text;
   EXPECT_EQ(Files(), "out/s.h5 out/s.html out/s.json rig.toml s.toml ");
 }
-TEST_F(BadInput, TruncatedToml) {
+TEST_F(BadInputs, TruncatedToml) {
   ExpectComplaint(Run(ReferenceRigText().substr(0, 300), ScenarioText("")), "rig.toml:");
 }
-TEST_F(BadInput, NotToml) {
+TEST_F(BadInputs, NotToml) {
   ExpectComplaint(Run(ReferenceRigText(), "\x01\x02 nonsense"), "s.toml:1: not valid TOML");
 }
-TEST_F(BadInput, KeyOfManyNames) {
+TEST_F(BadInputs, KeyOfManyNames) {
   std::string key = "a";
   for (int k = 0; k < 100'000; ++k) key += ".a";
   ExpectComplaint(Run("name = \"x\"\n[" + key + "]\nb = 1\n", ScenarioText("")),
                   "rig.toml:2: not valid TOML: a key of more than 32 names");
 }
-TEST_F(BadInput, DotsOutsideKeys) {
+TEST_F(BadInputs, DotsOutsideKeys) {
   const std::string dots =
       "# " + std::string(100, '.') + "\nname = \"" + std::string(100, '.') + "\"\n";
   const Outcome o =
       Run(dots + Replaced(ReferenceRigText(), "name = \"reference\"", ""), ScenarioText(""));
   EXPECT_EQ(o.exit, 0) << o.text;
 }
-TEST_F(BadInput, DeepValue) {
+TEST_F(BadInputs, DeepValue) {
   ExpectComplaint(Run("a = " + std::string(100'000, '['), ScenarioText("")),
                   "rig.toml:1: not valid TOML");
 }
-TEST_F(BadInput, EmptyRig) { ExpectComplaint(Run("", ScenarioText("")), "rig.toml:"); }
-TEST_F(BadInput, MissingRig) {
+TEST_F(BadInputs, EmptyRig) { ExpectComplaint(Run("", ScenarioText("")), "rig.toml:"); }
+TEST_F(BadInputs, MissingRig) {
   ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", "no.toml")),
                   "no.toml: no such file");
 }
-TEST_F(BadInput, RigIsAFolder) {
+TEST_F(BadInputs, RigIsAFolder) {
   ExpectComplaint(Run(ReferenceRigText(), Replaced(ScenarioText(""), "rig.toml", ".")),
                   "allowed: a file (.: is a folder)");
 }
-TEST_F(BadInput, FileWithoutAnEnd) {
+TEST_F(BadInputs, FileWithoutAnEnd) {
   Write("rig.toml", ReferenceRigText());
   Write("s.toml", ScenarioText(""));
   ExpectComplaint(Ambrig("run /dev/zero --quiet"), "/dev/zero: is larger than 16 MiB");
 }
-TEST_F(BadInput, UnwritableOut) {
+TEST_F(BadInputs, UnwritableOut) {
   ExpectComplaint(Run(ReferenceRigText(), ScenarioText(""), "/proc/nowhere"),
                   "cannot write /proc/nowhere");
 }
-TEST_F(BadInput, UnknownCommand) {
+TEST_F(BadInputs, UnknownCommand) {
   const Outcome o = Ambrig("rnu x.toml");
   EXPECT_EQ(o.exit, 2) << o.text;
   EXPECT_EQ(o.lines(), 1) << o.text;
 }
-TEST_F(BadInput, UnknownFidelity) {
+TEST_F(BadInputs, UnknownFidelity) {
   Write("rig.toml", ReferenceRigText());
   Write("s.toml", ScenarioText(""));
   ExpectComplaint(Ambrig("run s.toml --quiet --fidelity exact"), "switching");
 }
-TEST_F(BadInput, UnknownEffectSuggests) {
+TEST_F(BadInputs, UnknownEffectSuggests) {
   const Outcome o = Ambrig("effects eddy-curents");
   EXPECT_EQ(o.exit, 2);
   EXPECT_NE(o.text.find("did you mean eddy-currents?"), std::string::npos) << o.text;
 }
-TEST_F(BadInput, HelpOfEveryCommand) {
+TEST_F(BadInputs, HelpOfEveryCommand) {
   for (const char* command :
        {"run", "check", "campaign", "merge", "redistribute", "effects", "parameters", "compare",
         "explain", "adopt", "hide", "score", "judge", "practice"}) {

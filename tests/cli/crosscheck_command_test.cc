@@ -13,14 +13,14 @@
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 struct Outcome {
   int exit = 0;
   std::string text;
 };
 
-class WitnessCommand : public testing::Test {
+class WitnessCommand : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() / ("ambrig_witness_" + std::to_string(::getpid()));

@@ -114,7 +114,7 @@ const Examples kExamples[] = {
     {"score", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
 };
 
-class HelpExamples : public Help, public testing::WithParamInterface<Examples> {};
+class HelpExamples : public Help, public ::testing::WithParamInterface<Examples> {};
 
 TEST_P(HelpExamples, RunAsTheyStand) {
   const Examples& e = GetParam();
@@ -131,7 +131,7 @@ TEST_P(HelpExamples, RunAsTheyStand) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, HelpExamples, testing::ValuesIn(kExamples),
+INSTANTIATE_TEST_SUITE_P(Commands, HelpExamples, ::testing::ValuesIn(kExamples),
                          [](const auto& of) { return std::string(of.param.command); });
 
 TEST_F(Help, EveryCommandsExamplesAreRun) {

@@ -15,7 +15,7 @@ struct Mistake {
 
 inline void PrintTo(const Mistake& m, std::ostream* out) { *out << m.name; }
 
-class Messages : public CliFolder, public testing::WithParamInterface<Mistake> {
+class Messages : public CliFolder, public ::testing::WithParamInterface<Mistake> {
  protected:
   void ExpectOneLine(const Outcome& o) const {
     EXPECT_EQ(o.exit, 2) << o.text;
@@ -31,6 +31,8 @@ class Messages : public CliFolder, public testing::WithParamInterface<Mistake> {
   }
 };
 
-inline std::string NameOf(const testing::TestParamInfo<Mistake>& which) { return which.param.name; }
+inline std::string NameOf(const ::testing::TestParamInfo<Mistake>& which) {
+  return which.param.name;
+}
 
 }  // namespace ambrig

@@ -131,7 +131,7 @@ struct Formula {
   const char *name, *law, *said;
 };
 
-class Formulas : public NoSolutionOf, public testing::WithParamInterface<Formula> {};
+class Formulas : public NoSolutionOf, public ::testing::WithParamInterface<Formula> {};
 
 // A formula is tried before a run: what it gives near the centre must be a number within its range.
 TEST_P(Formulas, AreTriedBeforeTheRun) {
@@ -141,16 +141,16 @@ TEST_P(Formulas, AreTriedBeforeTheRun) {
 
 INSTANTIATE_TEST_SUITE_P(
     Table, Formulas,
-    testing::Values(Formula{"Root", "target = \"A\"\nforce = { x = \"sqrt(x)\", y = \"0\" }\n",
-                            "\"sqrt(x)\": gives no number at x = y = -1e-5 m"},
-                    Formula{"Log", "target = \"A\"\nforce = { x = \"0\", y = \"log(y)\" }\n",
-                            "\"log(y)\": gives no number at x = y = -1e-5 m"},
-                    Formula{"Pole", "target = \"A\"\nforce = { x = \"1/x\", y = \"0\" }\n",
-                            "\"1/x\": gives inf N with the shaft at rest"},
-                    Formula{"Huge", "target = \"A\"\nforce = { x = \"1e12\", y = \"0\" }\n",
-                            "gives 1000000000000 N"},
-                    Formula{"Volts", "target = \"A.coil1\"\nvoltage = \"1e9\"\n",
-                            "gives 1000000000 V at x = y = 1e-5 m, allowed -100000 to 100000 V"}),
+    ::testing::Values(Formula{"Root", "target = \"A\"\nforce = { x = \"sqrt(x)\", y = \"0\" }\n",
+                              "\"sqrt(x)\": gives no number at x = y = -1e-5 m"},
+                      Formula{"Log", "target = \"A\"\nforce = { x = \"0\", y = \"log(y)\" }\n",
+                              "\"log(y)\": gives no number at x = y = -1e-5 m"},
+                      Formula{"Pole", "target = \"A\"\nforce = { x = \"1/x\", y = \"0\" }\n",
+                              "\"1/x\": gives inf N with the shaft at rest"},
+                      Formula{"Huge", "target = \"A\"\nforce = { x = \"1e12\", y = \"0\" }\n",
+                              "gives 1000000000000 N"},
+                      Formula{"Volts", "target = \"A.coil1\"\nvoltage = \"1e9\"\n",
+                              "gives 1000000000 V at x = y = 1e-5 m, allowed -100000 to 100000 V"}),
     [](const auto& of) { return std::string(of.param.name); });
 
 }  // namespace

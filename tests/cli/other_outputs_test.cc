@@ -40,7 +40,7 @@ const Call kCalls[] = {
     {"practice", "rig.toml --cases 1 -o cases", "rig.toml"},
 };
 
-class OtherOutputs : public CliFolder, public testing::WithParamInterface<Call> {
+class OtherOutputs : public CliFolder, public ::testing::WithParamInterface<Call> {
  protected:
   void SetUp() override {
     CliFolder::SetUp();
@@ -94,7 +94,7 @@ TEST_P(OtherOutputs, InputsAreNotOverwritten) {
   EXPECT_EQ(ReadText(folder_ / input), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(Commands, OtherOutputs, testing::ValuesIn(kCalls),
+INSTANTIATE_TEST_SUITE_P(Commands, OtherOutputs, ::testing::ValuesIn(kCalls),
                          [](const auto& of) { return std::string(of.param.command); });
 
 // A new command that writes JSON has its row above.

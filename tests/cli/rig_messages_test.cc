@@ -224,7 +224,7 @@ TEST_P(RigMessages, OneLine) {
       Run(Replaced(ReferenceRigText(), GetParam().from, GetParam().to), ScenarioText("")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, RigMessages, testing::ValuesIn(kRigMistakes), NameOf);
+INSTANTIATE_TEST_SUITE_P(Table, RigMessages, ::testing::ValuesIn(kRigMistakes), NameOf);
 
 }  // namespace
 }  // namespace ambrig

@@ -200,7 +200,7 @@ TEST_P(ScenarioMessages, OneLine) {
   ExpectOneLine(Run(ReferenceRigText(), ScenarioText(GetParam().to + std::string("\n"))));
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, ScenarioMessages, testing::ValuesIn(kScenarioMistakes), NameOf);
+INSTANTIATE_TEST_SUITE_P(Table, ScenarioMessages, ::testing::ValuesIn(kScenarioMistakes), NameOf);
 
 class BaseKeys : public CliFolder {};
 // A start that the rig cannot give is named with the scenario's own line.

@@ -65,7 +65,7 @@ TEST_F(StoppedRun, FullDevice) {
 }
 
 using Stop = std::pair<const char*, const char*>;  // command, signal
-class Interrupted : public StoppedRun, public testing::WithParamInterface<Stop> {};
+class Interrupted : public StoppedRun, public ::testing::WithParamInterface<Stop> {};
 
 // A minute of simulated time, ended in its first second by the signals of a terminal and of a
 // system that stops (a shell without job control starts its jobs deaf to SIGINT: env clears that).
@@ -85,12 +85,12 @@ TEST_P(Interrupted, LeavesNothing) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Command, Interrupted,
-    testing::Values(Stop{"run s.toml --quiet --out out", "INT"},
-                    Stop{"run s.toml --quiet --out out", "TERM"},
-                    Stop{"run s.toml --quiet --fidelity reference --out out", "INT"},
-                    Stop{"run s.toml --quiet --fidelity averaged --out out", "INT"},
-                    Stop{"hide sensor-gain@A.x eddy-currents@A --rig rig.toml -o out", "INT"},
-                    Stop{"check more.toml --junit out.xml --json out.json", "INT"}));
+    ::testing::Values(Stop{"run s.toml --quiet --out out", "INT"},
+                      Stop{"run s.toml --quiet --out out", "TERM"},
+                      Stop{"run s.toml --quiet --fidelity reference --out out", "INT"},
+                      Stop{"run s.toml --quiet --fidelity averaged --out out", "INT"},
+                      Stop{"hide sensor-gain@A.x eddy-currents@A --rig rig.toml -o out", "INT"},
+                      Stop{"check more.toml --junit out.xml --json out.json", "INT"}));
 
 }  // namespace
 }  // namespace ambrig

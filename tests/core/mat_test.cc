@@ -22,7 +22,7 @@ using testing::ReadBytes;
 using testing::TemporaryFolder;
 using testing::WriteBytes;
 
-Record Example() {
+Record MatExample() {
   return {12500.0, 0.125, {{"A.x", "um", {0.1, 1.0 / 3, -2}}, {"bus", "", {1, 2, 3}}}};
 }
 
@@ -90,7 +90,7 @@ TEST(Mat, ReadsVersion5PlainAndCompressedAndVersion73) {
 
 TEST(Mat, WritesWhatItReads) {
   const TemporaryFolder folder;
-  const Record r = Example();
+  const Record r = MatExample();
   WriteMat(r, folder.File("a.mat"));
   const Record back = ReadMat(folder.File("a.mat"));
   EXPECT_EQ(back.rate, r.rate);
@@ -107,9 +107,9 @@ TEST(Mat, WritesWhatItReads) {
 
 TEST(Mat, SameRecordSameBytes) {
   const TemporaryFolder folder;
-  WriteMat(Example(), folder.File("a.mat"));
+  WriteMat(MatExample(), folder.File("a.mat"));
   const std::string bytes = ReadBytes(folder.File("a.mat"));
-  WriteMat(Example(), folder.File("a.mat"));
+  WriteMat(MatExample(), folder.File("a.mat"));
   EXPECT_EQ(ReadBytes(folder.File("a.mat")), bytes);
   EXPECT_EQ(bytes.find("20", 0), bytes.find("20", 116));  // no year in the header's text
 }
@@ -187,7 +187,7 @@ TEST(Mat, UnequalLengthsAndDamageAreErrors) {
 
 TEST(Mat, AFullDiskLeavesNothing) {
   const TemporaryFolder folder;
-  Record large = Example();
+  Record large = MatExample();
   for (Channel& c : large.channels) c.samples.resize(20000, 0.5);
   rlimit limit = {};
   getrlimit(RLIMIT_FSIZE, &limit);

@@ -20,15 +20,15 @@ bool All(const std::string&) { return true; }
 TEST(MissingSamples, StraightLinesOverGapsAndHeldEnds) {
   const BridgedRecord b =
       BridgeMissing(Logged({kNan, 1, kNan, kInf, 4, kNan}, {0, 1, 2, 3, 4, 5}), 0, All);
-  EXPECT_THAT(b.record.channels[0].samples, testing::ElementsAre(1, 1, 2, 3, 4, 4));
-  EXPECT_THAT(b.record.channels[1].samples, testing::ElementsAre(0, 1, 2, 3, 4, 5));
-  EXPECT_THAT(b.in_gap, testing::ElementsAre(1, 0, 1, 1, 0, 1));
+  EXPECT_THAT(b.record.channels[0].samples, ::testing::ElementsAre(1, 1, 2, 3, 4, 4));
+  EXPECT_THAT(b.record.channels[1].samples, ::testing::ElementsAre(0, 1, 2, 3, 4, 5));
+  EXPECT_THAT(b.in_gap, ::testing::ElementsAre(1, 0, 1, 1, 0, 1));
 }
 
 TEST(MissingSamples, AGapIsFeltForAWhile) {
   const BridgedRecord b =
       BridgeMissing(Logged({0, kNan, 2, 3, 4, 5}, {0, 0, 0, 0, kNan, 0}), 0.02, All);
-  EXPECT_THAT(b.in_gap, testing::ElementsAre(0, 1, 1, 1, 1, 1));
+  EXPECT_THAT(b.in_gap, ::testing::ElementsAre(0, 1, 1, 1, 1, 1));
   EXPECT_TRUE(b.Sound(0));
   EXPECT_FALSE(b.Sound(3));
 }
@@ -36,8 +36,8 @@ TEST(MissingSamples, AGapIsFeltForAWhile) {
 TEST(MissingSamples, OnlyWhatDrivesMakesAGap) {
   const BridgedRecord b = BridgeMissing(Logged({0, kNan, 2}, {kNan, 1, 2}), 0,
                                         [](const std::string& name) { return name == "x"; });
-  EXPECT_THAT(b.record.channels[1].samples, testing::ElementsAre(1, 1, 2));
-  EXPECT_THAT(b.in_gap, testing::ElementsAre(0, 1, 0));
+  EXPECT_THAT(b.record.channels[1].samples, ::testing::ElementsAre(1, 1, 2));
+  EXPECT_THAT(b.in_gap, ::testing::ElementsAre(0, 1, 0));
 }
 
 TEST(MissingSamples, NothingMissingNothingChanged) {

@@ -10,7 +10,7 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string RefusalOf(const std::string& path) {
   try {
@@ -21,10 +21,10 @@ std::string RefusalOf(const std::string& path) {
   return "none";
 }
 
-class ReadFileTest : public testing::Test {
+class ReadFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    path_ = testing::TempDir() + "ambrig_read_file_test";
+    path_ = ::testing::TempDir() + "ambrig_read_file_test";
     bytes_.resize(200001);  // more than one block
     for (std::size_t k = 0; k < bytes_.size(); ++k) bytes_[k] = static_cast<char>(k * 7 % 256);
     std::ofstream(path_, std::ios::binary) << bytes_;
@@ -43,7 +43,7 @@ TEST_F(ReadFileTest, StopsAtTheLimit) {
 
 TEST_F(ReadFileTest, SaysWhyNot) {
   EXPECT_EQ(RefusalOf(path_ + ".not"), path_ + ".not: no such file");
-  EXPECT_THAT(RefusalOf(testing::TempDir()), HasSubstr("is a folder"));
+  EXPECT_THAT(RefusalOf(::testing::TempDir()), HasSubstr("is a folder"));
 }
 
 TEST(Beside, IsRelativeToTheFolderOfTheFile) {

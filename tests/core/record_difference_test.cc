@@ -23,7 +23,7 @@ Record Waves(double rate, double gain = 1, double shift = 0) {
   return r;
 }
 
-RecordTolerances All(double absolute, double relative, double time) {
+RecordTolerances OnAllChannels(double absolute, double relative, double time) {
   RecordTolerances t;
   t.all = {absolute, relative, time};
   return t;
@@ -38,7 +38,7 @@ TEST(RecordDifference, SameRecordDiffersInNoBit) {
 
 TEST(RecordDifference, GainOfOnePerCent) {
   const Record a = Waves(1000), b = Waves(1000, 1.01);
-  const RecordDifference strict = CompareRecords(a, b, All(0, 0.005, 0));
+  const RecordDifference strict = CompareRecords(a, b, OnAllChannels(0, 0.005, 0));
   EXPECT_FALSE(strict.agrees());
   ASSERT_NE(strict.First(), nullptr);
   EXPECT_EQ(strict.First()->channel, "A.x");
@@ -46,16 +46,16 @@ TEST(RecordDifference, GainOfOnePerCent) {
   EXPECT_NEAR(strict.First()->worst_at, 0.025, 1e-12);  // a quarter of a period
   EXPECT_NEAR(strict.First()->rms, 0.01 / std::sqrt(2), 1e-12);
   EXPECT_NEAR(strict.First()->first, std::asin(0.5) / (2 * M_PI * 10), 1e-3);
-  EXPECT_TRUE(CompareRecords(a, b, All(0, 0.0101, 0)).agrees());
-  EXPECT_TRUE(CompareRecords(a, b, All(0.0101, 0, 0)).agrees());
-  EXPECT_FALSE(CompareRecords(a, b, All(0.0101, 0, 0)).identical());
+  EXPECT_TRUE(CompareRecords(a, b, OnAllChannels(0, 0.0101, 0)).agrees());
+  EXPECT_TRUE(CompareRecords(a, b, OnAllChannels(0.0101, 0, 0)).agrees());
+  EXPECT_FALSE(CompareRecords(a, b, OnAllChannels(0.0101, 0, 0)).identical());
 }
 
 TEST(RecordDifference, ShiftInTime) {
   const Record a = Waves(1000), b = Waves(1000, 1, 0.002);
-  EXPECT_FALSE(CompareRecords(a, b, All(1e-3, 0, 0)).agrees());
-  EXPECT_FALSE(CompareRecords(a, b, All(1e-3, 0, 0.001)).agrees());
-  EXPECT_TRUE(CompareRecords(a, b, All(1e-2, 0, 0.002)).agrees());
+  EXPECT_FALSE(CompareRecords(a, b, OnAllChannels(1e-3, 0, 0)).agrees());
+  EXPECT_FALSE(CompareRecords(a, b, OnAllChannels(1e-3, 0, 0.001)).agrees());
+  EXPECT_TRUE(CompareRecords(a, b, OnAllChannels(1e-2, 0, 0.002)).agrees());
 }
 
 TEST(RecordDifference, OneBitIsNotTheSame) {
@@ -73,19 +73,20 @@ TEST(RecordDifference, LostAndNewChannelNanAndUnit) {
   const Record a = Waves(1000);
   Record b = a;
   b.channels[0].name = "B.x";
-  const RecordDifference lost = CompareRecords(a, b, All(1, 1, 1));
+  const RecordDifference lost = CompareRecords(a, b, OnAllChannels(1, 1, 1));
   EXPECT_EQ(lost.channels[0].verdict, ChannelVerdict::kLost);
   EXPECT_EQ(lost.channels[2].verdict, ChannelVerdict::kNew);
   EXPECT_FALSE(lost.agrees());
   b = a;
   b.channels[0].samples[7] = std::numeric_limits<double>::quiet_NaN();
-  const RecordDifference nan = CompareRecords(a, b, All(1, 1, 1));
+  const RecordDifference nan = CompareRecords(a, b, OnAllChannels(1, 1, 1));
   EXPECT_EQ(nan.First()->verdict, ChannelVerdict::kNan);
   EXPECT_DOUBLE_EQ(nan.First()->first, 0.007);
   EXPECT_TRUE(CompareRecords(b, b, {}).identical());  // a gap that both have
   b = a;
   b.channels[0].unit = "A";
-  EXPECT_EQ(CompareRecords(a, b, All(1, 1, 1)).channels[0].verdict, ChannelVerdict::kOtherUnit);
+  EXPECT_EQ(CompareRecords(a, b, OnAllChannels(1, 1, 1)).channels[0].verdict,
+            ChannelVerdict::kOtherUnit);
 }
 
 TEST(RecordDifference, OtherRateIsComparedAtTheFirstOnesRows) {
@@ -93,7 +94,7 @@ TEST(RecordDifference, OtherRateIsComparedAtTheFirstOnesRows) {
   const RecordDifference d = CompareRecords(Waves(100), Waves(1000), {});
   EXPECT_EQ(d.channels[0].rows, 100U);
   EXPECT_LT(d.channels[0].worst, 1e-12);  // phases are computed from either rate
-  EXPECT_TRUE(CompareRecords(Waves(100), Waves(1000), All(1e-12, 0, 0)).agrees());
+  EXPECT_TRUE(CompareRecords(Waves(100), Waves(1000), OnAllChannels(1e-12, 0, 0)).agrees());
 }
 
 TEST(RecordDifference, ShorterRecordIsNamed) {
@@ -105,7 +106,7 @@ TEST(RecordDifference, ShorterRecordIsNamed) {
 }
 
 TEST(RecordDifference, LastPatternCounts) {
-  RecordTolerances t = All(1, 0, 0);
+  RecordTolerances t = OnAllChannels(1, 0, 0);
   t.patterns = {{"A.*", {2, 0, 0}}, {"A.i*", {3, 0, 0}}};
   EXPECT_EQ(t.Of("bus").absolute, 1);
   EXPECT_EQ(t.Of("A.x").absolute, 2);

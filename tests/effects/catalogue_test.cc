@@ -38,7 +38,7 @@ EffectInstance Tiny(const EffectDescription& d, const std::string& target, doubl
   return e;
 }
 
-class EveryEffect : public testing::TestWithParam<EffectDescription> {};
+class EveryEffect : public ::testing::TestWithParam<EffectDescription> {};
 
 TEST_P(EveryEffect, IsDescribedCompletely) {
   const EffectDescription& d = GetParam();
@@ -128,7 +128,7 @@ TEST_P(EveryEffect, VanishesWithoutAJump) {
   EXPECT_LT(smaller, 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, testing::ValuesIn(Catalogue()),
+INSTANTIATE_TEST_SUITE_P(Catalogue, EveryEffect, ::testing::ValuesIn(Catalogue()),
                          [](const auto& each) {
                            std::string name = each.param.id;
                            std::replace(name.begin(), name.end(), '-', '_');

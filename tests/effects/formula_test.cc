@@ -12,7 +12,7 @@
 namespace ambrig::motion {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string Effect(const std::string& target, const std::string& lines) {
   return "\n[[effect]]\nname = \"formula\"\ntarget = \"" + target + "\"\n" + lines + "\n";

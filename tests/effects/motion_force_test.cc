@@ -9,7 +9,7 @@
 namespace ambrig::motion {
 namespace {
 
-constexpr double kMass = 4.2, kPolar = 0.0042, kStep = 4e-5;
+constexpr double kMass = 4.2, kPolar = 0.0042, kForceStep = 4e-5;
 
 /// Forward circular whirl of the whole rotor: radius r, frequency w, at phase 0.7.
 MotionState Whirl(double r, double w, double Omega) {
@@ -60,7 +60,7 @@ TEST(MotionForce, FreeRotorTurnsAboutItsMassAxis) {
   s.q[0] = r;
   s.v[1] = w * r;
   plant.rotor.SetSpin(s);
-  for (int n = 0; n < 2500; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kStep);
+  for (int n = 0; n < 2500; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kForceStep);
   // RK4 at w h = 0.02: local error (w h)^5/120 per step, 2500 steps, grows linearly in a free body:
   // < 1e-5.
   EXPECT_NEAR(s.q[0], r * std::cos(w * s.t), 1e-5 * std::abs(r));
@@ -89,7 +89,7 @@ double GrowthOverOneSecond(double cross) {
                          {"cross-coupling", "B", {{"stiffness", cross / 2}}}});
   plant.rotor.terms.push_back(std::make_unique<Support>());
   MotionState s = Whirl(1e-7, 400, 0);
-  for (int n = 0; n < 25000; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kStep);
+  for (int n = 0; n < 25000; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kForceStep);
   return std::log(std::hypot(s.q[0], s.q[1]) / 1e-7);
 }
 
@@ -161,7 +161,7 @@ TEST(MotionForce, WindageSlowsAFreeRotorAlongAHyperbola) {
   plant.rotor.SetSpeed(SpeedProfile({{0, w0}, {1, w0}}), 0);
   MotionState s;
   s.Omega = w0;
-  for (int n = 0; n < 25000; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kStep);
+  for (int n = 0; n < 25000; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kForceStep);
   EXPECT_NEAR(s.Omega, w0 / (1 + drag * w0 * s.t / kPolar), 1e-9 * w0);
 }
 

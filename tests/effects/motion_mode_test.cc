@@ -9,7 +9,7 @@
 namespace ambrig::motion {
 namespace {
 
-constexpr double kStep = 4e-5;
+constexpr double kModeStep = 4e-5;
 
 Plant Bending(double gain_a, double gain_b, double gyro = 0) {
   return PlantOf({{"bending-mode",
@@ -27,7 +27,7 @@ TEST(MotionMode, FreeResponseHasItsFrequencyAndDamping) {
   const double w = 2 * kPi * 330, damped = w * std::sqrt(1 - 0.008 * 0.008);
   s.q[5] = 1e-5;
   s.v[5] = -0.008 * w * 1e-5;  // so that eta = 1e-5 exp(-zeta w t) cos(w_d t)
-  for (int n = 0; n < 2500; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kStep);
+  for (int n = 0; n < 2500; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kModeStep);
   const double envelope = 1e-5 * std::exp(-0.008 * w * s.t);
   // RK4 at w h = 0.083: phase error (w h)^5/120 per step = 3e-8, over 2500 steps 1e-4.
   EXPECT_NEAR(s.q[5], envelope * std::cos(damped * s.t), 5e-4 * envelope);
@@ -175,7 +175,7 @@ TEST(MotionContact, IdleMountRingsDownHoweverStiff) {
     MotionState s;
     const std::size_t d = static_cast<std::size_t>(plant.rotor.auxiliaries()[0].mount_dof);
     s.q[d] = 1e-9;
-    for (int n = 0; n < 2500; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kStep);
+    for (int n = 0; n < 2500; ++n) plant.rotor.Step(s, DofVector{}, 0, 0, kModeStep);
     // exp(-c t/2m) = exp(-10) at least (RK4 takes some energy too); nothing may grow.
     EXPECT_LT(std::abs(s.q[d]), 1e-9 * std::exp(-9.9)) << stiffness;
   }

@@ -12,9 +12,9 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kStep = 1 / 450e3;  // [s] the ADC's
+constexpr double kRefinedStep = 1 / 450e3;  // [s] the ADC's
 
-double DropOf(const FluxLaw& law, double phi, double* slope = nullptr) {
+double RefinedDropOf(const FluxLaw& law, double phi, double* slope = nullptr) {
   Lane drop, tangent;
   law.Drop(Currents(phi), &drop, &tangent);
   if (slope) *slope = tangent[3];
@@ -47,7 +47,7 @@ TEST(BhCurve, DropIsTheIntegralOfItsPaths) {
   const double per_flux = DensityPerFlux(plant.bearings[0]);
   for (const double B : {-0.55, -0.1, 0.0, 0.03, 0.31, 0.6}) {
     double slope = 0;
-    const double drop = DropOf(*plant.bearings[0].laws.at(0), B / per_flux, &slope);
+    const double drop = RefinedDropOf(*plant.bearings[0].laws.at(0), B / per_flux, &slope);
     EXPECT_NEAR(drop, std::copysign(1e-4 * B * B / (2 * 0.6 * kMu0), B), 1e-9) << B;
     EXPECT_NEAR(slope, 1e-4 * std::abs(B) / 0.6 / kMu0 * per_flux, 1e-6 * per_flux) << B;
   }
@@ -59,17 +59,17 @@ TEST(BhCurve, DropIsTheIntegralOfItsPaths) {
 TEST(EddyImpedance, StepsReproduceTheFrequencyResponse) {
   Plant plant = PlantWith("eddy-impedance", "A", {{"path", 1e-5}, {"r4", 0.2}, {"r6", 0.5}});
   FluxLaw& law = *plant.bearings[0].laws.at(0);
-  law.SetStep(kStep);
+  law.SetStep(kRefinedStep);
   law.Settle(Lane{});
   const double gap = GapReluctanceOf(plant.bearings[0]),
                rest = 1e-5 * plant.bearings[0].lanes.reluctance.per_metre, f = 4000;
   const int cycles = 60;
-  const double h = kStep, w = 2 * kPi * f;
+  const double h = kRefinedStep, w = 2 * kPi * f;
   const int steps = static_cast<int>(std::lround(cycles / (f * h)));
   Complex seen = 0;
   double counted = 0;
   for (int k = 1; k <= steps; ++k) {
-    const double phi = 1e-5 * std::sin(w * k * h), drop = DropOf(law, phi);
+    const double phi = 1e-5 * std::sin(w * k * h), drop = RefinedDropOf(law, phi);
     law.Commit(Currents(phi));
     if (k <= steps / 2) continue;  // whole cycles: 30 of the 60
     seen += drop * Complex(std::sin(w * k * h), std::cos(w * k * h));
@@ -105,7 +105,7 @@ TEST(PlayHysteresis, EveryOperatorHasItsOwnLoop) {
     const int steps = 8000;
     for (int n = 0; n <= 5 * steps / 4; ++n) {
       const double b = B * std::asin(std::sin(2 * kPi * n / steps)) * 2 / kPi;  // triangle
-      const double drop = DropOf(law, b * per_tesla);
+      const double drop = RefinedDropOf(law, b * per_tesla);
       law.Commit(Currents(b * per_tesla));
       if (n > steps / 4) area += 0.5 * (drop + last_drop) * (b - last);
       last = b;

@@ -12,10 +12,10 @@
 namespace ambrig {
 namespace {
 
-using testing::Contains;
-using testing::ElementsAre;
+using ::testing::Contains;
+using ::testing::ElementsAre;
 
-RigParameters Example(const std::string& folder) {
+RigParameters ExampleRig(const std::string& folder) {
   return ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/" + folder + "/rig.toml");
 }
 
@@ -86,7 +86,7 @@ TEST(ForceConstant, OfAThrustBearingFollowsFromItsFlux) {
 
 // dL/dg of an opposed magnet by differences; one coil alone has half.
 TEST(ForceConstant, OfAnOpposedBearingIsTheSlopeOfItsInductance) {
-  const RigParameters rig = Example("mls2em");
+  const RigParameters rig = ExampleRig("mls2em");
   BearingParameters b = rig.bearings[0];
   const OpposedStatorParameters& p = b.opposed;
   const auto L = [&](double g) {
@@ -110,7 +110,7 @@ TEST(Clearance, IsThatOfTheAuxiliaryBearing) {
   z.auxiliary.reset();
   EXPECT_EQ(ClearanceOf(a), 4e-4);
   EXPECT_EQ(ClearanceOf(z), 4e-4);
-  const RigParameters magnet = Example("mls2em");
+  const RigParameters magnet = ExampleRig("mls2em");
   EXPECT_EQ(GapOf(magnet.bearings[0]), magnet.bearings[0].opposed.gap);
 }
 

@@ -15,9 +15,9 @@
 namespace ambrig {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::StartsWith;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 RigParameters Read(const std::string& text) { return ReadRigText(text, "rig.toml"); }
 

@@ -11,7 +11,7 @@ namespace ambrig {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr RotorParameters kReference = {4.2, 0.036, 0.0042, 0.03};
+constexpr RotorParameters kGyroscopicsReference = {4.2, 0.036, 0.0042, 0.03};
 
 RotorModel Spinning(const RotorParameters& p, double Omega) {
   RotorModel m(p, {0, 0, 0});
@@ -23,7 +23,7 @@ RotorModel Spinning(const RotorParameters& p, double Omega) {
 // Ip/It, forward. ALPHA = alpha + i beta: ALPHA' = ALPHA0' e^(i w t).
 double PrecessionError(double dt) {
   const double Omega = 1257, w = Omega * 0.0042 / 0.036, end = 0.02;
-  const RotorModel m = Spinning(kReference, Omega);
+  const RotorModel m = Spinning(kGyroscopicsReference, Omega);
   MotionState s;
   s.v[3] = 0.3;
   const int steps = static_cast<int>(std::lround(end / dt));
@@ -50,7 +50,8 @@ class NoForce final : public ForceTerm {
 // A rotor that only given forces move takes a shorter way through the step: the same to rounding.
 TEST(Gyroscopics, TheStepOfAFreeFlightIsTheGeneralOne) {
   for (const double free_from : {kInfinity, 0.01}) {
-    RotorModel flying(kReference, {0, -9.81, 0.5}), general(kReference, {0, -9.81, 0.5});
+    RotorModel flying(kGyroscopicsReference, {0, -9.81, 0.5}),
+        general(kGyroscopicsReference, {0, -9.81, 0.5});
     for (RotorModel* m : {&flying, &general}) {
       m->axial_free = true;
       m->SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 100.0}, {0.02, 900.0}}),
@@ -144,7 +145,7 @@ TEST(PublishedRig, ClosedLoopAtStandstillAndAtSpeed) {
 // A force at z: x'' = f/m at the centre, Mx = -z fy, My = z fx; the point of a plane moves with all
 // three.
 TEST(RigidRotor, MobilityAtAPlane) {
-  const RotorModel m = Spinning(kReference, 0);
+  const RotorModel m = Spinning(kGyroscopicsReference, 0);
   const PlaneMap a = m.MakePlane(-0.12), b = m.MakePlane(0.145);
   DofVector Q{}, acceleration{};
   a.AddForce(3, -2, Q);
@@ -157,7 +158,7 @@ TEST(RigidRotor, MobilityAtAPlane) {
 
 // A load enters with its mean over each step: its impulse is exact even when it starts inside one.
 TEST(RigidRotor, LoadsHaveTheirExactImpulse) {
-  RotorModel m = Spinning(kReference, 0);
+  RotorModel m = Spinning(kGyroscopicsReference, 0);
   m.AddLoad(0, 5, -7, 0, 0.000133, 0.001007);
   MotionState s;
   for (int n = 0; n < 40; ++n) m.Step(s, {}, 0, 0, 40e-6);
@@ -167,7 +168,7 @@ TEST(RigidRotor, LoadsHaveTheirExactImpulse) {
 
 // Released at 1000 rad/s with an exact braking moment through a contact-free run: nothing brakes.
 TEST(RigidRotor, AFreeSpinKeepsItsSpeedAndAngle) {
-  RotorModel m(kReference, {0, 0, 0});
+  RotorModel m(kGyroscopicsReference, {0, 0, 0});
   m.SetSpeed(SpeedProfile(std::vector<std::vector<double>>{{0.0, 1000.0}}), 0.01);
   MotionState s;
   m.SetSpin(s);

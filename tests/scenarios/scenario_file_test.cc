@@ -10,16 +10,16 @@
 namespace ambrig {
 namespace {
 
-using testing::ElementsAre;
-using testing::HasSubstr;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
-Scenario Read(const std::string& more, const std::string& top = "") {
+Scenario ReadWith(const std::string& more, const std::string& top = "") {
   return ReadScenarioText("duration = 0.5\n" + top + more, "folder/run.toml", ReferenceLanesRig());
 }
 
-std::string Message(const std::string& more, const std::string& top = "") {
+std::string ScenarioMessage(const std::string& more, const std::string& top = "") {
   try {
-    Read(more, top);
+    ReadWith(more, top);
   } catch (const InputError& e) {
     return e.what();
   }
@@ -27,7 +27,7 @@ std::string Message(const std::string& more, const std::string& top = "") {
 }
 
 TEST(ScenarioFile, DefaultsAreALevitatedRotorAtRestWithFaultTolerance) {
-  const Scenario s = Read("");
+  const Scenario s = ReadWith("");
   EXPECT_EQ(s.name, "run");  // the file's name
   EXPECT_EQ(s.rig_file, "rig.toml");
   EXPECT_EQ(s.duration, 0.5);
@@ -43,34 +43,34 @@ TEST(ScenarioFile, DefaultsAreALevitatedRotorAtRestWithFaultTolerance) {
 }
 
 TEST(ScenarioFile, ClampsHoldTheRotorInsideItsGap) {
-  const Scenario s = Read(
+  const Scenario s = ReadWith(
       "[start]\nstate = \"clamped\"\nposition = { A = [1e-5, -2e-5], B = [3e-5], Z = 4e-5 }\n");
   EXPECT_EQ(s.start, StartState::kClamped);
   EXPECT_THAT(s.clamp.at("A"), ElementsAre(1e-5, -2e-5));
   EXPECT_THAT(s.clamp.at("B"), ElementsAre(3e-5, 0));
   EXPECT_THAT(s.clamp.at("Z"), ElementsAre(4e-5, 0));
-  EXPECT_THAT(Message("[start]\nstate = \"clamped\"\nposition = { A = [3e-4, 3e-4] }\n"),
+  EXPECT_THAT(ScenarioMessage("[start]\nstate = \"clamped\"\nposition = { A = [3e-4, 3e-4] }\n"),
               HasSubstr("inside the gap of 0.0004 m"));
-  EXPECT_THAT(Message("[start]\nposition = { A = [0.0, 0.0] }\n"),
+  EXPECT_THAT(ScenarioMessage("[start]\nposition = { A = [0.0, 0.0] }\n"),
               HasSubstr("only allowed with state = \"clamped\""));
-  EXPECT_THAT(Message("[start]\nstate = \"clamped\"\nposition = { C = [0.0, 0.0] }\n"),
+  EXPECT_THAT(ScenarioMessage("[start]\nstate = \"clamped\"\nposition = { C = [0.0, 0.0] }\n"),
               HasSubstr("is no bearing, allowed: A, B, Z"));
 }
 
 TEST(ScenarioFile, SpeedsRunThroughTheirRows) {
-  const Scenario s = Read("[speed]\nprofile = [[0.0, 0.0], [0.2, 100.0]]\nfree_from = 0.3\n");
+  const Scenario s = ReadWith("[speed]\nprofile = [[0.0, 0.0], [0.2, 100.0]]\nfree_from = 0.3\n");
   EXPECT_NEAR(s.speed.Speed(0.1), 50, 1e-9);
   EXPECT_NEAR(s.speed.Speed(0.4), 100, 1e-9);
   EXPECT_NEAR(s.speed.Angle(0.2), 10, 1e-9);  // the area below the ramp
   EXPECT_EQ(s.speed_free_from, 0.3);
-  EXPECT_THAT(Message("[speed]\nprofile = [[0.0, 1.0], [0.0, 2.0]]\n"),
+  EXPECT_THAT(ScenarioMessage("[speed]\nprofile = [[0.0, 1.0], [0.0, 2.0]]\n"),
               HasSubstr("goes back in time"));
-  EXPECT_THAT(Message("[speed]\nprofile = [[0.0]]\n"), HasSubstr("row 1 has 1 entry"));
-  EXPECT_THAT(Message("[speed]\n"), HasSubstr("speed.profile: is missing"));
+  EXPECT_THAT(ScenarioMessage("[speed]\nprofile = [[0.0]]\n"), HasSubstr("row 1 has 1 entry"));
+  EXPECT_THAT(ScenarioMessage("[speed]\n"), HasSubstr("speed.profile: is missing"));
 }
 
 TEST(ScenarioFile, LoadsActAtBearingsStationsOrPlaces) {
-  const Scenario s = Read(
+  const Scenario s = ReadWith(
       "[[load]]\nplane = \"B\"\nforce = [1.0, 2.0]\nstart = 0.1\n"
       "[[load]]\nz = 0.05\nforce = [0.0, 0.0, 3.0]\n"
       "[[load]]\nplane = \"Z\"\nforce = 4.0\nstop = 0.2\n");
@@ -83,16 +83,18 @@ TEST(ScenarioFile, LoadsActAtBearingsStationsOrPlaces) {
   EXPECT_TRUE(s.loads[2].axial);
   EXPECT_EQ(s.loads[2].fz, 4);
   EXPECT_EQ(s.loads[2].fx, 0);
-  EXPECT_THAT(Message("[[load]]\nforce = [1.0, 2.0]\n"), HasSubstr("either plane = \"A\" or z"));
-  EXPECT_THAT(Message("[[load]]\nz = 2.0\nforce = [1.0, 2.0]\n"),
+  EXPECT_THAT(ScenarioMessage("[[load]]\nforce = [1.0, 2.0]\n"),
+              HasSubstr("either plane = \"A\" or z"));
+  EXPECT_THAT(ScenarioMessage("[[load]]\nz = 2.0\nforce = [1.0, 2.0]\n"),
               HasSubstr("a place on the shaft"));
-  EXPECT_THAT(Message("[[load]]\nplane = \"A\"\nforce = [1.0, 2.0]\nstart = 0.3\nstop = 0.2\n"),
-              HasSubstr("later than start"));
-  EXPECT_THAT(Message("[[load]]\nplane = \"A\"\nforce = []\n"), HasSubstr("force"));
+  EXPECT_THAT(
+      ScenarioMessage("[[load]]\nplane = \"A\"\nforce = [1.0, 2.0]\nstart = 0.3\nstop = 0.2\n"),
+      HasSubstr("later than start"));
+  EXPECT_THAT(ScenarioMessage("[[load]]\nplane = \"A\"\nforce = []\n"), HasSubstr("force"));
 }
 
 TEST(ScenarioFile, FaultsComeInOrderOfTime) {
-  const Scenario s = Read(
+  const Scenario s = ReadWith(
       "[[fault]]\ntime = 0.3\nkind = \"open\"\ntarget = \"A.coil1\"\n"
       "[[fault]]\ntime = 0.1\nkind = \"bus-sag\"\nparameters = { voltage = 20.0 }\n");
   ASSERT_EQ(s.faults.size(), 2u);
@@ -106,70 +108,74 @@ TEST(ScenarioFile, FaultsComeInOrderOfTime) {
 
 TEST(ScenarioFile, TwoStatesOfOnePartAtOnceContradict) {
   const std::string open = "[[fault]]\ntime = 0.1\nkind = \"open\"\ntarget = \"A.coil1\"\n";
-  EXPECT_THAT(
-      Message(open + "[[fault]]\ntime = 0.1\nkind = \"amplifier-off\"\ntarget = \"A.coil1\"\n"),
-      HasSubstr("where open is set at the same instant"));
+  EXPECT_THAT(ScenarioMessage(
+                  open + "[[fault]]\ntime = 0.1\nkind = \"amplifier-off\"\ntarget = \"A.coil1\"\n"),
+              HasSubstr("where open is set at the same instant"));
   // A coil and the sensor on it are two parts; another time or another coil is another state.
-  EXPECT_EQ(
-      Message(open + "[[fault]]\ntime = 0.1\nkind = \"current-sensor\"\ntarget = \"A.coil1\"\n"
-                     "parameters = { gain = 1.2 }\n"),
-      "no mistake");
-  EXPECT_EQ(
-      Message(open + "[[fault]]\ntime = 0.2\nkind = \"amplifier-off\"\ntarget = \"A.coil1\"\n"),
-      "no mistake");
-  EXPECT_EQ(
-      Message(open + "[[fault]]\ntime = 0.1\nkind = \"amplifier-off\"\ntarget = \"A.coil2\"\n"),
-      "no mistake");
+  EXPECT_EQ(ScenarioMessage(
+                open + "[[fault]]\ntime = 0.1\nkind = \"current-sensor\"\ntarget = \"A.coil1\"\n"
+                       "parameters = { gain = 1.2 }\n"),
+            "no mistake");
+  EXPECT_EQ(ScenarioMessage(
+                open + "[[fault]]\ntime = 0.2\nkind = \"amplifier-off\"\ntarget = \"A.coil1\"\n"),
+            "no mistake");
+  EXPECT_EQ(ScenarioMessage(
+                open + "[[fault]]\ntime = 0.1\nkind = \"amplifier-off\"\ntarget = \"A.coil2\"\n"),
+            "no mistake");
 }
 
 TEST(ScenarioFile, FaultsNeedATimeAndATargetOfTheirKind) {
-  EXPECT_THAT(Message("[[fault]]\ntime = 0.5\nkind = \"open\"\ntarget = \"A.coil1\"\n"),
+  EXPECT_THAT(ScenarioMessage("[[fault]]\ntime = 0.5\nkind = \"open\"\ntarget = \"A.coil1\"\n"),
               HasSubstr("0 to below the duration of 0.5 s"));
-  EXPECT_THAT(Message("[[fault]]\ntime = 0.1\nkind = \"open\"\ntarget = \"A.x\"\n"),
+  EXPECT_THAT(ScenarioMessage("[[fault]]\ntime = 0.1\nkind = \"open\"\ntarget = \"A.x\"\n"),
               HasSubstr("\"A.x\" with kind open, allowed: A.coil1, A.coil2"));
-  EXPECT_THAT(Message("[[fault]]\ntime = 0.1\nkind = \"position-sensor\"\ntarget = \"A.coil1\"\n"
+  EXPECT_THAT(
+      ScenarioMessage("[[fault]]\ntime = 0.1\nkind = \"position-sensor\"\ntarget = \"A.coil1\"\n"
                       "parameters = { lost = true }\n"),
-              HasSubstr("allowed: A.x, A.y, B.x, B.y, z"));
+      HasSubstr("allowed: A.x, A.y, B.x, B.y, z"));
 }
 
 TEST(ScenarioFile, ChangesOfTheControllerNeedOne) {
-  EXPECT_THAT(Message("[[switch]]\ntime = 0.1\nto = \"soft\"\n"),
+  EXPECT_THAT(ScenarioMessage("[[switch]]\ntime = 0.1\nto = \"soft\"\n"),
               HasSubstr("allowed: controllers of the rig: main"));
-  EXPECT_EQ(Read("[[switch]]\ntime = 0.1\nto = \"main\"\n").switches.size(), 1u);
-  EXPECT_THAT(
-      Message("[[switch]]\ntime = 0.1\nto = \"main\"\n[[switch]]\ntime = 0.1\nto = \"main\"\n"),
-      HasSubstr("one change at one instant"));
+  EXPECT_EQ(ReadWith("[[switch]]\ntime = 0.1\nto = \"main\"\n").switches.size(), 1u);
+  EXPECT_THAT(ScenarioMessage(
+                  "[[switch]]\ntime = 0.1\nto = \"main\"\n[[switch]]\ntime = 0.1\nto = \"main\"\n"),
+              HasSubstr("one change at one instant"));
 }
 
 TEST(ScenarioFile, ExpectationsAreWhatIsGiven) {
   const Scenario s =
-      Read("[expect]\ndetected_within = 0.002\nclassified = \"open\"\ntouchdown = false\n");
+      ReadWith("[expect]\ndetected_within = 0.002\nclassified = \"open\"\ntouchdown = false\n");
   EXPECT_TRUE(s.expect.any());
   EXPECT_EQ(s.expect.detected_within, 0.002);
   EXPECT_EQ(s.expect.classified, "open");
   EXPECT_EQ(s.expect.touchdown, false);
   EXPECT_FALSE(s.expect.drop);
-  EXPECT_THAT(Message("[expect]\nclassified = \"burnt\"\n"), HasSubstr("allowed"));
+  EXPECT_THAT(ScenarioMessage("[expect]\nclassified = \"burnt\"\n"), HasSubstr("allowed"));
 }
 
 TEST(ScenarioFile, RecordRatesAreThoseOfTheEngine) {
-  EXPECT_EQ(Read("", "record_rate = 5000.0\n").record_rate, 5000);
-  EXPECT_EQ(Read("", "record_rate = 450000.0\n").record_rate, 450e3);
-  EXPECT_THAT(Message("", "record_rate = 7000.0\n"),
+  EXPECT_EQ(ReadWith("", "record_rate = 5000.0\n").record_rate, 5000);
+  EXPECT_EQ(ReadWith("", "record_rate = 450000.0\n").record_rate, 450e3);
+  EXPECT_THAT(ScenarioMessage("", "record_rate = 7000.0\n"),
               HasSubstr("record_rate = 7000 Hz, allowed: the switching frequency 25000 Hz over"));
-  EXPECT_THAT(Message("", "record_rate = 100000.0\n"), HasSubstr("a divisor of 18 samples"));
-  EXPECT_THAT(Message("", "record_rate = 1.0\n"), HasSubstr("at least one in the duration"));
-  EXPECT_THAT(Message("", "seed = -1\n"), HasSubstr("seed = -1, allowed: 0 or more"));
+  EXPECT_THAT(ScenarioMessage("", "record_rate = 100000.0\n"),
+              HasSubstr("a divisor of 18 samples"));
+  EXPECT_THAT(ScenarioMessage("", "record_rate = 1.0\n"),
+              HasSubstr("at least one in the duration"));
+  EXPECT_THAT(ScenarioMessage("", "seed = -1\n"), HasSubstr("seed = -1, allowed: 0 or more"));
 }
 
 TEST(ScenarioFile, ExcitationsNeedATargetOfTheirPort) {
-  EXPECT_THAT(Message("[[excitation]]\ntarget = \"A.coil1\"\nkind = \"step\"\namplitude = 1.0\n"),
-              HasSubstr("\"A.coil1\" on port force, allowed: A.x, A.y, B.x, B.y, z"));
-  EXPECT_THAT(Message("[[excitation]]\ntarget = \"A.x\"\nport = \"duty\"\nkind = \"step\"\n"
-                      "amplitude = 0.1\n"),
+  EXPECT_THAT(
+      ScenarioMessage("[[excitation]]\ntarget = \"A.coil1\"\nkind = \"step\"\namplitude = 1.0\n"),
+      HasSubstr("\"A.coil1\" on port force, allowed: A.x, A.y, B.x, B.y, z"));
+  EXPECT_THAT(ScenarioMessage("[[excitation]]\ntarget = \"A.x\"\nport = \"duty\"\nkind = \"step\"\n"
+                              "amplitude = 0.1\n"),
               HasSubstr("on port duty, allowed: A.coil1"));
-  EXPECT_EQ(Read("[[excitation]]\ntarget = \"Z.coil4\"\nport = \"current\"\nkind = \"step\"\n"
-                 "amplitude = 0.1\n")
+  EXPECT_EQ(ReadWith("[[excitation]]\ntarget = \"Z.coil4\"\nport = \"current\"\nkind = \"step\"\n"
+                     "amplitude = 0.1\n")
                 .excitations[0]
                 .stop,
             0.5);

@@ -12,7 +12,7 @@
 namespace ambrig {
 namespace {
 
-class BaseRecords : public testing::TestWithParam<const char*> {};
+class BaseRecords : public ::testing::TestWithParam<const char*> {};
 
 double Allowed(const std::string& channel, const std::string& name) {
   const auto dot = channel.find('.');
@@ -46,8 +46,8 @@ TEST_P(BaseRecords, AreMetByTheSwitchingEngine) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BaseRecords,
-                         testing::Values("steps", "multisine-60hz", "run-up", "lift-off",
-                                         "clamped-ramps", "coil-burst"),
+                         ::testing::Values("steps", "multisine-60hz", "run-up", "lift-off",
+                                           "clamped-ramps", "coil-burst"),
                          [](const auto& record) {
                            std::string name = record.param;
                            for (char& c : name)

@@ -17,13 +17,13 @@ using testing::Replaced;
 using testing::TumRig;
 using testing::TumRigText;
 
-struct Mistake {
+struct RotorMistake {
   std::string from, to;
   std::vector<std::string> says;
 };
 
 TEST(FlexibleRotorErrors, MistakesAreOneLine) {
-  const Mistake mistakes[] = {
+  const RotorMistake mistakes[] = {
       {"modes = 4", "modes = 9", {"rotor.modes = 9", "allowed: 0 to 8"}},
       {"modes = 4", "modes = -1", {"rotor.modes", "allowed"}},
       {"z = 0.623\nsensor",
@@ -48,7 +48,7 @@ TEST(FlexibleRotorErrors, MistakesAreOneLine) {
        {"rotor.modes = 4, allowed: 0 to 3", "mode 4 at 213 Hz",
         "half the switching frequency of 400 Hz"}},
   };
-  for (const Mistake& m : mistakes) {
+  for (const RotorMistake& m : mistakes) {
     std::string message = "no error";
     try {
       std::string text = Replaced(TumRigText(), m.from, m.to);

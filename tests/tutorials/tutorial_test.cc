@@ -22,13 +22,13 @@ std::string Read(const fs::path& file) {
   return out.str();
 }
 
-class Tutorial : public testing::Test {
+class Tutorial : public ::testing::Test {
  protected:
   void SetUp() override {
     // Of this process: the same test may run from another clone at the same time.
     folder_ = fs::temp_directory_path() /
               ("ambrig_tutorial_" + std::to_string(::getpid()) + "_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::create_directories(folder_);
     setenv("PATH",

@@ -10,11 +10,11 @@
 namespace ambrig {
 namespace {
 
-constexpr double kX = 7e-5, kY = -4e-5;  // a third of the clearance off centre [m]
+constexpr double kCircuitX = 7e-5, kCircuitY = -4e-5;  // a third of the clearance off centre [m]
 // N² mu0 A / g0 of the reference rig, five digits of its area [H]
 constexpr double kL0 = 1.6e-3;
 
-Lane SomeCurrents() { return {{2.4, 1.9, 0.7, 3.1, 2.2, 1.4, 0.2, 2.9}}; }
+Lane CircuitCurrents() { return {{2.4, 1.9, 0.7, 3.1, 2.2, 1.4, 0.2, 2.9}}; }
 
 /// Column j of the inductance matrix, from the lanes: linkages of one ampere in coil j.
 CoilMatrix InductanceOf(StatorLanes& lanes, double x, double y) {
@@ -32,8 +32,9 @@ CoilMatrix InductanceOf(StatorLanes& lanes, double x, double y) {
 TEST(MagneticCircuit, LanesCarryTheInductanceMatrix) {
   StatorLanes lanes = LanesOf("A");
   const CoilMatrix expected =
-      RadialStator(ReferenceLanesRig().bearings[0].radial).Inductance({kX, kY});
-  EXPECT_LT((InductanceOf(lanes, kX, kY) - expected).norm(), 1e-15 * expected.norm() * 8);
+      RadialStator(ReferenceLanesRig().bearings[0].radial).Inductance({kCircuitX, kCircuitY});
+  EXPECT_LT((InductanceOf(lanes, kCircuitX, kCircuitY) - expected).norm(),
+            1e-15 * expected.norm() * 8);
 }
 
 // base_model.md section 2: 1.75 mH a coil; seven patterns see 1.95 mH, the flux-free one 0.35 mH.
@@ -77,22 +78,22 @@ class EveryStator : public ::testing::TestWithParam<std::string> {
  protected:
   StatorLanes lanes_ = LanesOf(GetParam());
   bool radial() const { return GetParam() != "Z"; }
-  double y() const { return radial() ? kY : 0; }
+  double y() const { return radial() ? kCircuitY : 0; }
 };
 
 // At fixed currents of a linear circuit co-energy = field energy: F = +dW'/dx. Central difference
 // with h = 1e-7 m: error h²/6 of a third derivative 6 W/g³, 1e-7 of F.
 TEST_P(EveryStator, ForceIsTheGradientOfTheCoenergy) {
   const auto coenergy = [&](double x, double y) {
-    lanes_.Settle(SomeCurrents(), x, y);
+    lanes_.Settle(CircuitCurrents(), x, y);
     return lanes_.FieldEnergy(x, y);
   };
   const double h = 1e-7;
-  const double fx = (coenergy(kX + h, y()) - coenergy(kX - h, y())) / (2 * h);
-  const double fy = (coenergy(kX, y() + h) - coenergy(kX, y() - h)) / (2 * h);
-  lanes_.Settle(SomeCurrents(), kX, y());
+  const double fx = (coenergy(kCircuitX + h, y()) - coenergy(kCircuitX - h, y())) / (2 * h);
+  const double fy = (coenergy(kCircuitX, y() + h) - coenergy(kCircuitX, y() - h)) / (2 * h);
+  lanes_.Settle(CircuitCurrents(), kCircuitX, y());
   double force_x, force_y;
-  lanes_.Force(kX, y(), &force_x, &force_y);
+  lanes_.Force(kCircuitX, y(), &force_x, &force_y);
   EXPECT_GT(std::abs(fx), 1);
   EXPECT_NEAR(force_x, fx, 1e-6 * std::abs(fx));
   EXPECT_NEAR(force_y, fy, 1e-6 * std::abs(fx));
@@ -100,9 +101,9 @@ TEST_P(EveryStator, ForceIsTheGradientOfTheCoenergy) {
 
 // At fixed linkages nothing comes from the amplifiers: F = -dW/dx. The currents follow by Refresh.
 TEST_P(EveryStator, ForceIsTheLossOfFieldEnergyAtFixedLinkages) {
-  lanes_.Settle(SomeCurrents(), kX, y());
+  lanes_.Settle(CircuitCurrents(), kCircuitX, y());
   double force_x, force_y;
-  lanes_.Force(kX, y(), &force_x, &force_y);
+  lanes_.Force(kCircuitX, y(), &force_x, &force_y);
   const StatorLanes settled = lanes_;
   const auto energy = [&](double x) {
     lanes_ = settled;
@@ -110,7 +111,8 @@ TEST_P(EveryStator, ForceIsTheLossOfFieldEnergyAtFixedLinkages) {
     return lanes_.FieldEnergy(x, y());
   };
   const double h = 1e-7;
-  EXPECT_NEAR(force_x, -(energy(kX + h) - energy(kX - h)) / (2 * h), 1e-6 * std::abs(force_x));
+  EXPECT_NEAR(force_x, -(energy(kCircuitX + h) - energy(kCircuitX - h)) / (2 * h),
+              1e-6 * std::abs(force_x));
 }
 
 // Fringing and a reluctance of the iron change the law of the gap; its slope must follow.
@@ -120,21 +122,21 @@ TEST_P(EveryStator, ForceFollowsAnyLawOfTheGap) {
   const double h = 1e-7;
   double energy[2], force_x, force_y;
   for (int k = 0; k < 2; ++k) {
-    const double x = kX + (k == 0 ? -h : h);
-    lanes_.Settle(SomeCurrents(), x, y());
+    const double x = kCircuitX + (k == 0 ? -h : h);
+    lanes_.Settle(CircuitCurrents(), x, y());
     energy[k] = lanes_.FieldEnergy(x, y());
   }
-  lanes_.Settle(SomeCurrents(), kX, y());
-  lanes_.Force(kX, y(), &force_x, &force_y);
+  lanes_.Settle(CircuitCurrents(), kCircuitX, y());
+  lanes_.Force(kCircuitX, y(), &force_x, &force_y);
   EXPECT_NEAR(force_x, (energy[1] - energy[0]) / (2 * h), 1e-6 * std::abs(force_x));
 }
 
 // Σ phi = 0 over the poles; both windings of a thrust core see one flux. Also while it switches.
 TEST_P(EveryStator, FluxBalances) {
-  lanes_.Settle(SomeCurrents(), kX, y());
+  lanes_.Settle(CircuitCurrents(), kCircuitX, y());
   Lane volts;
   for (int j = 0; j < lanes_.coils; ++j) volts[j] = j % 3 == 0 ? 29.75 : 5.0 * (j - 4);
-  lanes_.BeginPeriod(kX, y(), kX + 2e-6, y(), 18);
+  lanes_.BeginPeriod(kCircuitX, y(), kCircuitX + 2e-6, y(), 18);
   for (int k = 0; k < 18; ++k) {
     lanes_.StepSample(Constant(volts), 30, k);
     double sum = 0, size = 0;
@@ -203,12 +205,12 @@ TEST(MagneticCircuit, ForceConstantAndNegativeStiffnessOfTheHealthyBearing) {
 TEST(MagneticCircuit, TheFluxFreePatternCarriesNoForce) {
   StatorLanes lanes = LanesOf("A");
   lanes.unipolar = false;
-  lanes.Settle(SomeCurrents(), kX, kY);
+  lanes.Settle(CircuitCurrents(), kCircuitX, kCircuitY);
   const Lane phi = lanes.phi;
-  Lane shifted = SomeCurrents();
+  Lane shifted = CircuitCurrents();
   // NSNSNSNS
-  for (int j = 0; j < kPoles; ++j) shifted[j] -= (j % 2 == 0 ? 1 : -1) * SomeCurrents()[2];
-  lanes.Settle(shifted, kX, kY);
+  for (int j = 0; j < kPoles; ++j) shifted[j] -= (j % 2 == 0 ? 1 : -1) * CircuitCurrents()[2];
+  lanes.Settle(shifted, kCircuitX, kCircuitY);
   EXPECT_EQ(lanes.i[2], 0);
   for (int j = 0; j < kPoles; ++j) EXPECT_NEAR(lanes.phi[j], phi[j], 1e-19);
 }

@@ -46,7 +46,7 @@ void CheckDerivatives(const StatorLanes& lanes, const Lane& current, double x, d
   }
 }
 
-class Bearing : public testing::Test {
+class Bearing : public ::testing::Test {
  protected:
   const RigParameters rig_ = BaseRig();
   const Plant plant_ = BuildPlant(TrueRig(rig_));

@@ -31,7 +31,7 @@ RigParameters Modulated(Modulation m) {
 }
 
 /// States over their usual sizes: metres, metres per second, webers, so that errors are compared alike.
-MatrixXd Scaled(const OnePeriod& p, MatrixXd rows) {
+MatrixXd ScaledRows(const OnePeriod& p, MatrixXd rows) {
   const Index m = p.plant.m();
   rows.topRows(m) /= 1e-5;
   rows.middleRows(m, m) /= 1e-2;
@@ -93,7 +93,8 @@ TEST(PeriodMap, OfADutyIsTheMovedEdge) {
     const auto [early, early_mean] = Driven(p, j, (duty - step) * p.map.T, up, down);
     const VectorXd moved = (late - early) / (2 * step),
                    read = (late_mean - early_mean) / (2 * step);
-    EXPECT_LT(Scaled(p, p.map.duty.col(j) - moved).norm(), 1e-4 * Scaled(p, moved).norm()) << j;
+    EXPECT_LT(ScaledRows(p, p.map.duty.col(j) - moved).norm(), 1e-4 * ScaledRows(p, moved).norm())
+        << j;
     EXPECT_LT((p.map.feedback_of_duty.col(j) - read).norm(), 1e-4 * read.norm()) << j;
   }
 }
@@ -102,7 +103,7 @@ TEST(PeriodMap, OfADutyIsTheMovedEdge) {
 TEST(PeriodMap, OfAnIdealAmplifierIsAStepOfVoltage) {
   const OnePeriod p(Modulated(Modulation::kIdeal));
   const auto [x, mean] = Driven(p, 3, p.map.T, p.point.plant().bus.voltage, 0);
-  EXPECT_LT(Scaled(p, p.map.duty.col(3) - x).norm(), 1e-9 * Scaled(p, x).norm());
+  EXPECT_LT(ScaledRows(p, p.map.duty.col(3) - x).norm(), 1e-9 * ScaledRows(p, x).norm());
   EXPECT_LT((p.map.feedback_of_duty.col(3) - mean).norm(), 1e-9 * mean.norm());
 }
 

@@ -91,7 +91,7 @@ const BadCommand kCommands[] = {
     {"validate empty", "no NAME.validation.toml found"},
 };
 
-class BadCommands : public CliFolder, public testing::WithParamInterface<BadCommand> {
+class BadCommands : public CliFolder, public ::testing::WithParamInterface<BadCommand> {
  protected:
   void SetUp() override {
     CliFolder::SetUp();
@@ -146,7 +146,7 @@ TEST_P(BadCommands, OneLineNothingWritten) {
   EXPECT_EQ(ReadText(folder_ / "rig.toml"), ReferenceRigText());
   EXPECT_EQ(ReadText(folder_ / "kept/s.h5"), "a measurement");
 }
-INSTANTIATE_TEST_SUITE_P(Table, BadCommands, testing::ValuesIn(kCommands));
+INSTANTIATE_TEST_SUITE_P(Table, BadCommands, ::testing::ValuesIn(kCommands));
 
 class CommandLine : public CliFolder {};
 

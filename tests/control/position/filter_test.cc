@@ -11,11 +11,11 @@
 namespace ambrig {
 namespace {
 
-constexpr double kTs = 80e-6;
+constexpr double kFilterTs = 80e-6;
 constexpr PidParameters kGains = {4e5, 900, 6e6, 1.5e-4, 60};
 
 std::complex<double> ResponseAt(const Biquad& q, double hertz) {
-  return q.Linear().Response(std::polar(1.0, 2 * std::numbers::pi * hertz * kTs))(0, 0);
+  return q.Linear().Response(std::polar(1.0, 2 * std::numbers::pi * hertz * kFilterTs))(0, 0);
 }
 
 FilterParameters Notch(double frequency, double width, double depth) {
@@ -31,7 +31,7 @@ FilterParameters Notch(double frequency, double width, double depth) {
 TEST(Filter, NotchDepthAtItsFrequency) {
   for (const double f : {100.0, 1200.0, 5000.0})
     for (const double depth : {0.0, 0.05, 0.5}) {
-      const Biquad q = SampleFilter(Notch(f, 0.2 * f, depth), kTs);
+      const Biquad q = SampleFilter(Notch(f, 0.2 * f, depth), kFilterTs);
       EXPECT_NEAR(std::abs(ResponseAt(q, f)), depth, 1e-12) << f;
       EXPECT_NEAR(std::abs(ResponseAt(q, 0)), 1, 1e-12);
       // Far below the sampling rate the edges of the width are at -3 dB of a full notch.
@@ -47,11 +47,11 @@ TEST(Filter, LeadAtItsCentre) {
   p.kind = FilterKind::kLeadLag;
   p.zero = 400;
   p.pole = 3000;
-  const auto g = ResponseAt(SampleFilter(p, kTs), std::sqrt(p.zero * p.pole));
+  const auto g = ResponseAt(SampleFilter(p, kFilterTs), std::sqrt(p.zero * p.pole));
   EXPECT_NEAR(std::arg(g), std::asin((p.pole - p.zero) / (p.pole + p.zero)), 1e-12);
   EXPECT_NEAR(std::abs(g), std::sqrt(p.pole / p.zero), 1e-12);
   std::swap(p.zero, p.pole);
-  EXPECT_NEAR(std::arg(ResponseAt(SampleFilter(p, kTs), std::sqrt(p.zero * p.pole))),
+  EXPECT_NEAR(std::arg(ResponseAt(SampleFilter(p, kFilterTs), std::sqrt(p.zero * p.pole))),
               -std::asin(2600.0 / 3400.0), 1e-12);
 }
 
@@ -61,14 +61,14 @@ TEST(Filter, LowPassAtItsCorner) {
   p.kind = FilterKind::kLowPass;
   p.frequency = 2000;
   p.damping = 0.4;
-  const auto g = ResponseAt(SampleFilter(p, kTs), 2000);
+  const auto g = ResponseAt(SampleFilter(p, kFilterTs), 2000);
   EXPECT_NEAR(std::abs(g), 1.25, 1e-12);
   EXPECT_NEAR(std::arg(g), -std::numbers::pi / 2, 1e-12);
 }
 
 // The recursion is its state space.
 TEST(Filter, StepsAreTheStateSpace) {
-  Biquad q = SampleFilter(Notch(900, 300, 0.1), kTs);
+  Biquad q = SampleFilter(Notch(900, 300, 0.1), kFilterTs);
   const StateSpace s = q.Linear();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(2);
   for (int k = 0; k < 50; ++k) {
@@ -81,8 +81,8 @@ TEST(Filter, StepsAreTheStateSpace) {
 }
 
 TEST(FilteredPid, WithoutFiltersIsThePid) {
-  DecentralisedPid plain({kGains}, kTs);
-  FilteredPid filtered({{PidSchedule{{0}, {kGains}}, {}}}, kTs);
+  DecentralisedPid plain({kGains}, kFilterTs);
+  FilteredPid filtered({{PidSchedule{{0}, {kGains}}, {}}}, kFilterTs);
   std::vector<double> a(1), b(1);
   for (int k = 0; k < 200; ++k) {
     const std::vector<double> y{3e-5 * std::sin(0.1 * k) + 1e-4 * (k > 100)}, r{1e-6 * k},
@@ -94,10 +94,10 @@ TEST(FilteredPid, WithoutFiltersIsThePid) {
 }
 
 TEST(FilteredPid, LinearIsTheResponseToSmallSignals) {
-  FilteredPid pid(
-      {{PidSchedule{{0}, {kGains}},
-        {SampleFilter(Notch(900, 300, 0.1), kTs), SampleFilter(Notch(2000, 500, 0), kTs)}}},
-      kTs);
+  FilteredPid pid({{PidSchedule{{0}, {kGains}},
+                    {SampleFilter(Notch(900, 300, 0.1), kFilterTs),
+                     SampleFilter(Notch(2000, 500, 0), kFilterTs)}}},
+                  kFilterTs);
   const StateSpace s = pid.Linear(0);
   pid.Hold({0}, {0}, {0});
   Eigen::VectorXd x = Eigen::VectorXd::Zero(s.states());
@@ -120,7 +120,7 @@ TEST(FilteredPid, GainsFollowTheSpeed) {
   EXPECT_NEAR(s.At(200).kp, 3e5, 1e-6);
   EXPECT_NEAR(s.At(-200).ki, 3e6, 1e-6);
   EXPECT_EQ(s.At(1000).kp, 2e5);
-  FilteredPid pid({{s, {}}}, kTs);
+  FilteredPid pid({{s, {}}}, kFilterTs);
   pid.Hold({5}, {0}, {0});
   std::vector<double> f(1);
   pid.Step({0}, {0}, {0}, 0, f);

@@ -10,8 +10,8 @@
 namespace ambrig {
 namespace {
 
-constexpr double kTs = 80e-6;
-constexpr PidParameters kGains = {4e5, 900, 6e6, 1.5e-4, 60};  // reference rig
+constexpr double kPidTs = 80e-6;
+constexpr PidParameters kPidGains = {4e5, 900, 6e6, 1.5e-4, 60};  // reference rig
 
 double Step(const PidParameters& p, double Ts, double y, double r, double excitation, PidState& s) {
   return PidStep(p, Ts, PidFilter(p, Ts), y, r, excitation, s);
@@ -21,11 +21,11 @@ double Step(const PidParameters& p, double Ts, double y, double r, double excita
 TEST(Pid, DerivativeOfAStep) {
   const PidParameters p = {0, 900, 0, 1.5e-4, 1e9};
   PidState s;
-  Step(p, kTs, 1e-6, 0, 0, s);
-  const double a = std::exp(-kTs / 1.5e-4);
+  Step(p, kPidTs, 1e-6, 0, 0, s);
+  const double a = std::exp(-kPidTs / 1.5e-4);
   for (int k = 0; k < 20; ++k) {
-    const double f = Step(p, kTs, 3e-6, 0, 0, s);
-    EXPECT_NEAR(f, -900 * (1 - a) * 2e-6 / kTs * std::pow(a, k), 1e-12) << k;
+    const double f = Step(p, kPidTs, 3e-6, 0, 0, s);
+    EXPECT_NEAR(f, -900 * (1 - a) * 2e-6 / kPidTs * std::pow(a, k), 1e-12) << k;
   }
 }
 
@@ -33,9 +33,9 @@ TEST(Pid, DerivativeOfAStep) {
 TEST(Pid, DerivativeOfARamp) {
   const PidParameters p = {0, 900, 0, 1.5e-4, 1e9};
   PidState s;
-  const double a = std::exp(-kTs / 1.5e-4), v = 0.01;
+  const double a = std::exp(-kPidTs / 1.5e-4), v = 0.01;
   for (int k = 0; k < 30; ++k) {
-    const double f = Step(p, kTs, v * k * kTs, 7e-6 * k, 0, s);
+    const double f = Step(p, kPidTs, v * k * kPidTs, 7e-6 * k, 0, s);
     EXPECT_NEAR(f, -900 * v * (1 - std::pow(a, k)), 1e-12) << k;
   }
 }
@@ -45,26 +45,26 @@ TEST(Pid, IntegralIsOneStepLate) {
   PidState s;
   const double e = 2e-6;
   for (int n = 0; n < 10; ++n)
-    EXPECT_NEAR(Step(kGains, kTs, 0, e, 0, s), 4e5 * e + n * 6e6 * kTs * e, 1e-14) << n;
+    EXPECT_NEAR(Step(kPidGains, kPidTs, 0, e, 0, s), 4e5 * e + n * 6e6 * kPidTs * e, 1e-14) << n;
 }
 
 // The increment is dropped when the raw force, excitation included, is beyond the limit where e
 // pushes.
 TEST(Pid, ClampAndAntiWindup) {
   PidState s;
-  EXPECT_EQ(Step(kGains, kTs, 0, 2e-4, 0, s), 60);  // 80 N asked for
+  EXPECT_EQ(Step(kPidGains, kPidTs, 0, 2e-4, 0, s), 60);  // 80 N asked for
   EXPECT_EQ(s.integral, 0);
-  EXPECT_EQ(Step(kGains, kTs, 0, -2e-4, 0, s), -60);
+  EXPECT_EQ(Step(kPidGains, kPidTs, 0, -2e-4, 0, s), -60);
   EXPECT_EQ(s.integral, 0);
-  EXPECT_EQ(Step(kGains, kTs, 0, 1e-6, 100, s), 60);  // the excitation alone
+  EXPECT_EQ(Step(kPidGains, kPidTs, 0, 1e-6, 100, s), 60);  // the excitation alone
   EXPECT_EQ(s.integral, 0);
-  EXPECT_EQ(Step(kGains, kTs, 0, -1e-6, 100, s), 60);  // e pulls back: it counts
-  EXPECT_NEAR(s.integral, -6e6 * kTs * 1e-6, 1e-18);
-  EXPECT_NEAR(Step(kGains, kTs, 0, 0, 5, s), 5 - 6e6 * kTs * 1e-6, 1e-14);
+  EXPECT_EQ(Step(kPidGains, kPidTs, 0, -1e-6, 100, s), 60);  // e pulls back: it counts
+  EXPECT_NEAR(s.integral, -6e6 * kPidTs * 1e-6, 1e-18);
+  EXPECT_NEAR(Step(kPidGains, kPidTs, 0, 0, 5, s), 5 - 6e6 * kPidTs * 1e-6, 1e-14);
 }
 
 TEST(Pid, HoldGivesTheForceAtRest) {
-  DecentralisedPid pid({kGains, kGains}, kTs);
+  DecentralisedPid pid({kPidGains, kPidGains}, kPidTs);
   pid.Hold({12, -3}, {5e-6, 0}, {5e-6, 0});
   std::vector<double> f(2);
   pid.Step({5e-6, 0}, {5e-6, 0}, {0, 0}, 0, f);

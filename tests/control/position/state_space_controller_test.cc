@@ -9,7 +9,7 @@
 namespace ambrig {
 namespace {
 
-constexpr double kTs = 1e-4;
+constexpr double kPeriod = 1e-4;
 
 std::complex<double> Polynomial(const std::vector<double>& p, std::complex<double> s) {
   std::complex<double> v = 0;
@@ -34,11 +34,11 @@ TEST(StateSpace, BilinearMapsTheFrequencyAxis) {
   const std::vector<double> num{1, 3e3}, den{1, 400, 1e7};
   const StateSpace c = FromTransferFunction(num, den);
   for (const double W : {10.0, 3000.0, 20000.0}) {
-    const double w = 2 / kTs * std::tan(W * kTs / 2);
-    const std::complex<double> z = std::polar(1.0, W * kTs);
+    const double w = 2 / kPeriod * std::tan(W * kPeriod / 2);
+    const std::complex<double> z = std::polar(1.0, W * kPeriod);
     const auto at = [&](double x) { return Polynomial(num, {0, x}) / Polynomial(den, {0, x}); };
-    EXPECT_LT(std::abs(Bilinear(c, kTs).Response(z)(0, 0) - at(w)), 1e-10 * std::abs(at(w)));
-    EXPECT_LT(std::abs(Bilinear(c, kTs, W).Response(z)(0, 0) - at(W)), 1e-10 * std::abs(at(W)));
+    EXPECT_LT(std::abs(Bilinear(c, kPeriod).Response(z)(0, 0) - at(w)), 1e-10 * std::abs(at(w)));
+    EXPECT_LT(std::abs(Bilinear(c, kPeriod, W).Response(z)(0, 0) - at(W)), 1e-10 * std::abs(at(W)));
   }
 }
 

@@ -8,24 +8,24 @@
 namespace ambrig {
 namespace {
 
-constexpr double kTs = 80e-6;
+constexpr double kTiltTs = 80e-6;
 const CoordinateGains kTranslation{8e5, 1800, 1e7, 1.5e-4}, kTilt{1.2e4, 27, 2e5, 1.5e-4};
 const TiltTranslationGeometry kPlaces{{-0.135, 0.145}, {-0.12, 0.13}, 0.0042};
 
-TiltTranslation Make(double gyro = 0) {
-  return TiltTranslation(kTranslation, kTilt, gyro, kPlaces, {1e9, 1e9, 1e9, 1e9}, kTs);
+TiltTranslation MakeTilt(double gyro = 0) {
+  return TiltTranslation(kTranslation, kTilt, gyro, kPlaces, {1e9, 1e9, 1e9, 1e9}, kTiltTs);
 }
 
 // Readings of a pure shift give forces without moment about the centre of mass; of a pure tilt,
 // without a sum.
 TEST(TiltTranslation, Decouples) {
   std::vector<double> f(4);
-  TiltTranslation k = Make();
+  TiltTranslation k = MakeTilt();
   k.Step({2e-6, 0, 2e-6, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, f);
   EXPECT_NEAR(f[0] + f[2], -kTranslation.kp * 2e-6, 1e-9);
   EXPECT_NEAR(-0.12 * f[0] + 0.13 * f[2], 0, 1e-12);
   EXPECT_EQ(f[1], 0);
-  TiltTranslation t = Make();
+  TiltTranslation t = MakeTilt();
   const double theta = 1e-5;
   t.Step({0, -0.135 * theta, 0, 0.145 * theta}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, f);
   EXPECT_NEAR(f[1] + f[3], 0, 1e-12);
@@ -37,10 +37,10 @@ TEST(TiltTranslation, Decouples) {
 // other way round.
 TEST(TiltTranslation, CancelsTheGyroscopicMoment) {
   const double Omega = 1000, rate = 0.02;
-  TiltTranslation with = Make(1), without = Make(0);
+  TiltTranslation with = MakeTilt(1), without = MakeTilt(0);
   std::vector<double> f(4), g(4);
   for (int k = 0; k < 60; ++k) {
-    const double theta = rate * kTs * k;
+    const double theta = rate * kTiltTs * k;
     const std::vector<double> y{-0.135 * theta, 0, 0.145 * theta, 0}, none(4, 0.0);
     with.Step(y, none, none, Omega, f);
     without.Step(y, none, none, Omega, g);
@@ -51,7 +51,7 @@ TEST(TiltTranslation, CancelsTheGyroscopicMoment) {
 }
 
 TEST(TiltTranslation, HoldsForcesAndIsItsLinearModel) {
-  TiltTranslation k = Make(0.8);
+  TiltTranslation k = MakeTilt(0.8);
   std::vector<double> f(4);
   k.Hold({1, -20, 3, -18}, {0, 0, 0, 0}, {0, 0, 0, 0});
   k.Step({0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 500, f);
@@ -76,7 +76,7 @@ TEST(TiltTranslation, HoldsForcesAndIsItsLinearModel) {
 
 // Clamped, the integrals of the plane stop.
 TEST(TiltTranslation, AntiWindup) {
-  TiltTranslation k(kTranslation, kTilt, 0, kPlaces, {10, 10, 10, 10}, kTs);
+  TiltTranslation k(kTranslation, kTilt, 0, kPlaces, {10, 10, 10, 10}, kTiltTs);
   std::vector<double> f(4);
   for (int n = 0; n < 1000; ++n) k.Step({-1e-3, 0, -1e-3, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, 0, f);
   EXPECT_EQ(f[0], 10);

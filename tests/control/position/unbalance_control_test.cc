@@ -11,22 +11,22 @@
 namespace ambrig {
 namespace {
 
-constexpr double kTs = 80e-6;
+constexpr double kUnbalanceTs = 80e-6;
 
-UnbalanceControl Make(double phase = 0) {
+UnbalanceControl MakeUnbalance(double phase = 0) {
   auto inner = std::make_unique<StateSpaceController>(
       std::vector<double>{0},
       std::vector<StateSpace>{StateSpace::Gain(Eigen::MatrixXd::Constant(1, 1, 1.0))},
       std::vector<double>{1e9});
-  return UnbalanceControl(std::move(inner), 1, {200, 20, phase}, kTs);
+  return UnbalanceControl(std::move(inner), 1, {200, 20, phase}, kUnbalanceTs);
 }
 
 double AmplitudeOf(UnbalanceControl& k, double Omega, double w, double from, double seconds) {
   std::vector<double> f(1);
   double c = 0, s = 0;
   long n = 0;
-  for (long i = 0; static_cast<double>(i) * kTs < from + seconds; ++i) {
-    const double t = static_cast<double>(i) * kTs;
+  for (long i = 0; static_cast<double>(i) * kUnbalanceTs < from + seconds; ++i) {
+    const double t = static_cast<double>(i) * kUnbalanceTs;
     k.Step({std::cos(w * t + 0.4)}, {0}, {0}, Omega, f);
     if (t < from) continue;
     c += f[0] * std::cos(w * t);
@@ -39,27 +39,27 @@ double AmplitudeOf(UnbalanceControl& k, double Omega, double w, double from, dou
 // Open loop (S = 1): the synchronous part decays as exp(-b t).
 TEST(UnbalanceControl, RemovesWhatTurnsWithTheShaft) {
   const double Omega = 2 * std::acos(-1.0) * 100;
-  UnbalanceControl early = Make();
+  UnbalanceControl early = MakeUnbalance();
   EXPECT_NEAR(AmplitudeOf(early, Omega, Omega, 0.1, 0.01), std::exp(-20 * 0.105), 0.03);
-  UnbalanceControl late = Make();
+  UnbalanceControl late = MakeUnbalance();
   EXPECT_LT(AmplitudeOf(late, Omega, Omega, 1.0, 0.1), 1e-4);
 }
 
 // Other frequencies pass; below its speed it does nothing.
 TEST(UnbalanceControl, LeavesTheRest) {
   const double Omega = 2 * std::acos(-1.0) * 100;
-  UnbalanceControl other = Make();
+  UnbalanceControl other = MakeUnbalance();
   EXPECT_NEAR(AmplitudeOf(other, Omega, 3 * Omega, 1.0, 0.1), 1, 0.03);
-  UnbalanceControl slow = Make();
+  UnbalanceControl slow = MakeUnbalance();
   EXPECT_NEAR(AmplitudeOf(slow, 150, 150, 1.0, 2 * std::acos(-1.0) / 150 * 4), 1, 1e-3);
 }
 
 TEST(UnbalanceControl, LinearModelIsTheNotch) {
   const double Omega = 700;
-  UnbalanceControl k = Make(30);
+  UnbalanceControl k = MakeUnbalance(30);
   const StateSpace s = k.Linear(Omega);
-  EXPECT_LT(std::abs(s.Response(std::polar(1.0, Omega * kTs))(0, 0)), 1e-9);
-  EXPECT_NEAR(std::abs(s.Response(std::polar(1.0, 5 * Omega * kTs))(0, 0)), 1, 0.02);
+  EXPECT_LT(std::abs(s.Response(std::polar(1.0, Omega * kUnbalanceTs))(0, 0)), 1e-9);
+  EXPECT_NEAR(std::abs(s.Response(std::polar(1.0, 5 * Omega * kUnbalanceTs))(0, 0)), 1, 0.02);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(s.states());
   std::vector<double> f(1);
   for (int n = 0; n < 300; ++n) {

@@ -12,9 +12,9 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class CaseChannels : public testing::Test {
+class CaseChannels : public ::testing::Test {
  protected:
   CaseChannels() {
     raw_.rate = 1000;
@@ -96,7 +96,7 @@ TEST_F(CaseChannels, AChannelThatIsNotUsedIsLeftOutSilently) {
   const Record r = Mapped("\"A.x\" = { use = false }\n");
   EXPECT_EQ(r.Find("A.x"), nullptr);
   EXPECT_NE(r.Find("A.i1"), nullptr);
-  EXPECT_THAT(case_.notes[0], testing::Not(HasSubstr("A.x")));
+  EXPECT_THAT(case_.notes[0], ::testing::Not(HasSubstr("A.x")));
 }
 
 // The same remark on several files is one line.

@@ -14,12 +14,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class CaseQuality : public testing::Test {
+class CaseQuality : public ::testing::Test {
  protected:
   void SetUp() override {
     folder_ = fs::temp_directory_path() /
               ("ambrig_quality_" + std::to_string(::getpid()) + "_" +
-               std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
     fs::remove_all(folder_);
     fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples/mls2em", folder_, fs::copy_options::recursive);
   }

@@ -84,7 +84,7 @@ struct Mistake {
   const char *record, *fault, *channel;
 };
 
-class DataGateFinds : public testing::TestWithParam<Mistake> {};
+class DataGateFinds : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(DataGateFinds, TheMistakeAndNothingElse) {
   const Mistake m = GetParam();
@@ -120,14 +120,14 @@ TEST_P(DataGateFinds, TheMistakeAndNothingElse) {
 
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, DataGateFinds,
-    testing::Values(Mistake{kSteps, "unit", "A.x"}, Mistake{kSteps, "unit", "B.i3"},
-                    Mistake{kSteps, "sign", "A.y"}, Mistake{kSteps, "sign", "B.i3"},
-                    Mistake{kSteps, "swap", "A.x"}, Mistake{kSteps, "lag", ""},
-                    Mistake{kSteps, "lost", ""}, Mistake{kSteps, "freeze", "B.x"},
-                    Mistake{kSteps, "range", "A.x"}, Mistake{kClamped, "unit", "A.i1"},
-                    Mistake{kClamped, "sign", "A.fx"}, Mistake{kClamped, "swap", "A.i1"},
-                    Mistake{kClamped, "clip", "B.i1"}, Mistake{kClamped, "lag", ""},
-                    Mistake{kClamped, "freeze", "A.fy"}, Mistake{kClamped, "range", "bus"}),
+    ::testing::Values(Mistake{kSteps, "unit", "A.x"}, Mistake{kSteps, "unit", "B.i3"},
+                      Mistake{kSteps, "sign", "A.y"}, Mistake{kSteps, "sign", "B.i3"},
+                      Mistake{kSteps, "swap", "A.x"}, Mistake{kSteps, "lag", ""},
+                      Mistake{kSteps, "lost", ""}, Mistake{kSteps, "freeze", "B.x"},
+                      Mistake{kSteps, "range", "A.x"}, Mistake{kClamped, "unit", "A.i1"},
+                      Mistake{kClamped, "sign", "A.fx"}, Mistake{kClamped, "swap", "A.i1"},
+                      Mistake{kClamped, "clip", "B.i1"}, Mistake{kClamped, "lag", ""},
+                      Mistake{kClamped, "freeze", "A.fy"}, Mistake{kClamped, "range", "bus"}),
     [](const auto& mistake) {
       std::string name = std::string(mistake.param.record == kSteps ? "Steps" : "Clamped") +
                          mistake.param.fault + mistake.param.channel;

@@ -56,7 +56,7 @@ std::vector<std::string> Comments(const std::string& text) {
   return out;
 }
 
-class AdoptedRigTextTest : public testing::Test {
+class AdoptedRigTextTest : public ::testing::Test {
  protected:
   std::string text_ = ReadFile(kFile) + kEffects;
   RigParameters Read(const std::string& text) const { return ReadRigText(text, kFile); }
@@ -75,7 +75,7 @@ TEST_F(AdoptedRigTextTest, AFittedNumberIsPutBesideItsValue) {
   const std::string out = AdoptedRigText(text_, h, h.rig.effects);
   EXPECT_THAT(
       NewLines(text_, out),
-      testing::ElementsAre("mass = { value = 4.2, sd = 0.01, fitted = 4.207 }            # kg"));
+      ::testing::ElementsAre("mass = { value = 4.2, sd = 0.01, fitted = 4.207 }            # kg"));
   EXPECT_EQ(TrueRig(Read(out))->rotor.mass, 4.207);
 }
 

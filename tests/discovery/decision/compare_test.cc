@@ -10,7 +10,7 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 const RecordComparison& Of(const Comparison& c, const std::string& data) {
   for (const RecordComparison& r : c.records)
@@ -52,8 +52,8 @@ TEST(Compare, NamesTheChannelAndTheRecordThatAreOff) {
   ASSERT_FALSE(c.words.empty());
   EXPECT_THAT(c.words.back(), HasSubstr("A.x in record-2.h5 (place 2)"));
   EXPECT_EQ(c.residual.size(), model.size());
-  EXPECT_THAT(seen, testing::Contains("noise floor"));
-  EXPECT_THAT(seen, testing::Contains("blocks of record-3.h5"));
+  EXPECT_THAT(seen, ::testing::Contains("noise floor"));
+  EXPECT_THAT(seen, ::testing::Contains("blocks of record-3.h5"));
 }
 
 TEST(Compare, AgreementIsSaidInOneLine) {

@@ -12,11 +12,11 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 constexpr double kN = 300;
 
-class Conclusion : public testing::Test {
+class Conclusion : public ::testing::Test {
  protected:
   /// A residual that is `of_record[r]` in every row of A.x of record r and nothing in A.y.
   std::vector<double> ResidualOf(const std::vector<double>& of_record) const {

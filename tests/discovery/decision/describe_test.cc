@@ -8,9 +8,9 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class DescribeTest : public testing::Test {
+class DescribeTest : public ::testing::Test {
  protected:
   DescribeTest() {
     for (Target& t : model_.targets()) t.floor = 2e-7;

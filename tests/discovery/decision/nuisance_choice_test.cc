@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Index;
 
-class NuisanceChoiceTest : public testing::Test {
+class NuisanceChoiceTest : public ::testing::Test {
  protected:
   /// A kind that is `size` floors in every row of a channel (0: A.x, 1: A.y), all records.
   NuisanceKind Zero(std::size_t channel, double size = 10) const {

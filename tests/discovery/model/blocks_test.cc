@@ -13,9 +13,9 @@
 namespace ambrig {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kBlocksNan = std::numeric_limits<double>::quiet_NaN();
 
-class Blocks : public testing::Test {
+class Blocks : public ::testing::Test {
  protected:
   Blocks() : rig_(ReadRig(AMBRIG_SOURCE_DIR "/scenarios/library/rigs/reference.toml")) {
     scenario_.duration = 0.05;
@@ -39,9 +39,9 @@ class Blocks : public testing::Test {
 TEST_F(Blocks, ALostSampleChangesLittle) {
   const BlockErrors whole = Errors();
   ASSERT_TRUE(whole.contains("coil") && whole.contains("controller") && whole.contains("rotor"));
-  Samples("B.x")[200] = kNan;
-  Samples("A.s3")[350] = kNan;
-  Samples("A.i5")[450] = kNan;
+  Samples("B.x")[200] = kBlocksNan;
+  Samples("A.s3")[350] = kBlocksNan;
+  Samples("A.i5")[450] = kBlocksNan;
   const BlockErrors holed = Errors();
   ASSERT_EQ(holed.size(), whole.size());
   // An exact controller has no error at all: 1e-4 (A, N) is where compare begins to count
@@ -52,7 +52,7 @@ TEST_F(Blocks, ALostSampleChangesLittle) {
 
 TEST_F(Blocks, ATrulyWrongReadingStillShows) {
   const double healthy = Errors().at("coil");
-  Samples("B.x")[200] = kNan;
+  Samples("B.x")[200] = kBlocksNan;
   for (double& v : Samples("A.s3")) v *= 1.2;
   EXPECT_GT(Errors().at("coil"), 3 * healthy);
 }

@@ -26,7 +26,7 @@ double Error(const CaseModel& model, const std::vector<Hypothesis>& pair) {
   return std::sqrt(error / change);
 }
 
-class FidelityTest : public testing::Test {
+class FidelityTest : public ::testing::Test {
  protected:
   FidelityTest()
       : rig_(ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml")),

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kSensorNoise = 2e-7;  // [m], of the rig file
 
-Case Held() { return MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}}); }
+Case HeldReadings() { return MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}}); }
 
 TEST(Floor, OfAReadingIsItsNoise) {
-  const Case c = Held();
+  const Case c = HeldReadings();
   CaseModel model(c);
   const NoiseFloor floor = FindFloor(model, Hypothesis::Base(c.rig));
   ASSERT_EQ(model.targets().size(), 12u);
@@ -31,7 +31,7 @@ TEST(Floor, OfAReadingIsItsNoise) {
 // White noise in channels that know nothing of each other: as many numbers as there are rows, but for
 // what the squares of chance correlations take (1 + 2 Σ 1/n over the lags: a third).
 TEST(Floor, WhiteRowsAreIndependent) {
-  const Case c = Held();
+  const Case c = HeldReadings();
   CaseModel model(c);
   const NoiseFloor floor = FindFloor(model, Hypothesis::Base(c.rig));
   const auto rows = static_cast<double>(model.size());
@@ -40,7 +40,7 @@ TEST(Floor, WhiteRowsAreIndependent) {
 }
 
 TEST(Floor, NoiseThatIsStatedCountsWhereItIsLarger) {
-  Case c = Held();
+  Case c = HeldReadings();
   c.noise["A.x"] = 1e-6;
   CaseModel model(c);
   FindFloor(model, Hypothesis::Base(c.rig));
@@ -53,7 +53,7 @@ TEST(Floor, NoiseThatIsStatedCountsWhereItIsLarger) {
 }
 
 TEST(Floor, WithoutNoiseItIsTheResolution) {
-  Case c = Held();
+  Case c = HeldReadings();
   for (BearingParameters& b : c.rig.bearings) b.sensor.noise = 0;
   CaseModel model(c);
   FindFloor(model, Hypothesis::Base(c.rig));
@@ -65,7 +65,7 @@ TEST(Floor, WithoutNoiseItIsTheResolution) {
 }
 
 TEST(Floor, RowsThatDoNotCountDoNotMakeIt) {
-  Case c = Held();
+  Case c = HeldReadings();
   for (CaseRecord& r : c.records)
     for (auto& q : r.quality) std::fill(q.ok.begin() + 100, q.ok.end(), 0);
   CaseModel model(c);

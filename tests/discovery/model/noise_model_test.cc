@@ -58,9 +58,9 @@ TEST(NoiseRemarks, NameWhatIsNotBelievedAndWhatWasNotStated) {
   const std::vector<std::string> lines = NoiseRemarks(noise);
   std::string all;
   for (const std::string& line : lines) all += line + "\n";
-  EXPECT_THAT(all, testing::HasSubstr("A.y"));
-  EXPECT_THAT(all, testing::Not(testing::HasSubstr("A.x")));
-  EXPECT_THAT(all, testing::HasSubstr("bus"));
+  EXPECT_THAT(all, ::testing::HasSubstr("A.y"));
+  EXPECT_THAT(all, ::testing::Not(::testing::HasSubstr("A.x")));
+  EXPECT_THAT(all, ::testing::HasSubstr("bus"));
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ Eigen::VectorXd RowsOfAx(const CaseModel& model, int record, double height) {
 
 std::vector<double> Values(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
-class NuisanceTest : public testing::Test {
+class NuisanceTest : public ::testing::Test {
  protected:
   NuisanceTest() : linear_({1e-5, 2e-5, 3e-5}, 1, 0) {}
   const CaseModel& model() const { return linear_.model; }

@@ -11,8 +11,8 @@
 namespace ambrig {
 namespace {
 
-constexpr double kRate = 12500, kCutoff = 300;
-constexpr std::size_t kRows = 2500;
+constexpr double kResidualForceRate = 12500, kCutoff = 300;
+constexpr std::size_t kResidualForceRows = 2500;
 
 Scenario Levitated(const RigParameters& rig, const std::string& more = "") {
   return ReadScenarioText(
@@ -26,18 +26,18 @@ Scenario Levitated(const RigParameters& rig, const std::string& more = "") {
 Record RecordOf(const std::function<double(int, double)>& reading,
                 const std::function<double(int, int)>& current) {
   Record d;
-  d.rate = kRate;
+  d.rate = kResidualForceRate;
   const char* const axes[] = {"A.x", "A.y", "B.x", "B.y"};
   for (int a = 0; a < 4; ++a) {
     Channel c{axes[a], "m", {}};
-    for (std::size_t k = 0; k < kRows; ++k)
-      c.samples.push_back(reading(a, static_cast<double>(k) / kRate));
+    for (std::size_t k = 0; k < kResidualForceRows; ++k)
+      c.samples.push_back(reading(a, static_cast<double>(k) / kResidualForceRate));
     d.channels.push_back(c);
   }
   for (int b = 0; b < 2; ++b)
     for (int j = 1; j <= 8; ++j)
       d.channels.push_back({std::string(b == 0 ? "A" : "B") + ".i" + std::to_string(j), "A",
-                            std::vector<double>(kRows, current(b, j - 1))});
+                            std::vector<double>(kResidualForceRows, current(b, j - 1))});
   return d;
 }
 
@@ -53,10 +53,10 @@ TEST(ResidualForce, WithoutMagnetsTheWeightIsMissing) {
   const auto shares = WeightShares(rig);
   for (std::size_t b = 0; b < 2; ++b) {
     EXPECT_EQ(f->planes[b].bearing, b == 0 ? "A" : "B");
-    EXPECT_NEAR(f->planes[b].fx[kRows / 2], shares[b][0], 1e-9);
-    EXPECT_NEAR(f->planes[b].fy[kRows / 2], shares[b][1], 1e-9);
+    EXPECT_NEAR(f->planes[b].fx[kResidualForceRows / 2], shares[b][0], 1e-9);
+    EXPECT_NEAR(f->planes[b].fy[kResidualForceRows / 2], shares[b][1], 1e-9);
   }
-  EXPECT_EQ(f->t.size(), kRows);
+  EXPECT_EQ(f->t.size(), kResidualForceRows);
   EXPECT_DOUBLE_EQ(f->omega[7], 200);
   EXPECT_NEAR(f->theta[1000], 200 * 0.08, 1e-9);
 }
@@ -99,12 +99,12 @@ TEST(ResidualForce, ATranslationNeedsTheMassTimesItsAcceleration) {
   const double zA = rig.bearings[0].z, zB = rig.bearings[1].z;
   for (const std::size_t k : {700u, 1100u, 1555u}) {
     const double need = -rig.rotor.mass * w * w * amplitude * passed *
-                        std::sin(w * static_cast<double>(k) / kRate),
+                        std::sin(w * static_cast<double>(k) / kResidualForceRate),
                  scale = rig.rotor.mass * w * w * amplitude;
     EXPECT_NEAR(f->planes[0].fx[k] + f->planes[1].fx[k], need, 1e-3 * scale);
     EXPECT_NEAR(zA * f->planes[0].fx[k] + zB * f->planes[1].fx[k], 0, 1e-3 * scale * zB);
     EXPECT_NEAR(f->planes[0].vx[k],
-                w * amplitude * passed * std::cos(w * static_cast<double>(k) / kRate),
+                w * amplitude * passed * std::cos(w * static_cast<double>(k) / kResidualForceRate),
                 1e-3 * w * amplitude);
   }
 }
@@ -128,7 +128,7 @@ TEST(ResidualForce, AConicalMotionNeedsInertiaAndGyroscopicMoment) {
   const double zA = rig.bearings[0].z, zB = rig.bearings[1].z;
   const auto shares = WeightShares(rig);
   for (const std::size_t k : {800u, 1303u}) {
-    const double phase = w * static_cast<double>(k) / kRate;
+    const double phase = w * static_cast<double>(k) / kResidualForceRate;
     const double My = -rig.rotor.inertia_transverse * w * w * tilt * passed * std::sin(phase),
                  Mx = rig.rotor.inertia_polar * 200 * w * tilt * passed * std::cos(phase);
     const auto &A = f->planes[0], &B = f->planes[1];
@@ -149,7 +149,7 @@ TEST(ResidualForce, ALoadCarriesItsShareFromItsStartToItsStop) {
   const auto without =
       EstimateResidualForce(rig, Levitated(rig), RecordOf(Still, NoCurrent), kCutoff);
   ASSERT_TRUE(f && without);
-  for (std::size_t k = 0; k < kRows; ++k) {
+  for (std::size_t k = 0; k < kResidualForceRows; ++k) {
     const double t = f->t[k];
     const bool on = t >= 0.05 && t < 0.12;
     EXPECT_NEAR(f->planes[1].fx[k] - without->planes[1].fx[k], on ? -7 : 0, 1e-9) << t;

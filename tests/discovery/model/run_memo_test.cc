@@ -45,7 +45,7 @@ TEST(RunMemo, TheLeastRecentlyUsedGoesFirst) {
   EXPECT_TRUE(memo.Find("c", out.data()));
 }
 
-class MemoKeyTest : public testing::Test {
+class MemoKeyTest : public ::testing::Test {
  protected:
   std::string Key(const std::vector<EffectInstance>& effects, const char* start, double speed) {
     RigParameters rig = case_.rig;

@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class RunStoreTest : public testing::Test {
+class RunStoreTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    folder_ =
-        fs::temp_directory_path() / ("ambrig_store_" + std::to_string(::getpid()) + "_" +
-                                     testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ = fs::temp_directory_path() /
+              ("ambrig_store_" + std::to_string(::getpid()) + "_" +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
     fs::create_directories(folder_);
     fs::copy_file(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml",
                   folder_ / "rig.toml");

@@ -30,11 +30,11 @@ std::string StepOf(const std::string& target, const std::string& port, double am
 
 constexpr const char* kClampedAt =
     "[start]\nstate = \"clamped\"\nposition = { A = [4.0e-5, 0.0], B = [0.0, 1.0e-5] }\n";
-constexpr const char* kClamped = "[start]\nstate = \"clamped\"\n";
+constexpr const char* kClampedStart = "[start]\nstate = \"clamped\"\n";
 constexpr const char* kLevitated = "[start]\nstate = \"levitated\"\n";
 constexpr const char* kResting = "[start]\nstate = \"resting\"\n";
 
-Abilities Of(const std::vector<CaseRecord>& records) {
+Abilities AbilitiesOf(const std::vector<CaseRecord>& records) {
   Case c;
   c.rig = ReferenceRig();
   c.records = records;
@@ -43,15 +43,15 @@ Abilities Of(const std::vector<CaseRecord>& records) {
 
 TEST(Abilities, OfEachKindOfStart) {
   const RigParameters rig = ReferenceRig();
-  const Abilities landed = Of({Recorded(rig, kResting, "")});
+  const Abilities landed = AbilitiesOf({Recorded(rig, kResting, "")});
   EXPECT_TRUE(landed.land);
   EXPECT_FALSE(landed.levitate || landed.clamp || landed.load || landed.reference);
-  const Abilities driven = Of({Recorded(
+  const Abilities driven = AbilitiesOf({Recorded(
       rig, kLevitated,
       StepOf("A.x", "reference", 1e-5) + "[[load]]\nplane = \"A\"\nforce = [5.0, 0.0]\n")});
   EXPECT_TRUE(driven.levitate && driven.load && driven.reference);
   EXPECT_FALSE(driven.land);
-  const Abilities pushed = Of({Recorded(rig, kLevitated, StepOf("A.x", "force", 5))});
+  const Abilities pushed = AbilitiesOf({Recorded(rig, kLevitated, StepOf("A.x", "force", 5))});
   EXPECT_FALSE(pushed.reference);  // another port
 }
 
@@ -59,9 +59,9 @@ TEST(Abilities, OfEachKindOfStart) {
 TEST(Abilities, CoilsOfAHeldRotorGoFromTheLeastToTheMostThatWasCommanded) {
   const RigParameters rig = ReferenceRig();
   const Abilities a =
-      Of({Recorded(rig, kClamped,
-                   StepOf("A.coil1", "current", 1.5) + StepOf("A.coil2", "current", 4) +
-                       StepOf("B.coil1", "current", 0.5))});
+      AbilitiesOf({Recorded(rig, kClampedStart,
+                            StepOf("A.coil1", "current", 1.5) + StepOf("A.coil2", "current", 4) +
+                                StepOf("B.coil1", "current", 0.5))});
   EXPECT_TRUE(a.clamp);
   EXPECT_EQ(a.coil_port, "current");
   EXPECT_DOUBLE_EQ(a.coil_least, 0.5);
@@ -69,7 +69,7 @@ TEST(Abilities, CoilsOfAHeldRotorGoFromTheLeastToTheMostThatWasCommanded) {
 }
 
 TEST(Abilities, AHeldRotorWithoutCommandsCannotBeCommanded) {
-  EXPECT_FALSE(Of({Recorded(ReferenceRig(), kClamped, "")}).clamp);
+  EXPECT_FALSE(AbilitiesOf({Recorded(ReferenceRig(), kClampedStart, "")}).clamp);
 }
 
 TEST(Abilities, ItIsHeldWhereARecordHadItOffCentre) {
@@ -77,9 +77,9 @@ TEST(Abilities, ItIsHeldWhereARecordHadItOffCentre) {
   const std::string command = StepOf("A.coil1", "current", 2);
   for (const bool first : {true, false}) {
     std::vector<CaseRecord> records = {Recorded(rig, kClampedAt, command),
-                                       Recorded(rig, kClamped, command)};
+                                       Recorded(rig, kClampedStart, command)};
     if (!first) std::swap(records[0], records[1]);
-    const Abilities a = Of(records);
+    const Abilities a = AbilitiesOf(records);
     ASSERT_EQ(a.clamp_at.count("A"), 1u);
     EXPECT_THAT(a.clamp_at.at("A"), ElementsAre(4e-5, 0));
   }
@@ -88,14 +88,14 @@ TEST(Abilities, ItIsHeldWhereARecordHadItOffCentre) {
 TEST(Abilities, RatesOfBurstsAndOfLongRecordsAreApart) {
   const RigParameters rig = ReferenceRig();
   const std::string command = StepOf("A.coil1", "current", 2);
-  const Abilities both =
-      Of({Recorded(rig, kClamped, command, 450000), Recorded(rig, kLevitated, "", 12500)});
+  const Abilities both = AbilitiesOf(
+      {Recorded(rig, kClampedStart, command, 450000), Recorded(rig, kLevitated, "", 12500)});
   EXPECT_TRUE(both.burst);
   EXPECT_EQ(both.burst_rate, 450000);
   EXPECT_EQ(both.record_rate, 12500);
-  const Abilities only = Of({Recorded(rig, kClamped, command, 450000)});
+  const Abilities only = AbilitiesOf({Recorded(rig, kClampedStart, command, 450000)});
   EXPECT_EQ(only.record_rate, 450000);  // no other was shown
-  EXPECT_FALSE(Of({Recorded(rig, kLevitated, "", 450000)}).burst);
+  EXPECT_FALSE(AbilitiesOf({Recorded(rig, kLevitated, "", 450000)}).burst);
 }
 
 TEST(Abilities, StatedOnes) {

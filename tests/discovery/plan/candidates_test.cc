@@ -50,7 +50,7 @@ TEST(PlanCandidates, SizeScalesTheExcitation) {
   }
 }
 
-CaseRecord RecordOf(const RigParameters& rig, const std::string& start, const std::string& more) {
+CaseRecord RecordWith(const RigParameters& rig, const std::string& start, const std::string& more) {
   CaseRecord r;
   r.scenario = ReadScenarioText(
       "name = \"r\"\nrig = \"rig.toml\"\nduration = 0.1\nrecord_rate = 12500.0\n[start]\nstate = "
@@ -66,16 +66,16 @@ TEST(Abilities, AreWhatTheRecordsShow) {
   Case c;
   c.rig = ReferenceRig();
   c.records.push_back(
-      RecordOf(c.rig, "levitated", "[speed]\nprofile = [[0.0, 0.0], [0.1, 300.0]]\n"));
+      RecordWith(c.rig, "levitated", "[speed]\nprofile = [[0.0, 0.0], [0.1, 300.0]]\n"));
   Abilities a = AbilitiesOf(c);
   EXPECT_TRUE(a.levitate);
   EXPECT_FALSE(a.clamp || a.burst || a.land || a.load || a.reference);
   EXPECT_EQ(a.top_speed, 300);
   EXPECT_EQ(a.channels, (std::set<std::string>{"A.i1"}));
-  c.records = {RecordOf(c.rig, "clamped",
-                        "[speed]\nprofile = [[0.0, 0.0], [0.1, 0.0]]\n[[excitation]]\ntarget = "
-                        "\"A.coil1\"\nport = \"duty\"\nkind = \"step\"\nstart = 0.0\nstop = "
-                        "0.1\namplitude = 0.4\n")};
+  c.records = {RecordWith(c.rig, "clamped",
+                          "[speed]\nprofile = [[0.0, 0.0], [0.1, 0.0]]\n[[excitation]]\ntarget = "
+                          "\"A.coil1\"\nport = \"duty\"\nkind = \"step\"\nstart = 0.0\nstop = "
+                          "0.1\namplitude = 0.4\n")};
   a = AbilitiesOf(c);
   EXPECT_TRUE(a.clamp);
   EXPECT_FALSE(a.levitate);

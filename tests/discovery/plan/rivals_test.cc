@@ -31,7 +31,7 @@ Rival Nothing(const TrialRecord& trial) {
   return {"nothing", "", h, Eigen::MatrixXd(0, 0), Eigen::MatrixXd(0, 0)};
 }
 
-Rival With(const TrialRecord& trial, const EffectInstance& e, double precision) {
+Rival RivalWith(const TrialRecord& trial, const EffectInstance& e, double precision) {
   Hypothesis h = Hypothesis::Base(trial.data->rig);
   h.AddEffect(e);
   const auto n = static_cast<Index>(h.free.size());
@@ -55,7 +55,7 @@ struct Views {
 TEST(Rivals, DistanceFromNothingIsThatOfTheSignature) {
   Views v;
   const double b = 5e-7, S = LinearCase::kRows * b * b / LinearCase::kFloor / LinearCase::kFloor;
-  const RivalView offset = v.Of(With(v.trial, LinearCase::Offset(b), 1e12)),
+  const RivalView offset = v.Of(RivalWith(v.trial, LinearCase::Offset(b), 1e12)),
                   nothing = v.Of(Nothing(v.trial));
   // 50 rows in eighths: 6 or 7 rows a block
   double wanted = 0;
@@ -71,8 +71,8 @@ TEST(Rivals, DistanceFromNothingIsThatOfTheSignature) {
 // At one position a gain and an offset read the same: whatever the record's length, no distance.
 TEST(Rivals, WhatLooksAlikeHasNoDistance) {
   Views v;
-  const RivalView offset = v.Of(With(v.trial, LinearCase::Offset(0.05 * kAt), 1e-4)),
-                  gain = v.Of(With(v.trial, LinearCase::Gain(1.06), 1e-4));
+  const RivalView offset = v.Of(RivalWith(v.trial, LinearCase::Offset(0.05 * kAt), 1e-4)),
+                  gain = v.Of(RivalWith(v.trial, LinearCase::Gain(1.06), 1e-4));
   EXPECT_LT(SquaredDistance(v.trial, offset, gain), 0.1);
   EXPECT_NEAR(ProbabilityRight(0), 0.5, 1e-12);
   EXPECT_NEAR(ProbabilityRight(21.7), 0.99, 1e-3);
@@ -81,7 +81,7 @@ TEST(Rivals, WhatLooksAlikeHasNoDistance) {
 // A record with the offset speaks for the offset, one without for nothing.
 TEST(Rivals, DisbeliefPrefersTheTruth) {
   Views v;
-  const RivalView offset = v.Of(With(v.trial, LinearCase::Offset(2e-6), 1)),
+  const RivalView offset = v.Of(RivalWith(v.trial, LinearCase::Offset(2e-6), 1)),
                   nothing = v.Of(Nothing(v.trial));
   EXPECT_LT(Disbelief(v.trial, offset, offset.predicted),
             Disbelief(v.trial, nothing, offset.predicted));
@@ -89,7 +89,7 @@ TEST(Rivals, DisbeliefPrefersTheTruth) {
             Disbelief(v.trial, offset, nothing.predicted));
 }
 
-TrialRecord Levitated(double step) {
+TrialRecord LevitatedTrial(double step) {
   RigParameters rig = ReferenceRig();
   TrialRecord trial;
   trial.data = std::make_unique<Case>(EmptyCase(
@@ -106,7 +106,7 @@ TrialRecord Levitated(double step) {
 }
 
 TEST(Safety, RefusesAnOrbitNearTheStops) {
-  const TrialRecord gentle = Levitated(2e-5), wild = Levitated(1.9e-4);
+  const TrialRecord gentle = LevitatedTrial(2e-5), wild = LevitatedTrial(1.9e-4);
   const SafetyResult a = CheckSafety(gentle, Nothing(gentle), {});
   EXPECT_TRUE(a.safe) << a.reason;
   // the step is reached, and even an undamped loop would overshoot to no more than twice of it

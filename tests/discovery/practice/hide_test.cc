@@ -17,18 +17,18 @@
 namespace ambrig {
 namespace {
 
-RigParameters RadialRig() {
+RigParameters RigToHideIn() {
   RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
   return rig;
 }
 
-class HideTest : public testing::Test {
+class HideTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     request_ = new HideRequest{{{"sensor-gain", "B.y"}}, true, 5};
-    hidden_ = new HiddenCase(Hide(RadialRig(), *request_));
+    hidden_ = new HiddenCase(Hide(RigToHideIn(), *request_));
   }
   static void TearDownTestSuite() {
     delete hidden_;
@@ -41,7 +41,7 @@ HideRequest* HideTest::request_ = nullptr;
 HiddenCase* HideTest::hidden_ = nullptr;
 
 TEST_F(HideTest, SameSeedSameBitsAnotherSeedAnotherRig) {
-  const HiddenCase again = Hide(RadialRig(), *request_);
+  const HiddenCase again = Hide(RigToHideIn(), *request_);
   ASSERT_EQ(again.data.records.size(), hidden_->data.records.size());
   for (std::size_t r = 0; r < again.data.records.size(); ++r)
     for (std::size_t c = 0; c < again.data.records[r].data.channels.size(); ++c)
@@ -49,13 +49,13 @@ TEST_F(HideTest, SameSeedSameBitsAnotherSeedAnotherRig) {
                 hidden_->data.records[r].data.channels[c].samples);
   HideRequest other = *request_;
   other.seed = 6;
-  const HiddenCase different = Hide(RadialRig(), other);
+  const HiddenCase different = Hide(RigToHideIn(), other);
   EXPECT_NE(different.effects[0].values[0], hidden_->effects[0].values[0]);
   EXPECT_NE(different.truth.rotor.mass, hidden_->truth.rotor.mass);
 }
 
 TEST_F(HideTest, ParametersStayWithinTheirTolerances) {
-  RigParameters nominal = RadialRig(), truth = hidden_->truth;
+  RigParameters nominal = RigToHideIn(), truth = hidden_->truth;
   int moved = 0;
   for (const Tolerance& t : nominal.tolerances) {
     const double shift = (*ParameterAt(truth, t.path) - *ParameterAt(nominal, t.path)) / t.sd;
@@ -90,7 +90,7 @@ TEST_F(HideTest, AnswerReadsBack) {
 TEST(HideErrors, NameWhatIsWrong) {
   const auto message = [](HideRequest request) {
     try {
-      Hide(RadialRig(), request);
+      Hide(RigToHideIn(), request);
     } catch (const InputError& e) {
       return std::string(e.what());
     }

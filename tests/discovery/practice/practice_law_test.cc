@@ -34,7 +34,7 @@ std::string TextOf(const std::vector<EffectInstance>& effects) {
   return text;
 }
 
-class EveryPracticeLaw : public testing::TestWithParam<std::string> {
+class EveryPracticeLaw : public ::testing::TestWithParam<std::string> {
  protected:
   const PracticeLaw& law() const {
     for (const PracticeLaw& l : PracticeLaws())
@@ -82,7 +82,7 @@ std::vector<std::string> LawNames() {
   return out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Practice, EveryPracticeLaw, testing::ValuesIn(LawNames()),
+INSTANTIATE_TEST_SUITE_P(Practice, EveryPracticeLaw, ::testing::ValuesIn(LawNames()),
                          [](const auto& of) {
                            std::string name = of.param;
                            for (char& ch : name)

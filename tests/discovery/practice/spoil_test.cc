@@ -12,9 +12,9 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
-class SpoilTest : public testing::Test {
+class SpoilTest : public ::testing::Test {
  protected:
   std::string Do(const std::string& fault, const std::string& channel = "A.x") {
     return Spoil(case_, 1, {fault, channel}, 5);

@@ -12,7 +12,7 @@
 namespace ambrig {
 namespace {
 
-constexpr double kN = 300;
+constexpr double kFitN = 300;
 const std::vector<double> kX = {2e-5, 4e-5, 6e-5, 5e-5};
 
 Candidate From(const EffectInstance& start) {
@@ -23,7 +23,7 @@ Candidate From(const EffectInstance& start) {
 
 TEST(FitBriefly, ReachesTheOptimumOfALinearProblem) {
   const LinearCase c(kX, 1.08, 0);
-  const FitResult fit = FitBriefly(c.model, c.Base(), From(LinearCase::Gain(1.01)), kN);
+  const FitResult fit = FitBriefly(c.model, c.Base(), From(LinearCase::Gain(1.01)), kFitN);
   ASSERT_TRUE(fit.converged);
   EXPECT_NEAR(fit.hypothesis.rig.effects[0].Value("gain"), 1.08, 2e-3);
   EXPECT_LT(fit.ratio_validate, 0.2);
@@ -35,11 +35,11 @@ TEST(FitBriefly, TakesTheOtherStartWhereTheFirstIsRefused) {
   const LinearCase c(kX, 1.08, 0);
   Candidate candidate = From(LinearCase::Gain(1.01));
   candidate.effect.target = "nowhere";
-  FitResult fit = FitBriefly(c.model, c.Base(), candidate, kN);
+  FitResult fit = FitBriefly(c.model, c.Base(), candidate, kFitN);
   EXPECT_FALSE(fit.converged);
   EXPECT_TRUE(std::isinf(fit.ratio_fit));
   candidate.other_starts = {LinearCase::Gain(1.2)};
-  fit = FitBriefly(c.model, c.Base(), candidate, kN);
+  fit = FitBriefly(c.model, c.Base(), candidate, kFitN);
   ASSERT_TRUE(fit.converged);
   EXPECT_EQ(fit.hypothesis.rig.effects.size(), 1u);
   EXPECT_EQ(fit.hypothesis.rig.effects[0].target, "A.x");
@@ -49,7 +49,7 @@ TEST(FitOn, GivesSensitivitiesAndStandardDeviations) {
   const LinearCase c(kX, 1.08, 2e-6);
   const FitResult base = c.Base();
   const FitResult fit =
-      FitOn(c.model, base, c.With({LinearCase::Gain(1.05), LinearCase::Offset(1e-6)}), kN);
+      FitOn(c.model, base, c.With({LinearCase::Gain(1.05), LinearCase::Offset(1e-6)}), kFitN);
   ASSERT_TRUE(fit.converged);
   EXPECT_EQ(fit.jacobian.cols(), 2);
   ASSERT_EQ(fit.sd.size(), 2u);
@@ -74,7 +74,8 @@ TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
   const FitResult base = c.Base();
   SignatureBank bank;
   Told told;
-  const EffectRound round = RankEffects({c.model, c.model, bank, kN, 3, told.Listener()}, base, 0);
+  const EffectRound round =
+      RankEffects({c.model, c.model, bank, kFitN, 3, told.Listener()}, base, 0);
   ASSERT_GE(round.ranking.size(), 2u);
   const RankedEffect& best = round.ranking[0];
   EXPECT_EQ(Named(best.effect), "sensor-gain at A.x");
@@ -86,7 +87,7 @@ TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
   for (std::size_t k = 0; k < round.ranking.size(); ++k) {
     const RankedEffect& r = round.ranking[k];
     sum += r.probability;
-    EXPECT_NEAR(r.score, Score(c.model, r.fit, kN), 1e-9);
+    EXPECT_NEAR(r.score, Score(c.model, r.fit, kFitN), 1e-9);
     EXPECT_NEAR(std::log(r.probability / best.probability), -0.5 * (r.score - best.score), 1e-6);
     if (k > 0) {
       EXPECT_GE(r.score, round.ranking[k - 1].score);
@@ -94,7 +95,7 @@ TEST(RankEffects, TheEffectThatMadeTheDataComesFirst) {
   }
   EXPECT_NEAR(sum, 1, 1e-12);
   EXPECT_FALSE(round.screened.empty());
-  EXPECT_THAT(told.texts, testing::Contains("full fit of sensor-gain at A.x"));
+  EXPECT_THAT(told.texts, ::testing::Contains("full fit of sensor-gain at A.x"));
 }
 
 // One candidate is asked for, but a name given without the other laws of its place would be too sure: those
@@ -104,7 +105,8 @@ TEST(RankEffects, RivalsAtThePlaceOfTheBestAreFittedToo) {
   const FitResult base = c.Base();
   SignatureBank bank;
   Told told;
-  const EffectRound round = RankEffects({c.model, c.model, bank, kN, 1, told.Listener()}, base, 0);
+  const EffectRound round =
+      RankEffects({c.model, c.model, bank, kFitN, 1, told.Listener()}, base, 0);
   ASSERT_GE(round.ranking.size(), 2u);
   EXPECT_EQ(Named(round.ranking[0].effect), "sensor-gain at A.x");
   bool offset = false;
@@ -122,8 +124,8 @@ TEST(RankEffects, ASecondRoundFindsWhatTheFirstLeft) {
   const FitResult base = c.Base();
   SignatureBank bank;
   Told told;
-  const RoundSetting setting{c.model, c.model, bank, kN, 3, told.Listener()};
-  FitResult now = FitOn(c.model, base, c.With({LinearCase::Gain(1.05)}), kN);
+  const RoundSetting setting{c.model, c.model, bank, kFitN, 3, told.Listener()};
+  FitResult now = FitOn(c.model, base, c.With({LinearCase::Gain(1.05)}), kFitN);
   ASSERT_TRUE(now.converged);
   ASSERT_GT(now.ratio_validate, 1);
   const EffectRound round = RankEffects(setting, now, 1);
@@ -140,13 +142,13 @@ TEST(VisibleSizes, AreThreeStandardDeviationsOfEachEffect) {
   const FitResult base = c.Base();
   SignatureBank bank;
   bank.Simulate(c.model, base, ProbesOf(EffectNamed("sensor-offset"), "A.x", c.model, {}), nullptr);
-  const std::vector<VisibleSize> sizes = VisibleSizes(c.model, base, kN, bank);
+  const std::vector<VisibleSize> sizes = VisibleSizes(c.model, base, kFitN, bank);
   ASSERT_EQ(sizes.size(), 1u);
   EXPECT_EQ(sizes[0].effect, "sensor-offset");
   EXPECT_EQ(sizes[0].target, "A.x");
   EXPECT_EQ(sizes[0].unit, "m");
-  // One offset in the 3 x 50 fitted rows of A.x, each of weight kN over all rows.
-  const double weight = kN / static_cast<double>(c.model.size());
+  // One offset in the 3 x 50 fitted rows of A.x, each of weight kFitN over all rows.
+  const double weight = kFitN / static_cast<double>(c.model.size());
   EXPECT_NEAR(sizes[0].size, 3 * LinearCase::kFloor / std::sqrt(weight * 3 * LinearCase::kRows),
               0.05 * sizes[0].size);
 }

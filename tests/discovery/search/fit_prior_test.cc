@@ -10,7 +10,7 @@
 namespace ambrig {
 namespace {
 
-constexpr double kAt = 4e-5, kSd = 1e-3;  // [m] of a held shaft, tilted; of the sensor's z
+constexpr double kHeldAt = 4e-5, kSd = 1e-3;  // [m] of a held shaft, tilted; of the sensor's z
 
 /// Four records of a shaft held at +x in A and -x in B, the last one unseen: the reading of A.x is
 /// x (1 - 2 (z_s - z_A)/(z_B - z_A)), linear in the sensor's z_s, which in truth stands `shift` sd off.
@@ -21,7 +21,7 @@ class TiltedCase {
   }
 
   /// Readings in units of the floor per sd of the place.
-  static double Slope() { return 2 * kAt * kSd / (kZB - kZA) / kFloor; }
+  static double Slope() { return 2 * kHeldAt * kSd / (kZB - kZA) / kFloor; }
   /// Effective numbers for which the data weigh `information` over the prior's 1.
   static double SampleSize(double information) {
     // three of four records, one of two channels
@@ -36,12 +36,12 @@ class TiltedCase {
 
  private:
   static Case Make(double shift) {
-    Case c = LinearCase::Make({kAt, kAt, kAt, kAt}, 1, 0);
+    Case c = LinearCase::Make({kHeldAt, kHeldAt, kHeldAt, kHeldAt}, 1, 0);
     c.rig.tolerances = {{"bearings.A.sensor.z", kSd, kRequired}};
     const double z = c.rig.bearings[0].sensor.z + shift * kSd;
-    const double reading = kAt * (1 - 2 * (z - kZA) / (kZB - kZA));
+    const double reading = kHeldAt * (1 - 2 * (z - kZA) / (kZB - kZA));
     for (CaseRecord& r : c.records) {
-      r.scenario.clamp["B"] = {-kAt, 0};
+      r.scenario.clamp["B"] = {-kHeldAt, 0};
       for (double& v : r.data.channels[0].samples) v = reading;
     }
     return c;

@@ -13,10 +13,10 @@
 namespace ambrig {
 namespace {
 
-constexpr double kX[] = {2e-5, 4e-5, 6e-5, 5e-5};
+constexpr double kFitX[] = {2e-5, 4e-5, 6e-5, 5e-5};
 
 LinearCase CaseOf(double gain, double offset) {
-  return {{std::begin(kX), std::end(kX)}, gain, offset};
+  return {{std::begin(kFitX), std::end(kFitX)}, gain, offset};
 }
 
 // d(gain x)/d(gain) = x, in units of the floor, per step of the coordinate; no other row moves.
@@ -40,7 +40,7 @@ TEST(Jacobian, AtTheUpperBoundItLooksBack) {
   Hypothesis h = c.With({LinearCase::Gain(1.02)});
   h.free[0].hi = h.free[0].value;
   const Eigen::MatrixXd J = Jacobian(c.model, h, {0});
-  EXPECT_NEAR(J(0, 0), kX[0] / LinearCase::kFloor * h.free[0].step, 1e-8);
+  EXPECT_NEAR(J(0, 0), kFitX[0] / LinearCase::kFloor * h.free[0].step, 1e-8);
 }
 
 TEST(Fit, FindsGainAndOffsetThatMadeTheData) {
@@ -95,7 +95,7 @@ TEST(Fit, StaysInsideBoundsAndSaysSo) {
   double square = 0;  // rms of (1.07 - 1.04) x over A.x and the A.y that agree
   for (std::size_t r = 0; r < c.fit_records(); ++r) square += std::pow(0.03 * c.x[r], 2);
   EXPECT_NEAR(fit.ratio_fit, std::sqrt(square / 6) / LinearCase::kFloor, 1e-6);
-  EXPECT_THAT(fit.warnings, testing::Contains(testing::HasSubstr("is at its bound 1.04")));
+  EXPECT_THAT(fit.warnings, ::testing::Contains(::testing::HasSubstr("is at its bound 1.04")));
 }
 
 // Records at one position cannot tell a gain from an offset.
@@ -105,7 +105,7 @@ TEST(Fit, NamesWhatTheRecordsCannotTellApart) {
   options.effective_sample_size = 300;
   const FitResult fit =
       Fit(c.model, c.With({LinearCase::Gain(1.01), LinearCase::Offset(1e-6)}), options);
-  EXPECT_THAT(fit.warnings, testing::Contains(testing::HasSubstr("are correlated by -1.000")));
+  EXPECT_THAT(fit.warnings, ::testing::Contains(::testing::HasSubstr("are correlated by -1.000")));
   EXPECT_LT(fit.ratio_fit, 0.1);
 }
 
@@ -114,7 +114,7 @@ TEST(Fit, NamesAParameterWithoutInfluence) {
   FitOptions options;
   options.effective_sample_size = 300;
   const FitResult fit = Fit(c.model, c.With({LinearCase::Gain(1.05)}), options);
-  EXPECT_THAT(fit.warnings, testing::Contains(testing::HasSubstr("has no influence")));
+  EXPECT_THAT(fit.warnings, ::testing::Contains(::testing::HasSubstr("has no influence")));
   EXPECT_EQ(fit.sd[0], 0);
   EXPECT_NEAR(fit.hypothesis.free[0].value, 1.05, 1e-6);
 }

@@ -12,8 +12,8 @@
 namespace ambrig {
 namespace {
 
-constexpr double kN = 300;  // independent numbers
-const std::vector<double> kX = {2e-5, 4e-5, 6e-5, 5e-5};
+constexpr double kJudgeN = 300;  // independent numbers
+const std::vector<double> kJudgeX = {2e-5, 4e-5, 6e-5, 5e-5};
 
 /// A bank with the probes of sensor-gain and sensor-offset at A.x, in this order.
 SignatureBank BankOf(const LinearCase& c, const FitResult& base) {
@@ -35,17 +35,17 @@ double Change(const EffectInstance& probe, double x) {
 }
 
 TEST(SignatureBank, ProductsAreSumsOverTheRowsOfEitherKind) {
-  const LinearCase c(kX, 1, 0);
+  const LinearCase c(kJudgeX, 1, 0);
   const FitResult base = c.Base();
   SignatureBank bank = BankOf(c, base);
   const Gram& g = bank.Products(c.model);
   for (const SignatureBank::Entry& a : bank.entries())
     for (const SignatureBank::Entry& b : bank.entries()) {
       double fit = 0, validate = 0;
-      for (std::size_t r = 0; r < kX.size(); ++r)
+      for (std::size_t r = 0; r < kJudgeX.size(); ++r)
         (r < c.fit_records() ? fit : validate) +=
-            LinearCase::kRows * Change(a.group.probes[0], kX[r]) *
-            Change(b.group.probes[0], kX[r]) / (LinearCase::kFloor * LinearCase::kFloor);
+            LinearCase::kRows * Change(a.group.probes[0], kJudgeX[r]) *
+            Change(b.group.probes[0], kJudgeX[r]) / (LinearCase::kFloor * LinearCase::kFloor);
       EXPECT_NEAR(g.fit(a.first, b.first), fit, 1e-5 * std::abs(fit));
       EXPECT_NEAR(g.validate(a.first, b.first), validate, 1e-5 * std::abs(validate));
     }
@@ -54,7 +54,7 @@ TEST(SignatureBank, ProductsAreSumsOverTheRowsOfEitherKind) {
 }
 
 TEST(SignatureBank, ProductsWithOneColumnAreThoseOfTheDefinition) {
-  const LinearCase c(kX, 1, 0);
+  const LinearCase c(kJudgeX, 1, 0);
   const FitResult base = c.Base();
   const SignatureBank bank = BankOf(c, base);
   const Eigen::MatrixXd ones = Eigen::MatrixXd::Ones(static_cast<Eigen::Index>(c.model.size()), 1);
@@ -69,41 +69,43 @@ TEST(SignatureBank, ProductsWithOneColumnAreThoseOfTheDefinition) {
 }
 
 TEST(LinearJudge, OneStepFindsTheOffsetOfTheData) {
-  const LinearCase c(kX, 1, 7e-6);
+  const LinearCase c(kJudgeX, 1, 7e-6);
   const FitResult base = c.Base();
   SignatureBank bank = BankOf(c, base);
   const Candidate found =
-      LinearJudge(c.model, base, bank, kN).Single(EntryOf(bank, "sensor-offset"));
+      LinearJudge(c.model, base, bank, kJudgeN).Single(EntryOf(bank, "sensor-offset"));
   EXPECT_NEAR(found.effect.Value("offset"), 7e-6, 1e-10);
   // Products are in single precision: of a ratio of 5, √1e-7 of it may stay.
   EXPECT_LT(found.ratio_fit, 5e-3);
   EXPECT_LT(found.ratio_validate, 5e-3);
-  EXPECT_NEAR(found.score, Score(c.model, 0, 0, kN, 1, 0), 1e-9);  // one number, no misfit
+  EXPECT_NEAR(found.score, Score(c.model, 0, 0, kJudgeN, 1, 0),
+              1e-9);  // one number, no misfit
 }
 
 // A gain cannot make an offset: Σ (o - a x)² is least for a = o Σ x/Σ x², over A.x and A.y.
 TEST(LinearJudge, TheWrongEffectLeavesTheErrorOfLeastSquares) {
   const double o = 7e-6;
-  const LinearCase c(kX, 1, o);
+  const LinearCase c(kJudgeX, 1, o);
   const FitResult base = c.Base();
   SignatureBank bank = BankOf(c, base);
-  const Candidate found = LinearJudge(c.model, base, bank, kN).Single(EntryOf(bank, "sensor-gain"));
+  const Candidate found =
+      LinearJudge(c.model, base, bank, kJudgeN).Single(EntryOf(bank, "sensor-gain"));
   double s = 0, ss = 0;
-  for (std::size_t r = 0; r < c.fit_records(); ++r) s += kX[r], ss += kX[r] * kX[r];
+  for (std::size_t r = 0; r < c.fit_records(); ++r) s += kJudgeX[r], ss += kJudgeX[r] * kJudgeX[r];
   const double a = o * s / ss, n = 2 * static_cast<double>(c.fit_records());
   double left = 0;
-  for (std::size_t r = 0; r < c.fit_records(); ++r) left += std::pow(o - a * kX[r], 2);
+  for (std::size_t r = 0; r < c.fit_records(); ++r) left += std::pow(o - a * kJudgeX[r], 2);
   EXPECT_NEAR(found.effect.Value("gain"), 1 + a, 1e-6);
   EXPECT_NEAR(found.ratio_fit, std::sqrt(left / n) / LinearCase::kFloor, 1e-3);
   EXPECT_NEAR(found.ratio_validate,
-              std::abs(o - a * kX.back()) / std::sqrt(2.0) / LinearCase::kFloor, 1e-4);
+              std::abs(o - a * kJudgeX.back()) / std::sqrt(2.0) / LinearCase::kFloor, 1e-4);
 }
 
 TEST(LinearJudge, APairSolvesBothAtOnce) {
-  const LinearCase c(kX, 1.06, -4e-6);
+  const LinearCase c(kJudgeX, 1.06, -4e-6);
   const FitResult base = c.Base();
   SignatureBank bank = BankOf(c, base);
-  const LinearJudge judge(c.model, base, bank, kN);
+  const LinearJudge judge(c.model, base, bank, kJudgeN);
   const CandidatePair pair =
       judge.Pair(EntryOf(bank, "sensor-gain"), EntryOf(bank, "sensor-offset"));
   EXPECT_NEAR(pair.first.Value("gain"), 1.06, 1e-5);
@@ -111,18 +113,18 @@ TEST(LinearJudge, APairSolvesBothAtOnce) {
   EXPECT_LT(pair.ratio_validate, 5e-3);
   for (const char* one : {"sensor-gain", "sensor-offset"})
     EXPECT_GT(judge.Single(EntryOf(bank, one)).ratio_fit, pair.ratio_fit) << one;
-  const auto pairs = ScreenPairs(c.model, base, kN, bank, 3);
+  const auto pairs = ScreenPairs(c.model, base, kJudgeN, bank, 3);
   ASSERT_FALSE(pairs.empty());
   EXPECT_NEAR(pairs[0].score, pair.score, 1e-9);
 }
 
 // An effect of the catalogue is found among those of the same plane, at its size, and by its price.
 TEST(Screen, TheEffectThatMadeTheDataIsRankedFirst) {
-  const LinearCase c(kX, 1.08, 0);
+  const LinearCase c(kJudgeX, 1.08, 0);
   const FitResult base = c.Base();
   SignatureBank bank;
   ScreenOptions options;
-  options.effective_sample_size = kN;
+  options.effective_sample_size = kJudgeN;
   options.target = "A.x";
   const std::vector<Candidate> all = Screen(c.model, base, {}, options, bank);
   ASSERT_GE(all.size(), 2U);

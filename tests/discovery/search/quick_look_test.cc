@@ -10,10 +10,10 @@ namespace ambrig {
 namespace {
 
 // The error of a gain goes with the position: the records far out hold it.
-const std::vector<double> kX = {1e-6, 6e-5, 2e-6, 1.5e-6, 5e-5};
+const std::vector<double> kQuickLookX = {1e-6, 6e-5, 2e-6, 1.5e-6, 5e-5};
 
 TEST(QuickLook, RowsOfOtherRecordsAreTheOnesGiven) {
-  const LinearCase c(kX, 1.1, 0);
+  const LinearCase c(kQuickLookX, 1.1, 0);
   const FitResult base = c.Base();
   Hypothesis h = base.hypothesis;
   h.AddEffect(LinearCase::Gain(1.2));
@@ -27,7 +27,7 @@ TEST(QuickLook, RowsOfOtherRecordsAreTheOnesGiven) {
 }
 
 TEST(RecordsShowing, AreThoseThatHoldNineTenthsOfTheError) {
-  const LinearCase c(kX, 1.1, 0);
+  const LinearCase c(kQuickLookX, 1.1, 0);
   const FitResult base = c.Base();
   ASSERT_GT(base.ratio_fit, 2);
   const QuickLook look = RecordsShowing(c.model, base);
@@ -36,7 +36,7 @@ TEST(RecordsShowing, AreThoseThatHoldNineTenthsOfTheError) {
 }
 
 TEST(RecordsShowing, AreAllWhereTheErrorIsHardlyAboveTheNoise) {
-  const LinearCase c(kX, 1.02, 0);
+  const LinearCase c(kQuickLookX, 1.02, 0);
   const FitResult base = c.Base();
   ASSERT_LT(base.ratio_fit, 2);
   EXPECT_EQ(RecordsShowing(c.model, base).records, std::vector<char>(5, 1));
@@ -44,7 +44,7 @@ TEST(RecordsShowing, AreAllWhereTheErrorIsHardlyAboveTheNoise) {
 
 // Held rotors are not where resonances are sought, unless there are no others.
 TEST(WorstRecords, AreAllWhereNoRotorIsFree) {
-  const LinearCase c(kX, 1.1, 0);
+  const LinearCase c(kQuickLookX, 1.1, 0);
   EXPECT_EQ(WorstRecords(c.model, c.Base()).records, std::vector<char>(5, 1));
 }
 
@@ -57,7 +57,7 @@ std::vector<ProbeGroup> GainAndOffset() {
 }
 
 TEST(SignatureBank, LacksRowsUntilTheirRecordIsLookedAt) {
-  const LinearCase c(kX, 1.1, 0);
+  const LinearCase c(kQuickLookX, 1.1, 0);
   const FitResult base = c.Base();
   SignatureBank whole, part;
   whole.Simulate(c.model, base, GainAndOffset(), nullptr);

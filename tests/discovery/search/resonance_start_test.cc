@@ -24,7 +24,7 @@ EffectInstance BaseOf(double mass, double frequency, double damping) {
   return e;
 }
 
-class ResonanceStartTest : public testing::Test {
+class ResonanceStartTest : public ::testing::Test {
  protected:
   ResonanceStartTest() {
     RigParameters rig =

@@ -14,12 +14,12 @@ namespace {
 
 using ::testing::Each;
 
-constexpr double kN = 300;
-const std::vector<double> kX = {2e-5, 4e-5, 6e-5, 5e-5};
+constexpr double kScreenN = 300;
+const std::vector<double> kScreenX = {2e-5, 4e-5, 6e-5, 5e-5};
 
 ScreenOptions Options() {
   ScreenOptions o;
-  o.effective_sample_size = kN;
+  o.effective_sample_size = kScreenN;
   return o;
 }
 
@@ -30,7 +30,7 @@ std::set<std::string> NamesOf(const std::vector<Candidate>& all) {
 }
 
 TEST(Screen, AsksForOneEffectOrOneTargetOnly) {
-  const LinearCase c(kX, 1.08, 0);
+  const LinearCase c(kScreenX, 1.08, 0);
   const FitResult base = c.Base();
   SignatureBank bank;
   ScreenOptions o = Options();
@@ -47,7 +47,7 @@ TEST(Screen, AsksForOneEffectOrOneTargetOnly) {
 
 // A clamped rotor at rest shows nothing of what needs rotation or levitation: it is not tried.
 TEST(Screen, LeavesOutWhatTheseRecordsCannotShow) {
-  const LinearCase c(kX, 1.08, 0);
+  const LinearCase c(kScreenX, 1.08, 0);
   const FitResult base = c.Base();
   SignatureBank bank;
   const std::vector<Candidate> all = Screen(c.model, base, {}, Options(), bank);
@@ -61,7 +61,7 @@ TEST(Screen, LeavesOutWhatTheseRecordsCannotShow) {
 }
 
 TEST(Screen, ACoarseOneTriesNoSingleCoilAndNoFrequency) {
-  const LinearCase c(kX, 1.08, 0);
+  const LinearCase c(kScreenX, 1.08, 0);
   const FitResult base = c.Base();
   SignatureBank bank;
   ScreenOptions o = Options();
@@ -77,9 +77,9 @@ TEST(Screen, ACoarseOneTriesNoSingleCoilAndNoFrequency) {
 
 // What the fit has is not proposed again; what explains nothing more comes at its price.
 TEST(Screen, WhatTheFitHasIsNotProposedAgain) {
-  const LinearCase c(kX, 1.08, 0);
+  const LinearCase c(kScreenX, 1.08, 0);
   FitOptions options;
-  options.effective_sample_size = kN;
+  options.effective_sample_size = kScreenN;
   const FitResult fit = Fit(c.model, c.With({LinearCase::Gain(1.05)}), options);
   ASSERT_TRUE(fit.converged);
   SignatureBank bank;
@@ -87,14 +87,14 @@ TEST(Screen, WhatTheFitHasIsNotProposedAgain) {
   o.target = "A.x";
   for (const Candidate& k : Screen(c.model, fit, {}, o, bank))
     EXPECT_NE(k.effect.name, "sensor-gain");
-  for (const CandidatePair& p : ScreenPairs(c.model, fit, kN, bank, 5)) {
+  for (const CandidatePair& p : ScreenPairs(c.model, fit, kScreenN, bank, 5)) {
     EXPECT_NE(p.first.name, "sensor-gain");
     EXPECT_NE(p.second.name, "sensor-gain");
   }
 }
 
 TEST(Screen, TellsOfItsProgressAndSimulatesNothingTwice) {
-  const LinearCase c(kX, 1.08, 0);
+  const LinearCase c(kScreenX, 1.08, 0);
   const FitResult base = c.Base();
   SignatureBank bank;
   std::vector<double> told;
@@ -121,7 +121,7 @@ TEST(ScreenPairs, ComeInTheOrderOfTheirScoreAndOnceEach) {
   SignatureBank bank;
   ScreenOptions o = Options();
   Screen(c.model, base, {}, o, bank);
-  const std::vector<CandidatePair> pairs = ScreenPairs(c.model, base, kN, bank, 4);
+  const std::vector<CandidatePair> pairs = ScreenPairs(c.model, base, kScreenN, bank, 4);
   ASSERT_GE(pairs.size(), 2u);
   EXPECT_LE(pairs.size(), 4u);
   std::set<std::pair<std::string, std::string>> seen;
@@ -144,7 +144,7 @@ TEST(VisibleSizes, ScaleWithWhatIsSeen) {
     const FitResult base = c.Base();
     SignatureBank bank;
     bank.Simulate(c.model, base, ProbesOf(EffectNamed("sensor-gain"), "A.x", c.model, {}), nullptr);
-    return VisibleSizes(c.model, base, kN, bank).at(0).size;
+    return VisibleSizes(c.model, base, kScreenN, bank).at(0).size;
   };
   EXPECT_NEAR(gain(3e-5) / gain(6e-5), 2, 1e-3);
 }

@@ -149,7 +149,7 @@ TEST(ShaftCalibration, WhatCannotBeMovedIsToldInOneLine) {
 }
 
 /// What a logger would have: the truth's run, noise and all.
-CaseRecord Measured(const RigParameters& rig, const RigParameters& truth) {
+CaseRecord MeasuredWith(const RigParameters& rig, const RigParameters& truth) {
   CaseRecord r;
   r.scenario = ReadScenarioText(
       "duration = 0.6\nrecord_rate = 2500.0\nseed = 11\n[[excitation]]\ntarget = \"A.x\"\nport = "
@@ -178,7 +178,7 @@ TEST(ShaftCalibration, AFitFindsTheShaft) {
   SetParameter(truth, "rotor.modal_damping", 0.004);
   Case c;
   c.rig = rig;
-  c.records.push_back(Measured(rig, truth));
+  c.records.push_back(MeasuredWith(rig, truth));
   CaseModel model(c);
   const Hypothesis nominal = Hypothesis::Base(rig);
   ASSERT_EQ(nominal.free.size(), 2u);

@@ -16,7 +16,7 @@
 namespace ambrig {
 namespace {
 
-constexpr double kSolid = 3e4, kLaminated = 4000, kPath = 2e-4;  // [Hz], [Hz], [m]
+constexpr double kSolid = 3e4, kLaminated = 4000, kPathLength = 2e-4;  // [Hz], [Hz], [m]
 
 Case MeasuredBursts(std::uint64_t seed) {
   const std::string file =
@@ -31,7 +31,7 @@ Case MeasuredBursts(std::uint64_t seed) {
   Hypothesis truth = Hypothesis::Base(rig);
   truth.rig = WithEffect(truth.rig, "eddy-currents", "A", {{"cutoff", kSolid}});
   truth.rig =
-      WithEffect(truth.rig, "eddy-currents", "A", {{"cutoff", kLaminated}, {"path", kPath}});
+      WithEffect(truth.rig, "eddy-currents", "A", {{"cutoff", kLaminated}, {"path", kPathLength}});
   // at the converters' rate a logger has the currents only
   for (CaseRecord& r : c.records)
     for (std::size_t k = 0; k < r.quality.size(); ++k)
@@ -59,7 +59,7 @@ TEST(Refine, FindsTheShapeAndWritesARigThatRuns) {
   for (const CurvePoint& p : r.curve) {
     if (p.u < 300 || p.u > 5e4 || p.support < kSupported || !p.visited) continue;
     const std::complex<double> s(0, 2 * kPi * p.u),
-        law = Diffusion(s, kSolid, 0) + Diffusion(s, kLaminated, kPath / gap);
+        law = Diffusion(s, kSolid, 0) + Diffusion(s, kLaminated, kPathLength / gap);
     // the simulated laws are sums of eight relaxations, within 3 % of gap and iron together
     EXPECT_NEAR(p.value, std::abs(law), 4 * p.sd + 0.03 * (1 + std::abs(law))) << p.u;
     ++compared;

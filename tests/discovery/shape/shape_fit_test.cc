@@ -15,8 +15,8 @@
 namespace ambrig {
 namespace {
 
-constexpr double kFloorOfForce = 0.05, kFloorOfCurrent = 0.002;  // [N], [A]
-constexpr double kKnee = 0.5, kSteel = 0.05, kPath = 1.5e-5;     // [T], [m], [m]
+constexpr double kFloorOfForce = 0.05, kFloorOfCurrent = 0.002;       // [N], [A]
+constexpr double kHeldKnee = 0.5, kSteel = 0.05, kHeldPath = 1.5e-5;  // [T], [m], [m]
 
 /// Bearing A held off centre, four coils ramped; `data` is filled by the caller.
 Case HeldCase() {
@@ -51,24 +51,24 @@ void Measure(const CaseModel& model, const Hypothesis& truth, Case& c) {
 
 double TrueDrop(double B) {
   double H, slope;
-  SteelCurve(B / kKnee, &H, &slope);
-  return kSteel * H + kPath * B / kMu0;
+  SteelCurve(B / kHeldKnee, &H, &slope);
+  return kSteel * H + kHeldPath * B / kMu0;
 }
 
-struct Held {
-  Held() : data(HeldCase()) {
+struct HeldShape {
+  HeldShape() : data(HeldCase()) {
     const CaseModel empty(data);
     truth = Hypothesis::Base(data.rig);
     for (const EffectInstance& e :
          {[] {
             EffectInstance s = MakeInstance(EffectNamed("saturation"), "A");
-            s.Set("knee", kKnee);
+            s.Set("knee", kHeldKnee);
             s.Set("path", kSteel);
             return s;
           }(),
           [] {
             EffectInstance s = MakeInstance(EffectNamed("iron-reluctance"), "A");
-            s.Set("path", kPath);
+            s.Set("path", kHeldPath);
             return s;
           }()})
       truth.rig.effects.push_back(e);
@@ -89,7 +89,7 @@ struct Held {
 };
 
 TEST(ShapeFit, FindsACurveOfAnotherForm) {
-  const Held held;
+  const HeldShape held;
   // the largest density, bracketed to 1 %: a kink at it would show, one beyond would not
   const double reach = LargestDensity(*held.model, held.truth, "A");
   EXPECT_GT(reach, 0.3);
@@ -122,7 +122,7 @@ TEST(ShapeFit, FindsACurveOfAnotherForm) {
 
 // Beyond what the records reach nothing is claimed.
 TEST(ShapeFit, ClaimsNothingWhereNoRecordGoes) {
-  const Held held;
+  const HeldShape held;
   const double reach = LargestDensity(*held.model, held.truth, "A");
   EffectInstance named = MakeInstance(EffectNamed("saturation"), "A");
   named.Set("knee", 0.5);

@@ -16,7 +16,7 @@ namespace {
 using std::numbers::pi;
 using testing_reference::DirectForce;
 
-RedistributionProblem Rig(const char* winding = "NSNSNSNS") {
+RedistributionProblem ProblemWith(const char* winding = "NSNSNSNS") {
   return MakeRedistributionProblem(pi / 8, winding);
 }
 
@@ -30,7 +30,7 @@ double Residual(const RedistributionProblem& p, const DistributionMatrix& W) {
 }
 
 TEST(ForceForms, ReferenceRigHasTheNumbersOfTheDesign) {
-  const RedistributionProblem p = Rig();
+  const RedistributionProblem p = ProblemWith();
   EXPECT_NEAR(ForceFactor(p) * 9, 144, 0.01);  // published_values.md 2.3: capacity 1 is 144 N
   const DistributionMatrix W = HealthyDistribution(p);
   EXPECT_LT(Residual(p, W), 1e-15);
@@ -45,7 +45,7 @@ TEST(ForceForms, ReferenceRigHasTheNumbersOfTheDesign) {
 }
 
 TEST(ForceForms, FormsAreTheFluxForce) {
-  const RedistributionProblem p = Rig("NNSSNNSS");
+  const RedistributionProblem p = ProblemWith("NNSSNNSS");
   const ForceForms forms = MakeForceForms(p);
   const double half_k = ForceFactor(p) / 2;
   for (int n = 0; n < 20; ++n) {
@@ -57,7 +57,7 @@ TEST(ForceForms, FormsAreTheFluxForce) {
 }
 
 TEST(ForceForms, StiffnessIsTheDerivativeOfTheForce) {
-  RedistributionProblem p = Rig();
+  RedistributionProblem p = ProblemWith();
   p.turns_left[2] = 0.6;
   const DistributionMatrix W = DistributionMatrix::Random();
   const CoilVector bias = p.c0 * W.col(0);
@@ -72,7 +72,7 @@ TEST(ForceForms, StiffnessIsTheDerivativeOfTheForce) {
 
 // docs/theory/published_values.md 2.1, closed forms 2 to 4.
 TEST(ForceForms, SingleCoilByShiftingAllCurrents) {
-  const RedistributionProblem healthy = Rig();
+  const RedistributionProblem healthy = ProblemWith();
   const DistributionMatrix mmf = healthy.sign.asDiagonal() * HealthyDistribution(healthy);
   for (int f = 0; f < 8; ++f) {
     RedistributionProblem p = healthy;
@@ -90,7 +90,7 @@ TEST(ForceForms, SingleCoilByShiftingAllCurrents) {
 }
 
 TEST(ForceForms, AdjacentPair) {
-  RedistributionProblem p = Rig("NNSSNNSS");
+  RedistributionProblem p = ProblemWith("NNSSNNSS");
   p.turns_left[0] = p.turns_left[1] = 0;
   DistributionMatrix pattern;
   pattern << 0, 0, 0, 0, 0, 0, 1, 0, 1, 1, 0, 1, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0;
@@ -110,7 +110,7 @@ TEST(ForceForms, AdjacentPair) {
 }
 
 TEST(ForceForms, AlternateFour) {
-  RedistributionProblem p = Rig();
+  RedistributionProblem p = ProblemWith();
   DistributionMatrix mmf = DistributionMatrix::Zero();
   for (int j = 0; j < 8; ++j) {
     if (j % 2 == 1) {
@@ -132,7 +132,7 @@ TEST(ForceForms, OracleMatricesSolveTheEquations) {
   const nlohmann::json root = nlohmann::json::parse(stream);
   int count = 0;
   for (const auto& [name, item] : root.at("sets").items()) {
-    RedistributionProblem p = Rig();
+    RedistributionProblem p = ProblemWith();
     for (const int coil : nlohmann::json::parse(name)) p.turns_left[coil - 1] = 0;
     DistributionMatrix mmf;
     for (int j = 0; j < 8; ++j)
@@ -149,7 +149,7 @@ TEST(ForceForms, OracleMatricesSolveTheEquations) {
 }
 
 TEST(ForceForms, CapacityIsTheBestOverBiasScales) {
-  const RedistributionProblem p = Rig();
+  const RedistributionProblem p = ProblemWith();
   DistributionMatrix W = HealthyDistribution(p);
   W.col(0).head(3) *= 1.7;  // no solution of the equations, only a shape
   double best = 0;

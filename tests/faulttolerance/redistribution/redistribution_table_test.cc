@@ -16,7 +16,7 @@
 namespace ambrig {
 namespace {
 
-RedistributionProblem Rig(const char* winding = "NSNSNSNS") {
+RedistributionProblem ProblemOf(const char* winding = "NSNSNSNS") {
   return MakeRedistributionProblem(std::numbers::pi / 8, winding);
 }
 
@@ -48,13 +48,14 @@ int Files(const std::string& directory) {
 }
 
 TEST(BearingSymmetry, GroupsOfBothWindings) {
-  EXPECT_EQ(FindSymmetries(Rig()).size(), 16u);
-  EXPECT_EQ(FindSymmetries(Rig("NNSSNNSS")).size(), 8u);
-  EXPECT_EQ(FindSymmetries(Rig("NNNNNNNS")).size(), 2u);  // identity and one mirror
+  EXPECT_EQ(FindSymmetries(ProblemOf()).size(), 16u);
+  EXPECT_EQ(FindSymmetries(ProblemOf("NNSSNNSS")).size(), 8u);
+  EXPECT_EQ(FindSymmetries(ProblemOf("NNNNNNNS")).size(),
+            2u);  // identity and one mirror
 }
 
 TEST(BearingSymmetry, MappedDistributionSolvesTheMappedSet) {
-  RedistributionProblem p = Rig("NNSSNNSS");
+  RedistributionProblem p = ProblemOf("NNSSNNSS");
   p.turns_left << 0, 1, 0.5, 1, 1, 0, 1, 1;
   const Distribution d = SolveDistribution(p);
   for (const BearingSymmetry& g : FindSymmetries(p)) {
@@ -73,7 +74,7 @@ TEST(RedistributionTable, CountsOfAllSets) {
   for (const char* winding : {"NSNSNSNS", "NNSSNNSS"}) {
     DistributionOptions few;  // the classes do not depend on it
     few.starts = 16;
-    const RedistributionTable table(Rig(winding), {}, few);
+    const RedistributionTable table(ProblemOf(winding), {}, few);
     std::map<std::size_t, std::map<SolvabilityClass, int>> count;
     for (const std::vector<int>& failed : AllFailureSets()) {
       const Distribution d = table.Lookup(failed);
@@ -102,10 +103,10 @@ TEST(RedistributionTable, CountsOfAllSets) {
 TEST(RedistributionTable, CapacityPolicyKeepsThePromiseOfTheClass) {
   DistributionOptions options;
   options.policy = DistributionPolicy::kCapacity;
-  const RedistributionTable table(Rig(), {}, options);
+  const RedistributionTable table(ProblemOf(), {}, options);
   for (const std::vector<int>& failed : AllFailureSets()) {
     const Distribution d = table.Lookup(failed);
-    RedistributionProblem p = Rig();
+    RedistributionProblem p = ProblemOf();
     for (const int coil : failed) p.turns_left[coil - 1] = 0;
     const auto errors = EquationErrors(MakeForceForms(p), d.W);
     if (d.cls == SolvabilityClass::kExact) {
@@ -121,7 +122,7 @@ TEST(RedistributionTable, CapacityPolicyKeepsThePromiseOfTheClass) {
 }
 
 TEST(RedistributionTable, PartialShortBetweenGridPointsIsExact) {
-  const RedistributionTable table(Rig());
+  const RedistributionTable table(ProblemOf());
   CoilVector turns_left = CoilVector::Ones();
   for (const double s : {0.013, 0.37, 0.512, 0.981}) {
     turns_left[5] = 1 - s;
@@ -136,13 +137,13 @@ TEST(RedistributionTable, PartialShortBetweenGridPointsIsExact) {
 TEST(RedistributionTable, CacheGivesTheSameBitsAndSurvivesDamage) {
   const CacheDirectory directory;
   const std::vector<int> failed = {2, 5};
-  const RedistributionTable first(Rig(), directory.path());
+  const RedistributionTable first(ProblemOf(), directory.path());
   const DistributionMatrix W = first.Lookup(failed).W;
   const std::string file = first.cache_file(), good = Contents(file);
   ASSERT_FALSE(good.empty());
   EXPECT_EQ(Files(directory.path()), 1);  // no temporary file left
 
-  EXPECT_EQ(RedistributionTable(Rig(), directory.path()).Lookup(failed).W, W);
+  EXPECT_EQ(RedistributionTable(ProblemOf(), directory.path()).Lookup(failed).W, W);
 
   std::string wrong_number = good;  // still JSON, but not a solution any more
   const std::size_t digit = wrong_number.find("0.", wrong_number.find("\"W\"")) + 3;
@@ -152,24 +153,24 @@ TEST(RedistributionTable, CacheGivesTheSameBitsAndSurvivesDamage) {
         std::string(R"({"version": -1, "entries": []})"),
         std::string(R"({"version": 2, "entries": [{"turns": "x"}]})"), wrong_number}) {
     std::ofstream(file) << bad;
-    EXPECT_EQ(RedistributionTable(Rig(), directory.path()).Lookup(failed).W, W);
+    EXPECT_EQ(RedistributionTable(ProblemOf(), directory.path()).Lookup(failed).W, W);
     EXPECT_EQ(Contents(file), good);
   }
 }
 
 TEST(RedistributionTable, OtherProblemsHaveOtherFilesAndNoDirectoryIsNoError) {
-  RedistributionProblem other = Rig();
+  RedistributionProblem other = ProblemOf();
   other.i_max = 5;
-  EXPECT_NE(RedistributionTable(Rig(), "/tmp/x").cache_file(),
+  EXPECT_NE(RedistributionTable(ProblemOf(), "/tmp/x").cache_file(),
             RedistributionTable(other, "/tmp/x").cache_file());
-  const RedistributionTable table(Rig(), "/proc/no/such/place");
+  const RedistributionTable table(ProblemOf(), "/proc/no/such/place");
   EXPECT_LT(table.Lookup(std::vector<int>{1, 3, 5, 7}).residual, 1e-12);
 }
 
 TEST(RedistributionJson, HasTheKeysOfTheFormat) {
   DistributionOptions options;
   options.policy = DistributionPolicy::kCapacity;
-  const RedistributionTable table(Rig(), {}, options);
+  const RedistributionTable table(ProblemOf(), {}, options);
   const nlohmann::json root = RedistributionJson("A", table, {{1, 2, 5, 6}});
   EXPECT_EQ(root.size(), 4u);
   EXPECT_EQ(root.at("bearing"), "A");

@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing_bench;
 
-constexpr double kModelError = 0.15;  // [V] of the equations themselves at these speeds
+constexpr double kEquationError = 0.15;  // [V] of the equations themselves at these speeds
 
 /// Largest |e| over all coils and phases, and whether every one is within what the uncertainty
 /// allows.
@@ -33,7 +33,7 @@ Seen Evaluate(const MeasuredPeriod& in, const Bench& bench) {
       const double e = std::abs(s.phase[q].residual[j]);
       out.largest = std::max(out.largest, e);
       out.largest_bound = std::max(out.largest_bound, bound[q][j]);
-      out.within = out.within && e < bound[q][j] + kModelError;
+      out.within = out.within && e < bound[q][j] + kEquationError;
     }
   return out;
 }

@@ -90,7 +90,7 @@ Line Fit(int from, int to, const Of& of) {
   return line;
 }
 
-class Bearings : public testing::TestWithParam<const char*> {
+class Bearings : public ::testing::TestWithParam<const char*> {
  protected:
   LinkageModel Model() const {
     return GetParam()[0] == 'r' ? MakeLinkageModel(Reference()) : MakeLinkageModel(Thrust());
@@ -144,7 +144,7 @@ TEST_P(Bearings, LeastSampleOfEachPhaseWhereItMatters) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(PeriodSlopes, Bearings, testing::Values("radial", "thrust"),
+INSTANTIATE_TEST_SUITE_P(PeriodSlopes, Bearings, ::testing::Values("radial", "thrust"),
                          [](const auto& one) { return std::string(one.param); });
 
 }  // namespace

@@ -10,29 +10,30 @@
 namespace ambrig {
 namespace {
 
-constexpr double kStep = 8e-5;  // [s]
+constexpr double kMonitorStep = 8e-5;  // [s]
 
 /// A whirl of 50 µm at 40 Hz, axes x and y, read `count` times.
 double Whirl(std::size_t axis, double t) {
   return 5e-5 * std::cos(2 * 3.14159265 * 40 * t - 1.5707963 * static_cast<double>(axis));
 }
 void ReadWhirl(PositionMonitor& m, int from, int to) {
-  for (int k = from; k < to; ++k) m.Read(k * kStep, {Whirl(0, k * kStep), Whirl(1, k * kStep)});
+  for (int k = from; k < to; ++k)
+    m.Read(k * kMonitorStep, {Whirl(0, k * kMonitorStep), Whirl(1, k * kMonitorStep)});
 }
 
 // Between and after the readings the error is that of the third derivative: r (w h)^3/6 and some.
 TEST(PositionFollower, FollowsAWhirlToThirdOrder) {
   PositionMonitor m(2, 1e-5);
   ReadWhirl(m, 0, 20);
-  EXPECT_DOUBLE_EQ(m.step(), kStep);
-  const double wh = 2 * 3.14159265 * 40 * kStep;
+  EXPECT_DOUBLE_EQ(m.step(), kMonitorStep);
+  const double wh = 2 * 3.14159265 * 40 * kMonitorStep;
   for (const double u : {0.0, 0.5, 1.0}) {
-    const double t = (19 + u) * kStep;
+    const double t = (19 + u) * kMonitorStep;
     for (std::size_t a = 0; a < 2; ++a)
       EXPECT_NEAR(m.At(a, t), Whirl(a, t), 5e-5 * std::pow(wh, 3) * (u + 0.01)) << u;
   }
-  EXPECT_EQ(m.Recent(0, 0), Whirl(0, 19 * kStep));
-  EXPECT_EQ(m.Recent(1, 2), Whirl(1, 17 * kStep));
+  EXPECT_EQ(m.Recent(0, 0), Whirl(0, 19 * kMonitorStep));
+  EXPECT_EQ(m.Recent(1, 2), Whirl(1, 17 * kMonitorStep));
   EXPECT_EQ(m.TakeNewFault(), -1);
 }
 
@@ -40,14 +41,15 @@ TEST(PositionFollower, FollowsAWhirlToThirdOrder) {
 TEST(PositionFollower, HoldsTheNewestReadingUntilThereAreThree) {
   PositionMonitor m(1, 1e-5);
   m.Read(0, {1e-5});
-  m.Read(kStep, {2e-5});
-  EXPECT_EQ(m.At(0, 3 * kStep), 2e-5);
+  m.Read(kMonitorStep, {2e-5});
+  EXPECT_EQ(m.At(0, 3 * kMonitorStep), 2e-5);
   EXPECT_EQ(m.Recent(0, 1), 2e-5);
-  EXPECT_FALSE(m.ready(kStep));
-  m.Read(2 * kStep, {4e-5});
-  EXPECT_TRUE(m.ready(2 * kStep));
-  EXPECT_FALSE(m.ready(9 * kStep));              // too long without a reading
-  EXPECT_NEAR(m.At(0, 3 * kStep), 7e-5, 1e-15);  // 1, 2, 4, 7: second difference of 1
+  EXPECT_FALSE(m.ready(kMonitorStep));
+  m.Read(2 * kMonitorStep, {4e-5});
+  EXPECT_TRUE(m.ready(2 * kMonitorStep));
+  EXPECT_FALSE(m.ready(9 * kMonitorStep));  // too long without a reading
+  EXPECT_NEAR(m.At(0, 3 * kMonitorStep), 7e-5,
+              1e-15);  // 1, 2, 4, 7: second difference of 1
   EXPECT_EQ(m.Recent(0, 1), 2e-5);
 }
 
@@ -61,7 +63,7 @@ TEST(PositionFollower, TheSameInstantIsNoNewReading) {
 TEST(PositionFault, AJumpThatNoForceCouldMakeIsAFault) {
   PositionMonitor m(2, 1e-5);
   ReadWhirl(m, 0, 30);
-  m.Read(30 * kStep, {Whirl(0, 30 * kStep), Whirl(1, 30 * kStep) + 1.2e-5});
+  m.Read(30 * kMonitorStep, {Whirl(0, 30 * kMonitorStep), Whirl(1, 30 * kMonitorStep) + 1.2e-5});
   EXPECT_FALSE(m.faulty(0));
   EXPECT_TRUE(m.faulty(1));
   EXPECT_EQ(m.TakeNewFault(), 1);
@@ -74,8 +76,8 @@ TEST(PositionFault, AJumpThatNoForceCouldMakeIsAFault) {
 
 TEST(PositionFault, WhatAnImpactMayAddIsAllowed) {
   PositionMonitor m(1, 1e-5);
-  for (int k = 0; k < 30; ++k) m.Read(k * kStep, {Whirl(0, k * kStep)});
-  m.Read(30 * kStep, {Whirl(0, 30 * kStep) + 1.2e-5}, {5e-6});
+  for (int k = 0; k < 30; ++k) m.Read(k * kMonitorStep, {Whirl(0, k * kMonitorStep)});
+  m.Read(30 * kMonitorStep, {Whirl(0, 30 * kMonitorStep) + 1.2e-5}, {5e-6});
   EXPECT_FALSE(m.faulty(0));
   EXPECT_EQ(m.TakeNewFault(), -1);
 }
@@ -84,9 +86,9 @@ TEST(PositionFault, WhatAnImpactMayAddIsAllowed) {
 TEST(PositionFault, TheFirstReadingsAreNoJump) {
   PositionMonitor m(1, 1e-6);
   m.Read(0, {0});
-  m.Read(kStep, {1e-4});
-  m.Read(2 * kStep, {1e-4});
-  m.Read(3 * kStep, {1e-4});
+  m.Read(kMonitorStep, {1e-4});
+  m.Read(2 * kMonitorStep, {1e-4});
+  m.Read(3 * kMonitorStep, {1e-4});
   EXPECT_FALSE(m.faulty(0));
 }
 
@@ -94,14 +96,14 @@ TEST(PositionFault, TheFirstReadingsAreNoJump) {
 TEST(PositionFault, AFrozenReadingIsFoundOnceReadingsWereSeenToDiffer) {
   PositionMonitor m(2, 1);
   for (int k = 0; k < 60; ++k)
-    m.Read(k * kStep, {1e-7 * Normal(1, 0, static_cast<std::uint64_t>(k)), 0.0});
+    m.Read(k * kMonitorStep, {1e-7 * Normal(1, 0, static_cast<std::uint64_t>(k)), 0.0});
   EXPECT_FALSE(m.faulty(1));  // a channel that never moved says nothing
   for (int k = 60; k < 66; ++k) {
     EXPECT_FALSE(m.faulty(0)) << k;
-    m.Read(k * kStep, {5e-8, 0.0});
+    m.Read(k * kMonitorStep, {5e-8, 0.0});
   }
   EXPECT_FALSE(m.faulty(0));  // five equal neighbours
-  m.Read(66 * kStep, {5e-8, 0.0});
+  m.Read(66 * kMonitorStep, {5e-8, 0.0});
   EXPECT_TRUE(m.faulty(0));
   EXPECT_FALSE(m.faulty(1));
 }
@@ -111,13 +113,13 @@ TEST(PositionFault, NoiseIsTakenOffADeparture) {
   const double noise = 1e-7;
   PositionMonitor quiet(1, 1, 0), noisy(1, 1, noise);
   for (int k = 0; k < 20; ++k) {
-    quiet.Read(k * kStep, {0});
-    noisy.Read(k * kStep, {0});
+    quiet.Read(k * kMonitorStep, {0});
+    noisy.Read(k * kMonitorStep, {0});
   }
-  quiet.Read(20 * kStep, {1e-5});
-  noisy.Read(20 * kStep, {1e-5});
+  quiet.Read(20 * kMonitorStep, {1e-5});
+  noisy.Read(20 * kMonitorStep, {1e-5});
   EXPECT_NEAR(quiet.Departure(0) - noisy.Departure(0), 6 * std::sqrt(20.0) * noise, 1e-15);
-  quiet.Read(21 * kStep, {1e-5});
+  quiet.Read(21 * kMonitorStep, {1e-5});
   EXPECT_NEAR(quiet.Departure(0), 2e-5, 1e-15);  // the largest of the last three
 }
 

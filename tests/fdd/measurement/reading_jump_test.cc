@@ -10,14 +10,14 @@ namespace {
 
 using namespace testing_bench;
 
-struct JumpBench {
+struct ReadingBench {
   Bench bench;
   ReadingJump jump{MakeLinkageModel(Reference()), bench.Sampling(), 0.004};
-  JumpBench() { bench.noise = 0.004; }
+  ReadingBench() { bench.noise = 0.004; }
 };
 
 TEST(ReadingJump, RippleNoiseAndHardSwitchingAreNone) {
-  JumpBench b;
+  ReadingBench b;
   for (int n = 0; n < 200; ++n) {
     for (int j = 0; j < kLanes; ++j) b.bench.duty[j] = (n + j) % 3 == 0 ? 0.2 : 0.65;
     const Lane jumps = b.jump.Period(b.bench.Run());
@@ -26,7 +26,7 @@ TEST(ReadingJump, RippleNoiseAndHardSwitchingAreNone) {
 }
 
 TEST(ReadingJump, AStepOfTheOffsetIsSeenOnceWithItsSizeAndASpikeIsNot) {
-  JumpBench b;
+  ReadingBench b;
   double offset = 0;
   for (int n = 0; n < 30; ++n) {
     MeasuredPeriod in = b.bench.Run();

@@ -74,7 +74,7 @@ RotorModel Loose(const AuxiliaryParameters& p, double g) {
 }
 
 /// e of Hunt and Crossley on a free mass: a - ln(1 + a) = -a e - ln(1 - a e), a = h v.
-double Restitution(double a) {
+double RestitutionOf(double a) {
   double lo = 0, hi = std::min(1.0, 1 / a * (1 - 1e-12));
   const double left = a - std::log1p(a);
   for (int k = 0; k < 100; ++k) {
@@ -94,7 +94,7 @@ TEST(RotorInContact, Restitution) {
       MotionState s;
       s.v[1] = -v;
       for (int n = 0; n < 160; ++n) m.Step(s, {}, 0, 0, 40e-6);
-      EXPECT_NEAR(s.v[1] / v, Restitution(a), 1e-4) << exponent << " " << nominal;
+      EXPECT_NEAR(s.v[1] / v, RestitutionOf(a), 1e-4) << exponent << " " << nominal;
       EXPECT_NEAR(s.v[3], 0, 1e-12);  // both bearings at once: no tilt
     }
 }

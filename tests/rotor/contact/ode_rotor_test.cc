@@ -142,7 +142,7 @@ TEST(OdeRotor, SticksAtRest) {
 
 /// Moving parts of every kind, thrown off centre, without the chaos of many impacts: ODE's bodies
 /// in the frame of the floor against the model's relative coordinates.
-class MovingParts : public testing::TestWithParam<int> {};
+class MovingParts : public ::testing::TestWithParam<int> {};
 
 constexpr int kMounts = 1, kRaces = 2, kBase = 4;
 
@@ -208,9 +208,9 @@ TEST_P(MovingParts, GoTheWayOfTheModel) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OdeRotor, MovingParts,
-                         testing::Values(0, kMounts, kRaces, kMounts | kRaces, kBase,
-                                         kBase | kRaces, kBase | kMounts,
-                                         kBase | kMounts | kRaces));
+                         ::testing::Values(0, kMounts, kRaces, kMounts | kRaces, kBase,
+                                           kBase | kRaces, kBase | kMounts,
+                                           kBase | kMounts | kRaces));
 
 /// Torque-free: the rates turn at Ip Omega/It; returns the error of their angle and of their size.
 std::pair<double, double> Precession(double omega, const OdeOptions& options) {

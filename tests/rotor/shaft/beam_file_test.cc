@@ -140,7 +140,7 @@ TEST(BeamFile, MistakesNameFileLineAndKey) {
 /// A file of this test's own, gone afterwards.
 struct Scratch {
   explicit Scratch(const std::string& name)
-      : path((std::filesystem::path(testing::TempDir()) / ("ambrig_ross_" + name)).string()) {}
+      : path((std::filesystem::path(::testing::TempDir()) / ("ambrig_ross_" + name)).string()) {}
   ~Scratch() { std::filesystem::remove(path); }
   void Write(const std::string& text) const { std::ofstream(path) << text; }
   std::string path;

@@ -14,12 +14,12 @@ namespace {
 const std::string kShaft = std::string(AMBRIG_SOURCE_DIR) + "/examples/tum_mbtr/shaft.toml";
 
 /// A file of this test's own, gone afterwards.
-struct Temporary {
-  explicit Temporary(const std::string& ending)
+struct TemporaryShaft {
+  explicit TemporaryShaft(const std::string& ending)
       : path((std::filesystem::temp_directory_path() /
               ("shaft_" + std::to_string(getpid()) + ending))
                  .string()) {}
-  ~Temporary() { std::filesystem::remove(path); }
+  ~TemporaryShaft() { std::filesystem::remove(path); }
   std::string path;
 };
 
@@ -44,7 +44,7 @@ TEST(ShaftFile, TextReadsBackToTheSameNumbers) {
   before.planes.push_back({"probe", 0.2});
   before.definition.stations.push_back(0.2);
   before.modal_damping = {0.001, 0.002, 0.003, 0.004};
-  const Temporary file(".toml");
+  const TemporaryShaft file(".toml");
   WriteBeam(before, file.path);
   const BeamFile after = Read(file.path, false);
   const BeamRotor a = BuildBeam(before.definition), b = BuildBeam(after.definition);
@@ -62,10 +62,10 @@ TEST(ShaftFile, TextReadsBackToTheSameNumbers) {
 TEST(ShaftFile, ThroughRossAndBack) {
   const BeamFile before = Read(kShaft, false);
   for (const char* ending : {".json", ".toml"}) {
-    const Temporary ross(ending);
+    const TemporaryShaft ross(ending);
     WriteRoss(before.definition, ross.path);
     const BeamFile there = Read(ross.path, true);
-    const Temporary ours(".back.toml");
+    const TemporaryShaft ours(".back.toml");
     WriteBeam(there, ours.path);
     const ReducedRotor a = Reduce(BuildBeam(before.definition), 4, {0.0});
     const ReducedRotor b = Reduce(BuildBeam(Read(ours.path, false).definition), 4, {0.0});

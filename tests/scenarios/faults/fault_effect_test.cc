@@ -11,7 +11,7 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 /// A plant that writes down what is done to its coil.
 class Watched : public FaultedPlant {
@@ -27,7 +27,7 @@ class Watched : public FaultedPlant {
   double shorted = 0, closed_by = 0;
 };
 
-class FaultEffect : public testing::Test {
+class FaultEffect : public ::testing::Test {
  protected:
   static FaultSpec Spec(const std::string& kind, const std::string& target,
                         std::map<std::string, double> parameters = {}) {
@@ -146,7 +146,7 @@ TEST_F(FaultEffect, APartThatIsNotThereIsTheCallersMistake) {
   EXPECT_THROW(w.Reading(), std::logic_error);
 }
 
-std::string Message(const std::string& text) {
+std::string FaultMessage(const std::string& text) {
   const TomlTable root = TomlTable::FromText("[[fault]]\n" + text, "s.toml");
   constexpr FaultTarget kAny[] = {FaultTarget::kCoil, FaultTarget::kAxis, FaultTarget::kRig};
   std::map<std::string, double> parameters;
@@ -159,18 +159,19 @@ std::string Message(const std::string& text) {
 }
 
 TEST(FaultFile, MistakesSayWhatIsAllowed) {
-  EXPECT_THAT(Message("kind = \"broken\""), HasSubstr("allowed: open, partial-short"));
-  EXPECT_THAT(Message("kind = \"partial-short\""), HasSubstr("fraction is missing"));
-  EXPECT_THAT(Message("kind = \"partial-short\"\nparameters = { fraction = 1.0 }"),
+  EXPECT_THAT(FaultMessage("kind = \"broken\""), HasSubstr("allowed: open, partial-short"));
+  EXPECT_THAT(FaultMessage("kind = \"partial-short\""), HasSubstr("fraction is missing"));
+  EXPECT_THAT(FaultMessage("kind = \"partial-short\"\nparameters = { fraction = 1.0 }"),
               HasSubstr("fraction = 1, allowed: above 0 to below 1"));
-  EXPECT_THAT(Message("kind = \"current-sensor\"\nparameters = { gain = 1.0 }"),
+  EXPECT_THAT(FaultMessage("kind = \"current-sensor\"\nparameters = { gain = 1.0 }"),
               HasSubstr("change nothing, allowed with kind current-sensor: gain, offset, stuck"));
-  EXPECT_THAT(Message("kind = \"open\"\nparameters = { depth = 1.0 }"),
+  EXPECT_THAT(FaultMessage("kind = \"open\"\nparameters = { depth = 1.0 }"),
               HasSubstr("unknown key, allowed with kind open: none"));
-  EXPECT_THAT(Message("kind = \"bus-sag\"\nparameters = { duration = 0.0 }"),
+  EXPECT_THAT(FaultMessage("kind = \"bus-sag\"\nparameters = { duration = 0.0 }"),
               HasSubstr("duration = 0 s, allowed: above 0 to inf s"));
-  EXPECT_EQ(Message("kind = \"bus-sag\"\nparameters = { duration = inf }"), "no mistake");
-  EXPECT_EQ(Message("kind = \"position-sensor\"\nparameters = { stuck = true }"), "no mistake");
+  EXPECT_EQ(FaultMessage("kind = \"bus-sag\"\nparameters = { duration = inf }"), "no mistake");
+  EXPECT_EQ(FaultMessage("kind = \"position-sensor\"\nparameters = { stuck = true }"),
+            "no mistake");
 }
 
 TEST(FaultFile, KindsAreListedByTheirTarget) {

@@ -14,7 +14,7 @@
 namespace ambrig {
 namespace {
 
-constexpr double kT = 40e-6;
+constexpr double kBoundaryT = 40e-6;
 
 /// Another value within the parameter's range, far enough to matter.
 double Other(const RigParameters& rig, const std::string& path) {
@@ -32,7 +32,7 @@ Record FirstPeriods(Fidelity fidelity, const RigParameters& rig, StartState star
   s.start = start;
   s.noise = false;
   s.record_rate = rig.amplifier.switching_frequency;
-  s.duration = 6 * kT;
+  s.duration = 6 * kBoundaryT;
   EngineOptions o;
   o.warm_up = 0;
   if (fidelity == Fidelity::kSwitching) return SwitchingEngine(rig, s, o).Run().record;
@@ -170,7 +170,7 @@ class BeforeAFault : public ::testing::TestWithParam<FaultRun> {
 // of its period.
 TEST_P(BeforeAFault, NoBitOfTheRunChanges) {
   const Record healthy = Run({});
-  const auto before = static_cast<std::size_t>(std::floor(GetParam().fault / kT)) + 1;
+  const auto before = static_cast<std::size_t>(std::floor(GetParam().fault / kBoundaryT)) + 1;
   for (const FaultSpec& f : EveryFault(GetParam().fault)) {
     const Record faulty = Run({f});
     ASSERT_EQ(faulty.channels.size(), healthy.channels.size());

@@ -23,7 +23,7 @@ ContactCrosscheck Library(const std::string& name) {
   return CrosscheckContact(rig, ReadScenario(file, rig), options);
 }
 
-class Drop : public testing::TestWithParam<const char*> {};
+class Drop : public ::testing::TestWithParam<const char*> {};
 
 // Until bouncing has made much of little: verdict, first touch, first rebound, and a common path.
 TEST_P(Drop, BothWitnessesSeeTheSameFallAndTheSameVerdict) {
@@ -40,8 +40,8 @@ TEST_P(Drop, BothWitnessesSeeTheSameFallAndTheSameVerdict) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ContactCrosscheck, Drop,
-                         testing::Values("drop_at_0rpm", "drop_at_1500rpm", "drop_at_12000rpm",
-                                         "drop_at_60000rpm"));
+                         ::testing::Values("drop_at_0rpm", "drop_at_1500rpm", "drop_at_12000rpm",
+                                           "drop_at_60000rpm"));
 
 TEST(ContactCrosscheck, WhirlIsBackwardAtRollingSpeedByBoth) {
   const ContactCrosscheck w = Library("drop_at_12000rpm");
@@ -63,7 +63,7 @@ struct Held {
 };
 
 void PrintTo(const Held& c, std::ostream* out) { *out << c.name; }
-class HeldOrPulled : public testing::TestWithParam<Held> {};
+class HeldOrPulled : public ::testing::TestWithParam<Held> {};
 
 // With the magnets' help the paths stay together to the end: every figure can be compared.
 TEST_P(HeldOrPulled, BothWitnessesAgreeThroughout) {
@@ -84,10 +84,10 @@ TEST_P(HeldOrPulled, BothWitnessesAgreeThroughout) {
 }
 
 INSTANTIATE_TEST_SUITE_P(ContactCrosscheck, HeldOrPulled,
-                         testing::Values(Held{"fault_at_sixty_percent_orbit", true, false, 1e-7},
-                                         Held{"lift_off", false, false, 1e-7},
-                                         Held{"sensor_loss", true, true, 1e-7},
-                                         Held{"switch_stuck_on", true, true, 5e-6}));
+                         ::testing::Values(Held{"fault_at_sixty_percent_orbit", true, false, 1e-7},
+                                           Held{"lift_off", false, false, 1e-7},
+                                           Held{"sensor_loss", true, true, 1e-7},
+                                           Held{"switch_stuck_on", true, true, 5e-6}));
 
 // base_model.md section 8: in contact at the end of the run. A rotor without magnets that is in the
 // air of a bounce at the last instant has dropped all the same.

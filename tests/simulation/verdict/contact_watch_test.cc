@@ -10,7 +10,7 @@
 namespace ambrig {
 namespace {
 
-constexpr double kT = 1e-3;  // [s] between looks
+constexpr double kLookPeriod = 1e-3;  // [s] between looks
 
 class ContactWatchTest : public ::testing::Test {
  protected:
@@ -19,10 +19,10 @@ class ContactWatchTest : public ::testing::Test {
   /// The rotor's centre at height y(t) [m] for every look up to `until`; no tilt.
   template <class Height>
   void Run(double until, const Height& y) {
-    ContactWatch watch(plant_.rotor, scenario_, kT);
+    ContactWatch watch(plant_.rotor, scenario_, kLookPeriod);
     MotionState s;
-    for (int k = 1; k * kT <= until + 1e-12; ++k) {
-      s.t = k * kT;
+    for (int k = 1; k * kLookPeriod <= until + 1e-12; ++k) {
+      s.t = k * kLookPeriod;
       s.q[1] = y(s.t);
       watch.Period(s, k == 1, result_);
     }

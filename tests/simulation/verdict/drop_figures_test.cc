@@ -11,13 +11,13 @@
 namespace ambrig {
 namespace {
 
-constexpr double kRate = 1e4, kClearance = 2e-4;
+constexpr double kRate = 1e4, kDropClearance = 2e-4;
 
 template <class X, class Y>
 CentrePath Path(const std::string& bearing, int rows, const X& x, const Y& y) {
   CentrePath p;
   p.bearing = bearing;
-  p.clearance = kClearance;
+  p.clearance = kDropClearance;
   for (int k = 0; k < rows; ++k) {
     p.x.push_back(x(k / kRate));
     p.y.push_back(y(k / kRate));
@@ -46,8 +46,8 @@ TEST(DropFigures, TheFirstTouchIsInterpolated) {
   EXPECT_EQ(f.first, "B");
   EXPECT_NEAR(f.touchdown_time, 0.5 + 0.03005, 1e-9);
   EXPECT_FALSE(f.touchdown);  // the run's own verdict, not the path's
-  EXPECT_NEAR(f.severity, 0.01 / (100 * kClearance), 1e-6);
-  EXPECT_NEAR(f.fall_severity, 0.01 / std::sqrt(2 * 9.81 * kClearance), 1e-6);
+  EXPECT_NEAR(f.severity, 0.01 / (100 * kDropClearance), 1e-6);
+  EXPECT_NEAR(f.fall_severity, 0.01 / std::sqrt(2 * 9.81 * kDropClearance), 1e-6);
   EXPECT_NEAR(f.rest[1][0], (0.095 - 0.01005) * 0.01, 1e-6);  // mean of the last tenth
   EXPECT_EQ(f.rest[0][0], 0);
 }
@@ -66,7 +66,7 @@ TEST(DropFigures, APathInsideTouchesNothing) {
 
 /// On a circle just beyond the clearance, `turns` round in 0.2 s.
 DropPaths Whirling(double turns, double Omega) {
-  const double r = 1.05 * kClearance, w = 2 * kPi * turns / 0.2;
+  const double r = 1.05 * kDropClearance, w = 2 * kPi * turns / 0.2;
   return Paths({Path(
                    "A", 2001, [=](double t) { return r * std::cos(w * t); },
                    [=](double t) { return r * std::sin(w * t); })},
@@ -78,7 +78,7 @@ TEST(DropFigures, WhirlIsCountedWithTheRotation) {
   DropFigures f = MakeDropFigures(rig, {}, Whirling(3, 200));
   EXPECT_NEAR(f.turns, 3, 1e-6);
   EXPECT_EQ(f.whirl, ContactWhirl::kForward);
-  EXPECT_NEAR(f.peak_orbit, 1.05 * kClearance, 1e-12);
+  EXPECT_NEAR(f.peak_orbit, 1.05 * kDropClearance, 1e-12);
   EXPECT_NEAR(f.severity, 2 * kPi * 15 * 1.05 / 200, 1e-4);  // speed over Omega c
   f = MakeDropFigures(rig, {}, Whirling(3, -200));
   EXPECT_NEAR(f.turns, -3, 1e-6);
@@ -93,24 +93,24 @@ TEST(DropFigures, WhirlIsCountedWithTheRotation) {
 // Down to the stop at 20 ms, back up to a radius of 0.05 mm, and down again.
 TEST(DropFigures, TheReboundIsTheClearanceRegained) {
   const auto y = [](double t) {
-    if (t < 0.02) return -t / 0.02 * kClearance;
-    if (t < 0.021) return -1.02 * kClearance;
+    if (t < 0.02) return -t / 0.02 * kDropClearance;
+    if (t < 0.021) return -1.02 * kDropClearance;
     const double u = (t - 0.041) / 0.02;
-    return -(0.25 + 0.77 * std::min(1.0, u * u)) * kClearance;
+    return -(0.25 + 0.77 * std::min(1.0, u * u)) * kDropClearance;
   };
   const DropFigures f =
       MakeDropFigures(ReferenceLanesRig(), {}, Paths({Path("A", 1000, Zero, y)}, 100));
   EXPECT_NEAR(f.touchdown_time, 0.52, 2e-4);
-  EXPECT_NEAR(f.rebound, 0.75 * kClearance, 0.01 * kClearance);
+  EXPECT_NEAR(f.rebound, 0.75 * kDropClearance, 0.01 * kDropClearance);
 }
 
 TEST(DropFigures, RunsPartWhereTheirCentresDo) {
   const DropPaths a = Paths({Path("A", 500, Zero, Zero), Path("B", 500, Zero, Zero)}, 1);
   DropPaths b = a;
   EXPECT_EQ(PartingTime(a, b, 0.05), -1);
-  b.bearings[1].x[200] = 0.04 * kClearance;  // not yet
-  b.bearings[1].x[300] = 0.06 * kClearance;
-  b.bearings[0].y[350] = 0.06 * kClearance;
+  b.bearings[1].x[200] = 0.04 * kDropClearance;  // not yet
+  b.bearings[1].x[300] = 0.06 * kDropClearance;
+  b.bearings[0].y[350] = 0.06 * kDropClearance;
   EXPECT_NEAR(PartingTime(a, b, 0.05), 0.5 + 0.03, 1e-12);
   b.rate = 1;
   EXPECT_THROW(PartingTime(a, b, 0.05), std::logic_error);
@@ -124,7 +124,7 @@ TEST(DropFigures, PathsAreThoseOfBearingsWithAStop) {
   const DropPaths d = CentrePaths(ReferenceLanesRig(), r);
   ASSERT_EQ(d.bearings.size(), 2u);
   EXPECT_EQ(d.bearings[1].bearing, "B");
-  EXPECT_EQ(d.bearings[0].clearance, kClearance);
+  EXPECT_EQ(d.bearings[0].clearance, kDropClearance);
   EXPECT_EQ(d.Omega.size(), 3u);
   r.channels.erase(r.channels.begin());
   EXPECT_THROW(CentrePaths(ReferenceLanesRig(), r), std::logic_error);
