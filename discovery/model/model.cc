@@ -43,7 +43,8 @@ CaseModel::CaseModel(const Case& c, std::size_t thin)
         if (k >= channel.samples.size()) break;
         sample_.push_back(k);
         measured_.push_back(std::isfinite(channel.samples[k]) ? channel.samples[k] : 0);
-        ok_.push_back(record.quality[ch].ok[k]);
+        ok_.push_back(record.quality[ch].ok[k] &&
+                      (points || HasSettled(record, record.data.TimeAt(k))));
         if (!ok_.back()) continue;
         mean += channel.samples[k];
         square += channel.samples[k] * channel.samples[k];

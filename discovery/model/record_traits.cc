@@ -12,7 +12,16 @@ namespace ambrig {
 namespace {
 
 constexpr std::uint32_t kPositionStream = 0x4d000000;  // of the noise of imposed positions
+constexpr double kDrivenSettle =
+    0.004;                       // [s] after which the loops have forgotten an unknown start
 constexpr double kTouch = 0.85;  // of the clearance: the measured rotor was at its stop
+
+bool CommandsCoils(const Scenario& scenario) {
+  return scenario.start == StartState::kClamped &&
+         std::ranges::any_of(scenario.excitations, [](const Excitation& e) {
+           return e.port == "current" || e.port == "duty";
+         });
+}
 
 }  // namespace
 
@@ -48,9 +57,16 @@ bool IsPredicted(const CaseRecord& record, const std::string& channel) {
   return !prescribed && !command && !drives;
 }
 
+bool HasSettled(const CaseRecord& record, double t) {
+  return !record.imposed_motion || record.scenario.start == StartState::kClamped ||
+         t >= record.data.start + kDrivenSettle;
+}
+
 Record DrivingRecord(const RigParameters& rig, const CaseRecord& record) {
-  const auto drives = [](const std::string& name) {
-    return IsOfKind(name, ChannelKind::kReading) || IsOfKind(name, ChannelKind::kSetPoint);
+  const bool commanded = CommandsCoils(record.scenario);
+  const auto drives = [&](const std::string& name) {
+    return IsOfKind(name, ChannelKind::kReading) ||
+           (!commanded && IsOfKind(name, ChannelKind::kSetPoint));
   };
   Record out = BridgeMissing(record.data, 0, drives).record;
   std::erase_if(out.channels, [&](const Channel& c) { return !drives(c.name); });

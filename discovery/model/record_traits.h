@@ -11,8 +11,13 @@ namespace ambrig {
 /// Whether the engine predicts this channel: not what the scenario or the clamp prescribes.
 bool IsPredicted(const CaseRecord& record, const std::string& channel);
 
+/// Whether a row at time t [s] of a record can be compared. With imposed motion what the coils carried before the
+/// first row is not known where a controller fed them: the first 4 ms are left out.
+bool HasSettled(const CaseRecord& record, double t);
+
 /// What drives a record with imposed motion: its positions (and set-points, where they were measured)
-/// without gaps; axes that were not measured stand where the scenario holds them.
+/// without gaps; axes that were not measured stand where the scenario holds them. Currents and duties that the
+/// scenario itself commands to a clamped rig are taken from there: a record's row tells their edges late.
 Record DrivingRecord(const RigParameters& rig, const CaseRecord& record);
 
 /// The same positions measured once more: with the sensors' noise of `rig` and a seed.

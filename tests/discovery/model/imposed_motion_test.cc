@@ -1,0 +1,87 @@
+// Records with imposed motion: measured positions move the gaps, rotor and controller play no part. The data come from levitated
+// runs under the controller, which is another path through the engine than the one that predicts them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "core/record/channels.h"
+#include "discovery/model/floor.h"
+#include "discovery/model/record_traits.h"
+#include "discovery/model/residual.h"
+#include "discovery/practice/hide.h"
+#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+namespace {
+
+RigParameters TwoBearings() {
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
+  return rig;
+}
+
+/// A practice case without an effect, every parameter as in the rig file; all motion imposed.
+class ImposedMotion : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { hidden_ = new HiddenCase(Hide(TwoBearings(), {{}, false, 5})); }
+  static void TearDownTestSuite() { delete hidden_; }
+  void SetUp() override {
+    data_ = hidden_->data;
+    for (CaseRecord& r : data_.records) r.imposed_motion = true;
+  }
+  static double ErrorOverFloor(const Case& data) {
+    CaseModel model(data, 4);
+    const Hypothesis base = Hypothesis::Base(data.rig);
+    const NoiseFloor floor = FindFloor(model, base);
+    return Ratio(model, Residual(model, floor.clean), Which::kFit);
+  }
+  static HiddenCase* hidden_;
+  Case data_;
+};
+HiddenCase* ImposedMotion::hidden_ = nullptr;
+
+TEST_F(ImposedMotion, TheTrueCoilsLeaveNothingButNoise) {
+  const double ratio = ErrorOverFloor(data_);
+  EXPECT_GT(ratio, 0.9);
+  EXPECT_LT(ratio, 1.05);
+}
+
+TEST_F(ImposedMotion, AWrongRotorPlaysNoPart) {
+  ASSERT_TRUE(SetParameter(data_.rig, "rotor.mass", 1.5 * data_.rig.rotor.mass));
+  EXPECT_LT(ErrorOverFloor(data_), 1.05);
+}
+
+TEST_F(ImposedMotion, AWrongCoilShows) {
+  ASSERT_TRUE(SetParameter(data_.rig, "bearings.A.leakage_inductance", 1e-3));
+  EXPECT_GT(ErrorOverFloor(data_), 1.3);
+}
+
+TEST_F(ImposedMotion, TheFirstRowsOfALoopWithAnUnknownPastAreLeftOut) {
+  for (const CaseRecord& r : data_.records) {
+    const bool clamped = r.scenario.start == StartState::kClamped;
+    EXPECT_EQ(HasSettled(r, r.data.start), clamped);
+    EXPECT_TRUE(HasSettled(r, r.data.start + 0.0041));
+  }
+  CaseRecord free = data_.records[0];
+  free.imposed_motion = false;
+  EXPECT_TRUE(HasSettled(free, free.data.start));
+}
+
+TEST_F(ImposedMotion, CommandsOfAClampedScenarioAreNotReadFromRows) {
+  for (CaseRecord& r : data_.records) {
+    const auto set_points = [&] {
+      const Record driving = DrivingRecord(data_.rig, r);
+      return std::ranges::any_of(driving.channels, [](const Channel& c) {
+        return IsOfKind(c.name, ChannelKind::kSetPoint);
+      });
+    };
+    EXPECT_EQ(set_points(), r.scenario.start != StartState::kClamped);
+    r.scenario.excitations.clear();  // somebody else's commands
+    EXPECT_TRUE(set_points());
+  }
+}
+
+}  // namespace
+}  // namespace ambrig
