@@ -91,7 +91,7 @@ void AddExport(CLI::App& app, Work& work) {
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n  ambrig export examples/reference/rig.toml --controller-c pid_rig.c\n"
-      "  ambrig export examples/reference/rig.toml --controller-c c/pid.c --json c/e.json");
+      "  ambrig export examples/reference/rig.toml --controller-c pid.c --json pid.json");
   command->callback([options, &work] { work = [options] { return Export(*options); }; });
 }
 

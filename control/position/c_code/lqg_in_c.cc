@@ -10,7 +10,7 @@ constexpr const char* kLqgInC = R"(
 static double $_x[$_STATES], $_xi[$_AXES], $_corrected[$_STATES], $_speed = -1;
 static double $_An[$_STATES * $_STATES], $_Bn[$_STATES * $_AXES], $_Cn[$_AXES * $_STATES], $_Ln[$_STATES * $_AXES],
     $_Kxn[$_AXES * $_STATES], $_Kin[$_AXES * $_AXES], $_Nxn[$_STATES * $_AXES], $_Nfn[$_AXES * $_AXES];
-static const double *$_A1 = $_A, *$_B1 = $_B, *$_C1 = $_C, *$_L1 = $_L, *$_Kx1 = $_Kx, *$_Ki1 = $_Ki,
+static const double *$_Am = $_A, *$_B1 = $_B, *$_C1 = $_C, *$_L1 = $_L, *$_Kx1 = $_Kx, *$_Ki1 = $_Ki,
                     *$_Nx1 = $_Nx, *$_Nf1 = $_Nf; /* in use */
 
 static void $_schedule(double omega) {
@@ -25,7 +25,7 @@ static void $_schedule(double omega) {
   mix($_AXES * $_AXES, $_Ki, low, weight, $_Kin);
   mix($_STATES * $_AXES, $_Nx, low, weight, $_Nxn);
   mix($_AXES * $_AXES, $_Nf, low, weight, $_Nfn);
-  $_A1 = $_An;
+  $_Am = $_An;
   $_B1 = $_Bn;
   $_C1 = $_Cn;
   $_L1 = $_Ln;
@@ -60,7 +60,7 @@ static void $_correct(const double *y) {
 
 /* x+ = A xf + B f */
 static void $_predict(const double *f) {
-  product($_STATES, $_STATES, $_A1, $_corrected, $_x);
+  product($_STATES, $_STATES, $_Am, $_corrected, $_x);
   add_product($_STATES, $_AXES, $_B1, f, $_x);
 }
 
