@@ -82,6 +82,31 @@ TEST(ExternalRun, FirmwareBehindASocket) {
   }
 }
 
+// The guide's lines: the controller's source linked with the host instead of loaded by it.
+TEST(ExternalRun, FirmwareLinkedWithTheHost) {
+  const CampaignFolder f;
+  f.Write("c.toml", RigText(LibraryLines("pid", kGains)));
+  f.Write("fw.toml", RigText("kind = \"socket\"\naddress = \"unix:firmware.sock\"\n" + kGains));
+  f.Write("a.toml", ScenarioOf("c.toml"));
+  f.Write("b.toml", ScenarioOf("fw.toml"));
+  const std::string external = AMBRIG_SOURCE_DIR "/control/external";
+  const Outcome cc = f.In(AMBRIG_C_COMPILER
+                          " -std=c99 -D_GNU_SOURCE -DAMBRIG_LINKED -Wall -Wextra -Wpedantic "
+                          "-Werror -ffp-contract=off -I " +
+                          external + " " + external +
+                          "/host/*.c " AMBRIG_SOURCE_DIR
+                          "/examples/controllers/pid.c -ldl -pthread -lm -o firmware");
+  ASSERT_EQ(cc.exit, 0) << cc.text;
+  const Outcome run = f.In(
+      "./firmware --listen unix:firmware.sock & one=$!; trap 'kill $one' EXIT; for k in $(seq "
+      "100); do [ -S firmware.sock ] && break; sleep 0.05; done; " AMBRIG_BINARY
+      " run a.toml b.toml --no-report --quiet");
+  ASSERT_EQ(run.exit, 0) << run.text;
+  const Record a = ReadHdf5(f.File("out/a.h5")), b = ReadHdf5(f.File("out/b.h5"));
+  for (std::size_t k = 0; k < a.channels.size(); ++k)
+    EXPECT_EQ(a.channels[k].samples, b.channels[k].samples) << a.channels[k].name;
+}
+
 // One row is ended by its controller; the campaign goes on and says why.
 TEST(ExternalRun, ACampaignGoesOn) {
   const CampaignFolder f;
