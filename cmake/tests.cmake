@@ -29,6 +29,11 @@ foreach(folder IN LISTS test_folders)
     gtest_discover_tests(test_${folder} DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 600 ${lock})
   endif()
 endforeach()
+# Controllers in C, and the program that runs them (cmake/controller_host.cmake).
+target_compile_definitions(test_control PRIVATE AMBRIG_CONTROLLER_MODULES="${AMBRIG_CONTROLLER_MODULES}"
+                           AMBRIG_CONTROLLER_HOST="$<TARGET_FILE:ambrig_controller_host>"
+                           AMBRIG_C_COMPILER="${CMAKE_C_COMPILER}")
+add_dependencies(test_control ambrig_controllers)
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
 add_test(NAME layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

@@ -45,8 +45,10 @@ def found_by_cmake():
 
 
 def installed_by_setup():
-    packages = re.search(r"^packages=\((.*?)^\)", pathlib.Path("tools/setup.sh").read_text(), re.S | re.M)[1]
-    words = re.sub(r"#.*", "", packages).split()
+    script = pathlib.Path("tools/setup.sh").read_text()
+    packages = re.search(r"^packages=\((.*?)^\)", script, re.S | re.M)[1]
+    packages += "\n" + re.search(r"--python\) packages\+=\((.*?)\) ;;", script, re.S)[1]
+    words = re.sub(r"#.*", "", packages).replace("python3-dev", "").split()  # the interpreter's own headers
     return {word for word in words if word.endswith("-dev")}
 
 

@@ -16,6 +16,7 @@
   COMMAND(Rotor)                 \
   COMMAND(Design)                \
   COMMAND(Redistribute)          \
+  COMMAND(Export)                \
   COMMAND(Analyze)               \
   COMMAND(Validate)              \
   COMMAND(Effects)               \

@@ -28,7 +28,23 @@ std::string Minutes(double seconds) {
                    : fmt::format("{:02}:{:02}", s / 60, s % 60);
 }
 
+std::mutex listener_mutex;
+std::function<void(double)> listener;
+std::atomic<bool> listening{false};
+
+void TellListener(double fraction) {
+  if (!listening.load(std::memory_order_relaxed)) return;
+  const std::lock_guard guard(listener_mutex);
+  if (listener) listener(fraction);
+}
+
 }  // namespace
+
+void Progress::Listen(std::function<void(double)> told) {
+  const std::lock_guard guard(listener_mutex);
+  listener = std::move(told);
+  listening = static_cast<bool>(listener);
+}
 
 std::string ProgressText(double fraction, double elapsed, int width) {
   const double done = std::isnan(fraction) ? 0.0 : std::clamp(fraction, 0.0, 1.0);
@@ -66,6 +82,7 @@ Progress::Progress(std::string title, int file, bool draw)
 Progress::~Progress() { Clear(); }
 
 void Progress::Update(double fraction, std::string_view text) {
+  TellListener(fraction);
   if (!draw_) return;
   const auto now = Clock::now();
   Clock::rep due = next_.load(std::memory_order_relaxed);

@@ -27,6 +27,12 @@ void AxisGroups::Step(const std::vector<double>& y, const std::vector<double>& r
   }
 }
 
+const Lane* AxisGroups::SetPoints(std::size_t bearing) const {
+  for (const Part& p : parts_)
+    if (const Lane* own = p.group.controller->SetPoints(bearing)) return own;
+  return nullptr;
+}
+
 void AxisGroups::Hold(const std::vector<double>& force, const std::vector<double>& y,
                       const std::vector<double>& r) {
   for (Part& p : parts_) {

@@ -13,6 +13,10 @@ struct AxisGroup {
 class AxisGroups : public PositionController {
  public:
   explicit AxisGroups(std::vector<AxisGroup> groups);
+  void Observe(const std::vector<BearingControl>& control, double t) override {
+    for (Part& p : parts_) p.group.controller->Observe(control, t);
+  }
+  const Lane* SetPoints(std::size_t bearing) const override;
   void Step(const std::vector<double>& y, const std::vector<double>& r,
             const std::vector<double>& excitation, double Omega, std::vector<double>& f) override;
   void Hold(const std::vector<double>& force, const std::vector<double>& y,

@@ -28,6 +28,10 @@ struct ControllerSite {
     std::string name;
     bool radial = true;
     double z = 0, sensor_z = 0;  // [m]
+    std::size_t index = 0;       // in the rig
+    std::vector<std::string> coils;
+    double i_max = 0;      // [A]
+    bool unipolar = true;  // set-points are not negative
   };
   std::vector<std::string> axes;  // that it controls
   std::vector<double> f_max;      // of each [N]

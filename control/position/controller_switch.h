@@ -23,6 +23,12 @@ class ControllerSwitch : public PositionController {
   void SwitchTo(std::size_t index);
   std::size_t in_charge() const { return now_; }
 
+  void Observe(const std::vector<BearingControl>& control, double t) override {
+    for (const auto& c : controllers_) c->Observe(control, t);
+  }
+  const Lane* SetPoints(std::size_t bearing) const override {
+    return controllers_[now_]->SetPoints(bearing);
+  }
   void Step(const std::vector<double>& y, const std::vector<double>& r,
             const std::vector<double>& excitation, double Omega, std::vector<double>& f) override;
   void Hold(const std::vector<double>& force, const std::vector<double>& y,

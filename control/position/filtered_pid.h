@@ -24,6 +24,7 @@ class FilteredPid : public PositionController {
   void Hold(const std::vector<double>& force, const std::vector<double>& y,
             const std::vector<double>& r) override;
   StateSpace Linear(double Omega) const override;
+  void WriteC(CCode& code) const override;
   std::unique_ptr<PositionController> Clone() const override {
     return std::make_unique<FilteredPid>(*this);
   }

@@ -49,6 +49,7 @@ class DecentralisedPid : public PositionController {
   void Hold(const std::vector<double>& force, const std::vector<double>& y,
             const std::vector<double>& r) override;
   StateSpace Linear(double Omega) const override;
+  void WriteC(CCode& code) const override;
   std::unique_ptr<PositionController> Clone() const override {
     return std::make_unique<DecentralisedPid>(*this);
   }

@@ -37,6 +37,10 @@ class UnbalanceControl : public PositionController {
  public:
   UnbalanceControl(std::unique_ptr<PositionController> inner, std::size_t axes,
                    const UnbalanceControlParameters& p, double Ts);
+  void Observe(const std::vector<BearingControl>& control, double t) override {
+    inner_->Observe(control, t);
+  }
+  const Lane* SetPoints(std::size_t bearing) const override { return inner_->SetPoints(bearing); }
   void Step(const std::vector<double>& y, const std::vector<double>& r,
             const std::vector<double>& excitation, double Omega, std::vector<double>& f) override;
   void Hold(const std::vector<double>& force, const std::vector<double>& y,
@@ -44,6 +48,7 @@ class UnbalanceControl : public PositionController {
   void Track(const std::vector<double>& y, const std::vector<double>& r, double Omega,
              const std::vector<double>& f) override;
   StateSpace Linear(double Omega) const override;
+  void WriteC(CCode& code) const override;
   std::unique_ptr<PositionController> Clone() const override;
 
  private:

@@ -59,6 +59,7 @@ class LqgController : public PositionController {
   void Track(const std::vector<double>& y, const std::vector<double>& r, double Omega,
              const std::vector<double>& f) override;
   StateSpace Linear(double Omega) const override;
+  void WriteC(CCode& code) const override;
   std::unique_ptr<PositionController> Clone() const override {
     return std::make_unique<LqgController>(*this);
   }

@@ -1,5 +1,7 @@
 #include "simulation/sampled/controller_setup.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "analysis/linear/control_plant.h"
@@ -37,9 +39,14 @@ ControllerSite SiteOf(const RigParameters& rig, const ControllerParameters& c, d
   ControllerSite site;
   site.period = Ts;
   site.inertia_polar = rig.rotor.inertia_polar;
-  for (const BearingParameters& b : rig.bearings) {
+  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
+    const BearingParameters& b = rig.bearings[k];
     if (b.controller) continue;
-    site.bearings.push_back({b.name, b.kind->two_axes, b.z, b.sensor.z});
+    ControllerSite::Bearing at{b.name, b.kind->two_axes, b.z, b.sensor.z, k, {}};
+    for (int j = 0; j < b.coils(); ++j) at.coils.push_back(fmt::format("coil{}", j + 1));
+    at.i_max = rig.amplifier.i_max;
+    at.unipolar = rig.amplifier.quadrants < 3;
+    site.bearings.push_back(std::move(at));
     for (const std::string& name : b.Axes()) {
       site.axes.push_back(name);
       site.f_max.push_back(c.pid.f_max);
@@ -58,6 +65,20 @@ std::vector<double> ForceLimits(const NominalRig& rig, const ControllerParameter
   for (const Axis& a : AxesOf(*rig))
     out.push_back(a.bearing->controller ? a.bearing->controller->f_max : c.pid.f_max);
   return out;
+}
+
+std::unique_ptr<PositionController> MakeCentralController(const NominalRig& nominal,
+                                                          const ControllerParameters& c,
+                                                          std::vector<std::string>* axes) {
+  const RigParameters& rig = *nominal;
+  const double Ts = rig.periods_per_control() / rig.amplifier.switching_frequency;
+  const ControllerSite site = SiteOf(rig, c, Ts);
+  auto central = ControllerKindByName(c.kind).make(c, site);
+  if (c.unbalance)
+    central =
+        std::make_unique<UnbalanceControl>(std::move(central), site.axes.size(), *c.unbalance, Ts);
+  if (axes) *axes = site.axes;
+  return central;
 }
 
 std::unique_ptr<PositionController> MakeController(const NominalRig& nominal,
@@ -79,10 +100,7 @@ std::unique_ptr<PositionController> MakeController(const NominalRig& nominal,
     rest.axes.push_back(k);
     rest_pid.push_back(*axes[k].bearing->controller);
   }
-  std::unique_ptr<PositionController> central =
-      ControllerKindByName(c.kind).make(c, SiteOf(rig, c, Ts));
-  if (c.unbalance)
-    central = std::make_unique<UnbalanceControl>(std::move(central), own.size(), *c.unbalance, Ts);
+  std::unique_ptr<PositionController> central = MakeCentralController(nominal, c);
   if (rest.axes.empty()) return central;
   rest.controller = std::make_unique<DecentralisedPid>(std::move(rest_pid), Ts);
   std::vector<AxisGroup> groups;

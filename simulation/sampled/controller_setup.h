@@ -10,6 +10,12 @@ namespace ambrig {
 std::unique_ptr<PositionController> MakeController(const NominalRig& rig,
                                                    const ControllerParameters& c);
 
+/// The controller of the bearings that have none of their own, and the names of its axes.
+/// @throws InputError when a synthesis fails.
+std::unique_ptr<PositionController> MakeCentralController(const NominalRig& rig,
+                                                          const ControllerParameters& c,
+                                                          std::vector<std::string>* axes = nullptr);
+
 /// All of the rig, [controller] in charge: 0, then those of [controllers.NAME] in their order.
 std::unique_ptr<ControllerSwitch> MakeControllerSwitch(const NominalRig& rig);
 

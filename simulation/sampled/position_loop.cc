@@ -76,12 +76,17 @@ void PositionLoop::Tick(long long n, const std::vector<BearingControl>& control)
   if (switch_)
     for (const CommandPlan::Switch& s : commands_.switches)
       if (s.tick == n / M_ && n >= 0) switch_->SwitchTo(s.controller);
+  controller_->Observe(control, reading_time_);
   controller_->Step(readings_, reference_, excitation_, speed_reading_, force_);
   UnderWay next = std::move(spare_);
   next.due = n + M_;
   next.recorded = false;
   next.values.resize(control.size());
   for (std::size_t k = 0; k < control.size(); ++k) {
+    if (const Lane* own = controller_->SetPoints(k)) {
+      next.values[k] = *own;
+      continue;
+    }
     const std::size_t a = first_axis_[k];
     const bool planar = first_axis_[k + 1] > a + 1;
     const double fx = force_[a], fy = planar ? force_[a + 1] : 0;

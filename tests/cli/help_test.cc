@@ -98,6 +98,7 @@ const Examples kExamples[] = {
     {"rotor"},
     {"design"},
     {"redistribute"},
+    {"export"},
     {"analyze"},
     {"validate"},
     {"paper"},

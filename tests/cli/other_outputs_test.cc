@@ -26,6 +26,7 @@ const Call kCalls[] = {
     {"crosscheck", "e.toml"},
     {"design", "examples/design/small.toml -o study"},
     {"redistribute", "rig.toml --failed 1", "rig.toml"},
+    {"export", "rig.toml --controller-c own.c", "rig.toml"},
     {"analyze", "rig.toml", "rig.toml"},
     {"validate", "examples/validation"},
     {"paper", "examples/paper"},

@@ -8,7 +8,9 @@
   CONTROLLER(StateSpaceKind)           \
   CONTROLLER(LqgKind)                  \
   CONTROLLER(HInfinityKind)            \
-  CONTROLLER(TiltTranslationKind)
+  CONTROLLER(TiltTranslationKind)      \
+  CONTROLLER(LibraryKind)              \
+  CONTROLLER(SocketKind)
 
 namespace ambrig {
 

@@ -1,0 +1,98 @@
+/// ambrig export: what a rig file describes, for other programs.
+#include <fmt/format.h>
+
+#include "app/commands/commands.h"
+#include "app/commands/outputs.h"
+#include "control/external/host_image.h"
+#include "control/position/c_code/c_code.h"
+#include "core/base/atomic_file.h"
+
+#include "rig/rig_file.h"
+#include "simulation/sampled/controller_setup.h"
+
+namespace ambrig {
+
+namespace {
+
+struct ExportOptions {
+  CommonOptions common;
+  std::string rig, controller_c, controller = "main";
+};
+
+const ControllerParameters& ControllerNamed(const RigParameters& rig, const std::string& name) {
+  if (name == "main") return rig.controller;
+  std::string known = "main";
+  for (const ControllerParameters& c : rig.other_controllers) {
+    if (c.name == name) return c;
+    known += ", " + c.name;
+  }
+  throw InputError(fmt::format("--controller = {}, allowed: {}", name, known));
+}
+
+nlohmann::ordered_json ExportController(const RigParameters& rig, const ExportOptions& o) {
+  const std::filesystem::path file = o.controller_c;
+  const std::string header = (file.parent_path() / "ambrig_controller.h").string();
+  RefuseOverwriting({file.string(), header}, o.common.force);
+  RefuseInputAsOutput(file.string(), {o.rig, rig.file});
+  const ControllerParameters& c = ControllerNamed(rig, o.controller);
+  std::vector<std::string> axes;
+  const auto controller = MakeCentralController(NominalRig(rig), c, &axes);
+  if (axes.empty())
+    throw InputError(
+        fmt::format("{}: every bearing has a controller of its own, allowed: a rig with axes of "
+                    "[controller]",
+                    o.rig));
+  const std::string text = ControllerInC(
+      *controller, axes,
+      fmt::format("made by ambrig export\nController \"{}\" (kind {}) of rig {}, for the axes "
+                  "{},\nonce every {} s.\n\ncc -std=c99 -O2 -ffp-contract=off -shared -fPIC {} -o "
+                  "controller.so -lm",
+                  o.controller, c.kind, rig.name, fmt::join(axes, ", "), 1 / c.rate,
+                  file.filename().string()));
+  WriteFileAtomically(file.string(), text);
+  WriteFileAtomically(header, "/* Copy made by ambrig export. */\n" + ControllerHeader());
+  fmt::print("{}: controller {} ({}) as C99, {} axes\n{}\n", file.string(), o.controller, c.kind,
+             axes.size(), header);
+  return {{"files", {file.string(), header}},
+          {"controller", o.controller},
+          {"kind", c.kind},
+          {"axes", axes},
+          {"period", 1 / c.rate}};
+}
+
+int Export(const ExportOptions& o) {
+  const RigParameters rig = ReadRig(o.rig);
+  o.common.CheckOutputs({o.rig, rig.file});
+  if (o.controller_c.empty())
+    throw InputError("export: says not what to write, allowed: --controller-c FILE");
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  json["rig"] = o.rig;
+  json["controller_c"] = ExportController(rig, o);
+  o.common.WriteJson(json);
+  return 0;
+}
+
+}  // namespace
+
+void AddExport(CLI::App& app, Work& work) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "write a rig's controller as C99 for other programs");
+  command->add_option("rig", options->rig, "rig file (TOML)")->required();
+  command
+      ->add_option("--controller-c", options->controller_c,
+                   "write the controller as C99 to FILE, its header beside it")
+      ->type_name("FILE")
+      ->check(OutputFile());
+  command
+      ->add_option("--controller", options->controller,
+                   "which: main, or a NAME of [controllers.NAME]")
+      ->capture_default_str();
+  options->common.AddTo(*command);
+  command->footer(
+      "Examples:\n  ambrig export examples/reference/rig.toml --controller-c pid_rig.c\n"
+      "  ambrig export examples/reference/rig.toml --controller-c pid.c --json pid.json");
+  command->callback([options, &work] { work = [options] { return Export(*options); }; });
+}
+
+}  // namespace ambrig

@@ -1,0 +1,34 @@
+# cmake --install, and `cpack` for a Debian package: program, header and host of controllers in C, examples and scenarios,
+# manual pages, completions, find_package(ambrig).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+install(TARGETS ambrig RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES control/external/ambrig_controller.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambrig)
+install(DIRECTORY control/external/host DESTINATION ${CMAKE_INSTALL_DATADIR}/ambrig FILES_MATCHING PATTERN "*.[ch]")
+install(DIRECTORY scenarios/library scenarios/campaigns DESTINATION ${CMAKE_INSTALL_DATADIR}/ambrig/scenarios
+        FILES_MATCHING PATTERN "*.toml")
+install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY docs/guide DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md docs/third_party.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/ambrigConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES packaging/ambrigConfig.cmake ${CMAKE_BINARY_DIR}/ambrigConfigVersion.cmake DESTINATION lib/cmake/ambrig)
+# From the help texts of the program that is installed.
+set(pages ${CMAKE_BINARY_DIR}/manual)
+install(CODE "execute_process(COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/packaging/man_pages.py
+                              $<TARGET_FILE:ambrig> ${pages} COMMAND_ERROR_IS_FATAL ANY)")
+install(DIRECTORY ${pages}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(FILES ${pages}/ambrig.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ambrig)
+install(FILES ${pages}/_ambrig DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+add_test(NAME package COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/packaging/check_package.py ${CMAKE_BINARY_DIR})
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME ambrig)
+set(CPACK_PACKAGE_CONTACT "ambrig <ambrig@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "magnetic-bearing rigs with redundant actuators: simulate, break, compare, explain")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # the libraries that the program is linked with, by their packages
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS gcc)  # controllers in C are compiled by their authors
+include(CPack)
