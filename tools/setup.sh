@@ -16,6 +16,7 @@ packages=(
   libeigen3-dev liblapack-dev libslicot-dev libsundials-dev libode-dev           # physics
   libceres-dev libnlopt-dev libnlopt-cxx-dev libmuparser-dev                     # fits, formulas
   libtbb-dev librandom123-dev                                                    # threads, noise
+  libmicrohttpd-dev                                                              # workbench
   libgtest-dev libgmock-dev libbenchmark-dev                                     # tests, bench
 )
 for option in "$@"; do
@@ -56,7 +57,7 @@ fi
 installed=web/node_modules/.package-lock.json
 if [ ! -e "$installed" ] || [ web/package.json -nt "$installed" ] ||
    [ web/package-lock.json -nt "$installed" ]; then
-  echo "setup: fetching the plotting library (npm, web/package.json)"
+  echo "setup: fetching the libraries of the pages (npm, web/package.json)"
   npm ci --prefix web --no-audit --no-fund --loglevel=error
   touch "$installed"
 fi

@@ -13,6 +13,7 @@
   COMMAND(Commission)            \
   COMMAND(Paper)                 \
   COMMAND(Crosscheck)            \
+  COMMAND(Rig)                   \
   COMMAND(Rotor)                 \
   COMMAND(Design)                \
   COMMAND(Redistribute)          \

@@ -95,6 +95,7 @@ const Examples kExamples[] = {
     {"detectors", {}, true},
     {"commission"},
     {"crosscheck"},
+    {"rig"},
     {"rotor"},
     {"design"},
     {"redistribute"},

@@ -27,6 +27,7 @@ const Call kCalls[] = {
     {"design", "examples/design/small.toml -o study"},
     {"redistribute", "rig.toml --failed 1", "rig.toml"},
     {"analyze", "rig.toml", "rig.toml"},
+    {"rig", "rig.toml", "rig.toml"},
     {"validate", "examples/validation"},
     {"paper", "examples/paper"},
     {"effects", ""},
