@@ -29,6 +29,7 @@
   COMMAND(Plan)                  \
   COMMAND(Hide)                  \
   COMMAND(Score)                 \
+  COMMAND(Serve)                 \
   COMMAND(Practice)
 
 namespace ambrig {

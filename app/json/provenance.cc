@@ -1,7 +1,5 @@
 #include "app/json/provenance.h"
 
-#include <fmt/format.h>
-
 #include <filesystem>
 
 #include "core/base/build_id.h"
@@ -25,7 +23,7 @@ std::string FileHash(const std::string& path) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) return "";
   try {
-    return fmt::format("{:016x}", Fingerprint(ReadFile(path)));
+    return HashText(ReadFile(path));
   } catch (const InputError&) {
     return "";
   }
