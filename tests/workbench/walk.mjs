@@ -27,9 +27,11 @@ const problems = [];
 const begin = Date.now();
 const say = (text) => console.log(`${((Date.now() - begin) / 1000).toFixed(1).padStart(6)} s  ${text}`);
 
-/** A case with a hidden effect and, in one record, an interval where the logger stood still; few records, so that explaining takes seconds. */
+/** A case with a hidden effect, of few records, so that explaining takes seconds. */
 function makeCase() {
   execFileSync(ambrig, ['hide', 'cross-coupling@A', '--rig', join(source, 'examples/reference/rig.toml'), '-o', 'practice', '--seed', '3'], {cwd: folder});
+  writeFileSync(join(folder, 'rig.toml'), readFileSync(join(source, 'examples/reference/rig.toml')));
+  writeFileSync(join(folder, 'healthy.toml'), 'name = "healthy"\nrig = "rig.toml"\nduration = 0.15\nrecord_rate = 12500.0\nseed = 1\n\n[speed]\nprofile = [[0.0, 157.08]]\n');
   const file = join(folder, 'practice', 'case.toml');
   const [head, ...records] = readFileSync(file, 'utf8').split('[[record]]');
   const kept = records.filter((r) => /record-(1|4|8)\.h5/.test(r));
@@ -85,6 +87,7 @@ async function walk(address) {
       return existsSync(file) ? route.fulfill({path: file}) : route.fallback();
     });
   try {
+    await playground(page, address);
     await mainFlow(page, address);
   } catch (error) {
     await shot(page, 'failed');
@@ -127,6 +130,9 @@ async function mainFlow(page, address) {
   await page.mouse.move(box.x + box.width * 0.6, box.y + 40, {steps: 5});
   await page.mouse.up();
   await page.waitForURL(/t=0\.\d+,0\.\d+/);
+  // 0.3 to 0.6 of the record's 0.35 s, to a pixel.
+  const [from, to] = /t=([\d.]+),([\d.]+)/.exec(page.url()).slice(1).map(Number);
+  assert.ok(Math.abs(from - 0.105) < 0.003 && Math.abs(to - 0.21) < 0.003, `the zoom shows what was dragged: ${from} to ${to}`);
 
   await page.getByRole('button', {name: 'Explain', exact: true}).click();
   await page.locator('.stages .now').waitFor();
@@ -169,6 +175,33 @@ async function mainFlow(page, address) {
   await page.reload();
   await page.getByRole('link', {name: 'practice/case_2.toml'}).waitFor();
   assert.match(await page.locator('main table').innerText(), /cross-coupling at A/);
+}
+
+/** A coil is broken by a click, and by the keyboard alone; both runs are real ones. */
+async function playground(page, address) {
+  await page.goto(address);
+  await page.getByRole('link', {name: 'healthy.toml'}).click();
+  await page.getByRole('button', {name: 'Run', exact: true}).click();
+  await page.locator('.verdict').waitFor({timeout: 60000});
+  assert.match(await page.locator('.verdict').innerText(), /stayed up/);
+  await page.locator('.stator .orbit').first().waitFor({timeout: 30000});
+  await page.getByRole('button', {name: 'A3, healthy'}).click();
+  const second = page.getByRole('button', {name: 'A4, healthy'});
+  await second.focus();
+  await page.keyboard.press('Enter');
+  await check(page, 'playground');
+  await page.getByRole('button', {name: /these 2 faults and run it/}).click();
+  await page.getByRole('heading', {name: 'healthy_2.toml'}).waitFor();
+  await page.locator('.events li').first().waitFor({timeout: 60000});
+  const events = await page.locator('.events').innerText();
+  assert.match(events, /fault A\.coil3/);
+  assert.match(events, /fault A\.coil4/);
+  assert.match(events, /detected/);
+  await page.locator('.panel[aria-label*="healthy_2.toml"]').first().waitFor({timeout: 30000});
+  await check(page, 'fault');
+  await page.getByRole('button', {name: 'Undo'}).click();
+  await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('as it was'));
+  assert.ok(!existsSync(join(folder, 'healthy_2.toml')), 'undo takes the written scenario back');
 }
 
 makeCase();

@@ -27,6 +27,7 @@ function opened() {
 }
 
 function followAddress() {
+  if (location.hash.startsWith('#token=')) takeToken();  // the printed address, opened in this tab again
   const before = state.view;
   state.view = parseAddress(location.hash);
   if (before.file !== state.view.file || before.screen !== state.view.screen) opened();
@@ -66,7 +67,7 @@ function notice() {
 /** @param {string} screen */
 function shown(screen) {
   if (screen === 'case') return caseScreen(go);
-  if (screen === 'run') return runScreen();
+  if (screen === 'run') return runScreen(go);
   if (screen === 'rig') return rigScreen();
   return folderScreen();
 }

@@ -20,6 +20,7 @@ const started = new Set();
 /** Asks for what is known of a case, and starts its first comparison. @param {string} file */
 export async function openCase(file) {
   proposal = null;
+  panels?.clear();
   await Promise.all([loadResult('compare', file), loadResult('explain', file), loadResult('adopt', file)]);
   if (!resultOf('compare', file) && !activeJob('compare', file) && !started.has(file)) {
     started.add(file);
@@ -133,5 +134,12 @@ export function drawPanels(go) {
   if (!panels || panels.place !== place)
     panels = new Panels(place, (from, to) => go({...chosenCell(resultOf('compare', state.view.file).result), from, to}));
   const chosen = chosenCell(found.result);
-  if (chosen.record) void panels.show({job: found.job, ...chosen, from: state.view.from, to: state.view.to});
+  if (!chosen.record) return;
+  const high = chosen.channels.length > 1 ? 120 : 190;
+  const plots = chosen.channels.flatMap((c) => [
+    {title: c, height: high, lines: [{channel: c + '.measured', label: 'measured', tone: 'measured'}, {channel: c + '.model', label: 'model', tone: 'model'}]},
+    {title: `${c}: error over noise`, height: Math.round(high * 0.75), lines: [{channel: c + '.error', label: 'error over noise', tone: 'error'}]},
+  ]);
+  const query = `job=${found.job}&record=${encodeURIComponent(chosen.record)}`;
+  void panels.show({query, name: chosen.record, plots, from: state.view.from, to: state.view.to});
 }

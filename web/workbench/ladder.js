@@ -1,18 +1,7 @@
 /** The ladder: the error that each step of the model left, fitted and unseen records. */
 import {html, svg as svgPart} from './lit-html.js';
-import {sizeOf} from './misfit.js';
+import {barOf, sizeOf} from './misfit.js';
 import {ratio} from './numbers.js';
-
-/**
- * Height of a bar, 0 to 1, on a logarithmic scale from noise alone to the first step's error.
- * @param {number|string|null} r @param {number} most
- */
-export function barOf(r, most) {
-  const size = sizeOf(r);
-  if (size <= 0) return 0;
-  const top = Math.log(Math.max(most, 2));
-  return Math.min(1, 0.06 + 0.94 * Math.max(0, Math.log(Math.max(size, 1)) / top));
-}
 
 /** @typedef {{added: string, ratio_fit: number|string|null, ratio_validate: number|string|null}} Step */
 

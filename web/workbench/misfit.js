@@ -21,14 +21,14 @@ export function sizeOf(r) {
   return typeof r === 'number' ? r : -1;
 }
 
-/** Columns: bearings' channels first in the rig's order, coil currents behind. @param {RecordError[]} records */
+/** Columns: what the bearings measure first, currents, set-points and duties of single coils behind. @param {RecordError[]} records */
 export function columnsOf(records) {
   /** @type {string[]} */
   const names = [];
   for (const r of records)
     for (const c of Object.keys(r.channels)) if (!names.includes(c)) names.push(c);
-  const isCurrent = (/** @type {string} */ c) => /\.i\d+$/.test(c);
-  return [...names.filter((c) => !isCurrent(c)), ...names.filter(isCurrent)];
+  const ofCoil = (/** @type {string} */ c) => /\.[isd]\d+$/.test(c);
+  return [...names.filter((c) => !ofCoil(c)), ...names.filter(ofCoil)];
 }
 
 /** @param {RecordError[]} records @param {string[]} columns @returns {Row[]} */
@@ -68,4 +68,15 @@ export function freeName(name, taken) {
     const next = `${found[1]}_${k}.toml`;
     if (!taken.includes(next)) return next;
   }
+}
+
+/**
+ * Height of a bar, 0 to 1, on a logarithmic scale from noise alone to the first step's error.
+ * @param {number|string|null} r @param {number} most
+ */
+export function barOf(r, most) {
+  const size = sizeOf(r);
+  if (size <= 0) return 0;
+  const top = Math.log(Math.max(most, 2));
+  return Math.min(1, 0.06 + 0.94 * Math.max(0, Math.log(Math.max(size, 1)) / top));
 }

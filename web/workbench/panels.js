@@ -15,6 +15,11 @@ function line(label, tone, dash) {
           value: (/** @type {any} */ _, /** @type {number|null} */ v) => (v === null ? '-' : significant(v, 4))};
 }
 
+/**
+ * @typedef {{title: string, height: number, lines: {channel: string, label: string, tone: string}[]}} Plot
+ * @typedef {{query: string, name: string, plots: Plot[], from: number|null, to: number|null}} What  `query`: which record
+ */
+
 const rest = 80;  // [ms] after the last zoom before the server is asked
 
 export class Panels {
@@ -22,7 +27,7 @@ export class Panels {
   constructor(place, moved) {
     this.place = place;
     this.moved = moved;
-    /** @type {{plot: any, channels: string[], kind: string}[]} */
+    /** @type {any[]} */
     this.plots = [];
     this.key = '';
     /** @type {number|null} */
@@ -31,6 +36,7 @@ export class Panels {
     this.to = null;
     this.timer = 0;
     this.asked = 0;
+    this.selecting = false;
     this.sync = uPlot.sync('time');
     /** @type {Record<string, number>} the cursors A and B [s] */
     this.marks = {};
@@ -38,10 +44,10 @@ export class Panels {
   }
 
   /**
-   * @param {{job: number, record: string, channels: string[], from: number|null, to: number|null}} what
+   * @param {What} what
    */
   async show(what) {
-    const key = JSON.stringify([what.job, what.record, what.channels]);
+    const key = JSON.stringify([what.query, what.plots]);
     if (key === this.key && what.from === this.from && what.to === this.to) return;
     const same = key === this.key;
     this.key = key;
@@ -57,9 +63,8 @@ export class Panels {
     const what = this.what;
     if (!what) return;
     const number = ++this.asked;
-    const names = what.channels.flatMap((c) => [c + '.measured', c + '.model', c + '.error']);
-    let path = `/api/series?job=${what.job}&record=${encodeURIComponent(what.record)}` +
-               `&c=${names.map(encodeURIComponent).join(',')}&px=${Math.max(200, this.width())}`;
+    const names = what.plots.flatMap((p) => p.lines.map((l) => l.channel));
+    let path = `/api/series?${what.query}&c=${names.map(encodeURIComponent).join(',')}&px=${Math.max(200, this.width())}`;
     if (this.from !== null && this.to !== null) path += `&t0=${this.from}&t1=${this.to}`;
     try {
       const series = decodeSeries(await getBytes(path));
@@ -75,20 +80,16 @@ export class Panels {
     return Math.max(300, Math.floor(this.place.clientWidth) - 2);
   }
 
-  /** @param {{channels: string[]}} what */
+  /** @param {What} what */
   build(what) {
-    for (const p of this.plots) p.plot.destroy();
+    for (const p of this.plots) p.destroy();
     this.plots = [];
     this.place.replaceChildren();
-    const high = what.channels.length > 1 ? 120 : 190;
-    for (const channel of what.channels) {
-      this.add(channel, 'value', high, [line('measured', 'measured'), line('model', 'model')]);
-      this.add(channel, 'error', Math.round(high * 0.75), [line('error over noise', 'error')]);
-    }
+    for (const plot of what.plots) this.add(plot.height, plot.lines.map((l) => line(l.label, l.tone)));
   }
 
-  /** @param {string} channel @param {string} kind @param {number} height @param {any[]} lines */
-  add(channel, kind, height, lines) {
+  /** @param {number} height @param {any[]} lines */
+  add(height, lines) {
     const figure = document.createElement('figure');
     figure.tabIndex = 0;
     figure.className = 'panel';
@@ -100,39 +101,60 @@ export class Panels {
       width: this.width(), height,
       scales: {x: {time: false}},
       axes: [{...axis, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((t) => String(Number(t.toPrecision(6))))},
-             {...axis, size: 64}],
+             {...axis, size: 64, space: 24}],
       series: [{label: 't [s]', value: (/** @type {any} */ _, /** @type {number|null} */ t) => (t === null ? '-' : t.toFixed(5))}, ...lines],
       cursor: {sync: {key: this.sync.key, setSeries: false}, drag: {x: true, y: false}, bind: {dblclick: () => () => {
         this.zoom(null, null);
         return null;
       }}},
       hooks: {setSelect: [(/** @type {any} */ u) => {
-        if (u.select.width > 4) this.zoom(u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x'));
+        if (u.select.width > 4) this.selected(u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x'));
         u.setSelect({left: 0, width: 0, top: 0, height: 0}, false);
       }], draw: [(/** @type {any} */ u) => this.drawMarks(u)]},
       select: {show: true, left: 0, top: 0, width: 0, height: 0},
     }, [[0], ...lines.map(() => [null])], figure);
     plot.root.addEventListener('wheel', (/** @type {WheelEvent} */ e) => this.wheel(e, plot), {passive: false});
     figure.addEventListener('keydown', (e) => this.pressed(e, plot));
-    this.plots.push({plot, channels: [channel], kind});
+    this.plots.push(plot);
   }
 
-  /** @param {import('./series.js').Series} series @param {{channels: string[], record: string}} what */
+  /** @param {import('./series.js').Series} series @param {What} what */
   fill(series, what) {
-    this.time = series.time;
-    for (const {plot, channels, kind} of this.plots) {
-      const at = 3 * what.channels.indexOf(channels[0]);
-      const values = kind === 'error' ? [series.values[at + 2]] : [series.values[at], series.values[at + 1]];
-      const unit = kind === 'error' ? '-' : series.head.channels[at].unit;
-      const p = prefixFor(largest(values), unit);
+    let at = 0;
+    this.plots.forEach((plot, k) => {
+      const count = what.plots[k].lines.length;
+      const values = series.values.slice(at, at + count);
+      const p = prefixFor(largest(values), series.head.channels[at].unit);
+      at += count;
       const shown = values.map((v) => v.map((x) => (x === null ? null : x * p.factor)));
-      const caption = plot.root.parentElement?.querySelector('figcaption');
-      const title = kind === 'error' ? `${channels[0]}: error over noise` : `${channels[0]} [${p.unit || '-'}]`;
+      const title = what.plots[k].title + (p.unit ? ` [${p.unit}]` : '');
+      const figure = plot.root.parentElement;
+      const caption = figure?.querySelector('figcaption');
       if (caption) caption.textContent = title;
-      plot.root.parentElement?.setAttribute('aria-label', `${title}, ${what.record}, largest ${significant(largest(shown))}`);
+      figure?.setAttribute('aria-label', `${title}, ${what.name}, largest ${significant(largest(shown))}`);
       plot.setData([series.time, ...shown], false);
       plot.setScale('x', {min: series.time[0], max: series.time.at(-1) ?? 1});
-    }
+    });
+  }
+
+  /** Every linked panel tells the same selection: the first one counts. @param {number} from @param {number} to */
+  selected(from, to) {
+    if (this.selecting) return;
+    this.selecting = true;
+    setTimeout(() => {
+      this.selecting = false;
+    });
+    this.zoom(from, to);
+  }
+
+  /** Another file is shown: nothing of the last one stays. */
+  clear() {
+    ++this.asked;
+    this.key = '';
+    this.from = this.to = null;
+    for (const p of this.plots) p.destroy();
+    this.plots = [];
+    this.place.replaceChildren();
   }
 
   /** @param {number|null} from @param {number|null} to null: all */
@@ -140,7 +162,7 @@ export class Panels {
     this.from = from;
     this.to = to;
     clearTimeout(this.timer);
-    if (from !== null && to !== null) for (const {plot} of this.plots) plot.setScale('x', {min: from, max: to});
+    if (from !== null && to !== null) for (const plot of this.plots) plot.setScale('x', {min: from, max: to});
     this.timer = setTimeout(() => {
       void this.load(false);
       this.moved(this.from, this.to);
@@ -183,7 +205,7 @@ export class Panels {
   /** @param {string} name @param {number} t */
   mark(name, t) {
     this.marks[name] = t;
-    for (const {plot} of this.plots) plot.redraw();
+    for (const plot of this.plots) plot.redraw();
     const {A, B} = this.marks;
     const out = this.place.parentElement?.querySelector('.marks');
     if (!out) return;
@@ -210,7 +232,7 @@ export class Panels {
   }
 
   resize() {
-    for (const {plot} of this.plots) {
+    for (const plot of this.plots) {
       if (plot.width !== this.width()) plot.setSize({width: this.width(), height: plot.height});
     }
   }
