@@ -49,7 +49,7 @@ if(NODE AND EXISTS ${CMAKE_SOURCE_DIR}/web/node_modules/typescript)
            WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/web)
   add_test(NAME workbench_scripts COMMAND ${NODE} --test ${CMAKE_SOURCE_DIR}/tests/web/)
   add_test(NAME workbench_walk COMMAND ${NODE} ${CMAKE_SOURCE_DIR}/tests/workbench/walk.mjs $<TARGET_FILE:ambrig> ${CMAKE_SOURCE_DIR})
-  set_tests_properties(workbench_walk PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 600)
+  set_tests_properties(workbench_walk PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
 endif()
 # docs/third_party.md lists what is linked.
 add_test(NAME third_party COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_third_party.py ${CMAKE_BINARY_DIR}

@@ -30,8 +30,7 @@ Jobs::Jobs(const ServedFolder& folder, std::string program, EventLog& events)
     : folder_(folder), program_(std::move(program)), events_(events) {
   std::error_code error;
   fs::create_directories(fs::path(folder_.path()) / ".ambrig" / "jobs", error);
-  if (!error)
-    fs::permissions(fs::path(folder_.path()) / ".ambrig", fs::perms::owner_all, error);
+  if (!error) fs::permissions(fs::path(folder_.path()) / ".ambrig", fs::perms::owner_all, error);
   if (error) throw InputError(fmt::format("{}/.ambrig: {}", folder_.path(), error.message()));
   ReadEarlier();
   for (int k = 0; k < kHeavyAtOnce + kLightAtOnce; ++k) workers_.emplace_back([this] { Work(); });

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestText = 16 << 20;  // [bytes]
+constexpr std::size_t kLargestReference = 16 << 20;  // [bytes]
 /// Keys whose text is the name of a file that is read.
 constexpr const char* kFileKeys[] = {"rig",           "scenario", "data",     "file",
                                      "commissioning", "campaign", "baseline", "tolerances"};
@@ -30,7 +30,7 @@ class ReferenceWalk {
       const std::string text = folder_.Has(name) ? "" : folder_.Read(name, 0);  // says why not
       return;
     }
-    const TomlTable root = TomlTable::FromText(folder_.Read(name, kLargestText), name);
+    const TomlTable root = TomlTable::FromText(folder_.Read(name, kLargestReference), name);
     Table(root, name);
   }
 

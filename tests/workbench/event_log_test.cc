@@ -43,7 +43,8 @@ TEST(EventLog, WakesWhoWaits) {
   log.Close();
   listener.join();
   EXPECT_EQ(ended, "");
-  EXPECT_TRUE(heard.empty() || heard == "{\"event\":\"x\",\"seq\":1}\n");  // closed before it looked
+  EXPECT_TRUE(heard.empty() ||
+              heard == "{\"event\":\"x\",\"seq\":1}\n");  // closed before it looked
 }
 
 }  // namespace

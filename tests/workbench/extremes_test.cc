@@ -31,7 +31,8 @@ TEST(Extremes, AreThoseOfBruteForce) {
     std::vector<double> samples(rows);
     for (double& s : samples) s = random() % 10 == 0 ? NAN : noise(random);
     if (rows > 300) std::fill(samples.begin() + 100, samples.begin() + 290, NAN);  // a long gap
-    const std::size_t a = rows == 0 ? 0 : random() % rows, b = rows == 0 ? 0 : random() % (rows + 1);
+    const std::size_t a = rows == 0 ? 0 : random() % rows,
+                      b = rows == 0 ? 0 : random() % (rows + 1);
     const std::size_t first = std::min(a, b), last = std::max(a, b), columns = 1 + random() % 400;
     const ExtremesLevel level(samples);
     const auto thinned = ThinnedExtremes(samples, level, first, last, columns);

@@ -1,11 +1,11 @@
 #pragma once
 /// A server of its own and raw requests to it, so that a test may say anything a browser would not.
 #include <arpa/inet.h>
-#include <csignal>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <csignal>
 
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -36,10 +36,11 @@ class ServedBench : public BenchFolder {
   void Serve() {
     const std::string file = (base_ / "address").string();
     std::filesystem::remove(file);
-    const std::string line = "exec " AMBRIG_BINARY " serve " + served() + " --address-file " + file +
-                             " > " + (base_ / "log").string() + " 2>&1";
+    const std::string line = "exec " AMBRIG_BINARY " serve " + served() + " --address-file " +
+                             file + " > " + (base_ / "log").string() + " 2>&1";
     const char* argv[] = {"sh", "-c", line.c_str(), nullptr};
-    ASSERT_EQ(::posix_spawn(&server_, "/bin/sh", nullptr, nullptr, const_cast<char**>(argv), environ), 0);
+    ASSERT_EQ(
+        ::posix_spawn(&server_, "/bin/sh", nullptr, nullptr, const_cast<char**>(argv), environ), 0);
     for (int k = 0; k < 600 && !std::filesystem::exists(file); ++k)
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const std::string address = Text("address");
@@ -78,7 +79,8 @@ class ServedBench : public BenchFolder {
     ::shutdown(s, SHUT_WR);
     std::string out;
     char block[1 << 14];
-    for (ssize_t n; (n = ::recv(s, block, sizeof block, 0)) > 0;) out.append(block, static_cast<std::size_t>(n));
+    for (ssize_t n; (n = ::recv(s, block, sizeof block, 0)) > 0;)
+      out.append(block, static_cast<std::size_t>(n));
     ::close(s);
     return out;
   }
@@ -101,7 +103,8 @@ class ServedBench : public BenchFolder {
   nlohmann::json Ended(int id) const {
     for (int k = 0; k < 3000; ++k) {
       const nlohmann::json state = Ask("GET", "/api/jobs/" + std::to_string(id)).Json();
-      if (state.value("state", "") != "queued" && state.value("state", "") != "running") return state;
+      if (state.value("state", "") != "queued" && state.value("state", "") != "running")
+        return state;
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
     return {};

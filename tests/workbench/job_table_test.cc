@@ -19,7 +19,8 @@ class JobTable : public BenchFolder {
     BenchFolder::SetUp();
     Write("served/rig.toml", "name = \"r\"\n");
     Write("served/s.toml", "rig = \"rig.toml\"\n");
-    Write("served/case.toml", "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"sub/b.csv\"\n");
+    Write("served/case.toml",
+          "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"sub/b.csv\"\n");
   }
   std::string Refusal(const json& request) const {
     try {
@@ -33,12 +34,16 @@ class JobTable : public BenchFolder {
 
 TEST_F(JobTable, MakesTheCommandThatAPersonCouldType) {
   const ServedFolder folder(served());
-  const JobOrder order = CheckJob({{"command", "adopt"}, {"case", "case.toml"}, {"effect", "cross-coupling"},
-                                   {"target", "A"}, {"rig", "rig_2.toml"}, {"new_case", "case_2.toml"}},
+  const JobOrder order = CheckJob({{"command", "adopt"},
+                                   {"case", "case.toml"},
+                                   {"effect", "cross-coupling"},
+                                   {"target", "A"},
+                                   {"rig", "rig_2.toml"},
+                                   {"new_case", "case_2.toml"}},
                                   folder, ".ambrig/jobs/1");
-  EXPECT_THAT(order.arguments,
-              ElementsAre("adopt", "case.toml", "cross-coupling", "--target", "A", "--output", "rig_2.toml",
-                          "--case", "case_2.toml", "--html", ".ambrig/jobs/1/report.html"));
+  EXPECT_THAT(order.arguments, ElementsAre("adopt", "case.toml", "cross-coupling", "--target", "A",
+                                           "--output", "rig_2.toml", "--case", "case_2.toml",
+                                           "--html", ".ambrig/jobs/1/report.html"));
   EXPECT_EQ(order.subject, "case.toml");
   EXPECT_THAT(order.new_files, ElementsAre("rig_2.toml", "case_2.toml"));
 }
@@ -51,17 +56,25 @@ TEST_F(JobTable, RefusesWhatIsNotInIt) {
   EXPECT_THAT(Refusal({{"command", "compare"}}), HasSubstr("case: is missing"));
   EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}, {"--force", "x"}}),
               HasSubstr("is no argument of compare"));
-  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", {"case.toml"}}}), HasSubstr("allowed: a file"));
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", {"case.toml"}}}),
+              HasSubstr("allowed: a file"));
 }
 
 TEST_F(JobTable, ArgumentsAreNoOptionsAndNoPaths) {
   for (const char* effect : {"--force", "-o", "", "a b", "../x", "x;y", "$(id)", "a\nb"})
-    EXPECT_NE(Refusal({{"command", "adopt"}, {"case", "case.toml"}, {"effect", effect}, {"rig", "r2.toml"},
+    EXPECT_NE(Refusal({{"command", "adopt"},
+                       {"case", "case.toml"},
+                       {"effect", effect},
+                       {"rig", "r2.toml"},
                        {"new_case", "c2.toml"}}),
               "")
         << effect;
-  for (const char* file : {"../x.toml", "/tmp/x.toml", "-x.toml", "x.h5", ".x.toml", "case.toml", "sub/../x.toml"})
-    EXPECT_NE(Refusal({{"command", "adopt"}, {"case", "case.toml"}, {"effect", "e"}, {"rig", file},
+  for (const char* file :
+       {"../x.toml", "/tmp/x.toml", "-x.toml", "x.h5", ".x.toml", "case.toml", "sub/../x.toml"})
+    EXPECT_NE(Refusal({{"command", "adopt"},
+                       {"case", "case.toml"},
+                       {"effect", "e"},
+                       {"rig", file},
                        {"new_case", "c2.toml"}}),
               "")
         << file;
@@ -73,10 +86,12 @@ TEST_F(JobTable, ArgumentsAreNoOptionsAndNoPaths) {
 TEST_F(JobTable, FilesThatNameOthersOutsideAreRefused) {
   EXPECT_EQ(Refusal({{"command", "compare"}, {"case", "case.toml"}}), "");
   Write("served/s.toml", "rig = \"../other/secret.toml\"\n");
-  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}), HasSubstr("outside the served folder"));
-  Write("served/s.toml", "rig = \"rig.toml\"\n[[excitation]]\nfile = \"" + (base_ / "other/secret.toml").string() +
-                             "\"\n");
-  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}), HasSubstr("outside the served folder"));
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}),
+              HasSubstr("outside the served folder"));
+  Write("served/s.toml", "rig = \"rig.toml\"\n[[excitation]]\nfile = \"" +
+                             (base_ / "other/secret.toml").string() + "\"\n");
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}),
+              HasSubstr("outside the served folder"));
   Write("served/s.toml", "rig = \"rig.toml\"\n[[excitation]]\nfile = \"link.csv\"\n");
   std::filesystem::create_symlink(base_ / "other" / "secret.toml", base_ / "served" / "link.csv");
   EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}), HasSubstr("is a link"));

@@ -37,25 +37,25 @@ TEST(RequestGuard, TakesThePageOfThisServer) {
 
 TEST(RequestGuard, RefusesOtherHosts) {
   for (const char* host : {"evil.com", "127.0.0.1.evil.com", "localhost.evil.com", "evil.com:8080",
-                           "127.0.0.1:80:80", "127.0.0.1:", "127.0.0.1:8x", "[::1", "[::1]x", "0.0.0.0",
-                           "127.0.0.1@evil.com", "2130706433", "\x01twice"})
+                           "127.0.0.1:80:80", "127.0.0.1:", "127.0.0.1:8x", "[::1", "[::1]x",
+                           "0.0.0.0", "127.0.0.1@evil.com", "2130706433", "\x01twice"})
     EXPECT_FALSE(Allowed({{"host", host}})) << host;
   EXPECT_FALSE(Allowed({{"host", ""}}));
   EXPECT_FALSE(Allowed({{"host", "evil.com"}}, true));  // the page itself too
 }
 
 TEST(RequestGuard, RefusesOtherPages) {
-  for (const char* origin : {"http://evil.com", "null", "https://127.0.0.1:8080", "http://127.0.0.1:8081",
-                             "http://localhost:8080"})
+  for (const char* origin : {"http://evil.com", "null", "https://127.0.0.1:8080",
+                             "http://127.0.0.1:8081", "http://localhost:8080"})
     EXPECT_FALSE(Allowed({{"origin", origin}})) << origin;
   for (const char* site : {"cross-site", "same-site", "anything"})
     EXPECT_FALSE(Allowed({{"sec-fetch-site", site}})) << site;
 }
 
 TEST(RequestGuard, WantsItsToken) {
-  for (const std::string& token : {std::string(), std::string("Bearer "), "Bearer " + std::string(64, 'b'),
-                                   "Bearer " + kToken + "a", "Bearer " + kToken.substr(1), kToken,
-                                   "Basic " + kToken})
+  for (const std::string& token :
+       {std::string(), std::string("Bearer "), "Bearer " + std::string(64, 'b'),
+        "Bearer " + kToken + "a", "Bearer " + kToken.substr(1), kToken, "Basic " + kToken})
     EXPECT_FALSE(Allowed({{"authorization", token}})) << token;
   EXPECT_TRUE(Allowed({{"authorization", ""}}, true));  // the page holds nothing
   // A link on another page may open ours, but not frame it or load its scripts.

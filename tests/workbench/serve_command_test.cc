@@ -23,7 +23,8 @@ class Serve : public ServedBench {
     ServedBench::Serve();
   }
   std::string With(const std::string& host, const std::string& more) const {
-    return "GET /api/folder HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n" + more + "\r\n";
+    return "GET /api/folder HTTP/1.1\r\nHost: " + host + "\r\nConnection: close\r\n" + more +
+           "\r\n";
   }
   std::string Token() const { return "Authorization: Bearer " + token_ + "\r\n"; }
 };
@@ -61,8 +62,9 @@ TEST_F(Serve, RefusesOtherPagesAndUsers) {
 
 TEST_F(Serve, PathTricksShowNothingOutside) {
   for (const char* path :
-       {"../other/secret.toml", "%2e%2e/other/secret.toml", "sub/../../other/secret.toml", "..%2fother%2fsecret.toml",
-        "/etc/passwd", "%2fetc%2fpasswd", "a.toml%00.csv", ".ambrig/server", "....//other/secret.toml", "sub"}) {
+       {"../other/secret.toml", "%2e%2e/other/secret.toml", "sub/../../other/secret.toml",
+        "..%2fother%2fsecret.toml", "/etc/passwd", "%2fetc%2fpasswd", "a.toml%00.csv",
+        ".ambrig/server", "....//other/secret.toml", "sub"}) {
     const Answer a = Ask("GET", std::string("/api/file?p=") + path);
     EXPECT_EQ(a.status, 400) << path;
     EXPECT_THAT(a.body, Not(HasSubstr("secret =")));
@@ -84,7 +86,9 @@ TEST_F(Serve, FilesAreWrittenAgainstTheirVersion) {
   EXPECT_EQ(Text("served/a.toml"), "x = 2\n");
   EXPECT_EQ(Ask("POST", "/api/undo/" + written.Json()["step"].dump()).status, 200);
   EXPECT_EQ(Text("served/a.toml"), "x = 1\n");
-  EXPECT_EQ(Ask("PUT", "/api/file?p=a.toml", std::string(2 << 20, 'x'), "If-Match: " + tag + "\r\n").status, 413);
+  EXPECT_EQ(Ask("PUT", "/api/file?p=a.toml", std::string(2 << 20, 'x'), "If-Match: " + tag + "\r\n")
+                .status,
+            413);
   EXPECT_EQ(Ask("PUT", "/api/upload?p=log.csv", std::string(2 << 20, 'x')).status, 201);
   EXPECT_EQ(std::filesystem::file_size(base_ / "served" / "log.csv"), 2u << 20);
   EXPECT_EQ(Ask("PUT", "/api/upload?p=log.csv", "y").status, 400);  // never over another
@@ -134,11 +138,39 @@ TEST_F(Serve, AWrongCommandFailsWithItsLine) {
 // Whatever comes, the server answers the next request.
 TEST_F(Serve, RandomRequestsLeaveItWell) {
   std::mt19937_64 random(11);
-  const std::vector<std::string> parts = {
-      "GET", "PUT", "POST", "DELETE", " ", "/", "/api/", "jobs", "file?p=", "series?c=", "&px=-1", "%", "%00", "..",
-      "HTTP/1.1", "\r\n", "\r\n\r\n", "Host: ", "127.0.0.1", "Authorization: Bearer " + token_, "Content-Length: ",
-      "99999999999999999999", "-1", "Transfer-Encoding: chunked", "{", "}", "\"command\":", "\x80\xff", ":", "0",
-      "ffffffffffffffff\r\n", std::string("\0", 1), std::string(3000, 'a')};
+  const std::vector<std::string> parts = {"GET",
+                                          "PUT",
+                                          "POST",
+                                          "DELETE",
+                                          " ",
+                                          "/",
+                                          "/api/",
+                                          "jobs",
+                                          "file?p=",
+                                          "series?c=",
+                                          "&px=-1",
+                                          "%",
+                                          "%00",
+                                          "..",
+                                          "HTTP/1.1",
+                                          "\r\n",
+                                          "\r\n\r\n",
+                                          "Host: ",
+                                          "127.0.0.1",
+                                          "Authorization: Bearer " + token_,
+                                          "Content-Length: ",
+                                          "99999999999999999999",
+                                          "-1",
+                                          "Transfer-Encoding: chunked",
+                                          "{",
+                                          "}",
+                                          "\"command\":",
+                                          "\x80\xff",
+                                          ":",
+                                          "0",
+                                          "ffffffffffffffff\r\n",
+                                          std::string("\0", 1),
+                                          std::string(3000, 'a')};
   for (int k = 0; k < 2000; ++k) {
     std::string bytes = k % 2 == 0 ? Head("GET", "/api/") : "";
     if (k % 2 == 0) bytes.insert(random() % bytes.size(), parts[random() % parts.size()]);
@@ -173,7 +205,8 @@ TEST_F(Serve, SlowAndManyClients) {
   EXPECT_EQ(answered, 100);
   char text[4096];
   const ssize_t n = ::recv(listeners[0], text, sizeof text, 0);
-  EXPECT_THAT(std::string(text, static_cast<std::size_t>(std::max<ssize_t>(n, 0))), HasSubstr("200 OK"));
+  EXPECT_THAT(std::string(text, static_cast<std::size_t>(std::max<ssize_t>(n, 0))),
+              HasSubstr("200 OK"));
   for (const int s : listeners) ::close(s);
   ::close(slow);
   EXPECT_EQ(Kill(SIGINT), 0);
@@ -185,10 +218,13 @@ TEST_F(Serve, OneServerAFolder) {
 
 // After kill -9 the next server knows what was done, and a job that was cut off says so.
 TEST_F(Serve, AKilledServerLosesNothing) {
-  const int done = Ask("POST", "/api/jobs", R"({"command":"run","scenario":"short.toml"})").Json()["id"];
+  const int done =
+      Ask("POST", "/api/jobs", R"({"command":"run","scenario":"short.toml"})").Json()["id"];
   EXPECT_EQ(Ended(done)["state"], "done");
-  Write("served/long.toml", "name = \"long\"\nrig = \"rig.toml\"\nduration = 60\nrecord_rate = 1000.0\n");
-  const int cut = Ask("POST", "/api/jobs", R"({"command":"run","scenario":"long.toml"})").Json()["id"];
+  Write("served/long.toml",
+        "name = \"long\"\nrig = \"rig.toml\"\nduration = 60\nrecord_rate = 1000.0\n");
+  const int cut =
+      Ask("POST", "/api/jobs", R"({"command":"run","scenario":"long.toml"})").Json()["id"];
   std::string state;
   for (int k = 0; k < 100 && state != "running"; ++k) {
     state = Ask("GET", "/api/jobs/" + std::to_string(cut)).Json()["state"];
@@ -203,7 +239,8 @@ TEST_F(Serve, AKilledServerLosesNothing) {
   EXPECT_EQ(Ask("POST", "/api/undo/" + std::to_string(step)).status, 200);
   EXPECT_FALSE(std::filesystem::exists(base_ / "served" / "new.toml"));
   // The old token is worth nothing, new jobs do not overwrite old ones.
-  const int next = Ask("POST", "/api/jobs", R"({"command":"run","scenario":"short.toml"})").Json()["id"];
+  const int next =
+      Ask("POST", "/api/jobs", R"({"command":"run","scenario":"short.toml"})").Json()["id"];
   EXPECT_GT(next, cut);
   EXPECT_EQ(Ended(next)["state"], "done");
 }

@@ -24,10 +24,12 @@ TEST_F(Served, RefusesNamesThatLeaveIt) {
   const ServedFolder folder(served());
   for (const std::string& name :
        {std::string("../other/secret.toml"), (base_ / "other/secret.toml").string(),
-        std::string("sub/../../other/secret.toml"), std::string("sub/..//a.toml"), std::string(".ambrig/x.toml"),
-        std::string("sub/.hidden.toml"), std::string(""), std::string("/"), std::string("sub"), std::string("a"),
-        std::string("-o.toml"), std::string("a.toml\n"), std::string("a.exe"), std::string("a\0b.toml", 8),
-        std::string("..\\other\\secret.toml"), std::string(2000, 'a') + ".toml", std::string("/proc/self/environ")})
+        std::string("sub/../../other/secret.toml"), std::string("sub/..//a.toml"),
+        std::string(".ambrig/x.toml"), std::string("sub/.hidden.toml"), std::string(""),
+        std::string("/"), std::string("sub"), std::string("a"), std::string("-o.toml"),
+        std::string("a.toml\n"), std::string("a.exe"), std::string("a\0b.toml", 8),
+        std::string("..\\other\\secret.toml"), std::string(2000, 'a') + ".toml",
+        std::string("/proc/self/environ")})
     EXPECT_THROW(folder.Read(name, 1000), InputError) << name;
 }
 
@@ -63,7 +65,8 @@ TEST_F(Served, WritesWholeFiles) {
   EXPECT_EQ(Text("served/a.toml").size(), 1u << 20);
   EXPECT_THROW(folder.Write("missing/new.toml", "y"), InputError);
   std::size_t files = 0;  // no temporary one is left
-  for (const auto& e : std::filesystem::recursive_directory_iterator(served())) files += e.is_regular_file();
+  for (const auto& e : std::filesystem::recursive_directory_iterator(served()))
+    files += e.is_regular_file();
   EXPECT_EQ(files, 3u);
 }
 

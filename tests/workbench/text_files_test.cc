@@ -13,7 +13,8 @@ namespace {
 using ::testing::HasSubstr;
 
 const std::string kCase =
-    "# mine\nrig = \"rig.toml\"\n\n[[record]]\nscenario = \"s.toml\"\ndata = \"x/one.h5\"  # first\n\n"
+    "# mine\nrig = \"rig.toml\"\n\n[[record]]\nscenario = \"s.toml\"\ndata = \"x/one.h5\"  # "
+    "first\n\n"
     "[[record]]\nscenario = \"s.toml\"\ndata = \"two.h5\"\n[record.channels]\n\"A.x\" = \"pos\"\n";
 
 class TextEdits : public BenchFolder {
@@ -61,7 +62,8 @@ TEST_F(TextEdits, AreUndoneUnlessChangedSince) {
 TEST_F(TextEdits, MendWritesTheLineUnderItsRecord) {
   const ServedFolder folder(served());
   TextFiles files(folder);
-  const auto done = files.Mend("case.toml", "practice/x/one.h5", "channels.\"A.i3\" = { unit = \"mA\" }");
+  const auto done =
+      files.Mend("case.toml", "practice/x/one.h5", "channels.\"A.i3\" = { unit = \"mA\" }");
   EXPECT_EQ(done["line"], 7);
   std::string wanted = kCase;
   wanted.insert(wanted.find("# first\n") + 8, "channels.\"A.i3\" = { unit = \"mA\" }\n");

@@ -146,7 +146,7 @@ async function mainFlow(page, address) {
   say('explain stopped');
   await resume.click();
   const adopt = page.getByRole('button', {name: 'Adopt cross-coupling at A'});
-  await adopt.waitFor({timeout: 300000});
+  await adopt.waitFor({timeout: 480000});
   say('explain names cross-coupling at A');
   assert.match(await page.locator('.names').innerText(), /cross-coupling at A/);
   assert.match(await page.locator('section.explain').innerText(), /of the error above the noise is explained/);

@@ -43,7 +43,10 @@ export function resultOf(command, file) {
 /** @param {{command: string} & Record<string, string|number>} order */
 export async function startJob(order) {
   try {
-    takeJob(await post('/api/jobs', order));
+    if (state.notice?.step === null) state.notice = null;
+    const job = await post('/api/jobs', order);
+    // Its events may have come before this answer: they know more.
+    if (!state.jobs.some((j) => j.id === job.id)) takeJob(job);
   } catch (error) {
     tellError(error);
   }

@@ -67,7 +67,7 @@ function closure(e) {
   if (!c) return nothing;
   const before = ratio(c.floors_before), after = ratio(c.floors_after);
   const test = typeof c.test?.before === 'number' ? html`; unseen records ${ratio(c.test.before)} \u2192 ${ratio(c.test.after)}` : nothing;
-  return html`<h3>Closure</h3><p>${Math.round(100 * c.explained)} % of the error above the noise is explained: ${before} \u2192 ${after} floors${test}.</p>
+  return html`<h3>Closure</h3><p>${c.explained > 0.99 ? '> 99' : Math.round(100 * c.explained)} % of the error above the noise is explained: ${before} \u2192 ${after} floors${test}.</p>
     <h3>Remainder</h3><p>${e.remainder?.text ?? ''}</p>
     ${(e.remainder?.where ?? []).length > 0 ? html`<ul>${e.remainder.where.slice(0, 6).map((/** @type {any} */ w) =>
       html`<li>${w.channel} in ${w.record}: ${ratio(w.ratio)} times the noise</li>`)}</ul>` : nothing}`;
