@@ -23,7 +23,8 @@ constexpr std::size_t kLargestText = 1 << 20;  // [bytes]
 std::string KindOfToml(const TomlTable& t) {
   if (t.Has("record")) return "case";
   if (t.Has("rotor") && t.Has("bearings")) return "rig";
-  if (t.Has("sets") || t.Has("faults") || t.Has("sweep") || t.Has("spread")) return "campaign";
+  for (const char* key : {"scenarios", "seeds", "operation", "plants", "draws", "spread"})
+    if (t.Has(key)) return "campaign";
   if (t.Has("duration")) return "scenario";
   return "other";
 }

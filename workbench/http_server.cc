@@ -64,9 +64,11 @@ MHD_Result TakeHeader(void* out, MHD_ValueKind, const char* name, const char* va
   return MHD_YES;
 }
 
-MHD_Result TakeQuery(void* out, MHD_ValueKind, const char* name, const char* value) {
-  static_cast<std::map<std::string, std::string>*>(out)->emplace(name,
-                                                                 value == nullptr ? "" : value);
+/// With lengths, as a value may hold a zero byte.
+MHD_Result TakeQuery(void* out, MHD_ValueKind, const char* name, std::size_t name_size,
+                     const char* value, std::size_t value_size) {
+  static_cast<std::map<std::string, std::string>*>(out)->emplace(
+      std::string(name, name_size), value == nullptr ? "" : std::string(value, value_size));
   return MHD_YES;
 }
 
@@ -115,7 +117,7 @@ MHD_Result Begin(HttpHandler& handler, MHD_Connection* connection, const char* u
   r.method = method;
   r.path = url;
   MHD_get_connection_values(connection, MHD_HEADER_KIND, TakeHeader, &r.headers);
-  MHD_get_connection_values(connection, MHD_GET_ARGUMENT_KIND, TakeQuery, &r.query);
+  MHD_get_connection_values_n(connection, MHD_GET_ARGUMENT_KIND, TakeQuery, &r.query);
   if (const auto refusal = handler.Refuse(r)) return Send(connection, *refusal);
   r.upload = handler.UploadFile(r);
   if (!r.upload.empty()) {

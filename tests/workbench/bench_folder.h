@@ -20,7 +20,7 @@ class BenchFolder : public ::testing::Test {
     std::filesystem::create_directories(base_ / "other");
     Write("other/secret.toml", "secret = 1\n");
     Write("served/a.toml", "x = 1\n");
-    Write("served/sub/b.csv", "t,x\n0,1\n");
+    Write("served/sub/b.csv", "t,x\n0,1\n1,2\n");
   }
   void TearDown() override { std::filesystem::remove_all(base_); }
 

@@ -15,7 +15,7 @@ class Served : public BenchFolder {};
 TEST_F(Served, ReadsWhatIsItsOwn) {
   const ServedFolder folder(served());
   EXPECT_EQ(folder.Read("a.toml", 100), "x = 1\n");
-  EXPECT_EQ(folder.Read("sub/b.csv", 100), "t,x\n0,1\n");
+  EXPECT_EQ(folder.Read("sub/b.csv", 100), "t,x\n0,1\n1,2\n");
   EXPECT_THROW(folder.Read("a.toml", 3), InputError);
   EXPECT_THROW(folder.Read("missing.toml", 3), InputError);
 }
