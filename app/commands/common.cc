@@ -23,7 +23,7 @@ void CommonOptions::AddTo(CLI::App& command) {
   if (command.get_option_no_throw("--events") == nullptr)  // `diff` compares events, in no time
     command
         .add_option_function<int>(
-            "--events", [](int file) { Events().Open(file); },
+            "--events", [](int file) { Events().Open(file, &interrupted); },
             "write stages, progress and the end as JSON lines to this open file descriptor")
         ->type_name("FD")
         ->check(CLI::Range(0, 1 << 20));

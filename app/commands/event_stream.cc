@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cmath>
 
-#include "app/commands/commands.h"
 #include "core/base/errors.h"
 
 namespace ambrig {
@@ -19,7 +18,7 @@ constexpr auto kBetweenPartials = std::chrono::seconds(1);
 
 }  // namespace
 
-void EventStream::Open(int file) {
+void EventStream::Open(int file, std::atomic<bool>* stop) {
   const int flags = ::fcntl(file, F_GETFL);
   if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY)
     throw InputError(
@@ -27,6 +26,7 @@ void EventStream::Open(int file) {
                     "caller opened, as in --events 3 3>events.jsonl",
                     file));
   begin_ = Clock::now();
+  stop_ = stop;
   file_ = file;
 }
 
@@ -48,7 +48,7 @@ void EventStream::Put(const nlohmann::ordered_json& line) {
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       file_ = -1;
-      interrupted = true;
+      *stop_ = true;
       return;
     }
     rest.remove_prefix(static_cast<std::size_t>(n));

@@ -19,8 +19,9 @@ class EventStream {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// Writes to this file descriptor from now on. @throws InputError when it cannot be written.
-  void Open(int file);
+  /// Writes to this file descriptor from now on; `stop` is set when its reader goes away.
+  /// @throws InputError when it cannot be written.
+  void Open(int file, std::atomic<bool>* stop);
   bool open() const { return file_.load(std::memory_order_relaxed) >= 0; }
 
   void Stage(std::string_view name);  // a repeated name is told once
@@ -35,6 +36,7 @@ class EventStream {
   bool Due(Clock::time_point* last, Clock::duration least);
 
   std::atomic<int> file_{-1};
+  std::atomic<bool>* stop_ = nullptr;
   std::mutex mutex_;
   std::string stage_;
   Clock::time_point begin_{}, share_{}, partial_{};
