@@ -1,6 +1,7 @@
 #include "app/json/provenance.h"
 
 #include <filesystem>
+#include <set>
 
 #include "core/base/build_id.h"
 #include "core/base/errors.h"
@@ -30,8 +31,10 @@ std::string FileHash(const std::string& path) {
 }
 
 nlohmann::ordered_json Provenance(const std::vector<std::string>& inputs) {
+  // By name: threads read in any order, and the same work writes the same bytes.
+  const std::set<std::string> sorted(inputs.begin(), inputs.end());
   nlohmann::ordered_json hashes = nlohmann::ordered_json::object();
-  for (const std::string& file : inputs) hashes[file] = FileHash(file);
+  for (const std::string& file : sorted) hashes[file] = FileHash(file);
   return {{"build", BuildId()}, {"argv", CommandLine()}, {"inputs", hashes}};
 }
 
