@@ -30,12 +30,19 @@ const say = (text) => console.log(`${((Date.now() - begin) / 1000).toFixed(1).pa
 /** A case with a hidden effect, of few records, so that explaining takes seconds. */
 function makeCase() {
   execFileSync(ambrig, ['hide', 'cross-coupling@A', '--rig', join(source, 'examples/reference/rig.toml'), '-o', 'practice', '--seed', '3'], {cwd: folder});
+  // The third practice case of this seed has a current in the wrong unit.
+  execFileSync(ambrig, ['practice', join(source, 'examples/reference/rig.toml'), '--cases', '3', '--make-only', '-o', 'spoiled'], {cwd: folder});
+  const spoiled = join(folder, 'spoiled/case-0003/case.toml');
+  keepRecords(spoiled, /record-(2|4|8)\.h5/);
   writeFileSync(join(folder, 'rig.toml'), readFileSync(join(source, 'examples/reference/rig.toml')));
   writeFileSync(join(folder, 'healthy.toml'), 'name = "healthy"\nrig = "rig.toml"\nduration = 0.15\nrecord_rate = 12500.0\nseed = 1\n\n[speed]\nprofile = [[0.0, 157.08]]\n');
   const file = join(folder, 'practice', 'case.toml');
+  keepRecords(file, /record-(1|4|8)\.h5/);
+}
+
+function keepRecords(file, which) {
   const [head, ...records] = readFileSync(file, 'utf8').split('[[record]]');
-  const kept = records.filter((r) => /record-(1|4|8)\.h5/.test(r));
-  writeFileSync(file, head + kept.map((r) => '[[record]]' + r).join(''));
+  writeFileSync(file, head + records.filter((r) => which.test(r)).map((r) => '[[record]]' + r).join(''));
 }
 
 function startServer() {
@@ -87,8 +94,8 @@ async function walk(address) {
       return existsSync(file) ? route.fulfill({path: file}) : route.fallback();
     });
   try {
-    await playground(page, address);
-    await mainFlow(page, address);
+    for (const [name, flow] of Object.entries({playground, mendData, mainFlow}))
+      if (!process.env.AMBRIG_FLOW || process.env.AMBRIG_FLOW === name) await flow(page, address);
   } catch (error) {
     await shot(page, 'failed');
     throw error;
@@ -202,6 +209,24 @@ async function playground(page, address) {
   await page.getByRole('button', {name: 'Undo'}).click();
   await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('as it was'));
   assert.ok(!existsSync(join(folder, 'healthy_2.toml')), 'undo takes the written scenario back');
+}
+
+/** A record whose unit is wrong: named, mended by a click, and taken back. */
+async function mendData(page, address) {
+  await page.goto(address);
+  await page.getByRole('link', {name: 'spoiled/case-0003/case.toml'}).click();
+  const fault = page.locator('.faults li').first();
+  await fault.waitFor({timeout: 120000});
+  assert.match(await fault.innerText(), /A\.i1: unit/);
+  await check(page, 'data-fault');
+  await page.getByRole('button', {name: 'Write this line into the case'}).click();
+  await page.locator('.faults').waitFor({state: 'detached', timeout: 120000});
+  const file = join(folder, 'spoiled/case-0003/case.toml');
+  assert.match(readFileSync(file, 'utf8'), /channels\."A\.i1" = \{ column = "A\.i1", unit = "mA" \}/);
+  await page.getByRole('button', {name: 'Undo'}).click();
+  await page.locator('.faults li').first().waitFor({timeout: 120000});
+  assert.doesNotMatch(readFileSync(file, 'utf8'), /mA/);
+  say('a wrong unit was mended and the mend undone');
 }
 
 makeCase();
