@@ -35,7 +35,8 @@ TEST_F(TextEdits, ReplaceOnlyWhatWasSeen) {
   EXPECT_EQ(Text("served/a.toml"), "x = 2\n");
   files.Replace("new.toml", "y = 1\n", "");
   EXPECT_EQ(Text("served/new.toml"), "y = 1\n");
-  EXPECT_THROW(files.Replace("sub/b.csv", "t\n", HashText("t,x\n0,1\n1,2\n")), InputError);  // data stay
+  EXPECT_THROW(files.Replace("sub/b.csv", "t\n", HashText("t,x\n0,1\n1,2\n")),
+               InputError);  // data stay
 }
 
 TEST_F(TextEdits, AreUndoneUnlessChangedSince) {

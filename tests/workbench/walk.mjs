@@ -129,7 +129,9 @@ async function mainFlow(page, address) {
   await page.goBack();
   await page.locator(`td.cell button[aria-pressed="true"][aria-label="${worst}"]`).waitFor();
 
-  // A drag zooms every panel.
+  // A drag zooms every panel, once the panels are those of the first cell again.
+  const [record, channel] = worst.split(':')[0].split(', ');
+  await page.locator(`.panel[aria-label^="${channel} ["][aria-label*="${record}"]`).waitFor();
   const over = page.locator('.panel .u-over').first();
   const box = await over.boundingBox();
   await page.mouse.move(box.x + box.width * 0.3, box.y + 30);
