@@ -36,7 +36,8 @@ export class Panels {
     this.to = null;
     this.timer = 0;
     this.asked = 0;
-    this.selecting = false;
+    /** @type {any} */
+    this.dragged = null;
     this.sync = uPlot.sync('time');
     /** @type {Record<string, number>} the cursors A and B [s] */
     this.marks = {};
@@ -108,11 +109,15 @@ export class Panels {
         return null;
       }}},
       hooks: {setSelect: [(/** @type {any} */ u) => {
-        if (u.select.width > 4) this.selected(u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x'));
+        if (u === this.dragged && u.select.width > 4) this.zoom(u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x'));
         u.setSelect({left: 0, width: 0, top: 0, height: 0}, false);
       }], draw: [(/** @type {any} */ u) => this.drawMarks(u)]},
       select: {show: true, left: 0, top: 0, width: 0, height: 0},
     }, [[0], ...lines.map(() => [null])], figure);
+    // A drag shows in every linked panel, and each tells it: the one under the pointer counts.
+    plot.over.addEventListener('mousedown', () => {
+      this.dragged = plot;
+    });
     plot.root.addEventListener('wheel', (/** @type {WheelEvent} */ e) => this.wheel(e, plot), {passive: false});
     figure.addEventListener('keydown', (e) => this.pressed(e, plot));
     this.plots.push(plot);
@@ -137,16 +142,6 @@ export class Panels {
     });
   }
 
-  /** Every linked panel tells the same selection: the first one counts. @param {number} from @param {number} to */
-  selected(from, to) {
-    if (this.selecting) return;
-    this.selecting = true;
-    setTimeout(() => {
-      this.selecting = false;
-    });
-    this.zoom(from, to);
-  }
-
   /** Another file is shown: nothing of the last one stays. */
   clear() {
     ++this.asked;
@@ -159,6 +154,7 @@ export class Panels {
 
   /** @param {number|null} from @param {number|null} to null: all */
   zoom(from, to) {
+    this.dragged = null;
     this.from = from;
     this.to = to;
     clearTimeout(this.timer);
