@@ -7,7 +7,9 @@
 #include <system_error>
 
 #include "app/commands/commands.h"
+#include "app/commands/event_stream.h"
 #include "app/commands/screen.h"
+#include "app/json/provenance.h"
 #include "core/base/errors.h"
 #include "core/base/memory_reuse.h"
 #include "core/math/no_solution.h"
@@ -62,6 +64,14 @@ std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>&
 /// Output that was not read to its end (`ambrig parameters | head`) is no error.
 bool IsClosedPipe(const std::system_error& e) { return e.code().value() == EPIPE; }
 
+/// One line for the person, the same for the program that listens.
+int Fail(int code, const std::string& what) {
+  const std::string line = ambrig::PrintableLine(what);
+  fmt::print(stderr, "ambrig: {}\n", line);
+  ambrig::Events().Done(code, line);
+  return code;
+}
+
 int Main(int argc, char** argv) {
   ambrig::KeepFreedMemory();
   CLI::App app{
@@ -92,29 +102,27 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, [](int) { ambrig::interrupted = true; });
   std::signal(SIGTERM, [](int) { ambrig::interrupted = true; });
   std::signal(SIGPIPE, SIG_IGN);
+  ambrig::SetCommandLine(argc, argv);
   try {
-    return Main(argc, argv);
+    const int code = Main(argc, argv);
+    ambrig::Events().Done(code);
+    return code;
   } catch (const ambrig::InputError& e) {
-    fmt::print(stderr, "ambrig: {}\n", ambrig::PrintableLine(e.what()));
-    return 2;
+    return Fail(2, e.what());
   } catch (const ambrig::NoSolution& e) {
-    fmt::print(stderr, "ambrig: {}\n", ambrig::PrintableLine(e.what()));
-    return 2;
+    return Fail(2, e.what());
   } catch (const ambrig::Interrupted&) {
     fmt::print(stderr, "ambrig: interrupted, nothing half-written is left\n");
+    ambrig::Events().Done(130, "interrupted");
     return 130;
   } catch (const std::filesystem::filesystem_error& e) {
-    fmt::print(stderr, "ambrig: {}: {}\n", e.path1().string(), e.code().message());
-    return 2;
+    return Fail(2, fmt::format("{}: {}", e.path1().string(), e.code().message()));
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "ambrig: this needs more memory than the machine has\n");
-    return 2;
+    return Fail(2, "this needs more memory than the machine has");
   } catch (const std::system_error& e) {
     if (IsClosedPipe(e)) return 0;
-    fmt::print(stderr, "ambrig: program error: {}\n", ambrig::PrintableLine(e.what()));
-    return 3;
+    return Fail(3, fmt::format("program error: {}", e.what()));
   } catch (const std::exception& e) {
-    fmt::print(stderr, "ambrig: program error: {}\n", ambrig::PrintableLine(e.what()));
-    return 3;
+    return Fail(3, fmt::format("program error: {}", e.what()));
   }
 }

@@ -48,6 +48,15 @@ add_test(NAME unity_names COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tool
 # No file over 300 lines, no function over 60.
 add_test(NAME sizes COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_sizes.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# The workbench: its scripts' types and computations, and a walk through its main flow in Chromium.
+find_program(NODE node)
+if(NODE AND EXISTS ${CMAKE_SOURCE_DIR}/web/node_modules/typescript)
+  add_test(NAME workbench_types COMMAND ${NODE} node_modules/typescript/bin/tsc -p tsconfig.json
+           WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}/web)
+  add_test(NAME workbench_scripts COMMAND ${NODE} --test ${CMAKE_SOURCE_DIR}/tests/web/)
+  add_test(NAME workbench_walk COMMAND ${NODE} ${CMAKE_SOURCE_DIR}/tests/workbench/walk.mjs $<TARGET_FILE:ambrig> ${CMAKE_SOURCE_DIR})
+  set_tests_properties(workbench_walk PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+endif()
 # docs/third_party.md lists what is linked.
 add_test(NAME third_party COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_third_party.py ${CMAKE_BINARY_DIR}
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

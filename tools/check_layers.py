@@ -32,7 +32,8 @@ MAY_INCLUDE = {
     "discovery": "core actuators control rotor effects rig scenarios simulation analysis analysis/linear",
     "campaign": "core effects fdd faulttolerance rig scenarios simulation",
     "design": "core control rig scenarios simulation analysis/linear campaign",
-    "app": "core control effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd",
+    "workbench": "core",
+    "app": "core control effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd workbench",
     "bench": "core actuators rotor control fdd faulttolerance effects rig scenarios simulation discovery",
 }
 
@@ -84,6 +85,7 @@ DOORS = {
     "core/record/mat_library.h": ["core/record/mat.cc", "core/record/mat_library.cc", "core/record/mat_writer.cc",
                                   "core/record/mat_structs.h", "core/record/mat_structs.cc"],
     "core/record/mat_structs.h": ["core/record/mat.cc", "core/record/mat_structs.cc"],
+    "microhttpd.h": ["workbench/http_server.cc"],
     "ode/": ["rotor/contact/ode_world.cc"],
     "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model/model.cc",
                    "discovery/search/screen.cc"],

@@ -17,6 +17,7 @@ packages=(
   libeigen3-dev liblapack-dev libslicot-dev libsundials-dev libode-dev           # physics
   libceres-dev libnlopt-dev libnlopt-cxx-dev libmuparser-dev                     # fits, formulas
   libtbb-dev librandom123-dev                                                    # threads, noise
+  libmicrohttpd-dev                                                              # workbench
   libgtest-dev libgmock-dev libbenchmark-dev                                     # tests, bench
 )
 for option in "$@"; do
@@ -60,7 +61,7 @@ fi
 installed=web/node_modules/.package-lock.json
 if [ ! -e "$installed" ] || [ web/package.json -nt "$installed" ] ||
    [ web/package-lock.json -nt "$installed" ]; then
-  echo "setup: fetching the plotting library (npm, web/package.json)"
+  echo "setup: fetching the libraries of the pages (npm, web/package.json)"
   npm ci --prefix web --no-audit --no-fund --loglevel=error
   touch "$installed"
 fi

@@ -9,6 +9,8 @@
 #include "app/json/discovery_json.h"
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
+#include "core/base/read_file.h"
+#include "discovery/case/case_file.h"
 #include "discovery/decision/adopt.h"
 
 namespace ambrig {
@@ -17,7 +19,7 @@ namespace {
 
 struct AdoptCommand {
   CommonOptions common;
-  std::string file, effect, target, output;
+  std::string file, effect, target, output, new_case;
 };
 
 void PrintAdoption(const Adoption& a, const std::string& output) {
@@ -35,10 +37,12 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
              a.before.ratio);
 }
 
-nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output) {
+nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output,
+                                    const std::string& new_case) {
   nlohmann::ordered_json json = CompareJson(a.after);
   json["before"] = CompareJson(a.before);
   json["rig"] = output;
+  if (!new_case.empty()) json["case"] = new_case;
   json["converged"] = a.fit.converged;
   json["warnings"] = a.fit.warnings;
   for (const LadderStep& s : a.ladder)
@@ -53,16 +57,18 @@ int RunAdopt(const AdoptCommand& o) {
   const std::string output =
       !o.output.empty() ? o.output
                         : (rig.parent_path() / (rig.stem().string() + "_adopted.toml")).string();
-  o.common.CheckOutputs({o.file, c.rig_file}, {output});
+  o.common.CheckOutputs({o.file, c.rig_file}, {output, o.new_case});
   Progress progress("adopt");
   ExplainOptions options;
   options.stop = &interrupted;
   options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
   const Adoption a = Adopt(c, o.effect, o.target, output, options);
   WriteFileAtomically(output, a.rig_text);
+  if (!o.new_case.empty())
+    WriteFileAtomically(o.new_case, CaseWithRig(ReadFile(o.file), o.file, output, o.new_case));
   progress.Clear();
   PrintAdoption(a, output);
-  o.common.WriteJson(AdoptionJson(a, output));
+  o.common.WriteJson(AdoptionJson(a, output, o.new_case));
   if (!o.common.html.empty())
     WriteAdoptReport(*a.model, a.before, a.after, a.ladder, o.common.html);
   return 0;
@@ -83,11 +89,18 @@ void AddAdopt(CLI::App& app, Work& work) {
       ->add_option("-o,--output", options->output,
                    "new rig file (default: RIG_adopted.toml beside the rig)")
       ->check(OutputFile());
+  command
+      ->add_option("--case", options->new_case,
+                   "also write a case file with the same records and the new rig file")
+      ->type_name("NEW_CASE")
+      ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(
       "Examples (after ambrig hide, see its --help):\n"
       "  ambrig adopt practice/case.toml sensor-gain\n"
-      "  ambrig adopt practice/case.toml eddy-currents --target A -o with_eddy.toml");
+      "  ambrig adopt practice/case.toml eddy-currents --target A -o with_eddy.toml \\\n"
+      "      --case case_2.toml\n"
+      "The second can be compared and explained again: ambrig explain case_2.toml");
   command->callback([options, &work] { work = [options] { return RunAdopt(*options); }; });
 }
 

@@ -13,6 +13,7 @@
   COMMAND(Commission)            \
   COMMAND(Paper)                 \
   COMMAND(Crosscheck)            \
+  COMMAND(Rig)                   \
   COMMAND(Rotor)                 \
   COMMAND(Design)                \
   COMMAND(Redistribute)          \
@@ -29,6 +30,7 @@
   COMMAND(Plan)                  \
   COMMAND(Hide)                  \
   COMMAND(Score)                 \
+  COMMAND(Serve)                 \
   COMMAND(Practice)
 
 namespace ambrig {

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/event_stream.h"
 #include "app/commands/outputs.h"
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
@@ -19,6 +20,13 @@ void CommonOptions::AddTo(CLI::App& command) {
   command.add_option("--html", html, "write the report as one HTML file to FILE")
       ->type_name("FILE")
       ->check(OutputFile());
+  if (command.get_option_no_throw("--events") == nullptr)  // `diff` compares events, in no time
+    command
+        .add_option_function<int>(
+            "--events", [](int file) { Events().Open(file, &interrupted); },
+            "write stages, progress and the end as JSON lines to this open file descriptor")
+        ->type_name("FD")
+        ->check(CLI::Range(0, 1 << 20));
   command.add_flag("--force", force, "overwrite files that ambrig did not make");
 }
 

@@ -5,11 +5,14 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
 #include "app/json/discovery_json.h"
 #include "app/pages/discovery_parts.h"
 #include "app/pages/discovery_report.h"
+#include "core/record/hdf5.h"
+#include "discovery/decision/comparison_series.h"
 
 namespace ambrig {
 
@@ -17,7 +20,7 @@ namespace {
 
 struct CompareOptions {
   CommonOptions common;
-  std::string file;
+  std::string file, series;
   bool no_blocks = false;
 };
 
@@ -54,7 +57,7 @@ void PrintComparison(const Comparison& comparison) {
 
 int RunCompare(const CompareOptions& o) {
   const Case c = ReadCase(o.file);
-  o.common.CheckOutputs({o.file, c.rig_file});
+  o.common.CheckOutputs({o.file, c.rig_file}, {o.series});
   for (const std::string& note : c.notes) fmt::print("{}\n", Wrapped("data: " + note, 6));
   CaseModel model(c);
   model.stop = &interrupted;
@@ -66,6 +69,8 @@ int RunCompare(const CompareOptions& o) {
   }
   PrintComparison(comparison);
   o.common.WriteJson(CompareJson(comparison));
+  if (!o.series.empty())
+    WriteHdf5Groups(ComparisonSeries(model, comparison), {{"made_by", "ambrig compare"}}, o.series);
   if (!o.common.html.empty()) WriteCompareReport(model, comparison, o.common.html);
   return 0;
 }
@@ -78,10 +83,16 @@ void AddCompare(CLI::App& app, Work& work) {
       "compare", "compare model and measurement, channel by channel and block by block");
   command->add_option("case", options->file, "case file (TOML)")->required();
   command->add_flag("--no-blocks", options->no_blocks, "skip the block tests with measured inputs");
+  command
+      ->add_option("--series", options->series,
+                   "also write every sample of measurement, model and error over noise (HDF5: a "
+                   "group per record over time, A.x.measured, A.x.model, A.x.error)")
+      ->type_name("FILE")
+      ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n  ambrig compare examples/rub/case.toml --html compare.html\n"
-      "  ambrig compare examples/rub/case.toml --no-blocks\n"
+      "  ambrig compare examples/rub/case.toml --no-blocks --series series.h5\n"
       "A case of your own to start from: ambrig hide --help. Records over time, frequency "
       "responses\n"
       "(kind = \"frf\") and static tables (kind = \"static\"): docs/guide/bench_records.md.");

@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
+#include "app/commands/rig_difference.h"
 #include "app/pages/difference_report.h"
 
 namespace ambrig {
@@ -29,6 +30,7 @@ RecordTolerances TolerancesOf(const DiffCommand& o) {
 
 int RunDiff(const DiffCommand& o) {
   o.common.CheckOutputs({o.a, o.b, o.tolerances});
+  if (IsRigFile(o.a) && IsRigFile(o.b)) return DiffRigs(o.a, o.b, o.common);
   const RecordTolerances tolerances = TolerancesOf(o);
   const RunFiles a = ReadRun(o.a), b = ReadRun(o.b);
   const RunDifference d = CompareRuns(a, b, tolerances);
@@ -48,9 +50,11 @@ int RunDiff(const DiffCommand& o) {
 
 void AddDiff(CLI::App& app, Work& work) {
   auto o = std::make_shared<DiffCommand>();
-  CLI::App* command = app.add_subcommand("diff", "two records compared within tolerances");
-  command->add_option("A", o->a, "record of before (.h5, .csv, .mat)")->required();
-  command->add_option("B", o->b, "record of now")->required();
+  CLI::App* command = app.add_subcommand(
+      "diff", "compare two records within tolerances, or two rig files: only what differs");
+  command->add_option("A", o->a, "record of before (.h5, .csv, .mat), or a rig file (.toml)")
+      ->required();
+  command->add_option("B", o->b, "record, or rig file, of now")->required();
   command->add_option("--absolute", o->absolute, "largest difference, every channel in its SI unit")
       ->check(NumberIn(0, 1e12, ""));
   command

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "app/commands/commands.h"
+#include "app/commands/event_stream.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
@@ -124,6 +125,19 @@ void PrintExplanation(const Explanation& e) {
   fmt::print("{} in {:.1f} s\n", Counted(e.runs, "record simulation"), e.seconds);
 }
 
+/// The part of the work that a progress text belongs to, for --events.
+std::string_view StageOf(std::string_view text) {
+  constexpr std::pair<std::string_view, std::string_view> kStages[] = {
+      {"noise floor", "noise"},
+      {"are the data", "data"},
+      {"rig parameters", "parameters"},
+      {"what may", "parameters"},
+      {"screening", "screening"}};
+  for (const auto& [begin, stage] : kStages)
+    if (text.starts_with(begin)) return stage;
+  return text.find("fit") != std::string_view::npos ? "fits" : "remainder";
+}
+
 int RunExplain(const ExplainCommand& o) {
   const Case c = ReadCase(o.file);
   o.common.CheckOutputs({o.file, c.rig_file}, {o.law});
@@ -144,17 +158,19 @@ int RunExplain(const ExplainCommand& o) {
     const auto begin = std::chrono::steady_clock::now();
     options.tell_runs = o.verbose;
     options.progress = [&](double f, const std::string& text) {
+      Events().Stage(StageOf(text));
       progress.Update(f, text);
       if (o.verbose)
         fmt::print(stderr, "{:7.1f} s  {:3.0f} %  {}\n",
                    std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(),
                    100 * f, text);
     };
-    if (!o.common.json.empty())
+    if (!o.common.json.empty() || Events().open())
       options.checkpoint = [&](const Explanation& partial) {
         nlohmann::ordered_json j = ExplainJson(partial);
         j["verdict"] = "unfinished";
         o.common.WriteJson(j);
+        Events().Partial(j);
       };
     e = Explain(c, options);
   }

@@ -4,8 +4,10 @@
 
 #include <filesystem>
 
+#include "app/json/provenance.h"
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
+#include "core/base/inputs_read.h"
 #include "core/base/read_file.h"
 
 namespace ambrig {
@@ -116,7 +118,7 @@ void RefuseInputAsOutput(const std::string& output, const std::vector<std::strin
 }
 
 std::string MarkedJson(nlohmann::ordered_json document) {
-  nlohmann::ordered_json marked{{"made_by", "ambrig"}};
+  nlohmann::ordered_json marked{{"made_by", "ambrig"}, {"provenance", Provenance(InputsRead())}};
   if (document.is_array()) {
     if (!document.empty() && document[0].is_object()) {
       marked.update(document[0]);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/commands/event_stream.h"
 #include "app/commands/screen.h"
 
 namespace ambrig {
@@ -70,7 +71,9 @@ std::string ProgressLine(std::string_view title, double fraction, double elapsed
 }
 
 Progress::Progress(std::string title)
-    : Progress(std::move(title), STDERR_FILENO, ::isatty(STDERR_FILENO) == 1) {}
+    : Progress(std::move(title), STDERR_FILENO, ::isatty(STDERR_FILENO) == 1) {
+  Events().Stage(title_);
+}
 
 Progress::Progress(std::string title, int file, bool draw)
     : title_(std::move(title)),
@@ -83,6 +86,7 @@ Progress::~Progress() { Clear(); }
 
 void Progress::Update(double fraction, std::string_view text) {
   TellListener(fraction);
+  Events().Share(fraction, text);
   if (!draw_) return;
   const auto now = Clock::now();
   Clock::rep due = next_.load(std::memory_order_relaxed);

@@ -1,7 +1,8 @@
 #pragma once
 /// A progress bar on stderr: text, bar, per cent, time left. Nothing at all unless stderr is a
 /// terminal. Update may be called from any thread and as often as one likes: between two redraws
-/// it costs one clock reading and one atomic load.
+/// it costs one clock reading and one atomic load. The same goes to the stream of --events
+/// (event_stream.h), where the title is the name of a stage.
 #include <atomic>
 #include <chrono>
 #include <functional>

@@ -9,11 +9,13 @@
 #include "app/commands/progress.h"
 #include "app/commands/run_size.h"
 #include "app/commands/screen.h"
+#include "app/json/provenance.h"
 #include "app/json/run_json.h"
 #include "app/pages/format.h"
 #include "app/pages/run_report_data.h"
 #include "campaign/run_plan.h"
 #include "core/base/atomic_file.h"
+#include "core/base/inputs_read.h"
 #include "core/base/read_file.h"
 #include "core/math/no_solution.h"
 #include "core/record/csv.h"
@@ -32,6 +34,7 @@ struct RunOptions {
   std::string campaign;
   long long row = -1;
   double rate = 0;
+  bool no_traces = false;
   bool csv = false, quiet = false, no_html = false, long_runs = false, keep_going = false;
 };
 
@@ -76,8 +79,9 @@ void PrintTimeline(const Scenario& scenario, const RunResult& result,
 struct RunInput {
   RigParameters rig;
   Scenario scenario;
-  std::string stem, text;         // name of the output files; the input as a person wrote it
-  std::shared_ptr<RunPlan> plan;  // of a campaign: holds the files that `rig` names
+  std::string stem, text;           // name of the output files; the input as a person wrote it
+  std::vector<std::string> inputs;  // files that were read
+  std::shared_ptr<RunPlan> plan;    // of a campaign: holds the files that `rig` names
 };
 
 RunInput FromScenario(const std::string& file) {
@@ -86,15 +90,18 @@ RunInput FromScenario(const std::string& file) {
         fmt::format("{}: a folder, allowed: scenario files (ambrig check {} runs those of a folder "
                     "that have [expect]; the folder of the seed paper: ambrig paper {})",
                     file, file, file));
+  ForgetInputs();
   RunInput in;
   in.rig = ReadRig(RigOfScenario(file));
   in.scenario = ReadScenario(file, in.rig);
   in.stem = std::filesystem::path(file).stem().string();
   in.text = ReadFile(file);
+  in.inputs = InputsRead();
   return in;
 }
 
 RunInput FromCampaign(const std::string& file, long long row) {
+  ForgetInputs();
   const auto plan = std::make_shared<RunPlan>(ReadCampaign(file));
   const std::size_t runs = plan->campaign().runs();
   if (row < 0 || static_cast<std::size_t>(row) >= runs)
@@ -108,6 +115,7 @@ RunInput FromCampaign(const std::string& file, long long row) {
   in.scenario.file = file;
   in.stem = fmt::format("{}_row_{}", std::filesystem::path(file).stem().string(), row);
   in.text = fmt::format("# row {} of\n{}", row, ReadFile(file));
+  in.inputs = InputsRead();
   return in;
 }
 
@@ -129,7 +137,7 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   SimulateOptions simulate;
   simulate.fidelity = FidelityByName(options.fidelity);
   simulate.record_rate = options.rate;
-  simulate.for_report = true;
+  simulate.for_report = !options.no_traces;
   simulate.stop = &interrupted;
   simulate.progress = [&](double f) { progress.Update(f); };
   RunResult result = Simulate(rig, scenario, simulate);
@@ -142,7 +150,8 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   result.record.attributes["fidelity"] = options.fidelity;
   WriteHdf5(result.record, stem.string() + ".h5");
   if (options.csv) WriteCsv(result.record, stem.string() + ".csv");
-  const auto json = RunJson(scenario, result, expect);
+  auto json = RunJson(scenario, result, expect);
+  json["provenance"] = Provenance(in.inputs);
   WriteFileAtomically(stem.string() + ".json", MarkedJson(json));
   if (!options.no_html) {
     const RunReportData data = MakeRunReportData(rig, scenario, result, expect, options.fidelity);
@@ -194,7 +203,10 @@ void RefuseEqualNames(const std::vector<std::string>& scenarios) {
           fmt::format("{}: another scenario of that file name would be overwritten", file));
 }
 
-int RunScenarios(const RunOptions& options) {
+int RunScenarios(RunOptions options) {
+  if (options.no_traces && !options.common.html.empty())
+    throw InputError("--html: the report shows the traces, allowed: without --no-traces");
+  options.no_html = options.no_html || options.no_traces;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   if (options.campaign.empty() == options.scenarios.empty())
     throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
@@ -242,6 +254,8 @@ void AddRun(CLI::App& app, Work& work) {
       ->excludes(campaign);
   command->add_flag("--csv", options->csv, "also write the record as NAME.csv");
   command->add_flag("--no-report", options->no_html, "no NAME.html");
+  command->add_flag("--no-traces", options->no_traces,
+                    "record no traces of fluxes and slopes either, which only the report shows");
   command->add_flag("--quiet", options->quiet, "print nothing");
   options->common.AddTo(*command);
   command->footer(

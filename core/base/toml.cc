@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "core/base/inputs_read.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_node.h"
 
@@ -82,6 +83,7 @@ TomlTable TomlTable::FromFile(const std::string& file) {
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(fmt::format("{}: is a folder, allowed: a TOML file", file));
   const std::string text = ReadFile(file, kLargestFile + 1);
+  NoteInput(file);
   if (text.size() > kLargestFile)
     throw InputError(fmt::format("{}: is larger than 16 MiB, allowed: a TOML file", file));
   return FromText(text, file);

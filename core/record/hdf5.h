@@ -2,8 +2,11 @@
 /// Records as HDF5 files: one 1-D dataset per channel with string attribute `unit`; root attributes
 /// `rate` [Hz], `start` [s] and any further texts. Only hdf5_reader.cc and
 /// hdf5_writer.cc know the HDF5 library.
+#include <map>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/record/record.h"
 
@@ -19,6 +22,14 @@ Record ReadHdf5(const std::string& path);
 /// Double precision, compressed; same record, same bytes. The file appears complete or not at all.
 /// @throws InputError
 void WriteHdf5(const Record& record, const std::string& path);
+
+/// Several records in one file, each a group with channels, `rate` and `start` of its own; `attributes`
+/// are the file's. Names of groups have neither slash nor dot. @throws InputError
+void WriteHdf5Groups(const std::vector<std::pair<std::string, Record>>& records,
+                     const std::map<std::string, std::string>& attributes, const std::string& path);
+
+/// The record of one such group. @throws InputError, also when there is no such group
+Record ReadHdf5Group(const std::string& path, const std::string& group);
 
 /// Held during every use of the HDF5 library, which may be built without thread safety; the MAT
 /// reader needs it too (v7.3 files are HDF5).

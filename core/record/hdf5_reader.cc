@@ -55,6 +55,12 @@ std::optional<hsize_t> VectorRows(hid_t dataset) {
   return dims[0] * dims[1];
 }
 
+/// External storage and virtual datasets name files anywhere on the disk.
+bool RefersElsewhere(hid_t dataset) {
+  const Handle creation(H5Dget_create_plist(dataset), H5Pclose);
+  return H5Pget_external_count(creation) > 0 || H5Pget_layout(creation) == H5D_VIRTUAL;
+}
+
 class Hdf5Traversal {
  public:
   Hdf5Traversal(const std::string& path, Record& record) : path_(path), record_(record) {}
@@ -109,6 +115,7 @@ class Hdf5Traversal {
     const std::optional<hsize_t> rows = VectorRows(dataset);
     if ((kind != H5T_FLOAT && kind != H5T_INTEGER) || !rows)
       return Note(name + " is not a vector of numbers, left out");
+    if (RefersElsewhere(dataset)) return Note(name + " is stored in another file, left out");
     if (*rows > kMaxRows) throw InputError(path_ + ": channel " + name + " has too many rows");
     Channel channel{name, ReadTextAttribute(dataset, "unit").value_or(""),
                     std::vector<double>(*rows)};
@@ -144,18 +151,22 @@ std::mutex& Hdf5Mutex() {
   return mutex;
 }
 
-Record ReadHdf5(const std::string& path) try {
+Record ReadHdf5(const std::string& path) { return ReadHdf5Group(path, "/"); }
+
+Record ReadHdf5Group(const std::string& path, const std::string& name) try {
   Record record;
   {
     const Library library;
     const Handle file = OpenForReading(path);
-    record.rate = ReadNumber(file, "rate").value_or(0);
-    record.start = ReadNumber(file, "start").value_or(0);
+    if (name != "/" && H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0)
+      throw InputError(path + ": no group " + name);
+    const Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose);
+    if (!group.usable()) Fail(path, name == "/" ? "damaged root group" : "damaged group " + name);
+    record.rate = ReadNumber(group, "rate").value_or(0);
+    record.start = ReadNumber(group, "start").value_or(0);
     Hdf5Traversal reader(path, record);
-    reader.ReadAttributes(file);
-    const Handle root(H5Gopen2(file, "/", H5P_DEFAULT), H5Gclose);
-    if (!root.usable()) Fail(path, "damaged root group");
-    reader.ReadGroup(root, "");
+    reader.ReadAttributes(group);
+    reader.ReadGroup(group, "");
   }
   FinishRecord(record, path);
   return record;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/base/errors.h"
+#include "core/base/inputs_read.h"
 #include "core/base/read_file.h"
 #include "core/record/formats/format.h"
 #include "core/record/text_cells.h"
@@ -53,6 +54,7 @@ const RecordFormat& FormatOf(const std::string& path) {
 
 Measurement ReadMeasurement(const std::string& path, std::string* format) {
   const RecordFormat& f = FormatOf(path);
+  NoteInput(path);
   if (format != nullptr) *format = f.name;
   return f.read(path);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/inputs_read.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "core/base/units.h"
@@ -38,6 +39,7 @@ TableColumns ColumnsOfRig(const RigParameters& rig) {
 }
 
 Record ReadColumns(const std::string& path, Case& c) {
+  NoteInput(path);
   TextTable table = ReadTextTable(path, ReadFile(path));
   Record out;
   out.rate = 1;  // rows of a table follow each other, nothing more

@@ -48,7 +48,8 @@ void ExpectDocumented(const std::string& command, const Json& document,
                       const std::set<std::string>& absent = {}) {
   const std::set<std::string> named = NamedKeys(command);
   for (const auto& [key, value] : document.items())
-    EXPECT_TRUE(named.contains(key) || key == "made_by") << command << " writes " << key;
+    EXPECT_TRUE(named.contains(key) || key == "made_by" || key == "provenance")
+        << command << " writes " << key;
   std::set<std::string> written;
   CollectKeys(document, &written);
   for (const std::string& key : named)

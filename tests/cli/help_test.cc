@@ -81,6 +81,7 @@ struct Examples {
   const char* command;
   std::vector<const char*> before = {};  // what the help says to do first
   bool dear = false;                     // minutes: only with AMBRIG_DEAR=1 (nightly)
+  bool endless = false;                  // runs until Ctrl-C: tests/workbench
 };
 
 const Examples kExamples[] = {
@@ -95,6 +96,7 @@ const Examples kExamples[] = {
     {"detectors", {}, true},
     {"commission"},
     {"crosscheck"},
+    {"rig"},
     {"rotor"},
     {"design"},
     {"redistribute"},
@@ -112,6 +114,7 @@ const Examples kExamples[] = {
     {"refine", {"hide saturation@A --rig examples/reference/rig.toml -o practice"}, true},
     {"plan", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
     {"practice", {}, true},
+    {"serve", {}, false, true},
     {"score", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
 };
 
@@ -119,6 +122,7 @@ class HelpExamples : public Help, public ::testing::WithParamInterface<Examples>
 
 TEST_P(HelpExamples, RunAsTheyStand) {
   const Examples& e = GetParam();
+  if (e.endless) GTEST_SKIP() << "runs until Ctrl-C: tests/workbench starts it";
   if (e.dear && std::getenv("AMBRIG_DEAR") == nullptr)
     GTEST_SKIP() << "takes minutes: AMBRIG_DEAR=1 runs it";
   for (const char* first : e.before) {

@@ -28,6 +28,7 @@ const Call kCalls[] = {
     {"redistribute", "rig.toml --failed 1", "rig.toml"},
     {"export", "rig.toml --controller-c own.c", "rig.toml"},
     {"analyze", "rig.toml", "rig.toml"},
+    {"rig", "rig.toml", "rig.toml"},
     {"validate", "examples/validation"},
     {"paper", "examples/paper"},
     {"effects", ""},

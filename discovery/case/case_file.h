@@ -1,0 +1,12 @@
+#pragma once
+/// The text of a case file, changed as its user would: comments and layout stay.
+#include <string>
+
+namespace ambrig {
+
+/// The text of case file `file` with another rig file, to be written as `output`, perhaps in another
+/// folder: relative names of scenarios and data are then named from there. @throws InputError
+std::string CaseWithRig(const std::string& text, const std::string& file, const std::string& rig,
+                        const std::string& output);
+
+}  // namespace ambrig

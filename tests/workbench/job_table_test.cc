@@ -1,0 +1,106 @@
+// What reaches a command line: the commands and arguments of the table, files of the folder, nothing else.
+#include "workbench/job_table.h"
+
+#include <gmock/gmock.h>
+
+#include "core/base/errors.h"
+#include "tests/workbench/bench_folder.h"
+
+namespace ambrig::workbench {
+namespace {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class JobTable : public BenchFolder {
+ protected:
+  void SetUp() override {
+    BenchFolder::SetUp();
+    Write("served/rig.toml", "name = \"r\"\n");
+    Write("served/s.toml", "rig = \"rig.toml\"\n");
+    Write("served/case.toml",
+          "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"sub/b.csv\"\n");
+  }
+  std::string Refusal(const json& request) const {
+    try {
+      CheckJob(request, ServedFolder(served()), ".ambrig/jobs/1");
+    } catch (const InputError& e) {
+      return e.what();
+    }
+    return "";
+  }
+};
+
+TEST_F(JobTable, MakesTheCommandThatAPersonCouldType) {
+  const ServedFolder folder(served());
+  const JobOrder order = CheckJob({{"command", "adopt"},
+                                   {"case", "case.toml"},
+                                   {"effect", "cross-coupling"},
+                                   {"target", "A"},
+                                   {"rig", "rig_2.toml"},
+                                   {"new_case", "case_2.toml"}},
+                                  folder, ".ambrig/jobs/1");
+  EXPECT_THAT(order.arguments, ElementsAre("adopt", "case.toml", "cross-coupling", "--target", "A",
+                                           "--output", "rig_2.toml", "--case", "case_2.toml",
+                                           "--html", ".ambrig/jobs/1/report.html"));
+  EXPECT_EQ(order.subject, "case.toml");
+  EXPECT_THAT(order.new_files, ElementsAre("rig_2.toml", "case_2.toml"));
+}
+
+TEST_F(JobTable, RefusesWhatIsNotInIt) {
+  EXPECT_THAT(Refusal({{"command", "hide"}, {"case", "case.toml"}}), HasSubstr("allowed: compare"));
+  EXPECT_THAT(Refusal({{"command", "sh"}}), HasSubstr("command: allowed"));
+  EXPECT_THAT(Refusal({{"command", 1}}), HasSubstr("command: allowed"));
+  EXPECT_THAT(Refusal(json::array()), HasSubstr("command: allowed"));
+  EXPECT_THAT(Refusal({{"command", "compare"}}), HasSubstr("case: is missing"));
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}, {"--force", "x"}}),
+              HasSubstr("is no argument of compare"));
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", {"case.toml"}}}),
+              HasSubstr("allowed: a file"));
+}
+
+TEST_F(JobTable, ArgumentsAreNoOptionsAndNoPaths) {
+  for (const char* effect : {"--force", "-o", "", "a b", "../x", "x;y", "$(id)", "a\nb"})
+    EXPECT_NE(Refusal({{"command", "adopt"},
+                       {"case", "case.toml"},
+                       {"effect", effect},
+                       {"rig", "r2.toml"},
+                       {"new_case", "c2.toml"}}),
+              "")
+        << effect;
+  for (const char* file :
+       {"../x.toml", "/tmp/x.toml", "-x.toml", "x.h5", ".x.toml", "case.toml", "sub/../x.toml"})
+    EXPECT_NE(Refusal({{"command", "adopt"},
+                       {"case", "case.toml"},
+                       {"effect", "e"},
+                       {"rig", file},
+                       {"new_case", "c2.toml"}}),
+              "")
+        << file;
+  EXPECT_NE(Refusal({{"command", "explain"}, {"case", "case.toml"}, {"candidates", "5; id"}}), "");
+  EXPECT_NE(Refusal({{"command", "explain"}, {"case", "case.toml"}, {"candidates", -1}}), "");
+}
+
+// A file of the folder may not lead a command out of it, however deep the reference lies.
+TEST_F(JobTable, FilesThatNameOthersOutsideAreRefused) {
+  EXPECT_EQ(Refusal({{"command", "compare"}, {"case", "case.toml"}}), "");
+  Write("served/s.toml", "rig = \"../other/secret.toml\"\n");
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}),
+              HasSubstr("outside the served folder"));
+  Write("served/s.toml", "rig = \"rig.toml\"\n[[excitation]]\nfile = \"" +
+                             (base_ / "other/secret.toml").string() + "\"\n");
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}),
+              HasSubstr("outside the served folder"));
+  Write("served/s.toml", "rig = \"rig.toml\"\n[[excitation]]\nfile = \"link.csv\"\n");
+  std::filesystem::create_symlink(base_ / "other" / "secret.toml", base_ / "served" / "link.csv");
+  EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}), HasSubstr("is a link"));
+}
+
+TEST_F(JobTable, FilesThatNameEachOtherAreRead) {
+  Write("served/s.toml", "rig = \"case.toml\"\n");
+  EXPECT_EQ(Refusal({{"command", "compare"}, {"case", "case.toml"}}), "");
+}
+
+}  // namespace
+}  // namespace ambrig::workbench

@@ -1,0 +1,4 @@
+import UPlot from 'uplot';
+declare global {
+  const uPlot: typeof UPlot;
+}

@@ -1,0 +1,47 @@
+/** The view in the address: `#/case/practice/case.toml?r=record-4&c=A.y&t=0.29,0.34`. It holds no data and no token. */
+
+/**
+ * @typedef {{screen: string, file: string, record: string, channels: string[], from: number|null, to: number|null}} View
+ */
+
+/** @returns {View} the list of files */
+export function emptyView() {
+  return {screen: 'folder', file: '', record: '', channels: [], from: null, to: null};
+}
+
+/** @param {string} hash as location.hash has it @returns {View} what is not understood is left out */
+export function parseAddress(hash) {
+  const view = emptyView();
+  const text = hash.replace(/^#\/?/, '');
+  const [path, query = ''] = text.split('?');
+  const slash = path.indexOf('/');
+  if (slash > 0) {
+    view.screen = path.slice(0, slash);
+    view.file = path.slice(slash + 1).split('/').map(decodeURIComponent).join('/');
+  }
+  const values = new URLSearchParams(query);
+  view.record = values.get('r') ?? '';
+  view.channels = (values.get('c') ?? '').split(',').filter((c) => c !== '');
+  const [from, to] = (values.get('t') ?? '').split(',').map(Number);
+  if (Number.isFinite(from) && Number.isFinite(to) && to > from) {
+    view.from = from;
+    view.to = to;
+  }
+  return view;
+}
+
+/** @param {View} view */
+export function formatAddress(view) {
+  if (view.screen === 'folder') return '#/';
+  const query = [];
+  if (view.record) query.push('r=' + encodeURIComponent(view.record));
+  if (view.channels.length > 0) query.push('c=' + view.channels.map(encodeURIComponent).join(','));
+  if (view.from !== null && view.to !== null) query.push(`t=${short(view.from)},${short(view.to)}`);
+  const path = view.file.split('/').map(encodeURIComponent).join('/');
+  return `#/${view.screen}/${path}` + (query.length > 0 ? '?' + query.join('&') : '');
+}
+
+/** @param {number} t seconds, to the microsecond */
+function short(t) {
+  return String(Number(t.toFixed(6)));
+}

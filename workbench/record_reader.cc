@@ -1,0 +1,170 @@
+/// The reader's side: records in memory, thinned.
+#include "workbench/record_reader.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <list>
+#include <map>
+#include <memory>
+
+#include "core/base/errors.h"
+#include "core/record/hdf5.h"
+#include "core/record/read_record.h"
+#include "workbench/extremes.h"
+
+namespace ambrig::workbench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr rlim_t kMemory = rlim_t{1} << 30;  // [bytes]
+constexpr std::size_t kMostRecords = 12;     // kept in memory
+constexpr std::size_t kMostColumns = 20000;
+
+struct KeptRecord {
+  std::string key;
+  Record record;
+  std::map<std::string, ExtremesLevel> levels;
+};
+
+class RecordShelf {
+ public:
+  KeptRecord& Get(const std::string& file, const std::string& group) {
+    struct stat status {};
+    if (::stat(file.c_str(), &status) != 0) throw InputError(file + ": " + std::strerror(errno));
+    const std::string key =
+        fmt::format("{}|{}|{}|{}|{}.{}", file, group, status.st_ino, status.st_size,
+                    status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+    for (auto it = kept_.begin(); it != kept_.end(); ++it)
+      if (it->key == key) {
+        kept_.splice(kept_.begin(), kept_, it);
+        return kept_.front();
+      }
+    while (kept_.size() >= kMostRecords) kept_.pop_back();
+    kept_.push_front({key, group.empty() ? ReadRecord(file) : ReadHdf5Group(file, group), {}});
+    return kept_.front();
+  }
+
+ private:
+  std::list<KeptRecord> kept_;
+};
+
+std::string Describe(const KeptRecord& k) {
+  Json channels = Json::array();
+  for (const Channel& c : k.record.channels)
+    channels.push_back({{"name", c.name}, {"unit", c.unit}});
+  return "J" + Json{{"rate", k.record.rate},
+                    {"start", k.record.start},
+                    {"rows", k.record.rows()},
+                    {"channels", channels},
+                    {"notes", k.record.notes}}
+                   .dump();
+}
+
+std::size_t RowAt(const Record& r, double t) {
+  const double row = (t - r.start) * r.rate;
+  if (!(row > 0)) return 0;
+  return std::min(static_cast<std::size_t>(std::min(row, 1e15)), r.rows());
+}
+
+/// Of each channel the extremes of its columns as lo, hi pairs, or, where the view has fewer samples
+/// than two a column, the samples.
+std::string View(KeptRecord& k, const Json& request) {
+  const Record& r = k.record;
+  const std::size_t columns =
+      std::clamp<std::size_t>(request.value("px", std::size_t{600}), 1, kMostColumns);
+  const std::size_t first = RowAt(r, request.value("t0", r.start));
+  const double end = r.start + static_cast<double>(r.rows()) / r.rate;
+  const std::size_t last = std::min(RowAt(r, request.value("t1", end)) + 1, r.rows());
+  const std::size_t rows = last > first ? last - first : 0;
+  const bool raw = rows <= 2 * columns;
+  std::vector<float> values;
+  Json channels = Json::array();
+  for (const std::string& name : request["channels"].get<std::vector<std::string>>()) {
+    const Channel* c = r.Find(name);
+    if (!c) throw InputError(fmt::format("no channel {}", name));
+    channels.push_back({{"name", name}, {"unit", c->unit}});
+    if (raw) {
+      for (std::size_t row = first; row < last; ++row)
+        values.push_back(static_cast<float>(c->samples[row]));
+      continue;
+    }
+    const auto level = k.levels.try_emplace(name, c->samples).first;
+    for (const Extreme& e : ThinnedExtremes(c->samples, level->second, first, last, columns)) {
+      values.push_back(e.lo);
+      values.push_back(e.hi);
+    }
+  }
+  std::string head = Json{
+      {"mode", raw ? "samples" : "extremes"},
+      {"start", r.TimeAt(first)},
+      {"step",
+       raw ? 1 / r.rate : static_cast<double>(rows) / static_cast<double>(columns) / r.rate},
+      {"count", raw ? rows : columns},
+      {"rate", r.rate},
+      {"channels",
+       channels}}.dump();
+  head.resize((head.size() + 3) / 4 * 4, ' ');  // floats begin on a multiple of four
+  const auto bytes = static_cast<std::uint32_t>(head.size());
+  std::string out = "B";
+  out.append(reinterpret_cast<const char*>(&bytes), sizeof bytes);
+  out += head;
+  out.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  return out;
+}
+
+std::string AnswerTo(RecordShelf& shelf, const std::string& line) {
+  try {
+    const Json request = Json::parse(line);
+    KeptRecord& k = shelf.Get(request.at("file"), request.value("group", ""));
+    return request.contains("channels") ? View(k, request) : Describe(k);
+  } catch (const std::bad_alloc&) {
+    return "J" + Json{{"error", "the record is too large for the reader's memory"}}.dump();
+  } catch (const std::exception& e) {
+    return "J" + Json{{"error", e.what()}}.dump();
+  }
+}
+
+bool SendAll(int socket, const char* bytes, std::size_t count) {
+  while (count > 0) {
+    const ssize_t n = ::write(socket, bytes, count);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes += n;
+    count -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+}  // namespace
+
+int ServeRecords(int socket) {
+#ifndef AMBRIG_SANITIZED  // whose shadow memory is larger than any limit
+  const rlimit limit{kMemory, kMemory};
+  ::setrlimit(RLIMIT_AS, &limit);
+#endif
+  RecordShelf shelf;
+  std::string rest;
+  char block[1 << 16];
+  for (;;) {
+    const ssize_t n = ::read(socket, block, sizeof block);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return 0;
+    rest.append(block, static_cast<std::size_t>(n));
+    for (std::size_t end; (end = rest.find('\n')) != std::string::npos; rest.erase(0, end + 1)) {
+      const std::string answer = AnswerTo(shelf, rest.substr(0, end));
+      const std::uint64_t bytes = answer.size();
+      if (!SendAll(socket, reinterpret_cast<const char*>(&bytes), sizeof bytes) ||
+          !SendAll(socket, answer.data(), answer.size()))
+        return 0;
+    }
+  }
+}
+
+}  // namespace ambrig::workbench
