@@ -85,6 +85,7 @@ struct Examples {
 
 const Examples kExamples[] = {
     {"tour"},
+    {"new"},
     {"run"},
     {"check"},
     {"diff"},
