@@ -15,6 +15,8 @@ namespace {
 constexpr const char* kModulations =
     "bi-state, tri-state, chopper, ideal, two-level, three-level, linear";
 constexpr double kMostBandwidth = 0.1;  // of the switching frequency
+// kp T/L of a loop that is fed the mean of the last period is unstable from 2 on.
+constexpr double kMostGain = 1.75;
 
 /// What closes the loop round a coil: gains, a bandwidth that they follow from, or nothing.
 void ReadLoopOfAmplifier(const TomlTable& t, AmplifierParameters& a) {
@@ -50,6 +52,15 @@ void TuneAmplifier(const TomlTable& t, RigParameters& rig) {
   }
   a.kp = 2 * kPi * a.bandwidth * inductance;
   a.ki = 2 * kPi * a.bandwidth * resistance;
+  for (const BearingParameters& b : rig.bearings) {
+    const double most = kMostGain * a.switching_frequency * LeastInductance(b);
+    if (a.kp > most)
+      t.Fail("bandwidth",
+             fmt::format(
+                 "= {} Hz of {:.3g} H, allowed: at most {:.4g} Hz, for bearing {} has a pattern "
+                 "of currents with {:.3g} H only",
+                 a.bandwidth, inductance, a.bandwidth * most / a.kp, b.name, LeastInductance(b)));
+  }
 }
 
 void ReadAmplifier(const TomlTable& t, RigParameters& rig) {

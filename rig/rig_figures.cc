@@ -60,6 +60,16 @@ double LargestInductance(const BearingParameters& b) {
   return most;
 }
 
+double LeastInductance(const BearingParameters& b) {
+  const StatorGeometry g = b.kind->stator(b);
+  if (!g.network)  // patterns without flux, or coils by themselves
+    return g.coupling == Coupling::kNone ? LargestInductance(b) : g.leakage[0];
+  Eigen::MatrixXd L =
+      g.network->Linkage(g.network->FluxAt(Eigen::Vector3d::Zero()).phi).leftCols(g.coils);
+  for (int j = 0; j < g.coils; ++j) L(j, j) += g.leakage[j];
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(L, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
 double CoilResistance(const BearingParameters& b) { return b.kind->stator(b).resistance[0]; }
 
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {

@@ -61,6 +61,8 @@ void AddFollowing(const BenchTemplate& bench, BenchAnswers& a) {
   a["zb"] = 0.5 * a["span"];
   a["clearance"] = 0.5 * a["gap"];
   a["leakage"] = 0.1 * kMu0 * a["turns"] * a["turns"] * a["pole_area"] / a["gap"];
+  a["loop_kp"] = 1.2 * a["leakage"] * a["switching_frequency"];
+  a["loop_ki"] = a["loop_kp"] * a["resistance"] / (10 * a["leakage"]);
   a["quadrants"] = has("magnet_mmf") ? 4 : 2;
   if (!has("thrust_turns")) return;
   a["thrust_leakage"] =

@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Template{"thrust",
                              "--set bias_current=1 --set thrust_turns=80 --set "
                              "thrust_area=3e-4 --set thrust_gap=4e-4 --set "
-                             "thrust_bias=1"}));
+                             "thrust_bias=0.5"}));
 
 // Asked one by one; a wrong answer is asked again, an empty one takes the standard.
 TEST_F(NewBench, AsksForWhatIsMissing) {

@@ -97,6 +97,11 @@ TEST(StatorFile, MistakesAreOneLine) {
   EXPECT_THAT(
       with(magnet, "bias = { mmf = 800.0, length = 4.0e-3, area = 6.0e-4, mu_r = 1.05 }\n", ""),
       HasSubstr("bias: is missing"));
+  EXPECT_THAT(with(magnet, "mmf = 800.0", "mmf = 0.0"),
+              HasSubstr("bearings.A.bias: has mmf = 0 A, allowed: any but 0"));
+  // Eight coils whose common current meets the magnet: little but leakage.
+  EXPECT_THAT(with(magnet, "coils = \"pair\"", "coils = \"pole\""),
+              HasSubstr("for bearing A has a pattern of currents with"));
   EXPECT_THAT(with(magnet, "coils = \"pair\"", "coils = \"paar\""),
               HasSubstr("coils = \"paar\", allowed: pair,axis,pole"));
   EXPECT_THAT(with(cores, "turns = { coil1 = 80 }", "turns = { coil9 = 80 }"),
