@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "actuators/magnetics/coil_network.h"
 #include "core/math/constants.h"
@@ -39,16 +40,22 @@ double LinearLimit(const BearingControl& c, Eigen::Index side) {
 /// Largest exact force along +side over growing commands, set-points clamped [N].
 double LargestForce(const BearingControl& c, const StatorLanes& lanes, Eigen::Index side,
                     double bound) {
-  const CoilNetwork network(lanes);
+  std::optional<CoilNetwork> network;
+  if (!lanes.network) network.emplace(lanes);
   double best = 0;
   constexpr int kSteps = 400;
   for (int k = 0; k <= kSteps; ++k) {
     const double f = bound * k / kSteps;
     const auto set = c.map.SetPoints(side == 0 ? f : 0, side == 1 ? f : 0);
+    if (!network) {
+      const Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+      best = std::max(best, lanes.network->Force(centre, lanes.CountedCurrents(set.data()))[side]);
+      continue;
+    }
     double lambda[kMaxWindings] = {};
     NetworkState s;
-    network.Linkages(set.data(), 0, 0, lambda);
-    network.Solve(lambda, 0, 0, s);
+    network->Linkages(set.data(), 0, 0, lambda);
+    network->Solve(lambda, 0, 0, s);
     best = std::max(best, side == 0 ? s.fx : s.fy);
   }
   return best;

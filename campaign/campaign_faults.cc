@@ -55,6 +55,12 @@ std::vector<std::string> Bearings(const TomlTable& t, const RigParameters& rig) 
       known += (known.empty() ? "" : ", ") + b.name;
       radial.push_back(b.name);
     }
+  if (radial.empty() && rig.bearings.front().kind->linearise)
+    t.Fail("bearings",
+           fmt::format("of {} are stators of other kinds, whose faults campaigns do not "
+                       "count, allowed: rigs with a bearing of kind radial, thrust or "
+                       "opposed",
+                       rig.file));
   if (!t.Has("bearings")) return {radial.empty() ? rig.bearings.front().name : radial.front()};
   const auto names = t.Strings("bearings");
   if (names.empty()) t.Fail("bearings", "= [], allowed: some of " + known);

@@ -13,6 +13,7 @@
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "simulation/switching/switching_engine.h"
 
 namespace ambrig {
@@ -170,6 +171,13 @@ DetectorStudy ReadDetectorStudy(const std::string& file) {
                 fmt::format(
                     "= \"{}\": {}, allowed: a rig with bi-state bridges (slopes need both phases)",
                     c->file, c->rig.file));
+  for (const Campaign* c : {&s.healthy, &s.faulty})
+    for (const BearingParameters& b : c->rig.bearings)
+      if (b.kind->linearise)
+        root.Fail(c == &s.healthy ? "healthy" : "faulty",
+                  fmt::format("= \"{}\": bearing {} is of kind \"{}\", allowed: radial, thrust, "
+                              "opposed",
+                              c->file, b.name, b.kind->name));
   // A threshold is set for one kind of bearing: where the faults are.
   s.trial.kinds.clear();
   for (const FailureSet& set : s.faulty.sets)

@@ -54,6 +54,7 @@ EffectDescription BhCurve() {
       "The flux needs MMF for the iron by a curve of any monotone shape: the gap seems longer by "
       "path(B),\na table over the flux density of the pole. Written by `ambrig refine`.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.users_own = true;
   d.parameters = {{"reach", "T", 1, 1e-3, 10, 0.5, 1.2, "flux density of the last node"}};
   for (int k = 0; k < kBhNodes; ++k) {

@@ -15,7 +15,7 @@ EffectDescription CrossCoupling() {
       "forward\nwhirl gains energy, the backward whirl loses it.";
   d.target = TargetKind::kPlane;
   d.needs.levitation = true;
-  d.acts_on = kOnRadial;
+  d.acts_on = kOnRadial | kOnStator;
   d.parameters = {{"stiffness", "N/m", 0, -1e8, 1e8, 5e3, 2e5, "k of fx = -k y, fy = +k x"}};
   d.at_stations = true;
   d.off_when_null = {"stiffness"};

@@ -117,6 +117,7 @@ EffectDescription EddyCurrents() {
       "square\nroot of time: force and inductance fall by 10 dB a decade, phase tends to -45 "
       "degrees.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.parameters = {
       {"cutoff", "Hz", kInfinity, 1, kInfinity, 300, 3e4,
        "frequency at which the half-order drop equals the gap's"},

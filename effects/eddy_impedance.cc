@@ -94,6 +94,7 @@ EffectDescription EddyImpedance() {
       "Changing flux costs MMF by ten relaxations of fixed corner frequencies, half a decade "
       "apart, and free\nsizes: any shape of lamination or core. Written by `ambrig refine`.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.users_own = true;
   d.parameters = {{"path", "m", 0, 0, 1e-2, 2e-5, 5e-5, "iron path at rest over mu_r, per gap"}};
   d.off_when_null = {"path"};

@@ -26,7 +26,16 @@ enum class TargetKind {
 
 /// Bits: the kinds of bearing at which an effect can act, as a target or behind one (a plane, an
 /// axis, a coil).
-enum ActsOn : unsigned { kOnRadial = 1, kOnThrust = 2, kOnOpposed = 4, kOnAll = 7 };
+enum ActsOn : unsigned {
+  kOnRadial = 1,
+  kOnThrust = 2,
+  kOnOpposed = 4,
+  kOnStator = 8,        // any stator with two axes
+  kOnAxialStator = 16,  // any stator along the shaft
+  kOnAll = 31,
+  // whose iron the lanes have coil by coil: laws of the iron act on these only
+  kOnIron = kOnRadial | kOnThrust | kOnOpposed
+};
 
 /// What a run must have for the effect to show in its record.
 struct EffectNeeds {

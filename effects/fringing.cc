@@ -15,6 +15,7 @@ EffectDescription Fringing() {
       "Flux fringes at the edges of the pole, so the effective pole area grows with the gap:\nA (1 "
       "+ coefficient g/g0). Force falls less steeply with the gap than 1/g³.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.parameters = {
       {"coefficient", "-", 0, -0.5, 2, 0.01, 0.15, "growth of the area per nominal gap"},
       {"face_pull", "-", 0, 0, 1, 0.3, 1, "share of the fringing flux that pulls like the rest"}};

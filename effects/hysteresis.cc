@@ -90,6 +90,7 @@ EffectDescription Hysteresis() {
       "The iron's MMF depends on the last reversal of its flux: rising and falling branches lie "
       "twice the\ncoercive current apart, minor loops close, and remanence stays at zero current.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.parameters = {
       {"coercive", "A", 0, 0, 10, 0.005, 0.2, "half the width of the loop, as current of one coil"},
       {"width", "T", 0.2, 1e-3, 3, 0.03, 0.5, "flux density within which the branches cross over"}};

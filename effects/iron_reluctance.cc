@@ -51,6 +51,7 @@ EffectDescription IronReluctance() {
       "longer\n"
       "by l_fe/mu_r, while the pull per flux stays the same.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.parameters = {{"path", "m", 0, 0, 1e-3, 5e-6, 5e-5, "iron length over mu_r, per gap"},
                   {"threshold", "A", 0, 0, 200, 1, 10,
                    "MMF per gap that the iron needs at low flux, beyond path"}};

@@ -72,6 +72,7 @@ EffectDescription PlayHysteresis() {
       "The iron's MMF follows its turning points by eight operators of evenly spread widths and "
       "free sizes:\na loop of any convex shape. Written by `ambrig refine`.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.users_own = true;
   d.parameters = {
       {"width", "T", 0.2, 1e-3, 10, 0.3, 0.6, "flux density of the widest operator's crossing"}};

@@ -49,6 +49,7 @@ EffectDescription Saturation() {
       "falls\n"
       "with the flux, inductance falls, and current slopes rise at high current.";
   d.target = TargetKind::kBearing;
+  d.acts_on = kOnIron;
   d.parameters = {{"knee", "T", kInfinity, 0.1, kInfinity, 0.3, 1.6,
                    "flux density in the gap at which the iron needs 1000 A/m"},
                   {"path", "m", 0.1, 0, 2, 0.03, 0.2, "length of the saturating iron per gap"}};

@@ -15,7 +15,7 @@ EffectDescription SensorRotation() {
       "Both sensors of a plane are turned by an angle: each axis reads part of the other one.\n"
       "The control force then has a cross part: one whirl direction loses damping, at any speed.";
   d.target = TargetKind::kPlane;
-  d.acts_on = kOnRadial;
+  d.acts_on = kOnRadial | kOnStator;
   d.parameters = {
       {"angle", "rad", 0, -1.6, 1.6, 0.01, 0.1, "sensor axes against the bearing's, x towards y"}};
   d.off_when_null = {"angle"};

@@ -47,6 +47,7 @@ Plant BuildPlant(const TrueRig& true_rig) {
     if (description->shape) description->shape(*instance, plant);
   plant.bus.source = plant.bus.voltage = rig.amplifier.bus_voltage;
   plant.bridge = PowerBridge(rig.amplifier);
+  plant.loop_delay = rig.amplifier.delay;
   plant.speed_sensor = SpeedSensor(rig.speed_sensor);
   for (const BearingParameters& b : rig.bearings) {
     if (b.kind->axial) plant.rotor.axial_free = true;

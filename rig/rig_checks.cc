@@ -56,6 +56,19 @@ void CheckSensor(const TomlTable& t, const BearingParameters& b, const RigParame
                                b.sensor.z + rig.z_origin, lo + rig.z_origin, hi + rig.z_origin));
 }
 
+/// A cone pulls along the shaft too, which a rig's planes do not take: only where z is fixed.
+void CheckCone(const TomlTable& t, const BearingParameters& b, const RigParameters& rig) {
+  const auto network = b.kind->stator(b).network;
+  bool cone = false;
+  for (int p = 0; network && p < network->poles(); ++p)
+    cone = cone || network->pole(p).direction[2] != 0;
+  for (const BearingParameters& other : rig.bearings)
+    if (cone && other.kind->axial)
+      t.Fail("", fmt::format("has conical poles, which pull along the shaft too, allowed: a rig "
+                             "without axial bearing {} (z is fixed then)",
+                             other.name));
+}
+
 void CheckEffects(const TomlTable& root, const RigParameters& rig) {
   const std::vector<TomlTable> tables = root.Tables("effect");
   std::map<std::pair<std::string, std::string>, std::string> seen;
@@ -110,6 +123,9 @@ void CheckRig(const TomlTable& root, const RigParameters& rig) {
     const TomlTable t = *bearings.Table(b.name);
     if (b.kind->eight_poles) CheckWinding(t, b.radial.winding);
     if (b.kind->two_axes) CheckSensor(t, b, rig);
+    if (b.kind->two_axes) CheckCone(t, b, rig);
+    if (b.kind->check)
+      b.kind->check(t, b, rig.controller.bias_current, rig.amplifier.quadrants < 3);
     const double own = b.kind->own_bias(b);
     if (!std::isnan(own)) CheckBias(t, rig, own);
   }

@@ -45,6 +45,31 @@ std::vector<std::array<double, 2>> CoilDirections(const BearingParameters& b) {
   return b.kind->stator(b).Directions();
 }
 
+double LargestInductance(const BearingParameters& b) {
+  const StatorGeometry g = b.kind->stator(b);
+  WindingMatrix all;
+  if (g.network) all = g.network->Linkage(g.network->FluxAt(Eigen::Vector3d::Zero()).phi);
+  double total = 0, most = 0;
+  const auto P = [&](int j) { return 1 / g.reluctance.Value(g.gap_offset[j]); };
+  for (int j = 0; j < g.coils; ++j) total += P(j);
+  for (int j = 0; j < g.coils; ++j) {
+    const double floating = g.coupling == Coupling::kFloatingRotor ? 1 - P(j) / total : 1;
+    const double own = g.network ? all(j, j) : g.n[j] * g.n[j] * P(j) * floating;
+    most = std::max(most, own + g.leakage[j]);
+  }
+  return most;
+}
+
+double LeastInductance(const BearingParameters& b) {
+  const StatorGeometry g = b.kind->stator(b);
+  if (!g.network)  // patterns without flux, or coils by themselves
+    return g.coupling == Coupling::kNone ? LargestInductance(b) : g.leakage[0];
+  Eigen::MatrixXd L =
+      g.network->Linkage(g.network->FluxAt(Eigen::Vector3d::Zero()).phi).leftCols(g.coils);
+  for (int j = 0; j < g.coils; ++j) L(j, j) += g.leakage[j];
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(L, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
 double CoilResistance(const BearingParameters& b) { return b.kind->stator(b).resistance[0]; }
 
 std::vector<std::array<double, 2>> WeightShares(const RigParameters& rig) {

@@ -18,6 +18,10 @@ const PidParameters& PidOf(const RigParameters& rig, const BearingParameters& b)
 /// Directions in which the coils of a bearing pull: (x, y) per coil, along the axis of a thrust or
 /// an opposed bearing (1, 0) or (-1, 0).
 std::vector<std::array<double, 2>> CoilDirections(const BearingParameters& b);
+/// Largest own inductance of its coils, rotor centred [H].
+double LargestInductance(const BearingParameters& b);
+/// Least inductance that a pattern of its coils' currents sees, rotor centred [H].
+double LeastInductance(const BearingParameters& b);
 /// Resistance of one coil [ohm].
 double CoilResistance(const BearingParameters& b);
 /// Bearing forces (fx, fy) that carry the rotor's weight, one per bearing. [N]

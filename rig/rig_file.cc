@@ -8,10 +8,12 @@
 
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
+#include "rig/amplifier_file.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_checks.h"
+#include "rig/rig_figures.h"
 #include "rig/rig_rotor.h"
 
 namespace ambrig {
@@ -104,32 +106,6 @@ void ReadSpeedSensor(const TomlTable& root, RigParameters& rig) {
   if (pulses != std::floor(pulses))
     t->Fail("pulses_per_revolution", fmt::format("= {}, allowed: an integer", pulses));
   t->RejectUnknownKeys();
-}
-
-void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
-  AmplifierParameters& a = rig.amplifier;
-  const std::string m = t.Choice("modulation", "bi-state", "bi-state, tri-state, chopper, ideal");
-  a.modulation = m == "bi-state"    ? Modulation::kBiState
-                 : m == "tri-state" ? Modulation::kTriState
-                 : m == "chopper"   ? Modulation::kChopper
-                                    : Modulation::kIdeal;
-  t.Read(a, kAmplifierFields, &rig.tolerances);
-  const auto limits = t.Numbers("duty_limits", {a.duty_min, a.duty_max});
-  const char* bounds = m == "ideal" ? "-1 to 1" : "0 to 1";
-  if (limits.size() != 2 || !(limits[0] >= -1 && limits[0] < limits[1] && limits[1] <= 1))
-    t.Fail("duty_limits", fmt::format("allowed: [min, max] with min < max, within {}", bounds));
-  a.duty_min = limits[0];
-  a.duty_max = limits[1];
-  if (a.duty_min < 0 && m != "ideal")
-    t.Fail("duty_limits", "allowed: 0 to 1 for a switching bridge");
-  for (const char* key : {"adc_samples_per_period", "adc_bits", "quadrants"}) {
-    const double v = t.Number(key, 2);
-    if (v != std::floor(v)) t.Fail(key, fmt::format("= {}, allowed: an integer", v));
-  }
-  if (a.quadrants == 3) t.Fail("quadrants", "= 3, allowed: 2 or 4");
-  if (a.i_max > a.adc_range)
-    t.Fail("i_max", fmt::format("= {} A, allowed: at most adc_range = {} A", a.i_max, a.adc_range));
-  t.RejectUnknownKeys();
 }
 
 /// Where a synthesis may weigh displacements.
@@ -238,6 +214,7 @@ RigParameters RigOfTable(const TomlTable& root) {
   ReadSpeedSensor(root, rig);
   const TomlTable controller = section("controller");
   ReadBearings(root, rig);
+  TuneAmplifier(*root.Table("amplifier"), rig);
   PlaceOnShaft(root, rig);
   ReadController(controller, rig);
   ReadOtherControllers(root, rig);

@@ -21,6 +21,7 @@ void VisitNumbers(RigParameters& rig, const Visit& visit) {
   // a beam's mass and inertia follow from its shaft
   if (!rig.beam) VisitPlaces(rig.rotor, kRotorFields, below("rotor"));
   VisitPlaces(rig.amplifier, kAmplifierFields, below("amplifier"));
+  VisitPlaces(rig.amplifier, kAmplifierModeFields, below("amplifier"));
   VisitPlaces(rig.speed_sensor, kSpeedSensorFields, below("speed_sensor"));
   VisitPlaces(rig.controller, kControllerFields, below("controller"));
   VisitPlaces(rig.controller.pid, kPidFields, below("controller"));
@@ -138,6 +139,7 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[[rotor.section]]", kShaftSectionFields);
   add("[[rotor.disk]]", kDiskFields);
   add("[amplifier]", kAmplifierFields);
+  add("[amplifier]", kAmplifierModeFields);
   add("[speed_sensor]", kSpeedSensorFields);
   add("[controller]", kControllerFields);
   for (const ControllerKind* kind : ControllerKinds())

@@ -31,6 +31,10 @@ struct AmplifierParameters {
   double quadrants = 2;
   double duty_min = 0.02, duty_max = 0.98;  // duty_limits = [min, max]
   Modulation modulation = Modulation::kBiState;
+  /// The coil gets kp volts per ampere of its set-point and nothing is fed back; else its current follows.
+  bool voltage_mode = false;
+  double bandwidth = 0;  // [Hz] of the current loop, which kp and ki follow from; 0: they are given
+  double delay = 0;      // [s] of the set-points on their way, in whole switching periods
 };
 
 inline constexpr Field<AmplifierParameters> kAmplifierFields[] = {
@@ -49,6 +53,14 @@ inline constexpr Field<AmplifierParameters> kAmplifierFields[] = {
     {"i_max", &AmplifierParameters::i_max, "A", 1e-6, 1e5, "largest set-point"},
     {"quadrants", &AmplifierParameters::quadrants, "-", 2, 4,
      "2: currents never negative; 4: any sign"},
+};
+
+/// Beside them, in a table of their own: a commissioning knows an amplifier by the numbers above.
+inline constexpr Field<AmplifierParameters> kAmplifierModeFields[] = {
+    {"bandwidth", &AmplifierParameters::bandwidth, "Hz", 0, 1e6,
+     "of the current loop, in place of kp and ki; 0: they are given"},
+    {"delay", &AmplifierParameters::delay, "s", 0, 0.1,
+     "set-points reach the current loops this much later"},
 };
 
 }  // namespace ambrig

@@ -10,12 +10,14 @@
 /// x, y: the shaft's centre at the bearing, stator axes [m]; of a bearing with one axis x lies along
 /// it and y is 0. Source: docs/theory/base_model.md section 2.
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "actuators/magnetics/coupling.h"
 #include "actuators/magnetics/gap_reluctance.h"
 #include "actuators/magnetics/lane.h"
 #include "actuators/magnetics/opposed_stator.h"
+#include "actuators/magnetics/pole_network.h"
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/thrust_stator.h"
 
@@ -29,6 +31,9 @@ struct StatorGeometry {
   Lane direction_x, direction_y;  // of the pull, a unit vector: cos γ, sin γ
   Lane gap_offset;                // rotor centred [m]
   GapReluctance reluctance;       // [1/H]
+  /// Of kNetwork the whole circuit. `n` is then Σ |turns| over a coil's poles, direction the way in which
+  /// more current of a coil pulls, gap_offset the smallest gap, reluctance that of a mean pole.
+  std::shared_ptr<const PoleNetwork> network;
 
   /// (x, y) of every coil's direction.
   std::vector<std::array<double, 2>> Directions() const;

@@ -72,6 +72,7 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
   x1_ = x1;
   y1_ = y1;
   per_period_ = samples_per_period;
+  if (coupling == Coupling::kNetwork) return BeginNetwork(x0, y0, x1, y1);
   const GapLaw law{coupling, gap_offset.v, direction_x.v, direction_y.v,
                    n.v,      inverse_l_.v, reluctance};
   Reluctances(law, x0, y0, x1, y1, rel0_.v, rel1_.v, weight_.v, g0_.v, dg_.v);
@@ -83,6 +84,13 @@ void StatorLanes::BeginPeriod(double x0, double y0, double x1, double y1, int sa
 }
 
 void StatorLanes::EndPeriod() {
+  if (coupling == Coupling::kNetwork) {
+    // Trapezoid over the samples.
+    const Eigen::Vector2d mean =
+        (force_sum_ + 0.5 * (force_start_ - force_end_)) / static_cast<double>(per_period_);
+    fx = mean.x(), fy = mean.y();
+    return;
+  }
   MeanPull({sum_.v, start_sq_.v, phi.v, weight_.v, direction_x.v, direction_y.v}, per_period_, &fx,
            &fy);
 }
@@ -174,6 +182,7 @@ void StatorLanes::RunPeriod(const VoltagePattern& pattern, double bus, double x0
 
 void StatorLanes::Refresh(double x, double y) {
   // Same as a solve with no voltage and no time: currents that carry the present linkages.
+  if (coupling == Coupling::kNetwork) flux_ = network->FluxAt({x, y, 0}).phi;
   for (int j = 0; j < kLanes; ++j) rel_[j] = reluctance.Value(GapAt(j, x, y));
   const Lane keep_half = half_rh_, keep_inverse = inverse_l_;
   for (int j = 0; j < kLanes; ++j) {
@@ -199,7 +208,8 @@ void StatorLanes::Settle(const Lane& currents, double x, double y) {
     rel_[j] = reluctance.Value(GapAt(j, x, y));
     phi[j] = 0;
   }
-  for (int round = 0; round < (laws.empty() ? 1 : 200); ++round) {
+  if (coupling == Coupling::kNetwork) SettleNetwork(x, y);
+  for (int round = 0; round < RoundsOfSettling(); ++round) {
     Lane g, m, drop, slope;
     double top = 0, sum = 0;
     for (const FluxLaw* law : laws) law->Steady(phi, &drop, &slope);
@@ -261,6 +271,12 @@ void StatorLanes::ShortTurns(int j, double s, double r, double x, double y) {
 
 void StatorLanes::Force(double x, double y, double* out_x, double* out_y) const {
   *out_x = *out_y = 0;
+  if (coupling == Coupling::kNetwork) {
+    const PoleVector now = network->FluxAt({x, y, 0}).phi * NetworkCurrents();
+    const Eigen::Vector3d f = network->Force(now);
+    *out_x = f.x(), *out_y = f.y();
+    return;
+  }
   for (int j = 0; j < coils; ++j) {
     if (coupling == Coupling::kSides && j % 2 == 1) continue;
     const double pull = 0.5 * reluctance.Pull(GapAt(j, x, y)) * phi[j] * phi[j];
@@ -270,6 +286,7 @@ void StatorLanes::Force(double x, double y, double* out_x, double* out_y) const 
 }
 
 double StatorLanes::FieldEnergy(double x, double y) const {
+  Require(coupling != Coupling::kNetwork, "a stator without magnets, coil by coil");
   double w = 0;
   for (const ShortedTurns& s : shorts) w += 0.5 * s.leakage * s.i * s.i;
   for (int j = 0; j < coils; ++j) {

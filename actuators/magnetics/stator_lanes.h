@@ -81,10 +81,19 @@ class StatorLanes : public StatorGeometry {
   /// Mean current drawn from the bus over sample k [A] (general path).
   double bus_current() const { return bus_current_; }
 
-  bool NeedsGeneralPath() const { return !shorts.empty() || !laws.empty(); }
+  /// Of the fixed point of a start: none where the circuit is solved at once.
+  int RoundsOfSettling() const {
+    return coupling == Coupling::kNetwork ? 0 : laws.empty() ? 1 : 200;
+  }
+  bool NeedsGeneralPath() const {
+    return !shorts.empty() || !laws.empty() || coupling == Coupling::kNetwork;
+  }
   /// Instantaneous force at the present flux.
   void Force(double x, double y, double* out_x, double* out_y) const;
   double FieldEnergy(double x, double y) const;  // [J], ideal iron
+  /// Of any stator (coupling kNetwork): what `current` [A] of its coils counts in the network as drawn,
+  /// when coils have other turns.
+  Eigen::VectorXd CountedCurrents(const double* current) const;
 
  private:
   /// Never below 2 % of the nominal gap: a shaft pressed beyond that has reached the pole.
@@ -99,6 +108,14 @@ class StatorLanes : public StatorGeometry {
   /// Flux and currents that carry the targets λ*, the shorted turns' too, after a step of h [s] (0:
   /// at once); Newton over the laws.
   void SolveGeneral(const Lane& target, double h);
+  // Of any stator (coupling kNetwork): the same steps over its whole circuit, stator_lanes_network.cc.
+  void BeginNetwork(double x0, double y0, double x1, double y1);
+  void SolveNetwork(const Lane& target, double h);
+  void TakeNetwork();
+  void SettleNetwork(double x, double y);
+  void PlaceNetwork(double fraction);
+  PoleVector NetworkFluxes() const;
+  WindingVector NetworkCurrents() const;
   StatorLoop LoopOver(const VoltagePattern& pattern, double bus);
   void RunChecked(const StatorLoop& loop);
   void OpenDriven(const VoltagePattern& pattern, double t);
@@ -115,6 +132,11 @@ class StatorLanes : public StatorGeometry {
   Lane rel_;
   double bus_current_ = 0;
   bool affine_laws_ = true;  // one round of Newton is exact
+  // Of any stator: pole fluxes per ampere at both ends of the period and now; forces at its start, of
+  // its samples, and at its end [N].
+  PoleMatrix flux0_, flux1_, flux_;
+  Eigen::Vector2d force_start_ = Eigen::Vector2d::Zero(), force_sum_ = Eigen::Vector2d::Zero(),
+                  force_end_ = Eigen::Vector2d::Zero();
 };
 
 }  // namespace ambrig

@@ -114,6 +114,7 @@ AMBRIG_WIDE void Take(const double* n, const double* leakage, const double* phi,
 }  // namespace
 
 void StatorLanes::SolveGeneral(const Lane& target, double h) {
+  if (coupling == Coupling::kNetwork) return SolveNetwork(target, h);
   Lane short_mmf, short_own;
   const auto inverse = [h](const ShortedTurns& s) {
     return 1 / (s.leakage + s.theta * s.resistance * h);
@@ -156,7 +157,10 @@ void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
   const Edges edges{&pattern, bus, k * h_, h_};
   samples[k] = i;
   const Lane& start = samples[k];
-  Reluctance(rel0_.v, rel1_.v, fraction, rel_.v);
+  if (coupling == Coupling::kNetwork)
+    PlaceNetwork(fraction);
+  else
+    Reluctance(rel0_.v, rel1_.v, fraction, rel_.v);
   Lane target;
   Targets(edges, lambda.v, half_rh_.v, i.v, target.v);
   UnblockDriven(pattern, bus, edges.t, &target);
@@ -171,7 +175,10 @@ void StatorLanes::StepSample(const VoltagePattern& pattern, double bus, int k) {
       }
     if (!any) break;
   }
-  Take(n.v, leakage.v, phi.v, i.v, lambda.v, sum_.v);
+  if (coupling == Coupling::kNetwork)
+    TakeNetwork();
+  else
+    Take(n.v, leakage.v, phi.v, i.v, lambda.v, sum_.v);
   for (ShortedTurns& s : shorts) s.lambda = s.n * phi[s.coil] + s.leakage * s.i;
   for (FluxLaw* law : laws) law->Commit(phi);
   bus_current_ = Drawn(edges, start.v, i.v);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "actuators/magnetics/running_stator.h"
+#include "core/base/errors.h"
 
 namespace ambrig {
 
@@ -153,6 +154,8 @@ void SolveSample(const StatorLoop& s, const double* target, double fraction) {
       return Solve<S>(s, target, fraction);
     case N:
       return Solve<N>(s, target, fraction);
+    case Coupling::kNetwork:
+      Require(false, "a stator of the fast path");
   }
 }
 

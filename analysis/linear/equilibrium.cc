@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "actuators/magnetics/coil_network.h"
 #include "core/math/kinsol.h"
@@ -15,15 +16,15 @@ namespace {
 struct Balance {
   const Plant& plant;
   const std::vector<BearingControl>& control;
-  std::vector<CoilNetwork> networks;
-  std::vector<std::size_t> first_axis;  // per bearing
+  std::vector<std::unique_ptr<CoilNetwork>> networks;  // nullptr: of any stator
+  std::vector<std::size_t> first_axis;                 // per bearing
   std::size_t axes = 0, dof = 0;
   std::vector<bool> fixed;  // coordinates that no force moves: held at zero
 
   Balance(const Plant& p, const std::vector<BearingControl>& c)
       : plant(p), control(c), dof(static_cast<std::size_t>(p.rotor.dof())), fixed(dof, false) {
     for (const BearingPlant& b : plant.bearings) {
-      networks.emplace_back(b.lanes);
+      networks.push_back(b.lanes.network ? nullptr : std::make_unique<CoilNetwork>(b.lanes));
       first_axis.push_back(axes);
       axes += AxesOf(b);
     }
@@ -50,8 +51,15 @@ struct Balance {
       x -= b.offset_x;
       y -= b.offset_y;
       NetworkState n;
-      networks[k].Linkages(set.data(), x, y, lambda);
-      networks[k].Solve(lambda, x, y, n);
+      if (networks[k]) {
+        networks[k]->Linkages(set.data(), x, y, lambda);
+        networks[k]->Solve(lambda, x, y, n);
+      } else {
+        const Eigen::Vector3d f =
+            b.lanes.network->Force({x, y, 0}, b.lanes.CountedCurrents(set.data()));
+        n.fx = f.x();
+        n.fy = f.y();
+      }
       b.plane.AddForce(n.fx, n.fy, Q);
       if (b.thrust) continue;
       stator_x += n.fx;

@@ -24,6 +24,44 @@ Eigen::Vector2d ForceChange(const StatorLanes& lanes, const NetworkState& s,
   return out;
 }
 
+/// Of any stator: with L and J = dF/di of the coils that carry, S = dF/dr at constant current and
+/// dλ/dr = Jᵀ,  I_λ = L⁻¹,  I_r = -L⁻¹ Jᵀ,  F_λ = J L⁻¹,  F_r = S - J L⁻¹ Jᵀ.
+LinearBearing LineariseStatorNetwork(const StatorLanes& lanes, const Lane& current, double x,
+                                     double y) {
+  const PoleNetwork& network = *lanes.network;
+  const Eigen::Vector3d r(x, y, 0);
+  LinearBearing out;
+  Lane carried;
+  for (int j = 0; j < lanes.coils; ++j) {
+    if (lanes.open[AsSize(j)] || (lanes.unipolar && !(current[j] > 0))) continue;
+    carried[j] = current[j];
+    out.coils.push_back(j);
+  }
+  const Eigen::VectorXd counted = lanes.CountedCurrents(carried.v);
+  const WindingMatrix all = network.Linkage(network.FluxAt(r).phi);
+  const auto gain = network.ForceOfCurrent(r, counted);
+  const auto n = static_cast<Eigen::Index>(out.coils.size());
+  Eigen::MatrixXd L(n, n), J(2, n);
+  out.current.resize(n);
+  out.resistance.resize(n);
+  const auto share = [&](int j) { return lanes.n[j] / network.TurnsOf(j); };
+  for (Eigen::Index a = 0; a < n; ++a) {
+    const int p = out.coils[static_cast<std::size_t>(a)];
+    out.current(a) = carried[p];
+    out.resistance(a) = lanes.resistance[p];
+    J.col(a) = share(p) * gain.col(p).head<2>();
+    for (Eigen::Index b = 0; b < n; ++b) {
+      const int q = out.coils[static_cast<std::size_t>(b)];
+      L(a, b) = share(p) * share(q) * all(p, q) + (a == b ? lanes.leakage[p] : 0);
+    }
+  }
+  out.I_lambda = L.inverse();
+  out.I_r = -out.I_lambda * J.transpose();
+  out.F_lambda = J * out.I_lambda;
+  out.F_r = network.NegativeStiffness(r, counted).topLeftCorner<2, 2>() + J * out.I_r;
+  return out;
+}
+
 }  // namespace
 
 Eigen::MatrixXd LinearBearing::ForceOfCurrent() const { return F_lambda * Inductance(); }
@@ -31,6 +69,7 @@ Eigen::MatrixXd LinearBearing::ForceOfCurrent() const { return F_lambda * Induct
 Eigen::Matrix2d LinearBearing::NegativeStiffness() const { return F_r - ForceOfCurrent() * I_r; }
 
 LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, double x, double y) {
+  if (lanes.network) return LineariseStatorNetwork(lanes, current, x, y);
   CoilNetwork network(lanes);
   LinearBearing out;
   double carried[kMaxWindings] = {}, lambda[kMaxWindings] = {}, slope[kMaxWindings] = {};

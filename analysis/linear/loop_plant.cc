@@ -33,6 +33,7 @@ LoopPlant::LoopPlant(const OperatingPoint& point, LinearPlant plant)
   Ts_ = M_ * period_.T;
   kp_ = a.kp;
   ki_T_ = a.ki * period_.T;
+  fed_back_ = a.voltage_mode ? 0 : 1;
   const CurrentRegulator regulator(a);
   duty_per_volt_ = regulator.DutyFromVoltage(1) - regulator.DutyFromVoltage(0);
   late_ = static_cast<int>(std::ceil(point.plant().loop_delay / period_.T - 1e-6));
@@ -66,7 +67,7 @@ void LoopPlant::Tick(Matrix& x, const Matrix& forces, Disturb&& disturb) const {
          mean = x.middleRows(feedback(), coils);
   for (int j = 0; j < M_; ++j) {
     const Index age = j >= late_ ? 0 : (late_ - j + M_ - 1) / M_;
-    const Matrix e = as(set_points_) * x.middleRows(force() + age * a, a) - mean;
+    const Matrix e = as(set_points_) * x.middleRows(force() + age * a, a) - fed_back_ * mean;
     integrals += ki_T_ * e;
     const Matrix duty = duty_per_volt_ * (kp_ * e + integrals);
     mean = as(period_.feedback_of_state) * plant + as(period_.feedback_of_duty) * duty;

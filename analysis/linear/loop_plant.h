@@ -54,7 +54,7 @@ class LoopPlant {
   LinearPlant plant_;
   PeriodMap period_;
   Eigen::MatrixXd set_points_;  // (currents x axes) [A/N]
-  double Ts_ = 0, kp_ = 0, ki_T_ = 0, duty_per_volt_ = 0;
+  double Ts_ = 0, kp_ = 0, ki_T_ = 0, duty_per_volt_ = 0, fed_back_ = 1;
   int M_ = 1, late_ = 0;  // periods of the controller; of the loop's delay
 };
 

@@ -25,7 +25,8 @@ OperatingPoint::Model::Model(const TrueRig& true_rig, const NominalRig& known)
 
 void OperatingPoint::PlaceCoils(std::size_t k) {
   const BearingControl& own = control()[k];
-  const AmplifierParameters& amplifier = rig().amplifier;
+  AmplifierParameters amplifier = rig().amplifier;
+  amplifier.voltage_mode = false;  // the duty that holds a current is the same
   const double* f = force.data() + FirstAxis(k);
   const double fx = f[0], fy = AxisCount(k) > 1 ? f[1] : 0;
   const auto set = own.map.SetPoints(fx, fy);

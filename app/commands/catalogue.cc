@@ -4,6 +4,7 @@
 
 #define AMBRIG_COMMANDS(COMMAND) \
   COMMAND(Tour)                  \
+  COMMAND(New)                   \
   COMMAND(Run)                   \
   COMMAND(Check)                 \
   COMMAND(Diff)                  \

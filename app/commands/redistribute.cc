@@ -5,6 +5,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/progress.h"
+#include "app/commands/redistribute_stator.h"
 #include "app/pages/redistribute_report.h"
 #include "faulttolerance/redistribution/redistribution_json.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
@@ -22,8 +23,9 @@ struct RedistributeOptions {
   std::string rig, bearing = "A", failed;
 };
 
-std::vector<std::vector<int>> FailedSets(const std::string& text) {
-  if (text.empty() || text == "all") return AllFailureSets();
+std::vector<std::vector<int>> FailedSets(const std::string& text, int coils) {
+  if (text.empty() || text == "all")
+    return coils == kPoles ? AllFailureSets() : FailureSetsOf(coils);
   std::vector<std::vector<int>> sets;
   std::stringstream groups(text);
   for (std::string group; std::getline(groups, group, ';');) {
@@ -37,23 +39,22 @@ std::vector<std::vector<int>> FailedSets(const std::string& text) {
       } catch (const std::exception&) {
         used = std::string::npos;
       }
-      if (used != word.size() || coil < 1 || coil > kPoles)
+      if (used != word.size() || coil < 1 || coil > coils)
         throw InputError(
             fmt::format("--failed = {}: unknown coil \"{}\", allowed: 1 to {}, e.g. 1,2 or 1;1,2",
-                        text, word, kPoles));
+                        text, word, coils));
       if (std::find(set.begin(), set.end(), coil) != set.end())
         throw InputError(fmt::format("--failed = {}: coil {} is named twice", text, coil));
       set.push_back(coil);
     }
     if (set.empty())
-      throw InputError(
-          fmt::format("--failed = {}: a set without a coil, allowed: 1 to {}, e.g. 1,2 or 1;1,2",
-                      text, kPoles));
+      throw InputError(fmt::format(
+          "--failed = {}: a set without a coil, allowed: 1 to {}, e.g. 1,2 or 1;1,2", text, coils));
     std::sort(set.begin(), set.end());
     sets.push_back(set);
   }
   if (sets.empty())
-    throw InputError(fmt::format("--failed = {}: no coil, allowed: 1 to {}", text, kPoles));
+    throw InputError(fmt::format("--failed = {}: no coil, allowed: 1 to {}", text, coils));
   return sets;
 }
 
@@ -87,14 +88,20 @@ int Redistribute(const RedistributeOptions& o) {
   const RigParameters rig = ReadRig(o.rig);
   o.common.CheckOutputs({o.rig, rig.file});
   const BearingParameters* b = rig.Find(o.bearing);
-  if (!b || !b->kind->eight_poles) {
+  const auto able = [](const BearingParameters& k) {
+    return k.kind->eight_poles || k.kind->linearise;
+  };
+  if (!b || !able(*b)) {
     std::string known;
     for (const auto& k : rig.bearings)
-      if (k.kind->eight_poles) known += (known.empty() ? "" : ", ") + k.name;
+      if (able(k)) known += (known.empty() ? "" : ", ") + k.name;
     throw InputError(fmt::format("--bearing = {}, allowed: {}", o.bearing, known));
   }
-  const auto sets = FailedSets(o.failed);
+  const auto sets = FailedSets(o.failed, b->coils());
   const NominalRig nominal(rig);
+  if (b->kind->linearise)
+    return RedistributeStator(nominal, static_cast<std::size_t>(b - rig.bearings.data()), sets,
+                              o.common);
   const RedistributionTable table(RedistributionProblemOf(nominal, *b),
                                   RedistributionCacheDirectory());
   const auto index = static_cast<std::size_t>(b - rig.bearings.data());
@@ -142,10 +149,11 @@ void AddRedistribute(CLI::App& app, Work& work) {
   CLI::App* command =
       app.add_subcommand("redistribute", "compute the current distribution after coil failures");
   command->add_option("rig", options->rig, "rig file (TOML)")->required();
-  command->add_option("--bearing", options->bearing, "radial bearing")->capture_default_str();
+  command->add_option("--bearing", options->bearing, "radial bearing or stator")
+      ->capture_default_str();
   command
       ->add_option("--failed", options->failed,
-                   "failed coils, e.g. 1,2 ; several sets 1;1,2 (default: all 255 sets)")
+                   "failed coils, e.g. 1,2 ; several sets 1;1,2 (default: all sets)")
       ->check([](const std::string& text) {
         return text.empty() ? std::string("a set without a coil, allowed: e.g. 1,2 or 1;1,2") : "";
       });

@@ -6,7 +6,9 @@ double CurrentRegulator::VoltageOfDuty(double d) const {
   return SwingsBothWays(p_->modulation) ? 2 * p_->bus_voltage * (d - 0.5) : p_->bus_voltage * d;
 }
 
-void CurrentRegulator::ResetToLowerLimit() { integral_ = VoltageOfDuty(p_->duty_min); }
+void CurrentRegulator::ResetToLowerLimit() {
+  integral_ = p_->voltage_mode ? 0 : VoltageOfDuty(p_->duty_min);
+}
 
 void CurrentRegulator::HoldCurrent(double current, double resistance) {
   if (current <= 0.2 && p_->quadrants < 3 && p_->modulation != Modulation::kIdeal)
@@ -21,7 +23,7 @@ void CurrentRegulator::HoldCurrent(double current, double resistance) {
     const double wheel = p_->switch_drop + p_->diode_drop;
     d = 0.5 + 0.5 * (ir + wheel) / (u_d - 2 * p_->switch_drop + wheel);
   }
-  integral_ = VoltageOfDuty(d);
+  integral_ = p_->voltage_mode ? 0 : VoltageOfDuty(d);
 }
 
 }  // namespace ambrig

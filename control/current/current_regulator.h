@@ -4,7 +4,7 @@
 ///
 ///   d = d0 + (kp e + integral) / u,   u = 2 U_d with d0 = 0.5, or u = U_d with d0 = 0
 ///
-/// The duty is clamped to the limits; the integral's increment is dropped when the tentative duty is
+/// In voltage mode e is the set-point and there is no integral. The duty is clamped to the limits; the integral's increment is dropped when the tentative duty is
 /// beyond the limit on the side that e pushes to. The bridge that the duty drives is the plant's:
 /// actuators/electronics/power_bridge.h. Source: docs/theory/base_model.md section 3.
 #include "actuators/electronics/amplifier_parameters.h"
@@ -18,13 +18,14 @@ class CurrentRegulator {
   explicit CurrentRegulator(const AmplifierParameters& nominal)
       : p_(&nominal),
         integral_gain_(nominal.ki / nominal.switching_frequency),
+        feedback_gain_(nominal.voltage_mode ? 0 : 1),
         centre_(SwingsBothWays(nominal.modulation) ? 0.5 : 0),
         duty_per_volt_(1 / (SwingsBothWays(nominal.modulation) ? 2 * nominal.bus_voltage
                                                                : nominal.bus_voltage)) {}
 
   /// Duty of the period that begins. `feedback`: mean of last period's samples [A].
   double Duty(double set_point, double feedback) {
-    const double e = set_point - feedback, increment = integral_gain_ * e;
+    const double e = set_point - feedback_gain_ * feedback, increment = integral_gain_ * e;
     double d = DutyFromVoltage(p_->kp * e + integral_ + increment);
     const bool above = d > p_->duty_max, below = d < p_->duty_min;
     if (!above && !below) [[likely]] {
@@ -50,7 +51,8 @@ class CurrentRegulator {
   double VoltageOfDuty(double d) const;
 
   const AmplifierParameters* p_ = nullptr;
-  double integral_gain_ = 0;               // ki T [V/A]
+  double integral_gain_ = 0;  // ki T [V/A]
+  double feedback_gain_ = 1;  // 0: a voltage follows the set-point, nothing is fed back
   double centre_ = 0, duty_per_volt_ = 0;  // duty of zero volts [-], [1/V]
   double integral_ = 0;                    // [V]
 };

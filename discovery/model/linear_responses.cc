@@ -125,7 +125,7 @@ void LinearResponses::CloseCurrentLoops(const std::vector<std::array<bool, kLane
   MatrixXd integral_of_fb = -slope * MatrixXd::Identity(c, c);
   MatrixXd integral_of_s = slope * MatrixXd::Identity(c, c);
   duty_of_x.middleCols(c, c) = per_volt * MatrixXd::Identity(c, c);
-  duty_of_x.rightCols(c) = -gain * MatrixXd::Identity(c, c);
+  duty_of_x.rightCols(c) = (a.voltage_mode ? 0 : -gain) * MatrixXd::Identity(c, c);
   for (Index j = 0; j < c; ++j) {  // whose duty is given has no loop
     const auto [k, lane] = coils_[AsSize(j)];
     if (!by_duty[k][AsSize(lane)]) continue;

@@ -5,6 +5,7 @@
 #include "faulttolerance/supervision/failure_map.h"
 #include "faulttolerance/supervision/fault_supervisor.h"
 #include "faulttolerance/supervision/map_checks.h"
+#include "faulttolerance/supervision/stator_failure_map.h"
 #include "faulttolerance/supervision/watched_bearing.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
@@ -55,6 +56,12 @@ void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& cont
 }
 
 std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
+  if (const auto network = w.bearing->kind->stator(*w.bearing).network) {
+    *map = *w.healthy;
+    return StatorMapAfterFailure(
+        StatorProblemOf(network, w.bearing->kind->two_axes ? 2 : 1, *w.healthy, w.turns_left),
+        options_.stiffness_compensation, map);
+  }
   if (!w.bearing->kind->eight_poles) {
     map->W = w.healthy->W;
     return w.bearing->kind->redistribute(*w.bearing, w.turns_left, *map);

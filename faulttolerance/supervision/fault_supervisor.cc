@@ -7,6 +7,7 @@
 
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "faulttolerance/supervision/watched_bearing.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -37,6 +38,11 @@ FaultSupervisor::FaultSupervisor(const NominalRig& nominal, const FaultSuperviso
   bus_weight_ = 1 / std::max(1.0, noisy * noisy);
   bus_ = a.bus_voltage;
   for (const BearingParameters& b : rig_->bearings) {
+    if (b.kind->linearise && options.redistribution == "force-by-force")
+      throw InputError(
+          fmt::format("{}: redistribution = \"force-by-force\" with bearing {} of kind "
+                      "\"{}\", allowed: auto, matrix",
+                      rig_->file, b.name, b.kind->name));
     auto w = std::make_unique<Watched>();
     w->bearing = &b;
     w->index = watched_.size();

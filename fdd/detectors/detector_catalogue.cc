@@ -5,6 +5,7 @@
 #include "core/base/errors.h"
 #include "fdd/detectors/coil_detector.h"
 #include "fdd/detectors/examined_detector.h"
+#include "fdd/detectors/linkage_balance.h"
 
 #define AMBRIG_DETECTORS(DETECTOR) \
   DETECTOR(Paper)                  \
@@ -33,6 +34,8 @@ std::span<const CoilDetectorKind> CoilDetectorKinds() {
 
 std::unique_ptr<RunDetector> MakeRunDetector(const std::string& kind, const std::string& where,
                                              const RunDetectorSetup& setup) {
+  // The kinds of the list know eight poles, sides or single magnets; any stator has one of its own.
+  if (setup.model.coupling == Coupling::kNetwork) return MakeLinkageBalance(setup);
   std::string names;
   for (const CoilDetectorKind& k : CoilDetectorKinds()) {
     if (k.name == kind)

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "actuators/magnetics/stator_geometry.h"
+#include "control/current/bias_linearisation.h"
 #include "control/current/current_map.h"
 #include "core/base/parameter_places.h"
 #include "rig/rig_parameters.h"
@@ -45,7 +46,13 @@ struct BearingKind {
   double (*force_constant)(const BearingParameters& b);  // k of f = k c0 v [N/A²]
   /// Its own bias current [A]; nan: the controller's.
   double (*own_bias)(const BearingParameters& b);
-  /// Of a bearing without eight poles: changes the distribution matrix of `map` to what these shares
+  /// What must hold between it and the controller's bias current [A], and its bridges; may be empty.
+  void (*check)(const TomlTable& t, const BearingParameters& b, double bias,
+                bool unipolar) = nullptr;
+  /// Of any stator: its healthy map, at this bias current [A] of the controller; nullptr: coil j takes
+  /// [1, cos γ, sin γ].
+  BiasLinearisation (*linearise)(const BearingParameters& b, double bias) = nullptr;
+  /// Of a bearing without eight poles, unless it has `linearise`: changes the distribution matrix of `map` to what these shares
   /// of the coils' turns can do; says how much that is: "exact", "one way" or "none".
   std::string (*redistribute)(const BearingParameters& b, const CoilVector& turns_left,
                               CurrentMap& map) = nullptr;

@@ -4,7 +4,9 @@
 #define AMBRIG_BEARING_KINDS(KIND) \
   KIND(RadialBearing)              \
   KIND(ThrustBearing)              \
-  KIND(OpposedBearing)
+  KIND(OpposedBearing)             \
+  KIND(StatorBearing)              \
+  KIND(AxialStatorBearing)
 
 namespace ambrig {
 

@@ -102,6 +102,12 @@ Scenario CommissioningScenario(const RigParameters& rig, const CommissioningPlan
         fmt::format("{}: allowed for commissioning: a rig with bi-state bridges "
                     "(slopes need both phases)",
                     rig.file));
+  for (const BearingParameters& b : rig.bearings)
+    if (b.kind->linearise)
+      throw InputError(
+          fmt::format("{}: bearing {}: kind = \"{}\", allowed for commissioning: "
+                      "radial, thrust, opposed",
+                      rig.file, b.name, b.kind->name));
   Scenario s;
   s.name = "commissioning";
   s.rig_file = rig.file;

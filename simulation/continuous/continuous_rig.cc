@@ -15,6 +15,9 @@ constexpr std::size_t kEnergies = 5;  // electrical, drive, copper, contact, mag
 
 void RefuseWhatIsNotHere(const Plant& plant) {
   for (const BearingPlant& b : plant.bearings) {
+    if (b.lanes.network)
+      throw InputError(fmt::format(
+          "bearing {}: kind = \"stator\" or \"axial-stator\" needs --fidelity switching", b.name));
     if (!b.lanes.laws.empty())
       throw InputError(
           fmt::format("bearing {}: effects of the iron need --fidelity switching", b.name));

@@ -86,6 +86,7 @@ struct Examples {
 
 const Examples kExamples[] = {
     {"tour"},
+    {"new"},
     {"run"},
     {"check"},
     {"diff"},

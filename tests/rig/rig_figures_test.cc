@@ -115,7 +115,7 @@ TEST(Clearance, IsThatOfTheAuxiliaryBearing) {
 }
 
 TEST(BearingKinds, AreFoundByTheNamesThatFilesGiveThem) {
-  EXPECT_EQ(BearingKindNames(), "radial, thrust, opposed");
+  EXPECT_EQ(BearingKindNames(), "radial, thrust, opposed, stator, axial-stator");
   for (const BearingKind* k : BearingKinds()) EXPECT_EQ(FindBearingKind(k->name), k);
   EXPECT_EQ(FindBearingKind("axial"), nullptr);
   EXPECT_EQ(BearingParameters{}.kind, FindBearingKind("radial"));

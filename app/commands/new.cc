@@ -1,0 +1,237 @@
+/// ambrig new: from some numbers of a bench, and a record of it, to rig, scenario and case files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "app/commands/commands.h"
+#include "app/commands/new_case.h"
+#include "app/commands/new_templates.h"
+#include "app/commands/outputs.h"
+#include "app/commands/screen.h"
+#include "core/base/atomic_file.h"
+#include "core/base/toml.h"
+#include "core/record/read_record.h"
+#include "rig/rig_file.h"
+
+namespace ambrig {
+
+namespace {
+
+struct NewCommand {
+  std::string name, answers, record, out = "bench";
+  std::vector<std::string> set, column;
+  bool ask = false, only_files = false, force = false;
+};
+
+double NumberOf(const BenchNumber& n, const std::string& text, const std::string& where) {
+  std::size_t used = 0;
+  double v = std::nan("");
+  try {
+    v = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = std::string::npos;
+  }
+  if (used != text.size() || !(n.lo <= v && v <= n.hi))
+    throw InputError(fmt::format("{}{} = {}, allowed: {:g} to {:g} {} ({})", where, n.key, text,
+                                 n.lo, n.hi, n.unit, n.doc));
+  return v;
+}
+
+const BenchNumber& NumberNamed(const BenchTemplate& bench, const std::string& key,
+                               const std::string& where) {
+  std::string keys;
+  for (const BenchNumber& n : bench.numbers) {
+    if (n.key == key) return n;
+    keys += (keys.empty() ? "" : ", ") + std::string(n.key);
+  }
+  throw InputError(fmt::format("{}\"{}\", allowed: {}", where, key, keys));
+}
+
+/// Of the answers file: numbers beside `template` and `record`.
+void ReadAnswers(const std::string& file, NewCommand& o, const BenchTemplate*& bench,
+                 BenchAnswers& answers) {
+  const TomlTable t = TomlTable::FromFile(file);
+  const std::string name = t.String("template", o.name);
+  if (!name.empty() && o.name.empty()) o.name = name;
+  const std::string record = t.String("record", "");
+  if (o.record.empty() && !record.empty())
+    o.record = (std::filesystem::path(file).parent_path() / record).string();
+  if (o.name.empty()) t.Fail("template", "is missing, allowed: one of ambrig new --help");
+  bench = &BenchTemplateByName(o.name);
+  for (const BenchNumber& n : bench->numbers) {
+    if (!t.Has(n.key)) continue;
+    const double v = t.Number(n.key);
+    if (!(n.lo <= v && v <= n.hi))
+      t.Fail(n.key, fmt::format("= {} {}, allowed: {:g} to {:g} {} ({})", v, n.unit, n.lo, n.hi,
+                                n.unit, n.doc));
+    answers[std::string(n.key)] = v;
+  }
+  t.RejectUnknownKeys();
+}
+
+/// One line from the standard input; an end of it is a mistake of the caller's.
+std::string Answer(const std::string& question) {
+  fmt::print("{}", question);
+  std::fflush(stdout);
+  std::string line;
+  if (!std::getline(std::cin, line))
+    throw InputError("ambrig new --ask: the answers ended, allowed: an answer to every question");
+  const auto from = line.find_first_not_of(" \t\r"), to = line.find_last_not_of(" \t\r");
+  return from == std::string::npos ? "" : line.substr(from, to - from + 1);
+}
+
+void AskNumbers(const BenchTemplate& bench, BenchAnswers& answers) {
+  for (const BenchNumber& n : bench.numbers) {
+    if (answers.contains(n.key)) continue;
+    const std::string standard =
+        std::isnan(n.fallback) ? "" : fmt::format(" (nothing: {:g})", n.fallback);
+    while (true) {
+      const std::string text =
+          Answer(fmt::format("{} [{}], {}{}: ", n.key, n.unit, n.doc, standard));
+      if (text.empty() && !std::isnan(n.fallback)) break;
+      try {
+        answers[std::string(n.key)] = NumberOf(n, text, "");
+        break;
+      } catch (const InputError& e) {
+        fmt::print("  {}\n", e.what());
+      }
+    }
+  }
+}
+
+void FillIn(const BenchTemplate& bench, BenchAnswers& answers) {
+  std::string missing;
+  for (const BenchNumber& n : bench.numbers) {
+    if (answers.contains(n.key)) continue;
+    if (std::isnan(n.fallback))
+      missing += fmt::format("{}{} [{}]", missing.empty() ? "" : ", ", n.key, n.unit);
+    else
+      answers[std::string(n.key)] = n.fallback;
+  }
+  if (!missing.empty())
+    throw InputError(
+        fmt::format("template {}: missing {}, allowed: --set KEY=NUMBER, --answers "
+                    "FILE or --ask",
+                    bench.name, missing));
+}
+
+void PrintChoices(const Record& r, const std::vector<ColumnChoice>& all, const RigParameters& rig) {
+  fmt::print("record: {} rows at {:.6g} Hz\n", r.rows(), r.rate);
+  fmt::print("  {:<7} {:<20} {:<5} {:>5} {:>10} {:>10}  {}\n", "channel", "column", "unit", "gain",
+             "least", "most", "because");
+  for (const ColumnChoice& c : all)
+    for (const Channel& column : r.channels) {
+      if (column.name != c.column) continue;
+      const auto [lo, hi] = std::minmax_element(column.samples.begin(), column.samples.end());
+      fmt::print("  {:<7} {:<20} {:<5} {:>5g} {:>10.4g} {:>10.4g}  {}\n", c.channel, c.column,
+                 c.unit.empty() ? "SI" : c.unit, c.gain, *lo, *hi, c.reason);
+    }
+  std::string left;
+  for (const Channel& column : r.channels)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const auto& c) { return c.column == column.name; }))
+      left += (left.empty() ? "" : ", ") + column.name;
+  if (!left.empty()) fmt::print("{}\n", Wrapped("  not taken: " + left, 4));
+  const char* driven[] = {"measured duties", "measured set-points", "measured currents", ""};
+  const CommandSource drive = DriveOf(all, rig);
+  if (drive == CommandSource::kNone)
+    throw InputError(
+        "no duties, set-points or currents of all coils were found in the record, "
+        "allowed: --column CHANNEL=COLUMN for each");
+  fmt::print("  coils driven by: {}; gaps moved by: {}\n", driven[static_cast<int>(drive)],
+             KnowsAll(all, rig, ChannelKind::kReading) ? "measured positions" : "nothing (held)");
+  fmt::print("  another column, unit or sign: --column CHANNEL=COLUMN:UNIT:GAIN\n");
+}
+
+/// `arguments` as if typed after ambrig.
+int RunAmbrig(std::vector<std::string> arguments) {
+  CLI::App app;
+  Work work;
+  AddCommands(app, work);
+  std::reverse(arguments.begin(), arguments.end());
+  app.parse(arguments);
+  return work();
+}
+
+int MakeBench(NewCommand o) {
+  BenchAnswers answers;
+  const BenchTemplate* bench = nullptr;
+  if (!o.answers.empty()) ReadAnswers(o.answers, o, bench, answers);
+  if (o.ask && o.name.empty()) {
+    for (const BenchTemplate& t : BenchTemplates()) fmt::print("  {:<10} {}\n", t.name, t.doc);
+    o.name = Answer("template: ");
+  }
+  if (o.name.empty())
+    throw InputError("--template is missing, allowed: one of ambrig new --help, or --ask");
+  bench = &BenchTemplateByName(o.name);
+  for (const std::string& s : o.set) {
+    const std::size_t is = s.find('=');
+    const BenchNumber& n = NumberNamed(*bench, s.substr(0, is), "--set = ");
+    answers[std::string(n.key)] =
+        NumberOf(n, is == std::string::npos ? "" : s.substr(is + 1), "--set: ");
+  }
+  if (o.ask && o.record.empty()) o.record = Answer("file of a record (nothing: none yet): ");
+  Record record;
+  if (!o.record.empty()) record = ReadRecord(o.record);
+  if (o.ask) AskNumbers(*bench, answers);
+  FillIn(*bench, answers);
+  const std::string rig_text = RigTextOf(*bench, answers);
+  const RigParameters rig = ReadRigText(rig_text, "rig.toml");
+  const std::filesystem::path folder(o.out);
+  PrepareFolder(o.out);
+  std::vector<std::pair<std::string, std::string>> files = {{"rig.toml", rig_text}};
+  if (o.record.empty()) {
+    files.emplace_back("levitation.toml", LevitationText(rig));
+  } else {
+    std::vector<ColumnChoice> choices = ChooseColumns(rig, record);
+    for (const std::string& said : o.column) SayColumn(said, rig, record, choices);
+    const double held = HoldAtDistance(rig, record, choices);
+    PrintChoices(record, choices, rig);
+    const std::string data = std::filesystem::absolute(o.record).lexically_normal().string();
+    files.emplace_back("record.toml", ScenarioOfRecord(rig, record, choices, data, held));
+    files.emplace_back("case.toml", CaseText(rig, choices, data));
+  }
+  std::vector<std::string> paths;
+  for (const auto& [name, text] : files) paths.push_back((folder / name).string());
+  RefuseOverwriting(paths, o.force);
+  for (std::size_t k = 0; k < files.size(); ++k) {
+    WriteFileAtomically(paths[k], files[k].second);
+    fmt::print("written: {}\n", paths[k]);
+  }
+  if (o.only_files) return 0;
+  if (o.record.empty()) return RunAmbrig({"run", paths[1], "--out", (folder / "out").string()});
+  return RunAmbrig({"compare", paths[2], "--html", (folder / "compare.html").string()});
+}
+
+}  // namespace
+
+void AddNew(CLI::App& app, Work& work) {
+  auto o = std::make_shared<NewCommand>();
+  CLI::App* command =
+      app.add_subcommand("new", "a bench of your own: numbers and a record in, files out");
+  std::string names;
+  for (const BenchTemplate& t : BenchTemplates())
+    names += (names.empty() ? "" : ", ") + std::string(t.name);
+  command->add_option("--template", o->name, names);
+  command->add_option("--set", o->set, "KEY=NUMBER, SI units; without: the missing keys are named");
+  command->add_option("--answers", o->answers, "TOML file of keys and numbers, template, record");
+  command->add_option("--record", o->record, "file of an instrument (ambrig channels shows it)");
+  command->add_option("--column", o->column, "CHANNEL=COLUMN, also :UNIT or :UNIT:GAIN");
+  command->add_option("-o,--out", o->out, "folder")->capture_default_str();
+  command->add_flag("--ask", o->ask, "ask for what is missing");
+  command->add_flag("--only-files", o->only_files, "write the files, run nothing");
+  command->add_flag("--force", o->force, "overwrite files that ambrig did not make");
+  command->footer(
+      "Examples:\n"
+      "  ambrig new --answers examples/new/ball.toml -o ball\n"
+      "  ambrig new --answers examples/new/spindle.toml -o spindle\n"
+      "Writes rig, scenario and case, says which column of the record it took for which\n"
+      "channel, and compares; without a record it tells whether the rig hovers. With\n"
+      "--ask it asks for what the options leave out.");
+  command->callback([o, &work] { work = [o] { return MakeBench(*o); }; });
+}
+
+}  // namespace ambrig

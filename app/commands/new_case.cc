@@ -1,0 +1,135 @@
+#include "app/commands/new_case.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/commands/screen.h"
+#include "core/base/toml_edit.h"
+#include "core/base/units.h"
+#include "core/record/column_names.h"
+#include "rig/clearance.h"
+#include "rig/rig_channels.h"
+#include "rig/rig_figures.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kStill = 0.05;  // of the gap: a place that stands
+
+bool Knows(const std::vector<ColumnChoice>& all, const std::string& channel) {
+  return std::any_of(all.begin(), all.end(), [&](const auto& c) { return c.channel == channel; });
+}
+
+std::string Quoted(const std::string& s) {
+  std::string out = "\"";
+  for (const char c : s) out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+  return out + "\"";
+}
+
+}  // namespace
+
+bool KnowsAll(const std::vector<ColumnChoice>& all, const RigParameters& rig, ChannelKind kind) {
+  const auto ids = ChannelsOf(rig, kind);
+  return std::all_of(ids.begin(), ids.end(), [&](const auto& id) { return Knows(all, id.name()); });
+}
+
+double HoldAtDistance(const RigParameters& rig, const Record& record,
+                      std::vector<ColumnChoice>& choices) {
+  double held = 0;
+  for (const BearingParameters& b : rig.bearings)
+    for (const ChannelId& id : ChannelsOf(b, ChannelKind::kReading)) {
+      const auto c = std::find_if(choices.begin(), choices.end(),
+                                  [&](const ColumnChoice& o) { return o.channel == id.name(); });
+      if (c == choices.end()) continue;
+      const std::vector<double>& v = FindColumn(record, c->column)->samples;
+      const double factor = c->gain * (c->unit.empty() ? 1 : UnitFactor(c->unit, "m"));
+      const auto [lo, hi] = std::minmax_element(v.begin(), v.end());
+      const double a = *lo * factor, z = *hi * factor, gap = GapOf(b);
+      if (std::max(std::abs(a), std::abs(z)) < 0.9 * gap) continue;
+      std::string said;
+      const bool distance = b.Axes().size() == 1 && a > 0 && z > 0;
+      if (distance && std::abs(z - a) < kStill * gap) {
+        held = gap - 0.5 * (a + z);
+        said = fmt::format(
+            "{}: {} is taken as the distance from the magnet, the body as held at x = "
+            "{:.4g} m",
+            c->channel, c->column, held);
+      } else {
+        said = fmt::format(
+            "{}: {} reaches {:.4g} m with a gap of {:.4g} m: left out, for x counts from "
+            "the centred rotor",
+            c->channel, c->column, std::max(std::abs(a), std::abs(z)), gap);
+      }
+      fmt::print("{}\n", Wrapped("  " + said, 4));
+      choices.erase(c);
+    }
+  return held;
+}
+
+CommandSource DriveOf(const std::vector<ColumnChoice>& all, const RigParameters& rig) {
+  if (KnowsAll(all, rig, ChannelKind::kDuty)) return CommandSource::kDuty;
+  if (KnowsAll(all, rig, ChannelKind::kSetPoint)) return CommandSource::kSetPoint;
+  return KnowsAll(all, rig, ChannelKind::kCoilCurrent) ? CommandSource::kCurrent
+                                                       : CommandSource::kNone;
+}
+
+std::string ScenarioOfRecord(const RigParameters& rig, const Record& r,
+                             const std::vector<ColumnChoice>& all, const std::string& data,
+                             double held) {
+  std::string text = fmt::format(
+      "# made by ambrig new: the record's own commands drive the coils\nname = \"the record\"\nrig "
+      "= "
+      "\"rig.toml\"\nduration = {}\nrecord_rate = {}\nfault_tolerance = false\n\n[start]\nstate = "
+      "\"clamped\"\n",
+      TomlNumber(r.start + static_cast<double>(r.rows()) / r.rate),
+      TomlNumber(RecordRateFor(rig, r.rate)));
+  if (held != 0)
+    text += fmt::format("position = {{ {} = [{}, 0.0] }}\n", rig.bearings.front().name,
+                        TomlNumber(held));
+  const CommandSource drive = DriveOf(all, rig);
+  if (drive != CommandSource::kDuty && drive != CommandSource::kCurrent) return text;
+  const ChannelKind kind =
+      drive == CommandSource::kDuty ? ChannelKind::kDuty : ChannelKind::kCoilCurrent;
+  for (const ChannelId& id : ChannelsOf(rig, kind))
+    for (const ColumnChoice& c : all)
+      if (c.channel == id.name())
+        text += fmt::format(
+            "\n[[excitation]]\ntarget = \"{}.coil{}\"\nport = \"{}\"\nkind = \"samples\"\nfile = "
+            "{}\nchannel = {}\nstart = 0.0\nstop = {}\n",
+            id.plane, id.index + 1, drive == CommandSource::kDuty ? "duty" : "current",
+            Quoted(data), Quoted(c.column),
+            TomlNumber(r.start + static_cast<double>(r.rows()) / r.rate));
+  return text;
+}
+
+std::string CaseText(const RigParameters& rig, const std::vector<ColumnChoice>& all,
+                     const std::string& data) {
+  std::string text = fmt::format(
+      "# made by ambrig new\nrig = \"rig.toml\"\n\n[[record]]\nscenario = \"record.toml\"\ndata = "
+      "{}\n",
+      Quoted(data));
+  if (KnowsAll(all, rig, ChannelKind::kReading))
+    text += "imposed = \"motion\"                     # measured positions move the gaps\n";
+  text += "[record.channels]\n";
+  for (const ColumnChoice& c : all) {
+    text += fmt::format("\"{}\" = {{ column = {}", c.channel, Quoted(c.column));
+    if (!c.unit.empty()) text += fmt::format(", unit = {}", Quoted(c.unit));
+    if (c.gain != 1) text += fmt::format(", gain = {}", TomlNumber(c.gain));
+    text += " }\n";
+  }
+  return text;
+}
+
+std::string LevitationText(const RigParameters& rig) {
+  return fmt::format(
+      "# made by ambrig new: no record yet - does it hover?\nname = \"levitation\"\nrig = "
+      "\"rig.toml\"\nduration = 0.5\nrecord_rate = {}\nfault_tolerance = false\n\n[expect]\ndrop = "
+      "false\nmax_orbit = {}                   # m, a quarter of the gap\n",
+      TomlNumber(RecordRateFor(rig, rig.controller.rate)),
+      TomlNumber(0.25 * GapOf(rig.bearings.front())));
+}
+
+}  // namespace ambrig

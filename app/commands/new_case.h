@@ -1,0 +1,32 @@
+#pragma once
+/// The scenario and the case that `ambrig new` writes for a record.
+#include <string>
+#include <vector>
+
+#include "app/commands/new_columns.h"
+#include "core/record/channels.h"
+
+namespace ambrig {
+
+/// What drives the coils of the case's scenario.
+enum class CommandSource { kDuty, kSetPoint, kCurrent, kNone };
+
+bool KnowsAll(const std::vector<ColumnChoice>& all, const RigParameters& rig, ChannelKind kind);
+CommandSource DriveOf(const std::vector<ColumnChoice>& all, const RigParameters& rig);
+
+/// Readings count from the centred rotor. A column of distances from the magnet that stands still says
+/// where the body is held; other places beyond the gap are none. Such columns are taken out of `choices`, and
+/// it is said. Returns the place held along the axis [m].
+double HoldAtDistance(const RigParameters& rig, const Record& record,
+                      std::vector<ColumnChoice>& choices);
+
+/// The record's own commands drive the coils; `data`: its file; `held`: of a body that stands [m].
+std::string ScenarioOfRecord(const RigParameters& rig, const Record& record,
+                             const std::vector<ColumnChoice>& all, const std::string& data,
+                             double held);
+std::string CaseText(const RigParameters& rig, const std::vector<ColumnChoice>& all,
+                     const std::string& data);
+/// Without a record: half a second of levitation.
+std::string LevitationText(const RigParameters& rig);
+
+}  // namespace ambrig

@@ -1,0 +1,148 @@
+#include "app/commands/redistribute_stator.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "app/commands/progress.h"
+#include "core/math/constants.h"
+#include "faulttolerance/supervision/stator_failure_map.h"
+#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/nominal_control.h"
+#include "rig/rig_figures.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kDirectionsOfReach = 24;
+constexpr double kTrueForce = 0.05, kSmallForce = 1, kForceStep = 0.5;  // -, [N], [N]
+
+/// Forces from the load on that a map truly gives, by the network that made neither it nor its figures.
+struct StatorReach {
+  bool carries = false;
+  double worst = 0;  // [N] from the load in the worst direction
+};
+
+bool Gives(const PoleNetwork& network, const CurrentMap& map, const Eigen::VectorXd& left,
+           const Eigen::Vector2d& force, int axes) {
+  const Eigen::VectorXd set =
+      map.SetPoints(force.x(), force.y()).head(network.coils()).cwiseProduct(left);
+  const Eigen::Vector3d f = network.Force(Eigen::Vector3d::Zero(), set);
+  return (f.head(axes) - force.head(axes)).norm() <=
+         kTrueForce * std::max(force.norm(), kSmallForce);
+}
+
+StatorReach ReachOf(const StatorProblem& p, const CurrentMap& map, const Eigen::Vector2d& load,
+                    double most) {
+  StatorReach out;
+  out.carries = Gives(*p.network, map, p.turns_left, load, p.axes);
+  if (!out.carries) return out;
+  out.worst = kInfinity;
+  const int directions = p.axes > 1 ? kDirectionsOfReach : 2;
+  for (int k = 0; k < directions; ++k) {
+    const double angle = 2 * kPi * k / directions;
+    const Eigen::Vector2d way(std::cos(angle), p.axes > 1 ? std::sin(angle) : 0);
+    double r = 0;
+    while (true) {
+      const Eigen::Vector2d next = load + (r + kForceStep) * way;
+      if (next.cwiseAbs().maxCoeff() > most || !Gives(*p.network, map, p.turns_left, next, p.axes))
+        break;
+      r += kForceStep;
+    }
+    out.worst = std::min(out.worst, r);
+  }
+  return out;
+}
+
+std::string SetName(const std::vector<int>& set) {
+  std::string text;
+  for (const int coil : set) text += (text.empty() ? "" : ",") + std::to_string(coil);
+  return text;
+}
+
+nlohmann::json JsonOfSet(const StatorProblem& p, const CurrentMap& map, const std::string& cls,
+                         const std::vector<int>& set, const StatorReach& reach) {
+  const Eigen::MatrixXd W = map.W.topRows(p.network->coils());
+  const StatorDistribution d = DescribeStator(p, SolvabilityClass::kNone, W);
+  nlohmann::json item = {{"failed", set},
+                         {"class", ToText(ClassifyStator(p))},
+                         {"map", cls},
+                         {"residual", d.residual},
+                         {"rho", d.rho},
+                         {"unipolar", p.unipolar && d.rho > 0},
+                         {"force", {{"carries", reach.carries}, {"worst", reach.worst}}}};
+  item["W"] = nlohmann::json::array();
+  for (Eigen::Index j = 0; j < W.rows(); ++j) item["W"].push_back({W(j, 0), W(j, 1), W(j, 2)});
+  return item;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> FailureSetsOf(int coils) {
+  std::vector<std::vector<int>> sets;
+  for (int mask = 1; mask < 1 << coils; ++mask) {
+    std::vector<int> set;
+    for (int j = 0; j < coils; ++j)
+      if (mask >> j & 1) set.push_back(j + 1);
+    sets.push_back(set);
+  }
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  return sets;
+}
+
+int RedistributeStator(const NominalRig& rig, std::size_t bearing,
+                       const std::vector<std::vector<int>>& sets, const CommonOptions& common) {
+  const BearingParameters& b = rig->bearings[bearing];
+  if (!common.html.empty())
+    throw InputError(
+        fmt::format("--html = {}: bearing {} is of kind \"{}\", allowed with: radial "
+                    "bearings (its page draws eight poles)",
+                    common.html, b.name, b.kind->name));
+  const CurrentMap healthy = MakeBearingControl(rig, bearing).map;
+  const auto network = b.kind->stator(b).network;
+  const int axes = b.kind->two_axes ? 2 : 1;
+  const auto share = WeightShares(*rig)[bearing];
+  const Eigen::Vector2d load(share[0], axes > 1 ? share[1] : 0);
+  const double most = PidOf(*rig, b).f_max;
+  nlohmann::json json = {{"bearing", b.name},
+                         {"k", healthy.k},
+                         {"c0", healthy.c0},
+                         {"load", {load.x(), load.y()}},
+                         {"sets", nlohmann::json::array()}};
+  fmt::print("{}: bearing {}, {} poles, {} coils; k = {:.4g} N/A2, c0 = {:.4g} A\n", rig->file,
+             b.name, network->poles(), network->coils(), healthy.k, healthy.c0);
+  fmt::print("{:<16} {:<11} {:>10} {:>8} {:>14} {:>12}\n", "coils lost", "map", "equations", "rho",
+             "carries weight", "worst");
+  Progress progress("redistribute");
+  for (std::size_t n = 0; n < sets.size(); ++n) {
+    if (interrupted) throw Interrupted();
+    CoilVector left = CoilVector::Ones();
+    for (const int coil : sets[n]) left[coil - 1] = 0;
+    const StatorProblem p = StatorProblemOf(network, axes, healthy, left);
+    CurrentMap map = healthy;
+    const std::string cls = StatorMapAfterFailure(p, true, &map);
+    const StatorReach reach = ReachOf(p, map, load, most);
+    json["sets"].push_back(JsonOfSet(p, map, cls, sets[n], reach));
+    const auto& item = json["sets"].back();
+    progress.Clear();
+    fmt::print("{:<16} {:<11} {:>10.1e} {:>8.3f} {:>14} {:>10.1f} N\n", SetName(sets[n]), cls,
+               item["residual"].get<double>(), item["rho"].get<double>(),
+               reach.carries ? "yes" : "no", reach.worst);
+    progress.Update(static_cast<double>(n + 1) / static_cast<double>(sets.size()), "");
+  }
+  progress.Clear();
+  if (sets.size() == 1)
+    for (const auto& row : json["sets"][0]["W"])
+      fmt::print("  {:>10.6f} {:>10.6f} {:>10.6f}\n", row[0].get<double>(), row[1].get<double>(),
+                 row[2].get<double>());
+  fmt::print(
+      "map: with currents within range; equations: largest error of those that make\n"
+      "F = k c0 v, over k/2; rho: currents within range on |v| <= rho c0; worst: true\n"
+      "force from the weight on in the worst direction.\n");
+  common.WriteJson(json);
+  return 0;
+}
+
+}  // namespace ambrig

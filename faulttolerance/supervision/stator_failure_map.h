@@ -1,0 +1,19 @@
+#pragma once
+/// The map of any stator that runs go to when coils are lost.
+#include <string>
+
+#include "control/current/current_map.h"
+#include "faulttolerance/redistribution/stator_distribution.h"
+
+namespace ambrig {
+
+/// The problem of a stator whose healthy map is `healthy`, with these shares of its coils' turns.
+StatorProblem StatorProblemOf(std::shared_ptr<const PoleNetwork> network, int axes,
+                              const CurrentMap& healthy, const CoilVector& turns_left);
+
+/// Puts the map for the problem's turns in the place of `map`, which is the healthy one. Returns its
+/// class for the record: "exact", "linearised", "none" (then the rows of lost coils are zero).
+std::string StatorMapAfterFailure(const StatorProblem& problem, bool stiffness_compensation,
+                                  CurrentMap* map);
+
+}  // namespace ambrig

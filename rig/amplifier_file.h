@@ -1,0 +1,15 @@
+#pragma once
+/// The [amplifier] of a rig file.
+#include "core/base/toml.h"
+#include "rig/rig_parameters.h"
+
+namespace ambrig {
+
+/// Fills rig.amplifier. @throws InputError
+void ReadAmplifier(const TomlTable& t, RigParameters& rig);
+
+/// Once the bearings are read: of an amplifier with a bandwidth kp and ki that give it to the coil
+/// with the largest inductance, pole and zero cancelled. @throws InputError
+void TuneAmplifier(const TomlTable& t, RigParameters& rig);
+
+}  // namespace ambrig

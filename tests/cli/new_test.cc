@@ -1,0 +1,120 @@
+// ambrig new: what it writes is read again by the commands, it says what it took for what, and it never
+// overwrites another's files.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "rig/rig_file.h"
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kExamplesOfNew = AMBRIG_SOURCE_DIR "/examples/new/";
+
+class NewBench : public CliFolder {};
+
+// The magnet's data sheet and one record of it: mapped, held at its distance, compared.
+TEST_F(NewBench, FromTenNumbersAndARecordToACase) {
+  const Outcome o = Ambrig("new --answers " + kExamplesOfNew + "ball.toml -o ball");
+  EXPECT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("2401 rows at 200 Hz"));
+  EXPECT_THAT(o.text, HasSubstr("M.i1    i1_A"));
+  EXPECT_THAT(o.text, HasSubstr("M.d1    u1_duty"));
+  EXPECT_THAT(o.text, HasSubstr("z_m is taken as the distance from the magnet"));
+  EXPECT_THAT(o.text, HasSubstr("coils driven by: measured duties"));
+  EXPECT_THAT(o.text, HasSubstr("error over noise, all records"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "ball/compare.html"));
+  const std::string scenario = ReadText(folder_ / "ball/record.toml");
+  // z_m stands at 10.32 mm before a magnet whose working gap is 10 mm.
+  EXPECT_THAT(scenario, HasSubstr("position = { M = [-0.0003"));
+  EXPECT_THAT(scenario, HasSubstr("port = \"duty\""));
+  EXPECT_EQ(Ambrig("compare ball/case.toml").exit, 0);  // the files are there to go on with
+}
+
+// The weight is carried by i0 = (g_c + g) sqrt(2 m g/(L_0 g_c)).
+TEST_F(NewBench, BiasOfOneAxisCarriesTheWeight) {
+  const Outcome o = Ambrig("new --answers " + kExamplesOfNew + "ball.toml -o ball --only-files");
+  EXPECT_EQ(o.exit, 0) << o.text;
+  const RigParameters rig = ReadRig((folder_ / "ball/rig.toml").string());
+  const double i0 = (0.008 + 0.010) * std::sqrt(2 * 0.0605 * 9.81 / (0.045 * 0.008));
+  EXPECT_NEAR(rig.controller.bias_current, i0, 1e-3 * i0);  // written with four digits
+  EXPECT_EQ(rig.rotor.mass, 0.0605);
+}
+
+struct Template {
+  const char *name, *more;
+};
+
+class NewTemplates : public CliFolder, public testing::WithParamInterface<Template> {};
+
+// Every template hovers with numbers of a small spindle; `run` fails when the orbit passes a quarter of
+// the gap.
+TEST_P(NewTemplates, Hover) {
+  const std::string numbers =
+      " --set mass=1.2 --set span=0.11 --set inertia_transverse=4e-3 --set turns=60 --set "
+      "pole_area=8e-5 --set gap=3e-4 --set resistance=0.8 --set bus_voltage=24 --set i_max=4 ";
+  const Outcome o =
+      Ambrig("new --template " + std::string(GetParam().name) + numbers + GetParam().more);
+  EXPECT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("max_orbit"));
+  EXPECT_EQ(o.text.find("NOT MET"), std::string::npos) << o.text;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, NewTemplates,
+    testing::Values(Template{"two-axis", "--set bias_current=1"},
+                    Template{"spindle", "--set bias_current=1"},
+                    Template{"homopolar",
+                             "--set magnet_mmf=800 --set magnet_length=4e-3 --set "
+                             "magnet_area=3e-4"},
+                    Template{"thrust",
+                             "--set bias_current=1 --set thrust_turns=80 --set "
+                             "thrust_area=3e-4 --set thrust_gap=4e-4 --set "
+                             "thrust_bias=0.5"}));
+
+// Asked one by one; a wrong answer is asked again, an empty one takes the standard.
+TEST_F(NewBench, AsksForWhatIsMissing) {
+  Write("answers.txt", "one-axis\n\n0.06\n-1\n0.01\n4.0\n0.11\n0.045\n0.008\n12\n3\n2000\n\n");
+  const Outcome o = Ambrig("new --ask --only-files < answers.txt");
+  EXPECT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("gap = -1, allowed: 1e-05 to 1 m"));
+  const RigParameters rig = ReadRig((folder_ / "bench/rig.toml").string());
+  EXPECT_EQ(rig.rotor.mass, 0.06);
+  EXPECT_EQ(rig.controller.rate, 1000);
+  Write("short.txt", "one-axis\n\n0.06\n");
+  const Outcome ended = Ambrig("new --ask -o other < short.txt");
+  EXPECT_EQ(ended.exit, 2);
+  EXPECT_THAT(ended.text, HasSubstr("the answers ended"));
+}
+
+TEST_F(NewBench, MistakesAreOneLine) {
+  const auto says = [&](const std::string& arguments, const std::string& text) {
+    const Outcome o = Ambrig("new " + arguments);
+    EXPECT_EQ(o.exit, 2) << o.text;
+    EXPECT_EQ(o.lines(), 1) << o.text;
+    EXPECT_THAT(o.text, HasSubstr(text));
+  };
+  says("", "--template is missing");
+  says("--template spindel", "template = \"spindel\", allowed: one-axis, two-axis, spindle");
+  says("--template spindle --set mass=1", "missing span [m], inertia_transverse [kg m2]");
+  says("--template spindle --set mass=heavy", "mass = heavy, allowed: 0.0001 to 100000 kg");
+  says("--template spindle --set weight=1", "\"weight\", allowed: mass, span");
+  Write("a.toml", "template = \"spindle\"\nmass = 1.0\nspam = 2\n");
+  says("--answers a.toml", "spam");
+}
+
+TEST_F(NewBench, DoesNotOverwriteWhatIsNotItsOwn) {
+  std::filesystem::create_directory(folder_ / "ball");
+  Write("ball/rig.toml", "mine = true\n");
+  const std::string call = "new --answers " + kExamplesOfNew + "ball.toml -o ball --only-files";
+  EXPECT_EQ(Ambrig(call).exit, 2);
+  EXPECT_EQ(ReadText(folder_ / "ball/rig.toml"), "mine = true\n");
+  EXPECT_EQ(Ambrig(call + " --force").exit, 0);
+  EXPECT_EQ(Ambrig(call).exit, 0);  // its own by now
+}
+
+}  // namespace
+}  // namespace ambrig

@@ -1,0 +1,147 @@
+// Currents of any stator after coil failures, against the force that the network itself gives.
+#include "faulttolerance/redistribution/stator_distribution.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "actuators/magnetics/stator_parameters.h"
+#include "control/current/bias_linearisation.h"
+#include "core/math/constants.h"
+
+namespace ambrig {
+namespace {
+
+StatorParameters Stator(const std::string& pattern, int poles) {
+  StatorParameters p;
+  p.pattern = pattern;
+  p.axial = FindStatorTemplate(pattern)->axial;
+  p.turns = 60;
+  p.pole_area = 1e-4;
+  p.gap = 3e-4;
+  p.pole_count = poles;
+  p.leakage_inductance = 3e-4;
+  p.resistance = 1;
+  return p;
+}
+
+StatorProblem ProblemOf(const StatorParameters& s, double bias, bool unipolar) {
+  StatorProblem p;
+  p.network = NetworkOf(s);
+  p.axes = s.axial ? 1 : 2;
+  const BiasLinearisation at = LineariseAtBias(*p.network, bias, p.axes);
+  p.healthy = at.W;
+  p.k = at.k;
+  p.c0 = at.c0;
+  p.turns_left = Eigen::VectorXd::Ones(p.network->coils());
+  p.i_max = 6;
+  p.unipolar = unipolar;
+  return p;
+}
+
+/// Largest error of F = k c0 v on the disc |v| <= rho c0, over k c0 rho c0.
+double WorstForce(const StatorProblem& p, const Eigen::MatrixXd& W, double rho) {
+  double worst = 0;
+  for (int k = 0; k < 24; ++k) {
+    const Eigen::Vector2d v =
+        rho * p.c0 * Eigen::Vector2d(std::cos(kPi * k / 12), std::sin(kPi * k / 12));
+    const Eigen::Vector3d command(p.c0, v.x(), p.axes > 1 ? v.y() : 0);
+    const Eigen::VectorXd current = (W * command).cwiseProduct(p.turns_left);
+    const Eigen::Vector3d f = p.network->Force(Eigen::Vector3d::Zero(), current);
+    worst = std::max(worst, (f.head(p.axes) - p.k * p.c0 * v.head(p.axes)).norm());
+  }
+  return worst / (p.k * p.c0 * rho * p.c0);
+}
+
+TEST(BiasLinearisation, IsTheConventionalMapOfEightPoles) {
+  const auto network = NetworkOf(Stator("one-coil-per-pole", 8));
+  const BiasLinearisation at = LineariseAtBias(*network, 1.5, 2);
+  EXPECT_NEAR(at.k, 4 * kMu0 * 60 * 60 * 1e-4 / (3e-4 * 3e-4), 1e-9 * at.k);
+  for (int j = 0; j < 8; ++j) {
+    const double angle = (22.5 + 45 * j) * kPi / 180;
+    EXPECT_NEAR(at.W(j, 0), 1, 1e-12);
+    EXPECT_NEAR(at.W(j, 1), std::cos(angle), 1e-10);
+    EXPECT_NEAR(at.W(j, 2), std::sin(angle), 1e-10);
+  }
+}
+
+// Of six alternating poles, and of twelve, the conventional map is exact on its whole disc.
+TEST(BiasLinearisation, IsExactForSixAndTwelvePoles) {
+  for (const int poles : {6, 12}) {
+    const StatorProblem p = ProblemOf(Stator("one-coil-per-pole", poles), 1.5, true);
+    EXPECT_LT(WorstForce(p, p.healthy, 1), 1e-9) << poles;
+    EXPECT_LT(DescribeStator(p, SolvabilityClass::kExact, p.healthy).residual, 1e-9) << poles;
+  }
+}
+
+TEST(StatorDistribution, ForceIsExactAfterOneCoilOfSix) {
+  for (int lost = 0; lost < 6; ++lost) {
+    StatorProblem p = ProblemOf(Stator("one-coil-per-pole", 6), 1.5, true);
+    p.turns_left[lost] = 0;
+    const StatorDistribution d = SolveStator(p);
+    ASSERT_EQ(d.cls, SolvabilityClass::kExact) << lost;
+    EXPECT_LT(d.residual, 1e-9);
+    ASSERT_GT(d.rho, 0.1);
+    EXPECT_EQ(d.W.row(lost).norm(), 0);
+    EXPECT_LT(WorstForce(p, d.W, d.rho), 1e-8) << lost;
+    // No current leaves the range anywhere on the disc.
+    for (int j = 0; j < 6; ++j) {
+      const double w = d.rho * d.W.row(j).tail(2).norm();
+      EXPECT_GE(d.W(j, 0) - w, -1e-6);
+      EXPECT_LE(p.c0 * (d.W(j, 0) + w), p.i_max + 1e-6);
+    }
+  }
+}
+
+TEST(StatorDistribution, TwelveCoilsCarryOnWithoutFour) {
+  StatorProblem p = ProblemOf(Stator("one-coil-per-pole", 12), 1.5, true);
+  for (const int lost : {0, 1, 5, 8}) p.turns_left[lost] = 0;
+  const StatorDistribution d = SolveStator(p);
+  ASSERT_EQ(d.cls, SolvabilityClass::kExact);
+  ASSERT_GT(d.rho, 0.2);
+  EXPECT_LT(WorstForce(p, d.W, d.rho), 1e-8);
+}
+
+// Two planes are independent: what one coil of a pair gives up, the other plane's gives.
+TEST(StatorDistribution, HomopolarCarriesOnWithAnyCoilLost) {
+  StatorParameters s = Stator("homopolar-pm", 4);
+  s.connection = "pair";
+  s.bias = {800, 4e-3, 6e-4, 1.05};
+  for (int lost = 0; lost < 4; ++lost) {
+    StatorProblem p = ProblemOf(s, 0, false);
+    EXPECT_LT(WorstForce(p, p.healthy, 1), 1e-9);
+    p.turns_left[lost] = 0;
+    const StatorDistribution d = SolveStator(p);
+    ASSERT_EQ(d.cls, SolvabilityClass::kExact) << lost;
+    EXPECT_LT(WorstForce(p, d.W, d.rho), 1e-8);
+    // The other plane's coil of this axis takes twice the current.
+    EXPECT_NEAR(std::abs(d.W((lost + 2) % 4, 1 + lost % 2)), 2, 1e-6);
+  }
+}
+
+// The coil of one side drives both gaps, but for what goes through the magnet: a term with v² is left.
+TEST(StatorDistribution, ThrustWithAMagnetCarriesOnWithOneSide) {
+  StatorParameters s = Stator("axial-pm", 0);
+  s.connection = "side";
+  s.bias = {500, 3e-3, 3e-4, 1.05};
+  StatorProblem p = ProblemOf(s, 0, false);
+  EXPECT_LT(WorstForce(p, p.healthy, 1), 1e-9);
+  p.turns_left[0] = 0;
+  const StatorDistribution d = SolveStator(p);
+  ASSERT_EQ(d.cls, SolvabilityClass::kLinearised);
+  ASSERT_GT(d.rho, 0.5);
+  // F = k c0 v + (k/2) e v²
+  EXPECT_NEAR(WorstForce(p, d.W, d.rho), 0.5 * d.residual * d.rho, 1e-8);
+}
+
+// A quadrant alone on its axis: nothing pulls that way any more.
+TEST(StatorDistribution, AnAxisWithoutCoilsIsGivenUp) {
+  StatorProblem p = ProblemOf(Stator("series-pairs", 8), 1.5, true);
+  p.turns_left[0] = p.turns_left[2] = 0;
+  EXPECT_EQ(SolveStator(p).cls, SolvabilityClass::kNone);
+  p.turns_left.setZero();
+  EXPECT_EQ(SolveStator(p).cls, SolvabilityClass::kNone);
+}
+
+}  // namespace
+}  // namespace ambrig
