@@ -12,7 +12,7 @@
 namespace ambrig::testing {
 namespace {
 
-const std::string kGains =
+const std::string kExternalGains =
     "parameters = { kp = 4.0e5, kd = 900.0, ki = 6.0e6, derivative_time_constant = 1.5e-4 }\n";
 
 /// The reference rig with these lines of [controller].
@@ -40,7 +40,7 @@ std::string ScenarioOf(const std::string& rig, const std::string& more = "") {
 TEST(ExternalRun, ThePidInCGivesTheBitsOfThePid) {
   const CampaignFolder f;
   f.Write("pid.toml", RigText("kind = \"pid\"\n" + kPidGains));
-  f.Write("c.toml", RigText(LibraryLines("pid", kGains)));
+  f.Write("c.toml", RigText(LibraryLines("pid", kExternalGains)));
   f.Write("ours.toml", ScenarioOf("pid.toml"));
   f.Write("theirs.toml", ScenarioOf("c.toml"));
   const Outcome run = f.Ambrig("run ours.toml theirs.toml --no-report");
@@ -56,9 +56,11 @@ TEST(ExternalRun, ThePidInCGivesTheBitsOfThePid) {
 // Firmware at a Unix and a TCP socket: the same bits again.
 TEST(ExternalRun, FirmwareBehindASocket) {
   const CampaignFolder f;
-  f.Write("c.toml", RigText(LibraryLines("pid", kGains)));
-  f.Write("unix.toml", RigText("kind = \"socket\"\naddress = \"unix:pid.sock\"\n" + kGains));
-  f.Write("tcp.toml", RigText("kind = \"socket\"\naddress = \"tcp:127.0.0.1:47913\"\n" + kGains));
+  f.Write("c.toml", RigText(LibraryLines("pid", kExternalGains)));
+  f.Write("unix.toml",
+          RigText("kind = \"socket\"\naddress = \"unix:pid.sock\"\n" + kExternalGains));
+  f.Write("tcp.toml",
+          RigText("kind = \"socket\"\naddress = \"tcp:127.0.0.1:47913\"\n" + kExternalGains));
   for (const char* rig : {"c", "unix", "tcp"})
     f.Write(std::string("run_") + rig + ".toml", ScenarioOf(std::string(rig) + ".toml"));
   const Outcome gone = f.Ambrig("run run_unix.toml --no-report");
@@ -85,8 +87,9 @@ TEST(ExternalRun, FirmwareBehindASocket) {
 // The guide's lines: the controller's source linked with the host instead of loaded by it.
 TEST(ExternalRun, FirmwareLinkedWithTheHost) {
   const CampaignFolder f;
-  f.Write("c.toml", RigText(LibraryLines("pid", kGains)));
-  f.Write("fw.toml", RigText("kind = \"socket\"\naddress = \"unix:firmware.sock\"\n" + kGains));
+  f.Write("c.toml", RigText(LibraryLines("pid", kExternalGains)));
+  f.Write("fw.toml",
+          RigText("kind = \"socket\"\naddress = \"unix:firmware.sock\"\n" + kExternalGains));
   f.Write("a.toml", ScenarioOf("c.toml"));
   f.Write("b.toml", ScenarioOf("fw.toml"));
   const std::string external = AMBRIG_SOURCE_DIR "/control/external";
@@ -131,7 +134,7 @@ TEST(ExternalRun, ACampaignGoesOn) {
 TEST(ExternalRun, ARunEndsWithOneLineAndTheNextOneGoesOn) {
   const CampaignFolder f;
   f.Write("bad.toml", RigText(LibraryLines("misbehaves", "parameters = { how = 4 }\n")));
-  f.Write("good.toml", RigText(LibraryLines("pid", kGains)));
+  f.Write("good.toml", RigText(LibraryLines("pid", kExternalGains)));
   f.Write("first.toml", ScenarioOf("bad.toml"));
   f.Write("second.toml", ScenarioOf("good.toml"));
   const Outcome run = f.Ambrig("run first.toml second.toml --keep-going --no-report --quiet");
@@ -147,9 +150,9 @@ TEST(ExternalRun, ARunEndsWithOneLineAndTheNextOneGoesOn) {
 // not touch its auxiliary bearing, with the PID it falls onto it.
 TEST(ExternalRun, TheFaultTolerantOneCarriesOnWithSevenCoils) {
   const CampaignFolder f;
-  f.Write("pid.toml", RigText(LibraryLines("pid", kGains)));
+  f.Write("pid.toml", RigText(LibraryLines("pid", kExternalGains)));
   f.Write("tolerant.toml",
-          RigText(LibraryLines("fault_tolerant", "commands = \"currents\"\n" + kGains)));
+          RigText(LibraryLines("fault_tolerant", "commands = \"currents\"\n" + kExternalGains)));
   for (const char* rig : {"pid", "tolerant"}) {
     const std::string name = std::string("s_") + rig;
     f.Write(name + ".toml",
@@ -187,7 +190,7 @@ TEST(ExternalRun, MistakesInTheRigFile) {
 
 TEST(ExternalRun, AnalyzeSaysThatThereIsNoLinearModel) {
   const CampaignFolder f;
-  f.Write("rig.toml", RigText(LibraryLines("pid", kGains)));
+  f.Write("rig.toml", RigText(LibraryLines("pid", kExternalGains)));
   const Outcome run = f.Ambrig("analyze rig.toml");
   EXPECT_EQ(run.exit, 2) << run.text;
   EXPECT_NE(run.text.find("has no linear model"), std::string::npos) << run.text;

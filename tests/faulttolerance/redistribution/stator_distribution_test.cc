@@ -25,7 +25,7 @@ StatorParameters Stator(const std::string& pattern, int poles) {
   return p;
 }
 
-StatorProblem ProblemOf(const StatorParameters& s, double bias, bool unipolar) {
+StatorProblem StatorProblemOf(const StatorParameters& s, double bias, bool unipolar) {
   StatorProblem p;
   p.network = NetworkOf(s);
   p.axes = s.axial ? 1 : 2;
@@ -68,7 +68,7 @@ TEST(BiasLinearisation, IsTheConventionalMapOfEightPoles) {
 // Of six alternating poles, and of twelve, the conventional map is exact on its whole disc.
 TEST(BiasLinearisation, IsExactForSixAndTwelvePoles) {
   for (const int poles : {6, 12}) {
-    const StatorProblem p = ProblemOf(Stator("one-coil-per-pole", poles), 1.5, true);
+    const StatorProblem p = StatorProblemOf(Stator("one-coil-per-pole", poles), 1.5, true);
     EXPECT_LT(WorstForce(p, p.healthy, 1), 1e-9) << poles;
     EXPECT_LT(DescribeStator(p, SolvabilityClass::kExact, p.healthy).residual, 1e-9) << poles;
   }
@@ -76,7 +76,7 @@ TEST(BiasLinearisation, IsExactForSixAndTwelvePoles) {
 
 TEST(StatorDistribution, ForceIsExactAfterOneCoilOfSix) {
   for (int lost = 0; lost < 6; ++lost) {
-    StatorProblem p = ProblemOf(Stator("one-coil-per-pole", 6), 1.5, true);
+    StatorProblem p = StatorProblemOf(Stator("one-coil-per-pole", 6), 1.5, true);
     p.turns_left[lost] = 0;
     const StatorDistribution d = SolveStator(p);
     ASSERT_EQ(d.cls, SolvabilityClass::kExact) << lost;
@@ -94,7 +94,7 @@ TEST(StatorDistribution, ForceIsExactAfterOneCoilOfSix) {
 }
 
 TEST(StatorDistribution, TwelveCoilsCarryOnWithoutFour) {
-  StatorProblem p = ProblemOf(Stator("one-coil-per-pole", 12), 1.5, true);
+  StatorProblem p = StatorProblemOf(Stator("one-coil-per-pole", 12), 1.5, true);
   for (const int lost : {0, 1, 5, 8}) p.turns_left[lost] = 0;
   const StatorDistribution d = SolveStator(p);
   ASSERT_EQ(d.cls, SolvabilityClass::kExact);
@@ -108,7 +108,7 @@ TEST(StatorDistribution, HomopolarCarriesOnWithAnyCoilLost) {
   s.connection = "pair";
   s.bias = {800, 4e-3, 6e-4, 1.05};
   for (int lost = 0; lost < 4; ++lost) {
-    StatorProblem p = ProblemOf(s, 0, false);
+    StatorProblem p = StatorProblemOf(s, 0, false);
     EXPECT_LT(WorstForce(p, p.healthy, 1), 1e-9);
     p.turns_left[lost] = 0;
     const StatorDistribution d = SolveStator(p);
@@ -124,7 +124,7 @@ TEST(StatorDistribution, ThrustWithAMagnetCarriesOnWithOneSide) {
   StatorParameters s = Stator("axial-pm", 0);
   s.connection = "side";
   s.bias = {500, 3e-3, 3e-4, 1.05};
-  StatorProblem p = ProblemOf(s, 0, false);
+  StatorProblem p = StatorProblemOf(s, 0, false);
   EXPECT_LT(WorstForce(p, p.healthy, 1), 1e-9);
   p.turns_left[0] = 0;
   const StatorDistribution d = SolveStator(p);
@@ -136,7 +136,7 @@ TEST(StatorDistribution, ThrustWithAMagnetCarriesOnWithOneSide) {
 
 // A quadrant alone on its axis: nothing pulls that way any more.
 TEST(StatorDistribution, AnAxisWithoutCoilsIsGivenUp) {
-  StatorProblem p = ProblemOf(Stator("series-pairs", 8), 1.5, true);
+  StatorProblem p = StatorProblemOf(Stator("series-pairs", 8), 1.5, true);
   p.turns_left[0] = p.turns_left[2] = 0;
   EXPECT_EQ(SolveStator(p).cls, SolvabilityClass::kNone);
   p.turns_left.setZero();
