@@ -48,7 +48,7 @@ struct Template {
   const char *name, *more;
 };
 
-class NewTemplates : public CliFolder, public testing::WithParamInterface<Template> {};
+class NewTemplates : public CliFolder, public ::testing::WithParamInterface<Template> {};
 
 // Every template hovers with numbers of a small spindle; `run` fails when the orbit passes a quarter of
 // the gap.
@@ -65,15 +65,15 @@ TEST_P(NewTemplates, Hover) {
 
 INSTANTIATE_TEST_SUITE_P(
     All, NewTemplates,
-    testing::Values(Template{"two-axis", "--set bias_current=1"},
-                    Template{"spindle", "--set bias_current=1"},
-                    Template{"homopolar",
-                             "--set magnet_mmf=800 --set magnet_length=4e-3 --set "
-                             "magnet_area=3e-4"},
-                    Template{"thrust",
-                             "--set bias_current=1 --set thrust_turns=80 --set "
-                             "thrust_area=3e-4 --set thrust_gap=4e-4 --set "
-                             "thrust_bias=0.5"}));
+    ::testing::Values(Template{"two-axis", "--set bias_current=1"},
+                      Template{"spindle", "--set bias_current=1"},
+                      Template{"homopolar",
+                               "--set magnet_mmf=800 --set magnet_length=4e-3 --set "
+                               "magnet_area=3e-4"},
+                      Template{"thrust",
+                               "--set bias_current=1 --set thrust_turns=80 --set "
+                               "thrust_area=3e-4 --set thrust_gap=4e-4 --set "
+                               "thrust_bias=0.5"}));
 
 // Asked one by one; a wrong answer is asked again, an empty one takes the standard.
 TEST_F(NewBench, AsksForWhatIsMissing) {

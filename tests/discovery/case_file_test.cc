@@ -19,10 +19,10 @@ TEST(CaseFile, AnotherRigInTheSameFolder) {
 
 TEST(CaseFile, InAnotherFolderNamesLeadToTheSameFiles) {
   const std::string text = CaseWithRig(kCase, "p/case.toml", "q/rig_2.toml", "q/case.toml");
-  EXPECT_THAT(text, testing::HasSubstr("rig = \"rig_2.toml\"  # the rig"));
-  EXPECT_THAT(text, testing::HasSubstr("scenario = \"../p/s.toml\"\ndata = \"../p/one.h5\""));
-  EXPECT_THAT(text, testing::HasSubstr("data = \"/abs/two.csv\""));
-  EXPECT_THAT(text, testing::HasSubstr("# a comment"));
+  EXPECT_THAT(text, ::testing::HasSubstr("rig = \"rig_2.toml\"  # the rig"));
+  EXPECT_THAT(text, ::testing::HasSubstr("scenario = \"../p/s.toml\"\ndata = \"../p/one.h5\""));
+  EXPECT_THAT(text, ::testing::HasSubstr("data = \"/abs/two.csv\""));
+  EXPECT_THAT(text, ::testing::HasSubstr("# a comment"));
 }
 
 }  // namespace

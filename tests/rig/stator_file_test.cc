@@ -15,7 +15,7 @@
 namespace ambrig {
 namespace {
 
-using testing::HasSubstr;
+using ::testing::HasSubstr;
 
 std::string TextOf(const std::string& name) {
   return ReadFile(AMBRIG_SOURCE_DIR "/examples/stators/" + name);

@@ -44,7 +44,7 @@ TEST_F(Served, FollowsNoLink) {
   EXPECT_FALSE(std::filesystem::exists(base_ / "other" / "new.toml"));
   std::vector<std::string> names;
   for (const ServedFile& f : folder.List(100)) names.push_back(f.name);
-  EXPECT_THAT(names, testing::ElementsAre("a.toml", "sub/b.csv"));
+  EXPECT_THAT(names, ::testing::ElementsAre("a.toml", "sub/b.csv"));
 }
 
 // A FIFO would hang whoever opens it.

@@ -89,7 +89,7 @@ struct Bench {
   const char *rig, *scenario, *coil;
 };
 
-class StatorBenches : public testing::TestWithParam<Bench> {};
+class StatorBenches : public ::testing::TestWithParam<Bench> {};
 
 TEST_P(StatorBenches, ALostCoilIsFoundAndOutlived) {
   const Bench bench = GetParam();
@@ -111,11 +111,11 @@ TEST_P(StatorBenches, ALostCoilIsFoundAndOutlived) {
 
 INSTANTIATE_TEST_SUITE_P(
     Examples, StatorBenches,
-    testing::Values(Bench{"six_poles.toml", "six_poles_coil_opens.toml", "A.coil2"},
-                    Bench{"homopolar.toml", "homopolar_coil_opens.toml", "A.coil2"},
-                    Bench{"heteropolar.toml", "heteropolar_coil_opens.toml", "B.coil4"},
-                    Bench{"e_core_and_thrust.toml", "e_core_and_thrust_coil_opens.toml",
-                          "Z.coil1"}));
+    ::testing::Values(Bench{"six_poles.toml", "six_poles_coil_opens.toml", "A.coil2"},
+                      Bench{"homopolar.toml", "homopolar_coil_opens.toml", "A.coil2"},
+                      Bench{"heteropolar.toml", "heteropolar_coil_opens.toml", "B.coil4"},
+                      Bench{"e_core_and_thrust.toml", "e_core_and_thrust_coil_opens.toml",
+                            "Z.coil1"}));
 
 // Every coil of six may be the one that breaks.
 TEST(StatorRuns, AnyCoilOfSix) {
