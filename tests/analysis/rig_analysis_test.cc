@@ -212,9 +212,9 @@ TEST_F(AnalyzeCommand, WritesSummaryJsonAndPage) {
   EXPECT_NE(ReadText(folder_ / "out" / (folder_.filename().string() + ".rig.analysis.html"))
                 .find("joint disk margin"),
             std::string::npos);
-  const Outcome again = Ambrig("analyze rig.toml --speed 3000 -o again");
-  EXPECT_EQ(json,
-            ReadText(folder_ / "again" / (folder_.filename().string() + ".rig.analysis.json")));
+  EXPECT_EQ(Ambrig("analyze rig.toml --speed 3000 -o out").exit,
+            0);  // the same command, the same bytes
+  EXPECT_EQ(json, ReadText(folder_ / "out" / (folder_.filename().string() + ".rig.analysis.json")));
 }
 
 }  // namespace

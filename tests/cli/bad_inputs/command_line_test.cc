@@ -44,7 +44,7 @@ const BadCommand kCommands[] = {
     {"check e.toml --accept", "--accept: allowed together with --baseline DIR"},
     {"check e.toml --baseline none", "no such baseline", 1},
     {"check e.toml --baseline b --accept --channels Q.q", "no channel of the record fits", 1},
-    {"diff rig.toml s.toml", "is not a number"},
+    {"diff rig.toml s.toml", "s.toml:1: rotor: is missing, allowed: a table [rotor]"},
     {"diff none.h5 none.h5", "none.h5: no such file"},
     {"diff locked.h5 locked.h5", "locked.h5"},
     {"diff a.csv b.csv --relative nan", "allowed: 0 to 10"},
