@@ -9,7 +9,7 @@ import {ratio} from './numbers.js';
 export function ladder(steps, title) {
   const most = Math.max(...steps.flatMap((s) => [sizeOf(s.ratio_fit), sizeOf(s.ratio_validate)]).filter(Number.isFinite), 2);
   const width = 84;
-  return html`<figure class="ladder"><figcaption>${title}</figcaption>
+  return html`<figure class="ladder"><figcaption>${title} <span class="small">(logarithmic; shortest: noise alone)</span></figcaption>
     <svg viewBox="0 0 ${Math.max(4, steps.length) * width} 150" role="img"
       aria-label="${steps.map((s) => `${s.added || 'rig file'}: fitted ${ratio(s.ratio_fit)}, unseen ${ratio(s.ratio_validate)}`).join('; ')}">
       ${steps.map((s, k) => bars(s, k * width, most))}
