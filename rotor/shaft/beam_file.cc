@@ -14,6 +14,7 @@
 #include "rotor/shaft/shaft_file.h"
 #include "rotor/shaft/shaft_parameters.h"
 #include "rotor/shaft/shaft_tables.h"
+#include "rotor/shaft/support_tables.h"
 
 namespace ambrig {
 namespace {
@@ -63,6 +64,18 @@ std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta
   return zeta;
 }
 
+/// Supports, what they stand on, masses.
+void ReadSupports(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
+  BeamDefinition& d = out.definition;
+  out.support_sources.resize(d.supports.size());
+  for (const TomlTable& row : rotor.Tables("support")) {
+    d.supports.push_back(ReadSupport(row, tolerances));
+    out.support_sources.push_back(SourceOf(row));
+  }
+  for (const TomlTable& row : rotor.Tables("housing")) d.housings.push_back(ReadHousing(row));
+  for (const TomlTable& row : rotor.Tables("point_mass")) d.masses.push_back(ReadPointMass(row));
+}
+
 void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
   BeamDefinition& d = out.definition;
   const Materials materials = ReadMaterials(rotor, tolerances);
@@ -84,8 +97,7 @@ void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* t
     d.disks.push_back(ReadDisk(row, materials, tolerances, &source.rho));
     out.disk_sources.push_back(std::move(source));
   }
-  for (const TomlTable& row : rotor.Tables("support"))
-    d.supports.push_back(ReadSupport(row, tolerances));
+  ReadSupports(rotor, out, tolerances);
   for (double station : AllWithin(rotor, "stations", {}, kPlaceOnShaft))
     d.stations.push_back(station);
 }
@@ -175,6 +187,7 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   BeamDefinition& d = out.definition;
   if (d.sections.empty())
     rotor.Fail("section", "is missing, allowed: tables, each written [[rotor.section]]");
+  CheckHousings(rotor, d);
   BeamMesh mesh;
   try {
     mesh = MakeMesh(d);

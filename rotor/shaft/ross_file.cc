@@ -152,6 +152,7 @@ ShaftSection ReadRossShaft(const Element& e) {
   s.stiff = s.material.E > kSleeveE;
   s.damping_mass = e.Get("alpha", 0);
   s.damping_stiffness = e.Get("beta", 0);
+  s.axial_force = e.Get("axial_force", 0);
   return s;
 }
 

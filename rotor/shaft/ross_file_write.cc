@@ -33,7 +33,7 @@ Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std:
       {"idr", s.id_right},
       {"odr", s.od_right},
       {"n", node},
-      {"axial_force", 0},
+      {"axial_force", s.axial_force},
       {"torque", 0},
       {"shear_effects", t.shear},
       {"rotary_inertia", t.rotary_inertia},
@@ -53,6 +53,7 @@ Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
   Json table = {{"n", node}, {"tag", tag}};
   const auto set = [&](const char* key, double value) { table[key] = Json::array({value}); };
   set("kxx", s.kxx), set("kxy", s.kxy), set("kyx", s.kyx), set("kyy", s.kyy);
+  if (s.kzz != 0 || s.czz != 0) set("kzz", s.kzz), set("czz", s.czz);
   set("cxx", s.cxx), set("cxy", s.cxy), set("cyx", s.cyx), set("cyy", s.cyy);
   return table;
 }
@@ -90,8 +91,16 @@ Json RotorTables(const BeamDefinition& d) {
                                   {"Ip", disk.inertia_polar},
                                   {"tag", tag}};
   }
+  if (!d.masses.empty() || !d.housings.empty())
+    throw InputError(
+        "point masses and housings are not written for ROSS, allowed: a shaft without them");
   for (const SpringSupport& s : d.supports) {
     const std::string tag = tags.Of("Bearing", s.name);
+    if (!s.on_shaft() || !s.on.empty() || s.varies() || s.has_mass())
+      throw InputError(
+          fmt::format("support \"{}\": housings, tables over speed and added masses are not "
+                      "written for ROSS, allowed: constant supports to the ground",
+                      s.name));
     root["BearingElement_" + tag] = BearingTable(s, NodeAt(nodes, s.z), tag);
   }
   return root;
