@@ -37,26 +37,25 @@ int QuadrantOf(double angle_deg) {
   return static_cast<int>(std::floor(angle_deg / 90 + 0.5 + 8)) % 4;
 }
 
-std::vector<StatorPole> SeriesPairs(const StatorParameters& p) {
+/// Poles all round, alternately wound; `coil(k, angle)` carries pole k.
+template <typename CoilOfPole>
+std::vector<StatorPole> PolesRound(const StatorParameters& p, int fallback, CoilOfPole coil) {
   std::vector<StatorPole> poles;
-  const int count = CountOf(p, 8);
+  const int count = CountOf(p, fallback);
   for (int k = 0; k < count; ++k) {
     StatorPole pole = PoleAt(p, k, count, 180.0 / count);
-    pole.turns[QuadrantOf(pole.angle_deg)] = SenseOf(p, k) * p.turns;
+    pole.turns[coil(k, pole.angle_deg)] = SenseOf(p, k) * p.turns;
     poles.push_back(pole);
   }
   return poles;
 }
 
+std::vector<StatorPole> SeriesPairs(const StatorParameters& p) {
+  return PolesRound(p, 8, [](int, double angle_deg) { return QuadrantOf(angle_deg); });
+}
+
 std::vector<StatorPole> OneCoilPerPole(const StatorParameters& p) {
-  std::vector<StatorPole> poles;
-  const int count = CountOf(p, 6);
-  for (int k = 0; k < count; ++k) {
-    StatorPole pole = PoleAt(p, k, count, 180.0 / count);
-    pole.turns[k] = SenseOf(p, k) * p.turns;
-    poles.push_back(pole);
-  }
-  return poles;
+  return PolesRound(p, 6, [](int k, double) { return k; });
 }
 
 /// Two planes; more current of a coil of one pole strengthens its bias.

@@ -73,12 +73,21 @@ DataFault FaultOf(const CaseRecord& r, const std::string& channel, const char* f
   return f;
 }
 
+/// A column that stands at a level and hardly moves (the bus): its movement is noise and has no
+/// correlation with the prediction, but the level itself shows the factor.
+bool LevelTells(const GateColumn& c) {
+  return c.match.predicted_rms > 20 * kGrossError &&
+         c.match.predicted_move < 0.05 * c.match.predicted_rms &&
+         c.match.measured_move < 0.05 * c.match.measured_rms;
+}
+
 const Mistake* BestMistake(const GateColumn& c, double others, double* left) {
   const Mistake* best = nullptr;
   *left = 1;
   for (const Mistake& m : Mistakes()) {
     const double rest = Left(c, m.factor);
-    if (rest > m.left || rest >= *left || c.match.correlation < m.correlation) continue;
+    if (rest > m.left || rest >= *left) continue;
+    if (!LevelTells(c) && c.match.correlation < m.correlation) continue;
     // divided by the factor the column must still show what the model expects, its noise at least:
     // a movement that the model lacks is no unit
     if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) continue;
@@ -143,12 +152,13 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
   for (std::size_t i = 0; i < columns.size(); ++i)
     for (std::size_t j = i + 1; j < columns.size(); ++j) {
       GateColumn &a = columns[i], &b = columns[j];
-      if (a.explained || b.explained || kind(a) != kind(b)) continue;
+      if (a.explained || b.explained) continue;
       const double before = std::hypot(a.match.error, b.match.error);
       if (std::min(a.match.error, b.match.error) < 0.7 * kGrossError || before < 1.5 * kGrossError)
         continue;
       const double after = std::hypot(against(a, b), against(b, a));
-      if (after > 0.35 * before) continue;
+      // columns of different kinds: each must fit the other's prediction far better
+      if (after > (kind(a) == kind(b) ? 0.35 : 0.1) * before) continue;
       DataFault f = FaultOf(r, a.name, "swap", after / before);
       f.with = b.name;
       const auto column = [&](const std::string& name) {

@@ -186,14 +186,16 @@ void Explainer::TryPairs(const FitResult& base, FitResult& now) {
   if (out_.ranking.empty() || (out_.adopted.size() < 2 && Finished(now))) return;
   Progress(0.8, "pairs of effects");
   for (const CandidatePair& p : ScreenPairs(model_, base, out_.effective_sample_size, bank_, 3)) {
-    if (AlreadyTried(p) || p.score > ScoreOf(base)) continue;
+    // A pair that promises less than what stands is not worth the dearest fit of the search.
+    if (AlreadyTried(p) || p.score > std::min(ScoreOf(base), ScoreOf(now))) continue;
     Progress(0.82, "fitting " + Named(p.first) + " with " + Named(p.second));
     Hypothesis h = base.hypothesis;
     h.AddEffect(p.first);
     h.AddEffect(p.second);
     FitResult fit = FitOn(model_, base, h, out_.effective_sample_size);
     const bool more = out_.adopted.size() < 2;
-    if (!fit.converged || Gain(now, fit) < (more ? 20 : 0) ||
+    if (!fit.converged || Gain(now, fit) < (more ? 20 : 0) || !HasSize(fit, rig_.effects.size()) ||
+        !HasSize(fit, rig_.effects.size() + 1) ||
         (more && !WorthAdopting(now, fit, Gain(now, fit), 1, first_fall_)))
       continue;
     now = std::move(fit);

@@ -6,6 +6,7 @@
 #include "actuators/magnetics/radial_stator.h"
 #include "control/position/pid.h"
 #include "core/record/missing_samples.h"
+#include "discovery/model/record_traits.h"
 #include "discovery/model/residual_force.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
@@ -15,9 +16,6 @@
 namespace ambrig {
 
 namespace {
-
-// [s] after which a loop has forgotten a wrong start or a gap in the data
-constexpr double kSettle = 0.004;
 
 struct Mean {
   double sum = 0, n = 0;
@@ -138,7 +136,7 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   if (std::abs(simulated.rate - d.rate) > 1e-6 * d.rate) return;
   const auto shift = static_cast<std::size_t>(std::lround(d.start * d.rate));
   const std::size_t settle =
-      std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kSettle * d.rate));
+      std::min<std::size_t>(d.rows() / 4, static_cast<std::size_t>(kLoopsSettle * d.rate));
   Mean error;
   for (const BearingParameters& b : rig.bearings)
     for (const ChannelId& current : ChannelsOf(b, ChannelKind::kCoilCurrent)) {
@@ -197,7 +195,7 @@ void RotorBlock(const RigParameters& rig, const Scenario& scenario, const Bridge
   const auto f = EstimateResidualForce(rig, scenario, d, 400);
   if (!f) return;
   Mean error;
-  const std::size_t edge = static_cast<std::size_t>(kSettle * d.rate);
+  const std::size_t edge = static_cast<std::size_t>(kLoopsSettle * d.rate);
   for (const auto& p : f->planes)
     for (std::size_t k = edge; k + edge < p.fx.size(); ++k) {
       if (!data.Sound(k) || !data.Sound(k + edge)) continue;  // smoothing reaches both ways
@@ -212,7 +210,7 @@ void RotorBlock(const RigParameters& rig, const Scenario& scenario, const Bridge
 BlockErrors BlockRms(const RigParameters& rig, const RigParameters& nominal,
                      const Scenario& scenario, const Record& d) {
   BlockErrors out;
-  const BridgedRecord bridged = BridgeMissing(d, kSettle, Drives);
+  const BridgedRecord bridged = BridgeMissing(d, kLoopsSettle, Drives);
   ControllerBlock(nominal, scenario, bridged, out);
   CoilBlock(rig, nominal, scenario, bridged, out);
   // row by row: a missing sample leaves out its own row

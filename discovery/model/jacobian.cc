@@ -3,7 +3,8 @@
 namespace ambrig {
 
 Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
-                         const std::vector<std::size_t>& parameters, double fraction) {
+                         const std::vector<std::size_t>& parameters, double fraction,
+                         const QuickLook* look) {
   std::vector<Hypothesis> moved;
   std::vector<double> change;
   for (std::size_t p : parameters) {
@@ -16,7 +17,7 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
     moved.push_back(std::move(m));
   }
   moved.push_back(h);
-  const auto runs = model.PredictAll(moved, ModelFidelity::kCoarse);
+  const auto runs = model.PredictAll(moved, ModelFidelity::kCoarse, look);
   const auto& here = runs.back();
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(model.size()),
                                             static_cast<Eigen::Index>(parameters.size()));

@@ -12,8 +12,6 @@ namespace ambrig {
 namespace {
 
 constexpr std::uint32_t kPositionStream = 0x4d000000;  // of the noise of imposed positions
-constexpr double kDrivenSettle =
-    0.004;                       // [s] after which the loops have forgotten an unknown start
 constexpr double kTouch = 0.85;  // of the clearance: the measured rotor was at its stop
 
 bool CommandsCoils(const Scenario& scenario) {
@@ -59,7 +57,7 @@ bool IsPredicted(const CaseRecord& record, const std::string& channel) {
 
 bool HasSettled(const CaseRecord& record, double t) {
   return !record.imposed_motion || record.scenario.start == StartState::kClamped ||
-         t >= record.data.start + kDrivenSettle;
+         t >= record.data.start + kLoopsSettle;
 }
 
 Record DrivingRecord(const RigParameters& rig, const CaseRecord& record) {

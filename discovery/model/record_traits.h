@@ -8,6 +8,9 @@
 
 namespace ambrig {
 
+/// [s] after which the loops of a record have forgotten how it started, or what went before a gap.
+inline constexpr double kLoopsSettle = 0.004;
+
 /// Whether the engine predicts this channel: not what the scenario or the clamp prescribes.
 bool IsPredicted(const CaseRecord& record, const std::string& channel);
 

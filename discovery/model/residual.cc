@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/record/channels.h"
+
 namespace ambrig {
 
 std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted) {
@@ -54,6 +56,25 @@ std::vector<RecordError> RecordErrors(const CaseModel& model, const std::vector<
 double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual) {
   double worst = 0;
   for (const RecordError& e : RecordErrors(model, residual))
+    if (e.rows > 0) worst = std::max(worst, std::sqrt(e.square / e.rows));
+  return worst;
+}
+
+double WorstMotionRatio(const CaseModel& model, const std::vector<double>& residual) {
+  std::vector<RecordError> errors(model.data().records.size());
+  for (const Target& t : model.targets()) {
+    const CaseRecord& record = model.data().records[t.record];
+    const std::string& channel = record.data.channels[t.channel].name;
+    if (record.kind != RecordKind::kTime || record.scenario.start == StartState::kClamped ||
+        !(IsOfKind(channel, ChannelKind::kReading) || IsOfKind(channel, ChannelKind::kSetPoint)))
+      continue;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      errors[t.record].square += residual[k] * residual[k];
+      errors[t.record].rows += model.ok()[k];
+    }
+  }
+  double worst = 0;
+  for (const RecordError& e : errors)
     if (e.rows > 0) worst = std::max(worst, std::sqrt(e.square / e.rows));
   return worst;
 }

@@ -51,6 +51,9 @@ class Ranker {
     screen.effective_sample_size = s_.effective_sample_size;
     screen.frequencies =
         round_ == 0 || std::max(now_.ratio_fit, now_.ratio_validate) > kResonanceShows;
+    // A resonance moves the rotor: where readings and set-points are explained there is none to seek,
+    // however much the currents leave. Responses and static tables may show it otherwise.
+    screen.resonances = shows_motion_;
     screen.progress = [&](double f, const std::string& text) {
       s_.progress(0.6 * f, "screening " + text);
     };
@@ -85,7 +88,9 @@ class Ranker {
       if (round_ == 0 || Promising(now_, c)) FitTheStart(c);
     }
     // A resonance shows only when it is fitted; later rounds try that where much is left.
-    for (; next < candidates.size() && (round_ == 0 || now_.ratio_validate > 1.3); ++next)
+    for (; next < candidates.size() &&
+           (round_ == 0 || (motion_ > 0 ? motion_ : now_.ratio_validate) > 1.3);
+         ++next)
       if (candidates[next].narrow && !Decided(now_, ranking_, candidates[next]))
         FitTheStart(candidates[next]);
   }
@@ -162,6 +167,9 @@ class Ranker {
   const RoundSetting& s_;
   const FitResult& now_;
   int round_;
+  const double motion_ = WorstMotionRatio(s_.model, now_.residual);
+  // without records of a free rotor over time the other kinds of record decide
+  const bool shows_motion_ = motion_ == 0 || motion_ > kResonanceShows;
   EffectRound out_;
   std::vector<RankedEffect>& ranking_ = out_.ranking;
 };

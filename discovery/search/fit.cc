@@ -5,8 +5,7 @@
 
 #include <cmath>
 
-#include "discovery/decision/likelihood.h"
-#include "discovery/model/jacobian.h"
+#include "discovery/search/fit_problem.h"
 #include "discovery/search/size_sd.h"
 #include "effects/catalogue.h"
 
@@ -15,128 +14,6 @@ namespace ambrig {
 namespace {
 
 using Eigen::Index;
-
-constexpr double kEffectStep = 0.01;  // of a parameter's natural step: resonances are narrow
-constexpr double kBelieved = 3;       // sd of a rig parameter within its tolerance
-constexpr double kBeyond = 5;         // each further sd counts as so many
-
-/// The prior's residual of a rig parameter that stands `sds` from its mean, and its slope. Gaussian
-/// within three sd; a part further off is hardly the part of the drawing, and an effect that is
-/// missing must not be paid with it.
-double PriorResidual(double sds) {
-  return sds + std::copysign((kBeyond - 1) * std::max(0.0, std::abs(sds) - kBelieved), sds);
-}
-double PriorSlope(double sds) { return std::abs(sds) > kBelieved ? kBeyond : 1; }
-
-/// [J r]ᵀ[J r] over the rows of the fit records.
-Eigen::MatrixXd FitGram(const CaseModel& model, const Eigen::MatrixXd& J,
-                        const std::vector<double>& r) {
-  const Index p = J.cols();
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(p + 1, p + 1);
-  for (const Target& t : model.targets()) {
-    if (!Counts(model, t, Which::kFit)) continue;
-    const auto rows = J.middleRows(static_cast<Index>(t.first), static_cast<Index>(t.count));
-    const Eigen::Map<const Eigen::VectorXd> part(r.data() + t.first, static_cast<Index>(t.count));
-    gram.topLeftCorner(p, p).noalias() += rows.transpose() * rows;
-    gram.topRightCorner(p, 1).noalias() += rows.transpose() * part;
-    gram(p, p) += part.squaredNorm();
-  }
-  gram.bottomLeftCorner(1, p) = gram.topRightCorner(p, 1).transpose();
-  return gram;
-}
-
-/// The least-squares problem seen through its Gram matrix: with [J r] = Q R the residual Qᵀr and
-/// the Jacobian R have the same cost, gradient and Gauss-Newton matrix in a handful of rows.
-class CompressedCost : public ceres::CostFunction {
- public:
-  CompressedCost(const CaseModel& model, const Hypothesis& start, const FitOptions& options)
-      : model_(model), hypothesis_(start), options_(options), p_(start.free.size()) {
-    set_num_residuals(static_cast<int>(p_) + 1 + static_cast<int>(p_));  // data, then priors
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(p_));
-    for (std::size_t k = 0; k < p_; ++k)
-      if (start.free[k].effect < 0)
-        base_.push_back(k);
-      else
-        effect_.push_back(k);
-  }
-
-  /// Weight of a residual when the model leaves `ratio` times the noise.
-  void SetMisfitWeight(double ratio) {
-    weight_ = std::sqrt(MisfitWeight(ratio, options_.effective_sample_size) /
-                        static_cast<double>(model_.size()));
-  }
-  /// Sensitivities of the rig parameters are taken anew.
-  void Refresh() {
-    base_jacobian_.resize(0, 0);
-    reuse_ = false;
-  }
-
-  Hypothesis At(const double* x) const {
-    Hypothesis h = hypothesis_;
-    for (std::size_t k = 0; k < p_; ++k) h.Set(k, h.ValueAt(k, x[k]));
-    return h;
-  }
-
-  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
-    const Hypothesis h = At(x[0]);
-    const auto predicted = model_.Predict(h);
-    if (!predicted) return false;
-    const std::vector<double> r = Residual(model_, *predicted);
-    std::fill_n(residuals, num_residuals(), 0.0);
-    for (std::size_t k = 0; k < p_; ++k)
-      residuals[p_ + 1 + k] = hypothesis_.free[k].sd > 0 ? PriorResidual(x[0][k]) : 0;
-    if (!jacobians || !jacobians[0]) {
-      residuals[0] = std::sqrt(FitGram(model_, Eigen::MatrixXd(r.size(), 0), r)(0, 0)) * weight_;
-      return true;
-    }
-    Eigen::MatrixXd gram = weight_ * weight_ * FitGram(model_, FullJacobian(h), r);
-    // a prediction that rises lowers the residual
-    gram.topRightCorner(static_cast<Index>(p_), 1) *= -1;
-    gram.bottomLeftCorner(1, static_cast<Index>(p_)) *= -1;
-    gram.diagonal().array() += 1e-12 * gram.diagonal().array().abs() + 1e-14;
-    const Eigen::MatrixXd R = gram.llt().matrixU();
-    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> out(
-        jacobians[0], num_residuals(), static_cast<Index>(p_));
-    out.setZero();
-    out.topRows(static_cast<Index>(p_) + 1) = R.leftCols(static_cast<Index>(p_));
-    for (std::size_t k = 0; k <= p_; ++k)
-      residuals[k] = R(static_cast<Index>(k), static_cast<Index>(p_));
-    for (std::size_t k = 0; k < p_; ++k)
-      if (hypothesis_.free[k].sd > 0)
-        out(static_cast<Index>(p_ + 1 + k), static_cast<Index>(k)) = PriorSlope(x[0][k]);
-    return true;
-  }
-
-  /// Columns of all parameters; those of the rig are computed once, those of effects here.
-  Eigen::MatrixXd FullJacobian(const Hypothesis& h) const {
-    Eigen::MatrixXd J(static_cast<Index>(model_.size()), static_cast<Index>(p_));
-    if (base_jacobian_.size() == 0) {
-      if (reuse_)
-        base_jacobian_ = options_.base_jacobian->leftCols(static_cast<Index>(base_.size()));
-      else
-        base_jacobian_ = Jacobian(model_, h, base_);
-    }
-    for (std::size_t k = 0; k < base_.size(); ++k)
-      J.col(static_cast<Index>(base_[k])) = base_jacobian_.col(static_cast<Index>(k));
-    const Eigen::MatrixXd moving = Jacobian(model_, h, effect_, kEffectStep);
-    for (std::size_t k = 0; k < effect_.size(); ++k)
-      J.col(static_cast<Index>(effect_[k])) = moving.col(static_cast<Index>(k));
-    return J;
-  }
-
-  double weight() const { return weight_; }
-  const CaseModel& model() const { return model_; }
-
- private:
-  const CaseModel& model_;
-  const Hypothesis hypothesis_;
-  const FitOptions& options_;
-  std::size_t p_;
-  double weight_ = 1;
-  std::vector<std::size_t> base_, effect_;
-  bool reuse_ = options_.base_jacobian != nullptr;
-  mutable Eigen::MatrixXd base_jacobian_;
-};
 
 /// Sd of a value that acts in whole switching periods: of all values between two steps. 0 for others.
 double SdOfWholePeriods(const CaseModel& model, const RigParameters& rig, const FreeParameter& f) {
@@ -147,14 +24,14 @@ double SdOfWholePeriods(const CaseModel& model, const RigParameters& rig, const 
 }
 
 /// Covariance of the optimum and what a user should know about it.
-void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
+void EstimateCovariance(const FitProblem& cost, FitResult& result) {
   Hypothesis& h = result.hypothesis;
   const std::size_t p = h.free.size();
   result.jacobian = cost.FullJacobian(h);
   const auto n = static_cast<Index>(p);
   Eigen::MatrixXd information =
       cost.weight() * cost.weight() *
-      FitGram(cost.model(), result.jacobian, result.residual).topLeftCorner(n, n);
+      FitGram(cost.model(), cost.look(), result.jacobian, result.residual).topLeftCorner(n, n);
   result.sd.assign(p, 0);
   Eigen::VectorXd influence = information.diagonal().cwiseSqrt();
   for (std::size_t k = 0; k < p; ++k)
@@ -189,13 +66,29 @@ void EstimateCovariance(const CompressedCost& cost, FitResult& result) {
   }
 }
 
+/// The problem as Ceres asks for it.
+class SolverCost : public ceres::CostFunction {
+ public:
+  explicit SolverCost(const FitProblem& problem) : problem_(problem) {
+    set_num_residuals(problem.num_residuals());
+    mutable_parameter_block_sizes()->push_back(problem.parameters());
+  }
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
+    return problem_.Evaluate(x, residuals, jacobians);
+  }
+
+ private:
+  const FitProblem& problem_;
+};
+
 /// One pass of the solver from and to x. Returns whether it found a usable point.
-bool Solve(CompressedCost& cost, const Hypothesis& start, const FitOptions& options,
+bool Solve(FitProblem& cost, const Hypothesis& start, const FitOptions& options,
            std::vector<double>& x) {
+  SolverCost seen(cost);  // outlives the problem, which does not own it
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);
-  problem.AddResidualBlock(&cost, nullptr, x.data());
+  problem.AddResidualBlock(&seen, nullptr, x.data());
   for (std::size_t k = 0; k < x.size(); ++k) {
     const FreeParameter& f = start.free[k];
     const auto bound = [&](double v) {
@@ -254,7 +147,7 @@ FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions&
   }
   result.converged = true;
   if (start.free.empty()) return result;
-  CompressedCost cost(model, start, options);
+  FitProblem cost(model, start, options);
   std::vector<double> x(start.free.size());
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = start.Coordinate(k);
   for (int pass = 0; pass < options.passes && options.iterations > 0; ++pass) {

@@ -23,6 +23,8 @@ struct FitOptions {
   double reached = kInfinity;
   // its first columns: the rig parameters, for the first pass
   const Eigen::MatrixXd* base_jacobian = nullptr;
+  // a flag for each record: the fit looks at these only (of the fitted ones); empty: at all of them
+  std::vector<char> records = {};
 };
 
 struct FitResult {

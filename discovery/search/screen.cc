@@ -77,6 +77,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
   const EffectTargets targets = TargetsOfEffects(model.data().rig);
   for (const EffectDescription& d : Catalogue()) {
     if (!options.effect.empty() && d.id != options.effect) continue;
+    if (options.effect.empty() && IsResonance(d) && !options.resonances) continue;
     const bool skipped = SeeksFrequency(d) ? !options.frequencies : again && !coils;
     if (options.effect.empty() && (CannotShow(d, model) || skipped)) continue;
     if (options.coarse && (coils || SeeksFrequency(d))) continue;
@@ -97,6 +98,14 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
   return groups;
 }
 
+/// An effect that changes nothing here (it cannot act on this bearing, or nothing excites it).
+bool ChangesNothing(const LinearJudge& judge, const SignatureBank::Entry& entry) {
+  double most = 0;
+  for (Eigen::Index k = 0; k < entry.count(); ++k)
+    most = std::max(most, judge.SignatureSize(entry, k));
+  return most < kInvisible;
+}
+
 /// Best start of every (effect, target) that the fit does not hold yet, with the next best beside
 /// it.
 std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, SignatureBank& bank,
@@ -105,11 +114,7 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
   std::vector<Candidate> all, out;
   for (const SignatureBank::Entry& entry : bank.entries()) {
     if (Present(base.hypothesis, entry.group.probes[0])) continue;
-    // An effect that changes nothing here (it cannot act on this bearing, or nothing excites it).
-    double most = 0;
-    for (Eigen::Index k = 0; k < entry.count(); ++k)
-      most = std::max(most, judge.SignatureSize(entry, k));
-    if (most < kInvisible) continue;
+    if (ChangesNothing(judge, entry)) continue;
     all.push_back(judge.Single(entry));
     if (!std::isfinite(all.back().score)) all.pop_back();
   }
@@ -193,11 +198,11 @@ std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& 
   std::vector<std::vector<CandidatePair>> best_of(entries.size());
   tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
     const EffectInstance& a = entries[i].group.probes[0];
-    if (Present(base.hypothesis, a)) return;
+    if (Present(base.hypothesis, a) || ChangesNothing(judge, entries[i])) return;
     std::vector<CandidatePair>& best = best_of[i];
     for (std::size_t j = i + 1; j < entries.size(); ++j) {
       const EffectInstance& b = entries[j].group.probes[0];
-      if (Same(a, b) || Present(base.hypothesis, b)) continue;
+      if (Same(a, b) || Present(base.hypothesis, b) || ChangesNothing(judge, entries[j])) continue;
       CandidatePair p = judge.Pair(entries[i], entries[j]);
       if (std::isfinite(p.score)) best.push_back(std::move(p));
     }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "fdd/measurement/period_slopes.h"
 #include "fdd/model/inductance_matrix.h"
 
 namespace ambrig {
@@ -13,8 +14,7 @@ namespace {
 constexpr double kShareOfBus =
     0.12;                          // threshold: what tolerances of the gap and leakage leave, ...
 constexpr double kNoises = 7;      // ... and sd of the noise
-constexpr double kNothing = 0.12;  // [A] of an open coil, offsets of the converter included
-constexpr double kLeastAsked = 3;  // times kNothing: a set-point that says something
+constexpr double kLeastAsked = 3;  // times kConducts: a set-point that says something
 constexpr double kFaster = 3;      // than the coil's own inductance lets it fall: neighbours, drops
 constexpr int kInARow = 3;         // periods
 
@@ -78,14 +78,14 @@ class LinkageBalance : public RunDetector {
     for (int k = 0; k < s_.sampling.samples; ++k) {
       const double i = std::abs(in.adc[k][j]);
       largest = std::max(largest, i);
-      if (i <= kNothing && before_[j] > kNothing) jump_[j] = before_[j] - i;
+      if (i <= kConducts && before_[j] > kConducts) jump_[j] = before_[j] - i;
       before_[j] = i;
     }
     const double asked = in.set_point ? std::abs((*in.set_point)[j]) : 0;
     const bool off = std::abs(balance_[j]) > threshold_ && comparable_ && in.comparable;
     // Diodes that block leave a coil without current too, when little is asked of it.
-    const bool told = s_.sampling.amplifier->quadrants > 2 || asked > kLeastAsked * kNothing;
-    const bool suspicious = largest < kNothing && told && (off || count_[lane] > 0);
+    const bool told = s_.sampling.amplifier->quadrants > 2 || asked > kLeastAsked * kConducts;
+    const bool suspicious = largest < kConducts && told && (off || count_[lane] > 0);
     if (!suspicious) {
       if (count_[lane] > 0 && alarm.coil < 0) {
         alarm.coil = j;

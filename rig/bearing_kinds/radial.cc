@@ -1,10 +1,8 @@
 /// Eight poles round the shaft, a floating rotor between them; two axes.
 #include <fmt/format.h>
 
-#include <cmath>
-
-#include "effects/plant.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/bearing_kinds/bearing_plane.h"
 
 namespace ambrig {
 
@@ -30,10 +28,7 @@ const BearingKind& RadialBearing() {
       .two_axes = true,
       .eight_poles = true,
       .coils = [](const BearingParameters&) { return kPoles; },
-      .axes =
-          [](const BearingParameters& b) {
-            return std::vector<std::string>{b.name + ".x", b.name + ".y"};
-          },
+      .axes = AxesAcross,
       .read = ReadRadial,
       .document =
           [](std::vector<ParameterRow>& rows) {
@@ -47,13 +42,8 @@ const BearingKind& RadialBearing() {
       .force_constant =
           [](const BearingParameters& b) { return RadialStator(b.radial).ForceConstant(); },
       .own_bias = [](const BearingParameters&) { return kRequired; },
-      .plane = [](const BearingParameters&, const RotorModel& rotor,
-                  double z) { return rotor.MakePlane(z); },
-      .add_auxiliary =
-          [](const BearingParameters& b, RotorModel& rotor) {
-            rotor.AddAuxiliary(b.name, std::isnan(b.auxiliary_z) ? b.z : b.auxiliary_z,
-                               *b.auxiliary);
-          },
+      .plane = PlaneAcross,
+      .add_auxiliary = AddAuxiliaryAtPlane,
   };
   return kind;
 }

@@ -1,7 +1,7 @@
 /// Any stator: poles, a winding matrix, permanent magnets (actuators/magnetics/pole_network.h), with
 /// two axes across the shaft or one along it.
-#include "effects/plant.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/bearing_kinds/bearing_plane.h"
 #include "rig/bearing_kinds/stator_file.h"
 
 namespace ambrig {
@@ -45,75 +45,62 @@ double StatorBias(const BearingParameters& b) {
   return p.bias_current;
 }
 
-PlaneMap AxialStatorPlane(const BearingParameters&, const RotorModel&, double z) {
-  PlaneMap map;
-  map.z = z;
-  map.Add(2, 1, 0);
-  return map;
+/// What both kinds have in common.
+constexpr BearingKind AnyStator() {
+  BearingKind kind{};
+  kind.coils = [](const BearingParameters& b) { return CoilsOf(PolesOf(StatorOf(b))); };
+  kind.numbers = VisitStator;
+  kind.stator = [](const BearingParameters& b) { return GeometryOf(StatorOf(b)); };
+  kind.force_constant = StatorForceConstant;
+  kind.own_bias = StatorBias;
+  kind.check = [](const TomlTable& t, const BearingParameters& b, double bias, bool unipolar) {
+    CheckStator(t, StatorOf(b), bias, unipolar);
+  };
+  kind.linearise = LineariseStator;
+  return kind;
+}
+
+constexpr BearingKind StatorAcross() {
+  BearingKind kind = AnyStator();
+  kind.name = "stator";
+  kind.acts_on = kOnStator;
+  kind.two_axes = true;
+  kind.axes = AxesAcross;
+  kind.read = ReadAnyStator<false>;
+  kind.document = [](std::vector<ParameterRow>& rows) {
+    AddRows(rows, "[bearings.A] kind = \"stator\" or \"axial-stator\"", kStatorFields);
+    AddRows(rows, "[bearings.A] template = \"...\"", kStatorTemplateFields);
+    AddRows(rows, "[bearings.A] poles = [{ ... }]", kStatorPoleFields);
+    AddRows(rows, "[bearings.A.bias]", kBiasMagnetFields);
+  };
+  kind.plane = PlaneAcross;
+  kind.add_auxiliary = AddAuxiliaryAtPlane;
+  return kind;
+}
+
+constexpr BearingKind StatorAlong() {
+  BearingKind kind = AnyStator();
+  kind.name = "axial-stator";
+  kind.acts_on = kOnAxialStator;
+  kind.axial = true;
+  kind.axes = AxisAlong;
+  kind.axis = DirectionAlong;
+  kind.read = ReadAnyStator<true>;
+  kind.document = [](std::vector<ParameterRow>&) {};  // the rows of "stator" hold for it too
+  kind.plane = PlaneAlong;
+  kind.add_auxiliary = SetAxialStopOf;
+  return kind;
 }
 
 }  // namespace
 
 const BearingKind& StatorBearing() {
-  static constexpr BearingKind kind{
-      .name = "stator",
-      .acts_on = kOnStator,
-      .two_axes = true,
-      .coils = [](const BearingParameters& b) { return CoilsOf(PolesOf(StatorOf(b))); },
-      .axes =
-          [](const BearingParameters& b) {
-            return std::vector<std::string>{b.name + ".x", b.name + ".y"};
-          },
-      .read = ReadAnyStator<false>,
-      .document =
-          [](std::vector<ParameterRow>& rows) {
-            AddRows(rows, "[bearings.A] kind = \"stator\" or \"axial-stator\"", kStatorFields);
-            AddRows(rows, "[bearings.A] template = \"...\"", kStatorTemplateFields);
-            AddRows(rows, "[bearings.A] poles = [{ ... }]", kStatorPoleFields);
-            AddRows(rows, "[bearings.A.bias]", kBiasMagnetFields);
-          },
-      .numbers = VisitStator,
-      .stator = [](const BearingParameters& b) { return GeometryOf(StatorOf(b)); },
-      .force_constant = StatorForceConstant,
-      .own_bias = StatorBias,
-      .check = [](const TomlTable& t, const BearingParameters& b, double bias,
-                  bool unipolar) { CheckStator(t, StatorOf(b), bias, unipolar); },
-      .linearise = LineariseStator,
-      .plane = [](const BearingParameters&, const RotorModel& rotor,
-                  double z) { return rotor.MakePlane(z); },
-      .add_auxiliary =
-          [](const BearingParameters& b, RotorModel& rotor) {
-            rotor.AddAuxiliary(b.name, std::isnan(b.auxiliary_z) ? b.z : b.auxiliary_z,
-                               *b.auxiliary);
-          },
-  };
+  static constexpr BearingKind kind = StatorAcross();
   return kind;
 }
 
 const BearingKind& AxialStatorBearing() {
-  static constexpr BearingKind kind{
-      .name = "axial-stator",
-      .acts_on = kOnAxialStator,
-      .axial = true,
-      .coils = [](const BearingParameters& b) { return CoilsOf(PolesOf(StatorOf(b))); },
-      .axes = [](const BearingParameters&) { return std::vector<std::string>{"z"}; },
-      .axis =
-          [](const BearingParameters&) {
-            return std::array<double, 3>{0, 0, 1};
-          },
-      .read = ReadAnyStator<true>,
-      .document = [](std::vector<ParameterRow>&) {},
-      .numbers = VisitStator,
-      .stator = [](const BearingParameters& b) { return GeometryOf(StatorOf(b)); },
-      .force_constant = StatorForceConstant,
-      .own_bias = StatorBias,
-      .check = [](const TomlTable& t, const BearingParameters& b, double bias,
-                  bool unipolar) { CheckStator(t, StatorOf(b), bias, unipolar); },
-      .linearise = LineariseStator,
-      .plane = AxialStatorPlane,
-      .add_auxiliary = [](const BearingParameters& b,
-                          RotorModel& rotor) { rotor.SetAxialStop(*b.auxiliary); },
-  };
+  static constexpr BearingKind kind = StatorAlong();
   return kind;
 }
 

@@ -1,6 +1,6 @@
 /// Two windings on each side of a thrust disk; one axis along the shaft.
-#include "effects/plant.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/bearing_kinds/bearing_plane.h"
 
 namespace ambrig {
 
@@ -9,13 +9,6 @@ namespace {
 double ThrustForceConstant(const BearingParameters& b) {
   return 4 * kMu0 * b.thrust.turns * b.thrust.turns * b.thrust.pole_area /
          (b.thrust.gap * b.thrust.gap);
-}
-
-PlaneMap ThrustPlane(const BearingParameters&, const RotorModel&, double z) {
-  PlaneMap map;
-  map.z = z;
-  map.Add(2, 1, 0);
-  return map;
 }
 
 /// Ampere-turns 2 (c0 ± v) of a side are shared in proportion to the turns that are left. A side
@@ -43,11 +36,8 @@ const BearingKind& ThrustBearing() {
       .acts_on = kOnThrust,
       .axial = true,
       .coils = [](const BearingParameters&) { return kThrustCoils; },
-      .axes = [](const BearingParameters&) { return std::vector<std::string>{"z"}; },
-      .axis =
-          [](const BearingParameters&) {
-            return std::array<double, 3>{0, 0, 1};
-          },
+      .axes = AxisAlong,
+      .axis = DirectionAlong,
       .read =
           [](const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
             t.Read(b.thrust, kThrustStatorFields, tolerances);
@@ -64,9 +54,8 @@ const BearingKind& ThrustBearing() {
       .force_constant = ThrustForceConstant,
       .own_bias = [](const BearingParameters& b) { return b.thrust.bias_current; },
       .redistribute = ShareSides,
-      .plane = ThrustPlane,
-      .add_auxiliary = [](const BearingParameters& b,
-                          RotorModel& rotor) { rotor.SetAxialStop(*b.auxiliary); },
+      .plane = PlaneAlong,
+      .add_auxiliary = SetAxialStopOf,
   };
   return kind;
 }

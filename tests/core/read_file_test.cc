@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "core/base/errors.h"
+#include "tests/core/temporary_folder.h"
 
 namespace ambrig {
 namespace {
@@ -24,12 +25,12 @@ std::string RefusalOf(const std::string& path) {
 class ReadFileTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    path_ = ::testing::TempDir() + "ambrig_read_file_test";
+    path_ = folder_.File("bytes");
     bytes_.resize(200001);  // more than one block
     for (std::size_t k = 0; k < bytes_.size(); ++k) bytes_[k] = static_cast<char>(k * 7 % 256);
     std::ofstream(path_, std::ios::binary) << bytes_;
   }
-  void TearDown() override { std::remove(path_.c_str()); }
+  testing::TemporaryFolder folder_;
   std::string path_, bytes_;
 };
 

@@ -131,7 +131,7 @@ async function mainFlow(page, address) {
 
   // A drag zooms every panel, once the panels are those of the first cell again.
   const [record, channel] = worst.split(':')[0].split(', ');
-  await page.locator(`.panel[aria-label^="${channel} ["][aria-label*="${record}"]`).waitFor();
+  await page.locator(`[aria-busy="false"] > .panel[aria-label^="${channel} ["][aria-label*="${record}"]`).waitFor();
   const over = page.locator('.panel .u-over').first();
   const box = await over.boundingBox();
   await page.mouse.move(box.x + box.width * 0.3, box.y + 30);

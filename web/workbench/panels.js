@@ -36,8 +36,6 @@ export class Panels {
     this.to = null;
     this.timer = 0;
     this.asked = 0;
-    /** @type {any} */
-    this.dragged = null;
     this.sync = uPlot.sync('time');
     /** @type {Record<string, number>} the cursors A and B [s] */
     this.marks = {};
@@ -67,6 +65,7 @@ export class Panels {
     const names = what.plots.flatMap((p) => p.lines.map((l) => l.channel));
     let path = `/api/series?${what.query}&c=${names.map(encodeURIComponent).join(',')}&px=${Math.max(200, this.width())}`;
     if (this.from !== null && this.to !== null) path += `&t0=${this.from}&t1=${this.to}`;
+    this.place.setAttribute('aria-busy', 'true');
     try {
       const series = decodeSeries(await getBytes(path));
       if (number !== this.asked) return;
@@ -75,6 +74,7 @@ export class Panels {
     } catch (error) {
       tellError(error);
     }
+    if (number === this.asked) this.place.setAttribute('aria-busy', 'false');
   }
 
   width() {
@@ -104,20 +104,14 @@ export class Panels {
       axes: [{...axis, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((t) => String(Number(t.toPrecision(6))))},
              {...axis, size: 64, space: 24}],
       series: [{label: 't [s]', value: (/** @type {any} */ _, /** @type {number|null} */ t) => (t === null ? '-' : t.toFixed(5))}, ...lines],
-      cursor: {sync: {key: this.sync.key, setSeries: false}, drag: {x: true, y: false}, bind: {dblclick: () => () => {
+      cursor: {sync: {key: this.sync.key, setSeries: false}, drag: {x: true, y: false, setScale: false}, bind: {dblclick: () => () => {
         this.zoom(null, null);
         return null;
       }}},
-      hooks: {setSelect: [(/** @type {any} */ u) => {
-        if (u === this.dragged && u.select.width > 4) this.zoom(u.posToVal(u.select.left, 'x'), u.posToVal(u.select.left + u.select.width, 'x'));
-        u.setSelect({left: 0, width: 0, top: 0, height: 0}, false);
-      }], draw: [(/** @type {any} */ u) => this.drawMarks(u)]},
+      hooks: {setSelect: [(/** @type {any} */ u) => u.setSelect({left: 0, width: 0, top: 0, height: 0}, false)], draw: [(/** @type {any} */ u) => this.drawMarks(u)]},
       select: {show: true, left: 0, top: 0, width: 0, height: 0},
     }, [[0], ...lines.map(() => [null])], figure);
-    // A drag shows in every linked panel, and each tells it: the one under the pointer counts.
-    plot.over.addEventListener('mousedown', () => {
-      this.dragged = plot;
-    });
+    plot.over.addEventListener('mousedown', (/** @type {MouseEvent} */ e) => this.drag(e, plot));
     plot.root.addEventListener('wheel', (/** @type {WheelEvent} */ e) => this.wheel(e, plot), {passive: false});
     figure.addEventListener('keydown', (e) => this.pressed(e, plot));
     this.plots.push(plot);
@@ -154,7 +148,6 @@ export class Panels {
 
   /** @param {number|null} from @param {number|null} to null: all */
   zoom(from, to) {
-    this.dragged = null;
     this.from = from;
     this.to = to;
     clearTimeout(this.timer);
@@ -163,6 +156,24 @@ export class Panels {
       void this.load(false);
       this.moved(this.from, this.to);
     }, rest);
+  }
+
+  /**
+   * Zooms to what lies between this press and the release. The selection that the plot draws is no measure of it: it shows
+   * in every linked panel, and a change of size during the drag reports it before the release.
+   * @param {MouseEvent} down @param {any} plot
+   */
+  drag(down, plot) {
+    if (down.button !== 0) return;
+    const valueAt = (/** @type {MouseEvent} */ e) => {
+      const box = plot.over.getBoundingClientRect();
+      return plot.posToVal(Math.min(Math.max(e.clientX - box.left, 0), box.width), 'x');
+    };
+    const start = valueAt(down);
+    addEventListener('mouseup', (up) => {
+      const end = valueAt(up);
+      if (this.plots.includes(plot) && Math.abs(up.clientX - down.clientX) > 4) this.zoom(Math.min(start, end), Math.max(start, end));
+    }, {once: true});
   }
 
   /** @param {WheelEvent} e @param {any} plot */

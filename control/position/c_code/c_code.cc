@@ -12,33 +12,23 @@ namespace ambrig {
 namespace {
 
 constexpr const char* kHelpers = R"(
-/* y += A x; A by columns, each row summed column by column in blocks: the order of the simulated controller. */
-static void add_product(int rows, int columns, const double *A, const double *x, double *y) {
+/* y += sign A x, sign 1 or -1; A by columns, each row summed column by column in blocks: the order of the
+   simulated controller. */
+static void add_product(double sign, int rows, int columns, const double *A, const double *x, double *y) {
   const int block = columns < 128 || rows == 1 ? columns : rows * 8 < 32000 ? 16 : 4;
   int i, j, j0;
   for (j0 = 0; j0 < columns; j0 += block)
     for (i = 0; i < rows; ++i) {
       double sum = 0;
       for (j = j0; j < columns && j < j0 + block; ++j) sum += A[j * rows + i] * x[j];
-      y[i] += sum;
-    }
-}
-
-static void subtract_product(int rows, int columns, const double *A, const double *x, double *y) {
-  const int block = columns < 128 || rows == 1 ? columns : rows * 8 < 32000 ? 16 : 4;
-  int i, j, j0;
-  for (j0 = 0; j0 < columns; j0 += block)
-    for (i = 0; i < rows; ++i) {
-      double sum = 0;
-      for (j = j0; j < columns && j < j0 + block; ++j) sum += A[j * rows + i] * x[j];
-      y[i] -= sum;
+      y[i] += sign * sum;
     }
 }
 
 static void product(int rows, int columns, const double *A, const double *x, double *y) {
   int i;
   for (i = 0; i < rows; ++i) y[i] = 0;
-  add_product(rows, columns, A, x, y);
+  add_product(1, rows, columns, A, x, y);
 }
 
 static double clamped(double value, double limit) {
@@ -105,7 +95,6 @@ int ambrig_controller_open(ambrig_controller *c) {
   (void)mix;
   (void)locate;
   (void)product;
-  (void)subtract_product;
   (void)clamped;
   if (c->axes != AXES) return ambrig_fail(c, "made for another number of axes");
   for (k = 0; k < c->axes; ++k)

@@ -53,15 +53,15 @@ static void $_correct(const double *y) {
   double innovation[$_AXES];
   int k;
   for (k = 0; k < $_AXES; ++k) innovation[k] = y[k];
-  subtract_product($_AXES, $_STATES, $_C1, $_x, innovation);
+  add_product(-1, $_AXES, $_STATES, $_C1, $_x, innovation);
   for (k = 0; k < $_STATES; ++k) $_corrected[k] = $_x[k];
-  add_product($_STATES, $_AXES, $_L1, innovation, $_corrected);
+  add_product(1, $_STATES, $_AXES, $_L1, innovation, $_corrected);
 }
 
 /* x+ = A xf + B f */
 static void $_predict(const double *f) {
   product($_STATES, $_STATES, $_Am, $_corrected, $_x);
-  add_product($_STATES, $_AXES, $_B1, f, $_x);
+  add_product(1, $_STATES, $_AXES, $_B1, f, $_x);
 }
 
 /* Nf r - Kx (xf - Nx r): the force without its integral part. */
@@ -69,9 +69,9 @@ static void $_proportional(const double *r, double *f) {
   double work[$_STATES];
   int k;
   for (k = 0; k < $_STATES; ++k) work[k] = $_corrected[k];
-  subtract_product($_STATES, $_AXES, $_Nx1, r, work);
+  add_product(-1, $_STATES, $_AXES, $_Nx1, r, work);
   product($_AXES, $_AXES, $_Nf1, r, f);
-  subtract_product($_AXES, $_STATES, $_Kx1, work, f);
+  add_product(-1, $_AXES, $_STATES, $_Kx1, work, f);
 }
 
 static void $_step(const double *y, const double *r, const double *excitation, double omega, double *f) {
@@ -80,7 +80,7 @@ static void $_step(const double *y, const double *r, const double *excitation, d
   $_schedule(omega);
   $_correct(y);
   $_proportional(r, own);
-  subtract_product($_AXES, $_AXES, $_Ki1, $_xi, own);
+  add_product(-1, $_AXES, $_AXES, $_Ki1, $_xi, own);
   for (k = 0; k < $_AXES; ++k) {
     const double raw = own[k] + excitation[k], e = r[k] - y[k], limit = $_f_max[k];
     if (!((raw > limit && e > 0) || (raw < -limit && e < 0))) $_xi[k] -= $_TS * e;

@@ -43,10 +43,10 @@ static void $_step(const double *y, const double *r, const double *excitation, d
   if ($_POINTS > 1 && omega != $_speed) $_schedule(omega);
   for (k = 0; k < $_AXES; ++k) e[k] = r[k] - y[k];
   product($_AXES, $_AXES, $_D1, e, raw);
-  add_product($_AXES, $_STATES, $_C1, $_x, raw);
+  add_product(1, $_AXES, $_STATES, $_C1, $_x, raw);
   for (k = 0; k < $_AXES; ++k) raw[k] += $_offset[k];
   product($_STATES, $_STATES, $_A1, $_x, next);
-  add_product($_STATES, $_AXES, $_B1, e, next);
+  add_product(1, $_STATES, $_AXES, $_B1, e, next);
   for (k = 0; k < $_STATES; ++k) $_x[k] = next[k];
   for (k = 0; k < $_AXES; ++k) f[k] = clamped(raw[k] + excitation[k], $_f_max[k]);
 }

@@ -16,6 +16,8 @@
 namespace ambrig {
 namespace {
 
+using Samples = std::vector<double>;
+
 RigParameters RadialRig() {
   RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
@@ -115,6 +117,37 @@ TEST_P(DataGateFinds, TheMistakeAndNothingElse) {
   }
   if (fault == "lost") {
     EXPECT_NEAR(f.seconds, 0.08 * 0.35, 2e-3);
+  }
+}
+
+Samples& SamplesOf(Case& c, const char* record, const std::string& channel) {
+  for (Channel& ch : c.records[RecordNamed(c, record)].data.channels)
+    if (ch.name == channel) return ch.samples;
+  throw std::runtime_error(channel);
+}
+
+// The bus stands at its voltage: its noise has no correlation with a prediction, its level does.
+TEST(DataGate, AConstantColumnShowsItsFactorByItsLevel) {
+  for (const double factor : {2.0, 0.5, std::sqrt(2.0), 25.4, 57.29577951308232}) {
+    Case c = Measured();
+    for (double& v : SamplesOf(c, kSteps, "bus")) v *= factor;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].fault, "unit");
+    EXPECT_EQ(faults[0].channel, "bus");
+    EXPECT_NEAR(faults[0].factor, factor, 1e-6 * factor);
+  }
+}
+
+TEST(DataGate, ColumnsOfDifferentKindsExchanged) {
+  for (const char* other : {"A.i1", "A.s5"}) {
+    Case c = Measured();
+    std::swap(SamplesOf(c, kSteps, "bus"), SamplesOf(c, kSteps, other));
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << other;
+    EXPECT_EQ(faults[0].fault, "swap") << FaultText(faults[0]);
+    EXPECT_TRUE(faults[0].channel == "bus" || faults[0].with == "bus");
+    EXPECT_TRUE(faults[0].channel == other || faults[0].with == other);
   }
 }
 

@@ -81,6 +81,23 @@ TEST(Hypothesis, RigParametersStartAtTheirCalibrationUnderThePriorOfTheDrawing) 
   EXPECT_NEAR(h.free[0].hi, mass + 0.08, 1e-12);  // eight sd
 }
 
+// Readings of free rotors count, those of clamped ones do not.
+TEST(WorstMotionRatio, IsThatOfFreeRotors) {
+  Case data = LinearCase::Make({2e-5, 4e-5, 6e-5}, 1, 0);
+  std::vector<double> r;
+  {
+    const CaseModel clamped(data);
+    r.assign(clamped.size(), 5);
+    EXPECT_EQ(WorstMotionRatio(clamped, r), 0);
+  }
+  data.records[1].scenario.start = StartState::kLevitated;
+  const CaseModel model(data);
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; t.record == 1 && k < t.first + t.count; ++k)
+      r[k] = t.channel == 0 ? 3 : 1;
+  EXPECT_NEAR(WorstMotionRatio(model, r), std::sqrt(5.0), 1e-12);
+}
+
 // The kernel's gain at the cutoff is 1/√2; its derivatives are those of the smoothed signal.
 TEST(Smooth, HasItsCutoffAndItsDerivatives) {
   const double rate = 20e3, cutoff = 200, w = 2 * kPi * cutoff;

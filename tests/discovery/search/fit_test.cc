@@ -43,6 +43,33 @@ TEST(Jacobian, AtTheUpperBoundItLooksBack) {
   EXPECT_NEAR(J(0, 0), kFitX[0] / LinearCase::kFloor * h.free[0].step, 1e-8);
 }
 
+// With a look at one record the rows of the others stay zero.
+TEST(Jacobian, OfSomeRecordsLeavesTheOthersZero) {
+  const LinearCase c = CaseOf(1, 0);
+  const Hypothesis h = c.With({LinearCase::Gain(1.02)});
+  const QuickLook look{{0, 1, 0, 0}, std::vector<double>(c.model.size(), 0.0)};
+  const Eigen::MatrixXd all = Jacobian(c.model, h, {0}),
+                        some = Jacobian(c.model, h, {0}, 0.3, &look);
+  for (const Target& t : c.model.targets()) {
+    const auto row = static_cast<Eigen::Index>(t.first);
+    EXPECT_DOUBLE_EQ(some(row, 0), t.record == 1 ? all(row, 0) : 0);
+  }
+  EXPECT_NE(some.norm(), 0);
+}
+
+// Data of gain 1.07 and offset 3 um, fitted by an offset on the record at 20 um alone: 0.07 * 20 + 3.
+TEST(Fit, LooksAtTheNamedRecordsOnlyAndJudgesOnAll) {
+  const LinearCase c = CaseOf(1.07, 3e-6);
+  FitOptions options;
+  options.effective_sample_size = 300;
+  options.records = {1, 0, 0, 0};
+  const FitResult fit = Fit(c.model, c.With({LinearCase::Offset(1e-6)}), options);
+  EXPECT_TRUE(fit.converged);
+  EXPECT_NEAR(FittedEffect(fit, 0).Value("offset"), 4.4e-6, 5e-8);
+  EXPECT_GT(fit.ratio_fit, 1);                        // the other fitted records do not agree
+  EXPECT_NE(fit.jacobian.bottomRows(100).norm(), 0);  // sensitivities of all, unseen ones too
+}
+
 TEST(Fit, FindsGainAndOffsetThatMadeTheData) {
   const LinearCase c = CaseOf(1.07, 3e-6);
   FitOptions options;

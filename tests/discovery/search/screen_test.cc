@@ -115,6 +115,28 @@ TEST(Screen, TellsOfItsProgressAndSimulatesNothingTwice) {
   }
 }
 
+// The readings of B are not in the case: an effect there is half of no pair, whatever the other half does.
+TEST(ScreenPairs, HoldNoEffectThatChangesNothing) {
+  const LinearCase c(kScreenX, 1.08, 2e-6);
+  const FitResult base = c.Base();
+  EffectInstance unseen = MakeInstance(EffectNamed("sensor-offset"), "B.x");
+  unseen.Set("offset", 1e-5);
+  const auto group = [](const EffectInstance& e) {
+    ProbeGroup g;
+    g.probes = {e};
+    g.rows = {0};
+    return g;
+  };
+  SignatureBank bank;
+  bank.Simulate(c.model, base,
+                {group(LinearCase::Gain(1.05)), group(unseen), group(LinearCase::Offset(1e-6))},
+                {});
+  const std::vector<CandidatePair> pairs = ScreenPairs(c.model, base, kScreenN, bank, 5);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_EQ(Named(pairs[0].first), "sensor-gain at A.x");
+  EXPECT_EQ(Named(pairs[0].second), "sensor-offset at A.x");
+}
+
 TEST(ScreenPairs, ComeInTheOrderOfTheirScoreAndOnceEach) {
   const LinearCase c({2e-5, 4e-5, 6e-5, -5e-5}, 1.3, -2e-5);
   const FitResult base = c.Base();

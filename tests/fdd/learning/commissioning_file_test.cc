@@ -1,6 +1,7 @@
 #include "fdd/learning/commissioning_file.h"
 
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -34,7 +35,8 @@ CommissionedBearing Learnt() {
 }
 
 std::string Written(const std::string& text) {
-  const std::string file = ::testing::TempDir() + "/x.commissioning.toml";
+  const std::string file =
+      ::testing::TempDir() + "/" + std::to_string(::getpid()) + "_x.commissioning.toml";
   std::ofstream(file) << text;
   return file;
 }

@@ -1,6 +1,7 @@
 #include "rotor/shaft/beam_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -140,7 +141,9 @@ TEST(BeamFile, MistakesNameFileLineAndKey) {
 /// A file of this test's own, gone afterwards.
 struct Scratch {
   explicit Scratch(const std::string& name)
-      : path((std::filesystem::path(::testing::TempDir()) / ("ambrig_ross_" + name)).string()) {}
+      : path((std::filesystem::path(::testing::TempDir()) /
+              ("ambrig_ross_" + std::to_string(::getpid()) + "_" + name))
+                 .string()) {}
   ~Scratch() { std::filesystem::remove(path); }
   void Write(const std::string& text) const { std::ofstream(path) << text; }
   std::string path;

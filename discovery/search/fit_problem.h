@@ -1,0 +1,170 @@
+#pragma once
+/// The least-squares problem of a fit, without its solver. Internal to discovery/search/fit.cc.
+
+#include <cmath>
+
+#include "discovery/decision/likelihood.h"
+#include "discovery/model/jacobian.h"
+#include "discovery/search/fit.h"
+
+namespace ambrig {
+
+inline constexpr double kRigStep = 0.3;      // of a rig parameter's sd
+inline constexpr double kEffectStep = 0.01;  // of a parameter's natural step: resonances are narrow
+inline constexpr double kBelieved = 3;       // sd of a rig parameter within its tolerance
+inline constexpr double kBeyond = 5;         // each further sd counts as so many
+
+/// The prior's residual of a rig parameter that stands `sds` from its mean, and its slope. Gaussian
+/// within three sd; a part further off is hardly the part of the drawing, and an effect that is
+/// missing must not be paid with it.
+inline double PriorResidual(double sds) {
+  return sds + std::copysign((kBeyond - 1) * std::max(0.0, std::abs(sds) - kBelieved), sds);
+}
+inline double PriorSlope(double sds) { return std::abs(sds) > kBelieved ? kBeyond : 1; }
+
+/// The fitted records, or those of them that the options name: unseen ones are simulated at the end.
+inline QuickLook FittedRecords(const CaseModel& model, const FitOptions& options) {
+  const std::vector<CaseRecord>& records = model.data().records;
+  QuickLook look{std::vector<char>(records.size(), 0), std::vector<double>(model.size(), 0.0)};
+  for (std::size_t r = 0; r < records.size(); ++r)
+    look.records[r] = !records[r].validate && (options.records.empty() || options.records[r]);
+  return look;
+}
+
+/// [J r]ᵀ[J r] over the rows of the fit records looked at.
+inline Eigen::MatrixXd FitGram(const CaseModel& model, const QuickLook& look,
+                               const Eigen::MatrixXd& J, const std::vector<double>& r) {
+  const Eigen::Index p = J.cols();
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(p + 1, p + 1);
+  for (const Target& t : model.targets()) {
+    if (!look.records[t.record]) continue;
+    const auto rows =
+        J.middleRows(static_cast<Eigen::Index>(t.first), static_cast<Eigen::Index>(t.count));
+    const Eigen::Map<const Eigen::VectorXd> part(r.data() + t.first,
+                                                 static_cast<Eigen::Index>(t.count));
+    gram.topLeftCorner(p, p).noalias() += rows.transpose() * rows;
+    gram.topRightCorner(p, 1).noalias() += rows.transpose() * part;
+    gram(p, p) += part.squaredNorm();
+  }
+  gram.bottomLeftCorner(1, p) = gram.topRightCorner(p, 1).transpose();
+  return gram;
+}
+
+/// The least-squares problem seen through its Gram matrix: with [J r] = Q R the residual Qᵀr and
+/// the Jacobian R have the same cost, gradient and Gauss-Newton matrix in a handful of rows.
+class FitProblem {
+ public:
+  FitProblem(const CaseModel& model, const Hypothesis& start, const FitOptions& options)
+      : model_(model),
+        hypothesis_(start),
+        options_(options),
+        look_(FittedRecords(model, options)),
+        p_(start.free.size()) {
+    for (std::size_t k = 0; k < p_; ++k)
+      if (start.free[k].effect < 0)
+        base_.push_back(k);
+      else
+        effect_.push_back(k);
+  }
+
+  /// Weight of a residual when the model leaves `ratio` times the noise.
+  void SetMisfitWeight(double ratio) {
+    weight_ = std::sqrt(MisfitWeight(ratio, options_.effective_sample_size) /
+                        static_cast<double>(model_.size()));
+  }
+  /// Sensitivities of the rig parameters are taken anew.
+  void Refresh() {
+    base_jacobian_.resize(0, 0);
+    reuse_ = false;
+  }
+
+  Hypothesis At(const double* x) const {
+    Hypothesis h = hypothesis_;
+    for (std::size_t k = 0; k < p_; ++k) h.Set(k, h.ValueAt(k, x[k]));
+    return h;
+  }
+
+  int parameters() const { return static_cast<int>(p_); }
+  int num_residuals() const { return 2 * static_cast<int>(p_) + 1; }  // data, then priors
+
+  /// As ceres::CostFunction::Evaluate.
+  bool Evaluate(double const* const* x, double* residuals, double** jacobians) const {
+    const Hypothesis h = At(x[0]);
+    const auto predicted = model_.PredictAll({h}, ModelFidelity::kAsSampled, &look_)[0];
+    if (!predicted) return false;
+    const std::vector<double> r = Residual(model_, *predicted);
+    std::fill_n(residuals, num_residuals(), 0.0);
+    for (std::size_t k = 0; k < p_; ++k)
+      residuals[p_ + 1 + k] = hypothesis_.free[k].sd > 0 ? PriorResidual(x[0][k]) : 0;
+    if (!jacobians || !jacobians[0]) {
+      residuals[0] =
+          std::sqrt(FitGram(model_, look_, Eigen::MatrixXd(r.size(), 0), r)(0, 0)) * weight_;
+      return true;
+    }
+    Eigen::MatrixXd gram = weight_ * weight_ * FitGram(model_, look_, FitJacobian(h), r);
+    // a prediction that rises lowers the residual
+    gram.topRightCorner(static_cast<Eigen::Index>(p_), 1) *= -1;
+    gram.bottomLeftCorner(1, static_cast<Eigen::Index>(p_)) *= -1;
+    gram.diagonal().array() += 1e-12 * gram.diagonal().array().abs() + 1e-14;
+    const Eigen::MatrixXd R = gram.llt().matrixU();
+    Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> out(
+        jacobians[0], num_residuals(), static_cast<Eigen::Index>(p_));
+    out.setZero();
+    out.topRows(static_cast<Eigen::Index>(p_) + 1) = R.leftCols(static_cast<Eigen::Index>(p_));
+    for (std::size_t k = 0; k <= p_; ++k)
+      residuals[k] = R(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(p_));
+    for (std::size_t k = 0; k < p_; ++k)
+      if (hypothesis_.free[k].sd > 0)
+        out(static_cast<Eigen::Index>(p_ + 1 + k), static_cast<Eigen::Index>(k)) =
+            PriorSlope(x[0][k]);
+    return true;
+  }
+
+  /// Columns of all parameters on the records looked at; those of the rig are computed once a pass,
+  /// those of effects here.
+  Eigen::MatrixXd FitJacobian(const Hypothesis& h) const {
+    if (base_jacobian_.size() == 0) {
+      if (reuse_)
+        base_jacobian_ = options_.base_jacobian->leftCols(static_cast<Eigen::Index>(base_.size()));
+      else
+        base_jacobian_ = Jacobian(model_, h, base_, kRigStep, &look_);
+      base_at_ = h;
+    }
+    return Joined(base_jacobian_, Jacobian(model_, h, effect_, kEffectStep, &look_));
+  }
+
+  /// The same on all records: the rig's where the last pass took them (in memory for what it looked at).
+  Eigen::MatrixXd FullJacobian(const Hypothesis& h) const {
+    const bool whole = base_jacobian_.size() == 0 || !reuse_;
+    if (base_jacobian_.size() == 0) base_at_ = h;
+    return Joined(whole ? Jacobian(model_, base_at_, base_, kRigStep) : base_jacobian_,
+                  Jacobian(model_, h, effect_, kEffectStep));
+  }
+
+  double weight() const { return weight_; }
+  const CaseModel& model() const { return model_; }
+  const QuickLook& look() const { return look_; }
+
+ private:
+  Eigen::MatrixXd Joined(const Eigen::MatrixXd& of_rig, const Eigen::MatrixXd& of_effects) const {
+    Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.size()), static_cast<Eigen::Index>(p_));
+    for (std::size_t k = 0; k < base_.size(); ++k)
+      J.col(static_cast<Eigen::Index>(base_[k])) = of_rig.col(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < effect_.size(); ++k)
+      J.col(static_cast<Eigen::Index>(effect_[k])) = of_effects.col(static_cast<Eigen::Index>(k));
+    return J;
+  }
+
+  const CaseModel& model_;
+  const Hypothesis hypothesis_;
+  const FitOptions& options_;
+  const QuickLook look_;
+  std::size_t p_;
+  double weight_ = 1;
+  std::vector<std::size_t> base_, effect_;
+  bool reuse_ = options_.base_jacobian != nullptr;
+  mutable Eigen::MatrixXd base_jacobian_;
+  mutable Hypothesis base_at_;  // where it was taken
+};
+
+}  // namespace ambrig
