@@ -143,12 +143,13 @@ void FromRoss(const std::string& file, const std::function<void(const std::strin
   RossRotor ross = ReadRoss(file);
   out.definition = std::move(ross.definition);
   if (ignored) *ignored = ross.ignored;
-  for (const Disk& d : out.definition.disks) {
-    std::string name = d.name;  // ROSS's names have blanks: "Disk 0"
+  const auto named = [&](std::string name, double z) {  // ROSS's names have blanks: "Disk 0"
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
-    add(name, d.z);
-  }
+    add(name, z);
+  };
+  for (const Disk& d : out.definition.disks) named(d.name, d.z);
+  for (const RossPlane& b : ross.magnetic_bearings) named(b.name, b.z);
 }
 
 /// A table's own file: ROSS's, or one with a [rotor] of the same tables.
@@ -201,13 +202,14 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   return out;
 }
 
-BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored) {
+BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored,
+                   std::vector<Tolerance>* tolerances) {
   *ross = true;
   if (file.ends_with(".toml")) {
     const TomlTable root = TomlTable::FromFile(file);
     if (const auto own = root.Table("rotor")) {
       *ross = false;
-      return ReadBeam(*own);
+      return ReadBeam(*own, tolerances);
     }
   } else if (!file.ends_with(".json")) {
     throw InputError(fmt::format("{}: allowed: a .toml or .json file", file));

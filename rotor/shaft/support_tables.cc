@@ -59,8 +59,6 @@ SpringSupport ReadSupport(const TomlTable& row, std::vector<Tolerance>* toleranc
   for (const char* key : {"k", "c"}) {
     if (!row.Has(key)) continue;
     const bool k = *key == 'k';
-    for (const char* own : {k ? "kxx" : "cxx", k ? "kyy" : "cyy"})
-      if (row.Has(own)) row.Fail(own, fmt::format("is given beside {}, allowed: one of them", key));
     Range range =
         k ? Range{"N/m", -1e15, 1e15, "stiffness"} : Range{"N s/m", -1e12, 1e12, "damping"};
     (k ? s.kxx : s.cxx) = Within(row, key, 0.0, range);
