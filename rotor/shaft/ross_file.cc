@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/base/counted.h"
 #include "rotor/shaft/ross_elements.h"
 #include "rotor/shaft/ross_supports.h"
 
@@ -29,7 +30,7 @@ Material ReadRossMaterial(const Element& e, std::vector<std::string>& lost) {
   Material m{get("E"), get("rho"), 0};
   m.nu = e.material.count("G_s") ? m.E / (2 * get("G_s")) - 1 : get("Poisson");
   const double nu = std::clamp(m.nu, 0.0, 0.5);
-  if (std::abs(nu - m.nu) > 1e-9)
+  if (std::abs(nu - m.nu) > 1e-9 && m.E >= kSleeveE)
     lost.push_back(fmt::format("Poisson's ratio {} of {}, taken as {}", NumberText(m.nu), e.Label(),
                                NumberText(nu)));
   m.nu = nu;
@@ -49,9 +50,6 @@ ShaftSection ReadRossShaft(const Element& e, std::vector<std::string>& lost) {
   s.id_right = e.Get("idr", s.id);
   s.material = ReadRossMaterial(e, lost);
   s.stiff = s.material.E >= kSleeveE;
-  if (!s.stiff && s.material.E > kWrittenSleeveE)
-    lost.push_back(fmt::format("E = {} N/m2 of {}, taken as mass without stiffness",
-                               NumberText(s.material.E), e.Label()));
   s.damping_mass = e.Get("alpha", 0);
   s.damping_stiffness = e.Get("beta", 0);
   s.axial_force = e.Get("axial_force", 0);
@@ -123,6 +121,21 @@ void ReadRossTheory(const Element& e, bool first, BeamTheory& theory) {
 
 namespace {
 
+/// Shaft elements so soft that they are taken as mass, one line for all of one E.
+void NameSoftElements(const std::vector<Element>& elements, std::vector<std::string>& lost) {
+  std::map<double, std::vector<int>> soft;
+  for (const Element& e : elements)
+    if (IsShaft(e) && e.material.count("E"))
+      if (const double E = e.material.at("E"); E > kWrittenSleeveE && E < kSleeveE)
+        soft[E].push_back(e.Node());
+  for (auto& [E, at] : soft) {
+    std::sort(at.begin(), at.end());
+    lost.push_back(fmt::format("E = {} N/m2 of {} at nodes {}, taken as mass without stiffness",
+                               NumberText(E), Counted(at.size(), "shaft element"),
+                               fmt::join(at, " ")));
+  }
+}
+
 /// What the file holds beside shaft, disks and supports: carried as a plane, or named with its size.
 void NameTheRest(const Element& e, const std::vector<double>& z, RossRotor& out) {
   std::vector<std::string>& lost = out.ignored;
@@ -169,6 +182,7 @@ RossRotor ReadRoss(const std::string& file) {
       NameTheRest(e, z, out);
     }
   }
+  NameSoftElements(elements, out.ignored);
   AddRossSupports(elements, z, d, out.ignored);
   // Tables come sorted by name; along the shaft is how people read them.
   const auto along = [](const auto& a, const auto& b) { return a.z < b.z; };
