@@ -6,7 +6,7 @@ export SLURM_CONF=$PWD/slurm/slurm.conf
 
 rows() { cat out/journal.txt 2> /dev/null | wc -l; }
 wait_rows() {
-  for _ in $(seq 300); do [ "$(rows)" -ge "$1" ] && return; sleep 0.1; done
+  for _ in $(seq 1200); do [ "$(rows)" -ge "$1" ] && return; sleep 0.1; done
   echo "only $(rows) rows"
   kill -9 $main
   exit 8
@@ -18,8 +18,12 @@ kill_recorded() { kill -9 "$(awk -v n="$1" '$1 == n { p = $2 } END { print p }' 
 "$ambrig" campaign c.toml -o out --engine slurm --tasks 8 --poll 0.5 --no-report > said.txt 2>&1 &
 main=$!
 wait_rows 20
-for _ in $(seq 100); do victim=$(tasks | head -1); [ -n "$victim" ] && break; sleep 0.02; done  # between two tasks there is none
-kill -9 "$victim" && echo "task killed at $(rows)"
+# Between two tasks there is none, and a task that was seen may have ended before the signal comes.
+for _ in $(seq 1500); do
+  victim=$(tasks | head -1)
+  [ -n "$victim" ] && kill -9 "$victim" 2> /dev/null && echo "task killed at $(rows)" && break
+  sleep 0.02
+done
 
 wait_rows 60
 for _ in $(seq 50); do [ -n "$(tasks_on n2)" ] && break; sleep 0.1; done  # between two tasks a node has none
@@ -33,6 +37,6 @@ kill -0 $main || { echo "gave up"; exit 9; }
 "$tool" controller slurm
 
 # A controller that forgot its last seconds may take a node out of service; an administrator brings it back.
-for _ in $(seq 700); do kill -0 $main 2> /dev/null || break; sinfo -h -n n1 -t drain -o %N | grep -q n1 && scontrol update nodename=n1 state=resume; sleep 0.1; done
+for _ in $(seq 2400); do kill -0 $main 2> /dev/null || break; sinfo -h -n n1 -t drain -o %N | grep -q n1 && scontrol update nodename=n1 state=resume; sleep 0.1; done
 kill -9 $main 2> /dev/null && { echo "did not end"; cat out/shards/jobs.txt; squeue; exit 7; }
 wait $main
