@@ -92,13 +92,13 @@ void ReadCoupling(const ShaftCommand& c, double speed, ShaftOptions& o) {
 
 void PrintShaftModes(const ShaftAnalysis& a) {
   const double hz = 1 / (2 * kPi);
-  std::string text = "  free bending";
+  std::string text = "  free bending [Hz]";
   for (const double w : a.free) text += fmt::format(" {:.2f}", w * hz);
-  fmt::print("{} Hz\n", text);
+  fmt::print("{}\n", Wrapped(text, 4));
   for (const auto& [name, modes] : {std::pair{"axial", &a.axial}, {"torsional", &a.torsional}}) {
-    text = fmt::format("  {}", name);
+    text = fmt::format("  {} [Hz]", name);
     for (const RodMode& m : *modes) text += fmt::format(" {:.2f}", m.omega * hz);
-    fmt::print("{} Hz\n", text);
+    fmt::print("{}\n", Wrapped(text, 4));
   }
   fmt::print("\n{}\n{:>9} {:>10} {:>8} {:>9} {:<9}\n", Coloured("damped modes", "bold"), "rpm",
              "f [Hz]", "zeta", "log dec", "whirl");
@@ -109,11 +109,11 @@ void PrintShaftModes(const ShaftAnalysis& a) {
                  m.zeta, m.log_decrement, SenseName(m.sense()));
   }
   fmt::print("\n{}\n", Coloured("critical speeds", "bold"));
-  text = "  undamped";
+  text = "  undamped [rpm]";
   for (const CriticalSpeed& c : a.undamped)
     text += fmt::format(" {:.1f}{}", c.speed / kRpm, c.whirl > 0 ? "F" : "B");
-  fmt::print("{} rpm\n",
-             a.undamped.empty() ? "  undamped: the supports do not hold the shaft in" : text);
+  fmt::print("{}\n", a.undamped.empty() ? "  undamped: the supports do not hold the shaft"
+                                        : Wrapped(text, 4));
   for (const DampedCritical& c : a.campbell.criticals)
     if (c.mode.zeta < std::sqrt(0.5))  // else no response has a peak there
       fmt::print("  damped {:.1f} rpm, {}, log decrement {:.4f}\n", c.speed / kRpm,
@@ -135,11 +135,10 @@ void PrintShaftLoads(const ShaftAnalysis& a) {
           r.fy, std::abs(r.fx) > 1e-6 * std::abs(r.fy) ? fmt::format(", {:.2f} N in x", r.fx) : "");
   }
   for (const ShaftSweep& s : a.unbalance) {
-    fmt::print("\n{}", Coloured(fmt::format("unbalance, {}:", s.unbalance.name), "bold"));
+    fmt::print("\n{}\n", Coloured(fmt::format("unbalance, {}", s.unbalance.name), "bold"));
     for (const PlaneUnbalance& u : s.unbalance.planes)
-      fmt::print(" {:.4g} g mm at z = {:g} m ({:.0f} deg)", u.magnitude * 1e6, u.z,
+      fmt::print("  {:.4g} g mm at z = {:g} m, {:.0f} deg\n", u.magnitude * 1e6, u.z,
                  u.phase * 180 / kPi);
-    fmt::print("\n");
     for (const ProbeOrbit& p : s.probes) {
       if (p.peaks.empty()) fmt::print("  {:<12} no peak\n", p.probe.name);
       for (const ResponsePeak& k : p.peaks)
