@@ -27,7 +27,8 @@ double HalfPower(const std::vector<double>& x, const std::vector<double>& y, std
   }
 }
 
-/// Maxima with both neighbours lower, top refined by a parabola.
+}  // namespace
+
 std::vector<ResponsePeak> FindPeaks(const std::vector<double>& x, const std::vector<double>& y) {
   std::vector<ResponsePeak> out;
   for (std::size_t k = 1; k + 1 < x.size(); ++k) {
@@ -50,8 +51,6 @@ std::vector<ResponsePeak> FindPeaks(const std::vector<double>& x, const std::vec
   }
   return out;
 }
-
-}  // namespace
 
 std::vector<UnbalanceCase> StandardUnbalance(const OperatingPoint& point, double rated) {
   std::vector<UnbalanceCase> cases = {{"static", {}}, {"couple", {}}, {"middle", {}}};

@@ -31,6 +31,10 @@ struct ResponsePeak {
   bool bound = false;        // a half-power point was not reached: AF is smaller than this
 };
 
+/// Maxima of amplitude over rising speed with both neighbours lower, the top refined by a parabola.
+std::vector<ResponsePeak> FindPeaks(const std::vector<double>& speed,
+                                    const std::vector<double>& amplitude);
+
 /// Amplitude (long half axis of the orbit at the sensors) and phase over speed, per radial bearing.
 struct OrderTrack {
   std::string bearing;

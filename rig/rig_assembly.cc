@@ -6,6 +6,7 @@
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rotor/motion/linear_rotor.h"
+#include "rotor/shaft/support_term.h"
 
 namespace ambrig {
 
@@ -55,6 +56,10 @@ Plant BuildPlant(const TrueRig& true_rig) {
   }
   for (const ShaftPlane& s : rig.stations)
     plant.stations.emplace_back(s.name, plant.rotor.MakePlane(s.z));
+  if (rig.beam)
+    for (const SpringSupport& s : rig.beam->definition.supports)
+      plant.rotor.terms.push_back(
+          std::make_unique<SupportTerm>(plant.rotor.MakePlane(s.z - rig.z_origin), s));
   for (const auto& [description, instance] : live)
     if (description->apply) description->apply(*instance, plant);
   const double h = 1 / (rig.amplifier.switching_frequency * rig.samples_per_period());

@@ -29,12 +29,50 @@ double TakeShaft(RigParameters& rig) {
   return reduced.z_com - rig.z_origin;
 }
 
+/// What a run and its linear model carry: springs and dampers to the ground (rig/rig_assembly.cc).
+void CheckRigSupports(const TomlTable& t, const BeamDefinition& d) {
+  const char* allowed =
+      ", allowed in a rig: springs and dampers to the ground (ambrig analyze takes "
+      "the rest of a shaft's own file)";
+  for (const SpringSupport& s : d.supports) {
+    const std::string name = fmt::format("\"{}\" ", s.name);
+    if (!s.on_shaft() || !s.on.empty())
+      t.Fail("support", name + "stands on or carries a housing" + allowed);
+    if (s.has_mass()) t.Fail("support", name + "has added masses" + allowed);
+  }
+  for (const ShaftSection& s : d.sections)
+    if (s.axial_force != 0)
+      t.Fail("section", fmt::format("\"{}\" has axial_force = {} N, allowed in a rig: 0", s.name,
+                                    NumberText(s.axial_force)));
+}
+
+/// The engines move the rotor once a switching period: a support's own frequency stays a twentieth
+/// of it, where a step of that length errs by (2 pi / 20)^5 / 120 of a turn, 3e-5.
+void CheckSupportRates(const TomlTable& rotor, const RigParameters& rig) {
+  const double limit = 2 * kPi * rig.amplifier.switching_frequency / 20;
+  for (const SpringSupport& s : rig.beam->definition.supports) {
+    const double arm = s.z - rig.z_origin;
+    double mobility = 1 / rig.rotor.mass + arm * arm / rig.rotor.inertia_transverse;
+    for (const BendingMode& m : rig.modes) mobility += m.Gain(arm) * m.Gain(arm);
+    double k = 0, c = 0;
+    for (const SupportCoefficients& at :
+         s.varies() ? s.table : std::vector<SupportCoefficients>{s}) {
+      k = std::max({k, std::abs(at.kxx) + std::abs(at.kxy), std::abs(at.kyy) + std::abs(at.kyx)});
+      c = std::max({c, std::abs(at.cxx) + std::abs(at.cxy), std::abs(at.cyy) + std::abs(at.cyx)});
+    }
+    const double rate = std::max(std::sqrt(k * mobility), c * mobility);
+    if (rate < limit) continue;
+    rotor.Fail(
+        "support",
+        fmt::format("\"{}\" moves the shaft at {:.0f} Hz, allowed in a rig: up to a twentieth "
+                    "of the switching frequency, {:.0f} Hz",
+                    s.name, rate / (2 * kPi), limit / (2 * kPi)));
+  }
+}
+
 void ReadBeamRotor(const TomlTable& t, RigParameters& rig) {
   rig.beam = ReadBeam(t, &rig.tolerances);
-  if (t.Has("support"))
-    t.Fail("support",
-           "is for analysis of a shaft on springs, allowed in a rig: none, its bearings carry the "
-           "rotor");
+  CheckRigSupports(t, rig.beam->definition);
   if (rig.beam->modes > kMaxModes)
     t.Fail("modes", fmt::format("= {}, allowed: 0 to {}", rig.beam->modes, kMaxModes));
   t.Read(rig.rotor, kBeamRotorFields);
@@ -98,6 +136,7 @@ void SetShaft(RigParameters& rig, std::size_t parameter, double value) {
 void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
   if (!rig.beam) return;
   CheckModes(*root.Table("rotor"), rig);
+  CheckSupportRates(*root.Table("rotor"), rig);
   double lo = kInfinity, hi = -kInfinity;
   for (const ShaftSection& s : rig.beam->definition.sections) {
     if (!s.stiff) continue;

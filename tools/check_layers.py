@@ -87,7 +87,7 @@ DOORS = {
     "core/record/mat_structs.h": ["core/record/mat.cc", "core/record/mat_structs.cc"],
     "microhttpd.h": ["workbench/http_server.cc"],
     "ode/": ["rotor/contact/ode_world.cc"],
-    "oneapi/tbb": ["campaign/run_rows.cc", "app/commands/check.cc", "discovery/model/model.cc",
+    "oneapi/tbb": ["analysis/shaft/shaft_scatter.cc", "campaign/run_rows.cc", "app/commands/check.cc", "discovery/model/model.cc",
                    "discovery/search/screen.cc"],
     "ceres/": ["discovery/search/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],

@@ -3,6 +3,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
+#include "app/commands/screen.h"
 #include "app/pages/html.h"
 #include "rotor/shaft/convert_shaft.h"
 
@@ -29,7 +30,8 @@ int Run(const Convert& c) {
              done.from_ross ? "ambrig" : "ROSS");
   fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m,\n  free bending {:.2f} Hz\n",
              done.mass, done.z_com, fmt::join(done.free_bending, " "));
-  if (!done.not_carried.empty()) fmt::print("  not carried over: {}\n", lost);
+  for (const std::string& l : done.not_carried)
+    fmt::print("{}\n", Wrapped(Coloured("  warning: ", "yellow") + "not carried over: " + l, 4));
   c.common.WriteJson({{"in", c.in},
                       {"out", c.out},
                       {"from", done.from_ross ? "ross" : "ambrig"},

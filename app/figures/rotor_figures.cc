@@ -38,24 +38,24 @@ bool Oscillates(const ModeTrack& t) { return t.of_rotor() && t.modes.front().zet
 
 /// Upper end of the frequency axis [Hz]: 1X and the modes that it may meet or that lie a few times
 /// above, not those so far away that what matters would lie at the bottom.
-double CampbellTop(const RigAnalysis& a) {
-  const double end_1x = a.options.fastest / (2 * kPi);
+double CampbellTop(const std::vector<ModeTrack>& tracks, double fastest) {
+  const double end_1x = fastest / (2 * kPi);
   double lowest = kInfinity;
-  for (const ModeTrack& t : a.tracks)
+  for (const ModeTrack& t : tracks)
     if (Oscillates(t)) lowest = std::min(lowest, t.modes.front().frequency);
   const double far = 4 * std::max(end_1x, std::isfinite(lowest) ? lowest : 0.0);
   double top = 1.3 * end_1x;
-  for (const ModeTrack& t : a.tracks)
+  for (const ModeTrack& t : tracks)
     if (Oscillates(t) && t.modes.back().frequency < far)
       top = std::max(top, 1.15 * t.modes.back().frequency);
   return top;
 }
 
 /// Modes that the axis leaves out, for the caption.
-std::string HiddenModes(const RigAnalysis& a, double top) {
+std::string HiddenModes(const std::vector<ModeTrack>& tracks, double top) {
   std::size_t hidden = 0;
   double lowest = kInfinity;
-  for (const ModeTrack& t : a.tracks)
+  for (const ModeTrack& t : tracks)
     if (Oscillates(t) && t.modes.front().frequency > top && t.modes.back().frequency > top) {
       ++hidden;
       lowest = std::min(lowest, t.modes.front().frequency);
@@ -68,25 +68,19 @@ std::string HiddenModes(const RigAnalysis& a, double top) {
 
 }  // namespace
 
-Figure CampbellFigure(const RigAnalysis& a) {
+Figure CampbellFigure(const std::vector<ModeTrack>& tracks,
+                      const std::vector<DampedCritical>& criticals, double fastest,
+                      const std::string& caption) {
   Grid grid;
   grid.rows = 2;
   grid.panel_height = 300;
   grid.titles = {"damped natural frequency", "logarithmic decrement"};
-  Figure f = MakeFigure(std::string("Campbell diagram of the closed loop: rotor modes with "
-                                    "magnets, current loops, controller "
-                                    "and delays. Blue turns forward, "
-                                    "orange backward, grey neither; a critical speed is where a "
-                                    "line meets 1X. Below: the log "
-                                    "decrement of the same modes; "
-                                    "API 617 asks for more than 0.1 of the first forward mode.") +
-                            HiddenModes(a, CampbellTop(a)),
-                        grid);
-  const double top = CampbellTop(a);
+  const double top = CampbellTop(tracks, fastest);
+  Figure f = MakeFigure(caption + HiddenModes(tracks, top), grid);
   SetAxes(f, 0, "speed [rpm]", "frequency [Hz]", {}, std::array<double, 2>{0, top});
   SetAxes(f, 1, "speed [rpm]", "log decrement [-]");
   bool named[3] = {false, false, false};
-  for (const ModeTrack& t : a.tracks) {
+  for (const ModeTrack& t : tracks) {
     if (!Oscillates(t)) continue;
     std::vector<double> hz, dec;
     for (const ClosedLoopMode& m : t.modes) {
@@ -102,11 +96,11 @@ Figure CampbellFigure(const RigAnalysis& a) {
     style.legend = false;
     AddLine(f, 1, SenseName(t.sense()), rpm, dec, style);
   }
-  const double end = a.options.fastest;
+  const double end = fastest;
   AddLine(f, 0, "1X", std::vector<double>{0, end / kRpm}, std::vector<double>{0, end / (2 * kPi)},
           PlainLine("@ink", "dash"));
   std::vector<double> x, y;
-  for (const DampedCritical& c : a.criticals) {
+  for (const DampedCritical& c : criticals) {
     x.push_back(c.speed / kRpm);
     y.push_back(c.speed / (2 * kPi));
   }
@@ -116,6 +110,15 @@ Figure CampbellFigure(const RigAnalysis& a) {
   if (!x.empty()) AddLine(f, 0, "critical speed", x, y, dots);
   AddLevel(f, 1, 0.1, "API 617: 0.1", "@red");
   return f;
+}
+
+Figure CampbellFigure(const RigAnalysis& a) {
+  return CampbellFigure(a.tracks, a.criticals, a.options.fastest,
+                        "Campbell diagram of the closed loop: rotor modes with magnets, current "
+                        "loops, controller and delays. Blue turns forward, orange backward, grey "
+                        "neither; a critical speed is where a line meets 1X. Below: the log "
+                        "decrement of the same modes; API 617 asks for more than 0.1 of the first "
+                        "forward mode.");
 }
 
 Figure ModeShapeFigure(const RigAnalysis& a) {
@@ -200,20 +203,19 @@ Figure RotorModeFigure(const RigAnalysis& a) {
   return f;
 }
 
-Figure CriticalMapFigure(const RigAnalysis& a) {
-  Figure f = MakeFigure(
-      "Undamped critical speed map: critical speeds of the rotor on bearings of one common "
-      "stiffness. Vertical lines: the net static "
-      "stiffness k_p - k_s of this rig's bearings.");
+Figure CriticalMapFigure(const std::vector<CriticalMapRow>& map,
+                         const std::vector<std::pair<std::string, double>>& lines,
+                         const std::string& caption) {
+  Figure f = MakeFigure(caption);
   f.height = 420;
   SetAxes(f, 0, "stiffness of every radial bearing [N/m]", "critical speed [rpm]");
   LogAxes(f, 0, true, true);
   std::size_t count = 0;
-  for (const CriticalMapRow& row : a.supports.map) count = std::max(count, row.speeds.size());
+  for (const CriticalMapRow& row : map) count = std::max(count, row.speeds.size());
   for (std::size_t n = 0; n < count; ++n) {
     std::vector<double> x, y;
     bool forward = true;
-    for (const CriticalMapRow& row : a.supports.map)
+    for (const CriticalMapRow& row : map)
       if (n < row.speeds.size()) {
         x.push_back(row.stiffness);
         y.push_back(row.speeds[n].speed / kRpm);
@@ -222,19 +224,27 @@ Figure CriticalMapFigure(const RigAnalysis& a) {
     AddLine(f, 0, fmt::format("{} {}", n + 1, forward ? "forward" : "backward"), x, y,
             PlainLine(forward ? "@blue" : "@orange"));
   }
-  if (a.supports.map.empty()) return f;
   double low = 1e300, high = 0;
-  for (const CriticalMapRow& row : a.supports.map)
+  for (const CriticalMapRow& row : map)
     for (const CriticalSpeed& c : row.speeds) {
       low = std::min(low, c.speed / kRpm);
       high = std::max(high, c.speed / kRpm);
     }
-  for (const SupportStiffness& s : a.supports.supports)
-    if (s.net() > 0 && high > 0) {
-      AddLine(f, 0, s.bearing, std::vector<double>{s.net(), s.net()},
-              std::vector<double>{low, high}, PlainLine("@muted", "dot"));
-    }
+  for (const auto& [name, stiffness] : lines)
+    if (stiffness > 0 && high > 0)
+      AddLine(f, 0, name, std::vector<double>{stiffness, stiffness}, std::vector<double>{low, high},
+              PlainLine("@muted", "dot"));
   return f;
+}
+
+Figure CriticalMapFigure(const RigAnalysis& a) {
+  std::vector<std::pair<std::string, double>> lines;
+  for (const SupportStiffness& s : a.supports.supports) lines.emplace_back(s.bearing, s.net());
+  return CriticalMapFigure(
+      a.supports.map, lines,
+      "Undamped critical speed map: critical speeds of the rotor on bearings "
+      "of one common stiffness. Vertical lines: the net static stiffness k_p - "
+      "k_s of this rig's bearings.");
 }
 
 Figure UnbalanceFigure(const RigAnalysis& a, const UnbalanceSweep& sweep) {

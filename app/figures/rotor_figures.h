@@ -5,7 +5,15 @@
 
 namespace ambrig {
 
-Figure CampbellFigure(const RigAnalysis& a);     // frequencies and log decrements over speed
+/// Frequencies and log decrements over speed, up to `fastest` [rad/s].
+Figure CampbellFigure(const std::vector<ModeTrack>& tracks,
+                      const std::vector<DampedCritical>& criticals, double fastest,
+                      const std::string& caption);
+Figure CampbellFigure(const RigAnalysis& a);
+/// Undamped critical speeds over the supports' stiffness; a vertical line per named stiffness [N/m].
+Figure CriticalMapFigure(const std::vector<CriticalMapRow>& map,
+                         const std::vector<std::pair<std::string, double>>& lines,
+                         const std::string& caption);
 Figure ModeShapeFigure(const RigAnalysis& a);    // at the highest operating speed
 Figure RotorModeFigure(const RigAnalysis& a);    // free and on springs
 Figure CriticalMapFigure(const RigAnalysis& a);  // undamped critical speed map

@@ -1,5 +1,7 @@
 #include "rotor/shaft/beam.h"
 
+#include <algorithm>
+
 #include "core/math/constants.h"
 #include "rotor/shaft/beam_mesh.h"
 
@@ -13,6 +15,7 @@ void AddDisks(BeamRotor& r) {
     r.M(w + 1, w + 1) += d.inertia_diametral;
     if (r.theory.gyroscopic) r.J(w + 1, w + 1) += d.inertia_polar;
   }
+  for (const PointMass& p : r.masses) r.M(2 * NodeAt(r, p.z), 2 * NodeAt(r, p.z)) += p.radial();
 }
 
 /// Index and sign of a plane dof among (x, y, alpha, beta): psi is beta in x-z and -alpha in y-z.
@@ -25,13 +28,42 @@ DofMap InY(int plane_dof) {
   return {4 * (plane_dof / 2) + (plane_dof % 2 ? 2 : 1), plane_dof % 2 ? -1.0 : 1.0};
 }
 
-void AddSupportAtNode(const SpringSupport& s, int node, LinearRotor& out) {
-  const int x = 4 * node;
-  Eigen::Matrix2d k, c;
-  k << s.kxx, s.kxy, s.kyx, s.kyy;
-  c << s.cxx, s.cxy, s.cyx, s.cyy;
-  out.K.block<2, 2>(x, x) += k;
-  out.D.block<2, 2>(x, x) += c;
+/// The (x, y) dofs of one side of a support; -1: the ground.
+int SideOf(const BeamRotor& r, const std::string& housing, int otherwise) {
+  return housing.empty() ? otherwise : HousingDof(r, housing);
+}
+
+void AddSupportSides(const BeamRotor& r, const SpringSupport& s, double speed, LinearRotor& out) {
+  const SupportCoefficients at = s.At(speed);
+  Eigen::Matrix2d k, c, m;
+  k << at.kxx, at.kxy, at.kyx, at.kyy;
+  c << at.cxx, at.cxy, at.cyx, at.cyy;
+  m << at.mxx, at.mxy, at.myx, at.myy;
+  const int sides[2] = {SideOf(r, s.carries, s.on_shaft() ? 4 * NodeAt(r, s.z) : -1),
+                        SideOf(r, s.on, -1)};
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      if (sides[i] < 0 || sides[j] < 0) continue;
+      const double sign = i == j ? 1 : -1;
+      out.K.block<2, 2>(sides[i], sides[j]) += sign * k;
+      out.D.block<2, 2>(sides[i], sides[j]) += sign * c;
+      out.M.block<2, 2>(sides[i], sides[j]) += sign * m;
+    }
+}
+
+void AddBodies(const BeamRotor& r, LinearRotor& out) {
+  for (const PointMass& p : r.masses) {  // their mean is in the plane matrices
+    const int x = 4 * NodeAt(r, p.z);
+    const double half = 0.5 * (p.mass_x - p.mass_y);
+    out.M(x, x) += half;
+    out.M(x + 1, x + 1) -= half;
+  }
+  for (const Housing& h : r.housings) {
+    const int x = HousingDof(r, h.name);
+    out.M(x, x) += h.mass_x;
+    out.M(x + 1, x + 1) += h.mass_y;
+    out.xy.push_back({x, x + 1});
+  }
 }
 
 /// Mass, first and second moment about z = 0 and polar inertia of a piece of shaft, by the theorem
@@ -62,47 +94,67 @@ Disk DiskFromGeometry(double z, double width, double id, double od, double rho) 
   return {z, mass, mass / 12 * (3 * radii + width * width), mass / 2 * radii, {}};
 }
 
-SpringSupport IsotropicSupport(double z, double k, double c) {
-  SpringSupport s;
-  s.z = z;
-  s.kxx = s.kyy = k;
-  s.cxx = s.cyy = c;
-  return s;
-}
-
 BeamRotor BuildBeam(const BeamDefinition& d) {
   BeamMesh mesh = MakeMesh(d);
-  BeamRotor r{mesh.z, mesh.elements, d.disks, d.supports, d.theory, {}, {}, {}, {}};
+  BeamRotor r{mesh.z, mesh.elements, d.disks, d.supports, d.theory, {}, {}, {}, {},
+              {},     d.housings,    d.masses};
   const int n = 2 * static_cast<int>(r.z.size());
-  for (Eigen::MatrixXd* a : {&r.M, &r.J, &r.K, &r.C}) a->setZero(n, n);
+  for (Eigen::MatrixXd* a : {&r.M, &r.J, &r.K, &r.C, &r.tension}) a->setZero(n, n);
   for (int i = 0; i < static_cast<int>(r.elements.size()); ++i) {
     const PlaneElement e = ElementMatrices(r.elements[i], d.theory);
     r.M.block<4, 4>(2 * i, 2 * i) += e.M;
     r.J.block<4, 4>(2 * i, 2 * i) += e.J;
     r.K.block<4, 4>(2 * i, 2 * i) += e.K;
     r.C.block<4, 4>(2 * i, 2 * i) += e.C;
+    r.tension.block<4, 4>(2 * i, 2 * i) += e.tension;
   }
   AddDisks(r);
   return r;
 }
 
-LinearRotor Assemble(const BeamRotor& r) {
-  const int n = static_cast<int>(r.M.rows());
+LinearRotor Assemble(const BeamRotor& r, double speed) {
+  const int n = static_cast<int>(r.M.rows()),
+            dofs = 2 * n + 2 * static_cast<int>(r.housings.size());
+  const Eigen::MatrixXd K = r.K + r.tension;
   LinearRotor out;
-  for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.D, &out.K}) a->setZero(2 * n, 2 * n);
+  for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.D, &out.K}) a->setZero(dofs, dofs);
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b) {
       const DofMap xa = InX(a), xb = InX(b), ya = InY(a), yb = InY(b);
       const double sign = ya.sign * yb.sign;
       out.M(xa.index, xb.index) = r.M(a, b), out.M(ya.index, yb.index) = sign * r.M(a, b);
       out.D(xa.index, xb.index) = r.C(a, b), out.D(ya.index, yb.index) = sign * r.C(a, b);
-      out.K(xa.index, xb.index) = r.K(a, b), out.K(ya.index, yb.index) = sign * r.K(a, b);
+      out.K(xa.index, xb.index) = K(a, b), out.K(ya.index, yb.index) = sign * K(a, b);
       out.G(xa.index, yb.index) = yb.sign * r.J(a, b);
       out.G(ya.index, xb.index) = -ya.sign * r.J(a, b);
     }
-  for (const SpringSupport& s : r.supports) AddSupportAtNode(s, NodeAt(r, s.z), out);
   for (int i = 0; i < n / 2; ++i) out.xy.push_back({4 * i, 4 * i + 1});
+  AddBodies(r, out);
+  for (const SpringSupport& s : r.supports) AddSupportSides(r, s, speed, out);
   return out;
+}
+
+int HousingDof(const BeamRotor& r, const std::string& name) {
+  for (std::size_t k = 0; k < r.housings.size(); ++k)
+    if (r.housings[k].name == name)
+      return 2 * static_cast<int>(r.M.rows()) + 2 * static_cast<int>(k);
+  Require(false, "a housing of this name");
+  return -1;
+}
+
+Eigen::MatrixXd ShaftRows(const BeamRotor& r, double z) {
+  std::size_t i = 0;
+  while (i + 1 < r.elements.size() && z > r.z[i + 1]) ++i;
+  const double s = std::clamp(z - r.z[i], 0.0, r.elements[i].length);
+  const Eigen::RowVector4d w = ShapeAt(r.elements[i], r.theory, s).w;
+  Eigen::MatrixXd rows =
+      Eigen::MatrixXd::Zero(2, 2 * r.M.rows() + 2 * static_cast<Eigen::Index>(r.housings.size()));
+  for (int k = 0; k < 4; ++k) {
+    const DofMap x = InX(2 * static_cast<int>(i) + k), y = InY(2 * static_cast<int>(i) + k);
+    rows(0, x.index) = w(k);
+    rows(1, y.index) = y.sign * w(k);
+  }
+  return rows;
 }
 
 RotorTotals Totals(const BeamRotor& r) {
@@ -114,6 +166,11 @@ RotorTotals Totals(const BeamRotor& r) {
     mz += d.mass * d.z;
     mzz += d.mass * d.z * d.z + d.inertia_diametral;
     ip += d.inertia_polar;
+  }
+  for (const PointMass& p : r.masses) {
+    m += p.radial();
+    mz += p.radial() * p.z;
+    mzz += p.radial() * p.z * p.z;
   }
   const double z_com = mz / m;
   return {m, z_com, mzz - m * z_com * z_com, ip};

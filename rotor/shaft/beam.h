@@ -6,6 +6,7 @@
 /// node:
 ///   M ux'' + C ux' + Omega J uy' + K ux = fx,   M uy'' + C uy' - Omega J ux' + K uy = fy
 /// or in all dofs   M q'' + (D + Omega G) q' + K q = f,  supports included in D and K.
+/// or, with the tension N of the sections, K + N-part (Assemble; not in K of BeamRotor).
 /// z is the file's own axis, left to right; `Totals` gives the centre of mass on it. Units SI.
 #include <Eigen/Dense>
 #include <array>
@@ -14,6 +15,7 @@
 
 #include "rotor/motion/linear_rotor.h"
 #include "rotor/shaft/shaft_element.h"
+#include "rotor/shaft/support.h"
 
 namespace ambrig {
 
@@ -35,28 +37,6 @@ inline constexpr Field<Disk> kDiskFields[] = {
 /// A round disk of given width and diameters, its centre at z.
 Disk DiskFromGeometry(double z, double width, double id, double od, double rho);
 
-/// Linear spring and damper to ground at one plane (force on rotor = -k d - c d').
-struct SpringSupport {
-  double z = kRequired;
-  double kxx = 0, kxy = 0, kyx = 0, kyy = 0;  // [N/m]
-  double cxx = 0, cxy = 0, cyx = 0, cyy = 0;  // [N s/m]
-  std::string name;
-};
-
-inline constexpr Field<SpringSupport> kSpringSupportFields[] = {
-    {"z", &SpringSupport::z, "m", -1e3, 1e3, "plane of the support on the shaft axis"},
-    {"kxx", &SpringSupport::kxx, "N/m", -1e15, 1e15, "stiffness"},
-    {"kxy", &SpringSupport::kxy, "N/m", -1e15, 1e15, "stiffness, x force per y displacement"},
-    {"kyx", &SpringSupport::kyx, "N/m", -1e15, 1e15, "stiffness, y force per x displacement"},
-    {"kyy", &SpringSupport::kyy, "N/m", -1e15, 1e15, "stiffness"},
-    {"cxx", &SpringSupport::cxx, "N s/m", -1e12, 1e12, "damping"},
-    {"cxy", &SpringSupport::cxy, "N s/m", -1e12, 1e12, "damping, x force per y velocity"},
-    {"cyx", &SpringSupport::cyx, "N s/m", -1e12, 1e12, "damping, y force per x velocity"},
-    {"cyy", &SpringSupport::cyy, "N s/m", -1e12, 1e12, "damping"},
-};
-
-SpringSupport IsotropicSupport(double z, double k, double c);
-
 /// What a person describes.
 struct BeamDefinition {
   // shaft pieces and sleeves (stiff = false), may lie in layers
@@ -66,6 +46,8 @@ struct BeamDefinition {
   std::vector<double> stations;  // further planes that become nodes (sensors, AMBs)
   int elements_per_section = 4;  // per shaft piece; planes in between split further
   BeamTheory theory;
+  std::vector<Housing> housings;  // what supports may stand on
+  std::vector<PointMass> masses;
 };
 
 /// What is computed with: nodes, elements and the matrices of one bending plane of the free shaft,
@@ -77,6 +59,9 @@ struct BeamRotor {
   std::vector<SpringSupport> supports;
   BeamTheory theory;
   Eigen::MatrixXd M, J, K, C;
+  Eigen::MatrixXd tension;  // of the axial forces, beside K: free modes are those without them
+  std::vector<Housing> housings;
+  std::vector<PointMass> masses;
 };
 
 struct RotorTotals {
@@ -89,8 +74,16 @@ struct RotorTotals {
 /// @throws InputError for gaps in the shaft, planes off the shaft or bores wider than the shaft.
 BeamRotor BuildBeam(const BeamDefinition& definition);
 
-/// Four dofs per node (x, y, alpha, beta), supports included.
-LinearRotor Assemble(const BeamRotor& rotor);
+/// Four dofs per node (x, y, alpha, beta), then (x, y) of each housing; axial forces and supports as
+/// they are at `speed` [rad/s] included. `xy`: the nodes of the shaft, then the housings.
+LinearRotor Assemble(const BeamRotor& rotor, double speed = 0);
+
+/// The first dof of a housing among those of Assemble.
+int HousingDof(const BeamRotor& rotor, const std::string& name);
+
+/// Displacement (x, y) of the shaft at any z on it over the dofs of Assemble (2 x dofs), by the
+/// elements' own interpolation; its transpose takes forces in.
+Eigen::MatrixXd ShaftRows(const BeamRotor& rotor, double z);
 
 /// Exact sums over sections and disks (not over the mass matrix, which lumping distorts).
 RotorTotals Totals(const BeamRotor& rotor);

@@ -14,6 +14,7 @@
 #include "rotor/shaft/shaft_file.h"
 #include "rotor/shaft/shaft_parameters.h"
 #include "rotor/shaft/shaft_tables.h"
+#include "rotor/shaft/support_tables.h"
 
 namespace ambrig {
 namespace {
@@ -63,6 +64,18 @@ std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta
   return zeta;
 }
 
+/// Supports, what they stand on, masses.
+void ReadSupports(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
+  BeamDefinition& d = out.definition;
+  out.support_sources.resize(d.supports.size());
+  for (const TomlTable& row : rotor.Tables("support")) {
+    d.supports.push_back(ReadSupport(row, tolerances));
+    out.support_sources.push_back(SourceOf(row));
+  }
+  for (const TomlTable& row : rotor.Tables("housing")) d.housings.push_back(ReadHousing(row));
+  for (const TomlTable& row : rotor.Tables("point_mass")) d.masses.push_back(ReadPointMass(row));
+}
+
 void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
   BeamDefinition& d = out.definition;
   const Materials materials = ReadMaterials(rotor, tolerances);
@@ -84,8 +97,7 @@ void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* t
     d.disks.push_back(ReadDisk(row, materials, tolerances, &source.rho));
     out.disk_sources.push_back(std::move(source));
   }
-  for (const TomlTable& row : rotor.Tables("support"))
-    d.supports.push_back(ReadSupport(row, tolerances));
+  ReadSupports(rotor, out, tolerances);
   for (double station : AllWithin(rotor, "stations", {}, kPlaceOnShaft))
     d.stations.push_back(station);
 }
@@ -131,12 +143,13 @@ void FromRoss(const std::string& file, const std::function<void(const std::strin
   RossRotor ross = ReadRoss(file);
   out.definition = std::move(ross.definition);
   if (ignored) *ignored = ross.ignored;
-  for (const Disk& d : out.definition.disks) {
-    std::string name = d.name;  // ROSS's names have blanks: "Disk 0"
+  const auto named = [&](std::string name, double z) {  // ROSS's names have blanks: "Disk 0"
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
-    add(name, d.z);
-  }
+    add(name, z);
+  };
+  for (const Disk& d : out.definition.disks) named(d.name, d.z);
+  for (const RossPlane& b : ross.magnetic_bearings) named(b.name, b.z);
 }
 
 /// A table's own file: ROSS's, or one with a [rotor] of the same tables.
@@ -175,6 +188,7 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   BeamDefinition& d = out.definition;
   if (d.sections.empty())
     rotor.Fail("section", "is missing, allowed: tables, each written [[rotor.section]]");
+  CheckHousings(rotor, d);
   BeamMesh mesh;
   try {
     mesh = MakeMesh(d);
@@ -188,13 +202,14 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
   return out;
 }
 
-BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored) {
+BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored,
+                   std::vector<Tolerance>* tolerances) {
   *ross = true;
   if (file.ends_with(".toml")) {
     const TomlTable root = TomlTable::FromFile(file);
     if (const auto own = root.Table("rotor")) {
       *ross = false;
-      return ReadBeam(*own);
+      return ReadBeam(*own, tolerances);
     }
   } else if (!file.ends_with(".json")) {
     throw InputError(fmt::format("{}: allowed: a .toml or .json file", file));

@@ -27,7 +27,10 @@
 ///       inertia_polar or with width, od,
 ///                                      # id, material; name
 ///     [[rotor.station]]                # name, z: a plane for loads, unbalance and the record
-///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ...: analysis only
+///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ..., mxx, ..., kzz,
+///       czz, mzz; over speed = [rad/s] arrays of them; carries and on: housings by name
+///     [[rotor.housing]]                # name, mass or mass_x, mass_y, mass_z
+///     [[rotor.point_mass]]             # z, mass or mass_x, mass_y, mass_z
 ///
 /// z runs along the shaft from its left end (or any origin: z0). Units SI. Every mistake is an
 /// InputError with file:line.
@@ -69,10 +72,11 @@ struct ShaftParameter {
 struct BeamFile {
   BeamDefinition definition;
   std::vector<ShaftPlane> planes;
-  int modes = 0;                                                // wanted
-  std::vector<double> modal_damping;                            // one for all modes or one each
-  std::map<std::string, Material> materials;                    // named ones
-  std::vector<ShaftTableSource> section_sources, disk_sources;  // as definition.sections, .disks
+  int modes = 0;                              // wanted
+  std::vector<double> modal_damping;          // one for all modes or one each
+  std::map<std::string, Material> materials;  // named ones
+  // as definition.sections, .disks, .supports
+  std::vector<ShaftTableSource> section_sources, disk_sources, support_sources;
   // of the tolerances asked for, in their order
   std::vector<ShaftParameter> parameters;
 };

@@ -46,7 +46,9 @@ std::vector<double> Planes(const BeamDefinition& d, const Span& span) {
     z.push_back(plane);
   };
   for (const Disk& disk : d.disks) add(disk.z, fmt::format("disk \"{}\"", disk.name));
-  for (const SpringSupport& s : d.supports) add(s.z, fmt::format("support \"{}\"", s.name));
+  for (const SpringSupport& s : d.supports)
+    if (s.on_shaft()) add(s.z, fmt::format("support \"{}\"", s.name));
+  for (const PointMass& m : d.masses) add(m.z, fmt::format("mass \"{}\"", m.name));
   for (double station : d.stations) add(station, "station");
   for (const ShaftSection& s : d.sections) {
     const int n = s.stiff ? d.elements_per_section : 1;

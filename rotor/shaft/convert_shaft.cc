@@ -24,7 +24,12 @@ ShaftConversion ConvertShaft(const std::string& in, const std::string& out) {
   if (c.from_ross)
     WriteBeam(file, out);
   else
-    WriteRoss(file.definition, out);
+    c.not_carried = WriteRoss(file.definition, out);
+  for (const double zeta : file.modal_damping)
+    if (!c.from_ross && zeta != 0) {
+      c.not_carried.push_back(fmt::format("modal_damping {:g} of the modes of a run", zeta));
+      break;
+    }
   return c;
 }
 

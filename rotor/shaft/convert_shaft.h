@@ -9,7 +9,7 @@ struct ShaftConversion {
   bool from_ross = false;
   double mass = 0, z_com = 0;            // [kg], [m] on the shaft's own axis
   std::vector<double> free_bending;      // lowest four [Hz]
-  std::vector<std::string> not_carried;  // elements of ROSS without a counterpart
+  std::vector<std::string> not_carried;  // what the other kind does not know, with sizes
 };
 
 /// Reads `in`, writes the other kind to `out`. @throws InputError, before anything is written.

@@ -110,6 +110,7 @@ Eigen::MatrixXd StationRows(const ModalStation& s) {
 }
 
 void AddSupport(const ReducedRotor& rotor, const SpringSupport& s, LinearRotor& linear) {
+  Require(s.on_shaft() && s.on.empty() && !s.varies(), "a constant support of the shaft to ground");
   const Eigen::MatrixXd rows = StationRows(StationAt(rotor, s.z));
   Eigen::Matrix2d k, c;
   k << s.kxx, s.kxy, s.kyx, s.kyy;

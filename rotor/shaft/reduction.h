@@ -55,7 +55,7 @@ LinearRotor Linear(const ReducedRotor& rotor);
 /// forces in.
 Eigen::MatrixXd StationRows(const ModalStation& station);
 
-/// Adds a spring and damper at its plane.
+/// Adds a spring and damper to ground at its plane.
 void AddSupport(const ReducedRotor& rotor, const SpringSupport& support, LinearRotor& linear);
 
 }  // namespace ambrig

@@ -4,129 +4,24 @@
 
 #include <algorithm>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "core/base/counted.h"
-#include "core/base/json_file.h"
-#include "core/base/toml.h"
+#include "rotor/shaft/ross_elements.h"
+#include "rotor/shaft/ross_supports.h"
 
 namespace ambrig {
 namespace {
 
-// Below this a shaft element carries nothing: the sleeves of WriteRoss.
-constexpr double kSleeveE = 1e3;
+// Below this a shaft element carries nothing: the sleeves of WriteRoss, and pieces so soft that people
+// use them for mass alone.
+constexpr double kSleeveE = 1e6, kWrittenSleeveE = 1e3;
 
-/// One table of the file, whatever its format. Booleans are 0 and 1.
-struct Element {
-  std::string kind, name, where;
-  std::map<std::string, std::vector<double>> numbers;
-  std::map<std::string, std::string> texts;
-  std::map<std::string, double> material;
-  bool two_axes = false;  // coefficients over speed and frequency of the whirl (version 3)
+using Element = RossElement;
 
-  [[noreturn]] void Fail(const std::string& text) const {
-    throw InputError(fmt::format("{}: {}", where, text));
-  }
-  bool Has(const std::string& key) const { return numbers.count(key) && !numbers.at(key).empty(); }
-  double Get(const std::string& key) const {
-    if (!Has(key)) Fail(key + " is missing");
-    return numbers.at(key)[0];
-  }
-  double Get(const std::string& key, double fallback) const {
-    return Has(key) ? numbers.at(key)[0] : fallback;
-  }
-  int Node() const {
-    const double n = Get("n");
-    if (n < 0 || n > 1e6 || n != std::floor(n))
-      Fail(fmt::format("n = {}, allowed: a node number", NumberText(n)));
-    return static_cast<int>(n);
-  }
-};
-
-Element Named(const std::string& key, const std::string& where) {
-  const std::size_t at = key.find('_');
-  return {key.substr(0, at),
-          at == std::string::npos ? "" : key.substr(at + 1),
-          where,
-          {},
-          {},
-          {},
-          false};
-}
-
-/// Coefficients, their axes and damping ratios; other arrays (colours, names) may hold anything.
-bool IsTabulated(const std::string& key) {
-  const bool coefficient = key.size() == 3 && (key[0] == 'k' || key[0] == 'c');
-  return coefficient || key == "speed" || key == "frequency" || key == "w" ||
-         key == "modal_damping_ratio";
-}
-
-void ReadList(const TomlTable& t, const std::string& key, Element& e) {
-  try {
-    e.numbers[key] = t.Numbers(key);
-  } catch (const InputError&) {
-    t.Rows(key);  // else it is neither: its own message
-    e.two_axes = true;
-  }
-}
-
-std::vector<Element> FromToml(const std::string& file) {
-  std::vector<Element> out;
-  const TomlTable root = TomlTable::FromFile(file);
-  for (const std::string& key : root.Keys()) {
-    if (!root.IsTable(key)) continue;
-    const TomlTable t = *root.Table(key);
-    Element e = Named(key, t.Where());
-    for (const std::string& k : t.Keys()) {
-      if (t.IsNumber(k)) e.numbers[k] = {t.Number(k)};
-      if (t.IsBool(k)) e.numbers[k] = {t.Bool(k, false) ? 1.0 : 0.0};
-      if (t.IsString(k)) e.texts[k] = t.String(k);
-      if (t.IsArray(k) && IsTabulated(k)) ReadList(t, k, e);
-      if (k == "material" && t.IsTable(k))
-        for (const std::string& m : t.Table(k)->Keys())
-          if (t.Table(k)->IsNumber(m)) e.material[m] = t.Table(k)->Number(m);
-    }
-    out.push_back(e);
-  }
-  return out;
-}
-
-std::vector<double> Numbers(const nlohmann::json& value) {
-  if (value.is_number()) return {value.get<double>()};
-  if (value.is_boolean()) return {value.get<bool>() ? 1.0 : 0.0};
-  std::vector<double> out;
-  if (value.is_array())
-    for (const auto& v : value)
-      if (v.is_number()) out.push_back(v.get<double>());
-  return out;
-}
-
-std::vector<Element> FromJson(const std::string& file) {
-  const nlohmann::json root = ReadJson(file);
-  std::vector<Element> out;
-  for (const auto& [key, table] : root.items()) {
-    if (!table.is_object()) continue;
-    Element e = Named(key, fmt::format("{}: {}", file, key));
-    for (const auto& [k, v] : table.items()) {
-      if (v.is_string()) e.texts[k] = v.get<std::string>();
-      if (!Numbers(v).empty()) e.numbers[k] = Numbers(v);
-      if (IsTabulated(k) && v.is_array() && !v.empty() && v[0].is_array()) e.two_axes = true;
-      if (k == "material" && v.is_object())
-        for (const auto& [m, number] : v.items())
-          if (number.is_number()) e.material[m] = number.get<double>();
-    }
-    out.push_back(e);
-  }
-  return out;
-}
-
-bool IsJson(const std::string& file) {
-  return file.size() > 5 && file.substr(file.size() - 5) == ".json";
-}
 bool IsShaft(const Element& e) { return e.kind == "ShaftElement" || e.kind == "ShaftElement6DoF"; }
 bool IsDisk(const Element& e) { return e.kind == "DiskElement" || e.kind == "DiskElement6DoF"; }
 
-Material ReadRossMaterial(const Element& e) {
+Material ReadRossMaterial(const Element& e, std::vector<std::string>& lost) {
   const auto get = [&](const char* key) {
     const auto it = e.material.find(key);
     if (it == e.material.end()) e.Fail(fmt::format("material.{} is missing", key));
@@ -134,13 +29,18 @@ Material ReadRossMaterial(const Element& e) {
   };
   Material m{get("E"), get("rho"), 0};
   m.nu = e.material.count("G_s") ? m.E / (2 * get("G_s")) - 1 : get("Poisson");
-  if (!(m.E > 0 && m.rho >= 0 && m.nu >= -1e-9 && m.nu <= 0.5 + 1e-9))
+  const double nu = std::clamp(m.nu, 0.0, 0.5);
+  if (std::abs(nu - m.nu) > 1e-9 && m.E >= kSleeveE)
+    lost.push_back(fmt::format("Poisson's ratio {} of {}, taken as {}", NumberText(m.nu), e.Label(),
+                               NumberText(nu)));
+  m.nu = nu;
+  if (!(m.E > 0 && m.rho >= 0))
     e.Fail(fmt::format("material E = {}, rho = {}, Poisson = {}: not a material", NumberText(m.E),
                        NumberText(m.rho), NumberText(m.nu)));
   return m;
 }
 
-ShaftSection ReadRossShaft(const Element& e) {
+ShaftSection ReadRossShaft(const Element& e, std::vector<std::string>& lost) {
   ShaftSection s;
   s.name = e.name;
   s.length = e.Get("L");
@@ -148,10 +48,13 @@ ShaftSection ReadRossShaft(const Element& e) {
   s.id = e.Get("idl");
   s.od_right = e.Get("odr", s.od);
   s.id_right = e.Get("idr", s.id);
-  s.material = ReadRossMaterial(e);
-  s.stiff = s.material.E > kSleeveE;
+  s.material = ReadRossMaterial(e, lost);
+  s.stiff = s.material.E >= kSleeveE;
   s.damping_mass = e.Get("alpha", 0);
   s.damping_stiffness = e.Get("beta", 0);
+  s.axial_force = e.Get("axial_force", 0);
+  if (const double torque = e.Get("torque", 0); torque != 0)
+    lost.push_back(fmt::format("torque {} N m at {}", NumberText(torque), e.Label()));
   return s;
 }
 
@@ -179,8 +82,12 @@ std::vector<double> NodePlanes(const std::vector<Element>& elements, const std::
         fmt::format("{}: no shaft element, allowed: a file saved by ROSS's Rotor.save", file));
   std::vector<double> z{0};
   for (const auto& [n, L] : length) {
-    if (n + 1 != static_cast<int>(z.size()))
+    if (n + 1 != static_cast<int>(z.size())) {
+      for (const Element& e : elements)
+        if (e.kind == "CouplingElement")
+          e.Fail("a coupling between two shafts is not modelled, allowed: one shaft");
       throw InputError(fmt::format("{}: no shaft element with n = {}", file, z.size() - 1));
+    }
     z.push_back(z.back() + L);
   }
   return z;
@@ -210,39 +117,54 @@ void ReadRossTheory(const Element& e, bool first, BeamTheory& theory) {
   theory = t;
 }
 
-double At(const Element& e, const std::string& key, double fallback, double speed) {
-  if (!e.Has(key)) return fallback;
-  const std::vector<double>& y = e.numbers.at(key);
-  if (y.size() == 1) return y[0];
-  const char* axis = e.Has("speed") ? "speed" : e.Has("frequency") ? "frequency" : "w";
-  const auto it = e.numbers.find(axis);
-  if (it == e.numbers.end() || it->second.size() != y.size())
-    e.Fail(fmt::format("{} has {}, allowed: one, or as many as {}", key, Counted(y.size(), "value"),
-                       axis));
-  const std::vector<double>& x = it->second;
-  const std::size_t i = std::clamp<std::size_t>(
-      std::upper_bound(x.begin(), x.end(), speed) - x.begin(), 1, x.size() - 1);
-  const double t = std::clamp((speed - x[i - 1]) / (x[i] - x[i - 1]), 0.0, 1.0);
-  return y[i - 1] + t * (y[i] - y[i - 1]);
+}  // namespace
+
+namespace {
+
+/// Shaft elements so soft that they are taken as mass, one line for all of one E.
+void NameSoftElements(const std::vector<Element>& elements, std::vector<std::string>& lost) {
+  std::map<double, std::vector<int>> soft;
+  for (const Element& e : elements)
+    if (IsShaft(e) && e.material.count("E"))
+      if (const double E = e.material.at("E"); E > kWrittenSleeveE && E < kSleeveE)
+        soft[E].push_back(e.Node());
+  for (auto& [E, at] : soft) {
+    std::sort(at.begin(), at.end());
+    lost.push_back(fmt::format("E = {} N/m2 of {} at nodes {}, taken as mass without stiffness",
+                               NumberText(E), Counted(at.size(), "shaft element"),
+                               fmt::join(at, " ")));
+  }
 }
 
-SpringSupport ReadRossSupport(const Element& e, double z, double speed) {
-  if (e.Has("n_link"))
-    e.Fail("n_link (a bearing on a housing) is not modelled, allowed: bearings to ground");
-  SpringSupport s;
-  s.z = z;
-  s.name = e.name;
-  s.kxx = At(e, "kxx", 0, speed), s.kyy = At(e, "kyy", s.kxx, speed);
-  s.kxy = At(e, "kxy", 0, speed), s.kyx = At(e, "kyx", 0, speed);
-  s.cxx = At(e, "cxx", 0, speed), s.cyy = At(e, "cyy", s.cxx, speed);
-  s.cxy = At(e, "cxy", 0, speed), s.cyx = At(e, "cyx", 0, speed);
-  return s;
+/// What the file holds beside shaft, disks and supports: carried as a plane, or named with its size.
+void NameTheRest(const Element& e, const std::vector<double>& z, RossRotor& out) {
+  std::vector<std::string>& lost = out.ignored;
+  if (IsRossMagneticBearing(e)) {
+    out.magnetic_bearings.push_back({e.name, PlaneOf(e, z)});
+    out.definition.stations.push_back(PlaneOf(e, z));
+    std::string numbers;
+    for (const char* key : {"g0", "i0", "ag", "nw", "alpha", "kp_pid", "kd_pid", "ki_pid"})
+      if (e.Has(key)) numbers += fmt::format(", {} = {:g}", key, e.Get(key));
+    lost.push_back(
+        fmt::format("{}: a magnetic bearing, its plane kept as a station{}", e.Label(), numbers));
+  } else if (e.two_axes) {
+    lost.push_back(e.kind + "_" + e.name + " (coefficients over speed and whirl frequency)");
+  } else if (e.kind == "parameters") {
+    for (const char* damping : {"alpha", "beta", "modal_damping_ratio", "default_damping_ratio"})
+      if (e.Get(damping, 0) != 0)
+        lost.push_back(fmt::format("parameters.{} = {:g}", damping, e.Get(damping)));
+  } else if (e.kind != "PointMass" && !e.Has("kxx") && e.kind != "") {
+    std::string size;
+    for (const char* key : {"m", "m_l", "m_r", "kt_x", "kr_x", "kr_z", "Ip"})
+      if (e.Has(key)) size += fmt::format(", {} = {:g}", key, e.Get(key));
+    lost.push_back(e.Label() + size);
+  }
 }
 
 }  // namespace
 
-RossRotor ReadRoss(const std::string& file, double speed) {
-  const std::vector<Element> elements = IsJson(file) ? FromJson(file) : FromToml(file);
+RossRotor ReadRoss(const std::string& file) {
+  const std::vector<Element> elements = ReadRossElements(file);
   const std::vector<double> z = NodePlanes(elements, file);
   RossRotor out;
   BeamDefinition& d = out.definition;
@@ -250,33 +172,26 @@ RossRotor ReadRoss(const std::string& file, double speed) {
   bool first = true;
   for (const Element& e : elements) {
     if (IsShaft(e)) {
-      d.sections.push_back(ReadRossShaft(e));
+      d.sections.push_back(ReadRossShaft(e, out.ignored));
       d.sections.back().z0 = PlaneOf(e, z);
       ReadRossTheory(e, first, d.theory);
       first = false;
     } else if (IsDisk(e)) {
       d.disks.push_back(ReadRossDisk(e, PlaneOf(e, z)));
-    } else if (e.kind.find("MagneticBearing") == 0) {
-      out.magnetic_bearings.push_back({e.name, PlaneOf(e, z)});
-      d.stations.push_back(PlaneOf(e, z));
-    } else if (e.two_axes) {
-      out.ignored.push_back(e.kind + "_" + e.name +
-                            " (coefficients over speed and whirl frequency)");
-    } else if (e.Has("kxx")) {
-      d.supports.push_back(ReadRossSupport(e, PlaneOf(e, z), speed));
-    } else if (e.kind == "parameters") {
-      for (const char* damping : {"alpha", "beta", "modal_damping_ratio", "default_damping_ratio"})
-        if (e.Get(damping, 0) != 0) out.ignored.push_back(std::string("parameters.") + damping);
     } else {
-      out.ignored.push_back(e.name.empty() ? e.kind : e.kind + "_" + e.name);
+      NameTheRest(e, z, out);
     }
   }
+  NameSoftElements(elements, out.ignored);
+  AddRossSupports(elements, z, d, out.ignored);
   // Tables come sorted by name; along the shaft is how people read them.
   const auto along = [](const auto& a, const auto& b) { return a.z < b.z; };
   std::stable_sort(d.sections.begin(), d.sections.end(),
                    [](const auto& a, const auto& b) { return a.z0 < b.z0; });
   std::stable_sort(d.disks.begin(), d.disks.end(), along);
-  std::stable_sort(d.supports.begin(), d.supports.end(), along);
+  std::stable_sort(d.supports.begin(), d.supports.end(), [](const auto& a, const auto& b) {
+    return a.on_shaft() && (!b.on_shaft() || a.z < b.z);
+  });
   return out;
 }
 

@@ -33,7 +33,7 @@ Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std:
       {"idr", s.id_right},
       {"odr", s.od_right},
       {"n", node},
-      {"axial_force", 0},
+      {"axial_force", s.axial_force},
       {"torque", 0},
       {"shear_effects", t.shear},
       {"rotary_inertia", t.rotary_inertia},
@@ -51,9 +51,17 @@ Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std:
 
 Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
   Json table = {{"n", node}, {"tag", tag}};
-  const auto set = [&](const char* key, double value) { table[key] = Json::array({value}); };
-  set("kxx", s.kxx), set("kxy", s.kxy), set("kyx", s.kyx), set("kyy", s.kyy);
-  set("cxx", s.cxx), set("cxy", s.cxy), set("cyx", s.cyx), set("cyy", s.cyy);
+  if (s.varies()) table["frequency"] = s.speed;
+  for (const Field<SupportCoefficients>& f : kSupportCoefficients) {
+    Json values = Json::array();
+    bool some = f.key[0] != 'm' && f.key != "kzz" && f.key != "czz";  // the others are younger keys
+    for (const SupportCoefficients& c :
+         s.varies() ? s.table : std::vector<SupportCoefficients>{s}) {
+      values.push_back(c.*f.at);
+      some = some || c.*f.at != 0;
+    }
+    if (some) table[std::string(f.key)] = values;
+  }
   return table;
 }
 
@@ -70,6 +78,42 @@ class Tags {
  private:
   std::set<std::string> taken_;
 };
+
+/// Housings are ROSS's nodes after those of the shaft, each with a point mass.
+int HousingNode(const BeamDefinition& d, const BeamRotor& nodes, const std::string& name) {
+  std::size_t k = 0;
+  while (d.housings[k].name != name) ++k;
+  return static_cast<int>(nodes.z.size() + k);
+}
+
+void AddBearings(const BeamDefinition& d, const BeamRotor& nodes, Tags& tags, Json& root) {
+  const auto mass = [&](int node, const auto& body) {
+    const std::string tag = tags.Of("Mass", body.name);
+    root["PointMass_" + tag] = {
+        {"n", node}, {"mx", body.mass_x}, {"my", body.mass_y}, {"mz", body.mass_z}, {"tag", tag}};
+  };
+  for (const SpringSupport& s : d.supports) {
+    const std::string tag = tags.Of("Bearing", s.name);
+    const int node = s.on_shaft() ? NodeAt(nodes, s.z) : HousingNode(d, nodes, s.carries);
+    Json& table = root["BearingElement_" + tag] = BearingTable(s, node, tag);
+    if (!s.on.empty()) table["n_link"] = HousingNode(d, nodes, s.on);
+  }
+  for (const PointMass& p : d.masses) mass(NodeAt(nodes, p.z), p);
+  for (const Housing& h : d.housings) mass(HousingNode(d, nodes, h.name), h);
+}
+
+std::vector<std::string> UnknownToRoss(const BeamDefinition& d) {
+  std::vector<std::string> lost;
+  if (d.theory.mass == MassKind::kLumped)
+    lost.push_back("mass = \"lumped\": ROSS takes consistent masses, frequencies differ");
+  for (const SpringSupport& s : d.supports)
+    if (s.varies() && !s.cubic && s.speed.size() > 2)
+      lost.push_back(
+          fmt::format("straight lines between the {} speeds of support \"{}\": ROSS draws "
+                      "splines",
+                      s.speed.size(), s.name));
+  return lost;
+}
 
 Json RotorTables(const BeamDefinition& d) {
   const BeamMesh mesh = MakeMesh(d);
@@ -90,10 +134,7 @@ Json RotorTables(const BeamDefinition& d) {
                                   {"Ip", disk.inertia_polar},
                                   {"tag", tag}};
   }
-  for (const SpringSupport& s : d.supports) {
-    const std::string tag = tags.Of("Bearing", s.name);
-    root["BearingElement_" + tag] = BearingTable(s, NodeAt(nodes, s.z), tag);
-  }
+  AddBearings(d, nodes, tags, root);
   return root;
 }
 
@@ -113,7 +154,7 @@ void WriteToml(std::ostream& out, const Json& root) {
 
 }  // namespace
 
-void WriteRoss(const BeamDefinition& definition, const std::string& file) {
+std::vector<std::string> WriteRoss(const BeamDefinition& definition, const std::string& file) {
   const Json root = RotorTables(definition);
   std::ostringstream out;
   if (file.size() > 5 && file.substr(file.size() - 5) == ".json")
@@ -121,6 +162,7 @@ void WriteRoss(const BeamDefinition& definition, const std::string& file) {
   else
     WriteToml(out, root);
   WriteFileAtomically(file, out.str());
+  return UnknownToRoss(definition);
 }
 
 }  // namespace ambrig

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/math/constants.h"
+#include "rotor/shaft/state_modes.h"
 
 namespace ambrig {
 namespace {
@@ -11,69 +12,6 @@ using Complex = std::complex<double>;
 constexpr Complex kI{0, 1};
 
 Eigen::MatrixXd Symmetric(const Eigen::MatrixXd& a) { return 0.5 * (a + a.transpose()); }
-
-/// (forward - backward) / (forward + backward) over all planes.
-double WhirlIndex(const std::vector<std::array<int, 2>>& xy, const Eigen::VectorXcd& q) {
-  double forward = 0, backward = 0;
-  for (const auto& [x, y] : xy) {
-    forward += std::norm(q(x) + kI * q(y));
-    backward += std::norm(q(x) - kI * q(y));
-  }
-  return (forward - backward) / std::max(forward + backward, 1e-300);
-}
-
-struct StateModes {
-  Eigen::VectorXcd s;
-  Eigen::MatrixXcd shape;
-};
-
-/// Eigenvalues through M^{-1/2} coordinates and velocities scaled by the highest frequency: the
-/// state matrix then has the size of that frequency, not of its square, and low modes keep their
-/// digits.
-StateModes SolveState(const LinearRotor& r, double speed) {
-  const Eigen::Index n = r.M.rows();
-  const Eigen::LLT<Eigen::MatrixXd> llt(Symmetric(r.M));
-  Require(llt.info() == Eigen::Success, "a positive definite mass matrix");
-  const auto congruence = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd left = llt.matrixL().solve(a);
-    return llt.matrixL().solve(left.transpose()).transpose();
-  };
-  const Eigen::MatrixXd K = congruence(r.K), D = congruence(r.D + speed * r.G);
-  const double scale = std::sqrt(std::max(K.cwiseAbs().maxCoeff(), 1e-300));
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  A.topRightCorner(n, n).setIdentity();
-  A.topRightCorner(n, n) *= scale;
-  A.bottomLeftCorner(n, n) = -K / scale;
-  A.bottomRightCorner(n, n) = -D;
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
-  Require(eigen.info() == Eigen::Success, "converged eigenvalues");
-  const Eigen::MatrixXcd q = eigen.eigenvectors().topRows(n);
-  const Eigen::MatrixXd real = llt.matrixU().solve(q.real()), imag = llt.matrixU().solve(q.imag());
-  return {eigen.eigenvalues(), real.cast<Complex>() + kI * imag.cast<Complex>()};
-}
-
-WhirlMode MakeMode(Complex s, Eigen::VectorXcd shape) {
-  WhirlMode m;
-  m.s = s;
-  m.omega_n = std::abs(s);
-  m.omega_d = s.imag();
-  m.zeta = -s.real() / m.omega_n;
-  m.log_decrement = -2 * kPi * s.real() / s.imag();
-  m.shape = std::move(shape);
-  return m;
-}
-
-std::vector<WhirlMode> Oscillatory(const StateModes& state, int count) {
-  std::vector<WhirlMode> modes;
-  // Rigid modes of a free rotor and overdamped ones have no frequency.
-  const double floor = 1e-9 * state.s.cwiseAbs().maxCoeff();
-  for (Eigen::Index k = 0; k < state.s.size(); ++k)
-    if (state.s(k).imag() > floor) modes.push_back(MakeMode(state.s(k), state.shape.col(k)));
-  std::sort(modes.begin(), modes.end(),
-            [](const auto& a, const auto& b) { return a.omega_d < b.omega_d; });
-  if (static_cast<int>(modes.size()) > count) modes.resize(count);
-  return modes;
-}
 
 PlaneModes SolvePlane(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Symmetric(K), Symmetric(M));
@@ -118,14 +56,14 @@ PlaneModes HeldModes(const BeamRotor& rotor, const std::vector<int>& held, int c
 }
 
 std::vector<WhirlMode> WhirlModes(const LinearRotor& rotor, double speed, int count) {
-  std::vector<WhirlMode> modes = Oscillatory(SolveState(rotor, speed), count);
+  std::vector<WhirlMode> modes = OscillatoryModes(SolveState(rotor, speed), count);
   for (WhirlMode& m : modes) m.whirl = WhirlIndex(rotor.xy, m.shape);
   return modes;
 }
 
 std::vector<WhirlMode> WhirlModes(const TruncatedRotor& rotor, const LinearRotor& full,
                                   double speed, int count) {
-  std::vector<WhirlMode> modes = Oscillatory(SolveState(rotor.modal, speed), count);
+  std::vector<WhirlMode> modes = OscillatoryModes(SolveState(rotor.modal, speed), count);
   for (WhirlMode& m : modes) m.whirl = WhirlIndex(full.xy, rotor.basis * m.shape);
   return modes;
 }

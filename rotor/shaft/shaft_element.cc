@@ -119,6 +119,18 @@ void AddLumpedMass(const ShaftElement& e, const BeamTheory& theory, PlaneElement
   Quadrature(e.length / 2, [&](double s, double weight) { add(e.length / 2 + s, weight); });
 }
 
+void AddTension(const ShaftElement& e, const BeamTheory& theory, const Shape2x4& forces,
+                PlaneElement& out) {
+  double tension = 0;
+  for (const ShaftSection& l : e.layers) tension += l.axial_force;
+  if (tension == 0) return;
+  Quadrature(e.length, [&](double s, double weight) {
+    Eigen::RowVector4d slope = Shape(e, theory, forces, s).psi;
+    if (theory.shear) slope += forces.row(1) / SectionAt(e, theory, s).kGA;
+    out.tension += weight * tension * slope.transpose() * slope;
+  });
+}
+
 }  // namespace
 
 ShaftSection Slice(const ShaftSection& section, double z_left, double z_right) {
@@ -144,8 +156,8 @@ double ShearCoefficientOf(ShearCoefficient kind, double bore_ratio, double nu) {
 }
 
 PlaneElement ElementMatrices(const ShaftElement& e, const BeamTheory& theory) {
-  PlaneElement out{Eigen::Matrix4d::Zero(), Eigen::Matrix4d::Zero(), Eigen::Matrix4d::Zero(),
-                   Eigen::Matrix4d::Zero()};
+  PlaneElement out;
+  for (Eigen::Matrix4d* m : {&out.M, &out.J, &out.K, &out.C, &out.tension}) m->setZero();
   const Flexibility f = FlexibilityTo(e, theory, e.length);
   const Shape2x4 forces = EndForces(f, e.length);
   Eigen::Matrix2d energy;
@@ -155,6 +167,7 @@ PlaneElement ElementMatrices(const ShaftElement& e, const BeamTheory& theory) {
     AddConsistentMass(e, theory, forces, out);
   else
     AddLumpedMass(e, theory, out);
+  AddTension(e, theory, forces, out);
   for (const ShaftSection& l : e.layers) {
     if (!l.stiff) continue;
     out.C = l.damping_mass * out.M + l.damping_stiffness * out.K;

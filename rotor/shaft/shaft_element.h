@@ -6,6 +6,7 @@
 /// functions are the static deflections; a uniform element is the usual interdependent one.
 ///   M = ∫ rho A w'w + rho I psi'psi,   J = ∫ 2 rho I psi'psi (gyroscopic),   K = ∫ M²/EI +
 ///   Q²/(kappa G A)
+/// An axial force N (tension) adds ∫ N w'w' (dead load; in bending alone).
 /// Layers of one element share w and psi: shaft layers add mass and stiffness, sleeves and
 /// laminations (`stiff` = false) mass alone. Units SI. Sources: Timoshenko beam theory; kappa of
 /// Cowper (J. Appl. Mech. 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for a hollow circle.
@@ -41,6 +42,7 @@ struct ShaftSection {
   double damping_mass = 0;       // Rayleigh: C = damping_mass M + damping_stiffness K [1/s]
   double damping_stiffness = 0;  // [s]
   std::string name;
+  double axial_force = 0;  // tension [N]
 };
 
 inline constexpr Field<ShaftSection> kShaftSectionFields[] = {
@@ -54,6 +56,7 @@ inline constexpr Field<ShaftSection> kShaftSectionFields[] = {
     {"damping_mass", &ShaftSection::damping_mass, "1/s", 0.0, 1e6, "Rayleigh damping with mass"},
     {"damping_stiffness", &ShaftSection::damping_stiffness, "s", 0.0, 1.0,
      "Rayleigh damping with stiffness"},
+    {"axial_force", &ShaftSection::axial_force, "N", -1e9, 1e9, "tension, below 0 compression"},
 };
 
 enum class MassKind { kConsistent, kLumped };
@@ -75,7 +78,7 @@ struct ShaftElement {
 };
 
 struct PlaneElement {
-  Eigen::Matrix4d M, J, K, C;
+  Eigen::Matrix4d M, J, K, C, tension;
 };
 
 struct ElementShape {

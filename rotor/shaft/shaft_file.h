@@ -10,7 +10,9 @@ namespace ambrig {
 /// The shaft of a file of its own: ROSS's (.toml, .json), or a .toml with a [rotor] of kind beam, a
 /// rig file among them. `ross`: which one it was; `ignored`: elements of ROSS without a
 /// counterpart.
-BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored);
+/// With `tolerances`, numbers with an sd as ReadBeam gives them.
+BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored,
+                   std::vector<Tolerance>* tolerances = nullptr);
 
 /// A [rotor] that ReadBeam reads back to the same numbers. Materials become E, rho, nu.
 std::string BeamText(const BeamFile& file);

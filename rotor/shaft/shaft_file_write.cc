@@ -53,6 +53,7 @@ void AddSectionLines(const ShaftSection& s, ShaftLines& out) {
   if (s.stiff) out.PutUnless("nu", s.material.nu, Material{}.nu);
   out.PutUnless("damping_mass", s.damping_mass, 0);
   out.PutUnless("damping_stiffness", s.damping_stiffness, 0);
+  out.PutUnless("axial_force", s.axial_force, 0);
 }
 
 void AddDisk(const Disk& d, ShaftLines& out) {
@@ -71,8 +72,45 @@ void AddDisk(const Disk& d, ShaftLines& out) {
 void AddSupportLines(const SpringSupport& s, ShaftLines& out) {
   out.Table("support");
   out.Put("name", s.name);
-  for (const auto& f : kSpringSupportFields)
-    if (f.key == "z" || s.*f.at != 0) out.Put(std::string(f.key).c_str(), s.*f.at);
+  out.Put("carries", s.carries);
+  out.Put("on", s.on);
+  if (s.on_shaft()) out.Put("z", s.z);
+  std::string list;
+  for (const double v : s.speed) list += (list.empty() ? "" : ", ") + Float(v);
+  if (s.varies()) out.text += fmt::format("speed = [{}]\n", list);
+  if (s.varies() && s.cubic) out.Put("interpolation", std::string("cubic"));
+  for (const Field<SupportCoefficients>& f : kSupportCoefficients) {
+    if (!s.varies()) {
+      if (s.*f.at != 0) out.Put(std::string(f.key).c_str(), s.*f.at);
+      continue;
+    }
+    list.clear();
+    bool some = false;
+    for (const SupportCoefficients& row : s.table) {
+      list += (list.empty() ? "" : ", ") + Float(row.*f.at);
+      some = some || row.*f.at != 0;
+    }
+    if (some) out.text += fmt::format("{} = [{}]\n", f.key, list);
+  }
+}
+
+void AddBodyLines(const BeamDefinition& d, ShaftLines& out) {
+  const auto masses = [&](const auto& body) {
+    out.Put("mass_x", body.mass_x);
+    out.Put("mass_y", body.mass_y);
+    out.Put("mass_z", body.mass_z);
+  };
+  for (const Housing& h : d.housings) {
+    out.Table("housing");
+    out.Put("name", h.name);
+    masses(h);
+  }
+  for (const PointMass& m : d.masses) {
+    out.Table("point_mass");
+    out.Put("name", m.name);
+    out.Put("z", m.z);
+    masses(m);
+  }
 }
 
 const char* YesNo(bool b) { return b ? "true" : "false"; }
@@ -109,6 +147,7 @@ std::string BeamText(const BeamFile& file) {
     out.Put("z", p.z);
   }
   for (const SpringSupport& s : d.supports) AddSupportLines(s, out);
+  AddBodyLines(d, out);
   return out.text;
 }
 

@@ -99,6 +99,22 @@ bool OfDisk(std::size_t k, const std::string& key, const BeamFile& file, ShaftPa
   return true;
 }
 
+bool OfSupport(std::size_t k, const std::string& key, const BeamFile& file, ShaftParameter& out) {
+  const SpringSupport& s = file.definition.supports[k];
+  const bool isotropic = key == "k" || key == "c";
+  const Field<SupportCoefficients>* f =
+      FieldNamed(kSupportCoefficients, isotropic ? key + "xx" : key);
+  if (!f || s.varies()) return false;
+  Take<SupportCoefficients>(*f, s, out);
+  const auto at = f->at;
+  out.set.push_back([k, at](BeamFile& to, double value) { to.definition.supports[k].*at = value; });
+  if (!isotropic) return true;
+  const auto other = FieldNamed(kSupportCoefficients, key + "yy")->at;
+  out.set.push_back(
+      [k, other](BeamFile& to, double value) { to.definition.supports[k].*other = value; });
+  return true;
+}
+
 bool Find(const BeamFile& file, const std::string& path, ShaftParameter& out) {
   const std::size_t dot = path.rfind('.');
   const std::string table = path.substr(0, dot), key = path.substr(dot + 1),
@@ -117,6 +133,8 @@ bool Find(const BeamFile& file, const std::string& path, ShaftParameter& out) {
     if (file.section_sources[k].path == table) return OfSection(k, key, file, out);
   for (std::size_t k = 0; k < file.disk_sources.size(); ++k)
     if (file.disk_sources[k].path == table) return OfDisk(k, key, file, out);
+  for (std::size_t k = 0; k < file.support_sources.size(); ++k)
+    if (file.support_sources[k].path == table) return OfSupport(k, key, file, out);
   return false;
 }
 
@@ -134,7 +152,7 @@ std::vector<ShaftParameter> FindShaftParameters(const TomlTable& rotor, const Be
     if (!Find(file, t.path, p))
       rotor.Fail("", fmt::format("{} has an sd, allowed: diameters, damping and materials of "
                                  "sections and sleeves, mass and inertias "
-                                 "of disks, one modal_damping",
+                                 "of disks, constant coefficients of supports, one modal_damping",
                                  t.path));
     out.push_back(std::move(p));
   }

@@ -5,6 +5,7 @@
 ///   rotor.section[k].od | id | od_right | id_right | damping_mass | damping_stiffness | E | rho | nu
 ///   rotor.sleeve[k]. the same                  k from 1, as error messages count
 ///   rotor.disk[k].mass | inertia_diametral | inertia_polar | rho
+///   rotor.support[k].k | c | kxx | cxx | ...   constant coefficients of a support
 ///   rotor.modal_damping                        one ratio for all modes
 ///
 /// What a table leaves to another number follows it: od_right follows od, a section its material.

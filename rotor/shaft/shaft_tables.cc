@@ -116,14 +116,4 @@ Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tole
   return d;
 }
 
-SpringSupport ReadSupport(const TomlTable& row, std::vector<Tolerance>* tolerances) {
-  SpringSupport s =
-      IsotropicSupport(kRequired, Within(row, "k", 0.0, {"N/m", -1e15, 1e15, "stiffness"}),
-                       Within(row, "c", 0.0, {"N s/m", -1e12, 1e12, "damping"}));
-  row.Read(s, kSpringSupportFields, tolerances);
-  s.name = row.String("name", "");
-  row.RejectUnknownKeys();
-  return s;
-}
-
 }  // namespace ambrig

@@ -32,6 +32,5 @@ ShaftSection ReadSection(const TomlTable& row, const Materials& materials, bool 
 /// `rho` [kg/m3]: set of a disk given by its geometry.
 Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tolerance>* tolerances,
               double* rho);
-SpringSupport ReadSupport(const TomlTable& row, std::vector<Tolerance>* tolerances);
 
 }  // namespace ambrig

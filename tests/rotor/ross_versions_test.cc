@@ -191,7 +191,7 @@ TEST(RossVersions, WhatIsNotCarriedIsNamed) {
     if (value.is_array()) value = Json::array({Json::array({1.0, 2.0}), Json::array({1.0, 2.0})});
   bearing["speed"] = bearing["frequency"] = {0.0, 500.0};
   const std::set<std::string> expected = {
-      "parameters.alpha", "parameters.modal_damping_ratio",
+      "parameters.alpha = 0.5", "parameters.modal_damping_ratio = 0.01",
       "BearingElement_Bearing 0 (coefficients over speed and whirl frequency)"};
   for (const char* ending : {".toml", ".json"}) {
     const RossRotor r = ReadText(ending, ending == std::string(".toml") ? Toml(root) : root.dump());

@@ -234,12 +234,16 @@ TEST(RossFile, CoefficientsAtSpeedMagneticBearingsAndTheRest) {
       "\n[\"MagneticBearingElement_AMB\"]\nn = 3\ng0 = 0.001\ni0 = 1.0\nnw = "
       "200\n[PointMass_housing]\nn = 7\nm = 5.0\n";
   file.Write(text);
-  const RossRotor r = ReadRoss(file.path, 25);
-  EXPECT_EQ(r.definition.supports[0].kxx, 1.5e6);
-  EXPECT_EQ(ReadRoss(file.path, 1e4).definition.supports[0].kxx, 3e6);
+  const RossRotor r = ReadRoss(file.path);
+  EXPECT_EQ(r.definition.supports[0].At(25).kxx, 1.5e6);
+  EXPECT_EQ(r.definition.supports[0].At(1e4).kxx, 3e6);
   ASSERT_EQ(r.magnetic_bearings.size(), 1u);
   EXPECT_EQ(r.magnetic_bearings[0].z, 0.75);
-  EXPECT_EQ(r.ignored, std::vector<std::string>{"PointMass_housing"});
+  ASSERT_EQ(r.ignored.size(), 2u);
+  EXPECT_EQ(r.ignored[0],
+            "MagneticBearingElement_AMB (node 3): a magnetic bearing, its plane kept as a station, "
+            "g0 = 0.001, i0 = 1, nw = 200");
+  EXPECT_EQ(r.ignored[1], "PointMass_housing (node 7): 5 kg at a node that no bearing reaches");
 }
 
 std::string RossMessage(const std::string& text) {

@@ -1,0 +1,192 @@
+#include "analysis/shaft/shaft_analysis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/shaft/shaft_planes.h"
+#include "core/math/constants.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kCampbellSpeeds = 51, kSweepSpeeds = 201, kMapRows = 41;
+constexpr int kRodModes = 6, kUndamped = 8;
+
+std::vector<double> Spread(double from, double to, int count) {
+  std::vector<double> out;
+  for (int k = 0; k < count; ++k) out.push_back(std::lerp(from, to, k / (count - 1.0)));
+  return out;
+}
+
+std::vector<double> Rising(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  x.erase(std::unique(x.begin(), x.end()), x.end());
+  return x;
+}
+
+/// A supported shaft, analysed part by part.
+class WholeShaft {
+ public:
+  WholeShaft(const std::string& name, const BeamFile& file, const ShaftOptions& options) {
+    out_.name = name;
+    out_.file = file;
+    out_.options = options;
+    out_.beam = BuildBeam(file.definition);
+    out_.totals = Totals(out_.beam);
+  }
+
+  ShaftAnalysis Run(const std::vector<Tolerance>& tolerances) {
+    Say(0, "modes over speed");
+    for (const double w : FreeModes(out_.beam, 4).omega) out_.free.push_back(w);
+    shapes_ = ShapesOfBeam(out_.beam, out_.options.highest, out_.options.modes);
+    out_.campbell = FollowShaft(out_.beam, shapes_, CampbellSpeeds(), out_.options.modes);
+    Say(0.5, "critical speeds");
+    const LinearRotor r = Assemble(out_.beam, out_.options.highest);
+    out_.undamped = FindCriticalSpeeds(r, shapes_, kUndamped);
+    MapSupports();
+    Say(0.7, "weight and unbalance");
+    out_.weight = DeflectUnderWeight(out_.beam, out_.options.highest);
+    Unbalance();
+    out_.axial = AxialModes(out_.beam, out_.options.highest, kRodModes);
+    out_.torsional = TorsionalModes(out_.beam, kRodModes);
+    Couple();
+    Scatter(tolerances);
+    Note();
+    return std::move(out_);
+  }
+
+ private:
+  void Say(double fraction, const std::string& text) const {
+    if (out_.options.stop && out_.options.stop->load()) throw Interrupted();
+    if (out_.options.progress) out_.options.progress(fraction, text);
+  }
+
+  std::vector<double> CampbellSpeeds() const {
+    std::vector<double> speeds = Spread(0, out_.options.fastest, kCampbellSpeeds);
+    speeds.insert(speeds.end(), {out_.options.lowest, out_.options.highest});
+    return Rising(speeds);
+  }
+
+  /// An even grid, and around every critical speed steps of a quarter of its mode's half width.
+  std::vector<double> SweepSpeeds() const {
+    const double end = out_.options.fastest;
+    std::vector<double> speeds = Spread(end / kSweepSpeeds, end, kSweepSpeeds);
+    for (const DampedCritical& c : out_.campbell.criticals)
+      for (int k = -16; k <= 16; ++k) {
+        const double w = c.speed + 0.25 * k * std::abs(c.mode.s.real());
+        if (w > 0 && w < end) speeds.push_back(w);
+      }
+    return Rising(speeds);
+  }
+
+  void MapSupports() {
+    double log_k = 0;
+    int count = 0;
+    for (const SpringSupport& s : out_.beam.supports) {
+      const SupportCoefficients c = s.At(out_.options.highest);
+      const double k = 0.5 * (c.kxx + c.kyy);
+      if (s.on_shaft() && k > 0) log_k += std::log10(k), ++count;
+    }
+    if (count == 0) return;
+    std::vector<double> stiffnesses;
+    for (const double e : Spread(-2, 2, kMapRows))
+      stiffnesses.push_back(std::pow(10.0, log_k / count + e));
+    out_.map = MapCriticalSpeeds(out_.beam, stiffnesses, kUndamped);
+  }
+
+  std::vector<UnbalanceCase> Cases() const {
+    const ShaftOptions& o = out_.options;
+    if (!o.unbalance.empty()) {
+      UnbalanceCase chosen{"chosen", {}};
+      for (const UnbalanceChoice& u : o.unbalance) {
+        const ShaftProbe p = FindPlane(out_.file, u.plane, "unbalance");
+        if (!p.housing.empty())
+          throw InputError(fmt::format(
+              "--unbalance: plane {} is a housing, allowed: planes of the shaft", p.name));
+        chosen.planes.push_back({p.z, u.magnitude, u.phase});
+      }
+      return {chosen};
+    }
+    if (o.highest <= 0 || !out_.weight.held) return {};
+    if (o.grade > 0) return GradeUnbalance(out_.beam, out_.weight, o.grade, o.highest);
+    return ApiUnbalance(out_.beam, out_.weight, o.highest);
+  }
+
+  void Unbalance() {
+    std::vector<ShaftProbe> probes;
+    for (const PlaneChoice& p : out_.options.probes)
+      probes.push_back(FindPlane(out_.file, p, "probe"));
+    if (probes.empty()) probes = NamedPlanes(out_.file, out_.beam);
+    std::vector<UnbalanceCase> cases = Cases();
+    std::erase_if(cases, [](const UnbalanceCase& c) { return c.planes.empty(); });
+    out_.unbalance = SweepShaft(out_.beam, cases, probes, SweepSpeeds());
+  }
+
+  void Couple() {
+    const ShaftOptions& o = out_.options;
+    if (o.coupling <= 0) return;
+    Say(0.9, "cross-coupling");
+    const ShaftProbe p = FindPlane(out_.file, o.coupled, "cross-coupling");
+    if (!p.housing.empty())
+      throw InputError(fmt::format(
+          "--cross-coupling: plane {} is a housing, allowed: a plane of the shaft", p.name));
+    out_.level1 = AssessCoupling(out_.beam, o.highest, o.modes, {p.z, o.coupling});
+  }
+
+  void Scatter(const std::vector<Tolerance>& tolerances) {
+    const ShaftOptions& o = out_.options;
+    if (o.rotors <= 0) return;
+    Say(0, "scattered rotors");
+    out_.scatter = ScatterShaft(out_.file, tolerances, o.highest, o.modes, o.rotors, o.seed,
+                                [&](double) { return !(o.stop && o.stop->load()); });
+    if (o.stop && o.stop->load()) throw Interrupted();
+  }
+
+  void Note() {
+    if (out_.beam.supports.empty())
+      out_.notes.push_back("the file has no [[rotor.support]]: a free shaft");
+    else if (!out_.weight.held)
+      out_.notes.push_back("the supports leave a motion of the shaft free: no static deflection");
+    for (const SpringSupport& s : out_.beam.supports)
+      if (s.varies() && (out_.options.fastest > s.speed.back() || s.speed.front() > 0))
+        out_.notes.push_back(fmt::format(
+            "support {}: its table goes from {:.0f} to {:.0f} rpm, its end rows hold beyond",
+            s.name.empty() ? fmt::format("at z = {:g} m", s.z) : s.name, s.speed.front() / kRpm,
+            s.speed.back() / kRpm));
+  }
+
+  ShaftAnalysis out_;
+  Eigen::MatrixXd shapes_;
+};
+
+}  // namespace
+
+std::vector<CriticalMapRow> MapCriticalSpeeds(const BeamRotor& beam,
+                                              const std::vector<double>& stiffnesses, int count) {
+  BeamRotor copy = beam;
+  const auto at = [&](double k) {
+    for (SpringSupport& s : copy.supports) {
+      if (!s.on_shaft()) continue;
+      SpringSupport same = IsotropicSupport(s.z, k, 0);
+      same.name = s.name;
+      same.on = s.on;
+      s = same;
+    }
+    return Assemble(copy);
+  };
+  std::vector<CriticalMapRow> rows;
+  const Eigen::MatrixXd shapes =
+      ShapesOf(at(stiffnesses[stiffnesses.size() / 2]), 3 * count + 8, SupportColumns(beam));
+  for (const double k : stiffnesses) rows.push_back({k, FindCriticalSpeeds(at(k), shapes, count)});
+  return rows;
+}
+
+ShaftAnalysis AnalyseShaft(const std::string& name, const BeamFile& file,
+                           const std::vector<Tolerance>& tolerances, const ShaftOptions& options) {
+  return WholeShaft(name, file, options).Run(tolerances);
+}
+
+}  // namespace ambrig

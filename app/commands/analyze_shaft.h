@@ -1,0 +1,32 @@
+#pragma once
+/// ambrig analyze of a file without magnetic bearings: a beam of ours with [rotor], or ROSS's.
+#include "app/commands/commands.h"
+
+namespace ambrig {
+
+/// Options that a shaft alone has.
+struct ShaftCommand {
+  std::vector<std::string> unbalance, probes, coupling, alford;
+  double grade = 0;  // [mm/s]
+  int modes = 10, rotors = 0;
+  std::uint64_t seed = 1;
+
+  void AddTo(CLI::App& command);
+  /// Names of the options that were given, "" when none.
+  std::string Given() const;
+};
+
+/// What both kinds of file take.
+struct ShaftRequest {
+  std::string file, out;
+  double lowest = 0, highest = 0, fastest = 0;  // [rad/s]
+};
+
+/// Whether a file holds a shaft alone: JSON, ROSS's TOML, or a [rotor] without bearings and controller.
+bool IsShaftFile(const std::string& file);
+
+/// Exit code.
+int AnalyseShaftFile(const ShaftRequest& request, const ShaftCommand& shaft,
+                     const CommonOptions& common);
+
+}  // namespace ambrig

@@ -1,0 +1,251 @@
+#include "app/figures/shaft_figures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/figures/series.h"
+#include "app/json/analysis_json.h"
+#include "app/pages/format.h"
+#include "core/math/constants.h"
+
+namespace ambrig {
+
+namespace {
+
+Style ShaftLine(const std::string& colour, bool legend = false) {
+  Style s;
+  s.color = colour;
+  s.legend = legend;
+  return s;
+}
+
+std::vector<double> MajorAxes(const std::vector<std::complex<double>>& x,
+                              const std::vector<std::complex<double>>& y) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < x.size(); ++k) out.push_back(AxesOfOrbit(x[k], y[k]).major);
+  return out;
+}
+
+/// Phase of x against the unbalance, without jumps of a turn.
+std::vector<double> PhaseOf(const std::vector<std::complex<double>>& x) {
+  std::vector<double> out;
+  for (const auto& v : x) {
+    double phase = std::arg(v);
+    if (!out.empty()) phase -= 2 * kPi * std::round((phase - out.back()) / (2 * kPi));
+    out.push_back(phase);
+  }
+  return Scaled(out, 180 / kPi);
+}
+
+void AddSupportMarks(Figure& f, int panel, const ShaftAnalysis& a) {
+  std::vector<double> z, zero;
+  for (const SpringSupport& s : a.beam.supports)
+    if (s.on_shaft()) {
+      z.push_back(s.z);
+      zero.push_back(0);
+    }
+  Style dot = ShaftLine("@ink");
+  dot.markers = true;
+  if (!z.empty()) AddLine(f, panel, "supports", z, zero, dot);
+}
+
+/// The sweep's index of the largest peak, or of the speed nearest to the highest operating one.
+std::size_t OrbitIndex(const ShaftAnalysis& a, const ShaftSweep& sweep) {
+  double speed = a.options.highest, largest = 0;
+  for (const ProbeOrbit& p : sweep.probes)
+    for (const ResponsePeak& k : p.peaks)
+      if (k.amplitude > largest) largest = k.amplitude, speed = k.speed;
+  std::size_t best = 0;
+  for (std::size_t k = 0; k < sweep.speed.size(); ++k)
+    if (std::abs(sweep.speed[k] - speed) < std::abs(sweep.speed[best] - speed)) best = k;
+  return best;
+}
+
+}  // namespace
+
+Figure ShaftFigure(const ShaftAnalysis& a) {
+  Figure f = MakeFigure(
+      "The shaft as it is computed: nodes are where outlines change. Green lines are disks (height "
+      "by the cube root of the mass), dots are supports.");
+  f.height = 300;
+  SetAxes(f, 0, "z [m]", "radius [mm]");
+  for (const ShaftElement& e : a.beam.elements)
+    for (const ShaftSection& l : e.layers) {
+      const double z[2] = {e.z0, e.z0 + e.length};
+      const std::string colour = l.stiff ? "@blue" : "@muted";
+      for (const double side : {500.0, -500.0}) {
+        AddLine(f, 0, "outline", {{z[0], z[0], z[1], z[1]}},
+                {{side * l.id, side * l.od, side * l.od_right, side * l.id_right}},
+                ShaftLine(colour));
+      }
+    }
+  double radius = 0, mass = 0;
+  for (const ShaftElement& e : a.beam.elements)
+    for (const ShaftSection& l : e.layers) radius = std::max({radius, l.od / 2, l.od_right / 2});
+  for (const Disk& d : a.beam.disks) mass = std::max(mass, d.mass);
+  for (const Disk& d : a.beam.disks) {
+    const double height = 1e3 * radius * (1 + 2 * std::cbrt(d.mass / mass));
+    Style style = ShaftLine("@green");
+    style.width = 4;
+    AddLine(f, 0, d.name.empty() ? "disk" : d.name, std::vector<double>{d.z, d.z},
+            std::vector<double>{-height, height}, style);
+  }
+  AddSupportMarks(f, 0, a);
+  return f;
+}
+
+Figure ShaftModesFigure(const ShaftAnalysis& a) {
+  const ClosedLoopModes* row = &a.campbell.rows.front();
+  for (const ClosedLoopModes& r : a.campbell.rows)
+    if (std::abs(r.speed - a.options.highest) < std::abs(row->speed - a.options.highest)) row = &r;
+  const std::size_t count = std::min<std::size_t>(6, row->modes.size());
+  Grid grid;
+  grid.columns = std::max(1, std::min(3, static_cast<int>(count)));
+  grid.rows = std::max(1, (static_cast<int>(count) + grid.columns - 1) / grid.columns);
+  grid.shared_x = false;
+  grid.panel_height = 180;
+  for (std::size_t k = 0; k < count; ++k)
+    grid.titles.push_back(fmt::format("{:.1f} Hz, {}, δ {:.3f}", row->modes[k].frequency,
+                                      SenseName(row->modes[k].sense()),
+                                      row->modes[k].log_decrement));
+  Figure f = MakeFigure(
+      fmt::format("Shapes of the damped modes at {}: shaft centre over z, x (solid) at the instant "
+                  "of its largest deflection, y (dashed) a quarter turn later; dots are supports.",
+                  Rpm(row->speed)),
+      grid);
+  for (std::size_t k = 0; k < count; ++k) {
+    Eigen::VectorXcd q = row->modes[k].q;
+    Eigen::Index at = 0;
+    double peak = 0;
+    for (Eigen::Index i = 0; i < 2 * a.beam.M.rows(); i += 4)
+      for (const Eigen::Index side : {i, i + 1})
+        if (std::abs(q(side)) > peak) peak = std::abs(q(side)), at = side;
+    if (peak > 0) q /= q(at) * (at % 4 == 0 ? 1.0 : std::complex<double>(0, 1));
+    std::vector<double> x, y;
+    for (Eigen::Index i = 0; i < 2 * a.beam.M.rows(); i += 4) {
+      x.push_back(q(i).real());
+      y.push_back(-q(i + 1).imag());
+    }
+    const int panel = static_cast<int>(k);
+    SetAxes(f, panel, "z [m]", "", {}, std::array<double, 2>{-1.15, 1.15});
+    const Whirl sense = row->modes[k].sense();
+    Style style = ShaftLine(sense == Whirl::kForward    ? "@blue"
+                            : sense == Whirl::kBackward ? "@orange"
+                                                        : "@muted");
+    AddLine(f, panel, "x", a.beam.z, x, style);
+    style.dash = "dash";
+    AddLine(f, panel, "y", a.beam.z, y, style);
+    AddSupportMarks(f, panel, a);
+  }
+  return f;
+}
+
+Figure WeightFigure(const ShaftAnalysis& a) {
+  Grid grid;
+  grid.rows = 3;
+  grid.titles = {"deflection", "shear", "bending moment"};
+  Figure f = MakeFigure(
+      "The shaft under its own weight along -y, supports as at the highest operating speed. Shear "
+      "is the sum of the upward forces to the left, the moment its integral.",
+      grid);
+  SetAxes(f, 0, "z [m]", "[µm]");
+  SetAxes(f, 1, "z [m]", "[N]");
+  SetAxes(f, 2, "z [m]", "[N m]");
+  AddLine(f, 0, "y", a.weight.z, Scaled(a.weight.y, 1e6), ShaftLine("@blue", true));
+  AddLine(f, 0, "x", a.weight.z, Scaled(a.weight.x, 1e6), ShaftLine("@orange", true));
+  AddLine(f, 1, "shear", a.weight.at, a.weight.shear, ShaftLine("@blue"));
+  AddLine(f, 2, "moment", a.weight.at, a.weight.moment, ShaftLine("@blue"));
+  return f;
+}
+
+Figure RodFigure(const ShaftAnalysis& a) {
+  Grid grid;
+  grid.columns = 2;
+  grid.shared_x = false;
+  grid.titles = {"axial", "torsional"};
+  Figure f = MakeFigure("Axial and torsional modes: displacement, rotation along the shaft.", grid);
+  int panel = 0;
+  for (const auto* modes : {&a.axial, &a.torsional}) {
+    SetAxes(f, panel, "z [m]", "", {}, std::array<double, 2>{-1.15, 1.15});
+    for (std::size_t k = 0; k < modes->size() && k < 4; ++k)
+      AddLine(f, panel, fmt::format("{:.1f} Hz", (*modes)[k].omega / (2 * kPi)), a.beam.z,
+              (*modes)[k].shape, SeriesStyle(static_cast<int>(k) + 4 * panel));
+    ++panel;
+  }
+  return f;
+}
+
+Figure ShaftResponseFigure(const ShaftAnalysis& a, const ShaftSweep& sweep) {
+  Grid grid;
+  grid.rows = 3;
+  grid.panel_height = 200;
+  grid.titles = {"orbit, long half axis", "phase of x against the unbalance",
+                 "force of the supports, long half axis"};
+  std::string planes;
+  for (const PlaneUnbalance& p : sweep.unbalance.planes)
+    planes += fmt::format("{}{:.4g} g mm at z = {:.4g} m, {:.0f}°", planes.empty() ? "" : "; ",
+                          p.magnitude * 1e6, p.z, p.phase * 180 / kPi);
+  Figure f = MakeFigure(fmt::format("Unbalance, case **{}**: {}. The shaded speeds are the "
+                                    "operating range.",
+                                    sweep.unbalance.name, planes),
+                        grid);
+  SetAxes(f, 0, "speed [rpm]", "[µm]");
+  SetAxes(f, 1, "speed [rpm]", "[deg]");
+  SetAxes(f, 2, "speed [rpm]", "[N]");
+  const std::vector<double> rpm = Scaled(sweep.speed, 1 / kRpm);
+  for (std::size_t k = 0; k < sweep.probes.size(); ++k) {
+    const ProbeOrbit& p = sweep.probes[k];
+    Style style = SeriesStyle(static_cast<int>(k));
+    AddLine(f, 0, p.probe.name, rpm, Scaled(MajorAxes(p.x, p.y), 1e6), style);
+    style.legend = false;
+    AddLine(f, 1, p.probe.name, rpm, PhaseOf(p.x), style);
+  }
+  for (std::size_t k = 0; k < sweep.forces.size(); ++k)
+    AddLine(f, 2, "force " + sweep.forces[k].support, rpm,
+            MajorAxes(sweep.forces[k].x, sweep.forces[k].y), SeriesStyle(static_cast<int>(k)));
+  if (a.options.highest > a.options.lowest)
+    AddRegion(f, 0, a.options.lowest / kRpm, a.options.highest / kRpm, "operating", "@green/12");
+  return f;
+}
+
+Figure ShaftOrbitFigure(const ShaftAnalysis& a, const ShaftSweep& sweep) {
+  const std::size_t at = OrbitIndex(a, sweep);
+  Figure f =
+      MakeFigure(fmt::format("Orbits of the shaft centre at {}, case **{}**; the dot is where "
+                             "the shaft is when the unbalance's reference points along x.",
+                             Rpm(sweep.speed[at]), sweep.unbalance.name));
+  f.narrow = 560;
+  f.height = 460;
+  SetAxes(f, 0, "x [µm]", "y [µm]");
+  EqualAspect(f, 0);
+  for (std::size_t p = 0; p < sweep.probes.size(); ++p) {
+    std::vector<double> x, y;
+    for (int k = 0; k <= 180; ++k) {
+      const std::complex<double> turn = std::polar(1e6, 2 * kPi * k / 180);
+      x.push_back((sweep.probes[p].x[at] * turn).real());
+      y.push_back((sweep.probes[p].y[at] * turn).real());
+    }
+    Style style = SeriesStyle(static_cast<int>(p));
+    AddOrbit(f, 0, sweep.probes[p].probe.name, x, y, style);
+    style.legend = false;
+    style.markers = true;
+    AddLine(f, 0, sweep.probes[p].probe.name, std::vector<double>{x[0]}, std::vector<double>{y[0]},
+            style);
+  }
+  return f;
+}
+
+Figure CouplingFigure(const Level1& l) {
+  Figure f = MakeFigure(
+      fmt::format("Log decrement of the first forward mode over the cross-coupled stiffness at z = "
+                  "{:.4g} m, {}.",
+                  l.given.z, Rpm(l.speed)));
+  SetAxes(f, 0, "cross-coupled stiffness [N/m]", "log decrement [-]");
+  AddLine(f, 0, "log decrement", l.q, l.log_decrement, ShaftLine("@blue"));
+  AddLevel(f, 0, 0.1, "0.1", "@red");
+  return f;
+}
+
+}  // namespace ambrig

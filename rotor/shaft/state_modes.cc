@@ -1,0 +1,81 @@
+#include "rotor/shaft/state_modes.h"
+
+#include <algorithm>
+
+#include "core/math/constants.h"
+
+namespace ambrig {
+
+namespace {
+
+using StateComplex = std::complex<double>;
+constexpr StateComplex kStateI{0, 1};
+
+}  // namespace
+
+double WhirlIndex(const std::vector<std::array<int, 2>>& xy, const Eigen::VectorXcd& q) {
+  double forward = 0, backward = 0;
+  for (const auto& [x, y] : xy) {
+    forward += std::norm(q(x) + kStateI * q(y));
+    backward += std::norm(q(x) - kStateI * q(y));
+  }
+  return (forward - backward) / std::max(forward + backward, 1e-300);
+}
+
+/// Eigenvalues through M^{-1/2} coordinates and velocities scaled by the highest frequency: the
+/// state matrix then has the size of that frequency, not of its square, and low modes keep their
+/// digits.
+StateModes SolveState(const LinearRotor& r, double speed) {
+  const Eigen::Index n = r.M.rows();
+  const Eigen::LLT<Eigen::MatrixXd> llt(0.5 * (r.M + r.M.transpose()));
+  if (llt.info() != Eigen::Success)
+    throw InputError(
+        "the rotor's mass matrix is not positive definite, allowed: added masses of supports that "
+        "leave every mass positive, lumped masses with rotary inertia");
+  const auto congruence = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd left = llt.matrixL().solve(a);
+    return llt.matrixL().solve(left.transpose()).transpose();
+  };
+  Eigen::MatrixXd K = congruence(r.K), D = congruence(r.D + speed * r.G);
+  if (r.M != r.M.transpose()) {  // cross-coupled added mass of a seal
+    const Eigen::PartialPivLU<Eigen::MatrixXd> mass(congruence(r.M));
+    K = mass.solve(Eigen::MatrixXd(K));
+    D = mass.solve(Eigen::MatrixXd(D));
+  }
+  const double scale = std::sqrt(std::max(K.cwiseAbs().maxCoeff(), 1e-300));
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).setIdentity();
+  A.topRightCorner(n, n) *= scale;
+  A.bottomLeftCorner(n, n) = -K / scale;
+  A.bottomRightCorner(n, n) = -D;
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
+  Require(eigen.info() == Eigen::Success, "converged eigenvalues");
+  const Eigen::MatrixXcd q = eigen.eigenvectors().topRows(n);
+  const Eigen::MatrixXd real = llt.matrixU().solve(q.real()), imag = llt.matrixU().solve(q.imag());
+  return {eigen.eigenvalues(), real.cast<StateComplex>() + kStateI * imag.cast<StateComplex>()};
+}
+
+std::vector<WhirlMode> OscillatoryModes(const StateModes& state, int count) {
+  std::vector<WhirlMode> modes;
+  // Rigid modes of a free rotor and overdamped ones have no frequency.
+  const double floor = 1e-9 * state.s.cwiseAbs().maxCoeff();
+  for (Eigen::Index k = 0; k < state.s.size(); ++k)
+    if (state.s(k).imag() > floor) modes.push_back(MakeWhirlMode(state.s(k), state.shape.col(k)));
+  std::sort(modes.begin(), modes.end(),
+            [](const auto& a, const auto& b) { return a.omega_d < b.omega_d; });
+  if (static_cast<int>(modes.size()) > count) modes.resize(count);
+  return modes;
+}
+
+WhirlMode MakeWhirlMode(std::complex<double> s, Eigen::VectorXcd shape) {
+  WhirlMode m;
+  m.s = s;
+  m.omega_n = std::abs(s);
+  m.omega_d = s.imag();
+  m.zeta = -s.real() / m.omega_n;
+  m.log_decrement = -2 * kPi * s.real() / s.imag();
+  m.shape = std::move(shape);
+  return m;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,24 @@
+#pragma once
+/// Eigenvalues of a rotor's equations at one speed, as rotor/shaft/rotor_modes.h and
+/// rotor/shaft/whole_beam_modes.h use them.
+#include "rotor/shaft/rotor_modes.h"
+
+namespace ambrig {
+
+struct StateModes {
+  Eigen::VectorXcd s;      // [1/s]
+  Eigen::MatrixXcd shape;  // displacements, dofs x eigenvalues
+};
+
+/// All eigenvalues. @throws InputError when the mass matrix is singular.
+StateModes SolveState(const LinearRotor& rotor, double speed);
+
+/// Those with a frequency, by it, at most `count`; their whirl is still to be set.
+std::vector<WhirlMode> OscillatoryModes(const StateModes& state, int count);
+
+WhirlMode MakeWhirlMode(std::complex<double> s, Eigen::VectorXcd shape);
+
+/// (forward - backward) / (forward + backward), squared amplitudes over all planes.
+double WhirlIndex(const std::vector<std::array<int, 2>>& xy, const Eigen::VectorXcd& shape);
+
+}  // namespace ambrig

@@ -1,0 +1,171 @@
+#include "rotor/shaft/whole_beam_modes.h"
+
+#include <algorithm>
+
+#include "rotor/shaft/dynamic_matrix.h"
+#include "rotor/shaft/state_modes.h"
+
+namespace ambrig {
+
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+LinearRotor Projected(const LinearRotor& r, const MatrixXd& B) {
+  LinearRotor out;
+  out.M = B.transpose() * r.M * B;
+  out.G = B.transpose() * r.G * B;
+  out.D = B.transpose() * r.D * B;
+  out.K = B.transpose() * r.K * B;
+  return out;
+}
+
+/// Columns of `a` made orthonormal by M, without those that depend on others.
+MatrixXd Independent(const MatrixXd& a, const MatrixXd& M) {
+  if (a.cols() == 0) return a;
+  MatrixXd scaled = a;
+  for (Index k = 0; k < a.cols(); ++k) {
+    const double norm = std::sqrt(a.col(k).dot(M * a.col(k)));
+    if (norm > 0) scaled.col(k) /= norm;
+  }
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(scaled.transpose() * M * scaled);
+  std::vector<Index> kept;
+  for (Index k = 0; k < a.cols(); ++k)
+    if (gram.eigenvalues()(k) > 1e-9) kept.push_back(k);
+  MatrixXd out(a.rows(), static_cast<Index>(kept.size()));
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    out.col(static_cast<Index>(k)) =
+        scaled * gram.eigenvectors().col(kept[k]) / std::sqrt(gram.eigenvalues()(kept[k]));
+  return out;
+}
+
+/// One eigenpair of the whole beam next to (s, q); false when the iteration does not end there.
+bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
+  const Complex start = s;
+  q.normalize();
+  const Eigen::VectorXcd w = q;
+  for (int k = 0; k < 12; ++k) {
+    if (!matrix.Factorise(s)) return k > 0;  // s is the eigenvalue to the last digit
+    const Eigen::VectorXcd u = matrix.Solve(matrix.Slope(s, q));
+    const Complex step = w.dot(q) / w.dot(u);
+    if (!std::isfinite(step.real()) || !std::isfinite(step.imag())) return k > 0;
+    s -= step;
+    q = u / w.dot(u);
+    if (std::abs(s - start) > 0.2 * std::abs(start)) return false;
+    if (std::abs(step) < 1e-13 * std::abs(s)) break;
+    if (k == 11 && std::abs(step) > 1e-9 * std::abs(s)) return false;
+  }
+  q.normalize();
+  return true;
+}
+
+bool SameMode(const WhirlMode& a, const WhirlMode& b) {
+  return std::abs(a.s - b.s) < 1e-8 * std::abs(a.s) &&
+         std::norm(a.shape.dot(b.shape)) > 0.999 * a.shape.squaredNorm() * b.shape.squaredNorm();
+}
+
+}  // namespace
+
+MatrixXd ShapesOf(const LinearRotor& rotor, int count, const MatrixXd& forces) {
+  const MatrixXd M = 0.5 * (rotor.M + rotor.M.transpose()),
+                 K = 0.5 * (rotor.K + rotor.K.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M);
+  if (eigen.info() != Eigen::Success || Eigen::LLT<MatrixXd>(M).info() != Eigen::Success)
+    throw InputError(
+        "the rotor's mass matrix is not positive definite, allowed: added masses of supports that "
+        "leave every mass positive, lumped masses with rotary inertia");
+  const Index n = M.rows(), kept = std::min<Index>(count, n);
+  const MatrixXd phi = eigen.eigenvectors().rightCols(n - kept);
+  const MatrixXd residual =
+      phi * eigen.eigenvalues().tail(n - kept).asDiagonal().inverse() * (phi.transpose() * forces);
+  const MatrixXd extra = Independent(residual, M);
+  MatrixXd out(n, kept + extra.cols());
+  out << eigen.eigenvectors().leftCols(kept), extra;
+  return out;
+}
+
+MatrixXd SupportColumns(const BeamRotor& beam) {
+  const Index dofs = 2 * beam.M.rows() + 2 * static_cast<Index>(beam.housings.size());
+  std::vector<int> at;
+  for (const SpringSupport& s : beam.supports) {
+    if (s.on_shaft()) at.push_back(4 * NodeAt(beam, s.z));
+    for (const std::string& name : {s.carries, s.on})
+      if (!name.empty()) at.push_back(HousingDof(beam, name));
+  }
+  std::sort(at.begin(), at.end());
+  at.erase(std::unique(at.begin(), at.end()), at.end());
+  MatrixXd out = MatrixXd::Zero(dofs, 2 * static_cast<Index>(at.size()));
+  for (std::size_t k = 0; k < at.size(); ++k)
+    for (int side : {0, 1}) out(at[k] + side, 2 * static_cast<Index>(k) + side) = 1;
+  return out;
+}
+
+bool ContinueModes(const LinearRotor& rotor, double speed, std::vector<WhirlMode>& modes) {
+  DynamicMatrix matrix(rotor, speed);
+  std::vector<WhirlMode> found;
+  for (const WhirlMode& m : modes) {
+    Complex s = m.s;
+    Eigen::VectorXcd q = m.shape;
+    if (!Refine(matrix, s, q) || !(s.imag() > 0)) return false;
+    found.push_back(MakeWhirlMode(s, std::move(q)));
+    found.back().whirl = WhirlIndex(rotor.xy, found.back().shape);
+    for (std::size_t k = 0; k + 1 < found.size(); ++k)
+      if (SameMode(found[k], found.back())) return false;
+  }
+  modes = std::move(found);
+  return true;
+}
+
+WholeBeamModes FindWhirlModes(const LinearRotor& rotor, const MatrixXd& shapes, double speed,
+                              int count) {
+  const LinearRotor reduced = Projected(rotor, shapes);
+  const StateModes state = SolveState(reduced, speed);
+  WholeBeamModes out;
+  const double floor = 1e-7 * state.s.cwiseAbs().maxCoeff();
+  for (Index k = 0; k < state.s.size(); ++k)
+    if (std::abs(state.s(k).imag()) <= 1e-9 * state.s.cwiseAbs().maxCoeff() &&
+        std::abs(state.s(k)) > floor)
+      out.real.push_back(state.s(k).real());
+  std::sort(out.real.begin(), out.real.end());
+  out.oscillatory = OscillatoryModes(state, count + 8);
+  for (WhirlMode& m : out.oscillatory) m.shape = shapes * m.shape;
+  const double stiff = rotor.K.norm();
+  std::erase_if(out.oscillatory, [&](const WhirlMode& m) {  // a rigid motion that rounding turns
+    return (rotor.K * m.shape).norm() < 1e-13 * stiff * m.shape.norm();
+  });
+  if (static_cast<int>(out.oscillatory.size()) > count) out.oscillatory.resize(count);
+  if (!ContinueModes(rotor, speed, out.oscillatory))
+    out.oscillatory = WhirlModes(rotor, speed, count);
+  std::sort(out.oscillatory.begin(), out.oscillatory.end(),
+            [](const auto& a, const auto& b) { return a.omega_d < b.omega_d; });
+  return out;
+}
+
+std::vector<CriticalSpeed> FindCriticalSpeeds(const LinearRotor& rotor, const MatrixXd& shapes,
+                                              int count) {
+  LinearRotor symmetric = rotor;
+  symmetric.K = 0.5 * (rotor.K + rotor.K.transpose());
+  symmetric.M = 0.5 * (rotor.M + rotor.M.transpose());
+  const LinearRotor reduced = Projected(symmetric, shapes);
+  if (Eigen::LLT<MatrixXd>(reduced.K).info() != Eigen::Success) return {};
+  std::vector<CriticalSpeed> out = CriticalSpeeds(reduced, count);
+  // With D = 0, s = i Omega of s² (M - i G) + K.
+  const Eigen::MatrixXcd none = Eigen::MatrixXcd::Zero(rotor.M.rows(), rotor.M.rows());
+  DynamicMatrix matrix(symmetric.M.cast<Complex>() - Complex(0, 1) * rotor.G.cast<Complex>(), none,
+                       symmetric.K.cast<Complex>());
+  for (CriticalSpeed& c : out) {
+    c.shape = shapes * c.shape;
+    Complex s(0, c.speed);
+    Eigen::VectorXcd q = c.shape;
+    if (Refine(matrix, s, q)) {
+      c.speed = s.imag();
+      c.shape = std::move(q);
+    }
+    c.whirl = WhirlIndex(rotor.xy, c.shape);
+  }
+  return out;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,65 @@
+// ambrig analyze of a shaft without magnetic bearings: what it writes, what it refuses.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::HasSubstr;
+
+class AnalyzeShaft : public CliFolder {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    Write("shaft.toml", ReadText(AMBRIG_SOURCE_DIR "/examples/shaft/shaft.toml"));
+  }
+  void ExpectRefusedLine(const std::string& arguments, const std::string& said) {
+    const Outcome o = Ambrig("analyze " + arguments);
+    EXPECT_EQ(o.exit, 2) << o.text;
+    EXPECT_EQ(o.lines(), 1) << o.text;
+    EXPECT_THAT(o.text, HasSubstr(said));
+  }
+};
+
+TEST_F(AnalyzeShaft, WritesEverythingThatItComputes) {
+  const Outcome o = Ambrig(
+      "analyze shaft.toml --speed 3000:4000 --max-speed 6000 --unbalance disk1:30 --unbalance "
+      "disk2:50@90 --probe disk2 --probe pedestal --cross-coupling 0.6:2e6 --scatter 20 --json "
+      "a.json --html a.html");
+  ASSERT_LE(o.exit, 1) << o.text;
+  const auto json = nlohmann::json::parse(ReadText(folder_ / "a.json"));
+  EXPECT_EQ(o.exit, json.at("stable").get<bool>() ? 0 : 1);
+  for (const char* key : {"campbell", "undamped_critical_speeds", "map", "unbalance", "axial",
+                          "torsional", "free_bending"})
+    EXPECT_FALSE(json.at(key).empty()) << key;
+  EXPECT_EQ(json.at("unbalance")[0].at("probes").size(), 2U);
+  EXPECT_EQ(json.at("scatter").at("rotors"), 20);
+  EXPECT_TRUE(json.at("weight").at("held").get<bool>());
+  double held = 0;  // the shaft stands on its two supports
+  for (const auto& r : json.at("weight").at("reactions"))
+    if (!r.at("z").is_null()) held += r.at("fy").get<double>();
+  EXPECT_NEAR(held, json.at("weight").at("weight").get<double>(), 1e-6 * held);
+  const std::string page = ReadText(folder_ / "a.html");
+  for (const char* heading : {"Damped modes", "Critical speeds", "Unbalance", "Under its weight",
+                              "Cross-coupled stiffness", "Scatter"})
+    EXPECT_THAT(page, HasSubstr(heading));
+}
+
+TEST_F(AnalyzeShaft, MistakesAreOneLine) {
+  ExpectRefusedLine("shaft.toml --probe wheel", "disk1");
+  ExpectRefusedLine("shaft.toml --unbalance disk1", "PLANE:G_MM");
+  ExpectRefusedLine("shaft.toml --unbalance pedestal:5", "housing");
+  ExpectRefusedLine("shaft.toml --response A.x.load:A.x", "rig");
+  ExpectRefusedLine("shaft.toml --grade 2.5 --unbalance disk1:5", "one of them");
+  Write("rig.toml", ReferenceRigText());
+  ExpectRefusedLine("rig.toml --grade 2.5", "without magnetic bearings");
+  Write("plain.toml", Replaced(ReadText(folder_ / "shaft.toml"),
+                               "k = { value = 3.0e7, sd = 1.5e6 }", "k = 3.0e7"));
+  ExpectRefusedLine("plain.toml --scatter 10", "sd");
+}
+
+}  // namespace
+}  // namespace ambrig

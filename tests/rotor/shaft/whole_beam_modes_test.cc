@@ -1,0 +1,126 @@
+// Modes of the whole beam by reduction and inverse iteration, against its own eigenvalues computed densely,
+// the equation itself, and the fourth order of the elements.
+#include "rotor/shaft/whole_beam_modes.h"
+
+#include <gtest/gtest.h>
+
+#include "core/math/constants.h"
+
+namespace ambrig {
+namespace {
+
+/// A stepped shaft with a disk on anisotropic damped bearings, one of them cross-coupled.
+BeamDefinition SteppedShaft(int elements) {
+  BeamDefinition d;
+  double z = 0;
+  for (const auto& [length, od] : {std::pair{0.3, 0.05}, {0.5, 0.08}, {0.4, 0.04}}) {
+    ShaftSection s;
+    s.z0 = z;
+    s.length = length;
+    s.od = s.od_right = od;
+    s.material = {2.1e11, 7850, 0.3};
+    d.sections.push_back(s);
+    z += length;
+  }
+  d.disks.push_back({0.8, 12, 0.05, 0.09, "disk"});
+  for (const double at : {0.1, 1.1}) {
+    SpringSupport s = IsotropicSupport(at, 2e7, 3e3);
+    s.kyy = 3e7;
+    s.kxy = at < 0.5 ? 4e6 : 0;
+    s.kyx = -s.kxy;
+    d.supports.push_back(s);
+  }
+  d.elements_per_section = elements;
+  return d;
+}
+
+TEST(WholeBeamModes, AreThoseOfTheWholeBeam) {
+  const BeamRotor beam = BuildBeam(SteppedShaft(6));
+  const LinearRotor rotor = Assemble(beam);
+  const Eigen::MatrixXd shapes = ShapesOf(rotor, 20, SupportColumns(beam));
+  ASSERT_LT(shapes.cols(), rotor.M.rows() / 2);
+  for (const double speed : {0.0, 600.0, 1500.0}) {
+    const auto dense = WhirlModes(rotor, speed, 8);
+    const auto found = FindWhirlModes(rotor, shapes, speed, 8).oscillatory;
+    ASSERT_EQ(found.size(), dense.size());
+    for (std::size_t k = 0; k < dense.size(); ++k) {
+      EXPECT_LT(std::abs(found[k].s - dense[k].s), 1e-8 * std::abs(dense[k].s))
+          << speed << " " << k;
+      EXPECT_NEAR(found[k].whirl, dense[k].whirl, 1e-5);
+    }
+  }
+}
+
+// A seal with cross-coupled added mass makes M unsymmetric: the pair still solves the equation.
+TEST(WholeBeamModes, SolveTheEquationWithUnsymmetricMass) {
+  BeamDefinition d = SteppedShaft(4);
+  d.supports[0].mxx = d.supports[0].myy = 3;
+  d.supports[0].mxy = 0.8;
+  d.supports[0].myx = -0.8;
+  const BeamRotor beam = BuildBeam(d);
+  const LinearRotor rotor = Assemble(beam);
+  for (const WhirlMode& m :
+       FindWhirlModes(rotor, ShapesOf(rotor, 16, SupportColumns(beam)), 500, 6).oscillatory) {
+    const Eigen::MatrixXcd P = m.s * m.s * rotor.M.cast<std::complex<double>>() +
+                               m.s * (rotor.D + 500 * rotor.G).cast<std::complex<double>>() +
+                               rotor.K.cast<std::complex<double>>();
+    EXPECT_LT((P * m.shape).norm(), 1e-9 * P.norm() * m.shape.norm());
+  }
+  const auto dense = WhirlModes(rotor, 500, 4);
+  const auto found =
+      FindWhirlModes(rotor, ShapesOf(rotor, 16, SupportColumns(beam)), 500, 4).oscillatory;
+  for (std::size_t k = 0; k < dense.size(); ++k)
+    EXPECT_LT(std::abs(found[k].s - dense[k].s), 1e-8 * std::abs(dense[k].s));
+}
+
+TEST(WholeBeamModes, CriticalSpeedsOfTheWholeBeam) {
+  BeamDefinition d = SteppedShaft(6);
+  for (SpringSupport& s : d.supports) s.kxy = s.kyx = 0;
+  const BeamRotor beam = BuildBeam(d);
+  const LinearRotor rotor = Assemble(beam);
+  const auto dense = CriticalSpeeds(rotor, 6);
+  const auto found = FindCriticalSpeeds(rotor, ShapesOf(rotor, 20, SupportColumns(beam)), 6);
+  ASSERT_EQ(found.size(), dense.size());
+  for (std::size_t k = 0; k < dense.size(); ++k) {
+    EXPECT_NEAR(found[k].speed / dense[k].speed, 1, 1e-8);
+    EXPECT_GT(found[k].whirl * dense[k].whirl, 0);
+  }
+}
+
+// A free shaft: its bending modes twice, none of its rigid motions.
+TEST(WholeBeamModes, FreeShaftHasNoRigidModes) {
+  BeamDefinition d = SteppedShaft(6);
+  d.supports.clear();
+  const BeamRotor beam = BuildBeam(d);
+  const LinearRotor rotor = Assemble(beam);
+  const PlaneModes free = FreeModes(beam, 3);
+  const WholeBeamModes found =
+      FindWhirlModes(rotor, ShapesOf(rotor, 30, SupportColumns(beam)), 0, 6);
+  ASSERT_EQ(found.oscillatory.size(), 6U);
+  for (std::size_t k = 0; k < 6; ++k)
+    EXPECT_NEAR(found.oscillatory[k].omega_d / free.omega(static_cast<Eigen::Index>(k / 2)), 1,
+                1e-7);
+}
+
+// Pinned Euler beam: omega_n = (n pi/L)² sqrt(EI/(rho A)); the error falls with the fourth power of the
+// element length.
+TEST(WholeBeamModes, ConvergeWithTheFourthOrder) {
+  BeamDefinition d;
+  ShaftSection s;
+  s.length = 1;
+  s.od = s.od_right = 0.02;
+  s.material = {2.1e11, 7800, 0.3};
+  d.sections = {s};
+  d.theory.shear = d.theory.rotary_inertia = d.theory.gyroscopic = false;
+  const double exact = std::pow(3 * kPi, 2) * std::sqrt(2.1e11 * 0.02 * 0.02 / 16 / 7800);
+  std::vector<double> error;
+  for (const int n : {4, 8, 16}) {
+    d.elements_per_section = n;
+    error.push_back(HeldModes(BuildBeam(d), {0, 2 * n}, 3).omega(2) / exact - 1);
+  }
+  EXPECT_GT(std::log2(error[0] / error[1]), 3.5);
+  EXPECT_GT(std::log2(error[1] / error[2]), 3.5);
+}
+
+}  // namespace
+}  // namespace ambrig
