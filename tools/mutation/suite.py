@@ -1,0 +1,110 @@
+"""The tests of a program, which mutants each of them reaches, and what becomes of them with one."""
+import json
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import time
+
+QUICK = 0.3          # [s]
+MEMORY = 12 << 30    # [byte] that a mutant may take
+
+
+def limited(cpu):
+    def apply():
+        resource.setrlimit(resource.RLIMIT_CPU, (cpu, cpu + 5))
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        os.setpgrp()
+    return apply
+
+
+class Suite:
+    def __init__(self, root, program, table):
+        """`table`: file that keeps what is known of the tests from one call to the next."""
+        self.root, self.program, self.table = root, program, table
+        self.tests = json.loads(table.read_text()) if table.exists() else {}
+
+    def names(self):
+        """name -> source file of every test of the program."""
+        listing = self.table.with_suffix(".list.json")
+        subprocess.run([str(self.program), "--gtest_list_tests", f"--gtest_output=json:{listing}"], cwd=self.root,
+                       check=True, stdout=subprocess.DEVNULL)
+        out = {}
+        for suite in json.loads(listing.read_text())["testsuites"]:
+            for test in suite["testsuite"]:
+                if not test["name"].startswith("DISABLED_"):
+                    out[f"{suite['name']}.{test['name']}"] = self.room_of(test["file"])
+        return out
+
+    def room_of(self, file):
+        return os.path.relpath(os.path.join(self.program.parent, file), self.root)
+
+    def start(self, tests, mutant, cpu, wall, reached=None):
+        """Runs the tests; (exit code, seconds of CPU, what it said)."""
+        environment = {**os.environ, "AMBRIG_MUTANT": str(mutant)}
+        if reached:
+            environment["AMBRIG_REACHED"] = str(reached)
+        command = [str(self.program), "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)]
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        process = subprocess.Popen(command, cwd=self.root, env=environment, stdout=subprocess.PIPE, text=True,
+                                   stderr=subprocess.STDOUT, errors="replace", preexec_fn=limited(cpu))
+        try:
+            said, _ = process.communicate(timeout=wall)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            said, _ = process.communicate()
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return process.returncode, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, said
+
+    def measure(self, tell):
+        """One healthy run of every test that is new or whose source changed: each in a process of its own, so that
+        what one test computes once for all is not missing from the next one's list."""
+        names = self.names()
+        self.tests = {name: t for name, t in self.tests.items() if name in names}
+        reached = self.table.with_suffix(".reached")
+        for name, file in names.items():
+            changed = os.path.getmtime(self.root / file)
+            known = self.tests.get(name)
+            if known and known["changed"] == changed:
+                continue
+            for attempt in range(2):
+                reached.unlink(missing_ok=True)
+                code, seconds, said = self.start([name], 0, 3600, 3600, reached)
+                if code == 0:
+                    break
+                tell(f"{name} fails without a mutant:\n{said[-2000:]}")
+            else:
+                raise SystemExit(f"{self.program.name}: {name} fails without a mutant, twice")
+            numbers = sorted({int(n) for n in reached.read_text().split()}) if reached.exists() else []
+            self.tests[name] = {"file": file, "seconds": round(seconds, 3), "reached": numbers, "changed": changed}
+            tell(f"{name} {seconds:.2f} s, {len(numbers)} mutants")
+            self.table.write_text(json.dumps(self.tests, indent=0))
+
+    def phases(self, mutant):
+        """Lists of the tests that reach the mutant: quick ones of its own room, other quick ones, slow ones of the room,
+        the rest; slow ones one by one, the cheapest first."""
+        room = "tests/" + pathlib.PurePath(mutant.name).parent.as_posix() + "/"
+        parts = [[], [], [], []]
+        for name, t in self.tests.items():
+            if mutant.number in t["reached"]:
+                parts[(0 if t["file"].startswith(room) else 1) + (0 if t["seconds"] < QUICK else 2)].append(name)
+        cost = lambda name: self.tests[name]["seconds"]
+        slow = [[name] for part in parts[2:] for name in sorted(part, key=cost)]
+        return [p for p in parts[:2] if p] + slow
+
+    def judge(self, mutant, patience):
+        """(killed or survived, by what, seconds)."""
+        begin = time.monotonic()
+        spent = lambda: round(time.monotonic() - begin, 1)
+        for tests in self.phases(mutant):
+            healthy = sum(self.tests[name]["seconds"] for name in tests)
+            cpu = int(10 + patience * healthy)
+            code, _, said = self.start(tests, mutant.number, cpu, 60 + 6 * cpu)
+            if code != 0:
+                failed = [line.split("]")[1].split(",")[0].split("(")[0].strip()
+                          for line in said.splitlines() if line.startswith("[  FAILED  ]")]
+                by = failed[0] if failed else f"{tests[0]} (signal {-code})" if code < 0 else f"exit code {code}"
+                return "killed", by, spent()
+        return "survived", f"{len(sum(self.phases(mutant), []))} tests reach it", spent()
