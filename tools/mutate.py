@@ -59,21 +59,22 @@ class Work:
         self.folder.mkdir(parents=True, exist_ok=True)
         self.build = Build((ROOT / options.build).resolve(), self.folder, shlex.split(options.prefix))
         self.chosen, self.journal = self.folder / "mutants.json", self.folder / "journal.jsonl"
-        self.parser = None
+        self.trees = None
         self.wraps = {}     # file -> wraps that stand in it
         self.declined = []  # rows of mutants that cannot stand
 
     def switch(self, mutants):
         """Puts switches for the mutants into their sources, in memory."""
-        if self.parser is None:
-            self.parser = switches.Parser(self.build.clang_arguments())
+        if self.trees is None:
+            self.trees = switches.Trees(self.build.clang_arguments())
+        missing = sorted({m.file for m in mutants if str(m.file) not in self.trees.top})
+        for k in range(0, len(missing), 16):
+            tell(f"reading {len(missing[k:k + 16])} sources from {missing[k].relative_to(ROOT)} on")
+            self.trees.read(missing[k:k + 16])
         for file in sorted({m.file for m in mutants}):
             known = [w.mutant for w in self.wraps.get(file, [])]
-            new = [m for m in mutants if m.file == file]
-            errors = lambda text: self.build.syntax_errors(file, text)
-            self.wraps[file], declined = switches.switched(self.parser, file, known + new, errors)
+            self.wraps[file], declined = switches.switched(self.trees, file, known + [m for m in mutants if m.file == file])
             self.decline(declined)
-            tell(f"{file.relative_to(ROOT)}: {len(self.wraps[file])} mutants, {len(declined)} declined")
 
     def decline(self, pairs):
         self.declined += [{**m.row("declined"), "why": why} for m, why in pairs]

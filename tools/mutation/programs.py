@@ -40,14 +40,6 @@ class Build:
                 keep += [word, command[k + 1]]
         return keep
 
-    def syntax_errors(self, source, text):
-        """Lines of the mutated source that its compiler complains about; None if it takes it."""
-        file = self.scratch / "check.cc"
-        file.write_text(text)
-        command = self.with_switches(self.compile[self.unit[os.path.realpath(source)][0]], file, os.devnull)
-        done = subprocess.run([*self.prefix, *command, "-fsyntax-only"], cwd=self.folder, capture_output=True, text=True)
-        return None if done.returncode == 0 else error_lines(done.stderr, file)
-
     def with_switches(self, command, file, out):
         """The command of an object, for a mutated file."""
         command = list(command)

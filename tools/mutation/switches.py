@@ -69,16 +69,36 @@ class Wrap:
         return [self.first, self.last, self.form, self.constexpr]
 
 
-class Parser:
-    """Syntax trees of single sources; `arguments` are those of clang (include folders, definitions, standard)."""
+class Trees:
+    """Syntax trees of sources: all sources of a folder are parsed in one piece, as a unity build has them, so that headers
+    are read once. `arguments` are those of clang (include folders, definitions, standard)."""
 
     def __init__(self, arguments):
         self.index = cindex.Index.create()
         self.arguments = [*arguments, "-w"]
+        self.units, self.top = [], {}  # name of a file -> its outermost cursors
 
-    def parse(self, file, text=None):
-        unsaved = [(str(file), text)] if text is not None else None
-        return self.index.parse(str(file), self.arguments, unsaved_files=unsaved)
+    def read(self, files):
+        """Parses these sources together, or in two halves where a name stands twice in them."""
+        whole = str(files[0].parent / "mutated_folder.cc")  # exists in memory only
+        unsaved = [(whole, "".join(f'#include "{f}"\n' for f in files))]
+        # clang counts bytes
+        unsaved += [(str(f), re.sub(r"[^\x00-\x7f]", "?", f.read_text())) for f in files if not f.read_text().isascii()]
+        unit = self.index.parse(whole, self.arguments, unsaved_files=unsaved)
+        errors = [d for d in unit.diagnostics if d.severity >= cindex.Diagnostic.Error]
+        if errors and len(files) > 1:
+            self.read(files[:len(files) // 2])
+            self.read(files[len(files) // 2:])
+            return
+        if errors:
+            raise SystemExit(f"clang cannot read {files[0]} as it is: line {errors[0].location.line}: {errors[0].spelling}")
+        self.units.append(unit)
+        names = {str(f) for f in files}
+        self.top.update({name: [] for name in names})
+        for cursor in unit.cursor.get_children():
+            at = cursor.location.file
+            if at is not None and at.name in names:
+                self.top[at.name].append(cursor)
 
 
 def offsets(cursor):
@@ -90,9 +110,9 @@ def in_file(cursor, file):
     return at is not None and at.name == str(file)
 
 
-def path_to(unit, file, first, last):
+def path_to(trees, file, first, last):
     """Cursors of this file that contain [first, last), outermost first."""
-    out, level = [], [c for c in unit.cursor.get_children() if in_file(c, file)]
+    out, level = [], trees.top[str(file)]
     while level:
         inside = [c for c in level if in_file(c, file) and offsets(c)[0] <= first and last <= offsets(c)[1]]
         if not inside:
@@ -136,9 +156,9 @@ def arithmetic(kind):
     return cindex.TypeKind.BOOL.value <= kind.value <= cindex.TypeKind.LONGDOUBLE.value
 
 
-def wrap_of(unit, file, text, mutant):
+def wrap_of(trees, file, text, mutant):
     """The part of the text that the mutant's switch must enclose."""
-    path = path_to(unit, file, mutant.first, mutant.last)
+    path = path_to(trees, file, mutant.first, mutant.last)
     if not path:
         raise Declined("not in the syntax tree")
     constexpr = constexpr_of(path)
@@ -146,7 +166,7 @@ def wrap_of(unit, file, text, mutant):
         return Wrap(mutant, mutant.first, mutant.last, "expression", constexpr)
     if mutant.kind == "statement":
         first = mutant.last - 1
-        inner = path_to(unit, file, mutant.first, first)
+        inner = path_to(trees, file, mutant.first, first)
         if not inner or inner[-1].kind.is_declaration() or not any(c.kind == Kind.COMPOUND_STMT for c in inner):
             raise Declined("no statement of a function")
         return Wrap(mutant, mutant.first, mutant.last, "statement")
@@ -208,38 +228,18 @@ def lines_of(text, wrap):
     return text.count("\n", 0, wrap.first) + 1, text.count("\n", 0, wrap.last) + 1
 
 
-def accepted(errors, text, wraps):
-    """The wraps with which the source still compiles, and the mutants that were declined. `errors(text)` is None, or the
-    lines that the compiler complains about."""
-    kept, declined = list(wraps), []
-    while kept:
-        lines = errors(with_switches(text, kept))
-        if lines is None:
-            break
-        guilty = [w for w in kept if any(a <= line <= b for a, b in [lines_of(text, w)] for line in lines)]
-        guilty = guilty or kept  # an error without a line: each is tried alone
-        if len(guilty) > 1:      # two on one line: the one that compiles alone may stay
-            guilty = [w for w in guilty if errors(with_switches(text, [w])) is not None] or guilty
-        declined += [(w.mutant, "does not compile behind a switch") for w in guilty]
-        kept = [w for w in kept if w not in guilty]
-    return kept, declined
-
-
-def switched(parser, file, mutants, errors):
+def switched(trees, file, mutants):
     """(wraps, declined) of the mutants of one source."""
     text = file.read_text()
-    unit = parser.parse(file, re.sub(r"[^\x00-\x7f]", "?", text))  # clang counts bytes
-    for problem in unit.diagnostics:
-        if problem.severity >= cindex.Diagnostic.Error:
-            raise SystemExit(f"{file}: clang cannot read the source as it is: {problem.spelling}")
     wraps, declined = [], []
     for mutant in mutants:
         try:
-            wraps.append(wrap_of(unit, file, text, mutant))
+            wraps.append(wrap_of(trees, file, text, mutant))
+            with_switches(text, wraps)
         except Declined as why:
+            wraps = [w for w in wraps if w.mutant is not mutant]
             declined.append((mutant, str(why)))
-    kept, more = accepted(errors, text, wraps)
-    result = with_switches(text, kept)
-    lost = [w for w in kept if f"AMBRIG_MUTANT({w.mutant.number})" not in result]
-    declined += more + [(w.mutant, "a constexpr variable inside of it") for w in lost]
-    return [w for w in kept if w not in lost], declined
+    result = with_switches(text, wraps)
+    lost = [w for w in wraps if f"AMBRIG_MUTANT({w.mutant.number})" not in result]
+    declined += [(w.mutant, "a constexpr variable inside of it") for w in lost]
+    return [w for w in wraps if w not in lost], declined
