@@ -83,9 +83,10 @@ class Work:
         return sorted((w.mutant for wraps in self.wraps.values() for w in wraps), key=lambda m: m.number)
 
     def draw(self, options):
-        """The first `count` mutants of the random order that can stand behind a switch."""
+        """Goes on in the random order until `count` mutants stand behind switches."""
+        tried = max([m.number for m in self.mutants()] + [row["number"] for row in self.declined], default=0)
         stream = drawn(ROOT, options.folders.split(","), options.seed)
-        numbered = iter(enumerate(stream, 1))
+        numbered = itertools.islice(enumerate(stream, 1), tried, None)
         while len(self.mutants()) < options.count:
             while len(self.mutants()) < options.count:
                 new = list(itertools.islice(numbered, options.count - len(self.mutants())))
@@ -227,7 +228,7 @@ def main():
     work = Work(options)
     if work.chosen.exists():
         work.find_again()
-    else:
+    if not options.again:
         work.draw(options)
     work.link()
     if options.prepare:
