@@ -23,7 +23,7 @@ import pathlib
 import shlex
 import sys
 
-from mutation import switches
+from mutation import self_test, switches
 from mutation.programs import Build, error_lines
 from mutation.sites import Mutant, drawn, sites
 from mutation.suite import Suite
@@ -215,12 +215,15 @@ def parsed():
     parser.add_argument("--only", help="numbers of the mutants to judge, with commas")
     parser.add_argument("--out", help="write the table to this file")
     parser.add_argument("--prepare", action="store_true", help="draw, compile and link only")
+    parser.add_argument("--self-test", action="store_true", help="compare switches with plain mutants of a small program")
     parser.add_argument("--list", action="store_true", help="show the random order of mutants, run nothing")
     return parser.parse_args()
 
 
 def main():
     options = parsed()
+    if options.self_test:
+        return self_test.run()
     if options.list:
         for k, m in zip(range(options.count), drawn(ROOT, options.folders.split(","), options.seed)):
             print(f"{k + 1} {m.name}:{m.line}: {m.kind}: {m.before.strip()}  ->  {m.after.strip()}")
