@@ -16,12 +16,14 @@ and built, --again judges the survivors anew. Needs python3-clang-16 (tools/setu
 programs (cmake --build build/release --target test_fdd ...), unity or not; the build stays as it is.
 """
 import argparse
+import concurrent.futures
 import hashlib
 import itertools
 import json
 import pathlib
 import shlex
 import sys
+import threading
 
 from mutation import self_test, switches
 from mutation.programs import Build, error_lines
@@ -167,11 +169,11 @@ class Work:
         objects = set(self.build.units_of([f for f, wraps in self.wraps.items() if wraps]))
         self.build.link(self.programs(), objects, max(m.number for m in self.mutants()))
 
-    def suites(self):
+    def suites(self, pool):
         out = {}
         for program in self.programs():
             out[program] = Suite(ROOT, self.folder / program, self.folder / (program + ".json"))
-            out[program].measure(tell)
+            out[program].measure(tell, pool)
         return out
 
     def verdicts(self):
@@ -202,6 +204,26 @@ def report(work, out):
         pathlib.Path(out).write_text(text)
 
 
+def judge_all(work, options, pool):
+    """Judges what is asked for, and writes every verdict into the journal."""
+    suites, known, lock = work.suites(pool), work.verdicts(), threading.Lock()
+    only = {int(n) for n in options.only.split(",")} if options.only else None
+
+    def one(mutant):
+        suite = suites["test_" + mutant.name.split("/")[0]]
+        status, by, seconds = suite.judge(mutant, options.patience)
+        with lock, work.journal.open("a") as file:
+            file.write(json.dumps({**mutant.row(status), "by": by, "seconds": seconds}) + "\n")
+            tell(f"{mutant.number} {status} {seconds} s {mutant.name}:{mutant.line} {mutant.kind}: "
+                 f"{mutant.after.strip()} ({by})")
+
+    def wanted(mutant):
+        status = known.get(mutant.number, {}).get("status")
+        return mutant.number in only if only else status is None or (options.again and status == "survived")
+
+    list(pool.map(one, filter(wanted, work.mutants())))
+
+
 def parsed():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--folders", default="fdd,faulttolerance,discovery,rotor")
@@ -211,6 +233,7 @@ def parsed():
     parser.add_argument("--work", default="build/mutants", help="folder of all that is made; a later call goes on there")
     parser.add_argument("--patience", type=float, default=5, help="limit of CPU time over the healthy run")
     parser.add_argument("--prefix", default="", help="command before compilers, e.g. nice")
+    parser.add_argument("--jobs", type=int, default=1, help="tests that run side by side")
     parser.add_argument("--again", action="store_true", help="judge the survivors of the journal anew")
     parser.add_argument("--only", help="numbers of the mutants to judge, with commas")
     parser.add_argument("--out", help="write the table to this file")
@@ -236,20 +259,8 @@ def main():
     work.link()
     if options.prepare:
         return 0
-    suites, known = work.suites(), work.verdicts()
-    only = {int(n) for n in options.only.split(",")} if options.only else None
-    for mutant in work.mutants():
-        status = known.get(mutant.number, {}).get("status")
-        wanted = mutant.number in only if only else status is None or (options.again and status == "survived")
-        if not wanted:
-            continue
-        suite = suites["test_" + mutant.name.split("/")[0]]
-        status, by, seconds = suite.judge(mutant, options.patience)
-        row = {**mutant.row(status), "by": by, "seconds": seconds}
-        with work.journal.open("a") as file:
-            file.write(json.dumps(row) + "\n")
-        tell(f"{mutant.number} {status} {seconds} s {mutant.name}:{mutant.line} {mutant.kind}: "
-             f"{mutant.after.strip()} ({by})")
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        judge_all(work, options, pool)
     report(work, options.out)
     return 0
 

@@ -5,6 +5,7 @@ import pathlib
 import resource
 import signal
 import subprocess
+import tempfile
 import time
 
 QUICK = 0.3          # [s]
@@ -47,40 +48,46 @@ class Suite:
         if reached:
             environment["AMBRIG_REACHED"] = str(reached)
         command = [str(self.program), "--gtest_brief=1", "--gtest_fail_fast", "--gtest_filter=" + ":".join(tests)]
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
-        process = subprocess.Popen(command, cwd=self.root, env=environment, stdout=subprocess.PIPE, text=True,
-                                   stderr=subprocess.STDOUT, errors="replace", preexec_fn=limited(cpu))
-        try:
-            said, _ = process.communicate(timeout=wall)
-        except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)
-            said, _ = process.communicate()
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return process.returncode, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, said
+        with tempfile.TemporaryFile() as said:
+            process = subprocess.Popen(command, cwd=self.root, env=environment, stdout=said, stderr=subprocess.STDOUT,
+                                       preexec_fn=limited(cpu))
+            end, pid = time.monotonic() + wall, 0
+            while pid == 0:
+                if time.monotonic() > end:
+                    os.killpg(process.pid, signal.SIGKILL)
+                    pid, status, usage = os.wait4(process.pid, 0)
+                else:
+                    time.sleep(0.01)
+                    pid, status, usage = os.wait4(process.pid, os.WNOHANG)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            said.seek(0)
+            return process.returncode, usage.ru_utime + usage.ru_stime, said.read().decode(errors="replace")
 
-    def measure(self, tell):
+    def measure(self, tell, pool):
         """One healthy run of every test that is new or whose source changed: each in a process of its own, so that
         what one test computes once for all is not missing from the next one's list."""
         names = self.names()
         self.tests = {name: t for name, t in self.tests.items() if name in names}
-        reached = self.table.with_suffix(".reached")
-        for name, file in names.items():
-            changed = os.path.getmtime(self.root / file)
-            known = self.tests.get(name)
-            if known and known["changed"] == changed:
-                continue
-            for attempt in range(2):
-                reached.unlink(missing_ok=True)
+        changed = lambda file: os.path.getmtime(self.root / file)
+        new = [(name, file) for name, file in names.items()
+               if name not in self.tests or self.tests[name]["changed"] != changed(file)]
+        for (name, file), (seconds, numbers) in zip(new, pool.map(lambda n: self.reach(n[0], tell), new)):
+            self.tests[name] = {"file": file, "seconds": round(seconds, 3), "reached": numbers, "changed": changed(file)}
+            tell(f"{name} {seconds:.2f} s, {len(numbers)} mutants")
+            draft = self.table.with_suffix(".tmp")
+            draft.write_text(json.dumps(self.tests, indent=0))
+            draft.replace(self.table)
+
+    def reach(self, name, tell):
+        """(seconds of CPU, numbers of the mutants that the healthy test comes by)."""
+        for attempt in range(2):
+            with tempfile.TemporaryDirectory() as folder:
+                reached = pathlib.Path(folder) / "reached"
                 code, seconds, said = self.start([name], 0, 3600, 3600, reached)
                 if code == 0:
-                    break
-                tell(f"{name} fails without a mutant:\n{said[-2000:]}")
-            else:
-                raise SystemExit(f"{self.program.name}: {name} fails without a mutant, twice")
-            numbers = sorted({int(n) for n in reached.read_text().split()}) if reached.exists() else []
-            self.tests[name] = {"file": file, "seconds": round(seconds, 3), "reached": numbers, "changed": changed}
-            tell(f"{name} {seconds:.2f} s, {len(numbers)} mutants")
-            self.table.write_text(json.dumps(self.tests, indent=0))
+                    return seconds, sorted({int(n) for n in reached.read_text().split()}) if reached.exists() else []
+            tell(f"{name} fails without a mutant:\n{said[-2000:]}")
+        raise SystemExit(f"{self.program.name}: {name} fails without a mutant, twice")
 
     def phases(self, mutant):
         """Lists of the tests that reach the mutant: quick ones of its own room, other quick ones, slow ones of the room,
