@@ -7,7 +7,8 @@ Every mutant is one change at a random place of a .cc file: a relational, bounda
 or a statement left out. All of them are compiled into one set of test programs, each behind a switch that the environment
 variable AMBRIG_MUTANT turns on (mutation/switches.py); a mutant that does not compile is replaced by another one. A healthy
 run of every test, in a process of its own, writes down which mutants it reaches, and a mutant meets only those tests: quick
-ones of its own room first, slow ones last, the first failure ends it. It is killed when a test fails, crashes or takes
+ones of its own room first, slow ones last, the first failure ends it. --also names test programs of other folders for what
+those of its own folder miss. It is killed when a test fails, crashes or takes
 --patience times the CPU time of the healthy run (and 10 s more). Each survivor is a missing test, or equivalent to the
 original (say why where the figure is reported).
 
@@ -165,13 +166,13 @@ class Work:
     def programs(self):
         return sorted({"test_" + m.name.split("/")[0] for m in self.mutants()})
 
-    def link(self):
+    def link(self, also):
         objects = set(self.build.units_of([f for f, wraps in self.wraps.items() if wraps]))
-        self.build.link(self.programs(), objects, max(m.number for m in self.mutants()))
+        self.build.link(self.programs() + also, objects, max(m.number for m in self.mutants()))
 
-    def suites(self, pool):
+    def suites(self, programs, pool):
         out = {}
-        for program in self.programs():
+        for program in programs:
             out[program] = Suite(ROOT, self.folder / program, self.folder / (program + ".json"))
             out[program].measure(tell, pool)
         return out
@@ -206,12 +207,18 @@ def report(work, out):
 
 def judge_all(work, options, pool):
     """Judges what is asked for, and writes every verdict into the journal."""
-    suites, known, lock = work.suites(pool), work.verdicts(), threading.Lock()
+    suites, others = work.suites(work.programs(), pool), work.suites(options.also, pool)
+    known, lock = work.verdicts(), threading.Lock()
     only = {int(n) for n in options.only.split(",")} if options.only else None
 
     def one(mutant):
-        suite = suites["test_" + mutant.name.split("/")[0]]
-        status, by, seconds = suite.judge(mutant, options.patience)
+        own = suites["test_" + mutant.name.split("/")[0]]
+        for suite in [own, *others.values()]:
+            status, by, seconds = suite.judge(mutant, options.patience)
+            if status == "killed":
+                break
+        if status == "killed" and suite is not own:
+            by = f"{suite.program.name}: {by}"
         with lock, work.journal.open("a") as file:
             file.write(json.dumps({**mutant.row(status), "by": by, "seconds": seconds}) + "\n")
             tell(f"{mutant.number} {status} {seconds} s {mutant.name}:{mutant.line} {mutant.kind}: "
@@ -221,7 +228,8 @@ def judge_all(work, options, pool):
         status = known.get(mutant.number, {}).get("status")
         return mutant.number in only if only else status is None or (options.again and status == "survived")
 
-    list(pool.map(one, filter(wanted, work.mutants())))
+    cost = lambda m: suites["test_" + m.name.split("/")[0]].cost(m)
+    list(pool.map(one, sorted(filter(wanted, work.mutants()), key=cost)))  # what is cheap to know first
 
 
 def parsed():
@@ -231,6 +239,8 @@ def parsed():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--build", default="build/release")
     parser.add_argument("--work", default="build/mutants", help="folder of all that is made; a later call goes on there")
+    parser.add_argument("--also", type=lambda text: text.split(","), default=[],
+                        help="test programs of other folders that a mutant meets which its own one missed")
     parser.add_argument("--patience", type=float, default=5, help="limit of CPU time over the healthy run")
     parser.add_argument("--prefix", default="", help="command before compilers, e.g. nice")
     parser.add_argument("--jobs", type=int, default=1, help="tests that run side by side")
@@ -256,7 +266,7 @@ def main():
         work.find_again()
     if not options.again:
         work.draw(options)
-    work.link()
+    work.link(options.also)
     if options.prepare:
         return 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

@@ -101,6 +101,10 @@ class Suite:
         slow = [[name] for part in parts[2:] for name in sorted(part, key=cost)]
         return [p for p in parts[:2] if p] + slow
 
+    def cost(self, mutant):
+        """Seconds of all tests that reach it."""
+        return sum(t["seconds"] for t in self.tests.values() if mutant.number in t["reached"])
+
     def judge(self, mutant, patience):
         """(killed or survived, by what, seconds)."""
         begin = time.monotonic()
