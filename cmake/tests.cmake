@@ -48,6 +48,12 @@ add_test(NAME unity_names COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tool
 # No file over 300 lines, no function over 60.
 add_test(NAME sizes COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_sizes.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+# Equations in comments stand on lines of their own.
+find_package(Git QUIET)
+if(GIT_FOUND AND EXISTS ${CMAKE_SOURCE_DIR}/.git)
+  add_test(NAME comments COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_comments.py
+           WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})
+endif()
 # The workbench: its scripts' types and computations, and a walk through its main flow in Chromium.
 find_program(NODE node)
 if(NODE AND EXISTS ${CMAKE_SOURCE_DIR}/web/node_modules/typescript)

@@ -33,8 +33,8 @@ LinearFigures LinearFiguresOf(const SampledPlant& plant, const StateSpace& K,
 std::vector<double> SensitivityCurve(const SampledPlant& plant, const StateSpace& K,
                                      std::size_t axis, const std::vector<double>& hertz);
 
-/// The response of the readings [m] (axes x samples) to 1 N at the magnets of axis `axis` from t =
-/// 0 on.
+/// The response of the readings [m] (axes x samples) to a step of 1 N at t = 0, at the magnets of
+/// axis `axis`.
 Eigen::MatrixXd LoadStep(const SampledPlant& plant, const StateSpace& K, std::size_t axis,
                          std::size_t samples);
 

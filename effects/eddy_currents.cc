@@ -4,8 +4,8 @@
 ///   E(s) = R_gap T(s) φ(s),  so without static iron φ = φ_static / (1 + sqrt(j f/cutoff))
 ///
 /// T(s): effects/diffusion_fit.h. With a linear flux over a step of h the relaxations are exact:
-///   e_k' = r_k φ' - p_k e_k :   e_k <- a_k e_k + b_k Δφ,  a_k = exp(-p_k h),  b_k = r_k (1 -
-///   a_k)/(p_k h)
+///   e_k' = r_k φ' - p_k e_k :   e_k <- a_k e_k + b_k Δφ
+///   a_k = exp(-p_k h),  b_k = r_k (1 - a_k)/(p_k h)
 /// E = Σ e_k + tail Δφ/h is linear in the flux at the end (one round of Newton) and vanishes at
 /// rest. With `path` 0 the half order holds at all frequencies: thick iron. A path gives the
 /// laminations their thickness d: below 1/(2 pi τ) they no longer hold the flux back; conductivity

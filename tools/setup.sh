@@ -3,7 +3,7 @@
 #
 #   tools/setup.sh            compiler, libraries, the plotting library of the reports
 #   tools/setup.sh --tests    also what only tests use: Chromium (renders a report), Slurm (campaigns)
-#   tools/setup.sh --tidy     also clang-format and clang-tidy (preset `tidy`)
+#   tools/setup.sh --tidy     also clang-format, clang-tidy (preset `tidy`) and clang's syntax trees (tools/mutate.py)
 #   tools/setup.sh --python   also what the Python module and its tests need (preset `python`)
 #
 # Needs root, or sudo, and only when a package is missing.
@@ -26,7 +26,7 @@ for option in "$@"; do
     --python) packages+=(python3-dev pybind11-dev python3-pip python3-setuptools python3-wheel python3-numpy
                          python3-matplotlib python3-scipy python3-xarray mypy                       # tests
                          python3-nbformat python3-nbclient python3-ipykernel) ;;                    # notebooks
-    --tidy) packages+=(clang-format clang-tidy-16) ;;
+    --tidy) packages+=(clang-format clang-tidy-16 python3-clang-16) ;;
     -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown option $option (allowed: --tests, --tidy, --python)" >&2; exit 2 ;;
   esac

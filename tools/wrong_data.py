@@ -14,33 +14,14 @@ the table. Needs python3-h5py.
 A corruption counts by what it changes: rms change over the noise that the gate states for that column. Below
 `--gross` floors (10, what the gate calls gross) it is listed apart: nobody can see it in one record.
 """
-import argparse, collections, concurrent.futures, hashlib, json, math, os, pathlib, shutil, subprocess, sys
+import argparse, concurrent.futures, hashlib, json, os, pathlib, shutil, subprocess, sys
 import tomllib
 
 import h5py
 import numpy as np
 
-# kind of corruption: sizes, faults that name it, whether it is of one column
-KINDS = {
-    "unit": ([1e3, 1e-3, 1e6, 25.4, math.pi / 180, 180 / math.pi], {"unit", "range"}, True),
-    "factor": ([2.0, 0.5, math.sqrt(2)], {"unit"}, True),
-    "sign": ([-1.0], {"sign"}, True),
-    "swap": ([0, 1], {"swap", "unit", "sign"}, True),        # 0: of one kind, 1: of different kinds
-    "lag": ([1, 5, 50, 250], {"lag"}, False),                # rows, of the whole record
-    "lag-column": ([5, 50, 250], {"lag"}, True),
-    "clip": ([0.5, 0.8], {"clip"}, True),                    # of the largest movement
-    "freeze": ([0.05, 0.15, 0.4], {"freeze", "lost"}, True),  # part of the record
-    "zeroed": ([0.05, 0.2], {"freeze", "lost"}, True),
-    "lost": ([0.02, 0.08, 0.2], {"lost"}, False),
-    "scenario": ([0], {"scenario"}, False),
-    "rate": ([1.01, 0.99], {"lag"}, False),                  # the logger's clock
-    "spikes": ([0.3, 3.0], {"range"}, True),                 # of the column's range, 10 rows
-    "offset": ([1.0, 5.0], set(), True),                     # of the movement: a zero is no verdict
-    "decimated": ([4], set(), True),
-    "quantised": ([6], set(), True),                         # bits
-    "hum": ([0.3], set(), True),                             # of the movement, 50 Hz
-}
-NOT_ASKED = {k for k, v in KINDS.items() if not v[1]}
+from data_errors import KINDS, corrupt, kind_of, movement
+from wrong_data_table import judged, table
 
 
 def generator(*key):
@@ -59,90 +40,6 @@ def write_h5(path, attributes, columns):
         f.attrs.update(attributes)
         for name, (y, unit) in columns.items():
             f.create_dataset(name, data=y.astype(np.float32)).attrs["unit"] = unit
-
-
-def movement(y):
-    return float(np.std(y))
-
-
-def kind_of(name):
-    """Kind of a channel: reading, current, set-point, force; "" for what is not corrupted alone."""
-    last = name.split(".")[-1]
-    if last in ("x", "y", "z") and name.count(".") <= 1:
-        return "reading"
-    if last[:1] in "is" and last[1:].isdigit():
-        return {"i": "current", "s": "set-point"}[last[0]]
-    if last in ("fx", "fy", "fz"):
-        return "force"
-    return "bus" if name == "bus" else ""
-
-
-def corrupt(kind, size, columns, name, rng, record, others):
-    """Changes `columns` in place; returns (columns that may be named, others that may be)."""
-    rows = len(columns[name][0])
-    y, unit = columns[name]
-    move = movement(y)
-
-    def put(value, column=name):
-        columns[column] = (value, columns[column][1])
-
-    if kind in ("unit", "factor", "sign"):
-        put(y * size)
-    elif kind == "swap":
-        same = [n for n in columns if n != name and (kind_of(n) == kind_of(name)) == (size == 0) and kind_of(n)
-                and movement(columns[n][0]) > 0]
-        if not same:
-            return None
-        if size == 0:  # a swap is seen where the two differ
-            same.sort(key=lambda n: -float(np.std(columns[n][0] - y)))
-            same = same[:max(1, len(same) // 2)]
-        other = same[rng.integers(len(same))]
-        first, second = columns[name], columns[other]
-        columns[name], columns[other] = (second[0], first[1]), (first[0], second[1])
-        return [name, other]
-    elif kind in ("lag", "lag-column"):
-        for n in columns if kind == "lag" else [name]:
-            v = columns[n][0]
-            put(np.concatenate([v[1:1 + size][::-1], v[:rows - size]]), n)
-    elif kind == "clip":
-        middle = np.median(y)
-        most = size * np.max(np.abs(y - middle))
-        put(np.clip(y, middle - most, middle + most))
-    elif kind in ("freeze", "zeroed"):
-        count = int(size * rows)
-        first = int(rng.integers(rows // 10, rows - count - 1))
-        z = y.copy()
-        z[first:first + count] = y[first] if kind == "freeze" else 0
-        put(z)
-    elif kind == "lost":
-        count = int(size * rows)
-        first = int(rng.integers(rows // 5, rows - count - rows // 5))
-        for n in columns:
-            put(np.delete(columns[n][0], slice(first, first + count)), n)
-    elif kind == "rate":
-        at = np.arange(rows) * size
-        at = at[at <= rows - 1]
-        for n in columns:
-            put(np.interp(at, np.arange(rows), columns[n][0]), n)
-    elif kind == "scenario":
-        if not others:
-            return None
-        columns.clear()
-        columns.update(others[rng.integers(len(others))])
-    elif kind == "spikes":
-        z = y.copy()
-        z[rng.integers(0, rows, 10)] += size * np.ptp(y) * rng.choice([-1, 1], 10)
-        put(z)
-    elif kind == "offset":
-        put(y + size * move)
-    elif kind == "decimated":
-        put(np.repeat(y[::size], size)[:rows])
-    elif kind == "quantised":
-        step = np.ptp(y) / 2 ** size
-        put(np.round(y / step) * step)
-    elif kind == "hum":
-        put(y + size * move * math.sqrt(2) * np.sin(2 * np.pi * 50 * np.arange(rows) / record["rate"]))
-    return [name]
 
 
 def case_of(folder):
@@ -263,68 +160,6 @@ def right_floors(folder, options):
         out = json.load(f)
     floors = {os.path.basename(r["data"]): {c: e["noise"] for c, e in r["channels"].items()} for r in out["records"]}
     return floors, out["data"]
-
-
-def judged(r):
-    """(recognised, right channel, faults that name something sound)"""
-    faults = r.get("data", [])
-    own = [f for f in faults if f["record"] == "wrong.h5"]
-    named = set(r["named"])
-    right = [f for f in own if (not named and f["channel"] == "") or f["channel"] in named or f["with"] in named]
-    of_kind = [f for f in right if f["fault"] in KINDS.get(r["kind"], ([], set(), True))[1]]
-    return bool(own), bool(right) and bool(of_kind), len(faults) - len(right)
-
-
-def bounds(k, n):
-    """Clopper-Pearson, 95 %, by bisection on the binomial sums."""
-    def below(p, upto):
-        return sum(math.comb(n, j) * p ** j * (1 - p) ** (n - j) for j in range(upto + 1))
-
-    def root(f):
-        a, b = 0.0, 1.0
-        for _ in range(60):
-            c = (a + b) / 2
-            a, b = (c, b) if f(c) else (a, c)
-        return a
-    low = 0.0 if k == 0 else root(lambda p: 1 - below(p, k - 1) < 0.025)
-    high = 1.0 if k == n else root(lambda p: below(p, k) > 0.025)
-    return low, high
-
-
-def share(k, n):
-    if n == 0:
-        return "-"
-    low, high = bounds(k, n)
-    return f"{k} of {n} ({100 * low:.0f} to {100 * high:.0f} %)"
-
-
-def table(results, options):
-    rows = collections.OrderedDict()
-    asked = [r for r in results if r["kind"] != "none"]
-    for r in sorted(asked, key=lambda r: (list(KINDS).index(r["kind"]), r["size"])):
-        rows.setdefault((r["kind"], r["size"]), []).append(r)
-    lines = ["| error | size | runs | gross | recognised, of the gross | kind and column right | small ones recognised | "
-             "sound columns named |", "|---|---|---|---|---|---|---|---|"]
-    total = [0, 0, 0, 0]
-    for (kind, size), group in rows.items():
-        gross = [r for r in group if r["floors"] >= options.gross or not r["column"]]
-        small = [r for r in group if r not in gross]
-        hit = sum(judged(r)[0] for r in gross)
-        right = sum(judged(r)[1] for r in gross)
-        lines.append(f"| {kind} | {size:.4g} | {len(group)} | {len(gross)} | {share(hit, len(gross))} | "
-                     f"{share(right, len(gross))} | {sum(judged(r)[0] for r in small)} of {len(small)} | "
-                     f"{sum(judged(r)[2] > 0 for r in group)} |")
-        if kind not in NOT_ASKED:
-            total = [a + b for a, b in zip(total, (len(gross), hit, right, len(group)))]
-    sound = [r for r in results if r["kind"] == "none"]
-    lines += ["", f"Gross errors of kinds that are asked for, recognised: {share(total[1], total[0])}; with kind and "
-              f"column: {share(total[2], total[0])}.",
-              f"Right data called wrong: {share(sum(bool(r.get('data')) for r in sound), len(sound))}."]
-    if any("adopted" in r for r in asked):
-        wrong = [r for r in asked if r["kind"] not in NOT_ASKED]
-        lines.append("Effects named from wrong data: "
-                     f"{share(sum(bool(r.get('adopted')) for r in wrong), len(wrong))}.")
-    return "\n".join(lines) + "\n"
 
 
 def main():

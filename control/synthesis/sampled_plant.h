@@ -7,9 +7,13 @@
 ///
 /// f_k [N] is computed from y_k [m]; d_k [N] are forces on the rotor at the bearings, constant over
 /// the period. The states are in units of their typical sizes, so that the matrices are well
-/// scaled. A synthesis may also weigh the shaft itself (control/synthesis/plane_weight.h, mode_weight.h): v_k
-/// = V x_k that cost 1, and disturbances of size 1 that enter by G as d_k does by E; both empty
-/// when it weighs nothing there.
+/// scaled. A synthesis may also weigh the shaft itself (control/synthesis/plane_weight.h,
+/// mode_weight.h): outputs
+///
+///   v_k = V x_k
+///
+/// whose cost is 1, and disturbances of size 1 that enter by G as d_k does by E; both are empty when
+/// it weighs nothing there.
 #include "control/synthesis/state_space.h"
 
 namespace ambrig {

@@ -1,7 +1,8 @@
 #pragma once
 /// Sets that hold the right answer with a stated probability, whatever the probabilities are worth
-/// (split conformal prediction; Vovk, Gammerman and Shafer 2005). Practice cases give scores s_i = 1 -
-/// p(right answer); a name e of score s_e is in the set of level 95 % when
+/// (split conformal prediction; Vovk, Gammerman and Shafer 2005). Practice cases give scores
+///   s_i = 1 - p(right answer)
+/// and a name e of score s_e is in the set of level 95 % when
 ///   (1 + #{s_i >= s_e})/(n + 1) > 0.05
 /// It holds for cases that are drawn like the practice cases.
 #include <vector>

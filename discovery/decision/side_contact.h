@@ -9,9 +9,10 @@
 
 namespace ambrig {
 
-/// Something that pushes back from one side: f = -k max(along + lobe cos(theta - high) - gap, 0) (n
-/// + mu Rubs(v) t), n its direction, t across it the way that the rotor turns, v the speed of
-/// sliding; always, or in a bump that comes back every period. The lobe is the rotor's high spot.
+/// A contact from one side:
+///   f = -k max(along + lobe cos(theta - high) - gap, 0) (n + mu Rubs(v) t)
+/// n: direction of the contact, t: across it in the direction of rotation, v: speed of sliding. It
+/// acts always, or during a part of every period. The lobe is the rotor's high spot.
 struct SideContact {
   static constexpr double kSlow = 0.01;  // [m/s], as in docs/theory/base_model.md section 8
 

@@ -10,25 +10,22 @@
 ///     shear = true                     # rotary_inertia, gyroscopic likewise
 ///     shear_coefficient = "cowper"     # | "hutchinson"
 ///     stations = [0.05]                # planes that must be nodes
-///     file = "shaft.json"              # the shaft from another file instead of sections here:
-///       one that
-///                                      # ROSS saved (.toml, .json),
-///                                        or a [rotor] of these tables (.toml)
+///     file = "shaft.json"              # the shaft from a file instead of sections here: one that
+///                                      # ROSS saved (.toml, .json) or a [rotor] like this (.toml)
 ///     [rotor.materials.mysteel]        # E, rho, nu; built in: steel, aluminium, titanium
-///     [[rotor.section]]                # left to right; z0 = end of the section before,
-///       unless given
+///     [[rotor.section]]                # left to right; z0 = end of the one before, if not given
 ///     length = 0.1
-///     od = 0.02                        # id, od_right, id_right, damping_mass, damping_stiffness,
-///       name
+///     od = 0.02                        # id, od_right, id_right, damping_mass,
+///                                      # damping_stiffness, name
 ///     material = "steel"               # or E, rho, nu
-///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id,
-///       material or rho
-///     [[rotor.disk]]                   # z with mass, inertia_diametral,
-///       inertia_polar or with width, od,
-///                                      # id, material; name
+///     [[rotor.sleeve]]                 # mass without stiffness: z0, length, od, id, material or
+///                                      # rho
+///     [[rotor.disk]]                   # z with mass, inertia_diametral, inertia_polar, or z with
+///                                      # width, od, id, material; name
 ///     [[rotor.station]]                # name, z: a plane for loads, unbalance and the record
 ///     [[rotor.support]]                # z, k, c or kxx, kxy, kyx, kyy, cxx, ..., mxx, ..., kzz,
-///       czz, mzz; over speed = [rad/s] arrays of them; carries and on: housings by name
+///                                      # czz, mzz; over speed = [rad/s] arrays of them;
+///                                      # carries and on: housings by name
 ///     [[rotor.housing]]                # name, mass or mass_x, mass_y, mass_z
 ///     [[rotor.point_mass]]             # z, mass or mass_x, mass_y, mass_z
 ///

@@ -1,15 +1,15 @@
 #pragma once
 /// A beam rotor reduced to its rigid body and the first n bending modes phi_k of the free shaft,
-/// mass-normalised, one amplitude per plane: displacement of the shaft centre at z (arm a = z -
-/// z_com)
+/// mass-normalised, one amplitude per plane. Displacement of the shaft centre at z, with the arm
+/// a = z - z_com:
 ///   x(z) = x + a beta + sum phi_k(z) eta_xk,     y(z) = y - a alpha + sum phi_k(z) eta_yk
 /// With forces f at planes z_j, arms a_j, and slope psi_k of mode k (section rotation), J_00 = Ip:
 ///   m x'' = sum fx                               m y'' = sum fy
 ///   It alpha'' + Omega (Ip beta'  + sum J_0k eta_xk') = -sum a fy
 ///   It beta''  - Omega (Ip alpha' - sum J_0k eta_yk') =  sum a fx
-///   eta_xk'' + 2 zeta_k w_k eta_xk' + w_k² eta_xk + Omega (-J_k0 alpha' + sum J_kl eta_yl') = sum
-///   phi_k fx eta_yk'' + 2 zeta_k w_k eta_yk' + w_k² eta_yk - Omega ( J_k0 beta'  + sum J_kl
-///   eta_xl') = sum phi_k fy
+///   eta_xk'' + 2 zeta_k w_k eta_xk' + w_k² eta_xk + Omega g_xk = sum phi_k fx
+///   eta_yk'' + 2 zeta_k w_k eta_yk' + w_k² eta_yk - Omega g_yk = sum phi_k fy
+///   g_xk = -J_k0 alpha' + sum J_kl eta_yl',      g_yk = J_k0 beta' + sum J_kl eta_xl'
 /// Free-free modes are orthogonal to the rigid ones, so mass and stiffness stay diagonal; only the
 /// gyroscopic J couples (kept in full). With n = 0 this is the rigid rotor of base_model.md. Units
 /// SI.

@@ -4,9 +4,9 @@
 ///   M q'' + (D + Omega G) q' + K q = f
 /// has eigenvalues s = -zeta wn ± i wd; log decrement 2 pi zeta / sqrt(1 - zeta²). A mode's motion
 /// Re(q e^{st}) turns forward with amplitude |x + i y|/2 and backward with |x - i y|/2 at each
-/// plane. Undamped critical speeds need no iteration: q = Re(Q e^{i Omega t}) gives K Q = Omega² (M
-/// - i G) Q, solved for 1/Omega² with the Cholesky factor of K (direct synchronous method). Units
-/// SI, rad/s.
+/// plane. Undamped critical speeds need no iteration: q = Re(Q e^{i Omega t}) gives
+///   K Q = Omega² (M - i G) Q
+/// solved for 1/Omega² with the Cholesky factor of K (direct synchronous method). Units SI, rad/s.
 #include <complex>
 #include <vector>
 

@@ -4,8 +4,8 @@
 ///   psi' = M/EI,  w' = psi + Q/(kappa G A),  M(s) = M0 - Q s,  Q constant,
 /// integrated with the true EI(s), GA(s), so nodal statics are exact for any taper and the shape
 /// functions are the static deflections; a uniform element is the usual interdependent one.
-///   M = ∫ rho A w'w + rho I psi'psi,   J = ∫ 2 rho I psi'psi (gyroscopic),   K = ∫ M²/EI +
-///   Q²/(kappa G A)
+///   M = ∫ rho A w'w + rho I psi'psi,   J = ∫ 2 rho I psi'psi (gyroscopic)
+///   K = ∫ M²/EI + Q²/(kappa G A)
 /// An axial force N (tension) adds ∫ N w'w' (dead load; in bending alone).
 /// Layers of one element share w and psi: shaft layers add mass and stiffness, sleeves and
 /// laminations (`stiff` = false) mass alone. Units SI. Sources: Timoshenko beam theory; kappa of

@@ -19,9 +19,9 @@ SampledPlant Scalar(double a) {
   return p;
 }
 
-// P = 1/(z - a), K = -k: S = (z - a)/(z - a + k); for a > c = a - k > 0 it rises from (1 - a)/(1 -
-// c) to (1 + a)/(1 + c). The force is f = -k (y + n), y a first order process: var f = k² var n (1
-// + k²/(1 - c²)).
+// P = 1/(z - a), K = -k: S = (z - a)/(z - a + k); for a > c = a - k > 0 it rises
+// from (1 - a)/(1 - c) to (1 + a)/(1 + c). The force is f = -k (y + n), y a first order process:
+//   var f = k² var n (1 + k²/(1 - c²))
 TEST(LinearFigures, OfAScalarLoop) {
   const double a = 1.1, k = 0.6, c = a - k, noise = 0.3;
   const StateSpace K = StateSpace::Gain(Eigen::MatrixXd::Constant(1, 1, -k));

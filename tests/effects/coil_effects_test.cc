@@ -29,8 +29,8 @@ Stiffness StiffnessOf(Plant& plant, double bias) {
           (ForceX(plant, bias, 0, dx) - ForceX(plant, bias, 0, -dx)) / (2 * dx)};
 }
 
-// published_values.md 7: iron path p per gap: B and dB/dx as with g_eff = g0 + p, so ki/ks =
-// g_eff/i0.
+// published_values.md 7: iron path p per gap: B and dB/dx as with g_eff = g0 + p,
+// so ki/ks = g_eff/i0.
 TEST(IronReluctance, StiffnessRatioIsTheEffectiveGapOverTheBias) {
   const RigParameters rig = ReferenceRig();
   const double g0 = rig.bearings[0].radial.gap, path = 30e-6, bias = 2;
@@ -58,8 +58,9 @@ TEST(IronReluctance, ThresholdIsAPathAtLowFluxAndHalfItsMmfAtItsDensity) {
               1, 1e-6);
 }
 
-// Pull = (1/2) phi² dR/dg with R = g / (mu0 A (1 + c g/g0)): force at the centre is (1 + c)² (1 +
-// c)^-2 = that of ideal iron at equal currents, while L grows by 1 + c.
+// Pull = (1/2) phi² dR/dg with R = g / (mu0 A (1 + c g/g0)): the force at the centre is
+// (1 + c)² (1 + c)^-2 of that of ideal iron at equal currents, that is the same, while L grows by
+// 1 + c.
 TEST(Fringing, InductanceGrowsForceAtTheCentreDoesNot) {
   const double c = 0.12;
   Plant with = PlantWith("fringing", "A", {{"coefficient", c}}),

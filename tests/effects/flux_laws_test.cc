@@ -24,8 +24,8 @@ double DropOf(const FluxLaw& law, double phi, double* slope = nullptr) {
   return drop[0];
 }
 
-// published_values.md 7: tanh z / z at ω τ = 0.1, 1, 10, 100: magnitude and phase. ρ (z coth z - 1)
-// + ρ is its inverse.
+// published_values.md 7: tanh z / z at ω τ = 0.1, 1, 10, 100: magnitude and phase.
+// ρ (z coth z - 1) + ρ is its inverse.
 TEST(EddyCurrents, LaminationFollowsTheLadderValues) {
   const double table[4][3] = {
       {0.1, 0.99922, -1.909}, {1, 0.93080, -17.958}, {10, 0.31795, -46.271}, {100, 0.1, -45}};

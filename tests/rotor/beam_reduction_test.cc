@@ -117,8 +117,8 @@ TEST(Station, NodesAndBetween) {
     const ModalStation s = StationAt(r, z), t = StationAt(f, z);
     for (int k = 0; k < 3; ++k) {
       const double scale = r.shape.col(k).cwiseAbs().maxCoeff();
-      // Static shapes between nodes miss the inertia load: (k h)^4 / 384 of the amplitude, k h <
-      // 0.8.
+      // Static shapes between nodes miss the inertia load: (k h)^4 / 384 of the amplitude,
+      // k h < 0.8.
       EXPECT_NEAR(s.phi(k), t.phi(k), 2e-3 * scale) << z << " mode " << k;
     }
   }

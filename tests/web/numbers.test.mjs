@@ -35,6 +35,8 @@ test('significant digits and durations', () => {
   assert.equal(significant(NaN), '-');
   assert.equal(significant(1234567), '1.23e+6');
   assert.equal(significant(999.6), '1000');
+  assert.equal(significant(9.9996), '10.0');  // as many digits as 9.99
+  assert.equal(significant(9.9996, 5), '9.9996');
   assert.equal(duration(42.4), '42 s');
   assert.equal(duration(150), '3 min');
 });

@@ -22,7 +22,7 @@ export function prefixFor(largest, unit) {
 export function significant(value, digits = 3) {
   if (!Number.isFinite(value)) return value === Infinity ? 'infinite' : '-';
   if (value === 0) return '0';
-  const size = Math.floor(Math.log10(Math.abs(value)));
+  const size = Math.floor(Math.log10(Math.abs(Number(value.toPrecision(digits)))));  // 9.9996 is 10.00
   if (size < -4 || size > 5) return value.toExponential(digits - 1);
   return value.toFixed(Math.max(0, digits - 1 - size));
 }

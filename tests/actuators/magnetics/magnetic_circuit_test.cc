@@ -170,9 +170,9 @@ TEST(MagneticCircuit, ThrustForceClosedForm) {
   EXPECT_NEAR(f, pull(3.2, p.gap - z) - pull(2.0, p.gap + z), 1e-12 * f);
 }
 
-// published_values.md 2.1: F = 4 kappa c0 v, k_i = 4 kappa c0, k_s = 4 kappa c0²/g0, hence k_i/k_s
-// = g0/c0. The reference rig: kappa 4 N/A², k_i 32 N/A, k_s 1.6e5 N/m (published_values.md 2.3),
-// 144 N with 6 A (1.6 too).
+// published_values.md 2.1: F = 4 kappa c0 v, k_i = 4 kappa c0, k_s = 4 kappa c0²/g0,
+// hence k_i/k_s = g0/c0. The reference rig: kappa 4 N/A², k_i 32 N/A, k_s 1.6e5 N/m
+// (published_values.md 2.3), 144 N with 6 A (1.6 too).
 TEST(MagneticCircuit, ForceConstantAndNegativeStiffnessOfTheHealthyBearing) {
   StatorLanes lanes = LanesOf("A");
   const double c0 = 2, kappa = kL0 / 4e-4;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "core/math/constants.h"
 #include "faulttolerance/redistribution/network_force.h"
 #include "tests/faulttolerance/redistribution_reference.h"
 
@@ -50,6 +51,31 @@ std::vector<std::string> Names() {
   std::stringstream list(kCurrentTransitionNames);
   for (std::string one; std::getline(list, one, ',');) names.push_back(one);
   return names;
+}
+
+// L_jj = P N² (1 - 1/8) + L_l of every coil, -P N²/8 between two of opposite winding (with the signs +): P = mu0 A/g.
+TEST(CurrentTransition, InductanceOfTheCoupledCoils) {
+  TransitionStart s = CoilOneOpens().start;
+  s.bearing.turns_left.setOnes();
+  const RedistributionProblem& b = s.bearing;
+  const double own = kMu0 * b.pole_area / b.gap * b.turns * b.turns;
+  const CoilForm L = InductanceOf(s);
+  const CoilVector step = RampStep(s);
+  for (int j = 0; j < 8; ++j) {
+    EXPECT_NEAR(L(j, j), own * 7 / 8 + s.leakage, 1e-12 * own);
+    EXPECT_NEAR(L(j, (j + 1) % 8), own / 8, 1e-12 * own);  // opposite winding
+    EXPECT_NEAR(L(j, (j + 2) % 8), -own / 8, 1e-12 * own);
+    EXPECT_NEAR(step[j], s.voltage * s.period / (own * 7 / 8 + s.leakage), 1e-12);
+  }
+  for (int lost = 0; lost < 8; ++lost) {
+    s.bearing.turns_left.setOnes();
+    s.bearing.turns_left[lost] = 0;
+    const CoilForm without = InductanceOf(s);
+    EXPECT_EQ(without(lost, lost), 1);
+    EXPECT_EQ(without.row(lost).squaredNorm(), 1);
+  }
+  s.bearing.turns_left.setConstant(0.5);
+  EXPECT_NEAR(InductanceOf(s)(0, 0), 0.25 * L(0, 0), 1e-12 * own);
 }
 
 TEST(CurrentTransition, EveryPolicyArrivesAndThenHandsThrough) {

@@ -179,6 +179,10 @@ TEST(FaultSupervisor, SlopeTracesShowTheFaultyCoilLeaveItsBand) {
   ASSERT_EQ(o.result.slopes.size(), 4u);
   const SlopeTrace& s = o.result.slopes.front();
   EXPECT_EQ(s.coil, "A.coil3");
+  // Then the neighbours, the next one first, and the coil on the other side.
+  EXPECT_EQ(o.result.slopes[1].coil, "A.coil4");
+  EXPECT_EQ(o.result.slopes[2].coil, "A.coil2");
+  EXPECT_EQ(o.result.slopes[3].coil, "A.coil7");
   std::size_t before = 0, after = 0;
   for (std::size_t k = 0; k < s.t.size(); ++k) {
     const bool outside = s.slope[k] < s.low[k] || s.slope[k] > s.high[k];

@@ -163,6 +163,25 @@ TEST(SecondLook, IdleCoilsAreAskedAfterTenMillisecondsAndThenNowAndAgain) {
   EXPECT_EQ(probes.Due(0.2), -1);
 }
 
+// Every coil of a bearing that idles is due after 10 ms, one after the other 8 ms apart, and again 50 ms after its own probe.
+TEST(CoilProbes, EveryIdleCoilHasItsTurn) {
+  CoilProbes probes;
+  for (const int coil : {0, 3, 7}) probes.Idle(coil, true, 1.0);
+  EXPECT_EQ(probes.Due(1.0099), -1);
+  EXPECT_EQ(probes.Due(1.0101), 0);
+  probes.AnswerIdle(0, 1.0101);
+  EXPECT_EQ(probes.Due(1.018), -1);
+  EXPECT_EQ(probes.Due(1.0182), 3);
+  probes.AnswerIdle(3, 1.0182);
+  EXPECT_EQ(probes.Due(1.0263), 7);
+  probes.AnswerIdle(7, 1.0263);
+  EXPECT_EQ(probes.Due(1.06), -1);
+  EXPECT_EQ(probes.Due(1.0602), 0);
+  probes.Idle(0, false, 1.0602);  // it works again
+  EXPECT_EQ(probes.Due(1.0603), -1);
+  EXPECT_EQ(probes.Due(1.0683), 3);
+}
+
 // One current sensor after the other says that the model errs: only the first is acted on, and after a
 // probe has refuted it none of another coil.
 TEST(CoilProbes, AFalseCurrentMakesThoseOfOtherCoilsSuspect) {

@@ -112,6 +112,35 @@ TEST(BeamFile, ChoicesReachTheModel) {
   EXPECT_LT(lumped, plain);
 }
 
+TEST(BeamFile, TheTheoryIsReadKeyByKey) {
+  const auto theory = [](const std::string& line) {
+    return Parse(Replaced(kFile, "modes = 2", "modes = 2\n" + line)).definition.theory;
+  };
+  EXPECT_TRUE(theory("").gyroscopic);
+  EXPECT_FALSE(theory("gyroscopic = false").gyroscopic);
+  EXPECT_TRUE(theory("gyroscopic = false").rotary_inertia);
+  EXPECT_FALSE(theory("rotary_inertia = false").rotary_inertia);
+  EXPECT_EQ(theory("shear_coefficient = \"hutchinson\"").coefficient,
+            ShearCoefficient::kHutchinson);
+  EXPECT_EQ(theory("").coefficient, ShearCoefficient::kCowper);
+}
+
+// pi/4 D² L rho, m D²/16 + m L²/12 about a diameter, m D²/8 about the axis.
+TEST(BeamFile, ADiskWithoutABoreIsSolid) {
+  const Disk disk = Parse(Replaced(kFile, "id = 0.026\n", "")).definition.disks[0];
+  const double m = 7810 * kPi / 4 * 0.1 * 0.1 * 0.02;
+  EXPECT_NEAR(disk.mass, m, 1e-12);
+  EXPECT_NEAR(disk.inertia_polar, m * 0.1 * 0.1 / 8, 1e-15);
+  EXPECT_NEAR(disk.inertia_diametral, m * (0.1 * 0.1 / 16 + 0.02 * 0.02 / 12), 1e-15);
+  EXPECT_NE(MessageOf(Replaced(kFile, "id = 0.026", "id = 0.1")).find("allowed above id"),
+            std::string::npos);
+}
+
+TEST(BeamFile, ASectionNeedsAWall) {
+  EXPECT_EQ(MessageOf(Replaced(kFile, "id = 0.01", "id = 0.03")),
+            "rig.toml:19: rotor.section[2].id: id = 0.03 m, allowed 0 to below od = 0.03 m");
+}
+
 TEST(BeamFile, MistakesNameFileLineAndKey) {
   EXPECT_EQ(MessageOf(Replaced(kFile, "od = 0.02", "od = -0.02")),
             "rig.toml:13: rotor.section[1].od = -0.02 m, allowed 1e-05 to 100 m (outer diameter "

@@ -38,6 +38,41 @@ TEST(BeamMatrices, RigidMotionsGiveTheTotals) {
   EXPECT_NEAR(shift.dot(lumped.M * tilt), 0, 1e-10 * t.mass);
 }
 
+// Planes closer than 1e-7 of the shaft's length are one node, wherever the origin of z is.
+TEST(BeamMatrices, PlanesNextToEachOtherAreOneNode) {
+  for (const double z0 : {-0.5, 0.0, 3.0}) {
+    BeamDefinition d = UniformShaft(1, 0.04, 1);
+    d.sections[0].z0 = z0;
+    d.stations = {z0 + 0.3};
+    d.disks = {{z0 + 0.3 + 5e-8, 1, 0.01, 0.01, "disk"}};
+    EXPECT_EQ(BuildBeam(d).z.size(), 3u) << z0;
+    d.disks[0].z = z0 + 0.3 + 2e-7;
+    EXPECT_EQ(BuildBeam(d).z.size(), 4u) << z0;
+    d.disks[0].z = z0 + 1 + 2e-7;
+    EXPECT_THROW(BuildBeam(d), InputError) << z0;
+  }
+}
+
+// A shaft that is the same in both planes gives way alike in both, wherever it is pushed and read: at a node as between two.
+TEST(BeamMatrices, RowsOfAPlaneReadBothDirectionsAlike) {
+  BeamDefinition d = UniformShaft(0.6, 0.03, 3);
+  for (const double z : {0.0, 0.6}) d.supports.push_back(IsotropicSupport(z, 1e7, 0));
+  const BeamRotor r = BuildBeam(d);
+  const LinearRotor whole = Assemble(r);
+  const auto gives = [&](double push, double read, int from, int to) {
+    const Eigen::VectorXd f = ShaftRows(r, push).row(from).transpose();
+    return ShaftRows(r, read).row(to).dot(whole.K.ldlt().solve(f));
+  };
+  for (const double z : {0.07, 0.2, 0.31})
+    for (const double at : {0.11, 0.4}) {
+      const double x = gives(z, at, 0, 0);
+      EXPECT_GT(x, 0);
+      EXPECT_NEAR(gives(z, at, 1, 1), x, 1e-9 * x);
+      EXPECT_NEAR(gives(at, z, 0, 0), x, 1e-9 * x);  // Maxwell and Betti
+      EXPECT_NEAR(gives(z, at, 0, 1), 0, 1e-9 * x);
+    }
+}
+
 // base_model.md section 1: a free spinning body nutates forward with (Ip/It) Omega.
 TEST(BeamMatrices, FreeRotorNutatesLikeARigidBody) {
   BeamDefinition d = UniformShaft(0.3, 0.08, 4);

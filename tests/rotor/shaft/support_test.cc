@@ -104,6 +104,7 @@ kzz = 3e7
 name = "casing"
 mass = 40.0
 [[rotor.point_mass]]
+name = "ring"
 z = 0.75
 mass = 1.5
 )",
@@ -112,6 +113,10 @@ mass = 1.5
   const TomlTable again = TomlTable::FromText(BeamText(file), "again.toml");
   const BeamDefinition d = ReadBeam(*again.Table("rotor")).definition;
   ASSERT_EQ(d.supports.size(), 2U);
+  ASSERT_EQ(d.masses.size(), 1U);
+  EXPECT_EQ(d.masses[0].name, "ring");
+  EXPECT_EQ(d.masses[0].z, 0.75);
+  EXPECT_EQ(d.masses[0].mass_y, 1.5);
   EXPECT_EQ(d.sections[0].axial_force, 1200);
   EXPECT_EQ(d.supports[0].on, "casing");
   EXPECT_TRUE(d.supports[0].cubic);

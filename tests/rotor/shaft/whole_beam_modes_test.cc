@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/math/constants.h"
 
 namespace ambrig {
@@ -100,6 +102,32 @@ TEST(WholeBeamModes, FreeShaftHasNoRigidModes) {
   for (std::size_t k = 0; k < 6; ++k)
     EXPECT_NEAR(found.oscillatory[k].omega_d / free.omega(static_cast<Eigen::Index>(k / 2)), 1,
                 1e-7);
+}
+
+// A stiff rotor of mass m on springs k and dampers c beyond critical damping: m s² + c s + k = 0 has two real roots, once for
+// each direction; none of its motions of translation oscillates.
+TEST(WholeBeamModes, OverdampedMotionsAreRealPoles) {
+  BeamDefinition d;
+  ShaftSection s;
+  s.length = 1.2;
+  s.od = s.od_right = 0.4;
+  s.material = {1e13, 1, 0.3};
+  d.sections = {s};
+  d.elements_per_section = 2;
+  d.disks.push_back({0.6, 10, 0.5, 0.1, "disk"});
+  const double k = 1e6, c = 8e3;
+  for (const double z : {0.0, 1.2}) d.supports.push_back(IsotropicSupport(z, k / 2, c / 2));
+  const BeamRotor beam = BuildBeam(d);
+  const double m = Totals(beam).mass, root = std::sqrt(c * c / 4 - k * m);
+  const LinearRotor rotor = Assemble(beam);
+  const WholeBeamModes found =
+      FindWhirlModes(rotor, ShapesOf(rotor, 8, SupportColumns(beam)), 0, 4);
+  for (const double exact : {(-c / 2 - root) / m, (-c / 2 + root) / m}) {
+    int near = 0;
+    for (const double s_k : found.real) near += std::abs(s_k / exact - 1) < 1e-3 ? 1 : 0;
+    EXPECT_EQ(near, 2) << exact;
+  }
+  EXPECT_TRUE(std::is_sorted(found.real.begin(), found.real.end()));
 }
 
 // Pinned Euler beam: omega_n = (n pi/L)² sqrt(EI/(rho A)); the error falls with the fourth power of the
