@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/pages/commission_report.h"
 #include "core/base/atomic_file.h"
@@ -27,11 +28,13 @@ constexpr const char* kFirstLine = "# Written by ambrig commission";
 int RunCommission(CommissionCommand c) {
   const RigParameters rig = ReadRig(c.rig);
   if (c.out.empty()) c.out = CommissioningFileOf(c.rig);
-  if (std::filesystem::exists(c.out) && !ReadFile(c.out).starts_with(kFirstLine))
-    throw InputError(fmt::format(
-        "-o = {}: the file exists and is not one that ambrig commission wrote, allowed: another "
-        "name",
-        c.out));
+  if (const std::string wrong = OutputFile()(c.out); !wrong.empty()) throw InputError(wrong);
+  if (!c.common.force && std::filesystem::is_regular_file(c.out) &&
+      !ReadFile(c.out).starts_with(kFirstLine))
+    throw InputError(
+        fmt::format("{} exists and is not an output of ambrig commission, allowed: another name, "
+                    "or --force to overwrite it",
+                    c.out));
   if (rig.bearings.front().kind->alone) c.plan.speed = 0;
   c.common.CheckOutputs({c.rig, c.out});
   CommissioningResult result;

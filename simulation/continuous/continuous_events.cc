@@ -1,9 +1,12 @@
 /// Events of the continuous rig: diodes, contacts, voltages, faults, periods.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/base/index.h"
+#include "core/math/no_solution.h"
 
 #include "simulation/continuous/continuous_rig.h"
 #include "simulation/sampled/instants.h"
@@ -14,6 +17,8 @@ namespace {
 constexpr double kNoCurrent = 1e-9;  // [A] counts as zero when the diodes are looked at
 constexpr double kNoRise = 1e-3;     // [A/s] a slope that is zero to rounding
 constexpr int kBlockRounds = 8, kMostRounds = 200;
+// What a run may cost: a healthy rig takes 50 steps a period, one in hard contact some hundreds.
+constexpr long long kStepsAtFirst = 200000, kStepsAPeriod = 5000;
 }  // namespace
 
 void ContinuousRig::Settle() {
@@ -56,6 +61,7 @@ void ContinuousRig::Refresh() {
 void ContinuousRig::BeginPeriod(long long n) {
   t0_ = static_cast<double>(n) * rig_.T;
   tau_ = 0;
+  ++periods_;
   for (const Bearing& b : bearings_)
     std::fill_n(y_.begin() + static_cast<std::ptrdiff_t>(b.force_at), 2 + b.network.coils, 0.0);
   restart_ = true;
@@ -139,6 +145,15 @@ void ContinuousRig::Restart() {
   restart_ = false;
 }
 
+void ContinuousRig::CountSteps() {
+  const long now = solver_->steps();
+  steps_ += now - counted_ + 1;
+  counted_ = now;
+  if (steps_ > kStepsAtFirst + kStepsAPeriod * periods_)
+    throw NoSolution(fmt::format("they take more than {} steps a period up to t = {:.4g} s",
+                                 kStepsAPeriod, t0_ + tau_));
+}
+
 void ContinuousRig::AdvanceTo(double tau) {
   for (const LoadSpec& l : rig_.scenario.loads)
     for (double edge : {l.start, l.stop})
@@ -147,10 +162,12 @@ void ContinuousRig::AdvanceTo(double tau) {
     if (restart_) {
       Restart();
       solver_->Restart(tau_, y_, tau - tau_);
+      counted_ = 0;
       ++events_;
     }
     const OdeSolver::Outcome out = solver_->Advance(tau, y_);
     tau_ = out.t;
+    CountSteps();
     if (out.root) HandleRoots(solver_->roots());
   }
   Refresh();

@@ -89,6 +89,7 @@ class ContinuousRig {
   void Slopes(const Bearing& b, const NetworkState& s, double* slope) const;
   void Restart();
   void Refresh();
+  void CountSteps();
 
   SampledDataLoop& rig_;
   std::vector<Bearing> bearings_;
@@ -100,6 +101,8 @@ class ContinuousRig {
   std::vector<NetworkState> now_;
   double t0_ = 0, tau_ = 0;  // [s]
   long events_ = 0;
+  long long periods_ = 0, steps_ = 0;  // begun; of the integrator so far, events included
+  long counted_ = 0;                   // of them since its last start
   std::unique_ptr<OdeSolver> solver_;
 };
 
