@@ -26,7 +26,7 @@ RIGS = {  # and how often each is taken
     "examples/stators/six_poles.toml": 2, "examples/tum_mbtr/rig.toml": 1,
 }
 WARM_UP = {"levitated": 0.25, "clamped": 0.03, "resting": 0.0}  # s before t = 0 (simulation/sampled/start_state.h)
-CHEAP, DEAR = 2e6, 3e7  # samples of a coil, warm-up included: some 10 and 150 ms
+CHEAP, DEAR = 1e6, 3e7  # samples of a coil, warm-up included: some 5 and 150 ms
 
 
 class Tables:
@@ -308,7 +308,7 @@ def draw_rig(rng, tables, far):
 def within_cost(rng, rig, parts, state, far):
     """Lowers the switching frequency and the stiffness of contacts until a run is cheap (docstring)."""
     amplifier, rotor = rig["amplifier"], rig["rotor"]
-    dear = rng.random() < 0.03
+    dear = rng.random() < 0.02
     most = DEAR if dear else CHEAP
     if far.share > 0.1 and state != "clamped":
         most *= 0.2  # a rotor that is lost in its bearings takes up to 400 pieces a period
@@ -329,7 +329,7 @@ def within_cost(rng, rig, parts, state, far):
     for bearing in rig["bearings"].values():
         if "auxiliary" not in bearing:
             continue
-        if not dear and rng.random() < 0.9:
+        if not dear and rng.random() < 0.95:
             bearing["auxiliary"]["friction"] = 0.0  # a rotor pressed deep into it slides in 400 pieces a period
         mobility = 1 / rotor.get("mass", 1.0) + bearing.get("z", 0.0) ** 2 / rotor.get("inertia_transverse", math.inf)
         limit(bearing["auxiliary"], "stiffness", max(1.0, (pieces * 0.02 * pwm) ** 2 / mobility))
@@ -392,7 +392,7 @@ def draw_load(rng, parts, duration):
 
 def draw_state(rng, rig, parts, far):
     can_rest = all("auxiliary" in b for b in rig["bearings"].values()) and len(parts.radial) >= 1
-    state = rng.choices(["levitated", "resting", "clamped"], [10 if far.share > 0.1 else 60, 25 if can_rest else 0, 30])[0]
+    state = rng.choices(["levitated", "resting", "clamped"], [10 if far.share > 0.1 else 45, 25 if can_rest else 0, 30])[0]
     start = {"state": state}
     if state == "clamped" and rng.random() < 0.7:
         start["position"] = {}

@@ -213,7 +213,7 @@ int Check(const CheckOptions& options) {
     if (options.baseline.accept)
       fmt::print("baselines stored in {}\n", options.baseline.folder);
     else if (failed > 0)
-      fmt::print("curves of what differs: {}\n", page);
+      fmt::print("curves of what differs: {}\n", DifferencePageOf(options.baseline));
   }
   options.common.WriteJson(json);
   return failed > 0 ? 1 : 0;
