@@ -139,7 +139,11 @@ void WriteCheckReport(const std::string& path, const std::vector<CheckRow>& rows
                      Cell(r.met() ? "met" : "not met", r.met() ? "ok" : "fail"),
                      Cell(RowComplaint(r)), Cell(fmt::format("{:.2f}", r.seconds))});
   report.Heading("Scenarios");
-  report.Table({"scenario", "file", "verdict", "what is not met", "seconds"}, cells);
+  const auto met = std::ranges::count_if(rows, &CheckRow::met);
+  const auto failed = static_cast<std::ptrdiff_t>(rows.size()) - met;
+  report.Verdict(failed > 0 ? Verdict::kFail : Verdict::kOk,
+                 fmt::format("{} met, {} not met.", met, failed));
+  report.Table({"scenario", "file", "verdict", "what is not met", "time [s]"}, cells);
   report.Write(path);
 }
 

@@ -70,22 +70,22 @@ void AddCommission(CLI::App& app, Work& work) {
       ->required();
   command->add_option("-o,--out", c->out, "file to write (default: RIG.commissioning.toml)");
   command->add_option("--duration", c->plan.duration, "of the run [s]")
-      ->check(CLI::Range(0.1, 10.0))
+      ->check(NumberIn(0.1, 10, "s"))
       ->capture_default_str();
   command->add_option("--speed", c->plan.speed, "at its end [rad/s]")
-      ->check(CLI::Range(0.0, 1e5))
+      ->check(NumberIn(0, 1e5, "rad/s"))
       ->capture_default_str();
   command->add_option("--current", c->plan.current, "amplitude of a coil's three tones, each [A]")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(NumberIn(0, 100, "A"))
       ->capture_default_str();
   command->add_option("--circle", c->plan.circle, "radius of the small whirl over the clearance")
-      ->check(CLI::Range(0.0, 0.9))
+      ->check(NumberIn(0, 0.9, "of one"))
       ->capture_default_str();
   command->add_option("--chirp", c->plan.chirp, "force of the chirp over the controller's f_max")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberIn(0, 1, "of one"))
       ->capture_default_str();
   command->add_option("--pulse", c->plan.pulse, "largest force over the controller's f_max")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberIn(0, 1, "of one"))
       ->capture_default_str();
   c->common.AddTo(*command);
   command->footer(
