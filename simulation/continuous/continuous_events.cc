@@ -17,8 +17,6 @@ namespace {
 constexpr double kNoCurrent = 1e-9;  // [A] counts as zero when the diodes are looked at
 constexpr double kNoRise = 1e-3;     // [A/s] a slope that is zero to rounding
 constexpr int kBlockRounds = 8, kMostRounds = 200;
-// What a run may cost: a healthy rig takes 50 steps a period, one in hard contact some hundreds.
-constexpr long long kStepsAtFirst = 200000, kStepsAPeriod = 5000;
 }  // namespace
 
 void ContinuousRig::Settle() {
@@ -149,7 +147,7 @@ void ContinuousRig::CountSteps() {
   const long now = solver_->steps();
   steps_ += now - counted_ + 1;
   counted_ = now;
-  if (steps_ > kStepsAtFirst + kStepsAPeriod * periods_)
+  if (steps_ > kStepsAtOnce + kStepsAPeriod * periods_)
     throw NoSolution(fmt::format("they take more than {} steps a period up to t = {:.4g} s",
                                  kStepsAPeriod, t0_ + tau_));
 }

@@ -100,6 +100,7 @@ OdeProblem ContinuousRig::MakeProblem(const IntegratorOptions& options) {
   p.roots = static_cast<int>(p.directions.size());
   p.relative = options.tolerance;
   p.absolute = absolute_;
+  p.max_steps = kStepsAtOnce;
   return p;
 }
 

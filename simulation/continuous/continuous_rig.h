@@ -25,6 +25,10 @@
 
 namespace ambrig {
 
+/// What a run may cost [steps of the integrator]: a healthy rig takes 50 a period, one in hard contact
+/// some hundreds. At once, and on the average.
+inline constexpr long kStepsAtOnce = 20000, kStepsAPeriod = 5000;
+
 struct IntegratorOptions {
   double tolerance = 1e-10;  // relative, of a step
   int order = 5;             // of ARKODE's explicit Runge-Kutta method

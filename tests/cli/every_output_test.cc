@@ -103,7 +103,8 @@ INSTANTIATE_TEST_SUITE_P(Options, EveryOutput, ::testing::ValuesIn(kOutputs), []
 
 /// Options that name what is read, and folders that hold nothing of anybody else's.
 const std::set<std::string> kInputs = {"--from-campaign", "--tolerances", "--answers", "--record",
-                                       "--rig",           "--campaign",   "--learn",   "--resume"};
+                                       "--rig",           "--campaign",   "--learn",   "--resume",
+                                       "--engine",        "--shard"};
 /// Of every command: tests/cli/other_outputs_test.cc.
 const std::set<std::string> kCommon = {"--json", "--html", "--help"};
 

