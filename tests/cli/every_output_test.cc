@@ -22,7 +22,7 @@ struct Output {
 
 const Output kOutputs[] = {
     {"tour", "--out", "tour -o {}", "rig.toml"},
-    {"new", "--out", "new --answers examples/new/ball.toml -o {}", "rig.toml"},
+    {"new", "--out", "new --answers examples/new/spindle.toml -o {}", "rig.toml"},
     {"run", "--out", "run s.toml --no-report --out {}", "s.h5"},
     {"check", "--junit", "check e.toml --junit {}"},
     {"check", "--baseline", "check e.toml --accept --baseline {}", "e.baseline.h5"},
