@@ -117,6 +117,10 @@ EffectInstance ReadEffect(const TomlTable& t, const EffectTargets& known) {
   const std::vector<std::string> targets = TargetsOf(*d, known);
   std::string allowed;
   for (const auto& k : targets) allowed += (allowed.empty() ? "" : ", ") + k;
+  if (targets.empty())
+    t.Fail("name", fmt::format("= \"{}\": acts on no part of this rig, allowed: where `ambrig "
+                               "effects {}` says",
+                               name, name));
   e.target = t.Choice("target", targets.size() == 1 ? targets[0] : "", allowed);
   if (name == "formula") {
     ReadFormula(t, e);

@@ -2,8 +2,9 @@
 """Random valid scenarios: rigs drawn over the ranges of the parameter tables, each run once.
 
 Every number of a rig file is drawn: near that of an example rig, or anywhere in the range that
-`ambrig parameters` names for it. What `ambrig` refuses is drawn again with fewer numbers far off,
-until it is accepted. A run must end by itself, with exit code 0 and with finite numbers only;
+`ambrig parameters` names for it, and every kind among those that there are (tools/random_draws.py).
+What `ambrig` refuses is drawn again with fewer numbers far off, until it is accepted. A run must end
+by itself, within a minute of computing, with exit code 0 and with finite numbers only;
 its outcome (stayed up, touched down, dropped, beyond the model, no solution) is counted.
 
 Many scenarios go through one process (`ambrig run --keep-going`); a journal holds a line for each
@@ -32,234 +33,35 @@ import sys
 import tempfile
 import threading
 import time
-import tomllib
 
-PROJECT = pathlib.Path(__file__).resolve().parent.parent
-RIGS = ["scenarios/library/rigs/reference.toml", "examples/small_spindle/rig.toml",
-        "examples/heavy_compressor/rig.toml"]
-TIMEOUT = 300  # s of one run
+import random_draws
+
+TIMEOUT = 60  # s of computing of one run
 DRAWS = 30  # of one scenario, until one is accepted
 MEMORY = 4 << 30  # bytes of one run
-
-
-# --- the tables ---------------------------------------------------------------------------------
-def tables(ambrig):
-    """{section: {key: (lo, hi)}} of the numbers of a rig file, and {kind: rows} of the faults."""
-    with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "parameters.json"
-        subprocess.run([ambrig, "parameters", "--json", file], check=True, stdout=subprocess.DEVNULL)
-        rows = json.loads(file.read_text())
-    numbers, faults = collections.defaultdict(dict), collections.defaultdict(dict)
-    for row in rows:
-        fault = re.match(r'\[\[fault\]\] kind = "(.*)"', row["section"])
-        if fault:
-            faults[fault[1]][row["key"].removeprefix("parameters.")] = row["allowed"]
-            continue
-        lo, hi = re.match(r"(\S+) to (\S+)", row["allowed"]).groups()
-        section = row["section"].replace("bearings.M", "bearings.A").replace("bearings.Z", "bearings.A")
-        numbers[section][row["key"]] = (float(lo), float(hi))
-    return numbers, faults
-
-
-def ranges_of(numbers, path, table):
-    """The ranges that hold for a table of the rig file."""
-    if path == "rotor":
-        return numbers["[rotor]"]
-    if path in ("amplifier", "speed_sensor", "controller"):
-        return numbers[f"[{path}]"]
-    if re.fullmatch(r"bearings\.\w+", path):
-        return numbers[f'[bearings.A] kind = "{table.get("kind", "radial")}"']
-    nested = re.fullmatch(r"bearings\.\w+\.(\w+)", path)
-    return numbers.get(f"[bearings.A.{nested[1]}]", {}) if nested else {}
-
-
-# --- drawing ------------------------------------------------------------------------------------
-WHOLE = {"turns", "adc_samples_per_period", "adc_bits", "pulses_per_revolution"}
-
-
-def anywhere(rng, lo, hi):
-    """Over decades where the range spans them, from its middle otherwise."""
-    hi = min(hi, 1e14)
-    if lo >= 0 and hi > 100 * max(lo, 1e-12):
-        if lo == 0 and rng.random() < 0.1:
-            return 0.0
-        low = math.log10(max(lo, hi * 1e-12))
-        return min(hi, max(lo, 10 ** rng.uniform(low, math.log10(hi))))
-    return rng.uniform(lo, hi)
-
-
-def drawn(rng, key, value, bounds, far):
-    if bounds is None or (isinstance(value, float) and not math.isfinite(value)):
-        return value
-    lo, hi = bounds
-    new = anywhere(rng, lo, hi) if rng.random() < far else value * math.exp(rng.gauss(0, 0.25))
-    new = min(hi, max(lo, new))
-    if key == "quadrants":
-        return rng.choice([2, 4])
-    return max(int(math.ceil(lo)), round(new)) if key in WHOLE else float(f"{new:.9g}")
-
-
-def draw_table(rng, numbers, path, table, far):
-    bounds = ranges_of(numbers, path, table)
-    out = {}
-    for key, value in table.items():
-        if isinstance(value, dict) and "value" in value:
-            out[key] = drawn(rng, key, float(value["value"]), bounds.get(key), far)
-        elif isinstance(value, dict):
-            out[key] = draw_table(rng, numbers, f"{path}.{key}" if path else key, value, far)
-        elif isinstance(value, (int, float)) and not isinstance(value, bool):
-            out[key] = drawn(rng, key, value, bounds.get(key), far)
-        else:
-            out[key] = value
-    return out
-
-
-def limit(table, key, most):
-    """Keeps a number below another one that bounds it, so that a wide draw is not refused for that."""
-    if isinstance(table.get(key), (int, float)) and table[key] > most:
-        table[key] = float(f"{most:.9g}")
-
-
-def consistent(rig):
-    """What ties numbers of a rig to each other: an accepted rig may then be as far off as it was drawn."""
-    rotor, amplifier = rig["rotor"], rig["amplifier"]
-    if "inertia_polar" in rotor:
-        limit(rotor, "inertia_polar", 1.9 * rotor["inertia_transverse"])
-    limit(amplifier, "i_max", amplifier.get("adc_range", math.inf))
-    limit(rig["controller"], "bias_current", 0.5 * amplifier["i_max"])
-    planes = [b["z"] for b in rig["bearings"].values() if b.get("kind", "radial") == "radial"]
-    ends = (min(planes) - 0.3 * (max(planes) - min(planes)), max(planes) + 0.3 * (max(planes) - min(planes)))
-    for bearing in rig["bearings"].values():
-        limit(bearing, "bias_current", 0.5 * amplifier["i_max"])
-        if "auxiliary" in bearing:
-            limit(bearing["auxiliary"], "clearance", 0.7 * bearing["gap"])
-        if "z" in bearing.get("sensor", {}):
-            bearing["sensor"]["z"] = float(f"{min(ends[1], max(ends[0], bearing['sensor']['z'])):.9g}")
-
-
-def draw_rig(rng, numbers, far):
-    rig = tomllib.loads((PROJECT / rng.choice(RIGS)).read_text())
-    rig.pop("effect", None)
-    for name, bearing in list(rig["bearings"].items()):  # each bearing gets numbers of its own
-        if "like" in bearing:
-            rig["bearings"][name] = dict(rig["bearings"][bearing["like"]], **bearing)
-            rig["bearings"][name].pop("like")
-    rig = draw_table(rng, numbers, "", rig, far)
-    consistent(rig)
-    amplifier = rig["amplifier"]
-    amplifier["modulation"] = rng.choice(["bi-state", "tri-state", "chopper", "ideal"])
-    # The controller is read at an integer fraction of the switching frequency.
-    ratio = max(rng.choice([1, 1, 2, 2, 3, 5]), math.ceil(amplifier["switching_frequency"] / 1e6))
-    rig["controller"]["rate"] = amplifier["switching_frequency"] / ratio
-    rig["gravity"] = [rng.choice([0.0, rng.gauss(0, 5)]), rng.choice([0.0, -9.81, rng.gauss(0, 20)]), 0.0]
-    if rng.random() < 0.5:
-        rig["detection"] = {"kind": rng.choice(["coupled", "glrt", "current-error", "cusum"])}
-    return rig
-
-
-def fault_value(rng, allowed):
-    if allowed == "true, false":
-        return True
-    lo, hi = (float(x) for x in re.match(r"(?:above )?(\S+) to (?:below )?(\S+)", allowed).groups())
-    return max(lo + 1e-6, min(anywhere(rng, lo, min(hi, 1e3)), hi * (1 - 1e-6)))
-
-
-def draw_fault(rng, rig, faults, duration):
-    kind = rng.choice(sorted(faults))
-    name = rng.choice(sorted(rig["bearings"]))
-    radial = rig["bearings"][name].get("kind", "radial") == "radial"
-    target = f"{name}.coil{rng.randint(1, 8 if radial else 2)}"
-    if kind == "position-sensor":
-        target = f"{name}.{rng.choice('xy')}" if radial else "z"
-    fault = {"time": rng.uniform(0, duration), "kind": kind, "parameters": {}}
-    if kind != "bus-sag":
-        fault["target"] = target
-    keys = [k for k in faults[kind] if k]
-    if kind == "partial-short":
-        keys = ["fraction"] + (["short_resistance"] if rng.random() < 0.5 else [])
-    elif kind in ("current-sensor", "position-sensor"):
-        keys = [rng.choice(keys)]
-    for key in keys:
-        fault["parameters"][key] = fault_value(rng, faults[kind][key])
-    if not fault["parameters"]:
-        fault.pop("parameters")
-    return fault
-
-
-def draw_scenario(rng, rig, faults):
-    pwm = rig["amplifier"]["switching_frequency"]
-    periods = rng.choice([50, 200, 800])
-    duration = periods / pwm
-    scenario = {
-        "name": "random", "rig": "rig.toml", "duration": duration,
-        "record_rate": pwm / rng.choice([1, 2, 5, 10]), "seed": rng.randrange(2**31),
-        "noise": rng.random() < 0.8, "fault_tolerance": rng.random() < 0.8,
-        "start": {"state": rng.choice(["levitated", "levitated", "resting" if any(rig["gravity"][:2])
-                                       else "levitated"])},
-        "speed": {"profile": [[0.0, rng.choice([0.0, 10 ** rng.uniform(0, 4)])]]},
-    }
-    names = sorted(n for n, b in rig["bearings"].items() if b.get("kind", "radial") == "radial")
-    if rng.random() < 0.5:
-        scenario["load"] = [{"plane": rng.choice(names), "start": rng.uniform(0, duration),
-                             "force": [rng.gauss(0, 100), rng.gauss(0, 100)]}]
-    if rng.random() < 0.5:
-        axis, port = f"{rng.choice(names)}.{rng.choice('xy')}", rng.choice(["force", "reference"])
-        scenario["excitation"] = [{
-            "target": axis, "port": port, "kind": "sine", "frequency": 10 ** rng.uniform(0, 4),
-            "amplitude": rng.gauss(0, 20 if port == "force" else 1e-4)}]
-    count = rng.choice([0, 1, 1, 2, 3])
-    scenario["fault"] = [draw_fault(rng, rig, faults, duration) for _ in range(count)]
-    if not count:
-        scenario.pop("fault")
-    return scenario
-
-
-# --- TOML ---------------------------------------------------------------------------------------
-def text(value):
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    if isinstance(value, list):
-        return "[" + ", ".join(text(v) for v in value) + "]"
-    if isinstance(value, dict):
-        return "{ " + ", ".join(f"{k} = {text(v)}" for k, v in value.items()) + " }"
-    return json.dumps(value) if isinstance(value, str) else repr(value)
-
-
-def toml(document):
-    """Numbers and texts first, then a line per table: inline tables may stand anywhere."""
-    plain = [f"{k} = {text(v)}" for k, v in document.items() if not isinstance(v, (dict, list)) or
-             k in ("gravity",)]
-    lines = plain
-    for key, value in document.items():
-        if isinstance(value, dict) and key == "bearings":
-            for name, bearing in value.items():
-                lines += [f"[bearings.{name}]"] + [f"{k} = {text(v)}" for k, v in bearing.items()]
-        elif isinstance(value, dict):
-            lines += [f"[{key}]"] + [f"{k} = {text(v)}" for k, v in value.items()]
-        elif isinstance(value, list) and key != "gravity":
-            for item in value:
-                lines += [f"[[{key}]]"] + [f"{k} = {text(v)}" for k, v in item.items()]
-    return "\n".join(lines) + "\n"
 
 
 # --- one scenario -------------------------------------------------------------------------------
 class Draw:
     """A scenario that is drawn until it is accepted; its index is its seed."""
 
-    def __init__(self, index, numbers, faults):
-        self.index, self.numbers, self.faults = index, numbers, faults
+    def __init__(self, index, tables):
+        self.index, self.tables = index, tables
         self.rng = random.Random(index)
-        self.far = self.rng.choice([0.0, 0.05, 0.2, 1.0])
+        self.far = random_draws.draw_far(self.rng)
         # The reference engine takes a second for what the switching one does in a twentieth.
-        self.fidelity = self.rng.choices(["switching", "averaged", "reference"], [85, 12, 3])[0]
-        self.refusals, self.kind, self.message, self.seconds = [], None, "", 0.0
+        self.fidelity = self.rng.choices(["switching", "averaged", "reference"], [90, 8, 2])[0]
+        self.refusals, self.kind, self.message, self.seconds, self.tags = [], None, "", 0.0, []
 
     def write(self, folder):
-        rig = draw_rig(self.rng, self.numbers, self.far)
-        scenario = draw_scenario(self.rng, rig, self.faults)
+        rig, parts = random_draws.draw_rig(self.rng, self.tables, self.far)
+        scenario = random_draws.draw_scenario(self.rng, rig, parts, self.tables.faults, self.far)
+        self.tags = tags(rig, scenario)
+        if parts.stators:
+            self.fidelity = "switching"  # the others know no stator of any kind
         scenario["rig"] = f"r{self.index}.toml"
-        (folder / f"r{self.index}.toml").write_text(toml(rig))
-        (folder / self.file).write_text(toml(scenario))
+        (folder / f"r{self.index}.toml").write_text(random_draws.toml(rig))
+        (folder / self.file).write_text(random_draws.toml(scenario))
 
     @property
     def file(self):
@@ -270,14 +72,29 @@ class Draw:
             self.kind = "no solution"
             return
         self.refusals.append(message)
-        self.far *= 0.6
+        self.far = self.far.nearer()
         if len(self.refusals) >= DRAWS:
             self.kind, self.message = "never accepted", message
 
     def line(self):
         reasons = [re.sub(r"-?\d[-+\d.e]*", "#", r.split("toml")[-1])[:70] for r in self.refusals]
         return {"i": self.index, "class": self.kind, "message": self.message, "fidelity": self.fidelity,
-                "s": round(self.seconds, 3), "refused": reasons}
+                "s": round(self.seconds, 3), "refused": reasons, "tags": self.tags}
+
+
+def tags(rig, scenario):
+    """What kinds a scenario is made of, counted in the summary."""
+    found = {"modulation " + rig["amplifier"]["modulation"], "start " + scenario["start"]["state"],
+             "controller " + rig["controller"]["kind"], "rotor " + rig["rotor"]["kind"]}
+    if rig["amplifier"].get("mode") == "voltage":
+        found.add("mode voltage")
+    if rig["amplifier"]["modulation"] in ("bi-state", "two-level") and scenario["fault_tolerance"]:
+        found.add("detector " + rig.get("detection", {"kind": "as nothing says"})["kind"])
+    for bearing in rig["bearings"].values():
+        found.add("bearing " + bearing.get("kind", "radial") + " " + bearing.get("template", ""))
+    for name, kind in (("fault", "kind"), ("excitation", "port"), ("effect", "name")):
+        found |= {f"{name} {item[kind]}" for item in scenario.get(name, []) + rig.get(name, [])}
+    return sorted(tag.strip() for tag in found)
 
 
 def outcome(out, stem):
@@ -305,7 +122,7 @@ class Batch:
 
     def __init__(self, ambrig, folder, fidelity, draws):
         self.ambrig, self.folder, self.fidelity, self.left = ambrig, folder, fidelity, list(draws)
-        self.out = folder / "out"
+        self.out, self.computed = folder / "out", 0.0
 
     def collect(self, errors):
         """Takes over what is finished: a JSON file or a line of the errors for each."""
@@ -332,6 +149,8 @@ class Batch:
                 process = subprocess.Popen(command, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=errors,
                                            env=dict(os.environ, AMBRIG_CACHE=str(self.folder / "cache")))
                 hung = self.watch(process)
+                for draw in first:
+                    draw.seconds += self.computed / len(first)
                 errors.seek(0)
                 lines = errors.read().splitlines()
             self.collect(lines)
@@ -339,20 +158,21 @@ class Batch:
                 return
             victim = self.left.pop(0)
             victim.kind = "HUNG" if hung else "CRASHED"
-            victim.message = f"longer than {TIMEOUT} s" if hung else f"exit code {process.returncode}: {lines[-1:]}"
+            victim.message = f"more than {TIMEOUT} s of computing" if hung else f"exit code {process.returncode}: {lines[-1:]}"
 
     def watch(self, process):
         """Until the process ends or one scenario takes too long; true when it was killed."""
-        last, since = None, time.monotonic()
+        last, since, self.computed = None, 0.0, 0.0
         while process.poll() is None:
+            self.computed = max(self.computed, computing_time(process.pid))
             with open(self.folder / "errors") as errors:
                 lines = errors.read().splitlines()
             before = len(self.left)
             complete = [line for line in lines if line.startswith("ambrig: ")]
             self.collect(complete[:-1])  # the last one may still be written
             if len(self.left) != before or last is None:
-                last, since = len(self.left), time.monotonic()
-            if time.monotonic() - since > TIMEOUT:
+                last, since = len(self.left), self.computed
+            if self.computed - since > TIMEOUT:
                 process.kill()
                 process.wait()
                 return True
@@ -360,9 +180,18 @@ class Batch:
         return False
 
 
-def work(options, numbers, faults, indices):
+def computing_time(process):
+    """CPU time of a running process [s]."""
+    try:
+        fields = pathlib.Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    except OSError:
+        return 0.0
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def work(options, tables, indices):
     """All of some indices, in as many rounds as their draws need."""
-    draws = [Draw(i, numbers, faults) for i in indices]
+    draws = [Draw(i, tables) for i in indices]
     for _ in range(DRAWS):
         for fidelity in ("switching", "averaged", "reference"):
             open_draws = [d for d in draws if d.kind is None and d.fidelity == fidelity]
@@ -372,10 +201,8 @@ def work(options, numbers, faults, indices):
                 folder = pathlib.Path(name)
                 for draw in open_draws:
                     draw.write(folder)
-                begun = time.monotonic()
                 Batch(options.ambrig, folder, fidelity, open_draws).run()
                 for draw in open_draws:
-                    draw.seconds += (time.monotonic() - begun) / len(open_draws)
                     if options.keep or (draw.kind or "").isupper():
                         target = pathlib.Path(options.keep or "random_scenarios") / str(draw.index)
                         target.mkdir(parents=True, exist_ok=True)
@@ -399,20 +226,24 @@ def read_journal(path):
 
 def summary(lines):
     """Prints the counts; exit code."""
-    classes, reasons = collections.Counter(), collections.Counter()
+    classes, reasons, found = collections.Counter(), collections.Counter(), collections.Counter()
     for line in lines:
         classes[line["class"]] += 1
+        found.update(line["tags"])
         reasons.update(line["refused"])
     for line in lines:
         if line["class"].isupper() or line["class"] == "never accepted":
             print(f"scenario {line['i']} ({line['fidelity']}): {line['class']}: {line['message']}")
     for kind, count in classes.most_common():
         print(f"{count:8d}  {kind}")
+    print("among them:")
+    for tag, count in sorted(found.items()):
+        print(f"{count:8d}    {tag}")
     print(f"{sum(reasons.values()):8d}  draws refused; most often:")
     for reason, count in reasons.most_common(12):
         print(f"{count:8d}    {reason}")
     seconds = sum(line["s"] for line in lines)
-    print(f"{len(lines)} scenarios in {seconds:.0f} s, {1e3 * seconds / max(1, len(lines)):.0f} ms each")
+    print(f"{len(lines)} scenarios in {seconds:.0f} s, {1e3 * seconds / max(1, len(lines)):.0f} ms each, computing")
     return 1 if any(kind.isupper() for kind in classes) else 0
 
 
@@ -432,7 +263,7 @@ def main():
     options = parser.parse_args()
     if options.summary:
         return summary(list(read_journal(options.summary).values()))
-    numbers, faults = tables(options.ambrig)
+    tables = random_draws.Tables(options.ambrig)
     indices = [options.only] if options.only is not None else range(options.first, options.first + options.n)
     done = read_journal(options.journal)
     lines = [done[i] for i in indices if i in done]
@@ -443,7 +274,7 @@ def main():
     def one(batch):
         if time.monotonic() > end:
             return
-        finished = work(options, numbers, faults, batch)
+        finished = work(options, tables, batch)
         with lock:
             lines.extend(finished)
             if options.journal:

@@ -12,6 +12,8 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kNoLever = 1e-9;  // of a force on a coordinate [-, m]: zero but for rounding
+
 /// Everything that the equations need besides their unknowns.
 struct Balance {
   const Plant& plant;
@@ -29,8 +31,19 @@ struct Balance {
       axes += AxesOf(b);
     }
     fixed[2] = !plant.rotor.axial_free;
+    // One axis moves a point along itself: across it and in tilt nothing pulls.
+    for (const std::size_t d : {0, 1, 3, 4}) fixed[d] = !MagnetsMove(d);
     for (const AuxiliaryPlane& aux : plant.rotor.auxiliaries())
       if (aux.race_dof >= 0) fixed[static_cast<std::size_t>(aux.race_dof)] = true;  // turns freely
+  }
+
+  bool MagnetsMove(std::size_t d) const {
+    return std::ranges::any_of(plant.bearings, [&](const BearingPlant& b) {
+      DofVector x{}, y{};
+      b.plane.AddForce(1, 0, x);
+      b.plane.AddForce(0, 1, y);
+      return std::abs(x[d]) + (b.opposed ? 0 : std::abs(y[d])) > kNoLever;
+    });
   }
 
   CoilVector SetPoints(std::size_t k, const double* force) const {

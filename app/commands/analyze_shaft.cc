@@ -229,7 +229,9 @@ void ShaftCommand::AddTo(CLI::App& command) {
   command.add_option("--scatter", rotors, "rotors drawn from the numbers that have an sd")
       ->check(CLI::Range(2, 10000000))
       ->group(group);
-  command.add_option("--seed", seed, "of --scatter (1)")->group(group);
+  command.add_option("--seed", seed, "of --scatter (1)")
+      ->check(NumberIn(0, 9e15, "(an integer)"))
+      ->group(group);
 }
 
 std::string ShaftCommand::Given() const {

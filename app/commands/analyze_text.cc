@@ -9,6 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/screen.h"
 #include "app/json/analysis_json.h"
+#include "core/base/counted.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
@@ -148,16 +149,16 @@ void PrintStandards(const RigAnalysis& a) {
 
 void PrintAnalysis(const RigAnalysis& a) {
   const RigParameters& rig = a.point.rig();
+  int coils = 0;
+  for (const auto& b : rig.bearings) coils += b.coils();
   fmt::print(
-      "{}: {} axes, {} coils, controller {:g} Hz,\noperating {:.0f} to {:.0f} rpm, analysed up "
-      "to {:.0f} rpm\n",
-      Coloured(rig.name, "bold"), a.capacity.size(),
-      [&] {
-        int n = 0;
-        for (const auto& b : rig.bearings) n += b.coils();
-        return n;
-      }(),
-      rig.controller.rate, a.options.lowest / kRpm, a.options.highest / kRpm,
+      "{}: {}, {}, controller {:g} Hz,\noperating {}, analysed up to {:.0f} rpm\n",
+      Coloured(rig.name, "bold"),
+      a.capacity.size() == 1 ? "1 axis" : fmt::format("{} axes", a.capacity.size()),
+      Counted(coils, "coil"), rig.controller.rate,
+      a.options.lowest < a.options.highest
+          ? fmt::format("{:.0f} to {:.0f} rpm", a.options.lowest / kRpm, a.options.highest / kRpm)
+          : fmt::format("at {:.0f} rpm", a.options.highest / kRpm),
       a.options.fastest / kRpm);
   PrintVerdict(a);
   for (const std::string& note : a.point.notes) fmt::print("{}\n", Wrapped("  note: " + note, 8));

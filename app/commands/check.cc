@@ -139,7 +139,11 @@ void WriteCheckReport(const std::string& path, const std::vector<CheckRow>& rows
                      Cell(r.met() ? "met" : "not met", r.met() ? "ok" : "fail"),
                      Cell(RowComplaint(r)), Cell(fmt::format("{:.2f}", r.seconds))});
   report.Heading("Scenarios");
-  report.Table({"scenario", "file", "verdict", "what is not met", "seconds"}, cells);
+  const auto met = std::ranges::count_if(rows, &CheckRow::met);
+  const auto failed = static_cast<std::ptrdiff_t>(rows.size()) - met;
+  report.Verdict(failed > 0 ? Verdict::kFail : Verdict::kOk,
+                 fmt::format("{} met, {} not met.", met, failed));
+  report.Table({"scenario", "file", "verdict", "what is not met", "time [s]"}, cells);
   report.Write(path);
 }
 
@@ -161,12 +165,27 @@ void PrintCheckRow(const CheckRow& row) {
   if (!row.met()) fmt::print("{}\n", Wrapped("    " + RowComplaint(row), 4));
 }
 
+std::string DifferencePageOf(const BaselineOptions& o) {
+  return (std::filesystem::path(o.folder) / "difference.html").string();
+}
+
+/// What is written beside the baselines, and with --accept they themselves.
+void CheckBaselineOutputs(const CheckOptions& options, const std::vector<std::string>& files) {
+  const BaselineOptions& o = options.baseline;
+  if (o.accept && o.folder.empty())
+    throw InputError("--accept: allowed together with --baseline DIR");
+  if (o.folder.empty()) return;
+  if (o.accept) PrepareFolder(o.folder);
+  std::vector<std::string> outputs{DifferencePageOf(o)};
+  if (o.accept)
+    for (const std::string& file : files) outputs.push_back(BaselineFile(o, file));
+  RefuseOverwriting(outputs, options.common.force);
+}
+
 int Check(const CheckOptions& options) {
   const std::vector<std::string> files = FindScenarios(options.paths);
   options.common.CheckOutputs(files, {options.junit});
-  if (options.baseline.accept && options.baseline.folder.empty())
-    throw InputError("--accept: allowed together with --baseline DIR");
-  if (options.baseline.accept) PrepareFolder(options.baseline.folder);
+  CheckBaselineOutputs(options, files);
   std::vector<CheckRow> rows(files.size());
   std::atomic<std::size_t> done{0};
   {
@@ -194,12 +213,11 @@ int Check(const CheckOptions& options) {
   if (!options.junit.empty()) WriteJunit(options.junit, rows);
   if (!options.common.html.empty()) WriteCheckReport(options.common.html, rows);
   if (!options.baseline.folder.empty()) {
-    const auto page = (std::filesystem::path(options.baseline.folder) / "difference.html").string();
-    WriteBaselineReport(page, rows);
+    WriteBaselineReport(DifferencePageOf(options.baseline), rows);
     if (options.baseline.accept)
       fmt::print("baselines stored in {}\n", options.baseline.folder);
     else if (failed > 0)
-      fmt::print("curves of what differs: {}\n", page);
+      fmt::print("curves of what differs: {}\n", DifferencePageOf(options.baseline));
   }
   options.common.WriteJson(json);
   return failed > 0 ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/pages/commission_report.h"
 #include "core/base/atomic_file.h"
@@ -27,11 +28,13 @@ constexpr const char* kFirstLine = "# Written by ambrig commission";
 int RunCommission(CommissionCommand c) {
   const RigParameters rig = ReadRig(c.rig);
   if (c.out.empty()) c.out = CommissioningFileOf(c.rig);
-  if (std::filesystem::exists(c.out) && !ReadFile(c.out).starts_with(kFirstLine))
-    throw InputError(fmt::format(
-        "-o = {}: the file exists and is not one that ambrig commission wrote, allowed: another "
-        "name",
-        c.out));
+  if (const std::string wrong = OutputFile()(c.out); !wrong.empty()) throw InputError(wrong);
+  if (!c.common.force && std::filesystem::is_regular_file(c.out) &&
+      !ReadFile(c.out).starts_with(kFirstLine))
+    throw InputError(
+        fmt::format("{} exists and is not an output of ambrig commission, allowed: another name, "
+                    "or --force to overwrite it",
+                    c.out));
   if (rig.bearings.front().kind->alone) c.plan.speed = 0;
   c.common.CheckOutputs({c.rig, c.out});
   CommissioningResult result;
@@ -67,22 +70,22 @@ void AddCommission(CLI::App& app, Work& work) {
       ->required();
   command->add_option("-o,--out", c->out, "file to write (default: RIG.commissioning.toml)");
   command->add_option("--duration", c->plan.duration, "of the run [s]")
-      ->check(CLI::Range(0.1, 10.0))
+      ->check(NumberIn(0.1, 10, "s"))
       ->capture_default_str();
   command->add_option("--speed", c->plan.speed, "at its end [rad/s]")
-      ->check(CLI::Range(0.0, 1e5))
+      ->check(NumberIn(0, 1e5, "rad/s"))
       ->capture_default_str();
   command->add_option("--current", c->plan.current, "amplitude of a coil's three tones, each [A]")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(NumberIn(0, 100, "A"))
       ->capture_default_str();
   command->add_option("--circle", c->plan.circle, "radius of the small whirl over the clearance")
-      ->check(CLI::Range(0.0, 0.9))
+      ->check(NumberIn(0, 0.9, "of one"))
       ->capture_default_str();
   command->add_option("--chirp", c->plan.chirp, "force of the chirp over the controller's f_max")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberIn(0, 1, "of one"))
       ->capture_default_str();
   command->add_option("--pulse", c->plan.pulse, "largest force over the controller's f_max")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(NumberIn(0, 1, "of one"))
       ->capture_default_str();
   c->common.AddTo(*command);
   command->footer(

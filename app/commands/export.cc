@@ -51,8 +51,8 @@ nlohmann::ordered_json ExportController(const RigParameters& rig, const ExportOp
                   file.filename().string()));
   WriteFileAtomically(file.string(), text);
   WriteFileAtomically(header, "/* Copy made by ambrig export. */\n" + ControllerHeader());
-  fmt::print("{}: controller {} ({}) as C99, {} axes\n{}\n", file.string(), o.controller, c.kind,
-             axes.size(), header);
+  fmt::print("{}: controller {} ({}) as C99, {}\n{}\n", file.string(), o.controller, c.kind,
+             axes.size() == 1 ? "1 axis" : fmt::format("{} axes", axes.size()), header);
   return {{"files", {file.string(), header}},
           {"controller", o.controller},
           {"kind", c.kind},

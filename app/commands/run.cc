@@ -122,7 +122,8 @@ RunInput FromCampaign(const std::string& file, long long row) {
 /// Memory, rate and output files, before any work.
 void CheckBefore(const RunInput& in, const RunOptions& options) {
   if (options.rate > 0) CheckRecordRate(in.rig, options.rate, "--rate");
-  CheckRunSize(in.rig, in.scenario, options.rate, options.long_runs);
+  CheckRunSize(in.rig, in.scenario, options.rate, options.long_runs,
+               FidelityByName(options.fidelity));
   const std::string stem = (std::filesystem::path(options.out) / in.stem).string();
   std::vector<std::string> files{stem + ".h5", stem + ".json"};
   if (!options.no_html) files.push_back(stem + ".html");

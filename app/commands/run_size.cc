@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "core/base/errors.h"
+#include "simulation/sampled/start_state.h"
 
 namespace ambrig {
 
@@ -24,6 +25,19 @@ double AvailableMemory() {
     if (double kilo = 0; std::sscanf(line.c_str(), "MemAvailable: %lf", &kilo) == 1)
       return kilo * 1024;
   return kInfinity;
+}
+
+/// What is simulated before t = 0, until the loop has settled [s].
+double WarmUp(const Scenario& scenario) {
+  switch (scenario.start) {
+    case StartState::kLevitated:
+      return kLevitatedWarmUp;
+    case StartState::kClamped:
+      return kClampedWarmUp;
+    case StartState::kResting:
+      break;
+  }
+  return 0;
 }
 
 /// Of the container, if it has a limit [bytes].
@@ -55,13 +69,17 @@ double RunMemory(const RigParameters& rig, const Scenario& scenario, double rate
   return 2 * rows * columns * sizeof(double);
 }
 
-double RunSeconds(const RigParameters& rig, const Scenario& scenario) {
+double RunSeconds(const RigParameters& rig, const Scenario& scenario, Fidelity fidelity) {
   std::size_t coils = 0;
   for (const BearingParameters& b : rig.bearings) coils += static_cast<std::size_t>(b.coils());
   // The reference rig, 20 coils at 25 kHz with 18 samples a period, runs at six times real time.
   const double samples = rig.amplifier.switching_frequency * rig.samples_per_period();
-  return scenario.duration * samples * (4 + static_cast<double>(coils)) * (1 / 6.0) /
-         (25000.0 * 18 * 24);
+  // Integrated with error control it takes ten times real time, with averaged voltages half of it.
+  const double dear = fidelity == Fidelity::kReference  ? 60
+                      : fidelity == Fidelity::kAveraged ? 3
+                                                        : 1;
+  return (scenario.duration + WarmUp(scenario)) * samples * (4 + static_cast<double>(coils)) *
+         (dear / 6.0) / (25000.0 * 18 * 24);
 }
 
 double FreeMemory() {
@@ -83,19 +101,21 @@ void CheckRecordRate(const RigParameters& rig, double rate, const std::string& w
                   where, rate, pwm, k));
 }
 
-void CheckRunSize(const RigParameters& rig, const Scenario& scenario, double rate, bool long_runs) {
+void CheckRunSize(const RigParameters& rig, const Scenario& scenario, double rate, bool long_runs,
+                  Fidelity fidelity) {
   const double needed = RunMemory(rig, scenario, rate), allowed = 0.9 * FreeMemory();
   if (needed > allowed)
     throw InputError(fmt::format(
         "{}: the record would need {:.1f} GB, allowed: {:.1f} GB of free memory (a lower "
         "record_rate or a shorter duration)",
         scenario.file, needed / kGiga, allowed / kGiga));
-  const double seconds = RunSeconds(rig, scenario);
+  const double seconds = RunSeconds(rig, scenario, fidelity);
   if (seconds > kLongestRun && !long_runs)
     throw InputError(fmt::format(
-        "{}: {} s of the rig would take about {}, allowed: {} unless "
+        "{}: {} s of the rig, switched at {} Hz, would take about {}, allowed: {} unless "
         "--long is given",
-        scenario.file, scenario.duration, DurationText(seconds), DurationText(kLongestRun)));
+        scenario.file, scenario.duration, rig.amplifier.switching_frequency, DurationText(seconds),
+        DurationText(kLongestRun)));
 }
 
 }  // namespace ambrig

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "scenarios/scenario.h"
+#include "simulation/simulate.h"
 
 namespace ambrig {
 
@@ -11,8 +12,10 @@ namespace ambrig {
 std::size_t RecordColumns(const RigParameters& rig, bool clamped);
 /// Memory [bytes] of a run with its record: the samples, and once more as the image of the file.
 double RunMemory(const RigParameters& rig, const Scenario& scenario, double rate);
-/// Computing time [s] on a core of 2020, within a factor of three.
-double RunSeconds(const RigParameters& rig, const Scenario& scenario);
+/// Computing time [s] on a core of 2020, the settling before t = 0 included, within a factor of
+/// four; a rotor that lies in its auxiliary bearings takes longer.
+double RunSeconds(const RigParameters& rig, const Scenario& scenario,
+                  Fidelity fidelity = Fidelity::kSwitching);
 /// "40 s", "12 min", "3.5 h".
 std::string DurationText(double seconds);
 /// Memory [bytes] that this process may still take.
@@ -22,6 +25,7 @@ double FreeMemory();
 void CheckRecordRate(const RigParameters& rig, double rate, const std::string& where);
 /// @throws InputError when the run needs more than nine tenths of the free memory, or more than an
 /// hour unless `long_runs`. `rate` 0: the scenario's.
-void CheckRunSize(const RigParameters& rig, const Scenario& scenario, double rate, bool long_runs);
+void CheckRunSize(const RigParameters& rig, const Scenario& scenario, double rate, bool long_runs,
+                  Fidelity fidelity = Fidelity::kSwitching);
 
 }  // namespace ambrig

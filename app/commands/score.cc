@@ -97,6 +97,10 @@ std::optional<Finding> Earlier(const fs::path& file, const fs::path& folder) {
   return FindingOf(j);
 }
 
+fs::path ResultOf(const ScoreCommand& o, const fs::path& folder) {
+  return fs::path(o.output) / (folder.filename().string() + ".json");
+}
+
 std::string Listed(const std::vector<NamedEffect>& effects, const std::string& none) {
   std::string text;
   for (const auto& [name, target] : effects)
@@ -191,13 +195,16 @@ int RunScore(const ScoreCommand& o) {
   for (const fs::path& f : folders) answers.push_back(AnswerOf(f, o.answers));
   o.common.CheckOutputs({o.answers});
   PrepareFolder(o.output);
+  for (const fs::path& f : folders)
+    if (const fs::path file = ResultOf(o, f); o.again || !Earlier(file, f))
+      RefuseOverwriting({file.string()}, o.common.force);
   std::vector<CaseScore> all;
   Progress progress("score");
   fmt::print("{:<34} {:>9} {:>9} {:>8}\n", "case", "before", "after", "time");
   fmt::print("(before, after: error over the noise of the unseen records)\n");
   for (std::size_t k = 0; k < folders.size(); ++k) {
     const std::string name = folders[k].filename().string();
-    const fs::path file = fs::path(o.output) / (name + ".json");
+    const fs::path file = ResultOf(o, folders[k]);
     auto finding = o.again ? std::nullopt : Earlier(file, folders[k]);
     if (!finding) {
       ExplainOptions options;
@@ -207,7 +214,7 @@ int RunScore(const ScoreCommand& o) {
                         name + ": " + text);
       };
       const Json j = ExplainJson(Explain(ReadCase((folders[k] / "case.toml").string()), options));
-      WriteFileAtomically(file.string(), j.dump(1) + "\n");
+      WriteFileAtomically(file.string(), MarkedJson(j));
       finding = FindingOf(j);
     }
     all.push_back(ScoreCase(name, answers[k], *finding));

@@ -11,6 +11,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
 #include "core/base/journal.h"
+#include "core/base/read_file.h"
 #include "workbench/http_server.h"
 #include "workbench/workbench.h"
 
@@ -30,9 +31,18 @@ void WriteAddress(const std::string& file, const std::string& address) {
   ::umask(before);
 }
 
+/// The file of an earlier server, or a new one. @throws InputError
+void CheckAddressFile(const std::string& file) {
+  if (!std::filesystem::is_regular_file(file)) return;
+  const std::string text = ReadFile(file, 64);
+  if (!text.empty() && !text.starts_with("http://127.0.0.1:"))
+    throw InputError(file + " exists and is not an output of ambrig serve, allowed: another name");
+}
+
 int RunServe(const ServeCommand& o) {
   if (o.reader >= 0) return workbench::ServeRecords(o.reader);
   if (o.folder.empty()) throw InputError("serve: allowed: the folder to work in");
+  CheckAddressFile(o.address_file);
   const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
   if (!std::filesystem::is_directory(o.folder))
     throw InputError(o.folder + ": is no folder, allowed: the folder to work in");

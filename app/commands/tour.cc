@@ -27,6 +27,8 @@ constexpr const char* kLessons =
    Look at: the events "fault", "detected", "redistributed" (0.1 ms apart),
    the peak orbit beside the clearance, the verdict. With curves, in a browser:
    out/coil_opens.html
+   "doubtful": the detection has not learnt this rig, so it acts on gross faults
+   only; ambrig commission rig.toml teaches it. Run it again then.
 
 2  A fault of your own: half of the turns of coil B6 are shorted
      ambrig run my_fault.toml --out out

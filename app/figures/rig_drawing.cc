@@ -55,12 +55,13 @@ void DrawPole(Figure& figure, int panel, const StatorView& view, std::size_t j,
               const Scale& scale) {
   const double angle = view.pole_angles[j];
   const bool failed = std::ranges::find(view.failed, static_cast<int>(j) + 1) != view.failed.end();
-  const std::string color = view.flux[j] >= 0 ? "@blue" : "@orange";
+  const double flux = view.flux.empty() ? 0 : view.flux[j];
+  const std::string color = flux >= 0 ? "@blue" : "@orange";
   const std::string body =
       TurnedRectangle(angle, kPoleFace, kYokeInner + 0.03, -kPoleHalf, kPoleHalf);
   AddPath(figure, panel, body, "@paper", "@muted", 0);
-  AddPath(figure, panel, body, fmt::format("{}/{}", color, PercentOf(view.flux[j], scale.flux)),
-          "@muted", 1);
+  AddPath(figure, panel, body, fmt::format("{}/{}", color, PercentOf(flux, scale.flux)), "@muted",
+          1);
   for (const double side : {-1.0, 1.0}) {
     const double s0 = side * kPoleHalf, s1 = side * (kPoleHalf + kCoilWidth);
     const std::string coil = TurnedRectangle(angle, kCoilFrom, kCoilTo, s0, s1);
@@ -69,8 +70,8 @@ void DrawPole(Figure& figure, int panel, const StatorView& view, std::size_t j,
             failed ? 2.2 : 0.8, failed ? "dot" : "solid");
   }
   const std::string name = fmt::format("{}{}", view.bearing, j + 1);
-  const std::string label =
-      fmt::format("<b>{}{}</b><br>{}", failed ? "✗ " : "", name, FormatSi(view.flux[j], "Wb", 3));
+  std::string label = fmt::format("<b>{}{}</b>", failed ? "✗ " : "", name);
+  if (!view.flux.empty()) label += "<br>" + FormatSi(flux, "Wb", 3);
   AddText(figure, panel, kLabel * std::cos(angle), kLabel * std::sin(angle), label,
           failed ? "@red" : "@ink", 10);
   // Beside the ring the text begins where it stops, above and below it is centred.
@@ -103,21 +104,23 @@ void AddHover(Figure& figure, int panel, const StatorView& view) {
 }
 
 void DrawView(Figure& figure, int panel, const StatorView& view, const Scale& scale) {
-  Require(view.pole_angles.size() == view.flux.size(), "a flux per pole");
-  Require(view.current.empty() || view.current.size() == view.flux.size(), "a current per pole");
+  const std::size_t poles = view.pole_angles.size();
+  Require(view.flux.empty() || poles == view.flux.size(), "a flux per pole");
+  Require(view.current.empty() || view.current.size() == poles, "a current per pole");
   AddCircle(figure, panel, 0, 0, kYokeOuter, "@muted", "@faint", 1);
   AddCircle(figure, panel, 0, 0, kYokeInner, "@muted", "@paper", 1);
-  for (std::size_t j = 0; j < view.flux.size(); ++j) DrawPole(figure, panel, view, j, scale);
+  for (std::size_t j = 0; j < poles; ++j) DrawPole(figure, panel, view, j, scale);
   const double to_drawing = view.clearance > 0 ? kClearance / view.clearance : 0;
   const double x = view.x * to_drawing, y = view.y * to_drawing;
   AddCircle(figure, panel, 0, 0, 1 + kClearance, "@muted", "", 1.2, "dash");
   AddCircle(figure, panel, x, y, 1, "@ink", "@gray/30", 1.5);
   AddCircle(figure, panel, x, y, 0.035, "@ink", "@ink", 1);
+  AddText(figure, panel, 0, 0, "+", "@muted", 14);  // the stator's centre
+  if (view.flux.empty()) return;
   AddText(figure, panel, 0, -0.3,
           fmt::format("{} of {}", FormatSi(std::hypot(view.x, view.y), "m", 3),
                       FormatSi(view.clearance, "m", 3)),
           "@ink", 10);
-  AddText(figure, panel, 0, 0, "+", "@muted", 14);  // the stator's centre
   AddHover(figure, panel, view);
 }
 

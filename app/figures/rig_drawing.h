@@ -14,7 +14,7 @@ struct StatorView {
   std::string title;                // "A, 0.3 ms after the fault"
   std::string bearing;              // "A": names the coils A1 ...
   std::vector<double> pole_angles;  // γ_j [rad]
-  std::vector<double> flux;         // into the rotor positive [Wb]
+  std::vector<double> flux;         // into the rotor positive [Wb]; empty: of no instant
   std::vector<double> current;      // [A], empty: coils are not coloured
   std::vector<int> failed;          // 1-based coil numbers
   double clearance = 0;             // [m]

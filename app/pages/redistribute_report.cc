@@ -54,10 +54,7 @@ void AddPictures(const BearingParameters& bearing, const RedistributionFigures& 
   StatorView view;
   view.title = SetText(set.failed) + " open";
   view.bearing = f.bearing;
-  for (const auto& d : CoilDirections(bearing)) {
-    view.pole_angles.push_back(std::atan2(d[1], d[0]));
-    view.flux.push_back(0);
-  }
+  for (const auto& d : CoilDirections(bearing)) view.pole_angles.push_back(std::atan2(d[1], d[0]));
   view.failed = set.failed;
   view.clearance = bearing.auxiliary ? bearing.auxiliary->clearance : 0;
   report.AddFigure(StatorFigure("Poles; failed coils are marked.", std::span(&view, 1)));
@@ -124,7 +121,7 @@ void WriteRedistributionReport(const RigParameters& rig, const RedistributionFig
       "The maps that runs go to, with forces told by the reluctance network. Load of the bearing: "
       "({:.2f}, {:.2f}) N; commands reach {:.6g} N an axis. **Margin**: how many times the load is "
       "still pulled. **Worst**: force that can be added to the load in the worst direction.",
-      f.load.x(), f.load.y(), f.most));
+      f.load.x() + 0.0, f.load.y() + 0.0, f.most));
   std::vector<std::vector<Cell>> rows;
   const auto add = [&](const std::string& set, const std::string& map, const MapReach& r) {
     rows.push_back({Cell(set), Cell(map), Cell(r.carries ? "yes" : "no", r.carries ? "ok" : "fail"),

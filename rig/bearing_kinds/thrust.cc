@@ -1,10 +1,14 @@
 /// Two windings on each side of a thrust disk; one axis along the shaft.
+#include <fmt/format.h>
+
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/bearing_kinds/bearing_plane.h"
 
 namespace ambrig {
 
 namespace {
+
+constexpr double kLeastBias = 1e-6, kMostBias = 1e3;  // [A]
 
 double ThrustForceConstant(const BearingParameters& b) {
   return 4 * kMu0 * b.thrust.turns * b.thrust.turns * b.thrust.pole_area /
@@ -41,6 +45,10 @@ const BearingKind& ThrustBearing() {
       .read =
           [](const TomlTable& t, BearingParameters& b, std::vector<Tolerance>* tolerances) {
             t.Read(b.thrust, kThrustStatorFields, tolerances);
+            // A current is a force over the bias: without one there is no current map.
+            if (!(b.thrust.bias_current >= kLeastBias))
+              t.Fail("bias_current", fmt::format("= {} A, allowed: {} to {} A",
+                                                 b.thrust.bias_current, kLeastBias, kMostBias));
           },
       .document =
           [](std::vector<ParameterRow>& rows) {

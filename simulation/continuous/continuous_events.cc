@@ -1,9 +1,12 @@
 /// Events of the continuous rig: diodes, contacts, voltages, faults, periods.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "core/base/index.h"
+#include "core/math/no_solution.h"
 
 #include "simulation/continuous/continuous_rig.h"
 #include "simulation/sampled/instants.h"
@@ -56,6 +59,7 @@ void ContinuousRig::Refresh() {
 void ContinuousRig::BeginPeriod(long long n) {
   t0_ = static_cast<double>(n) * rig_.T;
   tau_ = 0;
+  ++periods_;
   for (const Bearing& b : bearings_)
     std::fill_n(y_.begin() + static_cast<std::ptrdiff_t>(b.force_at), 2 + b.network.coils, 0.0);
   restart_ = true;
@@ -139,6 +143,15 @@ void ContinuousRig::Restart() {
   restart_ = false;
 }
 
+void ContinuousRig::CountSteps() {
+  const long now = solver_->steps();
+  steps_ += now - counted_ + 1;
+  counted_ = now;
+  if (steps_ > kStepsAtOnce + kStepsAPeriod * periods_)
+    throw NoSolution(fmt::format("they take more than {} steps a period up to t = {:.4g} s",
+                                 kStepsAPeriod, t0_ + tau_));
+}
+
 void ContinuousRig::AdvanceTo(double tau) {
   for (const LoadSpec& l : rig_.scenario.loads)
     for (double edge : {l.start, l.stop})
@@ -147,10 +160,12 @@ void ContinuousRig::AdvanceTo(double tau) {
     if (restart_) {
       Restart();
       solver_->Restart(tau_, y_, tau - tau_);
+      counted_ = 0;
       ++events_;
     }
     const OdeSolver::Outcome out = solver_->Advance(tau, y_);
     tau_ = out.t;
+    CountSteps();
     if (out.root) HandleRoots(solver_->roots());
   }
   Refresh();

@@ -13,24 +13,28 @@ namespace ambrig {
 namespace {
 constexpr std::size_t kEnergies = 5;  // electrical, drive, copper, contact, magnetic work
 
-void RefuseWhatIsNotHere(const Plant& plant) {
+/// `file`: the rig's, "" where it was made by a program.
+void RefuseWhatIsNotHere(const Plant& plant, const std::string& file) {
+  const std::string where = file.empty() ? "" : file + ": ";
   for (const BearingPlant& b : plant.bearings) {
     if (b.lanes.network)
       throw InputError(fmt::format(
-          "bearing {}: kind = \"stator\" or \"axial-stator\" needs --fidelity switching", b.name));
+          "{}bearing {}: kind = \"stator\" or \"axial-stator\" needs --fidelity switching", where,
+          b.name));
     if (!b.lanes.laws.empty())
-      throw InputError(
-          fmt::format("bearing {}: effects of the iron need --fidelity switching", b.name));
+      throw InputError(fmt::format("{}bearing {}: effects of the iron need --fidelity switching",
+                                   where, b.name));
     if (b.heating.rise_per_watt > 0)
-      throw InputError(
-          fmt::format("bearing {}: effect copper-heating needs --fidelity switching", b.name));
+      throw InputError(fmt::format("{}bearing {}: effect copper-heating needs --fidelity switching",
+                                   where, b.name));
   }
-  if (!plant.bus.stiff()) throw InputError("effect bus-impedance needs --fidelity switching");
+  if (!plant.bus.stiff())
+    throw InputError(where + "effect bus-impedance needs --fidelity switching");
 }
 }  // namespace
 
 ContinuousRig::ContinuousRig(SampledDataLoop& rig, const IntegratorOptions& options) : rig_(rig) {
-  RefuseWhatIsNotHere(rig.plant);
+  RefuseWhatIsNotHere(rig.plant, rig.rig.file);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     bearings_.emplace_back(rig.plant.bearings[k].lanes);
     const std::string prefix = rig.plant.bearings[k].name + ".coil";
@@ -96,6 +100,7 @@ OdeProblem ContinuousRig::MakeProblem(const IntegratorOptions& options) {
   p.roots = static_cast<int>(p.directions.size());
   p.relative = options.tolerance;
   p.absolute = absolute_;
+  p.max_steps = kStepsAtOnce;
   return p;
 }
 

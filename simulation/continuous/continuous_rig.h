@@ -25,6 +25,10 @@
 
 namespace ambrig {
 
+/// What a run may cost [steps of the integrator]: a healthy rig takes 50 a period, one in hard contact
+/// some hundreds. At once, and on the average.
+inline constexpr long kStepsAtOnce = 20000, kStepsAPeriod = 5000;
+
 struct IntegratorOptions {
   double tolerance = 1e-10;  // relative, of a step
   int order = 5;             // of ARKODE's explicit Runge-Kutta method
@@ -89,6 +93,7 @@ class ContinuousRig {
   void Slopes(const Bearing& b, const NetworkState& s, double* slope) const;
   void Restart();
   void Refresh();
+  void CountSteps();
 
   SampledDataLoop& rig_;
   std::vector<Bearing> bearings_;
@@ -100,6 +105,8 @@ class ContinuousRig {
   std::vector<NetworkState> now_;
   double t0_ = 0, tau_ = 0;  // [s]
   long events_ = 0;
+  long long periods_ = 0, steps_ = 0;  // begun; of the integrator so far, events included
+  long counted_ = 0;                   // of them since its last start
   std::unique_ptr<OdeSolver> solver_;
 };
 

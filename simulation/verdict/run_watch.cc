@@ -57,6 +57,9 @@ void RunWatch::Finish() {
   m.copper_loss = loop_.periods > 0 ? copper_sum_ / static_cast<double>(loop_.periods) : 0;
   contacts_.Finish(loop_.motion, result_);
   if (std::ranges::count(result_.events, kInvalid, &RunEvent::kind) == 0) return;
+  // With nothing that could catch it, a shaft at the poles has fallen.
+  if (loop_.plant.rotor.auxiliaries().empty() && !loop_.plant.rotor.axial_stop())
+    result_.drop = true;
   // No deeper than where an orbit ends: at the pole faces.
   double deepest = 0;
   for (const SampledBearing& b : loop_.bearings)

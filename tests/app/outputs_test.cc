@@ -102,7 +102,12 @@ TEST(RunSize, MemoryAndTimeAreKnownBefore) {
   EXPECT_EQ(RecordColumns(rig, false), 3u + 2 * 5 + 3 * 20);
   EXPECT_DOUBLE_EQ(RunMemory(rig, Long(2), 0), 2 * 25001 * 73 * 8.0);
   EXPECT_DOUBLE_EQ(RunMemory(rig, Long(2), 25000), 2 * 50001 * 73 * 8.0);
-  EXPECT_NEAR(RunSeconds(rig, Long(60)), 10, 1e-9);  // six times real time
+  // Six times real time, with the quarter of a second in which the loop settles.
+  EXPECT_NEAR(RunSeconds(rig, Long(60)), 60.25 / 6, 1e-9);
+  EXPECT_NEAR(RunSeconds(rig, Long(60), Fidelity::kReference), 602.5, 1e-7);
+  Scenario resting = Long(60);
+  resting.start = StartState::kResting;
+  EXPECT_NEAR(RunSeconds(rig, resting), 10, 1e-9);
   EXPECT_EQ(DurationText(40), "40 s");
   EXPECT_EQ(DurationText(720), "12 min");
   EXPECT_EQ(DurationText(3.5 * 3600), "3.5 h");
@@ -115,6 +120,9 @@ TEST(RunSize, WhatIsTooLongOrTooLargeIsRefused) {
   EXPECT_THAT(ErrorText<InputError>([&] { CheckRunSize(rig, Long(30000), 1, false); }),
               HasSubstr("would take about 83 min, allowed: 60 min unless --long is given"));
   EXPECT_NO_THROW(CheckRunSize(rig, Long(30000), 1, true));
+  // Half an hour of the rig is short, unless every period is integrated with error control.
+  EXPECT_NO_THROW(CheckRunSize(rig, Long(1800), 1, false));
+  EXPECT_THROW(CheckRunSize(rig, Long(1800), 1, false, Fidelity::kReference), InputError);
   EXPECT_THAT(ErrorText<InputError>([&] { CheckRunSize(rig, Long(90000), 450e3, true); }),
               HasSubstr("the record would need"));
   EXPECT_NO_THROW(CheckRecordRate(rig, 5000, "--rate"));

@@ -95,6 +95,16 @@ TEST(RedistributionWords, WithoutALoadThereIsNoMargin) {
   EXPECT_THAT(RedistributionText(f), Not(HasSubstr("-0.00")));
 }
 
+// The poles are drawn of no instant: no flux and no displacement is written at them.
+TEST(RedistributionPage, PolesShowNoFigureThatIsNone) {
+  RedistributionFigures f = Figures();
+  f.load = {-0.0, 0.0};
+  const std::string html = RedistributePage(f);
+  EXPECT_THAT(html, Not(HasSubstr("0 Wb")));
+  EXPECT_THAT(html, Not(HasSubstr("0 m of")));
+  EXPECT_THAT(testing::Words(html), Not(HasSubstr("(-0.00")));
+}
+
 TEST(RedistributionPage, SaysTheSameAsTheScreen) {
   const std::string words = testing::Words(RedistributePage(Figures()));
   EXPECT_THAT(words, HasSubstr("rig reference, bearing A"));

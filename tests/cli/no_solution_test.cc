@@ -49,6 +49,15 @@ class NoSolutionOf : public CliFolder {
   }
 };
 
+// A force beyond all reason: the integrator would follow the rotor through its bearings for hours.
+TEST_F(NoSolutionOf, TooManyStepsOfTheIntegratorsEnd) {
+  Write("rig.toml", ReadText(AMBRIG_SOURCE_DIR "/examples/small_spindle/rig.toml") +
+                        "\n[[effect]]\nname = \"constant-load\"\ntarget = \"B\"\n"
+                        "parameters = { fx = 8.5e5, fy = -2.3e5 }\n");
+  const Outcome o = Ambrig("run s.toml --out out --fidelity averaged");
+  ExpectOneLine(o, "s.toml: the averaged equations of this rig and scenario could not be");
+}
+
 // The file that was run, when it happened, and what would be allowed; nothing is written.
 TEST_F(NoSolutionOf, RunNamesFileAndTime) {
   const Outcome o = Ambrig("run s.toml --out out");

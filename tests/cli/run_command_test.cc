@@ -9,6 +9,7 @@ namespace ambrig {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 class RunCommand : public CliFolder {
@@ -68,6 +69,19 @@ TEST_F(RunCommand, AnUncommissionedRigIsToldHowToTeachIt) {
 }
 
 // No auxiliary bearing, no clearance: a dash, not 0.
+// Nothing catches a ball whose magnet is lost: at the poles it has fallen, and no verdict says otherwise.
+TEST_F(RunCommand, PastThePolesWithoutAuxiliaryBearingsIsADrop) {
+  Write("fall.toml", "name = \"fall\"\nrig = \"" AMBRIG_SOURCE_DIR
+                     "/scenarios/limits/one_axis.toml\"\nduration = 0.2\nrecord_rate = 1000.0\n"
+                     "[[fault]]\ntime = 0.01\ntarget = \"M.coil1\"\nkind = \"open\"\n"
+                     "[expect]\ndrop = false\n");
+  const Outcome o = Ambrig("run fall.toml --out out --no-report");
+  EXPECT_EQ(o.exit, 1) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("past the poles of M"));
+  EXPECT_THAT(o.text, HasSubstr("rotor dropped"));
+  EXPECT_THAT(o.text, Not(HasSubstr("rotor stayed up")));
+}
+
 TEST_F(RunCommand, WithoutAuxiliaryBearingsNoClearanceIsLeft) {
   Write("rig.toml", ReadText(AMBRIG_SOURCE_DIR "/examples/validation/mbc500.toml"));
   const Outcome o = Ambrig("run a.toml");

@@ -50,6 +50,13 @@ TEST(StatorFile, PolesOneByOneAreTheTemplate) {
             1e-15);
 }
 
+TEST(StatorFile, EffectsThatActOnNothingAreSaid) {
+  const std::string said = MistakeOf(TextOf("six_poles.toml") +
+                                     "\n[[effect]]\nname = \"eddy-currents\"\ntarget = \"A\"\n");
+  EXPECT_THAT(said, HasSubstr("effect[1].name = \"eddy-currents\": acts on no part of this rig"));
+  EXPECT_THAT(said, HasSubstr("allowed: where `ambrig effects eddy-currents` says"));
+}
+
 TEST(StatorFile, MapOfEightIndependentPolesIsTheRadialBearings) {
   const std::string text = ReferenceRigText();
   const NominalRig radial(ReadRigText(text, "rig.toml")),

@@ -61,6 +61,15 @@ TEST(Equilibrium, AtTheCentreTheCommandsAreTheWeight) {
   EXPECT_LT((s.Magnets() - Eigen::Vector3d(0, 4.2 * 9.81, 0)).norm(), 1e-5);
 }
 
+// A ball under one magnet: nothing pulls it sideways or tilts it, and the pull along its axis is the weight.
+TEST(Equilibrium, OfOneAxisIsUnique) {
+  const Standing s(ReadRig(AMBRIG_SOURCE_DIR "/examples/mls2em/rig.toml"));
+  ASSERT_TRUE(s.at.converged) << s.at.message;
+  EXPECT_NEAR(s.Magnets().y(), 0.0605 * 9.81, 1e-6);
+  for (int d = 0; d < s.plant.rotor.dof(); ++d)
+    if (d != 1) EXPECT_EQ(s.at.q[static_cast<std::size_t>(d)], 0) << d;
+}
+
 TEST(Equilibrium, WithoutWeightEveryCoilHasItsBias) {
   RigParameters rig = ReferenceRig();
   rig.gravity = {0, 0, 0};

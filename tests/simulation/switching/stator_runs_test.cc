@@ -141,8 +141,9 @@ TEST(StatorRuns, OtherFidelitiesAreRefused) {
     Simulate(rig, s, o);
     FAIL() << "no error";
   } catch (const InputError& e) {
-    EXPECT_STREQ(e.what(),
-                 "bearing A: kind = \"stator\" or \"axial-stator\" needs --fidelity switching");
+    EXPECT_EQ(
+        e.what(),
+        rig.file + ": bearing A: kind = \"stator\" or \"axial-stator\" needs --fidelity switching");
   }
 }
 

@@ -1,0 +1,157 @@
+// Every option of every command that names a file or folder to write: a path that cannot be written is
+// refused before the work, and what ambrig did not make stays as it is. The table is held against the help
+// texts: a new option has its row, or is listed as one that names what is read.
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <set>
+
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Output {
+  const char *command, *option;
+  const char* call;         // {}: where the output goes
+  const char* inside = "";  // of a folder: a file that would be written there; "" for a file
+  const char* before = "";  // another call of ambrig that makes the inputs
+};
+
+const Output kOutputs[] = {
+    {"tour", "--out", "tour -o {}", "rig.toml"},
+    {"new", "--out", "new --answers examples/new/spindle.toml -o {}", "rig.toml"},
+    {"run", "--out", "run s.toml --no-report --out {}", "s.h5"},
+    {"check", "--junit", "check e.toml --junit {}"},
+    {"check", "--baseline", "check e.toml --accept --baseline {}", "e.baseline.h5"},
+    {"campaign", "--out", "campaign c.toml -o {}", "table.csv"},
+    {"merge", "--out", "merge part -o {}", "table.csv", "campaign c.toml -o part"},
+    {"detectors", "--out", "detectors scenarios/studies/detectors_small.toml -o {}", "table.csv"},
+    {"commission", "--out", "commission rig.toml -o {}"},
+    {"design", "--out", "design examples/design/small.toml -o {}", "table.csv"},
+    {"export", "--controller-c", "export rig.toml --controller-c {}"},
+    {"analyze", "--out", "analyze other.toml -o {}", "other.analysis.json"},
+    {"analyze", "--out", "analyze examples/shaft/shaft.toml -o {}", "shaft.analysis.html"},
+    {"rotor", "OUT", "rotor convert examples/shaft/shaft.toml {}"},
+    {"compare", "--series", "compare case.toml --series {}"},
+    {"explain", "--law", "explain case.toml --law {}"},
+    {"adopt", "--output", "adopt case.toml sensor-gain --target A.x -o {}"},
+    {"refine", "--output", "refine case.toml saturation@A -o {}"},
+    {"plan", "--output", "plan case.toml -o {}"},
+    {"hide", "--out", "hide sensor-gain --rig rig.toml -o {}", "case.toml"},
+    {"score", "--out", "score made -o {}", "made.json", "hide sensor-gain --rig rig.toml -o made"},
+    {"practice", "--out", "practice rig.toml --cases 1 --make-only -o {}", "case-0001/case.toml"},
+    {"practice", "--fit", "practice rig.toml --cases 1 --fit {}"},
+    {"serve", "--address-file", "serve . --address-file {}"},
+};
+
+class EveryOutput : public CliFolder, public ::testing::WithParamInterface<Output> {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    for (const char* name : {"scenarios", "examples"})
+      std::filesystem::create_directory_symlink(std::filesystem::path(AMBRIG_SOURCE_DIR) / name,
+                                                folder_ / name);
+    Write("rig.toml", ReferenceRigText());
+    Write("other.toml", ReferenceRigText());
+    Write("s.toml", ScenarioText(""));
+    Write("e.toml", ScenarioText("[expect]\ndrop = false\n"));
+    Write("c.toml", "rig = \"rig.toml\"\nduration = 0.01\n");
+    std::string rows = "t,A.x\n";
+    for (int k = 0; k < 100; ++k) rows += std::to_string(k / 12500.0) + ",1e-6\n";
+    Write("a.csv", rows);
+    Write("b.csv", rows);
+    Write("case.toml",
+          "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"a.csv\"\n"
+          "[[record]]\nscenario = \"s.toml\"\ndata = \"b.csv\"\n");
+    if (*GetParam().before) {
+      const Outcome o = Ambrig(GetParam().before);
+      ASSERT_EQ(o.exit, 0) << o.text;
+    }
+  }
+  Outcome CalledFor(const std::string& place) const {
+    return Ambrig(Replaced(GetParam().call, "{}", place));
+  }
+  static void ExpectRefused(const Outcome& o, const std::string& said) {
+    EXPECT_EQ(o.exit, 2) << o.text;
+    EXPECT_EQ(o.lines(), 1) << o.text;
+    EXPECT_THAT(o.text, HasSubstr(said));
+  }
+};
+
+// Nothing can be made in /proc, by nobody. The work of each of these calls takes longer.
+TEST_P(EveryOutput, IsTriedBeforeTheWork) {
+  ExpectRefused(CalledFor("/proc/nowhere"), "cannot write /proc/nowhere");
+}
+
+TEST_P(EveryOutput, LeavesWhatIsNotAmbrigs) {
+  const std::string inside = GetParam().inside, file = inside.empty() ? "mine" : "mine/" + inside;
+  std::filesystem::create_directories((folder_ / file).parent_path());
+  Write(file, "mine");
+  ExpectRefused(CalledFor("mine"), file + " exists and is not an output of ambrig");
+  EXPECT_EQ(ReadText(folder_ / file), "mine");
+}
+
+INSTANTIATE_TEST_SUITE_P(Options, EveryOutput, ::testing::ValuesIn(kOutputs), [](const auto& of) {
+  std::string name =
+      of.param.command + std::string("_") + of.param.option + std::to_string(of.index);
+  std::erase_if(name, [](char c) { return c == '-'; });
+  return name;
+});
+
+/// Options that name what is read, and folders that hold nothing of anybody else's.
+const std::set<std::string> kInputs = {"--from-campaign", "--tolerances", "--answers", "--record",
+                                       "--rig",           "--campaign",   "--learn",   "--resume",
+                                       "--engine",        "--shard"};
+/// Of every command: tests/cli/other_outputs_test.cc.
+const std::set<std::string> kCommon = {"--json", "--html", "--help"};
+
+/// Long names of a command's options with the text that follows, up to the next option.
+std::vector<std::pair<std::string, std::string>> OptionsOf(const std::string& command) {
+  std::vector<std::pair<std::string, std::string>> out;
+  std::istringstream help(Shell(std::string(AMBRIG_BINARY) + " " + command + " --help").text);
+  for (std::string line; std::getline(help, line);) {
+    const auto at = line.find("--");
+    if (line.starts_with("  -") && at < 8)
+      out.emplace_back(line.substr(at, line.find_first_of(" :=", at) - at), line);
+    else if (!line.starts_with("     "))
+      out.emplace_back("", "");
+    else if (!out.empty())
+      out.back().second += " " + line;
+  }
+  return out;
+}
+
+TEST(EveryOutputTable, HasEveryOptionThatNamesAFile) {
+  std::istringstream help(Shell(std::string(AMBRIG_BINARY) + " --help").text);
+  bool inside = false;
+  std::size_t seen = 0;
+  for (std::string line; std::getline(help, line);) {
+    if (line.find("ubcommands:") != std::string::npos) inside = true;
+    if (!inside || !line.starts_with("  ") || line.starts_with("  ambrig ") || line[2] == ' ')
+      continue;
+    const std::string command = line.substr(2, line.find_first_of(" ,", 2) - 2);
+    for (const auto& [option, text] : OptionsOf(command)) {
+      const bool file =
+          text.find(" FILE") != std::string::npos || text.find(" FOLDER") != std::string::npos ||
+          text.find("folder") != std::string::npos || text.find(" file") != std::string::npos;
+      const bool flag = text.find(option + " TEXT") == std::string::npos &&
+                        text.find(option + " FILE") == std::string::npos &&
+                        text.find(option + " FOLDER") == std::string::npos &&
+                        text.find(option + " REQUIRED") == std::string::npos;
+      if (option.empty() || !file || flag || kInputs.contains(option) || kCommon.contains(option))
+        continue;
+      ++seen;
+      const bool listed =
+          std::any_of(std::begin(kOutputs), std::end(kOutputs),
+                      [&](const Output& o) { return command == o.command && option == o.option; });
+      EXPECT_TRUE(listed) << command << " " << option << ": " << text;
+    }
+  }
+  EXPECT_GE(seen, 20U);
+}
+
+}  // namespace
+}  // namespace ambrig
