@@ -136,8 +136,9 @@ TEST(StatorDistribution, ThrustWithAMagnetCarriesOnWithOneSide) {
   EXPECT_NEAR(WorstForce(p, d.W, d.rho), 0.5 * d.residual * d.rho, 1e-8);
 }
 
-// The equations need five coils that carry; of four they have solutions for opposite pairs alone (as with eight poles,
-// redistribution.md: 8, 28, 56 and 6 sets). No counts for six and twelve coils are published that could be compared.
+// Counted independently too, by SciPy's trust-region least squares from 40 random starts a set (which counts 56, 6
+// and 0 of eight coils that lost three, four and five, as redistribution.md has it). Published counts of six and
+// twelve coils were not found.
 TEST(StatorDistribution, SetsOfSixCoilsThatCanBeSolved) {
   const StatorProblem p = StatorProblemOf(Stator("one-coil-per-pole", 6), 1.5, false);
   int exact[7] = {}, linearised[7] = {};
@@ -153,8 +154,8 @@ TEST(StatorDistribution, SetsOfSixCoilsThatCanBeSolved) {
     if (cls == SolvabilityClass::kExact) ++exact[n];
     if (cls == SolvabilityClass::kLinearised) ++linearised[n];
   }
-  EXPECT_THAT(exact, ::testing::ElementsAre(0, 6, 3, 0, 0, 0, 0));
-  EXPECT_THAT(linearised, ::testing::ElementsAre(0, 0, 12, 2, 0, 0, 0));
+  EXPECT_THAT(exact, ::testing::ElementsAre(0, 6, 15, 0, 0, 0, 0));
+  EXPECT_THAT(linearised, ::testing::ElementsAre(0, 0, 0, 20, 0, 0, 0));
 }
 
 /// The sets of n lost coils of `coils` evenly spaced ones, one of each that rotations and mirrors make alike, and
@@ -179,7 +180,7 @@ std::map<int, int> LostUpToSymmetry(int coils, int n) {
 TEST(StatorDistribution, SetsOfTwelveCoilsThatCanBeSolved) {
   const StatorProblem p = StatorProblemOf(Stator("one-coil-per-pole", 12), 1.5, false);
   std::vector<int> exact, sets;
-  for (int n = 1; n <= 9; ++n) {
+  for (int n = 1; n <= 8; ++n) {
     int found = 0, all = 0;
     for (const auto& [mask, alike] : LostUpToSymmetry(12, n)) {
       StatorProblem lost = p;
@@ -191,8 +192,8 @@ TEST(StatorDistribution, SetsOfTwelveCoilsThatCanBeSolved) {
     exact.push_back(found);
     sets.push_back(all);
   }
-  EXPECT_THAT(sets, ::testing::ElementsAre(12, 66, 220, 495, 792, 924, 792, 495, 220));
-  EXPECT_THAT(exact, ::testing::ElementsAre(12, 66, 220, 495, 792, 924, 792, 0, 0));
+  EXPECT_THAT(sets, ::testing::ElementsAre(12, 66, 220, 495, 792, 924, 792, 495));
+  EXPECT_THAT(exact, ::testing::ElementsAre(12, 66, 220, 495, 792, 636, 252, 15));
 }
 
 // Three quadrants and the weight: linear about the load with the gain of the healthy bearing.
