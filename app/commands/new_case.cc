@@ -105,20 +105,43 @@ std::string ScenarioOfRecord(const RigParameters& rig, const Record& r,
   return text;
 }
 
-std::string CaseText(const RigParameters& rig, const std::vector<ColumnChoice>& all,
-                     const std::string& data) {
-  std::string text = fmt::format(
-      "# made by ambrig new\nrig = \"rig.toml\"\n\n[[record]]\nscenario = \"record.toml\"\ndata = "
-      "{}\n",
-      Quoted(data));
-  if (KnowsAll(all, rig, ChannelKind::kReading))
-    text += "imposed = \"motion\"                     # measured positions move the gaps\n";
-  text += "[record.channels]\n";
-  for (const ColumnChoice& c : all) {
-    text += fmt::format("\"{}\" = {{ column = {}", c.channel, Quoted(c.column));
-    if (!c.unit.empty()) text += fmt::format(", unit = {}", Quoted(c.unit));
-    if (c.gain != 1) text += fmt::format(", gain = {}", TomlNumber(c.gain));
-    text += " }\n";
+std::string RotorScenario(const RigParameters& rig, const Record& r) {
+  return fmt::format(
+      "# made by ambrig new: the measured currents drive the rotor\nname = \"the rotor under "
+      "measured "
+      "currents\"\nrig = \"rig.toml\"\nduration = {}\nrecord_rate = {}\nfault_tolerance = false\n",
+      TomlNumber(r.start + static_cast<double>(r.rows()) / r.rate),
+      TomlNumber(RecordRateFor(rig, r.rate)));
+}
+
+std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const std::vector<ColumnChoice>& all,
+                                   const std::string& coils, const std::string& rotor,
+                                   const std::string& data) {
+  const bool moves = KnowsAll(all, rig, ChannelKind::kReading);
+  std::vector<BenchRecord> out = {{coils, data, moves ? "motion" : "", all}};
+  // Without a duty or a set-point the currents themselves drive the coils: nothing of them is predicted.
+  if (moves && DriveOf(all, rig) == CommandSource::kCurrent) out.clear();
+  if (moves && KnowsAll(all, rig, ChannelKind::kCoilCurrent))
+    out.push_back({rotor, data, "currents", all});
+  return out;
+}
+
+std::string CaseText(const std::vector<BenchRecord>& records) {
+  std::string text = "# made by ambrig new\nrig = \"rig.toml\"\n";
+  for (const BenchRecord& r : records) {
+    text +=
+        fmt::format("\n[[record]]\nscenario = {}\ndata = {}\n", Quoted(r.scenario), Quoted(r.data));
+    if (r.imposed == "motion")
+      text += "imposed = \"motion\"                     # measured positions move the gaps\n";
+    if (r.imposed == "currents")
+      text += "imposed = \"currents\"                   # measured currents drive the rotor\n";
+    text += "[record.channels]\n";
+    for (const ColumnChoice& c : r.columns) {
+      text += fmt::format("\"{}\" = {{ column = {}", c.channel, Quoted(c.column));
+      if (!c.unit.empty()) text += fmt::format(", unit = {}", Quoted(c.unit));
+      if (c.gain != 1) text += fmt::format(", gain = {}", TomlNumber(c.gain));
+      text += " }\n";
+    }
   }
   return text;
 }
