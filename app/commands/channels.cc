@@ -7,6 +7,7 @@
 
 #include "app/commands/commands.h"
 #include "app/json/json_number.h"
+#include "core/base/errors.h"
 #include "core/base/read_file.h"
 #include "core/record/read_record.h"
 #include "core/record/text_table.h"

@@ -14,6 +14,7 @@
 #include "core/record/read_record.h"
 #include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
+#include "rig/rig_channels.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
