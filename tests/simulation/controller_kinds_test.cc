@@ -93,6 +93,26 @@ TEST(ControllerKinds, DutyPidIsAPidInItsUnits) {
   for (std::size_t k = 0; k < a.size(); ++k) EXPECT_NEAR(a[k], b[k], 1e-9) << k;
 }
 
+// Without [controller]: steps of current into a held rotor; a free one is refused.
+TEST(ControllerKinds, AHeldRotorNeedsNoController) {
+  std::string text = WithController(kSixPoles, "");
+  text.erase(text.find("[controller]\n"), 13);
+  const RunResult held = Hover(
+      text,
+      "[start]\nstate = \"clamped\"\n[[excitation]]\ntarget = \"A.coil1\"\nport = \"current\"\n"
+      "kind = \"step\"\namplitude = 1.0\nstart = 0.05\nstop = 0.2\n");
+  EXPECT_NEAR(held.record.Find("A.i1")->samples.back(), 1, 1e-3);
+  try {
+    Hover(text);
+    FAIL() << "no error";
+  } catch (const InputError& e) {
+    EXPECT_STREQ(
+        e.what(),
+        "scenario.toml: the rotor is free, but rig.toml has no [controller], allowed: one, "
+        "or [start] state = \"clamped\"");
+  }
+}
+
 TEST(ControllerKinds, DutyPidNeedsAmplifiersInVoltageMode) {
   const std::string rig =
       WithController(kSixPoles, std::string("kind = \"duty-pid\"\nkp = 1e4\nkd = 20.0\nki = 0.0\n"

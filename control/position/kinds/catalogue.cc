@@ -13,7 +13,8 @@
   CONTROLLER(HInfinityKind)             \
   CONTROLLER(TiltTranslationKind)       \
   CONTROLLER(LibraryKind)               \
-  CONTROLLER(SocketKind)
+  CONTROLLER(SocketKind)                \
+  CONTROLLER(NoneKind)
 
 namespace ambrig {
 
