@@ -152,7 +152,7 @@ void PrintChoices(const Record& r, const std::vector<ColumnChoice>& all, const R
         "allowed: --column CHANNEL=COLUMN for each");
   fmt::print("  coils driven by: {}; gaps moved by: {}\n", driven[static_cast<int>(drive)],
              KnowsAll(all, rig, ChannelKind::kReading) ? "measured positions" : "nothing (held)");
-  fmt::print("  another column, unit or sign: --column CHANNEL=COLUMN:UNIT:GAIN\n");
+  fmt::print("  another column, unit or sign: --column CHANNEL=COLUMN:UNIT:GAIN:OFFSET\n");
 }
 
 /// `arguments` as if typed after ambrig.
@@ -250,7 +250,8 @@ void AddNew(CLI::App& app, Work& work) {
   command->add_option("--set", o->set, "KEY=NUMBER, SI units; without: the missing keys are named");
   command->add_option("--answers", o->answers, "TOML file of keys and numbers, template, record");
   command->add_option("--record", o->records, "files of instruments (ambrig channels shows them)");
-  command->add_option("--column", o->column, "CHANNEL=COLUMN, also :UNIT or :UNIT:GAIN");
+  command->add_option("--column", o->column,
+                      "CHANNEL=COLUMN, also :UNIT, :UNIT:GAIN or :UNIT:GAIN:OFFSET");
   command->add_option("-o,--out", o->out, "folder")->capture_default_str();
   command->add_flag("--ask", o->ask, "ask for what is missing");
   command->add_flag("--only-files", o->only_files, "write the files, run nothing");

@@ -98,8 +98,9 @@ TEST(PowerBridge, InterleavedLegsAreATriStateBridgeAtTwiceTheFrequency) {
       const double v = 0.5 * (at(one, t) + at(one, t + T / 2)), w = at(sum, t);
       ++legs[v > 0.5 * U ? 0 : v < -0.5 * U ? 1 : 2];
       ++bridge[w > 0.5 * U ? 0 : w < -0.5 * U ? 1 : 2];
-      const bool wheels = std::abs(v) < 0.5 * U;
-      if (wheels) EXPECT_NEAR(v, -(leg.switch_drop + leg.diode_drop), 1e-12);
+      if (std::abs(v) < 0.5 * U) {
+        EXPECT_NEAR(v, -(leg.switch_drop + leg.diode_drop), 1e-12);
+      }
     }
     for (int level = 0; level < 3; ++level) EXPECT_NEAR(legs[level], bridge[level], 2) << duty;
   }
