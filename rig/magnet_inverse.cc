@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kRounds = 12;
 constexpr double kClosest = 0.9;  // of the gap: readings beyond are those of a rotor that touches
-constexpr double kLeastGain = 1e-12;  // of (dF/di)²: nothing to invert
-constexpr double kExact = 1e-12;      // of the force [N] asked for, beside 1 N
+constexpr double kLeastSquareGain = 1e-12;  // of (dF/di)²: nothing to invert
+constexpr double kExact = 1e-12;            // of the force [N] asked for, beside 1 N
 
 /// Force over currents and place, and its derivatives.
 struct MagnetLaw {
@@ -105,7 +105,7 @@ Lane Inverted(const MagnetLaw& law, const CurrentMap& map, int coils, const Eige
     if (open.norm() < kExact * (1 + f.norm())) break;
     const Eigen::MatrixXd J = law.of_current(i, at);
     const Eigen::MatrixXd gain = J * J.transpose();
-    if (!(gain.determinant() > kLeastGain)) break;
+    if (!(gain.determinant() > kLeastSquareGain)) break;
     i += J.transpose() * gain.ldlt().solve(open);
     i = i.cwiseMax(lo).cwiseMin(map.i_max);
   }
