@@ -174,5 +174,45 @@ TEST(StatorOracleRuns, DoubleActingAxial) {
   EXPECT_TRUE(upper.touchdown);
 }
 
+/// What was told of a fault of one coil at 0.05 s: class and coil, and whether the rotor touched.
+RunResult RunWithFault(const RigParameters& rig, const std::string& fault) {
+  return Simulate(rig,
+                  ReadScenarioText("rig = \"rig.toml\"\nduration = 0.15\nrecord_rate = 12500.0\n"
+                                   "seed = 1\n[speed]\nprofile = [[0.0, 157.08]]\n[[fault]]\n"
+                                   "time = 0.05\n" +
+                                       fault,
+                                   "scenario.toml", rig),
+                  {});
+}
+
+// Gross faults of coils that still carry current, on stators of all kinds.
+TEST(StatorOracleRuns, ShortsSensorsAndSwitchesAreTold) {
+  for (const OracleMachine& m :
+       {OracleMachine{"template = \"one-coil-per-pole\"\npoles = 6", 90, 471238, 2}, kPairs8,
+        HomopolarMachine(kHomopolarPair)}) {
+    const RigParameters rig = ReadRigText(MachineText(m), "rig.toml");
+    const std::pair<const char*, const char*> faults[] = {
+        {"target = \"A.coil2\"\nkind = \"partial-short\"\nparameters = { fraction = 0.4 }\n",
+         "partial-short"},
+        {"target = \"A.coil2\"\nkind = \"current-sensor\"\nparameters = { stuck = true }\n",
+         "current-sensor"},
+        {"target = \"A.coil2\"\nkind = \"switch-stuck-on\"\n", "switch-stuck-on"}};
+    for (const auto& [fault, cls] : faults) {
+      const RunResult r = RunWithFault(rig, fault);
+      std::string told;
+      double fraction = 0;
+      for (const RunEvent& e : r.events)
+        if (e.kind == "classified" && told.empty()) {
+          told = e.target + " " + e.fault_class;
+          fraction = e.fraction;
+        }
+      EXPECT_EQ(told, std::string("A.coil2 ") + cls) << m.stator;
+      if (told == "A.coil2 partial-short") {
+        EXPECT_NEAR(fraction, 0.4, 0.05) << m.stator;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace ambrig
