@@ -13,7 +13,7 @@ namespace ambrig {
 namespace {
 
 constexpr const char* kModulations =
-    "bi-state, tri-state, chopper, ideal, two-level, three-level, linear";
+    "bi-state, tri-state, chopper, ideal, two-level, three-level, interleaved, linear";
 constexpr double kMostBandwidth = 0.1;  // of the switching frequency
 // kp T/L of a loop that is fed the mean of the last period is unstable from 2 on.
 constexpr double kMostGain = 1.75;
@@ -66,10 +66,11 @@ void TuneAmplifier(const TomlTable& t, RigParameters& rig) {
 void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
   AmplifierParameters& a = rig.amplifier;
   const std::string m = t.Choice("modulation", "bi-state", kModulations);
-  a.modulation = m == "bi-state" || m == "two-level"      ? Modulation::kBiState
-                 : m == "tri-state" || m == "three-level" ? Modulation::kTriState
-                 : m == "chopper"                         ? Modulation::kChopper
-                                                          : Modulation::kIdeal;
+  a.modulation = m == "bi-state" || m == "two-level" ? Modulation::kBiState
+                 : m == "tri-state" || m == "three-level" || m == "interleaved"
+                     ? Modulation::kTriState
+                 : m == "chopper" ? Modulation::kChopper
+                                  : Modulation::kIdeal;
   ReadLoopOfAmplifier(t, a);
   t.Read(a, kAmplifierFields, &rig.tolerances);
   if (m == "linear") a.duty_min = -1, a.duty_max = 1;

@@ -116,8 +116,10 @@ std::pair<double, double> ShaftExtent(const RigParameters& rig) {
 
 void CheckRig(const TomlTable& root, const RigParameters& rig) {
   CheckSpreads(root, rig);
-  CheckBias(*root.Table("controller"), rig, rig.controller.bias_current);
-  CheckForce(*root.Table("controller"), rig, rig.controller.pid.f_max);
+  if (const auto controller = root.Table("controller")) {
+    CheckBias(*controller, rig, rig.controller.bias_current);
+    CheckForce(*controller, rig, rig.controller.pid.f_max);
+  }
   const TomlTable bearings = *root.Table("bearings");
   for (const BearingParameters& b : rig.bearings) {
     const TomlTable t = *bearings.Table(b.name);

@@ -129,6 +129,14 @@ void ReadController(const TomlTable& t, RigParameters& rig) {
   t.RejectUnknownKeys();
 }
 
+/// Without [controller]: rotors that are held, and records whose currents were measured.
+void LeaveUncontrolled(RigParameters& rig) {
+  rig.controller.kind = "none";
+  rig.controller.rate = rig.amplifier.switching_frequency;
+  rig.controller.bias_current = 0.5 * rig.amplifier.i_max;
+  rig.controller.pid = {0, 0, 0, 0, 1e9};
+}
+
 /// [controllers.NAME]: rate and bias current are the main one's.
 void ReadOtherControllers(const TomlTable& root, RigParameters& rig) {
   const auto all = root.Table("controllers");
@@ -212,11 +220,13 @@ RigParameters RigOfTable(const TomlTable& root) {
   ReadRotor(section("rotor"), rig);
   ReadAmplifier(section("amplifier"), rig);
   ReadSpeedSensor(root, rig);
-  const TomlTable controller = section("controller");
   ReadBearings(root, rig);
   TuneAmplifier(*root.Table("amplifier"), rig);
   PlaceOnShaft(root, rig);
-  ReadController(controller, rig);
+  if (const auto controller = root.Table("controller"))
+    ReadController(*controller, rig);
+  else
+    LeaveUncontrolled(rig);
   ReadOtherControllers(root, rig);
   ReadDetection(root, rig.detection);
   const EffectTargets known = TargetsOfEffects(rig);

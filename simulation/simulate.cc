@@ -17,6 +17,14 @@ namespace ambrig {
 
 namespace {
 
+void CheckControlled(const RigParameters& rig, const Scenario& scenario) {
+  if (rig.controller.kind != "none" || scenario.start == StartState::kClamped) return;
+  throw InputError(fmt::format(
+      "{}: the rotor is free, but {} has no [controller], allowed: one, or [start] state = "
+      "\"clamped\"",
+      scenario.file.empty() ? scenario.name : scenario.file, rig.file));
+}
+
 RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
                        const SimulateOptions& options) {
   EngineOptions engine;
@@ -73,6 +81,7 @@ Fidelity FidelityByName(const std::string& name) {
 
 RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
                    const SimulateOptions& options) {
+  CheckControlled(rig, scenario);
   const auto begin = std::chrono::steady_clock::now();
   RunResult result;
   switch (options.fidelity) {

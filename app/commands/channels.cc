@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "app/commands/commands.h"
 #include "app/json/json_number.h"
+#include "core/base/errors.h"
+#include "core/base/read_file.h"
 #include "core/record/read_record.h"
+#include "core/record/text_table.h"
 
 namespace ambrig {
 
@@ -38,7 +42,9 @@ std::string FigureText(double v) { return std::isfinite(v) ? fmt::format("{:.6g}
 nlohmann::ordered_json RecordJson(const Record& r) {
   nlohmann::ordered_json channels = nlohmann::ordered_json::array();
   if (!r.channels.empty())
-    fmt::print("  {} rows at {:.10g} Hz from {:.6g} s on\n", r.rows(), r.rate, r.start);
+    fmt::print("{}\n", r.rate > 0 ? fmt::format("  {} rows at {:.10g} Hz from {:.6g} s on",
+                                                r.rows(), r.rate, r.start)
+                                  : fmt::format("  {} rows", r.rows()));
   for (const Channel& c : r.channels) {
     const Extent e = ExtentOf(c.samples);
     fmt::print("    {:<24} {:<8} {:>12} to {:>12}{}\n", c.name,
@@ -79,12 +85,34 @@ nlohmann::ordered_json ResponsesJson(const FrequencyResponses& f) {
   return out;
 }
 
+/// The columns of a text file that has no times; nothing when it is no such file.
+std::optional<Record> StaticColumns(const std::string& file) {
+  try {
+    Record out;
+    out.channels = ReadTextTable(file, ReadFile(file)).columns;
+    if (out.channels.size() < 2 || out.rows() < 2) return {};
+    return out;
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
 int RunChannels(const ChannelsCommand& o) {
   o.common.CheckOutputs(o.files);
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   for (const std::string& file : o.files) {
     std::string format;
-    const Measurement m = ReadMeasurement(file, &format);
+    Measurement m;
+    try {
+      m = ReadMeasurement(file, &format);
+    } catch (const InputError&) {
+      const auto table = StaticColumns(file);
+      if (!table) throw;
+      fmt::print("{}: a table without times\n", file);
+      files.push_back({{"file", file}, {"format", "table"}, {"record", RecordJson(*table)}});
+      fmt::print("  for a [[record]] with kind = \"static\" (docs/guide/bench_records.md)\n");
+      continue;
+    }
     fmt::print("{}: {}\n", file, format);
     nlohmann::ordered_json one = {{"file", file}, {"format", format}};
     one["record"] = RecordJson(m.record);

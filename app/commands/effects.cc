@@ -5,6 +5,7 @@
 #include "app/commands/screen.h"
 #include "app/pages/html.h"
 #include "effects/catalogue.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
@@ -34,6 +35,18 @@ const char* EffectTargetText(TargetKind kind) {
   return "";
 }
 
+/// "radial, thrust, opposed": the bearings that an effect of coils or magnets can act on; empty: not a matter of them.
+std::string ActsOnText(const EffectDescription& d) {
+  std::string names;
+  bool all = true;
+  for (const BearingKind* k : BearingKinds()) {
+    const bool can = (d.acts_on & k->acts_on) != 0;
+    all = all && can;
+    if (can) names += (names.empty() ? "" : ", ") + std::string(k->name);
+  }
+  return all ? "" : names;
+}
+
 nlohmann::ordered_json DescriptionJson(const EffectDescription& d) {
   nlohmann::ordered_json parameters = nlohmann::ordered_json::array();
   const auto number = [](double v) {
@@ -51,6 +64,7 @@ nlohmann::ordered_json DescriptionJson(const EffectDescription& d) {
   return {{"name", d.id},
           {"title", d.title},
           {"target", EffectTargetText(d.target)},
+          {"acts_on", ActsOnText(d)},
           {"physics", d.physics},
           {"parameters", parameters},
           {"shows_in", d.shows_in},
@@ -63,6 +77,7 @@ void PrintOne(const EffectDescription& d) {
   };
   fmt::print("{} - {}\n", Coloured(d.id, "bold"), d.title);
   line("target", EffectTargetText(d.target));
+  if (const std::string kinds = ActsOnText(d); !kinds.empty()) line("acts on", kinds);
   line("physics", d.physics);
   line("shows in", d.shows_in);
   line("confused with", d.confused_with);
@@ -106,10 +121,13 @@ void AddEffects(CLI::App& app, Work& work) {
         rows.push_back({Cell(d.id), Cell(EffectTargetText(d.target)), Cell(d.physics),
                         Cell(d.shows_in), Cell(d.confused_with)});
         if (options->markdown) {
+          const std::string kinds = ActsOnText(d);
           fmt::print(
-              "\n## {}\n\n{}. Target: {}. {}\n\nShows in: {}. Confused with: {}.\n\n| parameter | "
+              "\n## {}\n\n{}. Target: {}{}. {}\n\nShows in: {}. Confused with: {}.\n\n| parameter "
+              "| "
               "unit | null | possible | usual | meaning |\n|---|---|---|---|---|---|\n",
-              d.id, d.title, EffectTargetText(d.target), d.physics, d.shows_in, d.confused_with);
+              d.id, d.title, EffectTargetText(d.target), kinds.empty() ? "" : " of kind " + kinds,
+              d.physics, d.shows_in, d.confused_with);
           for (const EffectParameter& p : d.parameters)
             fmt::print("| `{}` | {} | {} | {} to {} | {} to {} | {} |\n", p.name, p.unit,
                        p.null_value, p.lo, p.hi, p.typical_lo, p.typical_hi, p.doc);

@@ -21,8 +21,8 @@ namespace ambrig {
 namespace {
 
 struct NewCommand {
-  std::string name, answers, record, out = "bench";
-  std::vector<std::string> set, column;
+  std::string name, answers, out = "bench";
+  std::vector<std::string> records, set, column;
   bool ask = false, only_files = false, force = false;
 };
 
@@ -56,9 +56,13 @@ void ReadAnswers(const std::string& file, NewCommand& o, const BenchTemplate*& b
   const TomlTable t = TomlTable::FromFile(file);
   const std::string name = t.String("template", o.name);
   if (!name.empty() && o.name.empty()) o.name = name;
-  const std::string record = t.String("record", "");
-  if (o.record.empty() && !record.empty())
-    o.record = (std::filesystem::path(file).parent_path() / record).string();
+  const std::vector<std::string> records = t.Has("record") && t.IsArray("record")
+                                               ? t.Strings("record")
+                                           : t.Has("record") ? std::vector{t.String("record")}
+                                                             : std::vector<std::string>{};
+  if (o.records.empty())
+    for (const std::string& r : records)
+      o.records.push_back((std::filesystem::path(file).parent_path() / r).string());
   if (o.name.empty()) t.Fail("template", "is missing, allowed: one of ambrig new --help");
   bench = &BenchTemplateByName(o.name);
   for (const BenchNumber& n : bench->numbers) {
@@ -125,9 +129,14 @@ void PrintChoices(const Record& r, const std::vector<ColumnChoice>& all, const R
   for (const ColumnChoice& c : all)
     for (const Channel& column : r.channels) {
       if (column.name != c.column) continue;
-      const auto [lo, hi] = std::minmax_element(column.samples.begin(), column.samples.end());
+      double lo = kInfinity, hi = -kInfinity;
+      for (const double v : column.samples) {
+        if (!std::isfinite(v)) continue;
+        lo = std::min(lo, v);
+        hi = std::max(hi, v);
+      }
       fmt::print("  {:<7} {:<20} {:<5} {:>5g} {:>10.4g} {:>10.4g}  {}\n", c.channel, c.column,
-                 c.unit.empty() ? "SI" : c.unit, c.gain, *lo, *hi, c.reason);
+                 c.unit.empty() ? "SI" : c.unit, c.gain, lo, hi, c.reason);
     }
   std::string left;
   for (const Channel& column : r.channels)
@@ -143,7 +152,7 @@ void PrintChoices(const Record& r, const std::vector<ColumnChoice>& all, const R
         "allowed: --column CHANNEL=COLUMN for each");
   fmt::print("  coils driven by: {}; gaps moved by: {}\n", driven[static_cast<int>(drive)],
              KnowsAll(all, rig, ChannelKind::kReading) ? "measured positions" : "nothing (held)");
-  fmt::print("  another column, unit or sign: --column CHANNEL=COLUMN:UNIT:GAIN\n");
+  fmt::print("  another column, unit or sign: --column CHANNEL=COLUMN:UNIT:GAIN:OFFSET\n");
 }
 
 /// `arguments` as if typed after ambrig.
@@ -154,6 +163,32 @@ int RunAmbrig(std::vector<std::string> arguments) {
   std::reverse(arguments.begin(), arguments.end());
   app.parse(arguments);
   return work();
+}
+
+using Files = std::vector<std::pair<std::string, std::string>>;
+
+/// Scenarios of the records, then the case.
+void AddRecords(const NewCommand& o, const RigParameters& rig, const std::vector<Record>& records,
+                Files& files) {
+  std::vector<BenchRecord> all;
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    const Record& record = records[k];
+    if (records.size() > 1) fmt::print("{}\n", o.records[k]);
+    std::vector<ColumnChoice> choices = ChooseColumns(rig, record);
+    for (const std::string& said : o.column) SayColumn(said, rig, record, choices);
+    const double held = HoldAtDistance(rig, record, choices);
+    PrintChoices(record, choices, rig);
+    const std::string data = std::filesystem::absolute(o.records[k]).lexically_normal().string(),
+                      number = records.size() > 1 ? fmt::format("-{}", k + 1) : "";
+    const std::string coils = "record" + number + ".toml", rotor = "rotor" + number + ".toml";
+    for (BenchRecord& r : RecordsOf(rig, choices, coils, rotor, data)) {
+      files.emplace_back(r.scenario, r.scenario == rotor
+                                         ? RotorScenario(rig, record)
+                                         : ScenarioOfRecord(rig, record, choices, data, held));
+      all.push_back(std::move(r));
+    }
+  }
+  files.emplace_back("case.toml", CaseText(all));
 }
 
 int MakeBench(NewCommand o) {
@@ -173,27 +208,23 @@ int MakeBench(NewCommand o) {
     answers[std::string(n.key)] =
         NumberOf(n, is == std::string::npos ? "" : s.substr(is + 1), "--set: ");
   }
-  if (o.ask && o.record.empty()) o.record = Answer("file of a record (nothing: none yet): ");
-  Record record;
-  if (!o.record.empty()) record = ReadRecord(o.record);
+  if (o.ask && o.records.empty()) {
+    const std::string file = Answer("file of a record (nothing: none yet): ");
+    if (!file.empty()) o.records.push_back(file);
+  }
+  std::vector<Record> records;
+  for (const std::string& file : o.records) records.push_back(ReadRecord(file));
   if (o.ask) AskNumbers(*bench, answers);
   FillIn(*bench, answers);
   const std::string rig_text = RigTextOf(*bench, answers);
   const RigParameters rig = ReadRigText(rig_text, "rig.toml");
   const std::filesystem::path folder(o.out);
   PrepareFolder(o.out);
-  std::vector<std::pair<std::string, std::string>> files = {{"rig.toml", rig_text}};
-  if (o.record.empty()) {
+  Files files = {{"rig.toml", rig_text}};
+  if (records.empty())
     files.emplace_back("levitation.toml", LevitationText(rig));
-  } else {
-    std::vector<ColumnChoice> choices = ChooseColumns(rig, record);
-    for (const std::string& said : o.column) SayColumn(said, rig, record, choices);
-    const double held = HoldAtDistance(rig, record, choices);
-    PrintChoices(record, choices, rig);
-    const std::string data = std::filesystem::absolute(o.record).lexically_normal().string();
-    files.emplace_back("record.toml", ScenarioOfRecord(rig, record, choices, data, held));
-    files.emplace_back("case.toml", CaseText(rig, choices, data));
-  }
+  else
+    AddRecords(o, rig, records, files);
   std::vector<std::string> paths;
   for (const auto& [name, text] : files) paths.push_back((folder / name).string());
   RefuseOverwriting(paths, o.force);
@@ -202,8 +233,8 @@ int MakeBench(NewCommand o) {
     fmt::print("written: {}\n", paths[k]);
   }
   if (o.only_files) return 0;
-  if (o.record.empty()) return RunAmbrig({"run", paths[1], "--out", (folder / "out").string()});
-  return RunAmbrig({"compare", paths[2], "--html", (folder / "compare.html").string()});
+  if (records.empty()) return RunAmbrig({"run", paths[1], "--out", (folder / "out").string()});
+  return RunAmbrig({"compare", paths.back(), "--html", (folder / "compare.html").string()});
 }
 
 }  // namespace
@@ -218,8 +249,9 @@ void AddNew(CLI::App& app, Work& work) {
   command->add_option("--template", o->name, names);
   command->add_option("--set", o->set, "KEY=NUMBER, SI units; without: the missing keys are named");
   command->add_option("--answers", o->answers, "TOML file of keys and numbers, template, record");
-  command->add_option("--record", o->record, "file of an instrument (ambrig channels shows it)");
-  command->add_option("--column", o->column, "CHANNEL=COLUMN, also :UNIT or :UNIT:GAIN");
+  command->add_option("--record", o->records, "files of instruments (ambrig channels shows them)");
+  command->add_option("--column", o->column,
+                      "CHANNEL=COLUMN, also :UNIT, :UNIT:GAIN or :UNIT:GAIN:OFFSET");
   command->add_option("-o,--out", o->out, "folder")->capture_default_str();
   command->add_flag("--ask", o->ask, "ask for what is missing");
   command->add_flag("--only-files", o->only_files, "write the files, run nothing");
@@ -228,7 +260,7 @@ void AddNew(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig new --answers examples/new/ball.toml -o ball\n"
       "  ambrig new --answers examples/new/spindle.toml -o spindle\n"
-      "Writes rig, scenario and case, says which column of the record it took for which\n"
+      "Writes rig, scenarios and case, says which column of a record it took for which\n"
       "channel, and compares; without a record it tells whether the rig hovers. With\n"
       "--ask it asks for what the options leave out.");
   command->callback([o, &work] { work = [o] { return MakeBench(*o); }; });

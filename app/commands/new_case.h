@@ -24,8 +24,20 @@ double HoldAtDistance(const RigParameters& rig, const Record& record,
 std::string ScenarioOfRecord(const RigParameters& rig, const Record& record,
                              const std::vector<ColumnChoice>& all, const std::string& data,
                              double held);
-std::string CaseText(const RigParameters& rig, const std::vector<ColumnChoice>& all,
-                     const std::string& data);
+/// A levitated rotor that the measured currents drive.
+std::string RotorScenario(const RigParameters& rig, const Record& record);
+
+/// A [[record]] of the case.
+struct BenchRecord {
+  std::string scenario, data, imposed;
+  std::vector<ColumnChoice> columns;
+};
+/// What a record can say, of its coils in gaps that move as measured (or stand), and of the rotor under the
+/// measured currents where positions and currents of everything that moves are known.
+std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const std::vector<ColumnChoice>& all,
+                                   const std::string& coils, const std::string& rotor,
+                                   const std::string& data);
+std::string CaseText(const std::vector<BenchRecord>& all);
 /// Without a record: half a second of levitation.
 std::string LevitationText(const RigParameters& rig);
 

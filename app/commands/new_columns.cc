@@ -141,7 +141,7 @@ std::vector<ColumnChoice> ChooseColumns(const RigParameters& rig, const Record& 
     if (rivals > 0) continue;
     channel_done[o.channel] = column_done[o.column] = true;
     const Channel& c = record.channels[o.column];
-    choices.push_back({wanted[o.channel].name(), c.name, UnitOf(c), 1,
+    choices.push_back({wanted[o.channel].name(), c.name, UnitOf(c), 1, 0,
                        o.score == kSameName ? "same name" : "name and unit"});
   }
   std::sort(choices.begin(), choices.end(), [&](const auto& a, const auto& b) {
@@ -153,6 +153,23 @@ std::vector<ColumnChoice> ChooseColumns(const RigParameters& rig, const Record& 
   });
   return choices;
 }
+
+namespace {
+
+double NumberIn(const std::string& word, const std::string& whole, const char* what) {
+  std::size_t used = 0;
+  double v = std::nan("");
+  try {
+    v = std::stod(word, &used);
+  } catch (const std::exception&) {
+    used = std::string::npos;
+  }
+  if (used != word.size() || !std::isfinite(v))
+    throw InputError(fmt::format("--column = {}: {} \"{}\", allowed: a number", whole, what, word));
+  return v;
+}
+
+}  // namespace
 
 void SayColumn(const std::string& text, const RigParameters& rig, const Record& record,
                std::vector<ColumnChoice>& choices) {
@@ -190,15 +207,12 @@ void SayColumn(const std::string& text, const RigParameters& rig, const Record& 
                                    ColumnsOf(record, c.column)));
     if (c.unit.empty()) c.unit = UnitOf(*found);
     if (gain != std::string::npos) {
-      std::size_t used = 0;
-      try {
-        c.gain = std::stod(rest.substr(gain + 1), &used);
-      } catch (const std::exception&) {
-        used = std::string::npos;
-      }
-      if (used != rest.size() - gain - 1 || !std::isfinite(c.gain) || c.gain == 0)
-        throw InputError(fmt::format("--column = {}: gain \"{}\", allowed: a number but 0", text,
-                                     rest.substr(gain + 1)));
+      rest = rest.substr(gain + 1);
+      const std::size_t offset = rest.find(':');
+      c.gain = NumberIn(rest.substr(0, offset), text, "gain");
+      if (c.gain == 0)
+        throw InputError(fmt::format("--column = {}: gain 0, allowed: a number but 0", text));
+      if (offset != std::string::npos) c.offset = NumberIn(rest.substr(offset + 1), text, "offset");
     }
   }
   if (!c.unit.empty())

@@ -12,6 +12,7 @@ struct ColumnChoice {
   std::string channel, column;
   std::string unit;    // of the column; empty: SI
   double gain = 1;     // beside the unit
+  double offset = 0;   // behind both [SI]
   std::string reason;  // "same name", "name and unit", "said"
 };
 
@@ -19,7 +20,8 @@ struct ColumnChoice {
 /// two channels equally is left out.
 std::vector<ColumnChoice> ChooseColumns(const RigParameters& rig, const Record& record);
 
-/// "A.x=pos_ax", "A.x=pos_ax:um", "A.x=pos_ax:um:-1": what the user says, in place of a choice.
+/// "A.x=pos_ax", "A.x=pos_ax:um", "A.x=pos_ax:um:-1", "A.x=pos_ax:um:-1:0.01": what the user says (column,
+/// unit, gain, offset in SI), in place of a choice.
 /// @throws InputError
 void SayColumn(const std::string& text, const RigParameters& rig, const Record& record,
                std::vector<ColumnChoice>& choices);

@@ -4,7 +4,10 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/screen.h"
+#include "app/commands/word_keys.h"
 #include "app/pages/html.h"
+#include "core/base/atomic_file.h"
+#include "effects/catalogue.h"
 #include "rig/rig_parameters.h"
 #include "scenarios/faults/fault.h"
 
@@ -72,6 +75,34 @@ std::vector<ParameterLine> FaultLines() {
                        std::string(p.doc)});
   }
   return lines;
+}
+
+/// Names, choices, lists and files; then the numbers of effects.
+std::vector<ParameterLine> WordLines() {
+  std::vector<ParameterLine> lines;
+  for (const WordKey& w : WordKeys()) lines.push_back({w.section, w.key, "", "", w.allowed, w.doc});
+  for (const EffectDescription& d : Catalogue())
+    for (const EffectParameter& p : d.parameters)
+      lines.push_back({fmt::format("[[effect]] name = \"{}\"", d.id), "parameters." + p.name,
+                       p.unit, NumberText(p.null_value), fmt::format("{:g} to {:g}", p.lo, p.hi),
+                       p.doc});
+  return lines;
+}
+
+/// A field above the table that leaves the rows with all words that are typed into it.
+std::string WithSearchField(std::string html) {
+  constexpr const char* kField =
+      "<p><input id=\"find\" type=\"search\" size=\"40\" placeholder=\"words, e.g. gap sensor\" "
+      "aria-label=\"search\"></p>\n"
+      "<script>\naddEventListener(\"DOMContentLoaded\", () => {\n"
+      "  const field = document.getElementById(\"find\");\n"
+      "  field.addEventListener(\"input\", () => {\n"
+      "    const words = field.value.toLowerCase().split(/\\s+/);\n"
+      "    for (const row of document.querySelectorAll(\"tbody tr\"))\n"
+      "      row.hidden = !words.every(w => row.textContent.toLowerCase().includes(w));\n"
+      "  });\n});\n</script>\n";
+  const std::size_t table = html.find("<div class=\"table");
+  return table == std::string::npos ? html : html.insert(table, kField);
 }
 
 /// A heading, a sentence (a line without key) and one table per section.
@@ -144,6 +175,10 @@ void AddParameters(CLI::App& app, Work& work) {
       std::vector<ParameterLine> lines = RigLines();
       const std::vector<ParameterLine> faults = FaultLines();
       lines.insert(lines.end(), faults.begin(), faults.end());
+      if (!options->markdown) {
+        const std::vector<ParameterLine> words = WordLines();
+        lines.insert(lines.end(), words.begin(), words.end());
+      }
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
       std::vector<std::vector<Cell>> rows;
       for (const ParameterLine& l : lines) {
@@ -157,7 +192,7 @@ void AddParameters(CLI::App& app, Work& work) {
       if (!options->common.html.empty()) {
         HtmlReport report("Parameters", "ambrig parameters");
         report.Table({"section", "key", "unit", "default", "allowed", "meaning"}, rows);
-        report.Write(options->common.html);
+        WriteFileAtomically(options->common.html, WithSearchField(report.Html()));
       }
       return 0;
     };

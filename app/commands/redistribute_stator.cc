@@ -52,6 +52,7 @@ StatorReach ReachOf(const StatorProblem& p, const CurrentMap& map, const Eigen::
     }
     out.worst = std::min(out.worst, r);
   }
+  out.carries = out.worst > 0;  // held, not only passed through
   return out;
 }
 
@@ -113,21 +114,22 @@ int RedistributeStator(const NominalRig& rig, std::size_t bearing,
                          {"sets", nlohmann::json::array()}};
   fmt::print("{}: bearing {}, {} poles, {} coils; k = {:.4g} N/A2, c0 = {:.4g} A\n", rig->file,
              b.name, network->poles(), network->coils(), healthy.k, healthy.c0);
-  fmt::print("{:<16} {:<11} {:>10} {:>8} {:>14} {:>12}\n", "coils lost", "map", "equations", "rho",
-             "carries weight", "worst");
+  fmt::print("{:<13} {:<25} {:>9} {:>6} {:>8} {:>11}\n", "coils lost", "map", "equations", "rho",
+             "carries", "worst");
   Progress progress("redistribute");
   for (std::size_t n = 0; n < sets.size(); ++n) {
     if (interrupted) throw Interrupted();
     CoilVector left = CoilVector::Ones();
     for (const int coil : sets[n]) left[coil - 1] = 0;
-    const StatorProblem p = StatorProblemOf(network, axes, healthy, left);
+    StatorProblem p = StatorProblemOf(network, axes, healthy, left, load);
     CurrentMap map = healthy;
     const std::string cls = StatorMapAfterFailure(p, true, &map);
     const StatorReach reach = ReachOf(p, map, load, most);
+    if (!cls.ends_with("load")) p.load.setZero();
     json["sets"].push_back(JsonOfSet(p, map, cls, sets[n], reach));
     const auto& item = json["sets"].back();
     progress.Clear();
-    fmt::print("{:<16} {:<11} {:>10.1e} {:>8.3f} {:>14} {:>10.1f} N\n", SetName(sets[n]), cls,
+    fmt::print("{:<13} {:<25} {:>9.1e} {:>6.3f} {:>8} {:>9.1f} N\n", SetName(sets[n]), cls,
                item["residual"].get<double>(), item["rho"].get<double>(),
                reach.carries ? "yes" : "no", reach.worst);
     progress.Update(static_cast<double>(n + 1) / static_cast<double>(sets.size()), "");
@@ -139,8 +141,9 @@ int RedistributeStator(const NominalRig& rig, std::size_t bearing,
                  row[2].get<double>());
   fmt::print(
       "map: with currents within range; equations: largest error of those that make\n"
-      "F = k c0 v, over k/2; rho: currents within range on |v| <= rho c0; worst: true\n"
-      "force from the weight on in the worst direction.\n");
+      "F = k c0 v, over k/2; rho: currents within range on |v| <= rho c0 (about the load:\n"
+      "on |v - v_load|); carries: the weight and a force more in every direction; worst:\n"
+      "that force, the true one, in the worst direction.\n");
   common.WriteJson(json);
   return 0;
 }

@@ -178,6 +178,8 @@ std::string EventText(const RunEvent& e) {
   std::string text = e.fault_class;
   if (e.kind == "redistributed" && text == "exact") text += " (force law as when healthy)";
   if (e.kind == "redistributed" && text == "linearised") text += " (holds near zero force)";
+  if (e.kind == "redistributed" && text == "linearised about the load")
+    text = "linearised (holds near the weight)";
   if (e.kind == "doubtful") text += ": gross faults only";
   if (e.fraction > 0)
     text += fmt::format("{}{:.0f} % of the turns", text.empty() ? "" : ", ", 100 * e.fraction);

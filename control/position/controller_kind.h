@@ -22,6 +22,13 @@ struct ControllerNames {
   const std::vector<std::string>& planes;  // of bearings, disks and stations
 };
 
+/// The magnets of one bearing the other way round: from forces to currents.
+struct MagnetInverse {
+  /// Set-points [A] that give a force [N] with the rotor at a place [m].
+  std::function<Lane(const Eigen::Vector2d& force, const Eigen::Vector2d& place)> currents;
+  Eigen::Matrix2d negative_stiffness;  // dF/dr of the currents that carry the weight [N/m]
+};
+
 /// The nominal rig as a controller is made for it.
 struct ControllerSite {
   struct Bearing {
@@ -32,6 +39,8 @@ struct ControllerSite {
     std::vector<std::string> coils;
     double i_max = 0;      // [A]
     bool unipolar = true;  // set-points are not negative
+    // Of amplifiers in voltage mode: what a duty of one commands along an axis [N]; else 0.
+    double force_per_duty = 0;
   };
   std::vector<std::string> axes;  // that it controls
   std::vector<double> f_max;      // of each [N]
@@ -41,6 +50,7 @@ struct ControllerSite {
   /// The linear plant with all delays at this speed [rad/s], as the controller's synthesis keys
   /// want it.
   std::function<SampledPlant(const ControllerParameters& c, double speed)> plant;
+  std::function<MagnetInverse(std::size_t bearing)> inverse;  // by its place in the rig
 };
 
 struct ControllerKind {

@@ -14,6 +14,7 @@
 #include "core/record/read_record.h"
 #include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
+#include "rig/rig_channels.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -124,6 +125,27 @@ void CheckImposedMotion(const CaseRecord& r, const RigParameters& rig, const Tom
     t.Fail("imposed", "= \"motion\" of a scenario with faults, allowed: one without");
 }
 
+/// Currents of all coils, and positions of all axes: the gaps, and what is compared.
+void CheckImposedCurrents(CaseRecord& r, const RigParameters& rig, const TomlTable& t) {
+  std::string missing;
+  const auto need = [&](const std::string& name) {
+    if (!r.data.Find(name)) missing += (missing.empty() ? "" : ", ") + name;
+  };
+  for (const BearingParameters& b : rig.bearings)
+    for (const ChannelId& id : ChannelsOf(b, ChannelKind::kCoilCurrent)) need(id.name());
+  for (const std::string& axis : AxisNames(rig)) need(axis);
+  if (!missing.empty())
+    t.Fail("imposed", fmt::format("= \"currents\" without {}, allowed: currents of all coils and "
+                                  "positions of all axes",
+                                  missing));
+  if (r.scenario.start == StartState::kClamped)
+    t.Fail("imposed", "= \"currents\" of a clamped rotor, allowed: start \"levitated\"");
+  if (!r.scenario.faults.empty())
+    t.Fail("imposed", "= \"currents\" of a scenario with faults, allowed: one without");
+  r.observer = Within(t, "observer", r.observer,
+                      {"Hz", 0.1, 1e4, "how fast the rotor follows the measured positions"});
+}
+
 NuisancePriors ReadNuisances(const TomlTable& root,
                              const std::map<std::string, std::string>& known) {
   NuisancePriors n;
@@ -178,8 +200,16 @@ CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::s
       Within(t, "time_offset", 0, {"s", -1e5, 1e5, "scenario time of the logger's zero"});
   r.data = MapChannels(ReadRecord(r.data_file), ReadMapping(t, known), known, t, c, r.sources);
   const auto left_out = t.Rows("leave_out");
-  r.imposed_motion = t.Choice("imposed", "none", "none, motion") == "motion";
-  if (r.imposed_motion) CheckImposedMotion(r, c.rig, t);
+  const std::string imposed = t.Choice("imposed", "none", "none, motion, currents");
+  if (imposed == "motion") {
+    r.imposed = Imposed::kMotion;
+    CheckImposedMotion(r, c.rig, t);
+  } else if (imposed == "currents") {
+    r.imposed = Imposed::kCurrents;
+    CheckImposedCurrents(r, c.rig, t);
+  } else if (t.Has("observer")) {
+    t.Fail("observer", "belongs to imposed = \"currents\"");
+  }
   RejectReused(c, r, t);
   t.RejectUnknownKeys();
   r.data.start += r.time_offset;

@@ -17,16 +17,24 @@ struct ColumnSource {
   double factor = 1;       // SI per number in the file
 };
 
+/// What of a record over time is taken from its data instead of being predicted.
+enum class Imposed {
+  kNothing,
+  kMotion,    // measured positions move the gaps: no rotor, no controller
+  kCurrents,  // measured currents drive the rotor: no circuits, no controller
+};
+
 struct CaseRecord {
   RecordKind kind = RecordKind::kTime;
   std::string scenario_file, data_file;  // no scenario file: hover, or a held rotor
   Scenario scenario;
   // rig channel names, SI; of a frequency response or a table every value over its sd, one row a point
   Record data;
-  ResponseTable responses;      // of kind kFrf, as measured
-  StaticTable table;            // of kind kStatic, as measured
-  bool validate = false;        // kept from the fits; "test" records are too
-  bool imposed_motion = false;  // measured positions move the shaft, no rotor and no controller
+  ResponseTable responses;  // of kind kFrf, as measured
+  StaticTable table;        // of kind kStatic, as measured
+  bool validate = false;    // kept from the fits; "test" records are too
+  Imposed imposed = Imposed::kNothing;
+  double observer = 20;  // [Hz] with imposed currents: how fast the rotor follows the measured one
   std::vector<ChannelQuality> quality;  // one per channel of data
   std::map<std::string, ColumnSource> sources;
   double time_offset = 0;  // [s] scenario time of the logger's zero

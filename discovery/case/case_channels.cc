@@ -65,10 +65,13 @@ std::map<std::string, ChannelMapping> ReadMapping(const TomlTable& record,
       m.column = t.String("column", channel);
       m.unit = t.String("unit", "");
       m.gain = t.Number("gain", 1);
+      m.offset = t.Number("offset", 0);
       m.late = t.Number("late", 0);
       m.use = t.Bool("use", true);
       if (!(std::abs(m.gain) > 0 && std::isfinite(m.gain)))
         t.Fail("gain", fmt::format("= {}, allowed: any but 0", m.gain));
+      if (!std::isfinite(m.offset))
+        t.Fail("offset", fmt::format("= {}, allowed: a number in {}", m.offset, known.at(channel)));
       t.RejectUnknownKeys();
     }
     map[channel] = m;
@@ -101,7 +104,8 @@ Record MapChannels(const Record& raw, const std::map<std::string, ChannelMapping
     const double factor =
         (from.empty() ? 1 : UnitFactor(from, unit, table.Where("data") + ": channel " + channel)) *
         (it == mapping.end() ? 1 : it->second.gain);
-    for (double& v : converted.samples) v *= factor;
+    const double offset = it == mapping.end() ? 0 : it->second.offset;
+    for (double& v : converted.samples) v = v * factor + offset;
     if (it != mapping.end() && it->second.late != 0)
       MoveEarlier(converted.samples, it->second.late * raw.rate);
     sources[channel] = {column, unit, factor};

@@ -14,7 +14,8 @@ std::map<std::string, std::string> KnownChannels(const RigParameters& rig);
 /// What [record.channels] says of one channel.
 struct ChannelMapping {
   std::string column, unit;
-  double gain = 1;  // on top of the unit
+  double gain = 1;    // on top of the unit
+  double offset = 0;  // added behind it [SI]
   double late = 0;  // [s] by which the column comes late
   bool use = true;
 };

@@ -19,12 +19,19 @@ TomlLiteral Rounded(double v) {
   return {std::isfinite(v) ? TomlNumber(std::stod(fmt::format("{:.9g}", v))) : TomlNumber(v)};
 }
 
+/// As the reader allows it: of a positive number at most itself, else the width of its range.
+double WrittenSd(const EffectInstance& e, std::size_t k) {
+  const EffectParameter& p = e.table[k];
+  const double most = p.lo > 0 ? std::abs(e.values[k]) : p.hi - p.lo;
+  return std::min(e.sd[k], most);
+}
+
 /// One parameter of an effect: its value, its sd, and of a formula's what the file says of it.
 std::string ParameterText(const EffectInstance& e, std::size_t k) {
   const bool formula = e.IsFormula(), fitted = k < e.sd.size() && e.sd[k] > 0;
   if (!formula && !fitted) return Rounded(e.values[k]).text;
   std::string text = "{ value = " + Rounded(e.values[k]).text;
-  if (fitted) text += ", sd = " + Rounded(e.sd[k]).text;
+  if (fitted) text += ", sd = " + Rounded(WrittenSd(e, k)).text;
   if (formula) {
     const EffectParameter& p = e.table[k];
     if (p.has_null) text += ", null = " + Rounded(p.null_value).text;
@@ -94,7 +101,7 @@ std::string WithParameters(std::string text, const std::string& file, std::size_
       continue;
     }
     text = WithNumber(text, file, table ? path + ".value" : path, e.values[row]);
-    if (fitted) text = WithNumber(text, file, path + ".sd", e.sd[row]);
+    if (fitted) text = WithNumber(text, file, path + ".sd", WrittenSd(e, row));
   }
   return text;
 }

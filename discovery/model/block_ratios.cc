@@ -10,7 +10,7 @@ namespace ambrig {
 
 BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t record) {
   const CaseRecord& r = model.data().records[record];
-  if (!OverTime(r) || r.imposed_motion) return {};  // it is one block alone
+  if (!OverTime(r) || r.imposed != Imposed::kNothing) return {};  // it is one block alone
   Hypothesis noisy = h;
   noisy.rig = WithNoise(h.rig, model.noise_model);
   CaseRecord own = r;

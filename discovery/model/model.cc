@@ -26,7 +26,8 @@ CaseModel::CaseModel(const Case& c, std::size_t thin)
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const CaseRecord& record = c.records[r];
     predictors_.push_back(MakePredictor(c, record));
-    driving_.push_back(record.imposed_motion ? DrivingRecord(c.rig, record) : Record{});
+    driving_.push_back(record.imposed != Imposed::kNothing ? DrivingRecord(c.rig, record)
+                                                           : Record{});
     const bool points = !OverTime(record);
     plans_.push_back(points ? nullptr : std::make_unique<CommandPlan>(c.rig, record.scenario));
     for (std::size_t ch = 0; ch < record.data.channels.size(); ++ch) {
@@ -54,7 +55,8 @@ CaseModel::CaseModel(const Case& c, std::size_t thin)
       if (n > 0) t.full_scale = std::sqrt(std::max(0.0, square / n - mean * mean / n / n));
       targets_.push_back(t);
     }
-    touches_.push_back(!points && !record.imposed_motion && Touches(c.rig, record) ? 1 : 0);
+    touches_.push_back(
+        !points && record.imposed == Imposed::kNothing && Touches(c.rig, record) ? 1 : 0);
   }
   sound_ = ok_;
   horizon_.assign(c.records.size(), kInfinity);
@@ -150,8 +152,11 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   if (r.scenario.start == StartState::kLevitated && r.scenario.faults.empty() && !touches_[record])
     options.lost_after = 0.01;
   Record again;  // what a second measurement would have driven with
-  if (r.imposed_motion && noise) again = WithReadingNoise(driving_[record], h.rig, seed);
-  if (r.imposed_motion) options.forced = noise ? &again : &driving_[record];
+  if (r.imposed != Imposed::kNothing) {
+    if (noise) again = WithReadingNoise(driving_[record], h.rig, seed);
+    options.forced = noise ? &again : &driving_[record];
+    if (r.imposed == Imposed::kCurrents) options.observer = r.observer;
+  }
   options.stop = stop;
   ++runs;
   return SwitchingEngine(h.rig, scenario, options).Run().record;

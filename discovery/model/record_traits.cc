@@ -50,21 +50,25 @@ bool IsPredicted(const CaseRecord& record, const std::string& channel) {
   const bool command =
       record.scenario.start == StartState::kClamped && id->kind == ChannelKind::kSetPoint;
   // what drives is not predicted
-  const bool drives = record.imposed_motion &&
+  if (record.imposed == Imposed::kCurrents) return id->kind == ChannelKind::kReading;
+  const bool drives = record.imposed == Imposed::kMotion &&
                       (id->kind == ChannelKind::kReading || id->kind == ChannelKind::kSetPoint);
   return !prescribed && !command && !drives;
 }
 
 bool HasSettled(const CaseRecord& record, double t) {
-  return !record.imposed_motion || record.scenario.start == StartState::kClamped ||
+  if (record.imposed == Imposed::kCurrents) return t >= record.data.start + 1 / record.observer;
+  return record.imposed == Imposed::kNothing || record.scenario.start == StartState::kClamped ||
          t >= record.data.start + kLoopsSettle;
 }
 
 Record DrivingRecord(const RigParameters& rig, const CaseRecord& record) {
   const bool commanded = CommandsCoils(record.scenario);
+  const bool currents = record.imposed == Imposed::kCurrents;
   const auto drives = [&](const std::string& name) {
-    return IsOfKind(name, ChannelKind::kReading) ||
-           (!commanded && IsOfKind(name, ChannelKind::kSetPoint));
+    if (IsOfKind(name, ChannelKind::kReading)) return true;
+    return currents ? IsOfKind(name, ChannelKind::kCoilCurrent)
+                    : !commanded && IsOfKind(name, ChannelKind::kSetPoint);
   };
   Record out = BridgeMissing(record.data, 0, drives).record;
   std::erase_if(out.channels, [&](const Channel& c) { return !drives(c.name); });
@@ -88,6 +92,14 @@ Record WithReadingNoise(Record driving, const RigParameters& rig, std::uint64_t 
         if (c.name == axis)
           for (std::size_t k = 0; k < c.samples.size(); ++k)
             c.samples[k] += b.sensor.noise * Normal(seed, stream, k);
+    }
+  const double noise =
+      rig.amplifier.current_noise / std::sqrt(rig.amplifier.adc_samples_per_period);
+  for (Channel& c : driving.channels)
+    if (IsOfKind(c.name, ChannelKind::kCoilCurrent)) {
+      ++stream;
+      for (std::size_t k = 0; k < c.samples.size(); ++k)
+        c.samples[k] += noise * Normal(seed, stream, k);
     }
   return driving;
 }

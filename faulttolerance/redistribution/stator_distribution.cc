@@ -112,6 +112,7 @@ class StatorSolver {
   double HealthyDisc() const {
     StatorProblem healthy = p_;
     healthy.turns_left.setOnes();
+    healthy.load.setZero();
     return DescribeStator(healthy, SolvabilityClass::kExact, p_.healthy).rho;
   }
 
@@ -129,15 +130,17 @@ StatorDistribution DescribeStator(const StatorProblem& p, SolvabilityClass cls,
   d.W = W;
   const StatorForms forms(p);
   d.residual = forms.live() > 0 ? forms.Errors(forms.FromMatrix(W)).cwiseAbs().maxCoeff() : 1;
+  d.load = p.load;
+  const Eigen::VectorXd carried = W.col(0) + W.rightCols(2) * (p.load / (p.k * p.c0 * p.c0));
   double rho = kInfinity;
   for (Eigen::Index j = 0; j < W.rows(); ++j) {
-    const double w = W.row(j).tail(2).norm(), b = W(j, 0);
+    const double w = W.row(j).tail(2).norm(), b = carried[j];
     if (w == 0) continue;
     rho = std::min(rho, (p.i_max / p.c0 - std::abs(b)) / w);
     if (p.unipolar) rho = std::min(rho, b / w);
   }
   d.rho = std::isfinite(rho) ? std::max(0.0, rho) : 0;
-  const Eigen::VectorXd bias = p.c0 * W.col(0).cwiseProduct(p.turns_left);
+  const Eigen::VectorXd bias = p.c0 * carried.cwiseProduct(p.turns_left);
   d.stiffness = p.network->NegativeStiffness(Eigen::Vector3d::Zero(), bias).topLeftCorner<2, 2>();
   return d;
 }
@@ -149,19 +152,31 @@ SolvabilityClass ClassifyStator(const StatorProblem& p) {
                                                              : SolvabilityClass::kNone;
 }
 
-StatorDistribution SolveStator(const StatorProblem& p) {
+namespace {
+
+std::optional<StatorDistribution> Solved(const StatorProblem& p, SolvabilityClass cls) {
   StatorSolver solver(p);
-  const int all = solver.forms().equations(), linear = solver.forms().linear_equations();
-  for (const int equations : {all, linear}) {
-    double rho = 0;
-    const Solution widest = solver.forms().live() > 0 ? solver.Widest(equations, &rho) : Solution();
-    if (!widest || rho <= 0) continue;
-    const Solution held = solver.At(equations, kHeldShare * rho, true);
-    const Eigen::MatrixXd W = solver.forms().ToMatrix(held ? *held : *widest);
-    return DescribeStator(
-        p, equations == all ? SolvabilityClass::kExact : SolvabilityClass::kLinearised, W);
-  }
-  return DescribeStator(p, SolvabilityClass::kNone, Eigen::MatrixXd::Zero(p.network->coils(), 3));
+  if (solver.forms().live() == 0) return {};
+  const int equations = cls == SolvabilityClass::kExact ? solver.forms().equations()
+                                                        : solver.forms().linear_equations();
+  double rho = 0;
+  const Solution widest = solver.Widest(equations, &rho);
+  if (!widest || rho <= 0) return {};
+  const Solution held = solver.At(equations, kHeldShare * rho, true);
+  return DescribeStator(p, cls, solver.forms().ToMatrix(held ? *held : *widest));
+}
+
+}  // namespace
+
+StatorDistribution SolveStator(const StatorProblem& p) {
+  StatorProblem unloaded = p;
+  unloaded.load.setZero();
+  if (const auto exact = Solved(unloaded, SolvabilityClass::kExact)) return *exact;
+  if (p.load.norm() > 0)
+    if (const auto about_load = Solved(p, SolvabilityClass::kLinearised)) return *about_load;
+  if (const auto linear = Solved(unloaded, SolvabilityClass::kLinearised)) return *linear;
+  return DescribeStator(unloaded, SolvabilityClass::kNone,
+                        Eigen::MatrixXd::Zero(p.network->coils(), 3));
 }
 
 }  // namespace ambrig

@@ -14,6 +14,8 @@
 /// Twelve of them with two axes, three with one. They are solved by Levenberg and Marquardt from many
 /// deterministic starts, with the amplifiers' range as one-sided residuals, for the widest disc
 /// |v| <= rho c0; of the solutions at a share of that disc the one of least bias and stiffness counts.
+/// Where the amplifiers' range leaves no such disc, the currents are linearised about those that carry the load:
+/// u_b'Q_a u_b = 2 load_a/(k c0²), the gain the same, the disc about the command of the load.
 /// Source: docs/theory/stators.md.
 #include <Eigen/Dense>
 #include <memory>
@@ -31,19 +33,22 @@ struct StatorProblem {
   double k = 0, c0 = 0;        // [N/A²], [A]
   double i_max = 0;            // [A]
   bool unipolar = true;
+  Eigen::Vector2d load = Eigen::Vector2d::Zero();  // about which it is linearised [N]
 };
 
 struct StatorDistribution {
   SolvabilityClass cls = SolvabilityClass::kNone;
   Eigen::MatrixXd W;    // coils x 3, rows [b, wx, wy]; zero where there is none
   double residual = 0;  // largest equation error over k/2
-  double rho = 0;       // currents within range on |v| <= rho c0
-  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  // dF/dr of the bias [N/m]
+  double rho = 0;       // currents within range on |v - v_load| <= rho c0
+  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();  // dF/dr of the currents at the load [N/m]
+  Eigen::Vector2d load = Eigen::Vector2d::Zero();       // about which it is linearised [N]
 };
 
+/// Exact, else linearised about the load, else about no force, else none. The load of the answer says which.
 StatorDistribution SolveStator(const StatorProblem& problem);
 
-/// All figures of a given W.
+/// All figures of a given W, about the command of the problem's load.
 StatorDistribution DescribeStator(const StatorProblem& problem, SolvabilityClass cls,
                                   const Eigen::MatrixXd& W);
 

@@ -45,6 +45,9 @@ StatorForms::StatorForms(const StatorProblem& p)
   for (std::size_t k = 0; k < list_.size(); ++k)
     if (list_[k].p == 0 && list_[k].q == list_[k].axis + 1)
       targets_[static_cast<Eigen::Index>(k)] = 1;
+    else if (list_[k].p == 0 && list_[k].q == 0)
+      targets_[static_cast<Eigen::Index>(k)] = 2 * p.load[list_[k].axis] / (p.k * p.c0 * p.c0);
+  command_ = p.load / (p.k * p.c0 * p.c0);
 }
 
 Eigen::VectorXd StatorForms::Column(const Eigen::VectorXd& x, int p) const {
@@ -77,6 +80,7 @@ Eigen::MatrixXd StatorForms::ToMatrix(const Eigen::VectorXd& x) const {
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(coils_, 3);
   for (int j = 0; j < live(); ++j)
     for (int c = 0; c <= axes_; ++c) W(live_[static_cast<std::size_t>(j)], c) = x[c * live() + j];
+  W.col(0) -= W.rightCols(2) * command_;
   return W;
 }
 
@@ -84,6 +88,8 @@ Eigen::VectorXd StatorForms::FromMatrix(const Eigen::MatrixXd& W) const {
   Eigen::VectorXd x(size());
   for (int j = 0; j < live(); ++j)
     for (int c = 0; c <= axes_; ++c) x[c * live() + j] = W(live_[static_cast<std::size_t>(j)], c);
+  for (int j = 0; j < live(); ++j)
+    x[j] += W.row(live_[static_cast<std::size_t>(j)]).tail(2).dot(command_);
   return x;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// The equations of stator_distribution.h in the entries x = [b, wx, wy] of the coils that are left, and
-/// their least-squares solution. Errors are over k/2.
+/// The equations of stator_distribution.h in the entries x = [b, wx, wy] of the coils that are left, b the
+/// currents at the problem's load over c0, and their least-squares solution. Errors are over k/2.
 #include <Eigen/Dense>
 #include <vector>
 
@@ -15,7 +15,7 @@ class StatorForms {
   int live() const { return static_cast<int>(live_.size()); }
   int size() const { return (1 + axes_) * live(); }
   int equations() const { return static_cast<int>(targets_.size()); }
-  /// The first ones: no force of the bias, full gain; what is left beyond them grows with |v|².
+  /// The first ones: the load and nothing else at its command, full gain; what is left beyond them grows with |v|².
   int linear_equations() const { return axes_ * (1 + axes_); }
 
   Eigen::VectorXd Errors(const Eigen::VectorXd& x) const;
@@ -33,7 +33,8 @@ class StatorForms {
   Eigen::VectorXd Column(const Eigen::VectorXd& x, int p) const;
 
   int axes_, coils_;
-  double magnet_ = 0;  // 1/c0, 0 without magnets
+  double magnet_ = 0;        // 1/c0, 0 without magnets
+  Eigen::Vector2d command_;  // of the load, over c0
   std::vector<int> live_;
   Eigen::MatrixXd Q_[2];  // (live + 1) x (live + 1)
   std::vector<Equation> list_;

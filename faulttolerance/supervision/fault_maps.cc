@@ -58,9 +58,11 @@ void FaultSupervisor::MoveIntegrals(const Watched& w, const BearingControl& cont
 std::string FaultSupervisor::NewMap(Watched& w, const Eigen::Vector2d& force, CurrentMap* map) {
   if (const auto network = w.bearing->kind->stator(*w.bearing).network) {
     *map = *w.healthy;
-    return StatorMapAfterFailure(
-        StatorProblemOf(network, w.bearing->kind->two_axes ? 2 : 1, *w.healthy, w.turns_left),
-        options_.stiffness_compensation, map);
+    const int axes = w.bearing->kind->two_axes ? 2 : 1;
+    const auto share = WeightShares(*rig_)[w.index];
+    return StatorMapAfterFailure(StatorProblemOf(network, axes, *w.healthy, w.turns_left,
+                                                 {share[0], axes > 1 ? share[1] : 0}),
+                                 options_.stiffness_compensation, map);
   }
   if (!w.bearing->kind->eight_poles) {
     map->W = w.healthy->W;

@@ -5,7 +5,8 @@
 namespace ambrig {
 
 StatorProblem StatorProblemOf(std::shared_ptr<const PoleNetwork> network, int axes,
-                              const CurrentMap& healthy, const CoilVector& turns_left) {
+                              const CurrentMap& healthy, const CoilVector& turns_left,
+                              const Eigen::Vector2d& load) {
   StatorProblem p;
   const Eigen::Index coils = network->coils();
   p.network = std::move(network);
@@ -16,6 +17,7 @@ StatorProblem StatorProblemOf(std::shared_ptr<const PoleNetwork> network, int ax
   p.c0 = healthy.c0;
   p.i_max = healthy.i_max;
   p.unipolar = healthy.unipolar;
+  p.load = load;
   return p;
 }
 
@@ -23,6 +25,7 @@ std::string StatorMapAfterFailure(const StatorProblem& problem, bool stiffness_c
                                   CurrentMap* map) {
   StatorProblem whole = problem;
   whole.turns_left.setOnes();
+  whole.load.setZero();
   const Eigen::Matrix2d healthy =
       DescribeStator(whole, SolvabilityClass::kExact, problem.healthy).stiffness;
   const StatorDistribution found = SolveStator(problem);
@@ -36,7 +39,7 @@ std::string StatorMapAfterFailure(const StatorProblem& problem, bool stiffness_c
   }
   map->W.topRows(coils) = found.W;
   if (stiffness_compensation) map->stiffness_change = DestabilisingPart(healthy - found.stiffness);
-  return ToText(found.cls);
+  return ToText(found.cls) + std::string(found.load.norm() > 0 ? " about the load" : "");
 }
 
 }  // namespace ambrig

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "fdd/detectors/linkage_phases.h"
 #include "fdd/measurement/period_slopes.h"
 #include "fdd/model/inductance_matrix.h"
 
@@ -20,7 +21,10 @@ constexpr int kInARow = 3;         // periods
 
 class LinkageBalance : public RunDetector {
  public:
-  explicit LinkageBalance(const RunDetectorSetup& setup) : model_(setup.model), s_(setup.settings) {
+  explicit LinkageBalance(const RunDetectorSetup& setup)
+      : model_(setup.model),
+        s_(setup.settings),
+        phases_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
     Require(model_.network != nullptr, "a stator with a network");
     const WindingMatrix L = model_.network->Linkage(FluxAt(0, 0));
     const double T = s_.sampling.samples * s_.sampling.step;
@@ -35,11 +39,12 @@ class LinkageBalance : public RunDetector {
 
   DetectorAlarm Period(const MeasuredPeriod& in) override {
     DetectorAlarm alarm;
-    const Lane now = LinkagesAtStart(in);
+    const Lane now = phases_.Linkages(in.adc[0], in.x0, in.y0);
     for (int j = 0; j < model_.coils; ++j) {
       if (last_ && !lost_[static_cast<std::size_t>(j)]) Judge(in, now, j, alarm);
     }
-    last_ = now;
+    if (alarm.coil < 0) JudgePhases(in, alarm);
+    last_ = phases_.Linkages(in.adc[0], in.x0, in.y0);
     driven_ = DrivenOver(in);
     comparable_ = in.comparable && !in.uncertainty.any();
     return alarm;
@@ -50,23 +55,13 @@ class LinkageBalance : public RunDetector {
  private:
   PoleMatrix FluxAt(double x, double y) const { return model_.network->FluxAt({x, y, 0}).phi; }
 
-  Lane LinkagesAtStart(const MeasuredPeriod& in) const {
-    const WindingMatrix L = model_.network->Linkage(FluxAt(in.x0, in.y0));
-    Lane out;
-    for (int j = 0; j < model_.coils; ++j) {
-      out[j] = L(j, model_.coils) + model_.leakage[j] * in.adc[0][j];
-      for (int k = 0; k < model_.coils; ++k) out[j] += L(j, k) * in.adc[0][k];
-    }
-    return out;
-  }
-
   /// ∫ (v - R i) dt over the period that its duty and samples belong to [Wb].
   Lane DrivenOver(const MeasuredPeriod& in) const {
     Lane out;
     for (int j = 0; j < model_.coils; ++j)
       for (int k = 0; k < s_.sampling.samples; ++k)
         out[j] += DrivenLinkage(s_.sampling, in, j, k) -
-                  model_.resistance[j] * in.adc[k][j] * s_.sampling.step;
+                  phases_.share(j) * model_.resistance[j] * in.adc[k][j] * s_.sampling.step;
     return out;
   }
 
@@ -119,8 +114,18 @@ class LinkageBalance : public RunDetector {
     }
   }
 
+  /// Coils that carry current with wrong slopes.
+  void JudgePhases(const MeasuredPeriod& in, DetectorAlarm& alarm) {
+    const Diagnosis d = phases_.Period(in, lost_);
+    if (d.cls == FaultClass::kNone) return;
+    alarm.coil = d.coil;
+    alarm.diagnosis = d;
+    if (d.cls != FaultClass::kPartialShort) lost_[static_cast<std::size_t>(d.coil)] = true;
+  }
+
   LinkageModel model_;
   DetectorSettings s_;
+  LinkagePhases phases_;
   double threshold_ = 0;      // [V]
   std::optional<Lane> last_;  // λ at the start of the last period [Wb]
   Lane driven_, balance_;     // [Wb], [V]

@@ -10,7 +10,8 @@
 /// A coil is given up when |e_j| goes beyond the threshold while there is no current in it, three periods
 /// in a row (bridges of two quadrants: only where a current is asked of it, for their diodes block). A
 /// current that went faster than its inductance lets it fall was broken ("open"), else its amplifier
-/// does not drive ("amplifier-off"). Turns that are shorted are not looked for. Source: docs/theory/stators.md.
+/// does not drive ("amplifier-off"). Coils that carry current are judged by their slopes: linkage_phases.h. Source:
+/// docs/theory/stators.md.
 #include "fdd/detectors/run_detector.h"
 
 namespace ambrig {

@@ -9,6 +9,8 @@
 #include "control/position/controller_kind.h"
 #include "control/position/unbalance_control.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/magnet_inverse.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 
@@ -34,8 +36,9 @@ SampledPlant ModelOf(const RigParameters& rig, const ControllerParameters& c, do
   return MakeControlPlant(model, ControlledAxes(rig), speed, nullptr, {c.planes, c.modes});
 }
 
-/// `rig` must outlive the site.
-ControllerSite SiteOf(const RigParameters& rig, const ControllerParameters& c, double Ts) {
+/// `nominal` must outlive the site.
+ControllerSite SiteOf(const NominalRig& nominal, const ControllerParameters& c, double Ts) {
+  const RigParameters& rig = *nominal;
   ControllerSite site;
   site.period = Ts;
   site.inertia_polar = rig.rotor.inertia_polar;
@@ -46,6 +49,10 @@ ControllerSite SiteOf(const RigParameters& rig, const ControllerParameters& c, d
     for (int j = 0; j < b.coils(); ++j) at.coils.push_back(fmt::format("coil{}", j + 1));
     at.i_max = rig.amplifier.i_max;
     at.unipolar = rig.amplifier.quadrants < 3;
+    const AmplifierParameters& a = rig.amplifier;
+    if (a.voltage_mode)
+      at.force_per_duty = ForceConstant(b) * BiasCurrent(rig, b) *
+                          (SwingsBothWays(a.modulation) ? 2 : 1) * a.bus_voltage / a.kp;
     site.bearings.push_back(std::move(at));
     for (const std::string& name : b.Axes()) {
       site.axes.push_back(name);
@@ -54,6 +61,11 @@ ControllerSite SiteOf(const RigParameters& rig, const ControllerParameters& c, d
   }
   site.plant = [&rig](const ControllerParameters& of, double speed) {
     return ModelOf(rig, of, speed);
+  };
+  site.inverse = [&nominal](std::size_t bearing) {
+    const auto share = WeightShares(*nominal)[bearing];
+    const bool planar = nominal->bearings[bearing].kind->two_axes;
+    return MagnetInverseOf(nominal, bearing, {share[0], planar ? share[1] : 0});
   };
   return site;
 }
@@ -72,7 +84,7 @@ std::unique_ptr<PositionController> MakeCentralController(const NominalRig& nomi
                                                           std::vector<std::string>* axes) {
   const RigParameters& rig = *nominal;
   const double Ts = rig.periods_per_control() / rig.amplifier.switching_frequency;
-  const ControllerSite site = SiteOf(rig, c, Ts);
+  const ControllerSite site = SiteOf(nominal, c, Ts);
   auto central = ControllerKindByName(c.kind).make(c, site);
   if (c.unbalance)
     central =

@@ -57,8 +57,13 @@ void SwitchingEngine::Start() {
 void SwitchingEngine::Period(long long n) {
   if (options_.forced) FollowData(n);
   loop_.AtPeriodStart(n);
-  for (BearingRun& b : bearings_) SetPatterns(b);
-  RunMagnetics(n);
+  if (CurrentsAreForced()) {
+    Observe();
+    RunForcedCurrents(n);
+  } else {
+    for (BearingRun& b : bearings_) SetPatterns(b);
+    RunMagnetics(n);
+  }
   Measure(n);
   MoveRotor(n);
   if (n >= 0 && options_.watch) Watch(n);

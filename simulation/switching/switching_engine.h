@@ -27,6 +27,9 @@ struct EngineOptions : SampledOptions, RunControl {
   int substeps = 1;
   // measured set-points and readings drive the coils; no rotor
   const Record* forced = nullptr;
+  // [Hz], above 0: measured currents of `forced` drive the rotor, the gaps follow its readings, and so does the
+  // rotor itself through an observer of this frequency
+  double observer = 0;
   /// Who moves the rotor; empty: RotorModel::Step.
   std::function<std::unique_ptr<RotorStepper>(const RotorModel&)> stepper = {};
 };
@@ -43,6 +46,10 @@ class SwitchingEngine {
   void Start();
   void StartForced();
   void FollowData(long long n);
+  bool CurrentsAreForced() const { return options_.forced && options_.observer > 0; }
+  void StartForcedRotor();
+  void RunForcedCurrents(long long n);
+  void Observe();
   void ForcedPosition(const SampledBearing& b, double t, double* x, double* y) const;
   void Period(long long n);
   void SetPatterns(BearingRun& b);
@@ -82,7 +89,8 @@ class SwitchingEngine {
   std::vector<StatorLanes::PeriodOfBearing> together_;
   RunResult result_;
   RunWatch watch_;
-  double touching_ = 0;  // [s]
+  double touching_ = 0;       // [s]
+  Eigen::MatrixXd observed_;  // displacements of the rotor from readings
 };
 
 }  // namespace ambrig

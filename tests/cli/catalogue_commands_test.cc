@@ -2,9 +2,11 @@
 // tables and nowhere else.
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <sstream>
 
 #include "effects/catalogue.h"
 #include "rig/rig_parameters.h"
@@ -81,6 +83,48 @@ TEST_F(CatalogueCommands, ParametersAreTheTablesOfTheReaders) {
     }
 }
 
+/// Last parts of the keys at the starts of lines; names of channels stand in quotes.
+std::set<std::string> KeysIn(const std::string& text) {
+  std::set<std::string> keys;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t end =
+        line.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789.");
+    if (end == 0 || end == std::string::npos ||
+        line.find_first_not_of(' ', end) == std::string::npos ||
+        line[line.find_first_not_of(' ', end)] != '=')
+      continue;
+    const std::string key = line.substr(0, end);
+    keys.insert(key.substr(key.rfind('.') + 1));
+  }
+  return keys;
+}
+
+// What rig, scenario and case files of the examples and the library write is on the page.
+TEST_F(CatalogueCommands, EveryKeyOfTheExamplesIsListed) {
+  std::set<std::string> listed;
+  for (const Json& line : JsonOf("parameters")) {
+    std::string key = line["key"];
+    for (char& c : key)
+      if (c == ',' || c == '.') c = ' ';
+    std::istringstream words(key);
+    for (std::string word; words >> word;) listed.insert(word);
+  }
+  int files = 0;
+  for (const char* folder : {"/examples", "/scenarios/library"})
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(AMBRIG_SOURCE_DIR + std::string(folder))) {
+      if (entry.path().extension() != ".toml") continue;
+      const std::string text = ReadText(entry.path());
+      const bool rig = text.find("\n[rotor]") != std::string::npos &&
+                       text.find("\n[amplifier]") != std::string::npos;
+      if (!rig && text.find("\nrig = ") == std::string::npos) continue;
+      ++files;
+      for (const std::string& key : KeysIn(text)) EXPECT_TRUE(listed.contains(key)) << entry << key;
+    }
+  EXPECT_GT(files, 60);
+}
+
 TEST_F(CatalogueCommands, PagesHoldTheSameRows) {
   ASSERT_EQ(Ambrig("parameters --html p.html").exit, 0);
   ASSERT_EQ(Ambrig("effects --html e.html").exit, 0);
@@ -88,6 +132,7 @@ TEST_F(CatalogueCommands, PagesHoldTheSameRows) {
                     effects = testing::Words(ReadText(folder_ / "e.html"));
   EXPECT_THAT(parameters, HasSubstr("\n[rotor]\nmass\nkg\nrequired\n"));
   EXPECT_THAT(parameters, HasSubstr("the coil detector, as open"));
+  EXPECT_THAT(ReadText(folder_ / "p.html"), HasSubstr("type=\"search\""));
   for (const EffectDescription& d : Catalogue())
     EXPECT_THAT(effects, HasSubstr("\n" + d.id + "\n")) << d.id;
 }

@@ -108,6 +108,25 @@ TEST_F(Tutorial, RealRig) {
   }
 }
 
+// From an empty folder: nothing but the logger's files.
+TEST_F(Tutorial, YourRigInAnHour) {
+  for (const auto& file :
+       fs::directory_iterator(fs::path(AMBRIG_SOURCE_DIR) / "examples/mls2em/data"))
+    fs::copy(file, folder_);
+  Follow("your_rig_in_an_hour.md");
+  const auto explained = Json("explain.json");
+  EXPECT_EQ(explained["verdict"], "effect");
+  EXPECT_EQ(explained["ranking"][0]["effect"], "freewheel-drop");
+  // The voltmeter's 0.561 V.
+  const auto drop = explained["adopted"][0]["parameters"]["drop"];
+  EXPECT_NEAR(drop["value"].get<double>(), 0.561, 0.04);
+  EXPECT_LT(Json("compare_2.json")["ratio"], 0.5 * Json("compare.json")["ratio"].get<double>());
+  // Where the ball was held: 0.42 mm from the magnet in the fourth record.
+  EXPECT_NE(Read(folder_ / "bench/record-4.toml").find("position = { M = [0.00957"),
+            std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "bench/compare.html"));
+}
+
 // Found, described, written, fitted; the numbers that the independent simulator hid.
 TEST_F(Tutorial, LawOutsideTheCatalogue) {
   fs::copy(fs::path(AMBRIG_SOURCE_DIR) / "examples/rub", folder_, fs::copy_options::recursive);

@@ -2,15 +2,19 @@
 #include "control/position/controller_kind.h"
 
 // In the order of the documentation.
-#define AMBRIG_CONTROLLERS(CONTROLLER) \
-  CONTROLLER(PidKind)                  \
-  CONTROLLER(TransferFunctionKind)     \
-  CONTROLLER(StateSpaceKind)           \
-  CONTROLLER(LqgKind)                  \
-  CONTROLLER(HInfinityKind)            \
-  CONTROLLER(TiltTranslationKind)      \
-  CONTROLLER(LibraryKind)              \
-  CONTROLLER(SocketKind)
+#define AMBRIG_CONTROLLERS(CONTROLLER)  \
+  CONTROLLER(PidKind)                   \
+  CONTROLLER(DutyPidKind)               \
+  CONTROLLER(StateFeedbackKind)         \
+  CONTROLLER(FeedbackLinearisationKind) \
+  CONTROLLER(TransferFunctionKind)      \
+  CONTROLLER(StateSpaceKind)            \
+  CONTROLLER(LqgKind)                   \
+  CONTROLLER(HInfinityKind)             \
+  CONTROLLER(TiltTranslationKind)       \
+  CONTROLLER(LibraryKind)               \
+  CONTROLLER(SocketKind)                \
+  CONTROLLER(NoneKind)
 
 namespace ambrig {
 

@@ -77,5 +77,34 @@ TEST(PowerBridge, IdealOneIsTheSameForEveryModulation) {
     }
 }
 
+// Two bi-state legs half a period apart, whose mean the coil sees: voltage of the tri-state bridge at twice the frequency, drops
+// and all ("interleaved" of a rig file is that bridge).
+TEST(PowerBridge, InterleavedLegsAreATriStateBridgeAtTwiceTheFrequency) {
+  AmplifierParameters leg = Reference(Modulation::kBiState),
+                      both = Reference(Modulation::kTriState);
+  leg.switching_frequency = 0.5 * both.switching_frequency;
+  const double T = 1 / leg.switching_frequency, U = 120;
+  const auto at = [U](const CoilVoltage& v, double t) {
+    const int q = t < v.t1 ? 0 : t < v.t2 ? 1 : 2;
+    return v.gain[q] * U + v.drop[q];
+  };
+  for (const double duty : {0.1, 0.37, 0.5, 0.62, 0.9}) {
+    const CoilVoltage one = IdealBridgeVoltage(leg, duty), sum = IdealBridgeVoltage(both, duty);
+    // The half period as distribution over the voltages: where in it they come depends on the carriers.
+    double legs[3] = {}, bridge[3] = {};
+    constexpr int kInstants = 1000;
+    for (int k = 0; k < kInstants; ++k) {
+      const double t = (k + 0.5) / kInstants * T / 2;
+      const double v = 0.5 * (at(one, t) + at(one, t + T / 2)), w = at(sum, t);
+      ++legs[v > 0.5 * U ? 0 : v < -0.5 * U ? 1 : 2];
+      ++bridge[w > 0.5 * U ? 0 : w < -0.5 * U ? 1 : 2];
+      if (std::abs(v) < 0.5 * U) {
+        EXPECT_NEAR(v, -(leg.switch_drop + leg.diode_drop), 1e-12);
+      }
+    }
+    for (int level = 0; level < 3; ++level) EXPECT_NEAR(legs[level], bridge[level], 2) << duty;
+  }
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -29,7 +29,7 @@ class ImposedMotion : public ::testing::Test {
   static void TearDownTestSuite() { delete hidden_; }
   void SetUp() override {
     data_ = hidden_->data;
-    for (CaseRecord& r : data_.records) r.imposed_motion = true;
+    for (CaseRecord& r : data_.records) r.imposed = Imposed::kMotion;
   }
   static double ErrorOverFloor(const Case& data) {
     CaseModel model(data, 4);
@@ -65,7 +65,7 @@ TEST_F(ImposedMotion, TheFirstRowsOfALoopWithAnUnknownPastAreLeftOut) {
     EXPECT_TRUE(HasSettled(r, r.data.start + 0.0041));
   }
   CaseRecord free = data_.records[0];
-  free.imposed_motion = false;
+  free.imposed = Imposed::kNothing;
   EXPECT_TRUE(HasSettled(free, free.data.start));
 }
 

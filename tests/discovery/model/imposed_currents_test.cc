@@ -1,0 +1,105 @@
+// Records with imposed currents: measured currents in gaps that follow the measured positions move the rotor, circuits
+// and controller play no part. The data come from levitated runs under the controller.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "core/record/channels.h"
+#include "discovery/model/floor.h"
+#include "discovery/model/record_traits.h"
+#include "discovery/model/residual.h"
+#include "discovery/practice/hide.h"
+#include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/rig_file.h"
+#include "simulation/switching/switching_engine.h"
+
+namespace ambrig {
+namespace {
+
+RigParameters FreeRotor() {
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
+  return rig;
+}
+
+/// A practice case without an effect, every parameter as in the rig file; currents of the levitated records imposed.
+class ImposedCurrents : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { hidden_ = new HiddenCase(Hide(FreeRotor(), {{}, false, 5})); }
+  static void TearDownTestSuite() { delete hidden_; }
+  void SetUp() override {
+    data_ = hidden_->data;
+    std::erase_if(data_.records, [](const CaseRecord& r) {
+      return r.scenario.start == StartState::kClamped || !r.data.Find("A.i1");
+    });
+    for (CaseRecord& r : data_.records) r.imposed = Imposed::kCurrents;
+    ASSERT_FALSE(data_.records.empty());
+  }
+  static double ErrorOverFloor(const Case& data) {
+    CaseModel model(data, 4);
+    const Hypothesis base = Hypothesis::Base(data.rig);
+    const NoiseFloor floor = FindFloor(model, base);
+    return Ratio(model, Residual(model, floor.clean), Which::kFit);
+  }
+  static HiddenCase* hidden_;
+  Case data_;
+};
+HiddenCase* ImposedCurrents::hidden_ = nullptr;
+
+TEST_F(ImposedCurrents, OnlyReadingsArePredicted) {
+  for (const CaseRecord& r : data_.records)
+    for (const Channel& c : r.data.channels)
+      EXPECT_EQ(IsPredicted(r, c.name), IsOfKind(c.name, ChannelKind::kReading)) << c.name;
+}
+
+TEST_F(ImposedCurrents, TheTrueRotorLeavesNothingButNoise) {
+  const double ratio = ErrorOverFloor(data_);
+  EXPECT_GT(ratio, 0.8);
+  EXPECT_LT(ratio, 1.3);
+}
+
+TEST_F(ImposedCurrents, AWrongRotorShows) {
+  const double right = ErrorOverFloor(data_);
+  ASSERT_TRUE(SetParameter(data_.rig, "rotor.mass", 1.1 * data_.rig.rotor.mass));
+  EXPECT_GT(ErrorOverFloor(data_), 3 * right);
+}
+
+TEST_F(ImposedCurrents, WrongCircuitsAndControllersPlayNoPart) {
+  const double right = ErrorOverFloor(data_);
+  ASSERT_TRUE(SetParameter(data_.rig, "bearings.A.leakage_inductance", 1e-3));
+  ASSERT_TRUE(SetParameter(data_.rig, "bearings.A.resistance", 3));
+  data_.rig.controller.pid.kp *= 0.5;
+  EXPECT_NEAR(ErrorOverFloor(data_), right, 1e-6 * right);
+}
+
+// A constant force that the model does not know: e = F/(m ω²), here at both bearings alike.
+TEST_F(ImposedCurrents, AConstantForceIsTheObserversOffset) {
+  const CaseRecord& r = data_.records.front();
+  const RigParameters& rig = data_.rig;
+  const Record driving = DrivingRecord(rig, r);
+  const auto reading = [&](double extra) {
+    Scenario s = r.scenario;
+    s.noise = false;
+    s.loads.clear();
+    LoadSpec load;
+    load.fy = extra;
+    load.z = 0.5 * (rig.bearings[0].z + rig.bearings[1].z);
+    load.start = 0;
+    load.stop = 1e9;
+    s.loads.push_back(load);
+    EngineOptions o;
+    o.watch = false;
+    o.forced = &driving;
+    o.observer = 40;
+    return SwitchingEngine(rig, s, o).Run().record.Find("A.y")->samples.back();
+  };
+  const double omega = 2 * kPi * 40;
+  const double force = 2, offset = force / (rig.rotor.mass * omega * omega);
+  EXPECT_NEAR(reading(force) - reading(0), offset, 0.02 * offset);
+}
+
+}  // namespace
+}  // namespace ambrig
