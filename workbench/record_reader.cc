@@ -26,6 +26,7 @@ using Json = nlohmann::ordered_json;
 constexpr rlim_t kMemory = rlim_t{1} << 30;  // [bytes]
 constexpr std::size_t kMostRecords = 12;     // kept in memory
 constexpr std::size_t kMostColumns = 20000;
+constexpr std::size_t kMostWhole = 4000000;  // values of an export
 
 struct KeptRecord {
   std::string key;
@@ -73,6 +74,17 @@ std::size_t RowAt(const Record& r, double t) {
   return std::min(static_cast<std::size_t>(std::min(row, 1e15)), r.rows());
 }
 
+/// Whether every sample is wanted, as for an export, and can be sent.
+bool IsWhole(const Json& request, std::size_t rows) {
+  if (!request.value("all", false)) return false;
+  if (rows * request["channels"].size() > kMostWhole)
+    throw InputError(
+        fmt::format("{} rows of {} channels are too many to export, allowed: {} values; "
+                    "zoom in",
+                    rows, request["channels"].size(), kMostWhole));
+  return true;
+}
+
 /// Of each channel the extremes of its columns as lo, hi pairs, or, where the view has fewer samples
 /// than two a column, the samples.
 std::string View(KeptRecord& k, const Json& request) {
@@ -83,7 +95,7 @@ std::string View(KeptRecord& k, const Json& request) {
   const double end = r.start + static_cast<double>(r.rows()) / r.rate;
   const std::size_t last = std::min(RowAt(r, request.value("t1", end)) + 1, r.rows());
   const std::size_t rows = last > first ? last - first : 0;
-  const bool raw = rows <= 2 * columns;
+  const bool raw = rows <= 2 * columns || IsWhole(request, rows);
   std::vector<float> values;
   Json channels = Json::array();
   for (const std::string& name : request["channels"].get<std::vector<std::string>>()) {

@@ -112,6 +112,13 @@ bool ServedFolder::Has(const std::string& name) const {
   }
 }
 
+bool ServedFolder::HasFolder(const std::string& name) const {
+  if (!IsServedName(name + "/x.toml")) return false;
+  const int folder = OpenBeneath(folder_, name, O_RDONLY | O_DIRECTORY);
+  if (folder >= 0) ::close(folder);
+  return folder >= 0;
+}
+
 int ServedFolder::OpenParent(const std::string& name, std::string* leaf) const {
   if (!IsServedName(name)) Refuse(name, "is not a name of this folder");
   const std::string parent = fs::path(name).parent_path().string();

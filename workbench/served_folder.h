@@ -31,6 +31,8 @@ class ServedFolder {
   /// @throws InputError, also when it is larger than `limit`
   std::string Read(const std::string& name, std::size_t limit) const;
   bool Has(const std::string& name) const;
+  /// Whether a folder of this name lies in it, reached without a link.
+  bool HasFolder(const std::string& name) const;
   /// The whole file or none of it: temporary name, then renamed within its folder, which exists.
   /// @throws InputError
   void Write(const std::string& name, const std::string& text) const;

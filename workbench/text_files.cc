@@ -86,9 +86,26 @@ int TextFiles::ReplaceLocked(const std::string& name, const std::string& text,
   return step;
 }
 
-int TextFiles::Replace(const std::string& name, const std::string& text, const std::string& hash) {
+void TextFiles::CheckWritable(const std::string& name) {
   if (!name.ends_with(".toml") && !name.ends_with(".txt") && !name.ends_with(".md"))
     throw InputError(name + ": allowed to be written: .toml, .txt, .md");
+}
+
+int TextFiles::Remove(const std::string& name, const std::string& hash) {
+  CheckWritable(name);
+  const std::scoped_lock lock(mutex_);
+  const std::string old = folder_.Read(name, kLargest);
+  if (HashText(old) != hash) throw Conflict{HashText(old)};
+  const int step = ++last_;
+  const nlohmann::ordered_json kept{{"file", name}, {"there", true}, {"old", old}, {"written", ""}};
+  WriteFileAtomically(TrashOf(step),
+                      kept.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  folder_.Remove(name);
+  return step;
+}
+
+int TextFiles::Replace(const std::string& name, const std::string& text, const std::string& hash) {
+  CheckWritable(name);
   const std::scoped_lock lock(mutex_);
   return ReplaceLocked(name, text, hash);
 }

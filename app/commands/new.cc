@@ -11,6 +11,7 @@
 #include "app/commands/new_templates.h"
 #include "app/commands/outputs.h"
 #include "app/commands/screen.h"
+#include "app/json/json_number.h"
 #include "core/base/atomic_file.h"
 #include "core/base/toml.h"
 #include "core/record/read_record.h"
@@ -23,8 +24,49 @@ namespace {
 struct NewCommand {
   std::string name, answers, record, out = "bench";
   std::vector<std::string> set, column;
-  bool ask = false, only_files = false, force = false;
+  CommonOptions common;  // --json and --force of it
+  bool ask = false, only_files = false, list = false;
 };
+
+/// The questions of every template, for a page that asks them.
+nlohmann::ordered_json QuestionsJson() {
+  nlohmann::ordered_json templates = nlohmann::ordered_json::array();
+  for (const BenchTemplate& t : BenchTemplates()) {
+    nlohmann::ordered_json numbers = nlohmann::ordered_json::array();
+    for (const BenchNumber& n : t.numbers)
+      numbers.push_back({{"key", n.key},
+                         {"unit", n.unit},
+                         {"doc", n.doc},
+                         {"lo", n.lo},
+                         {"hi", n.hi},
+                         {"fallback", FiniteOrNull(n.fallback)}});
+    templates.push_back({{"name", t.name}, {"doc", t.doc}, {"numbers", numbers}});
+  }
+  return {{"templates", templates}};
+}
+
+int ListQuestions(const CommonOptions& common) {
+  for (const BenchTemplate& t : BenchTemplates()) {
+    fmt::print("{}: {}\n", t.name, t.doc);
+    for (const BenchNumber& n : t.numbers)
+      fmt::print("  {:<22} {:<6} {}{}\n", n.key, n.unit, n.doc,
+                 std::isnan(n.fallback) ? "" : fmt::format(" (else {:g})", n.fallback));
+  }
+  common.WriteJson(QuestionsJson());
+  return 0;
+}
+
+nlohmann::ordered_json BenchJson(const std::vector<std::string>& files,
+                                 const std::vector<ColumnChoice>& choices) {
+  nlohmann::ordered_json columns = nlohmann::ordered_json::array();
+  for (const ColumnChoice& c : choices)
+    columns.push_back({{"channel", c.channel},
+                       {"column", c.column},
+                       {"unit", c.unit},
+                       {"gain", c.gain},
+                       {"reason", c.reason}});
+  return {{"files", files}, {"columns", columns}};
+}
 
 double NumberOf(const BenchNumber& n, const std::string& text, const std::string& where) {
   std::size_t used = 0;
@@ -157,6 +199,7 @@ int RunAmbrig(std::vector<std::string> arguments) {
 }
 
 int MakeBench(NewCommand o) {
+  if (o.list) return ListQuestions(o.common);
   BenchAnswers answers;
   const BenchTemplate* bench = nullptr;
   if (!o.answers.empty()) ReadAnswers(o.answers, o, bench, answers);
@@ -183,24 +226,30 @@ int MakeBench(NewCommand o) {
   const std::filesystem::path folder(o.out);
   PrepareFolder(o.out);
   std::vector<std::pair<std::string, std::string>> files = {{"rig.toml", rig_text}};
+  std::vector<ColumnChoice> choices;
   if (o.record.empty()) {
     files.emplace_back("levitation.toml", LevitationText(rig));
   } else {
-    std::vector<ColumnChoice> choices = ChooseColumns(rig, record);
+    choices = ChooseColumns(rig, record);
     for (const std::string& said : o.column) SayColumn(said, rig, record, choices);
     const double held = HoldAtDistance(rig, record, choices);
     PrintChoices(record, choices, rig);
-    const std::string data = std::filesystem::absolute(o.record).lexically_normal().string();
+    const std::string data =
+        std::filesystem::absolute(o.record)
+            .lexically_normal()
+            .lexically_relative(std::filesystem::absolute(folder).lexically_normal())
+            .string();
     files.emplace_back("record.toml", ScenarioOfRecord(rig, record, choices, data, held));
     files.emplace_back("case.toml", CaseText(rig, choices, data));
   }
   std::vector<std::string> paths;
   for (const auto& [name, text] : files) paths.push_back((folder / name).string());
-  RefuseOverwriting(paths, o.force);
+  RefuseOverwriting(paths, o.common.force);
   for (std::size_t k = 0; k < files.size(); ++k) {
     WriteFileAtomically(paths[k], files[k].second);
     fmt::print("written: {}\n", paths[k]);
   }
+  o.common.WriteJson(BenchJson(paths, choices));
   if (o.only_files) return 0;
   if (o.record.empty()) return RunAmbrig({"run", paths[1], "--out", (folder / "out").string()});
   return RunAmbrig({"compare", paths[2], "--html", (folder / "compare.html").string()});
@@ -223,7 +272,13 @@ void AddNew(CLI::App& app, Work& work) {
   command->add_option("-o,--out", o->out, "folder")->capture_default_str();
   command->add_flag("--ask", o->ask, "ask for what is missing");
   command->add_flag("--only-files", o->only_files, "write the files, run nothing");
-  command->add_flag("--force", o->force, "overwrite files that ambrig did not make");
+  command->add_flag("--list", o->list, "print what each template asks for; nothing is written");
+  command
+      ->add_option("--json", o->common.json,
+                   "write the files and the columns taken, or with --list the questions, to FILE")
+      ->type_name("FILE")
+      ->check(OutputFile());
+  command->add_flag("--force", o->common.force, "overwrite files that ambrig did not make");
   command->footer(
       "Examples:\n"
       "  ambrig new --answers examples/new/ball.toml -o ball\n"

@@ -18,6 +18,8 @@ export const state = {
   progress: new Map(),
   /** @type {Map<string, any>} "compare practice/case.toml" -> /api/result */
   results: new Map(),
+  /** @type {{case: string, folder: string}[]} folders of loggers that the server looks after */
+  watched: [],
   /** @type {{text: string, step: number|null, bad: boolean}|null} what was just done or refused */
   notice: null,
 };
