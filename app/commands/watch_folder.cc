@@ -168,39 +168,37 @@ void FolderWatch::Explained(const std::string& text, Json& entry, const Progress
 }
 
 Json FolderWatch::Examine(const Found& file, const Progress& progress) {
-  Json entry{{"kind", "record"},
-             {"data", file.name},
-             {"hash", FileHash(file.path)},
-             {"size", file.size},
-             {"changed", file.changed}};
-  const int record = RepeatedRecord(stems_, file.name);
+  Json entry{{"kind", "record"},     {"data", file.name},       {"hash", FileHash(file.path)},
+             {"size", file.size},    {"changed", file.changed}, {"model", ""},
+             {"left", Json::array()}};
+  const auto refuse = [&](const std::string& why) {
+    entry["state"] = "refused";
+    entry["error"] = why;
+    return entry;
+  };
+  const int repeated = RepeatedRecord(stems_, file.name);
+  if (repeated < 0)
+    return refuse(file.name +
+                  ": repeats no record of the case, allowed: a name that begins as the name of one "
+                  "of its data files");
+  const auto record = static_cast<std::size_t>(repeated);
+  const std::string own = CaseOfOneRecord(case_text_, options_.case_file, record, "/");
+  entry["of"] = stems_[record];
+  entry["model"] = HashText(own + rig_text_);
+  progress(0.02, "reference " + stems_[record]);
+  const RecordState reference = ReferenceOf(record, entry["model"]);
+  progress(0.15, file.name);
+  const std::string text = CaseOfOneRecord(case_text_, options_.case_file, record, file.path);
   try {
-    if (record < 0)
-      throw InputError(file.name +
-                       ": repeats no record of the case, allowed: a name that begins as the name "
-                       "of one of its data files");
-    entry["of"] = stems_[static_cast<std::size_t>(record)];
-    const std::string text = CaseOfOneRecord(case_text_, options_.case_file,
-                                             static_cast<std::size_t>(record), file.path);
-    const std::string own =
-        CaseOfOneRecord(case_text_, options_.case_file, static_cast<std::size_t>(record), "/");
-    const std::string model = HashText(own + rig_text_);
-    entry["model"] = model;
-    progress(0.02, "reference " + entry["of"].get<std::string>());
-    const RecordState reference = ReferenceOf(static_cast<std::size_t>(record), model);
-    progress(0.15, file.name);
     const RecordState state =
         StateOf(ReadCaseText(text, options_.case_file), &reference, &interrupted);
     entry.update(StateJson(state, &reference));
     const std::vector<LeftBand> left = FindLeftBands(state, reference);
-    entry["left"] = state.faults.empty() ? LeftJson(left) : Json::array();
+    if (state.faults.empty()) entry["left"] = LeftJson(left);
     entry["state"] = !state.faults.empty() ? "data" : left.empty() ? "ok" : "left";
     if (entry["state"] == "left" && options_.explain) Explained(text, entry, progress);
   } catch (const InputError& e) {
-    if (!entry.contains("model") || interrupted) entry["model"] = "";
-    entry["state"] = "refused";
-    entry["error"] = e.what();
-    entry["left"] = Json::array();
+    return refuse(e.what());
   }
   return entry;
 }

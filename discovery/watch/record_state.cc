@@ -15,15 +15,32 @@ namespace {
 constexpr double kFalseAlarms = 0.01;    // share of unchanged records that leave a band
 constexpr double kNoiseChange = 1.5;     // as between a stated noise and the records' own
 constexpr double kLeastErrorRise = 1.1;  // smaller rises of the error are not told
+// A rig may change by more than its drawing was uncertain about: heat, wear, a repair.
+constexpr double kChange = 3;  // of the tolerance, sd of a change that is expected
+constexpr double kMost = 24;   // of the tolerance, the largest change that is looked for
 
-/// The fit expects the reference's values, as well as the drawing knows them.
+const StateParameter* FindParameter(const RecordState& s, const std::string& path) {
+  const auto found =
+      std::ranges::find_if(s.parameters, [&](const StateParameter& p) { return p.path == path; });
+  return found == s.parameters.end() ? nullptr : &*found;
+}
+
+/// The fit expects the reference's values.
 void ExpectReference(const RecordState& reference, Hypothesis& h) {
-  for (std::size_t k = 0; k < h.free.size(); ++k)
-    for (const StateParameter& p : reference.parameters)
-      if (p.path == h.free[k].path) {
-        h.Set(k, p.value);
-        h.free[k].start = h.free[k].value;
-      }
+  for (std::size_t k = 0; k < h.free.size(); ++k) {
+    FreeParameter& f = h.free[k];
+    const StateParameter* was = FindParameter(reference, f.path);
+    if (!was) continue;
+    h.Set(k, was->value);
+    f.start = f.value;
+    if (f.effect >= 0) continue;
+    const double tolerance = f.sd;
+    std::string unit;
+    ParameterRange(h.rig, f.path, &f.lo, &f.hi, &unit);
+    f.lo = std::max(f.lo, f.value - kMost * tolerance);
+    f.hi = std::min(f.hi, f.value + kMost * tolerance);
+    f.sd = f.step = kChange * tolerance;
+  }
 }
 
 std::string UnitOf(const Hypothesis& h, const FreeParameter& f) {
@@ -43,12 +60,6 @@ double TwoSidedQuantile(double probability) {
     (std::erfc(middle / std::sqrt(2.0)) > probability ? lo : hi) = middle;
   }
   return hi;
-}
-
-const StateParameter* FindParameter(const RecordState& s, const std::string& path) {
-  const auto found =
-      std::ranges::find_if(s.parameters, [&](const StateParameter& p) { return p.path == path; });
-  return found == s.parameters.end() ? nullptr : &*found;
 }
 
 }  // namespace

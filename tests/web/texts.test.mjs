@@ -55,13 +55,16 @@ test('faults, loads, speed and tolerance of the playground', () => {
 });
 
 test('a test holds what the run did, with a tenth of room', () => {
-  const result = {events: [{kind: 'fault', t: 0.2}, {kind: 'detected', t: 0.20012}, {kind: 'classified', t: 0.20012, class: 'open'}, {kind: 'redistributed', t: 0.20012}],
+  const result = {events: [{kind: 'fault', t: 0.2, target: 'A.coil3'}, {kind: 'detected', t: 0.20012, target: 'A.coil3'}, {kind: 'classified', t: 0.20012, target: 'A.coil3', class: 'open'}, {kind: 'redistributed', t: 0.20012}],
                   metrics: {detection_delay: 1.2e-4, max_orbit: {A: 6.176e-6, B: 2e-6}}, touchdown: false, drop: false};
   const text = withExpectations(scenario, result);
   assert.match(text, /detected_within = 0\.00014\n/);
   assert.match(text, /classified = "open"\nredistributed = true\ntouchdown = false\ndrop = false\nmax_orbit = 0\.0000068\n/);
   assert.equal(text.match(/\[expect\]/g).length, 1);
   assert.equal(limitAbove(6.176e-6), 6.8e-6);
+  // A second fault that was not named: no class is expected.
+  const two = withExpectations(scenario, {...result, events: [...result.events, {kind: 'fault', t: 0.2, target: 'A.coil4'}]});
+  assert.doesNotMatch(two, /classified|detected_within/);
 });
 
 test('a sweep is a campaign of the coils of one bearing', () => {

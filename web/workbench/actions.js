@@ -185,7 +185,7 @@ async function reload(key) {
 function ended(job) {
   if (job.state === 'running' || job.state === 'queued') return;
   if (job.state === 'failed') tell(`${job.command}: ${job.error || 'failed, exit code ' + job.code}`, true);
-  if (job.state === 'stopped') tell(`${job.command} stopped; started again, it goes on where it was`);
+  if (job.state === 'stopped' && job.command !== 'play') tell(`${job.command} stopped; started again, it goes on where it was`);
   if (job.state === 'done' && job.command !== 'play') void loadResult(job.command, job.subject);
   void loadFolder();
 }

@@ -180,7 +180,7 @@ export class Panels {
   }
 
   tellMarks() {
-    for (const plot of this.plots) plot.redraw();
+    for (const plot of this.plots) plot.redraw(false);
     const out = this.place.parentElement?.querySelector('.marks');
     if (!out) return;
     const lines = this.plots.flatMap((p) => p.lines ?? []);

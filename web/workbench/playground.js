@@ -77,15 +77,17 @@ export function soon() {
   changed();
 }
 
-/** Runs that are superseded give way. */
-function stopOlder() {
-  for (const j of state.jobs) if (j.command === 'play' && (j.state === 'running' || j.state === 'queued')) void stopJob(j.id);
+/** Runs that are superseded give way; a new one must not share one that is about to be stopped. */
+async function stopOlder() {
+  await Promise.all(state.jobs.filter((j) => j.command === 'play' && (j.state === 'running' || j.state === 'queued')).map((j) => stopJob(j.id)));
 }
 
 /** The run first, then its ghosts. */
 export async function runAll() {
+  clearTimeout(timer);
   const number = ++asked;
-  stopOlder();
+  await stopOlder();
+  if (number !== asked) return;
   const stem = play.file.slice(play.file.lastIndexOf('/') + 1).replace(/\.toml$/, '');
   const kinds = /** @type {[string, boolean, boolean][]} */ ([['run', true, true], ['healthy', false, true], ['off', true, false]]);
   for (const [name, broken, tolerant] of kinds) {

@@ -86,10 +86,12 @@ export function limitAbove(v) {
 /** [expect] of what a run did, with a tenth of room. @param {string} text @param {any} result the JSON of `ambrig run` */
 export function withExpectations(text, result) {
   let out = withoutTables(text, ['expect']).replace(/\n*$/, '\n') + '\n[expect]\n';
-  const detected = result.events.find((/** @type {any} */ e) => e.kind === 'detected');
-  const named = result.events.find((/** @type {any} */ e) => e.kind === 'classified');
-  if (detected && result.metrics.detection_delay > 0) out += `detected_within = ${decimal(limitAbove(result.metrics.detection_delay))}\n`;
-  if (named?.class) out += `classified = ${quoted(named.class)}\n`;
+  // What is expected of a fault is expected of each.
+  const targets = result.events.filter((/** @type {any} */ e) => e.kind === 'fault').map((/** @type {any} */ e) => e.target);
+  const of = (/** @type {string} */ kind) => targets.map((/** @type {string} */ t) => result.events.find((/** @type {any} */ e) => e.kind === kind && e.target === t));
+  const classes = new Set(of('classified').map((/** @type {any} */ e) => e?.class ?? ''));
+  if (targets.length > 0 && of('detected').every((/** @type {any} */ e) => e) && result.metrics.detection_delay > 0) out += `detected_within = ${decimal(limitAbove(result.metrics.detection_delay))}\n`;
+  if (classes.size === 1 && !classes.has('')) out += `classified = ${quoted([...classes][0])}\n`;
   if (result.events.some((/** @type {any} */ e) => e.kind === 'redistributed')) out += 'redistributed = true\n';
   out += `touchdown = ${Boolean(result.touchdown)}\ndrop = ${Boolean(result.drop)}\n`;
   const most = Math.max(...Object.values(result.metrics.max_orbit ?? {}).map(Number));
