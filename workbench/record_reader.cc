@@ -23,8 +23,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr rlim_t kMemory = rlim_t{1} << 30;  // [bytes]
-constexpr std::size_t kMostRecords = 12;     // kept in memory
+constexpr rlim_t kMemory = rlim_t{1} << 30;   // [bytes]
+constexpr std::size_t kMostRecords = 12;      // kept in memory
+constexpr std::size_t kMostKept = 200 << 20;  // [bytes] of them beside the one that is looked at
 constexpr std::size_t kMostColumns = 20000;
 constexpr std::size_t kMostWhole = 4000000;  // values of an export
 
@@ -47,12 +48,29 @@ class RecordShelf {
         kept_.splice(kept_.begin(), kept_, it);
         return kept_.front();
       }
-    while (kept_.size() >= kMostRecords) kept_.pop_back();
-    kept_.push_front({key, group.empty() ? ReadRecord(file) : ReadHdf5Group(file, group), {}});
+    MakeRoom();
+    const auto read = [&] { return group.empty() ? ReadRecord(file) : ReadHdf5Group(file, group); };
+    try {
+      kept_.push_front({key, read(), {}});
+    } catch (const std::bad_alloc&) {
+      kept_.clear();  // there may be room for this one alone
+      kept_.push_front({key, read(), {}});
+    }
     return kept_.front();
   }
 
  private:
+  /// The records that were looked at longest ago go.
+  void MakeRoom() {
+    std::size_t bytes = 0, count = 0;
+    auto keep = kept_.begin();
+    for (; keep != kept_.end() && count + 1 < kMostRecords; ++keep, ++count) {
+      bytes += keep->record.rows() * keep->record.channels.size() * sizeof(double);
+      if (bytes > kMostKept) break;
+    }
+    kept_.erase(keep, kept_.end());
+  }
+
   std::list<KeptRecord> kept_;
 };
 

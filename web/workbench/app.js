@@ -1,19 +1,12 @@
 /** The page: address, screens, the strip of jobs. */
 import {html, nothing, render} from './lit-html.js';
-import {loadFolder, loadResult, resultOf, startJob, stopJob, takeEvent, undo, upload} from './actions.js';
+import {loadFolder, stopJob, takeEvent, undo, upload} from './actions.js';
 import {formatAddress, parseAddress} from './address.js';
 import {listen, takeToken} from './api.js';
-import {campaignScreen, drawCampaign, openCampaign} from './campaign_screen.js';
-import {caseScreen, drawPanels, nextWorst, openCase} from './case_screen.js';
-import {compareScreen, drawCompare, openCompare} from './compare_screen.js';
-import {fileScreen, openFile} from './file_screen.js';
 import {folderScreen, offerWizard} from './folder_screen.js';
 import {dialog, listenToKeys, openDialog} from './keys.js';
-import {takeRecords} from './plan_part.js';
-import {drawRun, openRun, runScreen} from './run_screen.js';
-import {changed, drawWith, state} from './state.js';
-import {openTrend, trendScreen} from './trend_screen.js';
-import {openWizard, wizardScreen} from './wizard_screen.js';
+import {screenNow, screenOf} from './screens.js';
+import {changed, drawWith, state, tellError} from './state.js';
 
 /** Changes the view and the address; a view that was held is a step of the browser's history. @param {object} change */
 function go(change) {
@@ -28,20 +21,14 @@ function go(change) {
 
 /** Whether something else is opened. @param {import('./address.js').View} a @param {import('./address.js').View} b */
 function isOther(a, b) {
-  return a.file !== b.file || a.screen !== b.screen || (a.screen === 'compare' && a.vs !== b.vs);
+  return a.file !== b.file || a.screen !== b.screen || ((a.screen === 'compare' || a.screen === 'record') && a.vs !== b.vs);
 }
 
 function opened() {
   window.scrollTo(0, 0);
   const {screen, file, vs} = state.view;
-  if (screen === 'case') void openCase(file);
-  if (screen === 'run') void openRun(file);
-  if (screen === 'campaign') void openCampaign(file);
-  if (screen === 'compare') void openCompare(file, vs);
-  if (screen === 'trend') void openTrend(file);
-  if (screen === 'new') void openWizard(file === '-' ? '' : file);
-  if (screen === 'file') void openFile(file);
   if (screen === 'folder') void loadFolder();
+  screenOf(screen).then((s) => s?.open(file, vs), tellError).then(changed);
 }
 
 function followAddress() {
@@ -83,49 +70,23 @@ function notice() {
     }} aria-label="close">\u00d7</button></div>`;
 }
 
-/** @param {string} screen */
-function shown(screen) {
-  if (screen === 'case') return caseScreen(go);
-  if (screen === 'run') return runScreen(go);
-  if (screen === 'rig') return rigScreen();
-  if (screen === 'campaign') return campaignScreen();
-  if (screen === 'compare') return compareScreen(go);
-  if (screen === 'trend') return trendScreen();
-  if (screen === 'new') return wizardScreen();
-  if (screen === 'file') return fileScreen();
-  return folderScreen();
-}
-
-/** Three digits more than a person needs, none that the file did not have. @param {any} v */
-const figure = (v) => (typeof v === 'number' ? String(Number(v.toPrecision(6))) : v ?? '');
-
-function rigScreen() {
-  const found = resultOf('rig', state.view.file);
-  if (found === undefined) {
-    state.results.set('rig ' + state.view.file, null);
-    void startJob({command: 'rig', rig: state.view.file});
-    void loadResult('rig', state.view.file);
-  }
-  if (!found) return html`<h1>${state.view.file}</h1><p>Reading the rig.</p>`;
-  const values = Object.entries(found.result.values);
-  return html`<h1>${state.view.file}</h1><table><thead><tr><th scope="col">number</th><th scope="col">value</th><th scope="col">sd</th><th scope="col">fitted</th><th scope="col">unit</th></tr></thead>
-    <tbody>${values.map(([path, v]) => html`<tr><th scope="row">${path}</th><td class="number">${figure(/** @type {any} */ (v).value)}</td>
-      <td class="number">${figure(/** @type {any} */ (v).sd)}</td><td class="number">${figure(/** @type {any} */ (v).fitted)}</td><td>${/** @type {any} */ (v).unit}</td></tr>`)}</tbody></table>`;
+/** @param {string} name */
+function shown(name) {
+  if (name === 'folder') return folderScreen();
+  return screenNow(name)?.view(go) ?? html`<p>Loading.</p>`;
 }
 
 function draw() {
   const page = document.getElementById('page');
   if (!page) return;
   render(html`${strip()}${notice()}<main>${shown(state.view.screen)}</main>${dialog()}`, page);
-  if (state.view.screen === 'case') drawPanels(go);
-  if (state.view.screen === 'run') drawRun(go);
-  if (state.view.screen === 'compare') drawCompare(go);
-  if (state.view.screen === 'campaign') drawCampaign(go);
+  screenNow(state.view.screen)?.draw?.(go);
 }
 
 /** A record dropped on a case is offered to it; elsewhere the wizard asks what it is. @param {FileList|null} files */
 async function takeDropped(files) {
   if (state.view.screen === 'case') {
+    const {takeRecords} = await import('./plan_part.js');
     await takeRecords(files, state.view.file);
     return;
   }
@@ -149,7 +110,7 @@ function begin() {
     e.preventDefault();
     void takeDropped(e.dataTransfer?.files ?? null);
   });
-  listenToKeys(go, nextWorst);
+  listenToKeys(go, () => screenNow(state.view.screen)?.next?.(go));
   void listen(takeEvent, () => {
     void loadFolder();
     opened();

@@ -9,8 +9,8 @@ import {queryOf, recordOf, runPlots, stemOf, verdict} from './run_parts.js';
 import {Panels} from './panels.js';
 import {activeJob, changed, lastJob, state, tellError} from './state.js';
 
-/** @type {{job: number, columns: string[], total: number, runs: number, rows: import('./campaign_rows.js').Row[], asking: boolean}} */
-let got = {job: 0, columns: [], total: 0, runs: 0, rows: [], asking: false};
+/** @type {{job: number, columns: string[], total: number, runs: number, rows: import('./campaign_rows.js').Row[], asking: boolean, whole: boolean}} whole: asked after its end, all are here */
+let got = {job: 0, columns: [], total: 0, runs: 0, rows: [], asking: false, whole: false};
 /** @type {import('./campaign_rows.js').Filter} */
 let filter = {set: null, load: null, verdict: null, from: null, to: null};
 let page = 0;
@@ -21,17 +21,17 @@ let panels = null;
 
 /** @param {string} file */
 export async function openCampaign(file) {
-  got = {job: 0, columns: [], total: 0, runs: 0, rows: [], asking: false};
+  got = {job: 0, columns: [], total: 0, runs: 0, rows: [], asking: false, whole: false};
   filter = {set: null, load: null, verdict: null, from: null, to: null};
   opened = null;
   panels?.clear();
   await loadResult('campaign', file);
 }
 
-/** Asks for the rows that are new. @param {number} job */
-async function more(job) {
+/** Asks for the rows that are new. @param {number} job @param {boolean} ended whether the job had ended before */
+async function more(job, ended) {
   if (got.asking) return;
-  if (got.job !== job) got = {job, columns: [], total: 0, runs: 0, rows: [], asking: false};
+  if (got.job !== job) got = {job, columns: [], total: 0, runs: 0, rows: [], asking: false, whole: false};
   got.asking = true;
   try {
     const answer = await getJson(`/api/rows?job=${job}&from=${got.rows.length}`);
@@ -40,7 +40,8 @@ async function more(job) {
       got.rows.push(...parseRows(answer.rows, got.columns));
       got.total = answer.total;
       got.runs = answer.runs;
-      if (answer.rows.length > 0) changed();
+      got.whole = ended && got.rows.length >= got.total;
+      if (answer.rows.length > 0 || got.whole) changed();
     }
   } catch (error) {
     tellError(error);
@@ -52,9 +53,12 @@ let timer = 0;
 /** While it runs every second, afterwards until all are there. @param {import('./state.js').Job} job */
 function follow(job) {
   const runs = job.state === 'running' || job.state === 'queued';
-  if (got.job !== job.id || (!runs && got.rows.length < got.total) || got.total === 0) void more(job.id);
   clearTimeout(timer);
-  if (runs) timer = setTimeout(() => void more(job.id).then(changed), 1000);
+  if (got.job !== job.id || (!runs && !got.whole)) void more(job.id, !runs);
+  if (runs) {
+    got.whole = false;
+    timer = setTimeout(() => void more(job.id, false).then(changed), 1000);
+  }
 }
 
 /** Runs a row again with its record and report. @param {string} file @param {number} row */
@@ -78,7 +82,7 @@ function mapTable(map) {
       if (!cell) return html`<td></td>`;
       const failed = cell.total - (cell.counts.up ?? 0), pressed = filter.set === set && filter.load === load;
       return html`<td class="cell level${Math.ceil(5 * failedShare(cell))}"><button aria-pressed=${pressed ? 'true' : 'false'}
-        aria-label="${set}, load ${load}: ${failed} of ${cell.total} did not stay up" @click=${() => {
+        aria-label="${set}, load ${load}: ${failed}/${cell.total} did not stay up" @click=${() => {
           filter = pressed ? {...filter, set: null, load: null} : {...filter, set, load};
           page = 0;
           changed();

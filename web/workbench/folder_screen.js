@@ -7,6 +7,8 @@ import {activeJob, changed, lastJob, state} from './state.js';
 
 /** Chosen to be compared, at most two of one kind. @type {string[]} */
 let picked = [];
+/** Whether a long list is shown whole. */
+let all = false;
 
 /** @param {string} screen @param {string} file @param {string} [text] */
 function link(screen, file, text = file) {
@@ -72,11 +74,21 @@ function list(kind, title, screen) {
     html`<li>${kind === 'rig' ? pick(f.name) : nothing} ${screen ? link(screen, f.name) : f.name}</li>`)}</ul>${kind === 'rig' ? comparePicked('rig') : nothing}</section>`;
 }
 
+/** Records, folded: there may be many. */
+function records() {
+  const files = state.folder.files.filter((/** @type {any} */ f) => f.kind === 'record');
+  if (files.length === 0) return nothing;
+  return html`<section><h2>Records</h2><details><summary>${files.length} records; Ctrl-K finds one</summary><ul class="files">${files.slice(0, 200).map((/** @type {any} */ f) => html`<li>${link('record', f.name)}</li>`)}</ul></details></section>`;
+}
+
 /** @param {any[]} scenarios */
 function scenarioTable(scenarios) {
   if (scenarios.length === 0) return nothing;
   return html`<section><h2>Scenarios</h2><table class="scenarios"><thead><tr><th></th><th scope="col">scenario</th><th scope="col">verdict</th><th scope="col">largest orbit</th><th scope="col">detected after</th><th></th></tr></thead>
-    <tbody>${scenarios.map(scenarioRow)}</tbody></table>${comparePicked('scenario')}</section>`;
+    <tbody>${scenarios.slice(0, all ? scenarios.length : 100).map(scenarioRow)}</tbody></table>${all || scenarios.length <= 100 ? nothing : html`<p>The first 100 of ${scenarios.length}; Ctrl-K finds any. <button @click=${() => {
+    all = true;
+    changed();
+  }}>Show all</button></p>`}${comparePicked('scenario')}</section>`;
 }
 
 export function folderScreen() {
@@ -90,7 +102,7 @@ export function folderScreen() {
       <tbody>${cases.map(caseRow)}</tbody></table>`}</section>
     <div class="columns"><div>${scenarioTable(scenarios)}</div>
     <div>${campaigns.length === 0 ? nothing : html`<section><h2>Campaigns</h2><table><tbody>${campaigns.map(campaignRow)}</tbody></table></section>`}
-    ${list('rig', 'Rigs', 'rig')}${list('broken', 'Files that cannot be read', 'file')}
+    ${list('rig', 'Rigs', 'rig')}${records()}${list('broken', 'Files that cannot be read', 'file')}
     <section class="drop"><h2>Add files</h2><label>A record, rig or scenario, or drop it on the page
       <input type="file" multiple @change=${async (/** @type {Event} */ e) => {
         const came = await upload(/** @type {HTMLInputElement} */ (e.target).files, '');

@@ -17,7 +17,7 @@ const keys = [
 ];
 
 /** What each kind of file opens. */
-const screens = /** @type {Record<string, string>} */ ({case: 'case', scenario: 'run', campaign: 'campaign', rig: 'rig', broken: 'file'});
+const screens = /** @type {Record<string, string>} */ ({case: 'case', scenario: 'run', campaign: 'campaign', rig: 'rig', broken: 'file', record: 'record'});
 
 /** Files whose name holds all the words. @param {any[]} files @param {string} text */
 export function matching(files, text) {
@@ -40,7 +40,7 @@ function close() {
   before?.focus();
 }
 
-/** @param {(change: object) => void} go @param {(go: (change: object) => void) => void} nextWorst */
+/** @param {(change: object) => void} go @param {() => void} nextWorst */
 export function listenToKeys(go, nextWorst) {
   addEventListener('keydown', (e) => {
     if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === 'k') {
@@ -52,8 +52,8 @@ export function listenToKeys(go, nextWorst) {
     const at = /** @type {HTMLElement} */ (e.target);
     if (e.ctrlKey || e.metaKey || e.altKey || open || ['INPUT', 'SELECT', 'TEXTAREA'].includes(at.tagName)) return;
     if (e.key === '?') openDialog('help');
-    else if (e.key.toLowerCase() === 'w' && state.view.screen === 'case') nextWorst(go);
-    else if ((e.key === '[' || e.key === ']') && state.view.screen === 'compare') go({shift: Number((state.view.shift + (e.key === ']' ? 0.001 : -0.001)).toFixed(6))});
+    else if (e.key.toLowerCase() === 'w' && state.view.screen === 'case') nextWorst();
+    else if ((e.key === '[' || e.key === ']') && (state.view.screen === 'compare' || state.view.screen === 'record')) go({shift: Number((state.view.shift + (e.key === ']' ? 0.001 : -0.001)).toFixed(6))});
     else return;
     e.preventDefault();
   });

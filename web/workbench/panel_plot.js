@@ -68,8 +68,9 @@ function drag(down, panels, plot) {
 /** @param {WheelEvent} e @param {import('./panels.js').Panels} panels @param {any} plot */
 function wheel(e, panels, plot) {
   e.preventDefault();
-  const {min, max} = plot.scales.x;
-  const at = timeAt(plot, e.clientX);
+  const min = panels.from ?? plot.scales.x.min, max = panels.to ?? plot.scales.x.max;
+  const box = plot.over.getBoundingClientRect();
+  const at = min + ((e.clientX - box.left) / box.width) * (max - min);
   const by = e.deltaY > 0 ? 1.25 : 0.8;
   panels.zoom(at - (at - min) * by, at + (max - at) * by);
 }

@@ -33,6 +33,7 @@ export class Panels {
     this.marks = {};
     this.held = false;  // y keeps its range
     this.samples = false;
+    this.drawing = 0;
     new ResizeObserver(() => this.resize()).observe(place);
   }
 
@@ -142,7 +143,12 @@ export class Panels {
     this.from = from;
     this.to = to;
     clearTimeout(this.timer);
-    if (from !== null && to !== null) for (const plot of this.plots) plot.setScale('x', {min: from, max: to});
+    // A wheel turns faster than the screen: one drawing a frame.
+    if (from !== null && to !== null && !this.drawing)
+      this.drawing = requestAnimationFrame(() => {
+        this.drawing = 0;
+        if (this.from !== null && this.to !== null) for (const plot of this.plots) plot.setScale('x', {min: this.from, max: this.to});
+      });
     this.timer = setTimeout(() => {
       void this.load(false);
       this.tellMoved();

@@ -64,7 +64,7 @@ function line(title, unit, points, count) {
   const words = `${title}: ${points.length} records, last ${last.sd ? uncertain(last.v, last.sd, unit) : significant(last.v * p.factor, 3) + ' ' + p.unit}`;
   return html`<figure class="trend"><figcaption>${title}${p.unit ? ` [${p.unit}]` : ''}${points.some(out) ? ' \u2013 ! left its band' : ''}</figcaption>
     <svg viewBox="0 0 ${wide} ${high + 8}" role="img" tabindex="0" aria-label=${words}>
-      <text x="2" y="10">${significant(scale.most, 4)}</text><text x="2" y=${high}>${significant(scale.least, 4)}</text>
+      ${Math.max(...all) > Math.min(...all) ? svg`<text x="2" y=${scale.y(Math.max(...all)) + 6}>${significant(Math.max(...all), 4)}</text>` : nothing}<text x="2" y=${scale.y(Math.min(...all)) + 2}>${significant(Math.min(...all), 4)}</text>
       ${points.map((q) => q.least === undefined || q.greatest === undefined ? nothing
         : svg`<rect class="band" x=${x(q.k) - half} width=${2 * half} y=${y(q.greatest)} height=${Math.max(1, y(q.least) - y(q.greatest))}></rect>`)}
       <polyline points=${points.map((q) => `${x(q.k)},${y(q.v)}`).join(' ')}></polyline>

@@ -80,7 +80,7 @@ async function explainWithStop(page) {
   say('explain stopped');
   await resume.click();
   const adopt = page.getByRole('button', {name: 'Adopt cross-coupling at A'});
-  await adopt.waitFor({timeout: 600000});
+  await adopt.waitFor({timeout: 1200000});
   say('explain names cross-coupling at A');
   assert.match(await page.locator('.names').innerText(), /cross-coupling at A/);
   assert.match(await page.locator('section.explain').innerText(), /of the error above the noise is explained/);
@@ -163,7 +163,7 @@ export async function nextRecord(page, address) {
   await form.getByLabel('It was made by the scenario').selectOption('practice/record-1.toml');
   await check(page, 'new-record');
   await form.getByRole('button', {name: 'Append to practice/case.toml'}).click();
-  await page.locator('table.misfit th', {hasText: 'new-log'}).waitFor({timeout: 60000});
+  await page.locator('table.misfit th', {hasText: 'new-log'}).first().waitFor({timeout: 60000});
   assert.ok(text('practice/case.toml').startsWith(before.trimEnd()), 'text is appended only');
   assert.match(text('practice/case.toml'), /data = "new-log\.csv"\nuse = "fit"\n\[record\.channels\]\n"A\.x" = \{ column = "pos_ax" \}/);
   await page.getByRole('button', {name: 'Undo'}).click();

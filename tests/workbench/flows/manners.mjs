@@ -1,6 +1,13 @@
 // By the keyboard alone, in the dark, on a tablet with fingers.
 import {assert, check, drawn, say} from '../harness.mjs';
 
+/** A run to look at, where there is none yet. */
+async function runOnce(page) {
+  const run = page.getByRole('button', {name: /^Run( again)?$/});
+  await run.waitFor();
+  if ((await run.innerText()) === 'Run') await run.click();
+}
+
 /** Finds, opens, runs and breaks without a mouse; every stop of Tab is seen. */
 export async function keyboardOnly(page, address) {
   await page.goto(address);
@@ -51,6 +58,7 @@ async function tabTo(page, name) {
 export async function dark(page, address) {
   await page.goto(address);
   await page.getByRole('link', {name: 'healthy.toml', exact: true}).click();
+  await runOnce(page);
   await drawn(page, 'A: position');
   await check(page, 'dark');
   await page.getByRole('button', {name: 'light or dark'}).click();
@@ -63,6 +71,7 @@ dark.options = {colorScheme: 'dark'};
 export async function tablet(page, address) {
   await page.goto(address);
   await page.getByRole('link', {name: 'healthy.toml', exact: true}).tap();
+  await runOnce(page);
   await drawn(page, 'A: position');
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
   assert.ok(wide <= 0, `the page is ${wide} px wider than the screen`);
@@ -76,6 +85,7 @@ export async function tablet(page, address) {
   await send('touchMove', [0.2, 0.8]);
   await send('touchEnd', []);
   await page.waitForURL(/t=[\d.]+,[\d.]+/);
+  await page.waitForTimeout(400);  // the last move of the fingers
   // What lay between the fingers, 0.4 to 0.6 of 0.15 s, now fills 0.2 to 0.8 of the width.
   const zoom = /t=([\d.]+),([\d.]+)/.exec(page.url()).slice(1).map(Number);
   assert.ok(Math.abs(zoom[1] - zoom[0] - 0.05) < 0.004, `pinched to ${zoom}`);
@@ -84,6 +94,7 @@ export async function tablet(page, address) {
   await send('touchMove', [0.4]);
   await send('touchEnd', []);
   await page.waitForFunction((before) => !location.hash.includes(before), `t=${zoom[0]}`);
+  await page.waitForTimeout(400);  // the last move of the finger
   const panned = /t=([\d.]+),([\d.]+)/.exec(page.url()).slice(1).map(Number);
   assert.ok(Math.abs(panned[0] - zoom[0] - 0.01) < 0.002, `panned from ${zoom} to ${panned}`);
   await send('touchStart', [0.5]);

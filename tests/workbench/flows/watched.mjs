@@ -36,7 +36,7 @@ export async function watched(page, address) {
   assert.match(await page.locator('figure.trend', {hasText: 'bearings.M.resistance'}).innerText(), /left its band/);
   await check(page, 'trend');
   await alarm.getByRole('button', {name: 'Add it to the case'}).click();
-  await page.locator('table.misfit th', {hasText: 'steps-05-june'}).waitFor({timeout: 60000});
+  await page.locator('table.misfit th', {hasText: 'steps-05-june'}).first().waitFor({timeout: 60000});
   await page.getByRole('button', {name: 'Undo'}).click();
   await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('as it was'));
   assert.doesNotMatch(text('ball/known.toml'), /june/);

@@ -38,7 +38,7 @@ export async function measuredRig(page, address) {
   await drawn(page, 'M.i1');
   await page.getByRole('button', {name: 'Explain', exact: true}).click();
   const adopt = page.getByRole('button', {name: 'Adopt freewheel-drop at', exact: false});
-  await adopt.waitFor({timeout: 300000});
+  await adopt.waitFor({timeout: 900000});
   await check(page, 'measured-rig');
   await adopt.click();
   await page.getByRole('button', {name: 'Write and compare again'}).click();
