@@ -33,6 +33,7 @@ struct JobCommand {
   // JOB stands for the job's folder, WORK for one that equal orders share: what an interrupted one left
   std::vector<const char*> added;
   bool events = true;  // the command has --events
+  bool json = true;    // and --json
 };
 
 std::span<const JobCommand> JobCommands();

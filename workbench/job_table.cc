@@ -188,6 +188,7 @@ JobOrder CheckJob(const json& request, const ServedFolder& folder, const std::st
   maker.order.command = command.name;
   maker.order.heavy = command.heavy;
   maker.order.events = command.events;
+  maker.order.json = command.json;
   maker.order.key = request.dump(-1, ' ', false, json::error_handler_t::replace);
   maker.order.arguments.push_back(command.command);
   for (const auto& [key, value] : request.items())

@@ -18,6 +18,7 @@ struct JobOrder {
       texts;           // file of the job, its text: written first
   std::string key;     // equal for equal orders
   bool heavy = false;  // takes all cores for long: one at a time
+  bool json = true;    // writes its answer (--json)
   bool events = true;  // tells its progress (--events)
 };
 

@@ -114,7 +114,8 @@ Json Jobs::Start(const nlohmann::json& request) {
   fs::create_directories(FolderOf(id));
   for (const auto& [name, text] : job.order.texts)
     WriteFileAtomically(FolderOf(id) + "/" + name, text);
-  job.order.arguments.insert(job.order.arguments.end(), {"--json", own + "/result.json"});
+  if (job.order.json)
+    job.order.arguments.insert(job.order.arguments.end(), {"--json", own + "/result.json"});
   if (job.order.events) job.order.arguments.insert(job.order.arguments.end(), {"--events", "3"});
   job.started = Now();
   Store(job);

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMostFiles = 20000;
+constexpr std::size_t kMostWatched = 20000;
 constexpr std::size_t kMostEvents = 20;  // of one look; more are one event without a name
 constexpr double kSettled = 6;           // [s], a little more than `ambrig watch` waits
 constexpr auto kPause = std::chrono::seconds(2);
@@ -77,7 +77,7 @@ void WatchedFolders::Set(const std::string& case_file, const std::string& folder
 void WatchedFolders::Look() {
   for (;;) {
     const auto begin = Clock::now();
-    const std::vector<ServedFile> files = folder_.List(kMostFiles);
+    const std::vector<ServedFile> files = folder_.List(kMostWatched);
     TellChanges(files);
     StartWatches(files);
     const auto pause = std::max<Clock::duration>(kPause, kShare * (Clock::now() - begin));

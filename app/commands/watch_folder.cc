@@ -39,7 +39,7 @@ bool IsRecordName(const fs::path& file) {
 }
 
 /// What left its band, by name: the same things as before need no explanation of their own.
-std::string NamesOf(const Json& left) {
+std::string LeftNames(const Json& left) {
   std::string names;
   for (const Json& b : left) names += b.at("kind").get<std::string>() + b.at("name").dump();
   return names;
@@ -152,7 +152,7 @@ RecordState FolderWatch::ReferenceOf(std::size_t record, const std::string& mode
 void FolderWatch::Explained(const std::string& text, Json& entry, const Progress& progress) {
   for (auto e = entries_.rbegin(); e != entries_.rend(); ++e) {
     if ((*e)["kind"] != "record" || (*e)["model"] != entry["model"]) continue;
-    if (!e->contains("explanation") || NamesOf((*e)["left"]) != NamesOf(entry["left"])) break;
+    if (!e->contains("explanation") || LeftNames((*e)["left"]) != LeftNames(entry["left"])) break;
     entry["explanation"] = (*e)["explanation"];
     if (!entry["explanation"].contains("of")) entry["explanation"]["of"] = (*e)["data"];
     return;

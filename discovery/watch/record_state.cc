@@ -16,8 +16,8 @@ constexpr double kFalseAlarms = 0.01;    // share of unchanged records that leav
 constexpr double kNoiseChange = 1.5;     // as between a stated noise and the records' own
 constexpr double kLeastErrorRise = 1.1;  // smaller rises of the error are not told
 // A rig may change by more than its drawing was uncertain about: heat, wear, a repair.
-constexpr double kChange = 3;  // of the tolerance, sd of a change that is expected
-constexpr double kMost = 24;   // of the tolerance, the largest change that is looked for
+constexpr double kChange = 3;           // of the tolerance, sd of a change that is expected
+constexpr double kGreatestChange = 24;  // of the tolerance, the largest change that is looked for
 
 const StateParameter* FindParameter(const RecordState& s, const std::string& path) {
   const auto found =
@@ -37,8 +37,8 @@ void ExpectReference(const RecordState& reference, Hypothesis& h) {
     const double tolerance = f.sd;
     std::string unit;
     ParameterRange(h.rig, f.path, &f.lo, &f.hi, &unit);
-    f.lo = std::max(f.lo, f.value - kMost * tolerance);
-    f.hi = std::min(f.hi, f.value + kMost * tolerance);
+    f.lo = std::max(f.lo, f.value - kGreatestChange * tolerance);
+    f.hi = std::min(f.hi, f.value + kGreatestChange * tolerance);
     f.sd = f.step = kChange * tolerance;
   }
 }

@@ -1,6 +1,7 @@
 /** The folder: what is there, how fresh it is, and what came of it. */
 import {html, nothing} from './lit-html.js';
 import {startJob, upload} from './actions.js';
+import {practiceBar} from './practice.js';
 import {formatAddress, emptyView} from './address.js';
 import {quantity, ratio} from './numbers.js';
 import {activeJob, changed, lastJob, state} from './state.js';
@@ -96,10 +97,9 @@ export function folderScreen() {
   const {cases, folder, scenarios, campaigns} = state.folder;
   return html`<h1>${folder}</h1>
     <section><h2>Cases</h2>
-    ${cases.length === 0 ? html`<p>No case yet: a case file names a rig and its records. To make one of a record and some numbers of your bench: ${link('new', '-', 'a bench of your own')}. To practise on one, type
-      <code>ambrig hide cross-coupling@A --rig rig.toml -o practice</code> in this folder; it appears here.</p>`
+    ${cases.length === 0 ? html`<p>No case yet: a case file names a rig and its records. To make one of a record and some numbers of your bench: ${link('new', '-', 'a bench of your own')}.</p>`
     : html`<table class="cases"><thead><tr><th scope="col">case</th><th scope="col">records</th><th scope="col">error over noise</th><th scope="col">what explain found</th><th scope="col">watched</th></tr></thead>
-      <tbody>${cases.map(caseRow)}</tbody></table>`}</section>
+      <tbody>${cases.map(caseRow)}</tbody></table>`}${practiceBar()}</section>
     <div class="columns"><div>${scenarioTable(scenarios)}</div>
     <div>${campaigns.length === 0 ? nothing : html`<section><h2>Campaigns</h2><table><tbody>${campaigns.map(campaignRow)}</tbody></table></section>`}
     ${list('rig', 'Rigs', 'rig')}${records()}${list('broken', 'Files that cannot be read', 'file')}
