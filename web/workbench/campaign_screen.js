@@ -119,8 +119,8 @@ function rowTable(rows, file) {
     ++page;
     changed();
   }}>&gt;</button>` : nothing}</p>
-  <div class="scroll" tabindex="0" role="region" aria-label="rows"><table class="rows"><thead><tr>${['row', 'set', 'kind', 'speed', 'load', 'verdict', 'orbit', 'detected after', ''].map((t) => html`<th scope="col">${t}</th>`)}</tr></thead>
-    <tbody>${shown.map((r) => html`<tr aria-current=${opened?.row === r.run ? 'true' : nothing}><td class="number">${r.run}</td><td>${r.set}</td><td>${r.kind}</td><td class="number">${significant(r.speed, 4)} rad/s</td>
+  <div class="scroll" tabindex="0" role="region" aria-label="rows"><table class="rows"><thead><tr>${['row', 'set', 'kind', 'speed [rad/s]', 'load', 'verdict', 'orbit', 'detected after', ''].map((t) => html`<th scope="col">${t}</th>`)}</tr></thead>
+    <tbody>${shown.map((r) => html`<tr aria-current=${opened?.row === r.run ? 'true' : nothing}><td class="number">${r.run}</td><td>${r.set}</td><td>${r.kind}</td><td class="number">${significant(r.speed, 4)}</td>
       <td class="number">${Number.isNaN(r.load) ? '-' : significant(r.load, 3)}</td><td>${verdictText(r.verdict)}</td><td class="number">${Number.isNaN(r.orbit) ? '-' : quantity(r.orbit, 'm')}</td>
       <td class="number">${Number.isNaN(r.delay) ? '-' : quantity(r.delay, 's')}</td><td><button @click=${() => openRow(file, r.run)} aria-label="open row ${r.run}">open</button></td></tr>`)}</tbody></table></div>`;
 }

@@ -23,8 +23,8 @@ export function makePlot(panels, what) {
   const plot = new uPlot({
     width: panels.width(), height: what.height,
     scales: {x: {time: false}},
-    axes: [{...axis, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((t) => String(Number(t.toPrecision(6))))},
-           {...axis, size: 64, space: 24}],
+    axes: [{...axis, size: 26, gap: 2, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((t) => String(Number(t.toPrecision(6))))},
+           {...axis, size: 64, space: 20, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((y) => String(Number(y.toPrecision(6))))}],
     series: [{label: 't [s]', value: (/** @type {any} */ _, /** @type {number|null} */ t) => (t === null ? '-' : t.toFixed(5))}, ...what.lines.map(line)],
     cursor: {sync: {key: panels.sync.key, setSeries: false}, drag: {x: true, y: false, setScale: false}, bind: {dblclick: () => () => {
       panels.zoom(null, null);

@@ -84,6 +84,7 @@ export function playgroundPart(rig, go) {
       menu = coil + ' ' + name;
       changed();
     }))}</div>
+    ${runTable()}
     ${menu ? faultMenu(menu.split(' ')[0], menu.split(' ')[1]) : nothing}
     ${otherFaults(rig)}${speedSlider()}${rig.bearings.filter((/** @type {any} */ b) => b.axes.length === 2).map(loadOf)}
     ${play.faults.length === 0 ? nothing : html`<ul class="faults-list">${play.faults.map((f) => html`<li>${f.target} ${f.kind}, ${quantity(f.time, 's')}
@@ -91,7 +92,6 @@ export function playgroundPart(rig, go) {
     <p>beside it: <button aria-pressed=${play.ghosts.has('healthy') ? 'true' : 'false'} @click=${() => toggleGhost('healthy')}>healthy run</button>
       <button aria-pressed=${play.ghosts.has('off') ? 'true' : 'false'} @click=${() => toggleGhost('off')}>without fault tolerance</button>
       ${play.running ? html`<span role="status">running: ${play.running}</span>` : currents ? html`<span class="note">in ${significant(currents.seconds, 2)} s</span>` : nothing}</p>
-    ${runTable()}
     <p class="actions">${touched() ? html`<button class="main" @click=${() => saveScenario(go, false)}>Save as scenario</button>
       <button ?disabled=${!play.runs.has('run')} @click=${() => saveScenario(go, true)}>Make it a test</button>
       <button ?disabled=${!play.faults.some((f) => f.target.includes('.coil'))} @click=${() => sweep(go)}>Sweep</button>

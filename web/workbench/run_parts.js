@@ -75,9 +75,12 @@ export function events(r) {
     html`<li>${quantity(e.t, 's', 6)}${fault !== undefined && e.t > fault ? ` (+${quantity(e.t - fault, 's')})` : nothing} ${e.kind} ${e.target} ${e.class ?? ''}</li>`)}</ol>`;
 }
 
+/** Of x and y of the runs beside. */
+const ghostTones = [['noise', 'coil4'], ['error', 'coil7']];
+
 /**
  * Panels of positions and currents of every plane; other runs of the same kind dashed over them.
- * @param {RunRecord} record @param {{label: string, query: string, tone: string, shift?: number}[]} ghosts
+ * @param {RunRecord} record @param {{label: string, query: string, shift?: number}[]} ghosts
  * @returns {import('./panels.js').Plot[]}
  */
 export function runPlots(record, ghosts) {
@@ -85,7 +88,7 @@ export function runPlots(record, ghosts) {
   for (const plane of record.orbits.keys()) {
     plots.push({title: `${plane}: position x, y`, height: 130, lines: [
       {channel: plane + '.x', label: 'x', tone: 'measured'}, {channel: plane + '.y', label: 'y', tone: 'model'},
-      ...ghosts.flatMap((g) => ['x', 'y'].map((axis) => ({channel: `${plane}.${axis}`, label: `${axis} ${g.label}`, tone: g.tone, query: g.query, dash: [4, 3], shift: g.shift}))) ]});
+      ...ghosts.flatMap((g, n) => ['x', 'y'].map((axis, k) => ({channel: `${plane}.${axis}`, label: `${axis} ${g.label}`, tone: ghostTones[n % 2][k], query: g.query, dash: [4, 3], shift: g.shift}))) ]});
     const currents = record.channels.filter((c) => c.startsWith(plane + '.i') && /\.i\d+$/.test(c));
     if (currents.length > 0)
       plots.push({title: `${plane}: coil currents`, height: 130,

@@ -119,9 +119,9 @@ export function drawRun(go) {
   if (!record || record.channels.length === 0) return;
   if (!panels || panels.place !== place) panels = new Panels(place, (moved) => go(moved));
   const ghosts = [];
-  for (const [name, label, tone] of [['healthy', 'healthy', 'noise'], ['off', 'tolerance off', 'error']]) {
+  for (const [name, label] of [['healthy', 'healthy'], ['off', 'tolerance off']]) {
     const run = play.runs.get(name);
-    if (run && play.runs.get('run')?.job === now.job && recordOf(run.job, run.stem)) ghosts.push({label, query: queryOf(run.job, run.stem), tone});
+    if (run && play.runs.get('run')?.job === now.job && recordOf(run.job, run.stem)) ghosts.push({label, query: queryOf(run.job, run.stem)});
   }
   const plots = runPlots(record, ghosts);
   if (plots.length > 0) void panels.show({query: record.query, name: state.view.file, plots, from: state.view.from, to: state.view.to, marks: state.view.marks, events: eventTimes(now.result)});
