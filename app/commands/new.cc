@@ -198,6 +198,15 @@ int RunAmbrig(std::vector<std::string> arguments) {
   return work();
 }
 
+/// How files of `folder` name the record: from there where it lies near, so that both may move together.
+std::string RecordName(const std::string& record, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const fs::path whole = fs::absolute(record).lexically_normal();
+  const std::string from =
+      whole.lexically_relative(fs::absolute(folder).lexically_normal()).string();
+  return from.starts_with("../..") ? whole.string() : from;
+}
+
 int MakeBench(NewCommand o) {
   if (o.list) return ListQuestions(o.common);
   BenchAnswers answers;
@@ -234,11 +243,7 @@ int MakeBench(NewCommand o) {
     for (const std::string& said : o.column) SayColumn(said, rig, record, choices);
     const double held = HoldAtDistance(rig, record, choices);
     PrintChoices(record, choices, rig);
-    const std::string data =
-        std::filesystem::absolute(o.record)
-            .lexically_normal()
-            .lexically_relative(std::filesystem::absolute(folder).lexically_normal())
-            .string();
+    const std::string data = RecordName(o.record, folder);
     files.emplace_back("record.toml", ScenarioOfRecord(rig, record, choices, data, held));
     files.emplace_back("case.toml", CaseText(rig, choices, data));
   }
