@@ -169,6 +169,29 @@ void ServedFolder::Remove(const std::string& name) const {
   ::close(folder);
 }
 
+void ServedFolder::MoveOut(const std::string& name, const std::string& file) const {
+  std::string leaf;
+  const int folder = OpenParent(name, &leaf);
+  const bool moved = ::renameat(folder, leaf.c_str(), AT_FDCWD, file.c_str()) == 0;
+  const int error = errno;
+  ::close(folder);
+  if (!moved) Refuse(name, std::strerror(error));
+}
+
+std::string ServedFolder::Version(const std::string& name) const {
+  try {
+    const int file = OpenToRead(name);
+    struct stat status {};
+    const bool known = ::fstat(file, &status) == 0;
+    ::close(file);
+    if (!known) return "";
+    return fmt::format("{}|{}|{}.{}", status.st_ino, status.st_size, status.st_mtim.tv_sec,
+                       status.st_mtim.tv_nsec);
+  } catch (const InputError&) {
+    return "";
+  }
+}
+
 std::vector<ServedFile> ServedFolder::List(std::size_t most) const {
   std::vector<ServedFile> files;
   std::error_code error;

@@ -110,10 +110,25 @@ int TextFiles::Replace(const std::string& name, const std::string& text, const s
   return ReplaceLocked(name, text, hash);
 }
 
+int TextFiles::NoteAdded(const std::string& name) {
+  const std::scoped_lock lock(mutex_);
+  const int step = ++last_;
+  WriteFileAtomically(
+      TrashOf(step),
+      nlohmann::ordered_json{{"file", name}, {"added", folder_.Version(name)}}.dump());
+  return step;
+}
+
 nlohmann::ordered_json TextFiles::Undo(int step) {
   const std::scoped_lock lock(mutex_);
   if (step < 1 || step > last_) throw InputError("undo: there is no such step");
   const nlohmann::json kept = ReadJson(TrashOf(step));
+  if (kept.contains("added")) {
+    const std::string file = kept.at("file");
+    if (folder_.Version(file) != kept.at("added")) throw Conflict{""};
+    folder_.MoveOut(file, fmt::format("{}/.ambrig/trash/{}.file", folder_.path(), step));
+    return {{"file", file}, {"removed", true}};
+  }
   const std::string name = kept.at("file"), old = kept.at("old"), written = kept.at("written");
   const std::string now = folder_.Has(name) ? HashText(folder_.Read(name, kLargest)) : "";
   if (now != written) throw Conflict{now};

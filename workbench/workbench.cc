@@ -131,8 +131,9 @@ HttpResponse Workbench::Upload(const HttpRequest& r) {
   const std::string name = r.Query("p");
   if (name.ends_with(".html")) throw InputError(name + ": allowed: records and text files");
   folder_.MoveIn(r.upload, name);
+  const int step = texts_.NoteAdded(name);
   events_.Add({{"event", "file"}, {"file", name}});
-  return JsonAnswer({{"file", name}}, 201);
+  return JsonAnswer({{"file", name}, {"step", step}}, 201);
 }
 
 HttpResponse Workbench::Job(const HttpRequest& r) {

@@ -49,7 +49,8 @@ TEST_F(JobTable, MakesTheCommandThatAPersonCouldType) {
 }
 
 TEST_F(JobTable, RefusesWhatIsNotInIt) {
-  EXPECT_THAT(Refusal({{"command", "score"}, {"case", "case.toml"}}), HasSubstr("allowed: compare"));
+  EXPECT_THAT(Refusal({{"command", "score"}, {"case", "case.toml"}}),
+              HasSubstr("allowed: compare"));
   EXPECT_THAT(Refusal({{"command", "sh"}}), HasSubstr("command: allowed"));
   EXPECT_THAT(Refusal({{"command", 1}}), HasSubstr("command: allowed"));
   EXPECT_THAT(Refusal(json::array()), HasSubstr("command: allowed"));

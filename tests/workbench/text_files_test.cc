@@ -73,6 +73,18 @@ TEST_F(TextEdits, WhatIsTakenAwayCanBePutBack) {
   EXPECT_THROW(files.Undo(step), Conflict);
 }
 
+TEST_F(TextEdits, WhatWasAddedIsTakenAwayUnlessItChanged) {
+  const ServedFolder folder(served());
+  TextFiles files(folder);
+  const int step = files.NoteAdded("sub/b.csv");
+  Write("served/sub/b.csv", "another\n");
+  EXPECT_THROW(files.Undo(step), Conflict);
+  const int again = files.NoteAdded("sub/b.csv");
+  files.Undo(again);
+  EXPECT_FALSE(folder.Has("sub/b.csv"));
+  EXPECT_EQ(Text("served/.ambrig/trash/" + std::to_string(again) + ".file"), "another\n");
+}
+
 TEST_F(TextEdits, MendWritesTheLineUnderItsRecord) {
   const ServedFolder folder(served());
   TextFiles files(folder);

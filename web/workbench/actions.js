@@ -44,7 +44,7 @@ export function resultOf(command, file) {
 /** @param {{command: string} & Record<string, any>} order @returns {Promise<number>} the job's number, 0 where it was refused */
 export async function startJob(order) {
   try {
-    if (state.notice?.step === null) state.notice = null;
+    if (state.notice?.steps.length === 0) state.notice = null;
     const job = await post('/api/jobs', order);
     // Its events may have come before this answer: they know more.
     if (!state.jobs.some((j) => j.id === job.id)) takeJob(job);
@@ -82,7 +82,7 @@ export async function resultOfJob(job) {
 /** Writes a text file that is not there yet or is replaced, with Undo. @param {string} name @param {string} text @param {string} hash of the version seen, "" for a new one */
 export async function writeText(name, text, hash = '') {
   const done = await put('/api/file?p=' + encodeURIComponent(name), text, hash ? {'If-Match': hash} : {});
-  tell(`written ${name}`, false, done.step);
+  tell(`written ${name}`, false, [done.step]);
   await loadFolder();
 }
 
@@ -90,19 +90,19 @@ export async function writeText(name, text, hash = '') {
 export async function changeText(name, how, said) {
   const {text, hash} = await getText('/api/file?p=' + encodeURIComponent(name));
   const done = await put('/api/file?p=' + encodeURIComponent(name), how(text), {'If-Match': hash});
-  tell(said, false, done.step);
+  tell(said, false, [done.step]);
   await loadFolder();
 }
 
-/** Takes text files away, each to be undone by itself. @param {string[]} names */
+/** Takes text files away. @param {string[]} names */
 export async function removeFiles(names) {
   try {
-    let step = null;
+    const steps = [];
     for (const name of names) {
       const {hash} = await getText('/api/file?p=' + encodeURIComponent(name));
-      step = (await remove('/api/file?p=' + encodeURIComponent(name), {'If-Match': hash})).step;
+      steps.push((await remove('/api/file?p=' + encodeURIComponent(name), {'If-Match': hash})).step);
     }
-    tell(`taken away: ${names.join(', ')}`, false, step);
+    tell(`taken away: ${names.join(', ')}`, false, steps);
     await loadFolder();
   } catch (error) {
     tellError(error);
@@ -194,18 +194,19 @@ function ended(job) {
 export async function mend(file, fault) {
   try {
     const done = await post('/api/mend', {case: file, record: fault.record, mend: fault.mend});
-    tell(`written into ${file}, line ${done.line}: ${done.text}`, false, done.step);
+    tell(`written into ${file}, line ${done.line}: ${done.text}`, false, [done.step]);
     await startJob({command: 'compare', case: file});
   } catch (error) {
     tellError(error);
   }
 }
 
-/** @param {number} step */
-export async function undo(step) {
+/** @param {number[]} steps the last one first */
+export async function undo(steps) {
   try {
-    const done = await post(`/api/undo/${step}`);
-    tell(`${done.file} is as it was`);
+    const files = [];
+    for (const step of [...steps].reverse()) files.push((await post(`/api/undo/${step}`)).file);
+    tell(`${files.join(', ')} ${files.length > 1 ? 'are as they were' : 'is as it was'}`);
     await loadFolder();
     await startJobForShown();
   } catch (error) {
@@ -229,12 +230,12 @@ export async function openReport(job) {
 
 /** @param {FileList|null} files @param {string} folder "" or "practice/" @returns {Promise<string[]>} the names of those that came */
 export async function upload(files, folder) {
-  const came = [];
+  const came = [], steps = [];
   for (const file of files ?? []) {
     try {
-      await put('/api/upload?p=' + encodeURIComponent(folder + file.name), file);
+      steps.push((await put('/api/upload?p=' + encodeURIComponent(folder + file.name), file)).step);
       came.push(folder + file.name);
-      tell(`${folder}${file.name} is here`);
+      tell(`${came.join(', ')} ${came.length > 1 ? 'are' : 'is'} here`, false, steps);
     } catch (error) {
       tellError(error);
     }

@@ -8,13 +8,20 @@ import {dialog, listenToKeys, openDialog} from './keys.js';
 import {screenNow, screenOf} from './screens.js';
 import {changed, drawWith, state, tellError} from './state.js';
 
+/** When the address last changed. */
+const held = {since: 0};
+
 /** Changes the view and the address; a view that was held is a step of the browser's history. @param {object} change */
 function go(change) {
   const before = state.view;
   state.view = {...state.view, ...change};
   const address = formatAddress(state.view);
   if (address === location.hash) return;
-  history.pushState(null, '', address);
+  // A view that was held is a step of the browser's history; what a wheel passes is none.
+  const other = isOther(before, state.view) || before.record !== state.view.record || before.channels.join() !== state.view.channels.join();
+  if (!other && Date.now() - held.since < 400) history.replaceState(null, '', address);
+  else history.pushState(null, '', address);
+  held.since = Date.now();
   if (isOther(before, state.view)) opened();
   changed();
 }
@@ -61,9 +68,8 @@ function switchTheme() {
 function notice() {
   const n = state.notice;
   if (!n) return nothing;
-  const step = n.step;
   return html`<div class="notice ${n.bad ? 'bad' : ''}"><span>${n.text}</span>
-    ${step === null ? nothing : html`<button @click=${() => undo(step)}>Undo</button>`}
+    ${n.steps.length === 0 ? nothing : html`<button @click=${() => undo(n.steps)}>Undo</button>`}
     <button @click=${() => {
       state.notice = null;
       changed();

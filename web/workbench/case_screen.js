@@ -3,6 +3,7 @@ import {html, nothing} from './lit-html.js';
 import {loadResult, mend, openReport, resultOf, startJob} from './actions.js';
 import {adoption, forgetProposal, propose} from './adoption.js';
 import {explanation} from './explanation.js';
+import {stepsThrough} from './history.js';
 import {historyPart} from './history_part.js';
 import {errorOf, progressOf} from './job_parts.js';
 import {recordName, worstCell, worstCells} from './misfit.js';
@@ -12,11 +13,13 @@ import {probability, ratio} from './numbers.js';
 import {Panels} from './panels.js';
 import {planPart} from './plan_part.js';
 import {shareBar} from './share.js';
-import {activeJob, lastJob, state} from './state.js';
+import {activeJob, changed, lastJob, state} from './state.js';
 import {watchPart} from './trend_screen.js';
 
 /** @type {Panels|null} */
 let panels = null;
+/** Whether the table of the step before is shown, on the same colours. */
+let before = false;
 
 /** Cases whose first comparison was started by this page. @type {Set<string>} */
 const started = new Set();
@@ -24,6 +27,7 @@ const started = new Set();
 /** Asks for what is known of a case, and starts its first comparison. @param {string} file */
 export async function openCase(file) {
   forgetProposal();
+  before = false;
   panels?.clear();
   await Promise.all(['compare', 'explain', 'adopt', 'plan', 'refine'].map((command) => loadResult(command, file)));
   if (!resultOf('compare', file) && !activeJob('compare', file) && !started.has(file)) {
@@ -68,6 +72,19 @@ function chosenCell(comparison) {
   return worst ? {record: worst.record, channels: [worst.channel]} : {record: '', channels: []};
 }
 
+/** Shows the table of the case before the last effect was added. @param {string} file */
+function beforeButton(file) {
+  const steps = stepsThrough(file, state.jobs, state.folder?.files.map((/** @type {any} */ f) => f.name) ?? []);
+  const at = steps.findIndex((s) => s.file === file);
+  if (at < 1) return nothing;
+  const earlier = steps[at - 1].file;
+  return html`<button aria-pressed=${before ? 'true' : 'false'} @click=${async () => {
+    before = !before;
+    if (before) await loadResult('compare', earlier);
+    changed();
+  }}>before: ${earlier}</button> ${before && resultOf('compare', earlier) ? html`<div class="before">${misfitTable(resultOf('compare', earlier).result, {record: '', channels: []}, () => {})}</div>` : nothing}`;
+}
+
 /** @param {any} found @param {string} file @param {{record: string, channels: string[]}} chosen @param {(change: object) => void} go */
 function misfit(found, file, chosen, go) {
   const r = found.result;
@@ -75,6 +92,7 @@ function misfit(found, file, chosen, go) {
     ${found.fresh ? nothing : html`<p class="note">Older than ${found.stale.join(', ')}. <button @click=${() => startJob({command: 'compare', case: file})}>Compare again</button></p>`}
     <p>All records <strong>${ratio(r.ratio)}</strong> times the noise; fitted ${ratio(r.ratio_fit)}, unseen ${ratio(r.ratio_validate)}.
       <button @click=${() => openReport(found.job)}>Report</button></p>
+    ${beforeButton(file)}
     ${misfitTable(r, chosen, (record, channel, more) => choose(record, channel, more, go))}</section>`;
 }
 

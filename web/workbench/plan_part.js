@@ -1,6 +1,6 @@
 /** The next record: what it would tell apart, its scenario to take away, and what came of it. */
 import {html, nothing} from './lit-html.js';
-import {openReport, resultOf, startJob, upload} from './actions.js';
+import {openReport, removeFiles, resultOf, startJob, upload} from './actions.js';
 import {getText} from './api.js';
 import {emptyView, formatAddress} from './address.js';
 import {errorOf, progressOf} from './job_parts.js';
@@ -37,7 +37,7 @@ function card(found) {
     <ul>${(r.separates ?? []).map((/** @type {any} */ s) => html`<li>${s.a} or ${s.b}: told apart with probability ${probability(s.probability)}${s.of ? `, ${s.right} of ${s.draws ?? s.of} simulated records` : ''}</li>`)}</ul>
     <p>largest orbit ${quantity(r.largest_orbit ?? NaN, 'm')}, largest current ${quantity(r.largest_current ?? NaN, 'A')}, ${quantity(r.duration ?? NaN, 's')}</p>
     <p>${state.folder.files.some((/** @type {any} */ f) => f.name === r.scenario) ? html`<button @click=${() => takeAway(r.scenario)}>Take ${r.scenario} away</button>
-      <a href=${formatAddress({...emptyView(), screen: 'run', file: r.scenario})}>simulate it</a>` : html`${r.scenario} is no longer there; plan again.`}
+      <a href=${formatAddress({...emptyView(), screen: 'run', file: r.scenario})}>simulate it</a> <button @click=${() => removeFiles([r.scenario])}>Take it back</button>` : html`${r.scenario} is no longer there; plan again.`}
       <button @click=${() => openReport(found.job)}>Card as a report</button></p></div>`;
 }
 

@@ -116,8 +116,9 @@ async function adoptAndGoBack(page) {
   await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('taken away'));
   assert.throws(() => text('practice/case_2.toml'));
   await page.getByRole('button', {name: 'Undo'}).click();
-  await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('as it was'));
+  await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('as they were'));
   assert.match(text('practice/case_2.toml'), /rig_2/);
+  assert.match(text('practice/rig_2.toml'), /cross-coupling/);
   say('a step was taken back, and the undo brought its case again');
 }
 
