@@ -102,6 +102,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, [](int) { ambrig::interrupted = true; });
   std::signal(SIGTERM, [](int) { ambrig::interrupted = true; });
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
   ambrig::SetCommandLine(argc, argv);
   try {
     const int code = Main(argc, argv);

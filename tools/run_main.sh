@@ -24,5 +24,6 @@ Next:
   build/release/ambrig run scenarios/library/drop_at_1500rpm.toml     the rotor falls into its bearings
   build/release/ambrig hide sensor-gain --rig scenarios/library/rigs/reference.toml -o practice
                                                                       physics to find (docs/guide/hidden_effect.md)
+  mkdir -p work && build/release/ambrig serve work                    the same in a browser: example rig, practice case
 END
 exit "$verdict"

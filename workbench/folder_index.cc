@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/base/errors.h"
@@ -37,23 +38,38 @@ std::string KindByName(const std::string& name) {
   return "record";
 }
 
-/// What the list of cases shows of a result.
-Json Summary(const Json& result, const std::string& command) {
-  Json out{{"job", result["job"]}, {"fresh", result["fresh"]}};
-  const Json& r = result["result"];
-  const auto take = [&](const char* key) {
+/// What the lists show of a result.
+Json Summary(const Json& r, const std::string& command) {
+  Json out = Json::object();
+  for (const char* key :
+       {"ratio", "ratio_fit", "ratio_validate", "verdict", "final_ratio_validate",
+        "nominal_ratio_validate", "drop", "touchdown", "runs", "done", "up", "error"})
     if (r.contains(key)) out[key] = r[key];
-  };
-  if (command == "compare")
-    for (const char* key : {"ratio", "ratio_fit", "ratio_validate"}) take(key);
-  else
-    for (const char* key : {"verdict", "final_ratio_validate", "nominal_ratio_validate"}) take(key);
+  if (command == "run" && r.contains("metrics"))
+    for (const char* key : {"max_orbit", "peak_current"})
+      if (r["metrics"].contains(key)) out[key] = r["metrics"][key];
+  if (command == "run" && r.contains("events") && r["events"].is_array())
+    for (const Json& e : r["events"]) {
+      const std::string kind = e.value("kind", "");
+      if ((kind == "fault" || kind == "detected") && !out.contains(kind))
+        out[kind] = e.value("t", 0.0);
+    }
+  if (command == "watch" && r.contains("records")) {
+    out["records"] = r["records"].size();
+    out["left"] = std::count_if(r["records"].begin(), r["records"].end(), [](const Json& record) {
+      return record.value("state", "") != "ok";
+    });
+  }
   if (command == "explain" && r.contains("adopted")) {
     out["adopted"] = Json::array();
     for (const Json& a : r["adopted"])
       out["adopted"].push_back(a.value("effect", "") + " at " + a.value("target", ""));
   }
   return out;
+}
+
+Json InputsOf(const Json& result) {
+  return result.value("provenance", Json::object()).value("inputs", Json::object());
 }
 
 }  // namespace
@@ -103,28 +119,63 @@ nlohmann::ordered_json FolderIndex::Result(const std::string& command, const std
   } catch (const InputError&) {
     return nullptr;
   }
-  Json stale = Json::array();
-  const Json inputs =
-      out["result"].value("provenance", Json::object()).value("inputs", Json::object());
-  for (const auto& [file, hash] : inputs.items())
-    if (HashOf(std::filesystem::path(file).lexically_normal().string()) != hash)
-      stale.push_back(file);
-  out["fresh"] = stale.empty();
-  out["stale"] = stale;
+  out["stale"] = StaleOf(InputsOf(out["result"]));
+  out["fresh"] = out["stale"].empty();
   return out;
 }
 
-nlohmann::ordered_json FolderIndex::CaseJson(const ServedFile& file, const Known& known) {
-  Json out{{"name", file.name}, {"records", known.records}, {"rig", known.rig}};
-  for (const char* command : {"compare", "explain"}) {
-    const Json result = Result(command, file.name);
-    out[command] = result.is_null() ? Json() : Summary(result, command);
+Json FolderIndex::StaleOf(const Json& inputs) {
+  Json stale = Json::array();
+  for (const auto& [file, hash] : inputs.items()) {
+    const std::string name = std::filesystem::path(file).lexically_normal().string();
+    // What the server wrote for the job itself does not change.
+    if (!name.starts_with(".ambrig/") && HashOf(name) != hash) stale.push_back(file);
+  }
+  return stale;
+}
+
+Json FolderIndex::Short(const std::string& command, int job) {
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto found = short_.find(job); found != short_.end()) return found->second;
+  }
+  Json kept;
+  try {
+    const Json result = Json::parse(ReadJson(jobs_.FolderOf(job) + "/result.json").dump());
+    kept = {{"summary", Summary(result, command)}, {"inputs", InputsOf(result)}};
+  } catch (const InputError&) {
+    kept = nullptr;
+  }
+  const std::scoped_lock lock(mutex_);
+  return short_[job] = kept;
+}
+
+Json FolderIndex::SubjectJson(const std::string& name, const std::vector<const char*>& commands) {
+  Json out{{"name", name}};
+  for (const char* command : commands) {
+    const int job = jobs_.Latest(command, name);
+    const Json kept = job == 0 ? Json() : Short(command, job);
+    if (kept.is_null()) {
+      out[command] = nullptr;
+      continue;
+    }
+    out[command] = kept["summary"];
+    out[command]["job"] = job;
+    out[command]["fresh"] = StaleOf(kept["inputs"]).empty();
   }
   return out;
 }
 
+nlohmann::ordered_json FolderIndex::CaseJson(const ServedFile& file, const Known& known) {
+  Json out = SubjectJson(file.name, {"compare", "explain", "watch"});
+  out["records"] = known.records;
+  out["rig"] = known.rig;
+  return out;
+}
+
 nlohmann::ordered_json FolderIndex::Folder() {
-  Json files = Json::array(), cases = Json::array();
+  Json files = Json::array(), cases = Json::array(), scenarios = Json::array(),
+       campaigns = Json::array();
   std::vector<std::pair<ServedFile, Known>> found;
   for (const ServedFile& file : folder_.List(kMostFiles)) {
     const std::scoped_lock lock(mutex_);
@@ -133,12 +184,21 @@ nlohmann::ordered_json FolderIndex::Folder() {
                      {"kind", known.kind},
                      {"size", file.size},
                      {"changed", file.changed}});
-    if (known.kind == "case") found.emplace_back(file, known);
+    if (known.kind == "case" || known.kind == "scenario" || known.kind == "campaign")
+      found.emplace_back(file, known);
   }
-  for (const auto& [file, known] : found) cases.push_back(CaseJson(file, known));
+  for (const auto& [file, known] : found)
+    if (known.kind == "case")
+      cases.push_back(CaseJson(file, known));
+    else if (known.kind == "scenario")
+      scenarios.push_back(SubjectJson(file.name, {"run"}));
+    else
+      campaigns.push_back(SubjectJson(file.name, {"campaign"}));
   return {{"folder", std::filesystem::path(folder_.path()).filename().string()},
           {"files", files},
-          {"cases", cases}};
+          {"cases", cases},
+          {"scenarios", scenarios},
+          {"campaigns", campaigns}};
 }
 
 }  // namespace ambrig::workbench

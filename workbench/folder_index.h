@@ -15,8 +15,9 @@ class FolderIndex {
  public:
   FolderIndex(const ServedFolder& folder, const Jobs& jobs) : folder_(folder), jobs_(jobs) {}
 
-  /// { "files": [ { "name", "kind", "size", "changed" } ], "cases": [ { "name", "title", "records",
-  /// "compare": {...}, "explain": {...} } ] }; kind: case, rig, scenario, campaign, study, record, result,
+  /// { "files": [ { "name", "kind", "size", "changed" } ], "cases": [ { "name", "records",
+  /// "rig", "compare": {...}, "explain": {...}, "watch": {...} } ], "scenarios": [ { "name", "run" } ],
+  /// "campaigns": [ { "name", "campaign" } ] }; kind: case, rig, scenario, campaign, study, record, result,
   /// report, other.
   nlohmann::ordered_json Folder();
   /// A file with its hash; "" when it cannot be read.
@@ -35,11 +36,17 @@ class FolderIndex {
   };
   Known& About(const ServedFile& file);
   nlohmann::ordered_json CaseJson(const ServedFile& file, const Known& known);
+  nlohmann::ordered_json SubjectJson(const std::string& name,
+                                     const std::vector<const char*>& commands);
+  /// What the lists show of a finished job, and the hashes of what it read.
+  nlohmann::ordered_json Short(const std::string& command, int job);
+  nlohmann::ordered_json StaleOf(const nlohmann::ordered_json& inputs);
 
   const ServedFolder& folder_;
   const Jobs& jobs_;
   std::mutex mutex_;
   std::map<std::string, Known> known_;
+  std::map<int, nlohmann::ordered_json> short_;  // by job: its result never changes
 };
 
 }  // namespace ambrig::workbench

@@ -14,7 +14,12 @@ struct JobOrder {
   std::string command, subject;        // "explain", the file that it is about
   std::vector<std::string> arguments;  // after the program's name, without --json and the like
   std::vector<std::string> new_files;  // that it will write beside the user's own
-  bool heavy = false;                  // takes all cores for long: one at a time
+  std::vector<std::pair<std::string, std::string>>
+      texts;           // file of the job, its text: written first
+  std::string key;     // equal for equal orders
+  bool heavy = false;  // takes all cores for long: one at a time
+  bool json = true;    // writes its answer (--json)
+  bool events = true;  // tells its progress (--events)
 };
 
 /// Of {"command": "adopt", "case": "practice/case.toml", "effect": "cross-coupling", ...}.
@@ -23,9 +28,5 @@ struct JobOrder {
 /// that names files outside the folder, a new file that exists
 JobOrder CheckJob(const nlohmann::json& request, const ServedFolder& folder,
                   const std::string& job_folder);
-
-/// Every file that a rig, scenario, case or campaign names lies in the folder too, however deep.
-/// @throws InputError
-void RefuseOutside(const ServedFolder& folder, const std::string& file);
 
 }  // namespace ambrig::workbench

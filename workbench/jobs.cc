@@ -109,12 +109,14 @@ Json Jobs::Start(const nlohmann::json& request) {
   // The same work that waits or runs already is shared.
   for (const auto& [other_id, other] : jobs_)
     if ((other.state == "queued" || other.state == "running") && !other.stop &&
-        other.order.command == job.order.command && other.order.subject == job.order.subject &&
-        job.order.new_files.empty())
+        other.order.key == job.order.key && job.order.new_files.empty())
       return JsonOf(other);
   fs::create_directories(FolderOf(id));
-  for (const char* more : {"--json", "result.json", "--events", "3"})
-    job.order.arguments.push_back(std::string(more) == "result.json" ? own + "/result.json" : more);
+  for (const auto& [name, text] : job.order.texts)
+    WriteFileAtomically(FolderOf(id) + "/" + name, text);
+  if (job.order.json)
+    job.order.arguments.insert(job.order.arguments.end(), {"--json", own + "/result.json"});
+  if (job.order.events) job.order.arguments.insert(job.order.arguments.end(), {"--events", "3"});
   job.started = Now();
   Store(job);
   jobs_[id] = job;
@@ -200,6 +202,7 @@ void Jobs::Finish(int id, int code, double seconds) {
               : job.stop             ? "stopped"
               : closing_             ? "interrupted"
                                      : "failed";
+  if (job.state == "failed" && job.error.empty()) job.error = LastWords(id);
   --(job.order.heavy ? heavy_running_ : light_running_);
   Store(job);
   events_.Add({{"event", "job"}, {"job", JsonOf(job)}});
@@ -217,6 +220,24 @@ Json Jobs::All() const {
   Json all = Json::array();
   for (const auto& [id, job] : jobs_) all.push_back(JsonOf(job));
   return all;
+}
+
+bool Jobs::Active(const std::string& command, const std::string& subject) const {
+  const std::scoped_lock lock(mutex_);
+  for (const auto& [id, job] : jobs_)
+    if ((job.state == "queued" || job.state == "running") && job.order.command == command &&
+        job.order.subject == subject)
+      return true;
+  return false;
+}
+
+/// The last line that a command without events wrote, which says what went wrong.
+std::string Jobs::LastWords(int id) const {
+  std::ifstream in(FolderOf(id) + "/log.txt");
+  std::string line, last;
+  while (std::getline(in, line))
+    if (line.starts_with("ambrig: ")) last = line.substr(8);
+  return last;
 }
 
 bool Jobs::Stop(int id) {

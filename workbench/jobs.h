@@ -40,6 +40,8 @@ class Jobs {
   nlohmann::ordered_json All() const;
   /// Ctrl-C, after ten seconds SIGKILL. False when there is none or it has ended.
   bool Stop(int id);
+  /// Whether a job of a command about a file waits or runs.
+  bool Active(const std::string& command, const std::string& subject) const;
   /// The newest finished job of a command about a file; 0: none.
   int Latest(const std::string& command, const std::string& subject) const;
   std::string FolderOf(int id) const;  // absolute
@@ -50,6 +52,7 @@ class Jobs {
   void RunJob(int id);
   void TakeLine(int id, const std::string& line);
   void Finish(int id, int code, double seconds);
+  std::string LastWords(int id) const;
   nlohmann::ordered_json JsonOf(const Job& job) const;
   void Store(const Job& job) const;
   Job* NextLocked();

@@ -23,9 +23,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr rlim_t kMemory = rlim_t{1} << 30;  // [bytes]
-constexpr std::size_t kMostRecords = 12;     // kept in memory
+constexpr rlim_t kMemory = rlim_t{1} << 30;   // [bytes]
+constexpr std::size_t kMostRecords = 12;      // kept in memory
+constexpr std::size_t kMostKept = 200 << 20;  // [bytes] of them beside the one that is looked at
 constexpr std::size_t kMostColumns = 20000;
+constexpr std::size_t kMostWhole = 4000000;  // values of an export
 
 struct KeptRecord {
   std::string key;
@@ -46,12 +48,29 @@ class RecordShelf {
         kept_.splice(kept_.begin(), kept_, it);
         return kept_.front();
       }
-    while (kept_.size() >= kMostRecords) kept_.pop_back();
-    kept_.push_front({key, group.empty() ? ReadRecord(file) : ReadHdf5Group(file, group), {}});
+    MakeRoom();
+    const auto read = [&] { return group.empty() ? ReadRecord(file) : ReadHdf5Group(file, group); };
+    try {
+      kept_.push_front({key, read(), {}});
+    } catch (const std::bad_alloc&) {
+      kept_.clear();  // there may be room for this one alone
+      kept_.push_front({key, read(), {}});
+    }
     return kept_.front();
   }
 
  private:
+  /// The records that were looked at longest ago go.
+  void MakeRoom() {
+    std::size_t bytes = 0, count = 0;
+    auto keep = kept_.begin();
+    for (; keep != kept_.end() && count + 1 < kMostRecords; ++keep, ++count) {
+      bytes += keep->record.rows() * keep->record.channels.size() * sizeof(double);
+      if (bytes > kMostKept) break;
+    }
+    kept_.erase(keep, kept_.end());
+  }
+
   std::list<KeptRecord> kept_;
 };
 
@@ -73,6 +92,17 @@ std::size_t RowAt(const Record& r, double t) {
   return std::min(static_cast<std::size_t>(std::min(row, 1e15)), r.rows());
 }
 
+/// Whether every sample is wanted, as for an export, and can be sent.
+bool IsWhole(const Json& request, std::size_t rows) {
+  if (!request.value("all", false)) return false;
+  if (rows * request["channels"].size() > kMostWhole)
+    throw InputError(
+        fmt::format("{} rows of {} channels are too many to export, allowed: {} values; "
+                    "zoom in",
+                    rows, request["channels"].size(), kMostWhole));
+  return true;
+}
+
 /// Of each channel the extremes of its columns as lo, hi pairs, or, where the view has fewer samples
 /// than two a column, the samples.
 std::string View(KeptRecord& k, const Json& request) {
@@ -83,7 +113,7 @@ std::string View(KeptRecord& k, const Json& request) {
   const double end = r.start + static_cast<double>(r.rows()) / r.rate;
   const std::size_t last = std::min(RowAt(r, request.value("t1", end)) + 1, r.rows());
   const std::size_t rows = last > first ? last - first : 0;
-  const bool raw = rows <= 2 * columns;
+  const bool raw = rows <= 2 * columns || IsWhole(request, rows);
   std::vector<float> values;
   Json channels = Json::array();
   for (const std::string& name : request["channels"].get<std::vector<std::string>>()) {

@@ -112,6 +112,13 @@ bool ServedFolder::Has(const std::string& name) const {
   }
 }
 
+bool ServedFolder::HasFolder(const std::string& name) const {
+  if (!IsServedName(name + "/x.toml")) return false;
+  const int folder = OpenBeneath(folder_, name, O_RDONLY | O_DIRECTORY);
+  if (folder >= 0) ::close(folder);
+  return folder >= 0;
+}
+
 int ServedFolder::OpenParent(const std::string& name, std::string* leaf) const {
   if (!IsServedName(name)) Refuse(name, "is not a name of this folder");
   const std::string parent = fs::path(name).parent_path().string();
@@ -160,6 +167,29 @@ void ServedFolder::Remove(const std::string& name) const {
   const int folder = OpenParent(name, &leaf);
   ::unlinkat(folder, leaf.c_str(), 0);
   ::close(folder);
+}
+
+void ServedFolder::MoveOut(const std::string& name, const std::string& file) const {
+  std::string leaf;
+  const int folder = OpenParent(name, &leaf);
+  const bool moved = ::renameat(folder, leaf.c_str(), AT_FDCWD, file.c_str()) == 0;
+  const int error = errno;
+  ::close(folder);
+  if (!moved) Refuse(name, std::strerror(error));
+}
+
+std::string ServedFolder::Version(const std::string& name) const {
+  try {
+    const int file = OpenToRead(name);
+    struct stat status {};
+    const bool known = ::fstat(file, &status) == 0;
+    ::close(file);
+    if (!known) return "";
+    return fmt::format("{}|{}|{}.{}", status.st_ino, status.st_size, status.st_mtim.tv_sec,
+                       status.st_mtim.tv_nsec);
+  } catch (const InputError&) {
+    return "";
+  }
 }
 
 std::vector<ServedFile> ServedFolder::List(std::size_t most) const {

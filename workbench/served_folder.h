@@ -31,6 +31,8 @@ class ServedFolder {
   /// @throws InputError, also when it is larger than `limit`
   std::string Read(const std::string& name, std::size_t limit) const;
   bool Has(const std::string& name) const;
+  /// Whether a folder of this name lies in it, reached without a link.
+  bool HasFolder(const std::string& name) const;
   /// The whole file or none of it: temporary name, then renamed within its folder, which exists.
   /// @throws InputError
   void Write(const std::string& name, const std::string& text) const;
@@ -38,6 +40,11 @@ class ServedFolder {
   /// @throws InputError
   void MoveIn(const std::string& file, const std::string& name) const;
   void Remove(const std::string& name) const;
+  /// Moves a file of the folder to any place on the same disk. @throws InputError
+  void MoveOut(const std::string& name, const std::string& file) const;
+  /// Size and time of the last change, as a text that another version does not have; "" when it is not
+  /// there.
+  std::string Version(const std::string& name) const;
 
   /// All files of known kinds, sorted, without hidden ones; at most `most`.
   std::vector<ServedFile> List(std::size_t most) const;

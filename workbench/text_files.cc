@@ -86,17 +86,49 @@ int TextFiles::ReplaceLocked(const std::string& name, const std::string& text,
   return step;
 }
 
-int TextFiles::Replace(const std::string& name, const std::string& text, const std::string& hash) {
+void TextFiles::CheckWritable(const std::string& name) {
   if (!name.ends_with(".toml") && !name.ends_with(".txt") && !name.ends_with(".md"))
     throw InputError(name + ": allowed to be written: .toml, .txt, .md");
+}
+
+int TextFiles::Remove(const std::string& name, const std::string& hash) {
+  CheckWritable(name);
+  const std::scoped_lock lock(mutex_);
+  const std::string old = folder_.Read(name, kLargest);
+  if (HashText(old) != hash) throw Conflict{HashText(old)};
+  const int step = ++last_;
+  const nlohmann::ordered_json kept{{"file", name}, {"there", true}, {"old", old}, {"written", ""}};
+  WriteFileAtomically(TrashOf(step),
+                      kept.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  folder_.Remove(name);
+  return step;
+}
+
+int TextFiles::Replace(const std::string& name, const std::string& text, const std::string& hash) {
+  CheckWritable(name);
   const std::scoped_lock lock(mutex_);
   return ReplaceLocked(name, text, hash);
+}
+
+int TextFiles::NoteAdded(const std::string& name) {
+  const std::scoped_lock lock(mutex_);
+  const int step = ++last_;
+  WriteFileAtomically(
+      TrashOf(step),
+      nlohmann::ordered_json{{"file", name}, {"added", folder_.Version(name)}}.dump());
+  return step;
 }
 
 nlohmann::ordered_json TextFiles::Undo(int step) {
   const std::scoped_lock lock(mutex_);
   if (step < 1 || step > last_) throw InputError("undo: there is no such step");
   const nlohmann::json kept = ReadJson(TrashOf(step));
+  if (kept.contains("added")) {
+    const std::string file = kept.at("file");
+    if (folder_.Version(file) != kept.at("added")) throw Conflict{""};
+    folder_.MoveOut(file, fmt::format("{}/.ambrig/trash/{}.file", folder_.path(), step));
+    return {{"file", file}, {"removed", true}};
+  }
   const std::string name = kept.at("file"), old = kept.at("old"), written = kept.at("written");
   const std::string now = folder_.Has(name) ? HashText(folder_.Read(name, kLargest)) : "";
   if (now != written) throw Conflict{now};

@@ -22,7 +22,12 @@ class TextFiles {
   /// Replaces the version of this hash; "": the file must be new. @return the step's number for Undo.
   /// @throws Conflict, InputError
   int Replace(const std::string& name, const std::string& text, const std::string& hash);
-  /// Puts back what a step replaced, unless the file changed since. @throws Conflict, InputError
+  /// Takes away the version of this hash, to .ambrig/trash. @return the step's number for Undo.
+  /// @throws Conflict, InputError
+  int Remove(const std::string& name, const std::string& hash);
+  /// A file that was just added whole: a step, too. @throws InputError
+  int NoteAdded(const std::string& name);
+  /// Puts back what a step replaced or took away, takes away what it added, unless the file changed since. @throws Conflict, InputError
   nlohmann::ordered_json Undo(int step);
   /// Writes the line that mends a data fault under `data = ...` of the record of a case.
   /// @return {"step", "text", "line"} @throws InputError when the case would no longer be read
@@ -31,6 +36,7 @@ class TextFiles {
 
  private:
   int ReplaceLocked(const std::string& name, const std::string& text, const std::string& hash);
+  static void CheckWritable(const std::string& name);
   std::string TrashOf(int step) const;
 
   const ServedFolder& folder_;

@@ -13,6 +13,7 @@
 #include "workbench/request_guard.h"
 #include "workbench/served_folder.h"
 #include "workbench/text_files.h"
+#include "workbench/watched_folders.h"
 
 namespace ambrig::workbench {
 
@@ -37,6 +38,9 @@ class Workbench : public HttpHandler {
   HttpResponse Series(const HttpRequest& request);
   HttpResponse EventStream(const HttpRequest& request);
   HttpResponse Upload(const HttpRequest& request);
+  HttpResponse Rows(const HttpRequest& request);
+  HttpResponse Watched(const HttpRequest& request);
+  HttpResponse Undo(int step);
   HttpResponse NewTicket(const HttpRequest& request);
   HttpResponse Report(const std::string& ticket);
 
@@ -47,6 +51,7 @@ class Workbench : public HttpHandler {
   FolderIndex index_;
   TextFiles texts_;
   RecordReader reader_;
+  WatchedFolders watched_;
   std::atomic<unsigned> uploads_{0};
   std::mutex tickets_mutex_;
   std::map<std::string, std::string> tickets_;  // -> absolute file, valid once

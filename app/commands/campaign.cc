@@ -134,6 +134,7 @@ int RunCampaign(CampaignOptions o) {
                   CampaignSize(plan.campaign(),
                                PendingRuns(header.runs, shard, journal.rows()).size(), o.jobs),
                   o.long_runs);
+  WriteTable(o.out, journal.rows());  // its header, for whoever follows the journal
   try {
     if (o.engine == "slurm")
       RunOnCluster(plan, o, journal);

@@ -31,6 +31,7 @@
   COMMAND(Plan)                  \
   COMMAND(Hide)                  \
   COMMAND(Score)                 \
+  COMMAND(Watch)                 \
   COMMAND(Serve)                 \
   COMMAND(Practice)
 

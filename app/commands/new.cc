@@ -8,9 +8,11 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/new_case.h"
+#include "app/commands/new_questions.h"
 #include "app/commands/new_templates.h"
 #include "app/commands/outputs.h"
 #include "app/commands/screen.h"
+#include "app/json/json_number.h"
 #include "core/base/atomic_file.h"
 #include "core/base/toml.h"
 #include "core/record/read_record.h"
@@ -23,7 +25,8 @@ namespace {
 struct NewCommand {
   std::string name, answers, out = "bench";
   std::vector<std::string> records, set, column;
-  bool ask = false, only_files = false, force = false;
+  CommonOptions common;  // --json and --force of it
+  bool ask = false, only_files = false, list = false;
 };
 
 double NumberOf(const BenchNumber& n, const std::string& text, const std::string& where) {
@@ -167,10 +170,20 @@ int RunAmbrig(std::vector<std::string> arguments) {
 
 using Files = std::vector<std::pair<std::string, std::string>>;
 
-/// Scenarios of the records, then the case.
-void AddRecords(const NewCommand& o, const RigParameters& rig, const std::vector<Record>& records,
-                Files& files) {
+/// How files of `folder` name the record: from there where it lies near, so that both may move together.
+std::string RecordName(const std::string& record, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const fs::path whole = fs::absolute(record).lexically_normal();
+  const std::string from =
+      whole.lexically_relative(fs::absolute(folder).lexically_normal()).string();
+  return from.starts_with("../..") ? whole.string() : from;
+}
+
+/// Scenarios of the records, then the case. Returns what was taken for what.
+std::vector<ColumnChoice> AddRecords(const NewCommand& o, const RigParameters& rig,
+                                     const std::vector<Record>& records, Files& files) {
   std::vector<BenchRecord> all;
+  std::vector<ColumnChoice> taken;
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Record& record = records[k];
     if (records.size() > 1) fmt::print("{}\n", o.records[k]);
@@ -178,7 +191,7 @@ void AddRecords(const NewCommand& o, const RigParameters& rig, const std::vector
     for (const std::string& said : o.column) SayColumn(said, rig, record, choices);
     const double held = HoldAtDistance(rig, record, choices);
     PrintChoices(record, choices, rig);
-    const std::string data = std::filesystem::absolute(o.records[k]).lexically_normal().string(),
+    const std::string data = RecordName(o.records[k], o.out),
                       number = records.size() > 1 ? fmt::format("-{}", k + 1) : "";
     const std::string coils = "record" + number + ".toml", rotor = "rotor" + number + ".toml";
     for (BenchRecord& r : RecordsOf(rig, choices, coils, rotor, data)) {
@@ -187,11 +200,14 @@ void AddRecords(const NewCommand& o, const RigParameters& rig, const std::vector
                                          : ScenarioOfRecord(rig, record, choices, data, held));
       all.push_back(std::move(r));
     }
+    taken.insert(taken.end(), choices.begin(), choices.end());
   }
   files.emplace_back("case.toml", CaseText(all));
+  return taken;
 }
 
 int MakeBench(NewCommand o) {
+  if (o.list) return ListQuestions(o.common);
   BenchAnswers answers;
   const BenchTemplate* bench = nullptr;
   if (!o.answers.empty()) ReadAnswers(o.answers, o, bench, answers);
@@ -221,17 +237,19 @@ int MakeBench(NewCommand o) {
   const std::filesystem::path folder(o.out);
   PrepareFolder(o.out);
   Files files = {{"rig.toml", rig_text}};
+  std::vector<ColumnChoice> choices;
   if (records.empty())
     files.emplace_back("levitation.toml", LevitationText(rig));
   else
-    AddRecords(o, rig, records, files);
+    choices = AddRecords(o, rig, records, files);
   std::vector<std::string> paths;
   for (const auto& [name, text] : files) paths.push_back((folder / name).string());
-  RefuseOverwriting(paths, o.force);
+  RefuseOverwriting(paths, o.common.force);
   for (std::size_t k = 0; k < files.size(); ++k) {
     WriteFileAtomically(paths[k], files[k].second);
     fmt::print("written: {}\n", paths[k]);
   }
+  o.common.WriteJson(BenchJson(paths, choices));
   if (o.only_files) return 0;
   if (records.empty()) return RunAmbrig({"run", paths[1], "--out", (folder / "out").string()});
   return RunAmbrig({"compare", paths.back(), "--html", (folder / "compare.html").string()});
@@ -255,7 +273,13 @@ void AddNew(CLI::App& app, Work& work) {
   command->add_option("-o,--out", o->out, "folder")->capture_default_str();
   command->add_flag("--ask", o->ask, "ask for what is missing");
   command->add_flag("--only-files", o->only_files, "write the files, run nothing");
-  command->add_flag("--force", o->force, "overwrite files that ambrig did not make");
+  command->add_flag("--list", o->list, "print what each template asks for; nothing is written");
+  command
+      ->add_option("--json", o->common.json,
+                   "write the files and the columns taken, or with --list the questions, to FILE")
+      ->type_name("FILE")
+      ->check(OutputFile());
+  command->add_flag("--force", o->common.force, "overwrite files that ambrig did not make");
   command->footer(
       "Examples:\n"
       "  ambrig new --answers examples/new/ball.toml -o ball\n"

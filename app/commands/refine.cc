@@ -9,6 +9,8 @@
 #include "app/json/refine_json.h"
 #include "app/pages/refine_report.h"
 #include "core/base/atomic_file.h"
+#include "core/base/read_file.h"
+#include "discovery/case/case_file.h"
 
 namespace ambrig {
 
@@ -16,7 +18,7 @@ namespace {
 
 struct RefineCommand {
   CommonOptions common;
-  std::string file, effect, output;
+  std::string file, effect, output, new_case;
 };
 
 void PrintRefinement(const Refinement& r, const std::string& output) {
@@ -47,7 +49,7 @@ int RunRefine(const RefineCommand& o) {
   const std::string output =
       !o.output.empty() ? o.output
                         : (rig.parent_path() / (rig.stem().string() + "_refined.toml")).string();
-  o.common.CheckOutputs({o.file, c.rig_file}, {output});
+  o.common.CheckOutputs({o.file, c.rig_file}, {output, o.new_case});
   const std::size_t at = o.effect.find('@');
   ExplainOptions options;
   options.stop = &interrupted;
@@ -57,10 +59,13 @@ int RunRefine(const RefineCommand& o) {
       Refine(c, o.effect.substr(0, at), at == std::string::npos ? "" : o.effect.substr(at + 1),
              output, options);
   WriteFileAtomically(output, r.rig_text);
+  if (!o.new_case.empty())
+    WriteFileAtomically(o.new_case, CaseWithRig(ReadFile(o.file), o.file, output, o.new_case));
   progress.Clear();
   PrintRefinement(r, output);
   nlohmann::ordered_json json = RefineJson(r);
   json["rig"] = output;
+  if (!o.new_case.empty()) json["case"] = o.new_case;
   o.common.WriteJson(json);
   if (!o.common.html.empty()) WriteRefineReport(r, output, o.common.html);
   return 0;
@@ -80,6 +85,11 @@ void AddRefine(CLI::App& app, Work& work) {
   command
       ->add_option("-o,--output", options->output,
                    "new rig file (default: RIG_refined.toml beside the rig)")
+      ->check(OutputFile());
+  command
+      ->add_option("--case", options->new_case,
+                   "also write a case file with the same records and the new rig file")
+      ->type_name("NEW_CASE")
       ->check(OutputFile());
   options->common.AddTo(*command);
   command->footer(

@@ -14,6 +14,7 @@
 #include "core/record/read_record.h"
 #include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
+#include "discovery/case/case_file.h"
 #include "rig/rig_channels.h"
 #include "rig/rig_file.h"
 
@@ -239,13 +240,7 @@ void ReserveForValidation(Case& c) {
       "no record is marked \"validate\": every third record is reserved for validation");
 }
 
-}  // namespace
-
-Case ReadCase(const std::string& path) {
-  const std::string file = std::filesystem::is_directory(path)
-                               ? (std::filesystem::path(path) / "case.toml").string()
-                               : path;
-  const TomlTable root = TomlTable::FromFile(file);
+Case CaseOfTable(const TomlTable& root, const std::string& file) {
   Case c;
   c.file = file;
   c.rig_file = ExistingFile(root, "rig", "rig.toml");
@@ -262,6 +257,19 @@ Case ReadCase(const std::string& path) {
     root.Fail("record", "has no record with use = \"fit\", allowed: at least one");
   ReserveForValidation(c);
   return c;
+}
+
+}  // namespace
+
+Case ReadCase(const std::string& path) {
+  const std::string file = std::filesystem::is_directory(path)
+                               ? (std::filesystem::path(path) / "case.toml").string()
+                               : path;
+  return CaseOfTable(TomlTable::FromFile(file), file);
+}
+
+Case ReadCaseText(const std::string& text, const std::string& file) {
+  return CaseOfTable(TomlTable::FromText(text, file), file);
 }
 
 }  // namespace ambrig

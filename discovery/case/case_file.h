@@ -2,7 +2,12 @@
 /// The text of a case file, changed as its user would: comments and layout stay.
 #include <string>
 
+#include "discovery/case/case.h"
+
 namespace ambrig {
+
+/// As ReadCase, of a text that could stand in `file`: names are relative to its folder. @throws InputError
+Case ReadCaseText(const std::string& text, const std::string& file);
 
 /// The text of case file `file` with another rig file, to be written as `output`, perhaps in another
 /// folder: relative names of scenarios and data are then named from there. @throws InputError

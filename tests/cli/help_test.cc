@@ -115,6 +115,10 @@ const Examples kExamples[] = {
     {"refine", {"hide saturation@A --rig examples/reference/rig.toml -o practice"}, true},
     {"plan", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
     {"practice", {}, true},
+    {"watch",
+     {"hide sensor-gain --rig examples/reference/rig.toml -o practice",
+      "hide sensor-gain --rig examples/reference/rig.toml -o logger"},
+     true},
     {"serve", {}, false, true},
     {"score", {"hide sensor-gain --rig examples/reference/rig.toml -o practice"}, true},
 };

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "rig/rig_file.h"
 #include "tests/cli/cli_run.h"
@@ -32,6 +33,31 @@ TEST_F(NewBench, FromTenNumbersAndARecordToACase) {
   EXPECT_THAT(scenario, HasSubstr("position = { M = [-0.0003"));
   EXPECT_THAT(scenario, HasSubstr("port = \"duty\""));
   EXPECT_EQ(Ambrig("compare ball/case.toml").exit, 0);  // the files are there to go on with
+}
+
+// For a page that asks: the questions of every template; what was written and which columns were taken.
+TEST_F(NewBench, TellsItsQuestionsAndWhatItWroteAsJson) {
+  EXPECT_EQ(Ambrig("new --list --json q.json").exit, 0);
+  const auto q = nlohmann::json::parse(ReadText(folder_ / "q.json"));
+  ASSERT_EQ(q["templates"].size(), 5u);
+  const auto& mass = q["templates"][0]["numbers"][0];
+  EXPECT_EQ(mass["key"], "mass");
+  EXPECT_EQ(mass["unit"], "kg");
+  EXPECT_TRUE(mass["fallback"].is_null());
+  EXPECT_LT(mass["lo"], mass["hi"]);
+  std::filesystem::copy_file(AMBRIG_SOURCE_DIR "/examples/mls2em/data/inductance_em1_05.csv",
+                             folder_ / "log.csv");
+  Write("ball.toml", Replaced(ReadText(kExamplesOfNew + "ball.toml"),
+                              "../mls2em/data/inductance_em1_05.csv", "log.csv"));
+  const Outcome o = Ambrig("new --answers ball.toml -o ball --only-files --json made.json");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  const auto made = nlohmann::json::parse(ReadText(folder_ / "made.json"));
+  EXPECT_EQ(made["files"], (nlohmann::json{"ball/rig.toml", "ball/record.toml", "ball/case.toml"}));
+  bool current = false;
+  for (const auto& c : made["columns"]) current |= c["channel"] == "M.i1" && c["column"] == "i1_A";
+  EXPECT_TRUE(current) << made;
+  // Bench and record may move together.
+  EXPECT_THAT(ReadText(folder_ / "ball/case.toml"), HasSubstr("data = \"../log.csv\""));
 }
 
 // The weight is carried by i0 = (g_c + g) sqrt(2 m g/(L_0 g_c)).

@@ -3,7 +3,7 @@ import test from 'node:test';
 import {emptyView, formatAddress, parseAddress} from '../../web/workbench/address.js';
 
 test('a view survives the address, with names that need quoting', () => {
-  const view = {screen: 'case', file: 'a b/\u00e4?#/case.toml', record: 'record-4', channels: ['A.y', 'B.i3'], from: 0.29, to: 0.340001};
+  const view = {screen: 'case', file: 'a b/\u00e4?#/case.toml', record: 'record-4', channels: ['A.y', 'B.i3'], from: 0.29, to: 0.340001, marks: {A: 0.3, B: 0.31}, vs: 'b/c.toml', shift: -0.002};
   assert.deepEqual(parseAddress(formatAddress(view)), view);
 });
 

@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {polar, polyline, withFaults, withoutExpectations} from '../../web/workbench/geometry.js';
+import {polar, polyline} from '../../web/workbench/geometry.js';
 
 test('angles turn counter-clockwise, up on the screen', () => {
   const p = polar(2, 90);
@@ -10,11 +10,4 @@ test('angles turn counter-clockwise, up on the screen', () => {
 
 test('an orbit leaves out what does not count', () => {
   assert.equal(polyline([1e-6, null, -2e-6], [0, 1, 3e-6], 1e6), '1.00,0.00 -2.00,-3.00');
-});
-
-test('faults are appended, expectations of another run are not kept', () => {
-  const text = 'name = "a"\n[expect]\ndrop = false\n[speed]\nprofile = [[0, 1]]';
-  const out = withFaults(withoutExpectations(text), new Map([['A.coil3', 'open'], ['B.coil1', 'partial-short']]), 0.2);
-  assert.equal(out, 'name = "a"\n[speed]\nprofile = [[0, 1]]\n\n[[fault]]\ntime = 0.2\ntarget = "A.coil3"\nkind = "open"\n' +
-    '\n[[fault]]\ntime = 0.2\ntarget = "B.coil1"\nkind = "partial-short"\nparameters = { fraction = 0.5, short_resistance = 0.05 }\n');
 });

@@ -32,12 +32,13 @@ class ServedBench : public BenchFolder {
     BenchFolder::TearDown();
   }
 
-  /// Starts `ambrig serve` on the folder and reads its address. The shell gives way to the program.
-  void Serve() {
+  /// Starts `ambrig serve` on the folder and reads its address. The shell gives way to the program, after
+  /// `before` ("ulimit -f 64; ").
+  void Serve(const std::string& before = "") {
     const std::string file = (base_ / "address").string();
     std::filesystem::remove(file);
-    const std::string line = "exec " AMBRIG_BINARY " serve " + served() + " --address-file " +
-                             file + " > " + (base_ / "log").string() + " 2>&1";
+    const std::string line = before + "exec " AMBRIG_BINARY " serve " + served() +
+                             " --address-file " + file + " > " + (base_ / "log").string() + " 2>&1";
     const char* argv[] = {"sh", "-c", line.c_str(), nullptr};
     ASSERT_EQ(
         ::posix_spawn(&server_, "/bin/sh", nullptr, nullptr, const_cast<char**>(argv), environ), 0);

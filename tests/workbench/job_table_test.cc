@@ -49,7 +49,8 @@ TEST_F(JobTable, MakesTheCommandThatAPersonCouldType) {
 }
 
 TEST_F(JobTable, RefusesWhatIsNotInIt) {
-  EXPECT_THAT(Refusal({{"command", "hide"}, {"case", "case.toml"}}), HasSubstr("allowed: compare"));
+  EXPECT_THAT(Refusal({{"command", "score"}, {"case", "case.toml"}}),
+              HasSubstr("allowed: compare"));
   EXPECT_THAT(Refusal({{"command", "sh"}}), HasSubstr("command: allowed"));
   EXPECT_THAT(Refusal({{"command", 1}}), HasSubstr("command: allowed"));
   EXPECT_THAT(Refusal(json::array()), HasSubstr("command: allowed"));
@@ -95,6 +96,84 @@ TEST_F(JobTable, FilesThatNameOthersOutsideAreRefused) {
   Write("served/s.toml", "rig = \"rig.toml\"\n[[excitation]]\nfile = \"link.csv\"\n");
   std::filesystem::create_symlink(base_ / "other" / "secret.toml", base_ / "served" / "link.csv");
   EXPECT_THAT(Refusal({{"command", "compare"}, {"case", "case.toml"}}), HasSubstr("is a link"));
+}
+
+// A campaign lists its scenarios; what an absolute name of the folder means lies in it.
+TEST_F(JobTable, ListsOfFilesAndAbsoluteNamesAreFollowed) {
+  Write("served/c.toml",
+        "rig = \"rig.toml\"\nscenarios = [\"s.toml\", \"../other/secret.toml\"]\n");
+  EXPECT_THAT(Refusal({{"command", "campaign"}, {"campaign", "c.toml"}}),
+              HasSubstr("outside the served folder"));
+  Write("served/c.toml", "rig = \"" + served() + "/rig.toml\"\nscenarios = [\"s.toml\"]\n");
+  EXPECT_EQ(Refusal({{"command", "campaign"}, {"campaign", "c.toml"}}), "");
+}
+
+// What an interrupted campaign left is found again, unless a file that it names has changed.
+TEST_F(JobTable, EqualWorkSharesItsFolder) {
+  const ServedFolder folder(served());
+  Write("served/c.toml", "rig = \"rig.toml\"\nseeds = 2\n");
+  const auto out = [&](const std::string& job) {
+    const auto a =
+        CheckJob({{"command", "campaign"}, {"campaign", "c.toml"}}, folder, job).arguments;
+    return *(std::find(a.begin(), a.end(), "--out") + 1);
+  };
+  const std::string first = out(".ambrig/jobs/1");
+  EXPECT_THAT(first, HasSubstr(".ambrig/work/campaign-"));
+  EXPECT_EQ(out(".ambrig/jobs/2"), first);
+  Write("served/rig.toml", "name = \"other\"\n");
+  EXPECT_NE(out(".ambrig/jobs/3"), first);
+}
+
+// The playground's scenario stands in the job's folder and names the same files.
+TEST_F(JobTable, AScenarioOfTheJobNamesTheSameFiles) {
+  const ServedFolder folder(served());
+  const auto order = [&](const std::string& text) {
+    return CheckJob({{"command", "play"}, {"scenario", {{"beside", "s.toml"}, {"text", text}}}},
+                    folder, ".ambrig/jobs/7");
+  };
+  const JobOrder o = order("rig = \"rig.toml\"  # mine\n[[excitation]]\nfile = \"sub/b.csv\"\n");
+  EXPECT_THAT(o.arguments, ElementsAre("run", ".ambrig/jobs/7/s.toml", "--out",
+                                       ".ambrig/jobs/7/run", "--quiet", "--no-traces"));
+  EXPECT_EQ(o.subject, "s.toml");
+  ASSERT_EQ(o.texts.size(), 1u);
+  EXPECT_EQ(o.texts[0].first, "s.toml");
+  EXPECT_EQ(o.texts[0].second,
+            "rig = \"../../../rig.toml\"  # mine\n[[excitation]]\nfile = \"../../../sub/b.csv\"\n");
+  EXPECT_THROW(order("rig = \"../other/secret.toml\"\n"), InputError);
+  EXPECT_THROW(order("rig = "), InputError);
+  EXPECT_THROW(
+      CheckJob({{"command", "play"}, {"scenario", {{"beside", "../s.toml"}, {"text", ""}}}}, folder,
+               ".ambrig/jobs/7"),
+      InputError);
+}
+
+TEST_F(JobTable, AnswersOfTheWizardAreNumbersAndColumns) {
+  const ServedFolder folder(served());
+  const JobOrder o = CheckJob({{"command", "new"},
+                               {"template", "one-axis"},
+                               {"numbers", {{"mass", 0.5}}},
+                               {"columns", {{"A.x", "my pos:um:-1"}}},
+                               {"folder", "bench"}},
+                              folder, ".ambrig/jobs/7");
+  EXPECT_THAT(o.arguments, ElementsAre("new", "--template", "one-axis", "--answers",
+                                       ".ambrig/jobs/7/answers.toml", "--column",
+                                       "A.x=my pos:um:-1", "--out", "bench", "--only-files"));
+  EXPECT_EQ(o.texts[0].second, "mass = 0.5\n");
+  EXPECT_FALSE(o.events);
+  const auto refused = [&](const json& change) {
+    json request = {{"command", "new"},
+                    {"template", "one-axis"},
+                    {"numbers", {{"mass", 0.5}}},
+                    {"folder", "bench"}};
+    request.update(change);
+    return Refusal(request);
+  };
+  EXPECT_NE(refused({{"numbers", {{"a = 1\nb", 2}}}}), "");
+  EXPECT_NE(refused({{"numbers", {{"mass", "1"}}}}), "");
+  EXPECT_NE(refused({{"columns", {{"--force", "x"}}}}), "");
+  EXPECT_NE(refused({{"columns", {{"A.x", "a\nb"}}}}), "");
+  for (const char* name : {"sub", "../x", "/tmp/x", ".hidden", "a.toml", "bench/"})
+    EXPECT_NE(refused({{"folder", name}}), "") << name;
 }
 
 TEST_F(JobTable, FilesThatNameEachOtherAreRead) {

@@ -171,7 +171,7 @@ TEST_F(Serve, RandomRequestsLeaveItWell) {
                                           "ffffffffffffffff\r\n",
                                           std::string("\0", 1),
                                           std::string(3000, 'a')};
-  for (int k = 0; k < 2000; ++k) {
+  for (int k = 0; k < 10000; ++k) {
     std::string bytes = k % 2 == 0 ? Head("GET", "/api/") : "";
     if (k % 2 == 0) bytes.insert(random() % bytes.size(), parts[random() % parts.size()]);
     for (std::size_t n = random() % 12; n > 0; --n) bytes += parts[random() % parts.size()];

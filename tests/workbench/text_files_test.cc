@@ -60,6 +60,31 @@ TEST_F(TextEdits, AreUndoneUnlessChangedSince) {
   EXPECT_THROW(files.Undo(99), InputError);
 }
 
+TEST_F(TextEdits, WhatIsTakenAwayCanBePutBack) {
+  const ServedFolder folder(served());
+  TextFiles files(folder);
+  const std::string old = folder.Read("case.toml", 1 << 20);
+  EXPECT_THROW(files.Remove("case.toml", "0123456789abcdef"), Conflict);
+  EXPECT_THROW(files.Remove("sub/b.csv", HashText("t,x\n0,1\n1,2\n")), InputError);  // a record
+  const int step = files.Remove("case.toml", HashText(old));
+  EXPECT_FALSE(folder.Has("case.toml"));
+  files.Undo(step);
+  EXPECT_EQ(Text("served/case.toml"), old);
+  EXPECT_THROW(files.Undo(step), Conflict);
+}
+
+TEST_F(TextEdits, WhatWasAddedIsTakenAwayUnlessItChanged) {
+  const ServedFolder folder(served());
+  TextFiles files(folder);
+  const int step = files.NoteAdded("sub/b.csv");
+  Write("served/sub/b.csv", "another\n");
+  EXPECT_THROW(files.Undo(step), Conflict);
+  const int again = files.NoteAdded("sub/b.csv");
+  files.Undo(again);
+  EXPECT_FALSE(folder.Has("sub/b.csv"));
+  EXPECT_EQ(Text("served/.ambrig/trash/" + std::to_string(again) + ".file"), "another\n");
+}
+
 TEST_F(TextEdits, MendWritesTheLineUnderItsRecord) {
   const ServedFolder folder(served());
   TextFiles files(folder);

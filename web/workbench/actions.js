@@ -1,14 +1,14 @@
 /** What a click does: requests, and what they change in the state. */
-import {getJson, post, put, remove} from './api.js';
+import {getJson, getText, post, put, remove} from './api.js';
 import {changed, state, tell, tellError} from './state.js';
 
 /** The command that a job is, as a person would type it. @param {import('./state.js').Job} job */
 export function commandLine(job) {
-  const hidden = new Set(['--json', '--events', '--html', '--series', '--resume', '--out', '--quiet']);
+  const hidden = new Set(['--json', '--events', '--html', '--series', '--resume', '--out']);
   const words = [];
   for (let k = 0; k < job.argv.length; ++k) {
-    if (job.argv[k] === '--quiet') continue;
-    if (hidden.has(job.argv[k])) ++k;
+    if (job.argv[k] === '--quiet' || job.argv[k] === '--no-traces') continue;
+    if (hidden.has(job.argv[k]) && (job.argv[k] !== '--out' || job.argv[k + 1].startsWith('.ambrig/'))) ++k;
     else words.push(job.argv[k]);
   }
   return 'ambrig ' + words.join(' ');
@@ -18,6 +18,7 @@ export async function loadFolder() {
   try {
     state.folder = await getJson('/api/folder');
     state.jobs = await getJson('/api/jobs');
+    state.watched = await getJson('/api/watched');
   } catch (error) {
     tellError(error);
   }
@@ -40,13 +41,79 @@ export function resultOf(command, file) {
   return state.results.get(command + ' ' + file);
 }
 
-/** @param {{command: string} & Record<string, string|number>} order */
+/** @param {{command: string} & Record<string, any>} order @returns {Promise<number>} the job's number, 0 where it was refused */
 export async function startJob(order) {
   try {
-    if (state.notice?.step === null) state.notice = null;
+    if (state.notice?.steps.length === 0) state.notice = null;
     const job = await post('/api/jobs', order);
     // Its events may have come before this answer: they know more.
     if (!state.jobs.some((j) => j.id === job.id)) takeJob(job);
+    return job.id;
+  } catch (error) {
+    tellError(error);
+    return 0;
+  }
+}
+
+/** Starts a job and waits until it has ended. @param {{command: string} & Record<string, any>} order @returns {Promise<import('./state.js').Job|null>} null: refused */
+export async function runJob(order) {
+  const id = await startJob(order);
+  if (id === 0) return null;
+  return new Promise((done) => {
+    const look = () => {
+      const job = state.jobs.find((j) => j.id === id);
+      if (!job || job.state === 'queued' || job.state === 'running') return false;
+      waiting.delete(look);
+      done(job);
+      return true;
+    };
+    if (!look()) waiting.add(look);
+  });
+}
+
+/** Who waits for a job's end. @type {Set<() => boolean>} */
+const waiting = new Set();
+
+/** The result of a job. @param {number} job @returns {Promise<any>} */
+export async function resultOfJob(job) {
+  return getJson(`/api/jobs/${job}/result`);
+}
+
+/** Writes a text file that is not there yet or is replaced, with Undo. @param {string} name @param {string} text @param {string} hash of the version seen, "" for a new one */
+export async function writeText(name, text, hash = '') {
+  const done = await put('/api/file?p=' + encodeURIComponent(name), text, hash ? {'If-Match': hash} : {});
+  tell(`written ${name}`, false, [done.step]);
+  await loadFolder();
+}
+
+/** Changes a text file by a function of its text. @param {string} name @param {(text: string) => string} how @param {string} said */
+export async function changeText(name, how, said) {
+  const {text, hash} = await getText('/api/file?p=' + encodeURIComponent(name));
+  const done = await put('/api/file?p=' + encodeURIComponent(name), how(text), {'If-Match': hash});
+  tell(said, false, [done.step]);
+  await loadFolder();
+}
+
+/** Takes text files away. @param {string[]} names */
+export async function removeFiles(names) {
+  try {
+    const steps = [];
+    for (const name of names) {
+      const {hash} = await getText('/api/file?p=' + encodeURIComponent(name));
+      steps.push((await remove('/api/file?p=' + encodeURIComponent(name), {'If-Match': hash})).step);
+    }
+    tell(`taken away: ${names.join(', ')}`, false, steps);
+    await loadFolder();
+  } catch (error) {
+    tellError(error);
+  }
+}
+
+/** @param {string} file the case @param {string} folder of a logger @param {boolean} on */
+export async function watchFolder(file, folder, on) {
+  try {
+    state.watched = await post('/api/watched', {case: file, folder, on});
+    tell(on ? `${folder} is looked at every few seconds; each new record is examined` : `${folder} is no longer watched`);
   } catch (error) {
     tellError(error);
   }
@@ -67,6 +134,7 @@ function takeJob(job) {
   if (at < 0) state.jobs.push(job);
   else state.jobs[at] = job;
   if (job.state !== 'running' && job.state !== 'queued') state.progress.delete(job.id);
+  for (const look of [...waiting]) look();
   changed();
 }
 
@@ -78,7 +146,7 @@ export function takeEvent(event) {
     return;
   }
   if (event.event === 'file') {
-    void loadFolder();
+    folderSoon();
     for (const key of state.results.keys()) if (key.endsWith(' ' + event.file)) void reload(key);
     return;
   }
@@ -100,6 +168,13 @@ export function takeEvent(event) {
   changed();
 }
 
+let folderTimer = 0;
+/** Many files that arrive together are one reading of the folder. */
+function folderSoon() {
+  clearTimeout(folderTimer);
+  folderTimer = setTimeout(() => void loadFolder(), 200);
+}
+
 /** @param {string} key "compare practice/case.toml" */
 async function reload(key) {
   const space = key.indexOf(' ');
@@ -110,8 +185,8 @@ async function reload(key) {
 function ended(job) {
   if (job.state === 'running' || job.state === 'queued') return;
   if (job.state === 'failed') tell(`${job.command}: ${job.error || 'failed, exit code ' + job.code}`, true);
-  if (job.state === 'stopped') tell(`${job.command} stopped; started again, it goes on where it was`);
-  if (job.state === 'done') void loadResult(job.command, job.subject);
+  if (job.state === 'stopped' && job.command !== 'play') tell(`${job.command} stopped; started again, it goes on where it was`);
+  if (job.state === 'done' && job.command !== 'play') void loadResult(job.command, job.subject);
   void loadFolder();
 }
 
@@ -119,18 +194,19 @@ function ended(job) {
 export async function mend(file, fault) {
   try {
     const done = await post('/api/mend', {case: file, record: fault.record, mend: fault.mend});
-    tell(`written into ${file}, line ${done.line}: ${done.text}`, false, done.step);
+    tell(`written into ${file}, line ${done.line}: ${done.text}`, false, [done.step]);
     await startJob({command: 'compare', case: file});
   } catch (error) {
     tellError(error);
   }
 }
 
-/** @param {number} step */
-export async function undo(step) {
+/** @param {number[]} steps the last one first */
+export async function undo(steps) {
   try {
-    const done = await post(`/api/undo/${step}`);
-    tell(`${done.file} is as it was`);
+    const files = [];
+    for (const step of [...steps].reverse()) files.push((await post(`/api/undo/${step}`)).file);
+    tell(`${files.join(', ')} ${files.length > 1 ? 'are as they were' : 'is as it was'}`);
     await loadFolder();
     await startJobForShown();
   } catch (error) {
@@ -152,15 +228,18 @@ export async function openReport(job) {
   }
 }
 
-/** @param {FileList|null} files @param {string} folder "" or "practice/" */
+/** @param {FileList|null} files @param {string} folder "" or "practice/" @returns {Promise<string[]>} the names of those that came */
 export async function upload(files, folder) {
+  const came = [], steps = [];
   for (const file of files ?? []) {
     try {
-      await put('/api/upload?p=' + encodeURIComponent(folder + file.name), file);
-      tell(`${folder}${file.name} is here`);
+      steps.push((await put('/api/upload?p=' + encodeURIComponent(folder + file.name), file)).step);
+      came.push(folder + file.name);
+      tell(`${came.join(', ')} ${came.length > 1 ? 'are' : 'is'} here`, false, steps);
     } catch (error) {
       tellError(error);
     }
   }
   await loadFolder();
+  return came;
 }

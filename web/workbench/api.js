@@ -62,9 +62,9 @@ export async function put(path, body, headers = {}) {
   return (await request(path, {method: 'PUT', body, headers})).json();
 }
 
-/** @param {string} path @returns {Promise<any>} */
-export async function remove(path) {
-  return (await request(path, {method: 'DELETE'})).json();
+/** @param {string} path @param {Record<string, string>} headers @returns {Promise<any>} */
+export async function remove(path, headers = {}) {
+  return (await request(path, {method: 'DELETE', headers})).json();
 }
 
 /**

@@ -1,12 +1,15 @@
 /** The page: address, screens, the strip of jobs. */
 import {html, nothing, render} from './lit-html.js';
-import {loadFolder, loadResult, resultOf, startJob, stopJob, takeEvent, undo, upload} from './actions.js';
+import {loadFolder, stopJob, takeEvent, undo, upload} from './actions.js';
 import {formatAddress, parseAddress} from './address.js';
 import {listen, takeToken} from './api.js';
-import {caseScreen, drawPanels, openCase} from './case_screen.js';
-import {folderScreen} from './folder_screen.js';
-import {drawRun, openRun, runScreen} from './run_screen.js';
-import {changed, drawWith, state} from './state.js';
+import {folderScreen, offerWizard} from './folder_screen.js';
+import {dialog, listenToKeys, openDialog} from './keys.js';
+import {screenNow, screenOf} from './screens.js';
+import {changed, drawWith, state, tellError} from './state.js';
+
+/** When the address last changed. */
+const held = {since: 0};
 
 /** Changes the view and the address; a view that was held is a step of the browser's history. @param {object} change */
 function go(change) {
@@ -14,23 +17,32 @@ function go(change) {
   state.view = {...state.view, ...change};
   const address = formatAddress(state.view);
   if (address === location.hash) return;
-  history.pushState(null, '', address);
-  if (before.file !== state.view.file || before.screen !== state.view.screen) opened();
+  // A view that was held is a step of the browser's history; what a wheel passes is none.
+  const other = isOther(before, state.view) || before.record !== state.view.record || before.channels.join() !== state.view.channels.join();
+  if (!other && Date.now() - held.since < 400) history.replaceState(null, '', address);
+  else history.pushState(null, '', address);
+  held.since = Date.now();
+  if (isOther(before, state.view)) opened();
   changed();
+}
+
+/** Whether something else is opened. @param {import('./address.js').View} a @param {import('./address.js').View} b */
+function isOther(a, b) {
+  return a.file !== b.file || a.screen !== b.screen || ((a.screen === 'compare' || a.screen === 'record') && a.vs !== b.vs);
 }
 
 function opened() {
   window.scrollTo(0, 0);
-  if (state.view.screen === 'case') void openCase(state.view.file);
-  if (state.view.screen === 'run') void openRun(state.view.file);
-  if (state.view.screen === 'folder') void loadFolder();
+  const {screen, file, vs} = state.view;
+  if (screen === 'folder') void loadFolder();
+  screenOf(screen).then((s) => s?.open(file, vs), tellError).then(changed);
 }
 
 function followAddress() {
   if (location.hash.startsWith('#token=')) takeToken();  // the printed address, opened in this tab again
   const before = state.view;
   state.view = parseAddress(location.hash);
-  if (before.file !== state.view.file || before.screen !== state.view.screen) opened();
+  if (isOther(before, state.view)) opened();
   changed();
 }
 
@@ -43,6 +55,7 @@ function strip() {
       return html`<li>job ${j.id}: ${j.command} ${j.state === 'queued' ? 'waits' : `${Math.round(100 * (p?.share ?? 0))} %`}
         <button class="stop" @click=${() => stopJob(j.id)} aria-label="stop job ${j.id}">stop</button></li>`;
     })}</ul>
+    <button @click=${() => openDialog('find')} aria-label="find, Ctrl-K">find</button> <button @click=${() => openDialog('help')} aria-label="keys">?</button>
     <button @click=${switchTheme} aria-label="light or dark">\u25d0</button></header>`;
 }
 
@@ -55,43 +68,37 @@ function switchTheme() {
 function notice() {
   const n = state.notice;
   if (!n) return nothing;
-  const step = n.step;
   return html`<div class="notice ${n.bad ? 'bad' : ''}"><span>${n.text}</span>
-    ${step === null ? nothing : html`<button @click=${() => undo(step)}>Undo</button>`}
+    ${n.steps.length === 0 ? nothing : html`<button @click=${() => undo(n.steps)}>Undo</button>`}
     <button @click=${() => {
       state.notice = null;
       changed();
     }} aria-label="close">\u00d7</button></div>`;
 }
 
-/** @param {string} screen */
-function shown(screen) {
-  if (screen === 'case') return caseScreen(go);
-  if (screen === 'run') return runScreen(go);
-  if (screen === 'rig') return rigScreen();
-  return folderScreen();
-}
-
-function rigScreen() {
-  const found = resultOf('rig', state.view.file);
-  if (found === undefined) {
-    state.results.set('rig ' + state.view.file, null);
-    void startJob({command: 'rig', rig: state.view.file});
-    void loadResult('rig', state.view.file);
-  }
-  if (!found) return html`<h1>${state.view.file}</h1><p>Reading the rig.</p>`;
-  const values = Object.entries(found.result.values);
-  return html`<h1>${state.view.file}</h1><table><thead><tr><th scope="col">number</th><th scope="col">value</th><th scope="col">sd</th><th scope="col">fitted</th><th scope="col">unit</th></tr></thead>
-    <tbody>${values.map(([path, v]) => html`<tr><th scope="row">${path}</th><td class="number">${/** @type {any} */ (v).value}</td>
-      <td class="number">${/** @type {any} */ (v).sd ?? ''}</td><td class="number">${/** @type {any} */ (v).fitted ?? ''}</td><td>${/** @type {any} */ (v).unit}</td></tr>`)}</tbody></table>`;
+/** @param {string} name */
+function shown(name) {
+  if (name === 'folder') return folderScreen();
+  return screenNow(name)?.view(go) ?? html`<p>Loading.</p>`;
 }
 
 function draw() {
   const page = document.getElementById('page');
   if (!page) return;
-  render(html`${strip()}${notice()}<main>${shown(state.view.screen)}</main>`, page);
-  if (state.view.screen === 'case') drawPanels(go);
-  if (state.view.screen === 'run') drawRun();
+  render(html`${strip()}${notice()}<main>${shown(state.view.screen)}</main>${dialog()}`, page);
+  screenNow(state.view.screen)?.draw?.(go);
+}
+
+/** A record dropped on a case is offered to it; elsewhere the wizard asks what it is. @param {FileList|null} files */
+async function takeDropped(files) {
+  if (state.view.screen === 'case') {
+    const {takeRecords} = await import('./plan_part.js');
+    await takeRecords(files, state.view.file);
+    return;
+  }
+  const file = state.view.screen === 'new' ? '' : state.view.file;
+  const came = await upload(files, file.slice(0, file.lastIndexOf('/') + 1));
+  if (state.view.screen === 'folder' || state.view.screen === 'new') offerWizard(came);
 }
 
 function begin() {
@@ -107,8 +114,9 @@ function begin() {
   addEventListener('dragover', (e) => e.preventDefault());
   addEventListener('drop', (e) => {
     e.preventDefault();
-    void upload(e.dataTransfer?.files ?? null, state.view.file.slice(0, state.view.file.lastIndexOf('/') + 1));
+    void takeDropped(e.dataTransfer?.files ?? null);
   });
+  listenToKeys(go, () => screenNow(state.view.screen)?.next?.(go));
   void listen(takeEvent, () => {
     void loadFolder();
     opened();

@@ -1,6 +1,7 @@
 /** The answer of `ambrig explain`: names with their probabilities, closure, remainder, ladder; and its stages while it runs. */
 import {html, nothing} from './lit-html.js';
-import {commandLine, openReport, startJob, stopJob} from './actions.js';
+import {openReport, startJob, stopJob} from './actions.js';
+import {command, errorOf, secondsLeft} from './job_parts.js';
 import {ladder} from './ladder.js';
 import {duration, probability, ratio, uncertain} from './numbers.js';
 import {activeJob, lastJob, state} from './state.js';
@@ -10,10 +11,8 @@ const stages = /** @type {[string, string][]} */ ([
   ['fits', 'fits'], ['remainder', 'what is left'],
 ]);
 
-/** Left over of a share after so many seconds [s]; null: too early to say. @param {import('./state.js').Progress} p */
-export function secondsLeft(p) {
-  return p.share > 0.02 && p.seconds > 1 ? (p.seconds * (1 - p.share)) / p.share : null;
-}
+/** Effects whose law `ambrig refine` can fit. */
+const refinable = new Set(['saturation', 'iron-reluctance', 'eddy-currents', 'hysteresis', 'side-pull', 'cross-coupling', 'windage']);
 
 /** @param {import('./state.js').Job} job */
 function running(job) {
@@ -76,7 +75,7 @@ function closure(e) {
 /**
  * @param {string} file the case
  * @param {any} found /api/result of explain
- * @param {(effect: any) => void} adopt
+ * @param {(effect: any, refine?: boolean) => void} adopt
  */
 export function explanation(file, found, adopt) {
   const job = activeJob('explain', file);
@@ -85,18 +84,20 @@ export function explanation(file, found, adopt) {
   const again = last && (last.state === 'stopped' || last.state === 'interrupted');
   const start = html`<button class="main" @click=${() => startJob({command: 'explain', case: file})}>${again ? 'Resume explain' : found ? 'Explain again' : 'Explain'}</button>`;
   if (!found) return html`<section class="explain" aria-label="explain"><h2>Explain</h2>
+    ${last?.state === 'failed' ? errorOf(last.error) : nothing}
     <p>Which effect is missing? The command tries the catalogue on these records; it takes a minute or some.</p>${start}</section>`;
   const e = found.result;
   return html`<section class="explain ${found.fresh ? '' : 'stale'}" aria-label="explain"><h2>Explain</h2>
     ${found.fresh ? nothing : html`<p class="note">Older than ${found.stale.join(', ')}.</p>`}
     <p class="verdict">${words[e.verdict] ?? e.verdict}</p>
     ${names(e)}
-    ${(e.adopted ?? []).map((/** @type {any} */ a) => html`<p><button class="main" @click=${() => adopt(a)}>Adopt ${a.effect} at ${a.target}</button> ${parameters(a)}</p>`)}
+    ${(e.adopted ?? []).map((/** @type {any} */ a) => html`<p><button class="main" @click=${() => adopt(a)}>Adopt ${a.effect} at ${a.target}</button>
+      ${refinable.has(a.effect) ? html`<button @click=${() => adopt(a, true)}>Refine its law</button>` : nothing} ${parameters(a)}</p>`)}
     ${closure(e)}
     ${(e.ladder ?? []).length > 0 ? ladder(e.ladder, 'Ladder: error over noise, step by step') : nothing}
     ${e.unexplained ? html`<p>${e.unexplained.text}</p>` : nothing}
     <details><summary>Candidates, warnings, the command</summary>${candidates(e, 'fitted')}
       ${(e.warnings ?? []).map((/** @type {string} */ w) => html`<p class="note">${w}</p>`)}
-      ${last ? html`<p><code>${commandLine(last)}</code></p>` : nothing}</details>
+      ${last ? html`<p>${command(last)}</p>` : nothing}</details>
     <p>${start} <button @click=${() => openReport(found.job)}>Report</button></p></section>`;
 }

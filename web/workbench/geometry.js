@@ -15,25 +15,3 @@ export function polyline(x, y, scale) {
   }
   return points.join(' ');
 }
-
-/** A scenario's text with faults appended. @param {string} text @param {Map<string, string>} faults coil -> kind @param {number} time [s] */
-export function withFaults(text, faults, time) {
-  let out = text.replace(/\n*$/, '\n');
-  for (const [coil, kind] of faults) {
-    out += `\n[[fault]]\ntime = ${time}\ntarget = "${coil}"\nkind = "${kind}"\n`;
-    if (kind === 'partial-short') out += 'parameters = { fraction = 0.5, short_resistance = 0.05 }\n';
-  }
-  return out;
-}
-
-/** Without [expect]: what holds for the healthy run need not hold for this one. @param {string} text */
-export function withoutExpectations(text) {
-  const lines = text.split('\n');
-  const kept = [];
-  let inside = false;
-  for (const l of lines) {
-    if (/^\s*\[/.test(l)) inside = /^\s*\[expect\]/.test(l);
-    if (!inside) kept.push(l);
-  }
-  return kept.join('\n');
-}

@@ -50,6 +50,12 @@ export function worstCell(records) {
   return worst;
 }
 
+/** All cells, worst first. @param {RecordError[]} records */
+export function worstCells(records) {
+  return records.flatMap((r) => Object.entries(r.channels).map(([channel, e]) => ({record: recordName(r.data), channel, size: sizeOf(e.ratio)})))
+    .filter((c) => c.size >= 0).sort((a, b) => b.size - a.size);
+}
+
 /** How strong a cell is coloured, 0 (noise) to 5. @param {number|string|null} r */
 export function levelOf(r) {
   const size = sizeOf(r);

@@ -1,29 +1,21 @@
-/** Linked panels over time: measured and model, and the error in units of the noise. */
+/** Linked panels over time: measured and model, and the error in units of the noise; runs beside each other. */
 import {getBytes} from './api.js';
 import {prefixFor, significant} from './numbers.js';
+import {colour, makePlot} from './panel_plot.js';
+import {betweenText, marksText, nearest} from './panel_text.js';
 import {decodeSeries, largest} from './series.js';
 import {tellError} from './state.js';
 
-/** Colours of the reports' palette. @param {string} name */
-function colour(name) {
-  return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim();
-}
-
-/** @param {string} label @param {string} tone @param {number[]} [dash] @returns {any} */
-function line(label, tone, dash) {
-  return {label, stroke: () => colour(tone), width: 1.2, dash, points: {show: false}, spanGaps: false,
-          value: (/** @type {any} */ _, /** @type {number|null} */ v) => (v === null ? '-' : significant(v, 4))};
-}
-
 /**
- * @typedef {{title: string, height: number, lines: {channel: string, label: string, tone: string}[]}} Plot
- * @typedef {{query: string, name: string, plots: Plot[], from: number|null, to: number|null}} What  `query`: which record
+ * @typedef {{channel: string, label: string, tone: string, query?: string, dash?: number[], shift?: number}} Line  `query`: of another record
+ * @typedef {{title: string, height: number, lines: Line[]}} Plot
+ * @typedef {{query: string, name: string, plots: Plot[], from: number|null, to: number|null, marks?: Record<string, number>, events?: number[]}} What  `query`: which record
  */
 
 const rest = 80;  // [ms] after the last zoom before the server is asked
 
 export class Panels {
-  /** @param {HTMLElement} place @param {(from: number|null, to: number|null) => void} moved */
+  /** @param {HTMLElement} place @param {(change: {from: number|null, to: number|null, marks: Record<string, number>}) => void} moved */
   constructor(place, moved) {
     this.place = place;
     this.moved = moved;
@@ -39,22 +31,37 @@ export class Panels {
     this.sync = uPlot.sync('time');
     /** @type {Record<string, number>} the cursors A and B [s] */
     this.marks = {};
+    this.held = false;  // y keeps its range
+    this.samples = false;
+    this.drawing = 0;
     new ResizeObserver(() => this.resize()).observe(place);
   }
 
-  /**
-   * @param {What} what
-   */
+  /** @param {What} what */
   async show(what) {
     const key = JSON.stringify([what.query, what.plots]);
-    if (key === this.key && what.from === this.from && what.to === this.to) return;
+    const marks = what.marks ?? (key === this.key ? this.marks : {});
+    const remarked = JSON.stringify(marks) !== JSON.stringify(this.marks);
+    this.marks = {...marks};
+    this.what = what;
+    if (key === this.key && what.from === this.from && what.to === this.to) {
+      if (remarked) this.tellMarks();
+      return;
+    }
     const same = key === this.key;
     this.key = key;
-    this.what = what;
     this.from = what.from;
     this.to = what.to;
-    if (!same) this.marks = {};
     await this.load(!same);
+  }
+
+  /** Of one record or run, all lines at once. @param {string} query @param {Line[]} lines */
+  async fetchLines(query, lines) {
+    const shift = lines[0].shift ?? 0;
+    let path = `/api/series?${query}&c=${lines.map((l) => encodeURIComponent(l.channel)).join(',')}&px=${Math.max(200, this.width())}`;
+    if (this.from !== null && this.to !== null) path += `&t0=${this.from - shift}&t1=${this.to - shift}`;
+    const series = decodeSeries(await getBytes(path));
+    return {...series, time: shift === 0 ? series.time : series.time.map((t) => t + shift)};
   }
 
   /** @param {boolean} anew whether other channels are shown */
@@ -62,15 +69,17 @@ export class Panels {
     const what = this.what;
     if (!what) return;
     const number = ++this.asked;
-    const names = what.plots.flatMap((p) => p.lines.map((l) => l.channel));
-    let path = `/api/series?${what.query}&c=${names.map(encodeURIComponent).join(',')}&px=${Math.max(200, this.width())}`;
-    if (this.from !== null && this.to !== null) path += `&t0=${this.from}&t1=${this.to}`;
+    const groups = new Map();
+    for (const l of what.plots.flatMap((p) => p.lines)) {
+      const query = l.query ?? what.query;
+      groups.set(query, [...(groups.get(query) ?? []), l]);
+    }
     this.place.setAttribute('aria-busy', 'true');
     try {
-      const series = decodeSeries(await getBytes(path));
+      const parts = await Promise.all([...groups].map(async ([query, lines]) => ({lines, series: await this.fetchLines(query, lines)})));
       if (number !== this.asked) return;
       if (anew) this.build(what);
-      this.fill(series, what);
+      this.fill(parts, what);
     } catch (error) {
       tellError(error);
     }
@@ -86,54 +95,36 @@ export class Panels {
     for (const p of this.plots) p.destroy();
     this.plots = [];
     this.place.replaceChildren();
-    for (const plot of what.plots) this.add(plot.height, plot.lines.map((l) => line(l.label, l.tone)));
+    for (const plot of what.plots) this.plots.push(makePlot(this, plot));
   }
 
-  /** @param {number} height @param {any[]} lines */
-  add(height, lines) {
-    const figure = document.createElement('figure');
-    figure.tabIndex = 0;
-    figure.className = 'panel';
-    const caption = document.createElement('figcaption');
-    figure.append(caption);
-    this.place.append(figure);
-    const axis = {stroke: () => colour('ink'), grid: {stroke: () => colour('grid'), width: 1}, ticks: {show: false}};
-    const plot = new uPlot({
-      width: this.width(), height,
-      scales: {x: {time: false}},
-      axes: [{...axis, values: (/** @type {any} */ _, /** @type {number[]} */ v) => v.map((t) => String(Number(t.toPrecision(6))))},
-             {...axis, size: 64, space: 24}],
-      series: [{label: 't [s]', value: (/** @type {any} */ _, /** @type {number|null} */ t) => (t === null ? '-' : t.toFixed(5))}, ...lines],
-      cursor: {sync: {key: this.sync.key, setSeries: false}, drag: {x: true, y: false, setScale: false}, bind: {dblclick: () => () => {
-        this.zoom(null, null);
-        return null;
-      }}},
-      hooks: {setSelect: [(/** @type {any} */ u) => u.setSelect({left: 0, width: 0, top: 0, height: 0}, false)], draw: [(/** @type {any} */ u) => this.drawMarks(u)]},
-      select: {show: true, left: 0, top: 0, width: 0, height: 0},
-    }, [[0], ...lines.map(() => [null])], figure);
-    plot.over.addEventListener('mousedown', (/** @type {MouseEvent} */ e) => this.drag(e, plot));
-    plot.root.addEventListener('wheel', (/** @type {WheelEvent} */ e) => this.wheel(e, plot), {passive: false});
-    figure.addEventListener('keydown', (e) => this.pressed(e, plot));
-    this.plots.push(plot);
-  }
-
-  /** @param {import('./series.js').Series} series @param {What} what */
-  fill(series, what) {
-    let at = 0;
+  /** @param {{lines: Line[], series: import('./series.js').Series}[]} parts @param {What} what */
+  fill(parts, what) {
+    const main = parts[0].series;
+    this.samples = parts.every((p) => p.series.head.mode === 'samples');
+    const found = new Map();
+    for (const part of parts)
+      part.lines.forEach((l, k) => {
+        const values = part === parts[0] ? part.series.values[k] : nearest(main.time, part.series.time, part.series.values[k]);
+        found.set(l, {values, unit: part.series.head.channels[k].unit});
+      });
     this.plots.forEach((plot, k) => {
-      const count = what.plots[k].lines.length;
-      const values = series.values.slice(at, at + count);
-      const p = prefixFor(largest(values), series.head.channels[at].unit);
-      at += count;
-      const shown = values.map((v) => v.map((x) => (x === null ? null : x * p.factor)));
+      const lines = what.plots[k].lines.map((l) => found.get(l));
+      const p = prefixFor(largest(lines.map((l) => l.values)), lines[0].unit);
+      const shown = lines.map((l) => l.values.map((/** @type {number|null} */ x) => (x === null ? null : x * p.factor)));
       const title = what.plots[k].title + (p.unit ? ` [${p.unit}]` : '');
       const figure = plot.root.parentElement;
       const caption = figure?.querySelector('figcaption');
       if (caption) caption.textContent = title;
       figure?.setAttribute('aria-label', `${title}, ${what.name}, largest ${significant(largest(shown))}`);
-      plot.setData([series.time, ...shown], false);
-      plot.setScale('x', {min: series.time[0], max: series.time.at(-1) ?? 1});
+      plot.lines = lines.map((l, n) => ({label: what.plots[k].title + ' ' + what.plots[k].lines[n].label, values: l.values, unit: l.unit}));
+      const {min, max} = plot.scales.y;
+      plot.setData([main.time, ...shown], false);
+      plot.setScale('x', {min: this.from ?? main.time[0], max: this.to ?? main.time.at(-1) ?? 1});
+      if (this.held && min !== null && plot.factor === p.factor) plot.setScale('y', {min, max});
+      plot.factor = p.factor;
     });
+    this.tellMarks();
   }
 
   /** Another file is shown: nothing of the last one stays. */
@@ -141,6 +132,7 @@ export class Panels {
     ++this.asked;
     this.key = '';
     this.from = this.to = null;
+    this.marks = {};
     for (const p of this.plots) p.destroy();
     this.plots = [];
     this.place.replaceChildren();
@@ -151,52 +143,20 @@ export class Panels {
     this.from = from;
     this.to = to;
     clearTimeout(this.timer);
-    if (from !== null && to !== null) for (const plot of this.plots) plot.setScale('x', {min: from, max: to});
+    // A wheel turns faster than the screen: one drawing a frame.
+    if (from !== null && to !== null && !this.drawing)
+      this.drawing = requestAnimationFrame(() => {
+        this.drawing = 0;
+        if (this.from !== null && this.to !== null) for (const plot of this.plots) plot.setScale('x', {min: this.from, max: this.to});
+      });
     this.timer = setTimeout(() => {
       void this.load(false);
-      this.moved(this.from, this.to);
+      this.tellMoved();
     }, rest);
   }
 
-  /**
-   * Zooms to what lies between this press and the release. The selection that the plot draws is no measure of it: it shows
-   * in every linked panel, and a change of size during the drag reports it before the release.
-   * @param {MouseEvent} down @param {any} plot
-   */
-  drag(down, plot) {
-    if (down.button !== 0) return;
-    const valueAt = (/** @type {MouseEvent} */ e) => {
-      const box = plot.over.getBoundingClientRect();
-      return plot.posToVal(Math.min(Math.max(e.clientX - box.left, 0), box.width), 'x');
-    };
-    const start = valueAt(down);
-    addEventListener('mouseup', (up) => {
-      const end = valueAt(up);
-      if (this.plots.includes(plot) && Math.abs(up.clientX - down.clientX) > 4) this.zoom(Math.min(start, end), Math.max(start, end));
-    }, {once: true});
-  }
-
-  /** @param {WheelEvent} e @param {any} plot */
-  wheel(e, plot) {
-    e.preventDefault();
-    const {min, max} = plot.scales.x;
-    const at = plot.posToVal(e.clientX - plot.over.getBoundingClientRect().left, 'x');
-    const by = e.deltaY > 0 ? 1.25 : 0.8;
-    this.zoom(at - (at - min) * by, at + (max - at) * by);
-  }
-
-  /** @param {KeyboardEvent} e @param {any} plot */
-  pressed(e, plot) {
-    const {min, max} = plot.scales.x;
-    const middle = plot.cursor.left >= 0 ? plot.posToVal(plot.cursor.left, 'x') : (min + max) / 2;
-    const key = e.key.toLowerCase();
-    if (key === '+') this.zoom(middle - (middle - min) / 2, middle + (max - middle) / 2);
-    else if (key === '-') this.zoom(middle - (middle - min) * 2, middle + (max - middle) * 2);
-    else if (key === '0') this.zoom(null, null);
-    else if (key === 'a' || key === 'b') this.mark(key.toUpperCase(), middle);
-    else if (key === 'arrowleft' || key === 'arrowright') this.step(plot, key === 'arrowright' ? 1 : -1);
-    else return;
-    e.preventDefault();
+  tellMoved() {
+    this.moved({from: this.from, to: this.to, marks: {...this.marks}});
   }
 
   /** Moves the cursor by a point of the view and says the values there. @param {any} plot @param {number} by */
@@ -209,26 +169,41 @@ export class Panels {
     if (said) said.textContent = `${plot.data[0][index].toFixed(5)} s: ${values.join(', ')}`;
   }
 
+  /** The next event behind the cursor, in the middle of the view. @param {number} after [s] */
+  nextEvent(after) {
+    const events = this.what?.events ?? [];
+    const next = events.find((t) => t > after + 1e-9) ?? events[0];
+    if (next === undefined) return;
+    const half = this.from !== null && this.to !== null ? (this.to - this.from) / 2 : 0.02;
+    this.zoom(Math.max(0, next - half), Math.max(0, next - half) + 2 * half);
+  }
+
   /** @param {string} name @param {number} t */
   mark(name, t) {
     this.marks[name] = t;
-    for (const plot of this.plots) plot.redraw();
-    const {A, B} = this.marks;
+    this.tellMarks();
+    this.tellMoved();
+  }
+
+  tellMarks() {
+    for (const plot of this.plots) plot.redraw(false);
     const out = this.place.parentElement?.querySelector('.marks');
     if (!out) return;
-    const texts = Object.entries(this.marks).map(([n, at]) => `${n} ${at.toFixed(5)} s`);
-    if (A !== undefined && B !== undefined && A !== B)
-      texts.push(`dt ${significant(B - A, 4)} s, 1/dt ${significant(Math.abs(1 / (B - A)), 4)} Hz`);
-    out.textContent = texts.join('   ');
+    const lines = this.plots.flatMap((p) => p.lines ?? []);
+    const between = this.plots.length > 0 ? betweenText(this.marks, this.plots[0].data[0], lines, this.samples) : '';
+    out.textContent = [marksText(this.marks), between].filter((t) => t).join('\n');
   }
 
   /** @param {any} u */
   drawMarks(u) {
-    for (const [name, t] of Object.entries(this.marks)) {
+    const all = /** @type {[string, number, string][]} */ (Object.entries(this.marks).map(([name, t]) => [name, t, 'ink']));
+    for (const t of this.what?.events ?? []) all.push(['', t, 'error']);
+    for (const [name, t, tone] of all) {
       const x = u.valToPos(t, 'x', true);
       if (x < u.bbox.left || x > u.bbox.left + u.bbox.width) continue;
       u.ctx.save();
-      u.ctx.strokeStyle = u.ctx.fillStyle = colour('ink');
+      u.ctx.strokeStyle = u.ctx.fillStyle = colour(tone);
+      if (!name) u.ctx.setLineDash([4, 4]);
       u.ctx.beginPath();
       u.ctx.moveTo(x, u.bbox.top);
       u.ctx.lineTo(x, u.bbox.top + u.bbox.height);

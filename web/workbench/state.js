@@ -18,7 +18,9 @@ export const state = {
   progress: new Map(),
   /** @type {Map<string, any>} "compare practice/case.toml" -> /api/result */
   results: new Map(),
-  /** @type {{text: string, step: number|null, bad: boolean}|null} what was just done or refused */
+  /** @type {{case: string, folder: string}[]} folders of loggers that the server looks after */
+  watched: [],
+  /** @type {{text: string, steps: number[], bad: boolean}|null} what was just done or refused; steps: of its undo */
   notice: null,
 };
 
@@ -41,9 +43,9 @@ export function changed() {
   });
 }
 
-/** Tells the person, also one who does not see. @param {string} text @param {boolean} bad @param {number|null} step of an undo */
-export function tell(text, bad = false, step = null) {
-  state.notice = {text, step, bad};
+/** Tells the person, also one who does not see. @param {string} text @param {boolean} bad @param {number[]} steps of an undo */
+export function tell(text, bad = false, steps = []) {
+  state.notice = {text, steps, bad};
   const said = document.getElementById('said');
   if (said) said.textContent = text;
   changed();

@@ -1,0 +1,120 @@
+// ambrig watch: a rig that does not change stays within its bands, one that does is told with what changed; every record is
+// examined once.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_run.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+/// A ball under a magnet whose coil is driven by measured duties (examples/mls2em); records are simulated.
+class Watch : public CliFolder {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    fs::copy(AMBRIG_SOURCE_DIR "/examples/mls2em", folder_, fs::copy_options::recursive);
+    Write("known.toml",
+          "rig = \"rig.toml\"\nnoise = { \"M.i1\" = 0.0065 }\n[[record]]\nscenario = "
+          "\"steps-05.toml\"\ndata = \"known/steps-05.h5\"\nchannels = { \"M.fx\" = { column = "
+          "\"M.fx\", use = false } }\n");
+    Make("known/steps-05.h5", "rig.toml", 1);
+    fs::create_directories(folder_ / "logger");
+  }
+  /// A record of the scenario with this rig and seed.
+  void Make(const std::string& data, const std::string& rig, int seed) const {
+    Write("now.toml",
+          "seed = " + std::to_string(seed) + "\n" +
+              Replaced(ReadText(folder_ / "steps-05.toml"), "\"rig.toml\"", "\"" + rig + "\""));
+    EXPECT_EQ(Ambrig("run now.toml --no-report --quiet --out made").exit, 0);
+    fs::create_directories((folder_ / data).parent_path());
+    fs::rename(folder_ / "made/now.h5", folder_ / data);
+  }
+  nlohmann::json Look(int exit, const std::string& more = "") {
+    const Outcome o =
+        Ambrig("watch known.toml logger --settle 0 --json w.json --html w.html --force " + more);
+    EXPECT_EQ(o.exit, exit) << o.text;
+    text_ = o.text;
+    return nlohmann::json::parse(ReadText(folder_ / "w.json"));
+  }
+  std::string text_;
+};
+
+TEST_F(Watch, TellsWhatChangedAndNothingElse) {
+  Make("logger/steps-05-april.h5", "rig.toml", 2);
+  nlohmann::json w = Look(0);
+  ASSERT_EQ(w["records"].size(), 1u);
+  EXPECT_EQ(w["records"][0]["state"], "ok") << w["records"][0]["left"];
+  EXPECT_EQ(w["records"][0]["of"], "steps-05");
+  EXPECT_NEAR(w["records"][0]["ratio_fitted"], 1, 0.1);
+  EXPECT_EQ(w["alarm"], false);
+  // The coil is a tenth warmer than copper at the reference: R 4.17 -> 4.6 ohm.
+  Write("warm.toml",
+        Replaced(ReadText(folder_ / "rig.toml"), "resistance = { value = 4.17, sd = 0.05 }",
+                 "resistance = { value = 4.17, sd = 0.05, fitted = 4.6 }"));
+  Make("logger/steps-05-june.h5", "warm.toml", 3);
+  w = Look(1);
+  ASSERT_EQ(w["new"], nlohmann::json{"steps-05-june.h5"});  // april was examined before
+  const nlohmann::json& june = w["records"][1];
+  EXPECT_EQ(june["state"], "left");
+  bool resistance = false;
+  for (const auto& b : june["left"]) resistance |= b["name"] == "bearings.M.resistance";
+  EXPECT_TRUE(resistance) << june["left"];
+  EXPECT_GT(june["ratio"].get<double>(), 2);  // with the reference's parameters
+  EXPECT_TRUE(june.contains("explanation")) << text_;
+  EXPECT_THAT(text_, HasSubstr("explained by"));
+  const std::string page = ReadText(folder_ / "w.html");
+  EXPECT_THAT(page, HasSubstr("bearings.M.resistance"));
+  EXPECT_THAT(page, HasSubstr("closure"));
+  // Nothing new: no alarm again.
+  w = Look(0);
+  EXPECT_TRUE(w["new"].empty());
+  EXPECT_EQ(w["records"].size(), 2u);
+  EXPECT_THAT(text_, HasSubstr("nothing new"));
+}
+
+TEST_F(Watch, WrongDataAndStrangeFilesAreToldNotFitted) {
+  Make("logger/steps-05-may.h5", "rig.toml", 2);
+  Write("logger/broken.csv", "t,x\n0,1\nno number\n");
+  Write("logger/notes.md", "not a record\n");
+  nlohmann::json w = Look(1, "--no-explain");
+  ASSERT_EQ(w["records"].size(), 2u) << w["records"];
+  for (const auto& r : w["records"])
+    EXPECT_EQ(r["state"], r["data"] == "broken.csv" ? "refused" : "ok") << r;
+}
+
+// What a crash left in the journal counts as it is: a damaged entry is examined again.
+TEST_F(Watch, ADamagedEntryIsExaminedAgain) {
+  Make("logger/steps-05-may.h5", "rig.toml", 2);
+  const nlohmann::json first = Look(0);
+  const std::string journal = ReadText(folder_ / "known.watch");
+  Write("known.watch", journal.substr(0, journal.size() - 20));
+  const nlohmann::json again = Look(0);
+  EXPECT_EQ(again["new"], nlohmann::json{"steps-05-may.h5"});
+  EXPECT_EQ(again["records"][0]["parameters"], first["records"][0]["parameters"]);  // the same bits
+}
+
+TEST_F(Watch, FilesThatAreStillWrittenToWait) {
+  Make("logger/steps-05-may.h5", "rig.toml", 2);
+  const Outcome o = Ambrig("watch known.toml logger --settle 3600 --json w.json");
+  EXPECT_EQ(o.exit, 0) << o.text;
+  const auto w = nlohmann::json::parse(ReadText(folder_ / "w.json"));
+  EXPECT_EQ(w["waiting"], nlohmann::json{"steps-05-may.h5"});
+  EXPECT_TRUE(w["records"].empty());
+}
+
+TEST_F(Watch, MistakesAreOneLine) {
+  EXPECT_EQ(Ambrig("watch known.toml nowhere").exit, 2);
+  Write("known.watch", "mine\n");
+  const Outcome o = Ambrig("watch known.toml logger");
+  EXPECT_EQ(o.exit, 2) << o.text;
+  EXPECT_EQ(o.lines(), 1) << o.text;
+  EXPECT_EQ(ReadText(folder_ / "known.watch"), "mine\n");
+}
+
+}  // namespace
+}  // namespace ambrig
