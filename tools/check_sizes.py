@@ -12,7 +12,7 @@ import sys
 MOST_FILE_LINES = 300
 MOST_FUNCTION_LINES = 60
 FOLDERS = ["core", "actuators", "rotor", "control", "effects", "rig", "fdd", "faulttolerance", "scenarios", "simulation",
-           "analysis", "discovery", "campaign", "design", "workbench", "app", "bench", "tests"]
+           "analysis", "discovery", "campaign", "design", "fmu", "workbench", "app", "bench", "tests"]
 # What is still longer, and why: (file, function). Remove a line as soon as its function is short enough.
 REMAINING = set()
 # A brace after one of these opens no function.

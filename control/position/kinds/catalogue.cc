@@ -10,7 +10,8 @@
   CONTROLLER(HInfinityKind)            \
   CONTROLLER(TiltTranslationKind)      \
   CONTROLLER(LibraryKind)              \
-  CONTROLLER(SocketKind)
+  CONTROLLER(SocketKind)               \
+  CONTROLLER(FmuKind)
 
 namespace ambrig {
 
