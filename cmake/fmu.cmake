@@ -2,16 +2,15 @@
 #
 # It is linked from the objects of the program. g++ compiles these for a position-independent executable (-fPIE, Debian's
 # default), and with every symbol hidden but fmi2* and fmi3* (visible.map) the linker may put them into a shared library; the
-# few sources that reach for what only the system's libraries have are compiled with -fPIC. Nothing is compiled twice.
-# SUNDIALS, SLICOT, LAPACK, libode, libstdc++ and the Fortran runtime are linked statically. NLopt, which Debian has as a
-# shared library only, goes into the FMU beside it ($ORIGIN).
+# one source that reads a variable of the system's libraries is compiled with -fPIC. Nothing is compiled twice.
+# SUNDIALS and libstdc++ are linked statically; what has no such library is left out (fmu/library/left_out.cc). NLopt, which
+# Debian has as a shared library only, goes into the FMU beside it ($ORIGIN).
 option(AMBRIG_FMU "build the library of exported FMUs" ON)
 if(NOT AMBRIG_FMU OR AMBRIG_SANITIZE)
   return()
 endif()
-# environ; a thread-local variable.
-set_source_files_properties(${CMAKE_SOURCE_DIR}/control/external/controller_link.cc ${CMAKE_SOURCE_DIR}/rotor/contact/ode_world.cc
-                            PROPERTIES COMPILE_OPTIONS -fPIC SKIP_PRECOMPILE_HEADERS ON)
+# It reads `environ`.
+set_source_files_properties(${CMAKE_SOURCE_DIR}/control/external/controller_link.cc PROPERTIES COMPILE_OPTIONS -fPIC SKIP_PRECOMPILE_HEADERS ON)
 file(GLOB library_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/fmu/library/*.cc)
 add_library(ambrig_fmu_library MODULE ${library_sources})
 set_target_properties(ambrig_fmu_library PROPERTIES OUTPUT_NAME ambrig_fmu PREFIX "" LINK_DEPENDS ${CMAKE_SOURCE_DIR}/fmu/library/visible.map)
@@ -30,8 +29,6 @@ set_source_files_properties(${CMAKE_SOURCE_DIR}/fmu/library/statically_linked.cc
 target_link_options(ambrig_fmu_library PRIVATE -static-libstdc++ -static-libgcc -Wl,--gc-sections -Wl,--as-needed -Wl,-z,defs
                     -Wl,--version-script=${CMAKE_SOURCE_DIR}/fmu/library/visible.map -s)
 set_target_properties(ambrig_fmu_library PROPERTIES BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
-# LAPACK's reference implementation as position-independent code comes with the shared one's package.
-find_library(AMBRIG_LAPACK_PIC lapack_pic REQUIRED)
 target_link_libraries(ambrig_fmu_library PRIVATE -Wl,--start-group ${archives} -Wl,--end-group
-  -Wl,-Bstatic sundials_cvode sundials_arkode sundials_kinsol sundials_nvecserial sundials_generic slicot ode pugixml
-  ${AMBRIG_LAPACK_PIC} blas gfortran quadmath -Wl,-Bdynamic PkgConfig::NLOPT m dl pthread)
+  -Wl,-Bstatic sundials_cvode sundials_arkode sundials_kinsol sundials_nvecserial sundials_generic pugixml -Wl,-Bdynamic
+  PkgConfig::NLOPT m dl pthread)

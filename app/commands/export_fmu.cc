@@ -62,6 +62,12 @@ void RefuseWhatFmusLack(const RigParameters& rig, const std::vector<std::string>
           "{}: an FMU does not take along a controller of kind \"{}\", allowed: kinds that ambrig "
           "computes; give its forces as inputs force.AXIS",
           rig.file, c->kind));
+  for (const ControllerParameters* c : controllers)
+    if (c->kind == "h-infinity")
+      throw InputError(fmt::format(
+          "{}: an FMU has no synthesis of kind \"h-infinity\", allowed: another kind; the computed "
+          "controller is written by --controller-c",
+          rig.file));
   for (const EffectInstance& e : rig.effects)
     if (e.IsFormula())
       throw InputError(fmt::format(
