@@ -28,11 +28,13 @@ struct SteppedRun::LoadedRotor : RotorStepper {
     for (const PlanePoint& f : load) any = any || f.x != 0 || f.y != 0;
     if (!any || !run.started_) return rotor.Step(s, Q, stator_x, stator_y, dt);
     DofVector all = Q;
+    // Their mean over the step as RotorModel takes it of a scenario's loads, rounding included.
+    const double share = (s.t + dt - s.t) / dt;
     for (std::size_t k = 0; k < load.size(); ++k) {
       const std::size_t bearings = plant.bearings.size();
       const PlaneMap& plane =
           k < bearings ? plant.bearings[k].plane : plant.stations[k - bearings].second;
-      plane.AddForce(load[k].x, load[k].y, all);
+      plane.AddForce(share * load[k].x, share * load[k].y, all);
     }
     rotor.Step(s, all, stator_x, stator_y, dt);
   }

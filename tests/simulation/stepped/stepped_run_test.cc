@@ -87,7 +87,7 @@ TEST(SteppedRun, InputsDoWhatTheScenarioDoes) {
   const RigParameters rig = SteppedRig();
   const Scenario wanted = SteppedScenario(rig, R"(
 [speed]
-profile = [[0.0, 90.0], [0.03, 90.0], [0.030001, 110.0]]
+profile = [[0.0, 90.0], [0.032, 90.0], [0.032001, 110.0]]
 [[excitation]]
 target = "B.y"
 port = "reference"
@@ -121,10 +121,11 @@ parameters = { fraction = 0.3 }
     if (n == 300) stepped.inputs.current[0][1] = 0;
     if (n == 400) stepped.inputs.load[0] = {12, -5};
     if (n == 600) stepped.inputs.load[0] = {0, 0};
-    if (n == 750) stepped.SetSpeed(110, 0);
+    if (n == 800) stepped.SetSpeed(110, 0);
     if (n == 1000) stepped.AddFault({0, "A.coil5", "partial-short", {{"fraction", 0.3}}, "test"});
   });
-  EXPECT_LE(worst, 1e-12);
+  // Where the instants are the same doubles, as here, the bits are too.
+  EXPECT_EQ(worst, 0);
 }
 
 /// Angle and speed of a ramp given as speed and acceleration, over many changes.
