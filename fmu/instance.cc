@@ -218,11 +218,11 @@ void FmuInstance::Step(double t, double h) {
     applied_[k] = state_.values[k];
     Apply(k);
   }
-  const double end = (state_.time + h - state_.start_time) / T;
+  const double end = (t + h - state_.start_time) / T;
   const auto last = static_cast<long long>(std::floor(end + kRounding));
   while (run_->periods() < last) run_->Period();
   state_.period = run_->periods();
-  state_.time += h;
+  state_.time = t + h;
   ReadOutputs();
 }
 
