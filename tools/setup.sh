@@ -2,7 +2,7 @@
 # Installs what ambrig needs on a Debian 12 machine; run again at will, the second time takes a second.
 #
 #   tools/setup.sh            compiler, libraries, the plotting library of the reports
-#   tools/setup.sh --tests    also what only tests use: Chromium (renders a report), Slurm (campaigns)
+#   tools/setup.sh --tests    also what only tests use: Chromium (renders a report), Slurm (campaigns), a validator of JSON
 #   tools/setup.sh --tidy     also clang-format and clang-tidy (preset `tidy`)
 #   tools/setup.sh --python   also what the Python module and its tests need (preset `python`)
 #
@@ -22,7 +22,7 @@ packages=(
 )
 for option in "$@"; do
   case "$option" in
-    --tests) packages+=(chromium slurm-wlm slurm-wlm-basic-plugins munge) ;;
+    --tests) packages+=(chromium slurm-wlm slurm-wlm-basic-plugins munge python3-jsonschema) ;;
     --python) packages+=(python3-dev pybind11-dev python3-pip python3-setuptools python3-wheel python3-numpy
                          python3-matplotlib python3-scipy python3-xarray mypy                       # tests
                          python3-nbformat python3-nbclient python3-ipykernel) ;;                    # notebooks
