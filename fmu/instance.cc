@@ -79,19 +79,27 @@ void FmuInstance::Build() {
   told_ = 0;
   applied_.clear();
   for (const FmuVariable& v : variables_) applied_.push_back(v.start);
-  for (std::size_t k = 0; k < variables_.size(); ++k) {
-    if (!variables_[k].IsInput() || state_.start_values[k] == applied_[k]) continue;
-    applied_[k] = state_.start_values[k];
-    Apply(k);
-  }
+  for (const std::size_t k : ChangedInputs(state_.start_values)) Apply(k, state_.start_values[k]);
   run_->Start();
   ReadOutputs();
 }
 
-/// Hands input `reference` of applied_ to the run.
-void FmuInstance::Apply(std::size_t reference) {
+/// Inputs that the run has with another value; faults last, when their numbers are known.
+std::vector<std::size_t> FmuInstance::ChangedInputs(const std::vector<double>& values) const {
+  std::vector<std::size_t> changed;
+  for (const bool faults : {false, true})
+    for (std::size_t k = 0; k < first_output_; ++k)
+      if (variables_[k].IsInput() && (variables_[k].role == Role::kFault) == faults &&
+          values[k] != applied_[k])
+        changed.push_back(k);
+  return changed;
+}
+
+/// Hands an input to the run. @throws InputError for a fault whose numbers are not allowed
+void FmuInstance::Apply(std::size_t reference, double value) {
   const FmuVariable& v = variables_[reference];
-  const double value = applied_[reference];
+  if (v.role == Role::kFault && value != 0) Happen(v);
+  applied_[reference] = value;
   switch (v.role) {
     case Role::kReference:
       run_->inputs.reference[v.owner] = value;
@@ -110,9 +118,6 @@ void FmuInstance::Apply(std::size_t reference) {
       break;
     case Role::kSpeed:
       run_->SetSpeed(value, applied_[acceleration_]);
-      break;
-    case Role::kFault:
-      if (value != 0) Happen(v);
       break;
     default:
       break;
@@ -204,19 +209,9 @@ void FmuInstance::Step(double t, double h) {
         "a step from t = {} s, allowed: from {} s, where the last one ended", t, state_.time));
   if (!(h >= 0) || !std::isfinite(h))
     throw InputError(fmt::format("a step of {} s, allowed: 0 s or more", h));
-  for (std::size_t k = 0; k < first_output_; ++k) {
-    if (!variables_[k].IsInput() || variables_[k].role == Role::kFault ||
-        state_.values[k] == applied_[k])
-      continue;
+  for (const std::size_t k : ChangedInputs(state_.values)) {
+    Apply(k, state_.values[k]);
     state_.changes.push_back({state_.period, k, state_.values[k]});
-    applied_[k] = state_.values[k];
-    Apply(k);
-  }
-  for (std::size_t k = 0; k < first_output_; ++k) {  // their numbers are known now
-    if (variables_[k].role != Role::kFault || state_.values[k] == applied_[k]) continue;
-    state_.changes.push_back({state_.period, k, state_.values[k]});
-    applied_[k] = state_.values[k];
-    Apply(k);
   }
   const double end = (t + h - state_.start_time) / T;
   const auto last = static_cast<long long>(std::floor(end + kRounding));
@@ -234,8 +229,7 @@ void FmuInstance::Restore(const FmuState& wanted) {
   Build();
   for (const FmuState::Change& c : state.changes) {
     while (run_->periods() < c.period) run_->Period();
-    applied_[c.reference] = c.value;
-    Apply(c.reference);
+    Apply(c.reference, c.value);
   }
   while (run_->periods() < state.period) run_->Period();
   ReadOutputs();

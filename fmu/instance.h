@@ -63,7 +63,8 @@ class FmuInstance {
   RigParameters RigAsSet() const;
   Scenario ScenarioAsSet() const;
   void Build();
-  void Apply(std::size_t reference);
+  std::vector<std::size_t> ChangedInputs(const std::vector<double>& values) const;
+  void Apply(std::size_t reference, double value);
   void Happen(const FmuVariable& fault);
   void ReadOutputs();
 

@@ -253,6 +253,8 @@ TEST_P(FmuRun, MistakesAreErrorsWithASentence) {
   // A fault by the rules of scenario files.
   EXPECT_EQ(fmu.Set("fault.A.coil1.partial-short", 1), 0);
   ExpectError(fmu.Step(kStep, kStep), "fraction is missing, allowed: above 0 to below 1");
+  EXPECT_EQ(fmu.Set("fault.A.coil1.partial-short.fraction", 0.25), 0);
+  EXPECT_EQ(fmu.Step(kStep, kStep), 0) << LastMessage();
   // Two parameters that contradict each other.
   Importer other(fmu);
   EXPECT_EQ(other.Set("controller.rate", 12000), 0);
