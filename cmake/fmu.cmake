@@ -30,5 +30,5 @@ target_link_options(ambrig_fmu_library PRIVATE -static-libstdc++ -static-libgcc 
                     -Wl,--version-script=${CMAKE_SOURCE_DIR}/fmu/library/visible.map -s)
 set_target_properties(ambrig_fmu_library PROPERTIES BUILD_RPATH "$ORIGIN" INSTALL_RPATH "$ORIGIN" BUILD_WITH_INSTALL_RPATH ON)
 target_link_libraries(ambrig_fmu_library PRIVATE -Wl,--start-group ${archives} -Wl,--end-group
-  -Wl,-Bstatic sundials_cvode sundials_arkode sundials_kinsol sundials_nvecserial sundials_generic pugixml -Wl,-Bdynamic
+  -Wl,-Bstatic sundials_cvode sundials_arkode sundials_kinsol sundials_nvecserial sundials_generic -l:libpugixml.a -Wl,-Bdynamic
   PkgConfig::NLOPT m dl pthread)
