@@ -97,7 +97,7 @@ struct FmuMistake {
 
 TEST(FmuController, WhatItDoesWrongEndsTheRunWithASentence) {
   constexpr FmuMistake kMistakes[] = {
-      {1, "the force of A.y is nan, allowed: finite numbers"},
+      {1, "nan, allowed: finite numbers"},
       {2, "divided an integer by zero (SIGFPE)"},
       {3, "crashed: it touched memory that is not its own (SIGSEGV)"},
       {4, "did not answer within 1 s, an endless loop? (key timeout)"},
