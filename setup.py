@@ -13,11 +13,13 @@ class CMakeBuild(build_ext):
     def build_extension(self, ext: Extension) -> None:
         folder = ROOT / "build" / "python"
         subprocess.run(["cmake", "--preset", "python"], cwd=ROOT, check=True)
-        subprocess.run(["cmake", "--build", str(folder), "--target", "ambrig_python"], cwd=ROOT, check=True)
+        subprocess.run(["cmake", "--build", str(folder), "--target", "ambrig_python", "ambrig_fmu_library"],
+                       cwd=ROOT, check=True)
         (made,) = (folder / "python" / "ambrig").glob("_core*.so")
         target = pathlib.Path(self.get_ext_fullpath(ext.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         self.copy_file(str(made), str(target))
+        self.copy_file(str(folder / "ambrig_fmu.so"), str(target.parent / "ambrig_fmu.so"))  # goes into FMUs
 
 
 setup(ext_modules=[Extension("ambrig._core", sources=[])], cmdclass={"build_ext": CMakeBuild})

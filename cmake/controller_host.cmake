@@ -34,7 +34,8 @@ add_dependencies(ambrig_control ambrig_controller_host)
 # The controllers of examples/controllers and those of the tests, as a user compiles them.
 set(AMBRIG_CONTROLLER_MODULES ${CMAKE_BINARY_DIR}/controllers)
 file(GLOB controllers CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/examples/controllers/*.c
-     ${CMAKE_SOURCE_DIR}/tests/control/external/controllers/*.c ${CMAKE_SOURCE_DIR}/tests/control/external/controllers/*.cc)
+     ${CMAKE_SOURCE_DIR}/tests/control/external/controllers/*.c ${CMAKE_SOURCE_DIR}/tests/control/external/controllers/*.cc
+     ${CMAKE_SOURCE_DIR}/tests/control/external/fmus/*.c)
 add_custom_target(ambrig_controllers)
 foreach(source IN LISTS controllers)
   get_filename_component(name ${source} NAME_WE)

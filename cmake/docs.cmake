@@ -22,3 +22,7 @@ set_tests_properties(random_scenarios PROPERTIES TIMEOUT 900)
 # A run of a day fits in memory: two short ones here, `--long 600` sharper.
 add_test(NAME memory_growth
          COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/memory_growth.py $<TARGET_FILE:ambrig>)
+# What the commands write as JSON fits its schema in schemas/; those that take minutes with AMBRIG_DEAR=1.
+add_test(NAME json_schemas COMMAND sh -c
+         "test -z \"$AMBRIG_DEAR\" || dear=--dear; exec ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_schemas.py $<TARGET_FILE:ambrig> $dear")
+set_tests_properties(json_schemas PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 3600)

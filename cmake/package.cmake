@@ -3,8 +3,12 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 install(TARGETS ambrig RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+if(TARGET ambrig_fmu_library)
+  install(TARGETS ambrig_fmu_library LIBRARY DESTINATION lib/ambrig)  # goes into FMUs
+endif()
 install(FILES control/external/ambrig_controller.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ambrig)
 install(DIRECTORY control/external/host DESTINATION ${CMAKE_INSTALL_DATADIR}/ambrig FILES_MATCHING PATTERN "*.[ch]")
+install(DIRECTORY schemas DESTINATION ${CMAKE_INSTALL_DATADIR}/ambrig FILES_MATCHING PATTERN "*.json")
 install(DIRECTORY scenarios/library scenarios/campaigns DESTINATION ${CMAKE_INSTALL_DATADIR}/ambrig/scenarios
         FILES_MATCHING PATTERN "*.toml")
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})

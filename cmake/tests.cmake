@@ -34,6 +34,10 @@ target_compile_definitions(test_control PRIVATE AMBRIG_CONTROLLER_MODULES="${AMB
                            AMBRIG_CONTROLLER_HOST="$<TARGET_FILE:ambrig_controller_host>"
                            AMBRIG_C_COMPILER="${CMAKE_C_COMPILER}")
 add_dependencies(test_control ambrig_controllers)
+# The library that goes into FMUs (cmake/fmu.cmake).
+if(TARGET ambrig_fmu_library)
+  add_dependencies(test_fmu ambrig_fmu_library)
+endif()
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
 add_test(NAME layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_SOURCE_DIR}/tools/check_layers.py
          WORKING_DIRECTORY ${CMAKE_SOURCE_DIR})

@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import zipfile
 
 PROJECT = """cmake_minimum_required(VERSION 3.25)
 project(outside C)
@@ -52,6 +53,10 @@ def main():
         a, b = ((outside / f"out/{n}.csv").read_text().split("\n", 1)[1] for n in "ab")
         if a != b or len(a) < 10000:
             sys.exit("the PID in C does not give the built-in PID's record")
+        run(program, "export", examples / "reference/rig.toml", "--fmu", "rig.fmu", cwd=outside)
+        with zipfile.ZipFile(outside / "rig.fmu") as fmu:
+            if fmu.testzip() or "binaries/linux64/rig.so" not in fmu.namelist():
+                sys.exit(f"rig.fmu holds {fmu.namelist()}")
         run("bash", "-n", prefix / "share/bash-completion/completions/ambrig")
         pages = sorted((prefix / "share/man/man1").glob("ambrig*.1"))
         if len(pages) < 20:

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <chrono>
 
-#include "faulttolerance/redistribution/redistribution_setup.h"
-#include "faulttolerance/supervision/fault_supervisor.h"
 #include "simulation/continuous/averaged_engine.h"
 #include "simulation/continuous/reference_engine.h"
+#include "simulation/run_supervisor.h"
 #include "simulation/switching/lost_rotor.h"
 #include "simulation/switching/switching_engine.h"
 #include "simulation/verdict/detection_score.h"
@@ -34,18 +33,8 @@ RunResult RunSwitching(const RigParameters& rig, const Scenario& scenario,
   engine.stepper = options.stepper;
   engine.progress = options.progress;
   engine.stop = options.stop;
-  std::unique_ptr<FaultSupervisor> supervisor;
-  const bool bridges = rig.amplifier.modulation == Modulation::kBiState;
-  if (scenario.fault_tolerant && scenario.start != StartState::kClamped && bridges) {
-    FaultSupervisorOptions watch;
-    watch.slopes = options.for_report;
-    watch.redistribution = scenario.redistribution;
-    watch.current_transition = scenario.current_transition;
-    watch.stiffness_compensation = scenario.stiffness_compensation;
-    watch.cache_dir = RedistributionCacheDirectory();
-    supervisor = std::make_unique<FaultSupervisor>(NominalRig(rig), watch);
-    engine.supervisor = supervisor.get();
-  }
+  const auto supervisor = SupervisorOf(rig, scenario, options.for_report);
+  engine.supervisor = supervisor.get();
   return SwitchingEngine(rig, scenario, engine).Run();
 }
 

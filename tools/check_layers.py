@@ -32,8 +32,10 @@ MAY_INCLUDE = {
     "discovery": "core actuators control rotor effects rig scenarios simulation analysis analysis/linear",
     "campaign": "core effects fdd faulttolerance rig scenarios simulation",
     "design": "core control rig scenarios simulation analysis/linear campaign",
+    "fmu": "core rig scenarios simulation",
+    "fmu/library": "core rotor control effects fmu",
     "workbench": "core",
-    "app": "core control effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd workbench",
+    "app": "core fmu control effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd workbench",
     "bench": "core actuators rotor control fdd faulttolerance effects rig scenarios simulation discovery",
 }
 
@@ -67,7 +69,7 @@ BANNED = {room: PLANT_HEADERS for room in ("control", "fdd", "faulttolerance")}
 
 # One door per library: the only files that may include it.
 DOORS = {
-    "toml++/": ["core/base/toml_node.h"],
+    "toml++/": ["core/base/toml_node.h", "fmu/library/statically_linked.cc"],
     "core/base/toml_node.h": ["core/base/toml.cc", "core/base/toml_lists.cc", "core/base/toml_nesting.cc", "core/base/toml_edit.cc",
                               "core/base/toml_place.h"],
     "core/base/toml_place.h": ["core/base/toml_edit.cc", "core/base/toml_place.cc"],
@@ -92,7 +94,8 @@ DOORS = {
     "ceres/": ["discovery/search/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],
     "nlopt": ["design/nlopt_search.cc", "faulttolerance/redistribution/program_search.cc"],
-    "pugixml": ["app/commands/check.cc"],
+    "pugixml": ["app/commands/check.cc", "fmu/description.cc", "control/external/fmu_description.cc"],
+    "zip.h": ["core/base/zip_file.cc"],
     "CLI/": ["app/commands/commands.h", "app/commands/outputs.h"],
 }
 

@@ -15,7 +15,7 @@ import sys
 MOST_FILE_LINES = 300
 MOST_FUNCTION_LINES = 60
 FOLDERS = ["core", "actuators", "rotor", "control", "effects", "rig", "fdd", "faulttolerance", "scenarios", "simulation",
-           "analysis", "discovery", "campaign", "design", "workbench", "app", "bench", "tests"]
+           "analysis", "discovery", "campaign", "design", "fmu", "workbench", "app", "bench", "tests"]
 # What is still longer, and why: (file, function). Remove a line as soon as its function is short enough.
 REMAINING = {("tools/random_scenarios.py", "")}  # is being split
 # Scripts, with those of tests and tools; what npm installs and what is built is not ours.

@@ -72,8 +72,14 @@ def licences_of(package):
     file = pathlib.Path("/usr/share/doc") / package / "copyright"
     if not file.exists():
         return None
-    lines = re.findall(r"^\s*License:\s*(.*)$", file.read_text(errors="replace"), re.M)
-    return {word for line in lines for word in re.split(r"\s+(?:or|and|with)\s+|,\s*", line.strip())}
+    text = file.read_text(errors="replace")
+    lines = re.findall(r"^\s*License:\s*(.*)$", text, re.M)
+    names = {word for line in lines for word in re.split(r"\s+(?:or|and|with)\s+|,\s*", line.strip())}
+    # Older files have the text of the licence without a name.
+    clauses = ("retain the above copyright", "Redistributions in binary form", "may not be used to endorse or promote")
+    if re.search(r"^\s*License:\s*$", text, re.M) and all(clause in text for clause in clauses):
+        names.add("BSD-3-clause")
+    return names
 
 
 def linked_libraries(build):

@@ -2,7 +2,7 @@
 # Installs what ambrig needs on a Debian 12 machine; run again at will, the second time takes a second.
 #
 #   tools/setup.sh            compiler, libraries, the plotting library of the reports
-#   tools/setup.sh --tests    also what only tests use: Chromium (renders a report), Slurm (campaigns)
+#   tools/setup.sh --tests    also what only tests use: Chromium (renders a report), Slurm (campaigns), a validator of JSON
 #   tools/setup.sh --tidy     also clang-format, clang-tidy (preset `tidy`) and clang's syntax trees (tools/mutate.py)
 #   tools/setup.sh --python   also what the Python module and its tests need (preset `python`)
 #
@@ -12,7 +12,7 @@ cd "$(dirname "$0")/.."
 
 packages=(
   g++ cmake ninja-build pkg-config git ca-certificates python3 ccache
-  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpugixml-dev  # files, commands
+  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpugixml-dev libzip-dev  # files, commands
   libhdf5-dev hdf5-tools libmatio-dev                                            # records
   libeigen3-dev liblapack-dev libslicot-dev libsundials-dev libode-dev           # physics
   libceres-dev libnlopt-dev libnlopt-cxx-dev libmuparser-dev                     # fits, formulas
@@ -22,7 +22,7 @@ packages=(
 )
 for option in "$@"; do
   case "$option" in
-    --tests) packages+=(chromium slurm-wlm slurm-wlm-basic-plugins munge) ;;
+    --tests) packages+=(chromium slurm-wlm slurm-wlm-basic-plugins munge python3-jsonschema) ;;
     --python) packages+=(python3-dev pybind11-dev python3-pip python3-setuptools python3-wheel python3-numpy
                          python3-matplotlib python3-scipy python3-xarray mypy                       # tests
                          python3-nbformat python3-nbclient python3-ipykernel) ;;                    # notebooks

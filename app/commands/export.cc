@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include "app/commands/commands.h"
+#include "app/commands/export_fmu.h"
 #include "app/commands/outputs.h"
 #include "control/external/host_image.h"
 #include "control/position/c_code/c_code.h"
 #include "core/base/atomic_file.h"
-
 #include "rig/rig_file.h"
 #include "simulation/sampled/controller_setup.h"
 
@@ -17,6 +17,7 @@ namespace {
 struct ExportOptions {
   CommonOptions common;
   std::string rig, controller_c, controller = "main";
+  FmuExport fmu;
 };
 
 const ControllerParameters& ControllerNamed(const RigParameters& rig, const std::string& name) {
@@ -60,14 +61,27 @@ nlohmann::ordered_json ExportController(const RigParameters& rig, const ExportOp
           {"period", 1 / c.rate}};
 }
 
+nlohmann::ordered_json ExportTheFmu(const ExportOptions& o) {
+  RefuseOverwriting({o.fmu.file}, o.common.force);
+  RefuseInputAsOutput(o.fmu.file, {o.rig, o.fmu.scenario});
+  FmuExport wanted = o.fmu;
+  wanted.rig = o.rig;
+  const nlohmann::ordered_json made = ExportFmu(wanted);
+  fmt::print("{}: FMI {} co-simulation, {} parameters, {} inputs, {} outputs, step {} s\n",
+             o.fmu.file, o.fmu.fmi, made["parameters"].get<int>(), made["inputs"].get<int>(),
+             made["outputs"].get<int>(), made["step"].get<double>());
+  return made;
+}
+
 int Export(const ExportOptions& o) {
   const RigParameters rig = ReadRig(o.rig);
   o.common.CheckOutputs({o.rig, rig.file});
-  if (o.controller_c.empty())
-    throw InputError("export: says not what to write, allowed: --controller-c FILE");
+  if (o.controller_c.empty() && o.fmu.file.empty())
+    throw InputError("export: says not what to write, allowed: --fmu FILE, --controller-c FILE");
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["rig"] = o.rig;
-  json["controller_c"] = ExportController(rig, o);
+  if (!o.controller_c.empty()) json["controller_c"] = ExportController(rig, o);
+  if (!o.fmu.file.empty()) json["fmu"] = ExportTheFmu(o);
   o.common.WriteJson(json);
   return 0;
 }
@@ -76,8 +90,8 @@ int Export(const ExportOptions& o) {
 
 void AddExport(CLI::App& app, Work& work) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      app.add_subcommand("export", "write a rig's controller as C99 for other programs");
+  CLI::App* command = app.add_subcommand(
+      "export", "write a rig as an FMU, or its controller as C99, for other programs");
   command->add_option("rig", options->rig, "rig file (TOML)")->required();
   command
       ->add_option("--controller-c", options->controller_c,
@@ -88,9 +102,24 @@ void AddExport(CLI::App& app, Work& work) {
       ->add_option("--controller", options->controller,
                    "which: main, or a NAME of [controllers.NAME]")
       ->capture_default_str();
+  CLI::Option* fmu = command
+                         ->add_option("--fmu", options->fmu.file,
+                                      "write the rig as a Functional Mock-up Unit (co-simulation)")
+                         ->type_name("FILE")
+                         ->check(OutputFile());
+  command->add_option("--fmi", options->fmu.fmi, "version of the FMU: 2.0 | 3.0")
+      ->capture_default_str()
+      ->needs(fmu);
+  command
+      ->add_option("--scenario", options->fmu.scenario,
+                   "scenario that the FMU starts from, below its inputs")
+      ->type_name("FILE")
+      ->needs(fmu);
   options->common.AddTo(*command);
   command->footer(
-      "Examples:\n  ambrig export examples/reference/rig.toml --controller-c pid_rig.c\n"
+      "Examples:\n  ambrig export examples/reference/rig.toml --fmu rig.fmu\n"
+      "  ambrig export examples/reference/rig.toml --fmu rig.fmu --fmi 3.0\n"
+      "  ambrig export examples/reference/rig.toml --controller-c pid_rig.c\n"
       "  ambrig export examples/reference/rig.toml --controller-c pid.c --json pid.json");
   command->callback([options, &work] { work = [options] { return Export(*options); }; });
 }

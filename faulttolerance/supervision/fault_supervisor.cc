@@ -237,6 +237,10 @@ void FaultSupervisor::TraceSlopes(double t) {
   while (first_alarm_ < 0 && rows_.front().t < t - kTraceBefore) rows_.pop_front();
 }
 
+SlopeBand FaultSupervisor::Band(std::size_t bearing, int coil) const {
+  return watched_[bearing]->detector->Band(coil);
+}
+
 SupervisorSummary FaultSupervisor::Summary() const {
   SupervisorSummary summary;
   summary.coil_periods = coil_periods_;

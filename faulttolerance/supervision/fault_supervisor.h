@@ -46,6 +46,8 @@ class FaultSupervisor : public Supervisor {
   SupervisorSummary Summary() const override;
 
   double coil_periods() const { return coil_periods_; }
+  /// Of the last period; zeros where nothing watches the coil.
+  SlopeBand Band(std::size_t bearing, int coil) const;
 
  private:
   struct Watched;

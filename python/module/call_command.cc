@@ -9,10 +9,6 @@
 #include "core/base/errors.h"
 #include "python/module/background.h"
 
-namespace ambrig {
-std::atomic<bool> interrupted{false};
-}
-
 namespace ambrig::python {
 
 namespace py = pybind11;

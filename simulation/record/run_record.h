@@ -2,29 +2,10 @@
 /// The record of a run while it grows: its channels and rows, the same in every fidelity. A row
 /// shows what the controller knows at the start of a period, or, in a burst, at every so many ADC
 /// samples. Source: docs/guide/files.md "Record".
-#include <string>
-#include <vector>
-
-#include "core/record/channels.h"
-#include "faulttolerance/supervision/supervisor.h"
-#include "rig/rig_assembly.h"
-#include "rotor/motion/rotor_model.h"
-#include "scenarios/scenario.h"
-#include "simulation/sampled/measurement_noise.h"
-#include "simulation/sampled/position_loop.h"
-#include "simulation/sampled/sampled_bearing.h"
+#include "core/record/record.h"
+#include "simulation/record/channel_values.h"
 
 namespace ambrig {
-
-/// Where the values of a row are read; must outlive the record.
-struct RowSource {
-  const Plant& plant;
-  const MotionState& motion;
-  PositionLoop& loop;
-  MeasurementNoise& noise;
-  const std::vector<BearingControl>& control;
-  std::vector<const SampledBearing*> bearings;
-};
 
 class RunRecord {
  public:
@@ -43,30 +24,14 @@ class RunRecord {
   Record Take();
 
  private:
-  /// Where the values of one channel come from.
-  struct Column {
-    ChannelKind kind;
-    std::size_t owner = 0;  // axis of a reading, else bearing or station
-    int index = 0;          // direction or coil
-    bool station = false;
-  };
-
-  void AddChannels(std::size_t rows);
-  void Add(const std::vector<ChannelId>& channels, Column column, std::size_t rows);
   void Row(long long n, int sample);
-  double Value(const Column& column, long long n, int sample) const;
-  double BearingValue(const Column& column, int sample) const;
 
-  const RigParameters& rig_;
-  const Scenario& scenario_;
-  RowSource source_;
-  bool clamped_;
-  double T_;                               // switching period [s]
-  int samples_, M_;                        // ADC samples per period, periods per controller period
+  ChannelValues values_;
+  int samples_;                            // ADC samples per period
   int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples
   Record record_;
-  std::vector<Column> columns_;  // one per channel of the record
-  std::size_t row_ = 0;          // the next one
+  std::vector<ChannelValues::Column> columns_;  // one per channel of the record
+  std::size_t row_ = 0;                         // the next one
 };
 
 }  // namespace ambrig

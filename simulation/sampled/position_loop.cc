@@ -38,6 +38,10 @@ void PositionLoop::Hold(const std::vector<double>& force) {
 
 void PositionLoop::ReadSensors(const MotionState& motion) {
   plant_.speed_sensor.Read(motion);
+  ReadPositions(motion);
+}
+
+void PositionLoop::ReadPositions(const MotionState& motion) {
   for (BearingPlant& b : plant_.bearings) {
     PositionSensor& s = b.sensor;
     const PlanePoint p = plant_.rotor.Position(motion, s.map);

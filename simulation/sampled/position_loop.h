@@ -28,6 +28,8 @@ class PositionLoop {
   void Hold(const std::vector<double>& force);
   /// Where the sensors see the shaft and how fast it turns, before noise and faults.
   void ReadSensors(const MotionState& s);
+  /// Where the sensors see the shaft alone: may be asked at any time.
+  void ReadPositions(const MotionState& s);
   /// What sensor `axis` hands over in period n [m].
   double Reading(std::size_t axis, long long n);
   /// Readings of the controller, at time t [s] of period n.

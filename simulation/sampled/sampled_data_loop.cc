@@ -133,10 +133,20 @@ std::size_t SampledDataLoop::Supervise(long long n, RunResult& result) {
   return supervision_.events.size();
 }
 
-void SampledDataLoop::StartRecord() {
+void SampledDataLoop::ReadAhead(long long n) {
+  motion.t = static_cast<double>(n) * T;
+  plant.rotor.SetSpin(motion);
+  loop_->ReadPositions(motion);
+}
+
+RowSource SampledDataLoop::ValueSource() {
   RowSource source{plant, motion, *loop_, *noise_, control, {}};
   for (const SampledBearing& b : bearings) source.bearings.push_back(&b);
-  record_.emplace(rig, scenario, options.record_rate, clamped, source);
+  return source;
+}
+
+void SampledDataLoop::StartRecord() {
+  record_.emplace(rig, scenario, options.record_rate, clamped, ValueSource());
 }
 
 }  // namespace ambrig

@@ -85,6 +85,10 @@ class SampledDataLoop {
   std::size_t Supervise(long long n, RunResult& result);
   /// Shaft centres at the bearings from `motion`.
   void UpdatePositions();
+  /// What the sensors show at t_n, before period n begins. Nothing of the controller changes.
+  void ReadAhead(long long n);
+  /// Where the values of all channels are read.
+  RowSource ValueSource();
 
   void StartRecord();
   Record TakeRecord() { return record_ ? record_->Take() : Record{}; }

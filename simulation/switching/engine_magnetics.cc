@@ -73,6 +73,9 @@ void SwitchingEngine::RunMagnetics(long long n) {
   while (n >= 0 && next_fault_ < scenario_.faults.size() &&
          scenario_.faults[next_fault_].time < end - kSameTime)
     due.push_back(&scenario_.faults[next_fault_++]);
+  while (n >= 0 && next_added_ < added_faults_.size() &&
+         added_faults_[next_added_].time < end - kSameTime)
+    due.push_back(&added_faults_[next_added_++]);
   // Faults and a moving bus tie the bearings together sample by sample; an iron law or a late edge
   // concerns its own bearing only.
   const bool lockstep = options_.force_general_path || !due.empty() || !plant_.bus.stiff() ||

@@ -31,9 +31,17 @@ SwitchingEngine::SwitchingEngine(const RigParameters& rig, const Scenario& scena
 SwitchingEngine::~SwitchingEngine() = default;
 
 RunResult SwitchingEngine::Run() {
+  Begin();
+  loop_.ForEachPeriod(options_, 256, [this](long long n) { Period(n); });
+  return Finish();
+}
+
+void SwitchingEngine::Begin() {
   Start();
   if (options_.record) loop_.StartRecord();
-  loop_.ForEachPeriod(options_, 256, [this](long long n) { Period(n); });
+}
+
+RunResult SwitchingEngine::Finish() {
   watch_.Finish();
   if (options_.snapshots) Snapshot("end of the run");
   result_.record = loop_.TakeRecord();

@@ -2,6 +2,7 @@
 /// The fast engine: lockstep samples at the ADC rate with the exact switching edge inside a sample,
 /// one period of all bearings, then one step of the rotor, then the controller's clock.
 /// Timing: docs/theory/base_model.md sections 3 and 4. Structure: docs/theory/engine.md.
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -40,6 +41,16 @@ class SwitchingEngine {
   ~SwitchingEngine();
   RunResult Run();
 
+  // The same in parts, for who moves the clock himself (simulation/stepped/stepped_run.h).
+  void Begin();
+  /// Periods in their order, from -loop().warm.
+  void Period(long long n);
+  RunResult Finish();
+  /// A fault at its time, which no period has passed yet; the place in the rig was checked.
+  void AddFault(const FaultSpec& fault) { added_faults_.push_back(fault); }
+  SampledDataLoop& loop() { return loop_; }
+  const std::vector<RunEvent>& events() const { return result_.events; }
+
  private:
   struct BearingRun;
 
@@ -51,7 +62,6 @@ class SwitchingEngine {
   void RunForcedCurrents(long long n);
   void Observe();
   void ForcedPosition(const SampledBearing& b, double t, double* x, double* y) const;
-  void Period(long long n);
   void SetPatterns(BearingRun& b);
   void SetPattern(BearingRun& b, int j) const;
   void PredictPositions();
@@ -83,7 +93,8 @@ class SwitchingEngine {
   DofVector magnetic_force_{};  // generalised, of this period
   DofVector acceleration_{};
   std::vector<BearingRun> bearings_;
-  std::size_t next_fault_ = 0;
+  std::size_t next_fault_ = 0, next_added_ = 0;
+  std::deque<FaultSpec> added_faults_;  // their places stay: ends of faults point to them
   FaultEnds fault_ends_;
   std::vector<const FaultSpec*> due_faults_;
   std::vector<StatorLanes::PeriodOfBearing> together_;

@@ -2,12 +2,13 @@
  * answers ambrig's messages (wire.h) until the connection ends.
  *
  *   ambrig_controller_host LIBRARY                  on file descriptor 3 (how ambrig starts it)
+ *   ambrig_controller_host NAME.fmu-binding         the same with an FMU (fmu_adapter.h)
  *   ambrig_controller_host LIBRARY --listen ADDRESS waits for ambrig; unix:PATH or tcp:PORT
  *   firmware --listen ADDRESS                       the same, compiled with -DAMBRIG_LINKED together with the
  *                                                   controller's sources (firmware under test)
  *
  * A listener forks for every connection, so that each run has static data of its own. Compiles as C99 with
- * POSIX 2008:  cc -std=c99 -D_GNU_SOURCE controller_host.c host_listener.c -ldl -pthread
+ * POSIX 2008:  cc -std=c99 -D_GNU_SOURCE controller_host.c host_listener.c fmu_adapter.c -ldl -pthread
  */
 #include <dlfcn.h>
 #include <errno.h>
@@ -20,6 +21,7 @@
 #include <unistd.h>
 
 #include "ambrig_controller.h"
+#include "fmu_adapter.h"
 #include "host_listener.h"
 #include "wire.h"
 
@@ -231,6 +233,11 @@ static call function(void *library, const char *name) {
 
 static const char *load(const char *library, functions *f) {
   static char text[512];
+  static const functions of_fmu = {fmu_open, fmu_step, NULL, NULL, fmu_close};
+  if (is_fmu_binding(library)) {
+    *f = of_fmu;
+    return load_fmu(library);
+  }
   void *l = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   if (!l) {
     snprintf(text, sizeof text, "cannot be loaded: %s", dlerror());

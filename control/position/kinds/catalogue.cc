@@ -14,6 +14,7 @@
   CONTROLLER(TiltTranslationKind)       \
   CONTROLLER(LibraryKind)               \
   CONTROLLER(SocketKind)                \
+  CONTROLLER(FmuKind)                   \
   CONTROLLER(NoneKind)
 
 namespace ambrig {

@@ -21,7 +21,7 @@ std::unique_ptr<PositionController> MakeLibrary(const ControllerParameters& c,
 }
 
 void DocumentLibrary(std::vector<ParameterRow>& rows) {
-  AddRows(rows, "[controller] kind = \"library\" and kind = \"socket\"", kExternalFields);
+  AddRows(rows, "[controller] kind = \"library\", \"socket\" and \"fmu\"", kExternalFields);
 }
 
 }  // namespace
