@@ -74,6 +74,7 @@ AveragedOptions DefaultAveragedOptions() {
   AveragedOptions o;
   o.integrator.tolerance = 1e-7;
   o.integrator.order = 4;
+  o.integrator.steps_a_period = 1000;
   return o;
 }
 

@@ -147,9 +147,9 @@ void ContinuousRig::CountSteps() {
   const long now = solver_->steps();
   steps_ += now - counted_ + 1;
   counted_ = now;
-  if (steps_ > kStepsAtOnce + kStepsAPeriod * periods_)
+  if (steps_ > kStepsAtOnce + steps_a_period_ * periods_)
     throw NoSolution(fmt::format("they take more than {} steps a period up to t = {:.4g} s",
-                                 kStepsAPeriod, t0_ + tau_));
+                                 steps_a_period_, t0_ + tau_));
 }
 
 void ContinuousRig::AdvanceTo(double tau) {

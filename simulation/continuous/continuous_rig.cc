@@ -33,7 +33,8 @@ void RefuseWhatIsNotHere(const Plant& plant, const std::string& file) {
 }
 }  // namespace
 
-ContinuousRig::ContinuousRig(SampledDataLoop& rig, const IntegratorOptions& options) : rig_(rig) {
+ContinuousRig::ContinuousRig(SampledDataLoop& rig, const IntegratorOptions& options)
+    : rig_(rig), steps_a_period_(options.steps_a_period) {
   RefuseWhatIsNotHere(rig.plant, rig.rig.file);
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     bearings_.emplace_back(rig.plant.bearings[k].lanes);
@@ -100,7 +101,7 @@ OdeProblem ContinuousRig::MakeProblem(const IntegratorOptions& options) {
   p.roots = static_cast<int>(p.directions.size());
   p.relative = options.tolerance;
   p.absolute = absolute_;
-  p.max_steps = kStepsAtOnce;
+  p.max_steps = kStepsAtOnce;  // between two stops
   return p;
 }
 

@@ -25,15 +25,16 @@
 
 namespace ambrig {
 
-/// What a run may cost [steps of the integrator]: a healthy rig takes 50 a period, one in hard contact
-/// some hundreds. At once, and on the average.
-inline constexpr long kStepsAtOnce = 20000, kStepsAPeriod = 5000;
-
 struct IntegratorOptions {
   double tolerance = 1e-10;  // relative, of a step
   int order = 5;             // of ARKODE's explicit Runge-Kutta method
   bool stiff = false;        // CVODE's BDF instead: stiff shorted turns
+  /// What a run may cost, steps and events on the average: a healthy rig takes 50, one in hard
+  /// contact some hundreds.
+  long steps_a_period = 5000;
 };
+
+inline constexpr long kStepsAtOnce = 20000;  // of the integrator
 
 /// All since the start of the run [J]. The rates that make them are in ContinuousRig::Rhs.
 struct EnergyBalance {
@@ -107,6 +108,7 @@ class ContinuousRig {
   long events_ = 0;
   long long periods_ = 0, steps_ = 0;  // begun; of the integrator so far, events included
   long counted_ = 0;                   // of them since its last start
+  long steps_a_period_;
   std::unique_ptr<OdeSolver> solver_;
 };
 

@@ -56,6 +56,7 @@ TEST_F(NoSolutionOf, TooManyStepsOfTheIntegratorsEnd) {
                         "parameters = { fx = 8.5e5, fy = -2.3e5 }\n");
   const Outcome o = Ambrig("run s.toml --out out --fidelity averaged");
   ExpectOneLine(o, "s.toml: the averaged equations of this rig and scenario could not be");
+  EXPECT_THAT(o.text, HasSubstr("they take more than 1000 steps a period up to t = -0."));
 }
 
 // The file that was run, when it happened, and what would be allowed; nothing is written.

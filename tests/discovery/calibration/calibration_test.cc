@@ -57,6 +57,37 @@ TEST(CalibrationOfNames, OverconfidenceIsFound) {
   EXPECT_NEAR(p[2], 0.2, 0.03);
 }
 
+// The fit is the least of |w - "as computed"|²/(2 2²) - Σ ln p(right): no small step from there makes it less.
+TEST(CalibrationOfNames, TheFitIsTheMostProbable) {
+  std::vector<CalibrationCase> cases;
+  for (int k = 0; k < 7; ++k) {
+    cases.push_back(Judged(TwoNames(0.7, 0.2, 0.1), k % 3 == 0 ? 2 : 0));
+    cases.back().answer.features = {0.1 * k, 0.5, 0, 0.3, k % 2 ? 1.0 : 0.0};
+  }
+  const auto cost = [&](const CalibrationWeights& w) {
+    double sum = 0;
+    for (std::size_t k = 0; k < w.size(); ++k) sum += std::pow(w[k] - (k == 0 ? 1 : 0), 2) / 8;
+    for (const CalibrationCase& c : cases) {
+      const std::vector<double> p = CalibratedProbabilities(w, c.answer);
+      for (std::size_t k = 0; k < p.size(); ++k)
+        if (c.right[k]) sum -= std::log(p[k]);
+    }
+    return sum;
+  };
+  const CalibrationWeights w = FitCalibration(cases);
+  const double least = cost(w);
+  EXPECT_LT(least, cost(CalibrationTable().weights));
+  for (std::size_t k = 0; k < w.size(); ++k)
+    for (const double step : {-1e-3, 1e-3}) {
+      CalibrationWeights other = w;
+      other[k] += step;
+      EXPECT_GT(cost(other), least) << k;
+    }
+  // Without cases nothing is known better than as it was computed.
+  const CalibrationWeights none = FitCalibration({});
+  for (std::size_t k = 0; k < none.size(); ++k) EXPECT_NEAR(none[k], k == 0 ? 1 : 0, 1e-9) << k;
+}
+
 // The same statement, but a feature tells when "unknown" is right.
 TEST(CalibrationOfNames, FeaturesTellUnknown) {
   std::vector<CalibrationCase> cases;

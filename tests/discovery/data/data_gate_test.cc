@@ -25,11 +25,13 @@ RigParameters RadialRig() {
   return rig;
 }
 
-/// Two records as a logger writes them: steps at rest, and clamped current ramps.
-Case Measured(const std::vector<EffectInstance>& effects = {}, double mass_shift = 0) {
+/// Two records as a logger writes them: steps at rest, and clamped current ramps; with `third` one more.
+Case Measured(const std::vector<EffectInstance>& effects = {}, double mass_shift = 0,
+              const std::string& third = "") {
   std::vector<ExaminationRecord> chosen;
   for (const ExaminationRecord& r : Examination(RadialRig(), 4))
-    if (r.title == "steps of reference and load at rest" || r.title == "clamped, current ramps")
+    if (r.title == "steps of reference and load at rest" || r.title == "clamped, current ramps" ||
+        r.title == third)
       chosen.push_back(r);
   Case c = EmptyCase(RadialRig(), chosen);
   const CaseModel model(c);
@@ -124,6 +126,47 @@ Samples& SamplesOf(Case& c, const char* record, const std::string& channel) {
   for (Channel& ch : c.records[RecordNamed(c, record)].data.channels)
     if (ch.name == channel) return ch.samples;
   throw std::runtime_error(channel);
+}
+
+// The data of two scenarios exchanged: each record is said to be of the other's scenario.
+TEST(DataGate, DataOfAnotherScenarioAreNamedWithIt) {
+  const char* kOther = "multisine at 60 Hz";
+  Case c = Measured({}, 0, kOther);
+  const std::size_t a = RecordNamed(c, kSteps), b = RecordNamed(c, kOther);
+  ASSERT_NE(b, 99U);
+  std::swap(c.records[a].data, c.records[b].data);
+  std::swap(c.records[a].quality, c.records[b].quality);
+  for (CaseRecord* r :
+       {&c.records[a], &c.records[b]})  // what was commanded says nothing of the speed
+    for (Channel& ch : r->data.channels)
+      if (ch.name == "omega" || ch.name == "theta")
+        std::fill(ch.samples.begin(), ch.samples.end(), std::nan(""));
+  int named = 0;
+  for (const DataFault& f : FaultsOf(c)) {
+    if (f.fault != "scenario") continue;
+    ++named;
+    EXPECT_TRUE(f.record == kSteps || f.record == kOther) << f.record;
+    EXPECT_EQ(f.with, f.record == kSteps ? kOther : kSteps);
+    EXPECT_EQ(f.mend, "scenario = \"" + f.with + "\"");
+    EXPECT_GT(f.probability, 0.8);
+  }
+  EXPECT_GE(named, 1);
+}
+
+// Of a speed column the prediction is the scenario's own profile.
+TEST(DataGate, ASpeedInAnotherUnitIsNamedWithItsFactor) {
+  const char* kTurning = "multisine at 60 Hz";
+  for (const double factor : {60 / (2 * M_PI), 1 / (2 * M_PI), -1.0}) {
+    Case c = Measured({}, 0, kTurning);
+    for (double& v : SamplesOf(c, kTurning, "omega")) v *= factor;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].fault, factor < 0 ? "sign" : "unit");
+    EXPECT_EQ(faults[0].record, kTurning);
+    EXPECT_EQ(faults[0].channel, "omega");
+    EXPECT_NEAR(faults[0].factor, factor, 1e-9);
+    EXPECT_NE(faults[0].mend.find("channels.\"omega\""), std::string::npos);
+  }
 }
 
 // The bus stands at its voltage: its noise has no correlation with a prediction, its level does.

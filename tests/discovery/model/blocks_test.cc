@@ -50,6 +50,18 @@ TEST_F(Blocks, ALostSampleChangesLittle) {
     EXPECT_NEAR(holed.at(block), error, 0.2 * std::max(error, 1e-4)) << block;
 }
 
+// The recorded set-points are those of the controller with the recorded readings: nothing is left but the rounding of the
+// record, and a constant in the readings, which the integral would take up, is none of the controller's.
+TEST_F(Blocks, TheControllerThatWroteTheRecordHasNoError) {
+  EXPECT_LT(Errors().at("controller"), 1e-6);
+  for (double& v : Samples("A.s3")) v += 0.1;
+  const double shifted = Errors().at("controller");
+  EXPECT_LT(shifted,
+            0.02);  // a constant force is no error, a coil is a sixteenth of the errors' squares
+  for (std::size_t k = 0; k < Samples("A.s3").size(); k += 2) Samples("A.s3")[k] += 0.4;
+  EXPECT_GT(Errors().at("controller"), 0.02);
+}
+
 TEST_F(Blocks, ATrulyWrongReadingStillShows) {
   const double healthy = Errors().at("coil");
   Samples("B.x")[200] = kBlocksNan;

@@ -45,6 +45,24 @@ TEST(RunMemo, TheLeastRecentlyUsedGoesFirst) {
   EXPECT_TRUE(memo.Find("c", out.data()));
 }
 
+// Five keys of a hundred letters fit in a thousand bytes: of fifty the last five are there, however many went before.
+TEST(RunMemo, HoldsAsManyAsFitAfterManyHaveGone) {
+  RunMemo memo(1000);
+  const auto key = [](int k) {
+    return std::string(98, 'k') + static_cast<char>('0' + k / 10) + static_cast<char>('0' + k % 10);
+  };
+  std::vector<double> out(4);
+  for (int k = 0; k < 50; ++k) {
+    memo.Keep(key(k), false, Rows(1).data(), 4);
+    EXPECT_EQ(memo.Find(key(std::max(0, k - 4)), out.data()), false) << k;
+    if (k >= 5) {
+      EXPECT_EQ(memo.Find(key(k - 5), out.data()), std::nullopt) << k;
+    }
+    for (int j = std::max(0, k - 4); j <= k; ++j)
+      memo.Find(key(j), out.data());  // in their order again
+  }
+}
+
 class MemoKeyTest : public ::testing::Test {
  protected:
   std::string Key(const std::vector<EffectInstance>& effects, const char* start, double speed) {

@@ -50,6 +50,64 @@ TEST(PlanCandidates, SizeScalesTheExcitation) {
   }
 }
 
+const PlanCandidate& CandidateOf(const std::vector<PlanCandidate>& all, const std::string& title) {
+  for (const PlanCandidate& c : all)
+    if (c.title == title) return c;
+  throw std::runtime_error("no candidate " + title);
+}
+
+// A strong multisine is the plain one twice as large; at speed there is the plain broad one alone.
+TEST(PlanCandidates, StrongMultisinesAreTwiceThePlainOnes) {
+  const RigParameters rig = ReferenceRig();
+  const auto all = PlanCandidates(rig, StatedAbilities(rig, 1000, true), 3);
+  for (const char* band : {"low", "broad", "high"}) {
+    const std::string title = std::string(band) + " multisine at rest";
+    const Scenario plain = ReadScenarioText(CandidateOf(all, title).toml(1), title, rig),
+                   strong =
+                       ReadScenarioText(CandidateOf(all, "strong " + title).toml(1), title, rig);
+    ASSERT_EQ(plain.excitations.size(), strong.excitations.size());
+    for (std::size_t k = 0; k < plain.excitations.size(); ++k) {
+      const Excitation &a = plain.excitations[k], &b = strong.excitations[k];
+      EXPECT_NEAR(b.amplitude, 2 * a.amplitude, 1e-5 * a.amplitude);
+      EXPECT_EQ(a.frequencies, b.frequencies);
+      for (std::size_t n = 1; n < a.frequencies.size(); ++n)
+        EXPECT_GE(a.frequencies[n], a.frequencies[n - 1] + 0.5);
+    }
+    const double most = band == std::string("low")     ? 60
+                        : band == std::string("broad") ? 1500
+                                                       : 2500;
+    EXPECT_LT(plain.excitations[0].frequencies.back(), most);
+    EXPECT_GT(plain.excitations[0].frequencies.back(), 0.5 * most);
+  }
+  int at_speed = 0;
+  for (const PlanCandidate& c : all)
+    at_speed += c.title.find("multisine") != std::string::npos &&
+                        c.title.find("at rest") == std::string::npos
+                    ? 1
+                    : 0;
+  EXPECT_EQ(at_speed, 2);
+}
+
+// Held currents reach the most that the rig's coils may carry, small ones half of the way there.
+TEST(PlanCandidates, HeldCurrentsEndAtTheMostThatIsAllowed) {
+  const RigParameters rig = ReferenceRig();
+  const Abilities able = StatedAbilities(rig, 0, true);
+  const auto all = PlanCandidates(rig, able, 3);
+  for (const auto& [title, part] :
+       {std::pair{"held, ramps", 1.0}, {"held, small ramps", 0.5}, {"held, steps", 1.0}}) {
+    const Scenario s = ReadScenarioText(CandidateOf(all, title).toml(1), title, rig);
+    double least = 1e9, more = 0;
+    for (const Excitation& e : s.excitations)
+      if (e.start == 0)
+        least = std::min(least, e.amplitude);
+      else
+        more = std::max(more, e.amplitude);
+    EXPECT_NEAR(least, able.coil_least, 1e-5) << title;
+    EXPECT_NEAR(least + more, able.coil_least + part * (able.coil_most - able.coil_least), 1e-4)
+        << title;
+  }
+}
+
 CaseRecord RecordWith(const RigParameters& rig, const std::string& start, const std::string& more) {
   CaseRecord r;
   r.scenario = ReadScenarioText(

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -78,6 +79,45 @@ TEST(PracticeCases, WrongDataSaysWhatIsWrong) {
   EXPECT_EQ(c.answer.verdicts, std::vector<std::string>{"data"});
   EXPECT_TRUE(c.answer.slots.empty());
   EXPECT_NE(c.mistake.find("unit"), std::string::npos) << c.mistake;
+}
+
+// Mistakes come in turn: the second case of wrong data (number 9) has a wrong sign, the third (15) a lag.
+TEST(PracticeCases, WrongDataAreOfEveryKindInTurn) {
+  EXPECT_NE(MakePracticeCase(RadialReference(), 1, 9).mistake.find("sign"), std::string::npos);
+  EXPECT_NE(MakePracticeCase(RadialReference(), 1, 15).mistake.find("lag"), std::string::npos);
+}
+
+// A clock that is one row off: the record is that of the right clock, one row later or earlier.
+TEST(PracticeSurroundings, AClockThatIsOffShiftsRowsByOne) {
+  const PracticeRig rig = RadialReference()[0];
+  Hypothesis truth;
+  truth.rig = ReadRigText(rig.text, rig.file);
+  std::vector<ExaminationRecord> one;
+  for (const ExaminationRecord& r : Examination(truth.rig, 3))
+    if (r.title == "clamped, current pulses") one.push_back(r);
+  ASSERT_EQ(one.size(), 1U);
+  one[0].burst = false;
+  const std::vector<ExaminationRecord> records(16, one[0]);
+  Surroundings s;
+  Case right = EmptyCase(truth.rig, records), off = right;
+  FillRecords(s, truth, 11, nullptr, right);
+  s.time_shift = 1e-4;
+  FillRecords(s, truth, 11, nullptr, off);
+  int late = 0, early = 0;
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    const std::vector<double>&a = right.records[r].data.Find("A.i1")->samples,
+          &b = off.records[r].data.Find("A.i1")->samples;
+    ASSERT_EQ(a.size(), b.size());
+    if (a == b) continue;
+    const bool is_late =
+                   std::equal(a.begin(), a.end() - 1, b.begin() + 1) && b.front() == a.front(),
+               is_early = std::equal(a.begin() + 1, a.end(), b.begin()) && b.back() == a.back();
+    EXPECT_NE(is_late, is_early) << r;
+    (is_late ? late : early) += 1;
+  }
+  EXPECT_GT(late, 0);
+  EXPECT_GT(early, 0);
+  EXPECT_LT(late + early, 12);  // three in ten
 }
 
 // Another size is still a rig, and its gains follow the mass.

@@ -50,6 +50,10 @@ Case MeasuredBursts(std::uint64_t seed) {
 TEST(Refine, FindsTheShapeAndWritesARigThatRuns) {
   const Case c = MeasuredBursts(11);
   const Refinement r = Refine(c, "eddy-currents", "A", "/tmp/refined.toml", {});
+  EXPECT_EQ(r.effect, "eddy-currents");
+  EXPECT_EQ(r.target, "A");
+  EXPECT_EQ(r.shape.u_name, "frequency");
+  EXPECT_EQ(r.curve.size(), r.shape.u.size());
   EXPECT_GT(r.ratio_before, 1.2);
   EXPECT_LT(r.ratio_after, 1.1);
   EXPECT_FALSE(r.any_unseen);

@@ -68,6 +68,48 @@ TEST(Shape, HysteresisKeepsItsCoerciveCurrent) {
   EXPECT_NEAR(s.value(s.Sizes(), 0.4), 0.08, 1e-12);  // all operators slip beyond twice the width
 }
 
+// Operators narrower than the width share the coercive current, the wider ones start at nothing.
+TEST(Shape, HysteresisStartsWithTheOperatorsOfItsWidth) {
+  const Shape s = ShapeOf(Named("hysteresis", {{"coercive", 0.08}, {"width", 0.2}}), ReferenceRig(),
+                          {.density = 0.6});
+  const std::vector<double> sizes = s.Sizes();  // up to 0.4 T: half of them are narrower than 0.2 T
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    EXPECT_NEAR(sizes[k],
+                k < sizes.size() / 2 ? 0.08 / (0.5 * static_cast<double>(sizes.size())) : 0, 1e-12)
+        << k;
+  EXPECT_EQ(s.value_unit, "A");
+  EXPECT_EQ(s.u_unit, "T");
+}
+
+TEST(Shape, SaysWhatItsCurveIsOf) {
+  const Shape eddy = ShapeOf(Named("eddy-currents", {{"cutoff", 3000}}), ReferenceRig(), {});
+  EXPECT_EQ(eddy.u_name, "frequency");
+  EXPECT_EQ(eddy.u_unit, "Hz");
+  EXPECT_TRUE(eddy.logarithmic);
+  EXPECT_NEAR(eddy.u.front(), 10, 1e-9);
+  EXPECT_NEAR(eddy.u.back(), 3e5, 1e-3);
+  const Shape iron = ShapeOf(Named("saturation", {{"knee", 0.5}, {"path", 0.08}}), ReferenceRig(),
+                             {.density = 0.5});
+  EXPECT_NE(iron.u_name, "");
+  EXPECT_NE(iron.value_unit, "");
+  EXPECT_NEAR(iron.u.back(), 0.5, 1e-12);
+}
+
+// A pull that pushes back stays one: slopes may not change their sign in a fit.
+TEST(Shape, SlopesKeepTheSignOfTheLawThatWasNamed) {
+  for (const double stiffness : {4e4, -4e4}) {
+    const Shape s =
+        ShapeOf(Named("side-pull", {{"stiffness", stiffness}}), ReferenceRig(), {.radius = 6e-5});
+    ASSERT_FALSE(s.rows.empty());
+    for (const std::size_t row : s.rows) {
+      const EffectParameter& p = s.effect.table[row];
+      EXPECT_EQ(p.lo, stiffness > 0 ? 0 : -1e9);
+      EXPECT_EQ(p.hi, stiffness > 0 ? 1e9 : 0);
+      EXPECT_EQ(s.effect.values[row], stiffness);
+    }
+  }
+}
+
 // The formula in the rig file and the curve in the report are the same law: read back, the formula
 // pulls as the curve says.
 TEST(Shape, PullFormulaSaysWhatTheCurveSays) {
