@@ -66,8 +66,9 @@ TEST(Equilibrium, OfOneAxisIsUnique) {
   const Standing s(ReadRig(AMBRIG_SOURCE_DIR "/examples/mls2em/rig.toml"));
   ASSERT_TRUE(s.at.converged) << s.at.message;
   EXPECT_NEAR(s.Magnets().y(), 0.0605 * 9.81, 1e-6);
-  for (int d = 0; d < s.plant.rotor.dof(); ++d)
+  for (int d = 0; d < s.plant.rotor.dof(); ++d) {
     if (d != 1) EXPECT_EQ(s.at.q[static_cast<std::size_t>(d)], 0) << d;
+  }
 }
 
 TEST(Equilibrium, WithoutWeightEveryCoilHasItsBias) {

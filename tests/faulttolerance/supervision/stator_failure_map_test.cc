@@ -36,7 +36,7 @@ TEST(StatorFailureMap, TheProblemIsThatOfTheHealthyMap) {
   const SixPoles s;
   CoilVector turns = CoilVector::Ones();
   turns[2] = 0.4;
-  const StatorProblem p = StatorProblemOf(s.network, 2, s.healthy, turns);
+  const StatorProblem p = StatorProblemOf(s.network, 2, s.healthy, turns, {0, 0});
   EXPECT_EQ(p.axes, 2);
   EXPECT_EQ(p.healthy, s.healthy.W.topRows(6));
   EXPECT_EQ(p.turns_left.size(), 6);
@@ -54,7 +54,7 @@ TEST(StatorFailureMap, TheNewMapGivesTheForceWithoutTheLostCoil) {
   turns[1] = 0;
   CurrentMap map = s.healthy;
   const std::string cls =
-      StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns), true, &map);
+      StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns, {0, 0}), true, &map);
   EXPECT_EQ(cls, "exact");
   EXPECT_EQ(map.W.row(1).norm(), 0);
   for (const auto& [fx, fy] : {std::pair{0.0, 0.0}, {4.0, 0.0}, {-3.0, 5.0}}) {
@@ -68,7 +68,7 @@ TEST(StatorFailureMap, TheNewMapGivesTheForceWithoutTheLostCoil) {
   }
   // What of the healthy bearing's negative stiffness is lost destabilises nothing: it is only given back where it grew.
   CurrentMap plain = s.healthy;
-  StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns), false, &plain);
+  StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns, {0, 0}), false, &plain);
   EXPECT_EQ(plain.stiffness_change.norm(), 0);
   EXPECT_EQ(plain.W, map.W);
 }
@@ -78,7 +78,7 @@ TEST(StatorFailureMap, WhereNothingCanBeDoneTheOthersGoOn) {
   CoilVector turns = CoilVector::Zero();
   turns[4] = 1;
   CurrentMap map = s.healthy;
-  EXPECT_EQ(StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns), true, &map),
+  EXPECT_EQ(StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns, {0, 0}), true, &map),
             "none");
   for (int j = 0; j < 6; ++j) {
     if (j == 4) {
