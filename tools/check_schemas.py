@@ -65,6 +65,9 @@ CHEAP = [
     ("parameters", "parameters", {0}),
     ("channels", "channels examples/mls2em/data/force_05.csv a/coil_opens.h5", {0}),
     ("compare", "compare examples/rub/case.toml", {0}),
+    ("new", "new --list", {0}),
+    ("new", "new --answers examples/new/spindle.toml --only-files -o spindle", {0}),
+    ("watch", "watch examples/rub/case.toml examples/rub --no-explain --settle 0", {0, 1}),
     ("campaign", "campaign small.toml -o campaign", {0}),
     ("campaign", "merge campaign -o merged", {0}),
 ]

@@ -17,7 +17,7 @@ import subprocess
 import sys
 
 PAGE = pathlib.Path("docs/third_party.md")
-TOOLS = {"PkgConfig", "Python3"}  # found by CMake, linked to nothing
+TOOLS = {"Git", "PkgConfig", "Python3"}  # found by CMake, linked to nothing
 
 
 def tables():

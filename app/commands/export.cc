@@ -67,9 +67,9 @@ nlohmann::ordered_json ExportTheFmu(const ExportOptions& o) {
   FmuExport wanted = o.fmu;
   wanted.rig = o.rig;
   const nlohmann::ordered_json made = ExportFmu(wanted);
-  fmt::print("{}: FMI {} co-simulation, {} parameters, {} inputs, {} outputs, step {} s\n",
-             o.fmu.file, o.fmu.fmi, made["parameters"].get<int>(), made["inputs"].get<int>(),
-             made["outputs"].get<int>(), made["step"].get<double>());
+  fmt::print("{}: FMI {} co-simulation, step {} s\n  {} parameters, {} inputs, {} outputs\n",
+             o.fmu.file, o.fmu.fmi, made["step"].get<double>(), made["parameters"].get<int>(),
+             made["inputs"].get<int>(), made["outputs"].get<int>());
   return made;
 }
 

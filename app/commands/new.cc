@@ -207,6 +207,7 @@ std::vector<ColumnChoice> AddRecords(const NewCommand& o, const RigParameters& r
 }
 
 int MakeBench(NewCommand o) {
+  o.common.CheckOutputs({o.answers});
   if (o.list) return ListQuestions(o.common);
   BenchAnswers answers;
   const BenchTemplate* bench = nullptr;

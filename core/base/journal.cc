@@ -121,6 +121,8 @@ Journal::Journal(const std::string& path, const std::string& header, const Journ
   std::getline(std::ifstream(path, std::ios::binary), first);
   end_ = static_cast<std::size_t>(std::filesystem::file_size(path));
   if (end_ <= first.size()) {  // without a whole first line nothing was recorded yet
+    if (!Written(header, "").starts_with(first))
+      throw InputError(path + " exists and is not an output of ambrig, allowed: another name");
     file_.Truncate(0);
     end_ = 0;
     Append(header);

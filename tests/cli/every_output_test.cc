@@ -32,6 +32,8 @@ const Output kOutputs[] = {
     {"commission", "--out", "commission rig.toml -o {}"},
     {"design", "--out", "design examples/design/small.toml -o {}", "table.csv"},
     {"export", "--controller-c", "export rig.toml --controller-c {}"},
+    {"export", "--fmu", "export rig.toml --fmu {}"},
+    {"watch", "--journal", "watch case.toml logger --journal {}"},
     {"analyze", "--out", "analyze other.toml -o {}", "other.analysis.json"},
     {"analyze", "--out", "analyze examples/shaft/shaft.toml -o {}", "shaft.analysis.html"},
     {"rotor", "OUT", "rotor convert examples/shaft/shaft.toml {}"},
@@ -66,6 +68,7 @@ class EveryOutput : public CliFolder, public ::testing::WithParamInterface<Outpu
     Write("case.toml",
           "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"a.csv\"\n"
           "[[record]]\nscenario = \"s.toml\"\ndata = \"b.csv\"\n");
+    std::filesystem::create_directories(folder_ / "logger");
     if (*GetParam().before) {
       const Outcome o = Ambrig(GetParam().before);
       ASSERT_EQ(o.exit, 0) << o.text;
@@ -104,7 +107,7 @@ INSTANTIATE_TEST_SUITE_P(Options, EveryOutput, ::testing::ValuesIn(kOutputs), []
 /// Options that name what is read, and folders that hold nothing of anybody else's.
 const std::set<std::string> kInputs = {"--from-campaign", "--tolerances", "--answers", "--record",
                                        "--rig",           "--campaign",   "--learn",   "--resume",
-                                       "--engine",        "--shard"};
+                                       "--engine",        "--shard",      "--scenario"};
 /// Of every command: tests/cli/other_outputs_test.cc.
 const std::set<std::string> kCommon = {"--json", "--html", "--help"};
 

@@ -18,6 +18,7 @@ struct Call {
 };
 
 const Call kCalls[] = {
+    {"new", "--answers examples/new/spindle.toml --only-files -o spindle"},
     {"run", "s.toml --out out --no-report", "s.toml"},
     {"check", "e.toml"},
     {"diff", "a.csv b.csv", "a.csv"},
@@ -36,6 +37,7 @@ const Call kCalls[] = {
     {"channels", "a.csv", "a.csv"},
     {"compare", "case.toml", "case.toml"},
     {"explain", "case.toml", "case.toml"},
+    {"watch", "case.toml logger --no-explain", "case.toml"},
     {"adopt", "case.toml sensor-gain --target A.x -o adopted.toml", "case.toml"},
     {"refine", "case.toml saturation@A -o refined.toml", "case.toml"},
     {"plan", "case.toml -o next.toml", "case.toml"},
@@ -60,6 +62,7 @@ class OtherOutputs : public CliFolder, public ::testing::WithParamInterface<Call
     Write("case.toml",
           "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"a.csv\"\n"
           "[[record]]\nscenario = \"s.toml\"\ndata = \"b.csv\"\n");
+    std::filesystem::create_directories(folder_ / "logger");
     Write("mine.json", "{ \"mine\": true }");
     Write("mine.html", "<html>mine</html>");
   }

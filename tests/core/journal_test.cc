@@ -116,6 +116,20 @@ TEST_F(JournalTest, AnotherWorkAndASecondWriterAreRefused) {
             std::string::npos);
 }
 
+// A torn header is begun again; a file of somebody else's, even of one line without an end, is left alone.
+TEST_F(JournalTest, OnlyATornHeaderIsBegunAgain) {
+  for (const std::string& foreign :
+       {std::string("mine"), std::string("work 2"), std::string("w o")}) {
+    WriteBytes(Path(), foreign);
+    EXPECT_NE(ErrorText<InputError>([&] { Open(); }).find("not an output of ambrig"),
+              std::string::npos);
+    EXPECT_EQ(ReadBytes(Path()), foreign);
+  }
+  WriteBytes(Path(), "work");
+  Open();
+  EXPECT_EQ(ReadBytes(Path()).substr(0, 7), "work 1\t");
+}
+
 TEST_F(JournalTest, AnEntryThatSaysNothingCounts) {
   WriteThree();
   const JournalVisitor visit{[](std::string_view) {},

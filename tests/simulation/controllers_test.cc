@@ -164,7 +164,7 @@ struct Mistake {
 TEST(Controllers, MistakesAreTold) {
   const std::string pid = "kind = \"pid\"\n" + kPidGains;
   const std::vector<Mistake> all{
-      {"kind = \"pdi\"\n", "allowed: pid, transfer-function"},
+      {"kind = \"pdi\"\n", "allowed: pid, duty-pid, state-feedback"},
       {"kind = \"lqg\"\nforce_wieght = 3.0\n", "force_weight"},
       {"kind = \"lqg\"\nforce_weight = -3.0\n", "allowed 1e-06"},
       {"kind = \"lqg\"\nspeeds = [100.0, 50.0]\n", "ascending"},

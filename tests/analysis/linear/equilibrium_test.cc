@@ -37,10 +37,9 @@ struct Standing {
       const CoilNetwork network(b.lanes);
       network.Linkages(at.current[k].v, p.x, p.y, lambda);
       network.Solve(lambda, p.x, p.y, n);
-      if (b.thrust)
-        f.z() += n.fx;
-      else
-        f += Eigen::Vector3d(n.fx, n.fy, 0);
+      DofVector Q{};
+      b.plane.AddForce(n.fx, n.fy, Q);
+      f += Eigen::Vector3d(Q[0], Q[1], Q[2]);
     }
     return f;
   }
