@@ -16,7 +16,7 @@ struct ChannelMapping {
   std::string column, unit;
   double gain = 1;    // on top of the unit
   double offset = 0;  // added behind it [SI]
-  double late = 0;  // [s] by which the column comes late
+  double late = 0;    // [s] by which the column comes late
   bool use = true;
 };
 

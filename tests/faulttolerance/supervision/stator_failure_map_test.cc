@@ -78,8 +78,9 @@ TEST(StatorFailureMap, WhereNothingCanBeDoneTheOthersGoOn) {
   CoilVector turns = CoilVector::Zero();
   turns[4] = 1;
   CurrentMap map = s.healthy;
-  EXPECT_EQ(StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns, {0, 0}), true, &map),
-            "none");
+  EXPECT_EQ(
+      StatorMapAfterFailure(StatorProblemOf(s.network, 2, s.healthy, turns, {0, 0}), true, &map),
+      "none");
   for (int j = 0; j < 6; ++j) {
     if (j == 4) {
       EXPECT_EQ(map.W.row(j), s.healthy.W.row(j));
