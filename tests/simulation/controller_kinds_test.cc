@@ -125,7 +125,7 @@ TEST(ControllerKinds, DutyPidIsAPidInItsUnits) {
         Replaced(kPush, "6.0e-5", "1.0e-5"));
   };
   const RunResult duty = with("duty-pid", 1 / n), force = with("pid", 1);
-  const auto &a = duty.record.Find("A.d2")->samples, &b = force.record.Find("A.d2")->samples;
+  const auto &a = duty.record.Find("A.d1")->samples, &b = force.record.Find("A.d1")->samples;
   ASSERT_EQ(a.size(), b.size());
   double most = 0, moved = 0;
   for (std::size_t k = 0; k < a.size(); ++k) {
