@@ -13,7 +13,8 @@ constexpr double kGrossShort = 0.5, kGrossSensor = -0.4;  // c of both phases
 constexpr double kStuckDown = -1.5, kStuckUp = 0.3;       // c of a switch that stays on
 constexpr double kSdOfRatio = 0.06;                       // of c, by the noise of the samples
 constexpr int kLeastWindow = 3, kMostWindow = 250;        // periods
-constexpr double kCarries = 3;  // times kConducts: a mean current that is one
+constexpr double kCarries = 3;   // times kConducts: a mean current that is one
+constexpr double kMostSd = 0.2;  // of a c that tells something: a phase of a few samples does not
 
 }  // namespace
 
@@ -28,6 +29,7 @@ LinkagePhases::LinkagePhases(const LinkageModel& model, const SamplingSettings& 
   // Of one phase of a period: two samples' noise over the linkage of half a period.
   const double driven = 0.5 * sampling_.samples * sampling_.step * sampling_.amplifier->bus_voltage;
   const double sd = std::sqrt(2.0) * largest * noise / driven;
+  least_square_ = std::pow(sd * driven / kMostSd, 2);
   window_ = std::clamp(static_cast<int>(std::ceil(std::pow(sd / kSdOfRatio, 2))), kLeastWindow,
                        kMostWindow);
 }
@@ -55,6 +57,7 @@ void LinkagePhases::Begin() {
   up_.fill({});
   down_.fill({});
   current_ = Lane{};
+  for (int j = 0; j < kLanes; ++j) least_current_[j] = kInfinity;
 }
 
 void LinkagePhases::Add(const MeasuredPeriod& in) {
@@ -70,6 +73,7 @@ void LinkagePhases::Add(const MeasuredPeriod& in) {
     for (int j = 0; j < model_.coils; ++j) {
       const double i0 = in.adc[k][j], i1 = in.adc[k + 1][j];
       current_[j] += std::abs(i0) / (n - 1);
+      least_current_[j] = std::min(least_current_[j], std::abs(i0));
       if (one_way && std::min(i0, i1) < kConducts) continue;
       const double D = DrivenLinkage(sampling_, in, j, k) -
                        share(j) * model_.resistance[j] * 0.5 * (i0 + i1) * sampling_.step;
@@ -90,12 +94,16 @@ void LinkagePhases::Add(const MeasuredPeriod& in) {
 FaultClass LinkagePhases::ClassOf(int j, double* fraction) const {
   const auto lane = static_cast<std::size_t>(j);
   *fraction = 0;
-  if (up_[lane].square <= 0 || down_[lane].square <= 0) return FaultClass::kNone;
+  const bool tells_up = up_[lane].square > least_square_;
+  if (down_[lane].square <= least_square_) return FaultClass::kNone;
   // Without a current a coil is broken, or its diodes block.
-  const bool carries = current_[j] >= kCarries * kConducts * seen_;
+  const bool carries = current_[j] >= kCarries * kConducts * seen_ || least_current_[j] > kConducts;
   if (!carries && sampling_.amplifier->quadrants < 3) return FaultClass::kNone;
   const double rising = up_[lane].c(), falling = down_[lane].c();
-  if (falling < kStuckDown && std::abs(rising) < kStuckUp) return FaultClass::kSwitchStuckOn;
+  // The current loop soon asks for no drive up at all: what rises under a drive down is enough then.
+  if (falling < kStuckDown && (!tells_up || std::abs(rising) < kStuckUp))
+    return FaultClass::kSwitchStuckOn;
+  if (!tells_up) return FaultClass::kNone;
   if (std::max(rising, falling) < kGrossSensor)
     return carries ? FaultClass::kCurrentSensor : FaultClass::kNone;
   if (std::min(rising, falling) < kGrossShort) return FaultClass::kNone;

@@ -49,7 +49,9 @@ class LinkagePhases {
   int window_ = 3, seen_ = 0;
   double start_ = 0;
   std::array<Phase, kLanes> up_{}, down_{};
+  double least_square_ = 0;                  // of a phase whose c tells something [Wb²]
   Lane current_;                             // Σ |i| of the window's samples [A]
+  Lane least_current_;                       // of |i| in the window [A]
   std::array<FaultClass, kLanes> before_{};  // of the last window
   std::array<double, kLanes> onset_{};
   std::array<double, kLanes> share_{};

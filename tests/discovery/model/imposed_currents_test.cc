@@ -75,7 +75,8 @@ TEST_F(ImposedCurrents, WrongCircuitsAndControllersPlayNoPart) {
   EXPECT_NEAR(ErrorOverFloor(data_), right, 1e-6 * right);
 }
 
-// A constant force that the model does not know: e = F/(m ω²), here at both bearings alike.
+// A constant force that the model does not know, at z_F from the mass centre: at rest e = F/(m ω²) in the mass
+// centre and a tilt F z_F/(I ω²), which a sensor at z_s reads as F z_F z_s/(I ω²) more.
 TEST_F(ImposedCurrents, AConstantForceIsTheObserversOffset) {
   const CaseRecord& r = data_.records.front();
   const RigParameters& rig = data_.rig;
@@ -97,8 +98,13 @@ TEST_F(ImposedCurrents, AConstantForceIsTheObserversOffset) {
     return SwitchingEngine(rig, s, o).Run().record.Find("A.y")->samples.back();
   };
   const double omega = 2 * kPi * 40;
-  const double force = 2, offset = force / (rig.rotor.mass * omega * omega);
-  EXPECT_NEAR(reading(force) - reading(0), offset, 0.02 * offset);
+  const double force = 2, z_force = 0.5 * (rig.bearings[0].z + rig.bearings[1].z),
+               z_sensor = rig.bearings[0].sensor.z;
+  const double offset = force *
+                        (1 / rig.rotor.mass + z_force * z_sensor / rig.rotor.inertia_transverse) /
+                        (omega * omega);
+  EXPECT_GT(std::abs(offset * rig.rotor.mass * omega * omega / force - 1), 0.05);  // it tilts
+  EXPECT_NEAR(reading(force) - reading(0), offset, 0.005 * offset);
 }
 
 }  // namespace
