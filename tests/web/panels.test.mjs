@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {answered, element, server, settled} from './page.mjs';
+import {answered, element, seriesAnswer, server, settled} from './page.mjs';
 
 /** As much of uPlot as the panels use: a scale of 100 pixels, and what was done to it. */
 class Plot {
@@ -52,16 +52,8 @@ Object.assign(globalThis, {uPlot: Plot, ResizeObserver: class { observe() {} }, 
 document.createElement = (kind) => kind === 'figure' ? figure() : {textContent: ''};
 const {Panels} = await import('../../web/workbench/panels.js');
 
-/** The bytes of a series of 11 samples, 1 s apart, of one channel. */
-function series(values, start = 0) {
-  const head = JSON.stringify({mode: 'samples', start, step: 1, count: values.length, rate: 1, channels: [{name: 'A.x', unit: 'm'}]});
-  const text = new TextEncoder().encode(head.padEnd(Math.ceil(head.length / 4) * 4));
-  const bytes = new Uint8Array(4 + text.length + 4 * values.length);
-  new DataView(bytes.buffer).setUint32(0, text.length, true);
-  bytes.set(text, 4);
-  values.forEach((v, k) => new DataView(bytes.buffer).setFloat32(4 + text.length + 4 * k, v, true));
-  return new Response(bytes);
-}
+/** A series of one channel, samples 1 s apart. */
+const series = (values) => seriesAnswer([{name: 'A.x', unit: 'm'}], [values]);
 
 const what = {query: 'job=3&record=r1', name: 'r1', from: null, to: null, plots: [{title: 'A.x', height: 100, lines: [{channel: 'A.x.measured', label: 'measured', tone: 'measured'}]}]};
 

@@ -39,7 +39,7 @@ export async function openPlayground(file) {
   play.text = text;
   play.rig = namedFile(file, topText(text, 'rig'));
   play.duration = Number(/^\s*duration\s*=\s*([\d.e+-]+)/m.exec(text)?.[1] ?? 0);
-  if (!(play.time < play.duration)) play.time = Number((play.duration / 2).toPrecision(2));
+  play.time = play.duration > 0 && play.duration <= 0.1 ? Number((play.duration / 2).toPrecision(2)) : 0.1;
 }
 
 /** @param {string} target "A.coil3" @returns {string|null} kind of its fault */
