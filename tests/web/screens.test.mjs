@@ -6,7 +6,8 @@ const {folderScreen} = await import('../../web/workbench/folder_screen.js');
 const {secondsLeft} = await import('../../web/workbench/job_parts.js');
 const {ladder} = await import('../../web/workbench/ladder.js');
 const {misfitTable} = await import('../../web/workbench/misfit_table.js');
-const {orbit, stator} = await import('../../web/workbench/stator.js');
+const {figures, summary} = await import('../../web/workbench/run_parts.js');
+const {asideOf, orbit, stator} = await import('../../web/workbench/stator.js');
 const {state} = await import('../../web/workbench/state.js');
 
 test('the ladder: bars on a logarithmic scale, and the same as a table', () => {
@@ -56,6 +57,28 @@ test('a coil turns with its angle, is broken by a click or a key, and says so', 
   page.calls[2]({...event, key: 'm'});
   page.calls[4](event);
   assert.deepEqual([asked, stopped], [[['A.coil1', 'A1'], ['A.coil2', 'A2']], 4]);
+});
+
+test('coils of one angle lie beside each other, each can be clicked', () => {
+  const collar = [0, 0, 180, -180].map((angle_deg, k) => ({name: `Z.coil${k + 1}`, angle_deg}));
+  assert.deepEqual(collar.map((_, k) => asideOf(collar, k, 10, true)), [-22.5, 22.5, -22.5, 22.5]);
+  assert.deepEqual(collar.map((_, k) => asideOf(collar, k, 10, false)), [-6, 6, -6, 6]);
+  assert.equal(asideOf([{angle_deg: 22.5}, {angle_deg: 67.5}], 1, 10, false), 0);
+  const {text} = rendered(stator({name: 'Z', kind: 'thrust', coils: collar}, () => null, () => {}, () => {}));
+  const places = [...text.matchAll(/rotate\((\S+)\)"><rect class="pole " x="24" y=(\S+)/g)].map((m) => m.slice(1).join(' '));
+  assert.equal(new Set(places).size, 4);
+  assert.match(text, /its collar from the side/);
+});
+
+test('a run in a line: what failed, what was done about it', () => {
+  const of = (events) => rendered(summary({drop: false, touchdown: true, events})).text;
+  const fault = {t: 0.1, kind: 'fault', target: 'A.coil3', class: 'open'};
+  assert.match(of([{t: 0.05, kind: 'detected', target: 'B.coil1'}, fault, {t: 0.10004, kind: 'detected'}, {t: 0.102, kind: 'redistributed'}]),
+               /! Touched down.*: A.coil3 open at 100 ms, detected \+40.0 \u00b5s, redistributed \+2.00 ms/);
+  assert.match(of([fault]), /at 100 ms, not detected/);
+  assert.doesNotMatch(of([]), /detected/);
+  assert.match(rendered(figures({metrics: {max_orbit: {A: 2e-6}, peak_current: 4}, expect: {drop: {wanted: 'false', met: true, got: 'false'}}, events: []})).text,
+               /largest orbit A.*2.00 \u00b5m.*4.00 A.*expects drop false<\/th><td>\u2714 false.*None/);
 });
 
 test('an orbit fills its clearance, or the drawing where there is none', () => {

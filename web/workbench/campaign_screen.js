@@ -5,7 +5,7 @@ import {getJson} from './api.js';
 import {countOf, failedShare, filtered, histogram, mapOf, parseRows, verdicts, verdictText} from './campaign_rows.js';
 import {command, errorOf, progressOf} from './job_parts.js';
 import {quantity, significant} from './numbers.js';
-import {queryOf, recordOf, runPlots, stemOf, verdict} from './run_parts.js';
+import {figures, queryOf, recordOf, runPlots, stemOf, summary} from './run_parts.js';
 import {Panels} from './panels.js';
 import {activeJob, changed, lastJob, state, tellError} from './state.js';
 
@@ -136,8 +136,8 @@ function rowPart(file) {
   if (!opened) return nothing;
   const o = opened;
   return html`<section class="adopt" aria-label="row"><h2>Row ${o.row}</h2>${!o.result ? html`<p>Running it again, with its record.</p>` : html`
-    <p><button @click=${() => openReport(o.job)}>Report</button></p><p class="marks"></p><div class="panels" id="panels"></div>
-    ${recordOf(o.job, `${stemOf(file)}_row_${o.row}`) ? nothing : html`<p>Reading the record.</p>`}${verdict(o.result)}`}</section>`;
+    ${summary(o.result)}<p><button @click=${() => openReport(o.job)}>Report</button></p><p class="marks"></p><div class="panels" id="panels"></div>
+    ${recordOf(o.job, `${stemOf(file)}_row_${o.row}`) ? nothing : html`<p>Reading the record.</p>`}${figures(o.result)}`}</section>`;
 }
 
 export function campaignScreen() {

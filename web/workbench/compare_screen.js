@@ -122,6 +122,6 @@ export function drawCompare(go) {
   const first = recordOf(a.job, stemOf(file)), second = recordOf(b.job, stemOf(vs));
   if (!first || !second) return;
   if (!panels || panels.place !== place) panels = new Panels(place, (moved) => go(moved));
-  const plots = runPlots(first, [{label: stemOf(vs), query: queryOf(b.job, stemOf(vs)), shift}]).map((plot) => ({...plot, lines: plot.lines.filter((l) => !l.query || second.channels.includes(l.channel))}));
+  const plots = runPlots(first, [{label: stemOf(vs), query: queryOf(b.job, stemOf(vs)), shift}], true).map((plot) => ({...plot, lines: plot.lines.filter((l) => !l.query || second.channels.includes(l.channel))}));
   if (plots.length > 0) void panels.show({query: first.query, name: `${file} and ${vs}`, plots, from: state.view.from, to: state.view.to, marks: state.view.marks, events: eventTimes(a.result)});
 }

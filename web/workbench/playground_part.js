@@ -2,7 +2,6 @@
 import {html, nothing} from './lit-html.js';
 import {quantity, significant} from './numbers.js';
 import {clearPlayground, faultOf, play, runAll, saveScenario, setFault, soon, sweep, touched, toggleGhost} from './playground.js';
-import {verdictText} from './run_parts.js';
 import {faultKinds, speedOf} from './scenario_text.js';
 import {changed} from './state.js';
 import {stator} from './stator.js';
@@ -59,9 +58,9 @@ export function runTable() {
   const planes = Object.keys(play.runs.get('run')?.result.metrics?.max_orbit ?? {});
   const delay = (/** @type {any} */ r) => (r.metrics.detection_delay > 0 ? quantity(r.metrics.detection_delay, 's') : '-');
   const row = (/** @type {string} */ title, /** @type {(r: any) => string} */ text) => html`<tr><th scope="row">${title}</th>${columns.map(([n]) => html`<td class="number">${text(play.runs.get(n)?.result)}</td>`)}</tr>`;
-  return html`<table class="beside"><thead><tr><th></th>${columns.map(([, title]) => html`<th scope="col">${title}</th>`)}</tr></thead><tbody>
-    ${row('verdict', verdictText)}${planes.map((p) => row(`largest orbit ${p}`, (r) => quantity(r.metrics.max_orbit[p] ?? NaN, 'm')))}
-    ${row('peak current', (r) => quantity(r.metrics.peak_current, 'A'))}${row('detected after', delay)}</tbody></table>`;
+  return html`<div class="scroll" tabindex="0" role="region" aria-label="runs beside each other"><table class="beside"><thead><tr><th></th>${columns.map(([, title]) => html`<th scope="col">${title}</th>`)}</tr></thead><tbody>
+    ${row('verdict', (r) => (r.drop ? '\u2716 dropped' : r.touchdown ? '! touched' : '\u2714 up'))}${planes.map((p) => row(`largest orbit ${p}`, (r) => quantity(r.metrics.max_orbit[p] ?? NaN, 'm')))}
+    ${row('peak current', (r) => quantity(r.metrics.peak_current, 'A'))}${row('detected after', delay)}</tbody></table></div>`;
 }
 
 /** @param {any} rig the JSON of `ambrig rig` @param {(change: object) => void} go */
