@@ -174,10 +174,14 @@ test('arrows walk from sample to sample, say the values, and stop at the ends', 
   const said = element('said');
   panels.step(plot, 1);  // from the middle
   assert.equal(said.textContent, '6.00000 s: measured 6.000');
-  plot.cursor.idx = 10;
+  assert.equal(plot.cursor.left, 60);
+  plot.cursor.idx = 2;  // of the data before a zoom: where the cursor stands counts
+  panels.step(plot, 1);
+  assert.equal(said.textContent, '7.00000 s: measured 7.000');
+  plot.cursor.left = 100;
   panels.step(plot, 1);
   assert.equal(said.textContent, '10.00000 s: measured 10.00');
-  plot.cursor.idx = 0;
+  plot.cursor.left = 0;
   panels.step(plot, -1);
   assert.equal(plot.cursor.left, 0);
 });

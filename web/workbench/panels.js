@@ -2,7 +2,7 @@
 import {getBytes} from './api.js';
 import {prefixFor, significant} from './numbers.js';
 import {colour, makePlot} from './panel_plot.js';
-import {betweenText, marksText, nearest} from './panel_text.js';
+import {betweenText, indexNear, lineName, marksText, nearest} from './panel_text.js';
 import {decodeSeries, largest} from './series.js';
 import {tellError} from './state.js';
 
@@ -117,7 +117,7 @@ export class Panels {
       const caption = figure?.querySelector('figcaption');
       if (caption) caption.textContent = title;
       figure?.setAttribute('aria-label', `${title}, ${what.name}, largest ${significant(largest(shown))}`);
-      plot.lines = lines.map((l, n) => ({label: what.plots[k].title + ' ' + what.plots[k].lines[n].label, values: l.values, unit: l.unit}));
+      plot.lines = lines.map((l, n) => ({label: lineName(what.plots[k].title, what.plots[k].lines[n].label), values: l.values, unit: l.unit}));
       const {min, max} = plot.scales.y;
       plot.setData([main.time, ...shown], false);
       plot.setScale('x', {min: this.from ?? main.time[0], max: this.to ?? main.time.at(-1) ?? 1});
@@ -161,7 +161,10 @@ export class Panels {
 
   /** Moves the cursor by a point of the view and says the values there. @param {any} plot @param {number} by */
   step(plot, by) {
-    const index = Math.min(Math.max((plot.cursor.idx ?? Math.floor(plot.data[0].length / 2)) + by, 0), plot.data[0].length - 1);
+    const time = plot.data[0];
+    // From where the cursor stands: the index that the plot keeps is that of the data before a zoom.
+    const now = plot.cursor.left >= 0 ? indexNear(time, plot.posToVal(plot.cursor.left, 'x')) : Math.floor(time.length / 2);
+    const index = Math.min(Math.max(now + by, 0), time.length - 1);
     const left = plot.valToPos(plot.data[0][index], 'x');
     plot.setCursor({left, top: plot.over.clientHeight / 2});
     const said = document.getElementById('said');

@@ -103,3 +103,29 @@ export async function tablet(page, address) {
   await page.waitForURL(/B=[\d.]+/);
 }
 tablet.options = {viewport: {width: 820, height: 1180}, hasTouch: true, isMobile: false};
+
+/** Every kind of screen by its address. */
+const addresses = ['', 'case/ball/case.toml', 'case/practice/case.toml', 'run/healthy.toml', 'campaign/sweep.toml', 'compare/healthy.toml?vs=opens.toml',
+                   'compare/rig.toml?vs=spoiled%2Fcase-0001%2Frig.toml', 'record/ball/data/inductance_em1_05.csv?c=i1_A', 'trend/ball/known.toml', 'new/-', 'rig/rig.toml',
+                   'file/bad.toml', 'case/no/such.toml'];
+
+/** Every screen at three widths, light and dark: nothing is wider than the window, nothing serious is found, what is not there is said. */
+export async function everyScreen(page, address) {
+  await page.goto(address);
+  await page.locator('table.scenarios').waitFor();
+  for (const at of addresses) {
+    await page.evaluate((hash) => (location.hash = '#/' + hash), at);
+    await page.locator('main h1').first().waitFor({timeout: 30000});
+    await page.locator('.running, [aria-busy="true"]').first().waitFor({state: 'detached', timeout: 60000});
+    await page.waitForTimeout(300);  // what comes with the first answers
+    for (const [colorScheme, width, height] of [['light', 1280, 800], ['light', 1024, 768], ['dark', 1024, 768], ['dark', 1280, 800]]) {
+      await page.emulateMedia({colorScheme});
+      await page.setViewportSize({width, height});
+      await page.waitForTimeout(100);
+      const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      const name = `screens/${at.replaceAll(/[^a-z]+/gi, '-') || 'folder'}-${width}-${colorScheme}`;
+      assert.ok(over <= 0, `${name} is ${over} px wider than the window`);
+      await check(page, name);
+    }
+  }
+}
