@@ -142,7 +142,7 @@ test('the folder: each case with its error and what was found, old answers marke
   assert.match(text, /<td>- \u2192 5.0<\/td> <td>unknown <em>stale<\/em><\/td>/);
   assert.match(text, /<a href=#\/trend\/p\/case.toml>! 1 of 4 records<\/a>/);
   assert.match(text, /<a href=#\/run\/s.toml>s.toml<\/a><\/th><td>\u2714 up <em>stale<\/em><\/td> <td class="number">12.5 \u00b5m<\/td><td class="number">40.0 \u00b5s<\/td>/);
-  assert.match(text, /Files that cannot be read<\/h2><ul class="files"><li> <a href=#\/file\/x.toml>x.toml<\/a><\/li>/);
+  assert.match(text, /Files that cannot be read<\/h2><ul class="files "><li> <a href=#\/file\/x.toml>x.toml<\/a><\/li>/);
   assert.doesNotMatch(text, /Campaigns|No case yet/);
   state.folder.cases = [];
   assert.match(rendered(folderScreen()).text, /No case yet/);

@@ -35,6 +35,10 @@ export class Panels {
     this.samples = false;
     this.drawing = 0;
     new ResizeObserver(() => this.resize()).observe(place);
+    // A canvas keeps the colours that it was drawn with.
+    addEventListener('theme', () => {
+      if (this.place.isConnected && this.key) void this.load(true);
+    });
   }
 
   /** @param {What} what */

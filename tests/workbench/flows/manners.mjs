@@ -1,5 +1,5 @@
 // By the keyboard alone, in the dark, on a tablet with fingers.
-import {assert, check, drawn, say} from '../harness.mjs';
+import {assert, check, drawn, forgive, say} from '../harness.mjs';
 
 /** A run to look at, where there is none yet. */
 async function runOnce(page) {
@@ -64,6 +64,14 @@ export async function dark(page, address) {
   await page.getByRole('button', {name: 'light or dark'}).click();
   const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   assert.equal(paper, 'rgb(255, 255, 255)');
+  // The panels follow, too: dark ink on light paper.
+  await page.waitForFunction(() => {
+    const c = document.querySelector('.panel canvas');
+    const pixels = c?.getContext('2d').getImageData(0, 0, c.width, c.height).data ?? [];
+    let ink = 0;
+    for (let k = 0; k < pixels.length; k += 4) if (pixels[k + 3] > 200 && Math.max(pixels[k], pixels[k + 1], pixels[k + 2]) < 80) ++ink;
+    return ink > 300;
+  }, null, {timeout: 10000});
 }
 dark.options = {colorScheme: 'dark'};
 
@@ -128,4 +136,6 @@ export async function everyScreen(page, address) {
       await check(page, name);
     }
   }
+  assert.match(await page.locator('[role="alert"]').innerText(), /no\/such\.toml/);
+  forgive(/status of 400/);  // the browser's word for the file that is not there
 }
