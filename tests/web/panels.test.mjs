@@ -125,6 +125,21 @@ test('keys zoom about the cursor, or the middle where there is none; 0 shows all
   await pause();
 });
 
+test('a view that is drawn while a zoom goes on does not take it back', async () => {
+  const {panels, moves} = await shown();
+  panels.zoom(2, 8);
+  await panels.show({...what, from: 1, to: 9});  // of a moment ago
+  assert.deepEqual([panels.from, panels.to], [2, 8]);
+  await pause();
+  assert.deepEqual(moves, [{from: 2, to: 8, marks: {}}]);
+  await panels.show({...what, from: 1, to: 9});  // Back
+  assert.deepEqual([panels.from, panels.to], [1, 9]);
+  panels.zoom(3, 4);
+  await panels.show({...what, query: 'job=3&record=r2'});  // another record shows all, whatever was about to come
+  await pause();
+  assert.deepEqual([panels.from, moves.length], [null, 1]);
+});
+
 test('the wheel keeps the instant under the pointer', async () => {
   const {panels, plot} = await shown();
   const turned = event('wheel', {clientX: 75, deltaY: -1});

@@ -48,11 +48,14 @@ export class Panels {
     const remarked = JSON.stringify(marks) !== JSON.stringify(this.marks);
     this.marks = {...marks};
     this.what = what;
-    if (key === this.key && what.from === this.from && what.to === this.to) {
+    // While a wheel turns or fingers move, the view that is drawn is that of a moment ago: it does not take them back.
+    if (key === this.key && (this.timer !== 0 || (what.from === this.from && what.to === this.to))) {
       if (remarked) this.tellMarks();
       return;
     }
     const same = key === this.key;
+    clearTimeout(this.timer);  // of another record
+    this.timer = 0;
     this.key = key;
     this.from = what.from;
     this.to = what.to;
@@ -134,6 +137,8 @@ export class Panels {
   /** Another file is shown: nothing of the last one stays. */
   clear() {
     ++this.asked;
+    clearTimeout(this.timer);
+    this.timer = 0;
     this.key = '';
     this.from = this.to = null;
     this.marks = {};
@@ -154,6 +159,7 @@ export class Panels {
         if (this.from !== null && this.to !== null) for (const plot of this.plots) plot.setScale('x', {min: this.from, max: this.to});
       });
     this.timer = setTimeout(() => {
+      this.timer = 0;
       void this.load(false);
       this.tellMoved();
     }, rest);
