@@ -33,6 +33,7 @@ Jobs::Jobs(const ServedFolder& folder, std::string program, EventLog& events)
   if (!error) fs::permissions(fs::path(folder_.path()) / ".ambrig", fs::perms::owner_all, error);
   if (error) throw InputError(fmt::format("{}/.ambrig: {}", folder_.path(), error.message()));
   ReadEarlier();
+  ForgetOldRunsLocked();
   for (int k = 0; k < kHeavyAtOnce + kLightAtOnce; ++k) workers_.emplace_back([this] { Work(); });
 }
 
@@ -74,6 +75,18 @@ void Jobs::ReadEarlier() {
     } catch (const std::exception&) {
       continue;  // a folder that a crash left without its state: its number is not used again
     }
+  }
+}
+
+void Jobs::ForgetOldRunsLocked() {
+  int kept = 0;
+  for (auto it = jobs_.end(); it != jobs_.begin();) {
+    const Job& job = (--it)->second;
+    const bool active = job.state == "queued" || job.state == "running";
+    if (job.order.command != "play" || active || ++kept <= kRunsKept) continue;
+    std::error_code error;  // what cannot be removed is forgotten all the same
+    fs::remove_all(FolderOf(it->first), error);
+    it = jobs_.erase(it);
   }
 }
 
@@ -206,6 +219,7 @@ void Jobs::Finish(int id, int code, double seconds) {
   --(job.order.heavy ? heavy_running_ : light_running_);
   Store(job);
   events_.Add({{"event", "job"}, {"job", JsonOf(job)}});
+  ForgetOldRunsLocked();
   changed_.notify_all();
 }
 
@@ -261,8 +275,12 @@ bool Jobs::Stop(int id) {
   const std::scoped_lock lock(mutex_);
   killers_.emplace_back([this, id, pid] {
     std::unique_lock waiting(mutex_);
-    changed_.wait_for(waiting, kPatience, [&] { return jobs_[id].pid == 0; });
-    if (pid > 0 && jobs_[id].pid == pid) ::kill(pid, SIGKILL);
+    const auto ended = [&] {
+      const auto job = jobs_.find(id);
+      return job == jobs_.end() || job->second.pid == 0;
+    };
+    if (!changed_.wait_for(waiting, kPatience, ended) && jobs_[id].pid == pid && pid > 0)
+      ::kill(pid, SIGKILL);
   });
   return true;
 }

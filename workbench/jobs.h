@@ -28,6 +28,10 @@ struct Job {
 
 class Jobs {
  public:
+  /// Runs of the playground that are kept, the newest: each change of it makes some, and nobody
+  /// comes back to the old ones.
+  static constexpr int kRunsKept = 60;
+
   /// Reads the jobs of earlier servers: those that were running are "interrupted".
   /// `program`: this binary. @throws InputError
   Jobs(const ServedFolder& folder, std::string program, EventLog& events);
@@ -48,6 +52,7 @@ class Jobs {
 
  private:
   void ReadEarlier();
+  void ForgetOldRunsLocked();
   void Work();
   void RunJob(int id);
   void TakeLine(int id, const std::string& line);

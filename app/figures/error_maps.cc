@@ -54,9 +54,21 @@ std::vector<RecordSlice> RecordSlices(const CaseModel& model) {
   return out;
 }
 
+/// The largest length up to n, at least 16, whose prime factors are 2, 3 and 5: the transform of any
+/// other takes steps in proportion to its largest factor.
+std::size_t FastLength(std::size_t n) {
+  for (; n > 16; --n) {
+    std::size_t rest = n;
+    for (const std::size_t factor : {2, 3, 5})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return n;
+  }
+  return 16;
+}
+
 /// Power of x in each band; NaN where the length has no line in it.
 std::vector<double> BandPower(const std::vector<double>& x, double rate) {
-  const PowerDensity p = WelchPsd(x, rate, std::max<std::size_t>(16, x.size() / 2));
+  const PowerDensity p = WelchPsd(x, rate, FastLength(x.size() / 2));
   std::vector<double> out(kEdges.size() - 1, std::nan(""));
   for (std::size_t k = 1; k < p.frequency.size(); ++k) {
     const auto band = static_cast<std::size_t>(std::ranges::upper_bound(kEdges, p.frequency[k]) -

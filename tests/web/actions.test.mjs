@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {answered, element, server, settled} from './page.mjs';
-const {commandLine, loadResult, mend, resultOf, startJob, takeEvent, undo, upload} = await import('../../web/workbench/actions.js');
+const {commandLine, loadFolder, loadResult, mend, resultOf, runJob, startJob, takeEvent, undo, upload} = await import('../../web/workbench/actions.js');
 const {activeJob, changed, drawWith, lastJob, state} = await import('../../web/workbench/state.js');
 
 const job = (id, more = {}) => ({id, command: 'compare', subject: 'p/case.toml', argv: [], new_files: [], state: 'running', error: '', code: 0, ...more});
@@ -82,13 +82,41 @@ test('the answer to a new job does not undo what its events have told already', 
   assert.deepEqual(state.jobs.map((j) => [j.id, j.state]), [[5, 'running']]);
 });
 
+test('a list of jobs that is older than an event does not take the event back', async () => {
+  fresh();
+  let lists = 0;
+  server.answer = async (path) => {
+    if (path !== '/api/jobs') return answered({});
+    if (++lists > 1) return answered([job(6, {state: 'done'})]);
+    const old = answered([]);  // made before the job was, but under way for long
+    takeEvent({event: 'job', job: job(6, {state: 'running'})});
+    return old;
+  };
+  await loadFolder();
+  assert.deepEqual([lists, state.jobs.map((j) => [j.id, j.state])], [2, [[6, 'done']]]);
+});
+
+test('who waits for a job learns of its end from the list, where the event was lost', async () => {
+  fresh();
+  server.answer = (path, options) => answered(path === '/api/jobs' && options.method === 'POST' ? job(8) : path === '/api/jobs' ? [job(8, {state: 'done', code: 1})] : {});
+  const waiting = runJob({command: 'run', scenario: 's.toml'});
+  await settled();
+  await loadFolder();
+  assert.deepEqual([(await waiting).state, (await waiting).code], ['done', 1]);
+  server.answer = () => answered({error: 'no such scenario'}, {status: 400});
+  assert.equal(await runJob({command: 'run', scenario: 'none.toml'}), null);
+});
+
 test('a file that changed is read again, with what is known of it', async () => {
   fresh();
   state.results.set('compare p/case.toml', {}).set('run p/other.toml', {});
   takeEvent({event: 'file', file: 'p/case.toml'});
+  takeEvent({event: 'file', file: 'p/new.toml'});
   await settled();
   const asked = server.asked.map((a) => a.path);
-  assert.ok(asked.includes('/api/result?kind=compare&p=p%2Fcase.toml') && asked.includes('/api/folder'));
+  assert.ok(asked.includes('/api/result?kind=compare&p=p%2Fcase.toml') && !asked.includes('/api/folder'));
+  await new Promise((resume) => setTimeout(resume, 250));
+  assert.equal(server.asked.filter((a) => a.path === '/api/folder').length, 1);  // many files that arrive together are one reading
   assert.ok(!asked.some((p) => p.includes('other')));
 });
 
@@ -97,14 +125,14 @@ test('a mended line can be undone, and both compare again', async () => {
   const said = element('said');
   state.view = {...state.view, screen: 'case', file: 'p/case.toml'};
   const answers = {'POST /api/mend': {line: 4, text: 'delay = 2e-4', step: 11}, 'POST /api/undo/11': {file: 'p/case.toml'},
-                   'POST /api/jobs': job(1), 'GET /api/jobs': [], 'GET /api/folder': {}};
+                   'POST /api/jobs': job(1), 'GET /api/jobs': [], 'GET /api/folder': {}, 'GET /api/watched': []};
   server.answer = (path, options) => answered(answers[`${options.method ?? 'GET'} ${path}`]);
   await mend('p/case.toml', {record: 'r1', mend: 'delay'});
-  assert.deepEqual(state.notice, {text: 'written into p/case.toml, line 4: delay = 2e-4', bad: false, step: 11});
+  assert.deepEqual(state.notice, {text: 'written into p/case.toml, line 4: delay = 2e-4', bad: false, steps: [11]});
   assert.equal(said.textContent, state.notice.text);
   assert.deepEqual(JSON.parse(server.asked[0].body), {case: 'p/case.toml', record: 'r1', mend: 'delay'});
   assert.deepEqual(JSON.parse(server.asked[1].body), {command: 'compare', case: 'p/case.toml'});
-  await undo(11);
+  await undo([11]);
   assert.equal(pathOf(-1), '/api/jobs');
   assert.equal(said.textContent, 'p/case.toml is as it was');
 });
@@ -116,7 +144,7 @@ test('a file that is refused does not stop the others', async () => {
   assert.deepEqual(server.asked.slice(0, 2).map((a) => a.path),
                    ['/api/upload?p=practice%2Fbad.h5', '/api/upload?p=practice%2Fa%20b.csv']);
   assert.equal(state.notice.text, 'practice/a b.csv is here');
-  assert.equal(pathOf(-1), '/api/jobs');
+  assert.deepEqual([pathOf(-3), pathOf(-2), pathOf(-1)], ['/api/folder', '/api/jobs', '/api/watched']);
 });
 
 test('an answer that cannot be had is told, and what was known stays', async () => {

@@ -19,3 +19,7 @@ test('a time range that is none is left out', () => {
     assert.equal(view.file, 'c.toml');
   }
 });
+
+test('a name with a broken code is taken as it stands', () => {
+  assert.deepEqual([parseAddress('#/case/50%/c%20d.toml').file, parseAddress('#/case/%E0%A4%A').file], ['50%/c d.toml', '%E0%A4%A']);
+});

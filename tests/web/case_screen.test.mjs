@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {answered, rendered, server, settled} from './page.mjs';
+import {answered, rendered, seriesAnswer, server, settled} from './page.mjs';
 const {caseScreen, openCase} = await import('../../web/workbench/case_screen.js');
 const {state} = await import('../../web/workbench/state.js');
 const {emptyView} = await import('../../web/workbench/address.js');
@@ -11,6 +11,9 @@ const comparison = {ratio: 8, ratio_fit: 9, ratio_validate: 7, data: [], records
 ]};
 const known = (result, more = {}) => ({job: 3, fresh: true, stale: [], result, ...more});
 
+/** What the page ordered. @type {() => any[]} */
+let posted;
+
 /** A case that was compared; what the screen asked the view to become stands in `gone`. */
 function opened({result = comparison, view = {}, ...more} = {}) {
   Object.assign(state, {view: {...emptyView(), screen: 'case', file: 'p/case.toml', ...view}, jobs: [], notice: null,
@@ -19,8 +22,11 @@ function opened({result = comparison, view = {}, ...more} = {}) {
   state.results.clear();
   state.results.set('compare p/case.toml', known(result, more));
   server.asked = [];
-  server.answer = () => answered({id: 9, command: 'adopt', subject: 'p/case.toml', argv: [], new_files: [], state: 'queued'});
+  const job = {id: 9, command: 'adopt', subject: 'p/case.toml', argv: ['adopt', 'p/case.toml'], new_files: [], state: 'queued'};
+  const errors = [{name: 'A.x.error', unit: ''}, {name: 'A.x.measured', unit: 'm'}];
+  server.answer = (path) => path.startsWith('/api/series') ? seriesAnswer(errors, [[3, 4, 3, 4], [0, 1, 0, 1]]) : answered(job);
   const gone = [];
+  posted = () => server.asked.filter((a) => a.method === 'POST').map((a) => JSON.parse(a.body));
   return {gone, screen: () => rendered(caseScreen((change) => gone.push(change)))};
 }
 
@@ -41,7 +47,7 @@ test('a cell shows its channel; Shift adds one of the same record; another recor
   screen.click('r1, A.x: 9.0 times the noise', {shiftKey: true});   // is shown already
   screen.click('r2, A.x: 7.0 times the noise', {shiftKey: true});   // nothing to add to
   assert.deepEqual(page.gone, [{record: 'r1', channels: ['A.i1']}, {record: 'r1', channels: ['A.x', 'A.i1']},
-                               {record: 'r1', channels: ['A.x']}, {record: 'r2', channels: ['A.x'], from: null, to: null}]);
+                               {record: 'r1', channels: ['A.x']}, {record: 'r2', channels: ['A.x'], from: null, to: null, marks: {}}]);
 });
 
 test('no more than eight channels stand below each other, the last ones', () => {
@@ -58,7 +64,7 @@ test('an old comparison says what changed since, and is made anew', async () => 
   assert.match(screen.text, /Older than p\/rig.toml./);
   screen.click('Compare again');
   await settled();
-  assert.deepEqual(JSON.parse(server.asked[0].body), {command: 'compare', case: 'p/case.toml'});
+  assert.deepEqual(posted(), [{command: 'compare', case: 'p/case.toml'}]);
 });
 
 test('a data fault comes with the line that mends it, if there is one', async () => {
@@ -69,7 +75,7 @@ test('a data fault comes with the line that mends it, if there is one', async ()
   assert.equal(screen.text.match(/Write this line into the case/g).length, 1);
   screen.click('Write this line into the case');
   await settled();
-  assert.deepEqual(JSON.parse(server.asked[0].body), {case: 'p/case.toml', record: 'r1.h5', mend: 'channels = { "A.x" = 1e-6 }'});
+  assert.deepEqual(posted()[0], {case: 'p/case.toml', record: 'r1.h5', mend: 'channels = { "A.x" = 1e-6 }'});
   assert.doesNotMatch(opened().screen().text, /<h2>The data/);
 });
 
@@ -79,7 +85,7 @@ test('adopting asks first, names free files, and can be declined', async () => {
   state.results.set('explain p/case.toml', known({verdict: 'effect', set: [], adopted: [effect], ladder: []}));
   state.folder.files.push({name: 'p/rig_2.toml'});
   page.screen().click('Adopt eddy-currents at A');
-  assert.equal(server.asked.length, 0);
+  assert.deepEqual(posted(), []);
   let asking = page.screen();
   assert.match(asking.text, /<h2>Adopt eddy-currents at A<\/h2>.*<code>p\/rig_3.toml<\/code>.*<code>p\/case_2.toml<\/code>/);
   asking.click('Not now');
@@ -87,28 +93,34 @@ test('adopting asks first, names free files, and can be declined', async () => {
   page.screen().click('Adopt eddy-currents at A');
   page.screen().click('Write and compare again');
   await settled();
-  assert.deepEqual(JSON.parse(server.asked[0].body), {command: 'adopt', case: 'p/case.toml', effect: 'eddy-currents', target: 'A',
-                                                      rig: 'p/rig_3.toml', new_case: 'p/case_2.toml'});
-  assert.match(page.screen().text, /aria-label="adopt"><\/progress>/);  // runs now
+  assert.deepEqual(posted(), [{command: 'adopt', case: 'p/case.toml', effect: 'eddy-currents', target: 'A',
+                               rig: 'p/rig_3.toml', new_case: 'p/case_2.toml'}]);
+  assert.match(page.screen().text, /aria-label=adopt><\/progress>/);  // runs now
 });
 
 test('what was adopted leads to the new case', () => {
   const page = opened();
   state.jobs = [{id: 9, command: 'adopt', subject: 'p/case.toml', argv: [], state: 'done', new_files: ['p/rig_2.toml', 'p/case_2.toml']}];
-  state.results.set('adopt p/case.toml', known({ratio_validate: 1.04, ladder: []}));
+  state.results.set('adopt p/case.toml', known({ratio_validate: 1.04, ladder: [{added: '', ratio_fit: 9, ratio_validate: 7}, {added: 'eddy-currents at A', ratio_fit: 1, ratio_validate: 1.04}]}));
+  assert.doesNotMatch(page.screen().text, /Written p/);  // the step was taken back: its case is not there
+  state.folder.files.push({name: 'p/rig_2.toml'}, {name: 'p/case_2.toml'});
   const screen = page.screen();
   assert.match(screen.text, /Written p\/rig_2.toml and p\/case_2.toml.*The error fell to 1.0 times the noise/);
   screen.click('Open p/case_2.toml');
-  assert.deepEqual(page.gone, [{screen: 'case', file: 'p/case_2.toml', record: '', channels: [], from: null, to: null}]);
+  assert.deepEqual(page.gone, [{screen: 'case', file: 'p/case_2.toml', record: '', channels: [], from: null, to: null, marks: {}}]);
+  state.jobs.push({...state.jobs[0], id: 10, command: 'refine'});
+  state.results.set('refine p/case.toml', known({ratio_before: 7, ratio_after: 1.02}));
+  assert.match(page.screen().text, /<h2>Refined<\/h2>.*Error over noise 7.0 \u2192 1.0/);
 });
 
 test('a comparison that failed says why', () => {
   const page = opened();
   state.results.delete('compare p/case.toml');
   state.jobs = [{id: 1, command: 'compare', subject: 'p/case.toml', argv: ['compare', 'p/case.toml'], state: 'failed', error: 'record 2: no column A.x'}];
-  assert.match(page.screen().text, /class="bad">record 2: no column A.x<\/p>/);
+  assert.match(page.screen().text, /class="bad" role="alert">record 2: no column A.x<\/p>/);
   state.jobs[0].state = 'running';
-  assert.match(page.screen().text, /Comparing model and records. <code>ambrig compare p\/case.toml<\/code>/);
+  assert.match(page.screen().text, /aria-label=compare><\/progress>.*<code>\$ ambrig compare p\/case.toml<\/code>/);
+  assert.doesNotMatch(page.screen().text, /no column/);
 });
 
 test('the first comparison of a case is started once by itself', async () => {

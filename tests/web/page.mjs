@@ -19,6 +19,17 @@ export function answered(body, {status = 200, headers = {}} = {}) {
   return new Response(typeof body === 'string' || body instanceof ReadableStream ? body : JSON.stringify(body), {status, headers});
 }
 
+/** The bytes of /api/series. @param {{name: string, unit: string}[]} channels @param {number[][]} values of each @param {object} more of the head */
+export function seriesAnswer(channels, values, more = {}) {
+  const head = JSON.stringify({mode: 'samples', start: 0, step: 1, count: values[0].length, rate: 1, channels, ...more});
+  const text = new TextEncoder().encode(head.padEnd(Math.ceil(head.length / 4) * 4));
+  const bytes = new Uint8Array(4 + text.length + 4 * values.flat().length);
+  new DataView(bytes.buffer).setUint32(0, text.length, true);
+  bytes.set(text, 4);
+  values.flat().forEach((v, k) => new DataView(bytes.buffer).setFloat32(4 + text.length + 4 * k, v, true));
+  return new Response(bytes);
+}
+
 const kept = new Map();
 const elements = new Map();
 Object.assign(globalThis, {

@@ -1,11 +1,11 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {answered, element, server, settled} from './page.mjs';
+import {answered, element, seriesAnswer, server, settled} from './page.mjs';
 
 /** As much of uPlot as the panels use: a scale of 100 pixels, and what was done to it. */
 class Plot {
   constructor(options, data, parent) {
-    Object.assign(this, {options, data, scales: {x: {min: 0, max: 10}}, cursor: {left: -1, idx: null}, redrawn: 0, width: options.width, height: options.height,
+    Object.assign(this, {options, data, scales: {x: {min: 0, max: 10}, y: {min: null, max: null}}, cursor: {left: -1, idx: null}, redrawn: 0, width: options.width, height: options.height,
                          series: options.series, over: new EventTarget(), root: new EventTarget()});
     this.over.getBoundingClientRect = () => ({left: 50, width: 100});
     this.over.clientHeight = 80;
@@ -19,7 +19,7 @@ class Plot {
     const {min, max} = this.scales.x;
     return ((value - min) / (max - min)) * 100;
   }
-  setScale(_, range) { this.scales.x = range; }
+  setScale(name, range) { this.scales[name] = range; }
   setData(data) { this.data = data; }
   setCursor(at) { this.cursor = {...this.cursor, ...at}; }
   setSize(size) { Object.assign(this, size); }
@@ -43,21 +43,17 @@ function figure() {
                               setAttribute(name, value) { this.attributes[name] = value; }, querySelector() { return this.children[0]; }});
 }
 
+/** An event with what a browser's would carry. */
+const event = (kind, more) => Object.assign(new Event(kind, {cancelable: true}), more);
+
 const events = new EventTarget();
-Object.assign(globalThis, {uPlot: Plot, ResizeObserver: class { observe() {} }, addEventListener: events.addEventListener.bind(events)});
+Object.assign(globalThis, {uPlot: Plot, ResizeObserver: class { observe() {} }, addEventListener: events.addEventListener.bind(events),
+                           removeEventListener: events.removeEventListener.bind(events)});
 document.createElement = (kind) => kind === 'figure' ? figure() : {textContent: ''};
 const {Panels} = await import('../../web/workbench/panels.js');
 
-/** The bytes of a series of 11 samples, 1 s apart, of one channel. */
-function series(values, start = 0) {
-  const head = JSON.stringify({mode: 'samples', start, step: 1, count: values.length, rate: 1, channels: [{name: 'A.x', unit: 'm'}]});
-  const text = new TextEncoder().encode(head.padEnd(Math.ceil(head.length / 4) * 4));
-  const bytes = new Uint8Array(4 + text.length + 4 * values.length);
-  new DataView(bytes.buffer).setUint32(0, text.length, true);
-  bytes.set(text, 4);
-  values.forEach((v, k) => new DataView(bytes.buffer).setFloat32(4 + text.length + 4 * k, v, true));
-  return new Response(bytes);
-}
+/** A series of one channel, samples 1 s apart. */
+const series = (values) => seriesAnswer([{name: 'A.x', unit: 'm'}], [values]);
 
 const what = {query: 'job=3&record=r1', name: 'r1', from: null, to: null, plots: [{title: 'A.x', height: 100, lines: [{channel: 'A.x.measured', label: 'measured', tone: 'measured'}]}]};
 
@@ -65,7 +61,7 @@ async function shown(more = {}) {
   server.asked = [];
   server.answer = () => series([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10].map((v) => v * 1e-6));
   const place = box(), moves = [];
-  const panels = new Panels(place, (from, to) => moves.push([from, to]));
+  const panels = new Panels(place, (change) => moves.push(change));
   await panels.show({...what, ...more});
   return {panels, place, moves, plot: panels.plots[0]};
 }
@@ -107,8 +103,12 @@ test('an answer that comes after another question is not shown', async () => {
 });
 
 test('keys zoom about the cursor, or the middle where there is none; 0 shows all', async () => {
-  const {panels, plot, moves} = await shown();
-  const press = (key) => panels.pressed({key, preventDefault() {}}, plot);
+  const {panels, place, plot, moves} = await shown();
+  const press = (key) => {
+    const pressed = event('keydown', {key});
+    place.children[0].dispatchEvent(pressed);
+    return pressed.defaultPrevented;
+  };
   press('+');
   assert.deepEqual([panels.from, panels.to], [2.5, 7.5]);
   plot.cursor.left = 0;  // at the left edge: that stays where it is
@@ -119,17 +119,34 @@ test('keys zoom about the cursor, or the middle where there is none; 0 shows all
   press('0');
   assert.deepEqual([panels.from, panels.to], [null, null]);
   await pause();
-  assert.deepEqual(moves, [[null, null]]);  // once, after the last of them
-  let kept = 0;
-  panels.pressed({key: 'Tab', preventDefault: () => ++kept}, plot);
-  assert.equal(kept, 0);  // other keys are the browser's
+  assert.deepEqual(moves, [{from: null, to: null, marks: {}}]);  // once, after the last of them
+  assert.equal(press('-'), true);
+  assert.equal(press('Tab'), false);  // other keys are the browser's
+  await pause();
+});
+
+test('a view that is drawn while a zoom goes on does not take it back', async () => {
+  const {panels, moves} = await shown();
+  panels.zoom(2, 8);
+  await panels.show({...what, from: 1, to: 9});  // of a moment ago
+  assert.deepEqual([panels.from, panels.to], [2, 8]);
+  await pause();
+  assert.deepEqual(moves, [{from: 2, to: 8, marks: {}}]);
+  await panels.show({...what, from: 1, to: 9});  // Back
+  assert.deepEqual([panels.from, panels.to], [1, 9]);
+  panels.zoom(3, 4);
+  await panels.show({...what, query: 'job=3&record=r2'});  // another record shows all, whatever was about to come
+  await pause();
+  assert.deepEqual([panels.from, moves.length], [null, 1]);
 });
 
 test('the wheel keeps the instant under the pointer', async () => {
   const {panels, plot} = await shown();
-  panels.wheel({clientX: 75, deltaY: -1, preventDefault() {}}, plot);  // a quarter of the way: 2.5 s
+  const turned = event('wheel', {clientX: 75, deltaY: -1});
+  plot.root.dispatchEvent(turned);  // a quarter of the way: 2.5 s
+  assert.equal(turned.defaultPrevented, true);  // the page stays where it is
   assert.deepEqual([panels.from, panels.to], [2.5 - 2, 2.5 + 6]);
-  panels.wheel({clientX: 75, deltaY: 1, preventDefault() {}}, plot);
+  plot.root.dispatchEvent(event('wheel', {clientX: 75, deltaY: 1}));
   assert.ok(Math.abs(panels.from) < 1e-12 && Math.abs(panels.to - 10) < 1e-12);
   await pause();
 });
@@ -137,7 +154,7 @@ test('the wheel keeps the instant under the pointer', async () => {
 test('a drag zooms to what it went over, either way and within the panel; a click does not', async () => {
   const {panels, plot} = await shown();
   const drag = (from, to) => {
-    panels.drag({button: 0, clientX: from}, plot);
+    plot.over.dispatchEvent(event('mousedown', {button: 0, clientX: from}));
     events.dispatchEvent(Object.assign(new Event('mouseup'), {clientX: to}));
   };
   drag(90, 70);
@@ -148,20 +165,23 @@ test('a drag zooms to what it went over, either way and within the panel; a clic
   assert.deepEqual([panels.from, panels.to], [4, 10]);
   panels.zoom(null, null);
   drag(90, 93);
-  panels.drag({button: 2, clientX: 50}, plot);
+  plot.over.dispatchEvent(event('mousedown', {button: 2, clientX: 50}));
+  events.dispatchEvent(event('mouseup', {clientX: 90}));
   assert.equal(panels.from, null);
   await pause();
 });
 
 test('two marks tell their distance in time and as a frequency', async () => {
-  const {panels, plot, place} = await shown();
+  const {panels, plot, place, moves} = await shown();
+  const drawn = plot.redrawn;
   panels.mark('A', 2);
   assert.equal(place.marks.textContent, 'A 2.00000 s');
   panels.mark('B', 2.02);
-  assert.equal(place.marks.textContent, 'A 2.00000 s   B 2.02000 s   dt 0.02000 s, 1/dt 50.00 Hz');
+  assert.equal(place.marks.textContent, 'A 2.00000 s   B 2.02000 s   dt 0.02000 s, 1/dt 50.00 Hz\nA.x measured: dy 0, mean 2.00, rms 2.00, peak 2.00 \u00b5m');
   panels.mark('A', 2.02);
   assert.doesNotMatch(place.marks.textContent, /dt/);  // no frequency of nothing
-  assert.equal(plot.redrawn, 3);
+  assert.equal(plot.redrawn - drawn, 3);
+  assert.deepEqual(moves.at(-1), {from: null, to: null, marks: {A: 2.02, B: 2.02}});  // they stand in the address
 });
 
 test('arrows walk from sample to sample, say the values, and stop at the ends', async () => {
@@ -169,10 +189,14 @@ test('arrows walk from sample to sample, say the values, and stop at the ends', 
   const said = element('said');
   panels.step(plot, 1);  // from the middle
   assert.equal(said.textContent, '6.00000 s: measured 6.000');
-  plot.cursor.idx = 10;
+  assert.equal(plot.cursor.left, 60);
+  plot.cursor.idx = 2;  // of the data before a zoom: where the cursor stands counts
+  panels.step(plot, 1);
+  assert.equal(said.textContent, '7.00000 s: measured 7.000');
+  plot.cursor.left = 100;
   panels.step(plot, 1);
   assert.equal(said.textContent, '10.00000 s: measured 10.00');
-  plot.cursor.idx = 0;
+  plot.cursor.left = 0;
   panels.step(plot, -1);
   assert.equal(plot.cursor.left, 0);
 });

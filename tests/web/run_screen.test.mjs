@@ -1,31 +1,27 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {answered, rendered, server, settled} from './page.mjs';
+import {answered, rendered, seriesAnswer, server, settled} from './page.mjs';
 const {openRun, runScreen} = await import('../../web/workbench/run_screen.js');
 const {state} = await import('../../web/workbench/state.js');
 const {emptyView} = await import('../../web/workbench/address.js');
 
-const rig = {bearings: [{name: 'A', clearance: 2e-4, coils: [{name: 'A.coil1', angle_deg: 22.5}, {name: 'A.coil2', angle_deg: 67.5}]}]};
-const scenario = 'name = "s"\nrig = "../rigs/./r.toml"\n[expect]\ndrop = false\n[speed]\nprofile = [[0, 1]]\n';
+const rig = {bearings: [{name: 'A', clearance: 2e-4, axes: ['A.x', 'A.y'], coils: [{name: 'A.coil1', angle_deg: 22.5}, {name: 'A.coil2', angle_deg: 67.5}]}]};
+const scenario = 'name = "s"\nrig = "../rigs/./r.toml"\nduration = 0.2\n[expect]\ndrop = false\n[speed]\nprofile = [[0, 1]]\n';
 const outcome = {drop: false, touchdown: false, metrics: {max_orbit: {A: 1.25e-5}, peak_current: 4.5},
                  events: [{t: 0.02012, kind: 'detected', target: 'A.coil1', class: 'open'}]};
 
-/** Two samples of two channels, as /api/series has them. */
-function orbit() {
-  const head = JSON.stringify({mode: 'samples', start: 0, step: 1, count: 2, rate: 1, channels: [{name: 'A.x', unit: 'm'}, {name: 'A.y', unit: 'm'}]});
-  const text = new TextEncoder().encode(head.padEnd(Math.ceil(head.length / 4) * 4));
-  const bytes = new Uint8Array(4 + text.length + 16);
-  new DataView(bytes.buffer).setUint32(0, text.length, true);
-  bytes.set(text, 4);
-  [1e-4, 0, 0, -1e-4].forEach((v, k) => new DataView(bytes.buffer).setFloat32(4 + text.length + 4 * k, v, true));
-  return new Response(bytes);
-}
+/** Two samples of two channels. */
+const orbit = () => seriesAnswer([{name: 'A.x', unit: 'm'}, {name: 'A.y', unit: 'm'}], [[1e-4, 0], [0, -1e-4]]);
 
-/** The server with one scenario in p/, its rig in rigs/ and, with `run`, what its run gave. */
+const pause = () => new Promise((resume) => setTimeout(resume, 120));  // longer than the playground waits after a click
+const played = () => server.asked.filter((a) => a.method === 'POST').map((a) => JSON.parse(a.body)).filter((o) => o.command === 'play');
+
+/** The server with one scenario in p/, its rig in rigs/ and, with `run`, what its run gave. A job has ended when it is asked for. */
 async function opened(run) {
   Object.assign(state, {view: {...emptyView(), screen: 'run', file: 'p/s.toml'}, jobs: [], notice: null, folder: {files: [{name: 'p/s.toml'}]}});
   state.results.clear();
   server.asked = [];
+  let id = 8;
   server.answer = (path, options) => {
     if (path.startsWith('/api/result?kind=run')) return answered(run ? {job: 7, fresh: true, stale: [], result: run} : null);
     if (path.startsWith('/api/result?kind=rig')) return answered({job: 6, fresh: true, stale: [], result: rig});
@@ -33,12 +29,17 @@ async function opened(run) {
     if (path.startsWith('/api/file')) return answered(scenario);
     if (path.includes('&c=')) return orbit();
     if (path.startsWith('/api/series')) return answered({channels: ['A.x', 'A.y', 'A.i1', 'bus'].map((name) => ({name}))});
-    return answered({id: 9, command: 'run', subject: 'p/s_2.toml', argv: [], state: 'queued'});
+    if (/^.api.jobs.\d+.result/.test(path)) return answered({...outcome, touchdown: true});
+    if (path === '/api/jobs' && options.method === 'POST') return answered({id: ++id, ...JSON.parse(options.body), subject: 'p/s.toml', argv: [], state: 'done'});
+    return answered(path === '/api/folder' ? {files: [{name: 'p/s.toml'}]} : state.jobs);
   };
   const gone = [];
   await openRun('p/s.toml');
   return {gone, screen: () => rendered(runScreen((change) => gone.push(change)))};
 }
+
+/** Clicks a coil of the drawing. */
+const coil = (screen, name) => screen.calls[Number(new RegExp(`aria-label="${name}[^>]*@click=(\\d+)`).exec(screen.text)[1])]();
 
 test('a scenario names its rig beside itself', async () => {
   const page = await opened(null);
@@ -47,7 +48,9 @@ test('a scenario names its rig beside itself', async () => {
   const {text} = page.screen();
   assert.match(text, /Not run yet/);
   assert.match(text, />Run<\/button>/);
-  assert.match(text, /Click the coils that are to fail/);
+  assert.match(text, /Click a coil, or M on it for every fault/);
+  assert.match(text, />Run it unchanged<\/button>/);
+  assert.doesNotMatch(text, /Save as scenario/);
 });
 
 test('a run: verdict, largest orbit, events, and the orbit in its clearance', async () => {
@@ -69,34 +72,87 @@ test('what touched down and what dropped are told apart', async () => {
   assert.match((await opened({...outcome, touchdown: true, drop: true})).screen().text, /The rotor dropped/);
 });
 
-test('clicked coils become a scenario with faults beside this one, which is run and shown', async () => {
+test('clicked coils are run, beside the healthy run, and nothing is written', async () => {
   const page = await opened(outcome);
-  const coil = (screen, name) => screen.calls[Number(new RegExp(`aria-label="${name}[^>]*@click=(\\d+)`).exec(screen.text)[1])]();
   coil(page.screen(), 'A1');
   coil(page.screen(), 'A2');
   coil(page.screen(), 'A2');  // once more: healthy again
   const screen = page.screen();
   assert.match(screen.text, /aria-label="A1, open".*aria-label="A2, healthy"/);
-  screen.click('Write a scenario with this fault and run it');
+  assert.match(screen.text, /role="status">running: the run</);
+  await pause();
+  await settled();
+  const [broken, healthy, ...more] = played();  // three clicks are one run
+  assert.match(broken.scenario.text, /\[\[fault\]\]\ntime = 0.1\ntarget = "A.coil1"\nkind = "open"\n$/);
+  assert.equal(broken.scenario.beside, 'p/s.toml');
+  assert.doesNotMatch(broken.scenario.text, /expect|drop/);
+  assert.doesNotMatch(healthy.scenario.text, /fault/);
+  assert.deepEqual(more, []);
+  assert.ok(!server.asked.some((a) => a.method === 'PUT'));
+  const {text} = page.screen();
+  assert.match(text, /Touched down, did not drop/);  // of the playground's run, no more of the scenario's own
+  assert.match(text, /<th scope="col">as chosen<\/th><th scope="col">healthy<\/th><\/tr>/);
+  assert.doesNotMatch(text, /role="status">running/);
+});
+
+test('the scenario that was made is saved beside this one, run and shown', async () => {
+  const page = await opened(outcome);
+  coil(page.screen(), 'A1');
+  page.screen().click('Save as scenario');
   await settled();
   const written = server.asked.find((a) => a.method === 'PUT');
   assert.equal(written.path, '/api/file?p=p%2Fs_2.toml');
   assert.match(written.body, /\[\[fault\]\]\ntime = 0.1\ntarget = "A.coil1"\nkind = "open"\n$/);
   assert.doesNotMatch(written.body, /expect|drop/);
-  assert.deepEqual(JSON.parse(server.asked.at(-1).body), {command: 'run', scenario: 'p/s_2.toml'});
+  const ordered = server.asked.filter((a) => a.method === 'POST').map((a) => JSON.parse(a.body)).filter((o) => o.command === 'run');
+  assert.deepEqual(ordered, [{command: 'run', scenario: 'p/s_2.toml'}]);
   assert.deepEqual(page.gone, [{screen: 'run', file: 'p/s_2.toml'}]);
-  assert.equal(state.notice.step, 4);  // can be undone
+  assert.deepEqual(state.notice.steps, [4]);  // can be undone
+});
+
+test('a test expects what its own text did, not what was run before the last click', async () => {
+  const page = await opened(outcome);
+  coil(page.screen(), 'A1');
+  await pause();
+  await settled();
+  coil(page.screen(), 'A2');
+  page.screen().click('Make it a test');  // its run has not begun
+  await settled();
+  assert.match(played().at(-1).scenario.text + played().at(-2).scenario.text, /A.coil2/);
+  const written = server.asked.find((a) => a.method === 'PUT');
+  assert.match(written.body, /target = "A.coil2"[^]*\[expect\]\ntouchdown = true\ndrop = false\n$/);
+});
+
+test('a run of a file that is left is shown nowhere', async () => {
+  const page = await opened(outcome);
+  coil(page.screen(), 'A1');
+  await openRun('p/s.toml');
+  await pause();
+  await settled();
+  assert.deepEqual(played(), []);
+  assert.match(page.screen().text, /The rotor stayed up/);
+});
+
+test('a run takes back what was broken', async () => {
+  const page = await opened(outcome);
+  coil(page.screen(), 'A1');
+  page.screen().click('take back A.coil1 open');
+  assert.match(page.screen().text, /aria-label="A1, healthy"/);
+  coil(page.screen(), 'A1');
+  page.screen().click('Clear');
+  assert.match(page.screen().text, /aria-label="A1, healthy".*Run it unchanged/);
+  await pause();
+  assert.deepEqual(played(), []);
 });
 
 test('a scenario that cannot be written is told and nothing is run', async () => {
   const page = await opened(outcome);
-  const screen = page.screen();
-  screen.calls[Number(/aria-label="A1[^>]*@click=(\d+)/.exec(screen.text)[1])]();
+  coil(page.screen(), 'A1');
   const before = server.answer;
   server.answer = (path, options) => options.method === 'PUT' ? answered({error: 'the folder is read-only'}, {status: 409}) : before(path, options);
-  page.screen().click('Write a scenario with this fault and run it');
+  page.screen().click('Save as scenario');
   await settled();
   assert.equal(state.notice.text, 'the folder is read-only');
   assert.deepEqual(page.gone, []);
-  assert.ok(!server.asked.some((a) => a.method === 'POST'));
+  assert.ok(!server.asked.some((a) => a.method === 'POST' && JSON.parse(a.body).command === 'run'));
 });

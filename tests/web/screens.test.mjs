@@ -1,11 +1,13 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import {answered, rendered, server, settled} from './page.mjs';
-const {explanation, secondsLeft} = await import('../../web/workbench/explanation.js');
+const {explanation} = await import('../../web/workbench/explanation.js');
 const {folderScreen} = await import('../../web/workbench/folder_screen.js');
+const {secondsLeft} = await import('../../web/workbench/job_parts.js');
 const {ladder} = await import('../../web/workbench/ladder.js');
 const {misfitTable} = await import('../../web/workbench/misfit_table.js');
-const {orbit, stator} = await import('../../web/workbench/stator.js');
+const {figures, summary} = await import('../../web/workbench/run_parts.js');
+const {asideOf, orbit, stator} = await import('../../web/workbench/stator.js');
 const {state} = await import('../../web/workbench/state.js');
 
 test('the ladder: bars on a logarithmic scale, and the same as a table', () => {
@@ -40,16 +42,43 @@ test('a cell of the misfit table opens its record; with Shift it is added', () =
 });
 
 test('a coil turns with its angle, is broken by a click or a key, and says so', () => {
-  const toggled = [];
+  const toggled = [], asked = [];
   const bearing = {name: 'A', coils: [{name: 'A.coil1', angle_deg: 22.5}, {name: 'A.coil2', angle_deg: 67.5}]};
-  const page = rendered(stator(bearing, new Map([['A.coil2', 'open']]), (c) => toggled.push(c)));
+  const page = rendered(stator(bearing, (c) => (c === 'A.coil2' ? 'open' : null), (c) => toggled.push(c), (c, name) => asked.push([c, name])));
   assert.match(page.text, /rotate\(-22.5\)/);
   assert.match(page.text, /aria-pressed=false aria-label="A1, healthy"/);
   assert.match(page.text, /class="pole broken".*aria-pressed=true aria-label="A2, open"/);
+  // Of each coil: a click, a right click, a key.
   let stopped = 0;
-  for (const key of ['Enter', ' ', 'x']) page.calls[1]({key, preventDefault: () => ++stopped});
-  page.calls[2]();
+  const event = {preventDefault: () => ++stopped, stopPropagation() {}};
+  for (const key of ['Enter', ' ', 'x']) page.calls[2]({...event, key});
+  page.calls[3]();
   assert.deepEqual([toggled, stopped], [['A.coil1', 'A.coil1', 'A.coil2'], 2]);
+  page.calls[2]({...event, key: 'm'});
+  page.calls[4](event);
+  assert.deepEqual([asked, stopped], [[['A.coil1', 'A1'], ['A.coil2', 'A2']], 4]);
+});
+
+test('coils of one angle lie beside each other, each can be clicked', () => {
+  const collar = [0, 0, 180, -180].map((angle_deg, k) => ({name: `Z.coil${k + 1}`, angle_deg}));
+  assert.deepEqual(collar.map((_, k) => asideOf(collar, k, 10, true)), [-22.5, 22.5, -22.5, 22.5]);
+  assert.deepEqual(collar.map((_, k) => asideOf(collar, k, 10, false)), [-6, 6, -6, 6]);
+  assert.equal(asideOf([{angle_deg: 22.5}, {angle_deg: 67.5}], 1, 10, false), 0);
+  const {text} = rendered(stator({name: 'Z', kind: 'thrust', coils: collar}, () => null, () => {}, () => {}));
+  const places = [...text.matchAll(/rotate\((\S+)\)"><rect class="pole " x="24" y=(\S+)/g)].map((m) => m.slice(1).join(' '));
+  assert.equal(new Set(places).size, 4);
+  assert.match(text, /its collar from the side/);
+});
+
+test('a run in a line: what failed, what was done about it', () => {
+  const of = (events) => rendered(summary({drop: false, touchdown: true, events})).text;
+  const fault = {t: 0.1, kind: 'fault', target: 'A.coil3', class: 'open'};
+  assert.match(of([{t: 0.05, kind: 'detected', target: 'B.coil1'}, fault, {t: 0.10004, kind: 'detected'}, {t: 0.102, kind: 'redistributed'}]),
+               /! Touched down.*: A.coil3 open at 100 ms, detected \+40.0 \u00b5s, redistributed \+2.00 ms/);
+  assert.match(of([fault]), /at 100 ms, not detected/);
+  assert.doesNotMatch(of([]), /detected/);
+  assert.match(rendered(figures({metrics: {max_orbit: {A: 2e-6}, peak_current: 4}, expect: {drop: {wanted: 'false', met: true, got: 'false'}}, events: []})).text,
+               /largest orbit A.*2.00 \u00b5m.*4.00 A.*expects drop false<\/th><td>\u2714 false.*None/);
 });
 
 test('an orbit fills its clearance, or the drawing where there is none', () => {
@@ -79,7 +108,7 @@ test('an explanation: names with probabilities, parameters with sd, closure, wha
   const page = rendered(explanation('c.toml', {job: 1, fresh: false, stale: ['rig.toml'], result: answer}, (a) => adopted.push(a)));
   for (const part of ['Older than rig.toml.', 'An effect is missing from the model', 'eddy-currents at A</span>', '0.97', 'none of these',
                       'corner 1.000 \u00b1 0.020 kHz', '&gt; 99 % of', '20 \u2192 1.0 floors; unseen records 18 \u2192 1.1',
-                      'A.x in r1: 1.4 times the noise', 'record 3 is short', 'Screened fitted: eddy-currents at A 1.2', '<code>ambrig explain c.toml</code>'])
+                      'A.x in r1: 1.4 times the noise', 'record 3 is short', 'Screened fitted: eddy-currents at A 1.2', '<code>$ ambrig explain c.toml</code>'])
     assert.ok(page.text.includes(part) || page.text.includes(part.replace('&gt;', '>')), part);
   page.click('Adopt eddy-currents at A');
   assert.deepEqual(adopted, [answer.adopted[0]]);
@@ -104,14 +133,16 @@ test('while it runs an explanation shows its stage, and can be stopped; one that
 test('the folder: each case with its error and what was found, old answers marked', () => {
   state.folder = null;
   assert.match(rendered(folderScreen()).text, /Reading the folder/);
-  state.folder = {folder: '/d', files: [{name: 'a.toml', kind: 'rig'}, {name: 's.toml', kind: 'scenario'}, {name: 'x.toml', kind: 'broken'}],
-                  cases: [{name: 'p/case.toml', records: 3, compare: {ratio: 12, fresh: false}, explain: {adopted: ['eddy-currents'], fresh: true, final_ratio_validate: 1.1}},
+  state.folder = {folder: '/d', files: [{name: 'a.toml', kind: 'rig'}, {name: 's.toml', kind: 'scenario'}, {name: 'x.toml', kind: 'broken'}], campaigns: [],
+                  scenarios: [{name: 's.toml', run: {fresh: false, drop: false, touchdown: false, max_orbit: {A: 1e-6, B: 1.25e-5}, fault: 0.1, detected: 0.10004}}],
+                  cases: [{name: 'p/case.toml', records: 3, compare: {ratio: 12, fresh: false}, explain: {adopted: ['eddy-currents'], fresh: true, final_ratio_validate: 1.1}, watch: {records: 4, left: 1}},
                           {name: 'q.toml', records: 1, compare: null, explain: {adopted: [], verdict: 'unknown', fresh: false, final_ratio_validate: 5}}]};
   const {text} = rendered(folderScreen());
   assert.match(text, /<a href=#\/case\/p\/case.toml>p\/case.toml<\/a><\/th><td class="number">3<\/td> <td>12 <em>stale<\/em> \u2192 1.1<\/td> <td>eddy-currents<\/td>/);
   assert.match(text, /<td>- \u2192 5.0<\/td> <td>unknown <em>stale<\/em><\/td>/);
-  assert.match(text, /<a href=#\/run\/s.toml>/);
-  assert.match(text, /Files that cannot be read<\/h2><ul class="files"><li>x.toml<\/li>/);
+  assert.match(text, /<a href=#\/trend\/p\/case.toml>! 1 of 4 records<\/a>/);
+  assert.match(text, /<a href=#\/run\/s.toml>s.toml<\/a><\/th><td>\u2714 up <em>stale<\/em><\/td> <td class="number">12.5 \u00b5m<\/td><td class="number">40.0 \u00b5s<\/td>/);
+  assert.match(text, /Files that cannot be read<\/h2><ul class="files "><li> <a href=#\/file\/x.toml>x.toml<\/a><\/li>/);
   assert.doesNotMatch(text, /Campaigns|No case yet/);
   state.folder.cases = [];
   assert.match(rendered(folderScreen()).text, /No case yet/);

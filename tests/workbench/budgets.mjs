@@ -1,64 +1,42 @@
-// The budgets of the workbench, measured: frames and zoom at 10^7 samples, first paint, weight of the page, a folder of 1000 files, memory of
-// the server. Prints every figure and fails when one is over its budget.
+// The budgets of the workbench, measured: frames and zoom at 10^7 samples, first paint, weight of the page, a folder of 1000 files, a click on a
+// coil, rows of a campaign, memory of the server. Prints every figure and fails when one is over its budget.
 //
 //   node budgets.mjs AMBRIG SOURCE_FOLDER
 //
-// Where others keep the cores busy (load average above their number) a figure over its budget says nothing: exit code 77.
-import {closeSync, openSync, readdirSync, readFileSync, writeSync} from 'node:fs';
-import {cpus} from 'node:os';
-import {assert, inFolder, openBrowser, say, startServer, write} from './harness.mjs';
+// A time is the best of some attempts. Where one is over its budget and a thread gets less than 0.8 of a core (others keep the machine busy), it
+// says nothing: exit code 77.
+import {readdirSync, readFileSync, rmSync} from 'node:fs';
+import {join} from 'node:path';
+import {assert, folder, inFolder, openBrowser, say, source, startServer, write} from './harness.mjs';
+import {writeRecord} from './mat_file.mjs';
 
 const samples = 1e7, channels = ['A.x', 'A.y', 'B.x', 'B.y'];
 
-/** A MAT file of version 5: `rate`, and single-precision vectors with a tone, noise and one peak each. */
-function writeRecord(name) {
-  const file = openSync(inFolder(name), 'w');
-  const header = Buffer.alloc(128, ' ');
-  header.write('MATLAB 5.0 MAT-file, made by tests/workbench/budgets.mjs');
-  header.writeUInt16LE(0x0100, 124);
-  header.write('IM', 126);
-  writeSync(file, header);
-  const vector = (label, kind, bytes, count, fill) => {
-    const text = Buffer.alloc(Math.ceil(label.length / 8) * 8);
-    text.write(label);
-    const data = Buffer.alloc(Math.ceil((bytes * count) / 8) * 8);
-    fill(data);
-    const head = Buffer.alloc(8 + 16 + 16 + 8 + text.length + 8);
-    head.writeUInt32LE(14, 0);
-    head.writeUInt32LE(head.length - 8 + data.length, 4);
-    head.writeUInt32LE(6, 8);
-    head.writeUInt32LE(8, 12);
-    head.writeUInt32LE(kind === 'single' ? 7 : 6, 16);
-    head.writeUInt32LE(5, 24);
-    head.writeUInt32LE(8, 28);
-    head.writeInt32LE(count, 32);
-    head.writeInt32LE(1, 36);
-    head.writeUInt32LE(1, 40);
-    head.writeUInt32LE(label.length, 44);
-    text.copy(head, 48);
-    head.writeUInt32LE(kind === 'single' ? 7 : 9, 48 + text.length);
-    head.writeUInt32LE(bytes * count, 52 + text.length);
-    writeSync(file, head);
-    writeSync(file, data);
-  };
-  vector('rate', 'double', 8, 1, (d) => d.writeDoubleLE(1e5, 0));
-  channels.forEach((c, n) => vector(c.replace('.', '_'), 'single', 4, samples, (d) => {
-    const v = new Float32Array(d.buffer, d.byteOffset, samples);
-    let s = 1 + n;
-    for (let k = 0; k < samples; ++k) {
-      s = (s * 1664525 + 1013904223) >>> 0;
-      v[k] = 1e-5 * Math.sin(k * 1e-3 * (n + 1)) + 2e-6 * (s / 4294967296 - 0.5);
-    }
-    v[7654321] = 3e-5;  // one sample that must not be lost
-  }));
-  closeSync(file);
+/** The share of a core that a thread gets now. */
+function share() {
+  const before = process.cpuUsage(), begin = performance.now();
+  while (performance.now() - begin < 100);
+  const used = process.cpuUsage(before);
+  return (used.user + used.system) / 1000 / (performance.now() - begin);
 }
 
 const results = [];
 /** @param {string} what @param {number} value @param {number} budget @param {string} unit */
-function measured(what, value, budget, unit) {
-  results.push({what, value, budget, unit});
-  say(`${what}: ${value.toPrecision(3)} ${unit} (budget ${budget} ${unit})${value > budget ? '  OVER' : ''}`);
+function measured(what, value, budget, unit, calm = true) {
+  results.push({what, value, budget, unit, calm});
+  say(`${what}: ${value.toPrecision(3)} ${unit} (budget ${budget} ${unit})${value > budget ? (calm ? '  OVER' : '  over, but others keep the cores busy') : ''}`);
+}
+
+/** The least of some attempts, once one is within the budget. @param {() => Promise<number>} act */
+async function best(what, budget, unit, act, tries = 6) {
+  let least = Infinity, calm = false;
+  for (let k = 0; k < tries && least > budget; ++k) {
+    for (let n = 0; n < 20 && share() < 0.8; ++n) await new Promise((resume) => setTimeout(resume, 250));
+    const before = share(), value = await act();
+    least = Math.min(least, value);
+    calm ||= Math.min(before, share()) >= 0.8;
+  }
+  measured(what, least, budget, unit, calm);
 }
 
 /** Intervals between animation frames while `act` runs [ms]. */
@@ -114,96 +92,167 @@ async function wheelAndDrag(page) {
   }
 }
 
-async function bigRecord(page) {
-  const began = Date.now();
-  await page.evaluate((c) => (location.hash = `#/record/big.mat?c=${[...c, ...c].join(',')}`), channels);
-  await page.locator('.panel canvas').nth(7).waitFor({timeout: 60000}).catch(async () => assert.fail(await page.locator('body').innerText()));
-  await page.locator('[aria-busy="false"]').waitFor({timeout: 120000});
-  measured('first view of 4 channels of 10^7 samples, per channel', (Date.now() - began) / 1000 / channels.length, 0.6, 's');
-  const times = await page.evaluate(async (c) => {
-    const out = [];
+/** Asks the server as the page does; the time of each answer [ms]. */
+function ask(page, paths) {
+  return page.evaluate(async (all) => {
     const token = sessionStorage.getItem('ambrig-token');
-    let bytes = 0;
-    for (let k = 0; k < 40; ++k) {
-      const t0 = 10 + k, begin = performance.now();
-      const answer = await fetch(`/api/series?p=big.mat&c=${c.join(',')}&px=1200&t0=${t0}&t1=${t0 + 40}`, {headers: {Authorization: 'Bearer ' + token}});
-      bytes = (await answer.arrayBuffer()).byteLength;
-      out.push(performance.now() - begin);
+    const times = [];
+    let bytes = new ArrayBuffer(0);
+    for (const path of all) {
+      const begin = performance.now();
+      bytes = await (await fetch(path, {headers: {Authorization: 'Bearer ' + token}})).arrayBuffer();
+      times.push(performance.now() - begin);
     }
-    return {times: out.sort((a, b) => a - b), bytes};
-  }, channels);
-  measured('a warm zoom of 4 channels, median', times.times[20], 20, 'ms');
-  measured('answer for 24 lines of 1200 columns', (times.bytes / 4) * 24 / 1e6, 0.7, 'MB');
+    const peak = all[0].startsWith('/api/series') ? Math.max(...new Float32Array(bytes.slice(4 + new DataView(bytes).getUint32(0, true)))) : NaN;
+    return {times: times.sort((a, b) => a - b), bytes: bytes.byteLength, peak};
+  }, paths);
+}
+
+/** Opens an address of the page and waits for the panels. */
+async function openRecord(page, name) {
+  const began = Date.now();
+  await page.evaluate(([c, n]) => (location.hash = `#/record/${n}?c=${[...c, ...c].join(',')}`), [channels, name]);
+  await page.locator('h1', {hasText: name}).waitFor();
+  await page.locator('.panel canvas').nth(7).waitFor({timeout: 60000});
+  await page.locator('.panels[aria-busy="false"]').waitFor({timeout: 120000});
+  return (Date.now() - began) / 1000;
+}
+
+async function bigRecord(page) {
+  // Each attempt is of a record that was not read before.
+  let n = 0;
+  await best('first view of 4 channels of 10^7 samples, per channel', 0.6, 's', async () => {
+    const name = `big${++n}.mat`;
+    writeRecord(inFolder(name), channels, samples);
+    return (await openRecord(page, name)) / channels.length;
+  }, 3);
+  const name = `big${n}.mat`;
+  await best('a warm zoom of 4 channels, median', 20, 'ms', async () => (await ask(page, Array.from({length: 40}, (_, k) =>
+    `/api/series?p=${name}&c=${channels.join(',')}&px=1200&t0=${10 + k}&t1=${50 + k}`))).times[20]);
+  const whole = await ask(page, [`/api/series?p=${name}&c=${channels.join(',')}&px=1200`]);
+  measured('answer for 24 lines of 1200 columns', (whole.bytes / 4) * 24 / 1e6, 0.7, 'MB');
   // The one sample that stands out is in every view of it.
-  const peak = await page.evaluate(async () => {
-    const token = sessionStorage.getItem('ambrig-token');
-    const answer = await fetch('/api/series?p=big.mat&c=A.x&px=700', {headers: {Authorization: 'Bearer ' + token}});
-    const bytes = await answer.arrayBuffer();
-    return Math.max(...new Float32Array(bytes.slice(4 + new DataView(bytes).getUint32(0, true))));
-  });
+  const {peak} = await ask(page, [`/api/series?p=${name}&c=A.x&px=700`]);
   assert.ok(Math.abs(peak - 3e-5) < 1e-10, `the peak is kept: ${peak}`);
-  let best = {p95: Infinity, most: Infinity, count: 0};
-  for (let n = 0; n < 3; ++n) {
+  let longest = Infinity;
+  await best('interval between frames, p95 of 5 s of wheel and drag over eight panels', 33.4, 'ms', async () => {
     const before = processorTime();
     const f = await frames(page, () => wheelAndDrag(page));
-    say(`  eight panels, 5 s of wheel and drag: ${f.count} frames, p95 ${f.p95.toFixed(1)} ms, longest ${f.most.toFixed(1)} ms, processor time of a frame ${((processorTime() - before) / f.count).toFixed(1)} ms`);
-    if (f.p95 < best.p95) best = f;
-  }
-  measured('interval between frames, p95', best.p95, 33.4, 'ms');
-  measured('longest interval between frames', best.most, 100, 'ms');
+    say(`  ${f.count} frames, p95 ${f.p95.toFixed(1)} ms, longest ${f.most.toFixed(1)} ms, processor time of a frame ${((processorTime() - before) / f.count).toFixed(1)} ms`);
+    longest = Math.min(longest, f.most);
+    return f.p95;
+  }, 5);
+  measured('longest interval between frames', longest, 100, 'ms', results.at(-1).calm);
+}
+
+/** From the click on a coil to its verdict, orbit and panels; progress and end of a long run. */
+async function playground(page) {
+  await page.evaluate(() => (location.hash = '#/run/play.toml'));
+  await page.getByRole('button', {name: 'A3, healthy'}).waitFor({timeout: 60000});
+  let coil = 0;
+  await best('from the click on a coil to its picture', 0.6, 's', async () => {
+    const name = `A${(coil++ % 8) + 1}`;
+    const begin = Date.now();
+    await page.getByRole('button', {name: `${name}, healthy`}).click();
+    await page.locator('.verdict', {hasText: `coil${name.slice(1)} open`}).waitFor({timeout: 30000});
+    await page.locator('.panels[aria-busy="false"] canvas').first().waitFor({timeout: 30000});
+    const took = (Date.now() - begin) / 1000;
+    await page.getByRole('button', {name: 'Clear'}).click();
+    return took;
+  }, 8);
+  await page.evaluate(() => (location.hash = '#/run/long.toml'));
+  await page.locator('h1', {hasText: 'long.toml'}).waitFor();
+  let gone = Infinity;
+  await best('from the click on Run to its progress', 0.3, 's', async () => {
+    await page.getByRole('button', {name: 'Run', exact: true}).click();
+    const begin = Date.now();
+    await page.locator('main progress').waitFor();
+    const shown = (Date.now() - begin) / 1000;
+    await page.waitForTimeout(500);
+    const stop = Date.now();
+    await page.getByRole('button', {name: 'Stop', exact: true}).click();
+    await page.getByRole('button', {name: 'Run', exact: true}).waitFor({timeout: 20000});
+    gone = Math.min(gone, (Date.now() - stop) / 1000);
+    return shown;
+  });
+  measured('a stopped run is gone', gone, 2, 's');
+}
+
+/** 10^5 rows of a campaign, filtered and counted by set and load. */
+function manyRows(page) {
+  return best('10^5 rows of a campaign filtered and counted', 50, 'ms', () => page.evaluate(async () => {
+    const {countOf, filtered, mapOf, parseRows} = await import('/a/campaign_rows.js');
+    const columns = ['run', 'set', 'kind', 'speed', 'load', 'verdict', 'peak_orbit [m]', 'detection_delay [s]'];
+    const lines = Array.from({length: 1e5}, (_, k) => `${k},A:${k % 40},open,157,${(k % 3) / 2},${k % 9 ? 'up' : 'drop'},1e-6,4e-5`);
+    const rows = parseRows(lines, columns);
+    const begin = performance.now();
+    const some = filtered(rows, {set: 'A:3', load: null, verdict: null, from: null, to: null});
+    countOf(rows);
+    mapOf(rows);
+    if (some.length !== 2500) throw new Error(`${some.length} rows`);
+    return performance.now() - begin;
+  }));
 }
 
 /** Resident memory of a process [MiB]. */
 const memory = (pid) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${pid}/status`, 'utf8'))[1]) / 1024;
 
+/** The process of the server that reads records. */
+const readerOf = (server) => readdirSync('/proc').find((p) => {
+  try {
+    return /^\d+$/.test(p) && readFileSync(`/proc/${p}/cmdline`, 'utf8').includes('--reader') && readFileSync(`/proc/${p}/stat`, 'utf8').replace(/^.*\) /, '').split(' ')[1] === String(server);
+  } catch {
+    return false;  // it ended
+  }
+});
+
+async function everything(page, server) {
+  measured('server at rest', memory(server.child.pid), 60, 'MiB');
+  let usable = Infinity;
+  await page.goto(server.address);
+  await best('first paint', 0.5, 's', async () => {
+    const begin = Date.now();
+    await page.reload();
+    await page.locator('table.scenarios').waitFor();
+    usable = Math.min(usable, (Date.now() - begin) / 1000);
+    return (await page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? NaN)) / 1000;
+  });
+  measured('usable, with 1000 scenarios listed', usable, 1, 's', results.at(-1).calm);
+  await page.waitForTimeout(500);  // the rest of its scripts
+  const weight = await page.evaluate(() => performance.getEntriesByType('resource').filter((r) => r.name.includes('/a/')).reduce((sum, r) => sum + r.decodedBodySize, 0));
+  measured('the page and its scripts', weight / 1000, 200, 'kB');
+  await best('list of 1000 files', 150, 'ms', async () => (await ask(page, Array(5).fill('/api/folder'))).times[0]);
+  await manyRows(page);
+  await playground(page);
+  await page.evaluate(() => (location.hash = '#/file/many/s1.toml'));
+  await page.locator('textarea').waitFor();
+  await best('an idle page ticks, p95', 20, 'ms', async () => (await frames(page, () => page.waitForTimeout(1500))).p95);
+  await bigRecord(page);
+  measured('server with a record of 10^7 samples open', memory(server.child.pid), 300, 'MiB');
+  const reader = readerOf(server.child.pid);
+  if (reader) say(`  its reader process, which is limited to 1024 MiB, holds ${memory(reader).toFixed(0)} MiB: 4 channels as doubles are 305`);
+}
+
 for (let k = 0; k < 1000; ++k) write(`many/s${k}.toml`, `name = "s${k}"\nrig = "rig.toml"\nduration = 0.1\n`);
+write('rig.toml', readFileSync(join(source, 'examples/reference/rig.toml')));
+const scenario = (name, duration) => write(`${name}.toml`, `name = "${name}"\nrig = "rig.toml"\nduration = ${duration}\nrecord_rate = 12500.0\nseed = 1\n\n[speed]\nprofile = [[0.0, 157.08]]\n`);
+scenario('play', 0.15);
+scenario('long', 60);
 const server = await startServer();
 const {browser, page} = await openBrowser(server.address);
 try {
-  measured('server at rest', memory(server.child.pid), 60, 'MiB');
-  const begin = Date.now();
-  await page.goto(server.address);
-  await page.locator('table.scenarios').waitFor();
-  const usable = (Date.now() - begin) / 1000;
-  await page.waitForTimeout(500);  // the rest of its scripts
-  const weight = await page.evaluate(() => performance.getEntriesByType('resource').filter((r) => r.name.includes('/a/')).reduce((sum, r) => sum + r.decodedBodySize, 0));
-  const paint = await page.evaluate(() => performance.getEntriesByName('first-contentful-paint')[0]?.startTime ?? NaN);
-  measured('first paint', paint / 1000, 0.5, 's');
-  measured('usable, with 1000 scenarios listed', usable, 1, 's');
-  measured('the page and its scripts', weight / 1000, 200, 'kB');
-  const list = await page.evaluate(async () => {
-    const token = sessionStorage.getItem('ambrig-token');
-    const times = [];
-    for (let k = 0; k < 5; ++k) {
-      const t = performance.now();
-      await (await fetch('/api/folder', {headers: {Authorization: 'Bearer ' + token}})).json();
-      times.push(performance.now() - t);
-    }
-    return Math.min(...times);
-  });
-  measured('list of 1000 files', list, 150, 'ms');
-  await page.evaluate(() => (location.hash = '#/file/many/s1.toml'));
-  await page.locator('textarea').waitFor();
-  const idle = await frames(page, () => page.waitForTimeout(1500));
-  say(`idle: ${idle.count} frames, p95 ${idle.p95.toFixed(1)} ms`);
-  writeRecord('big.mat');
-  await bigRecord(page);
-  measured('server with a record of 10^7 samples open', memory(server.child.pid), 300, 'MiB');
-  const reader = readdirSync('/proc').find((p) => /^\d+$/.test(p) && readFileSync(`/proc/${p}/cmdline`, 'utf8').includes('--reader') && / (\d+)/.exec(readFileSync(`/proc/${p}/stat`, 'utf8').replace(/^.*\) ./, ''))[1] === String(server.child.pid));
-  if (reader) say(`  its reader process, which is limited to 1024 MiB, holds ${memory(reader).toFixed(0)} MiB: 4 channels as doubles are 305`);
-  const over = results.filter((r) => r.value > r.budget);
-  const load = Number(readFileSync('/proc/loadavg', 'utf8').split(' ')[0]);
-  assert.ok(idle.p95 < 20, `an idle page ticks at 60 Hz: ${idle.p95} ms`);
-  if (over.length > 0 && load > cpus().length + 1) {
-    say(`${over.length} over budget, but the load average is ${load} on ${cpus().length} cores: measure again on an idle machine`);
-    process.exitCode = 77;
-  } else {
-    assert.deepEqual(over, []);
-  }
+  await everything(page, server);
 } finally {
   await browser.close();
   server.child.removeAllListeners('exit');
   server.child.kill('SIGINT');
   await new Promise((ended) => server.child.on('exit', ended));
+  rmSync(folder, {recursive: true});
+}
+const over = results.filter((r) => r.value > r.budget);
+assert.deepEqual(over.filter((r) => r.calm), []);
+if (over.length > 0) {
+  say(`${over.length} over budget where a thread got less than 0.8 of a core: measure again on an idle machine`);
+  process.exitCode = 77;
 }
 say('done');

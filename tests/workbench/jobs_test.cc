@@ -183,6 +183,33 @@ TEST_F(JobsOf, WhatRanWhenTheServerEndedIsInterruptedAndItsNumberNotUsedAgain) {
   EXPECT_EQ(Ended(jobs, 3)["state"], "done");
 }
 
+// Each change in the playground makes runs: the newest stay, what is no run of it stays whatever comes.
+TEST_F(JobsOf, OldRunsOfThePlaygroundAreForgotten) {
+  Write("served/s.toml", "rig = \"rig.toml\"\nduration = 1.0\n");
+  const ServedFolder folder(served());
+  const auto run = [](int k) {
+    return json{
+        {"command", "play"},
+        {"scenario", {{"beside", "s.toml"}, {"text", "seed = " + std::to_string(k) + "\n"}}}};
+  };
+  {
+    EventLog events;
+    Jobs jobs(folder, program(), events);
+    Ended(jobs, jobs.Start({{"command", "rig"}, {"rig", "rig.toml"}})["id"]);
+    for (int k = 0; k < Jobs::kRunsKept + 3; ++k) Ended(jobs, jobs.Start(run(k))["id"]);
+    EXPECT_EQ(jobs.All().size(), Jobs::kRunsKept + 1u);
+    EXPECT_EQ(jobs.State(1)["command"], "rig");
+    EXPECT_TRUE(jobs.State(4).is_null());
+    EXPECT_EQ(jobs.State(5)["state"], "done");
+    EXPECT_FALSE(std::filesystem::exists(jobs.FolderOf(4)));
+    EXPECT_TRUE(std::filesystem::exists(jobs.FolderOf(5)));
+  }
+  EventLog events;
+  Jobs jobs(folder, program(), events);
+  EXPECT_EQ(jobs.All().size(), Jobs::kRunsKept + 1u);
+  EXPECT_EQ(jobs.Start(run(-1))["id"], Jobs::kRunsKept + 5);  // no number is used again
+}
+
 TEST_F(JobsOf, TheIndexTellsKindsByWhatFilesHold) {
   Write("served/case.toml",
         "rig = \"rig.toml\"\n[[record]]\ndata = \"b.csv\"\n[[record]]\ndata = \"b.csv\"\n");

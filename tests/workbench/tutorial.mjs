@@ -2,7 +2,8 @@
 // is planned. Not a part of ctest: a person's pace is not tested, the way is.
 //
 //   node tutorial.mjs AMBRIG SOURCE_FOLDER [SCREENSHOT_FOLDER]
-import {assert, openBrowser, say, seconds, shot, startServer, text} from './harness.mjs';
+import {rmSync} from 'node:fs';
+import {assert, folder, openBrowser, say, seconds, shot, startServer, text} from './harness.mjs';
 
 const server = await startServer();
 const {browser, page} = await openBrowser(server.address);
@@ -41,4 +42,5 @@ try {
   server.child.removeAllListeners('exit');
   server.child.kill('SIGINT');
   await new Promise((ended) => server.child.on('exit', ended));
+  rmSync(folder, {recursive: true});
 }

@@ -8,12 +8,12 @@ import {cpSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {campaign} from './flows/campaign.mjs';
 import {mainFlow, mendData, nextRecord} from './flows/case.mjs';
-import {dark, keyboardOnly, tablet} from './flows/manners.mjs';
+import {dark, everyScreen, keyboardOnly, tablet} from './flows/manners.mjs';
 import {playground} from './flows/playground.mjs';
 import {compareRuns, scenarioList} from './flows/runs.mjs';
 import {watched} from './flows/watched.mjs';
 import {measuredRig, wizard} from './flows/wizard.mjs';
-import {command, inFolder, keepRecords, source, walk, write} from './harness.mjs';
+import {command, inFolder, keepRecords, source, text, walk, write} from './harness.mjs';
 
 /** Cases of few records, so that explaining takes seconds. */
 function make() {
@@ -25,7 +25,8 @@ function make() {
   cpSync(join(source, 'examples/mls2em'), inFolder('ball'), {recursive: true});
   write('rig.toml', readFileSync(join(source, 'examples/reference/rig.toml')));
   write('healthy.toml', 'name = "healthy"\nrig = "rig.toml"\nduration = 0.15\nrecord_rate = 12500.0\nseed = 1\n\n[speed]\nprofile = [[0.0, 157.08]]\n');
+  write('opens.toml', text('healthy.toml').replace('"healthy"', '"opens"') + '\n[[fault]]\ntime = 0.1\ntarget = "A.coil3"\nkind = "open"\n');
   write('bad.toml', 'name = "bad"\nrig = "rig.toml"\nduration = -1\n');
 }
 
-await walk({playground, scenarioList, compareRuns, campaign, keyboardOnly, dark, tablet, mendData, measuredRig, wizard, watched, nextRecord, mainFlow}, make);
+await walk({playground, scenarioList, compareRuns, campaign, keyboardOnly, dark, tablet, mendData, measuredRig, wizard, watched, nextRecord, mainFlow, everyScreen}, make);

@@ -17,12 +17,27 @@ export function commandLine(job) {
 export async function loadFolder() {
   try {
     state.folder = await getJson('/api/folder');
-    state.jobs = await getJson('/api/jobs');
+    await loadJobs();
     state.watched = await getJson('/api/watched');
   } catch (error) {
     tellError(error);
   }
   changed();
+}
+
+/** How many states of jobs were told one by one. */
+let told = 0;
+
+/** All jobs as the server knows them. A list that was asked for before a job's state was told may be older than that: it is asked for again. */
+async function loadJobs() {
+  for (;;) {
+    const before = told;
+    const jobs = await getJson('/api/jobs');
+    if (told !== before) continue;
+    state.jobs = jobs;
+    for (const look of [...waiting]) look();
+    return;
+  }
 }
 
 /** @param {string} command @param {string} file */
@@ -130,6 +145,7 @@ export async function stopJob(id) {
 
 /** @param {import('./state.js').Job} job */
 function takeJob(job) {
+  ++told;
   const at = state.jobs.findIndex((j) => j.id === job.id);
   if (at < 0) state.jobs.push(job);
   else state.jobs[at] = job;

@@ -18,7 +18,7 @@ export function parseAddress(hash) {
   const slash = path.indexOf('/');
   if (slash > 0) {
     view.screen = path.slice(0, slash);
-    view.file = path.slice(slash + 1).split('/').map(decodeURIComponent).join('/');
+    view.file = path.slice(slash + 1).split('/').map(decoded).join('/');
   }
   const values = new URLSearchParams(query);
   view.record = values.get('r') ?? '';
@@ -55,4 +55,13 @@ export function formatAddress(view) {
 /** @param {number} t seconds, to the microsecond */
 function short(t) {
   return String(Number(t.toFixed(6)));
+}
+
+/** @param {string} part of an address @returns {string} as it stands where it is no code */
+function decoded(part) {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
+  }
 }

@@ -63,6 +63,7 @@ function switchTheme() {
   const root = document.documentElement;
   const dark = root.dataset.theme ? root.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
   root.dataset.theme = dark ? 'light' : 'dark';
+  dispatchEvent(new Event('theme'));
 }
 
 function notice() {
@@ -76,9 +77,15 @@ function notice() {
     }} aria-label="close">\u00d7</button></div>`;
 }
 
+/** Screens of one file of the folder. */
+const ofFiles = new Set(['case', 'run', 'campaign', 'rig', 'trend']);
+
 /** @param {string} name */
 function shown(name) {
   if (name === 'folder') return folderScreen();
+  const file = state.view.file;
+  if (ofFiles.has(name) && state.folder && !state.folder.files.some((/** @type {any} */ f) => f.name === file))
+    return html`<h1>${file}</h1><p class="bad" role="alert">There is no file ${file} in this folder. <a href="#/">What is there</a></p>`;
   return screenNow(name)?.view(go) ?? html`<p>Loading.</p>`;
 }
 
@@ -116,6 +123,7 @@ function begin() {
     e.preventDefault();
     void takeDropped(e.dataTransfer?.files ?? null);
   });
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => dispatchEvent(new Event('theme')));
   listenToKeys(go, () => screenNow(state.view.screen)?.next?.(go));
   void listen(takeEvent, () => {
     void loadFolder();

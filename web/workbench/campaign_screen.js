@@ -5,7 +5,7 @@ import {getJson} from './api.js';
 import {countOf, failedShare, filtered, histogram, mapOf, parseRows, verdicts, verdictText} from './campaign_rows.js';
 import {command, errorOf, progressOf} from './job_parts.js';
 import {quantity, significant} from './numbers.js';
-import {queryOf, recordOf, runPlots, stemOf, verdict} from './run_parts.js';
+import {figures, queryOf, recordOf, runPlots, stemOf, summary} from './run_parts.js';
 import {Panels} from './panels.js';
 import {activeJob, changed, lastJob, state, tellError} from './state.js';
 
@@ -23,8 +23,11 @@ let panels = null;
 export async function openCampaign(file) {
   got = {job: 0, columns: [], total: 0, runs: 0, rows: [], asking: false, whole: false};
   filter = {set: null, load: null, verdict: null, from: null, to: null};
+  page = 0;
   opened = null;
   panels?.clear();
+  clearTimeout(timer);
+  timer = 0;
   await loadResult('campaign', file);
 }
 
@@ -53,12 +56,14 @@ let timer = 0;
 /** While it runs every second, afterwards until all are there. @param {import('./state.js').Job} job */
 function follow(job) {
   const runs = job.state === 'running' || job.state === 'queued';
-  clearTimeout(timer);
   if (got.job !== job.id || (!runs && !got.whole)) void more(job.id, !runs);
-  if (runs) {
-    got.whole = false;
-    timer = setTimeout(() => void more(job.id, false).then(changed), 1000);
-  }
+  if (!runs) return;
+  got.whole = false;
+  // Progress is told, and drawn, more often than that: what waits goes on waiting.
+  timer ||= setTimeout(() => {
+    timer = 0;
+    void more(job.id, false).then(changed);
+  }, 1000);
 }
 
 /** Runs a row again with its record and report. @param {string} file @param {number} row */
@@ -101,7 +106,7 @@ function orbitBars(rows) {
       filter = pressed ? {...filter, from: null, to: null} : {...filter, from, to};
       page = 0;
       changed();
-    }}><meter min="0" max=${most} value=${n}></meter></button>`;
+    }}><svg viewBox="0 0 10 40" preserveAspectRatio="none" aria-hidden="true"><rect x="1" width="8" y=${40 - (40 * n) / most} height=${(40 * n) / most}></rect></svg></button>`;
   })}</div></figure>`;
 }
 
@@ -111,6 +116,7 @@ function rowTable(rows, file) {
   const shown = rows.slice(page * size, (page + 1) * size);
   return html`<p>${rows.length} of ${got.rows.length} rows ${Object.values(filter).some((v) => v !== null) ? html`<button @click=${() => {
     filter = {set: null, load: null, verdict: null, from: null, to: null};
+    page = 0;
     changed();
   }}>all rows</button>` : nothing} ${rows.length > size ? html`<button ?disabled=${page === 0} @click=${() => {
     --page;
@@ -130,8 +136,8 @@ function rowPart(file) {
   if (!opened) return nothing;
   const o = opened;
   return html`<section class="adopt" aria-label="row"><h2>Row ${o.row}</h2>${!o.result ? html`<p>Running it again, with its record.</p>` : html`
-    <p><button @click=${() => openReport(o.job)}>Report</button></p><p class="marks"></p><div class="panels" id="panels"></div>
-    ${recordOf(o.job, `${stemOf(file)}_row_${o.row}`) ? nothing : html`<p>Reading the record.</p>`}${verdict(o.result)}`}</section>`;
+    ${summary(o.result)}<p><button @click=${() => openReport(o.job)}>Report</button></p><p class="marks"></p><div class="panels" id="panels"></div>
+    ${recordOf(o.job, `${stemOf(file)}_row_${o.row}`) ? nothing : html`<p>Reading the record.</p>`}${figures(o.result)}`}</section>`;
 }
 
 export function campaignScreen() {
@@ -153,7 +159,7 @@ export function campaignScreen() {
       page = 0;
       changed();
     }}>${verdictText(v)} ${counts[v]}</button> `)}</p>
-      <div class="columns"><div>${mapTable(mapOf(got.rows))}${orbitBars(got.rows)}</div><div>${rowPart(file)}${rowTable(rows, file)}</div></div>`}`;
+      <div class="columns wide-right"><div>${mapTable(mapOf(got.rows))}${orbitBars(got.rows)}</div><div>${rowPart(file)}${rowTable(rows, file)}</div></div>`}`;
 }
 
 /** After the screen was drawn: the panels of the opened row. @param {(change: object) => void} go */

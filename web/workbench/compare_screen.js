@@ -62,11 +62,17 @@ function twoRigs(file, vs) {
   if (d.result.identical) return html`<p>\u2714 The same rig: no value differs.</p>`;
   const text = (/** @type {any} */ v, /** @type {string} */ unit) => {
     if (v === null || v === undefined || v === '') return '-';
-    return Number.isFinite(Number(v)) && unit ? quantity(Number(v), unit === '-' ? '' : unit, 6) : String(v);
+    if (!Number.isFinite(Number(v)) || !unit) return String(v);
+    const p = prefixFor(Number(v), unit);
+    return `${Number((Number(v) * p.factor).toPrecision(6))} ${p.unit}`.trim();
+  };
+  const change = (/** @type {any} */ x) => {
+    if (typeof x.sds === 'number' && x.sds !== 0) return `${significant(x.sds, 2)} sd`;
+    return typeof x.a === 'number' && typeof x.b === 'number' && x.a !== 0 ? `${significant(100 * (x.b / x.a - 1), 3)} %` : '';
   };
   return html`<table><thead><tr><th scope="col">what</th><th scope="col">${file}</th><th scope="col">${vs}</th><th scope="col">change</th></tr></thead>
     <tbody>${d.result.differences.map((/** @type {any} */ x) => html`<tr><th scope="row">${x.what}</th><td class="number">${text(x.a, x.unit)}</td><td class="number">${text(x.b, x.unit)}</td>
-      <td class="number">${typeof x.sds === 'number' ? `${significant(x.sds, 2)} sd` : ''}</td></tr>`)}</tbody></table>`;
+      <td class="number">${change(x)}</td></tr>`)}</tbody></table>`;
 }
 
 /** @param {string} file @param {string} vs @param {(change: object) => void} go */
@@ -122,6 +128,6 @@ export function drawCompare(go) {
   const first = recordOf(a.job, stemOf(file)), second = recordOf(b.job, stemOf(vs));
   if (!first || !second) return;
   if (!panels || panels.place !== place) panels = new Panels(place, (moved) => go(moved));
-  const plots = runPlots(first, [{label: stemOf(vs), query: queryOf(b.job, stemOf(vs)), shift}]).map((plot) => ({...plot, lines: plot.lines.filter((l) => !l.query || second.channels.includes(l.channel))}));
+  const plots = runPlots(first, [{label: stemOf(vs), query: queryOf(b.job, stemOf(vs)), shift}], true).map((plot) => ({...plot, lines: plot.lines.filter((l) => !l.query || second.channels.includes(l.channel))}));
   if (plots.length > 0) void panels.show({query: first.query, name: `${file} and ${vs}`, plots, from: state.view.from, to: state.view.to, marks: state.view.marks, events: eventTimes(a.result)});
 }

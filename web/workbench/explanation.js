@@ -3,6 +3,7 @@ import {html, nothing} from './lit-html.js';
 import {openReport, startJob, stopJob} from './actions.js';
 import {command, errorOf, secondsLeft} from './job_parts.js';
 import {ladder} from './ladder.js';
+import {recordName} from './misfit.js';
 import {duration, probability, ratio, uncertain} from './numbers.js';
 import {activeJob, lastJob, state} from './state.js';
 
@@ -69,7 +70,7 @@ function closure(e) {
   return html`<h3>Closure</h3><p>${c.explained > 0.99 ? '> 99' : Math.round(100 * c.explained)} % of the error above the noise is explained: ${before} \u2192 ${after} floors${test}.</p>
     <h3>Remainder</h3><p>${e.remainder?.text ?? ''}</p>
     ${(e.remainder?.where ?? []).length > 0 ? html`<ul>${e.remainder.where.slice(0, 6).map((/** @type {any} */ w) =>
-      html`<li>${w.channel} in ${w.record}: ${ratio(w.ratio)} times the noise</li>`)}</ul>` : nothing}`;
+      html`<li>${w.channel} in ${recordName(w.record)}: ${ratio(w.ratio)} times the noise</li>`)}</ul>` : nothing}`;
 }
 
 /**

@@ -71,7 +71,7 @@ function campaignRow(c) {
 function list(kind, title, screen) {
   const files = state.folder.files.filter((/** @type {any} */ f) => f.kind === kind);
   if (files.length === 0) return nothing;
-  return html`<section><h2>${title}</h2><ul class="files">${files.map((/** @type {any} */ f) =>
+  return html`<section><h2>${title}</h2><ul class="files ${kind === 'rig' ? 'marked' : ''}">${files.map((/** @type {any} */ f) =>
     html`<li>${kind === 'rig' ? pick(f.name) : nothing} ${screen ? link(screen, f.name) : f.name}</li>`)}</ul>${kind === 'rig' ? comparePicked('rig') : nothing}</section>`;
 }
 

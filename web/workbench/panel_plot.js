@@ -111,8 +111,9 @@ function touch(down, panels, plot) {
 /** @param {KeyboardEvent} e @param {import('./panels.js').Panels} panels @param {any} plot */
 function pressed(e, panels, plot) {
   if (e.ctrlKey || e.metaKey) return;
-  const {min, max} = plot.scales.x;
-  const middle = plot.cursor.left >= 0 ? plot.posToVal(plot.cursor.left, 'x') : (min + max) / 2;
+  // The scale of the plot is that of the last frame: keys come faster.
+  const min = panels.from ?? plot.scales.x.min, max = panels.to ?? plot.scales.x.max;
+  const middle = min + (max - min) * (plot.cursor.left >= 0 ? plot.cursor.left / plot.over.getBoundingClientRect().width : 0.5);
   const key = e.key.toLowerCase();
   if (key === '+') panels.zoom(middle - (middle - min) / 2, middle + (max - middle) / 2);
   else if (key === '-') panels.zoom(middle - (middle - min) * 2, middle + (max - middle) * 2);

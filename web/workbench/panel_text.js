@@ -15,6 +15,18 @@ export function within(time, from, to) {
   return {first: lower(from), last: lower(to + 1e-12)};
 }
 
+/** Index of the time next to t. @param {number[]} time ascending @param {number} t */
+export function indexNear(time, t) {
+  const {first} = within(time, t, t);
+  if (first === 0) return 0;
+  return first < time.length && time[first] - t < t - time[first - 1] ? first : first - 1;
+}
+
+/** A line of a panel, said once. @param {string} title of the panel @param {string} label */
+export function lineName(title, label) {
+  return title.endsWith(label) ? title : `${title} ${label}`;
+}
+
 /** @param {(number|null)[]} values @param {number} first @param {number} last */
 export function statistics(values, first, last) {
   let n = 0, sum = 0, square = 0, peak = 0;

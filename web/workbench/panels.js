@@ -2,7 +2,7 @@
 import {getBytes} from './api.js';
 import {prefixFor, significant} from './numbers.js';
 import {colour, makePlot} from './panel_plot.js';
-import {betweenText, marksText, nearest} from './panel_text.js';
+import {betweenText, indexNear, lineName, marksText, nearest} from './panel_text.js';
 import {decodeSeries, largest} from './series.js';
 import {tellError} from './state.js';
 
@@ -35,6 +35,10 @@ export class Panels {
     this.samples = false;
     this.drawing = 0;
     new ResizeObserver(() => this.resize()).observe(place);
+    // A canvas keeps the colours that it was drawn with.
+    addEventListener('theme', () => {
+      if (this.place.isConnected && this.key) void this.load(true);
+    });
   }
 
   /** @param {What} what */
@@ -44,11 +48,14 @@ export class Panels {
     const remarked = JSON.stringify(marks) !== JSON.stringify(this.marks);
     this.marks = {...marks};
     this.what = what;
-    if (key === this.key && what.from === this.from && what.to === this.to) {
+    // While a wheel turns or fingers move, the view that is drawn is that of a moment ago: it does not take them back.
+    if (key === this.key && (this.timer !== 0 || (what.from === this.from && what.to === this.to))) {
       if (remarked) this.tellMarks();
       return;
     }
     const same = key === this.key;
+    clearTimeout(this.timer);  // of another record
+    this.timer = 0;
     this.key = key;
     this.from = what.from;
     this.to = what.to;
@@ -117,7 +124,7 @@ export class Panels {
       const caption = figure?.querySelector('figcaption');
       if (caption) caption.textContent = title;
       figure?.setAttribute('aria-label', `${title}, ${what.name}, largest ${significant(largest(shown))}`);
-      plot.lines = lines.map((l, n) => ({label: what.plots[k].title + ' ' + what.plots[k].lines[n].label, values: l.values, unit: l.unit}));
+      plot.lines = lines.map((l, n) => ({label: lineName(what.plots[k].title, what.plots[k].lines[n].label), values: l.values, unit: l.unit}));
       const {min, max} = plot.scales.y;
       plot.setData([main.time, ...shown], false);
       plot.setScale('x', {min: this.from ?? main.time[0], max: this.to ?? main.time.at(-1) ?? 1});
@@ -130,6 +137,8 @@ export class Panels {
   /** Another file is shown: nothing of the last one stays. */
   clear() {
     ++this.asked;
+    clearTimeout(this.timer);
+    this.timer = 0;
     this.key = '';
     this.from = this.to = null;
     this.marks = {};
@@ -150,6 +159,7 @@ export class Panels {
         if (this.from !== null && this.to !== null) for (const plot of this.plots) plot.setScale('x', {min: this.from, max: this.to});
       });
     this.timer = setTimeout(() => {
+      this.timer = 0;
       void this.load(false);
       this.tellMoved();
     }, rest);
@@ -161,7 +171,10 @@ export class Panels {
 
   /** Moves the cursor by a point of the view and says the values there. @param {any} plot @param {number} by */
   step(plot, by) {
-    const index = Math.min(Math.max((plot.cursor.idx ?? Math.floor(plot.data[0].length / 2)) + by, 0), plot.data[0].length - 1);
+    const time = plot.data[0];
+    // From where the cursor stands: the index that the plot keeps is that of the data before a zoom.
+    const now = plot.cursor.left >= 0 ? indexNear(time, plot.posToVal(plot.cursor.left, 'x')) : Math.floor(time.length / 2);
+    const index = Math.min(Math.max(now + by, 0), time.length - 1);
     const left = plot.valToPos(plot.data[0][index], 'x');
     plot.setCursor({left, top: plot.over.clientHeight / 2});
     const said = document.getElementById('said');

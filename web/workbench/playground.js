@@ -4,10 +4,10 @@ import {getText} from './api.js';
 import {namedFile, topText} from './case_text.js';
 import {freeName} from './misfit.js';
 import {faultKinds, speedOf, sweepText, withExpectations, withFaults, withLoads, withoutTables, withSpeed, withTolerance} from './scenario_text.js';
-import {changed, state, tellError} from './state.js';
+import {changed, state, tell, tellError} from './state.js';
 
 /**
- * @typedef {{job: number, stem: string, result: any, seconds: number}} Shown
+ * @typedef {{job: number, stem: string, text: string, result: any, seconds: number}} Shown  text: the scenario that was run
  */
 
 export const play = {
@@ -26,16 +26,20 @@ export const play = {
   running: '',
   /** @type {number|null} [s] of the record that the orbits show; null: all of it */
   at: null,
+  /** @type {{coil: string, name: string}|null} whose faults are offered */
+  menu: null,
 };
 
 /** @param {string} file the scenario */
 export async function openPlayground(file) {
-  Object.assign(play, {file, rig: '', text: '', faults: [], loads: new Map(), speed: null, runs: new Map(), running: '', at: null});
+  clearTimeout(timer);
+  ++asked;  // what still runs is of another file
+  Object.assign(play, {file, rig: '', text: '', faults: [], loads: new Map(), speed: null, runs: new Map(), running: '', at: null, menu: null});
   const {text} = await getText('/api/file?p=' + encodeURIComponent(file));
   play.text = text;
   play.rig = namedFile(file, topText(text, 'rig'));
   play.duration = Number(/^\s*duration\s*=\s*([\d.e+-]+)/m.exec(text)?.[1] ?? 0);
-  if (!(play.time < play.duration)) play.time = Number((play.duration / 2).toPrecision(2));
+  play.time = play.duration > 0 && play.duration <= 0.1 ? Number((play.duration / 2).toPrecision(2)) : 0.1;
 }
 
 /** @param {string} target "A.coil3" @returns {string|null} kind of its fault */
@@ -70,10 +74,13 @@ function textOf(broken, tolerant) {
 }
 
 let timer = 0, asked = 0;
+const runNames = {run: 'the run', healthy: 'the healthy run', off: 'the run without fault tolerance'};
+
 /** After the last change of a drag. */
 export function soon() {
   clearTimeout(timer);
   timer = setTimeout(() => void runAll(), 60);
+  play.running = runNames.run;
   changed();
 }
 
@@ -88,27 +95,37 @@ export async function runAll() {
   const number = ++asked;
   await stopOlder();
   if (number !== asked) return;
-  const stem = play.file.slice(play.file.lastIndexOf('/') + 1).replace(/\.toml$/, '');
-  const kinds = /** @type {[string, boolean, boolean][]} */ ([['run', true, true], ['healthy', false, true], ['off', true, false]]);
+  const file = play.file, stem = file.slice(file.lastIndexOf('/') + 1).replace(/\.toml$/, '');
+  const kinds = /** @type {['run'|'healthy'|'off', boolean, boolean][]} */ ([['run', true, true], ['healthy', false, true], ['off', true, false]]);
   for (const [name, broken, tolerant] of kinds) {
     if (name !== 'run' && !play.ghosts.has(name)) {
       play.runs.delete(name);
       continue;
     }
-    play.running = {run: 'the run', healthy: 'the healthy run', off: 'the run without fault tolerance'}[name] ?? '';
+    play.running = runNames[name];
     changed();
-    const begin = performance.now();
-    const job = await runJob({command: 'play', scenario: {beside: play.file, text: textOf(broken, tolerant)}});
+    const begin = performance.now(), text = textOf(broken, tolerant);
+    const job = await runJob({command: 'play', scenario: {beside: file, text}});
     if (number !== asked) return;
     if (!job || job.state !== 'done') break;
     try {
-      play.runs.set(name, {job: job.id, stem, result: await resultOfJob(job.id), seconds: (performance.now() - begin) / 1000});
+      const result = await resultOfJob(job.id);
+      if (number !== asked) return;
+      play.runs.set(name, {job: job.id, stem, text, result, seconds: (performance.now() - begin) / 1000});
     } catch (error) {
       tellError(error);
     }
     changed();
   }
   play.running = '';
+  changed();
+}
+
+/** Back to the scenario as it stands. */
+export function clearPlayground() {
+  clearTimeout(timer);
+  ++asked;
+  Object.assign(play, {faults: [], loads: new Map(), speed: null, runs: new Map(), running: '', menu: null});
   changed();
 }
 
@@ -130,8 +147,13 @@ export async function saveScenario(go, asTest) {
   try {
     const name = nameFor(freeName(play.file, state.folder.files.map((/** @type {any} */ f) => f.name)));
     let text = textOf(true, true);
-    const run = play.runs.get('run');
-    if (asTest && run) text = withExpectations(text, run.result);
+    if (asTest) {
+      // What is expected is what this text does, not what the one before the last change did.
+      if (play.runs.get('run')?.text !== text) await runAll();
+      const run = play.runs.get('run');
+      if (run?.text !== text) return tell('The run of this scenario has not ended; press again when it has.', true);
+      text = withExpectations(text, run.result);
+    }
     await writeText(name, text);
     go({screen: 'run', file: name});
     await runJob({command: 'run', scenario: name});

@@ -1,14 +1,10 @@
 /** The playground as it is drawn: coils, faults, loads, speed, and the runs beside each other. */
 import {html, nothing} from './lit-html.js';
 import {quantity, significant} from './numbers.js';
-import {faultOf, play, runAll, saveScenario, setFault, soon, sweep, touched, toggleGhost} from './playground.js';
-import {verdictText} from './run_parts.js';
+import {clearPlayground, faultOf, play, runAll, saveScenario, setFault, soon, sweep, touched, toggleGhost} from './playground.js';
 import {faultKinds, speedOf} from './scenario_text.js';
 import {changed} from './state.js';
 import {stator} from './stator.js';
-
-/** The coil whose menu of faults is open; "": none. */
-let menu = '';
 
 /** @param {string} on coil, axis or rig */
 const kindsOn = (on) => faultKinds.filter((k) => k.on === on);
@@ -17,11 +13,11 @@ const kindsOn = (on) => faultKinds.filter((k) => k.on === on);
 function faultMenu(target, name) {
   return html`<div class="menu" role="group" aria-label="faults of ${name}"><strong>${name}</strong>
     ${kindsOn('coil').map((k) => html`<button aria-pressed=${faultOf(target) === k.kind ? 'true' : 'false'} @click=${() => {
-      menu = '';
+      play.menu = null;
       setFault(target, k.kind);
     }}>${k.kind}: ${k.text}</button>`)}
     <button @click=${() => {
-      menu = '';
+      play.menu = null;
       changed();
     }} aria-label="close the menu">\u00d7</button></div>`;
 }
@@ -62,9 +58,9 @@ export function runTable() {
   const planes = Object.keys(play.runs.get('run')?.result.metrics?.max_orbit ?? {});
   const delay = (/** @type {any} */ r) => (r.metrics.detection_delay > 0 ? quantity(r.metrics.detection_delay, 's') : '-');
   const row = (/** @type {string} */ title, /** @type {(r: any) => string} */ text) => html`<tr><th scope="row">${title}</th>${columns.map(([n]) => html`<td class="number">${text(play.runs.get(n)?.result)}</td>`)}</tr>`;
-  return html`<table class="beside"><thead><tr><th></th>${columns.map(([, title]) => html`<th scope="col">${title}</th>`)}</tr></thead><tbody>
-    ${row('verdict', verdictText)}${planes.map((p) => row(`largest orbit ${p}`, (r) => quantity(r.metrics.max_orbit[p] ?? NaN, 'm')))}
-    ${row('peak current', (r) => quantity(r.metrics.peak_current, 'A'))}${row('detected after', delay)}</tbody></table>`;
+  return html`<div class="scroll" tabindex="0" role="region" aria-label="runs beside each other"><table class="beside"><thead><tr><th></th>${columns.map(([, title]) => html`<th scope="col">${title}</th>`)}</tr></thead><tbody>
+    ${row('verdict', (r) => (r.drop ? '\u2716 dropped' : r.touchdown ? '! touched' : '\u2714 up'))}${planes.map((p) => row(`largest orbit ${p}`, (r) => quantity(r.metrics.max_orbit[p] ?? NaN, 'm')))}
+    ${row('peak current', (r) => quantity(r.metrics.peak_current, 'A'))}${row('detected after', delay)}</tbody></table></div>`;
 }
 
 /** @param {any} rig the JSON of `ambrig rig` @param {(change: object) => void} go */
@@ -81,11 +77,11 @@ export function playgroundPart(rig, go) {
     }}> s</label></p>
     <p class="note">Click a coil, or M on it for every fault. Each picture is a run of its own.</p>
     <div class="stators">${rig.bearings.map((/** @type {any} */ b) => stator(b, faultOf, (coil) => setFault(coil, faultOf(coil) ?? play.kind), (coil, name) => {
-      menu = coil + ' ' + name;
+      play.menu = {coil, name};
       changed();
     }))}</div>
     ${runTable()}
-    ${menu ? faultMenu(menu.split(' ')[0], menu.split(' ')[1]) : nothing}
+    ${play.menu ? faultMenu(play.menu.coil, play.menu.name) : nothing}
     ${otherFaults(rig)}${speedSlider()}${rig.bearings.filter((/** @type {any} */ b) => b.axes.length === 2).map(loadOf)}
     ${play.faults.length === 0 ? nothing : html`<ul class="faults-list">${play.faults.map((f) => html`<li>${f.target} ${f.kind}, ${quantity(f.time, 's')}
       <button aria-label="take back ${f.target} ${f.kind}" @click=${() => setFault(f.target, f.kind)}>\u00d7</button></li>`)}</ul>`}
@@ -95,11 +91,5 @@ export function playgroundPart(rig, go) {
     <p class="actions">${touched() ? html`<button class="main" @click=${() => saveScenario(go, false)}>Save as scenario</button>
       <button ?disabled=${!play.runs.has('run')} @click=${() => saveScenario(go, true)}>Make it a test</button>
       <button ?disabled=${!play.faults.some((f) => f.target.includes('.coil'))} @click=${() => sweep(go)}>Sweep</button>
-      <button @click=${() => {
-        play.faults = [];
-        play.loads.clear();
-        play.speed = null;
-        play.runs.clear();
-        changed();
-      }}>Clear</button>` : html`<button @click=${() => runAll()}>Run it unchanged</button>`}</p></section>`;
+      <button @click=${clearPlayground}>Clear</button>` : html`<button @click=${() => runAll()}>Run it unchanged</button>`}</p></section>`;
 }

@@ -57,9 +57,18 @@ export function verdictText(r) {
   return r.drop ? '\u2716 The rotor dropped' : r.touchdown ? '! Touched down, did not drop' : '\u2714 The rotor stayed up';
 }
 
-/** @param {any} r the JSON of `ambrig run` */
-export function verdict(r) {
-  return html`<p class="verdict">${verdictText(r)}</p><table><tbody>
+/** Verdict and what was done about the first fault, in a line. @param {any} r the JSON of `ambrig run` */
+export function summary(r) {
+  const all = /** @type {any[]} */ (r.events ?? []);
+  const fault = all.find((e) => e.kind === 'fault');
+  const after = fault ? ['detected', 'classified', 'redistributed'].map((kind) => all.find((e) => e.kind === kind && e.t >= fault.t)).filter((e) => e) : [];
+  return html`<p class="verdict">${verdictText(r)}${!fault ? nothing : html`<span class="note">: ${fault.target} ${fault.class ?? ''} at ${quantity(fault.t, 's')}${after.length === 0 ? ', not detected' :
+    after.map((e) => `, ${e.kind} +${quantity(e.t - fault.t, 's')}`).join('')}</span>`}</p>`;
+}
+
+/** Figures and events. @param {any} r the JSON of `ambrig run` */
+export function figures(r) {
+  return html`<table><tbody>
     ${Object.entries(r.metrics?.max_orbit ?? {}).map(([plane, most]) => html`<tr><th scope="row">largest orbit ${plane}</th><td class="number">${quantity(/** @type {number} */ (most), 'm')}</td></tr>`)}
     <tr><th scope="row">peak current</th><td class="number">${quantity(r.metrics?.peak_current ?? NaN, 'A')}</td></tr>
     ${Object.entries(r.expect ?? {}).map(([key, e]) => html`<tr><th scope="row">expects ${key} ${/** @type {any} */ (e).wanted}</th><td>${/** @type {any} */ (e).met ? '\u2714' : '\u2716'} ${/** @type {any} */ (e).got}</td></tr>`)}</tbody></table>
@@ -80,10 +89,10 @@ const ghostTones = [['noise', 'coil4'], ['error', 'coil7']];
 
 /**
  * Panels of positions and currents of every plane; other runs of the same kind dashed over them.
- * @param {RunRecord} record @param {{label: string, query: string, shift?: number}[]} ghosts
+ * @param {RunRecord} record @param {{label: string, query: string, shift?: number}[]} ghosts @param {boolean} allOf the ghosts' currents too
  * @returns {import('./panels.js').Plot[]}
  */
-export function runPlots(record, ghosts) {
+export function runPlots(record, ghosts, allOf = false) {
   const plots = [];
   for (const plane of record.orbits.keys()) {
     plots.push({title: `${plane}: position x, y`, height: 130, lines: [
@@ -92,7 +101,8 @@ export function runPlots(record, ghosts) {
     const currents = record.channels.filter((c) => c.startsWith(plane + '.i') && /\.i\d+$/.test(c));
     if (currents.length > 0)
       plots.push({title: `${plane}: coil currents`, height: 130,
-                  lines: currents.map((c, k) => ({channel: c, label: c.slice(plane.length + 1), tone: `coil${(k % 8) + 1}`}))});
+                  lines: [{label: '', query: undefined, shift: undefined}, ...(allOf ? ghosts : [])].flatMap((g, n) => currents.map((c, k) => ({
+                    channel: c, label: `${c.slice(plane.length + 1)} ${g.label}`.trim(), tone: `coil${(k % 8) + 1}`, ...(n === 0 ? {} : {query: g.query, dash: [4, 3], shift: g.shift})})))});
   }
   if (record.channels.includes('bus')) plots.push({title: 'bus', height: 90, lines: [{channel: 'bus', label: 'bus', tone: 'measured'}]});
   return plots;

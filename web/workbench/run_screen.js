@@ -7,7 +7,7 @@ import {quantity} from './numbers.js';
 import {Panels} from './panels.js';
 import {openPlayground, play} from './playground.js';
 import {playgroundPart} from './playground_part.js';
-import {eventTimes, queryOf, recordOf, runPlots, stemOf, verdict} from './run_parts.js';
+import {eventTimes, figures, queryOf, recordOf, runPlots, stemOf, summary} from './run_parts.js';
 import {shareBar} from './share.js';
 import {activeJob, changed, lastJob, state, tellError} from './state.js';
 import {orbit} from './stator.js';
@@ -103,8 +103,9 @@ export function runScreen(go) {
     ${failedPlay?.state === 'failed' && !play.running ? errorOf(failedPlay.error) : nothing}
     ${found && !found.fresh ? html`<p class="note">Older than ${found.stale.join(', ')}.</p>` : nothing}
     ${play.runs.has('run') ? html`<p class="note">Shown: the playground's run${play.runs.size > 1 ? '; dashed: beside it' : ''}. The scenario's own: Run again.</p>` : nothing}
+    ${now ? summary(now.result) : html`<p>Not run yet: press Run, or break a coil.</p>`}
     <p class="marks"></p><div class="panels" id="panels"></div>${record ? shareBar(() => panels) : nothing}
-    ${now ? verdict(now.result) : html`<p>Not run yet: press Run, or break a coil.</p>`}
+    ${now ? figures(now.result) : nothing}
     <p><a href=${formatAddress({...emptyView(), screen: 'compare', file})}>Compare with another run</a></p></div>
     <div>${record ? orbits(record, rig) : nothing}
     ${rig ? playgroundPart(rig.result, go) : html`<p>Reading the rig.</p>`}</div></div>`;

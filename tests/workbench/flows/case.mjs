@@ -11,7 +11,7 @@ export async function mainFlow(page, address) {
 
   await link.click();
   const table = page.locator('table.misfit').first();
-  await table.waitFor({timeout: 60000});
+  await table.waitFor({timeout: 180000});
   await page.locator('.panel canvas').nth(1).waitFor({timeout: 30000});
   const worst = await page.locator('td.cell button[aria-pressed="true"]').getAttribute('aria-label');
   say(`worst cell: ${worst}`);
@@ -70,7 +70,7 @@ async function zoomAndBack(page, worst, record, channel) {
 async function explainWithStop(page) {
   await page.getByRole('button', {name: 'Explain', exact: true}).click();
   await page.locator('.stages .now').waitFor();
-  await page.waitForFunction(() => Number(document.querySelector('section.explain progress')?.value) >= 2, null, {timeout: 60000});
+  await page.waitForFunction(() => Number(document.querySelector('section.explain progress')?.value) >= 2, null, {timeout: 180000});
   await shot(page, 'explain-running');
   say('explain runs and shows its progress');
   // Stop keeps what is there; explaining goes on from it.
@@ -101,7 +101,7 @@ async function adoptAndGoBack(page) {
 
   await open.click();
   await page.getByRole('heading', {name: 'practice/case_2.toml'}).waitFor();
-  await page.locator('table.misfit').first().waitFor({timeout: 60000});
+  await page.locator('table.misfit').first().waitFor({timeout: 180000});
   const after = await page.locator('section.misfit-part strong').first().innerText();
   assert.ok(Number(after) < 1.2, `the new case is explained: ${after}`);
   await check(page, 'adopted');
@@ -144,7 +144,7 @@ export async function mendData(page, address) {
 export async function nextRecord(page, address) {
   await page.goto(address);
   await page.getByRole('link', {name: 'practice/case.toml'}).click();
-  await page.locator('table.misfit').first().waitFor({timeout: 60000});
+  await page.locator('table.misfit').first().waitFor({timeout: 180000});
   // Another record of the same rig, with columns of other names: what a logger on the bench would write.
   command('run', 'practice/record-1.toml', '--csv', '--no-report', '--quiet', '--out', 'bench');
   const csv = readFileSync(inFolder('bench/record-1.csv'), 'utf8');
@@ -164,7 +164,7 @@ export async function nextRecord(page, address) {
   await form.getByLabel('It was made by the scenario').selectOption('practice/record-1.toml');
   await check(page, 'new-record');
   await form.getByRole('button', {name: 'Append to practice/case.toml'}).click();
-  await page.locator('table.misfit th', {hasText: 'new-log'}).first().waitFor({timeout: 60000});
+  await page.locator('table.misfit th', {hasText: 'new-log'}).first().waitFor({timeout: 180000});
   assert.ok(text('practice/case.toml').startsWith(before.trimEnd()), 'text is appended only');
   assert.match(text('practice/case.toml'), /data = "new-log\.csv"\nuse = "fit"\n\[record\.channels\]\n"A\.x" = \{ column = "pos_ax" \}/);
   await page.getByRole('button', {name: 'Undo'}).click();

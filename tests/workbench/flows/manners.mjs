@@ -1,5 +1,5 @@
 // By the keyboard alone, in the dark, on a tablet with fingers.
-import {assert, check, drawn, say} from '../harness.mjs';
+import {assert, check, drawn, forgive, say} from '../harness.mjs';
 
 /** A run to look at, where there is none yet. */
 async function runOnce(page) {
@@ -64,6 +64,14 @@ export async function dark(page, address) {
   await page.getByRole('button', {name: 'light or dark'}).click();
   const paper = await page.evaluate(() => getComputedStyle(document.body).backgroundColor);
   assert.equal(paper, 'rgb(255, 255, 255)');
+  // The panels follow, too: dark ink on light paper.
+  await page.waitForFunction(() => {
+    const c = document.querySelector('.panel canvas');
+    const pixels = c?.getContext('2d').getImageData(0, 0, c.width, c.height).data ?? [];
+    let ink = 0;
+    for (let k = 0; k < pixels.length; k += 4) if (pixels[k + 3] > 200 && Math.max(pixels[k], pixels[k + 1], pixels[k + 2]) < 80) ++ink;
+    return ink > 300;
+  }, null, {timeout: 10000});
 }
 dark.options = {colorScheme: 'dark'};
 
@@ -103,3 +111,31 @@ export async function tablet(page, address) {
   await page.waitForURL(/B=[\d.]+/);
 }
 tablet.options = {viewport: {width: 820, height: 1180}, hasTouch: true, isMobile: false};
+
+/** Every kind of screen by its address. */
+const addresses = ['', 'case/ball/case.toml', 'case/practice/case.toml', 'run/healthy.toml', 'campaign/sweep.toml', 'compare/healthy.toml?vs=opens.toml',
+                   'compare/rig.toml?vs=spoiled%2Fcase-0001%2Frig.toml', 'record/ball/data/inductance_em1_05.csv?c=i1_A', 'trend/ball/known.toml', 'new/-', 'rig/rig.toml',
+                   'file/bad.toml', 'case/no/such.toml'];
+
+/** Every screen at three widths, light and dark: nothing is wider than the window, nothing serious is found, what is not there is said. */
+export async function everyScreen(page, address) {
+  await page.goto(address);
+  await page.locator('table.scenarios').waitFor();
+  for (const at of addresses) {
+    await page.evaluate((hash) => (location.hash = '#/' + hash), at);
+    await page.locator('main h1').first().waitFor({timeout: 30000});
+    await page.locator('.running, [aria-busy="true"]').first().waitFor({state: 'detached', timeout: 60000});
+    await page.waitForTimeout(300);  // what comes with the first answers
+    for (const [colorScheme, width, height] of [['light', 1280, 800], ['light', 1024, 768], ['dark', 1024, 768], ['dark', 1280, 800]]) {
+      await page.emulateMedia({colorScheme});
+      await page.setViewportSize({width, height});
+      await page.waitForTimeout(100);
+      const over = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+      const name = `screens/${at.replaceAll(/[^a-z]+/gi, '-') || 'folder'}-${width}-${colorScheme}`;
+      assert.ok(over <= 0, `${name} is ${over} px wider than the window`);
+      await check(page, name);
+    }
+  }
+  assert.match(await page.locator('[role="alert"]').innerText(), /no\/such\.toml/);
+  forgive(/status of 400/);  // the browser's word for the file that is not there
+}

@@ -33,6 +33,8 @@ export async function playground(page, address) {
   await page.getByRole('button', {name: 'A4, partial-short'}).waitFor();
   await page.getByLabel('load on A in x [N]').press('ArrowRight');
   await page.getByLabel('speed [rpm]').press('ArrowRight');
+  await page.getByText('5 N', {exact: false}).first().waitFor();
+  await page.getByText('1600 rpm').waitFor();
   await page.getByRole('status').filter({hasText: 'running'}).waitFor({state: 'detached', timeout: 60000});
   await check(page, 'playground');
   assert.throws(() => text('healthy_2.toml'), 'nothing but .ambrig is written before it is saved');

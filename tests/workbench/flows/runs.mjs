@@ -2,7 +2,6 @@
 import {assert, check, drawn, say, text, write} from '../harness.mjs';
 
 export async function scenarioList(page, address) {
-  write('opens.toml', text('healthy.toml').replace('"healthy"', '"opens"') + '\n[[fault]]\ntime = 0.1\ntarget = "A.coil3"\nkind = "open"\n');
   await page.goto(address);
   await page.getByRole('button', {name: 'run opens.toml'}).click();
   const row = page.locator('table.scenarios tr', {hasText: 'opens.toml'});

@@ -20,11 +20,11 @@ export async function watched(page, address) {
   record('steps-05-april.h5', 'rig.toml', 2);
   await page.goto(address);
   await page.getByRole('link', {name: 'ball/known.toml', exact: true}).click();
-  await page.locator('table.misfit').first().waitFor({timeout: 60000});
+  await page.locator('table.misfit').first().waitFor({timeout: 180000});
   const part = page.getByRole('region', {name: 'watch'});
   await part.getByLabel('Folder of the logger').selectOption('ball/logger');
   await part.getByRole('button', {name: 'Watch'}).click();
-  await part.getByText('1 records examined').waitFor({timeout: 60000});
+  await part.getByText('1 records examined').waitFor({timeout: 180000});
   assert.match(await part.innerText(), /all within their bands/);
   say('the first record was examined');
   await part.getByRole('link', {name: 'Trend of the records'}).click();
@@ -36,7 +36,7 @@ export async function watched(page, address) {
   assert.match(await page.locator('figure.trend', {hasText: 'bearings.M.resistance'}).innerText(), /left its band/);
   await check(page, 'trend');
   await alarm.getByRole('button', {name: 'Add it to the case'}).click();
-  await page.locator('table.misfit th', {hasText: 'steps-05-june'}).first().waitFor({timeout: 60000});
+  await page.locator('table.misfit th', {hasText: 'steps-05-june'}).first().waitFor({timeout: 180000});
   await page.getByRole('button', {name: 'Undo'}).click();
   await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('as it was'));
   assert.doesNotMatch(text('ball/known.toml'), /june/);

@@ -25,7 +25,7 @@ export async function wizard(page, address) {
   await check(page, 'wizard');
   await make.click();
   await page.getByRole('heading', {name: 'steps/case.toml'}).waitFor({timeout: 30000});
-  await page.locator('table.misfit').first().waitFor({timeout: 60000});
+  await page.locator('table.misfit').first().waitFor({timeout: 180000});
   assert.match(text('steps/case.toml'), /data = "\.\.\/steps\.csv"/);
   assert.match(text('steps/rig.toml'), /resistance/);
 }
@@ -34,7 +34,7 @@ export async function wizard(page, address) {
 export async function measuredRig(page, address) {
   await page.goto(address);
   await page.getByRole('link', {name: 'ball/case.toml', exact: true}).click();
-  await page.locator('table.misfit').first().waitFor({timeout: 60000});
+  await page.locator('table.misfit').first().waitFor({timeout: 180000});
   await drawn(page, 'M.i1');
   await page.getByRole('button', {name: 'Explain', exact: true}).click();
   const adopt = page.getByRole('button', {name: 'Adopt freewheel-drop at', exact: false});
