@@ -237,6 +237,29 @@ Figure ShaftOrbitFigure(const ShaftAnalysis& a, const ShaftSweep& sweep) {
   return f;
 }
 
+Figure HarmonicFigure(const HarmonicSweep& sweep) {
+  Grid grid;
+  grid.rows = 2;
+  grid.panel_height = 220;
+  grid.titles = {"orbit, long half axis", "phase of x against the load"};
+  Figure f = MakeFigure(
+      fmt::format("Response to the harmonic load over its frequency, the shaft at {}, supports as "
+                  "they are at that speed.",
+                  Rpm(sweep.speed)),
+      grid);
+  SetAxes(f, 0, "frequency [Hz]", "[µm]");
+  SetAxes(f, 1, "frequency [Hz]", "[deg]");
+  const std::vector<double> hz = Scaled(sweep.frequency, 1 / (2 * kPi));
+  for (std::size_t k = 0; k < sweep.probes.size(); ++k) {
+    const ProbeOrbit& p = sweep.probes[k];
+    Style style = SeriesStyle(static_cast<int>(k));
+    AddLine(f, 0, p.probe.name, hz, Scaled(MajorAxes(p.x, p.y), 1e6), style);
+    style.legend = false;
+    AddLine(f, 1, p.probe.name, hz, PhaseOf(p.x), style);
+  }
+  return f;
+}
+
 Figure CouplingFigure(const Level1& l) {
   Figure f = MakeFigure(
       fmt::format("Log decrement of the first forward mode over the cross-coupled stiffness at z = "

@@ -13,6 +13,7 @@ Figure RodFigure(const ShaftAnalysis& a);         // axial and torsional modes
 Figure ShaftResponseFigure(const ShaftAnalysis& a, const ShaftSweep& sweep);
 /// Orbits of the probes at the largest peak, or at the highest operating speed where none is.
 Figure ShaftOrbitFigure(const ShaftAnalysis& a, const ShaftSweep& sweep);
+Figure HarmonicFigure(const HarmonicSweep& sweep);
 Figure CouplingFigure(const Level1& level1);
 
 }  // namespace ambrig

@@ -23,8 +23,8 @@ RossElement Named(const std::string& key, const std::string& where) {
 /// Coefficients, their axes and damping ratios; other arrays (colours, names) may hold anything.
 bool IsTabulated(const std::string& key) {
   const bool coefficient = key.size() == 3 && (key[0] == 'k' || key[0] == 'c' || key[0] == 'm');
-  return coefficient || key == "speed" || key == "frequency" || key == "w" ||
-         key == "modal_damping_ratio";
+  return coefficient || key == "speed" || key == "frequency" || key == "omega" || key == "w" ||
+         key == "i0" || key == "k_amp" || key == "k_sense" || key == "modal_damping_ratio";
 }
 
 void ReadList(const TomlTable& t, const std::string& key, RossElement& e) {

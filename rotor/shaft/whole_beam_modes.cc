@@ -61,6 +61,21 @@ bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
   return true;
 }
 
+/// Eigenvalues of a dense solver, whose error is that of the largest; of two that are one (a defective pair: a
+/// cross-coupling one way at rest) the iteration halves it at each step.
+void Sharpen(const LinearRotor& rotor, double speed, std::vector<WhirlMode>& modes) {
+  DynamicMatrix matrix(rotor, speed);
+  for (WhirlMode& m : modes) {
+    Complex s = m.s;
+    Eigen::VectorXcd q = m.shape;
+    Refine(matrix, s, q);
+    if (!(std::abs(s - m.s) < 1e-4 * std::abs(m.s)) || !q.allFinite()) continue;
+    const double whirl = m.whirl;
+    m = MakeWhirlMode(s, m.shape);
+    m.whirl = whirl;
+  }
+}
+
 bool SameMode(const WhirlMode& a, const WhirlMode& b) {
   return std::abs(a.s - b.s) < 1e-8 * std::abs(a.s) &&
          std::norm(a.shape.dot(b.shape)) > 0.999 * a.shape.squaredNorm() * b.shape.squaredNorm();
@@ -91,6 +106,7 @@ MatrixXd SupportColumns(const BeamRotor& beam) {
   std::vector<int> at;
   for (const SpringSupport& s : beam.supports) {
     if (s.on_shaft()) at.push_back(4 * NodeAt(beam, s.z));
+    if (s.between_shafts()) at.push_back(4 * NodeAt(beam, s.to_z));
     for (const std::string& name : {s.carries, s.on})
       if (!name.empty()) at.push_back(HousingDof(beam, name));
   }
@@ -136,8 +152,10 @@ WholeBeamModes FindWhirlModes(const LinearRotor& rotor, const MatrixXd& shapes, 
     return (rotor.K * m.shape).norm() < 1e-13 * stiff * m.shape.norm();
   });
   if (static_cast<int>(out.oscillatory.size()) > count) out.oscillatory.resize(count);
-  if (!ContinueModes(rotor, speed, out.oscillatory))
+  if (!ContinueModes(rotor, speed, out.oscillatory)) {
     out.oscillatory = WhirlModes(rotor, speed, count);
+    Sharpen(rotor, speed, out.oscillatory);
+  }
   std::sort(out.oscillatory.begin(), out.oscillatory.end(),
             [](const auto& a, const auto& b) { return a.omega_d < b.omega_d; });
   return out;
