@@ -45,7 +45,8 @@ HarmonicSweep SweepHarmonic(const BeamRotor& beam, double speed, const HarmonicL
     forces += ProbeRows(beam, f.plane).transpose().cast<Complex>() *
               (Eigen::Vector2d(f.x, f.y).cast<Complex>() * std::polar(1.0, f.phase));
   for (const double w : frequencies) {
-    if (!matrix.Factorise(Complex(0, w)))
+    // exactly at a pole without damping: beside it
+    if (!matrix.Factorise(Complex(0, w)) && !matrix.Factorise(Complex(0, w * (1 + 1e-9))))
       throw InputError(
           "the supports leave a motion of the shaft free, allowed: supports that hold it");
     const Eigen::VectorXcd q =

@@ -78,13 +78,14 @@ std::vector<RodMode> SolveRod(const BeamRotor& beam, const Rod& rod, int count) 
         "the rotor's masses along its axis are not positive, allowed: added masses mzz of supports "
         "that leave them positive, a shaft with mass");
   std::vector<RodMode> out;
-  const double stiff = K.norm();
+  const MatrixXd sizes = rod.K.cwiseAbs();
   for (Eigen::Index k = 0; k < K.rows() && static_cast<int>(out.size()) < count; ++k) {
     const double w2 = eigen.eigenvalues()(k);
     Eigen::VectorXd q = Eigen::VectorXd::Zero(rod.M.rows());
-    q(kept) = eigen.eigenvectors().col(k);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      q(kept[i]) = eigen.eigenvectors()(static_cast<Eigen::Index>(i), k);
     // nothing is strained: a rigid motion
-    if (w2 <= 0 || (rod.K * q).norm() < 1e-12 * stiff * q.norm()) continue;
+    if (w2 <= 0 || (rod.K * q).norm() < 1e-12 * (sizes * q.cwiseAbs()).norm()) continue;
     RodMode mode{std::sqrt(w2), {}};
     double peak = 0;
     for (std::size_t i = 0; i < beam.z.size(); ++i) {

@@ -96,7 +96,8 @@ std::vector<ShaftSweep> SweepShaft(const BeamRotor& beam, const std::vector<Unba
   const MatrixXcd unit = UnitForces(beam, cases);
   for (const double w : speeds) {
     DynamicMatrix matrix(Assemble(beam, w), w);
-    if (!matrix.Factorise(Complex(0, w)))
+    // exactly at a pole without damping: beside it
+    if (!matrix.Factorise(Complex(0, w)) && !matrix.Factorise(Complex(0, w * (1 + 1e-9))))
       throw InputError(
           "the supports leave a motion of the shaft free, allowed: supports that hold it");
     const MatrixXcd q = matrix.Solve(w * w * unit);

@@ -6,7 +6,8 @@
 namespace ambrig {
 
 Figure ShaftFigure(const ShaftAnalysis& a);       // outline, disks, supports
-Figure ShaftModesFigure(const ShaftAnalysis& a);  // at the highest operating speed
+/// At the highest operating speed, drawn in space; a button lets them turn.
+Figure ShaftModesFigure(const ShaftAnalysis& a);
 Figure WeightFigure(const ShaftAnalysis& a);      // deflection, shear, moment
 Figure RodFigure(const ShaftAnalysis& a);         // axial and torsional modes
 /// Long half axis and phase of x at the probes, force of the supports.
