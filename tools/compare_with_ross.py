@@ -240,10 +240,17 @@ def sizes(rotor):
 
 
 def compare(name, rotor, program):
-    row = {"name": name, "elements": sizes(rotor)}
-    data = saved(rotor, program.folder)
+    row = {"name": name, "elements": sizes(rotor), "notes": []}
+    try:
+        data = saved(rotor, program.folder)
+    except Exception as e:
+        raise RuntimeError(f"ROSS cannot save it ({e})")
     file = name.replace("#", "_").replace(" ", "_")
     shaft, row["not_carried"] = program.convert(file, data)
+    if is_tapered(rotor):
+        row["notes"].append("tapers: ROSS's element for them converges more slowly, below")
+    if any(np.ravel(e.kxy)[0] * np.ravel(e.kyx)[0] == 0 != np.ravel(e.kxy)[0] + np.ravel(e.kyx)[0] for e in rotor.bearing_elements):
+        row["notes"].append("a cross-coupling one way: at rest two poles are one, defective, known to the root of rounding")
     low, high, end = speeds_of(rotor)
     without_magnets(rotor)
     smooth = poles(rotor, high)
@@ -269,7 +276,7 @@ def compare(name, rotor, program):
 
 
 def number(x):
-    return "-" if x is None or not np.isfinite(x) else f"{x:.1e}"
+    return "" if x is None or not np.isfinite(x) else f"{x:.0e}"
 
 
 def main():
@@ -300,11 +307,16 @@ def main():
 
 
 def markdown(rows):
-    text = "| rotor | elements | " + " | ".join(COLUMNS) + " | not carried |\n" + "|---" * (len(COLUMNS) + 3) + "|\n"
+    text = "| rotor | elements | " + " | ".join(COLUMNS) + " | remarks |\n" + "|---" * (len(COLUMNS) + 3) + "|\n"
     for row in rows:
-        cells = [row["failed"]] + [""] * len(COLUMNS) if "failed" in row else [number(row.get(k)) for k in COLUMNS] + ["; ".join(row["not_carried"])]
-        text += f"| {row['name']} | {row['elements']} | " + " | ".join(cells) + " |\n"
+        remarks = [row["failed"].split(": ", 1)[-1]] if "failed" in row else row["notes"] + ["not carried: " + n for n in shortened(row["not_carried"])]
+        cells = [number(row.get(k)) for k in COLUMNS]
+        text += f"| {row['name']} | {row['elements']} | " + " | ".join(cells) + f" | {'; '.join(remarks)} |\n"
     return text
+
+
+def shortened(lines):
+    return lines if len(lines) < 4 else lines[:2] + [f"{len(lines) - 2} more alike"]
 
 
 if __name__ == "__main__":

@@ -129,7 +129,7 @@ class WholeShaft {
     const ShaftOptions& o = out_.options;
     HarmonicLoad load{{}, o.ground_x, o.ground_y};
     for (const ForceChoice& f : o.forces)
-      load.forces.push_back({FindPlane(out_.file, f.plane, "force"), f.x, f.y, f.phase});
+      load.forces.push_back({FindPlane(out_.file, f.plane, "shake"), f.x, f.y, f.phase});
     if (!load.any()) return;
     std::vector<double> at = Spread(o.fastest / kSweepSpeeds, o.fastest, kSweepSpeeds);
     for (const ClosedLoopModes& row : out_.campbell.rows)

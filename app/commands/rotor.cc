@@ -31,7 +31,9 @@ int Run(const Convert& c) {
              done.from_ross ? "ambrig" : "ROSS");
   fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m,\n  free bending {:.2f} Hz\n",
              done.mass, done.z_com, fmt::join(done.free_bending, " "));
-  if (done.magnetic_bearings > 0)
+  if (done.magnetic_bearings > 0 && !done.from_ross)
+    fmt::print("  with {}\n", Counted(done.magnetic_bearings, "magnetic bearing"));
+  if (done.magnetic_bearings > 0 && done.from_ross)
     fmt::print(
         "  a rig with {} of ROSS's; amplifiers, sampling, sensors and auxiliary\n  bearings "
         "are assumed, each marked in the file\n",

@@ -38,13 +38,13 @@ double OptionNumber(const char* option, const std::string& whole, const std::str
 ForceChoice ReadForce(const std::string& text) {
   constexpr const char* kForm = "PLANE:X_N:Y_N or PLANE:X_N:Y_N@DEG, e.g. disk:10:0";
   const auto parts = SplitOption(text, ':');
-  if (parts.size() != 3) throw InputError(fmt::format("--force = {}, allowed: {}", text, kForm));
+  if (parts.size() != 3) throw InputError(fmt::format("--shake = {}, allowed: {}", text, kForm));
   const auto last = SplitOption(parts[2], '@');
   ForceChoice f;
   f.plane.text = parts[0];
-  f.x = OptionNumber("force", text, parts[1], kForm, -1e12, 1e12);
-  f.y = OptionNumber("force", text, last[0], kForm, -1e12, 1e12);
-  if (last.size() > 1) f.phase = kPi / 180 * OptionNumber("force", text, last[1], kForm, -360, 360);
+  f.x = OptionNumber("shake", text, parts[1], kForm, -1e12, 1e12);
+  f.y = OptionNumber("shake", text, last[0], kForm, -1e12, 1e12);
+  if (last.size() > 1) f.phase = kPi / 180 * OptionNumber("shake", text, last[1], kForm, -360, 360);
   return f;
 }
 
@@ -132,7 +132,7 @@ void ShaftCommand::AddTo(CLI::App& command) {
       ->group(group);
   command.add_option("--probe", probes, "plane or housing where the motion is read; repeat")
       ->group(group);
-  command.add_option("--force", forces, "PLANE:X_N:Y_N[@DEG] harmonic, over the frequency; repeat")
+  command.add_option("--shake", forces, "PLANE:X_N:Y_N[@DEG] harmonic, over the frequency; repeat")
       ->group(group);
   command.add_option("--ground", ground, "X_UM:Y_UM harmonic motion of the ground")->group(group);
   command
@@ -155,7 +155,7 @@ std::string ShaftCommand::Given() const {
   return !unbalance.empty()  ? "unbalance"
          : grade > 0         ? "grade"
          : !probes.empty()   ? "probe"
-         : !forces.empty()   ? "force"
+         : !forces.empty()   ? "shake"
          : !ground.empty()   ? "ground"
          : !coupling.empty() ? "cross-coupling"
          : !alford.empty()   ? "alford"

@@ -37,7 +37,9 @@ ShaftConversion ConvertShaft(const std::string& in, const std::string& out) {
           m.name, not_rig, m.gap, m.bias, m.area, m.turns));
     WriteBeam(file, out);
   } else {
-    c.not_carried = WriteRoss(file.definition, out);
+    const std::vector<RossMagnet> own = MagnetsOfRig(in, c.not_carried);
+    c.magnetic_bearings = own.size();
+    for (const std::string& l : WriteRoss(file.definition, out, own)) c.not_carried.push_back(l);
   }
   for (const double zeta : file.modal_damping)
     if (!c.from_ross && zeta != 0) {

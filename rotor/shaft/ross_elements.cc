@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/json_file.h"
+#include "core/base/read_file.h"
 #include "core/base/toml.h"
 
 namespace ambrig {
@@ -88,8 +89,14 @@ std::vector<RossElement> RossFromJson(const std::string& file) {
 
 }  // namespace
 
+/// Versions before 2.1 write TOML whatever the file is called.
 std::vector<RossElement> ReadRossElements(const std::string& file) {
-  return file.ends_with(".json") ? RossFromJson(file) : RossFromToml(file);
+  if (!file.ends_with(".json")) return RossFromToml(file);
+  const std::string text = ReadFile(file);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const bool toml = first != std::string::npos && (text[first] == '[' || text[first] == '#') &&
+                    text.find('=') != std::string::npos;
+  return toml ? RossFromToml(file) : RossFromJson(file);
 }
 
 }  // namespace ambrig

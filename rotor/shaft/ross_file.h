@@ -31,7 +31,9 @@ struct RossRotor {
 /// @throws InputError naming file, element and key.
 RossRotor ReadRoss(const std::string& file);
 
-/// By extension .toml or .json; gives what ROSS does not know. @throws InputError when the file cannot be written.
-std::vector<std::string> WriteRoss(const BeamDefinition& definition, const std::string& file);
+/// By extension .toml or .json; gives what ROSS does not know. Magnetic bearings as MagneticBearingElement, which
+/// versions from 2 on load. @throws InputError when the file cannot be written.
+std::vector<std::string> WriteRoss(BeamDefinition definition, const std::string& file,
+                                   const std::vector<RossMagnet>& magnets = {});
 
 }  // namespace ambrig

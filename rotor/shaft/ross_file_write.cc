@@ -176,7 +176,14 @@ std::vector<std::string> UnknownToRoss(const BeamDefinition& d) {
   return lost;
 }
 
-Json RotorTables(const BeamDefinition& d) {
+Json MagnetTable(const RossMagnet& m, int node, const std::string& tag) {
+  return {{"n", node},      {"g0", m.gap},      {"i0", m.bias},   {"ag", m.area},
+          {"nw", m.turns},  {"alpha", m.alpha}, {"k_amp", 1.0},   {"k_sense", 1.0},
+          {"kp_pid", m.kp}, {"kd_pid", m.kd},   {"ki_pid", m.ki}, {"n_f", m.cutoff},
+          {"tag", tag}};
+}
+
+Json RotorTables(const BeamDefinition& d, const std::vector<RossMagnet>& magnets) {
   const BeamMesh mesh = MakeMesh(d);
   BeamRotor nodes;
   nodes.z = mesh.z;
@@ -196,6 +203,10 @@ Json RotorTables(const BeamDefinition& d) {
                                   {"tag", tag}};
   }
   AddBearings(d, nodes, tags, root);
+  for (const RossMagnet& m : magnets) {
+    const std::string tag = tags.Of("Magnet", m.name);
+    root["MagneticBearingElement_" + tag] = MagnetTable(m, NodeAt(nodes, m.z), tag);
+  }
   return root;
 }
 
@@ -215,8 +226,10 @@ void WriteToml(std::ostream& out, const Json& root) {
 
 }  // namespace
 
-std::vector<std::string> WriteRoss(const BeamDefinition& definition, const std::string& file) {
-  const Json root = RotorTables(definition);
+std::vector<std::string> WriteRoss(BeamDefinition definition, const std::string& file,
+                                   const std::vector<RossMagnet>& magnets) {
+  for (const RossMagnet& m : magnets) definition.stations.push_back(m.z);
+  const Json root = RotorTables(definition, magnets);
   std::ostringstream out;
   if (file.size() > 5 && file.substr(file.size() - 5) == ".json")
     out << root.dump(4) << "\n";

@@ -124,8 +124,9 @@ std::string NoRigShaft(const BeamDefinition& d) {
   return "";
 }
 
-std::string MagneticRigText(const BeamFile& shaft, const std::vector<RossMagnet>& magnets) {
+std::string MagneticRigText(const BeamFile& shaft, std::vector<RossMagnet> magnets) {
   double journal = 0;
+  for (RossMagnet& m : magnets) m.alpha = kPi / 8;  // as the rig's own poles stand
   for (const ShaftSection& s : shaft.definition.sections)
     if (s.stiff && s.z0 <= magnets.front().z && magnets.front().z <= s.z0 + s.length)
       journal = std::max(journal, s.od / 2);
@@ -138,6 +139,53 @@ std::string MagneticRigText(const BeamFile& shaft, const std::vector<RossMagnet>
       text + DrivesText(magnets);
   for (const RossMagnet& m : magnets) text += MagnetText(m, magnets.front().bias);
   return text;
+}
+
+std::vector<RossMagnet> MagnetsOfRig(const std::string& rig_file, std::vector<std::string>& lost) {
+  std::vector<RossMagnet> out;
+  const TomlTable root = TomlTable::FromFile(rig_file);
+  if (!root.IsTable("bearings")) return out;
+  const TomlTable bearings = *root.Table("bearings");
+  for (const std::string& name : bearings.Keys()) {
+    if (!bearings.IsTable(name)) continue;
+    const TomlTable t = *bearings.Table(name);
+    std::vector<TomlTable> control;  // its own first
+    if (t.IsTable("controller")) control.push_back(*t.Table("controller"));
+    if (root.IsTable("controller")) control.push_back(*root.Table("controller"));
+    const auto gain = [&](const char* key) {
+      for (const TomlTable& c : control)
+        if (c.IsNumber(key)) return c.Number(key);
+      return 0.0;
+    };
+    bool horseshoes = !t.IsString("kind") || t.String("kind") == "radial";
+    if (t.IsString("winding")) horseshoes = horseshoes && t.String("winding") == "NSNSNSNS";
+    for (const char* key : {"z", "turns", "pole_area", "gap"})
+      horseshoes = horseshoes && t.IsNumber(key);
+    if (!horseshoes || !(gain("bias_current") > 0)) {
+      lost.push_back(
+          fmt::format("bearings.{}: no magnetic bearing of ROSS's kind (eight poles NSNSNSNS "
+                      "of one area, bias current)",
+                      name));
+      continue;
+    }
+    RossMagnet m;
+    m.name = name;
+    m.z = t.Number("z");
+    m.gap = t.Number("gap");
+    m.area = t.Number("pole_area");
+    m.turns = 2 * t.Number("turns");
+    m.alpha = kPi / 8;
+    m.bias = gain("bias_current");
+    m.kp = gain("kp") / m.current_gain();
+    m.ki = gain("ki") / m.current_gain();
+    m.kd = gain("kd") / m.current_gain();
+    if (const double lag = gain("derivative_time_constant"); lag > 0) m.cutoff = 1 / lag;
+    out.push_back(m);
+  }
+  if (!out.empty())
+    lost.push_back(
+        "amplifiers, sampling, sensors, auxiliary bearings and limits of the magnetic bearings");
+  return out;
 }
 
 }  // namespace ambrig

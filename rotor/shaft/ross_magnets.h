@@ -28,7 +28,11 @@ RossMagnet ReadRossMagnet(const RossElement& element, std::vector<std::string>& 
 
 /// A rig file of a shaft in these bearings; what ROSS does not say (amplifiers, sampling, sensors, auxiliary
 /// bearings) is assumed and marked so.
-std::string MagneticRigText(const BeamFile& shaft, const std::vector<RossMagnet>& magnets);
+std::string MagneticRigText(const BeamFile& shaft, std::vector<RossMagnet> magnets);
+
+/// The way back: what of a rig file's [bearings] ROSS's magnetic bearings are, with z as in its [rotor]. Bearings that
+/// are none of these (another winding, thrust) and what ROSS does not know of them go to `lost`.
+std::vector<RossMagnet> MagnetsOfRig(const std::string& rig_file, std::vector<std::string>& lost);
 
 /// Why a shaft cannot be a rig's, "" when it can: several shafts, housings, added masses, axial forces, torque.
 std::string NoRigShaft(const BeamDefinition& definition);

@@ -176,16 +176,16 @@ double BucklingTorque(int elements) {
   return least;
 }
 
-// Greenhill: T = 2 pi E I / L.
+// Greenhill: T = 2 pi E I / L, a shape of wave number k = 2 pi / L; cubic elements err by (k h)⁴/720.
 TEST(ShaftTorque, BucklesAPinnedShaft) {
   const double coarse = std::abs(BucklingTorque(4) / (2 * kPi) - 1),
                fine = std::abs(BucklingTorque(8) / (2 * kPi) - 1);
-  EXPECT_LT(fine, 2e-4);
+  EXPECT_NEAR(fine / (std::pow(2 * kPi / 8, 4) / 720), 1, 0.1);
   EXPECT_GT(std::log2(coarse / fine), 3.5);
 }
 
 // Two tubes inside one another bend as one without shear, whether they share the inside of an element or not;
-// with shear the ones that share its ends alone are stiffer.
+// with shear those that share its ends alone give way more: nothing holds them together between.
 TEST(SeparateLayers, AreElementsOfTheirOwn) {
   BeamDefinition d = UniformShaft(1, 0.1, 4);
   d.sections[0].id = d.sections[0].id_right = 0.05;
@@ -196,7 +196,7 @@ TEST(SeparateLayers, AreElementsOfTheirOwn) {
     return FreeModes(BuildBeam(d), 1).omega(0);
   };
   EXPECT_NEAR(frequency(true, false) / frequency(false, false), 1, 1e-9);
-  EXPECT_GT(frequency(true, true), frequency(false, true) * (1 + 1e-6));
+  EXPECT_LT(frequency(true, true), frequency(false, true) * (1 - 1e-6));
 }
 
 }  // namespace
