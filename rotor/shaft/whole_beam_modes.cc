@@ -59,7 +59,7 @@ bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
     s -= halves ? 2.0 * step : step;
     q = u / w.dot(u);
     if (std::abs(s - start) > 0.2 * std::abs(start)) return false;
-    if (std::abs(step) < 1e-13 * std::abs(s)) break;
+    if (std::abs(step) < 1e-9 * std::abs(s)) break;  // the next one would be its square
     if (k == 11 && std::abs(step) > 1e-9 * std::abs(s)) return false;
   }
   q.normalize();
