@@ -40,6 +40,12 @@ void CheckRigSupports(const TomlTable& t, const BeamDefinition& d) {
       t.Fail("support", name + "stands on or carries a housing" + allowed);
     if (s.has_mass()) t.Fail("support", name + "has added masses" + allowed);
   }
+  if (!d.shafts.empty())
+    t.Fail("shaft", fmt::format("stands {} times{}", d.shafts.size(), allowed));
+  for (const ShaftSection& s : d.sections)
+    if (s.torque != 0)
+      t.Fail("section", fmt::format("\"{}\" has torque = {} N m, allowed in a rig: 0", s.name,
+                                    NumberText(s.torque)));
   for (const ShaftSection& s : d.sections)
     if (s.axial_force != 0)
       t.Fail("section", fmt::format("\"{}\" has axial_force = {} N, allowed in a rig: 0", s.name,

@@ -71,7 +71,13 @@
     // Paper has no window to fill: the width of an A4 page's text.
     const width = paper ? Math.min(680, parseFloat(div.style.maxWidth) || 680) : 0;
     drawn.add(figure);
-    return Plotly.react(div, paint(spec.data, colors), withDefaults(paint(spec.layout, colors), colors, width), config);
+    const plot = Plotly.react(div, paint(spec.data, colors), withDefaults(paint(spec.layout, colors), colors, width), config);
+    const frames = spec.layout.meta && spec.layout.meta.frames; // of a figure whose buttons animate it
+    if (frames && !div._hasFrames) {
+      div._hasFrames = true;
+      return plot.then(() => Plotly.addFrames(div, frames));
+    }
+    return plot;
   }
 
   const figures = Array.from(document.querySelectorAll("figure"));

@@ -54,6 +54,7 @@ Rod AssembleRod(const BeamRotor& beam, bool torsion, int more) {
   const Eigen::Index n = 2 * static_cast<Eigen::Index>(beam.elements.size()) + 1 + more;
   Rod rod{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
   for (std::size_t i = 0; i < beam.elements.size(); ++i) {
+    if (beam.elements[i].layers.empty()) continue;  // a gap between shafts
     Eigen::Matrix3d K, M;
     RodElement(beam.elements[i], torsion, K, M);
     rod.K.block<3, 3>(2 * static_cast<Eigen::Index>(i), 2 * static_cast<Eigen::Index>(i)) += K;
@@ -67,22 +68,28 @@ Rod AssembleRod(const BeamRotor& beam, bool torsion, int more) {
 }
 
 std::vector<RodMode> SolveRod(const BeamRotor& beam, const Rod& rod, int count) {
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(rod.K, rod.M);
+  std::vector<Eigen::Index> kept;  // the middle of a gap between shafts is nothing
+  for (Eigen::Index k = 0; k < rod.M.rows(); ++k)
+    if (rod.M(k, k) != 0 || rod.K(k, k) != 0) kept.push_back(k);
+  const MatrixXd K = rod.K(kept, kept), M = rod.M(kept, kept);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M);
   if (eigen.info() != Eigen::Success)
     throw InputError(
         "the rotor's masses along its axis are not positive, allowed: added masses mzz of supports "
         "that leave them positive, a shaft with mass");
   std::vector<RodMode> out;
-  const double stiff = rod.K.norm();
-  for (Eigen::Index k = 0; k < rod.K.rows() && static_cast<int>(out.size()) < count; ++k) {
+  const MatrixXd sizes = rod.K.cwiseAbs();
+  for (Eigen::Index k = 0; k < K.rows() && static_cast<int>(out.size()) < count; ++k) {
     const double w2 = eigen.eigenvalues()(k);
-    const Eigen::VectorXd q = eigen.eigenvectors().col(k);
+    Eigen::VectorXd q = Eigen::VectorXd::Zero(rod.M.rows());
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      q(kept[i]) = eigen.eigenvectors()(static_cast<Eigen::Index>(i), k);
     // nothing is strained: a rigid motion
-    if (w2 <= 0 || (rod.K * q).norm() < 1e-12 * stiff * q.norm()) continue;
+    if (w2 <= 0 || (rod.K * q).norm() < 1e-12 * (sizes * q.cwiseAbs()).norm()) continue;
     RodMode mode{std::sqrt(w2), {}};
     double peak = 0;
     for (std::size_t i = 0; i < beam.z.size(); ++i) {
-      mode.shape.push_back(eigen.eigenvectors()(2 * static_cast<Eigen::Index>(i), k));
+      mode.shape.push_back(q(2 * static_cast<Eigen::Index>(i)));
       if (std::abs(mode.shape.back()) > std::abs(peak)) peak = mode.shape.back();
     }
     if (peak != 0)
@@ -112,7 +119,8 @@ std::vector<RodMode> AxialModes(const BeamRotor& beam, double speed, int count) 
   for (const SpringSupport& s : beam.supports) {
     const SupportCoefficients c = s.At(speed);
     const Eigen::Index sides[2] = {
-        side(s.carries, s.on_shaft() ? Eigen::Index{2 * NodeAt(beam, s.z)} : -1), side(s.on, -1)};
+        side(s.carries, s.on_shaft() ? Eigen::Index{2 * NodeAt(beam, s.z)} : -1),
+        side(s.on, s.between_shafts() ? Eigen::Index{2 * NodeAt(beam, s.to_z)} : -1)};
     for (int i : {0, 1})
       for (int j : {0, 1})
         if (sides[i] >= 0 && sides[j] >= 0) {
@@ -123,8 +131,20 @@ std::vector<RodMode> AxialModes(const BeamRotor& beam, double speed, int count) 
   return SolveRod(beam, rod, count);
 }
 
-std::vector<RodMode> TorsionalModes(const BeamRotor& beam, int count) {
-  return SolveRod(beam, AssembleRod(beam, true, 0), count);
+std::vector<RodMode> TorsionalModes(const BeamRotor& beam, double speed, int count) {
+  Rod rod = AssembleRod(beam, true, 0);
+  for (const SpringSupport& s : beam.supports) {
+    const double k = s.At(speed).krz;
+    if (!s.on_shaft() || k == 0) continue;
+    const int here = 2 * NodeAt(beam, s.z),
+              there = s.between_shafts() ? 2 * NodeAt(beam, s.to_z) : -1;
+    rod.K(here, here) += k;
+    if (there < 0) continue;
+    rod.K(there, there) += k;
+    rod.K(here, there) -= k;
+    rod.K(there, here) -= k;
+  }
+  return SolveRod(beam, rod, count);
 }
 
 }  // namespace ambrig

@@ -53,11 +53,13 @@ class WholeShaft {
     Say(0.7, "weight and unbalance");
     out_.weight = DeflectUnderWeight(out_.beam, out_.options.highest);
     Unbalance();
+    Harmonic();
     out_.axial = AxialModes(out_.beam, out_.options.highest, kRodModes);
-    out_.torsional = TorsionalModes(out_.beam, kRodModes);
+    out_.torsional = TorsionalModes(out_.beam, out_.options.highest, kRodModes);
     Couple();
     Scatter(tolerances);
     Note();
+    ToPlaces();
     return std::move(out_);
   }
 
@@ -118,11 +120,31 @@ class WholeShaft {
     return ApiUnbalance(out_.beam, out_.weight, o.highest);
   }
 
-  void Unbalance() {
+  std::vector<ShaftProbe> Probes() const {
     std::vector<ShaftProbe> probes;
     for (const PlaneChoice& p : out_.options.probes)
       probes.push_back(FindPlane(out_.file, p, "probe"));
-    if (probes.empty()) probes = NamedPlanes(out_.file, out_.beam);
+    return probes.empty() ? NamedPlanes(out_.file, out_.beam) : probes;
+  }
+
+  /// Over the frequencies of the speeds that are analysed, finer around the damped modes of this speed.
+  void Harmonic() {
+    const ShaftOptions& o = out_.options;
+    HarmonicLoad load{{}, o.ground_x, o.ground_y};
+    for (const ForceChoice& f : o.forces)
+      load.forces.push_back({FindPlane(out_.file, f.plane, "shake"), f.x, f.y, f.phase});
+    if (!load.any()) return;
+    std::vector<double> at = Spread(o.fastest / kSweepSpeeds, o.fastest, kSweepSpeeds);
+    for (const ClosedLoopModes& row : out_.campbell.rows)
+      for (const ClosedLoopMode& m : row.modes)
+        for (int k = -16; k <= 16 && row.speed == o.highest; ++k)
+          if (const double w = m.s.imag() + 0.25 * k * std::abs(m.s.real()); w > 0 && w < o.fastest)
+            at.push_back(w);
+    out_.harmonic = SweepHarmonic(out_.beam, o.highest, load, Probes(), Rising(at));
+  }
+
+  void Unbalance() {
+    const std::vector<ShaftProbe> probes = Probes();
     std::vector<UnbalanceCase> cases = Cases();
     std::erase_if(cases, [](const UnbalanceCase& c) { return c.planes.empty(); });
     out_.unbalance = SweepShaft(out_.beam, cases, probes, SweepSpeeds());
@@ -146,6 +168,26 @@ class WholeShaft {
     out_.scatter = ScatterShaft(out_.file, tolerances, o.highest, o.modes, o.rotors, o.seed,
                                 [&](double) { return !(o.stop && o.stop->load()); });
     if (o.stop && o.stop->load()) throw Interrupted();
+  }
+
+  /// Results of several shafts on the machine's axis, no longer one after the other.
+  void ToPlaces() {
+    const std::vector<PlacedShaft>& shafts = out_.beam.shafts;
+    const auto place = [&](double& z) { z = PlaceOf(shafts, z); };
+    if (shafts.empty()) return;
+    for (std::vector<double>* list : {&out_.weight.z, &out_.weight.at, &out_.beam.z})
+      for (double& z : *list) place(z);
+    for (SupportReaction& r : out_.weight.reactions) place(r.z);
+    for (ShaftSweep& s : out_.unbalance) {
+      for (PlaneUnbalance& u : s.unbalance.planes) place(u.z);
+      for (ProbeOrbit& p : s.probes) place(p.probe.z);
+    }
+    if (out_.harmonic)
+      for (ProbeOrbit& p : out_.harmonic->probes) place(p.probe.z);
+    if (out_.level1) place(out_.level1->given.z);
+    for (ShaftElement& e : out_.beam.elements) place(e.z0);
+    for (Disk& d : out_.beam.disks) place(d.z);
+    for (SpringSupport& s : out_.beam.supports) place(s.z);
   }
 
   void Note() {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/shaft/cross_coupling.h"
+#include "analysis/shaft/harmonic_response.h"
 #include "analysis/shaft/rod_modes.h"
 #include "analysis/shaft/shaft_campbell.h"
 #include "analysis/shaft/shaft_scatter.h"
@@ -23,12 +24,20 @@ struct UnbalanceChoice {
   double phase = 0;      // [rad]
 };
 
+struct ForceChoice {
+  PlaneChoice plane;
+  double x = 0, y = 0;  // [N]
+  double phase = 0;     // [rad]
+};
+
 struct ShaftOptions {
   double lowest = 0, highest = 0, fastest = 0;  // [rad/s]
   int modes = 10;                               // damped modes
   std::vector<UnbalanceChoice> unbalance;       // one set; empty: `grade`, or API 617
   double grade = 0;                             // ISO 21940-11 [m/s]
   std::vector<PlaneChoice> probes;              // empty: supports, disks, housings
+  std::vector<ForceChoice> forces;              // harmonic, at the highest speed
+  double ground_x = 0, ground_y = 0;            // harmonic motion of the ground [m]
   PlaneChoice coupled;                          // plane of the cross-coupling
   double coupling = 0;                          // Q_A [N/m], 0: not looked at
   int rotors = 0;                               // of the scatter
@@ -48,6 +57,7 @@ struct ShaftAnalysis {
   std::vector<CriticalSpeed> undamped;  // with the supports as at the highest speed
   std::vector<CriticalMapRow> map;      // every support of the shaft at one stiffness
   std::vector<ShaftSweep> unbalance;
+  std::optional<HarmonicSweep> harmonic;
   StaticDeflection weight;
   std::vector<RodMode> axial, torsional;
   std::optional<Level1> level1;

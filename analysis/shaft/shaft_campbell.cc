@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "rotor/shaft/state_modes.h"
 
 namespace ambrig {
 
@@ -27,8 +28,12 @@ DampedCritical Sharpen(const BeamRotor& beam, const Eigen::MatrixXd& shapes, int
   DampedCritical at = found;
   double before = kRequired, gap_before = kRequired;
   for (int k = 0; k < 12; ++k) {
+    const LinearRotor rotor = Assemble(beam, at.speed);
+    std::vector<WhirlMode> one = {MakeWhirlMode(at.mode.s, at.mode.q)};
     const ClosedLoopModes row =
-        RowOf(at.speed, FindWhirlModes(Assemble(beam, at.speed), shapes, at.speed, modes));
+        RowOf(at.speed, ContinueModes(rotor, at.speed, one)
+                            ? WholeBeamModes{one, {}}
+                            : FindWhirlModes(rotor, shapes, at.speed, modes));
     const ClosedLoopMode* mode = Nearest(row, at.mode);
     if (!mode) return found;
     at.mode = *mode;

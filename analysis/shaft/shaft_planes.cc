@@ -45,20 +45,33 @@ ShaftProbe FindPlane(const BeamFile& file, const PlaneChoice& choice, const char
     if (s.on_shaft() && is(s.name)) return {s.name, s.z, ""};
   for (const Housing& h : file.definition.housings)
     if (is(h.name)) return {h.name, 0, h.name};
+  // "0.3", or "outer/0.3" of several shafts
+  const std::vector<PlacedShaft>& shafts = file.definition.shafts;
+  std::string shaft = shafts.empty() ? "" : shafts.front().name, place = choice.text;
+  if (const std::size_t slash = place.find('/'); !shafts.empty() && slash != std::string::npos) {
+    shaft = place.substr(0, slash);
+    place = place.substr(slash + 1);
+  }
   double lo = kInfinity, hi = -kInfinity;
   for (const ShaftSection& s : file.definition.sections) {
-    if (!s.stiff) continue;
+    if (!s.stiff || s.shaft != shaft) continue;
     lo = std::min(lo, s.z0);
     hi = std::max(hi, s.z0 + s.length);
   }
   std::size_t used = 0;
   double z = kRequired;
   try {
-    z = std::stod(choice.text, &used);
+    z = NodePlace(shafts, shaft, std::stod(place, &used));
   } catch (const std::exception&) {
     used = std::string::npos;
   }
-  if (used == choice.text.size() && z >= lo && z <= hi) return {fmt::format("z = {:g}", z), z, ""};
+  const double rounding = 1e-9 * (hi - lo);
+  if (used == place.size() && z >= lo - rounding && z <= hi + rounding)
+    return {shafts.empty() ? fmt::format("z = {:g}", z) : choice.text, z, ""};
+  for (const PlacedShaft& s : shafts) names += ", " + s.name + "/z";
+  if (lo > hi) lo = hi = 0;
+  lo = PlaceOf(shafts, lo);
+  hi = PlaceOf(shafts, hi);
   throw InputError(fmt::format("--{}: plane {}, allowed: a z from {:g} to {:g} m{}{}", option,
                                choice.text, lo, hi, names.empty() ? "" : " or ", names));
 }

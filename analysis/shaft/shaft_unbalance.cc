@@ -14,15 +14,6 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 
-Eigen::MatrixXd RowsOf(const BeamRotor& beam, const ShaftProbe& p) {
-  if (p.housing.empty()) return ShaftRows(beam, p.z);
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(
-      2, 2 * beam.M.rows() + 2 * static_cast<Eigen::Index>(beam.housings.size()));
-  const int at = HousingDof(beam, p.housing);
-  rows(0, at) = rows(1, at + 1) = 1;
-  return rows;
-}
-
 /// Unit columns of every case: Omega² U e^{i phase} (1, -i) without Omega².
 MatrixXcd UnitForces(const BeamRotor& beam, const std::vector<UnbalanceCase>& cases) {
   MatrixXcd f;
@@ -46,31 +37,44 @@ Eigen::Vector2cd Moved(const BeamRotor& beam, const Eigen::VectorXcd& q, const s
 Eigen::Vector2cd ForceOf(const BeamRotor& beam, const SpringSupport& s, const Eigen::VectorXcd& q,
                          double w) {
   const SupportCoefficients c = s.At(w);
-  const Eigen::Vector2cd d = Moved(beam, q, s.carries, s.on_shaft() ? 4 * NodeAt(beam, s.z) : -1) -
-                             Moved(beam, q, s.on, -1);
+  const Eigen::Vector2cd d =
+      Moved(beam, q, s.carries, s.on_shaft() ? 4 * NodeAt(beam, s.z) : -1) -
+      Moved(beam, q, s.on, s.between_shafts() ? 4 * NodeAt(beam, s.to_z) : -1);
   Eigen::Matrix2cd z;
   z << Complex(c.kxx - w * w * c.mxx, w * c.cxx), Complex(c.kxy - w * w * c.mxy, w * c.cxy),
       Complex(c.kyx - w * w * c.myx, w * c.cyx), Complex(c.kyy - w * w * c.myy, w * c.cyy);
   return -(z * d);
 }
 
-void FindOrbitPeaks(ShaftSweep& sweep) {
-  for (ProbeOrbit& p : sweep.probes) {
-    std::vector<double> major;
-    for (std::size_t k = 0; k < p.x.size(); ++k) major.push_back(AxesOfOrbit(p.x[k], p.y[k]).major);
-    p.peaks = FindPeaks(sweep.speed, major);
-  }
-}
-
 /// Share of the weight [N] of every plane of the shaft that a support holds; housings stand between.
-std::vector<std::pair<double, double>> Loads(const StaticDeflection& weight) {
+std::vector<std::pair<double, double>> Loads(const BeamRotor& beam,
+                                             const StaticDeflection& weight) {
   std::vector<std::pair<double, double>> out;
-  for (const SupportReaction& r : weight.reactions)
-    if (std::isfinite(r.z) && r.fy != 0) out.emplace_back(r.z, std::abs(r.fy));
+  for (std::size_t k = 0; k < weight.reactions.size(); ++k)
+    if (const SupportReaction& r = weight.reactions[k];
+        std::isfinite(r.z) && r.fy != 0 && !beam.supports[k].between_shafts())
+      out.emplace_back(r.z, std::abs(r.fy));
   return out;
 }
 
 }  // namespace
+
+Eigen::MatrixXd ProbeRows(const BeamRotor& beam, const ShaftProbe& p) {
+  if (p.housing.empty()) return ShaftRows(beam, p.z);
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(
+      2, 2 * beam.M.rows() + 2 * static_cast<Eigen::Index>(beam.housings.size()));
+  const int at = HousingDof(beam, p.housing);
+  rows(0, at) = rows(1, at + 1) = 1;
+  return rows;
+}
+
+void FindOrbitPeaks(const std::vector<double>& at, std::vector<ProbeOrbit>& probes) {
+  for (ProbeOrbit& p : probes) {
+    std::vector<double> major;
+    for (std::size_t k = 0; k < p.x.size(); ++k) major.push_back(AxesOfOrbit(p.x[k], p.y[k]).major);
+    p.peaks = FindPeaks(at, major);
+  }
+}
 
 double NodalAngle(Complex x, Complex y) {
   const Complex forward = x + Complex(0, 1) * y, backward = std::conj(x - Complex(0, 1) * y);
@@ -83,7 +87,7 @@ std::vector<ShaftSweep> SweepShaft(const BeamRotor& beam, const std::vector<Unba
   std::vector<ShaftSweep> out;
   if (cases.empty()) return out;
   std::vector<Eigen::MatrixXd> rows;
-  for (const ShaftProbe& p : probes) rows.push_back(RowsOf(beam, p));
+  for (const ShaftProbe& p : probes) rows.push_back(ProbeRows(beam, p));
   for (const UnbalanceCase& c : cases) {
     out.push_back({c, speeds, {}, {}});
     for (const ShaftProbe& p : probes) out.back().probes.push_back({p, {}, {}, {}});
@@ -92,7 +96,8 @@ std::vector<ShaftSweep> SweepShaft(const BeamRotor& beam, const std::vector<Unba
   const MatrixXcd unit = UnitForces(beam, cases);
   for (const double w : speeds) {
     DynamicMatrix matrix(Assemble(beam, w), w);
-    if (!matrix.Factorise(Complex(0, w)))
+    // exactly at a pole without damping: beside it
+    if (!matrix.Factorise(Complex(0, w)) && !matrix.Factorise(Complex(0, w * (1 + 1e-9))))
       throw InputError(
           "the supports leave a motion of the shaft free, allowed: supports that hold it");
     const MatrixXcd q = matrix.Solve(w * w * unit);
@@ -110,13 +115,13 @@ std::vector<ShaftSweep> SweepShaft(const BeamRotor& beam, const std::vector<Unba
       }
     }
   }
-  for (ShaftSweep& sweep : out) FindOrbitPeaks(sweep);
+  for (ShaftSweep& sweep : out) FindOrbitPeaks(speeds, sweep.probes);
   return out;
 }
 
 std::vector<UnbalanceCase> GradeUnbalance(const BeamRotor& beam, const StaticDeflection& weight,
                                           double grade, double speed) {
-  const auto loads = Loads(weight);
+  const auto loads = Loads(beam, weight);
   double total = 0;
   for (const auto& [z, load] : loads) total += load;
   const double whole = Totals(beam).mass * grade / speed;
@@ -132,7 +137,7 @@ std::vector<UnbalanceCase> GradeUnbalance(const BeamRotor& beam, const StaticDef
 std::vector<UnbalanceCase> ApiUnbalance(const BeamRotor& beam, const StaticDeflection& weight,
                                         double speed) {
   std::vector<UnbalanceCase> out = {{"static", {}}, {"couple", {}}, {"middle", {}}};
-  const auto loads = Loads(weight);
+  const auto loads = Loads(beam, weight);
   const double per_kilogram = 6350.0 / (speed / kRpm) * 1e-6;  // [kg m] per kg of load
   double sum = 0;
   for (std::size_t k = 0; k < loads.size(); ++k) {

@@ -39,6 +39,12 @@ struct ShaftSweep {
 /// The sides of an ellipse x = Re(X e^{it}), y = Re(Y e^{it}), and the angle of its long axis from x.
 double NodalAngle(std::complex<double> x, std::complex<double> y);
 
+/// Displacement (x, y) of a probe over the dofs of Assemble; its transpose takes forces in.
+Eigen::MatrixXd ProbeRows(const BeamRotor& beam, const ShaftProbe& probe);
+
+/// Peaks of the orbits' long half axes over what was swept [rad/s].
+void FindOrbitPeaks(const std::vector<double>& at, std::vector<ProbeOrbit>& probes);
+
 std::vector<ShaftSweep> SweepShaft(const BeamRotor& beam, const std::vector<UnbalanceCase>& cases,
                                    const std::vector<ShaftProbe>& probes,
                                    const std::vector<double>& speeds);

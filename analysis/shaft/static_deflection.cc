@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 /// Shear and moment at both ends of every element from the displacements of the y-z plane.
 void AddSections(const BeamRotor& beam, const VectorXd& u, double g, StaticDeflection& out) {
   for (std::size_t i = 0; i < beam.elements.size(); ++i) {
+    if (beam.elements[i].layers.empty()) continue;  // a gap between shafts
     const PlaneElement e = ElementMatrices(beam.elements[i], beam.theory);
     Eigen::Vector4d ends;
     const Eigen::Index left = 4 * static_cast<Eigen::Index>(i), right = left + 4;
@@ -74,7 +75,7 @@ StaticDeflection DeflectUnderWeight(const BeamRotor& beam, double speed, double 
     const SupportCoefficients c = s.At(speed);
     const Eigen::Vector2d d =
         SideOf(beam, u, s.carries, s.on_shaft() ? 4 * NodeAt(beam, s.z) : -1) -
-        SideOf(beam, u, s.on, -1);
+        SideOf(beam, u, s.on, s.between_shafts() ? 4 * NodeAt(beam, s.to_z) : -1);
     out.reactions.push_back({s.name, s.on_shaft() ? s.z : kRequired,
                              -(c.kxx * d.x() + c.kxy * d.y()), -(c.kyx * d.x() + c.kyy * d.y())});
   }

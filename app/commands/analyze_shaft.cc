@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "analysis/shaft/shaft_analysis.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
@@ -19,76 +18,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr const char* kUnbalanceForm = "PLANE:G_MM or PLANE:G_MM@DEG, e.g. disk:50@90";
-
-/// The parts of "a:b:c"; the first may hold no colon.
-std::vector<std::string> SplitOption(const std::string& text, char at) {
-  std::vector<std::string> out(1);
-  for (const char c : text)
-    if (c == at)
-      out.emplace_back();
-    else
-      out.back() += c;
-  return out;
-}
-
-double OptionNumber(const char* option, const std::string& whole, const std::string& text,
-                    const char* form, double lo, double hi) {
-  std::size_t used = 0;
-  double value = kRequired;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = std::string::npos;
-  }
-  if (used != text.size() || !(value >= lo && value <= hi))
-    throw InputError(fmt::format("--{} = {}, allowed: {}", option, whole, form));
-  return value;
-}
-
-UnbalanceChoice ReadUnbalance(const std::string& text) {
-  const auto parts = SplitOption(text, ':');
-  if (parts.size() != 2)
-    throw InputError(fmt::format("--unbalance = {}, allowed: {}", text, kUnbalanceForm));
-  const auto size = SplitOption(parts[1], '@');
-  UnbalanceChoice u;
-  u.plane.text = parts[0];
-  u.magnitude = 1e-6 * OptionNumber("unbalance", text, size[0], kUnbalanceForm, 0, 1e12);
-  if (size.size() > 1)
-    u.phase = kPi / 180 * OptionNumber("unbalance", text, size[1], kUnbalanceForm, -360, 360);
-  return u;
-}
-
-/// All cross-couplings act at one plane, as level 1 asks.
-void ReadCoupling(const ShaftCommand& c, double speed, ShaftOptions& o) {
-  const auto add = [&](const std::string& plane, double q) {
-    if (o.coupling > 0 && o.coupled.text != plane)
-      throw InputError(fmt::format("--cross-coupling: planes {} and {}, allowed: one plane",
-                                   o.coupled.text, plane));
-    o.coupled.text = plane;
-    o.coupling += q;
-  };
-  for (const std::string& text : c.coupling) {
-    const auto parts = SplitOption(text, ':');
-    constexpr const char* kForm = "PLANE:N_PER_M above 0, e.g. middle:5e6";
-    if (parts.size() != 2)
-      throw InputError(fmt::format("--cross-coupling = {}, allowed: {}", text, kForm));
-    add(parts[0], OptionNumber("cross-coupling", text, parts[1], kForm, 1e-6, 1e15));
-  }
-  for (const std::string& text : c.alford) {
-    constexpr const char* kForm =
-        "PLANE:KW:D_MM:H_MM or PLANE:KW:D_MM:H_MM:DENSITY_RATIO, e.g. middle:3000:400:20:1.2";
-    const auto parts = SplitOption(text, ':');
-    if (parts.size() != 4 && parts.size() != 5)
-      throw InputError(fmt::format("--alford = {}, allowed: {}", text, kForm));
-    if (speed <= 0) throw InputError("--speed = 0, allowed with --alford: above 0");
-    const auto value = [&](std::size_t k) {
-      return OptionNumber("alford", text, parts[k], kForm, 1e-9, 1e9);
-    };
-    add(parts[0], AlfordCoupling(1e3 * value(1), speed, 1e-3 * value(2), 1e-3 * value(3),
-                                 parts.size() == 5 ? value(4) : 1));
-  }
-}
+/// Without the sign that rounding gives to nothing.
+double Shown(double v) { return std::abs(v) < 5e-5 ? 0 : v; }
 
 void PrintShaftModes(const ShaftAnalysis& a) {
   const double hz = 1 / (2 * kPi);
@@ -106,7 +37,7 @@ void PrintShaftModes(const ShaftAnalysis& a) {
     if (r.speed != 0 && r.speed != a.options.lowest && r.speed != a.options.highest) continue;
     for (const ClosedLoopMode& m : r.modes)
       fmt::print("{:>9.0f} {:>10.3f} {:>8.4f} {:>9.4f} {:<9}\n", r.speed / kRpm, m.frequency,
-                 m.zeta, m.log_decrement, SenseName(m.sense()));
+                 Shown(m.zeta), Shown(m.log_decrement), SenseName(m.sense()));
   }
   fmt::print("\n{}\n", Coloured("critical speeds", "bold"));
   text = "  undamped [rpm]";
@@ -117,7 +48,7 @@ void PrintShaftModes(const ShaftAnalysis& a) {
   for (const DampedCritical& c : a.campbell.criticals)
     if (c.mode.zeta < std::sqrt(0.5))  // else no response has a peak there
       fmt::print("  damped {:.1f} rpm, {}, log decrement {:.4f}\n", c.speed / kRpm,
-                 SenseName(c.mode.sense()), c.mode.log_decrement);
+                 SenseName(c.mode.sense()), Shown(c.mode.log_decrement));
 }
 
 void PrintShaftLoads(const ShaftAnalysis& a) {
@@ -142,9 +73,26 @@ void PrintShaftLoads(const ShaftAnalysis& a) {
     for (const ProbeOrbit& p : s.probes) {
       if (p.peaks.empty()) fmt::print("  {:<12} no peak\n", p.probe.name);
       for (const ResponsePeak& k : p.peaks)
-        fmt::print("  {:<12} {:.4g} um at {:.1f} rpm, AF {}{:.2f}\n", p.probe.name,
-                   k.amplitude * 1e6, k.speed / kRpm, k.bound ? "< " : "", k.amplification);
+        if (k.amplitude > 0.1 * (a.beam.z.back() - a.beam.z.front()))
+          fmt::print("  {:<12} unbounded at {:.1f} rpm: no damping\n", p.probe.name,
+                     k.speed / kRpm);
+        else
+          fmt::print("  {:<12} {:.4g} um at {:.1f} rpm, AF {}{:.2f}\n", p.probe.name,
+                     k.amplitude * 1e6, k.speed / kRpm, k.bound ? "< " : "", k.amplification);
     }
+  }
+}
+
+void PrintHarmonic(const ShaftAnalysis& a) {
+  if (!a.harmonic) return;
+  fmt::print(
+      "\n{}\n",
+      Coloured(fmt::format("harmonic load at {:.0f} rpm", a.harmonic->speed / kRpm), "bold"));
+  for (const ProbeOrbit& p : a.harmonic->probes) {
+    if (p.peaks.empty()) fmt::print("  {:<12} no peak\n", p.probe.name);
+    for (const ResponsePeak& k : p.peaks)
+      fmt::print("  {:<12} {:.4g} um at {:.2f} Hz, AF {}{:.2f}\n", p.probe.name, k.amplitude * 1e6,
+                 k.speed / (2 * kPi), k.bound ? "< " : "", k.amplification);
   }
 }
 
@@ -184,65 +132,11 @@ void PrintShaft(const ShaftAnalysis& a) {
   if (!a.campbell.stable()) fmt::print("{}\n", Coloured("UNSTABLE at a speed analysed", "red"));
   PrintShaftModes(a);
   PrintShaftLoads(a);
+  PrintHarmonic(a);
   PrintShaftExtras(a);
 }
 
-ShaftOptions OptionsFor(const ShaftRequest& r, const ShaftCommand& c) {
-  ShaftOptions o;
-  o.lowest = r.lowest;
-  o.highest = r.highest;
-  o.fastest = r.fastest;
-  o.modes = c.modes;
-  for (const std::string& u : c.unbalance) o.unbalance.push_back(ReadUnbalance(u));
-  o.grade = 1e-3 * c.grade;
-  for (const std::string& p : c.probes) o.probes.push_back({p});
-  ReadCoupling(c, r.highest, o);
-  o.rotors = c.rotors;
-  o.seed = c.seed;
-  o.stop = &interrupted;
-  if (!c.unbalance.empty() && c.grade > 0)
-    throw InputError("--grade is given beside --unbalance, allowed: one of them");
-  return o;
-}
-
 }  // namespace
-
-void ShaftCommand::AddTo(CLI::App& command) {
-  const std::string group = "A shaft without magnetic bearings";
-  command.add_option("--unbalance", unbalance, "PLANE:G_MM[@DEG] instead of API 617's; repeat")
-      ->group(group);
-  command.add_option("--grade", grade, "ISO 21940-11 grade G [mm/s] as the unbalance, e.g. 2.5")
-      ->check(NumberIn(1e-6, 1e6, "mm/s"))
-      ->group(group);
-  command.add_option("--probe", probes, "plane or housing where the motion is read; repeat")
-      ->group(group);
-  command
-      .add_option("--cross-coupling", coupling, "PLANE:N_PER_M expected there (API 684 level 1)")
-      ->group(group);
-  command
-      .add_option("--alford", alford,
-                  "PLANE:KW:D_MM:H_MM[:RATIO] of a stage, the same from its power")
-      ->group(group);
-  command.add_option("--modes", modes, "damped modes (10)")
-      ->check(CLI::Range(1, 100))
-      ->group(group);
-  command.add_option("--scatter", rotors, "rotors drawn from the numbers that have an sd")
-      ->check(CLI::Range(2, 10000000))
-      ->group(group);
-  command.add_option("--seed", seed, "of --scatter (1)")
-      ->check(NumberIn(0, 9e15, "(an integer)"))
-      ->group(group);
-}
-
-std::string ShaftCommand::Given() const {
-  return !unbalance.empty()  ? "unbalance"
-         : grade > 0         ? "grade"
-         : !probes.empty()   ? "probe"
-         : !coupling.empty() ? "cross-coupling"
-         : !alford.empty()   ? "alford"
-         : rotors > 0        ? "scatter"
-                             : "";
-}
 
 bool IsShaftFile(const std::string& file) {
   if (file.ends_with(".json")) return true;
@@ -256,7 +150,7 @@ bool IsShaftFile(const std::string& file) {
 }
 
 int AnalyseShaftFile(const ShaftRequest& r, const ShaftCommand& c, const CommonOptions& common) {
-  ShaftOptions options = OptionsFor(r, c);
+  ShaftOptions options = ReadShaftOptions(r, c);
   const std::string name = std::filesystem::path(r.file).stem().string();
   const std::string base = (std::filesystem::path(r.out) / (name + ".analysis")).string();
   std::vector<std::string> files;

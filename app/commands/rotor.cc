@@ -5,6 +5,7 @@
 #include "app/commands/outputs.h"
 #include "app/commands/screen.h"
 #include "app/pages/html.h"
+#include "core/base/counted.h"
 #include "rotor/shaft/convert_shaft.h"
 
 namespace ambrig {
@@ -30,6 +31,13 @@ int Run(const Convert& c) {
              done.from_ross ? "ambrig" : "ROSS");
   fmt::print("  mass {:.6g} kg, centre of mass z = {:.6g} m,\n  free bending {:.2f} Hz\n",
              done.mass, done.z_com, fmt::join(done.free_bending, " "));
+  if (done.magnetic_bearings > 0 && !done.from_ross)
+    fmt::print("  with {}\n", Counted(done.magnetic_bearings, "magnetic bearing"));
+  if (done.magnetic_bearings > 0 && done.from_ross)
+    fmt::print(
+        "  a rig with {} of ROSS's; amplifiers, sampling, sensors and auxiliary\n  bearings "
+        "are assumed, each marked in the file\n",
+        Counted(done.magnetic_bearings, "magnetic bearing"));
   for (const std::string& l : done.not_carried)
     fmt::print("{}\n", Wrapped(Coloured("  warning: ", "yellow") + "not carried over: " + l, 4));
   c.common.WriteJson({{"in", c.in},
@@ -38,6 +46,7 @@ int Run(const Convert& c) {
                       {"mass", done.mass},
                       {"z_com", done.z_com},
                       {"free_bending_hz", done.free_bending},
+                      {"magnetic_bearings", done.magnetic_bearings},
                       {"not_carried", done.not_carried}});
   if (!c.common.html.empty()) {
     HtmlReport report("Shaft " + c.in, "ambrig rotor convert");

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <set>
 
+#include "analysis/dropped_modes.h"
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
@@ -152,6 +153,8 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   WriteHdf5(result.record, stem.string() + ".h5");
   if (options.csv) WriteCsv(result.record, stem.string() + ".csv");
   auto json = RunJson(scenario, result, expect);
+  const auto dropped = FindDroppedModes(rig);
+  if (dropped) json["bending_modes"] = DroppedModesJson(*dropped);
   json["provenance"] = Provenance(in.inputs);
   WriteFileAtomically(stem.string() + ".json", MarkedJson(json));
   if (!options.no_html) {
@@ -163,6 +166,8 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
     PrintTimeline(scenario, result, StationOrbits(rig, result), HasAuxiliary(rig), expect);
     if (const std::string note = UncommissionedNote(rig, result); !note.empty())
       fmt::print("{}\n", Wrapped("  note: " + note, 8));
+    if (dropped)
+      fmt::print("{}\n", Wrapped("  bending modes          " + DroppedModesText(*dropped), 25));
     fmt::print("  {:<22} {}.h5 .json{}{}\n", "written", stem.string(), options.csv ? " .csv" : "",
                options.no_html ? "" : " .html (report)");
   }

@@ -96,52 +96,6 @@ Figure ShaftFigure(const ShaftAnalysis& a) {
   return f;
 }
 
-Figure ShaftModesFigure(const ShaftAnalysis& a) {
-  const ClosedLoopModes* row = &a.campbell.rows.front();
-  for (const ClosedLoopModes& r : a.campbell.rows)
-    if (std::abs(r.speed - a.options.highest) < std::abs(row->speed - a.options.highest)) row = &r;
-  const std::size_t count = std::min<std::size_t>(6, row->modes.size());
-  Grid grid;
-  grid.columns = std::max(1, std::min(3, static_cast<int>(count)));
-  grid.rows = std::max(1, (static_cast<int>(count) + grid.columns - 1) / grid.columns);
-  grid.shared_x = false;
-  grid.panel_height = 180;
-  for (std::size_t k = 0; k < count; ++k)
-    grid.titles.push_back(fmt::format("{:.1f} Hz, {}, δ {:.3f}", row->modes[k].frequency,
-                                      SenseName(row->modes[k].sense()),
-                                      row->modes[k].log_decrement));
-  Figure f = MakeFigure(
-      fmt::format("Shapes of the damped modes at {}: shaft centre over z, x (solid) at the instant "
-                  "of its largest deflection, y (dashed) a quarter turn later; dots are supports.",
-                  Rpm(row->speed)),
-      grid);
-  for (std::size_t k = 0; k < count; ++k) {
-    Eigen::VectorXcd q = row->modes[k].q;
-    Eigen::Index at = 0;
-    double peak = 0;
-    for (Eigen::Index i = 0; i < 2 * a.beam.M.rows(); i += 4)
-      for (const Eigen::Index side : {i, i + 1})
-        if (std::abs(q(side)) > peak) peak = std::abs(q(side)), at = side;
-    if (peak > 0) q /= q(at) * (at % 4 == 0 ? 1.0 : std::complex<double>(0, 1));
-    std::vector<double> x, y;
-    for (Eigen::Index i = 0; i < 2 * a.beam.M.rows(); i += 4) {
-      x.push_back(q(i).real());
-      y.push_back(-q(i + 1).imag());
-    }
-    const int panel = static_cast<int>(k);
-    SetAxes(f, panel, "z [m]", "", {}, std::array<double, 2>{-1.15, 1.15});
-    const Whirl sense = row->modes[k].sense();
-    Style style = ShaftLine(sense == Whirl::kForward    ? "@blue"
-                            : sense == Whirl::kBackward ? "@orange"
-                                                        : "@muted");
-    AddLine(f, panel, "x", a.beam.z, x, style);
-    style.dash = "dash";
-    AddLine(f, panel, "y", a.beam.z, y, style);
-    AddSupportMarks(f, panel, a);
-  }
-  return f;
-}
-
 Figure WeightFigure(const ShaftAnalysis& a) {
   Grid grid;
   grid.rows = 3;
@@ -233,6 +187,29 @@ Figure ShaftOrbitFigure(const ShaftAnalysis& a, const ShaftSweep& sweep) {
     style.markers = true;
     AddLine(f, 0, sweep.probes[p].probe.name, std::vector<double>{x[0]}, std::vector<double>{y[0]},
             style);
+  }
+  return f;
+}
+
+Figure HarmonicFigure(const HarmonicSweep& sweep) {
+  Grid grid;
+  grid.rows = 2;
+  grid.panel_height = 220;
+  grid.titles = {"orbit, long half axis", "phase of x against the load"};
+  Figure f = MakeFigure(
+      fmt::format("Response to the harmonic load over its frequency, the shaft at {}, supports as "
+                  "they are at that speed.",
+                  Rpm(sweep.speed)),
+      grid);
+  SetAxes(f, 0, "frequency [Hz]", "[µm]");
+  SetAxes(f, 1, "frequency [Hz]", "[deg]");
+  const std::vector<double> hz = Scaled(sweep.frequency, 1 / (2 * kPi));
+  for (std::size_t k = 0; k < sweep.probes.size(); ++k) {
+    const ProbeOrbit& p = sweep.probes[k];
+    Style style = SeriesStyle(static_cast<int>(k));
+    AddLine(f, 0, p.probe.name, hz, Scaled(MajorAxes(p.x, p.y), 1e6), style);
+    style.legend = false;
+    AddLine(f, 1, p.probe.name, hz, PhaseOf(p.x), style);
   }
   return f;
 }

@@ -6,13 +6,15 @@
 namespace ambrig {
 
 Figure ShaftFigure(const ShaftAnalysis& a);       // outline, disks, supports
-Figure ShaftModesFigure(const ShaftAnalysis& a);  // at the highest operating speed
+/// At the highest operating speed, drawn in space; a button lets them turn.
+Figure ShaftModesFigure(const ShaftAnalysis& a);
 Figure WeightFigure(const ShaftAnalysis& a);      // deflection, shear, moment
 Figure RodFigure(const ShaftAnalysis& a);         // axial and torsional modes
 /// Long half axis and phase of x at the probes, force of the supports.
 Figure ShaftResponseFigure(const ShaftAnalysis& a, const ShaftSweep& sweep);
 /// Orbits of the probes at the largest peak, or at the highest operating speed where none is.
 Figure ShaftOrbitFigure(const ShaftAnalysis& a, const ShaftSweep& sweep);
+Figure HarmonicFigure(const HarmonicSweep& sweep);
 Figure CouplingFigure(const Level1& level1);
 
 }  // namespace ambrig

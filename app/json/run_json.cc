@@ -47,4 +47,17 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
   return json;
 }
 
+nlohmann::ordered_json DroppedModesJson(const DroppedModes& modes) {
+  using Json = nlohmann::ordered_json;
+  Json bearings = Json::object();
+  for (const LostCompliance& b : modes.bearings)
+    bearings[b.bearing] = {
+        {"kept_compliance", b.kept}, {"lost_compliance", b.lost}, {"lost_at_top", b.lost_at_top}};
+  return {{"kept", modes.kept},
+          {"dropped", modes.dropped},
+          {"top", modes.top},
+          {"dropped_frequencies", modes.frequency},
+          {"bearings", bearings}};
+}
+
 }  // namespace ambrig

@@ -133,6 +133,12 @@ Json ShaftJson(const ShaftAnalysis& a) {
   out["map"] = map;
   for (const ShaftSweep& s : a.unbalance) sweeps.push_back(SweepJson(s));
   out["unbalance"] = sweeps;
+  if (a.harmonic) {
+    Json probes = Json::array();
+    for (const ProbeOrbit& p : a.harmonic->probes) probes.push_back(ProbeJson(p));
+    out["harmonic"] = {
+        {"speed", a.harmonic->speed}, {"omega", a.harmonic->frequency}, {"probes", probes}};
+  }
   out["weight"] = WeightJson(a.weight);
   out["axial"] = RodsJson(a.axial);
   out["torsional"] = RodsJson(a.torsional);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "analysis/dropped_modes.h"
 #include "app/figures/series.h"
 #include "app/pages/format.h"
 #include "core/base/read_file.h"
@@ -203,6 +204,8 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
   }
   data.stations = StationsOf(rig, result);
   FillMetrics(result.metrics, data);
+  if (const auto dropped = FindDroppedModes(rig))
+    data.metrics.emplace_back("bending modes", DroppedModesText(*dropped));
   if (!HasAuxiliary(rig))
     std::erase_if(data.metrics, [](const auto& m) { return m.first == "least clearance left"; });
   for (const RunEvent& e : result.events)

@@ -153,6 +153,10 @@ void WriteShaftReport(const ShaftAnalysis& a, const std::string& file,
   AddDampedModes(report, a);
   AddCriticals(report, a);
   AddResponses(report, a);
+  if (a.harmonic) {
+    report.Heading("Harmonic load");
+    report.AddFigure(HarmonicFigure(*a.harmonic));
+  }
   AddWeight(report, a);
   AddExtras(report, a);
   report.Write(path);

@@ -39,12 +39,19 @@ void AddSupportSides(const BeamRotor& r, const SpringSupport& s, double speed, L
   k << at.kxx, at.kxy, at.kyx, at.kyy;
   c << at.cxx, at.cxy, at.cyx, at.cyy;
   m << at.mxx, at.mxy, at.myx, at.myy;
+  const int other = s.between_shafts() ? 4 * NodeAt(r, s.to_z) : -1;
   const int sides[2] = {SideOf(r, s.carries, s.on_shaft() ? 4 * NodeAt(r, s.z) : -1),
-                        SideOf(r, s.on, -1)};
+                        SideOf(r, s.on, other)};
+  const bool turns[2] = {s.on_shaft(), s.between_shafts()};
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
       if (sides[i] < 0 || sides[j] < 0) continue;
       const double sign = i == j ? 1 : -1;
+      if (turns[i] && turns[j]) {
+        const Eigen::Vector2d kr(at.krx, at.kry), cr(at.crx, at.cry);
+        out.K.block<2, 2>(sides[i] + 2, sides[j] + 2).diagonal() += sign * kr;
+        out.D.block<2, 2>(sides[i] + 2, sides[j] + 2).diagonal() += sign * cr;
+      }
       out.K.block<2, 2>(sides[i], sides[j]) += sign * k;
       out.D.block<2, 2>(sides[i], sides[j]) += sign * c;
       out.M.block<2, 2>(sides[i], sides[j]) += sign * m;
@@ -63,6 +70,16 @@ void AddBodies(const BeamRotor& r, LinearRotor& out) {
     out.M(x, x) += h.mass_x;
     out.M(x + 1, x + 1) += h.mass_y;
     out.xy.push_back({x, x + 1});
+  }
+}
+
+void AddTorque(const BeamRotor& r, LinearRotor& out) {
+  for (std::size_t i = 0; i < r.elements.size(); ++i) {
+    double torque = 0;
+    for (const ShaftSection& l : r.elements[i].layers) torque += l.torque;
+    if (torque == 0) continue;
+    const int left = 4 * static_cast<int>(i);
+    out.K.block<8, 8>(left, left) += TorqueMatrix(r.elements[i].length, torque);
   }
 }
 
@@ -96,8 +113,8 @@ Disk DiskFromGeometry(double z, double width, double id, double od, double rho) 
 
 BeamRotor BuildBeam(const BeamDefinition& d) {
   BeamMesh mesh = MakeMesh(d);
-  BeamRotor r{mesh.z, mesh.elements, d.disks, d.supports, d.theory, {}, {}, {}, {},
-              {},     d.housings,    d.masses};
+  BeamRotor r{mesh.z, mesh.elements, d.disks,  d.supports, d.theory, {}, {}, {}, {},
+              {},     d.housings,    d.masses, d.shafts};
   const int n = 2 * static_cast<int>(r.z.size());
   for (Eigen::MatrixXd* a : {&r.M, &r.J, &r.K, &r.C, &r.tension}) a->setZero(n, n);
   for (int i = 0; i < static_cast<int>(r.elements.size()); ++i) {
@@ -130,6 +147,7 @@ LinearRotor Assemble(const BeamRotor& r, double speed) {
     }
   for (int i = 0; i < n / 2; ++i) out.xy.push_back({4 * i, 4 * i + 1});
   AddBodies(r, out);
+  AddTorque(r, out);
   for (const SpringSupport& s : r.supports) AddSupportSides(r, s, speed, out);
   return out;
 }
@@ -145,6 +163,7 @@ int HousingDof(const BeamRotor& r, const std::string& name) {
 Eigen::MatrixXd ShaftRows(const BeamRotor& r, double z) {
   std::size_t i = 0;
   while (i + 1 < r.elements.size() && z > r.z[i + 1]) ++i;
+  if (r.elements[i].layers.empty()) ++i;  // the left end of the shaft behind a gap
   const double s = std::clamp(z - r.z[i], 0.0, r.elements[i].length);
   const Eigen::RowVector4d w = ShapeAt(r.elements[i], r.theory, s).w;
   Eigen::MatrixXd rows =
@@ -160,17 +179,22 @@ Eigen::MatrixXd ShaftRows(const BeamRotor& r, double z) {
 RotorTotals Totals(const BeamRotor& r) {
   double m = 0, mz = 0, mzz = 0, ip = 0;
   for (const ShaftElement& e : r.elements)
-    for (const ShaftSection& layer : e.layers) AddSectionMass(layer, m, mz, mzz, ip);
+    for (ShaftSection layer : e.layers) {
+      layer.z0 = PlaceOf(r.shafts, layer.z0);
+      AddSectionMass(layer, m, mz, mzz, ip);
+    }
   for (const Disk& d : r.disks) {
+    const double z = PlaceOf(r.shafts, d.z);
     m += d.mass;
-    mz += d.mass * d.z;
-    mzz += d.mass * d.z * d.z + d.inertia_diametral;
+    mz += d.mass * z;
+    mzz += d.mass * z * z + d.inertia_diametral;
     ip += d.inertia_polar;
   }
   for (const PointMass& p : r.masses) {
+    const double z = PlaceOf(r.shafts, p.z);
     m += p.radial();
-    mz += p.radial() * p.z;
-    mzz += p.radial() * p.z * p.z;
+    mz += p.radial() * z;
+    mzz += p.radial() * z * z;
   }
   const double z_com = mz / m;
   return {m, z_com, mzz - m * z_com * z_com, ip};

@@ -7,13 +7,15 @@
 ///   M ux'' + C ux' + Omega J uy' + K ux = fx,   M uy'' + C uy' - Omega J ux' + K uy = fy
 /// or in all dofs   M q'' + (D + Omega G) q' + K q = f,  supports included in D and K.
 /// or, with the tension N of the sections, K + N-part (Assemble; not in K of BeamRotor).
-/// z is the file's own axis, left to right; `Totals` gives the centre of mass on it. Units SI.
+/// z is the file's own axis, left to right; `Totals` gives the centre of mass on it. Several shafts, coaxial or
+/// in line, lie one after the other on one axis of nodes (rotor/shaft/several_shafts.h). Units SI.
 #include <Eigen/Dense>
 #include <array>
 #include <string>
 #include <vector>
 
 #include "rotor/motion/linear_rotor.h"
+#include "rotor/shaft/several_shafts.h"
 #include "rotor/shaft/shaft_element.h"
 #include "rotor/shaft/support.h"
 
@@ -24,7 +26,7 @@ struct Disk {
   double mass = kRequired;               // [kg]
   double inertia_diametral = kRequired;  // about a diameter through its centre [kg m2]
   double inertia_polar = kRequired;      // [kg m2]
-  std::string name;
+  std::string name, shaft{};
 };
 
 inline constexpr Field<Disk> kDiskFields[] = {
@@ -48,6 +50,7 @@ struct BeamDefinition {
   BeamTheory theory;
   std::vector<Housing> housings;  // what supports may stand on
   std::vector<PointMass> masses;
+  std::vector<PlacedShaft> shafts{};  // empty: one
 };
 
 /// What is computed with: nodes, elements and the matrices of one bending plane of the free shaft,
@@ -62,6 +65,7 @@ struct BeamRotor {
   Eigen::MatrixXd tension;  // of the axial forces, beside K: free modes are those without them
   std::vector<Housing> housings;
   std::vector<PointMass> masses;
+  std::vector<PlacedShaft> shafts{};
 };
 
 struct RotorTotals {

@@ -32,6 +32,8 @@ BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
   t.shear = rotor.Bool("shear", t.shear);
   t.rotary_inertia = rotor.Bool("rotary_inertia", t.rotary_inertia);
   t.gyroscopic = rotor.Bool("gyroscopic", t.gyroscopic);
+  const char* layers = t.separate_layers ? "separate" : "joined";
+  t.separate_layers = rotor.Choice("layers", layers, "joined, separate") == "separate";
   const char* now = t.coefficient == ShearCoefficient::kHutchinson ? "hutchinson" : "cowper";
   const bool hutchinson =
       rotor.Choice("shear_coefficient", now, "cowper, hutchinson") == "hutchinson";
@@ -64,16 +66,67 @@ std::vector<double> ReadDamping(const TomlTable& rotor, std::vector<double> zeta
   return zeta;
 }
 
+/// The shaft that a part belongs to; the first unless said.
+std::string ReadShaftOf(const TomlTable& row, const std::vector<PlacedShaft>& shafts,
+                        const char* key = "shaft") {
+  if (shafts.empty()) return "";
+  std::string names;
+  for (const PlacedShaft& s : shafts) names += (names.empty() ? "" : ", ") + s.name;
+  return row.Choice(key, shafts.front().name.c_str(), names.c_str());
+}
+
+void ReadShafts(const TomlTable& rotor, BeamDefinition& d) {
+  const std::vector<TomlTable> rows = rotor.Tables("shaft");
+  if (!rows.empty() && !d.sections.empty())
+    rotor.Fail("shaft", "is given beside file, allowed: one of them");
+  for (const TomlTable& row : rows) {
+    PlacedShaft s;
+    s.name = row.String("name");
+    for (const PlacedShaft& other : d.shafts)
+      if (other.name == s.name)
+        row.Fail("name", fmt::format("= \"{}\" is taken, allowed: another name", s.name));
+    if (s.name.empty() || s.name.find_first_of(", /:@") != std::string::npos)
+      row.Fail("name", fmt::format("= \"{}\", allowed: a name without blanks and , / : @", s.name));
+    row.RejectUnknownKeys();
+    d.shafts.push_back(s);
+  }
+  if (d.shafts.size() == 1) rotor.Fail("shaft", "stands once, allowed: none, or two or more");
+}
+
 /// Supports, what they stand on, masses.
 void ReadSupports(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
   BeamDefinition& d = out.definition;
   out.support_sources.resize(d.supports.size());
   for (const TomlTable& row : rotor.Tables("support")) {
+    const std::string shaft = ReadShaftOf(row, d.shafts);
+    const std::string to = row.Has("to") ? ReadShaftOf(row, d.shafts, "to") : "";
     d.supports.push_back(ReadSupport(row, tolerances));
+    d.supports.back().shaft = d.supports.back().on_shaft() ? shaft : "";
+    d.supports.back().to = to;
     out.support_sources.push_back(SourceOf(row));
   }
   for (const TomlTable& row : rotor.Tables("housing")) d.housings.push_back(ReadHousing(row));
-  for (const TomlTable& row : rotor.Tables("point_mass")) d.masses.push_back(ReadPointMass(row));
+  for (const TomlTable& row : rotor.Tables("point_mass")) {
+    const std::string shaft = ReadShaftOf(row, d.shafts);
+    d.masses.push_back(ReadPointMass(row));
+    d.masses.back().shaft = shaft;
+  }
+}
+
+/// Pieces of a shaft follow one another, each shaft from its own left end.
+void ReadSections(const TomlTable& rotor, const Materials& materials, BeamFile& out,
+                  std::vector<Tolerance>* tolerances) {
+  BeamDefinition& d = out.definition;
+  std::map<std::string, double> ends;
+  for (const char* kind : {"section", "sleeve"})
+    for (const TomlTable& row : rotor.Tables(kind)) {
+      const bool stiff = *(kind + 1) == 'e';
+      const std::string shaft = ReadShaftOf(row, d.shafts);
+      d.sections.push_back(ReadSection(row, materials, stiff, ends[shaft], tolerances));
+      d.sections.back().shaft = shaft;
+      out.section_sources.push_back(SourceOf(row));
+      if (stiff) ends[shaft] = d.sections.back().z0 + d.sections.back().length;
+    }
 }
 
 void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* tolerances) {
@@ -82,24 +135,23 @@ void ReadTables(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>* t
   for (const auto& [name, material] : materials) out.materials[name] = material;
   out.section_sources.resize(d.sections.size());  // ROSS's have none
   out.disk_sources.resize(d.disks.size());
-  double z = 0;
-  for (const TomlTable& row : rotor.Tables("section")) {
-    d.sections.push_back(ReadSection(row, materials, true, z, tolerances));
-    out.section_sources.push_back(SourceOf(row));
-    z = d.sections.back().z0 + d.sections.back().length;
-  }
-  for (const TomlTable& row : rotor.Tables("sleeve")) {
-    d.sections.push_back(ReadSection(row, materials, false, 0, tolerances));
-    out.section_sources.push_back(SourceOf(row));
-  }
+  ReadShafts(rotor, d);
+  ReadSections(rotor, materials, out, tolerances);
   for (const TomlTable& row : rotor.Tables("disk")) {
     ShaftTableSource source = SourceOf(row);
+    const std::string shaft = ReadShaftOf(row, d.shafts);
     d.disks.push_back(ReadDisk(row, materials, tolerances, &source.rho));
+    d.disks.back().shaft = shaft;
     out.disk_sources.push_back(std::move(source));
   }
   ReadSupports(rotor, out, tolerances);
   for (double station : AllWithin(rotor, "stations", {}, kPlaceOnShaft))
     d.stations.push_back(station);
+  try {
+    if (!rotor.Tables("shaft").empty()) LayOutShafts(d);
+  } catch (const InputError& e) {
+    rotor.Fail("shaft", e.what());
+  }
 }
 
 void AddPlane(const TomlTable& row, const std::string& name, double z, BeamFile& out) {
@@ -112,12 +164,16 @@ void AddPlane(const TomlTable& row, const std::string& name, double z, BeamFile&
   out.planes.push_back({name, z});
 }
 
+double NodePlaceOf(const TomlTable& row, const std::vector<PlacedShaft>& shafts) {
+  return NodePlace(shafts, ReadShaftOf(row, shafts), Within(row, "z", kRequired, kPlaceOnShaft));
+}
+
 void ReadPlanes(const TomlTable& rotor, BeamFile& out, const std::vector<Tolerance>* tolerances) {
   for (const TomlTable& row : rotor.Tables("disk"))
-    AddPlane(row, row.String("name", ""), Within(row, "z", kRequired, kPlaceOnShaft), out);
+    AddPlane(row, row.String("name", ""), NodePlaceOf(row, out.definition.shafts), out);
   for (const TomlTable& row : rotor.Tables("station")) {
     RejectSd(row, {"z"}, tolerances);
-    const double z = Within(row, "z", kRequired, kPlaceOnShaft);
+    const double z = NodePlaceOf(row, out.definition.shafts);
     AddPlane(row, row.String("name"), z, out);
     row.RejectUnknownKeys();
     out.definition.stations.push_back(z);
@@ -139,17 +195,24 @@ void ReadOwnTable(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>*
 }
 
 void FromRoss(const std::string& file, const std::function<void(const std::string&, double)>& add,
-              BeamFile& out, std::vector<std::string>* ignored) {
+              BeamFile& out, std::vector<std::string>* ignored, std::vector<RossMagnet>* magnets) {
   RossRotor ross = ReadRoss(file);
   out.definition = std::move(ross.definition);
   if (ignored) *ignored = ross.ignored;
+  if (magnets) *magnets = ross.magnetic_bearings;
+  for (const RossMagnet& m : ross.magnetic_bearings)
+    if (ignored && !magnets)
+      ignored->push_back(fmt::format(
+          "{} at {}: a magnetic bearing (ambrig rotor convert makes a rig of it), its plane kept "
+          "as a station",
+          m.name, PlaceText(out.definition.shafts, m.z)));
   const auto named = [&](std::string name, double z) {  // ROSS's names have blanks: "Disk 0"
     std::replace_if(
         name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
     add(name, z);
   };
   for (const Disk& d : out.definition.disks) named(d.name, d.z);
-  for (const RossPlane& b : ross.magnetic_bearings) named(b.name, b.z);
+  for (const RossMagnet& b : ross.magnetic_bearings) named(b.name, b.z);
 }
 
 /// A table's own file: ROSS's, or one with a [rotor] of the same tables.
@@ -169,7 +232,7 @@ void ReadShaftFile(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>
     }
   }
   FromRoss(
-      file, [&](const std::string& name, double z) { AddPlane(rotor, name, z, out); }, out,
+      file, [&](const std::string& name, double z) { AddPlane(rotor, name, z, out); }, out, nullptr,
       nullptr);
 }
 
@@ -203,7 +266,7 @@ BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances) {
 }
 
 BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>* ignored,
-                   std::vector<Tolerance>* tolerances) {
+                   std::vector<Tolerance>* tolerances, std::vector<RossMagnet>* magnets) {
   *ross = true;
   if (file.ends_with(".toml")) {
     const TomlTable root = TomlTable::FromFile(file);
@@ -222,7 +285,7 @@ BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>
       [&](const std::string& name, double z) {
         if (!name.empty()) out.planes.push_back({name, z});
       },
-      out, ignored);
+      out, ignored, magnets);
   return out;
 }
 

@@ -46,8 +46,10 @@ std::vector<double> Planes(const BeamDefinition& d, const Span& span) {
     z.push_back(plane);
   };
   for (const Disk& disk : d.disks) add(disk.z, fmt::format("disk \"{}\"", disk.name));
-  for (const SpringSupport& s : d.supports)
+  for (const SpringSupport& s : d.supports) {
     if (s.on_shaft()) add(s.z, fmt::format("support \"{}\"", s.name));
+    if (s.between_shafts()) add(s.to_z, fmt::format("support \"{}\"", s.name));
+  }
   for (const PointMass& m : d.masses) add(m.z, fmt::format("mass \"{}\"", m.name));
   for (double station : d.stations) add(station, "station");
   for (const ShaftSection& s : d.sections) {
@@ -67,9 +69,11 @@ ShaftElement MakeElement(const BeamDefinition& d, double left, double right, dou
     e.layers.push_back(Slice(s, left, right));
     carried |= s.stiff;
   }
+  for (const PlacedShaft& s : d.shafts)  // a gap between two shafts
+    if (std::abs(s.start - right) <= tolerance && e.layers.empty()) return e;
   if (!carried)
-    throw InputError(fmt::format("beam rotor: no shaft section between z = {} and {} m",
-                                 NumberText(left), NumberText(right)));
+    throw InputError(fmt::format("beam rotor: no shaft section between {} and {}",
+                                 PlaceText(d.shafts, left), PlaceText(d.shafts, right)));
   return e;
 }
 

@@ -9,6 +9,7 @@ struct ShaftConversion {
   bool from_ross = false;
   double mass = 0, z_com = 0;            // [kg], [m] on the shaft's own axis
   std::vector<double> free_bending;      // lowest four [Hz]
+  std::size_t magnetic_bearings = 0;     // of the rig on ambrig's side
   std::vector<std::string> not_carried;  // what the other kind does not know, with sizes
 };
 

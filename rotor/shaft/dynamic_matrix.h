@@ -25,7 +25,7 @@ class DynamicMatrix {
 
  private:
   struct Factors;
-  Eigen::SparseMatrix<std::complex<double>> M_, C_, K_;
+  Eigen::SparseMatrix<std::complex<double>> M_, C_, K_, sum_;  // of one pattern
   std::unique_ptr<Factors> factors_;
 };
 

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/json_file.h"
+#include "core/base/read_file.h"
 #include "core/base/toml.h"
 
 namespace ambrig {
@@ -23,8 +24,8 @@ RossElement Named(const std::string& key, const std::string& where) {
 /// Coefficients, their axes and damping ratios; other arrays (colours, names) may hold anything.
 bool IsTabulated(const std::string& key) {
   const bool coefficient = key.size() == 3 && (key[0] == 'k' || key[0] == 'c' || key[0] == 'm');
-  return coefficient || key == "speed" || key == "frequency" || key == "w" ||
-         key == "modal_damping_ratio";
+  return coefficient || key == "speed" || key == "frequency" || key == "omega" || key == "w" ||
+         key == "i0" || key == "k_amp" || key == "k_sense" || key == "modal_damping_ratio";
 }
 
 void ReadList(const TomlTable& t, const std::string& key, RossElement& e) {
@@ -88,8 +89,14 @@ std::vector<RossElement> RossFromJson(const std::string& file) {
 
 }  // namespace
 
+/// Versions before 2.1 write TOML whatever the file is called.
 std::vector<RossElement> ReadRossElements(const std::string& file) {
-  return file.ends_with(".json") ? RossFromJson(file) : RossFromToml(file);
+  if (!file.ends_with(".json")) return RossFromToml(file);
+  const std::string text = ReadFile(file);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  const bool toml = first != std::string::npos && (text[first] == '[' || text[first] == '#') &&
+                    text.find('=') != std::string::npos;
+  return toml ? RossFromToml(file) : RossFromJson(file);
 }
 
 }  // namespace ambrig

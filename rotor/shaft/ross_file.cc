@@ -5,21 +5,17 @@
 #include <algorithm>
 #include <map>
 
-#include "core/base/counted.h"
 #include "rotor/shaft/ross_elements.h"
+#include "rotor/shaft/ross_nodes.h"
 #include "rotor/shaft/ross_supports.h"
 
 namespace ambrig {
 namespace {
 
-// Below this a shaft element carries nothing: the sleeves of WriteRoss, and pieces so soft that people
-// use them for mass alone.
-constexpr double kSleeveE = 1e6, kWrittenSleeveE = 1e3;
+// Below this a shaft element carries nothing: the sleeves of WriteRoss.
+constexpr double kSleeveE = 2e3;
 
 using Element = RossElement;
-
-bool IsShaft(const Element& e) { return e.kind == "ShaftElement" || e.kind == "ShaftElement6DoF"; }
-bool IsDisk(const Element& e) { return e.kind == "DiskElement" || e.kind == "DiskElement6DoF"; }
 
 Material ReadRossMaterial(const Element& e, std::vector<std::string>& lost) {
   const auto get = [&](const char* key) {
@@ -29,7 +25,7 @@ Material ReadRossMaterial(const Element& e, std::vector<std::string>& lost) {
   };
   Material m{get("E"), get("rho"), 0};
   m.nu = e.material.count("G_s") ? m.E / (2 * get("G_s")) - 1 : get("Poisson");
-  const double nu = std::clamp(m.nu, 0.0, 0.5);
+  const double nu = std::clamp(m.nu, -0.99, 0.5);
   if (std::abs(nu - m.nu) > 1e-9 && m.E >= kSleeveE)
     lost.push_back(fmt::format("Poisson's ratio {} of {}, taken as {}", NumberText(m.nu), e.Label(),
                                NumberText(nu)));
@@ -53,50 +49,51 @@ ShaftSection ReadRossShaft(const Element& e, std::vector<std::string>& lost) {
   s.damping_mass = e.Get("alpha", 0);
   s.damping_stiffness = e.Get("beta", 0);
   s.axial_force = e.Get("axial_force", 0);
-  if (const double torque = e.Get("torque", 0); torque != 0)
-    lost.push_back(fmt::format("torque {} N m at {}", NumberText(torque), e.Label()));
+  s.torque = e.Get("torque", 0);
   return s;
 }
 
-Disk ReadRossDisk(const Element& e, double z) {
-  const Disk d{z, e.Get("m"), e.Get("Id"), e.Get("Ip"), e.name};
+/// A coupling is a support of the left shaft on the right one and a disk at each of its ends.
+void ReadRossCoupling(const Element& e, const RossNodes& nodes, BeamDefinition& d) {
+  SpringSupport s;
+  s.name = e.name;
+  s.z = nodes.At(e);
+  s.to_z = nodes.At(e, e.Node() + 1);
+  s.shaft = nodes.ShaftOf(e.Node());
+  s.to = nodes.ShaftOf(e.Node() + 1);
+  constexpr std::pair<const char*, double SupportCoefficients::*> kCoupled[] = {
+      {"kt_x", &SupportCoefficients::kxx}, {"kt_y", &SupportCoefficients::kyy},
+      {"kt_z", &SupportCoefficients::kzz}, {"kr_x", &SupportCoefficients::krx},
+      {"kr_y", &SupportCoefficients::kry}, {"kr_z", &SupportCoefficients::krz},
+      {"ct_x", &SupportCoefficients::cxx}, {"ct_y", &SupportCoefficients::cyy},
+      {"ct_z", &SupportCoefficients::czz}, {"cr_x", &SupportCoefficients::crx},
+      {"cr_y", &SupportCoefficients::cry}, {"cr_z", &SupportCoefficients::crz}};
+  for (const auto& [key, at] : kCoupled) s.*at = e.Get(key, 0);
+  d.supports.push_back(s);
+  for (const bool right : {false, true}) {
+    const auto of = [&](const char* left_key, const char* right_key) {
+      return e.Get(right ? right_key : left_key, 0);
+    };
+    Disk hub;
+    hub.z = right ? s.to_z : s.z;
+    hub.shaft = right ? s.to : s.shaft;
+    hub.name = e.name + (right ? "_right" : "_left");
+    hub.mass = of("m_l", "m_r");
+    hub.inertia_polar = of("Ip_l", "Ip_r");
+    hub.inertia_diametral = of("Id_l", "Id_r");
+    if (hub.inertia_diametral == 0) hub.inertia_diametral = hub.inertia_polar / 2;  // as ROSS
+    if (hub.mass != 0 || hub.inertia_polar != 0) d.disks.push_back(hub);
+  }
+}
+
+Disk ReadRossDisk(const Element& e, const RossNodes& nodes) {
+  const Disk d{nodes.At(e), e.Get("m"), e.Get("Id"), e.Get("Ip"), e.name, nodes.ShaftOf(e.Node())};
   CheckRanges(d, kDiskFields,
               [&](std::string_view key) { return fmt::format("{}: {}", e.where, key); });
   if (d.inertia_polar > 2 * d.inertia_diametral * (1 + 1e-9))
     e.Fail(fmt::format("Ip = {} kg m2, allowed up to twice Id = {} kg m2",
                        NumberText(d.inertia_polar), NumberText(d.inertia_diametral)));
   return d;
-}
-
-/// Node planes from the shaft elements, whose n is their left node.
-std::vector<double> NodePlanes(const std::vector<Element>& elements, const std::string& file) {
-  std::map<int, double> length;
-  for (const Element& e : elements) {
-    if (!IsShaft(e)) continue;
-    const auto [it, fresh] = length.emplace(e.Node(), e.Get("L"));
-    if (!fresh && std::abs(it->second - e.Get("L")) > 1e-9 * it->second)
-      e.Fail("L differs from another shaft element at the same n");
-  }
-  if (length.empty())
-    throw InputError(
-        fmt::format("{}: no shaft element, allowed: a file saved by ROSS's Rotor.save", file));
-  std::vector<double> z{0};
-  for (const auto& [n, L] : length) {
-    if (n + 1 != static_cast<int>(z.size())) {
-      for (const Element& e : elements)
-        if (e.kind == "CouplingElement")
-          e.Fail("a coupling between two shafts is not modelled, allowed: one shaft");
-      throw InputError(fmt::format("{}: no shaft element with n = {}", file, z.size() - 1));
-    }
-    z.push_back(z.back() + L);
-  }
-  return z;
-}
-
-double PlaneOf(const Element& e, const std::vector<double>& z) {
-  if (e.Node() >= static_cast<int>(z.size()))
-    e.Fail(fmt::format("n = {}, allowed 0 to {} (nodes of the shaft)", e.Node(), z.size() - 1));
-  return z[e.Node()];
 }
 
 void ReadRossTheory(const Element& e, bool first, BeamTheory& theory) {
@@ -117,43 +114,21 @@ void ReadRossTheory(const Element& e, bool first, BeamTheory& theory) {
   theory = t;
 }
 
-}  // namespace
-
-namespace {
-
-/// Shaft elements so soft that they are taken as mass, one line for all of one E.
-void NameSoftElements(const std::vector<Element>& elements, std::vector<std::string>& lost) {
-  std::map<double, std::vector<int>> soft;
-  for (const Element& e : elements)
-    if (IsShaft(e) && e.material.count("E"))
-      if (const double E = e.material.at("E"); E > kWrittenSleeveE && E < kSleeveE)
-        soft[E].push_back(e.Node());
-  for (auto& [E, at] : soft) {
-    std::sort(at.begin(), at.end());
-    lost.push_back(fmt::format("E = {} N/m2 of {} at nodes {}, taken as mass without stiffness",
-                               NumberText(E), Counted(at.size(), "shaft element"),
-                               fmt::join(at, " ")));
-  }
-}
-
 /// What the file holds beside shaft, disks and supports: carried as a plane, or named with its size.
-void NameTheRest(const Element& e, const std::vector<double>& z, RossRotor& out) {
+void NameTheRest(const Element& e, const RossNodes& nodes, RossRotor& out) {
   std::vector<std::string>& lost = out.ignored;
   if (IsRossMagneticBearing(e)) {
-    out.magnetic_bearings.push_back({e.name, PlaneOf(e, z)});
-    out.definition.stations.push_back(PlaneOf(e, z));
-    std::string numbers;
-    for (const char* key : {"g0", "i0", "ag", "nw", "alpha", "kp_pid", "kd_pid", "ki_pid"})
-      if (e.Has(key)) numbers += fmt::format(", {} = {:g}", key, e.Get(key));
-    lost.push_back(
-        fmt::format("{}: a magnetic bearing, its plane kept as a station{}", e.Label(), numbers));
+    RossMagnet m = ReadRossMagnet(e, lost);
+    m.z = nodes.At(e);
+    m.shaft = nodes.ShaftOf(e.Node());
+    out.magnetic_bearings.push_back(std::move(m));
   } else if (e.two_axes) {
     lost.push_back(e.kind + "_" + e.name + " (coefficients over speed and whirl frequency)");
   } else if (e.kind == "parameters") {
     for (const char* damping : {"alpha", "beta", "modal_damping_ratio", "default_damping_ratio"})
       if (e.Get(damping, 0) != 0)
         lost.push_back(fmt::format("parameters.{} = {:g}", damping, e.Get(damping)));
-  } else if (e.kind != "PointMass" && !e.Has("kxx") && e.kind != "") {
+  } else if (e.kind.find("PointMass") != 0 && !e.Has("kxx") && e.kind != "") {
     std::string size;
     for (const char* key : {"m", "m_l", "m_r", "kt_x", "kr_x", "kr_z", "Ip"})
       if (e.Has(key)) size += fmt::format(", {} = {:g}", key, e.Get(key));
@@ -165,25 +140,37 @@ void NameTheRest(const Element& e, const std::vector<double>& z, RossRotor& out)
 
 RossRotor ReadRoss(const std::string& file) {
   const std::vector<Element> elements = ReadRossElements(file);
-  const std::vector<double> z = NodePlanes(elements, file);
+  const RossNodes nodes(elements, file);
   RossRotor out;
   BeamDefinition& d = out.definition;
   d.elements_per_section = 1;
+  d.shafts = nodes.shafts();
   bool first = true;
+  std::map<int, int> layers;
   for (const Element& e : elements) {
-    if (IsShaft(e)) {
+    if (IsRossShaft(e)) {
       d.sections.push_back(ReadRossShaft(e, out.ignored));
-      d.sections.back().z0 = PlaneOf(e, z);
+      d.sections.back().z0 = nodes.At(e);
+      d.sections.back().shaft = nodes.ShaftOf(e.Node());
       ReadRossTheory(e, first, d.theory);
       first = false;
-    } else if (IsDisk(e)) {
-      d.disks.push_back(ReadRossDisk(e, PlaneOf(e, z)));
+      if (++layers[e.Node()] > 1) d.theory.separate_layers = true;
+    } else if (IsRossDisk(e)) {
+      d.disks.push_back(ReadRossDisk(e, nodes));
+      if (e.kind.find("Gear") == 0)
+        out.ignored.push_back(e.Label() + ": its mesh with another shaft, taken as a disk alone");
+    } else if (IsRossCoupling(e)) {
+      ReadRossCoupling(e, nodes, d);
     } else {
-      NameTheRest(e, z, out);
+      NameTheRest(e, nodes, out);
     }
   }
-  NameSoftElements(elements, out.ignored);
-  AddRossSupports(elements, z, d, out.ignored);
+  AddRossSupports(elements, nodes, d, out.ignored);
+  if (!d.shafts.empty()) LayOutShafts(d);
+  for (RossMagnet& b : out.magnetic_bearings) {
+    b.z = NodePlace(d.shafts, b.shaft, b.z);
+    d.stations.push_back(b.z);
+  }
   // Tables come sorted by name; along the shaft is how people read them.
   const auto along = [](const auto& a, const auto& b) { return a.z < b.z; };
   std::stable_sort(d.sections.begin(), d.sections.end(),

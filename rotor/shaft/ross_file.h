@@ -5,8 +5,9 @@
 /// disk elements (n, m, Id, Ip), bearings and seals with coefficients kxx, cxx, ... over the speed
 /// [rad/s] (`speed` of version 3, `frequency` of 1 and 2, `w` before), cubic splines between the speeds as
 /// there (beyond them ROSS extrapolates, here the end rows hold), point masses, and housings: nodes off the
-/// shaft that bearings reach by n_link. Magnetic bearings become planes (ambrig has its own), and what has no
-/// counterpart is named with its size, never dropped silently.
+/// shaft that bearings reach by n_link; further shafts (rotor/shaft/ross_nodes.h) and couplings between them.
+/// Magnetic bearings stand apart (rotor/shaft/ross_magnets.h), and what has no counterpart is named with its
+/// size, never dropped silently.
 /// Written: only keys that every one of these versions takes, and no `ross_version`, which version
 /// 1 takes for an element; versions 2 and 3 then warn that they do not know who wrote the file.
 /// ROSS's axes are ours. A sleeve is written as a shaft element of E = 1 Pa and read back as one:
@@ -16,17 +17,13 @@
 #include <vector>
 
 #include "rotor/shaft/beam.h"
+#include "rotor/shaft/ross_magnets.h"
 
 namespace ambrig {
 
-struct RossPlane {
-  std::string name;
-  double z = 0;
-};
-
 struct RossRotor {
   BeamDefinition definition;
-  std::vector<RossPlane> magnetic_bearings;
+  std::vector<RossMagnet> magnetic_bearings;  // their planes are stations too
   // "torque 5 N m at ShaftElement_7 (element 7)": what is not modelled here
   std::vector<std::string> ignored;
 };
@@ -34,7 +31,9 @@ struct RossRotor {
 /// @throws InputError naming file, element and key.
 RossRotor ReadRoss(const std::string& file);
 
-/// By extension .toml or .json; gives what ROSS does not know. @throws InputError when the file cannot be written.
-std::vector<std::string> WriteRoss(const BeamDefinition& definition, const std::string& file);
+/// By extension .toml or .json; gives what ROSS does not know. Magnetic bearings as MagneticBearingElement, which
+/// versions from 2 on load. @throws InputError when the file cannot be written.
+std::vector<std::string> WriteRoss(BeamDefinition definition, const std::string& file,
+                                   const std::vector<RossMagnet>& magnets = {});
 
 }  // namespace ambrig

@@ -34,7 +34,7 @@ Json ShaftTable(const ShaftSection& s, const BeamTheory& t, int node, const std:
       {"odr", s.od_right},
       {"n", node},
       {"axial_force", s.axial_force},
-      {"torque", 0},
+      {"torque", s.torque},
       {"shear_effects", t.shear},
       {"rotary_inertia", t.rotary_inertia},
       {"gyroscopic", t.gyroscopic},
@@ -54,6 +54,7 @@ Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
   if (s.varies()) table["frequency"] = s.speed;
   for (const Field<SupportCoefficients>& f : kSupportCoefficients) {
     Json values = Json::array();
+    if (f.key[1] == 'r') continue;                                    // not ROSS's
     bool some = f.key[0] != 'm' && f.key != "kzz" && f.key != "czz";  // the others are younger keys
     for (const SupportCoefficients& c :
          s.varies() ? s.table : std::vector<SupportCoefficients>{s}) {
@@ -63,6 +64,47 @@ Json BearingTable(const SpringSupport& s, int node, const std::string& tag) {
     if (some) table[std::string(f.key)] = values;
   }
   return table;
+}
+
+constexpr double SupportCoefficients::*kTurning[] = {
+    &SupportCoefficients::krx, &SupportCoefficients::kry, &SupportCoefficients::krz,
+    &SupportCoefficients::crx, &SupportCoefficients::cry, &SupportCoefficients::crz};
+
+bool Turns(const SpringSupport& s) {
+  for (const SupportCoefficients& c : s.varies() ? s.table : std::vector<SupportCoefficients>{s})
+    for (const auto at : kTurning)
+      if (c.*at != 0) return true;
+  return false;
+}
+
+/// A constant support from the right end of a shaft to the left end of the next, which ROSS has as an element.
+bool IsCoupling(const SpringSupport& s, const BeamRotor& nodes) {
+  return s.between_shafts() && !s.varies() && Turns(s) &&
+         NodeAt(nodes, s.to_z) == NodeAt(nodes, s.z) + 1 && s.kxy == 0 && s.kyx == 0 &&
+         s.cxy == 0 && s.cyx == 0 && !s.has_mass();
+}
+
+Json CouplingTable(const SpringSupport& s, const std::vector<PlacedShaft>& shafts, int node,
+                   const std::string& tag) {
+  return {{"n", node},
+          {"tag", tag},
+          {"m_l", 0.0},
+          {"m_r", 0.0},
+          {"Ip_l", 0.0},
+          {"Ip_r", 0.0},
+          {"kt_x", s.kxx},
+          {"kt_y", s.kyy},
+          {"kt_z", s.kzz},
+          {"kr_x", s.krx},
+          {"kr_y", s.kry},
+          {"kr_z", s.krz},
+          {"ct_x", s.cxx},
+          {"ct_y", s.cyy},
+          {"ct_z", s.czz},
+          {"cr_x", s.crx},
+          {"cr_y", s.cry},
+          {"cr_z", s.crz},
+          {"L", PlaceOf(shafts, s.to_z) - PlaceOf(shafts, s.z)}};
 }
 
 /// A tag that no element has yet: ROSS takes no two of one tag, a disk and a bearing neither.
@@ -93,10 +135,17 @@ void AddBearings(const BeamDefinition& d, const BeamRotor& nodes, Tags& tags, Js
         {"n", node}, {"mx", body.mass_x}, {"my", body.mass_y}, {"mz", body.mass_z}, {"tag", tag}};
   };
   for (const SpringSupport& s : d.supports) {
+    if (IsCoupling(s, nodes)) {
+      const std::string coupling = tags.Of("Coupling", s.name);
+      root["CouplingElement_" + coupling] =
+          CouplingTable(s, d.shafts, NodeAt(nodes, s.z), coupling);
+      continue;
+    }
     const std::string tag = tags.Of("Bearing", s.name);
     const int node = s.on_shaft() ? NodeAt(nodes, s.z) : HousingNode(d, nodes, s.carries);
     Json& table = root["BearingElement_" + tag] = BearingTable(s, node, tag);
     if (!s.on.empty()) table["n_link"] = HousingNode(d, nodes, s.on);
+    if (s.between_shafts()) table["n_link"] = NodeAt(nodes, s.to_z);
   }
   for (const PointMass& p : d.masses) mass(NodeAt(nodes, p.z), p);
   for (const Housing& h : d.housings) mass(HousingNode(d, nodes, h.name), h);
@@ -104,6 +153,18 @@ void AddBearings(const BeamDefinition& d, const BeamRotor& nodes, Tags& tags, Js
 
 std::vector<std::string> UnknownToRoss(const BeamDefinition& d) {
   std::vector<std::string> lost;
+  const BeamMesh mesh = MakeMesh(d);
+  BeamRotor nodes;
+  nodes.z = mesh.z;
+  for (const SpringSupport& s : d.supports)
+    if (Turns(s) && !IsCoupling(s, nodes))
+      lost.push_back(
+          fmt::format("stiffness or damping against rotation of support \"{}\"", s.name));
+  for (const ShaftElement& e : mesh.elements)
+    if (e.layers.size() > 1 && !d.theory.separate_layers) {
+      lost.push_back("layers = \"joined\": ROSS takes each layer as an element of its own");
+      break;
+    }
   if (d.theory.mass == MassKind::kLumped)
     lost.push_back("mass = \"lumped\": ROSS takes consistent masses, frequencies differ");
   for (const SpringSupport& s : d.supports)
@@ -115,7 +176,14 @@ std::vector<std::string> UnknownToRoss(const BeamDefinition& d) {
   return lost;
 }
 
-Json RotorTables(const BeamDefinition& d) {
+Json MagnetTable(const RossMagnet& m, int node, const std::string& tag) {
+  return {{"n", node},      {"g0", m.gap},      {"i0", m.bias},   {"ag", m.area},
+          {"nw", m.turns},  {"alpha", m.alpha}, {"k_amp", 1.0},   {"k_sense", 1.0},
+          {"kp_pid", m.kp}, {"kd_pid", m.kd},   {"ki_pid", m.ki}, {"n_f", m.cutoff},
+          {"tag", tag}};
+}
+
+Json RotorTables(const BeamDefinition& d, const std::vector<RossMagnet>& magnets) {
   const BeamMesh mesh = MakeMesh(d);
   BeamRotor nodes;
   nodes.z = mesh.z;
@@ -135,6 +203,10 @@ Json RotorTables(const BeamDefinition& d) {
                                   {"tag", tag}};
   }
   AddBearings(d, nodes, tags, root);
+  for (const RossMagnet& m : magnets) {
+    const std::string tag = tags.Of("Magnet", m.name);
+    root["MagneticBearingElement_" + tag] = MagnetTable(m, NodeAt(nodes, m.z), tag);
+  }
   return root;
 }
 
@@ -154,8 +226,10 @@ void WriteToml(std::ostream& out, const Json& root) {
 
 }  // namespace
 
-std::vector<std::string> WriteRoss(const BeamDefinition& definition, const std::string& file) {
-  const Json root = RotorTables(definition);
+std::vector<std::string> WriteRoss(BeamDefinition definition, const std::string& file,
+                                   const std::vector<RossMagnet>& magnets) {
+  for (const RossMagnet& m : magnets) definition.stations.push_back(m.z);
+  const Json root = RotorTables(definition, magnets);
   std::ostringstream out;
   if (file.size() > 5 && file.substr(file.size() - 5) == ".json")
     out << root.dump(4) << "\n";

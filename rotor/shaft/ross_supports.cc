@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/base/counted.h"
+#include "rotor/shaft/ross_magnets.h"
+#include "rotor/shaft/ross_nodes.h"
 
 namespace ambrig {
 
@@ -14,8 +16,11 @@ std::vector<double> RossCoefficient(const RossElement& e, const std::string& key
   return e.Has(key) ? e.numbers.at(key) : fallback;
 }
 
+/// `omega` of BearingFluidFlow, whose other numbers describe how it was computed.
 const char* SpeedAxis(const RossElement& e) {
-  return e.Has("speed") ? "speed" : e.Has("frequency") ? "frequency" : "w";
+  for (const char* key : {"speed", "frequency", "omega"})
+    if (e.Has(key)) return key;
+  return "w";
 }
 
 std::vector<double> CoefficientOf(const RossElement& e, const std::string& key) {
@@ -60,10 +65,11 @@ bool IsRossSupport(const RossElement& e) {
 }
 
 /// The names of housings by node: every node off the shaft that a bearing reaches.
-std::map<int, std::string> HousingNodes(const std::vector<RossElement>& elements, int nodes) {
+std::map<int, std::string> HousingNodes(const std::vector<RossElement>& elements,
+                                        const RossNodes& nodes) {
   std::map<int, std::string> out;
   const auto add = [&](int n) {
-    if (n >= nodes) out.emplace(n, fmt::format("node_{}", n));
+    if (!nodes.on_shaft(n)) out.emplace(n, fmt::format("node_{}", n));
   };
   for (const RossElement& e : elements) {
     if (!IsRossSupport(e)) continue;
@@ -83,22 +89,29 @@ void ReadRossMasses(const RossElement& e, double* mass) {
 }
 
 void AddRossSupport(const RossElement& e, const std::map<int, std::string>& housings,
-                    const std::vector<double>& z, BeamDefinition& d,
-                    std::vector<std::string>& lost) {
+                    const RossNodes& nodes, BeamDefinition& d, std::vector<std::string>& lost) {
   SpringSupport s;
   s.name = e.name;
   const auto sits = housings.find(e.Node());
   if (sits != housings.end())
     s.carries = sits->second;
   else
-    s.z = z[static_cast<std::size_t>(e.Node())];
+    s.z = nodes.At(e);
+  s.shaft = nodes.ShaftOf(e.Node());
   if (e.Has("n_link")) {
-    const auto on = housings.find(static_cast<int>(e.Get("n_link")));
-    if (on == housings.end())
-      e.Fail(fmt::format(
-          "n_link = {} is a node of the shaft, allowed: a node with a point mass off it",
-          e.Get("n_link")));
-    s.on = on->second;
+    const int link = static_cast<int>(e.Get("n_link"));
+    const auto on = housings.find(link);
+    if (on != housings.end()) {
+      s.on = on->second;
+    } else {
+      if (nodes.ShaftOf(link).empty() || nodes.ShaftOf(link) == s.shaft)
+        e.Fail(
+            fmt::format("n_link = {} is a node of the same shaft, allowed: a node of another "
+                        "shaft, or one with a point mass off all of them",
+                        link));
+      s.to_z = nodes.At(e, link);
+      s.to = nodes.ShaftOf(link);
+    }
   }
   ReadRossCoefficients(e, s, lost);
   d.supports.push_back(std::move(s));
@@ -106,23 +119,18 @@ void AddRossSupport(const RossElement& e, const std::map<int, std::string>& hous
 
 }  // namespace
 
-bool IsRossMagneticBearing(const RossElement& e) {
-  return e.kind.find("MagneticBearing") == 0 || (e.Has("g0") && e.Has("nw"));
-}
-
-void AddRossSupports(const std::vector<RossElement>& elements, const std::vector<double>& z,
+void AddRossSupports(const std::vector<RossElement>& elements, const RossNodes& nodes,
                      BeamDefinition& d, std::vector<std::string>& lost) {
-  const int nodes = static_cast<int>(z.size());
   const std::map<int, std::string> housings = HousingNodes(elements, nodes);
   std::map<int, Housing> found;
   for (const RossElement& e : elements) {
-    if (IsRossSupport(e)) AddRossSupport(e, housings, z, d, lost);
-    if (e.kind != "PointMass") continue;
+    if (IsRossSupport(e)) AddRossSupport(e, housings, nodes, d, lost);
+    if (e.kind.find("PointMass") != 0) continue;
     double mass[3];
     ReadRossMasses(e, mass);
     const int n = e.Node();
-    if (n < nodes) {
-      d.masses.push_back({z[static_cast<std::size_t>(n)], mass[0], mass[1], mass[2], e.name});
+    if (nodes.on_shaft(n)) {
+      d.masses.push_back({nodes.At(e), mass[0], mass[1], mass[2], e.name, nodes.ShaftOf(n)});
     } else if (housings.count(n)) {
       Housing& h = found.try_emplace(n, Housing{housings.at(n), 0, 0, 0}).first->second;
       h.mass_x += mass[0];

@@ -15,7 +15,8 @@ Eigen::MatrixXd Symmetric(const Eigen::MatrixXd& a) { return 0.5 * (a + a.transp
 
 PlaneModes SolvePlane(const Eigen::MatrixXd& K, const Eigen::MatrixXd& M) {
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> eigen(Symmetric(K), Symmetric(M));
-  Require(eigen.info() == Eigen::Success, "a positive definite mass matrix");
+  if (eigen.info() != Eigen::Success)
+    throw InputError("the rotor's mass matrix is singular, allowed: a shaft with mass everywhere");
   return {eigen.eigenvalues().cwiseMax(0).cwiseSqrt(), eigen.eigenvectors()};
 }
 
@@ -37,8 +38,9 @@ Whirl WhirlMode::sense() const {
 
 PlaneModes FreeModes(const BeamRotor& rotor, int count) {
   const PlaneModes all = SolvePlane(rotor.K, rotor.M);
-  const int available = std::min<int>(count, static_cast<int>(all.omega.size()) - 2);
-  PlaneModes out{all.omega.segment(2, available), all.shape.middleCols(2, available)};
+  const int rigid = 2 * std::max<int>(1, static_cast<int>(rotor.shafts.size()));
+  const int available = std::min<int>(count, static_cast<int>(all.omega.size()) - rigid);
+  PlaneModes out{all.omega.segment(rigid, available), all.shape.middleCols(rigid, available)};
   FixSigns(out.shape);
   return out;
 }

@@ -131,6 +131,44 @@ void AddTension(const ShaftElement& e, const BeamTheory& theory, const Shape2x4&
   });
 }
 
+/// Matrices of layers that share w and psi.
+PlaneElement Joined(const ShaftElement& e, const BeamTheory& theory) {
+  PlaneElement out;
+  const Flexibility f = FlexibilityTo(e, theory, e.length);
+  const Shape2x4 forces = EndForces(f, e.length);
+  Eigen::Matrix2d energy;
+  energy << f.one, -f.first, -f.first, f.second + f.shear;
+  out.K = forces.transpose() * energy * forces;
+  if (theory.mass == MassKind::kConsistent)
+    AddConsistentMass(e, theory, forces, out);
+  else
+    AddLumpedMass(e, theory, out);
+  AddTension(e, theory, forces, out);
+  for (const ShaftSection& l : e.layers) {
+    if (!l.stiff) continue;
+    out.C = l.damping_mass * out.M + l.damping_stiffness * out.K;
+    break;
+  }
+  return out;
+}
+
+/// A sleeve moves as a shaft of its own size would, without stiffness.
+PlaneElement Separate(const ShaftElement& e, const BeamTheory& theory) {
+  PlaneElement out;
+  for (const ShaftSection& l : e.layers) {
+    ShaftElement one{e.z0, e.length, {l}};
+    one.layers[0].stiff = true;
+    PlaneElement part = Joined(one, theory);
+    out.M += part.M;
+    out.J += part.J;
+    if (!l.stiff) continue;
+    out.K += part.K;
+    out.C += part.C;
+    out.tension += part.tension;
+  }
+  return out;
+}
+
 }  // namespace
 
 ShaftSection Slice(const ShaftSection& section, double z_left, double z_right) {
@@ -156,24 +194,22 @@ double ShearCoefficientOf(ShearCoefficient kind, double bore_ratio, double nu) {
 }
 
 PlaneElement ElementMatrices(const ShaftElement& e, const BeamTheory& theory) {
-  PlaneElement out;
-  for (Eigen::Matrix4d* m : {&out.M, &out.J, &out.K, &out.C, &out.tension}) m->setZero();
-  const Flexibility f = FlexibilityTo(e, theory, e.length);
-  const Shape2x4 forces = EndForces(f, e.length);
-  Eigen::Matrix2d energy;
-  energy << f.one, -f.first, -f.first, f.second + f.shear;
-  out.K = forces.transpose() * energy * forces;
-  if (theory.mass == MassKind::kConsistent)
-    AddConsistentMass(e, theory, forces, out);
-  else
-    AddLumpedMass(e, theory, out);
-  AddTension(e, theory, forces, out);
-  for (const ShaftSection& l : e.layers) {
-    if (!l.stiff) continue;
-    out.C = l.damping_mass * out.M + l.damping_stiffness * out.K;
-    break;
-  }
-  return out;
+  if (e.layers.empty()) return {};
+  return theory.separate_layers && e.layers.size() > 1 ? Separate(e, theory) : Joined(e, theory);
+}
+
+Eigen::Matrix<double, 8, 8> TorqueMatrix(double length, double torque) {
+  const double h = length / 2;
+  Eigen::Matrix<double, 8, 8> K;
+  K << 0, 0, 1, 0, 0, 0, -1, 0,  //
+      0, 0, 0, 1, 0, 0, 0, -1,   //
+      1, 0, 0, -h, -1, 0, 0, h,  //
+      0, 1, h, 0, 0, -1, -h, 0,  //
+      0, 0, -1, 0, 0, 0, 1, 0,   //
+      0, 0, 0, -1, 0, 0, 0, 1,   //
+      -1, 0, 0, -h, 1, 0, 0, h,  //
+      0, -1, h, 0, 0, 1, -h, 0;
+  return K * (torque / length);
 }
 
 ElementShape ShapeAt(const ShaftElement& element, const BeamTheory& theory, double s) {

@@ -6,9 +6,11 @@
 /// functions are the static deflections; a uniform element is the usual interdependent one.
 ///   M = ∫ rho A w'w + rho I psi'psi,   J = ∫ 2 rho I psi'psi (gyroscopic)
 ///   K = ∫ M²/EI + Q²/(kappa G A)
-/// An axial force N (tension) adds ∫ N w'w' (dead load; in bending alone).
+/// An axial force N (tension) adds ∫ N w'w' (dead load; in bending alone). A torque couples
+/// both planes (TorqueMatrix).
 /// Layers of one element share w and psi: shaft layers add mass and stiffness, sleeves and
-/// laminations (`stiff` = false) mass alone. Units SI. Sources: Timoshenko beam theory; kappa of
+/// laminations (`stiff` = false) mass alone. With `separate_layers` they share end values alone and each
+/// is an element of its own, as in ROSS. Units SI. Sources: Timoshenko beam theory; kappa of
 /// Cowper (J. Appl. Mech. 33, 1966) or Hutchinson (J. Appl. Mech. 68, 2001) for a hollow circle.
 #include <Eigen/Dense>
 #include <string>
@@ -26,9 +28,9 @@ struct Material {
 };
 
 inline constexpr Field<Material> kMaterialFields[] = {
-    {"E", &Material::E, "N/m2", 1e6, 1e13, "Young's modulus"},
+    {"E", &Material::E, "N/m2", 2e3, 1e13, "Young's modulus"},
     {"rho", &Material::rho, "kg/m3", 0.0, 1e5, "density"},
-    {"nu", &Material::nu, "-", 0.0, 0.5, "Poisson's ratio"},
+    {"nu", &Material::nu, "-", -0.99, 0.5, "Poisson's ratio"},
 };
 
 /// A cylindrical or conical piece with a bore: diameters linear from left to right.
@@ -43,6 +45,8 @@ struct ShaftSection {
   double damping_stiffness = 0;  // [s]
   std::string name;
   double axial_force = 0;  // tension [N]
+  double torque = 0;       // [N m]
+  std::string shaft{};     // of several, by name
 };
 
 inline constexpr Field<ShaftSection> kShaftSectionFields[] = {
@@ -57,6 +61,8 @@ inline constexpr Field<ShaftSection> kShaftSectionFields[] = {
     {"damping_stiffness", &ShaftSection::damping_stiffness, "s", 0.0, 1.0,
      "Rayleigh damping with stiffness"},
     {"axial_force", &ShaftSection::axial_force, "N", -1e9, 1e9, "tension, below 0 compression"},
+    {"torque", &ShaftSection::torque, "N m", -1e9, 1e9,
+     "torque that the section transmits, about +z on its right end"},
 };
 
 enum class MassKind { kConsistent, kLumped };
@@ -69,6 +75,7 @@ struct BeamTheory {
   bool rotary_inertia = true;
   bool gyroscopic = true;
   ShearCoefficient coefficient = ShearCoefficient::kCowper;
+  bool separate_layers = false;
 };
 
 /// One element: all layers span exactly [z0, z0 + length].
@@ -78,7 +85,7 @@ struct ShaftElement {
 };
 
 struct PlaneElement {
-  Eigen::Matrix4d M, J, K, C, tension;
+  Eigen::Matrix4d M = Eigen::Matrix4d::Zero(), J = M, K = M, C = M, tension = M;
 };
 
 struct ElementShape {
@@ -92,6 +99,12 @@ ShaftSection Slice(const ShaftSection& section, double z_left, double z_right);
 double ShearCoefficientOf(ShearCoefficient kind, double bore_ratio, double nu);
 
 PlaneElement ElementMatrices(const ShaftElement& element, const BeamTheory& theory);
+
+/// Stiffness of a torque T along the axis over (x, y, alpha, beta) of both ends: virtual work
+/// T ∫ (x'' dy' - y'' dx') of the cubic shapes, with a torque that keeps the axis' direction at both ends; what
+/// two elements of one torque do at their common node cancels. T counts about +z on the right end. Source: Friswell
+/// et al., Dynamics of Rotating Machines, 2010, 5.4.
+Eigen::Matrix<double, 8, 8> TorqueMatrix(double length, double torque);
 
 /// Static shape functions at distance s from the left end.
 ElementShape ShapeAt(const ShaftElement& element, const BeamTheory& theory, double s);

@@ -39,10 +39,13 @@ class ShaftLines {
   std::string text;
 };
 
-void AddSectionLines(const ShaftSection& s, ShaftLines& out) {
+using Shafts = std::vector<PlacedShaft>;
+
+void AddSectionLines(const ShaftSection& s, const Shafts& shafts, ShaftLines& out) {
   out.Table(s.stiff ? "section" : "sleeve");
   out.Put("name", s.name);
-  out.Put("z0", s.z0);
+  out.Put("shaft", s.shaft);
+  out.Put("z0", PlaceOf(shafts, s.z0));
   out.Put("length", s.length);
   out.Put("od", s.od);
   out.PutUnless("id", s.id, 0);
@@ -54,27 +57,32 @@ void AddSectionLines(const ShaftSection& s, ShaftLines& out) {
   out.PutUnless("damping_mass", s.damping_mass, 0);
   out.PutUnless("damping_stiffness", s.damping_stiffness, 0);
   out.PutUnless("axial_force", s.axial_force, 0);
+  out.PutUnless("torque", s.torque, 0);
 }
 
-void AddDisk(const Disk& d, ShaftLines& out) {
+void AddDisk(const Disk& d, const Shafts& shafts, ShaftLines& out) {
   out.Table("disk");
   // Names are targets in scenarios: no dots and blanks.
   std::string name = d.name;
   std::replace_if(
       name.begin(), name.end(), [](char c) { return c == '.' || c == ' ' || c == '\t'; }, '_');
   out.Put("name", name);
-  out.Put("z", d.z);
+  out.Put("shaft", d.shaft);
+  out.Put("z", PlaceOf(shafts, d.z));
   out.Put("mass", d.mass);
   out.Put("inertia_diametral", d.inertia_diametral);
   out.Put("inertia_polar", d.inertia_polar);
 }
 
-void AddSupportLines(const SpringSupport& s, ShaftLines& out) {
+void AddSupportLines(const SpringSupport& s, const Shafts& shafts, ShaftLines& out) {
   out.Table("support");
   out.Put("name", s.name);
   out.Put("carries", s.carries);
   out.Put("on", s.on);
-  if (s.on_shaft()) out.Put("z", s.z);
+  out.Put("shaft", s.shaft);
+  if (s.on_shaft()) out.Put("z", PlaceOf(shafts, s.z));
+  out.Put("to", s.to);
+  if (s.between_shafts()) out.Put("to_z", PlaceOf(shafts, s.to_z));
   std::string list;
   for (const double v : s.speed) list += (list.empty() ? "" : ", ") + Float(v);
   if (s.varies()) out.text += fmt::format("speed = [{}]\n", list);
@@ -108,7 +116,8 @@ void AddBodyLines(const BeamDefinition& d, ShaftLines& out) {
   for (const PointMass& m : d.masses) {
     out.Table("point_mass");
     out.Put("name", m.name);
-    out.Put("z", m.z);
+    out.Put("shaft", m.shaft);
+    out.Put("z", PlaceOf(d.shafts, m.z));
     masses(m);
   }
 }
@@ -137,16 +146,22 @@ std::string BeamText(const BeamFile& file) {
   list.clear();
   for (const double z : unnamed) list += (list.empty() ? "" : ", ") + Float(z);
   if (!list.empty()) out.text += fmt::format("stations = [{}]\n", list);
-  for (const ShaftSection& s : d.sections) AddSectionLines(s, out);
-  for (const Disk& disk : d.disks) AddDisk(disk, out);
+  if (t.separate_layers) out.text += "layers = \"separate\"\n";
+  for (const PlacedShaft& s : d.shafts) {
+    out.Table("shaft");
+    out.Put("name", s.name);
+  }
+  for (const ShaftSection& s : d.sections) AddSectionLines(s, d.shafts, out);
+  for (const Disk& disk : d.disks) AddDisk(disk, d.shafts, out);
   for (const ShaftPlane& p : file.planes) {
     const auto same = [&](const Disk& disk) { return disk.z == p.z; };
     if (std::any_of(d.disks.begin(), d.disks.end(), same)) continue;  // the disk carries the name
     out.Table("station");
     out.Put("name", p.name);
-    out.Put("z", p.z);
+    if (const PlacedShaft* s = ShaftAt(d.shafts, p.z)) out.Put("shaft", s->name);
+    out.Put("z", PlaceOf(d.shafts, p.z));
   }
-  for (const SpringSupport& s : d.supports) AddSupportLines(s, out);
+  for (const SpringSupport& s : d.supports) AddSupportLines(s, d.shafts, out);
   AddBodyLines(d, out);
   return out.text;
 }

@@ -87,7 +87,7 @@ Disk ReadDisk(const TomlTable& row, const Materials& materials, std::vector<Tole
               double* rho) {
   // Both spellings first: a misspelt `width` must not end as a missing mass.
   for (const char* key : {"z", "mass", "inertia_diametral", "inertia_polar", "width", "od", "id",
-                          "material", "rho", "name"})
+                          "material", "rho", "name", "shaft"})
     row.Has(key);
   row.RejectUnknownKeys();
   Disk d;

@@ -11,7 +11,50 @@ namespace {
 using StateComplex = std::complex<double>;
 constexpr StateComplex kStateI{0, 1};
 
+/// sqrt(K_ii/M_ii) in rising order, without those that nothing holds.
+std::vector<double> RatesOf(const LinearRotor& r) {
+  std::vector<double> rates;
+  for (Eigen::Index i = 0; i < r.K.rows(); ++i)
+    if (r.K(i, i) > 0 && r.M(i, i) > 0) rates.push_back(std::sqrt(r.K(i, i) / r.M(i, i)));
+  std::sort(rates.begin(), rates.end());
+  return rates;
+}
+
+/// With P = shift² M + shift C + K and theta = shift/(s - shift):
+///   theta² P q + theta shift (2 shift M + C) q + shift² M q = 0
+StateModes SolveShifted(const LinearRotor& r, double speed, double shift) {
+  const Eigen::Index n = r.M.rows();
+  const Eigen::MatrixXd C = r.D + speed * r.G;
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(shift * shift * r.M + shift * C + r.K);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  A.topLeftCorner(n, n) = -shift * lu.solve(2 * shift * r.M + C);
+  A.topRightCorner(n, n) = -shift * shift * lu.solve(r.M);
+  A.bottomLeftCorner(n, n).setIdentity();
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
+  Require(eigen.info() == Eigen::Success, "converged eigenvalues");
+  std::vector<Eigen::Index> low;  // those far beyond are what rounding leaves of infinity
+  for (Eigen::Index k = 0; k < 2 * n; ++k)
+    if (std::abs(eigen.eigenvalues()(k)) > 1 / kRigidRate) low.push_back(k);
+  StateModes out{Eigen::VectorXcd(low.size()), Eigen::MatrixXcd(n, low.size())};
+  for (std::size_t k = 0; k < low.size(); ++k) {
+    const auto at = static_cast<Eigen::Index>(k);
+    out.s(at) = shift + shift / eigen.eigenvalues()(low[k]);
+    out.shape.col(at) = eigen.eigenvectors().col(low[k]).bottomRows(n);
+  }
+  return out;
+}
+
 }  // namespace
+
+double UsualRate(const LinearRotor& rotor) {
+  const std::vector<double> rates = RatesOf(rotor);
+  return rates.empty() ? 1 : rates[rates.size() / 2];
+}
+
+double StiffestRate(const LinearRotor& rotor) {
+  const std::vector<double> rates = RatesOf(rotor);
+  return rates.empty() ? 1 : rates.back();
+}
 
 double WhirlIndex(const std::vector<std::array<int, 2>>& xy, const Eigen::VectorXcd& q) {
   double forward = 0, backward = 0;
@@ -32,6 +75,8 @@ StateModes SolveState(const LinearRotor& r, double speed) {
     throw InputError(
         "the rotor's mass matrix is not positive definite, allowed: added masses of supports that "
         "leave every mass positive, lumped masses with rotary inertia");
+  if (const double rate = UsualRate(r); StiffestRate(r) > kRigidRate * rate)
+    return SolveShifted(r, speed, rate);
   const auto congruence = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
     const Eigen::MatrixXd left = llt.matrixL().solve(a);
     return llt.matrixL().solve(left.transpose()).transpose();

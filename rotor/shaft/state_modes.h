@@ -10,7 +10,13 @@ struct StateModes {
   Eigen::MatrixXcd shape;  // displacements, dofs x eigenvalues
 };
 
-/// All eigenvalues. @throws InputError when the mass matrix is singular.
+/// The middle and the largest of sqrt(K_ii/M_ii) [1/s]. Supports that count as rigid stand far out: what they are
+/// part of then blurs the low modes of a solver whose error is that of the largest eigenvalue.
+double UsualRate(const LinearRotor& rotor);
+double StiffestRate(const LinearRotor& rotor);
+inline constexpr double kRigidRate = 1e3;  // of the usual one
+
+/// All eigenvalues. With rigid supports from those of 1/(s - shift), so that the low ones keep their digits. @throws InputError when the mass matrix is singular.
 StateModes SolveState(const LinearRotor& rotor, double speed);
 
 /// Those with a frequency, by it, at most `count`; their whirl is still to be set.

@@ -51,16 +51,20 @@ SpringSupport ReadSupport(const TomlTable& row, std::vector<Tolerance>* toleranc
   s.name = row.String("name", "");
   s.carries = row.String("carries", "");
   s.on = row.String("on", "");
+  if (row.Has("to") && !s.on.empty()) row.Fail("to", "is given beside on, allowed: one of them");
+  if (row.Has("to_z") && !row.Has("to"))
+    row.Fail("to_z", "is given without to, allowed: with to, the shaft on which it stands");
   if (s.on_shaft())
     s.z = Within(row, "z", kRequired, kPlaceOnShaft);
   else if (row.Has("z"))
     row.Fail("z", "is given beside carries, allowed: one of them");
-  RejectSd(row, {"z"}, tolerances);
+  if (row.Has("to")) s.to_z = Within(row, "to_z", s.z, kPlaceOnShaft);
+  RejectSd(row, {"z", "to_z"}, tolerances);
   for (const char* key : {"k", "c"}) {
     if (!row.Has(key)) continue;
     const bool k = *key == 'k';
     Range range =
-        k ? Range{"N/m", -1e15, 1e15, "stiffness"} : Range{"N s/m", -1e12, 1e12, "damping"};
+        k ? Range{"N/m", -1e21, 1e21, "stiffness"} : Range{"N s/m", -1e12, 1e12, "damping"};
     (k ? s.kxx : s.cxx) = Within(row, key, 0.0, range);
     (k ? s.kyy : s.cyy) = k ? s.kxx : s.cxx;
     double sd = 0;

@@ -41,9 +41,12 @@ MatrixXd Independent(const MatrixXd& a, const MatrixXd& M) {
   return out;
 }
 
-/// One eigenpair of the whole beam next to (s, q); false when the iteration does not end there.
+/// One eigenpair of the whole beam next to (s, q); false when the iteration does not end there. Two poles that
+/// are one (a defective pair: a cross-coupling one way at rest) halve the error at each step; the step is
+/// then taken twice.
 bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
   const Complex start = s;
+  Complex before = 0;
   q.normalize();
   const Eigen::VectorXcd w = q;
   for (int k = 0; k < 12; ++k) {
@@ -51,13 +54,51 @@ bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
     const Eigen::VectorXcd u = matrix.Solve(matrix.Slope(s, q));
     const Complex step = w.dot(q) / w.dot(u);
     if (!std::isfinite(step.real()) || !std::isfinite(step.imag())) return k > 0;
-    s -= step;
+    const bool halves = std::abs(step / before - 0.5) < 0.05;
+    before = step;
+    s -= halves ? 2.0 * step : step;
     q = u / w.dot(u);
     if (std::abs(s - start) > 0.2 * std::abs(start)) return false;
-    if (std::abs(step) < 1e-13 * std::abs(s)) break;
+    if (std::abs(step) < 1e-9 * std::abs(s)) break;  // the next one would be its square
     if (k == 11 && std::abs(step) > 1e-9 * std::abs(s)) return false;
   }
   q.normalize();
+  return true;
+}
+
+/// Eigenvalues of a dense solver, whose error is that of the largest.
+void Sharpen(const LinearRotor& rotor, double speed, std::vector<WhirlMode>& modes) {
+  DynamicMatrix matrix(rotor, speed);
+  for (WhirlMode& m : modes) {
+    Complex s = m.s;
+    Eigen::VectorXcd q = m.shape;
+    Refine(matrix, s, q);
+    if (!(std::abs(s - m.s) < 1e-4 * std::abs(m.s)) || !q.allFinite()) continue;
+    const double whirl = m.whirl;
+    m = MakeWhirlMode(s, m.shape);
+    m.whirl = whirl;
+  }
+}
+
+/// Shapes of a rotor with supports so stiff that they are rigid: the eigenvalues 1/(w² + shift) of M against K +
+/// shift M, whose largest ones the stiffest support does not blur. False where K + shift M is not positive.
+bool ShapesBesideRigid(const MatrixXd& K, const MatrixXd& M, double shift, Index kept,
+                       const MatrixXd& forces, MatrixXd& out) {
+  const MatrixXd shifted = K + shift * M;
+  const Eigen::LLT<MatrixXd> llt(shifted);
+  if (llt.info() != Eigen::Success) return false;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(M, shifted);
+  if (eigen.info() != Eigen::Success) return false;
+  MatrixXd low = eigen.eigenvectors().rightCols(kept).rowwise().reverse();
+  for (Index k = 0; k < kept; ++k) low.col(k) /= std::sqrt(low.col(k).dot(M * low.col(k)));
+  const MatrixXd whole = llt.solve(forces);
+  MatrixXd residual = whole;
+  for (int twice = 0; twice < 2; ++twice) residual -= low * (low.transpose() * (M * residual));
+  for (Index k = 0; k < residual.cols(); ++k)  // of a rigid support nothing is left but rounding
+    if (residual.col(k).norm() < 1e-6 * whole.col(k).norm()) residual.col(k).setZero();
+  const MatrixXd extra = Independent(residual, M);
+  out.resize(M.rows(), kept + extra.cols());
+  out << low, extra;
   return true;
 }
 
@@ -71,12 +112,17 @@ bool SameMode(const WhirlMode& a, const WhirlMode& b) {
 MatrixXd ShapesOf(const LinearRotor& rotor, int count, const MatrixXd& forces) {
   const MatrixXd M = 0.5 * (rotor.M + rotor.M.transpose()),
                  K = 0.5 * (rotor.K + rotor.K.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M);
-  if (eigen.info() != Eigen::Success || Eigen::LLT<MatrixXd>(M).info() != Eigen::Success)
+  const Index n = M.rows(), kept = std::min<Index>(count, n);
+  if (Eigen::LLT<MatrixXd>(M).info() != Eigen::Success)
     throw InputError(
         "the rotor's mass matrix is not positive definite, allowed: added masses of supports that "
         "leave every mass positive, lumped masses with rotary inertia");
-  const Index n = M.rows(), kept = std::min<Index>(count, n);
+  if (const double rate = UsualRate(rotor); StiffestRate(rotor) > kRigidRate * rate) {
+    MatrixXd out;
+    if (ShapesBesideRigid(K, M, rate * rate, kept, forces, out)) return out;
+  }
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(K, M);
+  Require(eigen.info() == Eigen::Success, "converged undamped modes");
   const MatrixXd phi = eigen.eigenvectors().rightCols(n - kept);
   const MatrixXd residual =
       phi * eigen.eigenvalues().tail(n - kept).asDiagonal().inverse() * (phi.transpose() * forces);
@@ -91,6 +137,7 @@ MatrixXd SupportColumns(const BeamRotor& beam) {
   std::vector<int> at;
   for (const SpringSupport& s : beam.supports) {
     if (s.on_shaft()) at.push_back(4 * NodeAt(beam, s.z));
+    if (s.between_shafts()) at.push_back(4 * NodeAt(beam, s.to_z));
     for (const std::string& name : {s.carries, s.on})
       if (!name.empty()) at.push_back(HousingDof(beam, name));
   }
@@ -131,13 +178,15 @@ WholeBeamModes FindWhirlModes(const LinearRotor& rotor, const MatrixXd& shapes, 
   std::sort(out.real.begin(), out.real.end());
   out.oscillatory = OscillatoryModes(state, count + 8);
   for (WhirlMode& m : out.oscillatory) m.shape = shapes * m.shape;
-  const double stiff = rotor.K.norm();
+  const MatrixXd sizes = rotor.K.cwiseAbs();
   std::erase_if(out.oscillatory, [&](const WhirlMode& m) {  // a rigid motion that rounding turns
-    return (rotor.K * m.shape).norm() < 1e-13 * stiff * m.shape.norm();
+    return (rotor.K * m.shape).norm() < 1e-13 * (sizes * m.shape.cwiseAbs()).norm();
   });
   if (static_cast<int>(out.oscillatory.size()) > count) out.oscillatory.resize(count);
-  if (!ContinueModes(rotor, speed, out.oscillatory))
+  if (!ContinueModes(rotor, speed, out.oscillatory)) {
     out.oscillatory = WhirlModes(rotor, speed, count);
+    Sharpen(rotor, speed, out.oscillatory);
+  }
   std::sort(out.oscillatory.begin(), out.oscillatory.end(),
             [](const auto& a, const auto& b) { return a.omega_d < b.omega_d; });
   return out;

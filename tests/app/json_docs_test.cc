@@ -74,7 +74,9 @@ TEST(JsonDocs, Run) {
   r.actions = {{0.1, "A.coil1", "disable", "open"}};
   Scenario s;
   s.name = "t";
-  ExpectDocumented("run", RunJson(s, r, {}));
+  Json json = RunJson(s, r, {});
+  json["bending_modes"] = DroppedModesJson({2, 1, 90, {120}, {{"A", 1e-8, 1e-9, 2e-9}}});
+  ExpectDocumented("run", json);
 }
 
 TEST(JsonDocs, Compare) {

@@ -147,31 +147,26 @@ TEST(Ufu, ReducedRotorKeepsTheGyroscopicSplit) {
   ExpectEach(bending, {published, published + 8}, 1e-4);
 }
 
-// Source: geometry recalled, last three elements chosen by fit (low confidence). The first list is
-// an independent Euler-Bernoulli FE of the same data: ours must match it; the second is literature.
-TEST(NelsonMcVaugh, CriticalSpeedsOfTheRecalledGeometry) {
+// Nelson and McVaugh 1976: table of the rotor as public codes have it, isotropic undamped bearings.
+TEST(NelsonMcVaugh, CriticalSpeeds) {
   const double z[] = {0,     1.27,  5.08,  7.62,  8.89,  10.16, 10.67, 11.43, 12.70, 13.46,
-                      16.51, 19.05, 22.86, 26.67, 28.70, 30.48, 31.50, 34.54, 35.50};
+                      16.51, 19.05, 22.86, 26.67, 28.70, 30.48, 31.50, 34.54, 35.81};
   const double od[] = {1.02, 2.04, 1.52, 4.06, 4.06, 6.60, 6.60, 5.08, 5.08,
                        2.54, 2.54, 3.04, 3.04, 2.54, 2.54, 7.62, 4.06, 4.06};
   BeamDefinition d;
   for (int i = 0; i < 18; ++i) {
     d.sections.push_back(
         Uniform(z[i] / 100, (z[i + 1] - z[i]) / 100, od[i] / 100, {2.078e11, 7806, 0.3}));
-    const double id = i == 6 ? 3.04 : i == 7 ? 3.56 : i == 16 ? 1.52 : i == 17 ? 2.03 : 0;
+    const double id = i == 6 ? 3.04 : i == 7 ? 3.56 : i == 17 ? 3.04 : 0;
     d.sections.back().id = d.sections.back().id_right = id / 100;
   }
   d.elements_per_section = 1;
   d.theory.shear = false;
-  d.disks = {{0.0889, 1.401, 0.00136, 0.0020, "disk"}};
+  d.disks = {{0.0889, 1.401, 0.00136, 0.00203, "disk", ""}};
   d.supports = {IsotropicSupport(0.1651, 4.378e7, 0), IsotropicSupport(0.2870, 4.378e7, 0)};
-  const auto critical = CriticalSpeeds(Assemble(BuildBeam(d)), 6);
-  const double independent[] = {15486, 17148, 46612, 50101, 64841, 95630};
-  const double literature[] = {15470, 17159, 46612, 49983, 64752, 96457};
-  for (int i = 0; i < 6; ++i) {
-    EXPECT_NEAR(critical[i].speed / kRpm, independent[i], 1.0);
-    EXPECT_NEAR(critical[i].speed / kRpm, literature[i], 0.01 * literature[i]);
-  }
+  const auto critical = CriticalSpeeds(Assemble(BuildBeam(d)), 3);
+  const double printed[] = {15474.8, 17156.8, 45953.4};
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(critical[i].speed / kRpm, printed[i], 0.1);
 }
 
 // Modelling and Simulation in Engineering 2011, 414286, table 1: rigid rotor, sensors not at the

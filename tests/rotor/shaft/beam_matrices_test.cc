@@ -174,7 +174,7 @@ TEST(BeamErrors, SayWhatIsWrong) {
   BeamDefinition gap = UniformShaft(0.1, 0.02, 1);
   gap.sections.push_back(Uniform(0.1, 0.02));
   gap.sections[1].z0 = 0.2;
-  EXPECT_EQ(Message(gap), "beam rotor: no shaft section between z = 0.1 and 0.2 m");
+  EXPECT_EQ(Message(gap), "beam rotor: no shaft section between z = 0.1 m and z = 0.2 m");
   BeamDefinition off = UniformShaft(0.1, 0.02, 1);
   off.disks = {{0.2, 1, 1, 1, "impeller"}};
   EXPECT_EQ(Message(off), "disk \"impeller\" at z = 0.2 m is off the shaft, allowed 0 to 0.1 m");
