@@ -180,8 +180,8 @@ std::string RecordName(const std::string& record, const std::filesystem::path& f
 }
 
 /// Scenarios of the records, then the case. Returns what was taken for what.
-std::vector<ColumnChoice> AddRecords(const NewCommand& o, const RigParameters& rig,
-                                     const std::vector<Record>& records, Files& files) {
+std::vector<ColumnChoice> AddBenchRecords(const NewCommand& o, const RigParameters& rig,
+                                          const std::vector<Record>& records, Files& files) {
   std::vector<BenchRecord> all;
   std::vector<ColumnChoice> taken;
   for (std::size_t k = 0; k < records.size(); ++k) {
@@ -245,7 +245,7 @@ int MakeBench(NewCommand o) {
   if (records.empty())
     files.emplace_back("levitation.toml", LevitationText(rig));
   else
-    choices = AddRecords(o, rig, records, files);
+    choices = AddBenchRecords(o, rig, records, files);
   std::vector<std::string> paths;
   for (const auto& [name, text] : files) paths.push_back((folder / name).string());
   RefuseOverwriting(paths, o.common.force);
