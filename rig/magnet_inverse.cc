@@ -20,7 +20,7 @@ constexpr double kExact = 1e-12;            // of the force [N] asked for, besid
 struct MagnetLaw {
   int axes = 2;
   double gap = 0;  // [m]
-  std::function<Eigen::VectorXd(const Eigen::VectorXd& i, const Eigen::Vector2d& r)> force;
+  MagnetForce force;
   std::function<Eigen::MatrixXd(const Eigen::VectorXd&i, const Eigen::Vector2d&r)> of_current,
       of_place;
 };
@@ -115,6 +115,8 @@ Lane Inverted(const MagnetLaw& law, const CurrentMap& map, int coils, const Eige
 }
 
 }  // namespace
+
+MagnetForce MagnetForceOf(const BearingParameters& b) { return LawOf(b).force; }
 
 MagnetInverse MagnetInverseOf(const NominalRig& rig, std::size_t bearing,
                               const Eigen::Vector2d& weight) {

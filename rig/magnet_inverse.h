@@ -6,6 +6,11 @@
 
 namespace ambrig {
 
+/// Force [N] of the nominal magnets along the bearing's axes, over coil currents [A] and place [m].
+using MagnetForce =
+    std::function<Eigen::VectorXd(const Eigen::VectorXd& i, const Eigen::Vector2d& r)>;
+MagnetForce MagnetForceOf(const BearingParameters& b);
+
 /// Of a bearing of any kind. `weight`: its share of it, where k_s is taken [N].
 MagnetInverse MagnetInverseOf(const NominalRig& rig, std::size_t bearing,
                               const Eigen::Vector2d& weight);

@@ -180,8 +180,8 @@ std::string RecordName(const std::string& record, const std::filesystem::path& f
 }
 
 /// Scenarios of the records, then the case. Returns what was taken for what.
-std::vector<ColumnChoice> AddRecords(const NewCommand& o, const RigParameters& rig,
-                                     const std::vector<Record>& records, Files& files) {
+std::vector<ColumnChoice> AddBenchRecords(const NewCommand& o, const RigParameters& rig,
+                                          const std::vector<Record>& records, Files& files) {
   std::vector<BenchRecord> all;
   std::vector<ColumnChoice> taken;
   for (std::size_t k = 0; k < records.size(); ++k) {
@@ -194,7 +194,7 @@ std::vector<ColumnChoice> AddRecords(const NewCommand& o, const RigParameters& r
     const std::string data = RecordName(o.records[k], o.out),
                       number = records.size() > 1 ? fmt::format("-{}", k + 1) : "";
     const std::string coils = "record" + number + ".toml", rotor = "rotor" + number + ".toml";
-    for (BenchRecord& r : RecordsOf(rig, choices, coils, rotor, data)) {
+    for (BenchRecord& r : RecordsOf(rig, record, choices, coils, rotor, data)) {
       files.emplace_back(r.scenario, r.scenario == rotor
                                          ? RotorScenario(rig, record)
                                          : ScenarioOfRecord(rig, record, choices, data, held));
@@ -202,6 +202,10 @@ std::vector<ColumnChoice> AddRecords(const NewCommand& o, const RigParameters& r
     }
     taken.insert(taken.end(), choices.begin(), choices.end());
   }
+  if (all.empty())
+    throw InputError(
+        "no record says anything of coils or rotor, allowed: duties or set-points beside currents "
+        "and positions, or a body that the currents carry");
   files.emplace_back("case.toml", CaseText(all));
   return taken;
 }
@@ -242,7 +246,7 @@ int MakeBench(NewCommand o) {
   if (records.empty())
     files.emplace_back("levitation.toml", LevitationText(rig));
   else
-    choices = AddRecords(o, rig, records, files);
+    choices = AddBenchRecords(o, rig, records, files);
   std::vector<std::string> paths;
   for (const auto& [name, text] : files) paths.push_back((folder / name).string());
   RefuseOverwriting(paths, o.common.force);

@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "app/commands/screen.h"
 #include "core/base/toml_edit.h"
 #include "core/base/units.h"
 #include "core/record/column_names.h"
 #include "rig/clearance.h"
+#include "rig/magnet_inverse.h"
 #include "rig/rig_channels.h"
 #include "rig/rig_figures.h"
 
@@ -18,6 +20,12 @@ namespace ambrig {
 namespace {
 
 constexpr double kStill = 0.05;  // of the gap: a place that stands
+// Of the gap: noise of a distance that comes down to nothing, and how far it goes then.
+constexpr double kTouches = 0.02, kGoesOn = 0.1;
+constexpr double kOffCentre = 0.3;  // of the gap: far for a levitated rotor's mean
+// Mean force over weight of a free body, and what laws of magnets miss at the ends of their gaps.
+constexpr double kMostCarried = 3;
+constexpr std::size_t kRowsLooked = 2000;
 
 bool Knows(const std::vector<ColumnChoice>& all, const std::string& channel) {
   return std::any_of(all.begin(), all.end(), [&](const auto& c) { return c.channel == channel; });
@@ -65,12 +73,14 @@ std::string JudgePosition(const BearingParameters& b, const Record& record, Colu
   const double gap = GapOf(b);
   const bool one_axis = b.Axes().size() == 1;
   // x counts from the middle and has both signs; a distance is never below zero.
-  if (one_axis && c.reason != "said" && at.least > 0) {
+  const bool distance = at.least > 0 || (at.least > -kTouches * gap && at.most > kGoesOn * gap);
+  if (one_axis && c.reason != "said" && distance) {
     if (at.most - at.least < kStill * gap) {
       *held = gap - at.middle;
       *leave_out = true;
       return fmt::format(
-          "{0}: {1} is taken as the distance from the magnet, the body as held at x = {2:.4g} m",
+          "{0}: {1} is taken as the distance from the magnet, the body as held at x = {2:.4g} m; "
+          "that it is x itself says --column {0}={1}",
           c.channel, c.column, *held);
     }
     c.gain = -c.gain;
@@ -80,7 +90,13 @@ std::string JudgePosition(const BearingParameters& b, const Record& record, Colu
         "itself says --column {0}={1}",
         c.channel, c.column, gap);
   }
-  if (std::max(std::abs(at.least), std::abs(at.most)) < 0.9 * gap) return "";
+  if (std::max(std::abs(at.least), std::abs(at.most)) < 0.9 * gap) {
+    if (c.reason == "said" || std::abs(at.middle) < kOffCentre * gap) return "";
+    return fmt::format(
+        "{0}: {1} is taken as x, which counts from the centred rotor, and lies at {2:.4g} m with a "
+        "gap of {3:.4g} m; if it is the distance from the magnet, --column {0}={1}:{4}:-1:{3:.4g}",
+        c.channel, c.column, at.middle, gap, c.unit.empty() ? "m" : c.unit);
+  }
   *leave_out = true;
   return fmt::format(
       "{}: {} reaches {:.4g} m with a gap of {:.4g} m: left out, for x counts from the centred "
@@ -150,15 +166,88 @@ std::string RotorScenario(const RigParameters& rig, const Record& r) {
       TomlNumber(RecordRateFor(rig, r.rate)));
 }
 
-std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const std::vector<ColumnChoice>& all,
-                                   const std::string& coils, const std::string& rotor,
-                                   const std::string& data) {
+namespace {
+
+/// The measured values of a channel in SI; null where it was not found in the record.
+std::function<double(std::size_t row)> Measured(const Record& record,
+                                                const std::vector<ColumnChoice>& all,
+                                                const ChannelId& id) {
+  for (const ColumnChoice& c : all) {
+    if (c.channel != id.name()) continue;
+    const Channel* column = FindColumn(record, c.column);
+    const std::string_view si = RowOf(id.kind).unit;
+    const double factor = c.gain * (c.unit.empty() ? 1 : UnitFactor(c.unit, std::string(si)));
+    return [column, factor, offset = c.offset](std::size_t row) {
+      return column->samples[row] * factor + offset;
+    };
+  }
+  return nullptr;
+}
+
+/// Mean force of one bearing along its axes [N]; NaN where it cannot be told.
+Eigen::Vector2d MeanForce(const BearingParameters& b, const Record& record,
+                          const std::vector<ColumnChoice>& all) {
+  std::vector<std::function<double(std::size_t)>> current, place;
+  for (const ChannelId& id : ChannelsOf(b, ChannelKind::kCoilCurrent))
+    current.push_back(Measured(record, all, id));
+  for (const ChannelId& id : ChannelsOf(b, ChannelKind::kReading))
+    place.push_back(Measured(record, all, id));
+  const auto unknown = [](const auto& f) { return !f; };
+  const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
+  if (std::ranges::any_of(current, unknown) || std::ranges::any_of(place, unknown)) return none;
+  const MagnetForce force = MagnetForceOf(b);
+  const double most = 0.9 * GapOf(b);
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double count = 0;
+  Eigen::VectorXd i(static_cast<Eigen::Index>(current.size()));
+  for (std::size_t row = 0; row < record.rows(); row += record.rows() / kRowsLooked + 1) {
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();
+    for (std::size_t k = 0; k < current.size(); ++k)
+      i[static_cast<Eigen::Index>(k)] = current[k](row);
+    for (std::size_t k = 0; k < place.size(); ++k) at[static_cast<Eigen::Index>(k)] = place[k](row);
+    if (!i.allFinite() || !at.allFinite()) continue;
+    if (at.norm() > most) at *= most / at.norm();
+    const Eigen::VectorXd f = force(i, at);
+    sum.head(f.size()) += f;
+    count += 1;
+  }
+  return count > 0 ? Eigen::Vector2d(sum / count) : none;
+}
+
+}  // namespace
+
+double CarriedShare(const RigParameters& rig, const Record& record,
+                    const std::vector<ColumnChoice>& all) {
+  const auto weight = WeightShares(rig);
+  double along = 0, whole = 0;
+  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
+    Eigen::Vector2d w(weight[k][0], weight[k][1]);
+    if (w.norm() == 0) continue;
+    along += w.dot(MeanForce(rig.bearings[k], record, all));
+    whole += w.squaredNorm();
+  }
+  return whole > 0 ? along / whole : std::nan("");
+}
+
+std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const Record& record,
+                                   const std::vector<ColumnChoice>& all, const std::string& coils,
+                                   const std::string& rotor, const std::string& data) {
   const bool moves = KnowsAll(all, rig, ChannelKind::kReading);
   std::vector<BenchRecord> out = {{coils, data, moves ? "motion" : "", all}};
   // Without a duty or a set-point the currents themselves drive the coils: nothing of them is predicted.
   if (moves && DriveOf(all, rig) == CommandSource::kCurrent) out.clear();
-  if (moves && KnowsAll(all, rig, ChannelKind::kCoilCurrent))
+  if (!moves || !KnowsAll(all, rig, ChannelKind::kCoilCurrent)) return out;
+  const double carried = CarriedShare(rig, record, all);
+  if (!(carried > kMostCarried || carried < 1 / kMostCarried)) {
     out.push_back({rotor, data, "currents", all});
+    return out;
+  }
+  fmt::print("{}\n",
+             Wrapped(fmt::format("  the measured currents pull with {:.3g} times the weight: "
+                                 "the body stands on something or is held, and the record "
+                                 "says nothing of its motion under the magnets",
+                                 carried),
+                     4));
   return out;
 }
 

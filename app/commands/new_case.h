@@ -24,6 +24,10 @@ double HoldAtDistance(const RigParameters& rig, const Record& record,
 std::string ScenarioOfRecord(const RigParameters& rig, const Record& record,
                              const std::vector<ColumnChoice>& all, const std::string& data,
                              double held);
+/// Mean force that the nominal magnets make of the measured currents where the body was measured, over the weight: near
+/// one for a body that nothing but the magnets holds. NaN without a weight, or without currents and positions.
+double CarriedShare(const RigParameters& rig, const Record& record,
+                    const std::vector<ColumnChoice>& all);
 /// A levitated rotor that the measured currents drive.
 std::string RotorScenario(const RigParameters& rig, const Record& record);
 
@@ -33,10 +37,11 @@ struct BenchRecord {
   std::vector<ColumnChoice> columns;
 };
 /// What a record can say, of its coils in gaps that move as measured (or stand), and of the rotor under the
-/// measured currents where positions and currents of everything that moves are known.
-std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const std::vector<ColumnChoice>& all,
-                                   const std::string& coils, const std::string& rotor,
-                                   const std::string& data);
+/// measured currents where positions and currents of everything that moves are known and the currents carry
+/// the weight; where they do not, the body stands on something, and it is said.
+std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const Record& record,
+                                   const std::vector<ColumnChoice>& all, const std::string& coils,
+                                   const std::string& rotor, const std::string& data);
 std::string CaseText(const std::vector<BenchRecord>& all);
 /// Without a record: half a second of levitation.
 std::string LevitationText(const RigParameters& rig);

@@ -35,6 +35,53 @@ TEST_F(NewBench, FromTenNumbersAndARecordToACase) {
   EXPECT_EQ(Ambrig("compare ball/case.toml").exit, 0);  // the files are there to go on with
 }
 
+// The ball lies at the magnet and shifts by half a millimetre: its gap moves as measured, but the currents do not carry
+// it, so that nothing is said of a free ball.
+TEST_F(NewBench, ABodyThatLiesOnSomethingIsNotFree) {
+  Write("ball.toml",
+        Replaced(ReadText(kExamplesOfNew + "ball.toml"), "../mls2em/data/inductance_em1_05.csv",
+                 AMBRIG_SOURCE_DIR "/examples/mls2em/data/inductance_em1_11.csv"));
+  const Outcome o = Ambrig("new --answers ball.toml -o ball --only-files");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("the measured currents pull with 4.57 times the weight"));
+  const std::string text = ReadText(folder_ / "ball/case.toml");
+  EXPECT_THAT(text, HasSubstr("imposed = \"motion\""));
+  EXPECT_THAT(text, HasSubstr("column = \"z_m\", unit = \"m\", gain = -1.0, offset = 0.01"));
+  EXPECT_EQ(text.find("imposed = \"currents\""), std::string::npos);
+}
+
+// A levitated ball: its own run as the record. Coils under the measured motion and the ball under the
+// measured currents leave next to nothing.
+TEST_F(NewBench, ALevitatedBodyIsMovedByItsCurrents) {
+  Write("numbers.toml",
+        Replaced(ReadText(kExamplesOfNew + "ball.toml"), "record = ", "# record = "));
+  ASSERT_EQ(Ambrig("new --answers numbers.toml --only-files -o made").exit, 0);
+  ASSERT_EQ(Ambrig("run made/levitation.toml --csv --no-report --out made").exit, 0);
+  const Outcome o = Ambrig("new --answers numbers.toml --record made/levitation.csv -o seen");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  EXPECT_EQ(o.text.find("pull with"), std::string::npos) << o.text;
+  const std::string text = ReadText(folder_ / "seen/case.toml");
+  EXPECT_THAT(text, HasSubstr("imposed = \"motion\""));
+  EXPECT_THAT(text, HasSubstr("imposed = \"currents\""));
+  ASSERT_EQ(Ambrig("compare seen/case.toml --json compare.json").exit, 0);
+  EXPECT_LT(nlohmann::json::parse(ReadText(folder_ / "compare.json"))["ratio"].get<double>(), 2);
+}
+
+// A body that comes to lie at the magnet reads zero and a little noise below: a distance all the same.
+TEST_F(NewBench, ADistanceMayComeDownToZero) {
+  std::string log = "t,z_m,i1_A,u1_duty\n";
+  for (int k = 0; k < 400; ++k)
+    log += std::to_string(k * 0.005) + "," +
+           std::to_string(std::max(4e-3 - 2e-5 * k, k % 2 == 0 ? 1e-6 : -1e-6)) + ",0.4,0.2\n";
+  Write("log.csv", log);
+  Write("ball.toml", Replaced(ReadText(kExamplesOfNew + "ball.toml"),
+                              "../mls2em/data/inductance_em1_05.csv", "log.csv"));
+  const Outcome o = Ambrig("new --answers ball.toml -o ball --only-files");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, HasSubstr("z_m is taken as the distance from the magnet, x = 0.01 m - z_m"));
+  EXPECT_THAT(ReadText(folder_ / "ball/case.toml"), HasSubstr("gain = -1.0, offset = 0.01"));
+}
+
 // For a page that asks: the questions of every template; what was written and which columns were taken.
 TEST_F(NewBench, TellsItsQuestionsAndWhatItWroteAsJson) {
   EXPECT_EQ(Ambrig("new --list --json q.json").exit, 0);
