@@ -119,7 +119,7 @@ Cell StateCell(const Json& r) {
   return {text, state == "left" ? "fail" : "warn"};
 }
 
-void AddRecordTable(HtmlReport& report, const Json& records) {
+void AddWatchedRecords(HtmlReport& report, const Json& records) {
   std::vector<std::vector<Cell>> rows;
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Json& r = records[k];
@@ -149,7 +149,7 @@ void WriteWatchReport(const Json& document, const std::string& path) {
                                  : fmt::format("{} of {} need somebody's attention", bad,
                                                Counted(records.size(), "record")));
   for (const Json& w : document["warnings"]) report.Verdict(Verdict::kWarn, w.get<std::string>());
-  AddRecordTable(report, records);
+  AddWatchedRecords(report, records);
   if (!records.empty()) {
     report.Heading("Error and closure");
     AddFloors(report, records);

@@ -22,10 +22,12 @@ test('rows of the journal, counted by set and load', () => {
 test('100 000 rows are filtered and counted within 50 ms', () => {
   const rows = parseRows(Array.from({length: 1e5}, (_, k) => `${k},s,A:${1 + (k % 8)},open,0,${(k % 3) / 2},12,${k % 7 ? 'up' : 'drop'},4e-05,${1e-6 * (k % 100)},`), columns);
   let best = Infinity;
-  for (let n = 0; n < 5; ++n) {
-    const begin = performance.now();
+  for (let n = 0; n < 9; ++n) {
+    const before = process.cpuUsage();  // not the clock: others may keep the cores busy
+    assert.equal(countOf(rows).drop, 14286);
     assert.equal(filtered(rows, {set: 'A:3', load: null, verdict: 'drop', from: null, to: null}).length > 1000, true);
-    best = Math.min(best, performance.now() - begin);
+    const used = process.cpuUsage(before);
+    best = Math.min(best, (used.user + used.system) / 1000);
   }
   console.log(`filtered 100 000 rows in ${best.toFixed(1)} ms (budget 50)`);
   assert.ok(best < 50, `${best} ms`);

@@ -162,20 +162,28 @@ async function playground(page) {
   }, 8);
   await page.evaluate(() => (location.hash = '#/run/long.toml'));
   await page.locator('h1', {hasText: 'long.toml'}).waitFor();
-  let gone = Infinity;
-  await best('from the click on Run to its progress', 0.3, 's', async () => {
+  const stop = async () => {
+    const begin = Date.now();
+    await page.getByRole('button', {name: 'Stop', exact: true}).click();
+    await page.getByRole('button', {name: 'Run', exact: true}).waitFor({timeout: 20000});
+    return (Date.now() - begin) / 1000;
+  };
+  const start = async () => {
     await page.getByRole('button', {name: 'Run', exact: true}).click();
     const begin = Date.now();
     await page.locator('main progress').waitFor();
-    const shown = (Date.now() - begin) / 1000;
-    await page.waitForTimeout(500);
-    const stop = Date.now();
-    await page.getByRole('button', {name: 'Stop', exact: true}).click();
-    await page.getByRole('button', {name: 'Run', exact: true}).waitFor({timeout: 20000});
-    gone = Math.min(gone, (Date.now() - stop) / 1000);
+    return (Date.now() - begin) / 1000;
+  };
+  await best('from the click on Run to its progress', 0.3, 's', async () => {
+    const shown = await start();
+    await stop();
     return shown;
   });
-  measured('a stopped run is gone', gone, 2, 's');
+  await best('a stopped run is gone', 2, 's', async () => {
+    await start();
+    await page.waitForTimeout(500);
+    return stop();
+  });
 }
 
 /** 10^5 rows of a campaign, filtered and counted by set and load. */

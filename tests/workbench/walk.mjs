@@ -7,7 +7,7 @@
 import {cpSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {campaign} from './flows/campaign.mjs';
-import {mainFlow, mendData, nextRecord} from './flows/case.mjs';
+import {mainFlow, mendData, nextRecord, planned} from './flows/case.mjs';
 import {dark, everyScreen, keyboardOnly, tablet} from './flows/manners.mjs';
 import {playground} from './flows/playground.mjs';
 import {compareRuns, scenarioList} from './flows/runs.mjs';
@@ -29,4 +29,4 @@ function make() {
   write('bad.toml', 'name = "bad"\nrig = "rig.toml"\nduration = -1\n');
 }
 
-await walk({playground, scenarioList, compareRuns, campaign, keyboardOnly, dark, tablet, mendData, measuredRig, wizard, watched, nextRecord, mainFlow, everyScreen}, make);
+await walk({playground, scenarioList, compareRuns, campaign, keyboardOnly, dark, tablet, mendData, measuredRig, wizard, watched, nextRecord, mainFlow, planned, everyScreen}, make);

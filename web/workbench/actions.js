@@ -59,7 +59,8 @@ export function resultOf(command, file) {
 /** @param {{command: string} & Record<string, any>} order @returns {Promise<number>} the job's number, 0 where it was refused */
 export async function startJob(order) {
   try {
-    if (state.notice?.steps.length === 0) state.notice = null;
+    // What the person starts clears what was said before; runs that the playground starts by itself do not.
+    if (order.command !== 'play' && state.notice?.steps.length === 0) state.notice = null;
     const job = await post('/api/jobs', order);
     // Its events may have come before this answer: they know more.
     if (!state.jobs.some((j) => j.id === job.id)) takeJob(job);

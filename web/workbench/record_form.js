@@ -113,7 +113,7 @@ export function columnTable(channels, units, columns, mapping, done) {
         <td><select aria-label="column of ${c}" @change=${(/** @type {Event} */ e) => set(c, {column: /** @type {HTMLSelectElement} */ (e.target).value})}>
           <option value="" ?selected=${!m}>-</option>${columns.map((o) => html`<option value=${o.name} ?selected=${m?.column === o.name}>${o.name}</option>`)}</select></td>
         <td>${m ? html`<select aria-label="unit of ${c}" @change=${(/** @type {Event} */ e) => set(c, {unit: /** @type {HTMLSelectElement} */ (e.target).value})}>
-          <option value="">as the file says</option>${unitsFor(units[c] ?? '').map((u) => html`<option value=${u} ?selected=${m.unit === u}>${u}</option>`)}</select>` : nothing}</td>
+          <option value="">as given</option>${unitsFor(units[c] ?? '').map((u) => html`<option value=${u} ?selected=${m.unit === u}>${u}</option>`)}</select>` : nothing}</td>
         <td>${m ? html`<button aria-pressed=${m.gain < 0 ? 'true' : 'false'} aria-label="sign of ${c}" @click=${() => set(c, {gain: -m.gain})}>${m.gain < 0 ? '-' : '+'}</button>` : nothing}</td>
         <td class="number">${m ? range(m.column) : ''}</td></tr>`;
     })}</tbody></table></div>`;

@@ -50,11 +50,12 @@ const wide = 640, high = 110;
 /**
  * @param {string} title @param {string} unit
  * @param {{k: number, v: number, sd?: number, least?: number, greatest?: number, r: import('./trend.js').WatchedRecord}[]} points @param {number} count of records
+ * @param {number[]} shown values that the scale holds in any case
  */
-function line(title, unit, points, count) {
+function line(title, unit, points, count, shown = []) {
   if (points.length === 0) return nothing;
   const p = prefixFor(Math.max(...points.map((q) => Math.abs(q.v))), unit);
-  const all = points.flatMap((q) => [q.v - (q.sd ?? 0), q.v + (q.sd ?? 0), q.least ?? q.v, q.greatest ?? q.v]).map((v) => v * p.factor);
+  const all = points.flatMap((q) => [q.v - (q.sd ?? 0), q.v + (q.sd ?? 0), q.least ?? q.v, q.greatest ?? q.v]).concat(shown).map((v) => v * p.factor);
   const scale = scaleFor(all, high);
   const x = (/** @type {number} */ k) => 50 + ((k + 0.5) / Math.max(count, 1)) * (wide - 60);
   const y = (/** @type {number} */ v) => scale.y(v * p.factor);
@@ -119,19 +120,24 @@ export function trendScreen() {
     ${(doc?.warnings ?? []).map((/** @type {string} */ w) => html`<p class="note">${w}</p>`)}
     ${records.length === 0 ? html`<p>No record was examined yet. ${folder ? html`Files in ${folder} are taken when they have not changed for some seconds.` : html`Choose the folder of the logger on the case's page.`}</p>`
     : html`<div class="columns"><div>
-        ${line('error over noise, parameters of the reference', '-', pointsOf(records, (r) => r.ratio), records.length)}
-        ${line('error over noise, its own parameters', '-', pointsOf(records, (r) => r.ratio_fitted), records.length)}
-        ${line('closure: share that its own parameters explain', '-', pointsOf(records, (r) => r.explained), records.length)}
-        <h2>Parameters, the most moved first</h2>${moved(records).map((m) => parameterLine(records, m.path))}</div>
+        ${line('error over noise, parameters of the reference', '-', pointsOf(records, (r) => r.ratio), records.length, [0, 1])}
+        ${line('error over noise, its own parameters', '-', pointsOf(records, (r) => r.ratio_fitted), records.length, [0, 1])}
+        ${line('closure: share that its own parameters explain', '-', pointsOf(records, (r) => ((r.ratio ?? 0) > 1 ? r.explained : undefined)), records.length, [0, 1])}
+        <p class="note">${dayOf(records[0])} to ${dayOf(records[records.length - 1])}, one point a record</p><h2>Parameters, the most moved first</h2>${moved(records).map((m) => parameterLine(records, m.path))}</div>
       <div>${alarmList(records, file, folder ?? '')}${recordTable(records)}</div></div>`}
     <p>${folder && !job ? html`<button @click=${() => startJob({command: 'watch', case: file, folder})}>Look now</button>` : nothing}
       ${found ? html`<button @click=${() => openReport(found.job)}>Report</button>` : nothing}</p>`;
 }
 
+/** When a record was written, UTC. @param {import('./trend.js').WatchedRecord} r */
+function dayOf(r) {
+  return new Date(1000 * r.changed).toISOString().slice(0, 16).replace('T', ' ');
+}
+
 /** @param {import('./trend.js').WatchedRecord[]} records */
 function recordTable(records) {
   return html`<div class="scroll" tabindex="0" role="region" aria-label="records"><table><thead><tr><th scope="col">record</th><th scope="col">as</th><th scope="col">written</th><th scope="col">error</th><th scope="col">own</th><th scope="col">state</th></tr></thead>
-    <tbody>${records.map((r) => html`<tr><th scope="row">${r.data}</th><td>${r.of ?? ''}</td><td>${new Date(1000 * r.changed).toISOString().slice(0, 16).replace('T', ' ')}</td>
+    <tbody>${records.map((r) => html`<tr><th scope="row">${r.data}</th><td>${r.of ?? ''}</td><td>${dayOf(r)}</td>
       <td class="number">${r.ratio === undefined ? '-' : significant(r.ratio, 3)}</td><td class="number">${r.ratio_fitted === undefined ? '-' : significant(r.ratio_fitted, 3)}</td>
       <td>${{ok: '\u2714 in its bands', left: '! left', data: '! wrong data', refused: '\u2716 refused'}[r.state] ?? r.state}</td></tr>`)}</tbody></table></div>`;
 }

@@ -140,6 +140,46 @@ export async function mendData(page, address) {
   say('a wrong unit was mended and the mend undone');
 }
 
+/** A file dropped on the page. */
+async function drop(page, name, content) {
+  const data = await page.evaluateHandle(([n, text]) => {
+    const t = new DataTransfer();
+    t.items.add(new File([text], n, {type: 'text/csv'}));
+    return t;
+  }, [name, content]);
+  await page.dispatchEvent('main', 'drop', {dataTransfer: data});
+}
+
+/** The next record is planned, its scenario taken away, its record made and dropped: the case goes on with it. */
+export async function planned(page, address) {
+  await page.goto(address);
+  await page.getByRole('link', {name: 'practice/case.toml'}).click();
+  await page.locator('table.misfit').first().waitFor({timeout: 180000});
+  const before = text('practice/case.toml');
+  const part = page.getByRole('region', {name: 'next record'});
+  await part.getByRole('button', {name: 'Plan the next record'}).click();
+  const away = part.getByRole('button', {name: /^Take practice\/next_record/});
+  await away.waitFor({timeout: 1200000});
+  say(`planned: ${(await part.locator('.verdict').innerText()).trim()}`);
+  assert.match(await part.innerText(), /largest orbit [\d.]+ [\u00b5n]?m/);
+  await check(page, 'plan');
+  const [file] = await Promise.all([page.waitForEvent('download'), away.click()]);
+  assert.match(file.suggestedFilename(), /^next_record.*\.toml$/);
+  // The bench makes it: here the rig with what it hides.
+  const scenario = /Take (\S+) away/.exec(await away.innerText())[1];
+  command('run', scenario, '--csv', '--no-report', '--quiet', '--out', 'bench');
+  await drop(page, 'planned.csv', readFileSync(inFolder(`bench/${scenario.split('/').at(-1).replace('.toml', '.csv')}`), 'utf8'));
+  const form = page.getByRole('region', {name: 'new record'});
+  await form.waitFor({timeout: 60000});
+  assert.equal(await form.getByLabel('It was made by the scenario').inputValue(), scenario);
+  await form.getByRole('button', {name: 'Append to practice/case.toml'}).click();
+  await page.locator('table.misfit th', {hasText: 'planned'}).first().waitFor({timeout: 180000});
+  await page.getByRole('button', {name: 'Undo'}).click();
+  await page.waitForFunction(() => document.querySelector('.notice')?.textContent?.includes('as it was'));
+  assert.equal(text('practice/case.toml'), before);
+  say('a record was planned, made, dropped and appended');
+}
+
 /** A dropped record: offered to the case with its columns, appended, compared; undone. */
 export async function nextRecord(page, address) {
   await page.goto(address);
@@ -152,12 +192,7 @@ export async function nextRecord(page, address) {
   const columns = head.split(',').map((c) => c.replace(/^A\.x/, 'pos_ax').replace(/^A\.y/, 'pos_ay'));
   writeFileSync(inFolder('bench/log.csv'), [columns.join(','), ...rows].join('\n'));
   const before = text('practice/case.toml');
-  const data = await page.evaluateHandle((content) => {
-    const t = new DataTransfer();
-    t.items.add(new File([content], 'new-log.csv', {type: 'text/csv'}));
-    return t;
-  }, readFileSync(inFolder('bench/log.csv'), 'utf8'));
-  await page.dispatchEvent('main', 'drop', {dataTransfer: data});
+  await drop(page, 'new-log.csv', readFileSync(inFolder('bench/log.csv'), 'utf8'));
   const form = page.getByRole('region', {name: 'new record'});
   await form.waitFor({timeout: 30000});
   assert.equal(await form.getByLabel('column of A.x').inputValue(), 'pos_ax');  // guessed

@@ -25,6 +25,7 @@ export async function playground(page, address) {
   await page.waitForFunction(() => document.querySelectorAll('table.beside thead th').length === 4, null, {timeout: 60000});
   const said = await table(page).innerText();
   assert.match(said, /as chosen\s+healthy\s+without fault tolerance/);
+  await page.evaluate(() => scrollTo(0, 0));
   await check(page, 'fault');
 
   // Every fault of a coil by M; a load and the speed by the keyboard.
