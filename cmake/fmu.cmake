@@ -1,16 +1,13 @@
 # The library of every FMU that `ambrig export --fmu` makes: ambrig_fmu.so, found beside the program or in ../lib/ambrig.
 #
-# It is linked from the objects of the program. g++ compiles these for a position-independent executable (-fPIE, Debian's
-# default), and with every symbol hidden but fmi2* and fmi3* (visible.map) the linker may put them into a shared library; the
-# one source that reads a variable of the system's libraries is compiled with -fPIC. Nothing is compiled twice.
+# It is linked from the objects of the program (ambrig_linked_everywhere), with every symbol hidden but fmi2* and fmi3*
+# (visible.map). Nothing is compiled twice.
 # SUNDIALS and libstdc++ are linked statically; what has no such library is left out (fmu/library/left_out.cc). NLopt, which
 # Debian has as a shared library only, goes into the FMU beside it ($ORIGIN).
 option(AMBRIG_FMU "build the library of exported FMUs" ON)
 if(NOT AMBRIG_FMU OR AMBRIG_SANITIZE)
   return()
 endif()
-# It reads `environ`.
-set_source_files_properties(${CMAKE_SOURCE_DIR}/control/external/controller_link.cc PROPERTIES COMPILE_OPTIONS -fPIC SKIP_PRECOMPILE_HEADERS ON)
 file(GLOB library_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/fmu/library/*.cc)
 add_library(ambrig_fmu_library MODULE ${library_sources})
 set_target_properties(ambrig_fmu_library PROPERTIES OUTPUT_NAME ambrig_fmu PREFIX "" LINK_DEPENDS ${CMAKE_SOURCE_DIR}/fmu/library/visible.map)

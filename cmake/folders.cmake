@@ -9,6 +9,13 @@ set(AMBRIG_COMMON_HEADERS <algorithm> <array> <cmath> <complex> <filesystem> <fu
                           <set> <string> <vector> <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp>)
 option(AMBRIG_PRECOMPILED_HEADERS "compile the common headers once" ON)
 
+# Every object of the libraries is position-independent and shows its names to what it is linked with only, so that the
+# program, the Python module (cmake/python.cmake) and the library of FMUs (cmake/fmu.cmake) are linked from one compilation.
+# In a program the linker takes back what that costs: addresses and speed are those of objects compiled for a program.
+function(ambrig_linked_everywhere target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden)
+endfunction()
+
 # A unity build compiles several sources of a target as one: headers are read and templates made once
 # for all of them (docs/decisions/005-build-time.md). Names of a folder's unnamed namespaces must then
 # differ (tools/check_unity.py, run by ctest).
@@ -28,7 +35,7 @@ function(ambrig_unity target)
   foreach(source IN LISTS sources)
     if(source MATCHES "catalogue\\.cc$|/core/math/noise_|/noise_test\\.cc$|/core/math/(cvode|kinsol)\\.cc$|/ode_world\\.cc$")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-    elseif(source MATCHES "/nlopt_search\\.cc$|/program_search\\.cc$|/discovery/search/fit\\.cc$|/formula_parser\\.cc$|/controller_link\\.cc$")
+    elseif(source MATCHES "/nlopt_search\\.cc$|/program_search\\.cc$|/discovery/search/fit\\.cc$|/formula_parser\\.cc$")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     elseif(source MATCHES "/core/record/(hdf5_|mat)[a-z_]*\\.cc$|/zip_file\\.cc$|/fmu/description\\.cc$|/synthesis/slicot\\.cc$")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -55,6 +62,7 @@ function(ambrig_folder name)
     endif()
   endforeach()
   add_library(ambrig_${name} STATIC ${sources})
+  ambrig_linked_everywhere(ambrig_${name})
   target_include_directories(ambrig_${name} PUBLIC ${CMAKE_SOURCE_DIR})
   target_link_libraries(ambrig_${name} PUBLIC ${links} PRIVATE ${ARG_PRIVATE})
   set(AMBRIG_FOLDERS "${AMBRIG_FOLDERS};ambrig_${name}" PARENT_SCOPE)
@@ -68,6 +76,7 @@ function(ambrig_precompiled target)
   if(NOT TARGET ambrig_common_headers)
     file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cc CONTENT "// Made by cmake/folders.cmake.\n")
     add_library(ambrig_common_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cc)
+    ambrig_linked_everywhere(ambrig_common_headers)
     target_link_libraries(ambrig_common_headers PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
     target_precompile_headers(ambrig_common_headers PRIVATE ${AMBRIG_COMMON_HEADERS})
   endif()

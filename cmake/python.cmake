@@ -1,5 +1,5 @@
-# The Python module (cmake --preset python): python/module compiled to ambrig/_core, beside the sources of
-# python/ambrig in build/python/python, ready to import; its tests in ctest.
+# The Python module (cmake --preset python): python/module compiled to ambrig/_core and linked from the objects of the program,
+# beside the sources of python/ambrig in build/release/python, ready to import; its tests in ctest.
 option(AMBRIG_PYTHON "build the Python module" OFF)
 if(NOT AMBRIG_PYTHON)
   return()

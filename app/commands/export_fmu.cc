@@ -24,7 +24,8 @@ namespace fs = std::filesystem;
 constexpr const char* kLibrary = "ambrig_fmu.so";
 constexpr const char* kSolver = "libnlopt.so";  // goes with it (cmake/fmu.cmake)
 
-/// ambrig_fmu.so beside the program (or Python module) that this code is in, or in ../lib/ambrig.
+/// ambrig_fmu.so beside the program (or Python module) that this code is in, in ../lib/ambrig, or, for
+/// the module in lib/python3/dist-packages/ambrig, in lib/ambrig.
 std::string LibraryFile() {
   Dl_info here{};
   dladdr(reinterpret_cast<const void*>(&ExportFmu), &here);
@@ -32,6 +33,7 @@ std::string LibraryFile() {
   fs::path folder = fs::absolute(here.dli_fname ? here.dli_fname : "", error).parent_path();
   for (const fs::path& place :
        {folder / kLibrary, folder.parent_path() / "lib" / "ambrig" / kLibrary,
+        folder.parent_path().parent_path().parent_path() / "ambrig" / kLibrary,
         fs::read_symlink("/proc/self/exe", error).parent_path() / kLibrary})
     if (fs::is_regular_file(place, error)) return place.string();
   throw InputError(fmt::format(

@@ -194,12 +194,13 @@ void ControllerLink::TellTimeout() {
       fmt::format("did not answer within {} s, an endless loop? (key timeout)", timeout_));
 }
 
+/// A side that has ended may have said why before: whether it has is left to Receive.
 void ControllerLink::Send(std::span<const unsigned char> bytes) {
   while (!bytes.empty()) {
     const ssize_t n = send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) TellTimeout();
-    if (n <= 0) TellEnd();
+    if (n <= 0) return;
     bytes = bytes.subspan(static_cast<std::size_t>(n));
   }
 }

@@ -16,11 +16,3 @@ template void vformat_to(buffer<char>&, string_view, basic_format_args<FMT_BUFFE
                          locale_ref);
 }  // namespace detail
 FMT_END_NAMESPACE
-
-// The objects of ambrig's folders are those of a position-independent executable, which reads this
-// variable of glibc (behind std::shared_ptr) without a table; in a shared library it must be its own.
-// 0: there may be several threads, which is always right.
-extern "C" {
-extern char __libc_single_threaded;
-char __libc_single_threaded = 0;
-}

@@ -262,6 +262,17 @@ static const char *load(const char *library, functions *f) {
 }
 #endif
 
+/* Tells `why` as the answer to the first message. Read first: a connection that is closed with unread bytes is reset,
+ * and the other side may lose what it has not read yet. */
+static int refuse(int socket, const char *why) {
+  wire_header head = {0, 0};
+  char byte;
+  if (!read_all(socket, &head, sizeof head)) return 1;
+  while (head.bytes > 0 && read_all(socket, &byte, 1)) --head.bytes;
+  answer_text(socket, why);
+  return 1;
+}
+
 /* The controller's whole life on this socket. */
 static int live(int socket, const char *library) {
   static host h;
@@ -270,11 +281,7 @@ static int live(int socket, const char *library) {
   h.socket = watched = socket;
   if (pthread_create(&thread, NULL, watch, &watched) == 0) pthread_detach(thread);
   const char *wrong = load(library, &h.f);
-  if (wrong) {
-    answer_text(socket, wrong);
-    return 1;
-  }
-  return serve(&h);
+  return wrong ? refuse(socket, wrong) : serve(&h);
 }
 
 int main(int argc, char **argv) {

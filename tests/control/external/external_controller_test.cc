@@ -2,11 +2,18 @@
 // do wrong is told in one sentence.
 #include "control/external/external_controller.h"
 
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <random>
 
 #include "control/external/ambrig_controller.h"
+#include "control/external/controller_link.h"
+#include "control/external/host/wire.h"
 #include "control/position/pid.h"
 #include "core/base/errors.h"
 #include "tests/control/external/external_site.h"
@@ -90,6 +97,37 @@ TEST(ExternalController, WhatCannotBeLoadedIsToldAtOnce) {
   s = Library("misbehaves", {{"how", 22}});
   s.timeout = 0.2;
   EXPECT_EQ(text(s), kWhere + "did not answer within 0.2 s, an endless loop? (key timeout)");
+}
+
+TEST(ExternalController, TheReasonIsReadEvenFromAProcessThatEndsAtOnce) {
+  for (int k = 0; k < 100; ++k)
+    ASSERT_NE(ErrorText<InputError>([] {
+                ExternalController(Library("other_version"), SmallSite());
+              }).find("was compiled for version 99"),
+              std::string::npos)
+        << k;
+}
+
+TEST(ControllerLink, AReasonSentBeforeAnyQuestionIsRead) {
+  const TemporaryFolder folder;
+  const std::string path = folder.File("s");
+  sockaddr_un a{};
+  a.sun_family = AF_UNIX;
+  std::memcpy(a.sun_path, path.c_str(), path.size() + 1);
+  const int listener = socket(AF_UNIX, SOCK_STREAM, 0);
+  ASSERT_EQ(bind(listener, reinterpret_cast<const sockaddr*>(&a), sizeof a), 0);
+  ASSERT_EQ(listen(listener, 1), 0);
+  ControllerLink link = ControllerLink::Connect("unix:" + path, 1);
+  const int other = accept(listener, nullptr, nullptr);
+  const wire_header head{WIRE_FAILED, 9};
+  ASSERT_EQ(write(other, &head, sizeof head), static_cast<ssize_t>(sizeof head));
+  ASSERT_EQ(write(other, "no oil ..", 9), 9);
+  close(other);
+  close(listener);
+  const std::vector<unsigned char> question(16);
+  EXPECT_EQ(ErrorText<ControllerFailure>([&] { link.Ask(WIRE_SETUP, question); }), "no oil ..");
+  EXPECT_EQ(ErrorText<ControllerFailure>([&] { link.Ask(WIRE_STEP, question); }),
+            "ended the connection");
 }
 
 TEST(ExternalController, IsToldTheRig) {
