@@ -58,12 +58,13 @@ Explanation Explainer::Run() {
 
 /// Stated noise, a look at the data with it, then the noise that the records show.
 void Explainer::PrepareNoise(const Hypothesis& nominal) {
-  FindFloor(full_, nominal);
+  model_.LeaveOut(FindFloor(full_, nominal).unpredictable);
   std::vector<double> stated;
   for (const Target& t : full_.targets()) stated.push_back(t.floor);
   out_.noise = EstimateNoise(full_, nominal);
   full_.noise_model = model_.noise_model = out_.noise;
   const NoiseFloor floor = FindFloor(full_, nominal);
+  model_.LeaveOut(floor.unpredictable);
   out_.effective_sample_size = floor.effective_sample_size;
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);

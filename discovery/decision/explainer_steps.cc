@@ -7,6 +7,7 @@
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/nuisance_choice.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/linear_step.h"
 
 namespace ambrig {
 
@@ -31,14 +32,19 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
     bank_ = bank;
     return false;
   };
-  // what they explain without a fit says whether one is worth it
-  const FitResult same = AllRows(now);
-  if (ExplainedShare(before.Answered(), RatiosOf(full_, same).Answered()) < (alone ? 0.6 : 0.2))
+  const auto explains = [&](const StageRatios& after, double least, double most_left) {
+    return ExplainedShare(before.Answered(), after.Answered()) >= least &&
+           after.Answered() <= most_left;
+  };
+  // what a linear step promises says whether a fit is worth it
+  const FitResult promised = LinearlyRefitted(model_, now, out_.effective_sample_size);
+  if (!(alone ? explains(RatiosOf(model_, promised), 0.7, 1.4)
+              : explains(RatiosOf(model_, promised), 0.2, kInfinity)))
     return give_up();
-  FitResult with = FitNow(now.hypothesis, nullptr);
-  const StageRatios after = RatiosOf(model_, with);
-  const double share = ExplainedShare(before.Answered(), after.Answered());
-  if (alone ? share < 0.8 || after.Answered() > 1.2 : share < 0.3) return give_up();
+  FitResult with = FitNow(now.hypothesis, &promised.jacobian);
+  if (!(alone ? explains(RatiosOf(model_, with), 0.8, 1.2)
+              : explains(RatiosOf(model_, with), 0.3, kInfinity)))
+    return give_up();
   now = std::move(with);
   out_.ladder.push_back(
       {"zeros, clocks and inputs of each record", now.ratio_fit, now.ratio_validate});
@@ -150,7 +156,9 @@ bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult
   const std::vector<Target> before = full_.targets();
   const double sample_size = out_.effective_sample_size;
   try {
-    out_.effective_sample_size = FindFloor(full_, now.hypothesis).effective_sample_size;
+    const NoiseFloor floor = FindFloor(full_, now.hypothesis);
+    model_.LeaveOut(floor.unpredictable);
+    out_.effective_sample_size = floor.effective_sample_size;
   } catch (const InputError&) {
     return false;  // with noise it does not hold its rotor
   }
@@ -240,8 +248,15 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
 void Explainer::Polish(FitResult& now) {
   if (out_.adopted.empty()) return;
   Progress(0.94, "final fit");
-  FitResult polished = FitNow(now.hypothesis, nullptr);
-  if (polished.ratio_fit <= now.ratio_fit * 1.0005) now = std::move(polished);
+  FitOptions fine = Options(nullptr);
+  fine.iterations = 4;
+  fine.passes = 4;
+  fine.trust_region = 1e4;
+  fine.differences = DifferenceSides::kTwoSided;
+  fine.tolerance = 1e-5;
+  fine.least_gain = 2;
+  FitResult polished = Fit(model_, now.hypothesis, fine);
+  if (polished.converged && polished.ratio_fit <= now.ratio_fit * 1.0005) now = std::move(polished);
   for (std::size_t k = 0; k < out_.adopted.size(); ++k)
     out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
   out_.ladder.back().ratio_fit = now.ratio_fit;

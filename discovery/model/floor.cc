@@ -100,6 +100,8 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
     d1[k] = first ? (*first)[k] - (*clean)[k] : second ? (*second)[k] - (*clean)[k] : 0;
     d2[k] = second ? (*second)[k] - (*clean)[k] : d1[k];
   }
+  floor.unpredictable = UnpredictableRows(model, d1, d2);
+  model.LeaveOut(floor.unpredictable);
   for (std::size_t n = 0; n < model.targets().size(); ++n) {
     Target& t = model.targets()[n];
     const CaseRecord& record = model.data().records[t.record];

@@ -8,10 +8,12 @@ namespace ambrig {
 struct NoiseFloor {
   double effective_sample_size = 0;  // independent numbers among all residuals (they are coloured)
   std::vector<double> clean;         // the noise-free prediction that was used
+  std::vector<SampleSpan> unpredictable;  // left out of the model
 };
 
-/// Sets the floor of every target (rms) and returns the effective count.
-/// A channel that noise does not reach gets the resolution of what measured it.
+/// Sets the floor of every target (rms), leaves out what is unpredictable (unpredictable_rows.h), and
+/// returns the effective count. A channel that noise does not reach gets the resolution of what measured
+/// it.
 NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h);
 
 }  // namespace ambrig

@@ -114,6 +114,13 @@ void CaseModel::LimitAs(const CaseModel& other) {
   ApplyHorizons();
 }
 
+void CaseModel::LeaveOut(const std::vector<SampleSpan>& spans) {
+  for (const SampleSpan& span : spans)
+    for (const Target& t : targets_)
+      for (std::size_t k = t.first; t.record == span.record && k < t.first + t.count; ++k)
+        if (span.first <= sample_[k] && sample_[k] <= span.last) sound_[k] = ok_[k] = 0;
+}
+
 bool CaseModel::touches() const {
   return std::any_of(touches_.begin(), touches_.end(), [](char t) { return t != 0; });
 }

@@ -13,6 +13,7 @@
 #include "discovery/model/record_predictor.h"
 #include "discovery/model/run_memo.h"
 #include "discovery/model/run_store.h"
+#include "discovery/model/unpredictable_rows.h"
 #include "simulation/sampled/command_plan.h"
 
 namespace ambrig {
@@ -96,6 +97,8 @@ class CaseModel {
   std::vector<std::string> LimitToHeld(const Hypothesis& h);
   /// Counts as many rows of each record as `other`, a model of the same case.
   void LimitAs(const CaseModel& other);
+  /// These samples of all channels of their records do not count from now on.
+  void LeaveOut(const std::vector<SampleSpan>& spans);
   /// Whether the measured rotor reaches its auxiliary bearings in some record.
   bool touches() const;
   /// Whether some record counts in part only.

@@ -64,8 +64,7 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
           std::none_of(climbed.begin(), climbed.end(),
                        [&](const auto& o) { return SameValley(o.effect, s.effect); }))
         climbed.push_back(s);
-    for (SimulatedStart& start : climbed) search.Climb(start);
-    sort(climbed);
+    search.Climb(climbed);
     std::vector<EffectInstance> out;
     // what explains nothing wherever it starts is not there
     const auto explains = [&](const SimulatedStart& s) {

@@ -105,7 +105,7 @@ bool Solve(FitProblem& cost, const Hypothesis& start, const FitOptions& options,
   solver.function_tolerance = options.tolerance;
   solver.parameter_tolerance = 1e-4;
   solver.gradient_tolerance = 1e-12;
-  solver.initial_trust_region_radius = 10;
+  solver.initial_trust_region_radius = options.trust_region;
   solver.logging_type = ceres::SILENT;
   // bounds by projection: a line search costs many runs
   solver.max_num_line_search_step_size_iterations = 0;
@@ -118,11 +118,13 @@ bool Solve(FitProblem& cost, const Hypothesis& start, const FitOptions& options,
 void Fail(FitResult& result) {
   result.warnings.push_back("the model loses levitation at this point");
   result.ratio_fit = result.ratio_validate = kInfinity;
+  result.converged = false;
 }
 
-/// Prediction, ratios and prior's penalty at the hypothesis of the result.
-bool EvaluateAtPoint(const CaseModel& model, FitResult& result) {
-  const auto predicted = model.Predict(result.hypothesis);
+/// Prediction, ratios and prior's penalty at the hypothesis of the result; with a `look` of its records
+/// only, which leaves the other ratio without meaning.
+bool EvaluateAtPoint(const CaseModel& model, const QuickLook* look, FitResult& result) {
+  const auto predicted = model.PredictAll({result.hypothesis}, ModelFidelity::kAsSampled, look)[0];
   if (!predicted) return false;
   result.predicted = *predicted;
   result.residual = Residual(model, result.predicted);
@@ -136,35 +138,55 @@ bool EvaluateAtPoint(const CaseModel& model, FitResult& result) {
   return true;
 }
 
-}  // namespace
-
-FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options) {
-  FitResult result;
-  result.hypothesis = start;
-  if (!EvaluateAtPoint(model, result)) {
-    Fail(result);
-    return result;
-  }
-  result.converged = true;
-  if (start.free.empty()) return result;
-  FitProblem cost(model, start, options);
+/// Passes of the solver from the hypothesis of the result, which is evaluated on all records at the end.
+/// false: nothing to go on with; the result says so.
+bool Improve(const CaseModel& model, const FitOptions& options, FitProblem& cost,
+             FitResult& result) {
+  const Hypothesis start = result.hypothesis;
   std::vector<double> x(start.free.size());
   for (std::size_t k = 0; k < x.size(); ++k) x[k] = start.Coordinate(k);
-  for (int pass = 0; pass < options.passes && options.iterations > 0; ++pass) {
-    const double before = result.ratio_fit;
+  bool refreshed = false;
+  for (int pass = 0; pass < options.passes; ++pass) {
+    const double before = result.ratio_fit, penalty = result.penalty;
     cost.SetMisfitWeight(std::min(before, options.reached));
-    if (pass > 0) cost.Refresh();
+    if (pass > 0 && options.sensitivities &&
+        (!refreshed || cost.OutsideOfSensitivities(result.hypothesis))) {
+      cost.Refresh();
+      refreshed = true;
+    }
     if (!Solve(cost, start, options, x)) {
       result.converged = pass > 0;
       break;
     }
     result.hypothesis = cost.At(x.data());
-    if (!EvaluateAtPoint(model, result)) {
+    if (!EvaluateAtPoint(model, &cost.look(), result)) {
       Fail(result);
-      return result;
+      return false;
     }
-    if (result.ratio_fit > 0.98 * before || before <= 1) break;
+    const double gain = cost.MisfitBetween(before, result.ratio_fit) + penalty - result.penalty;
+    if (options.least_gain > 0 ? gain < options.least_gain
+                               : result.ratio_fit > 0.98 * before || before <= 1)
+      break;
   }
+  if (EvaluateAtPoint(model, nullptr, result)) return true;
+  Fail(result);
+  return false;
+}
+
+}  // namespace
+
+FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options) {
+  FitResult result;
+  result.hypothesis = start;
+  FitProblem cost(model, start, options);
+  const bool moves = !start.free.empty() && options.iterations > 0;
+  if (!EvaluateAtPoint(model, moves ? &cost.look() : nullptr, result)) {
+    Fail(result);
+    return result;
+  }
+  result.converged = true;
+  if (start.free.empty()) return result;
+  if (moves && !Improve(model, options, cost, result)) return result;
   cost.SetMisfitWeight(result.ratio_fit);
   if (options.sensitivities) EstimateCovariance(cost, result);
   return result;

@@ -7,16 +7,22 @@
 #include <string>
 #include <vector>
 
+#include "discovery/model/jacobian.h"
 #include "discovery/model/residual.h"
 
 namespace ambrig {
 
 struct FitOptions {
   int iterations = 4;  // of each pass
-  // each with a new weight and new sensitivities of the rig parameters
+  // Each with a new weight, about the point where the last one ended. With `sensitivities` those of the
+  // rig parameters are taken anew in the second pass, later where a parameter moved by more than 1 sd.
   int passes = 4;
-  double tolerance = 1e-3;           // of the cost: a step that gains less is the last
-  bool sensitivities = true;         // sd, warnings and Jacobian at the optimum
+  double trust_region = 10;  // at the start of a pass: how far a step is believed
+  double tolerance = 1e-3;   // of the cost: a step that gains less is the last
+  // of 2 log posterior: a pass that gains less is the last; 0: one that lowers the ratio by less than 2 %
+  double least_gain = 0;
+  bool sensitivities = true;  // sd, warnings and Jacobian at the optimum
+  DifferenceSides differences = DifferenceSides::kOneSided;  // of the sensitivities
   double effective_sample_size = 1;  // independent numbers among the residuals
   // ratio_fit of a hypothesis within this one: what the errors are weighed by when the start is
   // worse

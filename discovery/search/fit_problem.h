@@ -1,6 +1,7 @@
 #pragma once
 /// The least-squares problem of a fit, without its solver. Internal to discovery/search/fit.cc.
 
+#include <algorithm>
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
@@ -9,10 +10,14 @@
 
 namespace ambrig {
 
-inline constexpr double kRigStep = 0.3;      // of a rig parameter's sd
-inline constexpr double kEffectStep = 0.01;  // of a parameter's natural step: resonances are narrow
-inline constexpr double kBelieved = 3;       // sd of a rig parameter within its tolerance
-inline constexpr double kBeyond = 5;         // each further sd counts as so many
+// Steps of the differences. A prediction jumps by some hundredths of the floor where a switching edge
+// passes a sample: a small step would divide that by little. Frequencies are known to a fraction of 1/duration.
+inline constexpr double kRigStep = 1;            // of a rig parameter's sd
+inline constexpr double kEffectStep = 0.1;       // of a parameter's natural step
+inline constexpr double kFrequencyStep = 0.01;   // of the same, of effects that have a frequency
+inline constexpr double kBelieved = 3;           // sd of a rig parameter within its tolerance
+inline constexpr double kBeyond = 5;             // each further sd counts as so many
+inline constexpr double kSensitivitiesHold = 1;  // sd of a rig parameter
 
 /// The prior's residual of a rig parameter that stands `sds` from its mean, and its slope. Gaussian
 /// within three sd; a part further off is hardly the part of the drawing, and an effect that is
@@ -59,12 +64,13 @@ class FitProblem {
         hypothesis_(start),
         options_(options),
         look_(FittedRecords(model, options)),
-        p_(start.free.size()) {
+        p_(start.free.size()),
+        base_at_(start) {
     for (std::size_t k = 0; k < p_; ++k)
       if (start.free[k].effect < 0)
         base_.push_back(k);
       else
-        effect_.push_back(k);
+        (HasFrequency(start, start.free[k]) ? tuned_ : effect_).push_back(k);
   }
 
   /// Weight of a residual when the model leaves `ratio` times the noise.
@@ -72,10 +78,27 @@ class FitProblem {
     weight_ = std::sqrt(MisfitWeight(ratio, options_.effective_sample_size) /
                         static_cast<double>(model_.size()));
   }
+  /// What 2 log likelihood of the rows looked at rises by from one ratio to a smaller one, at the weight set.
+  double MisfitBetween(double before, double after) const {
+    double rows = 0;
+    for (const Target& t : model_.targets())
+      if (look_.records[t.record])
+        rows += static_cast<double>(
+            std::count(model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first),
+                       model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first + t.count), 1));
+    return weight_ * weight_ * rows * (before * before - after * after);
+  }
   /// Sensitivities of the rig parameters are taken anew.
   void Refresh() {
     base_jacobian_.resize(0, 0);
     reuse_ = false;
+  }
+  /// Whether a rig parameter of `h` lies beyond the neighbourhood of the point where the sensitivities
+  /// of the rig parameters were taken.
+  bool OutsideOfSensitivities(const Hypothesis& h) const {
+    return std::any_of(base_.begin(), base_.end(), [&](std::size_t k) {
+      return std::abs(h.Coordinate(k) - base_at_.Coordinate(k)) > kSensitivitiesHold;
+    });
   }
 
   Hypothesis At(const double* x) const {
@@ -127,18 +150,19 @@ class FitProblem {
       if (reuse_)
         base_jacobian_ = options_.base_jacobian->leftCols(static_cast<Eigen::Index>(base_.size()));
       else
-        base_jacobian_ = Jacobian(model_, h, base_, kRigStep, &look_);
+        base_jacobian_ = Jacobian(model_, h, base_, kRigStep, &look_, options_.differences);
       base_at_ = h;
     }
-    return Joined(base_jacobian_, Jacobian(model_, h, effect_, kEffectStep, &look_));
+    return Joined(base_jacobian_, h, &look_);
   }
 
   /// The same on all records: the rig's where the last pass took them (in memory for what it looked at).
   Eigen::MatrixXd FullJacobian(const Hypothesis& h) const {
     const bool whole = base_jacobian_.size() == 0 || !reuse_;
     if (base_jacobian_.size() == 0) base_at_ = h;
-    return Joined(whole ? Jacobian(model_, base_at_, base_, kRigStep) : base_jacobian_,
-                  Jacobian(model_, h, effect_, kEffectStep));
+    return Joined(whole ? Jacobian(model_, base_at_, base_, kRigStep, nullptr, options_.differences)
+                        : base_jacobian_,
+                  h, nullptr);
   }
 
   double weight() const { return weight_; }
@@ -146,12 +170,24 @@ class FitProblem {
   const QuickLook& look() const { return look_; }
 
  private:
-  Eigen::MatrixXd Joined(const Eigen::MatrixXd& of_rig, const Eigen::MatrixXd& of_effects) const {
+  static bool HasFrequency(const Hypothesis& h, const FreeParameter& p) {
+    const EffectInstance& e = h.rig.effects[static_cast<std::size_t>(p.effect)];
+    return std::any_of(e.table.begin(), e.table.end(),
+                       [](const EffectParameter& row) { return row.name == "frequency"; });
+  }
+  /// The columns of the rig beside those of the effects at `h`.
+  Eigen::MatrixXd Joined(const Eigen::MatrixXd& of_rig, const Hypothesis& h,
+                         const QuickLook* look) const {
     Eigen::MatrixXd J(static_cast<Eigen::Index>(model_.size()), static_cast<Eigen::Index>(p_));
-    for (std::size_t k = 0; k < base_.size(); ++k)
-      J.col(static_cast<Eigen::Index>(base_[k])) = of_rig.col(static_cast<Eigen::Index>(k));
-    for (std::size_t k = 0; k < effect_.size(); ++k)
-      J.col(static_cast<Eigen::Index>(effect_[k])) = of_effects.col(static_cast<Eigen::Index>(k));
+    const auto put = [&J](const std::vector<std::size_t>& at, const Eigen::MatrixXd& columns) {
+      for (std::size_t k = 0; k < at.size(); ++k)
+        J.col(static_cast<Eigen::Index>(at[k])) = columns.col(static_cast<Eigen::Index>(k));
+    };
+    put(base_, of_rig);
+    if (!effect_.empty())
+      put(effect_, Jacobian(model_, h, effect_, kEffectStep, look, options_.differences));
+    if (!tuned_.empty())
+      put(tuned_, Jacobian(model_, h, tuned_, kFrequencyStep, look, options_.differences));
     return J;
   }
 
@@ -161,7 +197,7 @@ class FitProblem {
   const QuickLook look_;
   std::size_t p_;
   double weight_ = 1;
-  std::vector<std::size_t> base_, effect_;
+  std::vector<std::size_t> base_, effect_, tuned_;  // tuned: of effects that have a frequency
   bool reuse_ = options_.base_jacobian != nullptr;
   mutable Eigen::MatrixXd base_jacobian_;
   mutable Hypothesis base_at_;  // where it was taken

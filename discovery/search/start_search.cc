@@ -66,10 +66,14 @@ std::vector<SimulatedStart> Neighbours(const EffectInstance& e, const Steps& ste
 
 bool ExplainsMore(const SimulatedStart& a, const SimulatedStart& b) { return a.score < b.score; }
 
-/// Sizes and patterns of one probe of a resonance.
-std::vector<SimulatedStart> SizesOfResonance(const EffectInstance& e) {
-  std::vector<SimulatedStart> out;
-  for (const double factor : {4.0, 1.0, 0.25, 0.0625}) out.push_back({Scaled(e, factor)});
+/// A large and a small size of one probe of a resonance: which frequencies are worth more.
+std::vector<SimulatedStart> FewSizesOfResonance(const EffectInstance& e) {
+  return {{Scaled(e, 1.0)}, {Scaled(e, 0.0625)}};
+}
+
+/// The other sizes and the patterns of its gains.
+std::vector<SimulatedStart> MoreSizesOfResonance(const EffectInstance& e) {
+  std::vector<SimulatedStart> out = {{Scaled(e, 4.0)}, {Scaled(e, 0.25)}};
   // nearly alone at one of its two gains (a gain of zero would leave the fit no slope)
   for (const std::size_t row : GainRows(e))
     for (const double factor : {1.0, 0.125}) {
@@ -95,6 +99,31 @@ std::vector<SimulatedStart> SizesOfContact(const EffectInstance& e) {
     }
   }
   return out;
+}
+
+/// Every probe in few sizes, then the better half of the resonances in all.
+std::vector<SimulatedStart> SimulatedSizes(const StartSearch& search,
+                                           const std::vector<ProbeGroup>& groups) {
+  std::vector<SimulatedStart> starts, more;
+  std::vector<std::pair<double, const EffectInstance*>> resonances;  // best score of each
+  for (const ProbeGroup& g : groups) {
+    const EffectInstance& e = g.probes[0];
+    const bool resonance = IsResonance(EffectNamed(e.name));
+    std::vector<SimulatedStart> sizes = resonance ? FewSizesOfResonance(e) : SizesOfContact(e);
+    search.Simulate(sizes);
+    if (resonance)
+      resonances.emplace_back(std::min_element(sizes.begin(), sizes.end(), ExplainsMore)->score,
+                              &e);
+    starts.insert(starts.end(), sizes.begin(), sizes.end());
+  }
+  std::stable_sort(resonances.begin(), resonances.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  resonances.resize((resonances.size() + 1) / 2);
+  for (const auto& [score, e] : resonances)
+    for (const SimulatedStart& s : MoreSizesOfResonance(*e)) more.push_back(s);
+  search.Simulate(more);
+  starts.insert(starts.end(), more.begin(), more.end());
+  return starts;
 }
 
 }  // namespace
@@ -131,22 +160,27 @@ void StartSearch::Simulate(std::vector<SimulatedStart>& starts) const {
   }
 }
 
-void StartSearch::Climb(SimulatedStart& start) const {
+void StartSearch::Climb(std::vector<SimulatedStart>& starts) const {
   constexpr int kMost = 12;  // moves with steps of one kind
-  for (int shrink = 0; shrink < kMost && !std::isfinite(start.score); ++shrink) {
-    std::vector<SimulatedStart> smaller = {{Scaled(start.effect, 1.0 / 6)}};
-    Simulate(smaller);
-    start = smaller[0];
-  }
-  if (!std::isfinite(start.score)) return;
-  for (const Steps& steps : kSteps)
-    for (int move = 0; move < kMost; ++move) {
-      std::vector<SimulatedStart> next = Neighbours(start.effect, steps);
-      Simulate(next);
-      const auto best = std::min_element(next.begin(), next.end(), ExplainsMore);
-      if (best->score >= start.score) break;
-      start = *best;
+  for (SimulatedStart& start : starts)
+    for (int shrink = 0; shrink < kMost && !std::isfinite(start.score); ++shrink) {
+      std::vector<SimulatedStart> smaller = {{Scaled(start.effect, 1.0 / 6)}};
+      Simulate(smaller);
+      start = smaller[0];
     }
+  std::size_t climbing = starts.size();
+  for (const Steps& steps : kSteps) {
+    for (std::size_t k = 0; k < climbing; ++k)
+      for (int move = 0; move < kMost && std::isfinite(starts[k].score); ++move) {
+        std::vector<SimulatedStart> next = Neighbours(starts[k].effect, steps);
+        Simulate(next);
+        const auto best = std::min_element(next.begin(), next.end(), ExplainsMore);
+        if (best->score >= starts[k].score) break;
+        starts[k] = *best;
+      }
+    std::stable_sort(starts.begin(), starts.end(), ExplainsMore);
+    if (&steps != &kSteps[0]) climbing = (climbing + 1) / 2;
+  }
 }
 
 bool SameValley(const EffectInstance& a, const EffectInstance& b) {
@@ -161,14 +195,7 @@ std::vector<ProbeGroup> ScanStarts(const StartSearch& search,
                                    const std::vector<ProbeGroup>& groups) {
   constexpr std::size_t kKept = 5;
   constexpr double kWorthKeeping = 4;  // of the score
-  std::vector<SimulatedStart> starts;
-  for (const ProbeGroup& g : groups) {
-    const EffectInstance& e = g.probes[0];
-    const bool resonance = IsResonance(EffectNamed(e.name));
-    for (SimulatedStart& s : resonance ? SizesOfResonance(e) : SizesOfContact(e))
-      starts.push_back(std::move(s));
-  }
-  search.Simulate(starts);
+  std::vector<SimulatedStart> starts = SimulatedSizes(search, groups);
   std::stable_sort(starts.begin(), starts.end(), ExplainsMore);
   std::vector<ProbeGroup> out;
   for (const SimulatedStart& s : starts) {

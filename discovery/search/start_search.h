@@ -25,11 +25,12 @@ class StartSearch {
   double here() const { return here_; }
   /// Fills in the scores.
   void Simulate(std::vector<SimulatedStart>& starts) const;
-  /// Moves a start to the neighbour (size, frequency, one of two gains) that explains most until none
+  /// Moves each start to the neighbour (size, frequency, one of two gains) that explains most until none
   /// explains more: a loop that a resonance brings near its limit answers out of all proportion to
   /// the size, and at another frequency than the resonance's own. One that loses the rotor shrinks
-  /// until it holds it.
-  void Climb(SimulatedStart& start) const;
+  /// until it holds it. The steps become finer; the finest are taken by the better half of the
+  /// starts. Leaves all, best first.
+  void Climb(std::vector<SimulatedStart>& starts) const;
 
  private:
   const CaseModel& model_;

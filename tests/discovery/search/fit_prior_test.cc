@@ -58,7 +58,7 @@ FitResult Fitted(double shift, double information) {
   return Fit(c.model, Hypothesis::Base(c.data.rig), options);
 }
 
-double Shift(const FitResult& fit) {
+double ShiftOf(const FitResult& fit) {
   return (fit.hypothesis.free[0].value - fit.hypothesis.free[0].start) / kSd;
 }
 
@@ -68,9 +68,9 @@ TEST(FitPrior, WithinTheToleranceDataAndDrawingShareByTheirInformation) {
     for (const double wanted : {-2.0, 1.5}) {
       const FitResult fit = Fitted(wanted, G);
       ASSERT_EQ(fit.hypothesis.free.size(), 1u);
-      EXPECT_NEAR(Shift(fit), wanted * G / (G + 1), 2e-3);
+      EXPECT_NEAR(ShiftOf(fit), wanted * G / (G + 1), 2e-3);
       EXPECT_NEAR(fit.sd[0], kSd / std::sqrt(G + 1), 0.01 * kSd);
-      EXPECT_NEAR(fit.penalty, std::pow(Shift(fit), 2), 1e-6);
+      EXPECT_NEAR(fit.penalty, std::pow(ShiftOf(fit), 2), 1e-6);
     }
 }
 
@@ -81,13 +81,13 @@ TEST(FitPrior, FarOffTheDrawingEveryFurtherStepCostsFiveTimes) {
     const double u = (G * std::abs(wanted) + 60) / (G + 25);
     ASSERT_GT(u, 3);
     const FitResult fit = Fitted(wanted, G);
-    EXPECT_NEAR(Shift(fit), std::copysign(u, wanted), 0.02);
-    EXPECT_LT(std::abs(Shift(fit)), std::abs(wanted) * G / (G + 1));  // of a plain Gaussian
+    EXPECT_NEAR(ShiftOf(fit), std::copysign(u, wanted), 0.02);
+    EXPECT_LT(std::abs(ShiftOf(fit)), std::abs(wanted) * G / (G + 1));  // of a plain Gaussian
   }
 }
 
 // Between both it stays at three: data that ask for five are not strong enough to go on.
-TEST(FitPrior, AtThreeStandardDeviationsItHolds) { EXPECT_NEAR(Shift(Fitted(5, 4)), 3, 0.05); }
+TEST(FitPrior, AtThreeStandardDeviationsItHolds) { EXPECT_NEAR(ShiftOf(Fitted(5, 4)), 3, 0.05); }
 
 }  // namespace
 }  // namespace ambrig

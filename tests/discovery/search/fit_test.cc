@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
@@ -41,6 +43,45 @@ TEST(Jacobian, AtTheUpperBoundItLooksBack) {
   h.free[0].hi = h.free[0].value;
   const Eigen::MatrixXd J = Jacobian(c.model, h, {0});
   EXPECT_NEAR(J(0, 0), kFitX[0] / LinearCase::kFloor * h.free[0].step, 1e-8);
+}
+
+// Both sides of a linear reading are the same; at a bound only one is there.
+TEST(Jacobian, TwoSidedIsTheSameWhereTheReadingIsLinear) {
+  const LinearCase c = CaseOf(1, 0);
+  Hypothesis h = c.With({LinearCase::Gain(1.02), LinearCase::Offset(1e-6)});
+  const Eigen::MatrixXd one = Jacobian(c.model, h, {0, 1}),
+                        two =
+                            Jacobian(c.model, h, {0, 1}, 0.3, nullptr, DifferenceSides::kTwoSided);
+  EXPECT_LT((one - two).norm(), 1e-6 * one.norm());
+  h.free[0].hi = h.free[0].value;
+  const Eigen::MatrixXd bound =
+      Jacobian(c.model, h, {0, 1}, 0.3, nullptr, DifferenceSides::kTwoSided);
+  EXPECT_LT((one - bound).norm(), 1e-6 * one.norm());
+}
+
+// A reading that jumps by 10 um where k passes 0.5, and nowhere else depends on it: from 0.45 a step of 0.1
+// crosses that on one side only, which is no slope.
+TEST(Jacobian, TwoSidedTakesNoJumpForASlope) {
+  const std::string file =
+      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  Case jumping = LinearCase::Make({2e-5, 4e-5}, 1, 0);
+  jumping.rig.effects =
+      ReadRigText(text +
+                      "\n[[effect]]\nname = \"formula\"\ntarget = \"A\"\n"
+                      "parameters = { k = { value = 0.45, null = 0.0, min = 0.0, max = 1.0 } }\n"
+                      "reading = { x = \"x + (k > 0.5 ? 1e-5 : 0)\", y = \"y\" }\n",
+                  "rig.toml")
+          .effects;
+  const CaseModel model(jumping);
+  const Hypothesis h = Hypothesis::Base(jumping.rig);
+  ASSERT_EQ(h.free.size(), 1u);
+  Hypothesis beyond = h;
+  beyond.Set(0, 0.55);
+  const double fraction = beyond.Coordinate(0) - h.Coordinate(0);
+  EXPECT_GT(Jacobian(model, h, {0}, fraction).norm(), 0);
+  EXPECT_EQ(Jacobian(model, h, {0}, fraction, nullptr, DifferenceSides::kTwoSided).norm(), 0);
 }
 
 // With a look at one record the rows of the others stay zero.

@@ -100,16 +100,20 @@ TEST_F(ResonanceStartTest, AScanAndAClimbEndBesideTheTruth) {
   ASSERT_FALSE(starts.empty());
   for (std::size_t k = 1; k < starts.size(); ++k)
     EXPECT_FALSE(SameValley(starts[0].probes[0], starts[k].probes[0]));
-  SimulatedStart best;
-  for (const ProbeGroup& g : starts) {
-    std::vector<SimulatedStart> start = {{g.probes[0]}};
-    search.Simulate(start);
-    EXPECT_LT(start[0].score, search.here());
-    SimulatedStart climbed = start[0];
-    search.Climb(climbed);
-    EXPECT_LE(climbed.score, start[0].score);
-    if (climbed.score < best.score) best = climbed;
+  std::vector<SimulatedStart> climbed;
+  for (const ProbeGroup& g : starts) climbed.push_back({g.probes[0]});
+  search.Simulate(climbed);
+  double before = kInfinity;
+  for (const SimulatedStart& s : climbed) {
+    EXPECT_LT(s.score, search.here());
+    before = std::min(before, s.score);
   }
+  search.Climb(climbed);
+  ASSERT_EQ(climbed.size(), starts.size());
+  EXPECT_TRUE(std::is_sorted(climbed.begin(), climbed.end(),
+                             [](const auto& a, const auto& b) { return a.score < b.score; }));
+  const SimulatedStart& best = climbed[0];
+  EXPECT_LE(best.score, before);
   EXPECT_NEAR(best.effect.Value("frequency"), 35, 2.5);
   EXPECT_NEAR(std::log(best.effect.Value("mass") / 90), 0, 0.35);
 }
