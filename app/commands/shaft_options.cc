@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/analyze_shaft.h"
+#include "app/commands/outputs.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
