@@ -57,7 +57,7 @@ std::string DroppedModesText(const DroppedModes& m) {
                   m.kept, m.kept + m.dropped, m.top, m.frequency.front());
   const auto micrometres = [](double c) { return c * 1e9; };  // per kN
   for (const LostCompliance& b : m.bearings) {
-    text += fmt::format("; they would give way by {:.3g} um/kN at {} ({:.1f} % of the bending)",
+    text += fmt::format("; they would give way by {:.3g} um/kN at {} ({:.2g} % of the bending)",
                         micrometres(b.lost), b.bearing,
                         100 * std::abs(b.lost) / std::max(std::abs(b.kept + b.lost), 1e-300));
     if (m.top > 0) text += fmt::format(", {:.3g} at {:.0f} Hz", micrometres(b.lost_at_top), m.top);

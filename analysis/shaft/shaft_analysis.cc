@@ -46,6 +46,14 @@ class WholeShaft {
     for (const double w : FreeModes(out_.beam, 4).omega) out_.free.push_back(w);
     shapes_ = ShapesOfBeam(out_.beam, out_.options.highest, out_.options.modes);
     out_.campbell = FollowShaft(out_.beam, shapes_, CampbellSpeeds(), out_.options.modes);
+    if (!out_.options.campbell_alone) Rest(tolerances);
+    Note();
+    ToPlaces();
+    return std::move(out_);
+  }
+
+ private:
+  void Rest(const std::vector<Tolerance>& tolerances) {
     Say(0.5, "critical speeds");
     const LinearRotor r = Assemble(out_.beam, out_.options.highest);
     out_.undamped = FindCriticalSpeeds(r, shapes_, kUndamped);
@@ -58,12 +66,8 @@ class WholeShaft {
     out_.torsional = TorsionalModes(out_.beam, out_.options.highest, kRodModes);
     Couple();
     Scatter(tolerances);
-    Note();
-    ToPlaces();
-    return std::move(out_);
   }
 
- private:
   void Say(double fraction, const std::string& text) const {
     if (out_.options.stop && out_.options.stop->load()) throw Interrupted();
     if (out_.options.progress) out_.options.progress(fraction, text);
@@ -193,7 +197,7 @@ class WholeShaft {
   void Note() {
     if (out_.beam.supports.empty())
       out_.notes.push_back("the file has no [[rotor.support]]: a free shaft");
-    else if (!out_.weight.held)
+    else if (!out_.weight.held && !out_.options.campbell_alone)
       out_.notes.push_back("the supports leave a motion of the shaft free: no static deflection");
     for (const SpringSupport& s : out_.beam.supports)
       if (s.varies() && (out_.options.fastest > s.speed.back() || s.speed.front() > 0))

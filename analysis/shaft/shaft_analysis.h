@@ -33,6 +33,7 @@ struct ForceChoice {
 struct ShaftOptions {
   double lowest = 0, highest = 0, fastest = 0;  // [rad/s]
   int modes = 10;                               // damped modes
+  bool campbell_alone = false;                  // nothing but the damped modes over the speed
   std::vector<UnbalanceChoice> unbalance;       // one set; empty: `grade`, or API 617
   double grade = 0;                             // ISO 21940-11 [m/s]
   std::vector<PlaneChoice> probes;              // empty: supports, disks, housings

@@ -70,7 +70,7 @@ ClosedLoopModes RowOf(double speed, const WholeBeamModes& found) {
 }
 
 Eigen::MatrixXd ShapesOfBeam(const BeamRotor& beam, double speed, int modes) {
-  return ShapesOf(Assemble(beam, speed), 3 * modes + 8, SupportColumns(beam));
+  return ShapesOf(Assemble(beam, speed), 2 * modes + 10, SupportColumns(beam));
 }
 
 ShaftCampbell FollowShaft(const BeamRotor& beam, const Eigen::MatrixXd& shapes,

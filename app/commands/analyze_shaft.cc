@@ -27,6 +27,7 @@ void PrintShaftModes(const ShaftAnalysis& a) {
   for (const double w : a.free) text += fmt::format(" {:.2f}", w * hz);
   fmt::print("{}\n", Wrapped(text, 4));
   for (const auto& [name, modes] : {std::pair{"axial", &a.axial}, {"torsional", &a.torsional}}) {
+    if (a.options.campbell_alone) break;
     text = fmt::format("  {} [Hz]", name);
     for (const RodMode& m : *modes) text += fmt::format(" {:.2f}", m.omega * hz);
     fmt::print("{}\n", Wrapped(text, 4));
@@ -41,10 +42,12 @@ void PrintShaftModes(const ShaftAnalysis& a) {
   }
   fmt::print("\n{}\n", Coloured("critical speeds", "bold"));
   text = "  undamped [rpm]";
+  if (a.options.campbell_alone) text.clear();
   for (const CriticalSpeed& c : a.undamped)
     text += fmt::format(" {:.1f}{}", c.speed / kRpm, c.whirl > 0 ? "F" : "B");
-  fmt::print("{}\n", a.undamped.empty() ? "  undamped: the supports do not hold the shaft"
-                                        : Wrapped(text, 4));
+  if (!text.empty())
+    fmt::print("{}\n", a.undamped.empty() ? "  undamped: the supports do not hold the shaft"
+                                          : Wrapped(text, 4));
   for (const DampedCritical& c : a.campbell.criticals)
     if (c.mode.zeta < std::sqrt(0.5))  // else no response has a peak there
       fmt::print("  damped {:.1f} rpm, {}, log decrement {:.4f}\n", c.speed / kRpm,

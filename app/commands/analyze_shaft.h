@@ -11,6 +11,7 @@ struct ShaftCommand {
   std::string ground;
   double grade = 0;  // [mm/s]
   int modes = 10, rotors = 0;
+  bool campbell = false;
   std::uint64_t seed = 1;
 
   void AddTo(CLI::App& command);

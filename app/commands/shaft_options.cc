@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/commands/analyze_shaft.h"
+#include "app/commands/outputs.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
@@ -109,6 +110,7 @@ ShaftOptions ReadShaftOptions(const ShaftRequest& r, const ShaftCommand& c) {
   o.highest = r.highest;
   o.fastest = r.fastest;
   o.modes = c.modes;
+  o.campbell_alone = c.campbell;
   for (const std::string& u : c.unbalance) o.unbalance.push_back(ReadUnbalance(u));
   o.grade = 1e-3 * c.grade;
   for (const std::string& p : c.probes) o.probes.push_back({p});
@@ -118,6 +120,9 @@ ShaftOptions ReadShaftOptions(const ShaftRequest& r, const ShaftCommand& c) {
   o.rotors = c.rotors;
   o.seed = c.seed;
   o.stop = &interrupted;
+  if (c.campbell && c.Given() != "campbell")
+    throw InputError(
+        fmt::format("--{} is given beside --campbell, allowed: one of them", c.Given()));
   if (!c.unbalance.empty() && c.grade > 0)
     throw InputError("--grade is given beside --unbalance, allowed: one of them");
   return o;
@@ -142,6 +147,8 @@ void ShaftCommand::AddTo(CLI::App& command) {
       .add_option("--alford", alford,
                   "PLANE:KW:D_MM:H_MM[:RATIO] of a stage, the same from its power")
       ->group(group);
+  command.add_flag("--campbell", campbell, "nothing but the damped modes over the speed")
+      ->group(group);
   command.add_option("--modes", modes, "damped modes (10)")
       ->check(CLI::Range(1, 100))
       ->group(group);
@@ -162,6 +169,7 @@ std::string ShaftCommand::Given() const {
          : !coupling.empty() ? "cross-coupling"
          : !alford.empty()   ? "alford"
          : rotors > 0        ? "scatter"
+         : campbell          ? "campbell"
                              : "";
 }
 

@@ -151,6 +151,10 @@ void WriteShaftReport(const ShaftAnalysis& a, const std::string& file,
                                 a.options.lowest / kRpm, a.options.highest / kRpm));
   AddShaftVerdict(report, a);
   AddDampedModes(report, a);
+  if (a.options.campbell_alone) {
+    report.Write(path);
+    return;
+  }
   AddCriticals(report, a);
   AddResponses(report, a);
   if (a.harmonic) {

@@ -14,11 +14,16 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 LinearRotor Projected(const LinearRotor& r, const MatrixXd& B) {
+  const auto part = [&](const MatrixXd& a) -> MatrixXd {
+    const Eigen::SparseMatrix<double> sparse = a.sparseView(1, 0);
+    const MatrixXd right = sparse * B;
+    return B.transpose() * right;
+  };
   LinearRotor out;
-  out.M = B.transpose() * r.M * B;
-  out.G = B.transpose() * r.G * B;
-  out.D = B.transpose() * r.D * B;
-  out.K = B.transpose() * r.K * B;
+  out.M = part(r.M);
+  out.G = part(r.G);
+  out.D = part(r.D);
+  out.K = part(r.K);
   return out;
 }
 
