@@ -35,8 +35,8 @@ int Run(const Convert& c) {
     fmt::print("  with {}\n", Counted(done.magnetic_bearings, "magnetic bearing"));
   if (done.magnetic_bearings > 0 && done.from_ross)
     fmt::print(
-        "  a rig with {} of ROSS's; amplifiers, sampling, sensors and auxiliary\n  bearings "
-        "are assumed, each marked in the file\n",
+        "  a rig with {} of ROSS's; amplifiers, sampling, sensors\n  and auxiliary "
+        "bearings are assumed, each marked in the file\n",
         Counted(done.magnetic_bearings, "magnetic bearing"));
   for (const std::string& l : done.not_carried)
     fmt::print("{}\n", Wrapped(Coloured("  warning: ", "yellow") + "not carried over: " + l, 4));

@@ -5,11 +5,11 @@
 
 namespace ambrig {
 
-Figure ShaftFigure(const ShaftAnalysis& a);       // outline, disks, supports
+Figure ShaftFigure(const ShaftAnalysis& a);  // outline, disks, supports
 /// At the highest operating speed, drawn in space; a button lets them turn.
 Figure ShaftModesFigure(const ShaftAnalysis& a);
-Figure WeightFigure(const ShaftAnalysis& a);      // deflection, shear, moment
-Figure RodFigure(const ShaftAnalysis& a);         // axial and torsional modes
+Figure WeightFigure(const ShaftAnalysis& a);  // deflection, shear, moment
+Figure RodFigure(const ShaftAnalysis& a);     // axial and torsional modes
 /// Long half axis and phase of x at the probes, force of the supports.
 Figure ShaftResponseFigure(const ShaftAnalysis& a, const ShaftSweep& sweep);
 /// Orbits of the probes at the largest peak, or at the highest operating speed where none is.

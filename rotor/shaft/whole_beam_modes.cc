@@ -85,8 +85,9 @@ void Sharpen(const LinearRotor& rotor, double speed, std::vector<WhirlMode>& mod
   }
 }
 
-/// Shapes of a rotor with supports so stiff that they are rigid: the eigenvalues 1/(w² + shift) of M against K +
-/// shift M, whose largest ones the stiffest support does not blur. False where K + shift M is not positive.
+/// Shapes of a rotor with supports so stiff that they are rigid: the eigenvalues
+///   1/(w² + shift) of M against K + shift M,
+/// whose largest ones the stiffest support does not blur. False where that sum is not positive.
 bool ShapesBesideRigid(const MatrixXd& K, const MatrixXd& M, double shift, Index kept,
                        const MatrixXd& forces, MatrixXd& out) {
   const MatrixXd shifted = K + shift * M;

@@ -101,18 +101,33 @@ TEST(ShaftFigures, TheOutlineIsDrawnAtBothSidesInMillimetres) {
   EXPECT_EQ(LineNamed(f, "supports")["x"], Json({0, 1.2}));
 }
 
-TEST(ShaftFigures, ShapesAreScaledToOneAndNamedByTheirFrequency) {
+// The page shows x along (-0.55 0.82, -0.55 0.57) and y upwards; a shaft is 3.2 largest deflections long.
+TEST(ShaftFigures, ShapesTurnAndTheirLargestDeflectionIsOne) {
   const ShaftAnalysis& a = WholeAnalysis();
   const Figure f = ShaftModesFigure(a);
   EXPECT_THAT(f.caption, HasSubstr("at 3820 rpm"));
   ASSERT_GE(f.panels, 2);
+  const Json& frames = f.layout["meta"]["frames"];
+  ASSERT_EQ(frames.size(), 24u);
+  const auto [lo, hi] = std::minmax_element(a.beam.z.begin(), a.beam.z.end());
   double largest = 0;
-  for (const Json& y : LineNamed(f, "x")["y"])
-    largest = std::max(largest, std::abs(y.get<double>()));
-  for (const Json& y : LineNamed(f, "y")["y"])
-    largest = std::max(largest, std::abs(y.get<double>()));
-  EXPECT_NEAR(largest, 1, 1e-5);
-  EXPECT_EQ(LineNamed(f, "x")["x"].size(), a.beam.z.size());
+  for (const Json& frame : frames) {
+    ASSERT_EQ(frame["data"].size(), static_cast<std::size_t>(f.panels));
+    const Json &px = frame["data"][0]["x"], &py = frame["data"][0]["y"];
+    ASSERT_EQ(px.size(), a.beam.z.size());
+    for (std::size_t i = 0; i < px.size(); ++i) {
+      const double along = 3.2 * (a.beam.z[i] - *lo) / (*hi - *lo),
+                   x = (along - px[i].get<double>()) / (0.55 * 0.82),
+                   y = py[i].get<double>() + 0.55 * 0.57 * x;
+      largest = std::max({largest, std::abs(x), std::abs(y)});
+    }
+  }
+  EXPECT_NEAR(largest, 1, 2e-3);  // four digits of places up to 3.2
+  // The first frame is what stands there before anything turns.
+  const Json& still = f.traces[frames[0]["traces"][0].get<std::size_t>()];
+  EXPECT_EQ(still["name"], "centre");
+  EXPECT_EQ(still["y"], frames[0]["data"][0]["y"]);
+  EXPECT_EQ(frames[0]["traces"].size(), static_cast<std::size_t>(f.panels));
 }
 
 TEST(ShaftFigures, SagShearAndMomentOfAShaftOnTwoSupports) {
