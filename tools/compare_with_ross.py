@@ -23,9 +23,9 @@ import scipy.linalg as la
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import ross_examples
-from ross_poles import MODES, is_bearing_with_table, lateral_dofs, matrices, oscillates, pole_differences, poles, speeds_of, through_its_rows, without_magnets
+from ross_poles import (MODES, RPM, is_bearing_with_table, lateral_dofs, matrices, oscillates,
+                        pole_differences, poles, speeds_of, through_its_rows, without_magnets)
 
-RPM = np.pi / 30
 COLUMNS = ("mass", "frequency", "pole", "unbalance", "static", "moment", "smoothing")
 
 

@@ -1,10 +1,9 @@
 """Poles of a rotor by ROSS's own matrices, for compare_with_ross.py."""
-import copy
-
 import numpy as np
 import scipy.interpolate
 import scipy.linalg as la
 
+RPM = np.pi / 30
 MODES = 10
 COEFFICIENTS = [a + b for a in "kcm" for b in ("xx", "xy", "yx", "yy", "zz")]
 
