@@ -28,6 +28,7 @@ export async function campaign(page, address) {
   assert.ok(kept < 144);
   await again.click();
   await page.locator('main', {hasText: /144 of 144 runs/}).waitFor({timeout: 180000});
+  await page.getByRole('button', {name: 'Run again'}).waitFor({timeout: 60000});  // the rows are here before the job has ended
   assert.match(readFileSync(inFolder(`.ambrig/jobs/${lastJob()}/log.txt`), 'utf8'), /resumed, \d+ runs? done before/);
   await check(page, 'campaign');
   // A cell filters, a row opens.
