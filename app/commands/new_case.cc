@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -65,6 +66,13 @@ PlaceOfBody PlaceOf(const Record& record, const ColumnChoice& c) {
   return {at(0.02), at(0.5), at(0.98)};
 }
 
+/// Whether a position column is x by its name: the channel's own, or one that begins with the letter alone.
+bool SaysX(const ColumnChoice& c) {
+  return c.reason == "same name" ||
+         ((c.column[0] == 'x' || c.column[0] == 'X') &&
+          (c.column.size() == 1 || !std::isalpha(static_cast<unsigned char>(c.column[1]))));
+}
+
 /// What becomes of the position column of a bearing: "" when it stays as it is, else what was done. `held` becomes
 /// the place of a body that stands.
 std::string JudgePosition(const BearingParameters& b, const Record& record, ColumnChoice& c,
@@ -74,7 +82,7 @@ std::string JudgePosition(const BearingParameters& b, const Record& record, Colu
   const bool one_axis = b.Axes().size() == 1;
   // x counts from the middle and has both signs; a distance is never below zero.
   const bool distance = at.least > 0 || (at.least > -kTouches * gap && at.most > kGoesOn * gap);
-  if (one_axis && c.reason != "said" && distance) {
+  if (one_axis && c.reason != "said" && distance && !SaysX(c)) {
     if (at.most - at.least < kStill * gap) {
       *held = gap - at.middle;
       *leave_out = true;

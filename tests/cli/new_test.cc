@@ -50,8 +50,8 @@ TEST_F(NewBench, ABodyThatLiesOnSomethingIsNotFree) {
   EXPECT_EQ(text.find("imposed = \"currents\""), std::string::npos);
 }
 
-// A levitated ball: its own run as the record. Coils under the measured motion and the ball under the
-// measured currents leave next to nothing.
+// A levitated ball: its own run as the record. It hangs above the centre for half a second, x by its name; the ball
+// under the measured currents leaves nothing but noise. (The coils do not: every second duty was not logged.)
 TEST_F(NewBench, ALevitatedBodyIsMovedByItsCurrents) {
   Write("numbers.toml",
         Replaced(ReadText(kExamplesOfNew + "ball.toml"), "record = ", "# record = "));
@@ -64,7 +64,10 @@ TEST_F(NewBench, ALevitatedBodyIsMovedByItsCurrents) {
   EXPECT_THAT(text, HasSubstr("imposed = \"motion\""));
   EXPECT_THAT(text, HasSubstr("imposed = \"currents\""));
   ASSERT_EQ(Ambrig("compare seen/case.toml --json compare.json").exit, 0);
-  EXPECT_LT(nlohmann::json::parse(ReadText(folder_ / "compare.json"))["ratio"].get<double>(), 2);
+  const auto records = nlohmann::json::parse(ReadText(folder_ / "compare.json"))["records"];
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[1]["scenario"], "the rotor under measured currents");
+  EXPECT_LT(records[1]["ratio"].get<double>(), 1.3);
 }
 
 // A body that comes to lie at the magnet reads zero and a little noise below: a distance all the same.
