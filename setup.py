@@ -11,7 +11,7 @@ ROOT = pathlib.Path(__file__).resolve().parent
 
 class CMakeBuild(build_ext):
     def build_extension(self, ext: Extension) -> None:
-        folder = ROOT / "build" / "python"
+        folder = ROOT / "build" / "release"  # of the preset `python`: linked from the program's objects
         subprocess.run(["cmake", "--preset", "python"], cwd=ROOT, check=True)
         subprocess.run(["cmake", "--build", str(folder), "--target", "ambrig_python", "ambrig_fmu_library"],
                        cwd=ROOT, check=True)

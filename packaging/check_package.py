@@ -89,7 +89,9 @@ def main():
             told = run("env", f"PYTHONPATH={module}", "/usr/bin/python3", "-c", MODULE, cwd=outside)
             if [float(x) for x in told.split()] != wanted:
                 sys.exit("the Python module does not give the record of ambrig run")
-        run(program, "export", examples / "reference/rig.toml", "--fmu", "rig.fmu", cwd=outside)
+        # Called by its name, as a shell finds it.
+        run("env", f"PATH={prefix / 'bin'}:/usr/bin:/bin", "ambrig", "export", examples / "reference/rig.toml", "--fmu", "rig.fmu",
+            cwd=outside)
         with zipfile.ZipFile(outside / "rig.fmu") as fmu:
             if fmu.testzip() or "binaries/linux64/rig.so" not in fmu.namelist():
                 sys.exit(f"rig.fmu holds {fmu.namelist()}")

@@ -24,21 +24,33 @@ namespace fs = std::filesystem;
 constexpr const char* kLibrary = "ambrig_fmu.so";
 constexpr const char* kSolver = "libnlopt.so";  // goes with it (cmake/fmu.cmake)
 
+/// Where this code is: the folders of the Python module's file and of the program.
+std::vector<fs::path> OwnFolders() {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  Dl_info here{};
+  // Of a program the loader knows only the word by which it was called.
+  if (dladdr(reinterpret_cast<const void*>(&ExportFmu), &here) && here.dli_fname &&
+      std::string(here.dli_fname).find('/') != std::string::npos)
+    folders.push_back(fs::absolute(here.dli_fname, error).parent_path());
+  folders.push_back(fs::read_symlink("/proc/self/exe", error).parent_path());
+  return folders;
+}
+
 /// ambrig_fmu.so beside the program (or Python module) that this code is in, in ../lib/ambrig, or, for
 /// the module in lib/python3/dist-packages/ambrig, in lib/ambrig.
 std::string LibraryFile() {
-  Dl_info here{};
-  dladdr(reinterpret_cast<const void*>(&ExportFmu), &here);
   std::error_code error;
-  fs::path folder = fs::absolute(here.dli_fname ? here.dli_fname : "", error).parent_path();
-  for (const fs::path& place :
-       {folder / kLibrary, folder.parent_path() / "lib" / "ambrig" / kLibrary,
-        folder.parent_path().parent_path().parent_path() / "ambrig" / kLibrary,
-        fs::read_symlink("/proc/self/exe", error).parent_path() / kLibrary})
-    if (fs::is_regular_file(place, error)) return place.string();
+  const std::vector<fs::path> folders = OwnFolders();
+  for (const fs::path& folder : folders)
+    for (const fs::path& place :
+         {folder / kLibrary, folder.parent_path() / "lib" / "ambrig" / kLibrary,
+          folder.parent_path().parent_path().parent_path() / "ambrig" / kLibrary})
+      if (fs::is_regular_file(place, error)) return place.string();
+  const fs::path& program = folders.back();
   throw InputError(fmt::format(
       "--fmu: {} is neither in {} nor in {}; allowed: an ambrig that was built with AMBRIG_FMU=ON",
-      kLibrary, folder.string(), (folder.parent_path() / "lib" / "ambrig").string()));
+      kLibrary, program.string(), (program.parent_path() / "lib" / "ambrig").string()));
 }
 
 /// The file from which this process has loaded a library; empty: it has not.
