@@ -109,10 +109,12 @@ TEST(ShaftFigures, ShapesTurnAndTheirLargestDeflectionIsOne) {
   ASSERT_GE(f.panels, 2);
   const Json& frames = f.layout["meta"]["frames"];
   ASSERT_EQ(frames.size(), 24u);
+  const std::size_t shapes = frames[0]["traces"].size();  // of the modes that the row has, six at most
+  ASSERT_GE(shapes, 2u);
   const auto [lo, hi] = std::minmax_element(a.beam.z.begin(), a.beam.z.end());
   double largest = 0;
   for (const Json& frame : frames) {
-    ASSERT_EQ(frame["data"].size(), static_cast<std::size_t>(f.panels));
+    ASSERT_EQ(frame["data"].size(), shapes);
     const Json &px = frame["data"][0]["x"], &py = frame["data"][0]["y"];
     ASSERT_EQ(px.size(), a.beam.z.size());
     for (std::size_t i = 0; i < px.size(); ++i) {
@@ -127,7 +129,6 @@ TEST(ShaftFigures, ShapesTurnAndTheirLargestDeflectionIsOne) {
   const Json& still = f.traces[frames[0]["traces"][0].get<std::size_t>()];
   EXPECT_EQ(still["name"], "centre");
   EXPECT_EQ(still["y"], frames[0]["data"][0]["y"]);
-  EXPECT_EQ(frames[0]["traces"].size(), static_cast<std::size_t>(f.panels));
 }
 
 TEST(ShaftFigures, SagShearAndMomentOfAShaftOnTwoSupports) {
