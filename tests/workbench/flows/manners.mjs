@@ -28,7 +28,7 @@ export async function keyboardOnly(page, address) {
   await drawn(page, 'A: position');
   await tabTo(page, /^A: position/);
   for (const key of ['+', 'ArrowRight', 'a', 'Alt+ArrowRight', 'b', '0']) await page.keyboard.press(key);
-  assert.match(await page.locator('#said').textContent(), /s: x -?[\d.e-]+, y/);
+  await page.waitForFunction(() => /s: x -?[\d.e-]+, y/.test(document.querySelector('#said')?.textContent ?? ''));
   await page.waitForURL(/A=.*B=/);
   await tabTo(page, /^A3, healthy$/);
   await page.keyboard.press('Space');
