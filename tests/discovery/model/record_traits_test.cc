@@ -40,7 +40,7 @@ TEST(RecordTraits, WhatDrivesIsNotPredicted) {
   CaseRecord r = TimeRecord(StartState::kLevitated);
   r.data.start = 0.1;
   EXPECT_TRUE(HasSettled(r, 0.1));
-  r.imposed_motion = true;
+  r.imposed = Imposed::kMotion;
   EXPECT_FALSE(IsPredicted(r, "A.x"));
   EXPECT_FALSE(IsPredicted(r, "A.s3"));
   EXPECT_TRUE(IsPredicted(r, "A.i3"));

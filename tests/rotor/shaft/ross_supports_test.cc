@@ -132,7 +132,7 @@ TEST(RossSupports, WhatRossCannotSayIsNamed) {
 
 // E and G of a steel that is none: the Poisson ratio is told and kept to 1/2, but not of sleeves, which carry nothing.
 TEST(RossMaterial, APoissonRatioThatCannotBeIsTold) {
-  for (const auto& [E, told] : {std::pair{2e11, true}, {1e6, true}, {9e5, false}}) {
+  for (const auto& [E, told] : {std::pair{2e11, true}, {2e3, true}, {1.9e3, false}}) {
     RossTable table;
     table.Add(
         "[ShaftElement_9]\nL = 0.5\nidl = 0.02\nodl = 0.03\nn = 0\naxial_force = 0\n"
