@@ -38,8 +38,8 @@ Answer Ask(const std::string& command) {
 bool Unreachable(const std::string& text) {
   for (const char* said :
        {"Unable to contact slurm controller", "Connection refused", "Connection timed out",
-        "Socket timed out", "slurm_load_jobs error: Zero Bytes", "Unexpected message received",
-        "Communication connection failure"})
+        "Socket timed out", "Zero Bytes were transmitted or received",
+        "Unexpected message received", "Communication connection failure"})
     if (text.find(said) != std::string::npos) return true;
   return false;
 }

@@ -109,7 +109,8 @@ TEST(ShaftFigures, ShapesTurnAndTheirLargestDeflectionIsOne) {
   ASSERT_GE(f.panels, 2);
   const Json& frames = f.layout["meta"]["frames"];
   ASSERT_EQ(frames.size(), 24u);
-  const std::size_t shapes = frames[0]["traces"].size();  // of the modes that the row has, six at most
+  const std::size_t shapes =
+      frames[0]["traces"].size();  // of the modes that the row has, six at most
   ASSERT_GE(shapes, 2u);
   const auto [lo, hi] = std::minmax_element(a.beam.z.begin(), a.beam.z.end());
   double largest = 0;

@@ -4,7 +4,6 @@
 //   node walk.mjs AMBRIG SOURCE_FOLDER [SCREENSHOT_FOLDER]
 //
 // AMBRIG_PAGE=1: the page's files are those of SOURCE_FOLDER/web/workbench. AMBRIG_FLOW=playground,watched: only these.
-// AMBRIG_FLOW=planned plans the next record, which explains the case for each draw: many minutes, so it runs when it is named only.
 import {cpSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {campaign} from './flows/campaign.mjs';
@@ -30,4 +29,4 @@ function make() {
   write('bad.toml', 'name = "bad"\nrig = "rig.toml"\nduration = -1\n');
 }
 
-await walk({playground, scenarioList, compareRuns, campaign, keyboardOnly, dark, tablet, mendData, measuredRig, wizard, watched, nextRecord, mainFlow, ...(process.env.AMBRIG_FLOW?.includes('planned') ? {planned} : {}), everyScreen}, make);
+await walk({playground, scenarioList, compareRuns, campaign, keyboardOnly, dark, tablet, mendData, measuredRig, wizard, watched, nextRecord, mainFlow, planned, everyScreen}, make);

@@ -14,7 +14,9 @@ std::vector<PracticeLaw> OwnLaws() {
     out.push_back({name + "-own", "the catalogue's own law", name, name, [name](LawSetting s) {
                      const EffectDescription& d = EffectNamed(name);
                      const auto seed = static_cast<std::uint64_t>(s.draw.Between(0, 1e9));
-                     return std::vector{ScaledEffect(d, DrawEffect(d, s.target, seed, 0), s.size)};
+                     EffectInstance e = ScaledEffect(d, DrawEffect(d, s.target, seed, 0), s.size);
+                     e.where = "practice law";
+                     return std::vector{e};
                    }});
   }
   return out;

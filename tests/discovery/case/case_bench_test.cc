@@ -62,6 +62,16 @@ TEST_F(CaseBench, WithoutCoherenceTheSdIsOpenOrStated) {
   EXPECT_NEAR(r.sd[0], 0.05 * std::abs(r.values[0]), 1e-12);
 }
 
+// Coherence tells the sd only with the number of averages behind it.
+TEST_F(CaseBench, CoherenceWithoutAveragesIsNoted) {
+  const std::string p = "[record.responses]\n\"A.x/A.x.command\" = \"P\"\n";
+  const Case c = Read("kind = \"frf\"\n" + p);
+  EXPECT_FALSE(c.records[0].responses.responses[0].sd_known);
+  EXPECT_THAT(c.notes, ::testing::Contains(HasSubstr("coherence without `averages`")));
+  EXPECT_THAT(Read("kind = \"frf\"\naverages = 4\n" + p).notes,
+              ::testing::Not(::testing::Contains(HasSubstr("coherence without"))));
+}
+
 TEST_F(CaseBench, MistakesOfResponses) {
   const std::string frf = "kind = \"frf\"\n[record.responses]\n";
   EXPECT_THAT(Error(frf + "\"A.q/A.x.force\" = \"P\"\n"),

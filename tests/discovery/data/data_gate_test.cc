@@ -153,6 +153,32 @@ TEST(DataGate, DataOfAnotherScenarioAreNamedWithIt) {
   EXPECT_GE(named, 1);
 }
 
+// What the data-quality pass left out because it stands still is named too, but not of a clamped rotor, which may stand.
+TEST(DataGate, AStuckColumnThatWasLeftOutIsNamed) {
+  for (const char* record : {kSteps, kClamped}) {
+    Case c = Measured();
+    const std::size_t r = RecordNamed(c, record);
+    for (std::size_t k = 0; k < c.records[r].quality.size(); ++k) {
+      ChannelQuality& q = c.records[r].quality[k];
+      if (q.channel != "B.i3") continue;
+      q.use = false;
+      q.verdict = "stuck at one value";
+      std::vector<double>& y = c.records[r].data.channels[k].samples;
+      std::fill(y.begin(), y.end(), 2.0);
+    }
+    const auto faults = FaultsOf(c);
+    if (record == kClamped) {
+      EXPECT_TRUE(faults.empty());
+      continue;
+    }
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].fault, "freeze");
+    EXPECT_EQ(faults[0].channel, "B.i3");
+    const Record& data = c.records[r].data;
+    EXPECT_NEAR(faults[0].seconds, static_cast<double>(data.rows()) / data.rate, 1e-9);
+  }
+}
+
 // Of a speed column the prediction is the scenario's own profile.
 TEST(DataGate, ASpeedInAnotherUnitIsNamedWithItsFactor) {
   const char* kTurning = "multisine at 60 Hz";

@@ -121,5 +121,23 @@ TEST(SideContact, SlidingIsRotationAndMotion) {
   EXPECT_NEAR(c.Rubs(s, 3), std::sqrt(0.5), 1e-12);
 }
 
+// A contact that comes and goes is found from the side that it pushes from, which is on no axis.
+TEST(SideContact, AContactThatComesAndGoesIsFound) {
+  SideContact truth;
+  truth.angle = 0.8;
+  truth.gap = 4e-6;
+  truth.push = 5e5;
+  truth.period = 0.055;
+  truth.phase = 0.3;
+  truth.duty = 0.4;
+  ForceSamples s = Motion();
+  Push(s, truth, 0.05);
+  const SideContact found = FindSideContact(s, 0.05);
+  EXPECT_GT(found.share, 0.9);
+  EXPECT_NEAR(found.period, truth.period, 0.02 * truth.period);
+  EXPECT_LT(Turned(found.angle, truth.angle), 0.08);
+  EXPECT_NEAR(found.push, truth.push, 0.1 * truth.push);
+}
+
 }  // namespace
 }  // namespace ambrig

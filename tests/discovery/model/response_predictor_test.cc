@@ -185,5 +185,63 @@ TEST(ResponsePredictor, CurrentLoopOfAHeldRotor) {
   }
 }
 
+// Of a coil's own current sensor the linear model knows nothing, whichever coil it is.
+TEST(ResponsePredictor, AFalseCurrentOfAnyCoilIsBeyondTheLinearModel) {
+  const RigParameters rig = ReadRig(testing::kSpindle);
+  for (int j = 1; j <= rig.bearings[0].coils(); ++j) {
+    const std::string coil = fmt::format("A.coil{}", j);
+    EXPECT_FALSE(InLinearModel(rig, With("current-sensor-gain", coil, "gain", 1.05))) << coil;
+    EXPECT_FALSE(InLinearModel(rig, With("current-sensor-offset", coil, "offset", 0.05))) << coil;
+  }
+}
+
+// The same for responses that a reference is part of.
+TEST(ResponsePredictor, NoJumpWhereAReferenceIsThePort) {
+  const TemporaryFolder folder;
+  const Case c =
+      CaseOf(folder, "[[record]]\nkind = \"frf\"\ndata = \"" + Trace(folder, {20, 150, 400}) +
+                         "\"\n[record.responses]\n\"A.x.error/A.x.reference\" = \"trace\"\n"
+                         "\"A.x/A.x.reference\" = \"trace\"\n");
+  const ResponsePredictor predictor(c, c.records[0]);
+  RigParameters rig = c.rig;
+  const auto plain = predictor.Respond(rig);
+  rig.effects = {With("sensor-lowpass", "A", "cutoff", 3e6)};
+  const auto tiny = predictor.Respond(rig);
+  ASSERT_EQ(tiny.size(), 2u);
+  for (std::size_t r = 0; r < 2; ++r)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT(std::abs(tiny[r][k] - plain[r][k]), 5e-3 * (0.1 + std::abs(plain[r][k])))
+          << r << " " << k;
+}
+
+// Two coils of a held rotor share their flux: each response is that of its own pair.
+TEST(ResponsePredictor, CurrentLoopsOfTwoHeldCoils) {
+  const TemporaryFolder folder;
+  std::string text = fmt::format(
+      "name = \"held\"\nrig = \"{}\"\nduration = 0.1\nrecord_rate = 12500.0\n"
+      "[start]\nstate = \"clamped\"\nposition = {{ A = [4e-5, -2e-5], B = [0, 0] }}\n",
+      testing::kSpindle);
+  for (const int coil : {1, 2})
+    text += fmt::format(
+        "[[excitation]]\ntarget = \"A.coil{}\"\nport = \"current\"\nkind = \"step\"\n"
+        "amplitude = 1.2\n",
+        coil);
+  WriteBytes(folder.File("held.toml"), text);
+  const Case c = CaseOf(folder, "[[record]]\nkind = \"frf\"\nscenario = \"held.toml\"\ndata = \"" +
+                                    Trace(folder, {300, 2000}) +
+                                    "\"\n[record.responses]\n\"A.i1/A.s1\" = \"trace\"\n");
+  const auto H = ResponsePredictor(c, c.records[0]).Respond(c.rig);
+  for (std::size_t k = 0; k < 2; ++k) {
+    SineRun run{c.rig, {}, c.records[0].scenario, 0.1};
+    for (Excitation& e : run.scenario.excitations) e.stop = 10;
+    run.sine.target = "A.coil1";
+    run.sine.port = "current";
+    run.sine.frequency = c.records[0].responses.frequency[k];
+    run.sine.amplitude = 0.02;
+    const Complex measured = run.Response({{"A.i1", 1}});
+    EXPECT_LT(std::abs(H[0][k] - measured), kNear * std::abs(measured)) << run.sine.frequency;
+  }
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -165,5 +165,21 @@ TEST(PracticeSurroundings, ABowIsAlsoAPairOfUnbalances) {
   EXPECT_EQ(RightNames("saturation", "A"), (std::vector<NamedEffect>{{"saturation", "A"}}));
 }
 
+// The copper of another rig is thinner or thicker than drawn, within a quarter either way.
+TEST(PracticeSurroundings, ResistancesOfOtherSizesLieAroundTheDrawing) {
+  const PracticeRig rig = RadialReference()[0];
+  int less = 0, more = 0;
+  for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    const std::string text = WithOtherSizes(rig.text, rig.file, seed);
+    const double factor = TomlNumberAt(text, rig.file, "bearings.A.resistance") /
+                          TomlNumberAt(rig.text, rig.file, "bearings.A.resistance");
+    EXPECT_GE(factor, 0.799);
+    EXPECT_LE(factor, 1.251);
+    (factor < 1 ? less : more) += 1;
+  }
+  EXPECT_GT(less, 4);
+  EXPECT_GT(more, 4);
+}
+
 }  // namespace
 }  // namespace ambrig

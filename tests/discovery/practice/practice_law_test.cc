@@ -129,5 +129,16 @@ TEST(PracticeLawForms, RelaxationsFollowTheirOrder) {
   }
 }
 
+// Messages about an effect say where it was written: these stand in no file.
+TEST(PracticeLaw, EveryEffectSaysThatALawOfPracticeMadeIt) {
+  const RigParameters rig = ExampleRig("reference");
+  for (const PracticeLaw& law : PracticeLaws()) {
+    const std::vector<std::string> targets = TargetsOfLaw(law, rig);
+    if (targets.empty()) continue;
+    for (const EffectInstance& e : law.make(SettingOf(rig, targets[0], 1)))
+      EXPECT_EQ(e.where, "practice law") << law.id;
+  }
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
@@ -43,6 +44,18 @@ TEST(FitBriefly, TakesTheOtherStartWhereTheFirstIsRefused) {
   ASSERT_TRUE(fit.converged);
   EXPECT_EQ(fit.hypothesis.rig.effects.size(), 1u);
   EXPECT_EQ(fit.hypothesis.rig.effects[0].target, "A.x");
+}
+
+// A narrow effect that explains nothing wherever it starts is not there: nothing is fitted.
+TEST(FitBriefly, ANarrowEffectThatExplainsNothingIsNotFitted) {
+  const LinearCase c(kX, 1, 0);
+  Candidate candidate = From(LinearCase::Gain(1.0001));
+  candidate.other_starts = {LinearCase::Gain(0.9999)};
+  EXPECT_TRUE(FitBriefly(c.model, c.Base(), candidate, kFitN).converged);
+  candidate.narrow = true;
+  const FitResult fit = FitBriefly(c.model, c.Base(), candidate, kFitN);
+  EXPECT_FALSE(fit.converged);
+  EXPECT_TRUE(std::isinf(fit.ratio_fit));
 }
 
 TEST(FitOn, GivesSensitivitiesAndStandardDeviations) {
@@ -116,6 +129,10 @@ TEST(RankEffects, RivalsAtThePlaceOfTheBestAreFittedToo) {
   }
   EXPECT_TRUE(offset);
   EXPECT_GT(round.ranking[0].probability, 0.99);  // of readings at four places a gain is plain
+  // The short fits left nothing open: the second one needs no full fit.
+  EXPECT_EQ(std::count_if(told.texts.begin(), told.texts.end(),
+                          [](const std::string& t) { return t.starts_with("full fit of"); }),
+            1);
 }
 
 // A second round adds to what was found and does not name it again.

@@ -196,5 +196,16 @@ TEST(Fit, WithoutFreeParametersItIsAnEvaluation) {
   EXPECT_NEAR(fit.ratio_validate, 5 / std::sqrt(2.0), 1e-9);
 }
 
+// Without a record that validates, the fitted ones have to do.
+TEST(Fit, WithoutUnseenRecordsTheRatioIsThatOfTheFittedOnes) {
+  Case c = LinearCase::Make({std::begin(kFitX), std::end(kFitX)}, 1.08, 0);
+  for (CaseRecord& r : c.records) r.validate = false;
+  CaseModel model(c);
+  for (Target& t : model.targets()) t.floor = LinearCase::kFloor;
+  const FitResult result = Fit(model, Hypothesis::Base(c.rig), {});
+  EXPECT_GT(result.ratio_fit, 0.5);
+  EXPECT_EQ(result.ratio_validate, result.ratio_fit);
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -73,6 +75,30 @@ TEST(Probes, AResonanceIsSoughtWithOneDamping) {
   const CaseModel model(c, 12);
   for (const ProbeGroup& g : ProbesOf(EffectNamed("base-mode"), "rig", model, {}))
     for (const EffectInstance& e : g.probes) EXPECT_EQ(e.Value("damping"), 0.05);
+}
+
+// The middle of a usual range: of positive values by ratio, of negative ones half of the way.
+TEST(Probes, AShapeOfNegativeValuesIsTriedInTheMiddle) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  for (const auto& [lo, hi, middle] :
+       {std::tuple{1e-5, 4e-5, 2e-5}, std::tuple{-4e-5, -2e-5, -3e-5}}) {
+    EffectDescription d = EffectNamed("eddy-currents");
+    for (EffectParameter& p : d.parameters) {
+      if (p.name != "path") continue;
+      p.lo = -1;
+      p.typical_lo = lo;
+      p.typical_hi = hi;
+    }
+    std::set<double> tried;
+    for (const ProbeGroup& g : ProbesOf(d, "A", model, {}))
+      for (const EffectInstance& e : g.probes) tried.insert(e.Value("path"));
+    EXPECT_TRUE(std::any_of(tried.begin(), tried.end(), [middle = middle](double v) {
+      return std::abs(v - middle) < 1e-12;
+    })) << lo;
+  }
 }
 
 }  // namespace

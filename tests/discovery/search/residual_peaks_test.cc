@@ -54,5 +54,25 @@ TEST(ThinModel, KeepsEveryPhase) {
   for (int n : phase) EXPECT_NEAR(n, static_cast<double>(t.count) / 5, 2);
 }
 
+// A transient that only decays has a spectrum that only falls: no frequency stands out of it.
+TEST(ResidualPeaks, AFallingSpectrumHasNone) {
+  RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  Case c = EmptyCase(rig, Examination(rig, 1));
+  std::erase_if(c.records,
+                [](const CaseRecord& r) { return r.scenario.start == StartState::kClamped; });
+  const CaseModel model(c);
+  std::vector<double> residual(model.size());
+  for (const Target& t : model.targets()) {
+    const CaseRecord& r = c.records[t.record];
+    if (r.data.channels[t.channel].name != "A.x") continue;
+    for (std::size_t k = 0; k < t.count; ++k)  // time constant of 4 ms, the record is over 200 ms
+      residual[t.first + k] = std::exp(-static_cast<double>(k) / r.data.rate / 0.004);
+  }
+  const ResidualPeaks peaks = FindPeaks(model, residual);
+  EXPECT_TRUE(peaks.coherent.at("A").empty());
+  EXPECT_TRUE(peaks.spectrum.empty());
+}
+
 }  // namespace
 }  // namespace ambrig

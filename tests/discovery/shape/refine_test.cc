@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -69,6 +70,13 @@ TEST(Refine, FindsTheShapeAndWritesARigThatRuns) {
     ++compared;
   }
   EXPECT_GT(compared, 15);
+  // Sizes that the records say less of than was known before are told, one as well as many.
+  const bool idle = std::any_of(r.fit.influence.begin(), r.fit.influence.end(),
+                                [](double i) { return i < 1; }),
+             told = std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string&w) {
+               return w.find("are not determined by these records") != std::string::npos;
+             });
+  EXPECT_EQ(told, idle);
   const RigParameters refined = ReadRigText(r.rig_text, "refined.toml");
   ASSERT_EQ(refined.effects.size(), c.rig.effects.size() + 1);
   EXPECT_EQ(refined.effects.back().name, "eddy-impedance");

@@ -130,8 +130,34 @@ TEST(ShapeFit, ClaimsNothingWhereNoRecordGoes) {
   const Shape shape = ShapeOf(named, held.data.rig, {.density = 2 * reach});
   const ShapeFit fit = FitShape(*held.model, Hypothesis::Base(held.data.rig), shape, 2000, nullptr);
   EXPECT_LT(fit.influence.back(), 1);
+  // Records only take away from what the penalty alone leaves, and at the end nearly nothing.
+  ASSERT_EQ(fit.prior.rows(), static_cast<Eigen::Index>(fit.sizes.size()));
+  for (Eigen::Index k = 0; k < fit.prior.rows(); ++k)
+    EXPECT_LE(fit.posterior(k, k), fit.prior(k, k) * (1 + 1e-9)) << k;
+  EXPECT_LT(fit.Support(shape, 2 * reach), fit.Support(shape, 0.8 * reach));
   EXPECT_GT(fit.influence[3], 1);
   EXPECT_GT(fit.CurveSd(shape, 2 * reach), 20 * fit.CurveSd(shape, 0.8 * reach));
+}
+
+// A curve sin(c0/1e-3 + c1 u): its slopes in the sizes are known, its sd is their sum with the posterior's covariance, the
+// support what the records took of the prior's.
+TEST(ShapeFit, TheSdOfACurveIsThatOfItsSlopes) {
+  Shape shape;
+  shape.step = Eigen::Vector2d(1e-3, 0.5);
+  shape.value = [](const std::vector<double>& c, double u) {
+    return std::sin(c[0] / 1e-3 + c[1] * u);
+  };
+  ShapeFit fit;
+  fit.sizes = {4e-4, 0.3};
+  fit.posterior = Eigen::Matrix2d{{1e-8, 2e-6}, {2e-6, 0.01}};
+  fit.prior = Eigen::Matrix2d{{4e-8, 0}, {0, 0.09}};
+  for (const double u : {0.0, 0.7, 2.0}) {
+    const double slope = std::cos(0.4 + 0.3 * u);
+    const Eigen::Vector2d g(slope / 1e-3, slope * u);
+    const double left = g.dot(fit.posterior * g);
+    EXPECT_NEAR(fit.CurveSd(shape, u), std::sqrt(left), 1e-5 * std::sqrt(left)) << u;
+    EXPECT_NEAR(fit.Support(shape, u), 1 - left / g.dot(fit.prior * g), 1e-5) << u;
+  }
 }
 
 }  // namespace

@@ -189,5 +189,16 @@ TEST(DistributionSolver, NothingIsLeft) {
   }
 }
 
+// Currents beyond the amplifiers at rest leave no disc, and then nothing is unipolar over it.
+TEST(DistributionSolver, ABiasBeyondTheAmplifiersServesNothing) {
+  const RedistributionProblem p = Broken({});
+  DistributionMatrix W = HealthyDistribution(p);
+  W.col(0) *= 2 * p.i_max / p.c0;
+  const Distribution d = Describe(p, SolvabilityClass::kExact, W);
+  EXPECT_LE(d.rho, 0);
+  EXPECT_FALSE(d.unipolar);
+  EXPECT_TRUE(Describe(p, SolvabilityClass::kExact, HealthyDistribution(p)).unipolar);
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -181,5 +181,23 @@ TEST(RedistributionProblem, HasTheDrawingsAnglesAndWinding) {
   EXPECT_EQ(p.gap, 4e-4);
 }
 
+// The six pairs of columns, each for both axes, in their order: bias alone, gains, then what grows with |v|².
+TEST(ForceForms, ErrorsAreThoseOfEveryPairOfColumns) {
+  const ForceForms forms = MakeForceForms(ProblemWith());
+  DistributionMatrix W;
+  for (int j = 0; j < 8; ++j)
+    for (int c = 0; c < 3; ++c) W(j, c) = std::sin(1.7 * j + 2.3 * c + 0.4);
+  const auto form = [&](int p, int q, int axis) { return W.col(p).dot(forms.Q[axis] * W.col(q)); };
+  const auto errors = EquationErrors(forms, W);
+  const int p[] = {0, 0, 0, 1, 1, 2}, q[] = {0, 1, 2, 1, 2, 2};
+  for (int pair = 0; pair < 6; ++pair)
+    for (int axis = 0; axis < 2; ++axis) {
+      const bool gain = p[pair] == 0 && q[pair] == axis + 1;
+      EXPECT_NEAR(errors[2 * pair + axis], form(p[pair], q[pair], axis) - (gain ? 1 : 0), 1e-13)
+          << pair << " " << axis;
+    }
+  EXPECT_GT(std::abs(form(1, 1, 0) - form(1, 2, 0)), 0.01);  // the pairs differ
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -10,6 +10,7 @@
 #include "actuators/magnetics/stator_parameters.h"
 #include "control/current/bias_linearisation.h"
 #include "core/math/constants.h"
+#include "faulttolerance/redistribution/stator_forms.h"
 
 namespace ambrig {
 namespace {
@@ -237,6 +238,23 @@ TEST(StatorDistribution, AnAxisWithoutCoilsIsGivenUp) {
   EXPECT_EQ(SolveStator(p).cls, SolvabilityClass::kNone);
   p.turns_left.setZero();
   EXPECT_EQ(SolveStator(p).cls, SolvabilityClass::kNone);
+}
+
+// Every coil's bias is bounded, the first one as the others: what is beyond is told in its own size.
+TEST(StatorBounds, AreThoseOfEveryCoil) {
+  const StatorForms forms(StatorProblemOf(Stator("one-coil-per-pole", 8), 1.5, true));
+  StatorBounds bounds;
+  bounds.limit = 3;
+  ASSERT_EQ(forms.live(), 8);
+  for (int j = 0; j < 8; ++j) {
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(forms.size());
+    x[j] = 3;
+    EXPECT_EQ(bounds.Violation(forms, x), 0) << j;
+    x[j] = 3.5;
+    EXPECT_DOUBLE_EQ(bounds.Violation(forms, x), 0.5) << j;
+    x[j] = -0.25;  // unipolar
+    EXPECT_DOUBLE_EQ(bounds.Violation(forms, x), 0.25) << j;
+  }
 }
 
 }  // namespace

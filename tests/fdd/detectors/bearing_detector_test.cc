@@ -104,6 +104,54 @@ TEST(PeriodSlopes, ExpectedSlopeOfAnOpenCoilIsTheHealthyOne) {
   EXPECT_GT(open.expected - open.slope, 2 * open.half_width);
 }
 
+// Behind a period of which nothing is known the linkages may be anywhere: that they moved is no fault.
+TEST(BearingDetector, NothingIsComparedAcrossAnUnknownPeriod) {
+  Bench bench;
+  bench.noise = 0.004;
+  bench.x0 = bench.y0 = 0;
+  DetectorSettings s;
+  s.sampling = bench.Sampling();
+  BearingDetector detector(MakeLinkageModel(Reference()), s);
+  const auto runs = [&](int periods, bool known) {
+    for (int n = 0; n < periods; ++n) {
+      MeasuredPeriod in = bench.Run();
+      in.comparable = known;
+      const DetectorAlarm alarm = detector.Period(in);
+      EXPECT_FALSE(alarm.raised) << n;
+      EXPECT_EQ(alarm.diagnosis.cls, FaultClass::kNone);
+    }
+  };
+  runs(30, true);
+  runs(4, false);
+  Lane other;
+  for (int j = 0; j < kLanes; ++j) other[j] = j % 3 == 0 ? 2.6 : 1.7;
+  bench.lanes.Settle(other, bench.x0, bench.y0);
+  runs(30, true);
+}
+
+// A coil that another detector flags although all its equations hold is examined as long as is allowed, then cleared.
+TEST(BearingDetector, AFlagWithoutAFaultIsClearedAtTheEnd) {
+  Bench bench;
+  bench.noise = 0.004;
+  bench.x0 = bench.y0 = 0;
+  DetectorSettings s;
+  s.sampling = bench.Sampling();
+  BearingDetector detector(MakeLinkageModel(Reference()), s);
+  for (int n = 0; n < 20; ++n) detector.PeriodWatchedBy(-1, bench.Run());
+  const DetectorAlarm first = detector.PeriodWatchedBy(3, bench.Run());
+  EXPECT_TRUE(first.raised);
+  EXPECT_EQ(first.coil, 3);
+  int cleared = 0;
+  for (int n = 1; n <= 20; ++n) {
+    const DetectorAlarm a = detector.PeriodWatchedBy(-1, bench.Run());
+    EXPECT_EQ(a.diagnosis.cls, FaultClass::kNone) << n;
+    if (!a.cleared) continue;
+    ++cleared;
+    EXPECT_EQ(n, 12);
+  }
+  EXPECT_EQ(cleared, 1);
+}
+
 TEST(PositionMonitor, FollowsAParabolaExactly) {
   PositionMonitor m(1, 1);
   const auto y = [](double t) { return 3e-5 - 0.1 * t + 40 * t * t; };

@@ -75,5 +75,28 @@ TEST(ExcessWindows, AWindowNoisierThanAskedForSaysNothing) {
   EXPECT_NEAR(windows.Used(0, 0.11)[0], 1, 1e-12);
 }
 
+// Of one phase: the ratio of its sums over the last periods, whatever the other phase says; nothing without weight.
+TEST(ExcessWindows, OnePhaseIsTheRatioOfItsOwnSums) {
+  ExcessWindows windows(Radial());
+  double top = 0, bottom = 0;
+  for (int n = 0; n < 7; ++n) {
+    SlopeExcess p;
+    for (int j = 0; j < kLanes; ++j) {
+      p.top[0][j] = 0.1 * (n + 1) * (j + 1);
+      p.bottom[0][j] = n + 1;
+      p.top[1][j] = -3;
+      p.bottom[1][j] = n < 4 ? 5 : 0;
+    }
+    windows.Add(p, {});
+    if (n < 4) continue;
+    top += 0.1 * (n + 1) * 3;
+    bottom += n + 1;
+  }
+  EXPECT_NEAR(windows.OfPhase(2, 0, 3), top / bottom, 1e-12);
+  EXPECT_NEAR(windows.OfPhase(5, 0, 40), 0.6, 1e-12);  // all seven
+  EXPECT_EQ(windows.OfPhase(2, 1, 3), 0);
+  EXPECT_NEAR(windows.OfPhase(2, 1, 4), -3.0 * 4 / 5, 1e-12);  // three of them without weight
+}
+
 }  // namespace
 }  // namespace ambrig

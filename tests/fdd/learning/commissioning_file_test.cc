@@ -26,7 +26,7 @@ CommissionedBearing Learnt() {
   b.circuit.relaxation = {0.1, 0.2, 0.3, 4.0 / 3};
   b.pattern = 0.004;
   for (int j = 0; j < kLanes; ++j) {
-    b.coils.gain[j] = 1 + 0.01 / (j + 3);
+    b.coils.gain[j] = 1 + (j % 2 ? -0.01 : 0.01) / (j + 3);
     b.largest_flux[j] = 3 + j;
     b.current_error[j] = 0.1 * j;
     for (int w = 0; w < kExcessWindows; ++w) b.largest[w][j] = 0.01 * w + 0.001 * j;

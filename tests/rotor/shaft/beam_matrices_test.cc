@@ -5,6 +5,7 @@
 
 #include "core/math/constants.h"
 #include "rotor/shaft/beam.h"
+#include "rotor/shaft/beam_mesh.h"
 #include "rotor/shaft/rotor_modes.h"
 #include "tests/rotor/shaft/uniform_shaft.h"
 
@@ -182,6 +183,23 @@ TEST(BeamErrors, SayWhatIsWrong) {
   bore.sections[0].id = 0.03;
   EXPECT_EQ(Message(bore), "shaft section \"\": id = 0.03 m, allowed 0 to below od = 0.02 m");
   EXPECT_EQ(Message({}), "beam rotor: no shaft section, allowed: at least one");
+}
+
+TEST(BeamMesh, ASectionNeedsAWallAtBothEnds) {
+  ShaftSection s = UniformShaft(1, 0.04, 1).sections[0];
+  EXPECT_EQ(SectionProblem(s), "");
+  for (double ShaftSection::*inner : {&ShaftSection::id, &ShaftSection::id_right}) {
+    for (const double bore : {0.04, 0.05, -0.01}) {
+      ShaftSection thin = s;
+      thin.*inner = bore;
+      EXPECT_NE(SectionProblem(thin), "") << bore;
+    }
+    ShaftSection tube = s;
+    tube.*inner = 0.0399;
+    EXPECT_EQ(SectionProblem(tube), "");
+  }
+  s.length = 0;
+  EXPECT_NE(SectionProblem(s), "");
 }
 
 }  // namespace

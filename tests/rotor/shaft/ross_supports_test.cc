@@ -130,5 +130,20 @@ TEST(RossSupports, WhatRossCannotSayIsNamed) {
   EXPECT_EQ(WriteRoss(d, table.path()).size(), 2U);
 }
 
+// E and G of a steel that is none: the Poisson ratio is told and kept to 1/2, but not of sleeves, which carry nothing.
+TEST(RossMaterial, APoissonRatioThatCannotBeIsTold) {
+  for (const auto& [E, told] : {std::pair{2e11, true}, {2e3, true}, {1.9e3, false}}) {
+    RossTable table;
+    table.Add(
+        "[ShaftElement_9]\nL = 0.5\nidl = 0.02\nodl = 0.03\nn = 0\naxial_force = 0\n"
+        "torque = 0\n[ShaftElement_9.material]\nrho = 7800.0\nE = " +
+        std::to_string(E) + "\nG_s = " + std::to_string(E / 4) + "\n");
+    const RossRotor r = table.Read();
+    std::string all;
+    for (const std::string& text : r.ignored) all += text;
+    EXPECT_EQ(all.find("Poisson's ratio 1 of ") != std::string::npos, told) << E << ": " << all;
+  }
+}
+
 }  // namespace
 }  // namespace ambrig
