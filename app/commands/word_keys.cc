@@ -1,10 +1,17 @@
 #include "app/commands/word_keys.h"
 
+#include <string>
+#include <string_view>
 #include <vector>
+
+#include "control/position/controller_kind.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
 
 namespace {
+
+constexpr const char* kOfTheCatalogue = "";  // filled in from the kinds that are registered
 
 constexpr WordKey kRigWords[] = {
     {"rig file", "name", "text", "of the rig"},
@@ -25,10 +32,7 @@ constexpr WordKey kRigWords[] = {
      "docs/guide/files.md"},
     {"[amplifier]", "mode", "current, voltage", "voltage: kp volts per ampere of the set-point"},
     {"[amplifier]", "duty_limits", "[min, max]", "of the duty"},
-    {"[controller]", "kind",
-     "pid, duty-pid, state-feedback, feedback-linearisation, transfer-function, state-space, lqg, "
-     "h-infinity, tilt-translation, library, socket, none",
-     "docs/guide/controllers.md"},
+    {"[controller]", "kind", kOfTheCatalogue, "docs/guide/controllers.md"},
     {"[controller]", "file, address, commands, parameters", "words",
      "of a controller of one's own: docs/guide/controller_in_c.md"},
     {"[controller]", "A, B, C, D, domain", "rows; s, z", "of state-space and transfer-function"},
@@ -37,7 +41,7 @@ constexpr WordKey kRigWords[] = {
     {"[[controller.plane]]", "at", "a plane", "whose displacement is weighed"},
     {"[[controller.filter]]", "kind, axes", "notch, lead-lag, low-pass; list of axes", "of a PID"},
     {"[controllers.NAME]", "keys of [controller]", "", "to change over to in a run"},
-    {"[bearings.NAME]", "kind", "radial, thrust, opposed, stator, axial-stator", "of its magnets"},
+    {"[bearings.NAME]", "kind", kOfTheCatalogue, "of its magnets"},
     {"[bearings.NAME]", "like", "another bearing", "everything that is not given"},
     {"[bearings.NAME]", "z", "m", "plane of the magnets on the shaft axis"},
     {"[bearings.NAME]", "winding", "letters N and S", "sense of the poles"},
@@ -140,6 +144,11 @@ std::span<const WordKey> WordKeys() {
          {std::span<const WordKey>(kRigWords), std::span<const WordKey>(kScenarioWords),
           std::span<const WordKey>(kCaseWords), std::span<const WordKey>(kOtherWords)})
       keys.insert(keys.end(), part.begin(), part.end());
+    static const std::string controllers = ControllerKindNames(), bearings = BearingKindNames();
+    for (WordKey& w : keys) {
+      if (*w.allowed != 0 || w.key != std::string_view("kind")) continue;
+      w.allowed = (w.section == std::string_view("[controller]") ? controllers : bearings).c_str();
+    }
     return keys;
   }();
   return all;
