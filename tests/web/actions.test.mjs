@@ -135,6 +135,7 @@ test('a mended line can be undone, and both compare again', async () => {
   await undo([11]);
   assert.equal(pathOf(-1), '/api/jobs');
   assert.equal(said.textContent, 'p/case.toml is as it was');
+  assert.equal(state.notice?.text, said.textContent);  // the comparison that follows does not take it away
 });
 
 test('a file that is refused does not stop the others', async () => {

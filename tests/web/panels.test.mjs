@@ -84,9 +84,23 @@ test('the same view is not asked for twice, another stretch of time is, and the 
   await panels.show({...what, from: 2, to: 3});
   assert.equal(server.asked[1].path, '/api/series?job=3&record=r1&c=A.x.measured&px=800&t0=2&t1=3');
   assert.equal(panels.plots[0], plot);
-  await panels.show({...what, query: 'job=3&record=r2'});
+  await panels.show({...what, query: 'job=3&record=r2', name: 'r2'});
   assert.notEqual(panels.plots[0], plot);
   assert.equal(plot.gone, true);
+});
+
+test('a newer result of the same record is drawn into the plots that are there, a zoom under way goes on', async () => {
+  const {panels, plot, moves} = await shown();
+  await panels.show({...what, query: 'job=4&record=r1'});
+  assert.match(server.asked[1].path, /job=4/);
+  assert.equal(panels.plots[0], plot);
+  plot.over.dispatchEvent(event('mousedown', {button: 0, clientX: 70}));
+  await panels.show({...what, query: 'job=5&record=r1'});
+  events.dispatchEvent(event('mouseup', {clientX: 110}));
+  await panels.show({...what, query: 'job=6&record=r1'});  // before the rest of a zoom is over
+  await pause();
+  assert.deepEqual(moves, [{from: 2, to: 6, marks: {}}]);
+  assert.match(server.asked.at(-1).path, /job=6&record=r1.*t0=2&t1=6$/);
 });
 
 test('an answer that comes after another question is not shown', async () => {
@@ -135,7 +149,7 @@ test('a view that is drawn while a zoom goes on does not take it back', async ()
   await panels.show({...what, from: 1, to: 9});  // Back
   assert.deepEqual([panels.from, panels.to], [1, 9]);
   panels.zoom(3, 4);
-  await panels.show({...what, query: 'job=3&record=r2'});  // another record shows all, whatever was about to come
+  await panels.show({...what, query: 'job=3&record=r2', name: 'r2'});  // another record shows all, whatever was about to come
   await pause();
   assert.deepEqual([panels.from, moves.length], [null, 1]);
 });

@@ -58,9 +58,14 @@ export function resultOf(command, file) {
 
 /** @param {{command: string} & Record<string, any>} order @returns {Promise<number>} the job's number, 0 where it was refused */
 export async function startJob(order) {
+  // What the person starts clears what was said before; runs that the playground starts by itself do not.
+  if (order.command !== 'play' && state.notice?.steps.length === 0) state.notice = null;
+  return followUp(order);
+}
+
+/** Starts a job that nobody asked for: what was just said stays. @param {{command: string} & Record<string, any>} order @returns {Promise<number>} the job's number, 0 where it was refused */
+export async function followUp(order) {
   try {
-    // What the person starts clears what was said before; runs that the playground starts by itself do not.
-    if (order.command !== 'play' && state.notice?.steps.length === 0) state.notice = null;
     const job = await post('/api/jobs', order);
     // Its events may have come before this answer: they know more.
     if (!state.jobs.some((j) => j.id === job.id)) takeJob(job);
@@ -212,7 +217,7 @@ export async function mend(file, fault) {
   try {
     const done = await post('/api/mend', {case: file, record: fault.record, mend: fault.mend});
     tell(`written into ${file}, line ${done.line}: ${done.text}`, false, [done.step]);
-    await startJob({command: 'compare', case: file});
+    await followUp({command: 'compare', case: file});
   } catch (error) {
     tellError(error);
   }
@@ -225,14 +230,10 @@ export async function undo(steps) {
     for (const step of [...steps].reverse()) files.push((await post(`/api/undo/${step}`)).file);
     tell(`${files.join(', ')} ${files.length > 1 ? 'are as they were' : 'is as it was'}`);
     await loadFolder();
-    await startJobForShown();
+    if (state.view.screen === 'case') await followUp({command: 'compare', case: state.view.file});
   } catch (error) {
     tellError(error);
   }
-}
-
-async function startJobForShown() {
-  if (state.view.screen === 'case') await startJob({command: 'compare', case: state.view.file});
 }
 
 /** Opens a job's report in a page of its own, which knows nothing of this one. @param {number} job */

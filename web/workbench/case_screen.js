@@ -1,6 +1,6 @@
 /** One case: where the model fails, panels, data faults, explain, adopt, the ladder of rigs, the next record. */
 import {html, nothing} from './lit-html.js';
-import {loadResult, mend, openReport, resultOf, startJob} from './actions.js';
+import {followUp, loadResult, mend, openReport, resultOf, startJob} from './actions.js';
 import {adoption, forgetProposal, propose} from './adoption.js';
 import {explanation} from './explanation.js';
 import {stepsThrough} from './history.js';
@@ -32,7 +32,7 @@ export async function openCase(file) {
   await Promise.all(['compare', 'explain', 'adopt', 'plan', 'refine'].map((command) => loadResult(command, file)));
   if (!resultOf('compare', file) && !activeJob('compare', file) && !started.has(file)) {
     started.add(file);
-    await startJob({command: 'compare', case: file});
+    await followUp({command: 'compare', case: file});
   }
 }
 

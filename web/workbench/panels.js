@@ -22,6 +22,7 @@ export class Panels {
     /** @type {any[]} */
     this.plots = [];
     this.key = '';
+    this.shape = '';
     /** @type {number|null} */
     this.from = null;
     /** @type {number|null} */
@@ -44,19 +45,24 @@ export class Panels {
   /** @param {What} what */
   async show(what) {
     const key = JSON.stringify([what.query, what.plots]);
-    const marks = what.marks ?? (key === this.key ? this.marks : {});
+    // The same lines of a newer result stay in the plots that are there: a zoom or a drag that is under way goes on.
+    const shape = JSON.stringify([what.name, what.plots], (name, value) => (name === 'query' ? undefined : value));
+    const same = shape === this.shape;
+    const marks = what.marks ?? (same ? this.marks : {});
     const remarked = JSON.stringify(marks) !== JSON.stringify(this.marks);
     this.marks = {...marks};
     this.what = what;
     // While a wheel turns or fingers move, the view that is drawn is that of a moment ago: it does not take them back.
-    if (key === this.key && (this.timer !== 0 || (what.from === this.from && what.to === this.to))) {
+    const moving = same && this.timer !== 0;
+    if (moving || (key === this.key && what.from === this.from && what.to === this.to)) {
+      this.key = key;
       if (remarked) this.tellMarks();
       return;
     }
-    const same = key === this.key;
     clearTimeout(this.timer);  // of another record
     this.timer = 0;
     this.key = key;
+    this.shape = shape;
     this.from = what.from;
     this.to = what.to;
     await this.load(!same);
@@ -139,7 +145,7 @@ export class Panels {
     ++this.asked;
     clearTimeout(this.timer);
     this.timer = 0;
-    this.key = '';
+    this.key = this.shape = '';
     this.from = this.to = null;
     this.marks = {};
     for (const p of this.plots) p.destroy();

@@ -1,6 +1,6 @@
 /** A rig resolved: every number with its unit and what is known of it. */
 import {html} from './lit-html.js';
-import {loadResult, resultOf, startJob} from './actions.js';
+import {followUp, loadResult, resultOf} from './actions.js';
 import {errorOf} from './job_parts.js';
 import {lastJob, state} from './state.js';
 
@@ -8,7 +8,7 @@ import {lastJob, state} from './state.js';
 export async function openRig(file) {
   await loadResult('rig', file);
   const found = resultOf('rig', file);
-  if (!found || !found.fresh) await startJob({command: 'rig', rig: file});
+  if (!found || !found.fresh) await followUp({command: 'rig', rig: file});
 }
 
 /** Three digits more than a person needs, none that the file did not have. @param {any} v */

@@ -1,6 +1,6 @@
 /** A scenario: its run with verdict, events and channels; and the playground where a click breaks a coil. */
 import {html, nothing} from './lit-html.js';
-import {loadResult, openReport, resultOf, startJob} from './actions.js';
+import {followUp, loadResult, openReport, resultOf, startJob} from './actions.js';
 import {emptyView, formatAddress} from './address.js';
 import {command, errorOf, progressOf} from './job_parts.js';
 import {quantity} from './numbers.js';
@@ -23,7 +23,7 @@ export async function openRun(file) {
     await openPlayground(file);
     await loadResult('rig', play.rig);
     const known = resultOf('rig', play.rig);
-    if (!known || !known.fresh) await startJob({command: 'rig', rig: play.rig});
+    if (!known || !known.fresh) await followUp({command: 'rig', rig: play.rig});
   } catch (error) {
     tellError(error);
   }

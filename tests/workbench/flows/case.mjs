@@ -32,6 +32,11 @@ export async function mainFlow(page, address) {
   assert.match(await page.locator('table.cases').innerText(), /cross-coupling at A/);
 }
 
+/** A place in an element, at this share of its width. */
+async function within(locator, share) {
+  return {x: (await locator.boundingBox()).width * share, y: 35};
+}
+
 /** Another cell, then the address is the view; a drag zooms every panel; W goes down the worst cells. */
 async function zoomAndBack(page, worst, record, channel) {
   const other = page.locator('td.cell button[aria-pressed="false"]').first();
@@ -42,10 +47,11 @@ async function zoomAndBack(page, worst, record, channel) {
   await page.goBack();
   await page.locator(`td.cell button[aria-pressed="true"][aria-label="${worst}"]`).waitFor();
   await page.locator(`[aria-busy="false"] > .panel[aria-label^="${channel} ["][aria-label*="${record}"]`).waitFor();
-  const box = await page.locator('.panel .u-over').first().boundingBox();
-  await page.mouse.move(box.x + box.width * 0.3, box.y + 30);
+  // A hover scrolls to the panel and waits until it stands still: the views below are still being laid out.
+  const plot = page.locator('.panel .u-over').first();
+  await plot.hover({position: await within(plot, 0.3)});
   await page.mouse.down();
-  await page.mouse.move(box.x + box.width * 0.6, box.y + 40, {steps: 5});
+  await plot.hover({position: await within(plot, 0.6)});
   await page.mouse.up();
   await page.waitForURL(/t=0\.\d+,0\.\d+/);
   // 0.3 to 0.6 of the record's 0.35 s, to a pixel.
