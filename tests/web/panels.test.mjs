@@ -27,6 +27,7 @@ class Plot {
   destroy() { this.gone = true; }
 }
 Plot.sync = (key) => ({key});
+Plot.paths = {linear: () => () => null};
 
 /** An element that panels are put into. */
 function box() {
@@ -152,6 +153,29 @@ test('a view that is drawn while a zoom goes on does not take it back', async ()
   await panels.show({...what, query: 'job=3&record=r2', name: 'r2'});  // another record shows all, whatever was about to come
   await pause();
   assert.deepEqual([panels.from, moves.length], [null, 1]);
+});
+
+test('while a wheel turns the data follow, one request at a time, and the address waits until it rests', async () => {
+  const {panels, moves} = await shown();
+  const before = server.asked.length;
+  let open = 0, most = 0;
+  server.answer = async () => {
+    most = Math.max(most, ++open);
+    await new Promise((resume) => setTimeout(resume, 30));
+    --open;
+    return series([0, 1, 2]);
+  };
+  for (let k = 0; k < 20; ++k) {
+    panels.zoom(k / 10, 5);
+    await new Promise((resume) => setTimeout(resume, 20));
+  }
+  assert.ok(server.asked.length - before >= 2, 'data came while it turned');
+  assert.equal(moves.length, 0);
+  await pause();
+  await pause();
+  assert.equal(most, 1);
+  assert.match(server.asked.at(-1).path, /t0=1\.9&t1=5/);
+  assert.deepEqual(moves.map((m) => m.from), [1.9]);
 });
 
 test('the wheel keeps the instant under the pointer', async () => {

@@ -143,7 +143,7 @@ async function bigRecord(page) {
     say(`  ${f.count} frames, p95 ${f.p95.toFixed(1)} ms, longest ${f.most.toFixed(1)} ms, processor time of a frame ${((processorTime() - before) / f.count).toFixed(1)} ms`);
     longest = Math.min(longest, f.most);
     return f.p95;
-  }, 5);
+  }, 3);
   measured('longest interval between frames', longest, 100, 'ms', results.at(-1).calm);
 }
 

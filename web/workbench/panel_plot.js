@@ -1,4 +1,5 @@
 /** One panel: the plot in its figure, and what mouse, fingers and keys do to it. */
+import {columnPath} from './column_path.js';
 import {significant} from './numbers.js';
 
 /** Colours of the reports' palette. @param {string} name */
@@ -8,7 +9,7 @@ export function colour(name) {
 
 /** @param {import('./panels.js').Line} l @returns {any} */
 function line(l) {
-  return {label: l.label, stroke: () => colour(l.tone), width: 1.2, dash: l.dash, points: {show: false}, spanGaps: false,
+  return {label: l.label, stroke: () => colour(l.tone), paths: columnPath(uPlot.paths.linear?.()), width: 1.2, dash: l.dash, points: {show: false}, spanGaps: false,
           value: (/** @type {any} */ _, /** @type {number|null} */ v) => (v === null ? '-' : significant(v, 4))};
 }
 

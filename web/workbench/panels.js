@@ -12,7 +12,7 @@ import {tellError} from './state.js';
  * @typedef {{query: string, name: string, plots: Plot[], from: number|null, to: number|null, marks?: Record<string, number>, events?: number[]}} What  `query`: which record
  */
 
-const rest = 80;  // [ms] after the last zoom before the server is asked
+const rest = 80;  // [ms] after the last zoom before the address is changed, and between two requests while a zoom goes on
 
 export class Panels {
   /** @param {HTMLElement} place @param {(change: {from: number|null, to: number|null, marks: Record<string, number>}) => void} moved */
@@ -28,6 +28,7 @@ export class Panels {
     /** @type {number|null} */
     this.to = null;
     this.timer = 0;
+    this.pace = 0;
     this.asked = 0;
     this.sync = uPlot.sync('time');
     /** @type {Record<string, number>} the cursors A and B [s] */
@@ -59,8 +60,7 @@ export class Panels {
       if (remarked) this.tellMarks();
       return;
     }
-    clearTimeout(this.timer);  // of another record
-    this.timer = 0;
+    this.stopTimers();  // of another record
     this.key = key;
     this.shape = shape;
     this.from = what.from;
@@ -143,8 +143,7 @@ export class Panels {
   /** Another file is shown: nothing of the last one stays. */
   clear() {
     ++this.asked;
-    clearTimeout(this.timer);
-    this.timer = 0;
+    this.stopTimers();
     this.key = this.shape = '';
     this.from = this.to = null;
     this.marks = {};
@@ -166,9 +165,27 @@ export class Panels {
       });
     this.timer = setTimeout(() => {
       this.timer = 0;
-      void this.load(false);
       this.tellMoved();
     }, rest);
+    this.follow();
+  }
+
+  /** The data follow the view while it moves, one request at a time. */
+  follow() {
+    if (this.pace !== 0) return;
+    const pace = (this.pace = setTimeout(async () => {
+      const {from, to} = this;
+      await this.load(false);
+      if (this.pace !== pace) return;
+      this.pace = 0;
+      if (from !== this.from || to !== this.to) this.follow();
+    }, rest));
+  }
+
+  stopTimers() {
+    clearTimeout(this.timer);
+    clearTimeout(this.pace);
+    this.timer = this.pace = 0;
   }
 
   tellMoved() {
