@@ -15,14 +15,13 @@ void Widen(Extreme& e, float lo, float hi) {
   e.hi = std::fmax(e.hi, hi);
 }
 
-void WidenBySamples(Extreme& e, std::span<const double> samples, std::size_t from, std::size_t to) {
-  for (std::size_t k = from; k < to; ++k)
-    Widen(e, static_cast<float>(samples[k]), static_cast<float>(samples[k]));
+void WidenBySamples(Extreme& e, std::span<const float> samples, std::size_t from, std::size_t to) {
+  for (std::size_t k = from; k < to; ++k) Widen(e, samples[k], samples[k]);
 }
 
 }  // namespace
 
-ExtremesLevel::ExtremesLevel(std::span<const double> samples) {
+ExtremesLevel::ExtremesLevel(std::span<const float> samples) {
   blocks_.reserve(samples.size() / kBlock + 1);
   for (std::size_t from = 0; from < samples.size(); from += kBlock) {
     Extreme e{kNone, kNone};
@@ -31,7 +30,7 @@ ExtremesLevel::ExtremesLevel(std::span<const double> samples) {
   }
 }
 
-std::vector<Extreme> ThinnedExtremes(std::span<const double> samples, const ExtremesLevel& level,
+std::vector<Extreme> ThinnedExtremes(std::span<const float> samples, const ExtremesLevel& level,
                                      std::size_t first, std::size_t last, std::size_t columns) {
   last = std::min(last, samples.size());
   first = std::min(first, last);

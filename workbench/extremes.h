@@ -16,7 +16,7 @@ struct Extreme {
 class ExtremesLevel {
  public:
   static constexpr std::size_t kBlock = 64;
-  explicit ExtremesLevel(std::span<const double> samples);
+  explicit ExtremesLevel(std::span<const float> samples);
   const std::vector<Extreme>& blocks() const { return blocks_; }
 
  private:
@@ -25,7 +25,7 @@ class ExtremesLevel {
 
 /// Of samples [first, last), in `columns` columns of as equal counts as can be; a column without samples
 /// has nan. `level` is that of the same samples. nan samples do not count.
-std::vector<Extreme> ThinnedExtremes(std::span<const double> samples, const ExtremesLevel& level,
+std::vector<Extreme> ThinnedExtremes(std::span<const float> samples, const ExtremesLevel& level,
                                      std::size_t first, std::size_t last, std::size_t columns);
 
 }  // namespace ambrig::workbench

@@ -3,93 +3,39 @@
 
 #include <fmt/format.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <list>
-#include <map>
-#include <memory>
 
 #include "core/base/errors.h"
-#include "core/record/hdf5.h"
-#include "core/record/read_record.h"
-#include "workbench/extremes.h"
+#include "workbench/record_shelf.h"
 
 namespace ambrig::workbench {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr rlim_t kMemory = rlim_t{1} << 30;   // [bytes]
-constexpr std::size_t kMostRecords = 12;      // kept in memory
-constexpr std::size_t kMostKept = 200 << 20;  // [bytes] of them beside the one that is looked at
+constexpr rlim_t kMemory = rlim_t{1} << 30;  // [bytes]
 constexpr std::size_t kMostColumns = 20000;
 constexpr std::size_t kMostWhole = 4000000;  // values of an export
 
-struct KeptRecord {
-  std::string key;
-  Record record;
-  std::map<std::string, ExtremesLevel> levels;
-};
-
-class RecordShelf {
- public:
-  KeptRecord& Get(const std::string& file, const std::string& group) {
-    struct stat status {};
-    if (::stat(file.c_str(), &status) != 0) throw InputError(file + ": " + std::strerror(errno));
-    const std::string key =
-        fmt::format("{}|{}|{}|{}|{}.{}", file, group, status.st_ino, status.st_size,
-                    status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
-    for (auto it = kept_.begin(); it != kept_.end(); ++it)
-      if (it->key == key) {
-        kept_.splice(kept_.begin(), kept_, it);
-        return kept_.front();
-      }
-    MakeRoom();
-    const auto read = [&] { return group.empty() ? ReadRecord(file) : ReadHdf5Group(file, group); };
-    try {
-      kept_.push_front({key, read(), {}});
-    } catch (const std::bad_alloc&) {
-      kept_.clear();  // there may be room for this one alone
-      kept_.push_front({key, read(), {}});
-    }
-    return kept_.front();
-  }
-
- private:
-  /// The records that were looked at longest ago go.
-  void MakeRoom() {
-    std::size_t bytes = 0, count = 0;
-    auto keep = kept_.begin();
-    for (; keep != kept_.end() && count + 1 < kMostRecords; ++keep, ++count) {
-      bytes += keep->record.rows() * keep->record.channels.size() * sizeof(double);
-      if (bytes > kMostKept) break;
-    }
-    kept_.erase(keep, kept_.end());
-  }
-
-  std::list<KeptRecord> kept_;
-};
-
 std::string Describe(const KeptRecord& k) {
   Json channels = Json::array();
-  for (const Channel& c : k.record.channels)
-    channels.push_back({{"name", c.name}, {"unit", c.unit}});
-  return "J" + Json{{"rate", k.record.rate},
-                    {"start", k.record.start},
-                    {"rows", k.record.rows()},
+  for (const KeptChannel& c : k.channels) channels.push_back({{"name", c.name}, {"unit", c.unit}});
+  return "J" + Json{{"rate", k.rate},
+                    {"start", k.start},
+                    {"rows", k.rows},
                     {"channels", channels},
-                    {"notes", k.record.notes}}
+                    {"notes", k.notes}}
                    .dump();
 }
 
-std::size_t RowAt(const Record& r, double t) {
+std::size_t RowAt(const KeptRecord& r, double t) {
   const double row = (t - r.start) * r.rate;
   if (!(row > 0)) return 0;
-  return std::min(static_cast<std::size_t>(std::min(row, 1e15)), r.rows());
+  return std::min(static_cast<std::size_t>(std::min(row, 1e15)), r.rows);
 }
 
 /// Whether every sample is wanted, as for an export, and can be sent.
@@ -105,35 +51,34 @@ bool IsWhole(const Json& request, std::size_t rows) {
 
 /// Of each channel the extremes of its columns as lo, hi pairs, or, where the view has fewer samples
 /// than two a column, the samples.
-std::string View(KeptRecord& k, const Json& request) {
-  const Record& r = k.record;
+std::string View(KeptRecord& r, const Json& request) {
   const std::size_t columns =
       std::clamp<std::size_t>(request.value("px", std::size_t{600}), 1, kMostColumns);
   const std::size_t first = RowAt(r, request.value("t0", r.start));
-  const double end = r.start + static_cast<double>(r.rows()) / r.rate;
-  const std::size_t last = std::min(RowAt(r, request.value("t1", end)) + 1, r.rows());
+  const double end = r.start + static_cast<double>(r.rows) / r.rate;
+  const std::size_t last = std::min(RowAt(r, request.value("t1", end)) + 1, r.rows);
   const std::size_t rows = last > first ? last - first : 0;
   const bool raw = rows <= 2 * columns || IsWhole(request, rows);
   std::vector<float> values;
   Json channels = Json::array();
   for (const std::string& name : request["channels"].get<std::vector<std::string>>()) {
-    const Channel* c = r.Find(name);
+    KeptChannel* c = r.Find(name);
     if (!c) throw InputError(fmt::format("no channel {}", name));
     channels.push_back({{"name", name}, {"unit", c->unit}});
     if (raw) {
-      for (std::size_t row = first; row < last; ++row)
-        values.push_back(static_cast<float>(c->samples[row]));
+      values.insert(values.end(), c->samples.begin() + static_cast<std::ptrdiff_t>(first),
+                    c->samples.begin() + static_cast<std::ptrdiff_t>(last));
       continue;
     }
-    const auto level = k.levels.try_emplace(name, c->samples).first;
-    for (const Extreme& e : ThinnedExtremes(c->samples, level->second, first, last, columns)) {
+    if (!c->level) c->level.emplace(c->samples);
+    for (const Extreme& e : ThinnedExtremes(c->samples, *c->level, first, last, columns)) {
       values.push_back(e.lo);
       values.push_back(e.hi);
     }
   }
   std::string head = Json{
       {"mode", raw ? "samples" : "extremes"},
-      {"start", r.TimeAt(first)},
+      {"start", r.start + static_cast<double>(first) / r.rate},
       {"step",
        raw ? 1 / r.rate : static_cast<double>(rows) / static_cast<double>(columns) / r.rate},
       {"count", raw ? rows : columns},

@@ -136,15 +136,33 @@ async function bigRecord(page) {
   // The one sample that stands out is in every view of it.
   const {peak} = await ask(page, [`/api/series?p=${name}&c=A.x&px=700`]);
   assert.ok(Math.abs(peak - 3e-5) < 1e-10, `the peak is kept: ${peak}`);
-  let longest = Infinity;
-  await best('interval between frames, p95 of 5 s of wheel and drag over eight panels', 33.4, 'ms', async () => {
-    const before = processorTime();
+  await smoothFrames(page);
+}
+
+/** The best of three attempts at wheel and drag, judged by both budgets. */
+async function smoothFrames(page) {
+  let seen = null, calm = false;
+  for (let k = 0; k < 3 && !(seen && !isOver(seen.p95, 33.4) && !isOver(seen.most, 100)); ++k) {
+    const free = share(), before = processorTime();
     const f = await frames(page, () => wheelAndDrag(page));
     say(`  ${f.count} frames, p95 ${f.p95.toFixed(1)} ms, longest ${f.most.toFixed(1)} ms, processor time of a frame ${((processorTime() - before) / f.count).toFixed(1)} ms`);
-    longest = Math.min(longest, f.most);
-    return f.p95;
-  }, 3);
-  measured('longest interval between frames', longest, 100, 'ms', results.at(-1).calm);
+    if (!seen || Math.max(f.p95 / 33.4, f.most / 100) < Math.max(seen.p95 / 33.4, seen.most / 100)) seen = f;
+    calm ||= Math.min(free, share()) >= 0.8;
+  }
+  measured('interval between frames, p95 of 5 s of wheel and drag over eight panels', seen.p95, 33.4, 'ms', calm);
+  measured('longest interval between frames', seen.most, 100, 'ms', calm);
+}
+
+/** Ten records of 10^7 samples, opened one after the other: the server and its reader together. */
+async function tenRecords(page, server) {
+  for (let k = 0; k < 10; ++k) {
+    const name = `ten${k}.mat`;
+    writeRecord(inFolder(name), channels, samples);
+    await openRecord(page, name);
+    rmSync(inFolder(name));
+  }
+  const reader = readerOf(server.child.pid);
+  measured('server with ten records of 10^7 samples, its reader process included', memory(server.child.pid) + memory(reader), 300, 'MiB');
 }
 
 /** From the click on a coil to its verdict, orbit and panels; progress and end of a long run. */
@@ -238,9 +256,7 @@ async function everything(page, server) {
   await page.locator('textarea').waitFor();
   await best('an idle page ticks, p95', 20, 'ms', async () => (await frames(page, () => page.waitForTimeout(1500))).p95);
   await bigRecord(page);
-  measured('server with a record of 10^7 samples open', memory(server.child.pid), 300, 'MiB');
-  const reader = readerOf(server.child.pid);
-  if (reader) say(`  its reader process, which is limited to 1024 MiB, holds ${memory(reader).toFixed(0)} MiB: 4 channels as doubles are 305`);
+  await tenRecords(page, server);
 }
 
 for (let k = 0; k < 1000; ++k) write(`many/s${k}.toml`, `name = "s${k}"\nrig = "rig.toml"\nduration = 0.1\n`);

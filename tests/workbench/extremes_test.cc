@@ -10,11 +10,11 @@ namespace ambrig::workbench {
 namespace {
 
 /// Of samples [from, to) by the definition.
-Extreme BruteForce(const std::vector<double>& samples, std::size_t from, std::size_t to) {
+Extreme BruteForce(const std::vector<float>& samples, std::size_t from, std::size_t to) {
   Extreme e{NAN, NAN};
   for (std::size_t k = from; k < to; ++k) {
     if (std::isnan(samples[k])) continue;
-    const float v = static_cast<float>(samples[k]);
+    const float v = samples[k];
     if (!(e.lo <= v)) e.lo = v;
     if (!(e.hi >= v)) e.hi = v;
   }
@@ -25,11 +25,11 @@ bool Same(float a, float b) { return a == b || (std::isnan(a) && std::isnan(b));
 
 TEST(Extremes, AreThoseOfBruteForce) {
   std::mt19937_64 random(7);
-  std::normal_distribution<double> noise;
+  std::normal_distribution<float> noise;
   for (int trial = 0; trial < 200; ++trial) {
     const std::size_t rows = random() % 5000;
-    std::vector<double> samples(rows);
-    for (double& s : samples) s = random() % 10 == 0 ? NAN : noise(random);
+    std::vector<float> samples(rows);
+    for (float& s : samples) s = random() % 10 == 0 ? NAN : noise(random);
     if (rows > 300) std::fill(samples.begin() + 100, samples.begin() + 290, NAN);  // a long gap
     const std::size_t a = rows == 0 ? 0 : random() % rows,
                       b = rows == 0 ? 0 : random() % (rows + 1);
@@ -48,7 +48,7 @@ TEST(Extremes, AreThoseOfBruteForce) {
 
 // One sample of ten million that stands out is in the picture.
 TEST(Extremes, LoseNoPeak) {
-  std::vector<double> samples(10'000'000, 1.0);
+  std::vector<float> samples(10'000'000, 1.0F);
   samples[7'654'321] = 3;
   samples[1'234'567] = -2;
   const ExtremesLevel level(samples);
@@ -62,7 +62,7 @@ TEST(Extremes, LoseNoPeak) {
 }
 
 TEST(Extremes, OfNothingAreNone) {
-  const std::vector<double> none;
+  const std::vector<float> none;
   for (const Extreme& e : ThinnedExtremes(none, ExtremesLevel(none), 0, 10, 3))
     EXPECT_TRUE(std::isnan(e.lo) && std::isnan(e.hi));
 }
