@@ -1,0 +1,9 @@
+// Campaign files.
+#include "tests/fuzz/fuzz_input.h"
+#include "campaign/campaign_file.h"
+
+using namespace ambrig;  // NOLINT: a program of one function
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::TakesOrRefuses([&] { ReadCampaign(fuzz::FileOf(data, size, ".toml")); });
+}

@@ -1,0 +1,9 @@
+// Rows of a campaign as its journal and its table have them.
+#include "tests/fuzz/fuzz_input.h"
+#include "campaign/row.h"
+
+using namespace ambrig;  // NOLINT: a program of one function
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::TakesOrRefuses([&] { ParseRow(fuzz::TextOf(data, size), "rows.csv, line 2"); });
+}

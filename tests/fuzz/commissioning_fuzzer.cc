@@ -1,0 +1,9 @@
+// What a commissioning learnt.
+#include "tests/fuzz/fuzz_input.h"
+#include "fdd/learning/commissioning_file.h"
+
+using namespace ambrig;  // NOLINT: a program of one function
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::TakesOrRefuses([&] { ReadCommissioning(fuzz::FileOf(data, size, ".toml")); });
+}

@@ -1,0 +1,9 @@
+// Studies of detectors.
+#include "tests/fuzz/fuzz_input.h"
+#include "campaign/detector_study.h"
+
+using namespace ambrig;  // NOLINT: a program of one function
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::TakesOrRefuses([&] { ReadDetectorStudy(fuzz::FileOf(data, size, ".toml")); });
+}

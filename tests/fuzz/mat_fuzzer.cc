@@ -1,0 +1,9 @@
+// MATLAB files of version 5 and 7.3.
+#include "tests/fuzz/fuzz_input.h"
+#include "core/record/read_record.h"
+
+using namespace ambrig;  // NOLINT: a program of one function
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::TakesOrRefuses([&] { ReadMeasurement(fuzz::FileOf(data, size, ".mat")); });
+}

@@ -1,0 +1,9 @@
+// Design studies.
+#include "tests/fuzz/fuzz_input.h"
+#include "design/study.h"
+
+using namespace ambrig;  // NOLINT: a program of one function
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzz::TakesOrRefuses([&] { ReadStudy(fuzz::FileOf(data, size, ".toml")); });
+}
