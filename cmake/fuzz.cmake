@@ -1,5 +1,5 @@
 # One program per tests/fuzz/*_fuzzer.cc, with libFuzzer (preset `fuzz`: clang, which has it; address and undefined-behaviour
-# sanitizer). tools/fuzz_readers.sh builds and runs them.
+# sanitizer). tools/fuzz_readers.py runs them.
 option(AMBRIG_FUZZ "build the fuzz targets" OFF)
 if(NOT AMBRIG_FUZZ)
   return()

@@ -4,6 +4,7 @@
 #   tools/setup.sh            compiler, libraries, the plotting library of the reports
 #   tools/setup.sh --tests    also what only tests use: Chromium (renders a report), Slurm (campaigns), a validator of JSON
 #   tools/setup.sh --tidy     also clang-format, clang-tidy (preset `tidy`) and clang's syntax trees (tools/mutate.py)
+#   tools/setup.sh --fuzz     also clang with libFuzzer (preset `fuzz`)
 #   tools/setup.sh --python   also what the Python module and its tests need (preset `python`)
 #
 # Needs root, or sudo, and only when a package is missing.
@@ -27,8 +28,9 @@ for option in "$@"; do
                          python3-matplotlib python3-scipy python3-xarray mypy                       # tests
                          python3-nbformat python3-nbclient python3-ipykernel) ;;                    # notebooks
     --tidy) packages+=(clang-format clang-tidy-16 python3-clang-16) ;;
-    -h | --help) sed -n '2,9s/^# \{0,1\}//p' "$0"; exit 0 ;;
-    *) echo "setup: unknown option $option (allowed: --tests, --tidy, --python)" >&2; exit 2 ;;
+    --fuzz) packages+=(clang-16 libclang-rt-16-dev libomp-16-dev) ;;
+    -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) echo "setup: unknown option $option (allowed: --tests, --tidy, --fuzz, --python)" >&2; exit 2 ;;
   esac
 done
 # A Node.js that is already there, from wherever, is as good as Debian's.
