@@ -12,8 +12,6 @@ namespace ambrig {
 
 namespace {
 
-constexpr const char* kModulations =
-    "bi-state, tri-state, chopper, ideal, two-level, three-level, interleaved, linear";
 constexpr double kMostBandwidth = 0.1;  // of the switching frequency
 // kp T/L of a loop that is fed the mean of the last period is unstable from 2 on.
 constexpr double kMostGain = 1.75;

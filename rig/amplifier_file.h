@@ -5,6 +5,10 @@
 
 namespace ambrig {
 
+/// Allowed words of `modulation`; two-level and three-level are other names of the first two.
+inline constexpr char kModulations[] =
+    "bi-state, tri-state, chopper, ideal, two-level, three-level, interleaved, linear";
+
 /// Fills rig.amplifier. @throws InputError
 void ReadAmplifier(const TomlTable& t, RigParameters& rig);
 

@@ -1,17 +1,21 @@
 #include "app/commands/word_keys.h"
 
+#include <list>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "control/position/controller_kind.h"
+#include "fdd/detectors/coil_detector.h"
+#include "rig/amplifier_file.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/bearing_kinds/stator_file.h"
 
 namespace ambrig {
 
 namespace {
 
-constexpr const char* kOfTheCatalogue = "";  // filled in from the kinds that are registered
+constexpr char kOfTheCatalogue[] = "";  // filled in from the kinds that are registered
 
 constexpr WordKey kRigWords[] = {
     {"rig file", "name", "text", "of the rig"},
@@ -27,9 +31,7 @@ constexpr WordKey kRigWords[] = {
     {"[[rotor.support]]", "kxx, kyy, kxy, kyx, kzz, cxx, cyy", "N/m, N s/m, or lists over speeds",
      "spring and damper to the ground or a housing: docs/guide/shaft.md"},
     {"[[rotor.support]]", "speeds, speeds_rpm", "list", "of tables of coefficients"},
-    {"[amplifier]", "modulation",
-     "bi-state (two-level), tri-state (three-level), interleaved, chopper, ideal, linear",
-     "docs/guide/files.md"},
+    {"[amplifier]", "modulation", kModulations, "docs/guide/files.md"},
     {"[amplifier]", "mode", "current, voltage", "voltage: kp volts per ampere of the set-point"},
     {"[amplifier]", "duty_limits", "[min, max]", "of the duty"},
     {"[controller]", "kind", kOfTheCatalogue, "docs/guide/controllers.md"},
@@ -45,17 +47,11 @@ constexpr WordKey kRigWords[] = {
     {"[bearings.NAME]", "like", "another bearing", "everything that is not given"},
     {"[bearings.NAME]", "z", "m", "plane of the magnets on the shaft axis"},
     {"[bearings.NAME]", "winding", "letters N and S", "sense of the poles"},
-    {"[bearings.NAME]", "template",
-     "one-coil-per-pole, series-pairs, conical, e-core, homopolar-pm, heteropolar-pm, axial, "
-     "axial-pm",
-     "of a stator: docs/guide/files.md"},
+    {"[bearings.NAME]", "template", kOfTheCatalogue, "of a stator: docs/guide/files.md"},
     {"[bearings.NAME]", "poles", "a number, or a list of tables", "of a stator"},
     {"[bearings.NAME]", "coils", "a number, or a word of the template", "how windings are joined"},
     {"[bearings.NAME]", "sensor, auxiliary, controller, bias", "tables", "see their numbers"},
-    {"[detection]", "kind",
-     "commissioned, coupled, kalman, glrt, cusum, current-error, paper, paper-every-period, "
-     "paper-online, paper-coupled",
-     "docs/guide/detectors.md"},
+    {"[detection]", "kind", kOfTheCatalogue, "docs/guide/detectors.md"},
     {"[detection]", "commissioning", "a file, none", "default: NAME.commissioning.toml"},
     {"[[effect]]", "name", "of ambrig effects", "physics that the base model leaves out"},
     {"[[effect]]", "target", "bearing, coil, axis, plane, rig", "what it acts on"},
@@ -135,20 +131,33 @@ constexpr WordKey kOtherWords[] = {
      "beside the numbers that ambrig new asks for"},
 };
 
+std::string DetectorKindNames() {
+  std::string names;
+  for (const CoilDetectorKind& k : CoilDetectorKinds())
+    names += (names.empty() ? "" : ", ") + std::string(k.name);
+  return names;
+}
+
+/// The names that are registered in the catalogue behind a key.
+std::string NamesInCatalogue(std::string_view section, std::string_view key) {
+  if (key == "template") return StatorTemplateNames(false) + ", " + StatorTemplateNames(true);
+  if (section == "[detection]") return DetectorKindNames();
+  return section == "[controller]" ? ControllerKindNames() : BearingKindNames();
+}
+
 }  // namespace
 
 std::span<const WordKey> WordKeys() {
+  static std::list<std::string> names;  // that the keys point to
   static const std::vector<WordKey> all = [] {
     std::vector<WordKey> keys;
     for (const std::span<const WordKey> part :
          {std::span<const WordKey>(kRigWords), std::span<const WordKey>(kScenarioWords),
           std::span<const WordKey>(kCaseWords), std::span<const WordKey>(kOtherWords)})
       keys.insert(keys.end(), part.begin(), part.end());
-    static const std::string controllers = ControllerKindNames(), bearings = BearingKindNames();
-    for (WordKey& w : keys) {
-      if (*w.allowed != 0 || w.key != std::string_view("kind")) continue;
-      w.allowed = (w.section == std::string_view("[controller]") ? controllers : bearings).c_str();
-    }
+    for (WordKey& w : keys)
+      if (w.allowed == kOfTheCatalogue)
+        w.allowed = names.emplace_back(NamesInCatalogue(w.section, w.key)).c_str();
     return keys;
   }();
   return all;

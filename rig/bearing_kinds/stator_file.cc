@@ -56,15 +56,8 @@ StatorPole ReadPole(const TomlTable& t, bool axial) {
   return pole;
 }
 
-std::string TemplateNames(bool axial) {
-  std::string names;
-  for (const StatorTemplate& s : StatorTemplates())
-    if (s.axial == axial) names += (names.empty() ? "" : ", ") + std::string(s.name);
-  return names;
-}
-
 void ReadTemplate(const TomlTable& t, StatorParameters& p, std::vector<Tolerance>* tolerances) {
-  p.pattern = t.Choice("template", p.pattern, TemplateNames(p.axial));
+  p.pattern = t.Choice("template", p.pattern, StatorTemplateNames(p.axial));
   const StatorTemplate& pattern = *FindStatorTemplate(p.pattern);
   t.Read(p, kStatorTemplateFields, tolerances);
   const auto count = static_cast<int>(
@@ -130,6 +123,13 @@ double BiasOf(const StatorParameters& p, double bias) {
   return NetworkOf(p)->has_magnets() ? 0 : bias;
 }
 
+std::string StatorTemplateNames(bool axial) {
+  std::string names;
+  for (const StatorTemplate& s : StatorTemplates())
+    if (s.axial == axial) names += (names.empty() ? "" : ", ") + std::string(s.name);
+  return names;
+}
+
 void ReadStator(const TomlTable& t, bool axial, StatorParameters& p,
                 std::vector<Tolerance>* tolerances) {
   p.axial = axial;
@@ -146,7 +146,7 @@ void ReadStator(const TomlTable& t, bool axial, StatorParameters& p,
   else if (p.poles.empty())
     t.Fail("poles", fmt::format("is missing, allowed: poles = [{{ {}, area, gap, turns = {{ coil1 "
                                 "= n }} }}, ...] or template = {}",
-                                axial ? "side" : "angle_deg", TemplateNames(axial)));
+                                axial ? "side" : "angle_deg", StatorTemplateNames(axial)));
   t.Read(p, kStatorFields, tolerances);
   if (t.Has("bias_current")) p.bias_current = Within(t, "bias_current", kRequired, kBias);
   const std::vector<StatorPole> poles = PolesOf(p);

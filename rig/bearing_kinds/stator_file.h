@@ -9,6 +9,9 @@ namespace ambrig {
 void ReadStator(const TomlTable& t, bool axial, StatorParameters& p,
                 std::vector<Tolerance>* tolerances);
 
+/// Of all radial ones, or of all axial ones: comma separated.
+std::string StatorTemplateNames(bool axial);
+
 /// What must hold between a stator and its amplifiers, at the centre: a bias without a net force,
 /// forces in all directions, currents of both signs where only magnets bias.
 /// `bias`: the controller's bias current [A], `unipolar`: bridges of two quadrants.
