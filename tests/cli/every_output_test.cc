@@ -6,12 +6,10 @@
 #include <chrono>
 #include <set>
 
-#include "tests/cli/cli_run.h"
+#include "tests/cli/work_folder.h"
 
 namespace ambrig {
 namespace {
-
-using ::testing::HasSubstr;
 
 struct Output {
   const char *command, *option;
@@ -49,26 +47,10 @@ const Output kOutputs[] = {
     {"serve", "--address-file", "serve . --address-file {}"},
 };
 
-class EveryOutput : public CliFolder, public ::testing::WithParamInterface<Output> {
+class EveryOutput : public WorkFolder, public ::testing::WithParamInterface<Output> {
  protected:
   void SetUp() override {
-    CliFolder::SetUp();
-    for (const char* name : {"scenarios", "examples"})
-      std::filesystem::create_directory_symlink(std::filesystem::path(AMBRIG_SOURCE_DIR) / name,
-                                                folder_ / name);
-    Write("rig.toml", ReferenceRigText());
-    Write("other.toml", ReferenceRigText());
-    Write("s.toml", ScenarioText(""));
-    Write("e.toml", ScenarioText("[expect]\ndrop = false\n"));
-    Write("c.toml", "rig = \"rig.toml\"\nduration = 0.01\n");
-    std::string rows = "t,A.x\n";
-    for (int k = 0; k < 100; ++k) rows += std::to_string(k / 12500.0) + ",1e-6\n";
-    Write("a.csv", rows);
-    Write("b.csv", rows);
-    Write("case.toml",
-          "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"a.csv\"\n"
-          "[[record]]\nscenario = \"s.toml\"\ndata = \"b.csv\"\n");
-    std::filesystem::create_directories(folder_ / "logger");
+    WorkFolder::SetUp();
     if (*GetParam().before) {
       const Outcome o = Ambrig(GetParam().before);
       ASSERT_EQ(o.exit, 0) << o.text;
@@ -76,11 +58,6 @@ class EveryOutput : public CliFolder, public ::testing::WithParamInterface<Outpu
   }
   Outcome CalledFor(const std::string& place) const {
     return Ambrig(Replaced(GetParam().call, "{}", place));
-  }
-  static void ExpectRefused(const Outcome& o, const std::string& said) {
-    EXPECT_EQ(o.exit, 2) << o.text;
-    EXPECT_EQ(o.lines(), 1) << o.text;
-    EXPECT_THAT(o.text, HasSubstr(said));
   }
 };
 

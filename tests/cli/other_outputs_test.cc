@@ -4,12 +4,10 @@
 
 #include <chrono>
 
-#include "tests/cli/cli_run.h"
+#include "tests/cli/work_folder.h"
 
 namespace ambrig {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// How each command is called so that it would write; its inputs are made below.
 struct Call {
@@ -44,32 +42,12 @@ const Call kCalls[] = {
     {"practice", "rig.toml --cases 1 -o cases", "rig.toml"},
 };
 
-class OtherOutputs : public CliFolder, public ::testing::WithParamInterface<Call> {
+class OtherOutputs : public WorkFolder, public ::testing::WithParamInterface<Call> {
  protected:
   void SetUp() override {
-    CliFolder::SetUp();
-    for (const char* name : {"scenarios", "examples"})
-      std::filesystem::create_directory_symlink(std::filesystem::path(AMBRIG_SOURCE_DIR) / name,
-                                                folder_ / name);
-    Write("rig.toml", ReferenceRigText());
-    Write("s.toml", ScenarioText(""));
-    Write("e.toml", ScenarioText("[expect]\ndrop = false\n"));
-    std::string rows = "t,A.x\n";
-    for (int k = 0; k < 100; ++k) rows += std::to_string(k / 12500.0) + ",1e-6\n";
-    Write("a.csv", rows);
-    Write("b.csv", rows);
-    Write("c.toml", "rig = \"rig.toml\"\nduration = 0.01\n");
-    Write("case.toml",
-          "rig = \"rig.toml\"\n[[record]]\nscenario = \"s.toml\"\ndata = \"a.csv\"\n"
-          "[[record]]\nscenario = \"s.toml\"\ndata = \"b.csv\"\n");
-    std::filesystem::create_directories(folder_ / "logger");
+    WorkFolder::SetUp();
     Write("mine.json", "{ \"mine\": true }");
     Write("mine.html", "<html>mine</html>");
-  }
-  void ExpectRefused(const Outcome& o, const std::string& said) const {
-    EXPECT_EQ(o.exit, 2) << o.text;
-    EXPECT_EQ(o.lines(), 1) << o.text;
-    EXPECT_THAT(o.text, HasSubstr(said));
   }
   std::string Called(const std::string& option) const {
     return std::string(GetParam().command) + " " + GetParam().arguments + " " + option;

@@ -7,29 +7,16 @@
 
 #include "core/math/constants.h"
 #include "core/record/channels.h"
-#include "discovery/model/floor.h"
 #include "discovery/model/record_traits.h"
-#include "discovery/model/residual.h"
-#include "discovery/practice/hide.h"
-#include "rig/bearing_kinds/bearing_kind.h"
-#include "rig/rig_file.h"
 #include "simulation/switching/switching_engine.h"
+#include "tests/discovery/model/imposed_case.h"
 
 namespace ambrig {
 namespace {
 
-RigParameters FreeRotor() {
-  RigParameters rig =
-      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
-  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
-  return rig;
-}
-
-/// A practice case without an effect, every parameter as in the rig file; currents of the levitated records imposed.
-class ImposedCurrents : public ::testing::Test {
+class ImposedCurrents : public ImposedCase {
  protected:
-  static void SetUpTestSuite() { hidden_ = new HiddenCase(Hide(FreeRotor(), {{}, false, 5})); }
-  static void TearDownTestSuite() { delete hidden_; }
+  /// Currents of the levitated records are imposed.
   void SetUp() override {
     data_ = hidden_->data;
     std::erase_if(data_.records, [](const CaseRecord& r) {
@@ -38,16 +25,7 @@ class ImposedCurrents : public ::testing::Test {
     for (CaseRecord& r : data_.records) r.imposed = Imposed::kCurrents;
     ASSERT_FALSE(data_.records.empty());
   }
-  static double ErrorOverFloor(const Case& data) {
-    CaseModel model(data, 4);
-    const Hypothesis base = Hypothesis::Base(data.rig);
-    const NoiseFloor floor = FindFloor(model, base);
-    return Ratio(model, Residual(model, floor.clean), Which::kFit);
-  }
-  static HiddenCase* hidden_;
-  Case data_;
 };
-HiddenCase* ImposedCurrents::hidden_ = nullptr;
 
 TEST_F(ImposedCurrents, OnlyReadingsArePredicted) {
   for (const CaseRecord& r : data_.records)

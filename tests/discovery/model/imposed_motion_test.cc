@@ -5,42 +5,20 @@
 #include <algorithm>
 
 #include "core/record/channels.h"
-#include "discovery/model/floor.h"
 #include "discovery/model/record_traits.h"
-#include "discovery/model/residual.h"
-#include "discovery/practice/hide.h"
-#include "rig/bearing_kinds/bearing_kind.h"
-#include "rig/rig_file.h"
+#include "tests/discovery/model/imposed_case.h"
 
 namespace ambrig {
 namespace {
 
-RigParameters TwoBearings() {
-  RigParameters rig =
-      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
-  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
-  return rig;
-}
-
-/// A practice case without an effect, every parameter as in the rig file; all motion imposed.
-class ImposedMotion : public ::testing::Test {
+class ImposedMotion : public ImposedCase {
  protected:
-  static void SetUpTestSuite() { hidden_ = new HiddenCase(Hide(TwoBearings(), {{}, false, 5})); }
-  static void TearDownTestSuite() { delete hidden_; }
+  /// All motion is imposed.
   void SetUp() override {
     data_ = hidden_->data;
     for (CaseRecord& r : data_.records) r.imposed = Imposed::kMotion;
   }
-  static double ErrorOverFloor(const Case& data) {
-    CaseModel model(data, 4);
-    const Hypothesis base = Hypothesis::Base(data.rig);
-    const NoiseFloor floor = FindFloor(model, base);
-    return Ratio(model, Residual(model, floor.clean), Which::kFit);
-  }
-  static HiddenCase* hidden_;
-  Case data_;
 };
-HiddenCase* ImposedMotion::hidden_ = nullptr;
 
 TEST_F(ImposedMotion, TheTrueCoilsLeaveNothingButNoise) {
   const double ratio = ErrorOverFloor(data_);

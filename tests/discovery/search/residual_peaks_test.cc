@@ -13,12 +13,17 @@
 namespace ambrig {
 namespace {
 
-TEST(ResidualPeaks, FindsATone) {
-  RigParameters rig =
+Case LevitatedRecords() {
+  const RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
   Case c = EmptyCase(rig, Examination(rig, 1));
   std::erase_if(c.records,
                 [](const CaseRecord& r) { return r.scenario.start == StartState::kClamped; });
+  return c;
+}
+
+TEST(ResidualPeaks, FindsATone) {
+  const Case c = LevitatedRecords();
   const CaseModel model(c);
   std::vector<double> residual(model.size());
   for (const Target& t : model.targets()) {
@@ -56,11 +61,7 @@ TEST(ThinModel, KeepsEveryPhase) {
 
 // A transient that only decays has a spectrum that only falls: no frequency stands out of it.
 TEST(ResidualPeaks, AFallingSpectrumHasNone) {
-  RigParameters rig =
-      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
-  Case c = EmptyCase(rig, Examination(rig, 1));
-  std::erase_if(c.records,
-                [](const CaseRecord& r) { return r.scenario.start == StartState::kClamped; });
+  const Case c = LevitatedRecords();
   const CaseModel model(c);
   std::vector<double> residual(model.size());
   for (const Target& t : model.targets()) {
