@@ -62,34 +62,49 @@ double LeastPull(const Pull& pull, Eigen::Index coils, Eigen::Index stuck, doubl
   return least;
 }
 
+/// Largest current of the stuck coil, up to `end`, against which the others hold at the pull's place.
+template <class Holds>
+double LargestHeld(const Holds& holds, double end) {
+  if (holds(end)) return end;
+  double held = 0, lost = end;
+  for (int k = 0; k < 24; ++k) (holds(0.5 * (held + lost)) ? held : lost) = 0.5 * (held + lost);
+  return held;
+}
+
+/// ", 0.48 ms after the fault" when the record has the current pass `limit`.
+std::string WhenPassed(const Record& record, const ChannelId& id, double fault, double limit) {
+  const Channel* i = Find(record, id);
+  for (std::size_t row = 0; i && row < i->samples.size(); ++row)
+    if (record.TimeAt(row) >= fault && i->samples[row] > limit)
+      return fmt::format(", {:.3g} ms after the fault", 1e3 * (record.TimeAt(row) - fault));
+  return "";
+}
+
 }  // namespace
 
 StuckSwitchLimit LimitOfStuckSwitch(const RigParameters& rig, std::size_t bearing, int coil) {
   const BearingParameters& b = rig.bearings[bearing];
   const AmplifierParameters& a = rig.amplifier;
-  const StatorGeometry g = b.kind->stator(b);
   const Eigen::Index coils = b.coils();
   StuckSwitchLimit limit;
-  limit.end = std::max(0.0, a.bus_voltage - 2 * a.switch_drop) / g.resistance[coil];
+  limit.end = std::max(0.0, a.bus_voltage - 2 * a.switch_drop) / b.kind->stator(b).resistance[coil];
   Pull pull{MagnetForceOf(b), Eigen::Vector2d::Zero(), Eigen::Vector2d::UnitX()};
   Eigen::VectorXd alone = Eigen::VectorXd::Zero(coils);
   const Eigen::VectorXd rest = pull.force(alone, pull.place);
   alone[coil] = limit.end;
   const Eigen::VectorXd pulled = pull.force(alone, pull.place) - rest;
-  if (!(pulled.norm() > 0)) return {limit.end, limit.end};
+  if (!(pulled.norm() > 0)) return {limit.end, limit.end, limit.end};
   pull.d.setZero();
   pull.d.head(pulled.size()) = pulled.normalized();
-  pull.place = -ClearanceOf(b) * pull.d;
   const auto share = WeightShares(rig)[bearing];
   const double carried = pull.d.dot(Eigen::Vector2d(share[0], share[1]));
   const double lo = a.quadrants < 3 ? 0 : -a.i_max;
   const auto holds = [&](double current) {
     return LeastPull(pull, coils, coil, current, lo, a.i_max) <= carried;
   };
-  if (holds(limit.end)) return {limit.end, limit.end};
-  double held = 0, lost = limit.end;
-  for (int k = 0; k < 24; ++k) (holds(0.5 * (held + lost)) ? held : lost) = 0.5 * (held + lost);
-  limit.held = held;
+  limit.centred = LargestHeld(holds, limit.end);
+  pull.place = -ClearanceOf(b) * pull.d;
+  limit.far = LargestHeld(holds, limit.end);
   return limit;
 }
 
@@ -102,21 +117,21 @@ void NoteStuckSwitches(const RigParameters& rig, const Scenario& scenario, RunRe
       if (!fault.target.starts_with(name)) continue;
       const int coil = std::stoi(fault.target.substr(name.size())) - 1;
       const StuckSwitchLimit limit = LimitOfStuckSwitch(rig, k, coil);
-      if (limit.held >= limit.end) continue;
-      std::string when;
-      const Channel* i =
-          Find(result.record, {ChannelKind::kCoilCurrent, rig.bearings[k].name, coil});
-      for (std::size_t row = 0; i && when.empty() && row < i->samples.size(); ++row)
-        if (result.record.TimeAt(row) >= fault.time && i->samples[row] > limit.held)
-          when = fmt::format(", {:.3g} ms after the fault,",
-                             1e3 * (result.record.TimeAt(row) - fault.time));
-      result.notes.push_back(
-          fmt::format("{} stuck on: its current rises to {:.3g} A; above {:.3g} A{} the other "
-                      "coils within i_max = "
-                      "{:.3g} A cannot hold the shaft anywhere in its clearance: only cutting that "
-                      "coil's supply "
-                      "could",
-                      fault.target, limit.end, limit.held, when, rig.amplifier.i_max));
+      if (limit.centred >= limit.end) continue;
+      const std::string far =
+          limit.far < limit.end
+              ? fmt::format(" and of {:.3g} A at the far side of its clearance", limit.far)
+              : "";
+      result.notes.push_back(fmt::format(
+          "{} stuck on: its current rises to {:.3g} A; the other coils within i_max = {:.3g} A "
+          "hold "
+          "the shaft against {:.3g} A with it centred{}{}: only cutting that coil's supply could "
+          "keep "
+          "it{}",
+          fault.target, limit.end, rig.amplifier.i_max, limit.centred,
+          WhenPassed(result.record, {ChannelKind::kCoilCurrent, rig.bearings[k].name, coil},
+                     fault.time, limit.centred),
+          far, limit.far < limit.end ? "" : " there"));
     }
   }
 }
