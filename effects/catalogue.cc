@@ -10,6 +10,7 @@
   EFFECT(Saturation)           \
   EFFECT(Hysteresis)           \
   EFFECT(EddyCurrents)         \
+  EFFECT(EddySleeve)           \
   EFFECT(Fringing)             \
   EFFECT(MagneticOffset)       \
   EFFECT(TurnMismatch)         \

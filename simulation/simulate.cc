@@ -11,6 +11,7 @@
 #include "simulation/switching/lost_rotor.h"
 #include "simulation/switching/switching_engine.h"
 #include "simulation/verdict/detection_score.h"
+#include "simulation/verdict/stuck_switch.h"
 
 namespace ambrig {
 
@@ -87,6 +88,7 @@ RunResult Simulate(const RigParameters& rig, const Scenario& scenario,
   std::stable_sort(result.events.begin(), result.events.end(),
                    [](const RunEvent& a, const RunEvent& b) { return a.t < b.t; });
   ScoreDetection(scenario, result);
+  NoteStuckSwitches(rig, scenario, result);
   const double wall =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   result.metrics.real_time_factor = wall > 0 ? scenario.duration / wall : 0;

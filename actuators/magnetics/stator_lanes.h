@@ -53,6 +53,9 @@ class StatorLanes : public StatorGeometry {
   void SetStep(double h);  // [s] between ADC samples
   /// Sets currents and linkages of a standing start at (x, y).
   void Settle(const Lane& currents, double x, double y);
+  /// One step of h where Settle has put the shaft, under these currents: the iron laws remember it.
+  /// Not for any stator (coupling kNetwork), which has no laws.
+  void StepCurrents(const Lane& currents);
   /// Recomputes currents and flux from the linkages after a parameter changed (fault).
   void Refresh(double x, double y);
   /// Coil j breaks: its current is gone, the other linkages stay.

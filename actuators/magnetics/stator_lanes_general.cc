@@ -5,6 +5,7 @@
 
 #include "actuators/magnetics/lane_vector.h"
 #include "actuators/magnetics/stator_lanes.h"
+#include "core/base/errors.h"
 
 namespace ambrig {
 
@@ -134,6 +135,21 @@ void StatorLanes::SolveGeneral(const Lane& target, double h) {
   }
   Currents(inverse_l_.v, n.v, target.v, phi.v, i.v);
   for (ShortedTurns& s : shorts) s.i = inverse(s) * (s.target - s.n * phi[s.coil]);
+}
+
+void StatorLanes::StepCurrents(const Lane& currents) {
+  Require(coupling != Coupling::kNetwork && shorts.empty(), "a circuit of lanes, coil by coil");
+  Lane mmf, drop, slope;
+  for (int j = 0; j < kLanes; ++j) i[j] = j < coils && !open[j] ? currents[j] : 0;
+  for (int j = 0; j < kLanes; ++j)
+    mmf[j] = n[j] * i[j] + (coupling == Coupling::kSides ? n[j ^ 1] * i[j ^ 1] : 0);
+  for (int round = 0; round < (affine_laws_ ? 1 : kMostRounds); ++round) {
+    Clear(drop.v, slope.v);
+    for (const FluxLaw* law : laws) law->Drop(phi, &drop, &slope);
+    if (Round(coupling, mmf.v, rel_.v, drop.v, slope.v, phi.v)) break;
+  }
+  for (int j = 0; j < kLanes; ++j) lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
+  for (FluxLaw* law : laws) law->Commit(phi);
 }
 
 void StatorLanes::UnblockDriven(const VoltagePattern& p, double bus, double t, Lane* target) {

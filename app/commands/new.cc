@@ -24,6 +24,7 @@ namespace {
 
 struct NewCommand {
   std::string name, answers, out = "bench";
+  std::string body;
   std::vector<std::string> records, set, column;
   CommonOptions common;  // --json and --force of it
   bool ask = false, only_files = false, list = false;
@@ -125,39 +126,6 @@ void FillIn(const BenchTemplate& bench, BenchAnswers& answers) {
                     bench.name, missing));
 }
 
-void PrintChoices(const Record& r, const std::vector<ColumnChoice>& all, const RigParameters& rig) {
-  fmt::print("record: {} rows at {:.6g} Hz\n", r.rows(), r.rate);
-  fmt::print("  {:<7} {:<20} {:<5} {:>5} {:>10} {:>10}  {}\n", "channel", "column", "unit", "gain",
-             "least", "most", "because");
-  for (const ColumnChoice& c : all)
-    for (const Channel& column : r.channels) {
-      if (column.name != c.column) continue;
-      double lo = kInfinity, hi = -kInfinity;
-      for (const double v : column.samples) {
-        if (!std::isfinite(v)) continue;
-        lo = std::min(lo, v);
-        hi = std::max(hi, v);
-      }
-      fmt::print("  {:<7} {:<20} {:<5} {:>5g} {:>10.4g} {:>10.4g}  {}\n", c.channel, c.column,
-                 c.unit.empty() ? "SI" : c.unit, c.gain, lo, hi, c.reason);
-    }
-  std::string left;
-  for (const Channel& column : r.channels)
-    if (std::none_of(all.begin(), all.end(),
-                     [&](const auto& c) { return c.column == column.name; }))
-      left += (left.empty() ? "" : ", ") + column.name;
-  if (!left.empty()) fmt::print("{}\n", Wrapped("  not taken: " + left, 4));
-  const char* driven[] = {"measured duties", "measured set-points", "measured currents", ""};
-  const CommandSource drive = DriveOf(all, rig);
-  if (drive == CommandSource::kNone)
-    throw InputError(
-        "no duties, set-points or currents of all coils were found in the record, "
-        "allowed: --column CHANNEL=COLUMN for each");
-  fmt::print("  coils driven by: {}; gaps moved by: {}\n", driven[static_cast<int>(drive)],
-             KnowsAll(all, rig, ChannelKind::kReading) ? "measured positions" : "nothing (held)");
-  fmt::print("  another column, unit or sign: --column CHANNEL=COLUMN:UNIT:GAIN:OFFSET\n");
-}
-
 /// `arguments` as if typed after ambrig.
 int RunAmbrig(std::vector<std::string> arguments) {
   CLI::App app;
@@ -184,6 +152,9 @@ std::vector<ColumnChoice> AddBenchRecords(const NewCommand& o, const RigParamete
                                           const std::vector<Record>& records, Files& files) {
   std::vector<BenchRecord> all;
   std::vector<ColumnChoice> taken;
+  const BodySaid body = o.body == "free"   ? BodySaid::kFree
+                        : o.body == "held" ? BodySaid::kHeld
+                                           : BodySaid::kNothing;
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Record& record = records[k];
     if (records.size() > 1) fmt::print("{}\n", o.records[k]);
@@ -194,7 +165,7 @@ std::vector<ColumnChoice> AddBenchRecords(const NewCommand& o, const RigParamete
     const std::string data = RecordName(o.records[k], o.out),
                       number = records.size() > 1 ? fmt::format("-{}", k + 1) : "";
     const std::string coils = "record" + number + ".toml", rotor = "rotor" + number + ".toml";
-    for (BenchRecord& r : RecordsOf(rig, record, choices, coils, rotor, data)) {
+    for (BenchRecord& r : RecordsOf(rig, record, choices, coils, rotor, data, body)) {
       files.emplace_back(r.scenario, r.scenario == rotor
                                          ? RotorScenario(rig, record)
                                          : ScenarioOfRecord(rig, record, choices, data, held));
@@ -236,6 +207,12 @@ int MakeBench(NewCommand o) {
   std::vector<Record> records;
   for (const std::string& file : o.records) records.push_back(ReadRecord(file));
   if (o.ask) AskNumbers(*bench, answers);
+  if (o.ask && !records.empty() && o.body.empty())
+    o.body = Answer(
+        "does the body hover (free), or does something hold it (held)? (nothing: judged "
+        "by its weight): ");
+  if (!o.body.empty() && o.body != "free" && o.body != "held")
+    throw InputError(fmt::format("body = \"{}\", allowed: free, held", o.body));
   FillIn(*bench, answers);
   const std::string rig_text = RigTextOf(*bench, answers);
   const RigParameters rig = ReadRigText(rig_text, "rig.toml");
@@ -275,6 +252,7 @@ void AddNew(CLI::App& app, Work& work) {
   command->add_option("--record", o->records, "files of instruments (ambrig channels shows them)");
   command->add_option("--column", o->column,
                       "CHANNEL=COLUMN, also :UNIT, :UNIT:GAIN or :UNIT:GAIN:OFFSET");
+  command->add_option("--body", o->body, "free: it hovers; held: something holds it");
   command->add_option("-o,--out", o->out, "folder")->capture_default_str();
   command->add_flag("--ask", o->ask, "ask for what is missing");
   command->add_flag("--only-files", o->only_files, "write the files, run nothing");

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <functional>
 
 #include "app/commands/screen.h"
+#include "core/base/errors.h"
 #include "core/base/toml_edit.h"
 #include "core/base/units.h"
 #include "core/record/column_names.h"
 #include "rig/clearance.h"
-#include "rig/magnet_inverse.h"
 #include "rig/rig_channels.h"
-#include "rig/rig_figures.h"
 
 namespace ambrig {
 
@@ -24,9 +22,6 @@ constexpr double kStill = 0.05;  // of the gap: a place that stands
 // Of the gap: noise of a distance that comes down to nothing, and how far it goes then.
 constexpr double kTouches = 0.02, kGoesOn = 0.1;
 constexpr double kOffCentre = 0.3;  // of the gap: far for a levitated rotor's mean
-// Mean force over weight of a free body, and what laws of magnets miss at the ends of their gaps.
-constexpr double kMostCarried = 3;
-constexpr std::size_t kRowsLooked = 2000;
 
 bool Knows(const std::vector<ColumnChoice>& all, const std::string& channel) {
   return std::any_of(all.begin(), all.end(), [&](const auto& c) { return c.channel == channel; });
@@ -137,6 +132,40 @@ CommandSource DriveOf(const std::vector<ColumnChoice>& all, const RigParameters&
                                                        : CommandSource::kNone;
 }
 
+void PrintChoices(const Record& r, const std::vector<ColumnChoice>& all, const RigParameters& rig) {
+  fmt::print("record: {} rows at {:.6g} Hz\n", r.rows(), r.rate);
+  fmt::print("  {:<7} {:<20} {:<5} {:>5} {:>10} {:>10}  {}\n", "channel", "column", "unit", "gain",
+             "least", "most", "because");
+  for (const ColumnChoice& c : all)
+    for (const Channel& column : r.channels) {
+      if (column.name != c.column) continue;
+      double lo = kInfinity, hi = -kInfinity;
+      for (const double v : column.samples) {
+        if (!std::isfinite(v)) continue;
+        lo = std::min(lo, v);
+        hi = std::max(hi, v);
+      }
+      fmt::print("  {:<7} {:<20} {:<5} {:>5g} {:>10.4g} {:>10.4g}  {}\n", c.channel, c.column,
+                 c.unit.empty() ? "SI" : c.unit, c.gain, lo, hi, c.reason);
+    }
+  for (const std::string& note : r.notes) fmt::print("{}\n", Wrapped("  " + note, 4));
+  std::string left;
+  for (const Channel& column : r.channels)
+    if (std::none_of(all.begin(), all.end(),
+                     [&](const auto& c) { return c.column == column.name; }))
+      left += (left.empty() ? "" : ", ") + column.name;
+  if (!left.empty()) fmt::print("{}\n", Wrapped("  not taken: " + left, 4));
+  const char* driven[] = {"measured duties", "measured set-points", "measured currents", ""};
+  const CommandSource drive = DriveOf(all, rig);
+  if (drive == CommandSource::kNone)
+    throw InputError(
+        "no duties, set-points or currents of all coils were found in the record, "
+        "allowed: --column CHANNEL=COLUMN for each");
+  fmt::print("  coils driven by: {}; gaps moved by: {}\n", driven[static_cast<int>(drive)],
+             KnowsAll(all, rig, ChannelKind::kReading) ? "measured positions" : "nothing (held)");
+  fmt::print("  another column, unit or sign: --column CHANNEL=COLUMN:UNIT:GAIN:OFFSET\n");
+}
+
 std::string ScenarioOfRecord(const RigParameters& rig, const Record& r,
                              const std::vector<ColumnChoice>& all, const std::string& data,
                              double held) {
@@ -174,88 +203,18 @@ std::string RotorScenario(const RigParameters& rig, const Record& r) {
       TomlNumber(RecordRateFor(rig, r.rate)));
 }
 
-namespace {
-
-/// The measured values of a channel in SI; null where it was not found in the record.
-std::function<double(std::size_t row)> Measured(const Record& record,
-                                                const std::vector<ColumnChoice>& all,
-                                                const ChannelId& id) {
-  for (const ColumnChoice& c : all) {
-    if (c.channel != id.name()) continue;
-    const Channel* column = FindColumn(record, c.column);
-    const std::string_view si = RowOf(id.kind).unit;
-    const double factor = c.gain * (c.unit.empty() ? 1 : UnitFactor(c.unit, std::string(si)));
-    return [column, factor, offset = c.offset](std::size_t row) {
-      return column->samples[row] * factor + offset;
-    };
-  }
-  return nullptr;
-}
-
-/// Mean force of one bearing along its axes [N]; NaN where it cannot be told.
-Eigen::Vector2d MeanForce(const BearingParameters& b, const Record& record,
-                          const std::vector<ColumnChoice>& all) {
-  std::vector<std::function<double(std::size_t)>> current, place;
-  for (const ChannelId& id : ChannelsOf(b, ChannelKind::kCoilCurrent))
-    current.push_back(Measured(record, all, id));
-  for (const ChannelId& id : ChannelsOf(b, ChannelKind::kReading))
-    place.push_back(Measured(record, all, id));
-  const auto unknown = [](const auto& f) { return !f; };
-  const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
-  if (std::ranges::any_of(current, unknown) || std::ranges::any_of(place, unknown)) return none;
-  const MagnetForce force = MagnetForceOf(b);
-  const double most = 0.9 * GapOf(b);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  double count = 0;
-  Eigen::VectorXd i(static_cast<Eigen::Index>(current.size()));
-  for (std::size_t row = 0; row < record.rows(); row += record.rows() / kRowsLooked + 1) {
-    Eigen::Vector2d at = Eigen::Vector2d::Zero();
-    for (std::size_t k = 0; k < current.size(); ++k)
-      i[static_cast<Eigen::Index>(k)] = current[k](row);
-    for (std::size_t k = 0; k < place.size(); ++k) at[static_cast<Eigen::Index>(k)] = place[k](row);
-    if (!i.allFinite() || !at.allFinite()) continue;
-    if (at.norm() > most) at *= most / at.norm();
-    const Eigen::VectorXd f = force(i, at);
-    sum.head(f.size()) += f;
-    count += 1;
-  }
-  return count > 0 ? Eigen::Vector2d(sum / count) : none;
-}
-
-}  // namespace
-
-double CarriedShare(const RigParameters& rig, const Record& record,
-                    const std::vector<ColumnChoice>& all) {
-  const auto weight = WeightShares(rig);
-  double along = 0, whole = 0;
-  for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
-    Eigen::Vector2d w(weight[k][0], weight[k][1]);
-    if (w.norm() == 0) continue;
-    along += w.dot(MeanForce(rig.bearings[k], record, all));
-    whole += w.squaredNorm();
-  }
-  return whole > 0 ? along / whole : std::nan("");
-}
-
 std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const Record& record,
                                    const std::vector<ColumnChoice>& all, const std::string& coils,
-                                   const std::string& rotor, const std::string& data) {
+                                   const std::string& rotor, const std::string& data,
+                                   BodySaid said) {
   const bool moves = KnowsAll(all, rig, ChannelKind::kReading);
   std::vector<BenchRecord> out = {{coils, data, moves ? "motion" : "", all}};
   // Without a duty or a set-point the currents themselves drive the coils: nothing of them is predicted.
   if (moves && DriveOf(all, rig) == CommandSource::kCurrent) out.clear();
   if (!moves || !KnowsAll(all, rig, ChannelKind::kCoilCurrent)) return out;
-  const double carried = CarriedShare(rig, record, all);
-  if (!(carried > kMostCarried || carried < 1 / kMostCarried)) {
-    out.push_back({rotor, data, "currents", all});
-    return out;
-  }
-  fmt::print("{}\n",
-             Wrapped(fmt::format("  the measured currents pull with {:.3g} times the weight: "
-                                 "the body stands on something or is held, and the record "
-                                 "says nothing of its motion under the magnets",
-                                 carried),
-                     4));
+  if (!IsFree(rig, record, all, said)) return out;
+  if (!out.empty() && LacksCommands(rig, record, all)) out.clear();
+  out.push_back({rotor, data, "currents", all});
   return out;
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/new_body.h"
 #include "app/commands/new_columns.h"
 #include "core/record/channels.h"
 
@@ -20,14 +21,14 @@ CommandSource DriveOf(const std::vector<ColumnChoice>& all, const RigParameters&
 double HoldAtDistance(const RigParameters& rig, const Record& record,
                       std::vector<ColumnChoice>& choices);
 
+/// Which columns were taken for what, with their ranges; notes of the reader; what drives the coils.
+/// @throws InputError where nothing does
+void PrintChoices(const Record& r, const std::vector<ColumnChoice>& all, const RigParameters& rig);
+
 /// The record's own commands drive the coils; `data`: its file; `held`: of a body that stands [m].
 std::string ScenarioOfRecord(const RigParameters& rig, const Record& record,
                              const std::vector<ColumnChoice>& all, const std::string& data,
                              double held);
-/// Mean force that the nominal magnets make of the measured currents where the body was measured, over the weight: near
-/// one for a body that nothing but the magnets holds. NaN without a weight, or without currents and positions.
-double CarriedShare(const RigParameters& rig, const Record& record,
-                    const std::vector<ColumnChoice>& all);
 /// A levitated rotor that the measured currents drive.
 std::string RotorScenario(const RigParameters& rig, const Record& record);
 
@@ -37,11 +38,12 @@ struct BenchRecord {
   std::vector<ColumnChoice> columns;
 };
 /// What a record can say, of its coils in gaps that move as measured (or stand), and of the rotor under the
-/// measured currents where positions and currents of everything that moves are known and the currents carry
-/// the weight; where they do not, the body stands on something, and it is said.
+/// measured currents where positions and currents of everything that moves are known and the body hovers.
+/// Of a rotor that hovers no record of the coils is made where it lacks the commands between its rows.
 std::vector<BenchRecord> RecordsOf(const RigParameters& rig, const Record& record,
                                    const std::vector<ColumnChoice>& all, const std::string& coils,
-                                   const std::string& rotor, const std::string& data);
+                                   const std::string& rotor, const std::string& data,
+                                   BodySaid said);
 std::string CaseText(const std::vector<BenchRecord>& all);
 /// Without a record: half a second of levitation.
 std::string LevitationText(const RigParameters& rig);

@@ -10,6 +10,8 @@
 #include "core/base/errors.h"
 #include "core/base/parameters.h"
 #include "core/base/read_file.h"
+#include "core/record/column_names.h"
+#include "core/record/text_cells.h"
 #include "core/record/text_table.h"
 #include "core/record/time_base.h"
 
@@ -39,6 +41,11 @@ Record RecordOfTable(TextTable table, const std::string& path, const CsvOptions&
   }
   const bool timed = std::any_of(record.channels.begin(), record.channels.end(),
                                  [](const Channel& c) { return IsTimeName(c.name); });
+  if (!timed && options.rate == 0 && !record.channels.empty())
+    throw InputError(
+        path + ": neither a rate [Hz] nor a time channel, allowed: " + kTimeNames +
+        "; there are: " + Utf8(ColumnsOf(record, "time")) +
+        "; a table of values at rest is a [[record]] of a case with kind = \"static\"");
   record.rate = timed ? 0 : options.rate;
   record.start = timed ? 0 : options.start;
   FinishRecord(record, path, table.header_rows);

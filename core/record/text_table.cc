@@ -1,6 +1,7 @@
 #include "core/record/text_table.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -31,10 +32,18 @@ std::optional<std::string_view> InBrackets(std::string_view cell) {
   return Trim(cell.substr(1, cell.size() - 2));
 }
 
-/// A column while it is read: numbers, or dates and times of day.
+/// Whether a cell begins with a letter and so is no number that was written wrongly.
+bool IsWord(std::string_view cell) {
+  const char c =
+      cell.size() > 1 && (cell.front() == '"' || cell.front() == '\'') ? cell[1] : cell[0];
+  return std::isalpha(static_cast<unsigned char>(c)) != 0;
+}
+
+/// A column while it is read: numbers, dates and times of day, or words.
 struct Column {
   Channel channel = {};
   bool dates = false;
+  std::string first_word = {};  // what a cell of words is refused with, once a number follows
   bool has_date = false, has_time = false;  // of all its dates
   std::vector<DateTime> instants = {};
   std::string first = {};  // the first date, as written
@@ -57,8 +66,11 @@ class TableReader {
 
  private:
   [[noreturn]] void Fail(std::size_t line, std::size_t column, const std::string& what) const {
-    throw InputError(path_ + ':' + std::to_string(line) + ':' + std::to_string(column) + ": " +
-                     what);
+    throw InputError(Place(line, column) + what);
+  }
+
+  std::string Place(std::size_t line, std::size_t column) const {
+    return path_ + ':' + std::to_string(line) + ':' + std::to_string(column) + ": ";
   }
 
   void ReadHeads(std::string_view line) {
@@ -136,9 +148,9 @@ class TableReader {
       column.first = cell;
     }
     if (!column.dates) {
-      if (!number)
-        Fail(lines_.number(), cells.column(),
-             column.channel.name + ": '" + Utf8(cell.substr(0, 60)) + "' is not a number");
+      if (number && !cell.empty() && !column.first_word.empty())
+        throw InputError(column.first_word);
+      if (!number) ReadWord(column, cells);
       column.channel.samples.push_back(value);
       return;
     }
@@ -151,6 +163,17 @@ class TableReader {
     column.has_date = instant->has_date;
     column.has_time = instant->has_time;
     column.instants.push_back(*instant);
+  }
+
+  /// A cell that is no number: a column of nothing but words is left out, one among numbers refuses
+  /// the file.
+  void ReadWord(Column& column, const Cells& cells) {
+    const bool numbers = std::any_of(column.channel.samples.begin(), column.channel.samples.end(),
+                                     [](double v) { return !std::isnan(v); });
+    const std::string what = Place(lines_.number(), cells.column()) + column.channel.name + ": '" +
+                             Utf8(cells.cell().substr(0, 60)) + "' is not a number";
+    if (column.first_word.empty()) column.first_word = what;
+    if (numbers || !IsWord(cells.cell()) || IsTimeName(column.channel.name)) throw InputError(what);
   }
 
   /// The columns that tell the instant: one with date and time of day, else one of each.
@@ -186,7 +209,9 @@ class TableReader {
     if (!timed && !instants.empty()) AddSeconds(instants);
     for (Column& c : columns_) {
       const bool used = !timed && std::count(instants.begin(), instants.end(), &c) > 0;
-      if (!c.dates)
+      if (!c.first_word.empty())
+        table_.notes.push_back(path_ + ": " + c.channel.name + " holds words, left out");
+      else if (!c.dates)
         table_.columns.push_back(std::move(c.channel));
       else if (!used)
         table_.notes.push_back(path_ + ": " + c.channel.name +

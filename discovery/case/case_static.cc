@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/base/inputs_read.h"
 #include "core/base/read_file.h"
@@ -24,8 +25,10 @@ struct TableColumns {
   std::map<std::string, std::string> inputs, outputs;
 };
 
-TableColumns ColumnsOfRig(const RigParameters& rig) {
+/// `mapped`: the channels that the record maps, among them impedances at a frequency of their own.
+TableColumns ColumnsOfRig(const RigParameters& rig, const std::optional<TomlTable>& mapped) {
   TableColumns out;
+  out.inputs[kFrequencyColumn] = "Hz";
   for (const ChannelKind kind : {ChannelKind::kReading, ChannelKind::kCoilCurrent})
     for (const ChannelId& id : ChannelsOf(rig, kind)) out.inputs[id.name()] = id.row().unit;
   for (const ChannelId& id : ChannelsOf(rig, ChannelKind::kLoadCell))
@@ -33,8 +36,18 @@ TableColumns ColumnsOfRig(const RigParameters& rig) {
   for (const BearingParameters& b : rig.bearings)
     for (int j = 1; j <= b.coils(); ++j) {
       out.outputs[fmt::format("{}.L{}", b.name, j)] = "H";
+      out.outputs[fmt::format("{}.R{}", b.name, j)] = "ohm";
       out.outputs[fmt::format("{}.lambda{}", b.name, j)] = "Wb";
     }
+  if (!mapped) return out;
+  for (const std::string& key : mapped->Keys()) {
+    const auto it = out.outputs.find(key.substr(0, key.find('@')));
+    if (key.find('@') == std::string::npos || it == out.outputs.end()) continue;
+    if ((it->second != "H" && it->second != "ohm") || !(MeterFrequency(key) > 0))
+      mapped->Fail(key,
+                   "is no impedance at a frequency, allowed: A.L1@1000 or A.R1@1000 for 1000 Hz");
+    out.outputs[key] = it->second;
+  }
   return out;
 }
 
@@ -117,7 +130,7 @@ void ReadStaticRecord(const TomlTable& t, Case& c, CaseRecord& r) {
     r.scenario.duration = 1;
     r.scenario.record_rate = c.rig.controller.rate;
   }
-  const TableColumns allowed = ColumnsOfRig(c.rig);
+  const TableColumns allowed = ColumnsOfRig(c.rig, t.Table("channels"));
   std::map<std::string, std::string> known = allowed.inputs;
   known.insert(allowed.outputs.begin(), allowed.outputs.end());
   const Record mapped =
@@ -126,7 +139,8 @@ void ReadStaticRecord(const TomlTable& t, Case& c, CaseRecord& r) {
     (allowed.inputs.contains(ch.name) ? r.table.inputs : r.table.outputs).push_back(ch);
   if (r.table.outputs.empty())
     t.Fail("data", fmt::format("= {} holds no force or inductance of this rig, allowed: columns "
-                               "A.fx, A.fy [N], A.L1 [H], A.lambda1 [Wb], named or mapped in "
+                               "A.fx, A.fy [N], A.L1, A.L1@1000 [H], A.R1@1000 [ohm], A.lambda1 "
+                               "[Wb], named or mapped in "
                                "[record.channels]",
                                r.data_file));
   Knowledge(t, c, r.table);

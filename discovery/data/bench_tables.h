@@ -36,12 +36,20 @@ struct ResponseTable {
 /// Source: Bendat and Piersol, Random Data, 4th ed., table 9.6.
 double CoherenceSd(double magnitude, double g2, double averages);
 
-/// Rows of a table: positions and currents that were set, force or inductance that was read.
+/// Rows of a table: positions and currents that were set, force or impedance that was read.
 struct StaticTable {
-  std::vector<Channel> inputs;   // "A.x" [m], "A.i1" [A]: what is left out is the scenario's, or 0
-  std::vector<Channel> outputs;  // "A.fx" [N], "A.L1" [H], "A.lambda1" [Wb]
+  // "A.x" [m], "A.i1" [A], "frequency" [Hz]: what is left out is the scenario's, or 0
+  std::vector<Channel> inputs;
+  // "A.fx" [N], "A.L1" [H], "A.lambda1" [Wb], "A.L1@1000" [H] and "A.R1@1000" [ohm] at 1000 Hz
+  std::vector<Channel> outputs;
   std::vector<std::vector<double>> sd;  // of each output, per row
   std::vector<char> sd_known;           // per output
 };
+
+/// Input of a table: the frequency of the meter in each row [Hz].
+inline constexpr const char* kFrequencyColumn = "frequency";
+
+/// What stands behind the '@' of an output's name [Hz]; 0 without one, NaN if it is no number above 0.
+double MeterFrequency(const std::string& output);
 
 }  // namespace ambrig

@@ -5,6 +5,10 @@
 ///   A.fx, A.fy   force on the rotor at those currents                        [N]
 ///   A.lambda1    linkage of coil 1                                           [Wb]
 ///   A.L1         its slope over the coil's own current, all others held      [H]
+///   A.L1@f, A.R1@f  inductance and resistance in series that an LCR meter reads at f Hz  [H], [ohm]
+///
+/// A column `frequency` [Hz] among the inputs says f row by row. The meter's current is 1 mA: the
+/// iron laws are stepped through it, so that eddy currents and hysteresis show.
 ///
 /// Positions are those of the shaft at the magnets and currents those of the coils: what they were set
 /// with is a gauge of the bench, not the rig's sensors.
@@ -21,16 +25,18 @@ class StaticPredictor : public RecordPredictor {
   bool Predict(const RigParameters& rig, std::vector<std::vector<double>>& columns) const override;
 
  private:
-  enum class Quantity { kForce, kLinkage, kInductance };
+  enum class Quantity { kForce, kLinkage, kInductance, kResistance };
   struct Output {
     std::size_t bearing = 0;
     Quantity quantity = Quantity::kForce;
-    int index = 0;  // direction (0 x, 1 y, 2 z) or coil
+    int index = 0;         // direction (0 x, 1 y, 2 z) or coil
+    double frequency = 0;  // [Hz] of an impedance; 0: at rest
   };
   /// Of one bearing in one row: where the shaft is held and with which currents.
   struct Setting {
     double x = 0, y = 0;
     Lane current;
+    double frequency = 0;  // [Hz]
   };
   Setting SettingOf(std::size_t bearing, std::size_t row) const;
   static double Value(const Output& o, BearingPlant& bearing, const Setting& s);
@@ -44,6 +50,7 @@ class StaticPredictor : public RecordPredictor {
     Lane current;         // of the scenario
   };
   std::vector<Inputs> inputs_;
+  const Channel* frequency_ = nullptr;
 };
 
 }  // namespace ambrig

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "discovery/decision/likelihood.h"
+#include "discovery/search/probes.h"
 #include "discovery/search/start_search.h"
 
 namespace ambrig {
@@ -40,6 +42,29 @@ FitResult FitResonance(const CaseModel& model, const Hypothesis& start, const Fi
   h = fit.hypothesis;
   h.free.insert(h.free.end(), held.begin(), held.end());
   return TryFit(model, h, options);
+}
+
+/// `start` without the optional shapes of its last effect: those whose null lies below their usual range are put
+/// there and held. Nothing where it has none. A fit of such a shape has no slope near its null, and may end far
+/// from there.
+std::optional<Hypothesis> WithoutOptionalShapes(const Hypothesis& start) {
+  if (start.rig.effects.empty()) return {};
+  Hypothesis h = start;
+  const int last = static_cast<int>(h.rig.effects.size()) - 1;
+  const EffectInstance& e = start.rig.effects.back();
+  if (e.IsFormula()) return {};
+  const EffectDescription& d = EffectNamed(e.name);
+  bool any = false;
+  for (std::size_t row = 0; row < e.table.size(); ++row) {
+    const EffectParameter& p = e.table[row];
+    if (d.Switches(p) || !IsOptionalShape(p) || e.values[row] == p.null_value) continue;
+    const auto removed = std::erase_if(
+        h.free, [&](const FreeParameter& f) { return f.effect == last && f.row == row; });
+    if (removed == 0) continue;
+    h.rig.effects.back().values[row] = p.null_value;
+    any = true;
+  }
+  return any ? std::optional(h) : std::nullopt;
 }
 
 /// The starts that explain most when they are simulated: the best as it stands, and the best that is
@@ -120,7 +145,14 @@ FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& 
   full.reached = now.ratio_fit;
   full.iterations = 6;
   full.tolerance = 1e-4;
-  return TryFit(model, start, full);
+  FitResult fit = TryFit(model, start, full);
+  const std::optional<Hypothesis> simpler = WithoutOptionalShapes(start);
+  if (!simpler) return fit;
+  FitResult without = TryFit(model, *simpler, full);
+  const bool better =
+      without.converged && (!fit.converged || Score(model, without, effective_sample_size) <
+                                                  Score(model, fit, effective_sample_size));
+  return better ? without : fit;
 }
 
 FitResult FitScreened(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {

@@ -14,6 +14,10 @@ bool IsResonance(const EffectDescription& d) {
   return has("frequency") && has("damping");
 }
 
+bool IsOptionalShape(const EffectParameter& p) {
+  return std::isfinite(p.null_value) && p.lo <= p.null_value && p.null_value < p.typical_lo;
+}
+
 namespace {
 
 double Middle(const EffectParameter& p) {
@@ -86,7 +90,8 @@ std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string
 }
 
 /// What shapes a law over decades is tried at the ends of its usual range too: laminations thin and
-/// thick, a capacitance that smooths and one that does not.
+/// thick, a capacitance that smooths and one that does not. Of a switch whose null is infinite an end may be
+/// the shape's own null: iron so thick that its thickness does not show, where a fit of it has no slope.
 std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInstance& middle,
                                     const std::vector<std::size_t>& shape, bool both_ends) {
   std::vector<EffectInstance> forms = {middle};
@@ -97,6 +102,10 @@ std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInst
       continue;
     forms.push_back(middle);
     forms.back().values[s] = p.typical_hi;
+    if (!both_ends && IsOptionalShape(p)) {
+      forms.push_back(middle);
+      forms.back().values[s] = p.null_value;
+    }
     if (!both_ends) continue;
     forms.push_back(middle);
     forms.back().values[s] = p.typical_lo;

@@ -21,6 +21,10 @@ struct ProbeGroup {
 /// Whether the effect is one of a frequency and a damping.
 bool IsResonance(const EffectDescription& d);
 
+/// Whether a parameter that does not switch its effect may also be left out: its null lies below its usual
+/// range and is possible (laminations so thick that their thickness does not show).
+bool IsOptionalShape(const EffectParameter& p);
+
 /// Frequencies are tried where the error stands out (`peaks`) and over their usual range.
 std::vector<ProbeGroup> ProbesOf(const EffectDescription& d, const std::string& target,
                                  const CaseModel& model, const ResidualPeaks& peaks);

@@ -74,7 +74,8 @@ TEST_F(Csv, OptionsGiveUnitsAndRate) {
   EXPECT_EQ(Error("t,z\n0,1\n1,2\n", {{}, 2.0, 0.0}), ": rate = 2 Hz, but the times have 1 Hz");
   EXPECT_EQ(Error("x,z\n0,1\n1,2\n"),
             ": neither a rate [Hz] nor a time channel, allowed: t, time (s), t [ms], t_ms, Time "
-            "(ms), with units s, ms, us, ns; there are: x, z");
+            "(ms), with units s, ms, us, ns; there are: x, z; a table of values at rest is a "
+            "[[record]] of a case with kind = \"static\"");
 }
 
 TEST_F(Csv, TimeByTheNamesThatLoggersGive) {

@@ -103,6 +103,38 @@ TEST(EddyCurrents, VanishAtRest) {
   EXPECT_NEAR(DropOf(law, 1e-5) / (gap * 1e-5), 1 / std::sqrt(kPi * 2 * kPi * 500 * t), 0.01);
 }
 
+// E = R_gap φ'/ω_c: in proportion to the rate of the flux, nothing at rest.
+TEST(EddySleeve, DropIsTheRateOfTheFlux) {
+  Plant plant = PlantWith("eddy-sleeve", "A", {{"cutoff", 400}});
+  FluxLaw& law = *plant.bearings[0].laws.at(0);
+  EXPECT_TRUE(law.linear());
+  law.SetStep(kStep);
+  law.Settle(Currents(3e-6));
+  const double gap = GapReluctanceOf(plant.bearings[0]), T = 1 / (2 * kPi * 400);
+  double slope = 0;
+  EXPECT_EQ(DropOf(law, 3e-6, &slope), 0);
+  EXPECT_NEAR(slope, gap * T / kStep, 1e-12 * slope);
+  EXPECT_NEAR(DropOf(law, 5e-6), gap * T * 2e-6 / kStep, 1e-9 * gap * T * 2e-6 / kStep);
+  law.Commit(Currents(5e-6));
+  EXPECT_EQ(DropOf(law, 5e-6), 0);  // a standing flux costs nothing
+}
+
+// Imposed current jumps: φ = φ_static (1 - exp(-ω_c t)), in implicit steps of ω_c h = 5.6e-3, whose decay is
+// (1 + ω_c h)^-n: at t = 1/ω_c that is e^-1 (1 + ω_c h/2).
+TEST(EddySleeve, FluxFollowsACurrentStepWithOneTimeConstant) {
+  Plant plant = PlantWith("eddy-sleeve", "A", {{"cutoff", 400}});
+  StatorLanes& lanes = plant.bearings[0].lanes;
+  lanes.SetStep(kStep);
+  lanes.Settle(Currents(0), 0, 0);
+  const double x = 2 * kPi * 400 * kStep;
+  const int steps = static_cast<int>(std::lround(1 / x));
+  for (int k = 0; k < steps; ++k) lanes.StepCurrents(Currents(2));
+  const double followed = lanes.phi[0];
+  const double rest = RestFlux(plant, Currents(2))[0];
+  EXPECT_NEAR(followed / rest, 1 - std::pow(1 + x, -steps), 1e-9);
+  EXPECT_NEAR(followed / rest, 1 - std::exp(-1), 0.5 * x);
+}
+
 /// Mean field of rising and falling branch at flux density B [A/m].
 double Measured(const std::string& grade, double B) {
   double H = 0;

@@ -71,6 +71,19 @@ TEST_F(TextTables, SpreadsheetHabits) {
   EXPECT_EQ(Error("t;x\n0;1.234,5\n1;2\n"), ":2:3: x: '1.234,5' is not a number");
 }
 
+TEST_F(TextTables, AColumnOfWordsIsLeftOut) {
+  const Record r = Read("t,state,x\n0,pushed,1\n1,,2\n2,\"mid, 1\",3\n");
+  ASSERT_EQ(r.channels.size(), 1U);
+  EXPECT_THAT(r.channels[0].samples, ElementsAre(1, 2, 3));
+  EXPECT_THAT(r.notes, ElementsAre(HasSubstr("state holds words, left out")));
+  // A word among numbers, whichever comes first, is a mistake; so are times in words and bad numbers.
+  EXPECT_EQ(Error("t,x\n0,1\n1,off\n"), ":3:3: x: 'off' is not a number");
+  EXPECT_EQ(Error("t,x\n0,off\n1,2\n"), ":2:3: x: 'off' is not a number");
+  EXPECT_EQ(Error("t,x\nsoon,1\nlater,2\n"), ":2:1: t: 'soon' is not a number");
+  EXPECT_EQ(Error("t,x\n0,2x\n1,3x\n"), ":2:3: x: '2x' is not a number");
+  EXPECT_EQ(Error("t,x\n0,a\n1,b\n"), ": no channels");
+}
+
 TEST_F(TextTables, DatesAndTimesOfDayBecomeSeconds) {
   const char* files[] = {
       "timestamp,x\n2024-05-01T23:59:59.500,1\n2024-05-02T00:00:00.000,2\n2024-05-02T00:00:00.500,"

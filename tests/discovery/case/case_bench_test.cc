@@ -110,5 +110,22 @@ TEST_F(CaseBench, TablesWithTheirWeights) {
               HasSubstr("is no output of this table"));
 }
 
+TEST_F(CaseBench, ImpedancesAtAFrequency) {
+  const std::string table = "gap [mm],L_1k [mH],R [ohm]\n0.05,2,3\n0,3,4\n";
+  const std::string gap = "kind = \"static\"\n[record.channels]\n\"A.x\" = \"gap\"\n";
+  const Case c = Read(gap + "\"A.L1@1000\" = \"L_1k\"\n\"A.R1@2.5e4\" = \"R\"\n", table);
+  ASSERT_EQ(c.records[0].table.outputs.size(), 2u);
+  EXPECT_EQ(c.records[0].table.outputs[0].name, "A.L1@1000");
+  EXPECT_NEAR(c.records[0].table.outputs[0].samples[1], 3e-3, 1e-15);
+  EXPECT_EQ(MeterFrequency("A.R1@2.5e4"), 25000);
+  EXPECT_EQ(MeterFrequency("A.R1"), 0);
+  for (const char* key : {"A.L1@1kHz", "A.L1@", "A.L1@-5", "A.fx@50"})
+    EXPECT_THAT(Error(gap + "\"" + key + "\" = \"L_1k\"\n", table),
+                HasSubstr("is no impedance at a frequency, allowed: A.L1@1000"))
+        << key;
+  EXPECT_THAT(Error(gap + "\"A.M1@50\" = \"L_1k\"\n", table),
+              HasSubstr("is not a channel of this rig"));
+}
+
 }  // namespace
 }  // namespace ambrig
