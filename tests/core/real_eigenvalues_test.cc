@@ -29,7 +29,7 @@ double Apart(const Eigen::VectorXcd& a, const Eigen::VectorXcd& b) {
   return worst;
 }
 
-Eigen::VectorXcd Found(const Eigen::MatrixXd& a) {
+Eigen::VectorXcd EigenvaluesOf(const Eigen::MatrixXd& a) {
   Eigen::VectorXcd out;
   EXPECT_TRUE(RealEigenvalues(a, out));
   return out;
@@ -43,7 +43,7 @@ TEST(RealEigenvalues, AreThoseOfTheSchurDecomposition) {
   for (const int n : {1, 2, 3, 4, 7, 20, 60}) {
     const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(n, n, [&] { return normal(draw); });
     const Eigen::EigenSolver<Eigen::MatrixXd> schur(a, false);
-    EXPECT_LT(Apart(Found(a), schur.eigenvalues()), 1e-10 * a.norm()) << n;
+    EXPECT_LT(Apart(EigenvaluesOf(a), schur.eigenvalues()), 1e-10 * a.norm()) << n;
   }
 }
 
@@ -64,7 +64,7 @@ TEST(RealEigenvalues, OfDampedOscillators) {
   const Eigen::MatrixXd q = Eigen::MatrixXd::NullaryExpr(2 * n, 2 * n, [&] { return normal(draw); })
                                 .householderQr()
                                 .householderQ();
-  EXPECT_LT(Apart(Found(q.transpose() * a * q), exact), 1e-12 * a.norm());
+  EXPECT_LT(Apart(EigenvaluesOf(q.transpose() * a * q), exact), 1e-12 * a.norm());
 }
 
 // The cyclic shift does not change under an unshifted QR step: without exceptional shifts it would go on for ever.
@@ -76,11 +76,11 @@ TEST(RealEigenvalues, RootsOfUnityAndDefectiveMatrices) {
     shift((k + 1) % n, k) = 1;
     roots(k) = std::polar(1.0, 2 * std::acos(-1.0) * k / n);
   }
-  EXPECT_LT(Apart(Found(shift), roots), 1e-13);
+  EXPECT_LT(Apart(EigenvaluesOf(shift), roots), 1e-13);
   Eigen::MatrixXd jordan = 3 * Eigen::MatrixXd::Identity(2, 2);
   jordan(0, 1) = 1;
-  EXPECT_LT(Apart(Found(jordan), Eigen::VectorXcd::Constant(2, 3)), 1e-7);  // root of eps
-  EXPECT_LT(Found(Eigen::MatrixXd::Zero(5, 5)).norm(), 1e-300);
+  EXPECT_LT(Apart(EigenvaluesOf(jordan), Eigen::VectorXcd::Constant(2, 3)), 1e-7);  // root of eps
+  EXPECT_LT(EigenvaluesOf(Eigen::MatrixXd::Zero(5, 5)).norm(), 1e-300);
 }
 
 TEST(RealEigenvalues, SaysWhereTheyDoNotExist) {
