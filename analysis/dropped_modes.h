@@ -3,7 +3,8 @@
 /// shaft at the sensor by
 ///   sum phi_k(z_magnet) phi_k(z_sensor)/(w_k² - w²)   over the bending modes k
 /// and the part of the dropped ones is their residual compliance, static (w = 0) and at the highest mode
-/// that is kept. Rigid motion and damping left out. Linear analyses of a shaft (analysis/shaft) drop nothing.
+/// that is kept. With `static_correction` residual modes (rotor/shaft/residual_modes.h) carry the static part; lost
+/// is what they do not. Rigid motion and damping left out. Linear analyses of a shaft (analysis/shaft) drop nothing.
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,7 @@ struct DroppedModes {
   double top = 0;                 // of the kept, 0: none [Hz]
   std::vector<double> frequency;  // the lowest dropped, at most four [Hz]
   std::vector<LostCompliance> bearings;
+  std::vector<double> residual;  // frequencies of the residual modes [Hz]
 };
 
 /// Nothing for a rotor that is no beam.

@@ -8,6 +8,7 @@
 #include "core/math/constants.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
+#include "rig/rig_rotor.h"
 #include "rotor/shaft/reduction.h"
 
 namespace ambrig {
@@ -73,14 +74,18 @@ RadialRotor WithWholeBeam(const RigParameters& rig, RadialRotor kept) {
   const BeamFile& file = *rig.beam;
   const BeamRotor beam = BuildBeam(file.definition);
   const int modes = std::min<int>(kMost, static_cast<int>(beam.M.rows()) - 2),
-            few = static_cast<int>(rig.modes.size());
+            few = static_cast<int>(rig.modes.size()), bending = std::min(few, file.modes);
   std::vector<int> at;
-  for (int c : kept.coordinate) at.push_back(InReduced(c, few, modes));
+  // A residual mode is none of the whole beam's: what an effect adds to it has no place there.
+  constexpr int kNoPlace = -2;
+  for (int c : kept.coordinate)
+    at.push_back(c >= 5 + 2 * bending && c < 5 + 2 * few ? kNoPlace : InReduced(c, few, modes));
   // On a base or on mounts, or where no bearing moves one of the shaft's own coordinates.
   if (std::find(at.begin(), at.end(), -1) != at.end() ||
       kept.coordinate.size() != static_cast<std::size_t>(4 + 2 * few))
     return kept;
-  const ReducedRotor all = Reduce(beam, modes, {0.0}), part = Reduce(beam, few, {0.0});
+  const ReducedRotor all = Reduce(beam, modes, {0.0}),
+                     part = Reduce(beam, bending, {0.0}, ResidualPlanes(rig));
   RadialRotor out;
   out.rotor = Linear(all);
   LinearRotor own = Linear(part);  // what of the kept stiffness is the shaft's and its supports'
@@ -96,6 +101,7 @@ RadialRotor WithWholeBeam(const RigParameters& rig, RadialRotor kept) {
   const double noise = 1e-8 * kept.rotor.K.cwiseAbs().maxCoeff();
   for (std::size_t i = 0; i < at.size(); ++i)
     for (std::size_t j = 0; j < at.size(); ++j) {
+      if (at[i] < 0 || at[j] < 0) continue;
       const double v = more(static_cast<Index>(i), static_cast<Index>(j));
       if (std::abs(v) > noise) out.rotor.K(at[i], at[j]) += v;
     }

@@ -21,7 +21,7 @@ constexpr Field<RotorParameters> kBeamRotorFields[] = {
 /// Mass, inertias and modes of the shaft as it is now. Returns how far its centre of mass is from
 /// z_origin.
 double TakeShaft(RigParameters& rig) {
-  const ReducedRotor reduced = BuildReduced(*rig.beam);
+  const ReducedRotor reduced = BuildReduced(*rig.beam, ResidualPlanes(rig));
   rig.rotor.mass = reduced.mass;
   rig.rotor.inertia_transverse = reduced.inertia_transverse;
   rig.rotor.inertia_polar = reduced.inertia_polar;
@@ -93,17 +93,36 @@ void ReadBeamRotor(const TomlTable& t, RigParameters& rig) {
 /// that such a feed can carry.
 void CheckModes(const TomlTable& rotor, const RigParameters& rig) {
   const double limit = rig.amplifier.switching_frequency / 2;
+  if (static_cast<int>(rig.modes.size()) > kMaxModes)
+    rotor.Fail("static_correction",
+               fmt::format("= true adds a residual mode for each of {} bearings to modes = {}, "
+                           "allowed: {} modes in all",
+                           static_cast<int>(rig.modes.size()) - rig.beam->modes, rig.beam->modes,
+                           kMaxModes));
   for (std::size_t k = 0; k < rig.modes.size(); ++k) {
     const double f = rig.modes[k].omega / (2 * kPi);
     if (f < limit) continue;
+    if (static_cast<int>(k) >= rig.beam->modes)
+      rotor.Fail("static_correction",
+                 fmt::format("= true has a residual mode at {:.0f} Hz, allowed: below half the "
+                             "switching frequency of {} Hz (other modes, or false)",
+                             f, rig.amplifier.switching_frequency));
     rotor.Fail("modes",
                fmt::format("= {}, allowed: 0 to {} (mode {} at {:.0f} Hz lies above half the "
                            "switching frequency of {} Hz)",
-                           rig.modes.size(), k, k + 1, f, rig.amplifier.switching_frequency));
+                           rig.beam->modes, k, k + 1, f, rig.amplifier.switching_frequency));
   }
 }
 
 }  // namespace
+
+std::vector<double> ResidualPlanes(const RigParameters& rig) {
+  std::vector<double> planes;  // none while the file's bearings are still to be read
+  for (const BearingParameters& b : rig.bearings)
+    if (rig.beam && rig.beam->static_correction && b.kind->two_axes)
+      planes.push_back(b.z + rig.z_origin);
+  return planes;
+}
 
 void ReadRotor(const TomlTable& t, RigParameters& rig) {
   rig.rotor_kind = t.Choice("kind", "rigid", "rigid, point, beam");
@@ -141,8 +160,6 @@ void SetShaft(RigParameters& rig, std::size_t parameter, double value) {
 
 void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
   if (!rig.beam) return;
-  CheckModes(*root.Table("rotor"), rig);
-  CheckSupportRates(*root.Table("rotor"), rig);
   double lo = kInfinity, hi = -kInfinity;
   for (const ShaftSection& s : rig.beam->definition.sections) {
     if (!s.stiff) continue;
@@ -168,6 +185,9 @@ void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
     for (Tolerance& k : rig.tolerances)
       if (k.path == "bearings." + b.name + ".sensor.z") k.true_value -= rig.z_origin;
   }
+  TakeShaft(rig);  // its residual modes, now that the magnets' planes are known
+  CheckModes(*root.Table("rotor"), rig);
+  CheckSupportRates(*root.Table("rotor"), rig);
 }
 
 }  // namespace ambrig

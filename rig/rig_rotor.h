@@ -9,6 +9,10 @@ namespace ambrig {
 /// Fills rotor_kind, rotor, modes, beam, z_origin. @throws InputError.
 void ReadRotor(const TomlTable& rotor, RigParameters& rig);
 
+/// Planes of the magnets on the file's axis [m] whose residual modes follow the bending modes of the beam; none
+/// without `static_correction`.
+std::vector<double> ResidualPlanes(const RigParameters& rig);
+
 /// Another value of rig.beam->parameters[parameter]: mass, inertias and modes follow, and every z,
 /// for the centre of mass moves.
 void SetShaft(RigParameters& rig, std::size_t parameter, double value);

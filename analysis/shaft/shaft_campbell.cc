@@ -5,6 +5,7 @@
 
 #include "core/math/constants.h"
 #include "rotor/shaft/state_modes.h"
+#include "rotor/shaft/whirl_sweep.h"
 
 namespace ambrig {
 
@@ -77,8 +78,9 @@ ShaftCampbell FollowShaft(const BeamRotor& beam, const Eigen::MatrixXd& shapes,
                           const std::vector<double>& speeds, int modes) {
   ShaftCampbell out;
   out.least_decay = kInfinity;
+  WhirlSweep sweep(beam, shapes, modes);
   for (const double speed : speeds) {
-    const WholeBeamModes found = FindWhirlModes(Assemble(beam, speed), shapes, speed, modes);
+    const WholeBeamModes found = sweep.At(speed);
     out.rows.push_back(RowOf(speed, found));
     out.real.push_back(found.real);
     for (const WhirlMode& m : found.oscillatory)

@@ -23,6 +23,8 @@ constexpr WordKey kRigWords[] = {
     {"[rotor]", "kind", "rigid, point, beam", "beam: docs/guide/flexible_rotor.md"},
     {"[rotor]", "file", "a file", "of a beam's sections"},
     {"[rotor]", "modes", "0 to 100", "bending modes of a beam that a run keeps"},
+    {"[rotor]", "static_correction", "true, false",
+     "of a beam: residual modes keep the static compliance of those dropped at the magnets"},
     {"[rotor]", "modal_damping", "list", "ratio of each bending mode"},
     {"[rotor]", "elements_per_section", "integer", "of a beam"},
     {"[rotor]", "shear, mass, interpolation", "words", "of a beam's elements: docs/guide/shaft.md"},

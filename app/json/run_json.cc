@@ -57,6 +57,7 @@ nlohmann::ordered_json DroppedModesJson(const DroppedModes& modes) {
           {"dropped", modes.dropped},
           {"top", modes.top},
           {"dropped_frequencies", modes.frequency},
+          {"residual_frequencies", modes.residual},
           {"bearings", bearings}};
 }
 

@@ -130,26 +130,32 @@ BeamRotor BuildBeam(const BeamDefinition& d) {
 }
 
 LinearRotor Assemble(const BeamRotor& r, double speed) {
+  LinearRotor out;
+  AssembleInto(r, speed, out);
+  return out;
+}
+
+void AssembleInto(const BeamRotor& r, double speed, LinearRotor& out) {
   const int n = static_cast<int>(r.M.rows()),
             dofs = 2 * n + 2 * static_cast<int>(r.housings.size());
-  const Eigen::MatrixXd K = r.K + r.tension;
-  LinearRotor out;
   for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.D, &out.K}) a->setZero(dofs, dofs);
+  const int reach = 3;  // an element joins two nodes of two dofs each
   for (int a = 0; a < n; ++a)
-    for (int b = 0; b < n; ++b) {
+    for (int b = std::max(0, a - reach); b < std::min(n, a + reach + 1); ++b) {
+      const double k = r.K(a, b) + r.tension(a, b);
       const DofMap xa = InX(a), xb = InX(b), ya = InY(a), yb = InY(b);
       const double sign = ya.sign * yb.sign;
       out.M(xa.index, xb.index) = r.M(a, b), out.M(ya.index, yb.index) = sign * r.M(a, b);
       out.D(xa.index, xb.index) = r.C(a, b), out.D(ya.index, yb.index) = sign * r.C(a, b);
-      out.K(xa.index, xb.index) = K(a, b), out.K(ya.index, yb.index) = sign * K(a, b);
+      out.K(xa.index, xb.index) = k, out.K(ya.index, yb.index) = sign * k;
       out.G(xa.index, yb.index) = yb.sign * r.J(a, b);
       out.G(ya.index, xb.index) = -ya.sign * r.J(a, b);
     }
+  out.xy.clear();
   for (int i = 0; i < n / 2; ++i) out.xy.push_back({4 * i, 4 * i + 1});
   AddBodies(r, out);
   AddTorque(r, out);
   for (const SpringSupport& s : r.supports) AddSupportSides(r, s, speed, out);
-  return out;
 }
 
 int HousingDof(const BeamRotor& r, const std::string& name) {

@@ -81,6 +81,8 @@ BeamRotor BuildBeam(const BeamDefinition& definition);
 /// Four dofs per node (x, y, alpha, beta), then (x, y) of each housing; axial forces and supports as
 /// they are at `speed` [rad/s] included. `xy`: the nodes of the shaft, then the housings.
 LinearRotor Assemble(const BeamRotor& rotor, double speed = 0);
+/// The same into matrices that are there, for one speed after the other.
+void AssembleInto(const BeamRotor& rotor, double speed, LinearRotor& out);
 
 /// The first dof of a housing among those of Assemble.
 int HousingDof(const BeamRotor& rotor, const std::string& name);

@@ -191,6 +191,7 @@ void ReadOwnTable(const TomlTable& rotor, BeamFile& out, std::vector<Tolerance>*
   d.elements_per_section =
       ReadCount(rotor, "elements_per_section", d.elements_per_section, 1, 1000);
   out.modes = ReadCount(rotor, "modes", out.modes, 0, 100);
+  out.static_correction = rotor.Bool("static_correction", out.static_correction);
   out.modal_damping = ReadDamping(rotor, out.modal_damping, out.modes, tolerances);
 }
 
@@ -289,8 +290,8 @@ BeamFile ReadShaft(const std::string& file, bool* ross, std::vector<std::string>
   return out;
 }
 
-ReducedRotor BuildReduced(const BeamFile& file) {
-  return Reduce(BuildBeam(file.definition), file.modes, file.modal_damping);
+ReducedRotor BuildReduced(const BeamFile& file, const std::vector<double>& stations) {
+  return Reduce(BuildBeam(file.definition), file.modes, file.modal_damping, stations);
 }
 
 }  // namespace ambrig

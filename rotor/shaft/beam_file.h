@@ -4,6 +4,7 @@
 ///     [rotor]
 ///     kind = "beam"
 ///     modes = 3                        # bending modes kept by the simulator
+///     static_correction = true         # residual modes at the magnets beside them (false)
 ///     modal_damping = 0.002            # ratio of each, or one per mode: [0.002, 0.004]
 ///     elements_per_section = 4
 ///     mass = "consistent"              # | "lumped"
@@ -73,6 +74,7 @@ struct BeamFile {
   BeamDefinition definition;
   std::vector<ShaftPlane> planes;
   int modes = 0;                              // wanted
+  bool static_correction = false;             // with residual modes of a rig's magnets
   std::vector<double> modal_damping;          // one for all modes or one each
   std::map<std::string, Material> materials;  // named ones
   // as definition.sections, .disks, .supports
@@ -86,7 +88,7 @@ struct BeamFile {
 /// looked at.
 BeamFile ReadBeam(const TomlTable& rotor, std::vector<Tolerance>* tolerances = nullptr);
 
-/// The simulator's rotor.
-ReducedRotor BuildReduced(const BeamFile& file);
+/// The simulator's rotor, with the residual modes of these planes [m on the file's axis].
+ReducedRotor BuildReduced(const BeamFile& file, const std::vector<double>& stations = {});
 
 }  // namespace ambrig

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rotor/shaft/residual_modes.h"
 #include "rotor/shaft/rotor_modes.h"
 
 namespace ambrig {
@@ -24,9 +25,18 @@ void MakeOrthogonal(const Eigen::MatrixXd& M, const Eigen::VectorXd& rigid,
   shape -= rigid * (weight.transpose() * shape) / weight.dot(rigid);
 }
 
+void Append(const PlaneModes& more, PlaneModes& modes) {
+  PlaneModes both{Eigen::VectorXd(modes.omega.size() + more.omega.size()),
+                  Eigen::MatrixXd(more.shape.rows(), modes.shape.cols() + more.shape.cols())};
+  both.omega << modes.omega, more.omega;
+  both.shape << modes.shape, more.shape;
+  modes = std::move(both);
+}
+
 }  // namespace
 
-ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>& damping) {
+ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>& damping,
+                    const std::vector<double>& stations) {
   Require(modes >= 0, "no negative mode count");
   Require(damping.size() == 1 || static_cast<int>(damping.size()) >= modes,
           "a damping ratio for every mode");
@@ -40,13 +50,16 @@ ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>
   r.inertia_transverse = tilt.dot(rotor.M * tilt);
   r.inertia_polar = tilt.dot(rotor.J * tilt);
   PlaneModes free = FreeModes(rotor, modes);
+  if (!stations.empty())
+    Append(ResidualModes(Reduce(rotor, static_cast<int>(rotor.M.rows()), {0.0}), modes, stations),
+           free);
   MakeOrthogonal(rotor.M, shift, free.shape);
   MakeOrthogonal(rotor.M, tilt, free.shape);
   for (Eigen::Index k = 0; k < free.omega.size(); ++k) {
     const double rayleigh = free.shape.col(k).dot(rotor.C * free.shape.col(k));
     r.omega.push_back(free.omega(k));
-    r.zeta.push_back((damping.size() == 1 ? damping[0] : damping[k]) +
-                     rayleigh / (2 * free.omega(k)));
+    const std::size_t own = std::min<std::size_t>(k, damping.size() - 1);
+    r.zeta.push_back(damping[own] + rayleigh / (2 * free.omega(k)));
   }
   Eigen::MatrixXd basis(rotor.M.rows(), 1 + free.shape.cols());
   basis << tilt, free.shape;

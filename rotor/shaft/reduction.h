@@ -42,8 +42,10 @@ struct ModalStation {
 };
 
 /// One damping ratio per mode; a single one serves all modes. The shaft's Rayleigh damping is
-/// added.
-ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>& damping_ratios);
+/// added. With `stations` [m on the beam's axis] their residual modes (rotor/shaft/residual_modes.h) follow the
+/// bending modes, damped as the last of them.
+ReducedRotor Reduce(const BeamRotor& rotor, int modes, const std::vector<double>& damping_ratios,
+                    const std::vector<double>& stations = {});
 
 /// At any z on the beam's axis; beyond an end the shaft is continued straight.
 ModalStation StationAt(const ReducedRotor& rotor, double z);

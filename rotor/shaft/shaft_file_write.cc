@@ -146,6 +146,7 @@ std::string BeamText(const BeamFile& file) {
   list.clear();
   for (const double z : unnamed) list += (list.empty() ? "" : ", ") + Float(z);
   if (!list.empty()) out.text += fmt::format("stations = [{}]\n", list);
+  if (file.static_correction) out.text += "static_correction = true\n";
   if (t.separate_layers) out.text += "layers = \"separate\"\n";
   for (const PlacedShaft& s : d.shafts) {
     out.Table("shaft");

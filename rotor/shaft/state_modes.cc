@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/math/constants.h"
+#include "core/math/real_eigenvalues.h"
 
 namespace ambrig {
 
@@ -44,6 +45,39 @@ StateModes SolveShifted(const LinearRotor& r, double speed, double shift) {
   return out;
 }
 
+Eigen::LLT<Eigen::MatrixXd> FactorOfMass(const LinearRotor& r) {
+  Eigen::LLT<Eigen::MatrixXd> llt(0.5 * (r.M + r.M.transpose()));
+  if (llt.info() != Eigen::Success)
+    throw InputError(
+        "the rotor's mass matrix is not positive definite, allowed: added masses of supports that "
+        "leave every mass positive, lumped masses with rotary inertia");
+  return llt;
+}
+
+/// In M^{-1/2} coordinates with velocities scaled by the highest frequency: the matrix then has the size of that
+/// frequency, not of its square, and low modes keep their digits.
+Eigen::MatrixXd StateMatrix(const LinearRotor& r, double speed,
+                            const Eigen::LLT<Eigen::MatrixXd>& llt) {
+  const Eigen::Index n = r.M.rows();
+  const auto congruence = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd left = llt.matrixL().solve(a);
+    return llt.matrixL().solve(left.transpose()).transpose();
+  };
+  Eigen::MatrixXd K = congruence(r.K), D = congruence(r.D + speed * r.G);
+  if (r.M != r.M.transpose()) {  // cross-coupled added mass of a seal
+    const Eigen::PartialPivLU<Eigen::MatrixXd> mass(congruence(r.M));
+    K = mass.solve(Eigen::MatrixXd(K));
+    D = mass.solve(Eigen::MatrixXd(D));
+  }
+  const double scale = std::sqrt(std::max(K.cwiseAbs().maxCoeff(), 1e-300));
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  A.topRightCorner(n, n).setIdentity();
+  A.topRightCorner(n, n) *= scale;
+  A.bottomLeftCorner(n, n) = -K / scale;
+  A.bottomRightCorner(n, n) = -D;
+  return A;
+}
+
 }  // namespace
 
 double UsualRate(const LinearRotor& rotor) {
@@ -65,39 +99,32 @@ double WhirlIndex(const std::vector<std::array<int, 2>>& xy, const Eigen::Vector
   return (forward - backward) / std::max(forward + backward, 1e-300);
 }
 
-/// Eigenvalues through M^{-1/2} coordinates and velocities scaled by the highest frequency: the
-/// state matrix then has the size of that frequency, not of its square, and low modes keep their
-/// digits.
 StateModes SolveState(const LinearRotor& r, double speed) {
   const Eigen::Index n = r.M.rows();
-  const Eigen::LLT<Eigen::MatrixXd> llt(0.5 * (r.M + r.M.transpose()));
-  if (llt.info() != Eigen::Success)
-    throw InputError(
-        "the rotor's mass matrix is not positive definite, allowed: added masses of supports that "
-        "leave every mass positive, lumped masses with rotary inertia");
+  const Eigen::LLT<Eigen::MatrixXd> llt = FactorOfMass(r);
   if (const double rate = UsualRate(r); StiffestRate(r) > kRigidRate * rate)
     return SolveShifted(r, speed, rate);
-  const auto congruence = [&](const Eigen::MatrixXd& a) -> Eigen::MatrixXd {
-    const Eigen::MatrixXd left = llt.matrixL().solve(a);
-    return llt.matrixL().solve(left.transpose()).transpose();
-  };
-  Eigen::MatrixXd K = congruence(r.K), D = congruence(r.D + speed * r.G);
-  if (r.M != r.M.transpose()) {  // cross-coupled added mass of a seal
-    const Eigen::PartialPivLU<Eigen::MatrixXd> mass(congruence(r.M));
-    K = mass.solve(Eigen::MatrixXd(K));
-    D = mass.solve(Eigen::MatrixXd(D));
-  }
-  const double scale = std::sqrt(std::max(K.cwiseAbs().maxCoeff(), 1e-300));
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  A.topRightCorner(n, n).setIdentity();
-  A.topRightCorner(n, n) *= scale;
-  A.bottomLeftCorner(n, n) = -K / scale;
-  A.bottomRightCorner(n, n) = -D;
-  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
+  const Eigen::EigenSolver<Eigen::MatrixXd> eigen(StateMatrix(r, speed, llt));
   Require(eigen.info() == Eigen::Success, "converged eigenvalues");
   const Eigen::MatrixXcd q = eigen.eigenvectors().topRows(n);
   const Eigen::MatrixXd real = llt.matrixU().solve(q.real()), imag = llt.matrixU().solve(q.imag());
   return {eigen.eigenvalues(), real.cast<StateComplex>() + kStateI * imag.cast<StateComplex>()};
+}
+
+bool StatePoles(const LinearRotor& r, double speed, Eigen::VectorXcd& s) {
+  const Eigen::LLT<Eigen::MatrixXd> llt = FactorOfMass(r);
+  if (StiffestRate(r) > kRigidRate * UsualRate(r)) return false;
+  return RealEigenvalues(StateMatrix(r, speed, llt), s);
+}
+
+std::vector<double> RealPoles(const Eigen::VectorXcd& s) {
+  std::vector<double> out;
+  const double largest = s.cwiseAbs().maxCoeff();
+  for (const StateComplex& pole : s)
+    if (std::abs(pole.imag()) <= 1e-9 * largest && std::abs(pole) > 1e-7 * largest)
+      out.push_back(pole.real());
+  std::sort(out.begin(), out.end());
+  return out;
 }
 
 std::vector<WhirlMode> OscillatoryModes(const StateModes& state, int count) {

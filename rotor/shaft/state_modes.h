@@ -19,6 +19,13 @@ inline constexpr double kRigidRate = 1e3;  // of the usual one
 /// All eigenvalues. With rigid supports from those of 1/(s - shift), so that the low ones keep their digits. @throws InputError when the mass matrix is singular.
 StateModes SolveState(const LinearRotor& rotor, double speed);
 
+/// The same eigenvalues alone, in a fraction of the time; false where they want their vectors (rigid supports) or do
+/// not converge.
+bool StatePoles(const LinearRotor& rotor, double speed, Eigen::VectorXcd& s);
+
+/// Those without a frequency, rising; not those of rigid motions, which are 0.
+std::vector<double> RealPoles(const Eigen::VectorXcd& s);
+
 /// Those with a frequency, by it, at most `count`; their whirl is still to be set.
 std::vector<WhirlMode> OscillatoryModes(const StateModes& state, int count);
 

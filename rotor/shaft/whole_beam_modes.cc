@@ -13,20 +13,6 @@ using Complex = std::complex<double>;
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-LinearRotor Projected(const LinearRotor& r, const MatrixXd& B) {
-  const auto part = [&](const MatrixXd& a) -> MatrixXd {
-    const Eigen::SparseMatrix<double> sparse = a.sparseView(1, 0);
-    const MatrixXd right = sparse * B;
-    return B.transpose() * right;
-  };
-  LinearRotor out;
-  out.M = part(r.M);
-  out.G = part(r.G);
-  out.D = part(r.D);
-  out.K = part(r.K);
-  return out;
-}
-
 /// Columns of `a` made orthonormal by M, without those that depend on others.
 MatrixXd Independent(const MatrixXd& a, const MatrixXd& M) {
   if (a.cols() == 0) return a;
@@ -52,6 +38,7 @@ MatrixXd Independent(const MatrixXd& a, const MatrixXd& M) {
 bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
   const Complex start = s;
   Complex before = 0;
+  double size_before = 0;
   q.normalize();
   const Eigen::VectorXcd w = q;
   for (int k = 0; k < 12; ++k) {
@@ -64,7 +51,11 @@ bool Refine(DynamicMatrix& matrix, Complex& s, Eigen::VectorXcd& q) {
     s -= halves ? 2.0 * step : step;
     q = u / w.dot(u);
     if (std::abs(s - start) > 0.2 * std::abs(start)) return false;
-    if (std::abs(step) < 1e-9 * std::abs(s)) break;  // the next one would be its square
+    // The next step would be its square; from two of them what it would be at most.
+    const double size = std::abs(step);
+    if (size < 1e-9 * std::abs(s)) break;
+    if (k > 0 && !halves && size * size < 1e-12 * std::abs(s) * size_before) break;
+    size_before = size;
     if (k == 11 && std::abs(step) > 1e-9 * std::abs(s)) return false;
   }
   q.normalize();
@@ -114,6 +105,25 @@ bool SameMode(const WhirlMode& a, const WhirlMode& b) {
 }
 
 }  // namespace
+
+bool IsRigidMotion(const LinearRotor& rotor, const Eigen::VectorXcd& q) {
+  // K q is a sum of large parts, of which rounding alone is left
+  return (rotor.K * q).norm() < 1e-13 * (rotor.K.cwiseAbs() * q.cwiseAbs()).norm();
+}
+
+LinearRotor Projected(const LinearRotor& r, const MatrixXd& B) {
+  const auto part = [&](const MatrixXd& a) -> MatrixXd {
+    const Eigen::SparseMatrix<double> sparse = a.sparseView(1, 0);
+    const MatrixXd right = sparse * B;
+    return B.transpose() * right;
+  };
+  LinearRotor out;
+  out.M = part(r.M);
+  out.G = part(r.G);
+  out.D = part(r.D);
+  out.K = part(r.K);
+  return out;
+}
 
 MatrixXd ShapesOf(const LinearRotor& rotor, int count, const MatrixXd& forces) {
   const MatrixXd M = 0.5 * (rotor.M + rotor.M.transpose()),
@@ -176,18 +186,10 @@ WholeBeamModes FindWhirlModes(const LinearRotor& rotor, const MatrixXd& shapes, 
   const LinearRotor reduced = Projected(rotor, shapes);
   const StateModes state = SolveState(reduced, speed);
   WholeBeamModes out;
-  const double floor = 1e-7 * state.s.cwiseAbs().maxCoeff();
-  for (Index k = 0; k < state.s.size(); ++k)
-    if (std::abs(state.s(k).imag()) <= 1e-9 * state.s.cwiseAbs().maxCoeff() &&
-        std::abs(state.s(k)) > floor)
-      out.real.push_back(state.s(k).real());
-  std::sort(out.real.begin(), out.real.end());
+  out.real = RealPoles(state.s);
   out.oscillatory = OscillatoryModes(state, count + 8);
   for (WhirlMode& m : out.oscillatory) m.shape = shapes * m.shape;
-  const MatrixXd sizes = rotor.K.cwiseAbs();
-  std::erase_if(out.oscillatory, [&](const WhirlMode& m) {  // a rigid motion that rounding turns
-    return (rotor.K * m.shape).norm() < 1e-13 * (sizes * m.shape.cwiseAbs()).norm();
-  });
+  std::erase_if(out.oscillatory, [&](const WhirlMode& m) { return IsRigidMotion(rotor, m.shape); });
   if (static_cast<int>(out.oscillatory.size()) > count) out.oscillatory.resize(count);
   if (!ContinueModes(rotor, speed, out.oscillatory)) {
     out.oscillatory = WhirlModes(rotor, speed, count);

@@ -16,6 +16,12 @@ namespace ambrig {
 /// @throws InputError when the masses are not positive (a support with negative added mass).
 Eigen::MatrixXd ShapesOf(const LinearRotor& rotor, int count, const Eigen::MatrixXd& forces);
 
+/// A motion that no spring feels.
+bool IsRigidMotion(const LinearRotor& rotor, const Eigen::VectorXcd& shape);
+
+/// The rotor in the coordinates of some shapes: B' M B and so on.
+LinearRotor Projected(const LinearRotor& rotor, const Eigen::MatrixXd& shapes);
+
 /// Where a beam's supports act: (x, y) of each side, dofs x forces.
 Eigen::MatrixXd SupportColumns(const BeamRotor& beam);
 

@@ -48,6 +48,27 @@ TEST_F(AnalyzeShaft, WritesEverythingThatItComputes) {
     EXPECT_THAT(page, HasSubstr(heading));
 }
 
+// --campbell is a part of the whole analysis: the same modes and damped critical speeds, nothing else.
+TEST_F(AnalyzeShaft, CampbellAloneIsTheCampbellOfTheWhole) {
+  const std::string speeds = "analyze shaft.toml --speed 3000:4000 --max-speed 6000 ";
+  const Outcome whole = Ambrig(speeds + "--json whole.json");
+  const Outcome alone = Ambrig(speeds + "--campbell --json alone.json --html alone.html");
+  ASSERT_LE(whole.exit, 1) << whole.text;
+  EXPECT_EQ(alone.exit, whole.exit) << alone.text;
+  const auto all = nlohmann::json::parse(ReadText(folder_ / "whole.json"));
+  const auto part = nlohmann::json::parse(ReadText(folder_ / "alone.json"));
+  for (const char* key : {"campbell", "critical_speeds", "stable", "free_bending", "mass"})
+    EXPECT_EQ(part.at(key), all.at(key)) << key;
+  ASSERT_EQ(part.at("campbell").size(), 52U);  // 51 evenly spread and 4000; 3000 is one of them
+  for (const char* key : {"undamped_critical_speeds", "map", "unbalance", "axial", "torsional"})
+    EXPECT_TRUE(part.at(key).empty()) << key;
+  for (const char* said : {"damped modes", "critical speeds"})
+    EXPECT_THAT(alone.text, HasSubstr(said));
+  for (const char* left : {"undamped", "under its weight", "unbalance"})
+    EXPECT_THAT(alone.text, ::testing::Not(HasSubstr(left)));
+  EXPECT_THAT(ReadText(folder_ / "alone.html"), HasSubstr("Damped modes"));
+}
+
 TEST_F(AnalyzeShaft, MistakesAreOneLine) {
   ExpectRefusedLine("shaft.toml --probe wheel", "disk1");
   ExpectRefusedLine("shaft.toml --unbalance disk1", "PLANE:G_MM");

@@ -4,6 +4,7 @@
 
 #include "core/math/constants.h"
 #include "rotor/shaft/rotor_modes.h"
+#include "rotor/shaft/shaft_file.h"
 #include "tests/rotor/shaft/shaft_tables.h"
 
 namespace ambrig {
@@ -106,6 +107,16 @@ TEST(BeamFile, MistakesNameFileLineAndKey) {
   EXPECT_EQ(
       ShaftMessage("[rotor]\nkind = \"beam\"\n"),
       "rig.toml:1: rotor.section: is missing, allowed: tables, each written [[rotor.section]]");
+}
+
+TEST(BeamFile, StaticCorrectionIsReadAndWritten) {
+  EXPECT_FALSE(ParseShaft(kShaftTables).static_correction);
+  const BeamFile file =
+      ParseShaft(Replaced(kShaftTables, "modes = 2", "modes = 2\nstatic_correction = true"));
+  EXPECT_TRUE(file.static_correction);
+  EXPECT_TRUE(ParseShaft(BeamText(file)).static_correction);
+  EXPECT_EQ(BuildReduced(file).modes(), 2);  // stations are a rig's
+  EXPECT_EQ(BuildReduced(file, {file.definition.sections.front().z0}).modes(), 3);
 }
 
 }  // namespace
