@@ -1,6 +1,6 @@
 // Campaign files.
-#include "tests/fuzz/fuzz_input.h"
 #include "campaign/campaign_file.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 

@@ -1,6 +1,6 @@
 // Rows of a campaign as its journal and its table have them.
-#include "tests/fuzz/fuzz_input.h"
 #include "campaign/row.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 

@@ -1,6 +1,6 @@
 // What a commissioning learnt.
-#include "tests/fuzz/fuzz_input.h"
 #include "fdd/learning/commissioning_file.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 

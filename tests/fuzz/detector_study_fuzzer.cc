@@ -1,6 +1,6 @@
 // Studies of detectors.
-#include "tests/fuzz/fuzz_input.h"
 #include "campaign/detector_study.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 

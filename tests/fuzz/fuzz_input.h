@@ -18,7 +18,8 @@ inline std::string_view TextOf(const std::uint8_t* data, std::size_t size) {
 }
 
 /// A file in memory with this content, for readers that take a path. Its extension is that of the kind; one file a process.
-inline std::string FileOf(const std::uint8_t* data, std::size_t size, const std::string& extension) {
+inline std::string FileOf(const std::uint8_t* data, std::size_t size,
+                          const std::string& extension) {
   static const std::filesystem::path folder = [] {
     std::string name = "/dev/shm/ambrig-fuzz-XXXXXX";
     if (mkdtemp(name.data()) == nullptr) std::abort();
@@ -29,7 +30,8 @@ inline std::string FileOf(const std::uint8_t* data, std::size_t size, const std:
     return std::filesystem::path(name);
   }();
   const std::string path = folder / ("input" + extension);
-  std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
   return path;
 }
 

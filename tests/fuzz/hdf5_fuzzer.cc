@@ -1,6 +1,6 @@
 // Records as HDF5, their attributes among them.
-#include "tests/fuzz/fuzz_input.h"
 #include "core/record/read_record.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 

@@ -1,6 +1,6 @@
 // Rotors of ROSS as JSON.
-#include "tests/fuzz/fuzz_input.h"
 #include "rotor/shaft/ross_file.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 

@@ -1,6 +1,6 @@
 // Design studies.
-#include "tests/fuzz/fuzz_input.h"
 #include "design/study.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 

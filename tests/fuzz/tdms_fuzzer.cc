@@ -1,6 +1,6 @@
 // TDMS files.
-#include "tests/fuzz/fuzz_input.h"
 #include "core/record/read_record.h"
+#include "tests/fuzz/fuzz_input.h"
 
 using namespace ambrig;  // NOLINT: a program of one function
 
