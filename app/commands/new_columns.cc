@@ -53,7 +53,8 @@ Called NamesOf(const ChannelId& id, const std::string& unit) {
   const std::string number = std::to_string(id.index + 1);
   switch (id.kind) {
     case ChannelKind::kReading:
-      return {{"x", "pos", "position", "disp", "displacement", "sensor", "y", "z"},
+      return {{"x", "pos", "position", "disp", "displacement", "sensor", "y", "z", "gap", "stroke",
+               "distance"},
               std::string(1, "xyz"[id.index]),
               unit};
     case ChannelKind::kCoilCurrent:

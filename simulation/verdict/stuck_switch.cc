@@ -71,12 +71,12 @@ double LargestHeld(const Holds& holds, double end) {
   return held;
 }
 
-/// ", 0.48 ms after the fault" when the record has the current pass `limit`.
+/// " (passed 0.48 ms after the fault)" when the record has the current pass `limit`.
 std::string WhenPassed(const Record& record, const ChannelId& id, double fault, double limit) {
   const Channel* i = Find(record, id);
   for (std::size_t row = 0; i && row < i->samples.size(); ++row)
     if (record.TimeAt(row) >= fault && i->samples[row] > limit)
-      return fmt::format(", {:.3g} ms after the fault", 1e3 * (record.TimeAt(row) - fault));
+      return fmt::format(" (passed {:.3g} ms after the fault)", 1e3 * (record.TimeAt(row) - fault));
   return "";
 }
 
@@ -120,7 +120,7 @@ void NoteStuckSwitches(const RigParameters& rig, const Scenario& scenario, RunRe
       if (limit.centred >= limit.end) continue;
       const std::string far =
           limit.far < limit.end
-              ? fmt::format(" and of {:.3g} A at the far side of its clearance", limit.far)
+              ? fmt::format(" and {:.3g} A at the far side of its clearance", limit.far)
               : "";
       result.notes.push_back(fmt::format(
           "{} stuck on: its current rises to {:.3g} A; the other coils within i_max = {:.3g} A "

@@ -131,6 +131,21 @@ TEST_F(NewBench, CommandsBetweenTheRowsAreMissed) {
   EXPECT_NE(text.find("imposed = \"currents\""), std::string::npos);
 }
 
+// Words for a place: the body is held where a column that stands still says so.
+TEST_F(NewBench, AStrokeAGapAndADistanceArePlaces) {
+  for (const char* name : {"stroke_mm", "gap_mm", "distance (mm)"}) {
+    std::string log = std::string("t,") + name + ",i1_A,u1_duty\n";
+    for (int k = 0; k < 50; ++k) log += std::to_string(k * 0.005) + ",4.0,0.4,0.2\n";
+    Write("log.csv", log);
+    Write("ball.toml", Replaced(ReadText(kExamplesOfNew + "ball.toml"),
+                                "../mls2em/data/inductance_em1_05.csv", "log.csv"));
+    const Outcome o = Ambrig("new --answers ball.toml -o ball --only-files --force");
+    ASSERT_EQ(o.exit, 0) << o.text;
+    EXPECT_THAT(ReadText(folder_ / "ball/record.toml"), HasSubstr("position = { M = [0.006,"))
+        << name;
+  }
+}
+
 // A column of words beside the numbers, and a table without times.
 TEST_F(NewBench, WordsAreLeftOutAndTablesAreNamed) {
   std::string log = "t,state,i1_A,u1_duty\n";

@@ -103,6 +103,12 @@ TEST(EddyCurrents, VanishAtRest) {
   EXPECT_NEAR(DropOf(law, 1e-5) / (gap * 1e-5), 1 / std::sqrt(kPi * 2 * kPi * 500 * t), 0.01);
 }
 
+// No conductor closes round the flux of a laminated stator: of two radial bearings and a thrust bearing it is the last.
+TEST(EddySleeve, ActsOnYokesInOnePiece) {
+  EXPECT_EQ(TargetsOf(EffectNamed("eddy-sleeve"), TargetsOfEffects(ReferenceRig())),
+            std::vector<std::string>{"Z"});
+}
+
 // E = R_gap φ'/ω_c: in proportion to the rate of the flux, nothing at rest.
 TEST(EddySleeve, DropIsTheRateOfTheFlux) {
   Plant plant = PlantWith("eddy-sleeve", "A", {{"cutoff", 400}});

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -52,6 +53,7 @@ class Tutorial : public ::testing::Test {
     }
     EXPECT_GE(commands, 4) << page;
   }
+  void ExpectSolenoidsSleeve() const;
   nlohmann::json Json(const std::string& file) const {
     return nlohmann::json::parse(Read(folder_ / file));
   }
@@ -110,12 +112,40 @@ TEST_F(Tutorial, RealRig) {
   }
 }
 
+// Pulses and the LCR meter's table in one case: one effect for both.
+void Tutorial::ExpectSolenoidsSleeve() const {
+  // The page shows the record that the file holds.
+  const std::string table = Read(folder_ / "table.toml");
+  EXPECT_NE(Read(fs::path(AMBRIG_SOURCE_DIR) / "docs/guide/your_rig_in_an_hour.md")
+                .find(table.substr(table.find('['))),
+            std::string::npos);
+  const auto explained = Json("solenoid.json");
+  ASSERT_EQ(explained["verdict"], "effect");
+  ASSERT_EQ(explained["set"].size(), 1U);
+  EXPECT_EQ(explained["set"][0]["effect"], "eddy-sleeve");
+  ASSERT_EQ(explained["adopted"][0]["effect"], "eddy-sleeve");
+  EXPECT_GT(explained["nominal_ratio_validate"], 10);
+  EXPECT_LT(explained["final_ratio_validate"], 1.2);
+  // One time constant through L(100 Hz) and L(1 kHz) of the table: 591 Hz at 4.1 mm, 343 Hz at 0.
+  const double cutoff = explained["adopted"][0]["parameters"]["cutoff"]["value"].get<double>();
+  EXPECT_GT(cutoff, 343);
+  EXPECT_LT(cutoff, 591);
+  EXPECT_NEAR(cutoff, std::sqrt(343.0 * 591), 30);  // about the middle of the stroke
+  EXPECT_LT(Json("solenoid_adopt.json")["ratio"],
+            0.02 * Json("solenoid_compare.json")["ratio"].get<double>());
+}
+
 // From an empty folder: nothing but the logger's files.
 TEST_F(Tutorial, YourRigInAnHour) {
   for (const auto& file :
        fs::directory_iterator(fs::path(AMBRIG_SOURCE_DIR) / "examples/mls2em/data"))
     fs::copy(file, folder_);
+  for (const auto& file :
+       fs::directory_iterator(fs::path(AMBRIG_SOURCE_DIR) / "examples/solenoid/data"))
+    if (file.path().extension() != ".md" && file.path().extension() != ".txt")
+      fs::copy(file, folder_);
   ASSERT_NO_FATAL_FAILURE(Follow("your_rig_in_an_hour.md"));
+  ExpectSolenoidsSleeve();
   const auto explained = Json("explain.json");
   ASSERT_EQ(explained["verdict"], "effect");
   ASSERT_FALSE(explained["adopted"].empty());
