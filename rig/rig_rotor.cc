@@ -185,7 +185,7 @@ void PlaceOnShaft(const TomlTable& root, RigParameters& rig) {
     for (Tolerance& k : rig.tolerances)
       if (k.path == "bearings." + b.name + ".sensor.z") k.true_value -= rig.z_origin;
   }
-  TakeShaft(rig);  // its residual modes, now that the magnets' planes are known
+  if (rig.beam->static_correction) TakeShaft(rig);  // now that the magnets' planes are known
   CheckModes(*root.Table("rotor"), rig);
   CheckSupportRates(*root.Table("rotor"), rig);
 }

@@ -12,7 +12,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kCampbellSpeeds = 51, kSweepSpeeds = 201, kMapRows = 41;
+constexpr int kCampbellSpeeds = 51, kSweepSpeeds = 201, kMapRows = 41, kScatterSpeeds = 61;
 constexpr int kRodModes = 6, kUndamped = 8;
 
 std::vector<double> Spread(double from, double to, int count) {
@@ -169,7 +169,16 @@ class WholeShaft {
     const ShaftOptions& o = out_.options;
     if (o.rotors <= 0) return;
     Say(0, "scattered rotors");
-    out_.scatter = ScatterShaft(out_.file, tolerances, o.highest, o.modes, o.rotors, o.seed,
+    ScatterPlan plan{o.highest, o.modes, o.rotors, o.seed, {}, {}, Probes(), {}};
+    for (const DampedCritical& c : out_.campbell.criticals)
+      if (c.mode.zeta < std::sqrt(0.5)) plan.criticals.push_back(c);  // else no response has a peak
+    for (const ShaftSweep& s : out_.unbalance) plan.unbalance.push_back(s.unbalance);
+    plan.speeds = Spread(o.fastest / kScatterSpeeds, o.fastest, kScatterSpeeds);
+    for (const DampedCritical& c : plan.criticals)
+      for (const double away : {-0.04, -0.02, -0.01, 0.0, 0.01, 0.02, 0.04})
+        if (const double w = c.speed * (1 + away); w < o.fastest) plan.speeds.push_back(w);
+    plan.speeds = Rising(plan.speeds);
+    out_.scatter = ScatterShaft(out_.file, tolerances, plan,
                                 [&](double) { return !(o.stop && o.stop->load()); });
     if (o.stop && o.stop->load()) throw Interrupted();
   }

@@ -23,34 +23,6 @@ const ClosedLoopMode* Nearest(const ClosedLoopModes& row, const ClosedLoopMode& 
   return best;
 }
 
-/// Im s(Omega) = Omega from the crossing on the grid on, by secants.
-DampedCritical Sharpen(const BeamRotor& beam, const Eigen::MatrixXd& shapes, int modes,
-                       const DampedCritical& found) {
-  DampedCritical at = found;
-  double before = kRequired, gap_before = kRequired;
-  for (int k = 0; k < 12; ++k) {
-    const LinearRotor rotor = Assemble(beam, at.speed);
-    std::vector<WhirlMode> one = {MakeWhirlMode(at.mode.s, at.mode.q)};
-    const ClosedLoopModes row =
-        RowOf(at.speed, ContinueModes(rotor, at.speed, one)
-                            ? WholeBeamModes{one, {}}
-                            : FindWhirlModes(rotor, shapes, at.speed, modes));
-    const ClosedLoopMode* mode = Nearest(row, at.mode);
-    if (!mode) return found;
-    at.mode = *mode;
-    const double gap = mode->s.imag() - at.speed;
-    if (std::abs(gap) < 1e-9 * at.speed) return at;
-    // A frequency that hardly moves with the speed: the slope of Im s - Omega is -1.
-    const double slope =
-        std::isfinite(before) && at.speed != before ? (gap - gap_before) / (at.speed - before) : -1;
-    before = at.speed;
-    gap_before = gap;
-    at.speed -= gap / (slope < -0.05 ? slope : -1);
-    if (std::abs(at.speed - found.speed) > 0.3 * found.speed) return found;
-  }
-  return found;
-}
-
 }  // namespace
 
 ClosedLoopModes RowOf(double speed, const WholeBeamModes& found) {
@@ -74,6 +46,34 @@ Eigen::MatrixXd ShapesOfBeam(const BeamRotor& beam, double speed, int modes) {
   return ShapesOf(Assemble(beam, speed), 2 * modes + 10, SupportColumns(beam));
 }
 
+std::optional<DampedCritical> SolveCritical(const BeamRotor& beam, const Eigen::MatrixXd& shapes,
+                                            int modes, const DampedCritical& start) {
+  DampedCritical at = start;
+  double before = kRequired, gap_before = kRequired;
+  LinearRotor rotor;
+  for (int k = 0; k < 12; ++k) {
+    AssembleInto(beam, at.speed, rotor);
+    std::vector<WhirlMode> one = {MakeWhirlMode(at.mode.s, at.mode.q)};
+    const ClosedLoopModes row =
+        RowOf(at.speed, ContinueModes(rotor, at.speed, one)
+                            ? WholeBeamModes{one, {}}
+                            : FindWhirlModes(rotor, shapes, at.speed, modes));
+    const ClosedLoopMode* mode = Nearest(row, at.mode);
+    if (!mode) return std::nullopt;
+    at.mode = *mode;
+    const double gap = mode->s.imag() - at.speed;
+    if (std::abs(gap) < 1e-9 * at.speed) return at;
+    // A frequency that hardly moves with the speed: the slope of Im s - Omega is -1.
+    const double slope =
+        std::isfinite(before) && at.speed != before ? (gap - gap_before) / (at.speed - before) : -1;
+    before = at.speed;
+    gap_before = gap;
+    at.speed -= gap / (slope < -0.05 ? slope : -1);
+    if (std::abs(at.speed - start.speed) > 0.3 * start.speed) return std::nullopt;
+  }
+  return at;
+}
+
 ShaftCampbell FollowShaft(const BeamRotor& beam, const Eigen::MatrixXd& shapes,
                           const std::vector<double>& speeds, int modes) {
   ShaftCampbell out;
@@ -89,7 +89,7 @@ ShaftCampbell FollowShaft(const BeamRotor& beam, const Eigen::MatrixXd& shapes,
   }
   out.tracks = FollowModes(out.rows);
   for (const DampedCritical& c : FindCriticals(out.tracks))
-    out.criticals.push_back(Sharpen(beam, shapes, modes, c));
+    out.criticals.push_back(SolveCritical(beam, shapes, modes, c).value_or(c));
   return out;
 }
 

@@ -1,13 +1,16 @@
 #pragma once
 /// Rotors whose numbers scatter: every number of a shaft's file that has an `sd` is drawn from its normal
-/// distribution (drawn again outside its physical range), the modes of every such rotor are found at one
-/// speed, and of each mode of the rotor as it stands in the file the quantiles of frequency and log
-/// decrement are taken. The k-th rotor is the same whatever the number of threads and of rotors.
+/// distribution (drawn again outside its physical range). Of every such rotor the modes at one speed, the damped
+/// critical speeds and the response to given unbalances are computed, and the quantiles taken over the rotors: of
+/// each mode and each critical speed of the rotor as it stands in the file, and of the orbit's long half axis at
+/// each probe and speed. The k-th rotor is the same whatever the number of threads and of rotors.
 #include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "analysis/shaft/shaft_campbell.h"
+#include "analysis/shaft/shaft_unbalance.h"
 #include "core/base/toml.h"
 #include "rotor/shaft/beam_file.h"
 
@@ -22,16 +25,41 @@ struct ScatteredMode {
   ScatterBand frequency, decrement;
 };
 
+struct ScatteredCritical {
+  DampedCritical nominal;
+  ScatterBand speed, decrement;  // [rad/s], [-]
+  int found = 0;                 // rotors that have it; the others are not in the bands
+};
+
+struct ScatteredResponse {
+  std::string unbalance, probe;
+  std::vector<double> nominal;         // long half axis at each speed [m]
+  std::vector<ScatterBand> amplitude;  // [m]
+};
+
+struct ScatterPlan {
+  double speed = 0;  // of the modes [rad/s]
+  int modes = 10, rotors = 100;
+  std::uint64_t seed = 1;
+  std::vector<DampedCritical> criticals;  // of the rotor as it stands in the file
+  std::vector<UnbalanceCase> unbalance;   // the same for every rotor
+  std::vector<ShaftProbe> probes;
+  std::vector<double> speeds;  // of the response [rad/s]
+};
+
 struct ShaftScatter {
   std::vector<std::string> parameters;  // that have an sd
   int rotors = 0;
   double speed = 0;  // [rad/s]
   std::vector<ScatteredMode> modes;
+  std::vector<ScatteredCritical> criticals;
+  std::vector<double> speeds;  // of the responses [rad/s]
+  std::vector<ScatteredResponse> responses;
 };
 
 /// `tolerances` as ReadBeam gives them with `file`. @throws InputError when no number has an sd.
 ShaftScatter ScatterShaft(const BeamFile& file, const std::vector<Tolerance>& tolerances,
-                          double speed, int modes, int rotors, std::uint64_t seed,
+                          const ScatterPlan& plan,
                           const std::function<bool(double)>& go_on = nullptr);
 
 }  // namespace ambrig

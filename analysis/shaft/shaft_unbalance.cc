@@ -94,8 +94,10 @@ std::vector<ShaftSweep> SweepShaft(const BeamRotor& beam, const std::vector<Unba
     for (const SpringSupport& s : beam.supports) out.back().forces.push_back({s.name, {}, {}});
   }
   const MatrixXcd unit = UnitForces(beam, cases);
+  LinearRotor rotor;
   for (const double w : speeds) {
-    DynamicMatrix matrix(Assemble(beam, w), w);
+    AssembleInto(beam, w, rotor);
+    DynamicMatrix matrix(rotor, w);
     // exactly at a pole without damping: beside it
     if (!matrix.Factorise(Complex(0, w)) && !matrix.Factorise(Complex(0, w * (1 + 1e-9))))
       throw InputError(

@@ -11,6 +11,7 @@
 #include "app/json/shaft_json.h"
 #include "app/pages/shaft_report.h"
 #include "core/base/atomic_file.h"
+#include "core/base/counted.h"
 #include "core/math/constants.h"
 #include "rotor/shaft/shaft_file.h"
 
@@ -38,7 +39,7 @@ void PrintShaftModes(const ShaftAnalysis& a) {
     if (r.speed != 0 && r.speed != a.options.lowest && r.speed != a.options.highest) continue;
     for (const ClosedLoopMode& m : r.modes)
       fmt::print("{:>9.0f} {:>10.3f} {:>8.4f} {:>9.4f} {:<9}\n", r.speed / kRpm, m.frequency,
-                 Shown(m.zeta), Shown(m.log_decrement), SenseName(m.sense()));
+                 Shown(m.zeta), Shown(m.log_decrement), SenseName(r, m));
   }
   fmt::print("\n{}\n", Coloured("critical speeds", "bold"));
   text = "  undamped [rpm]";
@@ -114,8 +115,9 @@ void PrintShaftExtras(const ShaftAnalysis& a) {
   }
   if (!a.scatter) return;
   fmt::print("\n{}\n{:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n",
-             Coloured(fmt::format("{} rotors, {} numbers with an sd, {:.0f} rpm: 5, 50, 95 %",
-                                  a.scatter->rotors, a.scatter->parameters.size(),
+             Coloured(fmt::format("{}, {} with an sd, {:.0f} rpm: 5, 50, 95 %",
+                                  Counted(a.scatter->rotors, "rotor"),
+                                  Counted(a.scatter->parameters.size(), "number"),
                                   a.scatter->speed / kRpm),
                       "bold"),
              "f [Hz]", "5 %", "50 %", "95 %", "dec 5 %", "50 %", "95 %");
@@ -123,6 +125,17 @@ void PrintShaftExtras(const ShaftAnalysis& a) {
     fmt::print("{:>10.3f} {:>10.3f} {:>10.3f} {:>10.3f} {:>10.4f} {:>10.4f} {:>10.4f}\n",
                m.nominal_frequency, m.frequency.low, m.frequency.middle, m.frequency.high,
                m.decrement.low, m.decrement.middle, m.decrement.high);
+  for (const ScatteredCritical& c : a.scatter->criticals)
+    fmt::print("  critical {:.1f} rpm, {}: {:.1f} to {:.1f} rpm, log decrement {:.4f} to {:.4f}\n",
+               c.nominal.speed / kRpm, SenseName(c.nominal.mode.sense()), c.speed.low / kRpm,
+               c.speed.high / kRpm, c.decrement.low, c.decrement.high);
+  for (const ScatteredResponse& r : a.scatter->responses) {
+    std::size_t at = 0;
+    for (std::size_t k = 0; k < r.amplitude.size(); ++k)
+      if (r.amplitude[k].high > r.amplitude[at].high) at = k;
+    fmt::print("  unbalance {}, {}: 95 % stay below {:.4g} um (at {:.0f} rpm)\n", r.unbalance,
+               r.probe, r.amplitude[at].high * 1e6, a.scatter->speeds[at] / kRpm);
+  }
 }
 
 void PrintShaft(const ShaftAnalysis& a) {

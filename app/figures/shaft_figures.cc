@@ -191,6 +191,41 @@ Figure ShaftOrbitFigure(const ShaftAnalysis& a, const ShaftSweep& sweep) {
   return f;
 }
 
+Figure ScatterFigure(const ShaftAnalysis& a, const std::string& unbalance) {
+  constexpr std::size_t kMost = 4;  // probes
+  std::vector<const ScatteredResponse*> shown;
+  for (const ScatteredResponse& r : a.scatter->responses)
+    if (r.unbalance == unbalance && shown.size() < kMost) shown.push_back(&r);
+  Grid grid;
+  grid.rows = static_cast<int>(shown.size());
+  grid.panel_height = 180;
+  for (const ScatteredResponse* r : shown) grid.titles.push_back(r->probe);
+  Figure f = MakeFigure(
+      fmt::format(
+          "Unbalance, case **{}**, over {} rotors: nine of ten lie within the band, half of "
+          "them below its middle line; blue is the rotor as it stands in the file. Long "
+          "half axis of the orbit{}.",
+          unbalance, a.scatter->rotors,
+          shown.size() < kMost ? "" : ", the first four planes (all in the JSON)"),
+      grid);
+  const std::vector<double> rpm = Scaled(a.scatter->speeds, 1 / kRpm);
+  for (std::size_t p = 0; p < shown.size(); ++p) {
+    std::vector<double> low, middle, high;
+    for (const ScatterBand& b : shown[p]->amplitude) {
+      low.push_back(1e6 * b.low);
+      middle.push_back(1e6 * b.middle);
+      high.push_back(1e6 * b.high);
+    }
+    const int panel = static_cast<int>(p);
+    SetAxes(f, panel, "speed [rpm]", "[µm]");
+    AddBand(f, panel, "5 to 95 %", rpm, low, high, "@orange");
+    if (p > 0) f.traces.back()["showlegend"] = false;
+    AddLine(f, panel, "50 %", rpm, middle, ShaftLine("@orange", p == 0));
+    AddLine(f, panel, "file", rpm, Scaled(shown[p]->nominal, 1e6), ShaftLine("@blue", p == 0));
+  }
+  return f;
+}
+
 Figure HarmonicFigure(const HarmonicSweep& sweep) {
   Grid grid;
   grid.rows = 2;

@@ -15,6 +15,8 @@ Figure ShaftResponseFigure(const ShaftAnalysis& a, const ShaftSweep& sweep);
 /// Orbits of the probes at the largest peak, or at the highest operating speed where none is.
 Figure ShaftOrbitFigure(const ShaftAnalysis& a, const ShaftSweep& sweep);
 Figure HarmonicFigure(const HarmonicSweep& sweep);
+/// Bands of the response to one case of unbalance over the rotors drawn.
+Figure ScatterFigure(const ShaftAnalysis& a, const std::string& unbalance);
 Figure CouplingFigure(const Level1& level1);
 
 }  // namespace ambrig

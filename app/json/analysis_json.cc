@@ -181,6 +181,13 @@ const char* SenseName(Whirl whirl) {
   return whirl == Whirl::kForward ? "forward" : whirl == Whirl::kBackward ? "backward" : "mixed";
 }
 
+const char* SenseName(const ClosedLoopModes& row, const ClosedLoopMode& mode) {
+  if (row.speed == 0)
+    for (const ClosedLoopMode& other : row.modes)
+      if (&other != &mode && std::abs(other.s - mode.s) < 1e-6 * std::abs(mode.s)) return "either";
+  return SenseName(mode.sense());
+}
+
 Json AnalysisJson(const RigAnalysis& a) {
   Json out;
   out["rig"] = a.point.rig().name;

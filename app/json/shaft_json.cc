@@ -95,7 +95,9 @@ Json RodsJson(const std::vector<RodMode>& modes) {
   return out;
 }
 
-Json BandJson(const ScatterBand& b) { return {b.low, b.middle, b.high}; }
+Json BandJson(const ScatterBand& b) {
+  return {FiniteOrNull(b.low), FiniteOrNull(b.middle), FiniteOrNull(b.high)};
+}
 
 Json ShaftScatterJson(const ShaftScatter& s) {
   Json modes = Json::array();
@@ -104,7 +106,25 @@ Json ShaftScatterJson(const ShaftScatter& s) {
                      {"frequency_5_50_95", BandJson(m.frequency)},
                      {"log_decrement", m.nominal_decrement},
                      {"log_decrement_5_50_95", BandJson(m.decrement)}});
-  return {{"rotors", s.rotors}, {"parameters", s.parameters}, {"speed", s.speed}, {"modes", modes}};
+  Json criticals = Json::array(), responses = Json::array();
+  for (const ScatteredCritical& c : s.criticals)
+    criticals.push_back({{"speed", c.nominal.speed},
+                         {"whirl", SenseName(c.nominal.mode.sense())},
+                         {"speed_5_50_95", BandJson(c.speed)},
+                         {"log_decrement", c.nominal.mode.log_decrement},
+                         {"log_decrement_5_50_95", BandJson(c.decrement)},
+                         {"found", c.found}});
+  for (const ScatteredResponse& r : s.responses) {
+    Json bands = Json::array();
+    for (const ScatterBand& b : r.amplitude) bands.push_back(BandJson(b));
+    responses.push_back({{"case", r.unbalance},
+                         {"probe", r.probe},
+                         {"amplitude", r.nominal},
+                         {"amplitude_5_50_95", bands}});
+  }
+  return {{"rotors", s.rotors},    {"parameters", s.parameters},   {"speed", s.speed},
+          {"modes", modes},        {"critical_speeds", criticals}, {"speeds", s.speeds},
+          {"unbalance", responses}};
 }
 
 }  // namespace

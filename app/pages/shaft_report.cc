@@ -7,6 +7,7 @@
 #include "app/json/analysis_json.h"
 #include "app/pages/format.h"
 #include "app/pages/html.h"
+#include "core/base/counted.h"
 #include "core/math/constants.h"
 
 namespace ambrig {
@@ -42,10 +43,12 @@ void AddDampedModes(HtmlReport& report, const ShaftAnalysis& a) {
           {fmt::format("{:.0f}", r.speed / kRpm), fmt::format("{:.4f}", m.frequency),
            fmt::format("{:.5f}", m.zeta),
            Cell(fmt::format("{:.4f}", m.log_decrement), m.log_decrement < 0 ? "fail" : ""),
-           SenseName(m.sense())});
+           SenseName(r, m)});
   }
-  report.Table({"speed [rpm]", "frequency [Hz]", "damping ratio", "log decrement", "whirl"}, rows,
-               "Poles without a frequency have no log decrement and are not listed.");
+  report.Table(
+      {"speed [rpm]", "frequency [Hz]", "damping ratio", "log decrement", "whirl"}, rows,
+      "Poles without a frequency have no log decrement and are not listed. Whirl either: two "
+      "modes of one pole at rest.");
   report.AddFigure(CampbellFigure(
       a.campbell.tracks, a.campbell.criticals, a.options.fastest,
       "Campbell diagram: damped modes of the whole beam on its supports, coefficients as they are "
@@ -126,6 +129,9 @@ void AddExtras(HtmlReport& report, const ShaftAnalysis& a) {
                                l.ratio(), l.at_expected, FormatSi(l.given.expected, "N/m")));
     if (l.found) report.AddFigure(CouplingFigure(l));
   }
+}
+
+void AddScatter(HtmlReport& report, const ShaftAnalysis& a) {
   if (!a.scatter) return;
   report.Heading("Scatter");
   std::vector<std::vector<Cell>> rows;
@@ -137,9 +143,22 @@ void AddExtras(HtmlReport& report, const ShaftAnalysis& a) {
          fmt::format("{:.4f}", m.decrement.high)});
   report.Table(
       {"file [Hz]", "5 %", "50 %", "95 %", "log dec 5 %", "50 %", "95 %"}, rows,
-      fmt::format("Quantiles over {} rotors drawn from the {} numbers that have an sd, "
-                  "at {:.0f} rpm.",
-                  a.scatter->rotors, a.scatter->parameters.size(), a.scatter->speed / kRpm));
+      fmt::format("Quantiles over {}, drawn from {} with an sd, at {:.0f} rpm.",
+                  Counted(a.scatter->rotors, "rotor"),
+                  Counted(a.scatter->parameters.size(), "number"), a.scatter->speed / kRpm));
+  rows.clear();
+  for (const ScatteredCritical& c : a.scatter->criticals)
+    rows.push_back({fmt::format("{:.1f}", c.nominal.speed / kRpm),
+                    SenseName(c.nominal.mode.sense()), fmt::format("{:.1f}", c.speed.low / kRpm),
+                    fmt::format("{:.1f}", c.speed.middle / kRpm),
+                    fmt::format("{:.1f}", c.speed.high / kRpm),
+                    fmt::format("{:.4f}", c.decrement.low), fmt::format("{:.4f}", c.decrement.high),
+                    fmt::format("{:.1f} %", 100.0 * c.found / a.scatter->rotors)});
+  report.Table({"critical speed of the file [rpm]", "whirl", "5 %", "50 %", "95 %", "log dec 5 %",
+                "95 %", "rotors that have it"},
+               rows);
+  for (std::size_t k = 0; k < a.unbalance.size(); ++k)
+    report.AddFigure(ScatterFigure(a, a.unbalance[k].unbalance.name));
 }
 
 }  // namespace
@@ -163,6 +182,7 @@ void WriteShaftReport(const ShaftAnalysis& a, const std::string& file,
   }
   AddWeight(report, a);
   AddExtras(report, a);
+  AddScatter(report, a);
   report.Write(path);
 }
 

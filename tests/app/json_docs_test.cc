@@ -75,7 +75,7 @@ TEST(JsonDocs, Run) {
   Scenario s;
   s.name = "t";
   Json json = RunJson(s, r, {});
-  json["bending_modes"] = DroppedModesJson({2, 1, 90, {120}, {{"A", 1e-8, 1e-9, 2e-9}}});
+  json["bending_modes"] = DroppedModesJson({2, 1, 90, {120}, {{"A", 1e-8, 1e-9, 2e-9}}, {700}});
   ExpectDocumented("run", json);
 }
 

@@ -49,10 +49,12 @@ const Json& LineNamed(const Figure& f, const std::string& name, const std::strin
 
 TEST(ShaftPage, HasEveryPartAndItsNumbers) {
   const std::string words = testing::Words(PageOf(WholeAnalysis()));
-  for (const char* part : {"Analysis of jeffcott", "shaft shaft.toml, operating 1910 to 3820 rpm",
-                           "Stable up to 4775 rpm.", "Damped modes", "Critical speeds", "Unbalance",
-                           "Under its weight", "Cross-coupled stiffness", "Scatter", "10.1508 kg",
-                           "z = 0.6 m", "Quantiles over 20 rotors drawn from the 1 numbers"})
+  for (const char* part :
+       {"Analysis of jeffcott", "shaft shaft.toml, operating 1910 to 3820 rpm",
+        "Stable up to 4775 rpm.", "Damped modes", "Critical speeds", "Unbalance",
+        "Under its weight", "Cross-coupled stiffness", "Scatter", "10.1508 kg", "z = 0.6 m",
+        "either", "Quantiles over 20 rotors, drawn from 1 number with an sd",
+        "rotors that have it"})
     EXPECT_THAT(words, HasSubstr(part));
   // Each support holds half of 10.1508 kg x 9.80665 m/s2.
   EXPECT_THAT(words, HasSubstr("\nleft\n0\n49.8"));
@@ -130,6 +132,27 @@ TEST(ShaftFigures, ShapesTurnAndTheirLargestDeflectionIsOne) {
   const Json& still = f.traces[frames[0]["traces"][0].get<std::size_t>()];
   EXPECT_EQ(still["name"], "centre");
   EXPECT_EQ(still["y"], frames[0]["data"][0]["y"]);
+}
+
+TEST(ShaftFigures, BandsOfTheScatterHoldTheirMiddle) {
+  const Figure f = ScatterFigure(WholeAnalysis(), "chosen");
+  EXPECT_THAT(f.caption, HasSubstr("over 20 rotors"));
+  ASSERT_EQ(f.panels, 3);  // left, disk, right
+  std::vector<const Json*> edges;
+  int shown = 0;
+  for (const Json& t : f.traces)
+    if (t["name"] == "5 to 95 %") {
+      if (t.value("yaxis", "y") == "y2") edges.push_back(&t);
+      shown += t.value("showlegend", true) ? 1 : 0;
+    }
+  EXPECT_EQ(shown, 1);
+  ASSERT_EQ(edges.size(), 2U);
+  const Json& middle = LineNamed(f, "50 %", "y2")["y"];
+  ASSERT_EQ((*edges[0])["y"].size(), middle.size());
+  for (std::size_t k = 0; k < middle.size(); ++k) {
+    EXPECT_LE((*edges[0])["y"][k].get<double>(), middle[k].get<double>());
+    EXPECT_GE((*edges[1])["y"][k].get<double>(), middle[k].get<double>());
+  }
 }
 
 TEST(ShaftFigures, SagShearAndMomentOfAShaftOnTwoSupports) {

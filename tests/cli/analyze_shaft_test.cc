@@ -36,7 +36,15 @@ TEST_F(AnalyzeShaft, WritesEverythingThatItComputes) {
                           "torsional", "free_bending"})
     EXPECT_FALSE(json.at(key).empty()) << key;
   EXPECT_EQ(json.at("unbalance")[0].at("probes").size(), 2U);
-  EXPECT_EQ(json.at("scatter").at("rotors"), 20);
+  const auto& scatter = json.at("scatter");
+  EXPECT_EQ(scatter.at("rotors"), 20);
+  ASSERT_EQ(scatter.at("unbalance").size(), 2U);  // a case, two probes
+  ASSERT_FALSE(scatter.at("critical_speeds").empty());
+  for (const auto& r : scatter.at("unbalance")) {
+    ASSERT_EQ(r.at("amplitude_5_50_95").size(), scatter.at("speeds").size());
+    for (const auto& band : r.at("amplitude_5_50_95")) EXPECT_LE(band[0], band[2]);
+  }
+  EXPECT_THAT(o.text, HasSubstr("95 % stay below"));
   EXPECT_TRUE(json.at("weight").at("held").get<bool>());
   double held = 0;  // the shaft stands on its two supports
   for (const auto& r : json.at("weight").at("reactions"))
@@ -44,7 +52,8 @@ TEST_F(AnalyzeShaft, WritesEverythingThatItComputes) {
   EXPECT_NEAR(held, json.at("weight").at("weight").get<double>(), 1e-6 * held);
   const std::string page = ReadText(folder_ / "a.html");
   for (const char* heading : {"Damped modes", "Critical speeds", "Unbalance", "Under its weight",
-                              "Cross-coupled stiffness", "Scatter"})
+                              "Cross-coupled stiffness", "Scatter", "rotors that have it",
+                              "nine of ten lie within the band"})
     EXPECT_THAT(page, HasSubstr(heading));
 }
 

@@ -203,28 +203,5 @@ TEST(ShaftCampbell, TablesCountAtTheirSpeed) {
   EXPECT_NEAR(nearest / exact, 1, 1e-3);
 }
 
-// Rigid rotor on springs k with sd: f follows sqrt(k); 5 and 95 % quantiles at ∓1.645 sd.
-TEST(ShaftScatter, QuantilesOfASpring) {
-  BeamFile file;
-  file.definition = Jeffcott(1e6, 50);
-  ShaftParameter p{"rotor.support[0].k", "N/m", 5e5, 0, 1e12, {}};
-  p.set.push_back([](BeamFile& to, double v) {
-    for (SpringSupport& s : to.definition.supports) s.kxx = s.kyy = v;
-  });
-  file.parameters = {p};
-  const std::vector<Tolerance> sd = {{p.path, 2.5e4, kRequired}};
-  const int n = 2000;
-  const ShaftScatter s = ScatterShaft(file, sd, 0, 2, n, 7);
-  const double f = std::sqrt(1e6 / Totals(BuildBeam(file.definition)).mass) / (2 * kPi);
-  // a quantile of n draws errs by sqrt(p (1 - p)/n)/density: 0.047 sd at 5 %, five of them allowed
-  const double band = f * 0.5 * 0.05, error = 5 * 0.047 * band;
-  ASSERT_GE(s.modes.size(), 1U);
-  EXPECT_NEAR(s.modes[0].frequency.low, f * std::sqrt(1 - 1.645 * 0.05), error);
-  EXPECT_NEAR(s.modes[0].frequency.high, f * std::sqrt(1 + 1.645 * 0.05), error);
-  EXPECT_NEAR(s.modes[0].frequency.middle, f, error);
-  const ShaftScatter again = ScatterShaft(file, sd, 0, 2, n, 7);
-  EXPECT_EQ(again.modes[0].frequency.high, s.modes[0].frequency.high);
-}
-
 }  // namespace
 }  // namespace ambrig
