@@ -72,16 +72,29 @@ std::string WhyNot(const Explanation& e) {
       name, e.base_ratio_validate, best.fit.ratio_validate);
 }
 
+std::string SetText(const std::vector<SetMember>& set) {
+  std::string text;
+  for (const SetMember& m : set)
+    text += fmt::format("{}{}{} {:.0f} %", text.empty() ? "" : ", ", m.effect,
+                        m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
+  return text;
+}
+
+std::string NamesInLine(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 void PrintFindings(const Explanation& e) {
   for (const DataFault& f : e.data) PrintWrapped("  data: " + FaultText(f));
   if (e.verdict == "effect")
     fmt::print("  explained: {:.1f} % of the error above the noise, {:.2f} -> {:.2f} floors\n",
                100 * e.closure.explained, e.closure.floors_before, e.closure.floors_after);
-  std::string set;
-  for (const SetMember& m : e.set)
-    set += fmt::format("{}{}{} {:.0f} %", set.empty() ? "" : ", ", m.effect,
-                       m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
-  PrintWrapped("  95 % set: " + set);
+  PrintWrapped("  95 % set: " + SetText(e.set) +
+               (e.judged_beside.empty() ? "" : " (beside " + NamesInLine(e.judged_beside) + ")"));
+  for (const auto& [name, set] : e.further_sets)
+    PrintWrapped("  95 % set of " + name + ": " + SetText(set));
   for (const EffectInstance& a : e.adopted)
     PrintWrapped(fmt::format("  adopted {} at {}: {}", a.name, a.target, ShortParametersText(a)));
   for (const std::string& s : e.parameter_shifts) PrintWrapped("  parameter " + s);

@@ -91,6 +91,21 @@ Json NuisancesJson(const std::vector<NuisanceFound>& nuisances) {
   return all;
 }
 
+/// The rig's toleranced parameters as the last fit has them.
+Json ParametersJson(const FitResult& fit) {
+  Json all = Json::array();
+  for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k) {
+    const FreeParameter& p = fit.hypothesis.free[k];
+    if (p.effect >= 0) continue;
+    all.push_back({{"path", p.path},
+                   {"value", Number(p.value)},
+                   {"sd", k < fit.sd.size() ? Number(fit.sd[k]) : Json(nullptr)},
+                   {"drawing", Number(p.start)},
+                   {"drawing_sd", Number(p.sd)}});
+  }
+  return all;
+}
+
 Json HiddenJson(const std::vector<VisibleSize>& hidden) {
   Json all = Json::array();
   for (const VisibleSize& v : hidden)
@@ -134,7 +149,11 @@ Json CompareJson(const Comparison& c) {
 Json ExplainJson(const Explanation& e) {
   Json adopted = Json::array(), confusable = Json::array(), ladder = Json::array(),
        screened = Json::array();
-  for (const EffectInstance& a : e.adopted) adopted.push_back(EffectJson(a));
+  for (const EffectInstance& a : e.adopted) {
+    adopted.push_back(EffectJson(a));
+    const auto further = e.further_sets.find(Named(a));
+    if (further != e.further_sets.end()) adopted.back()["set"] = SetJson(further->second);
+  }
   for (const Confusable& c : e.confusable) confusable.push_back({c.first, c.second, c.record});
   for (const LadderStep& s : e.ladder)
     ladder.push_back({{"added", s.added},
@@ -146,6 +165,7 @@ Json ExplainJson(const Explanation& e) {
                         {"ratio_validate", Number(e.screened[k].ratio_validate)}});
   Json out = {{"verdict", e.verdict},
               {"ranking", RankingJson(e.ranking)},
+              {"judged_beside", e.judged_beside},
               {"adopted", adopted},
               {"set", SetJson(e.set)},
               {"closure", ClosureJson(e.closure)},
@@ -161,6 +181,7 @@ Json ExplainJson(const Explanation& e) {
               {"second_round", RankingJson(e.second_round)},
               {"ladder", ladder},
               {"screened", screened},
+              {"parameters", ParametersJson(e.final_fit)},
               {"parameter_shifts", e.parameter_shifts},
               {"warnings", e.warnings},
               {"seconds", e.seconds},

@@ -39,8 +39,21 @@ ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effect
 
 namespace {
 
+/// The sets of the first name and of the further ones that are still adopted.
+void SetsWith(Explanation& out, double named) {
+  out.set = CredibleSet(out.ranking, named);
+  std::erase_if(out.judged_beside, [&](const std::string& name) {
+    return std::none_of(out.adopted.begin(), out.adopted.end(),
+                        [&](const EffectInstance& a) { return Named(a) == name; });
+  });
+  for (const EffectInstance& a : out.adopted)
+    if (const auto ranking = out.beside.find(Named(a)); ranking != out.beside.end())
+      out.further_sets[Named(a)] = CredibleSet(ranking->second, named);
+}
+
 /// The members of the set when no effect is named: the verdict itself and the best candidate.
 void SetWithout(Explanation& out, double named) {
+  out.judged_beside.clear();
   out.set = CredibleSet(out.ranking, out.verdict == "unknown" ? named : 0);
   for (SetMember& m : out.set)
     if (m.effect == "unknown" && out.verdict != "unknown") m.effect = out.verdict;
@@ -63,7 +76,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
       NeedOf(model, established ? last : base, out.effective_sample_size, out.warnings);
   out.verdict = VerdictOf(first, parameters, need, established);
   if (established)
-    out.set = CredibleSet(out.ranking, named);
+    SetsWith(out, named);
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);

@@ -114,6 +114,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
     for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
       if (!AdoptBest(now, round)) break;
   Backward(base, now);
+  RejudgeNames(base, now);
   Polish(now);
   DropSizeless(base, now);
   if (TryNuisances(now, false)) base = FitNow(base.hypothesis, nullptr);

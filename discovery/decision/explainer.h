@@ -57,6 +57,12 @@ class Explainer {
   bool AlreadyTried(const CandidatePair& p) const;
   /// An effect that its successors made needless goes again.
   void Backward(const FitResult& base, FitResult& now);
+  /// Names that were open while effects found later were missing: each effect against its rivals beside the
+  /// others; a better one takes its place.
+  void RejudgeNames(const FitResult& base, FitResult& now);
+  void NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking);
+  /// The names that stood beside an effect where it was judged best.
+  std::vector<EffectInstance> RivalsOf(std::size_t adopted) const;
   /// A last fit with fresh sensitivities of everything.
   void Polish(FitResult& now);
   void NoteShifts(const FitResult& base);
@@ -68,6 +74,12 @@ class Explainer {
   RigParameters rig_;
   Explanation out_;
   SignatureBank bank_;
+  /// A name of a round, as it was fitted there.
+  struct RankedName {
+    EffectInstance effect;
+    double probability = 0;
+  };
+  std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
   bool floor_renewed_ = false;
   double first_fall_ = 0;  // of the squared ratio on unseen records, by the first effect
 };

@@ -4,8 +4,10 @@
 
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/explainer.h"
+#include "discovery/decision/law_scatter.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/nuisance_choice.h"
+#include "discovery/decision/pull_back.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
 
@@ -121,6 +123,8 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   const std::vector<RankedEffect>& ranking = ranked.ranking;
   if (round == 0) out_.screened = std::move(ranked.screened);
   (round == 0 ? out_.ranking : out_.second_round) = ranking;
+  rounds_.emplace_back();
+  for (const RankedEffect& r : ranking) rounds_.back().push_back({r.effect, r.probability});
   if (ranking.empty() ||
       !HasSize(ranking[0].fit, ranking[0].fit.hypothesis.rig.effects.size() - 1) ||
       !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_))
@@ -180,7 +184,10 @@ bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult
   out_.base_ratio_fit = base.ratio_fit;
   out_.base_ratio_validate = base.ratio_validate;
   first_fall_ = std::pow(base.ratio_validate, 2) - std::pow(now.ratio_validate, 2);
-  bank_ = SignatureBank();
+  if (model_.nuisances.any())
+    bank_ = SignatureBank();  // they were taken off with the old floors
+  else
+    bank_.Rescale(model_, before);
   if (now.ratio_validate < 0.8 * old) {
     out_.ladder.push_back({"noise floor of this model", now.ratio_fit, now.ratio_validate});
     floor_renewed_ = true;
@@ -257,6 +264,12 @@ void Explainer::Polish(FitResult& now) {
   fine.least_gain = 2;
   FitResult polished = Fit(model_, now.hypothesis, fine);
   if (polished.converged && polished.ratio_fit <= now.ratio_fit * 1.0005) now = std::move(polished);
+  PulledBack back = PullBack(model_, now, out_.effective_sample_size);
+  if (back.moved) {
+    polished = Fit(model_, back.fit.hypothesis, fine);
+    now = polished.converged ? std::move(polished) : std::move(back.fit);
+  }
+  now.sd = SdUnderDoubt(model_, now, out_.effective_sample_size);
   for (std::size_t k = 0; k < out_.adopted.size(); ++k)
     out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
   out_.ladder.back().ratio_fit = now.ratio_fit;

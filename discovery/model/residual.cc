@@ -60,14 +60,17 @@ double WorstRecordRatio(const CaseModel& model, const std::vector<double>& resid
   return worst;
 }
 
+bool ShowsMotion(const CaseModel& model, const Target& t) {
+  const CaseRecord& record = model.data().records[t.record];
+  const std::string& channel = record.data.channels[t.channel].name;
+  return record.kind == RecordKind::kTime && record.scenario.start != StartState::kClamped &&
+         (IsOfKind(channel, ChannelKind::kReading) || IsOfKind(channel, ChannelKind::kSetPoint));
+}
+
 double WorstMotionRatio(const CaseModel& model, const std::vector<double>& residual) {
   std::vector<RecordError> errors(model.data().records.size());
   for (const Target& t : model.targets()) {
-    const CaseRecord& record = model.data().records[t.record];
-    const std::string& channel = record.data.channels[t.channel].name;
-    if (record.kind != RecordKind::kTime || record.scenario.start == StartState::kClamped ||
-        !(IsOfKind(channel, ChannelKind::kReading) || IsOfKind(channel, ChannelKind::kSetPoint)))
-      continue;
+    if (!ShowsMotion(model, t)) continue;
     for (std::size_t k = t.first; k < t.first + t.count; ++k) {
       errors[t.record].square += residual[k] * residual[k];
       errors[t.record].rows += model.ok()[k];

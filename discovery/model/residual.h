@@ -24,6 +24,8 @@ struct RecordError {
 std::vector<RecordError> RecordErrors(const CaseModel& model, const std::vector<double>& residual);
 /// Largest ratio of any single record.
 double WorstRecordRatio(const CaseModel& model, const std::vector<double>& residual);
+/// A reading or a set-point of a free rotor's record over time.
+bool ShowsMotion(const CaseModel& model, const Target& t);
 /// Largest ratio of the readings and set-points of any record of a free rotor: what moves the rotor
 /// reaches the currents through these only. 0 without such records.
 double WorstMotionRatio(const CaseModel& model, const std::vector<double>& residual);

@@ -23,6 +23,17 @@ FitResult TryFit(const CaseModel& model, const Hypothesis& h, const FitOptions& 
   }
 }
 
+FitOptions Brief(const FitResult& now, double effective_sample_size) {
+  FitOptions brief;
+  brief.effective_sample_size = effective_sample_size;
+  brief.base_jacobian = &now.jacobian;
+  brief.reached = now.ratio_fit;
+  brief.iterations = 4;
+  brief.passes = 1;
+  brief.sensitivities = false;
+  return brief;
+}
+
 /// Size and frequency first, the damping as it was sought, then all together: a damping let loose
 /// from a start beside the resonance runs up and explains a broad part of the misfit with a mode
 /// that is none.
@@ -73,7 +84,6 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
   constexpr std::size_t kClimbed = 5;
-  constexpr double kWorthFitting = 4;  // of the score
   std::vector<SimulatedStart> order, climbed;
   for (const EffectInstance& e : starts) order.push_back({e});
   const auto sort = [](std::vector<SimulatedStart>& list) {
@@ -92,9 +102,7 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
     search.Climb(climbed);
     std::vector<EffectInstance> out;
     // what explains nothing wherever it starts is not there
-    const auto explains = [&](const SimulatedStart& s) {
-      return s.score <= search.here() - kWorthFitting;
-    };
+    const auto explains = [&](const SimulatedStart& s) { return search.Explains(s); };
     // where the best is near as it stands, a fit finds its way
     if (explains(order[0]) && !SameValley(order[0].effect, climbed[0].effect))
       out.push_back(order[0].effect);
@@ -107,15 +115,16 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
 
 }  // namespace
 
+FitResult FitShortly(const CaseModel& model, const FitResult& now, const Hypothesis& start,
+                     double effective_sample_size) {
+  return TryFit(model, start, Brief(now, effective_sample_size));
+}
+
 FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
                      double effective_sample_size) {
-  FitOptions brief;
-  brief.effective_sample_size = effective_sample_size;
-  brief.base_jacobian = &now.jacobian;
-  brief.reached = now.ratio_fit;
-  brief.iterations = candidate.narrow ? 12 : 4;
-  brief.passes = 1;
-  brief.sensitivities = false;
+  FitOptions brief = Brief(now, effective_sample_size);
+  brief.lent = static_cast<std::size_t>(now.jacobian.cols());
+  if (candidate.narrow) brief.iterations = 12;
   std::vector<EffectInstance> starts = {candidate.effect};
   starts.insert(starts.end(), candidate.other_starts.begin(), candidate.other_starts.end());
   if (candidate.narrow) starts = BestOf(model, now, starts, effective_sample_size);

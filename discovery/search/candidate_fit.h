@@ -10,6 +10,11 @@ namespace ambrig {
 FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candidate& candidate,
                      double effective_sample_size);
 
+/// A short fit from a start that is nearly right (its neighbours were fitted), without sensitivities. `now`
+/// as in FitOn.
+FitResult FitShortly(const CaseModel& model, const FitResult& now, const Hypothesis& start,
+                     double effective_sample_size);
+
 /// The fit to the end, from what the short one found. `now` lends its sensitivities to the first
 /// pass.
 FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,

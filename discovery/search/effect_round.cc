@@ -71,7 +71,7 @@ class Ranker {
       ranking_[0].fit = FitOn(s_.model, now_, ranking_[0].fit.hypothesis, s_.effective_sample_size);
       Note(ranking_[0]);
     }
-    SetProbabilities();
+    SetProbabilities(now_, ranking_);
     return std::move(out_);
   }
 
@@ -154,16 +154,6 @@ class Ranker {
                      [](const auto& a, const auto& b) { return a.score < b.score; });
   }
 
-  void SetProbabilities() {
-    std::vector<double> scores, shares;
-    for (const RankedEffect& r : ranking_) {
-      scores.push_back(r.score);
-      shares.push_back(ExplainedShare(BothRatios(now_), BothRatios(r.fit)));
-    }
-    const std::vector<double> probability = Probabilities(scores, shares);
-    for (std::size_t k = 0; k < ranking_.size(); ++k) ranking_[k].probability = probability[k];
-  }
-
   const RoundSetting& s_;
   const FitResult& now_;
   int round_;
@@ -177,6 +167,21 @@ class Ranker {
 }  // namespace
 
 std::string Named(const EffectInstance& e) { return e.name + " at " + e.target; }
+
+void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& ranking) {
+  if (ranking.empty()) return;
+  std::vector<double> scores, shares;
+  for (const RankedEffect& r : ranking) {
+    scores.push_back(r.score);
+    shares.push_back(ExplainedShare(BothRatios(before), BothRatios(r.fit)));
+  }
+  const std::vector<double> probability = Probabilities(scores, shares);
+  for (std::size_t k = 0; k < ranking.size(); ++k) ranking[k].probability = probability[k];
+}
+
+bool IsSameName(const EffectInstance& a, const EffectInstance& b) {
+  return a.name == b.name && a.target == b.target;
+}
 
 EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round) {
   return Ranker(setting, now, round).Run();

@@ -19,6 +19,8 @@ struct RankedEffect {
 /// "eddy-currents at A"
 std::string Named(const EffectInstance& e);
 
+bool IsSameName(const EffectInstance& a, const EffectInstance& b);
+
 /// What a round works with.
 struct RoundSetting {
   const CaseModel &full, &model;  // all rows: frequencies; some: the fits
@@ -32,6 +34,10 @@ struct EffectRound {
   std::vector<RankedEffect> ranking;  // best first
   std::vector<Candidate> screened;
 };
+
+/// Probabilities of a ranking's members (best first) from their scores and from the shares of the error
+/// of `before` that they explain.
+void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& ranking);
 
 /// Effects to add to `now`, which has `round` effects already.
 EffectRound RankEffects(const RoundSetting& setting, const FitResult& now, int round);

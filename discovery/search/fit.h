@@ -29,6 +29,9 @@ struct FitOptions {
   double reached = kInfinity;
   // its first columns: the rig parameters, for the first pass
   const Eigen::MatrixXd* base_jacobian = nullptr;
+  // so many of the first free parameters keep its columns throughout, effects among them: for one short pass
+  // that tries a further effect beside those which have their place already
+  std::size_t lent = 0;
   // a flag for each record: the fit looks at these only (of the fitted ones); empty: at all of them
   std::vector<char> records = {};
 };

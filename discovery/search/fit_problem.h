@@ -67,7 +67,7 @@ class FitProblem {
         p_(start.free.size()),
         base_at_(start) {
     for (std::size_t k = 0; k < p_; ++k)
-      if (start.free[k].effect < 0)
+      if (start.free[k].effect < 0 || (options.base_jacobian && k < options.lent))
         base_.push_back(k);
       else
         (HasFrequency(start, start.free[k]) ? tuned_ : effect_).push_back(k);

@@ -22,6 +22,7 @@ LinearJudge::LinearJudge(const CaseModel& model, const FitResult& base, Signatur
       base_(base),
       effective_sample_size_(effective_sample_size),
       nb_(base.jacobian.cols()),
+      signatures_(bank),
       bank_(bank.Products(model)) {
   Eigen::MatrixXd columns(static_cast<Index>(model.size()), nb_ + 1);
   columns.leftCols(nb_) = base.jacobian;
@@ -128,6 +129,7 @@ LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int
       if (base_.hypothesis.free[static_cast<std::size_t>(k)].sd > 0)
         penalty += std::pow(base_.hypothesis.Coordinate(static_cast<std::size_t>(k)) - c(k), 2);
     s.amount = -c.tail(m);
+    s.shift = -c.head(nb_);
     s.ratio_fit = std::sqrt(std::max(0.0, c.dot(g.fit * c)) / std::max(1.0, n_fit_));
     s.ratio_validate = n_validate_ > 0
                            ? std::sqrt(std::max(0.0, c.dot(g.validate * c)) / n_validate_)
@@ -178,6 +180,30 @@ Candidate LinearJudge::Single(const SignatureBank::Entry& entry) const {
   if (c.narrow && !entry.group.scaling.empty())
     c.other_starts.push_back(Start(entry, 2 * s.amount, 0));
   return c;
+}
+
+double LinearJudge::MotionShare(const SignatureBank::Entry& entry) const {
+  constexpr double kMostSeen = 0.5;  // of the motion's error, by the bank's records
+  const Solution s = Solve(ColumnsOf(entry), Priced(entry));
+  const Eigen::Map<const Eigen::VectorXd> before(base_.residual.data(),
+                                                 static_cast<Index>(base_.residual.size()));
+  Eigen::VectorXd after = before - signatures_.Sum(entry, s.amount);
+  if (nb_ > 0) after -= base_.jacobian * s.shift;
+  double all = 0, seen = 0, left = 0;
+  for (const Target& t : model_.targets()) {
+    if (!ShowsMotion(model_, t) && OverTime(model_.data().records[t.record])) continue;
+    const auto first = static_cast<Index>(t.first), count = static_cast<Index>(t.count);
+    const double rows = static_cast<double>(
+        std::count(model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first),
+                   model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first + t.count), 1));
+    const double excess = before.segment(first, count).squaredNorm() - rows;
+    all += excess;
+    if (!signatures_.LooksAt(t.record)) continue;
+    seen += excess;
+    left += after.segment(first, count).squaredNorm() - rows;
+  }
+  if (all <= 0) return 1;
+  return seen < kMostSeen * all ? 0 : std::clamp(1 - left / seen, 0.0, 1.0);
 }
 
 double LinearJudge::LeastVisible(const SignatureBank::Entry& entry, Index column) const {

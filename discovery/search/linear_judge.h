@@ -30,6 +30,10 @@ class LinearJudge {
               double effective_sample_size);
 
   Candidate Single(const SignatureBank::Entry& entry) const;
+  /// Share of the squared error above the noise that an entry's linear step takes off the readings and
+  /// set-points of free rotors and off records that are not over time (0 to 1), of those that the bank
+  /// looks at; 0 where these hold less than half of it, 1 where there is none.
+  double MotionShare(const SignatureBank::Entry& entry) const;
   /// The amount of one signature that would be 3 sd of its own beside the rig parameters.
   double LeastVisible(const SignatureBank::Entry& entry, Eigen::Index column) const;
   /// rms of a signature over all rows, over the floor.
@@ -39,6 +43,7 @@ class LinearJudge {
  private:
   struct Solution {
     Eigen::VectorXd amount;  // of each signature
+    Eigen::VectorXd shift;   // of the base's free parameters
     double score = 0, ratio_fit = 0, ratio_validate = 0;
   };
   /// A signature's amount and the limits within which it is believed.
@@ -56,6 +61,7 @@ class LinearJudge {
   const FitResult& base_;
   double effective_sample_size_;
   Eigen::Index nb_;  // free parameters of the base
+  const SignatureBank& signatures_;
   Gram own_, with_;  // [rig columns, residual] among themselves and with the bank
   const Gram& bank_;
   double n_fit_ = 0, n_validate_ = 0;

@@ -68,16 +68,20 @@ std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
   }
 }
 
-/// Probes of one kind of target (coils or the others) that the bank does not hold yet.
+/// What is screened together: the dearer kinds only where the cheaper ones leave something open.
+enum class ScreenedKind { kOrdinary, kResonances, kCoils };
+
+/// Probes of one kind that the bank does not hold yet.
 std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& base,
-                                    const ResidualPeaks& peaks, bool coils,
-                                    const ScreenOptions& options, const SignatureBank& bank) {
+                                    const ResidualPeaks& peaks, ScreenedKind kind,
+                                    const ScreenOptions& options, const SignatureBank& bank,
+                                    bool again) {
   std::vector<ProbeGroup> groups;
-  const bool again = !bank.entries().empty();
+  const bool coils = kind == ScreenedKind::kCoils;
   const EffectTargets targets = TargetsOfEffects(model.data().rig);
   for (const EffectDescription& d : Catalogue()) {
     if (!options.effect.empty() && d.id != options.effect) continue;
-    if (options.effect.empty() && IsResonance(d) && !options.resonances) continue;
+    if (IsResonance(d) != (kind == ScreenedKind::kResonances)) continue;
     const bool skipped = SeeksFrequency(d) ? !options.frequencies : again && !coils;
     if (options.effect.empty() && (CannotShow(d, model) || skipped)) continue;
     if (options.coarse && (coils || SeeksFrequency(d))) continue;
@@ -96,6 +100,39 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
     }
   }
   return groups;
+}
+
+/// Share of the squared error above the noise that stands in the rotor's motion (and in records that are not
+/// over time).
+double MotionPart(const CaseModel& model, const FitResult& base) {
+  double all = 0, motion = 0;
+  for (const Target& t : model.targets()) {
+    double excess = 0;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      if (model.ok()[k]) excess += base.residual[k] * base.residual[k] - 1;
+    all += excess;
+    if (ShowsMotion(model, t) || !OverTime(model.data().records[t.record])) motion += excess;
+  }
+  return all > 0 ? motion / all : 1;
+}
+
+/// Whether the best candidate leaves so much of the rotor's motion that a resonance may be behind it. Beside effects
+/// that were adopted a resonance has to explain most of all that is left: what it makes of the currents
+/// through the loop is some ten times what it makes of the motion, so a thirtieth has to be motion.
+bool MotionIsOpen(const CaseModel& model, const FitResult& base, SignatureBank& bank,
+                  const std::vector<Candidate>& ranked, double effective_sample_size) {
+  constexpr double kExplained = 0.9;  // of the squared error above the noise; a linear step errs
+  constexpr double kLeastMotion = 1.0 / 30;  // of the same, beside other effects
+  if (base.hypothesis.rig.effects.size() > model.data().rig.effects.size() &&
+      MotionPart(model, base) < kLeastMotion)
+    return false;
+  if (ranked.empty()) return true;
+  const LinearJudge judge(model, base, bank, effective_sample_size);
+  double most = 0;
+  for (const SignatureBank::Entry& entry : bank.entries())
+    if (Same(entry.group.probes[0], ranked[0].effect))
+      most = std::max(most, judge.MotionShare(entry));
+  return most < kExplained;
 }
 
 /// An effect that changes nothing here (it cannot act on this bearing, or nothing excites it).
@@ -147,8 +184,18 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
       if (options.progress) options.progress(from + (to - from) * f, text);
     };
   };
-  bank.Simulate(model, base, GroupsToRun(model, base, peaks, false, options, bank), part(0, 0.7));
-  std::vector<Candidate> out = Rank(model, base, bank, options.effective_sample_size);
+  std::vector<Candidate> out;
+  const auto screen = [&](ScreenedKind kind, double from, double to) {
+    if (kind == ScreenedKind::kResonances) part(from, to)(0, "resonances");
+    bank.Simulate(model, base, GroupsToRun(model, base, peaks, kind, options, bank, again),
+                  part(from, to));
+    out = Rank(model, base, bank, options.effective_sample_size);
+  };
+  screen(ScreenedKind::kOrdinary, 0, 0.4);
+  const bool asked = !options.effect.empty();
+  if (asked || (options.resonances && options.frequencies && !options.coarse &&
+                MotionIsOpen(model, base, bank, out, options.effective_sample_size)))
+    screen(ScreenedKind::kResonances, 0.4, 0.7);
   if (again || options.coarse) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {
@@ -156,8 +203,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
   };
   if (!options.effect.empty() || out.empty() || open(base.ratio_fit, out[0].ratio_fit) ||
       open(base.ratio_validate, out[0].ratio_validate)) {
-    bank.Simulate(model, base, GroupsToRun(model, base, peaks, true, options, bank), part(0.7, 1));
-    out = Rank(model, base, bank, options.effective_sample_size);
+    screen(ScreenedKind::kCoils, 0.7, 1);
   }
   return out;
 }

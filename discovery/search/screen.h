@@ -14,7 +14,8 @@ struct ScreenOptions {
   std::string effect, target;  // only this one, at this target only; empty: all
   bool coarse = false;         // no single coils, nothing that looks for a frequency
   bool frequencies = true;     // effects that look for a frequency too
-  bool resonances = true;      // those of a frequency and a damping, the dearest to seek
+  // those of a frequency and a damping, the dearest to seek, where the rest leaves motion open
+  bool resonances = true;
   std::function<void(double, const std::string&)> progress;
 };
 

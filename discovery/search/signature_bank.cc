@@ -122,6 +122,17 @@ void SignatureBank::LookAt(const CaseModel& model, const QuickLook& look) {
   products_ = Gram();
 }
 
+void SignatureBank::Rescale(const CaseModel& model, const std::vector<Target>& before) {
+  for (std::size_t n = 0; n < before.size(); ++n) {
+    const Target& t = model.targets()[n];
+    const auto factor = static_cast<float>(before[n].floor / t.floor);
+    for (std::size_t row = t.first; row < t.first + t.count; ++row)
+      columns_.row(static_cast<Index>(row)) *= model.ok()[row] ? factor : 0.0F;
+  }
+  multiplied_ = 0;
+  products_ = Gram();
+}
+
 void SignatureBank::Fill(const CaseModel& model, std::size_t begin, std::size_t end,
                          const QuickLook& look) {
   std::vector<EffectInstance> probes;
@@ -137,6 +148,10 @@ void SignatureBank::Fill(const CaseModel& model, std::size_t begin, std::size_t 
 
 bool SignatureBank::partial() const {
   return look_ && std::count(look_->records.begin(), look_->records.end(), 0) > 0;
+}
+
+Eigen::VectorXd SignatureBank::Sum(const Entry& entry, const Eigen::VectorXd& amount) const {
+  return (columns_.middleCols(entry.first, entry.count()) * amount.cast<float>()).cast<double>();
 }
 
 bool SignatureBank::Holds(const EffectInstance& probe) const {

@@ -35,8 +35,15 @@ class SignatureBank {
   /// Signatures of the records of `look` only, until more are asked for: what the bank lacks of them
   /// is then simulated.
   void LookAt(const CaseModel& model, const QuickLook& look);
+  /// Floors have changed from those of `before` (the same targets), and rows may have stopped to count.
+  void Rescale(const CaseModel& model, const std::vector<Target>& before);
   /// Whether some record was left out.
   bool partial() const;
+
+  /// Whether the signatures hold this record's rows.
+  bool LooksAt(std::size_t record) const { return !look_ || look_->records[record]; }
+  /// The entry's signatures, each by its amount.
+  Eigen::VectorXd Sum(const Entry& entry, const Eigen::VectorXd& amount) const;
 
   const std::vector<Entry>& entries() const { return entries_; }
   bool Holds(const EffectInstance& probe) const;

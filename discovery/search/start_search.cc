@@ -116,8 +116,11 @@ std::vector<SimulatedStart> SimulatedSizes(const StartSearch& search,
                               &e);
     starts.insert(starts.end(), sizes.begin(), sizes.end());
   }
+  // where no frequency gains anything in two sizes there is none to be found in more
+  constexpr double kAnything = 1;  // of the score
   std::stable_sort(resonances.begin(), resonances.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (!resonances.empty() && resonances[0].first > search.here() - kAnything) return starts;
   resonances.resize((resonances.size() + 1) / 2);
   for (const auto& [score, e] : resonances)
     for (const SimulatedStart& s : MoreSizesOfResonance(*e)) more.push_back(s);
@@ -132,12 +135,27 @@ StartSearch::StartSearch(const CaseModel& model, const FitResult& now, double ef
     : model_(model),
       now_(now),
       effective_sample_size_(effective_sample_size),
-      look_(WorstRecords(model, now)) {
+      look_(WorstRecords(model, now)),
+      beside_others_(now.hypothesis.rig.effects.size() > model.data().rig.effects.size()) {
   const auto run = model.PredictAll({now.hypothesis}, ModelFidelity::kCoarse, &look_)[0];
   if (!run) throw InputError("the model does not hold its rotor here");
   const std::vector<double> residual = Residual(model, *run);
   here_ = Score(model, Ratio(model, residual, Which::kFit),
                 Ratio(model, residual, Which::kValidate), effective_sample_size, 0, 0);
+  excess_ = Excess(residual);
+}
+
+double StartSearch::Excess(const std::vector<double>& residual) const {
+  double sum = 0;
+  for (const RecordError& e : RecordErrors(model_, residual))
+    if (look_.records[e.record]) sum += e.square - e.rows;
+  return sum;
+}
+
+bool StartSearch::Explains(const SimulatedStart& s) const {
+  constexpr double kWorth = 4;  // of the score
+  constexpr double kPart = 0.1;
+  return s.score <= here_ - kWorth && (!beside_others_ || s.share > kPart);
 }
 
 void StartSearch::Simulate(std::vector<SimulatedStart>& starts) const {
@@ -156,6 +174,7 @@ void StartSearch::Simulate(std::vector<SimulatedStart>& starts) const {
       starts[k].score =
           Score(model_, Ratio(model_, residual, Which::kFit),
                 Ratio(model_, residual, Which::kValidate), effective_sample_size_, 0, 0);
+      starts[k].share = excess_ > 0 ? 1 - Excess(residual) / excess_ : 0;
     }
   }
 }
@@ -194,12 +213,11 @@ bool SameValley(const EffectInstance& a, const EffectInstance& b) {
 std::vector<ProbeGroup> ScanStarts(const StartSearch& search,
                                    const std::vector<ProbeGroup>& groups) {
   constexpr std::size_t kKept = 5;
-  constexpr double kWorthKeeping = 4;  // of the score
   std::vector<SimulatedStart> starts = SimulatedSizes(search, groups);
   std::stable_sort(starts.begin(), starts.end(), ExplainsMore);
   std::vector<ProbeGroup> out;
   for (const SimulatedStart& s : starts) {
-    if (out.size() >= kKept || s.score > search.here() - kWorthKeeping) break;
+    if (out.size() >= kKept || !search.Explains(s)) break;
     if (std::any_of(out.begin(), out.end(),
                     [&](const ProbeGroup& g) { return SameValley(g.probes[0], s.effect); }))
       continue;

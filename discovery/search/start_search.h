@@ -8,11 +8,11 @@
 
 namespace ambrig {
 
-/// A start and its score (likelihood.h) with the rig parameters as they are; infinity: the rotor is
-/// lost.
+/// A start, its score (likelihood.h) with the rig parameters as they are (infinity: the rotor is lost) and the
+/// share of the squared error above the noise that it explains on the records looked at (below 0: it adds).
 struct SimulatedStart {
   EffectInstance effect;
-  double score = kInfinity;
+  double score = kInfinity, share = 0;
 };
 
 /// Where starts are tried: on top of `now`, on the fitted records of free rotors that hold most of its
@@ -23,6 +23,9 @@ class StartSearch {
 
   /// Score without an effect, same fidelity as the starts' scores.
   double here() const { return here_; }
+  /// Whether a start is worth more simulations: it gains score, and beside effects that were adopted, whose laws
+  /// leave details, a tenth of what is left where it is largest (to be adopted it has to explain most of it).
+  bool Explains(const SimulatedStart& s) const;
   /// Fills in the scores.
   void Simulate(std::vector<SimulatedStart>& starts) const;
   /// Moves each start to the neighbour (size, frequency, one of two gains) that explains most until none
@@ -36,8 +39,12 @@ class StartSearch {
   const CaseModel& model_;
   const FitResult& now_;
   double effective_sample_size_;
+  /// Σ r² less the noise's, of the records looked at.
+  double Excess(const std::vector<double>& residual) const;
+
   QuickLook look_;
-  double here_ = 0;
+  double here_ = 0, excess_ = 0;
+  bool beside_others_;  // effects that the rig file does not have are in the model already
 };
 
 /// Whether two starts differ in size only: frequency and the signs of their values are the same.

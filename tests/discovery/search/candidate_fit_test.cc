@@ -58,6 +58,29 @@ TEST(FitBriefly, ANarrowEffectThatExplainsNothingIsNotFitted) {
   EXPECT_TRUE(std::isinf(fit.ratio_fit));
 }
 
+// Beside an effect that has its place the columns of that one are lent: the same optimum of a linear
+// problem with fewer simulations.
+TEST(FitBriefly, BesideAnEffectItsSensitivitiesAreLent) {
+  long runs[2] = {};
+  for (const bool lent : {false, true}) {
+    const LinearCase c(kX, 1.08, 7e-6);  // one of its own: nothing is in memory
+    const FitResult now = FitOn(c.model, c.Base(), c.With({LinearCase::Gain(1.02)}), kFitN);
+    ASSERT_EQ(now.jacobian.cols(), 1);
+    Candidate candidate;
+    candidate.effect = LinearCase::Offset(2e-6);
+    Hypothesis h = now.hypothesis;
+    h.AddEffect(candidate.effect);
+    const long start = c.model.runs;
+    const FitResult fit =
+        lent ? FitBriefly(c.model, now, candidate, kFitN) : FitShortly(c.model, now, h, kFitN);
+    runs[lent ? 1 : 0] = c.model.runs - start;
+    ASSERT_TRUE(fit.converged);
+    EXPECT_NEAR(FittedEffect(fit, 0).Value("gain"), 1.08, 2e-3);
+    EXPECT_NEAR(FittedEffect(fit, 1).Value("offset"), 7e-6, 1e-7);
+  }
+  EXPECT_LT(runs[1], runs[0]);
+}
+
 TEST(FitOn, GivesSensitivitiesAndStandardDeviations) {
   const LinearCase c(kX, 1.08, 2e-6);
   const FitResult base = c.Base();

@@ -82,6 +82,27 @@ TEST(LinearJudge, OneStepFindsTheOffsetOfTheData) {
               1e-9);  // one number, no misfit
 }
 
+// Of clamped rotors nothing moves: no motion is left to explain.
+TEST(LinearJudge, WithoutAFreeRotorNoMotionIsOpen) {
+  const LinearCase c(kJudgeX, 1, 7e-6);
+  const FitResult base = c.Base();
+  SignatureBank bank = BankOf(c, base);
+  EXPECT_EQ(LinearJudge(c.model, base, bank, kJudgeN).MotionShare(EntryOf(bank, "sensor-gain")), 1);
+}
+
+TEST(SignatureBank, NewFloorsScaleWhatWasSimulated) {
+  LinearCase c(kJudgeX, 1, 7e-6);
+  const FitResult base = c.Base();
+  SignatureBank bank = BankOf(c, base);
+  const Gram old = bank.Products(c.model);
+  const std::vector<Target> before = c.model.targets();
+  for (Target& t : c.model.targets()) t.floor = 2 * LinearCase::kFloor;
+  bank.Rescale(c.model, before);
+  const Gram& now = bank.Products(c.model);
+  EXPECT_LT((4 * now.fit - old.fit).norm(), 1e-5 * old.fit.norm());
+  EXPECT_LT((4 * now.validate - old.validate).norm(), 1e-5 * old.validate.norm());
+}
+
 // A gain cannot make an offset: Σ (o - a x)² is least for a = o Σ x/Σ x², over A.x and A.y.
 TEST(LinearJudge, TheWrongEffectLeavesTheErrorOfLeastSquares) {
   const double o = 7e-6;

@@ -7,6 +7,7 @@
 
 #include "discovery/practice/examination.h"
 #include "discovery/search/candidate_fit.h"
+#include "discovery/search/screen.h"
 #include "discovery/search/start_search.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
@@ -116,6 +117,62 @@ TEST_F(ResonanceStartTest, AScanAndAClimbEndBesideTheTruth) {
   EXPECT_LE(best.score, before);
   EXPECT_NEAR(best.effect.Value("frequency"), 35, 2.5);
   EXPECT_NEAR(std::log(best.effect.Value("mass") / 90), 0, 0.35);
+}
+
+// Beside an effect that was adopted a start has to explain a tenth of what is left; alone any gain is pursued.
+TEST_F(ResonanceStartTest, BesideAnEffectAStartHasToExplainAPart) {
+  CaseModel model(data_, 4);
+  const FitResult base = Simulated(model);
+  FitResult beside = base;
+  EffectInstance nothing = MakeInstance(EffectNamed("sensor-offset"), "A.x");
+  nothing.Set("offset", 1e-12);
+  beside.hypothesis.AddEffect(nothing);
+  const StartSearch alone(model, base, 1e5), second(model, beside, 1e5);
+  std::vector<SimulatedStart> starts = {{BaseOf(90, 35, 0.02)}};
+  alone.Simulate(starts);
+  EXPECT_GT(starts[0].share, 0.99);  // the truth
+  EXPECT_TRUE(alone.Explains(starts[0]));
+  EXPECT_TRUE(second.Explains(starts[0]));
+  for (const double share : {0.05, 0.15}) {
+    const SimulatedStart gains = {starts[0].effect, alone.here() - 5, share};
+    EXPECT_TRUE(alone.Explains(gains));
+    EXPECT_EQ(second.Explains({starts[0].effect, second.here() - 5, share}), share > 0.1);
+  }
+  EXPECT_FALSE(alone.Explains({starts[0].effect, alone.here() - 3, 0.5}));
+}
+
+// Where another effect explains what moves, no resonance is simulated; where none does, it is.
+TEST_F(ResonanceStartTest, IsSoughtWhereOtherEffectsLeaveTheMotionOpen) {
+  EffectInstance gain = MakeInstance(EffectNamed("sensor-gain"), "A.x");
+  gain.Set("gain", 1 + std::sqrt(0.01 * 0.2));  // its probe: the linear step is exact there
+  for (const bool resonance : {false, true}) {
+    Case c = data_;
+    if (!resonance) {
+      CaseModel empty(c);
+      Hypothesis truth = Hypothesis::Base(c.rig);
+      truth.AddEffect(gain);
+      const Record measured = empty.Simulated(truth, 0, false, 1);
+      for (Channel& ch : c.records[0].data.channels)
+        if (const Channel* from = measured.Find(ch.name))
+          ch.samples.assign(from->samples.begin(),
+                            from->samples.begin() + static_cast<std::ptrdiff_t>(ch.samples.size()));
+    }
+    CaseModel model(c, 8);
+    for (Target& t : model.targets()) t.floor = std::max(1e-3 * t.full_scale, 1e-9);
+    FitOptions look;
+    look.iterations = 0;
+    FitResult base = Fit(model, Hypothesis::Base(c.rig), look);
+    base.jacobian = Eigen::MatrixXd(static_cast<Eigen::Index>(model.size()), 0);
+    bool sought = false;
+    ScreenOptions options;
+    options.effective_sample_size = 1e4;
+    options.progress = [&](double, const std::string& text) {
+      sought = sought || text == "resonances";
+    };
+    SignatureBank bank;
+    Screen(model, base, ResidualPeaks(), options, bank);
+    EXPECT_EQ(sought, resonance);
+  }
 }
 
 // Sizes of either kind are one valley, other frequencies and other signs are not.

@@ -1,0 +1,80 @@
+// Names of several effects, each judged anew beside the others.
+#include <algorithm>
+
+#include "discovery/decision/explainer.h"
+#include "discovery/decision/rejudge.h"
+
+namespace ambrig {
+
+/// The members of the round in which the effect was most probable that are still open; of the first effect, where
+/// no round ranked it, those of the first round.
+std::vector<EffectInstance> Explainer::RivalsOf(std::size_t adopted) const {
+  constexpr double kOpen = 0.02;
+  const EffectInstance& self = out_.adopted[adopted];
+  const std::vector<RankedName>* where = adopted == 0 && !rounds_.empty() ? &rounds_[0] : nullptr;
+  double most = 0;
+  for (const auto& round : rounds_)
+    for (const RankedName& n : round)
+      if (IsSameName(n.effect, self) && n.probability > most) most = n.probability, where = &round;
+  std::vector<EffectInstance> out;
+  if (!where) return out;
+  for (const RankedName& n : *where)
+    if (n.probability >= kOpen &&
+        std::none_of(out_.adopted.begin(), out_.adopted.end(),
+                     [&](const EffectInstance& a) { return IsSameName(a, n.effect); }))
+      out.push_back(n.effect);
+  return out;
+}
+
+/// Each effect against its rivals beside the others; where a better one takes a place, once more.
+void Explainer::RejudgeNames(const FitResult& base, FitResult& now) {
+  constexpr double kBetter = 4;  // of the score
+  constexpr int kPasses = 2;
+  if (out_.adopted.size() < 2) return;
+  bool swapped = true;
+  for (int pass = 0; swapped && pass < kPasses; ++pass) {
+    swapped = false;
+    for (std::size_t k = 0; k < out_.adopted.size(); ++k) {
+      const std::vector<EffectInstance> rivals = RivalsOf(k);
+      if (rivals.empty() && k > 0) continue;
+      Progress(0.92, "names beside " + Named(out_.adopted[k == 0 ? 1 : 0]));
+      std::vector<RankedEffect> ranking =
+          RankBeside(model_, {base, now, out_.adopted}, k, rivals, out_.effective_sample_size);
+      const RankedEffect& best = ranking[0];
+      const std::size_t place = rig_.effects.size() + k;
+      if (!IsSameName(best.effect, out_.adopted[k]) && HasSize(best.fit, place) &&
+          (Believable(best.fit) || !Believable(now)) && Gain(now, best.fit) > kBetter) {
+        out_.ladder.push_back({Named(best.effect) + " in place of " + Named(out_.adopted[k]),
+                               best.fit.ratio_fit, best.fit.ratio_validate});
+        now = best.fit;
+        for (std::size_t e = 0; e < out_.adopted.size(); ++e)
+          out_.adopted[e] = FittedEffect(now, rig_.effects.size() + e);
+        swapped = true;
+      }
+      NoteNames(k, std::move(ranking));
+    }
+  }
+  for (std::size_t k = 1; k < out_.adopted.size(); ++k)
+    out_.judged_beside.push_back(Named(out_.adopted[k]));
+}
+
+/// The ranking of the first effect is the one beside the others; what was not judged there follows it.
+void Explainer::NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking) {
+  if (adopted > 0) {
+    out_.beside[Named(out_.adopted[adopted])] = std::move(ranking);
+    return;
+  }
+  const std::vector<RankedEffect> before = std::move(out_.ranking);
+  out_.ranking = std::move(ranking);
+  const std::size_t judged = out_.ranking.size();
+  for (const RankedEffect& r : before) {
+    const auto named = [&](const RankedEffect& o) { return IsSameName(o.effect, r.effect); };
+    if (std::any_of(out_.ranking.begin(),
+                    out_.ranking.begin() + static_cast<std::ptrdiff_t>(judged), named))
+      continue;
+    out_.ranking.push_back(r);
+    out_.ranking.back().probability = 0;
+  }
+}
+
+}  // namespace ambrig
