@@ -97,7 +97,7 @@ class WholeShaft {
     for (const SpringSupport& s : out_.beam.supports) {
       const SupportCoefficients c = s.At(out_.options.highest);
       const double k = 0.5 * (c.kxx + c.kyy);
-      if (s.on_shaft() && k > 0) log_k += std::log10(k), ++count;
+      if (s.on_shaft() && !s.between_shafts() && k > 0) log_k += std::log10(k), ++count;
     }
     if (count == 0) return;
     std::vector<double> stiffnesses;
@@ -227,7 +227,7 @@ std::vector<CriticalMapRow> MapCriticalSpeeds(const BeamRotor& beam,
   BeamRotor copy = beam;
   const auto at = [&](double k) {
     for (SpringSupport& s : copy.supports) {
-      if (!s.on_shaft()) continue;
+      if (!s.on_shaft() || s.between_shafts()) continue;
       SpringSupport same = IsotropicSupport(s.z, k, 0);
       same.name = s.name;
       same.on = s.on;

@@ -70,7 +70,8 @@ struct ShaftAnalysis {
 ShaftAnalysis AnalyseShaft(const std::string& name, const BeamFile& file,
                            const std::vector<Tolerance>& tolerances, const ShaftOptions& options);
 
-/// Supports of the shaft at stiffness k after k, everything else as it stands; undamped.
+/// Supports of the shaft at stiffness k after k, everything else as it stands (housings, bearings and couplings between
+/// shafts); undamped.
 std::vector<CriticalMapRow> MapCriticalSpeeds(const BeamRotor& beam,
                                               const std::vector<double>& stiffnesses, int count);
 

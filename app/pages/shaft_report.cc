@@ -73,7 +73,7 @@ void AddCriticals(HtmlReport& report, const ShaftAnalysis& a) {
   if (a.map.empty()) return;
   std::vector<std::pair<std::string, double>> lines;
   for (const SpringSupport& s : a.beam.supports) {
-    if (!s.on_shaft()) continue;
+    if (!s.on_shaft() || s.between_shafts()) continue;
     const SupportCoefficients c = s.At(a.options.highest);
     const std::string name = s.name.empty() ? fmt::format("z = {:g} m", s.z) : s.name;
     lines.emplace_back(name + " kxx", c.kxx);
@@ -82,7 +82,8 @@ void AddCriticals(HtmlReport& report, const ShaftAnalysis& a) {
   report.AddFigure(CriticalMapFigure(
       a.map, lines,
       "Undamped critical speed map: the whole beam with every support of the shaft at one "
-      "stiffness; housings stay as they are. Vertical lines: the file's supports at the highest "
+      "stiffness; housings and what joins shafts stay as they are. Vertical lines: the file's "
+      "supports at the highest "
       "operating speed."));
 }
 

@@ -205,9 +205,15 @@ std::vector<CriticalSpeed> FindCriticalSpeeds(const LinearRotor& rotor, const Ma
   LinearRotor symmetric = rotor;
   symmetric.K = 0.5 * (rotor.K + rotor.K.transpose());
   symmetric.M = 0.5 * (rotor.M + rotor.M.transpose());
-  const LinearRotor reduced = Projected(symmetric, shapes);
+  LinearRotor reduced = Projected(symmetric, shapes);
+  reduced.K = 0.5 * (reduced.K + MatrixXd(reduced.K.transpose()));
   if (Eigen::LLT<MatrixXd>(reduced.K).info() != Eigen::Success) return {};
   std::vector<CriticalSpeed> out = CriticalSpeeds(reduced, count);
+  // A motion that is free has a stiffness of rounding, which may be positive.
+  if (std::any_of(out.begin(), out.end(), [&](const CriticalSpeed& c) {
+        return IsRigidMotion(symmetric, shapes * c.shape);
+      }))
+    return {};
   // With D = 0, s = i Omega of s² (M - i G) + K.
   const Eigen::MatrixXcd none = Eigen::MatrixXcd::Zero(rotor.M.rows(), rotor.M.rows());
   DynamicMatrix matrix(symmetric.M.cast<Complex>() - Complex(0, 1) * rotor.G.cast<Complex>(), none,

@@ -78,6 +78,36 @@ TEST_F(AnalyzeShaft, CampbellAloneIsTheCampbellOfTheWhole) {
   EXPECT_THAT(ReadText(folder_ / "alone.html"), HasSubstr("Damped modes"));
 }
 
+// The critical speed map moves the supports; a bearing between two shafts stays, so that at the supports' own stiffness
+// the map has the critical speeds of the machine, and holds both shafts at every one.
+TEST_F(AnalyzeShaft, TheMapKeepsWhatJoinsShafts) {
+  std::string text = "[rotor]\nkind = \"beam\"\n";
+  for (const char* name : {"inner", "outer"})
+    text += std::string("[[rotor.shaft]]\nname = \"") + name + "\"\n";
+  text +=
+      "[[rotor.section]]\nshaft = \"inner\"\nlength = 2.5\nod = 0.05\nmaterial = \"steel\"\n"
+      "[[rotor.section]]\nshaft = \"outer\"\nz0 = 0.5\nlength = 1.5\nod = 0.3\nid = 0.25\n"
+      "material = \"steel\"\n";
+  for (const char* at :
+       {"shaft = \"inner\"\nz = 0.0", "shaft = \"inner\"\nz = 2.5", "shaft = \"outer\"\nz = 0.5",
+        "shaft = \"inner\"\nz = 2.0\nto = \"outer\"\nto_z = 2.0"})
+    text += std::string("[[rotor.support]]\n") + at + "\nk = 1e6\n";
+  Write("two.toml", text);
+  const Outcome o = Ambrig("analyze two.toml --speed 1000 --json two.json");
+  ASSERT_LE(o.exit, 1) << o.text;
+  const auto json = nlohmann::json::parse(ReadText(folder_ / "two.json"));
+  const auto& map = json.at("map");
+  ASSERT_EQ(map.size(), 41U);
+  EXPECT_NEAR(map[20].at("stiffness").get<double>(), 1e6, 1);
+  const auto& own = json.at("undamped_critical_speeds");
+  ASSERT_EQ(map[20].at("speeds").size(), own.size());
+  for (std::size_t k = 0; k < own.size(); ++k)
+    EXPECT_NEAR(
+        map[20].at("speeds")[k].at("speed").get<double>() / own[k].at("speed").get<double>(), 1,
+        1e-7);
+  for (const auto& row : map) EXPECT_FALSE(row.at("speeds").empty()) << row.at("stiffness");
+}
+
 TEST_F(AnalyzeShaft, MistakesAreOneLine) {
   ExpectRefusedLine("shaft.toml --probe wheel", "disk1");
   ExpectRefusedLine("shaft.toml --unbalance disk1", "PLANE:G_MM");

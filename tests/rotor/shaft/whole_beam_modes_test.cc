@@ -89,6 +89,18 @@ TEST(WholeBeamModes, CriticalSpeedsOfTheWholeBeam) {
   }
 }
 
+// On one support the shaft swings freely: its stiffness there is rounding, of either sign.
+TEST(WholeBeamModes, NoCriticalSpeedsOfAShaftThatSwings) {
+  for (const double k : {1e4, 1e6, 1e8, 3e8}) {
+    BeamDefinition d = SteppedShaft(6);
+    d.supports = {IsotropicSupport(0.1, k, 0)};
+    const BeamRotor beam = BuildBeam(d);
+    const LinearRotor rotor = Assemble(beam);
+    EXPECT_TRUE(FindCriticalSpeeds(rotor, ShapesOf(rotor, 20, SupportColumns(beam)), 6).empty())
+        << k;
+  }
+}
+
 // A free shaft: its bending modes twice, none of its rigid motions.
 TEST(WholeBeamModes, FreeShaftHasNoRigidModes) {
   BeamDefinition d = SteppedShaft(6);
