@@ -40,7 +40,7 @@ std::vector<Replacement> ReplacementsOf(const Hypothesis& h, const Eigen::Matrix
   return out;
 }
 
-Hypothesis Shifted(const Hypothesis& from, std::size_t parameter, double change) {
+Hypothesis WithChange(const Hypothesis& from, std::size_t parameter, double change) {
   Hypothesis h = from;
   h.Set(parameter, h.ValueAt(parameter, from.Coordinate(parameter) + change));
   return h;
@@ -98,7 +98,8 @@ class Puller {
     for (const Replacement& r : ReplacementsOf(from, gram, k))
       for (const double part : {0.0, 0.5}) {
         const double change = (part - 1) * shift;
-        if (Keeps(Shifted(Shifted(from, k, change), r.parameter, r.per_unit * change), r.parameter))
+        if (Keeps(WithChange(WithChange(from, k, change), r.parameter, r.per_unit * change),
+                  r.parameter))
           return true;
       }
     return false;
@@ -113,7 +114,7 @@ class Puller {
     const Eigen::MatrixXd left = FitGram(model_, look, column, there.residual),
                           was = FitGram(model_, look, column, best_.fit.residual);
     const double correction = (left(0, 1) - was(0, 1)) / left(0, 0);
-    FitResult corrected = Fit(model_, Shifted(h, replacement, correction), point_);
+    FitResult corrected = Fit(model_, WithChange(h, replacement, correction), point_);
     if (corrected.converged && Cost(corrected) < Cost(there)) there = std::move(corrected);
     if (Cost(there) > Cost(best_.fit) - kGain) return false;
     there.jacobian = best_.fit.jacobian;

@@ -83,7 +83,10 @@ std::optional<Hypothesis> WithoutOptionalShapes(const Hypothesis& start) {
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
-  constexpr std::size_t kClimbed = 5;
+  constexpr std::size_t kClimbed = 5, kClimbedBeside = 2;  // beside effects that were adopted
+  const std::size_t most = now.hypothesis.rig.effects.size() > model.data().rig.effects.size()
+                               ? kClimbedBeside
+                               : kClimbed;
   std::vector<SimulatedStart> order, climbed;
   for (const EffectInstance& e : starts) order.push_back({e});
   const auto sort = [](std::vector<SimulatedStart>& list) {
@@ -95,9 +98,9 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
     search.Simulate(order);
     sort(order);
     for (const SimulatedStart& s : order)
-      if (climbed.size() < kClimbed &&
-          std::none_of(climbed.begin(), climbed.end(),
-                       [&](const auto& o) { return SameValley(o.effect, s.effect); }))
+      if (climbed.size() < most && std::none_of(climbed.begin(), climbed.end(), [&](const auto& o) {
+            return SameValley(o.effect, s.effect);
+          }))
         climbed.push_back(s);
     search.Climb(climbed);
     std::vector<EffectInstance> out;

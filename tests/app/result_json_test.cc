@@ -154,6 +154,32 @@ TEST_F(ExplainJsonTest, HoldsTheThreeAnswers) {
   EXPECT_FALSE(j.contains("unexplained"));
 }
 
+TEST_F(ExplainJsonTest, SaysBesideWhatNamesWereJudgedAndWhatTheRigIs) {
+  EffectInstance unbalance = MakeInstance(EffectNamed("unbalance"), "B");
+  e_.adopted.push_back(unbalance);
+  e_.judged_beside = {"unbalance at B"};
+  e_.further_sets = {{"unbalance at B", {{"unbalance", "B", 0.97}}}};
+  FreeParameter gap;
+  gap.path = "bearings.A.gap";
+  gap.value = 4.02e-4;
+  gap.start = 4e-4;
+  gap.sd = 4e-6;
+  FreeParameter size;  // of an effect: stands with the effect
+  size.effect = 0;
+  e_.final_fit.hypothesis.free = {gap, size};
+  e_.final_fit.sd = {1e-6, 1};
+  const auto j = ExplainJson(e_);
+  EXPECT_THAT(j["judged_beside"], ElementsAre("unbalance at B"));
+  EXPECT_FALSE(j["adopted"][0].contains("set"));
+  EXPECT_EQ(j["adopted"][1]["set"][0]["probability"], 0.97);
+  ASSERT_EQ(j["parameters"].size(), 1u);
+  EXPECT_EQ(j["parameters"][0]["path"], "bearings.A.gap");
+  EXPECT_EQ(j["parameters"][0]["value"], 4.02e-4);
+  EXPECT_EQ(j["parameters"][0]["sd"], 1e-6);
+  EXPECT_EQ(j["parameters"][0]["drawing"], 4e-4);
+  EXPECT_EQ(j["parameters"][0]["drawing_sd"], 4e-6);
+}
+
 // Infinities are words, so that every program can read the file.
 TEST_F(ExplainJsonTest, IsValidJsonWhateverTheNumbers) {
   const auto j = ExplainJson(e_);

@@ -80,6 +80,31 @@ TEST(Explain, OneEffectIsPreferredToAsManyZerosAsRecords) {
   EXPECT_TRUE(e.nuisances.empty());
 }
 
+// A second effect hides nothing of the first any more: both have a set of their own.
+TEST(Explain, TwoEffectsAreNamedBesideEachOther) {
+  Case c = MeasuredCase(Places(1.08));
+  for (CaseRecord& r : c.records)
+    for (double& v : r.data.channels[3].samples) v += 4e-6;  // B.y
+  ExplainOptions o = Short();
+  o.candidates = 3;
+  o.rounds = 2;
+  const Explanation e = Explain(c, o);
+  ASSERT_EQ(e.verdict, "effect");
+  ASSERT_EQ(e.adopted.size(), 2u);
+  for (const EffectInstance& a : e.adopted)
+    EXPECT_TRUE(Named(a) == "sensor-gain at A.x" || Named(a) == "sensor-offset at B.y") << Named(a);
+  ASSERT_EQ(e.judged_beside.size(), 1u);
+  EXPECT_EQ(e.judged_beside[0], Named(e.adopted[1]));
+  ASSERT_FALSE(e.set.empty());
+  EXPECT_EQ(e.set[0].effect, e.adopted[0].name);
+  EXPECT_GT(e.set[0].probability, 0.9);
+  EXPECT_NEAR(e.ranking[0].fit.ratio_validate, 1, 0.15);  // with both
+  for (const auto& [name, set] : e.further_sets) {
+    EXPECT_EQ(name, Named(e.adopted[1]));
+    EXPECT_EQ(set[0].effect, e.adopted[1].name);
+  }
+}
+
 // Zeros that follow no law are nuisances, not an effect.
 TEST(Explain, WhatDiffersFromRecordToRecordIsANuisance) {
   std::vector<MeasuredPlace> places = Places(1);

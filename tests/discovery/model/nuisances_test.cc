@@ -22,7 +22,7 @@ Eigen::VectorXd RowsOfAx(const CaseModel& model, int record, double height) {
   return column;
 }
 
-std::vector<double> Values(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
+std::vector<double> NumbersOf(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
 class NuisanceTest : public ::testing::Test {
  protected:
@@ -42,7 +42,7 @@ TEST_F(NuisanceTest, AmountsAreThoseOfTheRidgeFitRecordByRecord) {
   nuisances.Use(model(), {Zero()}, w);
   EXPECT_TRUE(nuisances.any());
   const Eigen::VectorXd residual = RowsOfAx(model(), 0, 3) - RowsOfAx(model(), 2, 1.5);
-  const auto found = nuisances.Amounts(model(), Values(residual));
+  const auto found = nuisances.Amounts(model(), NumbersOf(residual));
   ASSERT_EQ(found.size(), 3u);
   const double share = n * 2 / (n * 4 + 1 / w);
   EXPECT_NEAR(found[0].value, 3 * share * 2e-6, 1e-15);
@@ -114,7 +114,7 @@ TEST_F(NuisanceTest, TwoKindsOfOneShapeShareTheAmount) {
   twin.name = "logger zero of A.x";
   Nuisances nuisances;
   nuisances.Use(model(), {Zero(), twin}, 1);
-  const auto found = nuisances.Amounts(model(), Values(RowsOfAx(model(), 0, 4)));
+  const auto found = nuisances.Amounts(model(), NumbersOf(RowsOfAx(model(), 0, 4)));
   ASSERT_EQ(found.size(), 6u);
   EXPECT_NEAR(found[0].value, found[1].value, 1e-15);
   EXPECT_NEAR(found[0].value + found[1].value, 4e-6, 0.02e-6);

@@ -141,6 +141,32 @@ TEST_F(ResonanceStartTest, BesideAnEffectAStartHasToExplainAPart) {
   EXPECT_FALSE(alone.Explains({starts[0].effect, alone.here() - 3, 0.5}));
 }
 
+// What an adopted law leaves in detail is not worth as many climbs: the two best starts find the truth.
+TEST_F(ResonanceStartTest, BesideAnEffectFewerStartsAreClimbed) {
+  Candidate candidate;
+  candidate.narrow = true;
+  candidate.effect = BaseOf(400, 150, 0.05);
+  candidate.other_starts = {BaseOf(300, 110, 0.05), BaseOf(150, 75, 0.05), BaseOf(150, 55, 0.05),
+                            BaseOf(120, 33, 0.05)};
+  long runs[2] = {};
+  for (const bool beside : {false, true}) {
+    CaseModel model(data_, 4);
+    FitResult now = Simulated(model);
+    if (beside) {
+      EffectInstance nothing = MakeInstance(EffectNamed("sensor-offset"), "A.x");
+      nothing.Set("offset", 1e-12);
+      now.hypothesis.AddEffect(nothing);
+      std::erase_if(now.hypothesis.free, [](const FreeParameter& p) { return p.effect >= 0; });
+    }
+    const long start = model.runs;
+    const FitResult fit = FitBriefly(model, now, candidate, 1e5);
+    runs[beside ? 1 : 0] = model.runs - start;
+    ASSERT_TRUE(fit.converged);
+    EXPECT_NEAR(FittedEffect(fit, beside ? 1 : 0).Value("frequency"), 35, 0.4);
+  }
+  EXPECT_LT(runs[1], runs[0]);
+}
+
 // Where another effect explains what moves, no resonance is simulated; where none does, it is.
 TEST_F(ResonanceStartTest, IsSoughtWhereOtherEffectsLeaveTheMotionOpen) {
   EffectInstance gain = MakeInstance(EffectNamed("sensor-gain"), "A.x");
