@@ -151,6 +151,7 @@ std::vector<double> SdUnderDoubt(const CaseModel& model, const FitResult& fit,
                                   p.effect < 0 ? 0 : VarianceOfAlike(h, square, k));
     value = std::sqrt(std::max(value * value, unit * unit * least) +
                       std::pow(unit * share, 2) * VarianceOfLaw(blocks, a, variance, weight));
+    if (p.sd > 0) value = std::min(value, p.sd);  // whatever the law, the drawing holds
   }
   return sd;
 }

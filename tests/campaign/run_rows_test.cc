@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <set>
+#include <thread>
 
 #include "core/base/errors.h"
 #include "tests/core/temporary_folder.h"
@@ -82,6 +84,7 @@ TEST(OnAllCores, TheFirstExceptionEndsAll) {
     OnAllCores(runs, 2, nullptr, [&](std::size_t run) {
       ++begun;
       if (run == 3) throw InputError("run 3 cannot be written");
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // what a run takes at least
     });
   });
   EXPECT_EQ(said, "run 3 cannot be written");

@@ -75,6 +75,15 @@ TEST(SdUnderDoubt, OfAnotherLawHasTheSpreadOfWhatEachRecordAsksFor) {
   EXPECT_GT(sd, 2 * fit.sd[0]);
 }
 
+// What the drawing says is known from elsewhere and holds whatever the law.
+TEST(SdUnderDoubt, IsNotMoreThanTheDrawingSays) {
+  const LinearCase c(kScatterX, 1, 7e-6);
+  FitResult fit = FittedGain(c);
+  const double open = SdUnderDoubt(c.model, fit, kScatterN)[0];
+  fit.hypothesis.free[0].sd = open / 4;
+  EXPECT_LE(SdUnderDoubt(c.model, fit, kScatterN)[0], open / 4);
+}
+
 TEST(SdUnderDoubt, WithoutSensitivitiesNothingChanges) {
   const LinearCase c(kScatterX, 1, 7e-6);
   FitResult fit = FittedGain(c);
