@@ -73,7 +73,9 @@ export function dialog() {
       words = /** @type {HTMLInputElement} */ (e.target).value;
       changed();
     }} @keydown=${(/** @type {KeyboardEvent} */ e) => {
-      if (e.key === 'Enter' && found[0]) take(found[0]);
+      // What is typed fast is not drawn yet: the list on the screen may be that of the letter before.
+      const first = matching(state.folder?.files ?? [], /** @type {HTMLInputElement} */ (e.target).value)[0];
+      if (e.key === 'Enter' && first) take(first);
     }}></label>
     <ul class="found">${found.map((f) => html`<li><button @click=${() => take(f)}>${f.name}</button> <span class="note">${f.kind}</span></li>`)}</ul>
     ${found.length === 0 ? html`<p>No file of this name.</p>` : nothing}<button @click=${close}>Close</button></div></div>`;
