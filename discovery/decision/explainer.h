@@ -77,7 +77,7 @@ class Explainer {
   /// A name of a round, as it was fitted there.
   struct RankedName {
     EffectInstance effect;
-    double probability = 0;
+    double probability = 0, ratio = 0;  // ratio_fit of its fit
   };
   std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
   bool floor_renewed_ = false;
