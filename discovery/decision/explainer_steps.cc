@@ -124,7 +124,8 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   if (round == 0) out_.screened = std::move(ranked.screened);
   (round == 0 ? out_.ranking : out_.second_round) = ranking;
   rounds_.emplace_back();
-  for (const RankedEffect& r : ranking) rounds_.back().push_back({r.effect, r.probability, r.fit.ratio_fit});
+  for (const RankedEffect& r : ranking)
+    rounds_.back().push_back({r.effect, r.probability, r.fit.ratio_fit});
   if (ranking.empty() ||
       !HasSize(ranking[0].fit, ranking[0].fit.hypothesis.rig.effects.size() - 1) ||
       !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_))
