@@ -11,6 +11,7 @@ its mend: what lies there is a seed of that target. Exit code 1: there are findi
 """
 import argparse
 import concurrent.futures
+import os
 import pathlib
 import re
 import shutil
@@ -76,7 +77,7 @@ def fuzz(target, options):
         done = subprocess.run(
             [program, f"-runs={options.runs}", f"-seed={options.seed}", "-max_len=16384", "-timeout=20", "-rss_limit_mb=3072",
              "-print_final_stats=1", f"-max_total_time={options.seconds}", f"-artifact_prefix={options.keep}/{target}-", corpus],
-            cwd=scratch, text=True, errors="replace", stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
+            cwd=scratch, env=os.environ | {"ASAN_OPTIONS": "allocator_may_return_null=1"}, text=True, errors="replace", stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
     count = re.findall(r"number_of_executed_units: (\d+)", done.stderr) or re.findall(r"^#(\d+)", done.stderr, re.MULTILINE) or ["0"]
     finding = None
     if done.returncode != 0:
