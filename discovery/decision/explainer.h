@@ -61,7 +61,7 @@ class Explainer {
   /// others; a better one takes its place.
   void RejudgeNames(const FitResult& base, FitResult& now);
   void NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking);
-  /// The names that stood beside an effect where it was judged best.
+  /// The names that were open where an effect was judged best, and those nearly as good in another's place.
   std::vector<EffectInstance> RivalsOf(std::size_t adopted) const;
   /// A last fit with fresh sensitivities of everything.
   void Polish(FitResult& now);
