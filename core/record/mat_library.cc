@@ -9,6 +9,7 @@ namespace ambrig::mat {
 namespace {
 
 constexpr double kStoredPart = 8, kDeflation = 1032;
+constexpr std::size_t kLongestText = 1 << 16;  // bytes of a name, a unit, a label
 
 template <class T>
 std::vector<double> ToDoubles(const matvar_t& v, std::size_t n) {
@@ -104,7 +105,7 @@ std::vector<std::complex<double>> ComplexNumbers(const matvar_t& v, std::size_t 
 
 std::string Text(const matvar_t& v) {
   std::string text;
-  if (v.class_type != MAT_C_CHAR || v.data == nullptr) return text;
+  if (v.class_type != MAT_C_CHAR || v.data == nullptr || v.nbytes > kLongestText) return text;
   const auto* bytes = static_cast<const unsigned char*>(v.data);
   for (std::size_t k = 0; k + 1 <= v.nbytes; k += v.data_size == 2 ? 2 : 1) {
     unsigned code = bytes[k];

@@ -32,7 +32,8 @@ bool IsNumeric(const matvar_t& v);  // real numbers of any type
 std::vector<double> Numbers(const matvar_t& v, std::size_t n);
 bool IsComplex(const matvar_t& v);  // complex numbers of any type
 std::vector<std::complex<double>> ComplexNumbers(const matvar_t& v, std::size_t n);
-/// Text of a char row; empty for anything else.
+/// Text of a char row; empty for anything else, and for a text longer than 64 KiB: names and units
+/// are short, and a damaged size asks for gigabytes.
 std::string Text(const matvar_t& v);
 
 /// Empty for what is no struct.
