@@ -8,6 +8,7 @@
 #include "core/math/constants.h"
 #include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
+#include "discovery/data/noise_estimate.h"
 
 namespace ambrig {
 
@@ -47,10 +48,39 @@ const std::vector<Mistake>& Mistakes() {
   return kAll;
 }
 
-/// rms of measured/factor - predicted, over the error as it is.
-double Left(const GateColumn& c, double factor) {
+constexpr double kZeroSds = 4;
+
+/// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by no
+/// more are not told apart.
+double MostZero(const CaseModel& model, const std::string& channel) {
+  const auto& declared = model.data().nuisances.sensor_zero;
+  const auto own = declared.find(channel);
+  const double usual = UsualZero(model.data().rig, channel);
+  return kZeroSds * (own == declared.end() ? usual : std::max(own->second, usual));
+}
+
+/// rms of measured minus predicted [floors], less a constant of at most `zero` [SI].
+double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero) {
+  double sum = 0, n = 0;
+  for (std::size_t k = 0; k < c.column.size(); ++k)
+    if (c.column.ok[k]) sum += c.column.measured[k] - predicted[k], n += 1;
+  const double most = zero / c.floor, mean = n > 0 ? std::clamp(sum / n, -most, most) : 0;
+  std::vector<double> shifted = predicted;
+  for (double& p : shifted) p += mean;
+  return ErrorAgainst(c.column.measured, shifted, c.column.ok);
+}
+
+/// rms of measured/factor - predicted, over the error beside a zero of the sensor.
+double Left(const GateColumn& c, double factor, double error) {
   return ErrorAgainst(c.column.measured, c.column.predicted, c.column.ok, factor) /
-         std::abs(factor) / c.match.error;
+         std::abs(factor) / error;
+}
+
+/// Where the model expects nothing but noise, a factor shows in the noise alone.
+bool NoiseTells(const GateColumn& c, double factor) {
+  constexpr double kNothing = 3;  // floors
+  if (factor < 1 || c.match.predicted_rms > kNothing) return true;
+  return WhiteNoiseOf(c.column.measured.data(), c.column.ok.data(), c.column.size()) > 0.3 * factor;
 }
 
 /// Median error of the record's other columns.
@@ -81,17 +111,17 @@ bool LevelTells(const GateColumn& c) {
          c.match.measured_move < 0.05 * c.match.measured_rms;
 }
 
-const Mistake* BestMistake(const GateColumn& c, double others, double* left) {
+const Mistake* BestMistake(const GateColumn& c, double error, double others, double* left) {
   const Mistake* best = nullptr;
   *left = 1;
   for (const Mistake& m : Mistakes()) {
-    const double rest = Left(c, m.factor);
-    if (rest > m.left || rest >= *left) continue;
+    const double rest = Left(c, m.factor, error);
+    if (rest > m.left || rest >= *left || !NoiseTells(c, m.factor)) continue;
     if (!LevelTells(c) && c.match.correlation < m.correlation) continue;
     // divided by the factor the column must still show what the model expects, its noise at least:
     // a movement that the model lacks is no unit
     if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) continue;
-    if (m.alone && (c.match.error < 2 * kGrossError || others > 0.2 * c.match.error)) continue;
+    if (m.alone && (error < 2 * kGrossError || others > 0.2 * error)) continue;
     best = &m;
     *left = rest;
   }
@@ -118,17 +148,18 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   for (GateColumn& c : columns) {
-    if (c.explained || c.match.error < kGrossError) continue;
+    const double error = ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name));
+    if (c.explained || error < kGrossError) continue;
     double left = 1;
     const double others = OthersError(columns, c);
-    if (const Mistake* m = BestMistake(c, others, &left)) {
+    if (const Mistake* m = BestMistake(c, error, others, &left)) {
       DataFault f = FaultOf(r, c.name, "unit", left);
       f.factor = m->factor;
       f.mend = UnitLine(r, c.name, m->factor);
       out.push_back(f);
       c.explained = true;
-    } else if (c.match.correlation < -0.7 && Left(c, -1) < 0.3) {
-      DataFault f = FaultOf(r, c.name, "sign", Left(c, -1));
+    } else if (c.match.correlation < -0.7 && Left(c, -1, error) < 0.3) {
+      DataFault f = FaultOf(r, c.name, "sign", Left(c, -1, error));
       f.factor = -1;
       f.mend = UnitLine(r, c.name, -1);
       out.push_back(f);
@@ -144,18 +175,17 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
     const auto id = ParseChannel(c.name);
     return std::pair(id->kind, id->row().scope == ChannelScope::kDirection && id->index == 2);
   };
-  const auto against = [](const GateColumn& a, const GateColumn& b) {  // a's data, b's prediction
+  const auto against = [&](const GateColumn& a, const GateColumn& b) {  // a's data, b's prediction
     std::vector<double> predicted = b.column.predicted;
     for (double& p : predicted) p *= b.floor / a.floor;
-    return ErrorAgainst(a.column.measured, predicted, a.column.ok);
+    return ErrorBesideZero(a, predicted, MostZero(model, a.name));
   };
   for (std::size_t i = 0; i < columns.size(); ++i)
     for (std::size_t j = i + 1; j < columns.size(); ++j) {
       GateColumn &a = columns[i], &b = columns[j];
       if (a.explained || b.explained) continue;
-      const double before = std::hypot(a.match.error, b.match.error);
-      if (std::min(a.match.error, b.match.error) < 0.7 * kGrossError || before < 1.5 * kGrossError)
-        continue;
+      const double own_a = against(a, a), own_b = against(b, b), before = std::hypot(own_a, own_b);
+      if (std::min(own_a, own_b) < 0.7 * kGrossError || before < 1.5 * kGrossError) continue;
       const double after = std::hypot(against(a, b), against(b, a));
       // columns of different kinds: each must fit the other's prediction far better
       if (after > (kind(a) == kind(b) ? 0.35 : 0.1) * before) continue;

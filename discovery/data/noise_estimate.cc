@@ -13,7 +13,9 @@ constexpr double kMadToSd = 1.4826;
 constexpr std::size_t kLeastSamples = 32;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-double Quantile(std::vector<double> values, double part) {
+}  // namespace
+
+double QuantileOf(std::vector<double> values, double part) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
   if (values.empty()) return kNan;
   const double at = part * static_cast<double>(values.size() - 1);
@@ -26,11 +28,9 @@ double Quantile(std::vector<double> values, double part) {
   return first + (at - static_cast<double>(low)) * (second - first);
 }
 
-}  // namespace
+double MedianOf(std::vector<double> values) { return QuantileOf(std::move(values), 0.5); }
 
-double MedianOf(std::vector<double> values) { return Quantile(std::move(values), 0.5); }
-
-double LowerQuartileOf(std::vector<double> values) { return Quantile(std::move(values), 0.25); }
+double LowerQuartileOf(std::vector<double> values) { return QuantileOf(std::move(values), 0.25); }
 
 double WhiteNoiseOf(const double* error, const char* ok, std::size_t count) {
   std::vector<double> size;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "discovery/calibration/calibration.h"
+#include "discovery/data/clock_shift.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
@@ -106,6 +107,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
   const FitResult bare = base;
   if (TryNuisances(base, true) && OneEffectInstead(bare, base)) base = bare;
+  if (options_.clocks && FindLateRows(base)) return;
   FitResult now = base;
   for (int round = 0; round < options_.rounds; ++round)
     if (!AdoptBest(now, round)) break;
@@ -117,7 +119,12 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   RejudgeNames(base, now);
   Polish(now);
   DropSizeless(base, now);
-  if (TryNuisances(now, false)) base = FitNow(base.hypothesis, nullptr);
+  DropNuisances(base, now);
+  if (TryNuisances(now, false)) {
+    base = FitNow(base.hypothesis, nullptr);
+    for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
+      if (!AdoptBest(now, round)) break;
+  }
   out_.final_fit = now;
   out_.final_ratio_fit = now.ratio_fit;
   out_.final_ratio_validate = now.ratio_validate;
@@ -217,8 +224,25 @@ void Explainer::FindConfusable() {
   }
 }
 
+/// The explanation of the case with the clocks of its records set right.
+Explanation ExplainShifted(const Case& c, const std::vector<int>& rows_late,
+                           ExplainOptions options) {
+  const Case shifted = WithClocks(c, rows_late);
+  options.clocks = false;
+  Explanation e = Explainer(shifted, options).Run();
+  for (std::size_t r = 0; r < rows_late.size(); ++r)
+    if (rows_late[r] != 0)
+      e.warnings.push_back(fmt::format("the clock of {} is {} row{} {}: its rows are moved",
+                                       c.records[r].data_file, std::abs(rows_late[r]),
+                                       std::abs(rows_late[r]) == 1 ? "" : "s",
+                                       rows_late[r] > 0 ? "late" : "early"));
+  return e;
+}
+
 Explanation Explain(const Case& c, const ExplainOptions& options) {
-  Explanation e = Explainer(c, options).Run();
+  Explainer explainer(c, options);
+  Explanation e = explainer.Run();
+  if (!explainer.rows_late().empty()) e = ExplainShifted(c, explainer.rows_late(), options);
   const CalibrationTable& table = StoredCalibration();
   if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);
   return e;

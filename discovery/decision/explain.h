@@ -71,6 +71,7 @@ struct ExplainOptions {
   RunStore* store = nullptr;  // simulations of an earlier, interrupted call
   // with the stored table (discovery/calibration/calibration.h), where enough cases stand behind it
   bool calibrate = true;
+  bool clocks = true;  // records that are whole rows late are moved first
 };
 
 Explanation Explain(const Case& c, const ExplainOptions& options);

@@ -8,7 +8,10 @@ namespace ambrig {
 class Explainer {
  public:
   Explainer(const Case& c, const ExplainOptions& options);
+  /// Stops early where records are found to be whole rows late (rows_late).
   Explanation Run();
+  /// Rows by which each record is late; empty: none is.
+  const std::vector<int>& rows_late() const { return rows_late_; }
 
  private:
   /// Stated noise, a look at the data with it, then the noise that the records show.
@@ -20,11 +23,15 @@ class Explainer {
   void Stop(const FitResult& as_filed);
   void Search(const Hypothesis& nominal, const FitResult& as_filed);
   /// Zeros, clocks and inputs that differ from record to record, where the case declares none.
-  /// `alone`: only when they explain nearly all that is left, before any effect is sought.
+  /// `alone`: before any effect is sought, when they explain half of what is left.
   bool TryNuisances(FitResult& now, bool alone);
   /// Whether one effect explains as much as the nuisances of every record together, which are many:
   /// they are then given up, and the search for effects starts from `bare`.
   bool OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances);
+  /// Nuisances that the case does not declare go again when the effects found explain as much without.
+  void DropNuisances(FitResult& base, FitResult& now);
+  /// Records that are whole rows late or early: a shift of whole rows is no small one.
+  bool FindLateRows(const FitResult& base);
   /// The amounts of the nuisances at the end.
   void ReportNuisances(const FitResult& now);
   /// An effect that the last fit leaves without a size goes again.
@@ -80,6 +87,7 @@ class Explainer {
     double probability = 0, ratio = 0;  // ratio_fit of its fit
   };
   std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
+  std::vector<int> rows_late_;
   bool floor_renewed_ = false;
   double first_fall_ = 0;  // of the squared ratio on unseen records, by the first effect
 };

@@ -1,4 +1,4 @@
-// Steps of the search: effects and nuisances are added, exchanged and taken away.
+// Steps of the search: effects are added, exchanged and taken away.
 #include <algorithm>
 #include <cmath>
 
@@ -6,87 +6,11 @@
 #include "discovery/decision/explainer.h"
 #include "discovery/decision/law_scatter.h"
 #include "discovery/decision/likelihood.h"
-#include "discovery/decision/nuisance_choice.h"
 #include "discovery/decision/pull_back.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
 
 namespace ambrig {
-
-/// Zeros, clocks and inputs that differ from record to record, where the case declares none.
-/// `alone`: only when they explain nearly all that is left, before any effect is sought.
-bool Explainer::TryNuisances(FitResult& now, bool alone) {
-  const StageRatios before = RatiosOf(model_, now);
-  if (full_.data().nuisances.any() || full_.nuisances.any() || before.Answered() < 1.1)
-    return false;
-  Progress(0.05, "what may differ from record to record");
-  const FitResult all = AllRows(now);
-  if (all.predicted.empty()) return false;
-  const double weight =
-      MisfitWeight(1, out_.effective_sample_size) / static_cast<double>(full_.size());
-  const std::vector<NuisanceKind> chosen = ChooseNuisances(
-      full_, NuisanceKindsOf(full_, now.hypothesis, all.predicted, false), all.residual, weight);
-  if (chosen.empty()) return false;
-  const SignatureBank bank = bank_;
-  SetNuisances(chosen);
-  const auto give_up = [&] {
-    full_.nuisances = model_.nuisances = Nuisances();
-    bank_ = bank;
-    return false;
-  };
-  const auto explains = [&](const StageRatios& after, double least, double most_left) {
-    return ExplainedShare(before.Answered(), after.Answered()) >= least &&
-           after.Answered() <= most_left;
-  };
-  // what a linear step promises says whether a fit is worth it
-  const FitResult promised = LinearlyRefitted(model_, now, out_.effective_sample_size);
-  if (!(alone ? explains(RatiosOf(model_, promised), 0.7, 1.4)
-              : explains(RatiosOf(model_, promised), 0.2, kInfinity)))
-    return give_up();
-  FitResult with = FitNow(now.hypothesis, &promised.jacobian);
-  if (!(alone ? explains(RatiosOf(model_, with), 0.8, 1.2)
-              : explains(RatiosOf(model_, with), 0.3, kInfinity)))
-    return give_up();
-  now = std::move(with);
-  out_.ladder.push_back(
-      {"zeros, clocks and inputs of each record", now.ratio_fit, now.ratio_validate});
-  return true;
-}
-
-/// Whether one effect explains as much as the nuisances of every record together, which are many:
-/// they are then given up, and the search for effects starts from `bare`.
-bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances) {
-  const Nuisances full = full_.nuisances, thinned = model_.nuisances;
-  full_.nuisances = model_.nuisances = Nuisances();
-  bank_ = SignatureBank();
-  const double reached = RatiosOf(model_, with_nuisances).Answered();
-  ScreenOptions screen;
-  screen.effective_sample_size = out_.effective_sample_size;
-  const std::vector<Candidate> candidates = Screen(model_, bare, ResidualPeaks(), screen, bank_);
-  const std::size_t tried = std::min<std::size_t>(candidates.size(), 3);
-  for (std::size_t k = 0; k < tried; ++k) {
-    if (ExplainedShare(bare.ratio_fit, candidates[k].ratio_fit) < 0.6) break;
-    Progress(0.07, Named(candidates[k].effect) + " in place of the nuisances");
-    const FitResult fit = FitBriefly(model_, bare, candidates[k], out_.effective_sample_size);
-    if (!fit.converged || RatiosOf(model_, fit).Answered() > std::max(1.1, 1.03 * reached))
-      continue;
-    out_.ladder.pop_back();
-    return true;
-  }
-  full_.nuisances = full;
-  model_.nuisances = thinned;
-  bank_ = SignatureBank();
-  return false;
-}
-
-/// The amounts of the nuisances at the end.
-void Explainer::ReportNuisances(const FitResult& now) {
-  if (!full_.nuisances.any()) return;
-  const Nuisances used = full_.nuisances;
-  full_.nuisances = Nuisances();
-  out_.nuisances = used.Amounts(full_, AllRows(now).residual);
-  full_.nuisances = used;
-}
 
 /// An effect that the last fit leaves without a size goes again.
 void Explainer::DropSizeless(const FitResult& base, FitResult& now) {

@@ -23,12 +23,12 @@ struct ForceField {
   std::vector<double> x, y;
 };
 
-struct Fit {
+struct ForceFit {
   double share = 0;
   std::vector<double> c;
 };
 
-Fit FitFields(const ForceSamples& s, const std::vector<ForceField>& fields) {
+ForceFit FitFields(const ForceSamples& s, const std::vector<ForceField>& fields) {
   const std::size_t n = s.fx.size(), m = fields.size();
   const auto columns = static_cast<Eigen::Index>(m + 2);
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(columns, columns);
@@ -89,7 +89,7 @@ std::vector<MissingForce> SmoothLaws(const ForceSamples& s, const std::string& p
   const auto add = [&](const std::string& on, const std::vector<ForceField>& fields,
                        const std::vector<std::string>& names, const std::string& unit,
                        const std::string& x, const std::string& y) {
-    const Fit fit = FitFields(s, fields);
+    const ForceFit fit = FitFields(s, fields);
     std::vector<std::string> parameters;
     for (std::size_t k = 0; k < names.size(); ++k)
       parameters.push_back(Parameter(names[k], fit.c.empty() ? 0 : fit.c[k], unit));

@@ -9,14 +9,40 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kPrice = 20;          // of a kind, in 2 log likelihood, beside 3 for each record
-constexpr double kVarying = 0.4;       // share of the gain that only differing amounts explain
-constexpr std::size_t kMostKinds = 8;  // kinds
+constexpr double kPrice = 20;  // of a kind, in 2 log likelihood, beside 3 for each record
+constexpr double kVarying =
+    0.5;  // least part of the mean square of the amounts that is their spread
+// Of the squared error that is left: least that a kind explains which only the logger sees. There are
+// many of these, and an effect elsewhere resembles one or the other a little.
+constexpr double kWorth = 0.05;
+constexpr std::size_t kMostKinds = 10;  // kinds
 
 struct Gain {
-  double gain = 0, varying = 0;
+  double gain = 0;     // in 2 log likelihood
+  double varying = 0;  // of that: what one amount for all records would not explain
+  double spread = 0;   // part of the mean square of the amounts
   std::size_t records = 0;
 };
+
+/// Variance of the amounts about their mean over their mean square. Each counts with the variance of
+/// its own error and of the amounts together: one precise record says no more of the others than a
+/// rough one. Source: R. DerSimonian, N. Laird, Controlled Clinical Trials 7 (1986), moment estimate.
+double SpreadOf(const std::vector<double>& value, const std::vector<double>& information,
+                double q) {
+  double sum = 0, square = 0;
+  for (const double i : information) sum += i, square += i * i;
+  const double freedom = static_cast<double>(value.size()) - 1, scale = sum - square / sum;
+  const double variance = scale > 0 ? std::max(0.0, (q - freedom) / scale) : 0;
+  double weights = 0, mean = 0, total = 0;
+  for (std::size_t r = 0; r < value.size(); ++r) {
+    const double w = 1 / (1 / information[r] + variance);
+    weights += w;
+    mean += w * value[r];
+    total += w * value[r] * value[r];
+  }
+  mean /= weights;
+  return total > 0 ? 1 - weights * mean * mean / total : 0;
+}
 
 /// What one kind explains of a residual, each record with its own amount.
 Gain GainOf(const CaseModel& model, const NuisanceKind& kind, const Eigen::VectorXd& residual,
@@ -37,7 +63,9 @@ Gain GainOf(const CaseModel& model, const NuisanceKind& kind, const Eigen::Vecto
     value.push_back(product / square);
     information.push_back(weight * square);
   }
+  if (value.size() < 2) return out;
   out.varying = TestDrift(value, information).q;
+  out.spread = SpreadOf(value, information, out.varying);
   return out;
 }
 
@@ -52,13 +80,17 @@ std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
   while (chosen.size() < kMostKinds) {
     const NuisanceKind* best = nullptr;
     double most = 0;
+    const double worth = kWorth * weight * left.squaredNorm();
     for (const NuisanceKind& kind : possible) {
       if (std::any_of(chosen.begin(), chosen.end(),
                       [&](const NuisanceKind& c) { return c.name == kind.name; }))
         continue;
       const Gain g = GainOf(model, kind, left, weight);
-      const double over = g.gain - kPrice - 3 * static_cast<double>(g.records);
-      if (over > most && g.varying > kVarying * g.gain) most = over, best = &kind;
+      const double price = kPrice + 3 * static_cast<double>(g.records), over = g.gain - price;
+      const bool logger = kind.group == "logger-zero" || kind.group == "drift";
+      if (over > (logger ? std::max(most, worth) : most) && g.varying > price &&
+          g.spread > kVarying)
+        most = over, best = &kind;
     }
     if (!best) break;
     chosen.push_back(*best);

@@ -17,6 +17,12 @@ constexpr double kNoiseAgrees = 1.5;  // factor between stated and estimated noi
 // of the currents, whose ripple a wrong law of the iron changes at every edge: more than a factor of
 // two is needed before their noise is held to be larger than stated
 constexpr double kCurrentAgrees = 2.5;
+// What is the same in every record is noise: a law that the model lacks acts more in one than in another.
+constexpr double kUniform =
+    1.35;  // largest over smallest estimate of the records, outer tenths left out
+constexpr double kUniformAgrees =
+    1.1;  // factor between stated and estimated noise where it is uniform
+constexpr std::size_t kLeastEstimates = 3;
 constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none is stated
 
 using ByChannel = std::map<std::string, std::vector<double>>;
@@ -46,11 +52,18 @@ ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
   return out;
 }
 
-/// `larger`: factor by which the estimate may exceed what is stated.
-void Choose(ChannelNoise& c, double larger = kNoiseAgrees) {
+/// Whether the estimates are the same within what differences of finite records scatter.
+bool Uniform(const std::vector<double>& estimates) {
+  if (estimates.size() < kLeastEstimates) return false;
+  const double low = QuantileOf(estimates, 0.1), high = QuantileOf(estimates, 0.9);
+  return low > 0 && high < kUniform * low;
+}
+
+/// `larger`, `smaller`: factors by which the estimate may be off what is stated.
+void Choose(ChannelNoise& c, double larger, double smaller = kNoiseAgrees) {
   const bool usable = std::isfinite(c.estimated) && c.estimated > 0;
   const bool agrees = std::isfinite(c.stated) && usable && c.estimated < larger * c.stated &&
-                      c.stated < kNoiseAgrees * c.estimated;
+                      c.stated < smaller * c.estimated;
   c.used = agrees || !usable ? (std::isfinite(c.stated) ? c.stated : 0) : c.estimated;
 }
 
@@ -72,7 +85,8 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
   if (!with || !without) return;
   const ByChannel own = WhiteParts(model, *with, clean, IsCurrent),
                   loop = WhiteParts(model, *without, clean, IsCurrent);
-  std::vector<double> all;
+  std::vector<double> all, every;  // of each channel; of each channel and record
+  std::map<std::string, std::pair<std::vector<double>, double>> found;  // factors, size
   for (const auto& [channel, parts] : measured) {
     std::vector<double> factors, sizes;  // against the trial's, and the trial's in the record
     for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -83,17 +97,25 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
       factors.push_back(std::sqrt(std::max(0.0, m - b) / (a - b)));
       sizes.push_back(std::sqrt(a - b));
     }
-    const double factor = LowerQuartileOf(factors), size = MedianOf(sizes);
+    every.insert(every.end(), factors.begin(), factors.end());
+    found[channel] = {factors, MedianOf(sizes)};
+  }
+  const bool uniform = Uniform(every);
+  const double larger = uniform ? kUniformAgrees : kCurrentAgrees,
+               smaller = uniform ? kUniformAgrees : kNoiseAgrees;
+  for (const auto& [channel, value] : found) {
+    const auto& [factors, size] = value;
+    const double factor = uniform ? MedianOf(factors) : LowerQuartileOf(factors);
     ChannelNoise& c = noise.channels[channel];
     if (stated > 0 && std::isnan(c.stated)) c.stated = size;
     c.estimated = factor * size;
-    Choose(c, kCurrentAgrees);
+    Choose(c, larger, smaller);
     all.push_back(trial * factor);
   }
   ChannelNoise common;
   common.stated = stated > 0 ? stated : std::nan("");
   common.estimated = MedianOf(all);
-  Choose(common, kCurrentAgrees);
+  Choose(common, larger, smaller);
   if (common.used != stated && std::isfinite(common.estimated)) noise.current_sample = common.used;
 }
 
@@ -137,8 +159,11 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
   const ByChannel direct = WhiteParts(model, model.measured(), *clean, IsDirect);
   for (const auto& [channel, parts] : direct) {
     ChannelNoise& c = noise.channels[channel];
-    c.estimated = LowerQuartileOf(parts);  // a model's error only adds to it
-    Choose(c);
+    const bool uniform = Uniform(parts);
+    // a model's error only adds to it
+    c.estimated = uniform ? MedianOf(parts) : LowerQuartileOf(parts);
+    const double factor = uniform ? kUniformAgrees : kNoiseAgrees;
+    Choose(c, factor, factor);
   }
   EstimateCurrents(model, h, *clean, noise);
   noise.estimated = true;

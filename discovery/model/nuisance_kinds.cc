@@ -21,10 +21,11 @@ constexpr double kZeroOfClearance = 0.01;  // of a position sensor
 constexpr double kZeroOfCurrent = 0.002;   // of the current converter's range
 constexpr double kZeroOfBus = 0.003;       // of the bus voltage
 constexpr double kZeroOfForce = 0.01;      // of the rotor's weight
-constexpr double kTimeShift = 1e-4;        // [s]
+constexpr double kUsualShift = 1e-4;       // [s]
 constexpr double kInputGain = 0.01;
 
-/// Usual zero of a channel [its unit]; 0: it has none.
+}  // namespace
+
 double UsualZero(const RigParameters& rig, const std::string& channel) {
   for (const BearingParameters& b : rig.bearings)
     for (const std::string& axis : b.Axes())
@@ -35,6 +36,8 @@ double UsualZero(const RigParameters& rig, const std::string& channel) {
   if (id->kind == ChannelKind::kLoadCell) return kZeroOfForce * rig.rotor.mass * 9.81;
   return id->kind == ChannelKind::kBus ? kZeroOfBus * rig.amplifier.bus_voltage : 0;
 }
+
+namespace {
 
 class Builder {
  public:
@@ -56,7 +59,7 @@ class Builder {
     }
     const double shift = priors.time_shift > 0 ? priors.time_shift
                          : declared_only_      ? 0
-                                               : kTimeShift;
+                                               : kUsualShift;
     if (shift > 0) Clock(shift);
     const double gain = priors.input_gain > 0 ? priors.input_gain : declared_only_ ? 0 : kInputGain;
     if (gain > 0) Input(gain);
@@ -134,7 +137,7 @@ class Builder {
 
   /// The record's clock late by `sd`: the prediction's slope.
   void Clock(double sd) {
-    NuisanceKind kind = Kind("time shift", "time-shift", "s", sd);
+    NuisanceKind kind = Kind(kTimeShift, "time-shift", "s", sd);
     for (const Target& t : model_.targets()) {
       if (!OverTime(model_.data().records[t.record])) continue;
       const double rate = model_.data().records[t.record].data.rate;

@@ -11,6 +11,7 @@ namespace ambrig {
 
 class CaseModel;
 struct Hypothesis;
+struct RigParameters;
 
 /// A kind of nuisance: "zero of A.x", "logger zero of A.i1", "drift of A.x", "time shift", "input gain".
 struct NuisanceKind {
@@ -25,6 +26,8 @@ struct NuisanceFound {
   std::string record, name, unit;
   double value = 0, sd = 0;
 };
+
+inline constexpr const char* kTimeShift = "time shift";  // name of the clock's kind
 
 class Nuisances {
  public:
@@ -51,6 +54,9 @@ class Nuisances {
   std::vector<NuisanceKind> kinds_;
   double weight_ = 1;
 };
+
+/// Usual sd of the zero of a channel [its unit]; 0: it has none.
+double UsualZero(const RigParameters& rig, const std::string& channel);
 
 /// Every kind that the records could have, with the sd that the case declares or a usual one.
 /// `model` holds all rows; `predicted` of `h`. Simulates each zero of a sensor inside the loop and

@@ -1,0 +1,41 @@
+#include "discovery/data/clock_shift.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace ambrig {
+
+namespace {
+
+/// values[k] becomes values[k + late]; the rows at the end from which nothing comes hold `edge`.
+template <class T>
+void MoveBack(std::vector<T>& values, int late, T edge) {
+  const auto rows = static_cast<std::ptrdiff_t>(
+      std::min<std::size_t>(static_cast<std::size_t>(std::abs(late)), values.size()));
+  if (late > 0) {
+    std::move(values.begin() + rows, values.end(), values.begin());
+    std::fill(values.end() - rows, values.end(), edge);
+  } else {
+    std::move_backward(values.begin(), values.end() - rows, values.end());
+    std::fill(values.begin(), values.begin() + rows, edge);
+  }
+}
+
+}  // namespace
+
+Case WithClocks(const Case& c, const std::vector<int>& rows_late) {
+  Case out = c;
+  for (std::size_t r = 0; r < out.records.size() && r < rows_late.size(); ++r) {
+    CaseRecord& record = out.records[r];
+    if (rows_late[r] == 0) continue;
+    for (Channel& channel : record.data.channels)
+      if (!channel.samples.empty())
+        MoveBack(channel.samples, rows_late[r],
+                 rows_late[r] > 0 ? channel.samples.back() : channel.samples.front());
+    for (ChannelQuality& quality : record.quality)
+      MoveBack(quality.ok, rows_late[r], decltype(quality.ok)::value_type(0));
+  }
+  return out;
+}
+
+}  // namespace ambrig
