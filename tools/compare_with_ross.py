@@ -202,7 +202,8 @@ def main():
     folder = args.keep or tempfile.mkdtemp()
     pathlib.Path(folder).mkdir(exist_ok=True, parents=True)
     program = Program(args.ambrig, folder)
-    rotors = ross_examples.collect(args.ross, lambda text: print("  " + text), args.only)
+    rotors, notebooks = ross_examples.collect(args.ross, lambda text: print("  " + text))
+    rotors = [(name, rotor) for name, rotor in rotors if args.only in name]
     print(f"{'rotor':44} " + " ".join(f"{c[:8]:>8}" for c in COLUMNS))
     rows = []
     for name, rotor in rotors:
@@ -215,15 +216,44 @@ def main():
         for text in row.get("not_carried", []):
             print(f"    not carried: {text}")
     if args.markdown:
-        pathlib.Path(args.markdown).write_text(markdown(rows))
+        pathlib.Path(args.markdown).write_text(markdown(rows) + "\n" + notebook_table(notebooks))
+
+
+MERGED = 4  # more rotors of one notebook, such as a series of meshes, are one row of their largest differences
+
+
+def merged(rows):
+    places = {}
+    for row in rows:
+        places.setdefault(row["name"].split("#")[0], []).append(row)
+    for place, group in places.items():
+        if len(group) <= MERGED or any("failed" in row for row in group):
+            yield from group
+            continue
+        elements = sorted((row["elements"] for row in group), key=lambda t: int(t.split()[0]))
+        out = {"name": place, "elements": f"{len(group)} rotors, {elements[0]} to {elements[-1].split(',')[0]}"}
+        for key in COLUMNS:
+            out[key] = max((row[key] for row in group if row.get(key) is not None and np.isfinite(row[key])), default=None)
+        for key in ("notes", "not_carried"):
+            out[key] = list(dict.fromkeys(text for row in group for text in row[key]))
+        yield out
 
 
 def markdown(rows):
     text = "| rotor | elements | " + " | ".join(COLUMNS) + " | remarks |\n" + "|---" * (len(COLUMNS) + 3) + "|\n"
-    for row in rows:
+    for row in merged(rows):
         remarks = [row["failed"].split(": ", 1)[-1]] if "failed" in row else row["notes"] + ["not carried: " + n for n in shortened(row["not_carried"])]
         cells = [number(row.get(k)) for k in COLUMNS]
         text += f"| {row['name']} | {row['elements']} | " + " | ".join(cells) + f" | {'; '.join(remarks)} |\n"
+    return text
+
+
+def notebook_table(notebooks):
+    """What became of every notebook."""
+    text = "| notebook | rotors above | the same as | remarks |\n|---|---|---|---|\n"
+    for name, remark, count, copies in notebooks:
+        none = "" if count or copies or "no version" in remark else "builds no rotor (bearings, seals, random rotors)"
+        text += f"| {name} | {count or ''} | {', '.join(copies)} | {'; '.join(t for t in (remark, none) if t)} |\n"
     return text
 
 
