@@ -23,7 +23,7 @@ BeamTheory ThreeNodes() {
   return theory;
 }
 
-BeamRotor Shaft(int elements, const BeamTheory& theory) {
+BeamRotor ShaftOf(int elements, const BeamTheory& theory) {
   BeamDefinition d = UniformShaft(kLength, kDiameter, elements);
   d.theory = theory;
   return BuildBeam(d);
@@ -81,13 +81,13 @@ double ExactCantilever(int mode) {
 }
 
 double PinnedErrorOf(int elements, const BeamTheory& theory, int k) {
-  const BeamRotor r = Shaft(elements, theory);
+  const BeamRotor r = ShaftOf(elements, theory);
   const int last = static_cast<int>(r.M.rows()) - 2;
   return HeldModes(r, {0, last}, k).omega(k - 1) / ExactPinned(k) - 1;
 }
 
 double CantileverErrorOf(int elements, const BeamTheory& theory, int k) {
-  return HeldModes(Shaft(elements, theory), {0, 1}, k).omega(k - 1) / ExactCantilever(k) - 1;
+  return HeldModes(ShaftOf(elements, theory), {0, 1}, k).omega(k - 1) / ExactCantilever(k) - 1;
 }
 
 // From above, as every Ritz value of consistent mass.
@@ -139,7 +139,7 @@ TEST(ThreeNodeElement, WithoutShearNoWorseThanFourthOrder) {
   euler.element = ElementKind::kThreeNode;
   const double unit = std::sqrt(Section{}.EI / Section{}.rA), exact = std::pow(3 * kPi, 2) * unit;
   const auto error = [&](int n) {
-    const BeamRotor r = Shaft(n, euler);
+    const BeamRotor r = ShaftOf(n, euler);
     return HeldModes(r, {0, static_cast<int>(r.M.rows()) - 2}, 3).omega(2) / exact - 1;
   };
   EXPECT_GT(std::log2(error(2) / error(4)), 6);  // shapes of fifth degree
@@ -167,7 +167,7 @@ TEST(ThreeNodeElement, RigidMotionCostsNothingAndWeighsWhatTheShaftDoes) {
 // Under its own weight the parabola of shear: clamped, w(L) = q L⁴/(8 EI) + q L²/(2 kGA); one element is exact,
 // at its middle node, too.
 TEST(ThreeNodeElement, OneElementIsExactUnderConstantLoad) {
-  const BeamRotor r = Shaft(1, ThreeNodes());
+  const BeamRotor r = ShaftOf(1, ThreeNodes());
   const Section s;
   Eigen::VectorXd shift(6);
   shift << 1, 0, 1, 0, 1, 0;
