@@ -164,6 +164,20 @@ TEST(ThreeNodeElement, RigidMotionCostsNothingAndWeighsWhatTheShaftDoes) {
   EXPECT_NEAR(tilt.dot(r.J * tilt), t.inertia_polar, 1e-12);
 }
 
+// A round section has twice the inertia about its axis that it has about a diameter: J is twice what rotary inertia adds to M.
+TEST(ThreeNodeElement, GyroscopicIsTwiceRotaryInertia) {
+  BeamDefinition d = UniformShaft(0.4, 0.06, 2);
+  d.sections[0].od_right = 0.04;
+  d.theory = ThreeNodes();
+  const BeamRotor with = BuildBeam(d);
+  d.theory.rotary_inertia = false;
+  const BeamRotor without = BuildBeam(d);
+  EXPECT_LT((with.J - 2 * (with.M - without.M)).norm(), 1e-12 * with.J.norm());
+  EXPECT_GT(with.J.norm(), 0);
+  d.theory.gyroscopic = false;
+  EXPECT_EQ(BuildBeam(d).J.norm(), 0);
+}
+
 // Under its own weight the parabola of shear: clamped, w(L) = q L⁴/(8 EI) + q L²/(2 kGA); one element is exact,
 // at its middle node, too.
 TEST(ThreeNodeElement, OneElementIsExactUnderConstantLoad) {
