@@ -260,6 +260,8 @@ def notebook_table(notebooks):
     """What became of every notebook."""
     text = "| notebook | rotors above | the same as | remarks |\n|---|---|---|---|\n"
     for name, remark, count, copies in notebooks:
+        copies = [place for place in copies if place.split("#")[0] != name]
+        copies = shortened(copies)
         none = "" if count or copies or "no version" in remark else "builds no rotor (bearings, seals, random rotors)"
         text += f"| {name} | {count or ''} | {', '.join(copies)} | {'; '.join(t for t in (remark, none) if t)} |\n"
     return text
