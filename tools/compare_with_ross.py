@@ -65,7 +65,8 @@ def planes_of(rotor):
     """The nodes as ambrig names planes."""
     shafts = getattr(rotor, "shafts", None)
     if not shafts:
-        return [repr(float(z)) for z in rotor.nodes_pos]
+        last = max(e.n for e in rotor.shaft_elements if type(e).__name__ != "CouplingElement") + 1
+        return [repr(float(z)) for z in rotor.nodes_pos[: last + 1]]
     return [f"shaft{k + 1}/{rotor.nodes_pos[n]!r}" for k, s in enumerate(shafts) for n in range(s[0].n, s[-1].n + 2)]
 
 
@@ -101,6 +102,12 @@ def compare_unbalance(rotor, analysis, node, end):
     return float(np.max(worst / scale))
 
 
+def axial_force(rotor):
+    """Of all elements alike; its moment N y about the undeformed axis is not in ROSS's figure."""
+    forces = {float(getattr(e, "axial_force", 0) or 0) for e in rotor.shaft_elements}
+    return forces.pop() if len(forces) == 1 else 0.0
+
+
 def compare_static(rotor, data, program, name):
     rigid, named = {}, set()
     nodes = len(rotor.nodes)
@@ -108,7 +115,7 @@ def compare_static(rotor, data, program, name):
         if isinstance(value, dict) and "kxx" in value:
             if value["n"] >= nodes or key.startswith(("SealElement", "LabyrinthSeal", "HolePattern", "HybridSeal")):
                 continue
-            value = {"n": value["n"], "kxx": 1e15, "cxx": 0.0, "tag": value.get("tag")}
+            value = {"n": value["n"], "kxx": 1e20, "cxx": 0.0, "tag": value.get("tag")}
             key = f"BearingElement_b{value['n']}"
             if key in rigid:
                 continue
@@ -122,7 +129,8 @@ def compare_static(rotor, data, program, name):
     theirs = np.array(static.deformation if hasattr(static, "deformation") else static.displacement_y) * scale
     mine = np.array(weight["y"])
     y = np.max(abs(theirs - mine)) / np.max(abs(theirs))
-    moment = np.max(abs(np.array(static.Bm) * scale + np.array(weight["moment"]))) / np.max(abs(static.Bm)) / scale
+    arm = axial_force(rotor) * np.interp(weight["at"], weight["z"], mine)
+    moment = np.max(abs(np.array(static.Bm) * scale + np.array(weight["moment"]) - arm)) / np.max(abs(static.Bm)) / scale
     return y, moment
 
 
@@ -202,7 +210,8 @@ def main():
     folder = args.keep or tempfile.mkdtemp()
     pathlib.Path(folder).mkdir(exist_ok=True, parents=True)
     program = Program(args.ambrig, folder)
-    rotors = ross_examples.collect(args.ross, lambda text: print("  " + text), args.only)
+    rotors, notebooks = ross_examples.collect(args.ross, lambda text: print("  " + text))
+    rotors = [(name, rotor) for name, rotor in rotors if args.only in name]
     print(f"{'rotor':44} " + " ".join(f"{c[:8]:>8}" for c in COLUMNS))
     rows = []
     for name, rotor in rotors:
@@ -215,15 +224,46 @@ def main():
         for text in row.get("not_carried", []):
             print(f"    not carried: {text}")
     if args.markdown:
-        pathlib.Path(args.markdown).write_text(markdown(rows))
+        pathlib.Path(args.markdown).write_text(markdown(rows) + "\n" + notebook_table(notebooks))
+
+
+MERGED = 4  # more rotors of one notebook, such as a series of meshes, are one row of their largest differences
+
+
+def merged(rows):
+    places = {}
+    for row in rows:
+        places.setdefault(row["name"].split("#")[0], []).append(row)
+    for place, group in places.items():
+        if len(group) <= MERGED or any("failed" in row for row in group):
+            yield from group
+            continue
+        elements = sorted((row["elements"] for row in group), key=lambda t: int(t.split()[0]))
+        out = {"name": place, "elements": f"{len(group)} rotors, {elements[0]} to {elements[-1].split(',')[0]}"}
+        for key in COLUMNS:
+            out[key] = max((row[key] for row in group if row.get(key) is not None and np.isfinite(row[key])), default=None)
+        for key in ("notes", "not_carried"):
+            out[key] = list(dict.fromkeys(text for row in group for text in row[key]))
+        yield out
 
 
 def markdown(rows):
     text = "| rotor | elements | " + " | ".join(COLUMNS) + " | remarks |\n" + "|---" * (len(COLUMNS) + 3) + "|\n"
-    for row in rows:
+    for row in merged(rows):
         remarks = [row["failed"].split(": ", 1)[-1]] if "failed" in row else row["notes"] + ["not carried: " + n for n in shortened(row["not_carried"])]
         cells = [number(row.get(k)) for k in COLUMNS]
         text += f"| {row['name']} | {row['elements']} | " + " | ".join(cells) + f" | {'; '.join(remarks)} |\n"
+    return text
+
+
+def notebook_table(notebooks):
+    """What became of every notebook."""
+    text = "| notebook | rotors above | the same as | remarks |\n|---|---|---|---|\n"
+    for name, remark, count, copies in notebooks:
+        copies = [place for place in copies if place.split("#")[0] != name]
+        copies = shortened(copies)
+        none = "" if count or copies or "no version" in remark else "builds no rotor (bearings, seals, random rotors)"
+        text += f"| {name} | {count or ''} | {', '.join(copies)} | {'; '.join(t for t in (remark, none) if t)} |\n"
     return text
 
 

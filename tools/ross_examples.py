@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """All rotors that a checkout of ROSS (petrobras/ross) ships: those that its `*_example` functions give, those that its
-tests build, and those of its notebooks. Each class of rotor is watched while that code runs, so that none has to be
-listed here; what only differs by a copy is taken once. Needs ROSS's own requirements, no ambrig."""
+tests build, and those of its notebooks (tools/ross_notebooks.py). Each class of rotor is watched while that code runs,
+so that none has to be listed here; what only differs by a copy is taken once. Needs ROSS's own requirements, no ambrig."""
 import ast
 import importlib
 import inspect
 import io
-import json
 import pathlib
 import contextlib
 import sys
-import traceback
+
+import ross_notebooks
 
 
 class Recorder:
@@ -18,7 +18,9 @@ class Recorder:
 
     def __init__(self, ross, log):
         self.ross, self.log = ross, log
-        self.place, self.found, self.seen = "", [], set()
+        self.place, self.found, self.seen = "", [], {}
+        self.notebooks = []  # (name, remark, rotors that are new, places of those that it builds again)
+        self.copies = {}  # place: the places whose rotor it builds again
         self.quiet = False
         for kind in (ross.Rotor, ross.CoAxialRotor, ross.MultiRotor):
             self.watch(kind)
@@ -36,14 +38,18 @@ class Recorder:
     def add(self, rotor):
         if self.quiet or not self.place:
             return
-        with contextlib.suppress(Exception):
-            shafts = [len(s) for s in getattr(rotor, "shafts", [])]
-            key = str((type(rotor).__name__, shafts, [repr(e.__dict__.get("tag")) + fingerprint(e) for e in rotor.elements]))
-            if key in self.seen:
-                return
-            self.seen.add(key)
+        key = identity(rotor)
+        if key in self.seen:
+            self.copies.setdefault(self.place, {})[self.seen[key]] = None
+            return
         count = sum(1 for place, _ in self.found if place.split("#")[0] == self.place)
-        self.found.append((self.place + (f"#{count + 1}" if count else ""), rotor))
+        self.seen[key] = self.place + (f"#{count + 1}" if count else "")
+        self.found.append((self.seen[key], rotor))
+
+
+def identity(rotor):
+    shafts = [len(s) for s in getattr(rotor, "shafts", [])]
+    return str((type(rotor).__name__, shafts, [repr(e.__dict__.get("tag")) + fingerprint(e) for e in rotor.elements]))
 
 
 def fingerprint(element):
@@ -92,58 +98,22 @@ def call(recorder, function):
         recorder.log(f"{recorder.place}: {type(e).__name__}: {str(e)[:120]}")
 
 
-def of_building(statement):
-    """Whether a statement of a notebook can be part of building a rotor, not of analysing or drawing it."""
-    text = ast.unparse(statement)
-    return not any(word in text for word in ("run_", ".plot", ".show", "Report", "ST_", "time_response", "convergence", "fig", "plt", "print("))
-
-
-def run_notebook(recorder, path):
-    recorder.place = path.stem
-    space = {"__name__": "notebook"}
-    for cell in json.loads(path.read_text())["cells"]:
-        if cell["cell_type"] != "code":
-            continue
-        text = "".join(line for line in cell["source"] if not line.lstrip().startswith(("%", "!")))
-        try:
-            tree = ast.parse(text)
-        except SyntaxError:
-            continue
-        for statement in tree.body:
-            if not of_building(statement):
-                continue
-            try:
-                with contextlib.redirect_stdout(io.StringIO()):
-                    exec(compile(ast.Module([statement], []), path.name, "exec"), space)
-            except Exception as e:
-                if "Rotor" in ast.unparse(statement) or "Element" in ast.unparse(statement):
-                    recorder.log(f"{path.name}: {type(e).__name__}: {str(e)[:120]} in {ast.unparse(statement)[:80]}")
-
-
-def collect(checkout, log=lambda text: None, only=""):
-    """[(name, rotor)] of those whose name holds `only`; `checkout` holds ross/ and docs/."""
+def collect(checkout, log=lambda text: None):
+    """Every rotor as (name, rotor), and the notebooks as in Recorder; `checkout` holds ross/ and docs/."""
     checkout = pathlib.Path(checkout).resolve()
     sys.path.insert(0, str(checkout))
     import ross
     recorder = Recorder(ross, log)
     run_examples(recorder, checkout / "ross")
     run_tests(recorder, checkout / "ross")
-    import os
-    back = os.getcwd()
-    for path in sorted((checkout / "docs").rglob("*.ipynb")):
-        if path.stat().st_size == 0:
-            log(f"{path.name}: empty")
-            continue
-        os.chdir(path.parent)
-        try:
-            run_notebook(recorder, path)
-        except Exception:
-            log(f"{path.name}: {traceback.format_exc(limit=1)}")
-        os.chdir(back)
+    ross_notebooks.run_all(recorder, checkout)
     recorder.quiet = True
-    return [(name, rotor) for name, rotor in recorder.found if only in name]
+    return recorder.found, recorder.notebooks
 
 
 if __name__ == "__main__":
-    for name, rotor in collect(sys.argv[1], lambda text: print("  " + text)):
+    rotors, notebooks = collect(sys.argv[1], lambda text: print("  " + text))
+    for name, rotor in rotors:
         print(name, type(rotor).__name__, len(rotor.elements))
+    for notebook in notebooks:
+        print(*notebook)

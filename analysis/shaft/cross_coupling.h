@@ -6,7 +6,9 @@
 /// 2 and a log decrement of at least 0.1 at Q_A; between 2 and 10 the standard looks at the critical
 /// speed ratio and the gas density too, which are left to the reader. The modified Alford equation
 /// q = 3 P rho_d / (Omega D H rho_s) of a centrifugal stage: P power, D impeller diameter, H the
-/// narrowest width of its path. Source: API RP 684; API 617 8th ed. 1 (figures known to the field).
+/// narrowest width of its path. Clauses of API RP 684 (2nd ed.), as github.com/ross-rotordynamics/ross-report
+/// (report/analysis.py) quotes them beside the same formulas: SP6.8.5.6 Q_A, SP6.8.5.8 its range to 10 Q_A,
+/// SP6.8.5.9 the planes, SP6.8.5.10 the screening.
 #include <vector>
 
 #include "rotor/shaft/whole_beam_modes.h"

@@ -103,7 +103,7 @@ void PrintHarmonic(const ShaftAnalysis& a) {
 void PrintShaftExtras(const ShaftAnalysis& a) {
   if (a.level1) {
     const Level1& l = *a.level1;
-    fmt::print("\n{}\n", Coloured("cross-coupled stiffness (API 684 level 1)", "bold"));
+    fmt::print("\n{}\n", Coloured("cross-coupled stiffness (API 684 level 1, SP6.8.5)", "bold"));
     if (!l.found)
       fmt::print("  no forward mode\n");
     else

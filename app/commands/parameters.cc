@@ -77,10 +77,15 @@ std::vector<ParameterLine> FaultLines() {
   return lines;
 }
 
-/// Names, choices, lists and files; then the numbers of effects.
+/// Names, choices, lists and files.
 std::vector<ParameterLine> WordLines() {
   std::vector<ParameterLine> lines;
   for (const WordKey& w : WordKeys()) lines.push_back({w.section, w.key, "", "", w.allowed, w.doc});
+  return lines;
+}
+
+std::vector<ParameterLine> EffectLines() {
+  std::vector<ParameterLine> lines;
   for (const EffectDescription& d : Catalogue())
     for (const EffectParameter& p : d.parameters)
       lines.push_back({fmt::format("[[effect]] name = \"{}\"", d.id), "parameters." + p.name,
@@ -131,6 +136,8 @@ void PrintPage() {
       "file\n\nSI units. A number may be written `{{ value = 4.2, sd = 0.01 }}`: sd is its "
       "one-sigma tolerance.\n");
   PrintParametersMarkdown(RigLines());
+  fmt::print("\n## Names, choices, lists and files\n");
+  PrintParametersMarkdown(WordLines());
   fmt::print("\n## Faults of a scenario\n");
   PrintParametersMarkdown(FaultLines());
 }
@@ -176,8 +183,8 @@ void AddParameters(CLI::App& app, Work& work) {
       const std::vector<ParameterLine> faults = FaultLines();
       lines.insert(lines.end(), faults.begin(), faults.end());
       if (!options->markdown) {
-        const std::vector<ParameterLine> words = WordLines();
-        lines.insert(lines.end(), words.begin(), words.end());
+        for (const std::vector<ParameterLine>& more : {WordLines(), EffectLines()})
+          lines.insert(lines.end(), more.begin(), more.end());
       }
       nlohmann::ordered_json all = nlohmann::ordered_json::array();
       std::vector<std::vector<Cell>> rows;

@@ -28,6 +28,8 @@ constexpr WordKey kRigWords[] = {
     {"[rotor]", "modal_damping", "list", "ratio of each bending mode"},
     {"[rotor]", "elements_per_section", "integer", "of a beam"},
     {"[rotor]", "shear, mass, interpolation", "words", "of a beam's elements: docs/guide/shaft.md"},
+    {"[rotor]", "element", "two_node, three_node",
+     "of a beam: three_node has a node in its middle and is of fourth order with shear, too"},
     {"[[rotor.section]]", "material", "a NAME of [rotor.materials.NAME]", "of the section"},
     {"[[rotor.station]]", "name, z", "text, m", "a plane of the shaft that is recorded"},
     {"[[rotor.support]]", "kxx, kyy, kxy, kyx, kzz, cxx, cyy", "N/m, N s/m, or lists over speeds",

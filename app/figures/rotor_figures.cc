@@ -247,6 +247,18 @@ Figure CriticalMapFigure(const RigAnalysis& a) {
       "k_s of this rig's bearings.");
 }
 
+void MarkOperatingSpeeds(Figure& figure, double lowest, double highest, double fastest) {
+  const double low = lowest / kRpm, high = highest / kRpm;
+  if (high > low) {
+    AddRegion(figure, 0, low, high, "operating", "@green/12");
+    figure.caption += " The shaded speeds are the operating range.";
+  } else if (high > 0) {
+    const Mark mark{high, "operating", "@green"};
+    AddMarks(figure, {&mark, 1}, {0, fastest / kRpm});
+    figure.caption += " The vertical line is the operating speed.";
+  }
+}
+
 Figure UnbalanceFigure(const RigAnalysis& a, const UnbalanceSweep& sweep) {
   Grid grid;
   grid.rows = 3;
@@ -258,10 +270,8 @@ Figure UnbalanceFigure(const RigAnalysis& a, const UnbalanceSweep& sweep) {
     planes += fmt::format("{}{:.3g} g mm at z = {:.3g} m{}", planes.empty() ? "" : ", ",
                           p.magnitude * 1e6, p.z + a.point.rig().z_origin,
                           p.phase > 1 ? " opposite" : "");
-  Figure f = MakeFigure(
-      fmt::format("Unbalance, case **{}**: {}. The shaded speeds are the operating range.",
-                  sweep.unbalance.name, planes),
-      grid);
+  Figure f =
+      MakeFigure(fmt::format("Unbalance, case **{}**: {}.", sweep.unbalance.name, planes), grid);
   SetAxes(f, 0, "speed [rpm]", "[µm]");
   SetAxes(f, 1, "speed [rpm]", "[deg]");
   SetAxes(f, 2, "speed [rpm]", "[N]");
@@ -274,8 +284,7 @@ Figure UnbalanceFigure(const RigAnalysis& a, const UnbalanceSweep& sweep) {
     AddLine(f, 1, t.bearing, rpm, Scaled(t.phase, 180 / kPi), style);
     AddLine(f, 2, t.bearing, rpm, t.force, style);
   }
-  if (a.options.highest > a.options.lowest)
-    AddRegion(f, 0, a.options.lowest / kRpm, a.options.highest / kRpm, "operating", "@green/12");
+  MarkOperatingSpeeds(f, a.options.lowest, a.options.highest, sweep.speed.back());
   return f;
 }
 

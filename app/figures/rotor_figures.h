@@ -14,6 +14,9 @@ Figure CampbellFigure(const RigAnalysis& a);
 Figure CriticalMapFigure(const std::vector<CriticalMapRow>& map,
                          const std::vector<std::pair<std::string, double>>& lines,
                          const std::string& caption);
+/// Shades the operating speeds [rad/s] in the first panel of a figure over rpm up to `fastest` [rad/s] and says so in the
+/// caption; one speed is a line.
+void MarkOperatingSpeeds(Figure& figure, double lowest, double highest, double fastest);
 Figure ModeShapeFigure(const RigAnalysis& a);    // at the highest operating speed
 Figure RotorModeFigure(const RigAnalysis& a);    // free and on springs
 Figure CriticalMapFigure(const RigAnalysis& a);  // undamped critical speed map

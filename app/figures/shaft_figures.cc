@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/figures/rotor_figures.h"
 #include "app/figures/series.h"
 #include "app/json/analysis_json.h"
 #include "app/pages/format.h"
@@ -141,10 +142,8 @@ Figure ShaftResponseFigure(const ShaftAnalysis& a, const ShaftSweep& sweep) {
   for (const PlaneUnbalance& p : sweep.unbalance.planes)
     planes += fmt::format("{}{:.4g} g mm at z = {:.4g} m, {:.0f}°", planes.empty() ? "" : "; ",
                           p.magnitude * 1e6, p.z, p.phase * 180 / kPi);
-  Figure f = MakeFigure(fmt::format("Unbalance, case **{}**: {}. The shaded speeds are the "
-                                    "operating range.",
-                                    sweep.unbalance.name, planes),
-                        grid);
+  Figure f =
+      MakeFigure(fmt::format("Unbalance, case **{}**: {}.", sweep.unbalance.name, planes), grid);
   SetAxes(f, 0, "speed [rpm]", "[µm]");
   SetAxes(f, 1, "speed [rpm]", "[deg]");
   SetAxes(f, 2, "speed [rpm]", "[N]");
@@ -159,8 +158,7 @@ Figure ShaftResponseFigure(const ShaftAnalysis& a, const ShaftSweep& sweep) {
   for (std::size_t k = 0; k < sweep.forces.size(); ++k)
     AddLine(f, 2, "force " + sweep.forces[k].support, rpm,
             MajorAxes(sweep.forces[k].x, sweep.forces[k].y), SeriesStyle(static_cast<int>(k)));
-  if (a.options.highest > a.options.lowest)
-    AddRegion(f, 0, a.options.lowest / kRpm, a.options.highest / kRpm, "operating", "@green/12");
+  MarkOperatingSpeeds(f, a.options.lowest, a.options.highest, sweep.speed.back());
   return f;
 }
 

@@ -15,34 +15,62 @@ namespace ambrig {
 namespace {
 
 constexpr std::size_t kShapesShown = 6;
-constexpr int kShapeFrames = 24, kShapeTurns = 4, kShapeOrbits = 24;
+constexpr int kShapeFrames = 24, kShapeTurns = 4, kShapeOrbits = 24, kShapePoints = 48;
 // The x axis points out of the page, down to the left: lengths along it by this, at 35 degrees.
 constexpr double kDepth = 0.55, kDepthAcross = 0.82, kDepthDown = 0.57;
 constexpr double kShapeWidth = 3.2;  // length of the axis over the largest deflection
 
 using Complex = std::complex<double>;
 
-/// Motion of the nodes of all shafts, largest deflection 1 along x at phase 0.
+/// Motion of all shafts at their nodes and between, largest deflection 1 along x at phase 0.
 struct SpaceShape {
   std::vector<double> along;  // 0 to kShapeWidth
   std::vector<Complex> x, y;
-  std::vector<std::size_t> breaks;  // first node of every shaft behind the first
+  std::vector<std::size_t> breaks;  // first place of every shaft behind the first
+  std::vector<std::size_t> nodes;   // places of the nodes
 };
+
+void AddPoint(SpaceShape& s, double along, Complex x, Complex y) {
+  s.along.push_back(along);
+  s.x.push_back(x);
+  s.y.push_back(y);
+}
+
+/// Between the nodes i and i + 1, by the element's own shape.
+void AddInside(const BeamRotor& beam, const Eigen::VectorXcd& q, std::size_t i, int pieces,
+               double left, double right, SpaceShape& out) {
+  const ShaftElement& e = beam.elements[i];
+  const auto a = 4 * static_cast<Eigen::Index>(i), b = a + 4;
+  const Eigen::Vector4cd x(q(a), q(a + 3), q(b), q(b + 3)),
+      y(q(a + 1), -q(a + 2), q(b + 1), -q(b + 2));  // psi is beta, -alpha
+  for (int k = 1; k < pieces; ++k) {
+    const double t = double(k) / pieces;
+    const Eigen::RowVector4d w = ShapeAt(e, beam.theory, t * e.length).w;
+    AddPoint(out, left + t * (right - left), w * x, w * y);
+  }
+}
 
 SpaceShape ShapeInSpace(const BeamRotor& beam, const ClosedLoopMode& mode) {
   SpaceShape out;
   const auto [lo, hi] = std::minmax_element(beam.z.begin(), beam.z.end());
-  Complex largest = 1;
-  double peak = 0;
+  const auto along = [&](std::size_t i) {
+    return kShapeWidth * (beam.z[i] - *lo) / std::max(*hi - *lo, 1e-12);
+  };
+  const int pieces = std::max(1, kShapePoints / static_cast<int>(beam.elements.size()));
   for (std::size_t i = 0; i < beam.z.size(); ++i) {
     const auto at = 4 * static_cast<Eigen::Index>(i);
-    out.along.push_back(kShapeWidth * (beam.z[i] - *lo) / std::max(*hi - *lo, 1e-12));
-    out.x.push_back(mode.q(at));
-    out.y.push_back(mode.q(at + 1));
-    if (i > 0 && beam.elements[i - 1].layers.empty()) out.breaks.push_back(i);
-    for (const Complex& v : {out.x.back(), out.y.back()})
-      if (std::abs(v) > peak) peak = std::abs(v), largest = v;
+    if (i > 0 && beam.elements[i - 1].layers.empty())
+      out.breaks.push_back(out.along.size());
+    else if (i > 0)
+      AddInside(beam, mode.q, i - 1, pieces, along(i - 1), along(i), out);
+    out.nodes.push_back(out.along.size());
+    AddPoint(out, along(i), mode.q(at), mode.q(at + 1));
   }
+  Complex largest = 1;
+  double peak = 0;
+  for (auto* side : {&out.x, &out.y})
+    for (const Complex& v : *side)
+      if (std::abs(v) > peak) peak = std::abs(v), largest = v;
   for (auto* side : {&out.x, &out.y})
     for (Complex& v : *side) v /= largest;
   return out;
@@ -72,8 +100,9 @@ Points CentreLine(const SpaceShape& s, double phase) {
 /// Ellipses of some nodes as one line with gaps.
 Points OrbitsInSpace(const SpaceShape& s) {
   Points out;
-  const std::size_t step = std::max<std::size_t>(1, s.along.size() / kShapeOrbits);
-  for (std::size_t i = 0; i < s.along.size(); i += step) {
+  const std::size_t step = std::max<std::size_t>(1, s.nodes.size() / kShapeOrbits);
+  for (std::size_t n = 0; n < s.nodes.size(); n += step) {
+    const std::size_t i = s.nodes[n];
     for (int k = 0; k <= kShapeFrames; ++k) {
       const Complex turn = std::polar(1.0, 2 * kPi * k / kShapeFrames);
       const auto at = OnPage(s.along[i], (s.x[i] * turn).real(), (s.y[i] * turn).real());

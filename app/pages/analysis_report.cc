@@ -195,11 +195,13 @@ void AddUnbalance(HtmlReport& report, const RigAnalysis& a) {
   if (rows.empty())
     report.Text("The response has no peak in this range: no separation margin is needed.");
   else
-    report.Table({"unbalance", "bearing", "peak at [rpm]", "amplitude", "AF", "margin required [%]",
-                  "actual [%]", ""},
-                 rows,
-                 "Separation margins of API 617. AF < 2.5: critically damped, none required. AF < "
-                 "x: a half-power point lies beyond the sweep or another peak.");
+    report.Table(
+        {"unbalance", "bearing", "peak at [rpm]", "amplitude", "AF", "margin required [%]",
+         "actual [%]", ""},
+        rows,
+        "Separation margins of API 617 (API 684 2nd ed., SP6.8.2.10; AF: SP6.8.2.1). AF < 2.5: "
+        "critically damped, none required. AF < x: a half-power point lies beyond the "
+        "sweep or another peak.");
   for (const UnbalanceSweep& s : a.unbalance) report.AddFigure(UnbalanceFigure(a, s));
 }
 

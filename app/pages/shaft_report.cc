@@ -126,7 +126,7 @@ void AddExtras(HtmlReport& report, const ShaftAnalysis& a) {
     report.Heading("Cross-coupled stiffness");
     report.Verdict(l.passed() ? Verdict::kOk : Verdict::kWarn,
                    fmt::format("**Q_0/Q_A = {:.3g}, log decrement {:.4f} at Q_A = {}**: level 1 of "
-                               "API 684 asks for at least 2 and 0.1.",
+                               "API 684 (2nd ed., SP6.8.5.10) asks for at least 2 and 0.1.",
                                l.ratio(), l.at_expected, FormatSi(l.given.expected, "N/m")));
     if (l.found) report.AddFigure(CouplingFigure(l));
   }

@@ -4,6 +4,7 @@
 
 #include "core/math/constants.h"
 #include "rotor/shaft/beam_mesh.h"
+#include "rotor/shaft/three_node_element.h"
 
 namespace ambrig {
 namespace {
@@ -103,6 +104,16 @@ void AddSectionMass(const ShaftSection& s, double& m, double& mz, double& mzz, d
   }
 }
 
+template <int n, class Element>
+void AddElement(const Element& e, int left_node, BeamRotor& r) {
+  const int at = 2 * left_node;
+  r.M.block<n, n>(at, at) += e.M;
+  r.J.block<n, n>(at, at) += e.J;
+  r.K.block<n, n>(at, at) += e.K;
+  r.C.block<n, n>(at, at) += e.C;
+  r.tension.block<n, n>(at, at) += e.tension;
+}
+
 }  // namespace
 
 Disk DiskFromGeometry(double z, double width, double id, double od, double rho) {
@@ -118,12 +129,12 @@ BeamRotor BuildBeam(const BeamDefinition& d) {
   const int n = 2 * static_cast<int>(r.z.size());
   for (Eigen::MatrixXd* a : {&r.M, &r.J, &r.K, &r.C, &r.tension}) a->setZero(n, n);
   for (int i = 0; i < static_cast<int>(r.elements.size()); ++i) {
-    const PlaneElement e = ElementMatrices(r.elements[i], d.theory);
-    r.M.block<4, 4>(2 * i, 2 * i) += e.M;
-    r.J.block<4, 4>(2 * i, 2 * i) += e.J;
-    r.K.block<4, 4>(2 * i, 2 * i) += e.K;
-    r.C.block<4, 4>(2 * i, 2 * i) += e.C;
-    r.tension.block<4, 4>(2 * i, 2 * i) += e.tension;
+    if (d.theory.element == ElementKind::kTwoNode || r.elements[i].layers.empty()) {
+      AddElement<4>(ElementMatrices(r.elements[i], d.theory), i, r);
+    } else {
+      AddElement<6>(ThreeNodeMatrices(Whole(r.elements[i], r.elements[i + 1]), d.theory), i, r);
+      ++i;
+    }
   }
   AddDisks(r);
   return r;
@@ -139,7 +150,7 @@ void AssembleInto(const BeamRotor& r, double speed, LinearRotor& out) {
   const int n = static_cast<int>(r.M.rows()),
             dofs = 2 * n + 2 * static_cast<int>(r.housings.size());
   for (Eigen::MatrixXd* a : {&out.M, &out.G, &out.D, &out.K}) a->setZero(dofs, dofs);
-  const int reach = 3;  // an element joins two nodes of two dofs each
+  const int reach = r.theory.element == ElementKind::kTwoNode ? 3 : 5;  // two dofs a node
   for (int a = 0; a < n; ++a)
     for (int b = std::max(0, a - reach); b < std::min(n, a + reach + 1); ++b) {
       const double k = r.K(a, b) + r.tension(a, b);

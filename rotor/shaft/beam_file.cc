@@ -10,6 +10,7 @@
 #include "core/base/counted.h"
 #include "core/base/toml_checked.h"
 #include "rotor/shaft/beam_mesh.h"
+#include "rotor/shaft/beam_theory_file.h"
 #include "rotor/shaft/ross_file.h"
 #include "rotor/shaft/shaft_file.h"
 #include "rotor/shaft/shaft_parameters.h"
@@ -23,22 +24,6 @@ int ReadCount(const TomlTable& rotor, const char* key, int fallback, int lo, int
   const long long n = rotor.Integer(key, fallback);
   if (n < lo || n > hi) rotor.Fail(key, fmt::format("{}, allowed {} to {}", n, lo, hi));
   return static_cast<int>(n);
-}
-
-BeamTheory ReadTheory(const TomlTable& rotor, BeamTheory t) {
-  const char* before = t.mass == MassKind::kLumped ? "lumped" : "consistent";
-  const bool lumped = rotor.Choice("mass", before, "consistent, lumped") == "lumped";
-  t.mass = lumped ? MassKind::kLumped : MassKind::kConsistent;
-  t.shear = rotor.Bool("shear", t.shear);
-  t.rotary_inertia = rotor.Bool("rotary_inertia", t.rotary_inertia);
-  t.gyroscopic = rotor.Bool("gyroscopic", t.gyroscopic);
-  const char* layers = t.separate_layers ? "separate" : "joined";
-  t.separate_layers = rotor.Choice("layers", layers, "joined, separate") == "separate";
-  const char* now = t.coefficient == ShearCoefficient::kHutchinson ? "hutchinson" : "cowper";
-  const bool hutchinson =
-      rotor.Choice("shear_coefficient", now, "cowper, hutchinson") == "hutchinson";
-  t.coefficient = hutchinson ? ShearCoefficient::kHutchinson : ShearCoefficient::kCowper;
-  return t;
 }
 
 /// The field of `modal_damping` when it is one number, which may have an sd.

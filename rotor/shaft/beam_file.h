@@ -10,6 +10,7 @@
 ///     mass = "consistent"              # | "lumped"
 ///     shear = true                     # rotary_inertia, gyroscopic likewise
 ///     shear_coefficient = "cowper"     # | "hutchinson"
+///     element = "two_node"             # | "three_node": of fourth order with shear, too
 ///     stations = [0.05]                # planes that must be nodes
 ///     file = "shaft.json"              # the shaft from a file instead of sections here: one that
 ///                                      # ROSS saved (.toml, .json) or a [rotor] like this (.toml)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "rotor/shaft/three_node_element.h"
+
 namespace ambrig {
 namespace {
 
@@ -77,6 +79,21 @@ ShaftElement MakeElement(const BeamDefinition& d, double left, double right, dou
   return e;
 }
 
+/// A gap between two shafts stays one piece.
+BeamMesh WithMiddleNodes(const BeamMesh& mesh) {
+  BeamMesh out{{mesh.z[0]}, {}};
+  for (std::size_t i = 0; i < mesh.elements.size(); ++i) {
+    if (mesh.elements[i].layers.empty()) {
+      out.elements.push_back(mesh.elements[i]);
+    } else {
+      for (const ShaftElement& half : Halves(mesh.elements[i])) out.elements.push_back(half);
+      out.z.push_back(out.elements.back().z0);
+    }
+    out.z.push_back(mesh.z[i + 1]);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string SectionProblem(const ShaftSection& s) {
@@ -99,7 +116,7 @@ BeamMesh MakeMesh(const BeamDefinition& d) {
   BeamMesh mesh{Planes(d, span), {}};
   for (std::size_t i = 0; i + 1 < mesh.z.size(); ++i)
     mesh.elements.push_back(MakeElement(d, mesh.z[i], mesh.z[i + 1], span.tolerance()));
-  return mesh;
+  return d.theory.element == ElementKind::kThreeNode ? WithMiddleNodes(mesh) : mesh;
 }
 
 }  // namespace ambrig

@@ -1,6 +1,7 @@
 #pragma once
 /// Nodes and elements of a beam definition: every section end, sleeve end, disk, support and
-/// station is a node, shaft pieces are split evenly in between.
+/// station is a node, shaft pieces are split evenly in between. Elements of three nodes stand here as their
+/// two halves, one after the other.
 #include "rotor/shaft/beam.h"
 
 namespace ambrig {

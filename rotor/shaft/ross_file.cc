@@ -53,8 +53,38 @@ ShaftSection ReadRossShaft(const Element& e, std::vector<std::string>& lost) {
   return s;
 }
 
+Disk RossHub(const Element& e, const RossNodes& nodes, bool right) {
+  const auto of = [&](const char* left_key, const char* right_key) {
+    return e.Get(right ? right_key : left_key, 0);
+  };
+  const int node = e.Node() + (right ? 1 : 0);
+  Disk hub;
+  hub.z = nodes.At(e, node);
+  hub.shaft = nodes.ShaftOf(node);
+  hub.name = e.name + (right ? "_right" : "_left");
+  hub.mass = of("m_l", "m_r");
+  hub.inertia_polar = of("Ip_l", "Ip_r");
+  hub.inertia_diametral = of("Id_l", "Id_r");
+  if (hub.inertia_diametral == 0) hub.inertia_diametral = hub.inertia_polar / 2;  // as ROSS
+  return hub;
+}
+
+/// Where no shaft follows: the left half, what lies behind it is named.
+void ReadLastRossCoupling(const Element& e, const RossNodes& nodes, BeamDefinition& d,
+                          std::vector<std::string>& lost) {
+  const bool held = nodes.on_shaft(e.Node());
+  if (held) d.disks.push_back(RossHub(e, nodes, false));
+  const double mass = e.Get("m_r", 0) + (held ? 0 : e.Get("m_l", 0));
+  lost.push_back(
+      fmt::format("{}: {}, {} kg, kt_x = {} N/m", e.Label(),
+                  held ? "its right half, which no shaft follows" : "no shaft at either side",
+                  NumberText(mass), NumberText(e.Get("kt_x", 0))));
+}
+
 /// A coupling is a support of the left shaft on the right one and a disk at each of its ends.
-void ReadRossCoupling(const Element& e, const RossNodes& nodes, BeamDefinition& d) {
+void ReadRossCoupling(const Element& e, const RossNodes& nodes, BeamDefinition& d,
+                      std::vector<std::string>& lost) {
+  if (!nodes.on_shaft(e.Node() + 1)) return ReadLastRossCoupling(e, nodes, d, lost);
   SpringSupport s;
   s.name = e.name;
   s.z = nodes.At(e);
@@ -71,17 +101,7 @@ void ReadRossCoupling(const Element& e, const RossNodes& nodes, BeamDefinition& 
   for (const auto& [key, at] : kCoupled) s.*at = e.Get(key, 0);
   d.supports.push_back(s);
   for (const bool right : {false, true}) {
-    const auto of = [&](const char* left_key, const char* right_key) {
-      return e.Get(right ? right_key : left_key, 0);
-    };
-    Disk hub;
-    hub.z = right ? s.to_z : s.z;
-    hub.shaft = right ? s.to : s.shaft;
-    hub.name = e.name + (right ? "_right" : "_left");
-    hub.mass = of("m_l", "m_r");
-    hub.inertia_polar = of("Ip_l", "Ip_r");
-    hub.inertia_diametral = of("Id_l", "Id_r");
-    if (hub.inertia_diametral == 0) hub.inertia_diametral = hub.inertia_polar / 2;  // as ROSS
+    const Disk hub = RossHub(e, nodes, right);
     if (hub.mass != 0 || hub.inertia_polar != 0) d.disks.push_back(hub);
   }
 }
@@ -155,12 +175,15 @@ RossRotor ReadRoss(const std::string& file) {
       ReadRossTheory(e, first, d.theory);
       first = false;
       if (++layers[e.Node()] > 1) d.theory.separate_layers = true;
+    } else if (IsRossDisk(e) && e.Has("n_teeth") && !e.Has("m")) {  // GearElementTVMS
+      out.ignored.push_back(fmt::format("{}: its mass and mesh, of which ROSS saves the {} teeth",
+                                        e.Label(), NumberText(e.Get("n_teeth"))));
     } else if (IsRossDisk(e)) {
       d.disks.push_back(ReadRossDisk(e, nodes));
       if (e.kind.find("Gear") == 0)
         out.ignored.push_back(e.Label() + ": its mesh with another shaft, taken as a disk alone");
     } else if (IsRossCoupling(e)) {
-      ReadRossCoupling(e, nodes, d);
+      ReadRossCoupling(e, nodes, d, out.ignored);
     } else {
       NameTheRest(e, nodes, out);
     }

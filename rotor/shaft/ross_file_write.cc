@@ -167,6 +167,8 @@ std::vector<std::string> UnknownToRoss(const BeamDefinition& d) {
     }
   if (d.theory.mass == MassKind::kLumped)
     lost.push_back("mass = \"lumped\": ROSS takes consistent masses, frequencies differ");
+  if (d.theory.element == ElementKind::kThreeNode)
+    lost.push_back("element = \"three_node\": each becomes two of ROSS's elements of two nodes");
   for (const SpringSupport& s : d.supports)
     if (s.varies() && !s.cubic && s.speed.size() > 2)
       lost.push_back(

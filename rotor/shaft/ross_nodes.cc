@@ -43,8 +43,7 @@ RossNodes::RossNodes(const std::vector<RossElement>& elements, const std::string
   std::map<int, const RossElement*> couplings;
   for (const RossElement& e : elements)
     if (IsRossCoupling(e)) couplings[e.Node()] = &e;
-  const int last =
-      std::max(length.rbegin()->first, couplings.empty() ? -1 : couplings.rbegin()->first) + 1;
+  const int last = length.rbegin()->first + 1;  // couplings that no shaft follows lie beyond
   if (!length.count(0)) throw InputError(fmt::format("{}: no shaft element with n = 0", file));
   z_ = {0};
   shaft_ = {0};

@@ -1,51 +1,11 @@
 #include "rotor/shaft/shaft_element.h"
 
-#include <array>
-
-#include "core/math/constants.h"
+#include "rotor/shaft/cross_section.h"
 
 namespace ambrig {
 namespace {
 
 using Shape2x4 = Eigen::Matrix<double, 2, 4>;
-
-// Gauss-Legendre on [0, 1], 8 points: exact to degree 15, so uniform elements are exact.
-constexpr std::array<double, 4> kHalfNodes = {0.1834346424956498, 0.5255324099163290,
-                                              0.7966664774136267, 0.9602898564975363};
-constexpr std::array<double, 4> kHalfWeights = {0.3626837833783620, 0.3137066458778873,
-                                                0.2223810344533745, 0.1012285362903763};
-
-template <class F>
-void Quadrature(double length, const F& f) {
-  for (std::size_t i = 0; i < kHalfNodes.size(); ++i) {
-    const double weight = kHalfWeights[i] * length / 2;
-    f(0.5 * length * (1 - kHalfNodes[i]), weight);
-    f(0.5 * length * (1 + kHalfNodes[i]), weight);
-  }
-}
-
-struct CrossSection {
-  double EI = 0, kGA = 0, rhoA = 0, rhoI = 0;
-};
-
-CrossSection SectionAt(const ShaftElement& e, const BeamTheory& theory, double s) {
-  CrossSection out;
-  for (const ShaftSection& l : e.layers) {
-    const double t = s / e.length;
-    const double od = l.od + t * (l.od_right - l.od), id = l.id + t * (l.id_right - l.id);
-    const double A = kPi / 4 * (od * od - id * id);
-    const double I = kPi / 64 * (std::pow(od, 4) - std::pow(id, 4));
-    out.rhoA += l.material.rho * A;
-    out.rhoI += l.material.rho * I;
-    if (!l.stiff) continue;
-    out.EI += l.material.E * I;
-    // The bore ratio of the element's middle, so that kappa is one number per element and layer.
-    const double kappa = ShearCoefficientOf(
-        theory.coefficient, (l.id + l.id_right) / (l.od + l.od_right), l.material.nu);
-    out.kGA += kappa * l.material.shear_modulus() * A;
-  }
-  return out;
-}
 
 /// Integrals of the flexibility from 0 to s; names as in psi and w of the header with M = M0 - Q s.
 struct Flexibility {

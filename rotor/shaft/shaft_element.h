@@ -67,6 +67,7 @@ inline constexpr Field<ShaftSection> kShaftSectionFields[] = {
 
 enum class MassKind { kConsistent, kLumped };
 enum class ShearCoefficient { kCowper, kHutchinson };
+enum class ElementKind { kTwoNode, kThreeNode };
 
 /// What is modelled, the same for every element of a rotor.
 struct BeamTheory {
@@ -76,6 +77,7 @@ struct BeamTheory {
   bool gyroscopic = true;
   ShearCoefficient coefficient = ShearCoefficient::kCowper;
   bool separate_layers = false;
+  ElementKind element = ElementKind::kTwoNode;  // kThreeNode: rotor/shaft/three_node_element.h
 };
 
 /// One element: all layers span exactly [z0, z0 + length].

@@ -148,6 +148,7 @@ std::string BeamText(const BeamFile& file) {
   if (!list.empty()) out.text += fmt::format("stations = [{}]\n", list);
   if (file.static_correction) out.text += "static_correction = true\n";
   if (t.separate_layers) out.text += "layers = \"separate\"\n";
+  if (t.element == ElementKind::kThreeNode) out.text += "element = \"three_node\"\n";
   for (const PlacedShaft& s : d.shafts) {
     out.Table("shaft");
     out.Put("name", s.name);

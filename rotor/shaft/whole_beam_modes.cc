@@ -86,6 +86,9 @@ bool ShapesBesideRigid(const MatrixXd& K, const MatrixXd& M, double shift, Index
   if (llt.info() != Eigen::Success) return false;
   const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> eigen(M, shifted);
   if (eigen.info() != Eigen::Success) return false;
+  // Of a rigid support's own motion 1/(w² + shift) is rounding, and so would be its shape: a mesh of few nodes has no more.
+  const Eigen::VectorXd& inverse = eigen.eigenvalues();
+  while (kept > 1 && inverse(M.rows() - kept) < 1e-13 * inverse(M.rows() - 1)) --kept;
   MatrixXd low = eigen.eigenvectors().rightCols(kept).rowwise().reverse();
   for (Index k = 0; k < kept; ++k) low.col(k) /= std::sqrt(low.col(k).dot(M * low.col(k)));
   const MatrixXd whole = llt.solve(forces);

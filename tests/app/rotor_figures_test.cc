@@ -164,5 +164,23 @@ TEST(CriticalMapFigure, ShowsSpeedsOverStiffnessAndWhereTheBearingsAre) {
   EXPECT_TRUE(CriticalMapFigure(RigAnalysis{}).traces.empty());
 }
 
+// One operating speed has no width to shade.
+TEST(OperatingSpeeds, AreShadedOrALine) {
+  Figure range = MakeFigure("Response."), one = MakeFigure("Response."),
+         none = MakeFigure("Response.");
+  MarkOperatingSpeeds(range, 3000 * kRpm, 6000 * kRpm, 9000 * kRpm);
+  MarkOperatingSpeeds(one, 3000 * kRpm, 3000 * kRpm, 9000 * kRpm);
+  MarkOperatingSpeeds(none, 0, 0, 9000 * kRpm);
+  EXPECT_EQ(range.caption, "Response. The shaded speeds are the operating range.");
+  EXPECT_EQ(one.caption, "Response. The vertical line is the operating speed.");
+  EXPECT_EQ(none.caption, "Response.");
+  EXPECT_EQ(range.layout["shapes"][0]["type"], "rect");
+  EXPECT_EQ(one.layout["shapes"][0]["type"], "line");
+  for (const char* end : {"x0", "x1"})
+    EXPECT_NEAR(one.layout["shapes"][0][end].get<double>(), 3000, 1e-9);
+  EXPECT_NEAR(range.layout["shapes"][0]["x1"].get<double>(), 6000, 1e-9);
+  EXPECT_TRUE(none.layout["shapes"].empty());
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -160,6 +160,34 @@ TEST(RossFile, Mistakes) {
   EXPECT_THROW(WriteRoss(Everything(), "/nonexistent/rotor.toml"), InputError);
 }
 
+// What hangs on a coupling behind the last shaft (a motor in a torsional model), and gears of which ROSS saves the teeth alone,
+// are named with their size.
+TEST(RossFile, NamesWhatNoShaftFollows) {
+  const std::string more =
+      "[CouplingElement_hub]\nn = 6\nL = 0.3\nm_l = 2.0\nm_r = 3.0\nIp_l = 0.02\nIp_r = 0.03\nkt_x "
+      "= 0.0\n"
+      "[CouplingElement_motor]\nn = 7\nL = 1.0\nm_l = 4.0\nm_r = 5.0\nkt_x = 7.0\n"
+      "[GearElementTVMS_wheel]\nn = 2\nn_teeth = 37\nmodule = 0.003\n";
+  const Scratch file("hanging.toml");
+  file.Write(FriswellAsRossToml() + more);
+  const RossRotor ross = ReadRoss(file.path);
+  EXPECT_TRUE(ross.definition.shafts.empty());
+  ASSERT_EQ(ross.definition.disks.size(), 3u);
+  EXPECT_EQ(ross.definition.disks.back().name, "hub_left");
+  EXPECT_EQ(ross.definition.disks.back().mass, 2);
+  EXPECT_EQ(ross.definition.disks.back().inertia_diametral, 0.01);
+  EXPECT_EQ(ross.definition.disks.back().z, 1.5);
+  ASSERT_EQ(ross.ignored.size(), 3u);
+  EXPECT_NE(ross.ignored[0].find("its right half, which no shaft follows, 3 kg, kt_x = 0 N/m"),
+            std::string::npos)
+      << ross.ignored[0];
+  EXPECT_NE(ross.ignored[1].find("no shaft at either side, 9 kg, kt_x = 7 N/m"), std::string::npos)
+      << ross.ignored[1];
+  EXPECT_NE(ross.ignored[2].find("its mass and mesh, of which ROSS saves the 37 teeth"),
+            std::string::npos)
+      << ross.ignored[2];
+}
+
 TEST(RossFile, NamedInARigFile) {
   const Scratch file("rig_rotor.toml");
   file.Write(FriswellAsRossToml());

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/math/constants.h"
+#include "tests/rotor/shaft/uniform_shaft.h"
 
 namespace ambrig {
 namespace {
@@ -187,6 +188,25 @@ TEST(WholeBeamModes, RigidSupportsKeepTheLowModes) {
     EXPECT_LT(fast.oscillatory[k].omega_d, held.omega(static_cast<Eigen::Index>(k / 2)));
     EXPECT_GT(fast.oscillatory[k + 1].omega_d, held.omega(static_cast<Eigen::Index>(k / 2)));
   }
+}
+
+// All shapes of a mesh of three nodes are asked for: the motion of its rigid supports is none of them. Pinned at both
+// ends, Euler-Bernoulli: (pi/L)² sqrt(EI/(rho A)) to (k h)⁴/1440, k h = pi/2 here.
+TEST(WholeBeamModes, RigidSupportsOfAMeshOfThreeNodes) {
+  BeamDefinition d = UniformShaft(1, 0.04, 2);
+  d.theory = EulerBernoulli();
+  d.supports = {IsotropicSupport(0, 1e20, 0), IsotropicSupport(1, 1e20, 0)};
+  const BeamRotor beam = BuildBeam(d);
+  const LinearRotor rotor = Assemble(beam);
+  const Eigen::MatrixXd shapes = ShapesOf(rotor, 20, SupportColumns(beam));
+  const Eigen::MatrixXd gram = shapes.transpose() * rotor.M * shapes;
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(gram.rows(), gram.rows())).norm(), 1e-6);
+  const auto modes = FindWhirlModes(rotor, shapes, 100, 4).oscillatory;
+  ASSERT_GE(modes.size(), 2u);
+  const double exact = kPi * kPi * std::sqrt(kSteel.E * Inertia(0.04) / (kSteel.rho * Area(0.04)));
+  for (int k : {0, 1})
+    EXPECT_NEAR(modes[static_cast<std::size_t>(k)].s.imag() / exact, 1,
+                1.5 * std::pow(kPi / 2, 4) / 1440);
 }
 
 }  // namespace
