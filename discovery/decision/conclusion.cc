@@ -17,7 +17,7 @@ StageRatios RatiosOf(const CaseModel& model, const FitResult& fit) {
 ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effective_sample_size,
                      std::vector<std::string>& warnings) {
   ParameterNeed need;
-  need.believable = Believable(fit);
+  need.possible = Possible(fit);
   const double weight = MisfitWeight(std::max(1.0, fit.ratio_fit), effective_sample_size) /
                         static_cast<double>(std::max<std::size_t>(1, model.size()));
   for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k) {

@@ -1,6 +1,7 @@
 #include "discovery/decision/decide.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace ambrig {
 
@@ -20,10 +21,28 @@ double ExplainedShare(double before, double after) {
   return excess <= 0 ? 0 : std::clamp((before * before - after * after) / excess, 0.0, 1.0);
 }
 
-bool Believable(const FitResult& fit) {
-  const auto priors = std::count_if(fit.hypothesis.free.begin(), fit.hypothesis.free.end(),
-                                    [](const FreeParameter& p) { return p.sd > 0; });
-  return fit.penalty <= 2.2 * static_cast<double>(priors);
+namespace {
+
+/// What a sum of n squared normal numbers exceeds once in 1000.
+/// Source: E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931).
+double OnceInAThousand(double n) {
+  constexpr double kNormal = 3.0902;
+  const double part = 2 / (9 * n);
+  return n * std::pow(1 - part + kNormal * std::sqrt(part), 3);
+}
+
+double PriorsOf(const FitResult& fit) {
+  return static_cast<double>(std::count_if(fit.hypothesis.free.begin(), fit.hypothesis.free.end(),
+                                           [](const FreeParameter& p) { return p.sd > 0; }));
+}
+
+}  // namespace
+
+bool Believable(const FitResult& fit) { return fit.penalty <= 2.2 * PriorsOf(fit); }
+
+bool Possible(const FitResult& fit) {
+  const double priors = PriorsOf(fit);
+  return priors == 0 || fit.penalty <= OnceInAThousand(priors);
 }
 
 bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round,
@@ -69,7 +88,7 @@ std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
   if (any_established) return "effect";
   const double after = base.Answered(), before = nominal.Answered();
   if (before < kAgrees * 1.02) return "none";
-  const bool possible = need.largest_shift < kNeverParameter && need.believable &&
+  const bool possible = need.largest_shift < kNeverParameter && need.possible &&
                         (need.largest_shift < kDoubtfulShift || need.constant);
   if (!possible) return "unknown";
   if (after < kAgrees * 1.05) return "parameters";

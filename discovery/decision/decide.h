@@ -12,6 +12,10 @@ double ExplainedShare(double ratio_before, double ratio_after);
 /// parameter.
 bool Believable(const FitResult& fit);
 
+/// Whether tolerances alone make such shifts more than once in a thousand: what the verdict asks, when
+/// no effect was found that would bring them back.
+bool Possible(const FitResult& fit);
+
 /// Whether the step from `before` to `after` (one more effect) is more than chance and more than a
 /// patch: `round` counts the effects adopted before it, `first_fall` is how far the first one
 /// brought the squared ratio down. What a law leaves in detail must not be sold as a second effect:
@@ -35,7 +39,7 @@ double ShareOfAllRecords(const StageRatios& before, const StageRatios& after);
 /// What the rig parameters had to do to explain the records alone.
 struct ParameterNeed {
   double largest_shift = 0;  // of its own sd [-]
-  bool believable = true;    // all shifts together, see Believable
+  bool possible = true;      // all shifts together, see Possible
   bool constant = true;      // those beyond 3 sd are the same in every record (drift test)
 };
 

@@ -106,7 +106,12 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.base_ratio_validate = base.ratio_validate;
   out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
   const FitResult bare = base;
-  if (TryNuisances(base, true) && OneEffectInstead(bare, base)) base = bare;
+  if (TryNuisances(base, true)) {
+    if (OneEffectInstead(bare, base))
+      base = bare;
+    else
+      first_fall_ = std::pow(bare.ratio_validate, 2) - std::pow(base.ratio_validate, 2);
+  }
   if (options_.clocks && FindLateRows(base)) return;
   FitResult now = base;
   for (int round = 0; round < options_.rounds; ++round)

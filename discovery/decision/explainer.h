@@ -89,7 +89,8 @@ class Explainer {
   std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
   std::vector<int> rows_late_;
   bool floor_renewed_ = false;
-  double first_fall_ = 0;  // of the squared ratio on unseen records, by the first effect
+  // of the squared ratio on unseen records, by the first effect or by undeclared nuisances
+  double first_fall_ = 0;
 };
 
 }  // namespace ambrig

@@ -39,6 +39,8 @@ bool Explainer::Finished(const FitResult& now) const {
 /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
 bool Explainer::AdoptBest(FitResult& now, int round) {
   if (Finished(now)) return false;
+  // what nuisances explain that nobody declared leaves a detail as a law does
+  const bool differ = full_.nuisances.any() && !full_.data().nuisances.any();
   const double from = 0.08 + 0.3 * round;
   EffectRound ranked =
       RankEffects({full_, model_, bank_, out_.effective_sample_size, options_.candidates,
@@ -52,11 +54,13 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
     rounds_.back().push_back({r.effect, r.probability, r.fit.ratio_fit});
   if (ranking.empty() ||
       !HasSize(ranking[0].fit, ranking[0].fit.hypothesis.rig.effects.size() - 1) ||
-      !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round, first_fall_))
+      !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round + (differ ? 1 : 0),
+                     first_fall_))
     return false;
   if (round == 0)
-    first_fall_ = now.ratio_validate * now.ratio_validate -
-                  ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate;
+    first_fall_ = std::max(first_fall_, now.ratio_validate * now.ratio_validate -
+                                            ranking[0].fit.ratio_validate *
+                                                ranking[0].fit.ratio_validate);
   now = ranking[0].fit;
   out_.adopted.push_back(ranking[0].effect);
   out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});

@@ -95,7 +95,7 @@ TEST_F(Conclusion, AParameterThatMovedFarIsNamedWithWhatTheRecordsSayOfIt) {
   const ParameterNeed need =
       NeedOf(case_.model, Moved(1, 4, {1, 1, 1, 1}), kN, warnings);  // all ask for the same
   EXPECT_NEAR(need.largest_shift, 4, 1e-9);
-  EXPECT_FALSE(need.believable);  // 16 of 1 prior
+  EXPECT_FALSE(need.possible);  // 16 of 1 prior
   EXPECT_TRUE(need.constant);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_THAT(warnings[0], HasSubstr("bearings.A.gap had to move by +4.0 sd"));
@@ -115,7 +115,7 @@ TEST_F(Conclusion, ASmallShiftNeedsNoWord) {
   std::vector<std::string> warnings;
   const ParameterNeed need = NeedOf(case_.model, Moved(1, 1.2, {1, 1, 1, 1}), kN, warnings);
   EXPECT_NEAR(need.largest_shift, 1.2, 1e-9);
-  EXPECT_TRUE(need.believable);
+  EXPECT_TRUE(need.possible);
   EXPECT_TRUE(warnings.empty());
 }
 
