@@ -1,5 +1,7 @@
 #include "rig/clearance.h"
 
+#include <cmath>
+
 #include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
@@ -8,6 +10,13 @@ double GapOf(const BearingParameters& b) { return b.kind->stator(b).gap_offset[0
 
 double ClearanceOf(const BearingParameters& b) {
   return b.auxiliary ? b.auxiliary->clearance : 0.5 * GapOf(b);
+}
+
+bool InPole(const BearingParameters& b, double x, double y) {
+  const double gap = GapOf(b);
+  if (b.kind->two_axes) return std::hypot(x, y) >= gap;
+  // one magnet alone: free on the other side
+  return x >= gap || (b.coils() > 1 && -x >= gap);
 }
 
 }  // namespace ambrig

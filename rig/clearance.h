@@ -9,4 +9,7 @@ double GapOf(const BearingParameters& b);
 /// Before something touches: the auxiliary bearing's clearance, else half of the gap [m].
 double ClearanceOf(const BearingParameters& b);
 
+/// Whether a shaft at (x, y) [m] would stand in a pole; y is 0 of a bearing with one axis.
+bool InPole(const BearingParameters& b, double x, double y);
+
 }  // namespace ambrig

@@ -25,14 +25,6 @@ void CheckResting(const TomlTable& start, const RigParameters& rig) {
                "the rig with x or y other than 0");
 }
 
-/// Whether a shaft at (x, y) would stand in a pole.
-bool InPole(const BearingParameters& b, double x, double y) {
-  const double gap = GapOf(b);
-  if (b.kind->two_axes) return std::hypot(x, y) >= gap;
-  // one magnet alone: free on the other side
-  return x >= gap || (b.coils() > 1 && -x >= gap);
-}
-
 void ReadPosition(const TomlTable& position, const std::string& key, const RigParameters& rig,
                   Scenario& s) {
   const BearingParameters* b = rig.Find(key);

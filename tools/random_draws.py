@@ -5,7 +5,7 @@ and `ambrig effects` name for it; kinds (bearings, modulations, modes, detectors
 faults, excitations, effects) are drawn among all that there are.
 
 A draw is cheap on purpose: `within_cost` bounds what it computes (samples of all coils, and pieces
-of a period in contact) for 97 of 100 draws. The others are as dear as they come, up to a bound that
+of a period in contact) for 99 of 100 draws. The others are as dear as they come, up to a bound that
 one process still ends within seconds.
 """
 import json
@@ -18,15 +18,16 @@ from random_tables import Tables, anywhere, draw_far, number
 __all__ = ["Tables", "draw_far", "draw_rig", "draw_scenario", "toml"]
 
 WARM_UP = {"levitated": 0.25, "clamped": 0.03, "resting": 0.0}  # s before t = 0 (simulation/sampled/start_state.h)
-CHEAP, DEAR = 1e6, 3e7  # samples of a coil, warm-up included: some 5 and 150 ms
+CHEAP, DEAR = 4e5, 3e7  # samples of a coil, warm-up included: some 2 and 150 ms
+OF_ENGINE = {"switching": 1.0, "averaged": 0.2, "reference": 0.05}  # periods of equal computing
 
 
 # --- cost ---------------------------------------------------------------------------------------
-def within_cost(rng, rig, parts, state, far):
+def within_cost(rng, rig, parts, state, far, fidelity):
     """Lowers the switching frequency and the stiffness of contacts until a run is cheap (docstring)."""
     amplifier, rotor = rig["amplifier"], rig["rotor"]
-    dear = rng.random() < 0.02
-    most = DEAR if dear else CHEAP
+    dear = rng.random() < 0.01
+    most = (DEAR if dear else CHEAP) * OF_ENGINE[fidelity]
     if far.share > 0.1 and state != "clamped":
         most *= 0.2  # a rotor that is lost in its bearings takes up to 400 pieces a period
     per_period = amplifier.get("adc_samples_per_period", 18) * (4 + len(parts.coils))
@@ -42,7 +43,7 @@ def within_cost(rng, rig, parts, state, far):
     if "bandwidth" in amplifier:
         limit(amplifier, "bandwidth", pwm / 12)
     # In contact a period is cut into pieces of 0.02 / rate; 400 at most.
-    pieces = max(8.0, most / 200 / max(1.0, WARM_UP[state] * pwm))
+    pieces = max(8.0, most / 600 / max(1.0, WARM_UP[state] * pwm))
     for bearing in rig["bearings"].values():
         if "auxiliary" not in bearing:
             continue
@@ -120,9 +121,9 @@ def draw_state(rng, rig, parts, far):
     return state, start
 
 
-def draw_scenario(rng, rig, parts, faults, far):
+def draw_scenario(rng, rig, parts, faults, far, fidelity):
     state, start = draw_state(rng, rig, parts, far)
-    most = within_cost(rng, rig, parts, state, far)
+    most = within_cost(rng, rig, parts, state, far, fidelity)
     pwm = rig["amplifier"]["switching_frequency"]
     duration = min(rng.choice([50, 200, 800, 3000]), max(20, int(most))) / pwm
     speed = [[0.0, rng.choice([0.0, number(10 ** rng.uniform(0, 4))])]]

@@ -55,10 +55,11 @@ class Draw:
 
     def write(self, folder):
         rig, parts = random_draws.draw_rig(self.rng, self.tables, self.far)
-        scenario = random_draws.draw_scenario(self.rng, rig, parts, self.tables.faults, self.far)
-        self.tags = tags(rig, scenario)
         if parts.stators:
             self.fidelity = "switching"  # the others know no stator of any kind
+        scenario = random_draws.draw_scenario(self.rng, rig, parts, self.tables.faults, self.far,
+                                                self.fidelity)
+        self.tags = tags(rig, scenario)
         scenario["rig"] = f"r{self.index}.toml"
         (folder / f"r{self.index}.toml").write_text(random_draws.toml(rig))
         (folder / self.file).write_text(random_draws.toml(scenario))

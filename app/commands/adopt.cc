@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <tuple>
 
 #include "app/commands/commands.h"
+#include "app/commands/effect_names.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/json/discovery_json.h"
@@ -28,9 +30,11 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
   for (std::size_t k = 0; k < e.table.size(); ++k)
     fmt::print("  {:<16} {:.6g}{} {}\n", e.table[k].name, e.values[k],
                e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "", e.table[k].unit);
+  const bool unseen = a.before.ratio_validate > 0;
   for (const LadderStep& s : a.ladder)
-    fmt::print("  {:<34} fit {:8.3f}   unseen {:8.3f}\n", s.added.empty() ? "rig file" : s.added,
-               s.ratio_fit, s.ratio_validate);
+    fmt::print("  {:<34} fit {:8.3f}   unseen {:>8}\n", s.added.empty() ? "rig file" : s.added,
+               s.ratio_fit, unseen ? fmt::format("{:.3f}", s.ratio_validate) : "-");
+  if (!unseen) fmt::print("  no record of the case has use = \"validate\": all were fitted\n");
   for (const std::string& w : a.fit.warnings) fmt::print("  warning: {}\n", w);
   if (!a.fit.converged) fmt::print("  warning: the fit did not converge\n");
   fmt::print("written {}; compared again: ratio {:.3f} (was {:.3f})\n", output, a.after.ratio,
@@ -51,7 +55,13 @@ nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output
   return json;
 }
 
-int RunAdopt(const AdoptCommand& o) {
+int RunAdopt(AdoptCommand o) {
+  if (o.effect.find('@') != std::string::npos) {
+    if (!o.target.empty())
+      throw InputError(
+          fmt::format("--target = {}: {} names one, allowed: either", o.target, o.effect));
+    std::tie(o.effect, o.target) = EffectAtTarget(o.effect);
+  }
   const Case c = ReadCase(o.file);
   const std::filesystem::path rig(c.rig_file);
   const std::string output =
@@ -81,7 +91,7 @@ void AddAdopt(CLI::App& app, Work& work) {
   CLI::App* command = app.add_subcommand(
       "adopt", "add an effect with fitted parameters to the rig file and compare again");
   command->add_option("case", options->file, "case file (TOML)")->required();
-  command->add_option("effect", options->effect, "effect of the catalogue (ambrig effects)")
+  command->add_option("effect", options->effect, "EFFECT or EFFECT@TARGET (ambrig effects)")
       ->required();
   command->add_option("--target", options->target,
                       "target of the effect (default: the one with the best fit)");

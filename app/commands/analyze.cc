@@ -150,8 +150,9 @@ void AddAnalyze(CLI::App& app, Work& work) {
       "  ambrig analyze examples/reference/rig.toml --measure 3 --html rig.html\n"
       "  ambrig analyze examples/reference/rig.toml --response A.x.load:A.x\n"
       "  ambrig analyze examples/shaft/shaft.toml --speed 4000 --unbalance disk2:50@90 -o out\n"
-      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command, .shaft,\n"
-      ".magnet, or a coil A.i1; of a named plane of a beam rotor: disk.x.load, disk.x.\n"
+      "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command,\n"
+      ".shaft, .magnet, or a coil A.i1; of a named plane of a beam rotor: disk.x.load,\n"
+      "disk.x.\n"
       "Exit code 1 when the closed loop, or the shaft, is unstable.");
   command->callback([c, &work] { work = [c] { return RunAnalyze(*c); }; });
 }

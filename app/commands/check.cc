@@ -253,8 +253,8 @@ void AddCheck(CLI::App& app, Work& work) {
       "  ambrig check examples/reference --baseline stored --accept\n"
       "  ambrig check examples/reference --baseline stored\n"
       "The second stores what is right today, the third finds what has changed.\n"
-      "Tolerances: DIR/tolerances.toml (ambrig diff --help). Exit code 1 when something is\n"
-      "not met.");
+      "Tolerances: DIR/tolerances.toml (ambrig diff --help). Exit code 1 when\n"
+      "something is not met. Of a folder the scenarios with a table [expect] are run.");
   command->callback([options, &work] { work = [options] { return Check(*options); }; });
 }
 

@@ -37,6 +37,7 @@ int RunCommission(CommissionCommand c) {
                     c.out));
   if (rig.bearings.front().kind->alone) c.plan.speed = 0;
   c.common.CheckOutputs({c.rig, c.out});
+  RefuseOneFileTwice({c.out, c.common.json, c.common.html});
   CommissioningResult result;
   {
     Progress progress("commission");

@@ -35,6 +35,7 @@ void CommonOptions::CheckOutputs(const std::vector<std::string>& inputs,
   more.push_back(json);
   more.push_back(html);
   for (const std::string& file : more) RefuseInputAsOutput(file, inputs);
+  RefuseOneFileTwice(more);
   RefuseOverwriting(more, force);
 }
 
@@ -70,7 +71,8 @@ std::vector<std::string> FindScenarios(const std::vector<std::string>& paths) {
       [](const std::filesystem::path& file) {
         return file.extension() == ".toml" && HasExpectations(file.string());
       },
-      "no scenario with [expect] found");
+      "no scenario with [expect] found, allowed: files, or folders whose scenarios have a table "
+      "[expect] (it may be empty)");
 }
 
 bool ColourTerminal() { return isatty(STDOUT_FILENO) != 0 && std::getenv("NO_COLOR") == nullptr; }

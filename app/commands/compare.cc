@@ -93,9 +93,9 @@ void AddCompare(CLI::App& app, Work& work) {
   command->footer(
       "Examples:\n  ambrig compare examples/rub/case.toml --html compare.html\n"
       "  ambrig compare examples/rub/case.toml --no-blocks --series series.h5\n"
-      "A case of your own to start from: ambrig hide --help. Records over time, frequency "
-      "responses\n"
-      "(kind = \"frf\") and static tables (kind = \"static\"): docs/guide/bench_records.md.");
+      "A case of your own to start from: ambrig hide --help. Records over time,\n"
+      "frequency responses (kind = \"frf\") and static tables (kind = \"static\"):\n"
+      "docs/guide/bench_records.md.");
   command->callback([options, &work] { work = [options] { return RunCompare(*options); }; });
 }
 

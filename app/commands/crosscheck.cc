@@ -159,8 +159,8 @@ void AddCrosscheck(CLI::App& app, Work& work) {
       "  ambrig crosscheck scenarios/library/drop_at_12000rpm.toml --html contact.html\n"
       "  ambrig crosscheck scenarios/library/drop_at_0rpm.toml --seeds 3\n"
       "Apart: from when on the centres are further apart than a share of the clearance.\n"
-      "Omega c: speed of a synchronous whirl round the whole clearance c; sqrt(2 g c): of\n"
-      "a free fall through it. Exit code 1 when a verdict differs.");
+      "Omega c: speed of a synchronous whirl round the whole clearance c;\n"
+      "sqrt(2 g c): of a free fall through it. Exit code 1 when a verdict differs.");
   sub->callback([command, &work] { work = [command] { return Crosscheck(*command); }; });
 }
 

@@ -226,9 +226,9 @@ void AddExplain(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig explain examples/rub/case.toml --json answer.json --html answer.html\n"
       "  ambrig explain examples/rub/case.toml --law law.toml --resume work\n"
-      "The second goes on after Ctrl-C when it is called again; law.toml is a candidate law\n"
-      "to append to the rig file. Intermediate results are written to the JSON file as they\n"
-      "come (verdict \"unfinished\").");
+      "The second goes on after Ctrl-C when it is called again; law.toml is a\n"
+      "candidate law to append to the rig file. Intermediate results are written to\n"
+      "the JSON file as they come (verdict \"unfinished\").");
   command->callback([options, &work] { work = [options] { return RunExplain(*options); }; });
 }
 

@@ -30,9 +30,13 @@ const ControllerParameters& ControllerNamed(const RigParameters& rig, const std:
   throw InputError(fmt::format("--controller = {}, allowed: {}", name, known));
 }
 
+std::string HeaderBeside(const std::string& controller) {
+  return (std::filesystem::path(controller).parent_path() / "ambrig_controller.h").string();
+}
+
 nlohmann::ordered_json ExportController(const RigParameters& rig, const ExportOptions& o) {
   const std::filesystem::path file = o.controller_c;
-  const std::string header = (file.parent_path() / "ambrig_controller.h").string();
+  const std::string header = HeaderBeside(o.controller_c);
   RefuseOverwriting({file.string(), header}, o.common.force);
   RefuseInputAsOutput(file.string(), {o.rig, rig.file});
   const ControllerParameters& c = ControllerNamed(rig, o.controller);
@@ -76,6 +80,8 @@ nlohmann::ordered_json ExportTheFmu(const ExportOptions& o) {
 int Export(const ExportOptions& o) {
   const RigParameters rig = ReadRig(o.rig);
   o.common.CheckOutputs({o.rig, rig.file});
+  const std::string header = o.controller_c.empty() ? "" : HeaderBeside(o.controller_c);
+  RefuseOneFileTwice({o.controller_c, header, o.fmu.file, o.common.json, o.common.html});
   if (o.controller_c.empty() && o.fmu.file.empty())
     throw InputError("export: says not what to write, allowed: --fmu FILE, --controller-c FILE");
   nlohmann::ordered_json json = nlohmann::ordered_json::object();

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/commands/commands.h"
+#include "app/commands/effect_names.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "core/base/atomic_file.h"
@@ -25,6 +26,8 @@ struct HideCommand {
   bool exact = false, force = false;
   HideRequest request;
 };
+
+const std::string kMark = "# made by ambrig hide\n";
 
 std::string AnswerFile(const std::filesystem::path& folder) {
   return (folder.has_filename() ? folder : folder.parent_path()).string() + ".answer.toml";
@@ -52,11 +55,7 @@ void RejectRepeated(const std::vector<std::pair<std::string, std::string>>& effe
 int RunHide(const HideCommand& o) {
   HideRequest request = o.request;
   request.draw_parameters = !o.exact;
-  for (const std::string& text : o.effects) {
-    const auto at = text.find('@');
-    request.effects.emplace_back(text.substr(0, at),
-                                 at == std::string::npos ? "" : text.substr(at + 1));
-  }
+  for (const std::string& text : o.effects) request.effects.push_back(EffectAtTarget(text));
   const RigParameters rig = ReadRig(o.rig);
   RejectRepeated(request.effects);
   PrepareFolder(o.output);
@@ -71,15 +70,16 @@ int RunHide(const HideCommand& o) {
     progress.Update(0.8 + 0.2 * static_cast<double>(r) / static_cast<double>(hidden.records.size()),
                     "writing");
     const std::string stem = (folder / fmt::format("record-{}", r + 1)).string();
-    WriteFileAtomically(stem + ".toml", hidden.records[r].toml);
+    WriteFileAtomically(stem + ".toml", kMark + hidden.records[r].toml);
     WriteHdf5(hidden.data.records[r].data, stem + ".h5");
   }
-  WriteFileAtomically((folder / "rig.toml").string(), WithAbsoluteFiles(ReadFile(o.rig), o.rig));
-  WriteFileAtomically((folder / "case.toml").string(), CaseText(hidden));
+  WriteFileAtomically((folder / "rig.toml").string(),
+                      kMark + WithAbsoluteFiles(ReadFile(o.rig), o.rig));
+  WriteFileAtomically((folder / "case.toml").string(), kMark + CaseText(hidden));
   std::string name = folder.filename().string();
   if (name.empty()) name = folder.parent_path().filename().string();
   const std::string answer = AnswerFile(folder);
-  WriteFileAtomically(answer, AnswerText(hidden, request, name));
+  WriteFileAtomically(answer, kMark + AnswerText(hidden, request, name));
   progress.Clear();
   fmt::print(
       "written {} with {}; the answer is sealed in {}\nnow: ambrig compare {}, ambrig explain {}\n",

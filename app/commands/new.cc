@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 #include "app/commands/commands.h"
 #include "app/commands/new_case.h"
@@ -194,9 +195,12 @@ int MakeBench(NewCommand o) {
   if (o.name.empty())
     throw InputError("--template is missing, allowed: one of ambrig new --help, or --ask");
   bench = &BenchTemplateByName(o.name);
+  std::set<std::string_view> said;
   for (const std::string& s : o.set) {
     const std::size_t is = s.find('=');
     const BenchNumber& n = NumberNamed(*bench, s.substr(0, is), "--set = ");
+    if (!said.insert(n.key).second)
+      throw InputError(fmt::format("--set: {} is named twice, allowed: each key once", n.key));
     answers[std::string(n.key)] =
         NumberOf(n, is == std::string::npos ? "" : s.substr(is + 1), "--set: ");
   }
@@ -216,8 +220,8 @@ int MakeBench(NewCommand o) {
   FillIn(*bench, answers);
   const std::string rig_text = RigTextOf(*bench, answers);
   const RigParameters rig = ReadRigText(rig_text, "rig.toml");
+  if (o.out.empty()) throw InputError("--out = \"\", allowed: a folder");
   const std::filesystem::path folder(o.out);
-  PrepareFolder(o.out);
   Files files = {{"rig.toml", rig_text}};
   std::vector<ColumnChoice> choices;
   if (records.empty())
@@ -227,6 +231,7 @@ int MakeBench(NewCommand o) {
   std::vector<std::string> paths;
   for (const auto& [name, text] : files) paths.push_back((folder / name).string());
   RefuseOverwriting(paths, o.common.force);
+  PrepareFolder(o.out);
   for (std::size_t k = 0; k < files.size(); ++k) {
     WriteFileAtomically(paths[k], files[k].second);
     fmt::print("written: {}\n", paths[k]);

@@ -13,6 +13,7 @@
 #include "core/record/column_names.h"
 #include "rig/clearance.h"
 #include "rig/rig_channels.h"
+#include "rig/rig_figures.h"
 
 namespace ambrig {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <set>
 
 #include "app/json/provenance.h"
 #include "core/base/atomic_file.h"
@@ -115,6 +116,19 @@ void RefuseInputAsOutput(const std::string& output, const std::vector<std::strin
     if (!output.empty() && fs::equivalent(output, input, error))
       throw InputError(
           fmt::format("{} is read by this command, allowed: another file for its output", output));
+}
+
+void RefuseOneFileTwice(const std::vector<std::string>& outputs) {
+  std::set<fs::path> seen;
+  for (const std::string& file : outputs) {
+    std::error_code error;
+    const fs::file_status status = fs::status(file, error);
+    if (file.empty() || (fs::exists(status) && !fs::is_regular_file(status))) continue;
+    const fs::path whole = fs::weakly_canonical(fs::absolute(file), error);
+    if (!seen.insert(error ? fs::path(file) : whole).second)
+      throw InputError(fmt::format(
+          "{} is named for two outputs of this command, allowed: a file for each", file));
+  }
 }
 
 std::string MarkedJson(nlohmann::ordered_json document) {

@@ -28,6 +28,9 @@ void PrepareStudyFolder(const std::string& folder, const std::vector<std::string
 /// @throws InputError when the output would replace one of the files that the command reads.
 void RefuseInputAsOutput(const std::string& output, const std::vector<std::string>& inputs);
 
+/// @throws InputError when two of the outputs would be one file. Devices and empty names do not count.
+void RefuseOneFileTwice(const std::vector<std::string>& outputs);
+
 /// Text of a JSON document with the mark: "made_by" first, then where it
 /// comes from, unless the document says so itself (app/json/provenance.h).
 std::string MarkedJson(nlohmann::ordered_json document);

@@ -3,10 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
+#include <sstream>
 
 #include "app/commands/commands.h"
+#include "app/commands/effect_names.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/json/plan_json.h"
 #include "app/pages/plan_report.h"
 #include "core/base/atomic_file.h"
@@ -30,13 +33,10 @@ struct PlanCommand {
   std::int64_t seed = 1;
 };
 
-EffectNames EffectNamesOf(const std::vector<std::string>& texts) {
-  EffectNames out;
-  for (const std::string& t : texts) {
-    const std::size_t at = t.find('@');
-    out.emplace_back(t.substr(0, at), at == std::string::npos ? "" : t.substr(at + 1));
-    if (out.back().first != "nothing") EffectNamed(out.back().first);
-  }
+EffectNames EffectNamesOf(const std::vector<std::string>& texts, const std::string& option) {
+  const EffectNames out = EffectsAtTargets(texts, option);
+  for (const auto& [name, target] : out)
+    if (name != "nothing") EffectNamed(name);
   return out;
 }
 
@@ -52,17 +52,20 @@ void PrintPlan(const Plan& plan, const std::string& output) {
   fmt::print("{:<34} {:>6} {:>14} {:>14}\n", "scenario", "size", "distance [sd]", "orbit [um]");
   for (std::size_t k = 0; k < plan.tried.size() && k < 10; ++k) {
     const TriedScenario& t = plan.tried[k];
-    fmt::print("{:<34} {:>6.2g} {:>14} {:>14.1f}{}\n", t.title, t.size,
+    fmt::print("{:<34} {:>6.2g} {:>14} {:>14}\n", t.title, t.size,
                t.refused.empty() ? fmt::format("{:.1f}", t.least_distance) : "-",
-               1e6 * t.largest_orbit, t.refused.empty() ? "" : "  " + t.refused);
+               t.largest_orbit > 0 ? fmt::format("{:.1f}", 1e6 * t.largest_orbit) : "-");
+    if (!t.refused.empty()) fmt::print("{}\n", Wrapped("    not safe: " + t.refused, 4));
   }
-  fmt::print("\n{}\n", plan.text);
-  for (const std::string& w : plan.warnings) fmt::print("warning: {}\n", w);
+  fmt::print("\n");
+  std::istringstream lines(plan.text);
+  for (std::string line; std::getline(lines, line);) fmt::print("{}\n", Wrapped(line, 2));
+  for (const std::string& w : plan.warnings) fmt::print("{}\n", Wrapped("warning: " + w, 2));
   fmt::print("written {}; {} record simulations\n", output, plan.runs);
 }
 
 Plan PlanOfCase(const PlanCommand& o, const Case& c, const PlanOptions& options) {
-  if (!o.between.empty()) return PlanForCase(c, EffectNamesOf(o.between), options);
+  if (!o.between.empty()) return PlanForCase(c, EffectNamesOf(o.between, "--between"), options);
   ExplainOptions explain;
   explain.stop = &interrupted;
   explain.progress = [&](double f, const std::string& text) {
@@ -85,6 +88,9 @@ int RunPlanCommand(const PlanCommand& o) {
                      "is needed");
   if (!is_case && !o.between.empty())
     throw InputError("--between: needs a case, allowed with a rig file: --learn");
+  if (o.between.size() == 1)
+    throw InputError("--between: one name, allowed: two or more to tell apart, e.g. nothing " +
+                     o.between[0]);
   const std::filesystem::path path(o.file);
   const std::string output =
       !o.output.empty() ? o.output : (path.parent_path() / "next_record.toml").string();
@@ -103,10 +109,10 @@ int RunPlanCommand(const PlanCommand& o) {
     plan = PlanOfCase(o, c, options);
   } else {
     const RigParameters rig = ReadRig(o.file);
-    plan = PlanForRig(rig, EffectNamesOf(o.learn), StatedAbilities(rig, 2 * kPi * o.speed, o.clamp),
-                      options);
+    plan = PlanForRig(rig, EffectNamesOf(o.learn, "--learn"),
+                      StatedAbilities(rig, 2 * kPi * o.speed, o.clamp), options);
   }
-  const std::string scenario = ScenarioText(plan, rig_file, output);
+  const std::string scenario = "# made by ambrig plan\n" + ScenarioText(plan, rig_file, output);
   WriteFileAtomically(output, scenario);
   progress.Clear();
   PrintPlan(plan, output);

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <thread>
 
 #include "app/commands/commands.h"
@@ -164,6 +165,15 @@ void ReportPractice(const PracticeCommand& o) {
 }
 
 int RunPractice(PracticeCommand o) {
+  std::set<std::filesystem::path> rigs;
+  for (const std::string& file : o.rigs) {
+    std::error_code error;
+    if (!rigs.insert(std::filesystem::weakly_canonical(file, error)).second)
+      throw InputError(file + " is named twice, allowed: each rig once");
+    if (o.report_only && !std::filesystem::is_directory(o.out, error))
+      throw InputError(o.out +
+                       ": no such folder, allowed with --report-only: one of ambrig practice");
+  }
   for (const std::string& file : o.rigs) o.setting.rigs.push_back(ReadPracticeRig(file));
   o.setting.shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
   o.setting.folder = o.out;
@@ -215,8 +225,10 @@ void AddPractice(CLI::App& app, Work& work) {
   command->add_option("--jobs", options->jobs, "cases at a time; each uses all cores")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  command->add_flag("--make-only", options->make_only, "write the cases, explain none");
-  command->add_flag("--report-only", options->report_only, "only count what is finished");
+  CLI::Option* make =
+      command->add_flag("--make-only", options->make_only, "write the cases, explain none");
+  command->add_flag("--report-only", options->report_only, "only count what is finished")
+      ->excludes(make);
   command
       ->add_option("--fit", options->fit,
                    "write the calibration fitted with one half of the law families to this file "

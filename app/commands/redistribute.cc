@@ -84,19 +84,28 @@ nlohmann::json JsonOf(const MapReach& r, const Eigen::Vector2d& load) {
           {"radius", r.radius}};
 }
 
-int Redistribute(const RedistributeOptions& o) {
-  const RigParameters rig = ReadRig(o.rig);
-  o.common.CheckOutputs({o.rig, rig.file});
+/// @throws InputError naming the bearings whose coils can take over for each other.
+const BearingParameters& BearingOf(const RigParameters& rig, const RedistributeOptions& o) {
   const BearingParameters* b = rig.Find(o.bearing);
   const auto able = [](const BearingParameters& k) {
     return k.kind->eight_poles || k.kind->linearise;
   };
-  if (!b || !able(*b)) {
-    std::string known;
-    for (const auto& k : rig.bearings)
-      if (able(k)) known += (known.empty() ? "" : ", ") + k.name;
-    throw InputError(fmt::format("--bearing = {}, allowed: {}", o.bearing, known));
-  }
+  if (b && able(*b)) return *b;
+  std::string known;
+  for (const auto& k : rig.bearings)
+    if (able(k)) known += (known.empty() ? "" : ", ") + k.name;
+  if (known.empty())
+    throw InputError(
+        fmt::format("{}: has no bearing whose coils could take over for each other, allowed: a rig "
+                    "with a bearing of kind radial or stator",
+                    o.rig));
+  throw InputError(fmt::format("--bearing = {}, allowed: {}", o.bearing, known));
+}
+
+int Redistribute(const RedistributeOptions& o) {
+  const RigParameters rig = ReadRig(o.rig);
+  o.common.CheckOutputs({o.rig, rig.file});
+  const BearingParameters* b = &BearingOf(rig, o);
   const auto sets = FailedSets(o.failed, b->coils());
   const NominalRig nominal(rig);
   if (b->kind->linearise)

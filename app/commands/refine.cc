@@ -4,8 +4,10 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/effect_names.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
+#include "app/commands/screen.h"
 #include "app/json/refine_json.h"
 #include "app/pages/refine_report.h"
 #include "core/base/atomic_file.h"
@@ -32,32 +34,29 @@ void PrintRefinement(const Refinement& r, const std::string& output) {
     fmt::print("  {:>12.4g} {:>12.4g} {:>10.2g} {:>8.2f} {:>12.4g}{}\n", p.u, p.value, p.sd,
                p.support, p.named, p.visited ? "" : "  not visited");
   }
-  fmt::print("supported for {} = {:.3g} to {:.3g} {}\n", r.shape.u_name, r.supported_lo,
-             r.supported_hi, r.shape.u_unit);
+  fmt::print("{}\n", SupportText(r));
   for (const LadderStep& s : r.ladder)
     fmt::print("  {:<34} fit {:8.3f}   {} {:8.3f}\n", s.added, s.ratio_fit, unseen,
                s.ratio_validate);
-  for (const std::string& w : r.warnings) fmt::print("  warning: {}\n", w);
+  for (const std::string& w : r.warnings) fmt::print("{}\n", Wrapped("  warning: " + w, 4));
   fmt::print(
       "written {}: error over the noise floor on {} records {:.3f} (catalogue's law {:.3f})\n",
       output, unseen, r.ratio_after, r.ratio_before);
 }
 
 int RunRefine(const RefineCommand& o) {
+  const auto [name, target] = EffectAtTarget(o.effect);
   const Case c = ReadCase(o.file);
   const std::filesystem::path rig(c.rig_file);
   const std::string output =
       !o.output.empty() ? o.output
                         : (rig.parent_path() / (rig.stem().string() + "_refined.toml")).string();
   o.common.CheckOutputs({o.file, c.rig_file}, {output, o.new_case});
-  const std::size_t at = o.effect.find('@');
   ExplainOptions options;
   options.stop = &interrupted;
   Progress progress("refine");
   options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
-  const Refinement r =
-      Refine(c, o.effect.substr(0, at), at == std::string::npos ? "" : o.effect.substr(at + 1),
-             output, options);
+  const Refinement r = Refine(c, name, target, output, options);
   WriteFileAtomically(output, r.rig_text);
   if (!o.new_case.empty())
     WriteFileAtomically(o.new_case, CaseWithRig(ReadFile(o.file), o.file, output, o.new_case));

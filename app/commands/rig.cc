@@ -61,8 +61,8 @@ void AddRig(CLI::App& app, Work& work) {
   command->footer(
       "Examples:\n  ambrig rig examples/reference/rig.toml\n"
       "  ambrig rig examples/reference/rig.toml --json resolved.json --html rig.html\n"
-      "The JSON holds defaults and like = filled in, and angle, turns and gap of every coil. "
-      "What\ndiffers between two rig files: ambrig diff A.toml B.toml");
+      "The JSON holds defaults and like = filled in, and angle, turns and gap of every\n"
+      "coil. What differs between two rig files: ambrig diff A.toml B.toml");
   command->callback([options, &work] { work = [options] { return RunRig(*options); }; });
 }
 

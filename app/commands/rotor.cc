@@ -6,6 +6,7 @@
 #include "app/commands/screen.h"
 #include "app/pages/html.h"
 #include "core/base/counted.h"
+#include "core/base/errors.h"
 #include "rotor/shaft/convert_shaft.h"
 
 namespace ambrig {
@@ -23,9 +24,19 @@ std::string Joined(const std::vector<std::string>& words) {
   return text;
 }
 
+/// What is wrong with a shaft is told with the file that it came from.
+ShaftConversion Converted(const Convert& c) {
+  try {
+    return ConvertShaft(c.in, c.out);
+  } catch (const InputError& e) {
+    const std::string what = e.what();
+    throw InputError(what.starts_with(c.in) || what.starts_with(c.out) ? what : c.in + ": " + what);
+  }
+}
+
 int Run(const Convert& c) {
   c.common.CheckOutputs({c.in}, {c.out});
-  const ShaftConversion done = ConvertShaft(c.in, c.out);
+  const ShaftConversion done = Converted(c);
   const std::string lost = done.not_carried.empty() ? "nothing" : Joined(done.not_carried);
   fmt::print("{}: {} -> {}\n", c.out, done.from_ross ? "ROSS" : "ambrig",
              done.from_ross ? "ambrig" : "ROSS");
@@ -81,8 +92,8 @@ void AddRotor(CLI::App& app, Work& work) {
   convert->footer(
       "Examples:\n  ambrig rotor convert examples/tum_mbtr/rig.toml rotor.json\n"
       "  ambrig rotor convert rotor.json shaft.toml\n"
-      "The first is for ross.Rotor.load; the second gives a shaft for a rig: [rotor] kind = "
-      "\"beam\", file = \"shaft.toml\".");
+      "The first is for ross.Rotor.load; the second gives a shaft for a rig:\n"
+      "[rotor] kind = \"beam\", file = \"shaft.toml\".");
   convert->callback([options, &work] { work = [options] { return Run(*options); }; });
 }
 

@@ -157,9 +157,9 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   if (dropped) json["bending_modes"] = DroppedModesJson(*dropped);
   json["provenance"] = Provenance(in.inputs);
   WriteFileAtomically(stem.string() + ".json", MarkedJson(json));
-  if (!options.no_html) {
+  if (!options.no_html || !options.common.html.empty()) {
     const RunReportData data = MakeRunReportData(rig, scenario, result, expect, options.fidelity);
-    WriteRunReport(data, stem.string() + ".html");
+    if (!options.no_html) WriteRunReport(data, stem.string() + ".html");
     if (!options.common.html.empty()) WriteRunReport(data, options.common.html);
   }
   if (!options.quiet) {
@@ -217,6 +217,12 @@ int RunScenarios(RunOptions options) {
   if (options.campaign.empty() == options.scenarios.empty())
     throw InputError("run: allowed: scenario files, or --from-campaign FILE --row K");
   RefuseEqualNames(options.scenarios);
+  if (options.scenarios.size() > 1 && !options.common.html.empty())
+    throw InputError(
+        "--html: one report for several scenarios, allowed: one scenario (the folder "
+        "--out holds a report of each)");
+  if (!options.campaign.empty() && options.row < 0)
+    throw InputError("--row is missing or negative, allowed with --from-campaign: a run, from 0");
   int code = 0;
   if (options.keep_going) {
     PrepareFolder(options.out);

@@ -84,8 +84,9 @@ void AddServe(CLI::App& app, Work& work) {
   command->add_option("--reader", options->reader, "")->group("");  // of the server itself
   command->footer(
       "Examples:\n  ambrig serve practice\n  ambrig serve . --port 8080\n"
-      "The page starts the commands that you could type; results stand in practice/.ambrig. Only "
-      "this\nmachine can reach it; from another one: ssh -L 8080:127.0.0.1:8080 HOST.");
+      "The page starts the commands that you could type; results stand in\n"
+      "practice/.ambrig. Only this machine can reach it; from another one:\n"
+      "ssh -L 8080:127.0.0.1:8080 HOST.");
   command->callback([options, &work] { work = [options] { return RunServe(*options); }; });
 }
 

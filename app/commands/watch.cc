@@ -90,6 +90,7 @@ int RunWatch(WatchCommand o) {
     o.watch.journal = std::filesystem::path(o.watch.case_file).replace_extension(".watch").string();
   o.watch.explain = !o.no_explain;
   o.common.CheckOutputs({o.watch.case_file, o.watch.journal});
+  RefuseOneFileTwice({o.watch.journal, o.common.json, o.common.html});
   FolderWatch watch(o.watch);
   int code = OnePass(o, watch);
   const auto every = std::chrono::duration<double>(o.every);
@@ -132,10 +133,10 @@ void AddWatch(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig watch practice/case.toml logger --json watch.json --html trend.html\n"
       "  ambrig watch practice/case.toml logger --no-explain --journal fast.watch\n"
-      "For cron: exit code 1 when a new record left its band, has wrong data or was refused; with\n"
-      "--every it goes on by itself. A file of the folder repeats the record of the case whose "
-      "name\n"
-      "its own begins with: hover-0412.csv is as hover.csv. docs/guide/watch.md.");
+      "For cron: exit code 1 when a new record left its band, has wrong data or was\n"
+      "refused; with --every it goes on by itself. A file of the folder repeats the\n"
+      "record of the case whose name its own begins with: hover-0412.csv is as\n"
+      "hover.csv. docs/guide/watch.md.");
   command->callback([o, &work] { work = [o] { return RunWatch(*o); }; });
 }
 

@@ -18,9 +18,10 @@ void AddWords(HtmlReport& report, const Comparison& before, const Comparison& af
           ? "The effects of the rig file"
           : ladder.back().added;
   const std::string numbers = fmt::format(
-      "error over noise {:.2f} before, **{:.2f}** after (unseen records: {:.2f} before, **{:.2f}** "
-      "after)",
-      before.ratio, after.ratio, before.ratio_validate, after.ratio_validate);
+      "error over noise {:.2f} before, **{:.2f}** after ({})", before.ratio, after.ratio,
+      before.ratio_validate > 0 ? fmt::format("unseen records: {:.2f} before, **{:.2f}** after",
+                                              before.ratio_validate, after.ratio_validate)
+                                : "no record is kept unseen");
   const double was = before.ratio_validate > 0 ? before.ratio_validate : before.ratio,
                is = after.ratio_validate > 0 ? after.ratio_validate : after.ratio;
   if (is >= 0.99 * was)

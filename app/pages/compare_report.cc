@@ -43,10 +43,13 @@ Cell RatioCell(double ratio) {
 
 void AddComparisonVerdict(HtmlReport& report, const Comparison& c) {
   const double unseen = c.ratio_validate > 0 ? c.ratio_validate : c.ratio;
-  const std::string numbers = fmt::format(
-      "error over noise {:.2f} over all records ({:.2f} on those that explain fits, {:.2f} on the "
-      "unseen)",
-      c.ratio, c.ratio_fit, c.ratio_validate);
+  const std::string numbers =
+      c.ratio_validate > 0
+          ? fmt::format(
+                "error over noise {:.2f} over all records ({:.2f} on those that explain "
+                "fits, {:.2f} on the unseen)",
+                c.ratio, c.ratio_fit, c.ratio_validate)
+          : fmt::format("error over noise {:.2f} over all records (none is kept unseen)", c.ratio);
   if (std::max(unseen, c.ratio) < 1.1)
     report.Verdict(Verdict::kOk,
                    "**Model and measurement agree within the noise**: " + numbers + ".");

@@ -67,6 +67,9 @@ void LadderFigure(HtmlReport& report, const std::vector<LadderStep>& ladder) {
   }
   SetAxes(figure, 0, "", "error / noise");
   AddLevel(figure, 0, 1, "noise", "@green");
+  figure.layout["annotations"].back().update(
+      {{"xanchor", "left"}, {"yanchor", "middle"}});  // beside the last bar, not on it
+  figure.layout["margin"]["r"] = 56;
   report.AddFigure(figure);
 }
 

@@ -41,8 +41,17 @@ void AddTried(HtmlReport& report, const Plan& plan) {
   Figure f = MakeFigure(
       "Least distance between any two of the names, in standard deviations, whatever their numbers "
       "and the details of their laws do to come nearer: 4.7 means 99 % right.");
-  AddBars(f, 0, "distance", titles, distances);
-  SetAxes(f, 0, "", "least distance [sd]");
+  f.height = std::max(200, 90 + 22 * static_cast<int>(titles.size()));
+  f.traces.push_back({{"type", "bar"},
+                      {"orientation", "h"},  // whole names beside the bars
+                      {"name", "distance"},
+                      {"x", Numbers(distances)},
+                      {"y", titles},
+                      {"xaxis", "x"},
+                      {"yaxis", "y"},
+                      {"marker", {{"color", "@blue"}}}});
+  SetAxes(f, 0, "least distance [sd]", "");
+  f.layout["yaxis"].update({{"autorange", "reversed"}, {"automargin", true}, {"type", "category"}});
   report.AddFigure(f);
   report.Table({"scenario", "size", "least distance [sd]", "largest orbit [um]", "safe"}, rows,
                "All scenarios that this rig can make. Size: of the usual excitation, lowered until "

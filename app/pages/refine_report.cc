@@ -68,9 +68,8 @@ void AddResult(HtmlReport& report, const Refinement& r) {
   const std::string where = r.any_unseen ? "unseen records" : "all records (none is unseen)";
   const std::string text = fmt::format(
       "**{} at {}**: error over noise on {} {:.2f} with the catalogue's law, **{:.2f}** with the "
-      "refined one; supported for {} = {:.3g} to {:.3g} {} only.",
-      r.effect, r.target, where, r.ratio_before, r.ratio_after, r.shape.u_name, r.supported_lo,
-      r.supported_hi, r.shape.u_unit);
+      "refined one; {}.",
+      r.effect, r.target, where, r.ratio_before, r.ratio_after, SupportText(r));
   if (r.supported_hi <= r.supported_lo || r.ratio_after > 0.999 * r.ratio_before)
     report.Verdict(Verdict::kWarn, text);
   else
@@ -95,6 +94,12 @@ void AddSizes(HtmlReport& report, const Refinement& r) {
 }
 
 }  // namespace
+
+std::string SupportText(const Refinement& r) {
+  if (r.supported_hi <= r.supported_lo) return "supported nowhere by these records";
+  return fmt::format("supported for {} = {:.3g} to {:.3g} {} only", r.shape.u_name, r.supported_lo,
+                     r.supported_hi, r.shape.u_unit);
+}
 
 void WriteRefineReport(const Refinement& r, const std::string& rig, const std::string& path) {
   HtmlReport report("Law refined", r.model->data().file);

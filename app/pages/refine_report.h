@@ -6,6 +6,9 @@
 
 namespace ambrig {
 
+/// Where the curve is supported, or that it is nowhere.
+std::string SupportText(const Refinement& r);
+
 void WriteRefineReport(const Refinement& r, const std::string& rig, const std::string& path);
 
 }  // namespace ambrig

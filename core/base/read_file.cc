@@ -13,7 +13,8 @@ namespace ambrig {
 std::string ReadFile(const std::string& path, std::size_t limit) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(path + ": no such file");
-  if (std::filesystem::is_directory(path, error)) throw InputError(path + ": is a folder");
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path + ": is a folder, allowed: a file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path + ": " + std::generic_category().message(errno));

@@ -14,6 +14,7 @@
 #include "core/record/text_table.h"
 #include "discovery/case/case_bench.h"
 #include "discovery/case/case_channels.h"
+#include "rig/clearance.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -72,7 +73,7 @@ OutputKnowledge KnowledgeOf(const std::string& output, const std::string& unit, 
   OutputKnowledge k;
   if (const auto it = c.noise.find(output); it != c.noise.end()) k.sd = it->second;
   if (const auto sd = t.Table("sd"); sd && sd->Has(output))
-    k.sd = Within(*sd, output, kRequired, {unit, 0, 1e9, "sd of a reading"});
+    k.sd = Within(*sd, output, kRequired, {unit, 1e-15, 1e9, "sd of a reading"});
   k.accuracy = Within(t, "accuracy", 0, {"-", 0, 1, "of a reading, beside its sd"});
   return k;
 }
@@ -114,6 +115,27 @@ void Knowledge(const TomlTable& t, const Case& c, StaticTable& table) {
         sd->Fail(key, "is no output of this table");
 }
 
+const Channel* InputNamed(const StaticTable& table, const std::string& name) {
+  const auto it = std::ranges::find(table.inputs, name, &Channel::name);
+  return it == table.inputs.end() ? nullptr : &*it;
+}
+
+/// A position that was set stands between the poles, or its unit, gain or offset is wrong.
+void RefusePositionsInPoles(const TomlTable& t, const Case& c, const CaseRecord& r) {
+  for (const BearingParameters& b : c.rig.bearings) {
+    const Channel *x = InputNamed(r.table, b.name + ".x"), *y = InputNamed(r.table, b.name + ".y");
+    const std::size_t rows = x ? x->samples.size() : y ? y->samples.size() : 0;
+    for (std::size_t k = 0; k < rows; ++k) {
+      const double at_x = x ? x->samples[k] : 0, at_y = y ? y->samples[k] : 0;
+      if (!std::isfinite(at_x) || !std::isfinite(at_y) || !InPole(b, at_x, at_y)) continue;
+      t.Fail("data",
+             fmt::format("= {}: row {}: {} at [{:g}, {:g}] m, allowed: inside the gap of {} m "
+                         "(unit, gain and offset in [record.channels])",
+                         r.data_file, k + 1, b.name, at_x, at_y, GapOf(b)));
+    }
+  }
+}
+
 }  // namespace
 
 void ReadStaticRecord(const TomlTable& t, Case& c, CaseRecord& r) {
@@ -143,9 +165,14 @@ void ReadStaticRecord(const TomlTable& t, Case& c, CaseRecord& r) {
                                "[Wb], named or mapped in "
                                "[record.channels]",
                                r.data_file));
+  RefusePositionsInPoles(t, c, r);
   Knowledge(t, c, r.table);
   r.data.rate = 1;
   WeighRows(r);
+  for (const ChannelQuality& q : r.quality)
+    if (q.missing > 0)
+      c.notes.push_back(fmt::format("{}: {}: {} of {} rows left out (no number)", r.data_file,
+                                    q.channel, q.missing, q.ok.size()));
 }
 
 }  // namespace ambrig

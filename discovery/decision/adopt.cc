@@ -25,6 +25,16 @@ bool SameFolder(const std::string& a, const std::string& b) {
          fs::absolute(b).lexically_normal().parent_path();
 }
 
+/// @throws InputError when no record has a channel to fit to.
+Comparison CompareMeasured(CaseModel& model, const Hypothesis& nominal) {
+  Comparison before = Compare(model, nominal, false);
+  if (model.targets().empty())
+    throw InputError(model.data().file +
+                     ": every channel of every record was left out (ambrig compare says why), "
+                     "allowed: one channel or more that moves");
+  return before;
+}
+
 }  // namespace
 
 Adoption Adopt(const Case& c, const std::string& effect, const std::string& target,
@@ -50,12 +60,13 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   const std::string rig_text = ReadFile(c.rig_file);
   AdoptedRigText(rig_text, nominal, c.rig.effects);  // can be written: known before the long work
-  a.before = Compare(model, nominal, false);
+  a.before = CompareMeasured(model, nominal);
   FitOptions fit;
   fit.effective_sample_size = a.before.effective_sample_size;
   progress(0.2, "rig parameters");
   const FitResult base = Fit(model, nominal, fit);
-  a.ladder = {{"", a.before.ratio_fit, a.before.ratio_validate},
+  const double unseen = a.before.ratio_validate > 0 ? a.before.ratio_validate : a.before.ratio_fit;
+  a.ladder = {{"", a.before.ratio_fit, unseen},
               {"parameters", base.ratio_fit, base.ratio_validate}};
   if (formula) {
     a.fit = base;  // it stands in the rig file and was fitted with the rig parameters

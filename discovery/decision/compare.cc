@@ -50,7 +50,11 @@ std::vector<std::string> Words(const Comparison& c) {
                    [](const Place& a, const Place& b) { return a.ratio > b.ratio; });
   std::vector<std::string> out;
   for (std::size_t k = 0; k < places.size() && k < 8; ++k) out.push_back(places[k].text);
-  if (out.empty()) out.push_back("model and measurement agree within the noise everywhere");
+  const bool measured = std::any_of(c.records.begin(), c.records.end(),
+                                    [](const auto& r) { return !r.channels.empty(); });
+  if (out.empty())
+    out.push_back(measured ? "model and measurement agree within the noise everywhere"
+                           : "nothing is compared: every channel of every record was left out");
   return out;
 }
 

@@ -114,6 +114,18 @@ TEST(Capacity, OfTheReferenceRig) {
   EXPECT_NEAR(c[0].slew, k * c0 * 29 / (1.95e-3 * cosine), 0.06 * c[0].slew);
 }
 
+// A bridge that drives both ways has its whole voltage to change a current either way; one that does not, only what the resting current
+// drops in the winding: 0.5 A times 1 ohm of 24 V. One file after the other is read: the magnets and currents are the same.
+TEST(Capacity, SlewIsThatOfTheDutiesAllowed) {
+  const std::string text = ReadText(AMBRIG_SOURCE_DIR "/examples/validation/mbc500.toml");
+  const auto slew = [](const std::string& rig) {
+    return FindCapacity(FindOperatingPoint(ReadRigText(rig, "rig.toml"))).at(0).slew;
+  };
+  const double both = slew(text),
+               one = slew(Replaced(text, "duty_limits = [-1.0, 1.0]", "duty_limits = [0.0, 1.0]"));
+  EXPECT_NEAR(both / one, (24 - 0.5) / 0.5, 1e-6 * both / one);
+}
+
 TEST(Analysis, OfTheReferenceRig) {
   AnalysisOptions o;
   o.lowest = 300;

@@ -267,6 +267,16 @@ TEST_F(DiscoveryReport, AnEffectThatDoesNotHelpIsSaidSo) {
   EXPECT_THAT(Read(folder.File("a.html")), HasSubstr("windage at rig did not reduce the error"));
 }
 
+TEST_F(DiscoveryReport, WithoutUnseenRecordsNoErrorOfThemIsSaid) {
+  Comparison all_fitted = *before_;
+  all_fitted.ratio_validate = 0;
+  const TemporaryFolder folder;
+  WriteCompareReport(*model_, all_fitted, folder.File("c.html"));
+  EXPECT_THAT(Read(folder.File("c.html")), HasSubstr("(none is kept unseen)"));
+  WriteAdoptReport(*model_, all_fitted, all_fitted, {{"", 2, 2}}, folder.File("a.html"));
+  EXPECT_THAT(Read(folder.File("a.html")), HasSubstr("after (no record is kept unseen)"));
+}
+
 // A model that equals the measurement but for a line of known size at order 1 gives that size.
 TEST_F(DiscoveryReport, OrderTrackFindsTheSizeOfALine) {
   std::vector<double> predicted = model_->measured();
@@ -285,15 +295,6 @@ TEST_F(DiscoveryReport, OrderTrackFindsTheSizeOfALine) {
     }
   }
 }
-
-TEST(Autocorrelations, OfAlternatingSigns) {
-  const std::vector<double> a = Autocorrelation({1, -1, 1, -1}, 3);
-  EXPECT_DOUBLE_EQ(a[0], 1);
-  EXPECT_DOUBLE_EQ(a[1], -0.75);
-  EXPECT_DOUBLE_EQ(a[2], 0.5);
-}
-
-TEST(ReportNames, Short) { EXPECT_EQ(ShortName("a/b.c/record-3.h5"), "record-3"); }
 
 }  // namespace
 }  // namespace ambrig

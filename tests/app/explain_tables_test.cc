@@ -169,6 +169,9 @@ TEST(DiscoveryParts, TheLadderNamesEveryStep) {
                            "without an effect of no size"})
     EXPECT_THAT(html, HasSubstr(step));
   EXPECT_THAT(html, Not(HasSubstr("+ without")));
+  EXPECT_THAT(
+      html,
+      HasSubstr("\"xanchor\":\"left\""));  // "noise" stands beside the bars, not on the last one
 }
 
 // The colours of two maps that are to be compared end at one value; numbers are printed where they fit.

@@ -45,6 +45,13 @@ TEST(PlanPage, HasCardComparisonAndFile) {
   EXPECT_THAT(words, HasSubstr("\neddy-currents at A\nnothing\n6.2\n99.9 %\n30 of 30\n"));
 }
 
+// Names of scenarios are long: they stand whole beside lying bars.
+TEST(PlanPage, TheNamesBesideTheBarsAreNotCut) {
+  const std::string html = PlanPage(TwoNames());
+  EXPECT_THAT(html, HasSubstr("\"orientation\":\"h\""));
+  EXPECT_THAT(html, HasSubstr("\"automargin\":true"));
+}
+
 // Scenarios that were refused stand in the table with their reason, without a bar.
 TEST(PlanPage, WhatWasRefusedIsSaidWithItsReason) {
   const std::string html = PlanPage(TwoNames()), words = testing::Words(html);

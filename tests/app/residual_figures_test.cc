@@ -141,5 +141,14 @@ TEST_F(ResidualFigures, ASignatureLiesOnTheErrorThatItExplains) {
   EXPECT_EQ(Mean((*other)["y"]), 0);
 }
 
+TEST(Autocorrelations, OfAlternatingSigns) {
+  const std::vector<double> a = Autocorrelation({1, -1, 1, -1}, 3);
+  EXPECT_DOUBLE_EQ(a[0], 1);
+  EXPECT_DOUBLE_EQ(a[1], -0.75);
+  EXPECT_DOUBLE_EQ(a[2], 0.5);
+}
+
+TEST(ReportNames, Short) { EXPECT_EQ(ShortName("a/b.c/record-3.h5"), "record-3"); }
+
 }  // namespace
 }  // namespace ambrig

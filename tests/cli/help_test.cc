@@ -70,6 +70,22 @@ TEST_F(Help, LinesFitTheTerminal) {
   for (const std::string& call : calls) ExpectNarrow(Ambrig(call).text, call);
 }
 
+// Nor is a line broken twice: a footer's line that is wider than the screen leaves a few words on the next one.
+TEST_F(Help, FootersAreNotBrokenTwice) {
+  for (const std::string& c : Commands()) {
+    std::istringstream lines(Ambrig(c + " --help").text);
+    std::string last;
+    for (std::string line; std::getline(lines, line); last = line) {
+      if (line.empty() || last.empty() || line[0] == ' ' || last[0] == ' ') continue;
+      if (line.starts_with("Usage:") || last.ends_with('.') || last.ends_with(':')) continue;
+      EXPECT_GE(ScreenWidth(last) + 1 + ScreenWidth(line.substr(0, line.find(' '))), 60U)
+          << c << ":\n"
+          << last << "\n"
+          << line;
+    }
+  }
+}
+
 // A command's help ends with its own examples, not with those of the whole program.
 TEST_F(Help, FootersAreTheCommandsOwn) {
   for (const std::string& c : Commands())

@@ -1,0 +1,25 @@
+// Words of `ambrig refine` about a curve that is written down.
+#include "app/pages/refine_report.h"
+
+#include <gtest/gtest.h>
+
+namespace ambrig {
+namespace {
+
+Refinement Supported(double lo, double hi) {
+  Refinement r;
+  r.shape.u_name = "flux density of the pole";
+  r.shape.u_unit = "T";
+  r.supported_lo = lo;
+  r.supported_hi = hi;
+  return r;
+}
+
+TEST(SupportText, IsARangeOrNowhere) {
+  EXPECT_EQ(SupportText(Supported(0.1, 0.85)),
+            "supported for flux density of the pole = 0.1 to 0.85 T only");
+  EXPECT_EQ(SupportText(Supported(0, 0)), "supported nowhere by these records");
+}
+
+}  // namespace
+}  // namespace ambrig
