@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/base/errors.h"
+#include "core/base/toml.h"
 #include "core/record/read_record.h"
 #include "tests/core/temporary_folder.h"
 
@@ -40,6 +41,13 @@ TEST(FuzzFindings, RecordsAreTakenOrRefusedInOneLine) {
     }
   }
   EXPECT_GE(read, 2);
+}
+
+TEST(FuzzFindings, ALineEndInsideAMessageIsASpace) {
+  const std::string text =
+      testing::ErrorText<InputError>([] { TomlTable::FromText("a = f\n", "rig.toml"); });
+  EXPECT_NE(text.find("rig.toml:1: not valid TOML"), std::string::npos) << text;
+  EXPECT_EQ(text.find('\n'), std::string::npos) << text;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "discovery/model/floor.h"
@@ -12,6 +13,7 @@
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_file.h"
+#include "tests/discovery/measured_case.h"
 
 namespace ambrig {
 namespace {
@@ -218,6 +220,31 @@ TEST(DataGate, ColumnsOfDifferentKindsExchanged) {
     EXPECT_TRUE(faults[0].channel == "bus" || faults[0].with == "bus");
     EXPECT_TRUE(faults[0].channel == other || faults[0].with == other);
   }
+}
+
+// Two held sensors whose readings differ by less than their zeros may are not told apart.
+TEST(DataGate, ZerosOfHeldSensorsAreNoExchange) {
+  for (const double apart : {6e-6, 6e-5}) {
+    Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}});
+    for (CaseRecord& r : c.records) r.scenario.clamp["B"][0] += apart;  // of what the model expects
+    // what A.x shows is expected of B.x, and the other way round
+    for (double& v : c.records[0].data.channels[0].samples) v += apart;
+    const auto faults = FaultsOf(c);
+    const bool exchanged = std::any_of(faults.begin(), faults.end(), [&](const DataFault& f) {
+      return f.fault == "swap" && f.record == c.records[0].data_file;
+    });
+    EXPECT_EQ(exchanged, apart > 1e-5) << apart;  // zeros of 0.1 mm of clearance are a few um
+  }
+}
+
+// A sensor that adds hum where the model expects nothing but noise: no factor of a thousand.
+TEST(DataGate, HumIsNoUnit) {
+  Case c = Measured();
+  Samples& z = SamplesOf(c, kClamped, "B.y");
+  const double level = z[0];
+  for (std::size_t k = 0; k < z.size(); ++k)
+    z[k] = z[k] - level + 9e-5 * std::sin(2 * 3.14159265 * 50 * static_cast<double>(k) / 12500.0);
+  for (const DataFault& f : FaultsOf(c)) EXPECT_NE(f.fault, "unit") << FaultText(f);
 }
 
 INSTANTIATE_TEST_SUITE_P(

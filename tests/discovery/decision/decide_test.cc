@@ -168,5 +168,15 @@ TEST(ShareOfAllRecords, UnseenRecordsMayNotContradict) {
   EXPECT_NEAR(ShareOfAllRecords({10, 1.2, 0}, {1, 1.2, 0}), 0.5, 1e-12);  // a fifth above: they do
 }
 
+// Quantiles of chi squared at 0.999, from a table; the approximation is 2 % off for two.
+TEST(Possible, ShiftsThatChanceMakesMoreThanOnceInAThousand) {
+  const std::vector<std::pair<int, double>> quantiles = {{2, 13.82}, {7, 24.32}, {11, 31.26}};
+  for (const auto& [priors, quantile] : quantiles) {
+    EXPECT_TRUE(Possible(FitWith(1, 1, priors, 0.96 * quantile))) << priors;
+    EXPECT_FALSE(Possible(FitWith(1, 1, priors, 1.04 * quantile))) << priors;
+  }
+  EXPECT_TRUE(Possible(FitWith(1, 1, 0)));
+}
+
 }  // namespace
 }  // namespace ambrig

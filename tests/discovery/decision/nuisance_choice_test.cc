@@ -109,6 +109,33 @@ TEST_F(NuisanceChoiceTest, WhatIsTheSameInEveryRecordIsLeftToTheSearch) {
   EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, Offsets({6, 6, 6, 6}), kWeight).empty());
 }
 
+// An effect that acts more in one record than in another has one sign in all.
+TEST_F(NuisanceChoiceTest, AmountsOfOneSignAreLeftToTheSearch) {
+  EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, Offsets({9, 7, 14, 12}), kWeight).empty());
+}
+
+// One record that feels the kind far more than the others does not speak for them.
+TEST_F(NuisanceChoiceTest, APreciseRecordDoesNotDecideAlone) {
+  NuisanceKind k = Zero(0);
+  for (const Target& t : case_.model.targets())
+    if (t.channel == 0 && t.record == 0)
+      k.column.segment(static_cast<Index>(t.first), static_cast<Index>(t.count)) *= 30;
+  // amounts of 0.2, -0.5, 0.6 and -0.4 sd; nearly all information stands in the first
+  EXPECT_EQ(ChooseNuisances(case_.model, {k}, Offsets({60, -5, 6, -4}), kWeight).size(), 1u);
+}
+
+// There are many columns that only a logger sees: one has to explain a part of what is left.
+TEST_F(NuisanceChoiceTest, ALoggersZeroIsTakenOnlyForAPartOfTheError) {
+  NuisanceKind logged = Zero(0);
+  logged.group = "logger-zero";
+  std::vector<double> left = Offsets({1.5, -1.5, 1.2, -1.4});
+  EXPECT_EQ(ChooseNuisances(case_.model, {logged}, left, kWeight).size(), 1u);
+  for (const Target& t : case_.model.targets())  // beside an error that is larger by far
+    if (t.channel == 1)
+      for (std::size_t k = t.first; k < t.first + t.count; ++k) left[k] = k % 2 == 0 ? 40 : -40;
+  EXPECT_TRUE(ChooseNuisances(case_.model, {logged}, left, kWeight).empty());
+}
+
 TEST_F(NuisanceChoiceTest, ASmallGainIsNotWorthItsPrice) {
   EXPECT_TRUE(
       ChooseNuisances(case_.model, {Zero(0)}, Offsets({0.5, -0.5, 0.5, -0.5}), kWeight).empty());

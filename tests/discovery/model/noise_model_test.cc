@@ -7,6 +7,7 @@
 
 #include "discovery/model/model.h"
 #include "tests/discovery/linear_case.h"
+#include "tests/discovery/measured_case.h"
 
 namespace ambrig {
 namespace {
@@ -47,6 +48,31 @@ TEST(WithNoise, PutsTheNoiseIntoSensorsBusAndCurrents) {
   EXPECT_EQ(out.amplifier.current_noise, current);
   noise.current_sample = 0.03;
   EXPECT_EQ(WithNoise(rig, noise).amplifier.current_noise, 0.03);
+}
+
+ChannelNoise EstimatedNoise(const Case& c, const std::string& channel) {
+  const CaseModel model(c);
+  return EstimateNoise(model, Hypothesis::Base(c.rig)).channels.at(channel);
+}
+
+// 2e-7 m are in the rows; a statement that is off by less than differences usually tell is not
+// believed where all records say the same.
+TEST(EstimateNoise, WhatIsTheSameInEveryRecordIsNoise) {
+  Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}, {-3e-5, -5e-5}});
+  c.noise["A.x"] = 1.5e-7;
+  c.noise["A.y"] = 1.95e-7;
+  EXPECT_NEAR(EstimatedNoise(c, "A.x").used, 2e-7, 0.15e-7);
+  EXPECT_EQ(EstimatedNoise(c, "A.y").used, 1.95e-7);  // agrees
+}
+
+// What acts in one record and not in another is something that the model lacks.
+TEST(EstimateNoise, WhatDiffersFromRecordToRecordIsNotBelievedSoFast) {
+  Case c = MeasuredCase({{2e-5, 3e-5}, {-6e-5, 1e-5}, {5e-5, -4e-5}, {-3e-5, -5e-5}});
+  c.noise["A.x"] = 1.8e-7;
+  std::uint32_t seed = 1;
+  for (const std::size_t r : {std::size_t{0}, std::size_t{2}})
+    for (double& v : c.records[r].data.channels[0].samples) v += 3e-7 * Normal(5, 9, seed++);
+  EXPECT_EQ(EstimatedNoise(c, "A.x").used, 1.8e-7);
 }
 
 TEST(NoiseRemarks, NameWhatIsNotBelievedAndWhatWasNotStated) {

@@ -1,0 +1,39 @@
+// Records whose clock is whole rows off: their rows are moved back, the verdict is that of the right clock.
+#include "discovery/data/clock_shift.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/discovery/measured_case.h"
+
+namespace ambrig {
+namespace {
+
+using ::testing::ElementsAre;
+
+Case OfFourRows() {
+  Case c;
+  CaseRecord r;
+  r.data.rate = 1000;
+  r.data.channels.push_back({"A.x", "m", {1, 2, 3, 4}});
+  r.quality.push_back({"A.x", "good", true, {1, 0, 1, 1}, 0, 0});
+  c.records = {r, r, r};
+  return c;
+}
+
+TEST(ClockShift, RowsComeBackAndTheEdgeDoesNotCount) {
+  const Case c = WithClocks(OfFourRows(), {1, -2, 0});
+  EXPECT_THAT(c.records[0].data.channels[0].samples, ElementsAre(2, 3, 4, 4));
+  EXPECT_THAT(c.records[0].quality[0].ok, ElementsAre(0, 1, 1, 0));
+  EXPECT_THAT(c.records[1].data.channels[0].samples, ElementsAre(1, 1, 1, 2));
+  EXPECT_THAT(c.records[1].quality[0].ok, ElementsAre(0, 0, 1, 0));
+  EXPECT_THAT(c.records[2].data.channels[0].samples, ElementsAre(1, 2, 3, 4));
+}
+
+TEST(ClockShift, MoreRowsThanThereAreLeaveNothing) {
+  const Case c = WithClocks(OfFourRows(), {9, -9, 0});
+  EXPECT_THAT(c.records[0].quality[0].ok, ElementsAre(0, 0, 0, 0));
+  EXPECT_THAT(c.records[1].quality[0].ok, ElementsAre(0, 0, 0, 0));
+}
+
+}  // namespace
+}  // namespace ambrig
