@@ -101,11 +101,14 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
     found[channel] = {factors, MedianOf(sizes)};
   }
   const bool uniform = Uniform(every);
+  const double together = MedianOf(every);
   const double larger = uniform ? kUniformAgrees : kCurrentAgrees,
                smaller = uniform ? kUniformAgrees : kNoiseAgrees;
   for (const auto& [channel, value] : found) {
     const auto& [factors, size] = value;
-    const double factor = uniform ? MedianOf(factors) : LowerQuartileOf(factors);
+    const double alone = MedianOf(factors);
+    const bool as_others = uniform && alone < kUniform * together && together < kUniform * alone;
+    const double factor = as_others ? together : uniform ? alone : LowerQuartileOf(factors);
     ChannelNoise& c = noise.channels[channel];
     if (stated > 0 && std::isnan(c.stated)) c.stated = size;
     c.estimated = factor * size;
