@@ -120,6 +120,9 @@ const Channel* InputNamed(const StaticTable& table, const std::string& name) {
   return it == table.inputs.end() ? nullptr : &*it;
 }
 
+/// A gap may be closed: a plunger on its seat.
+constexpr double kClosed = 1 - 1e-9;
+
 /// A position that was set stands between the poles, or its unit, gain or offset is wrong.
 void RefusePositionsInPoles(const TomlTable& t, const Case& c, const CaseRecord& r) {
   for (const BearingParameters& b : c.rig.bearings) {
@@ -127,7 +130,9 @@ void RefusePositionsInPoles(const TomlTable& t, const Case& c, const CaseRecord&
     const std::size_t rows = x ? x->samples.size() : y ? y->samples.size() : 0;
     for (std::size_t k = 0; k < rows; ++k) {
       const double at_x = x ? x->samples[k] : 0, at_y = y ? y->samples[k] : 0;
-      if (!std::isfinite(at_x) || !std::isfinite(at_y) || !InPole(b, at_x, at_y)) continue;
+      if (!std::isfinite(at_x) || !std::isfinite(at_y) ||
+          !InPole(b, kClosed * at_x, kClosed * at_y))
+        continue;
       t.Fail("data",
              fmt::format("= {}: row {}: {} at [{:g}, {:g}] m, allowed: inside the gap of {} m "
                          "(unit, gain and offset in [record.channels])",

@@ -89,8 +89,22 @@ Shift BestShift(const std::vector<MatchedColumn>& columns, long most) {
       sum += plain[from] - shifted[from];
     }
   }
-  best.before = std::sqrt(total / n);
-  best.after = std::sqrt(std::max(0.0, least) / n);
+  // rows whose prediction lies outside the record were not predicted: they choose, but say nothing
+  const auto inside = [&](std::size_t row) {
+    const long from = static_cast<long>(row) - best.late;
+    return row < best.from || (from >= 0 && from < static_cast<long>(rows));
+  };
+  SquaredErrors(columns, best.late, shifted);
+  double before = 0, after = 0, rows_inside = 0;
+  for (std::size_t row = 0; row < rows; ++row) {
+    if (!inside(row)) continue;
+    before += plain[row];
+    after += row < best.from ? plain[row] : shifted[row];
+    rows_inside += 1;
+  }
+  const double share = rows_inside > 0 ? n * rows_inside / static_cast<double>(rows) : n;
+  best.before = std::sqrt(before / share);
+  best.after = std::sqrt(after / share);
   return best;
 }
 

@@ -30,7 +30,7 @@ double ErrorAgainst(const std::vector<double>& measured, const std::vector<doubl
 struct Shift {
   long late = 0;         // [samples]; 0: none explains more
   std::size_t from = 0;  // first sample that is shifted
-  double before = 0;     // rms error without the shift
+  double before = 0;     // rms error without the shift, of the rows that are predicted with it
   double after = 0;      // and with it
 };
 /// The shift and its first sample that leave the least squared error of all columns together

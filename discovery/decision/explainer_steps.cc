@@ -58,9 +58,9 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
                      first_fall_))
     return false;
   if (round == 0)
-    first_fall_ = std::max(first_fall_, now.ratio_validate * now.ratio_validate -
-                                            ranking[0].fit.ratio_validate *
-                                                ranking[0].fit.ratio_validate);
+    first_fall_ =
+        std::max(first_fall_, now.ratio_validate * now.ratio_validate -
+                                  ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate);
   now = ranking[0].fit;
   out_.adopted.push_back(ranking[0].effect);
   out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});

@@ -86,6 +86,7 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
   const ByChannel own = WhiteParts(model, *with, clean, IsCurrent),
                   loop = WhiteParts(model, *without, clean, IsCurrent);
   std::vector<double> all, every;  // of each channel; of each channel and record
+  std::size_t records = 0;
   std::map<std::string, std::pair<std::vector<double>, double>> found;  // factors, size
   for (const auto& [channel, parts] : measured) {
     std::vector<double> factors, sizes;  // against the trial's, and the trial's in the record
@@ -98,9 +99,11 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
       sizes.push_back(std::sqrt(a - b));
     }
     every.insert(every.end(), factors.begin(), factors.end());
+    records = std::max(records, factors.size());
     found[channel] = {factors, MedianOf(sizes)};
   }
-  const bool uniform = Uniform(every);
+  // the coils of one record may all miss the same law
+  const bool uniform = records >= kLeastEstimates && Uniform(every);
   const double together = MedianOf(every);
   const double larger = uniform ? kUniformAgrees : kCurrentAgrees,
                smaller = uniform ? kUniformAgrees : kNoiseAgrees;
