@@ -90,9 +90,10 @@ Shift BestShift(const std::vector<MatchedColumn>& columns, long most) {
     }
   }
   // rows whose prediction lies outside the record were not predicted: they choose, but say nothing
+  const bool late_at_once = best.late > 0 && static_cast<long>(best.from) <= best.late + 3;
   const auto inside = [&](std::size_t row) {
     const long from = static_cast<long>(row) - best.late;
-    return row < best.from || (from >= 0 && from < static_cast<long>(rows));
+    return (row < best.from && !late_at_once) || (from >= 0 && from < static_cast<long>(rows));
   };
   SquaredErrors(columns, best.late, shifted);
   double before = 0, after = 0, rows_inside = 0;
