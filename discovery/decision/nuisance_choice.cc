@@ -10,8 +10,8 @@ namespace ambrig {
 namespace {
 
 constexpr double kPrice = 20;  // of a kind, in 2 log likelihood, beside 3 for each record
-constexpr double kVarying =
-    0.5;  // least part of the mean square of the amounts that is their spread
+// Least part of the mean square of the amounts that is their spread.
+constexpr double kVarying = 0.5;
 // Of the squared error that is left: least that a kind explains which only the logger sees. There are
 // many of these, and an effect elsewhere resembles one or the other a little.
 constexpr double kWorth = 0.05;

@@ -18,10 +18,10 @@ constexpr double kNoiseAgrees = 1.5;  // factor between stated and estimated noi
 // two is needed before their noise is held to be larger than stated
 constexpr double kCurrentAgrees = 2.5;
 // What is the same in every record is noise: a law that the model lacks acts more in one than in another.
-constexpr double kUniform =
-    1.35;  // largest over smallest estimate of the records, outer tenths left out
-constexpr double kUniformAgrees =
-    1.1;  // factor between stated and estimated noise where it is uniform
+// Largest over smallest estimate of the records, outer tenths left out.
+constexpr double kUniform = 1.35;
+// Factor between stated and estimated noise where it is uniform.
+constexpr double kUniformAgrees = 1.1;
 constexpr std::size_t kLeastEstimates = 3;
 constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none is stated
 

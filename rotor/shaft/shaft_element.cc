@@ -1,6 +1,7 @@
 #include "rotor/shaft/shaft_element.h"
 
 #include "rotor/shaft/cross_section.h"
+#include "rotor/shaft/separate_layers.h"
 
 namespace ambrig {
 namespace {
@@ -112,23 +113,6 @@ PlaneElement Joined(const ShaftElement& e, const BeamTheory& theory) {
   return out;
 }
 
-/// A sleeve moves as a shaft of its own size would, without stiffness.
-PlaneElement Separate(const ShaftElement& e, const BeamTheory& theory) {
-  PlaneElement out;
-  for (const ShaftSection& l : e.layers) {
-    ShaftElement one{e.z0, e.length, {l}};
-    one.layers[0].stiff = true;
-    PlaneElement part = Joined(one, theory);
-    out.M += part.M;
-    out.J += part.J;
-    if (!l.stiff) continue;
-    out.K += part.K;
-    out.C += part.C;
-    out.tension += part.tension;
-  }
-  return out;
-}
-
 }  // namespace
 
 ShaftSection Slice(const ShaftSection& section, double z_left, double z_right) {
@@ -155,7 +139,9 @@ double ShearCoefficientOf(ShearCoefficient kind, double bore_ratio, double nu) {
 
 PlaneElement ElementMatrices(const ShaftElement& e, const BeamTheory& theory) {
   if (e.layers.empty()) return {};
-  return theory.separate_layers && e.layers.size() > 1 ? Separate(e, theory) : Joined(e, theory);
+  const auto joined = [&](const ShaftElement& one) { return Joined(one, theory); };
+  return theory.separate_layers && e.layers.size() > 1 ? SeparateLayers<PlaneElement>(e, joined)
+                                                       : joined(e);
 }
 
 Eigen::Matrix<double, 8, 8> TorqueMatrix(double length, double torque) {

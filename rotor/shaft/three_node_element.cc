@@ -1,6 +1,7 @@
 #include "rotor/shaft/three_node_element.h"
 
 #include "rotor/shaft/cross_section.h"
+#include "rotor/shaft/separate_layers.h"
 
 namespace ambrig {
 namespace {
@@ -80,19 +81,8 @@ ThreeNodePlaneElement JoinedThree(const ShaftElement& e, const BeamTheory& theor
 
 ThreeNodePlaneElement ThreeNodeMatrices(const ShaftElement& e, const BeamTheory& theory) {
   if (!theory.separate_layers || e.layers.size() < 2) return JoinedThree(e, theory);
-  ThreeNodePlaneElement out;
-  for (const ShaftSection& l : e.layers) {
-    ShaftElement one{e.z0, e.length, {l}};
-    one.layers[0].stiff = true;
-    const ThreeNodePlaneElement part = JoinedThree(one, theory);
-    out.M += part.M;
-    out.J += part.J;
-    if (!l.stiff) continue;
-    out.K += part.K;
-    out.C += part.C;
-    out.tension += part.tension;
-  }
-  return out;
+  return SeparateLayers<ThreeNodePlaneElement>(
+      e, [&](const ShaftElement& one) { return JoinedThree(one, theory); });
 }
 
 std::array<ShaftElement, 2> Halves(const ShaftElement& e) {
