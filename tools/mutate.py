@@ -160,6 +160,12 @@ class Work:
             hit = lambda w: any(a <= line <= b for a, b in [switches.lines_of(text, w)] for line in lines)
             self.decline([(w.mutant, "does not compile behind a switch") for w in self.wraps[source] if hit(w)])
             self.wraps[source] = [w for w in self.wraps[source] if not hit(w)]
+        if len(self.declined) == before:  # an error of the compiler's own names only sources
+            for original, file in mutated.items():
+                if str(file) in errors:
+                    source = pathlib.Path(original)
+                    self.decline([(w.mutant, "the compiler fails on its source") for w in self.wraps[source]])
+                    self.wraps[source] = []
         if len(self.declined) == before:
             sys.exit(f"the compiler takes none of it:\n{errors[:4000]}")
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "actuators/magnetics/radial_stator.h"
 #include "core/record/missing_samples.h"
+#include "discovery/model/magnetic_force.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_channels.h"
 
@@ -97,23 +97,10 @@ void FillTurning(const Record& d, const Scenario& scenario, ResidualForce& out) 
 /// Magnetic force of the measured currents at the measured place; false without all currents.
 bool FillMagneticForce(const Record& d, const BearingParameters& b, double cutoff,
                        ResidualForce::Plane& plane) {
-  std::vector<const Channel*> current;
-  for (const ChannelId& id : ChannelsOf(b, ChannelKind::kCoilCurrent)) {
-    current.push_back(Find(d, id));
-    if (!current.back()) return false;
-  }
-  const RadialStator stator(b.radial);
-  std::vector<double> fx(d.rows()), fy(d.rows());
-  for (std::size_t k = 0; k < d.rows(); ++k) {
-    CoilVector i;
-    for (std::size_t j = 0; j < current.size(); ++j)
-      i[static_cast<Eigen::Index>(j)] = current[j]->samples[k];
-    const Eigen::Vector2d f = stator.Force({plane.x[k], plane.y[k]}, i);
-    fx[k] = f.x();
-    fy[k] = f.y();
-  }
-  plane.magnetic_x = Smooth(fx, d.rate, cutoff);
-  plane.magnetic_y = Smooth(fy, d.rate, cutoff);
+  const auto force = MagneticForce(d, b, plane.x, plane.y);
+  if (!force) return false;
+  plane.magnetic_x = Smooth(force->x, d.rate, cutoff);
+  plane.magnetic_y = Smooth(force->y, d.rate, cutoff);
   return true;
 }
 

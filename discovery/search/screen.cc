@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/search/free_response.h"
 #include "discovery/search/quick_look.h"
+#include "discovery/search/resonance_estimate.h"
+#include "discovery/search/resonance_starts.h"
 #include "discovery/search/start_search.h"
 #include "rig/rig_assembly.h"
 
@@ -14,6 +17,8 @@ namespace ambrig {
 namespace {
 
 constexpr double kInvisible = 1e-3;  // rms of a usual size's signature, over the floor
+
+constexpr std::size_t kEstimates = 3;  // resonances estimated from the records
 
 /// Effects that no record of the case could show.
 bool CannotShow(const EffectDescription& d, const CaseModel& model) {
@@ -59,10 +64,14 @@ bool Same(const EffectInstance& a, const EffectInstance& b) {
 /// tried.
 std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
                                 const std::vector<ProbeGroup>& probes,
+                                const std::vector<ResonanceEstimate>& resonances,
                                 double effective_sample_size) {
   if (Present(base.hypothesis, probes[0].probes[0])) return {};
   try {
-    return ScanStarts(StartSearch(model, base, effective_sample_size), probes);
+    const EffectInstance null =
+        MakeInstance(EffectNamed(probes[0].probes[0].name), probes[0].probes[0].target);
+    return ScanStarts(StartSearch(model, base, effective_sample_size), probes,
+                      ResonanceStarts(base.hypothesis.rig, null, resonances));
   } catch (const InputError&) {
     return probes;
   }
@@ -79,6 +88,9 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
   std::vector<ProbeGroup> groups;
   const bool coils = kind == ScreenedKind::kCoils;
   const EffectTargets targets = TargetsOfEffects(model.data().rig);
+  std::vector<ResonanceEstimate> resonances;
+  if (kind == ScreenedKind::kResonances)
+    resonances = EstimateResonances(FreeResponses(model, base.hypothesis), kEstimates);
   for (const EffectDescription& d : Catalogue()) {
     if (!options.effect.empty() && d.id != options.effect) continue;
     if (IsResonance(d) != (kind == ScreenedKind::kResonances)) continue;
@@ -93,7 +105,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
         continue;
       std::vector<ProbeGroup> probes = ProbesOf(d, target, model, peaks);
       if (IsResonance(d) || d.needs.contact)
-        probes = Scanned(model, base, probes, options.effective_sample_size);
+        probes = Scanned(model, base, probes, resonances, options.effective_sample_size);
       for (ProbeGroup& g : probes)
         if (!Present(base.hypothesis, g.probes[0]) && !bank.Holds(g.probes[0]))
           groups.push_back(std::move(g));

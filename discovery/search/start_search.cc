@@ -5,24 +5,11 @@
 
 #include "discovery/decision/likelihood.h"
 #include "discovery/search/quick_look.h"
+#include "discovery/search/resonance_starts.h"
 
 namespace ambrig {
 
 namespace {
-
-/// The same resonance with `factor` times the answer, which goes with the square of its two gains or
-/// with one over its mass.
-EffectInstance Scaled(const EffectInstance& e, double factor) {
-  EffectInstance out = e;
-  const EffectDescription& d = EffectNamed(e.name);
-  for (std::size_t k = 0; k < e.table.size(); ++k) {
-    const EffectParameter& p = e.table[k];
-    if (!d.Switches(p)) continue;
-    const double scale = std::isfinite(p.null_value) ? std::sqrt(factor) : 1 / factor;
-    out.values[k] = std::clamp(e.values[k] * scale, p.lo, p.hi);
-  }
-  return out;
-}
 
 /// The rows of the two gains of an effect that has them.
 std::vector<std::size_t> GainRows(const EffectInstance& e) {
@@ -46,7 +33,8 @@ constexpr Steps kSteps[] = {
 
 /// Larger, smaller, lower, higher, with more and less at one of two gains, more and less damped.
 std::vector<SimulatedStart> Neighbours(const EffectInstance& e, const Steps& steps) {
-  std::vector<SimulatedStart> out = {{Scaled(e, steps.larger)}, {Scaled(e, steps.smaller)}};
+  std::vector<SimulatedStart> out = {{ScaledResonance(e, steps.larger)},
+                                     {ScaledResonance(e, steps.smaller)}};
   const auto add = [&](std::size_t row, double factor) {
     out.push_back({e});
     out.back().effect.values[row] =
@@ -68,16 +56,16 @@ bool ExplainsMore(const SimulatedStart& a, const SimulatedStart& b) { return a.s
 
 /// A large and a small size of one probe of a resonance: which frequencies are worth more.
 std::vector<SimulatedStart> FewSizesOfResonance(const EffectInstance& e) {
-  return {{Scaled(e, 1.0)}, {Scaled(e, 0.0625)}};
+  return {{ScaledResonance(e, 1.0)}, {ScaledResonance(e, 0.0625)}};
 }
 
 /// The other sizes and the patterns of its gains.
 std::vector<SimulatedStart> MoreSizesOfResonance(const EffectInstance& e) {
-  std::vector<SimulatedStart> out = {{Scaled(e, 4.0)}, {Scaled(e, 0.25)}};
+  std::vector<SimulatedStart> out = {{ScaledResonance(e, 4.0)}, {ScaledResonance(e, 0.25)}};
   // nearly alone at one of its two gains (a gain of zero would leave the fit no slope)
   for (const std::size_t row : GainRows(e))
     for (const double factor : {1.0, 0.125}) {
-      out.push_back({Scaled(e, factor)});
+      out.push_back({ScaledResonance(e, factor)});
       out.back().effect.values[row] *= 0.25;
     }
   return out;
@@ -183,7 +171,7 @@ void StartSearch::Climb(std::vector<SimulatedStart>& starts) const {
   constexpr int kMost = 12;  // moves with steps of one kind
   for (SimulatedStart& start : starts)
     for (int shrink = 0; shrink < kMost && !std::isfinite(start.score); ++shrink) {
-      std::vector<SimulatedStart> smaller = {{Scaled(start.effect, 1.0 / 6)}};
+      std::vector<SimulatedStart> smaller = {{ScaledResonance(start.effect, 1.0 / 6)}};
       Simulate(smaller);
       start = smaller[0];
     }
@@ -210,10 +198,14 @@ bool SameValley(const EffectInstance& a, const EffectInstance& b) {
   return true;
 }
 
-std::vector<ProbeGroup> ScanStarts(const StartSearch& search,
-                                   const std::vector<ProbeGroup>& groups) {
+std::vector<ProbeGroup> ScanStarts(const StartSearch& search, const std::vector<ProbeGroup>& groups,
+                                   const std::vector<EffectInstance>& estimated) {
   constexpr std::size_t kKept = 5;
-  std::vector<SimulatedStart> starts = SimulatedSizes(search, groups);
+  std::vector<SimulatedStart> starts = SimulatedSizes(search, groups), more;
+  for (const EffectInstance& e : estimated)
+    for (const double size : {1.0, 0.75, 0.5, 0.3}) more.push_back({ScaledResonance(e, size)});
+  search.Simulate(more);
+  starts.insert(starts.end(), more.begin(), more.end());
   std::stable_sort(starts.begin(), starts.end(), ExplainsMore);
   std::vector<ProbeGroup> out;
   for (const SimulatedStart& s : starts) {

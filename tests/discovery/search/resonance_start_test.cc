@@ -97,7 +97,7 @@ TEST_F(ResonanceStartTest, AScanAndAClimbEndBesideTheTruth) {
     grid.push_back(g);
   }
   const StartSearch search(model, base, 1e5);
-  const std::vector<ProbeGroup> starts = ScanStarts(search, grid);
+  const std::vector<ProbeGroup> starts = ScanStarts(search, grid, {});
   ASSERT_FALSE(starts.empty());
   for (std::size_t k = 1; k < starts.size(); ++k)
     EXPECT_FALSE(SameValley(starts[0].probes[0], starts[k].probes[0]));
