@@ -51,6 +51,19 @@ void SetsWith(Explanation& out, double named) {
       out.further_sets[Named(a)] = CredibleSet(ranking->second, named);
 }
 
+/// A name that explains a part only and that other names contest: what it may be expected to explain rightly, its
+/// probability times its share of the error, is too little. Other physics makes such names (docs/theory/discovery.md).
+bool IsDoubtfulPatch(const Explanation& out, double named) {
+  constexpr double kMost = 0.75;  // share of the error from which a name stands whatever its rivals
+  constexpr double kLeast = 0.4;  // of probability times share
+  if (out.closure.explained >= kMost) return false;
+  const EffectInstance& first = out.adopted[0];
+  for (const RankedEffect& r : out.ranking)
+    if (r.effect.name == first.name && r.effect.target == first.target)
+      return named * r.probability * out.closure.explained < kLeast;
+  return false;
+}
+
 /// The members of the set when no effect is named: the verdict itself and the best candidate.
 void SetWithout(Explanation& out, double named) {
   out.judged_beside.clear();
@@ -70,7 +83,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   const double share = ShareOfAllRecords(parameters, end);
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
-  const bool established = any && named >= 0.5;
+  const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, named);
   if (any && !established) out.adopted.clear();
   const ParameterNeed need =
       NeedOf(model, established ? last : base, out.effective_sample_size, out.warnings);

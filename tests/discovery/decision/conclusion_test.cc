@@ -147,6 +147,21 @@ TEST_F(Conclusion, APatchIsWithdrawn) {
   EXPECT_EQ(out.remainder.kind, "other");
 }
 
+// Two thirds explained by a name without rivals stand; by one that another contests they do not.
+TEST_F(Conclusion, AContestedNameThatLeavesMuchIsWithdrawn) {
+  for (const double probability : {0.98, 0.5}) {
+    Explanation out;
+    out.effective_sample_size = kN;
+    out.adopted = {LinearCase::Gain(1.08)};
+    out.ranking = {Ranked(out.adopted[0], probability),
+                   Ranked(LinearCase::Offset(1e-6), 1 - probability)};
+    Conclude(case_.model, Leaving(6), Leaving(5), Leaving(2.7), out);
+    EXPECT_NEAR(out.closure.explained, (25 - 2.7 * 2.7) / 24, 1e-9);
+    EXPECT_EQ(out.verdict, probability > 0.9 ? "effect" : "unknown") << probability;
+    EXPECT_EQ(out.adopted.empty(), probability < 0.9) << probability;
+  }
+}
+
 TEST_F(Conclusion, WithoutAnyMisfitTheSetHoldsNone) {
   Explanation out;
   out.effective_sample_size = kN;
