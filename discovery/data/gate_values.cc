@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
@@ -76,6 +77,14 @@ void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColu
 
 namespace {
 
+/// The samples that are at neither extreme, in order.
+std::vector<double> Between(const std::vector<double>& y, double low, double high) {
+  std::vector<double> out;
+  std::copy_if(y.begin(), y.end(), std::back_inserter(out),
+               [&](double v) { return v != low && v != high; });
+  return out;
+}
+
 /// Time at the column's own extreme that the prediction passes by several floors.
 std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, double extreme,
                         double sign) {
@@ -124,8 +133,8 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
         y.size() != c.column.size())
       continue;
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
-    // a coarse converter repeats values everywhere
-    if (UsualHold(y) > 3) continue;
+    // a coarse converter repeats values everywhere, also between the extremes
+    if (UsualHold(Between(y, *low, *high)) > 3) continue;
     if (!set_point && *low < *high) {
       const std::size_t rows = ClippedRows(c, y, *high, 1) + ClippedRows(c, y, *low, -1);
       if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
@@ -141,7 +150,7 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
         continue;
       }
     }
-    if (r.scenario.start == StartState::kResting) continue;
+    if (r.scenario.start == StartState::kResting || UsualHold(y) > 3) continue;
     const HeldStretch s = FrozenStretch(y);
     if (s.count == 0 || (set_point && (s.value == *low || s.value == *high))) continue;
     // a force at its limit holds single set-points for some rows

@@ -12,6 +12,9 @@ namespace {
 constexpr double kPrice = 20;  // of a kind, in 2 log likelihood, beside 3 for each record
 // Least part of the mean square of the amounts that is their spread.
 constexpr double kVarying = 0.5;
+// Or the part of the squared error that one amount for all records leaves: an effect that is there too may
+// resemble the kind in every record.
+constexpr double kMuchVarying = 0.1;
 // Of the squared error that is left: least that a kind explains which only the logger sees. There are
 // many of these, and an effect elsewhere resembles one or the other a little.
 constexpr double kWorth = 0.05;
@@ -89,7 +92,7 @@ std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
       const double price = kPrice + 3 * static_cast<double>(g.records), over = g.gain - price;
       const bool logger = kind.group == "logger-zero" || kind.group == "drift";
       if (over > (logger ? std::max(most, worth) : most) && g.varying > price &&
-          g.spread > kVarying)
+          (g.spread > kVarying || g.varying > kMuchVarying * weight * left.squaredNorm()))
         most = over, best = &kind;
     }
     if (!best) break;

@@ -255,8 +255,9 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{kSteps, "lost", ""}, Mistake{kSteps, "freeze", "B.x"},
                       Mistake{kSteps, "range", "A.x"}, Mistake{kClamped, "unit", "A.i1"},
                       Mistake{kClamped, "sign", "A.fx"}, Mistake{kClamped, "swap", "A.i1"},
-                      Mistake{kClamped, "clip", "B.i1"}, Mistake{kClamped, "lag", ""},
-                      Mistake{kClamped, "freeze", "A.fy"}, Mistake{kClamped, "range", "bus"}),
+                      Mistake{kClamped, "clip", "B.i1"}, Mistake{kSteps, "clip", "A.i6"},
+                      Mistake{kClamped, "lag", ""}, Mistake{kClamped, "freeze", "A.fy"},
+                      Mistake{kClamped, "range", "bus"}),
     [](const auto& mistake) {
       std::string name = std::string(mistake.param.record == kSteps ? "Steps" : "Clamped") +
                          mistake.param.fault + mistake.param.channel;

@@ -114,6 +114,11 @@ TEST_F(NuisanceChoiceTest, AmountsOfOneSignAreLeftToTheSearch) {
   EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, Offsets({9, 7, 14, 12}), kWeight).empty());
 }
 
+// What differs much is chosen although its mean is not nothing: an effect beside it may resemble it in every record.
+TEST_F(NuisanceChoiceTest, AmountsThatDifferMuchAboutAMeanAreChosen) {
+  EXPECT_EQ(ChooseNuisances(case_.model, {Zero(0)}, Offsets({14, 6, 12, -1}), kWeight).size(), 1u);
+}
+
 // One record that feels the kind far more than the others does not speak for them.
 TEST_F(NuisanceChoiceTest, APreciseRecordDoesNotDecideAlone) {
   NuisanceKind k = Zero(0);
