@@ -78,7 +78,7 @@ void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColu
 namespace {
 
 /// The samples that are at neither extreme, in order.
-std::vector<double> Between(const std::vector<double>& y, double low, double high) {
+std::vector<double> OffTheExtremes(const std::vector<double>& y, double low, double high) {
   std::vector<double> out;
   std::copy_if(y.begin(), y.end(), std::back_inserter(out),
                [&](double v) { return v != low && v != high; });
@@ -134,7 +134,7 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
       continue;
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
     // a coarse converter repeats values everywhere, also between the extremes
-    if (UsualHold(Between(y, *low, *high)) > 3) continue;
+    if (UsualHold(OffTheExtremes(y, *low, *high)) > 3) continue;
     if (!set_point && *low < *high) {
       const std::size_t rows = ClippedRows(c, y, *high, 1) + ClippedRows(c, y, *low, -1);
       if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {

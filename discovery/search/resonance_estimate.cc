@@ -121,7 +121,7 @@ std::vector<ResonanceEstimate> Distinct(std::vector<ResonanceEstimate> all, std:
 }
 
 /// To the best of the neighbours in frequency, damping and gyroscopic coupling, in steps that halve.
-ResonanceEstimate Refined(const ResonanceScan& scan, ResonanceEstimate best) {
+ResonanceEstimate RefinedEstimate(const ResonanceScan& scan, ResonanceEstimate best) {
   constexpr int kHalvings = 4, kMoves = 6;
   double frequency = kScanRatio - 1, damping = 0.8, gyro = 0.1;
   for (int halving = 0; halving < kHalvings; ++halving) {
@@ -162,7 +162,7 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
       scan.Solve(scanned.back());
     }
   out = Distinct(scanned, count);
-  for (ResonanceEstimate& e : out) e = Refined(scan, e);
+  for (ResonanceEstimate& e : out) e = RefinedEstimate(scan, e);
   return Distinct(out, count);
 }
 
