@@ -147,6 +147,7 @@ int Repeat(const Study& study, const StudyResult& result, const DesignOptions& o
     RunResult run = Simulate(rig, scenario, options);
     run.record.attributes["scenario"] = ReadFile(file);
     run.record.attributes["rig"] = ReadFile(rig_file);
+    run.record.attributes["made_by"] = "ambrig design";
     WriteHdf5(run.record, (folder / (stem + ".h5")).string());
     const auto expect = CheckExpectations(scenario, run);
     WriteFileAtomically((folder / (stem + ".json")).string(),

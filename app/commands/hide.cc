@@ -71,7 +71,9 @@ int RunHide(const HideCommand& o) {
                     "writing");
     const std::string stem = (folder / fmt::format("record-{}", r + 1)).string();
     WriteFileAtomically(stem + ".toml", kMark + hidden.records[r].toml);
-    WriteHdf5(hidden.data.records[r].data, stem + ".h5");
+    Record data = hidden.data.records[r].data;
+    data.attributes["made_by"] = "ambrig hide";
+    WriteHdf5(data, stem + ".h5");
   }
   WriteFileAtomically((folder / "rig.toml").string(),
                       kMark + WithAbsoluteFiles(ReadFile(o.rig), o.rig));

@@ -73,18 +73,21 @@ void PrepareFolder(const std::string& folder) {
 }
 
 bool MadeByAmbrig(const std::string& file) {
-  const std::string extension = fs::path(file).extension().string();
-  const std::string text = ReadFile(file, extension == ".h5" ? std::string::npos : 4096);
+  const std::string text = ReadFile(file, 4096);
   if (text.empty()) return true;  // nothing is lost
-  if (extension == ".html") return Contains(text, "name=\"generator\" content=\"ambrig");
-  if (extension == ".h5") return Contains(text, "made_by") && Contains(text, "ambrig");
-  if (extension == ".xml") return Contains(text, "name=\"ambrig check\"");
-  if (extension == ".csv") {  // has no room for a mark: made with the JSON beside it
+  if (fs::path(file).extension() ==
+      ".csv") {  // has no room for a mark: made with the JSON beside it
     const std::string beside = fs::path(file).replace_extension(".json").string();
     std::error_code error;
     return fs::is_regular_file(beside, error) && MadeByAmbrig(beside);
   }
-  if (extension == ".json") return Contains(text, "\"made_by\": \"ambrig");
+  if (text.starts_with("\x89HDF")) {
+    const std::string whole = ReadFile(file, std::string::npos);
+    return Contains(whole, "made_by") && Contains(whole, "ambrig");
+  }
+  for (const char* mark :
+       {"name=\"generator\" content=\"ambrig", "name=\"ambrig check\"", "\"made_by\": \"ambrig"})
+    if (Contains(text, mark)) return true;
   return Contains(text.substr(0, 200), "made by ambrig");
 }
 

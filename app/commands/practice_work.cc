@@ -95,7 +95,9 @@ void WritePracticeCase(const PracticeCase& c, const std::string& folder) {
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const std::string stem = (inside / fmt::format("record-{}", r + 1)).string();
     WriteFileAtomically(stem + ".toml", c.records[r].toml);
-    WriteHdf5(c.data.records[r].data, stem + ".h5");
+    Record data = c.data.records[r].data;
+    data.attributes["made_by"] = "ambrig practice";
+    WriteHdf5(data, stem + ".h5");
   }
   WriteFileAtomically((inside / "rig.toml").string(), c.rig_text);
   WriteFileAtomically((inside / "case.toml").string(), c.case_text);

@@ -74,6 +74,19 @@ TEST_P(EveryOutput, LeavesWhatIsNotAmbrigs) {
   EXPECT_EQ(ReadText(folder_ / file), "mine");
 }
 
+// Once more into the same place: own files carry a mark and are replaced. Not of commands that take long, do not end
+// or ask for an ending of the name.
+TEST_P(EveryOutput, OfTheSameCommandIsReplaced) {
+  const std::set<std::string> left_out = {"explain", "plan",      "refine", "adopt", "score",
+                                          "watch",   "detectors", "design", "serve", "rotor"};
+  if (left_out.contains(GetParam().command) || std::string(GetParam().option) == "--fit")
+    GTEST_SKIP() << "takes long, does not end or asks for an ending";
+  for (int time = 1; time <= 2; ++time) {
+    const Outcome o = CalledFor("made_twice");
+    ASSERT_EQ(o.exit, 0) << "time " << time << ": " << o.text;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Options, EveryOutput, ::testing::ValuesIn(kOutputs), [](const auto& of) {
   std::string name =
       of.param.command + std::string("_") + of.param.option + std::to_string(of.index);
