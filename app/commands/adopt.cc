@@ -31,6 +31,7 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
     fmt::print("  {:<16} {:.6g}{} {}\n", e.table[k].name, e.values[k],
                e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "", e.table[k].unit);
   const bool unseen = a.before.ratio_validate > 0;
+  fmt::print("error over noise (1: only noise is left):\n");
   for (const LadderStep& s : a.ladder)
     fmt::print("  {:<34} fit {:8.3f}   unseen {:>8}\n", s.added.empty() ? "rig file" : s.added,
                s.ratio_fit, unseen ? fmt::format("{:.3f}", s.ratio_validate) : "-");
@@ -73,9 +74,9 @@ int RunAdopt(AdoptCommand o) {
   options.stop = &interrupted;
   options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
   const Adoption a = Adopt(c, o.effect, o.target, output, options);
-  WriteFileAtomically(output, a.rig_text);
+  WriteMarkedText(output, "adopt", a.rig_text);
   if (!o.new_case.empty())
-    WriteFileAtomically(o.new_case, CaseWithRig(ReadFile(o.file), o.file, output, o.new_case));
+    WriteMarkedText(o.new_case, "adopt", CaseWithRig(ReadFile(o.file), o.file, output, o.new_case));
   progress.Clear();
   PrintAdoption(a, output);
   o.common.WriteJson(AdoptionJson(a, output, o.new_case));

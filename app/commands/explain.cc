@@ -42,9 +42,10 @@ void PrintWrapped(const std::string& text, std::size_t indent = 4) {
   fmt::print("{}\n", Wrapped(text, indent));
 }
 
-void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most) {
+/// `unseen`: some records were kept back from the fits.
+void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most, bool unseen) {
   fmt::print("{:>4} {:<32} {:<14} {:>6} {:>8} {:>8}\n", "", "effect", "target", "prob.", "fitted",
-             "unseen");
+             unseen ? "unseen" : "all");
   for (std::size_t k = 0; k < std::min(most, ranking.size()); ++k) {
     const RankedEffect& r = ranking[k];
     fmt::print("{:>4} {:<32} {:<14} {:>6.3f} {:>8.3f} {:>8.3f}\n", k + 1,
@@ -112,15 +113,24 @@ void PrintFindings(const Explanation& e) {
   for (const std::string& w : e.warnings) PrintWrapped("  warning: " + w);
 }
 
-void PrintExplanation(const Explanation& e) {
+/// The command that writes the first name into a rig file.
+void PrintNextCommand(const Explanation& e, const std::string& file) {
+  if (e.verdict != "effect" || e.adopted.empty()) return;
+  fmt::print("to add it to the rig file: ambrig adopt {} {} --target {}\n", file, e.adopted[0].name,
+             e.adopted[0].target);
+}
+
+void PrintExplanation(const Explanation& e, bool unseen) {
   fmt::print(
-      "error over noise, unseen records: rig file {:.3f}, parameters fitted {:.3f},\n"
+      "error over noise, {} records: rig file {:.3f}, parameters fitted {:.3f},\n"
       "final {:.3f} (1: only noise is left)\n",
-      e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate);
-  if (!e.ranking.empty()) PrintRanking(e.ranking, e.ranking.size());
+      unseen ? "unseen" : "all", e.nominal_ratio_validate, e.base_ratio_validate,
+      e.final_ratio_validate);
+  if (!unseen) fmt::print("no record of the case has use = \"validate\": all were fitted\n");
+  if (!e.ranking.empty()) PrintRanking(e.ranking, e.ranking.size(), unseen);
   if (!e.second_round.empty()) {
     fmt::print("one more effect, after the first was adopted:\n");
-    PrintRanking(e.second_round, 3);
+    PrintRanking(e.second_round, 3, unseen);
   }
   fmt::print(
       "verdict: {}\n",
@@ -187,7 +197,9 @@ int RunExplain(const ExplainCommand& o) {
       };
     e = Explain(c, options);
   }
-  PrintExplanation(e);
+  PrintExplanation(e, std::any_of(c.records.begin(), c.records.end(),
+                                  [](const CaseRecord& r) { return r.validate; }));
+  PrintNextCommand(e, o.file);
   o.common.WriteJson(ExplainJson(e));
   if (!o.common.html.empty()) WriteExplainReport(c, e, o.common.html);
   if (!o.law.empty() && e.unexplained.formula.empty())

@@ -70,18 +70,18 @@ int RunHide(const HideCommand& o) {
     progress.Update(0.8 + 0.2 * static_cast<double>(r) / static_cast<double>(hidden.records.size()),
                     "writing");
     const std::string stem = (folder / fmt::format("record-{}", r + 1)).string();
-    WriteFileAtomically(stem + ".toml", kMark + hidden.records[r].toml);
+    WriteMarkedText(stem + ".toml", "hide", kMark + hidden.records[r].toml);
     Record data = hidden.data.records[r].data;
     data.attributes["made_by"] = "ambrig hide";
     WriteHdf5(data, stem + ".h5");
   }
-  WriteFileAtomically((folder / "rig.toml").string(),
-                      kMark + WithAbsoluteFiles(ReadFile(o.rig), o.rig));
-  WriteFileAtomically((folder / "case.toml").string(), kMark + CaseText(hidden));
+  WriteMarkedText((folder / "rig.toml").string(), "hide",
+                  kMark + WithAbsoluteFiles(ReadFile(o.rig), o.rig));
+  WriteMarkedText((folder / "case.toml").string(), "hide", kMark + CaseText(hidden));
   std::string name = folder.filename().string();
   if (name.empty()) name = folder.parent_path().filename().string();
   const std::string answer = AnswerFile(folder);
-  WriteFileAtomically(answer, kMark + AnswerText(hidden, request, name));
+  WriteMarkedText(answer, "hide", kMark + AnswerText(hidden, request, name));
   progress.Clear();
   fmt::print(
       "written {} with {}; the answer is sealed in {}\nnow: ambrig compare {}, ambrig explain {}\n",

@@ -233,7 +233,7 @@ int MakeBench(NewCommand o) {
   RefuseOverwriting(paths, o.common.force);
   PrepareFolder(o.out);
   for (std::size_t k = 0; k < files.size(); ++k) {
-    WriteFileAtomically(paths[k], files[k].second);
+    WriteMarkedText(paths[k], "new", files[k].second);
     fmt::print("written: {}\n", paths[k]);
   }
   o.common.WriteJson(BenchJson(paths, choices));

@@ -4,10 +4,12 @@
 
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "app/json/provenance.h"
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
+#include "core/base/fingerprint.h"
 #include "core/base/inputs_read.h"
 #include "core/base/read_file.h"
 
@@ -28,6 +30,17 @@ void TryToWrite(const std::string& path) {
 
 bool Contains(const std::string& text, std::string_view mark) {
   return text.find(mark) != std::string::npos;
+}
+
+constexpr std::string_view kHashLine = "# hash of the lines above: ";
+
+/// Without the hash lines of files that went into it.
+std::string WithoutHashes(const std::string& text) {
+  std::string out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with(kHashLine)) out += line + "\n";
+  return out;
 }
 
 }  // namespace
@@ -91,11 +104,30 @@ bool MadeByAmbrig(const std::string& file) {
   return Contains(text.substr(0, 200), "made by ambrig");
 }
 
+void WriteMarkedText(const std::string& file, const std::string& command, const std::string& text) {
+  const bool marked = Contains(text.substr(0, 200), "made by ambrig");
+  const std::string lines =
+      (marked ? "" : "# made by ambrig " + command + "\n") + WithoutHashes(text);
+  WriteFileAtomically(file, fmt::format("{}{}{}\n", lines, kHashLine, HashText(lines)));
+}
+
+bool ChangedSinceWritten(const std::string& text) {
+  const auto at = text.rfind(kHashLine);
+  return at != std::string::npos && text.substr(at + kHashLine.size()) !=
+                                        HashText(std::string_view(text).substr(0, at)) + "\n";
+}
+
 void RefuseOverwriting(const std::vector<std::string>& files, bool force) {
   if (force) return;
   for (const std::string& file : files) {
     std::error_code error;
-    if (!fs::is_regular_file(file, error) || MadeByAmbrig(file)) continue;
+    if (!fs::is_regular_file(file, error)) continue;
+    if (MadeByAmbrig(file)) {
+      if (!file.ends_with(".toml") || !ChangedSinceWritten(ReadFile(file))) continue;
+      throw InputError(fmt::format(
+          "{} was changed since ambrig wrote it, allowed: another name, or --force to overwrite it",
+          file));
+    }
     throw InputError(fmt::format(
         "{} exists and is not an output of ambrig, allowed: another name, or --force to "
         "overwrite it",

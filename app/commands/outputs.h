@@ -17,7 +17,15 @@ void PrepareFolder(const std::string& folder);
 /// Whether a file carries the mark of what ambrig writes (JSON, HTML, HDF5, CSV, TOML).
 bool MadeByAmbrig(const std::string& file);
 
-/// @throws InputError when one of the files exists and ambrig did not make it, unless forced.
+/// Writes a text file (TOML) with "# made by ambrig COMMAND" first, unless it has that mark, and a hash of its lines
+/// at the end, which tells whether somebody changed it since.
+void WriteMarkedText(const std::string& file, const std::string& command, const std::string& text);
+
+/// Whether the lines of a file with such a hash are others than those that were written.
+bool ChangedSinceWritten(const std::string& text);
+
+/// @throws InputError when one of the files exists and ambrig did not make it, or somebody changed it since, unless
+/// forced.
 void RefuseOverwriting(const std::vector<std::string>& files, bool force);
 
 /// Folder of a long work that keeps a journal there: made if need be, tried, and refused when it

@@ -113,7 +113,7 @@ int RunPlanCommand(const PlanCommand& o) {
                       StatedAbilities(rig, 2 * kPi * o.speed, o.clamp), options);
   }
   const std::string scenario = "# made by ambrig plan\n" + ScenarioText(plan, rig_file, output);
-  WriteFileAtomically(output, scenario);
+  WriteMarkedText(output, "plan", scenario);
   progress.Clear();
   PrintPlan(plan, output);
   o.common.WriteJson(PlanJson(plan, output));

@@ -94,13 +94,13 @@ void WritePracticeCase(const PracticeCase& c, const std::string& folder) {
   fs::create_directories(inside);
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const std::string stem = (inside / fmt::format("record-{}", r + 1)).string();
-    WriteFileAtomically(stem + ".toml", c.records[r].toml);
+    WriteMarkedText(stem + ".toml", "practice", c.records[r].toml);
     Record data = c.data.records[r].data;
     data.attributes["made_by"] = "ambrig practice";
     WriteHdf5(data, stem + ".h5");
   }
-  WriteFileAtomically((inside / "rig.toml").string(), c.rig_text);
-  WriteFileAtomically((inside / "case.toml").string(), c.case_text);
+  WriteMarkedText((inside / "rig.toml").string(), "practice", c.rig_text);
+  WriteMarkedText((inside / "case.toml").string(), "practice", c.case_text);
   WriteFileAtomically((fs::path(folder) / (c.name + kAnswerEnding)).string(), c.answer_text);
 }
 

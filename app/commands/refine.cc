@@ -57,9 +57,10 @@ int RunRefine(const RefineCommand& o) {
   Progress progress("refine");
   options.progress = [&](double f, const std::string& text) { progress.Update(f, text); };
   const Refinement r = Refine(c, name, target, output, options);
-  WriteFileAtomically(output, r.rig_text);
+  WriteMarkedText(output, "refine", r.rig_text);
   if (!o.new_case.empty())
-    WriteFileAtomically(o.new_case, CaseWithRig(ReadFile(o.file), o.file, output, o.new_case));
+    WriteMarkedText(o.new_case, "refine",
+                    CaseWithRig(ReadFile(o.file), o.file, output, o.new_case));
   progress.Clear();
   PrintRefinement(r, output);
   nlohmann::ordered_json json = RefineJson(r);

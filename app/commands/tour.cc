@@ -55,7 +55,7 @@ int RunTour(const TourCommand& o) {
   for (const TourFile& f : TourFiles()) files.push_back((folder / f.name).string());
   RefuseOverwriting(files, o.force);
   for (const TourFile& f : TourFiles())
-    WriteFileAtomically((folder / f.name).string(), std::string(f.text));
+    WriteMarkedText((folder / f.name).string(), "tour", std::string(f.text));
   fmt::print("{}", fmt::format(fmt::runtime(kLessons), o.folder));
   return 0;
 }

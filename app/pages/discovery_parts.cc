@@ -141,11 +141,12 @@ void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder) {
   std::vector<std::vector<Cell>> rows;
   double last = std::nan("");
   for (const LadderStep& s : ladder) {
-    const double share = std::isfinite(last) && last > 0 ? 100 * (s.ratio_validate / last - 1) : 0;
+    const double change = std::isfinite(last) && last > 0 ? s.ratio_validate / last - 1 : 0,
+                 share = std::round(100 * change) + 0.0;  // no "-0 %"
     rows.push_back({StepName(s), fmt::format("{:.3f}", s.ratio_fit),
                     fmt::format("{:.3f}", s.ratio_validate),
                     Cell(std::isfinite(last) ? fmt::format("{:+.0f} %", share) : "",
-                         share < -1 ? "ok" : "muted")});
+                         share < 0 ? "ok" : "muted")});
     last = s.ratio_validate;
   }
   report.Table({"model", "fitted records", "unseen records", "change on unseen"}, rows,

@@ -8,6 +8,7 @@
 #include "app/commands/run_size.h"
 #include "app/pages/run_report_data.h"
 #include "core/base/errors.h"
+#include "core/base/read_file.h"
 #include "tests/actuators/magnetics/reference_lanes.h"
 #include "tests/core/temporary_folder.h"
 
@@ -54,6 +55,22 @@ TEST_F(Outputs, OfOthersAreNotOverwrittenUnlessForced) {
               HasSubstr("notes.json exists and is not an output of ambrig"));
   EXPECT_NO_THROW(RefuseOverwriting(files, true));
   EXPECT_NO_THROW(RefuseOverwriting({folder_.File("new.json")}, false));
+}
+
+// What somebody changed is his own, whatever mark it carries; what went into another file takes its hash along not.
+TEST_F(Outputs, ChangedByHandAreNotOverwrittenUnlessForced) {
+  const std::string file = folder_.File("rig.toml");
+  WriteMarkedText(file, "adopt", "name = \"a\"\n");
+  const std::string written = ReadFile(file);
+  EXPECT_TRUE(written.starts_with("# made by ambrig adopt\nname = \"a\"\n# hash of"));
+  EXPECT_NO_THROW(RefuseOverwriting({file}, false));
+  WriteMarkedText(file, "refine", written + "x = 1\n");
+  EXPECT_NO_THROW(RefuseOverwriting({file}, false));
+  EXPECT_EQ(ReadFile(file).find("hash"), ReadFile(file).rfind("hash"));
+  WriteBytes(file, written + "# a note\n");
+  EXPECT_THAT(ErrorText<InputError>([&] { RefuseOverwriting({file}, false); }),
+              HasSubstr("rig.toml was changed since ambrig wrote it"));
+  EXPECT_NO_THROW(RefuseOverwriting({file}, true));
 }
 
 // The same file under another name is the same file.

@@ -179,6 +179,22 @@ TEST_F(CommandLine, SetsWithoutACoil) {
   EXPECT_NE(o.text.find("a set without a coil"), std::string::npos) << o.text;
 }
 
+// Root reads every folder, so that it takes another user's rights for this.
+TEST_F(CommandLine, UnreadableFolders) {
+  const std::string user =
+      geteuid() == 0 ? "setpriv --reuid=65534 --regid=65534 --clear-groups " : "";
+  if (Shell(user + AMBRIG_BINARY + " --version").exit != 0)
+    GTEST_SKIP() << "the program cannot be run as another user than root here";
+  std::filesystem::create_directory(folder_ / "shut");
+  Write("shut/s.toml", ScenarioText(""));
+  std::filesystem::permissions(folder_ / "shut", geteuid() == 0 ? std::filesystem::perms::owner_all
+                                                                : std::filesystem::perms::none);
+  const Outcome o = Shell("cd " + folder_.string() + " && " + user + AMBRIG_BINARY + " check shut");
+  std::filesystem::permissions(folder_ / "shut", std::filesystem::perms::owner_all);
+  EXPECT_EQ(o.exit, 2) << o.text;
+  EXPECT_EQ(o.text, "ambrig: shut: Permission denied\n");
+}
+
 // Tables of a campaign or a study that another program wrote stay.
 TEST_F(CommandLine, ForeignTablesStay) {
   Write("table.csv", "mine\n");
