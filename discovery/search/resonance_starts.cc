@@ -13,9 +13,11 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kDirections = 24;  // of two gains, over half a turn
-constexpr int kForms = 9;        // of a shape parameter, over somewhat more than its usual range
+constexpr int kDirections = 36;  // of two gains, over half a turn
+constexpr int kForms = 25;       // of a shape parameter, over somewhat more than its usual range
 constexpr double kWider = 1.4;
+constexpr double kApartForms = 0.12;  // forms whose shapes differ by less are alike
+constexpr std::size_t kForEach = 3;   // starts for each estimate
 constexpr double kResembles =
     0.5;  // least share of the estimate's gains (squares) that a start has
 
@@ -86,6 +88,29 @@ std::vector<EffectInstance> FormsAt(const EffectInstance& null, const ResonanceE
   return turned;
 }
 
+/// Well beside the resonance, where its answer is one of mass and stiffness [rad/s].
+double JudgedAt(const EffectInstance& effect) { return 1.7 * 2 * kPi * effect.Value("frequency"); }
+
+/// What `effect` adds to the answer `without` of the shaft at JudgedAt.
+Eigen::Matrix2d GainsBeside(const RigParameters& rig, const Eigen::Matrix2cd& without,
+                            const EffectInstance& effect) {
+  RigParameters with = rig;
+  with.effects.push_back(effect);
+  const double w0 = 2 * kPi * effect.Value("frequency"), w = JudgedAt(effect);
+  const std::complex<double> stiffness(w0 * w0 - w * w, 2 * effect.Value("damping") * w0 * w);
+  return ((ShaftAt(with, w) - without) * stiffness).real();
+}
+
+/// Whether what shapes the two is nearly the same; their sizes are what the estimate asks for.
+bool AlikeInShape(const EffectInstance& a, const EffectInstance& b) {
+  const EffectDescription& d = EffectNamed(a.name);
+  for (std::size_t k = 0; k < a.table.size(); ++k)
+    if (!d.Switches(a.table[k]) && a.values[k] > 0 && b.values[k] > 0 &&
+        std::abs(std::log(a.values[k] / b.values[k])) > kApartForms)
+      return false;
+  return true;
+}
+
 }  // namespace
 
 EffectInstance ScaledResonance(const EffectInstance& e, double factor) {
@@ -101,27 +126,31 @@ EffectInstance ScaledResonance(const EffectInstance& e, double factor) {
 }
 
 Eigen::Matrix2d ResonanceGains(const RigParameters& rig, const EffectInstance& effect) {
-  RigParameters with = rig;
-  with.effects.push_back(effect);
-  const double w0 = 2 * kPi * effect.Value("frequency"), w = 1.7 * w0;
-  const std::complex<double> stiffness(w0 * w0 - w * w, 2 * effect.Value("damping") * w0 * w);
-  return ((ShaftAt(with, w) - ShaftAt(rig, w)) * stiffness).real();
+  return GainsBeside(rig, ShaftAt(rig, JudgedAt(effect)), effect);
 }
 
 std::vector<EffectInstance> ResonanceStarts(const RigParameters& rig, const EffectInstance& null,
                                             const std::vector<ResonanceEstimate>& estimates) {
   std::vector<EffectInstance> out;
   for (const ResonanceEstimate& estimate : estimates) {
-    double most = kResembles * estimate.gains.squaredNorm();
-    std::optional<EffectInstance> best;
-    for (const EffectInstance& form : FormsAt(null, estimate)) {
-      const Eigen::Matrix2d gains = ResonanceGains(rig, form);
+    std::vector<std::pair<double, EffectInstance>> fitting;  // gains told, start
+    const std::vector<EffectInstance> forms = FormsAt(null, estimate);
+    const Eigen::Matrix2cd without = ShaftAt(rig, JudgedAt(forms[0]));
+    for (const EffectInstance& form : forms) {
+      const Eigen::Matrix2d gains = GainsBeside(rig, without, form);
       const double along = (gains.cwiseProduct(estimate.gains)).sum(), own = gains.squaredNorm();
-      if (along <= 0 || along * along / own <= most) continue;
-      most = along * along / own;
-      best = ScaledResonance(form, along / own);
+      if (along > 0 && along * along / own > kResembles * estimate.gains.squaredNorm())
+        fitting.emplace_back(along * along / own, ScaledResonance(form, along / own));
     }
-    if (best) out.push_back(*best);
+    std::stable_sort(fitting.begin(), fitting.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<EffectInstance> kept;
+    for (const auto& [told, start] : fitting)
+      if (kept.size() < kForEach && std::none_of(kept.begin(), kept.end(), [&](const auto& o) {
+            return AlikeInShape(start, o);
+          }))
+        kept.push_back(start);
+    out.insert(out.end(), kept.begin(), kept.end());
   }
   return out;
 }

@@ -17,8 +17,8 @@ EffectInstance ScaledResonance(const EffectInstance& e, double factor);
 /// c of resonance_estimate.h [1/kg]. @throws InputError where the plant refuses it
 Eigen::Matrix2d ResonanceGains(const RigParameters& rig, const EffectInstance& effect);
 
-/// `null`: the effect at its null, at its place. The instance whose gains are nearest, one for each estimate
-/// that it can resemble.
+/// `null`: the effect at its null, at its place. For each estimate that it can resemble the instances of nearest
+/// gains, best first: up to three that differ in what shapes them.
 std::vector<EffectInstance> ResonanceStarts(const RigParameters& rig, const EffectInstance& null,
                                             const std::vector<ResonanceEstimate>& estimates);
 
