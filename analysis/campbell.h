@@ -1,6 +1,8 @@
 #pragma once
 /// Closed-loop Campbell diagram: modes over speed, followed from speed to speed by frequency,
 /// damping and shape, and where a rotor mode meets the speed itself (critical speeds, damped).
+#include <cmath>
+
 #include "analysis/closed_loop_modes.h"
 
 namespace ambrig {
@@ -16,6 +18,8 @@ struct ModeTrack {
 struct DampedCritical {
   double speed = 0;     // [rad/s], where the damped frequency equals it
   ClosedLoopMode mode;  // at the nearest speed
+  /// Whether a response has a peak there: without one it is no critical speed to a reader.
+  bool IsResonance() const { return mode.zeta < std::sqrt(0.5); }
 };
 
 /// `rows` by rising speed.

@@ -171,7 +171,7 @@ class WholeShaft {
     Say(0, "scattered rotors");
     ScatterPlan plan{o.highest, o.modes, o.rotors, o.seed, {}, {}, Probes(), {}};
     for (const DampedCritical& c : out_.campbell.criticals)
-      if (c.mode.zeta < std::sqrt(0.5)) plan.criticals.push_back(c);  // else no response has a peak
+      if (c.IsResonance()) plan.criticals.push_back(c);
     for (const ShaftSweep& s : out_.unbalance) plan.unbalance.push_back(s.unbalance);
     plan.speeds = Spread(o.fastest / kScatterSpeeds, o.fastest, kScatterSpeeds);
     for (const DampedCritical& c : plan.criticals)

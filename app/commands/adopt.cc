@@ -28,8 +28,9 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
   const EffectInstance& e = a.effects.back();
   fmt::print("{} at {}\n", e.name, e.target);
   for (std::size_t k = 0; k < e.table.size(); ++k)
-    fmt::print("  {:<16} {:.6g}{} {}\n", e.table[k].name, e.values[k],
-               e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "", e.table[k].unit);
+    fmt::print("  {:<16} {:.6g}{}{}\n", e.table[k].name, e.values[k],
+               e.sd[k] > 0 ? fmt::format(" +- {:.2g}", e.sd[k]) : "",
+               e.table[k].unit == "-" ? std::string() : fmt::format(" {}", e.table[k].unit));
   const bool unseen = a.before.ratio_validate > 0;
   fmt::print("error over noise (1: only noise is left):\n");
   for (const LadderStep& s : a.ladder)
@@ -38,8 +39,8 @@ void PrintAdoption(const Adoption& a, const std::string& output) {
   if (!unseen) fmt::print("  no record of the case has use = \"validate\": all were fitted\n");
   for (const std::string& w : a.fit.warnings) fmt::print("  warning: {}\n", w);
   if (!a.fit.converged) fmt::print("  warning: the fit did not converge\n");
-  fmt::print("written {}; compared again: ratio {:.3f} (was {:.3f})\n", output, a.after.ratio,
-             a.before.ratio);
+  fmt::print("compared again, all records: {:.3f} (was {:.3f})\nwritten {}\n", a.after.ratio,
+             a.before.ratio, output);
 }
 
 nlohmann::ordered_json AdoptionJson(const Adoption& a, const std::string& output,

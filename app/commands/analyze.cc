@@ -149,7 +149,7 @@ void AddAnalyze(CLI::App& app, Work& work) {
       "  ambrig analyze examples/reference/rig.toml --speed 3000:9000 -o out\n"
       "  ambrig analyze examples/reference/rig.toml --measure 3 --html rig.html\n"
       "  ambrig analyze examples/reference/rig.toml --response A.x.load:A.x\n"
-      "  ambrig analyze examples/shaft/shaft.toml --speed 4000 --unbalance disk2:50@90 -o out\n"
+      "  ambrig analyze examples/shaft/shaft.toml --speed 4000 --unbalance disk2:50@90\n"
       "Inputs: AXIS.force, .reference, .sensor, .load; outputs: AXIS, AXIS.command,\n"
       ".shaft, .magnet, or a coil A.i1; of a named plane of a beam rotor: disk.x.load,\n"
       "disk.x.\n"

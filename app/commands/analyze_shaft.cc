@@ -9,6 +9,7 @@
 #include "app/commands/screen.h"
 #include "app/json/analysis_json.h"
 #include "app/json/shaft_json.h"
+#include "app/pages/format.h"
 #include "app/pages/shaft_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
@@ -50,7 +51,7 @@ void PrintShaftModes(const ShaftAnalysis& a) {
     fmt::print("{}\n", a.undamped.empty() ? "  undamped: the supports do not hold the shaft"
                                           : Wrapped(text, 4));
   for (const DampedCritical& c : a.campbell.criticals)
-    if (c.mode.zeta < std::sqrt(0.5))  // else no response has a peak there
+    if (c.IsResonance())
       fmt::print("  damped {:.1f} rpm, {}, log decrement {:.4f}\n", c.speed / kRpm,
                  SenseName(c.mode.sense()), Shown(c.mode.log_decrement));
 }
@@ -140,10 +141,10 @@ void PrintShaftExtras(const ShaftAnalysis& a) {
 
 void PrintShaft(const ShaftAnalysis& a) {
   fmt::print(
-      "{}: {:.6g} kg, centre of mass z = {:.6g} m, {} nodes,\noperating {:.0f} to {:.0f} rpm, "
+      "{}: {:.6g} kg, centre of mass z = {:.6g} m, {} nodes,\noperating {}, "
       "analysed up to {:.0f} rpm\n",
       Coloured(a.name, "bold"), a.totals.mass, a.totals.z_com, a.beam.z.size(),
-      a.options.lowest / kRpm, a.options.highest / kRpm, a.options.fastest / kRpm);
+      SpeedRange(a.options.lowest, a.options.highest), a.options.fastest / kRpm);
   for (const std::string& note : a.notes) fmt::print("{}\n", Wrapped("  note: " + note, 8));
   if (!a.campbell.stable()) fmt::print("{}\n", Coloured("UNSTABLE at a speed analysed", "red"));
   PrintShaftModes(a);

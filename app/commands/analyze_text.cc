@@ -9,6 +9,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/screen.h"
 #include "app/json/analysis_json.h"
+#include "app/pages/format.h"
 #include "core/base/counted.h"
 #include "core/math/constants.h"
 
@@ -52,9 +53,6 @@ void PrintVerdict(const RigAnalysis& a) {
     fmt::print("{}\n", Coloured("sensitivity outside zones A and B: " + poor, "red"));
 }
 
-/// Above this damping a response has no peak: no critical speed to a reader.
-bool HasResonance(double zeta) { return zeta < std::sqrt(0.5); }
-
 std::string Zone(char zone) {
   return Coloured(std::string(1, zone), zone == 'A' ? "green" : zone == 'B' ? "yellow" : "red");
 }
@@ -68,6 +66,9 @@ void PrintCapacity(const RigAnalysis& a) {
   for (const AxisCapacity& c : a.capacity)
     fmt::print("{:<5} {:>9.4g} {:>10.5g} {:>10.4g} {:>10.4g} {:>9.4g} {:>10.4g} {:>9.4g}\n", c.axis,
                c.k_i, c.k_s, c.usable(), c.weight, c.largest, c.slew, c.knee);
+  fmt::print(
+      "static: until a coil or the controller clips; slew: what the bus voltage allows;\n"
+      "knee: above it a sine of the static force is cut\n");
 }
 
 void PrintSensitivity(const RigAnalysis& a) {
@@ -125,7 +126,7 @@ void PrintModes(const RigAnalysis& a) {
                    m.zeta, m.log_decrement, SenseName(m.sense()));
   }
   for (const DampedCritical& c : a.criticals)
-    if (HasResonance(c.mode.zeta))
+    if (c.IsResonance())
       fmt::print("  critical speed {:.0f} rpm, {}, log decrement {:.3f}\n", c.speed / kRpm,
                  SenseName(c.mode.sense()), c.mode.log_decrement);
 }
@@ -138,11 +139,13 @@ void PrintStandards(const RigAnalysis& a) {
     fmt::print("  {:<7} {:<3} largest {:>8.3f} um of {:.0f} um: ISO 14839-2 zone {}\n", d.unbalance,
                d.bearing, d.largest * 1e6, d.clearance * 1e6, Zone(d.zone));
   for (const SeparationRow& s : a.separation)
-    fmt::print("  {:<7} {:<3} peak at {:.0f} rpm, AF {}: margin {:.1f} % of {:.1f} % {}\n",
+    fmt::print("  {:<7} {:<3} peak at {:.0f} rpm, AF {}: margin {:.1f} % ({:.1f} % wanted) {}\n",
                s.unbalance, s.bearing, s.peak.speed / kRpm,
                fmt::format("{}{:.2f}", s.peak.bound ? "< " : "", s.peak.amplification),
                s.margin.actual, s.margin.required,
                s.margin.met ? Coloured("met", "green") : Coloured("NOT MET", "red"));
+  if (!a.separation.empty())
+    fmt::print("  AF: amplification factor; margin: from the peak to the operating speeds\n");
 }
 
 }  // namespace
@@ -151,15 +154,11 @@ void PrintAnalysis(const RigAnalysis& a) {
   const RigParameters& rig = a.point.rig();
   int coils = 0;
   for (const auto& b : rig.bearings) coils += b.coils();
-  fmt::print(
-      "{}: {}, {}, controller {:g} Hz,\noperating {}, analysed up to {:.0f} rpm\n",
-      Coloured(rig.name, "bold"),
-      a.capacity.size() == 1 ? "1 axis" : fmt::format("{} axes", a.capacity.size()),
-      Counted(coils, "coil"), rig.controller.rate,
-      a.options.lowest < a.options.highest
-          ? fmt::format("{:.0f} to {:.0f} rpm", a.options.lowest / kRpm, a.options.highest / kRpm)
-          : fmt::format("at {:.0f} rpm", a.options.highest / kRpm),
-      a.options.fastest / kRpm);
+  fmt::print("{}: {}, {}, controller {:g} Hz,\noperating {}, analysed up to {:.0f} rpm\n",
+             Coloured(rig.name, "bold"),
+             a.capacity.size() == 1 ? "1 axis" : fmt::format("{} axes", a.capacity.size()),
+             Counted(coils, "coil"), rig.controller.rate,
+             SpeedRange(a.options.lowest, a.options.highest), a.options.fastest / kRpm);
   PrintVerdict(a);
   for (const std::string& note : a.point.notes) fmt::print("{}\n", Wrapped("  note: " + note, 8));
   PrintCapacity(a);

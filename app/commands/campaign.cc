@@ -174,8 +174,9 @@ void AddCampaign(CLI::App& app, Work& work) {
   CLI::App* command = app.add_subcommand(
       "campaign", "many runs: fault sets x speeds x loads x spread of parameters");
   command->add_option("campaign", options->file, "campaign file (TOML)")->required();
-  command->add_option("-o,--out", options->out,
-                      "folder of journal.txt, table.csv, report.html (default: out/NAME)");
+  command->add_option(
+      "-o,--out", options->out,
+      "folder of journal.txt, table.csv, report.html (default: out/NAME of the file)");
   command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")
       ->check(CLI::Range(1, 1024));
   command->add_option("--shard", options->shard,
@@ -202,8 +203,14 @@ void AddCampaign(CLI::App& app, Work& work) {
       "  ambrig campaign scenarios/campaigns/one_blow.toml -o out/contact\n"
       "  ambrig campaign scenarios/campaigns/one_blow.toml --shard 1/2 -o part1\n"
       "  ambrig run --from-campaign scenarios/campaigns/one_blow.toml --row 1\n"
-      "Re-run the command to resume an interrupted one; the last example repeats one\nrow of the "
-      "table with its record and report.");
+      "Re-run the command to resume an interrupted one; the last example repeats one\n"
+      "row of the table with its record and report. A small campaign file (each coil\n"
+      "of the first bearing opens, at two speeds; all keys: docs/guide/campaign.md):\n"
+      "    rig = \"rig.toml\"\n"
+      "    duration = 0.1               # s\n"
+      "    seeds = 2                    # runs of each, with noise of their own\n"
+      "    faults = { sets = \"single\", time = 0.02 }\n"
+      "    operation = { speeds = [0.0, 157.08] }   # rad/s");
   command->callback([options, &work] { work = [options] { return RunCampaign(*options); }; });
 }
 

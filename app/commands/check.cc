@@ -147,13 +147,14 @@ void WriteCheckReport(const std::string& path, const std::vector<CheckRow>& rows
   report.Write(path);
 }
 
-/// What differs from the baselines, with both curves.
-void WriteBaselineReport(const std::string& path, const std::vector<CheckRow>& rows) {
+/// What differs from the baselines, with both curves; false when nothing does.
+bool WriteBaselineReport(const std::string& path, const std::vector<CheckRow>& rows) {
   std::vector<DifferencePage> pages;
   for (const CheckRow& r : rows)
     if (r.difference && !r.difference->agrees())
       pages.push_back({r.name, &r.before, &r.now, &*r.difference});
   if (!pages.empty()) WriteDifferenceReport(pages, path);
+  return !pages.empty();
 }
 
 /// One scenario on the screen: what is not met stands below it, so that a line fits 80 columns.
@@ -213,11 +214,15 @@ int Check(const CheckOptions& options) {
   if (!options.junit.empty()) WriteJunit(options.junit, rows);
   if (!options.common.html.empty()) WriteCheckReport(options.common.html, rows);
   if (!options.baseline.folder.empty()) {
-    WriteBaselineReport(DifferencePageOf(options.baseline), rows);
+    const std::string page = DifferencePageOf(options.baseline);
+    const bool curves = WriteBaselineReport(page, rows);
+    std::error_code error;
+    if (!curves && !options.baseline.accept)
+      std::filesystem::remove(page, error);  // of an earlier check
     if (options.baseline.accept)
       fmt::print("baselines stored in {}\n", options.baseline.folder);
-    else if (failed > 0)
-      fmt::print("curves of what differs: {}\n", DifferencePageOf(options.baseline));
+    else if (curves)
+      fmt::print("curves of what differs: {}\n", page);
   }
   options.common.WriteJson(json);
   return failed > 0 ? 1 : 0;

@@ -14,6 +14,9 @@ namespace ambrig {
 /// Set by Ctrl-C; every long work looks at it.
 inline std::atomic<bool> interrupted{false};
 
+inline constexpr const char* kForceHelp =
+    "overwrite also files that ambrig did not make, or that somebody changed since";
+
 /// Options that every command has.
 struct CommonOptions {
   std::string json, html;

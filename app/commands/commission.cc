@@ -23,18 +23,14 @@ struct CommissionCommand {
   CommissioningPlan plan;
 };
 
-constexpr const char* kFirstLine = "# Written by ambrig commission";
+constexpr const char* kFirstLine = "# Written by ambrig commission";  // of files without a mark
 
 int RunCommission(CommissionCommand c) {
   const RigParameters rig = ReadRig(c.rig);
   if (c.out.empty()) c.out = CommissioningFileOf(c.rig);
   if (const std::string wrong = OutputFile()(c.out); !wrong.empty()) throw InputError(wrong);
-  if (!c.common.force && std::filesystem::is_regular_file(c.out) &&
-      !ReadFile(c.out).starts_with(kFirstLine))
-    throw InputError(
-        fmt::format("{} exists and is not an output of ambrig commission, allowed: another name, "
-                    "or --force to overwrite it",
-                    c.out));
+  if (!std::filesystem::is_regular_file(c.out) || !ReadFile(c.out).starts_with(kFirstLine))
+    RefuseOverwriting({c.out}, c.common.force);
   if (rig.bearings.front().kind->alone) c.plan.speed = 0;
   c.common.CheckOutputs({c.rig, c.out});
   RefuseOneFileTwice({c.out, c.common.json, c.common.html});
@@ -47,7 +43,7 @@ int RunCommission(CommissionCommand c) {
     options.progress = [&](double done) { progress.Update(done); };
     result = Commission(rig, options);
   }
-  WriteFileAtomically(c.out, CommissioningText(result.model));
+  WriteMarkedText(c.out, "commission", CommissioningText(result.model));
   fmt::print("{}", CommissionText(rig, result));
   fmt::print("written: {}; {}\n", c.out,
              c.out == CommissioningFileOf(c.rig)

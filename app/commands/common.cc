@@ -27,7 +27,7 @@ void CommonOptions::AddTo(CLI::App& command) {
             "write stages, progress and the end as JSON lines to this open file descriptor")
         ->type_name("FD")
         ->check(CLI::Range(0, 1 << 20));
-  command.add_flag("--force", force, "overwrite files that ambrig did not make");
+  command.add_flag("--force", force, kForceHelp);
 }
 
 void CommonOptions::CheckOutputs(const std::vector<std::string>& inputs,

@@ -129,15 +129,20 @@ int Repeat(const Study& study, const StudyResult& result, const DesignOptions& o
   std::filesystem::create_directories(folder, error);
   if (error) throw InputError(fmt::format("cannot write {}: {}", folder.string(), error.message()));
   const std::string rig_file = (folder / "rig.toml").string();
-  WriteFileAtomically(rig_file, fmt::format("# Point {} of {}: {}, made from {}\n", k, study.file,
-                                            c.name, c.rig_file) +
-                                    RigTextOfPoint(c, p.values));
+  std::vector<std::string> files{rig_file};
+  for (const StudyScenario& s : study.scenarios)
+    files.push_back((folder / std::filesystem::path(s.file).stem()).string() + ".toml");
+  RefuseOverwriting(files, o.common.force);
+  WriteMarkedText(
+      rig_file, "design",
+      fmt::format("# Point {} of {}: {}, made from {}\n", k, study.file, c.name, c.rig_file) +
+          RigTextOfPoint(c, p.values));
   const RigParameters rig = ReadRig(rig_file);
   for (const StudyScenario& s : study.scenarios) {
     const std::string stem = std::filesystem::path(s.file).stem().string(),
                       file = (folder / (stem + ".toml")).string();
-    WriteFileAtomically(
-        file,
+    WriteMarkedText(
+        file, "design",
         WithAbsoluteFiles(EditedToml(s.text, s.file, {{"rig", std::string("rig.toml")}}), s.file));
     const Scenario scenario = ReadScenario(file, rig);
     SimulateOptions options;
@@ -238,8 +243,9 @@ void AddDesign(CLI::App& app, Work& work) {
   CLI::App* command = app.add_subcommand(
       "design", "compare controllers, sweep or optimise their parameters: Pareto front");
   command->add_option("study", options->file, "study file (TOML)")->required();
-  command->add_option("-o,--out", options->out,
-                      "folder of journal, table.csv, study.json, report.html (default: out/NAME)");
+  command->add_option(
+      "-o,--out", options->out,
+      "folder of journal, table.csv, study.json, report.html (default: out/NAME of the file)");
   command->add_option("-j,--jobs", options->jobs, "threads (default: all cores)")
       ->check(CLI::Range(0, 1024));
   command

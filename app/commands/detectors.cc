@@ -93,8 +93,9 @@ void AddDetectors(CLI::App& app, Work& work) {
       "detectors",
       "compare detectors of coil faults: ROC curves, detection delay against false alarms");
   command->add_option("study", options->file, "study file (TOML)")->required();
-  command->add_option("-o,--out", options->out,
-                      "folder of journal.txt, table.csv, curves, report.html (default: out/NAME)");
+  command->add_option(
+      "-o,--out", options->out,
+      "folder of journal.txt, table.csv, curves, report.html (default: out/NAME of the file)");
   command->add_option("--jobs", options->jobs, "runs at the same time (default: all cores)")
       ->check(CLI::Range(1, 1024));
   command->add_flag("--no-report", options->no_report, "no report.html");

@@ -6,6 +6,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/rig_difference.h"
+#include "app/commands/screen.h"
 #include "app/pages/difference_report.h"
 
 namespace ambrig {
@@ -34,11 +35,13 @@ int RunDiff(const DiffCommand& o) {
   const RecordTolerances tolerances = TolerancesOf(o);
   const RunFiles a = ReadRun(o.a), b = ReadRun(o.b);
   const RunDifference d = CompareRuns(a, b, tolerances);
-  for (const std::string& line : DifferenceLines(d)) fmt::print("{}\n", line);
+  for (const std::string& line : DifferenceLines(d)) fmt::print("{}\n", Wrapped(line, 4));
   if (!d.events_known) fmt::print("events not compared: NAME.json is not beside both records\n");
   fmt::print("{}\n", d.identical() ? Coloured("identical: no bit differs", "green")
                      : d.agrees()  ? Coloured("equal within the tolerances", "green")
                                    : Coloured("different", "red"));
+  if (!d.agrees() && o.common.html.empty())
+    fmt::print("all channels, and the curves of the first: --html FILE\n");
   o.common.WriteJson(DifferenceJson(d));
   if (!o.common.html.empty())
     WriteDifferenceReport({{std::filesystem::path(o.b).stem().string(), &a, &b, &d}},

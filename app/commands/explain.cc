@@ -90,7 +90,7 @@ std::string NamesInLine(const std::vector<std::string>& names) {
 void PrintFindings(const Explanation& e) {
   for (const DataFault& f : e.data) PrintWrapped("  data: " + FaultText(f));
   if (e.verdict == "effect")
-    fmt::print("  explained: {:.1f} % of the error above the noise, {:.2f} -> {:.2f} floors\n",
+    fmt::print("  explained: {:.1f} % of the error above the noise, {:.2f} -> {:.2f}\n",
                100 * e.closure.explained, e.closure.floors_before, e.closure.floors_after);
   PrintWrapped("  95 % set: " + SetText(e.set) +
                (e.judged_beside.empty() ? "" : " (beside " + NamesInLine(e.judged_beside) + ")"));
@@ -205,7 +205,7 @@ int RunExplain(const ExplainCommand& o) {
   if (!o.law.empty() && e.unexplained.formula.empty())
     fmt::print("no candidate law: {} is not written\n", o.law);
   if (!o.law.empty() && !e.unexplained.formula.empty())
-    WriteFileAtomically(o.law, e.unexplained.formula + "\n");
+    WriteMarkedText(o.law, "explain", e.unexplained.formula + "\n");
   if (store) std::filesystem::remove(store->path());  // answered: nothing to go on with
   return 0;
 }

@@ -84,7 +84,7 @@ int RunHide(const HideCommand& o) {
   WriteMarkedText(answer, "hide", kMark + AnswerText(hidden, request, name));
   progress.Clear();
   fmt::print(
-      "written {} with {}; the answer is sealed in {}\nnow: ambrig compare {}, ambrig explain {}\n",
+      "written: {} with {}\nsealed answer: {}\nnow: ambrig compare {}\nthen: ambrig explain {}\n",
       (folder / "case.toml").string(), Counted(hidden.records.size(), "record"), answer,
       (folder / "case.toml").string(), (folder / "case.toml").string());
   return 0;
@@ -108,7 +108,7 @@ void AddHide(CLI::App& app, Work& work) {
       ->check(NumberIn(0, 9e15, "(an integer)"))
       ->capture_default_str();
   command->add_flag("--exact", options->exact, "keep every rig parameter at its nominal value");
-  command->add_flag("--force", options->force, "overwrite files that ambrig did not make");
+  command->add_flag("--force", options->force, kForceHelp);
   command->footer(
       "Examples:\n"
       "  ambrig hide sensor-gain --rig examples/reference/rig.toml -o practice\n"

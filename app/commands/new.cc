@@ -267,7 +267,7 @@ void AddNew(CLI::App& app, Work& work) {
                    "write the files and the columns taken, or with --list the questions, to FILE")
       ->type_name("FILE")
       ->check(OutputFile());
-  command->add_flag("--force", o->common.force, "overwrite files that ambrig did not make");
+  command->add_flag("--force", o->common.force, kForceHelp);
   command->footer(
       "Examples:\n"
       "  ambrig new --answers examples/new/ball.toml -o ball\n"

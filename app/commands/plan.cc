@@ -57,7 +57,9 @@ void PrintPlan(const Plan& plan, const std::string& output) {
                t.largest_orbit > 0 ? fmt::format("{:.1f}", 1e6 * t.largest_orbit) : "-");
     if (!t.refused.empty()) fmt::print("{}\n", Wrapped("    not safe: " + t.refused, 4));
   }
-  fmt::print("\n");
+  fmt::print(
+      "size: share of the usual excitation, lowered until every model stays up;\n"
+      "distance: the least between two of the names (4.7: right in 99 %)\n\n");
   std::istringstream lines(plan.text);
   for (std::string line; std::getline(lines, line);) fmt::print("{}\n", Wrapped(line, 2));
   for (const std::string& w : plan.warnings) fmt::print("{}\n", Wrapped("warning: " + w, 2));

@@ -180,7 +180,8 @@ int RunPractice(PracticeCommand o) {
   o.common.CheckOutputs(o.rigs, {o.fit});
   std::vector<std::string> files{"answers.toml", "report.html"};
   for (std::size_t k = 0; k < o.setting.cases; ++k)
-    files.push_back(NameOfPracticeCase(k) + "/case.toml");
+    for (const char* file : {"/case.toml", "/rig.toml"})
+      files.push_back(NameOfPracticeCase(k) + file);
   PrepareStudyFolder(o.out, files, o.common.force);
   const auto finished = FinishedCases(o.setting);
   const auto pending = PendingCases(o.setting, finished);

@@ -35,13 +35,13 @@ void PrintRefinement(const Refinement& r, const std::string& output) {
                p.support, p.named, p.visited ? "" : "  not visited");
   }
   fmt::print("{}\n", SupportText(r));
+  fmt::print("error over noise (1: only noise is left):\n");
   for (const LadderStep& s : r.ladder)
     fmt::print("  {:<34} fit {:8.3f}   {} {:8.3f}\n", s.added, s.ratio_fit, unseen,
                s.ratio_validate);
   for (const std::string& w : r.warnings) fmt::print("{}\n", Wrapped("  warning: " + w, 4));
-  fmt::print(
-      "written {}: error over the noise floor on {} records {:.3f} (catalogue's law {:.3f})\n",
-      output, unseen, r.ratio_after, r.ratio_before);
+  fmt::print("compared again, {} records: {:.3f} (with the catalogue's law {:.3f})\nwritten {}\n",
+             unseen, r.ratio_after, r.ratio_before, output);
 }
 
 int RunRefine(const RefineCommand& o) {

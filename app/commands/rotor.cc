@@ -7,6 +7,7 @@
 #include "app/pages/html.h"
 #include "core/base/counted.h"
 #include "core/base/errors.h"
+#include "core/base/read_file.h"
 #include "rotor/shaft/convert_shaft.h"
 
 namespace ambrig {
@@ -37,6 +38,7 @@ ShaftConversion Converted(const Convert& c) {
 int Run(const Convert& c) {
   c.common.CheckOutputs({c.in}, {c.out});
   const ShaftConversion done = Converted(c);
+  if (c.out.ends_with(".toml")) WriteMarkedText(c.out, "rotor convert", ReadFile(c.out));
   const std::string lost = done.not_carried.empty() ? "nothing" : Joined(done.not_carried);
   fmt::print("{}: {} -> {}\n", c.out, done.from_ross ? "ROSS" : "ambrig",
              done.from_ross ? "ambrig" : "ROSS");

@@ -28,7 +28,8 @@ constexpr const char* kLessons =
    the peak orbit beside the clearance, the verdict. With curves, in a browser:
    out/coil_opens.html
    "doubtful": the detection has not learnt this rig, so it acts on gross faults
-   only; ambrig commission rig.toml teaches it. Run it again then.
+   only; ambrig commission rig.toml teaches it. Run it again then: the event
+   is gone before the fault (after it, it may come for the bearing that is hit).
 
 2  A fault of your own: half of the turns of coil B6 are shorted
      ambrig run my_fault.toml --out out
@@ -67,7 +68,7 @@ void AddTour(CLI::App& app, Work& work) {
   CLI::App* command = app.add_subcommand("tour", "three short lessons for a newcomer");
   command->add_option("-o,--out", o->folder, "folder for the lessons' files")
       ->capture_default_str();
-  command->add_flag("--force", o->force, "overwrite files that ambrig did not make");
+  command->add_flag("--force", o->force, kForceHelp);
   command->footer("Examples:\n  ambrig tour\n  ambrig tour -o lessons");
   command->callback([o, &work] { work = [o] { return RunTour(*o); }; });
 }

@@ -118,7 +118,7 @@ void AddValidate(CLI::App& app, Work& work) {
   command->add_option("--json", c->common.json, "write the rows as JSON to FILE")
       ->type_name("FILE")
       ->check(OutputFile());
-  command->add_flag("--force", c->common.force, "overwrite files that ambrig did not make");
+  command->add_flag("--force", c->common.force, kForceHelp);
   command->footer(
       "Examples:\n  ambrig validate examples/validation\n"
       "  ambrig validate examples/validation/mbc500.validation.toml --json rows.json\n"

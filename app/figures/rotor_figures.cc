@@ -101,6 +101,7 @@ Figure CampbellFigure(const std::vector<ModeTrack>& tracks,
           PlainLine("@ink", "dash"));
   std::vector<double> x, y;
   for (const DampedCritical& c : criticals) {
+    if (!c.IsResonance()) continue;
     x.push_back(c.speed / kRpm);
     y.push_back(c.speed / (2 * kPi));
   }

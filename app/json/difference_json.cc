@@ -23,9 +23,11 @@ std::string WithUnit(double value, const std::string& unit) {
 
 std::string LineOf(const ChannelDifference& c) {
   if (c.rows == 0) return fmt::format("{}: {}", c.channel, VerdictText(c.verdict));
-  return fmt::format("{}: {} from {:.6g} ms, {} of {} rows, worst {} at {:.6g} ms (allowed {})",
-                     c.channel, VerdictText(c.verdict), c.first * 1e3, c.beyond, c.rows,
-                     WithUnit(c.worst, c.unit), c.worst_at * 1e3, WithUnit(c.allowed, c.unit));
+  return fmt::format(
+      "{}: {} from {:.6g} ms, {} of {} rows, worst {} at {:.6g} ms{}", c.channel,
+      VerdictText(c.verdict), c.first * 1e3, c.beyond, c.rows, WithUnit(c.worst, c.unit),
+      c.worst_at * 1e3,
+      c.allowed > 0 ? fmt::format(" (allowed {})", WithUnit(c.allowed, c.unit)) : "");
 }
 
 }  // namespace
@@ -56,7 +58,10 @@ std::vector<std::string> DifferenceLines(const RunDifference& d, std::size_t mos
   if (const ChannelDifference* first = d.record.First())
     lines.push_back(fmt::format("first: {} at {:.6g} ms", first->channel, first->first * 1e3));
   if (!d.record.length.empty()) lines.push_back("record " + d.record.length);
-  for (const EventDifference& e : d.events) lines.push_back("event " + EventDifferenceText(e));
+  for (std::size_t k = 0; k < std::min(most, d.events.size()); ++k)
+    lines.push_back("event " + EventDifferenceText(d.events[k]));
+  if (d.events.size() > most)
+    lines.push_back("and " + Counted(d.events.size() - most, "more event"));
   std::vector<const ChannelDifference*> bad;
   for (const ChannelDifference& c : d.record.channels)
     if (c.bad()) bad.push_back(&c);

@@ -30,7 +30,8 @@ struct RunDifference {
 
 RunDifference CompareRuns(const RunFiles& a, const RunFiles& b, const RecordTolerances& t);
 
-/// What differs, the first instant and channel first; one line each, no more than `most` channels.
+/// What differs, the first instant and channel first; one line each, no more than `most` events
+/// and `most` channels.
 std::vector<std::string> DifferenceLines(const RunDifference& d, std::size_t most = 10);
 
 nlohmann::ordered_json DifferenceJson(const RunDifference& d);

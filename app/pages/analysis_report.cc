@@ -141,13 +141,17 @@ void AddRotorTable(HtmlReport& report, const RigAnalysis& a) {
   report.AddFigure(CampbellFigure(a));
   std::vector<std::vector<Cell>> rows;
   for (const DampedCritical& c : a.criticals) {
-    if (c.mode.zeta >= std::sqrt(0.5)) continue;  // no peak of a response
+    if (!c.IsResonance()) continue;
     rows.push_back({fmt::format("{:.0f}", c.speed / kRpm), SenseName(c.mode.sense()),
                     fmt::format("{:.3f}", c.mode.zeta),
                     Cell(fmt::format("{:.3f}", c.mode.log_decrement),
                          c.mode.log_decrement > kLeastLogDecrement ? "ok" : "fail")});
   }
-  if (rows.empty())
+  if (rows.empty() && !a.criticals.empty())
+    report.Text(
+        "Modes meet the speed in this range, each with a damping ratio above 0.7: no resonance, so "
+        "no critical speed.");
+  else if (rows.empty())
     report.Text("No mode of the rotor meets the speed in this range.");
   else
     report.Table({"critical speed [rpm]", "whirl", "damping ratio", "log decrement"}, rows,
@@ -210,8 +214,8 @@ void AddUnbalance(HtmlReport& report, const RigAnalysis& a) {
 void WriteAnalysisReport(const RigAnalysis& a, const std::string& rig_file,
                          const std::filesystem::path& path) {
   HtmlReport report("Analysis of " + a.point.rig().name,
-                    fmt::format("rig {}, operating {:.0f} to {:.0f} rpm", rig_file,
-                                a.options.lowest / kRpm, a.options.highest / kRpm));
+                    fmt::format("rig {}, operating {}", rig_file,
+                                SpeedRange(a.options.lowest, a.options.highest)));
   report.Heading("Verdict");
   AddAnalysisVerdict(report, a);
   report.Text(

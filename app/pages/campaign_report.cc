@@ -178,8 +178,8 @@ void Capacity(HtmlReport& report, const Rows& rows) {
 
 void WriteCampaignReport(const JournalHeader& header, const Rows& rows, const std::string& path) {
   const RowCounts n = CountRows(rows);
-  HtmlReport report(header.name, fmt::format("campaign of {}, {}", Counted(header.runs, "run"),
-                                             header.fingerprint));
+  HtmlReport report(header.name, fmt::format("campaign of {}, fingerprint {}",
+                                             Counted(header.runs, "run"), header.fingerprint));
   report.Verdict(n.drop + n.error > 0 ? Verdict::kFail
                  : n.touchdown > 0    ? Verdict::kWarn
                                       : Verdict::kOk,

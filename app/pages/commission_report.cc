@@ -143,9 +143,10 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
                       100 * d.smallest_short, Ms(d.smallest_delay), Ms(d.tenth_delay));
     }
   text +=
-      "grade: what the model leaves unexplained, above 3 it is not used; scatter:\n"
-      "largest relative excess of the slope over ten healthy periods; least short:\n"
-      "share of the turns that is noticed; delays by the learnt bands.\n";
+      "grade: what the model leaves unexplained, above 3 it is not used; ripple L: of\n"
+      "the current's ripple, with R and L/R; scatter: largest relative excess of the\n"
+      "slope over ten healthy periods; least short: share of the turns that is\n"
+      "noticed, with its delay and that of a short of 10 %, by the learnt bands.\n";
   for (const CommissionedBearing& b : r.model.bearings)
     if (!b.usable())
       text += fmt::format(

@@ -26,31 +26,52 @@ std::vector<const ChannelDifference*> Worst(const RecordDifference& d) {
   return out;
 }
 
+/// b less a at the rows of a that b has too; times in ms.
+void NowLessBefore(const RunFiles& a, const Channel& of_a, const RunFiles& b, const Channel& of_b,
+                   std::vector<double>* ms, std::vector<double>* difference) {
+  for (std::size_t k = 0; k < of_a.samples.size(); ++k) {
+    const double t = a.record.start + static_cast<double>(k) / a.record.rate,
+                 row = (t - b.record.start) * b.record.rate, near = std::round(row);
+    if (std::abs(row - near) > 1e-3 || near < 0) continue;
+    const auto at = static_cast<std::size_t>(near);
+    if (at >= of_b.samples.size()) break;
+    ms->push_back(t * 1e3);
+    difference->push_back(of_b.samples[at] - of_a.samples[k]);
+  }
+}
+
 void AddCurves(HtmlReport& report, const DifferencePage& run, const ChannelDifference& c) {
   const Channel* a = run.a->record.Find(c.channel);
   const Channel* b = run.b->record.Find(c.channel);
-  std::vector<std::vector<double>> times, values;
   double largest = 0;
   for (const Channel* k : {a, b})
     if (k) largest = std::max(largest, LargestSize(k->samples));
   const DisplayUnit unit = ChooseUnit(largest, c.unit);
-  std::vector<HtmlReport::Series> series;
-  times.reserve(2);
-  values.reserve(2);
-  const auto add = [&](const char* name, const RunFiles& of, const Channel* k) {
-    if (!k) return;
-    times.push_back(Scaled(UniformTime(of.record.start, of.record.rate, k->samples.size()), 1e3));
-    values.push_back(Scaled(k->samples, unit.factor));
-    series.push_back({name, times.back(), values.back()});
-  };
-  add("before", *run.a, a);
-  add("now", *run.b, b);
   const std::string caption =
       c.rows == 0 ? fmt::format("{}: {}.", c.channel, VerdictText(c.verdict))
                   : fmt::format("{}: {} from {:.6g} ms on, largest difference {} at {:.6g} ms.",
                                 c.channel, VerdictText(c.verdict), c.first * 1e3,
                                 FormatSi(c.worst, c.unit), c.worst_at * 1e3);
-  report.TimeSeries(caption, "time [ms]", fmt::format("{} [{}]", c.channel, unit.name), series);
+  std::vector<double> ms, difference;
+  if (a && b) NowLessBefore(*run.a, *a, *run.b, *b, &ms, &difference);
+  Grid grid;
+  grid.rows = difference.empty() ? 1 : 2;
+  Figure f = MakeFigure(caption, grid);
+  SetAxes(f, 0, "time [ms]", fmt::format("{} [{}]", c.channel, unit.name));
+  const auto add = [&](const char* name, const RunFiles& of, const Channel* k, int colour) {
+    if (k)
+      AddLine(f, 0, name,
+              Scaled(UniformTime(of.record.start, of.record.rate, k->samples.size()), 1e3),
+              Scaled(k->samples, unit.factor), SeriesStyle(colour));
+  };
+  add("before", *run.a, a, 0);
+  add("now", *run.b, b, 1);
+  if (!difference.empty()) {
+    const DisplayUnit fine = ChooseUnit(LargestSize(difference), c.unit);
+    SetAxes(f, 1, "time [ms]", fmt::format("now less before [{}]", fine.name));
+    AddLine(f, 1, "now less before", ms, Scaled(difference, fine.factor), SeriesStyle(2));
+  }
+  report.AddFigure(f);
 }
 
 void AddEvents(HtmlReport& report, const RunDifference& d) {

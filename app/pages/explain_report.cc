@@ -44,7 +44,7 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
                        m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
   report.KeyValues({{"95 % set", set},
                     {"explained", fmt::format("{:.1f} % of the error above the noise, {:.2f} to "
-                                              "{:.2f} floors over all records",
+                                              "{:.2f} times the noise over all records",
                                               100 * e.closure.explained, e.closure.floors_before,
                                               e.closure.floors_after)},
                     {"remainder", e.remainder.text}});

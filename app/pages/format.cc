@@ -68,6 +68,11 @@ std::string FalseAlarmText(double alarms, double coil_periods) {
 
 std::string Rpm(double speed) { return fmt::format("{:.0f} rpm", speed * 30 / kPi); }
 
+std::string SpeedRange(double lowest, double highest) {
+  return lowest < highest ? fmt::format("{:.0f} to {}", lowest * 30 / kPi, Rpm(highest))
+                          : "at " + Rpm(highest);
+}
+
 std::string HtmlEscape(std::string_view text) {
   std::string out;
   out.reserve(text.size());

@@ -20,6 +20,9 @@ std::string FalseAlarmText(double alarms, double coil_periods);
 /// "12000 rpm" of a speed [rad/s].
 std::string Rpm(double speed);
 
+/// "3000 to 9000 rpm", or "at 6000 rpm", of two speeds [rad/s].
+std::string SpeedRange(double lowest, double highest);
+
 std::string HtmlEscape(std::string_view text);
 
 /// HtmlEscape, and of markdown the least that a paragraph needs: **strong**, *stressed*, `code`.

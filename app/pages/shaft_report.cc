@@ -166,9 +166,9 @@ void AddScatter(HtmlReport& report, const ShaftAnalysis& a) {
 
 void WriteShaftReport(const ShaftAnalysis& a, const std::string& file,
                       const std::filesystem::path& path) {
-  HtmlReport report("Analysis of " + a.name,
-                    fmt::format("shaft {}, operating {:.0f} to {:.0f} rpm", file,
-                                a.options.lowest / kRpm, a.options.highest / kRpm));
+  HtmlReport report(
+      "Analysis of " + a.name,
+      fmt::format("shaft {}, operating {}", file, SpeedRange(a.options.lowest, a.options.highest)));
   AddShaftVerdict(report, a);
   AddDampedModes(report, a);
   if (a.options.campbell_alone) {

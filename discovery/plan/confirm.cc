@@ -109,9 +109,10 @@ std::string Planner::Card(const Plan& plan, const Scored& best) const {
                                  fmt::join(plan.channels, ", "));
   for (const PlannedPair& p : plan.separates)
     text += fmt::format(
-        "- tells {} from {} with a probability of {:.1f} % ({} of {} simulated records were "
-        "decided rightly)\n",
-        p.a, p.b, 100 * p.probability, p.right, p.draws);
+        "- tells {} from {} with a probability of {:.1f} % ({})\n", p.a, p.b, 100 * p.probability,
+        p.draws > 0
+            ? fmt::format("{} of {} simulated records were decided rightly", p.right, p.draws)
+            : "not checked with simulated records");
   if (!best.candidate.clamped)
     text += fmt::format("- largest orbit expected: {:.3g} um\n", 1e6 * plan.largest_orbit);
   text += fmt::format("- largest coil current expected: {:.3g} A\n", plan.largest_current);

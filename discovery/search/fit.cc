@@ -59,7 +59,8 @@ void EstimateCovariance(const FitProblem& cost, FitResult& result) {
     for (std::size_t m = 0; m < p; ++m) {
       const auto j = static_cast<Index>(m);
       const double c = covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
-      if (m != k && std::abs(c) > 0.97)
+      const bool told = m < k && h.free[m].effect >= 0;  // with the other name first
+      if (m != k && !told && std::abs(c) > 0.97)
         result.warnings.push_back(
             fmt::format("{} and {} are correlated by {:.3f}", f.path, h.free[m].path, c));
     }

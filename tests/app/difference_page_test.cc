@@ -77,6 +77,7 @@ TEST(DifferencePage, TheFirstChannelToLeaveComesFirst) {
   EXPECT_THAT(words, HasSubstr("Something differs beyond the tolerances."));
   EXPECT_THAT(words, HasSubstr("60 of 100"));
   EXPECT_EQ(testing::CountOf(page, "<figure id="), 2u);
+  EXPECT_THAT(page, HasSubstr("now less before [mA]"));  // of 250 mA, which both curves may hide
   EXPECT_LT(page.find("A.i1: differs from 40 ms on,"), page.find("A.x: differs from 60 ms on,"));
   const auto json = DifferenceJson(d);
   EXPECT_EQ(json["first"]["channel"], "A.i1");
@@ -86,6 +87,17 @@ TEST(DifferencePage, TheFirstChannelToLeaveComesFirst) {
   EXPECT_FALSE(json["events"][1].contains("before"));
   EXPECT_NEAR(json["channels"][0]["worst"].get<double>(), 3e-6, 1e-12);
   EXPECT_EQ(json["channels"][1]["beyond"], 60);
+}
+
+// A run that bounces has events by the hundred: as many are named as channels.
+TEST(DifferencePage, ManyEventsAreCounted) {
+  const RunFiles a = StoredRun("old.h5");
+  RunFiles b = StoredRun("new.h5");
+  for (int k = 0; k < 7; ++k)
+    b.events.push_back({{"t", 0.05 + 0.001 * k}, {"kind", "touchdown"}, {"target", "A"}});
+  const std::vector<std::string> lines = DifferenceLines(Compared(a, b), 3);
+  EXPECT_EQ(lines.size(), 4u);
+  EXPECT_EQ(lines.back(), "and 4 more events");
 }
 
 TEST(DifferencePage, WithinTheTolerancesItAgreesButIsNotTheSame) {

@@ -121,6 +121,11 @@ TEST(CampbellFigure, CriticalsStandOnOneX) {
   EXPECT_TRUE(dot);
   for (const auto& trace : CampbellFigure(With({{160, 160}}, 100)).traces)
     EXPECT_NE(trace["name"], "critical speed");
+  // Nor is a crossing one that is damped too much to have a peak (0.71 of critical).
+  RigAnalysis damped = With({{60, 60}}, 100);
+  damped.criticals.at(0).mode.zeta = 0.75;
+  for (const auto& trace : CampbellFigure(damped).traces)
+    EXPECT_NE(trace["name"], "critical speed");
 }
 
 TEST(CampbellFigure, DecrementsHaveTheirLimit) {

@@ -43,6 +43,14 @@ TEST_F(Baseline, TheSameRunDiffersInNoBit) {
   EXPECT_NE(o.text.find("identical: no bit differs"), std::string::npos) << o.text;
 }
 
+// Without a baseline there is nothing to compare and no page of curves.
+TEST_F(Baseline, WithoutOneNoPageIsNamed) {
+  const Outcome o = Check();
+  EXPECT_EQ(o.exit, 1) << o.text;
+  EXPECT_NE(o.text.find("no such baseline"), std::string::npos) << o.text;
+  EXPECT_EQ(o.text.find("difference.html"), std::string::npos) << o.text;
+}
+
 TEST_F(Baseline, GainOfOnePerCent) {
   ASSERT_EQ(Check("--accept").exit, 0);
   ASSERT_EQ(Check().exit, 0);
@@ -52,6 +60,8 @@ TEST_F(Baseline, GainOfOnePerCent) {
   const Outcome diff = Ambrig("diff a/s.h5 b/s.h5 --relative 1e-4 --html d.html --json d.json");
   EXPECT_EQ(diff.exit, 1) << diff.text;
   EXPECT_NE(diff.text.find("first: "), std::string::npos) << diff.text;
+  std::istringstream lines(diff.text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
   EXPECT_NE(ReadText(folder_ / "d.html").find("largest difference"), std::string::npos);
   const Outcome check = Check("--junit c.xml");
   EXPECT_EQ(check.exit, 1) << check.text;
@@ -59,6 +69,7 @@ TEST_F(Baseline, GainOfOnePerCent) {
   EXPECT_NE(ReadText(folder_ / "base/difference.html").find("\"before\""), std::string::npos);
   EXPECT_EQ(Check("--accept").exit, 0);
   EXPECT_EQ(Check().exit, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "base/difference.html"));  // nothing differs now
 }
 
 TEST_F(Baseline, EventThatMovedByOnePeriod) {

@@ -56,6 +56,27 @@ TEST_F(Findings, AFormulaIsNotEchoedWhole) {
   ExpectOneLine(Ambrig("run s.toml --quiet"), "rig.toml:");
 }
 
+// Both windows of one side of a thrust bearing open (Z.coil1 and Z.coil2, which pull towards +z). The magnet that is
+// left pulls one way: a load against it holds the rotor up, a load along its pull drops it, and without a load nothing
+// brings it back, so that it touches without being dropped. Both coils are named, and the magnet left is used.
+TEST_F(Findings, BothWindowsOfAThrustSideLeaveOneWay) {
+  Write("rig.toml", ReferenceRigText());
+  const std::string faults =
+      "[[fault]]\ntime = 0.02\ntarget = \"Z.coil1\"\nkind = \"open\"\n"
+      "[[fault]]\ntime = 0.02\ntarget = \"Z.coil2\"\nkind = \"open\"\n";
+  const auto verdict = [&](const std::string& load) {
+    Write("s.toml", Replaced(ScenarioText(load + faults), "duration = 0.01", "duration = 0.3"));
+    const std::string text = Ambrig("run s.toml --no-report").text;
+    for (const char* said : {"classified     Z.coil1    open", "classified     Z.coil2    open",
+                             "redistributed  Z          one way"})
+      EXPECT_THAT(text, HasSubstr(said));
+    return text;
+  };
+  EXPECT_THAT(verdict("[[load]]\nplane = \"Z\"\nforce = 20.0\n"), HasSubstr("rotor stayed up"));
+  EXPECT_THAT(verdict("[[load]]\nplane = \"Z\"\nforce = -20.0\n"), HasSubstr("rotor dropped"));
+  EXPECT_THAT(verdict(""), HasSubstr("touched down, did not drop"));
+}
+
 // Springs that couple the directions one-sidedly have no critical speeds in that sense; a shaft in the air
 // has rigid motions. Neither is an error of the program.
 TEST_F(Findings, CriticalSpeedsWantSymmetricSprings) {

@@ -174,6 +174,10 @@ TEST(Fit, NamesWhatTheRecordsCannotTellApart) {
   const FitResult fit =
       Fit(c.model, c.With({LinearCase::Gain(1.01), LinearCase::Offset(1e-6)}), options);
   EXPECT_THAT(fit.warnings, ::testing::Contains(::testing::HasSubstr("are correlated by -1.000")));
+  EXPECT_EQ(std::ranges::count_if(
+                fit.warnings,
+                [](const std::string& w) { return w.find("correlated") != std::string::npos; }),
+            1);  // of a pair, not of each of its two
   EXPECT_LT(fit.ratio_fit, 0.1);
 }
 
