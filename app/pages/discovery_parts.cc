@@ -43,13 +43,22 @@ std::string StepName(const LadderStep& s) {
   return s.added.starts_with("without") ? s.added : "+ " + s.added;
 }
 
+/// Whether records were kept back from the fits; without, the second ratio is that of all, which were fitted.
+bool AnyKeptBack(const std::vector<LadderStep>& ladder) {
+  return std::ranges::any_of(ladder,
+                             [](const LadderStep& s) { return s.ratio_fit != s.ratio_validate; });
+}
+
 void LadderFigure(HtmlReport& report, const std::vector<LadderStep>& ladder) {
   Grid grid;
   grid.panel_height = 240;
   Figure figure = MakeFigure(
-      "Error over noise after each step of the identification. A step that reduces the error of "
-      "the fitted records only is overfitting; one that reduces that of the unseen records as well "
-      "generalises. At 1 only noise remains.",
+      std::string("Error over noise after each step of the identification. ") +
+          (AnyKeptBack(ladder)
+               ? "A step that reduces the error of the fitted records only is overfitting; one "
+                 "that reduces that of the unseen records as well generalises."
+               : "All records were fitted, so that overfitting would not show.") +
+          " At 1 only noise remains.",
       grid);
   std::vector<std::string> names;
   std::vector<double> fit, unseen;
@@ -59,11 +68,11 @@ void LadderFigure(HtmlReport& report, const std::vector<LadderStep>& ladder) {
     unseen.push_back(s.ratio_validate);
   }
   AddBars(figure, 0, "fitted records", names, fit, "@sky");
-  AddBars(figure, 0, "unseen records", names, unseen, "@blue");
-  for (auto it = figure.traces.end() - 2; it != figure.traces.end(); ++it) {
-    (*it)["texttemplate"] = "%{y:.3~g}";
-    (*it)["textposition"] = "outside";
-    (*it)["cliponaxis"] = false;
+  if (AnyKeptBack(ladder)) AddBars(figure, 0, "unseen records", names, unseen, "@blue");
+  for (auto& bars : figure.traces) {
+    bars["texttemplate"] = "%{y:.3~g}";
+    bars["textposition"] = "outside";
+    bars["cliponaxis"] = false;
   }
   SetAxes(figure, 0, "", "error / noise");
   AddLevel(figure, 0, 1, "noise", "@green");
@@ -149,8 +158,13 @@ void AddLadder(HtmlReport& report, const std::vector<LadderStep>& ladder) {
                          share < 0 ? "ok" : "muted")});
     last = s.ratio_validate;
   }
-  report.Table({"model", "fitted records", "unseen records", "change on unseen"}, rows,
-               "Error over noise, step by step.");
+  const bool unseen = AnyKeptBack(ladder);
+  if (!unseen)
+    for (std::vector<Cell>& row : rows) row.erase(row.begin() + 2);
+  std::vector<std::string> columns{"model", "fitted records"};
+  if (unseen) columns.push_back("unseen records");
+  columns.push_back(unseen ? "change on unseen" : "change");
+  report.Table(columns, rows, "Error over noise, step by step.");
 }
 
 std::string BlockText(const Comparison& c) {

@@ -19,11 +19,13 @@ std::string NamesOfEffects(const std::vector<EffectInstance>& effects) {
   return out;
 }
 
-std::string Evidence(const Explanation& e) {
+std::string Evidence(const Explanation& e, bool unseen) {
   return fmt::format(
-      "On records that were not used for fitting, the error falls from {:.2f} times the noise (rig "
+      "{}, the error falls from {:.2f} times the noise (rig "
       "file) to {:.2f} (rig parameters "
       "adjusted) to **{:.2f}** (final).{}",
+      unseen ? "On records that were not used for fitting"
+             : "All records were fitted, none was kept back to judge by; on them",
       e.nominal_ratio_validate, e.base_ratio_validate, e.final_ratio_validate,
       std::max(e.final_ratio_validate, e.final_ratio_fit) > 1.15
           ? " A residual remains, shown under *Residual*."
@@ -67,11 +69,11 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
                "What differs from record to record; fitted with everything else.");
 }
 
-void AddExplanationVerdict(HtmlReport& report, const Explanation& e) {
+void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen) {
   report.Heading("Verdict");
   if (e.verdict == "effect")
-    report.Verdict(Verdict::kOk,
-                   fmt::format("**Identified: {}.** {}", NamesOfEffects(e.adopted), Evidence(e)));
+    report.Verdict(Verdict::kOk, fmt::format("**Identified: {}.** {}", NamesOfEffects(e.adopted),
+                                             Evidence(e, unseen)));
   else if (e.verdict == "data")
     report.Verdict(
         Verdict::kWarn,
@@ -81,16 +83,16 @@ void AddExplanationVerdict(HtmlReport& report, const Explanation& e) {
     report.Verdict(Verdict::kInfo,
                    "**No effect is missing; the rig's parameters differ from the rig file** within "
                    "their tolerances. " +
-                       Evidence(e));
+                       Evidence(e, unseen));
   else if (e.verdict == "none")
     report.Verdict(
         Verdict::kOk,
         "**Nothing is missing**: the rig file explains the measurements within their noise. " +
-            Evidence(e));
+            Evidence(e, unseen));
   else
     report.Verdict(Verdict::kWarn,
                    "**Something is missing, and no effect of the catalogue explains it.** " +
-                       Evidence(e) + " Its description and a candidate law follow below.");
+                       Evidence(e, unseen) + " Its description and a candidate law follow below.");
   if (!e.data.empty()) report.Text(List(Faults(e)));
   AddKnown(report, e);
 }
@@ -102,11 +104,12 @@ void AddMeaning(HtmlReport& report, const Case& c, const Explanation& e) {
                               OneLine(d->physics), ParametersText(a)));
   std::size_t unseen = 0;
   for (const CaseRecord& r : c.records) unseen += r.validate ? 1 : 0;
-  report.KeyValues(
-      {{"records", fmt::format("{} fitted, {} unseen", c.records.size() - unseen, unseen)},
-       {"candidates screened", fmt::format("{}", e.screened.size())},
-       {"record simulations", fmt::format("{}", e.runs)},
-       {"time", FormatSi(e.seconds, "s")}});
+  report.KeyValues({{"records", unseen == 0 ? fmt::format("{}, all fitted", c.records.size())
+                                            : fmt::format("{} fitted, {} unseen",
+                                                          c.records.size() - unseen, unseen)},
+                    {"candidates screened", fmt::format("{}", e.screened.size())},
+                    {"record simulations", fmt::format("{}", e.runs)},
+                    {"time", FormatSi(e.seconds, "s")}});
   AddReadingHelp(report, true);
   if (!c.notes.empty()) report.Text("Left out by the data-quality pass:\n\n" + List(c.notes));
 }
@@ -194,13 +197,14 @@ void AddWarnings(HtmlReport& report, const Explanation& e) {
 void WriteExplainReport(const Case& c, const Explanation& e, const std::string& path) {
   const ExplainScene scene(c, e);
   HtmlReport report("Which effect is missing?", c.file);
-  AddExplanationVerdict(report, e);
+  const bool unseen = std::ranges::any_of(c.records, &CaseRecord::validate);
+  AddExplanationVerdict(report, e, unseen);
   AddMeaning(report, c, e);
   report.Heading("Error after each step");
   AddLadder(report, e.ladder);
   AddPlainFailure(report, scene);
-  AddRanking(report, e);
-  AddScreening(report, e);
+  AddRanking(report, e, unseen);
+  AddScreening(report, e, unseen);
   AddWhyThatOne(report, scene);
   AddCost(report, e);
   AddUnknown(report, c, e);

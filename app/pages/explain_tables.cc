@@ -35,14 +35,13 @@ std::string SecondCaption(const Explanation& e) {
 }
 
 void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,
-                  const Explanation& e, bool first_round) {
+                  const Explanation& e, bool first_round, bool unseen) {
   std::vector<std::vector<Cell>> rows;
   for (std::size_t k = 0; k < ranking.size(); ++k) {
     const RankedEffect& r = ranking[k];
-    const std::string probability = fmt::format("{:.1f} %", 100 * r.probability);
     std::vector<Cell> row = {fmt::format("{}", k + 1),
                              Cell(EffectName(r.effect), Adopted(e, r.effect) ? "ok" : ""),
-                             probability};
+                             fmt::format("{:.1f} %", 100 * r.probability)};
     if (first_round) row.push_back(fmt::format("{:.3f}", e.base_ratio_validate));
     const bool held = std::isfinite(r.fit.ratio_fit);
     row.insert(row.end(),
@@ -51,8 +50,9 @@ void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,
     rows.push_back(row);
   }
   std::vector<std::string> columns = {"", "effect", "probability"};
-  if (first_round) columns.push_back("unseen, before");
-  columns.insert(columns.end(), {first_round ? "unseen, with it" : "unseen, with it too",
+  const std::string of = unseen ? "unseen" : "all";
+  if (first_round) columns.push_back(of + ", before");
+  columns.insert(columns.end(), {of + (first_round ? ", with it" : ", with it too"),
                                  "fitted, with it", "parameters ± sd"});
   report.Table(columns, rows,
                first_round
@@ -77,7 +77,7 @@ void AboutEffect(HtmlReport& report, const RankedEffect& r, std::set<std::string
 
 }  // namespace
 
-void AddRanking(HtmlReport& report, const Explanation& e) {
+void AddRanking(HtmlReport& report, const Explanation& e, bool unseen) {
   report.Heading("Ranked candidates");
   if (e.ranking.empty()) {
     report.Text(
@@ -86,42 +86,42 @@ void AddRanking(HtmlReport& report, const Explanation& e) {
             : "None could be fitted to these records.");
     return;
   }
-  RankingTable(report, e.ranking, e, true);
-  if (!e.second_round.empty()) RankingTable(report, e.second_round, e, false);
+  RankingTable(report, e.ranking, e, true, unseen);
+  if (!e.second_round.empty()) RankingTable(report, e.second_round, e, false, unseen);
   report.Heading("Description of these effects", 3);
   std::set<std::string> told;
   for (const RankedEffect& r : e.ranking) AboutEffect(report, r, told);
   if (!e.second_round.empty()) AboutEffect(report, e.second_round.front(), told);
 }
 
-void AddScreening(HtmlReport& report, const Explanation& e) {
+void AddScreening(HtmlReport& report, const Explanation& e, bool unseen) {
   if (e.screened.empty()) return;
   report.Heading("Screening of all effects", 3);
   std::vector<std::string> names;
-  std::vector<double> unseen;
+  std::vector<double> ratios;
+  const std::string of = unseen ? "unseen records" : "all records";
   for (std::size_t k = 0; k < e.screened.size() && k < 15; ++k) {
     names.push_back(EffectName(e.screened[k].effect));
-    unseen.push_back(e.screened[k].ratio_validate);
+    ratios.push_back(e.screened[k].ratio_validate);
   }
   Grid grid;
   grid.panel_height = std::max(120, 22 * static_cast<int>(names.size()));
   Figure figure = MakeFigure(
       fmt::format("Screening: the error over noise that each effect at each target would leave on "
-                  "unseen records, estimated from a few simulations (linear). The "
-                  "best {} of {}, by fit and unseen records and the number of their parameters. "
-                  "Dashed: without any effect.",
-                  names.size(), e.screened.size()),
+                  "{}, estimated from a few simulations (linear). The best {} of {}, by {} "
+                  "and the number of their parameters. Dashed: without any effect.",
+                  of, names.size(), e.screened.size(), unseen ? "fit and unseen records" : "fit"),
       grid);
   figure.traces.push_back({{"type", "bar"},
                            {"orientation", "h"},
-                           {"name", "unseen records"},
-                           {"x", Numbers(unseen)},
+                           {"name", of},
+                           {"x", Numbers(ratios)},
                            {"y", names},
                            {"xaxis", "x"},
                            {"yaxis", "y"},
                            {"texttemplate", "%{x:.3~g}"},
                            {"marker", {{"color", "@blue"}}}});
-  SetAxes(figure, 0, "error / noise on unseen records", "");
+  SetAxes(figure, 0, "error / noise on " + of, "");
   figure.layout["yaxis"].update(
       {{"autorange", "reversed"}, {"automargin", true}, {"type", "category"}});
   figure.layout["shapes"].push_back(

@@ -223,28 +223,6 @@ TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {
   EXPECT_THAT(html, HasSubstr("120\u00a0Hz"));
 }
 
-// The snippet is read by the reader of rig files as it stands.
-TEST(FormulaSnippetText, IsAFormulaThatTheRigFileTakes) {
-  Unexplained u;
-  u.where = "plane B, worst at B.y";
-  u.dependence = "position on one side: contact at 40 degrees";
-  u.formula =
-      "force = { x = \"-k*max(0.766*x + 6.4e-1*y - c, 0)*(0.766 - mu*0.643)\", y = \"0\" }  # c = "
-      "2.1e-05 m, mu: friction";
-  const std::string text = FormulaSnippet(u);
-  EXPECT_THAT(text, HasSubstr("target = \"B\""));
-  EXPECT_THAT(text, HasSubstr("parameters.c = { value = 2.1e-05, min"));
-  EXPECT_THAT(text, Not(HasSubstr("max = {"))) << "functions are no parameters";
-  const std::string file =
-      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
-  std::ifstream in(file);
-  std::ostringstream rig;
-  rig << in.rdbuf() << "\n" << text;
-  const RigParameters read = ReadRigText(rig.str(), "rig.toml");
-  ASSERT_FALSE(read.effects.empty());
-  EXPECT_EQ(read.effects.back().table.size(), 3u);  // k, c, mu
-}
-
 TEST_F(DiscoveryReport, AdoptShowsBeforeAndAfter) {
   Case again = *case_;
   again.rig.effects.push_back(SidePull());
@@ -275,6 +253,22 @@ TEST_F(DiscoveryReport, WithoutUnseenRecordsNoErrorOfThemIsSaid) {
   EXPECT_THAT(Read(folder.File("c.html")), HasSubstr("(none is kept unseen)"));
   WriteAdoptReport(*model_, all_fitted, all_fitted, {{"", 2, 2}}, folder.File("a.html"));
   EXPECT_THAT(Read(folder.File("a.html")), HasSubstr("after (no record is kept unseen)"));
+}
+
+// Nor does explain's page speak of records that were not used for fitting.
+TEST_F(DiscoveryReport, ExplainOfRecordsThatWereAllFittedSaysSo) {
+  Case all_fitted = *case_;
+  for (CaseRecord& r : all_fitted.records) r.validate = false;
+  Explanation e = Found();
+  for (LadderStep& s : e.ladder) s.ratio_validate = s.ratio_fit;
+  const TemporaryFolder folder;
+  WriteExplainReport(all_fitted, e, folder.File("e.html"));
+  const std::string html = Read(folder.File("e.html"));
+  EXPECT_THAT(html, HasSubstr("All records were fitted, none was kept back to judge by"));
+  EXPECT_THAT(html, HasSubstr("all, with it"));
+  for (const char* untrue : {"unseen, with it", "change on unseen", "records, 0 unseen",
+                             "\"unseen records\"", "not used for fitting"})
+    EXPECT_THAT(html, Not(HasSubstr(untrue)));
 }
 
 // A model that equals the measurement but for a line of known size at order 1 gives that size.

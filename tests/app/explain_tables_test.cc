@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "app/pages/discovery_parts.h"
 #include "effects/catalogue.h"
@@ -193,6 +195,28 @@ TEST(DiscoveryParts, TheLargestRatioIsOverRecordsAndChannels) {
   c.records[1].channels = {{"A.x", 0, 0, 0, 1.0, 0}, {"A.y", 0, 0, 0, 7.0, 0}};
   EXPECT_EQ(LargestRatio(c), 7);
   EXPECT_EQ(LargestRatio({}), 0);
+}
+
+// The snippet is read by the reader of rig files as it stands.
+TEST(FormulaSnippetText, IsAFormulaThatTheRigFileTakes) {
+  Unexplained u;
+  u.where = "plane B, worst at B.y";
+  u.dependence = "position on one side: contact at 40 degrees";
+  u.formula =
+      "force = { x = \"-k*max(0.766*x + 6.4e-1*y - c, 0)*(0.766 - mu*0.643)\", y = \"0\" }  # c = "
+      "2.1e-05 m, mu: friction";
+  const std::string text = FormulaSnippet(u);
+  EXPECT_THAT(text, HasSubstr("target = \"B\""));
+  EXPECT_THAT(text, HasSubstr("parameters.c = { value = 2.1e-05, min"));
+  EXPECT_THAT(text, Not(HasSubstr("max = {"))) << "functions are no parameters";
+  const std::string file =
+      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
+  std::ifstream in(file);
+  std::ostringstream rig;
+  rig << in.rdbuf() << "\n" << text;
+  const RigParameters read = ReadRigText(rig.str(), "rig.toml");
+  ASSERT_FALSE(read.effects.empty());
+  EXPECT_EQ(read.effects.back().table.size(), 3u);  // k, c, mu
 }
 
 }  // namespace
