@@ -2,9 +2,21 @@
 
 #include "actuators/magnetics/radial_stator.h"
 #include "core/record/channels.h"
+#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
+
+std::optional<RadialBearings> TwoEightPoleBearings(const RigParameters& rig) {
+  RadialBearings pair{};
+  std::size_t found = 0;
+  for (const BearingParameters& b : rig.bearings) {
+    if (!b.kind->eight_poles) continue;
+    if (found < 2) pair[found] = &b;
+    ++found;
+  }
+  return found == 2 ? std::optional(pair) : std::nullopt;
+}
 
 std::optional<ForceSeries> MagneticForce(const Record& data, const BearingParameters& bearing,
                                          const std::vector<double>& x,

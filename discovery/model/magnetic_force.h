@@ -1,5 +1,6 @@
 #pragma once
 /// The force that measured currents make at a measured place, by the magnets of the rig file.
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -7,6 +8,11 @@
 #include "rig/rig_parameters.h"
 
 namespace ambrig {
+
+using RadialBearings = std::array<const BearingParameters*, 2>;
+
+/// The rig's two eight-pole bearings; nullopt where it has another number.
+std::optional<RadialBearings> TwoEightPoleBearings(const RigParameters& rig);
 
 /// Force on the shaft over time, both directions [N].
 struct ForceSeries {

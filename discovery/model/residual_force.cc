@@ -5,7 +5,6 @@
 
 #include "core/record/missing_samples.h"
 #include "discovery/model/magnetic_force.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_channels.h"
 
 namespace ambrig {
@@ -39,26 +38,17 @@ std::vector<double> Smooth(const std::vector<double>& y, double rate, double cut
 
 namespace {
 
-using Bearings = std::array<const BearingParameters*, 2>;
-
 /// The two radial bearings of a rigid rotor in free motion; nullopt for anything else.
-std::optional<Bearings> RadialPair(const RigParameters& rig, const Scenario& scenario) {
+std::optional<RadialBearings> RadialPair(const RigParameters& rig, const Scenario& scenario) {
   if (scenario.start == StartState::kClamped) return std::nullopt;
   if (!rig.modes.empty()) return std::nullopt;  // two sensors do not tell how a shaft is bent
-  Bearings pair{};
-  std::size_t found = 0;
-  for (const BearingParameters& b : rig.bearings) {
-    if (!b.kind->eight_poles) continue;
-    if (found < 2) pair[found] = &b;
-    ++found;
-  }
-  return found == 2 ? std::optional(pair) : std::nullopt;
+  return TwoEightPoleBearings(rig);
 }
 
 /// Readings at the two sensor planes, as motion of a rigid shaft (nominal geometry).
 class MeasuredMotion {
  public:
-  MeasuredMotion(const Record& d, const Bearings& bearings, double cutoff)
+  MeasuredMotion(const Record& d, const RadialBearings& bearings, double cutoff)
       : rate_(d.rate), cutoff_(cutoff), z_{bearings[0]->sensor.z, bearings[1]->sensor.z} {
     for (std::size_t k = 0; k < 2; ++k)
       for (const ChannelId& id : ChannelsOf(*bearings[k], ChannelKind::kReading)) {
@@ -140,7 +130,8 @@ Wrench NeededWrench(const RigParameters& rig, const Scenario& scenario, double t
 
 /// The wrench that the motion needs, as forces in the two planes, less the magnetic forces there.
 void FillMissingForce(const RigParameters& rig, const Scenario& scenario,
-                      const MeasuredMotion& motion, const Bearings& bearings, ResidualForce& out) {
+                      const MeasuredMotion& motion, const RadialBearings& bearings,
+                      ResidualForce& out) {
   const double zA = bearings[0]->z, zB = bearings[1]->z;
   const std::vector<double> axA = motion.At(zA, 0, 2), ayA = motion.At(zA, 1, 2),
                             axB = motion.At(zB, 0, 2), ayB = motion.At(zB, 1, 2);

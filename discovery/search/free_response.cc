@@ -10,7 +10,6 @@
 #include "core/math/fft.h"
 #include "core/record/missing_samples.h"
 #include "discovery/model/magnetic_force.h"
-#include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 #include "rotor/motion/linear_rotor.h"
@@ -20,7 +19,6 @@ namespace ambrig {
 namespace {
 
 using Series = FreeResponse::Series;
-using RadialBearings = std::array<const BearingParameters*, 2>;
 
 constexpr double kLowest = 20, kHighest = 2500;  // [Hz]
 constexpr double kRelativeError =
@@ -29,18 +27,6 @@ constexpr double kRelativeError =
 constexpr double kLeakage = 8;
 constexpr int kOrders = 3;         // of the speed, where an unbalance and its like may act
 constexpr double kOrderLines = 4;  // lines beside an order that a Hann window fills
-
-/// The rig's two eight-pole bearings; nullopt where it has another number.
-std::optional<RadialBearings> TwoEightPoleBearings(const RigParameters& rig) {
-  RadialBearings pair{};
-  std::size_t found = 0;
-  for (const BearingParameters& b : rig.bearings) {
-    if (!b.kind->eight_poles) continue;
-    if (found < 2) pair[found] = &b;
-    ++found;
-  }
-  return found == 2 ? std::optional(pair) : std::nullopt;
-}
 
 bool TurnsSteadily(const Scenario& s, double from, double to) {
   constexpr int kParts = 20;
