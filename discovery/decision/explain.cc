@@ -102,6 +102,8 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   if (base.ratio_validate > out_.nominal_ratio_validate &&
       base.ratio_fit > 0.999 * out_.ladder[0].ratio_fit)
     base = as_filed;
+  FitPastBursts(base);
+  PassOverBursts(base);
   out_.base_ratio_fit = base.ratio_fit;
   out_.base_ratio_validate = base.ratio_validate;
   out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
@@ -122,6 +124,10 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
       if (!AdoptBest(now, round)) break;
   Backward(base, now);
   RejudgeNames(base, now);
+  if (!out_.adopted.empty()) {
+    FitPastBursts(now);
+    if (PassOverBursts(now)) base = At(base.hypothesis);
+  }
   Polish(now);
   DropSizeless(base, now);
   DropNuisances(base, now);

@@ -22,6 +22,11 @@ class Explainer {
   /// Wrong data: nothing is fitted to them.
   void Stop(const FitResult& as_filed);
   void Search(const Hypothesis& nominal, const FitResult& as_filed);
+  /// Tries a fit without the rows where model and machine took different branches as the start of another one.
+  void FitPastBursts(FitResult& now);
+  /// Leaves out rows of unseen records where hypotheses that the fitted ones allow take different branches.
+  /// Whether there were any.
+  bool PassOverBursts(FitResult& now);
   /// Zeros, clocks and inputs that differ from record to record, where the case declares none.
   /// `alone`: before any effect is sought, when they explain half of what is left.
   bool TryNuisances(FitResult& now, bool alone);

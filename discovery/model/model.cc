@@ -123,6 +123,12 @@ void CaseModel::LeaveOut(const std::vector<SampleSpan>& spans) {
         if (span.first <= sample_[k] && sample_[k] <= span.last) sound_[k] = ok_[k] = 0;
 }
 
+void CaseModel::SetSound(std::vector<char> rows) {
+  Require(rows.size() == ok_.size(), "a flag for each row");
+  sound_ = std::move(rows);
+  ApplyHorizons();
+}
+
 bool CaseModel::touches() const {
   return std::any_of(touches_.begin(), touches_.end(), [](char t) { return t != 0; });
 }

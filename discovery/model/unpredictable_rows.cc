@@ -24,8 +24,9 @@ double RobustSd(const CaseModel& model, const std::vector<double>& d, const Targ
   return 1.4826 * *middle;
 }
 
-/// Spans that touch are one; sorted.
-std::vector<SampleSpan> Merged(std::vector<SampleSpan> spans) {
+}  // namespace
+
+std::vector<SampleSpan> MergedSpans(std::vector<SampleSpan> spans) {
   std::sort(spans.begin(), spans.end(), [](const SampleSpan& a, const SampleSpan& b) {
     return std::pair(a.record, a.first) < std::pair(b.record, b.first);
   });
@@ -37,8 +38,6 @@ std::vector<SampleSpan> Merged(std::vector<SampleSpan> spans) {
       out.push_back(s);
   return out;
 }
-
-}  // namespace
 
 std::vector<SampleSpan> UnpredictableRows(const CaseModel& model, const std::vector<double>& d1,
                                           const std::vector<double>& d2) {
@@ -58,7 +57,7 @@ std::vector<SampleSpan> UnpredictableRows(const CaseModel& model, const std::vec
       continue;
     spans.insert(spans.end(), of_channel.begin(), of_channel.end());
   }
-  return Merged(std::move(spans));
+  return MergedSpans(std::move(spans));
 }
 
 }  // namespace ambrig

@@ -13,6 +13,9 @@ struct SampleSpan {
   std::size_t record = 0, first = 0, last = 0;
 };
 
+/// Spans that touch or overlap are one; sorted by record and instant.
+std::vector<SampleSpan> MergedSpans(std::vector<SampleSpan> spans);
+
 /// Where one of two noisy predictions departs from the clean one by more than five times the robust
 /// sd (median absolute deviation) of its channel, 0.5 ms before and after included, sorted by record and
 /// instant. A channel that does so in more than one row of fifty is noisy in parts, not unpredictable at

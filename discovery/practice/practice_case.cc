@@ -11,6 +11,7 @@
 #include "discovery/model/floor.h"
 #include "discovery/practice/drawn_truth.h"
 #include "discovery/practice/laws/practice_law.h"
+#include "discovery/practice/loop_margin.h"
 #include "discovery/practice/measured_case.h"
 #include "discovery/practice/practice_surroundings.h"
 #include "discovery/practice/spoil.h"
@@ -25,6 +26,7 @@ namespace ambrig {
 namespace {
 
 constexpr int kAttempts = 12;
+constexpr double kMostNoise = 4;  // that laws may make of the noise of a channel, times
 
 /// Streams of random numbers of one case.
 enum PracticeStream : std::uint32_t { kChoice = 201, kLaw = 210, kMistake = 230 };
@@ -94,6 +96,7 @@ class PracticeMaker {
     out_.data = EmptyCase(believed_, out_.records);
     const bool exact = out_.kind == "nothing" && Ordinal(number_) % 2 == 1;
     truth_.rig = exact ? believed_ : DrawRig(believed_, seed_);
+    RequireLoopMargin(truth_.rig);
     surroundings_ = DrawSurroundings(believed_, seed_);
     out_.noise = surroundings_.noise_mode;
     out_.nuisances = surroundings_.nuisance_mode;
@@ -153,6 +156,17 @@ class PracticeMaker {
     truth_.rig.effects = all;
     if (laws_.size() > 1 && !model.Predict(truth_))
       throw InputError(out_.name + ": the two laws together lose the rotor");
+    if (!laws_.empty()) RequireCalm(model);
+  }
+
+  /// A law that brings the loops to the edge of stability leaves records of noise and initial states.
+  void RequireCalm(const CaseModel& quiet) const {
+    CaseModel model(out_.data);
+    model.stop = stop_;
+    FindFloor(model, truth_);
+    for (std::size_t t = 0; t < quiet.targets().size(); ++t)
+      if (model.targets()[t].floor > kMostNoise * quiet.targets()[t].floor)
+        throw InputError(out_.name + ": with its laws the loop passes too much noise");
   }
 
   void Mistake() {
