@@ -16,6 +16,7 @@ constexpr double kMoves = 8;             // floors: a column that moves less tel
 constexpr double kLeast = 5e-4;          // [s]: a smaller shift is a matter of the fit
 constexpr double kLeastColumn = 1e-3;    // [s], of a single column: electronics delay too
 constexpr double kMostShift = 0.2;       // of the record
+constexpr double kEarly = 0.03;          // of the record: a shift from there on is one of all rows
 constexpr std::size_t kColumns = 5;      // that move most are looked at
 constexpr std::size_t kGateRows = 6000;  // about: longer records are thinned
 
@@ -70,7 +71,7 @@ DataFault TimeFault(const CaseRecord& r, const std::string& channel, const Found
   DataFault f;
   f.record = r.data_file;
   f.channel = channel;
-  const bool lost = s.from > 0.03 * length && s.late < 0;
+  const bool lost = s.from > kEarly * length && s.late < 0;
   f.fault = lost ? "lost" : "lag";
   f.seconds = lost ? -s.late : s.late;
   f.probability = std::clamp(1 - s.left * s.left, 0.5, 0.999);
@@ -109,7 +110,10 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
         c.match.error < 0.1 * c.match.predicted_move)
       continue;
     const FoundShift s = ShiftOf({&c}, r.data.rate);
-    if (std::abs(s.late) >= kLeastColumn && s.left < 0.3) late.emplace_back(&c, s);
+    // rows are lost in all columns at once: what is late in one column is late from its first row on
+    const double length = static_cast<double>(r.data.rows()) / r.data.rate;
+    if (std::abs(s.late) >= kLeastColumn && s.left < 0.3 && s.from <= kEarly * length)
+      late.emplace_back(&c, s);
   }
   // a rig that is late is so in all its columns; a logger's own delay is in one or two
   if (late.size() > 2) return;

@@ -237,6 +237,16 @@ TEST(DataGate, ZerosOfHeldSensorsAreNoExchange) {
   }
 }
 
+// A logger loses rows of all columns at once. One column that runs ahead from some instant on shows what the machine
+// did, for example a load that a rub carries in the magnet's place.
+TEST(DataGate, OneColumnLosesNoRows) {
+  Case c = Measured();
+  Samples& i = SamplesOf(c, kSteps, "B.i1");
+  const auto at = static_cast<std::ptrdiff_t>(i.size() / 4);
+  std::copy(i.begin() + at + 400, i.end(), i.begin() + at);
+  for (const DataFault& f : FaultsOf(c)) EXPECT_NE(f.fault, "lost") << FaultText(f);
+}
+
 // A sensor that adds hum where the model expects nothing but noise: no factor of a thousand.
 TEST(DataGate, HumIsNoUnit) {
   Case c = Measured();
