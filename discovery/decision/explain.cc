@@ -109,10 +109,13 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
   const FitResult bare = base;
   if (TryNuisances(base, true)) {
-    if (OneEffectInstead(bare, base))
+    if (OneEffectInstead(bare, base)) {
       base = bare;
-    else
+    } else {
       first_fall_ = std::pow(bare.ratio_validate, 2) - std::pow(base.ratio_validate, 2);
+      FitPastBursts(base);  // they are seen now that the rest is explained
+      PassOverBursts(base);
+    }
   }
   if (options_.clocks && FindLateRows(base)) return;
   FitResult now = base;
