@@ -14,6 +14,7 @@
 #include "app/commands/screen.h"
 #include "app/commands/work_size.h"
 #include "app/json/discovery_json.h"
+#include "app/pages/discovery_parts.h"
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
@@ -113,9 +114,14 @@ void PrintFindings(const Explanation& e) {
   for (const std::string& w : e.warnings) PrintWrapped("  warning: " + w);
 }
 
-/// The command that writes the first name into a rig file.
+/// The commands that tell the names apart, where there are several, and that write the first into a rig file.
 void PrintNextCommand(const Explanation& e, const std::string& file) {
   if (e.verdict != "effect" || e.adopted.empty()) return;
+  std::string names;
+  int count = 0;
+  for (const SetMember& m : e.set)
+    if (!m.target.empty() && ++count <= 2) names += fmt::format(" {}@{}", m.effect, m.target);
+  if (count > 1) fmt::print("to tell them apart: ambrig plan {} --between{}\n", file, names);
   fmt::print("to add it to the rig file: ambrig adopt {} {} --target {}\n", file, e.adopted[0].name,
              e.adopted[0].target);
 }
@@ -132,9 +138,12 @@ void PrintExplanation(const Explanation& e, bool unseen) {
     fmt::print("one more effect, after the first was adopted:\n");
     PrintRanking(e.second_round, 3, unseen);
   }
-  fmt::print(
-      "verdict: {}\n",
-      Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"));
+  fmt::print("verdict: {}\n", Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ||
+                                                          !DoubtText(e).empty()
+                                                      ? "yellow"
+                                                      : "green"));
+  if (const std::string doubt = DoubtText(e); e.verdict == "effect" && !doubt.empty())
+    PrintWrapped("  " + doubt + ": " + AnswerText(e), 4);
   PrintWrapped("  " + e.remainder.text, 2);
   if (const std::string why = WhyNot(e); !why.empty()) PrintWrapped("  " + why, 2);
   PrintFindings(e);

@@ -12,13 +12,6 @@
 namespace ambrig {
 namespace {
 
-std::string NamesOfEffects(const std::vector<EffectInstance>& effects) {
-  std::string out;
-  for (std::size_t k = 0; k < effects.size(); ++k)
-    out += (k > 0 ? " and " : "") + EffectName(effects[k]);
-  return out;
-}
-
 std::string Evidence(const Explanation& e, bool unseen) {
   return fmt::format(
       "{}, the error falls from {:.2f} times the noise (rig "
@@ -71,9 +64,12 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
 
 void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen) {
   report.Heading("Verdict");
+  const std::string doubt = DoubtText(e);
   if (e.verdict == "effect")
-    report.Verdict(Verdict::kOk, fmt::format("**Identified: {}.** {}", NamesOfEffects(e.adopted),
-                                             Evidence(e, unseen)));
+    report.Verdict(doubt.empty() ? Verdict::kOk : Verdict::kWarn,
+                   fmt::format("**{}: {}.** {}",
+                               doubt.empty() ? "Identified" : "An effect is missing, and " + doubt,
+                               AnswerText(e), Evidence(e, unseen)));
   else if (e.verdict == "data")
     report.Verdict(
         Verdict::kWarn,

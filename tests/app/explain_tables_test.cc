@@ -160,6 +160,28 @@ TEST(DiscoveryParts, ValuesAndTheirSdHaveOneUnit) {
   EXPECT_THAT(ParametersText(Gain(1.08, 0.002)), HasSubstr("gain = 1.08"));
 }
 
+TEST(DiscoveryParts, NamesThatASetLeavesOpen) {
+  Explanation e;
+  e.adopted = {Gain(1.08, 0.002)};
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x");  // judged by nothing else
+  e.set = {{"sensor-gain", "A.x", 0.97}};
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x");
+  EXPECT_EQ(DoubtText(e), "");
+  e.set = {{"sensor-gain", "A.x", 0.56}, {"unknown", "", 0.42}};
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x (56 %) or no effect of the catalogue (42 %)");
+  EXPECT_EQ(DoubtText(e), "no effect is certain");
+  e.set = {{"sensor-gain", "A.x", 0.5}, {"side-pull", "A", 0.5}};
+  EXPECT_EQ(DoubtText(e), "more than one effect remains");
+  // A further effect has a set of its own.
+  e.set = {{"sensor-gain", "A.x", 0.97}};
+  e.adopted.push_back(MakeInstance(EffectNamed("sensor-offset"), "B.y"));
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x and sensor-offset at B.y");
+  e.further_sets["sensor-offset at B.y"] = {{"sensor-offset", "B.y", 0.6}, {"bow", "rig", 0.4}};
+  EXPECT_EQ(AnswerText(e),
+            "sensor-gain at A.x and sensor-offset at B.y (60 %) or bow at rig (40 %)");
+  EXPECT_EQ(DoubtText(e), "more than one effect remains");
+}
+
 TEST(DiscoveryParts, TheLadderNamesEveryStep) {
   const std::string html = TablesPage([](HtmlReport& r) {
     AddLadder(r, {{"", 9, 8},
