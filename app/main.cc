@@ -48,7 +48,7 @@ class NarrowHelp : public CLI::Formatter {
 };
 
 /// Words that people type for a command whose name is spelt otherwise.
-constexpr std::pair<std::string_view, const char*> kOtherWords[] = {
+constexpr std::pair<std::string_view, const char*> kWordsForCommands[] = {
     {"workbench", "serve"},  {"gui", "serve"},        {"web", "serve"},
     {"simulate", "run"},     {"convert", "rotor"},    {"sweep", "campaign"},
     {"optimise", "design"},  {"optimize", "design"},  {"validation", "validate"},
@@ -57,7 +57,7 @@ constexpr std::pair<std::string_view, const char*> kOtherWords[] = {
 
 /// The command that was probably meant, "" where none is near.
 std::string Meant(const std::string& word, const std::string& names) {
-  for (const auto& [other, command] : kOtherWords)
+  for (const auto& [other, command] : kWordsForCommands)
     if (word == other) return command;
   return ambrig::Nearest(word, names);
 }
