@@ -14,7 +14,6 @@
 #include "app/commands/screen.h"
 #include "app/commands/work_size.h"
 #include "app/json/discovery_json.h"
-#include "app/pages/discovery_parts.h"
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
@@ -55,23 +54,6 @@ void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most, bo
     if (const std::string text = ShortParametersText(r.effect); !text.empty())
       PrintWrapped("       " + text, 7);
   }
-}
-
-/// Why the first of the ranking was not taken, where it was not.
-std::string WhyNot(const Explanation& e) {
-  if (e.ranking.empty() || !e.adopted.empty() || e.verdict == "effect") return "";
-  const RankedEffect& best = e.ranking.front();
-  const std::string name = best.effect.name + " at " + best.effect.target;
-  if (e.verdict == "unknown")
-    return fmt::format(
-        "{} is not adopted: with it {:.2f} times the noise is left on the fitted and {:.2f} on the "
-        "unseen records, which the noise alone does not make. Its probability counts only the "
-        "candidates listed.",
-        name, best.fit.ratio_fit, best.fit.ratio_validate);
-  return fmt::format(
-      "{} is not adopted: without it the rig file and its tolerances explain the records to {:.3f} "
-      "of the noise, with it to {:.3f}.",
-      name, e.base_ratio_validate, best.fit.ratio_validate);
 }
 
 std::string SetText(const std::vector<SetMember>& set) {
@@ -145,7 +127,7 @@ void PrintExplanation(const Explanation& e, bool unseen) {
   if (const std::string doubt = DoubtText(e); e.verdict == "effect" && !doubt.empty())
     PrintWrapped("  " + doubt + ": " + AnswerText(e), 4);
   PrintWrapped("  " + e.remainder.text, 2);
-  if (const std::string why = WhyNot(e); !why.empty()) PrintWrapped("  " + why, 2);
+  if (const std::string why = WhyNot(e, unseen); !why.empty()) PrintWrapped("  " + why, 2);
   PrintFindings(e);
   if (e.verdict == "unknown") {
     PrintWrapped("  " + e.unexplained.text, 2);

@@ -220,44 +220,6 @@ std::string EffectName(const EffectInstance& e) {
   return e.name + (e.label.empty() ? "" : " (" + e.label + ")") + " at " + e.target;
 }
 
-namespace {
-
-/// The 95 % set of an adopted effect: the ranking's for the first, its own for a further one.
-std::vector<SetMember> SetOf(const Explanation& e, std::size_t adopted) {
-  if (adopted == 0) return e.set;
-  const auto further = e.further_sets.find(Named(e.adopted[adopted]));
-  return further == e.further_sets.end() ? std::vector<SetMember>{} : further->second;
-}
-
-}  // namespace
-
-std::string AnswerText(const Explanation& e) {
-  std::string text;
-  for (std::size_t k = 0; k < e.adopted.size(); ++k) {
-    const std::vector<SetMember> set = SetOf(e, k);
-    std::string names;
-    for (const SetMember& m : set)
-      names += fmt::format(
-          "{}{} ({:.0f} %)", names.empty() ? "" : " or ",
-          m.target.empty() ? "no effect of the catalogue" : m.effect + " at " + m.target,
-          100 * m.probability);
-    text += (k > 0 ? " and " : "") + (set.size() > 1 ? names : EffectName(e.adopted[k]));
-  }
-  return text;
-}
-
-std::string DoubtText(const Explanation& e) {
-  std::string text;
-  for (std::size_t k = 0; k < e.adopted.size(); ++k) {
-    const std::vector<SetMember> set = SetOf(e, k);
-    const auto effects =
-        std::count_if(set.begin(), set.end(), [](const SetMember& m) { return !m.target.empty(); });
-    if (effects > 1) return "more than one effect remains";
-    if (set.size() > 1) text = "no effect is certain";
-  }
-  return text;
-}
-
 std::string ValueText(double value, double sd, const std::string& unit) {
   if (!(sd > 0) || !std::isfinite(sd)) return FormatSi(value, unit);
   const bool prefixed =

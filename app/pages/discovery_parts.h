@@ -42,12 +42,6 @@ std::string List(const std::vector<std::string>& lines);
 std::string EffectName(const EffectInstance& e);
 /// "3.20 ± 0.14 kHz", both in one unit; the sd is left out where unknown.
 std::string ValueText(double value, double sd, const std::string& unit);
-/// The names that the 95 % sets of the verdict "effect" leave: "side-pull at A", or "side-pull at A (52 %) or
-/// sensor-gain at A.x (46 %)" where a set holds more than one; several effects are joined by "and".
-std::string AnswerText(const Explanation& e);
-/// "" where every set holds one name; else "more than one effect remains" or, where it is one effect and none of the
-/// catalogue, "no effect is certain".
-std::string DoubtText(const Explanation& e);
 /// "cutoff = 3.2 ± 0.1 kHz, path = ..."
 std::string ParametersText(const EffectInstance& e);
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/pages/discovery_parts.h"
+#include "app/pages/discovery_report.h"
 #include "effects/catalogue.h"
 #include "rig/rig_file.h"
 #include "tests/app/html_page.h"
@@ -160,7 +161,7 @@ TEST(DiscoveryParts, ValuesAndTheirSdHaveOneUnit) {
   EXPECT_THAT(ParametersText(Gain(1.08, 0.002)), HasSubstr("gain = 1.08"));
 }
 
-TEST(DiscoveryParts, NamesThatASetLeavesOpen) {
+TEST(ExplainText, NamesThatASetLeavesOpen) {
   Explanation e;
   e.adopted = {Gain(1.08, 0.002)};
   EXPECT_EQ(AnswerText(e), "sensor-gain at A.x");  // judged by nothing else
@@ -180,6 +181,24 @@ TEST(DiscoveryParts, NamesThatASetLeavesOpen) {
   EXPECT_EQ(AnswerText(e),
             "sensor-gain at A.x and sensor-offset at B.y (60 %) or bow at rig (40 %)");
   EXPECT_EQ(DoubtText(e), "more than one effect remains");
+}
+
+// A probability of 1.000 among the candidates is no adoption: the terminal says why not, as the page does.
+TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
+  Explanation e;
+  e.ranking = {Ranked(Gain(1.08, 0.002), 1, 3.5)};
+  e.verdict = "unknown";
+  EXPECT_EQ(WhyNot(e, true),
+            "sensor-gain at A.x is not adopted: with it 3.50 times the noise is left on the fitted "
+            "and 3.50 on the unseen records, which the noise alone does not make. Its probability "
+            "counts only the candidates listed.");
+  EXPECT_THAT(WhyNot(e, false), Not(HasSubstr("unseen")));
+  e.verdict = "parameters";
+  e.base_ratio_validate = 1.031;
+  EXPECT_THAT(WhyNot(e, true), HasSubstr("explain the records to 1.031 of the noise, with it to"));
+  e.verdict = "effect";
+  e.adopted = {e.ranking[0].effect};
+  EXPECT_EQ(WhyNot(e, true), "");
 }
 
 TEST(DiscoveryParts, TheLadderNamesEveryStep) {
