@@ -237,7 +237,10 @@ int MakeBench(NewCommand o) {
     fmt::print("written: {}\n", paths[k]);
   }
   o.common.WriteJson(BenchJson(paths, choices));
-  if (o.only_files) return 0;
+  if (o.only_files) {
+    fmt::print("now: ambrig {}\n", records.empty() ? "run " + paths[1] : "compare " + paths.back());
+    return 0;
+  }
   if (records.empty()) return RunAmbrig({"run", paths[1], "--out", (folder / "out").string()});
   return RunAmbrig({"compare", paths.back(), "--html", (folder / "compare.html").string()});
 }

@@ -27,6 +27,7 @@ const BadCommand kCommands[] = {
     {"run s.toml --rate 0", "allowed: 0.001 to 1e+09 Hz"},
     {"run s.toml --rate -1", "allowed: 0.001 to 1e+09 Hz"},
     {"run s.toml --rate fast", "allowed: 0.001 to 1e+09 Hz"},
+    {"run s.toml --rate 1e9", "--rate = 1000000000 Hz, allowed: the switching frequency"},
     {"run s.toml --rate 13000", "--rate = 13000 Hz, allowed: the switching frequency"},
     {"run s.toml --fidelity exact", "switching"},
     {"run s.toml --json /no/such/x.json", "cannot write /no/such/x.json"},
