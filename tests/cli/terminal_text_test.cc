@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "core/record/hdf5.h"
 #include "tests/cli/work_folder.h"
@@ -105,6 +106,24 @@ TEST_F(TerminalText, AnAnalysisSaysItsZonesAndOnlyTrueCriticals) {
   EXPECT_GT(crossings, peaks) << "this rig does not test it";
   EXPECT_EQ(printed, peaks);
   ExpectEightyColumns(o.text);
+}
+
+TEST_F(TerminalText, ADesignHasUnits) {
+  const Outcome o = Ambrig("design examples/design/small.toml -o study --no-report");
+  EXPECT_EQ(o.exit, 0) << o.text;
+  EXPECT_THAT(o.text, ContainsRegex("load: orbit +[0-9.]+ um\n"));
+  ExpectEightyColumns(o.text);
+}
+
+// "tells nothing from X" reads as if it told nothing.
+TEST_F(TerminalText, APlanSaysWhatARecordTellsApart) {
+  const Outcome o =
+      Ambrig("plan rig.toml --learn side-pull@A cross-coupling@A --draws 0 -o p.toml");
+  EXPECT_EQ(o.exit, 0) << o.text;
+  const std::string words = std::regex_replace(o.text, std::regex("\\s+"), " ");
+  EXPECT_THAT(words, HasSubstr("- tells side-pull at A from no effect with a probability of"));
+  EXPECT_THAT(words, HasSubstr("- tells side-pull at A from cross-coupling at A with"));
+  EXPECT_THAT(words, Not(HasSubstr("tells nothing")));
 }
 
 // The set-points of a run with these coils open are W of what is printed times (c0, vx, vy).
