@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -46,17 +47,55 @@ class NarrowHelp : public CLI::Formatter {
   }
 };
 
-/// What is wrong with a command line: a command that does not exist is named before all else.
+/// Words that people type for a command whose name is spelt otherwise.
+constexpr std::pair<std::string_view, const char*> kWordsForCommands[] = {
+    {"workbench", "serve"},  {"gui", "serve"},        {"web", "serve"},
+    {"simulate", "run"},     {"convert", "rotor"},    {"sweep", "campaign"},
+    {"optimise", "design"},  {"optimize", "design"},  {"validation", "validate"},
+    {"identify", "explain"}, {"diagnose", "explain"}, {"help", "--help"},
+    {"version", "--version"}};
+
+/// The command that was probably meant, "" where none is near.
+std::string Meant(const std::string& word, const std::string& names) {
+  for (const auto& [other, command] : kWordsForCommands)
+    if (word == other) return command;
+  return ambrig::Nearest(word, names);
+}
+
+/// The first of the arguments that a command has no place for, as they were typed; "" where there is none.
+std::string ExtraComplaint(const CLI::App& app, const CLI::App& command) {
+  const std::vector<std::string> extra = app.remaining(true);
+  const auto option = std::find_if(extra.begin(), extra.end(), [](const std::string& word) {
+    return word.size() > 1 && word[0] == '-';
+  });
+  const std::string call = "ambrig" + (&command == &app ? std::string() : " " + command.get_name());
+  if (option == extra.end())
+    return extra.empty() ? "" : fmt::format("{}: one argument more than {} takes", extra[0], call);
+  std::string names;
+  for (const CLI::Option* o : command.get_options())
+    for (const std::string& name : o->get_lnames()) names += (names.empty() ? "--" : ", --") + name;
+  const std::string near = ambrig::Nearest(option->substr(0, option->find('=')), names);
+  return fmt::format("{} is no option of {}{}", *option, call,
+                     near.empty() ? "" : fmt::format(", did you mean {}?", near));
+}
+
+/// What is wrong with a command line: a command that does not exist is named before all else, then what stands there
+/// beyond a command's arguments, then what is missing.
 std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>& arguments,
-                            const std::string& error) {
-  if (arguments.empty() || arguments[0].starts_with('-')) return error + " (see ambrig --help)";
+                            const CLI::ParseError& e) {
+  const auto told = [&](const CLI::App& command, const std::string& help) {
+    const bool counted = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr ||
+                         dynamic_cast<const CLI::RequiredError*>(&e) != nullptr;
+    const std::string extra = counted ? ExtraComplaint(app, command) : "";
+    return fmt::format("{} (see ambrig {})", extra.empty() ? e.what() : extra, help);
+  };
+  if (arguments.empty() || arguments[0].starts_with('-')) return told(app, "--help");
   std::string names;
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (sub->check_name(arguments[0]))
-      return fmt::format("{} (see ambrig {} --help)", error, arguments[0]);
+    if (sub->check_name(arguments[0])) return told(*sub, arguments[0] + " --help");
     names += (names.empty() ? "" : ", ") + sub->get_name();
   }
-  const std::string near = ambrig::Nearest(arguments[0], names);
+  const std::string near = Meant(arguments[0], names);
   return fmt::format("{} is no command{}; allowed: {}", arguments[0],
                      near.empty() ? "" : fmt::format(", did you mean {}?", near), names);
 }
@@ -87,8 +126,7 @@ int Main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    fmt::print(stderr, "ambrig: {}\n",
-               ambrig::PrintableLine(OptionComplaint(app, arguments, e.what())));
+    fmt::print(stderr, "ambrig: {}\n", ambrig::PrintableLine(OptionComplaint(app, arguments, e)));
     return 2;
   }
   if (work) return work();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
@@ -27,7 +28,8 @@ std::string Rest(const CrosscheckRun& run) {
   std::string text;
   for (std::size_t b = 0; b < run.figures.rest.size(); ++b)
     text += fmt::format("{}{} ({:.0f}, {:.0f})", b > 0 ? "  " : "", run.paths.bearings[b].bearing,
-                        run.figures.rest[b][0] * 1e6, run.figures.rest[b][1] * 1e6);
+                        std::round(run.figures.rest[b][0] * 1e6) + 0.0,  // not -0
+                        std::round(run.figures.rest[b][1] * 1e6) + 0.0);
   return text;
 }
 

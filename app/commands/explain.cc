@@ -56,23 +56,6 @@ void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most, bo
   }
 }
 
-/// Why the first of the ranking was not taken, where it was not.
-std::string WhyNot(const Explanation& e) {
-  if (e.ranking.empty() || !e.adopted.empty() || e.verdict == "effect") return "";
-  const RankedEffect& best = e.ranking.front();
-  const std::string name = best.effect.name + " at " + best.effect.target;
-  if (e.verdict == "unknown")
-    return fmt::format(
-        "{} is not adopted: with it {:.2f} times the noise is left on the fitted and {:.2f} on the "
-        "unseen records, which the noise alone does not make. Its probability counts only the "
-        "candidates listed.",
-        name, best.fit.ratio_fit, best.fit.ratio_validate);
-  return fmt::format(
-      "{} is not adopted: without it the rig file and its tolerances explain the records to {:.3f} "
-      "of the noise, with it to {:.3f}.",
-      name, e.base_ratio_validate, best.fit.ratio_validate);
-}
-
 std::string SetText(const std::vector<SetMember>& set) {
   std::string text;
   for (const SetMember& m : set)
@@ -113,9 +96,14 @@ void PrintFindings(const Explanation& e) {
   for (const std::string& w : e.warnings) PrintWrapped("  warning: " + w);
 }
 
-/// The command that writes the first name into a rig file.
+/// The commands that tell the names apart, where there are several, and that write the first into a rig file.
 void PrintNextCommand(const Explanation& e, const std::string& file) {
   if (e.verdict != "effect" || e.adopted.empty()) return;
+  std::string names;
+  int count = 0;
+  for (const SetMember& m : e.set)
+    if (!m.target.empty() && ++count <= 2) names += fmt::format(" {}@{}", m.effect, m.target);
+  if (count > 1) fmt::print("to tell them apart: ambrig plan {} --between{}\n", file, names);
   fmt::print("to add it to the rig file: ambrig adopt {} {} --target {}\n", file, e.adopted[0].name,
              e.adopted[0].target);
 }
@@ -132,11 +120,14 @@ void PrintExplanation(const Explanation& e, bool unseen) {
     fmt::print("one more effect, after the first was adopted:\n");
     PrintRanking(e.second_round, 3, unseen);
   }
-  fmt::print(
-      "verdict: {}\n",
-      Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ? "yellow" : "green"));
+  fmt::print("verdict: {}\n", Coloured(e.verdict, e.verdict == "unknown" || e.verdict == "data" ||
+                                                          !DoubtText(e).empty()
+                                                      ? "yellow"
+                                                      : "green"));
+  if (const std::string doubt = DoubtText(e); e.verdict == "effect" && !doubt.empty())
+    PrintWrapped("  " + doubt + ": " + AnswerText(e), 4);
   PrintWrapped("  " + e.remainder.text, 2);
-  if (const std::string why = WhyNot(e); !why.empty()) PrintWrapped("  " + why, 2);
+  if (const std::string why = WhyNot(e, unseen); !why.empty()) PrintWrapped("  " + why, 2);
   PrintFindings(e);
   if (e.verdict == "unknown") {
     PrintWrapped("  " + e.unexplained.text, 2);

@@ -182,6 +182,12 @@ std::vector<ColumnChoice> AddBenchRecords(const NewCommand& o, const RigParamete
   return taken;
 }
 
+/// What to do with the files that were written; 0.
+int TellNext(const char* command, const std::string& file) {
+  fmt::print("now: ambrig {} {}\n", command, file);
+  return 0;
+}
+
 int MakeBench(NewCommand o) {
   o.common.CheckOutputs({o.answers});
   if (o.list) return ListQuestions(o.common);
@@ -237,9 +243,10 @@ int MakeBench(NewCommand o) {
     fmt::print("written: {}\n", paths[k]);
   }
   o.common.WriteJson(BenchJson(paths, choices));
-  if (o.only_files) return 0;
-  if (records.empty()) return RunAmbrig({"run", paths[1], "--out", (folder / "out").string()});
-  return RunAmbrig({"compare", paths.back(), "--html", (folder / "compare.html").string()});
+  const std::string next = records.empty() ? paths[1] : paths.back();
+  if (o.only_files) return TellNext(records.empty() ? "run" : "compare", next);
+  if (records.empty()) return RunAmbrig({"run", next, "--out", (folder / "out").string()});
+  return RunAmbrig({"compare", next, "--html", (folder / "compare.html").string()});
 }
 
 }  // namespace

@@ -178,13 +178,10 @@ int RunPractice(PracticeCommand o) {
   o.setting.shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
   o.setting.folder = o.out;
   o.common.CheckOutputs(o.rigs, {o.fit});
-  std::vector<std::string> files{"answers.toml", "report.html"};
-  for (std::size_t k = 0; k < o.setting.cases; ++k)
-    for (const char* file : {"/case.toml", "/rig.toml"})
-      files.push_back(NameOfPracticeCase(k) + file);
-  PrepareStudyFolder(o.out, files, o.common.force);
+  PrepareStudyFolder(o.out, {"answers.toml", "report.html"}, o.common.force);
   const auto finished = FinishedCases(o.setting);
   const auto pending = PendingCases(o.setting, finished);
+  if (!o.report_only) RefuseOverwriting(FilesOfCases(o.out, pending), o.common.force);
   if (!finished.empty())
     fmt::print("{}: resumed, {} done before\n", o.out, Counted(finished.size(), "case"));
   if (!o.report_only) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/commands/commands.h"
+#include "app/commands/outputs.h"
 #include "app/json/discovery_json.h"
 #include "app/json/practice_json.h"
 #include "core/base/atomic_file.h"
@@ -89,6 +90,23 @@ std::vector<std::size_t> PendingCases(const PracticeSetting& setting,
   return out;
 }
 
+std::vector<std::string> FilesOfCases(const std::string& folder,
+                                      const std::vector<std::size_t>& cases) {
+  std::vector<std::string> out;
+  for (const std::size_t k : cases) {
+    const fs::path inside = fs::path(folder) / NameOfPracticeCase(k);
+    if (const std::string answer = inside.string() + kAnswerEnding; fs::exists(answer))
+      out.push_back(answer);
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(inside, error)) {
+      const std::string name = entry.path().filename().string();
+      if (name == "case.toml" || name == "rig.toml" || name.starts_with("record-"))
+        out.push_back(entry.path().string());
+    }
+  }
+  return out;
+}
+
 void WritePracticeCase(const PracticeCase& c, const std::string& folder) {
   const fs::path inside = fs::path(folder) / c.name;
   fs::create_directories(inside);
@@ -101,7 +119,8 @@ void WritePracticeCase(const PracticeCase& c, const std::string& folder) {
   }
   WriteMarkedText((inside / "rig.toml").string(), "practice", c.rig_text);
   WriteMarkedText((inside / "case.toml").string(), "practice", c.case_text);
-  WriteFileAtomically((fs::path(folder) / (c.name + kAnswerEnding)).string(), c.answer_text);
+  WriteMarkedText((fs::path(folder) / (c.name + kAnswerEnding)).string(), "practice",
+                  c.answer_text);
 }
 
 PracticeResult RunPracticeCase(const PracticeSetting& setting, std::size_t number, bool make_only,
@@ -139,7 +158,7 @@ void JoinAnswers(const std::string& folder) {
   std::sort(files.begin(), files.end());
   std::string text = "# made by ambrig practice: what each case hides\n";
   for (const fs::path& f : files) text += "\n" + ReadFile(f.string());
-  WriteFileAtomically((fs::path(folder) / "answers.toml").string(), text);
+  WriteMarkedText((fs::path(folder) / "answers.toml").string(), "practice", text);
 }
 
 }  // namespace ambrig

@@ -40,6 +40,10 @@ struct PracticeCaseNotMade : InputError {
 std::vector<std::size_t> PendingCases(const PracticeSetting& setting,
                                       const std::map<std::string, PracticeResult>& finished);
 
+/// What the folder holds of the files that making these cases writes.
+std::vector<std::string> FilesOfCases(const std::string& folder,
+                                      const std::vector<std::size_t>& cases);
+
 /// Writes folder/NAME/{rig,case,record-*}.toml, record-*.h5 and folder/NAME.answer.toml.
 void WritePracticeCase(const PracticeCase& c, const std::string& folder);
 

@@ -34,7 +34,7 @@ void PrintRefinement(const Refinement& r, const std::string& output) {
     fmt::print("  {:>12.4g} {:>12.4g} {:>10.2g} {:>8.2f} {:>12.4g}{}\n", p.u, p.value, p.sd,
                p.support, p.named, p.visited ? "" : "  not visited");
   }
-  fmt::print("{}\n", SupportText(r));
+  fmt::print("{}\n", TerminalText(SupportText(r)));
   fmt::print("error over noise (1: only noise is left):\n");
   for (const LadderStep& s : r.ladder)
     fmt::print("  {:<34} fit {:8.3f}   {} {:8.3f}\n", s.added, s.ratio_fit, unseen,

@@ -25,9 +25,13 @@ void PrintRig(const RigParameters& rig) {
                fmt::join(b.Axes(), " "));
   for (const Tolerance& t : rig.tolerances) {
     const double* value = ParameterAt(rig, t.path);
-    if (value)
-      fmt::print("{:<44} {:>12.6g} sd {:.2g}{}\n", t.path, *value, t.sd,
-                 std::isnan(t.true_value) ? "" : fmt::format(", fitted {:.6g}", t.true_value));
+    if (!value) continue;
+    double lo = 0, hi = 0;
+    std::string unit;
+    ParameterRange(rig, t.path, &lo, &hi, &unit);
+    fmt::print("{:<36} {:>12.6g} sd {:.2g}{} {}\n", t.path, *value, t.sd,
+               std::isnan(t.true_value) ? "" : fmt::format(", fitted {:.6g}", t.true_value),
+               unit == "-" ? "" : unit);
   }
   for (const EffectInstance& e : rig.effects) fmt::print("effect {} at {}\n", e.name, e.target);
 }

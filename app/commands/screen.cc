@@ -48,7 +48,8 @@ std::string Wrapped(std::string_view given, std::size_t indent, std::size_t colu
   bool first_word = true;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t begin = std::min(text.find_first_not_of(' ', at), text.size());
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    std::size_t end = std::min(text.find(' ', begin), text.size());
+    if (text.compare(end, 2, " %") == 0) end = std::min(text.find(' ', end + 1), text.size());
     const std::string_view word = std::string_view(text).substr(begin, end - begin);
     const std::string_view gap = std::string_view(text).substr(at, begin - at);
     if (word.empty()) break;

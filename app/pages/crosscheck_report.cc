@@ -22,7 +22,8 @@ std::vector<Cell> FigureRow(const std::string& name, const CrosscheckRun& run, d
   std::string rest;
   for (std::size_t b = 0; b < f.rest.size(); ++b)
     rest += fmt::format("{}{} ({:.0f}, {:.0f})", b > 0 ? "; " : "", run.paths.bearings[b].bearing,
-                        f.rest[b][0] * kMicro, f.rest[b][1] * kMicro);
+                        std::round(f.rest[b][0] * kMicro) + 0.0,  // not -0
+                        std::round(f.rest[b][1] * kMicro) + 0.0);
   return {Cell(name),
           Cell(VerdictName(f), f.drop        ? "fail"
                                : f.touchdown ? "warn"

@@ -12,12 +12,60 @@
 namespace ambrig {
 namespace {
 
-std::string NamesOfEffects(const std::vector<EffectInstance>& effects) {
-  std::string out;
-  for (std::size_t k = 0; k < effects.size(); ++k)
-    out += (k > 0 ? " and " : "") + EffectName(effects[k]);
-  return out;
+/// The 95 % set of an adopted effect: the ranking's for the first, its own for a further one.
+std::vector<SetMember> SetOf(const Explanation& e, std::size_t adopted) {
+  if (adopted == 0) return e.set;
+  const auto further = e.further_sets.find(Named(e.adopted[adopted]));
+  return further == e.further_sets.end() ? std::vector<SetMember>{} : further->second;
 }
+
+}  // namespace
+
+std::string AnswerText(const Explanation& e) {
+  std::string text;
+  for (std::size_t k = 0; k < e.adopted.size(); ++k) {
+    const std::vector<SetMember> set = SetOf(e, k);
+    std::string names;
+    for (const SetMember& m : set)
+      names += fmt::format(
+          "{}{} ({:.0f} %)", names.empty() ? "" : " or ",
+          m.target.empty() ? "no effect of the catalogue" : m.effect + " at " + m.target,
+          100 * m.probability);
+    text += (k > 0 ? " and " : "") + (set.size() > 1 ? names : EffectName(e.adopted[k]));
+  }
+  return text;
+}
+
+std::string DoubtText(const Explanation& e) {
+  std::string text;
+  for (std::size_t k = 0; k < e.adopted.size(); ++k) {
+    const std::vector<SetMember> set = SetOf(e, k);
+    const auto effects =
+        std::count_if(set.begin(), set.end(), [](const SetMember& m) { return !m.target.empty(); });
+    if (effects > 1) return "more than one effect remains";
+    if (set.size() > 1) text = "no effect is certain";
+  }
+  return text;
+}
+
+std::string WhyNot(const Explanation& e, bool unseen) {
+  if (e.ranking.empty() || !e.adopted.empty() || e.verdict == "effect") return "";
+  const FitResult& best = e.ranking.front().fit;
+  const std::string name = EffectName(e.ranking.front().effect);
+  if (e.verdict == "unknown")
+    return fmt::format(
+        "{} is not adopted: with it {:.2f} times the noise is left{}, which the noise alone does "
+        "not make. Its probability counts only the candidates listed.",
+        name, best.ratio_fit,
+        unseen ? fmt::format(" on the fitted and {:.2f} on the unseen records", best.ratio_validate)
+               : "");
+  return fmt::format(
+      "{} is not adopted: without it the rig file and its tolerances explain the records to {:.3f} "
+      "of the noise, with it to {:.3f}.",
+      name, e.base_ratio_validate, best.ratio_validate);
+}
+
+namespace {
 
 std::string Evidence(const Explanation& e, bool unseen) {
   return fmt::format(
@@ -71,9 +119,12 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
 
 void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen) {
   report.Heading("Verdict");
+  const std::string doubt = DoubtText(e);
   if (e.verdict == "effect")
-    report.Verdict(Verdict::kOk, fmt::format("**Identified: {}.** {}", NamesOfEffects(e.adopted),
-                                             Evidence(e, unseen)));
+    report.Verdict(doubt.empty() ? Verdict::kOk : Verdict::kWarn,
+                   fmt::format("**{}: {}.** {}",
+                               doubt.empty() ? "Identified" : "An effect is missing, and " + doubt,
+                               AnswerText(e), Evidence(e, unseen)));
   else if (e.verdict == "data")
     report.Verdict(
         Verdict::kWarn,

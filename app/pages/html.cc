@@ -155,12 +155,20 @@ void HtmlReport::Table(const std::vector<std::string>& columns,
   for (const std::string& c : columns)
     body_ += fmt::format("<th scope=\"col\">{}</th>", InlineMarkup(c));
   body_ += "</tr></thead>\n<tbody>\n";
+  std::vector<char> of_numbers(columns.size());
   for (const auto& row : rows) {
     Require(row.size() == columns.size(), "a cell per column");
+    for (std::size_t c = 0; c < row.size(); ++c)
+      if (LooksNumeric(row[c].text)) of_numbers[c] = 1;
+  }
+  for (const auto& row : rows) {
     body_ += "<tr>";
-    for (const Cell& cell : row)
-      body_ += fmt::format("<td class=\"{} {}\">{}</td>", HtmlEscape(cell.style),
-                           LooksNumeric(cell.text) ? "num" : "", InlineMarkup(cell.text));
+    for (std::size_t c = 0; c < row.size(); ++c) {
+      const std::string& text = row[c].text;
+      const bool dash = of_numbers[c] && (text == "-" || text == "–");  // below its numbers
+      body_ += fmt::format("<td class=\"{} {}\">{}</td>", HtmlEscape(row[c].style),
+                           LooksNumeric(text) || dash ? "num" : "", InlineMarkup(text));
+    }
     body_ += "</tr>\n";
   }
   body_ += "</tbody></table></div>\n";

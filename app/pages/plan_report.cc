@@ -53,7 +53,7 @@ void AddTried(HtmlReport& report, const Plan& plan) {
   SetAxes(f, 0, "least distance [sd]", "");
   f.layout["yaxis"].update({{"autorange", "reversed"}, {"automargin", true}, {"type", "category"}});
   report.AddFigure(f);
-  report.Table({"scenario", "size", "least distance [sd]", "largest orbit [um]", "safe"}, rows,
+  report.Table({"scenario", "size", "least distance [sd]", "largest orbit [µm]", "safe"}, rows,
                "All scenarios that this rig can make. Size: of the usual excitation, lowered until "
                "every model survives.");
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/pages/discovery_parts.h"
+#include "app/pages/format.h"
 
 namespace ambrig {
 namespace {
@@ -97,8 +98,9 @@ void AddSizes(HtmlReport& report, const Refinement& r) {
 
 std::string SupportText(const Refinement& r) {
   if (r.supported_hi <= r.supported_lo) return "supported nowhere by these records";
-  return fmt::format("supported for {} = {:.3g} to {:.3g} {} only", r.shape.u_name, r.supported_lo,
-                     r.supported_hi, r.shape.u_unit);
+  return fmt::format("supported for {} = {} to {} only", r.shape.u_name,
+                     FormatSi(r.supported_lo, r.shape.u_unit, 3),
+                     FormatSi(r.supported_hi, r.shape.u_unit, 3));
 }
 
 void WriteRefineReport(const Refinement& r, const std::string& rig, const std::string& path) {

@@ -5,8 +5,9 @@
 namespace ambrig {
 
 namespace {
-constexpr std::size_t kLeastFrozen = 20;  // samples
-constexpr std::size_t kTimesUsual = 15;   // of the usual stretch
+constexpr std::size_t kLeastFrozen = 20;   // samples
+constexpr std::size_t kTimesUsual = 15;    // of the usual stretch
+constexpr std::size_t kLeastRegular = 10;  // stretches
 }  // namespace
 
 std::vector<HeldStretch> HeldStretches(const std::vector<double>& y, std::size_t least) {
@@ -26,6 +27,14 @@ std::size_t UsualHold(const std::vector<double>& y) {
   if (lengths.empty()) return 1;
   std::sort(lengths.begin(), lengths.end());
   return lengths[static_cast<std::size_t>(0.99 * static_cast<double>(lengths.size() - 1))];
+}
+
+std::size_t RegularHold(const std::vector<double>& y) {
+  const std::vector<HeldStretch> all = HeldStretches(y, 1);
+  const std::size_t usual = UsualHold(y);
+  const auto same = static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(), [&](const HeldStretch& s) { return s.count == usual; }));
+  return all.size() >= kLeastRegular && 10 * same >= 9 * all.size() ? usual : 1;
 }
 
 HeldStretch FrozenStretch(const std::vector<double>& y) {

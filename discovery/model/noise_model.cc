@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "discovery/data/held_values.h"
 #include "discovery/data/noise_estimate.h"
 #include "discovery/model/model.h"
 
@@ -37,6 +38,17 @@ bool IsDirect(const std::string& channel) {
 
 std::string BusName() { return ChannelId{ChannelKind::kBus}.name(); }
 
+/// Rows in which a reading is new: a record that is faster than the controller repeats it, and the differences of equal
+/// neighbours have no noise.
+std::vector<std::size_t> NewRows(const double* measured, std::size_t count) {
+  const std::vector<double> y(measured, measured + count);
+  const bool held = RegularHold(y) > 1;
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < count; ++k)
+    if (!held || k == 0 || y[k] != y[k - 1]) rows.push_back(k);
+  return rows;
+}
+
 /// White noise of a - b in every target, by channel.
 template <class Chosen>
 ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
@@ -45,9 +57,13 @@ ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
   for (const Target& t : model.targets()) {
     const std::string& channel = model.data().records[t.record].data.channels[t.channel].name;
     if (!chosen(channel)) continue;
-    std::vector<double> error(t.count);
-    for (std::size_t k = 0; k < t.count; ++k) error[k] = a[t.first + k] - b[t.first + k];
-    out[channel].push_back(WhiteNoiseOf(error.data(), model.ok().data() + t.first, t.count));
+    std::vector<double> error;
+    std::vector<char> ok;
+    for (const std::size_t k : NewRows(model.measured().data() + t.first, t.count)) {
+      error.push_back(a[t.first + k] - b[t.first + k]);
+      ok.push_back(model.ok()[t.first + k]);
+    }
+    out[channel].push_back(WhiteNoiseOf(error.data(), ok.data(), error.size()));
   }
   return out;
 }

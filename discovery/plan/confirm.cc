@@ -107,12 +107,14 @@ std::string Planner::Card(const Plan& plan, const Scored& best) const {
   std::string text = fmt::format("Record \"{}\": {} for {:.3g} s at {:.0f} Hz, channels {}.\n",
                                  plan.title, best.candidate.what, plan.duration, plan.record_rate,
                                  fmt::join(plan.channels, ", "));
-  for (const PlannedPair& p : plan.separates)
-    text += fmt::format(
-        "- tells {} from {} with a probability of {:.1f} % ({})\n", p.a, p.b, 100 * p.probability,
-        p.draws > 0
-            ? fmt::format("{} of {} simulated records were decided rightly", p.right, p.draws)
-            : "not checked with simulated records");
+  for (const PlannedPair& p : plan.separates) {
+    const bool nothing = p.a == "nothing";
+    text += fmt::format("- tells {} from {} with a probability of {:.1f} % ({})\n",
+                        nothing ? p.b : p.a, nothing ? "no effect" : p.b, 100 * p.probability,
+                        p.draws > 0 ? fmt::format("{} of {} simulated records were decided rightly",
+                                                  p.right, p.draws)
+                                    : "not checked with simulated records");
+  }
   if (!best.candidate.clamped)
     text += fmt::format("- largest orbit expected: {:.3g} um\n", 1e6 * plan.largest_orbit);
   text += fmt::format("- largest coil current expected: {:.3g} A\n", plan.largest_current);

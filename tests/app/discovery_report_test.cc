@@ -30,10 +30,8 @@ rig = "rig.toml"
 duration = 0.06
 record_rate = 12500.0
 seed = 5
-[start]
-state = "levitated"
-[speed]
-profile = [[0.0, 0.0], [0.06, 0.0]]
+start.state = "levitated"
+speed.profile = [[0.0, 0.0], [0.06, 0.0]]
 [[excitation]]
 target = "A.x"
 port = "force"
@@ -50,10 +48,8 @@ rig = "rig.toml"
 duration = 0.1
 record_rate = 12500.0
 seed = 6
-[start]
-state = "levitated"
-[speed]
-profile = [[0.0, 1500.0], [0.1, 1500.0]]
+start.state = "levitated"
+speed.profile = [[0.0, 1500.0], [0.1, 1500.0]]
 [[excitation]]
 target = "A.x"
 port = "reference"
@@ -203,6 +199,15 @@ TEST_F(DiscoveryReport, ExplainTeaches) {
     EXPECT_THAT(html, HasSubstr(words));
   EXPECT_THAT(html, HasSubstr(FindEffect("side-pull")->title));
   EXPECT_THAT(html, Not(HasSubstr("Unexplained residual</h")));
+}
+
+TEST_F(DiscoveryReport, ASetOfTwoNamesIsNoIdentification) {
+  Explanation e = Found();
+  e.set = {{"side-pull", "A", 0.5}, {"sensor-gain", "A.x", 0.48}};
+  const std::string html = ExplainHtml(e);
+  EXPECT_THAT(html, HasSubstr("An effect is missing, and more than one effect remains: side-pull "
+                              "at A (50 %) or sensor-gain at A.x (48 %)."));
+  EXPECT_THAT(html, Not(HasSubstr("Identified")));
 }
 
 TEST_F(DiscoveryReport, UnknownGivesALawToPaste) {

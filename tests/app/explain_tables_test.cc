@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "app/pages/discovery_parts.h"
+#include "app/pages/discovery_report.h"
 #include "effects/catalogue.h"
 #include "rig/rig_file.h"
 #include "tests/app/html_page.h"
@@ -158,6 +159,46 @@ TEST(DiscoveryParts, ValuesAndTheirSdHaveOneUnit) {
   EXPECT_THAT(ValueText(3200, 140, "Hz"), HasSubstr("kHz"));
   EXPECT_THAT(ValueText(3200, 0, "Hz"), Not(HasSubstr("±")));
   EXPECT_THAT(ParametersText(Gain(1.08, 0.002)), HasSubstr("gain = 1.08"));
+}
+
+TEST(ExplainText, NamesThatASetLeavesOpen) {
+  Explanation e;
+  e.adopted = {Gain(1.08, 0.002)};
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x");  // judged by nothing else
+  e.set = {{"sensor-gain", "A.x", 0.97}};
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x");
+  EXPECT_EQ(DoubtText(e), "");
+  e.set = {{"sensor-gain", "A.x", 0.56}, {"unknown", "", 0.42}};
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x (56 %) or no effect of the catalogue (42 %)");
+  EXPECT_EQ(DoubtText(e), "no effect is certain");
+  e.set = {{"sensor-gain", "A.x", 0.5}, {"side-pull", "A", 0.5}};
+  EXPECT_EQ(DoubtText(e), "more than one effect remains");
+  // A further effect has a set of its own.
+  e.set = {{"sensor-gain", "A.x", 0.97}};
+  e.adopted.push_back(MakeInstance(EffectNamed("sensor-offset"), "B.y"));
+  EXPECT_EQ(AnswerText(e), "sensor-gain at A.x and sensor-offset at B.y");
+  e.further_sets["sensor-offset at B.y"] = {{"sensor-offset", "B.y", 0.6}, {"bow", "rig", 0.4}};
+  EXPECT_EQ(AnswerText(e),
+            "sensor-gain at A.x and sensor-offset at B.y (60 %) or bow at rig (40 %)");
+  EXPECT_EQ(DoubtText(e), "more than one effect remains");
+}
+
+// A probability of 1.000 among the candidates is no adoption: the terminal says why not, as the page does.
+TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
+  Explanation e;
+  e.ranking = {Ranked(Gain(1.08, 0.002), 1, 3.5)};
+  e.verdict = "unknown";
+  EXPECT_EQ(WhyNot(e, true),
+            "sensor-gain at A.x is not adopted: with it 3.50 times the noise is left on the fitted "
+            "and 3.50 on the unseen records, which the noise alone does not make. Its probability "
+            "counts only the candidates listed.");
+  EXPECT_THAT(WhyNot(e, false), Not(HasSubstr("unseen")));
+  e.verdict = "parameters";
+  e.base_ratio_validate = 1.031;
+  EXPECT_THAT(WhyNot(e, true), HasSubstr("explain the records to 1.031 of the noise, with it to"));
+  e.verdict = "effect";
+  e.adopted = {e.ranking[0].effect};
+  EXPECT_EQ(WhyNot(e, true), "");
 }
 
 TEST(DiscoveryParts, TheLadderNamesEveryStep) {

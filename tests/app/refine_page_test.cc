@@ -17,7 +17,7 @@ Refinement Supported(double lo, double hi) {
 
 TEST(SupportText, IsARangeOrNowhere) {
   EXPECT_EQ(SupportText(Supported(0.1, 0.85)),
-            "supported for flux density of the pole = 0.1 to 0.85 T only");
+            "supported for flux density of the pole = 100\u00a0mT to 850\u00a0mT only");
   EXPECT_EQ(SupportText(Supported(0, 0)), "supported nowhere by these records");
 }
 

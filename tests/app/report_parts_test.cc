@@ -182,6 +182,7 @@ TEST(Screen, WrapsAtSpacesAndKeepsPathsWhole) {
             "        four");
   EXPECT_EQ(Wrapped("see /a/very/long/path/that/stays.toml", 2, 12),
             "see\n  /a/very/long/path/that/stays.toml");
+  EXPECT_EQ(Wrapped("it is 99.9 % sure", 2, 10), "it is\n  99.9 %\n  sure");
   EXPECT_EQ(ScreenWidth("\033[32mµm\033[0m"), 2u);
   EXPECT_EQ(Shortened("abcdefgh", 6), "abc...");
   EXPECT_EQ(ScreenSi(3.62e-5, "m"), "36.2 um");

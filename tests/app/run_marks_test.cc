@@ -162,5 +162,20 @@ TEST(TableCells, NumbersWithExponentsAreNumbers) {
     EXPECT_THAT(html, HasSubstr(std::string("<td class=\" \">") + word + "</td>"));
 }
 
+// What was not measured stands below the numbers of its column, and on the left among words.
+TEST(TableCells, ADashStandsBelowItsNumbers) {
+  HtmlReport r("t", "s");
+  r.Table({"a", "b"}, {{"6.7", "held"}, {"-", "–"}});
+  EXPECT_THAT(r.Html(), HasSubstr("<td class=\" num\">-</td><td class=\" \">–</td>"));
+}
+
+// A verdict in a wide table is not broken inside a word.
+TEST(TableCells, VerdictsOfWideTablesAreWhole) {
+  HtmlReport r("t", "s");
+  EXPECT_THAT(r.Html(), ::testing::ContainsRegex(
+                            "td.ok, .table.wide td.warn, .table.wide td.fail . overflow-wrap: "
+                            "break-word"));
+}
+
 }  // namespace
 }  // namespace ambrig

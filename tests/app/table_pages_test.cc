@@ -129,7 +129,7 @@ CrosscheckRun RunOf(double radius, bool drop) {
   run.figures.peak_orbit = radius;
   run.figures.turns = drop ? -12.5 : 0.2;
   run.figures.whirl = drop ? ContactWhirl::kBackward : ContactWhirl::kNone;
-  run.figures.rest = {{0, -2e-4}};
+  run.figures.rest = {{-2e-7, -2e-4}};  // -0.2 µm is 0, not -0
   run.figures.severity = 2.5;
   run.figures.fall_severity = 1.25;
   run.paths.rate = 10000;

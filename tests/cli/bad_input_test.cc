@@ -77,15 +77,6 @@ TEST_F(BadInputs, UnknownEffectSuggests) {
   EXPECT_EQ(o.exit, 2);
   EXPECT_NE(o.text.find("did you mean eddy-currents?"), std::string::npos) << o.text;
 }
-TEST_F(BadInputs, HelpOfEveryCommand) {
-  for (const char* command :
-       {"run", "check", "campaign", "merge", "redistribute", "effects", "parameters", "compare",
-        "explain", "adopt", "hide", "score", "judge", "practice"}) {
-    const Outcome o = Ambrig(std::string(command) + " --help");
-    EXPECT_EQ(o.exit, 0) << command;
-    EXPECT_NE(o.text.find("Example"), std::string::npos) << command;
-  }
-}
 
 }  // namespace
 }  // namespace ambrig

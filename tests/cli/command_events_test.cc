@@ -108,7 +108,9 @@ TEST_F(CommandEvents, RunsWithoutTracesKeepTheirBits) {
 }
 
 TEST_F(CommandEvents, ARigIsResolved) {
-  ASSERT_EQ(Ambrig("rig rig.toml --json rig.json").exit, 0);
+  const Outcome o = Ambrig("rig rig.toml --json rig.json");
+  ASSERT_EQ(o.exit, 0);
+  EXPECT_THAT(o.text, ::testing::ContainsRegex("bearings.A.gap +0.0004 sd 4e-06 m\n"));
   const json rig = JsonOf("rig.json");
   const json& coils = rig["bearings"][0]["coils"];
   ASSERT_EQ(coils.size(), 8u);

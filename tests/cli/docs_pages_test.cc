@@ -110,5 +110,24 @@ TEST_F(DocsPages, KeysOfCases) {
   EXPECT_GE(count, 5);
 }
 
+// Every port that a scenario may name stands in the page about files, and where results are kept between calls.
+TEST_F(DocsPages, PortsAndTheCache) {
+  const Outcome o =
+      Run(ReferenceRigText(), ScenarioText("[[excitation]]\ntarget = \"A.x\"\nport = \"nope\"\n"));
+  const auto at = o.text.find("allowed: ");
+  ASSERT_NE(at, std::string::npos) << o.text;
+  std::istringstream ports(o.text.substr(at + 9, o.text.find_first_of("(\n", at) - at - 9));
+  const std::string page = Page("files.md"), about = page.substr(page.find("A **port** is"), 1200);
+  int count = 0;
+  for (std::string port; std::getline(ports, port, ','); ++count) {
+    port.erase(0, port.find_first_not_of(' '));
+    port.erase(port.find_last_not_of(" \n") + 1);
+    EXPECT_TRUE(Says(about, "`" + port + "`")) << port;
+  }
+  EXPECT_GE(count, 4);
+  for (const char* said : {"## Cache", "`$AMBRIG_CACHE`", "`~/.cache/ambrig`"})
+    EXPECT_TRUE(Says(page, said)) << said;
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -54,6 +54,7 @@ TEST_F(NewBench, ABodyThatLiesOnSomethingIsNotFree) {
   const Outcome o = Ambrig("new --answers ball.toml -o ball --only-files");
   ASSERT_EQ(o.exit, 0) << o.text;
   EXPECT_THAT(o.text, HasSubstr("the measured currents pull with 4.57 times the weight"));
+  EXPECT_THAT(o.text, HasSubstr("\nnow: ambrig compare ball/case.toml\n"));
   const std::string text = ReadText(folder_ / "ball/case.toml");
   EXPECT_THAT(text, HasSubstr("imposed = \"motion\""));
   EXPECT_THAT(text, HasSubstr("column = \"z_m\", unit = \"m\", gain = -1.0, offset = 0.01"));

@@ -114,6 +114,15 @@ test('an explanation: names with probabilities, parameters with sd, closure, wha
   assert.deepEqual(adopted, [answer.adopted[0]]);
 });
 
+test('an explanation with two names in its set is no identification', () => {
+  const half = {...answer, set: [{effect: 'eddy-currents', target: 'A', probability: 0.5}, {effect: 'hysteresis', target: 'A', probability: 0.48}]};
+  const text = (result) => rendered(explanation('c.toml', {job: 1, fresh: true, stale: [], result}, () => {})).text;
+  assert.match(text(half), /An effect is missing from the model; more than one name remains</);
+  assert.doesNotMatch(text(answer), /more than one/);  // one name, and none of these
+  const second = {...answer, adopted: [...answer.adopted, {effect: 'sensor-gain', target: 'A.x', parameters: {}, set: half.set}]};
+  assert.match(text(second), /more than one name remains/);
+});
+
 test('while it runs an explanation shows its stage, and can be stopped; one that was stopped is resumed', async () => {
   state.jobs = [{id: 4, command: 'explain', subject: 'c.toml', argv: [], state: 'running'}];
   state.progress.set(4, {share: 0.5, text: 'fits', stage: 'screening', stages: [], partial: null, seconds: 100});

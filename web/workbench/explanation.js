@@ -53,6 +53,13 @@ const words = /** @type {Record<string, string>} */ ({
   data: 'The data are wrong; mend them first', unfinished: 'not finished',
 });
 
+/** The verdict in words; a 95 % set with several effects is no identification. @param {any} e */
+function verdictOf(e) {
+  const sets = [e.set ?? [], ...(e.adopted ?? []).map((/** @type {any} */ a) => a.set ?? [])];
+  const several = sets.some((set) => set.filter((/** @type {any} */ m) => m.target).length > 1);
+  return `${words[e.verdict] ?? e.verdict}${e.verdict === 'effect' && several ? '; more than one name remains' : ''}`;
+}
+
 /** @param {any} e */
 function names(e) {
   const set = e.set ?? [];
@@ -90,7 +97,7 @@ export function explanation(file, found, adopt) {
   const e = found.result;
   return html`<section class="explain ${found.fresh ? '' : 'stale'}" aria-label="explain"><h2>Explain</h2>
     ${found.fresh ? nothing : html`<p class="note">Older than ${found.stale.join(', ')}.</p>`}
-    <p class="verdict">${words[e.verdict] ?? e.verdict}</p>
+    <p class="verdict">${verdictOf(e)}</p>
     ${names(e)}
     ${(e.adopted ?? []).map((/** @type {any} */ a) => html`<p><button class="main" @click=${() => adopt(a)}>Adopt ${a.effect} at ${a.target}</button>
       ${refinable.has(a.effect) ? html`<button @click=${() => adopt(a, true)}>Refine its law</button>` : nothing} ${parameters(a)}</p>`)}

@@ -79,6 +79,17 @@ TEST_F(CaseChannels, ANamedColumnHasItsUnitAndGain) {
   EXPECT_THAT(case_.notes[0], HasSubstr("left out: room temperature"));
 }
 
+// As MATLAB, a viewer of HDF5 files or the head of a CSV file writes the name; an own name of the file comes first.
+TEST_F(CaseChannels, AColumnMayBeSpeltAsOtherProgramsShowIt) {
+  for (const char* name : {"A_i1", "/A/i1", "A.i1 [mA]", "A.i1"}) {
+    const Record r = Mapped(std::string("\"A.i2\" = \"") + name + "\"\n");
+    ASSERT_NE(r.Find("A.i2"), nullptr) << name;
+    EXPECT_EQ(sources_.at("A.i2").column, "A.i1") << name;
+  }
+  raw_.channels.push_back({"A_i1", "A", {7, 7, 7, 7}});
+  EXPECT_EQ(Mapped("\"A.i2\" = \"A_i1\"\n").Find("A.i2")->samples[0], 7);
+}
+
 // 2 ms late at 1 kHz: two rows earlier, the last two are not known.
 TEST_F(CaseChannels, ALateColumnIsMovedBack) {
   Record r = Mapped("\"A.x\" = { late = 0.002 }\n");

@@ -48,6 +48,20 @@ TEST(UsualHold, IsOneWhereNothingRepeatsAndTheConvertersStepOtherwise) {
   EXPECT_EQ(UsualHold(stepped), 6u);
 }
 
+// A reading of 12.5 kHz in a record of 75 kHz; a converter's steps and a frozen logger are not regular.
+TEST(RegularHold, IsThatOfAReadingThatAFasterRecordRepeats) {
+  EXPECT_EQ(RegularHold(Moving(500)), 1u);
+  std::vector<double> held;
+  for (const double v : Moving(100)) held.insert(held.end(), 6, v);
+  held.erase(held.begin(), held.begin() + 4);  // the record begins inside one
+  EXPECT_EQ(RegularHold(held), 6u);
+  EXPECT_EQ(RegularHold(std::vector<double>(held.begin(), held.begin() + 30)), 1u);  // too few
+  std::vector<double> steps;
+  for (std::size_t k = 0; k < 100; ++k) steps.insert(steps.end(), 1 + k % 7, 0.1 * (k % 5));
+  EXPECT_EQ(RegularHold(steps), 1u);
+  EXPECT_EQ(RegularHold(Held(Moving(1000), 300, 400)), 1u);
+}
+
 TEST(FrozenStretch, IsFarLongerThanTheUsualOnes) {
   const HeldStretch frozen = FrozenStretch(Held(Moving(1000), 300, 40));
   EXPECT_EQ(frozen.first, 300u);

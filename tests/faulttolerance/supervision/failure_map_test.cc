@@ -52,7 +52,7 @@ TEST_F(Reach, OneOpenCoilLeavesTheWeightWithMarginAndAllLeavesNothing) {
 // {1,2,3} stood as "exact" and dropped: what the network says agrees with runs.
 TEST_F(Reach, WhatCarriesTheWeightStaysUpAndWhatDoesNotDrops) {
   for (const std::vector<int>& failed :
-       {std::vector<int>{3}, {1, 2}, {2, 4, 6}, {1, 2, 3, 4}, {1, 2, 3, 4, 5, 6}}) {
+       {std::vector<int>{3}, {1, 2}, {1, 2, 3}, {2, 4, 6}, {1, 2, 3, 4}, {1, 2, 3, 4, 5, 6}}) {
     const MapReach r = Of(failed);
     std::string faults;
     for (const int coil : failed) faults += FaultTable(0.02, fmt::format("A.coil{}", coil), "open");
