@@ -11,7 +11,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kDraws = 31;
+constexpr int kBranchDraws = 31;
 
 /// Residuals of hypotheses that the records allow as well as `fit`, itself the first, in the records of the bursts.
 struct Branches {
@@ -23,7 +23,7 @@ Branches BranchesOf(const CaseModel& model, const FitResult& fit,
                     const std::vector<SampleSpan>& bursts, double effective_sample_size) {
   Branches out;
   std::vector<Hypothesis> all = {fit.hypothesis};
-  for (Hypothesis& h : PosteriorDraws(model, fit, effective_sample_size, kDraws))
+  for (Hypothesis& h : PosteriorDraws(model, fit, effective_sample_size, kBranchDraws))
     all.push_back(std::move(h));
   QuickLook look{std::vector<char>(model.data().records.size(), 0), fit.predicted};
   for (const SampleSpan& s : bursts) look.records[s.record] = 1;
@@ -37,7 +37,7 @@ Branches BranchesOf(const CaseModel& model, const FitResult& fit,
 }
 
 /// The one that leaves the least error in the fitted records.
-const Hypothesis& BestOf(const CaseModel& model, const Branches& branches) {
+const Hypothesis& BestBranchOf(const CaseModel& model, const Branches& branches) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < branches.residuals.size(); ++k)
     if (Ratio(model, branches.residuals[k], Which::kFit) <
@@ -76,7 +76,7 @@ void Explainer::FitPastBursts(FitResult& now) {
   if (!without.converged) return;
   const Branches branches = BranchesOf(model_, without, bursts, out_.effective_sample_size);
   if (branches.hypotheses.empty()) return;
-  const FitResult there = At(BestOf(model_, branches));
+  const FitResult there = At(BestBranchOf(model_, branches));
   FitResult again = FitNow(there.hypothesis, nullptr);
   if (!again.converged || ScoreOf(there) < ScoreOf(again)) again = there;
   if (again.converged && Gain(now, again) > kLeastGain) now = std::move(again);

@@ -7,9 +7,9 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLarge = 6;               // floors
-constexpr double kAround = 1e-3;           // [s] on either side
-constexpr double kMostOfRows = 0.1;        // of a channel
+constexpr double kLargeError = 6;          // floors
+constexpr double kAroundBurst = 1e-3;      // [s] on either side
+constexpr double kMostOfBurst = 0.1;       // of a channel
 constexpr double kLeastOfChannel = 0.5;    // of its squared error above the noise
 constexpr double kLeastOfAll = 1.0 / 3.0;  // of that of all these rows
 
@@ -22,10 +22,10 @@ struct ChannelBursts {
 ChannelBursts BurstsOf(const CaseModel& model, const std::vector<double>& residual,
                        const Target& t) {
   ChannelBursts out;
-  const auto around = static_cast<std::size_t>(
-      std::ceil(kAround * model.data().records[t.record].data.rate));
+  const auto around =
+      static_cast<std::size_t>(std::ceil(kAroundBurst * model.data().records[t.record].data.rate));
   for (std::size_t k = t.first; k < t.first + t.count; ++k) {
-    if (!model.ok()[k] || std::abs(residual[k]) <= kLarge) continue;
+    if (!model.ok()[k] || std::abs(residual[k]) <= kLargeError) continue;
     const std::size_t at = model.sample(k), from = at - std::min(at, around);
     if (!out.spans.empty() && from <= out.spans.back().last + 1)
       out.spans.back().last = at + around;
@@ -44,7 +44,7 @@ ChannelBursts BurstsOf(const CaseModel& model, const std::vector<double>& residu
     out.all += above;
     out.inside += in ? above : 0;
   }
-  if (within > kMostOfRows * counted || out.inside < kLeastOfChannel * out.all) out.spans.clear();
+  if (within > kMostOfBurst * counted || out.inside < kLeastOfChannel * out.all) out.spans.clear();
   return out;
 }
 
