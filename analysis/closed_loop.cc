@@ -1,6 +1,7 @@
 #include "analysis/closed_loop.h"
 
 #include "analysis/balance.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -69,7 +70,7 @@ VectorXcd ClosedLoop::Disturbance(const HarmonicInput& in) const {
 VectorXcd ClosedLoop::Harmonic(const HarmonicInput& in) const {
   MatrixXcd shifted = -Phi.cast<Complex>();
   shifted.diagonal().array() += std::polar(1.0, in.omega * Ts());
-  return C.cast<Complex>() * shifted.partialPivLu().solve(Disturbance(in));
+  return C.cast<Complex>() * SolveComplex(shifted, Disturbance(in));
 }
 
 }  // namespace ambrig

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
@@ -62,7 +63,7 @@ ClosedLoopModes FindModes(const OperatingPoint& point, const ClosedLoop& loop, d
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(loop.Phi);
   Require(eigen.info() == Eigen::Success, "converged eigenvalues of the closed loop");
   const MatrixXcd right = eigen.eigenvectors();
-  const MatrixXcd left = right.partialPivLu().inverse();
+  const MatrixXcd left = ComplexInverseOf(right);
   const Index m = loop.plant().m();
   std::vector<Eigen::MatrixXd> rows;
   for (double z : ShaftStations(point)) rows.push_back(ShaftRows(point, loop.plant(), z));

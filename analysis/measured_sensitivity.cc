@@ -8,6 +8,7 @@
 
 #include "analysis/closed_loop.h"
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 #include "core/record/channels.h"
 #include "simulation/simulate.h"
 
@@ -52,7 +53,7 @@ Complex FitSine(const std::vector<double>& t, const std::vector<double>& y, doub
     }
     value(k) = y[i];
   }
-  const Eigen::VectorXd c = basis.colPivHouseholderQr().solve(value);
+  const Eigen::VectorXd c = SolveLeastSquares(basis, value);
   return {c(2), -c(3)};
 }
 
@@ -63,8 +64,8 @@ std::vector<double> Commands(const Record& record, const OperatingPoint& point, 
   const BearingControl& control = point.control()[b];
   const Eigen::Index columns = point.AxisCount(b) > 1 ? 3 : 2;
   const Eigen::MatrixXd W = control.map.W.topLeftCorner(control.coils, columns);
-  const Eigen::RowVectorXd row =
-      (W.transpose() * W).ldlt().solve(W.transpose()).row(1 + static_cast<Eigen::Index>(side));
+  const Eigen::RowVectorXd row = SolveSymmetricColumns(W.transpose() * W, W.transpose())
+                                     .row(1 + static_cast<Eigen::Index>(side));
   std::vector<double> f(record.rows(), 0.0);
   for (int j = 0; j < control.coils; ++j) {
     const Channel* set = Find(record, {ChannelKind::kSetPoint, control.name, j});

@@ -155,7 +155,7 @@ MatrixXd Supported(const RadialRotor& r, const std::vector<double>& k) {
 
 std::vector<CriticalSpeed> Criticals(RadialRotor r, const MatrixXd& K, int count) {
   r.rotor.K = K;
-  if (Eigen::LLT<MatrixXd>(0.5 * (K + K.transpose())).info() != Eigen::Success) return {};
+  if (Eigen::LLT<MatrixXd>(MatrixXd(0.5 * (K + K.transpose()))).info() != Eigen::Success) return {};
   if ((K - K.transpose()).cwiseAbs().maxCoeff() > 1e-9 * K.cwiseAbs().maxCoeff()) return {};
   return CriticalSpeeds(r.rotor, count);
 }

@@ -77,7 +77,7 @@ MuLower LargestLowerBound(const MatrixXcd& M) {
   const Index n = M.rows();
   MuLower best;
   const auto try_phases = [&](const VectorXcd& q) {
-    const Eigen::ComplexEigenSolver<MatrixXcd> eigen(M * q.asDiagonal(), false);
+    const Eigen::ComplexEigenSolver<MatrixXcd> eigen(MatrixXcd(M * q.asDiagonal()), false);
     if (eigen.info() != Eigen::Success) return;
     Index k = 0;
     const double radius = eigen.eigenvalues().cwiseAbs().maxCoeff(&k);

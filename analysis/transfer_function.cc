@@ -23,7 +23,7 @@ TransferFunction::TransferFunction(const OperatingPoint& point, const ClosedLoop
   for (const PlantCoil& c : loop.plant().coils)
     coils_.push_back(
         ChannelId{ChannelKind::kCoilCurrent, point.rig().bearings[c.bearing].name, c.lane}.name());
-  const Eigen::ComplexSchur<MatrixXcd> schur(loop.Phi.cast<Complex>());
+  const Eigen::ComplexSchur<MatrixXcd> schur(MatrixXcd(loop.Phi.cast<Complex>()));
   Require(schur.info() == Eigen::Success, "converged eigenvalues of the closed loop");
   T_ = schur.matrixT();
   U_ = schur.matrixU();

@@ -4,9 +4,13 @@
 # of the folder leaves that room out: EXCEPT analysis/linear.
 set(AMBRIG_FOLDERS "")
 
-# Headers that nearly every source reads are compiled once for all of them.
+# Headers that nearly every source reads are compiled once for all of them; with them come the decompositions and kernels
+# of Eigen that core compiles once. Only the pages and answers of app and workbench are JSON: reading that header, a source
+# makes its parser anew, used or not.
 set(AMBRIG_COMMON_HEADERS <algorithm> <array> <cmath> <complex> <filesystem> <functional> <map> <memory> <optional>
-                          <set> <string> <vector> <Eigen/Dense> <fmt/format.h> <nlohmann/json.hpp>)
+                          <set> <string> <vector> <Eigen/Dense> <fmt/format.h>
+                          ${CMAKE_SOURCE_DIR}/core/math/dense_templates.h)
+set(AMBRIG_JSON_HEADERS ${AMBRIG_COMMON_HEADERS} <nlohmann/json.hpp>)
 option(AMBRIG_PRECOMPILED_HEADERS "compile the common headers once" ON)
 
 # Every object of the libraries is position-independent and shows its names to what it is linked with only, so that the
@@ -68,17 +72,21 @@ function(ambrig_folder name)
   set(AMBRIG_FOLDERS "${AMBRIG_FOLDERS};ambrig_${name}" PARENT_SCOPE)
 endfunction()
 
-# Gives a target the precompiled headers of `of`, which must be compiled with the same options.
-function(ambrig_precompiled target)
+# ambrig_precompiled(TARGET common|json): gives a target one of the two sets of precompiled headers; it must be compiled with
+# the options of all the others.
+function(ambrig_precompiled target set)
   if(NOT AMBRIG_PRECOMPILED_HEADERS)
     return()
   endif()
-  if(NOT TARGET ambrig_common_headers)
-    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/common_headers.cc CONTENT "// Made by cmake/folders.cmake.\n")
-    add_library(ambrig_common_headers OBJECT ${CMAKE_BINARY_DIR}/common_headers.cc)
-    ambrig_linked_everywhere(ambrig_common_headers)
-    target_link_libraries(ambrig_common_headers PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
-    target_precompile_headers(ambrig_common_headers PRIVATE ${AMBRIG_COMMON_HEADERS})
+  set(headers ambrig_${set}_headers)
+  if(NOT TARGET ${headers})
+    string(TOUPPER AMBRIG_${set}_HEADERS list)
+    file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/${set}_headers.cc CONTENT "// Made by cmake/folders.cmake.\n")
+    add_library(${headers} OBJECT ${CMAKE_BINARY_DIR}/${set}_headers.cc)
+    ambrig_linked_everywhere(${headers})
+    target_include_directories(${headers} PRIVATE ${CMAKE_SOURCE_DIR})
+    target_link_libraries(${headers} PRIVATE Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
+    target_precompile_headers(${headers} PRIVATE ${${list}})
   endif()
-  target_precompile_headers(${target} REUSE_FROM ambrig_common_headers)
+  target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()

@@ -4,7 +4,7 @@ if(AMBRIG_PRECOMPILED_HEADERS)
   file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/test_headers.cc CONTENT "// Made by cmake/tests.cmake.\n")
   add_library(ambrig_test_headers OBJECT ${CMAKE_BINARY_DIR}/test_headers.cc)
   target_link_libraries(ambrig_test_headers PRIVATE ambrig_app GTest::gmock)
-  target_precompile_headers(ambrig_test_headers PRIVATE ${AMBRIG_COMMON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
+  target_precompile_headers(ambrig_test_headers PRIVATE ${AMBRIG_JSON_HEADERS} <gmock/gmock.h> <gtest/gtest.h>)
   # Chooses its instruction set before the first header.
   set_source_files_properties(${CMAKE_SOURCE_DIR}/tests/core/noise_test.cc PROPERTIES SKIP_PRECOMPILE_HEADERS ON)
 endif()

@@ -5,6 +5,7 @@
 
 #include "control/synthesis/frequency_response.h"
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -24,7 +25,9 @@ class Loop {
   Eigen::VectorXd Sensitivity(double hertz) const {
     const std::complex<double> z = std::polar(1.0, 2 * kPi * hertz * Ts_);
     const MatrixXcd G = P_.At(z);
-    return (MatrixXcd::Identity(G.cols(), G.cols()) - K_.At(z) * G).inverse().diagonal().cwiseAbs();
+    return ComplexInverseOf(MatrixXcd::Identity(G.cols(), G.cols()) - K_.At(z) * G)
+        .diagonal()
+        .cwiseAbs();
   }
 
  private:

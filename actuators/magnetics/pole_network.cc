@@ -148,6 +148,8 @@ Eigen::Matrix3d PoleNetwork::NegativeStiffness(const Eigen::Vector3d& r,
   return K;
 }
 
+WindingMatrix PoleNetwork::Linkage(const PoleMatrix& phi) const { return turns_.transpose() * phi; }
+
 Eigen::Matrix<double, Eigen::Dynamic, 3> PoleNetwork::LinkageOfPlace(
     const Eigen::Vector3d& r, const Eigen::VectorXd& current) const {
   const NetworkFlux flux = FluxAt(r, true);

@@ -67,7 +67,7 @@ class PoleNetwork {
 
   NetworkFlux FluxAt(const Eigen::Vector3d& r, bool derivatives = false) const;
   /// Nᵀ phi of the coils: inductances without leakage [H], last column the magnets' linkages [Wb].
-  WindingMatrix Linkage(const PoleMatrix& phi) const { return turns_.transpose() * phi; }
+  WindingMatrix Linkage(const PoleMatrix& phi) const;
   /// Of pole fluxes [N].
   Eigen::Vector3d Force(const PoleVector& phi) const;
   Eigen::Vector3d Force(const Eigen::Vector3d& r, const Eigen::VectorXd& current) const;

@@ -4,6 +4,7 @@
 
 #include "actuators/magnetics/coil_network.h"
 #include "core/base/index.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -55,7 +56,7 @@ LinearBearing LineariseStatorNetwork(const StatorLanes& lanes, const Lane& curre
       L(a, b) = share(p) * share(q) * all(p, q) + (a == b ? lanes.leakage[p] : 0);
     }
   }
-  out.I_lambda = L.inverse();
+  out.I_lambda = InverseOf(L);
   out.I_r = -out.I_lambda * J.transpose();
   out.F_lambda = J * out.I_lambda;
   out.F_r = network.NegativeStiffness(r, counted).topLeftCorner<2, 2>() + J * out.I_r;
@@ -63,6 +64,8 @@ LinearBearing LineariseStatorNetwork(const StatorLanes& lanes, const Lane& curre
 }
 
 }  // namespace
+
+Eigen::MatrixXd LinearBearing::Inductance() const { return InverseOf(I_lambda); }
 
 Eigen::MatrixXd LinearBearing::ForceOfCurrent() const { return F_lambda * Inductance(); }
 
@@ -114,7 +117,7 @@ LinearBearing LineariseBearing(const StatorLanes& lanes, const Lane& current, do
 }
 
 Eigen::MatrixXd PatternInverse(const Eigen::MatrixXd& pattern) {
-  return (pattern.transpose() * pattern).ldlt().solve(pattern.transpose());
+  return SolveSymmetricColumns(pattern.transpose() * pattern, pattern.transpose());
 }
 
 LinearBearing OntoPatterns(const LinearBearing& b, const Eigen::MatrixXd& pattern) {
@@ -123,7 +126,7 @@ LinearBearing OntoPatterns(const LinearBearing& b, const Eigen::MatrixXd& patter
   for (Eigen::Index k = 0; k < pattern.cols(); ++k) out.coils.push_back(static_cast<int>(k));
   out.current = along * b.current;
   out.resistance = (along * b.resistance.asDiagonal() * pattern).diagonal();
-  out.I_lambda = (along * L * pattern).inverse();
+  out.I_lambda = InverseOf(along * L * pattern);
   out.I_r = out.I_lambda * along * L * b.I_r;
   out.F_lambda = b.ForceOfCurrent() * pattern * out.I_lambda;
   out.F_r = b.NegativeStiffness() + b.ForceOfCurrent() * pattern * out.I_r;

@@ -26,8 +26,8 @@ struct LinearBearing {
   Eigen::MatrixXd F_lambda;    // (2 x n) [N/Wb]
   Eigen::Matrix2d F_r;         // at constant linkage [N/m]
 
-  Eigen::MatrixXd Inductance() const { return I_lambda.inverse(); }  // (n x n) [H]
-  Eigen::MatrixXd ForceOfCurrent() const;                            // (2 x n) k_i per coil [N/A]
+  Eigen::MatrixXd Inductance() const;      // (n x n) [H]
+  Eigen::MatrixXd ForceOfCurrent() const;  // (2 x n) k_i per coil [N/A]
   /// df/dr at constant current [N/m]; positive pulls away from the centre.
   Eigen::Matrix2d NegativeStiffness() const;
 };

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/math/linear_equations.h"
+
 namespace ambrig {
 
 namespace {
@@ -87,7 +89,7 @@ VectorXcd LoopPlant::Disturbance(const HarmonicInput& in) const {
   const Index n = plant_.n();
   // Steady part p e^{iωt} of the plant alone; the rest of x follows the free equations.
   const MatrixXcd dynamics = iw * MatrixXcd::Identity(n, n) - plant_.A.cast<Complex>();
-  const VectorXcd p = dynamics.partialPivLu().solve(plant_.pushed.cast<Complex>() * in.pushed);
+  const VectorXcd p = SolveComplex(dynamics, plant_.pushed.cast<Complex>() * in.pushed);
   const VectorXcd end = std::exp(iw * period_.T) * p - period_.state.cast<Complex>() * p;
   Complex samples = 0;
   for (int k = 0; k < period_.samples; ++k)

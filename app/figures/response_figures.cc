@@ -11,6 +11,7 @@
 #include "app/pages/format.h"
 #include "core/math/constants.h"
 #include "core/math/fft.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 namespace {
@@ -54,7 +55,7 @@ std::array<double, kOrders> OrdersIn(const std::vector<double>& x, const std::ve
     }
     b(k) = x[row];
   }
-  const Eigen::VectorXd c = A.colPivHouseholderQr().solve(b);
+  const Eigen::VectorXd c = SolveLeastSquares(A, b);
   std::array<double, kOrders> out{};
   for (int o = 1; o <= kOrders; ++o)
     out[static_cast<std::size_t>(o - 1)] = std::hypot(c(2 * o), c(2 * o + 1));

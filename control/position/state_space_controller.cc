@@ -5,6 +5,7 @@
 
 #include "control/position/gain_schedule.h"
 #include "core/base/errors.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -72,8 +73,7 @@ void StateSpaceController::Hold(const std::vector<double>& force, const std::vec
     const Eigen::VectorXd b = svd.matrixU().leftCols(rank).transpose() * (now_.B * e_);
     x_ = svd.matrixV().leftCols(rank) * b.cwiseQuotient(svd.singularValues().head(rank));
     const Eigen::MatrixXd free = svd.matrixV().rightCols(n - rank);
-    if (free.cols() > 0)
-      x_ += free * (now_.C * free).completeOrthogonalDecomposition().solve(wanted - now_.C * x_);
+    if (free.cols() > 0) x_ += free * SolveLeastNorm(now_.C * free, wanted - now_.C * x_);
   }
   offset_ = wanted - (n > 0 ? Eigen::VectorXd(now_.C * x_) : Eigen::VectorXd::Zero(wanted.size()));
 }

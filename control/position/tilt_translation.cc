@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/math/linear_equations.h"
+
 namespace ambrig {
 
 namespace {
@@ -30,10 +32,8 @@ TiltTranslation::TiltTranslation(const CoordinateGains& translation, const Coord
       held_(f_max_.size(), 0.0) {
   Require(geometry.sensor_z.size() >= 2 && f_max_.size() == 2 * geometry.sensor_z.size(),
           "two radial bearings or more");
-  sensing_ = Arms(geometry.sensor_z).completeOrthogonalDecomposition().pseudoInverse();
-  actuation_ = Eigen::MatrixXd(Arms(geometry.bearing_z).transpose())
-                   .completeOrthogonalDecomposition()
-                   .pseudoInverse();
+  sensing_ = PseudoinverseOf(Arms(geometry.sensor_z));
+  actuation_ = PseudoinverseOf(Arms(geometry.bearing_z).transpose());
 }
 
 Eigen::Vector2d TiltTranslation::Coordinates(const std::vector<double>& y, std::size_t side) const {
@@ -73,8 +73,7 @@ void TiltTranslation::Step(const std::vector<double>& y, const std::vector<doubl
 
 void TiltTranslation::Hold(const std::vector<double>& force, const std::vector<double>& y,
                            const std::vector<double>& r) {
-  const Eigen::Matrix2Xd total =
-      Eigen::MatrixXd(actuation_).completeOrthogonalDecomposition().pseudoInverse();
+  const Eigen::Matrix2Xd total = PseudoinverseOf(actuation_);
   for (std::size_t side = 0; side < 2; ++side) {
     Eigen::VectorXd plane(actuation_.rows());
     for (Eigen::Index k = 0; k < plane.size(); ++k)

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "control/synthesis/slicot.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -25,7 +26,7 @@ constexpr int kBisections = 12;  // least gamma within 4^(2^-12) - 1 = 3e-4
 double NormAtRest(const StateSpace& P, const StateSpace& K) {
   const Eigen::Index u = K.outputs(), y = K.inputs(), w = P.inputs() - u, z = P.outputs() - y;
   const MatrixXd G = P.Response(1.0).real(), k = K.Response(1.0).real();
-  const MatrixXd loop = (MatrixXd::Identity(y, y) - G.bottomRightCorner(y, u) * k).inverse();
+  const MatrixXd loop = InverseOf(MatrixXd::Identity(y, y) - G.bottomRightCorner(y, u) * k);
   const MatrixXd T =
       G.topLeftCorner(z, w) + G.topRightCorner(z, u) * k * loop * G.bottomLeftCorner(y, w);
   return T.allFinite() ? Eigen::JacobiSVD<MatrixXd>(T).singularValues()(0) : kInfinity;

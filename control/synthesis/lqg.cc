@@ -7,6 +7,7 @@
 
 #include "control/position/gain_schedule.h"
 #include "control/synthesis/riccati.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -51,8 +52,8 @@ LqgDesign DesignLqg(const SampledPlant& plant, const LqgParameters& w, const std
   d.Kx = w.force_weight * control.K.leftCols(n);
   d.Ki = w.force_weight / w.integral_weight * control.K.rightCols(p);
   const MatrixXd PC = filter.X * C.transpose();
-  d.L =
-      (MatrixXd::Identity(p, p) + C * PC).ldlt().solve(PC.transpose()).transpose() / w.sensor_noise;
+  d.L = SolveSymmetricColumns(MatrixXd::Identity(p, p) + C * PC, PC.transpose()).transpose() /
+        w.sensor_noise;
   MatrixXd rest = MatrixXd::Zero(n + p, n + p);
   rest.topLeftCorner(n, n) = MatrixXd::Identity(n, n) - plant.A;
   rest.topRightCorner(n, p) = -plant.B;
@@ -138,8 +139,7 @@ void LqgController::Step(const std::vector<double>& y, const std::vector<double>
 }
 
 void LqgController::MatchIntegral() {
-  xi_ = now_.Ki.partialPivLu().solve(
-      Eigen::VectorXd(now_.Nf * r_ - now_.Kx * (corrected_ - now_.Nx * r_) - f_));
+  xi_ = SolveLinear(now_.Ki, now_.Nf * r_ - now_.Kx * (corrected_ - now_.Nx * r_) - f_);
 }
 
 void LqgController::Hold(const std::vector<double>& force, const std::vector<double>& y,
@@ -152,9 +152,7 @@ void LqgController::Hold(const std::vector<double>& force, const std::vector<dou
   }
   // The observer's own rest under this force and these readings.
   const MatrixXd A = now_.A * (MatrixXd::Identity(n, n) - now_.L * now_.C);
-  x_ = (MatrixXd::Identity(n, n) - A)
-           .partialPivLu()
-           .solve(Eigen::VectorXd(now_.A * (now_.L * y_) + now_.B * f_));
+  x_ = SolveLinear(MatrixXd::Identity(n, n) - A, now_.A * (now_.L * y_) + now_.B * f_);
   corrected_ = x_ + now_.L * (y_ - now_.C * x_);
   MatchIntegral();
 }

@@ -4,6 +4,7 @@
 
 #include "control/synthesis/state_space.h"
 #include "core/base/parameters.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -11,10 +12,11 @@ RiccatiSolution SolveRiccati(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
                              const Eigen::MatrixXd& Q, const Eigen::MatrixXd& R) {
   constexpr int kMostIterations = 60;
   const Eigen::Index n = A.rows();
-  Eigen::MatrixXd a = A, g = B * R.ldlt().solve(B.transpose()), h = Q;
+  Eigen::MatrixXd a = A, g = B * SolveSymmetricColumns(R, B.transpose()), h = Q;
   RiccatiSolution out;
   for (; out.iterations < kMostIterations; ++out.iterations) {
-    const Eigen::PartialPivLU<Eigen::MatrixXd> w(Eigen::MatrixXd::Identity(n, n) + g * h);
+    const Eigen::PartialPivLU<Eigen::MatrixXd> w(
+        Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n) + g * h));
     const Eigen::MatrixXd wa = w.solve(a), wg = w.solve(g);
     const Eigen::MatrixXd dh = a.transpose() * h * wa;
     g += a * wg * a.transpose();
@@ -26,7 +28,7 @@ RiccatiSolution SolveRiccati(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B,
   }
   out.X = h;
   const Eigen::MatrixXd bx = B.transpose() * h;
-  out.K = (R + bx * B).ldlt().solve(bx * A);
+  out.K = SolveSymmetricColumns(R + bx * B, bx * A);
   if (!out.K.allFinite() || !h.allFinite()) {
     out.residual = out.spectral_radius = kInfinity;
     return out;

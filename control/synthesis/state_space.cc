@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -14,7 +15,7 @@ Eigen::MatrixXcd StateSpace::Response(std::complex<double> z) const {
   if (states() == 0) return D.cast<std::complex<double>>();
   Eigen::MatrixXcd pencil = -A.cast<std::complex<double>>();
   pencil.diagonal().array() += z;
-  return C * pencil.partialPivLu().solve(B.cast<std::complex<double>>()) +
+  return C * SolveComplexColumns(pencil, B.cast<std::complex<double>>()) +
          D.cast<std::complex<double>>();
 }
 
@@ -59,7 +60,7 @@ Eigen::MatrixXd LoopMatrix(const StateSpace& P, const StateSpace& K) {
   const Eigen::Index n = P.states(), m = K.states();
   // y = C x + D u, u = Ck xk + Dk y: solved for u.
   const Eigen::MatrixXd E =
-      (Eigen::MatrixXd::Identity(P.inputs(), P.inputs()) - K.D * P.D).inverse();
+      InverseOf(Eigen::MatrixXd::Identity(P.inputs(), P.inputs()) - K.D * P.D);
   Eigen::MatrixXd u(P.inputs(), n + m), y(P.outputs(), n + m);
   u << E * K.D * P.C, E * K.C;
   y << P.C, Eigen::MatrixXd::Zero(P.outputs(), m);
@@ -82,7 +83,7 @@ StateSpace Bilinear(const StateSpace& s, double Ts, double prewarp) {
   if (n == 0) return s;
   // x' = A x + B u with s = c (z-1)/(z+1); the state is w = (c I - A) x - B u.
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd inverse = (c * I - s.A).inverse();
+  const Eigen::MatrixXd inverse = InverseOf(c * I - s.A);
   StateSpace d;
   d.A = (c * I + s.A) * inverse;
   d.B = (d.A + I) * s.B;

@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "core/math/linear_equations.h"
 #include "core/record/channels.h"
 #include "discovery/decision/likelihood.h"
 
@@ -138,7 +139,8 @@ std::vector<double> SdUnderDoubt(const CaseModel& model, const FitResult& fit,
   Eigen::MatrixXd information = weight.fit * square;
   for (Index k = 0; k < n; ++k)
     information(k, k) += h.free[static_cast<std::size_t>(k)].sd > 0 ? 1.0 : 1e-9;
-  const Eigen::MatrixXd covariance = information.ldlt().solve(Eigen::MatrixXd::Identity(n, n));
+  const Eigen::MatrixXd covariance =
+      SolveSymmetricColumns(information, Eigen::MatrixXd::Identity(n, n));
   for (Index k = 0; k < n; ++k) {
     const FreeParameter& p = h.free[static_cast<std::size_t>(k)];
     double& value = sd[static_cast<std::size_t>(k)];

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 #include "discovery/decision/side_contact.h"
 #include "discovery/model/residual_force.h"
 
@@ -49,7 +50,7 @@ ForceFit FitFields(const ForceSamples& s, const std::vector<ForceField>& fields)
   }
   const double total = square - static_cast<double>(n) * (mean_x * mean_x + mean_y * mean_y);
   if (total <= 0) return {};
-  const Eigen::VectorXd c = gram.completeOrthogonalDecomposition().solve(right);
+  const Eigen::VectorXd c = SolveLeastNorm(gram, right);
   const double left = square - 2 * c.dot(right) + c.dot(gram * c);
   return {std::clamp(1 - left / total, 0.0, 1.0), {c.data(), c.data() + m}};
 }

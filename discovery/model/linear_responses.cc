@@ -9,6 +9,7 @@
 #include "analysis/transfer_function.h"
 #include "core/base/index.h"
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -204,7 +205,7 @@ Complex LinearResponses::Held(const ResponsePoint& port, const ResponsePoint& ou
   MatrixXcd shifted = -state_.cast<Complex>();
   shifted.diagonal().array() += std::polar(1.0, 2 * kPi * f * period_);
   const MatrixXd& by = port.kind == PointKind::kDutyPort ? by_duty_ : by_set_point_;
-  return shifted.partialPivLu().solve(by.col(from).cast<Complex>())(2 * c + to);
+  return SolveComplex(shifted, by.col(from).cast<Complex>())(2 * c + to);
 }
 
 Complex LinearResponses::Between(const ResponsePoint& port, const ResponsePoint& out,

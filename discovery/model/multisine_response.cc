@@ -6,6 +6,7 @@
 #include "analysis/linear/operating_point.h"
 #include "core/base/index.h"
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 #include "core/record/channels.h"
 #include "rig/clearance.h"
 #include "rig/rig_assembly.h"
@@ -29,7 +30,7 @@ Eigen::RowVectorXd CommandRow(const BearingControl& control, std::size_t axes, E
   const Eigen::MatrixXd W =
       control.map.W.topLeftCorner(control.coils, static_cast<Eigen::Index>(axes) + 1);
   return control.map.k * control.map.c0 *
-         (W.transpose() * W).ldlt().solve(W.transpose()).row(1 + side);
+         SolveSymmetricColumns(W.transpose() * W, W.transpose()).row(1 + side);
 }
 
 /// What is added to a reading passes the controller, which no effect changes, and is a force from there

@@ -8,6 +8,7 @@
 #include <complex>
 
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 #include "discovery/data/bench_tables.h"
 #include "discovery/model/linear_responses.h"
 #include "rig/rig_assembly.h"
@@ -44,7 +45,7 @@ std::complex<double> LinkageOverCurrent(BearingPlant& b, const Lane& bias, int c
     basis.row(row) << 1, row, std::cos(angle), std::sin(angle);
     linkage(row) = b.lanes.lambda[coil];
   }
-  const Eigen::VectorXd c = basis.colPivHouseholderQr().solve(linkage);
+  const Eigen::VectorXd c = SolveLeastSquares(basis, linkage);
   return std::complex<double>(c(3), c(2)) / kCurrentStep;  // sin = Im e^{jωt}
 }
 

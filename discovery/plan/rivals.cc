@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/linear_equations.h"
 #include "discovery/model/jacobian.h"
 
 namespace ambrig {
@@ -76,7 +77,7 @@ double SquaredDistance(const TrialRecord& trial, const RivalView& a, const Rival
   A.topLeftCorner(na, na) += a.weight;
   A.bottomRightCorner(nb, nb) += b.weight;
   const Eigen::VectorXd with = gram.topRightCorner(na + nb, 1);
-  return std::max(0.0, gram(na + nb, na + nb) - with.dot(A.ldlt().solve(with)));
+  return std::max(0.0, gram(na + nb, na + nb) - with.dot(SolveSymmetric(A, with)));
 }
 
 double Disbelief(const TrialRecord& trial, const RivalView& view, const std::vector<double>& data) {
@@ -86,7 +87,7 @@ double Disbelief(const TrialRecord& trial, const RivalView& view, const std::vec
   const Eigen::MatrixXd gram = trial.row_weight * (all.transpose() * all);
   const Eigen::MatrixXd A = gram.topLeftCorner(n, n) + view.weight;
   const Eigen::VectorXd with = gram.topRightCorner(n, 1);
-  return gram(n, n) - with.dot(A.ldlt().solve(with)) + LogDeterminant(A) -
+  return gram(n, n) - with.dot(SolveSymmetric(A, with)) + LogDeterminant(A) -
          LogDeterminant(view.weight);
 }
 

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/math/linear_equations.h"
 #include "discovery/search/fit_problem.h"
 #include "discovery/search/size_sd.h"
 #include "effects/catalogue.h"
@@ -37,7 +38,7 @@ void EstimateCovariance(const FitProblem& cost, FitResult& result) {
   for (std::size_t k = 0; k < p; ++k)
     information(static_cast<Index>(k), static_cast<Index>(k)) += h.free[k].sd > 0 ? 1.0 : 1e-9;
   const Eigen::MatrixXd covariance =
-      information.ldlt().solve(Eigen::MatrixXd::Identity(information.rows(), information.cols()));
+      SolveSymmetricColumns(information, Eigen::MatrixXd::Identity(n, n));
   result.size_sd = SdOfSizes(h, information);
   for (std::size_t k = 0; k < p; ++k) {
     const auto i = static_cast<Index>(k);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
 
 namespace ambrig {
@@ -122,7 +123,7 @@ LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int
       A(i, i) += prior ? 1 : 1e-9 * A(i, i) + 1e-12;
       if (prior) b(i) += base_.hypothesis.Coordinate(static_cast<std::size_t>(k));
     }
-    const Eigen::VectorXd x = A.ldlt().solve(b);
+    const Eigen::VectorXd x = SolveSymmetric(A, b);
     c(free) = x;
     penalty = 0;
     for (Index k = 0; k < nb_; ++k)
@@ -214,7 +215,7 @@ double LinearJudge::LeastVisible(const SignatureBank::Entry& entry, Index column
   for (Index k = 0; k < nb_; ++k)
     own(k, k) += base_.hypothesis.free[static_cast<std::size_t>(k)].sd > 0 ? 1 : 1e-9;
   const Eigen::VectorXd with = weight * with_.fit.col(at).head(nb_);
-  const double information = weight * bank_.fit(at, at) - with.dot(own.ldlt().solve(with));
+  const double information = weight * bank_.fit(at, at) - with.dot(SolveSymmetric(own, with));
   return information > 0 ? 3 / std::sqrt(information) : kInfinity;
 }
 

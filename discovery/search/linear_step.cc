@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/search/fit_problem.h"
 
@@ -32,7 +33,7 @@ FitResult LinearlyRefitted(const CaseModel& model, const FitResult& now,
       A(k, k) += prior ? 1 : 1e-9 * A(k, k) + 1e-12;
       if (prior) b(k) -= now.hypothesis.Coordinate(i);
     }
-    const Eigen::VectorXd left = residual - out.jacobian * A.ldlt().solve(b);
+    const Eigen::VectorXd left = residual - out.jacobian * SolveSymmetric(A, b);
     out.residual.assign(left.data(), left.data() + left.size());
     out.ratio_fit = Ratio(model, out.residual, Which::kFit);
     out.ratio_validate = Ratio(model, out.residual, Which::kValidate);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -53,7 +54,7 @@ class ResonanceScan {
       const SensorEquations& q = sensors_[s];
       a -= q.background * (q.background.transpose() * a);
       const Eigen::Vector2d right = a.transpose() * q.error;
-      const Eigen::Vector2d c = (a.transpose() * a).ldlt().solve(right);
+      const Eigen::Vector2d c = SolveSymmetric(a.transpose() * a, right);
       e.gains.row(static_cast<Eigen::Index>(s)) = c.transpose();
       before += q.before;
       explained += c.dot(right);
@@ -89,8 +90,7 @@ class ResonanceScan {
       });
     }
     own.colwise().normalize();
-    q.background = Eigen::HouseholderQR<Eigen::MatrixXd>(own).householderQ() *
-                   Eigen::MatrixXd::Identity(own.rows(), own.cols());
+    q.background = OrthonormalColumnsOf(own);
     q.error = Column(s, [&](const FreeResponse& r, std::size_t k) { return r.missing[s][k]; });
     q.error -= q.background * (q.background.transpose() * q.error);
     q.before = q.error.squaredNorm();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/math/linear_equations.h"
 #include "effects/catalogue.h"
 
 namespace ambrig {
@@ -29,7 +30,7 @@ std::vector<double> SdOfSizes(const Hypothesis& h, const Eigen::MatrixXd& inform
         rows.push_back(static_cast<Index>(k));
     const Eigen::MatrixXd part = information(rows, rows);
     const Eigen::MatrixXd covariance =
-        part.ldlt().solve(Eigen::MatrixXd::Identity(part.rows(), part.cols()));
+        SolveSymmetricColumns(part, Eigen::MatrixXd::Identity(part.rows(), part.cols()));
     for (std::size_t r = 0; r < rows.size(); ++r)
       if (h.free[static_cast<std::size_t>(rows[r])].effect == effect)
         sd[static_cast<std::size_t>(rows[r])] =

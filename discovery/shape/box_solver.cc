@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "core/math/linear_equations.h"
+
 namespace ambrig {
 
 using Eigen::Index;
@@ -23,7 +25,7 @@ Eigen::VectorXd Least(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const 
   Eigen::VectorXd fixed = x;
   for (const Index k : free) fixed(k) = 0;
   const Eigen::VectorXd right = b - A * fixed;
-  return Eigen::MatrixXd(A(free, free)).ldlt().solve(Eigen::VectorXd(right(free)));
+  return SolveSymmetric(A(free, free), right(free));
 }
 
 /// Goes towards `wanted` until the first limit, which then holds. Returns whether it got there.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
 #include "discovery/search/signature_bank.h"
@@ -118,8 +119,8 @@ class ShapeProblem {
       return Eigen::MatrixXd(unit.asDiagonal() * inverse.bottomRightCorner(m, m) *
                              unit.asDiagonal());
     };
-    out.posterior = scaled((information + prior).ldlt().solve(one));
-    out.prior = scaled(prior.ldlt().solve(one));
+    out.posterior = scaled(SolveSymmetricColumns(information + prior, one));
+    out.prior = scaled(SolveSymmetricColumns(prior, one));
     out.smoothing = smoothing;
     for (Index k = 0; k < m; ++k)
       out.influence.push_back(information(first_ + k, first_ + k) * kSpread * kSpread);

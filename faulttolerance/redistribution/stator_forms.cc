@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -157,7 +158,7 @@ void Polish(const StatorForms& f, int equations, Eigen::VectorXd& x) {
   for (int k = 0; k < kPolish; ++k) {
     const Eigen::VectorXd e = f.Errors(x).head(equations);
     if (e.cwiseAbs().maxCoeff() < 1e-14) return;
-    x -= f.Jacobian(x).topRows(equations).completeOrthogonalDecomposition().solve(e);
+    x -= SolveLeastNorm(f.Jacobian(x).topRows(equations), e);
   }
 }
 
@@ -173,7 +174,7 @@ double SolveStatorForms(const StatorForms& f, int equations, double others,
     for (int round = 0; round < kRounds; ++round) {
       Eigen::MatrixXd A = now.J.transpose() * now.J;
       A.diagonal().array() += lambda;
-      const Eigen::VectorXd next = x - A.ldlt().solve(now.J.transpose() * now.r);
+      const Eigen::VectorXd next = x - SolveSymmetric(A, now.J.transpose() * now.r);
       Residuals tried = ResidualsOf(f, equations, open, bounds, held, next);
       const double before = now.r.squaredNorm(), after = tried.r.squaredNorm();
       if (!(after < before)) {

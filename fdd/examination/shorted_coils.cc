@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/math/linear_equations.h"
 #include "fdd/measurement/motion_uncertainty.h"
 
 namespace ambrig {
@@ -127,7 +128,7 @@ Fit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils,
       part(r, r) *= 1 + damping;
       part(r, r) += 1e-9;
     }
-    const Eigen::VectorXd change = part.ldlt().solve(rhs);
+    const Eigen::VectorXd change = SolveSymmetric(part, rhs);
     Fit next = best;
     for (Eigen::Index r = 0; r < n; ++r) {
       double& a = next.a[coils[static_cast<std::size_t>(r)]];

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/linear_equations.h"
+
 namespace ambrig {
 
 namespace {
@@ -93,7 +95,7 @@ class Fit {
         Parameters q = *p;
         Eigen::MatrixXd damped = normal_;
         damped.diagonal() *= 1 + damping;
-        const Eigen::VectorXd move = damped.ldlt().solve(gradient_);
+        const Eigen::VectorXd move = SolveSymmetric(damped, gradient_);
         for (int k = first; k < last; ++k)
           q[k] = std::clamp(q[k] - move[k - first], kLeast[k], kMost[k]);
         CoilEquations tried;

@@ -17,15 +17,15 @@ PlaneModes ResidualModes(const ReducedRotor& all, int kept, const std::vector<do
                    .phi.tail(left)
                    .cwiseQuotient(w2)
                    .normalized();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(a.transpose() * a);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(Eigen::MatrixXd(a.transpose() * a));
   Eigen::Index alike = 0;  // two bearings at one plane
   while (alike < a.cols() && gram.eigenvalues()(alike) < 1e-8) ++alike;
   const Eigen::Index count = a.cols() - alike;
   const Eigen::MatrixXd basis =
       a * gram.eigenvectors().rightCols(count) *
       gram.eigenvalues().tail(count).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(basis.transpose() * w2.asDiagonal() *
-                                                             basis);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      Eigen::MatrixXd(basis.transpose() * w2.asDiagonal() * basis));
   return {eigen.eigenvalues().cwiseSqrt(),
           all.shape.rightCols(left) * (basis * eigen.eigenvectors())};
 }

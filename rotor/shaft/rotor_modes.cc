@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 #include "rotor/shaft/state_modes.h"
 
 namespace ambrig {
@@ -87,7 +88,8 @@ std::vector<CriticalSpeed> CriticalSpeeds(const LinearRotor& rotor, int count) {
   const Eigen::MatrixXcd synchronous = rotor.M.cast<Complex>() - kI * rotor.G.cast<Complex>();
   const Eigen::MatrixXcd left = L.triangularView<Eigen::Lower>().solve(synchronous);
   const Eigen::MatrixXcd H = L.triangularView<Eigen::Lower>().solve(left.adjoint());
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> eigen(0.5 * (H + H.adjoint()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXcd> eigen(
+      Eigen::MatrixXcd(0.5 * (H + H.adjoint())));
   std::vector<CriticalSpeed> out;
   for (Eigen::Index k = H.rows() - 1; k >= 0 && static_cast<int>(out.size()) < count; --k) {
     const double inverse_square = eigen.eigenvalues()(k);
@@ -124,7 +126,7 @@ Eigen::VectorXcd UnbalanceResponse(const LinearRotor& rotor,
   const Eigen::MatrixXcd dynamic = rotor.K.cast<Complex>() -
                                    speed * speed * rotor.M.cast<Complex>() +
                                    kI * speed * (rotor.D + speed * rotor.G).cast<Complex>();
-  return dynamic.partialPivLu().solve(f);
+  return SolveComplex(dynamic, f);
 }
 
 OrbitAxes AxesOfOrbit(Complex x, Complex y) {

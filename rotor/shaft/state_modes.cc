@@ -26,9 +26,10 @@ std::vector<double> RatesOf(const LinearRotor& r) {
 StateModes SolveShifted(const LinearRotor& r, double speed, double shift) {
   const Eigen::Index n = r.M.rows();
   const Eigen::MatrixXd C = r.D + speed * r.G;
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(shift * shift * r.M + shift * C + r.K);
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(
+      Eigen::MatrixXd(shift * shift * r.M + shift * C + r.K));
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  A.topLeftCorner(n, n) = -shift * lu.solve(2 * shift * r.M + C);
+  A.topLeftCorner(n, n) = -shift * lu.solve(Eigen::MatrixXd(2 * shift * r.M + C));
   A.topRightCorner(n, n) = -shift * shift * lu.solve(r.M);
   A.bottomLeftCorner(n, n).setIdentity();
   const Eigen::EigenSolver<Eigen::MatrixXd> eigen(A);
@@ -46,7 +47,7 @@ StateModes SolveShifted(const LinearRotor& r, double speed, double shift) {
 }
 
 Eigen::LLT<Eigen::MatrixXd> FactorOfMass(const LinearRotor& r) {
-  Eigen::LLT<Eigen::MatrixXd> llt(0.5 * (r.M + r.M.transpose()));
+  Eigen::LLT<Eigen::MatrixXd> llt(Eigen::MatrixXd(0.5 * (r.M + r.M.transpose())));
   if (llt.info() != Eigen::Success)
     throw InputError(
         "the rotor's mass matrix is not positive definite, allowed: added masses of supports that "

@@ -3,6 +3,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "core/math/linear_equations.h"
+
 namespace ambrig {
 
 namespace {
@@ -26,7 +28,7 @@ Eigen::VectorXd Bends(const std::vector<double>& at, const std::vector<double>& 
     A.row(k).segment(k - 1, 3) << h(k - 1), 2 * (h(k - 1) + h(k)), h(k);
     b(k) = 6 * (slope(k) - slope(k - 1));
   }
-  return A.partialPivLu().solve(b);
+  return SolveLinear(A, b);
 }
 
 }  // namespace

@@ -33,7 +33,7 @@ std::vector<std::complex<double>> OscillatoryPoles(const Eigen::VectorXcd& s) {
 Eigen::VectorXcd ShapeAtPole(const LinearRotor& r, double speed, std::complex<double> s) {
   s *= 1 + 1e-7;  // beside the pole, where the matrix is not singular
   const Eigen::MatrixXcd C = (r.D + speed * r.G).cast<std::complex<double>>();
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(s * s * r.M + s * C + r.K);
+  const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(Eigen::MatrixXcd(s * s * r.M + s * C + r.K));
   Eigen::VectorXcd q = Eigen::VectorXcd::Ones(r.M.rows());
   for (int k = 0; k < 3; ++k) {
     const Eigen::VectorXcd slope = 2.0 * s * (r.M * q) + C * q;

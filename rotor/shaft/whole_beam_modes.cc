@@ -21,7 +21,7 @@ MatrixXd Independent(const MatrixXd& a, const MatrixXd& M) {
     const double norm = std::sqrt(a.col(k).dot(M * a.col(k)));
     if (norm > 0) scaled.col(k) /= norm;
   }
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(scaled.transpose() * M * scaled);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> gram(MatrixXd(scaled.transpose() * M * scaled));
   std::vector<Index> kept;
   for (Index k = 0; k < a.cols(); ++k)
     if (gram.eigenvalues()(k) > 1e-9) kept.push_back(k);

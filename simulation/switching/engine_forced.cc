@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "core/math/constants.h"
+#include "core/math/linear_equations.h"
 #include "core/record/channels.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "simulation/switching/bearing_run.h"
@@ -81,7 +82,7 @@ void SwitchingEngine::StartForcedRotor() {
   Eigen::MatrixXd readings(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(dof));
   for (std::size_t k = 0; k < rows.size(); ++k)
     readings.row(static_cast<Eigen::Index>(k)) = rows[k];
-  observed_ = readings.completeOrthogonalDecomposition().pseudoInverse();
+  observed_ = PseudoinverseOf(readings);
   const auto count = static_cast<Eigen::Index>(rows.size());
   const Eigen::VectorXd at = Eigen::Map<Eigen::VectorXd>(now.data(), count),
                         next = Eigen::Map<Eigen::VectorXd>(later.data(), count);

@@ -1,6 +1,7 @@
 /// Tilt and translation as C: control/position/tilt_translation.h.
 #include "control/position/c_code/c_code.h"
 #include "control/position/tilt_translation.h"
+#include "core/math/linear_equations.h"
 
 namespace ambrig {
 
@@ -99,9 +100,7 @@ void TiltTranslation::WriteC(CCode& c) const {
   c.Define(part, "GYRO", gyro_);
   c.Constant(part, "sensing", Eigen::MatrixXd(sensing_));
   c.Constant(part, "actuation", Eigen::MatrixXd(actuation_));
-  c.Constant(part, "total",
-             Eigen::MatrixXd(
-                 Eigen::MatrixXd(actuation_).completeOrthogonalDecomposition().pseudoInverse()));
+  c.Constant(part, "total", PseudoinverseOf(actuation_));
   c.Constant(part, "f_max", f_max_);
   c.Constant(part, "filter", std::vector<double>(filter_.begin(), filter_.end()));
   c.Constant(part, "kp", std::vector<double>{pid_[0].kp, pid_[1].kp});
