@@ -97,7 +97,8 @@ TEST_F(TerminalText, AnAnalysisSaysItsZonesAndOnlyTrueCriticals) {
                            "two.rig.analysis.html", "two.rig.analysis.json"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "reports" / file)) << file;
   std::size_t crossings = 0, peaks = 0, printed = 0;
-  for (const auto& c : nlohmann::json::parse(ReadText(folder_ / "a.json"))["critical_speeds"]) {
+  const auto json = nlohmann::json::parse(ReadText(folder_ / "a.json"));
+  for (const auto& c : json["critical_speeds"]) {
     ++crossings;
     peaks += c["log_decrement"].get<double>() < 2 * std::acos(-1.0) ? 1 : 0;  // zeta of 0.71
   }
