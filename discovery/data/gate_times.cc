@@ -48,6 +48,7 @@ std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& colu
 struct FoundShift {
   double late = 0, from = 0;  // [s], [s] after the first row
   double left = 1;            // share of the error that remains
+  bool all_rows = true;       // from the record's beginning on, else rows were lost within it
 };
 
 FoundShift ShiftOf(const std::vector<const GateColumn*>& columns, double rate) {
@@ -63,6 +64,7 @@ FoundShift ShiftOf(const std::vector<const GateColumn*>& columns, double rate) {
   f.late = static_cast<double>(s.late) * seconds;
   f.from = static_cast<double>(s.from) * seconds;
   f.left = s.before > 0 ? s.after / s.before : 1;
+  f.all_rows = f.from <= kEarly * static_cast<double>(rows) / rate;
   return f;
 }
 
@@ -71,7 +73,7 @@ DataFault TimeFault(const CaseRecord& r, const std::string& channel, const Found
   DataFault f;
   f.record = r.data_file;
   f.channel = channel;
-  const bool lost = s.from > kEarly * length && s.late < 0;
+  const bool lost = !s.all_rows && s.late < 0;
   f.fault = lost ? "lost" : "lag";
   f.seconds = lost ? -s.late : s.late;
   f.probability = std::clamp(1 - s.left * s.left, 0.5, 0.999);
@@ -111,9 +113,7 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
       continue;
     const FoundShift s = ShiftOf({&c}, r.data.rate);
     // rows are lost in all columns at once: what is late in one column is late from its first row on
-    const double length = static_cast<double>(r.data.rows()) / r.data.rate;
-    if (std::abs(s.late) >= kLeastColumn && s.left < 0.3 && s.from <= kEarly * length)
-      late.emplace_back(&c, s);
+    if (std::abs(s.late) >= kLeastColumn && s.left < 0.3 && s.all_rows) late.emplace_back(&c, s);
   }
   // a rig that is late is so in all its columns; a logger's own delay is in one or two
   if (late.size() > 2) return;

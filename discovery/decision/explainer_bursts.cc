@@ -77,7 +77,7 @@ void Explainer::FitPastBursts(FitResult& now) {
   const Branches branches = BranchesOf(model_, without, bursts, out_.effective_sample_size);
   if (branches.hypotheses.empty()) return;
   const FitResult there = At(BestBranchOf(model_, branches));
-  FitResult again = FitNow(there.hypothesis, nullptr);
+  FitResult again = FitNow(there.hypothesis, &there.jacobian);
   if (!again.converged || ScoreOf(there) < ScoreOf(again)) again = there;
   if (again.converged && Gain(now, again) > kLeastGain) now = std::move(again);
 }

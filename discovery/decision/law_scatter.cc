@@ -137,8 +137,7 @@ std::vector<double> SdUnderDoubt(const CaseModel& model, const FitResult& fit,
   for (const DataBlock& b : blocks)
     if (b.fitted) square += b.square;
   Eigen::MatrixXd information = weight.fit * square;
-  for (Index k = 0; k < n; ++k)
-    information(k, k) += h.free[static_cast<std::size_t>(k)].sd > 0 ? 1.0 : 1e-9;
+  AddPriorInformation(h, information);
   const Eigen::MatrixXd covariance =
       SolveSymmetricColumns(information, Eigen::MatrixXd::Identity(n, n));
   for (Index k = 0; k < n; ++k) {

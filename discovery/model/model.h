@@ -99,7 +99,7 @@ class CaseModel {
   void LimitAs(const CaseModel& other);
   /// These samples of all channels of their records do not count from now on.
   void LeaveOut(const std::vector<SampleSpan>& spans);
-  /// Which rows are left in (LeaveOut), and as they were before.
+  /// The rows that LeaveOut has left in, a flag each; SetSound puts an earlier state of them back.
   const std::vector<char>& sound() const { return sound_; }
   void SetSound(std::vector<char> rows);
   /// Whether the measured rotor reaches its auxiliary bearings in some record.

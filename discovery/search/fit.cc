@@ -35,8 +35,7 @@ void EstimateCovariance(const FitProblem& cost, FitResult& result) {
       FitGram(cost.model(), cost.look(), result.jacobian, result.residual).topLeftCorner(n, n);
   result.sd.assign(p, 0);
   Eigen::VectorXd influence = information.diagonal().cwiseSqrt();
-  for (std::size_t k = 0; k < p; ++k)
-    information(static_cast<Index>(k), static_cast<Index>(k)) += h.free[k].sd > 0 ? 1.0 : 1e-9;
+  AddPriorInformation(h, information);
   const Eigen::MatrixXd covariance =
       SolveSymmetricColumns(information, Eigen::MatrixXd::Identity(n, n));
   result.size_sd = SdOfSizes(h, information);
@@ -192,6 +191,11 @@ FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions&
   cost.SetMisfitWeight(result.ratio_fit);
   if (options.sensitivities) EstimateCovariance(cost, result);
   return result;
+}
+
+void AddPriorInformation(const Hypothesis& h, Eigen::MatrixXd& information) {
+  for (Index k = 0; k < information.rows(); ++k)
+    information(k, k) += h.free[static_cast<std::size_t>(k)].sd > 0 ? 1.0 : 1e-9;
 }
 
 EffectInstance FittedEffect(const FitResult& fit, std::size_t index) {

@@ -53,6 +53,10 @@ struct FitResult {
 /// A fit that finds no better point says so (`converged` false), it never passes for a result.
 FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options);
 
+/// Adds the prior's part to the information on the free parameters (n x n, in their coordinates); a little where there is
+/// no prior, so that what the records do not tell has a finite sd.
+void AddPriorInformation(const Hypothesis& h, Eigen::MatrixXd& information);
+
 /// Fitted values and sd of the effect number `index` of the hypothesis.
 EffectInstance FittedEffect(const FitResult& fit, std::size_t index);
 

@@ -212,8 +212,7 @@ double LinearJudge::LeastVisible(const SignatureBank::Entry& entry, Index column
   const double weight = MisfitWeight(std::max(1.0, base_.ratio_fit), effective_sample_size_) /
                         static_cast<double>(model_.size());
   Eigen::MatrixXd own = weight * own_.fit.topLeftCorner(nb_, nb_);
-  for (Index k = 0; k < nb_; ++k)
-    own(k, k) += base_.hypothesis.free[static_cast<std::size_t>(k)].sd > 0 ? 1 : 1e-9;
+  AddPriorInformation(base_.hypothesis, own);
   const Eigen::VectorXd with = weight * with_.fit.col(at).head(nb_);
   const double information = weight * bank_.fit(at, at) - with.dot(SolveSymmetric(own, with));
   return information > 0 ? 3 / std::sqrt(information) : kInfinity;

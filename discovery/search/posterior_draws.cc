@@ -14,8 +14,7 @@ std::vector<Hypothesis> PosteriorDraws(const CaseModel& model, const FitResult& 
       FitGram(model, FittedRecords(model, {}), fit.jacobian, fit.residual).topLeftCorner(p, p);
   information *= MisfitWeight(std::max(1.0, fit.ratio_fit), effective_sample_size) /
                  static_cast<double>(std::max<std::size_t>(1, model.size()));
-  for (Eigen::Index k = 0; k < p; ++k)
-    information(k, k) += fit.hypothesis.free[static_cast<std::size_t>(k)].sd > 0 ? 1.0 : 1e-9;
+  AddPriorInformation(fit.hypothesis, information);
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   std::vector<Hypothesis> out;
   for (int n = 0; n < count && factor.info() == Eigen::Success; ++n) {

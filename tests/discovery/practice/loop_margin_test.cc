@@ -18,7 +18,7 @@ TEST(LoopMargin, TheExamplesHaveOne) {
     EXPECT_NO_THROW(RequireLoopMargin(Example(name))) << name;
 }
 
-// An amplifier of half the bandwidth of the unstable pole's frequency leaves gain margins below nothing.
+// A current loop that is slower than the rotor falls leaves no gain that holds it.
 TEST(LoopMargin, ASlowAmplifierUnderAHeavyRotorIsRefused) {
   RigParameters rig = Example("heavy_compressor");
   rig.amplifier.kp *= 0.3;
