@@ -200,5 +200,16 @@ TEST(DistributionSolver, ABiasBeyondTheAmplifiersServesNothing) {
   EXPECT_TRUE(Describe(p, SolvabilityClass::kExact, HealthyDistribution(p)).unipolar);
 }
 
+// The poles are alike: turned by five of them, {1, 2, 4, 5} are {6, 7, 1, 2}. What is asked of W,
+// and so its capacity, has that symmetry too; the random starts of the search are others.
+TEST(DistributionSolver, ALinearisedSetTurnedByFivePolesReachesTheSame) {
+  const Distribution one = SolveDistribution(Broken({1, 2, 4, 5}), Capacity()),
+                     turned = SolveDistribution(Broken({1, 2, 6, 7}), Capacity());
+  EXPECT_EQ(one.cls, SolvabilityClass::kLinearised);
+  EXPECT_TRUE(one.unipolar);
+  EXPECT_NEAR(turned.rho / one.rho, 1, 0.01);
+  EXPECT_NEAR(turned.capacity_current / one.capacity_current, 1, 0.01);
+}
+
 }  // namespace
 }  // namespace ambrig

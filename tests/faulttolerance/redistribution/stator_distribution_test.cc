@@ -257,5 +257,23 @@ TEST(StatorBounds, AreThoseOfEveryCoil) {
   }
 }
 
+// W of the healthy bearing with 1.4 times its bias and control entries over 1.4 solves the same
+// equations, beyond the range of every coil. The search takes each of them back into it, to the
+// margin of 1e-4 that it keeps.
+TEST(StatorBounds, TheSearchTakesEveryCoilBackIntoItsRange) {
+  const StatorProblem p = StatorProblemOf(Stator("one-coil-per-pole", 8), 1.5, true);
+  const StatorForms forms(p);
+  StatorBounds bounds;
+  bounds.rho = 0.3;
+  bounds.limit = 1.6;
+  Eigen::MatrixXd W = p.healthy / 1.4;
+  W.col(0) = 1.4 * p.healthy.col(0);
+  Eigen::VectorXd x = forms.FromMatrix(W);
+  EXPECT_LT(forms.Errors(x).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_NEAR(bounds.Violation(forms, x), 1.4 + 0.3 / 1.4 - 1.6, 1e-9);
+  EXPECT_LT(SolveStatorForms(forms, forms.equations(), 1, bounds, 1e-2, x), 1e-9);
+  EXPECT_LT(bounds.Violation(forms, x), 1e-4);
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -193,5 +193,48 @@ TEST(FaultSupervisor, SlopeTracesShowTheFaultyCoilLeaveItsBand) {
   EXPECT_NEAR(s.t.front(), 0.015, 2e-4);
 }
 
+/// Keeps by how much the way to the first new map lets every set-point of bearing A change in one
+/// controller period.
+class TransitionWitness : public Supervisor {
+ public:
+  explicit TransitionWitness(const FaultSupervisorOptions& options)
+      : inner_(NominalRig(Rig()), options) {}
+  void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
+                   SupervisorOutput& out) override {
+    inner_.AfterPeriod(m, control, out);
+    for (const ControlAction& action : out.actions) {
+      const auto* change = std::get_if<ReplaceMap>(&action);
+      if (!change || !change->current_transition || !steps.isZero()) continue;
+      const auto way = change->current_transition->Clone();
+      const CoilVector far = CoilVector::Constant(100), first = way->Step(far, {0, 0});
+      steps = way->Step(far, {0, 0}) - first;
+    }
+  }
+  CoilVector steps = CoilVector::Zero();  // [A]
+
+ private:
+  FaultSupervisor inner_;
+};
+
+// 0.8 of the bus of 30 V change the current of a coil of 1.75 mH (docs/theory/base_model.md) by 1.1
+// A in 80 us.
+TEST(FaultSupervisor, ARampTakesMostOfTheBusForItsChange) {
+  FaultSupervisorOptions options;
+  options.current_transition = "ramp";
+  options.cache_dir = ::testing::TempDir() + "ambrig_fdd_tables";
+  TransitionWitness witness(options);
+  EngineOptions engine;
+  engine.record = false;
+  engine.supervisor = &witness;
+  const Scenario s =
+      ReadScenarioText("name = \"t\"\n" + Spin(0.012, 157, 1) + FaultTable(0.01, "A.coil3", "open"),
+                       "t.toml", Rig());
+  SwitchingEngine(Rig(), s, engine).Run();
+  for (int j = 0; j < 8; ++j)
+    if (j != 2) {
+      EXPECT_NEAR(witness.steps[j], 0.8 * 30 * 80e-6 / 1.75e-3, 0.005) << j;
+    }
+}
+
 }  // namespace
 }  // namespace ambrig

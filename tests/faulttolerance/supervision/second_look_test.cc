@@ -49,6 +49,11 @@ TEST(SecondLook, WithoutCommissioningADoubtfulCoilStaysOff) {
   const Outcome o =
       Simulated(Spin(0.1, 157, 3) + FaultTable(0.02, "A.coil4", "amplifier-off", "duration = 5e-3"),
                 Strange(3000));
+  for (const RunEvent& e : o.result.events)
+    if (e.kind == "doubtful") {
+      EXPECT_EQ(e.fraction, 0) << e.target;  // no turns are said to be shorted
+    }
+  EXPECT_LT(o.When("doubtful"), 0.1);
   EXPECT_EQ(Count(o, "disable"), 1U);
   EXPECT_EQ(Count(o, "restore"), 0U);
   EXPECT_LT(o.result.metrics.max_orbit.at("A"), 40e-6);
