@@ -10,7 +10,9 @@
 #include "rotor/shaft/convert_shaft.h"
 #include "rotor/shaft/ross_elements.h"
 #include "rotor/shaft/ross_file.h"
+#include "rotor/shaft/ross_magnets.h"
 #include "rotor/shaft/rotor_modes.h"
+#include "tests/rotor/shaft/shaft_tables.h"
 
 namespace ambrig {
 namespace {
@@ -114,6 +116,45 @@ TEST(RossReleases, SavedMagneticBearingsAreBearingsOfARig) {
     EXPECT_EQ(back.magnetic_bearings, 2U) << name;
     EXPECT_EQ(back.not_carried.size(), 1U) << "amplifiers and the like are named";
   }
+}
+
+// A magnet of 0.3 A: what is assumed of its amplifier follows from the bias.
+TEST(RossMagnets, TheAmplifierOfAWeakMagnetIsAWeakOne) {
+  RossMagnet m;
+  m.name = "weak";
+  m.z = 0.1;
+  m.gap = 5e-4;
+  m.area = 1e-4;
+  m.turns = 200;
+  m.bias = 0.3;
+  const std::string text = MagneticRigText(testing::ParseShaft(testing::kShaftTables), {m});
+  for (const char* line : {"\ni_max = 0.6 ", "\nadc_range = 0.9\n", "\ncurrent_noise = 0.0006\n",
+                           "\nbias_current = 0.3\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+// Of a rig's bearings ROSS can say those of eight poles NSNSNSNS with a bias; the others are named.
+TEST(RossMagnets, BearingsOfAnotherKindOrWithoutABiasStayBehind) {
+  const RoundTripFiles files;
+  const std::string size = "z = 0.1\nturns = 50\npole_area = 2e-4\ngap = 4e-4\n";
+  std::ofstream(files.ours) << "[controller]\nbias_current = 2.0\nkp = 4e5\n[bearings.A]\n" + size +
+                                   "[bearings.paired]\nwinding = \"NNSSNNSS\"\n" + size +
+                                   "[bearings.thrust]\nkind = \"thrust\"\n" + size +
+                                   "[bearings.unbiased]\ncontroller = { bias_current = 0.0 }\n" +
+                                   size;
+  std::vector<std::string> lost;
+  const std::vector<RossMagnet> magnets = MagnetsOfRig(files.ours, lost);
+  ASSERT_EQ(magnets.size(), 1U);
+  EXPECT_EQ(magnets[0].name, "A");
+  EXPECT_EQ(magnets[0].turns, 100);
+  EXPECT_EQ(magnets[0].bias, 2);
+  EXPECT_NEAR(magnets[0].kp * magnets[0].current_gain(), 4e5, 1e-6);
+  ASSERT_EQ(lost.size(), 4U);
+  for (const char* name : {"bearings.paired", "bearings.thrust", "bearings.unbiased"})
+    EXPECT_EQ(std::count_if(lost.begin(), lost.end(),
+                            [&](const std::string& l) { return l.starts_with(name); }),
+              1)
+        << name;
 }
 
 TEST(RossReleases, WhatIsNoRotorIsRefusedByName) {

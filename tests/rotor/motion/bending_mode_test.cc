@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "rotor/shaft/reduction.h"
+#include "tests/rotor/shaft/uniform_shaft.h"
+
 namespace ambrig {
 namespace {
 
@@ -45,6 +48,30 @@ TEST(BendingMode, OfOnePointOrNoneIsConstant) {
   EXPECT_EQ(m.Gain(0.3), 0);
   m.shape = {{0.1, 2.5, 0, 0}};
   EXPECT_EQ(m.Gain(-4), 2.5);
+}
+
+// A disk's polar inertia moves no mode at rest. It turns with the rotor's tilt as it is and with a
+// mode by the slope there: it adds Ip s sᵀ to J, s = (1, slopes).
+TEST(BendingMode, ADiskAddsTheGyroscopicsOfItsSlopes) {
+  const double Ip = 0.0075, z = 0.42;
+  BeamDefinition d = UniformShaft(0.6, 0.02, 6);
+  d.disks = {{z, 2.0, 0.004, 0, "disk"}};
+  const std::vector<BendingMode> without = BendingModes(Reduce(BuildBeam(d), 3, {0.0}));
+  d.disks[0].inertia_polar = Ip;
+  const ReducedRotor r = Reduce(BuildBeam(d), 3, {0.0});
+  const std::vector<BendingMode> with = BendingModes(r);
+  const Eigen::VectorXd slope = StationAt(r, z).slope;
+  ASSERT_EQ(with.size(), 3U);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double own = slope(static_cast<Eigen::Index>(k));
+    EXPECT_GT(std::abs(own - 1), 0.5) << k;
+    EXPECT_NEAR(with[k].gyroscopic_tilt - without[k].gyroscopic_tilt, Ip * own, 1e-9) << k;
+    EXPECT_NEAR(with[k].gyroscopic - without[k].gyroscopic, Ip * own * own, 1e-9) << k;
+    ASSERT_EQ(with[k].gyroscopic_other.size(), k);
+    for (std::size_t l = 0; l < k; ++l)
+      EXPECT_NEAR(with[k].gyroscopic_other[l] - without[k].gyroscopic_other[l],
+                  Ip * own * slope(static_cast<Eigen::Index>(l)), 1e-9);
+  }
 }
 
 BendingMode Plain(double omega, double damping, double gyroscopic, double tilt = 0) {

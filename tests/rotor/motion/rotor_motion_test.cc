@@ -63,5 +63,30 @@ TEST(RotorMotion, ARaceRingsOnItsMountWithoutContact) {
   EXPECT_LT(std::abs(s.q[d]), x0);
 }
 
+/// A surface 10 um beside the axis in x, 20 um in y.
+class SurfaceBeside : public SurfaceTerm {
+ public:
+  void Add(const MotionState&, double, double* dx, double* dy) const override {
+    *dx += 1e-5;
+    *dy -= 2e-5;
+  }
+};
+
+// A radial plane sees the surface in both its directions, one along the axis does not.
+TEST(RotorMotion, APlaneSeesTheSurfaceBesideTheAxis) {
+  RotorModel m({4.2, 0.036, 0.0042, 0.03}, {0, 0, 0});
+  m.surface.push_back(std::make_unique<SurfaceBeside>());
+  MotionState s;
+  s.q = {3e-6, 4e-6, 7e-6, 1e-4, -2e-4};
+  const double z = 0.1;
+  const PlanePoint radial = m.Position(s, m.MakePlane(z));
+  EXPECT_NEAR(radial.x, 3e-6 - z * 2e-4 + 1e-5, 1e-18);
+  EXPECT_NEAR(radial.y, 4e-6 - z * 1e-4 - 2e-5, 1e-18);
+  PlaneMap axial;
+  axial.Add(2, 1, 0);
+  EXPECT_NEAR(m.Position(s, axial).x, 7e-6, 1e-18);
+  EXPECT_EQ(m.Position(s, axial).y, 0);
+}
+
 }  // namespace
 }  // namespace ambrig

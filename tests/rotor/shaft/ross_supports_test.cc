@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include "core/math/constants.h"
 #include "rotor/shaft/ross_file.h"
@@ -85,6 +86,62 @@ TEST(RossSupports, TablesKeepEverySpeedAndCoefficient) {
       EXPECT_EQ(back.At(speed).*f.at, s.At(speed).*f.at) << f.key;
 }
 
+// Of an isotropic film over three speeds k = 1, 2, 5 MN/m: half way between the first two 1.5 on
+// straight lines, 1.25 on the parabola through them.
+TEST(RossSupports, TheirInterpolationIsThatOfTheFile) {
+  for (const auto& [word, between, told] :
+       {std::tuple{"linear", 1.5e6, 0U}, {"cubic", 1.25e6, 0U}, {"pchip", 1.25e6, 1U}}) {
+    RossTable table;
+    table.Add(
+        "[BearingElement_film]\nn = 1\nspeed = [0.0, 100.0, 200.0,]\nkxx = [1e6, 2e6, 5e6,]\n"
+        "cxx = [0.0, 0.0, 0.0,]\ninterpolation = \"" +
+        std::string(word) + "\"\n");
+    const RossRotor r = table.Read();
+    ASSERT_EQ(r.definition.supports.size(), 1U);
+    EXPECT_NEAR(r.definition.supports[0].At(50).kxx, between, 1) << word;
+    EXPECT_EQ(r.ignored.size(), told) << word;
+  }
+}
+
+// What of a mass is not given beside mx and my is none; of a plain m all three are.
+TEST(RossSupports, AMassIsThatOfItsDirections) {
+  for (const auto& [mass, x, y, z] : {std::tuple{"m = 1.5", 1.5, 1.5, 1.5},
+                                      {"mx = 2.0\nmy = 3.0", 2.0, 3.0, 0.0},
+                                      {"mx = 2.0\nmy = 3.0\nmz = 4.0", 2.0, 3.0, 4.0}}) {
+    RossTable table;
+    table.Add(std::string("[PointMass_block]\nn = 1\n") + mass + "\n");
+    const BeamDefinition d = table.Read().definition;
+    ASSERT_EQ(d.masses.size(), 1U);
+    EXPECT_EQ(d.masses[0].mass_x, x) << mass;
+    EXPECT_EQ(d.masses[0].mass_y, y) << mass;
+    EXPECT_EQ(d.masses[0].mass_z, z) << mass;
+  }
+}
+
+// The shaft of two elements, and behind a coupling another one of two: each half sits where its own
+// shaft begins or ends.
+TEST(RossSupports, TheHalvesOfACouplingSitAtItsTwoEnds) {
+  RossTable table;
+  for (const int n : {3, 4})
+    table.Add("[ShaftElement_" + std::to_string(n) +
+              "]\nL = 0.5\nidl = 0.0\nodl = 0.02\nn = " + std::to_string(n) + "\n[ShaftElement_" +
+              std::to_string(n) + ".material]\nrho = 7800.0\nE = 1e13\nG_s = 4e12\n");
+  table.Add(
+      "[CouplingElement_hub]\nn = 2\nm_l = 2.0\nm_r = 3.0\nIp_l = 0.02\nIp_r = 0.03\nkt_x = "
+      "1e6\n");
+  const BeamDefinition d = table.Read().definition;
+  ASSERT_EQ(d.shafts.size(), 2U);
+  ASSERT_EQ(d.disks.size(), 2U);
+  EXPECT_EQ(d.disks[0].name, "hub_left");
+  EXPECT_EQ(d.disks[0].mass, 2);
+  EXPECT_EQ(d.disks[0].shaft, d.shafts[0].name);
+  EXPECT_NEAR(d.disks[0].z - d.shafts[0].start, 1, 1e-12);
+  EXPECT_EQ(d.disks[1].name, "hub_right");
+  EXPECT_EQ(d.disks[1].mass, 3);
+  EXPECT_EQ(d.disks[1].shaft, d.shafts[1].name);
+  EXPECT_NEAR(d.disks[1].z - d.shafts[1].start, 0, 1e-12);
+}
+
 // Version 2.3 saves a magnetic bearing as a BearingElement with the springs of its controller.
 TEST(RossSupports, MagneticBearingsAreNoSprings) {
   RossTable table;
@@ -130,7 +187,8 @@ TEST(RossSupports, WhatRossCannotSayIsNamed) {
   EXPECT_EQ(WriteRoss(d, table.path()).size(), 2U);
 }
 
-// E and G of a steel that is none: the Poisson ratio is told and kept to 1/2, but not of sleeves, which carry nothing.
+// E and G of a steel that is none: the Poisson ratio is told and kept to 1/2, but not of sleeves,
+// which carry nothing: below 2 kPa.
 TEST(RossMaterial, APoissonRatioThatCannotBeIsTold) {
   for (const auto& [E, told] : {std::pair{2e11, true}, {2e3, true}, {1.9e3, false}}) {
     RossTable table;
@@ -142,6 +200,8 @@ TEST(RossMaterial, APoissonRatioThatCannotBeIsTold) {
     std::string all;
     for (const std::string& text : r.ignored) all += text;
     EXPECT_EQ(all.find("Poisson's ratio 1 of ") != std::string::npos, told) << E << ": " << all;
+    for (const ShaftSection& s : r.definition.sections)
+      EXPECT_EQ(s.stiff, told || s.material.E > 2e3) << E << " " << s.material.E;
   }
 }
 
