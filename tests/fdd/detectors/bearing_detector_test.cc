@@ -129,6 +129,33 @@ TEST(BearingDetector, NothingIsComparedAcrossAnUnknownPeriod) {
   runs(30, true);
 }
 
+// The onset of a diagnosis is the period in which the fault came, however long the examination
+// took.
+TEST(BearingDetector, TheOnsetIsThePeriodOfTheFault) {
+  for (const double left : {0.0, 0.5, 0.8})
+    for (const int coil : {0, 5}) {
+      Bench bench;
+      bench.noise = 0.004;
+      bench.x0 = bench.y0 = 0;
+      DetectorSettings s;
+      s.sampling = bench.Sampling();
+      BearingDetector detector(MakeLinkageModel(Reference()), s);
+      for (int n = 0; n < 20; ++n) detector.Period(bench.Run());
+      const double fault = bench.t;
+      if (left > 0)
+        bench.lanes.ShortTurns(coil, 1 - left, kInfinity, 0, 0);
+      else
+        bench.lanes.Break(coil, 0, 0);
+      Diagnosis found;
+      for (int n = 0; n < 14 && found.cls == FaultClass::kNone; ++n)
+        found = detector.Period(bench.Run()).diagnosis;
+      EXPECT_EQ(found.coil, coil) << left;
+      EXPECT_EQ(found.cls, left > 0 ? FaultClass::kPartialShort : FaultClass::kOpen) << left;
+      EXPECT_DOUBLE_EQ(found.onset, fault) << left << " " << coil;
+      EXPECT_GT(found.time, fault + 1.9 * kT);
+    }
+}
+
 // A coil that another detector flags although all its equations hold is examined as long as is allowed, then cleared.
 TEST(BearingDetector, AFlagWithoutAFaultIsClearedAtTheEnd) {
   Bench bench;

@@ -44,6 +44,34 @@ TEST(ExcessWindows, OneCoilKeepsItsExcess) {
     }
 }
 
+// Two coils were given up: of the six that are left, too, what is common drops out and one alone
+// keeps its excess.
+TEST(ExcessWindows, TheCoilsThatAreLeftHaveAPatternOfTheirOwn) {
+  const LinkageModel m = Radial();
+  Lane common, alone;
+  for (int j = 0; j < kLanes; ++j)
+    common[j] = j == 0 || j == 3 ? 0 : 0.3 + 0.2 * m.direction_x[j] - 0.1 * m.direction_y[j];
+  alone[4] = 0.22;
+  ExcessWindows windows(m);
+  windows.Leave(0);
+  windows.Leave(3);
+  windows.Add(PeriodOf(common, 1000), {});
+  for (int j = 0; j < kLanes; ++j) {
+    EXPECT_NEAR(windows.Used(0, 1)[j], 0, 1e-12) << j;
+    if (j != 0 && j != 3) {
+      EXPECT_NEAR(windows.Common(windows.Raw(0))[j], common[j], 1e-12) << j;
+    }
+  }
+  windows.Add(PeriodOf(alone, 1000), {});
+  EXPECT_NEAR(windows.Used(0, 1)[4], 0.22, 1e-12);
+  // As if they had never been away.
+  windows.Return(3);
+  windows.Return(0);
+  for (int j = 0; j < kLanes; ++j) common[j] = 0.3;
+  windows.Add(PeriodOf(common, 1000), {});
+  for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(windows.Used(0, 1)[j], 0, 1e-12) << j;
+}
+
 TEST(ExcessWindows, WindowsAreRatiosOfSumsForEver) {
   ExcessWindows windows(Radial());
   std::vector<double> top, bottom;
