@@ -24,18 +24,19 @@ endfunction()
 # for all of them (docs/decisions/005-build-time.md). Names of a folder's unnamed namespaces must then
 # differ (tools/check_unity.py, run by ctest).
 option(AMBRIG_UNITY "compile the sources of a folder together" OFF)
-set(AMBRIG_UNITY_BATCH 12)
+set(AMBRIG_UNITY_BATCH 40)       # sources, at most
+set(AMBRIG_UNITY_TEST_BATCH 12)  # tests repeat each other's names
 
-# ambrig_unity(TARGET [SOURCES...]): all sources of the target but
+# ambrig_unity(TARGET BATCH): all sources of the target, at most BATCH together, but
 #   - those that choose their instruction set or are the fast loop, whose code must not hang on its neighbours,
 #   - doors to libraries, whose macros stay behind the door,
 #   - the catalogues, which tools/planted_change.py compiles once more.
-function(ambrig_unity target)
+function(ambrig_unity target most)
   if(NOT AMBRIG_UNITY)
     return()
   endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${AMBRIG_UNITY_BATCH})
   get_target_property(sources ${target} SOURCES)
+  set(apart 0)
   foreach(source IN LISTS sources)
     if(source MATCHES "catalogue\\.cc$|/core/math/noise_|/noise_test\\.cc$|/core/math/(cvode|kinsol)\\.cc$|/ode_world\\.cc$")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
@@ -43,8 +44,18 @@ function(ambrig_unity target)
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     elseif(source MATCHES "/core/record/(hdf5_|mat)[a-z_]*\\.cc$|/zip_file\\.cc$|/fmu/description\\.cc$|/synthesis/slicot\\.cc$")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    else()
+      continue()
     endif()
+    math(EXPR apart "${apart} + 1")
   endforeach()
+  # Units of the same size, so that no core waits for a last large one.
+  list(LENGTH sources count)
+  math(EXPR units "(${count} - ${apart} + ${most} - 1) / ${most}")
+  if(units GREATER 0)
+    math(EXPR batch "(${count} - ${apart} + ${units} - 1) / ${units}")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+  endif()
 endfunction()
 
 function(ambrig_folder name)

@@ -20,7 +20,7 @@ foreach(folder IN LISTS test_folders)
     target_compile_definitions(test_${folder} PRIVATE AMBRIG_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
                                AMBRIG_BINARY="$<TARGET_FILE:ambrig>")
     add_dependencies(test_${folder} ambrig)
-    ambrig_unity(test_${folder})
+    ambrig_unity(test_${folder} ${AMBRIG_UNITY_TEST_BATCH})
     if(AMBRIG_PRECOMPILED_HEADERS)
       target_precompile_headers(test_${folder} REUSE_FROM ambrig_test_headers)
     endif()

@@ -82,7 +82,7 @@ void ReadAnswers(const std::string& file, NewCommand& o, const BenchTemplate*& b
 }
 
 /// One line from the standard input; an end of it is a mistake of the caller's.
-std::string Answer(const std::string& question) {
+std::string Reply(const std::string& question) {
   fmt::print("{}", question);
   std::fflush(stdout);
   std::string line;
@@ -99,7 +99,7 @@ void AskNumbers(const BenchTemplate& bench, BenchAnswers& answers) {
         std::isnan(n.fallback) ? "" : fmt::format(" (nothing: {:g})", n.fallback);
     while (true) {
       const std::string text =
-          Answer(fmt::format("{} [{}], {}{}: ", n.key, n.unit, n.doc, standard));
+          Reply(fmt::format("{} [{}], {}{}: ", n.key, n.unit, n.doc, standard));
       if (text.empty() && !std::isnan(n.fallback)) break;
       try {
         answers[std::string(n.key)] = NumberOf(n, text, "");
@@ -196,7 +196,7 @@ int MakeBench(NewCommand o) {
   if (!o.answers.empty()) ReadAnswers(o.answers, o, bench, answers);
   if (o.ask && o.name.empty()) {
     for (const BenchTemplate& t : BenchTemplates()) fmt::print("  {:<10} {}\n", t.name, t.doc);
-    o.name = Answer("template: ");
+    o.name = Reply("template: ");
   }
   if (o.name.empty())
     throw InputError("--template is missing, allowed: one of ambrig new --help, or --ask");
@@ -211,14 +211,14 @@ int MakeBench(NewCommand o) {
         NumberOf(n, is == std::string::npos ? "" : s.substr(is + 1), "--set: ");
   }
   if (o.ask && o.records.empty()) {
-    const std::string file = Answer("file of a record (nothing: none yet): ");
+    const std::string file = Reply("file of a record (nothing: none yet): ");
     if (!file.empty()) o.records.push_back(file);
   }
   std::vector<Record> records;
   for (const std::string& file : o.records) records.push_back(ReadRecord(file));
   if (o.ask) AskNumbers(*bench, answers);
   if (o.ask && !records.empty() && o.body.empty())
-    o.body = Answer(
+    o.body = Reply(
         "does the body hover (free), or does something hold it (held)? (nothing: judged "
         "by its weight): ");
   if (!o.body.empty() && o.body != "free" && o.body != "held")

@@ -80,7 +80,8 @@ void AddLevel(Figure& figure, int panel, double y, const std::string& label,
             {"x", 1},
             {"y", y},
             {"xanchor", "right"},
-            {"yanchor", "bottom"}});
+            {"yanchor", "bottom"},
+            {"bgcolor", "@paper/80"}});  // readable where a curve passes behind it
   figure.layout["annotations"].push_back(std::move(a));
 }
 

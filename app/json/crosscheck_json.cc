@@ -36,20 +36,20 @@ std::string VerdictName(const DropFigures& figures) {
 
 nlohmann::ordered_json CrosscheckJson(const CrosscheckedScenario& s) {
   const ContactCrosscheck& w = s.crosscheck;
-  Json json = {{"file", s.file},
-               {"name", s.name},
-               {"seed", s.seed},
-               {"contact", w.contact()},
-               {"verdicts_agree", w.verdicts_agree()},
-               {"whirl_agrees", w.model.figures.whirl == w.ode.figures.whirl},
-               {"parted_ode", UnlessNegative(w.parted_ode)},
-               {"parted_other_noise", UnlessNegative(w.parted_noise)},
-               {"ode_steps", w.ode_steps},
-               {"ode_warnings", w.ode_warnings},
-               {"compliant", FiguresJson(w.model)},
-               {"ode", FiguresJson(w.ode)}};
-  if (!w.other_noise.figures.rest.empty()) json["other_noise"] = FiguresJson(w.other_noise);
-  return json;
+  Json out = {{"file", s.file},
+              {"name", s.name},
+              {"seed", s.seed},
+              {"contact", w.contact()},
+              {"verdicts_agree", w.verdicts_agree()},
+              {"whirl_agrees", w.model.figures.whirl == w.ode.figures.whirl},
+              {"parted_ode", UnlessNegative(w.parted_ode)},
+              {"parted_other_noise", UnlessNegative(w.parted_noise)},
+              {"ode_steps", w.ode_steps},
+              {"ode_warnings", w.ode_warnings},
+              {"compliant", FiguresJson(w.model)},
+              {"ode", FiguresJson(w.ode)}};
+  if (!w.other_noise.figures.rest.empty()) out["other_noise"] = FiguresJson(w.other_noise);
+  return out;
 }
 
 }  // namespace ambrig

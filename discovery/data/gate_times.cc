@@ -13,7 +13,7 @@ namespace ambrig {
 namespace {
 
 constexpr double kMoves = 8;             // floors: a column that moves less tells no time
-constexpr double kLeast = 5e-4;          // [s]: a smaller shift is a matter of the fit
+constexpr double kLeastShift = 5e-4;     // [s]: a smaller shift is a matter of the fit
 constexpr double kLeastColumn = 1e-3;    // [s], of a single column: electronics delay too
 constexpr double kMostShift = 0.2;       // of the record
 constexpr double kEarly = 0.03;          // of the record: a shift from there on is one of all rows
@@ -100,7 +100,7 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
   if (gross) {
     const FoundShift s = ShiftOf(moving, r.data.rate);
     const double most = s.from > 0 ? 0.3 : 0.4;  // an instant more to choose
-    if (std::abs(s.late) >= kLeast && s.left < most) {
+    if (std::abs(s.late) >= kLeastShift && s.left < most) {
       out.push_back(TimeFault(r, "", s));
       for (GateColumn& c : columns) c.explained = true;
       return;

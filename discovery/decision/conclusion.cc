@@ -18,8 +18,7 @@ ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effect
                      std::vector<std::string>& warnings) {
   ParameterNeed need;
   need.possible = Possible(fit);
-  const double weight = MisfitWeight(std::max(1.0, fit.ratio_fit), effective_sample_size) /
-                        static_cast<double>(std::max<std::size_t>(1, model.size()));
+  const double weight = RowWeight(model, fit.ratio_fit, effective_sample_size);
   for (std::size_t k = 0; k < fit.hypothesis.free.size(); ++k) {
     const FreeParameter& p = fit.hypothesis.free[k];
     if (p.effect >= 0 || p.sd <= 0) continue;

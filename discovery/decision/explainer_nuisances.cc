@@ -26,8 +26,7 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
   Progress(0.05, "what may differ from record to record");
   const FitResult all = AllRows(now);
   if (all.predicted.empty()) return false;
-  const double weight =
-      MisfitWeight(1, out_.effective_sample_size) / static_cast<double>(full_.size());
+  const double weight = RowWeight(full_, 1, out_.effective_sample_size);
   const std::vector<NuisanceKind> chosen = ChooseNuisances(
       full_, NuisanceKindsOf(full_, now.hypothesis, all.predicted, false), all.residual, weight);
   if (chosen.empty()) return false;

@@ -22,6 +22,10 @@ double MisfitWeight(double ratio, double n) {
   return n / (1 + std::max(0.0, ratio * ratio - 1) * n / kModelNumbers);
 }
 
+double RowWeight(const CaseModel& model, double ratio, double n) {
+  return MisfitWeight(ratio, n) / static_cast<double>(std::max<std::size_t>(1, model.size()));
+}
+
 double Misfit(double ratio, double n) {
   const double excess = ratio * ratio - 1;
   return excess < 0 ? n * excess : kModelNumbers * std::log1p(excess * n / kModelNumbers);

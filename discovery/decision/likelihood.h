@@ -14,6 +14,8 @@ namespace ambrig {
 double Misfit(double ratio, double n);
 /// Its derivative to R².
 double MisfitWeight(double ratio, double n);
+/// The weight of the square of one row over its floor, of a model that leaves `ratio`.
+double RowWeight(const CaseModel& model, double ratio, double n);
 
 /// Numbers of one effect that count: the higher harmonics of a profile are no free choice each.
 int PricedParameters(int count);

@@ -51,8 +51,7 @@ class Puller {
   Puller(const CaseModel& model, const FitResult& fit, double effective_sample_size)
       : model_(model),
         best_{fit, false},
-        weight_(MisfitWeight(std::max(1.0, fit.ratio_fit), effective_sample_size) /
-                static_cast<double>(model.size())) {
+        weight_(RowWeight(model, fit.ratio_fit, effective_sample_size)) {
     point_.iterations = 0;
     point_.sensitivities = false;
     point_.effective_sample_size = effective_sample_size;

@@ -69,7 +69,7 @@ ByChannel WhiteParts(const CaseModel& model, const std::vector<double>& a,
 }
 
 /// Whether the estimates are the same within what differences of finite records scatter.
-bool Uniform(const std::vector<double>& estimates) {
+bool AreAlike(const std::vector<double>& estimates) {
   if (estimates.size() < kLeastEstimates) return false;
   const double low = QuantileOf(estimates, 0.1), high = QuantileOf(estimates, 0.9);
   return low > 0 && high < kUniform * low;
@@ -119,7 +119,7 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
     found[channel] = {factors, MedianOf(sizes)};
   }
   // the coils of one record may all miss the same law
-  const bool uniform = records >= kLeastEstimates && Uniform(every);
+  const bool uniform = records >= kLeastEstimates && AreAlike(every);
   const double together = MedianOf(every);
   const double larger = uniform ? kUniformAgrees : kCurrentAgrees,
                smaller = uniform ? kUniformAgrees : kNoiseAgrees;
@@ -181,7 +181,7 @@ NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h) {
   const ByChannel direct = WhiteParts(model, model.measured(), *clean, IsDirect);
   for (const auto& [channel, parts] : direct) {
     ChannelNoise& c = noise.channels[channel];
-    const bool uniform = Uniform(parts);
+    const bool uniform = AreAlike(parts);
     // a model's error only adds to it
     c.estimated = uniform ? MedianOf(parts) : LowerQuartileOf(parts);
     const double factor = uniform ? kUniformAgrees : kNoiseAgrees;

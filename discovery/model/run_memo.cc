@@ -19,9 +19,14 @@ void AddText(std::string& bytes, const std::string& text) {
   bytes += text;
 }
 
+/// Whether the shaft turns at any time. What turns between two instants leaves an angle behind.
 bool Turns(const Scenario& s) {
-  return s.speed.Speed(0) != 0 || s.speed.Speed(0.5 * s.duration) != 0 ||
-         s.speed.Speed(s.duration) != 0 || s.speed_free_from < s.duration;
+  constexpr int kParts = 64;
+  for (int k = 0; k <= kParts; ++k) {
+    const double t = s.duration * k / kParts;
+    if (s.speed.Speed(t) != 0 || s.speed.Angle(t) != 0) return true;
+  }
+  return s.speed_free_from < s.duration;
 }
 
 /// A held rotor's record does not feel what acts on a free one only. Not so a delay of the set-points

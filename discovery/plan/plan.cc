@@ -27,8 +27,7 @@ constexpr std::size_t kPlanRows = 150000;
 
 /// What prior and records say of the free parameters, in coordinates.
 Eigen::MatrixXd PrecisionOf(const CaseModel& model, const FitResult& fit, double n) {
-  const double weight =
-      MisfitWeight(std::max(1.0, fit.ratio_fit), n) / static_cast<double>(model.size());
+  const double weight = RowWeight(model, fit.ratio_fit, n);
   const Gram gram = RowProducts(model, fit.jacobian, fit.jacobian);
   Eigen::MatrixXd P = weight * (gram.fit + gram.validate);
   for (Index k = 0; k < P.rows(); ++k)

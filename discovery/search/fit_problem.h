@@ -75,8 +75,7 @@ class FitProblem {
 
   /// Weight of a residual when the model leaves `ratio` times the noise.
   void SetMisfitWeight(double ratio) {
-    weight_ = std::sqrt(MisfitWeight(ratio, options_.effective_sample_size) /
-                        static_cast<double>(model_.size()));
+    weight_ = std::sqrt(RowWeight(model_, ratio, options_.effective_sample_size));
   }
   /// What 2 log likelihood of the rows looked at rises by from one ratio to a smaller one, at the weight set.
   double MisfitBetween(double before, double after) const {

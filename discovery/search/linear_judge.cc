@@ -112,8 +112,7 @@ LinearJudge::Solution LinearJudge::Solve(const std::vector<Column>& columns, int
         free.push_back(nb_ + 1 + k);
       else
         c(nb_ + 1 + k) = -fixed[static_cast<std::size_t>(k)];
-    const double weight =
-        MisfitWeight(ratio, effective_sample_size_) / static_cast<double>(model_.size());
+    const double weight = RowWeight(model_, ratio, effective_sample_size_);
     const Eigen::VectorXd known = g.fit * c;
     Eigen::MatrixXd A = weight * g.fit(free, free);
     Eigen::VectorXd b = -weight * known(free);
@@ -209,8 +208,7 @@ double LinearJudge::MotionShare(const SignatureBank::Entry& entry) const {
 
 double LinearJudge::LeastVisible(const SignatureBank::Entry& entry, Index column) const {
   const Index at = entry.first + column;
-  const double weight = MisfitWeight(std::max(1.0, base_.ratio_fit), effective_sample_size_) /
-                        static_cast<double>(model_.size());
+  const double weight = RowWeight(model_, base_.ratio_fit, effective_sample_size_);
   Eigen::MatrixXd own = weight * own_.fit.topLeftCorner(nb_, nb_);
   AddPriorInformation(base_.hypothesis, own);
   const Eigen::VectorXd with = weight * with_.fit.col(at).head(nb_);

@@ -23,8 +23,7 @@ FitResult LinearlyRefitted(const CaseModel& model, const FitResult& now,
   const Eigen::VectorXd residual = Eigen::Map<const Eigen::VectorXd>(
       out.residual.data(), static_cast<Eigen::Index>(out.residual.size()));
   for (int pass = 0; pass < kPasses; ++pass) {
-    const double weight = MisfitWeight(std::max(1.0, out.ratio_fit), effective_sample_size) /
-                          static_cast<double>(model.size());
+    const double weight = RowWeight(model, out.ratio_fit, effective_sample_size);
     Eigen::MatrixXd A = weight * gram.topLeftCorner(p, p);
     Eigen::VectorXd b = weight * gram.topRightCorner(p, 1);
     for (Eigen::Index k = 0; k < p; ++k) {

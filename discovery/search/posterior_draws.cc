@@ -12,8 +12,7 @@ std::vector<Hypothesis> PosteriorDraws(const CaseModel& model, const FitResult& 
   const auto p = static_cast<Eigen::Index>(fit.hypothesis.free.size());
   Eigen::MatrixXd information =
       FitGram(model, FittedRecords(model, {}), fit.jacobian, fit.residual).topLeftCorner(p, p);
-  information *= MisfitWeight(std::max(1.0, fit.ratio_fit), effective_sample_size) /
-                 static_cast<double>(std::max<std::size_t>(1, model.size()));
+  information *= RowWeight(model, fit.ratio_fit, effective_sample_size);
   AddPriorInformation(fit.hypothesis, information);
   const Eigen::LLT<Eigen::MatrixXd> factor(information);
   std::vector<Hypothesis> out;

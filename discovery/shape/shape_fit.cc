@@ -60,7 +60,7 @@ class ShapeProblem {
     columns.col(all_) =
         Eigen::Map<const Eigen::VectorXd>(now_.residual.data(), static_cast<Index>(model_.size()));
     gram_ = RowProducts(model_, columns, columns).fit;
-    weight_ = MisfitWeight(std::max(1.0, now_.ratio_fit), n_) / static_cast<double>(model_.size());
+    weight_ = RowWeight(model_, now_.ratio_fit, n_);
   }
 
   /// Inverse prior covariance of all coordinates at a smoothing.

@@ -125,9 +125,10 @@ Diagnosis CommissionedDetector::Classify(int coil, double excess, double time) c
     d.cls = FaultClass::kPartialShort;
     d.fraction = 1 - 1 / std::sqrt(1 + excess);
   } else if (share_[coil] < 1 && excess > -kMostRegained && !CurrentIsFalse(coil)) {
-    // A loop that closes through its own resistance was taken for more turns than it has.
+    // A loop that closes through its own resistance was taken for more turns than it has: of the turns believed to
+    // work, a negative part is shorted.
     d.cls = FaultClass::kPartialShort;
-    d.fraction = std::max(0.0, 1 - share_[coil] / std::sqrt(1 + excess));
+    d.fraction = 1 - std::min(1 / share_[coil], 1 / std::sqrt(1 + excess));
   } else {
     d.cls = FaultClass::kCurrentSensor;
   }

@@ -16,7 +16,7 @@
 namespace ambrig {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// The words in backquotes of a command's row.
 std::set<std::string> NamedKeys(const std::string& command) {
@@ -33,18 +33,18 @@ std::set<std::string> NamedKeys(const std::string& command) {
   return out;
 }
 
-void CollectKeys(const Json& j, std::set<std::string>* out) {
+void CollectKeys(const OrderedJson& j, std::set<std::string>* out) {
   if (j.is_object())
     for (const auto& [key, value] : j.items()) {
       out->insert(key);
       CollectKeys(value, out);
     }
   if (j.is_array())
-    for (const Json& value : j) CollectKeys(value, out);
+    for (const OrderedJson& value : j) CollectKeys(value, out);
 }
 
 /// `absent`: named keys that stand only in some documents.
-void ExpectDocumented(const std::string& command, const Json& document,
+void ExpectDocumented(const std::string& command, const OrderedJson& document,
                       const std::set<std::string>& absent = {}) {
   const std::set<std::string> named = NamedKeys(command);
   for (const auto& [key, value] : document.items())
@@ -74,7 +74,7 @@ TEST(JsonDocs, Run) {
   r.actions = {{0.1, "A.coil1", "disable", "open"}};
   Scenario s;
   s.name = "t";
-  Json json = RunJson(s, r, {});
+  OrderedJson json = RunJson(s, r, {});
   json["bending_modes"] = DroppedModesJson({2, 1, 90, {120}, {{"A", 1e-8, 1e-9, 2e-9}}, {700}});
   ExpectDocumented("run", json);
 }
@@ -107,7 +107,7 @@ TEST(JsonDocs, Refine) {
   Refinement r;
   r.curve = {{0.1, 1, 0.2, 0.9, 0.8, true}};
   r.fit.fit.hypothesis.rig.effects = {MakeInstance(EffectNamed("bh-curve"), "A")};
-  const Json j = RefineJson(r);
+  const OrderedJson j = RefineJson(r);
   ExpectDocumented("refine", j);
   EXPECT_EQ(j["curve"][0]["sd"], 0.2);
   EXPECT_EQ(j["curve"][0]["visited"], true);
@@ -119,7 +119,7 @@ class JsonDocsOf : public CliFolder {};
 TEST_F(JsonDocsOf, Redistribute) {
   Write("rig.toml", ReferenceRigText());
   ASSERT_EQ(Ambrig("redistribute rig.toml --failed 3 --json out.json").exit, 0);
-  ExpectDocumented("redistribute", Json::parse(ReadText(folder_ / "out.json")));
+  ExpectDocumented("redistribute", OrderedJson::parse(ReadText(folder_ / "out.json")));
 }
 
 // No number is lost to a program that reads the file: infinity is a word, the unknown is null.
@@ -131,7 +131,7 @@ TEST(ComparisonJson, InfinitiesAreWords) {
   r.ratio = c.ratio;
   r.channels = {{"A.x", c.ratio, c.ratio, 1e-7, c.ratio, 0}};
   c.records = {r};
-  const Json j = Json::parse(CompareJson(c).dump());
+  const OrderedJson j = OrderedJson::parse(CompareJson(c).dump());
   EXPECT_EQ(j["ratio"], "inf");
   EXPECT_TRUE(j["ratio_validate"].is_null());
   EXPECT_EQ(j["records"][0]["ratio"], "inf");

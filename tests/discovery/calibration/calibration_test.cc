@@ -114,6 +114,11 @@ TEST(CalibrationOfNames, SetHoldsWhatReachesTheLeast) {
   ASSERT_EQ(set.size(), 2U);
   EXPECT_EQ(set[0].effect, "iron-reluctance");
   EXPECT_EQ(set[1].effect, "saturation");
+  for (const SetMember& m : set) {  // a member at the least itself is in
+    table.least = m.probability;
+    const auto with = CalibratedSet(table, TwoNames(0.2, 0.7, 0.1), "parameters");
+    EXPECT_EQ(with.back().effect, m.effect);
+  }
   table.least = 0.9;  // nothing reaches it: the best stays
   set = CalibratedSet(table, TwoNames(0.2, 0.7, 0.1), "parameters");
   ASSERT_EQ(set.size(), 1U);

@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <limits>
+
 #include "core/base/errors.h"
+#include "discovery/data/bench_tables.h"
 #include "tests/discovery/bench_case.h"
 
 namespace ambrig {
@@ -53,6 +56,13 @@ TEST_F(CaseBench, ResponsesInSiOverTheirSd) {
   EXPECT_THAT(c.notes, ::testing::Contains(HasSubstr("2 of 4 points left out")));
 }
 
+// sqrt((1 - g²)/(2 n g²)): nothing random where all is coherent, nothing known where nothing is.
+TEST_F(CaseBench, CoherenceTellsTheRandomPart) {
+  EXPECT_EQ(CoherenceSd(3, 1, 10), 0);
+  EXPECT_NEAR(CoherenceSd(3, 0.5, 8), 3.0 / 4, 1e-12);
+  EXPECT_EQ(CoherenceSd(3, 0, 10), std::numeric_limits<double>::infinity());
+}
+
 TEST_F(CaseBench, WithoutCoherenceTheSdIsOpenOrStated) {
   const std::string s = "[record.responses]\n\"A.x.command/A.x.force\" = \"S\"\n";
   EXPECT_FALSE(Read("kind = \"frf\"\n" + s).records[0].responses.responses[0].sd_known);
@@ -89,6 +99,8 @@ TEST_F(CaseBench, MistakesOfResponses) {
   EXPECT_THAT(Error("kind = \"frf\"\n", "t [s],A.x [m]\n0,1\n0.1,2\n"),
               HasSubstr("holds no frequency responses"));
   EXPECT_THAT(Error("kind = \"frq\"\n"), HasSubstr("frf"));
+  for (const char* gain : {"0.0", "inf", "nan"})
+    EXPECT_NE(Error(frf + "\"A.x/A.x.force\" = { trace = \"P\", gain = " + gain + " }\n"), "");
 }
 
 TEST_F(CaseBench, TablesWithTheirWeights) {

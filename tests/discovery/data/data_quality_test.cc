@@ -34,6 +34,17 @@ TEST(ChannelQuality, AWholeColumnIsGood) {
   EXPECT_EQ(Counting(q), 1000u);
 }
 
+// A sine may stay at its top for a few rows; a limiter holds four at least, and again and again.
+TEST(ChannelQuality, RunsOfFourRowsAtTheExtremeAreClipped) {
+  for (const std::size_t rows : {3u, 4u}) {
+    std::vector<double> y = Sine();
+    for (const std::size_t at : {100u, 400u, 700u})
+      for (std::size_t k = 0; k < rows; ++k) y[at + k] = 1.01;
+    const ChannelQuality q = InspectChannel({"A.x", "m", y}, false);
+    EXPECT_EQ(Counting(q), rows < 4 ? 1000u : 988u) << rows;
+  }
+}
+
 // nan and inf alike do not count; their neighbours do.
 TEST(ChannelQuality, WhatIsNoNumberDoesNotCount) {
   std::vector<double> y = Sine();

@@ -111,7 +111,11 @@ TEST_F(NuisanceChoiceTest, WhatIsTheSameInEveryRecordIsLeftToTheSearch) {
 
 // An effect that acts more in one record than in another has one sign in all.
 TEST_F(NuisanceChoiceTest, AmountsOfOneSignAreLeftToTheSearch) {
-  EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, Offsets({9, 7, 14, 12}), kWeight).empty());
+  for (const double size : {1.0, 0.5})
+    EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)},
+                                Offsets({9 * size, 7 * size, 14 * size, 12 * size}), kWeight)
+                    .empty())
+        << size;
 }
 
 // What differs much is chosen although its mean is not nothing: an effect beside it may resemble it in every record.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "rig/rig_assembly.h"
@@ -60,6 +61,25 @@ TEST_F(Blocks, TheControllerThatWroteTheRecordHasNoError) {
             0.02);  // a constant force is no error, a coil is a sixteenth of the errors' squares
   for (std::size_t k = 0; k < Samples("A.s3").size(); k += 2) Samples("A.s3")[k] += 0.4;
   EXPECT_GT(Errors().at("controller"), 0.02);
+}
+
+// Of a short record the first quarter settles the loops, the rest is judged.
+TEST_F(Blocks, AShortRecordIsJudgedToo) {
+  for (Channel& c : record_.channels) c.samples.resize(40);
+  EXPECT_TRUE(Errors().contains("coil"));
+}
+
+// 5 um at 100 Hz of a shaft of 4 kg want 4 N at each bearing, which no current of the record gives.
+TEST_F(Blocks, AForceAlongEitherAxisIsTheRotors) {
+  const Record healthy = record_;
+  const double before = Errors().at("rotor");
+  for (const char* axis : {"A.x", "A.y"}) {
+    record_ = healthy;
+    std::vector<double>& y = Samples(axis);
+    for (std::size_t k = 0; k < y.size(); ++k)
+      y[k] += 5e-6 * std::sin(2 * 3.14159265 * 100 * static_cast<double>(k) / record_.rate);
+    EXPECT_GT(Errors().at("rotor"), before + 0.1) << axis;
+  }
 }
 
 TEST_F(Blocks, ATrulyWrongReadingStillShows) {

@@ -32,6 +32,17 @@ TEST(Residual, IsTheErrorOverTheFloorOfTheRowsThatCount) {
   EXPECT_NEAR(WorstRatio(model, r, Which::kAll), 23, 1e-9);
 }
 
+// A column that stands at 50 um and swings by 10 um to either side moves by 10 um rms.
+TEST(CaseModel, TheFullScaleOfAColumnIsItsMovement) {
+  Case c = LinearCase::Make({5e-5, 5e-5}, 1, 0);
+  for (CaseRecord& r : c.records)
+    for (std::size_t k = 0; k < LinearCase::kRows; ++k)
+      r.data.channels[0].samples[k] += k % 2 == 0 ? 1e-5 : -1e-5;
+  const CaseModel model(c);
+  for (const Target& t : model.targets())
+    EXPECT_NEAR(t.full_scale, t.channel == 0 ? 1e-5 : 0, 2e-7);
+}
+
 TEST(Residual, AKindOfRecordThatTheCaseHasNotLeavesNoError) {
   Case data = LinearCase::Make({2e-5}, 1, 3e-6);
   data.records[0].validate = false;

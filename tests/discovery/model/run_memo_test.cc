@@ -66,13 +66,17 @@ TEST(RunMemo, HoldsAsManyAsFitAfterManyHaveGone) {
 class MemoKeyTest : public ::testing::Test {
  protected:
   std::string Key(const std::vector<EffectInstance>& effects, const char* start, double speed) {
+    return Key(effects, start, SpeedProfile({{0, speed}, {0.004, speed}}));
+  }
+  std::string Key(const std::vector<EffectInstance>& effects, const char* start,
+                  const SpeedProfile& speed) {
     RigParameters rig = case_.rig;
     rig.effects = effects;
     rig.tolerances = tolerances_;
     CaseRecord r = case_.records[0];
     r.scenario.start =
         std::string(start) == "clamped" ? StartState::kClamped : StartState::kLevitated;
-    r.scenario.speed = SpeedProfile({{0, speed}, {0.004, speed}});
+    r.scenario.speed = speed;
     return MemoKey(rig, r, 0);
   }
   EffectInstance Effect(const char* id, const char* target, double value) {
@@ -117,6 +121,20 @@ TEST_F(MemoKeyTest, ParametersCountWhereTheyAreFelt) {
   EXPECT_TRUE(changed("bearings.A.gap", "clamped", 0));
   EXPECT_FALSE(changed("rotor.inertia_polar", "levitated", 0));  // nothing turns
   EXPECT_TRUE(changed("rotor.inertia_polar", "levitated", 100));
+}
+
+// The scenario lasts 4 ms: a shaft that turns in any part of it has gyroscopic moments.
+TEST_F(MemoKeyTest, AShaftThatTurnsForAWhileFeelsItsPolarInertia) {
+  tolerances_ = {{"rotor.inertia_polar", 0.01, kRequired}};
+  const double was = case_.rig.rotor.inertia_polar;
+  using Rows = std::vector<std::vector<double>>;
+  for (const Rows& rows : {Rows{{0, 50}, {0.001, 0}}, Rows{{0.0005, 0}, {0.001, 50}, {0.0015, 0}},
+                           Rows{{0.003, 0}, {0.004, 50}}}) {
+    case_.rig.rotor.inertia_polar = was;
+    const std::string before = Key({}, "levitated", SpeedProfile(rows));
+    case_.rig.rotor.inertia_polar = 1.01 * was;
+    EXPECT_NE(Key({}, "levitated", SpeedProfile(rows)), before) << rows[1][1];
+  }
 }
 
 }  // namespace

@@ -207,6 +207,23 @@ TEST_P(LawForm, IronOfAPowerAndOfRayleigh) {
     EXPECT_NEAR(path(rayleigh, k), 4.5e-5 / std::pow(1 + a * step * k, 2), 1e-12);
 }
 
+// Brauer's H = k1 exp(k2 B²) B has dH/dB in proportion to (1 + 2 c x²) exp(c x²), x = B/knee: c from the first node, the knee
+// from the second one, the third follows.
+TEST_P(LawForm, IronOfBrauersExponential) {
+  const EffectInstance iron = Make("saturation-brauer", "A").at(0);
+  const double first = iron.Value("path0"), c = -std::log(first / 1e-5);
+  EXPECT_GE(c, 1.5 - 1e-6);
+  EXPECT_LE(c, 4 + 1e-6);
+  const auto slope = [c](double x2) { return (1 + 2 * c * x2) * std::exp(c * x2); };
+  double lo = 0, hi = 9;
+  for (int k = 0; k < 100; ++k) {
+    const double middle = 0.5 * (lo + hi);
+    (slope(middle) * first < iron.Value("path1") ? lo : hi) = middle;
+  }
+  EXPECT_NEAR(iron.Value("path2"), std::min(2e-3, slope(4 * lo) * first),
+              1e-6 * iron.Value("path2"));
+}
+
 INSTANTIATE_TEST_SUITE_P(Draws, LawForm, ::testing::Values(1, 2, 3, 4));
 
 }  // namespace

@@ -82,6 +82,23 @@ TEST(LinearJudge, OneStepFindsTheOffsetOfTheData) {
               1e-9);  // one number, no misfit
 }
 
+// Beside its true frequency a resonance seems smaller than it is: twice its size is tried as well.
+TEST(LinearJudge, AResonanceIsAlsoTriedAtTwiceItsSize) {
+  const LinearCase c(kJudgeX, 1, 7e-6);
+  const FitResult base = c.Base();
+  SignatureBank bank = BankOf(c, base);
+  SignatureBank::Entry entry = EntryOf(bank, "sensor-offset");
+  const LinearJudge judge(c.model, base, bank, kJudgeN);
+  EXPECT_TRUE(judge.Single(entry).other_starts.empty());
+  entry.group.narrow = true;
+  entry.group.linear = false;  // one probe of finite size, scaled about 1
+  entry.group.scaling = {{entry.group.rows[0], 1.0}};
+  const Candidate found = judge.Single(entry);
+  ASSERT_EQ(found.other_starts.size(), 1u);
+  EXPECT_NEAR(found.effect.Value("offset"), 7e-6, 1e-9);
+  EXPECT_NEAR(found.other_starts[0].Value("offset"), 14e-6, 2e-9);
+}
+
 // Of clamped rotors nothing moves: no motion is left to explain.
 TEST(LinearJudge, WithoutAFreeRotorNoMotionIsOpen) {
   const LinearCase c(kJudgeX, 1, 7e-6);
@@ -120,6 +137,19 @@ TEST(LinearJudge, TheWrongEffectLeavesTheErrorOfLeastSquares) {
   EXPECT_NEAR(found.ratio_fit, std::sqrt(left / n) / LinearCase::kFloor, 1e-3);
   EXPECT_NEAR(found.ratio_validate,
               std::abs(o - a * kJudgeX.back()) / std::sqrt(2.0) / LinearCase::kFloor, 1e-4);
+}
+
+// An effect that is fitted already has no drawing to stay near: it moves without a penalty when another one joins it.
+TEST(LinearJudge, AFittedEffectMovesWithoutAPenalty) {
+  const LinearCase c(kJudgeX, 1.1, 7e-6);
+  const FitResult base = Fit(c.model, c.With({LinearCase::Gain(1.05)}), {});
+  ASSERT_TRUE(base.converged);
+  ASSERT_GT(base.hypothesis.rig.effects[0].Value("gain"), 1.15);  // takes up the offset
+  SignatureBank bank = BankOf(c, base);
+  const Candidate found =
+      LinearJudge(c.model, base, bank, kJudgeN).Single(EntryOf(bank, "sensor-offset"));
+  EXPECT_NEAR(found.effect.Value("offset"), 7e-6, 1e-8);
+  EXPECT_NEAR(found.score, Score(c.model, 0, 0, kJudgeN, 1, 0), 1e-2);
 }
 
 TEST(LinearJudge, APairSolvesBothAtOnce) {

@@ -70,6 +70,22 @@ TEST(Probes, WhatIsSwitchedFromAFiniteNullIsTriedAtBothEndsOfWhatShapesIt) {
   }
 }
 
+// A delay acts in whole switching periods: the first six are tried, each just short of its end.
+TEST(Probes, ADelayIsTriedInWholePeriods) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  std::set<int> periods;
+  for (const ProbeGroup& g : ProbesOf(EffectNamed("loop-delay"), "rig", model, {})) {
+    const double whole = g.probes[0].Value("time") * rig.amplifier.switching_frequency;
+    periods.insert(static_cast<int>(std::lround(whole)));
+    EXPECT_LT(whole, std::round(whole));
+    EXPECT_NEAR(whole, std::round(whole), 1e-4);
+  }
+  EXPECT_EQ(periods, std::set<int>({1, 2, 3, 4, 5, 6}));
+}
+
 // A resonance is sought with one damping; its frequencies are many enough.
 TEST(Probes, AResonanceIsSoughtWithOneDamping) {
   const RigParameters rig =

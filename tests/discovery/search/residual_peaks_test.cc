@@ -41,6 +41,8 @@ TEST(ResidualPeaks, FindsATone) {
   const ResidualPeaks peaks = FindPeaks(model, residual);
   ASSERT_FALSE(peaks.coherent.at("A").empty());
   EXPECT_NEAR(peaks.coherent.at("A")[0], 60, 0.5);
+  ASSERT_FALSE(peaks.coherent.at("rig").empty());  // of all bearings together
+  EXPECT_NEAR(peaks.coherent.at("rig")[0], 60, 0.5);
   ASSERT_FALSE(peaks.spectrum.empty());
   EXPECT_NEAR(peaks.spectrum[0], 400, 6);
 }

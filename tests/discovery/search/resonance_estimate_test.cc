@@ -69,6 +69,21 @@ TEST(ResonanceEstimate, TellsAnOscillatorBesideErrorsOfTheForces) {
   EXPECT_GT(found[0].share, 0.98);
 }
 
+// What is sharper than half a line at half power cannot be told from one line of another origin: 2 zeta w0 is at least that.
+TEST(ResonanceEstimate, NoResonanceIsSharperThanTheLinesOfTheRecords) {
+  ResonanceEstimate truth;
+  truth.frequency = 287.3;
+  truth.damping = 5e-4;
+  truth.gains << 0.2, -0.3, -0.5, 0.75;
+  auto responses = Oscillator(truth, 0);
+  for (FreeResponse& r : responses) r.line = 15;
+  const auto found = EstimateResonances(responses, 1);
+  ASSERT_FALSE(found.empty());
+  const double least = 15 / (2 * 2 * kPi * found[0].frequency);
+  EXPECT_GE(found[0].damping, 0.995 * least);
+  EXPECT_LT(found[0].damping, 1.3 * least);
+}
+
 TEST(ResonanceEstimate, NothingIsFoundWhereOnlyTheForcesAreWrong) {
   ResonanceEstimate none;
   none.frequency = 300;

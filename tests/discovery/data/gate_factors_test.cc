@@ -1,0 +1,85 @@
+// Factors that bring a column back to the model: units of speed, of a level and of a movement; and hum, which is none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/constants.h"
+#include "tests/discovery/data/gate_case.h"
+
+namespace ambrig {
+namespace {
+
+using testing::FaultsOf;
+using testing::kClampedRecord;
+using testing::kStepRecord;
+using testing::Measured;
+using testing::SamplesOf;
+
+// Of a speed column the prediction is the scenario's own profile.
+TEST(GateFactors, ASpeedInAnotherUnitIsNamedWithItsFactor) {
+  const char* kTurning = "multisine at 60 Hz";
+  for (const double factor : {60 / (2 * M_PI), 1 / (2 * M_PI), -1.0}) {
+    Case c = Measured({}, 0, kTurning);
+    for (double& v : SamplesOf(c, kTurning, "omega")) v *= factor;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].fault, factor < 0 ? "sign" : "unit");
+    EXPECT_EQ(faults[0].record, kTurning);
+    EXPECT_EQ(faults[0].channel, "omega");
+    EXPECT_NEAR(faults[0].factor, factor, 1e-9);
+    EXPECT_NE(faults[0].mend.find("channels.\"omega\""), std::string::npos);
+  }
+}
+
+// A speed that no factor makes that of the scenario is of another one.
+TEST(GateFactors, ASpeedThatWasNotCommandedIsOfAnotherScenario) {
+  const char* kTurning = "multisine at 60 Hz";
+  Case c = Measured({}, 0, kTurning);
+  std::vector<double>& omega = SamplesOf(c, kTurning, "omega");
+  for (std::size_t k = 0; k < omega.size(); ++k) omega[k] = 0.05 * static_cast<double>(k);
+  const auto faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "scenario") << FaultText(faults[0]);
+  EXPECT_EQ(faults[0].record, kTurning);
+  EXPECT_EQ(faults[0].channel, "");
+}
+
+// The bus stands at its voltage: its noise has no correlation with a prediction, its level does.
+TEST(GateFactors, AConstantColumnShowsItsFactorByItsLevel) {
+  for (const double factor : {2.0, 0.5, std::sqrt(2.0), 25.4, 57.29577951308232}) {
+    Case c = Measured();
+    for (double& v : SamplesOf(c, kStepRecord, "bus")) v *= factor;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].fault, "unit");
+    EXPECT_EQ(faults[0].channel, "bus");
+    EXPECT_NEAR(faults[0].factor, factor, 1e-6 * factor);
+  }
+}
+
+// A load cell in kilograms or inches of a probe: the column moves as predicted, in another unit.
+TEST(GateFactors, AMovingColumnShowsItsFactor) {
+  const Case sound = Measured();
+  for (const double factor : {1e3, 1e-3, 180 / kPi, 9.81, 1 / 9.81, 25.4, 1 / 25.4, 2.0, 0.5}) {
+    Case c = sound;
+    for (double& v : SamplesOf(c, kClampedRecord, "A.fx")) v *= factor;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].fault, "unit");
+    EXPECT_EQ(faults[0].channel, "A.fx");
+    EXPECT_NEAR(faults[0].factor, factor, 1e-6 * factor);
+  }
+}
+
+// A sensor that adds hum where the model expects nothing but noise: no factor of a thousand.
+TEST(GateFactors, HumIsNoUnit) {
+  Case c = Measured();
+  std::vector<double>& z = SamplesOf(c, kClampedRecord, "B.y");
+  const double level = z[0];
+  for (std::size_t k = 0; k < z.size(); ++k)
+    z[k] = z[k] - level + 9e-5 * std::sin(2 * 3.14159265 * 50 * static_cast<double>(k) / 12500.0);
+  for (const DataFault& f : FaultsOf(c)) EXPECT_NE(f.fault, "unit") << FaultText(f);
+}
+
+}  // namespace
+}  // namespace ambrig
