@@ -13,6 +13,7 @@ namespace {
 constexpr int kCircuit = 8, kWithKnee = 10;  // parameters of the circuit
 constexpr double kHuber = 2;                 // [expected sizes]
 constexpr double kKneePays = 0.98;           // of the cost
+constexpr double kWellFitted = 1.5;  // cost of a row, of a model that leaves little but scatter
 constexpr int kMostSteps = 25;
 // A row in so many counts once against the priors: rows repeat each other, and without the priors
 // the fit would follow what noise prefers.
@@ -191,6 +192,21 @@ class Fit {
   Eigen::VectorXd gradient_;
 };
 
+struct Found {
+  Parameters parameters;
+  CoilEquations coils;
+  double cost = kInfinity;
+};
+
+/// Iron that bends: the knees `first` to `last` alone from a start, then all parameters together where that costs less
+/// than `promising`; kept where the end costs less than `most` and than what was found before.
+void TryKnees(Fit& fit, Found start, int first, int last, double promising, double most,
+              Found* found) {
+  if (!(fit.Descend(&start.parameters, first, last, &start.coils) < promising)) return;
+  start.cost = fit.Descend(&start.parameters, 0, kWithKnee, &start.coils);
+  if (start.cost < std::min(most, found->cost)) *found = start;
+}
+
 }  // namespace
 
 CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel& nominal,
@@ -200,33 +216,29 @@ CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel
   Fit fit(nominal, sampling, settings, log);
   if (fit.size() < 100) return out;
   std::vector<double> z;
-  CoilEquations coils;
-  Parameters best = StartAt(kStarts[0]);
-  double least = kInfinity;
+  Found start;
   for (const double cutoff : kStarts) {
-    const Parameters p = StartAt(cutoff);
-    const double cost = fit.Evaluate(p, &z, &coils);
-    if (!(cost < least)) continue;
-    least = cost;
-    best = p;
+    Found at;
+    at.parameters = StartAt(cutoff);
+    at.cost = fit.Evaluate(at.parameters, &z, &at.coils);
+    if (at.cost < start.cost) start = at;
   }
-  double cost = fit.Descend(&best, 0, kCircuit, &coils);
-  // The knee alone, then all together, where it pays.
-  Parameters knee = best;
-  CoilEquations bent = coils;
-  if (fit.Descend(&knee, kCircuit, kWithKnee, &bent) < kKneePays * cost) {
-    const double whole = fit.Descend(&knee, 0, kWithKnee, &bent);
-    if (whole < kKneePays * cost) {
-      best = knee;
-      cost = whole;
-      coils = bent;
-    }
-  }
-  out.circuit = CircuitOf(best, nominal.gap_offset[0]);
-  out.coils = coils;
+  Found straight = start;
+  straight.cost = fit.Descend(&straight.parameters, 0, kCircuit, &straight.coils);
+  Found found = straight;
+  const double most = kKneePays * straight.cost;
+  TryKnees(fit, straight, kCircuit, kWithKnee, most, most, &found);
+  // Both knees look much alike: a step along both may leave one of them at its limit of 0.
+  const int knees[] = {kCircuit, kCircuit + 1};
+  if (found.cost > kWellFitted * static_cast<double>(fit.size()))
+    for (const int knee : knees)
+      for (const Found& from : {straight, start})
+        TryKnees(fit, from, knee, knee + 1, kInfinity, most, &found);
+  out.circuit = CircuitOf(found.parameters, nominal.gap_offset[0]);
+  out.coils = found.coils;
   out.learnt = true;
   out.rows = static_cast<long long>(fit.size());
-  out.grade = cost / static_cast<double>(fit.size());
+  out.grade = found.cost / static_cast<double>(fit.size());
   return out;
 }
 
