@@ -84,6 +84,14 @@ TEST(SdUnderDoubt, IsNotMoreThanTheDrawingSays) {
   EXPECT_LE(SdUnderDoubt(c.model, fit, kScatterN)[0], open / 4);
 }
 
+// A parameter whose sd the fit does not tell, at a limit for example, gets none here.
+TEST(SdUnderDoubt, WhatHasNoSdGetsNone) {
+  const LinearCase c(kScatterX, 1, 7e-6);
+  FitResult fit = FittedGain(c);
+  fit.sd[0] = 0;
+  EXPECT_EQ(SdUnderDoubt(c.model, fit, kScatterN)[0], 0);
+}
+
 TEST(SdUnderDoubt, WithoutSensitivitiesNothingChanges) {
   const LinearCase c(kScatterX, 1, 7e-6);
   FitResult fit = FittedGain(c);

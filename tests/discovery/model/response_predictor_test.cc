@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "analysis/linear/operating_point.h"
+#include "core/math/constants.h"
+#include "discovery/model/multisine_response.h"
 #include "effects/catalogue.h"
 #include "tests/discovery/bench_case.h"
 
@@ -182,6 +185,50 @@ TEST(ResponsePredictor, CurrentLoopOfAHeldRotor) {
       EXPECT_LT(std::abs(H[0][k] - measured), kNear * std::abs(measured))
           << run.sine.frequency << " Hz: " << H[0][k] << " measured " << measured;
     }
+  }
+}
+
+// A coil that is held at a current rests at the duty of its copper's voltage.
+TEST(LinearResponses, AHeldCoilRestsAtTheDutyOfItsCopper) {
+  const RigParameters rig = ReadRig(testing::kSpindle);
+  Scenario held;
+  held.start = StartState::kClamped;
+  held.duration = 0.1;
+  Excitation step;
+  step.target = "A.coil1";
+  step.port = "current";
+  step.kind = "step";
+  step.amplitude = 1.2;
+  step.stop = 10;
+  held.excitations = {step};
+  const LinearResponses responses(rig, rig, held);
+  const CoilPoint& coil = responses.point().coils[0][0];
+  EXPECT_NEAR(coil.current, 1.2, 1e-12);
+  const CurrentRegulator& regulator = responses.point().control()[0].regulator[0];
+  EXPECT_NEAR(coil.duty, regulator.DutyFromVoltage(1.2 * CoilResistance(rig.bearings[0])), 1e-12);
+  EXPECT_GT(coil.duty, regulator.DutyFromVoltage(0));
+}
+
+// A multisine on the simulated rig measures, without any quotient of models, what the linear model says; a command is in
+// force, and in the record, one period after it was computed.
+TEST(MultisineMeasurement, MeasuresTheForceCommandOfTheSetPoints) {
+  const TemporaryFolder folder;
+  const Case c =
+      CaseOf(folder, "[[record]]\nkind = \"frf\"\ndata = \"" + Trace(folder, {40, 150, 400}) +
+                         "\"\n[record.responses]\n\"A.x.command/A.x.force\" = \"trace\"\n");
+  const CaseRecord& record = c.records[0];
+  const RigResponse& response = record.responses.responses[0];
+  const LinearResponses linear(c.rig, c.rig, record.scenario);
+  const MultisineMeasurement test(c.rig, record, response.excited, linear);
+  const auto measured = test.Run(c.rig);
+  ASSERT_TRUE(measured);
+  ASSERT_EQ((*measured)[0].size(), test.lines().size());
+  for (std::size_t k = 0; k < test.lines().size(); ++k) {
+    const double period = 1 / c.rig.controller.rate;
+    const Complex H = linear.At(test.lines()[k], {response})[0] *
+                      std::polar(1.0, -2 * kPi * test.lines()[k] * period);
+    EXPECT_LT(std::abs((*measured)[0][k] - H), 0.05 * std::abs(H))
+        << test.lines()[k] << " Hz: " << H << " measured " << (*measured)[0][k];
   }
 }
 

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
@@ -54,6 +55,22 @@ TEST(PracticeCases, OneEffectAgainTheSame) {
   EXPECT_EQ(answer.slots, c.answer.slots);
   std::filesystem::remove(file);
   EXPECT_NE(MakePracticeCase(rigs, 2, 0).answer_text, c.answer_text);
+}
+
+// Of 20 cases three have two effects. The laws go round: late ones are no repetition of the first.
+TEST(PracticeCases, TwoEffectsAreOfTwoLawsWhichChange) {
+  std::set<std::string> second;
+  std::size_t number = 60;
+  for (int cases = 0; cases < 2; ++number) {
+    if (KindOfPracticeCase(number) != "two") continue;
+    const PracticeCase c = MakePracticeCase(RadialReference(), 3, number);
+    ASSERT_EQ(c.laws.size(), 2U);
+    EXPECT_NE(c.laws[0], c.laws[1]);
+    EXPECT_EQ(c.answer.slots.size(), 2U);
+    second.insert(c.laws[1]);
+    ++cases;
+  }
+  EXPECT_EQ(second.size(), 2U);
 }
 
 // The true rig leaves the noise and nothing else where the records have no nuisances; the rig file's
