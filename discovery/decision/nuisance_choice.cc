@@ -27,26 +27,6 @@ struct Gain {
   std::size_t records = 0;
 };
 
-/// Variance of the amounts about their mean over their mean square. Each counts with the variance of
-/// its own error and of the amounts together: one precise record says no more of the others than a
-/// rough one. Source: R. DerSimonian, N. Laird, Controlled Clinical Trials 7 (1986), moment estimate.
-double SpreadOf(const std::vector<double>& value, const std::vector<double>& information,
-                double q) {
-  double sum = 0, square = 0;
-  for (const double i : information) sum += i, square += i * i;
-  const double freedom = static_cast<double>(value.size()) - 1, scale = sum - square / sum;
-  const double variance = scale > 0 ? std::max(0.0, (q - freedom) / scale) : 0;
-  double weights = 0, mean = 0, total = 0;
-  for (std::size_t r = 0; r < value.size(); ++r) {
-    const double w = 1 / (1 / information[r] + variance);
-    weights += w;
-    mean += w * value[r];
-    total += w * value[r] * value[r];
-  }
-  mean /= weights;
-  return total > 0 ? 1 - weights * mean * mean / total : 0;
-}
-
 /// What one kind explains of a residual, each record with its own amount.
 Gain GainOf(const CaseModel& model, const NuisanceKind& kind, const Eigen::VectorXd& residual,
             double weight) {
@@ -73,6 +53,23 @@ Gain GainOf(const CaseModel& model, const NuisanceKind& kind, const Eigen::Vecto
 }
 
 }  // namespace
+
+double SpreadOf(const std::vector<double>& value, const std::vector<double>& information,
+                double q) {
+  double sum = 0, square = 0;
+  for (const double i : information) sum += i, square += i * i;
+  const double freedom = static_cast<double>(value.size()) - 1, scale = sum - square / sum;
+  const double variance = scale > 0 ? std::max(0.0, (q - freedom) / scale) : 0;
+  double weights = 0, mean = 0, total = 0;
+  for (std::size_t r = 0; r < value.size(); ++r) {
+    const double w = 1 / (1 / information[r] + variance);
+    weights += w;
+    mean += w * value[r];
+    total += w * value[r] * value[r];
+  }
+  mean /= weights;
+  return total > 0 ? 1 - weights * mean * mean / total : 0;
+}
 
 std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
                                           const std::vector<NuisanceKind>& possible,

@@ -11,4 +11,10 @@ std::vector<NuisanceKind> ChooseNuisances(const CaseModel& model,
                                           const std::vector<NuisanceKind>& possible,
                                           const std::vector<double>& residual, double weight);
 
+/// Variance of the amounts about their mean over their mean square, 0 to 1. Each counts with the variance of its own error,
+/// 1/`information`, and of the amounts together: one precise record says no more of the others than a rough one.
+/// `q`: weighted squares about the weighted mean (drift_test.h). Source: R. DerSimonian, N. Laird, Controlled Clinical
+/// Trials 7 (1986), moment estimate.
+double SpreadOf(const std::vector<double>& value, const std::vector<double>& information, double q);
+
 }  // namespace ambrig

@@ -35,21 +35,6 @@ double Resolution(const RigParameters& rig, const ChannelRow& channel, double fu
   return std::max(r.least, r.part * range);
 }
 
-/// Samples per independent one: 1 + 2 Σ ρ², lags up to 200.
-double Correlation(const std::vector<double>& v, std::size_t first, std::size_t count) {
-  const double power = std::pow(Rms(v, first, count), 2);
-  if (power <= 0) return 1;
-  double sum = 1;
-  const std::size_t lags = std::min<std::size_t>(200, count / 4);
-  for (std::size_t lag = 1; lag < lags; ++lag) {
-    double c = 0;
-    for (std::size_t k = first; k + lag < first + count; ++k) c += v[k] * v[k + lag];
-    const double rho = c / static_cast<double>(count - lag) / power;
-    sum += 2 * rho * rho;
-  }
-  return sum;
-}
-
 /// Independent rows times independent channels: the latter from the spread of their correlations.
 /// `noise`: of one noisy run.
 double IndependentRows(const CaseModel& model, const std::vector<double>& noise) {
@@ -69,7 +54,8 @@ double IndependentRows(const CaseModel& model, const std::vector<double>& noise)
     }
     double per_channel = 0, spread = 0;
     for (const Target* t : of)
-      per_channel += static_cast<double>(t->count) / Correlation(noise, t->first, t->count);
+      per_channel +=
+          static_cast<double>(t->count) / RowsPerIndependentOne(noise, t->first, t->count);
     per_channel /= static_cast<double>(of.size());
     for (const Target* a : of)
       for (const Target* b : of) {
@@ -86,6 +72,20 @@ double IndependentRows(const CaseModel& model, const std::vector<double>& noise)
 }
 
 }  // namespace
+
+double RowsPerIndependentOne(const std::vector<double>& v, std::size_t first, std::size_t count) {
+  const double power = std::pow(Rms(v, first, count), 2);
+  if (power <= 0) return 1;
+  double sum = 1;
+  const std::size_t lags = std::min<std::size_t>(200, count / 4);
+  for (std::size_t lag = 1; lag < lags; ++lag) {
+    double c = 0;
+    for (std::size_t k = first; k + lag < first + count; ++k) c += v[k] * v[k + lag];
+    const double rho = c / static_cast<double>(count - lag) / power;
+    sum += 2 * rho * rho;
+  }
+  return sum;
+}
 
 NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
   NoiseFloor floor;

@@ -16,4 +16,7 @@ struct NoiseFloor {
 /// it.
 NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h);
 
+/// Rows of a coloured series per independent one: 1 + 2 Σ ρ² over the lags up to 200 and a quarter of the rows.
+double RowsPerIndependentOne(const std::vector<double>& v, std::size_t first, std::size_t count);
+
 }  // namespace ambrig

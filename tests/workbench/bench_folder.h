@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <thread>
 
 namespace ambrig::workbench {
 
@@ -22,7 +24,16 @@ class BenchFolder : public ::testing::Test {
     Write("served/a.toml", "x = 1\n");
     Write("served/sub/b.csv", "t,x\n0,1\n1,2\n");
   }
-  void TearDown() override { std::filesystem::remove_all(base_); }
+  /// The command of a server that was killed may write for a moment more.
+  void TearDown() override {
+    std::error_code failed;
+    for (int tries = 0; tries < 100; ++tries) {
+      std::filesystem::remove_all(base_, failed);
+      if (!failed) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    ADD_FAILURE() << base_ << ": " << failed.message();
+  }
 
   void Write(const std::string& name, const std::string& text) const {
     std::ofstream(base_ / name, std::ios::binary) << text;

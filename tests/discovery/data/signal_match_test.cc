@@ -50,6 +50,14 @@ TEST(BestShift, FindsWhereABlockIsMissing) {
   EXPECT_GT(s.before, 3);
 }
 
+// What stands still and agrees is not shifted, although any shift agrees as well.
+TEST(BestShift, LeavesAColumnThatStandsStillAlone) {
+  MatchedColumn c;
+  c.measured = c.predicted = std::vector<double>(3000, 4.0);
+  c.ok.assign(3000, 1);
+  EXPECT_EQ(BestShift({c}, 300).late, 0);
+}
+
 // A gain or an offset is no shift: little is won by any.
 TEST(BestShift, LeavesOtherErrorsAlone) {
   const Shift s =

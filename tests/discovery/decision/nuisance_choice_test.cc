@@ -104,6 +104,15 @@ TEST_F(NuisanceChoiceTest, ZerosThatDifferFromRecordToRecordAreChosen) {
   EXPECT_EQ(chosen[0].name, "zero of A.x");
 }
 
+// By hand: two records of information 3, one of 1; mean 1, q = 3 * 1 + 3 * 1 + 1 * 0. Variance (6 - 2)/(7 - 19/7) = 14/15,
+// weights 1/(1/3 + 14/15) and 1/(1 + 14/15).
+TEST(SpreadOf, IsThatOfDerSimonianAndLaird) {
+  const double w = 1 / (1 / 3.0 + 14 / 15.0), v = 1 / (1 + 14 / 15.0);
+  const double square = w * (0 + 4) + v * 1, mean = (w * 2 + v) / (2 * w + v);
+  EXPECT_NEAR(SpreadOf({0, 2, 1}, {3, 3, 1}, 6), 1 - (2 * w + v) * mean * mean / square, 1e-12);
+  EXPECT_EQ(SpreadOf({2, 2}, {1, 5}, 0), 0);
+}
+
 // The same offset in every record is an effect of the rig, not a nuisance.
 TEST_F(NuisanceChoiceTest, WhatIsTheSameInEveryRecordIsLeftToTheSearch) {
   EXPECT_TRUE(ChooseNuisances(case_.model, {Zero(0)}, Offsets({6, 6, 6, 6}), kWeight).empty());

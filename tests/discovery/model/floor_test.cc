@@ -39,6 +39,16 @@ TEST(Floor, WhiteRowsAreIndependent) {
   EXPECT_LT(floor.effective_sample_size, 0.75 * rows);
 }
 
+// A sine of 20 rows has the autocorrelation cos(pi lag/10) at every lag: of 200 rows one is independent.
+TEST(RowsPerIndependentOne, OfASineAreAsManyAsTheLags) {
+  std::vector<double> v(2010, 1e6);
+  for (std::size_t k = 10; k < v.size(); ++k) v[k] = std::sin(M_PI * static_cast<double>(k) / 10);
+  double sum = 1;
+  for (int lag = 1; lag < 200; ++lag) sum += 2 * std::pow(std::cos(M_PI * lag / 10), 2);
+  EXPECT_NEAR(RowsPerIndependentOne(v, 10, 2000), sum, 0.01 * sum);
+  EXPECT_EQ(RowsPerIndependentOne(std::vector<double>(50, 0.0), 0, 50), 1);
+}
+
 TEST(Floor, NoiseThatIsStatedCountsWhereItIsLarger) {
   Case c = HeldReadings();
   c.noise["A.x"] = 1e-6;

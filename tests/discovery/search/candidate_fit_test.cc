@@ -177,6 +177,22 @@ TEST(RankEffects, ASecondRoundFindsWhatTheFirstLeft) {
     EXPECT_FALSE(r.effect.name == "sensor-gain" && r.effect.target == "A.x");
 }
 
+// An offset of 2 floors in one channel of two leaves a ratio of 1.4, in which a tone may still hide; one of 1.2 leaves none.
+TEST(RankEffects, ALaterRoundSeeksFrequenciesWhereAnErrorIsLeft) {
+  for (const double offset : {2e-6, 1.2e-6}) {
+    const LinearCase c(kX, 1, offset);
+    const FitResult base = c.Base();
+    SignatureBank bank;
+    Told told;
+    const EffectRound round =
+        RankEffects({c.model, c.model, bank, kFitN, 1, told.Listener()}, base, 1);
+    const bool sought =
+        std::any_of(round.screened.begin(), round.screened.end(),
+                    [](const Candidate& s) { return s.effect.name == "sensor-hum"; });
+    EXPECT_EQ(sought, offset > 1.5e-6) << base.ratio_fit;
+  }
+}
+
 TEST(VisibleSizes, AreThreeStandardDeviationsOfEachEffect) {
   const LinearCase c(kX, 1, 0);
   const FitResult base = c.Base();

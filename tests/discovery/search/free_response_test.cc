@@ -55,5 +55,19 @@ TEST(FreeResponse, TheScaleOfALineIsThatOfTheNoise) {
   EXPECT_NEAR(said / seen, 1, 0.15);
 }
 
+// A speed that begins to change within the record, be it at its last row, is no constant one.
+TEST(FreeResponse, OnlyRecordsAtConstantSpeedAreUsed) {
+  Case c = RestingRecords();
+  const CaseModel steady(c);
+  EXPECT_FALSE(FreeResponses(steady, Hypothesis::Base(c.rig)).empty());
+  for (CaseRecord& r : c.records) {
+    const double last = r.data.TimeAt(r.data.rows() - 1), step = 1 / r.data.rate;
+    r.scenario.speed = SpeedProfile(
+        std::vector<std::vector<double>>{{0, 300}, {last - 0.5 * step, 300}, {last, 310}});
+  }
+  const CaseModel changing(c);
+  EXPECT_TRUE(FreeResponses(changing, Hypothesis::Base(c.rig)).empty());
+}
+
 }  // namespace
 }  // namespace ambrig

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/fdd/stator_bench.h"
 
 namespace ambrig {
@@ -42,6 +44,26 @@ TEST(ReadingJump, AStepOfTheOffsetIsSeenOnceWithItsSizeAndASpikeIsNot) {
       else
         EXPECT_EQ(jumps[j], 0) << n << " " << j;
     }
+  }
+}
+
+// Behind the three intervals that an edge may reach an on phase has one more, or three. Of one nothing is known: there only a
+// step beyond what the bus can do would be a false one.
+TEST(ReadingJump, OfASingleIntervalNothingIsKnown) {
+  for (const int intervals : {1, 3}) {
+    ReadingBench b;
+    double offset = 0, largest = 0;
+    for (int n = 0; n < 30; ++n) {
+      b.bench.duty[5] = (2.5 + intervals) / kSamples;
+      MeasuredPeriod in = b.bench.Run();
+      in.bus *= 2;  // that could drive the current twice as fast
+      for (int k = 0; k < kSamples; ++k) {
+        if (n == 20 && k == 3) offset = 0.24;
+        b.bench.adc[k][5] += offset;
+      }
+      largest = std::max(largest, b.jump.Period(in)[5]);
+    }
+    EXPECT_NEAR(largest, intervals == 1 ? 0 : 0.24, 0.06) << intervals;
   }
 }
 
