@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <tuple>
 
 #include "actuators/electronics/coil_voltage.h"
 #include "control/current/current_regulator.h"
@@ -104,6 +105,27 @@ TEST(PaperSlope, SingularSlopesAreCancelled) {
   EXPECT_EQ(m.cancelled, 7);
   EXPECT_DOUBLE_EQ(m.increasing, 1);
   EXPECT_DOUBLE_EQ(m.decreasing, -1);
+}
+
+// Numbers that are exact in binary: slopes of +-3 A/s. A limit belongs to the range, all that is beyond does not.
+TEST(PaperSlope, ASlopeAtALimitIsWithin) {
+  for (const auto& [bus, margin, expected] : {std::tuple{2.0, 1.0, FaultClass::kNone},
+                                              {2.0, 0.5, FaultClass::kPartialShort},
+                                              {4.0, 1.0, FaultClass::kNone},
+                                              {4.0, 0.5, FaultClass::kOpen}}) {
+    SlopeDetectorSettings s;
+    s.converter.attenuation = s.converter.sampling_resistance = s.converter.reference = 1;
+    s.converter.bits = 0;
+    s.converter.period = 1;
+    s.circuit = {bus, 0, 0, 1, 0, 1};  // 1 H, no resistance: slopes of +-bus
+    s.margin = margin;
+    s.samples_per_period = 10;
+    SlopeDetector detector(s);
+    for (const long code : {0, 3, 6, 9, 12, 15, 12, 9, 6, 3}) detector.Sample(code, 0);
+    EXPECT_EQ(detector.slopes().increasing, 3);
+    EXPECT_EQ(detector.slopes().decreasing, -3);
+    EXPECT_EQ(detector.fault_class(), expected) << bus << " " << margin;
+  }
 }
 
 TEST(PaperSlope, ErrorBudgetOfSection41) {
