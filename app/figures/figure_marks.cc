@@ -81,6 +81,7 @@ void AddLevel(Figure& figure, int panel, double y, const std::string& label,
             {"y", y},
             {"xanchor", "right"},
             {"yanchor", "bottom"},
+            {"yshift", 3},               // clear of the line
             {"bgcolor", "@paper/80"}});  // readable where a curve passes behind it
   figure.layout["annotations"].push_back(std::move(a));
 }
