@@ -129,9 +129,8 @@ std::vector<double> SdUnderDoubt(const CaseModel& model, const FitResult& fit,
   const auto n = static_cast<Index>(h.free.size());
   if (fit.jacobian.cols() != n || sd.size() != h.free.size()) return sd;
   const double rows = static_cast<double>(model.size());
-  const RowWeights weight = {
-      MisfitWeight(std::max(1.0, fit.ratio_fit), effective_sample_size) / rows,
-      effective_sample_size / rows};
+  const RowWeights weight = {RowWeight(model, fit.ratio_fit, effective_sample_size),
+                             effective_sample_size / rows};
   const std::vector<DataBlock> blocks = BlocksOf(model, fit);
   Eigen::MatrixXd square = Eigen::MatrixXd::Zero(n, n);
   for (const DataBlock& b : blocks)

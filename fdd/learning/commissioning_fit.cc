@@ -216,7 +216,7 @@ CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel
   Fit fit(nominal, sampling, settings, log);
   if (fit.size() < 100) return out;
   std::vector<double> z;
-  Found start;
+  Found start{StartAt(kStarts[0]), {}};  // where no start has a cost
   for (const double cutoff : kStarts) {
     Found at;
     at.parameters = StartAt(cutoff);
@@ -229,9 +229,8 @@ CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel
   const double most = kKneePays * straight.cost;
   TryKnees(fit, straight, kCircuit, kWithKnee, most, most, &found);
   // Both knees look much alike: a step along both may leave one of them at its limit of 0.
-  const int knees[] = {kCircuit, kCircuit + 1};
   if (found.cost > kWellFitted * static_cast<double>(fit.size()))
-    for (const int knee : knees)
+    for (const int knee : {kCircuit, kCircuit + 1})
       for (const Found& from : {straight, start})
         TryKnees(fit, from, knee, knee + 1, kInfinity, most, &found);
   out.circuit = CircuitOf(found.parameters, nominal.gap_offset[0]);

@@ -15,6 +15,21 @@ using testing::kStepRecord;
 using testing::Measured;
 using testing::SamplesOf;
 
+/// A column times each factor is named as one in another unit, and nothing else is.
+void ExpectUnits(const char* record, const std::string& channel,
+                 const std::vector<double>& factors) {
+  const Case sound = Measured();
+  for (const double factor : factors) {
+    Case c = sound;
+    for (double& v : SamplesOf(c, record, channel)) v *= factor;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].fault, "unit");
+    EXPECT_EQ(faults[0].channel, channel);
+    EXPECT_NEAR(faults[0].factor, factor, 1e-6 * factor);
+  }
+}
+
 // Of a speed column the prediction is the scenario's own profile.
 TEST(GateFactors, ASpeedInAnotherUnitIsNamedWithItsFactor) {
   const char* kTurning = "multisine at 60 Hz";
@@ -46,29 +61,13 @@ TEST(GateFactors, ASpeedThatWasNotCommandedIsOfAnotherScenario) {
 
 // The bus stands at its voltage: its noise has no correlation with a prediction, its level does.
 TEST(GateFactors, AConstantColumnShowsItsFactorByItsLevel) {
-  for (const double factor : {2.0, 0.5, std::sqrt(2.0), 25.4, 57.29577951308232}) {
-    Case c = Measured();
-    for (double& v : SamplesOf(c, kStepRecord, "bus")) v *= factor;
-    const auto faults = FaultsOf(c);
-    ASSERT_EQ(faults.size(), 1U) << factor;
-    EXPECT_EQ(faults[0].fault, "unit");
-    EXPECT_EQ(faults[0].channel, "bus");
-    EXPECT_NEAR(faults[0].factor, factor, 1e-6 * factor);
-  }
+  ExpectUnits(kStepRecord, "bus", {2.0, 0.5, std::sqrt(2.0), 25.4, 57.29577951308232});
 }
 
 // A load cell in kilograms or inches of a probe: the column moves as predicted, in another unit.
 TEST(GateFactors, AMovingColumnShowsItsFactor) {
-  const Case sound = Measured();
-  for (const double factor : {1e3, 1e-3, 180 / kPi, 9.81, 1 / 9.81, 25.4, 1 / 25.4, 2.0, 0.5}) {
-    Case c = sound;
-    for (double& v : SamplesOf(c, kClampedRecord, "A.fx")) v *= factor;
-    const auto faults = FaultsOf(c);
-    ASSERT_EQ(faults.size(), 1U) << factor;
-    EXPECT_EQ(faults[0].fault, "unit");
-    EXPECT_EQ(faults[0].channel, "A.fx");
-    EXPECT_NEAR(faults[0].factor, factor, 1e-6 * factor);
-  }
+  ExpectUnits(kClampedRecord, "A.fx",
+              {1e3, 1e-3, 180 / kPi, 9.81, 1 / 9.81, 25.4, 1 / 25.4, 2.0, 0.5});
 }
 
 // A sensor that adds hum where the model expects nothing but noise: no factor of a thousand.

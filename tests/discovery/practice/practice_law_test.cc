@@ -129,7 +129,6 @@ TEST(PracticeLawForms, RelaxationsFollowTheirOrder) {
   }
 }
 
-// Messages about an effect say where it was written: these stand in no file.
 // Dampings between 0.003 and 0.02, even in the logarithm: of 300 draws the ends are within a fiftieth of the decades.
 TEST(PracticeLawForms, DampingsOfTwoModesFillTheirRange) {
   const RigParameters rig = ExampleRig("reference");
@@ -150,6 +149,7 @@ TEST(PracticeLawForms, DampingsOfTwoModesFillTheirRange) {
   EXPECT_GT(most, 0.018);
 }
 
+// Messages about an effect say where it was written: these stand in no file.
 TEST(PracticeLaw, EveryEffectSaysThatALawOfPracticeMadeIt) {
   const RigParameters rig = ExampleRig("reference");
   for (const PracticeLaw& law : PracticeLaws()) {
