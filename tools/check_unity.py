@@ -14,7 +14,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Compiled one by one, as cmake/folders.cmake and CMakeLists.txt say.
-APART = re.compile(r"^(actuators|fdd|bench)/|catalogue\.cc$|^core/math/(noise_\w+|cvode|kinsol)\.cc$"
+APART = re.compile(r"^(actuators|bench)/|catalogue\.cc$|^core/math/(noise_\w+|cvode|kinsol)\.cc$"
                    r"|/(ode_world|nlopt_search|program_search)\.cc$|^discovery/search/fit\.cc$")
 DECLARATION = [
     re.compile(r"^(?:struct|class|enum class|enum|union) (\w+)(?!;)\b(?=.*[{:]|$)"),
@@ -67,7 +67,7 @@ def self_test():
     assert not clashes({"core/a.cc": one, "rotor/b.cc": one})
     assert not clashes({"tests/core/a.cc": one, "tests/rotor/b.cc": one})
     assert clashes({"tests/core/math/a.cc": one, "tests/core/b.cc": one})
-    assert not clashes({"fdd/a.cc": one, "fdd/b.cc": one})
+    assert not clashes({"actuators/a.cc": one, "actuators/b.cc": one})
 
 
 def main():

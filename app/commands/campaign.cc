@@ -32,7 +32,7 @@ struct CampaignOptions {
   bool no_report = false, long_runs = false;
 };
 
-nlohmann::ordered_json Json(const JournalHeader& header, const RowCounts& n) {
+nlohmann::ordered_json CampaignJson(const JournalHeader& header, const RowCounts& n) {
   return {{"name", header.name},
           {"fingerprint", header.fingerprint},
           {"runs", header.runs},
@@ -56,7 +56,7 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
   const std::string html = (std::filesystem::path(out) / "report.html").string();
   if (!no_report) WriteCampaignReport(header, rows, html);
   if (!common.html.empty()) WriteCampaignReport(header, rows, common.html);
-  common.WriteJson(Json(header, n));
+  common.WriteJson(CampaignJson(header, n));
   fmt::print("{}\n  runs               {} of {}\n", Coloured(header.name, "bold"), n.rows,
              header.runs);
   fmt::print("  stayed up          {}\n  touched down       {}\n  dropped            {}\n", n.up,

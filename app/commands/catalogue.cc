@@ -1,6 +1,6 @@
 /// The commands of `ambrig` in the order of its help: one line per command, which lives in a file
 /// of this folder. Its function adds the options to the command line and sets the work.
-#include "app/commands/commands.h"
+#include "app/commands/command.h"
 
 #define AMBRIG_COMMANDS(COMMAND) \
   COMMAND(Tour)                  \

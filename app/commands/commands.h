@@ -2,17 +2,15 @@
 /// The commands of `ambrig`: each one parses its options, calls, prints. Exit codes: 0 done, 1 an
 /// expectation is not met, 2 wrong input, 3 an error of the program, 130 interrupted.
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-namespace ambrig {
+#include "app/commands/command.h"
 
-/// Set by Ctrl-C; every long work looks at it.
-inline std::atomic<bool> interrupted{false};
+namespace ambrig {
 
 inline constexpr const char* kForceHelp =
     "overwrite also files that ambrig did not make, or that somebody changed since";
@@ -29,12 +27,6 @@ struct CommonOptions {
   /// Writes the JSON if asked for (temporary name, then renamed).
   void WriteJson(const nlohmann::ordered_json& document) const;
 };
-
-/// A command's work; returns the exit code.
-using Work = std::function<int()>;
-
-/// All of them, see catalogue.cc.
-void AddCommands(CLI::App& app, Work& work);
 
 /// Files as given and the `wanted` ones in the given folders, sorted. @throws InputError (`none`:
 /// nothing found)

@@ -56,8 +56,8 @@ const BenchNumber& NumberNamed(const BenchTemplate& bench, const std::string& ke
 }
 
 /// Of the answers file: numbers beside `template` and `record`.
-void ReadAnswers(const std::string& file, NewCommand& o, const BenchTemplate*& bench,
-                 BenchAnswers& answers) {
+void ReadBenchAnswers(const std::string& file, NewCommand& o, const BenchTemplate*& bench,
+                      BenchAnswers& answers) {
   const TomlTable t = TomlTable::FromFile(file);
   const std::string name = t.String("template", o.name);
   if (!name.empty() && o.name.empty()) o.name = name;
@@ -193,7 +193,7 @@ int MakeBench(NewCommand o) {
   if (o.list) return ListQuestions(o.common);
   BenchAnswers answers;
   const BenchTemplate* bench = nullptr;
-  if (!o.answers.empty()) ReadAnswers(o.answers, o, bench, answers);
+  if (!o.answers.empty()) ReadBenchAnswers(o.answers, o, bench, answers);
   if (o.ask && o.name.empty()) {
     for (const BenchTemplate& t : BenchTemplates()) fmt::print("  {:<10} {}\n", t.name, t.doc);
     o.name = Reply("template: ");

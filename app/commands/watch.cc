@@ -85,7 +85,7 @@ int OnePass(const WatchCommand& o, FolderWatch& watch) {
   return code;
 }
 
-int RunWatch(WatchCommand o) {
+int WatchFolders(WatchCommand o) {
   if (o.watch.journal.empty())
     o.watch.journal = std::filesystem::path(o.watch.case_file).replace_extension(".watch").string();
   o.watch.explain = !o.no_explain;
@@ -137,7 +137,7 @@ void AddWatch(CLI::App& app, Work& work) {
       "refused; with --every it goes on by itself. A file of the folder repeats the\n"
       "record of the case whose name its own begins with: hover-0412.csv is as\n"
       "hover.csv. docs/guide/watch.md.");
-  command->callback([o, &work] { work = [o] { return RunWatch(*o); }; });
+  command->callback([o, &work] { work = [o] { return WatchFolders(*o); }; });
 }
 
 }  // namespace ambrig

@@ -11,8 +11,6 @@
 
 namespace ambrig {
 
-using nlohmann::json;
-
 namespace {
 
 std::string AxisKey(char letter, int panel) {
@@ -22,13 +20,13 @@ std::string AxisKey(char letter, int panel) {
 // Times at 450 kHz after some seconds need nine digits; what is drawn upwards needs five.
 constexpr int kXDigits = 10, kYDigits = 5;
 
-json LineStyleJson(const Style& s) {
+nlohmann::json LineStyleJson(const Style& s) {
   return {{"color", s.color}, {"width", s.width}, {"dash", s.dash}};
 }
 
-json Trace(int panel, const std::string& name, const Style& style) {
-  json t = {{"type", "scatter"},    {"name", name},        {"xaxis", XRef(panel)},
-            {"yaxis", YRef(panel)}, {"legendgroup", name}, {"showlegend", style.legend}};
+nlohmann::json Trace(int panel, const std::string& name, const Style& style) {
+  nlohmann::json t = {{"type", "scatter"},    {"name", name},        {"xaxis", XRef(panel)},
+                      {"yaxis", YRef(panel)}, {"legendgroup", name}, {"showlegend", style.legend}};
   t["mode"] = style.markers ? "markers" : "lines";
   if (style.markers)
     t["marker"] = {{"color", style.color}, {"size", style.size}};
@@ -40,7 +38,7 @@ json Trace(int panel, const std::string& name, const Style& style) {
 
 void AddPoints(Figure& figure, int panel, const std::string& name, const Points& points,
                const Style& style) {
-  json t = Trace(panel, name, style);
+  nlohmann::json t = Trace(panel, name, style);
   t["x"] = Numbers(points.x, kXDigits);
   t["y"] = Numbers(points.y, kYDigits);
   figure.traces.push_back(std::move(t));
@@ -60,8 +58,8 @@ Style SeriesStyle(int k) {
 std::string XRef(int panel) { return panel == 0 ? "x" : fmt::format("x{}", panel + 1); }
 std::string YRef(int panel) { return panel == 0 ? "y" : fmt::format("y{}", panel + 1); }
 
-json Numbers(std::span<const double> values, int digits) {
-  json out = json::array();
+nlohmann::json Numbers(std::span<const double> values, int digits) {
+  nlohmann::json out = nlohmann::json::array();
   for (const double v : values) {
     if (!std::isfinite(v)) {
       out.push_back(nullptr);
@@ -89,8 +87,8 @@ Figure MakeFigure(std::string caption, const Grid& grid) {
   const double top = titled ? 44 : 34, bottom = 84;
   figure.height = static_cast<int>(inner + top + bottom);
   figure.layout = {{"margin", {{"l", 68}, {"r", 18}, {"t", top}, {"b", bottom}}},
-                   {"shapes", json::array()},
-                   {"annotations", json::array()}};
+                   {"shapes", nlohmann::json::array()},
+                   {"annotations", nlohmann::json::array()}};
   // Room for the numbers and titles of y; many columns have numbers only.
   const double dx = grid.columns == 1 ? 0 : grid.columns <= 3 ? 0.11 : 0.045;
   const double width = (1 - dx * (grid.columns - 1)) / grid.columns;
@@ -99,16 +97,16 @@ Figure MakeFigure(std::string caption, const Grid& grid) {
     const double y1 = 1 - row * (panel_height + gap) / inner;
     const double y0 = std::max(0.0, y1 - panel_height / inner);
     const double x0 = column * (width + dx);
-    json& x = figure.layout[AxisKey('x', p)];
-    json& y = figure.layout[AxisKey('y', p)];
+    nlohmann::json& x = figure.layout[AxisKey('x', p)];
+    nlohmann::json& y = figure.layout[AxisKey('y', p)];
     x = {{"anchor", YRef(p)}, {"domain", {x0, std::min(1.0, x0 + width)}}};
     y = {{"anchor", XRef(p)}, {"domain", {y0, y1}}};
     if (grid.shared_x && row > 0) x["matches"] = XRef(column);
     if (grid.shared_x && row + 1 < grid.rows) x["showticklabels"] = false;
     if (static_cast<std::size_t>(p) < grid.titles.size() && !grid.titles[p].empty()) {
-      json title = {{"text", "<b>" + grid.titles[p] + "</b>"},
-                    {"showarrow", false},
-                    {"font", {{"color", "@ink"}, {"size", 12}}}};
+      nlohmann::json title = {{"text", "<b>" + grid.titles[p] + "</b>"},
+                              {"showarrow", false},
+                              {"font", {{"color", "@ink"}, {"size", 12}}}};
       title.update({{"xref", XRef(p) + " domain"},
                     {"yref", YRef(p) + " domain"},
                     {"x", 0},
@@ -124,8 +122,8 @@ Figure MakeFigure(std::string caption, const Grid& grid) {
 void SetAxes(Figure& figure, int panel, const std::string& x, const std::string& y,
              std::optional<std::array<double, 2>> x_range,
              std::optional<std::array<double, 2>> y_range) {
-  json& ax = figure.layout[AxisKey('x', panel)];
-  json& ay = figure.layout[AxisKey('y', panel)];
+  nlohmann::json& ax = figure.layout[AxisKey('x', panel)];
+  nlohmann::json& ay = figure.layout[AxisKey('y', panel)];
   // With shared x only the bottom panel carries the title, as it alone carries the numbers.
   if (ax.value("showticklabels", true)) ax["title"] = {{"text", x}};
   ay["title"] = {{"text", y}};
@@ -225,9 +223,9 @@ void AddHeatmap(Figure& figure, int panel, const std::vector<std::string>& colum
                 const std::vector<std::vector<double>>& values, const std::string& bar_title,
                 int print) {
   Require(values.size() == rows.size(), "a heatmap row per name");
-  json z = json::array();
+  nlohmann::json z = nlohmann::json::array();
   for (const auto& row : values) z.push_back(Numbers(row));
-  json trace = {
+  nlohmann::json trace = {
       {"type", "heatmap"},
       {"x", columns},
       {"y", rows},
@@ -240,7 +238,7 @@ void AddHeatmap(Figure& figure, int panel, const std::vector<std::string>& colum
       {"colorbar", {{"title", {{"text", bar_title}, {"side", "right"}}}, {"thickness", 12}}}};
   if (print > 0) trace["texttemplate"] = fmt::format("%{{z:.{}~g}}", print);
   figure.traces.push_back(std::move(trace));
-  json& y = figure.layout[AxisKey('y', panel)];
+  nlohmann::json& y = figure.layout[AxisKey('y', panel)];
   y["autorange"] = "reversed";  // first row on top, as in a table
   y["automargin"] = true;
   y["type"] = figure.layout[AxisKey('x', panel)]["type"] = "category";

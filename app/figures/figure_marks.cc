@@ -7,13 +7,13 @@
 
 namespace ambrig {
 
-using nlohmann::json;
-
 namespace {
 
-void AddShape(Figure& figure, json shape) { figure.layout["shapes"].push_back(std::move(shape)); }
+void AddShape(Figure& figure, nlohmann::json shape) {
+  figure.layout["shapes"].push_back(std::move(shape));
+}
 
-json Annotation(const std::string& text, const std::string& color, int size) {
+nlohmann::json Annotation(const std::string& text, const std::string& color, int size) {
   return {{"text", text}, {"showarrow", false}, {"font", {{"color", color}, {"size", size}}}};
 }
 
@@ -22,22 +22,22 @@ json Annotation(const std::string& text, const std::string& color, int size) {
 void AddCircle(Figure& figure, int panel, double x, double y, double radius,
                const std::string& line, const std::string& fill, double width,
                const std::string& dash) {
-  json shape = {{"type", "circle"},
-                {"xref", XRef(panel)},
-                {"yref", YRef(panel)},
-                {"x0", x - radius},
-                {"x1", x + radius},
-                {"y0", y - radius},
-                {"y1", y + radius},
-                {"layer", "below"},
-                {"line", {{"color", line}, {"width", width}, {"dash", dash}}}};
+  nlohmann::json shape = {{"type", "circle"},
+                          {"xref", XRef(panel)},
+                          {"yref", YRef(panel)},
+                          {"x0", x - radius},
+                          {"x1", x + radius},
+                          {"y0", y - radius},
+                          {"y1", y + radius},
+                          {"layer", "below"},
+                          {"line", {{"color", line}, {"width", width}, {"dash", dash}}}};
   if (!fill.empty()) shape["fillcolor"] = fill;
   AddShape(figure, std::move(shape));
 }
 
 void AddText(Figure& figure, int panel, double x, double y, const std::string& text,
              const std::string& color, int size) {
-  json a = Annotation(text, color, size);
+  nlohmann::json a = Annotation(text, color, size);
   a.update({{"xref", XRef(panel)}, {"yref", YRef(panel)}, {"x", x}, {"y", y}});
   figure.layout["annotations"].push_back(std::move(a));
 }
@@ -54,7 +54,7 @@ void AddRegion(Figure& figure, int panel, double x0, double x1, const std::strin
                     {"layer", "below"},
                     {"fillcolor", color},
                     {"line", {{"width", 0}}}});
-  json a = Annotation(label, "@ink", 11);
+  nlohmann::json a = Annotation(label, "@ink", 11);
   a.update({{"xref", XRef(panel)},
             {"yref", YRef(panel) + " domain"},
             {"x", (x0 + x1) / 2},
@@ -74,7 +74,7 @@ void AddLevel(Figure& figure, int panel, double y, const std::string& label,
                     {"y1", y},
                     {"line", {{"color", color}, {"width", 1.2}, {"dash", "dash"}}}});
   if (label.empty()) return;
-  json a = Annotation(label, color, 11);
+  nlohmann::json a = Annotation(label, color, 11);
   a.update({{"xref", XRef(panel) + " domain"},
             {"yref", YRef(panel)},
             {"x", 1},
@@ -115,7 +115,7 @@ void AddMarks(Figure& figure, std::span<const Mark> marks, std::array<double, 2>
         labels.push_back(inside[end].label);
     const std::string text = fmt::format("{}", fmt::join(labels, " · "));
     const bool right_half = inside[i].x > 0.5 * (range[0] + range[1]);
-    json a = Annotation(text, inside[i].color, 11);
+    nlohmann::json a = Annotation(text, inside[i].color, 11);
     a.update({{"xref", "x"},
               {"yref", "y domain"},
               {"x", inside[right_half ? end - 1 : i].x},

@@ -12,8 +12,6 @@
 namespace ambrig {
 namespace {
 
-using nlohmann::json;
-
 // Radii and widths of the schematic; the shaft's radius is one.
 constexpr double kClearance = 0.22;  // how far the drawn shaft can move
 constexpr double kPoleFace = 1.34, kYokeInner = 1.95, kYokeOuter = 2.25, kLabel = 2.45;
@@ -82,7 +80,8 @@ void DrawPole(Figure& figure, int panel, const StatorView& view, std::size_t j,
 
 // Invisible points at the poles, so that the pointer finds the numbers.
 void AddHover(Figure& figure, int panel, const StatorView& view) {
-  json x = json::array(), y = json::array(), text = json::array();
+  nlohmann::json x = nlohmann::json::array(), y = nlohmann::json::array(),
+                 text = nlohmann::json::array();
   for (std::size_t j = 0; j < view.flux.size(); ++j) {
     x.push_back(1.65 * std::cos(view.pole_angles[j]));
     y.push_back(1.65 * std::sin(view.pole_angles[j]));

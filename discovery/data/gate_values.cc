@@ -17,6 +17,7 @@ namespace {
 constexpr double kAbsurd = 4;             // times the largest value that a channel can show
 constexpr double kFewAbsurd = 0.05;       // of the rows; more: the column's unit is wrong
 constexpr std::size_t kClipRun = 4;       // equal neighbours at the extreme
+constexpr std::size_t kCoarse = 3;        // readings that a converter repeats usually
 constexpr double kClipShare = 0.005;      // of the rows
 constexpr double kFrozenSetPoint = 0.08;  // of the rows
 constexpr double kBeyondFloors = 5;       // floors by which the prediction passes the extreme
@@ -85,12 +86,12 @@ std::vector<double> OffTheExtremes(const std::vector<double>& y, double low, dou
   return out;
 }
 
-/// Time at the column's own extreme that the prediction passes by several floors.
-std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, double extreme,
-                        double sign) {
+/// Rows at the column's own extreme that the prediction passes by several floors; `hold`: rows of one reading.
+std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, std::size_t hold,
+                        double extreme, double sign) {
   std::size_t rows = 0;
   double beyond = 0;
-  for (const HeldStretch& s : HeldStretches(y, kClipRun)) {
+  for (const HeldStretch& s : HeldStretches(y, kClipRun * hold)) {
     if (s.value != extreme) continue;
     rows += s.count;
     for (std::size_t k = s.first; k < s.first + s.count; ++k)
@@ -133,10 +134,13 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
         y.size() != c.column.size())
       continue;
     const auto [low, high] = std::minmax_element(y.begin(), y.end());
-    // a coarse converter repeats values everywhere, also between the extremes
-    if (UsualHold(OffTheExtremes(y, *low, *high)) > 3) continue;
+    // A record faster than the controller repeats every reading; a coarse converter repeats values everywhere, also
+    // between the extremes.
+    const std::size_t hold = RegularHold(y);
+    if (UsualHold(OffTheExtremes(y, *low, *high)) > kCoarse * hold) continue;
     if (!set_point && *low < *high) {
-      const std::size_t rows = ClippedRows(c, y, *high, 1) + ClippedRows(c, y, *low, -1);
+      const std::size_t rows =
+          ClippedRows(c, y, hold, *high, 1) + ClippedRows(c, y, hold, *low, -1);
       if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
         DataFault f;
         f.record = r.data_file;
@@ -150,7 +154,7 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
         continue;
       }
     }
-    if (r.scenario.start == StartState::kResting || UsualHold(y) > 3) continue;
+    if (r.scenario.start == StartState::kResting || UsualHold(y) > kCoarse * hold) continue;
     const HeldStretch s = FrozenStretch(y);
     if (s.count == 0 || (set_point && (s.value == *low || s.value == *high))) continue;
     // a force at its limit holds single set-points for some rows

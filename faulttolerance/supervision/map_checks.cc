@@ -20,9 +20,10 @@ bool GivesForce(const Eigen::Vector2d& force, const RedistributionProblem& left,
 }
 
 Eigen::Matrix2d DestabilisingPart(const Eigen::Matrix2d& change) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(change);
-  const Eigen::Matrix2d& v = eigen.eigenvectors();
-  return v * eigen.eigenvalues().cwiseMin(0.0).asDiagonal() * v.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen{Eigen::MatrixXd(change)};
+  const Eigen::Matrix2d v = eigen.eigenvectors();
+  const Eigen::Vector2d lambda = eigen.eigenvalues().cwiseMin(0.0);
+  return v * lambda.asDiagonal() * v.transpose();
 }
 
 Eigen::Vector2d CommandedForce(const CurrentMap& map, const CoilVector& set_points) {

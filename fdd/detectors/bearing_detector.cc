@@ -10,8 +10,6 @@ namespace ambrig {
 namespace {
 constexpr double kCalm = 1.5;        // no suspicion while every G is below
 constexpr double kCalmResidual = 4;  // and in a pause, while every residual is [sd]
-// of the nominal: nearer, its error rules the inductance
-constexpr double kClosestGap = 0.4;
 // what the voltage may err by within one sample [sd of its mean over a phase]
 constexpr double kStepVoltage = 5;
 // periods after which a coil that is off carries nothing: 1 ms, 0.2 ms are needed

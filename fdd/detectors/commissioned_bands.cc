@@ -16,7 +16,7 @@ constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turn
 constexpr double kDriftNoiseOfBand = 6;  // a window's noise is below its band over this
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
-constexpr double kCalm = 0.5;            // of the bands
+constexpr double kCalmShare = 0.5;       // of the bands
 
 }  // namespace
 
@@ -64,7 +64,7 @@ void CommissionedDetector::FollowDrift(bool doubtful) {
   for (const int w : kDriftWindows) {
     const Lane c = windows_.Used(w, kExcessFloor[w] / kDriftNoiseOfBand);
     for (int j = 0; j < filter_.nominal().coils; ++j)
-      if (std::abs(c[j]) > kCalm * band_[w][j]) return;
+      if (std::abs(c[j]) > kCalmShare * band_[w][j]) return;
   }
   const Lane c = windows_.Raw(kDriftWindows[1]);
   drift_.Follow(c, windows_.Common(c), kDriftEvery * sampling_.samples * sampling_.step);

@@ -8,18 +8,14 @@ namespace ambrig {
 namespace {
 
 constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
-constexpr double kGross = 0.5;         // |c|
 constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
 constexpr int kLevelWindow = 2;        // over which coils are compared: ten periods
 constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
-constexpr double kCompanion = 0.5;     // of the largest |c|: a fault of its own
-constexpr double kGrossAbove = 2;      // c, outside the commissioned range
 constexpr double kNoiseOfBand = 6;     // a window's noise is below its band over this
 constexpr double kLeastMiss = 0.3;     // [A] of a set-point
 constexpr int kCoilsAtOnce = 3;        // beyond their bands: the model's fault
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
-constexpr double kClosestGap = 0.4;    // of the nominal: nearer, its error rules
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 

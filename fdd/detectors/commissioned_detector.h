@@ -87,6 +87,9 @@ class CommissionedDetector : public CoilDetector {
 
  private:
   static constexpr std::size_t kInARow = 3;  // periods
+  static constexpr double kGross = 0.5;      // |c|
+  static constexpr double kGrossAbove = 2;   // c, outside the commissioned range
+  static constexpr double kCompanion = 0.5;  // of the largest |c|: a fault of its own
   struct Recent {
     double top[kInARow] = {}, bottom[kInARow] = {};
   };

@@ -9,14 +9,10 @@ namespace ambrig {
 namespace {
 
 constexpr double kAgree = 0.35;        // of the larger phase's c
-constexpr double kGross = 0.5;         // |c|
 constexpr double kReversed = -1.2;     // c of a phase: the bridge drives the other way
-constexpr double kCompanion = 0.5;     // of the largest |c|: a fault of its own
 constexpr int kMissedTwice = 2;        // periods in a row
 constexpr double kMostRegained = 0.9;  // |c|
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
-constexpr int kInARow = 3;                                  // periods
-constexpr double kGrossAbove = 2;                           // c, outside the commissioned range
 constexpr double kLeastLost = 0.1;  // of the turns, for coils that fail at once
 
 }  // namespace

@@ -19,8 +19,8 @@ double Dot(const Lane& a, const Lane& b) {
   return sum;
 }
 
-AMBRIG_WIDE void Accumulate(const SlopeExcess& p, const Lane& without, const Lane& last_top,
-                            const Lane& last_bottom, Lane* top, Lane* bottom) {
+AMBRIG_WIDE void AddPeriod(const SlopeExcess& p, const Lane& without, const Lane& last_top,
+                           const Lane& last_bottom, Lane* top, Lane* bottom) {
   const LaneVector zero, gross = Load(without.v);
   const LaneVector a = Load(p.top[0].v) + Load(p.top[1].v),
                    b = Load(p.bottom[0].v) + Load(p.bottom[1].v);
@@ -117,7 +117,7 @@ void ExcessWindows::Add(const SlopeExcess& period, const Lane& without) {
   }
   static const Sums nothing;
   const Sums& last = count_ > 0 ? total_[(now + kRing - 1) % kRing] : nothing;
-  Accumulate(period, without, last.top, last.bottom, &total_[now].top, &total_[now].bottom);
+  AddPeriod(period, without, last.top, last.bottom, &total_[now].top, &total_[now].bottom);
   Phases& p = phases_[now];
   for (int q = 0; q < 2; ++q) {
     p.top[q] = period.top[q];

@@ -17,7 +17,7 @@ constexpr double kShareOfBus =
 constexpr double kNoises = 7;      // ... and sd of the noise
 constexpr double kLeastAsked = 3;  // times kConducts: a set-point that says something
 constexpr double kFaster = 3;      // than the coil's own inductance lets it fall: neighbours, drops
-constexpr int kInARow = 3;         // periods
+constexpr int kPeriodsInARow = 3;  // periods
 
 class LinkageBalance : public RunDetector {
  public:
@@ -97,7 +97,7 @@ class LinkageBalance : public RunDetector {
         alarm.raised = raised_[lane] = true;
       }
     }
-    if (count_[lane] < kInARow) return;
+    if (count_[lane] < kPeriodsInARow) return;
     lost_[lane] = true;
     Diagnosis d;
     d.coil = j;

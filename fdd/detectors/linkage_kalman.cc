@@ -5,7 +5,7 @@
 namespace ambrig {
 
 namespace {
-constexpr int kSettle = 400;  // Riccati steps at the start
+constexpr int kRiccatiSteps = 400;  // Riccati steps at the start
 }
 
 LinkageKalman::LinkageKalman(const CoilDetectorSetup& setup)
@@ -17,7 +17,7 @@ LinkageKalman::LinkageKalman(const CoilDetectorSetup& setup)
   lambda_.setZero();
   P_ = LinkageMatrix::Identity() * std::pow(process_sd_, 2);
   const LinkageMatrix C = InductanceOf(model_, model_.Permeance(0, 0)).inverse();
-  for (int n = 0; n < kSettle; ++n) StepCovariance(C);
+  for (int n = 0; n < kRiccatiSteps; ++n) StepCovariance(C);
 }
 
 void LinkageKalman::StepCovariance(const LinkageMatrix& C) {

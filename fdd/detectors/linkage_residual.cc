@@ -6,9 +6,7 @@
 
 namespace ambrig {
 
-namespace {
-constexpr double kClosestGap = 0.4;  // of the nominal: nearer, its error rules the inductance
-}
+namespace {}
 
 LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup)
     : model_(setup.model), s_(setup.settings) {

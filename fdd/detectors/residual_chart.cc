@@ -88,19 +88,19 @@ template <class V>
   Phase(c, s, known, slopes.phase[0], 0, at.uncertainty, r);
   Phase(c, s, known, slopes.phase[1], 1, at.uncertainty, r);
 }
-AMBRIG_WHOLE void ComputeWhole(const LinkageModel& m, const Circumstance& at,
-                               const ChartSettings& s, const ModelError& known,
-                               const PeriodSlopes& slopes, ResidualChart* r) {
+AMBRIG_WHOLE void ChartOfWholeLanes(const LinkageModel& m, const Circumstance& at,
+                                    const ChartSettings& s, const ModelError& known,
+                                    const PeriodSlopes& slopes, ResidualChart* r) {
   ComputeAll<WholeLaneVector>(m, at, s, known, slopes, r);
 }
-AMBRIG_WIDE void ComputeHalves(const LinkageModel& m, const Circumstance& at,
-                               const ChartSettings& s, const ModelError& known,
-                               const PeriodSlopes& slopes, ResidualChart* r) {
+AMBRIG_WIDE void ChartOfHalfLanes(const LinkageModel& m, const Circumstance& at,
+                                  const ChartSettings& s, const ModelError& known,
+                                  const PeriodSlopes& slopes, ResidualChart* r) {
   ComputeAll<LaneVector>(m, at, s, known, slopes, r);
 }
 
 template <class V>
-[[gnu::always_inline]] inline double Accumulate(const ChartSettings& s, ResidualChart* r) {
+[[gnu::always_inline]] inline double AccumulateChart(const ChartSettings& s, ResidualChart* r) {
   const V zero = 0.0, cap = s.cap;
   const V on = LoadAs<V>(r->valid[0].v), off = LoadAs<V>(r->valid[1].v), both = on * off;
   const V z[3] = {LoadAs<V>(r->z[0].v), LoadAs<V>(r->z[1].v),
@@ -117,10 +117,10 @@ template <class V>
   return Largest(most);
 }
 AMBRIG_WHOLE double AccumulateWhole(const ChartSettings& s, ResidualChart* r) {
-  return Accumulate<WholeLaneVector>(s, r);
+  return AccumulateChart<WholeLaneVector>(s, r);
 }
 AMBRIG_WIDE double AccumulateHalves(const ChartSettings& s, ResidualChart* r) {
-  return Accumulate<LaneVector>(s, r);
+  return AccumulateChart<LaneVector>(s, r);
 }
 
 AMBRIG_WIDE double BeyondNoise(const Lane& own, const LinkageStep& step, double limit) {
@@ -135,7 +135,7 @@ void ResidualChart::Compute(const LinkageModel& m, const SamplingSettings& sampl
                             const ChartSettings& s, const ModelError& known,
                             const PeriodSlopes& slopes, const Lane& watched,
                             const Lane* uncertainty, double potential_rate) {
-  (whole_lanes ? ComputeWhole : ComputeHalves)(
+  (whole_lanes ? ChartOfWholeLanes : ChartOfHalfLanes)(
       m, {&watched, uncertainty, sampling.step, potential_rate}, s, known, slopes, this);
 }
 

@@ -18,6 +18,9 @@
 
 namespace ambrig {
 
+/// Error budget of a mean slope, section 4.1 of the paper. [A/s]
+inline constexpr double kSlopeErrorBudget = 700;
+
 /// Analogue path and converter of one coil's current.
 struct SlopeConverter {
   double attenuation = 1;          // G_f

@@ -5,10 +5,6 @@
 
 namespace ambrig {
 
-namespace {
-constexpr double kMargin = 700;  // [A/s] error budget of the paper's section 4.1
-}
-
 SlopePrediction::SlopePrediction(const CoilDetectorSetup& setup)
     : model_(setup.model),
       s_(setup.settings),
@@ -56,7 +52,7 @@ double SlopePrediction::EvaluateStatistic(int j, const MeasuredPeriod& in, const
   double most = 0;
   for (std::size_t q = 0; q < 2; ++q)
     if (count[q] >= kFewestSamples) most = std::max(most, std::abs(sum[q] / count[q]));
-  return most / kMargin;
+  return most / kSlopeErrorBudget;
 }
 
 Lane SlopePrediction::Period(const MeasuredPeriod& in) {

@@ -6,7 +6,6 @@
 namespace ambrig {
 
 namespace {
-constexpr double kMargin = 700;  // [A/s] error budget of the paper's section 4.1
 
 double Outside(const SlopeRange& range, double k) {
   return std::max({0.0, range.low - k, k - range.high});
@@ -60,7 +59,7 @@ double SlopeStatistic::EvaluateStatistic(int j, const MeasuredPeriod& in,
   if (on >= kFewestSamples) most = Outside(IncreasingRange(c, i0), slopes.increasing);
   if (s_.sampling.samples - on >= kFewestSamples)
     most = std::max(most, Outside(DecreasingRange(c, i0), slopes.decreasing));
-  return most / kMargin;
+  return most / kSlopeErrorBudget;
 }
 
 Lane SlopeStatistic::Period(const MeasuredPeriod& in) {

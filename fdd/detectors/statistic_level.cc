@@ -8,14 +8,14 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLeast = 1e-3;
+constexpr double kLowestLevel = 1e-3;
 
 const std::array<double, kStatisticLevels>& Edges() {
   static const std::array<double, kStatisticLevels> edges = [] {
     std::array<double, kStatisticLevels> e{};
     for (int k = 1; k < kStatisticLevels; ++k)
       e[static_cast<std::size_t>(k)] =
-          kLeast * std::pow(10.0, static_cast<double>(k - 1) / kLevelsPerDecade);
+          kLowestLevel * std::pow(10.0, static_cast<double>(k - 1) / kLevelsPerDecade);
     return e;
   }();
   return edges;

@@ -11,7 +11,7 @@ namespace ambrig {
 
 namespace {
 constexpr int kTogether[] = {2, 5};    // periods that tell several shorted coils, or else
-constexpr double kGross = 6;           // [sd] residual that no noise makes
+constexpr double kGrossResidual = 6;   // [sd] residual that no noise makes
 constexpr double kPartnerMargin = 12;  // between two windings on one core: e^-6
 
 /// Winding with the share `left` of its turns, the others bypassed.
@@ -174,7 +174,7 @@ bool BearingDetector::OthersHold(const LinkageModel& learned, const Diagnosis& d
       for (int j = 0; j < m.coils; ++j)
         if (j != d.coil && Holds(q, j) && now.phase[q].least[j] > kZeroCurrent &&
             now.phase[q].samples[j] >= kFewestSamples &&
-            std::abs(now.phase[q].residual[j]) > kGross * chart_.sd[q][j])
+            std::abs(now.phase[q].residual[j]) > kGrossResidual * chart_.sd[q][j])
           return false;
   }
   return true;

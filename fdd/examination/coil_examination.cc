@@ -10,7 +10,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kMargin = 12;         // certain: e^-6 against the next hypothesis
+constexpr double kCertainLead = 12;    // certain: e^-6 against the next hypothesis
 constexpr double kLeastOffset = 0.09;  // [A]
 
 /// True when the current went to zero at the bridge's pace, not at once.
@@ -169,15 +169,16 @@ Examination ExamineCoil(const LinkageModel& model, const DetectorSettings& setti
   const double lead = entries[second].cost - entries[0].cost;
   out.cost = entries[0].cost;
   if (vanished(best) && second == 2)
-    best = Decayed(settings, periods, onset, coil) || entries[1].cost - entries[0].cost > kMargin
-               ? (entries[1].cost - entries[0].cost > kMargin ? best : FaultClass::kAmplifierOff)
-               : FaultClass::kOpen;
+    best =
+        Decayed(settings, periods, onset, coil) || entries[1].cost - entries[0].cost > kCertainLead
+            ? (entries[1].cost - entries[0].cost > kCertainLead ? best : FaultClass::kAmplifierOff)
+            : FaultClass::kOpen;
   if (best == FaultClass::kNone) {
     if (UnexplainedStep(model, settings, periods, onset, coil) < kLeastOffset) return out;
     best = FaultClass::kCurrentSensor;  // right before and after, but another offset
   }
   const bool offset = best == FaultClass::kCurrentSensor && entries[0].cls == FaultClass::kNone;
-  out.decided = lead > kMargin || last || (offset && periods.size() >= first + 3);
+  out.decided = lead > kCertainLead || last || (offset && periods.size() >= first + 3);
   out.diagnosis.coil = coil;
   out.diagnosis.cls = best;
   out.diagnosis.onset = periods[onset]->in.t;

@@ -12,7 +12,7 @@ namespace {
 constexpr double kFewestTurns = 0.05, kMostTurns = 1.5;  // shares that a trial may reach
 constexpr double kNoMore = 1.08;                         // of the turns believed: more is no short
 constexpr double kProbe = 0.01;                          // step of the derivatives, of the turns
-constexpr double kSettled = 2e-3;                        // |c|
+constexpr double kSettledTurns = 2e-3;                   // |c|
 constexpr int kSteps = 12;
 constexpr double kLeastWeight = 20;  // of a coil's sum of both phases, and of one phase that counts
 constexpr double kContradicts = 0.3;  // |c| of one phase, when both together are 0
@@ -119,7 +119,7 @@ std::optional<Lane> JointTurns::Solve(const FluxFilter& filter, const CoilEquati
   }
   if (unknown.empty()) return {};
   now = trial.At(share);
-  for (int step = 0; Largest(now, unknown) > kSettled; ++step) {
+  for (int step = 0; Largest(now, unknown) > kSettledTurns; ++step) {
     if (step == kSteps) return {};
     const Eigen::VectorXd change = Step(trial, share, now, unknown);
     if (!change.allFinite()) return {};

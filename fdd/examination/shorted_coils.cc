@@ -15,11 +15,11 @@ namespace {
 using Turns = Eigen::Vector<double, kLanes>;
 using Normal = Eigen::Matrix<double, kLanes, kLanes>;
 
-constexpr double kFewestTurns = 0.02, kMostTurns = 1.05;  // shares that a fit may reach
+constexpr double kFewestFitted = 0.02, kMostFitted = 1.05;  // shares that a fit may reach
 constexpr double kLeastShort = 0.02;  // of the turns: less is no matter of several coils
 // cost that leaving out a coil must add: e^-6 and its parameter
 constexpr double kCertain = 16;
-constexpr double kGross = 8;        // [sd] no residual of an explanation may be larger
+constexpr double kGrossOfFit = 8;   // [sd] no residual of an explanation may be larger
 constexpr double kMeanSquare = 3;   // nor all together
 constexpr int kSpareEquations = 6;  // more than unknowns
 constexpr double kFelt = 0.3;       // [V] of a coil in another one's equation: it conducts
@@ -89,12 +89,12 @@ void AddEquations(const LinkageModel& m, const DetectorSettings& s, const KeptPe
   }
 }
 
-struct Fit {
+struct TurnsFit {
   Turns a = Turns::Ones();
   double cost = 0, worst = 0;  // sum of squares; largest residual [sd]
 };
 
-void EvaluateFit(const std::vector<Equation>& equations, Fit* fit) {
+void EvaluateFit(const std::vector<Equation>& equations, TurnsFit* fit) {
   fit->cost = fit->worst = 0;
   for (const Equation& e : equations) {
     const double z = e.Error(fit->a) / e.Size(fit->a);
@@ -104,8 +104,9 @@ void EvaluateFit(const std::vector<Equation>& equations, Fit* fit) {
 }
 
 /// Levenberg-Marquardt over the turns of `coils`, from `start` there.
-Fit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils, double start) {
-  Fit best;
+TurnsFit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils,
+               double start) {
+  TurnsFit best;
   for (int j : coils) best.a[j] = start;
   EvaluateFit(equations, &best);
   double damping = 1e-3;
@@ -129,10 +130,10 @@ Fit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils,
       part(r, r) += 1e-9;
     }
     const Eigen::VectorXd change = SolveSymmetric(part, rhs);
-    Fit next = best;
+    TurnsFit next = best;
     for (Eigen::Index r = 0; r < n; ++r) {
       double& a = next.a[coils[static_cast<std::size_t>(r)]];
-      a = std::clamp(a + change[r], kFewestTurns, kMostTurns);
+      a = std::clamp(a + change[r], kFewestFitted, kMostFitted);
     }
     EvaluateFit(equations, &next);
     if (!(next.cost < best.cost)) {
@@ -148,10 +149,10 @@ Fit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils,
 }
 
 /// The best of some starts, from no turns shorted to many.
-Fit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils) {
-  Fit best = Solve(equations, coils, 1);
+TurnsFit Solve(const std::vector<Equation>& equations, const std::vector<int>& coils) {
+  TurnsFit best = Solve(equations, coils, 1);
   for (double start : {0.8, 0.6, 0.4}) {
-    const Fit other = Solve(equations, coils, start);
+    const TurnsFit other = Solve(equations, coils, start);
     if (other.cost < best.cost) best = other;
   }
   return best;
@@ -195,9 +196,10 @@ ShortedCoils FindShortedCoils(const LinkageModel& m, const DetectorSettings& s,
       felt.push_back(j);
   if (equations.size() < felt.size() + kSpareEquations) return out;
   std::vector<int> coils = felt;
-  Fit fit = Solve(equations, coils);
+  TurnsFit fit = Solve(equations, coils);
   const auto explains = [&] {
-    return fit.worst < kGross && fit.cost < kMeanSquare * static_cast<double>(equations.size());
+    return fit.worst < kGrossOfFit &&
+           fit.cost < kMeanSquare * static_cast<double>(equations.size());
   };
   if (!explains()) return out;
   // The fewest: healthy coils first, then whichever the residuals do not need.

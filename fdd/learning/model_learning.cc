@@ -11,18 +11,18 @@ namespace {
 using V = LaneVector;
 constexpr double kToleranceFactor = 3;  // tolerances count this many times
 // of the tolerances: coils differ within a bearing
-constexpr double kLeastLeakage = 0.2, kLeastGap = 0.3;
+constexpr double kLeastLeakage = 0.2, kLeastLearntGap = 0.3;
 constexpr double kMemory = 500, kSizeMemory = 200;  // periods
 // |z| beyond says no more about the usual size
 constexpr double kLargestSize = 4;
 
 /// Normal equations of one period: matrix (00, 01, 11), right side.
-struct Sums {
+struct LearningSums {
   double a00, a01, a11, b0, b1;
 };
 
-AMBRIG_WIDE Sums LearnFrom(const LinkageModel& m, const PeriodSlopes& slopes, double periods,
-                           ResidualChart* chart) {
+AMBRIG_WIDE LearningSums LearnFrom(const LinkageModel& m, const PeriodSlopes& slopes,
+                                   double periods, ResidualChart* chart) {
   const V zero, leakage = Load(m.leakage.v);
   V a00, a01, a11, b0, b1;
   for (int q = 0; q < 2; ++q) {
@@ -53,7 +53,7 @@ ModelLearning::ModelLearning(double leakage_sd, double gap_sd)
 
 void ModelLearning::Learn(const LinkageModel& m, const PeriodSlopes& slopes, int periods,
                           ResidualChart* chart) {
-  const Sums s = LearnFrom(m, slopes, periods, chart);
+  const LearningSums s = LearnFrom(m, slopes, periods, chart);
   const double forget = periods / kMemory;
   info_[0] += s.a00 - forget * info_[0];
   info_[1] += s.a01 - forget * info_[1];
@@ -75,7 +75,7 @@ void ModelLearning::Solve() {
       kToleranceFactor * kToleranceFactor * p1 / det + kLeastLeakage * kLeastLeakage / leak;
   known_.uncertainty[1] = -2 * kToleranceFactor * kToleranceFactor * info_[1] / det;
   known_.uncertainty[2] =
-      kToleranceFactor * kToleranceFactor * p0 / det + kLeastGap * kLeastGap / gap;
+      kToleranceFactor * kToleranceFactor * p0 / det + kLeastLearntGap * kLeastLearntGap / gap;
 }
 
 }  // namespace ambrig

@@ -15,8 +15,8 @@ constexpr double kNeighbours = 0.15;    // [A] what their edges change from peri
 constexpr double kLeastJump = 0.2;      // [A]
 constexpr double kOfEdge = 1.25;        // of the largest step beside an edge so far
 constexpr double kEdgeForgets = 0.999;  // a period
-constexpr double kFewest = 1.5;         // intervals of a phase
-constexpr int kOn = 0, kOff = 1;        // phases; then the intervals 1 and 2 of a period
+constexpr double kFewestIntervals = 1.5;  // intervals of a phase
+constexpr int kOn = 0, kOff = 1;          // phases; then the intervals 1 and 2 of a period
 constexpr int kKnownSteps = kOff + kAfterEdge;
 
 struct Range {
@@ -26,7 +26,7 @@ struct Range {
 AMBRIG_INLINE Range RangeOf(const ReadingJump::PhaseStep& p, const LaneVector& most, double noise) {
   const LaneVector zero, mean = Load(p.mean.v),
                          tolerance = Max(Abs(mean) * kOfStep + noise, kNeighbours);
-  const auto known = Load(p.count.v) > kFewest;
+  const auto known = Load(p.count.v) > kFewestIntervals;
   return {Select(known, mean - tolerance, -most), Select(known, mean + tolerance, most),
           Select(known, mean, zero)};
 }
@@ -78,7 +78,8 @@ AMBRIG_WIDE void SumOfSteps(const Lane* adc, int samples, const Lane& edge, cons
     if (k > 0) seen[kOff].Add(step, is_off * regular);
     before = now;
   }
-  for (int q = 0; q < kKnownSteps; ++q) seen[q].Keep(&known[q], q > kOff ? kFewest + 1 : 1);
+  for (int q = 0; q < kKnownSteps; ++q)
+    seen[q].Keep(&known[q], q > kOff ? kFewestIntervals + 1 : 1);
   Store(state->last.v, before);
   Store(state->fall.v, fall);
   Store(state->rise.v, rise);

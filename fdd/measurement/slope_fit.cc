@@ -65,9 +65,10 @@ struct Samples {
 
 /// `inverse` is 1/(n (n² - 1)).
 template <class V>
-[[gnu::always_inline]] inline void Fit(const Samples<V>& s, const V& inverse, const V& from,
-                                       double step, const V& resistance, const V& y, const V& ky,
-                                       const V& i, const V& ki, PhaseSlopes* out) {
+[[gnu::always_inline]] inline void FitPhase(const Samples<V>& s, const V& inverse, const V& from,
+                                            double step, const V& resistance, const V& y,
+                                            const V& ky, const V& i, const V& ki,
+                                            PhaseSlopes* out) {
   const V middle = 0.5 * (s.n - 1) + from;
   const auto few = s.n < 2;
   const V scale = Select(few, 0.0, inverse * (12 / step));
@@ -87,9 +88,9 @@ template <class V>
           ki = LoadAs<V>(s.ki_on.v), R = LoadAs<V>(m.resistance.v);
   const Samples<V> on(LoadAs<V>(out->phase[0].samples.v)), off(LoadAs<V>(out->phase[1].samples.v));
   const V inverse = 1 / (on.product * off.product);  // one division for both
-  Fit<V>(on, off.product * inverse, 0.0, step, R, y, ky, i, ki, &out->phase[0]);
-  Fit<V>(off, on.product * inverse, on.n, step, R, LoadAs<V>(s.y.v) - y, LoadAs<V>(s.ky.v) - ky,
-         LoadAs<V>(s.i.v) - i, LoadAs<V>(s.ki.v) - ki, &out->phase[1]);
+  FitPhase<V>(on, off.product * inverse, 0.0, step, R, y, ky, i, ki, &out->phase[0]);
+  FitPhase<V>(off, on.product * inverse, on.n, step, R, LoadAs<V>(s.y.v) - y,
+              LoadAs<V>(s.ky.v) - ky, LoadAs<V>(s.i.v) - i, LoadAs<V>(s.ki.v) - ki, &out->phase[1]);
 }
 AMBRIG_WHOLE void FitWhole(const LinkageModel& m, double step, PeriodSlopes* out) {
   FitPhases<WholeLaneVector>(m, step, out);

@@ -10,9 +10,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr int kSkippedAtStart = 2;  // samples of a period
-constexpr double kFewest = 3;       // samples of a phase
-constexpr double kLeastGap = 0.05;  // of the nominal one, as in linkage_model.cc
+constexpr int kSkippedAtStart = 2;                             // samples of a period
+constexpr double kFewestSamples = 3;                           // samples of a phase
 constexpr double kKnee7 = 1 / 729.0, kKnee15 = 1 / 4782969.0;  // 3^-6, 3^-14 [A^-6], [A^-14]
 
 /// Iron terms' value less tangent times psi, and the tangent, at the last psi.
@@ -46,7 +45,7 @@ struct PhaseSums {
 template <class V>
 [[gnu::always_inline]] inline void Finish(const PhaseSums<V>& s, const V& sense, double step,
                                           FluxPhase* out) {
-  const auto few = s.count < kFewest - 0.5;
+  const auto few = s.count < kFewestSamples - 0.5;
   const V n = Select(few, 2, s.count), spread = n * (n * n - 1) * (step / 12),
           per = Select(few, 0.0, 1 / spread), mean = s.i / Select(few, 1, n), middle = s.k_sum / n;
   Store(out->samples.v, Select(few, 0.0, s.count));
@@ -183,15 +182,15 @@ template <class V, Coupling kCoupling>
                       const Lane* adc, FluxFilter::State* state, FluxPeriod* out) {              \
     Pick<vector, Coupling::coupling>(relaxes, knee, c, step, adc, state, out);                   \
   }
-AMBRIG_FLUX_LOOP(RadialWhole, AMBRIG_WHOLE, WholeLaneVector, kFloatingRotor)
-AMBRIG_FLUX_LOOP(RadialHalves, AMBRIG_WIDE, LaneVector, kFloatingRotor)
-AMBRIG_FLUX_LOOP(SidesHalves, AMBRIG_WIDE, LaneVector, kSides)
-AMBRIG_FLUX_LOOP(SeparateHalves, AMBRIG_WIDE, LaneVector, kNone)
+AMBRIG_FLUX_LOOP(FluxRadialWhole, AMBRIG_WHOLE, WholeLaneVector, kFloatingRotor)
+AMBRIG_FLUX_LOOP(FluxRadialHalves, AMBRIG_WIDE, LaneVector, kFloatingRotor)
+AMBRIG_FLUX_LOOP(FluxSidesHalves, AMBRIG_WIDE, LaneVector, kSides)
+AMBRIG_FLUX_LOOP(FluxSeparateHalves, AMBRIG_WIDE, LaneVector, kNone)
 #undef AMBRIG_FLUX_LOOP
 
 /// Lanes without a coil take next to no flux.
-AMBRIG_WIDE void ReluctanceAt(const LinkageModel& m, const FluxCircuit& circuit,
-                              const Lane& per_nominal, double x, double y, Lane* rho) {
+AMBRIG_WIDE void ComputeReluctances(const LinkageModel& m, const FluxCircuit& circuit,
+                                    const Lane& per_nominal, double x, double y, Lane* rho) {
   const LaneVector zero, offset = Load(m.gap_offset.v);
   const auto coil = offset > zero;
   const LaneVector g =
@@ -228,7 +227,7 @@ FluxFilter::FluxFilter(const LinkageModel& nominal, const SamplingSettings& samp
 
 Lane FluxFilter::Reluctance(double x, double y) const {
   Lane rho;
-  ReluctanceAt(model_, circuit_, per_nominal_, x - circuit_.dx, y - circuit_.dy, &rho);
+  ComputeReluctances(model_, circuit_, per_nominal_, x - circuit_.dx, y - circuit_.dy, &rho);
   return rho;
 }
 
@@ -277,9 +276,9 @@ void FluxFilter::Period(const MeasuredPeriod& in, FluxPeriod* out) {
                     sampling_.step, sampling_.samples};
   const bool knee = circuit_.knee7 != 0 || circuit_.knee15 != 0;
   const auto run = model_.coupling == Coupling::kFloatingRotor
-                       ? (whole_lanes ? RadialWhole : RadialHalves)
-                   : model_.coupling == Coupling::kSides ? SidesHalves
-                                                         : SeparateHalves;
+                       ? (whole_lanes ? FluxRadialWhole : FluxRadialHalves)
+                   : model_.coupling == Coupling::kSides ? FluxSidesHalves
+                                                         : FluxSeparateHalves;
   run(relaxing_ || knee, knee, c, step_, in.adc, &state_, out);
 }
 

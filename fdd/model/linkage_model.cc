@@ -6,7 +6,6 @@ namespace ambrig {
 
 namespace {
 /// A gap that noise or a wrong reading makes closed is taken as this share of the nominal one.
-constexpr double kLeastGap = 0.05;
 
 template <class V>
 [[gnu::always_inline]] inline V ReluctanceAt(const LinkageModel& m, double x, double y) {

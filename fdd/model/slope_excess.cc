@@ -33,14 +33,14 @@ template <class V>
     Store(out->bottom[q].v, weight * drive);
   }
 }
-AMBRIG_WHOLE void ComputeWhole(const FluxFilter& filter, const CoilEquations& coils,
-                               const ExcessSettings& s, const FluxPeriod& period, const Lane& share,
-                               SlopeExcess* out) {
+AMBRIG_WHOLE void ExcessOfWholeLanes(const FluxFilter& filter, const CoilEquations& coils,
+                                     const ExcessSettings& s, const FluxPeriod& period,
+                                     const Lane& share, SlopeExcess* out) {
   Compute<WholeLaneVector>(filter, coils, s, period, share, out);
 }
-AMBRIG_WIDE void ComputeHalves(const FluxFilter& filter, const CoilEquations& coils,
-                               const ExcessSettings& s, const FluxPeriod& period, const Lane& share,
-                               SlopeExcess* out) {
+AMBRIG_WIDE void ExcessOfHalfLanes(const FluxFilter& filter, const CoilEquations& coils,
+                                   const ExcessSettings& s, const FluxPeriod& period,
+                                   const Lane& share, SlopeExcess* out) {
   Compute<LaneVector>(filter, coils, s, period, share, out);
 }
 
@@ -49,7 +49,8 @@ AMBRIG_WIDE void ComputeHalves(const FluxFilter& filter, const CoilEquations& co
 void ComputeSlopeExcess(const FluxFilter& filter, const CoilEquations& coils,
                         const ExcessSettings& settings, const FluxPeriod& period, const Lane& share,
                         SlopeExcess* out) {
-  (whole_lanes ? ComputeWhole : ComputeHalves)(filter, coils, settings, period, share, out);
+  (whole_lanes ? ExcessOfWholeLanes : ExcessOfHalfLanes)(filter, coils, settings, period, share,
+                                                         out);
 }
 
 }  // namespace ambrig

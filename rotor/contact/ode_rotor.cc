@@ -20,6 +20,13 @@ constexpr double kNoMass = 1e-4;        // [kg] a turning race without a mount b
 
 Vector3d Radial(const DofVector& q, int d) { return {q[AsSize(d)], q[AsSize(d) + 1], 0}; }
 
+/// The least rotation that brings the z axis to e, |e| = 1, e_z > 0: half the angle between them, about their product.
+Eigen::Quaterniond TiltOfZ(const Vector3d& e) {
+  const double s = std::sqrt((1 + e.z()) * 2);
+  const double inverse = 1 / s;
+  return {s * 0.5, -e.y() * inverse, e.x() * inverse, 0};
+}
+
 }  // namespace
 
 OdeRotor::Rig::Rig(const RotorModel& model, const OdeOptions& options)
@@ -56,7 +63,7 @@ void OdeRotor::Rig::Load(const MotionState& s) {
   const int d = model_.base_dof();
   const Vector3d base = d < 0 ? Vector3d::Zero() : Radial(s.q, d);
   const Vector3d base_v = d < 0 ? Vector3d::Zero() : Radial(s.v, d);
-  const Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), e);
+  const Eigen::Quaterniond tilt = TiltOfZ(e.normalized());
   const Eigen::AngleAxisd spin(std::remainder(s.theta, 2 * kPi), Vector3d::UnitZ());
   world_.SetPose(rotor_, base + Vector3d(s.q[0], s.q[1], s.q[2]), (tilt * spin).toRotationMatrix());
   world_.SetVelocity(rotor_, base_v + Vector3d(s.v[0], s.v[1], s.v[2]));

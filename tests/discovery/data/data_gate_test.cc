@@ -183,6 +183,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{kClampedRecord, "swap", "A.i1"},
                       Mistake{kClampedRecord, "clip", "B.i1"}, Mistake{kStepRecord, "clip", "A.i6"},
                       Mistake{kClampedRecord, "lag", ""}, Mistake{kClampedRecord, "freeze", "A.fy"},
+                      Mistake{kClampedRecord, "freeze", "A.x"},  // every reading repeated
                       Mistake{kClampedRecord, "range", "bus"}),
     [](const auto& mistake) {
       std::string name = std::string(mistake.param.record == kStepRecord ? "Steps" : "Clamped") +
