@@ -32,6 +32,9 @@ endfunction()
 # differ (tools/check_unity.py, run by ctest).
 option(AMBRIG_UNITY "compile the sources of a folder together" OFF)
 set(AMBRIG_UNITY_BATCH 40)       # sources, at most
+if(AMBRIG_SANITIZE)
+  set(AMBRIG_UNITY_BATCH 10)     # a unit of 40 takes 5 GB of the compiler's memory under the sanitizers
+endif()
 set(AMBRIG_UNITY_TEST_BATCH 12)  # tests repeat each other's names
 
 # ambrig_unity(TARGET BATCH): all sources of the target, at most BATCH together, but

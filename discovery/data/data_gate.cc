@@ -74,6 +74,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     CheckUnits(model, r, columns, out);
     CheckSwaps(model, r, columns, out);
     CheckTimes(model, r, columns, out);
+    CheckSpeedTime(model, r, columns, out);
     CheckScenario(model, h, r, columns, out);
   }
   return out;

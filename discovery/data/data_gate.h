@@ -57,6 +57,9 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out);
 void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
+/// A clock that only the measured speed shows: in a run-up that moves nothing else, or of the speed's column alone.
+void CheckSpeedTime(const CaseModel& model, std::size_t record,
+                    const std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
 /// Line of a case file that gives a column its right unit, or a gain where no unit does; `factor`:
 /// measured over what it should be.

@@ -12,11 +12,14 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kMoves = 8;             // floors: a column that moves less tells no time
-constexpr double kLeastShift = 5e-4;     // [s]: a smaller shift is a matter of the fit
-constexpr double kLeastColumn = 1e-3;    // [s], of a single column: electronics delay too
-constexpr double kMostShift = 0.2;       // of the record
-constexpr double kEarly = 0.03;          // of the record: a shift from there on is one of all rows
+constexpr double kMoves = 8;           // floors: a column that moves less tells no time
+constexpr double kLeastShift = 5e-4;   // [s]: a smaller shift is a matter of the fit
+constexpr double kLeastColumn = 1e-3;  // [s], of a single column: electronics delay too
+constexpr double kMostShift = 0.2;     // of the record
+constexpr double kEarly = 0.03;        // of the record: a shift from there on is one of all rows
+// A speed that is late by a clock has the profile's corners, one that lags behind by its drive has not: of a lag of at least
+// the first share of the largest speed a drive leaves a tenth of the error after the best shift.
+constexpr double kLateSpeed = 0.02, kSharpSpeed = 0.03;
 constexpr std::size_t kColumns = 5;      // that move most are looked at
 constexpr std::size_t kGateRows = 6000;  // about: longer records are thinned
 
@@ -123,19 +126,52 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
   }
 }
 
-void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out) {
-  const CaseRecord& r = model.data().records[record];
-  const Channel* omega = Find(r.data, {ChannelKind::kSpeed});
-  if (!omega || r.scenario.speed_free_from < r.scenario.duration) return;
+namespace {
+
+/// The measured speed beside the scenario's profile; no rows where the speed is free or not recorded.
+MatchedColumn SpeedColumn(const CaseRecord& r) {
   MatchedColumn c;
-  double most = 0;
+  const Channel* omega = Find(r.data, {ChannelKind::kSpeed});
+  if (!omega || r.scenario.speed_free_from < r.scenario.duration) return c;
   for (std::size_t k = 0; k < omega->samples.size(); ++k) {
-    const double y = omega->samples[k], p = r.scenario.speed.Speed(r.data.TimeAt(k));
+    const double y = omega->samples[k];
     c.ok.push_back(std::isfinite(y) ? 1 : 0);
     c.measured.push_back(std::isfinite(y) ? y : 0);
-    c.predicted.push_back(p);
-    most = std::max(most, std::abs(p));
+    c.predicted.push_back(r.scenario.speed.Speed(r.data.TimeAt(k)));
   }
+  return c;
+}
+
+double LargestOf(const std::vector<double>& values) {
+  double most = 0;
+  for (const double v : values) most = std::max(most, std::abs(v));
+  return most;
+}
+
+}  // namespace
+
+void CheckSpeedTime(const CaseModel& model, std::size_t record,
+                    const std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  const bool told = std::any_of(out.begin(), out.end(), [&](const DataFault& f) {
+    return f.record == r.data_file && (f.channel.empty() || f.channel == "omega");
+  });
+  GateColumn speed{"omega", SpeedColumn(r), {}, 1, false};
+  if (told || speed.column.size() == 0) return;
+  speed.match = MatchOf(speed.column);
+  if (speed.match.predicted_move == 0 ||
+      speed.match.error < kLateSpeed * LargestOf(speed.column.predicted))
+    return;
+  const FoundShift s = ShiftOf({&speed}, r.data.rate);
+  if (std::abs(s.late) < kLeastColumn || s.left > kSharpSpeed) return;
+  out.push_back(TimeFault(r, MovingColumns(columns, 1).empty() ? "" : "omega", s));
+}
+
+void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  const MatchedColumn c = SpeedColumn(r);
+  if (c.size() == 0) return;
+  const double most = LargestOf(c.predicted);
   const double before = ErrorAgainst(c.measured, c.predicted, c.ok);
   if (before < 5 + 0.05 * most) return;
   DataFault f;

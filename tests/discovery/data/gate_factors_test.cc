@@ -13,6 +13,8 @@ using testing::FaultsOf;
 using testing::kClampedRecord;
 using testing::kStepRecord;
 using testing::Measured;
+using testing::RadialRig;
+using testing::RecordNamed;
 using testing::SamplesOf;
 
 /// A column times each factor is named as one in another unit, and nothing else is.
@@ -57,6 +59,38 @@ TEST(GateFactors, ASpeedThatWasNotCommandedIsOfAnotherScenario) {
   EXPECT_EQ(faults[0].fault, "scenario") << FaultText(faults[0]);
   EXPECT_EQ(faults[0].record, kTurning);
   EXPECT_EQ(faults[0].channel, "");
+}
+
+std::string RunUpOf(const RigParameters& rig) {
+  for (const ExaminationRecord& r : Examination(rig, 4))
+    if (r.title.starts_with("run-up")) return r.title;
+  return "";
+}
+
+// A clock keeps the profile's corners, the lag of a drive rounds them.
+TEST(GateFactors, ASpeedThatComesLateIsNamedWithItsTimeAndTheLagOfADriveIsNot) {
+  const std::string run_up = RunUpOf(RadialRig());
+  for (const bool drive : {false, true}) {
+    Case c = Measured({}, 0, run_up);
+    const std::size_t record = RecordNamed(c, run_up);
+    const double rate = c.records[record].data.rate;
+    std::vector<double>& omega = SamplesOf(c, run_up.c_str(), "omega");
+    const auto late = static_cast<std::ptrdiff_t>(std::lround(0.02 * rate));
+    if (drive)
+      for (std::size_t k = 1; k < omega.size(); ++k)
+        omega[k] = omega[k - 1] + (omega[k] - omega[k - 1]) / (0.02 * rate);
+    else
+      std::copy_backward(omega.begin(), omega.end() - late, omega.end());
+    const auto faults = FaultsOf(c);
+    if (drive) {
+      EXPECT_TRUE(faults.empty()) << FaultText(faults[0]);
+      continue;
+    }
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].fault, "lag");
+    EXPECT_EQ(faults[0].record, run_up);
+    EXPECT_NEAR(faults[0].seconds, 0.02, 1e-3);
+  }
 }
 
 // The bus stands at its voltage: its noise has no correlation with a prediction, its level does.
