@@ -17,7 +17,7 @@ std::string Unpacked(const std::string& zip, const std::string& to) {
 TEST(ZipFile, ComesBackWithFoldersAndAnyBytes) {
   const TemporaryFolder f;
   std::string bytes;
-  for (int k = 0; k < 100000; ++k) bytes += static_cast<char>(k * k % 251);
+  for (unsigned k = 0; k < 100000; ++k) bytes += static_cast<char>(k * k % 251);
   const std::vector<ZipEntry> entries{{"a.txt", "short"}, {"b/c/data.bin", bytes}, {"empty", ""}};
   WriteZip(f.File("one.zip"), entries);
   WriteZip(f.File("two.zip"), entries);
