@@ -6,7 +6,6 @@ add_library(ambrig_app STATIC ${app_sources} ${AMBRIG_WEB_ASSETS})
 ambrig_linked_everywhere(ambrig_app)
 target_include_directories(ambrig_app PUBLIC ${CMAKE_SOURCE_DIR})
 target_link_libraries(ambrig_app PUBLIC ${AMBRIG_FOLDERS} CLI11::CLI11 pugixml::pugixml TBB::tbb)
-ambrig_offline(ambrig_app)
 ambrig_precompiled(ambrig_app json)
 ambrig_unity(ambrig_app ${AMBRIG_UNITY_BATCH})
 # All commands together, since CLI11 costs 8 s in every unit that reads it.

@@ -89,10 +89,13 @@ function(ambrig_folder name)
   set(AMBRIG_FOLDERS "${AMBRIG_FOLDERS};ambrig_${name}" PARENT_SCOPE)
 endfunction()
 
-# ambrig_precompiled(TARGET common|offline|json): gives a target one of the sets of precompiled headers; it must be compiled with
-# the options of all the others of that set: g++ takes the level of optimisation from the precompiled headers, whatever the
-# command line says.
+# ambrig_precompiled(TARGET common|offline|json): gives a target one of the sets of precompiled headers and their level of
+# optimisation: -O3 with `common`, else ambrig_offline. g++ takes the level from the precompiled headers, whatever the command
+# line says; all other options of a set's targets must be the same too.
 function(ambrig_precompiled target set)
+  if(NOT set STREQUAL "common")
+    ambrig_offline(${target})
+  endif()
   if(NOT AMBRIG_PRECOMPILED_HEADERS)
     return()
   endif()

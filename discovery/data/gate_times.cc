@@ -156,8 +156,9 @@ void CheckSpeedTime(const CaseModel& model, std::size_t record,
   const bool told = std::any_of(out.begin(), out.end(), [&](const DataFault& f) {
     return f.record == r.data_file && (f.channel.empty() || f.channel == "omega");
   });
+  if (told) return;
   GateColumn speed{"omega", SpeedColumn(r), {}, 1, false};
-  if (told || speed.column.size() == 0) return;
+  if (speed.column.size() == 0) return;
   speed.match = MatchOf(speed.column);
   if (speed.match.predicted_move == 0 ||
       speed.match.error < kLateSpeed * LargestOf(speed.column.predicted))

@@ -6,8 +6,6 @@
 
 namespace ambrig {
 
-namespace {}
-
 LinkageResidual::LinkageResidual(const CoilDetectorSetup& setup)
     : model_(setup.model), s_(setup.settings) {
   tolerance_.uncertainty[0] = s_.leakage_sd * s_.leakage_sd;

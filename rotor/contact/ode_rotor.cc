@@ -63,7 +63,7 @@ void OdeRotor::Rig::Load(const MotionState& s) {
   const int d = model_.base_dof();
   const Vector3d base = d < 0 ? Vector3d::Zero() : Radial(s.q, d);
   const Vector3d base_v = d < 0 ? Vector3d::Zero() : Radial(s.v, d);
-  const Eigen::Quaterniond tilt = TiltOfZ(e.normalized());
+  const Eigen::Quaterniond tilt = TiltOfZ(e.normalized());  // once more: of rounding
   const Eigen::AngleAxisd spin(std::remainder(s.theta, 2 * kPi), Vector3d::UnitZ());
   world_.SetPose(rotor_, base + Vector3d(s.q[0], s.q[1], s.q[2]), (tilt * spin).toRotationMatrix());
   world_.SetVelocity(rotor_, base_v + Vector3d(s.v[0], s.v[1], s.v[2]));
