@@ -172,6 +172,21 @@ TEST(DataGate, OneColumnLosesNoRows) {
   for (const DataFault& f : FaultsOf(c)) EXPECT_NE(f.fault, "lost") << FaultText(f);
 }
 
+// A record faster than the controller repeats every reading; one that stands still for far longer is frozen.
+TEST(DataGate, AFrozenReadingIsFoundWhereEveryReadingIsRepeated) {
+  for (const bool frozen : {false, true}) {
+    Case c = Measured();
+    std::vector<double>& x = SamplesOf(c, kClampedRecord, "A.x");
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] = x[k - k % 10];
+    if (frozen) Spoil(c, RecordNamed(c, kClampedRecord), {"freeze", "A.x"}, 1);
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), frozen ? 1U : 0U);
+    if (!frozen) continue;
+    EXPECT_EQ(faults[0].fault, "freeze");
+    EXPECT_EQ(faults[0].channel, "A.x");
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, DataGateFinds,
     ::testing::Values(Mistake{kStepRecord, "unit", "A.x"}, Mistake{kStepRecord, "unit", "B.i3"},
@@ -183,7 +198,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{kClampedRecord, "swap", "A.i1"},
                       Mistake{kClampedRecord, "clip", "B.i1"}, Mistake{kStepRecord, "clip", "A.i6"},
                       Mistake{kClampedRecord, "lag", ""}, Mistake{kClampedRecord, "freeze", "A.fy"},
-                      Mistake{kClampedRecord, "freeze", "A.x"},  // every reading repeated
+                      Mistake{kClampedRecord, "freeze", "A.x"},
                       Mistake{kClampedRecord, "range", "bus"}),
     [](const auto& mistake) {
       std::string name = std::string(mistake.param.record == kStepRecord ? "Steps" : "Clamped") +
