@@ -7,7 +7,7 @@
 #include <complex>
 
 #include "core/base/errors.h"
-#include "discovery/shape/box_solver.h"
+#include "core/math/box_solver.h"
 #include "discovery/shape/shape.h"
 #include "effects/catalogue.h"
 #include "effects/diffusion_fit.h"

@@ -9,7 +9,7 @@
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
 #include "discovery/search/signature_bank.h"
-#include "discovery/shape/box_solver.h"
+#include "core/math/box_solver.h"
 
 namespace ambrig {
 

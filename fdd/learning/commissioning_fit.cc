@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/linear_equations.h"
+#include "core/math/box_solver.h"
 
 namespace ambrig {
 
@@ -49,6 +49,12 @@ Parameters StartAt(double cutoff) {
   return p;
 }
 
+/// How far parameters first .. last - 1 may move to this side.
+Eigen::VectorXd LimitOf(const double* limits, const Parameters& p, int first, int last) {
+  return Eigen::Map<const Eigen::VectorXd>(limits + first, last - first) -
+         p.segment(first, last - first);
+}
+
 double HuberCost(double z) {
   const double a = std::abs(z);
   return a < kHuber ? z * z : 2 * kHuber * a - kHuber * kHuber;
@@ -69,6 +75,11 @@ class Fit {
   /// Coils fitted to this circuit; `z`: residuals over their expected size. Returns the cost.
   double Evaluate(const Parameters& p, std::vector<double>* z, CoilEquations* coils) {
     rows_.FluxSlopes(CircuitOf(p, nominal_.gap_offset[0]), &slopes_);
+    return FitCoils(p, z, coils);
+  }
+
+  /// The same with the slopes that this circuit had before.
+  double FitCoils(const Parameters& p, std::vector<double>* z, CoilEquations* coils) {
     *coils = SolveCoils();
     z->resize(size());
     double cost = PriorOf(p);
@@ -90,15 +101,21 @@ class Fit {
     for (int step = 0; step < kMostSteps; ++step) {
       for (std::size_t n = 0; n < size(); ++n)
         huber_[n] = std::min(1.0, kHuber / std::max(std::abs(z[n]), 1e-12));
+      // With the coils of the new weights, as the points that the differences are taken to.
+      cost = FitCoils(*p, &z, coils);
       Linearise(*p, z, first, last);
       double next = cost;
       for (int tries = 0; tries < 6; ++tries, damping *= 10) {
         Parameters q = *p;
         Eigen::MatrixXd damped = normal_;
         damped.diagonal() *= 1 + damping;
-        const Eigen::VectorXd move = SolveSymmetric(damped, gradient_);
+        // A limit holds its parameter while the others move on: cut off one by one they would not
+        // agree, and the descent would creep along the limit.
+        const Eigen::VectorXd move = SolveInBox(damped, -gradient_, LimitOf(kLeast, *p, first, last),
+                                                LimitOf(kMost, *p, first, last));
         for (int k = first; k < last; ++k)
-          q[k] = std::clamp(q[k] - move[k - first], kLeast[k], kMost[k]);
+          q[k] = std::clamp(q[k] + move[k - first], kLeast[k], kMost[k]);
+        if (q == *p) break;
         CoilEquations tried;
         std::vector<double> z_tried;
         next = Evaluate(q, &z_tried, &tried);

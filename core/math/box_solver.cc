@@ -1,4 +1,4 @@
-#include "discovery/shape/box_solver.h"
+#include "core/math/box_solver.h"
 
 #include <algorithm>
 #include <vector>
