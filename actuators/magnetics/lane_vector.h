@@ -79,6 +79,26 @@ AMBRIG_INLINE LaneVector Max(const LaneVector& x, const LaneVector& y) {
 }
 AMBRIG_INLINE LaneVector Abs(const LaneVector& x) { return Select(x < LaneVector(0.0), -x, x); }
 
+AMBRIG_INLINE LaneMask operator&(const LaneMask& x, const LaneMask& y) {
+  return {x.a & y.a, x.b & y.b};
+}
+AMBRIG_INLINE LaneMask operator|(const LaneMask& x, const LaneMask& y) {
+  return {x.a | y.a, x.b | y.b};
+}
+AMBRIG_INLINE LaneMask operator~(const LaneMask& x) { return {~x.a, ~x.b}; }
+
+/// Comparison whose outcome is used more than once (whole_lane_vector.h); no NaN, no two equal
+/// infinities.
+AMBRIG_INLINE LaneMask Below(const LaneVector& x, const LaneVector& y) { return x < y; }
+/// Choice by such an outcome.
+AMBRIG_INLINE LaneVector Choose(const LaneMask& m, const LaneVector& yes, const LaneVector& no) {
+  return Select(m, yes, no);
+}
+/// x where the mask is set, else 0.
+AMBRIG_INLINE LaneVector Only(const LaneMask& m, const LaneVector& x) {
+  return {(FourLanes)(m.a & (FourMasks)x.a), (FourLanes)(m.b & (FourMasks)x.b)};
+}
+
 AMBRIG_INLINE LaneVector Load(const double* p) {
   LaneVector v;
   __builtin_memcpy(&v.a, p, sizeof v.a);

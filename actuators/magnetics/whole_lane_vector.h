@@ -80,6 +80,22 @@ AMBRIG_INLINE WholeLaneVector Min(const WholeLaneVector& x, const WholeLaneVecto
 AMBRIG_INLINE WholeLaneVector Max(const WholeLaneVector& x, const WholeLaneVector& y) {
   return x.v > y.v ? x.v : y.v;
 }
+AMBRIG_INLINE WholeLaneVector Abs(const WholeLaneVector& x) {
+  return (EightLanes)((EightMasks)x.v & 0x7fffffffffffffffLL);
+}
+
+/// A comparison that is used more than once: g++ 12 takes it apart element by element. The sign of the
+/// difference serves as well.
+AMBRIG_INLINE EightMasks Below(const WholeLaneVector& x, const WholeLaneVector& y) {
+  return (EightMasks)(x.v - y.v) >> 63;
+}
+AMBRIG_INLINE WholeLaneVector Choose(const EightMasks& m, const WholeLaneVector& yes,
+                                     const WholeLaneVector& no) {
+  return (EightLanes)((m & (EightMasks)yes.v) | (~m & (EightMasks)no.v));
+}
+AMBRIG_INLINE WholeLaneVector Only(const EightMasks& m, const WholeLaneVector& x) {
+  return (EightLanes)(m & (EightMasks)x.v);
+}
 
 /// The lanes at p as one of the two vectors.
 template <class V>

@@ -11,6 +11,7 @@ namespace {
 using namespace hdf5;
 
 constexpr hsize_t kChunkRows = 1 << 14;
+constexpr unsigned kDeflateLevel = 1;  // higher ones gain next to nothing of noisy readings
 
 /// Every call of the library goes through here; what fails here is lack of memory, not the disk.
 template <class Result>
@@ -83,7 +84,7 @@ class Writer {
       const hsize_t chunk = std::min(rows, kChunkRows);
       Check(H5Pset_chunk(creation, 1, &chunk), path_, "chunks");
       Check(H5Pset_shuffle(creation), path_, "shuffle");
-      Check(H5Pset_deflate(creation, 4), path_, "deflate");
+      Check(H5Pset_deflate(creation, kDeflateLevel), path_, "deflate");
     }
     const Handle dataset(
         H5Dcreate2(file, c.name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT),

@@ -156,7 +156,7 @@ void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& 
 
 void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
                             const BearingControl& control, SupervisorOutput& out) {
-  if (in.comparable) w.probes.Orbit(t, std::hypot(in.x1, in.y1));
+  if (in.comparable) w.probes.Orbit(t, std::sqrt(in.x1 * in.x1 + in.y1 * in.y1));
   for (int j = 0; j < control.coils; ++j) {
     const bool works = w.turns_left[j] > 0 && position_loop && !in.uncertainty.any();
     w.probes.Idle(j, works && control.commanded[j] < kIdleCurrent * w.bias, t);
@@ -221,7 +221,13 @@ void FaultSupervisor::Restore(Watched& w, int coil, double turns, double t,
 
 void FaultSupervisor::TraceSlopes(double t) {
   if (first_alarm_ >= 0 && t > first_alarm_ + kTraceAfter) return;
+  // A row that has become too old lends its memory to the new one.
   SlopeRow row;
+  if (first_alarm_ < 0 && !rows_.empty() && rows_.front().t < t - kTraceBefore) {
+    row = std::move(rows_.front());
+    rows_.pop_front();
+    row.bearings.clear();
+  }
   row.t = t;
   for (const auto& w : watched_) {
     std::array<Lane, 3> lanes{};

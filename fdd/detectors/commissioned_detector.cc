@@ -8,12 +8,8 @@ namespace ambrig {
 namespace {
 
 constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
-constexpr double kGrossBand = 0.1;     // of |c| beyond kGross, against the windows'
-constexpr int kLevelWindow = 2;        // over which coils are compared: ten periods
 constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
-constexpr double kNoiseOfBand = 6;     // a window's noise is below its band over this
 constexpr double kLeastMiss = 0.3;     // [A] of a set-point
-constexpr int kCoilsAtOnce = 3;        // beyond their bands: the model's fault
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
@@ -32,7 +28,10 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       filter_(setup.model, setup.settings.sampling, commissioned.circuit),
       windows_(setup.model),
       jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
-  for (int j = 0; j < setup.model.coils; ++j) share_[j] = 1;
+  for (int j = 0; j < setup.model.coils; ++j) {
+    share_[j] = 1;
+    most_missed_[j] = std::max(kLeastMiss, kBandOverHealthy * model_.current_error[j]);
+  }
   SetBands();
 }
 
@@ -66,63 +65,12 @@ Diagnosis CommissionedDetector::EndProbe(double t) {
   return found;
 }
 
-void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
-  current_error_ = Lane{};
-  for (int j = 0; j < filter_.nominal().coils; ++j) {
-    if (share_[j] > 0) continue;
-    idle_[j] = 0;
-    for (int k = 0; k < sampling_.samples; ++k) idle_[j] += in.adc[k][j] / sampling_.samples;
-  }
-  if (!in.set_point) return;
-  for (int j = 0; j < filter_.nominal().coils; ++j) {
-    double mean = 0;
-    for (int k = 0; k < sampling_.samples; ++k) mean += in.adc[k][j];
-    const double miss = std::abs((*in.set_point)[j] - mean / sampling_.samples);
-    current_error_[j] = std::min(miss, last_miss_[j]);
-    last_miss_[j] = miss;
-    const double limit = std::max(kLeastMiss, kBandOverHealthy * model_.current_error[j]);
-    false_current_[j] = miss > limit ? false_current_[j] + 1 : 0;
-  }
-}
-
 void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
   touching_ = in.uncertainty.any();
   out_of_range_ = false;
   for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j)
     out_of_range_ =
         out_of_range_ || (share_[j] > 0 && period_.largest_flux[j] > model_.largest_flux[j]);
-}
-
-int CommissionedDetector::Ratios() {
-  const int coils = filter_.nominal().coils;
-  ratio_ = Lane{};
-  for (int j = 0; j < coils; ++j) {
-    Recent& r = recent_[static_cast<std::size_t>(j)];
-    const auto place = static_cast<std::size_t>(count_ % 3);
-    r.top[place] = excess_.top[0][j] + excess_.top[1][j];
-    r.bottom[place] = excess_.bottom[0][j] + excess_.bottom[1][j];
-    now_[j] = r.bottom[place] > 0.5 ? r.top[place] / r.bottom[place] : 0;
-    const double limit = now_[j] > 0 && out_of_range_ ? kGrossAbove : kGross;
-    const bool gross = std::abs(now_[j]) > limit;
-    if (gross) ratio_[j] = std::abs(now_[j]) / kGrossBand;
-    level_[j] = gross ? std::abs(now_[j]) : 0;
-    // What a fault throws at its neighbours in its first period would stay in their windows.
-    apart_[j] = gross || touching_ || out_of_range_ || excess_.gross[j] > 0 ? 1 : 0;
-  }
-  // What a model does not express keeps flux out in many coils: those are not the suspects.
-  if (!Relies() && GrossCoils() >= kCoilsAtOnce)
-    for (int j = 0; j < coils; ++j)
-      if (now_[j] > 0) ratio_[j] = 0;
-  windows_.Add(excess_, apart_);
-  for (int w = 0; w < kExcessWindows; ++w) {
-    const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
-    for (int j = 0; j < coils; ++j) {
-      if (apart_[j] > 0) continue;
-      ratio_[j] = std::max(ratio_[j], std::abs(c[j]) / band_[w][j]);
-      if (w == kLevelWindow) level_[j] = std::abs(c[j]);
-    }
-  }
-  return static_cast<int>(std::max_element(ratio_.v, ratio_.v + coils) - ratio_.v);
 }
 
 bool CommissionedDetector::Disturbed() const {
@@ -165,7 +113,8 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   WatchCurrents(in);
   const int stepped = jumps_.Period(in, now_);
   const double nearest = kClosestGap * gap_;
-  const bool comparable = in.comparable && std::hypot(in.x1, in.y1) < gap_ - nearest;
+  const double reach = gap_ - nearest;
+  const bool comparable = in.comparable && in.x1 * in.x1 + in.y1 * in.y1 < reach * reach;
   if (!comparable) {
     ratio_ = streak_ = dead_ = Lane{};
     joint_.Clear();

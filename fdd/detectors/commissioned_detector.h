@@ -90,8 +90,10 @@ class CommissionedDetector : public CoilDetector {
   static constexpr double kGross = 0.5;      // |c|
   static constexpr double kGrossAbove = 2;   // c, outside the commissioned range
   static constexpr double kCompanion = 0.5;  // of the largest |c|: a fault of its own
+  static constexpr int kCoilsAtOnce = 3;     // that stand out: the model's fault
+  static constexpr double kNoiseOfBand = 6;  // a window's noise is below its band over this
   struct Recent {
-    double top[kInARow] = {}, bottom[kInARow] = {};
+    Lane top, bottom;
   };
   void SetBands();
   void SetWider();
@@ -138,8 +140,9 @@ class CommissionedDetector : public CoilDetector {
   Lane band_[kExcessWindows];                       // of |c|
   Lane ratio_, now_, apart_;                        // apart_: 1 where only gross values count
   Lane level_;                                      // |c|, of gross coils now, else of ten periods
+  Lane most_missed_;                                // |set-point - mean| of a healthy current [A]
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
-  std::array<Recent, kLanes> recent_;
+  std::array<Recent, kInARow> recent_;
   bool out_of_range_ = false, touching_ = false;
   double wider_ = 1;  // of the bands, since coils were given up or lost turns
   Lane idle_;         // mean reading of coils without turns [A]

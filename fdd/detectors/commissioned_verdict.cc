@@ -95,11 +95,10 @@ std::vector<Diagnosis> CommissionedDetector::Companions(int decided, double exce
 }
 
 double CommissionedDetector::RecentExcess(int coil) const {
-  const Recent& r = recent_[static_cast<std::size_t>(coil)];
   double top = 0, bottom = 0;
-  for (std::size_t k = 0; k < kInARow; ++k) {
-    top += r.top[k];
-    bottom += r.bottom[k];
+  for (const Recent& period : recent_) {
+    top += period.top[coil];
+    bottom += period.bottom[coil];
   }
   return bottom > 0.5 ? top / bottom : 0;
 }

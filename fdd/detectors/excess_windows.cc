@@ -28,31 +28,71 @@ AMBRIG_WIDE void AddPeriod(const SlopeExcess& p, const Lane& without, const Lane
   Store(bottom->v, Load(last_bottom.v) + Select(gross > zero, zero, b));
 }
 
+/// Raw c of a window and its weight.
+template <class V>
+struct WindowRatio {
+  V c, bottom;
+  [[gnu::always_inline]] WindowRatio(const Lane& top0, const Lane& bottom0, const Lane& top1,
+                                     const Lane& bottom1)
+      : bottom(LoadAs<V>(bottom1.v) - LoadAs<V>(bottom0.v)) {
+    const auto enough = Below(kJudgedWeight, bottom);
+    c = Only(enough, (LoadAs<V>(top1.v) - LoadAs<V>(top0.v)) / Choose(enough, bottom, 1));
+  }
+};
+
 AMBRIG_WIDE void Ratio(const Lane& top0, const Lane& bottom0, const Lane& top1, const Lane& bottom1,
                        Lane* c, Lane* bottom) {
-  const LaneVector zero, b = Load(bottom1.v) - Load(bottom0.v), some = Select(b > 0.5, b, 1);
-  Store(bottom->v, b);
-  Store(c->v, Select(b > 0.5, (Load(top1.v) - Load(top0.v)) / some, zero));
+  const WindowRatio<LaneVector> window(top0, bottom0, top1, bottom1);
+  Store(bottom->v, window.bottom);
+  Store(c->v, window.c);
 }
 
 struct Projection {
   const Lane* basis;
   int directions;
-  const Lane *inverse_share, *bottom;
-  double least;  // of the sum below, else too noisy
+  const Lane* inverse_share;
 };
 
-AMBRIG_WIDE void Smaller(const Projection& p, const Lane& raw, Lane* used) {
-  const LaneVector zero, c = Load(raw.v), inverse = Load(p.inverse_share->v);
-  LaneVector left = c;
+template <class V>
+[[gnu::always_inline]] inline V Smaller(const Projection& p, const V& c, const V& bottom,
+                                        double least) {
+  const V zero = 0.0, inverse = LoadAs<V>(p.inverse_share->v);
+  V left = c;
   for (int d = 0; d < p.directions; ++d) {
-    const LaneVector b = Load(p.basis[d].v);
+    const V b = LoadAs<V>(p.basis[d].v);
     left = left - b * Sum(b * c);
   }
-  left = Select(inverse > zero, left * inverse, c);
-  const LaneVector smaller = Select(Abs(left) < Abs(c), left, c);
-  const LaneVector agreed = Select(left * c > zero, smaller, zero);
-  Store(used->v, Select(Load(p.bottom->v) < p.least, zero, agreed));
+  left = Choose(Below(zero, inverse), left * inverse, c);
+  const V smaller = Choose(Below(Abs(left), Abs(c)), left, c);
+  return Only(Below(zero, left * c) & ~Below(bottom, least), smaller);
+}
+
+AMBRIG_WIDE void UsedOfWindow(const Projection& p, const Lane& c, const Lane& bottom, double least,
+                              Lane* used) {
+  Store(used->v, Smaller(p, Load(c.v), Load(bottom.v), least));
+}
+
+/// Sums of top and bottom at the end, and before each of the windows that are full.
+struct WindowSums {
+  const Lane *top, *bottom;
+  const Lane *top_before[kExcessWindows], *bottom_before[kExcessWindows];
+  double least[kExcessWindows];  // weight that counts
+  int full = 0;
+};
+
+template <class V>
+[[gnu::always_inline]] inline void UsedOfWindows(const Projection& p, const WindowSums& s,
+                                                 Lane* used) {
+  for (int w = 0; w < s.full; ++w) {
+    const WindowRatio<V> window(*s.top_before[w], *s.bottom_before[w], *s.top, *s.bottom);
+    Store(used[w].v, Smaller(p, window.c, window.bottom, s.least[w]));
+  }
+}
+AMBRIG_WHOLE void UsedWhole(const Projection& p, const WindowSums& s, Lane* used) {
+  UsedOfWindows<WholeLaneVector>(p, s, used);
+}
+AMBRIG_WIDE void UsedInHalves(const Projection& p, const WindowSums& s, Lane* used) {
+  UsedOfWindows<LaneVector>(p, s, used);
 }
 
 }  // namespace
@@ -88,7 +128,12 @@ void ExcessWindows::Basis() {
     }
     const double square = Dot(b, b);
     if (square < kSame) continue;
-    for (double& v : b.v) v /= std::sqrt(square);
+    double most = 0;
+    for (double& v : b.v) {
+      v /= std::sqrt(square);
+      most = std::max(most, std::abs(v));
+    }
+    largest_[directions_] = most;
     basis_[directions_++] = b;
   }
   for (int j = 0; j < kLanes; ++j) {
@@ -126,16 +171,17 @@ void ExcessWindows::Add(const SlopeExcess& period, const Lane& without) {
   ++count_;
 }
 
+const ExcessWindows::Sums& ExcessWindows::Before(int w) const {
+  static const Sums nothing;
+  const long long first = count_ - kExcessWindow[w];
+  return first == 0 ? nothing : total_[static_cast<std::size_t>((first - 1) % kRing)];
+}
+
 void ExcessWindows::Window(int w, Lane* c, Lane* bottom) const {
   *c = *bottom = Lane{};
-  const int periods = kExcessWindow[w];
-  if (count_ < periods) return;
-  static const Sums nothing;
-  const auto now = static_cast<std::size_t>((count_ - 1) % kRing);
-  const Sums& before = count_ == periods
-                           ? nothing
-                           : total_[(now + kRing - static_cast<std::size_t>(periods)) % kRing];
-  Ratio(before.top, before.bottom, total_[now].top, total_[now].bottom, c, bottom);
+  if (count_ < kExcessWindow[w]) return;
+  const Sums &before = Before(w), &last = Last();
+  Ratio(before.top, before.bottom, last.top, last.bottom, c, bottom);
 }
 
 Lane ExcessWindows::Raw(int w) const {
@@ -147,8 +193,20 @@ Lane ExcessWindows::Raw(int w) const {
 Lane ExcessWindows::Used(int w, double noisiest) const {
   Lane c, bottom, used;
   Window(w, &c, &bottom);
-  Smaller({basis_, directions_, &inverse_share_, &bottom, 1 / (noisiest * noisiest)}, c, &used);
+  UsedOfWindow({basis_, directions_, &inverse_share_}, c, bottom, 1 / (noisiest * noisiest), &used);
   return used;
+}
+
+void ExcessWindows::UsedOfAll(double below, Lane (&used)[kExcessWindows]) const {
+  WindowSums sums{&Last().top, &Last().bottom, {}, {}, {}};
+  for (int& w = sums.full; w < kExcessWindows && count_ >= kExcessWindow[w]; ++w) {
+    sums.top_before[w] = &Before(w).top;
+    sums.bottom_before[w] = &Before(w).bottom;
+    const double noisiest = kExcessFloor[w] / below;
+    sums.least[w] = 1 / (noisiest * noisiest);
+  }
+  (whole_lanes ? UsedWhole : UsedInHalves)({basis_, directions_, &inverse_share_}, sums, used);
+  for (int w = sums.full; w < kExcessWindows; ++w) used[w] = Lane{};
 }
 
 double ExcessWindows::OfPhase(int coil, int phase, int periods) const {
@@ -158,7 +216,7 @@ double ExcessWindows::OfPhase(int coil, int phase, int periods) const {
     top += p.top[phase][coil];
     bottom += p.bottom[phase][coil];
   }
-  return bottom > 0.5 ? top / bottom : 0;
+  return bottom > kJudgedWeight ? top / bottom : 0;
 }
 
 Lane ExcessWindows::Common(const Lane& c) const {
@@ -173,11 +231,8 @@ Lane ExcessWindows::Common(const Lane& c) const {
 double ExcessWindows::Pattern(int w) const {
   const Lane c = Raw(w);
   double most = 0;
-  for (int d = 0; d < directions_; ++d) {
-    double scale = 0;
-    for (double v : basis_[d].v) scale = std::max(scale, std::abs(v));
-    most = std::max(most, std::abs(Dot(basis_[d], c)) * scale);
-  }
+  for (int d = 0; d < directions_; ++d)
+    most = std::max(most, std::abs(Dot(basis_[d], c)) * largest_[d]);
   return most;
 }
 

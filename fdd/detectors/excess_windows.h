@@ -14,6 +14,9 @@
 
 namespace ambrig {
 
+/// sum w d^2 of a coil that is judged, at least.
+inline constexpr double kJudgedWeight = 0.5;
+
 class ExcessWindows {
  public:
   explicit ExcessWindows(const LinkageModel& nominal);
@@ -28,6 +31,8 @@ class ExcessWindows {
   /// Used c of every coil over window w, 0 while there are too few periods or where its noise is
   /// above `noisiest` [-].
   Lane Used(int w, double noisiest) const;
+  /// The same over every window, whose noise is at most its least band over `below`.
+  void UsedOfAll(double below, Lane (&used)[kExcessWindows]) const;
   Lane Raw(int w) const;
   /// c of one phase of one coil over the last `periods` <= 40; 0: not judged.
   double OfPhase(int coil, int phase, int periods) const;
@@ -42,6 +47,9 @@ class ExcessWindows {
   struct Sums {
     Lane top, bottom;  // of all periods so far
   };
+  /// Those of a window: the sums at its end less those before it.
+  const Sums& Before(int w) const;
+  const Sums& Last() const { return total_[static_cast<std::size_t>((count_ - 1) % kRing)]; }
   struct Phases {
     Lane top[2], bottom[2];
   };
@@ -52,8 +60,9 @@ class ExcessWindows {
   std::vector<Sums> total_;
   std::vector<Phases> phases_;
   Lane judged_;
-  Lane basis_[3];       // orthonormal over the judged coils
-  Lane inverse_share_;  // 1/(1 - sum basis^2), 0: no projection
+  Lane basis_[3];           // orthonormal over the judged coils
+  double largest_[3] = {};  // element of each
+  Lane inverse_share_;      // 1/(1 - sum basis^2), 0: no projection
   int directions_ = 0;
   long long count_ = 0;
 };

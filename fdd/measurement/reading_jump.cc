@@ -19,63 +19,67 @@ constexpr double kFewestIntervals = 1.5;  // intervals of a phase
 constexpr int kOn = 0, kOff = 1;          // phases; then the intervals 1 and 2 of a period
 constexpr int kKnownSteps = kOff + kAfterEdge;
 
+template <class V>
 struct Range {
-  LaneVector low, high, expected;
+  V low, high, expected;
 };
 
-AMBRIG_INLINE Range RangeOf(const ReadingJump::PhaseStep& p, const LaneVector& most, double noise) {
-  const LaneVector zero, mean = Load(p.mean.v),
-                         tolerance = Max(Abs(mean) * kOfStep + noise, kNeighbours);
-  const auto known = Load(p.count.v) > kFewestIntervals;
+template <class V>
+[[gnu::always_inline]] inline Range<V> RangeOf(const ReadingJump::PhaseStep& p, const V& most,
+                                               double noise) {
+  const V zero = 0.0, mean = LoadAs<V>(p.mean.v),
+          tolerance = Max(Abs(mean) * kOfStep + noise, kNeighbours);
+  const auto known = LoadAs<V>(p.count.v) > kFewestIntervals;
   return {Select(known, mean - tolerance, -most), Select(known, mean + tolerance, most),
           Select(known, mean, zero)};
 }
 
 /// Sums over the settled intervals of a phase, or one interval at the start of a period.
+template <class V>
 struct Steps {
-  LaneVector sum, count;
-  [[gnu::always_inline]] void Add(const LaneVector& step, const LaneVector& counts) {
-    sum += step * counts;
-    count += counts;
+  V sum = 0.0, count = 0.0;
+  template <class Mask>
+  [[gnu::always_inline]] void Add(const Mask& counts, const V& step) {
+    sum += Only(counts, step);
+    count += Only(counts, 1.0);
   }
   [[gnu::always_inline]] void Keep(ReadingJump::PhaseStep* out, double weight) const {
-    Store(out->mean.v, sum / Max(count, LaneVector(1.0)));
+    Store(out->mean.v, sum / Max(count, 1.0));
     Store(out->count.v, count * weight);
   }
 };
 
-AMBRIG_WIDE void SumOfSteps(const Lane* adc, int samples, const Lane& edge, const Lane& limit,
-                            double noise, ReadingJump::State* state, Lane* jumps) {
+template <class V>
+[[gnu::always_inline]] inline void SumOfSteps(const Lane* adc, int samples, const Lane& edge,
+                                              const Lane& limit, double noise,
+                                              ReadingJump::State* state, Lane* jumps) {
   ReadingJump::PhaseStep* known = state->known;
-  const LaneVector zero, one = 1.0, most = Load(limit.v), last_on = Load(edge.v);
-  LaneVector before = Load(state->last.v), sum = zero;
-  LaneVector fall = Load(state->fall.v) * kEdgeForgets, rise = Load(state->rise.v) * kEdgeForgets;
-  const Range anywhere{Min(-most, fall * kOfEdge - noise), Max(most, rise * kOfEdge + noise), zero},
+  const V zero = 0.0, one = 1.0, most = LoadAs<V>(limit.v), last_on = LoadAs<V>(edge.v);
+  V before = LoadAs<V>(state->last.v), sum = zero;
+  V fall = LoadAs<V>(state->fall.v) * kEdgeForgets, rise = LoadAs<V>(state->rise.v) * kEdgeForgets;
+  const Range<V> anywhere{Min(-most, fall * kOfEdge - noise), Max(most, rise * kOfEdge + noise),
+                          zero},
       on = RangeOf(known[kOn], most, noise), off = RangeOf(known[kOff], most, noise);
-  Steps seen[kKnownSteps];
+  Steps<V> seen[kKnownSteps];
   for (int k = 0; k < samples; ++k) {
-    const LaneVector now = Load(adc[k].v), step = now - before, place = static_cast<double>(k);
+    const V now = LoadAs<V>(adc[k].v), step = now - before, place = static_cast<double>(k);
     const bool starts = k > 0 && k < kAfterEdge;
+    const auto on_now = Below(k == 0 ? one : place, k == 0 ? zero : last_on);
     // A current that ends in an off phase does not go on as it fell.
-    const LaneVector conducts = Select(Min(before, now) > kConducts, one, zero);
-    const LaneVector is_on = k == 0 ? zero : Select(place < last_on, one, zero),
-                     is_off =
-                         k == 0 ? conducts : Select(place > last_on + kAfterEdge, conducts, zero);
-    const auto in_on = is_on > zero, in_off = is_off > zero;
+    const auto conducts = Below(kConducts, Min(before, now));
+    const auto off_now = k == 0 ? conducts : conducts & Below(last_on + kAfterEdge, place);
     // On phases begin with the period: what it began with the last time is known, too.
-    const Range rising = starts ? RangeOf(known[kOff + k], most, noise) : on;
-    const LaneVector low = Select(in_on, rising.low, Select(in_off, off.low, anywhere.low)),
-                     high = Select(in_on, rising.high, Select(in_off, off.high, anywhere.high)),
-                     expected = Select(in_on, rising.expected, Select(in_off, off.expected, zero));
-    const LaneVector beyond =
-        Select(step > high, step - expected, Select(step < low, step - expected, zero));
-    const LaneVector regular = Select(Abs(beyond) > zero, zero, one);
-    sum = sum + beyond;
-    const LaneVector at_edge = Select(in_on, zero, Select(in_off, zero, step));
+    const Range<V> rising = starts ? RangeOf(known[kOff + k], most, noise) : on;
+    const V low = Choose(on_now, rising.low, Choose(off_now, off.low, anywhere.low)),
+            high = Choose(on_now, rising.high, Choose(off_now, off.high, anywhere.high)),
+            expected = Choose(on_now, rising.expected, Only(off_now, off.expected));
+    const auto impossible = Below(high, step) | Below(step, low);
+    sum += Only(impossible, step - expected);
+    const V at_edge = Only(~(on_now | off_now), step);
     fall = Min(fall, at_edge);
     rise = Max(rise, at_edge);
-    seen[starts ? kOff + k : kOn].Add(step, is_on * regular);
-    if (k > 0) seen[kOff].Add(step, is_off * regular);
+    seen[starts ? kOff + k : kOn].Add(on_now & ~impossible, step);
+    if (k > 0) seen[kOff].Add(off_now & ~impossible, step);
     before = now;
   }
   for (int q = 0; q < kKnownSteps; ++q)
@@ -84,6 +88,16 @@ AMBRIG_WIDE void SumOfSteps(const Lane* adc, int samples, const Lane& edge, cons
   Store(state->fall.v, fall);
   Store(state->rise.v, rise);
   Store(jumps->v, Select(Abs(sum) > kLeastJump, sum, zero));
+}
+
+AMBRIG_WHOLE void StepsOfWholeLanes(const Lane* adc, int samples, const Lane& edge,
+                                    const Lane& limit, double noise, ReadingJump::State* state,
+                                    Lane* jumps) {
+  SumOfSteps<WholeLaneVector>(adc, samples, edge, limit, noise, state, jumps);
+}
+AMBRIG_WIDE void StepsOfHalfLanes(const Lane* adc, int samples, const Lane& edge, const Lane& limit,
+                                  double noise, ReadingJump::State* state, Lane* jumps) {
+  SumOfSteps<LaneVector>(adc, samples, edge, limit, noise, state, jumps);
 }
 
 }  // namespace
@@ -106,7 +120,8 @@ Lane ReadingJump::Period(const MeasuredPeriod& in) {
     limit[j] = per_volt_[j] * std::abs(in.bus) + noise;
     edge[j] = (*in.duty)[j] * per_period;
   }
-  SumOfSteps(in.adc, sampling_.samples, edge, limit, noise, &state_, &jumps);
+  (whole_lanes ? StepsOfWholeLanes : StepsOfHalfLanes)(in.adc, sampling_.samples, edge, limit,
+                                                       noise, &state_, &jumps);
   // Other bridges have more edges than the one of the duty.
   if (sampling_.amplifier->modulation != Modulation::kBiState)
     for (PhaseStep& p : state_.known) p.count = Lane{};

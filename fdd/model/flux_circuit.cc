@@ -4,14 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "actuators/magnetics/whole_lane_vector.h"
+#include "fdd/model/phase_sums.h"
 
 namespace ambrig {
 
 namespace {
 
 constexpr int kSkippedAtStart = 2;                             // samples of a period
-constexpr double kFewestSamples = 3;                           // samples of a phase
 constexpr double kKnee7 = 1 / 729.0, kKnee15 = 1 / 4782969.0;  // 3^-6, 3^-14 [A^-6], [A^-14]
 
 /// Iron terms' value less tangent times psi, and the tangent, at the last psi.
@@ -26,48 +25,26 @@ struct Tangent {
   }
 };
 
-/// Sums over the counted samples of a phase.
-template <class V>
-struct PhaseSums {
-  V y, ky, i, ki, count, k_sum;
-  template <class Mask>
-  [[gnu::always_inline]] void Add(const Mask& in, double k, const V& psi, const V& current) {
-    const V yk = Select(in, psi, 0.0), ik = Select(in, current, 0.0), one = Select(in, 1, 0.0);
-    y += yk;
-    ky += yk * k;
-    i += ik;
-    ki += ik * k;
-    count += one;
-    k_sum += one * k;
-  }
-};
-
-template <class V>
-[[gnu::always_inline]] inline void Finish(const PhaseSums<V>& s, const V& sense, double step,
-                                          FluxPhase* out) {
-  const auto few = s.count < kFewestSamples - 0.5;
-  const V n = Select(few, 2, s.count), spread = n * (n * n - 1) * (step / 12),
-          per = Select(few, 0.0, 1 / spread), mean = s.i / Select(few, 1, n), middle = s.k_sum / n;
-  Store(out->samples.v, Select(few, 0.0, s.count));
-  Store(out->flux.v, sense * (s.ky - middle * s.y) * per);
-  Store(out->current.v, (s.ki - middle * s.i) * per);
-  Store(out->mean.v, Select(few, 0.0, mean));
-  Store(out->scale.v, per * (1 / step));
-}
-
 struct Constants {
   const Lane *sense, *turns, *edge;
   double knee7, knee15, step;
   int samples;
 };
 
-/// The circuit's state from sample to sample of a period.
+/// The circuit's state from sample to sample of a period. Every sample waits for the one before, so
+/// as little as possible stands between them. With D = sum a_m e_m before the last sample, G = sum a_m b_m
+/// and psi_1, psi_2 the last two fluxes, what the relaxations hold is
+///
+///   kept = (D - G psi_2) + (G - total) psi_1,
+///
+/// whose bracket is known one sample earlier. So are the conductances 1/rho where no knee bends, and
+/// with them all of the rotor's potential but its part of psi_1.
 template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
 struct CircuitState {
   const Constants& c;
   const FluxFilter::Step& step;
   const V ampere_turns;
-  V psi, held[kRelaxations], share;  // share: d psi/d i within the first sample
+  V psi, held[kRelaxations], base, share;  // share: d psi/d i within the first sample
   V rho, rho_change, inverse, inverse_change;
 
   [[gnu::always_inline]] CircuitState(const Constants& constants, const FluxFilter::Step& of,
@@ -76,8 +53,10 @@ struct CircuitState {
         step(of),
         ampere_turns(sense * LoadAs<V>(c.turns->v)),
         psi(LoadAs<V>(state.psi.v)),
+        base(0.0),
         share(0.0) {
     for (int m = 0; kRelaxes && m < kRelaxations; ++m) held[m] = LoadAs<V>(state.held[m].v);
+    if constexpr (kRelaxes) base = held[0] + held[1] + (held[2] + held[3]) - psi * step.total_gain;
     rho = LoadAs<V>(step.rho.v) + step.total;
     rho_change = LoadAs<V>(step.rho_change.v) * (1.0 / c.samples);
     const V rho_end = rho + rho_change * static_cast<double>(c.samples);
@@ -85,40 +64,45 @@ struct CircuitState {
     inverse_change = (1 / rho_end - inverse) * (1.0 / c.samples);
   }
 
-  /// MMF that is left for gap and path, s_j i_j less what the relaxations hold.
+  /// MMF of the windings less what the relaxations hold whatever the last flux was.
   [[gnu::always_inline]] V Source(const V& current) const {
-    V source = ampere_turns * current, kept = 0.0;
-    if constexpr (kRelaxes) {
-      kept = held[0] + held[1] + (held[2] + held[3]) - psi * step.total;
-      source = source - kept;
-    }
-    if constexpr (kCoupling == Coupling::kSides)
-      source = ampere_turns * current + Partner(ampere_turns * current) - kept;
-    return source;
+    const V winding = ampere_turns * current;
+    if constexpr (kCoupling == Coupling::kSides) return winding + Partner(winding) - base;
+    return winding - base;
   }
 
   /// psi at sample k, with `current` [A].
   [[gnu::always_inline]] V Solve(int k, const V& current) {
+    const double of_last = kRelaxes ? step.total - step.total_gain : 0;
     V source = Source(current), per = inverse;
     if constexpr (kKnee) {
       const Tangent<V> iron(psi, c.knee7, c.knee15);
-      source = source - iron.rest;
+      source = source + psi * of_last - iron.rest;
       per = 1 / (rho + iron.slope);
     }
+    V flux = source * per;
     if constexpr (kCoupling == Coupling::kFloatingRotor) {
-      const double total = Sum(per);
-      if (k == 0) share = per - per * per * (1 / total);
-      return (source - Sum(source * per) / total) * per;
+      const double over_total = 1 / Sum(per);
+      if (k == 0) share = per - per * per * over_total;
+      double sum = Sum(flux);
+      if constexpr (kRelaxes && !kKnee) {
+        const V part = psi * (per * of_last);
+        sum += Sum(part);
+        flux += part;
+      }
+      return flux - per * over_total * sum;
     }
     if (k == 0) share = per;
-    return source * per;
+    if constexpr (kRelaxes && !kKnee) flux += psi * (per * of_last);
+    return flux;
   }
 
   [[gnu::always_inline]] void Advance(const V& now) {
     if constexpr (kRelaxes) {
       const V change = now - psi;
-      for (int m = 0; m < kRelaxations; ++m)
-        held[m] = held[m] * step.decay[m] + change * step.gain[m];
+      for (int m = 0; m < kRelaxations; ++m) held[m] = held[m] * step.decay[m];
+      base = held[0] + held[1] + (held[2] + held[3]) - psi * step.total_gain;
+      for (int m = 0; m < kRelaxations; ++m) held[m] += change * step.gain[m];
     }
     psi = now;
     rho += rho_change;
@@ -147,12 +131,12 @@ template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
     largest = Max(largest, Max(now, -now));
     most = Max(most, current);
     const V place = static_cast<double>(k);
-    const auto on = place<last_on, off = place> last_on + 1.0;
-    least_on = Min(Select(on, current, far), least_on);
-    least_off = Min(Select(on, far, current), least_off);
+    const auto on = Below(place, last_on), off = Below(last_on + 1.0, place);
+    least_on = Min(Choose(on, current, far), least_on);
+    least_off = Min(Choose(on, far, current), least_off);
     if (k < kSkippedAtStart) continue;
-    on_sums.Add(on, k, now, current);
-    off_sums.Add(Select(off, current, 0.0) > kConducts, k, now, current);
+    on_sums.Add(on, now, current);
+    off_sums.Add(off & Below(kConducts, current), now, current);
   }
   circuit.Keep(state);
   Store(out->flux.v, circuit.psi);
@@ -161,8 +145,8 @@ template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
   Store(out->own.v, circuit.share);
   Store(out->phase[0].least.v, least_on);
   Store(out->phase[1].least.v, least_off);
-  Finish<V>(on_sums, sense, c.step, &out->phase[0]);
-  Finish<V>(off_sums, sense, c.step, &out->phase[1]);
+  Finish<V>(on_sums, sense, c.samples, c.step, &out->phase[0]);
+  Finish<V>(off_sums, sense, c.samples, c.step, &out->phase[1]);
 }
 
 template <class V, Coupling kCoupling>
@@ -184,6 +168,7 @@ template <class V, Coupling kCoupling>
   }
 AMBRIG_FLUX_LOOP(FluxRadialWhole, AMBRIG_WHOLE, WholeLaneVector, kFloatingRotor)
 AMBRIG_FLUX_LOOP(FluxRadialHalves, AMBRIG_WIDE, LaneVector, kFloatingRotor)
+AMBRIG_FLUX_LOOP(FluxSidesWhole, AMBRIG_WHOLE, WholeLaneVector, kSides)
 AMBRIG_FLUX_LOOP(FluxSidesHalves, AMBRIG_WIDE, LaneVector, kSides)
 AMBRIG_FLUX_LOOP(FluxSeparateHalves, AMBRIG_WIDE, LaneVector, kNone)
 #undef AMBRIG_FLUX_LOOP
@@ -214,6 +199,7 @@ FluxFilter::FluxFilter(const LinkageModel& nominal, const SamplingSettings& samp
     step_.decay[m] = std::exp(-x);
     step_.gain[m] = step_.decay[m] * b;
     step_.total += b;
+    step_.total_gain += step_.gain[m];
     relaxing_ = relaxing_ || circuit_.relaxation[lane] != 0;
   }
   for (int j = 0; j < kLanes; ++j) {
@@ -240,7 +226,7 @@ void FluxFilter::Begin(const MeasuredPeriod& in, FluxPeriod* out) {
   still.y1 = in.y0;
   const Step kept = step_;
   for (int m = 0; m < kRelaxations; ++m) step_.decay[m] = step_.gain[m] = 0;
-  step_.total = 0;
+  step_.total = step_.total_gain = 0;
   std::array<Lane, 64> first;
   for (int k = 0; k < sampling_.samples; ++k) first[static_cast<std::size_t>(k)] = in.adc[0];
   still.adc = first.data();
@@ -277,8 +263,9 @@ void FluxFilter::Period(const MeasuredPeriod& in, FluxPeriod* out) {
   const bool knee = circuit_.knee7 != 0 || circuit_.knee15 != 0;
   const auto run = model_.coupling == Coupling::kFloatingRotor
                        ? (whole_lanes ? FluxRadialWhole : FluxRadialHalves)
-                   : model_.coupling == Coupling::kSides ? FluxSidesHalves
-                                                         : FluxSeparateHalves;
+                   : model_.coupling == Coupling::kSides
+                       ? (whole_lanes ? FluxSidesWhole : FluxSidesHalves)
+                       : FluxSeparateHalves;
   run(relaxing_ || knee, knee, c, step_, in.adc, &state_, out);
 }
 

@@ -89,7 +89,7 @@ class FluxFilter {
   struct Step {
     Lane rho, rho_change;                            // at its start, over the period
     double decay[kRelaxations], gain[kRelaxations];  // a_m, a_m b_m
-    double total = 0;                                // sum b_m
+    double total = 0, total_gain = 0;                // sum b_m, sum a_m b_m
   };
 
  private:
