@@ -1,6 +1,11 @@
 // Complete engine beside the bare update loop, so that the ratio to the limit is seen in one run:
 //   build/release/ambrig_bench --benchmark_filter='Engine|UpdateLoop'
 #include <benchmark/benchmark.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
 #include "actuators/magnetics/whole_lane_vector.h"
 #include "rig/rig_file.h"
@@ -10,17 +15,33 @@
 namespace ambrig {
 namespace {
 
-constexpr double kSeconds = 0.25;  // simulated, after as much warm-up
+constexpr double kSeconds = 2;     // simulated, with everything on
+constexpr double kWarmUp = 0.25;   // before it, without detection [s]
+constexpr double kOfCommand = 20;  // of a whole command [s]
+enum Detector { kNone, kCoupled, kCommissioned };
+
+std::string RigFile() {
+  return std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
+}
 
 const RigParameters& Rig() {
-  static const RigParameters rig =
-      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  static const RigParameters rig = ReadRig(RigFile());
   return rig;
 }
 
-Scenario Healthy(bool noise, bool detection) {
-  Scenario s = ReadScenarioText("rig = \"r\"\nduration = 0.25\n[speed]\nprofile = [[0.0, 157.0]]\n",
-                                "bench", Rig());
+RigParameters RigWith(int detector) {
+  RigParameters rig = Rig();
+  rig.detection.kind = detector == kCoupled ? "coupled" : "commissioned";
+  return rig;
+}
+
+std::string ScenarioText(const std::string& rig, double seconds) {
+  return "rig = \"" + rig + "\"\nduration = " + std::to_string(seconds) +
+         "\n[speed]\nprofile = [[0.0, 157.0]]\n";
+}
+
+Scenario Healthy(bool noise, bool detection, double seconds = kSeconds) {
+  Scenario s = ReadScenarioText(ScenarioText("r", seconds), "bench", Rig());
   s.noise = noise;
   s.fault_tolerant = detection;
   return s;
@@ -35,15 +56,18 @@ void Count(benchmark::State& state, double simulated, double coils) {
 }
 
 void Engine(benchmark::State& state) {
-  const Scenario scenario = Healthy(state.range(0) != 0, state.range(1) != 0);
-  for (auto _ : state) benchmark::DoNotOptimize(Simulate(Rig(), scenario, {}));
-  Count(state, 2 * kSeconds, 20);
+  const auto detector = static_cast<int>(state.range(1));
+  const RigParameters rig = RigWith(detector);
+  const Scenario scenario = Healthy(state.range(0) != 0, detector != kNone);
+  for (auto _ : state) benchmark::DoNotOptimize(Simulate(rig, scenario, {}));
+  Count(state, kSeconds + kWarmUp, 20);
 }
 BENCHMARK(Engine)
-    ->ArgNames({"noise", "detection"})
-    ->Args({1, 1})
-    ->Args({1, 0})
-    ->Args({0, 0})
+    ->ArgNames({"noise", "detector"})
+    ->Args({1, kCommissioned})
+    ->Args({1, kCoupled})
+    ->Args({1, kNone})
+    ->Args({0, kNone})
     ->Unit(benchmark::kMillisecond);
 
 /// Everything on, as on a machine without registers of eight doubles (but for the noise).
@@ -52,9 +76,34 @@ void EngineInHalves(benchmark::State& state) {
   const Scenario scenario = Healthy(true, true);
   for (auto _ : state) benchmark::DoNotOptimize(Simulate(Rig(), scenario, {}));
   whole_lanes = HasWholeLanes();
-  Count(state, 2 * kSeconds, 20);
+  Count(state, kSeconds + kWarmUp, 20);
 }
 BENCHMARK(EngineInHalves)->Unit(benchmark::kMillisecond);
+
+/// 20 s with everything on: the engine alone, and all that a user's command does, which records at 1 kHz.
+void EngineOfCommand(benchmark::State& state) {
+  const Scenario scenario = Healthy(true, true, kOfCommand);
+  SimulateOptions options;
+  options.record = false;
+  for (auto _ : state) benchmark::DoNotOptimize(Simulate(Rig(), scenario, options));
+  Count(state, kOfCommand + kWarmUp, 20);
+}
+BENCHMARK(EngineOfCommand)->Unit(benchmark::kMillisecond);
+
+void WholeCommand(benchmark::State& state) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("ambrig-bench-" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  std::ofstream(folder / "run.toml") << ScenarioText(RigFile(), kOfCommand);
+  const std::string command = std::string(AMBRIG_PROGRAM) + " run " +
+                              (folder / "run.toml").string() +
+                              " --rate 1000 --no-report --quiet --force --out " + folder.string();
+  for (auto _ : state)
+    if (std::system(command.c_str()) != 0) state.SkipWithError("the command failed");
+  std::filesystem::remove_all(folder);
+  Count(state, kOfCommand + kWarmUp, 20);
+}
+BENCHMARK(WholeCommand)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime()->UseRealTime();
 
 /// The bearings' fast path alone: the first radial bearing, or all of the rig (20 coils).
 void UpdateLoop(benchmark::State& state) {
