@@ -139,6 +139,12 @@ bool CaseModel::limited() const {
 
 Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
                             std::uint64_t seed) const {
+  return SimulatedChannels(h, record, noise, seed, {});
+}
+
+Record CaseModel::SimulatedChannels(const Hypothesis& h, std::size_t record, bool noise,
+                                    std::uint64_t seed,
+                                    const std::vector<std::string>& channels) const {
   const CaseRecord& r = case_.records[record];
   Require(plans_[record] != nullptr, "a record over time");
   Scenario scenario = r.scenario;
@@ -147,6 +153,7 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   EngineOptions options;
   options.commands = plans_[record].get();
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
+  options.recorded_channels = channels;
   options.watch = false;
   RigParameters drawing = case_.rig;
   drawing.amplifier.adc_samples_per_period = h.rig.amplifier.adc_samples_per_period;
@@ -223,8 +230,10 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
   Hypothesis h;
   h.rig = rig;
   Record simulated;
+  std::vector<std::string> measured;
+  for (const Channel& c : case_.records[record].data.channels) measured.push_back(c.name);
   try {
-    simulated = Simulated(h, record, noise, seed);
+    simulated = SimulatedChannels(h, record, noise, seed, measured);
   } catch (const std::runtime_error& e) {
     if (dynamic_cast<const Interrupted*>(&e) || dynamic_cast<const InputError*>(&e)) throw;
     return false;  // the motion became infinite: this hypothesis cannot be

@@ -116,6 +116,9 @@ class CaseModel {
  private:
   /// Flat rows of one record.
   std::pair<std::size_t, std::size_t> RowsOf(std::size_t record) const;
+  /// `channels`: those wanted; empty: all.
+  Record SimulatedChannels(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
+                           const std::vector<std::string>& channels) const;
   bool SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                       std::vector<double>& out) const;
   /// From the disk where a store is kept, else simulated.

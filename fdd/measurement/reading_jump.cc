@@ -49,55 +49,102 @@ struct Steps {
   }
 };
 
+/// What the steps of a period are compared with; the state before it.
 template <class V>
-[[gnu::always_inline]] inline void SumOfSteps(const Lane* adc, int samples, const Lane& edge,
+struct StepLimits {
+  const ReadingJump::PhaseStep* known;
+  V most, last_on;  // [A], sample that an on phase ends at
+  double noise;
+  Range<V> anywhere, on, off;
+
+  [[gnu::always_inline]] StepLimits(const ReadingJump::State& state, const Lane& limit,
+                                    const Lane& edge, double noise_of_step)
+      : known(state.known),
+        most(LoadAs<V>(limit.v)),
+        last_on(LoadAs<V>(edge.v)),
+        noise(noise_of_step) {
+    const V fall = LoadAs<V>(state.fall.v) * kEdgeForgets,
+            rise = LoadAs<V>(state.rise.v) * kEdgeForgets;
+    anywhere = {Min(-most, fall * kOfEdge - noise), Max(most, rise * kOfEdge + noise), 0.0};
+    on = RangeOf(known[kOn], most, noise);
+    off = RangeOf(known[kOff], most, noise);
+  }
+  /// Of the on phase at interval k < kAfterEdge: it begins with the period, and what it began with
+  /// the last time is known, too.
+  [[gnu::always_inline]] Range<V> Rising(int k) const {
+    return RangeOf(known[kOff + k], most, noise);
+  }
+};
+
+/// The steps of one period. kAsExpected: none is taken for impossible; returns false where one is, and
+/// nothing is kept then.
+template <class V, bool kAsExpected>
+[[gnu::always_inline]] inline bool SumOfSteps(const Lane* adc, int samples, const Lane& edge,
                                               const Lane& limit, double noise,
                                               ReadingJump::State* state, Lane* jumps) {
-  ReadingJump::PhaseStep* known = state->known;
-  const V zero = 0.0, one = 1.0, most = LoadAs<V>(limit.v), last_on = LoadAs<V>(edge.v);
-  V before = LoadAs<V>(state->last.v), sum = zero;
+  const StepLimits<V> limits(*state, limit, edge, noise);
+  const V zero = 0.0, one = 1.0;
+  V before = LoadAs<V>(state->last.v), sum = zero, inside = one;
   V fall = LoadAs<V>(state->fall.v) * kEdgeForgets, rise = LoadAs<V>(state->rise.v) * kEdgeForgets;
-  const Range<V> anywhere{Min(-most, fall * kOfEdge - noise), Max(most, rise * kOfEdge + noise),
-                          zero},
-      on = RangeOf(known[kOn], most, noise), off = RangeOf(known[kOff], most, noise);
   Steps<V> seen[kKnownSteps];
-  for (int k = 0; k < samples; ++k) {
+  // Written out for the intervals that begin a period: sums that are chosen by k would live in memory.
+  const auto take = [&](int k, const Range<V>& rising, Steps<V>& on_steps)
+      __attribute__((always_inline)) {
     const V now = LoadAs<V>(adc[k].v), step = now - before, place = static_cast<double>(k);
-    const bool starts = k > 0 && k < kAfterEdge;
-    const auto on_now = Below(k == 0 ? one : place, k == 0 ? zero : last_on);
+    const auto on_now = Below(k == 0 ? one : place, k == 0 ? zero : limits.last_on);
     // A current that ends in an off phase does not go on as it fell.
     const auto conducts = Below(kConducts, Min(before, now));
-    const auto off_now = k == 0 ? conducts : conducts & Below(last_on + kAfterEdge, place);
-    // On phases begin with the period: what it began with the last time is known, too.
-    const Range<V> rising = starts ? RangeOf(known[kOff + k], most, noise) : on;
+    const auto off_now = k == 0 ? conducts : conducts & Below(limits.last_on + kAfterEdge, place);
+    const Range<V>&off = limits.off, &anywhere = limits.anywhere;
     const V low = Choose(on_now, rising.low, Choose(off_now, off.low, anywhere.low)),
-            high = Choose(on_now, rising.high, Choose(off_now, off.high, anywhere.high)),
-            expected = Choose(on_now, rising.expected, Only(off_now, off.expected));
-    const auto impossible = Below(high, step) | Below(step, low);
-    sum += Only(impossible, step - expected);
+            high = Choose(on_now, rising.high, Choose(off_now, off.high, anywhere.high));
+    auto in_on = on_now, in_off = off_now;
+    if constexpr (kAsExpected) {
+      inside = Min(inside, Min(high - step, step - low));
+    } else {
+      const auto impossible = Below(high, step) | Below(step, low);
+      const V expected = Choose(on_now, rising.expected, Only(off_now, off.expected));
+      sum += Only(impossible, step - expected);
+      in_on = in_on & ~impossible;
+      in_off = in_off & ~impossible;
+    }
     const V at_edge = Only(~(on_now | off_now), step);
     fall = Min(fall, at_edge);
     rise = Max(rise, at_edge);
-    seen[starts ? kOff + k : kOn].Add(on_now & ~impossible, step);
-    if (k > 0) seen[kOff].Add(off_now & ~impossible, step);
+    on_steps.Add(in_on, step);
+    if (k > 0) seen[kOff].Add(in_off, step);
     before = now;
-  }
+  };
+  take(0, limits.on, seen[kOn]);
+  if (samples > 1) take(1, limits.Rising(1), seen[kOff + 1]);
+  if (samples > 2) take(2, limits.Rising(2), seen[kOff + 2]);
+  for (int k = kAfterEdge; k < samples; ++k) take(k, limits.on, seen[kOn]);
+  if (kAsExpected && Largest(-inside) > 0) return false;
   for (int q = 0; q < kKnownSteps; ++q)
-    seen[q].Keep(&known[q], q > kOff ? kFewestIntervals + 1 : 1);
+    seen[q].Keep(&state->known[q], q > kOff ? kFewestIntervals + 1 : 1);
   Store(state->last.v, before);
   Store(state->fall.v, fall);
   Store(state->rise.v, rise);
   Store(jumps->v, Select(Abs(sum) > kLeastJump, sum, zero));
+  return true;
+}
+
+template <class V>
+[[gnu::always_inline]] inline void AddSteps(const Lane* adc, int samples, const Lane& edge,
+                                            const Lane& limit, double noise,
+                                            ReadingJump::State* state, Lane* jumps) {
+  if (!SumOfSteps<V, true>(adc, samples, edge, limit, noise, state, jumps))
+    SumOfSteps<V, false>(adc, samples, edge, limit, noise, state, jumps);
 }
 
 AMBRIG_WHOLE void StepsOfWholeLanes(const Lane* adc, int samples, const Lane& edge,
                                     const Lane& limit, double noise, ReadingJump::State* state,
                                     Lane* jumps) {
-  SumOfSteps<WholeLaneVector>(adc, samples, edge, limit, noise, state, jumps);
+  AddSteps<WholeLaneVector>(adc, samples, edge, limit, noise, state, jumps);
 }
 AMBRIG_WIDE void StepsOfHalfLanes(const Lane* adc, int samples, const Lane& edge, const Lane& limit,
                                   double noise, ReadingJump::State* state, Lane* jumps) {
-  SumOfSteps<LaneVector>(adc, samples, edge, limit, noise, state, jumps);
+  AddSteps<LaneVector>(adc, samples, edge, limit, noise, state, jumps);
 }
 
 }  // namespace

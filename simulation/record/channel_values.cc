@@ -40,24 +40,40 @@ double ChannelValues::InBurst(const Column& column, long long n, int sample) con
   return Value(column, n, sample, true, false);
 }
 
-double ChannelValues::BearingValue(const Column& column, int sample, bool burst) const {
-  const SampledBearing& b = *source_.bearings[column.owner];
-  const BearingControl& control = source_.control[b.index];
+const double* ChannelValues::Place(const Column& column) const {
+  if (column.station) return nullptr;
   const bool second = column.index == 1;
   switch (column.kind) {
-    case ChannelKind::kCoilCurrent:
-      return burst ? b.adc[sample][column.index] : control.feedback[column.index];
-    case ChannelKind::kSetPoint:
-      return control.set_point[column.index];
-    case ChannelKind::kDuty:
-      return control.duty[column.index];
-    case ChannelKind::kTruePosition:
-      return second ? b.true_y : b.true_x;
+    case ChannelKind::kReading:
+    case ChannelKind::kSpeed:
+    case ChannelKind::kAngle:
+    case ChannelKind::kBus:
+      return nullptr;
     default:
-      // Rows of a burst are written when their period is over; the load cell holds the one before.
-      if (burst) return second ? b.fy_before : b.fx_before;
-      return second ? b.fy : b.fx;
+      break;
   }
+  const SampledBearing& b = *source_.bearings[column.owner];
+  const BearingControl& control = source_.control[b.index];
+  switch (column.kind) {
+    case ChannelKind::kCoilCurrent:
+      return &control.feedback.v[column.index];
+    case ChannelKind::kSetPoint:
+      return &control.set_point.v[column.index];
+    case ChannelKind::kDuty:
+      return &control.duty.v[column.index];
+    case ChannelKind::kTruePosition:
+      return second ? &b.true_y : &b.true_x;
+    default:
+      return second ? &b.fy : &b.fx;
+  }
+}
+
+double ChannelValues::BearingValueInBurst(const Column& column, int sample) const {
+  const SampledBearing& b = *source_.bearings[column.owner];
+  if (column.kind == ChannelKind::kCoilCurrent) return b.adc[sample][column.index];
+  // Rows of a burst are written when their period is over; the load cell holds the one before.
+  if (column.kind == ChannelKind::kLoadCell) return column.index == 1 ? b.fy_before : b.fx_before;
+  return *Place(column);
 }
 
 double ChannelValues::Value(const Column& column, long long n, int sample, bool burst,
@@ -81,7 +97,7 @@ double ChannelValues::Value(const Column& column, long long n, int sample, bool 
     default:
       break;
   }
-  if (!column.station) return BearingValue(column, sample, burst);
+  if (!column.station) return burst ? BearingValueInBurst(column, sample) : *Place(column);
   const auto [x, y] = rotor.Position(motion, source_.plant.stations[column.owner].second);
   return column.index == 1 ? y : x;
 }

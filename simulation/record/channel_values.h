@@ -51,12 +51,14 @@ class ChannelValues {
   std::vector<Named> Columns(const std::vector<ChannelKind>& of_bearings, bool stations) const;
   /// In period n. A reading is the controller's own at its tick; `ahead`: the tick is still to come.
   double At(const Column& column, long long n, bool ahead = false) const;
+  /// Where what `At` gives of a column stands during the whole run; nullptr: it has to be computed.
+  const double* Place(const Column& column) const;
   /// In ADC sample `sample` of period n, which has been measured.
   double InBurst(const Column& column, long long n, int sample) const;
 
  private:
   double Value(const Column& column, long long n, int sample, bool burst, bool ahead) const;
-  double BearingValue(const Column& column, int sample, bool burst) const;
+  double BearingValueInBurst(const Column& column, int sample) const;
 
   const RigParameters& rig_;
   const Scenario& scenario_;

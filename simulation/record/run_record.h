@@ -9,9 +9,10 @@ namespace ambrig {
 
 class RunRecord {
  public:
-  /// `rate` [Hz]; 0: the scenario's. `clamped` runs have load cells in place of true positions.
+  /// `rate` [Hz]; 0: the scenario's. `clamped` runs have load cells in place of true positions. `only`:
+  /// the channels to record, those of them that there are; empty: all.
   RunRecord(const RigParameters& rig, const Scenario& scenario, double rate, bool clamped,
-            const RowSource& source);
+            const std::vector<std::string>& only, const RowSource& source);
 
   /// The row of period n, if one is due at its start.
   void AtPeriodStart(long long n) {
@@ -30,8 +31,12 @@ class RunRecord {
   int samples_;                            // ADC samples per period
   int row_periods_ = 1, row_samples_ = 0;  // a row every so many periods, or every so many samples
   Record record_;
-  std::vector<ChannelValues::Column> columns_;  // one per channel of the record
-  std::size_t row_ = 0;                         // the next one
+  struct Written {
+    ChannelValues::Column column;
+    const double* place;  // of its value; nullptr: it is computed
+  };
+  std::vector<Written> columns_;  // one per channel of the record
+  std::size_t row_ = 0;           // the next one
 };
 
 }  // namespace ambrig

@@ -146,7 +146,8 @@ RowSource SampledDataLoop::ValueSource() {
 }
 
 void SampledDataLoop::StartRecord() {
-  record_.emplace(rig, scenario, options.record_rate, clamped, ValueSource());
+  record_.emplace(rig, scenario, options.record_rate, clamped, options.recorded_channels,
+                  ValueSource());
 }
 
 }  // namespace ambrig

@@ -30,6 +30,7 @@ namespace ambrig {
 
 struct SampledOptions {
   double record_rate = 0;  // 0: the scenario's
+  std::vector<std::string> recorded_channels = {};  // empty: all
   bool noise = true;       // false: none, whatever the scenario says
   // [s] before t = 0; negative: docs/theory/base_model.md's (tests: shorter)
   double warm_up = -1;
