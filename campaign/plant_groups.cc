@@ -16,8 +16,12 @@ int Rank(const std::string& verdict) {
 bool Harmed(const Row& r) {
   const std::string& without = r.At("verdict_without");
   if (without.empty()) return false;
-  if (Rank(r.At("verdict")) != Rank(without)) return Rank(r.At("verdict")) > Rank(without);
-  return without == "up" && r.Number("peak_orbit") > kHarmedOrbit * r.Number("orbit_without");
+  const int with = Rank(r.At("verdict"));
+  const bool grown = r.Number("peak_orbit") > kHarmedOrbit * r.Number("orbit_without");
+  if (without == "up") return with > 0 || grown;
+  // A rotor that bounces either way: whether the run ends in a contact, and then counts as a drop, is
+  // chance.
+  return with > Rank(without) && (grown || r.Number("false_actions") > 0);
 }
 
 void AddFault(const Row& r, FaultsOnPlants* f) {

@@ -124,6 +124,7 @@ std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig
         static_cast<std::size_t>(of[0]) + draw.Index(static_cast<std::size_t>(of[1] - of[0]) + 1);
     CampaignPlant p;
     p.effect = "mixture";
+    p.label = fmt::format("{}: ", k + 1);
     for (std::size_t m = 0; m < n; ++m) {
       const std::size_t which = draw.Index(left.size());
       p.label += (m > 0 ? "+" : "") + left[which]->id;

@@ -92,6 +92,8 @@ class Explainer {
     double probability = 0, ratio = 0;  // ratio_fit of its fit
   };
   std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
+  std::vector<std::string>
+      of_own_channels_;  // effects adopted for what they explain where they act
   std::vector<int> rows_late_;
   bool floor_renewed_ = false;
   // of the squared ratio on unseen records, by the first effect or by undeclared nuisances

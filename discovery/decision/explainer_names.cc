@@ -9,10 +9,13 @@ namespace ambrig {
 /// Members of the round in which the effect was most probable that are still open (of the first effect, where no
 /// round ranked it, those of the first round), and of the other rounds those that came within a twentieth of the
 /// best fit: what went into the second place nearly as well as its owner may belong into the first one beside it.
+/// An effect that was adopted for its own channels has rivals at its own place only.
 std::vector<EffectInstance> Explainer::RivalsOf(std::size_t adopted) const {
   constexpr double kOpen = 0.02, kNear = 1.05;
   const EffectInstance& self = out_.adopted[adopted];
   const std::vector<RankedName>* own = adopted == 0 && !rounds_.empty() ? &rounds_[0] : nullptr;
+  const bool own_channels = std::find(of_own_channels_.begin(), of_own_channels_.end(),
+                                      Named(self)) != of_own_channels_.end();
   double most = 0;
   for (const auto& round : rounds_)
     for (const RankedName& n : round)
@@ -29,7 +32,9 @@ std::vector<EffectInstance> Explainer::RivalsOf(std::size_t adopted) const {
     for (const RankedName& n : round) {
       const bool open =
           &round == own ? n.probability >= kOpen : n.ratio > 0 && n.ratio < kNear * best;
-      if (open && !named(out_.adopted, n.effect) && !named(out, n.effect)) out.push_back(n.effect);
+      const bool elsewhere = own_channels && n.effect.target != self.target;
+      if (open && !elsewhere && !named(out_.adopted, n.effect) && !named(out, n.effect))
+        out.push_back(n.effect);
     }
   }
   return out;

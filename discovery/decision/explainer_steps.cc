@@ -7,6 +7,7 @@
 #include "discovery/decision/law_scatter.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/pull_back.h"
+#include "discovery/decision/where_it_acts.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
 
@@ -52,18 +53,27 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   rounds_.emplace_back();
   for (const RankedEffect& r : ranking)
     rounds_.back().push_back({r.effect, r.probability, r.fit.ratio_fit});
-  if (ranking.empty() ||
-      !HasSize(ranking[0].fit, ranking[0].fit.hypothesis.rig.effects.size() - 1) ||
-      !WorthAdopting(now, ranking[0].fit, Gain(now, ranking[0].fit), round + (differ ? 1 : 0),
-                     first_fall_))
-    return false;
+  const auto sized = [](const RankedEffect& r) {
+    return HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
+  };
+  auto best = ranking.begin();
+  if (ranking.empty() || !sized(*best) ||
+      !WorthAdopting(now, best->fit, Gain(now, best->fit), round + (differ ? 1 : 0), first_fall_)) {
+    best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
+      return round > 0 && sized(r) && ExplainsItsChannels(model_, now, r.fit, Gain(now, r.fit));
+    });
+    if (best == ranking.end()) return false;
+    of_own_channels_.push_back(Named(best->effect));
+  }
   if (round == 0)
-    first_fall_ =
-        std::max(first_fall_, now.ratio_validate * now.ratio_validate -
-                                  ranking[0].fit.ratio_validate * ranking[0].fit.ratio_validate);
-  now = ranking[0].fit;
-  out_.adopted.push_back(ranking[0].effect);
-  out_.ladder.push_back({Named(ranking[0].effect), now.ratio_fit, now.ratio_validate});
+    first_fall_ = std::max(first_fall_, now.ratio_validate * now.ratio_validate -
+                                            best->fit.ratio_validate * best->fit.ratio_validate);
+  // Only the best were fitted to the end.
+  now = best->fit.jacobian.size() > 0
+            ? best->fit
+            : FitOn(model_, now, best->fit.hypothesis, out_.effective_sample_size);
+  out_.adopted.push_back(FittedEffect(now, now.hypothesis.rig.effects.size() - 1));
+  out_.ladder.push_back({Named(best->effect), now.ratio_fit, now.ratio_validate});
   Release(now);
   if (options_.checkpoint) options_.checkpoint(out_);
   return true;
@@ -128,6 +138,8 @@ bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult
 /// screening are fitted too where one effect does not explain nearly all.
 void Explainer::TryPairs(const FitResult& base, FitResult& now) {
   if (out_.ranking.empty() || (out_.adopted.size() < 2 && Finished(now))) return;
+  // A pair that explains more of the whole is no reason to give up what explains its own channels.
+  if (!of_own_channels_.empty()) return;
   Progress(0.8, "pairs of effects");
   for (const CandidatePair& p : ScreenPairs(model_, base, out_.effective_sample_size, bank_, 3)) {
     // A pair that promises less than what stands is not worth the dearest fit of the search.
@@ -169,7 +181,9 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
       if (k != drop) h.AddEffect(out_.adopted[k]);
     Progress(0.9, "without " + out_.adopted[drop].name);
     FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
-    if (WorthAdopting(without, now, Gain(without, now), 1, 0)) {
+    const double gain = Gain(without, now);
+    if (WorthAdopting(without, now, gain, 1, 0) ||
+        ExplainsItsChannels(model_, without, now, gain)) {
       ++drop;
       continue;
     }

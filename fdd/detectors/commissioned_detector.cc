@@ -14,6 +14,9 @@ constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
+constexpr double kDeadIdle = 0.75;  // -c of a coil without current that is asked for none
+constexpr double kAsked = 0.24;     // [A] set-point from which a coil is asked for current
+constexpr double kBounces = 10e-3;  // [s] after a contact: its currents follow no set-point
 
 double PeriodOf(const SamplingSettings& s) { return s.samples * s.step; }
 
@@ -67,6 +70,7 @@ Diagnosis CommissionedDetector::EndProbe(double t) {
 
 void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
   touching_ = in.uncertainty.any();
+  if (touching_) touched_ = in.t;
   out_of_range_ = false;
   for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j)
     out_of_range_ =
@@ -98,6 +102,8 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   const bool gross = excess < -kGross || excess > kGrossAbove;
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil) || HasNoCurrent(coil);
+  // Without a model of this machine, what a rotor that bounces does to the currents is not known.
+  if (!Relies() && now_t_ < touched_ + kBounces) return false;
   if (gross && HasNoCurrent(coil)) return true;
   // Inside what was learnt no error of the model is as large: several coils have failed at once.
   // What these throw at a healthy neighbour is smaller.
@@ -108,6 +114,7 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
 
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
+  now_t_ = in.t;
   joint_.Keep(in, sampling_.samples, filter_.state());
   filter_.Period(in, &period_);
   WatchCurrents(in);
@@ -154,7 +161,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   Outcome out;
   out.doubtful = !Relies() || out_of_range_ || Disturbed();
   out.alarm = ratio_[coil] > 1;
-  CountStreaks(in.t);
+  CountStreaks(in);
   if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
   if (JudgedTogether(in, &out)) return out;
@@ -166,9 +173,12 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   return out;
 }
 
-void CommissionedDetector::CountStreaks(double t) {
+void CommissionedDetector::CountStreaks(const MeasuredPeriod& in) {
+  const double t = in.t;
   for (int j = 0; j < filter_.nominal().coils; ++j) {
-    const bool dead = period_.largest[j] < kConducts && now_[j] < -kGross;
+    // The diodes of a coil that is asked for no current block: its flux stands, whatever the bridge does.
+    const bool asked = !in.set_point || (*in.set_point)[j] > kAsked;
+    const bool dead = period_.largest[j] < kConducts && now_[j] < -(asked ? kGross : kDeadIdle);
     if (dead_[j] == 0) dead_since_[j] = t;
     dead_[j] = dead ? dead_[j] + 1 : 0;
   }

@@ -3,7 +3,7 @@
 /// voltage accounts for (slope_excess.h), against what this bearing did when it was healthy.
 ///
 /// A coil's ratio is the largest |c|/band over the windows, band = max(floor, 1.5 times the largest
-/// of commissioning). The coil of the largest ratio is blamed when it stays above 1 in three
+/// of commissioning), at least 0.08 below zero. The coil of the largest ratio is blamed when it stays above 1 in three
 /// periods in a row and a second witness agrees: either c of the on and of the off phase have one
 /// sign and the smaller is at least 0.35 of the larger, or the current misses its set-point, or its
 /// reading is zero while the bridge drives.
@@ -20,7 +20,11 @@
 /// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
 /// blamed only where c < -0.5 or > 2; unless the flux alone is outside the range, also its current
 /// must be false, and fewer than three coils may have c > 0.5: what a nominal circuit does not know
-/// keeps flux out, which makes c positive in many coils alike.
+/// keeps flux out, which makes c positive in many coils alike. Without commissioning no coil is blamed
+/// until 10 ms after the last possible contact.
+///
+/// A coil without current is one that is asked for some, or whose linkage moves by less than a
+/// quarter of what its voltage would do: the diodes of a coil that is asked for none block.
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
 /// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns.
@@ -113,7 +117,7 @@ class CommissionedDetector : public CoilDetector {
   int GrossCoils() const;  // with c > 0.5 in this period
   /// Largest |c| of this period.
   double LargestNow() const;
-  void CountStreaks(double t);
+  void CountStreaks(const MeasuredPeriod& in);
   void FollowDrift(bool doubtful);
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.
@@ -144,6 +148,7 @@ class CommissionedDetector : public CoilDetector {
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kInARow> recent_;
   bool out_of_range_ = false, touching_ = false;
+  double now_t_ = 0, touched_ = -kInfinity;  // start of this period, of the last one that touched [s]
   double wider_ = 1;  // of the bands, since coils were given up or lost turns
   Lane idle_;         // mean reading of coils without turns [A]
   CoilProbe probe_;

@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kGrossBand = 0.1;  // of |c| beyond what is gross, against the windows'
 constexpr int kLevelWindow = 2;     // over which coils are compared: ten periods
+// least band of c < 0: a reading that is low by less is no reason to give up a coil, and no turns are
+// lost that way
+constexpr double kLeastBelow = 0.08;
 
 struct PeriodLimits {
   double gross, gross_above;  // of |c|, of c > 0
@@ -42,8 +45,10 @@ AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& ap
   const LaneVector zero;
   const auto counts = Load(apart.v) == zero;
   LaneVector most = Load(ratio->v);
-  for (int w = 0; w < kExcessWindows; ++w)
-    most = Max(most, Only(counts, Abs(Load(used[w].v)) / Load(band[w].v)));
+  for (int w = 0; w < kExcessWindows; ++w) {
+    const LaneVector c = Load(used[w].v), healthy = Load(band[w].v);
+    most = Max(most, Only(counts, Abs(c) / Select(c < zero, Max(healthy, kLeastBelow), healthy)));
+  }
   Store(ratio->v, most);
   Store(level->v, Select(counts, Abs(Load(used[kLevelWindow].v)), Load(level->v)));
 }

@@ -15,6 +15,8 @@ namespace {
 constexpr double kLeastGapSd = 0.01, kLeastLeakageSd = 0.05;
 // of the nominal bus, within one period
 constexpr double kBusStep = 0.02;
+// of the nominal bus: below, drops of switches and diodes are no small part of a coil's voltage
+constexpr double kLeastBus = 0.5;
 // [sd] between two readings: never in 1e8 periods
 constexpr double kBusNoise = 8;
 // [m] in one controller period: 4700 m/s²
@@ -190,7 +192,8 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
     if (positions_.faulty(a) && Uses(v, a)) sensed = false;
   const double step =
       kBusStep * rig_->amplifier.bus_voltage + kBusNoise * rig_->amplifier.bus_noise;
-  in.comparable = sensed && std::abs(b.bus - last_bus_) < step;
+  in.comparable = sensed && std::abs(b.bus - last_bus_) < step &&
+                  in.bus > kLeastBus * rig_->amplifier.bus_voltage;
   return in;
 }
 

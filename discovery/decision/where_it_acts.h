@@ -1,0 +1,24 @@
+#pragma once
+/// Evidence for a further effect from the channels in which it acts. What the law of an earlier effect
+/// leaves in detail lies in that effect's channels; an effect of a single coil or sensor acts in others,
+/// and explains nearly all that is left there, however little that is of the whole.
+#include "discovery/search/fit.h"
+
+namespace ambrig {
+
+struct LocalShare {
+  double before = 0;        // ratio of the fitted channels where the error falls most
+  double explained = 0;     // share of their error above the noise
+  double unseen = 0;        // the same share of these channels in unseen records
+  bool seen_there = false;  // whether these show an error to explain
+};
+
+LocalShare ShareWhereItActs(const CaseModel& model, const FitResult& before,
+                            const FitResult& after);
+
+/// Whether `after`, one more effect, explains nearly all that is left where it acts, by more than
+/// chance: `score_gain` as WorthAdopting.
+bool ExplainsItsChannels(const CaseModel& model, const FitResult& before, const FitResult& after,
+                         double score_gain);
+
+}  // namespace ambrig

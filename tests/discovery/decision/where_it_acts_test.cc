@@ -1,0 +1,81 @@
+// Evidence in the channels where an effect acts, against errors written down by hand.
+#include "discovery/decision/where_it_acts.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+/// Errors over the noise of A.x and A.y: in the fitted records, then in the unseen one.
+struct Errors {
+  double x, y, unseen_x, unseen_y;
+};
+
+FitResult WithErrors(const LinearCase& c, const Errors& e) {
+  FitResult fit;
+  fit.converged = true;
+  fit.residual.resize(c.model.size());
+  for (const Target& t : c.model.targets()) {
+    const bool unseen = c.data.records[t.record].validate, y = t.channel == 1;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      fit.residual[k] = unseen ? (y ? e.unseen_y : e.unseen_x) : (y ? e.y : e.x);
+  }
+  return fit;
+}
+
+const std::vector<double> kThreeRecords = {2e-5, 4e-5, 6e-5};
+constexpr double kPlainGain = 100;  // of the score
+
+// A.y keeps what the law of an earlier effect leaves; A.x is explained down to the noise.
+TEST(ShareWhereItActs, IsOfTheChannelsWhoseErrorFalls) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  const FitResult before = WithErrors(c, {3, 4, 3, 4}), after = WithErrors(c, {1, 4, 1.5, 4});
+  const LocalShare share = ShareWhereItActs(c.model, before, after);
+  EXPECT_NEAR(share.before, 3, 1e-12);
+  EXPECT_NEAR(share.explained, 1, 1e-12);
+  EXPECT_TRUE(share.seen_there);
+  EXPECT_NEAR(share.unseen, (9 - 2.25) / (9 - 1), 1e-12);
+  EXPECT_TRUE(ExplainsItsChannels(c.model, before, after, kPlainGain));
+}
+
+// Four fifths of the fall: here it takes both channels.
+TEST(ShareWhereItActs, IsOfAllChannelsWhereAllFallAlike) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  const FitResult before = WithErrors(c, {3, 4, 3, 4}), after = WithErrors(c, {2, 3, 2, 3});
+  const LocalShare share = ShareWhereItActs(c.model, before, after);
+  EXPECT_NEAR(share.before, std::sqrt((9.0 + 16) / 2), 1e-12);
+  EXPECT_NEAR(share.explained, (9.0 + 16 - 4 - 9) / (9 + 16 - 2), 1e-12);
+  EXPECT_FALSE(ExplainsItsChannels(c.model, before, after, kPlainGain));
+}
+
+TEST(ShareWhereItActs, UnseenRecordsMayContradict) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  const FitResult before = WithErrors(c, {3, 4, 3, 4});
+  EXPECT_FALSE(ExplainsItsChannels(c.model, before, WithErrors(c, {1, 4, 2.7, 4}), kPlainGain));
+  // Where they show no error they have no say.
+  EXPECT_TRUE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 1, 4}), WithErrors(c, {1, 4, 1, 4}),
+                                  kPlainGain));
+}
+
+TEST(ShareWhereItActs, LittleErrorOrLittleEvidenceIsNotEnough) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  const FitResult after = WithErrors(c, {1, 4, 1, 4});
+  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {1.2, 4, 1.2, 4}), after, kPlainGain));
+  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), after, 10));
+  FitResult lost = after;
+  lost.converged = false;
+  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), lost, kPlainGain));
+}
+
+TEST(ShareWhereItActs, OfNothingThatFallsIsNothing) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  const FitResult same = WithErrors(c, {3, 4, 3, 4});
+  EXPECT_EQ(ShareWhereItActs(c.model, same, same).explained, 0);
+}
+
+}  // namespace
+}  // namespace ambrig
