@@ -48,6 +48,11 @@ TEST(FuzzFindings, ALineEndInsideAMessageIsASpace) {
       testing::ErrorText<InputError>([] { TomlTable::FromText("a = f\n", "rig.toml"); });
   EXPECT_NE(text.find("rig.toml:1: not valid TOML"), std::string::npos) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  const TomlTable t = TomlTable::FromText("\"a\\nb\\u0000\\u007f\" = \"c\\nd\"\n", "rig.toml");
+  EXPECT_EQ(testing::ErrorText<InputError>([&] { t.RejectUnknownKeys(); }),
+            "rig.toml:1: a b  : unknown key, allowed: ");
+  EXPECT_EQ(testing::ErrorText<InputError>([&] { t.Number("a\nb"); }),
+            "rig.toml:1: a b: is missing, allowed: a number");
 }
 
 }  // namespace
