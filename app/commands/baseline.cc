@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/errors.h"
+#include "core/base/json_file.h"
 #include "core/record/channels.h"
 #include "core/record/hdf5.h"
 
@@ -57,7 +58,7 @@ Record BaselineRecord(const BaselineOptions& o, const RunFiles& run,
     throw InputError("--channels: no channel of the record fits, allowed: e.g. 'A.x' or 'A.i*'");
   out.attributes = provenance;
   out.attributes["made_by"] = "ambrig check --accept";
-  out.attributes["events"] = run.events.dump();
+  out.attributes["events"] = JsonText(run.events);
   out.attributes["rows_kept"] = fmt::format("every {} of {}", step, run.record.rows());
   return out;
 }
