@@ -25,7 +25,7 @@ struct Row {
   double Number(std::string_view column) const;  // nan for an empty cell
 };
 
-/// @throws InputError when the text has no run number.
+/// @throws InputError for another count of cells, or words where the table has numbers.
 Row ParseRow(std::string_view csv, const std::string& where);
 
 /// Simulates a run (fast engine, detection and redistribution on). A run that the program cannot
