@@ -9,7 +9,7 @@ namespace ambrig {
 namespace {
 std::string OneLine(std::string text) {
   for (char& c : text)
-    if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
+    if ((static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127) c = ' ';
   return text;
 }
 }  // namespace

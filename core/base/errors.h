@@ -11,7 +11,7 @@ namespace ambrig {
 /// What a user wrote is wrong: one line with file:line, key, value and what is allowed.
 class InputError : public std::runtime_error {
  public:
-  /// Control characters in `text`, which quotes keys, names and files as they stand there, become blanks.
+  /// Control characters but tabs in `text`, which quotes keys, names and files as they stand there, become blanks.
   explicit InputError(const std::string& text);
 };
 
