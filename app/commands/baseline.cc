@@ -72,6 +72,7 @@ RunFiles ReadBaseline(const std::string& file) {
     out.events = nlohmann::json::parse(events->second, nullptr, false);
   if (!out.events.is_array())
     throw InputError(file + ": holds no events, allowed: a file that check --accept made");
+  CheckEvents(out.events, file);
   return out;
 }
 
