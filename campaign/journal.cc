@@ -49,6 +49,8 @@ JournalVisitor Into(JournalContent& content, const std::string& path) {
     if (row.run >= content.header.runs)
       throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, e.line, row.run,
                                    content.header.runs - 1));
+    // Detector studies keep rows of another table in a journal like this.
+    if (row.cells.size() == RowColumns().size()) CheckRow(row, fmt::format("{}:{}", path, e.line));
     const std::size_t run = row.run;
     content.rows.insert_or_assign(run, std::move(row));
     return true;
@@ -71,6 +73,8 @@ JournalContent ReadJournal(const std::string& folder) {
         fmt::format("{}: no campaign's results, allowed: a folder with journal.txt", folder));
   JournalContent out;
   out.damaged = ReadJournalFile(PathOf(folder), Into(out, PathOf(folder)));
+  for (const auto& [run, row] : out.rows)
+    CheckRow(row, fmt::format("{}: run {}", PathOf(folder), run));
   return out;
 }
 

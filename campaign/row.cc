@@ -114,27 +114,6 @@ bool IsNumberCell(const std::string& cell) {
   return error == std::errc{} && last == cell.data() + cell.size();
 }
 
-/// What the table's readers count on: all cells, numbers where numbers stand, none missing that every run has.
-void CheckCells(const Row& row, const std::string& where) {
-  const auto& columns = RowColumns();
-  if (row.cells.size() != columns.size())
-    throw InputError(fmt::format("{}: {}, allowed: {} of a campaign's row", where,
-                                 Counted(row.cells.size(), "cell"), columns.size()));
-  const bool ended = row.At("verdict") != "error";
-  for (std::size_t k = 0; k < columns.size(); ++k) {
-    const std::string column = columns[k].substr(0, columns[k].find(" ["));
-    if (std::ranges::count(kWords, column) > 0) continue;
-    const bool outcome = column == "detected" || column == "right_class";
-    const bool count = outcome || column == "failed";
-    const bool needed = column == "speed" || column == "failed" || (outcome && ended);
-    const double v = row.Number(column);
-    const bool number = IsNumberCell(row.cells[k]) && (!count || (v >= 0 && v <= 1e6));
-    if (number || (row.cells[k].empty() && !needed)) continue;
-    throw InputError(fmt::format("{}: {} = \"{}\", allowed: {}", where, column, row.cells[k],
-                                 count ? "a count" : "a number"));
-  }
-}
-
 }  // namespace
 
 std::string OneCell(std::string text) {
@@ -231,8 +210,27 @@ Row ParseRow(std::string_view csv, const std::string& where) {
   if (error != std::errc{} || last != id.data() + id.size())
     throw InputError(
         fmt::format("{}: no row of a campaign, allowed: cells from the run's number on", where));
-  CheckCells(row, where);
   return row;
+}
+
+void CheckRow(const Row& row, const std::string& where) {
+  const auto& columns = RowColumns();
+  if (row.cells.size() != columns.size())
+    throw InputError(fmt::format("{}: {}, allowed: {} of a campaign's row", where,
+                                 Counted(row.cells.size(), "cell"), columns.size()));
+  const bool ended = row.At("verdict") != "error";
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const std::string column = columns[k].substr(0, columns[k].find(" ["));
+    if (std::ranges::count(kWords, column) > 0) continue;
+    const bool outcome = column == "detected" || column == "right_class";
+    const bool count = outcome || column == "failed";
+    const bool needed = column == "speed" || column == "failed" || (outcome && ended);
+    const double v = row.Number(column);
+    const bool number = IsNumberCell(row.cells[k]) && (!count || (v >= 0 && v <= 1e6));
+    if (number || (row.cells[k].empty() && !needed)) continue;
+    throw InputError(fmt::format("{}: {} = \"{}\", allowed: {}", where, column, row.cells[k],
+                                 count ? "a count" : "a number"));
+  }
 }
 
 Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* stop) {

@@ -7,6 +7,7 @@ using namespace ambrig;  // NOLINT: a program of one function
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return fuzz::TakesOrRefuses([&] {
     const Row row = ParseRow(fuzz::TextOf(data, size), "rows.csv, line 2");
+    CheckRow(row, "rows.csv, line 2");
     CountRows({{row.run, row}});
   });
 }
