@@ -33,7 +33,9 @@ TEST(FuzzFindings, RecordsAreTakenOrRefusedInOneLine) {
                                  std::filesystem::copy_options::overwrite_existing);
       ++read;
       try {
-        for (const Channel& c : ReadMeasurement(file).record.channels)
+        const Record record = ReadMeasurement(file).record;
+        EXPECT_LE(record.notes.size(), 1U << 16);
+        for (const Channel& c : record.channels)
           EXPECT_LT(c.name.size() + c.unit.size(), 1U << 17);  // no gigabytes of text
       } catch (const InputError& e) {
         EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
