@@ -22,7 +22,6 @@ namespace {
 
 // of the enumeration and the rows: raise it when row k means another run
 constexpr int kFileFormat = 2;
-constexpr std::size_t kMostRuns = 10'000'000;
 
 void ReadOperation(const TomlTable& root, Campaign& c) {
   const auto t = root.Table("operation");

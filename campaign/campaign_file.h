@@ -30,6 +30,8 @@ struct FaultCase {
 
 enum class LoadUnit { kCapacity, kNewton };
 
+inline constexpr std::size_t kMostRuns = 10'000'000;  // of a campaign
+
 struct Campaign {
   std::string name, file, fingerprint;  // of the file and all that it names
   RigParameters rig;

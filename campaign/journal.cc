@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/atomic_file.h"
+#include "core/base/json_file.h"
 
 namespace ambrig {
 
@@ -18,19 +19,20 @@ std::string PathOf(const std::string& folder) {
 }
 
 std::string HeaderText(const JournalHeader& h) {
-  return nlohmann::ordered_json{{"ambrig_campaign", kVersion},
-                                {"name", h.name},
-                                {"file", h.file},
-                                {"fingerprint", h.fingerprint},
-                                {"runs", h.runs}}
-      .dump();
+  return JsonText(nlohmann::ordered_json{{"ambrig_campaign", kVersion},
+                                         {"name", h.name},
+                                         {"file", h.file},
+                                         {"fingerprint", h.fingerprint},
+                                         {"runs", h.runs}});
 }
 
 JournalHeader ParseHeader(std::string_view text, const std::string& path) {
   try {
     const auto json = nlohmann::json::parse(text);
-    if (json.at("ambrig_campaign") == kVersion)
-      return {json.at("name"), json.at("file"), json.at("fingerprint"), json.at("runs")};
+    const auto& runs = json.at("runs");
+    if (json.at("ambrig_campaign") == kVersion && runs.is_number_unsigned() && runs >= 1 &&
+        runs <= kMostRuns)
+      return {json.at("name"), json.at("file"), json.at("fingerprint"), runs};
   } catch (const nlohmann::json::exception&) {
     // Said below in our words.
   }
@@ -47,6 +49,8 @@ JournalVisitor Into(JournalContent& content, const std::string& path) {
     if (row.run >= content.header.runs)
       throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, e.line, row.run,
                                    content.header.runs - 1));
+    // Detector studies keep rows of another table in a journal like this.
+    if (row.cells.size() == RowColumns().size()) CheckRow(row, fmt::format("{}:{}", path, e.line));
     const std::size_t run = row.run;
     content.rows.insert_or_assign(run, std::move(row));
     return true;
@@ -69,6 +73,8 @@ JournalContent ReadJournal(const std::string& folder) {
         fmt::format("{}: no campaign's results, allowed: a folder with journal.txt", folder));
   JournalContent out;
   out.damaged = ReadJournalFile(PathOf(folder), Into(out, PathOf(folder)));
+  for (const auto& [run, row] : out.rows)
+    CheckRow(row, fmt::format("{}: run {}", PathOf(folder), run));
   return out;
 }
 

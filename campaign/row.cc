@@ -19,7 +19,6 @@ namespace {
 /// A delay that was not: an empty cell.
 std::string Optional(double v) { return v < 0 || !std::isfinite(v) ? "" : NumberText(v); }
 
-/// One line without separators, whatever an error says.
 double LargestOrbit(const RunResult& r, const std::string& bearing) {
   const auto it = r.metrics.max_orbit.find(bearing);
   return it == r.metrics.max_orbit.end() ? 0 : it->second;
@@ -102,6 +101,17 @@ std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r,
           without ? Verdict(*without) : "",
           without ? NumberText(LargestOrbit(p, *without)) : "",
           ""};
+}
+
+/// The columns of words; in every other one stands a number or nothing.
+constexpr std::string_view kWords[] = {"scenario", "set",      "class", "kind",
+                                       "onset",    "effect",   "plant", "commissioned",
+                                       "verdict",  "doubtful", "note",  "verdict_without"};
+
+bool IsNumberCell(const std::string& cell) {
+  double v = 0;
+  const auto [last, error] = std::from_chars(cell.data(), cell.data() + cell.size(), v);
+  return error == std::errc{} && last == cell.data() + cell.size();
 }
 
 }  // namespace
@@ -201,6 +211,26 @@ Row ParseRow(std::string_view csv, const std::string& where) {
     throw InputError(
         fmt::format("{}: no row of a campaign, allowed: cells from the run's number on", where));
   return row;
+}
+
+void CheckRow(const Row& row, const std::string& where) {
+  const auto& columns = RowColumns();
+  if (row.cells.size() != columns.size())
+    throw InputError(fmt::format("{}: {}, allowed: {} of a campaign's row", where,
+                                 Counted(row.cells.size(), "cell"), columns.size()));
+  const bool ended = row.At("verdict") != "error";
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const std::string column = columns[k].substr(0, columns[k].find(" ["));
+    if (std::ranges::count(kWords, column) > 0) continue;
+    const bool outcome = column == "detected" || column == "right_class";
+    const bool count = outcome || column == "failed";
+    const bool needed = column == "speed" || column == "failed" || (outcome && ended);
+    const double v = row.Number(column);
+    const bool number = IsNumberCell(row.cells[k]) && (!count || (v >= 0 && v <= 1e6));
+    if (number || (row.cells[k].empty() && !needed)) continue;
+    throw InputError(fmt::format("{}: {} = \"{}\", allowed: {}", where, column, row.cells[k],
+                                 count ? "a count" : "a number"));
+  }
 }
 
 Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* stop) {

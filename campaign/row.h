@@ -27,6 +27,9 @@ struct Row {
 
 /// @throws InputError when the text has no run number.
 Row ParseRow(std::string_view csv, const std::string& where);
+/// What the readers of a campaign's table count on: all cells, numbers where numbers stand, none missing that every run
+/// has. @throws InputError
+void CheckRow(const Row& row, const std::string& where);
 
 /// Simulates a run (fast engine, detection and redistribution on). A run that the program cannot
 /// finish is a row too: verdict "error", the reason in `note`. @throws Interrupted

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "core/base/errors.h"
+#include "core/base/json_file.h"
 #include "workbench/record_shelf.h"
 
 namespace ambrig::workbench {
@@ -24,12 +25,11 @@ constexpr std::size_t kMostWhole = 4000000;  // values of an export
 std::string Describe(const KeptRecord& k) {
   Json channels = Json::array();
   for (const KeptChannel& c : k.channels) channels.push_back({{"name", c.name}, {"unit", c.unit}});
-  return "J" + Json{{"rate", k.rate},
-                    {"start", k.start},
-                    {"rows", k.rows},
-                    {"channels", channels},
-                    {"notes", k.notes}}
-                   .dump();
+  return "J" + JsonText(Json{{"rate", k.rate},
+                             {"start", k.start},
+                             {"rows", k.rows},
+                             {"channels", channels},
+                             {"notes", k.notes}});
 }
 
 std::size_t RowAt(const KeptRecord& r, double t) {
@@ -102,7 +102,7 @@ std::string AnswerTo(RecordShelf& shelf, const std::string& line) {
   } catch (const std::bad_alloc&) {
     return "J" + Json{{"error", "the record is too large for the reader's memory"}}.dump();
   } catch (const std::exception& e) {
-    return "J" + Json{{"error", e.what()}}.dump();
+    return "J" + JsonText(Json{{"error", e.what()}});
   }
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "core/base/errors.h"
+#include "core/base/json_file.h"
 #include "core/record/channels.h"
 #include "core/record/hdf5.h"
 
@@ -57,7 +58,7 @@ Record BaselineRecord(const BaselineOptions& o, const RunFiles& run,
     throw InputError("--channels: no channel of the record fits, allowed: e.g. 'A.x' or 'A.i*'");
   out.attributes = provenance;
   out.attributes["made_by"] = "ambrig check --accept";
-  out.attributes["events"] = run.events.dump();
+  out.attributes["events"] = JsonText(run.events);
   out.attributes["rows_kept"] = fmt::format("every {} of {}", step, run.record.rows());
   return out;
 }
@@ -71,6 +72,7 @@ RunFiles ReadBaseline(const std::string& file) {
     out.events = nlohmann::json::parse(events->second, nullptr, false);
   if (!out.events.is_array())
     throw InputError(file + ": holds no events, allowed: a file that check --accept made");
+  CheckEvents(out.events, file);
   return out;
 }
 

@@ -15,6 +15,7 @@
 #include "app/pages/run_report_data.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "core/base/json_file.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "core/record/hdf5.h"
@@ -156,7 +157,7 @@ int Repeat(const Study& study, const StudyResult& result, const DesignOptions& o
     WriteHdf5(run.record, (folder / (stem + ".h5")).string());
     const auto expect = CheckExpectations(scenario, run);
     WriteFileAtomically((folder / (stem + ".json")).string(),
-                        RunJson(scenario, run, expect).dump(2) + "\n");
+                        JsonText(RunJson(scenario, run, expect), 2) + "\n");
     if (!o.no_report)
       WriteRunReport(MakeRunReportData(rig, scenario, run, expect, "study"),
                      (folder / (stem + ".html")).string());
@@ -209,7 +210,8 @@ int RunDesign(DesignOptions o) {
     shown.push_back(RepresentativeOf(study, result, c));
   WriteTable(study, result, (std::filesystem::path(o.out) / "table.csv").string());
   const auto json = StudyJson(study, result, shown);
-  WriteFileAtomically((std::filesystem::path(o.out) / "study.json").string(), json.dump(2) + "\n");
+  WriteFileAtomically((std::filesystem::path(o.out) / "study.json").string(),
+                      JsonText(json, 2) + "\n");
   o.common.WriteJson(json);
   PrintStudy(study, result, shown);
   if (!o.no_report || !o.common.html.empty()) {

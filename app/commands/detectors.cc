@@ -12,6 +12,7 @@
 #include "campaign/run_rows.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "core/base/json_file.h"
 
 namespace ambrig {
 
@@ -75,7 +76,7 @@ int RunDetectors(DetectorsCommand o) {
   const auto json = DetectorJson(plan.study(), curves, rows);
   const auto in = [&](const char* name) { return (std::filesystem::path(o.out) / name).string(); };
   WriteFileAtomically(in("curves.txt"), text);
-  WriteFileAtomically(in("curves.json"), json.dump(1) + "\n");
+  WriteFileAtomically(in("curves.json"), JsonText(json, 1) + "\n");
   o.common.WriteJson(json);
   if (!o.no_report) WriteDetectorReport(plan.study(), curves, rows, in("report.html"));
   if (!o.common.html.empty()) WriteDetectorReport(plan.study(), curves, rows, o.common.html);

@@ -10,6 +10,7 @@
 #include "control/external/external_controller.h"
 #include "core/base/fingerprint.h"
 #include "core/base/inputs_read.h"
+#include "core/base/json_file.h"
 #include "core/base/read_file.h"
 #include "core/base/zip_file.h"
 #include "fmu/description.h"
@@ -163,6 +164,8 @@ nlohmann::ordered_json ExportFmu(const FmuExport& wanted) {
   nlohmann::ordered_json setup{{"rig", "files/" + inside(wanted.rig)}};
   if (!wanted.scenario.empty()) setup["scenario"] = "files/" + inside(wanted.scenario);
   const std::string library = ReadFile(LibraryFile()), solver = LoadedLibrary(kSolver);
+  if (JsonText(setup).find("\ufffd") != std::string::npos)
+    throw InputError(wanted.rig + ": a name that is no UTF-8 text, allowed in an FMU: UTF-8");
   std::string contents = setup.dump() + wanted.fmi + HashText(library);
   std::vector<ZipEntry> resources;
   for (const fs::path& file : files) {

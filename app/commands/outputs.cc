@@ -11,6 +11,7 @@
 #include "core/base/errors.h"
 #include "core/base/fingerprint.h"
 #include "core/base/inputs_read.h"
+#include "core/base/json_file.h"
 #include "core/base/read_file.h"
 
 namespace ambrig {
@@ -174,10 +175,10 @@ std::string MarkedJson(nlohmann::ordered_json document) {
       marked.update(document[0]);
       document[0] = marked;
     }
-    return document.dump(2) + "\n";
+    return JsonText(document, 2) + "\n";
   }
   marked.update(document);
-  return marked.dump(2) + "\n";
+  return JsonText(marked, 2) + "\n";
 }
 
 }  // namespace ambrig

@@ -18,6 +18,7 @@
 #include "app/pages/practice_page.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "core/base/json_file.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "rig/rig_file.h"
@@ -80,7 +81,7 @@ void WorkOff(const PracticeCommand& o, const std::vector<std::size_t>& pending) 
         const std::scoped_lock lock(mutex);
         ++done;
         if (!journal) continue;
-        journal->Append(PracticeResultJson(r).dump());
+        journal->Append(JsonText(PracticeResultJson(r)));
         progress.Clear();
         PrintResult(r);
       } catch (const PracticeCaseNotMade& e) {

@@ -12,6 +12,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/errors.h"
 #include "core/base/fingerprint.h"
+#include "core/base/json_file.h"
 #include "core/base/read_file.h"
 #include "core/record/hdf5.h"
 
@@ -138,7 +139,7 @@ PracticeResult RunPracticeCase(const PracticeSetting& setting, std::size_t numbe
       progress(f, c.name + ": " + text);
     };
     const Explanation e = Explain(ReadCase(folder), options);
-    WriteFileAtomically(folder + ".json", ExplainJson(e).dump(1) + "\n");
+    WriteFileAtomically(folder + ".json", JsonText(ExplainJson(e), 1) + "\n");
     return ResultOf(c, e);
   } catch (const Interrupted&) {
     throw;

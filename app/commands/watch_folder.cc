@@ -12,6 +12,7 @@
 #include "app/json/watch_json.h"
 #include "core/base/errors.h"
 #include "core/base/fingerprint.h"
+#include "core/base/json_file.h"
 #include "core/base/read_file.h"
 #include "core/base/toml.h"
 #include "core/record/formats/format.h"
@@ -36,6 +37,19 @@ bool IsRecordName(const fs::path& file) {
   return std::ranges::any_of(RecordFormats(), [&](const RecordFormat& f) {
     return (" " + std::string(f.extensions) + " ").find(" " + extension + " ") != std::string::npos;
   });
+}
+
+/// Whether an entry of the journal has what is looked up in it; one of another version is examined again.
+bool IsWatchEntry(const Json& e) {
+  const auto is_text = [](const Json& of, const char* key) {
+    return of.is_object() && of.contains(key) && of[key].is_string();
+  };
+  if (!is_text(e, "kind") || !is_text(e, "model")) return false;
+  if (e["kind"] != "record") return true;
+  return is_text(e, "data") && is_text(e, "hash") && e.contains("size") && e.contains("changed") &&
+         e.contains("left") && std::ranges::all_of(e["left"], [&](const Json& band) {
+           return is_text(band, "kind") && is_text(band, "name");
+         });
 }
 
 /// What left its band, by name: the same things as before need no explanation of their own.
@@ -67,14 +81,14 @@ FolderWatch::FolderWatch(WatchOptions options) : options_(std::move(options)) {
                      },
                      [&](const JournalEntry& e) {
                        Json entry = Json::parse(e.text, nullptr, false);
-                       if (!entry.is_object() || !entry.contains("kind")) return false;
+                       if (!IsWatchEntry(entry)) return false;
                        entries_.push_back(std::move(entry));
                        return true;
                      }});
 }
 
 void FolderWatch::Keep(const Json& entry) {
-  journal_->Append(entry.dump(-1, ' ', false, Json::error_handler_t::replace));
+  journal_->Append(JsonText(entry));
   entries_.push_back(entry);
 }
 

@@ -40,6 +40,7 @@ RunFiles ReadRun(const std::string& record_file) {
   const nlohmann::json json = ReadJson(beside);
   if (json.is_object() && json.contains("events") && json["events"].is_array())
     out.events = json["events"];
+  CheckEvents(out.events, beside);
   return out;
 }
 

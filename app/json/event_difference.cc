@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/base/errors.h"
+
 namespace ambrig {
 
 namespace {
@@ -53,6 +55,20 @@ double First(const EventDifference& e) {
 }
 
 }  // namespace
+
+void CheckEvents(const nlohmann::json& events, const std::string& file) {
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    const nlohmann::json& e = events[k];
+    bool sound = e.is_object() && (!e.contains("t") || e["t"].is_number());
+    for (const char* text : {"kind", "target", "class"})
+      sound = sound && (!e.contains(text) || e[text].is_string());
+    if (!sound)
+      throw InputError(fmt::format(
+          "{}: events[{}] is no event of a run, allowed: objects with a number t and texts kind, "
+          "target, class",
+          file, k));
+  }
+}
 
 std::vector<EventDifference> CompareEvents(const nlohmann::json& a, const nlohmann::json& b,
                                            double tolerance) {

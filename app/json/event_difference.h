@@ -19,6 +19,9 @@ struct EventDifference {
 std::vector<EventDifference> CompareEvents(const nlohmann::json& a, const nlohmann::json& b,
                                            double tolerance);
 
+/// @throws InputError for an array of anything but events of a run; `file`: that it stands in.
+void CheckEvents(const nlohmann::json& events, const std::string& file);
+
 /// "detected A.coil3 moved from 20.12 ms to 20.20 ms".
 std::string EventDifferenceText(const EventDifference& e);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "app/figures/series.h"
@@ -59,7 +60,8 @@ void SurvivalMaps(HtmlReport& report, const Rows& rows) {
       if (values.empty()) continue;
       std::vector<std::string> columns;
       for (const std::string& load : loads) columns.push_back("load " + load);
-      Figure figure = MakeFigure(fmt::format("Survival: {}, {}", kind, Rpm(std::stod(speed))));
+      Figure figure = MakeFigure(
+          fmt::format("Survival: {}, {}", kind, Rpm(std::strtod(speed.c_str(), nullptr))));
       figure.height = std::clamp(140 + 14 * static_cast<int>(names.size()), 260, 3800);
       AddHeatmap(figure, 0, columns, names, values, "stayed up", values.size() <= 40 ? 2 : 0);
       figure.traces.back()["zmin"] = 0;
@@ -117,7 +119,7 @@ void WorstCases(HtmlReport& report, const JournalHeader& header, const Rows& row
     const Row& r = *order[k];
     const int s = Severity(r);
     table.push_back({Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")),
-                     Cell(Rpm(std::stod(r.At("speed")))), Cell(r.At("load_given")),
+                     Cell(Rpm(r.Number("speed"))), Cell(r.At("load_given")),
                      Cell(r.At("verdict"), s > 1    ? "fail"
                                            : s == 1 ? "warn"
                                                     : "ok"),

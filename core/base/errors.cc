@@ -6,6 +6,16 @@
 
 namespace ambrig {
 
+namespace {
+std::string OneLine(std::string text) {
+  for (char& c : text)
+    if ((static_cast<unsigned char>(c) < 32 && c != '\t') || c == 127) c = ' ';
+  return text;
+}
+}  // namespace
+
+InputError::InputError(const std::string& text) : std::runtime_error(OneLine(text)) {}
+
 void Require(bool condition, const char* what, std::source_location where) {
   if (condition) return;
   std::ostringstream text;

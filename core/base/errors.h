@@ -11,7 +11,8 @@ namespace ambrig {
 /// What a user wrote is wrong: one line with file:line, key, value and what is allowed.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// Control characters but tabs in `text`, which quotes keys, names and files as they stand there, become blanks.
+  explicit InputError(const std::string& text);
 };
 
 /// The run was stopped by Ctrl-C; nothing half-written is left.

@@ -9,10 +9,20 @@
 
 namespace ambrig {
 
+namespace {
+constexpr int kMostInside = 100;  // copies and texts of JSON are recursive
+}
+
 nlohmann::json ReadJson(const std::string& file) {
   const std::string text = ReadFile(file);
   try {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(
+        text, [&](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+          if (depth > kMostInside)
+            throw InputError(
+                fmt::format("{}: values more than {} deep inside one another", file, kMostInside));
+          return true;
+        });
   } catch (const nlohmann::json::parse_error& e) {
     const std::size_t at = std::min(e.byte > 0 ? e.byte - 1 : 0, text.size());
     const std::string before = text.substr(0, at);

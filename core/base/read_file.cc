@@ -15,6 +15,9 @@ std::string ReadFile(const std::string& path, std::size_t limit) {
   if (!std::filesystem::exists(path, error)) throw InputError(path + ": no such file");
   if (std::filesystem::is_directory(path, error))
     throw InputError(path + ": is a folder, allowed: a file");
+  const auto kind = std::filesystem::status(path, error).type();
+  if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::block)
+    throw InputError(path + ": is a device, allowed: a file");  // it may have no end
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path + ": " + std::generic_category().message(errno));

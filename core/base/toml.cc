@@ -62,10 +62,8 @@ toml::table ParseToml(const std::string& text, const std::string& file) {
   try {
     return toml::parse(text, file);
   } catch (const toml::parse_error& e) {
-    std::string what(e.description());
-    for (char& c : what)  // the parser quotes a line's end as it is
-      if (static_cast<unsigned char>(c) < ' ') c = ' ';
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", file, e.source().begin.line, what));
+    throw InputError(
+        fmt::format("{}:{}: not valid TOML: {}", file, e.source().begin.line, e.description()));
   }
 }
 

@@ -15,10 +15,16 @@ using CheckStruct = std::function<void(const matvar_t&, const std::string&)>;
 
 bool IsArray(const matvar_t* v) { return v != nullptr && IsNumeric(*v) && Elements(*v) > 0; }
 
+constexpr std::size_t kMostSignals = 1 << 16;  // of one struct; a damaged size asks for millions
+
 /// How many structs an array holds.
-std::size_t StructElements(const matvar_t& v) {
+std::size_t StructElements(const matvar_t& v, const std::string& of) {
   const std::size_t fields = FieldNames(v).size();
-  return fields == 0 ? 0 : v.nbytes / sizeof(matvar_t*) / fields;
+  const std::size_t count = fields == 0 ? 0 : v.nbytes / sizeof(matvar_t*) / fields;
+  if (count > kMostSignals)
+    throw InputError(of + " has " + std::to_string(count) + " elements, allowed: up to " +
+                     std::to_string(kMostSignals));
+  return count;
 }
 
 std::string TextOfVariable(const matvar_t* v) { return v == nullptr ? "" : Text(*v); }
@@ -85,7 +91,7 @@ std::optional<TimedStruct> ReadDspace(const matvar_t& v, const std::string& name
       y->class_type != MAT_C_STRUCT || !IsArray(FieldOf(*x, "Data")))
     return std::nullopt;
   TimedStruct out;
-  const std::size_t signals = StructElements(*y);
+  const std::size_t signals = StructElements(*y, path + ": " + name + ".Y");
   std::vector<std::string> paths;
   for (std::size_t k = 0; k < signals; ++k) paths.push_back(TextOfVariable(FieldOf(*y, "Name", k)));
   const std::vector<std::string> names = ShortNames(paths);
@@ -95,7 +101,8 @@ std::optional<TimedStruct> ReadDspace(const matvar_t& v, const std::string& name
     std::size_t axis = 0;
     if (IsArray(index)) {
       const double number = Samples(*index, of, check).front();
-      if (number >= 1 && number <= static_cast<double>(StructElements(*x)))
+      if (number >= 1 &&
+          number <= static_cast<double>(StructElements(*x, path + ": " + name + ".X")))
         axis = static_cast<std::size_t>(number) - 1;
     }
     const matvar_t* time = FieldOf(*x, "Data", axis);
@@ -118,7 +125,7 @@ std::optional<TimedStruct> ReadSimulink(const matvar_t& v, const std::string& na
   TimedStruct out;
   const std::vector<double> t = Samples(*time, name + ".time", check);
   const TimeBase base = UniformTimeBase(t, path + ": " + name + ".time");
-  const std::size_t count = StructElements(*signals);
+  const std::size_t count = StructElements(*signals, path + ": " + name + ".signals");
   for (std::size_t k = 0; k < count; ++k) {
     std::string of = TextOfVariable(FieldOf(*signals, "label", k));
     if (of.empty()) of = count == 1 ? name : name + ".signals(" + std::to_string(k + 1) + ')';

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int kGrid = 20;    // steps of a coil's turns
 constexpr int kVersion = 3;  // of solver and file: raise it when results change
+constexpr int kDeepest = 5;  // a coefficient of W: object, entries, entry, W, row
 
 /// Check sum of an entry as the file has it, without the sum itself.
 std::string Checksum(nlohmann::json item) {
@@ -121,7 +122,10 @@ void RedistributionTable::Load() const {
   std::ifstream stream(file_);
   if (!stream) return;
   try {
-    const nlohmann::json root = nlohmann::json::parse(stream);
+    // Deeper values are left out while they are read: copies and texts of JSON are recursive.
+    const nlohmann::json root =
+        nlohmann::json::parse(stream, [](int depth, nlohmann::json::parse_event_t,
+                                         const nlohmann::json&) { return depth <= kDeepest; });
     if (root.at("version") != kVersion) return;
     for (const nlohmann::json& item : root.at("entries")) {
       if (item.at("checksum") != Checksum(item)) continue;  // edited or damaged

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 
+#include "core/base/errors.h"
+#include "tests/core/temporary_folder.h"
+
 namespace ambrig {
 namespace {
 
@@ -63,6 +66,22 @@ TEST(EventDifference, OneMoreIsOneMore) {
   EXPECT_EQ(d[1].before, 0.2);
   EXPECT_EQ(d[1].after, 0.21);
   EXPECT_EQ(d[2].after, 0.25);
+}
+
+// Before, the first of these ended `diff` with exit code 3.
+TEST(EventDifference, WhatIsNoEventIsRefused) {
+  const auto refusal = [](const char* text) {
+    return testing::ErrorText<InputError>(
+        [&] { CheckEvents(nlohmann::json::parse(text), "a.json"); });
+  };
+  for (const char* text : {"[{}, 1]", "[{}, null]", R"([{}, {"t": "x"}])", R"([{}, {"kind": 1}])",
+                           R"([{}, {"target": []}])", R"([{}, {"class": {}}])"})
+    EXPECT_EQ(refusal(text),
+              "a.json: events[1] is no event of a run, allowed: objects with a number t and texts "
+              "kind, target, class")
+        << text;
+  EXPECT_EQ(refusal(R"([{"t": 1, "kind": "alarm", "target": "A.coil1", "class": "open"}, {}])"),
+            "");
 }
 
 }  // namespace

@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "tests/campaign/table_rows.h"
+#include "tests/core/temporary_folder.h"
 
 namespace ambrig {
 namespace {
@@ -19,6 +21,7 @@ Row Finished(std::size_t run, const char* verdict, const char* failed, const cha
                      {"failed", failed},
                      {"detected", detected},
                      {"right_class", right},
+                     {"speed", "157.08"},
                      {"detection_delay", delay},
                      {"false_alarms", "1"},
                      {"coil_periods", "1000"},
@@ -59,6 +62,48 @@ TEST(Rows, ReadBackAsTheyWereWritten) {
   EXPECT_EQ(again.Number("detection_delay"), 0.0002);
   EXPECT_TRUE(std::isnan(again.Number("load")));
   EXPECT_THROW(again.At("colour"), std::logic_error);
+}
+
+std::string RefusalOf(const Row& row) {
+  return testing::ErrorText<InputError>([&] { CheckRow(row, "journal.txt:2"); });
+}
+
+TEST(Rows, OfOtherCellsAreRefused) {
+  const Row good = Finished(7, "up", "1", "1", "1", "0.0002", "3e-05");
+  Row row = good;
+  row.cells.pop_back();
+  EXPECT_EQ(RefusalOf(row), "journal.txt:2: 38 cells, allowed: 39 of a campaign's row");
+  const auto with = [&](const char* column, const char* cell) {
+    Row changed = good;
+    for (std::size_t k = 0; k < changed.cells.size(); ++k)
+      if (RowColumns()[k].starts_with(column)) changed.cells[k] = cell;
+    return RefusalOf(changed);
+  };
+  EXPECT_EQ(with("speed", ""), "journal.txt:2: speed = \"\", allowed: a number");
+  EXPECT_EQ(with("load [", "1x"), "journal.txt:2: load = \"1x\", allowed: a number");
+  EXPECT_EQ(with("failed", "-1"), "journal.txt:2: failed = \"-1\", allowed: a count");
+  EXPECT_EQ(with("right_class", ""), "journal.txt:2: right_class = \"\", allowed: a count");
+}
+
+TEST(Rows, OfARunThatEndedInAnErrorHaveNoOutcome) {
+  const Row row = RowOf(3, {{"verdict", "error"}, {"failed", "2"}, {"speed", "0"}, {"note", "x"}});
+  EXPECT_NO_THROW(CheckRow(row, "here"));
+}
+
+// A header of 10^14 runs kept `merge` counting the ones that are missing.
+TEST(Journals, OfMoreRunsThanACampaignHasAreRefused) {
+  const testing::TemporaryFolder folder;
+  for (const char* runs : {"99999999999999", "-1", "1e300", "0", "\"1\""}) {
+    std::filesystem::remove(folder.File("journal.txt"));
+    Journal(folder.File("journal.txt"),
+            std::string(
+                R"({"ambrig_campaign":1,"name":"t","file":"c.toml","fingerprint":"f","runs":)") +
+                runs + "}",
+            {});
+    EXPECT_EQ(testing::ErrorText<InputError>([&] { MergeJournals({folder.File("")}, false); }),
+              folder.File("") + "journal.txt:1: not a campaign's journal of this version")
+        << runs;
+  }
 }
 
 }  // namespace

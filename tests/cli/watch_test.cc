@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "core/base/journal.h"
 #include "tests/cli/cli_run.h"
 
 namespace ambrig {
@@ -98,6 +99,20 @@ TEST_F(Watch, ADamagedEntryIsExaminedAgain) {
   const nlohmann::json again = Look(0);
   EXPECT_EQ(again["new"], nlohmann::json{"steps-05-may.h5"});
   EXPECT_EQ(again["records"][0]["parameters"], first["records"][0]["parameters"]);  // the same bits
+}
+
+// Entries whose check sums fit but that have not what is looked up: of another version, or by hand.
+TEST_F(Watch, EntriesOfOtherShapeAreLeftOut) {
+  Make("logger/steps-05-may.h5", "rig.toml", 2);
+  {
+    Journal journal((folder_ / "known.watch").string(), "ambrig watch 1 known.toml", {});
+    for (const char* entry :
+         {"[]", R"({"kind":"record"})", R"({"kind":"reference"})",
+          R"({"kind":"record","model":"m","data":"steps-05-may.h5"})",
+          R"({"kind":"record","model":"m","data":"x","hash":"h","size":1,"changed":1,"left":[1]})"})
+      journal.Append(entry);
+  }
+  EXPECT_EQ(Look(0)["new"], nlohmann::json{"steps-05-may.h5"});
 }
 
 TEST_F(Watch, FilesThatAreStillWrittenToWait) {

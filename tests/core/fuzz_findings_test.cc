@@ -33,7 +33,9 @@ TEST(FuzzFindings, RecordsAreTakenOrRefusedInOneLine) {
                                  std::filesystem::copy_options::overwrite_existing);
       ++read;
       try {
-        for (const Channel& c : ReadMeasurement(file).record.channels)
+        const Record record = ReadMeasurement(file).record;
+        EXPECT_LE(record.notes.size(), 1U << 16);
+        for (const Channel& c : record.channels)
           EXPECT_LT(c.name.size() + c.unit.size(), 1U << 17);  // no gigabytes of text
       } catch (const InputError& e) {
         EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
@@ -48,6 +50,11 @@ TEST(FuzzFindings, ALineEndInsideAMessageIsASpace) {
       testing::ErrorText<InputError>([] { TomlTable::FromText("a = f\n", "rig.toml"); });
   EXPECT_NE(text.find("rig.toml:1: not valid TOML"), std::string::npos) << text;
   EXPECT_EQ(text.find('\n'), std::string::npos) << text;
+  const TomlTable t = TomlTable::FromText("\"a\\nb\\u0000\\u007f\" = \"c\\nd\"\n", "rig.toml");
+  EXPECT_EQ(testing::ErrorText<InputError>([&] { t.RejectUnknownKeys(); }),
+            "rig.toml:1: a b  : unknown key, allowed: ");
+  EXPECT_EQ(testing::ErrorText<InputError>([&] { t.Number("a\nb"); }),
+            "rig.toml:1: a b: is missing, allowed: a number");
 }
 
 }  // namespace

@@ -45,6 +45,7 @@ TEST_F(ReadFileTest, StopsAtTheLimit) {
 TEST_F(ReadFileTest, SaysWhyNot) {
   EXPECT_EQ(RefusalOf(path_ + ".not"), path_ + ".not: no such file");
   EXPECT_THAT(RefusalOf(::testing::TempDir()), HasSubstr("is a folder"));
+  EXPECT_EQ(RefusalOf("/dev/zero"), "/dev/zero: is a device, allowed: a file");
 }
 
 TEST(Beside, IsRelativeToTheFolderOfTheFile) {

@@ -6,5 +6,5 @@ using namespace ambrig;  // NOLINT: a program of one function
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return fuzz::TakesOrRefuses(
-      [&] { ReadFmuInterface(std::string(fuzz::TextOf(data, size)), "controller.fmu"); });
+      [&] { ReadFmuInterface(fuzz::FileOf(data, size, ".xml"), "controller.fmu"); });
 }

@@ -166,6 +166,19 @@ TEST(RedistributionTable, CacheGivesTheSameBitsAndSurvivesDamage) {
   }
 }
 
+// Copies and texts of JSON are recursive: a file of brackets ended the program.
+TEST(RedistributionTable, ValuesDeepInsideOneAnotherAreLeftOut) {
+  const CacheDirectory directory;
+  const std::vector<int> failed = {2, 5};
+  const RedistributionTable first(ProblemOf(), directory.path());
+  const DistributionMatrix W = first.Lookup(failed).W;
+  const std::string good = Contents(first.cache_file()), inside(200000, '['), out(200000, ']');
+  std::ofstream(first.cache_file())
+      << R"({"version": 3, "entries": [{"checksum": "", "W": )" + inside + out + "}]}";
+  EXPECT_EQ(RedistributionTable(ProblemOf(), directory.path()).Lookup(failed).W, W);
+  EXPECT_EQ(Contents(first.cache_file()), good);
+}
+
 // The residual tells that W was edited, but neither the class nor the capacity.
 TEST(RedistributionTable, AnEditedClassOrCapacityIsMadeAnew) {
   const CacheDirectory directory;
