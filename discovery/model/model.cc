@@ -137,14 +137,8 @@ bool CaseModel::limited() const {
   return std::any_of(horizon_.begin(), horizon_.end(), [](double h) { return h < kInfinity; });
 }
 
-Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
-                            std::uint64_t seed) const {
-  return SimulatedChannels(h, record, noise, seed, {});
-}
-
-Record CaseModel::SimulatedChannels(const Hypothesis& h, std::size_t record, bool noise,
-                                    std::uint64_t seed,
-                                    const std::vector<std::string>& channels) const {
+Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
+                            const std::vector<std::string>& channels) const {
   const CaseRecord& r = case_.records[record];
   Require(plans_[record] != nullptr, "a record over time");
   Scenario scenario = r.scenario;
@@ -233,7 +227,7 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
   std::vector<std::string> measured;
   for (const Channel& c : case_.records[record].data.channels) measured.push_back(c.name);
   try {
-    simulated = SimulatedChannels(h, record, noise, seed, measured);
+    simulated = Simulated(h, record, noise, seed, measured);
   } catch (const std::runtime_error& e) {
     if (dynamic_cast<const Interrupted*>(&e) || dynamic_cast<const InputError*>(&e)) throw;
     return false;  // the motion became infinite: this hypothesis cannot be

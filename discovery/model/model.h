@@ -89,8 +89,9 @@ class CaseModel {
   std::vector<std::optional<std::vector<double>>> PredictAll(
       const std::vector<Hypothesis>& all, ModelFidelity fidelity = ModelFidelity::kAsSampled,
       const QuickLook* look = nullptr) const;
-  /// Full simulated record of one record's scenario, which is over time.
-  Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed) const;
+  /// Simulated record of one record's scenario, which is over time. `channels`: those wanted; empty: all.
+  Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
+                   const std::vector<std::string>& channels = {}) const;
 
   /// Records that this hypothesis does not hold to their end count up to there only, those that it
   /// loses at once do not count. Returns one line for each.
@@ -116,9 +117,6 @@ class CaseModel {
  private:
   /// Flat rows of one record.
   std::pair<std::size_t, std::size_t> RowsOf(std::size_t record) const;
-  /// `channels`: those wanted; empty: all.
-  Record SimulatedChannels(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
-                           const std::vector<std::string>& channels) const;
   bool SimulateRecord(const RigParameters& rig, std::size_t record, bool noise, std::uint64_t seed,
                       std::vector<double>& out) const;
   /// From the disk where a store is kept, else simulated.

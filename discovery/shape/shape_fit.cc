@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/box_solver.h"
 #include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
 #include "discovery/search/signature_bank.h"
-#include "core/math/box_solver.h"
 
 namespace ambrig {
 

@@ -148,9 +148,10 @@ class CommissionedDetector : public CoilDetector {
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kInARow> recent_;
   bool out_of_range_ = false, touching_ = false;
-  double now_t_ = 0, touched_ = -kInfinity;  // start of this period, of the last one that touched [s]
-  double wider_ = 1;  // of the bands, since coils were given up or lost turns
-  Lane idle_;         // mean reading of coils without turns [A]
+  double now_t_ = 0,
+         touched_ = -kInfinity;  // start of this period, of the last one that touched [s]
+  double wider_ = 1;             // of the bands, since coils were given up or lost turns
+  Lane idle_;                    // mean reading of coils without turns [A]
   CoilProbe probe_;
   JumpWatch jumps_;
   JointTurns joint_;

@@ -111,8 +111,8 @@ class Fit {
         damped.diagonal() *= 1 + damping;
         // A limit holds its parameter while the others move on: cut off one by one they would not
         // agree, and the descent would creep along the limit.
-        const Eigen::VectorXd move = SolveInBox(damped, -gradient_, LimitOf(kLeast, *p, first, last),
-                                                LimitOf(kMost, *p, first, last));
+        const Eigen::VectorXd move = SolveInBox(
+            damped, -gradient_, LimitOf(kLeast, *p, first, last), LimitOf(kMost, *p, first, last));
         for (int k = first; k < last; ++k)
           q[k] = std::clamp(q[k] + move[k - first], kLeast[k], kMost[k]);
         if (q == *p) break;

@@ -29,9 +29,9 @@
 namespace ambrig {
 
 struct SampledOptions {
-  double record_rate = 0;  // 0: the scenario's
+  double record_rate = 0;                           // 0: the scenario's
   std::vector<std::string> recorded_channels = {};  // empty: all
-  bool noise = true;       // false: none, whatever the scenario says
+  bool noise = true;                                // false: none, whatever the scenario says
   // [s] before t = 0; negative: docs/theory/base_model.md's (tests: shorter)
   double warm_up = -1;
   // what the controller knows; default: the rig file's values

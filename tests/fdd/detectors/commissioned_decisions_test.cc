@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "core/base/read_file.h"
 #include "tests/fdd/commissioned_plant.h"
 #include "tests/fdd/stator_bench.h"
 
@@ -263,47 +262,6 @@ TEST(CommissionedDecisions, ASmallShortIsNamedTogetherWithALargeOne) {
   for (const auto& [coil, share] : {std::pair{1, 0.5}, {4, 0.2}}) {
     EXPECT_EQ(of[coil].cls, FaultClass::kPartialShort) << coil;
     EXPECT_NEAR(of[coil].fraction, share, 0.05) << coil;
-  }
-}
-
-// At 1 V the drops of switches and diodes are most of what a coil sees.
-TEST(CommissionedDecisions, NothingIsConcludedWhileTheSupplyFails) {
-  const std::string sag =
-      "[[fault]]\ntarget = \"rig\"\ntime = 0.02\nkind = \"bus-sag\"\n"
-      "parameters = { voltage = 1.0, duration = 0.01 }\n";
-  for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()})
-    EXPECT_TRUE(Concluded(plant->rig, &plant->bearing, Operation(sag, 0.06))->found.empty());
-  // What opens meanwhile is found when it is back.
-  const auto opened = Concluded(SlowIron().rig, &SlowIron().bearing,
-                                Operation(sag + FaultOf(3, "open", "", 0.025), 0.06));
-  EXPECT_EQ(opened->Coils(), std::set<int>{3});
-}
-
-// A coil that works is not given up for a reading that is low by a few percent.
-TEST(CommissionedDecisions, ALowReadingIsNoFaultUntilItMatters) {
-  for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()}) {
-    const auto little = Concluded(plant->rig, &plant->bearing,
-                                  Operation(FaultOf(3, "current-sensor", "gain = 0.95"), 0.08));
-    EXPECT_TRUE(little->found.empty());
-    const auto much = Concluded(plant->rig, &plant->bearing,
-                                Operation(FaultOf(3, "current-sensor", "gain = 0.88"), 0.08));
-    EXPECT_EQ(much->Coils(), std::set<int>{3});
-  }
-}
-
-// Saturating iron loses its rotor, and idle coils whose current stays zero were taken for open ones.
-TEST(CommissionedDecisions, NothingIsConcludedOfAStrangerThatBounces) {
-  const std::string campaigns = std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/";
-  RigParameters rig = ReadRig(campaigns + "inexact/rig.toml");
-  for (const char* bearing : {"A", "B"}) {
-    rig = WithEffect(rig, "saturation", bearing, {{"knee", 0.25}});
-    rig = WithEffect(rig, "unbalance", bearing, {{"c", 1e-5}, {"s", 5e-6}});
-  }
-  for (const char* operation : {"whirl", "load_steps", "run_up"}) {
-    const std::string text = ReadFile(campaigns + "reality/" + operation + ".toml");
-    const auto seen = Concluded(rig, nullptr, text);
-    EXPECT_TRUE(seen->doubted) << operation;
-    EXPECT_TRUE(seen->found.empty()) << operation;
   }
 }
 
