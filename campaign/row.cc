@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "core/base/counted.h"
 #include "rig/bearing_kinds/bearing_kind.h"
@@ -108,10 +109,21 @@ constexpr std::string_view kWords[] = {"scenario", "set",      "class", "kind",
                                        "onset",    "effect",   "plant", "commissioned",
                                        "verdict",  "doubtful", "note",  "verdict_without"};
 
-bool IsNumberCell(const std::string& cell) {
+std::optional<double> NumberIn(const std::string& cell) {
   double v = 0;
   const auto [last, error] = std::from_chars(cell.data(), cell.data() + cell.size(), v);
-  return error == std::errc{} && last == cell.data() + cell.size();
+  if (error != std::errc{} || last != cell.data() + cell.size()) return std::nullopt;
+  return v;
+}
+
+/// Names of the columns without their units.
+const std::vector<std::string>& ColumnNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = RowColumns();
+    for (std::string& name : all) name.resize(std::min(name.find(" ["), name.size()));
+    return all;
+  }();
+  return names;
 }
 
 }  // namespace
@@ -214,19 +226,19 @@ Row ParseRow(std::string_view csv, const std::string& where) {
 }
 
 void CheckRow(const Row& row, const std::string& where) {
-  const auto& columns = RowColumns();
+  const auto& columns = ColumnNames();
   if (row.cells.size() != columns.size())
     throw InputError(fmt::format("{}: {}, allowed: {} of a campaign's row", where,
                                  Counted(row.cells.size(), "cell"), columns.size()));
   const bool ended = row.At("verdict") != "error";
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    const std::string column = columns[k].substr(0, columns[k].find(" ["));
+    const std::string& column = columns[k];
     if (std::ranges::count(kWords, column) > 0) continue;
     const bool outcome = column == "detected" || column == "right_class";
     const bool count = outcome || column == "failed";
     const bool needed = column == "speed" || column == "failed" || (outcome && ended);
-    const double v = row.Number(column);
-    const bool number = IsNumberCell(row.cells[k]) && (!count || (v >= 0 && v <= 1e6));
+    const std::optional<double> v = NumberIn(row.cells[k]);
+    const bool number = v && (!count || (*v >= 0 && *v <= 1e6));
     if (number || (row.cells[k].empty() && !needed)) continue;
     throw InputError(fmt::format("{}: {} = \"{}\", allowed: {}", where, column, row.cells[k],
                                  count ? "a count" : "a number"));

@@ -24,8 +24,9 @@ struct ChannelSums {
   double fall() const { return before[0] - after[0]; }
 };
 
+/// Of the error above the noise, from sums of squares.
 double Share(double before, double after, double rows) {
-  return before <= rows ? 0 : (before - after) / (before - rows);
+  return rows > 0 ? ExplainedShare(std::sqrt(before / rows), std::sqrt(after / rows)) : 0;
 }
 
 }  // namespace

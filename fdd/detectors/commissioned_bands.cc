@@ -13,7 +13,6 @@ namespace {
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
 constexpr double kWider = 2.5;           // bands, once coils were given up or lost turns
 constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turns than it had
-constexpr double kDriftNoiseOfBand = 6;  // a window's noise is below its band over this
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
 constexpr double kCalmShare = 0.5;       // of the bands
@@ -62,7 +61,7 @@ void CommissionedDetector::SetWider() {
 void CommissionedDetector::FollowDrift(bool doubtful) {
   if (!follows_drift_ || count_ % kDriftEvery != 0 || doubtful || touching_ || wider_ > 1) return;
   for (const int w : kDriftWindows) {
-    const Lane c = windows_.Used(w, kExcessFloor[w] / kDriftNoiseOfBand);
+    const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
     for (int j = 0; j < filter_.nominal().coils; ++j)
       if (std::abs(c[j]) > kCalmShare * band_[w][j]) return;
   }

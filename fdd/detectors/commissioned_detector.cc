@@ -71,6 +71,7 @@ Diagnosis CommissionedDetector::EndProbe(double t) {
 void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
   touching_ = in.uncertainty.any();
   if (touching_) touched_ = in.t;
+  bounces_ = in.t < touched_ + kBounces;
   out_of_range_ = false;
   for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j)
     out_of_range_ =
@@ -103,7 +104,7 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil) || HasNoCurrent(coil);
   // Without a model of this machine, what a rotor that bounces does to the currents is not known.
-  if (!Relies() && now_t_ < touched_ + kBounces) return false;
+  if (!Relies() && bounces_) return false;
   if (gross && HasNoCurrent(coil)) return true;
   // Inside what was learnt no error of the model is as large: several coils have failed at once.
   // What these throw at a healthy neighbour is smaller.
@@ -114,7 +115,6 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
 
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
-  now_t_ = in.t;
   joint_.Keep(in, sampling_.samples, filter_.state());
   filter_.Period(in, &period_);
   WatchCurrents(in);

@@ -148,8 +148,8 @@ class CommissionedDetector : public CoilDetector {
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kInARow> recent_;
   bool out_of_range_ = false, touching_ = false;
-  double now_t_ = 0,
-         touched_ = -kInfinity;  // start of this period, of the last one that touched [s]
+  double touched_ = -kInfinity;  // start of the last period that touched [s]
+  bool bounces_ = false;         // that was not long ago
   double wider_ = 1;             // of the bands, since coils were given up or lost turns
   Lane idle_;                    // mean reading of coils without turns [A]
   CoilProbe probe_;

@@ -47,7 +47,7 @@ class ExcessWindows {
   struct Sums {
     Lane top, bottom;  // of all periods so far
   };
-  /// Those of a window: the sums at its end less those before it.
+  /// The sums before window w, which is full, and those at its end.
   const Sums& Before(int w) const;
   const Sums& Last() const { return total_[static_cast<std::size_t>((count_ - 1) % kRing)]; }
   struct Phases {

@@ -54,6 +54,7 @@ template <class V>
 struct StepLimits {
   const ReadingJump::PhaseStep* known;
   V most, last_on;  // [A], sample that an on phase ends at
+  V fall, rise;     // largest steps beside edges so far [A]
   double noise;
   Range<V> anywhere, on, off;
 
@@ -62,9 +63,9 @@ struct StepLimits {
       : known(state.known),
         most(LoadAs<V>(limit.v)),
         last_on(LoadAs<V>(edge.v)),
+        fall(LoadAs<V>(state.fall.v) * kEdgeForgets),
+        rise(LoadAs<V>(state.rise.v) * kEdgeForgets),
         noise(noise_of_step) {
-    const V fall = LoadAs<V>(state.fall.v) * kEdgeForgets,
-            rise = LoadAs<V>(state.rise.v) * kEdgeForgets;
     anywhere = {Min(-most, fall * kOfEdge - noise), Max(most, rise * kOfEdge + noise), 0.0};
     on = RangeOf(known[kOn], most, noise);
     off = RangeOf(known[kOff], most, noise);
@@ -85,7 +86,7 @@ template <class V, bool kAsExpected>
   const StepLimits<V> limits(*state, limit, edge, noise);
   const V zero = 0.0, one = 1.0;
   V before = LoadAs<V>(state->last.v), sum = zero, inside = one;
-  V fall = LoadAs<V>(state->fall.v) * kEdgeForgets, rise = LoadAs<V>(state->rise.v) * kEdgeForgets;
+  V fall = limits.fall, rise = limits.rise;
   Steps<V> seen[kKnownSteps];
   // Written out for the intervals that begin a period: sums that are chosen by k would live in memory.
   const auto take = [&](int k, const Range<V>& rising, Steps<V>& on_steps)
@@ -115,6 +116,7 @@ template <class V, bool kAsExpected>
     if (k > 0) seen[kOff].Add(in_off, step);
     before = now;
   };
+  static_assert(kAfterEdge == 3);
   take(0, limits.on, seen[kOn]);
   if (samples > 1) take(1, limits.Rising(1), seen[kOff + 1]);
   if (samples > 2) take(2, limits.Rising(2), seen[kOff + 2]);
