@@ -16,6 +16,8 @@ namespace {
 constexpr double kLongestWork = 24 * 3600;  // [s] of computing, without being told
 constexpr double kWorthAWord = 60;          // [s]
 
+// What the commissioning of a plant takes, in simulations as long as its run: nearly all of it is the fit.
+constexpr double kRunsOfACommissioning = 20;
 // Simulations of a record from the first fit to the verdict: 400 to 800 in cases of 6 or 7 records.
 constexpr double kSimulationsPerRecord = 800;
 // Columns beside the data while fitting: derivatives by every toleranced parameter and candidate.
@@ -24,6 +26,17 @@ constexpr double kMemoryOfRuns = 130e6;  // [bytes] predictions that are kept
 
 unsigned Cores(int jobs) {
   return jobs > 0 ? static_cast<unsigned>(jobs) : std::max(1U, std::thread::hardware_concurrency());
+}
+
+/// Computing time [s] of the commissioning of all plants of a campaign that are commissioned.
+double CommissioningSeconds(const Campaign& campaign) {
+  const auto commissioned =
+      std::count_if(campaign.plants.begin(), campaign.plants.end(),
+                    [](const CampaignPlant& plant) { return plant.commissioned; });
+  if (commissioned == 0) return 0;
+  Scenario run = campaign.scenarios.front();
+  run.duration = campaign.commissioning;
+  return static_cast<double>(commissioned) * kRunsOfACommissioning * RunSeconds(campaign.rig, run);
 }
 
 }  // namespace
@@ -36,6 +49,9 @@ WorkSize CampaignSize(const Campaign& campaign, std::size_t runs, int jobs) {
     size.bytes = std::max(size.bytes, RunMemory(campaign.rig, s, 0));
   }
   size.seconds *= static_cast<double>(runs) / static_cast<double>(campaign.scenarios.size());
+  if (campaign.without) size.seconds *= 2;
+  size.seconds += CommissioningSeconds(campaign) * static_cast<double>(runs) /
+                  static_cast<double>(campaign.runs());
   size.seconds /= size.cores;
   size.bytes *= std::min<double>(size.cores, static_cast<double>(std::max<std::size_t>(runs, 1)));
   return size;

@@ -73,7 +73,7 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
   }
   full_.nuisances = full;
   model_.nuisances = thinned;
-  bank_ = SignatureBank();
+  bank_.TakeOffNuisances(model_);
   return false;
 }
 

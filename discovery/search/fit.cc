@@ -82,6 +82,21 @@ class SolverCost : public ceres::CostFunction {
   const FitProblem& problem_;
 };
 
+/// Ends a pass with the step that gains a small share of what the pass has gained.
+class EnoughGained : public ceres::IterationCallback {
+ public:
+  explicit EnoughGained(double least_share) : least_share_(least_share) {}
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& step) override {
+    if (step.iteration == 0 || !step.step_is_successful) return ceres::SOLVER_CONTINUE;
+    gained_ += step.cost_change;
+    return step.cost_change < least_share_ * gained_ ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                                     : ceres::SOLVER_CONTINUE;
+  }
+
+ private:
+  double least_share_, gained_ = 0;
+};
+
 /// One pass of the solver from and to x. Returns whether it found a usable point.
 bool Solve(FitProblem& cost, const Hypothesis& start, const FitOptions& options,
            std::vector<double>& x) {
@@ -111,6 +126,8 @@ bool Solve(FitProblem& cost, const Hypothesis& start, const FitOptions& options,
   // bounds by projection: a line search costs many runs
   solver.max_num_line_search_step_size_iterations = 0;
   solver.max_num_consecutive_invalid_steps = 4;
+  EnoughGained enough(options.least_share);
+  solver.callbacks = {&enough};
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
   return summary.IsSolutionUsable();

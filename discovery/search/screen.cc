@@ -18,6 +18,8 @@ namespace {
 
 constexpr double kInvisible = 1e-3;  // rms of a usual size's signature, over the floor
 
+constexpr double kStandsOut = 1.3;  // ratio of one channel
+
 constexpr std::size_t kEstimates = 3;  // resonances estimated from the records
 
 /// Effects that no record of the case could show.
@@ -80,6 +82,15 @@ std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
 /// What is screened together: the dearer kinds only where the cheaper ones leave something open.
 enum class ScreenedKind { kOrdinary, kResonances, kCoils };
 
+bool IsCoil(const std::string& target) { return target.find(".coil") != std::string::npos; }
+
+/// Whether single coils were screened.
+bool HoldsCoils(const SignatureBank& bank) {
+  return std::any_of(
+      bank.entries().begin(), bank.entries().end(),
+      [](const SignatureBank::Entry& e) { return IsCoil(e.group.probes[0].target); });
+}
+
 /// Probes of one kind that the bank does not hold yet.
 std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& base,
                                     const ResidualPeaks& peaks, ScreenedKind kind,
@@ -99,7 +110,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
     if (options.coarse && (coils || SeeksFrequency(d))) continue;
     for (const std::string& target : TargetsOf(d, targets)) {
       if (!options.target.empty() && target != options.target) continue;
-      const bool coil = target.find(".coil") != std::string::npos;
+      const bool coil = IsCoil(target);
       if (coil != coils ||
           (coil && options.target.empty() && OnlyCoil(model.data().rig, d, target)))
         continue;
@@ -208,7 +219,9 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
   if (asked || (options.resonances && options.frequencies && !options.coarse &&
                 MotionIsOpen(model, base, bank, out, options.effective_sample_size)))
     screen(ScreenedKind::kResonances, 0.4, 0.7);
-  if (again || options.coarse) return out;
+  if (options.coarse || HoldsCoils(bank)) return out;
+  // Beside effects that were adopted one coil's would stand out in some channel.
+  if (again && WorstRatio(model, base.residual, Which::kFit) < kStandsOut) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {
     return after * after - 1 > std::max(0.01, 0.03 * (before * before - 1));

@@ -133,6 +133,16 @@ void SignatureBank::Rescale(const CaseModel& model, const std::vector<Target>& b
   products_ = Gram();
 }
 
+void SignatureBank::TakeOffNuisances(const CaseModel& model) {
+  for (Index c = 0; c < used_; ++c) {
+    Eigen::VectorXd signature = columns_.col(c).cast<double>();
+    model.nuisances.Eliminate(signature.data());
+    columns_.col(c) = signature.cast<float>();
+  }
+  multiplied_ = 0;
+  products_ = Gram();
+}
+
 void SignatureBank::Fill(const CaseModel& model, std::size_t begin, std::size_t end,
                          const QuickLook& look) {
   std::vector<EffectInstance> probes;

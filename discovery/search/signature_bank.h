@@ -37,6 +37,8 @@ class SignatureBank {
   void LookAt(const CaseModel& model, const QuickLook& look);
   /// Floors have changed from those of `before` (the same targets), and rows may have stopped to count.
   void Rescale(const CaseModel& model, const std::vector<Target>& before);
+  /// The model has nuisances since the signatures were taken: what these explain is taken off.
+  void TakeOffNuisances(const CaseModel& model);
   /// Whether some record was left out.
   bool partial() const;
 

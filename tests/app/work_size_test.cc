@@ -38,6 +38,18 @@ TEST_F(CampaignWork, IsTheRunsThatAreLeftOverTheCores) {
   EXPECT_GE(CampaignSize(c, 32, 0).cores, 1u);  // 0: all of them
 }
 
+TEST_F(CampaignWork, CountsTheRunsWithoutFaultToleranceAndTheCommissioning) {
+  Campaign c = Read();
+  c.plants.resize(2);
+  const double runs = CampaignSize(c, c.runs(), 1).seconds;
+  c.without = true;
+  EXPECT_DOUBLE_EQ(CampaignSize(c, c.runs(), 1).seconds, 2 * runs);
+  c.plants[1].commissioned =
+      true;  // 20 runs of 0.4 s after 0.25 s of warm-up, six times as fast as real time
+  EXPECT_NEAR(CampaignSize(c, c.runs(), 1).seconds, 2 * runs + 20 * 0.65 / 6, 1e-9);
+  EXPECT_NEAR(CampaignSize(c, c.runs() / 2, 1).seconds, runs + 10 * 0.65 / 6, 1e-9);
+}
+
 // As many records at once as there are threads, but no more than there are runs.
 TEST_F(CampaignWork, MemoryIsThatOfTheRunsAtOnce) {
   const Campaign c = Read();

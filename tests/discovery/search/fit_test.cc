@@ -125,6 +125,22 @@ TEST(Fit, FindsGainAndOffsetThatMadeTheData) {
   EXPECT_EQ(fit.penalty, 0);            // neither has a prior
 }
 
+// Where the reading is linear one set of sensitivities tells every step. Fitted records: three predictions as
+// sampled of the start and of each step, and once three coarse ones of the start and of each parameter moved.
+TEST(Fit, TakesSensitivitiesOnceWhereTheyTellTheSteps) {
+  const LinearCase c = CaseOf(1.07, 3e-6);
+  FitOptions options;
+  options.effective_sample_size = 300;
+  options.sensitivities = false;
+  options.passes = 1;
+  const FitResult fit =
+      Fit(c.model, c.With({LinearCase::Gain(1.01), LinearCase::Offset(1e-6)}), options);
+  EXPECT_NEAR(FittedEffect(fit, 0).Value("gain"), 1.07, 2e-3);
+  const auto records = static_cast<long>(c.fit_records());
+  const long without_sensitivities = c.model.runs - 3 * records;
+  EXPECT_LE(without_sensitivities, records * (1 + options.iterations) + 1);  // 1: the unseen record
+}
+
 // weight² Jᵀ J with weight² = n/rows at the noise floor: sd = floor / √(n/rows Σ x²).
 TEST(Fit, StandardDeviationIsThatOfTheLinearProblem) {
   const LinearCase c = CaseOf(1.07, 0);

@@ -42,6 +42,16 @@ TEST(RecordsShowing, AreAllWhereTheErrorIsHardlyAboveTheNoise) {
   EXPECT_EQ(RecordsShowing(c.model, base).records, std::vector<char>(5, 1));
 }
 
+// An effect beside those adopted has to explain most of what is left.
+TEST(RecordsShowing, BesideAnAdoptedEffectAreThoseThatHoldTheErrorHoweverSmall) {
+  const LinearCase c(kQuickLookX, 1.1, 0);
+  FitOptions there;
+  there.iterations = 0;
+  const FitResult beside = Fit(c.model, c.With({LinearCase::Gain(1.07)}), there);
+  ASSERT_LT(beside.ratio_fit, 1.3);
+  EXPECT_EQ(RecordsShowing(c.model, beside).records, (std::vector<char>{0, 1, 0, 0, 1}));
+}
+
 // Held rotors are not where resonances are sought, unless there are no others.
 TEST(WorstRecords, AreAllWhereNoRotorIsFree) {
   const LinearCase c(kQuickLookX, 1.1, 0);

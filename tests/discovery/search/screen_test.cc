@@ -115,6 +115,36 @@ TEST(Screen, TellsOfItsProgressAndSimulatesNothingTwice) {
   }
 }
 
+// What no effect of a reading explains may be one coil's, also where the coils were not tried at first.
+TEST(Screen, TriesSingleCoilsLaterWhereAChannelStandsOut) {
+  Case data = LinearCase::Make(kScreenX, 1, 0);
+  for (CaseRecord& r : data.records)
+    for (std::size_t k = 0; k < LinearCase::kRows; k += 2)
+      r.data.channels[0].samples[k] += 5 * LinearCase::kFloor;
+  CaseModel model(data);
+  for (Target& t : model.targets()) t.floor = LinearCase::kFloor;
+  FitResult base = Fit(model, Hypothesis::Base(data.rig), {});
+  base.jacobian = Eigen::MatrixXd(static_cast<Eigen::Index>(model.size()), 0);
+  const auto coils = [](const SignatureBank& bank) {
+    return std::count_if(bank.entries().begin(), bank.entries().end(), [](const auto& e) {
+      return e.group.probes[0].target.find(".coil") != std::string::npos;
+    });
+  };
+  SignatureBank bank;
+  ScreenOptions o = Options();
+  o.coarse = true;
+  Screen(model, base, {}, o, bank);
+  ASSERT_FALSE(bank.entries().empty());
+  ASSERT_EQ(coils(bank), 0);
+  o.coarse = false;
+  FitResult quiet = base;
+  for (double& r : quiet.residual) r *= 0.3;
+  Screen(model, quiet, {}, o, bank);
+  EXPECT_EQ(coils(bank), 0);
+  Screen(model, base, {}, o, bank);
+  EXPECT_GT(coils(bank), 0);
+}
+
 // The readings of B are not in the case: an effect there is half of no pair, whatever the other half does.
 TEST(ScreenPairs, HoldNoEffectThatChangesNothing) {
   const LinearCase c(kScreenX, 1.08, 2e-6);

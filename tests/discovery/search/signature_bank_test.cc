@@ -45,5 +45,31 @@ TEST(SignatureBank, AGroupLargerThanAChunkIsSimulated) {
     }
 }
 
+// A zero of A.x in each record, taken off afterwards or while the probes are simulated.
+TEST(SignatureBank, NuisancesComeOffAfterwardsAsWhileSimulated) {
+  LinearCase c({2e-5, 4e-5, 6e-5, 5e-5}, 1.08, 0);
+  const FitResult base = c.Base();
+  std::vector<ProbeGroup> groups(2);
+  groups[0].probes = {LinearCase::Gain(1.05)};
+  groups[1].probes = {LinearCase::Offset(3e-6)};
+  for (ProbeGroup& g : groups) g.rows = {0};
+  SignatureBank later, at_once;
+  later.Simulate(c.model, base, groups, nullptr);
+  const Gram bare = later.Products(c.model);
+  NuisanceKind zero{"zero of A.x", "sensor-zero", "m", 1e-6, {}};
+  zero.column = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.model.size()));
+  for (const Target& t : c.model.targets())
+    if (t.channel == 0)
+      zero.column.segment(static_cast<Eigen::Index>(t.first), static_cast<Eigen::Index>(t.count))
+          .setOnes();
+  c.model.nuisances.Use(c.model, {zero}, 1);
+  later.TakeOffNuisances(c.model);
+  at_once.Simulate(c.model, base, groups, nullptr);
+  const Gram &a = later.Products(c.model), &b = at_once.Products(c.model);
+  EXPECT_LT((a.fit - b.fit).norm(), 1e-5 * b.fit.norm());
+  EXPECT_LT((a.validate - b.validate).norm(), 1e-5 * b.validate.norm());
+  EXPECT_LT(a.fit(1, 1), 0.1 * bare.fit(1, 1));  // an offset is what a zero explains
+}
+
 }  // namespace
 }  // namespace ambrig
