@@ -6,13 +6,20 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 
 namespace ambrig {
 namespace {
 
+constexpr rlim_t kMostSeconds = 60;  // of computing: HDF5 reads some gigabytes in that time
+
 [[noreturn]] void WorkAndEnd(const std::function<void()>& work) {
   const rlimit none = {};
   setrlimit(RLIMIT_CORE, &none);
+  const rlimit most = {kMostSeconds, kMostSeconds};
+  setrlimit(RLIMIT_CPU, &most);
+  std::signal(SIGINT, SIG_DFL);  // here Ctrl-C ends what does not end by itself
+  std::signal(SIGTERM, SIG_DFL);
   // What a library or a sanitizer says of a damaged file is no word of this program.
   if (const int nowhere = open("/dev/null", O_WRONLY); nowhere >= 0) {
     dup2(nowhere, STDOUT_FILENO);

@@ -175,7 +175,8 @@ Record ReadHdf5Group(const std::string& path, const std::string& name) try {
     const Library library;
     const auto read = [&] { return ReadGroup(path, name); };
     // HDF5 1.10 believes what an attribute says of its own size and place: a damaged one crashes it.
-    if (!SurvivesInACopy(read)) throw InputError(path + ": damaged, HDF5 crashes when it reads it");
+    if (!SurvivesInACopy(read))
+      throw InputError(path + ": damaged, HDF5 crashes or does not end when it reads it");
     record = read();
   }
   FinishRecord(record, path);

@@ -194,7 +194,7 @@ Measurement ReadMatMeasurement(const std::string& path) try {
   {
     const std::scoped_lock<std::mutex> lock(Hdf5Mutex());
     if (IsVersion73(head) && !SurvivesInACopy(read))
-      throw InputError(path + ": damaged, HDF5 crashes when it reads it");
+      throw InputError(path + ": damaged, HDF5 crashes or does not end when it reads it");
     m = read();
   }
   if (m.frequency.responses.empty()) FinishRecord(m.record, path);
