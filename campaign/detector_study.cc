@@ -211,17 +211,16 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
   const RunPlan& plan = faulty ? faulty_ : healthy_;
   PlannedRun p = plan.Make(faulty ? run - study_.healthy.runs() : run);
   const FaultCase& fault = plan.campaign().cases[p.at.fault];
-  Row row;
-  row.run = run;
-  row.cells = {std::to_string(run),
-               faulty ? "faulty" : "healthy",
-               OneCell(std::filesystem::path(p.scenario.file).stem().string()),
-               faulty ? SetText(plan.campaign().sets[fault.set]) : "",
-               faulty ? OneCell(plan.campaign().kinds[fault.kind].label) : "",
-               faulty ? NumberText(p.scenario.faults.front().time) : "",
-               std::to_string(p.at.draw),
-               std::to_string(p.scenario.seed),
-               p.plant ? OneCell(fmt::format("{} {}", p.plant->label, p.plant->scale)) : ""};
+  std::vector<std::string> cells = {
+      std::to_string(run),
+      faulty ? "faulty" : "healthy",
+      OneCell(std::filesystem::path(p.scenario.file).stem().string()),
+      faulty ? SetText(plan.campaign().sets[fault.set]) : "",
+      faulty ? OneCell(plan.campaign().kinds[fault.kind].label) : "",
+      faulty ? NumberText(p.scenario.faults.front().time) : "",
+      std::to_string(p.at.draw),
+      std::to_string(p.scenario.seed),
+      p.plant ? OneCell(fmt::format("{} {}", p.plant->label, p.plant->scale)) : ""};
   // A longer run would only repeat what nobody looks at.
   if (faulty)
     p.scenario.duration =
@@ -234,35 +233,41 @@ Row DetectorStudyPlan::Simulate(std::size_t run, const std::atomic<bool>* stop) 
     engine.stop = stop;
     SwitchingEngine(p.rig, p.scenario, engine).Run();
     for (const DetectorOutcome& o : trial.Take())
-      row.cells.push_back(faulty ? FaultyText(o) : HealthyText(o));
-    row.cells.emplace_back();
+      cells.push_back(faulty ? FaultyText(o) : HealthyText(o));
+    cells.emplace_back();
   } catch (const Interrupted&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    row.cells.resize(kConditions + study_.detectors.size());
-    row.cells.push_back("error: " + OneCell(e.what()));
+    cells.resize(kConditions + study_.detectors.size());
+    cells.push_back("error: " + OneCell(e.what()));
   }
-  return row;
+  return RowOfCells(run, cells);
+}
+
+void CheckDetectorStudyRow(const Row& row, std::size_t detectors, const std::string& where) {
+  const std::size_t cells = row.Cells().size();
+  if (cells != kConditions + detectors + 1)
+    throw InputError(fmt::format("{}: {}, allowed: {} of a study of {}", where,
+                                 Counted(cells, "cell"), kConditions + detectors + 1,
+                                 Counted(detectors, "detector")));
 }
 
 DetectorStudyRow ParseDetectorStudyRow(const Row& row, std::size_t detectors) {
-  if (row.cells.size() != kConditions + detectors + 1)
-    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a study of {}", row.run,
-                                 Counted(row.cells.size(), "cell"), kConditions + detectors + 1,
-                                 Counted(detectors, "detector")));
+  CheckDetectorStudyRow(row, detectors, fmt::format("row of run {}", row.run));
+  const std::vector<std::string_view> cells = row.Cells();
   DetectorStudyRow out;
-  out.faulty = row.cells[1] == "faulty";
-  out.scenario = row.cells[2];
-  out.coil = row.cells[3];
-  out.kind = row.cells[4];
-  out.plant = row.cells[8];
-  out.fault_time = out.faulty ? std::atof(row.cells[5].c_str()) : 0;
-  out.note = row.cells.back();
+  out.faulty = cells[1] == "faulty";
+  out.scenario = cells[2];
+  out.coil = cells[3];
+  out.kind = cells[4];
+  out.plant = cells[8];
+  out.fault_time = out.faulty ? std::strtod(cells[5].data(), nullptr) : 0;
+  out.note = cells.back();
   if (!out.note.empty()) return out;
   for (std::size_t k = 0; k < detectors; ++k)
-    out.outcomes.push_back(ParseOutcome(row.cells[kConditions + k], out.faulty));
+    out.outcomes.push_back(ParseOutcome(std::string(cells[kConditions + k]), out.faulty));
   return out;
 }
 

@@ -47,6 +47,8 @@ struct DetectorStudyRow {
   // one per detector; empty when the run could not be finished
   std::vector<DetectorOutcome> outcomes;
 };
+/// @throws InputError when the row has not the cells of a study with that many detectors.
+void CheckDetectorStudyRow(const Row& row, std::size_t detectors, const std::string& where);
 /// @throws InputError when it is no row of a study with that many detectors.
 DetectorStudyRow ParseDetectorStudyRow(const Row& row, std::size_t detectors);
 

@@ -13,6 +13,7 @@ namespace ambrig {
 namespace {
 
 constexpr int kVersion = 1;
+constexpr std::size_t kTableBlock = 1 << 20;  // of a table, written at once [bytes]
 
 std::string PathOf(const std::string& folder) {
   return (std::filesystem::path(folder) / "journal.txt").string();
@@ -39,18 +40,18 @@ JournalHeader ParseHeader(std::string_view text, const std::string& path) {
   throw InputError(fmt::format("{}:1: not a campaign's journal of this version", path));
 }
 
-/// Takes the rows of the journal at `path` into `content`.
-JournalVisitor Into(JournalContent& content, const std::string& path) {
+/// Takes the rows of the journal at `path` into `content`. Detector studies keep rows of another table in a journal like this.
+JournalVisitor Into(JournalContent& content, const std::string& path, const RowCheck& check) {
   const auto header = [&content, path](std::string_view text) {
     content.header = ParseHeader(text, path);
   };
-  const auto entry = [&content, path](const JournalEntry& e) {
-    Row row = ParseRow(e.text, fmt::format("{}:{}", path, e.line));
+  const auto entry = [&content, path, check](const JournalEntry& e) {
+    const std::string where = fmt::format("{}:{}", path, e.line);
+    Row row = ParseRow(e.text, where);
     if (row.run >= content.header.runs)
-      throw InputError(fmt::format("{}:{}: run = {}, allowed: 0 to {}", path, e.line, row.run,
-                                   content.header.runs - 1));
-    // Detector studies keep rows of another table in a journal like this.
-    if (row.cells.size() == RowColumns().size()) CheckRow(row, fmt::format("{}:{}", path, e.line));
+      throw InputError(
+          fmt::format("{}: run = {}, allowed: 0 to {}", where, row.run, content.header.runs - 1));
+    check(row, where);
     const std::size_t run = row.run;
     content.rows.insert_or_assign(run, std::move(row));
     return true;
@@ -72,16 +73,13 @@ JournalContent ReadJournal(const std::string& folder) {
     throw InputError(
         fmt::format("{}: no campaign's results, allowed: a folder with journal.txt", folder));
   JournalContent out;
-  out.damaged = ReadJournalFile(PathOf(folder), Into(out, PathOf(folder)));
-  // Rows of a campaign's table were checked as they came.
-  for (const auto& [run, row] : out.rows)
-    if (row.cells.size() != RowColumns().size())
-      CheckRow(row, fmt::format("{}: run {}", PathOf(folder), run));
+  out.damaged = ReadJournalFile(PathOf(folder), Into(out, PathOf(folder), CheckRow));
   return out;
 }
 
-CampaignJournal::CampaignJournal(const std::string& folder, const JournalHeader& header)
-    : journal_(PathOf(folder), HeaderText(header), Into(content_, PathOf(folder))) {
+CampaignJournal::CampaignJournal(const std::string& folder, const JournalHeader& header,
+                                 const RowCheck& check)
+    : journal_(PathOf(folder), HeaderText(header), Into(content_, PathOf(folder), check)) {
   const JournalHeader& found = content_.header;
   if (found.fingerprint.empty()) return;  // begun just now
   if (found.fingerprint != header.fingerprint || found.runs != header.runs)
@@ -91,18 +89,26 @@ CampaignJournal::CampaignJournal(const std::string& folder, const JournalHeader&
                     journal_.path(), found.file));
 }
 
-void CampaignJournal::Append(const Row& row) {
-  journal_.Append(row.Csv());
+void CampaignJournal::Append(Row row) {
+  journal_.Append(row.csv);
   const std::scoped_lock lock(mutex_);
-  content_.rows.insert_or_assign(row.run, row);
+  const std::size_t run = row.run;
+  content_.rows.insert_or_assign(run, std::move(row));
 }
 
 void WriteTable(const std::string& folder, const Rows& rows) {
   std::string text;
   for (const std::string& column : RowColumns()) text += (text.empty() ? "" : ",") + column;
   text += '\n';
-  for (const auto& [run, row] : rows) text += row.Csv() + '\n';
-  WriteFileAtomically((std::filesystem::path(folder) / "table.csv").string(), text);
+  AtomicFile file((std::filesystem::path(folder) / "table.csv").string());
+  for (const auto& [run, row] : rows) {
+    text += row.csv + '\n';
+    if (text.size() < kTableBlock) continue;
+    file.Write(text);
+    text.clear();
+  }
+  file.Write(text);
+  file.Commit();
 }
 
 }  // namespace ambrig

@@ -32,13 +32,14 @@ bool HasJournal(const std::string& folder);
 
 class CampaignJournal {
  public:
-  /// Makes the folder, begins a journal or goes on with the one that is there (its rows are read).
+  /// Makes the folder, begins a journal or goes on with the one that is there: its rows are read, and checked by `check`.
   /// @throws InputError when it is of another campaign or rig, in use, or cannot be written.
-  CampaignJournal(const std::string& folder, const JournalHeader& header);
+  CampaignJournal(const std::string& folder, const JournalHeader& header,
+                  const RowCheck& check = CheckRow);
   const Rows& rows() const { return content_.rows; }
   std::size_t damaged() const { return journal_.damaged(); }
   /// Thread-safe; on return the line is in the system's hands. @throws InputError (full disk ...)
-  void Append(const Row& row);
+  void Append(Row row);
   Rows TakeRows() { return std::move(content_.rows); }
 
  private:

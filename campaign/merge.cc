@@ -33,8 +33,8 @@ JournalContent MergeJournals(const std::vector<std::string>& folders, bool parti
                       folder, folders.front()));
     all.damaged += part.damaged;
     for (auto& [run, row] : part.rows) {
-      const auto [it, fresh] = all.rows.try_emplace(run, row);
-      if (!fresh && it->second.cells != row.cells)
+      const auto [it, fresh] = all.rows.try_emplace(run, std::move(row));
+      if (!fresh && it->second.csv != row.csv)
         throw InputError(
             fmt::format("{}: row of run {} differs from that of another folder, allowed: equal "
                         "rows (same program on all machines)",
@@ -51,7 +51,7 @@ RowCounts CountRows(const Rows& rows) {
   RowCounts n;
   for (const auto& [run, row] : rows) {
     ++n.rows;
-    const std::string& verdict = row.At("verdict");
+    const std::string verdict = row.At("verdict");
     if (verdict == "error") {
       ++n.error;
       continue;

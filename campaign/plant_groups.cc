@@ -14,7 +14,7 @@ int Rank(const std::string& verdict) {
 }
 
 bool Harmed(const Row& r) {
-  const std::string& without = r.At("verdict_without");
+  const std::string without = r.At("verdict_without");
   if (without.empty()) return false;
   const int with = Rank(r.At("verdict"));
   const bool grown = r.Number("peak_orbit") > kHarmedOrbit * r.Number("orbit_without");

@@ -1,6 +1,7 @@
 #include "campaign/row.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -109,7 +110,7 @@ constexpr std::string_view kWords[] = {"scenario", "set",      "class", "kind",
                                        "onset",    "effect",   "plant", "commissioned",
                                        "verdict",  "doubtful", "note",  "verdict_without"};
 
-std::optional<double> NumberIn(const std::string& cell) {
+std::optional<double> NumberIn(std::string_view cell) {
   double v = 0;
   const auto [last, error] = std::from_chars(cell.data(), cell.data() + cell.size(), v);
   if (error != std::errc{} || last != cell.data() + cell.size()) return std::nullopt;
@@ -124,6 +125,11 @@ const std::vector<std::string>& ColumnNames() {
     return all;
   }();
   return names;
+}
+
+[[noreturn]] void RefuseCells(const Row& row, const std::string& where) {
+  throw InputError(fmt::format("{}: {}, allowed: {} of a campaign's row", where,
+                               Counted(row.Cells().size(), "cell"), RowColumns().size()));
 }
 
 }  // namespace
@@ -185,41 +191,45 @@ std::string SetText(const FailureSet& set) {
   return text;
 }
 
-std::string Row::Csv() const {
-  std::string text;
-  for (std::size_t k = 0; k < cells.size(); ++k) text += (k > 0 ? "," : "") + cells[k];
-  return text;
+std::vector<std::string_view> Row::Cells() const {
+  std::vector<std::string_view> cells;
+  const std::string_view all = csv;
+  for (std::size_t begin = 0; begin <= all.size();) {
+    const std::size_t end = std::min(all.find(',', begin), all.size());
+    cells.push_back(all.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return cells;
 }
 
-const std::string& Row::At(std::string_view column) const {
-  const auto& columns = RowColumns();
-  const auto it = std::find_if(columns.begin(), columns.end(), [&](const std::string& c) {
-    return c == column || (c.starts_with(column) && c.substr(column.size()).starts_with(" ["));
-  });
-  Require(it != columns.end(), "a column of the table");
-  if (cells.size() != columns.size())
-    throw InputError(fmt::format("row of run {}: {}, allowed: {} of a campaign's row", run,
-                                 Counted(cells.size(), "cell"), columns.size()));
-  return cells[static_cast<std::size_t>(it - columns.begin())];
+std::string Row::At(std::string_view column) const {
+  const auto& names = ColumnNames();
+  const auto name = std::ranges::find(names, column);
+  Require(name != names.end(), "a column of the table");
+  std::size_t begin = 0;
+  for (auto k = name - names.begin(); k > 0; --k) {
+    begin = csv.find(',', begin) + 1;
+    if (begin == 0) RefuseCells(*this, fmt::format("row of run {}", run));
+  }
+  return csv.substr(begin, csv.find(',', begin) - begin);
 }
 
 double Row::Number(std::string_view column) const {
-  const std::string& text = At(column);
+  const std::string text = At(column);
   double v = kRequired;
   if (!text.empty()) std::from_chars(text.data(), text.data() + text.size(), v);
   return v;
 }
 
+Row RowOfCells(std::size_t run, const std::vector<std::string>& cells) {
+  return {run, fmt::format("{}", fmt::join(cells, ","))};
+}
+
 Row ParseRow(std::string_view csv, const std::string& where) {
-  Row row;
-  for (std::size_t begin = 0; begin <= csv.size();) {
-    const std::size_t end = std::min(csv.find(',', begin), csv.size());
-    row.cells.emplace_back(csv.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  const std::string& id = row.cells.front();
-  const auto [last, error] = std::from_chars(id.data(), id.data() + id.size(), row.run);
-  if (error != std::errc{} || last != id.data() + id.size())
+  Row row{0, std::string(csv)};
+  const char* const end = csv.data() + std::min(csv.find(','), csv.size());
+  const auto [last, error] = std::from_chars(csv.data(), end, row.run);
+  if (error != std::errc{} || last != end)
     throw InputError(
         fmt::format("{}: no row of a campaign, allowed: cells from the run's number on", where));
   return row;
@@ -227,9 +237,8 @@ Row ParseRow(std::string_view csv, const std::string& where) {
 
 void CheckRow(const Row& row, const std::string& where) {
   const auto& columns = ColumnNames();
-  if (row.cells.size() != columns.size())
-    throw InputError(fmt::format("{}: {}, allowed: {} of a campaign's row", where,
-                                 Counted(row.cells.size(), "cell"), columns.size()));
+  const std::vector<std::string_view> cells = row.Cells();
+  if (cells.size() != columns.size()) RefuseCells(row, where);
   const bool ended = row.At("verdict") != "error";
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const std::string& column = columns[k];
@@ -237,19 +246,17 @@ void CheckRow(const Row& row, const std::string& where) {
     const bool outcome = column == "detected" || column == "right_class";
     const bool count = outcome || column == "failed";
     const bool needed = column == "speed" || column == "failed" || (outcome && ended);
-    const std::optional<double> v = NumberIn(row.cells[k]);
+    const std::optional<double> v = NumberIn(cells[k]);
     const bool number = v && (!count || (*v >= 0 && *v <= 1e6));
-    if (number || (row.cells[k].empty() && !needed)) continue;
-    throw InputError(fmt::format("{}: {} = \"{}\", allowed: {}", where, column, row.cells[k],
+    if (number || (cells[k].empty() && !needed)) continue;
+    throw InputError(fmt::format("{}: {} = \"{}\", allowed: {}", where, column, cells[k],
                                  count ? "a count" : "a number"));
   }
 }
 
 Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* stop) {
   const PlannedRun p = plan.Make(run);
-  Row row;
-  row.run = run;
-  row.cells = Conditions(plan, p);
+  std::vector<std::string> cells = Conditions(plan, p);
   try {
     SimulateOptions options;
     options.record = false;
@@ -262,17 +269,17 @@ Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* s
       without = Simulate(p.rig, plain, options);
     }
     const auto outcome = Outcome(p, result, plan.campaign().without ? &without : nullptr);
-    row.cells.insert(row.cells.end(), outcome.begin(), outcome.end());
+    cells.insert(cells.end(), outcome.begin(), outcome.end());
   } catch (const Interrupted&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;  // of the machine, not of the run: another machine would have another table
   } catch (const std::exception& e) {
-    row.cells.push_back("error");
-    row.cells.resize(RowColumns().size());
-    row.cells.back() = OneCell(e.what());
+    cells.push_back("error");
+    cells.resize(RowColumns().size());
+    cells.back() = OneCell(e.what());
   }
-  return row;
+  return RowOfCells(run, cells);
 }
 
 }  // namespace ambrig

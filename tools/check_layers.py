@@ -36,7 +36,7 @@ MAY_INCLUDE = {
     "fmu/library": "core rotor control effects fmu",
     "workbench": "core",
     "app": "core fmu control effects rig scenarios simulation discovery campaign analysis design faulttolerance rotor fdd workbench",
-    "bench": "core actuators rotor control fdd faulttolerance effects rig scenarios simulation discovery",
+    "bench": "core actuators rotor control fdd faulttolerance effects rig scenarios simulation discovery campaign",
 }
 
 # Headers of the plant: the bridge, the magnetics that are simulated, the moving rotor and its contacts,

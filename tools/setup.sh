@@ -28,7 +28,7 @@ for option in "$@"; do
                          python3-matplotlib python3-scipy python3-xarray mypy                       # tests
                          python3-nbformat python3-nbclient python3-ipykernel) ;;                    # notebooks
     --tidy) packages+=(clang-format clang-tidy-16 python3-clang-16) ;;
-    --fuzz) packages+=(clang-16 libclang-rt-16-dev libomp-16-dev) ;;
+    --fuzz) packages+=(clang-16 libclang-rt-16-dev) ;;
     -h | --help) sed -n '2,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
     *) echo "setup: unknown option $option (allowed: --tests, --tidy, --fuzz, --python)" >&2; exit 2 ;;
   esac

@@ -157,12 +157,12 @@ struct MergeOptions {
 };
 
 int Merge(const MergeOptions& o) {
-  const JournalContent merged = MergeJournals(o.folders, o.partial);
+  JournalContent merged = MergeJournals(o.folders, o.partial);
   o.common.CheckOutputs({});
   PrepareStudyFolder(o.out, {"table.csv", "report.html"}, o.common.force);
   CampaignJournal journal(o.out, merged.header);
-  for (const auto& [run, row] : merged.rows)
-    if (!journal.rows().contains(run)) journal.Append(row);
+  for (auto& [run, row] : merged.rows)
+    if (!journal.rows().contains(run)) journal.Append(std::move(row));
   Conclude(o.common, o.no_report, o.out, merged.header, journal.rows());
   return 0;
 }

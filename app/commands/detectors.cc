@@ -29,7 +29,7 @@ void WriteStudyTable(const DetectorStudyPlan& plan, const Rows& rows, const std:
   std::string text;
   for (const std::string& column : plan.Columns()) text += (text.empty() ? "" : ",") + column;
   text += '\n';
-  for (const auto& [run, row] : rows) text += row.Csv() + '\n';
+  for (const auto& [run, row] : rows) text += row.csv + '\n';
   WriteFileAtomically((std::filesystem::path(folder) / "table.csv").string(), text);
 }
 
@@ -59,7 +59,10 @@ int RunDetectors(DetectorsCommand o) {
   o.common.CheckOutputs({o.file});
   PrepareStudyFolder(o.out, {"table.csv", "curves.txt", "curves.json", "report.html"},
                      o.common.force);
-  CampaignJournal journal(o.out, plan.Header());
+  const auto check = [&](const Row& row, const std::string& where) {
+    CheckDetectorStudyRow(row, plan.study().detectors.size(), where);
+  };
+  CampaignJournal journal(o.out, plan.Header(), check);
   if (!journal.rows().empty())
     fmt::print("{}: resumed, {} done before\n", o.out, Counted(journal.rows().size(), "run"));
   try {

@@ -23,8 +23,38 @@ std::vector<std::string> Distinct(const Rows& rows, const char* column) {
   std::vector<std::string> out;
   std::set<std::string> seen;
   for (const auto& [run, row] : rows)
-    if (seen.insert(row.At(column)).second) out.push_back(row.At(column));
+    if (const auto [value, fresh] = seen.insert(row.At(column)); fresh) out.push_back(*value);
   return out;
+}
+
+struct Survivors {
+  double up = 0, all = 0;  // runs
+};
+using SurvivalOfSets = std::map<std::string, std::map<std::string, Survivors>>;  // by set and load
+
+Figure SurvivalMap(const SurvivalOfSets& map, const std::string& kind, const std::string& speed,
+                   const std::vector<std::string>& sets, const std::vector<std::string>& loads) {
+  std::vector<std::string> names, columns;
+  std::vector<std::vector<double>> values;
+  for (const std::string& set : sets) {
+    const auto found = map.find(set);
+    if (found == map.end()) continue;
+    names.push_back(set);
+    values.emplace_back();
+    for (const std::string& load : loads) {
+      const auto it = found->second.find(load);
+      values.back().push_back(it == found->second.end() ? kRequired
+                                                        : it->second.up / it->second.all);
+    }
+  }
+  for (const std::string& load : loads) columns.push_back("load " + load);
+  Figure figure =
+      MakeFigure(fmt::format("Survival: {}, {}", kind, Rpm(std::strtod(speed.c_str(), nullptr))));
+  figure.height = std::clamp(140 + 14 * static_cast<int>(names.size()), 260, 3800);
+  AddHeatmap(figure, 0, columns, names, values, "stayed up", values.size() <= 40 ? 2 : 0);
+  figure.traces.back()["zmin"] = 0;
+  figure.traces.back()["zmax"] = 1;
+  return figure;
 }
 
 /// Share of runs that stayed up, sets x loads, one map for each kind and speed.
@@ -36,37 +66,16 @@ void SurvivalMaps(HtmlReport& report, const Rows& rows) {
       "Loads are those of the campaign file: shares of the set's own capacity (the weight counts), "
       "or newtons.");
   const auto sets = Distinct(rows, "set"), loads = Distinct(rows, "load_given");
+  std::map<std::pair<std::string, std::string>, SurvivalOfSets> maps;  // by kind and speed
+  for (const auto& [run, row] : rows) {
+    auto& cell = maps[{row.At("kind"), row.At("speed")}][row.At("set")][row.At("load_given")];
+    cell.up += row.At("verdict") == "up" ? 1 : 0;
+    cell.all += 1;
+  }
   for (const std::string& kind : Distinct(rows, "kind"))
     for (const std::string& speed : Distinct(rows, "speed")) {
-      std::map<std::pair<std::string, std::string>, std::pair<double, double>> up;  // (stayed, all)
-      for (const auto& [run, row] : rows) {
-        if (row.At("kind") != kind || row.At("speed") != speed) continue;
-        auto& cell = up[{row.At("set"), row.At("load_given")}];
-        cell.first += row.At("verdict") == "up" ? 1 : 0;
-        cell.second += 1;
-      }
-      std::vector<std::string> names;
-      std::vector<std::vector<double>> values;
-      for (const std::string& set : sets) {
-        std::vector<double> line;
-        for (const std::string& load : loads) {
-          const auto it = up.find({set, load});
-          line.push_back(it == up.end() ? kRequired : it->second.first / it->second.second);
-        }
-        if (std::all_of(line.begin(), line.end(), [](double v) { return std::isnan(v); })) continue;
-        names.push_back(set);
-        values.push_back(line);
-      }
-      if (values.empty()) continue;
-      std::vector<std::string> columns;
-      for (const std::string& load : loads) columns.push_back("load " + load);
-      Figure figure = MakeFigure(
-          fmt::format("Survival: {}, {}", kind, Rpm(std::strtod(speed.c_str(), nullptr))));
-      figure.height = std::clamp(140 + 14 * static_cast<int>(names.size()), 260, 3800);
-      AddHeatmap(figure, 0, columns, names, values, "stayed up", values.size() <= 40 ? 2 : 0);
-      figure.traces.back()["zmin"] = 0;
-      figure.traces.back()["zmax"] = 1;
-      report.AddFigure(figure);
+      const auto map = maps.find({kind, speed});
+      if (map != maps.end()) report.AddFigure(SurvivalMap(map->second, kind, speed, sets, loads));
     }
 }
 
@@ -96,7 +105,7 @@ void Delays(HtmlReport& report, const Rows& rows) {
 }
 
 int Severity(const Row& r) {
-  const std::string& v = r.At("verdict");
+  const std::string v = r.At("verdict");
   return v == "error" ? 3 : v == "drop" ? 2 : v == "touchdown" ? 1 : 0;
 }
 
@@ -105,19 +114,23 @@ void WorstCases(HtmlReport& report, const JournalHeader& header, const Rows& row
   report.Text(
       "Runs that did not stay up first, then by the largest orbit. The command repeats a run with "
       "its record and report.");
-  std::vector<const Row*> order;
-  for (const auto& [run, row] : rows) order.push_back(&row);
-  const auto orbit = [](const Row* r) {
-    const double v = r->Number("peak_orbit");
-    return std::isnan(v) ? 1e9 : v;
+  struct Badness {
+    int severity = 0;
+    double orbit = 0;  // [m]
+    const Row* row = nullptr;
   };
-  std::stable_sort(order.begin(), order.end(), [&](const Row* a, const Row* b) {
-    return Severity(*a) != Severity(*b) ? Severity(*a) > Severity(*b) : orbit(a) > orbit(b);
+  std::vector<Badness> order;
+  for (const auto& [run, row] : rows) {
+    const double orbit = row.Number("peak_orbit");
+    order.push_back({Severity(row), std::isnan(orbit) ? 1e9 : orbit, &row});
+  }
+  std::ranges::stable_sort(order, [](const Badness& a, const Badness& b) {
+    return a.severity != b.severity ? a.severity > b.severity : a.orbit > b.orbit;
   });
   std::vector<std::vector<Cell>> table;
   for (std::size_t k = 0; k < std::min(kWorst, order.size()); ++k) {
-    const Row& r = *order[k];
-    const int s = Severity(r);
+    const Row& r = *order[k].row;
+    const int s = order[k].severity;
     table.push_back({Cell(r.At("run")), Cell(r.At("set")), Cell(r.At("class")), Cell(r.At("kind")),
                      Cell(Rpm(r.Number("speed"))), Cell(r.At("load_given")),
                      Cell(r.At("verdict"), s > 1    ? "fail"

@@ -15,7 +15,7 @@ using Json = nlohmann::ordered_json;
 
 std::size_t Unfinished(const Rows& rows) {
   std::size_t n = 0;
-  for (const auto& [run, row] : rows) n += row.cells.back().empty() ? 0 : 1;
+  for (const auto& [run, row] : rows) n += row.csv.ends_with(',') ? 0 : 1;
   return n;
 }
 

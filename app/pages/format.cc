@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include "core/math/constants.h"
 
@@ -55,7 +56,7 @@ std::string FormatSi(double value, std::string_view unit, int digits) {
   static constexpr std::array<std::string_view, 9> kPrefix = {"p", "n", "µ", "m", "",
                                                               "k", "M", "G", "T"};
   // Rounded first, so that 999.96e-6 becomes 1 mm and not 1000 um.
-  const double rounded = std::stod(fmt::format("{:.{}e}", value, digits - 1));
+  const double rounded = std::strtod(fmt::format("{:.{}e}", value, digits - 1).c_str(), nullptr);
   const double group = std::clamp(std::floor(std::log10(std::abs(rounded)) / 3), -4.0, 4.0);
   return PlainNumber(rounded / std::pow(10.0, 3 * group), digits) + gap +
          std::string(kPrefix[static_cast<std::size_t>(group + 4)]) + std::string(unit);

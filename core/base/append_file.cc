@@ -17,6 +17,9 @@ AppendFile::AppendFile(const std::string& path) : path_(path) {
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
   if (error) ThrowCannotWrite(folder.string(), error.value());
+  // What was written is read back: from a pipe that would last for ever.
+  if (std::filesystem::is_fifo(path, error))
+    throw InputError("cannot write " + path + ": not a regular file");
   file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0) ThrowCannotWrite(path_, errno);
   if (flock(file_, LOCK_EX | LOCK_NB) == 0) return;

@@ -53,10 +53,11 @@ std::string Written(std::string_view text, std::string_view data) {
 
 class JournalReader {
  public:
-  explicit JournalReader(const std::string& path) : in_(path, std::ios::binary) {
+  explicit JournalReader(const std::string& path) {
     std::error_code error;
     size_ = static_cast<std::size_t>(std::filesystem::file_size(path, error));
-    if (!in_ || error) throw InputError(path + ": cannot be read");
+    if (!error) in_.open(path, std::ios::binary);  // only a file: a pipe would wait for its writer
+    if (error || !in_) throw InputError(path + ": cannot be read");
   }
 
   bool NextLine() {

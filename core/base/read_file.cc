@@ -18,12 +18,16 @@ std::string ReadFile(const std::string& path, std::size_t limit) {
   const auto kind = std::filesystem::status(path, error).type();
   if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::block)
     throw InputError(path + ": is a device, allowed: a file");  // it may have no end
+  // What the shell makes for <(...) has no name in a folder; a pipe that has one may never get its writer.
+  if (kind == std::filesystem::file_type::fifo &&
+      std::filesystem::exists(std::filesystem::canonical(path, error)))
+    throw InputError(path + ": is a named pipe, allowed: a file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);
   if (!in) throw InputError(path + ": " + std::generic_category().message(errno));
   std::string text;
   char block[1 << 16];
-  while (text.size() < limit && in) {  // also pipes, which have no size
+  while (text.size() < limit && in) {  // also the shell's pipes, which have no size
     in.read(block, static_cast<std::streamsize>(std::min(sizeof block, limit - text.size())));
     text.append(block, static_cast<std::size_t>(in.gcount()));
   }

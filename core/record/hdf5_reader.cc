@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 
+#include "core/base/trial_copy.h"
 #include "core/record/hdf5_library.h"
 #include "core/record/time_base.h"
 
@@ -144,6 +145,21 @@ Handle OpenForReading(const std::string& path) {
   return file;
 }
 
+Record ReadGroup(const std::string& path, const std::string& name) {
+  Record record;
+  const Handle file = OpenForReading(path);
+  if (name != "/" && H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0)
+    throw InputError(path + ": no group " + name);
+  const Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose);
+  if (!group.usable()) Fail(path, name == "/" ? "damaged root group" : "damaged group " + name);
+  record.rate = ReadNumber(group, "rate").value_or(0);
+  record.start = ReadNumber(group, "start").value_or(0);
+  Hdf5Traversal reader(path, record);
+  reader.ReadAttributes(group);
+  reader.ReadGroup(group, "");
+  return record;
+}
+
 }  // namespace
 
 std::mutex& Hdf5Mutex() {
@@ -157,16 +173,11 @@ Record ReadHdf5Group(const std::string& path, const std::string& name) try {
   Record record;
   {
     const Library library;
-    const Handle file = OpenForReading(path);
-    if (name != "/" && H5Lexists(file, name.c_str(), H5P_DEFAULT) <= 0)
-      throw InputError(path + ": no group " + name);
-    const Handle group(H5Gopen2(file, name.c_str(), H5P_DEFAULT), H5Gclose);
-    if (!group.usable()) Fail(path, name == "/" ? "damaged root group" : "damaged group " + name);
-    record.rate = ReadNumber(group, "rate").value_or(0);
-    record.start = ReadNumber(group, "start").value_or(0);
-    Hdf5Traversal reader(path, record);
-    reader.ReadAttributes(group);
-    reader.ReadGroup(group, "");
+    const auto read = [&] { return ReadGroup(path, name); };
+    // HDF5 1.10 believes what an attribute says of its own size and place: a damaged one crashes it.
+    if (!SurvivesInACopy(read))
+      throw InputError(path + ": damaged, HDF5 crashes or does not end when it reads it");
+    record = read();
   }
   FinishRecord(record, path);
   return record;

@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "core/base/read_file.h"
+#include "core/base/trial_copy.h"
 #include "core/record/hdf5.h"
 #include "core/record/mat_library.h"
 #include "core/record/mat_structs.h"
@@ -32,8 +33,8 @@ class MatReader {
  public:
   explicit MatReader(const std::string& path) : path_(path) {}
 
+  /// Under the lock of HDF5, which version 7.3 is.
   Measurement Read() {
-    const std::scoped_lock<std::mutex> lock(Hdf5Mutex());  // v7.3 is HDF5
     const File file(Mat_Open(path_.c_str(), MAT_ACC_RDONLY));
     if (!file) throw InputError(path_ + ": not a MAT file of version 5 or 7.3");
     const std::string bytes = ReadFile(path_);
@@ -180,11 +181,22 @@ class MatReader {
   FrequencyResponses frequency_;
 };
 
+/// The number of the version, in the byte order of its machine, ends the head: 0x0100 is version 5, 0x0200 is HDF5.
+bool IsVersion73(const std::string& head) { return head[124] == 2 || head[125] == 2; }
+
 }  // namespace
 
 Measurement ReadMatMeasurement(const std::string& path) try {
-  if (ReadFile(path, 128).size() < 128) throw InputError(path + ": not a MAT file");
-  Measurement m = MatReader(path).Read();
+  const std::string head = ReadFile(path, 128);
+  if (head.size() < 128) throw InputError(path + ": not a MAT file");
+  const auto read = [&] { return MatReader(path).Read(); };
+  Measurement m;
+  {
+    const std::scoped_lock<std::mutex> lock(Hdf5Mutex());
+    if (IsVersion73(head) && !SurvivesInACopy(read))
+      throw InputError(path + ": damaged, HDF5 crashes or does not end when it reads it");
+    m = read();
+  }
   if (m.frequency.responses.empty()) FinishRecord(m.record, path);
   return m;
 } catch (const std::bad_alloc&) {

@@ -77,7 +77,7 @@ JournalVisitor RunStore::Into(const std::string& path, const std::string& begin)
                       path));
   };
   const auto entry = [this](const JournalEntry& e) {
-    entries_[std::string(e.text)] = {e.offset, e.bytes / sizeof(double), e.bytes > 0};
+    entries_[std::string(e.text)] = {e.offset, e.bytes, e.bytes > 0};
     return true;
   };
   return {header, entry};
@@ -91,19 +91,20 @@ std::optional<bool> RunStore::Find(const RunKey& key, double* out) const {
     if (found == entries_.end()) return std::nullopt;
     entry = found->second;
   }
-  if (entry.fine &&
-      !journal_.ReadData(entry.offset, reinterpret_cast<char*>(out), entry.rows * sizeof(double)))
+  if (!entry.fine) return false;
+  // `out` has room for the rows of the key, whatever stands in the file.
+  if (entry.bytes != key.rows * sizeof(double) ||
+      !journal_.ReadData(entry.offset, reinterpret_cast<char*>(out), entry.bytes))
     return std::nullopt;
-  return entry.fine;
+  return true;
 }
 
 void RunStore::Keep(const RunKey& key, bool fine, const double* rows) {
-  const std::size_t count = fine ? key.rows : 0;
+  const std::size_t bytes = fine ? key.rows * sizeof(double) : 0;
   const std::string text = TextOf(key);
-  const std::size_t offset =
-      journal_.Append(text, {reinterpret_cast<const char*>(rows), count * sizeof(double)});
+  const std::size_t offset = journal_.Append(text, {reinterpret_cast<const char*>(rows), bytes});
   const std::scoped_lock lock(mutex_);
-  entries_[text] = {offset, count, fine};
+  entries_[text] = {offset, bytes, fine};
 }
 
 }  // namespace ambrig

@@ -30,7 +30,7 @@ class RunStore {
   /// @throws InputError
   RunStore(const std::string& folder, const Case& c);
 
-  /// Of a simulation that is there: its rows are written to `out`; false: it lost its rotor.
+  /// Of a simulation that is there, with as many rows as the key has: they are written to `out`; false: it lost its rotor.
   std::optional<bool> Find(const RunKey& key, double* out) const;
   /// Thread-safe. @throws InputError (full disk ...)
   void Keep(const RunKey& key, bool fine, const double* rows);
@@ -40,7 +40,7 @@ class RunStore {
 
  private:
   struct Entry {
-    std::size_t offset = 0, rows = 0;
+    std::size_t offset = 0, bytes = 0;  // of the rows in the file
     bool fine = false;
   };
   RunStore(const std::string& path, const std::string& begin);

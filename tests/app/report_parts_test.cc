@@ -27,6 +27,7 @@ TEST(Format, SiPrefixes) {
   EXPECT_EQ(FormatSi(-1.75e-3, "H"), "-1.75" + kGap + "mH");
   EXPECT_EQ(FormatSi(999.96e-6, "m"), "1" + kGap + "mm");  // rounds over the edge of a prefix
   EXPECT_EQ(FormatSi(0, "V"), "0" + kGap + "V");
+  EXPECT_EQ(FormatSi(1e-310, "s"), "1e-298" + kGap + "ps");  // smaller than a normal double
   EXPECT_EQ(FormatSi(12000, "rpm", 5), "12" + kThin + "000" + kGap + "rpm");
   EXPECT_EQ(FormatSi(std::nan(""), "A"), "–");  // what was not measured has no unit
   EXPECT_EQ(FormatSi(0.5, "-"), "0.5");

@@ -101,6 +101,18 @@ TEST(CampaignCommand, DamagedLinesAreDoneAgain) {
   EXPECT_EQ(f.Read("out/table.csv"), table);
 }
 
+// A row of another version of the program, whole and with its check sum: file and line say where it stands.
+TEST(CampaignCommand, ARowOfOtherCellsIsRefusedWithItsLine) {
+  const CampaignFolder f;
+  ASSERT_EQ(f.Ambrig("campaign c.toml -o out --shard 1/16 --no-report").exit, 0);
+  Journal(f.File("out/journal.txt"), "",
+          {.header = [](std::string_view) {}, .entry = [](const JournalEntry&) { return true; }})
+      .Append("5,levitated,A:1");
+  const Outcome refused = f.Ambrig("campaign c.toml -o out --no-report");
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_EQ(refused.text, "ambrig: out/journal.txt:4: 3 cells, allowed: 39 of a campaign's row\n");
+}
+
 TEST(CampaignCommand, ChangedCampaignOrRigIsRefused) {
   const CampaignFolder f;
   ASSERT_EQ(f.Ambrig("campaign c.toml -o out --shard 1/8 --no-report").exit, 0);

@@ -17,12 +17,9 @@ namespace {
 const std::string kSmall =
     std::string(AMBRIG_SOURCE_DIR) + "/scenarios/studies/detectors_small.toml";
 
-Row MakeRow(std::size_t run, const std::vector<std::string>& cells) {
-  Row row;
-  row.run = run;
-  row.cells = {std::to_string(run)};
-  row.cells.insert(row.cells.end(), cells.begin(), cells.end());
-  return row;
+Row MakeRow(std::size_t run, std::vector<std::string> cells) {
+  cells.insert(cells.begin(), std::to_string(run));
+  return RowOfCells(run, cells);
 }
 
 TEST(DetectorCurves, OfRowsMadeByHand) {
@@ -100,7 +97,7 @@ TEST(DetectorStudy, ABlindDetectorIsRankedLastAndByChanceAlone) {
   const DetectorStudyPlan plan(study);
   Rows rows;
   for (std::size_t run = 0; run < study.runs(); ++run) rows[run] = plan.Simulate(run, nullptr);
-  for (const auto& [run, row] : rows) EXPECT_EQ(row.cells.back(), "") << run;
+  for (const auto& [run, row] : rows) EXPECT_EQ(row.Cells().back(), "") << run;
   const auto curves = CurvesOf(study, rows);
   const auto order = Ranking(curves);
   EXPECT_EQ(curves[order.back()].name, "blind");

@@ -56,9 +56,11 @@ TEST(CountRows, OfNothingAreZero) {
 
 TEST(Rows, ReadBackAsTheyWereWritten) {
   const Row row = Finished(7, "up", "1", "1", "1", "0.0002", "3e-05");
-  const Row again = ParseRow(row.Csv(), "here");
+  const Row again = ParseRow(row.csv, "here");
   EXPECT_EQ(again.run, 7u);
-  EXPECT_EQ(again.cells, row.cells);
+  EXPECT_EQ(again.csv, row.csv);
+  EXPECT_EQ(again.Cells(), row.Cells());
+  EXPECT_EQ(again.Cells().size(), RowColumns().size());
   EXPECT_EQ(again.Number("detection_delay"), 0.0002);
   EXPECT_TRUE(std::isnan(again.Number("load")));
   EXPECT_THROW(again.At("colour"), std::logic_error);
@@ -70,14 +72,16 @@ std::string RefusalOf(const Row& row) {
 
 TEST(Rows, OfOtherCellsAreRefused) {
   const Row good = Finished(7, "up", "1", "1", "1", "0.0002", "3e-05");
-  Row row = good;
-  row.cells.pop_back();
-  EXPECT_EQ(RefusalOf(row), "journal.txt:2: 38 cells, allowed: 39 of a campaign's row");
+  const Row few{7, good.csv.substr(0, good.csv.rfind(','))};
+  EXPECT_EQ(RefusalOf(few), "journal.txt:2: 38 cells, allowed: 39 of a campaign's row");
+  EXPECT_EQ(testing::ErrorText<InputError>([&] { few.At("note"); }),
+            "row of run 7: 38 cells, allowed: 39 of a campaign's row");
   const auto with = [&](const char* column, const char* cell) {
-    Row changed = good;
-    for (std::size_t k = 0; k < changed.cells.size(); ++k)
-      if (RowColumns()[k].starts_with(column)) changed.cells[k] = cell;
-    return RefusalOf(changed);
+    std::vector<std::string> cells;
+    for (const std::string_view c : good.Cells()) cells.emplace_back(c);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (RowColumns()[k].starts_with(column)) cells[k] = cell;
+    return RefusalOf(RowOfCells(7, cells));
   };
   EXPECT_EQ(with("speed", ""), "journal.txt:2: speed = \"\", allowed: a number");
   EXPECT_EQ(with("load [", "1x"), "journal.txt:2: load = \"1x\", allowed: a number");

@@ -1,5 +1,5 @@
-// --engine slurm against a real, private Slurm with two nodes, of which a task, the controller and
-// a node are killed meanwhile. Skipped where Slurm is not installed (tools/setup.sh --tests).
+// --engine slurm against a real, private Slurm with two nodes: the disk is full, then a task, the controller and
+// a node are killed. Skipped where Slurm is not installed (tools/setup.sh --tests).
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -59,11 +59,14 @@ class PrivateSlurm : public ::testing::Test {
   bool started_ = false;
 };
 
-TEST_F(PrivateSlurm, KilledTaskControllerAndNodeLoseNothing) {
+TEST_F(PrivateSlurm, FullDiskAndKilledTaskControllerAndNodeLoseNothing) {
   const std::string source = AMBRIG_SOURCE_DIR;
   const Outcome harm = folder_.In("bash " + source + "/tests/campaign/slurm_harm.sh " +
                                   AMBRIG_BINARY + " " + source + "/tools/private_slurm.sh");
-  EXPECT_EQ(harm.exit, 0) << harm.text << folder_.Read("said.txt");
+  EXPECT_EQ(harm.exit, 0) << harm.text << folder_.Read("full.txt") << folder_.Read("said.txt");
+  EXPECT_NE(harm.text.find("disk full at"), std::string::npos)
+      << harm.text << folder_.Read("full.txt");
+  EXPECT_NE(harm.text.find("disk full for a task"), std::string::npos) << harm.text;
   EXPECT_NE(harm.text.find("task killed"), std::string::npos) << harm.text;
   EXPECT_NE(harm.text.find("controller killed"), std::string::npos) << harm.text;
   EXPECT_NE(harm.text.find("node killed"), std::string::npos) << harm.text;

@@ -9,14 +9,13 @@ namespace ambrig::testing {
 
 /// Row `run` with these cells by the names of their columns, without units; the others are empty.
 inline Row RowOf(std::size_t run, const std::map<std::string, std::string>& cells) {
-  Row row;
-  row.run = run;
+  std::vector<std::string> row;
   for (const std::string& column : RowColumns()) {
     const auto it = cells.find(column.substr(0, column.find(" [")));
-    row.cells.push_back(it == cells.end() ? "" : it->second);
+    row.push_back(it == cells.end() ? "" : it->second);
   }
-  row.cells[0] = std::to_string(run);
-  return row;
+  row[0] = std::to_string(run);
+  return RowOfCells(run, row);
 }
 
 }  // namespace ambrig::testing

@@ -1,6 +1,7 @@
 #include "core/base/journal.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 
@@ -117,6 +118,15 @@ TEST_F(JournalTest, AnotherWorkAndASecondWriterAreRefused) {
 }
 
 // A torn header is begun again; a file of somebody else's, even of one line without an end, is left alone.
+// A pipe waits for its other end for ever.
+TEST_F(JournalTest, IsAFile) {
+  ASSERT_EQ(mkfifo(Path().c_str(), 0600), 0);
+  EXPECT_EQ(testing::ErrorText<InputError>([&] { ReadJournalFile(Path(), {}); }),
+            Path() + ": cannot be read");
+  EXPECT_EQ(testing::ErrorText<InputError>([&] { Journal(Path(), "header", {}); }),
+            "cannot write " + Path() + ": not a regular file");
+}
+
 TEST_F(JournalTest, OnlyATornHeaderIsBegunAgain) {
   for (const std::string& foreign :
        {std::string("mine"), std::string("work 2"), std::string("w o")}) {

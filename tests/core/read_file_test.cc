@@ -2,6 +2,8 @@
 #include "core/base/read_file.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -46,6 +48,22 @@ TEST_F(ReadFileTest, SaysWhyNot) {
   EXPECT_EQ(RefusalOf(path_ + ".not"), path_ + ".not: no such file");
   EXPECT_THAT(RefusalOf(::testing::TempDir()), HasSubstr("is a folder"));
   EXPECT_EQ(RefusalOf("/dev/zero"), "/dev/zero: is a device, allowed: a file");
+}
+
+// Opened, a pipe without a writer waits for one for ever.
+TEST_F(ReadFileTest, RefusesANamedPipe) {
+  const std::string pipe = folder_.File("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(RefusalOf(pipe), pipe + ": is a named pipe, allowed: a file");
+}
+
+TEST_F(ReadFileTest, ReadsAPipeOfTheShell) {
+  int ends[2];
+  ASSERT_EQ(pipe(ends), 0);
+  ASSERT_EQ(write(ends[1], "text", 4), 4);
+  close(ends[1]);
+  EXPECT_EQ(ReadFile("/dev/fd/" + std::to_string(ends[0])), "text");
+  close(ends[0]);
 }
 
 TEST(Beside, IsRelativeToTheFolderOfTheFile) {

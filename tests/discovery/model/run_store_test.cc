@@ -111,6 +111,33 @@ TEST_F(RunStoreTest, AnEntryThatWasCutOffIsDoneAgain) {
   EXPECT_EQ(again.runs, 1);
 }
 
+// Its check sum fits, but the rows that are asked for are more (or fewer, and there is no room for the others).
+TEST_F(RunStoreTest, AnEntryOfAnotherLengthIsDoneAgain) {
+  const Case c = Read();
+  CaseModel model(c), again(c);
+  std::vector<std::optional<std::vector<double>>> wanted;
+  {
+    RunStore store(Store(), c);
+    model.store = &store;
+    wanted = model.PredictAll(Hypotheses(c));
+  }
+  {
+    std::string text;
+    const auto keep = [&text](const JournalEntry& e) {
+      text = e.text;
+      return true;
+    };
+    Journal journal((fs::path(Store()) / "simulations.bin").string(), "",
+                    {.header = [](std::string_view) {}, .entry = keep});
+    journal.Append(text, "8 bytes.");
+  }
+  RunStore store(Store(), c);
+  EXPECT_EQ(store.size(), 4U);
+  again.store = &store;
+  EXPECT_EQ(again.PredictAll(Hypotheses(c)), wanted);
+  EXPECT_EQ(again.runs, 1);
+}
+
 TEST_F(RunStoreTest, RefusesAnotherCaseAndASecondUser) {
   { RunStore store(Store(), Read()); }
   Write("case.toml", CaseText("0.002"));
