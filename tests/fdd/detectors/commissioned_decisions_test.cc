@@ -212,13 +212,15 @@ TEST(CommissionedDecisions, AClosedLoopLooksLikeALargerShort) {
 /// A detector that knows the bench's stator, and what it sees next.
 class LearntBench {
  public:
-  LearntBench() {
+  /// `beyond`: coils whose flux is beyond what was learnt.
+  explicit LearntBench(const std::vector<int>& beyond = {}) {
     bench.noise = 0.004;
     bench.x0 = bench.y0 = 0;
     const CoilDetectorSetup setup = testing_bench::SetupOf(bench);
     CommissionedBearing learnt = NominalBearing("A", setup.model);
     learnt.learnt = true;
     for (double& v : learnt.largest_flux.v) v = 1e9;
+    for (const int coil : beyond) learnt.largest_flux[coil] = 0.1;
     detector = std::make_unique<CommissionedDetector>(setup, learnt);
   }
   void Short(int coil, double share) { bench.lanes.ShortTurns(coil, share, kInfinity, 0, 0); }
@@ -262,6 +264,23 @@ TEST(CommissionedDecisions, ASmallShortIsNamedTogetherWithALargeOne) {
   for (const auto& [coil, share] : {std::pair{1, 0.5}, {4, 0.2}}) {
     EXPECT_EQ(of[coil].cls, FaultClass::kPartialShort) << coil;
     EXPECT_NEAR(of[coil].fraction, share, 0.05) << coil;
+  }
+}
+
+// Iron that bends in one or two poles leaves no more than a third to the c of the others: those are
+// judged where their own flux is within what was learnt, and a coil beyond it only by a larger c.
+TEST(CommissionedDecisions, CoilsInsideTheirRangeAreJudgedBesideThoseBeyond) {
+  for (const std::vector<int>& beyond : {std::vector{1}, {1, 2}, {4}, {1, 2, 6}}) {
+    LearntBench b(beyond);
+    b.First(60);
+    b.Short(4, 0.4);
+    const auto seen = b.First(30);
+    const bool judged = beyond.size() < 3 && beyond[0] != 4;
+    ASSERT_EQ(seen.decided, judged) << fmt::format("{}", fmt::join(beyond, ","));
+    if (!judged) continue;
+    EXPECT_EQ(seen.diagnosis.coil, 4);
+    EXPECT_NEAR(seen.diagnosis.fraction, 0.4, 0.05);
+    EXPECT_TRUE(seen.more.empty());
   }
 }
 
