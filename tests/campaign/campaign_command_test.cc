@@ -175,6 +175,11 @@ TEST(CampaignCommand, SmallSurvivalCampaign) {
                              " load " + row.At("load_given");
     EXPECT_NE(row.At("verdict"), "error") << what << row.At("note");
     EXPECT_EQ(row.Number("false_alarms"), 0) << what;
+    // What drops is what theory says cannot be carried.
+    EXPECT_EQ(row.At("reason"), row.At("verdict") == "up" ? "" : "load not carried") << what;
+    if (row.Number("margin") >= 1.3) {
+      EXPECT_EQ(row.At("verdict"), "up") << what;
+    }
     if (row.At("kind") != "open") continue;
     if (row.Number("capacity") > 30) {
       EXPECT_EQ(row.At("verdict"), "up") << what;
