@@ -57,10 +57,11 @@ RowCounts CountRows(const Rows& rows) {
       continue;
     }
     (verdict == "up" ? n.up : verdict == "touchdown" ? n.touchdown : n.drop) += 1;
-    const auto failed = static_cast<std::size_t>(row.Number("failed"));
-    n.faults += failed;
-    n.undetected += failed - static_cast<std::size_t>(row.Number("detected"));
-    n.wrong_class += failed - static_cast<std::size_t>(row.Number("right_class"));
+    const auto judged = static_cast<std::size_t>(row.Number("judged"));
+    n.faults += judged;
+    n.undetected += judged - static_cast<std::size_t>(row.Number("detected"));
+    n.wrong_class += judged - static_cast<std::size_t>(row.Number("right_class"));
+    if (!row.At("reason").empty()) ++n.reasons[row.At("reason")];
     n.false_alarms += row.Number("false_alarms");
     n.coil_periods += row.Number("coil_periods");
     if (!row.At("detection_delay").empty())

@@ -27,7 +27,7 @@ bool Harmed(const Row& r) {
 void AddFault(const Row& r, FaultsOnPlants* f) {
   ++f->runs;
   f->blamed += r.Number("false_actions") > 0;
-  f->found += r.Number("detected") >= r.Number("failed");
+  f->found += r.Number("detected") >= r.Number("judged");
   f->lost += r.At("verdict") != "up";
   f->lost_alone += !r.At("verdict_without").empty() && r.At("verdict_without") != "up";
   if (!r.At("detection_delay").empty()) f->delay.push_back(r.Number("detection_delay"));

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "campaign/drop_reason.h"
 #include "core/base/counted.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "simulation/simulate.h"
@@ -51,6 +52,7 @@ std::vector<std::string> Conditions(const RunPlan& plan, const PlannedRun& p) {
           NumberText(c.loads[p.at.load]),
           NumberText(p.load),
           NumberText(p.theory.capacity),
+          p.margin ? NumberText(*p.margin) : "",
           NumberText(c.positions[p.at.position]),
           std::to_string(p.at.draw),
           std::to_string(p.scenario.seed),
@@ -66,17 +68,7 @@ const char* Verdict(const RunResult& r) {
   return r.drop ? "drop" : r.touchdown ? "touchdown" : "up";
 }
 
-/// Actions of fault tolerance on coils that have no fault at that time.
-std::size_t FalseActions(const PlannedRun& p, const RunResult& r) {
-  return static_cast<std::size_t>(std::ranges::count_if(r.actions, [&](const CoilAction& a) {
-    return (a.action == "disable" || a.action == "derate") &&
-           std::ranges::none_of(p.scenario.faults, [&](const FaultSpec& f) {
-             return f.target == a.coil && f.time <= a.t;
-           });
-  }));
-}
-
-std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r,
+std::vector<std::string> Outcome(const RunPlan& plan, const PlannedRun& p, const RunResult& r,
                                  const RunResult* without) {
   const RunMetrics& m = r.metrics;
   const DetectionScore score = ScoreDetection(p.scenario.faults, r.events);
@@ -84,6 +76,7 @@ std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r,
                       std::isfinite(m.peak_current);
   if (!finite) throw std::runtime_error("the run is not finite");
   return {Verdict(r),
+          std::to_string(score.judged()),
           std::to_string(score.detected()),
           std::to_string(score.right_class()),
           Optional(m.detection_delay),
@@ -97,18 +90,20 @@ std::vector<std::string> Outcome(const PlannedRun& p, const RunResult& r,
           NumberText(m.longest_contact),
           NumberText(m.peak_current),
           NumberText(m.copper_loss),
-          std::to_string(FalseActions(p, r)),
+          std::to_string(std::ranges::count_if(
+              r.actions, [&](const CoilAction& a) { return IsFalseAction(p.scenario, a); })),
           std::to_string(std::ranges::count(r.actions, "restore", &CoilAction::action)),
           r.doubtful ? "yes" : "no",
           without ? Verdict(*without) : "",
           without ? NumberText(LargestOrbit(p, *without)) : "",
+          DropReason(plan, p, r),
           ""};
 }
 
 /// The columns of words; in every other one stands a number or nothing.
-constexpr std::string_view kWords[] = {"scenario", "set",      "class", "kind",
-                                       "onset",    "effect",   "plant", "commissioned",
-                                       "verdict",  "doubtful", "note",  "verdict_without"};
+constexpr std::string_view kWords[] = {
+    "scenario",     "set",     "class",    "kind", "onset",           "effect", "plant",
+    "commissioned", "verdict", "doubtful", "note", "verdict_without", "reason"};
 
 std::optional<double> NumberIn(std::string_view cell) {
   double v = 0;
@@ -153,6 +148,7 @@ const std::vector<std::string>& RowColumns() {
                                                 "load_given",
                                                 "load [N]",
                                                 "capacity [N]",
+                                                "margin",
                                                 "position",
                                                 "draw",
                                                 "seed",
@@ -161,6 +157,7 @@ const std::vector<std::string>& RowColumns() {
                                                 "spread [sd]",
                                                 "commissioned",
                                                 "verdict",
+                                                "judged",
                                                 "detected",
                                                 "right_class",
                                                 "detection_delay [s]",
@@ -179,6 +176,7 @@ const std::vector<std::string>& RowColumns() {
                                                 "doubtful",
                                                 "verdict_without",
                                                 "orbit_without [m]",
+                                                "reason",
                                                 "note"};
   return columns;
 }
@@ -243,7 +241,7 @@ void CheckRow(const Row& row, const std::string& where) {
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const std::string& column = columns[k];
     if (std::ranges::count(kWords, column) > 0) continue;
-    const bool outcome = column == "detected" || column == "right_class";
+    const bool outcome = column == "judged" || column == "detected" || column == "right_class";
     const bool count = outcome || column == "failed";
     const bool needed = column == "speed" || column == "failed" || (outcome && ended);
     const std::optional<double> v = NumberIn(cells[k]);
@@ -268,7 +266,7 @@ Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* s
       plain.fault_tolerant = false;
       without = Simulate(p.rig, plain, options);
     }
-    const auto outcome = Outcome(p, result, plan.campaign().without ? &without : nullptr);
+    const auto outcome = Outcome(plan, p, result, plan.campaign().without ? &without : nullptr);
     cells.insert(cells.end(), outcome.begin(), outcome.end());
   } catch (const Interrupted&) {
     throw;

@@ -5,7 +5,9 @@
 
 #include "core/math/constants.h"
 #include "faulttolerance/redistribution/redistribution_setup.h"
+#include "faulttolerance/supervision/failure_map.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/nominal_control.h"
 #include "rig/rig_assembly.h"
 #include "scenarios/faults/fault.h"
 
@@ -18,12 +20,22 @@ constexpr int kLoadSteps = 12;
 constexpr double kLoadFirst = -0.23, kLoadLast = -0.07;  // [s], within the warm-up of 0.25 s
 constexpr double kPositionReached = 0.75;                // of the time up to the fault
 
+std::string CoilName(const std::string& bearing, int coil) {
+  return bearing + ".coil" + std::to_string(coil);
+}
+
 /// Turns of a coil that the controller can still use after the fault. [-]
 double TurnsLeft(const CampaignFaultKind& k) {
   const Fault& fault = FaultByKind(k.kind);
   FaultSpec spec;
   spec.parameters = k.parameters;
   return fault.turns_left ? fault.turns_left(spec) : 0;
+}
+
+CoilVector TurnsLeft(const FailureSet& set, const CampaignFaultKind& kind) {
+  CoilVector turns = CoilVector::Ones();
+  for (const int coil : set.coils) turns[coil - 1] = TurnsLeft(kind);
+  return turns;
 }
 
 }  // namespace
@@ -60,14 +72,34 @@ SetCapacity RunPlan::Theory(const FailureSet& set, const CampaignFaultKind& kind
   const double most = PidOf(campaign_.rig, b).f_max;
   const auto table = tables_.find(set.bearing);
   if (table == tables_.end()) return {"healthy", most};
-  CoilVector turns = CoilVector::Ones();
-  for (const int coil : set.coils) turns[coil - 1] = TurnsLeft(kind);
-  const Distribution d = table->second->Lookup(turns);
+  const Distribution d = table->second->Lookup(TurnsLeft(set, kind));
   const double c0 = BiasCurrent(campaign_.rig, b), k = ForceConstant(b);
   SetCapacity out;
   out.cls = set.coils.empty() ? "healthy" : ToText(d.cls);
   out.capacity = d.cls == SolvabilityClass::kNone ? 0 : std::min(most, k * c0 * c0 * d.rho);
   return out;
+}
+
+std::optional<double> RunPlan::MarginAt(const PlannedRun& p, double t) const {
+  const auto table = tables_.find(p.bearing);
+  if (table == tables_.end()) return {};
+  const FaultCase& fault = campaign_.cases[p.at.fault];
+  FailureSet failed = campaign_.sets[fault.set];
+  std::erase_if(failed.coils, [&](int coil) {
+    return std::ranges::none_of(p.scenario.faults, [&](const FaultSpec& f) {
+      return f.target == CoilName(p.bearing, coil) && f.time < t;
+    });
+  });
+  const BearingParameters& b = *campaign_.rig.Find(p.bearing);
+  const auto index = static_cast<std::size_t>(&b - campaign_.rig.bearings.data());
+  const auto weight = WeightShares(campaign_.rig)[index];
+  const Eigen::Vector2d load(weight[0] - p.load * std::cos(campaign_.load_angle),
+                             weight[1] - p.load * std::sin(campaign_.load_angle));
+  CurrentMap map = MakeBearingControl(NominalRig(campaign_.rig), index).map;
+  RedistributionProblem left = table->second->problem();
+  left.turns_left = TurnsLeft(failed, campaign_.kinds[fault.kind]);
+  MapAfterFailure(*table->second, left.turns_left, load, {}, &map);
+  return MarginOfMap(left, map, load, PidOf(campaign_.rig, b).f_max);
 }
 
 void RunPlan::AddFaults(const RunIndex& at, Scenario& s) const {
@@ -78,7 +110,7 @@ void RunPlan::AddFaults(const RunIndex& at, Scenario& s) const {
   for (const int coil : set.coils) {
     FaultSpec f;
     f.time = t;
-    f.target = set.bearing + ".coil" + std::to_string(coil);
+    f.target = CoilName(set.bearing, coil);
     f.kind = kind.kind;
     f.parameters = kind.parameters;
     s.faults.push_back(f);
@@ -173,6 +205,7 @@ PlannedRun RunPlan::Make(std::size_t run) const {
   AddFaults(p.at, p.scenario);
   AddLoad(p);
   AddPosition(p);
+  p.margin = MarginAt(p, kInfinity);
   return p;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 /// Run k of a campaign: which case, under which conditions, and the rig and scenario to simulate.
 /// Any run can be made by its number alone, in any order, on any machine.
+#include <optional>
+
 #include "campaign/campaign_file.h"
 #include "campaign/commissioned_plants.h"
 #include "faulttolerance/redistribution/redistribution_table.h"
@@ -30,6 +32,7 @@ struct PlannedRun {
   SetCapacity theory;
   double speed = 0;                      // at the fault [rad/s]
   double load = 0;                       // added to the weight [N]
+  std::optional<double> margin;          // when all its faults are there, see RunPlan::MarginAt
   const CampaignPlant* plant = nullptr;  // of the campaign's [plants]
 };
 
@@ -41,6 +44,9 @@ class RunPlan {
   const Campaign& campaign() const { return campaign_; }
   /// Thread-safe. @throws std::logic_error for run >= campaign().runs().
   PlannedRun Make(std::size_t run) const;
+  /// Largest multiple of load and weight that the map of the coils left at t pulls, at the centre, at rest
+  /// (failure_map.h); none: coils that no map is made for.
+  std::optional<double> MarginAt(const PlannedRun& p, double t) const;
 
  private:
   SetCapacity Theory(const FailureSet& set, const CampaignFaultKind& kind) const;

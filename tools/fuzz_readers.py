@@ -43,8 +43,8 @@ SEEDS = {
 TEXTS = {
     "formula": ["2 * x + sin(v) / (1 + i^2)", "x > 0 ? x : -x", "abs(min(x, v)) * exp(-i)"],
     "journal": ['{"work":"campaign"}\n{"run":1,"row":"1,up"}\n{"run":2}\n'],
-    "campaign_row": ["0,s,A:1,1,exact,open,simultaneous,0.001,157.08,0,0,51.9,0,0,1135186513210162,,,,,up,1,1,0.00012,0.00012,0,1500,"
-                     "4e-06,4e-06,4e-06,0.0002,0,4.4,40.4,0,0,yes,,,"],
+    "campaign_row": ["0,s,A:1,1,exact,open,simultaneous,0.001,157.08,0,0,51.9,2.8,0,0,1135186513210162,,,,,up,1,1,1,0.00012,0.00012,0,1500,"
+                     "4e-06,4e-06,4e-06,0.0002,0,4.4,40.4,0,0,yes,,,,"],
     "fmu_description": ['<?xml version="1.0"?><fmiModelDescription fmiVersion="2.0" guid="{1}"><CoSimulation modelIdentifier="pid"/>'
                         '<ModelVariables><ScalarVariable name="x" valueReference="1" causality="input"><Real/></ScalarVariable>'
                         "</ModelVariables></fmiModelDescription>"],

@@ -75,6 +75,11 @@ void AddCommission(CLI::App& app, Work& work) {
   command->add_option("--current", c->plan.current, "amplitude of a coil's three tones, each [A]")
       ->check(NumberIn(0, 100, "A"))
       ->capture_default_str();
+  command
+      ->add_option("--potential", c->plan.potential,
+                   "amplitude of the rotor potential's chirp over the bias current")
+      ->check(NumberIn(0, 0.5, "of one"))
+      ->capture_default_str();
   command->add_option("--circle", c->plan.circle, "radius of the small whirl over the clearance")
       ->check(NumberIn(0, 0.9, "of one"))
       ->capture_default_str();

@@ -79,6 +79,14 @@ void SurvivalMaps(HtmlReport& report, const Rows& rows) {
     }
 }
 
+void Reasons(HtmlReport& report, const RowCounts& n) {
+  report.Heading("Why rotors touched down or dropped");
+  std::vector<std::vector<Cell>> table;
+  for (const auto& [reason, runs] : n.reasons)
+    table.push_back({Cell(reason), Cell(std::to_string(runs))});
+  report.Table({"reason", "runs"}, table);
+}
+
 void Delays(HtmlReport& report, const Rows& rows) {
   std::map<std::string, std::vector<double>> by_kind;
   for (const auto& [run, row] : rows)
@@ -209,6 +217,7 @@ void WriteCampaignReport(const JournalHeader& header, const Rows& rows, const st
        {"worst detection delay", n.worst_delay > 0 ? FormatSi(n.worst_delay, "s") : "–"},
        {"false alarms", FalseAlarmText(n.false_alarms, n.coil_periods)},
        {"largest orbit of runs that stayed up", n.up > 0 ? FormatSi(n.largest_orbit, "m") : "–"}});
+  if (!n.reasons.empty()) Reasons(report, n);
   if (!rows.empty()) {
     SurvivalMaps(report, rows);
     Delays(report, rows);

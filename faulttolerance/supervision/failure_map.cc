@@ -53,6 +53,11 @@ double Along(Pull pull, const Eigen::Vector2d& load, const Eigen::Vector2d& dire
   }
 }
 
+double MarginAlong(const Pull& at_load, const Eigen::Vector2d& load, double most) {
+  if (!(load.norm() > 0)) return 0;
+  return std::min(kMostMargin, 1 + Along(at_load, load, load.normalized(), most) / load.norm());
+}
+
 }  // namespace
 
 std::string MapAfterFailure(const RedistributionTable& table, const CoilVector& turns_left,
@@ -95,10 +100,15 @@ MapReach ReachOfMap(const RedistributionProblem& left, const CurrentMap& map,
     out.worst = out.radius[k];
     out.worst_direction = k;
   }
-  if (load.norm() > 0)
-    out.margin =
-        std::min(kMostMargin, 1 + Along(at_load, load, load.normalized(), most) / load.norm());
+  out.margin = MarginAlong(at_load, load, most);
   return out;
+}
+
+double MarginOfMap(const RedistributionProblem& left, const CurrentMap& map,
+                   const Eigen::Vector2d& load, double most) {
+  const Pull at_load(left, map, load);
+  Pull first = at_load;
+  return Within(load, most) && first.Gives(load) ? MarginAlong(at_load, load, most) : 0;
 }
 
 }  // namespace ambrig

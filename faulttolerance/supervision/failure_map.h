@@ -33,5 +33,8 @@ struct MapReach {
 /// larger, per axis [N].
 MapReach ReachOfMap(const RedistributionProblem& left, const CurrentMap& map,
                     const Eigen::Vector2d& load, double most);
+/// Its margin alone; 0 where the load is not carried, or is none.
+double MarginOfMap(const RedistributionProblem& left, const CurrentMap& map,
+                   const Eigen::Vector2d& load, double most);
 
 }  // namespace ambrig

@@ -72,10 +72,19 @@ void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
   touching_ = in.uncertainty.any();
   if (touching_) touched_ = in.t;
   bounces_ = in.t < touched_ + kBounces;
-  out_of_range_ = false;
-  for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j)
-    out_of_range_ =
-        out_of_range_ || (share_[j] > 0 && period_.largest_flux[j] > model_.largest_flux[j]);
+  // Iron that takes less flux than its model leaves the rest to all other poles: from two of eight their
+  // c is a third at most.
+  Lane beyond;
+  int many = 0;
+  for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j) {
+    beyond[j] = share_[j] > 0 && period_.largest_flux[j] > model_.largest_flux[j];
+    many += beyond[j] > 0;
+  }
+  out_of_range_ = many > 0;
+  for (int j = 0; j < kLanes; ++j)
+    gross_above_[j] = many == 0                               ? kGross
+                      : beyond[j] > 0 || many >= kCoilsAtOnce ? kGrossAbove
+                                                              : kGrossBeside;
 }
 
 bool CommissionedDetector::Disturbed() const {
@@ -100,7 +109,8 @@ int CommissionedDetector::GrossCoils() const {
 }
 
 bool CommissionedDetector::Decided(int coil, double excess) const {
-  const bool gross = excess < -kGross || excess > kGrossAbove;
+  const bool gross =
+      excess < -kGross || excess > (out_of_range_ ? gross_above_[coil] : kGrossAbove);
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil) || HasNoCurrent(coil);
   // Without a model of this machine, what a rotor that bounces does to the currents is not known.

@@ -11,10 +11,11 @@
 /// Where c is gross, the shares of the turns of all coils are solved for together
 /// (joint_turns.h): several coils that fail at one instant move the c of each other and of healthy
 /// neighbours. All coils that have lost turns by that solution, and all without current, are
-/// blamed at once.
+/// blamed at once, unless what healthy running leaves of c could make up the loss.
 ///
 /// Only gross values count in a period in which a phase starts at zero current, the shaft may be
-/// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2).
+/// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2; of coils
+/// that stay inside while no more than two leave it c > 1).
 ///
 /// Doubtful: not commissioned, grade too bad, outside the range, three coils beyond their bands at
 /// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
@@ -92,7 +93,9 @@ class CommissionedDetector : public CoilDetector {
  private:
   static constexpr std::size_t kInARow = 3;  // periods
   static constexpr double kGross = 0.5;      // |c|
-  static constexpr double kGrossAbove = 2;   // c, outside the commissioned range
+  static constexpr double kGrossAbove = 2;   // c, of a coil outside the commissioned range
+  static constexpr double kGrossBeside =
+      1;  // c, of a coil inside while one or two others are outside
   static constexpr double kCompanion = 0.5;  // of the largest |c|: a fault of its own
   static constexpr int kCoilsAtOnce = 3;     // that stand out: the model's fault
   static constexpr double kNoiseOfBand = 6;  // a window's noise is below its band over this
@@ -122,6 +125,9 @@ class CommissionedDetector : public CoilDetector {
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.
   bool JudgedTogether(const MeasuredPeriod& in, Outcome* out) const;
+  /// Share of the turns that a coil must have lost to be one of several that failed; `per_excess` of
+  /// JointShares.
+  double LeastLost(int coil, double per_excess) const;
   std::vector<Diagnosis> CoilsWithoutCurrent(double t) const;
   /// Its reading is zero although the bridge drives.
   bool HasNoCurrent(int coil) const;
@@ -148,6 +154,7 @@ class CommissionedDetector : public CoilDetector {
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kInARow> recent_;
   bool out_of_range_ = false, touching_ = false;
+  Lane gross_above_;             // c > 0 that is gross, of this period
   double touched_ = -kInfinity;  // start of the last period that touched [s]
   bool bounces_ = false;         // that was not long ago
   double wider_ = 1;             // of the bands, since coils were given up or lost turns

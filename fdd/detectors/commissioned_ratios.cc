@@ -16,8 +16,9 @@ constexpr int kLevelWindow = 2;     // over which coils are compared: ten period
 constexpr double kLeastBelow = 0.08;
 
 struct PeriodLimits {
-  double gross, gross_above;  // of |c|, of c > 0
-  bool apart;                 // all coils: only gross values count in this period
+  double gross;        // of |c|
+  Lane above;          // of c > 0
+  bool apart = false;  // all coils: only gross values count in this period
 };
 
 /// What one period says by itself.
@@ -28,7 +29,7 @@ AMBRIG_WIDE void JudgePeriod(const SlopeExcess& e, const PeriodLimits& limits, L
                    b = Load(e.bottom[0].v) + Load(e.bottom[1].v);
   const auto seen = Below(kJudgedWeight, b);
   const LaneVector c = Only(seen, a / Select(seen, b, one)), size = Abs(c);
-  const auto gross = Below(Select(c > zero, limits.gross_above, limits.gross), size);
+  const auto gross = Below(Select(c > zero, Load(limits.above.v), limits.gross), size);
   Store(top->v, a);
   Store(bottom->v, b);
   Store(now->v, c);
@@ -83,8 +84,7 @@ void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
 int CommissionedDetector::Ratios() {
   const int coils = filter_.nominal().coils;
   const auto place = static_cast<std::size_t>(count_ % static_cast<long long>(kInARow));
-  const PeriodLimits limits{kGross, out_of_range_ ? kGrossAbove : kGross,
-                            touching_ || out_of_range_};
+  const PeriodLimits limits{kGross, gross_above_, touching_ || out_of_range_};
   JudgePeriod(excess_, limits, &recent_[place].top, &recent_[place].bottom, &now_, &ratio_, &level_,
               &apart_);
   // What a model does not express keeps flux out in many coils: those are not the suspects.

@@ -14,6 +14,7 @@ constexpr int kMissedTwice = 2;        // periods in a row
 constexpr double kMostRegained = 0.9;  // |c|
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
 constexpr double kLeastLost = 0.1;  // of the turns, for coils that fail at once
+constexpr int kWindowOfJoint = 1;   // of three periods: what healthy running leaves in as many
 
 }  // namespace
 
@@ -51,6 +52,15 @@ std::vector<Diagnosis> CommissionedDetector::CoilsWithoutCurrent(double t) const
   return out;
 }
 
+double CommissionedDetector::LeastLost(int coil, double per_excess) const {
+  // No phase that starts at zero current was learnt from either.
+  const double c = excess_.gross[coil] > 0 ? kGrossAbove : out_of_range_ ? gross_above_[coil] : 0;
+  const double gross = c > 0 ? 1 - 1 / std::sqrt(1 + c) : kLeastLost;
+  const Lane& healthy = model_.largest[kWindowOfJoint];
+  const double error = *std::max_element(healthy.v, healthy.v + filter_.nominal().coils);
+  return std::max(gross, kBandOverHealthy * error * per_excess);
+}
+
 bool CommissionedDetector::JudgedTogether(const MeasuredPeriod& in, Outcome* out) const {
   if (!Relies() || !(LargestNow() > kGross)) return false;
   const int coils = filter_.nominal().coils;
@@ -64,11 +74,10 @@ bool CommissionedDetector::JudgedTogether(const MeasuredPeriod& in, Outcome* out
   if (others) {
     const auto shares = joint_.Solve(filter_, model_.coils, settings_, share_, dead);
     if (!shares) return false;
-    const double least = out_of_range_ ? 1 - 1 / std::sqrt(1 + kGrossAbove) : kLeastLost;
     for (int j = 0; j < coils; ++j) {
-      if (share_[j] == 0 || dead[j] > 0 || !(1 - (*shares)[j] / share_[j] > least)) continue;
-      const double left = (*shares)[j] / share_[j];
-      failed.push_back(Classify(j, 1 / (left * left) - 1, in.t));
+      const double left = shares->left[j] / share_[j];
+      if (share_[j] > 0 && dead[j] == 0 && 1 - left > LeastLost(j, shares->per_excess[j]))
+        failed.push_back(Classify(j, 1 / (left * left) - 1, in.t));
     }
   }
   if (failed.empty()) return false;

@@ -69,12 +69,11 @@ double Largest(const Excess& e, const std::vector<int>& unknown) {
   return most;
 }
 
-/// Newton's step of the shares from `share`, where the excess is `now`.
-Eigen::VectorXd Step(Trial& trial, const Lane& share, const Excess& now,
-                     const std::vector<int>& unknown) {
+/// How the excess of the unknown coils changes with their shares, at `share`, where it is `now`.
+Eigen::MatrixXd SlopeOf(Trial& trial, const Lane& share, const Excess& now,
+                        const std::vector<int>& unknown) {
   const auto n = static_cast<Eigen::Index>(unknown.size());
   Eigen::MatrixXd slope(n, n);
-  Eigen::VectorXd c(n);
   for (Eigen::Index col = 0; col < n; ++col) {
     Lane moved = share;
     moved[unknown[static_cast<std::size_t>(col)]] += kProbe;
@@ -83,9 +82,17 @@ Eigen::VectorXd Step(Trial& trial, const Lane& share, const Excess& now,
       const int j = unknown[static_cast<std::size_t>(row)];
       slope(row, col) = (there.of(j) - now.of(j)) / kProbe;
     }
-    c[col] = now.of(unknown[static_cast<std::size_t>(col)]);
   }
-  return slope.partialPivLu().solve(-c);
+  return slope;
+}
+
+/// Newton's step of the shares from `share`, where the excess is `now`.
+Eigen::VectorXd Step(Trial& trial, const Lane& share, const Excess& now,
+                     const std::vector<int>& unknown) {
+  Eigen::VectorXd c(static_cast<Eigen::Index>(unknown.size()));
+  for (std::size_t k = 0; k < unknown.size(); ++k)
+    c[static_cast<Eigen::Index>(k)] = now.of(unknown[k]);
+  return SlopeOf(trial, share, now, unknown).partialPivLu().solve(-c);
 }
 
 }  // namespace
@@ -97,9 +104,9 @@ void JointTurns::Keep(const MeasuredPeriod& in, int samples, const FluxFilter::S
   before_[place] = before;
 }
 
-std::optional<Lane> JointTurns::Solve(const FluxFilter& filter, const CoilEquations& coils,
-                                      const ExcessSettings& settings, const Lane& believed,
-                                      const Lane& dead) const {
+std::optional<JointShares> JointTurns::Solve(const FluxFilter& filter, const CoilEquations& coils,
+                                             const ExcessSettings& settings, const Lane& believed,
+                                             const Lane& dead) const {
   if (count_ < kKept) return {};
   Trial trial{filter, &coils, &settings, Lane{}, {}, {}};
   for (int k = 0; k < kKept; ++k) {
@@ -133,7 +140,12 @@ std::optional<Lane> JointTurns::Solve(const FluxFilter& filter, const CoilEquati
   for (int j : unknown)
     if (share[j] > kNoMore * believed[j]) return {};
   if (!Explains(now, unknown)) return {};
-  return share;
+  JointShares found{share, Lane{}};
+  const Eigen::MatrixXd inverse = SlopeOf(trial, share, now, unknown).inverse();
+  for (std::size_t k = 0; k < unknown.size(); ++k)
+    found.per_excess[unknown[k]] =
+        inverse.row(static_cast<Eigen::Index>(k)).cwiseAbs().sum() / believed[unknown[k]];
+  return found;
 }
 
 }  // namespace ambrig

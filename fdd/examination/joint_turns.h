@@ -21,6 +21,14 @@
 
 namespace ambrig {
 
+struct JointShares {
+  Lane left;  // of the turns of every coil [-]
+  /// How far an error of 1 in the c of every coil may move the share, relative to the turns believed [-]. Coils of
+  /// one polarity that have lost turns move the rotor's potential, and the shares of all others hang on that
+  /// potential alone: half a share of a single coil becomes three shares.
+  Lane per_excess;
+};
+
 class JointTurns {
  public:
   /// Periods kept: the first one holds the onset and only sets the circuit's state.
@@ -33,9 +41,9 @@ class JointTurns {
 
   /// Shares of the turns that the last periods ask for. `filter`: of the bearing, with the turns
   /// that are believed; `believed`: those turns, 0: not judged; `dead`: coils without current, as 1.
-  std::optional<Lane> Solve(const FluxFilter& filter, const CoilEquations& coils,
-                            const ExcessSettings& settings, const Lane& believed,
-                            const Lane& dead) const;
+  std::optional<JointShares> Solve(const FluxFilter& filter, const CoilEquations& coils,
+                                   const ExcessSettings& settings, const Lane& believed,
+                                   const Lane& dead) const;
 
  private:
   std::array<KeptPeriod, kKept> period_;

@@ -14,9 +14,10 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLowestTone = 60, kHighestTone = 2000;  // [Hz]
-constexpr double kCircleTurns = 3, kFastestCircle = 25;  // of the reference; [Hz]
-constexpr double kFirstChirp = 20, kLastChirp = 600;     // [Hz]
+constexpr double kLowestTone = 60, kHighestTone = 2000;           // [Hz]
+constexpr double kFirstPotential = 0.025, kLastPotential = 0.06;  // of the switching frequency
+constexpr double kCircleTurns = 3, kFastestCircle = 25;           // of the reference; [Hz]
+constexpr double kFirstChirp = 20, kLastChirp = 600;              // [Hz]
 constexpr double kThrustShare = 0.4;  // of f_max: its negative stiffness is the larger one
 
 Excitation Signal(const std::string& target, const std::string& port, const std::string& kind,
@@ -48,6 +49,24 @@ void AddTones(const RigParameters& rig, const CommissioningPlan& plan, Scenario*
       }
       s->excitations.push_back(e);
     }
+}
+
+/// Currents that move the potential of a floating rotor and nothing else: s_j i_j of all coils alike, no
+/// flux, no force. Only they tell leakage past the rotor from fringing into it.
+void AddPotentialChirp(const RigParameters& rig, const CommissioningPlan& plan, Scenario* s) {
+  for (const BearingParameters& b : rig.bearings) {
+    const StatorGeometry stator = b.kind->stator(b);
+    if (stator.coupling != Coupling::kFloatingRotor) continue;
+    const double amplitude = plan.potential * BiasCurrent(rig, b);
+    for (int j = 0; j < b.coils(); ++j) {
+      Excitation e =
+          Signal(fmt::format("{}.coil{}", b.name, j + 1), "current", "chirp", 0.15 * plan.duration,
+                 0.6 * plan.duration, stator.n[j] < 0 ? -amplitude : amplitude);
+      e.f0 = kFirstPotential * rig.amplifier.switching_frequency;
+      e.f1 = kLastPotential * rig.amplifier.switching_frequency;
+      s->excitations.push_back(e);
+    }
+  }
 }
 
 void AddCircles(const RigParameters& rig, const CommissioningPlan& plan, Scenario* s) {
@@ -118,6 +137,7 @@ Scenario CommissioningScenario(const RigParameters& rig, const CommissioningPlan
   s.start = StartState::kLevitated;
   s.speed = SpeedProfile({{0.0, 0.0}, {0.55 * plan.duration, 0.0}, {plan.duration, plan.speed}});
   AddTones(rig, plan, &s);
+  AddPotentialChirp(rig, plan, &s);
   AddCircles(rig, plan, &s);
   AddForces(rig, plan, &s);
   return s;

@@ -8,8 +8,10 @@ namespace ambrig {
 
 namespace {
 
-FaultScore ScoreOf(const FaultSpec& fault, const std::vector<RunEvent>& events) {
+FaultScore ScoreOf(const FaultSpec& fault, const std::vector<RunEvent>& events, double lost) {
   FaultScore score;
+  score.judged = fault.time < lost;
+  if (!score.judged) return score;
   for (const RunEvent& e : events) {
     if (e.t < fault.time) continue;
     const double after = e.t - fault.time;
@@ -35,6 +37,16 @@ double Longest(const std::vector<FaultScore>& faults, std::optional<double> Faul
 
 }  // namespace
 
+double LostAt(const std::vector<RunEvent>& events) {
+  const auto lost = std::ranges::find_if(
+      events, [](const RunEvent& e) { return e.kind == "drop" || e.kind == "model_invalid"; });
+  return lost == events.end() ? kInfinity : lost->t;
+}
+
+std::size_t DetectionScore::judged() const {
+  return static_cast<std::size_t>(std::ranges::count_if(faults, &FaultScore::judged));
+}
+
 std::size_t DetectionScore::detected() const {
   return static_cast<std::size_t>(
       std::ranges::count_if(faults, [](const FaultScore& f) { return f.detected.has_value(); }));
@@ -53,9 +65,12 @@ double DetectionScore::longest_redistribution() const {
 DetectionScore ScoreDetection(const std::vector<FaultSpec>& faults,
                               const std::vector<RunEvent>& events) {
   DetectionScore score;
-  for (const FaultSpec& fault : faults) score.faults.push_back(ScoreOf(fault, events));
-  score.false_alarms = static_cast<std::size_t>(std::ranges::count_if(
-      events, [&](const RunEvent& e) { return e.kind == "detected" && IsFalse(e, faults); }));
+  const double lost = LostAt(events);
+  for (const FaultSpec& fault : faults) score.faults.push_back(ScoreOf(fault, events, lost));
+  score.false_alarms =
+      static_cast<std::size_t>(std::ranges::count_if(events, [&](const RunEvent& e) {
+        return e.kind == "detected" && e.t <= lost && IsFalse(e, faults);
+      }));
   return score;
 }
 

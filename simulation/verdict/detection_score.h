@@ -11,6 +11,7 @@
 namespace ambrig {
 
 struct FaultScore {
+  bool judged = true;                   // it came before the rotor was lost
   std::optional<double> detected;       // first alarm of the fault's target [s after the fault]
   std::optional<double> redistributed;  // first redistribution of any bearing [s after the fault]
   std::string last_class;               // of the target after the fault; empty: none
@@ -21,6 +22,7 @@ struct DetectionScore {
   std::vector<FaultScore> faults;  // as in the scenario
   std::size_t false_alarms = 0;    // alarms of a healthy target, or before its fault
 
+  std::size_t judged() const;
   std::size_t detected() const;
   std::size_t right_class() const;
   bool all_detected() const { return detected() == faults.size(); }
@@ -28,6 +30,10 @@ struct DetectionScore {
   double longest_detection() const;
   double longest_redistribution() const;
 };
+
+/// When the rotor was lost: it dropped, or went past the poles, where there is no model. What is said and what
+/// fails after that is not judged. [s], infinity: it was not lost.
+double LostAt(const std::vector<RunEvent>& events);
 
 /// `events` in order of time.
 DetectionScore ScoreDetection(const std::vector<FaultSpec>& faults,

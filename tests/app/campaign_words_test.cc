@@ -22,6 +22,7 @@ Row Healthy(std::size_t run, const char* verdict, const char* orbit, const char*
                      {"load", load},
                      {"capacity", "60"},
                      {"verdict", verdict},
+                     {"judged", "0"},
                      {"detected", "0"},
                      {"right_class", "0"},
                      {"false_alarms", "0"},

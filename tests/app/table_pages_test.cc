@@ -33,6 +33,7 @@ Rows FourRuns() {
                        {"load", load},
                        {"capacity", "32"},
                        {"verdict", verdict},
+                       {"judged", "1"},
                        {"detected", detected},
                        {"right_class", detected},
                        {"detection_delay", delay},

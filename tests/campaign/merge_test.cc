@@ -15,17 +15,19 @@ namespace {
 
 using testing::RowOf;
 
-Row Finished(std::size_t run, const char* verdict, const char* failed, const char* detected,
+Row Finished(std::size_t run, const char* verdict, const char* judged, const char* detected,
              const char* right, const char* delay, const char* orbit) {
   return RowOf(run, {{"verdict", verdict},
-                     {"failed", failed},
+                     {"failed", "8"},
+                     {"judged", judged},
                      {"detected", detected},
                      {"right_class", right},
                      {"speed", "157.08"},
                      {"detection_delay", delay},
                      {"false_alarms", "1"},
                      {"coil_periods", "1000"},
-                     {"peak_orbit", orbit}});
+                     {"peak_orbit", orbit},
+                     {"reason", verdict == std::string("up") ? "" : "transition"}});
 }
 
 TEST(CountRows, CountsVerdictsFaultsAndExtremes) {
@@ -45,6 +47,7 @@ TEST(CountRows, CountsVerdictsFaultsAndExtremes) {
   EXPECT_EQ(n.false_alarms, 3);  // a run in error has none
   EXPECT_EQ(n.coil_periods, 3000);
   EXPECT_EQ(n.worst_delay, 0.0005);
+  EXPECT_EQ(n.reasons, (std::map<std::string, std::size_t>{{"transition", 2}}));
   EXPECT_EQ(n.largest_orbit, 3e-05);  // of the runs that stayed up
 }
 
@@ -73,9 +76,9 @@ std::string RefusalOf(const Row& row) {
 TEST(Rows, OfOtherCellsAreRefused) {
   const Row good = Finished(7, "up", "1", "1", "1", "0.0002", "3e-05");
   const Row few{7, good.csv.substr(0, good.csv.rfind(','))};
-  EXPECT_EQ(RefusalOf(few), "journal.txt:2: 38 cells, allowed: 39 of a campaign's row");
+  EXPECT_EQ(RefusalOf(few), "journal.txt:2: 41 cells, allowed: 42 of a campaign's row");
   EXPECT_EQ(testing::ErrorText<InputError>([&] { few.At("note"); }),
-            "row of run 7: 38 cells, allowed: 39 of a campaign's row");
+            "row of run 7: 41 cells, allowed: 42 of a campaign's row");
   const auto with = [&](const char* column, const char* cell) {
     std::vector<std::string> cells;
     for (const std::string_view c : good.Cells()) cells.emplace_back(c);

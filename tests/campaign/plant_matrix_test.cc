@@ -20,6 +20,7 @@ Rows RowsOf(const std::vector<Seen>& list) {
     const std::size_t run = rows.size();
     const bool faulty = !s.kind.empty();
     rows[run] = RowOf(run, {{"failed", faulty ? "1" : "0"},
+                            {"judged", faulty ? "1" : "0"},
                             {"kind", s.kind},
                             {"effect", s.effect},
                             {"plant", s.plant},

@@ -121,6 +121,12 @@ struct CommissionedRig {
   }
 };
 
+/// Without effects.
+inline const CommissionedRig& BaseModel() {
+  static const CommissionedRig made(ReferenceRig());
+  return made;
+}
+
 /// Eddy currents from 1 kHz on, fringing, a moved sensor.
 inline const CommissionedRig& SlowIron() {
   static const CommissionedRig made([] {

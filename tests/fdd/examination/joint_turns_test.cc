@@ -36,7 +36,7 @@ class JointTurnsBench {
   void Short(int coil, double share) {
     bench_.lanes.ShortTurns(coil, share, kInfinity, bench_.x0, bench_.y0);
   }
-  std::optional<Lane> Solve(const Lane& dead = {}) const {
+  std::optional<JointShares> Solve(const Lane& dead = {}) const {
     const CommissionedBearing nominal = NominalBearing("A", filter_.nominal());
     Lane all;
     for (double& v : all.v) v = 1;
@@ -62,8 +62,26 @@ TEST(JointTurns, EverySetOfShortedCoilsIsSolvedWithItsShares) {
     ASSERT_TRUE(found) << set;
     // A healthy coil stays well inside the tenth of its turns from which a coil is named.
     for (int j = 0; j < kLanes; ++j)
-      EXPECT_NEAR((*found)[j], set >> j & 1 ? 1 - lost[j] : 1, 0.05) << set << " " << j;
+      EXPECT_NEAR(found->left[j], set >> j & 1 ? 1 - lost[j] : 1, 0.05) << set << " " << j;
   }
+}
+
+// What is left of a coil follows from its own c, but for its pull on the rotor's potential. With one polarity shorted
+// the other hangs on that potential alone: an error of c moves its shares by several times as much.
+TEST(JointTurns, SharesSayHowFarAnErrorMovesThem) {
+  JointTurnsBench one, polarity;
+  one.Short(0, 0.5);
+  for (const int coil : {0, 2, 4, 6}) polarity.Short(coil, 0.5);
+  one.Run(JointTurns::kKept);
+  polarity.Run(JointTurns::kKept);
+  const auto alone = one.Solve(), many = polarity.Solve();
+  ASSERT_TRUE(alone && many);
+  for (int j = 0; j < kLanes; ++j) {
+    EXPECT_GT(alone->per_excess[j], 0.2) << j;
+    EXPECT_LT(alone->per_excess[j], 1.3) << j;
+  }
+  for (const int j : {0, 2, 4, 6}) EXPECT_LT(many->per_excess[j], 0.5) << j;
+  for (const int j : {1, 3, 5, 7}) EXPECT_GT(many->per_excess[j], 2) << j;
 }
 
 TEST(JointTurns, ACoilWithoutCurrentIsNoUnknown) {
@@ -75,10 +93,10 @@ TEST(JointTurns, ACoilWithoutCurrentIsNoUnknown) {
   dead[1] = 1;
   const auto found = b.Solve(dead);
   ASSERT_TRUE(found);
-  EXPECT_EQ((*found)[1], 1);
-  EXPECT_NEAR((*found)[4], 0.5, 0.03);
-  EXPECT_NEAR((*found)[0], 1, 0.04);
-  EXPECT_NEAR((*found)[2], 1, 0.04);
+  EXPECT_EQ(found->left[1], 1);
+  EXPECT_NEAR(found->left[4], 0.5, 0.03);
+  EXPECT_NEAR(found->left[0], 1, 0.04);
+  EXPECT_NEAR(found->left[2], 1, 0.04);
 }
 
 // A reading that is too small asks for more turns than the coil was ever given.

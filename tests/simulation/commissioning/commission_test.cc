@@ -122,6 +122,17 @@ TEST_F(CommissionedPlant, WithoutCommissioningNothingIsDoneToAHealthyMachine) {
   EXPECT_LT(open->first.time - kFault, 0.5e-3);
 }
 
+// Leakage past the rotor and fringing into it look alike in all that a healthy machine does but in the
+// currents that move the rotor's potential: without them half of the leakage is taken for fringing.
+TEST(Commission, LeakageIsToldFromFringing) {
+  const RigParameters rig = ReferenceRig();
+  const double leakage = rig.Find("A")->radial.leakage_inductance;
+  const CommissioningResult learnt = Commission(rig, {});
+  for (const char* name : {"A", "B"})
+    for (int j = 0; j < kLanes; ++j)
+      EXPECT_NEAR(learnt.model.Find(name)->coils.leakage[j], leakage, 0.2 * leakage) << name << j;
+}
+
 TEST(Commission, AMachineThatTouchesInItsRunIsRefused) {
   CommissioningOptions options;
   options.plan.circle = 0.9;

@@ -50,6 +50,23 @@ TEST(DetectionScore, AlarmsOfHealthyTargetsAndBeforeTheFaultAreFalse) {
   EXPECT_EQ(score.faults[0].detected, 0.0);
 }
 
+// A rotor that dropped, or went past the poles, is no working machine any more: what fails then need not be found, and
+// what is said then blames nobody.
+TEST(DetectionScore, WhatComesAfterTheRotorWasLostIsNotJudged) {
+  for (const char* lost : {"drop", "model_invalid"}) {
+    const DetectionScore score =
+        ScoreDetection({Fault(1, "A.coil1"), Fault(3, "A.coil2")}, {Alarm(0.5, "A.coil7"),
+                                                                    {2, lost, "A", "", 0},
+                                                                    Alarm(2.5, "A.coil1"),
+                                                                    Alarm(2.5, "A.coil8"),
+                                                                    Alarm(3.5, "A.coil2")});
+    EXPECT_EQ(score.judged(), 1u) << lost;
+    EXPECT_EQ(score.detected(), 1u) << lost;  // late, but the fault was there before
+    EXPECT_EQ(score.false_alarms, 1u) << lost;
+    EXPECT_FALSE(score.all_detected()) << lost;
+  }
+}
+
 TEST(DetectionScore, TheLastClassCounts) {
   const std::vector<FaultSpec> faults = {Fault(1, "A.coil1", "partial-short"),
                                          Fault(1, "A.coil2", "open"), Fault(1, "A.coil3", "open")};
