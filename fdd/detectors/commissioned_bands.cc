@@ -11,7 +11,9 @@ namespace {
 
 // without commissioning, beside the floors: what effects of usual size do to nominal models
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
-constexpr double kWider = 2.5;           // bands, once coils were given up or lost turns
+constexpr double kLeastMiss = 0.3;  // [A] of a set-point
+constexpr double kWider =
+    2.5;  // bands and set-points missed, once coils were given up or lost turns
 constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turns than it had
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
@@ -31,6 +33,8 @@ void CommissionedDetector::SetBands() {
               ? std::max(least, wider_ * std::max(kExcessFloor[w],
                                                   kBandOverHealthy * model_.largest[w][j]))
               : kUncommissioned[w];
+  for (int j = 0; j < kLanes; ++j)
+    most_missed_[j] = wider_ * std::max(kLeastMiss, kBandOverHealthy * model_.current_error[j]);
 }
 
 void CommissionedDetector::SetTurns(int coil, double share) {

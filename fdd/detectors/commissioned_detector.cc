@@ -9,7 +9,6 @@ namespace {
 
 constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
 constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
-constexpr double kLeastMiss = 0.3;     // [A] of a set-point
 constexpr double kPatternGrows = 3;    // over commissioning
 constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
@@ -31,10 +30,7 @@ CommissionedDetector::CommissionedDetector(const CoilDetectorSetup& setup,
       filter_(setup.model, setup.settings.sampling, commissioned.circuit),
       windows_(setup.model),
       jumps_(setup.model, setup.settings.sampling, setup.settings.current_noise) {
-  for (int j = 0; j < setup.model.coils; ++j) {
-    share_[j] = 1;
-    most_missed_[j] = std::max(kLeastMiss, kBandOverHealthy * model_.current_error[j]);
-  }
+  for (int j = 0; j < setup.model.coils; ++j) share_[j] = 1;
   SetBands();
 }
 

@@ -28,7 +28,8 @@
 /// quarter of what its voltage would do: the diodes of a coil that is asked for none block.
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
-/// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns.
+/// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns; a current
+/// misses its set-point by 2.5 times as much before it counts.
 ///
 /// Slow drift (heating, a sensor's zero) is followed within bounds that leave a fault visible
 /// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5.

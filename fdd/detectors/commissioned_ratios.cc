@@ -54,13 +54,14 @@ AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& ap
   Store(level->v, Select(counts, Abs(Load(used[kLevelWindow].v)), Load(level->v)));
 }
 
-/// Readings of every coil: the mean, and how far it and the one before both are from the set-point.
-AMBRIG_WIDE void CompareCurrents(const Lane* adc, int samples, const Lane& set_point,
+/// Readings of every coil: the mean, and how far it and the one before both are from the set-point, of which
+/// the amplifier gives nothing below `least`.
+AMBRIG_WIDE void CompareCurrents(const Lane* adc, int samples, const Lane& set_point, double least,
                                  const Lane& limit, Lane* last_miss, Lane* error,
                                  Lane* false_current) {
   LaneVector mean = 0.0;
   for (int k = 0; k < samples; ++k) mean += Load(adc[k].v);
-  const LaneVector miss = Abs(Load(set_point.v) - mean * (1.0 / samples));
+  const LaneVector miss = Abs(Max(Load(set_point.v), least) - mean * (1.0 / samples));
   Store(error->v, Min(miss, Load(last_miss->v)));
   Store(last_miss->v, miss);
   Store(false_current->v,
@@ -76,8 +77,9 @@ void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
     idle_[j] = 0;
     for (int k = 0; k < sampling_.samples; ++k) idle_[j] += in.adc[k][j] / sampling_.samples;
   }
+  const double least = sampling_.amplifier->quadrants > 2 ? -kInfinity : 0;
   if (in.set_point)
-    CompareCurrents(in.adc, sampling_.samples, *in.set_point, most_missed_, &last_miss_,
+    CompareCurrents(in.adc, sampling_.samples, *in.set_point, least, most_missed_, &last_miss_,
                     &current_error_, &false_current_);
 }
 

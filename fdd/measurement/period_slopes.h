@@ -18,6 +18,9 @@ namespace ambrig {
 /// [A] below: a coil carries no current or its diodes may block, offsets of the ADC included
 inline constexpr double kConducts = 0.12;
 
+/// [A] above: a coil carries current whatever the zero of its sensor is
+inline constexpr double kSurelyConducts = 0.25;
+
 inline constexpr double kZeroCurrent = 0.03;  // [A] below: the diodes may block
 
 /// Bounds of what is not known of the shaft's motion at a bearing plane.

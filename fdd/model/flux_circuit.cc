@@ -136,7 +136,7 @@ template <class V, Coupling kCoupling, bool kRelaxes, bool kKnee>
     least_off = Min(Choose(on, far, current), least_off);
     if (k < kSkippedAtStart) continue;
     on_sums.Add(on, now, current);
-    off_sums.Add(off & Below(kConducts, current), now, current);
+    off_sums.Add(off & Below(kSurelyConducts, current), now, current);  // else the diodes may block
   }
   circuit.Keep(state);
   Store(out->flux.v, circuit.psi);

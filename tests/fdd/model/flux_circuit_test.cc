@@ -54,6 +54,25 @@ TEST(FluxCircuit, RelaxationsHaveTheFrequencyResponseOfTheirSum) {
   }
 }
 
+// What a bridge that is off says of a coil whose reading may be a sensor's zero is not judged: its diodes may block.
+TEST(FluxCircuit, LooksAtOffPhasesOfCoilsThatSurelyConductOnly) {
+  const AmplifierParameters amplifier = Bridge();
+  const auto off_samples = [&](double current) {
+    FluxFilter filter(Alone(), {kSamples, kT / kSamples, &amplifier}, {});
+    Lane adc[kSamples], duty;
+    for (Lane& i : adc) i[0] = current;
+    MeasuredPeriod in;
+    in.adc = adc;
+    in.duty = &duty;
+    in.bus = 30;
+    FluxPeriod period;
+    filter.Period(in, &period);
+    return period.phase[1].samples[0];
+  };
+  EXPECT_GT(off_samples(0.3), 5);
+  EXPECT_EQ(off_samples(0.2), 0);
+}
+
 TEST(FluxCircuit, FollowsTheSimulatorsFluxes) {
   Bench bench;
   bench.vx = 0.1;
