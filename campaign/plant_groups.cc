@@ -25,11 +25,12 @@ bool Harmed(const Row& r) {
 }
 
 void AddFault(const Row& r, FaultsOnPlants* f) {
-  ++f->runs;
   f->blamed += r.Number("false_actions") > 0;
-  f->found += r.Number("detected") >= r.Number("judged");
   f->lost += r.At("verdict") != "up";
   f->lost_alone += !r.At("verdict_without").empty() && r.At("verdict_without") != "up";
+  if (r.Number("judged") == 0) return;  // the rotor was lost before the fault came
+  ++f->runs;
+  f->found += r.Number("detected") >= r.Number("judged");
   if (!r.At("detection_delay").empty()) f->delay.push_back(r.Number("detection_delay"));
 }
 

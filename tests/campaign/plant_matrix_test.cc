@@ -12,6 +12,7 @@ namespace {
 struct Seen {
   std::string effect, plant, spread, learnt, kind, detected, delay, actions, verdict, without;
   std::string orbit = "2e-06", orbit_without = "1e-06";
+  std::string judged = "1";  // of the faults
 };
 
 Rows RowsOf(const std::vector<Seen>& list) {
@@ -20,7 +21,7 @@ Rows RowsOf(const std::vector<Seen>& list) {
     const std::size_t run = rows.size();
     const bool faulty = !s.kind.empty();
     rows[run] = RowOf(run, {{"failed", faulty ? "1" : "0"},
-                            {"judged", faulty ? "1" : "0"},
+                            {"judged", faulty ? s.judged : "0"},
                             {"kind", s.kind},
                             {"effect", s.effect},
                             {"plant", s.plant},
@@ -40,6 +41,15 @@ Rows RowsOf(const std::vector<Seen>& list) {
 }
 
 const std::string kEddy = "eddy-currents";
+
+// A fault that comes after the rotor was lost is neither found nor missed; the contact counts.
+TEST(PlantMatrix, FaultsOfALostRotorAreNoFindings) {
+  Seen lost = {kEddy, kEddy + " low", "1", "yes", "open", "0", "", "0", "drop", "drop"};
+  lost.judged = "0";
+  const std::string text = PlantMatrix(
+      RowsOf({{kEddy, kEddy + " low", "2", "yes", "open", "1", "2e-4", "0", "up", "drop"}, lost}));
+  EXPECT_NE(text.find("| 1/1; 0.20, 0.20 ms | 1, 2 |"), std::string::npos) << text;
+}
 
 TEST(PlantMatrix, SaysAtWhichSizeDetectionBreaks) {
   const std::string text = PlantMatrix(RowsOf({
