@@ -12,8 +12,8 @@ namespace {
 // without commissioning, beside the floors: what effects of usual size do to nominal models
 constexpr double kUncommissioned[kExcessWindows] = {1.2, 0.9, 0.7, 0.6, 0.6};
 constexpr double kLeastMiss = 0.3;  // [A] of a set-point
-constexpr double kWider =
-    2.5;  // bands and set-points missed, once coils were given up or lost turns
+// bands and set-points missed, once coils were given up or lost turns
+constexpr double kWider = 2.5;
 constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turns than it had
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
