@@ -147,9 +147,10 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   const int coil = Ratios();
   if (paused_ > 0) {
     --paused_;
-    streak_ = dead_ = Lane{};
+    streak_ = Lane{};
     jumps_.Forget();
-    return {};
+    CountDead(in);
+    return DeadInAPause(in.t);
   }
   Outcome out = Judge(in, coil);
   FollowDrift(out.doubtful || out.alarm);
@@ -179,22 +180,36 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   return out;
 }
 
-void CommissionedDetector::CountStreaks(const MeasuredPeriod& in) {
-  const double t = in.t;
+CommissionedDetector::Outcome CommissionedDetector::DeadInAPause(double t) const {
+  Outcome out;
+  std::vector<Diagnosis> failed = CoilsWithoutCurrent(t);
+  if (failed.empty() || (!Relies() && bounces_)) return out;
+  out.alarm = out.decided = true;
+  out.diagnosis = failed[0];
+  out.excess = now_[failed[0].coil];
+  out.more.assign(failed.begin() + 1, failed.end());
+  return out;
+}
+
+void CommissionedDetector::CountDead(const MeasuredPeriod& in) {
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     // The diodes of a coil that is asked for no current block: its flux stands, whatever the bridge does.
     const bool asked = !in.set_point || (*in.set_point)[j] > kAsked;
     const bool dead = period_.largest[j] < kConducts && now_[j] < -(asked ? kGross : kDeadIdle);
-    if (dead_[j] == 0) dead_since_[j] = t;
+    if (dead_[j] == 0) dead_since_[j] = in.t;
     dead_[j] = dead ? dead_[j] + 1 : 0;
   }
+}
+
+void CommissionedDetector::CountStreaks(const MeasuredPeriod& in) {
+  CountDead(in);
   const double least = kCompanion * *std::max_element(ratio_.v, ratio_.v + kLanes);
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     if (!(ratio_[j] > 1) || ratio_[j] < least) {
       streak_[j] = 0;
       continue;
     }
-    if (streak_[j] == 0) onset_[j] = t;
+    if (streak_[j] == 0) onset_[j] = in.t;
     ++streak_[j];
   }
 }

@@ -67,7 +67,7 @@ class CommissionedDetector : public CoilDetector {
 
   /// A coil that is not judged any more; `share` of its turns carries on, 0: none.
   void SetTurns(int coil, double share);
-  /// Nothing is concluded from the next periods.
+  /// Nothing is concluded from the next periods but that a coil has no current.
   void Pause(int periods) { paused_ = std::max(paused_, periods); }
   /// Takes back what SetTurns said, and forgets what was seen of it; `share` of the turns carries.
   void Restore(int coil, double share = 1);
@@ -122,6 +122,9 @@ class CommissionedDetector : public CoilDetector {
   /// Largest |c| of this period.
   double LargestNow() const;
   void CountStreaks(const MeasuredPeriod& in);
+  void CountDead(const MeasuredPeriod& in);
+  /// While nothing else is concluded: coils without current, which no other coil's turns can feign.
+  Outcome DeadInAPause(double t) const;
   void FollowDrift(bool doubtful);
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.

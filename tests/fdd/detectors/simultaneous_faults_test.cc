@@ -45,6 +45,18 @@ TEST(SimultaneousFaults, OpenCoilsAreAllNamedAndNoNeighbour) {
   }
 }
 
+// The second of two is named although the detector pauses after the first, while which no other conclusion is drawn.
+TEST(SimultaneousFaults, TheOtherOpenCoilOfAPairIsNamedWhileTheDetectorPauses) {
+  for (int first = 1; first <= 8; ++first)
+    for (int second = first + 1; second <= 8; ++second) {
+      const auto seen = Concluded(SlowIron().rig, &SlowIron().bearing,
+                                  Operation(Together({first, second}, "open"), 0.032));
+      EXPECT_EQ(seen->Coils(), SetOf({first, second}));
+      for (const Diagnosis& d : seen->found)
+        EXPECT_LT(d.time - kOnset, 0.3e-3) << first << " and " << second << ": " << d.coil + 1;
+    }
+}
+
 void ExpectAllShortsNamed(const CommissionedRig& plant, const std::vector<int>& coils,
                           double share) {
   const auto seen = Concluded(
