@@ -30,6 +30,7 @@ FitOptions Brief(const FitResult& now, double effective_sample_size) {
   brief.reached = now.ratio_fit;
   brief.iterations = 4;
   brief.passes = 1;
+  brief.least_share = 0.01;
   brief.sensitivities = false;
   return brief;
 }

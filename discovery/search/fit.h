@@ -17,9 +17,10 @@ struct FitOptions {
   // Each with a new weight, about the point where the last one ended. With `sensitivities` those of the
   // rig parameters are taken anew in the second pass, later where a parameter moved by more than 1 sd.
   int passes = 4;
-  double trust_region = 10;   // at the start of a pass: how far a step is believed
-  double tolerance = 1e-3;    // of the cost: a step that gains less is the last
-  double least_share = 0.01;  // of what a pass gained so far: a step that gains less is its last
+  double trust_region = 10;  // at the start of a pass: how far a step is believed
+  double tolerance = 1e-3;   // of the cost: a step that gains less is the last
+  // of what a pass gained so far: a step that gains less is its last; 0: the tolerance alone decides
+  double least_share = 0;
   // of 2 log posterior: a pass that gains less is the last; 0: one that lowers the ratio by less than 2 %
   double least_gain = 0;
   bool sensitivities = true;  // sd, warnings and Jacobian at the optimum

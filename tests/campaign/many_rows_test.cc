@@ -37,6 +37,7 @@ void WriteShard(const std::string& file, std::size_t runs) {
                                {"draw", "0"},
                                {"seed", std::to_string(1135186513210162 + run)},
                                {"verdict", "up"},
+                               {"judged", "2"},
                                {"detected", "2"},
                                {"right_class", "2"},
                                {"detection_delay", "0.0001200000000000001"},
