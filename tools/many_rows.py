@@ -22,10 +22,15 @@ def line(text):
     return f"{text}\t{check:016x}\n"
 
 
-def cells_of(cells, run):
-    """The cells of another run: its number, and orbits that differ from its neighbours'."""
-    orbits = [f"{float(c) * (1 + 1e-6 * (run % 9973)):.16g}" if c else "" for c in cells[26:29]]
-    return [str(run), *cells[1:26], *orbits, *cells[29:]]
+ORBITS = ["peak_orbit [m]", "bearing_orbit [m]", "late_orbit [m]"]
+
+
+def cells_of(cells, run, orbits):
+    """The cells of another run: its number, and orbits (their columns) that differ from its neighbours'."""
+    changed = [str(run), *cells[1:]]
+    for k in orbits:
+        changed[k] = f"{float(cells[k]) * (1 + 1e-6 * (run % 9973)):.16g}" if cells[k] else ""
+    return changed
 
 
 def main():
@@ -37,12 +42,15 @@ def main():
     head, *texts = [text.rsplit("\t", 1)[0] for text in (options.few / "journal.txt").read_text().splitlines()]
     header = json.loads(head)
     header["runs"] = options.runs or header["runs"]
+    with (options.few / "table.csv").open() as table:
+        columns = table.readline().strip().split(",")
+    orbits = [columns.index(name) for name in ORBITS]
     rows = {int(text.split(",", 1)[0]): text.split(",") for text in texts}
     shards = [[line(json.dumps(header, separators=(",", ":"), ensure_ascii=False))] for _ in options.out]
     cells = rows[0]
     for run in range(header["runs"]):
         cells = rows.get(run, cells)
-        shards[run % len(shards)].append(line(",".join(cells_of(cells, run))))
+        shards[run % len(shards)].append(line(",".join(cells_of(cells, run, orbits))))
     for folder, lines in zip(options.out, shards):
         folder.mkdir(parents=True, exist_ok=True)
         (folder / "journal.txt").write_text("".join(lines))

@@ -2,6 +2,7 @@
 /// Records as HDF5 files: one 1-D dataset per channel with string attribute `unit`; root attributes
 /// `rate` [Hz], `start` [s] and any further texts. Only hdf5_reader.cc and
 /// hdf5_writer.cc know the HDF5 library.
+#include <functional>
 #include <map>
 #include <mutex>
 #include <string>
@@ -30,6 +31,10 @@ void WriteHdf5Groups(const std::vector<std::pair<std::string, Record>>& records,
 
 /// The record of one such group. @throws InputError, also when there is no such group
 Record ReadHdf5Group(const std::string& path, const std::string& group);
+
+/// Tries `read` of the file in a copy of the process first: HDF5 1.10 believes what an attribute says of its own size and place, and a
+/// damaged one crashes it. Under Hdf5Mutex. @throws InputError when the copy crashes or does not end
+void RefuseWhatCrashesHdf5(const std::string& path, const std::function<void()>& read);
 
 /// Held during every use of the HDF5 library, which may be built without thread safety; the MAT
 /// reader needs it too (v7.3 files are HDF5).

@@ -162,6 +162,11 @@ Record ReadGroup(const std::string& path, const std::string& name) {
 
 }  // namespace
 
+void RefuseWhatCrashesHdf5(const std::string& path, const std::function<void()>& read) {
+  if (!SurvivesInACopy(read))
+    throw InputError(path + ": damaged, HDF5 crashes or does not end when it reads it");
+}
+
 std::mutex& Hdf5Mutex() {
   static std::mutex mutex;
   return mutex;
@@ -174,9 +179,7 @@ Record ReadHdf5Group(const std::string& path, const std::string& name) try {
   {
     const Library library;
     const auto read = [&] { return ReadGroup(path, name); };
-    // HDF5 1.10 believes what an attribute says of its own size and place: a damaged one crashes it.
-    if (!SurvivesInACopy(read))
-      throw InputError(path + ": damaged, HDF5 crashes or does not end when it reads it");
+    RefuseWhatCrashesHdf5(path, read);
     record = read();
   }
   FinishRecord(record, path);

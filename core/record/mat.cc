@@ -8,7 +8,6 @@
 
 #include "core/base/errors.h"
 #include "core/base/read_file.h"
-#include "core/base/trial_copy.h"
 #include "core/record/hdf5.h"
 #include "core/record/mat_library.h"
 #include "core/record/mat_structs.h"
@@ -193,8 +192,7 @@ Measurement ReadMatMeasurement(const std::string& path) try {
   Measurement m;
   {
     const std::scoped_lock<std::mutex> lock(Hdf5Mutex());
-    if (IsVersion73(head) && !SurvivesInACopy(read))
-      throw InputError(path + ": damaged, HDF5 crashes or does not end when it reads it");
+    if (IsVersion73(head)) RefuseWhatCrashesHdf5(path, read);
     m = read();
   }
   if (m.frequency.responses.empty()) FinishRecord(m.record, path);

@@ -85,9 +85,7 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
   constexpr std::size_t kClimbed = 5, kClimbedBeside = 2;  // beside effects that were adopted
-  const std::size_t most = now.hypothesis.rig.effects.size() > model.data().rig.effects.size()
-                               ? kClimbedBeside
-                               : kClimbed;
+  const std::size_t most = HoldsAdopted(model, now) ? kClimbedBeside : kClimbed;
   std::vector<SimulatedStart> order, climbed;
   for (const EffectInstance& e : starts) order.push_back({e});
   const auto sort = [](std::vector<SimulatedStart>& list) {

@@ -210,6 +210,10 @@ FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions&
   return result;
 }
 
+bool HoldsAdopted(const CaseModel& model, const FitResult& fit) {
+  return fit.hypothesis.rig.effects.size() > model.data().rig.effects.size();
+}
+
 void AddPriorInformation(const Hypothesis& h, Eigen::MatrixXd& information) {
   for (Index k = 0; k < information.rows(); ++k)
     information(k, k) += h.free[static_cast<std::size_t>(k)].sd > 0 ? 1.0 : 1e-9;

@@ -55,6 +55,9 @@ struct FitResult {
 /// A fit that finds no better point says so (`converged` false), it never passes for a result.
 FitResult Fit(const CaseModel& model, const Hypothesis& start, const FitOptions& options);
 
+/// Whether the fit holds effects that the rig file does not: later rounds stand on such fits.
+bool HoldsAdopted(const CaseModel& model, const FitResult& fit);
+
 /// Adds the prior's part to the information on the free parameters (n x n, in their coordinates); a little where there is
 /// no prior, so that what the records do not tell has a finite sd.
 void AddPriorInformation(const Hypothesis& h, Eigen::MatrixXd& information);

@@ -208,6 +208,7 @@ class FitProblem {
     jacobian_.noalias() -= untold * step.transpose() / step.squaredNorm();
     return true;
   }
+
   static bool HasFrequency(const Hypothesis& h, const FreeParameter& p) {
     const EffectInstance& e = h.rig.effects[static_cast<std::size_t>(p.effect)];
     return std::any_of(e.table.begin(), e.table.end(),

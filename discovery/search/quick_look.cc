@@ -43,8 +43,7 @@ QuickLook WorstRecords(const CaseModel& model, const FitResult& now) {
 QuickLook RecordsShowing(const CaseModel& model, const FitResult& now) {
   const std::vector<CaseRecord>& records = model.data().records;
   QuickLook look{std::vector<char>(records.size(), 0), now.predicted};
-  const bool adopted = now.hypothesis.rig.effects.size() > model.data().rig.effects.size();
-  if (!adopted && now.ratio_fit < kPlain) {
+  if (!HoldsAdopted(model, now) && now.ratio_fit < kPlain) {
     look.records.assign(records.size(), 1);
     return look;
   }

@@ -146,9 +146,7 @@ bool MotionIsOpen(const CaseModel& model, const FitResult& base, SignatureBank& 
                   const std::vector<Candidate>& ranked, double effective_sample_size) {
   constexpr double kExplained = 0.9;  // of the squared error above the noise; a linear step errs
   constexpr double kLeastMotion = 1.0 / 30;  // of the same, beside other effects
-  if (base.hypothesis.rig.effects.size() > model.data().rig.effects.size() &&
-      MotionPart(model, base) < kLeastMotion)
-    return false;
+  if (HoldsAdopted(model, base) && MotionPart(model, base) < kLeastMotion) return false;
   if (ranked.empty()) return true;
   const LinearJudge judge(model, base, bank, effective_sample_size);
   double most = 0;
@@ -220,7 +218,7 @@ std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                 MotionIsOpen(model, base, bank, out, options.effective_sample_size)))
     screen(ScreenedKind::kResonances, 0.4, 0.7);
   if (options.coarse || HoldsCoils(bank)) return out;
-  // Beside effects that were adopted one coil's would stand out in some channel.
+  // Signatures that are there come from an earlier look, after which only what stands out in a channel is worth so many.
   if (again && WorstRatio(model, base.residual, Which::kFit) < kStandsOut) return out;
   // Single coils are many; they are tried where nothing else explains nearly all.
   const auto open = [](double before, double after) {

@@ -118,8 +118,7 @@ void SignatureBank::LookAt(const CaseModel& model, const QuickLook& look) {
     Fill(model, begin, end, missing);
     begin = end;
   }
-  multiplied_ = 0;
-  products_ = Gram();
+  ForgetProducts();
 }
 
 void SignatureBank::Rescale(const CaseModel& model, const std::vector<Target>& before) {
@@ -129,6 +128,10 @@ void SignatureBank::Rescale(const CaseModel& model, const std::vector<Target>& b
     for (std::size_t row = t.first; row < t.first + t.count; ++row)
       columns_.row(static_cast<Index>(row)) *= model.ok()[row] ? factor : 0.0F;
   }
+  ForgetProducts();
+}
+
+void SignatureBank::ForgetProducts() {
   multiplied_ = 0;
   products_ = Gram();
 }
@@ -139,8 +142,7 @@ void SignatureBank::TakeOffNuisances(const CaseModel& model) {
     model.nuisances.Eliminate(signature.data());
     columns_.col(c) = signature.cast<float>();
   }
-  multiplied_ = 0;
-  products_ = Gram();
+  ForgetProducts();
 }
 
 void SignatureBank::Fill(const CaseModel& model, std::size_t begin, std::size_t end,

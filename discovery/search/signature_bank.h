@@ -57,6 +57,8 @@ class SignatureBank {
  private:
   /// Fills rows of the look's records into the columns of the entries begin to end, of one base.
   void Fill(const CaseModel& model, std::size_t begin, std::size_t end, const QuickLook& look);
+  /// The columns are others now.
+  void ForgetProducts();
   /// The signature of each probe on one base; empty: the rotor is lost.
   std::vector<std::vector<float>> Signatures(const CaseModel& model, const Hypothesis& base,
                                              const std::vector<EffectInstance>& probes,

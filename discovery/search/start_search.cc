@@ -124,7 +124,7 @@ StartSearch::StartSearch(const CaseModel& model, const FitResult& now, double ef
       now_(now),
       effective_sample_size_(effective_sample_size),
       look_(WorstRecords(model, now)),
-      beside_others_(now.hypothesis.rig.effects.size() > model.data().rig.effects.size()) {
+      beside_others_(HoldsAdopted(model, now)) {
   const auto run = model.PredictAll({now.hypothesis}, ModelFidelity::kCoarse, &look_)[0];
   if (!run) throw InputError("the model does not hold its rotor here");
   const std::vector<double> residual = Residual(model, *run);

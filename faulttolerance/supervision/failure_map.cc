@@ -53,6 +53,11 @@ double Along(Pull pull, const Eigen::Vector2d& load, const Eigen::Vector2d& dire
   }
 }
 
+/// `at_load` is a copy: an inverse that goes on from the load keeps its place.
+bool Carries(Pull at_load, const Eigen::Vector2d& load, double most) {
+  return Within(load, most) && at_load.Gives(load);
+}
+
 double MarginAlong(const Pull& at_load, const Eigen::Vector2d& load, double most) {
   if (!(load.norm() > 0)) return 0;
   return std::min(kMostMargin, 1 + Along(at_load, load, load.normalized(), most) / load.norm());
@@ -89,8 +94,7 @@ MapReach ReachOfMap(const RedistributionProblem& left, const CurrentMap& map,
                     const Eigen::Vector2d& load, double most) {
   MapReach out;
   const Pull at_load(left, map, load);
-  Pull first = at_load;
-  out.carries = Within(load, most) && first.Gives(load);
+  out.carries = Carries(at_load, load, most);
   if (!out.carries) return out;
   out.worst = kInfinity;
   for (int k = 0; k < MapReach::kDirections; ++k) {
@@ -107,8 +111,7 @@ MapReach ReachOfMap(const RedistributionProblem& left, const CurrentMap& map,
 double MarginOfMap(const RedistributionProblem& left, const CurrentMap& map,
                    const Eigen::Vector2d& load, double most) {
   const Pull at_load(left, map, load);
-  Pull first = at_load;
-  return Within(load, most) && first.Gives(load) ? MarginAlong(at_load, load, most) : 0;
+  return Carries(at_load, load, most) ? MarginAlong(at_load, load, most) : 0;
 }
 
 }  // namespace ambrig

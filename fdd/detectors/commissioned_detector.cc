@@ -109,8 +109,7 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
       excess < -kGross || excess > (out_of_range_ ? gross_above_[coil] : kGrossAbove);
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())
     return PhasesAgree(coil) || CurrentIsFalse(coil) || HasNoCurrent(coil);
-  // Without a model of this machine, what a rotor that bounces does to the currents is not known.
-  if (!Relies() && bounces_) return false;
+  if (MayBounce()) return false;
   if (gross && HasNoCurrent(coil)) return true;
   // Inside what was learnt no error of the model is as large: several coils have failed at once.
   // What these throw at a healthy neighbour is smaller.
@@ -182,12 +181,11 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
 
 CommissionedDetector::Outcome CommissionedDetector::DeadInAPause(double t) const {
   Outcome out;
-  std::vector<Diagnosis> failed = CoilsWithoutCurrent(t);
-  if (failed.empty() || (!Relies() && bounces_)) return out;
+  const std::vector<Diagnosis> failed = CoilsWithoutCurrent(t);
+  if (failed.empty() || MayBounce()) return out;
   out.alarm = out.decided = true;
-  out.diagnosis = failed[0];
   out.excess = now_[failed[0].coil];
-  out.more.assign(failed.begin() + 1, failed.end());
+  out.Blame(failed);
   return out;
 }
 

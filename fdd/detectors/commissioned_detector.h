@@ -57,6 +57,12 @@ class CommissionedDetector : public CoilDetector {
     // share of its turns that the decided coil truly has, where it had been taken for one with
     // fewer; 0: not so
     double turns = 0;
+
+    /// Blames all of them, one at least, the first by name.
+    void Blame(const std::vector<Diagnosis>& failed) {
+      diagnosis = failed[0];
+      more.assign(failed.begin() + 1, failed.end());
+    }
   };
 
   CommissionedDetector(const CoilDetectorSetup& setup, const CommissionedBearing& commissioned);
@@ -95,8 +101,8 @@ class CommissionedDetector : public CoilDetector {
   static constexpr std::size_t kInARow = 3;  // periods
   static constexpr double kGross = 0.5;      // |c|
   static constexpr double kGrossAbove = 2;   // c, of a coil outside the commissioned range
-  static constexpr double kGrossBeside =
-      1;  // c, of a coil inside while one or two others are outside
+  // c, of a coil inside while one or two others are outside
+  static constexpr double kGrossBeside = 1;
   static constexpr double kCompanion = 0.5;  // of the largest |c|: a fault of its own
   static constexpr int kCoilsAtOnce = 3;     // that stand out: the model's fault
   static constexpr double kNoiseOfBand = 6;  // a window's noise is below its band over this
@@ -125,6 +131,8 @@ class CommissionedDetector : public CoilDetector {
   void CountDead(const MeasuredPeriod& in);
   /// While nothing else is concluded: coils without current, which no other coil's turns can feign.
   Outcome DeadInAPause(double t) const;
+  /// Without a model of this machine, what a rotor that bounces does to the currents is not known.
+  bool MayBounce() const { return !Relies() && bounces_; }
   void FollowDrift(bool doubtful);
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.

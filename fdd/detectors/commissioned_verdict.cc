@@ -86,8 +86,7 @@ bool CommissionedDetector::JudgedTogether(const MeasuredPeriod& in, Outcome* out
                                                            : RecentExcess(failed[0].coil);
   // One coil that lost turns needs its second witness.
   out->decided = failed.size() > 1 || Decided(failed[0].coil, out->excess);
-  out->diagnosis = failed[0];
-  out->more.assign(failed.begin() + 1, failed.end());
+  out->Blame(failed);
   return true;
 }
 

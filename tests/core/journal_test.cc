@@ -117,7 +117,6 @@ TEST_F(JournalTest, AnotherWorkAndASecondWriterAreRefused) {
             std::string::npos);
 }
 
-// A torn header is begun again; a file of somebody else's, even of one line without an end, is left alone.
 // A pipe waits for its other end for ever.
 TEST_F(JournalTest, IsAFile) {
   ASSERT_EQ(mkfifo(Path().c_str(), 0600), 0);
@@ -127,6 +126,7 @@ TEST_F(JournalTest, IsAFile) {
             "cannot write " + Path() + ": not a regular file");
 }
 
+// A torn header is begun again; a file of somebody else's, even of one line without an end, is left alone.
 TEST_F(JournalTest, OnlyATornHeaderIsBegunAgain) {
   for (const std::string& foreign :
        {std::string("mine"), std::string("work 2"), std::string("w o")}) {

@@ -62,6 +62,15 @@ std::vector<Hypothesis> Hypotheses(const Case& c) {
   return {base, moved};
 }
 
+/// What the hypotheses predict, simulated into a store that is closed again.
+std::vector<std::optional<std::vector<double>>> KeptPredictions(const Case& c,
+                                                                const std::string& folder) {
+  CaseModel model(c);
+  RunStore store(folder, c);
+  model.store = &store;
+  return model.PredictAll(Hypotheses(c));
+}
+
 TEST_F(RunStoreTest, SameBitsWithoutSimulating) {
   const Case c = Read();
   CaseModel plain(c), first(c), second(c);
@@ -95,13 +104,8 @@ TEST_F(RunStoreTest, AnotherHypothesisIsAnotherEntry) {
 
 TEST_F(RunStoreTest, AnEntryThatWasCutOffIsDoneAgain) {
   const Case c = Read();
-  CaseModel model(c), again(c);
-  std::vector<std::optional<std::vector<double>>> wanted;
-  {
-    RunStore store(Store(), c);
-    model.store = &store;
-    wanted = model.PredictAll(Hypotheses(c));
-  }
+  const auto wanted = KeptPredictions(c, Store());
+  CaseModel again(c);
   const fs::path file = fs::path(Store()) / "simulations.bin";
   fs::resize_file(file, fs::file_size(file) - 5);
   RunStore store(Store(), c);
@@ -114,13 +118,8 @@ TEST_F(RunStoreTest, AnEntryThatWasCutOffIsDoneAgain) {
 // Its check sum fits, but the rows that are asked for are more (or fewer, and there is no room for the others).
 TEST_F(RunStoreTest, AnEntryOfAnotherLengthIsDoneAgain) {
   const Case c = Read();
-  CaseModel model(c), again(c);
-  std::vector<std::optional<std::vector<double>>> wanted;
-  {
-    RunStore store(Store(), c);
-    model.store = &store;
-    wanted = model.PredictAll(Hypotheses(c));
-  }
+  const auto wanted = KeptPredictions(c, Store());
+  CaseModel again(c);
   {
     std::string text;
     const auto keep = [&text](const JournalEntry& e) {

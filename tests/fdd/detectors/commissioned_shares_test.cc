@@ -90,6 +90,23 @@ TEST(CommissionedShares, ErrorsOfTheModelNameNobodyTogetherWithOthers) {
   EXPECT_EQ(named, (std::set<int>{0, 2, 4, 6}));
 }
 
+// An amplifier of one direction gives nothing below zero: a coil asked for less misses no more than what it carries.
+TEST(CommissionedShares, ASetPointBelowZeroIsMissedByTheCurrentAlone) {
+  LearntBench zero, below;
+  Lane none, negative;
+  for (double& v : negative.v) v = -3;
+  for (const auto& [b, asked] : {std::pair{&zero, &none}, {&below, &negative}})
+    for (int n = 0; n < 10; ++n) {
+      MeasuredPeriod in = b->bench.Run();
+      in.set_point = asked;
+      b->detector->Watch(in);
+    }
+  for (int j = 0; j < 8; ++j) {
+    EXPECT_GT(zero.detector->current_error()[j], 0.1);
+    EXPECT_EQ(below.detector->current_error()[j], zero.detector->current_error()[j]);
+  }
+}
+
 // Iron that bends in one or two poles leaves no more than a third to the c of the others: those are
 // judged where their own flux is within what was learnt, and a coil beyond it only by a larger c.
 TEST(CommissionedShares, CoilsInsideTheirRangeAreJudgedBesideThoseBeyond) {

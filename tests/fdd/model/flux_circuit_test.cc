@@ -22,6 +22,21 @@ LinkageModel Alone() {
   return m;
 }
 
+/// Its first period under a current that stands still, the bridge off.
+FluxPeriod FirstPeriod(const FluxCircuit& circuit, double current) {
+  const AmplifierParameters amplifier = Bridge();
+  FluxFilter filter(Alone(), {kSamples, kT / kSamples, &amplifier}, circuit);
+  Lane adc[kSamples], duty;
+  for (Lane& i : adc) i[0] = current;
+  MeasuredPeriod in;
+  in.adc = adc;
+  in.duty = &duty;
+  in.bus = 30;
+  FluxPeriod period;
+  filter.Period(in, &period);
+  return period;
+}
+
 double AmplitudeOf(const FluxCircuit& circuit, double frequency) {
   const AmplifierParameters amplifier = Bridge();
   FluxFilter filter(Alone(), {kSamples, kT / kSamples, &amplifier}, circuit);
@@ -56,18 +71,8 @@ TEST(FluxCircuit, RelaxationsHaveTheFrequencyResponseOfTheirSum) {
 
 // What a bridge that is off says of a coil whose reading may be a sensor's zero is not judged: its diodes may block.
 TEST(FluxCircuit, LooksAtOffPhasesOfCoilsThatSurelyConductOnly) {
-  const AmplifierParameters amplifier = Bridge();
-  const auto off_samples = [&](double current) {
-    FluxFilter filter(Alone(), {kSamples, kT / kSamples, &amplifier}, {});
-    Lane adc[kSamples], duty;
-    for (Lane& i : adc) i[0] = current;
-    MeasuredPeriod in;
-    in.adc = adc;
-    in.duty = &duty;
-    in.bus = 30;
-    FluxPeriod period;
-    filter.Period(in, &period);
-    return period.phase[1].samples[0];
+  const auto off_samples = [](double current) {
+    return FirstPeriod({}, current).phase[1].samples[0];
   };
   EXPECT_GT(off_samples(0.3), 5);
   EXPECT_EQ(off_samples(0.2), 0);
@@ -93,17 +98,7 @@ TEST(FluxCircuit, FollowsTheSimulatorsFluxes) {
 TEST(FluxCircuit, KneeMeetsItsOwnEquationAtRest) {
   FluxCircuit circuit;
   circuit.knee7 = 0.3;
-  const AmplifierParameters amplifier = Bridge();
-  FluxFilter filter(Alone(), {kSamples, kT / kSamples, &amplifier}, circuit);
-  Lane adc[kSamples], duty;
-  for (Lane& i : adc) i[0] = 4;
-  MeasuredPeriod in;
-  in.adc = adc;
-  in.duty = &duty;
-  in.bus = 30;
-  FluxPeriod period;
-  filter.Period(in, &period);
-  const double psi = period.flux[0];
+  const double psi = FirstPeriod(circuit, 4).flux[0];
   EXPECT_NEAR(psi + 0.3 * std::pow(psi, 7) / 729, 4, 1e-9);
 }
 
