@@ -5,15 +5,18 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <set>
 
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
 #include "app/json/discovery_json.h"
+#include "app/json/provenance.h"
 #include "app/pages/html.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "core/base/inputs_read.h"
 #include "discovery/practice/case_score.h"
 
 namespace ambrig {
@@ -86,19 +89,44 @@ Finding FindingOf(const Json& j) {
   return f;
 }
 
-/// An earlier result of this case, if it is younger than the case and complete.
+/// Whether the result's inputs are the files of the case in `folder`, as they are now.
+bool IsOfCase(const Json& result, const fs::path& folder) {
+  const Json inputs = result.value("/provenance/inputs"_json_pointer, Json::object());
+  bool of_case = false;
+  for (const auto& [input, hash] : inputs.items()) {
+    of_case = of_case || fs::weakly_canonical(input) == fs::weakly_canonical(folder / "case.toml");
+    if (hash != FileHash(input)) return false;
+  }
+  return of_case;
+}
+
+/// An earlier result, if it is complete and of this case.
 std::optional<Finding> Earlier(const fs::path& file, const fs::path& folder) {
-  std::error_code error;
-  const auto written = fs::last_write_time(file, error);
-  if (error || written < fs::last_write_time(folder / "case.toml")) return std::nullopt;
   std::ifstream in(file);
   const Json j = Json::parse(in, nullptr, false);
-  if (j.is_discarded() || j.value("verdict", "unfinished") == "unfinished") return std::nullopt;
+  if (!j.is_object() || j.value("verdict", "unfinished") == "unfinished" || !IsOfCase(j, folder))
+    return std::nullopt;
   return FindingOf(j);
 }
 
-fs::path ResultOf(const ScoreCommand& o, const fs::path& folder) {
-  return fs::path(o.output) / (folder.filename().string() + ".json");
+/// Names of the cases: of their folders, and of the folders above where these are alike.
+std::vector<std::string> NamesOf(const std::vector<fs::path>& folders) {
+  std::vector<std::string> names;
+  for (const fs::path& f : folders) {
+    const bool alike = std::count_if(folders.begin(), folders.end(), [&](const fs::path& o) {
+                         return o.filename() == f.filename();
+                       }) > 1;
+    const std::string above = fs::weakly_canonical(f).parent_path().filename().string();
+    names.push_back((alike ? above + "-" : "") + f.filename().string());
+    if (std::count(names.begin(), names.end(), names.back()) > 1)
+      throw InputError(fmt::format("{}: a second case with the name {}, allowed: score them apart",
+                                   f.string(), names.back()));
+  }
+  return names;
+}
+
+fs::path ResultOf(const ScoreCommand& o, const std::string& name) {
+  return fs::path(o.output) / (name + ".json");
 }
 
 std::string Listed(const std::vector<NamedEffect>& effects, const std::string& none) {
@@ -193,18 +221,21 @@ int RunScore(const ScoreCommand& o) {
   const std::vector<fs::path> folders = CaseFolders(o.paths);
   std::vector<Answer> answers;  // all of them first: complain before hours of work
   for (const fs::path& f : folders) answers.push_back(AnswerOf(f, o.answers));
+  const std::vector<std::string> names = NamesOf(folders);
   o.common.CheckOutputs({o.answers});
   PrepareFolder(o.output);
-  for (const fs::path& f : folders)
-    if (const fs::path file = ResultOf(o, f); o.again || !Earlier(file, f))
+  for (std::size_t k = 0; k < folders.size(); ++k)
+    if (const fs::path file = ResultOf(o, names[k]); o.again || !Earlier(file, folders[k]))
       RefuseOverwriting({file.string()}, o.common.force);
+  const std::vector<std::string> read = InputsRead();
+  std::set<std::string> inputs(read.begin(), read.end());
   std::vector<CaseScore> all;
   Progress progress("score");
   fmt::print("{:<34} {:>9} {:>9} {:>8}\n", "case", "before", "after", "time");
   fmt::print("(before, after: error over the noise of the unseen records)\n");
   for (std::size_t k = 0; k < folders.size(); ++k) {
-    const std::string name = folders[k].filename().string();
-    const fs::path file = ResultOf(o, folders[k]);
+    const std::string& name = names[k];
+    const fs::path file = ResultOf(o, name);
     auto finding = o.again ? std::nullopt : Earlier(file, folders[k]);
     if (!finding) {
       ExplainOptions options;
@@ -213,8 +244,10 @@ int RunScore(const ScoreCommand& o) {
         progress.Update((static_cast<double>(k) + f) / static_cast<double>(folders.size()),
                         name + ": " + text);
       };
+      ForgetInputs();  // a result names those of its own case
       const Json j = ExplainJson(Explain(ReadCase((folders[k] / "case.toml").string()), options));
       WriteFileAtomically(file.string(), MarkedJson(j));
+      for (const std::string& input : InputsRead()) inputs.insert(input);
       finding = FindingOf(j);
     }
     all.push_back(ScoreCase(name, answers[k], *finding));
@@ -228,6 +261,7 @@ int RunScore(const ScoreCommand& o) {
   for (const auto& [truth, given] : Confusion(all))
     for (const auto& [found, n] : given)
       fmt::print("  {:<24} {:<28} {:>3}{}\n", truth, found, n, truth == found ? "" : "   <-");
+  for (const std::string& input : inputs) NoteInput(input);
   o.common.WriteJson(MatrixJson(all));
   if (!o.common.html.empty()) WriteScoreReport(all, o.common.html);
   return 0;
