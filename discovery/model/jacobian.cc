@@ -29,6 +29,28 @@ double SmallerOfOneSign(double a, double b) {
 
 using Prediction = std::optional<std::vector<double>>;
 
+// Changes of a prediction, rms over the rows in noise floors. A step that makes more is taken again with one that
+// should make the wanted change: over more than that a prediction is no straight line (where a loop nears its limit,
+// one sd of a leakage inductance changed it ten times as much as its slope says), over much less its jumps, some
+// hundredths of the floor, are divided by little.
+constexpr double kMostChange = 3, kWantedChange = 1;
+constexpr double kLeastStep = 0.01, kStepOfLost = 0.1;  // of the first one; where it lost the rotor
+
+/// rms of the change over the rows of the records looked at, in floors.
+double ChangeOf(const CaseModel& model, const QuickLook* look, const Prediction& here,
+                const Prediction& moved) {
+  double sum = 0, rows = 0;
+  for (const Target& t : model.targets()) {
+    if (look && !look->records[t.record]) continue;
+    for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+      if (!model.ok()[k]) continue;
+      sum += std::pow(((*moved)[k] - (*here)[k]) / t.floor, 2);
+      ++rows;
+    }
+  }
+  return rows > 0 ? std::sqrt(sum / rows) : 0;
+}
+
 /// Rows of one column: a prediction and the change of the coordinate that made it.
 void FillColumn(const CaseModel& model, const Prediction& here, const Prediction& moved,
                 double change, Eigen::MatrixXd::ColXpr column) {
@@ -46,16 +68,25 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
                          const QuickLook* look, DifferenceSides differences) {
   const std::size_t n = parameters.size(),
                     sides = differences == DifferenceSides::kTwoSided ? 2 : 1;
-  std::vector<Hypothesis> moved;
-  std::vector<double> change;
-  for (std::size_t side = 0; side < sides; ++side)
-    for (std::size_t p : parameters) {
-      moved.push_back(h);
-      change.push_back(Move(moved.back(), p, side == 0 ? fraction : -fraction));
-    }
-  moved.push_back(h);
-  const auto runs = model.PredictAll(moved, ModelFidelity::kCoarse, look);
-  const auto& here = runs.back();
+  std::vector<Hypothesis> moved(sides * n + 1, h);
+  std::vector<double> change(sides * n);
+  const auto move = [&](std::size_t k, Hypothesis& to, double share) {
+    change[k] = Move(to, parameters[k % n], share * (k < n ? fraction : -fraction));
+  };
+  for (std::size_t k = 0; k < sides * n; ++k) move(k, moved[k], 1);
+  auto runs = model.PredictAll(moved, ModelFidelity::kCoarse, look);
+  const Prediction here = std::move(runs.back());
+  std::vector<std::size_t> far;  // steps that are taken again
+  std::vector<Hypothesis> nearer;
+  for (std::size_t k = 0; here && k < sides * n; ++k) {
+    const double size = runs[k] ? ChangeOf(model, look, here, runs[k]) : kInfinity;
+    if (change[k] == 0 || size <= kMostChange) continue;
+    far.push_back(k);
+    nearer.push_back(h);
+    move(k, nearer.back(), runs[k] ? std::max(kLeastStep, kWantedChange / size) : kStepOfLost);
+  }
+  auto again = model.PredictAll(nearer, ModelFidelity::kCoarse, look);
+  for (std::size_t k = 0; k < far.size(); ++k) runs[far[k]] = std::move(again[k]);
   const auto rows = static_cast<Eigen::Index>(model.size());
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n));
   for (std::size_t c = 0; here && c < n; ++c) {

@@ -97,23 +97,20 @@ class EnoughGained : public ceres::IterationCallback {
   double least_share_, gained_ = 0;
 };
 
-/// One pass of the solver from and to x. Returns whether it found a usable point.
-bool Solve(FitProblem& cost, const Hypothesis& start, const FitOptions& options,
-           std::vector<double>& x) {
+/// One pass of the solver from and to x. Returns whether it found a usable point; `settled`: that more steps would gain
+/// little.
+bool Solve(FitProblem& cost, const FitOptions& options, std::vector<double>& x, bool* settled) {
   SolverCost seen(cost);  // outlives the problem, which does not own it
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   ceres::Problem problem(ownership);
   problem.AddResidualBlock(&seen, nullptr, x.data());
   for (std::size_t k = 0; k < x.size(); ++k) {
-    const FreeParameter& f = start.free[k];
-    const auto bound = [&](double v) {
-      return f.logarithmic ? std::log(std::max(v, 1e-300) / f.start) / 0.3 : (v - f.start) / f.step;
-    };
-    if (std::isfinite(f.lo))
-      problem.SetParameterLowerBound(x.data(), static_cast<int>(k), std::min(bound(f.lo), x[k]));
-    if (std::isfinite(f.hi))
-      problem.SetParameterUpperBound(x.data(), static_cast<int>(k), std::max(bound(f.hi), x[k]));
+    const double low = cost.LowerBound(k), high = cost.UpperBound(k);
+    if (std::isfinite(low))
+      problem.SetParameterLowerBound(x.data(), static_cast<int>(k), std::min(low, x[k]));
+    if (std::isfinite(high))
+      problem.SetParameterUpperBound(x.data(), static_cast<int>(k), std::max(high, x[k]));
   }
   ceres::Solver::Options solver;
   solver.max_num_iterations = options.iterations;
@@ -130,6 +127,8 @@ bool Solve(FitProblem& cost, const Hypothesis& start, const FitOptions& options,
   solver.callbacks = {&enough};
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
+  *settled = summary.termination_type == ceres::CONVERGENCE ||
+             summary.termination_type == ceres::USER_SUCCESS;
   return summary.IsSolutionUsable();
 }
 
@@ -172,7 +171,7 @@ bool Improve(const CaseModel& model, const FitOptions& options, FitProblem& cost
       cost.Refresh();
       refreshed = true;
     }
-    if (!Solve(cost, start, options, x)) {
+    if (!Solve(cost, options, x, &result.settled)) {
       result.converged = pass > 0;
       break;
     }

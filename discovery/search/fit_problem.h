@@ -111,6 +111,10 @@ class FitProblem {
     return h;
   }
 
+  /// Bounds of a parameter's coordinate.
+  double LowerBound(std::size_t k) const { return CoordinateOf(k, hypothesis_.free[k].lo); }
+  double UpperBound(std::size_t k) const { return CoordinateOf(k, hypothesis_.free[k].hi); }
+
   int parameters() const { return static_cast<int>(p_); }
   int num_residuals() const { return 2 * static_cast<int>(p_) + 1; }  // data, then priors
 
@@ -147,6 +151,7 @@ class FitProblem {
       if (hypothesis_.free[k].sd > 0)
         out(static_cast<Eigen::Index>(p_ + 1 + k), static_cast<Eigen::Index>(k)) =
             PriorSlope(x[0][k]);
+    HoldAtBounds(x[0], residuals, out);
     return true;
   }
 
@@ -207,6 +212,25 @@ class FitProblem {
     // a prediction that rises lowers the residual
     jacobian_.noalias() -= untold * step.transpose() / step.squaredNorm();
     return true;
+  }
+
+  double CoordinateOf(std::size_t k, double value) const {
+    const FreeParameter& f = hypothesis_.free[k];
+    if (!std::isfinite(value)) return value;
+    return f.logarithmic ? std::log(std::max(value, 1e-300) / f.start) / 0.3
+                         : (value - f.start) / f.step;
+  }
+  /// A parameter at a bound which the slope of the cost pushes against is held there: its column is zero. Ceres
+  /// projects steps into the bounds only after it has computed them, and the other parameters would go with one
+  /// that cannot move. Source: D. P. Bertsekas, SIAM J. Control Optim. 20 (1982), projected Newton.
+  template <class Matrix>
+  void HoldAtBounds(const double* x, const double* residuals, Matrix& out) const {
+    const Eigen::Map<const Eigen::VectorXd> r(residuals, out.rows());
+    for (std::size_t k = 0; k < p_; ++k) {
+      const double slope = out.col(static_cast<Eigen::Index>(k)).dot(r);
+      if ((x[k] <= LowerBound(k) && slope > 0) || (x[k] >= UpperBound(k) && slope < 0))
+        out.col(static_cast<Eigen::Index>(k)).setZero();
+    }
   }
 
   static bool HasFrequency(const Hypothesis& h, const FreeParameter& p) {

@@ -27,9 +27,14 @@ struct Steps {
   double frequency;        // share
   double gain;             // of one of two gains, less; 1 over it, more
   double damping;          // less; 1 over it, more. 1: as it was sought
+  // of kPart, that a start beside other effects has to explain after these steps to go on
+  double least;
 };
-constexpr Steps kSteps[] = {
-    {1.6, 0.4, 0.06, 0.5, 1}, {1.25, 0.8, 0.025, 0.8, 0.6}, {1.08, 0.93, 0.008, 0.92, 0.85}};
+constexpr Steps kSteps[] = {{1.6, 0.4, 0.06, 0.5, 1, 0.15},
+                            {1.25, 0.8, 0.025, 0.8, 0.6, 0.5},
+                            {1.08, 0.93, 0.008, 0.92, 0.85, 0}};
+// of what is left, that a start beside other effects has to explain
+constexpr double kPart = 0.1;
 
 /// Larger, smaller, lower, higher, with more and less at one of two gains, more and less damped.
 std::vector<SimulatedStart> Neighbours(const EffectInstance& e, const Steps& steps) {
@@ -142,7 +147,6 @@ double StartSearch::Excess(const std::vector<double>& residual) const {
 
 bool StartSearch::Explains(const SimulatedStart& s) const {
   constexpr double kWorth = 4;  // of the score
-  constexpr double kPart = 0.1;
   return s.score <= here_ - kWorth && (!beside_others_ || s.share > kPart);
 }
 
@@ -170,9 +174,12 @@ void StartSearch::Simulate(std::vector<SimulatedStart>& starts) const {
 void StartSearch::Climb(std::vector<SimulatedStart>& starts) const {
   constexpr int kMost = 12;  // moves with steps of one kind
   for (SimulatedStart& start : starts)
-    for (int shrink = 0; shrink < kMost && !std::isfinite(start.score); ++shrink) {
-      std::vector<SimulatedStart> smaller = {{ScaledResonance(start.effect, 1.0 / 6)}};
+    for (int shrink = 0; shrink < kMost && start.score > here_; ++shrink) {
+      const bool lost = !std::isfinite(start.score);
+      std::vector<SimulatedStart> smaller = {
+          {ScaledResonance(start.effect, lost ? 1.0 / 6 : 1.0 / 3)}};
       Simulate(smaller);
+      if (!lost && smaller[0].score >= start.score) break;
       start = smaller[0];
     }
   std::size_t climbing = starts.size();
@@ -187,6 +194,8 @@ void StartSearch::Climb(std::vector<SimulatedStart>& starts) const {
       }
     std::stable_sort(starts.begin(), starts.end(), ExplainsMore);
     if (&steps != &kSteps[0]) climbing = (climbing + 1) / 2;
+    while (beside_others_ && climbing > 0 && starts[climbing - 1].share < steps.least * kPart)
+      --climbing;
   }
 }
 

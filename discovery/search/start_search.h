@@ -30,9 +30,10 @@ class StartSearch {
   void Simulate(std::vector<SimulatedStart>& starts) const;
   /// Moves each start to the neighbour (size, frequency, one of two gains) that explains most until none
   /// explains more: a loop that a resonance brings near its limit answers out of all proportion to
-  /// the size, and at another frequency than the resonance's own. One that loses the rotor shrinks
-  /// until it holds it. The steps become finer; the finest are taken by the better half of the
-  /// starts. Leaves all, best first.
+  /// the size, and at another frequency than the resonance's own. One that loses the rotor, or
+  /// explains less than nothing, shrinks first. The steps become finer; the finest are taken by the
+  /// better half of the starts, and beside adopted effects only by those that explain something by
+  /// then. Leaves all, best first.
   void Climb(std::vector<SimulatedStart>& starts) const;
 
  private:

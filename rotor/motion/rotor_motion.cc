@@ -64,9 +64,10 @@ void RotorModel::SetSpin(MotionState& s) const {
 }
 
 void RotorModel::Prescribe(MotionState& s) const {
-  s.theta = speed_.Angle(s.t);
-  s.Omega = speed_.Speed(s.t);
-  s.Omega_dot = speed_.Acceleration(s.t);
+  const Spin spin = speed_.At(s.t);
+  s.theta = spin.angle;
+  s.Omega = spin.speed;
+  s.Omega_dot = spin.acceleration;
 }
 
 PlanePoint RotorModel::OnSurface(const MotionState& s, const PlaneMap& plane) const {
@@ -87,10 +88,7 @@ PlanePoint RotorModel::OnSurface(const MotionState& s, const PlaneMap& plane) co
 void RotorModel::Accelerations(const MotionState& s, const DofVector& Q, double stator_x,
                                double stator_y, DofVector& a, double* torque,
                                bool near_contact) const {
-  RotorForces f;
-  f.Q = Q;
-  f.stator_x = stator_x;
-  f.stator_y = stator_y;
+  RotorForces f{.Q = Q, .stator_x = stator_x, .stator_y = stator_y};
   for (const auto& term : terms) term->Add(s, f);
   for (const AuxiliaryPlane& aux : aux_)
     if (near_contact || aux.mount_dof >= 0 || aux.race_dof >= 0)
@@ -153,7 +151,7 @@ void RotorModel::StepUnder(MotionState& s, const DofVector& forced, double stato
     if (free_spin && k > 0) {
       stage.Omega = s.Omega + c[k] * dt * k_w[k - 1];
       stage.theta = s.theta + c[k] * dt * stage_w[k - 1];
-    } else if (!free_spin) {
+    } else if (!free_spin && k != 2) {  // the third stage is at the time of the second
       Prescribe(stage);
     }
     double torque = 0;
@@ -232,8 +230,12 @@ double RotorModel::AxialPenetration(const MotionState& s) const {
 bool RotorModel::FarFromContact(const MotionState& s, std::size_t plane, double horizon) const {
   if (!surface.empty() || aux_[plane].mount_dof >= 0) return false;
   const PlaneMap& m = aux_[plane].map;
-  const double reach =
-      std::abs(m.X(s.q)) + std::abs(m.Y(s.q)) + horizon * (std::abs(m.X(s.v)) + std::abs(m.Y(s.v)));
+  double reach = 0;  // no point moves further than the sum of what each coordinate moves it by
+  for (std::size_t k = 0; k < AsSize(m.count); ++k) {
+    const std::size_t d = AsSize(m.dof[k]);
+    reach +=
+        (std::abs(m.wx[k]) + std::abs(m.wy[k])) * (std::abs(s.q[d]) + horizon * std::abs(s.v[d]));
+  }
   return reach < aux_[plane].parameters.clearance - 2e-7;
 }
 

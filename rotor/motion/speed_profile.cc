@@ -23,23 +23,20 @@ std::size_t SpeedProfile::Segment(double t) const {
   return k;
 }
 
-double SpeedProfile::Acceleration(double t) const {
-  if (t < t_.front() || t >= t_.back()) return 0;
+Spin SpeedProfile::At(double t) const {
+  if (t < t_.front()) return {angle_.front() + w_.front() * (t - t_.front()), w_.front(), 0};
   const std::size_t k = Segment(t);
-  return (w_[k + 1] - w_[k]) / (t_[k + 1] - t_[k]);
+  const double since = t - t_[k];
+  if (k + 1 == t_.size()) return {angle_[k] + 0.5 * (w_[k] + w_[k]) * since, w_[k], 0};
+  const double acceleration = (w_[k + 1] - w_[k]) / (t_[k + 1] - t_[k]),
+               speed = w_[k] + acceleration * since;
+  return {angle_[k] + 0.5 * (w_[k] + speed) * since, speed, acceleration};
 }
 
-double SpeedProfile::Speed(double t) const {
-  if (t <= t_.front()) return w_.front();
-  if (t >= t_.back()) return w_.back();
-  const std::size_t k = Segment(t);
-  return w_[k] + (w_[k + 1] - w_[k]) / (t_[k + 1] - t_[k]) * (t - t_[k]);
-}
+double SpeedProfile::Acceleration(double t) const { return At(t).acceleration; }
 
-double SpeedProfile::Angle(double t) const {
-  if (t <= t_.front()) return angle_.front() + w_.front() * (t - t_.front());
-  const std::size_t k = Segment(t);
-  return angle_[k] + 0.5 * (w_[k] + Speed(t)) * (t - t_[k]);
-}
+double SpeedProfile::Speed(double t) const { return At(t).speed; }
+
+double SpeedProfile::Angle(double t) const { return At(t).angle; }
 
 }  // namespace ambrig

@@ -5,6 +5,11 @@
 
 namespace ambrig {
 
+/// The spin at one instant.
+struct Spin {
+  double angle = 0, speed = 0, acceleration = 0;  // [rad], [rad/s], [rad/s2]
+};
+
 class SpeedProfile {
  public:
   SpeedProfile() : SpeedProfile({{0.0, 0.0}}) {}
@@ -13,6 +18,8 @@ class SpeedProfile {
   double Speed(double t) const;         // [rad/s]
   double Angle(double t) const;         // [rad], unwrapped, 0 at t = 0
   double Acceleration(double t) const;  // [rad/s2]
+  /// All three at once.
+  Spin At(double t) const;
   double end() const { return t_.back(); }
 
  private:

@@ -21,6 +21,20 @@ LinearCase CaseOf(double gain, double offset) {
   return {{std::begin(kFitX), std::end(kFitX)}, gain, offset};
 }
 
+/// A reading of A.x that is a formula of x and of a parameter k between 0 and 1.
+std::vector<EffectInstance> ReadingOfK(const std::string& reading, double k) {
+  const std::string file =
+      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string effect = fmt::format(
+      "\n[[effect]]\nname = \"formula\"\ntarget = \"A\"\n"
+      "parameters = {{ k = {{ value = {}, null = 0.0, min = 0.0, max = 1.0 }} }}\n"
+      "reading = {{ x = \"{}\", y = \"y\" }}\n",
+      k, reading);
+  return ReadRigText(text + effect, "rig.toml").effects;
+}
+
 // d(gain x)/d(gain) = x, in units of the floor, per step of the coordinate; no other row moves.
 TEST(Jacobian, IsTheDerivativeOfALinearReading) {
   const LinearCase c = CaseOf(1, 0);
@@ -62,18 +76,8 @@ TEST(Jacobian, TwoSidedIsTheSameWhereTheReadingIsLinear) {
 // A reading that jumps by 10 um where k passes 0.5, and nowhere else depends on it: from 0.45 a step of 0.1
 // crosses that on one side only, which is no slope.
 TEST(Jacobian, TwoSidedTakesNoJumpForASlope) {
-  const std::string file =
-      std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml";
-  std::ifstream in(file);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
   Case jumping = LinearCase::Make({2e-5, 4e-5}, 1, 0);
-  jumping.rig.effects =
-      ReadRigText(text +
-                      "\n[[effect]]\nname = \"formula\"\ntarget = \"A\"\n"
-                      "parameters = { k = { value = 0.45, null = 0.0, min = 0.0, max = 1.0 } }\n"
-                      "reading = { x = \"x + (k > 0.5 ? 1e-5 : 0)\", y = \"y\" }\n",
-                  "rig.toml")
-          .effects;
+  jumping.rig.effects = ReadingOfK("x + (k > 0.5 ? 1e-5 : 0)", 0.45);
   const CaseModel model(jumping);
   const Hypothesis h = Hypothesis::Base(jumping.rig);
   ASSERT_EQ(h.free.size(), 1u);
@@ -82,6 +86,22 @@ TEST(Jacobian, TwoSidedTakesNoJumpForASlope) {
   const double fraction = beyond.Coordinate(0) - h.Coordinate(0);
   EXPECT_GT(Jacobian(model, h, {0}, fraction).norm(), 0);
   EXPECT_EQ(Jacobian(model, h, {0}, fraction, nullptr, DifferenceSides::kTwoSided).norm(), 0);
+}
+
+// A reading that bends, x + 0.1 mm k²: a step of 0.5 from k = 0.1 moves it by 35 floors, three and a half times as much
+// as its slope says, and is taken again smaller.
+TEST(Jacobian, AStepThatMovesMuchIsTakenSmaller) {
+  Case bent = LinearCase::Make({2e-5, 4e-5}, 1, 0);
+  bent.rig.effects = ReadingOfK("x + 1e-4 * k * k", 0.1);
+  CaseModel model(bent);
+  for (Target& t : model.targets()) t.floor = LinearCase::kFloor;
+  const Hypothesis h = Hypothesis::Base(bent.rig);
+  Hypothesis beyond = h;
+  beyond.Set(0, 0.6);
+  const double change = beyond.Coordinate(0) - h.Coordinate(0);
+  const Eigen::MatrixXd J = Jacobian(model, h, {0}, change);
+  const double slope = 2 * 1e-4 * 0.1 / LinearCase::kFloor * 0.5 / change;
+  EXPECT_NEAR(J(0, 0), slope, 0.15 * slope);
 }
 
 // With a look at one record the rows of the others stay zero.
@@ -180,6 +200,18 @@ TEST(Fit, StaysInsideBoundsAndSaysSo) {
   for (std::size_t r = 0; r < c.fit_records(); ++r) square += std::pow(0.03 * c.x[r], 2);
   EXPECT_NEAR(fit.ratio_fit, std::sqrt(square / 6) / LinearCase::kFloor, 1e-6);
   EXPECT_THAT(fit.warnings, ::testing::Contains(::testing::HasSubstr("is at its bound 1.04")));
+}
+
+// Beside a gain that is held at its bound the offset takes what is left: 0.03 times the mean position more than its own.
+TEST(Fit, FindsTheOthersBesideOneThatIsAtItsBound) {
+  const LinearCase c = CaseOf(1.07, 3e-6);
+  Hypothesis start = c.With({LinearCase::Gain(1.02), LinearCase::Offset(1e-6)});
+  start.free[0].hi = 1.04;
+  FitOptions options;
+  options.effective_sample_size = 300;
+  const FitResult fit = Fit(c.model, start, options);
+  EXPECT_NEAR(FittedEffect(fit, 0).Value("gain"), 1.04, 1e-9);
+  EXPECT_NEAR(FittedEffect(fit, 1).Value("offset"), 3e-6 + 0.03 * 4e-5, 2e-8);
 }
 
 // Records at one position cannot tell a gain from an offset.
