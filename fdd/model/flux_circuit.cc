@@ -13,8 +13,8 @@ namespace {
 
 /// Lanes without a coil take next to no flux.
 template <class V>
-[[gnu::always_inline]] inline V ReluctanceAt(const LinkageModel& m, const FluxCircuit& circuit,
-                                             const Lane& per_nominal, double x, double y) {
+[[gnu::always_inline]] inline V PathReluctance(const LinkageModel& m, const FluxCircuit& circuit,
+                                               const Lane& per_nominal, double x, double y) {
   const V zero = 0.0, offset = LoadAs<V>(m.gap_offset.v);
   const auto coil = Below(zero, offset);
   const V g = Max(offset - LoadAs<V>(m.direction_x.v) * (x - circuit.dx) -
@@ -30,8 +30,8 @@ template <class V>
 [[gnu::always_inline]] inline void FollowMotion(const LinkageModel& m, const FluxCircuit& circuit,
                                                 const Lane& per_nominal, const MeasuredPeriod& in,
                                                 FluxFilter::Step* step) {
-  const V start = ReluctanceAt<V>(m, circuit, per_nominal, in.x0, in.y0),
-          end = ReluctanceAt<V>(m, circuit, per_nominal, in.x1, in.y1);
+  const V start = PathReluctance<V>(m, circuit, per_nominal, in.x0, in.y0),
+          end = PathReluctance<V>(m, circuit, per_nominal, in.x1, in.y1);
   Store(step->rho.v, start);
   Store(step->rho_change.v, end - start);
 }
