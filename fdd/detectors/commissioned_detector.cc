@@ -9,8 +9,6 @@ namespace {
 
 constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
 constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
-constexpr double kPatternGrows = 3;    // over commissioning
-constexpr double kLeastPattern = 0.1;  // that is doubted
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
 constexpr double kDeadIdle = 0.75;  // -c of a coil without current that is asked for none
@@ -84,12 +82,12 @@ void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
 }
 
 bool CommissionedDetector::Disturbed() const {
+  if (calm_) return false;
   // A fault stands out from what it throws at its neighbours; the model's errors are alike.
   const double alike = kAlike * *std::max_element(level_.v, level_.v + kLanes);
   int beyond = 0;
   for (int j = 0; j < kLanes; ++j) beyond += ratio_[j] > 1 && level_[j] >= alike;
-  return beyond >= kCoilsAtOnce ||
-         windows_.Pattern(2) > std::max(kLeastPattern, kPatternGrows * model_.pattern);
+  return beyond >= kCoilsAtOnce || windows_.Pattern(kLevelWindow) > PatternLimit();
 }
 
 double CommissionedDetector::LargestNow() const {
@@ -120,7 +118,8 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
 
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
   ++count_;
-  joint_.Keep(in, sampling_.samples, filter_.state());
+  calm_ = false;
+  const FluxFilter::State before = filter_.state();
   filter_.Period(in, &period_);
   WatchCurrents(in);
   const int stepped = jumps_.Period(in, now_);
@@ -143,7 +142,11 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   ComputeSlopeExcess(filter_, model_.coils, settings_, period_, share_, &excess_);
   drift_.TakeOff(&excess_);
   WatchRange(in);
-  const int coil = Ratios();
+  Ratios();
+  if (calm_)
+    joint_.Clear();
+  else
+    joint_.Keep(in, sampling_.samples, before);
   if (paused_ > 0) {
     --paused_;
     streak_ = Lane{};
@@ -151,7 +154,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     CountDead(in);
     return DeadInAPause(in.t);
   }
-  Outcome out = Judge(in, coil);
+  Outcome out = Judge(in);
   FollowDrift(out.doubtful || out.alarm);
   if (out.decided) {
     jumps_.Forget();
@@ -163,9 +166,15 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   return out;
 }
 
-CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& in, int coil) {
+CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& in) {
   Outcome out;
   out.doubtful = !Relies() || out_of_range_ || Disturbed();
+  if (calm_) {
+    streak_ = dead_ = Lane{};
+    return out;
+  }
+  const int coil =
+      static_cast<int>(std::max_element(ratio_.v, ratio_.v + filter_.nominal().coils) - ratio_.v);
   out.alarm = ratio_[coil] > 1;
   CountStreaks(in);
   if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
@@ -214,6 +223,7 @@ void CommissionedDetector::CountStreaks(const MeasuredPeriod& in) {
 
 Lane CommissionedDetector::Period(const MeasuredPeriod& in) {
   Watch(in);
+  if (calm_) RatiosOfWindows();
   return ratio_;
 }
 

@@ -34,6 +34,9 @@
 /// Slow drift (heating, a sensor's zero) is followed within bounds that leave a fault visible
 /// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5.
 ///
+/// Nearly every period is calm: no c as it stands, before its common part is taken off, is beyond a band. That is
+/// told without a division, and ends what is done in it.
+///
 /// A reading that steps by what no voltage can make, without a slope that is wrong afterwards, is a
 /// current sensor's fault (jump_watch.h).
 #include "fdd/detectors/coil_detector.h"
@@ -104,6 +107,7 @@ class CommissionedDetector : public CoilDetector {
   // c, of a coil inside while one or two others are outside
   static constexpr double kGrossBeside = 1;
   static constexpr double kCompanion = 0.5;  // of the largest |c|: a fault of its own
+  static constexpr int kLevelWindow = 2;     // over which coils are compared: ten periods
   static constexpr int kCoilsAtOnce = 3;     // that stand out: the model's fault
   static constexpr double kNoiseOfBand = 6;  // a window's noise is below its band over this
   struct Recent {
@@ -115,13 +119,16 @@ class CommissionedDetector : public CoilDetector {
   void TakeShare(int coil, double share);
   void WatchCurrents(const MeasuredPeriod& in);
   void WatchRange(const MeasuredPeriod& in);
-  /// Ratios of this period; returns the coil of the largest.
-  int Ratios();
+  /// Ratios of this period; of a calm one those of the windows are left out.
+  void Ratios();
+  /// Of the windows, against their bands.
+  void RatiosOfWindows();
   double RecentExcess(int coil) const;
   double MoreTurns(int coil, double excess) const;
-  Outcome Judge(const MeasuredPeriod& in, int coil);
+  Outcome Judge(const MeasuredPeriod& in);
   /// The model's own errors show: several coils at once, or a pattern over the bearing.
   bool Disturbed() const;
+  double PatternLimit() const;  // beyond which a pattern is doubted
   /// Whether the learnt model holds: usable, and the coils are those it was learnt on.
   bool Relies() const { return model_.usable(); }
   int GrossCoils() const;  // with c > 0.5 in this period
@@ -158,9 +165,11 @@ class CommissionedDetector : public CoilDetector {
   ExcessWindows windows_;
   FluxPeriod period_;
   SlopeExcess excess_;
-  Lane share_;                                      // of the turns; 0: not judged
-  Lane band_[kExcessWindows];                       // of |c|
-  Lane ratio_, now_, apart_;                        // apart_: 1 where only gross values count
+  Lane share_;                 // of the turns; 0: not judged
+  Lane band_[kExcessWindows];  // of |c|
+  Lane ratio_, now_, apart_;   // apart_: 1 where only gross values count
+  // Of this period: no coil gross, none beyond a band, no pattern. Nothing needs to be weighed then.
+  bool calm_ = false;
   Lane level_;                                      // |c|, of gross coils now, else of ten periods
   Lane most_missed_;                                // |set-point - mean| of a healthy current [A]
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row

@@ -9,8 +9,9 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kGrossBand = 0.1;  // of |c| beyond what is gross, against the windows'
-constexpr int kLevelWindow = 2;     // over which coils are compared: ten periods
+constexpr double kGrossBand = 0.1;     // of |c| beyond what is gross, against the windows'
+constexpr double kPatternGrows = 3;    // over commissioning
+constexpr double kLeastPattern = 0.1;  // that is doubted
 // least band of c < 0: a reading that is low by less is no reason to give up a coil, and no turns are
 // lost that way
 constexpr double kLeastBelow = 0.08;
@@ -22,27 +23,43 @@ struct PeriodLimits {
 };
 
 /// What one period says by itself.
-AMBRIG_WIDE void JudgePeriod(const SlopeExcess& e, const PeriodLimits& limits, Lane* top,
-                             Lane* bottom, Lane* now, Lane* ratio, Lane* level, Lane* apart) {
-  const LaneVector zero, one = 1.0;
-  const LaneVector a = Load(e.top[0].v) + Load(e.top[1].v),
-                   b = Load(e.bottom[0].v) + Load(e.bottom[1].v);
+struct PeriodSays {
+  Lane *top, *bottom, *now, *ratio, *level, *apart;
+};
+
+/// Returns whether any coil is gross.
+template <class V>
+[[gnu::always_inline]] inline bool JudgeOnePeriod(const SlopeExcess& e, const PeriodLimits& limits,
+                                                  const PeriodSays& out) {
+  const V zero = 0.0, one = 1.0;
+  const V a = LoadAs<V>(e.top[0].v) + LoadAs<V>(e.top[1].v),
+          b = LoadAs<V>(e.bottom[0].v) + LoadAs<V>(e.bottom[1].v);
   const auto seen = Below(kJudgedWeight, b);
-  const LaneVector c = Only(seen, a / Select(seen, b, one)), size = Abs(c);
-  const auto gross = Below(Select(c > zero, Load(limits.above.v), limits.gross), size);
-  Store(top->v, a);
-  Store(bottom->v, b);
-  Store(now->v, c);
-  Store(ratio->v, Only(gross, size * (1 / kGrossBand)));
-  Store(level->v, Only(gross, size));
+  const V c = Only(seen, a / Choose(seen, b, one)), size = Abs(c);
+  const auto gross = Below(Choose(Below(zero, c), LoadAs<V>(limits.above.v), limits.gross), size);
+  const V level = Only(gross, size);
+  Store(out.top->v, a);
+  Store(out.bottom->v, b);
+  Store(out.now->v, c);
+  Store(out.ratio->v, Only(gross, size * (1 / kGrossBand)));
+  Store(out.level->v, level);
   // What a fault throws at its neighbours in its first period would stay in their windows.
-  const LaneVector starts_at_zero = Select(Load(e.gross.v) > zero, one, zero);
-  Store(apart->v, limits.apart ? one : Select(gross, one, starts_at_zero));
+  const V starts_at_zero = Only(Below(zero, LoadAs<V>(e.gross.v)), one);
+  Store(out.apart->v, limits.apart ? one : Max(Only(gross, one), starts_at_zero));
+  return Largest(level) > 0;
+}
+AMBRIG_WHOLE bool JudgePeriodWhole(const SlopeExcess& e, const PeriodLimits& limits,
+                                   const PeriodSays& out) {
+  return JudgeOnePeriod<WholeLaneVector>(e, limits, out);
+}
+AMBRIG_WIDE bool JudgePeriodInHalves(const SlopeExcess& e, const PeriodLimits& limits,
+                                     const PeriodSays& out) {
+  return JudgeOnePeriod<LaneVector>(e, limits, out);
 }
 
 /// The largest of the windows; coils apart keep their own.
-AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& apart, Lane* ratio,
-                              Lane* level) {
+AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& apart,
+                              const Lane& level_now, Lane* ratio, Lane* level) {
   const LaneVector zero;
   const auto counts = Load(apart.v) == zero;
   LaneVector most = Load(ratio->v);
@@ -51,7 +68,7 @@ AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& ap
     most = Max(most, Only(counts, Abs(c) / Select(c < zero, Max(healthy, kLeastBelow), healthy)));
   }
   Store(ratio->v, most);
-  Store(level->v, Select(counts, Abs(Load(used[kLevelWindow].v)), Load(level->v)));
+  Store(level->v, Select(counts, Abs(Load(level_now.v)), Load(level->v)));
 }
 
 /// Readings of every coil: the mean, and how far it and the one before both are from the set-point, of which
@@ -83,21 +100,29 @@ void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
                     &current_error_, &false_current_);
 }
 
-int CommissionedDetector::Ratios() {
-  const int coils = filter_.nominal().coils;
+double CommissionedDetector::PatternLimit() const {
+  return std::max(kLeastPattern, kPatternGrows * model_.pattern);
+}
+
+void CommissionedDetector::Ratios() {
   const auto place = static_cast<std::size_t>(count_ % static_cast<long long>(kInARow));
   const PeriodLimits limits{kGross, gross_above_, touching_ || out_of_range_};
-  JudgePeriod(excess_, limits, &recent_[place].top, &recent_[place].bottom, &now_, &ratio_, &level_,
-              &apart_);
+  const bool gross = (whole_lanes ? JudgePeriodWhole : JudgePeriodInHalves)(
+      excess_, limits,
+      {&recent_[place].top, &recent_[place].bottom, &now_, &ratio_, &level_, &apart_});
   // What a model does not express keeps flux out in many coils: those are not the suspects.
-  if (!Relies() && GrossCoils() >= kCoilsAtOnce)
-    for (int j = 0; j < coils; ++j)
+  if (!Relies() && gross && GrossCoils() >= kCoilsAtOnce)
+    for (int j = 0; j < filter_.nominal().coils; ++j)
       if (now_[j] > 0) ratio_[j] = 0;
   windows_.Add(excess_, apart_);
+  calm_ = !gross && windows_.Calm(band_, kLevelWindow, PatternLimit());
+  if (!calm_) RatiosOfWindows();
+}
+
+void CommissionedDetector::RatiosOfWindows() {
   Lane used[kExcessWindows];
   windows_.UsedOfAll(kNoiseOfBand, used);
-  JudgeWindows(used, band_, apart_, &ratio_, &level_);
-  return static_cast<int>(std::max_element(ratio_.v, ratio_.v + coils) - ratio_.v);
+  JudgeWindows(used, band_, apart_, used[kLevelWindow], &ratio_, &level_);
 }
 
 }  // namespace ambrig

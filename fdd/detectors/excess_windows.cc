@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "actuators/magnetics/whole_lane_vector.h"
-
 namespace ambrig {
 
 namespace {
@@ -17,82 +15,6 @@ double Dot(const Lane& a, const Lane& b) {
   double sum = 0;
   for (int j = 0; j < kLanes; ++j) sum += a[j] * b[j];
   return sum;
-}
-
-AMBRIG_WIDE void AddPeriod(const SlopeExcess& p, const Lane& without, const Lane& last_top,
-                           const Lane& last_bottom, Lane* top, Lane* bottom) {
-  const LaneVector zero, gross = Load(without.v);
-  const LaneVector a = Load(p.top[0].v) + Load(p.top[1].v),
-                   b = Load(p.bottom[0].v) + Load(p.bottom[1].v);
-  Store(top->v, Load(last_top.v) + Select(gross > zero, zero, a));
-  Store(bottom->v, Load(last_bottom.v) + Select(gross > zero, zero, b));
-}
-
-/// Raw c of a window and its weight.
-template <class V>
-struct WindowRatio {
-  V c, bottom;
-  [[gnu::always_inline]] WindowRatio(const Lane& top0, const Lane& bottom0, const Lane& top1,
-                                     const Lane& bottom1)
-      : bottom(LoadAs<V>(bottom1.v) - LoadAs<V>(bottom0.v)) {
-    const auto enough = Below(kJudgedWeight, bottom);
-    c = Only(enough, (LoadAs<V>(top1.v) - LoadAs<V>(top0.v)) / Choose(enough, bottom, 1));
-  }
-};
-
-AMBRIG_WIDE void Ratio(const Lane& top0, const Lane& bottom0, const Lane& top1, const Lane& bottom1,
-                       Lane* c, Lane* bottom) {
-  const WindowRatio<LaneVector> window(top0, bottom0, top1, bottom1);
-  Store(bottom->v, window.bottom);
-  Store(c->v, window.c);
-}
-
-struct Projection {
-  const Lane* basis;
-  int directions;
-  const Lane* inverse_share;
-};
-
-template <class V>
-[[gnu::always_inline]] inline V Smaller(const Projection& p, const V& c, const V& bottom,
-                                        double least) {
-  const V zero = 0.0, inverse = LoadAs<V>(p.inverse_share->v);
-  V left = c;
-  for (int d = 0; d < p.directions; ++d) {
-    const V b = LoadAs<V>(p.basis[d].v);
-    left = left - b * Sum(b * c);
-  }
-  left = Choose(Below(zero, inverse), left * inverse, c);
-  const V smaller = Choose(Below(Abs(left), Abs(c)), left, c);
-  return Only(Below(zero, left * c) & ~Below(bottom, least), smaller);
-}
-
-AMBRIG_WIDE void UsedOfWindow(const Projection& p, const Lane& c, const Lane& bottom, double least,
-                              Lane* used) {
-  Store(used->v, Smaller(p, Load(c.v), Load(bottom.v), least));
-}
-
-/// Sums of top and bottom at the end, and before each of the windows that are full.
-struct WindowSums {
-  const Lane *top, *bottom;
-  const Lane *top_before[kExcessWindows], *bottom_before[kExcessWindows];
-  double least[kExcessWindows];  // weight that counts
-  int full = 0;
-};
-
-template <class V>
-[[gnu::always_inline]] inline void UsedOfWindows(const Projection& p, const WindowSums& s,
-                                                 Lane* used) {
-  for (int w = 0; w < s.full; ++w) {
-    const WindowRatio<V> window(*s.top_before[w], *s.bottom_before[w], *s.top, *s.bottom);
-    Store(used[w].v, Smaller(p, window.c, window.bottom, s.least[w]));
-  }
-}
-AMBRIG_WHOLE void UsedWhole(const Projection& p, const WindowSums& s, Lane* used) {
-  UsedOfWindows<WholeLaneVector>(p, s, used);
-}
-AMBRIG_WIDE void UsedInHalves(const Projection& p, const WindowSums& s, Lane* used) {
-  UsedOfWindows<LaneVector>(p, s, used);
 }
 
 }  // namespace
@@ -162,7 +84,7 @@ void ExcessWindows::Add(const SlopeExcess& period, const Lane& without) {
   }
   static const Sums nothing;
   const Sums& last = count_ > 0 ? total_[(now + kRing - 1) % kRing] : nothing;
-  AddPeriod(period, without, last.top, last.bottom, &total_[now].top, &total_[now].bottom);
+  AddPeriodTo(period, without, last.top, last.bottom, &total_[now].top, &total_[now].bottom);
   Phases& p = phases_[now];
   for (int q = 0; q < 2; ++q) {
     p.top[q] = period.top[q];
@@ -181,7 +103,7 @@ void ExcessWindows::Window(int w, Lane* c, Lane* bottom) const {
   *c = *bottom = Lane{};
   if (count_ < kExcessWindow[w]) return;
   const Sums &before = Before(w), &last = Last();
-  Ratio(before.top, before.bottom, last.top, last.bottom, c, bottom);
+  RawOfWindow(before.top, before.bottom, last.top, last.bottom, c, bottom);
 }
 
 Lane ExcessWindows::Raw(int w) const {
@@ -197,16 +119,29 @@ Lane ExcessWindows::Used(int w, double noisiest) const {
   return used;
 }
 
-void ExcessWindows::UsedOfAll(double below, Lane (&used)[kExcessWindows]) const {
-  WindowSums sums{&Last().top, &Last().bottom, {}, {}, {}};
+WindowSums ExcessWindows::FullWindows() const {
+  WindowSums sums{&Last().top, &Last().bottom, {}, {}, 0};
   for (int& w = sums.full; w < kExcessWindows && count_ >= kExcessWindow[w]; ++w) {
     sums.top_before[w] = &Before(w).top;
     sums.bottom_before[w] = &Before(w).bottom;
-    const double noisiest = kExcessFloor[w] / below;
-    sums.least[w] = 1 / (noisiest * noisiest);
   }
-  (whole_lanes ? UsedWhole : UsedInHalves)({basis_, directions_, &inverse_share_}, sums, used);
+  return sums;
+}
+
+void ExcessWindows::UsedOfAll(double below, Lane (&used)[kExcessWindows]) const {
+  const WindowSums sums = FullWindows();
+  double least[kExcessWindows];
+  for (int w = 0; w < kExcessWindows; ++w) {
+    const double noisiest = kExcessFloor[w] / below;
+    least[w] = 1 / (noisiest * noisiest);
+  }
+  UsedOfWindows({basis_, directions_, &inverse_share_}, sums, least, used);
   for (int w = sums.full; w < kExcessWindows; ++w) used[w] = Lane{};
+}
+
+bool ExcessWindows::Calm(const Lane (&band)[kExcessWindows], int w, double pattern) const {
+  return AllBelow({basis_, directions_, &inverse_share_}, FullWindows(),
+                  {band, largest_, w, pattern});
 }
 
 double ExcessWindows::OfPhase(int coil, int phase, int periods) const {

@@ -10,12 +10,9 @@
 /// Bearings with fewer than four judged coils have raw values only.
 #include <vector>
 
-#include "fdd/learning/commissioned_model.h"
+#include "fdd/detectors/excess_lanes.h"
 
 namespace ambrig {
-
-/// sum w d^2 of a coil that is judged, at least.
-inline constexpr double kJudgedWeight = 0.5;
 
 class ExcessWindows {
  public:
@@ -33,6 +30,9 @@ class ExcessWindows {
   Lane Used(int w, double noisiest) const;
   /// The same over every window, whose noise is at most its least band over `below`.
   void UsedOfAll(double below, Lane (&used)[kExcessWindows]) const;
+  /// Whether surely no used |c| is above its band, nor Pattern(w) above `pattern`: told from the raw c, which is never
+  /// smaller. False says nothing.
+  bool Calm(const Lane (&band)[kExcessWindows], int w, double pattern) const;
   Lane Raw(int w) const;
   /// c of one phase of one coil over the last `periods` <= 40; 0: not judged.
   double OfPhase(int coil, int phase, int periods) const;
@@ -49,6 +49,7 @@ class ExcessWindows {
   };
   /// The sums before window w, which is full, and those at its end.
   const Sums& Before(int w) const;
+  WindowSums FullWindows() const;
   const Sums& Last() const { return total_[static_cast<std::size_t>((count_ - 1) % kRing)]; }
   struct Phases {
     Lane top[2], bottom[2];

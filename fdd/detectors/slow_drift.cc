@@ -3,7 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actuators/magnetics/whole_lane_vector.h"
+
 namespace ambrig {
+
+namespace {
+
+template <class V>
+[[gnu::always_inline]] inline void TakeOffAll(const Lane& expected, SlopeExcess* period) {
+  for (int q = 0; q < 2; ++q)
+    Store(period->top[q].v,
+          LoadAs<V>(period->top[q].v) - LoadAs<V>(expected.v) * LoadAs<V>(period->bottom[q].v));
+}
+AMBRIG_WHOLE void TakeOffWhole(const Lane& expected, SlopeExcess* period) {
+  TakeOffAll<WholeLaneVector>(expected, period);
+}
+AMBRIG_WIDE void TakeOffHalves(const Lane& expected, SlopeExcess* period) {
+  TakeOffAll<LaneVector>(expected, period);
+}
+
+}  // namespace
 
 void SlowDrift::Follow(const Lane& c, const Lane& common, double seconds) {
   const double rate = std::min(1.0, seconds / kTimeConstant);
@@ -20,8 +39,7 @@ void SlowDrift::Follow(const Lane& c, const Lane& common, double seconds) {
 }
 
 void SlowDrift::TakeOff(SlopeExcess* period) const {
-  for (int q = 0; q < 2; ++q)
-    for (int j = 0; j < kLanes; ++j) period->top[q][j] -= expected_[j] * period->bottom[q][j];
+  (whole_lanes ? TakeOffWhole : TakeOffHalves)(expected_, period);
 }
 
 }  // namespace ambrig

@@ -16,12 +16,15 @@ constexpr double kLeastJump = 0.2;      // [A]
 constexpr double kOfEdge = 1.25;        // of the largest step beside an edge so far
 constexpr double kEdgeForgets = 0.999;  // a period
 constexpr double kFewestIntervals = 1.5;  // intervals of a phase
-constexpr int kOn = 0, kOff = 1;          // phases; then the intervals 1 and 2 of a period
+constexpr double kSurelyInside = 0.999;
+constexpr int kOn = 0, kOff = 1;  // phases; then the intervals 1 and 2 of a period
 constexpr int kKnownSteps = kOff + kAfterEdge;
 
 template <class V>
 struct Range {
   V low, high, expected;
+  /// Departure from the middle that is surely inside, whatever the rounding.
+  [[gnu::always_inline]] V Reach() const { return (high - expected) * kSurelyInside; }
 };
 
 template <class V>
@@ -77,21 +80,86 @@ struct StepLimits {
   }
 };
 
-/// The steps of one period. kAsExpected: none is taken for impossible; returns false where one is, and
-/// nothing is kept then.
-template <class V, bool kAsExpected>
-[[gnu::always_inline]] inline bool SumOfSteps(const Lane* adc, int samples, const Lane& edge,
-                                              const Lane& limit, double noise,
-                                              ReadingJump::State* state, Lane* jumps) {
-  const StepLimits<V> limits(*state, limit, edge, noise);
+/// One period's readings and what they are compared with.
+struct StepsInput {
+  const Lane* adc;
+  int samples;
+  const Lane *coils, *edge, *limit;  // coils: 1, 0 in lanes without one
+  double noise;
+};
+
+/// The period as nearly all are: every coil conducts throughout, and no step is impossible. Returns false where
+/// that is not so; nothing is kept then.
+template <class V>
+[[gnu::always_inline]] inline bool KeepExpected(const StepsInput& in, ReadingJump::State* state) {
+  const StepLimits<V> limits(*state, *in.limit, *in.edge, in.noise);
+  const V zero = 0.0, one = 1.0, coil = LoadAs<V>(in.coils->v);
+  V least = LoadAs<V>(state->last.v), before = least;
+  for (int k = 0; k < in.samples; ++k) least = Min(LoadAs<V>(in.adc[k].v), least);
+  if (Largest((kConducts - least) * coil - (one - coil)) >= 0) return false;
+  V fall = limits.fall, rise = limits.rise, place = zero;
+  // The largest departures from what is expected of a phase.
+  V off_by_on = zero, off_by_off = zero, inside = one;
+  Steps<V> seen[kKnownSteps];
+  const auto next = [&](int k) __attribute__((always_inline)) {
+    const V now = LoadAs<V>(in.adc[k].v), step = now - before;
+    before = now;
+    return step;
+  };
+  const auto depart = [&](const V& step, const Range<V>& range) __attribute__((always_inline)) {
+    return Abs(step - range.expected);
+  };
+  // Written out for the intervals that begin a period: sums that are chosen by k would live in memory.
+  const auto begin = [&](int k, const Range<V>& rising, Steps<V>& on_steps)
+      __attribute__((always_inline)) {
+    place += one;
+    const V step = next(k);
+    const auto on = Below(place, limits.last_on);
+    inside = Min(inside, Only(on, rising.Reach() - depart(step, rising)));
+    fall = Min(fall, Only(~on, step));
+    rise = Max(rise, Only(~on, step));
+    on_steps.Add(on, step);
+  };
+  static_assert(kAfterEdge == 3);
+  off_by_off = depart(next(0), limits.off);
+  if (in.samples > 1) begin(1, limits.Rising(1), seen[kOff + 1]);
+  if (in.samples > 2) begin(2, limits.Rising(2), seen[kOff + 2]);
+  const V last_at_edge = limits.last_on + kAfterEdge;
+  for (int k = kAfterEdge; k < in.samples; ++k) {
+    place += one;
+    const V step = next(k);
+    const auto on = Below(place, limits.last_on), off = Below(last_at_edge, place);
+    off_by_on = Max(off_by_on, Only(on, depart(step, limits.on)));
+    off_by_off = Max(off_by_off, Only(off, depart(step, limits.off)));
+    const V at_edge = Only(~(on | off), step);
+    fall = Min(fall, at_edge);
+    rise = Max(rise, at_edge);
+    seen[kOn].Add(on, step);
+    seen[kOff].Add(off, step);
+  }
+  inside = Min(inside, Min(limits.on.Reach() - off_by_on, limits.off.Reach() - off_by_off));
+  inside = Min(inside, Min(fall - limits.anywhere.low, limits.anywhere.high - rise));
+  if (Largest(-inside) > 0) return false;
+  for (int q = 0; q < kKnownSteps; ++q)
+    seen[q].Keep(&state->known[q], q > kOff ? kFewestIntervals + 1 : 1);
+  Store(state->last.v, before);
+  Store(state->fall.v, fall);
+  Store(state->rise.v, rise);
+  return true;
+}
+
+/// The steps of any period, one after the other.
+template <class V>
+[[gnu::always_inline]] inline void SumOfSteps(const StepsInput& in, ReadingJump::State* state,
+                                              Lane* jumps) {
+  const StepLimits<V> limits(*state, *in.limit, *in.edge, in.noise);
   const V zero = 0.0, one = 1.0;
-  V before = LoadAs<V>(state->last.v), sum = zero, inside = one;
+  V before = LoadAs<V>(state->last.v), sum = zero;
   V fall = limits.fall, rise = limits.rise;
   Steps<V> seen[kKnownSteps];
-  // Written out for the intervals that begin a period: sums that are chosen by k would live in memory.
   const auto take = [&](int k, const Range<V>& rising, Steps<V>& on_steps)
       __attribute__((always_inline)) {
-    const V now = LoadAs<V>(adc[k].v), step = now - before, place = static_cast<double>(k);
+    const V now = LoadAs<V>(in.adc[k].v), step = now - before, place = static_cast<double>(k);
     const auto on_now = Below(k == 0 ? one : place, k == 0 ? zero : limits.last_on);
     // A current that ends in an off phase does not go on as it fell.
     const auto conducts = Below(kConducts, Min(before, now));
@@ -99,54 +167,39 @@ template <class V, bool kAsExpected>
     const Range<V>&off = limits.off, &anywhere = limits.anywhere;
     const V low = Choose(on_now, rising.low, Choose(off_now, off.low, anywhere.low)),
             high = Choose(on_now, rising.high, Choose(off_now, off.high, anywhere.high));
-    auto in_on = on_now, in_off = off_now;
-    if constexpr (kAsExpected) {
-      inside = Min(inside, Min(high - step, step - low));
-    } else {
-      const auto impossible = Below(high, step) | Below(step, low);
-      const V expected = Choose(on_now, rising.expected, Only(off_now, off.expected));
-      sum += Only(impossible, step - expected);
-      in_on = in_on & ~impossible;
-      in_off = in_off & ~impossible;
-    }
+    const auto impossible = Below(high, step) | Below(step, low);
+    sum += Only(impossible, step - Choose(on_now, rising.expected, Only(off_now, off.expected)));
     const V at_edge = Only(~(on_now | off_now), step);
     fall = Min(fall, at_edge);
     rise = Max(rise, at_edge);
-    on_steps.Add(in_on, step);
-    if (k > 0) seen[kOff].Add(in_off, step);
+    on_steps.Add(on_now & ~impossible, step);
+    if (k > 0) seen[kOff].Add(off_now & ~impossible, step);
     before = now;
   };
   static_assert(kAfterEdge == 3);
   take(0, limits.on, seen[kOn]);
-  if (samples > 1) take(1, limits.Rising(1), seen[kOff + 1]);
-  if (samples > 2) take(2, limits.Rising(2), seen[kOff + 2]);
-  for (int k = kAfterEdge; k < samples; ++k) take(k, limits.on, seen[kOn]);
-  if (kAsExpected && Largest(-inside) > 0) return false;
+  if (in.samples > 1) take(1, limits.Rising(1), seen[kOff + 1]);
+  if (in.samples > 2) take(2, limits.Rising(2), seen[kOff + 2]);
+  for (int k = kAfterEdge; k < in.samples; ++k) take(k, limits.on, seen[kOn]);
   for (int q = 0; q < kKnownSteps; ++q)
     seen[q].Keep(&state->known[q], q > kOff ? kFewestIntervals + 1 : 1);
   Store(state->last.v, before);
   Store(state->fall.v, fall);
   Store(state->rise.v, rise);
   Store(jumps->v, Select(Abs(sum) > kLeastJump, sum, zero));
-  return true;
 }
 
 template <class V>
-[[gnu::always_inline]] inline void AddSteps(const Lane* adc, int samples, const Lane& edge,
-                                            const Lane& limit, double noise,
-                                            ReadingJump::State* state, Lane* jumps) {
-  if (!SumOfSteps<V, true>(adc, samples, edge, limit, noise, state, jumps))
-    SumOfSteps<V, false>(adc, samples, edge, limit, noise, state, jumps);
+[[gnu::always_inline]] inline void AddSteps(const StepsInput& in, ReadingJump::State* state,
+                                            Lane* jumps) {
+  if (!KeepExpected<V>(in, state)) SumOfSteps<V>(in, state, jumps);
 }
 
-AMBRIG_WHOLE void StepsOfWholeLanes(const Lane* adc, int samples, const Lane& edge,
-                                    const Lane& limit, double noise, ReadingJump::State* state,
-                                    Lane* jumps) {
-  AddSteps<WholeLaneVector>(adc, samples, edge, limit, noise, state, jumps);
+AMBRIG_WHOLE void StepsOfWholeLanes(const StepsInput& in, ReadingJump::State* state, Lane* jumps) {
+  AddSteps<WholeLaneVector>(in, state, jumps);
 }
-AMBRIG_WIDE void StepsOfHalfLanes(const Lane* adc, int samples, const Lane& edge, const Lane& limit,
-                                  double noise, ReadingJump::State* state, Lane* jumps) {
-  AddSteps<LaneVector>(adc, samples, edge, limit, noise, state, jumps);
+AMBRIG_WIDE void StepsOfHalfLanes(const StepsInput& in, ReadingJump::State* state, Lane* jumps) {
+  AddSteps<LaneVector>(in, state, jumps);
 }
 
 }  // namespace
@@ -154,6 +207,7 @@ AMBRIG_WIDE void StepsOfHalfLanes(const Lane* adc, int samples, const Lane& edge
 ReadingJump::ReadingJump(const LinkageModel& nominal, const SamplingSettings& sampling,
                          double noise)
     : sampling_(sampling), noise_(noise) {
+  for (int j = 0; j < nominal.coils; ++j) coils_[j] = 1;
   for (int j = 0; j < kLanes; ++j)
     per_volt_[j] = j < nominal.coils && nominal.leakage[j] > 0 ? sampling.step / nominal.leakage[j]
                                                                : kInfinity;
@@ -169,8 +223,8 @@ Lane ReadingJump::Period(const MeasuredPeriod& in) {
     limit[j] = per_volt_[j] * std::abs(in.bus) + noise;
     edge[j] = (*in.duty)[j] * per_period;
   }
-  (whole_lanes ? StepsOfWholeLanes : StepsOfHalfLanes)(in.adc, sampling_.samples, edge, limit,
-                                                       noise, &state_, &jumps);
+  (whole_lanes ? StepsOfWholeLanes : StepsOfHalfLanes)(
+      {in.adc, sampling_.samples, &coils_, &edge, &limit, noise}, &state_, &jumps);
   // Other bridges have more edges than the one of the duty.
   if (sampling_.amplifier->modulation != Modulation::kBiState)
     for (PhaseStep& p : state_.known) p.count = Lane{};

@@ -35,6 +35,7 @@ class ReadingJump {
 
  private:
   SamplingSettings sampling_;
+  Lane coils_;     // 1; 0 in lanes without one
   Lane per_volt_;  // largest step over the bus voltage [A/V]
   double noise_ = 0;
   State state_;

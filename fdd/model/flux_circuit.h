@@ -42,7 +42,6 @@ struct FluxPhase {
   Lane flux;     // slope of s psi [A/s]
   Lane current;  // slope [A/s]
   Lane mean;     // current [A]
-  Lane least;    // smallest sample, also of those that do not count [A]
   Lane voltage;  // of the healthy bridge [V]
   Lane scale;    // variance of a slope over that of a sample [1/s^2]
 };
@@ -52,7 +51,9 @@ struct FluxPeriod {
   Lane flux;           // psi at the last sample [A]
   Lane largest_flux;   // |psi| of the period [A]
   Lane largest;        // sample of the period [A]
-  Lane own;            // d psi/d i within one sample [-]
+  // smallest sample of the on phase; of the whole period where all are above kSurelyConducts [A]
+  Lane least_on;
+  Lane own;  // d psi/d i within one sample [-]
 };
 
 class FluxFilter {
@@ -74,26 +75,26 @@ class FluxFilter {
   /// M0 of every coil: n^2 over the nominal gap's reluctance [H].
   const Lane& inductances() const { return inductance_; }
 
-  /// State between samples: psi of the last one, a_m e_m.
+  /// State between samples: psi of the last one, a_m (e_m - b_m psi) of the poles that have a residue.
   struct State {
     Lane psi;
     Lane held[kRelaxations];
   };
   const State& state() const { return state_; }
-  /// Goes on from a state of this filter or of another one of the same bearing.
+  /// Goes on from a state of this filter or of another one of the same circuit.
   void Resume(const State& state) {
     state_ = state;
     started_ = true;
   }
   /// Constants of a period in lanes.
   struct Step {
-    Lane rho, rho_change;                            // at its start, over the period
-    double decay[kRelaxations], gain[kRelaxations];  // a_m, a_m b_m
-    double total = 0, total_gain = 0;                // sum b_m, sum a_m b_m
+    Lane rho, rho_change;  // at its start, over the period
+    // of the poles that have a residue, then zeros: a_m, a_m b_m (1 - a_m)
+    double decay[kRelaxations] = {}, gain[kRelaxations] = {};
+    double total = 0, of_last = 0;  // sum b_m, sum b_m (1 - a_m)
   };
 
  private:
-  Lane Reluctance(double x, double y) const;
   void Begin(const MeasuredPeriod& in, FluxPeriod* out);
   void SetBridge(const MeasuredPeriod& in, Lane* edge, FluxPeriod* out) const;
 
@@ -103,7 +104,8 @@ class FluxFilter {
   Lane turns_, sense_, inductance_, per_nominal_;  // per_nominal_: 1/R(g0) [H]
   Step step_;
   State state_;
-  bool relaxing_ = false, started_ = false;
+  int relaxing_ = 0;  // poles that have a residue
+  bool started_ = false;
 };
 
 }  // namespace ambrig

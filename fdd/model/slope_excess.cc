@@ -17,7 +17,7 @@ template <class V>
           leakage = left * left * LoadAs<V>(coils.leakage.v),
           resistance = left * LoadAs<V>(coils.resistance.v);
   const V noise = (main * left * LoadAs<V>(period.own.v) + leakage) * s.current_noise;
-  const auto starts_at_zero = LoadAs<V>(period.phase[0].least.v) < kConducts;
+  const auto starts_at_zero = LoadAs<V>(period.least_on.v) < kConducts;
   V judged = Select(left > zero, 1, zero);
   judged = Select(LoadAs<V>(period.largest.v) < s.adc_limit, judged, zero);
   Store(out->gross.v, Select(starts_at_zero, judged, zero));

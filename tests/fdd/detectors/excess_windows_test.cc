@@ -32,6 +32,34 @@ TEST(ExcessWindows, WhatIsCommonOrShiftsTheShaftDropsOut) {
   EXPECT_NEAR(windows.Pattern(0), 0.3, 1e-12);
 }
 
+// What is called calm has no used value beyond its band and no pattern beyond its limit, and a coil or a pattern that is
+// beyond is never called calm.
+TEST(ExcessWindows, CalmIsWhatNoUsedValueNorPatternDenies) {
+  constexpr int kTen = 2;
+  constexpr double kPattern = 0.02;
+  ExcessWindows windows(Radial());
+  Lane band[kExcessWindows];
+  for (int w = 0; w < kExcessWindows; ++w)
+    for (int j = 0; j < kLanes; ++j) band[w][j] = 2.5 * 0.1 / std::sqrt(kExcessWindow[w]);
+  int calm = 0, denied = 0;
+  for (std::uint64_t n = 0; n < 2000; ++n) {
+    Lane c;
+    for (int j = 0; j < kLanes; ++j) c[j] = 0.1 * Normal(5, static_cast<std::uint32_t>(j), n);
+    windows.Add(PeriodOf(c, 1000), {});
+    Lane used[kExcessWindows];
+    windows.UsedOfAll(6, used);
+    bool beyond = windows.Pattern(kTen) > kPattern;
+    for (int w = 0; w < kExcessWindows; ++w)
+      for (int j = 0; j < kLanes; ++j) beyond = beyond || std::abs(used[w][j]) > band[w][j];
+    const bool said = windows.Calm(band, kTen, kPattern);
+    EXPECT_FALSE(said && beyond) << n;
+    calm += said;
+    denied += beyond;
+  }
+  EXPECT_GT(calm, 50);
+  EXPECT_GT(denied, 50);
+}
+
 TEST(ExcessWindows, OneCoilKeepsItsExcess) {
   ExcessWindows windows(Radial());
   Lane c;
