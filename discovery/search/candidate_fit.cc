@@ -165,14 +165,14 @@ FitResult FitFully(const CaseModel& model, const FitResult& now, const Hypothesi
 bool IsHopeless(const CaseModel& model, const FitResult& brief, const FitResult& best,
                 double effective_sample_size) {
   constexpr double kOpen = 60;  // of the score: what a full fit gains over a short one that settled
-  constexpr double kFar = 4;    // times the squared error above the noise
+  constexpr double kFar = 4;    // times the squared error above the noise, where that is large
   if (!brief.converged) return true;
-  const auto excess = [](const FitResult& f) {
-    return std::max(0.02, f.ratio_fit * f.ratio_fit - 1);
-  };
-  return excess(brief) > kFar * excess(best) ||
-         (brief.settled && Score(model, brief, effective_sample_size) >
-                               Score(model, best, effective_sample_size) + kOpen);
+  const auto excess = [](const FitResult& f) { return f.ratio_fit * f.ratio_fit - 1; };
+  const double left = excess(brief);
+  return left > std::max(1.0, kFar * excess(best)) ||
+         (brief.settled && left > 1 &&
+          Score(model, brief, effective_sample_size) >
+              Score(model, best, effective_sample_size) + kOpen);
 }
 
 }  // namespace

@@ -96,11 +96,12 @@ TEST(Jacobian, AStepThatMovesMuchIsTakenSmaller) {
   CaseModel model(bent);
   for (Target& t : model.targets()) t.floor = LinearCase::kFloor;
   const Hypothesis h = Hypothesis::Base(bent.rig);
-  Hypothesis beyond = h;
+  Hypothesis beyond = h, beside = h;
   beyond.Set(0, 0.6);
-  const double change = beyond.Coordinate(0) - h.Coordinate(0);
-  const Eigen::MatrixXd J = Jacobian(model, h, {0}, change);
-  const double slope = 2 * 1e-4 * 0.1 / LinearCase::kFloor * 0.5 / change;
+  beside.Set(0, 0.1001);
+  const Eigen::MatrixXd J = Jacobian(model, h, {0}, beyond.Coordinate(0) - h.Coordinate(0));
+  const double per_unit = 0.0001 / (beside.Coordinate(0) - h.Coordinate(0)),
+               slope = 2 * 1e-4 * 0.1 / LinearCase::kFloor * per_unit;
   EXPECT_NEAR(J(0, 0), slope, 0.15 * slope);
 }
 
