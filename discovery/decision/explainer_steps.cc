@@ -180,15 +180,15 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
     for (std::size_t k = 0; k < out_.adopted.size(); ++k)
       if (k != drop) h.AddEffect(out_.adopted[k]);
     Progress(0.9, "without " + out_.adopted[drop].name);
-    std::optional<FitResult> without = FitAgainst(model_, base, h, now, out_.effective_sample_size);
-    const double gain = without ? Gain(*without, now) : 0;
-    if (!without || WorthAdopting(*without, now, gain, 1, 0) ||
-        ExplainsItsChannels(model_, *without, now, gain)) {
+    FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
+    const double gain = Gain(without, now);
+    if (WorthAdopting(without, now, gain, 1, 0) ||
+        ExplainsItsChannels(model_, without, now, gain)) {
       ++drop;
       continue;
     }
     out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(drop));
-    now = std::move(*without);
+    now = std::move(without);
     out_.ladder.push_back(
         {"without the effect that became needless", now.ratio_fit, now.ratio_validate});
   }

@@ -148,55 +148,22 @@ FitResult FitBriefly(const CaseModel& model, const FitResult& now, const Candida
   return best;
 }
 
-namespace {
-
-FitResult FitFully(const CaseModel& model, const FitResult& now, const Hypothesis& start,
-                   double effective_sample_size) {
+FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
+                double effective_sample_size) {
   FitOptions full;
   full.effective_sample_size = effective_sample_size;
   full.base_jacobian = &now.jacobian;
   full.reached = now.ratio_fit;
   full.iterations = 6;
   full.tolerance = 1e-4;
-  return TryFit(model, start, full);
-}
-
-/// Whether a short fit is so far behind that a full one from there will not reach `best`.
-bool IsHopeless(const CaseModel& model, const FitResult& brief, const FitResult& best,
-                double effective_sample_size) {
-  constexpr double kOpen = 60;  // of the score: what a full fit gains over a short one that settled
-  constexpr double kFar = 4;    // times the squared error above the noise, where that is large
-  if (!brief.converged) return true;
-  const auto excess = [](const FitResult& f) { return f.ratio_fit * f.ratio_fit - 1; };
-  const double left = excess(brief);
-  return left > std::max(1.0, kFar * excess(best)) ||
-         (brief.settled && left > 1 &&
-          Score(model, brief, effective_sample_size) >
-              Score(model, best, effective_sample_size) + kOpen);
-}
-
-}  // namespace
-
-FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
-                double effective_sample_size) {
-  FitResult fit = FitFully(model, now, start, effective_sample_size);
+  FitResult fit = TryFit(model, start, full);
   const std::optional<Hypothesis> simpler = WithoutOptionalShapes(start);
   if (!simpler) return fit;
-  FitResult without = FitShortly(model, now, *simpler, effective_sample_size);
-  if (fit.converged && IsHopeless(model, without, fit, effective_sample_size)) return fit;
-  without = FitFully(model, now, without.hypothesis, effective_sample_size);
+  FitResult without = TryFit(model, *simpler, full);
   const bool better =
       without.converged && (!fit.converged || Score(model, without, effective_sample_size) <
                                                   Score(model, fit, effective_sample_size));
   return better ? without : fit;
-}
-
-std::optional<FitResult> FitAgainst(const CaseModel& model, const FitResult& now,
-                                    const Hypothesis& start, const FitResult& best,
-                                    double effective_sample_size) {
-  const FitResult brief = FitShortly(model, now, start, effective_sample_size);
-  if (IsHopeless(model, brief, best, effective_sample_size)) return std::nullopt;
-  return FitOn(model, now, brief.hypothesis, effective_sample_size);
 }
 
 FitResult FitScreened(const CaseModel& model, const FitResult& base, const ScreenOptions& what) {

@@ -1,7 +1,5 @@
 #pragma once
 /// Fits of an effect that the screening proposed, on top of what is believed so far.
-#include <optional>
-
 #include "discovery/search/linear_judge.h"
 #include "discovery/search/screen.h"
 
@@ -21,11 +19,6 @@ FitResult FitShortly(const CaseModel& model, const FitResult& now, const Hypothe
 /// pass.
 FitResult FitOn(const CaseModel& model, const FitResult& now, const Hypothesis& start,
                 double effective_sample_size);
-
-/// The same, unless a short fit leaves `best` far ahead: then nothing.
-std::optional<FitResult> FitAgainst(const CaseModel& model, const FitResult& now,
-                                    const Hypothesis& start, const FitResult& best,
-                                    double effective_sample_size);
 
 /// The best of the short fits of what the screening of `what` puts first: a named effect at its
 /// target, or where it explains most. Not converged where nothing leads anywhere.

@@ -97,9 +97,8 @@ class EnoughGained : public ceres::IterationCallback {
   double least_share_, gained_ = 0;
 };
 
-/// One pass of the solver from and to x. Returns whether it found a usable point; `settled`: that more steps would gain
-/// little.
-bool Solve(FitProblem& cost, const FitOptions& options, std::vector<double>& x, bool* settled) {
+/// One pass of the solver from and to x. Returns whether it found a usable point.
+bool Solve(FitProblem& cost, const FitOptions& options, std::vector<double>& x) {
   SolverCost seen(cost);  // outlives the problem, which does not own it
   ceres::Problem::Options ownership;
   ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -127,8 +126,6 @@ bool Solve(FitProblem& cost, const FitOptions& options, std::vector<double>& x, 
   solver.callbacks = {&enough};
   ceres::Solver::Summary summary;
   ceres::Solve(solver, &problem, &summary);
-  *settled = summary.termination_type == ceres::CONVERGENCE ||
-             summary.termination_type == ceres::USER_SUCCESS;
   return summary.IsSolutionUsable();
 }
 
@@ -171,7 +168,7 @@ bool Improve(const CaseModel& model, const FitOptions& options, FitProblem& cost
       cost.Refresh();
       refreshed = true;
     }
-    if (!Solve(cost, options, x, &result.settled)) {
+    if (!Solve(cost, options, x)) {
       result.converged = pass > 0;
       break;
     }

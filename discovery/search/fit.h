@@ -48,7 +48,6 @@ struct FitResult {
   // Σ (shift/sd)² of the rig parameters, what lies beyond 3 sd counted five times
   double penalty = 0;
   bool converged = false;
-  bool settled = false;  // its last pass ended since more steps would have gained little
   std::vector<std::string> warnings;  // at a bound, without influence, strongly correlated
   Eigen::MatrixXd jacobian;           // of prediction/floor, a column per free parameter
 };
