@@ -8,11 +8,10 @@
 
 namespace ambrig {
 
-/// Windows over which the statistic is averaged [periods], and the least bands on each: what is left of c where operation goes
-/// beyond what commissioning visited does not average out over the longest (0.043 of a position sensor with a wrong gain).
+/// Windows over which the statistic is averaged [periods], and the least bands on each.
 inline constexpr int kExcessWindows = 5;
 inline constexpr int kExcessWindow[kExcessWindows] = {1, 3, 10, 40, 160};
-inline constexpr double kExcessFloor[kExcessWindows] = {0.30, 0.15, 0.08, 0.05, 0.05};
+inline constexpr double kExcessFloor[kExcessWindows] = {0.30, 0.15, 0.08, 0.05, 0.04};
 /// Bands stand at this many times what healthy running reached.
 inline constexpr double kBandOverHealthy = 1.5;
 /// Mean square of the fit's residuals over their expected size, above which the model does not
