@@ -89,6 +89,7 @@ Finding FindingOf(const Json& j) {
 /// An earlier result of this case, if it is younger than the case and complete.
 std::optional<Finding> Earlier(const fs::path& file, const fs::path& folder) {
   std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;  // opening a pipe would wait
   const auto written = fs::last_write_time(file, error);
   if (error || written < fs::last_write_time(folder / "case.toml")) return std::nullopt;
   std::ifstream in(file);
