@@ -108,14 +108,14 @@ TEST_F(Outputs, PipesOfTheShellAreWritten) {
     return Shell("cd " + folder_.string() + " && AMBRIG=" + AMBRIG_BINARY +
                  " timeout -s KILL 60 bash line.sh");
   };
-  const std::string begin = "{\n  \"made_by\": \"ambrig\"", call = "$AMBRIG effects --json ";
+  const std::string begin = "[\n  {\n    \"made_by\": \"ambrig\"", call = "$AMBRIG effects --json ";
   for (const char* line : {"/dev/stdout > file; cat file", "/dev/stdout | cat",
                            ">(cat > file) > text; sleep 1; cat file",
                            "/dev/fd/3 3> file > text; cat file", "/dev/stdout > pipe & cat pipe"}) {
     Shell("cd " + folder_.string() + " && rm -f file pipe && mkfifo pipe");
     EXPECT_THAT(bash(call + line).text, ::testing::HasSubstr(begin)) << line;
   }
-  const Outcome o = bash("exec 3> >(true); sleep 1; " + call + "/dev/fd/3");
+  const Outcome o = bash("exec 3> >(true); sleep 1; " + call + "/dev/fd/3 > text");
   ExpectRefused(o, "cannot write /dev/fd/3: Broken pipe");
 }
 
