@@ -20,12 +20,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void RefuseNamedPipe(const std::string& path) {
+  if (IsNamedPipe(path))
+    throw InputError(
+        fmt::format("cannot write {}: is a named pipe, allowed: a file or /dev/stdout", path));
+}
+
 /// Creates a temporary file beside the path and removes it. @throws InputError with the reason.
 void TryToWrite(const std::string& path) {
+  RefuseNamedPipe(path);
   std::error_code error;
-  const fs::file_status status = fs::status(path, error);
-  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status))
-    return;  // a device or a pipe is written in place
+  const fs::file_type kind = fs::status(path, error).type();
+  if (kind == fs::file_type::character || kind == fs::file_type::fifo) return;  // written in place
   AtomicFile probe(path);
 }
 
@@ -119,6 +125,7 @@ bool ChangedSinceWritten(const std::string& text) {
 }
 
 void RefuseOverwriting(const std::vector<std::string>& files, bool force) {
+  for (const std::string& file : files) RefuseNamedPipe(file);
   if (force) return;
   for (const std::string& file : files) {
     std::error_code error;
@@ -141,10 +148,10 @@ void PrepareStudyFolder(const std::string& folder, const std::vector<std::string
                         bool force) {
   PrepareFolder(folder);
   std::error_code error;
-  if (force || fs::exists(fs::path(folder) / "journal.txt", error)) return;
+  const bool own = fs::exists(fs::path(folder) / "journal.txt", error);
   std::vector<std::string> paths;
   for (const std::string& file : files) paths.push_back((fs::path(folder) / file).string());
-  RefuseOverwriting(paths, force);
+  RefuseOverwriting(paths, force || own);
 }
 
 void RefuseInputAsOutput(const std::string& output, const std::vector<std::string>& inputs) {

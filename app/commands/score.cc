@@ -102,6 +102,8 @@ bool IsOfCase(const Json& result, const fs::path& folder) {
 
 /// An earlier result, if it is complete and of this case.
 std::optional<Finding> Earlier(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;  // opening a pipe would wait
   std::ifstream in(file);
   const Json j = Json::parse(in, nullptr, false);
   if (!j.is_object() || j.value("verdict", "unfinished") == "unfinished" || !IsOfCase(j, folder))

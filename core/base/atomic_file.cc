@@ -49,9 +49,23 @@ bool WriteAll(int fd, std::string_view content) {
   return true;
 }
 
-bool IsSpecial(const std::string& path) {
+bool IsNoFile(const std::string& path) {
   struct stat info = {};
   return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+/// Neither sockets, which cannot be opened, nor disks.
+bool IsWrittenInPlace(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_character_file(path, error) || std::filesystem::is_fifo(path, error);
+}
+
+void WriteInPlace(const std::string& path, std::string_view content) {
+  // Opening a pipe that nobody reads any more would wait for ever; writing waits for a slow reader.
+  Descriptor file(path, O_WRONLY | O_NONBLOCK);
+  if (!file.usable()) ThrowCannotWrite(path, errno == ENXIO ? EPIPE : errno);
+  if (fcntl(file.get(), F_SETFL, O_WRONLY) != 0 || !WriteAll(file.get(), content))
+    ThrowCannotWrite(path, errno);
 }
 
 std::string ResolveLinks(const std::string& path) {
@@ -78,7 +92,7 @@ AtomicFile::AtomicFile(const std::string& path)
   // Renaming over a device or a folder would replace the device, or fail only after all the work.
   std::error_code ignored;  // what cannot be looked at cannot be created either
   if (std::filesystem::is_directory(target_, ignored)) ThrowCannotWrite(path_, EISDIR);
-  if (IsSpecial(target_)) throw InputError("cannot write " + path_ + ": not a regular file");
+  if (IsNoFile(target_)) throw InputError("cannot write " + path_ + ": not a regular file");
   if (!Descriptor(temporary_, O_CREAT | O_EXCL | O_WRONLY).usable()) ThrowCannotWrite(path_, errno);
 }
 
@@ -100,9 +114,8 @@ void AtomicFile::Commit() {
 }
 
 void WriteFileAtomically(const std::string& path, std::string_view content) {
-  if (IsSpecial(path)) {
-    Descriptor file(path, O_WRONLY);
-    if (!file.usable() || !WriteAll(file.get(), content)) ThrowCannotWrite(path, errno);
+  if (IsWrittenInPlace(path)) {
+    WriteInPlace(path, content);
     return;
   }
   AtomicFile file(path);

@@ -29,7 +29,7 @@ class AtomicFile {
   std::string temporary_;  // empty once committed
 };
 
-/// Replaces `path` by `content`. Devices and pipes (/dev/stdout) are written in place.
+/// Replaces `path` by `content`. Character devices and pipes that somebody reads (/dev/stdout) are written in place.
 /// @throws InputError "cannot write PATH: reason".
 void WriteFileAtomically(const std::string& path, std::string_view content);
 

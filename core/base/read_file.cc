@@ -10,6 +10,12 @@
 
 namespace ambrig {
 
+bool IsNamedPipe(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_fifo(path, error) && !path.starts_with("/dev/") &&
+         std::filesystem::exists(std::filesystem::canonical(path, error), error);
+}
+
 std::string ReadFile(const std::string& path, std::size_t limit) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(path + ": no such file");
@@ -18,9 +24,7 @@ std::string ReadFile(const std::string& path, std::size_t limit) {
   const auto kind = std::filesystem::status(path, error).type();
   if (kind == std::filesystem::file_type::character || kind == std::filesystem::file_type::block)
     throw InputError(path + ": is a device, allowed: a file");  // it may have no end
-  // What the shell makes for <(...) has no name in a folder; a pipe that has one may never get its writer.
-  if (kind == std::filesystem::file_type::fifo &&
-      std::filesystem::exists(std::filesystem::canonical(path, error)))
+  if (IsNamedPipe(path))                                        // it may never get its writer
     throw InputError(path + ": is a named pipe, allowed: a file");
   errno = 0;
   std::ifstream in(path, std::ios::binary);

@@ -3,7 +3,8 @@
 // texts: a new option has its row, or is listed as one that names what is read.
 #include <gmock/gmock.h>
 
-#include <chrono>
+#include <sys/stat.h>
+
 #include <set>
 
 #include "tests/cli/work_folder.h"
@@ -72,6 +73,19 @@ TEST_P(EveryOutput, LeavesWhatIsNotAmbrigs) {
   Write(file, "mine");
   ExpectRefused(CalledFor("mine"), file + " exists and is not an output of ambrig");
   EXPECT_EQ(ReadText(folder_ / file), "mine");
+}
+
+// Opened, a pipe without a reader would wait for one for ever, after all the work.
+TEST_P(EveryOutput, IsNoNamedPipe) {
+  const std::string inside = GetParam().inside, file = inside.empty() ? "mine" : "mine/" + inside;
+  std::filesystem::create_directories((folder_ / file).parent_path());
+  ASSERT_EQ(mkfifo((folder_ / file).c_str(), 0600), 0);
+  for (const char* forced : {"", " --force"}) {
+    const Outcome o = Shell("cd " + folder_.string() + " && timeout -s KILL 60 " + AMBRIG_BINARY +
+                            " " + Replaced(GetParam().call, "{}", "mine") + forced);
+    ExpectRefused(o, "cannot write ");
+    EXPECT_THAT(o.text, ::testing::HasSubstr(file + ": "));
+  }
 }
 
 /// Row by row a name for a test.

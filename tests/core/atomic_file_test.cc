@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -60,6 +61,9 @@ TEST(AtomicFile, ReasonsAreNamed) {
   std::filesystem::create_directory(folder.File("d"));
   EXPECT_EQ(WriteError(folder.File("d")), "cannot write " + folder.File("d") + ": Is a directory");
   EXPECT_EQ(WriteError("/dev/full"), "cannot write /dev/full: No space left on device");
+  ASSERT_EQ(mkfifo(folder.File("pipe").c_str(), 0600), 0);
+  EXPECT_EQ(WriteError(folder.File("pipe")),
+            "cannot write " + folder.File("pipe") + ": Broken pipe");
   EXPECT_EQ(WriteError("/dev/null"), "");  // written in place, not renamed over
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   EXPECT_EQ(ErrorText<InputError>([] { AtomicFile file("/dev/null"); }),

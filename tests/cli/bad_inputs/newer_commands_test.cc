@@ -101,6 +101,24 @@ TEST_F(Outputs, OneReportWithoutTheFoldersOwn) {
   EXPECT_EQ(Ambrig("effects --json /dev/null --html /dev/null").exit, 0);
 }
 
+// What is open already is written in place; a reader that went away is an error, not a wait.
+TEST_F(Outputs, PipesOfTheShellAreWritten) {
+  const auto bash = [&](const std::string& line) {
+    Write("line.sh", line + "\n");
+    return Shell("cd " + folder_.string() + " && AMBRIG=" + AMBRIG_BINARY +
+                 " timeout -s KILL 60 bash line.sh");
+  };
+  const std::string begin = "[\n  {\n    \"made_by\": \"ambrig\"", call = "$AMBRIG effects --json ";
+  for (const char* line : {"/dev/stdout > file; cat file", "/dev/stdout | cat",
+                           ">(cat > file) > text; sleep 1; cat file",
+                           "/dev/fd/3 3> file > text; cat file", "/dev/stdout > pipe & cat pipe"}) {
+    Shell("cd " + folder_.string() + " && rm -f file pipe && mkfifo pipe");
+    EXPECT_THAT(bash(call + line).text, ::testing::HasSubstr(begin)) << line;
+  }
+  const Outcome o = bash("exec 3> >(true); sleep 1; " + call + "/dev/fd/3 > text");
+  ExpectRefused(o, "cannot write /dev/fd/3: Broken pipe");
+}
+
 // What is written as text says who made it.
 TEST_F(Outputs, FilesOfAHiddenCaseAreMarked) {
   ASSERT_EQ(Ambrig("hide sensor-gain --rig rig.toml --exact -o h").exit, 0);
