@@ -112,7 +112,7 @@ std::optional<Finding> Earlier(const fs::path& file, const fs::path& folder) {
 }
 
 /// Names of the cases: of their folders, and of the folders above where these are alike.
-std::vector<std::string> NamesOf(const std::vector<fs::path>& folders) {
+std::vector<std::string> CaseNames(const std::vector<fs::path>& folders) {
   std::vector<std::string> names;
   for (const fs::path& f : folders) {
     const bool alike = std::count_if(folders.begin(), folders.end(), [&](const fs::path& o) {
@@ -223,7 +223,7 @@ int RunScore(const ScoreCommand& o) {
   const std::vector<fs::path> folders = CaseFolders(o.paths);
   std::vector<Answer> answers;  // all of them first: complain before hours of work
   for (const fs::path& f : folders) answers.push_back(AnswerOf(f, o.answers));
-  const std::vector<std::string> names = NamesOf(folders);
+  const std::vector<std::string> names = CaseNames(folders);
   o.common.CheckOutputs({o.answers});
   PrepareFolder(o.output);
   for (std::size_t k = 0; k < folders.size(); ++k)

@@ -64,7 +64,7 @@ void RotorModel::SetSpin(MotionState& s) const {
 }
 
 void RotorModel::Prescribe(MotionState& s) const {
-  const Spin spin = speed_.At(s.t);
+  const SpinState spin = speed_.At(s.t);
   s.theta = spin.angle;
   s.Omega = spin.speed;
   s.Omega_dot = spin.acceleration;

@@ -23,7 +23,7 @@ std::size_t SpeedProfile::Segment(double t) const {
   return k;
 }
 
-Spin SpeedProfile::At(double t) const {
+SpinState SpeedProfile::At(double t) const {
   if (t < t_.front()) return {angle_.front() + w_.front() * (t - t_.front()), w_.front(), 0};
   const std::size_t k = Segment(t);
   const double since = t - t_[k];

@@ -6,7 +6,7 @@
 namespace ambrig {
 
 /// The spin at one instant.
-struct Spin {
+struct SpinState {
   double angle = 0, speed = 0, acceleration = 0;  // [rad], [rad/s], [rad/s2]
 };
 
@@ -19,7 +19,7 @@ class SpeedProfile {
   double Angle(double t) const;         // [rad], unwrapped, 0 at t = 0
   double Acceleration(double t) const;  // [rad/s2]
   /// All three at once.
-  Spin At(double t) const;
+  SpinState At(double t) const;
   double end() const { return t_.back(); }
 
  private:
