@@ -29,10 +29,7 @@ void RefuseNamedPipe(const std::string& path) {
 /// Creates a temporary file beside the path and removes it. @throws InputError with the reason.
 void TryToWrite(const std::string& path) {
   RefuseNamedPipe(path);
-  std::error_code error;
-  const fs::file_type kind = fs::status(path, error).type();
-  if (kind == fs::file_type::character || kind == fs::file_type::fifo) return;  // written in place
-  AtomicFile probe(path);
+  if (!IsWrittenInPlace(path)) AtomicFile probe(path);
 }
 
 bool Contains(const std::string& text, std::string_view mark) {

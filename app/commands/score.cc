@@ -92,9 +92,10 @@ Finding FindingOf(const Json& j) {
 /// Whether the result's inputs are the files of the case in `folder`, as they are now.
 bool IsOfCase(const Json& result, const fs::path& folder) {
   const Json inputs = result.value("/provenance/inputs"_json_pointer, Json::object());
+  const fs::path of = fs::weakly_canonical(folder / "case.toml");
   bool of_case = false;
   for (const auto& [input, hash] : inputs.items()) {
-    of_case = of_case || fs::weakly_canonical(input) == fs::weakly_canonical(folder / "case.toml");
+    of_case = of_case || fs::weakly_canonical(input) == of;
     if (hash != FileHash(input)) return false;
   }
   return of_case;
@@ -226,9 +227,12 @@ int RunScore(const ScoreCommand& o) {
   const std::vector<std::string> names = CaseNames(folders);
   o.common.CheckOutputs({o.answers});
   PrepareFolder(o.output);
-  for (std::size_t k = 0; k < folders.size(); ++k)
-    if (const fs::path file = ResultOf(o, names[k]); o.again || !Earlier(file, folders[k]))
-      RefuseOverwriting({file.string()}, o.common.force);
+  std::vector<std::optional<Finding>> kept(folders.size());
+  for (std::size_t k = 0; k < folders.size(); ++k) {
+    const fs::path file = ResultOf(o, names[k]);
+    if (!o.again) kept[k] = Earlier(file, folders[k]);
+    if (!kept[k]) RefuseOverwriting({file.string()}, o.common.force);
+  }
   const std::vector<std::string> read = InputsRead();
   std::set<std::string> inputs(read.begin(), read.end());
   std::vector<CaseScore> all;
@@ -237,8 +241,7 @@ int RunScore(const ScoreCommand& o) {
   fmt::print("(before, after: error over the noise of the unseen records)\n");
   for (std::size_t k = 0; k < folders.size(); ++k) {
     const std::string& name = names[k];
-    const fs::path file = ResultOf(o, name);
-    auto finding = o.again ? std::nullopt : Earlier(file, folders[k]);
+    std::optional<Finding>& finding = kept[k];
     if (!finding) {
       ExplainOptions options;
       options.stop = &interrupted;
@@ -248,7 +251,7 @@ int RunScore(const ScoreCommand& o) {
       };
       ForgetInputs();  // a result names those of its own case
       const Json j = ExplainJson(Explain(ReadCase((folders[k] / "case.toml").string()), options));
-      WriteFileAtomically(file.string(), MarkedJson(j));
+      WriteFileAtomically(ResultOf(o, name).string(), MarkedJson(j));
       for (const std::string& input : InputsRead()) inputs.insert(input);
       finding = FindingOf(j);
     }

@@ -54,12 +54,6 @@ bool IsNoFile(const std::string& path) {
   return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
 }
 
-/// Neither sockets, which cannot be opened, nor disks.
-bool IsWrittenInPlace(const std::string& path) {
-  std::error_code error;
-  return std::filesystem::is_character_file(path, error) || std::filesystem::is_fifo(path, error);
-}
-
 void WriteInPlace(const std::string& path, std::string_view content) {
   // Opening a pipe that nobody reads any more would wait for ever; writing waits for a slow reader.
   Descriptor file(path, O_WRONLY | O_NONBLOCK);
@@ -82,6 +76,11 @@ std::string TemporaryName(const std::string& target) {
 }
 
 }  // namespace
+
+bool IsWrittenInPlace(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::is_character_file(path, error) || std::filesystem::is_fifo(path, error);
+}
 
 void ThrowCannotWrite(const std::string& path, int error_number) {
   throw InputError("cannot write " + path + ": " + std::generic_category().message(error_number));

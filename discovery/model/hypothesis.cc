@@ -84,8 +84,12 @@ void Hypothesis::Set(std::size_t parameter, double value) {
 }
 
 double Hypothesis::Coordinate(std::size_t parameter) const {
+  return CoordinateOf(parameter, free[parameter].value);
+}
+
+double Hypothesis::CoordinateOf(std::size_t parameter, double value) const {
   const FreeParameter& p = free[parameter];
-  return p.logarithmic ? std::log(p.value / p.start) / 0.3 : (p.value - p.start) / p.step;
+  return p.logarithmic ? std::log(value / p.start) / 0.3 : (value - p.start) / p.step;
 }
 
 double Hypothesis::ValueAt(std::size_t parameter, double coordinate) const {

@@ -43,6 +43,8 @@ struct Hypothesis {
   void Set(std::size_t parameter, double value);
   /// Internal coordinate of a parameter: offset over step, or log ratio; and back.
   double Coordinate(std::size_t parameter) const;
+  /// The coordinate at which the parameter has this value.
+  double CoordinateOf(std::size_t parameter, double value) const;
   double ValueAt(std::size_t parameter, double coordinate) const;
 };
 

@@ -112,8 +112,8 @@ class FitProblem {
   }
 
   /// Bounds of a parameter's coordinate.
-  double LowerBound(std::size_t k) const { return CoordinateOf(k, hypothesis_.free[k].lo); }
-  double UpperBound(std::size_t k) const { return CoordinateOf(k, hypothesis_.free[k].hi); }
+  double LowerBound(std::size_t k) const { return BoundOf(k, hypothesis_.free[k].lo); }
+  double UpperBound(std::size_t k) const { return BoundOf(k, hypothesis_.free[k].hi); }
 
   int parameters() const { return static_cast<int>(p_); }
   int num_residuals() const { return 2 * static_cast<int>(p_) + 1; }  // data, then priors
@@ -214,12 +214,12 @@ class FitProblem {
     return true;
   }
 
-  double CoordinateOf(std::size_t k, double value) const {
-    const FreeParameter& f = hypothesis_.free[k];
+  double BoundOf(std::size_t k, double value) const {
     if (!std::isfinite(value)) return value;
-    return f.logarithmic ? std::log(std::max(value, 1e-300) / f.start) / 0.3
-                         : (value - f.start) / f.step;
+    return hypothesis_.CoordinateOf(
+        k, hypothesis_.free[k].logarithmic ? std::max(value, 1e-300) : value);
   }
+
   /// A parameter at a bound which the slope of the cost pushes against is held there: its column is zero. Ceres
   /// projects steps into the bounds only after it has computed them, and the other parameters would go with one
   /// that cannot move. Source: D. P. Bertsekas, SIAM J. Control Optim. 20 (1982), projected Newton.
