@@ -16,7 +16,7 @@
 #include <cmath>
 #include <memory>
 
-#include "actuators/magnetics/lane_vector.h"
+#include "actuators/magnetics/law_loop.h"
 #include "effects/coil_targets.h"
 #include "effects/diffusion_fit.h"
 #include "effects/effect.h"
@@ -25,37 +25,59 @@ namespace ambrig {
 
 namespace {
 
-using V = LaneVector;
-
-/// Coefficients of a step, per gap reluctance.
-struct StepCoefficients {
-  double a[kDiffusionPoles] = {}, b[kDiffusionPoles] = {};
-  double slope = 0;  // Σ b_k + tail/h
+/// Coefficients of a step and what the flux has left behind.
+struct EddyState {
+  double a[kDiffusionPoles] = {}, b[kDiffusionPoles] = {};  // b: times R_gap [1/H]
+  double ab = 0;                                            // Σ a_k b_k [1/H]
+  double slope = 0;                                         // R_gap (Σ b_k + tail/h) [1/H]
+  Lane e[kDiffusionPoles];                                  // R_gap e_k [A]
+  Lane phi;                                                 // committed [Wb]
+  Lane base;  // drop of the next step less slope * φ [A]
 };
 
-struct States {
-  Lane e[kDiffusionPoles];  // R_gap e_k [A]
-  Lane phi;                 // committed [Wb]
-  Lane base;                // drop of the next step less slope * φ [A]
-};
+/// Σ x(k) over the poles, in pairs: no long chain of sums.
+template <class F>
+[[gnu::always_inline]] inline auto SumOverPoles(const F& x) {
+  static_assert(kDiffusionPoles == 8);
+  return ((x(0) + x(1)) + (x(2) + x(3))) + ((x(4) + x(5)) + (x(6) + x(7)));
+}
 
-AMBRIG_WIDE void AdvanceEddy(const StepCoefficients& c, double gap, const double* phi, States& s) {
-  const V now = Load(phi), change = (now - Load(s.phi.v)) * gap;
-  V kept;
-  for (int k = 0; k < kDiffusionPoles; ++k) {
-    const V e = Load(s.e[k].v) * c.a[k] + change * c.b[k];
-    Store(s.e[k].v, e);
-    kept += e * c.a[k];
+template <class V>
+class EddyKernel {
+ public:
+  static constexpr bool kLinear = true;
+  [[gnu::always_inline]] explicit EddyKernel(const EddyState& s)
+      : state_(s), phi_(LoadAs<V>(s.phi.v)), base_(LoadAs<V>(s.base.v)) {
+    for (int k = 0; k < kDiffusionPoles; ++k) e_[k] = LoadAs<V>(s.e[k].v);
   }
-  Store(s.phi.v, now);
-  Store(s.base.v, kept - now * (gap * c.slope));
-}
+  [[gnu::always_inline]] const V& Base() const { return base_; }
+  [[gnu::always_inline]] double Slope() const { return state_.slope; }
+  [[gnu::always_inline]] void Terms(const V& phi, V* drop, V* slope) const {
+    *drop = base_ + phi * state_.slope;
+    *slope = state_.slope;
+  }
+  [[gnu::always_inline]] void Commit(const V& phi) {
+    // Σ a_k e_k of the new e_k, in what is known before φ and what is not.
+    const auto& a = state_.a;
+    const V known =
+        SumOverPoles([&](int k) __attribute__((always_inline)) { return e_[k] * (a[k] * a[k]); });
+    const V change = phi - phi_;
+    for (int k = 0; k < kDiffusionPoles; ++k) e_[k] = e_[k] * a[k] + change * state_.b[k];
+    base_ = known + change * state_.ab - phi * state_.slope;
+    phi_ = phi;
+  }
+  [[gnu::always_inline]] void Keep(EddyState* s) const {
+    for (int k = 0; k < kDiffusionPoles; ++k) Store(s->e[k].v, e_[k]);
+    Store(s->phi.v, phi_);
+    Store(s->base.v, base_);
+  }
 
-AMBRIG_WIDE void AddEddyDrop(const double* base, double tangent, const double* phi, double* drop,
-                             double* slope) {
-  Store(drop, Load(drop) + Load(base) + Load(phi) * tangent);
-  Store(slope, Load(slope) + tangent);
-}
+ private:
+  const EddyState& state_;
+  V e_[kDiffusionPoles], phi_, base_;
+};
+AMBRIG_LAW_LANES(Eddy, EddyKernel, EddyState)
+AMBRIG_LAW_COMMIT(Eddy, EddyKernel, EddyState)
 
 class EddyLaw final : public FluxLaw {
  public:
@@ -66,27 +88,30 @@ class EddyLaw final : public FluxLaw {
   void SetStep(double h) override {
     if (h == h_) return;
     h_ = h;
-    step_.slope = fit_.tail / h;
+    state_.slope = gap_ * fit_.tail / h;
+    state_.ab = 0;
     for (int k = 0; k < kDiffusionPoles; ++k) {
       const double x = fit_.pole[k] * h;
-      step_.a[k] = std::exp(-x);
-      step_.b[k] = fit_.residue[k] * -std::expm1(-x) / x;
-      step_.slope += step_.b[k];
+      state_.a[k] = std::exp(-x);
+      state_.b[k] = gap_ * fit_.residue[k] * -std::expm1(-x) / x;
+      state_.ab += state_.a[k] * state_.b[k];
+      state_.slope += state_.b[k];
     }
     Rebase();
   }
 
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddEddyDrop(states_.base.v, gap_ * step_.slope, phi.v, drop->v, slope->v);
+    EddyDrop(state_, phi, drop, slope);
+  }
+  void Steady(const Lane&, Lane*, Lane*) const override {}
+  void Commit(const Lane& phi) override { EddyCommit(state_, phi); }
+  int RunSamples(const LawLoop& loop, int k, int count) override {
+    return EddyLoop(state_, loop, k, count);
   }
 
-  void Steady(const Lane&, Lane*, Lane*) const override {}
-
-  void Commit(const Lane& phi) override { AdvanceEddy(step_, gap_, phi.v, states_); }
-
   void Settle(const Lane& phi) override {
-    for (Lane& e : states_.e) e = Lane{};
-    states_.phi = phi;
+    for (Lane& e : state_.e) e = Lane{};
+    state_.phi = phi;
     Rebase();
   }
 
@@ -94,16 +119,15 @@ class EddyLaw final : public FluxLaw {
   void Rebase() {
     for (int j = 0; j < kLanes; ++j) {
       double kept = 0;
-      for (int k = 0; k < kDiffusionPoles; ++k) kept += step_.a[k] * states_.e[k][j];
-      states_.base[j] = kept - gap_ * step_.slope * states_.phi[j];
+      for (int k = 0; k < kDiffusionPoles; ++k) kept += state_.a[k] * state_.e[k][j];
+      state_.base[j] = kept - state_.slope * state_.phi[j];
     }
   }
 
   DiffusionFit fit_;
   double gap_;  // R_gap, rotor centred [1/H]
   double h_ = 0;
-  StepCoefficients step_;
-  States states_;
+  EddyState state_;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include <cmath>
 #include <memory>
 
-#include "actuators/magnetics/lane_vector.h"
+#include "actuators/magnetics/law_loop.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 
@@ -20,63 +20,90 @@ namespace ambrig {
 
 namespace {
 
-using V = LaneVector;
-
 constexpr int kStops = 8;
 
 /// One stop operator per row, all lanes; in units of flux [Wb].
 struct Stops {
+  double radius[kStops] = {};   // r_k [Wb]
+  double tangent[kStops] = {};  // MMF over flux of a stop that follows [1/H]
   Lane s[kStops];
   Lane phi;
 };
 
-/// s + Δφ, held within ±r.
-[[gnu::always_inline]] static inline V Held(const V& free, double r) {
-  return Min(Max(free, -r), r);
-}
-
-AMBRIG_WIDE void AddHysteresisDrop(const Stops& stops, const double* radius, double weight,
-                                   const double* phi, double* drop, double* slope) {
-  const V change = Load(phi) - Load(stops.phi.v);
-  V sum = Load(drop), tangents = Load(slope);
-  for (int k = 0; k < kStops; ++k) {
-    const double tangent = weight / radius[k];
-    const V free = Load(stops.s[k].v) + change, held = Held(free, radius[k]);
-    sum += tangent * held;
-    tangents += Select(held == free, tangent, 0.0);
+template <class V>
+class StopsKernel {
+ public:
+  static constexpr bool kLinear = false;
+  [[gnu::always_inline]] explicit StopsKernel(const Stops& stops)
+      : stops_(stops), phi_(LoadAs<V>(stops.phi.v)) {
+    for (int k = 0; k < kStops; ++k) s_[k] = LoadAs<V>(stops.s[k].v);
   }
-  Store(drop, sum);
-  Store(slope, tangents);
-}
+  [[gnu::always_inline]] void Terms(const V& phi, V* drop, V* slope) const {
+    const V change = phi - phi_;
+    V sum[2] = {}, tangents[2] = {};  // of even and odd stops
+    for (int k = 0; k < kStops; ++k) {
+      const V free = s_[k] + change, held = Held(free, stops_.radius[k]);
+      sum[k % 2] += held * stops_.tangent[k];
+      tangents[k % 2] += Select(held == free, V(stops_.tangent[k]), V(0.0));
+    }
+    *drop = sum[0] + sum[1];
+    *slope = tangents[0] + tangents[1];
+  }
+  [[gnu::always_inline]] void Commit(const V& phi) {
+    const V change = phi - phi_;
+    for (int k = 0; k < kStops; ++k) s_[k] = Held(s_[k] + change, stops_.radius[k]);
+    phi_ = phi;
+  }
+  [[gnu::always_inline]] void Keep(Stops* stops) const {
+    for (int k = 0; k < kStops; ++k) Store(stops->s[k].v, s_[k]);
+    Store(stops->phi.v, phi_);
+  }
 
-AMBRIG_WIDE void AdvanceStops(const double* radius, const double* phi, Stops& stops) {
-  const V now = Load(phi), change = now - Load(stops.phi.v);
-  for (int k = 0; k < kStops; ++k)
-    Store(stops.s[k].v, Held(Load(stops.s[k].v) + change, radius[k]));
-  Store(stops.phi.v, now);
-}
+ private:
+  /// s + Δφ, held within ±r.
+  [[gnu::always_inline]] static V Held(const V& free, double r) {
+    return Min(Max(free, V(-r)), V(r));
+  }
+
+  const Stops& stops_;
+  V s_[kStops], phi_;
+};
+AMBRIG_LAW_LANES(Stops, StopsKernel, Stops)
+AMBRIG_LAW_COMMIT(Stops, StopsKernel, Stops)
 
 class HysteresisLaw final : public FluxLaw {
  public:
   /// `mmf`: N coercive [A]; `width` in units of flux [Wb].
-  HysteresisLaw(double mmf, double width) : weight_(mmf / kStops) {
-    for (int k = 0; k < kStops; ++k) radius_[k] = width * (k + 0.5) / kStops;
+  HysteresisLaw(double mmf, double width) {
+    for (int k = 0; k < kStops; ++k) {
+      stops_.radius[k] = width * (k + 0.5) / kStops;
+      stops_.tangent[k] = mmf / kStops / stops_.radius[k];
+    }
   }
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddHysteresisDrop(stops_, radius_, weight_, phi.v, drop->v, slope->v);
+    StopsDrop(stops_, phi, drop, slope);
   }
   void Steady(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddHysteresisDrop(Stops{}, radius_, weight_, phi.v, drop->v, slope->v);
+    StopsDrop(AtRest(), phi, drop, slope);
   }
-  void Commit(const Lane& phi) override { AdvanceStops(radius_, phi.v, stops_); }
+  void Commit(const Lane& phi) override { StopsCommit(stops_, phi); }
+  int RunSamples(const LawLoop& loop, int k, int count) override {
+    return StopsLoop(stops_, loop, k, count);
+  }
   void Settle(const Lane& phi) override {
-    stops_ = Stops{};
-    AdvanceStops(radius_, phi.v, stops_);
+    stops_ = AtRest();
+    StopsCommit(stops_, phi);
   }
 
  private:
-  double weight_;  // [A]
-  double radius_[kStops];
+  /// Iron that has never been magnetised.
+  Stops AtRest() const {
+    Stops stops = stops_;
+    for (Lane& s : stops.s) s = Lane{};
+    stops.phi = Lane{};
+    return stops;
+  }
+
   Stops stops_;
 };
 

@@ -9,7 +9,7 @@
 /// saturation.
 #include <memory>
 
-#include "actuators/magnetics/lane_vector.h"
+#include "actuators/magnetics/law_loop.h"
 #include "actuators/magnetics/memoryless_law.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
@@ -20,24 +20,35 @@ namespace {
 
 constexpr double kThresholdDensity = 0.2;  // [T] at which half of the threshold is reached
 
-AMBRIG_WIDE void AddReluctanceDrop(double x_per_flux, double threshold, const double* phi,
-                                   double* drop, double* slope) {
-  const LaneVector x = Load(phi) * x_per_flux, away = LaneVector(1.0) + Abs(x);
-  Store(drop, Load(drop) + threshold * x / away);
-  Store(slope, Load(slope) + threshold * x_per_flux / (away * away));
-}
+struct Threshold {
+  double x_per_flux;  // 1/(0.2 T A) [1/Wb]
+  double mmf;         // [A]
+};
+
+template <class V>
+struct ThresholdKernel : MemorylessKernel<V, Threshold> {
+  using MemorylessKernel<V, Threshold>::MemorylessKernel;
+  [[gnu::always_inline]] void Terms(const V& phi, V* drop, V* slope) const {
+    const auto& [x_per_flux, mmf] = this->law;
+    const V x = phi * x_per_flux, inverse = 1.0 / (V(1.0) + Abs(x));
+    *drop = x * mmf * inverse;
+    *slope = inverse * inverse * (mmf * x_per_flux);
+  }
+};
+AMBRIG_LAW_LANES(Threshold, ThresholdKernel, Threshold)
 
 class MagnetisingThreshold final : public MemorylessLaw {
  public:
-  MagnetisingThreshold(double x_per_flux, double threshold)
-      : x_per_flux_(x_per_flux), threshold_(threshold) {}
+  MagnetisingThreshold(double x_per_flux, double threshold) : law_{x_per_flux, threshold} {}
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddReluctanceDrop(x_per_flux_, threshold_, phi.v, drop->v, slope->v);
+    ThresholdDrop(law_, phi, drop, slope);
+  }
+  int RunSamples(const LawLoop& loop, int k, int count) override {
+    return ThresholdLoop(law_, loop, k, count);
   }
 
  private:
-  double x_per_flux_;  // 1/(0.2 T A) [1/Wb]
-  double threshold_;   // [A]
+  Threshold law_;
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <memory>
 
-#include "actuators/magnetics/lane_vector.h"
+#include "actuators/magnetics/law_loop.h"
 #include "actuators/magnetics/memoryless_law.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
@@ -18,24 +18,36 @@ namespace ambrig {
 
 namespace {
 
-AMBRIG_WIDE void AddSaturationDrop(double x_per_flux, double path, const double* phi, double* drop,
-                                   double* slope) {
-  LaneVector H, tangent;
-  SteelCurve(Load(phi) * x_per_flux, &H, &tangent);
-  Store(drop, Load(drop) + path * H);
-  Store(slope, Load(slope) + path * x_per_flux * tangent);
-}
+struct Steel {
+  double x_per_flux;  // 1/(knee A) [1/Wb]
+  double path;        // [m]
+};
+
+template <class V>
+struct SteelKernel : MemorylessKernel<V, Steel> {
+  using MemorylessKernel<V, Steel>::MemorylessKernel;
+  [[gnu::always_inline]] void Terms(const V& phi, V* drop, V* slope) const {
+    const auto& [x_per_flux, path] = this->law;
+    V H, tangent;
+    SteelCurve(V(phi * x_per_flux), &H, &tangent);
+    *drop = H * path;
+    *slope = tangent * (path * x_per_flux);
+  }
+};
+AMBRIG_LAW_LANES(Saturation, SteelKernel, Steel)
 
 class SaturationLaw final : public MemorylessLaw {
  public:
-  SaturationLaw(double x_per_flux, double path) : x_per_flux_(x_per_flux), path_(path) {}
+  SaturationLaw(double x_per_flux, double path) : steel_{x_per_flux, path} {}
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    AddSaturationDrop(x_per_flux_, path_, phi.v, drop->v, slope->v);
+    SaturationDrop(steel_, phi, drop, slope);
+  }
+  int RunSamples(const LawLoop& loop, int k, int count) override {
+    return SaturationLoop(steel_, loop, k, count);
   }
 
  private:
-  double x_per_flux_;  // 1/(knee A) [1/Wb]
-  double path_;        // [m]
+  Steel steel_;
 };
 
 }  // namespace

@@ -7,8 +7,17 @@
 /// The two windings of a thrust side share one core: they see the same flux, so the law holds the
 /// same state twice and the core's MMF is counted once.
 #include "actuators/magnetics/lane.h"
+#include "actuators/magnetics/stator_loop.h"
 
 namespace ambrig {
+
+/// A bearing's samples as RunSamples of stator_loop.h sees them, and what a law needs beside: reluctances at both ends of
+/// the period [1/H], length of a sample [s].
+struct LawLoop {
+  StatorLoop circuit;
+  const double *rel0, *rel1;
+  double h;
+};
 
 class FluxLaw {
  public:
@@ -23,6 +32,9 @@ class FluxLaw {
   virtual void Steady(const Lane& phi, Lane* drop, Lane* slope) const = 0;
   /// The step is taken: remember it (turning points, diffused flux).
   virtual void Commit(const Lane& phi) = 0;
+  /// Samples k .. count - 1 in one loop, where this is the bearing's only law (law_loop.h); returns the sample in whose
+  /// solution a current falls below the floor, in the state of its start, or `count`. k: the law has no such loop.
+  virtual int RunSamples(const LawLoop& /*loop*/, int k, int /*count*/) { return k; }
   /// Settle at a steady flux.
   virtual void Settle(const Lane& phi) = 0;
 };

@@ -114,11 +114,15 @@ StatorLoop StatorLanes::LoopOver(const VoltagePattern& pattern, double bus) {
           samples};
 }
 
-void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
+bool StatorLanes::SomeBlock() const {
   using Flags = std::uint64_t;  // of eight lanes, a byte each
   static_assert(sizeof blocked == sizeof(Flags));
   const Flags present = coils == kLanes ? ~Flags{0} : (Flags{1} << (8 * coils)) - 1;
-  if ((std::bit_cast<Flags>(blocked) & ~std::bit_cast<Flags>(open) & present) == 0) return;
+  return (std::bit_cast<Flags>(blocked) & ~std::bit_cast<Flags>(open) & present) != 0;
+}
+
+void StatorLanes::OpenDriven(const VoltagePattern& pattern, double t) {
+  if (!SomeBlock()) return;
   for (int j = 0; j < coils; ++j)
     if (blocked[j] && !open[j] && (!unipolar || pattern.gain[SegmentAt(pattern, j, t)][j] > 0))
       Unblock(j);
@@ -191,7 +195,12 @@ void StatorLanes::Refresh(double x, double y) {
     c_[j] = n[j] * inverse_l_[j];
   }
   for (ShortedTurns& s : shorts) s.target = s.lambda;
-  SolveGeneral(lambda, 0);
+  SampleWork work;
+  work.target = lambda;
+  StatorSample sample = SampleAt(nullptr, 0, 0);
+  sample.rel0 = sample.rel1 = rel_.v;
+  sample.h = 0;
+  SolveGeneral(sample, &work);
   half_rh_ = keep_half;
   inverse_l_ = keep_inverse;
   for (int j = 0; j < kLanes; ++j) {

@@ -21,6 +21,7 @@
 #include "actuators/magnetics/flux_law.h"
 #include "actuators/magnetics/stator_geometry.h"
 #include "actuators/magnetics/stator_loop.h"
+#include "actuators/magnetics/stator_sample.h"
 
 namespace ambrig {
 
@@ -78,11 +79,13 @@ class StatorLanes : public StatorGeometry {
                          int samples_per_period);
 
   /// The general path, one sample at a time: any flux law, shorted turns, moving bus, late edges.
+  void RunGeneralPeriod(const VoltagePattern& pattern, double bus, double x0, double y0, double x1,
+                        double y1, int samples_per_period);
   void BeginPeriod(double x0, double y0, double x1, double y1, int samples_per_period);
   void StepSample(const VoltagePattern& pattern, double bus, int k);
   void EndPeriod();
-  /// Mean current drawn from the bus over sample k [A] (general path).
-  double bus_current() const { return bus_current_; }
+  /// Mean current drawn from the bus over sample k, the last one stepped [A].
+  double BusCurrent(const VoltagePattern& pattern, int k) const;
 
   /// Of the fixed point of a start: none where the circuit is solved at once.
   int RoundsOfSettling() const {
@@ -108,9 +111,16 @@ class StatorLanes : public StatorGeometry {
   void UpdateConductance(int j);
   void Block(int j);
   void Unblock(int j);
-  /// Flux and currents that carry the targets λ*, the shorted turns' too, after a step of h [s] (0:
-  /// at once); Newton over the laws.
-  void SolveGeneral(const Lane& target, double h);
+  /// Whether the diodes of a coil block that is not broken.
+  bool SomeBlock() const;
+  StatorSample SampleAt(const VoltagePattern* pattern, double bus, int k);
+  void AddLawTerms(LawTerms* terms) const;
+  void Converge(const StatorSample& sample, const SampleWork& work, LawTerms* terms);
+  bool StepDriven(const StatorSample& sample);
+  void StepWithDiodes(const StatorSample& sample);
+  /// Flux and currents that carry the targets λ* of `work`, the shorted turns' too, after the sample's h (0: at once);
+  /// Newton over the laws.
+  void SolveGeneral(const StatorSample& sample, SampleWork* work);
   // Of any stator (coupling kNetwork): the same steps over its whole circuit, stator_lanes_network.cc.
   void BeginNetwork(double x0, double y0, double x1, double y1);
   void SolveNetwork(const Lane& target, double h);
@@ -133,7 +143,6 @@ class StatorLanes : public StatorGeometry {
   int per_period_ = 18;
   bool blocks_ = false;  // some diode blocked in the last period
   Lane rel_;
-  double bus_current_ = 0;
   bool affine_laws_ = true;  // one round of Newton is exact
   // Of any stator: pole fluxes per ampere at both ends of the period and now; forces at its start, of
   // its samples, and at its end [N].

@@ -103,9 +103,7 @@ void SwitchingEngine::RunBearings() {
       together_.push_back({&lanes, &b.pattern, b.x, b.y, b.x_next, b.y_next});
       continue;
     }
-    lanes.BeginPeriod(b.x, b.y, b.x_next, b.y_next, steps);
-    for (int k = 0; k < steps; ++k) lanes.StepSample(b.pattern, plant_.bus.voltage, k);
-    lanes.EndPeriod();
+    lanes.RunGeneralPeriod(b.pattern, plant_.bus.voltage, b.x, b.y, b.x_next, b.y_next, steps);
   }
   StatorLanes::RunPeriods(together_.data(), static_cast<int>(together_.size()), plant_.bus.voltage,
                           steps);
@@ -125,7 +123,7 @@ void SwitchingEngine::RunSamplesInLockstep(long long n, const std::vector<const 
     double drawn = 0;
     for (BearingRun& b : bearings_) {
       b.plant->lanes.StepSample(b.pattern, plant_.bus.voltage, k);
-      drawn += b.plant->lanes.bus_current();
+      if (!plant_.bus.stiff()) drawn += b.plant->lanes.BusCurrent(b.pattern, k);
     }
     if (!plant_.bus.stiff()) {
       const BusSupply& bus = plant_.bus;

@@ -179,7 +179,7 @@ double EnergyLeft(int steps) {
     for (int k = 0; k < steps; ++k) {
       const Lane i0 = lanes.i;
       lanes.StepSample(p, 30, k);
-      input += 30 * h * lanes.bus_current();
+      input += 30 * h * lanes.BusCurrent(p, k);
       for (int j = 0; j < kLanes; ++j) {
         const double mean = 0.5 * (i0[j] + lanes.i[j]);
         copper += h * lanes.resistance[j] * mean * mean;
