@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "actuators/magnetics/whole_lane_vector.h"
+#include "effects/catalogue.h"
 #include "rig/rig_file.h"
 #include "simulation/simulate.h"
 #include "simulation/switching/switching_engine.h"
@@ -69,6 +70,23 @@ BENCHMARK(Engine)
     ->Args({1, kNone})
     ->Args({0, kNone})
     ->Unit(benchmark::kMillisecond);
+
+/// Both radial bearings with one law of the iron, without noise and detection: the run of a fit.
+void EngineWithIron(benchmark::State& state, const std::string& law) {
+  RigParameters rig = Rig();
+  for (const char* bearing : {"A", "B"}) {
+    EffectInstance e = MakeInstance(EffectNamed(law), bearing);
+    for (std::size_t k = 0; k < e.table.size(); ++k) e.values[k] = e.table[k].typical_lo;
+    rig.effects.push_back(e);
+  }
+  const Scenario scenario = Healthy(false, false);
+  for (auto _ : state) benchmark::DoNotOptimize(Simulate(rig, scenario, {}));
+  Count(state, kSeconds + kWarmUp, 20);
+}
+BENCHMARK_CAPTURE(EngineWithIron, reluctance, "iron-reluctance")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(EngineWithIron, saturation, "saturation")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(EngineWithIron, hysteresis, "hysteresis")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(EngineWithIron, eddy_currents, "eddy-currents")->Unit(benchmark::kMillisecond);
 
 /// Everything on, as on a machine without registers of eight doubles (but for the noise).
 void EngineInHalves(benchmark::State& state) {

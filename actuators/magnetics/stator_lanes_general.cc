@@ -46,6 +46,32 @@ void StatorLanes::SolveGeneral(const StatorSample& sample, SampleWork* work) {
   for (ShortedTurns& s : shorts) s.i = inverse(s) * (s.target - s.n * phi[s.coil]);
 }
 
+void StatorLanes::Refresh(double x, double y) {
+  // Same as a solve with no voltage and no time: currents that carry the present linkages.
+  if (coupling == Coupling::kNetwork) flux_ = network->FluxAt({x, y, 0}).phi;
+  for (int j = 0; j < kLanes; ++j) rel_[j] = reluctance.Value(GapAt(j, x, y));
+  const Lane keep_half = half_rh_, keep_inverse = inverse_l_;
+  for (int j = 0; j < kLanes; ++j) {
+    half_rh_[j] = 0;
+    inverse_l_[j] = blocked[j] ? 0 : 1 / leakage[j];
+    c_[j] = n[j] * inverse_l_[j];
+  }
+  for (ShortedTurns& s : shorts) s.target = s.lambda;
+  SampleWork work;
+  work.target = lambda;
+  StatorSample sample = SampleAt(nullptr, 0, 0);
+  sample.rel0 = sample.rel1 = rel_.v;
+  sample.h = 0;
+  SolveGeneral(sample, &work);
+  half_rh_ = keep_half;
+  inverse_l_ = keep_inverse;
+  for (int j = 0; j < kLanes; ++j) {
+    c_[j] = n[j] * inverse_l_[j];
+    if (blocked[j]) i[j] = 0;
+    lambda[j] = n[j] * phi[j] + leakage[j] * i[j];
+  }
+}
+
 void StatorLanes::StepCurrents(const Lane& currents) {
   Require(coupling != Coupling::kNetwork && shorts.empty(), "a circuit of lanes, coil by coil");
   for (int j = 0; j < kLanes; ++j) i[j] = j < coils && !open[j] ? currents[j] : 0;
