@@ -20,6 +20,8 @@ constexpr double kWorthAWord = 60;          // [s]
 constexpr double kRunsOfACommissioning = 20;
 // Simulations of a record from the first fit to the verdict: 400 to 800 in cases of 6 or 7 records.
 constexpr double kSimulationsPerRecord = 800;
+// What such a simulation takes of a run with everything on: most have six samples a period, none noise or detection.
+constexpr double kPartOfARun = 0.2;
 // Columns beside the data while fitting: derivatives by every toleranced parameter and candidate.
 constexpr double kColumnsOfAFit = 120;
 constexpr double kMemoryOfRuns = 130e6;  // [bytes] predictions that are kept
@@ -66,7 +68,7 @@ WorkSize ExplainSize(const Case& c) {
     record = std::max(record, RunMemory(c.rig, r.scenario, 0));
     numbers += static_cast<double>(r.data.rows() * r.data.channels.size());
   }
-  size.seconds *= kSimulationsPerRecord / size.cores;
+  size.seconds *= kSimulationsPerRecord * kPartOfARun / size.cores;
   size.bytes = numbers * sizeof(double) * kColumnsOfAFit + record * size.cores + kMemoryOfRuns;
   return size;
 }
