@@ -94,6 +94,15 @@ std::vector<SimulatedStart> SizesOfContact(const EffectInstance& e) {
   return out;
 }
 
+/// Whether one of the starts that were estimated from the records explains so much that a grid of frequencies, none of
+/// which is as near, has nothing to add.
+bool Suffice(const StartSearch& search, const std::vector<SimulatedStart>& estimated) {
+  constexpr double kMuch = 0.2;  // of the error above the noise
+  return std::any_of(estimated.begin(), estimated.end(), [&](const SimulatedStart& s) {
+    return search.Explains(s) && s.share > kMuch;
+  });
+}
+
 /// Every probe in few sizes, then the better half of the resonances in all.
 std::vector<SimulatedStart> SimulatedSizes(const StartSearch& search,
                                            const std::vector<ProbeGroup>& groups) {
@@ -210,11 +219,14 @@ bool SameValley(const EffectInstance& a, const EffectInstance& b) {
 std::vector<ProbeGroup> ScanStarts(const StartSearch& search, const std::vector<ProbeGroup>& groups,
                                    const std::vector<EffectInstance>& estimated) {
   constexpr std::size_t kKept = 5;
-  std::vector<SimulatedStart> starts = SimulatedSizes(search, groups), more;
+  std::vector<SimulatedStart> starts;
   for (const EffectInstance& e : estimated)
-    for (const double size : {1.0, 0.75, 0.5, 0.3}) more.push_back({ScaledResonance(e, size)});
-  search.Simulate(more);
-  starts.insert(starts.end(), more.begin(), more.end());
+    for (const double size : {1.0, 0.75, 0.5, 0.3}) starts.push_back({ScaledResonance(e, size)});
+  search.Simulate(starts);
+  if (!Suffice(search, starts)) {
+    const std::vector<SimulatedStart> of_grid = SimulatedSizes(search, groups);
+    starts.insert(starts.end(), of_grid.begin(), of_grid.end());
+  }
   std::stable_sort(starts.begin(), starts.end(), ExplainsMore);
   std::vector<ProbeGroup> out;
   for (const SimulatedStart& s : starts) {

@@ -51,9 +51,9 @@ class StartSearch {
 /// Whether two starts differ in size only: frequency and the signs of their values are the same.
 bool SameValley(const EffectInstance& a, const EffectInstance& b);
 
-/// The probes of one narrow effect (`groups`: of a resonance, a frequency each) tried in several
-/// sizes and patterns of their gains, and starts `estimated` from the records (resonance_starts.h): those that
-/// explain most, each as a probe of finite size. Empty where none explains anything.
+/// Starts `estimated` from the records (resonance_starts.h) in several sizes and, unless one of them explains much, the
+/// probes of one narrow effect (`groups`: of a resonance, a frequency each) in several sizes and patterns of their
+/// gains: those that explain most, each as a probe of finite size. Empty where none explains anything.
 std::vector<ProbeGroup> ScanStarts(const StartSearch& search, const std::vector<ProbeGroup>& groups,
                                    const std::vector<EffectInstance>& estimated);
 
