@@ -79,13 +79,19 @@ std::optional<Hypothesis> WithoutOptionalShapes(const Hypothesis& start) {
   return any ? std::optional(h) : std::nullopt;
 }
 
+/// From how many starts a climb is worth its simulations: the more the best explains as it stands, the less likely
+/// another valley holds more. Few beside effects that were adopted.
+std::size_t StartsToClimb(const SimulatedStart& best, bool beside_adopted) {
+  if (beside_adopted || best.share > 0.8) return 2;
+  return best.share > 0.4 ? 3 : 5;
+}
+
 /// The starts that explain most when they are simulated: the best as it stands, and the best that is
 /// reached from it or another.
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
-  constexpr std::size_t kClimbed = 5, kClimbedBeside = 2;  // beside effects that were adopted
-  const std::size_t most = HoldsAdopted(model, now) ? kClimbedBeside : kClimbed;
+  const bool beside = HoldsAdopted(model, now);
   std::vector<SimulatedStart> order, climbed;
   for (const EffectInstance& e : starts) order.push_back({e});
   const auto sort = [](std::vector<SimulatedStart>& list) {
@@ -96,6 +102,7 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
     const StartSearch search(model, now, effective_sample_size);
     search.Simulate(order);
     sort(order);
+    const std::size_t most = StartsToClimb(order[0], beside);
     for (const SimulatedStart& s : order)
       if (climbed.size() < most && std::none_of(climbed.begin(), climbed.end(), [&](const auto& o) {
             return SameValley(o.effect, s.effect);

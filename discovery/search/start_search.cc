@@ -103,6 +103,15 @@ bool Suffice(const StartSearch& search, const std::vector<SimulatedStart>& estim
   });
 }
 
+/// Whether neither the least nor the largest size of an effect of contact changes anything: nothing touches in the
+/// records that are looked at.
+bool ChangeNothing(const StartSearch& search, const std::vector<SimulatedStart>& sizes) {
+  if (sizes.empty()) return true;
+  std::vector<SimulatedStart> ends = {sizes.front(), sizes.back()};
+  search.Simulate(ends);
+  return ends[0].score == search.here() && ends[1].score == search.here();
+}
+
 /// Every probe in few sizes, then the better half of the resonances in all.
 std::vector<SimulatedStart> SimulatedSizes(const StartSearch& search,
                                            const std::vector<ProbeGroup>& groups) {
@@ -112,6 +121,7 @@ std::vector<SimulatedStart> SimulatedSizes(const StartSearch& search,
     const EffectInstance& e = g.probes[0];
     const bool resonance = IsResonance(EffectNamed(e.name));
     std::vector<SimulatedStart> sizes = resonance ? FewSizesOfResonance(e) : SizesOfContact(e);
+    if (!resonance && ChangeNothing(search, sizes)) continue;
     search.Simulate(sizes);
     if (resonance)
       resonances.emplace_back(std::min_element(sizes.begin(), sizes.end(), ExplainsMore)->score,

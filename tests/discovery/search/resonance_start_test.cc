@@ -170,7 +170,7 @@ TEST_F(ResonanceStartTest, BesideAnEffectFewerStartsAreClimbed) {
   candidate.narrow = true;
   candidate.effect = BaseOf(400, 150, 0.05);
   candidate.other_starts = {BaseOf(300, 110, 0.05), BaseOf(150, 75, 0.05), BaseOf(150, 55, 0.05),
-                            BaseOf(120, 33, 0.05)};
+                            BaseOf(200, 45, 0.05)};
   long runs[2] = {};
   for (const bool beside : {false, true}) {
     CaseModel model(data_, 4);
@@ -188,6 +188,40 @@ TEST_F(ResonanceStartTest, BesideAnEffectFewerStartsAreClimbed) {
     EXPECT_NEAR(FittedEffect(fit, beside ? 1 : 0).Value("frequency"), 35, 0.4);
   }
   EXPECT_LT(runs[1], runs[0]);
+}
+
+// Friction in a contact that never comes: its ends change nothing, and the sizes between are not simulated.
+TEST_F(ResonanceStartTest, ContactThatChangesNothingIsTriedAtItsEndsOnly) {
+  CaseModel model(data_, 4);
+  const FitResult base = Simulated(model);
+  ProbeGroup g;
+  g.linear = false;
+  g.narrow = true;
+  g.probes = {MakeInstance(EffectNamed("contact-friction"), "A")};
+  const StartSearch search(model, base, 1e5);
+  const long before = model.runs;
+  EXPECT_TRUE(ScanStarts(search, {g}, {}).empty());
+  EXPECT_EQ(model.runs - before, 2);
+}
+
+// A start that explains nearly all as it stands leaves little for other valleys.
+TEST_F(ResonanceStartTest, AGoodStartSparesOthersTheirClimb) {
+  long runs[2] = {};
+  for (const bool good : {false, true}) {
+    CaseModel model(data_, 4);
+    const FitResult base = Simulated(model);
+    Candidate candidate;
+    candidate.narrow = true;
+    candidate.effect = good ? BaseOf(90, 35.2, 0.02) : BaseOf(200, 45, 0.05);
+    candidate.other_starts = {BaseOf(400, 150, 0.05), BaseOf(300, 110, 0.05), BaseOf(150, 75, 0.05),
+                              BaseOf(150, 55, 0.05)};
+    const long start = model.runs;
+    const FitResult fit = FitBriefly(model, base, candidate, 1e5);
+    runs[good ? 1 : 0] = model.runs - start;
+    ASSERT_TRUE(fit.converged);
+    EXPECT_NEAR(FittedEffect(fit, 0).Value("frequency"), 35, 0.4);
+  }
+  EXPECT_LT(2 * runs[1], runs[0]);
 }
 
 // Where another effect explains what moves, no resonance is simulated; where none does, it is.
