@@ -76,8 +76,8 @@ class EddyKernel {
   const EddyState& state_;
   V e_[kDiffusionPoles], phi_, base_;
 };
-AMBRIG_LAW_LANES(Eddy, EddyKernel, EddyState)
-AMBRIG_LAW_COMMIT(Eddy, EddyKernel, EddyState)
+AMBRIG_LAW_LANES(Eddy)
+AMBRIG_LAW_COMMIT(Eddy)
 
 class EddyLaw final : public FluxLaw {
  public:

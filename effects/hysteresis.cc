@@ -23,7 +23,7 @@ namespace {
 constexpr int kStops = 8;
 
 /// One stop operator per row, all lanes; in units of flux [Wb].
-struct Stops {
+struct StopsState {
   double radius[kStops] = {};   // r_k [Wb]
   double tangent[kStops] = {};  // MMF over flux of a stop that follows [1/H]
   Lane s[kStops];
@@ -34,7 +34,7 @@ template <class V>
 class StopsKernel {
  public:
   static constexpr bool kLinear = false;
-  [[gnu::always_inline]] explicit StopsKernel(const Stops& stops)
+  [[gnu::always_inline]] explicit StopsKernel(const StopsState& stops)
       : stops_(stops), phi_(LoadAs<V>(stops.phi.v)) {
     for (int k = 0; k < kStops; ++k) s_[k] = LoadAs<V>(stops.s[k].v);
   }
@@ -54,7 +54,7 @@ class StopsKernel {
     for (int k = 0; k < kStops; ++k) s_[k] = Held(s_[k] + change, stops_.radius[k]);
     phi_ = phi;
   }
-  [[gnu::always_inline]] void Keep(Stops* stops) const {
+  [[gnu::always_inline]] void Keep(StopsState* stops) const {
     for (int k = 0; k < kStops; ++k) Store(stops->s[k].v, s_[k]);
     Store(stops->phi.v, phi_);
   }
@@ -65,11 +65,11 @@ class StopsKernel {
     return Min(Max(free, V(-r)), V(r));
   }
 
-  const Stops& stops_;
+  const StopsState& stops_;
   V s_[kStops], phi_;
 };
-AMBRIG_LAW_LANES(Stops, StopsKernel, Stops)
-AMBRIG_LAW_COMMIT(Stops, StopsKernel, Stops)
+AMBRIG_LAW_LANES(Stops)
+AMBRIG_LAW_COMMIT(Stops)
 
 class HysteresisLaw final : public FluxLaw {
  public:
@@ -97,14 +97,14 @@ class HysteresisLaw final : public FluxLaw {
 
  private:
   /// Iron that has never been magnetised.
-  Stops AtRest() const {
-    Stops stops = stops_;
+  StopsState AtRest() const {
+    StopsState stops = stops_;
     for (Lane& s : stops.s) s = Lane{};
     stops.phi = Lane{};
     return stops;
   }
 
-  Stops stops_;
+  StopsState stops_;
 };
 
 }  // namespace

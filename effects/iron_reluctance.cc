@@ -20,14 +20,14 @@ namespace {
 
 constexpr double kThresholdDensity = 0.2;  // [T] at which half of the threshold is reached
 
-struct Threshold {
+struct ThresholdState {
   double x_per_flux;  // 1/(0.2 T A) [1/Wb]
   double mmf;         // [A]
 };
 
 template <class V>
-struct ThresholdKernel : MemorylessKernel<V, Threshold> {
-  using MemorylessKernel<V, Threshold>::MemorylessKernel;
+struct ThresholdKernel : MemorylessKernel<V, ThresholdState> {
+  using MemorylessKernel<V, ThresholdState>::MemorylessKernel;
   [[gnu::always_inline]] void Terms(const V& phi, V* drop, V* slope) const {
     const auto& [x_per_flux, mmf] = this->law;
     const V x = phi * x_per_flux, inverse = 1.0 / (V(1.0) + Abs(x));
@@ -35,7 +35,7 @@ struct ThresholdKernel : MemorylessKernel<V, Threshold> {
     *slope = inverse * inverse * (mmf * x_per_flux);
   }
 };
-AMBRIG_LAW_LANES(Threshold, ThresholdKernel, Threshold)
+AMBRIG_LAW_LANES(Threshold)
 
 class MagnetisingThreshold final : public MemorylessLaw {
  public:
@@ -48,7 +48,7 @@ class MagnetisingThreshold final : public MemorylessLaw {
   }
 
  private:
-  Threshold law_;
+  ThresholdState law_;
 };
 
 }  // namespace

@@ -18,14 +18,14 @@ namespace ambrig {
 
 namespace {
 
-struct Steel {
+struct SaturationState {
   double x_per_flux;  // 1/(knee A) [1/Wb]
   double path;        // [m]
 };
 
 template <class V>
-struct SteelKernel : MemorylessKernel<V, Steel> {
-  using MemorylessKernel<V, Steel>::MemorylessKernel;
+struct SaturationKernel : MemorylessKernel<V, SaturationState> {
+  using MemorylessKernel<V, SaturationState>::MemorylessKernel;
   [[gnu::always_inline]] void Terms(const V& phi, V* drop, V* slope) const {
     const auto& [x_per_flux, path] = this->law;
     V H, tangent;
@@ -34,7 +34,7 @@ struct SteelKernel : MemorylessKernel<V, Steel> {
     *slope = tangent * (path * x_per_flux);
   }
 };
-AMBRIG_LAW_LANES(Saturation, SteelKernel, Steel)
+AMBRIG_LAW_LANES(Saturation)
 
 class SaturationLaw final : public MemorylessLaw {
  public:
@@ -47,7 +47,7 @@ class SaturationLaw final : public MemorylessLaw {
   }
 
  private:
-  Steel steel_;
+  SaturationState steel_;
 };
 
 }  // namespace

@@ -11,7 +11,8 @@
 ///   static constexpr bool kLinear;                      whether Terms is linear in the flux: then it has
 ///   V Base() const; double Slope() const;               drop = base + slope phi
 ///
-/// AMBRIG_LAW_LANES makes of it the functions NameDrop and NameLoop, which the members of a FluxLaw call.
+/// AMBRIG_LAW_LANES(Name) makes of NameKernel and NameState the functions NameDrop and NameLoop, which the members of a
+/// FluxLaw call.
 #include "actuators/magnetics/flux_law.h"
 #include "actuators/magnetics/running_stator.h"
 
@@ -146,29 +147,30 @@ template <class V, class Kernel, class State>
   return k;
 }
 
-#define AMBRIG_LAW_LANES(Name, Kernel, State)                                                 \
-  AMBRIG_WIDE void Name##Drop(const State& state, const Lane& phi, Lane* drop, Lane* slope) { \
+#define AMBRIG_LAW_LANES(Name)                                                                \
+  AMBRIG_WIDE void Name##Drop(const Name##State& state, const Lane& phi, Lane* drop,          \
+                              Lane* slope) {                                                  \
     LaneVector d, t;                                                                          \
-    Kernel<LaneVector>(state).Terms(Load(phi.v), &d, &t);                                     \
+    Name##Kernel<LaneVector>(state).Terms(Load(phi.v), &d, &t);                               \
     Store(drop->v, Load(drop->v) + d);                                                        \
     Store(slope->v, Load(slope->v) + t);                                                      \
   }                                                                                           \
-  AMBRIG_WHOLE int Name##LoopWhole(State& state, const LawLoop& in, int k, int count) {       \
-    return RunLawLoop<WholeLaneVector, Kernel<WholeLaneVector>>(state, in, k, count);         \
+  AMBRIG_WHOLE int Name##LoopWhole(Name##State& state, const LawLoop& in, int k, int count) { \
+    return RunLawLoop<WholeLaneVector, Name##Kernel<WholeLaneVector>>(state, in, k, count);   \
   }                                                                                           \
-  AMBRIG_WIDE int Name##LoopHalves(State& state, const LawLoop& in, int k, int count) {       \
-    return RunLawLoop<LaneVector, Kernel<LaneVector>>(state, in, k, count);                   \
+  AMBRIG_WIDE int Name##LoopHalves(Name##State& state, const LawLoop& in, int k, int count) { \
+    return RunLawLoop<LaneVector, Name##Kernel<LaneVector>>(state, in, k, count);             \
   }                                                                                           \
-  int Name##Loop(State& state, const LawLoop& in, int k, int count) {                         \
+  int Name##Loop(Name##State& state, const LawLoop& in, int k, int count) {                   \
     return (whole_lanes ? Name##LoopWhole : Name##LoopHalves)(state, in, k, count);           \
   }
 
 /// NameCommit, of laws that remember.
-#define AMBRIG_LAW_COMMIT(Name, Kernel, State)                   \
-  AMBRIG_WIDE void Name##Commit(State& state, const Lane& phi) { \
-    Kernel<LaneVector> law(state);                               \
-    law.Commit(Load(phi.v));                                     \
-    law.Keep(&state);                                            \
+#define AMBRIG_LAW_COMMIT(Name)                                        \
+  AMBRIG_WIDE void Name##Commit(Name##State& state, const Lane& phi) { \
+    Name##Kernel<LaneVector> law(state);                               \
+    law.Commit(Load(phi.v));                                           \
+    law.Keep(&state);                                                  \
   }
 
 }  // namespace ambrig
