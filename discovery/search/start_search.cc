@@ -94,10 +94,11 @@ std::vector<SimulatedStart> SizesOfContact(const EffectInstance& e) {
   return out;
 }
 
-/// Whether one of the starts that were estimated from the records explains so much that a grid of frequencies, none of
-/// which is as near, has nothing to add.
+/// Whether a grid of frequencies, none of which is as near, has nothing to add to the starts that were estimated from the
+/// records: where one of them explains much, and beside adopted effects, which hide no mode from an estimate.
 bool Suffice(const StartSearch& search, const std::vector<SimulatedStart>& estimated) {
   constexpr double kMuch = 0.2;  // of the error above the noise
+  if (search.beside_others() && !estimated.empty()) return true;
   return std::any_of(estimated.begin(), estimated.end(), [&](const SimulatedStart& s) {
     return search.Explains(s) && s.share > kMuch;
   });

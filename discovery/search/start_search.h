@@ -23,6 +23,8 @@ class StartSearch {
 
   /// Score without an effect, same fidelity as the starts' scores.
   double here() const { return here_; }
+  /// Whether effects that the rig file does not have are in the model already.
+  bool beside_others() const { return beside_others_; }
   /// Whether a start is worth more simulations: it gains score, and beside effects that were adopted, whose laws
   /// leave details, a tenth of what is left where it is largest (to be adopted it has to explain most of it).
   bool Explains(const SimulatedStart& s) const;
@@ -45,15 +47,16 @@ class StartSearch {
 
   QuickLook look_;
   double here_ = 0, excess_ = 0;
-  bool beside_others_;  // effects that the rig file does not have are in the model already
+  bool beside_others_;
 };
 
 /// Whether two starts differ in size only: frequency and the signs of their values are the same.
 bool SameValley(const EffectInstance& a, const EffectInstance& b);
 
-/// Starts `estimated` from the records (resonance_starts.h) in several sizes and, unless one of them explains much, the
-/// probes of one narrow effect (`groups`: of a resonance, a frequency each) in several sizes and patterns of their
-/// gains: those that explain most, each as a probe of finite size. Empty where none explains anything.
+/// Starts `estimated` from the records (resonance_starts.h) in several sizes and, unless one of them explains much or
+/// adopted effects stand beside, the probes of one narrow effect (`groups`: of a resonance, a frequency each) in several
+/// sizes and patterns of their gains: those that explain most, each as a probe of finite size. Empty where none explains
+/// anything.
 std::vector<ProbeGroup> ScanStarts(const StartSearch& search, const std::vector<ProbeGroup>& groups,
                                    const std::vector<EffectInstance>& estimated);
 

@@ -25,6 +25,26 @@ EffectInstance BaseOf(double mass, double frequency, double damping) {
   return e;
 }
 
+std::vector<ProbeGroup> GridOf(const std::vector<double>& frequencies) {
+  std::vector<ProbeGroup> grid;
+  for (const double frequency : frequencies) {
+    ProbeGroup g;
+    g.linear = false;
+    g.narrow = true;
+    g.probes = {BaseOf(70, frequency, 0.05)};
+    grid.push_back(g);
+  }
+  return grid;
+}
+
+/// The fit with an effect that was adopted and changes nothing.
+FitResult BesideNothing(FitResult fit) {
+  EffectInstance nothing = MakeInstance(EffectNamed("sensor-offset"), "A.x");
+  nothing.Set("offset", 1e-12);
+  fit.hypothesis.AddEffect(nothing);
+  return fit;
+}
+
 class ResonanceStartTest : public ::testing::Test {
  protected:
   ResonanceStartTest() {
@@ -83,18 +103,6 @@ TEST_F(ResonanceStartTest, StartsAreJudgedByTheirSimulation) {
   EXPECT_NEAR(FittedEffect(fit, 0).Value("frequency"), 35, 0.4);
 }
 
-std::vector<ProbeGroup> GridOf(const std::vector<double>& frequencies) {
-  std::vector<ProbeGroup> grid;
-  for (const double frequency : frequencies) {
-    ProbeGroup g;
-    g.linear = false;
-    g.narrow = true;
-    g.probes = {BaseOf(70, frequency, 0.05)};
-    grid.push_back(g);
-  }
-  return grid;
-}
-
 // Where a start that the records gave explains much, no frequency of a grid is simulated; else all are.
 TEST_F(ResonanceStartTest, AnEstimateThatExplainsMuchSparesTheGrid) {
   CaseModel model(data_, 4);
@@ -146,10 +154,7 @@ TEST_F(ResonanceStartTest, AScanAndAClimbEndBesideTheTruth) {
 TEST_F(ResonanceStartTest, BesideAnEffectAStartHasToExplainAPart) {
   CaseModel model(data_, 4);
   const FitResult base = Simulated(model);
-  FitResult beside = base;
-  EffectInstance nothing = MakeInstance(EffectNamed("sensor-offset"), "A.x");
-  nothing.Set("offset", 1e-12);
-  beside.hypothesis.AddEffect(nothing);
+  const FitResult beside = BesideNothing(base);
   const StartSearch alone(model, base, 1e5), second(model, beside, 1e5);
   std::vector<SimulatedStart> starts = {{BaseOf(90, 35, 0.02)}};
   alone.Simulate(starts);
@@ -176,9 +181,7 @@ TEST_F(ResonanceStartTest, BesideAnEffectFewerStartsAreClimbed) {
     CaseModel model(data_, 4);
     FitResult now = Simulated(model);
     if (beside) {
-      EffectInstance nothing = MakeInstance(EffectNamed("sensor-offset"), "A.x");
-      nothing.Set("offset", 1e-12);
-      now.hypothesis.AddEffect(nothing);
+      now = BesideNothing(now);
       std::erase_if(now.hypothesis.free, [](const FreeParameter& p) { return p.effect >= 0; });
     }
     const long start = model.runs;
@@ -188,6 +191,17 @@ TEST_F(ResonanceStartTest, BesideAnEffectFewerStartsAreClimbed) {
     EXPECT_NEAR(FittedEffect(fit, beside ? 1 : 0).Value("frequency"), 35, 0.4);
   }
   EXPECT_LT(runs[1], runs[0]);
+}
+
+// Effects that were found hide no mode from an estimate: beside them a start that explains nothing ends the search.
+TEST_F(ResonanceStartTest, BesideAnEffectEstimatesAreEnough) {
+  CaseModel model(data_, 4);
+  const FitResult beside = BesideNothing(Simulated(model));
+  const StartSearch search(model, beside, 1e5);
+  const long before = model.runs;
+  EXPECT_TRUE(ScanStarts(search, GridOf({33.0, 70.0, 120.0}), {BaseOf(2000, 400, 0.02)}).empty());
+  EXPECT_EQ(model.runs - before, 4);
+  EXPECT_FALSE(ScanStarts(search, GridOf({33.0, 70.0, 120.0}), {}).empty());
 }
 
 // Friction in a contact that never comes: its ends change nothing, and the sizes between are not simulated.
