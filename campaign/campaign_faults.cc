@@ -47,25 +47,43 @@ std::vector<std::vector<int>> CoilSets(const TomlTable& t) {
   return sets;
 }
 
+/// Of these sets, those that the bearing has the coils for. A set that a file lists must be one of them.
+std::vector<std::vector<int>> SetsOf(const BearingParameters& b, const TomlTable& t) {
+  std::vector<std::vector<int>> sets = CoilSets(t);
+  const auto beyond = [&](const std::vector<int>& s) { return !s.empty() && s.back() > b.coils(); };
+  if (t.Has("sets") && !t.IsString("sets"))
+    for (const auto& set : sets)
+      if (beyond(set))
+        t.Fail("sets", fmt::format("= [..{}..] with bearing {}, allowed: its coils, 1 to {}",
+                                   set.back(), b.name, b.coils()));
+  std::erase_if(sets, beyond);
+  return sets;
+}
+
+/// Those whose faults a campaign counts; the default is the first with eight poles.
 std::vector<std::string> Bearings(const TomlTable& t, const RigParameters& rig) {
   std::string known;
-  std::vector<std::string> radial;
+  std::vector<std::string> all;
   for (const auto& b : rig.bearings)
-    if (b.kind->eight_poles) {
+    if (!b.kind->linearise) {
       known += (known.empty() ? "" : ", ") + b.name;
-      radial.push_back(b.name);
+      all.push_back(b.name);
     }
-  if (radial.empty() && rig.bearings.front().kind->linearise)
+  if (all.empty())
     t.Fail("bearings",
            fmt::format("of {} are stators of other kinds, whose faults campaigns do not "
                        "count, allowed: rigs with a bearing of kind radial, thrust or "
                        "opposed",
                        rig.file));
-  if (!t.Has("bearings")) return {radial.empty() ? rig.bearings.front().name : radial.front()};
+  if (!t.Has("bearings")) {
+    const auto radial = std::ranges::find_if(
+        rig.bearings, [](const BearingParameters& b) { return b.kind->eight_poles; });
+    return {radial == rig.bearings.end() ? all.front() : radial->name};
+  }
   const auto names = t.Strings("bearings");
   if (names.empty()) t.Fail("bearings", "= [], allowed: some of " + known);
   for (std::size_t k = 0; k < names.size(); ++k)
-    if (std::count(radial.begin(), radial.end(), names[k]) == 0 ||
+    if (std::count(all.begin(), all.end(), names[k]) == 0 ||
         std::count(names.begin(), names.end(), names[k]) > 1)
       t.Fail("bearings", fmt::format("= \"{}\", allowed: each once of {}", names[k], known));
   return names;
@@ -110,7 +128,7 @@ void ReadFaults(const TomlTable& root, Campaign& c) {
   const auto bearings = Bearings(*t, c.rig);
   if (t->Bool("healthy", false)) c.sets.push_back({bearings.front(), {}});
   for (const auto& b : bearings)
-    for (const auto& coils : CoilSets(*t)) c.sets.push_back({b, coils});
+    for (const auto& coils : SetsOf(*c.rig.Find(b), *t)) c.sets.push_back({b, coils});
   for (const TomlTable& k : t->Tables("kind")) c.kinds.push_back(ReadKind(k));
   const bool healthy =
       std::all_of(c.sets.begin(), c.sets.end(), [](const auto& s) { return s.coils.empty(); });

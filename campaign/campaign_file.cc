@@ -75,7 +75,12 @@ void ReadPlantsOf(const TomlTable& root, Campaign& c) {
     root.Fail("spread",
               "is given beside [plants], allowed: plants.scale, as each plant has a draw");
   c.without = t->Bool("without", false);
-  c.commissioning = In(*t, "commissioning_duration", c.commissioning, 0.1, 10, "s");
+  CommissioningPlan& plan = c.commissioning;  // ranges as those of `ambrig commission`
+  plan.duration = In(*t, "commissioning_duration", plan.duration, 0.1, 10, "s");
+  plan.speed = In(*t, "commissioning_speed", plan.speed, 0, 1e5, "rad/s");
+  plan.circle = In(*t, "commissioning_circle", plan.circle, 0, 0.9, "(share of the clearance)");
+  plan.chirp = In(*t, "commissioning_chirp", plan.chirp, 0, 1, "(share of f_max)");
+  plan.pulse = In(*t, "commissioning_pulse", plan.pulse, 0, 1, "(share of f_max)");
   c.plants = ReadPlants(*t, c.rig);
 }
 

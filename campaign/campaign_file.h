@@ -8,6 +8,7 @@
 #include "campaign/parameter_draw.h"
 #include "campaign/plants.h"
 #include "scenarios/scenario.h"
+#include "simulation/commissioning/commissioning_scenario.h"
 
 namespace ambrig {
 
@@ -52,7 +53,7 @@ struct Campaign {
   std::vector<std::uint64_t> seeds{1};
   std::vector<CampaignPlant> plants;  // empty: the rig file's alone
   bool without = false;               // every run is made a second time without fault tolerance
-  double commissioning = 0.4;         // length of the plants' commissioning runs [s]
+  CommissioningPlan commissioning;    // of the plants
 
   std::size_t runs() const;
 };

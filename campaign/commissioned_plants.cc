@@ -34,7 +34,7 @@ std::string CommissionedPlants::Commissioned(std::size_t plant) const {
   ApplyPlant(campaign_.plants[plant], &rig);
   try {
     CommissioningOptions options;
-    options.plan.duration = campaign_.commissioning;
+    options.plan = campaign_.commissioning;
     const CommissioningResult result = Commission(rig, options);
     const std::string file = fmt::format("{}/{}.commissioning.toml", folder_, plant);
     WriteFileAtomically(file, CommissioningText(result.model));

@@ -30,8 +30,9 @@ void AddFault(const Row& r, FaultsOnPlants* f) {
   f->lost_alone += !r.At("verdict_without").empty() && r.At("verdict_without") != "up";
   if (r.Number("judged") == 0) return;  // the rotor was lost before the fault came
   ++f->runs;
-  f->found += r.Number("detected") >= r.Number("judged");
-  if (!r.At("detection_delay").empty()) f->delay.push_back(r.Number("detection_delay"));
+  const bool found = r.Number("detected") >= r.Number("judged");
+  f->found += found;
+  if (found && !r.At("detection_delay").empty()) f->delay.push_back(r.Number("detection_delay"));
 }
 
 }  // namespace
@@ -41,6 +42,11 @@ double FaultsOnPlants::Delay(double share) const {
   std::vector<double> v = delay;
   std::sort(v.begin(), v.end());
   return v[static_cast<std::size_t>(std::ceil(share * static_cast<double>(v.size() - 1)))];
+}
+
+std::size_t FaultsOnPlants::FoundWithin(double most) const {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(delay, [&](double d) { return d <= most; }));
 }
 
 void PlantGroup::Add(const Row& r) {

@@ -15,11 +15,13 @@ struct FaultsOnPlants {
   std::size_t runs = 0, found = 0;
   std::size_t blamed = 0;                // runs in which a coil without a fault was acted on
   std::size_t lost = 0, lost_alone = 0;  // that touched down or dropped, with and without tolerance
-  std::vector<double> delay;             // [s]
+  std::vector<double> delay;             // of the slowest coil; only of runs with all found [s]
 
   bool complete() const { return found == runs && blamed == 0; }
   /// Delay that `share` of the found faults keep to [s]; none found: nan.
   double Delay(double share) const;
+  /// Runs whose fault was found within `delay` [s], of several the slowest.
+  std::size_t FoundWithin(double delay) const;
 };
 
 struct PlantGroup {

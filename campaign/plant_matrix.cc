@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "campaign/plant_groups.h"
@@ -14,6 +15,8 @@ namespace ambrig {
 namespace {
 
 constexpr std::array kSizes = {"low", "typical", "high"};
+constexpr std::array kTimes = {0.25e-3, 0.5e-3,
+                               3e-3};  // [s], in which faults are wanted to be found
 
 /// All plants with one effect, its sizes apart; a mixture has no size.
 struct EffectGroups {
@@ -104,6 +107,13 @@ std::string FaultTable(const std::vector<EffectGroups>& groups) {
   return text;
 }
 
+/// Rounded down, so that 100 % means all.
+std::string ShareText(std::size_t some, std::size_t of) {
+  if (of == 0) return "-";
+  return fmt::format("{:g} %",
+                     std::floor(1e3 * static_cast<double>(some) / static_cast<double>(of)) / 10);
+}
+
 std::string CountCell(const std::set<std::string>& some, const PlantGroup& g) {
   const double bound = 100 * UpperBound95(some.size(), g.plants.size());
   return fmt::format("{}/{}, < {} %", some.size(), g.plants.size(),
@@ -126,6 +136,40 @@ std::string HealthyTable(const std::vector<EffectGroups>& groups) {
   return text;
 }
 
+std::string TimeLine(const std::string& kind, const std::string& set, const FaultsOnPlants& f) {
+  std::string text = fmt::format("| {} | {} | {}/{} |", kind, set, f.found, f.runs);
+  text += f.delay.empty()
+              ? " - |"
+              : fmt::format(" {:.2f}, {:.2f} ms |", 1e3 * f.Delay(0.5), 1e3 * f.Delay(0.95));
+  for (const double t : kTimes) text += " " + ShareText(f.FoundWithin(t), f.runs) + " |";
+  return text + fmt::format(" {} |\n", f.blamed);
+}
+
+/// A line for each kind of fault, and where several sets of coils fail one for each of them.
+std::string TimeTable(const std::vector<const Row*>& rows) {
+  std::map<std::string, PlantGroup> sets;
+  PlantGroup all;
+  for (const Row* r : rows)
+    if (r->Number("failed") > 0) {
+      sets[r->At("set")].Add(*r);
+      all.Add(*r);
+    }
+  if (sets.empty()) return "";
+  std::string text = "| fault | coils | found | median, 95 % |", rule = "|---|---|---|---|";
+  for (const double t : kTimes) {
+    text += fmt::format(" within {:g} ms |", 1e3 * t);
+    rule += "---|";
+  }
+  text += " wrong coil |\n" + rule + "---|\n";
+  for (const auto& [kind, f] : all.kinds) {
+    text += TimeLine(kind, sets.size() > 1 ? "all" : sets.begin()->first, f);
+    for (const auto& [set, g] : sets)
+      if (const auto of = g.kinds.find(kind); sets.size() > 1 && of != g.kinds.end())
+        text += TimeLine(kind, set, of->second);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string PlantMatrix(const Rows& rows) {
@@ -141,8 +185,11 @@ std::string PlantMatrix(const Rows& rows) {
     const std::vector<EffectGroups> groups = ByEffect(some);
     const std::string name =
         learnt == std::string("yes") ? "Commissioned plants" : "Plants that were not commissioned";
-    text += fmt::format("{}**{}, faults**\n\n{}\n**{}, healthy**\n\n{}", text.empty() ? "" : "\n",
-                        name, FaultTable(groups), name, HealthyTable(groups));
+    text +=
+        fmt::format("{}**{}, faults**\n\n{}\n", text.empty() ? "" : "\n", name, FaultTable(groups));
+    const std::string times = TimeTable(some);
+    if (!times.empty()) text += fmt::format("**{}, faults in time**\n\n{}\n", name, times);
+    text += fmt::format("**{}, healthy**\n\n{}", name, HealthyTable(groups));
   }
   return text;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "campaign/parameter_draw.h"
+#include "core/base/toml_checked.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
@@ -16,7 +17,11 @@ namespace ambrig {
 namespace {
 
 constexpr long long kMostMixtures = 100000;
-constexpr int kMostShown = 2;  // parameters of an effect in a table
+constexpr int kMostShown = 2;                 // parameters of an effect in a table
+constexpr double kCopperPerKelvin = 0.00393;  // [1/K] of resistance, as effects/copper_heating.cc
+constexpr Range kWarmer{"K", -100, 200, "copper, since the commissioning"};
+constexpr Range kSensorDrift{"m", 0, 1e-3,
+                             "zeros of the position sensors, since the commissioning"};
 
 /// Numbers that depend on the seed and on their order only.
 class Draw {
@@ -46,28 +51,60 @@ double ValueOf(const EffectParameter& p, double size, bool negative) {
   return std::clamp(p.null_value + signed_distance, p.lo, p.hi);
 }
 
-std::vector<std::string> TargetsIn(const EffectDescription& d, const RigParameters& rig,
-                                   Draw& draw) {
-  std::vector<std::string> all = TargetsOf(d, TargetsOfEffects(rig)), radial;
-  for (const BearingParameters& b : rig.bearings)
-    if (b.kind->two_axes && std::count(all.begin(), all.end(), b.name) > 0)
-      radial.push_back(b.name);
-  if (!radial.empty() && d.target != TargetKind::kPlane && d.target != TargetKind::kPlaneOrZ &&
-      d.target != TargetKind::kPlaneOrRig)
-    return radial;
-  if (std::count(all.begin(), all.end(), "rig") > 0) return {"rig"};
-  if (all.empty()) return {};
-  return {all[draw.Index(all.size())]};
+/// Where the effects of the plants act.
+struct Ground {
+  const RigParameters& rig;
+  std::vector<std::string> bearings;  // by name; empty: all radial ones
+};
+
+/// Whether the target is the bearing, its plane, or an axis or a coil of it.
+bool IsOf(const BearingParameters& b, const std::string& target) {
+  const std::vector<std::string> axes = b.Axes();
+  return target == b.name || target.starts_with(b.name + ".") ||
+         std::count(axes.begin(), axes.end(), target) > 0;
 }
 
-void AddPlant(const EffectDescription& d, const RigParameters& rig, double size, Draw& draw,
+std::vector<std::string> TargetsIn(const EffectDescription& d, const Ground& at, Draw& draw) {
+  const std::vector<std::string> all = TargetsOf(d, TargetsOfEffects(at.rig));
+  std::vector<std::string> whole, own;  // bearings; what belongs to those that are named
+  for (const BearingParameters& b : at.rig.bearings) {
+    const bool named = std::count(at.bearings.begin(), at.bearings.end(), b.name) > 0;
+    if (!(at.bearings.empty() ? b.kind->two_axes : named)) continue;
+    if (std::count(all.begin(), all.end(), b.name) > 0) whole.push_back(b.name);
+    if (named)
+      std::ranges::copy_if(all, std::back_inserter(own),
+                           [&](const std::string& target) { return IsOf(b, target); });
+  }
+  if (!whole.empty() && d.target != TargetKind::kPlane && d.target != TargetKind::kPlaneOrZ &&
+      d.target != TargetKind::kPlaneOrRig)
+    return whole;
+  if (std::count(all.begin(), all.end(), "rig") > 0) return {"rig"};
+  const std::vector<std::string>& some = own.empty() ? all : own;
+  if (some.empty()) return {};
+  return {some[draw.Index(some.size())]};
+}
+
+void AddPlant(const EffectDescription& d, const Ground& at, double size, Draw& draw,
               CampaignPlant* plant) {
-  for (const std::string& target : TargetsIn(d, rig, draw)) {
+  for (const std::string& target : TargetsIn(d, at, draw)) {
     EffectInstance e = MakeInstance(d, target);
     for (std::size_t k = 0; k < e.table.size(); ++k)
       if (d.Switches(e.table[k])) e.values[k] = ValueOf(e.table[k], size, draw.Uniform() < 0.5);
     plant->effects.push_back(std::move(e));
   }
+}
+
+Ground GroundOf(const TomlTable& t, const RigParameters& rig) {
+  Ground at{rig, t.Has("bearings") ? t.Strings("bearings") : std::vector<std::string>{}};
+  std::vector<std::string> known;
+  for (const BearingParameters& b : rig.bearings) known.push_back(b.name);
+  if (t.Has("bearings") && at.bearings.empty())
+    t.Fail("bearings", fmt::format("= [], allowed: some of {}", fmt::join(known, ", ")));
+  for (const std::string& name : at.bearings)
+    if (std::count(known.begin(), known.end(), name) == 0)
+      t.Fail("bearings",
+             fmt::format("= \"{}\", allowed: some of {}", name, fmt::join(known, ", ")));
+  return at;
 }
 
 std::vector<const EffectDescription*> EffectsOf(const TomlTable& t, const RigParameters& rig) {
@@ -95,9 +132,8 @@ std::vector<std::string> SizesOf(const TomlTable& t) {
 double Share(const std::string& size) { return size == "low" ? 0 : size == "high" ? 1 : 0.5; }
 
 /// Machines by their effects alone; the first has none.
-std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig,
-                                    std::uint64_t seed) {
-  const auto effects = EffectsOf(t, rig);
+std::vector<CampaignPlant> Machines(const TomlTable& t, const Ground& at, std::uint64_t seed) {
+  const auto effects = EffectsOf(t, at.rig);
   std::vector<CampaignPlant> out(1);
   out[0].label = out[0].effect = "none";
   for (const EffectDescription* d : effects)
@@ -107,7 +143,7 @@ std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig
       p.size = size;
       p.label = d->id + " " + size;
       Draw draw(seed * 7919 + out.size());
-      AddPlant(*d, rig, Share(size), draw, &p);
+      AddPlant(*d, at, Share(size), draw, &p);
       out.push_back(std::move(p));
     }
   const long long mixtures = t.Integer("mixtures", 0);
@@ -128,10 +164,21 @@ std::vector<CampaignPlant> Machines(const TomlTable& t, const RigParameters& rig
     for (std::size_t m = 0; m < n; ++m) {
       const std::size_t which = draw.Index(left.size());
       p.label += (m > 0 ? "+" : "") + left[which]->id;
-      AddPlant(*left[which], rig, draw.Uniform(), draw, &p);
+      AddPlant(*left[which], at, draw.Uniform(), draw, &p);
       left.erase(left.begin() + static_cast<std::ptrdiff_t>(which));
     }
     out.push_back(std::move(p));
+  }
+  return out;
+}
+
+/// A zero of every sensor of a levitated axis that has moved by `distance` [m], up or down.
+std::vector<EffectInstance> DriftOf(const RigParameters& rig, double distance, Draw draw) {
+  std::vector<EffectInstance> out;
+  if (distance == 0) return out;
+  for (const std::string& axis : AxisNames(rig)) {
+    out.push_back(MakeInstance(EffectNamed("sensor-offset"), axis));
+    out.back().Set("offset", draw.Uniform() < 0.5 ? -distance : distance);
   }
   return out;
 }
@@ -153,12 +200,16 @@ std::vector<CampaignPlant> ReadPlants(const TomlTable& t, const RigParameters& r
     if (!(s >= 0 && s <= 10)) t.Fail("scale", fmt::format("= {}, allowed: 0 to 10 sd", s));
   if (scales.empty()) t.Fail("scale", "= [], allowed: at least one number from 0 to 10 sd");
   const std::vector<bool> commissioned = CommissionedOf(t);
+  const double warmer = Within(t, "warmer", 0, kWarmer),
+               drift = Within(t, "sensor_drift", 0, kSensorDrift);
   const auto start = static_cast<std::uint64_t>(seed);
   std::vector<CampaignPlant> out;
-  for (const CampaignPlant& machine : Machines(t, rig, start))
+  for (const CampaignPlant& machine : Machines(t, GroundOf(t, rig), start))
     for (const double scale : scales) {
       CampaignPlant p = machine;
       p.scale = scale;
+      p.warmer = warmer;
+      p.drift = DriftOf(rig, drift, Draw(start * 32452843 + out.size()));
       Draw draw(start * 15485863 + out.size());
       for (const Tolerance& tolerance : rig.tolerances)
         if (tolerance.sd > 0) p.deviates.push_back(scale * NormalQuantile(draw.Uniform()));
@@ -205,6 +256,19 @@ void DrawTolerances(const std::vector<double>& deviates, RigParameters* rig) {
 void ApplyPlant(const CampaignPlant& plant, RigParameters* rig) {
   rig->effects.insert(rig->effects.end(), plant.effects.begin(), plant.effects.end());
   DrawTolerances(plant.deviates, rig);
+}
+
+void AgePlant(const CampaignPlant& plant, RigParameters* rig) {
+  rig->effects.insert(rig->effects.end(), plant.drift.begin(), plant.drift.end());
+  if (plant.warmer == 0) return;
+  for (const BearingParameters& b : rig->bearings) {
+    const std::string path = "bearings." + b.name + ".resistance";
+    if (std::ranges::count(rig->tolerances, path, &Tolerance::path) == 0)
+      rig->tolerances.push_back({path, 0, kRequired});
+    Tolerance& t = *std::ranges::find(rig->tolerances, path, &Tolerance::path);
+    const double before = std::isnan(t.true_value) ? *ParameterAt(*rig, path) : t.true_value;
+    t.true_value = before * (1 + kCopperPerKelvin * plant.warmer);
+  }
 }
 
 }  // namespace ambrig

@@ -5,8 +5,13 @@
 ///
 /// An effect of "low" size has the weak end of its usual range (`ambrig effects`), "high" the
 /// strong end, "typical" their geometric mean; what does not switch it on keeps its default. It
-/// acts on all radial bearings, on the rig, or on one coil, axis or plane that is drawn. A mixture
-/// has some effects of the list, each between both ends (evenly in the logarithm).
+/// acts on all radial bearings (or those that `bearings` names), on the rig, or on one coil, axis or
+/// plane that is drawn (of the bearings that are named, where it can). A mixture has some effects of
+/// the list, each between both ends (evenly in the logarithm).
+///
+/// What happens to a plant between its commissioning and its run, neither of which the detection is
+/// told: `warmer`, its copper has another temperature, and `sensor_drift`, the zeros of its position
+/// sensors have moved. A plant that is not commissioned has them too.
 #include <string>
 #include <vector>
 
@@ -21,13 +26,20 @@ struct CampaignPlant {
   std::vector<double> deviates;         // of every tolerance with an sd, times the scale [sd]
   double scale = 0;                     // [sd]
   bool commissioned = false;            // the detection has learnt this plant before its run
+  // Since then:
+  double warmer = 0;                  // copper of all coils [K]
+  std::vector<EffectInstance> drift;  // of the zeros of the position sensors, one per axis
 };
 
 /// @throws InputError "file:line: key = value, allowed ..." for every mistake.
 std::vector<CampaignPlant> ReadPlants(const TomlTable& table, const RigParameters& rig);
 
-/// Gives the rig the plant's effects and true values.
+/// Gives the rig the plant's effects and true values, as they are when it is commissioned.
 void ApplyPlant(const CampaignPlant& plant, RigParameters* rig);
+
+/// Gives the rig of ApplyPlant what has happened to the plant since: true resistances times
+/// 1 + 0.00393 warmer, zeros of the sensors. The nominal values stay.
+void AgePlant(const CampaignPlant& plant, RigParameters* rig);
 
 /// "cutoff 300 Hz": what switches an effect on, at size "low", "typical" or "high". Empty for a name
 /// that is no effect's.

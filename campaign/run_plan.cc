@@ -38,6 +38,14 @@ CoilVector TurnsLeft(const FailureSet& set, const CampaignFaultKind& kind) {
   return turns;
 }
 
+std::size_t Place(const RigParameters& rig, const BearingParameters& b) {
+  return static_cast<std::size_t>(&b - rig.bearings.data());
+}
+
+CurrentMap HealthyMap(const RigParameters& rig, const BearingParameters& b) {
+  return MakeBearingControl(NominalRig(rig), Place(rig, b)).map;
+}
+
 }  // namespace
 
 RunIndex IndexOf(const Campaign& c, std::size_t run) {
@@ -71,7 +79,12 @@ SetCapacity RunPlan::Theory(const FailureSet& set, const CampaignFaultKind& kind
   const BearingParameters& b = *campaign_.rig.Find(set.bearing);
   const double most = PidOf(campaign_.rig, b).f_max;
   const auto table = tables_.find(set.bearing);
-  if (table == tables_.end()) return {"healthy", most};
+  if (table == tables_.end()) {
+    if (set.coils.empty() || !b.kind->redistribute) return {"healthy", most};
+    CurrentMap map = HealthyMap(campaign_.rig, b);
+    const std::string cls = b.kind->redistribute(b, TurnsLeft(set, kind), map);
+    return {cls, cls == "exact" ? most : 0};
+  }
   const Distribution d = table->second->Lookup(TurnsLeft(set, kind));
   const double c0 = BiasCurrent(campaign_.rig, b), k = ForceConstant(b);
   SetCapacity out;
@@ -91,11 +104,10 @@ std::optional<double> RunPlan::MarginAt(const PlannedRun& p, double t) const {
     });
   });
   const BearingParameters& b = *campaign_.rig.Find(p.bearing);
-  const auto index = static_cast<std::size_t>(&b - campaign_.rig.bearings.data());
-  const auto weight = WeightShares(campaign_.rig)[index];
+  const auto weight = WeightShares(campaign_.rig)[Place(campaign_.rig, b)];
   const Eigen::Vector2d load(weight[0] - p.load * std::cos(campaign_.load_angle),
                              weight[1] - p.load * std::sin(campaign_.load_angle));
-  CurrentMap map = MakeBearingControl(NominalRig(campaign_.rig), index).map;
+  CurrentMap map = HealthyMap(campaign_.rig, b);
   RedistributionProblem left = table->second->problem();
   left.turns_left = TurnsLeft(failed, campaign_.kinds[fault.kind]);
   MapAfterFailure(*table->second, left.turns_left, load, {}, &map);
@@ -125,9 +137,9 @@ void RunPlan::AddLoad(PlannedRun& p) const {
   p.load = given;
   if (campaign_.load_unit == LoadUnit::kCapacity) {
     // A share of the capacity is all that the bearing carries: the weight counts.
-    const auto shares = WeightShares(campaign_.rig);
-    const auto& up = shares[static_cast<std::size_t>(&b - p.rig.bearings.data())];
-    p.load = given > 0 ? std::max(0.0, given * p.theory.capacity + up[0] * ux + up[1] * uy) : 0;
+    const auto up = WeightShares(campaign_.rig)[Place(p.rig, b)];
+    const double pulled = b.kind->axial ? up[0] : up[0] * ux + up[1] * uy;
+    p.load = given > 0 ? std::max(0.0, given * p.theory.capacity + pulled) : 0;
   }
   if (p.load == 0) return;
   const bool steps = p.scenario.start == StartState::kLevitated;
@@ -135,8 +147,9 @@ void RunPlan::AddLoad(PlannedRun& p) const {
   for (int k = 0; k < n; ++k) {
     LoadSpec l;
     l.z = b.z;
-    l.fx = p.load * ux / n;
-    l.fy = p.load * uy / n;
+    l.axial = b.kind->axial;
+    (l.axial ? l.fz : l.fx) = p.load * (l.axial ? 1 : ux) / n;
+    if (!l.axial) l.fy = p.load * uy / n;
     l.start = steps ? kLoadFirst + (kLoadLast - kLoadFirst) * k / (n - 1) : 0;
     l.stop = p.scenario.duration + 1;
     p.scenario.loads.push_back(l);
@@ -198,6 +211,7 @@ PlannedRun RunPlan::Make(std::size_t run) const {
   if (!campaign_.plants.empty()) {
     p.plant = &campaign_.plants[p.at.plant];
     ApplyPlant(*p.plant, &p.rig);
+    AgePlant(*p.plant, &p.rig);
     p.rig.detection.commissioning =
         p.plant->commissioned ? commissioned_->FileOf(p.at.plant) : "none";
     if (p.rig.detection.commissioning.empty()) p.rig.detection.commissioning = "none";

@@ -37,7 +37,7 @@ double CommissioningSeconds(const Campaign& campaign) {
                     [](const CampaignPlant& plant) { return plant.commissioned; });
   if (commissioned == 0) return 0;
   Scenario run = campaign.scenarios.front();
-  run.duration = campaign.commissioning;
+  run.duration = campaign.commissioning.duration;
   return static_cast<double>(commissioned) * kRunsOfACommissioning * RunSeconds(campaign.rig, run);
 }
 

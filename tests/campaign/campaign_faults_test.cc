@@ -127,14 +127,45 @@ TEST_F(CampaignFaults, TheoryOfTheSets) {
   EXPECT_THROW(plan.Make(3), std::logic_error);
 }
 
+// A thrust bearing has four windings, two on each side. One that opens leaves its side the other, at twice the current; a side
+// without any pulls one way only.
+TEST_F(CampaignFaults, TheThrustBearingHasSetsOfItsFourWindings) {
+  EXPECT_EQ(Read("sets = \"single\"\nbearings = [\"Z\"]\n").sets.size(), 4u);
+  EXPECT_EQ(Read("sets = \"double\"\nbearings = [\"Z\"]\n").sets.size(), 6u);
+  EXPECT_EQ(Read("sets = \"single\"\nbearings = [\"A\", \"Z\"]\n").sets.size(), 8u + 4);
+  const RunPlan plan(
+      Read("healthy = true\nsets = [[1], [1, 2], [1, 2, 3, 4]]\nbearings = [\"Z\"]\n",
+           "[operation]\nloads = [0.5]\n"));
+  const PlannedRun healthy = plan.Make(0), one = plan.Make(1), side = plan.Make(2),
+                   all = plan.Make(3);
+  EXPECT_EQ(healthy.theory.cls, "healthy");
+  EXPECT_EQ(one.theory.cls, "exact");
+  EXPECT_EQ(one.theory.capacity, 120);  // f_max of its own controller
+  EXPECT_EQ(side.theory.cls, "one way");
+  EXPECT_EQ(side.theory.capacity, 0);
+  EXPECT_EQ(all.theory.cls, "none");
+  EXPECT_EQ(one.scenario.faults.front().target, "Z.coil1");
+  // The load acts along the shaft, which has no weight there: half of the capacity, in steps.
+  double pulled = 0;
+  for (const LoadSpec& l : one.scenario.loads) {
+    EXPECT_TRUE(l.axial);
+    EXPECT_EQ(l.fx, 0);
+    EXPECT_EQ(l.fy, 0);
+    pulled += l.fz;
+  }
+  EXPECT_NEAR(pulled, 60, 60 * 12 * 1e-15);  // rounding of 12 summands
+}
+
 TEST_F(CampaignFaults, MistakesAreOneLine) {
   const std::pair<const char*, const char*> mistakes[] = {
       {"sets = [[0]]\n", "faults.sets = [..0..] in set 1, allowed: different coils from 1 to 8"},
       {"sets = [[1], [1.5]]\n", "in set 2"},
       {"sets = [[3, 3]]\n", "[..3..] in set 1"},
       {"sets = []\n", "faults.sets = [], allowed: e.g. [[1], [1, 2]]"},
-      {"bearings = []\n", "faults.bearings = [], allowed: some of A, B"},
-      {"bearings = [\"A\", \"A\"]\n", "allowed: each once of A, B"},
+      {"bearings = []\n", "faults.bearings = [], allowed: some of A, B, Z"},
+      {"bearings = [\"A\", \"A\"]\n", "allowed: each once of A, B, Z"},
+      {"sets = [[1], [2, 5]]\nbearings = [\"A\", \"Z\"]\n",
+       "faults.sets = [..5..] with bearing Z, allowed: its coils, 1 to 4"},
       {"sets = [[1]]\nonset = []\n", "faults.onset = [], allowed: simultaneous, sequential"},
       {"sets = [[1]]\nonset = \"later\"\n", "faults.onset = \"later\", allowed: simultaneous"},
       {"[[faults.kind]]\nkind = \"open\"\n", "is given, but sets = \"none\"; allowed: other sets"},

@@ -13,6 +13,7 @@ struct Seen {
   std::string effect, plant, spread, learnt, kind, detected, delay, actions, verdict, without;
   std::string orbit = "2e-06", orbit_without = "1e-06";
   std::string judged = "1";  // of the faults
+  std::string set = "A:3";
 };
 
 Rows RowsOf(const std::vector<Seen>& list) {
@@ -22,6 +23,7 @@ Rows RowsOf(const std::vector<Seen>& list) {
     const bool faulty = !s.kind.empty();
     rows[run] = RowOf(run, {{"failed", faulty ? "1" : "0"},
                             {"judged", faulty ? s.judged : "0"},
+                            {"set", faulty ? s.set : "A:healthy"},
                             {"kind", s.kind},
                             {"effect", s.effect},
                             {"plant", s.plant},
@@ -93,6 +95,41 @@ TEST(PlantMatrix, HealthyPlantsCountOnceWithTheBoundOfTheirShare) {
       << text;
   EXPECT_NE(text.find("| **all** | 2/3, "), std::string::npos) << text;
   EXPECT_TRUE(PlantMatrix({}).empty());
+}
+
+// Seven opens in 0.1 to 0.4 ms and one that is missed: 3 of 8 within 0.25 ms, 7 of 8 in time at all. Shares are rounded down.
+TEST(PlantMatrix, SharesWithinTheWantedTimes) {
+  std::vector<Seen> rows;
+  for (const char* delay : {"1e-4", "2e-4", "2.5e-4", "2.6e-4", "3e-4", "4e-4", "4e-4", ""})
+    rows.push_back(
+        {"none", "none", "1", "yes", "open", *delay ? "1" : "0", delay, "0", "up", "up"});
+  rows.front().actions = "1";
+  const std::string text = PlantMatrix(RowsOf(rows));
+  EXPECT_NE(text.find("| fault | coils | found | median, 95 % | within 0.25 ms | within 0.5 ms | "
+                      "within 3 ms | wrong coil |"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("| open | A:3 | 7/8 | 0.26, 0.40 ms | 37.5 % | 87.5 % | 87.5 % | 1 |"),
+            std::string::npos)
+      << text;
+}
+
+// Of two coils that fail together both must be found: where one is missed the other's delay is no finding, and a
+// table for each set says which pair it was.
+TEST(PlantMatrix, OfTwoCoilsBothMustBeFound) {
+  std::vector<Seen> rows{{"none", "none", "1", "yes", "open", "2", "1e-4", "0", "up", "up"},
+                         {"none", "none", "1", "yes", "open", "1", "2e-3", "0", "up", "up"},
+                         {"none", "none", "1", "yes", "open", "2", "3e-4", "0", "up", "up"}};
+  for (Seen& s : rows) s.judged = "2";
+  rows[0].set = rows[1].set = "A:3+4";
+  rows[2].set = "A:3+7";
+  const std::string text = PlantMatrix(RowsOf(rows));
+  EXPECT_NE(text.find("| no effect | 0 | 2/3; 0.30, 0.30 ms | 0, 0 |"), std::string::npos) << text;
+  EXPECT_NE(text.find("| open | all | 2/3 | 0.30, 0.30 ms | 33.3 % | 66.6 % | 66.6 % | 0 |\n"
+                      "| open | A:3+4 | 1/2 | 0.10, 0.10 ms | 50 % | 50 % | 50 % | 0 |\n"
+                      "| open | A:3+7 | 1/1 | 0.30, 0.30 ms | 0 % | 100 % | 100 % | 0 |"),
+            std::string::npos)
+      << text;
 }
 
 TEST(PlantMatrix, SizesOfEffectsInTheirUnits) {

@@ -11,6 +11,7 @@
 #include "campaign/plant_table.h"
 #include "campaign/row.h"
 #include "campaign/run_plan.h"
+#include "rig/rig_parameters.h"
 #include "tests/campaign/campaign_folder.h"
 
 namespace ambrig::testing {
@@ -93,11 +94,86 @@ TEST(Plants, MistakesAreOneLineWithTheirPlace) {
       {"scale = []\n", "plants.scale = []"},
       {"commissioned = \"maybe\"\n", "plants.commissioned = \"maybe\""},
       {"commissioning_duration = 0.0\n", "plants.commissioning_duration = 0"},
+      {"commissioning_pulse = 1.5\n", "plants.commissioning_pulse = 1.5"},
+      {"warmer = 500.0\n", "plants.warmer = 500 K, allowed -100 to 200 K"},
+      {"sensor_drift = -1e-6\n", "plants.sensor_drift = -1e-06 m, allowed 0 to 0.001 m"},
+      {"bearings = [\"C\"]\n", "plants.bearings = \"C\", allowed: some of A, B, Z"},
+      {"bearings = []\n", "plants.bearings = [], allowed: some of A, B, Z"},
       {"colour = 1\n", "plants.colour: unknown key"},
       {"seed = -1\n", "plants.seed = -1"}};
   for (const auto& [text, said] : mistakes)
     EXPECT_NE(ErrorText<InputError>([&] { Read(f, Reality(text)); }).find(said), std::string::npos)
         << text << ErrorText<InputError>([&] { Read(f, Reality(text)); });
+}
+
+/// The value that the plant has: the drawing's where nothing else is known.
+double TrueValue(const RigParameters& rig, const std::string& path) {
+  for (const Tolerance& t : rig.tolerances)
+    if (t.path == path && !std::isnan(t.true_value)) return t.true_value;
+  return *ParameterAt(rig, path);
+}
+
+// The resistance of Z has no sd in the file, those of A and B have one.
+TEST(Plants, WarmCopperAndMovedZerosAreInTheRunOnly) {
+  const CampaignFolder f;
+  const std::string machines = Reality(
+      "effects = [\"sensor-offset\"]\nsizes = [\"low\"]\ncommissioned = \"no\"\nscale = 2.0\n");
+  const Campaign c = Read(f, machines + "warmer = 60.0\nsensor_drift = 1e-5\n"),
+                 fresh = Read(f, machines);
+  ASSERT_EQ(c.plants.size(), 2U);
+  const RunPlan plan(c), before(fresh);
+  for (std::size_t run = 0; run < c.runs(); ++run) {
+    const PlannedRun then = before.Make(run), now = plan.Make(run);
+    RigParameters learnt = c.rig;  // what a commissioning has
+    ApplyPlant(*now.plant, &learnt);
+    for (const char* bearing : {"A", "B", "Z"}) {
+      const std::string path = std::string("bearings.") + bearing + ".resistance";
+      const double cold = TrueValue(then.rig, path);
+      EXPECT_DOUBLE_EQ(TrueValue(learnt, path), cold);
+      EXPECT_DOUBLE_EQ(TrueValue(now.rig, path), cold * (1 + 0.00393 * 60));
+      EXPECT_EQ(*ParameterAt(now.rig, path), *ParameterAt(then.rig, path));  // nominal
+    }
+    EXPECT_NE(TrueValue(then.rig, "bearings.A.resistance"),
+              *ParameterAt(c.rig, "bearings.A.resistance"));
+    EXPECT_EQ(learnt.effects.size(), then.rig.effects.size());
+    ASSERT_EQ(now.rig.effects.size(), then.rig.effects.size() + 5);  // A.x A.y B.x B.y z
+    for (std::size_t k = then.rig.effects.size(); k < now.rig.effects.size(); ++k) {
+      EXPECT_EQ(now.rig.effects[k].name, "sensor-offset");
+      EXPECT_EQ(std::abs(now.rig.effects[k].Value("offset")), 1e-5);
+    }
+    EXPECT_EQ(now.scenario.seed, then.scenario.seed);
+  }
+  std::set<double> signs;
+  for (const CampaignPlant& p : c.plants)
+    for (const EffectInstance& e : p.drift) signs.insert(e.Value("offset"));
+  EXPECT_EQ(signs.size(), 2U);  // both, in ten draws
+}
+
+// Commissioning the plant of a campaign gives the same file whatever comes afterwards.
+TEST(Plants, CommissioningDoesNotSeeWhatComesAfterIt) {
+  const CampaignFolder f;
+  const std::string machines =
+      Reality("sizes = []\ncommissioned = \"yes\"\ncommissioning_duration = 0.15\n");
+  const RunPlan cold(Read(f, machines)),
+      warm(Read(f, machines + "warmer = 60.0\nsensor_drift = 1e-5\n"));
+  const PlannedRun a = cold.Make(0), b = warm.Make(0);
+  ASSERT_NE(a.rig.detection.commissioning, "none");
+  ASSERT_NE(b.rig.detection.commissioning, "none");
+  EXPECT_EQ(ReadBytes(a.rig.detection.commissioning), ReadBytes(b.rig.detection.commissioning));
+}
+
+// Effects of a coil's circuit act on the bearings that are named, those of an axis on an axis of theirs.
+TEST(Plants, EffectsActOnTheBearingsThatAreNamed) {
+  const CampaignFolder f;
+  const Campaign c = Read(f, Reality("bearings = [\"Z\"]\neffects = [\"eddy-currents\", "
+                                     "\"sensor-offset\", \"bus-impedance\"]\n"
+                                     "sizes = [\"high\"]\ncommissioned = \"no\"\n"));
+  ASSERT_EQ(c.plants.size(), 4U);
+  const char* const targets[] = {"Z", "z", "rig"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    ASSERT_EQ(c.plants[k + 1].effects.size(), 1U);
+    EXPECT_EQ(c.plants[k + 1].effects[0].target, targets[k]);
+  }
 }
 
 // The small version of scenarios/campaigns/reality.toml: nothing is done to healthy machines,
