@@ -166,4 +166,10 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
   return Distinct(out, count);
 }
 
+SeenResonances LookForResonances(const CaseModel& model, const Hypothesis& h) {
+  constexpr std::size_t kMost = 3;
+  const std::vector<FreeResponse> responses = FreeResponses(model, h);
+  return {!responses.empty(), EstimateResonances(responses, kMost)};
+}
+
 }  // namespace ambrig

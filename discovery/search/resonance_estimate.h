@@ -24,4 +24,12 @@ struct ResonanceEstimate {
 std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse>& responses,
                                                   std::size_t count);
 
+/// Resonances that the records of a free rotor show.
+struct SeenResonances {
+  bool looked = false;  // there are such records
+  std::vector<ResonanceEstimate> estimates;
+};
+/// What the fitted records show that `h` lacks, at most three resonances.
+SeenResonances LookForResonances(const CaseModel& model, const Hypothesis& h);
+
 }  // namespace ambrig

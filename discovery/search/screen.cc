@@ -20,8 +20,6 @@ constexpr double kInvisible = 1e-3;  // rms of a usual size's signature, over th
 
 constexpr double kStandsOut = 1.3;  // ratio of one channel
 
-constexpr std::size_t kEstimates = 3;  // resonances estimated from the records
-
 /// Effects that no record of the case could show.
 bool CannotShow(const EffectDescription& d, const CaseModel& model) {
   if (d.users_own) return true;
@@ -63,17 +61,18 @@ bool Same(const EffectInstance& a, const EffectInstance& b) {
 }
 
 /// The probes of a narrow effect that explain something of what `base` leaves; all where that cannot be
-/// tried.
+/// tried. None where the records of a free rotor show no resonance that this effect could be.
 std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
-                                const std::vector<ProbeGroup>& probes,
-                                const std::vector<ResonanceEstimate>& resonances,
+                                const std::vector<ProbeGroup>& probes, const SeenResonances& seen,
                                 double effective_sample_size) {
   if (Present(base.hypothesis, probes[0].probes[0])) return {};
   try {
     const EffectInstance null =
         MakeInstance(EffectNamed(probes[0].probes[0].name), probes[0].probes[0].target);
-    return ScanStarts(StartSearch(model, base, effective_sample_size), probes,
-                      ResonanceStarts(base.hypothesis.rig, null, resonances));
+    const std::vector<EffectInstance> starts =
+        ResonanceStarts(base.hypothesis.rig, null, seen.estimates);
+    if (seen.looked && starts.empty() && IsResonance(EffectNamed(null.name))) return {};
+    return ScanStarts(StartSearch(model, base, effective_sample_size), probes, starts);
   } catch (const InputError&) {
     return probes;
   }
@@ -99,9 +98,8 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
   std::vector<ProbeGroup> groups;
   const bool coils = kind == ScreenedKind::kCoils;
   const EffectTargets targets = TargetsOfEffects(model.data().rig);
-  std::vector<ResonanceEstimate> resonances;
-  if (kind == ScreenedKind::kResonances)
-    resonances = EstimateResonances(FreeResponses(model, base.hypothesis), kEstimates);
+  SeenResonances seen;
+  if (kind == ScreenedKind::kResonances) seen = LookForResonances(model, base.hypothesis);
   for (const EffectDescription& d : Catalogue()) {
     if (!options.effect.empty() && d.id != options.effect) continue;
     if (IsResonance(d) != (kind == ScreenedKind::kResonances)) continue;
@@ -116,7 +114,7 @@ std::vector<ProbeGroup> GroupsToRun(const CaseModel& model, const FitResult& bas
         continue;
       std::vector<ProbeGroup> probes = ProbesOf(d, target, model, peaks);
       if (IsResonance(d) || d.needs.contact)
-        probes = Scanned(model, base, probes, resonances, options.effective_sample_size);
+        probes = Scanned(model, base, probes, seen, options.effective_sample_size);
       for (ProbeGroup& g : probes)
         if (!Present(base.hypothesis, g.probes[0]) && !bank.Holds(g.probes[0]))
           groups.push_back(std::move(g));

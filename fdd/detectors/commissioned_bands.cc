@@ -21,18 +21,28 @@ constexpr double kCalmShare = 0.5;       // of the bands
 
 }  // namespace
 
-void CommissionedDetector::SetBands() {
-  // Errors of the share that a coil is believed to have left are in the c of all others.
+bool CommissionedDetector::SharesCore(int coil, int other) const {
+  return filter_.nominal().coupling == Coupling::kSides && coil / 2 == other / 2;
+}
+
+double CommissionedDetector::LeastBand(int coil, int window) const {
+  // Errors of the share that a coil is believed to have left are in the c of all others, and most of all in those of a
+  // winding on the same core.
   double least = 0;
   for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (share_[j] > 0 && share_[j] < 1) least = kLeastWeaker;
+    if (share_[j] > 0 && share_[j] < 1)
+      least = std::max(least, SharesCore(coil, j) ? kUncommissioned[window] : kLeastWeaker);
+  return least;
+}
+
+void CommissionedDetector::SetBands() {
   for (int w = 0; w < kExcessWindows; ++w)
     for (int j = 0; j < kLanes; ++j)
-      band_[w][j] =
-          model_.learnt
-              ? std::max(least, wider_ * std::max(kExcessFloor[w],
-                                                  kBandOverHealthy * model_.largest[w][j]))
-              : kUncommissioned[w];
+      band_[w][j] = model_.learnt
+                        ? std::max(LeastBand(j, w),
+                                   wider_ * std::max(kExcessFloor[w],
+                                                     kBandOverHealthy * model_.largest[w][j]))
+                        : kUncommissioned[w];
   for (int j = 0; j < kLanes; ++j)
     most_missed_[j] = wider_ * std::max(kLeastMiss, kBandOverHealthy * model_.current_error[j]);
 }

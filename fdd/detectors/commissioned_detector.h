@@ -115,6 +115,10 @@ class CommissionedDetector : public CoilDetector {
   };
   void SetBands();
   void SetWider();
+  /// What a band of this coil is at least, because some coil has fewer turns than it had [-].
+  double LeastBand(int coil, int window) const;
+  /// Whether both are windings of one thrust side (or one and the same).
+  bool SharesCore(int coil, int other) const;
   /// A coil has other turns left than believed: means and bands begin anew.
   void TakeShare(int coil, double share);
   void WatchCurrents(const MeasuredPeriod& in);

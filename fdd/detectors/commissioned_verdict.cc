@@ -95,6 +95,8 @@ std::vector<Diagnosis> CommissionedDetector::Companions(int decided, double exce
   std::vector<Diagnosis> out;
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     if (j == decided || share_[j] == 0 || streak_[j] < static_cast<int>(kInARow)) continue;
+    // Turns lost by one winding of a thrust side raise the c of both: one flux links them.
+    if (excess > 0 && SharesCore(j, decided)) continue;
     const double c = RecentExcess(j);
     if (c * excess > 0 && std::abs(c) > kCompanion * std::abs(excess) && Decided(j, c))
       out.push_back(Classify(j, c, time));

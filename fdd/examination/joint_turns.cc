@@ -15,7 +15,8 @@ constexpr double kProbe = 0.01;                          // step of the derivati
 constexpr double kSettledTurns = 2e-3;                   // |c|
 constexpr int kSteps = 12;
 constexpr double kLeastWeight = 20;  // of a coil's sum of both phases, and of one phase that counts
-constexpr double kContradicts = 0.3;  // |c| of one phase, when both together are 0
+constexpr double kExplainsBoth = 0.6;  // |c| that one winding of a thrust side may leave the other
+constexpr double kContradicts = 0.3;   // |c| of one phase, when both together are 0
 
 struct Excess {
   Lane top[2], bottom[2];
@@ -95,6 +96,42 @@ Eigen::VectorXd Step(Trial& trial, const Lane& share, const Excess& now,
   return SlopeOf(trial, share, now, unknown).partialPivLu().solve(-c);
 }
 
+/// Newton's method from `share`, where the excess is `now`. false: it does not end.
+bool Settle(Trial& trial, const std::vector<int>& unknown, Lane* share, Excess* now) {
+  for (int step = 0; Largest(*now, unknown) > kSettledTurns; ++step) {
+    if (step == kSteps) return false;
+    const Eigen::VectorXd change = Step(trial, *share, *now, unknown);
+    if (!change.allFinite()) return false;
+    for (std::size_t k = 0; k < unknown.size(); ++k) {
+      double& a = (*share)[unknown[k]];
+      const double limited = std::clamp(change[static_cast<Eigen::Index>(k)], -0.3 * a, 0.5 * a);
+      a = std::clamp(a + limited, kFewestTurns, kMostTurns);
+    }
+    *now = trial.At(*share);
+  }
+  return true;
+}
+
+/// Where one winding of a thrust side explains the c of both, the other one keeps its turns and is no unknown.
+void PreferOneWinding(Trial& trial, const Lane& believed, std::vector<int>* unknown, Lane* share) {
+  const auto left_over = [&](int failed, Lane* tried) {
+    *tried = *share;
+    (*tried)[failed ^ 1] = believed[failed ^ 1];
+    Excess now = trial.At(*tried);
+    return Settle(trial, {failed}, tried, &now) ? std::abs(now.of(failed ^ 1)) : kInfinity;
+  };
+  for (int first = 0; first < trial.filter.nominal().coils; first += 2) {
+    if (std::ranges::count(*unknown, first) + std::ranges::count(*unknown, first + 1) < 2) continue;
+    Lane of_first, of_second;
+    const double left_by_first = left_over(first, &of_first),
+                 left_by_second = left_over(first + 1, &of_second);
+    if (std::min(left_by_first, left_by_second) > kExplainsBoth) continue;
+    const bool is_first = left_by_first < left_by_second;
+    *share = is_first ? of_first : of_second;
+    std::erase(*unknown, is_first ? first + 1 : first);
+  }
+}
+
 }  // namespace
 
 void JointTurns::Keep(const MeasuredPeriod& in, int samples, const FluxFilter::State& before) {
@@ -125,18 +162,10 @@ std::optional<JointShares> JointTurns::Solve(const FluxFilter& filter, const Coi
     share[j] = believed[j] / std::sqrt(1 + c);
   }
   if (unknown.empty()) return {};
+  if (filter.nominal().coupling == Coupling::kSides)
+    PreferOneWinding(trial, believed, &unknown, &share);
   now = trial.At(share);
-  for (int step = 0; Largest(now, unknown) > kSettledTurns; ++step) {
-    if (step == kSteps) return {};
-    const Eigen::VectorXd change = Step(trial, share, now, unknown);
-    if (!change.allFinite()) return {};
-    for (std::size_t k = 0; k < unknown.size(); ++k) {
-      double& a = share[unknown[k]];
-      const double limited = std::clamp(change[static_cast<Eigen::Index>(k)], -0.3 * a, 0.5 * a);
-      a = std::clamp(a + limited, kFewestTurns, kMostTurns);
-    }
-    now = trial.At(share);
-  }
+  if (!Settle(trial, unknown, &share, &now)) return {};
   for (int j : unknown)
     if (share[j] > kNoMore * believed[j]) return {};
   if (!Explains(now, unknown)) return {};
