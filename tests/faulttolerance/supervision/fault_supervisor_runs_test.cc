@@ -60,6 +60,20 @@ TEST(FaultSupervisor, SurvivesEverySingleOpenAndHalfShort) {
     }
 }
 
+// The two windings of a side carry one flux: the one that failed is named, and the other stays in use.
+TEST(FaultSupervisor, OfAThrustSideTheWindingThatFailedIsNamedAlone) {
+  for (int coil = 1; coil <= 4; ++coil) {
+    const std::string target = fmt::format("Z.coil{}", coil);
+    const Outcome o =
+        Simulated(Spin(0.06, 157, static_cast<unsigned>(coil)) +
+                      FaultTable(0.01, target, "partial-short", "fraction = 0.5"),
+                  Rig());
+    EXPECT_EQ(o.Class(target), "partial-short");
+    EXPECT_EQ(o.result.metrics.false_alarms, 0) << target;
+    EXPECT_FALSE(o.result.touchdown) << target;
+  }
+}
+
 TEST(FaultSupervisor, FaultsInSequenceInAllBearings) {
   const Outcome o = Simulated(Spin(0.1, 1257, 5) + FaultTable(0.02, "A.coil3", "open") +
                                   FaultTable(0.04, "A.coil6", "partial-short", "fraction = 0.3") +
