@@ -62,16 +62,18 @@ TEST(FaultSupervisor, SurvivesEverySingleOpenAndHalfShort) {
 
 // The two windings of a side carry one flux: the one that failed is named, and the other stays in use.
 TEST(FaultSupervisor, OfAThrustSideTheWindingThatFailedIsNamedAlone) {
-  for (int coil = 1; coil <= 4; ++coil) {
-    const std::string target = fmt::format("Z.coil{}", coil);
-    const Outcome o =
-        Simulated(Spin(0.06, 157, static_cast<unsigned>(coil)) +
-                      FaultTable(0.01, target, "partial-short", "fraction = 0.5"),
-                  Rig());
-    EXPECT_EQ(o.Class(target), "partial-short");
-    EXPECT_EQ(o.result.metrics.false_alarms, 0) << target;
-    EXPECT_FALSE(o.result.touchdown) << target;
-  }
+  for (const bool commissioned : {true, false})
+    for (int coil = 1; coil <= 4; ++coil) {
+      const std::string target = fmt::format("Z.coil{}", coil);
+      RigParameters rig = Rig();
+      if (!commissioned) rig.detection.commissioning = "none";
+      const Outcome o = Simulated(Spin(0.06, 157, static_cast<unsigned>(coil)) +
+                                      FaultTable(0.01, target, "partial-short", "fraction = 0.5"),
+                                  rig);
+      EXPECT_EQ(o.Class(target), "partial-short") << commissioned;
+      EXPECT_EQ(o.result.metrics.false_alarms, 0) << target << commissioned;
+      EXPECT_FALSE(commissioned && o.result.touchdown) << target;
+    }
 }
 
 TEST(FaultSupervisor, FaultsInSequenceInAllBearings) {
