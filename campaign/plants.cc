@@ -7,6 +7,7 @@
 
 #include "campaign/parameter_draw.h"
 #include "core/base/toml_checked.h"
+#include "core/math/copper.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
@@ -17,8 +18,7 @@ namespace ambrig {
 namespace {
 
 constexpr long long kMostMixtures = 100000;
-constexpr int kMostShown = 2;                 // parameters of an effect in a table
-constexpr double kCopperPerKelvin = 0.00393;  // [1/K] of resistance, as effects/copper_heating.cc
+constexpr int kMostShown = 2;  // parameters of an effect in a table
 constexpr Range kWarmer{"K", -100, 200, "copper, since the commissioning"};
 constexpr Range kSensorDrift{"m", 0, 1e-3,
                              "zeros of the position sensors, since the commissioning"};

@@ -91,7 +91,6 @@ std::size_t StartsToClimb(const SimulatedStart& best, bool beside_adopted) {
 std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
                                    const std::vector<EffectInstance>& starts,
                                    double effective_sample_size) {
-  const bool beside = HoldsAdopted(model, now);
   std::vector<SimulatedStart> order, climbed;
   for (const EffectInstance& e : starts) order.push_back({e});
   const auto sort = [](std::vector<SimulatedStart>& list) {
@@ -102,7 +101,7 @@ std::vector<EffectInstance> BestOf(const CaseModel& model, const FitResult& now,
     const StartSearch search(model, now, effective_sample_size);
     search.Simulate(order);
     sort(order);
-    const std::size_t most = StartsToClimb(order[0], beside);
+    const std::size_t most = StartsToClimb(order[0], search.beside_others());
     for (const SimulatedStart& s : order)
       if (climbed.size() < most && std::none_of(climbed.begin(), climbed.end(), [&](const auto& o) {
             return SameValley(o.effect, s.effect);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/copper.h"
 #include "simulation/switching/bearing_run.h"
 #include "simulation/switching/lost_rotor.h"
 
@@ -139,7 +140,7 @@ void SwitchingEngine::HeatCopper() {
       double& dT = heat.dT[static_cast<std::size_t>(j)];
       const double loss = heat.shared == 0 ? power[j] : power[j] + heat.shared * (mean - power[j]);
       dT += T_ / heat.time_constant * (heat.rise_per_watt * loss - dT);
-      lanes.resistance[j] = b.plant->base_resistance[j] * (1 + 0.00393 * dT);
+      lanes.resistance[j] = b.plant->base_resistance[j] * (1 + kCopperPerKelvin * dT);
     }
     lanes.SetStep(T_ / loop_.samples / options_.substeps);
   }
