@@ -8,6 +8,7 @@
 #include "app/figures/series.h"
 #include "app/pages/html.h"
 #include "fdd/measurement/detection_feed.h"
+#include "fdd/model/loss_excess.h"
 
 namespace ambrig {
 
@@ -19,18 +20,19 @@ constexpr double kOwnPart = 0.9;  // of c that a bypassed share makes
 constexpr int kOfDecision = 3;    // periods that a decision takes
 constexpr double kSpread = 2;     // the noise of a window stays this share of its band away
 
-double ExcessOfShort(double s) { return kOwnPart * (1 / ((1 - s) * (1 - s)) - 1); }
-double ShortOfExcess(double c) { return 1 - 1 / std::sqrt(1 + c / kOwnPart); }
-
-double BandOf(const CommissionedBearing& b, int w, int coil) {
-  return std::max(kExcessFloor[w], kBandOverHealthy * b.largest[w][coil]);
+/// `of_loss`: c over a small loss of turns, 2 of a coil that shares no core.
+double ExcessOfShort(double s, double of_loss) {
+  return kOwnPart * of_loss / 2 * (1 / ((1 - s) * (1 - s)) - 1);
+}
+double ShortOfExcess(double c, double of_loss) {
+  return 1 - 1 / std::sqrt(1 + c / (kOwnPart * of_loss / 2));
 }
 
 /// Periods after which c stands beyond the band: the window fills while the fault lasts.
-double PeriodsTo(const CommissionedBearing& b, int coil, double c) {
+double PeriodsTo(const CommissionedBearing& b, int coil, double of_loss, double c) {
   double best = -1;
   for (int w = 0; w < kExcessWindows; ++w) {
-    const double need = BandOf(b, w, coil) + b.largest[w][coil] / kSpread;
+    const double need = HealthyBand(b, w, coil, of_loss) + b.largest[w][coil] / kSpread;
     if (c < need) continue;
     const double periods = std::ceil(kExcessWindow[w] * need / c) + kOfDecision - 1;
     if (best < 0 || periods < best) best = periods;
@@ -61,14 +63,15 @@ Json ScatterJson(const std::vector<ExcessScatter>& scatter) {
 
 }  // namespace
 
-Detectable DetectableIn(const CommissionedBearing& b, int coil, double period) {
+Detectable DetectableIn(const CommissionedBearing& b, int coil, double period, double of_loss) {
   Detectable d;
   double least = kInfinity;
   for (int w = 0; w < kExcessWindows; ++w)
-    least = std::min(least, BandOf(b, w, coil) + b.largest[w][coil] / kSpread);
-  d.smallest_short = ShortOfExcess(least);
-  d.smallest_delay = period * PeriodsTo(b, coil, ExcessOfShort(d.smallest_short) * (1 + 1e-9));
-  const double tenth = PeriodsTo(b, coil, ExcessOfShort(0.1));
+    least = std::min(least, HealthyBand(b, w, coil, of_loss) + b.largest[w][coil] / kSpread);
+  d.smallest_short = ShortOfExcess(least, of_loss);
+  d.smallest_delay =
+      period * PeriodsTo(b, coil, of_loss, ExcessOfShort(d.smallest_short, of_loss) * (1 + 1e-9));
+  const double tenth = PeriodsTo(b, coil, of_loss, ExcessOfShort(0.1, of_loss));
   d.tenth_delay = tenth < 0 ? -1 : tenth * period;
   d.open_delay = kOfDecision * period;
   return d;
@@ -98,7 +101,8 @@ Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
     const CommissionedBearing& b = r.model.bearings[k];
     Json coils = Json::array();
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
-      const Detectable d = DetectableIn(b, j, T);
+      const Detectable d =
+          DetectableIn(b, j, T, ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), j).own);
       const double L = RippleInductance(rig, b, j);
       coils.push_back({{"coil", j + 1},
                        {"gain", b.coils.gain[j]},
@@ -134,7 +138,8 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
       fmt::format(kRow, "coil", "grade", "[mH]", "[ohm]", "[ms]", "[-]", "[%]", "[ms]", "[ms]");
   for (const CommissionedBearing& b : r.model.bearings)
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
-      const Detectable d = DetectableIn(b, j, T);
+      const Detectable d =
+          DetectableIn(b, j, T, ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), j).own);
       const double L = RippleInductance(rig, b, j);
       text +=
           fmt::format("{:<9} {:>6.2f} {:>8.3f} {:>8.3f} {:>8.2f} {:>8.4f} {:>8.1f} {:>8} {:>8}\n",
@@ -181,7 +186,8 @@ void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& 
                                           : "refused: the model does not express this bearing"));
     std::vector<std::vector<Cell>> rows;
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
-      const Detectable d = DetectableIn(b, j, T);
+      const Detectable d =
+          DetectableIn(b, j, T, ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), j).own);
       const double L = RippleInductance(rig, b, j);
       rows.push_back({Cell(std::to_string(j + 1)), Cell(fmt::format("{:.3f}", L * 1e3)),
                       Cell(fmt::format("{:.0f}", rig.amplifier.bus_voltage / L)),

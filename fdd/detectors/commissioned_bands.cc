@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "fdd/detectors/commissioned_detector.h"
+#include "fdd/model/loss_excess.h"
 
 namespace ambrig {
 
@@ -36,13 +37,13 @@ double CommissionedDetector::LeastBand(int coil, int window) const {
 }
 
 void CommissionedDetector::SetBands() {
-  for (int w = 0; w < kExcessWindows; ++w)
-    for (int j = 0; j < kLanes; ++j)
+  for (int j = 0; j < kLanes; ++j) {
+    const double of_loss = ExcessOfLoss(filter_.nominal(), j).own;
+    for (int w = 0; w < kExcessWindows; ++w)
       band_[w][j] = model_.learnt
-                        ? std::max(LeastBand(j, w),
-                                   wider_ * std::max(kExcessFloor[w],
-                                                     kBandOverHealthy * model_.largest[w][j]))
+                        ? std::max(LeastBand(j, w), wider_ * HealthyBand(model_, w, j, of_loss))
                         : kUncommissioned[w];
+  }
   for (int j = 0; j < kLanes; ++j)
     most_missed_[j] = wider_ * std::max(kLeastMiss, kBandOverHealthy * model_.current_error[j]);
 }

@@ -11,8 +11,15 @@ constexpr double kOfTheLargest = 0.5;  // |c| of coils that fail at once
 constexpr double kAlike = 0.3;         // of the largest |c|: as if by one cause
 constexpr double kProbeBand = 0.2, kUncommissionedProbeBand = 0.5;  // |c| of a healthy coil
 constexpr int kAfterProbe = 8;                                      // periods
-constexpr double kDeadIdle = 0.75;  // -c of a coil without current that is asked for none
-constexpr double kAsked = 0.24;     // [A] set-point from which a coil is asked for current
+constexpr double kDeadIdle = 0.75;   // -c of a coil without current that is asked for none
+constexpr double kAsked = 0.24;      // [A] set-point from which a coil is asked for current
+constexpr double kRangeOfNoise = 8;  // sd: of the readings of a winding whose current does not move
+constexpr double kStill = 0.25;      // of the range of its partner's
+constexpr double kMostWider = 1.25, kSpare = 1.02;  // of the commissioned range of flux
+constexpr int kWiderPeriods = 250;
+constexpr double kSudden = 0.15;  // c of one period, as a coil leaves its range
+constexpr double kOverHealthy =
+    2;  // the same over the largest c that healthy running made of one period
 constexpr double kBounces = 10e-3;  // [s] after a contact: its currents follow no set-point
 
 double PeriodOf(const SamplingSettings& s) { return s.samples * s.step; }
@@ -71,14 +78,31 @@ void CommissionedDetector::WatchRange(const MeasuredPeriod& in) {
   Lane beyond;
   int many = 0;
   for (int j = 0; j < filter_.nominal().coils && model_.learnt; ++j) {
-    beyond[j] = share_[j] > 0 && period_.largest_flux[j] > model_.largest_flux[j];
+    beyond[j] = share_[j] > 0 && period_.largest_flux[j] > model_.largest_flux[j] && LeavesRange(j);
     many += beyond[j] > 0;
   }
+  last_flux_ = period_.largest_flux;
   out_of_range_ = many > 0;
   for (int j = 0; j < kLanes; ++j)
     gross_above_[j] = many == 0                               ? kGross
                       : beyond[j] > 0 || many >= kCoilsAtOnce ? kGrossAbove
                                                               : kGrossBeside;
+}
+
+bool CommissionedDetector::LeavesRange(int coil) {
+  const double flux = period_.largest_flux[coil], range = model_.largest_flux[coil];
+  if (last_flux_[coil] > 0 && last_flux_[coil] <= range && FluxJumps(coil)) {
+    wider_range_[coil] = range * std::min(kMostWider, kSpare * flux / last_flux_[coil]);
+    wider_until_[coil] = count_ + kWiderPeriods;
+  }
+  return count_ > wider_until_[coil] || flux > wider_range_[coil];
+}
+
+bool CommissionedDetector::FluxJumps(int coil) const {
+  const double top = excess_.top[0][coil] + excess_.top[1][coil],
+               bottom = excess_.bottom[0][coil] + excess_.bottom[1][coil];
+  const double sudden = std::max(kSudden, kOverHealthy * model_.largest[0][coil]);
+  return top > sudden * std::max(bottom, kJudgedWeight) || jumps_.jump(coil) > 0;
 }
 
 bool CommissionedDetector::Disturbed() const {
@@ -127,7 +151,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   const double reach = gap_ - nearest;
   const bool comparable = in.comparable && in.x1 * in.x1 + in.y1 * in.y1 < reach * reach;
   if (!comparable) {
-    ratio_ = streak_ = dead_ = Lane{};
+    ratio_ = streak_ = dead_ = last_flux_ = Lane{};
     joint_.Clear();
     return {};
   }
@@ -136,7 +160,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     probed[probe_.coil()] = share_[probe_.coil()] > 0 ? share_[probe_.coil()] : 1;
     ComputeSlopeExcess(filter_, model_.coils, settings_, period_, probed, &excess_);
     probe_.Add(excess_, period_.largest[probe_.coil()]);
-    ratio_ = Lane{};
+    ratio_ = last_flux_ = Lane{};
     return {};
   }
   ComputeSlopeExcess(filter_, model_.coils, settings_, period_, share_, &excess_);
@@ -152,7 +176,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
     streak_ = Lane{};
     jumps_.Forget();
     CountDead(in);
-    return DeadInAPause(in.t);
+    return WithoutCurrent(in.t);
   }
   Outcome out = Judge(in);
   FollowDrift(out.doubtful || out.alarm);
@@ -169,8 +193,16 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
 CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& in) {
   Outcome out;
   out.doubtful = !Relies() || out_of_range_ || Disturbed();
+  // What flux a winding of a thrust side shares with its partner may keep its c calm although it has no current.
+  const bool shares_flux = filter_.nominal().coupling == Coupling::kSides;
+  if (!calm_ || shares_flux)
+    CountDead(in);
+  else
+    dead_ = Lane{};
+  if (shares_flux)
+    if (const Outcome failed = WithoutCurrent(in.t); failed.decided) return failed;
   if (calm_) {
-    streak_ = dead_ = Lane{};
+    streak_ = Lane{};
     return out;
   }
   const int coil =
@@ -188,7 +220,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   return out;
 }
 
-CommissionedDetector::Outcome CommissionedDetector::DeadInAPause(double t) const {
+CommissionedDetector::Outcome CommissionedDetector::WithoutCurrent(double t) const {
   Outcome out;
   const std::vector<Diagnosis> failed = CoilsWithoutCurrent(t);
   if (failed.empty() || MayBounce()) return out;
@@ -198,18 +230,36 @@ CommissionedDetector::Outcome CommissionedDetector::DeadInAPause(double t) const
   return out;
 }
 
+bool CommissionedDetector::LeftToPartner(const MeasuredPeriod& in, int coil) const {
+  const int partner = coil ^ 1;
+  if (filter_.nominal().coupling != Coupling::kSides || !in.set_point || share_[coil] == 0 ||
+      share_[partner] == 0 || (*in.set_point)[coil] < kAsked || false_current_[coil] == 0 ||
+      (*in.duty)[coil] < (*in.duty)[partner])
+    return false;
+  const auto range = [&](int j) {
+    double least = in.adc[0][j], most = least;
+    for (int k = 1; k < sampling_.samples; ++k) {
+      least = std::min(least, in.adc[k][j]);
+      most = std::max(most, in.adc[k][j]);
+    }
+    return most - least;
+  };
+  const double own = range(coil);
+  return own < kRangeOfNoise * settings_.current_noise && own < kStill * range(partner);
+}
+
 void CommissionedDetector::CountDead(const MeasuredPeriod& in) {
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     // The diodes of a coil that is asked for no current block: its flux stands, whatever the bridge does.
     const bool asked = !in.set_point || (*in.set_point)[j] > kAsked;
-    const bool dead = period_.largest[j] < kConducts && now_[j] < -(asked ? kGross : kDeadIdle);
+    const bool dead = (period_.largest[j] < kConducts && now_[j] < -(asked ? kGross : kDeadIdle)) ||
+                      LeftToPartner(in, j);
     if (dead_[j] == 0) dead_since_[j] = in.t;
     dead_[j] = dead ? dead_[j] + 1 : 0;
   }
 }
 
 void CommissionedDetector::CountStreaks(const MeasuredPeriod& in) {
-  CountDead(in);
   const double least = kCompanion * *std::max_element(ratio_.v, ratio_.v + kLanes);
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     if (!(ratio_[j] > 1) || ratio_[j] < least) {

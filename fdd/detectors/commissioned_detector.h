@@ -15,7 +15,9 @@
 ///
 /// Only gross values count in a period in which a phase starts at zero current, the shaft may be
 /// touching (|c| > 0.5), or the flux leaves the range that was commissioned (c < -0.5 or c > 2; of coils
-/// that stay inside while no more than two leave it c > 1).
+/// that stay inside while no more than two leave it c > 1). Lost turns make the flux that is computed too large, and
+/// that alone takes a coil outside which was near the end of its range: where it leaves the range with a jump that no
+/// voltage makes, the range is wider by that jump for the next 250 periods. Iron that saturates makes no jump.
 ///
 /// Doubtful: not commissioned, grade too bad, outside the range, three coils beyond their bands at
 /// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
@@ -25,7 +27,10 @@
 /// until 10 ms after the last possible contact.
 ///
 /// A coil without current is one that is asked for some, or whose linkage moves by less than a
-/// quarter of what its voltage would do: the diodes of a coil that is asked for none block.
+/// quarter of what its voltage would do: the diodes of a coil that is asked for none block. The c of a winding of a
+/// thrust side without current is hardly below zero, as its partner moves the flux of both: it is one that misses
+/// its set-point although it is driven at least as hard as its partner, and whose reading stands still beside the
+/// partner's ripple.
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
 /// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns; a current
@@ -123,6 +128,11 @@ class CommissionedDetector : public CoilDetector {
   void TakeShare(int coil, double share);
   void WatchCurrents(const MeasuredPeriod& in);
   void WatchRange(const MeasuredPeriod& in);
+  /// Whether a coil whose flux is beyond what was commissioned is outside the range of the model: not where lost turns
+  /// account for it.
+  bool LeavesRange(int coil);
+  /// Whether its linkage moves by far more than its voltage accounts for, or its reading jumps up, in this period.
+  bool FluxJumps(int coil) const;
   /// Ratios of this period; of a calm one those of the windows are left out.
   void Ratios();
   /// Of the windows, against their bands.
@@ -140,8 +150,11 @@ class CommissionedDetector : public CoilDetector {
   double LargestNow() const;
   void CountStreaks(const MeasuredPeriod& in);
   void CountDead(const MeasuredPeriod& in);
-  /// While nothing else is concluded: coils without current, which no other coil's turns can feign.
-  Outcome DeadInAPause(double t) const;
+  /// Whether a winding of a thrust side misses current that its voltage would give it, had it any: the winding that is
+  /// driven at least as hard as its partner takes over what that carries more, whatever flux both share.
+  bool LeftToPartner(const MeasuredPeriod& in, int coil) const;
+  /// Coils without current, which no other coil's turns can feign: concluded in a pause, too.
+  Outcome WithoutCurrent(double t) const;
   /// Without a model of this machine, what a rotor that bounces does to the currents is not known.
   bool MayBounce() const { return !Relies() && bounces_; }
   void FollowDrift(bool doubtful);
@@ -179,11 +192,14 @@ class CommissionedDetector : public CoilDetector {
   Lane last_miss_, current_error_, false_current_;  // [A], [A], periods in a row
   std::array<Recent, kInARow> recent_;
   bool out_of_range_ = false, touching_ = false;
-  Lane gross_above_;             // c > 0 that is gross, of this period
-  double touched_ = -kInfinity;  // start of the last period that touched [s]
-  bool bounces_ = false;         // that was not long ago
-  double wider_ = 1;             // of the bands, since coils were given up or lost turns
-  Lane idle_;                    // mean reading of coils without turns [A]
+  Lane last_flux_;                      // largest of the period before [A]
+  Lane wider_range_;                    // where lost turns account for more flux [A]
+  long long wider_until_[kLanes] = {};  // period up to which that holds
+  Lane gross_above_;                    // c > 0 that is gross, of this period
+  double touched_ = -kInfinity;         // start of the last period that touched [s]
+  bool bounces_ = false;                // that was not long ago
+  double wider_ = 1;                    // of the bands, since coils were given up or lost turns
+  Lane idle_;                           // mean reading of coils without turns [A]
   CoilProbe probe_;
   JumpWatch jumps_;
   JointTurns joint_;

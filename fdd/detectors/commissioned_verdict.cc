@@ -47,6 +47,7 @@ std::vector<Diagnosis> CommissionedDetector::CoilsWithoutCurrent(double t) const
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     if (!HasNoCurrent(j)) continue;
     out.push_back(Classify(j, RecentExcess(j), t));
+    out.back().cls = FaultClass::kOpen;
     out.back().onset = dead_since_[j];
   }
   return out;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fdd/model/loss_excess.h"
+
 namespace ambrig {
 
 namespace {
@@ -61,6 +63,10 @@ void ExcessWindows::Basis() {
   for (int j = 0; j < kLanes; ++j) {
     double share = judged_[j];
     for (int d = 0; d < directions_; ++d) share -= basis_[d][j] * basis_[d][j];
+    const LossExcess loss = ExcessOfLoss(model_, j);
+    if (loss.partner > 0 && judged_[j ^ 1] > 0)
+      for (int d = 0; d < directions_; ++d)
+        share -= loss.partner / loss.own * basis_[d][j] * basis_[d][j ^ 1];
     inverse_share_[j] = share > kLeastShare ? 1 / share : 0;
   }
 }

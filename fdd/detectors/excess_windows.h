@@ -4,7 +4,8 @@
 ///
 ///   projected   what a fit of [1, cos, sin] over the coils leaves, over the share of a single
 ///               coil's c that it leaves (5/8 of eight): errors common to the bearing and a
-///               displaced shaft drop out, a single coil's fault does not
+///               displaced shaft drop out, a single coil's fault does not. Turns lost by a winding
+///               of a thrust side raise the c of its partner, too, and the share counts that: 1/3
 ///   used        of both the smaller where they have one sign, else 0
 ///
 /// Bearings with fewer than four judged coils have raw values only.
@@ -63,7 +64,7 @@ class ExcessWindows {
   Lane judged_;
   Lane basis_[3];           // orthonormal over the judged coils
   double largest_[3] = {};  // element of each
-  Lane inverse_share_;      // 1/(1 - sum basis^2), 0: no projection
+  Lane inverse_share_;      // over what the projection leaves of a fault's c, 0: no projection
   int directions_ = 0;
   long long count_ = 0;
 };

@@ -21,14 +21,14 @@ bool JumpWatch::Confirmed(const MeasuredPeriod& in) const {
 }
 
 int JumpWatch::Period(const MeasuredPeriod& in, const Lane& now) {
-  const Lane jumps = jump_.Period(in);
+  jumps_ = jump_.Period(in);
   if (coil_ < 0) {
     double most = 0;
     for (int j = 0; j < coils_; ++j)
-      if (std::abs(jumps[j]) > most) {
-        most = std::abs(jumps[j]);
+      if (std::abs(jumps_[j]) > most) {
+        most = std::abs(jumps_[j]);
         coil_ = j;
-        step_ = jumps[j];
+        step_ = jumps_[j];
       }
     periods_ = 0;
     excess_ = 0;
@@ -36,7 +36,7 @@ int JumpWatch::Period(const MeasuredPeriod& in, const Lane& now) {
     return -1;
   }
   // What jumps in every period is a current of its own shape.
-  const bool again = jumps[coil_] * step_ > 0;
+  const bool again = jumps_[coil_] * step_ > 0;
   if (++periods_ == 1 && (again || !Confirmed(in))) {
     coil_ = -1;
     return -1;

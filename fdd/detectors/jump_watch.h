@@ -16,11 +16,14 @@ class JumpWatch {
   /// Another explanation was found.
   void Forget() { coil_ = -1; }
   double onset() const { return onset_; }
+  /// By what its reading stepped in the last period that no voltage can make [A].
+  double jump(int coil) const { return jumps_[coil]; }
 
  private:
   bool Confirmed(const MeasuredPeriod& in) const;
 
   ReadingJump jump_;
+  Lane jumps_;
   int coils_ = 0, samples_ = 0;
   int coil_ = -1, periods_ = 0;
   double step_ = 0, onset_ = 0;  // [A], [s]
