@@ -2,6 +2,7 @@
 /// drift.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "fdd/detectors/commissioned_detector.h"
 #include "fdd/model/loss_excess.h"
@@ -19,6 +20,7 @@ constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turn
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
 constexpr double kCalmShare = 0.5;       // of the bands
+constexpr double kMostFirstDrift = 1.5;  // the same of the longest window, when the machine starts
 
 }  // namespace
 
@@ -71,6 +73,25 @@ void CommissionedDetector::SetWider() {
   wider_ = 1;
   for (int j = 0; j < filter_.nominal().coils; ++j)
     if (share_[j] < 1) wider_ = kWider;
+}
+
+bool CommissionedDetector::TakesFirstDrift() {
+  if (first_drifts_ == std::size(kDriftWindows) || !follows_drift_ || !Relies()) return false;
+  steady_ = touching_ || out_of_range_ || wider_ > 1 ? 0 : steady_ + 1;
+  const int window = kDriftWindows[first_drifts_];
+  if (std::min(steady_, windows_.count()) < kExcessWindow[window]) return false;
+  ++first_drifts_;
+  for (int w = 0; w <= window; ++w) {
+    const Lane c = windows_.Used(w, kExcessFloor[w] / kNoiseOfBand);
+    const double most = w == window ? kMostFirstDrift : 1;
+    for (int j = 0; j < filter_.nominal().coils; ++j)
+      if (std::abs(c[j]) > most * band_[w][j]) return false;
+  }
+  const Lane c = windows_.Raw(window);
+  drift_.Follow(c, windows_.Common(c), SlowDrift::kTimeConstant);
+  windows_.Clear();
+  ratio_ = streak_ = Lane{};
+  return true;
 }
 
 void CommissionedDetector::FollowDrift(bool doubtful) {

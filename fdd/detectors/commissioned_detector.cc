@@ -167,6 +167,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   drift_.TakeOff(&excess_);
   WatchRange(in);
   Ratios();
+  if (TakesFirstDrift()) return {};
   if (calm_)
     joint_.Clear();
   else

@@ -37,7 +37,9 @@
 /// misses its set-point by 2.5 times as much before it counts.
 ///
 /// Slow drift (heating, a sensor's zero) is followed within bounds that leave a fault visible
-/// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5.
+/// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5. What has drifted while
+/// the machine stood still is in c from the start: after the first 40 undisturbed periods, and after 160 more, it is taken
+/// off at once, unless a shorter window is beyond its band or this one beyond 1.5 of it.
 ///
 /// Nearly every period is calm: no c as it stands, before its common part is taken off, is beyond a band. That is
 /// told without a division, and ends what is done in it.
@@ -158,6 +160,9 @@ class CommissionedDetector : public CoilDetector {
   /// Without a model of this machine, what a rotor that bounces does to the currents is not known.
   bool MayBounce() const { return !Relies() && bounces_; }
   void FollowDrift(bool doubtful);
+  /// What the first 40 undisturbed periods show, and then the first 160, is drift since the commissioning, within its
+  /// bounds: taken off at once, and the windows begin anew. Whether this is such a period.
+  bool TakesFirstDrift();
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.
   bool JudgedTogether(const MeasuredPeriod& in, Outcome* out) const;
@@ -205,6 +210,8 @@ class CommissionedDetector : public CoilDetector {
   JointTurns joint_;
   SlowDrift drift_;
   bool follows_drift_ = true;
+  std::size_t first_drifts_ = 0;  // how many of both were looked at
+  long long steady_ = 0;          // undisturbed periods in a row, until then
   Lane streak_, onset_;     // periods in a row that a coil was suspect; since [s]
   Lane dead_, dead_since_;  // periods in a row without current though driven; since [s]
   int paused_ = 8;
