@@ -20,7 +20,7 @@ constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turn
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
 constexpr double kCalmShare = 0.5;       // of the bands
-constexpr double kMostFirstDrift = 1.5;  // the same of the longest window, when the machine starts
+constexpr double kMostFirstDrift = 1.2;  // the same of the longest window, when the machine starts
 
 }  // namespace
 

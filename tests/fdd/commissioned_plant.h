@@ -20,12 +20,13 @@ struct ConcludedPeriod {
   bool doubtful = false;
 };
 
-/// The detector of bearing A beside a run.
+/// The detector of one bearing beside a run: of the one that was commissioned, else of the first.
 class ConclusionLog : public Supervisor {
  public:
   ConclusionLog(const NominalRig& rig, const CommissionedBearing* commissioned)
       : feed_(rig), period_(1 / rig->amplifier.switching_frequency) {
-    const BearingParameters& b = rig->bearings[0];
+    while (commissioned && rig->bearings[bearing_].name != commissioned->name) ++bearing_;
+    const BearingParameters& b = rig->bearings[bearing_];
     const LinkageModel m = LinkageModelOf(b);
     run_ =
         std::make_unique<CommissionedRun>(CoilDetectorSetup{m, DetectorSettingsOf(rig, b, m)},
@@ -34,8 +35,8 @@ class ConclusionLog : public Supervisor {
   void AfterPeriod(const PeriodMeasurement& m, const std::vector<BearingControl>& control,
                    SupervisorOutput&) override {
     feed_.Read(m);
-    MeasuredPeriod in = feed_.Period(0, m);
-    in.set_point = &control[0].commanded;
+    MeasuredPeriod in = feed_.Period(bearing_, m);
+    in.set_point = &control[bearing_].commanded;
     const DetectorAlarm alarm = run_->Period(in);
     doubted = doubted || run_->doubtful();
     if (alarm.diagnosis.cls == FaultClass::kNone && !alarm.raised) return;
@@ -55,6 +56,7 @@ class ConclusionLog : public Supervisor {
 
  private:
   DetectionFeed feed_;
+  std::size_t bearing_ = 0;
   double period_;
   std::unique_ptr<CommissionedRun> run_;
 };
@@ -93,9 +95,10 @@ amplitude = -10.0
 inline constexpr double kOnset = 0.0300123;  // [s]
 
 inline std::string FaultOf(int coil, const std::string& kind, const std::string& parameters = "",
-                           double t = kOnset) {
-  return fmt::format("[[fault]]\ntarget = \"A.coil{}\"\ntime = {:.7f}\nkind = \"{}\"\n{}\n", coil,
-                     t, kind, parameters.empty() ? "" : "parameters = { " + parameters + " }");
+                           double t = kOnset, const std::string& bearing = "A") {
+  return fmt::format("[[fault]]\ntarget = \"{}.coil{}\"\ntime = {:.7f}\nkind = \"{}\"\n{}\n",
+                     bearing, coil, t, kind,
+                     parameters.empty() ? "" : "parameters = { " + parameters + " }");
 }
 
 inline std::unique_ptr<ConclusionLog> Concluded(const RigParameters& rig,
@@ -110,14 +113,14 @@ inline std::unique_ptr<ConclusionLog> Concluded(const RigParameters& rig,
   return log;
 }
 
-/// A rig with effects, and what its own detector learnt of bearing A.
+/// A rig with effects, and what its own detector learnt of a bearing.
 struct CommissionedRig {
   RigParameters rig;
   CommissionedBearing bearing;
-  explicit CommissionedRig(const RigParameters& plant) : rig(plant) {
+  explicit CommissionedRig(const RigParameters& plant, const std::string& name = "A") : rig(plant) {
     CommissioningOptions options;
     options.plan.duration = 0.2;
-    bearing = *Commission(rig, options).model.Find("A");
+    bearing = *Commission(rig, options).model.Find(name);
   }
 };
 

@@ -1,0 +1,52 @@
+// Windings of a thrust side: a loss of turns raises the c of both, and one without current has hardly any. The plant is the
+// switching engine with effects.
+#include <gtest/gtest.h>
+
+#include "tests/fdd/commissioned_plant.h"
+
+namespace ambrig {
+namespace {
+
+using namespace testing_plant;
+
+constexpr int kFalseZero = 2;  // the coil
+
+/// Fringing, and a winding whose sensor reads 0.2 A when it has no current.
+const CommissionedRig& ThrustPlant() {
+  static const CommissionedRig made(
+      [] {
+        RigParameters rig = WithEffect(ReferenceRig(), "fringing", "Z", {{"coefficient", 0.15}});
+        return WithEffect(rig, "current-sensor-offset", "Z.coil2", {{"offset", 0.2}});
+      }(),
+      "Z");
+  return made;
+}
+
+void ExpectFound(int coil, const std::string& kind, const std::string& parameters, double most) {
+  const auto seen = Concluded(ThrustPlant().rig, &ThrustPlant().bearing,
+                              Operation(FaultOf(coil, kind, parameters, kOnset, "Z"), 0.05));
+  ASSERT_EQ(seen->Coils(), std::set<int>{coil}) << kind << parameters;
+  const FaultClass wanted = kind == "open" ? FaultClass::kOpen : FaultClass::kPartialShort;
+  // a reading that stays at 0.2 A may be its sensor's fault as well
+  const bool either = kind == "open" && coil == kFalseZero;
+  EXPECT_TRUE(either || seen->found[0].cls == wanted) << coil << kind << parameters;
+  EXPECT_GT(seen->found[0].time, kOnset);
+  EXPECT_LT(seen->found[0].time - kOnset, most) << coil << kind << parameters;
+}
+
+TEST(ThrustWindings, OpensAndShortsAreFoundInTime) {
+  for (int coil = 1; coil <= 4; ++coil) {
+    ExpectFound(coil, "open", "", 0.25e-3);
+    ExpectFound(coil, "partial-short", "fraction = 0.5", 0.25e-3);
+    ExpectFound(coil, "partial-short", "fraction = 0.1", 0.5e-3);
+    ExpectFound(coil, "partial-short", "fraction = 0.04", 3e-3);
+  }
+}
+
+TEST(ThrustWindings, AHealthyBearingIsLeftAlone) {
+  const auto seen = Concluded(ThrustPlant().rig, &ThrustPlant().bearing, Operation("", 0.1));
+  EXPECT_TRUE(seen->found.empty());
+}
+
+}  // namespace
+}  // namespace ambrig
