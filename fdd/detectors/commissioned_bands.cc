@@ -17,6 +17,7 @@ constexpr double kLeastMiss = 0.3;  // [A] of a set-point
 // bands and set-points missed, once coils were given up or lost turns
 constexpr double kWider = 2.5;
 constexpr double kLeastWeaker = 0.25;    // of them, where a coil has fewer turns than it had
+constexpr double kGreatLoss = 0.3;       // of the turns: from there all of both
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
 constexpr double kCalmShare = 0.5;       // of the bands
@@ -28,13 +29,18 @@ bool CommissionedDetector::SharesCore(int coil, int other) const {
   return filter_.nominal().coupling == Coupling::kSides && coil / 2 == other / 2;
 }
 
+double CommissionedDetector::LossOf(int coil) const {
+  return std::min(1.0, (1 - share_[coil]) / kGreatLoss);
+}
+
 double CommissionedDetector::LeastBand(int coil, int window) const {
   // Errors of the share that a coil is believed to have left are in the c of all others, and most of all in those of a
   // winding on the same core.
   double least = 0;
   for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (share_[j] > 0 && share_[j] < 1)
-      least = std::max(least, SharesCore(coil, j) ? kUncommissioned[window] : kLeastWeaker);
+    if (share_[j] > 0)
+      least = std::max(least,
+                       LossOf(j) * (SharesCore(coil, j) ? kUncommissioned[window] : kLeastWeaker));
   return least;
 }
 
@@ -72,7 +78,7 @@ void CommissionedDetector::TakeShare(int coil, double share) {
 void CommissionedDetector::SetWider() {
   wider_ = 1;
   for (int j = 0; j < filter_.nominal().coils; ++j)
-    if (share_[j] < 1) wider_ = kWider;
+    wider_ = std::max(wider_, 1 + (kWider - 1) * LossOf(j));
 }
 
 bool CommissionedDetector::TakesFirstDrift() {

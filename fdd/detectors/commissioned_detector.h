@@ -34,7 +34,7 @@
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
 /// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns; a current
-/// misses its set-point by 2.5 times as much before it counts.
+/// misses its set-point by 2.5 times as much before it counts. Losses below 0.3 of the turns do that in proportion.
 ///
 /// Slow drift (heating, a sensor's zero) is followed within bounds that leave a fault visible
 /// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5. What has drifted while
@@ -122,6 +122,8 @@ class CommissionedDetector : public CoilDetector {
   };
   void SetBands();
   void SetWider();
+  /// How much what a coil has lost of its turns widens the bands: 1 from a great loss on, 0 without one.
+  double LossOf(int coil) const;
   /// What a band of this coil is at least, because some coil has fewer turns than it had [-].
   double LeastBand(int coil, int window) const;
   /// Whether both are windings of one thrust side (or one and the same).
@@ -212,8 +214,8 @@ class CommissionedDetector : public CoilDetector {
   bool follows_drift_ = true;
   std::size_t first_drifts_ = 0;  // how many of both were looked at
   long long steady_ = 0;          // undisturbed periods in a row, until then
-  Lane streak_, onset_;     // periods in a row that a coil was suspect; since [s]
-  Lane dead_, dead_since_;  // periods in a row without current though driven; since [s]
+  Lane streak_, onset_;           // periods in a row that a coil was suspect; since [s]
+  Lane dead_, dead_since_;        // periods in a row without current though driven; since [s]
   int paused_ = 8;
   long long count_ = 0;
 };
