@@ -122,5 +122,17 @@ TEST(SimultaneousFaults, ASingleHalfShortBlamesNobodyElse) {
   }
 }
 
+// A small loss widens the bands of the other coils a little, so that the second of two is found.
+TEST(SimultaneousFaults, TheSecondOfTwoSmallShortsIsFoundAfterTheFirst) {
+  for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()})
+    for (const char* share : {"0.1", "0.04"})
+      for (const int other : {4, 5, 6, 7}) {
+        const std::string both =
+            Together({3, other}, "partial-short", std::string("fraction = ") + share);
+        const auto seen = Concluded(plant->rig, &plant->bearing, Operation(both, 0.045));
+        EXPECT_EQ(seen->Coils(), SetOf({3, other})) << share;
+      }
+}
+
 }  // namespace
 }  // namespace ambrig
