@@ -68,6 +68,7 @@ void CommissionedDetector::Restore(int coil, double share) {
 
 void CommissionedDetector::TakeShare(int coil, double share) {
   share_[coil] = share;
+  share_taken_[coil] = count_;
   filter_.SetTurns(coil, share);
   windows_.Clear();
   SetWider();

@@ -212,12 +212,17 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   CountStreaks(in);
   if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
-  if (JudgedTogether(in, &out)) return out;
-  out.turns = MoreTurns(coil, out.excess);
-  out.decided = out.turns > 0 || Decided(coil, out.excess);
-  if (!out.decided) return out;
-  out.diagnosis = Classify(coil, out.excess, in.t);
-  if (out.turns == 0) out.more = Companions(coil, out.excess, in.t);
+  if (!JudgedTogether(in, &out)) {
+    out.turns = MoreTurns(coil, out.excess);
+    out.decided = out.turns > 0 || Decided(coil, out.excess);
+    if (!out.decided) return out;
+    out.diagnosis = Classify(coil, out.excess, in.t);
+    if (out.turns == 0) out.more = Companions(coil, out.excess, in.t);
+  }
+  if (out.decided && out.turns == 0 && ShortedAgain(out.diagnosis)) {
+    out.decided = false;
+    out.doubtful = true;
+  }
   return out;
 }
 

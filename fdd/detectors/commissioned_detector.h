@@ -174,6 +174,9 @@ class CommissionedDetector : public CoilDetector {
   std::vector<Diagnosis> CoilsWithoutCurrent(double t) const;
   /// Its reading is zero although the bridge drives.
   bool HasNoCurrent(int coil) const;
+  /// Whether turns were lost on the same thrust core a short time ago. Two windings of one flux that are named in turns say
+  /// that the model errs.
+  bool ShortedAgain(const Diagnosis& d) const;
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(int decided, double excess, double time) const;
   bool Decided(int coil, double excess) const;
@@ -189,9 +192,10 @@ class CommissionedDetector : public CoilDetector {
   ExcessWindows windows_;
   FluxPeriod period_;
   SlopeExcess excess_;
-  Lane share_;                 // of the turns; 0: not judged
-  Lane band_[kExcessWindows];  // of |c|
-  Lane ratio_, now_, apart_;   // apart_: 1 where only gross values count
+  Lane share_;                          // of the turns; 0: not judged
+  long long share_taken_[kLanes] = {};  // period in which
+  Lane band_[kExcessWindows];           // of |c|
+  Lane ratio_, now_, apart_;            // apart_: 1 where only gross values count
   // Of this period: no coil gross, none beyond a band, no pattern. Nothing needs to be weighed then.
   bool calm_ = false;
   Lane level_;                                      // |c|, of gross coils now, else of ten periods

@@ -13,8 +13,9 @@ constexpr double kReversed = -1.2;     // c of a phase: the bridge drives the ot
 constexpr int kMissedTwice = 2;        // periods in a row
 constexpr double kMostRegained = 0.9;  // |c|
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
-constexpr double kLeastLost = 0.1;  // of the turns, for coils that fail at once
-constexpr int kWindowOfJoint = 1;   // of three periods: what healthy running leaves in as many
+constexpr double kLeastLost = 0.1;      // of the turns, for coils that fail at once
+constexpr long long kOnOneCore = 2500;  // periods after turns were lost on one core: more of them
+constexpr int kWindowOfJoint = 1;       // of three periods: what healthy running leaves in as many
 
 }  // namespace
 
@@ -89,6 +90,15 @@ bool CommissionedDetector::JudgedTogether(const MeasuredPeriod& in, Outcome* out
   out->decided = failed.size() > 1 || Decided(failed[0].coil, out->excess);
   out->Blame(failed);
   return true;
+}
+
+bool CommissionedDetector::ShortedAgain(const Diagnosis& d) const {
+  if (d.cls != FaultClass::kPartialShort) return false;
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (SharesCore(j, d.coil) && share_[j] > 0 && share_[j] < 1 &&
+        count_ - share_taken_[j] < kOnOneCore)
+      return true;
+  return false;
 }
 
 std::vector<Diagnosis> CommissionedDetector::Companions(int decided, double excess,

@@ -1,8 +1,10 @@
 #pragma once
 /// Current sensors whose offset steps: a reading jumps by what no voltage can make, afterwards all
 /// slopes are right. Two witnesses: the jump itself (reading_jump.h), and the current that misses
-/// its set-point to the same side in the next period. A fault of the coil itself shows in its
-/// slopes within a few periods and is decided there.
+/// its set-point to the same side in the next period. It comes once: where any reading has jumped
+/// shortly before or jumps soon after, currents swing (a current loop on half of the turns has four
+/// times its gain). A fault of the coil itself shows in its slopes within a few periods and is
+/// decided there.
 #include "fdd/measurement/reading_jump.h"
 
 namespace ambrig {
@@ -26,6 +28,7 @@ class JumpWatch {
   Lane jumps_;
   int coils_ = 0, samples_ = 0;
   int coil_ = -1, periods_ = 0;
+  int quiet_ = 1000;             // periods in which no reading jumped
   double step_ = 0, onset_ = 0;  // [A], [s]
   double excess_ = 0;            // sum of its c
 };

@@ -85,6 +85,18 @@ TEST(JumpWatch, AStepThatIsGoneInTheNextPeriodIsForgotten) {
   EXPECT_EQ(b.Run(10), 2);
 }
 
+// A loop that has lost turns swings, and takes others with it.
+TEST(JumpWatch, CurrentsThatSwingAreNoSensors) {
+  JumpBench b;
+  for (int n = 0; n < 12; ++n) {
+    const double swing = n % 4 < 2 ? 0.8 : -0.8;
+    b.offset[2] = swing;
+    b.offset[5] = n == 0 ? 0 : -0.5 * swing;
+    EXPECT_EQ(b.Run(1), -1) << n;
+  }
+  EXPECT_EQ(b.Run(20), -1);
+}
+
 TEST(JumpWatch, AnotherExplanationEndsIt) {
   JumpBench b;
   b.offset[5] = 0.8;
