@@ -16,7 +16,7 @@ namespace ambrig {
 namespace {
 
 /// What one search found of the records, on top of what those before it did.
-void Add(const RecordsSetRight& found, RecordsSetRight& all) {
+void AddFound(const RecordsSetRight& found, RecordsSetRight& all) {
   if (!found.rows_late.empty()) all.rows_late = found.rows_late;
   all.inputs_larger.resize(std::max(all.inputs_larger.size(), found.inputs_larger.size()), 0);
   for (std::size_t r = 0; r < found.inputs_larger.size(); ++r)
@@ -52,7 +52,7 @@ Explanation Explain(const Case& c, const ExplainOptions& options) {
     again = found.any();
     if (!found.rows_late.empty()) now.clocks = false;
     if (!found.inputs_larger.empty()) --now.inputs;
-    Add(found, all);
+    AddFound(found, all);
   }
   Tell(c, all, e);
   const CalibrationTable& table = StoredCalibration();
