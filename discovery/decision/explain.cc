@@ -6,8 +6,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "discovery/calibration/calibration.h"
-#include "discovery/data/clock_shift.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
@@ -117,7 +115,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
       PassOverBursts(base);
     }
   }
-  if (options_.clocks && FindLateRows(base)) return;
+  if ((options_.clocks && FindLateRows(base)) || FindInputs(base)) return;
   FitResult now = base;
   for (int round = 0; round < options_.rounds; ++round)
     if (!AdoptBest(now, round)) break;
@@ -237,30 +235,6 @@ void Explainer::FindConfusable() {
         {best.effect.name, other.effect.name,
          SeparatingRecord(model_, best.fit.hypothesis, other.fit.hypothesis)});
   }
-}
-
-/// The explanation of the case with the clocks of its records set right.
-Explanation ExplainShifted(const Case& c, const std::vector<int>& rows_late,
-                           ExplainOptions options) {
-  const Case shifted = WithClocks(c, rows_late);
-  options.clocks = false;
-  Explanation e = Explainer(shifted, options).Run();
-  for (std::size_t r = 0; r < rows_late.size(); ++r)
-    if (rows_late[r] != 0)
-      e.warnings.push_back(fmt::format("the clock of {} is {} row{} {}: its rows are moved",
-                                       c.records[r].data_file, std::abs(rows_late[r]),
-                                       std::abs(rows_late[r]) == 1 ? "" : "s",
-                                       rows_late[r] > 0 ? "late" : "early"));
-  return e;
-}
-
-Explanation Explain(const Case& c, const ExplainOptions& options) {
-  Explainer explainer(c, options);
-  Explanation e = explainer.Run();
-  if (!explainer.rows_late().empty()) e = ExplainShifted(c, explainer.rows_late(), options);
-  const CalibrationTable& table = StoredCalibration();
-  if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);
-  return e;
 }
 
 }  // namespace ambrig

@@ -72,6 +72,7 @@ struct ExplainOptions {
   // with the stored table (discovery/calibration/calibration.h), where enough cases stand behind it
   bool calibrate = true;
   bool clocks = true;  // records that are whole rows late are moved first
+  int inputs = 2;      // times that the records' inputs are simulated at the sizes found
 };
 
 Explanation Explain(const Case& c, const ExplainOptions& options);

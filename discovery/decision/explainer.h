@@ -5,13 +5,20 @@
 
 namespace ambrig {
 
+/// What was found of the records and is set right exactly, after which the search begins anew. One number for each
+/// record; empty: nothing.
+struct RecordsSetRight {
+  std::vector<int> rows_late;
+  std::vector<double> inputs_larger;
+  bool any() const { return !rows_late.empty() || !inputs_larger.empty(); }
+};
+
 class Explainer {
  public:
   Explainer(const Case& c, const ExplainOptions& options);
-  /// Stops early where records are found to be whole rows late (rows_late).
+  /// Stops early where records have to be set right first (set_right).
   Explanation Run();
-  /// Rows by which each record is late; empty: none is.
-  const std::vector<int>& rows_late() const { return rows_late_; }
+  const RecordsSetRight& set_right() const { return set_right_; }
 
  private:
   /// Stated noise, a look at the data with it, then the noise that the records show.
@@ -37,6 +44,11 @@ class Explainer {
   void DropNuisances(FitResult& base, FitResult& now);
   /// Records that are whole rows late or early: a shift of whole rows is no small one.
   bool FindLateRows(const FitResult& base);
+  /// Inputs whose size the case declares uncertain: where their simulation explains what the slope of the
+  /// prediction does not.
+  bool FindInputs(const FitResult& base);
+  /// The amounts of the nuisances in what a fit leaves.
+  std::vector<NuisanceFound> AmountsIn(const FitResult& fit);
   /// The amounts of the nuisances at the end.
   void ReportNuisances(const FitResult& now);
   /// An effect that the last fit leaves without a size goes again.
@@ -94,7 +106,7 @@ class Explainer {
   std::vector<std::vector<RankedName>> rounds_;  // of each round that ranked any
   std::vector<std::string>
       of_own_channels_;  // effects adopted for what they explain where they act
-  std::vector<int> rows_late_;
+  RecordsSetRight set_right_;
   bool floor_renewed_ = false;
   // of the squared ratio on unseen records, by the first effect or by undeclared nuisances
   double first_fall_ = 0;

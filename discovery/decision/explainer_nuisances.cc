@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/data/input_size.h"
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/decision/nuisance_choice.h"
+#include "discovery/model/residual.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
 
@@ -98,23 +100,25 @@ void Explainer::DropNuisances(FitResult& base, FitResult& now) {
   bank_ = bank;
 }
 
-/// The amounts of the nuisances at the end.
-void Explainer::ReportNuisances(const FitResult& now) {
-  if (!full_.nuisances.any()) return;
+/// The amounts of the nuisances in what a fit leaves.
+std::vector<NuisanceFound> Explainer::AmountsIn(const FitResult& fit) {
   const Nuisances used = full_.nuisances;
   full_.nuisances = Nuisances();
-  out_.nuisances = used.Amounts(full_, AllRows(now).residual);
+  std::vector<NuisanceFound> found = used.Amounts(full_, AllRows(fit).residual);
   full_.nuisances = used;
+  return found;
+}
+
+/// The amounts of the nuisances at the end.
+void Explainer::ReportNuisances(const FitResult& now) {
+  if (full_.nuisances.any()) out_.nuisances = AmountsIn(now);
 }
 
 /// Records whose clock the nuisances find a row or more off, while others' is right: a delay of the
 /// rig would be the same in all.
 bool Explainer::FindLateRows(const FitResult& base) {
   if (!full_.nuisances.any()) return false;
-  const Nuisances used = full_.nuisances;
-  full_.nuisances = Nuisances();
-  const std::vector<NuisanceFound> found = used.Amounts(full_, AllRows(base).residual);
-  full_.nuisances = used;
+  const std::vector<NuisanceFound> found = AmountsIn(base);
   std::vector<int> rows(full_.data().records.size(), 0);
   bool some = false, all = true;
   for (const NuisanceFound& f : found) {
@@ -129,7 +133,37 @@ bool Explainer::FindLateRows(const FitResult& base) {
     }
   }
   if (!some || all) return false;
-  rows_late_ = std::move(rows);
+  set_right_.rows_late = std::move(rows);
+  return true;
+}
+
+/// Pulses that an amplifier's voltage limits, or that move the instants at which its limiter lets go, do not grow in
+/// proportion to their set-points: a column of one slope leaves floors of error there. Only where the case declares
+/// the inputs uncertain: then they stay free about the sizes found, and no effect is taken for them.
+bool Explainer::FindInputs(const FitResult& base) {
+  constexpr double kKnown = 0.1;     // of the declared sd: the records tell the size, not the prior
+  constexpr double kLeastGain = 10;  // of the score
+  const double declared = full_.data().nuisances.input_gain;
+  if (options_.inputs <= 0 || declared <= 0 || !full_.nuisances.any()) return false;
+  const std::vector<CaseRecord>& records = full_.data().records;
+  std::vector<double> larger(records.size(), 0);
+  for (const NuisanceFound& f : AmountsIn(base))
+    for (std::size_t r = 0; r < records.size(); ++r)
+      if (f.name == kInputGain && f.record == records[r].data_file && f.sd < kKnown * declared)
+        larger[r] = f.value;
+  const Case changed = WithInputs(full_.data(), larger);
+  CaseModel trial(changed);
+  trial.stop = options_.stop;
+  trial.LimitAs(full_);
+  const auto predicted = trial.Predict(base.hypothesis);
+  full_.runs += trial.runs;
+  if (!predicted) return false;
+  FitResult by_slope = AllRows(base), simulated = by_slope;
+  simulated.residual = Residual(full_, *predicted);
+  simulated.ratio_fit = Ratio(full_, simulated.residual, Which::kFit);
+  simulated.ratio_validate = Ratio(full_, simulated.residual, Which::kValidate);
+  if (Gain(by_slope, simulated) < kLeastGain) return false;
+  set_right_.inputs_larger = std::move(larger);
   return true;
 }
 

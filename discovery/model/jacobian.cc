@@ -35,6 +35,7 @@ using Prediction = std::optional<std::vector<double>>;
 // hundredths of the floor, are divided by little.
 constexpr double kMostChange = 3, kWantedChange = 1;
 constexpr double kLeastStep = 0.01, kStepOfLost = 0.1;  // of the first one; where it lost the rotor
+constexpr int kTimesLost = 3;
 
 /// rms of the change over the rows of the records looked at, in floors.
 double ChangeOf(const CaseModel& model, const QuickLook* look, const Prediction& here,
@@ -85,8 +86,20 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
     nearer.push_back(h);
     move(k, nearer.back(), runs[k] ? std::max(kLeastStep, kWantedChange / size) : kStepOfLost);
   }
-  auto again = model.PredictAll(nearer, ModelFidelity::kCoarse, look);
-  for (std::size_t k = 0; k < far.size(); ++k) runs[far[k]] = std::move(again[k]);
+  double share = kStepOfLost;
+  for (int time = 0; time < kTimesLost && !far.empty(); ++time) {
+    auto again = model.PredictAll(nearer, ModelFidelity::kCoarse, look);
+    std::vector<std::size_t> lost;
+    for (std::size_t k = 0; k < far.size(); ++k) {
+      if (!again[k]) lost.push_back(far[k]);
+      runs[far[k]] = std::move(again[k]);
+    }
+    // a usual size is far too large for a small rig
+    share *= kStepOfLost;
+    far = std::move(lost);
+    nearer.assign(far.size(), h);
+    for (std::size_t k = 0; k < far.size(); ++k) move(far[k], nearer[k], share);
+  }
   const auto rows = static_cast<Eigen::Index>(model.size());
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n));
   for (std::size_t c = 0; here && c < n; ++c) {

@@ -193,8 +193,9 @@ bool CaseModel::SimulateOrFind(const RigParameters& rig, std::size_t record, boo
                                std::uint64_t seed, std::vector<double>& out) const {
   if (!store) return SimulateRecord(rig, record, noise, seed, out);
   const auto [first, end] = RowsOf(record);
-  const RunKey key{rig,  record,      noise,
-                   seed, end - first, horizon_[record] < kInfinity ? horizon_[record] : 0};
+  RunKey key{rig, record, noise, seed, end - first};
+  if (horizon_[record] < kInfinity) key.horizon = horizon_[record];
+  key.inputs = &case_.records[record].scenario.excitations;
   if (const std::optional<bool> known = store->Find(key, out.data() + first)) return *known;
   const bool fine = SimulateRecord(rig, record, noise, seed, out);
   store->Keep(key, fine, out.data() + first);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "discovery/data/input_size.h"
 #include "discovery/model/model.h"
 #include "discovery/model/nuisances.h"
 #include "effects/catalogue.h"
@@ -22,7 +23,7 @@ constexpr double kZeroOfCurrent = 0.002;   // of the current converter's range
 constexpr double kZeroOfBus = 0.003;       // of the bus voltage
 constexpr double kZeroOfForce = 0.01;      // of the rotor's weight
 constexpr double kUsualShift = 1e-4;       // [s]
-constexpr double kInputGain = 0.01;
+constexpr double kUsualGain = 0.01;
 
 }  // namespace
 
@@ -61,7 +62,7 @@ class Builder {
                          : declared_only_      ? 0
                                                : kUsualShift;
     if (shift > 0) Clock(shift);
-    const double gain = priors.input_gain > 0 ? priors.input_gain : declared_only_ ? 0 : kInputGain;
+    const double gain = priors.input_gain > 0 ? priors.input_gain : declared_only_ ? 0 : kUsualGain;
     if (gain > 0) Input(gain);
     return std::move(out_);
   }
@@ -151,17 +152,14 @@ class Builder {
 
   /// All commanded signals larger by `sd`.
   void Input(double sd) {
-    Case larger = model_.data();
-    bool any = false;
-    for (CaseRecord& r : larger.records)
-      for (Excitation& e : r.scenario.excitations) {
-        e.amplitude *= 1 + sd;
-        any = true;
-      }
-    if (!any) return;
+    const std::vector<CaseRecord>& records = model_.data().records;
+    if (std::ranges::all_of(records,
+                            [](const CaseRecord& r) { return r.scenario.excitations.empty(); }))
+      return;
+    const Case larger = WithInputs(model_.data(), std::vector<double>(records.size(), sd));
     CaseModel trial(larger);
     trial.stop = model_.stop;
-    Simulated(Kind("input gain", "input-gain", "-", sd), trial.Predict(h_), 1);
+    Simulated(Kind(kInputGain, "input-gain", "-", sd), trial.Predict(h_), 1);
   }
 
   const CaseModel& model_;

@@ -27,7 +27,9 @@ struct NuisanceFound {
   double value = 0, sd = 0;
 };
 
-inline constexpr const char* kTimeShift = "time shift";  // name of the clock's kind
+// names of the clock's and of the input's kind
+inline constexpr const char* kTimeShift = "time shift";
+inline constexpr const char* kInputGain = "input gain";
 
 class Nuisances {
  public:

@@ -31,6 +31,8 @@ std::string TextOf(const RunKey& key) {
   AddBytes(bytes, key.seed);
   AddBytes(bytes, key.rows);
   AddBytes(bytes, key.horizon);
+  if (key.inputs)
+    for (const Excitation& e : *key.inputs) AddBytes(bytes, e.amplitude);
   const RigParameters& rig = key.rig;
   AddBytes(bytes, rig.amplifier.adc_samples_per_period);
   for (const Tolerance& t : rig.tolerances)

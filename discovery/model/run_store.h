@@ -22,6 +22,8 @@ struct RunKey {
   std::uint64_t seed = 0;
   std::size_t rows = 0;  // predicted
   double horizon = 0;    // [s] up to which it was simulated; 0: to its end
+  // the record's, whose sizes a search may set right; none: as the case has them
+  const std::vector<Excitation>* inputs = nullptr;
 };
 
 class RunStore {

@@ -90,22 +90,22 @@ std::vector<double> FrequencySeeds(const EffectDescription& d, const std::string
 }
 
 /// What shapes a law over decades is tried at the ends of its usual range too: laminations thin and
-/// thick, a capacitance that smooths and one that does not. Of a switch whose null is infinite an end may be
-/// the shape's own null: iron so thick that its thickness does not show, where a fit of it has no slope.
+/// thick, a capacitance that smooths and one that does not. A shape that may be left out is tried without: iron so
+/// thick that its thickness does not show, fringing flux that does not pull. A fit of it has no slope there, and with
+/// it the signature may look like a rig parameter's (fringing that pulls: a larger pole area).
 std::vector<EffectInstance> FormsOf(const EffectDescription& d, const EffectInstance& middle,
                                     const std::vector<std::size_t>& shape, bool both_ends) {
   std::vector<EffectInstance> forms = {middle};
   for (std::size_t s : shape) {
     const EffectParameter& p = d.parameters[s];
-    if (p.name == "frequency" || IsResonance(d) || p.typical_lo <= 0 ||
-        p.typical_hi < 4 * p.typical_lo)
-      continue;
-    forms.push_back(middle);
-    forms.back().values[s] = p.typical_hi;
-    if (!both_ends && IsOptionalShape(p)) {
+    if (p.name == "frequency" || IsResonance(d) || p.typical_lo <= 0) continue;
+    if (IsOptionalShape(p)) {
       forms.push_back(middle);
       forms.back().values[s] = p.null_value;
     }
+    if (p.typical_hi < 4 * p.typical_lo) continue;
+    forms.push_back(middle);
+    forms.back().values[s] = p.typical_hi;
     if (!both_ends) continue;
     forms.push_back(middle);
     forms.back().values[s] = p.typical_lo;

@@ -64,6 +64,28 @@ std::vector<std::vector<float>> SignatureBank::Signatures(const CaseModel& model
   return out;
 }
 
+void SignatureBank::TakeSmaller(const CaseModel& model, const Hypothesis& base,
+                                const std::vector<int>& rows, std::vector<EffectInstance>& probes,
+                                std::vector<std::vector<float>>& signatures) const {
+  constexpr int kTimes = 3;
+  constexpr double kSmaller = 0.1;
+  for (int time = 0; time < kTimes; ++time) {
+    std::vector<std::size_t> lost;
+    std::vector<EffectInstance> smaller;
+    for (std::size_t k = 0; k < probes.size(); ++k) {
+      if (rows[k] < 0 || !signatures[k].empty()) continue;
+      const auto row = static_cast<std::size_t>(rows[k]);
+      const double null = probes[k].table[row].null_value;
+      probes[k].values[row] = null + kSmaller * (probes[k].values[row] - null);
+      lost.push_back(k);
+      smaller.push_back(probes[k]);
+    }
+    if (lost.empty()) return;
+    auto again = Signatures(model, base, smaller, look_ ? &*look_ : nullptr);
+    for (std::size_t k = 0; k < lost.size(); ++k) signatures[lost[k]] = std::move(again[k]);
+  }
+}
+
 void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
                              const std::vector<ProbeGroup>& groups,
                              const std::function<void(double, const std::string&)>& progress) {
@@ -71,14 +93,20 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
   const auto hypothesis = std::make_shared<const Hypothesis>(base.hypothesis);
   for (std::size_t first = 0; first < groups.size();) {
     std::vector<EffectInstance> probes;
+    std::vector<int> rows;
     std::size_t last = first;
-    while (last < groups.size() &&
-           (last == first || probes.size() + groups[last].probes.size() <= kChunk))
-      for (const EffectInstance& e : groups[last++].probes) probes.push_back(e);
+    for (; last < groups.size() &&
+           (last == first || probes.size() + groups[last].probes.size() <= kChunk);
+         ++last)
+      for (std::size_t k = 0; k < groups[last].probes.size(); ++k) {
+        probes.push_back(groups[last].probes[k]);
+        rows.push_back(groups[last].linear ? static_cast<int>(groups[last].rows[k]) : -1);
+      }
     if (progress)
       progress(static_cast<double>(first) / static_cast<double>(groups.size()),
                groups[first].probes[0].name);
-    const auto signatures = Signatures(model, *hypothesis, probes, look_ ? &*look_ : nullptr);
+    auto signatures = Signatures(model, *hypothesis, probes, look_ ? &*look_ : nullptr);
+    TakeSmaller(model, *hypothesis, rows, probes, signatures);
     if (used_ + static_cast<Index>(probes.size()) > columns_.cols())
       columns_.conservativeResize(
           static_cast<Index>(model.size()),
@@ -89,10 +117,10 @@ void SignatureBank::Simulate(const CaseModel& model, const FitResult& base,
       entry.group.probes.clear();
       entry.group.rows.clear();
       for (std::size_t k = 0; k < groups[first].probes.size(); ++k, ++at) {
-        if (signatures[at].empty()) continue;
+        if (signatures[at].empty() || Holds(probes[at])) continue;
         columns_.col(used_++) = Eigen::Map<const Eigen::VectorXf>(signatures[at].data(),
                                                                   static_cast<Index>(model.size()));
-        entry.group.probes.push_back(groups[first].probes[k]);
+        entry.group.probes.push_back(probes[at]);
         if (entry.group.linear) entry.group.rows.push_back(groups[first].rows[k]);
       }
       if (!entry.group.probes.empty()) entries_.push_back(std::move(entry));

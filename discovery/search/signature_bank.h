@@ -59,6 +59,11 @@ class SignatureBank {
   void Fill(const CaseModel& model, std::size_t begin, std::size_t end, const QuickLook& look);
   /// The columns are others now.
   void ForgetProducts();
+  /// Probes with which the rotor is lost, taken again with less of what they move (`rows`: of each probe's table, -1:
+  /// it stays). A usual size may be far too large for a small rig.
+  void TakeSmaller(const CaseModel& model, const Hypothesis& base, const std::vector<int>& rows,
+                   std::vector<EffectInstance>& probes,
+                   std::vector<std::vector<float>>& signatures) const;
   /// The signature of each probe on one base; empty: the rotor is lost.
   std::vector<std::vector<float>> Signatures(const CaseModel& model, const Hypothesis& base,
                                              const std::vector<EffectInstance>& probes,

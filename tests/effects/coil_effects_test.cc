@@ -107,6 +107,19 @@ TEST(TurnMismatch, ScalesMmfResistanceAndLeakage) {
   EXPECT_EQ(with.bearings[1].lanes.n[2], without.bearings[1].lanes.n[2]);
 }
 
+// Plugs and switches stand in series with the winding; a drawing may count more than is there, but no coil has less
+// than nothing.
+TEST(AmplifierOffset, AddsAResistanceToItsCoil) {
+  const Plant with = PlantWith("amplifier-offset", "A.coil3", {{"resistance", -0.1}}),
+              none = PlantWith("amplifier-offset", "A.coil3", {{"resistance", -9}}),
+              without = BuildPlant(TrueRig(ReferenceRig()));
+  const StatorLanes &a = with.bearings[0].lanes, &b = without.bearings[0].lanes;
+  EXPECT_DOUBLE_EQ(a.resistance[2], b.resistance[2] - 0.1);
+  EXPECT_DOUBLE_EQ(with.bearings[0].base_resistance[2], b.resistance[2] - 0.1);
+  EXPECT_EQ(a.resistance[3], b.resistance[3]);
+  EXPECT_GT(none.bearings[0].lanes.resistance[2], 0);
+}
+
 /// Change of the mean duty per volt of mean coil voltage, bi-state bridge [1/V].
 double DutyPerVolt(const RigParameters& rig) {
   const AmplifierParameters& a = rig.amplifier;

@@ -102,6 +102,21 @@ TEST_F(RunStoreTest, AnotherHypothesisIsAnotherEntry) {
   EXPECT_EQ(stored.runs, 4);
 }
 
+// A search may set the size of an input right and go on with the same store.
+TEST_F(RunStoreTest, AnotherSizeOfTheInputIsAnotherEntry) {
+  const Case c = Read();
+  RunStore store(Store(), c);
+  std::vector<Excitation> inputs(1);
+  inputs[0].amplitude = 2;
+  const double kept[] = {1, 2};
+  const RunKey key{c.rig, 0, false, 0, 2, 0, &inputs};
+  store.Keep(key, true, kept);
+  double found[2] = {};
+  EXPECT_TRUE(store.Find(key, found).has_value());
+  inputs[0].amplitude = 2.02;
+  EXPECT_FALSE(store.Find(key, found).has_value());
+}
+
 TEST_F(RunStoreTest, AnEntryThatWasCutOffIsDoneAgain) {
   const Case c = Read();
   const auto wanted = KeptPredictions(c, Store());

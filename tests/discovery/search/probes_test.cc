@@ -43,6 +43,23 @@ TEST(Probes, ALawIsTriedInTheMiddleAndAtTheEndOfWhatShapesIt) {
   }
 }
 
+// Fringing flux that pulls looks like a larger pole area, one that does not like nothing else: with the first alone an
+// effect of 8.6 floors, of which the rig parameters had taken up most, was not among the candidates (practice case 12 of seed 5).
+TEST(Probes, AShapeThatMayBeLeftOutIsTriedWithoutWhateverSwitchesItsLaw) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/library/rigs/reference.toml");
+  const Case c = EmptyCase(rig, Examination(rig, 5, {}));
+  const CaseModel model(c, 12);
+  for (const auto& [id, shape] :
+       {std::pair{"fringing", "face_pull"}, {"copper-heating", "shared"}}) {
+    std::set<double> tried;
+    for (const ProbeGroup& g : ProbesOf(EffectNamed(id), "A", model, {}))
+      for (const EffectInstance& e : g.probes) tried.insert(e.Value(shape));
+    EXPECT_EQ(tried.size(), 2U) << id;
+    EXPECT_TRUE(tried.contains(0)) << id;
+  }
+}
+
 // A bus with little capacitance follows every period, one with much the mean: of three shapes one is
 // near.
 TEST(Probes, WhatIsSwitchedFromAFiniteNullIsTriedAtBothEndsOfWhatShapesIt) {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "discovery/model/jacobian.h"
+#include "discovery/practice/examination.h"
+#include "discovery/practice/measured_case.h"
+#include "rig/rig_file.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -43,6 +47,38 @@ TEST(SignatureBank, AGroupLargerThanAChunkIsSimulated) {
       EXPECT_NEAR(products.fit(a, b), both * fitted, 1e-4 * both * fitted);
       EXPECT_NEAR(products.validate(a, b), both * unseen, 1e-4 * both * unseen);
     }
+}
+
+// A pull of a motor that its bearings cannot hold throws a small rotor off: less of it tells its signature all the
+// same, and so do smaller steps its slope.
+TEST(SignatureBank, WhatThrowsASmallRotorOffIsTakenSmaller) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/small_spindle/rig.toml");
+  std::vector<ExaminationRecord> chosen;
+  for (const ExaminationRecord& r : Examination(rig, 4))
+    if (r.title == "multisine at rest") chosen.push_back(r);
+  Case c = EmptyCase(rig, chosen);
+  const Case commanded = c;
+  FitResult base;
+  base.hypothesis = Hypothesis::Base(rig);
+  MeasureRecord(CaseModel(commanded), base.hypothesis, 0, 31, 0.1, c);
+  const CaseModel model(c);
+  ProbeGroup strong;
+  strong.probes = {MakeInstance(EffectNamed("side-pull"), "B")};
+  strong.probes[0].Set("stiffness", 3e6);
+  strong.rows = {0};
+  Hypothesis lost = base.hypothesis;
+  lost.AddEffect(strong.probes[0]);
+  ASSERT_FALSE(model.Predict(lost));
+  SignatureBank bank;
+  bank.Simulate(model, base, {strong}, nullptr);
+  ASSERT_EQ(bank.entries().size(), 1U);
+  const double stiffness = bank.entries()[0].group.probes[0].Value("stiffness");
+  EXPECT_GT(stiffness, 0);
+  EXPECT_LE(stiffness, 3e5);
+  Hypothesis little = base.hypothesis;
+  little.AddEffect(bank.entries()[0].group.probes[0]);
+  EXPECT_GT(Jacobian(model, little, {base.hypothesis.free.size()}).norm(), 0);
 }
 
 // A zero of A.x in each record, taken off afterwards or while the probes are simulated.

@@ -1,0 +1,63 @@
+// The whole of an explanation: begun anew whenever records were found that have to be set right first.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
+#include "discovery/calibration/calibration.h"
+#include "discovery/data/clock_shift.h"
+#include "discovery/data/input_size.h"
+#include "discovery/decision/explain.h"
+#include "discovery/decision/explainer.h"
+
+namespace ambrig {
+
+namespace {
+
+/// What one search found of the records, on top of what those before it did.
+void AddFound(const RecordsSetRight& found, RecordsSetRight& all) {
+  if (!found.rows_late.empty()) all.rows_late = found.rows_late;
+  all.inputs_larger.resize(std::max(all.inputs_larger.size(), found.inputs_larger.size()), 0);
+  for (std::size_t r = 0; r < found.inputs_larger.size(); ++r)
+    all.inputs_larger[r] = (1 + all.inputs_larger[r]) * (1 + found.inputs_larger[r]) - 1;
+}
+
+/// What was set right before the last search stands in its answer too.
+void Tell(const Case& c, const RecordsSetRight& all, Explanation& e) {
+  for (std::size_t r = 0; r < all.rows_late.size(); ++r)
+    if (all.rows_late[r] != 0)
+      e.warnings.push_back(fmt::format("the clock of {} is {} row{} {}: its rows are moved",
+                                       c.records[r].data_file, std::abs(all.rows_late[r]),
+                                       std::abs(all.rows_late[r]) == 1 ? "" : "s",
+                                       all.rows_late[r] > 0 ? "late" : "early"));
+  for (std::size_t r = 0; r < all.inputs_larger.size(); ++r)
+    for (NuisanceFound& f : e.nuisances)
+      if (f.name == kInputGain && f.record == c.records[r].data_file)
+        f.value = (1 + all.inputs_larger[r]) * (1 + f.value) - 1;
+}
+
+}  // namespace
+
+Explanation Explain(const Case& c, const ExplainOptions& options) {
+  ExplainOptions now = options;
+  RecordsSetRight all;
+  Explanation e;
+  std::optional<Case> mended;
+  for (bool again = true; again;) {
+    if (all.any()) mended = WithInputs(WithClocks(c, all.rows_late), all.inputs_larger);
+    Explainer explainer(mended ? *mended : c, now);
+    e = explainer.Run();
+    const RecordsSetRight& found = explainer.set_right();
+    again = found.any();
+    if (!found.rows_late.empty()) now.clocks = false;
+    if (!found.inputs_larger.empty()) --now.inputs;
+    AddFound(found, all);
+  }
+  Tell(c, all, e);
+  const CalibrationTable& table = StoredCalibration();
+  if (options.calibrate && table.cases >= kCasesForCalibration) Calibrate(table, e);
+  return e;
+}
+
+}  // namespace ambrig
