@@ -195,7 +195,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   Outcome out;
   out.doubtful = !Relies() || out_of_range_ || Disturbed();
   // What flux a winding of a thrust side shares with its partner may keep its c calm although it has no current.
-  const bool shares_flux = filter_.nominal().coupling == Coupling::kSides;
+  const bool shares_flux = filter_.nominal().coupling == Coupling::kSides && SomeMissItsCurrent();
   if (!calm_ || shares_flux)
     CountDead(in);
   else
@@ -234,6 +234,12 @@ CommissionedDetector::Outcome CommissionedDetector::WithoutCurrent(double t) con
   out.excess = now_[failed[0].coil];
   out.Blame(failed);
   return out;
+}
+
+bool CommissionedDetector::SomeMissItsCurrent() const {
+  for (int j = 0; j < filter_.nominal().coils; ++j)
+    if (false_current_[j] > 0 || dead_[j] > 0) return true;
+  return false;
 }
 
 bool CommissionedDetector::LeftToPartner(const MeasuredPeriod& in, int coil) const {

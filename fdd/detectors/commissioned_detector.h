@@ -154,6 +154,8 @@ class CommissionedDetector : public CoilDetector {
   double LargestNow() const;
   void CountStreaks(const MeasuredPeriod& in);
   void CountDead(const MeasuredPeriod& in);
+  /// Whether any coil misses its set-point in this period, or had no current in the last.
+  bool SomeMissItsCurrent() const;
   /// Whether a winding of a thrust side misses current that its voltage would give it, had it any: the winding that is
   /// driven at least as hard as its partner takes over what that carries more, whatever flux both share.
   bool LeftToPartner(const MeasuredPeriod& in, int coil) const;
