@@ -22,7 +22,8 @@ const CommissionedRig& ThrustPlant() {
   return made;
 }
 
-void ExpectFound(int coil, const std::string& kind, const std::string& parameters, double most) {
+void ExpectFoundWithin(int coil, const std::string& kind, const std::string& parameters,
+                       double most) {
   const auto seen = Concluded(ThrustPlant().rig, &ThrustPlant().bearing,
                               Operation(FaultOf(coil, kind, parameters, kOnset, "Z"), 0.05));
   ASSERT_EQ(seen->Coils(), std::set<int>{coil}) << kind << parameters;
@@ -36,10 +37,10 @@ void ExpectFound(int coil, const std::string& kind, const std::string& parameter
 
 TEST(ThrustWindings, OpensAndShortsAreFoundInTime) {
   for (int coil = 1; coil <= 4; ++coil) {
-    ExpectFound(coil, "open", "", 0.25e-3);
-    ExpectFound(coil, "partial-short", "fraction = 0.5", 0.25e-3);
-    ExpectFound(coil, "partial-short", "fraction = 0.1", 0.5e-3);
-    ExpectFound(coil, "partial-short", "fraction = 0.04", 3e-3);
+    ExpectFoundWithin(coil, "open", "", 0.25e-3);
+    ExpectFoundWithin(coil, "partial-short", "fraction = 0.5", 0.25e-3);
+    ExpectFoundWithin(coil, "partial-short", "fraction = 0.1", 0.5e-3);
+    ExpectFoundWithin(coil, "partial-short", "fraction = 0.04", 3e-3);
   }
 }
 
