@@ -39,9 +39,13 @@ class Draw {
   std::uint64_t state_;
 };
 
+/// Whether plants have it: what has no usual range stays out.
+bool IsDrawn(const EffectDescription& d, const EffectParameter& p) {
+  return d.Switches(p) && p.typical_lo > 0 && p.typical_hi > 0;
+}
+
 /// `size`: 0 the weak end of the usual range, 1 the strong one.
 double ValueOf(const EffectParameter& p, double size, bool negative) {
-  if (!(p.typical_lo > 0 && p.typical_hi > 0)) return p.null_value;
   const bool falls = std::isinf(p.null_value);  // the smaller the stronger
   const double weak = falls ? p.typical_hi : p.typical_lo,
                strong = falls ? p.typical_lo : p.typical_hi;
@@ -89,7 +93,7 @@ void AddPlant(const EffectDescription& d, const Ground& at, double size, Draw& d
   for (const std::string& target : TargetsIn(d, at, draw)) {
     EffectInstance e = MakeInstance(d, target);
     for (std::size_t k = 0; k < e.table.size(); ++k)
-      if (d.Switches(e.table[k])) e.values[k] = ValueOf(e.table[k], size, draw.Uniform() < 0.5);
+      if (IsDrawn(d, e.table[k])) e.values[k] = ValueOf(e.table[k], size, draw.Uniform() < 0.5);
     plant->effects.push_back(std::move(e));
   }
 }
@@ -229,7 +233,7 @@ std::string EffectSizeText(const std::string& effect, const std::string& size) {
   std::string text;
   int shown = 0;
   for (const EffectParameter& p : e.table) {
-    if (!d->Switches(p) || !(p.typical_lo > 0 && p.typical_hi > 0)) continue;
+    if (!IsDrawn(*d, p)) continue;
     if (++shown > kMostShown) return text + ", ...";
     const double rounded = std::stod(fmt::format("{:.3g}", ValueOf(p, Share(size), false)));
     text += fmt::format("{}{} {:g}{}{}", text.empty() ? "" : ", ", p.name, rounded,

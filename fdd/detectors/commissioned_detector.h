@@ -39,7 +39,7 @@
 /// Slow drift (heating, a sensor's zero) is followed within bounds that leave a fault visible
 /// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5. What has drifted while
 /// the machine stood still is in c from the start: after the first 40 undisturbed periods, and after 160 more, it is taken
-/// off at once, unless a shorter window is beyond its band or this one beyond 1.2 of it.
+/// off at once, unless a shorter window is beyond its band or this one beyond 1.5 of it.
 ///
 /// Nearly every period is calm: no c as it stands, before its common part is taken off, is beyond a band. That is
 /// told without a division, and ends what is done in it.
