@@ -94,15 +94,20 @@ double RippleInductance(const RigParameters& rig, const CommissionedBearing& b, 
   return b.coils.gain[coil] * filter.inductances()[coil] * period.own[coil] + b.coils.leakage[coil];
 }
 
+namespace {
+Detectable DetectableOf(const RigParameters& rig, const CommissionedBearing& b, int coil) {
+  return DetectableIn(b, coil, 1 / rig.amplifier.switching_frequency,
+                      ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), coil).own);
+}
+}  // namespace
+
 Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
-  const double T = 1 / rig.amplifier.switching_frequency;
   Json bearings = Json::array();
   for (std::size_t k = 0; k < r.model.bearings.size(); ++k) {
     const CommissionedBearing& b = r.model.bearings[k];
     Json coils = Json::array();
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
-      const Detectable d =
-          DetectableIn(b, j, T, ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), j).own);
+      const Detectable d = DetectableOf(rig, b, j);
       const double L = RippleInductance(rig, b, j);
       coils.push_back({{"coil", j + 1},
                        {"gain", b.coils.gain[j]},
@@ -130,7 +135,6 @@ Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
 }
 
 std::string CommissionText(const RigParameters& rig, const CommissioningResult& r) {
-  const double T = 1 / rig.amplifier.switching_frequency;
   constexpr const char* kRow = "{:<9} {:>6} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}\n";
   std::string text =
       fmt::format(kRow, "", "", "ripple L", "R", "L/R", "scatter", "least", "its", "10 %") +
@@ -138,8 +142,7 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
       fmt::format(kRow, "coil", "grade", "[mH]", "[ohm]", "[ms]", "[-]", "[%]", "[ms]", "[ms]");
   for (const CommissionedBearing& b : r.model.bearings)
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
-      const Detectable d =
-          DetectableIn(b, j, T, ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), j).own);
+      const Detectable d = DetectableOf(rig, b, j);
       const double L = RippleInductance(rig, b, j);
       text +=
           fmt::format("{:<9} {:>6.2f} {:>8.3f} {:>8.3f} {:>8.2f} {:>8.4f} {:>8.1f} {:>8} {:>8}\n",
@@ -163,7 +166,6 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
 
 void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& r,
                            const std::string& file) {
-  const double T = 1 / rig.amplifier.switching_frequency;
   HtmlReport report("Commissioning of the fault detection", "rig " + rig.name);
   report.Text(
       "The detector watched the healthy machine and learnt how the flux linkage of every coil "
@@ -186,8 +188,7 @@ void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& 
                                           : "refused: the model does not express this bearing"));
     std::vector<std::vector<Cell>> rows;
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
-      const Detectable d =
-          DetectableIn(b, j, T, ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), j).own);
+      const Detectable d = DetectableOf(rig, b, j);
       const double L = RippleInductance(rig, b, j);
       rows.push_back({Cell(std::to_string(j + 1)), Cell(fmt::format("{:.3f}", L * 1e3)),
                       Cell(fmt::format("{:.0f}", rig.amplifier.bus_voltage / L)),

@@ -21,7 +21,7 @@ constexpr double kGreatLoss = 0.3;       // of the turns: from there all of both
 constexpr int kDriftEvery = 40;          // periods
 constexpr int kDriftWindows[] = {3, 4};  // 40 and 160 periods
 constexpr double kCalmShare = 0.5;       // of the bands
-constexpr double kMostFirstDrift = 1.5;  // the same of the longest window, when the machine starts
+constexpr double kMostFirstDrift = 1.5;  // of the band of the window looked at, when it starts
 
 }  // namespace
 

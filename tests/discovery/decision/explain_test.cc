@@ -8,6 +8,7 @@
 
 #include "core/base/errors.h"
 #include "discovery/calibration/calibration.h"
+#include "tests/discovery/examined_records.h"
 #include "tests/discovery/measured_case.h"
 
 namespace ambrig {
@@ -20,16 +21,9 @@ std::vector<MeasuredPlace> Places(double gain, double offset = 0) {
           {-3e-5, -5e-5, gain, offset}};
 }
 
-ExplainOptions Short() {
-  ExplainOptions o;
-  o.candidates = 2;
-  o.rounds = 1;
-  return o;
-}
-
 TEST(Explain, MeasurementsOfTheRigAsDrawnNeedNothing) {
   const Case c = MeasuredCase(Places(1));
-  const Explanation e = Explain(c, Short());
+  const Explanation e = Explain(c, ShortSearch());
   EXPECT_EQ(e.verdict, "none");
   EXPECT_TRUE(e.adopted.empty());
   EXPECT_NEAR(e.nominal_ratio_validate, 1, 0.1);
@@ -45,7 +39,7 @@ TEST(Explain, MeasurementsOfTheRigAsDrawnNeedNothing) {
 TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
   const Case c = MeasuredCase(Places(1, 3e-6));
   std::vector<double> fractions;
-  ExplainOptions o = Short();
+  ExplainOptions o = ShortSearch();
   o.progress = [&](double f, const std::string&) { fractions.push_back(f); };
   int checkpoints = 0;
   o.checkpoint = [&](const Explanation& so_far) {
@@ -78,7 +72,7 @@ TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
 // is preferred to as many as there are records.
 TEST(Explain, OneEffectIsPreferredToAsManyZerosAsRecords) {
   const Case c = MeasuredCase(Places(1.08));
-  const Explanation e = Explain(c, Short());
+  const Explanation e = Explain(c, ShortSearch());
   EXPECT_EQ(e.verdict, "effect");
   ASSERT_EQ(e.adopted.size(), 1u);
   EXPECT_EQ(e.adopted[0].name, "sensor-gain");
@@ -92,7 +86,7 @@ TEST(Explain, TwoEffectsAreNamedBesideEachOther) {
   Case c = MeasuredCase(Places(1.08));
   for (CaseRecord& r : c.records)
     for (double& v : r.data.channels[3].samples) v += 4e-6;  // B.y
-  ExplainOptions o = Short();
+  ExplainOptions o = ShortSearch();
   o.candidates = 3;
   o.rounds = 2;
   const Explanation e = Explain(c, o);
@@ -117,7 +111,7 @@ TEST(Explain, WhatDiffersFromRecordToRecordIsANuisance) {
   std::vector<MeasuredPlace> places = Places(1);
   const double zeros[] = {3e-6, -5e-6, 4e-6, -2e-6};
   for (std::size_t r = 0; r < places.size(); ++r) places[r].offset = zeros[r % 4];
-  const Explanation e = Explain(MeasuredCase(places), Short());
+  const Explanation e = Explain(MeasuredCase(places), ShortSearch());
   EXPECT_EQ(e.verdict, "parameters");
   EXPECT_TRUE(e.adopted.empty());
   ASSERT_EQ(e.nuisances.size(), 4u);
@@ -133,7 +127,7 @@ TEST(Explain, WrongDataEndTheSearch) {
   Case c = MeasuredCase(Places(1));
   for (CaseRecord& r : c.records)
     for (double& v : r.data.channels[0].samples) v *= 1000;
-  const Explanation e = Explain(c, Short());
+  const Explanation e = Explain(c, ShortSearch());
   EXPECT_EQ(e.verdict, "data");
   ASSERT_FALSE(e.data.empty());
   EXPECT_EQ(e.data[0].channel, "A.x");
@@ -145,7 +139,7 @@ TEST(Explain, WrongDataEndTheSearch) {
 TEST(Explain, StopsWhenAsked) {
   const Case c = MeasuredCase(Places(1.08));
   std::atomic<bool> stop{true};
-  ExplainOptions o = Short();
+  ExplainOptions o = ShortSearch();
   o.stop = &stop;
   EXPECT_THROW(Explain(c, o), Interrupted);
 }

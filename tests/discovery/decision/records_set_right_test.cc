@@ -4,50 +4,20 @@
 
 #include <cmath>
 
-#include "discovery/data/input_size.h"
-#include "discovery/decision/explain.h"
-#include "discovery/practice/examination.h"
 #include "discovery/practice/laws/practice_law.h"
-#include "discovery/practice/measured_case.h"
-#include "rig/bearing_kinds/bearing_kind.h"
-#include "rig/rig_file.h"
+#include "tests/discovery/examined_records.h"
 
 namespace ambrig {
 namespace {
 
-const char* const kReference = "/scenarios/library/rigs/reference.toml";
 // whose bus voltage limits the pulses
 const char* const kCompressor = "/examples/heavy_compressor/rig.toml";
 
-/// Records of this rig without its thrust bearing, with this law and the inputs of record `r` larger by `larger[r]`.
-Case MeasuredRecords(const std::string& file, const std::vector<EffectInstance>& law,
-                     const std::vector<double>& larger) {
-  RigParameters rig = ReadRig(std::string(AMBRIG_SOURCE_DIR) + file);
-  std::erase_if(rig.bearings, [](const BearingParameters& b) { return b.kind->axial; });
-  std::vector<ExaminationRecord> chosen;
-  for (const ExaminationRecord& r : Examination(rig, 4))
-    if (r.title == "clamped, current pulses" || r.title == "clamped, current ramps" ||
-        r.title == "clamped off centre, current ramps")
-      chosen.push_back(r);
-  Case c = EmptyCase(rig, chosen);
-  const Case commanded = WithInputs(c, larger);
-  const CaseModel model(commanded);
-  Hypothesis truth;
-  truth.rig = rig;
-  truth.rig.effects = law;
-  for (std::size_t r = 0; r < c.records.size(); ++r) MeasureRecord(model, truth, r, 31, 0.1, c);
-  return c;
-}
-
-ExplainOptions FewSteps() {
-  ExplainOptions options;
-  options.candidates = 2;
-  options.rounds = 1;
-  return options;
-}
+const std::vector<std::string> kClamped = {"clamped, current pulses", "clamped, current ramps",
+                                           "clamped off centre, current ramps"};
 
 TEST(WithInputs, ScalesEveryExcitationOfItsRecord) {
-  const Case c = MeasuredRecords(kReference, {}, {}), larger = WithInputs(c, {0, 0.02});
+  const Case c = ExaminedRecords(kReferenceFile, kClamped), larger = WithInputs(c, {0, 0.02});
   EXPECT_EQ(larger.records[0].scenario.excitations[0].amplitude,
             c.records[0].scenario.excitations[0].amplitude);
   for (std::size_t k = 0; k < c.records[1].scenario.excitations.size(); ++k)
@@ -56,11 +26,11 @@ TEST(WithInputs, ScalesEveryExcitationOfItsRecord) {
 }
 
 TEST(InputsOfRecords, AreSimulatedAtTheSizeFound) {
-  Case c = MeasuredRecords(kCompressor, {}, {0.01, -0.025, 0.01});
+  Case c = ExaminedRecords(kCompressor, kClamped, {.larger = {0.01, -0.025, 0.01}});
   c.nuisances.input_gain = 0.01;
-  ExplainOptions by_slope = FewSteps();
+  ExplainOptions by_slope = ShortSearch();
   by_slope.inputs = 0;
-  const Explanation e = Explain(c, FewSteps()), without = Explain(c, by_slope);
+  const Explanation e = Explain(c, ShortSearch()), without = Explain(c, by_slope);
   EXPECT_GT(std::max(without.base_ratio_fit, without.base_ratio_validate), 1.05);
   EXPECT_LT(e.base_ratio_fit, 1.02);
   EXPECT_LT(e.base_ratio_validate, 1.02);
@@ -75,9 +45,10 @@ TEST(InputsOfRecords, AreSimulatedAtTheSizeFound) {
 
 // A current loop takes up a constant voltage at once; the part that grows with the current is seen.
 TEST(VoltageOfOneCoil, ThatGrowsWithItsCurrentIsItsAmplifiers) {
-  const Case c = MeasuredRecords(
-      kReference, {FormulaAt("A.coil3", {{"voltage", "-0.5 * (1 + 0.2 * (i - 2))"}})}, {});
-  const Explanation e = Explain(c, FewSteps());
+  const Case c =
+      ExaminedRecords(kReferenceFile, kClamped,
+                      {.law = {FormulaAt("A.coil3", {{"voltage", "-0.5 * (1 + 0.2 * (i - 2))"}})}});
+  const Explanation e = Explain(c, ShortSearch());
   ASSERT_EQ(e.adopted.size(), 1U);
   EXPECT_EQ(e.adopted[0].name, "amplifier-offset");
   EXPECT_EQ(e.adopted[0].target, "A.coil3");
