@@ -260,13 +260,14 @@ Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* s
     options.record = false;
     options.stop = stop;
     const RunResult result = Simulate(p.rig, p.scenario, options);
-    RunResult without;
-    if (plan.campaign().without) {
-      Scenario plain = p.scenario;
-      plain.fault_tolerant = false;
-      without = Simulate(p.rig, plain, options);
+    std::optional<RunResult> plain;
+    if (plan.campaign().without && result.interfered) {
+      Scenario scenario = p.scenario;
+      scenario.fault_tolerant = false;
+      plain = Simulate(p.rig, scenario, options);
     }
-    const auto outcome = Outcome(plan, p, result, plan.campaign().without ? &without : nullptr);
+    const RunResult* without = plain ? &*plain : &result;
+    const auto outcome = Outcome(plan, p, result, plan.campaign().without ? without : nullptr);
     cells.insert(cells.end(), outcome.begin(), outcome.end());
   } catch (const Interrupted&) {
     throw;

@@ -84,6 +84,7 @@ void FaultSupervisor::AfterPeriod(const PeriodMeasurement& m,
   WatchBus(m.t + T_, bus, out.events);
   WatchPositions(m, out.events);
   for (std::size_t k = 0; k < watched_.size(); ++k) WatchBearing(k, m, control[k], out);
+  interfered_ = interfered_ || !out.actions.empty();
   if (options_.slopes) TraceSlopes(m.t);
 }
 
@@ -252,6 +253,7 @@ SupervisorSummary FaultSupervisor::Summary() const {
   summary.coil_periods = coil_periods_;
   summary.actions = actions_;
   summary.doubtful = doubtful_;
+  summary.interfered = interfered_;
   if (!options_.slopes || rows_.empty()) return summary;
   const Watched& w = *watched_[alarm_bearing_];
   const int coils = w.bearing->coils();

@@ -86,7 +86,7 @@ class FaultSupervisor : public Supervisor {
   DetectionFeed feed_;
   std::vector<std::unique_ptr<Watched>> watched_;
   std::vector<CoilAction> actions_;
-  bool doubtful_ = false;
+  bool doubtful_ = false, interfered_ = false;
   double coil_periods_ = 0;
 
   struct SlopeRow {

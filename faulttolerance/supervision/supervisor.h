@@ -36,6 +36,7 @@ struct CoilAction {
 struct SupervisorSummary {
   std::vector<CoilAction> actions;
   bool doubtful = false;           // some detector doubted its model during the run
+  bool interfered = false;         // sent an action; if not, the run is the one without it
   double coil_periods = 0;         // coils watched, times periods
   std::vector<SlopeTrace> slopes;  // of the first alarm
 };

@@ -9,6 +9,7 @@ void AddSummary(const Supervisor* supervisor, RunResult& result) {
   result.slopes = std::move(summary.slopes);
   result.actions = std::move(summary.actions);
   result.doubtful = summary.doubtful;
+  result.interfered = summary.interfered;
 }
 
 }  // namespace ambrig

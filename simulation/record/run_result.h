@@ -42,6 +42,7 @@ struct RunResult {
   std::vector<SlopeTrace> slopes;
   std::vector<CoilAction> actions;  // of fault tolerance
   bool doubtful = false;            // a detector doubted its model during the run
+  bool interfered = false;  // fault tolerance sent an action; if not, the run is the one without it
   std::vector<std::string> notes;
 };
 

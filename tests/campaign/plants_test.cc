@@ -12,6 +12,7 @@
 #include "campaign/row.h"
 #include "campaign/run_plan.h"
 #include "rig/rig_parameters.h"
+#include "simulation/simulate.h"
 #include "tests/campaign/campaign_folder.h"
 
 namespace ambrig::testing {
@@ -202,6 +203,32 @@ TEST(Plants, HealthyOnesAreLeftAloneAndOpenCoilsAreFound) {
   EXPECT_NE(text.find("Not commissioned:"), std::string::npos);
   EXPECT_NE(text.find("| eddy-currents high | 1 | 0 | 0 |"), std::string::npos) << text;
   EXPECT_NE(text.find("| 1/1, "), std::string::npos) << text;
+}
+
+// A run to which fault tolerance does nothing is not simulated a second time without it.
+TEST(Plants, WhatARunIsWithoutFaultToleranceIsWhatSuchARunIs) {
+  const CampaignFolder f;
+  const Campaign c = Read(f, Reality("effects = []\ncommissioned = \"no\"\nwithout = true\n"));
+  const RunPlan plan(c);
+  bool left_alone = false;
+  for (std::size_t run = 0; run < c.runs(); ++run) {
+    const PlannedRun p = plan.Make(run);
+    SimulateOptions options;
+    options.record = false;
+    left_alone = left_alone || !Simulate(p.rig, p.scenario, options).interfered;
+    Scenario plain = p.scenario;
+    plain.fault_tolerant = false;
+    const RunResult without = Simulate(p.rig, plain, options);
+    const double orbit =
+        std::max(without.metrics.max_orbit.at("A"), without.metrics.max_orbit.at("B"));
+    const Row row = SimulateRow(plan, run, nullptr);
+    EXPECT_EQ(row.At("orbit_without"), NumberText(orbit)) << run;
+    EXPECT_EQ(row.At("verdict_without"), without.drop        ? "drop"
+                                         : without.touchdown ? "touchdown"
+                                                             : "up")
+        << run;
+  }
+  EXPECT_TRUE(left_alone);
 }
 
 TEST(Plants, TheBoundOfAShareIsClopperAndPearsons) {
