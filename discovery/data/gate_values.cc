@@ -21,6 +21,7 @@ constexpr std::size_t kCoarse = 3;        // readings that a converter repeats u
 constexpr double kClipShare = 0.005;      // of the rows
 constexpr double kFrozenSetPoint = 0.08;  // of the rows
 constexpr double kBeyondFloors = 5;       // floors by which the prediction passes the extreme
+constexpr double kWithinShare = 0.25;     // of the rows of a stretch that no limit explains
 
 /// Largest value that the channel can show [SI]; infinity where nothing limits it.
 double LimitOf(const RigParameters& rig, const std::string& channel) {
@@ -100,6 +101,16 @@ std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, std::
   return rows > 0 && beyond > kBeyondFloors * static_cast<double>(rows) ? rows : 0;
 }
 
+/// Whether the prediction lies within the column's own extreme, at which it stands, by several floors for a part of the
+/// stretch: a limit lets go of what comes back.
+bool StandsWhileItComesBack(const GateColumn& c, const HeldStretch& s, double sign) {
+  const auto within = static_cast<double>(std::count_if(
+      c.column.predicted.begin() + static_cast<std::ptrdiff_t>(s.first),
+      c.column.predicted.begin() + static_cast<std::ptrdiff_t>(s.first + s.count),
+      [&](double predicted) { return sign * (s.value / c.floor - predicted) > kBeyondFloors; }));
+  return within > kWithinShare * static_cast<double>(s.count);
+}
+
 void Held(const CaseRecord& r, const std::string& channel, const HeldStretch& s,
           std::vector<DataFault>& out) {
   DataFault f;
@@ -160,7 +171,8 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
     // a force at its limit holds single set-points for some rows
     if (set_point && static_cast<double>(s.count) < kFrozenSetPoint * static_cast<double>(y.size()))
       continue;
-    if (s.value != 0 && (s.value == *low || s.value == *high)) continue;
+    const double extreme = s.value == *high ? 1 : s.value == *low ? -1 : 0;
+    if (s.value != 0 && extreme != 0 && !StandsWhileItComesBack(c, s, extreme)) continue;
     Held(r, c.name, s, out);
     c.explained = true;
   }

@@ -15,13 +15,25 @@ namespace {
 
 using Samples = std::vector<double>;
 
-constexpr double kLate = 0.02;    // [s]
-constexpr double kLost = 0.08;    // of the record
-constexpr double kFrozen = 0.15;  // of the record
+constexpr double kLate = 0.02;          // [s]
+constexpr double kLost = 0.08;          // of the record
+constexpr double kFrozen = 0.15;        // of the record
+constexpr double kTimesUsualStep = 20;  // from row to row: noise reaches four of them
 
 double Movement(const Samples& y) {
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   return y.empty() ? 0 : *high - *low;
+}
+
+/// Whether a column shows more than noise about zero: what is done to that cannot be seen, and does no harm.
+bool ShowsSomething(const Samples& y) {
+  Samples steps;
+  for (std::size_t k = 1; k < y.size(); ++k) steps.push_back(std::abs(y[k] - y[k - 1]));
+  if (steps.empty()) return false;
+  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  const auto [low, high] = std::minmax_element(y.begin(), y.end());
+  return std::max(*high, -*low) > kTimesUsualStep * *middle;
 }
 
 Channel& Moving(CaseRecord& r, const std::string& wanted, std::uint64_t seed) {
@@ -30,7 +42,7 @@ Channel& Moving(CaseRecord& r, const std::string& wanted, std::uint64_t seed) {
     if (!wanted.empty() && c.name == wanted) return c;
     const bool reading = IsOfKind(c.name, ChannelKind::kReading),
                current = IsOfKind(c.name, ChannelKind::kCoilCurrent);
-    if ((reading || current) && Movement(c.samples) > 0) all.push_back(&c);
+    if ((reading || current) && ShowsSomething(c.samples)) all.push_back(&c);
   }
   if (!wanted.empty() || all.empty())
     throw InputError(fmt::format("{}: no such column in {}", wanted, r.data_file));

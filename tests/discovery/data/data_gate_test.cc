@@ -187,6 +187,19 @@ TEST(DataGate, AFrozenReadingIsFoundWhereEveryReadingIsRepeated) {
   }
 }
 
+// The top of a ramp is the column's own extreme: a logger that freezes there does not stand at a limit.
+TEST(DataGate, AFreezeAtTheTopOfARampIsNoLimit) {
+  Case c = Measured();
+  std::vector<double>& i = SamplesOf(c, kClampedRecord, "A.i6");
+  const auto top = std::max_element(i.begin(), i.end());
+  ASSERT_GT(i.end() - top, 200);
+  std::fill_n(top, 200, *top);
+  const auto faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "freeze") << FaultText(faults[0]);
+  EXPECT_EQ(faults[0].channel, "A.i6");
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, DataGateFinds,
     ::testing::Values(Mistake{kStepRecord, "unit", "A.x"}, Mistake{kStepRecord, "unit", "B.i3"},

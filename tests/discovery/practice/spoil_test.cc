@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/math/noise.h"
 #include "tests/discovery/measured_case.h"
 
 namespace ambrig {
@@ -116,6 +117,17 @@ TEST_F(SpoilTest, TheSeedDrawsTheChannel) {
     other = other || Spoil(again, 1, {"sign", ""}, seed) != first;
   }
   EXPECT_TRUE(other);
+}
+
+// What is done to a column of nothing but noise is no mistake that could be seen.
+TEST_F(SpoilTest, AColumnOfNoiseIsNotDrawn) {
+  Case quiet = clean_;
+  for (std::size_t k = 0; k < 400; ++k)
+    quiet.records[1].data.channels[0].samples[k] = 1e-3 * Normal(11, 3, k);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Case again = quiet;
+    EXPECT_THAT(Spoil(again, 1, {"sign", ""}, seed), ::testing::Not(HasSubstr("A.x")));
+  }
 }
 
 TEST_F(SpoilTest, WhatCannotBeDoneIsRefused) {
