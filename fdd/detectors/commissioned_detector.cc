@@ -209,6 +209,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   const int coil =
       static_cast<int>(std::max_element(ratio_.v, ratio_.v + filter_.nominal().coils) - ratio_.v);
   out.alarm = ratio_[coil] > 1;
+  if (!out.alarm) waited_ = 0;
   CountStreaks(in);
   if (!out.alarm || streak_[coil] < static_cast<int>(kInARow)) return out;
   out.excess = RecentExcess(coil);
@@ -217,6 +218,10 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
     out.decided = out.turns > 0 || Decided(coil, out.excess);
     if (!out.decided) return out;
     out.diagnosis = Classify(coil, out.excess, in.t);
+    if (out.turns == 0 && AwaitsCompanion(out.diagnosis, out.excess)) {
+      out.decided = false;
+      return out;
+    }
     if (out.turns == 0) out.more = Companions(coil, out.excess, in.t);
   }
   if (out.decided && out.turns == 0 && ShortedAgain(out.diagnosis)) {

@@ -179,6 +179,9 @@ class CommissionedDetector : public CoilDetector {
   /// Whether turns were lost on the same thrust core a short time ago. Two windings of one flux that are named in turns say
   /// that the model errs.
   bool ShortedAgain(const Diagnosis& d) const;
+  /// Whether a small short is not named yet, because another coil is about to stand out as much: of two that lost turns
+  /// at one instant each hides a part of the other, and after the first is named the windows of the second begin anew.
+  bool AwaitsCompanion(const Diagnosis& d, double excess);
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(int decided, double excess, double time) const;
   bool Decided(int coil, double excess) const;
@@ -222,6 +225,7 @@ class CommissionedDetector : public CoilDetector {
   long long steady_ = 0;          // undisturbed periods in a row, until then
   Lane streak_, onset_;           // periods in a row that a coil was suspect; since [s]
   Lane dead_, dead_since_;        // periods in a row without current though driven; since [s]
+  int waited_ = 0;                // periods for a companion, since nothing stood out
   int paused_ = 8;
   long long count_ = 0;
 };

@@ -13,9 +13,11 @@ constexpr double kReversed = -1.2;     // c of a phase: the bridge drives the ot
 constexpr int kMissedTwice = 2;        // periods in a row
 constexpr double kMostRegained = 0.9;  // |c|
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
-constexpr double kLeastLost = 0.1;      // of the turns, for coils that fail at once
-constexpr long long kOnOneCore = 2500;  // periods after turns were lost on one core: more of them
-constexpr int kWindowOfJoint = 1;       // of three periods: what healthy running leaves in as many
+constexpr double kLeastLost = 0.1;        // of the turns, for coils that fail at once
+constexpr long long kOnOneCore = 2500;    // periods after turns were lost on one core: more of them
+constexpr int kMostWaited = 10;           // periods, for another coil
+constexpr double kAboutToStandOut = 0.5;  // of its band
+constexpr int kWindowOfJoint = 1;  // of three periods: what healthy running leaves in as many
 
 }  // namespace
 
@@ -98,6 +100,21 @@ bool CommissionedDetector::ShortedAgain(const Diagnosis& d) const {
     if (SharesCore(j, d.coil) && share_[j] > 0 && share_[j] < 1 &&
         count_ - share_taken_[j] < kOnOneCore)
       return true;
+  return false;
+}
+
+bool CommissionedDetector::AwaitsCompanion(const Diagnosis& d, double excess) {
+  if (d.cls != FaultClass::kPartialShort || excess < 0 || excess > kGross || waited_ >= kMostWaited)
+    return false;
+  for (int j = 0; j < filter_.nominal().coils; ++j) {
+    if (j == d.coil || share_[j] == 0 || SharesCore(j, d.coil) ||
+        streak_[j] >= static_cast<int>(kInARow))
+      continue;
+    if (ratio_[j] > kAboutToStandOut && RecentExcess(j) > kCompanion * excess) {
+      ++waited_;
+      return true;
+    }
+  }
   return false;
 }
 

@@ -181,6 +181,20 @@ TEST(CommissionedDecisions, AFaultAfterAnotherIsFoundBesideIt) {
   }
 }
 
+// Two coils that lose few turns at one instant are named together: a coil that stands out first waits for the other,
+// whose windows would begin anew after it. A healthy neighbour keeps no coil waiting.
+TEST(CommissionedDecisions, TwoSmallShortsAtOneInstantAreNamedTogether) {
+  for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()})
+    for (const int other : {2, 3, 4, 5}) {
+      const auto seen = Concluded(plant->rig, &plant->bearing,
+                                  Operation(FaultOf(1, "partial-short", "fraction = 0.1") +
+                                            FaultOf(other, "partial-short", "fraction = 0.1")));
+      EXPECT_EQ(seen->Coils(), (std::set<int>{1, other})) << other;
+      ASSERT_EQ(seen->found.size(), 2U) << other;
+      for (const Diagnosis& d : seen->found) EXPECT_LT(d.time - kOnset, 0.5e-3) << other;
+    }
+}
+
 // A step of a sensor's offset has no slope: the reading itself jumps, by more than the current does
 // where eddy currents leave little inductance.
 TEST(CommissionedDecisions, AStepOfACurrentSensorIsNamed) {
