@@ -25,6 +25,9 @@ constexpr double kUniform = 1.35;
 constexpr double kUniformAgrees = 1.1;
 constexpr std::size_t kLeastEstimates = 3;
 constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none is stated
+// Of a code of the ADC, and at most of the trial's noise: with less the errors of its codes are no noise, and may be larger
+// than they are with noise.
+constexpr double kDither = 0.5, kMostDither = 0.5;
 
 using ByChannel = std::map<std::string, std::vector<double>>;
 
@@ -83,8 +86,13 @@ void Choose(ChannelNoise& c, double larger, double smaller = kNoiseAgrees) {
   c.used = agrees || !usable ? (std::isfinite(c.stated) ? c.stated : 0) : c.estimated;
 }
 
+/// Current noise that spreads a reading over the codes of the ADC [A].
+double DitherOf(const AmplifierParameters& a, double trial) {
+  return std::min(kDither * 2 * a.adc_range / std::exp2(a.adc_bits), kMostDither * trial);
+}
+
 /// rms of one ADC sample of a current, of every coil, from the white part of the currents: what
-/// comes through the set-points is taken off.
+/// comes through the set-points and of the ADC's codes is taken off, as a run with little noise shows it.
 void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::vector<double>& clean,
                       NoiseModel& noise) {
   const ByChannel measured = WhiteParts(model, model.measured(), clean, IsCurrent);
@@ -97,7 +105,8 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
     trial_rig.rig.amplifier.current_noise = sample;
     return model.PredictNoisy(trial_rig, 21);
   };
-  const auto with = run(trial), without = run(0);
+  const double dither = DitherOf(h.rig.amplifier, trial), left = std::pow(dither / trial, 2);
+  const auto with = run(trial), without = run(dither);
   if (!with || !without) return;
   const ByChannel own = WhiteParts(model, *with, clean, IsCurrent),
                   loop = WhiteParts(model, *without, clean, IsCurrent);
@@ -111,8 +120,8 @@ void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::ve
                    b = std::pow(loop.at(channel)[k], 2);
       // a record whose white part is the loop's says nothing of the sensor
       if (!(a > 1.3 * b)) continue;
-      factors.push_back(std::sqrt(std::max(0.0, m - b) / (a - b)));
-      sizes.push_back(std::sqrt(a - b));
+      factors.push_back(std::sqrt(std::max(0.0, left + (1 - left) * (m - b) / (a - b))));
+      sizes.push_back(std::sqrt((a - b) / (1 - left)));
     }
     every.insert(every.end(), factors.begin(), factors.end());
     records = std::max(records, factors.size());
