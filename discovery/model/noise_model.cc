@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "core/record/channels.h"
 #include "discovery/data/held_values.h"
@@ -28,6 +29,8 @@ constexpr double kTrial = 1e-3;  // of the ADC's range: current noise where none
 // Of a code of the ADC, and at most of the trial's noise: with less the errors of its codes are no noise, and may be larger
 // than they are with noise.
 constexpr double kDither = 0.5, kMostDither = 0.5;
+constexpr int kMostTrials = 3;  // of another current noise than stated
+constexpr double kNear = 0.1;   // of the noise tried
 
 using ByChannel = std::map<std::string, std::vector<double>>;
 
@@ -91,57 +94,87 @@ double DitherOf(const AmplifierParameters& a, double trial) {
   return std::min(kDither * 2 * a.adc_range / std::exp2(a.adc_bits), kMostDither * trial);
 }
 
-/// rms of one ADC sample of a current, of every coil, from the white part of the currents: what
-/// comes through the set-points and of the ADC's codes is taken off, as a run with little noise shows it.
-void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::vector<double>& clean,
-                      NoiseModel& noise) {
-  const ByChannel measured = WhiteParts(model, model.measured(), clean, IsCurrent);
-  if (measured.empty()) return;
-  const double stated = h.rig.amplifier.current_noise;
-  const double trial = stated > 0 ? stated : kTrial * h.rig.amplifier.adc_range;
-  const auto run = [&](double sample) {
-    Hypothesis trial_rig = h;
-    trial_rig.rig = WithNoise(h.rig, noise);
-    trial_rig.rig.amplifier.current_noise = sample;
-    return model.PredictNoisy(trial_rig, 21);
+/// White parts of the currents against those of runs with a noise that is tried.
+struct CurrentTrial {
+  struct Parts {
+    std::vector<double> factors;  // of the records: measured over tried noise [-]
+    double size = 0;              // what the tried noise makes of the channel [A]
   };
-  const double dither = DitherOf(h.rig.amplifier, trial), left = std::pow(dither / trial, 2);
-  const auto with = run(trial), without = run(dither);
-  if (!with || !without) return;
+  std::map<std::string, Parts> channels;
+  std::vector<double> every;  // factors of all channels and records
+  std::size_t records = 0;    // that tell something, of the channel that has most
+
+  double together() const { return MedianOf(every); }
+};
+
+/// With this noise of an ADC sample, and with little: what comes through the set-points and of the ADC's codes is taken
+/// off. Nothing where the rotor is lost.
+std::optional<CurrentTrial> TryCurrentNoise(const CaseModel& model, const Hypothesis& h,
+                                            const NoiseModel& noise, const ByChannel& measured,
+                                            const std::vector<double>& clean, double sample) {
+  const auto run = [&](double rms) {
+    Hypothesis tried = h;
+    tried.rig = WithNoise(h.rig, noise);
+    tried.rig.amplifier.current_noise = rms;
+    return model.PredictNoisy(tried, 21);
+  };
+  const double dither = DitherOf(h.rig.amplifier, sample), left = std::pow(dither / sample, 2);
+  const auto with = run(sample), without = run(dither);
+  if (!with || !without) return std::nullopt;
   const ByChannel own = WhiteParts(model, *with, clean, IsCurrent),
                   loop = WhiteParts(model, *without, clean, IsCurrent);
-  std::vector<double> all, every;  // of each channel; of each channel and record
-  std::size_t records = 0;
-  std::map<std::string, std::pair<std::vector<double>, double>> found;  // factors, size
+  CurrentTrial out;
   for (const auto& [channel, parts] : measured) {
-    std::vector<double> factors, sizes;  // against the trial's, and the trial's in the record
+    CurrentTrial::Parts& found = out.channels[channel];
+    std::vector<double> sizes;
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const double m = std::pow(parts[k], 2), a = std::pow(own.at(channel)[k], 2),
                    b = std::pow(loop.at(channel)[k], 2);
       // a record whose white part is the loop's says nothing of the sensor
       if (!(a > 1.3 * b)) continue;
-      factors.push_back(std::sqrt(std::max(0.0, left + (1 - left) * (m - b) / (a - b))));
+      found.factors.push_back(std::sqrt(std::max(0.0, left + (1 - left) * (m - b) / (a - b))));
       sizes.push_back(std::sqrt((a - b) / (1 - left)));
     }
-    every.insert(every.end(), factors.begin(), factors.end());
-    records = std::max(records, factors.size());
-    found[channel] = {factors, MedianOf(sizes)};
+    found.size = MedianOf(sizes);
+    out.every.insert(out.every.end(), found.factors.begin(), found.factors.end());
+    out.records = std::max(out.records, found.factors.size());
+  }
+  return out;
+}
+
+/// rms of one ADC sample of a current, of every coil, from the white part of the currents. Codes of an ADC do not add to
+/// noise as noise does, so that a noise which is far off is tried again.
+void EstimateCurrents(const CaseModel& model, const Hypothesis& h, const std::vector<double>& clean,
+                      NoiseModel& noise) {
+  const ByChannel measured = WhiteParts(model, model.measured(), clean, IsCurrent);
+  if (measured.empty()) return;
+  const double stated = h.rig.amplifier.current_noise;
+  const double first = stated > 0 ? stated : kTrial * h.rig.amplifier.adc_range;
+  double tried = first;
+  auto trial = TryCurrentNoise(model, h, noise, measured, clean, tried);
+  if (!trial) return;
+  for (int again = 0; again < kMostTrials && std::abs(trial->together() - 1) > kNear; ++again) {
+    const double next = tried * std::clamp(trial->together(), 0.1, 10.0);
+    auto better = TryCurrentNoise(model, h, noise, measured, clean, next);
+    if (!better || better->records < trial->records) break;
+    trial = std::move(better);
+    tried = next;
   }
   // the coils of one record may all miss the same law
-  const bool uniform = records >= kLeastEstimates && AreAlike(every);
-  const double together = MedianOf(every);
+  const bool uniform = trial->records >= kLeastEstimates && AreAlike(trial->every);
+  const double together = trial->together();
   const double larger = uniform ? kUniformAgrees : kCurrentAgrees,
                smaller = uniform ? kUniformAgrees : kNoiseAgrees;
-  for (const auto& [channel, value] : found) {
-    const auto& [factors, size] = value;
-    const double alone = MedianOf(factors);
+  std::vector<double> all;  // of each channel
+  for (const auto& [channel, parts] : trial->channels) {
+    const double alone = MedianOf(parts.factors);
     const bool as_others = uniform && alone < kUniform * together && together < kUniform * alone;
-    const double factor = as_others ? together : uniform ? alone : LowerQuartileOf(factors);
+    const double factor = as_others ? together : uniform ? alone : LowerQuartileOf(parts.factors);
     ChannelNoise& c = noise.channels[channel];
-    if (stated > 0 && std::isnan(c.stated)) c.stated = size;
-    c.estimated = factor * size;
+    if (stated > 0 && std::isnan(c.stated)) c.stated = parts.size * first / tried;
+    c.estimated = factor * parts.size;
     Choose(c, larger, smaller);
-    all.push_back(trial * factor);
+    all.push_back(tried * factor);
   }
   ChannelNoise common;
   common.stated = stated > 0 ? stated : std::nan("");

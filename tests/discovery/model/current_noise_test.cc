@@ -1,0 +1,52 @@
+// The noise of a current sensor, found from records whose rig file states another one.
+#include <gtest/gtest.h>
+
+#include "discovery/model/noise_model.h"
+#include "tests/discovery/data/gate_case.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kTrue = 0.0048;  // A, a quarter of a code of the ADC
+
+/// Clamped ramps and pulses of the reference rig with an ADC of 20 A, whose file states `stated` [A].
+Case ClampedRecords(double stated) {
+  RigParameters rig = testing::RadialRig();
+  rig.amplifier.adc_range = 20;
+  rig.amplifier.adc_bits = 11;
+  rig.amplifier.current_noise = kTrue;
+  std::vector<ExaminationRecord> chosen;
+  for (const ExaminationRecord& r : Examination(rig, 4))
+    if (r.title.starts_with("clamped")) chosen.push_back(r);
+  Case c = EmptyCase(rig, chosen);
+  const CaseModel model(c);
+  Hypothesis truth;
+  truth.rig = rig;
+  for (std::size_t r = 0; r < c.records.size(); ++r) {
+    const Record run = model.Simulated(truth, r, true, 70 + r);
+    for (Channel& ch : c.records[r].data.channels) {
+      const auto& from = run.Find(ch.name)->samples;
+      std::copy_n(from.begin(), std::min(from.size(), ch.samples.size()), ch.samples.begin());
+    }
+  }
+  c.rig.amplifier.current_noise = stated;
+  return c;
+}
+
+// Readings without noise stand on one code or jump between two: that is no noise which could be taken off.
+TEST(EstimateNoise, OfCurrentsThatAreReadInCoarseCodes) {
+  for (const double stated : {0.008, 0.016}) {
+    const Case c = ClampedRecords(stated);
+    const CaseModel model(c);
+    const NoiseModel noise = EstimateNoise(model, Hypothesis::Base(c.rig));
+    EXPECT_NEAR(noise.current_sample, kTrue, 0.15 * kTrue) << stated;
+    for (const auto& [name, channel] : noise.channels)
+      if (name.find(".i") != std::string::npos) {
+        EXPECT_NEAR(channel.estimated / channel.stated, kTrue / stated, 0.25 * kTrue / stated)
+            << name;
+      }
+  }
+}
+
+}  // namespace
+}  // namespace ambrig
