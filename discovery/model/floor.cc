@@ -116,7 +116,10 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
     double square = 0.5 * (a * a + b * b);
     // load cells: noise of their own
     const bool reader_noise = id->kind == ChannelKind::kLoadCell;
-    if (const double used = model.noise_model.Used(channel); std::isfinite(used))
+    // A current's noise is that of the runs, which differs from record to record: of one reading, or of the mean of many.
+    const bool of_runs =
+        id->kind == ChannelKind::kCoilCurrent && !model.data().noise.contains(channel);
+    if (const double used = model.noise_model.Used(channel); std::isfinite(used) && !of_runs)
       square = reader_noise ? square + used * used : std::max(square, used * used);
     t.floor = std::max(std::sqrt(square), Resolution(h.rig, id->row(), t.full_scale));
   }
