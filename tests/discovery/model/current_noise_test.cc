@@ -1,6 +1,7 @@
-// The noise of a current sensor, found from records whose rig file states another one.
+// The noise of a current sensor, found from records whose rig file states another one, and the floors that it makes.
 #include <gtest/gtest.h>
 
+#include "discovery/model/floor.h"
 #include "discovery/model/noise_model.h"
 #include "tests/discovery/data/gate_case.h"
 
@@ -46,6 +47,28 @@ TEST(EstimateNoise, OfCurrentsThatAreReadInCoarseCodes) {
             << name;
       }
   }
+}
+
+/// Floor of A.i1 in the records with single readings and in those with the means of a period's [A].
+std::pair<double, double> FloorsOfACurrent(const Case& c) {
+  CaseModel model(c);
+  const Hypothesis h = Hypothesis::Base(c.rig);
+  model.noise_model = EstimateNoise(model, h);
+  FindFloor(model, h);
+  double single = 0, mean = 0;
+  for (const Target& t : model.targets()) {
+    const CaseRecord& r = model.data().records[t.record];
+    if (r.data.channels[t.channel].name != "A.i1") continue;
+    (r.data_file == "clamped, current pulses" ? single : mean) = t.floor;
+  }
+  return {single, mean};
+}
+
+// 18 readings have a mean whose noise is a quarter of theirs: one number a channel would be too large for the means.
+TEST(Floor, OfACurrentIsThatOfItsRecord) {
+  const auto [single, mean] = FloorsOfACurrent(ClampedRecords(kTrue));
+  EXPECT_GT(single, kTrue);
+  EXPECT_LT(mean, 0.5 * single);
 }
 
 }  // namespace
