@@ -66,7 +66,12 @@ std::pair<double, double> FloorsOfACurrent(const Case& c) {
 
 // 18 readings have a mean whose noise is a quarter of theirs: one number a channel would be too large for the means.
 TEST(Floor, OfACurrentIsThatOfItsRecord) {
-  const auto [single, mean] = FloorsOfACurrent(ClampedRecords(kTrue));
+  Case c = ClampedRecords(kTrue);
+  std::erase_if(c.records, [](const CaseRecord& r) {
+    return r.data_file.find("off centre") != std::string::npos;
+  });
+  ASSERT_EQ(c.records.size(), 2U);
+  const auto [single, mean] = FloorsOfACurrent(c);
   EXPECT_GT(single, kTrue);
   EXPECT_LT(mean, 0.5 * single);
 }
