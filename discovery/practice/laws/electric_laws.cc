@@ -1,6 +1,6 @@
-/// Amplifiers and supplies: an offset whose size depends on the current, drops of one coil that
-/// depend on its current, current sensors with an error of two kinds at once, a source that is
-/// slower than the catalogue's beside a dead time.
+/// Amplifiers and supplies: an offset that depends on the current as the voltage of a junction does,
+/// current sensors with an error of two kinds at once, a source that is slower than the catalogue's
+/// beside a dead time.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,11 +12,14 @@ namespace ambrig {
 namespace {
 
 std::vector<EffectInstance> OffsetOfCurrent(LawSetting s) {
-  const double u = s.draw.Sign() * 0.5 * s.size, share = s.draw.Between(0.1, 0.35);
+  // A junction's voltage grows with the logarithm of its current. The catalogue's law is a line: offset and resistance.
+  const double u = s.draw.Sign() * 0.5 * s.size, share = s.draw.Between(0.3, 0.9),
+               knee = s.draw.Log(0.3, 2);
   // a formula of a whole bearing knows its coils by number
   const char* current = s.target.find(".coil") == std::string::npos ? "i1" : "i";
-  return {FormulaAt(s.target, {{"voltage", fmt::format("{} * (1 + {} * ({} - 2))", Digits(u),
-                                                       Digits(share), current)}})};
+  return {FormulaAt(s.target,
+                    {{"voltage", fmt::format("{} * (1 + {} * ln(1 + abs({}) / {}))", Digits(u),
+                                             Digits(share), current, Digits(knee))}})};
 }
 
 std::vector<EffectInstance> SensorOfTwoErrors(LawSetting s) {
