@@ -44,6 +44,26 @@ TEST(ThrustWindings, OpensAndShortsAreFoundInTime) {
   }
 }
 
+// An error of the share that a winding has left is in the c of both windings of its side: a loss of the other one is not
+// named for 2500 periods, the model is doubtful instead. The other side is judged as ever.
+TEST(ThrustWindings, NoSecondLossOnOneSideIsNamedSoonAfterTheFirst) {
+  constexpr double kWait = 2500 / 25e3;  // [s]
+  const auto seen = [](int second) {
+    return Concluded(
+        ThrustPlant().rig, &ThrustPlant().bearing,
+        Operation(FaultOf(1, "partial-short", "fraction = 0.4", kOnset, "Z") +
+                      FaultOf(second, "partial-short", "fraction = 0.6", 0.0500077, "Z"),
+                  0.14));
+  };
+  const auto same = seen(2), other = seen(3);
+  ASSERT_EQ(same->Coils(), (std::set<int>{1, 2}));
+  EXPECT_GT(same->found[1].time, same->found[0].time + kWait - 0.5e-4);
+  EXPECT_LT(same->found[1].time, same->found[0].time + kWait + 1e-3);
+  EXPECT_TRUE(same->doubted);
+  ASSERT_EQ(other->Coils(), (std::set<int>{1, 3}));
+  EXPECT_LT(other->found[1].time, 0.0510077);
+}
+
 TEST(ThrustWindings, AHealthyBearingIsLeftAlone) {
   const auto seen = Concluded(ThrustPlant().rig, &ThrustPlant().bearing, Operation("", 0.1));
   EXPECT_TRUE(seen->found.empty());
