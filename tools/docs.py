@@ -99,19 +99,15 @@ def check_pictures():
 
 
 def make_pictures(ambrig, root):
-    browser = shutil.which("chromium")
-    if not browser:
-        print("docs: no chromium, pictures are left as they are")
+    if not shutil.which("chromium") or not (PROJECT / "web/node_modules").is_dir():
+        print("docs: no chromium or no web/node_modules, pictures are left as they are")
         return
     for picture, command, page, width, height in pictures():
         folder = folder_of_work(root)
         subprocess.run(["bash", "-c", command], cwd=folder, env=environment(ambrig),
                        stdout=subprocess.DEVNULL, check=False)
-        subprocess.run([browser, "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
-                        f"--user-data-dir={folder}/profile", f"--window-size={width},{height}",
-                        "--virtual-time-budget=20000",
-                        f"--screenshot={PROJECT}/docs/figures/{picture}", f"file://{folder}/{page}"],
-                       check=True, stderr=subprocess.DEVNULL)
+        subprocess.run(["node", PROJECT / "tools/page_picture.mjs", f"{folder}/{page}",
+                        f"{width}x{height}", PROJECT / "docs/figures" / picture], check=True)
         print(f"docs: docs/figures/{picture} made anew")
 
 
