@@ -13,6 +13,7 @@ namespace ambrig {
 namespace {
 
 constexpr double kResonanceShows = 1.1;  // least ratio at which a later round seeks frequencies
+constexpr double kMost = 0.5;            // of the error above the noise
 constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
 
 /// Whether the linear screening promises at least half of what adoption would ask for, on unseen
@@ -64,6 +65,8 @@ class Ranker {
     FitThePromising();
     Sort();
     FitRivalsOfTheBest();
+    Sort();
+    ContinueTheNext();
     Sort();
     FitToTheEnd();
     Sort();
@@ -129,6 +132,24 @@ class Ranker {
     if (!r.fit.converged) return;
     Note(r);
     ranking_.push_back(std::move(r));
+  }
+
+  /// A short fit may end on the way, and where both the best and the next explain most of the error, which of them it is that
+  /// did says nothing: the next go on while that gains.
+  void ContinueTheNext() {
+    constexpr std::size_t kNext = 2;
+    constexpr int kTimes = 2;
+    for (std::size_t k = 1; k < std::min(ranking_.size(), 1 + kNext); ++k)
+      for (int time = 0; time < kTimes; ++time) {
+        if (ExplainedShare(BothRatios(now_), BothRatios(ranking_[k].fit)) < kMost) break;
+        RankedEffect more = ranking_[k];
+        more.fit = FitShortly(s_.model, now_, more.fit.hypothesis, s_.effective_sample_size);
+        if (!more.fit.converged) break;
+        Note(more);
+        const double gain = ranking_[k].score - more.score;
+        if (gain > 0) ranking_[k] = std::move(more);
+        if (gain < kOpen) break;
+      }
   }
 
   /// The best, and the next where the short fits left it open.
