@@ -13,7 +13,7 @@ namespace ambrig {
 namespace {
 
 constexpr double kResonanceShows = 1.1;  // least ratio at which a later round seeks frequencies
-constexpr double kMost = 0.5;            // of the error above the noise
+constexpr double kRivalExplains = 0.5;   // of the error above the noise
 constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
 
 /// Whether the linear screening promises at least half of what adoption would ask for, on unseen
@@ -141,7 +141,7 @@ class Ranker {
     constexpr int kTimes = 2;
     for (std::size_t k = 1; k < std::min(ranking_.size(), 1 + kNext); ++k)
       for (int time = 0; time < kTimes; ++time) {
-        if (ExplainedShare(BothRatios(now_), BothRatios(ranking_[k].fit)) < kMost) break;
+        if (ExplainedShare(BothRatios(now_), BothRatios(ranking_[k].fit)) < kRivalExplains) break;
         RankedEffect more = ranking_[k];
         more.fit = FitShortly(s_.model, now_, more.fit.hypothesis, s_.effective_sample_size);
         if (!more.fit.converged) break;
