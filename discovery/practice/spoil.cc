@@ -100,9 +100,12 @@ std::string Spoil(Case& c, std::size_t record, const Spoiling& what, std::uint64
   const auto rows = r.data.rows();
   if (what.fault == "scenario") return ExchangeData(c, record);
   if (what.fault == "lag") {
-    for (Channel& ch : r.data.channels)
-      Late(ch.samples, static_cast<std::size_t>(std::lround(kLate * r.data.rate)));
-    return fmt::format("{}: all columns {} s late", r.data_file, kLate);
+    // a burst may be shorter than that
+    const auto late =
+        std::min(static_cast<std::size_t>(std::lround(kLate * r.data.rate)), 2 * rows / 3);
+    for (Channel& ch : r.data.channels) Late(ch.samples, late);
+    return fmt::format("{}: all columns {:.4g} s late", r.data_file,
+                       static_cast<double>(late) / r.data.rate);
   }
   if (what.fault == "lost") {
     const auto from = static_cast<std::ptrdiff_t>(0.45 * static_cast<double>(rows)),
