@@ -260,14 +260,15 @@ Row SimulateRow(const RunPlan& plan, std::size_t run, const std::atomic<bool>* s
     options.record = false;
     options.stop = stop;
     const RunResult result = Simulate(p.rig, p.scenario, options);
-    std::optional<RunResult> plain;
-    if (plan.campaign().without && result.interfered) {
+    RunResult plain;
+    const RunResult* without = plan.campaign().without ? &result : nullptr;
+    if (without && result.interfered) {
       Scenario scenario = p.scenario;
       scenario.fault_tolerant = false;
       plain = Simulate(p.rig, scenario, options);
+      without = &plain;
     }
-    const RunResult* without = plain ? &*plain : &result;
-    const auto outcome = Outcome(plan, p, result, plan.campaign().without ? without : nullptr);
+    const auto outcome = Outcome(plan, p, result, without);
     cells.insert(cells.end(), outcome.begin(), outcome.end());
   } catch (const Interrupted&) {
     throw;

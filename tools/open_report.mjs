@@ -2,19 +2,16 @@
 // figures in sight and for all, which is what they would take on a core without other work.
 //
 //   node tools/open_report.mjs REPORT.html [ATTEMPTS]
-import {existsSync, statSync} from 'node:fs';
-import {createRequire} from 'node:module';
+import {statSync} from 'node:fs';
 import {resolve} from 'node:path';
+import {hasBrowser, launchBrowser} from './browser.mjs';
 
-const require = createRequire(new URL('../web/package.json', import.meta.url));
-const {chromium} = require('playwright-core');
 const [file, attempts = '3'] = process.argv.slice(2);
-const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find(existsSync);
-if (!file || !executablePath) {
+if (!file || !hasBrowser) {
   console.error(file ? 'open_report: no Chromium (tools/setup.sh --tests installs it)' : 'usage: node tools/open_report.mjs REPORT.html [ATTEMPTS]');
   process.exit(2);
 }
-const browser = await chromium.launch({executablePath, args: ['--no-sandbox']});
+const browser = await launchBrowser();
 for (let k = 0; k < Number(attempts); ++k) {
   const page = await browser.newPage({viewport: {width: 1300, height: 900}});
   const session = await page.context().newCDPSession(page);

@@ -46,6 +46,11 @@ int CoilsOf(const RigParameters& rig, const CommissionedBearing& b) {
   return rig.Find(b.name)->coils();
 }
 
+Detectable DetectableOf(const RigParameters& rig, const CommissionedBearing& b, int coil) {
+  return DetectableIn(b, coil, 1 / rig.amplifier.switching_frequency,
+                      ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), coil).own);
+}
+
 Json ScatterJson(const std::vector<ExcessScatter>& scatter) {
   Json out = Json::array();
   for (const ExcessScatter& s : scatter) {
@@ -93,13 +98,6 @@ double RippleInductance(const RigParameters& rig, const CommissionedBearing& b, 
   filter.Period(in, &period);
   return b.coils.gain[coil] * filter.inductances()[coil] * period.own[coil] + b.coils.leakage[coil];
 }
-
-namespace {
-Detectable DetectableOf(const RigParameters& rig, const CommissionedBearing& b, int coil) {
-  return DetectableIn(b, coil, 1 / rig.amplifier.switching_frequency,
-                      ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), coil).own);
-}
-}  // namespace
 
 Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
   Json bearings = Json::array();

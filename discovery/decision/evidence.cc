@@ -46,7 +46,7 @@ Remainder RemainderOf(const CaseModel& model, const std::vector<double>& before,
   std::stable_sort(out.where.begin(), out.where.end(),
                    [](const auto& a, const auto& b) { return a.ratio > b.ratio; });
   if (out.where.size() > kPlaces) out.where.resize(kPlaces);
-  if (closure.floors_after < 1.05 && (out.where.empty() || out.where[0].ratio < 1.3)) {
+  if (closure.floors_after < 1.05 && (out.where.empty() || out.where[0].ratio < kChannelNoise)) {
     out.where.clear();
     out.text = "the noise floor is reached on all records: nothing is left to explain";
     return out;

@@ -8,6 +8,9 @@
 
 namespace ambrig {
 
+/// Ratio of a channel of a record below which its error may be noise, and is no sign of an effect.
+inline constexpr double kChannelNoise = 1.3;
+
 /// A member of the set that holds the right answer with 95 %. `effect` may be "none", "data" or
 /// "unknown"; these have no target.
 struct SetMember {

@@ -13,10 +13,6 @@
 
 namespace ambrig {
 
-namespace {
-constexpr double kNoise = 1.3;  // ratio of a channel of a record: less is no sign of an effect
-}
-
 /// An effect that the last fit leaves without a size goes again.
 void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
   std::size_t sizeless = 0;
@@ -36,10 +32,11 @@ void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
 
 bool Explainer::Finished(const FitResult& now) const {
   // Nothing that an effect could still win (see WorthAdopting), with parameters that can be
-  // believed. An effect of one sensor shows in few channels of many; beside an effect, what is left in some is a detail of its law.
+  // believed. An effect of one sensor shows in few channels of many; beside an effect, what is left
+  // in some is a detail of its law.
   return Believable(now) && now.ratio_validate * now.ratio_validate < 1.025 &&
          now.ratio_fit * now.ratio_fit < 1.04 &&
-         (!out_.adopted.empty() || WorstRatio(model_, now.residual, Which::kAll) < kNoise);
+         (!out_.adopted.empty() || WorstRatio(model_, now.residual, Which::kAll) < kChannelNoise);
 }
 
 /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "actuators/electronics/adc.h"
 #include "core/record/channels.h"
 #include "discovery/data/held_values.h"
 #include "discovery/data/noise_estimate.h"
@@ -91,7 +92,7 @@ void Choose(ChannelNoise& c, double larger, double smaller = kNoiseAgrees) {
 
 /// Current noise that spreads a reading over the codes of the ADC [A].
 double DitherOf(const AmplifierParameters& a, double trial) {
-  return std::min(kDither * 2 * a.adc_range / std::exp2(a.adc_bits), kMostDither * trial);
+  return std::min(kDither * Quantiser(a.adc_bits, a.adc_range).step, kMostDither * trial);
 }
 
 /// White parts of the currents against those of runs with a noise that is tried.

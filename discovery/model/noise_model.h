@@ -40,7 +40,7 @@ RigParameters WithNoise(const RigParameters& rig, const NoiseModel& noise);
 /// between records and prediction (discovery/data/noise_estimate.h). A stated noise is kept when it
 /// agrees with the estimate within a factor of 1.5; else, and where none is stated, the estimate is
 /// used. The noise of coil currents is told from what reaches them through the set-points by two
-/// simulations, with and without. `model` holds all rows. Without a prediction the stated noise is
+/// simulations, with much and with little of it. `model` holds all rows. Without a prediction the stated noise is
 /// returned.
 NoiseModel EstimateNoise(const CaseModel& model, const Hypothesis& h);
 

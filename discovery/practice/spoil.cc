@@ -8,6 +8,7 @@
 #include "core/math/noise.h"
 #include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
+#include "discovery/data/noise_estimate.h"
 
 namespace ambrig {
 
@@ -30,10 +31,8 @@ bool ShowsSomething(const Samples& y) {
   Samples steps;
   for (std::size_t k = 1; k < y.size(); ++k) steps.push_back(std::abs(y[k] - y[k - 1]));
   if (steps.empty()) return false;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::nth_element(steps.begin(), middle, steps.end());
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
-  return std::max(*high, -*low) > kTimesUsualStep * *middle;
+  return std::max(*high, -*low) > kTimesUsualStep * MedianOf(std::move(steps));
 }
 
 Channel& Moving(CaseRecord& r, const std::string& wanted, std::uint64_t seed) {

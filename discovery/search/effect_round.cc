@@ -142,8 +142,9 @@ class Ranker {
     for (std::size_t k = 1; k < std::min(ranking_.size(), 1 + kNext); ++k)
       for (int time = 0; time < kTimes; ++time) {
         if (ExplainedShare(BothRatios(now_), BothRatios(ranking_[k].fit)) < kRivalExplains) break;
-        RankedEffect more = ranking_[k];
-        more.fit = FitShortly(s_.model, now_, more.fit.hypothesis, s_.effective_sample_size);
+        RankedEffect more;
+        more.fit = FitShortly(s_.model, now_, ranking_[k].fit.hypothesis, s_.effective_sample_size);
+        more.screened_ratio = ranking_[k].screened_ratio;
         if (!more.fit.converged) break;
         Note(more);
         const double gain = ranking_[k].score - more.score;

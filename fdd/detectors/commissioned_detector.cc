@@ -218,11 +218,14 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
     out.decided = out.turns > 0 || Decided(coil, out.excess);
     if (!out.decided) return out;
     out.diagnosis = Classify(coil, out.excess, in.t);
-    if (out.turns == 0 && AwaitsCompanion(out.diagnosis, out.excess)) {
-      out.decided = false;
-      return out;
+    if (out.turns == 0) {
+      if (AwaitsCompanion(out.diagnosis, out.excess)) {
+        ++waited_;
+        out.decided = false;
+        return out;
+      }
+      out.more = Companions(coil, out.excess, in.t);
     }
-    if (out.turns == 0) out.more = Companions(coil, out.excess, in.t);
   }
   if (out.decided && out.turns == 0 && ShortedAgain(out.diagnosis)) {
     out.decided = false;

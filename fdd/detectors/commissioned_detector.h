@@ -181,7 +181,7 @@ class CommissionedDetector : public CoilDetector {
   bool ShortedAgain(const Diagnosis& d) const;
   /// Whether a small short is not named yet, because another coil is about to stand out as much: of two that lost turns
   /// at one instant each hides a part of the other, and after the first is named the windows of the second begin anew.
-  bool AwaitsCompanion(const Diagnosis& d, double excess);
+  bool AwaitsCompanion(const Diagnosis& d, double excess) const;
   /// Other coils whose own c is as gross as that of the coil that was decided.
   std::vector<Diagnosis> Companions(int decided, double excess, double time) const;
   bool Decided(int coil, double excess) const;

@@ -103,17 +103,14 @@ bool CommissionedDetector::ShortedAgain(const Diagnosis& d) const {
   return false;
 }
 
-bool CommissionedDetector::AwaitsCompanion(const Diagnosis& d, double excess) {
+bool CommissionedDetector::AwaitsCompanion(const Diagnosis& d, double excess) const {
   if (d.cls != FaultClass::kPartialShort || excess < 0 || excess > kGross || waited_ >= kMostWaited)
     return false;
   for (int j = 0; j < filter_.nominal().coils; ++j) {
     if (j == d.coil || share_[j] == 0 || SharesCore(j, d.coil) ||
         streak_[j] >= static_cast<int>(kInARow))
       continue;
-    if (ratio_[j] > kAboutToStandOut && RecentExcess(j) > kCompanion * excess) {
-      ++waited_;
-      return true;
-    }
+    if (ratio_[j] > kAboutToStandOut && RecentExcess(j) > kCompanion * excess) return true;
   }
   return false;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "actuators/electronics/adc.h"
 #include "fdd/learning/commissioning_file.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"
@@ -49,7 +50,7 @@ DetectorSettings DetectorSettingsOf(const NominalRig& nominal, const BearingPara
   s.sampling.samples = rig.samples_per_period();
   s.sampling.step = 1 / (a.switching_frequency * s.sampling.samples);
   s.sampling.amplifier = &rig.amplifier;
-  const double quantum = 2 * a.adc_range / std::exp2(a.adc_bits);
+  const double quantum = Quantiser(a.adc_bits, a.adc_range).step;
   s.current_noise = std::hypot(a.current_noise, quantum / std::sqrt(12.0));
   s.current_quantum = quantum;
   s.adc_limit = a.adc_range - 2 * quantum;

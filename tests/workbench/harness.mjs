@@ -6,13 +6,12 @@ import {existsSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync}
 import {createRequire} from 'node:module';
 import {tmpdir} from 'node:os';
 import {dirname, join, resolve} from 'node:path';
+import {hasBrowser, launchBrowser} from '../../tools/browser.mjs';
 
 const [ambrig, source, screenshots] = process.argv.slice(2).map((p) => resolve(p));
 const require = createRequire(join(source, 'web', 'package.json'));
-const {chromium} = require('playwright-core');
 const axe = readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8');
-const browserFile = ['/usr/bin/chromium', '/usr/bin/chromium-browser'].find(existsSync);
-if (!browserFile) {
+if (!hasBrowser) {
   console.log('no Chromium (tools/setup.sh --tests installs it)');
   process.exit(77);
 }
@@ -91,7 +90,7 @@ export async function drawn(page, label) {
 /** A browser whose page uses the files of the source folder when AMBRIG_PAGE is set. */
 export async function openBrowser(address, options = {}) {
   // bypassCSP would hide violations; axe comes by evaluate, which the policy does not forbid.
-  const browser = await chromium.launch({executablePath: browserFile, args: ['--no-sandbox']});
+  const browser = await launchBrowser();
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, colorScheme: 'light', acceptDownloads: true, ...options});
   const page = await context.newPage();
   page.on('console', (m) => m.type() === 'error' && problems.push(`console: ${m.text()}`));

@@ -20,20 +20,9 @@ inline RigParameters RadialRig() {
   return rig;
 }
 
-/// Two records as a logger writes them: steps at rest, and clamped current ramps; with `third` one more.
-inline Case Measured(const std::vector<EffectInstance>& effects = {}, double mass_shift = 0,
-                     const std::string& third = "") {
-  std::vector<ExaminationRecord> chosen;
-  for (const ExaminationRecord& r : Examination(RadialRig(), 4))
-    if (r.title == "steps of reference and load at rest" || r.title == "clamped, current ramps" ||
-        r.title == third)
-      chosen.push_back(r);
-  Case c = EmptyCase(RadialRig(), chosen);
+/// `c` with what this truth does in its records, noise of another seed included.
+inline Case MeasuredBy(const Hypothesis& truth, Case c) {
   const CaseModel model(c);
-  Hypothesis truth;
-  truth.rig = RadialRig();
-  truth.rig.rotor.mass += mass_shift;
-  truth.rig.effects = effects;
   for (std::size_t r = 0; r < c.records.size(); ++r) {
     const Record run = model.Simulated(truth, r, true, 70 + r);
     for (Channel& ch : c.records[r].data.channels) {
@@ -42,6 +31,21 @@ inline Case Measured(const std::vector<EffectInstance>& effects = {}, double mas
     }
   }
   return c;
+}
+
+/// Two records as a logger writes them: steps at rest, and clamped current ramps; with `third` one more.
+inline Case Measured(const std::vector<EffectInstance>& effects = {}, double mass_shift = 0,
+                     const std::string& third = "") {
+  std::vector<ExaminationRecord> chosen;
+  for (const ExaminationRecord& r : Examination(RadialRig(), 4))
+    if (r.title == "steps of reference and load at rest" || r.title == "clamped, current ramps" ||
+        r.title == third)
+      chosen.push_back(r);
+  Hypothesis truth;
+  truth.rig = RadialRig();
+  truth.rig.rotor.mass += mass_shift;
+  truth.rig.effects = effects;
+  return MeasuredBy(truth, EmptyCase(RadialRig(), chosen));
 }
 
 inline std::vector<DataFault> FaultsOf(const Case& c) {
