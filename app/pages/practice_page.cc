@@ -20,6 +20,7 @@ std::string KindText(const std::string& kind) {
   if (kind == "all") return "all cases";
   if (kind == "one") return "one effect";
   if (kind == "two") return "two effects";
+  if (kind == "three") return "three effects";
   if (kind == "unknown") return "physics outside the catalogue";
   return kind == "nothing" ? "no effect" : "wrong data";
 }

@@ -31,10 +31,10 @@ constexpr double kMostNoise = 4;  // that laws may make of the noise of a channe
 /// Streams of random numbers of one case.
 enum PracticeStream : std::uint32_t { kChoice = 201, kLaw = 210, kMistake = 230 };
 
-// 9 one, 3 two, 2 unknown, 2 nothing, 4 data
-const char* const kKinds[] = {"one", "two",  "data",    "one", "unknown", "one",     "nothing",
-                              "one", "two",  "data",    "one", "one",     "unknown", "one",
-                              "two", "data", "nothing", "one", "data",    "one"};
+// 9 one, 2 two, 1 three, 2 unknown, 2 nothing, 4 data
+const char* const kKinds[] = {"one", "two",   "data",    "one", "unknown", "one",     "nothing",
+                              "one", "three", "data",    "one", "one",     "unknown", "one",
+                              "two", "data",  "nothing", "one", "data",    "one"};
 constexpr std::size_t kPeriod = std::size(kKinds);
 const char* const kMistakes[] = {"unit",   "sign", "lag",   "swap",    "clip",
                                  "freeze", "lost", "range", "scenario"};
@@ -116,11 +116,16 @@ class PracticeMaker {
     if (out_.kind == "one") wanted = {&LawNumber(ordinal, true)};
     if (out_.kind == "two")
       wanted = {&LawNumber(2 * ordinal + 3, true), &LawNumber(3 * ordinal + 14, true)};
+    if (out_.kind == "three")
+      wanted = {&LawNumber(2 * ordinal + 5, true), &LawNumber(3 * ordinal + 9, true),
+                &LawNumber(5 * ordinal + 17, true)};
     if (out_.kind == "unknown") wanted = {&LawNumber(ordinal, false)};
     // half of the wrong data come from rigs with an effect
     if (out_.kind == "data" && ordinal % 2 == 1) wanted = {&LawNumber(ordinal + 5, true)};
     for (const PracticeLaw* law : wanted) {
-      if (!laws_.empty() && laws_[0].law->effect == law->effect) continue;
+      if (std::any_of(laws_.begin(), laws_.end(),
+                      [&](const ChosenLaw& other) { return other.law->effect == law->effect; }))
+        continue;
       const std::vector<std::string> targets = TargetsOfLaw(*law, believed_);
       if (targets.empty()) throw InputError(law->id + ": this rig has no target for this law");
       laws_.push_back({law, targets[choice_.Of(targets.size())]});
@@ -155,7 +160,7 @@ class PracticeMaker {
     }
     truth_.rig.effects = all;
     if (laws_.size() > 1 && !model.Predict(truth_))
-      throw InputError(out_.name + ": the two laws together lose the rotor");
+      throw InputError(out_.name + ": the laws together lose the rotor");
     if (!laws_.empty()) RequireCalm(model);
   }
 

@@ -17,7 +17,7 @@ struct PracticeRig {
 
 struct PracticeCase {
   std::string name;       // "case-0007"
-  std::string kind;       // one | two | unknown | nothing | data
+  std::string kind;       // one | two | three | unknown | nothing | data
   std::string rig;        // name, with ", other size" where sizes are drawn
   std::string noise;      // stated | not stated | wrongly stated
   std::string nuisances;  // none | declared | not declared
@@ -33,8 +33,8 @@ struct PracticeCase {
   std::string rig_text, case_text, answer_text;  // of rig.toml, case.toml, answers
 };
 
-/// Kind of case number `number` (0: first): of 20 cases 9 have one effect, 3 two, 2 physics outside the
-/// catalogue, 2 nothing, 4 wrong data.
+/// Kind of case number `number` (0: first): of 20 cases 9 have one effect, 2 two, 1 three, 2 physics outside
+/// the catalogue, 2 nothing, 4 wrong data.
 std::string KindOfPracticeCase(std::size_t number);
 
 /// "case-0007"

@@ -26,8 +26,8 @@ struct PracticeResult {
 
 PracticeResult ResultOf(const PracticeCase& c, const Explanation& e);
 
-/// Whether a member ("quiet", "none" and "parameters" are one) is a right answer. Of two effects
-/// either one is.
+/// Whether a member ("quiet", "none" and "parameters" are one) is a right answer. Of several
+/// effects each one is.
 bool IsRightAnswer(const Answer& answer, const std::string& effect, const std::string& target);
 
 /// A result with the probabilities of a calibration, or as computed (nullptr).
