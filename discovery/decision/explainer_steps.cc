@@ -55,21 +55,17 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   rounds_.emplace_back();
   for (const RankedEffect& r : ranking)
     rounds_.back().push_back({r.effect, r.probability, r.fit.ratio_fit});
-  const auto sized = [](const RankedEffect& r) {
-    return HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1);
-  };
-  auto best = ranking.begin();
-  if (ranking.empty() || !sized(*best) ||
-      !WorthAdopting(now, best->fit, Gain(now, best->fit), round + (differ ? 1 : 0), first_fall_)) {
-    best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
-      return round > 0 && sized(r) && ExplainsItsChannels(model_, now, r.fit, Gain(now, r.fit));
-    });
-    if (best == ranking.end()) return false;
-    of_own_channels_.push_back(Named(best->effect));
-  }
-  if (round == 0)
-    first_fall_ = std::max(first_fall_, now.ratio_validate * now.ratio_validate -
-                                            best->fit.ratio_validate * best->fit.ratio_validate);
+  bool worth = false;
+  const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
+    if (!HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return false;
+    const double gain = Gain(now, r.fit);
+    worth = WorthAdopting(now, r.fit, gain, round + (differ ? 1 : 0), first_fall_);
+    return worth || ExplainsItsChannels(model_, now, r.fit, gain, round == 0);
+  });
+  if (best == ranking.end()) return false;
+  if (!worth) of_own_channels_.push_back(Named(best->effect));
+  first_fall_ = std::max(first_fall_, now.ratio_validate * now.ratio_validate -
+                                          best->fit.ratio_validate * best->fit.ratio_validate);
   // Only the best were fitted to the end.
   now = best->fit.jacobian.size() > 0
             ? best->fit
@@ -185,7 +181,7 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
     FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
     const double gain = Gain(without, now);
     if (WorthAdopting(without, now, gain, 1, 0) ||
-        ExplainsItsChannels(model_, without, now, gain)) {
+        ExplainsItsChannels(model_, without, now, gain, false)) {
       ++drop;
       continue;
     }

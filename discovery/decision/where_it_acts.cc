@@ -13,10 +13,15 @@ namespace ambrig {
 namespace {
 
 constexpr double kMostOfTheFall = 0.8;  // of all channels' falls, by those where it acts
-constexpr double kLeastBefore = 1.3;    // ratio there: less may be anything
-constexpr double kExplained = 0.8, kExplainedUnseen = 0.6;  // of the error there
-constexpr double kShows = 1.15;    // ratio from which unseen records have a say
-constexpr double kLeastGain = 40;  // of the score
+constexpr double kShows = 1.15;         // ratio from which unseen records have a say
+
+/// What an effect has to explain of the error of its channels.
+struct Demand {
+  double before;             // least ratio there: less may be anything
+  double explained, unseen;  // of the error there
+  double gain;               // of the score
+};
+constexpr Demand kNearlyAll = {1.3, 0.8, 0.6, 40}, kAll = {1.1, 0.9, 0.85, 90};
 
 /// Sums over the channel of one name, in fitted and unseen records.
 struct ChannelSums {
@@ -71,11 +76,14 @@ LocalShare ShareWhereItActs(const CaseModel& model, const FitResult& before,
 }
 
 bool ExplainsItsChannels(const CaseModel& model, const FitResult& before, const FitResult& after,
-                         double score_gain) {
-  if (!after.converged || !Believable(after) || score_gain < kLeastGain) return false;
+                         double score_gain, bool first) {
+  if (!after.converged || !Believable(after)) return false;
   const LocalShare share = ShareWhereItActs(model, before, after);
-  return share.before > kLeastBefore && share.explained > kExplained &&
-         (!share.seen_there || share.unseen > kExplainedUnseen);
+  const auto meets = [&](const Demand& d) {
+    return score_gain > d.gain && share.before > d.before && share.explained > d.explained &&
+           (!share.seen_there || share.unseen > d.unseen);
+  };
+  return meets(kAll) || (!first && meets(kNearlyAll));
 }
 
 }  // namespace ambrig

@@ -17,8 +17,9 @@ LocalShare ShareWhereItActs(const CaseModel& model, const FitResult& before,
                             const FitResult& after);
 
 /// Whether `after`, one more effect, explains nearly all that is left where it acts, by more than
-/// chance: `score_gain` as WorthAdopting.
+/// chance: `score_gain` as WorthAdopting. Of the `first` effect more is asked, as the rig's parameters have not made room
+/// for what else is missing.
 bool ExplainsItsChannels(const CaseModel& model, const FitResult& before, const FitResult& after,
-                         double score_gain);
+                         double score_gain, bool first);
 
 }  // namespace ambrig

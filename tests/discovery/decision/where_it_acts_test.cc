@@ -39,7 +39,7 @@ TEST(ShareWhereItActs, IsOfTheChannelsWhoseErrorFalls) {
   EXPECT_NEAR(share.explained, 1, 1e-12);
   EXPECT_TRUE(share.seen_there);
   EXPECT_NEAR(share.unseen, (9 - 2.25) / (9 - 1), 1e-12);
-  EXPECT_TRUE(ExplainsItsChannels(c.model, before, after, kPlainGain));
+  EXPECT_TRUE(ExplainsItsChannels(c.model, before, after, kPlainGain, false));
 }
 
 // Four fifths of the fall: here it takes both channels.
@@ -49,26 +49,45 @@ TEST(ShareWhereItActs, IsOfAllChannelsWhereAllFallAlike) {
   const LocalShare share = ShareWhereItActs(c.model, before, after);
   EXPECT_NEAR(share.before, std::sqrt((9.0 + 16) / 2), 1e-12);
   EXPECT_NEAR(share.explained, (9.0 + 16 - 4 - 9) / (9 + 16 - 2), 1e-12);
-  EXPECT_FALSE(ExplainsItsChannels(c.model, before, after, kPlainGain));
+  EXPECT_FALSE(ExplainsItsChannels(c.model, before, after, kPlainGain, false));
 }
 
 TEST(ShareWhereItActs, UnseenRecordsMayContradict) {
   const LinearCase c(kThreeRecords, 1, 0);
   const FitResult before = WithErrors(c, {3, 4, 3, 4});
-  EXPECT_FALSE(ExplainsItsChannels(c.model, before, WithErrors(c, {1, 4, 2.7, 4}), kPlainGain));
+  EXPECT_FALSE(
+      ExplainsItsChannels(c.model, before, WithErrors(c, {1, 4, 2.7, 4}), kPlainGain, false));
   // Where they show no error they have no say.
   EXPECT_TRUE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 1, 4}), WithErrors(c, {1, 4, 1, 4}),
-                                  kPlainGain));
+                                  kPlainGain, false));
 }
 
 TEST(ShareWhereItActs, LittleErrorOrLittleEvidenceIsNotEnough) {
   const LinearCase c(kThreeRecords, 1, 0);
   const FitResult after = WithErrors(c, {1, 4, 1, 4});
-  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {1.2, 4, 1.2, 4}), after, kPlainGain));
-  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), after, 10));
+  EXPECT_FALSE(
+      ExplainsItsChannels(c.model, WithErrors(c, {1.05, 4, 1.05, 4}), after, kPlainGain, false));
+  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), after, 10, false));
   FitResult lost = after;
   lost.converged = false;
-  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), lost, kPlainGain));
+  EXPECT_FALSE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), lost, kPlainGain, false));
+}
+
+// What is explained to the noise there is an effect of its own, however little stood there and whichever was adopted before;
+// of what is nearly explained the first effect's parameters have not made room for what else is missing.
+TEST(ShareWhereItActs, TheFirstEffectExplainsAllOfItsChannels) {
+  const LinearCase c(kThreeRecords, 1, 0);
+  const FitResult all = WithErrors(c, {1, 4, 1, 4}), nearly = WithErrors(c, {1.5, 4, 1.5, 4});
+  for (const bool first : {true, false}) {
+    EXPECT_TRUE(ExplainsItsChannels(c.model, WithErrors(c, {3, 4, 3, 4}), all, kPlainGain, first));
+    EXPECT_TRUE(
+        ExplainsItsChannels(c.model, WithErrors(c, {1.2, 4, 1.2, 4}), all, kPlainGain, first));
+    EXPECT_FALSE(
+        ExplainsItsChannels(c.model, WithErrors(c, {1.05, 4, 1.05, 4}), all, kPlainGain, first));
+  }
+  const FitResult before = WithErrors(c, {3, 4, 3, 4});
+  EXPECT_TRUE(ExplainsItsChannels(c.model, before, nearly, kPlainGain, false));
+  EXPECT_FALSE(ExplainsItsChannels(c.model, before, nearly, kPlainGain, true));
 }
 
 TEST(ShareWhereItActs, OfNothingThatFallsIsNothing) {
