@@ -5,6 +5,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/model/floor.h"
+#include "discovery/model/record_rows.h"
 
 namespace ambrig {
 
@@ -15,17 +16,9 @@ BlockErrors BlockRatios(const CaseModel& model, const Hypothesis& h, std::size_t
   noisy.rig = WithNoise(h.rig, model.noise_model);
   CaseRecord own = r;
   const Record simulated = model.Simulated(noisy, record, true, 21);
-  // The model's own noisy record, cut to the rows and channels of the data.
-  const auto shift = static_cast<std::size_t>(std::lround(r.data.start * simulated.rate));
-  const auto stride =
-      static_cast<std::size_t>(std::max(1L, std::lround(simulated.rate / r.data.rate)));
+  own.data = AtRowsOf(r.data, simulated);
   for (Channel& c : own.data.channels) {
-    const Channel* s = simulated.Find(c.name);
-    if (!s) continue;
-    for (std::size_t k = 0; k < c.samples.size(); ++k) {
-      const std::size_t at = shift + k * stride;
-      if (at < s->samples.size()) c.samples[k] = s->samples[at];
-    }
+    if (!simulated.Find(c.name)) continue;
     const auto it = model.data().noise.find(c.name);
     if (it != model.data().noise.end() && IsOfKind(c.name, ChannelKind::kLoadCell))
       for (std::size_t k = 0; k < c.samples.size(); ++k)

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/model/record_rows.h"
 #include "discovery/model/record_traits.h"
 #include "rig/rig_assembly.h"
 #include "simulation/switching/lost_rotor.h"
@@ -234,20 +235,12 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
     return false;  // the motion became infinite: this hypothesis cannot be
   }
   const Record& data = case_.records[record].data;
-  const double ratio = simulated.rate / data.rate;
   for (const Target& t : targets_) {
     if (t.record != record) continue;
     const Channel* channel = simulated.Find(data.channels[t.channel].name);
     if (!channel) continue;
-    const std::vector<double>& y = channel->samples;
-    for (std::size_t k = 0; k < t.count; ++k) {
-      const double at =
-          data.start * simulated.rate + static_cast<double>(sample_[t.first + k]) * ratio;
-      const auto low = static_cast<std::size_t>(std::max(0.0, at + 1e-6));
-      const double part = std::max(0.0, at - static_cast<double>(low));
-      const std::size_t a = std::min(low, y.size() - 1), b = std::min(low + 1, y.size() - 1);
-      out[t.first + k] = part < 1e-5 ? y[a] : y[a] + part * (y[b] - y[a]);
-    }
+    for (std::size_t k = 0; k < t.count; ++k)
+      out[t.first + k] = AtRow(channel->samples, simulated.rate, data, sample_[t.first + k]);
   }
   return true;
 }

@@ -10,6 +10,7 @@
 #include "core/math/fft.h"
 #include "core/record/missing_samples.h"
 #include "discovery/model/magnetic_force.h"
+#include "discovery/model/record_rows.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
 #include "rotor/motion/linear_rotor.h"
@@ -22,10 +23,8 @@ using Series = FreeResponse::Series;
 
 constexpr double kLowest = 20, kHighest = 2500;  // [Hz]
 constexpr double kRelativeError =
-    0.03;  // of reading and answer: magnets and gains of the model err so much
-// of the answer of a free mass, over (w/line)²: a window spreads a line where the answer goes with 1/w²
-constexpr double kLeakage = 8;
-constexpr int kOrders = 3;         // of the speed, where an unbalance and its like may act
+    0.03;                   // of reading and answer: magnets and gains of the model err so much
+constexpr int kOrders = 3;  // of the speed, where an unbalance and its like may act
 constexpr double kOrderLines = 4;  // lines beside an order that a Hann window fills
 
 bool TurnsSteadily(const Scenario& s, double from, double to) {
@@ -42,12 +41,11 @@ bool IsFree(const CaseRecord& r) {
          TurnsSteadily(r.scenario, r.data.start, r.data.TimeAt(r.data.rows() - 1));
 }
 
-/// Amplitudes of the lines of a series without its mean, through a Hann window.
+/// Amplitudes of the lines of a series without its mean, without a window.
 Series LinesOf(std::vector<double> series) {
   const auto n = static_cast<double>(series.size());
   const double mean = std::accumulate(series.begin(), series.end(), 0.0) / n;
-  for (std::size_t k = 0; k < series.size(); ++k)
-    series[k] = (series[k] - mean) * (1 - std::cos(2 * kPi * static_cast<double>(k) / n)) * 2 / n;
+  for (double& v : series) v = (v - mean) * 2 / n;
   return RealFft(series);
 }
 
@@ -82,6 +80,23 @@ std::optional<RecordLines> LinesOfRecord(const Record& data, const RadialBearing
       out.reading[k][side] = LinesOf(reading[k][side]->samples);
   }
   return out;
+}
+
+/// Lines of the model's own record; nullopt where it does not hold its rotor.
+std::optional<RecordLines> OwnLines(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                                    const RadialBearings& bearings) {
+  const Record& data = model.data().records[record].data;
+  std::vector<std::string> channels;
+  for (const Channel& c : data.channels) channels.push_back(c.name);
+  try {
+    return LinesOfRecord(AtRowsOf(data, model.Simulated(h, record, false, 1, channels)), bearings);
+  } catch (const InputError&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::runtime_error&) {
+    return std::nullopt;
+  }
 }
 
 bool NearAnOrder(double w, double speed, double line) {
@@ -138,25 +153,48 @@ std::array<double, 2> NoiseLines(const CaseModel& model, std::size_t record,
   return noise;
 }
 
-/// Appends line k of a record in one direction (turn: +i or -i).
-void AddLine(const RecordLines& lines, std::size_t k, double w, const Eigen::Matrix4cd& shaft,
-             const std::array<double, 2>& noise, double relative, FreeResponse& out) {
-  const std::complex<double> turn(0, out.direction);
-  Eigen::Vector4cd force;
-  for (std::size_t b = 0; b < 2; ++b) {
-    force[static_cast<Eigen::Index>(2 * b)] = lines.force[b][0][k];
-    force[static_cast<Eigen::Index>(2 * b + 1)] = lines.force[b][1][k];
+/// Forces, readings and the model's answer to the forces around one line in one direction, bearing by bearing.
+struct LineOfRecord {
+  std::array<FreeResponse::Neighbours, 2> force, read, model;
+};
+
+/// `shaft` holds the model's answers at the lines k - 1, k and k + 1.
+LineOfRecord LineOf(const RecordLines& lines, std::size_t k,
+                    const std::array<Eigen::Matrix4cd, 3>& shaft, int direction) {
+  const std::complex<double> turn(0, direction);
+  LineOfRecord out;
+  for (std::size_t side = 0; side < 3; ++side) {
+    const std::size_t line = k + side - 1;
+    Eigen::Vector4cd pull;
+    for (std::size_t b = 0; b < 2; ++b) {
+      const auto i = static_cast<Eigen::Index>(2 * b);
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        pull[i + static_cast<Eigen::Index>(axis)] = lines.force[b][axis][line];
+      out.force[b][side] = pull[i] + turn * pull[i + 1];
+      out.read[b][side] = lines.reading[b][0][line] + turn * lines.reading[b][1][line];
+    }
+    const Eigen::Vector4cd answer = shaft[side] * pull;
+    for (std::size_t b = 0; b < 2; ++b) {
+      const auto i = static_cast<Eigen::Index>(2 * b);
+      out.model[b][side] = answer[i] + turn * answer[i + 1];
+    }
   }
-  const Eigen::Vector4cd answer = shaft * force;
-  out.w.push_back(w);
+  return out;
+}
+
+/// Appends line k of a measured record in one direction, less what the model's own record shows there.
+void AddLine(const RecordLines& measured, const RecordLines* own, std::size_t k,
+             const std::array<Eigen::Matrix4cd, 3>& shaft, const std::array<double, 2>& noise,
+             FreeResponse& out) {
+  const LineOfRecord line = LineOf(measured, k, shaft, out.direction);
+  const LineOfRecord known = own ? LineOf(*own, k, shaft, out.direction) : LineOfRecord();
+  out.w.push_back(out.line * static_cast<double>(k));
   for (std::size_t b = 0; b < 2; ++b) {
-    const auto i = static_cast<Eigen::Index>(2 * b);
-    out.force[b].push_back(force[i] + turn * force[i + 1]);
-    const std::complex<double> read = lines.reading[b][0][k] + turn * lines.reading[b][1][k],
-                               model = answer[i] + turn * answer[i + 1];
-    out.missing[b].push_back(read - model);
+    const std::complex<double> reading = Windowed(line.read[b]), answer = Windowed(line.model[b]);
+    out.force[b].push_back(line.force[b]);
+    out.missing[b].push_back(reading - answer - Windowed(known.read[b]) + Windowed(known.model[b]));
     out.scale[b].push_back(
-        std::hypot(noise[b], relative * std::hypot(std::abs(read), std::abs(model))));
+        std::hypot(noise[b], kRelativeError * std::hypot(std::abs(reading), std::abs(answer))));
   }
 }
 
@@ -171,6 +209,7 @@ std::vector<FreeResponse> FreeResponses(const CaseModel& model, const Hypothesis
     if (!IsFree(record)) continue;
     const auto lines = LinesOfRecord(record.data, *bearings);
     if (!lines) continue;
+    const auto own = OwnLines(model, h, r, *bearings);
     const double line = 2 * kPi * record.data.rate / static_cast<double>(record.data.rows()),
                  speed = record.scenario.speed.Speed(record.data.start),
                  highest = std::min(kHighest, 0.4 * record.data.rate);
@@ -180,14 +219,15 @@ std::vector<FreeResponse> FreeResponses(const CaseModel& model, const Hypothesis
     forward.speed = backward.speed = speed;
     forward.line = backward.line = line;
     backward.direction = -1;
-    for (std::size_t k = 1; k < lines->force[0][0].size(); ++k) {
+    const std::size_t count = lines->force[0][0].size();
+    std::vector<Eigen::Matrix4cd> answer(count);
+    for (std::size_t k = 1; k < count; ++k) answer[k] = shaft.At(line * static_cast<double>(k));
+    for (std::size_t k = 2; k + 1 < count; ++k) {
       const double w = line * static_cast<double>(k);
       if (w < 2 * kPi * kLowest || w > 2 * kPi * highest || NearAnOrder(w, speed, line)) continue;
-      const Eigen::Matrix4cd at = shaft.At(w);
-      const double lines_below = w / line,
-                   relative = std::hypot(kRelativeError, kLeakage / (lines_below * lines_below));
-      AddLine(*lines, k, w, at, noise, relative, forward);
-      AddLine(*lines, k, w, at, noise, relative, backward);
+      for (FreeResponse* side : {&forward, &backward})
+        AddLine(*lines, own ? &*own : nullptr, k, {answer[k - 1], answer[k], answer[k + 1]}, noise,
+                *side);
     }
     if (forward.w.empty()) continue;
     out.push_back(std::move(forward));

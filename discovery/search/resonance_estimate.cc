@@ -13,93 +13,161 @@ namespace {
 
 constexpr double kScanFrom = 30, kScanTo = 2000, kScanRatio = 1.02;  // [Hz], of the scan
 constexpr std::array kScannedDamping = {0.01, 0.04};
-constexpr double kApart = 1.12;  // minima nearer than this are one
+constexpr std::array kGyros = {0.0, -0.2, 0.2};  // from which an estimate is refined
+constexpr double kApart = 1.12;                  // minima nearer than this are one
 constexpr double kLeastShare = 0.02;
+// Of what a resonance explains, by the forces: the ends of the records explain any line of another origin.
+constexpr double kLeastForced = 0.05;
+// What is sharper than this part of a line is told from a line of another origin by its ends only.
+constexpr double kSharpest = 0.1;
 
-/// Weighted equations of one sensor, real and imaginary parts below each other.
-struct SensorEquations {
-  Eigen::VectorXd error;       // what the forces' gains and lags leave
-  Eigen::MatrixXd background;  // orthonormal columns of these
-  double before = 0;           // squared sum of `error`
-};
+// Columns of the equations of one sensor in one record and direction, real above imaginary parts: those that no mode
+// changes (the error, gains and lags of both forces, ends of a free mass), and those of a mode (answers to both forces, ends).
+constexpr Eigen::Index kForceColumns = 4, kEndColumns = 4, kAnswerColumns = 2;
+
+/// The products `all` of columns, less what the last `count` columns explain of the others, which alone stay. These may depend
+/// on each other.
+Eigen::MatrixXd WithoutLast(const Eigen::MatrixXd& all, Eigen::Index count) {
+  const Eigen::Index kept = all.rows() - count;
+  const Eigen::VectorXd one_over =
+      all.diagonal().tail(count).cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd last = one_over.asDiagonal() * all.bottomRightCorner(count, count) *
+                               one_over.asDiagonal(),
+                        both = all.topRightCorner(kept, count) * one_over.asDiagonal();
+  return all.topLeftCorner(kept, kept) - both * PseudoinverseOf(last) * both.transpose();
+}
 
 class ResonanceScan {
  public:
   explicit ResonanceScan(const std::vector<FreeResponse>& responses) : responses_(responses) {
-    for (const FreeResponse& r : responses_) lines_ += static_cast<Eigen::Index>(r.w.size());
-    for (std::size_t s = 0; s < 2; ++s) sensors_[s] = EquationsOf(s);
+    double all = 0;
+    for (std::size_t s = 0; s < 2; ++s) {
+      for (const FreeResponse& r : responses_) {
+        fixed_[s].push_back(FixedColumns(r, s));
+        all += fixed_[s].back().col(0).squaredNorm();
+      }
+      before_ += Products(s, nullptr)(0, 0);
+    }
+    constexpr double kRounding = 1e-9;
+    if (before_ < kRounding * all) before_ = 0;
+    for (const FreeResponse& r : responses_) lines_ += r.w.size();
   }
-  Eigen::Index lines() const { return lines_; }
+  std::size_t lines() const { return lines_; }
 
-  /// What is sharper than a line of the records cannot be told from one line of another origin.
   double LeastDamping(double frequency) const {
     double line = 0;
     for (const FreeResponse& r : responses_) line = std::max(line, r.line);
-    return line / (2 * 2 * kPi * frequency);
+    return kSharpest * line / (2 * 2 * kPi * frequency);
   }
 
-  /// Gains and share at this frequency, damping and gyroscopic coupling.
+  /// Gains and shares at this frequency, damping and gyroscopic coupling.
   void Solve(ResonanceEstimate& e) const {
-    double before = 0, explained = 0;
+    double explained = before_, forced = 0;
     for (std::size_t s = 0; s < 2; ++s) {
-      Eigen::MatrixXd a(2 * lines_, 2);
-      const double w0 = 2 * kPi * e.frequency;
-      for (Eigen::Index b = 0; b < 2; ++b)
-        a.col(b) = Column(s, [&](const FreeResponse& r, std::size_t k) {
-          const double w = r.w[k];
-          const std::complex<double> stiffness(w0 * w0 - w * w + r.direction * e.gyro * r.speed * w,
-                                               2 * e.damping * w0 * w);
-          return r.force[static_cast<std::size_t>(b)][k] / stiffness;
-        });
-      const SensorEquations& q = sensors_[s];
-      a -= q.background * (q.background.transpose() * a);
-      const Eigen::Vector2d right = a.transpose() * q.error;
-      const Eigen::Vector2d c = SolveSymmetric(a.transpose() * a, right);
+      const Eigen::Matrix3d p = Products(s, &e);  // answers, error
+      const Eigen::Vector2d right = p.topRightCorner<2, 1>(),
+                            c = SolveSymmetric(p.topLeftCorner<2, 2>(), right);
       e.gains.row(static_cast<Eigen::Index>(s)) = c.transpose();
-      before += q.before;
-      explained += c.dot(right);
+      forced += c.dot(right);
+      explained -= p(2, 2) - c.dot(right);
     }
-    e.share = before > 0 && std::isfinite(explained) ? explained / before : 0;
+    const bool any = before_ > 0 && std::isfinite(explained);
+    e.share = any ? explained / before_ : 0;
+    e.forced = any ? forced / before_ : 0;
   }
 
  private:
-  /// Weighted column of sensor s, whose line k of a response is value(response, k).
-  template <typename Value>
-  Eigen::VectorXd Column(std::size_t s, const Value& value) const {
-    Eigen::VectorXd out(2 * lines_);
-    Eigen::Index row = 0;
-    for (const FreeResponse& r : responses_)
-      for (std::size_t k = 0; k < r.w.size(); ++k, ++row) {
-        const std::complex<double> v = value(r, k) / r.scale[s][k];
-        out[row] = v.real();
-        out[lines_ + row] = v.imag();
-      }
-    return out;
+  using Complex = std::complex<double>;
+
+  /// Line k of a column.
+  static void Set(Eigen::MatrixXd& m, Eigen::Index column, std::size_t k, Complex v) {
+    const Eigen::Index row = static_cast<Eigen::Index>(k);
+    m(row, column) = v.real();
+    m(m.rows() / 2 + row, column) = v.imag();
+  }
+  /// Of a column and the next one, which is i times it: its constant is complex.
+  static void SetBoth(Eigen::MatrixXd& m, Eigen::Index column, std::size_t k, Complex v) {
+    Set(m, column, k, v);
+    Set(m, column + 1, k, Complex(0, 1) * v);
   }
 
-  SensorEquations EquationsOf(std::size_t s) const {
-    SensorEquations q;
-    Eigen::MatrixXd own(2 * lines_, 4);
-    for (std::size_t b = 0; b < 2; ++b) {
-      const auto i = static_cast<Eigen::Index>(2 * b);
-      own.col(i) = Column(s, [&](const FreeResponse& r, std::size_t k) {
-        return r.force[b][k] / (r.w[k] * r.w[k]);
-      });
-      own.col(i + 1) = Column(s, [&](const FreeResponse& r, std::size_t k) {
-        return std::complex<double>(0, 1) * r.force[b][k] / r.w[k];
-      });
+  static double Frequency(const FreeResponse& r, std::size_t k, std::size_t side) {
+    return r.w[k] + (static_cast<double>(side) - 1) * r.line;
+  }
+
+  static Eigen::MatrixXd FixedColumns(const FreeResponse& r, std::size_t s) {
+    Eigen::MatrixXd m(2 * static_cast<Eigen::Index>(r.w.size()), 1 + kForceColumns + kEndColumns);
+    FreeResponse::Neighbours gain, lag, end, drift;
+    for (std::size_t k = 0; k < r.w.size(); ++k) {
+      const double scale = r.scale[s][k];
+      Set(m, 0, k, r.missing[s][k] / scale);
+      for (std::size_t b = 0; b < 2; ++b) {
+        for (std::size_t side = 0; side < 3; ++side) {
+          const double w = Frequency(r, k, side);
+          gain[side] = r.force[b][k][side] / (w * w);
+          lag[side] = Complex(0, 1) * r.force[b][k][side] / w;
+        }
+        Set(m, 1 + 2 * static_cast<Eigen::Index>(b), k, Windowed(gain) / scale);
+        Set(m, 2 + 2 * static_cast<Eigen::Index>(b), k, Windowed(lag) / scale);
+      }
+      for (std::size_t side = 0; side < 3; ++side) {
+        const double w = Frequency(r, k, side);
+        end[side] = 1 / (w * w);
+        drift[side] = 1 / w;
+      }
+      SetBoth(m, 1 + kForceColumns, k, Windowed(end) / scale);
+      SetBoth(m, 3 + kForceColumns, k, Windowed(drift) / scale);
     }
-    own.colwise().normalize();
-    q.background = OrthonormalColumnsOf(own);
-    q.error = Column(s, [&](const FreeResponse& r, std::size_t k) { return r.missing[s][k]; });
-    q.error -= q.background * (q.background.transpose() * q.error);
-    q.before = q.error.squaredNorm();
-    return q;
+    return m;
+  }
+
+  static Eigen::MatrixXd ColumnsOfMode(const FreeResponse& r, std::size_t s,
+                                       const ResonanceEstimate& e) {
+    Eigen::MatrixXd m(2 * static_cast<Eigen::Index>(r.w.size()), kAnswerColumns + kEndColumns);
+    const double w0 = 2 * kPi * e.frequency;
+    FreeResponse::Neighbours end, drift;
+    std::array<FreeResponse::Neighbours, 2> answer;
+    for (std::size_t k = 0; k < r.w.size(); ++k) {
+      for (std::size_t side = 0; side < 3; ++side) {
+        const double w = Frequency(r, k, side);
+        end[side] = 1.0 / Complex(w0 * w0 - w * w + r.direction * e.gyro * r.speed * w,
+                                  2 * e.damping * w0 * w);
+        drift[side] = (w - w0) * end[side];  // w times it is all but w0 times `end`
+        for (std::size_t b = 0; b < 2; ++b) answer[b][side] = r.force[b][k][side] * end[side];
+      }
+      const double scale = r.scale[s][k];
+      for (std::size_t b = 0; b < 2; ++b)
+        Set(m, static_cast<Eigen::Index>(b), k, Windowed(answer[b]) / scale);
+      SetBoth(m, kAnswerColumns, k, Windowed(end) / scale);
+      SetBoth(m, kAnswerColumns + 2, k, Windowed(drift) / scale);
+    }
+    return m;
+  }
+
+  /// Sums over all records and directions of the products of a mode's answers (none with nullptr) and the error of
+  /// sensor s, less what the ends of each record and, in all alike, gains and lags of the forces explain.
+  Eigen::MatrixXd Products(std::size_t s, const ResonanceEstimate* mode) const {
+    const Eigen::Index answers = mode ? kAnswerColumns : 0, kept = answers + 1 + kForceColumns,
+                       ends = (mode ? 2 : 1) * kEndColumns;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(kept, kept);
+    for (std::size_t n = 0; n < responses_.size(); ++n) {
+      const Eigen::MatrixXd& fixed = fixed_[s][n];
+      Eigen::MatrixXd all(fixed.rows(), kept + ends);
+      all.middleCols(answers, fixed.cols()) = fixed;
+      if (mode) {
+        const Eigen::MatrixXd own = ColumnsOfMode(responses_[n], s, *mode);
+        all.leftCols(kAnswerColumns) = own.leftCols(kAnswerColumns);
+        all.rightCols(kEndColumns) = own.rightCols(kEndColumns);
+      }
+      sum += WithoutLast(all.transpose() * all, ends);
+    }
+    return WithoutLast(sum, kForceColumns);
   }
 
   const std::vector<FreeResponse>& responses_;
-  Eigen::Index lines_ = 0;
-  std::array<SensorEquations, 2> sensors_;
+  std::size_t lines_ = 0;
+  std::array<std::vector<Eigen::MatrixXd>, 2> fixed_;  // of each sensor, by response
+  double before_ = 0;                                  // squared error, 0: none beyond rounding
 };
 
 bool HasLargerShare(const ResonanceEstimate& a, const ResonanceEstimate& b) {
@@ -112,6 +180,7 @@ std::vector<ResonanceEstimate> Distinct(std::vector<ResonanceEstimate> all, std:
   std::vector<ResonanceEstimate> out;
   for (const ResonanceEstimate& e : all) {
     if (out.size() >= count || e.share < kLeastShare) break;
+    if (e.forced < kLeastForced * e.share) continue;
     if (std::none_of(out.begin(), out.end(), [&](const ResonanceEstimate& o) {
           return std::abs(std::log(o.frequency / e.frequency)) < std::log(kApart);
         }))
@@ -122,7 +191,7 @@ std::vector<ResonanceEstimate> Distinct(std::vector<ResonanceEstimate> all, std:
 
 /// To the best of the neighbours in frequency, damping and gyroscopic coupling, in steps that halve.
 ResonanceEstimate RefinedEstimate(const ResonanceScan& scan, ResonanceEstimate best) {
-  constexpr int kHalvings = 4, kMoves = 6;
+  constexpr int kHalvings = 6, kMoves = 6;
   double frequency = kScanRatio - 1, damping = 0.8, gyro = 0.1;
   for (int halving = 0; halving < kHalvings; ++halving) {
     for (int move = 0; move < kMoves; ++move) {
@@ -162,8 +231,15 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
       scan.Solve(scanned.back());
     }
   out = Distinct(scanned, count);
-  for (ResonanceEstimate& e : out) e = RefinedEstimate(scan, e);
-  return Distinct(out, count);
+  std::vector<ResonanceEstimate> refined;
+  for (const ResonanceEstimate& e : out)
+    for (const double gyro : kGyros) {
+      refined.push_back(e);
+      refined.back().gyro = gyro;
+      scan.Solve(refined.back());
+      refined.back() = RefinedEstimate(scan, refined.back());
+    }
+  return Distinct(refined, count);
 }
 
 SeenResonances LookForResonances(const CaseModel& model, const Hypothesis& h) {
