@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kResonanceShows = 1.1;  // least ratio at which a later round seeks frequencies
 constexpr double kRivalExplains = 0.5;   // of the error above the noise
-constexpr double kOpen = 60;  // of the score: what a full fit may still gain over a short one
+// What a full fit may still gain over a short one: of the score, and of what the best fit has gained.
+constexpr double kOpen = 60, kOpenShare = 0.2;
 
 /// Whether the linear screening promises at least half of what adoption would ask for, on unseen
 /// records or, where these hardly show the effect, much on the fitted ones.
@@ -155,8 +156,11 @@ class Ranker {
 
   /// The best, and the next where the short fits left it open.
   void FitToTheEnd() {
+    if (ranking_.empty()) return;
+    const double here = Score(s_.model, now_, s_.effective_sample_size),
+                 open = std::max(kOpen, kOpenShare * (here - ranking_[0].score));
     for (std::size_t k = 0; k < std::min<std::size_t>(ranking_.size(), 2); ++k) {
-      if (k > 0 && ranking_[k].score > ranking_[0].score + kOpen) break;
+      if (k > 0 && ranking_[k].score > ranking_[0].score + open) break;
       s_.progress(0.95, "full fit of " + Named(ranking_[k].effect));
       FitResult fit = FitOn(s_.model, now_, ranking_[k].fit.hypothesis, s_.effective_sample_size);
       if (!fit.converged) continue;
