@@ -14,7 +14,6 @@ namespace {
 constexpr double kScanFrom = 30, kScanTo = 2000, kScanRatio = 1.02;  // [Hz], of the scan
 constexpr std::array kScannedDamping = {0.01, 0.04};
 constexpr std::array kGyros = {0.0, -0.2, 0.2};  // from which an estimate is refined
-constexpr double kApart = 1.12;                  // minima nearer than this are one
 constexpr double kLeastShare = 0.02;
 // Of what a resonance explains, by the forces: the ends of the records explain any line of another origin.
 constexpr double kLeastForced = 0.05;
@@ -174,16 +173,29 @@ bool HasLargerShare(const ResonanceEstimate& a, const ResonanceEstimate& b) {
   return a.share > b.share;
 }
 
-/// The `count` that explain most, best first, without those beside a better one.
-std::vector<ResonanceEstimate> Distinct(std::vector<ResonanceEstimate> all, std::size_t count) {
+/// Minima of the scan nearer than this are one.
+bool OneOfTheScan(const ResonanceEstimate& a, const ResonanceEstimate& b) {
+  return std::abs(std::log(a.frequency / b.frequency)) < std::log(1.12);
+}
+
+/// Refined ones lie where they lie: a mode whose frequency differs between two directions has a sharp minimum beside a broad one, which is
+/// nearer to the machine's.
+bool OneOfTheRefined(const ResonanceEstimate& a, const ResonanceEstimate& b) {
+  return std::abs(std::log(a.frequency / b.frequency)) < std::log(1.02) &&
+         std::abs(std::log(a.damping / b.damping)) < std::log(2.0);
+}
+
+/// The `count` that explain most, best first, without those that are one with a better one.
+template <typename AreOne>
+std::vector<ResonanceEstimate> Distinct(std::vector<ResonanceEstimate> all, std::size_t count,
+                                        const AreOne& are_one) {
   std::stable_sort(all.begin(), all.end(), HasLargerShare);
   std::vector<ResonanceEstimate> out;
   for (const ResonanceEstimate& e : all) {
     if (out.size() >= count || e.share < kLeastShare) break;
     if (e.forced < kLeastForced * e.share) continue;
-    if (std::none_of(out.begin(), out.end(), [&](const ResonanceEstimate& o) {
-          return std::abs(std::log(o.frequency / e.frequency)) < std::log(kApart);
-        }))
+    if (std::none_of(out.begin(), out.end(),
+                     [&](const ResonanceEstimate& o) { return are_one(o, e); }))
       out.push_back(e);
   }
   return out;
@@ -230,7 +242,7 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
       scanned.push_back({f, std::max(damping, scan.LeastDamping(f))});
       scan.Solve(scanned.back());
     }
-  out = Distinct(scanned, count);
+  out = Distinct(scanned, count, OneOfTheScan);
   std::vector<ResonanceEstimate> refined;
   for (const ResonanceEstimate& e : out)
     for (const double gyro : kGyros) {
@@ -239,7 +251,7 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
       scan.Solve(refined.back());
       refined.back() = RefinedEstimate(scan, refined.back());
     }
-  return Distinct(refined, count);
+  return Distinct(refined, count, OneOfTheRefined);
 }
 
 SeenResonances LookForResonances(const CaseModel& model, const Hypothesis& h) {
