@@ -1,5 +1,7 @@
 #include "discovery/search/resonance_estimate.h"
 
+#include <oneapi/tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -178,8 +180,8 @@ bool OneOfTheScan(const ResonanceEstimate& a, const ResonanceEstimate& b) {
   return std::abs(std::log(a.frequency / b.frequency)) < std::log(1.12);
 }
 
-/// Refined ones lie where they lie: a mode whose frequency differs between two directions has a sharp minimum beside a broad one, which is
-/// nearer to the machine's.
+/// Refined minima are one where frequency and damping are alike. A base whose frequency differs between x and y has a
+/// sharp minimum beside a broad one, and the broad one describes the machine better; the simulation decides.
 bool OneOfTheRefined(const ResonanceEstimate& a, const ResonanceEstimate& b) {
   return std::abs(std::log(a.frequency / b.frequency)) < std::log(1.02) &&
          std::abs(std::log(a.damping / b.damping)) < std::log(2.0);
@@ -240,17 +242,19 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
   for (double f = kScanFrom; f < kScanTo; f *= kScanRatio)
     for (const double damping : kScannedDamping) {
       scanned.push_back({f, std::max(damping, scan.LeastDamping(f))});
-      scan.Solve(scanned.back());
     }
+  tbb::parallel_for(std::size_t{0}, scanned.size(), [&](std::size_t k) { scan.Solve(scanned[k]); });
   out = Distinct(scanned, count, OneOfTheScan);
   std::vector<ResonanceEstimate> refined;
   for (const ResonanceEstimate& e : out)
     for (const double gyro : kGyros) {
       refined.push_back(e);
       refined.back().gyro = gyro;
-      scan.Solve(refined.back());
-      refined.back() = RefinedEstimate(scan, refined.back());
     }
+  tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
+    scan.Solve(refined[k]);
+    refined[k] = RefinedEstimate(scan, refined[k]);
+  });
   return Distinct(refined, count, OneOfTheRefined);
 }
 

@@ -63,13 +63,15 @@ std::vector<EffectInstance> WaxingHum(LawSetting s) {
   return {FormulaAt(s.target, {{"reading.x", "x + " + hum}, {"reading.y", "y + " + hum}})};
 }
 
-/// A dent of the surface passes the probes of x and y a quarter of a turn apart.
+/// A dent of the surface passes the probes of x and y a quarter of a turn apart. Less its mean over a turn, which would be a
+/// zero of both sensors, another effect.
 std::vector<EffectInstance> Dent(LawSetting s) {
   const double depth = 0.04 * s.reach * s.size, narrow = s.draw.Log(0.7, 4),
-               place = s.draw.Between(-3, 3);
+               place = s.draw.Between(-3, 3),
+               mean = std::exp(-narrow) * std::cyl_bessel_i(0.0, narrow);
   const auto dent = [&](double probe) {
-    return fmt::format("{} * (exp({} * (cos(theta - {}) - 1)))", Digits(-depth), narrow,
-                       Digits(place + probe));
+    return fmt::format("{} * (exp({} * (cos(theta - {}) - 1)) - {})", Digits(-depth), narrow,
+                       Digits(place + probe), Digits(mean));
   };
   return {FormulaAt(s.target,
                     {{"reading.x", "x + " + dent(0)}, {"reading.y", "y + " + dent(1.5707963)}})};
