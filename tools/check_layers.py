@@ -90,7 +90,7 @@ DOORS = {
     "microhttpd.h": ["workbench/http_server.cc"],
     "ode/": ["rotor/contact/ode_world.cc"],
     "oneapi/tbb": ["analysis/shaft/shaft_scatter.cc", "campaign/run_rows.cc", "app/commands/check.cc", "discovery/model/model.cc",
-                   "discovery/search/screen.cc"],
+                   "discovery/search/resonance_estimate.cc", "discovery/search/screen.cc"],
     "ceres/": ["discovery/search/fit.cc"],
     "muParser": ["effects/formula_parser.cc"],
     "nlopt": ["design/nlopt_search.cc", "faulttolerance/redistribution/program_search.cc"],

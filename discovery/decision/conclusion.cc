@@ -86,7 +86,10 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   if (any && !established) out.adopted.clear();
   const ParameterNeed need =
       NeedOf(model, established ? last : base, out.effective_sample_size, out.warnings);
-  out.verdict = VerdictOf(first, parameters, need, established);
+  out.verdict = VerdictOf(first, parameters, need,
+                          established ? FoundEffect::kEstablished
+                          : any       ? FoundEffect::kDoubtful
+                                      : FoundEffect::kNone);
   if (established)
     SetsWith(out, named);
   else

@@ -84,8 +84,8 @@ double ShareOfAllRecords(const StageRatios& before, const StageRatios& after) {
 }
 
 std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
-                      const ParameterNeed& need, bool any_established) {
-  if (any_established) return "effect";
+                      const ParameterNeed& need, FoundEffect found) {
+  if (found == FoundEffect::kEstablished) return "effect";
   const double after = base.Answered(), before = nominal.Answered();
   if (before < kAgrees * 1.02) return "none";
   const bool possible = need.largest_shift < kNeverParameter && need.possible &&
@@ -93,7 +93,9 @@ std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
   if (!possible) return "unknown";
   if (after < kAgrees * 1.05) return "parameters";
   // Parameters explain all but a trace of a large misfit, and nothing else helps.
-  if (after < kGood && ExplainedShare(before, after) > kMostExplained) return "parameters";
+  if (found == FoundEffect::kNone && after < kGood &&
+      ExplainedShare(before, after) > kMostExplained)
+    return "parameters";
   return "unknown";
 }
 

@@ -43,10 +43,14 @@ struct ParameterNeed {
   bool constant = true;      // those beyond 3 sd are the same in every record (drift test)
 };
 
+/// What the search for effects ended with: none that was worth adopting, one whose name stays in doubt, one that
+/// stands.
+enum class FoundEffect { kNone, kDoubtful, kEstablished };
+
 /// "effect", "parameters", "none" or "unknown". Every record counts, fitted or not. An effect that
 /// was established is named whatever remains; five sd are never parameters, three only where the
-/// records agree on the shift.
+/// records agree on the shift. Parameters that leave a trace are the verdict only where no effect explains it.
 std::string VerdictOf(const StageRatios& nominal, const StageRatios& base,
-                      const ParameterNeed& need, bool any_established);
+                      const ParameterNeed& need, FoundEffect found);
 
 }  // namespace ambrig

@@ -134,24 +134,33 @@ TEST(StageRatios, TheWorstRecordCountsWithSomeAllowance) {
 
 TEST(VerdictOf, NothingIsMissingBelowSevenPercent) {
   const ParameterNeed none;
-  EXPECT_EQ(VerdictOf({1.0, 1.07, 1}, {1, 1, 1}, none, false), "none");
-  EXPECT_EQ(VerdictOf({1.0, 1.08, 1}, {1, 1, 1}, none, false), "parameters");
+  EXPECT_EQ(VerdictOf({1.0, 1.07, 1}, {1, 1, 1}, none, FoundEffect::kNone), "none");
+  EXPECT_EQ(VerdictOf({1.0, 1.08, 1}, {1, 1, 1}, none, FoundEffect::kNone), "parameters");
 }
 
 TEST(VerdictOf, ImpossibleParametersAreUnknownWhateverTheyExplain) {
   const StageRatios before = {4, 4, 4}, after = {1, 1, 1};
-  EXPECT_EQ(VerdictOf(before, after, {4.9, true, true}, false), "parameters");
-  EXPECT_EQ(VerdictOf(before, after, {5.0, true, true}, false), "unknown");
-  EXPECT_EQ(VerdictOf(before, after, {1, false, true}, false), "unknown");
-  EXPECT_EQ(VerdictOf(before, after, {2.9, true, false}, false), "parameters");
-  EXPECT_EQ(VerdictOf(before, after, {3.0, true, false}, false), "unknown");
+  EXPECT_EQ(VerdictOf(before, after, {4.9, true, true}, FoundEffect::kNone), "parameters");
+  EXPECT_EQ(VerdictOf(before, after, {5.0, true, true}, FoundEffect::kNone), "unknown");
+  EXPECT_EQ(VerdictOf(before, after, {1, false, true}, FoundEffect::kNone), "unknown");
+  EXPECT_EQ(VerdictOf(before, after, {2.9, true, false}, FoundEffect::kNone), "parameters");
+  EXPECT_EQ(VerdictOf(before, after, {3.0, true, false}, FoundEffect::kNone), "unknown");
 }
 
 TEST(VerdictOf, ATraceOfALargeMisfitMayStay) {
   const ParameterNeed none;
-  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, false), "parameters");
-  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.6, 1.6, 1.6}, none, false), "unknown");
-  EXPECT_EQ(VerdictOf({2, 2, 2}, {1.4, 1.4, 1.4}, none, false), "unknown");  // no trace of it
+  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, FoundEffect::kNone), "parameters");
+  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.6, 1.6, 1.6}, none, FoundEffect::kNone), "unknown");
+  EXPECT_EQ(VerdictOf({2, 2, 2}, {1.4, 1.4, 1.4}, none, FoundEffect::kNone),
+            "unknown");  // no trace of it
+}
+
+// An effect that explains what stays says that something is missing, though its name is in doubt.
+TEST(VerdictOf, WhatAnEffectExplainsIsNoTrace) {
+  const ParameterNeed none;
+  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.4, 1.4, 1.4}, none, FoundEffect::kDoubtful), "unknown");
+  EXPECT_EQ(VerdictOf({20, 20, 20}, {1.05, 1.05, 1.05}, none, FoundEffect::kDoubtful),
+            "parameters");
 }
 
 // Squared errors above the noise of 99 and 3: the fitted records hold nearly all of it.
