@@ -1,6 +1,7 @@
 #pragma once
 /// Which of the usual nuisances a residual asks for: those that explain much and differ from record
-/// to record. What is the same in every record is an effect, and left to the search.
+/// to record. What is the same in every record is an effect, and left to the search. Where most of a group differ much (zeros
+/// of the sensors), the others are used, too, if they differ at all.
 #include "discovery/model/model.h"
 
 namespace ambrig {

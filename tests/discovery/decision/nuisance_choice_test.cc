@@ -127,6 +127,36 @@ TEST_F(NuisanceChoiceTest, AmountsOfOneSignAreLeftToTheSearch) {
         << size;
 }
 
+// What moved the zeros of most sensors moves the others', too: these need to differ, but may have a mean of their own.
+TEST_F(NuisanceChoiceTest, OfAGroupThatDiffersTheOthersFollow) {
+  std::vector<double> left = Offsets({6, -6, 5, -4});  // in A.x
+  const std::vector<double> of_y = {9, 7, 14, 12};
+  for (const Target& t : case_.model.targets())
+    if (t.channel == 1)
+      for (std::size_t k = t.first; k < t.first + t.count; ++k) left[k] = of_y[t.record];
+  NuisanceKind third = Zero(0);
+  third.name = "zero of B.x";
+  third.column.setZero();
+  const auto names = [&](const std::vector<NuisanceKind>& possible) {
+    std::vector<std::string> out;
+    for (const NuisanceKind& k : ChooseNuisances(case_.model, possible, left, kWeight))
+      out.push_back(k.name);
+    return out;
+  };
+  NuisanceKind second = Zero(0);  // another direction in the same channel
+  second.name = "zero of B.y";
+  for (const Target& t : case_.model.targets())
+    if (t.channel == 0)
+      for (std::size_t k = t.first; k < t.first + t.count; ++k) {
+        second.column(static_cast<Index>(k)) = k % 2 == 0 ? 10 : -10;
+        left[k] += (k % 2 == 0 ? 5.0 : -5.0) * (t.record % 2 == 0 ? 1 : -1);
+      }
+  EXPECT_THAT(names({Zero(1), Zero(0), second}),
+              ::testing::UnorderedElementsAre("zero of A.x", "zero of A.y", "zero of B.y"));
+  // one of three is not most of them
+  EXPECT_THAT(names({Zero(1), Zero(0), third}), ::testing::ElementsAre("zero of A.x"));
+}
+
 // What differs much is chosen although its mean is not nothing: an effect beside it may resemble it in every record.
 TEST_F(NuisanceChoiceTest, AmountsThatDifferMuchAboutAMeanAreChosen) {
   EXPECT_EQ(ChooseNuisances(case_.model, {Zero(0)}, Offsets({14, 6, 12, -1}), kWeight).size(), 1u);
