@@ -22,9 +22,9 @@ namespace {
 using Series = FreeResponse::Series;
 
 constexpr double kLowest = 20, kHighest = 2500;  // [Hz]
-constexpr double kRelativeError =
-    0.03;                   // of reading and answer: magnets and gains of the model err so much
-constexpr int kOrders = 3;  // of the speed, where an unbalance and its like may act
+// Of reading and answer: magnets and gains of the model err so much.
+constexpr double kRelativeError = 0.03;
+constexpr int kOrders = 3;         // of the speed, where an unbalance and its like may act
 constexpr double kOrderLines = 4;  // lines beside an order that a Hann window fills
 
 bool TurnsSteadily(const Scenario& s, double from, double to) {
@@ -225,9 +225,9 @@ std::vector<FreeResponse> FreeResponses(const CaseModel& model, const Hypothesis
     for (std::size_t k = 2; k + 1 < count; ++k) {
       const double w = line * static_cast<double>(k);
       if (w < 2 * kPi * kLowest || w > 2 * kPi * highest || NearAnOrder(w, speed, line)) continue;
-      for (FreeResponse* side : {&forward, &backward})
+      for (FreeResponse* whirl : {&forward, &backward})
         AddLine(*lines, own ? &*own : nullptr, k, {answer[k - 1], answer[k], answer[k + 1]}, noise,
-                *side);
+                *whirl);
     }
     if (forward.w.empty()) continue;
     out.push_back(std::move(forward));
