@@ -170,6 +170,18 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   return SwitchingEngine(h.rig, scenario, options).Run().record;
 }
 
+std::optional<Record> CaseModel::SimulatedChannels(const Hypothesis& h, std::size_t record,
+                                                   bool noise, std::uint64_t seed) const {
+  std::vector<std::string> measured;
+  for (const Channel& c : case_.records[record].data.channels) measured.push_back(c.name);
+  try {
+    return Simulated(h, record, noise, seed, measured);
+  } catch (const std::runtime_error& e) {
+    if (dynamic_cast<const Interrupted*>(&e) || dynamic_cast<const InputError*>(&e)) throw;
+    return std::nullopt;
+  }
+}
+
 std::pair<std::size_t, std::size_t> CaseModel::RowsOf(std::size_t record) const {
   std::size_t first = 0, end = 0;
   for (const Target& t : targets_) {
@@ -225,22 +237,15 @@ bool CaseModel::SimulateRecord(const RigParameters& rig, std::size_t record, boo
   if (predictors_[record]) return PredictPoints(rig, record, out);
   Hypothesis h;
   h.rig = rig;
-  Record simulated;
-  std::vector<std::string> measured;
-  for (const Channel& c : case_.records[record].data.channels) measured.push_back(c.name);
-  try {
-    simulated = Simulated(h, record, noise, seed, measured);
-  } catch (const std::runtime_error& e) {
-    if (dynamic_cast<const Interrupted*>(&e) || dynamic_cast<const InputError*>(&e)) throw;
-    return false;  // the motion became infinite: this hypothesis cannot be
-  }
+  const std::optional<Record> simulated = SimulatedChannels(h, record, noise, seed);
+  if (!simulated) return false;
   const Record& data = case_.records[record].data;
   for (const Target& t : targets_) {
     if (t.record != record) continue;
-    const Channel* channel = simulated.Find(data.channels[t.channel].name);
+    const Channel* channel = simulated->Find(data.channels[t.channel].name);
     if (!channel) continue;
     for (std::size_t k = 0; k < t.count; ++k)
-      out[t.first + k] = AtRow(channel->samples, simulated.rate, data, sample_[t.first + k]);
+      out[t.first + k] = AtRow(channel->samples, simulated->rate, data, sample_[t.first + k]);
   }
   return true;
 }

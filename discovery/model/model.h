@@ -94,6 +94,9 @@ class CaseModel {
   /// Simulated record of one record's scenario, which is over time. `channels`: those wanted; empty: all.
   Record Simulated(const Hypothesis& h, std::size_t record, bool noise, std::uint64_t seed,
                    const std::vector<std::string>& channels = {}) const;
+  /// The same with the channels of the data; nullopt: the motion became infinite, this hypothesis cannot be.
+  std::optional<Record> SimulatedChannels(const Hypothesis& h, std::size_t record, bool noise,
+                                          std::uint64_t seed) const;
 
   /// Records that this hypothesis does not hold to their end count up to there only, those that it
   /// loses at once do not count. Returns one line for each.

@@ -82,12 +82,11 @@ class Ranker {
  private:
   void FitThePromising() {
     const std::vector<Candidate>& candidates = out_.screened;
-    const double here = Score(s_.model, now_, s_.effective_sample_size);
     std::size_t next = 0;
     for (; next < candidates.size() && static_cast<int>(ranking_.size()) < s_.candidates; ++next) {
       const Candidate& c = candidates[next];
       // Hopeless ones need no full fit, but a user wants to see a few beside the best.
-      if (c.score > here && (ranking_.size() >= 2 || round_ > 0)) break;
+      if (c.score > here_ && (ranking_.size() >= 2 || round_ > 0)) break;
       if (Decided(now_, ranking_, c)) continue;
       if (round_ == 0 || Promising(now_, c)) FitTheStart(c);
     }
@@ -157,8 +156,7 @@ class Ranker {
   /// The best, and the next where the short fits left it open.
   void FitToTheEnd() {
     if (ranking_.empty()) return;
-    const double here = Score(s_.model, now_, s_.effective_sample_size),
-                 open = std::max(kOpen, kOpenShare * (here - ranking_[0].score));
+    const double open = std::max(kOpen, kOpenShare * (here_ - ranking_[0].score));
     for (std::size_t k = 0; k < std::min<std::size_t>(ranking_.size(), 2); ++k) {
       if (k > 0 && ranking_[k].score > ranking_[0].score + open) break;
       s_.progress(0.95, "full fit of " + Named(ranking_[k].effect));
@@ -183,6 +181,7 @@ class Ranker {
   const RoundSetting& s_;
   const FitResult& now_;
   int round_;
+  const double here_ = Score(s_.model, now_, s_.effective_sample_size);
   const double motion_ = WorstMotionRatio(s_.model, now_.residual);
   // without records of a free rotor over time the other kinds of record decide
   const bool shows_motion_ = motion_ == 0 || motion_ > kResonanceShows;

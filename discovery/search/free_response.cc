@@ -85,18 +85,9 @@ std::optional<RecordLines> LinesOfRecord(const Record& data, const RadialBearing
 /// Lines of the model's own record; nullopt where it does not hold its rotor.
 std::optional<RecordLines> OwnLines(const CaseModel& model, const Hypothesis& h, std::size_t record,
                                     const RadialBearings& bearings) {
-  const Record& data = model.data().records[record].data;
-  std::vector<std::string> channels;
-  for (const Channel& c : data.channels) channels.push_back(c.name);
-  try {
-    return LinesOfRecord(AtRowsOf(data, model.Simulated(h, record, false, 1, channels)), bearings);
-  } catch (const InputError&) {
-    throw;
-  } catch (const Interrupted&) {
-    throw;
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
-  }
+  const std::optional<Record> simulated = model.SimulatedChannels(h, record, false, 1);
+  if (!simulated) return std::nullopt;
+  return LinesOfRecord(AtRowsOf(model.data().records[record].data, *simulated), bearings);
 }
 
 bool NearAnOrder(double w, double speed, double line) {
@@ -212,7 +203,7 @@ std::vector<FreeResponse> FreeResponses(const CaseModel& model, const Hypothesis
     const auto own = OwnLines(model, h, r, *bearings);
     const double line = 2 * kPi * record.data.rate / static_cast<double>(record.data.rows()),
                  speed = record.scenario.speed.Speed(record.data.start),
-                 highest = std::min(kHighest, 0.4 * record.data.rate);
+                 highest = 2 * kPi * std::min(kHighest, 0.4 * record.data.rate);
     const std::array<double, 2> noise = NoiseLines(model, r, *bearings);
     const ShaftResponse shaft(h.rig, *bearings, speed);
     FreeResponse forward, backward;
@@ -221,10 +212,12 @@ std::vector<FreeResponse> FreeResponses(const CaseModel& model, const Hypothesis
     backward.direction = -1;
     const std::size_t count = lines->force[0][0].size();
     std::vector<Eigen::Matrix4cd> answer(count);
-    for (std::size_t k = 1; k < count; ++k) answer[k] = shaft.At(line * static_cast<double>(k));
-    for (std::size_t k = 2; k + 1 < count; ++k) {
+    // one line beyond the highest, as its neighbour
+    for (std::size_t k = 1; k < count && line * static_cast<double>(k - 1) <= highest; ++k)
+      answer[k] = shaft.At(line * static_cast<double>(k));
+    for (std::size_t k = 2; k + 1 < count && line * static_cast<double>(k) <= highest; ++k) {
       const double w = line * static_cast<double>(k);
-      if (w < 2 * kPi * kLowest || w > 2 * kPi * highest || NearAnOrder(w, speed, line)) continue;
+      if (w < 2 * kPi * kLowest || NearAnOrder(w, speed, line)) continue;
       for (FreeResponse* whirl : {&forward, &backward})
         AddLine(*lines, own ? &*own : nullptr, k, {answer[k - 1], answer[k], answer[k + 1]}, noise,
                 *whirl);

@@ -42,16 +42,19 @@ class ResonanceScan {
  public:
   explicit ResonanceScan(const std::vector<FreeResponse>& responses) : responses_(responses) {
     double all = 0;
-    for (std::size_t s = 0; s < 2; ++s) {
-      for (const FreeResponse& r : responses_) {
+    for (const FreeResponse& r : responses_) {
+      lines_ += r.w.size();
+      for (std::size_t s = 0; s < 2; ++s) {
+        scale_[s].push_back(
+            Eigen::Map<const Eigen::ArrayXd>(r.scale[s].data(), RowsOf(r) / 2).replicate(2, 1));
         fixed_[s].push_back(FixedColumns(r, s));
+        fixed_[s].back().array().colwise() /= scale_[s].back();
         all += fixed_[s].back().col(0).squaredNorm();
       }
-      before_ += Products(s, nullptr)(0, 0);
     }
+    for (const Eigen::MatrixXd& error : Products(nullptr)) before_ += error(0, 0);
     constexpr double kRounding = 1e-9;
     if (before_ < kRounding * all) before_ = 0;
-    for (const FreeResponse& r : responses_) lines_ += r.w.size();
   }
   std::size_t lines() const { return lines_; }
 
@@ -64,8 +67,9 @@ class ResonanceScan {
   /// Gains and shares at this frequency, damping and gyroscopic coupling.
   void Solve(ResonanceEstimate& e) const {
     double explained = before_, forced = 0;
+    const std::array<Eigen::MatrixXd, 2> products = Products(&e);
     for (std::size_t s = 0; s < 2; ++s) {
-      const Eigen::Matrix3d p = Products(s, &e);  // answers, error
+      const Eigen::Matrix3d p = products[s];  // answers, error
       const Eigen::Vector2d right = p.topRightCorner<2, 1>(),
                             c = SolveSymmetric(p.topLeftCorner<2, 2>(), right);
       e.gains.row(static_cast<Eigen::Index>(s)) = c.transpose();
@@ -79,6 +83,11 @@ class ResonanceScan {
 
  private:
   using Complex = std::complex<double>;
+
+  /// Real and imaginary parts of all lines.
+  static Eigen::Index RowsOf(const FreeResponse& r) {
+    return 2 * static_cast<Eigen::Index>(r.w.size());
+  }
 
   /// Line k of a column.
   static void Set(Eigen::MatrixXd& m, Eigen::Index column, std::size_t k, Complex v) {
@@ -96,35 +105,35 @@ class ResonanceScan {
     return r.w[k] + (static_cast<double>(side) - 1) * r.line;
   }
 
+  // The columns of the next two are not yet over the scale of their lines.
+
   static Eigen::MatrixXd FixedColumns(const FreeResponse& r, std::size_t s) {
-    Eigen::MatrixXd m(2 * static_cast<Eigen::Index>(r.w.size()), 1 + kForceColumns + kEndColumns);
+    Eigen::MatrixXd m(RowsOf(r), 1 + kForceColumns + kEndColumns);
     FreeResponse::Neighbours gain, lag, end, drift;
     for (std::size_t k = 0; k < r.w.size(); ++k) {
-      const double scale = r.scale[s][k];
-      Set(m, 0, k, r.missing[s][k] / scale);
+      Set(m, 0, k, r.missing[s][k]);
       for (std::size_t b = 0; b < 2; ++b) {
         for (std::size_t side = 0; side < 3; ++side) {
           const double w = Frequency(r, k, side);
           gain[side] = r.force[b][k][side] / (w * w);
           lag[side] = Complex(0, 1) * r.force[b][k][side] / w;
         }
-        Set(m, 1 + 2 * static_cast<Eigen::Index>(b), k, Windowed(gain) / scale);
-        Set(m, 2 + 2 * static_cast<Eigen::Index>(b), k, Windowed(lag) / scale);
+        Set(m, 1 + 2 * static_cast<Eigen::Index>(b), k, Windowed(gain));
+        Set(m, 2 + 2 * static_cast<Eigen::Index>(b), k, Windowed(lag));
       }
       for (std::size_t side = 0; side < 3; ++side) {
         const double w = Frequency(r, k, side);
         end[side] = 1 / (w * w);
         drift[side] = 1 / w;
       }
-      SetBoth(m, 1 + kForceColumns, k, Windowed(end) / scale);
-      SetBoth(m, 3 + kForceColumns, k, Windowed(drift) / scale);
+      SetBoth(m, 1 + kForceColumns, k, Windowed(end));
+      SetBoth(m, 3 + kForceColumns, k, Windowed(drift));
     }
     return m;
   }
 
-  static Eigen::MatrixXd ColumnsOfMode(const FreeResponse& r, std::size_t s,
-                                       const ResonanceEstimate& e) {
-    Eigen::MatrixXd m(2 * static_cast<Eigen::Index>(r.w.size()), kAnswerColumns + kEndColumns);
+  static Eigen::MatrixXd ColumnsOfMode(const FreeResponse& r, const ResonanceEstimate& e) {
+    Eigen::MatrixXd m(RowsOf(r), kAnswerColumns + kEndColumns);
     const double w0 = 2 * kPi * e.frequency;
     FreeResponse::Neighbours end, drift;
     std::array<FreeResponse::Neighbours, 2> answer;
@@ -136,39 +145,44 @@ class ResonanceScan {
         drift[side] = (w - w0) * end[side];  // w times it is all but w0 times `end`
         for (std::size_t b = 0; b < 2; ++b) answer[b][side] = r.force[b][k][side] * end[side];
       }
-      const double scale = r.scale[s][k];
       for (std::size_t b = 0; b < 2; ++b)
-        Set(m, static_cast<Eigen::Index>(b), k, Windowed(answer[b]) / scale);
-      SetBoth(m, kAnswerColumns, k, Windowed(end) / scale);
-      SetBoth(m, kAnswerColumns + 2, k, Windowed(drift) / scale);
+        Set(m, static_cast<Eigen::Index>(b), k, Windowed(answer[b]));
+      SetBoth(m, kAnswerColumns, k, Windowed(end));
+      SetBoth(m, kAnswerColumns + 2, k, Windowed(drift));
     }
     return m;
   }
 
-  /// Sums over all records and directions of the products of a mode's answers (none with nullptr) and the error of
-  /// sensor s, less what the ends of each record and, in all alike, gains and lags of the forces explain.
-  Eigen::MatrixXd Products(std::size_t s, const ResonanceEstimate* mode) const {
+  /// Of each sensor: sums over all records and directions of the products of a mode's answers (none with nullptr) and the
+  /// error, less what the ends of each record and, in all alike, gains and lags of the forces explain.
+  std::array<Eigen::MatrixXd, 2> Products(const ResonanceEstimate* mode) const {
     const Eigen::Index answers = mode ? kAnswerColumns : 0, kept = answers + 1 + kForceColumns,
                        ends = (mode ? 2 : 1) * kEndColumns;
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(kept, kept);
+    std::array<Eigen::MatrixXd, 2> sums;
+    sums.fill(Eigen::MatrixXd::Zero(kept, kept));
     for (std::size_t n = 0; n < responses_.size(); ++n) {
-      const Eigen::MatrixXd& fixed = fixed_[s][n];
-      Eigen::MatrixXd all(fixed.rows(), kept + ends);
-      all.middleCols(answers, fixed.cols()) = fixed;
-      if (mode) {
-        const Eigen::MatrixXd own = ColumnsOfMode(responses_[n], s, *mode);
-        all.leftCols(kAnswerColumns) = own.leftCols(kAnswerColumns);
-        all.rightCols(kEndColumns) = own.rightCols(kEndColumns);
+      const Eigen::MatrixXd own =
+          mode ? ColumnsOfMode(responses_[n], *mode) : Eigen::MatrixXd(RowsOf(responses_[n]), 0);
+      for (std::size_t s = 0; s < 2; ++s) {
+        const Eigen::MatrixXd& fixed = fixed_[s][n];
+        Eigen::MatrixXd scaled = own, all(fixed.rows(), kept + ends);
+        scaled.array().colwise() /= scale_[s][n];
+        all.leftCols(answers) = scaled.leftCols(answers);
+        all.middleCols(answers, fixed.cols()) = fixed;
+        all.rightCols(scaled.cols() - answers) = scaled.rightCols(scaled.cols() - answers);
+        sums[s] += WithoutLast(all.transpose() * all, ends);
       }
-      sum += WithoutLast(all.transpose() * all, ends);
     }
-    return WithoutLast(sum, kForceColumns);
+    for (Eigen::MatrixXd& sum : sums) sum = WithoutLast(sum, kForceColumns);
+    return sums;
   }
 
   const std::vector<FreeResponse>& responses_;
   std::size_t lines_ = 0;
-  std::array<std::vector<Eigen::MatrixXd>, 2> fixed_;  // of each sensor, by response
-  double before_ = 0;                                  // squared error, 0: none beyond rounding
+  // of each sensor, by response; scale_: of all rows
+  std::array<std::vector<Eigen::MatrixXd>, 2> fixed_;
+  std::array<std::vector<Eigen::ArrayXd>, 2> scale_;
+  double before_ = 0;  // squared error, 0: none beyond rounding
 };
 
 bool HasLargerShare(const ResonanceEstimate& a, const ResonanceEstimate& b) {
@@ -188,9 +202,9 @@ bool OneOfTheRefined(const ResonanceEstimate& a, const ResonanceEstimate& b) {
 }
 
 /// The `count` that explain most, best first, without those that are one with a better one.
-template <typename AreOne>
 std::vector<ResonanceEstimate> Distinct(std::vector<ResonanceEstimate> all, std::size_t count,
-                                        const AreOne& are_one) {
+                                        bool (*are_one)(const ResonanceEstimate&,
+                                                        const ResonanceEstimate&)) {
   std::stable_sort(all.begin(), all.end(), HasLargerShare);
   std::vector<ResonanceEstimate> out;
   for (const ResonanceEstimate& e : all) {
@@ -240,9 +254,8 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
   const ResonanceScan scan(responses);
   if (scan.lines() < 20) return out;
   for (double f = kScanFrom; f < kScanTo; f *= kScanRatio)
-    for (const double damping : kScannedDamping) {
+    for (const double damping : kScannedDamping)
       scanned.push_back({f, std::max(damping, scan.LeastDamping(f))});
-    }
   tbb::parallel_for(std::size_t{0}, scanned.size(), [&](std::size_t k) { scan.Solve(scanned[k]); });
   out = Distinct(scanned, count, OneOfTheScan);
   std::vector<ResonanceEstimate> refined;

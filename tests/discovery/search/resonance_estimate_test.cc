@@ -7,6 +7,7 @@
 #include <random>
 
 #include "core/math/constants.h"
+#include "discovery/model/record_rows.h"
 #include "discovery/practice/examination.h"
 #include "discovery/search/resonance_starts.h"
 #include "effects/catalogue.h"
@@ -24,6 +25,12 @@ RigParameters RigOf(const std::string& example) {
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/" + example + "/rig.toml");
   rig.tolerances.clear();
   return rig;
+}
+
+EffectInstance BentShaft(const std::vector<std::pair<std::string, double>>& values) {
+  EffectInstance mode = MakeInstance(EffectNamed("bending-mode"), "rig");
+  for (const auto& [name, value] : values) mode.Set(name, value);
+  return mode;
 }
 
 /// Both directions at one speed: random forces, and what an oscillator of these gains answers, beside forces
@@ -127,10 +134,8 @@ TEST(ResonanceEstimate, AToneOfAnotherOriginIsNone) {
 // one over its mass, since it moves by the sum of both forces and all sensors move with it.
 TEST(ResonanceGains, AreProductsOfTheShapeAndOneOverTheMass) {
   const RigParameters rig = RigOf("small_spindle");
-  EffectInstance bent = MakeInstance(EffectNamed("bending-mode"), "rig");
-  for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{
-           {"frequency", 300}, {"gain_a", 0.6}, {"gain_b", -0.4}, {"length", 0.8}})
-    bent.Set(name, value);
+  const EffectInstance bent =
+      BentShaft({{"frequency", 300}, {"gain_a", 0.6}, {"gain_b", -0.4}, {"length", 0.8}});
   RigParameters with = rig;
   with.effects.push_back(bent);
   const Plant plant = BuildPlant(TrueRig(with));
@@ -156,13 +161,8 @@ Case MeasuredOn(const RigParameters& rig, const EffectInstance& truth) {
   CaseModel empty(data);
   Hypothesis h = Hypothesis::Base(rig);
   if (!truth.IsNull()) h.AddEffect(truth);
-  for (std::size_t r = 0; r < data.records.size(); ++r) {
-    const Record measured = empty.Simulated(h, r, true, 3);
-    for (Channel& ch : data.records[r].data.channels)
-      if (const Channel* from = measured.Find(ch.name))
-        ch.samples.assign(from->samples.begin(),
-                          from->samples.begin() + static_cast<std::ptrdiff_t>(ch.samples.size()));
-  }
+  for (std::size_t r = 0; r < data.records.size(); ++r)
+    data.records[r].data = AtRowsOf(data.records[r].data, empty.Simulated(h, r, true, 3));
   return data;
 }
 
@@ -189,14 +189,12 @@ TEST(FreeResponses, OfARigidShaftAgreeWithTheModel) {
 // Its ring lasts as long as the record, and no frequency of the signals is near: sharper than a line of the records.
 TEST(ResonanceEstimate, OfRecordsTellsAModeSharperThanALine) {
   const RigParameters rig = RigOf("small_spindle");
-  EffectInstance truth = MakeInstance(EffectNamed("bending-mode"), "rig");
-  for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"frequency", 175.3},
-                                                                               {"damping", 0.0026},
-                                                                               {"gain_a", 0.114},
-                                                                               {"gain_b", -0.102},
-                                                                               {"gyro", -0.27},
-                                                                               {"length", 0.763}})
-    truth.Set(name, value);
+  const EffectInstance truth = BentShaft({{"frequency", 175.3},
+                                          {"damping", 0.0026},
+                                          {"gain_a", 0.114},
+                                          {"gain_b", -0.102},
+                                          {"gyro", -0.27},
+                                          {"length", 0.763}});
   const Case data = MeasuredOn(rig, truth);
   CaseModel model(data);
   SetNoiseOfSensors(model);
@@ -212,14 +210,12 @@ TEST(ResonanceEstimate, OfRecordsTellsAModeSharperThanALine) {
 
 TEST(ResonanceStarts, OfRecordsAreNearTheModeOfAnotherRod) {
   const RigParameters rig = RigOf("small_spindle");
-  EffectInstance truth = MakeInstance(EffectNamed("bending-mode"), "rig");
-  for (const auto& [name, value] : std::vector<std::pair<std::string, double>>{{"frequency", 327},
-                                                                               {"damping", 0.011},
-                                                                               {"gain_a", 0.32},
-                                                                               {"gain_b", -0.39},
-                                                                               {"gyro", 0.1},
-                                                                               {"length", 0.8}})
-    truth.Set(name, value);
+  const EffectInstance truth = BentShaft({{"frequency", 327},
+                                          {"damping", 0.011},
+                                          {"gain_a", 0.32},
+                                          {"gain_b", -0.39},
+                                          {"gyro", 0.1},
+                                          {"length", 0.8}});
   const Case data = MeasuredOn(rig, truth);
   CaseModel model(data);
   SetNoiseOfSensors(model);
