@@ -22,6 +22,8 @@ namespace {
 
 // of the enumeration and the rows: raise it when row k means another run
 constexpr int kFileFormat = 2;
+// Plants a worker: with fewer the last ones would keep some workers idle.
+constexpr std::size_t kPlantsOfWorker = 8;
 
 void ReadOperation(const TomlTable& root, Campaign& c) {
   const auto t = root.Table("operation");
@@ -140,6 +142,10 @@ std::size_t Campaign::runs() const {
   return scenarios.size() * cases.size() * phases.size() * std::max<std::size_t>(speeds.size(), 1) *
          loads.size() * positions.size() * draws.size() * seeds.size() *
          std::max<std::size_t>(plants.size(), 1);
+}
+
+std::size_t Campaign::RunsTogether(std::size_t workers) const {
+  return plants.size() < kPlantsOfWorker * workers ? 1 : runs() / plants.size();
 }
 
 Campaign ReadCampaign(const std::string& file) {

@@ -7,6 +7,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <charconv>
+#include <numeric>
 
 namespace ambrig {
 
@@ -27,14 +28,20 @@ Shard ParseShard(const std::string& text) {
 std::vector<std::size_t> PendingRuns(std::size_t runs, const Shard& shard,
                                      const std::map<std::size_t, Row>& done) {
   std::vector<std::size_t> pending;
-  for (std::size_t k = shard.index; k < runs; k += shard.count)
-    if (!done.contains(k)) pending.push_back(k);
+  for (std::size_t k = 0; k < runs; ++k)
+    if (shard.Has(k) && !done.contains(k)) pending.push_back(k);
   return pending;
 }
 
+namespace {
+
+int ThreadsOf(int jobs) { return jobs > 0 ? jobs : tbb::info::default_concurrency(); }
+
+}  // namespace
+
 void OnAllCores(const std::vector<std::size_t>& runs, int jobs, const std::atomic<bool>* stop,
                 const std::function<void(std::size_t run)>& work) {
-  const int threads = jobs > 0 ? jobs : tbb::info::default_concurrency();
+  const int threads = ThreadsOf(jobs);
   // More threads than cores only when asked for; an arena alone does not raise the limit.
   tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                             static_cast<std::size_t>(threads));
@@ -62,7 +69,18 @@ void OnAllCores(const std::vector<std::size_t>& runs, int jobs, const std::atomi
 
 void RunRows(const RunPlan& plan, const std::vector<std::size_t>& runs, int jobs,
              const std::atomic<bool>* stop, const std::function<void(const Row&)>& finished) {
-  OnAllCores(runs, jobs, stop, [&](std::size_t run) { finished(SimulateRow(plan, run, stop)); });
+  const std::size_t together =
+      plan.campaign().RunsTogether(static_cast<std::size_t>(ThreadsOf(jobs)));
+  std::vector<std::size_t> first;  // of each block, its place in `runs`
+  for (std::size_t k = 0; k < runs.size(); ++k)
+    if (k == 0 || runs[k] / together != runs[k - 1] / together) first.push_back(k);
+  std::vector<std::size_t> blocks(first.size());
+  std::iota(blocks.begin(), blocks.end(), 0);
+  first.push_back(runs.size());
+  OnAllCores(blocks, jobs, stop, [&](std::size_t block) {
+    for (std::size_t k = first[block]; k < first[block + 1]; ++k)
+      finished(SimulateRow(plan, runs[k], stop));
+  });
 }
 
 }  // namespace ambrig

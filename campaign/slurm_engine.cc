@@ -46,7 +46,7 @@ class SlurmRun {
     ChooseShards(plan);
     std::istringstream jobs(ReadIfThere(folder_ / "jobs.txt"));
     for (std::string job; std::getline(jobs, job);) jobs_.push_back(job);
-    for (const auto& [run, row] : journal_.rows()) --shards_[run % shards_.size()].missing;
+    for (const auto& [run, row] : journal_.rows()) --ShardOf(run).missing;
     WriteScript();
   }
 
@@ -74,7 +74,7 @@ class SlurmRun {
       for (const auto& [run, row] : part.rows) {
         if (journal_.rows().contains(run)) continue;
         journal_.Append(row);
-        --s.missing;
+        --ShardOf(run).missing;
         s.fruitless = 0;
         fresh = true;
       }
@@ -141,7 +141,12 @@ class SlurmRun {
       WriteFileAtomically((folder_ / "count.txt").string(), std::to_string(n) + "\n");
     }
     shards_.resize(n);
-    for (std::size_t run = 0; run < runs; ++run) ++shards_[run % n].missing;
+    together_ = campaign_.RunsTogether(n);
+    for (std::size_t run = 0; run < runs; ++run) ++ShardOf(run).missing;
+  }
+
+  ShardState& ShardOf(std::size_t run) {
+    return shards_[Shard{0, shards_.size(), together_}.Of(run)];
   }
 
   void WriteScript() const {
@@ -165,6 +170,7 @@ class SlurmRun {
   CampaignJournal& journal_;
   SlurmOptions options_;
   std::vector<ShardState> shards_;
+  std::size_t together_ = 1;  // runs of a block, see Shard
   std::vector<std::string> jobs_;
 };
 

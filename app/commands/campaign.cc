@@ -117,7 +117,8 @@ void RunOnCluster(const RunPlan& plan, const CampaignOptions& o, CampaignJournal
 
 int RunCampaign(CampaignOptions o) {
   const RunPlan plan(ReadCampaign(o.file));
-  const Shard shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
+  Shard shard = o.shard.empty() ? Shard{} : ParseShard(o.shard);
+  shard.together = plan.campaign().RunsTogether(shard.count);
   if (o.out.empty())
     o.out = (std::filesystem::path("out") / std::filesystem::path(o.file).stem()).string();
   if (o.engine == "slurm" && !o.shard.empty())
