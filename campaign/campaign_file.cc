@@ -145,7 +145,10 @@ std::size_t Campaign::runs() const {
 }
 
 std::size_t Campaign::RunsTogether(std::size_t workers) const {
-  return plants.size() < kPlantsOfWorker * workers ? 1 : runs() / plants.size();
+  // A plant that runs with and without having been commissioned is listed twice in a row.
+  const bool twice = plants.size() > 1 && plants[0].commissioned != plants[1].commissioned;
+  const std::size_t machines = plants.size() / (twice ? 2 : 1);
+  return machines < kPlantsOfWorker * workers ? 1 : runs() / machines;
 }
 
 Campaign ReadCampaign(const std::string& file) {
