@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/record/channels.h"
+#include "discovery/model/in_parallel.h"
 #include "discovery/model/point_floor.h"
 
 namespace ambrig {
@@ -35,6 +37,23 @@ double Resolution(const RigParameters& rig, const ChannelRow& channel, double fu
   return std::max(r.least, r.part * range);
 }
 
+/// Σ ρ² of one channel with all of its record.
+double SumOfSquaredCorrelations(const std::vector<double>& noise,
+                                const std::vector<const Target*>& of, std::size_t one) {
+  const Target& a = *of[one];
+  const double pa = Rms(noise, a.first, a.count);
+  double sum = 0;
+  for (const Target* b : of) {
+    const double pb = Rms(noise, b->first, b->count);
+    double c = 0;
+    for (std::size_t k = 0; k < a.count; ++k) c += noise[a.first + k] * noise[b->first + k];
+    const double rho =
+        pa > 0 && pb > 0 ? c / static_cast<double>(a.count) / pa / pb : (&a == b ? 1.0 : 0.0);
+    sum += rho * rho;
+  }
+  return sum;
+}
+
 /// Independent rows times independent channels: the latter from the spread of their correlations.
 /// `noise`: of one noisy run.
 double IndependentRows(const CaseModel& model, const std::vector<double>& noise) {
@@ -52,20 +71,16 @@ double IndependentRows(const CaseModel& model, const std::vector<double>& noise)
                           [](char ok) { return ok != 0; }));
       continue;
     }
-    double per_channel = 0, spread = 0;
-    for (const Target* t : of)
-      per_channel +=
-          static_cast<double>(t->count) / RowsPerIndependentOne(noise, t->first, t->count);
-    per_channel /= static_cast<double>(of.size());
-    for (const Target* a : of)
-      for (const Target* b : of) {
-        const double pa = Rms(noise, a->first, a->count), pb = Rms(noise, b->first, b->count);
-        double c = 0;
-        for (std::size_t k = 0; k < a->count; ++k) c += noise[a->first + k] * noise[b->first + k];
-        const double rho =
-            pa > 0 && pb > 0 ? c / static_cast<double>(a->count) / pa / pb : (a == b ? 1.0 : 0.0);
-        spread += rho * rho;
-      }
+    std::vector<double> independent(of.size()), square(of.size());
+    InParallel(of.size(), [&](std::size_t a) {
+      const Target& t = *of[a];
+      independent[a] =
+          static_cast<double>(t.count) / RowsPerIndependentOne(noise, t.first, t.count);
+      square[a] = SumOfSquaredCorrelations(noise, of, a);
+    });
+    const double per_channel = std::accumulate(independent.begin(), independent.end(), 0.0) /
+                               static_cast<double>(of.size()),
+                 spread = std::accumulate(square.begin(), square.end(), 0.0);
     rows_effective += per_channel * static_cast<double>(of.size() * of.size()) / spread;
   }
   return rows_effective;

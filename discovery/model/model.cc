@@ -1,11 +1,10 @@
 #include "discovery/model/model.h"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/model/in_parallel.h"
 #include "discovery/model/record_rows.h"
 #include "discovery/model/record_traits.h"
 #include "rig/rig_assembly.h"
@@ -77,7 +76,7 @@ std::vector<std::string> CaseModel::LimitToHeld(const Hypothesis& h) {
   std::vector<std::string> lines;
   std::vector<double> found(case_.records.size(), kInfinity);
   horizon_ = found;
-  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t r) {
+  InParallel(found.size(), [&](std::size_t r) {
     try {
       std::vector<std::vector<double>> ignored;
       if (!predictors_[r])
@@ -271,7 +270,7 @@ std::vector<std::optional<std::vector<double>>> CaseModel::PredictAll(
     else
       o.emplace(measured_.size(), 0.0);
   std::vector<char> fine(all.size() * records, 1);
-  tbb::parallel_for(std::size_t{0}, all.size() * records, [&](std::size_t task) {
+  InParallel(all.size() * records, [&](std::size_t task) {
     const std::size_t k = task / records, r = task % records;
     if (look && !look->records[r]) return;
     fine[task] = FillRecord(rigs[k], r, false, 1, *out[k]) ? 1 : 0;
@@ -286,7 +285,7 @@ std::optional<std::vector<double>> CaseModel::PredictNoisy(const Hypothesis& h,
                                                            std::uint64_t seed) const {
   std::vector<double> out(measured_.size(), 0.0);
   std::atomic<bool> fine{true};
-  tbb::parallel_for(std::size_t{0}, case_.records.size(), [&](std::size_t r) {
+  InParallel(case_.records.size(), [&](std::size_t r) {
     if (!FillRecord(h.rig, r, true, seed + 977 * r, out)) fine = false;
   });
   if (!fine) return std::nullopt;

@@ -1,11 +1,14 @@
 #include "discovery/search/residual_peaks.h"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <span>
 
 #include "core/math/constants.h"
 #include "core/record/channels.h"
+#include "discovery/model/in_parallel.h"
 
 namespace ambrig {
 
@@ -20,19 +23,36 @@ bool IsReading(const CaseModel& model, const Target& t) {
          !id->plane.empty();
 }
 
-/// Fourier sum of one target's residual at f, phase zero at the scenario's start.
-std::complex<double> SumAt(const CaseModel& model, const std::vector<double>& residual,
-                           const Target& t, double f) {
+using Sums = std::vector<std::complex<double>>;
+
+/// Fourier sums of one target's residual at frequencies f, phase zero at the scenario's start.
+Sums SumsAt(const CaseModel& model, const std::vector<double>& residual, const Target& t,
+            const std::vector<double>& f) {
+  // Some at a time: every phase waits for the one before.
+  constexpr Eigen::Index kTogether = 16;
+  using Lanes = Eigen::Array<double, kTogether, 1>;
   const CaseRecord& record = model.data().records[t.record];
-  const double w = 2 * kPi * f / record.data.rate;
-  if (w > 0.8 * kPi) return 0;
-  const std::complex<double> turn = std::polar(1.0, -w);
-  std::complex<double> phase = std::polar(1.0, -2 * kPi * f * record.data.start), sum = 0;
-  for (std::size_t k = t.first; k < t.first + t.count; ++k) {
-    sum += residual[k] * phase;
-    phase *= turn;
+  const auto residuals = std::span(residual).subspan(t.first, t.count);
+  Sums out(f.size());
+  for (std::size_t first = 0; first < f.size(); first += kTogether) {
+    const std::size_t count = std::min<std::size_t>(kTogether, f.size() - first);
+    Lanes frequency = Lanes::Zero();
+    for (std::size_t k = 0; k < count; ++k) frequency[static_cast<Eigen::Index>(k)] = f[first + k];
+    const Lanes turn = frequency * (-2 * kPi / record.data.rate),
+                start = frequency * (-2 * kPi * record.data.start), c = turn.cos(), s = turn.sin();
+    Lanes re = start.cos(), im = start.sin(), sum_re = Lanes::Zero(), sum_im = Lanes::Zero();
+    for (const double r : residuals) {
+      sum_re += r * re;
+      sum_im += r * im;
+      const Lanes next = re * c - im * s;
+      im = re * s + im * c;
+      re = next;
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      if (const auto lane = static_cast<Eigen::Index>(k); - turn[lane] <= 0.8 * kPi)
+        out[first + k] = {sum_re[lane], sum_im[lane]};
   }
-  return sum;
+  return out;
 }
 
 std::vector<double> Peaks(const std::vector<double>& f, const std::vector<double>& power,
@@ -52,43 +72,49 @@ std::vector<double> Peaks(const std::vector<double>& f, const std::vector<double
   return out;
 }
 
-/// Power of a plane's readings by frequency, the records added with their phases.
-std::vector<double> CoherentPower(const CaseModel& model, const std::vector<double>& residual,
-                                  const std::string& plane, const std::vector<double>& f) {
-  std::vector<double> power(f.size());
-  for (std::size_t k = 0; k < f.size(); ++k) {
-    std::map<std::string, std::complex<double>> sums;
-    for (const Target& t : model.targets()) {
-      if (!IsReading(model, t)) continue;
-      const std::string& channel = model.data().records[t.record].data.channels[t.channel].name;
-      if (ParseChannel(channel)->plane == plane) sums[channel] += SumAt(model, residual, t, f[k]);
-    }
-    for (const auto& [channel, sum] : sums) power[k] += std::norm(sum);
+/// Power of a plane's readings by frequency, the records added with their phases. `sums`: of each target.
+std::vector<double> CoherentPower(const CaseModel& model, const std::vector<Sums>& sums,
+                                  const std::string& plane, std::size_t frequencies) {
+  std::map<std::string, Sums> channels;
+  for (std::size_t n = 0; n < sums.size(); ++n) {
+    if (sums[n].empty()) continue;
+    const Target& t = model.targets()[n];
+    const std::string& channel = model.data().records[t.record].data.channels[t.channel].name;
+    if (ParseChannel(channel)->plane != plane) continue;
+    Sums& sum = channels.try_emplace(channel, frequencies).first->second;
+    for (std::size_t k = 0; k < frequencies; ++k) sum[k] += sums[n][k];
   }
+  std::vector<double> power(frequencies);
+  for (const auto& [channel, sum] : channels)
+    for (std::size_t k = 0; k < frequencies; ++k) power[k] += std::norm(sum[k]);
   return power;
 }
 
 }  // namespace
 
 ResidualPeaks FindPeaks(const CaseModel& model, const std::vector<double>& residual) {
-  ResidualPeaks peaks;
-  std::vector<double> f, all;
+  std::vector<double> f, wide;
   for (double g = 8; g < 320; g += 0.4) f.push_back(g);
-  all.assign(f.size(), 0);
+  for (double g = 15; g < 2500; g *= 1.012) wide.push_back(g);
+  // of each target that is a reading
+  std::vector<Sums> coherent(model.targets().size()), any_phase(model.targets().size());
+  InParallel(model.targets().size(), [&](std::size_t n) {
+    const Target& t = model.targets()[n];
+    if (!IsReading(model, t)) return;
+    coherent[n] = SumsAt(model, residual, t, f);
+    any_phase[n] = SumsAt(model, residual, t, wide);
+  });
+  ResidualPeaks peaks;
+  std::vector<double> all(f.size()), power(wide.size());
   for (const auto& b : model.data().rig.bearings) {
-    const std::vector<double> power = CoherentPower(model, residual, b.name, f);
-    peaks.coherent[b.name] = Peaks(f, power, kCoherentPeaks, 0.04);
-    for (std::size_t k = 0; k < f.size(); ++k) all[k] += power[k];
+    const std::vector<double> of_plane = CoherentPower(model, coherent, b.name, f.size());
+    peaks.coherent[b.name] = Peaks(f, of_plane, kCoherentPeaks, 0.04);
+    for (std::size_t k = 0; k < f.size(); ++k) all[k] += of_plane[k];
   }
   peaks.coherent["rig"] = Peaks(f, all, kCoherentPeaks, 0.04);
-  std::vector<double> wide, power;
-  for (double g = 15; g < 2500; g *= 1.012) {
-    wide.push_back(g);
-    power.push_back(0);
-    for (const Target& t : model.targets())
-      if (IsReading(model, t))
-        power.back() += std::norm(SumAt(model, residual, t, g)) / static_cast<double>(t.count);
-  }
+  for (std::size_t n = 0; n < any_phase.size(); ++n)
+    for (std::size_t k = 0; k < any_phase[n].size(); ++k)
+      power[k] += std::norm(any_phase[n][k]) / static_cast<double>(model.targets()[n].count);
   peaks.spectrum = Peaks(wide, power, kSpectrumPeaks, 0.1);
   return peaks;
 }

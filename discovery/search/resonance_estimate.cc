@@ -1,13 +1,12 @@
 #include "discovery/search/resonance_estimate.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "core/math/constants.h"
 #include "core/math/linear_equations.h"
+#include "discovery/model/in_parallel.h"
 
 namespace ambrig {
 
@@ -49,7 +48,8 @@ class ResonanceScan {
             Eigen::Map<const Eigen::ArrayXd>(r.scale[s].data(), RowsOf(r) / 2).replicate(2, 1));
         fixed_[s].push_back(FixedColumns(r, s));
         fixed_[s].back().array().colwise() /= scale_[s].back();
-        all += fixed_[s].back().col(0).squaredNorm();
+        fixed_products_[s].push_back(fixed_[s].back().transpose() * fixed_[s].back());
+        all += fixed_products_[s].back()(0, 0);
       }
     }
     for (const Eigen::MatrixXd& error : Products(nullptr)) before_ += error(0, 0);
@@ -163,14 +163,22 @@ class ResonanceScan {
     for (std::size_t n = 0; n < responses_.size(); ++n) {
       const Eigen::MatrixXd own =
           mode ? ColumnsOfMode(responses_[n], *mode) : Eigen::MatrixXd(RowsOf(responses_[n]), 0);
+      const Eigen::Index own_ends = own.cols() - answers;
       for (std::size_t s = 0; s < 2; ++s) {
         const Eigen::MatrixXd& fixed = fixed_[s][n];
-        Eigen::MatrixXd scaled = own, all(fixed.rows(), kept + ends);
-        scaled.array().colwise() /= scale_[s][n];
-        all.leftCols(answers) = scaled.leftCols(answers);
-        all.middleCols(answers, fixed.cols()) = fixed;
-        all.rightCols(scaled.cols() - answers) = scaled.rightCols(scaled.cols() - answers);
-        sums[s] += WithoutLast(all.transpose() * all, ends);
+        const Eigen::MatrixXd scaled = own.array().colwise() / scale_[s][n],
+                              squares = scaled.transpose() * scaled,
+                              both = scaled.transpose() * fixed;
+        // In the order: answers, what no mode changes, ends of the mode.
+        Eigen::MatrixXd all(kept + ends, kept + ends);
+        all.topLeftCorner(answers, answers) = squares.topLeftCorner(answers, answers);
+        all.block(0, answers, answers, fixed.cols()) = both.topRows(answers);
+        all.topRightCorner(answers, own_ends) = squares.topRightCorner(answers, own_ends);
+        all.block(answers, answers, fixed.cols(), fixed.cols()) = fixed_products_[s][n];
+        all.block(answers, answers + fixed.cols(), fixed.cols(), own_ends) =
+            both.bottomRows(own_ends).transpose();
+        all.bottomRightCorner(own_ends, own_ends) = squares.bottomRightCorner(own_ends, own_ends);
+        sums[s] += WithoutLast(all.selfadjointView<Eigen::Upper>(), ends);
       }
     }
     for (Eigen::MatrixXd& sum : sums) sum = WithoutLast(sum, kForceColumns);
@@ -180,7 +188,7 @@ class ResonanceScan {
   const std::vector<FreeResponse>& responses_;
   std::size_t lines_ = 0;
   // of each sensor, by response; scale_: of all rows
-  std::array<std::vector<Eigen::MatrixXd>, 2> fixed_;
+  std::array<std::vector<Eigen::MatrixXd>, 2> fixed_, fixed_products_;
   std::array<std::vector<Eigen::ArrayXd>, 2> scale_;
   double before_ = 0;  // squared error, 0: none beyond rounding
 };
@@ -256,7 +264,7 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
   for (double f = kScanFrom; f < kScanTo; f *= kScanRatio)
     for (const double damping : kScannedDamping)
       scanned.push_back({f, std::max(damping, scan.LeastDamping(f))});
-  tbb::parallel_for(std::size_t{0}, scanned.size(), [&](std::size_t k) { scan.Solve(scanned[k]); });
+  InParallel(scanned.size(), [&](std::size_t k) { scan.Solve(scanned[k]); });
   out = Distinct(scanned, count, OneOfTheScan);
   std::vector<ResonanceEstimate> refined;
   for (const ResonanceEstimate& e : out)
@@ -264,7 +272,7 @@ std::vector<ResonanceEstimate> EstimateResonances(const std::vector<FreeResponse
       refined.push_back(e);
       refined.back().gyro = gyro;
     }
-  tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
+  InParallel(refined.size(), [&](std::size_t k) {
     scan.Solve(refined[k]);
     refined[k] = RefinedEstimate(scan, refined[k]);
   });

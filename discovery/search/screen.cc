@@ -1,10 +1,9 @@
 #include "discovery/search/screen.h"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/model/in_parallel.h"
 #include "discovery/search/free_response.h"
 #include "discovery/search/quick_look.h"
 #include "discovery/search/resonance_estimate.h"
@@ -263,7 +262,7 @@ std::vector<CandidatePair> ScreenPairs(const CaseModel& model, const FitResult& 
   const auto& entries = bank.entries();
   // with a later entry, one per (effect, target)
   std::vector<std::vector<CandidatePair>> best_of(entries.size());
-  tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) {
+  InParallel(entries.size(), [&](std::size_t i) {
     const EffectInstance& a = entries[i].group.probes[0];
     if (Present(base.hypothesis, a) || ChangesNothing(judge, entries[i])) return;
     std::vector<CandidatePair>& best = best_of[i];

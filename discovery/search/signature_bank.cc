@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "discovery/model/in_parallel.h"
+
 namespace ambrig {
 
 namespace {
@@ -28,13 +30,32 @@ std::vector<Span> RecordSpans(const CaseModel& model) {
   return spans;
 }
 
+/// The same in blocks that stay in the cache and keep sums in single precision honest.
+std::vector<Span> RowBlocks(const CaseModel& model) {
+  constexpr Index kRows = 4096;
+  std::vector<Span> blocks;
+  for (const Span& s : RecordSpans(model))
+    for (Index row = s.first; row < s.first + s.count; row += kRows)
+      blocks.push_back({row, std::min(kRows, s.first + s.count - row), s.validate});
+  return blocks;
+}
+
+/// Adds what `product` gives of each span of rows, in their order.
+template <class Product>
+void AddProducts(const std::vector<Span>& spans, Gram* sum, const Product& product) {
+  std::vector<Eigen::MatrixXd> parts(spans.size());
+  InParallel(spans.size(), [&](std::size_t k) { parts[k] = product(spans[k]); });
+  for (std::size_t k = 0; k < spans.size(); ++k)
+    (spans[k].validate ? sum->validate : sum->fit) += parts[k];
+}
+
 }  // namespace
 
 Gram RowProducts(const CaseModel& model, const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   Gram g = {Eigen::MatrixXd::Zero(a.cols(), b.cols()), Eigen::MatrixXd::Zero(a.cols(), b.cols())};
-  for (const Span& s : RecordSpans(model))
-    (s.validate ? g.validate : g.fit).noalias() +=
-        a.middleRows(s.first, s.count).transpose() * b.middleRows(s.first, s.count);
+  AddProducts(RecordSpans(model), &g, [&](const Span& s) -> Eigen::MatrixXd {
+    return a.middleRows(s.first, s.count).transpose() * b.middleRows(s.first, s.count);
+  });
   return g;
 }
 
@@ -165,11 +186,12 @@ void SignatureBank::ForgetProducts() {
 }
 
 void SignatureBank::TakeOffNuisances(const CaseModel& model) {
-  for (Index c = 0; c < used_; ++c) {
+  InParallel(static_cast<std::size_t>(used_), [&](std::size_t k) {
+    const auto c = static_cast<Index>(k);
     Eigen::VectorXd signature = columns_.col(c).cast<double>();
     model.nuisances.Eliminate(signature.data());
     columns_.col(c) = signature.cast<float>();
-  }
+  });
   ForgetProducts();
 }
 
@@ -203,20 +225,18 @@ bool SignatureBank::Holds(const EffectInstance& probe) const {
 
 const Gram& SignatureBank::Products(const CaseModel& model) {
   if (multiplied_ == used_) return products_;
-  products_.fit.conservativeResizeLike(Eigen::MatrixXd::Zero(used_, used_));
-  products_.validate.conservativeResizeLike(Eigen::MatrixXd::Zero(used_, used_));
+  // All columns by the new ones.
   const Index n = used_ - multiplied_;
-  for (const Span& s : RecordSpans(model)) {
-    // All columns by the new ones, in blocks that stay in the cache and keep single precision
-    // honest.
-    constexpr Index kRows = 4096;
-    for (Index row = s.first; row < s.first + s.count; row += kRows) {
-      const Index rows = std::min(kRows, s.first + s.count - row);
-      const Eigen::MatrixXf part = columns_.block(row, 0, rows, used_).transpose() *
-                                   columns_.block(row, multiplied_, rows, n);
-      (s.validate ? products_.validate : products_.fit).rightCols(n) += part.cast<double>();
-    }
-  }
+  Gram fresh = {Eigen::MatrixXd::Zero(used_, n), Eigen::MatrixXd::Zero(used_, n)};
+  AddProducts(RowBlocks(model), &fresh, [&](const Span& s) {
+    const Eigen::MatrixXf part = columns_.block(s.first, 0, s.count, used_).transpose() *
+                                 columns_.block(s.first, multiplied_, s.count, n);
+    return Eigen::MatrixXd(part.cast<double>());
+  });
+  products_.fit.conservativeResize(used_, used_);
+  products_.validate.conservativeResize(used_, used_);
+  products_.fit.rightCols(n) = fresh.fit;
+  products_.validate.rightCols(n) = fresh.validate;
   for (Eigen::MatrixXd* m : {&products_.fit, &products_.validate})
     m->bottomLeftCorner(n, multiplied_) = m->topRightCorner(multiplied_, n).transpose();
   multiplied_ = used_;
@@ -225,13 +245,10 @@ const Gram& SignatureBank::Products(const CaseModel& model) {
 
 Gram SignatureBank::ProductsWith(const CaseModel& model, const Eigen::MatrixXd& a) const {
   Gram g = {Eigen::MatrixXd::Zero(a.cols(), used_), Eigen::MatrixXd::Zero(a.cols(), used_)};
-  constexpr Index kRows = 4096;
-  for (const Span& s : RecordSpans(model))
-    for (Index row = s.first; row < s.first + s.count; row += kRows) {
-      const Index rows = std::min(kRows, s.first + s.count - row);
-      (s.validate ? g.validate : g.fit).noalias() +=
-          a.middleRows(row, rows).transpose() * columns_.block(row, 0, rows, used_).cast<double>();
-    }
+  AddProducts(RowBlocks(model), &g, [&](const Span& s) -> Eigen::MatrixXd {
+    return a.middleRows(s.first, s.count).transpose() *
+           columns_.block(s.first, 0, s.count, used_).cast<double>();
+  });
   return g;
 }
 
