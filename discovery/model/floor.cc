@@ -1,6 +1,7 @@
 #include "discovery/model/floor.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -106,8 +107,11 @@ NoiseFloor FindFloor(CaseModel& model, const Hypothesis& h) {
   NoiseFloor floor;
   Hypothesis noisy = h;
   noisy.rig = WithNoise(h.rig, model.noise_model);
-  const auto clean = model.Predict(h);
-  const auto first = model.PredictNoisy(noisy, 11), second = model.PredictNoisy(noisy, 12);
+  std::array<std::optional<std::vector<double>>, 3> runs;
+  InParallel(runs.size(), [&](std::size_t k) {
+    runs[k] = k == 0 ? model.Predict(h) : model.PredictNoisy(noisy, 10 + k);
+  });
+  const auto& [clean, first, second] = runs;
   if (!clean) throw InputError(model.data().file + ": the model loses levitation in these records");
   std::vector<double> d1(clean->size()), d2(clean->size());
   for (std::size_t k = 0; k < d1.size(); ++k) {

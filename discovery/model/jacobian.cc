@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "discovery/model/in_parallel.h"
+
 namespace ambrig {
 
 namespace {
@@ -79,8 +81,12 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
   const Prediction here = std::move(runs.back());
   std::vector<std::size_t> far;  // steps that are taken again
   std::vector<Hypothesis> nearer;
+  std::vector<double> sizes(sides * n);
+  InParallel(here ? sizes.size() : 0, [&](std::size_t k) {
+    sizes[k] = runs[k] ? ChangeOf(model, look, here, runs[k]) : kInfinity;
+  });
   for (std::size_t k = 0; here && k < sides * n; ++k) {
-    const double size = runs[k] ? ChangeOf(model, look, here, runs[k]) : kInfinity;
+    const double size = sizes[k];
     if (change[k] == 0 || size <= kMostChange) continue;
     far.push_back(k);
     nearer.push_back(h);
@@ -102,16 +108,16 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
   }
   const auto rows = static_cast<Eigen::Index>(model.size());
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(n));
-  for (std::size_t c = 0; here && c < n; ++c) {
+  InParallel(here ? n : 0, [&](std::size_t c) {
     const auto i = static_cast<Eigen::Index>(c);
     FillColumn(model, here, runs[c], change[c], J.col(i));
     // at a bound both sides are the same one
-    if (sides == 1 || !runs[c] || !runs[n + c] || change[c] * change[n + c] >= 0) continue;
+    if (sides == 1 || !runs[c] || !runs[n + c] || change[c] * change[n + c] >= 0) return;
     Eigen::MatrixXd back = Eigen::MatrixXd::Zero(rows, 1);
     FillColumn(model, here, runs[n + c], change[n + c], back.col(0));
     for (Eigen::Index row = 0; row < rows; ++row)
       J(row, i) = SmallerOfOneSign(J(row, i), back(row, 0));
-  }
+  });
   if (model.nuisances.any()) model.nuisances.Eliminate(J);
   return J;
 }

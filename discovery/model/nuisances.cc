@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "discovery/model/in_parallel.h"
 #include "discovery/model/model.h"
 
 namespace ambrig {
@@ -50,7 +51,8 @@ void Nuisances::Eliminate(double* rows) const {
 }
 
 void Nuisances::Eliminate(Eigen::MatrixXd& columns) const {
-  for (Index c = 0; c < columns.cols(); ++c) Eliminate(columns.col(c).data());
+  InParallel(static_cast<std::size_t>(columns.cols()),
+             [&](std::size_t c) { Eliminate(columns.col(static_cast<Index>(c)).data()); });
 }
 
 std::vector<NuisanceFound> Nuisances::Amounts(const CaseModel& model,
