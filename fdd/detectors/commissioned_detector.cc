@@ -137,7 +137,8 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   // What these throw at a healthy neighbour is smaller.
   if (Relies() && !out_of_range_ && gross)
     return PhasesAgree(coil) && std::abs(excess) > kOfTheLargest * LargestNow();
-  return gross && CurrentIsFalse(coil) && (excess < 0 || GrossCoils() < kCoilsAtOnce);
+  return gross && CurrentIsFalse(coil) &&
+         (excess < 0 || (GrossCoils() < kCoilsAtOnce && (Relies() || jumped_[coil] > 0)));
 }
 
 CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& in) {
@@ -152,6 +153,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   const bool comparable = in.comparable && in.x1 * in.x1 + in.y1 * in.y1 < reach * reach;
   if (!comparable) {
     ratio_ = streak_ = dead_ = last_flux_ = Lane{};
+    for (Lane& c : last_now_) std::fill_n(c.v, kLanes, kGross);
     joint_.Clear();
     return {};
   }
@@ -167,6 +169,7 @@ CommissionedDetector::Outcome CommissionedDetector::Watch(const MeasuredPeriod& 
   drift_.TakeOff(&excess_);
   WatchRange(in);
   Ratios();
+  if (!Relies()) WatchJumps();
   if (TakesFirstDrift()) return {};
   if (calm_)
     joint_.Clear();
@@ -231,16 +234,6 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
     out.decided = false;
     out.doubtful = true;
   }
-  return out;
-}
-
-CommissionedDetector::Outcome CommissionedDetector::WithoutCurrent(double t) const {
-  Outcome out;
-  const std::vector<Diagnosis> failed = CoilsWithoutCurrent(t);
-  if (failed.empty() || MayBounce()) return out;
-  out.alarm = out.decided = true;
-  out.excess = now_[failed[0].coil];
-  out.Blame(failed);
   return out;
 }
 

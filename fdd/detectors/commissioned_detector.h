@@ -24,7 +24,8 @@
 /// blamed only where c < -0.5 or > 2; unless the flux alone is outside the range, also its current
 /// must be false, and fewer than three coils may have c > 0.5: what a nominal circuit does not know
 /// keeps flux out, which makes c positive in many coils alike. Without commissioning no coil is blamed
-/// until 10 ms after the last possible contact.
+/// until 10 ms after the last possible contact, and for lost turns only where its c came from below 0.5 to above 2 within
+/// two periods: where iron that no model knows saturates, c grows over many.
 ///
 /// A coil without current is one that is asked for some, or whose linkage moves by less than a
 /// quarter of what its voltage would do: the diodes of a coil that is asked for none block. The c of a winding of a
@@ -163,6 +164,8 @@ class CommissionedDetector : public CoilDetector {
   Outcome WithoutCurrent(double t) const;
   /// Without a model of this machine, what a rotor that bounces does to the currents is not known.
   bool MayBounce() const { return !Relies() && bounces_; }
+  /// Where c became gross at once, and has been so since.
+  void WatchJumps();
   void FollowDrift(bool doubtful);
   /// What the first 40 undisturbed periods show, and then the first 160, is drift since the commissioning, within its
   /// bounds: taken off at once, and the windows begin anew. Whether this is such a period.
@@ -225,6 +228,8 @@ class CommissionedDetector : public CoilDetector {
   long long steady_ = 0;          // undisturbed periods in a row, until then
   Lane streak_, onset_;           // periods in a row that a coil was suspect; since [s]
   Lane dead_, dead_since_;        // periods in a row without current though driven; since [s]
+  Lane last_now_[2];              // c of the two periods before
+  Lane jumped_;                   // 1: c became gross at once, and has been so since
   int waited_ = 0;                // periods for a companion, since nothing stood out
   int paused_ = 8;
   long long count_ = 0;

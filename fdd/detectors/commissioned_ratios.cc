@@ -100,6 +100,17 @@ void CommissionedDetector::WatchCurrents(const MeasuredPeriod& in) {
                     &current_error_, &false_current_);
 }
 
+void CommissionedDetector::WatchJumps() {
+  for (int j = 0; j < kLanes; ++j) {
+    if (now_[j] < kGross)
+      jumped_[j] = 0;
+    else if (now_[j] > kGrossAbove && std::min(last_now_[0][j], last_now_[1][j]) < kGross)
+      jumped_[j] = 1;
+  }
+  last_now_[1] = last_now_[0];
+  last_now_[0] = now_;
+}
+
 double CommissionedDetector::PatternLimit() const {
   return std::max(kLeastPattern, kPatternGrows * model_.pattern);
 }

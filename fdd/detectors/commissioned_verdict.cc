@@ -56,6 +56,16 @@ std::vector<Diagnosis> CommissionedDetector::CoilsWithoutCurrent(double t) const
   return out;
 }
 
+CommissionedDetector::Outcome CommissionedDetector::WithoutCurrent(double t) const {
+  Outcome out;
+  const std::vector<Diagnosis> failed = CoilsWithoutCurrent(t);
+  if (failed.empty() || MayBounce()) return out;
+  out.alarm = out.decided = true;
+  out.excess = now_[failed[0].coil];
+  out.Blame(failed);
+  return out;
+}
+
 double CommissionedDetector::LeastLost(int coil, double per_excess) const {
   // No phase that starts at zero current was learnt from either.
   const double c = excess_.gross[coil] > 0 ? kGrossAbove : out_of_range_ ? gross_above_[coil] : 0;
