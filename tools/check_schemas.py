@@ -86,6 +86,7 @@ DEAR = [
     ("refine", "refine practice/case.toml saturation -o refined.toml", {0}),
     ("plan", f"plan {RIG} --learn side-pull@A cross-coupling@A", {0, 1}),
     ("practice", f"practice {RIG} --cases 1 -o practised", {0, 1}),
+    ("practice_plans", f"practice {RIG} --plans --cases 1 -o planned", {0, 1}),
     ("score", "score practice -o scored", {0, 1}),
 ]
 # Commands whose document has a schema of another name; none: they write no JSON although they take the option.

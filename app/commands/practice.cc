@@ -11,6 +11,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/outputs.h"
+#include "app/commands/practice_plans.h"
 #include "app/commands/practice_work.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
@@ -35,7 +36,7 @@ struct PracticeCommand {
   std::string out = "practice-cases", shard, fit;
   PracticeSetting setting;
   int jobs = 1;
-  bool make_only = false, report_only = false;
+  bool make_only = false, report_only = false, plans = false;
 };
 
 PracticeRig ReadPracticeRig(const std::string& file) {
@@ -165,6 +166,16 @@ void ReportPractice(const PracticeCommand& o) {
   fmt::print("written {}\n", page);
 }
 
+int RunPlans(const PracticeCommand& o) {
+  try {
+    PractisePlans(o.setting, o.report_only, o.common);
+  } catch (const Interrupted&) {
+    fmt::print(stderr, "ambrig: stopped; re-run the command to resume\n");
+    return 130;
+  }
+  return 0;
+}
+
 int RunPractice(PracticeCommand o) {
   std::set<std::filesystem::path> rigs;
   for (const std::string& file : o.rigs) {
@@ -180,6 +191,7 @@ int RunPractice(PracticeCommand o) {
   o.setting.folder = o.out;
   o.common.CheckOutputs(o.rigs, {o.fit});
   PrepareStudyFolder(o.out, {"answers.toml", "report.html"}, o.common.force);
+  if (o.plans) return RunPlans(o);
   const auto finished = FinishedCases(o.setting);
   const auto pending = PendingCases(o.setting, finished);
   if (!o.report_only) RefuseOverwriting(FilesOfCases(o.out, pending), o.common.force);
@@ -229,6 +241,11 @@ void AddPractice(CLI::App& app, Work& work) {
   command->add_flag("--report-only", options->report_only, "only count what is finished")
       ->excludes(make);
   command
+      ->add_flag("--plans", options->plans,
+                 "practise plan instead: one record of each case that hides one effect, the "
+                 "record that plan proposes, and whether the right one of two names is then found")
+      ->excludes(make);
+  command
       ->add_option("--fit", options->fit,
                    "write the calibration fitted with one half of the law families to this file "
                    "(discovery/calibration/calibration_table.cc of the sources)")
@@ -239,6 +256,8 @@ void AddPractice(CLI::App& app, Work& work) {
       "Examples:\n"
       "  ambrig practice examples/reference/rig.toml --cases 2 --make-only -o made\n"
       "  ambrig practice examples/small_spindle/rig.toml --cases 1 -o spindle\n"
+      "  ambrig practice examples/reference/rig.toml --plans --cases 100 -o plans --json "
+      "plans.json\n"
       "Re-run the command to resume; with another --cases the same cases come first.\n"
       "Explaining a case takes half a minute to some minutes.");
   command->callback([options, &work] { work = [options] { return RunPractice(*options); }; });
