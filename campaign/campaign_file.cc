@@ -13,6 +13,7 @@
 #include "core/base/fingerprint.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
+#include "core/math/normal_distribution.h"
 #include "fdd/learning/commissioning_file.h"
 #include "rig/rig_file.h"
 

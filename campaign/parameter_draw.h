@@ -17,9 +17,6 @@ inline constexpr int kSobolDimensions = 21;
 /// @throws std::logic_error for more than kSobolDimensions.
 UnitPoints Sobol(int draws, int dimensions, std::uint64_t seed);
 
-/// z with Phi(z) = p, 0 < p < 1; error below 1e-12.
-double NormalQuantile(double p);
-
 /// Well mixed 64 bits of x (splitmix64, Steele et al. 2014): seeds of runs, of draws.
 std::uint64_t Mixed(std::uint64_t x);
 

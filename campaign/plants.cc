@@ -8,6 +8,7 @@
 #include "campaign/parameter_draw.h"
 #include "core/base/toml_checked.h"
 #include "core/math/copper.h"
+#include "core/math/normal_distribution.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_figures.h"

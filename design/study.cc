@@ -11,6 +11,7 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "core/base/toml_edit.h"
+#include "core/math/normal_distribution.h"
 #include "design/point.h"
 #include "rig/rig_file.h"
 

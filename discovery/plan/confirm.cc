@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/math/noise.h"
+#include "core/math/normal_distribution.h"
 #include "core/record/channels.h"
-#include "discovery/model/floor.h"
 #include "discovery/plan/planner.h"
 
 namespace ambrig {
@@ -16,7 +17,7 @@ using Eigen::Index;
 
 namespace {
 
-enum Stream : std::uint32_t { kNumbers = 211, kLaw, kLoadCell };
+enum Stream : std::uint32_t { kNumbers = 211, kLaw, kLoadCell, kVariation };
 
 /// The rival with its numbers drawn from their distribution, within their limits.
 Hypothesis Drawn(const Rival& rival, std::uint64_t seed) {
@@ -33,15 +34,26 @@ Hypothesis Drawn(const Rival& rival, std::uint64_t seed) {
   return h;
 }
 
+/// Size of a law's variation, as often as each is to be expected.
+double DrawnVariation(std::uint64_t seed) {
+  double share = NormalProbability(Normal(seed, kVariation, 0));
+  for (const LawVariation& v : kLawVariations) {
+    if (share < v.share) return v.size;
+    share -= v.share;
+  }
+  return std::end(kLawVariations)[-1].size;
+}
+
 /// Adds what a law of another form would change, in eighths of the record, and the noise that is
 /// the load cells' own.
-void Disturb(const TrialRecord& trial, const RivalView& truth, bool law, std::uint64_t seed,
+void Disturb(const TrialRecord& trial, const RivalView& truth, std::uint64_t seed,
              std::vector<double>& data) {
   const CaseModel& model = *trial.model;
   Eigen::VectorXd amount = Eigen::VectorXd::Zero(truth.columns.cols());
-  for (int k = 0; law && k < kLawBlocks; ++k)
-    amount(amount.size() - kLawBlocks + k) =
-        kLawVariation * Normal(seed, kLaw, static_cast<std::uint64_t>(k));
+  const double size = DrawnVariation(seed);
+  for (Index k = 0; k < truth.law; ++k)
+    amount(amount.size() - truth.law + k) =
+        size * Normal(seed, kLaw, static_cast<std::uint64_t>(k));
   const Eigen::VectorXd change = truth.columns * amount;
   std::uint64_t cell = 0;
   for (const Target& t : model.targets()) {
@@ -63,15 +75,13 @@ std::optional<bool> Planner::Decide(const TrialRecord& trial, const std::vector<
                                     std::uint64_t seed) const {
   auto data = trial.model->PredictNoisy(Drawn(rivals_[truth], seed), seed);
   if (!data) return std::nullopt;  // this draw loses the rotor
-  Disturb(trial, views[truth], !rivals_[truth].target.empty(), seed, *data);
+  Disturb(trial, views[truth], seed, *data);
   return Disbelief(trial, views[truth], *data) < Disbelief(trial, views[other], *data);
 }
 
 void Planner::Confirm(const Scored& best, Plan& plan) {
   TrialRecord trial = Trial(plan.toml, best.candidate);
-  const NoiseFloor floor = FindFloor(*trial.model, rivals_[0].hypothesis);
-  trial.row_weight =
-      std::min(floor.effective_sample_size / static_cast<double>(trial.model->size()), 1.0);
+  Prepare(&trial);
   plan.record_rate = trial.data->records[0].data.rate;
   for (const Channel& ch : trial.data->records[0].data.channels) plan.channels.push_back(ch.name);
   std::vector<RivalView> views;
@@ -84,7 +94,7 @@ void Planner::Confirm(const Scored& best, Plan& plan) {
     PlannedPair out;
     out.a = rivals_[a].Name();
     out.b = rivals_[b].Name();
-    out.distance = std::sqrt(best.distances[p]);
+    out.distance = DistanceOf(best.probabilities[p]);
     for (int k = 0; k < options_.draws; ++k) {
       const bool second = k % 2 == 1;
       const auto right = Decide(trial, views, second ? b : a, second ? a : b,
@@ -93,7 +103,7 @@ void Planner::Confirm(const Scored& best, Plan& plan) {
       ++out.draws;
       out.right += *right ? 1 : 0;
     }
-    out.probability = std::min(ProbabilityRight(best.distances[p]), 0.999);
+    out.probability = std::min(best.probabilities[p], 0.999);
     // what the simulated records contradict is not promised
     if (out.draws > 0 && out.right < out.draws)
       out.probability = std::min(out.probability, static_cast<double>(out.right) / out.draws);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "discovery/decision/compare.h"
 #include "discovery/decision/likelihood.h"
+#include "discovery/decision/prepared_models.h"
 #include "discovery/plan/planner.h"
 #include "discovery/practice/measured_case.h"
 #include "discovery/search/signature_bank.h"
@@ -33,6 +33,16 @@ Eigen::MatrixXd PrecisionOf(const CaseModel& model, const FitResult& fit, double
   for (Index k = 0; k < P.rows(); ++k)
     P(k, k) += fit.hypothesis.free[static_cast<std::size_t>(k)].sd > 0 ? 1 : 1e-4;
   return P;
+}
+
+/// What a record will have of its own: as declared; else zeros of the position sensors of usual size, which differ from
+/// record to record on most rigs and are told by no one.
+NuisancePriors NuisancesToExpect(const RigParameters& rig, const NuisancePriors& declared) {
+  NuisancePriors out = declared;
+  if (out.any()) return out;
+  for (const BearingParameters& b : rig.bearings)
+    for (const std::string& axis : b.Axes()) out.sensor_zero[axis] = UsualZero(rig, axis);
+  return out;
 }
 
 /// Rig parameters by their prior, numbers of effects with `sd` in steps.
@@ -77,17 +87,10 @@ Plan PlanForCase(const Case& c, const EffectNames& names, const PlanOptions& opt
     if (options.stop && options.stop->load()) throw Interrupted();
     if (options.progress) options.progress(f, text);
   };
-  std::size_t rows = 0;
-  for (const CaseRecord& r : c.records)
-    for (const Channel& channel : r.data.channels) rows += channel.samples.size();
-  CaseModel full(c), thin(c, std::clamp<std::size_t>(rows / kPlanRows, 1, 12));
+  CaseModel full(c), thin(c, ThinningTo(c, kPlanRows));
   full.stop = thin.stop = options.stop;
   progress(0, "noise floor");
-  const Comparison filed = Compare(full, Hypothesis::Base(c.rig), false);
-  thin.noise_model = full.noise_model;
-  thin.LimitAs(full);
-  for (std::size_t t = 0; t < full.targets().size(); ++t)
-    thin.targets()[t].floor = full.targets()[t].floor;
+  const Comparison filed = PrepareModels(full, thin, Hypothesis::Base(c.rig));
   std::map<std::string, double> noise = c.noise;
   for (const auto& [channel, n] : filed.noise.channels)
     if (std::isfinite(n.used)) noise[channel] = n.used;
@@ -109,7 +112,8 @@ Plan PlanForCase(const Case& c, const EffectNames& names, const PlanOptions& opt
     rivals.push_back(
         {effect, law.fit.hypothesis.rig.effects[law.index].target, law.fit.hypothesis, P, P});
   }
-  Planner planner(c.rig, AbilitiesOf(c), noise, rivals, base.hypothesis, options);
+  Planner planner(c.rig, AbilitiesOf(c), {noise, NuisancesToExpect(c.rig, c.nuisances)}, rivals,
+                  base.hypothesis, options);
   Plan plan = planner.Run();
   for (const DataFault& f : filed.data)
     plan.warnings.push_back("the data of this case are wrong: " + FaultText(f));
@@ -146,7 +150,7 @@ Plan PlanForRig(const RigParameters& rig, const EffectNames& effects, const Abil
     if (b.kind->two_axes)
       for (const ChannelId& cell : ChannelsOf(b, ChannelKind::kLoadCell))
         noise[cell.name()] = UsualLoadCellNoise(rig);
-  return Planner(rig, abilities, noise, rivals, base, options).Run();
+  return Planner(rig, abilities, {noise, NuisancesToExpect(rig, {})}, rivals, base, options).Run();
 }
 
 }  // namespace ambrig

@@ -18,12 +18,11 @@ constexpr double kSizes[] = {1, 0.6, 0.35, 0.2};
 
 }  // namespace
 
-Planner::Planner(const RigParameters& rig, const Abilities& abilities,
-                 std::map<std::string, double> noise, std::vector<Rival> rivals, Hypothesis nothing,
-                 const PlanOptions& options)
+Planner::Planner(const RigParameters& rig, const Abilities& abilities, Surroundings surroundings,
+                 std::vector<Rival> rivals, Hypothesis nothing, const PlanOptions& options)
     : rig_(rig),
       abilities_(abilities),
-      noise_(std::move(noise)),
+      surroundings_(std::move(surroundings)),
       rivals_(std::move(rivals)),
       nothing_(std::move(nothing)),
       options_(options) {
@@ -46,7 +45,8 @@ std::vector<std::pair<std::size_t, std::size_t>> Planner::Pairs() const {
 TrialRecord Planner::Trial(const std::string& toml, const PlanCandidate& c) const {
   TrialRecord trial;
   trial.data = std::make_unique<Case>(EmptyCase(rig_, {{c.title, toml, false, c.burst}}));
-  trial.data->noise = noise_;
+  trial.data->noise = surroundings_.noise;
+  trial.data->nuisances = surroundings_.nuisances;
   CaseRecord& record = trial.data->records[0];
   if (!abilities_.channels.empty())
     for (std::size_t k = record.data.channels.size(); k-- > 0;)
@@ -60,6 +60,16 @@ TrialRecord Planner::Trial(const std::string& toml, const PlanCandidate& c) cons
       std::make_unique<CaseModel>(*trial.data, std::clamp<std::size_t>(rows / kTrialRows, 1, 12));
   trial.model->stop = options_.stop;
   return trial;
+}
+
+void Planner::Prepare(TrialRecord* trial) const {
+  CaseModel& model = *trial->model;
+  const Hypothesis& h = rivals_[0].hypothesis;
+  const NoiseFloor floor = FindFloor(model, h);
+  trial->row_weight =
+      std::min(floor.effective_sample_size / static_cast<double>(model.size()), 1.0);
+  const bool declared = true;  // here those to expect
+  model.nuisances.Use(model, NuisanceKindsOf(model, h, floor.clean, declared), trial->row_weight);
 }
 
 bool Planner::View(const TrialRecord& trial, std::vector<RivalView>* views) const {
@@ -100,9 +110,7 @@ std::optional<Planner::Scored> Planner::Score(const PlanCandidate& c, TriedScena
     tried->refused = s.safety.reason;
     if (!s.safety.safe && c.toml(size) == c.toml(1) && size < 1) return std::nullopt;
     if (!s.safety.safe) continue;
-    const NoiseFloor floor = FindFloor(*trial.model, rivals_[0].hypothesis);
-    trial.row_weight =
-        std::min(floor.effective_sample_size / static_cast<double>(trial.model->size()), 1.0);
+    Prepare(&trial);
     std::vector<RivalView> views;
     const bool held = View(trial, &views);
     runs_ += trial.model->runs;
@@ -112,10 +120,10 @@ std::optional<Planner::Scored> Planner::Score(const PlanCandidate& c, TriedScena
     }
     s.least = kInfinity;
     for (const auto& [a, b] : Pairs()) {
-      s.distances.push_back(SquaredDistance(trial, views[a], views[b]));
-      s.least = std::min(s.least, s.distances.back());
+      s.probabilities.push_back(ProbabilityRight(SquaredDistances(trial, views[a], views[b])));
+      s.least = std::min(s.least, s.probabilities.back());
     }
-    tried->least_distance = std::sqrt(s.least);
+    tried->least_distance = DistanceOf(s.least);
     return s;
   }
   return std::nullopt;

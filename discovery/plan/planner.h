@@ -10,8 +10,13 @@ namespace ambrig {
 
 class Planner {
  public:
-  /// `noise`: rms by channel as in a case; `rivals`: at least two, one of them may be "nothing".
-  Planner(const RigParameters& rig, const Abilities& abilities, std::map<std::string, double> noise,
+  /// What the next record has beside physics: rms noise by channel as in a case, nuisances.
+  struct Surroundings {
+    std::map<std::string, double> noise;
+    NuisancePriors nuisances;
+  };
+  /// `rivals`: at least two, one of them may be "nothing".
+  Planner(const RigParameters& rig, const Abilities& abilities, Surroundings surroundings,
           std::vector<Rival> rivals, Hypothesis nothing, const PlanOptions& options);
   Plan Run();
 
@@ -19,12 +24,14 @@ class Planner {
   /// A candidate at a size that the rig survives, with what it shows.
   struct Scored {
     PlanCandidate candidate;
-    double size = 1, least = -1;
+    double size = 1, least = -1;  // least: probability of a pair
     SafetyResult safety;
-    std::vector<double> distances;  // squared, per pair
+    std::vector<double> probabilities;  // of taking the right one, per pair
   };
   TrialRecord Trial(const std::string& toml, const PlanCandidate& c) const;
   std::optional<Scored> Score(const PlanCandidate& c, TriedScenario* tried);
+  /// Floors, nuisances and weight of a trial record.
+  void Prepare(TrialRecord* trial) const;
   bool View(const TrialRecord& trial, std::vector<RivalView>* views) const;
   void Confirm(const Scored& best, Plan& plan);
   /// Whether the truth `pair[which]` is found in one simulated record of it.
@@ -36,7 +43,7 @@ class Planner {
 
   const RigParameters& rig_;
   Abilities abilities_;
-  std::map<std::string, double> noise_;
+  Surroundings surroundings_;
   std::vector<Rival> rivals_;
   Hypothesis nothing_;
   PlanOptions options_;

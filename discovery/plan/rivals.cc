@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/linear_equations.h"
+#include "core/math/normal_distribution.h"
 #include "discovery/model/jacobian.h"
 
 namespace ambrig {
@@ -14,25 +15,57 @@ namespace {
 
 constexpr double kRigDifference = 0.3, kEffectDifference = 0.05;  // of a natural step
 
-/// (a - b) over the floor, 0 where a row does not count.
+/// (a - b) over the floor, 0 where a row does not count; without what the nuisances of the record may explain.
 Eigen::VectorXd Difference(const TrialRecord& trial, const std::vector<double>& a,
                            const std::vector<double>& b) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Index>(a.size()));
   for (const Target& t : trial.model->targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
       if (trial.model->ok()[k]) d(static_cast<Index>(k)) = (a[k] - b[k]) / t.floor;
+  trial.model->nuisances.Eliminate(d.data());
   return d;
 }
 
-/// The signature of the law, in blocks of time.
+/// Targets by how much of the signature they hold, the largest first, as many as vary by themselves.
+std::vector<const Target*> LargestTargets(const TrialRecord& trial,
+                                          const Eigen::VectorXd& signature) {
+  const auto squares = [&](const Target* t) {
+    return signature.segment(static_cast<Index>(t->first), static_cast<Index>(t->count))
+        .squaredNorm();
+  };
+  std::vector<const Target*> out;
+  for (const Target& t : trial.model->targets())
+    if (squares(&t) > 0) out.push_back(&t);
+  std::ranges::stable_sort(out, std::greater(), squares);
+  if (out.size() > kLawChannels) out.resize(kLawChannels);
+  return out;
+}
+
+/// The signature of the law, in blocks of time and in channels.
 Eigen::MatrixXd LawBlocks(const TrialRecord& trial, const Eigen::VectorXd& signature) {
-  Eigen::MatrixXd blocks = Eigen::MatrixXd::Zero(signature.size(), kLawBlocks);
+  const std::vector<const Target*> channels = LargestTargets(trial, signature);
+  Eigen::MatrixXd blocks =
+      Eigen::MatrixXd::Zero(signature.size(), kLawBlocks + static_cast<Index>(channels.size()));
   for (const Target& t : trial.model->targets())
     for (std::size_t k = 0; k < t.count; ++k)
       blocks(static_cast<Index>(t.first + k),
              static_cast<Index>(k * kLawBlocks / std::max<std::size_t>(t.count, 1))) =
           signature(static_cast<Index>(t.first + k));
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto first = static_cast<Index>(channels[c]->first),
+               count = static_cast<Index>(channels[c]->count);
+    blocks.col(kLawBlocks + static_cast<Index>(c)).segment(first, count) =
+        signature.segment(first, count);
+  }
+  trial.model->nuisances.Eliminate(blocks);
   return blocks;
+}
+
+/// Prior precision of all columns, the law as variable as that.
+Eigen::MatrixXd WeightOf(const RivalView& view, const LawVariation& v) {
+  Eigen::MatrixXd weight = view.weight;
+  weight.bottomRightCorner(view.law, view.law) /= v.size * v.size;
+  return weight;
 }
 
 double LogDeterminant(const Eigen::MatrixXd& M) {
@@ -53,31 +86,37 @@ bool ViewOf(const TrialRecord& trial, const Rival& rival, const std::vector<doub
                         of_effects =
                             Jacobian(*trial.model, rival.hypothesis, effects, kEffectDifference);
   const auto n = static_cast<Index>(rival.hypothesis.free.size());
-  const bool law = !rival.target.empty();
-  view->columns.resize(static_cast<Index>(predicted->size()), n + (law ? kLawBlocks : 0));
+  const Eigen::MatrixXd law = rival.target.empty()
+                                  ? Eigen::MatrixXd(static_cast<Index>(predicted->size()), 0)
+                                  : LawBlocks(trial, Difference(trial, *predicted, nothing));
+  view->law = law.cols();
+  view->columns.resize(static_cast<Index>(predicted->size()), n + view->law);
   for (std::size_t k = 0; k < rig.size(); ++k)
     view->columns.col(static_cast<Index>(rig[k])) = of_rig.col(static_cast<Index>(k));
   for (std::size_t k = 0; k < effects.size(); ++k)
     view->columns.col(static_cast<Index>(effects[k])) = of_effects.col(static_cast<Index>(k));
+  view->columns.rightCols(view->law) = law;
   view->weight = Eigen::MatrixXd::Zero(view->columns.cols(), view->columns.cols());
   view->weight.topLeftCorner(n, n) = rival.precision;
-  if (!law) return true;
-  view->columns.rightCols(kLawBlocks) = LawBlocks(trial, Difference(trial, *predicted, nothing));
-  view->weight.bottomRightCorner(kLawBlocks, kLawBlocks) =
-      Eigen::MatrixXd::Identity(kLawBlocks, kLawBlocks) / (kLawVariation * kLawVariation);
+  view->weight.bottomRightCorner(view->law, view->law).setIdentity();
   return true;
 }
 
-double SquaredDistance(const TrialRecord& trial, const RivalView& a, const RivalView& b) {
+std::vector<double> SquaredDistances(const TrialRecord& trial, const RivalView& a,
+                                     const RivalView& b) {
   const Index na = a.columns.cols(), nb = b.columns.cols();
   Eigen::MatrixXd all(a.columns.rows(), na + nb + 1);
   all << a.columns, b.columns, Difference(trial, a.predicted, b.predicted);
   const Eigen::MatrixXd gram = trial.row_weight * (all.transpose() * all);
-  Eigen::MatrixXd A = gram.topLeftCorner(na + nb, na + nb);
-  A.topLeftCorner(na, na) += a.weight;
-  A.bottomRightCorner(nb, nb) += b.weight;
   const Eigen::VectorXd with = gram.topRightCorner(na + nb, 1);
-  return std::max(0.0, gram(na + nb, na + nb) - with.dot(SolveSymmetric(A, with)));
+  std::vector<double> out;
+  for (const LawVariation& v : kLawVariations) {
+    Eigen::MatrixXd A = gram.topLeftCorner(na + nb, na + nb);
+    A.topLeftCorner(na, na) += WeightOf(a, v);
+    A.bottomRightCorner(nb, nb) += WeightOf(b, v);
+    out.push_back(std::max(0.0, gram(na + nb, na + nb) - with.dot(SolveSymmetric(A, with))));
+  }
+  return out;
 }
 
 double Disbelief(const TrialRecord& trial, const RivalView& view, const std::vector<double>& data) {
@@ -85,14 +124,33 @@ double Disbelief(const TrialRecord& trial, const RivalView& view, const std::vec
   Eigen::MatrixXd all(view.columns.rows(), n + 1);
   all << view.columns, Difference(trial, data, view.predicted);
   const Eigen::MatrixXd gram = trial.row_weight * (all.transpose() * all);
-  const Eigen::MatrixXd A = gram.topLeftCorner(n, n) + view.weight;
   const Eigen::VectorXd with = gram.topRightCorner(n, 1);
-  return gram(n, n) - with.dot(SolveSymmetric(A, with)) + LogDeterminant(A) -
-         LogDeterminant(view.weight);
+  std::vector<double> each;
+  for (const LawVariation& v : kLawVariations) {
+    const Eigen::MatrixXd weight = WeightOf(view, v), A = gram.topLeftCorner(n, n) + weight;
+    each.push_back(gram(n, n) - with.dot(SolveSymmetric(A, with)) + LogDeterminant(A) -
+                   LogDeterminant(weight) - 2 * std::log(v.share));
+  }
+  const double least = *std::min_element(each.begin(), each.end());
+  double sum = 0;
+  for (const double d : each) sum += std::exp(0.5 * (least - d));
+  return least - 2 * std::log(sum);
 }
 
 double ProbabilityRight(double squared_distance) {
-  return 0.5 * std::erfc(-0.5 * std::sqrt(squared_distance) / std::sqrt(2.0));
+  return NormalProbability(0.5 * std::sqrt(squared_distance));
+}
+
+double ProbabilityRight(const std::vector<double>& squared_distances) {
+  double sum = 0;
+  for (std::size_t k = 0; k < squared_distances.size(); ++k)
+    sum += kLawVariations[k].share * ProbabilityRight(squared_distances[k]);
+  return sum;
+}
+
+double DistanceOf(double probability) {
+  constexpr double kMost = 1 - 1e-9;
+  return 2 * std::max(0.0, NormalQuantile(std::clamp(probability, 0.5, kMost)));
 }
 
 }  // namespace ambrig

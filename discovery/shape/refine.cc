@@ -10,6 +10,7 @@
 #include "core/base/toml_edit.h"
 #include "core/record/channels.h"
 #include "discovery/decision/adopt.h"
+#include "discovery/decision/prepared_models.h"
 #include "discovery/model/floor.h"
 #include "discovery/shape/named_law.h"
 #include "rig/rig_file.h"
@@ -20,29 +21,13 @@ namespace {
 
 constexpr std::size_t kRefineRows = 150000;  // that a fit looks at
 
-std::size_t RefineThinning(const Case& c) {
-  std::size_t rows = 0;
-  for (const CaseRecord& r : c.records)
-    for (const Channel& channel : r.data.channels) rows += channel.samples.size();
-  return std::clamp<std::size_t>(rows / kRefineRows, 1, 12);
-}
-
-/// Floors, noise and declared nuisances of both models; the number of independent residuals.
+/// The number of independent residuals of both models. @throws InputError for wrong data
 double Prepare(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
-  const Comparison before = Compare(full, nominal, false);
+  const Comparison before = PrepareModels(full, thin, nominal);
   for (const DataFault& f : before.data)
     throw InputError(fmt::format("{}: the data are wrong ({}); correct them first",
                                  full.data().file, FaultText(f)));
-  thin.noise_model = full.noise_model;
-  thin.LimitAs(full);
-  for (std::size_t t = 0; t < full.targets().size(); ++t)
-    thin.targets()[t].floor = full.targets()[t].floor;
-  const double n = before.effective_sample_size;
-  if (!full.data().nuisances.any()) return n;
-  const std::vector<NuisanceKind> kinds = NuisanceKindsOf(full, nominal, before.predicted, true);
-  full.nuisances.Use(full, kinds, n / static_cast<double>(full.size()));
-  thin.nuisances.Use(thin, Thinned(kinds, full, thin), n / static_cast<double>(thin.size()));
-  return n;
+  return before.effective_sample_size;
 }
 
 ShapeReach ReachOf(const CaseModel& model, const Hypothesis& h, const EffectInstance& named) {
@@ -153,7 +138,7 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
         fmt::format("{} has no curve to refine, allowed: {}", effect, RefinableEffects()));
   Refinement out;
   out.model = std::make_unique<CaseModel>(c);
-  CaseModel thin(c, RefineThinning(c));
+  CaseModel thin(c, ThinningTo(c, kRefineRows));
   out.model->stop = thin.stop = options.stop;
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   AdoptedRigText(ReadFile(c.rig_file), nominal, c.rig.effects);  // known before the long work

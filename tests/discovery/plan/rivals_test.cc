@@ -50,22 +50,47 @@ struct Views {
 };
 
 // An offset b read in n rows, its number and its law known well: b/floor sqrt(n) standard
-// deviations; the law's share of 15 % in eight blocks lowers it to
-//   d² = S/(1 + 0.15² S/8),  S = n b²/floor².
+// deviations; a share v of the law in eight blocks and in the one channel that shows it lowers it to
+//   d² = S' /(1 + v² S'),  S' = Σ s/(1 + v² s) over the blocks,  s: of n b²/floor².
 TEST(Rivals, DistanceFromNothingIsThatOfTheSignature) {
   Views v;
   const double b = 5e-7, S = LinearCase::kRows * b * b / LinearCase::kFloor / LinearCase::kFloor;
   const RivalView offset = v.Of(RivalWith(v.trial, LinearCase::Offset(b), 1e12)),
                   nothing = v.Of(Nothing(v.trial));
   // 50 rows in eighths: 6 or 7 rows a block
-  double wanted = 0;
-  for (int block = 0; block < kLawBlocks; ++block) {
-    int rows = 0;
-    for (int k = 0; k < 50; ++k) rows += k * kLawBlocks / 50 == block ? 1 : 0;
-    const double s = S * rows / 50;
-    wanted += s / (1 + kLawVariation * kLawVariation * s);
+  const std::vector<double> found = SquaredDistances(v.trial, offset, nothing);
+  double probability = 0;
+  for (std::size_t n = 0; n < std::size(kLawVariations); ++n) {
+    const auto [size, share] = kLawVariations[n];
+    double wanted = 0;
+    for (int block = 0; block < kLawBlocks; ++block) {
+      int rows = 0;
+      for (int k = 0; k < 50; ++k) rows += k * kLawBlocks / 50 == block ? 1 : 0;
+      const double s = S * rows / 50;
+      wanted += s / (1 + size * size * s);
+    }
+    wanted /= 1 + size * size * wanted;
+    EXPECT_NEAR(found.at(n), wanted, 1e-6 * wanted);
+    probability += share * ProbabilityRight(wanted);
   }
-  EXPECT_NEAR(SquaredDistance(v.trial, offset, nothing), wanted, 1e-6 * wanted);
+  EXPECT_NEAR(ProbabilityRight(found), probability, 1e-9);
+  EXPECT_NEAR(ProbabilityRight(std::pow(DistanceOf(probability), 2)), probability, 1e-9);
+}
+
+// What a record's own zero may explain tells nothing: at one position an offset is one.
+TEST(Rivals, ZerosOfTheRecordAreNoDistance) {
+  Views v;
+  const Rival offset = RivalWith(v.trial, LinearCase::Offset(5e-7), 1e12);
+  const RivalView nothing = v.Of(Nothing(v.trial));
+  const double before = SquaredDistances(v.trial, v.Of(offset), nothing)[0];
+  NuisanceKind zero{"logger zero of A.x", "logger-zero", "m", 1e-4, {}};
+  zero.column = Eigen::VectorXd::Zero(static_cast<Index>(v.trial.model->size()));
+  const Target& reading = v.trial.model->targets()[0];
+  zero.column.segment(static_cast<Index>(reading.first), static_cast<Index>(reading.count))
+      .setConstant(1e-4 / LinearCase::kFloor);
+  v.trial.model->nuisances.Use(*v.trial.model, {zero}, v.trial.row_weight);
+  EXPECT_GT(before, 1);
+  EXPECT_LT(SquaredDistances(v.trial, v.Of(offset), nothing)[0], 1e-3 * before);
 }
 
 // At one position a gain and an offset read the same: whatever the record's length, no distance.
@@ -73,7 +98,7 @@ TEST(Rivals, WhatLooksAlikeHasNoDistance) {
   Views v;
   const RivalView offset = v.Of(RivalWith(v.trial, LinearCase::Offset(0.05 * kAt), 1e-4)),
                   gain = v.Of(RivalWith(v.trial, LinearCase::Gain(1.06), 1e-4));
-  EXPECT_LT(SquaredDistance(v.trial, offset, gain), 0.1);
+  EXPECT_LT(SquaredDistances(v.trial, offset, gain)[0], 0.1);
   EXPECT_NEAR(ProbabilityRight(0), 0.5, 1e-12);
   EXPECT_NEAR(ProbabilityRight(21.7), 0.99, 1e-3);
 }

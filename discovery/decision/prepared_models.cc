@@ -1,0 +1,28 @@
+#include "discovery/decision/prepared_models.h"
+
+#include <algorithm>
+
+namespace ambrig {
+
+std::size_t ThinningTo(const Case& c, std::size_t rows) {
+  std::size_t all = 0;
+  for (const CaseRecord& r : c.records)
+    for (const Channel& channel : r.data.channels) all += channel.samples.size();
+  return std::clamp<std::size_t>(all / rows, 1, 12);
+}
+
+Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
+  Comparison before = Compare(full, nominal, false);
+  thin.noise_model = full.noise_model;
+  thin.LimitAs(full);
+  for (std::size_t t = 0; t < full.targets().size(); ++t)
+    thin.targets()[t].floor = full.targets()[t].floor;
+  if (!full.data().nuisances.any()) return before;
+  const double n = before.effective_sample_size;
+  const std::vector<NuisanceKind> kinds = NuisanceKindsOf(full, nominal, before.predicted, true);
+  full.nuisances.Use(full, kinds, n / static_cast<double>(full.size()));
+  thin.nuisances.Use(thin, Thinned(kinds, full, thin), n / static_cast<double>(thin.size()));
+  return before;
+}
+
+}  // namespace ambrig
