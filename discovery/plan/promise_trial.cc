@@ -20,7 +20,7 @@ struct Pair {
   double share = 0;  // of the right one
 };
 
-std::string TextOf(const NamedEffect& e) { return e.first + " at " + e.second; }
+std::string NameText(const NamedEffect& e) { return e.first + " at " + e.second; }
 
 bool IsRight(const PracticeCase& made, const NamedEffect& name) {
   return std::ranges::count(made.answer.slots[0], name) > 0;
@@ -95,8 +95,8 @@ PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const Promis
     trial.left_out = e.what();
     return trial;
   }
-  trial.right = TextOf(pair.right);
-  trial.other = TextOf(pair.other);
+  trial.right = NameText(pair.right);
+  trial.other = NameText(pair.other);
   trial.before = pair.share;
   if (std::max(pair.share, 1 - pair.share) > kTold) {
     trial.left_out = pair.share > kTold ? "the first record tells it"
