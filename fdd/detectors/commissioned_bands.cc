@@ -77,7 +77,7 @@ void CommissionedDetector::TakeShare(int coil, double share) {
 }
 
 void CommissionedDetector::SetWider() {
-  wider_ = 1;
+  wider_ = erred_ ? kWider : 1;
   for (int j = 0; j < filter_.nominal().coils; ++j)
     wider_ = std::max(wider_, 1 + (kWider - 1) * LossOf(j));
 }

@@ -218,6 +218,7 @@ CommissionedDetector::Outcome CommissionedDetector::Judge(const MeasuredPeriod& 
   out.excess = RecentExcess(coil);
   if (!JudgedTogether(in, &out)) {
     out.turns = MoreTurns(coil, out.excess);
+    erred_ = erred_ || out.turns == 1;
     out.decided = out.turns > 0 || Decided(coil, out.excess);
     if (!out.decided) return out;
     out.diagnosis = Classify(coil, out.excess, in.t);

@@ -35,7 +35,8 @@
 ///
 /// After a coil was given up or lost turns, the others carry other currents than commissioned:
 /// their bands are 2.5 times as wide from then on, and at least 0.25 where a coil lost turns; a current
-/// misses its set-point by 2.5 times as much before it counts. Losses below 0.3 of the turns do that in proportion.
+/// misses its set-point by 2.5 times as much before it counts. Losses below 0.3 of the turns do that in proportion. A loss
+/// that turns out to be none does it, too: the model has erred by what was taken for one.
 ///
 /// Slow drift (heating, a sensor's zero) is followed within bounds that leave a fault visible
 /// (slow_drift.h), as long as nothing is doubted and every ratio of the long windows is below 0.5. What has drifted while
@@ -218,6 +219,7 @@ class CommissionedDetector : public CoilDetector {
   double touched_ = -kInfinity;         // start of the last period that touched [s]
   bool bounces_ = false;                // that was not long ago
   double wider_ = 1;                    // of the bands, since coils were given up or lost turns
+  bool erred_ = false;                  // a loss of turns was none
   Lane idle_;                           // mean reading of coils without turns [A]
   CoilProbe probe_;
   JumpWatch jumps_;

@@ -1,5 +1,4 @@
-// A whole run with fault tolerance on a plant that the detection has not learnt: after one coil is given up the others
-// carry currents that follow their set-points badly.
+// Whole runs with fault tolerance on plants that are not the detection's model, nearly all of which it has not learnt.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,11 +9,12 @@
 namespace ambrig {
 namespace {
 
-RunResult WithFaultTolerance(const std::string& campaign, std::size_t row) {
+RunResult WithFaultTolerance(const std::string& campaign, std::size_t row,
+                             bool commissioned = false) {
   const RunPlan plan(
       ReadCampaign(std::string(AMBRIG_SOURCE_DIR) + "/scenarios/campaigns/" + campaign));
   const PlannedRun p = plan.Make(row);
-  EXPECT_TRUE(p.plant && !p.plant->commissioned);
+  EXPECT_TRUE(p.plant && p.plant->commissioned == commissioned);
   SimulateOptions options;
   options.record = false;
   return Simulate(p.rig, p.scenario, options);
@@ -40,6 +40,19 @@ TEST(UncommissionedPlant, SaturationIsNoLossOfTurns) {
     for (const RunEvent& e : result.events)
       EXPECT_NE(e.kind, "detected") << "row " << row << ", " << e.target << " at " << e.t;
   }
+}
+
+// A healthy mixture with saturating iron in a whirl: its c errs by 0.1 either way. Coil 1 was named with a loss of 3 %, found
+// to have all its turns, then called a false sensor and given up, and the rotor dropped.
+TEST(CommissionedPlant, AfterALossThatWasNoneLessIsBelieved) {
+  const RunResult result = WithFaultTolerance("reality_healthy.toml", 17706, true);
+  bool restored = false;
+  for (const RunEvent& e : result.events) {
+    restored = restored || e.kind == "restored";
+    EXPECT_NE(e.fault_class, "current-sensor") << e.target << " at " << e.t;
+    EXPECT_NE(e.kind, "drop") << e.target << " at " << e.t;
+  }
+  EXPECT_TRUE(restored);
 }
 
 // A loss of half the turns is a jump: a coil at 2.8 A of flux, in hover and in a whirl.
