@@ -240,24 +240,26 @@ void AddPractice(CLI::App& app, Work& work) {
       command->add_flag("--make-only", options->make_only, "write the cases, explain none");
   command->add_flag("--report-only", options->report_only, "only count what is finished")
       ->excludes(make);
+  CLI::Option* fit =
+      command
+          ->add_option(
+              "--fit", options->fit,
+              "write the calibration fitted with one half of the law families to this file "
+              "(discovery/calibration/calibration_table.cc of the sources)")
+          ->check(OutputFile())
+          ->type_name("FILE");
   command
       ->add_flag("--plans", options->plans,
                  "practise plan instead: one record of each case that hides one effect, the "
                  "record that plan proposes, and whether the right one of two names is then found")
-      ->excludes(make);
-  command
-      ->add_option("--fit", options->fit,
-                   "write the calibration fitted with one half of the law families to this file "
-                   "(discovery/calibration/calibration_table.cc of the sources)")
-      ->check(OutputFile())
-      ->type_name("FILE");
+      ->excludes(make)
+      ->excludes(fit);
   options->common.AddTo(*command);
   command->footer(
       "Examples:\n"
       "  ambrig practice examples/reference/rig.toml --cases 2 --make-only -o made\n"
       "  ambrig practice examples/small_spindle/rig.toml --cases 1 -o spindle\n"
-      "  ambrig practice examples/reference/rig.toml --plans --cases 100 -o plans --json "
-      "plans.json\n"
+      "  ambrig practice examples/reference/rig.toml --plans --cases 100 -o plans\n"
       "Re-run the command to resume; with another --cases the same cases come first.\n"
       "Explaining a case takes half a minute to some minutes.");
   command->callback([options, &work] { work = [options] { return RunPractice(*options); }; });

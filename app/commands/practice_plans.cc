@@ -8,7 +8,6 @@
 #include "app/commands/outputs.h"
 #include "app/commands/progress.h"
 #include "app/commands/screen.h"
-#include "core/base/counted.h"
 #include "core/base/json_file.h"
 #include "core/record/hdf5.h"
 #include "discovery/plan/promise_trial.h"
@@ -134,17 +133,7 @@ void WriteNextRecord(const PracticeCase& made, std::size_t first, PromiseTrial t
 
 PromiseTrial RunTrial(const PracticeSetting& setting, std::size_t number, Progress& progress) {
   progress.Update(0, "making " + NameOfPracticeCase(number));
-  PracticeCase made;
-  try {
-    made = MakePracticeCase(setting.rigs, setting.seed, number, &interrupted);
-  } catch (const Interrupted&) {
-    throw;
-  } catch (const InputError& e) {  // no draw of its law shows on its rig
-    PromiseTrial none;
-    none.name = NameOfPracticeCase(number);
-    none.left_out = e.what();
-    return none;
-  }
+  const PracticeCase made = MakePracticeCase(setting.rigs, setting.seed, number, &interrupted);
   WritePracticeCase(made, setting.folder);
   PromiseOptions options;
   options.seed = setting.seed * 100003 + number;
@@ -157,6 +146,20 @@ PromiseTrial RunTrial(const PracticeSetting& setting, std::size_t number, Progre
   const PromiseTrial trial = TryPromise(made, ReadCase(folder.string()), options);
   if (trial.left_out.empty()) WriteNextRecord(made, options.first, trial, folder);
   return trial;
+}
+
+/// An error (no draw of the law shows on its rig, no fit holds the rotor) leaves the case out.
+PromiseTrial TrialOrError(const PracticeSetting& setting, std::size_t number, Progress& progress) {
+  try {
+    return RunTrial(setting, number, progress);
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const std::exception& e) {
+    PromiseTrial none;
+    none.name = NameOfPracticeCase(number);
+    none.left_out = e.what();
+    return none;
+  }
 }
 
 }  // namespace
@@ -175,7 +178,7 @@ void PractisePlans(const PracticeSetting& setting, bool report_only, const Commo
     if (known != finished.end()) {
       trials.push_back(known->second);
     } else if (mine) {
-      trials.push_back(RunTrial(setting, number, progress));
+      trials.push_back(TrialOrError(setting, number, progress));
       Journal(path, HeaderOf(setting),
               {[](std::string_view) {}, [](const JournalEntry&) { return true; }})
           .Append(JsonText(TrialJson(trials.back())));

@@ -107,13 +107,7 @@ PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const Promis
   planning.draws = options.draws;
   planning.stop = options.stop;
   planning.progress = part(0.3, 0.6);
-  Plan plan;
-  try {
-    plan = PlanForCase(few, {pair.right, pair.other}, planning);
-  } catch (const InputError& e) {  // no record that both survive
-    trial.left_out = e.what();
-    return trial;
-  }
+  const Plan plan = PlanForCase(few, {pair.right, pair.other}, planning);
   trial.record = plan.title;
   trial.promise = plan.separates.at(0).probability;
   trial.scenario = plan.toml;
