@@ -46,6 +46,31 @@ TEST(Shards, ShareTheRunsOut) {
   }
 }
 
+TEST(Shards, KeepTheRunsOfABlockTogether) {
+  std::vector<int> of(24, -1);
+  for (std::size_t index = 0; index < 3; ++index)
+    for (const std::size_t run : PendingRuns(of.size(), Shard{index, 3, 4}, {})) {
+      EXPECT_EQ(of[run], -1) << run;
+      of[run] = static_cast<int>(index);
+    }
+  for (std::size_t run = 0; run < of.size(); ++run)
+    EXPECT_EQ(of[run], static_cast<int>(run / 4 % 3)) << run;
+}
+
+// Two scenarios and ten machines, each with and without having been commissioned: four runs a machine.
+TEST(RunsTogether, AreThoseOfAMachineWhereThereAreEnoughForAllWorkers) {
+  Campaign c;
+  c.scenarios.resize(2);
+  c.cases.resize(1);
+  c.draws.resize(1);
+  EXPECT_EQ(c.RunsTogether(1), 1u);  // no plants
+  c.plants.resize(20);
+  for (std::size_t k = 1; k < c.plants.size(); k += 2) c.plants[k].commissioned = true;
+  ASSERT_EQ(c.runs(), 40u);
+  EXPECT_EQ(c.RunsTogether(1), 4u);
+  EXPECT_EQ(c.RunsTogether(2), 1u);
+}
+
 TEST(PendingRuns, AreThoseThatTheJournalDoesNotHold) {
   std::map<std::size_t, Row> done;
   for (const std::size_t run : {0u, 3u, 5u}) done[run] = Row{};
