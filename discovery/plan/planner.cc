@@ -69,7 +69,11 @@ void Planner::Prepare(TrialRecord* trial) const {
   trial->row_weight =
       std::min(floor.effective_sample_size / static_cast<double>(model.size()), 1.0);
   const bool declared = true;  // here those to expect
-  model.nuisances.Use(model, NuisanceKindsOf(model, h, floor.clean, declared), trial->row_weight);
+  const std::vector<NuisanceKind> kinds = NuisanceKindsOf(model, h, floor.clean, declared);
+  trial->nuisances.resize(static_cast<Eigen::Index>(model.size()),
+                          static_cast<Eigen::Index>(kinds.size()));
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    trial->nuisances.col(static_cast<Eigen::Index>(k)) = kinds[k].column;
 }
 
 bool Planner::View(const TrialRecord& trial, std::vector<RivalView>* views) const {

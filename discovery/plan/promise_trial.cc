@@ -34,7 +34,7 @@ double ProbabilityOf(const Explanation& e, const NamedEffect& name) {
 
 double ShareOfRight(const Explanation& e, const NamedEffect& right, const NamedEffect& other) {
   const double a = ProbabilityOf(e, right), b = ProbabilityOf(e, other);
-  return a > 0 ? a / (a + b) : 0;
+  return a + b > 0 ? a / (a + b) : 0.5;
 }
 
 /// The right name and the most probable of the others. @throws InputError where one of them is missing

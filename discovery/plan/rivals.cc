@@ -15,14 +15,13 @@ namespace {
 
 constexpr double kRigDifference = 0.3, kEffectDifference = 0.05;  // of a natural step
 
-/// (a - b) over the floor, 0 where a row does not count; without what the nuisances of the record may explain.
+/// (a - b) over the floor, 0 where a row does not count.
 Eigen::VectorXd Difference(const TrialRecord& trial, const std::vector<double>& a,
                            const std::vector<double>& b) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Index>(a.size()));
   for (const Target& t : trial.model->targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
       if (trial.model->ok()[k]) d(static_cast<Index>(k)) = (a[k] - b[k]) / t.floor;
-  trial.model->nuisances.Eliminate(d.data());
   return d;
 }
 
@@ -57,7 +56,6 @@ Eigen::MatrixXd LawBlocks(const TrialRecord& trial, const Eigen::VectorXd& signa
     blocks.col(kLawBlocks + static_cast<Index>(c)).segment(first, count) =
         signature.segment(first, count);
   }
-  trial.model->nuisances.Eliminate(blocks);
   return blocks;
 }
 
@@ -90,15 +88,16 @@ bool ViewOf(const TrialRecord& trial, const Rival& rival, const std::vector<doub
                                   ? Eigen::MatrixXd(static_cast<Index>(predicted->size()), 0)
                                   : LawBlocks(trial, Difference(trial, *predicted, nothing));
   view->law = law.cols();
-  view->columns.resize(static_cast<Index>(predicted->size()), n + view->law);
+  const Index own = n + trial.nuisances.cols(), all = own + view->law;
+  view->columns.resize(static_cast<Index>(predicted->size()), all);
   for (std::size_t k = 0; k < rig.size(); ++k)
     view->columns.col(static_cast<Index>(rig[k])) = of_rig.col(static_cast<Index>(k));
   for (std::size_t k = 0; k < effects.size(); ++k)
     view->columns.col(static_cast<Index>(effects[k])) = of_effects.col(static_cast<Index>(k));
+  view->columns.middleCols(n, own - n) = trial.nuisances;
   view->columns.rightCols(view->law) = law;
-  view->weight = Eigen::MatrixXd::Zero(view->columns.cols(), view->columns.cols());
+  view->weight = Eigen::MatrixXd::Identity(all, all);
   view->weight.topLeftCorner(n, n) = rival.precision;
-  view->weight.bottomRightCorner(view->law, view->law).setIdentity();
   return true;
 }
 

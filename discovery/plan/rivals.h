@@ -21,7 +21,7 @@ struct Rival {
 /// What one record would show of one rival, over the floor.
 struct RivalView {
   std::vector<double> predicted;
-  Eigen::MatrixXd columns;  // sensitivities of its free parameters, then law variations
+  Eigen::MatrixXd columns;  // sensitivities of its free parameters, nuisances, law variations
   Eigen::MatrixXd
       weight;  // prior precision of all columns; of a variation of the law: for one of size 1
   Eigen::Index law = 0;  // columns at the end that vary the law
@@ -32,6 +32,8 @@ struct TrialRecord {
   std::unique_ptr<Case> data;
   std::unique_ptr<CaseModel> model;
   double row_weight = 1;  // of a squared error over the floor
+  // what the record may have beside physics (nuisances.h), one sd each: columns over the floor; none: no columns
+  Eigen::MatrixXd nuisances;
 };
 
 /// How far the law of a real machine is from the catalogue's is not known, only how often it is how far: in every eighth of a

@@ -77,20 +77,23 @@ TEST(Rivals, DistanceFromNothingIsThatOfTheSignature) {
   EXPECT_NEAR(ProbabilityRight(std::pow(DistanceOf(probability), 2)), probability, 1e-9);
 }
 
-// What a record's own zero may explain tells nothing: at one position an offset is one.
+// A record's own zero of sd z may be what an offset b is: to explain it costs at least (b/z)², shared by both models.
 TEST(Rivals, ZerosOfTheRecordAreNoDistance) {
-  Views v;
-  const Rival offset = RivalWith(v.trial, LinearCase::Offset(5e-7), 1e12);
-  const RivalView nothing = v.Of(Nothing(v.trial));
-  const double before = SquaredDistances(v.trial, v.Of(offset), nothing)[0];
-  NuisanceKind zero{"logger zero of A.x", "logger-zero", "m", 1e-4, {}};
-  zero.column = Eigen::VectorXd::Zero(static_cast<Index>(v.trial.model->size()));
-  const Target& reading = v.trial.model->targets()[0];
-  zero.column.segment(static_cast<Index>(reading.first), static_cast<Index>(reading.count))
-      .setConstant(1e-4 / LinearCase::kFloor);
-  v.trial.model->nuisances.Use(*v.trial.model, {zero}, v.trial.row_weight);
-  EXPECT_GT(before, 1);
-  EXPECT_LT(SquaredDistances(v.trial, v.Of(offset), nothing)[0], 1e-3 * before);
+  for (const double zero : {1e-4, 2e-7}) {
+    Views v;
+    const double b = 5e-7;
+    const Target& reading = v.trial.model->targets()[0];
+    v.trial.nuisances = Eigen::MatrixXd::Zero(static_cast<Index>(v.trial.model->size()), 1);
+    v.trial.nuisances.col(0)
+        .segment(static_cast<Index>(reading.first), static_cast<Index>(reading.count))
+        .setConstant(zero / LinearCase::kFloor);
+    const double with = SquaredDistances(v.trial,
+                                         v.Of(RivalWith(v.trial, LinearCase::Offset(b), 1e12)),
+                                         v.Of(Nothing(v.trial)))[0],
+                 cost = b * b / (2 * zero * zero);
+    EXPECT_LT(with, 1.001 * cost);
+    EXPECT_GT(with, 0.5 * std::min(cost, 10.0));
+  }
 }
 
 // At one position a gain and an offset read the same: whatever the record's length, no distance.
