@@ -1,6 +1,7 @@
 #include "faulttolerance/supervision/coil_probes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace ambrig {
@@ -16,13 +17,27 @@ constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;                       // of
 
 }  // namespace
 
-void CoilProbes::Orbit(double t, double displacement) {
+void CoilProbes::Orbit(double t, double x, double y) {
+  const double displacement = std::sqrt(x * x + y * y), place[2] = {x, y};
   if (t >= slice_ends_) {
     slice_[1] = std::exchange(slice_[0], 0);
+    range_[1] = std::exchange(range_[0], {});
     slice_ends_ = t + kSlice;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    range_[0].least[axis] = std::min(range_[0].least[axis], place[axis]);
+    range_[0].most[axis] = std::max(range_[0].most[axis], place[axis]);
   }
   slice_[0] = std::max(slice_[0], displacement);
   for (auto& [coil, look] : looks_) look.orbit_after = std::max(look.orbit_after, displacement);
+}
+
+double CoilProbes::Motion() const {
+  double most = 0;
+  for (int axis = 0; axis < 2; ++axis)
+    most = std::max(most, std::max(range_[0].most[axis], range_[1].most[axis]) -
+                              std::min(range_[0].least[axis], range_[1].least[axis]));
+  return most;
 }
 
 bool CoilProbes::Grown(const Look& look) const {

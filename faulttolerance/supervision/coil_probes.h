@@ -9,19 +9,23 @@
 /// Not looked at: a switch that stays on (the current could not be taken away again).
 ///
 /// A coil that works but has been asked for next to no current for 10 ms would not show a fault:
-/// the same current is asked of it then and every 50 ms.
+/// the same current is asked of it then and every 50 ms, but not of a shaft that moves by more than 20 % of the clearance:
+/// what the current pulls adds to a swing that may already be as large as the bearing can hold.
 #include <array>
 #include <map>
 
 #include "actuators/magnetics/lane.h"
+#include "core/base/parameters.h"
 #include "fdd/diagnosis.h"
 
 namespace ambrig {
 
 class CoilProbes {
  public:
-  /// Displacement of the shaft at the bearing at the end of a period [m].
-  void Orbit(double t, double displacement);
+  /// Place of the shaft at the bearing at the end of a period [m].
+  void Orbit(double t, double x, double y);
+  /// How far it has moved along x or y within this slice of 20 ms and the last one, the larger [m].
+  double Motion() const;
   void GivenUp(int coil, FaultClass cls, double t);
   /// Whether a coil that works is asked for next to no current at t.
   void Idle(int coil, bool idle, double t);
@@ -64,6 +68,10 @@ class CoilProbes {
   Lane refuted_;           // 1: came back though the reading of its current was called wrong
   double slice_ends_ = 0;  // [s]
   double slice_[2] = {};   // largest displacement of this and of the last slice [m]
+  struct Range {
+    double least[2] = {kInfinity, kInfinity}, most[2] = {-kInfinity, -kInfinity};  // of x, y
+  };
+  Range range_[2];  // of the same slices [m]
 };
 
 }  // namespace ambrig

@@ -8,6 +8,7 @@
 #include "faulttolerance/redistribution/redistribution_setup.h"
 #include "faulttolerance/supervision/watched_bearing.h"
 #include "rig/bearing_kinds/bearing_kind.h"
+#include "rig/clearance.h"
 #include "rig/rig_figures.h"
 
 namespace ambrig {
@@ -18,6 +19,8 @@ constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
 constexpr double kProbeCurrent = 0.4;  // of a coil's bias current
+constexpr double kCalm =
+    0.3;  // of the clearance: how far a shaft moves whose idle coils are probed
 constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows nothing
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
@@ -157,10 +160,11 @@ void FaultSupervisor::Disable(Watched& w, const Diagnosis& d, SupervisorOutput& 
 
 void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool position_loop,
                             const BearingControl& control, SupervisorOutput& out) {
-  if (in.comparable) w.probes.Orbit(t, std::sqrt(in.x1 * in.x1 + in.y1 * in.y1));
+  if (in.comparable) w.probes.Orbit(t, in.x1, in.y1);
+  const bool calm = w.probes.Motion() < kCalm * ClearanceOf(*w.bearing);
   for (int j = 0; j < control.coils; ++j) {
     const bool works = w.turns_left[j] > 0 && position_loop && !in.uncertainty.any();
-    w.probes.Idle(j, works && control.commanded[j] < kIdleCurrent * w.bias, t);
+    w.probes.Idle(j, works && calm && control.commanded[j] < kIdleCurrent * w.bias, t);
   }
   const int coil = w.probed;
   if (coil < 0) {

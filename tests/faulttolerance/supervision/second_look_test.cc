@@ -86,12 +86,24 @@ TEST(SecondLook, WithoutCommissioningAFalseCurrentSensorIsNotRestored) {
   }
 }
 
+// The larger of both axes over two slices of 20 ms.
+TEST(SecondLook, MotionIsThatOfTheLastSlices) {
+  CoilProbes probes;
+  for (int k = 0; k < 3000; ++k) {
+    const double t = k * 40e-6;
+    // off centre throughout, a swing of 30 um until 40 ms
+    probes.Orbit(t, 50e-6, t < 0.04 ? -15e-6 * std::cos(300 * t) : 0);
+    if (k == 900) EXPECT_NEAR(probes.Motion(), 30e-6, 1e-6);
+  }
+  EXPECT_EQ(probes.Motion(), 0);
+}
+
 TEST(SecondLook, AnActionAfterWhichTheOrbitGrowsIsDoubtedAtOnce) {
   CoilProbes probes;
   double t = 0;
   const auto run = [&](double seconds, double orbit) {
     for (const double end = t + seconds; t < end; t += 40e-6) {
-      probes.Orbit(t, orbit);
+      probes.Orbit(t, orbit, 0);
       if (probes.Due(t) >= 0) return true;
     }
     return false;
