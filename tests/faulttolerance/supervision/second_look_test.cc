@@ -93,7 +93,9 @@ TEST(SecondLook, MotionIsThatOfTheLastSlices) {
     const double t = k * 40e-6;
     // off centre throughout, a swing of 30 um until 40 ms
     probes.Orbit(t, 50e-6, t < 0.04 ? -15e-6 * std::cos(300 * t) : 0);
-    if (k == 900) EXPECT_NEAR(probes.Motion(), 30e-6, 1e-6);
+    if (k == 900) {
+      EXPECT_NEAR(probes.Motion(), 30e-6, 1e-6);
+    }
   }
   EXPECT_EQ(probes.Motion(), 0);
 }
