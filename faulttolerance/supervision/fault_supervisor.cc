@@ -19,8 +19,7 @@ constexpr double kBusSag = 0.9;  // of the nominal bus
 // of the nominal bus, half the way to a sag: no noise may go it [sd]
 constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
 constexpr double kProbeCurrent = 0.4;  // of a coil's bias current
-constexpr double kCalm =
-    0.3;  // of the clearance: how far a shaft moves whose idle coils are probed
+constexpr double kCalm = 0.2;          // of the clearance: motion while idle coils are probed
 constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows nothing
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
