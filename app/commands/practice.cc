@@ -61,7 +61,8 @@ void PrintResult(const PracticeResult& r) {
 
 /// The pending cases on some threads; each finished one goes into the journal at once.
 void WorkOff(const PracticeCommand& o, const std::vector<std::size_t>& pending) {
-  const std::string path = (std::filesystem::path(o.out) / PracticeJournalName(o.setting.shard));
+  const std::string path =
+      (std::filesystem::path(o.out) / PracticeJournalName("journal", o.setting.shard));
   std::unique_ptr<Journal> journal;
   if (!o.make_only)
     journal = std::make_unique<Journal>(

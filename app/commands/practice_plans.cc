@@ -18,6 +18,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+const char* const kPlans = "plans";  // the journals' name
+
 Json TrialJson(const PromiseTrial& t) {
   return {{"name", t.name},         {"rig", t.rig},         {"law", t.law},
           {"right", t.right},       {"other", t.other},     {"record", t.record},
@@ -53,47 +55,6 @@ void PrintTrial(const PromiseTrial& t) {
   std::fflush(stdout);
 }
 
-/// plans.txt, or plans-2-of-4.txt of a shard.
-std::string PlansName(const Shard& shard) {
-  return shard.count == 1 ? "plans.txt"
-                          : fmt::format("plans-{}-of-{}.txt", shard.index + 1, shard.count);
-}
-
-std::string HeaderOf(const PracticeSetting& setting) { return PracticeHeader(setting) + " plans"; }
-
-void ReadTrials(const std::string& path, const std::string& header,
-                std::map<std::string, PromiseTrial>& found) {
-  JournalVisitor visit;
-  visit.header = [&](std::string_view text) {
-    if (!text.empty() && text != header)
-      throw InputError(path +
-                       ": is the journal of other rigs or another seed, allowed: the same rigs and "
-                       "--seed, or another folder");
-  };
-  visit.entry = [&](const JournalEntry& e) {
-    try {
-      const PromiseTrial t = TrialOf(Json::parse(e.text));
-      found[t.name] = t;
-    } catch (const nlohmann::json::exception&) {
-      return false;  // of an earlier version: it is done again
-    }
-    return true;
-  };
-  ReadJournalFile(path, visit);
-}
-
-/// Trials in all journals of the folder, by name.
-std::map<std::string, PromiseTrial> FinishedTrials(const PracticeSetting& setting) {
-  std::map<std::string, PromiseTrial> found;
-  std::error_code error;
-  for (const auto& item : std::filesystem::directory_iterator(setting.folder, error)) {
-    const std::string name = item.path().filename().string();
-    if (name.starts_with("plans") && name.ends_with(".txt"))
-      ReadTrials(item.path().string(), HeaderOf(setting), found);
-  }
-  return found;
-}
-
 void ReportTrials(const std::vector<PromiseTrial>& trials, const CommonOptions& common) {
   Json bins = Json::array(), all = Json::array();
   fmt::print("\n{:<16} {:>10} {:>22}\n", "promised", "found", "share, 95 % interval");
@@ -116,12 +77,12 @@ void ReportTrials(const std::vector<PromiseTrial>& trials, const CommonOptions& 
 }
 
 /// The planned record beside the case, and a case of both records.
-void WriteNextRecord(const PracticeCase& made, std::size_t first, PromiseTrial trial,
+void WriteNextRecord(const PracticeCase& made, std::size_t first, PlannedRecord planned,
                      const std::filesystem::path& folder) {
   const std::string stem = (folder / "next_record").string();
-  WriteMarkedText(stem + ".toml", "practice", trial.scenario);
-  trial.measured.attributes["made_by"] = "ambrig practice";
-  WriteHdf5(trial.measured, stem + ".h5");
+  WriteMarkedText(stem + ".toml", "practice", planned.scenario);
+  planned.measured.attributes["made_by"] = "ambrig practice";
+  WriteHdf5(planned.measured, stem + ".h5");
   const std::string head = made.case_text.substr(0, made.case_text.find("[[record]]"));
   WriteMarkedText(
       (folder / "case_with_next.toml").string(), "practice",
@@ -143,8 +104,9 @@ PromiseTrial RunTrial(const PracticeSetting& setting, std::size_t number, Progre
     progress.Update(f, made.name + ": " + text);
   };
   const auto folder = std::filesystem::path(setting.folder) / made.name;
-  const PromiseTrial trial = TryPromise(made, ReadCase(folder.string()), options);
-  if (trial.left_out.empty()) WriteNextRecord(made, options.first, trial, folder);
+  PlannedRecord planned;
+  const PromiseTrial trial = TryPromise(made, ReadCase(folder.string()), options, &planned);
+  if (trial.left_out.empty()) WriteNextRecord(made, options.first, std::move(planned), folder);
   return trial;
 }
 
@@ -165,9 +127,14 @@ PromiseTrial TrialOrError(const PracticeSetting& setting, std::size_t number, Pr
 }  // namespace
 
 void PractisePlans(const PracticeSetting& setting, bool report_only, const CommonOptions& common) {
-  const std::string path =
-      (std::filesystem::path(setting.folder) / PlansName(setting.shard)).string();
-  const std::map<std::string, PromiseTrial> finished = FinishedTrials(setting);
+  const std::string header = PracticeHeader(setting) + " plans";
+  std::map<std::string, PromiseTrial> finished;
+  ReadPracticeJournals(setting, kPlans, header, [&](const Json& json) {
+    PromiseTrial t = TrialOf(json);
+    finished[t.name] = std::move(t);
+  });
+  const auto path =
+      std::filesystem::path(setting.folder) / PracticeJournalName(kPlans, setting.shard);
   std::vector<PromiseTrial> trials;
   Progress progress("practice of plans");
   std::size_t place = 0;  // among the cases that hide one effect
@@ -179,7 +146,7 @@ void PractisePlans(const PracticeSetting& setting, bool report_only, const Commo
       trials.push_back(known->second);
     } else if (mine) {
       trials.push_back(TrialOrError(setting, number, progress));
-      Journal(path, HeaderOf(setting),
+      Journal(path.string(), header,
               {[](std::string_view) {}, [](const JournalEntry&) { return true; }})
           .Append(JsonText(TrialJson(trials.back())));
       progress.Clear();

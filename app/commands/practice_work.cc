@@ -24,30 +24,6 @@ namespace fs = std::filesystem;
 
 const char* const kAnswerEnding = ".answer.toml";
 
-JournalVisitor PracticeVisitor(const PracticeSetting& setting, const std::string& path,
-                               std::map<std::string, PracticeResult>& found) {
-  JournalVisitor visit;
-  visit.header = [&setting, path](std::string_view text) {
-    if (!text.empty() && text != PracticeHeader(setting))
-      throw InputError(fmt::format(
-          "{}: is the journal of other rigs or another seed, allowed: the same rigs and --seed, or "
-          "another folder",
-          path));
-  };
-  visit.entry = [&found](const JournalEntry& e) {
-    const auto json = nlohmann::ordered_json::parse(e.text, nullptr, false);
-    if (json.is_discarded()) return false;
-    try {
-      PracticeResult r = PracticeResultOf(json);
-      found[r.name] = std::move(r);
-    } catch (const nlohmann::json::exception&) {
-      return false;  // of an earlier version: the case is done again
-    }
-    return true;
-  };
-  return visit;
-}
-
 PracticeCase Made(const PracticeSetting& setting, std::size_t number) {
   try {
     return MakePracticeCase(setting.rigs, setting.seed, number, &interrupted);
@@ -64,22 +40,49 @@ std::string PracticeHeader(const PracticeSetting& setting) {
   return fmt::format("practice seed {} rigs {}", setting.seed, Fingerprint(text));
 }
 
-std::string PracticeJournalName(const Shard& shard) {
-  return shard.count == 1 ? "journal.txt"
-                          : fmt::format("journal-{}-of-{}.txt", shard.index + 1, shard.count);
+std::string PracticeJournalName(const std::string& name, const Shard& shard) {
+  return shard.count == 1 ? name + ".txt"
+                          : fmt::format("{}-{}-of-{}.txt", name, shard.index + 1, shard.count);
+}
+
+void ReadPracticeJournals(const PracticeSetting& setting, const std::string& name,
+                          const std::string& header,
+                          const std::function<void(const nlohmann::ordered_json&)>& entry) {
+  std::vector<std::string> journals;
+  std::error_code error;
+  for (const auto& item : fs::directory_iterator(setting.folder, error)) {
+    const std::string file = item.path().filename().string();
+    if (file.starts_with(name) && file.ends_with(".txt")) journals.push_back(item.path().string());
+  }
+  std::sort(journals.begin(), journals.end());
+  for (const std::string& path : journals) {
+    JournalVisitor visit;
+    visit.header = [&](std::string_view text) {
+      if (!text.empty() && text != header)
+        throw InputError(fmt::format(
+            "{}: is the journal of other rigs or another seed, allowed: the same rigs and --seed, "
+            "or another folder",
+            path));
+    };
+    visit.entry = [&](const JournalEntry& e) {
+      try {
+        entry(nlohmann::ordered_json::parse(e.text));
+        return true;
+      } catch (const nlohmann::json::exception&) {
+        return false;  // damaged, or of an earlier version: it is done again
+      }
+    };
+    ReadJournalFile(path, visit);
+  }
 }
 
 std::map<std::string, PracticeResult> FinishedCases(const PracticeSetting& setting) {
   std::map<std::string, PracticeResult> found;
-  std::vector<fs::path> journals;
-  std::error_code error;
-  for (const auto& item : fs::directory_iterator(setting.folder, error)) {
-    const std::string name = item.path().filename().string();
-    if (name.starts_with("journal") && name.ends_with(".txt")) journals.push_back(item.path());
-  }
-  std::sort(journals.begin(), journals.end());
-  for (const fs::path& j : journals)
-    ReadJournalFile(j.string(), PracticeVisitor(setting, j.string(), found));
+  ReadPracticeJournals(setting, "journal", PracticeHeader(setting),
+                       [&](const nlohmann::ordered_json& json) {
+                         PracticeResult r = PracticeResultOf(json);
+                         found[r.name] = std::move(r);
+                       });
   return found;
 }
 

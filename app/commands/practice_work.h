@@ -1,7 +1,9 @@
 #pragma once
 /// The work behind `ambrig practice`: folders of cases, a journal of what explain said of them.
+#include <functional>
 #include <map>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -24,8 +26,14 @@ struct PracticeSetting {
 /// grow.
 std::string PracticeHeader(const PracticeSetting& setting);
 
-/// journal.txt, or journal-2-of-4.txt of a shard.
-std::string PracticeJournalName(const Shard& shard);
+/// NAME.txt, or NAME-2-of-4.txt of a shard; NAME is "journal" for cases, "plans" for plans.
+std::string PracticeJournalName(const std::string& name, const Shard& shard);
+
+/// Gives every entry of the folder's journals of this name to `entry`, which may throw nlohmann::json::exception for one of
+/// an earlier version: it does not count. @throws InputError for a journal that begins with another header
+void ReadPracticeJournals(const PracticeSetting& setting, const std::string& name,
+                          const std::string& header,
+                          const std::function<void(const nlohmann::ordered_json&)>& entry);
 
 /// Results of all journals of the folder, by name; the later line of a case counts.
 /// @throws InputError for a journal of another setting.

@@ -10,6 +10,7 @@
 #include "discovery/decision/describe.h"
 #include "discovery/decision/explainer.h"
 #include "discovery/decision/likelihood.h"
+#include "discovery/decision/prepared_models.h"
 
 namespace ambrig {
 
@@ -18,17 +19,10 @@ namespace {
 /// Rows that the search looks at: more would cost time and tell nothing new.
 constexpr std::size_t kRows = 150000;
 
-std::size_t Thinning(const Case& c) {
-  std::size_t rows = 0;
-  for (const CaseRecord& r : c.records)
-    for (const Channel& channel : r.data.channels) rows += channel.samples.size();
-  return std::clamp<std::size_t>(rows / kRows, 1, 12);
-}
-
 }  // namespace
 
 Explainer::Explainer(const Case& c, const ExplainOptions& options)
-    : options_(options), full_(c), model_(c, Thinning(c)), rig_(c.rig) {
+    : options_(options), full_(c), model_(c, ThinningTo(c, kRows)), rig_(c.rig) {
   full_.stop = model_.stop = options.stop;
   full_.store = model_.store = options.store;
 }
@@ -67,8 +61,7 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   out_.effective_sample_size = floor.effective_sample_size;
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
-  for (std::size_t t = 0; t < stated.size(); ++t)
-    model_.targets()[t].floor = full_.targets()[t].floor;
+  PassFloorsOn(full_, model_);
   UseNuisances(nominal, floor.clean, true);
 }
 
@@ -80,9 +73,7 @@ void Explainer::UseNuisances(const Hypothesis& h, const std::vector<double>& pre
 }
 
 void Explainer::SetNuisances(const std::vector<NuisanceKind>& kinds) {
-  full_.nuisances.Use(full_, kinds, out_.effective_sample_size / static_cast<double>(full_.size()));
-  model_.nuisances.Use(model_, Thinned(kinds, full_, model_),
-                       out_.effective_sample_size / static_cast<double>(model_.size()));
+  UseNuisancesInBoth(full_, model_, kinds, out_.effective_sample_size);
   bank_ = SignatureBank();
 }
 

@@ -11,17 +11,26 @@ std::size_t ThinningTo(const Case& c, std::size_t rows) {
   return std::clamp<std::size_t>(all / rows, 1, 12);
 }
 
+void PassFloorsOn(const CaseModel& full, CaseModel& thin) {
+  for (std::size_t t = 0; t < full.targets().size(); ++t)
+    thin.targets()[t].floor = full.targets()[t].floor;
+}
+
+void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<NuisanceKind>& kinds,
+                        double independent) {
+  full.nuisances.Use(full, kinds, independent / static_cast<double>(full.size()));
+  thin.nuisances.Use(thin, Thinned(kinds, full, thin),
+                     independent / static_cast<double>(thin.size()));
+}
+
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
   Comparison before = Compare(full, nominal, false);
   thin.noise_model = full.noise_model;
   thin.LimitAs(full);
-  for (std::size_t t = 0; t < full.targets().size(); ++t)
-    thin.targets()[t].floor = full.targets()[t].floor;
+  PassFloorsOn(full, thin);
   if (!full.data().nuisances.any()) return before;
-  const double n = before.effective_sample_size;
-  const std::vector<NuisanceKind> kinds = NuisanceKindsOf(full, nominal, before.predicted, true);
-  full.nuisances.Use(full, kinds, n / static_cast<double>(full.size()));
-  thin.nuisances.Use(thin, Thinned(kinds, full, thin), n / static_cast<double>(thin.size()));
+  UseNuisancesInBoth(full, thin, NuisanceKindsOf(full, nominal, before.predicted, true),
+                     before.effective_sample_size);
   return before;
 }
 

@@ -1,11 +1,18 @@
 #pragma once
-/// Two models of a case, of all its rows and of fewer, made ready for fits that are not those of explain.
+/// Two models of a case, of all its rows and of fewer, made ready for fits.
 #include "discovery/decision/compare.h"
 
 namespace ambrig {
 
-/// Rows of both models beside each other: every how manieth row a model of about `rows` rows needs.
+/// The thinning (1: every row) with which a model of the case looks at no more than about `rows` rows, at most 12.
 std::size_t ThinningTo(const Case& c, std::size_t rows);
+
+/// The floors of `full` in the model of fewer rows.
+void PassFloorsOn(const CaseModel& full, CaseModel& thin);
+
+/// These nuisances, of all rows, in both. `independent`: how many of the residuals are.
+void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<NuisanceKind>& kinds,
+                        double independent);
 
 /// Gives both the noise, horizons and floors of the comparison with `nominal`, which is returned, and the nuisances that the
 /// case declares.

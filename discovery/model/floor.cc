@@ -38,18 +38,19 @@ double Resolution(const RigParameters& rig, const ChannelRow& channel, double fu
   return std::max(r.least, r.part * range);
 }
 
-/// Σ ρ² of one channel with all of its record.
+/// Σ ρ² of one channel with all of its record, whose rms are given.
 double SumOfSquaredCorrelations(const std::vector<double>& noise,
-                                const std::vector<const Target*>& of, std::size_t one) {
+                                const std::vector<const Target*>& of,
+                                const std::vector<double>& rms, std::size_t one) {
   const Target& a = *of[one];
-  const double pa = Rms(noise, a.first, a.count);
   double sum = 0;
-  for (const Target* b : of) {
-    const double pb = Rms(noise, b->first, b->count);
+  for (std::size_t other = 0; other < of.size(); ++other) {
+    const Target& b = *of[other];
     double c = 0;
-    for (std::size_t k = 0; k < a.count; ++k) c += noise[a.first + k] * noise[b->first + k];
-    const double rho =
-        pa > 0 && pb > 0 ? c / static_cast<double>(a.count) / pa / pb : (&a == b ? 1.0 : 0.0);
+    for (std::size_t k = 0; k < a.count; ++k) c += noise[a.first + k] * noise[b.first + k];
+    const double rho = rms[one] > 0 && rms[other] > 0
+                           ? c / static_cast<double>(a.count) / rms[one] / rms[other]
+                           : (one == other ? 1.0 : 0.0);
     sum += rho * rho;
   }
   return sum;
@@ -72,12 +73,13 @@ double IndependentRows(const CaseModel& model, const std::vector<double>& noise)
                           [](char ok) { return ok != 0; }));
       continue;
     }
-    std::vector<double> independent(of.size()), square(of.size());
+    std::vector<double> rms, independent(of.size()), square(of.size());
+    for (const Target* t : of) rms.push_back(Rms(noise, t->first, t->count));
     InParallel(of.size(), [&](std::size_t a) {
       const Target& t = *of[a];
       independent[a] =
           static_cast<double>(t.count) / RowsPerIndependentOne(noise, t.first, t.count);
-      square[a] = SumOfSquaredCorrelations(noise, of, a);
+      square[a] = SumOfSquaredCorrelations(noise, of, rms, a);
     });
     const double per_channel = std::accumulate(independent.begin(), independent.end(), 0.0) /
                                static_cast<double>(of.size()),

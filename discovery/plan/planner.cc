@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
-#include "core/record/channels.h"
+#include "discovery/decision/prepared_models.h"
 #include "discovery/model/floor.h"
 
 namespace ambrig {
@@ -47,17 +47,8 @@ TrialRecord Planner::Trial(const std::string& toml, const PlanCandidate& c) cons
   trial.data = std::make_unique<Case>(EmptyCase(rig_, {{c.title, toml, false, c.burst}}));
   trial.data->noise = surroundings_.noise;
   trial.data->nuisances = surroundings_.nuisances;
-  CaseRecord& record = trial.data->records[0];
-  if (!abilities_.channels.empty())
-    for (std::size_t k = record.data.channels.size(); k-- > 0;)
-      if (!abilities_.channels.count(record.data.channels[k].name)) {
-        record.data.channels.erase(record.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
-        record.quality.erase(record.quality.begin() + static_cast<std::ptrdiff_t>(k));
-      }
-  std::size_t rows = 0;
-  for (const Channel& ch : record.data.channels) rows += ch.samples.size();
-  trial.model =
-      std::make_unique<CaseModel>(*trial.data, std::clamp<std::size_t>(rows / kTrialRows, 1, 12));
+  if (!abilities_.channels.empty()) KeepChannels(trial.data->records[0], abilities_.channels);
+  trial.model = std::make_unique<CaseModel>(*trial.data, ThinningTo(*trial.data, kTrialRows));
   trial.model->stop = options_.stop;
   return trial;
 }

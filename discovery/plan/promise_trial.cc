@@ -54,23 +54,19 @@ Pair PairOf(const PracticeCase& made, const Explanation& e) {
 CaseRecord MeasuredRecord(const PracticeCase& made, const Case& few, const Plan& plan,
                           std::uint64_t seed) {
   Case next = EmptyCase(few.rig, {{plan.title, plan.toml}});
-  CaseRecord& record = next.records[0];
-  for (std::size_t k = record.data.channels.size(); k-- > 0;)
-    if (std::ranges::count(plan.channels, record.data.channels[k].name) == 0) {
-      record.data.channels.erase(record.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
-      record.quality.erase(record.quality.begin() + static_cast<std::ptrdiff_t>(k));
-    }
+  KeepChannels(next.records[0], {plan.channels.begin(), plan.channels.end()});
   next.noise = few.noise;
   const CaseModel model(next);
   Hypothesis truth;
   truth.rig = made.truth;
   MeasureRecord(model, truth, 0, seed, UsualLoadCellNoise(few.rig), next);
-  return record;
+  return next.records[0];
 }
 
 }  // namespace
 
-PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options) {
+PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options,
+                        PlannedRecord* planned) {
   if (made.kind != "one") throw InputError(made.name + ": hides not one effect");
   PromiseTrial trial;
   trial.name = made.name;
@@ -110,10 +106,9 @@ PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const Promis
   const Plan plan = PlanForCase(few, {pair.right, pair.other}, planning);
   trial.record = plan.title;
   trial.promise = plan.separates.at(0).probability;
-  trial.scenario = plan.toml;
   few.records.push_back(MeasuredRecord(made, few, plan, options.seed));
   explain.progress = part(0.6, 1);
-  trial.measured = few.records.back().data;
+  *planned = {plan.toml, few.records.back().data};
   trial.after = ShareOfRight(Explain(few, explain), pair.right, pair.other);
   return trial;
 }

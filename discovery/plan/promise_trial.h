@@ -18,10 +18,14 @@ struct PromiseTrial {
   std::string record;          // that was planned, its title
   double before = 0;  // share of the right name in the probability of both, by the first record
   double promise = 0, after = 0;  // by the plan; the same share with its record
-  std::string scenario;           // of that record
-  Record measured;                // the record
   std::string left_out;           // why there is nothing to tell apart; empty: there is
   bool found() const { return after > 0.5; }
+};
+
+/// The record that was planned: its scenario file, and what the true rig gave.
+struct PlannedRecord {
+  std::string scenario;
+  Record measured;
 };
 
 struct PromiseOptions {
@@ -32,8 +36,10 @@ struct PromiseOptions {
   std::function<void(double, const std::string&)> progress;
 };
 
-/// `made` hides one effect; `read`: the same case as its files say. @throws Interrupted, InputError
-PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options);
+/// `made` hides one effect; `read`: the same case as its files say; `planned` stays as it is where the trial is left out.
+/// @throws Interrupted, InputError
+PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const PromiseOptions& options,
+                        PlannedRecord* planned);
 
 /// Trials by what was promised, the highest first; those left out do not count.
 struct PromiseBin {

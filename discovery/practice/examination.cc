@@ -211,4 +211,12 @@ Case EmptyCase(const RigParameters& rig, const std::vector<ExaminationRecord>& r
   return c;
 }
 
+void KeepChannels(CaseRecord& record, const std::set<std::string>& names) {
+  for (std::size_t k = record.data.channels.size(); k-- > 0;) {
+    if (names.contains(record.data.channels[k].name)) continue;
+    record.data.channels.erase(record.data.channels.begin() + static_cast<std::ptrdiff_t>(k));
+    record.quality.erase(record.quality.begin() + static_cast<std::ptrdiff_t>(k));
+  }
+}
+
 }  // namespace ambrig

@@ -2,6 +2,7 @@
 /// Records that a rig can make to be examined: excitations of everything that a model may have
 /// wrong.
 #include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,5 +31,8 @@ std::vector<ExaminationRecord> Examination(const RigParameters& rig, std::uint64
 /// A case of such records with empty data (zeros) in the channels that a logger would have:
 /// readings, currents, set-points, bus, load cells where clamped.
 Case EmptyCase(const RigParameters& rig, const std::vector<ExaminationRecord>& records);
+
+/// Leaves out the channels of the record that are not among these names.
+void KeepChannels(CaseRecord& record, const std::set<std::string>& names);
 
 }  // namespace ambrig

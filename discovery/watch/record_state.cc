@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/errors.h"
+#include "core/math/normal_distribution.h"
 #include "discovery/decision/compare.h"
 #include "discovery/decision/evidence.h"
 #include "discovery/search/fit.h"
@@ -52,16 +53,6 @@ std::string UnitOf(const Hypothesis& h, const FreeParameter& f) {
   return unit;
 }
 
-/// The quantile of the standard normal distribution, by bisection of its tail.
-double TwoSidedQuantile(double probability) {
-  double lo = 0, hi = 10;
-  for (int k = 0; k < 60; ++k) {
-    const double middle = 0.5 * (lo + hi);
-    (std::erfc(middle / std::sqrt(2.0)) > probability ? lo : hi) = middle;
-  }
-  return hi;
-}
-
 }  // namespace
 
 RecordState StateOf(const Case& c, const RecordState* reference, const std::atomic<bool>* stop) {
@@ -91,7 +82,7 @@ RecordState StateOf(const Case& c, const RecordState* reference, const std::atom
 }
 
 double BandWidth(std::size_t count) {
-  return TwoSidedQuantile(kFalseAlarms / static_cast<double>(std::max<std::size_t>(1, count)));
+  return -NormalQuantile(0.5 * kFalseAlarms / static_cast<double>(std::max<std::size_t>(1, count)));
 }
 
 LeftBand ParameterBand(const StateParameter& now, const StateParameter& was, std::size_t count) {

@@ -20,23 +20,22 @@ constexpr double kGrowth = 1.5, kLeastGrowth = 5e-6;                       // of
 void CoilProbes::Orbit(double t, double x, double y) {
   const double displacement = std::sqrt(x * x + y * y), place[2] = {x, y};
   if (t >= slice_ends_) {
-    slice_[1] = std::exchange(slice_[0], 0);
-    range_[1] = std::exchange(range_[0], {});
+    slice_[1] = std::exchange(slice_[0], {});
     slice_ends_ = t + kSlice;
   }
   for (int axis = 0; axis < 2; ++axis) {
-    range_[0].least[axis] = std::min(range_[0].least[axis], place[axis]);
-    range_[0].most[axis] = std::max(range_[0].most[axis], place[axis]);
+    slice_[0].least[axis] = std::min(slice_[0].least[axis], place[axis]);
+    slice_[0].most[axis] = std::max(slice_[0].most[axis], place[axis]);
   }
-  slice_[0] = std::max(slice_[0], displacement);
+  slice_[0].orbit = std::max(slice_[0].orbit, displacement);
   for (auto& [coil, look] : looks_) look.orbit_after = std::max(look.orbit_after, displacement);
 }
 
 double CoilProbes::Motion() const {
   double most = 0;
   for (int axis = 0; axis < 2; ++axis)
-    most = std::max(most, std::max(range_[0].most[axis], range_[1].most[axis]) -
-                              std::min(range_[0].least[axis], range_[1].least[axis]));
+    most = std::max(most, std::max(slice_[0].most[axis], slice_[1].most[axis]) -
+                              std::min(slice_[0].least[axis], slice_[1].least[axis]));
   return most;
 }
 
@@ -50,7 +49,7 @@ void CoilProbes::GivenUp(int coil, FaultClass cls, double t) {
   look.given_up = t;
   look.next = t + kFirst;
   look.wait = kFirst;
-  look.orbit_before = std::max(slice_[0], slice_[1]);
+  look.orbit_before = std::max(slice_[0].orbit, slice_[1].orbit);
   look.left = kLooks;
   look.false_current = cls == FaultClass::kCurrentSensor;
   looks_[coil] = look;

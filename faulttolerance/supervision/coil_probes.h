@@ -67,11 +67,11 @@ class CoilProbes {
   Lane returned_;          // 1: came back once
   Lane refuted_;           // 1: came back though the reading of its current was called wrong
   double slice_ends_ = 0;  // [s]
-  double slice_[2] = {};   // largest displacement of this and of the last slice [m]
-  struct Range {
-    double least[2] = {kInfinity, kInfinity}, most[2] = {-kInfinity, -kInfinity};  // of x, y
+  struct Slice {
+    double orbit = 0;  // largest displacement [m]
+    double least[2] = {kInfinity, kInfinity}, most[2] = {-kInfinity, -kInfinity};  // x, y [m]
   };
-  Range range_[2];  // of the same slices [m]
+  Slice slice_[2];  // this and the last one
 };
 
 }  // namespace ambrig

@@ -53,20 +53,22 @@ TEST(TryPromise, WhatCannotBeToldIsNotPromised) {
   PromiseOptions options;
   options.draws = 4;
   options.first = 43 % made.records.size();
-  const PromiseTrial trial = TryPromise(made, made.data, options);
+  PlannedRecord planned;
+  const PromiseTrial trial = TryPromise(made, made.data, options, &planned);
   EXPECT_EQ(trial.left_out, "");
   EXPECT_EQ(trial.right, "iron-reluctance at B");
   EXPECT_NEAR(trial.before, 0.5, 0.05);
   EXPECT_LT(trial.promise, 0.95);
   EXPECT_LT(trial.after, 0.95);
-  EXPECT_FALSE(trial.measured.channels.empty());
+  EXPECT_FALSE(planned.measured.channels.empty());
 }
 
 TEST(TryPromise, OneHiddenEffectIsNeeded) {
   PracticeCase two;
   two.name = "case-0002";
   two.kind = "two";
-  EXPECT_THROW(TryPromise(two, {}, {}), InputError);
+  PlannedRecord none;
+  EXPECT_THROW(TryPromise(two, {}, {}, &none), InputError);
 }
 
 }  // namespace
