@@ -44,7 +44,13 @@ sleep 3
 kill -0 $main || { echo "gave up"; exit 9; }
 "$tool" controller slurm
 
-# A controller that forgot its last seconds may take a node out of service; an administrator brings it back.
-for _ in $(seq 2400); do kill -0 $main 2> /dev/null || break; sinfo -h -n n1 -t drain -o %N | grep -q n1 && scontrol update nodename=n1 state=resume; sleep 0.1; done
+# A controller that forgot its last seconds may take a node out of service, and it asks only every few minutes whether the tasks
+# that it remembers still run: an administrator brings the node back and lets all nodes register again.
+for k in $(seq 2400); do
+  kill -0 $main 2> /dev/null || break
+  sinfo -h -n n1 -t drain -o %N | grep -q n1 && scontrol update nodename=n1 state=resume
+  [ $((k % 300)) = 0 ] && scontrol reconfigure
+  sleep 0.1
+done
 kill -9 $main 2> /dev/null && { echo "did not end"; cat out/shards/jobs.txt; squeue; exit 7; }
 wait $main
