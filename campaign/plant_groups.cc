@@ -57,6 +57,8 @@ void PlantGroup::Add(const Row& r) {
   const std::string plant = r.At("plant") + " " + r.At("spread");
   plants.insert(plant);
   coil_periods += r.Number("coil_periods");
+  if (!r.At("doubtful_share").empty())
+    doubtful_periods += r.Number("doubtful_share") * r.Number("coil_periods");
   if (r.Number("false_alarms") > 0) alarmed.insert(plant);
   if (r.Number("false_actions") > 0) acted.insert(plant);
   if (Harmed(r)) harmed.insert(plant);
@@ -77,6 +79,7 @@ void PlantGroup::Add(const PlantGroup& other, const std::string& prefix) {
                                 {&other.doubtful, &doubtful}})
     for (const std::string& p : *of) set->insert(prefix + p);
   coil_periods += other.coil_periods;
+  doubtful_periods += other.doubtful_periods;
   if (orbit == 0 || other.orbit * orbit_without > orbit * other.orbit_without) {
     orbit = other.orbit;
     orbit_without = other.orbit_without;

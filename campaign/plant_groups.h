@@ -28,11 +28,13 @@ struct PlantGroup {
   // Healthy runs: those that were run; with a false alarm; acted on; that ended worse than without
   // fault tolerance (a drop, a touchdown, an orbit above 1.1 times); that doubted their model.
   std::set<std::string> plants, alarmed, acted, harmed, doubtful;
-  double coil_periods = 0;  // healthy
+  double coil_periods = 0;      // healthy
+  double doubtful_periods = 0;  // of these, with the model of the detector in doubt
   // of the run that fault tolerance made worst, of those that stay up both with and without it [m]
   double orbit = 0, orbit_without = 0;
   std::map<std::string, FaultsOnPlants> kinds;
 
+  double DoubtfulShare() const { return coil_periods > 0 ? doubtful_periods / coil_periods : 0; }
   void Add(const Row& row);
   /// `prefix` keeps plants of equal names of different groups apart.
   void Add(const PlantGroup& other, const std::string& prefix);

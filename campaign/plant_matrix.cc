@@ -122,16 +122,18 @@ std::string CountCell(const std::set<std::string>& some, const PlantGroup& g) {
 
 std::string HealthyTable(const std::vector<EffectGroups>& groups) {
   std::string text =
-      "| effect | false alarm | acted on | harmed | model doubtful | orbit with, without |\n"
+      "| effect | false alarm | acted on | harmed | model doubtful, of the time | orbit with, "
+      "without |\n"
       "|---|---|---|---|---|---|\n";
   for (const EffectGroups& g : groups) {
     if (g.all.plants.empty()) continue;
     const std::string orbits = g.all.orbit > 0 ? fmt::format("{:.3g}, {:.3g} um", 1e6 * g.all.orbit,
                                                              1e6 * g.all.orbit_without)
                                                : "-";
-    text += fmt::format("| {} | {} | {} | {} | {} | {} |\n", g.effect,
+    text += fmt::format("| {} | {} | {} | {} | {}, {:.2g} % | {} |\n", g.effect,
                         CountCell(g.all.alarmed, g.all), CountCell(g.all.acted, g.all),
-                        CountCell(g.all.harmed, g.all), g.all.doubtful.size(), orbits);
+                        CountCell(g.all.harmed, g.all), g.all.doubtful.size(),
+                        100 * g.all.DoubtfulShare(), orbits);
   }
   return text;
 }

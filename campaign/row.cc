@@ -68,6 +68,18 @@ const char* Verdict(const RunResult& r) {
   return r.drop ? "drop" : r.touchdown ? "touchdown" : "up";
 }
 
+/// Share of the coil-periods watched in which a detector doubted its model.
+double DoubtfulShare(const PlannedRun& p, const RunResult& r) {
+  double coils = 0, doubtful = 0;
+  for (const BearingParameters& b : p.rig.bearings) {
+    const auto it = r.doubtful_share.find(b.name);
+    if (it == r.doubtful_share.end()) continue;
+    coils += b.coils();
+    doubtful += b.coils() * it->second;
+  }
+  return coils > 0 ? doubtful / coils : 0;
+}
+
 std::vector<std::string> Outcome(const RunPlan& plan, const PlannedRun& p, const RunResult& r,
                                  const RunResult* without) {
   const RunMetrics& m = r.metrics;
@@ -94,6 +106,7 @@ std::vector<std::string> Outcome(const RunPlan& plan, const PlannedRun& p, const
               r.actions, [&](const CoilAction& a) { return IsFalseAction(p.scenario, a); })),
           std::to_string(std::ranges::count(r.actions, "restore", &CoilAction::action)),
           r.doubtful ? "yes" : "no",
+          NumberText(DoubtfulShare(p, r)),
           without ? Verdict(*without) : "",
           without ? NumberText(LargestOrbit(p, *without)) : "",
           DropReason(plan, p, r),
@@ -174,6 +187,7 @@ const std::vector<std::string>& RowColumns() {
                                                 "false_actions",
                                                 "restored",
                                                 "doubtful",
+                                                "doubtful_share",
                                                 "verdict_without",
                                                 "orbit_without [m]",
                                                 "reason",

@@ -164,7 +164,7 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   }
   if (!options.quiet) {
     PrintTimeline(scenario, result, StationOrbits(rig, result), HasAuxiliary(rig), expect);
-    if (const std::string note = UncommissionedNote(rig, result); !note.empty())
+    if (const std::string note = DoubtfulModelNote(rig, result); !note.empty())
       fmt::print("{}\n", Wrapped("  note: " + note, 8));
     if (dropped)
       fmt::print("{}\n", Wrapped("  bending modes          " + DroppedModesText(*dropped), 25));

@@ -19,6 +19,8 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
   const RunMetrics& m = result.metrics;
   Json orbit = Json::object();
   for (const auto& [name, value] : m.max_orbit) orbit[name] = value;
+  Json shares = Json::object();
+  for (const auto& [name, value] : result.doubtful_share) shares[name] = value;
   Json wanted = Json::object();
   for (const ExpectResult& e : expect)
     wanted[e.key] = {{"wanted", e.wanted}, {"got", e.got}, {"met", e.met}};
@@ -39,7 +41,8 @@ nlohmann::ordered_json RunJson(const Scenario& scenario, const RunResult& result
                  {"real_time_factor", m.real_time_factor}}},
                {"touchdown", result.touchdown},
                {"drop", result.drop},
-               {"fault_tolerance", {{"actions", actions}, {"doubtful", result.doubtful}}},
+               {"fault_tolerance",
+                {{"actions", actions}, {"doubtful", result.doubtful}, {"doubtful_share", shares}}},
                {"expect", wanted},
                {"notes", result.notes}};
   for (const RunEvent& e : result.events)

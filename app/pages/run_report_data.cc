@@ -161,14 +161,25 @@ std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunR
   return out;
 }
 
-std::string UncommissionedNote(const RigParameters& rig, const RunResult& result) {
-  if (!result.doubtful || !rig.detection.commissioning.empty() ||
-      std::filesystem::exists(CommissioningFileOf(rig.file)))
-    return "";
+std::string DoubtfulModelNote(const RigParameters& rig, const RunResult& result) {
+  if (!result.doubtful) return "";
+  if (rig.detection.commissioning.empty() &&
+      !std::filesystem::exists(CommissioningFileOf(rig.file)))
+    return fmt::format(
+        "the fault detection has not learnt this rig and acts on gross faults only (no current, "
+        "half "
+        "of the turns); to teach it: ambrig commission {}",
+        rig.file);
+  std::string shares;
+  for (const auto& [bearing, share] : result.doubtful_share)
+    if (share > 0)
+      shares += fmt::format("{}{} {:.2g} %", shares.empty() ? "" : ", ", bearing, 100 * share);
+  if (shares.empty()) return "";
   return fmt::format(
-      "the fault detection has not learnt this rig and acts on gross faults only (no current, half "
-      "of the turns); to teach it: ambrig commission {}",
-      rig.file);
+      "the fault detection doubted its model, and would have acted on gross faults only, in part "
+      "of "
+      "the run: {}",
+      shares);
 }
 
 bool HasAuxiliary(const RigParameters& rig) {
@@ -196,8 +207,7 @@ RunReportData MakeRunReportData(const RigParameters& rig, const Scenario& scenar
       fmt::format("rig {}, {} fidelity, seed {}, ambrig 0.1.0", rig.name, fidelity, scenario.seed);
   FillVerdict(result, expect, data);
   std::vector<std::string> notes = result.notes;
-  if (const std::string note = UncommissionedNote(rig, result); !note.empty())
-    notes.push_back(note);
+  if (const std::string note = DoubtfulModelNote(rig, result); !note.empty()) notes.push_back(note);
   for (std::string note : notes) {
     note[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(note[0])));
     data.notes.push_back(note + ".");

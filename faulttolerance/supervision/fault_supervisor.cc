@@ -98,8 +98,12 @@ void FaultSupervisor::WatchBearing(std::size_t k, const PeriodMeasurement& m,
   in.set_point = &control.commanded;
   const DetectorAlarm alarm = w.detector->Period(in);
   coil_periods_ += w.bearing->coils();
-  if (w.detector->doubtful()) Doubt(w, m.t + T_, events);
   const double t = m.t + T_;
+  ++w.periods;
+  if (w.detector->doubtful()) {
+    ++w.doubtful_periods;
+    Doubt(w, t, events);
+  }
   if (options_.redistribute) Probe(w, t, in, m.position_loop, control, out);
   if (alarm.coil < 0) return;
   const std::string name = CoilName(w.bearing->name, alarm.coil);
@@ -256,6 +260,8 @@ SupervisorSummary FaultSupervisor::Summary() const {
   summary.coil_periods = coil_periods_;
   summary.actions = actions_;
   summary.doubtful = doubtful_;
+  for (const std::unique_ptr<Watched>& w : watched_)
+    if (w->periods > 0) summary.doubtful_share[w->bearing->name] = w->doubtful_periods / w->periods;
   summary.interfered = interfered_;
   if (!options_.slopes || rows_.empty()) return summary;
   const Watched& w = *watched_[alarm_bearing_];

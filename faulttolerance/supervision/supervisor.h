@@ -3,6 +3,7 @@
 /// redistribution. A supervisor is given what the controller measured and what it commands, both
 /// const, and answers with actions and events of its own. It never sees the plant, the scenario's
 /// faults or the result of the run.
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,7 +36,8 @@ struct CoilAction {
 /// What a supervisor has to tell when a run is over.
 struct SupervisorSummary {
   std::vector<CoilAction> actions;
-  bool doubtful = false;           // some detector doubted its model during the run
+  bool doubtful = false;                         // some detector doubted its model during the run
+  std::map<std::string, double> doubtful_share;  // per bearing, of the periods watched
   bool interfered = false;         // sent an action; if not, the run is the one without it
   double coil_periods = 0;         // coils watched, times periods
   std::vector<SlopeTrace> slopes;  // of the first alarm

@@ -21,6 +21,7 @@ struct FaultSupervisor::Watched {
   bool doubted = false;   // whether the detector doubted its model when that began
   int alarmed = -1;       // coil that the alarm was raised for
   bool doubtful = false;  // its detector has doubted its model in this run
+  double periods = 0, doubtful_periods = 0;  // watched; with the detector in doubt
 };
 
 }  // namespace ambrig

@@ -9,6 +9,7 @@ void AddSummary(const Supervisor* supervisor, RunResult& result) {
   result.slopes = std::move(summary.slopes);
   result.actions = std::move(summary.actions);
   result.doubtful = summary.doubtful;
+  result.doubtful_share = std::move(summary.doubtful_share);
   result.interfered = summary.interfered;
 }
 

@@ -40,8 +40,9 @@ struct RunResult {
   bool touchdown = false, drop = false;
   std::vector<FluxSnapshot> snapshots;
   std::vector<SlopeTrace> slopes;
-  std::vector<CoilAction> actions;  // of fault tolerance
-  bool doubtful = false;            // a detector doubted its model during the run
+  std::vector<CoilAction> actions;               // of fault tolerance
+  bool doubtful = false;                         // a detector doubted its model during the run
+  std::map<std::string, double> doubtful_share;  // per bearing, of the periods watched
   bool interfered = false;  // fault tolerance sent an action; if not, the run is the one without it
   std::vector<std::string> notes;
 };

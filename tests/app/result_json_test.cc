@@ -36,6 +36,7 @@ RunResult MadeRun() {
   r.metrics.detection_delay = 2e-4;
   r.touchdown = true;
   r.doubtful = true;
+  r.doubtful_share = {{"A", 0.25}, {"B", 0}};
   r.notes = {"one note"};
   return r;
 }
@@ -53,6 +54,7 @@ TEST(RunJson, EventsCarryClassAndFractionOnlyWhereThereIsOne) {
   EXPECT_EQ(j["touchdown"], true);
   EXPECT_EQ(j["drop"], false);
   EXPECT_EQ(j["fault_tolerance"]["doubtful"], true);
+  EXPECT_EQ(j["fault_tolerance"]["doubtful_share"]["A"], 0.25);
   EXPECT_EQ(j["notes"][0], "one note");
 }
 

@@ -51,7 +51,8 @@ void WriteShard(const std::string& file, std::size_t runs) {
                                {"longest_contact", "0"},
                                {"peak_current", "4.268197766116703"},
                                {"copper_loss", "39.58930587880142"},
-                               {"doubtful", "no"}})
+                               {"doubtful", "no"},
+                               {"doubtful_share", "0.0123456789012345"}})
                        .csv);
 }
 

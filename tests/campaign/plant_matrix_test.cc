@@ -14,6 +14,7 @@ struct Seen {
   std::string orbit = "2e-06", orbit_without = "1e-06";
   std::string judged = "1";  // of the faults
   std::string set = "A:3";
+  std::string doubtful = "no", doubtful_share = "0";
 };
 
 Rows RowsOf(const std::vector<Seen>& list) {
@@ -35,6 +36,8 @@ Rows RowsOf(const std::vector<Seen>& list) {
                             {"false_alarms", s.actions},
                             {"false_actions", s.actions},
                             {"coil_periods", "1000"},
+                            {"doubtful", s.doubtful},
+                            {"doubtful_share", s.doubtful_share},
                             {"peak_orbit", s.orbit},
                             {"orbit_without", s.orbit_without},
                             {"verdict_without", s.without}});
@@ -80,16 +83,19 @@ TEST(PlantMatrix, HealthyPlantsCountOnceWithTheBoundOfTheirShare) {
           {"none", "none", spread, "no", "", "", "", operation == 2 ? "1" : "0", "up", "up"});
       rows.back().orbit = operation == 1 ? "9e-06" : "3e-06";
       rows.back().orbit_without = operation == 1 ? "9e-06" : "2e-06";
+      rows.back().doubtful = operation == 0 ? "yes" : "no";
+      rows.back().doubtful_share = operation == 0 ? "0.3" : "0";
     }
   rows.push_back({"mixture", "a+b+c", "1", "no", "", "", "", "0", "drop", "up"});
   const std::string text = PlantMatrix(RowsOf(rows));
-  // Both plants were acted on: their share may be 1. The worst ratio of orbits is 3/2.
-  EXPECT_NE(text.find("| no effect | 2/2, < 100 % | 2/2, < 100 % | 2/2, < 100 % | 0 | "
+  // Both plants were acted on: their share may be 1. The worst ratio of orbits is 3/2. Both
+  // doubted their model, in 30 % of one of three runs of equal length.
+  EXPECT_NE(text.find("| no effect | 2/2, < 100 % | 2/2, < 100 % | 2/2, < 100 % | 2, 10 % | "
                       "3, 2 um |"),
             std::string::npos)
       << text;
   // One plant, not acted on: 1 - 0.05.
-  EXPECT_NE(text.find("| mixtures of effects | 0/1, < 95 % | 0/1, < 95 % | 1/1, < 100 % | 0 | "
+  EXPECT_NE(text.find("| mixtures of effects | 0/1, < 95 % | 0/1, < 95 % | 1/1, < 100 % | 0, 0 % | "
                       "- |"),
             std::string::npos)
       << text;
