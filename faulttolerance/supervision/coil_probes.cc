@@ -32,6 +32,7 @@ void CoilProbes::Orbit(double t, double x, double y) {
 }
 
 double CoilProbes::Motion() const {
+  if (slice_[1].most[0] < slice_[1].least[0]) return kInfinity;
   double most = 0;
   for (int axis = 0; axis < 2; ++axis)
     most = std::max(most, std::max(slice_[0].most[axis], slice_[1].most[axis]) -

@@ -24,7 +24,8 @@ class CoilProbes {
  public:
   /// Place of the shaft at the bearing at the end of a period [m].
   void Orbit(double t, double x, double y);
-  /// How far it has moved along x or y within this slice of 20 ms and the last one, the larger [m].
+  /// How far it has moved along x or y within this slice of 20 ms and the last one, the larger [m];
+  /// infinity before one whole slice has been seen: a rotor that has just been lifted may swing.
   double Motion() const;
   void GivenUp(int coil, FaultClass cls, double t);
   /// Whether a coil that works is asked for next to no current at t.

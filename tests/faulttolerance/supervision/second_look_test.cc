@@ -86,13 +86,16 @@ TEST(SecondLook, WithoutCommissioningAFalseCurrentSensorIsNotRestored) {
   }
 }
 
-// The larger of both axes over two slices of 20 ms.
+// The larger of both axes over two slices of 20 ms; nothing is known before the first has passed.
 TEST(SecondLook, MotionIsThatOfTheLastSlices) {
   CoilProbes probes;
   for (int k = 0; k < 3000; ++k) {
     const double t = k * 40e-6;
     // off centre throughout, a swing of 30 um until 40 ms
     probes.Orbit(t, 50e-6, t < 0.04 ? -15e-6 * std::cos(300 * t) : 0);
+    if (k == 480) {
+      EXPECT_EQ(probes.Motion(), kInfinity);
+    }
     if (k == 900) {
       EXPECT_NEAR(probes.Motion(), 30e-6, 1e-6);
     }
