@@ -54,5 +54,5 @@ set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3-numpy")  # the Python module
 # Controllers in C are compiled by their authors; plots, tables with units; programs with the C++ library.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gcc, python3-matplotlib, python3-xarray, libceres-dev, libeigen3-dev, libfmt-dev, libhdf5-dev, \
 libmatio-dev, libmuparser-dev, libnlopt-dev, libode-dev, libpugixml-dev, libslicot-dev, libsundials-dev, libtbb-dev, \
-libtomlplusplus-dev, libzip-dev, nlohmann-json3-dev")
+libtomlplusplus-dev, libzip-dev, nlohmann-json3-dev, zlib1g-dev")
 include(CPack)

@@ -14,7 +14,7 @@ cd "$(dirname "$0")/.."
 packages=(
   g++ cmake ninja-build pkg-config git ca-certificates python3 ccache
   libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libpugixml-dev libzip-dev  # files, commands
-  libhdf5-dev hdf5-tools libmatio-dev                                            # records
+  libhdf5-dev hdf5-tools libmatio-dev zlib1g-dev                                 # records
   libeigen3-dev liblapack-dev libslicot-dev libsundials-dev libode-dev           # physics
   libceres-dev libnlopt-dev libnlopt-cxx-dev libmuparser-dev                     # fits, formulas
   libtbb-dev librandom123-dev                                                    # threads, noise

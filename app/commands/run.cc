@@ -37,6 +37,8 @@ struct RunOptions {
   double rate = 0;
   bool no_traces = false;
   bool csv = false, quiet = false, no_html = false, long_runs = false, keep_going = false;
+
+  bool WritesReport() const { return !no_html || !common.html.empty(); }
 };
 
 void PrintTimeline(const Scenario& scenario, const RunResult& result,
@@ -139,7 +141,7 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   SimulateOptions simulate;
   simulate.fidelity = FidelityByName(options.fidelity);
   simulate.record_rate = options.rate;
-  simulate.for_report = !options.no_traces;
+  simulate.for_report = options.WritesReport();
   simulate.stop = &interrupted;
   simulate.progress = [&](double f) { progress.Update(f); };
   RunResult result = Simulate(rig, scenario, simulate);
@@ -157,7 +159,7 @@ int RunOne(const RunInput& in, const RunOptions& options, nlohmann::ordered_json
   if (dropped) json["bending_modes"] = DroppedModesJson(*dropped);
   json["provenance"] = Provenance(in.inputs);
   WriteFileAtomically(stem.string() + ".json", MarkedJson(json));
-  if (!options.no_html || !options.common.html.empty()) {
+  if (options.WritesReport()) {
     const RunReportData data = MakeRunReportData(rig, scenario, result, expect, options.fidelity);
     if (!options.no_html) WriteRunReport(data, stem.string() + ".html");
     if (!options.common.html.empty()) WriteRunReport(data, options.common.html);

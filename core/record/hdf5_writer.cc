@@ -2,6 +2,7 @@
 #include <functional>
 
 #include "core/base/atomic_file.h"
+#include "core/record/deflate_gain.h"
 #include "core/record/hdf5_library.h"
 #include "core/record/time_base.h"
 
@@ -80,7 +81,7 @@ class Writer {
     const Handle space(H5Screate_simple(1, &rows, nullptr), H5Sclose);
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     Check(H5Pset_obj_track_times(creation, 0), path_, "no times");
-    if (rows > 0) {
+    if (rows > 0 && DeflatePays(c.samples)) {
       const hsize_t chunk = std::min(rows, kChunkRows);
       Check(H5Pset_chunk(creation, 1, &chunk), path_, "chunks");
       Check(H5Pset_shuffle(creation), path_, "shuffle");
