@@ -150,19 +150,14 @@ class SlurmRun {
   }
 
   void WriteScript() const {
-    const auto quoted = [](const std::string& text) {
-      std::string out = "'";
-      for (const char ch : text) out += ch == '\'' ? std::string("'\\''") : std::string(1, ch);
-      return out + "'";
-    };
     WriteFileAtomically(
         (folder_ / "task.sh").string(),
         fmt::format(
             "#!/bin/sh\n# One shard of a campaign; written by ambrig campaign --engine slurm.\n"
             "exec {} campaign {} -o {}/\"$SLURM_ARRAY_TASK_ID\" --shard "
             "\"$SLURM_ARRAY_TASK_ID/{}\" --jobs {} --no-report\n",
-            quoted(options_.program), quoted(fs::absolute(campaign_.file).string()),
-            quoted(folder_.string()), shards_.size(), options_.cpus));
+            QuotedForShell(options_.program), QuotedForShell(fs::absolute(campaign_.file).string()),
+            QuotedForShell(folder_.string()), shards_.size(), options_.cpus));
   }
 
   const Campaign& campaign_;

@@ -17,12 +17,6 @@ struct Answer {
   std::string text;  // both streams
 };
 
-std::string Quoted(const std::string& text) {
-  std::string out = "'";
-  for (const char ch : text) out += ch == '\'' ? std::string("'\\''") : std::string(1, ch);
-  return out + "'";
-}
-
 Answer Ask(const std::string& command) {
   Answer out;
   FILE* pipe = popen((command + " 2>&1 < /dev/null").c_str(), "r");
@@ -48,6 +42,12 @@ std::string FirstLine(const std::string& text) { return text.substr(0, text.find
 
 }  // namespace
 
+std::string QuotedForShell(const std::string& text) {
+  std::string out = "'";
+  for (const char ch : text) out += ch == '\'' ? std::string("'\\''") : std::string(1, ch);
+  return out + "'";
+}
+
 std::string ArrayText(const std::vector<std::size_t>& tasks) {
   std::string out;
   for (std::size_t k = 0; k < tasks.size();) {
@@ -61,10 +61,10 @@ std::string ArrayText(const std::vector<std::size_t>& tasks) {
 }
 
 std::string SubmitArray(const SlurmArray& a) {
-  const Answer r =
-      Ask(fmt::format("sbatch --parsable --job-name=ambrig --open-mode=append --ntasks=1 "
-                      "--cpus-per-task={} --array={} --output={} {} {}",
-                      a.cpus, ArrayText(a.tasks), Quoted(a.log), a.options, Quoted(a.script)));
+  const Answer r = Ask(fmt::format(
+      "sbatch --parsable --job-name=ambrig --open-mode=append --ntasks=1 "
+      "--cpus-per-task={} --array={} --output={} {} {}",
+      a.cpus, ArrayText(a.tasks), QuotedForShell(a.log), a.options, QuotedForShell(a.script)));
   if (r.exit != 0) {
     if (Unreachable(r.text)) return "";
     throw InputError(
@@ -80,7 +80,8 @@ SlurmTasks AskTasks(const std::vector<std::string>& jobs) {
   SlurmTasks out;
   out.reachable = true;
   for (const std::string& job : jobs) {
-    const Answer r = Ask("squeue --noheader --array --format='%K %F_%K %r' --jobs=" + Quoted(job));
+    const Answer r =
+        Ask("squeue --noheader --array --format='%K %F_%K %r' --jobs=" + QuotedForShell(job));
     // over and forgotten
     if (r.exit != 0 && r.text.find("Invalid job id") != std::string::npos) continue;
     if (r.exit != 0) {
@@ -95,14 +96,14 @@ SlurmTasks AskTasks(const std::vector<std::string>& jobs) {
       if (!(words >> task >> number) || !std::getline(words, reason)) continue;
       out.alive.emplace(task, number);
       if (reason.find("launch failed requeued held") != std::string::npos)
-        Ask("scontrol release " + Quoted(number));
+        Ask("scontrol release " + QuotedForShell(number));
     }
   }
   return out;
 }
 
 void CancelJobs(const std::vector<std::string>& jobs) {
-  for (const std::string& job : jobs) Ask("scancel " + Quoted(job));
+  for (const std::string& job : jobs) Ask("scancel " + QuotedForShell(job));
 }
 
 }  // namespace ambrig

@@ -30,6 +30,9 @@ SlurmTasks AskTasks(const std::vector<std::string>& jobs);
 /// Jobs ("12") or tasks ("12_3").
 void CancelJobs(const std::vector<std::string>& jobs);
 
+/// The text as one word of a shell's command line.
+std::string QuotedForShell(const std::string& text);
+
 /// "1-4,7" for {1, 2, 3, 4, 7}.
 std::string ArrayText(const std::vector<std::size_t>& tasks);
 

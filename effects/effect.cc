@@ -11,6 +11,10 @@
 
 namespace ambrig {
 
+std::string NameAtTarget(const std::string& effect, const std::string& target) {
+  return target.empty() ? effect : effect + " at " + target;
+}
+
 double EffectInstance::Value(const std::string& parameter) const {
   for (std::size_t k = 0; k < table.size(); ++k)
     if (table[k].name == parameter) return values[k];

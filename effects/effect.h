@@ -106,6 +106,9 @@ struct EffectDescription {
   void (*shape)(const EffectInstance&, Plant&) = nullptr;
 };
 
+/// "saturation at A"; the name alone where there is no target.
+std::string NameAtTarget(const std::string& effect, const std::string& target);
+
 /// All targets of this rig that the effect may have.
 std::vector<std::string> TargetsOf(const EffectDescription& d, const EffectTargets& known);
 

@@ -17,6 +17,7 @@
 #include "app/pages/discovery_report.h"
 #include "core/base/atomic_file.h"
 #include "core/base/counted.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 
@@ -59,8 +60,8 @@ void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most, bo
 std::string SetText(const std::vector<SetMember>& set) {
   std::string text;
   for (const SetMember& m : set)
-    text += fmt::format("{}{}{} {:.0f} %", text.empty() ? "" : ", ", m.effect,
-                        m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
+    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ", NameAtTarget(m.effect, m.target),
+                        100 * m.probability);
   return text;
 }
 

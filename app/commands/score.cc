@@ -135,7 +135,7 @@ fs::path ResultOf(const ScoreCommand& o, const std::string& name) {
 std::string Listed(const std::vector<NamedEffect>& effects, const std::string& none) {
   std::string text;
   for (const auto& [name, target] : effects)
-    text += (text.empty() ? "" : " + ") + name + " at " + target;
+    text += (text.empty() ? "" : " + ") + NameAtTarget(name, target);
   return text.empty() ? none : text;
 }
 

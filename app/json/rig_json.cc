@@ -97,8 +97,7 @@ Facts FactsOf(const RigParameters& rig) {
     if (t) facts.emplace_back(path + ".sd", NumberFact(t->sd, unit));
   }
   for (const EffectInstance& e : rig.effects) {
-    const std::string name =
-        fmt::format("effect {} at {}", e.label.empty() ? e.name : e.label, e.target);
+    const std::string name = "effect " + NameAtTarget(e.label.empty() ? e.name : e.label, e.target);
     for (std::size_t k = 0; k < e.table.size(); ++k)
       facts.emplace_back(name + ": " + e.table[k].name,
                          NumberFact(e.values[k], e.table[k].unit, k < e.sd.size() ? e.sd[k] : 0));

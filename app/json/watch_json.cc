@@ -7,6 +7,7 @@
 #include "app/commands/screen.h"
 #include "app/json/discovery_json.h"
 #include "app/json/json_number.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 
@@ -35,8 +36,8 @@ std::string LeftText(const LeftBand& b) {
 std::string ExplanationText(const Explanation& e) {
   std::string names;
   for (const SetMember& m : e.set)
-    names += fmt::format("{}{}{} ({:.0f} %)", names.empty() ? "" : ", ", m.effect,
-                         m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
+    names += fmt::format("{}{} ({:.0f} %)", names.empty() ? "" : ", ",
+                         NameAtTarget(m.effect, m.target), 100 * m.probability);
   if (e.verdict == "effect") return "explained by " + names;
   if (e.verdict == "none") return "no effect is needed: the rig file explains the record";
   if (e.verdict == "data") return "the data of the record are wrong";

@@ -217,7 +217,7 @@ std::string List(const std::vector<std::string>& lines) {
 }
 
 std::string EffectName(const EffectInstance& e) {
-  return e.name + (e.label.empty() ? "" : " (" + e.label + ")") + " at " + e.target;
+  return NameAtTarget(e.name + (e.label.empty() ? "" : " (" + e.label + ")"), e.target);
 }
 
 std::string ValueText(double value, double sd, const std::string& unit) {

@@ -8,6 +8,7 @@
 #include "app/pages/discovery_report.h"
 #include "app/pages/explain_tables.h"
 #include "app/pages/format.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 namespace {
@@ -29,7 +30,7 @@ std::string AnswerText(const Explanation& e) {
     for (const SetMember& m : set)
       names += fmt::format(
           "{}{} ({:.0f} %)", names.empty() ? "" : " or ",
-          m.target.empty() ? "no effect of the catalogue" : m.effect + " at " + m.target,
+          m.target.empty() ? "no effect of the catalogue" : NameAtTarget(m.effect, m.target),
           100 * m.probability);
     text += (k > 0 ? " and " : "") + (set.size() > 1 ? names : EffectName(e.adopted[k]));
   }
@@ -90,8 +91,8 @@ std::vector<std::string> Faults(const Explanation& e) {
 void AddKnown(HtmlReport& report, const Explanation& e) {
   std::string set;
   for (const SetMember& m : e.set)
-    set += fmt::format("{}**{}{}** ({:.0f} %)", set.empty() ? "" : ", ", m.effect,
-                       m.target.empty() ? "" : " at " + m.target, 100 * m.probability);
+    set += fmt::format("{}**{}** ({:.0f} %)", set.empty() ? "" : ", ",
+                       NameAtTarget(m.effect, m.target), 100 * m.probability);
   report.KeyValues({{"95 % set", set},
                     {"explained", fmt::format("{:.1f} % of the error above the noise, {:.2f} to "
                                               "{:.2f} times the noise over all records",
@@ -102,7 +103,7 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
     std::vector<std::vector<Cell>> rows;
     for (const VisibleSize& v : e.hidden)
       if (std::isfinite(v.size) && rows.size() < 20)
-        rows.push_back({v.effect + " at " + v.target, v.parameter, FormatSi(v.size, v.unit)});
+        rows.push_back({NameAtTarget(v.effect, v.target), v.parameter, FormatSi(v.size, v.unit)});
     report.Table({"effect", "parameter", "could be this large"}, rows,
                  "What was not seen: sizes below these (three of their own sd) leave no trace in "
                  "these records.");

@@ -20,7 +20,7 @@ namespace ambrig {
 /// ...
 Record ReadHdf5(const std::string& path);
 
-/// Double precision, each channel compressed where that pays (deflate_gain.h); same record, same bytes. The file appears complete or not at all.
+/// Double precision, each channel compressed where that pays (hdf5_deflate_gain.h); same record, same bytes. The file appears complete or not at all.
 /// @throws InputError
 void WriteHdf5(const Record& record, const std::string& path);
 

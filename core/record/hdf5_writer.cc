@@ -2,7 +2,7 @@
 #include <functional>
 
 #include "core/base/atomic_file.h"
-#include "core/record/deflate_gain.h"
+#include "core/record/hdf5_deflate_gain.h"
 #include "core/record/hdf5_library.h"
 #include "core/record/time_base.h"
 

@@ -83,7 +83,7 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
     progress(0.7, "final fit");
     a.fit = Fit(model, a.fit.hypothesis, fit);
     const EffectInstance& e = a.fit.hypothesis.rig.effects.back();
-    a.ladder.push_back({e.name + " at " + e.target, a.fit.ratio_fit, a.fit.ratio_validate});
+    a.ladder.push_back({NameAtTarget(e.name, e.target), a.fit.ratio_fit, a.fit.ratio_validate});
   }
   for (std::size_t k = 0; k < a.fit.hypothesis.rig.effects.size(); ++k)
     a.effects.push_back(FittedEffect(a.fit, k));

@@ -7,6 +7,7 @@
 #include "core/base/errors.h"
 #include "discovery/plan/plan.h"
 #include "discovery/practice/measured_case.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 
@@ -19,8 +20,6 @@ struct Pair {
   NamedEffect right, other;
   double share = 0;  // of the right one
 };
-
-std::string NameText(const NamedEffect& e) { return e.first + " at " + e.second; }
 
 bool IsRight(const PracticeCase& made, const NamedEffect& name) {
   return std::ranges::count(made.answer.slots[0], name) > 0;
@@ -91,8 +90,8 @@ PromiseTrial TryPromise(const PracticeCase& made, const Case& read, const Promis
     trial.left_out = e.what();
     return trial;
   }
-  trial.right = NameText(pair.right);
-  trial.other = NameText(pair.other);
+  trial.right = NameAtTarget(pair.right.first, pair.right.second);
+  trial.other = NameAtTarget(pair.other.first, pair.other.second);
   trial.before = pair.share;
   if (std::max(pair.share, 1 - pair.share) > kTold) {
     trial.left_out = pair.share > kTold ? "the first record tells it"

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "discovery/search/fit.h"
+#include "effects/effect.h"
 
 namespace ambrig {
 
@@ -15,7 +16,7 @@ struct Rival {
   Hypothesis hypothesis;       // at its best point so far
   Eigen::MatrixXd precision;   // of the free parameters' coordinates, from prior and records so far
   Eigen::MatrixXd drawn;       // the same for the models that records are simulated with
-  std::string Name() const { return target.empty() ? effect : effect + " at " + target; }
+  std::string Name() const { return NameAtTarget(effect, target); }
 };
 
 /// What one record would show of one rival, over the floor.

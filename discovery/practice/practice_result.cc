@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "effects/effect.h"
+
 namespace ambrig {
 
 namespace {
@@ -15,7 +17,7 @@ bool Contains(const std::vector<std::string>& all, const std::string& one) {
 std::string EffectsText(const std::vector<NamedEffect>& effects) {
   std::string text;
   for (const auto& [effect, target] : effects)
-    text += (text.empty() ? "" : " + ") + effect + " at " + target;
+    text += (text.empty() ? "" : " + ") + NameAtTarget(effect, target);
   return text;
 }
 

@@ -191,7 +191,7 @@ class Ranker {
 
 }  // namespace
 
-std::string Named(const EffectInstance& e) { return e.name + " at " + e.target; }
+std::string Named(const EffectInstance& e) { return NameAtTarget(e.name, e.target); }
 
 void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& ranking) {
   if (ranking.empty()) return;

@@ -13,6 +13,7 @@
 #include "discovery/decision/prepared_models.h"
 #include "discovery/model/floor.h"
 #include "discovery/shape/named_law.h"
+#include "effects/effect.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -166,7 +167,7 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
   out.any_unseen = std::any_of(c.records.begin(), c.records.end(),
                                [](const CaseRecord& r) { return r.validate; });
   out.ladder = {{"parameters", law.base.ratio_fit, law.base.ratio_validate},
-                {effect + " at " + named.target, out.ratio_fit_before, out.ratio_before},
+                {NameAtTarget(effect, named.target), out.ratio_fit_before, out.ratio_before},
                 {"refined", out.ratio_fit_after, out.ratio_after}};
   Warn(out, out.ratio_fit_after < out.ratio_fit_before || out.ratio_after < out.ratio_before);
   return out;

@@ -1,5 +1,5 @@
 // Which channels are compressed: told from what deflate does to their first samples.
-#include "core/record/deflate_gain.h"
+#include "core/record/hdf5_deflate_gain.h"
 
 #include <gtest/gtest.h>
 
@@ -25,14 +25,14 @@ std::vector<double> Readings(double step) {
   return v;
 }
 
-TEST(DeflateGain, ConstantsAndConverterReadingsPayNoiseInEveryDigitDoesNot) {
+TEST(Hdf5DeflateGain, ConstantsAndConverterReadingsPayNoiseInEveryDigitDoesNot) {
   EXPECT_TRUE(DeflatePays(std::vector<double>(kRows, 3.7)));
   EXPECT_TRUE(DeflatePays(Readings(0.0049)));
   EXPECT_FALSE(DeflatePays(Readings(0)));
   EXPECT_FALSE(DeflatePays({}));
 }
 
-TEST(DeflateGain, AFileHoldsBothAndGivesTheSameBitsBack) {
+TEST(Hdf5DeflateGain, AFileHoldsBothAndGivesTheSameBitsBack) {
   Record record{1000, 0};
   record.channels = {{"A.i1", "A", Readings(0.0049)}, {"A.x", "m", Readings(0)}};
   const testing::TemporaryFolder folder;

@@ -1,4 +1,4 @@
-#include "core/record/deflate_gain.h"
+#include "core/record/hdf5_deflate_gain.h"
 
 #include <zlib.h>
 
