@@ -123,6 +123,64 @@ void OwnThresholds(HtmlReport& report, const std::vector<DetectorCurves>& curves
   report.Table(columns, table);
 }
 
+/// Mean share of the faults that is found at a level.
+double FoundAt(const DetectorCurves& d, int level) {
+  double sum = 0;
+  for (const FaultCurve& c : d.faults) sum += c.detected[static_cast<std::size_t>(level)];
+  return sum / static_cast<double>(d.faults.size());
+}
+
+/// Of the detectors whose source gives a threshold the one that alarms on the fewest healthy plants there, of
+/// several the one that finds most faults; null: no source gives one.
+const DetectorCurves* FewestPlants(const std::vector<DetectorCurves>& curves) {
+  const auto rank = [](const DetectorCurves& d) {
+    const int own = LevelAtLeast(d.documented);
+    return std::pair(d.all.alarmed[static_cast<std::size_t>(own)], -FoundAt(d, own));
+  };
+  const DetectorCurves* best = nullptr;
+  for (const DetectorCurves& d : curves)
+    if (!std::isnan(d.documented) && (!best || rank(d) < rank(*best))) best = &d;
+  return best;
+}
+
+void HealthyPlants(HtmlReport& report, const std::vector<DetectorCurves>& curves) {
+  report.Heading("Healthy plants with an alarm");
+  report.Text(
+      "A plant counts once, however many of its windows have an alarm; at the threshold of the "
+      "source, and the faults that "
+      "are found there.");
+  std::vector<std::string> columns = {"detector", "threshold", "healthy plants"};
+  for (const FaultCurve& c : curves.front().faults) columns.push_back(c.kind);
+  std::vector<std::vector<Cell>> table;
+  for (const DetectorCurves& d : curves) {
+    if (std::isnan(d.documented)) continue;
+    const auto own = static_cast<std::size_t>(LevelAtLeast(d.documented));
+    const std::size_t alarmed = d.all.alarmed[own];
+    std::vector<Cell> line = {
+        Cell(d.name), Cell(ThresholdText(d.documented, d.unit)),
+        Cell(fmt::format("{} of {}", alarmed, d.all.plants), alarmed == 0 ? "ok" : "fail")};
+    for (const FaultCurve& c : d.faults) line.emplace_back(PercentText(c.detected[own]));
+    table.push_back(std::move(line));
+  }
+  report.Table(columns, table);
+}
+
+std::string VerdictText(const DetectorStudy& study, const std::vector<DetectorCurves>& curves) {
+  const DetectorCurves& best = curves[Ranking(curves).front()];
+  std::string text =
+      fmt::format("Best at {:.3g} false alarms per coil and window: {}, {} of the faults found.",
+                  study.budget, best.name, PercentText(best.score));
+  const DetectorCurves* fewest = best.all.plants > 0 ? FewestPlants(curves) : nullptr;
+  if (!fewest) return text;
+  const int own = LevelAtLeast(fewest->documented);
+  return fmt::format(
+      "At the thresholds of their sources {} alarms on the fewest healthy plants, {} of {}, and "
+      "finds {} of the "
+      "faults. {}",
+      fewest->name, fewest->all.alarmed[static_cast<std::size_t>(own)], fewest->all.plants,
+      PercentText(FoundAt(*fewest, own)), text);
+}
+
 void Areas(HtmlReport& report, const std::vector<DetectorCurves>& curves) {
   std::vector<std::string> columns, rows;
   std::vector<std::vector<double>> values;
@@ -151,16 +209,14 @@ void WriteDetectorReport(const DetectorStudy& study, const std::vector<DetectorC
     return;
   }
   const DetectorCurves& best = curves[Ranking(curves).front()];
-  report.Verdict(
-      Verdict::kInfo,
-      fmt::format("Best at {:.3g} false alarms per coil and window: {}, {} of the faults found.",
-                  study.budget, best.name, PercentText(best.score)));
+  report.Verdict(Verdict::kInfo, VerdictText(study, curves));
   report.KeyValues({{"runs", fmt::format("{} of {}", rows.size(), study.runs())},
                     {"healthy windows of single coils", std::to_string(best.all.windows)},
                     {"window", FormatSi(study.trial.window, "s")}});
   std::vector<std::vector<Cell>> list;
   for (const DetectorCurves& d : curves) list.push_back({Cell(d.name), Cell(d.doc), Cell(d.unit)});
   report.Table({"detector", "what", "unit of its statistic"}, list);
+  if (best.all.plants > 0) HealthyPlants(report, curves);
   AtBudget(report, study, curves);
   report.Heading("ROC curves");
   report.Text(

@@ -102,6 +102,19 @@ TEST_F(DetectorPage, OnlyDetectorsWithAThresholdOfTheirSourceAreHeldToIt) {
   EXPECT_EQ(CountOf(page, "<figure id="), 3u);  // ROC, areas, delays
 }
 
+// Of a study over plants: every one counts once, at the thresholds of the sources.
+TEST_F(DetectorPage, HealthyPlantsWithAnAlarm) {
+  EXPECT_THAT(Page(), Not(HasSubstr("Healthy plants with an alarm")));
+  for (DetectorCurves& d : curves_) {
+    d.all.plants = 36;
+    d.all.alarmed.assign(kStatisticLevels, 3);
+  }
+  const std::string words = testing::Words(Page());
+  EXPECT_THAT(words, HasSubstr("slope alarms on the fewest healthy plants, 3 of 36"));
+  EXPECT_THAT(words, HasSubstr("Healthy plants with an alarm"));
+  EXPECT_THAT(words, HasSubstr("slope\n2 A\n3 of 36\n"));
+}
+
 // A threshold is a number of its unit; where the unit is a source's own size, a multiple of it.
 TEST_F(DetectorPage, ThresholdsHaveTheirUnits) {
   curves_[0].unit = "700 A/s";
