@@ -130,7 +130,7 @@ std::string HealthyTable(const std::vector<EffectGroups>& groups) {
     const std::string orbits = g.all.orbit > 0 ? fmt::format("{:.3g}, {:.3g} um", 1e6 * g.all.orbit,
                                                              1e6 * g.all.orbit_without)
                                                : "-";
-    text += fmt::format("| {} | {} | {} | {} | {}, {:.2g} % | {} |\n", g.effect,
+    text += fmt::format("| {} | {} | {} | {} | {}, {:.3g} % | {} |\n", g.effect,
                         CountCell(g.all.alarmed, g.all), CountCell(g.all.acted, g.all),
                         CountCell(g.all.harmed, g.all), g.all.doubtful.size(),
                         100 * g.all.DoubtfulShare(), orbits);

@@ -51,7 +51,7 @@ std::string Table(const std::map<std::string, PlantGroup>& groups) {
   const std::size_t n = all.plants.size();
   return text + fmt::format(
                     "\nHealthy plants acted on: at most {:.2g} % (one-sided 95 %); harmed: at most "
-                    "{:.2g} %; {:.3g} healthy coil-periods, the model in doubt in {:.2g} % of "
+                    "{:.2g} %; {:.3g} healthy coil-periods, the model in doubt in {:.3g} % of "
                     "them.\n",
                     100 * UpperBound95(all.acted.size(), n),
                     100 * UpperBound95(all.harmed.size(), n), all.coil_periods,

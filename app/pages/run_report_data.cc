@@ -173,7 +173,7 @@ std::string DoubtfulModelNote(const RigParameters& rig, const RunResult& result)
   std::string shares;
   for (const auto& [bearing, share] : result.doubtful_share)
     if (share > 0)
-      shares += fmt::format("{}{} {:.2g} %", shares.empty() ? "" : ", ", bearing, 100 * share);
+      shares += fmt::format("{}{} {:.3g} %", shares.empty() ? "" : ", ", bearing, 100 * share);
   if (shares.empty()) return "";
   return fmt::format(
       "the fault detection doubted its model, and would have acted on gross faults only, in part "
