@@ -62,7 +62,7 @@ void Conclude(const CommonOptions& common, bool no_report, const std::string& ou
              header.runs);
   fmt::print("  stayed up          {}\n  touched down       {}\n  dropped            {}\n", n.up,
              n.touchdown, n.drop);
-  for (const auto& [reason, runs] : n.reasons) fmt::print("    {:<17}{}\n", reason, runs);
+  for (const auto& [reason, runs] : n.reasons) fmt::print("    {:<21} {}\n", reason, runs);
   if (n.error > 0)
     fmt::print("  {}\n",
                Coloured(fmt::format("not finished       {} (column note)", n.error), "red"));
