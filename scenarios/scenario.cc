@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "control/position/controller_kind.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
@@ -187,6 +188,22 @@ void ReadSwitches(const TomlTable& root, const RigParameters& rig, Scenario& s) 
                    [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
+/// A controller of the rig that a synthesis designs: "main" or one of [controllers.NAME].
+void ReadRetunedController(const TomlTable& root, const RigParameters& rig, Scenario& s) {
+  if (!root.Has("retuned_controller")) return;
+  std::vector<std::string> allowed;
+  if (ControllerKindByName(rig.controller.kind).designed) allowed.push_back("main");
+  for (const ControllerParameters& c : rig.other_controllers)
+    if (ControllerKindByName(c.kind).designed) allowed.push_back(c.name);
+  s.retuned_controller = root.String("retuned_controller");
+  if (std::find(allowed.begin(), allowed.end(), s.retuned_controller) == allowed.end())
+    root.Fail("retuned_controller",
+              fmt::format(
+                  "= \"{}\", allowed: controllers of the rig that are designed for its plant (kind "
+                  "lqg, h-infinity): {}",
+                  s.retuned_controller, allowed.empty() ? "it has none" : Join(allowed)));
+}
+
 void ReadExpect(const TomlTable& root, Scenario& s) {
   const auto t = root.Table("expect");
   if (!t) return;
@@ -236,6 +253,7 @@ Scenario Read(const TomlTable& root, const RigParameters& rig) {
   s.redistribution = root.Choice("redistribution", s.redistribution, "auto,matrix,force-by-force");
   s.current_transition = root.Choice("hand_over", s.current_transition, kCurrentTransitionNames);
   s.stiffness_compensation = root.Bool("stiffness_compensation", true);
+  ReadRetunedController(root, rig, s);
   s.drop_limit = PositiveTime(root, "drop_limit", 0.1);
   const Targets targets = TargetsOfRig(rig);
   ReadStart(root, rig, s);

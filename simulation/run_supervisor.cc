@@ -13,7 +13,9 @@ std::unique_ptr<FaultSupervisor> SupervisorOf(const RigParameters& rig, const Sc
   watch.slopes = traces;
   watch.redistribution = scenario.redistribution;
   watch.current_transition = scenario.current_transition;
-  watch.stiffness_compensation = scenario.stiffness_compensation;
+  // A controller that is designed for the stiffness that is left needs nothing made up.
+  watch.stiffness_compensation =
+      scenario.stiffness_compensation && scenario.retuned_controller.empty();
   watch.cache_dir = RedistributionCacheDirectory();
   return std::make_unique<FaultSupervisor>(NominalRig(rig), watch);
 }

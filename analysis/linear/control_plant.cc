@@ -87,10 +87,10 @@ SampledPlant MakeControlPlant(const OperatingPoint& point, const std::vector<std
 
 SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::size_t>& axes,
                               double speed, const RigParameters* controllers,
-                              const ShaftWeights& weights) {
+                              const ShaftWeights& weights, const std::vector<CurrentMap>& maps) {
   const NominalRig plain(WithoutEffects(rig));
   const OperatingPoint point(TrueRig::AsDrawn(plain),
-                             controllers ? NominalRig(*controllers) : plain);
+                             controllers ? NominalRig(*controllers) : plain, maps);
   return MakeControlPlant(point, axes, speed, CurrentModel::kAxisPatterns, weights);
 }
 

@@ -18,9 +18,11 @@ SampledPlant MakeControlPlant(const OperatingPoint& point, const std::vector<std
                               const ShaftWeights& weights = {});
 
 /// What a synthesis takes. `controllers`: the rig as the controller knows it, whose force constants
-/// turn forces into set-points; default: `rig`.
+/// turn forces into set-points; default: `rig`. `maps`: of bearings whose coils have failed
+/// (operating_point.h); empty: healthy ones.
 SampledPlant MakeControlPlant(const RigParameters& rig, const std::vector<std::size_t>& axes,
                               double speed, const RigParameters* controllers = nullptr,
-                              const ShaftWeights& weights = {});
+                              const ShaftWeights& weights = {},
+                              const std::vector<CurrentMap>& maps = {});
 
 }  // namespace ambrig

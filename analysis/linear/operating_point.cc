@@ -17,10 +17,13 @@ constexpr double kInterrupted = 0.2;  // [A]
 
 }  // namespace
 
-OperatingPoint::Model::Model(const TrueRig& true_rig, const NominalRig& known)
+OperatingPoint::Model::Model(const TrueRig& true_rig, const NominalRig& known,
+                             const std::vector<CurrentMap>& maps)
     : rig(true_rig), nominal(known), plant(BuildPlant(rig)) {
-  for (std::size_t k = 0; k < plant.bearings.size(); ++k)
+  for (std::size_t k = 0; k < plant.bearings.size(); ++k) {
     control.push_back(MakeBearingControl(nominal, k));
+    if (!maps.empty()) control.back().map = maps[k];
+  }
 }
 
 void OperatingPoint::PlaceCoils(std::size_t k) {
@@ -88,8 +91,9 @@ std::size_t OperatingPoint::BearingOf(std::size_t axis) const {
   return k;
 }
 
-OperatingPoint::OperatingPoint(const TrueRig& true_rig, const NominalRig& known)
-    : force(WeightOverAxes(*true_rig)), model_(std::make_shared<Model>(true_rig, known)) {
+OperatingPoint::OperatingPoint(const TrueRig& true_rig, const NominalRig& known,
+                               const std::vector<CurrentMap>& maps)
+    : force(WeightOverAxes(*true_rig)), model_(std::make_shared<Model>(true_rig, known, maps)) {
   const Equilibrium e = LevitatedEquilibrium(rig(), plant(), control());
   if (e.usable()) {
     force = e.force;

@@ -21,8 +21,10 @@ struct CoilPoint {
 class OperatingPoint {
  public:
   OperatingPoint() = default;
-  /// `nominal`: what the controller knows.
-  OperatingPoint(const TrueRig& rig, const NominalRig& nominal);
+  /// `nominal`: what the controller knows. `maps`: from forces to currents, one per bearing, in place of
+  /// those of healthy bearings; empty: those.
+  OperatingPoint(const TrueRig& rig, const NominalRig& nominal,
+                 const std::vector<CurrentMap>& maps = {});
 
   const RigParameters& rig() const { return *model_->rig; }
   const RigParameters& nominal() const { return *model_->nominal; }
@@ -46,7 +48,7 @@ class OperatingPoint {
  private:
   /// Shared by copies: the control refers to the parameters, the plant to itself.
   struct Model {
-    Model(const TrueRig& true_rig, const NominalRig& known);
+    Model(const TrueRig& true_rig, const NominalRig& known, const std::vector<CurrentMap>& maps);
     const TrueRig rig;
     const NominalRig nominal;
     Plant plant;

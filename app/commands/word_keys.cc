@@ -73,6 +73,8 @@ constexpr WordKey kScenarioWords[] = {
     {"scenario file", "hand_over", "jump, ramp, bias_first, force_preserving, time_optimal",
      "from the old currents to the new ones"},
     {"scenario file", "stiffness_compensation", "true, false", "after a coil fault"},
+    {"scenario file", "retuned_controller", "main, a NAME of [controllers.NAME]",
+     "designed anew for the coils that are left (lqg, h-infinity)"},
     {"[start]", "state", "levitated, resting, clamped", "at t = 0"},
     {"[start]", "position, current", "{ A = [x, y] } m, { \"A.coil1\" = i } A", "of a clamped one"},
     {"[speed]", "profile, free_from", "[[t, Omega], ...], s", "s and rad/s"},

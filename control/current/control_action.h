@@ -35,6 +35,7 @@ struct ReplaceMap {
   std::size_t bearing = 0;
   CurrentMap map;
   std::shared_ptr<CurrentTransition> current_transition;
+  CoilVector turns_left = CoilVector::Ones();  // share of each coil's turns that the map counts on
 };
 
 /// Another integral of a coil's current regulator.

@@ -14,6 +14,11 @@ ControllerSwitch::ControllerSwitch(std::vector<std::unique_ptr<PositionControlle
       keep_(std::exp(-Ts / kFade)),
       difference_(f_max_.size(), 0.0) {}
 
+std::size_t ControllerSwitch::Add(std::unique_ptr<PositionController> controller) {
+  controllers_.push_back(std::move(controller));
+  return controllers_.size() - 1;
+}
+
 void ControllerSwitch::SwitchTo(std::size_t index) {
   Require(index < controllers_.size(), "a controller of the rig");
   next_ = index;

@@ -19,6 +19,8 @@ class ControllerSwitch : public PositionController {
   /// The first is in charge. f_max [N] per axis.
   ControllerSwitch(std::vector<std::unique_ptr<PositionController>> controllers,
                    std::vector<double> f_max, double Ts);
+  /// One more controller of the rig, which is in charge when it is switched to; returns its index.
+  std::size_t Add(std::unique_ptr<PositionController> controller);
   /// From the next Step on. Cheap when `index` is in charge already.
   void SwitchTo(std::size_t index);
   std::size_t in_charge() const { return now_; }

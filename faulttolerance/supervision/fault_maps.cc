@@ -19,7 +19,7 @@ constexpr double kVoltageShare = 0.8;  // of the bus, to change currents with
 void FaultSupervisor::Redistribute(Watched& w, double t, const BearingControl& control,
                                    SupervisorOutput& out) {
   if (!w.healthy) w.healthy = control.map;
-  ReplaceMap change{w.index, control.map, control.current_transition};
+  ReplaceMap change{w.index, control.map, control.current_transition, w.turns_left};
   CurrentMap& map = change.map;
   CoilVector now = CoilVector::Zero();
   for (int j = 0; j < control.coils; ++j) now[j] = control.set_point[j];

@@ -39,12 +39,16 @@ CommandPlan::CommandPlan(const RigParameters& rig, const Scenario& scenario) {
       }
     }
   }
-  for (const SwitchSpec& s : scenario.switches) {
+  const auto index_of = [&rig](const std::string& name) {
     std::size_t index = 0;
     for (std::size_t k = 0; k < rig.other_controllers.size(); ++k)
-      if (rig.other_controllers[k].name == s.to) index = k + 1;
-    switches.push_back({static_cast<long long>(std::ceil(s.time * pwm / M - 1e-9)), index});
-  }
+      if (rig.other_controllers[k].name == name) index = k + 1;
+    return index;
+  };
+  for (const SwitchSpec& s : scenario.switches)
+    switches.push_back(
+        {static_cast<long long>(std::ceil(s.time * pwm / M - 1e-9)), index_of(s.to)});
+  if (!scenario.retuned_controller.empty()) retuned = index_of(scenario.retuned_controller);
 }
 
 }  // namespace ambrig

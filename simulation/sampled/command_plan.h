@@ -1,6 +1,7 @@
 #pragma once
 /// The commanded signals of a scenario, sampled once on the controller's and the amplifiers'
 /// clocks, so that many runs of one scenario do not evaluate the same sines again.
+#include <optional>
 #include <vector>
 
 #include "scenarios/scenario.h"
@@ -22,6 +23,8 @@ struct CommandPlan {
     std::size_t controller = 0;  // 0: main, then the rig's others
   };
   std::vector<Switch> switches;
+  // The controller that is designed anew after a redistribution, counted likewise; none: as it was.
+  std::optional<std::size_t> retuned;
 
   static double At(const Signal& s, long long k) {
     if (s.values.empty()) return 0;

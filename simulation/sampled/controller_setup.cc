@@ -8,6 +8,7 @@
 #include "control/position/axis_groups.h"
 #include "control/position/controller_kind.h"
 #include "control/position/unbalance_control.h"
+#include "core/base/errors.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/magnet_inverse.h"
 #include "rig/rig_figures.h"
@@ -29,15 +30,23 @@ std::vector<Axis> AxesOf(const RigParameters& rig) {
 }
 
 /// The nominal rig as the synthesis of this controller models it at one speed.
-SampledPlant ModelOf(const RigParameters& rig, const ControllerParameters& c, double speed) {
+SampledPlant ModelOf(const RigParameters& rig, const ControllerParameters& c, double speed,
+                     const std::vector<CurrentMap>& maps) {
   RigParameters model = rig;
   if (c.model_modes >= 0 && static_cast<std::size_t>(c.model_modes) < model.modes.size())
     model.modes.resize(static_cast<std::size_t>(c.model_modes));
-  return MakeControlPlant(model, ControlledAxes(rig), speed, nullptr, {c.planes, c.modes});
+  SampledPlant plant =
+      MakeControlPlant(model, ControlledAxes(rig), speed, nullptr, {c.planes, c.modes}, maps);
+  // Coils that pull in no direction any more. SLICOT would end the program.
+  if (!plant.A.allFinite() || !plant.B.allFinite())
+    throw InputError(
+        fmt::format("{}: no controller can be designed for the coils that are left", c.where));
+  return plant;
 }
 
-/// `nominal` must outlive the site.
-ControllerSite SiteOf(const NominalRig& nominal, const ControllerParameters& c, double Ts) {
+/// `nominal` and `maps` must outlive the site.
+ControllerSite SiteOf(const NominalRig& nominal, const ControllerParameters& c, double Ts,
+                      const std::vector<CurrentMap>& maps) {
   const RigParameters& rig = *nominal;
   ControllerSite site;
   site.period = Ts;
@@ -59,8 +68,8 @@ ControllerSite SiteOf(const NominalRig& nominal, const ControllerParameters& c, 
       site.f_max.push_back(c.pid.f_max);
     }
   }
-  site.plant = [&rig](const ControllerParameters& of, double speed) {
-    return ModelOf(rig, of, speed);
+  site.plant = [&rig, &maps](const ControllerParameters& of, double speed) {
+    return ModelOf(rig, of, speed, maps);
   };
   site.inverse = [&nominal](std::size_t bearing) {
     const auto share = WeightShares(*nominal)[bearing];
@@ -81,10 +90,11 @@ std::vector<double> ForceLimits(const NominalRig& rig, const ControllerParameter
 
 std::unique_ptr<PositionController> MakeCentralController(const NominalRig& nominal,
                                                           const ControllerParameters& c,
-                                                          std::vector<std::string>* axes) {
+                                                          std::vector<std::string>* axes,
+                                                          const std::vector<CurrentMap>& maps) {
   const RigParameters& rig = *nominal;
   const double Ts = rig.periods_per_control() / rig.amplifier.switching_frequency;
-  const ControllerSite site = SiteOf(nominal, c, Ts);
+  const ControllerSite site = SiteOf(nominal, c, Ts, maps);
   auto central = ControllerKindByName(c.kind).make(c, site);
   if (c.unbalance)
     central =
@@ -94,7 +104,8 @@ std::unique_ptr<PositionController> MakeCentralController(const NominalRig& nomi
 }
 
 std::unique_ptr<PositionController> MakeController(const NominalRig& nominal,
-                                                   const ControllerParameters& c) {
+                                                   const ControllerParameters& c,
+                                                   const std::vector<CurrentMap>& maps) {
   const RigParameters& rig = *nominal;
   const auto axes = AxesOf(rig);
   const double Ts = rig.periods_per_control() / rig.amplifier.switching_frequency;
@@ -112,7 +123,7 @@ std::unique_ptr<PositionController> MakeController(const NominalRig& nominal,
     rest.axes.push_back(k);
     rest_pid.push_back(*axes[k].bearing->controller);
   }
-  std::unique_ptr<PositionController> central = MakeCentralController(nominal, c);
+  std::unique_ptr<PositionController> central = MakeCentralController(nominal, c, nullptr, maps);
   if (rest.axes.empty()) return central;
   rest.controller = std::make_unique<DecentralisedPid>(std::move(rest_pid), Ts);
   std::vector<AxisGroup> groups;

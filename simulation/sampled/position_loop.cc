@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/errors.h"
 #include "simulation/sampled/controller_setup.h"
 #include "simulation/sampled/instants.h"
 
@@ -21,7 +22,7 @@ PositionLoop::PositionLoop(const NominalRig& nominal, Plant& plant, const Comman
     for (std::size_t side = 0; side < sides; ++side) axes_.push_back({k, side});
   }
   first_axis_.push_back(axes_.size());
-  if (commands_.switches.empty()) {
+  if (commands_.switches.empty() && !commands_.retuned) {
     controller_ = MakeController(nominal, nominal->controller);
   } else {
     auto changing = MakeControllerSwitch(nominal);
@@ -100,6 +101,11 @@ void PositionLoop::Tick(long long n, const std::vector<BearingControl>& control)
     for (int j = 0; j < kLanes; ++j) next.values[k][j] = set[j];
   }
   under_way_.push_back(std::move(next));
+}
+
+void PositionLoop::TakeOver(std::unique_ptr<PositionController> controller) {
+  Require(switch_ != nullptr, "a scenario that changes controllers");
+  switch_->SwitchTo(switch_->Add(std::move(controller)));
 }
 
 void PositionLoop::Apply(long long n, std::vector<BearingControl>& control) {

@@ -5,6 +5,8 @@
 
 #include "core/base/index.h"
 #include "rig/nominal_control.h"
+#include "simulation/sampled/controller_setup.h"
+#include "simulation/sampled/designed_maps.h"
 
 namespace ambrig {
 
@@ -128,9 +130,29 @@ std::size_t SampledDataLoop::Supervise(long long n, RunResult& result) {
   supervision_.actions.clear();
   supervision_.events.clear();
   options.supervisor->AfterPeriod(m, control, supervision_);
-  for (const ControlAction& action : supervision_.actions) Apply(action, control);
+  bool redistributed = false;
+  for (const ControlAction& action : supervision_.actions) {
+    Apply(action, control);
+    if (const auto* change = std::get_if<ReplaceMap>(&action); change && commands_->retuned) {
+      TakeIntoDesign(nominal, *change, &maps_);
+      redistributed = true;
+    }
+  }
+  if (redistributed) Retune(m.t + T);
   result.events.insert(result.events.end(), supervision_.events.begin(), supervision_.events.end());
   return supervision_.events.size();
+}
+
+void SampledDataLoop::Retune(double t) {
+  const std::size_t k = *commands_->retuned;
+  const ControllerParameters& c = k == 0 ? nominal->controller : nominal->other_controllers[k - 1];
+  const std::string name = k == 0 ? "main" : c.name;
+  try {
+    loop_->TakeOver(MakeController(nominal, c, maps_));
+    supervision_.events.push_back({t, "retuned", name, "", 0});
+  } catch (const std::runtime_error&) {
+    supervision_.events.push_back({t, "not_retuned", name, "", 0});
+  }
 }
 
 void SampledDataLoop::ReadAhead(long long n) {

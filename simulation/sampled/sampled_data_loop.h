@@ -118,10 +118,13 @@ class SampledDataLoop {
   void HoldForces(const std::vector<double>& force);
   void FinishStart();
   void Look(const RunControl& watcher, long long n) const;
+  /// The scenario's retuned_controller, designed for the maps in force, takes over.
+  void Retune(double t);
 
   std::unique_ptr<CommandPlan> own_commands_;
   const CommandPlan* commands_;
   std::optional<PositionLoop> loop_;
+  std::vector<CurrentMap> maps_;  // in force, as a synthesis takes them; empty: healthy ones
   CurrentLoops current_loops_;
   bool controller_on_ = true;
   std::optional<MeasurementNoise> noise_;

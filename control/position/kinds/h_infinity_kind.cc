@@ -41,6 +41,7 @@ const ControllerKind& HInfinityKind() {
       .read = ReadHInfinity,
       .make = MakeHInfinity,
       .document = DocumentHInfinity,
+      .designed = true,
   };
   return kind;
 }

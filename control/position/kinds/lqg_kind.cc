@@ -32,6 +32,7 @@ const ControllerKind& LqgKind() {
       .read = ReadLqg,
       .make = MakeLqg,
       .document = DocumentLqg,
+      .designed = true,
   };
   return kind;
 }
