@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "control/position/controller_kind.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 
 namespace ambrig {
@@ -111,6 +112,14 @@ std::vector<double> WeightOverAxes(const RigParameters& rig) {
     for (std::size_t side = 0; side < rig.bearings[k].Axes().size(); ++side)
       force.push_back(shares[k][side]);
   return force;
+}
+
+std::vector<std::string> DesignedControllers(const RigParameters& rig) {
+  std::vector<std::string> names;
+  if (ControllerKindByName(rig.controller.kind).designed) names.push_back("main");
+  for (const ControllerParameters& c : rig.other_controllers)
+    if (ControllerKindByName(c.kind).designed) names.push_back(c.name);
+  return names;
 }
 
 }  // namespace ambrig

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "control/position/controller_kind.h"
 #include "core/base/counted.h"
 #include "core/base/read_file.h"
 #include "core/base/toml_checked.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_checks.h"
+#include "rig/rig_figures.h"
 #include "scenarios/faults/fault_file.h"
 #include "scenarios/start_file.h"
 
@@ -191,10 +191,7 @@ void ReadSwitches(const TomlTable& root, const RigParameters& rig, Scenario& s) 
 /// A controller of the rig that a synthesis designs: "main" or one of [controllers.NAME].
 void ReadRetunedController(const TomlTable& root, const RigParameters& rig, Scenario& s) {
   if (!root.Has("retuned_controller")) return;
-  std::vector<std::string> allowed;
-  if (ControllerKindByName(rig.controller.kind).designed) allowed.push_back("main");
-  for (const ControllerParameters& c : rig.other_controllers)
-    if (ControllerKindByName(c.kind).designed) allowed.push_back(c.name);
+  const std::vector<std::string> allowed = DesignedControllers(rig);
   s.retuned_controller = root.String("retuned_controller");
   if (std::find(allowed.begin(), allowed.end(), s.retuned_controller) == allowed.end())
     root.Fail("retuned_controller",
