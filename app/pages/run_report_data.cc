@@ -161,6 +161,8 @@ std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunR
   return out;
 }
 
+constexpr double kWorthANote = 0.01;  // of the run: an action is followed by some ms of doubt
+
 std::string DoubtfulModelNote(const RigParameters& rig, const RunResult& result) {
   if (!result.doubtful) return "";
   if (rig.detection.commissioning.empty() &&
@@ -172,7 +174,7 @@ std::string DoubtfulModelNote(const RigParameters& rig, const RunResult& result)
         rig.file);
   std::string shares;
   for (const auto& [bearing, share] : result.doubtful_share)
-    if (share > 0)
+    if (share >= kWorthANote)
       shares += fmt::format("{}{} {:.3g} %", shares.empty() ? "" : ", ", bearing, 100 * share);
   if (shares.empty()) return "";
   return fmt::format(

@@ -23,7 +23,8 @@ TEST(DoubtfulModelNote, OfACommissionedRigSaysHowLongAndWhere) {
   rig.detection.commissioning = "rig.commissioning.json";
   EXPECT_THAT(DoubtfulModelNote(rig, Doubted(0, 0)), IsEmpty());
   EXPECT_THAT(DoubtfulModelNote(rig, Doubted(0.03, 0.1396)), HasSubstr("A 3 %, B 14 %"));
-  EXPECT_THAT(DoubtfulModelNote(rig, Doubted(0, 0.5)), Not(HasSubstr("A ")));
+  EXPECT_THAT(DoubtfulModelNote(rig, Doubted(0.005, 0.5)), Not(HasSubstr("A ")));
+  EXPECT_THAT(DoubtfulModelNote(rig, Doubted(0.005, 0)), IsEmpty());
 }
 
 TEST(DoubtfulModelNote, OfARigThatIsNotCommissionedSaysHowToTeachIt) {
