@@ -11,6 +11,7 @@ namespace ambrig {
 struct DetectionParameters {
   std::string kind = "coupled";
   double threshold = 0;       // of the detector's statistic; 0: the catalogue's
+  double computing_time = 0;  // [s] from the end of a period to the actions that follow from it
   std::string commissioning;  // file of a commissioned detector, beside the rig file; may be empty
   std::string where = "detection.kind";  // "file:line: detection.kind", for errors
 };
@@ -18,6 +19,8 @@ struct DetectionParameters {
 inline constexpr Field<DetectionParameters> kDetectionFields[] = {
     {"threshold", &DetectionParameters::threshold, "-", 0, 1e9,
      "of the detector's statistic, in its unit; 0: that of docs/guide/detectors.md"},
+    {"computing_time", &DetectionParameters::computing_time, "s", 0, 0.01,
+     "from the end of a switching period to the actions that follow from it, in whole periods"},
 };
 
 }  // namespace ambrig

@@ -35,6 +35,7 @@ SampledDataLoop::SampledDataLoop(const RigParameters& given, const Scenario& s,
   h = T / samples;
   M = nominal->periods_per_control();
   periods = static_cast<long long>(std::ceil(scenario.duration / T - 1e-6));
+  computing_ = static_cast<long long>(std::ceil(nominal->detection.computing_time / T - 1e-6));
   plant.rotor.SetSpeed(scenario.speed, scenario.speed_free_from);
   std::size_t axes = 0;
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
@@ -130,17 +131,27 @@ std::size_t SampledDataLoop::Supervise(long long n, RunResult& result) {
   supervision_.actions.clear();
   supervision_.events.clear();
   options.supervisor->AfterPeriod(m, control, supervision_);
-  bool redistributed = false;
-  for (const ControlAction& action : supervision_.actions) {
-    Apply(action, control);
-    if (const auto* change = std::get_if<ReplaceMap>(&action); change && commands_->retuned) {
-      TakeIntoDesign(nominal, *change, &maps_);
-      redistributed = true;
-    }
-  }
-  if (redistributed) Retune(m.t + T);
+  if (!supervision_.actions.empty())
+    computed_.push_back({n + computing_, std::move(supervision_.actions)});
+  for (RunEvent& e : supervision_.events)
+    if (e.kind == "redistributed" || e.kind == "restored")
+      e.t += static_cast<double>(computing_) * T;
+  if (!computed_.empty()) CarryOut(n);
   result.events.insert(result.events.end(), supervision_.events.begin(), supervision_.events.end());
   return supervision_.events.size();
+}
+
+void SampledDataLoop::CarryOut(long long n) {
+  bool redistributed = false;
+  for (; !computed_.empty() && computed_.front().due <= n; computed_.pop_front())
+    for (const ControlAction& action : computed_.front().actions) {
+      Apply(action, control);
+      if (const auto* change = std::get_if<ReplaceMap>(&action); change && commands_->retuned) {
+        TakeIntoDesign(nominal, *change, &maps_);
+        redistributed = true;
+      }
+    }
+  if (redistributed) Retune(measurement_.t + T);
 }
 
 void SampledDataLoop::Retune(double t) {

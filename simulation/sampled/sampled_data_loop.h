@@ -9,6 +9,7 @@
 ///
 /// It is the only place at which the true rig (plant) and the nominal rig (controllers) meet.
 #include <atomic>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -118,6 +119,8 @@ class SampledDataLoop {
   void HoldForces(const std::vector<double>& force);
   void FinishStart();
   void Look(const RunControl& watcher, long long n) const;
+  /// The actions whose computing time is over in period n.
+  void CarryOut(long long n);
   /// The scenario's retuned_controller, designed for the maps in force, takes over.
   void Retune(double t);
 
@@ -131,6 +134,12 @@ class SampledDataLoop {
   std::optional<RunRecord> record_;
   PeriodMeasurement measurement_;  // kept: no allocation in the loop
   SupervisorOutput supervision_;
+  struct Computed {
+    long long due = 0;  // period at whose end they act
+    std::vector<ControlAction> actions;
+  };
+  std::deque<Computed> computed_;  // actions on their way
+  long long computing_ = 0;        // periods that an action takes
 };
 
 }  // namespace ambrig
