@@ -147,8 +147,7 @@ void HealthyPlants(HtmlReport& report, const std::vector<DetectorCurves>& curves
   report.Heading("Healthy plants with an alarm");
   report.Text(
       "A plant counts once, however many of its windows have an alarm; at the threshold of the "
-      "source, and the faults that "
-      "are found there.");
+      "source, and the faults that are found there.");
   std::vector<std::string> columns = {"detector", "threshold", "healthy plants"};
   for (const FaultCurve& c : curves.front().faults) columns.push_back(c.kind);
   std::vector<std::vector<Cell>> table;
@@ -175,8 +174,7 @@ std::string VerdictText(const DetectorStudy& study, const std::vector<DetectorCu
   const int own = LevelAtLeast(fewest->documented);
   return fmt::format(
       "At the thresholds of their sources {} alarms on the fewest healthy plants, {} of {}, and "
-      "finds {} of the "
-      "faults. {}",
+      "finds {} of the faults. {}",
       fewest->name, fewest->all.alarmed[static_cast<std::size_t>(own)], fewest->all.plants,
       PercentText(FoundAt(*fewest, own)), text);
 }

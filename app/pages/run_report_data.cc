@@ -20,6 +20,8 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kWorthANote = 0.01;  // of the run: an action is followed by some ms of doubt
+
 std::string MilliSeconds(double t) { return t < 0 ? "–" : fmt::format("{:.3g} ms", t * 1e3); }
 
 /// "A.coil3" -> "A3".
@@ -161,16 +163,13 @@ std::map<std::string, double> StationOrbits(const RigParameters& rig, const RunR
   return out;
 }
 
-constexpr double kWorthANote = 0.01;  // of the run: an action is followed by some ms of doubt
-
 std::string DoubtfulModelNote(const RigParameters& rig, const RunResult& result) {
   if (!result.doubtful) return "";
   if (rig.detection.commissioning.empty() &&
       !std::filesystem::exists(CommissioningFileOf(rig.file)))
     return fmt::format(
         "the fault detection has not learnt this rig and acts on gross faults only (no current, "
-        "half "
-        "of the turns); to teach it: ambrig commission {}",
+        "half of the turns); to teach it: ambrig commission {}",
         rig.file);
   std::string shares;
   for (const auto& [bearing, share] : result.doubtful_share)
@@ -179,8 +178,7 @@ std::string DoubtfulModelNote(const RigParameters& rig, const RunResult& result)
   if (shares.empty()) return "";
   return fmt::format(
       "the fault detection doubted its model, and would have acted on gross faults only, in part "
-      "of "
-      "the run: {}",
+      "of the run: {}",
       shares);
 }
 
