@@ -213,6 +213,7 @@ std::vector<CampaignPlant> ReadPlants(const TomlTable& t, const RigParameters& r
     for (const double scale : scales) {
       CampaignPlant p = machine;
       p.scale = scale;
+      p.unit = static_cast<double>(out.size() + 1);
       p.warmer = warmer;
       p.drift = DriftOf(rig, drift, Draw(start * 32452843 + out.size()));
       Draw draw(start * 15485863 + out.size());
@@ -261,6 +262,7 @@ void DrawTolerances(const std::vector<double>& deviates, RigParameters* rig) {
 void ApplyPlant(const CampaignPlant& plant, RigParameters* rig) {
   rig->effects.insert(rig->effects.end(), plant.effects.begin(), plant.effects.end());
   DrawTolerances(plant.deviates, rig);
+  rig->amplifier.unit = plant.unit;
 }
 
 void AgePlant(const CampaignPlant& plant, RigParameters* rig) {

@@ -25,6 +25,7 @@ struct CampaignPlant {
   std::vector<EffectInstance> effects;  // added to those of the rig file
   std::vector<double> deviates;         // of every tolerance with an sd, times the scale [sd]
   double scale = 0;                     // [sd]
+  double unit = 1;                      // amplifier.unit: draws of what differs from coil to coil
   bool commissioned = false;            // the detection has learnt this plant before its run
   // Since then:
   double warmer = 0;                  // copper of all coils [K]

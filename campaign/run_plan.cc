@@ -208,6 +208,7 @@ PlannedRun RunPlan::Make(std::size_t run) const {
   }
   p.speed = p.scenario.speed.Speed(campaign_.fault_time);
   DrawTolerances(campaign_.draws[p.at.draw], &p.rig);
+  p.rig.amplifier.unit += static_cast<double>(p.at.draw);
   if (!campaign_.plants.empty()) {
     p.plant = &campaign_.plants[p.at.plant];
     ApplyPlant(*p.plant, &p.rig);

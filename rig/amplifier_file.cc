@@ -15,6 +15,7 @@ namespace {
 constexpr double kMostBandwidth = 0.1;  // of the switching frequency
 // kp T/L of a loop that is fed the mean of the last period is unstable from 2 on.
 constexpr double kMostGain = 1.75;
+constexpr double kMostJitter = 0.1;  // of the time between two ADC samples
 
 /// What closes the loop round a coil: gains, a bandwidth that they follow from, or nothing.
 void ReadLoopOfAmplifier(const TomlTable& t, AmplifierParameters& a) {
@@ -71,6 +72,7 @@ void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
                                   : Modulation::kIdeal;
   ReadLoopOfAmplifier(t, a);
   t.Read(a, kAmplifierFields, &rig.tolerances);
+  t.Read(a, kAmplifierErrorFields);
   if (m == "linear") a.duty_min = -1, a.duty_max = 1;
   const auto limits = t.Numbers("duty_limits", {a.duty_min, a.duty_max});
   const bool any_sign = a.modulation == Modulation::kIdeal;
@@ -80,10 +82,15 @@ void ReadAmplifier(const TomlTable& t, RigParameters& rig) {
   a.duty_min = limits[0];
   a.duty_max = limits[1];
   if (a.duty_min < 0 && !any_sign) t.Fail("duty_limits", "allowed: 0 to 1 for a switching bridge");
-  for (const char* key : {"adc_samples_per_period", "adc_bits", "quadrants"}) {
+  for (const char* key : {"adc_samples_per_period", "adc_bits", "quadrants", "unit"}) {
     const double v = t.Number(key, 2);
     if (v != std::floor(v)) t.Fail(key, fmt::format("= {}, allowed: an integer", v));
   }
+  const double most = kMostJitter / (a.switching_frequency * a.adc_samples_per_period);
+  if (a.adc_jitter > most)
+    t.Fail("adc_jitter",
+           fmt::format("= {} s, allowed: at most {:.3g} s, a tenth of the time between samples",
+                       a.adc_jitter, most));
   if (a.quadrants == 3) t.Fail("quadrants", "= 3, allowed: 2 or 4");
   if (a.i_max > a.adc_range)
     t.Fail("i_max", fmt::format("= {} A, allowed: at most adc_range = {} A", a.i_max, a.adc_range));

@@ -22,6 +22,7 @@ void VisitNumbers(RigParameters& rig, const Visit& visit) {
   if (!rig.beam) VisitPlaces(rig.rotor, kRotorFields, below("rotor"));
   VisitPlaces(rig.amplifier, kAmplifierFields, below("amplifier"));
   VisitPlaces(rig.amplifier, kAmplifierModeFields, below("amplifier"));
+  VisitPlaces(rig.amplifier, kAmplifierErrorFields, below("amplifier"));
   VisitPlaces(rig.speed_sensor, kSpeedSensorFields, below("speed_sensor"));
   VisitPlaces(rig.controller, kControllerFields, below("controller"));
   VisitPlaces(rig.controller.pid, kPidFields, below("controller"));
@@ -140,6 +141,7 @@ std::vector<ParameterRow> RigParameterRows() {
   add("[[rotor.disk]]", kDiskFields);
   add("[amplifier]", kAmplifierFields);
   add("[amplifier]", kAmplifierModeFields);
+  add("[amplifier]", kAmplifierErrorFields);
   add("[speed_sensor]", kSpeedSensorFields);
   add("[controller]", kControllerFields);
   for (const ControllerKind* kind : ControllerKinds())

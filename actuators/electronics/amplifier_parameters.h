@@ -35,6 +35,9 @@ struct AmplifierParameters {
   bool voltage_mode = false;
   double bandwidth = 0;  // [Hz] of the current loop, which kp and ki follow from; 0: they are given
   double delay = 0;      // [s] of the set-points on their way, in whole switching periods
+  double adc_jitter = 0, edge_jitter = 0;           // [s rms]
+  double edge_spread = 0, current_gain_spread = 0;  // [s], [-] sd over the coils
+  double unit = 1;
 };
 
 inline constexpr Field<AmplifierParameters> kAmplifierFields[] = {
@@ -61,6 +64,21 @@ inline constexpr Field<AmplifierParameters> kAmplifierModeFields[] = {
      "of the current loop, in place of kp and ki; 0: they are given"},
     {"delay", &AmplifierParameters::delay, "s", 0, 0.1,
      "set-points reach the current loops this much later"},
+};
+
+/// Errors of the hardware that its maker knows by their size only; nothing of the controller's model.
+inline constexpr Field<AmplifierParameters> kAmplifierErrorFields[] = {
+    {"adc_jitter", &AmplifierParameters::adc_jitter, "s", 0, 1e-5,
+     "rms of the instants of the ADC samples, one clock for all coils"},
+    {"edge_jitter", &AmplifierParameters::edge_jitter, "s", 0, 1e-5,
+     "rms of the instants at which a bridge switches, from period to period"},
+    {"edge_spread", &AmplifierParameters::edge_spread, "s", 0, 1e-5,
+     "sd over the coils of the instants at which their bridges switch: dead times that are not "
+     "known"},
+    {"current_gain_spread", &AmplifierParameters::current_gain_spread, "-", 0, 0.1,
+     "sd over the coils of the gains of their current measurements"},
+    {"unit", &AmplifierParameters::unit, "-", 1, 1e9,
+     "which rig of its type: another number, other draws from the two spreads"},
 };
 
 }  // namespace ambrig

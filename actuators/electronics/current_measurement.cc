@@ -21,23 +21,46 @@ struct Converter {
   }
 };
 
+constexpr int kMostSamples = 64;        // of the parameter's range
 constexpr double kLargestNormal = 6.3;  // core/math/noise.h
 
 struct Sensors {
   const double *gain, *offset;  // nullptr: ideal
 };
 
+/// When the samples are really taken.
+struct Sampling {
+  int count = 0;
+  bool exact = true;
+  double toward[kMostSamples];  // share of the way to the neighbour; unset where all are exact
+  int neighbour[kMostSamples];
+
+  /// `jitter`: in steps between two samples.
+  Sampling(int samples, double jitter, const float* normals) : count(samples), exact(jitter == 0) {
+    for (int k = 0; k < count && !exact; ++k) {
+      const double late = jitter * static_cast<double>(normals[k]);
+      const int there = k == 0 || (late > 0 && k + 1 < count) ? k + 1 : k - 1;
+      neighbour[k] = there;
+      toward[k] = late * (there - k);
+    }
+  }
+};
+
 template <class V, class Convert>
-[[gnu::always_inline]] inline void Measure(const Lane* truth, int count, const Sensors& sensors,
-                                           const Convert& convert, Lane* adc,
-                                           CurrentStatistics* out) {
+[[gnu::always_inline]] inline void Measure(const Lane* truth, const Sampling& sampling,
+                                           const Sensors& sensors, const Convert& convert,
+                                           Lane* adc, CurrentStatistics* out) {
   const bool plain = sensors.gain == nullptr;
   const V gain = plain ? V(1) : LoadAs<V>(sensors.gain),
           offset = plain ? V() : LoadAs<V>(sensors.offset);
   V sum = {}, square = {}, most = {};
+  const int count = sampling.count;
   for (int k = 0; k < count; ++k) {
     const V i = LoadAs<V>(truth[k].v);
-    const V value = convert(plain ? i : gain * i + offset, k);
+    V seen = i;
+    if (!sampling.exact)
+      seen = i + (LoadAs<V>(truth[sampling.neighbour[k]].v) - i) * sampling.toward[k];
+    const V value = convert(plain ? seen : gain * seen + offset, k);
     Store(adc[k].v, value);
     sum += value;
     square += i * i;
@@ -49,14 +72,14 @@ template <class V, class Convert>
 }
 
 template <bool kClips, class V>
-[[gnu::always_inline]] inline void ConvertNoisily(const Lane* truth, int count,
+[[gnu::always_inline]] inline void ConvertNoisily(const Lane* truth, const Sampling& sampling,
                                                   const Sensors& sensors, const float* normals,
                                                   int coils, double noise,
                                                   const Converter& converter, Lane* adc,
                                                   CurrentStatistics* out) {
   const Converter c = converter;
   Measure<V>(
-      truth, count, sensors,
+      truth, sampling, sensors,
       [&](const V& value, int k) __attribute__((always_inline)) {
         Lane normal;
         for (int j = 0; j < kLanes; ++j) normal[j] = static_cast<double>(normals[k * coils + j]);
@@ -65,57 +88,67 @@ template <bool kClips, class V>
       adc, out);
 }
 
-/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells.
+/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells; from one sample to
+/// the next they change by less than it.
 template <class V>
-[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, int count, bool one_way,
+[[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, const Sampling& sampling,
+                                                  double jitter, bool one_way,
                                                   const Sensors& sensors, const float* normals,
                                                   int coils, double noise,
                                                   const Converter& converter, Lane* adc,
                                                   CurrentStatistics* out) {
   if (!one_way)
-    return ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc,
+    return ConvertNoisily<true, V>(truth, sampling, sensors, normals, coils, noise, converter, adc,
                                    out);
-  ConvertNoisily<false, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
-  if (!(Largest(LoadAs<V>(out->largest.v)) + kLargestNormal * noise + converter.step <
+  ConvertNoisily<false, V>(truth, sampling, sensors, normals, coils, noise, converter, adc, out);
+  if (!(Largest(LoadAs<V>(out->largest.v)) * (1 + kLargestNormal * jitter) +
+            kLargestNormal * noise + converter.step <
         converter.high))
-    ConvertNoisily<true, V>(truth, count, sensors, normals, coils, noise, converter, adc, out);
+    ConvertNoisily<true, V>(truth, sampling, sensors, normals, coils, noise, converter, adc, out);
 }
 
-AMBRIG_WIDE void MeasureIdeally(const Lane* truth, int count, const Sensors& sensors, Lane* adc,
-                                CurrentStatistics* out) {
+AMBRIG_WIDE void MeasureIdeally(const Lane* truth, const Sampling& sampling, const Sensors& sensors,
+                                Lane* adc, CurrentStatistics* out) {
   Measure<LaneVector>(
-      truth, count, sensors,
+      truth, sampling, sensors,
       [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
 }
-AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, int count, bool one_way, const Sensors& sensors,
-                               const float* normals, int coils, double noise,
-                               const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  MeasureNoisily<WholeLaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter,
-                                  adc, out);
+AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, const Sampling& sampling, double jitter,
+                               bool one_way, const Sensors& sensors, const float* normals,
+                               int coils, double noise, const Converter& converter, Lane* adc,
+                               CurrentStatistics* out) {
+  MeasureNoisily<WholeLaneVector>(truth, sampling, jitter, one_way, sensors, normals, coils, noise,
+                                  converter, adc, out);
 }
-AMBRIG_WIDE void NoisilyHalves(const Lane* truth, int count, bool one_way, const Sensors& sensors,
-                               const float* normals, int coils, double noise,
-                               const Converter& converter, Lane* adc, CurrentStatistics* out) {
-  MeasureNoisily<LaneVector>(truth, count, one_way, sensors, normals, coils, noise, converter, adc,
-                             out);
+AMBRIG_WIDE void NoisilyHalves(const Lane* truth, const Sampling& sampling, double jitter,
+                               bool one_way, const Sensors& sensors, const float* normals,
+                               int coils, double noise, const Converter& converter, Lane* adc,
+                               CurrentStatistics* out) {
+  MeasureNoisily<LaneVector>(truth, sampling, jitter, one_way, sensors, normals, coils, noise,
+                             converter, adc, out);
 }
 
 }  // namespace
 
 void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
-                     bool plain, const float* normals, Lane* adc, CurrentStatistics* statistics) {
+                     bool plain, const MeasurementNormals& normals, Lane* adc,
+                     CurrentStatistics* statistics) {
   Lane gain, offset;
   for (int j = 0; j < kLanes && !plain; ++j) {
     gain[j] = sensors[j].stuck ? 0 : sensors[j].gain;
     offset[j] = sensors[j].stuck ? sensors[j].stuck_at : sensors[j].offset;
   }
   const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
-  if (!s.noisy) return MeasureIdeally(truth, s.samples, chain, adc, statistics);
+  if (!s.noisy)
+    return MeasureIdeally(truth, Sampling(s.samples, 0, nullptr), chain, adc, statistics);
+  const double lowest =
+      s.jitter * s.quantiser.high + s.noise;  // of currents that are not below zero
   const bool one_way =
-      s.one_way && plain && kLargestNormal * s.noise + s.quantiser.step < -s.quantiser.low;
+      s.one_way && plain && kLargestNormal * lowest + s.quantiser.step < -s.quantiser.low;
   const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
-  (whole_lanes ? NoisilyWhole : NoisilyHalves)(truth, s.samples, one_way, chain, normals, s.coils,
-                                               s.noise, converter, adc, statistics);
+  (whole_lanes ? NoisilyWhole : NoisilyHalves)(
+      truth, Sampling(s.samples, s.jitter, normals.instants), s.jitter, one_way, chain,
+      normals.readings, s.coils, s.noise, converter, adc, statistics);
 }
 
 }  // namespace ambrig

@@ -57,6 +57,7 @@ CoilVoltage BridgeVoltage(const AmplifierParameters& p, double duty, const Bridg
       break;
     }
   }
+  out.t2 = LateEnd(out.t2, b.late_edge, out.t1, T);
   return out;
 }
 

@@ -8,6 +8,8 @@
 ///   ideal      duty * U_d
 ///
 /// Source: docs/theory/base_model.md section 3; [loadcurrentslope] Eq. 1, 5, 11.
+#include <algorithm>
+
 #include "actuators/electronics/coil_voltage.h"
 
 namespace ambrig {
@@ -18,9 +20,17 @@ struct BridgeImperfection {
   double freewheel_drop = 0;  // [V] chopper: the coil sees -drop while the switch is off
   double voltage_offset = 0;  // [V] constant error
   double dead_duty = 0;       // [-] duty below which nothing comes out
+  double late_edge = 0;       // [s] the end of the on-phase comes so much later
   bool off = false;           // amplifier-off
   bool stuck_on = false;      // switch-stuck-on
 };
+
+/// The end of an on-phase that comes `late` [s]: `end` of a period of T, which began at `begin`. A bridge that does
+/// not switch, at duty 0 or 1, has no edge to move.
+inline double LateEnd(double end, double late, double begin, double T) {
+  if (late == 0 || end <= 0 || end >= T) return end;
+  return std::clamp(end + late, begin, T);
+}
 
 class PowerBridge {
  public:

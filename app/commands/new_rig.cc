@@ -46,6 +46,8 @@ void AddFollowing(const BenchTemplate& bench, BenchAnswers& a) {
   a["bandwidth"] = 0.05 * a["switching_frequency"];
   a["adc_range"] = 1.5 * a["i_max"];
   a["current_noise"] = 1e-3 * a["i_max"];
+  a["bus_noise"] = 7e-4 * a["bus_voltage"];
+  a["period"] = 1 / a["switching_frequency"];
   a["sensor_noise"] = 5e-4 * a["gap"];
   a["gap_sd"] = 0.02 * a["gap"];
   a["resistance_sd"] = 0.02 * a["resistance"];

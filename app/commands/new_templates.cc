@@ -40,7 +40,15 @@ adc_samples_per_period = 18
 adc_bits = 12
 adc_range = {adc_range}                # A, taken as 1.5 i_max
 current_noise = {current_noise}        # A rms, taken as 1e-3 i_max
+bus_noise = {bus_noise}              # V rms, taken as 7e-4 of the bus voltage
+adc_jitter = 2.0e-8                  # s rms, one clock for all samples
+edge_jitter = 2.0e-8                 # s rms, of the instants at which a bridge switches
+edge_spread = 5.0e-8                 # s, sd over the coils: dead times known to 50 ns
+current_gain_spread = 0.005          # sd over the coils
 i_max = {i_max}                      # A
+
+[detection]
+computing_time = {period}              # s, from a measurement to the actions that follow from it
 )";
 
 constexpr std::string_view kAround =

@@ -29,6 +29,11 @@ adc_samples_per_period = 18
 adc_bits = 12
 adc_range = 10.0                             # A
 current_noise = 0.004                        # A rms per ADC sample
+bus_noise = 0.02                             # V rms per reading
+adc_jitter = 2.0e-8                          # s rms, one clock for all samples
+edge_jitter = 2.0e-8                         # s rms, of the instants at which a bridge switches
+edge_spread = 5.0e-8                         # s, sd over the coils: dead times known to 50 ns
+current_gain_spread = 0.005                  # sd over the coils
 i_max = 6.0                                  # A
 
 [controller]
@@ -40,6 +45,9 @@ ki = 6.0e6                                   # N/(m s)
 derivative_time_constant = 1.5e-4            # s
 f_max = 60.0                                 # N
 bias_current = 2.0                           # A (c0)
+
+[detection]
+computing_time = 4.0e-5                      # s, one period: from a measurement to the actions that follow from it
 
 [bearings.A]
 kind = "radial"

@@ -127,6 +127,7 @@ void CoilBlock(const RigParameters& rig, const RigParameters& nominal, const Sce
   Scenario quiet = scenario;
   quiet.noise = false;
   EngineOptions options;
+  options.coil_spread = false;
   options.forced = &forced;
   const NominalRig known(nominal);
   options.nominal = &known;

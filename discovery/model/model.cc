@@ -145,6 +145,7 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   scenario.noise = noise;
   scenario.seed = seed;
   EngineOptions options;
+  options.coil_spread = false;
   options.commands = plans_[record].get();
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.recorded_channels = channels;

@@ -219,6 +219,7 @@ std::optional<MultisineMeasurement::Spectra> MultisineMeasurement::Run(
   const NominalRig nominal(known);
   const auto run = [&](const Scenario& s, const CommandPlan& plan) {
     EngineOptions options;
+    options.coil_spread = false;
     options.commands = &plan;
     options.record_rate = RecordRateFor(rig, s.record_rate);
     options.watch = false;

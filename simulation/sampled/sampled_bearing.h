@@ -12,6 +12,7 @@ struct SampledBearing {
   BearingPlant* plant = nullptr;
   MeasurementSettings measurement;
   bool plain_sensors = true;  // gain 1, no offset, not stuck
+  Lane late_edge;             // of the bridges in this period [s]
   CurrentStatistics current;  // of the last period
   Lane adc[64];               // measured samples of the last period [A]
   double fx = 0, fy = 0;      // mean force of the last period [N]

@@ -5,6 +5,7 @@
 
 #include "core/base/index.h"
 #include "rig/nominal_control.h"
+#include "simulation/sampled/coil_spread.h"
 #include "simulation/sampled/controller_setup.h"
 #include "simulation/sampled/designed_maps.h"
 
@@ -36,13 +37,15 @@ SampledDataLoop::SampledDataLoop(const RigParameters& given, const Scenario& s,
   M = nominal->periods_per_control();
   periods = static_cast<long long>(std::ceil(scenario.duration / T - 1e-6));
   computing_ = static_cast<long long>(std::ceil(nominal->detection.computing_time / T - 1e-6));
+  if (options.coil_spread) DrawCoilSpread(rig.amplifier, &plant);
   plant.rotor.SetSpeed(scenario.speed, scenario.speed_free_from);
   std::size_t axes = 0;
   for (std::size_t k = 0; k < rig.bearings.size(); ++k) {
     AddBearing(k, axes);
     axes += bearings.back().axes;
   }
-  noise_.emplace(scenario.seed, CoilsOf(rig), axes, samples);
+  noise_.emplace(scenario.seed, CoilsOf(rig), axes, samples,
+                 rig.amplifier.adc_jitter > 0 || rig.amplifier.edge_jitter > 0);
   loop_.emplace(nominal, plant, *commands_, *noise_, scenario.noise);
 }
 
@@ -58,6 +61,7 @@ void SampledDataLoop::AddBearing(std::size_t k, std::size_t first_axis) {
                    scenario.noise,
                    rig.amplifier.quadrants < 3,
                    rig.amplifier.current_noise,
+                   rig.amplifier.adc_jitter / h,
                    Quantiser(rig.amplifier.adc_bits, rig.amplifier.adc_range)};
   for (const CurrentSensor& s : b.plant->current_sensor)
     if (s.gain != 1 || s.offset != 0) b.plain_sensors = false;
@@ -89,11 +93,23 @@ void SampledDataLoop::AtPeriodStart(long long n) {
     if (controller_on_) loop_->Tick(n, control);
   }
   current_loops_.Period(n, control);
+  MoveEdges(n);
   if (record_) record_->AtPeriodStart(n);  // a row shows this period's duty
+}
+
+void SampledDataLoop::MoveEdges(long long n) {
+  const double jitter = scenario.noise ? rig.amplifier.edge_jitter : 0;
+  if (jitter == 0 && (rig.amplifier.edge_spread == 0 || !options.coil_spread)) return;
+  for (SampledBearing& b : bearings)
+    for (int j = 0; j < b.measurement.coils; ++j) {
+      b.late_edge[j] = b.plant->bridge[AsSize(j)].late_edge;
+      if (jitter > 0) b.late_edge[j] += jitter * noise_->Edge(b.index, j, n);
+    }
 }
 
 CoilVoltage SampledDataLoop::PatternOf(const SampledBearing& b, int j, double current) const {
   BridgeImperfection bridge = b.plant->bridge[AsSize(j)];
+  bridge.late_edge = b.late_edge[j];
   for (const auto& term : b.plant->voltage[AsSize(j)])
     bridge.voltage_offset +=
         term->Voltage({motion.t, current, plant.bus.voltage, b.true_x - b.plant->offset_x,
@@ -104,7 +120,7 @@ CoilVoltage SampledDataLoop::PatternOf(const SampledBearing& b, int j, double cu
 void SampledDataLoop::Measure(long long n, SampledBearing& b, const Lane* truth) {
   if (scenario.noise) noise_->DrawCurrents(n);
   MeasureCurrents(b.measurement, truth, b.plant->current_sensor.data(), b.plain_sensors,
-                  noise_->Currents(b.index), b.adc, &b.current);
+                  {noise_->Currents(b.index), noise_->Instants()}, b.adc, &b.current);
 }
 
 void SampledDataLoop::EndMeasurement(long long n) {

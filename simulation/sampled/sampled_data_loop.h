@@ -33,6 +33,7 @@ struct SampledOptions {
   double record_rate = 0;                           // 0: the scenario's
   std::vector<std::string> recorded_channels = {};  // empty: all
   bool noise = true;                                // false: none, whatever the scenario says
+  bool coil_spread = true;  // false: every coil as drawn, as models of measured rigs have them
   // [s] before t = 0; negative: docs/theory/base_model.md's (tests: shorter)
   double warm_up = -1;
   // what the controller knows; default: the rig file's values
@@ -119,6 +120,8 @@ class SampledDataLoop {
   void HoldForces(const std::vector<double>& force);
   void FinishStart();
   void Look(const RunControl& watcher, long long n) const;
+  /// Where the bridges really switch in period n.
+  void MoveEdges(long long n);
   /// The actions whose computing time is over in period n.
   void CarryOut(long long n);
   /// The scenario's retuned_controller, designed for the maps in force, takes over.

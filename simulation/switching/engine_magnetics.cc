@@ -14,7 +14,8 @@ namespace ambrig {
 void SwitchingEngine::SetPatterns(BearingRun& b) {
   const BearingControl& c = loop_.control[b.side->index];
   if (b.only_edge_moves) {
-    for (int j = 0; j < c.coils; ++j) b.pattern.t2[j] = c.duty[j] * T_;
+    for (int j = 0; j < c.coils; ++j)
+      b.pattern.t2[j] = LateEnd(c.duty[j] * T_, b.side->late_edge[j], 0, T_);
     return;
   }
   b.only_edge_moves = loop_.rig.amplifier.modulation == Modulation::kBiState;

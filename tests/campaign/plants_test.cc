@@ -114,6 +114,20 @@ double TrueValue(const RigParameters& rig, const std::string& path) {
   return *ParameterAt(rig, path);
 }
 
+// What differs from coil to coil is the machine's: another one in each plant, the same before and after it was
+// commissioned.
+TEST(Plants, EachIsAnotherUnit) {
+  const CampaignFolder f;
+  const Campaign c = Read(f, Reality("effects = [\"fringing\"]\nsizes = [\"low\", \"high\"]\n"
+                                     "commissioned = \"both\"\nscale = [1.0, 2.0]\n"));
+  ASSERT_EQ(c.plants.size(), 12U);
+  for (std::size_t k = 0; k < c.plants.size(); ++k) {
+    RigParameters rig = c.rig;
+    ApplyPlant(c.plants[k], &rig);
+    EXPECT_EQ(rig.amplifier.unit, std::floor(static_cast<double>(k) / 2) * 2 + 1) << k;
+  }
+}
+
 // The resistance of Z has no sd in the file, those of A and B have one.
 TEST(Plants, WarmCopperAndMovedZerosAreInTheRunOnly) {
   const CampaignFolder f;

@@ -101,7 +101,8 @@ TEST(RigFile, OtherControllersShareRateAndBias) {
 
 // What a detector that is not in the catalogue is answered with: the place where the file named it.
 TEST(RigFile, TheDetectorRemembersItsLine) {
-  const RigParameters rig = Read(ReferenceRigText() + "\n[detection]\nkind = \"coupled\"\n");
+  const RigParameters rig =
+      Read(Replaced(ReferenceRigText(), "[detection]\n", "[detection]\nkind = \"coupled\"\n"));
   EXPECT_EQ(rig.detection.kind, "coupled");
   EXPECT_THAT(rig.detection.where, StartsWith("rig.toml:"));
   EXPECT_THAT(rig.detection.where, HasSubstr("detection.kind"));
@@ -181,7 +182,7 @@ TEST(ShaftExtent, OfABeamIsTheBeam) {
 TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
   EXPECT_THAT(
       Message("clearance = 2.0e-4", "clearance = 6.0e-4"),
-      StartsWith("rig.toml:49: bearings.A.auxiliary.clearance = 0.0006 m, allowed: smaller"));
+      StartsWith("rig.toml:57: bearings.A.auxiliary.clearance = 0.0006 m, allowed: smaller"));
   EXPECT_THAT(Message("z = 0.130", "z = -0.120"),
               HasSubstr("bearings.A.z = -0.12 m, allowed: another plane than bearing B"));
   EXPECT_THAT(Message("like = \"A\"", "like = \"C\""),
@@ -191,6 +192,10 @@ TEST(RigFile, ContradictionsAreNamedAtTheirLine) {
       HasSubstr("controller.rate = 12000 Hz, allowed: the switching frequency of 25000 Hz"));
   EXPECT_THAT(Message("i_max = 6.0", "i_max = 12.0"),
               HasSubstr("amplifier.i_max = 12 A, allowed: at most adc_range = 10 A"));
+  EXPECT_THAT(Message("adc_jitter = 2.0e-8", "adc_jitter = 3e-7"),
+              HasSubstr("amplifier.adc_jitter = 3e-07 s, allowed: at most 2.22e-07 s"));
+  EXPECT_THAT(Message("i_max = 6.0", "i_max = 6.0\nunit = 1.5"),
+              HasSubstr("amplifier.unit = 1.5, allowed: an integer"));
   EXPECT_THAT(Message("bias_current = 2.0", "bias_current = 7.0"),
               HasSubstr("controller.bias_current = 7 A, allowed: at most the amplifier's i_max"));
   EXPECT_THAT(Message("duty_limits = [0.02, 0.98]", "duty_limits = [0.98, 0.02]"),

@@ -61,6 +61,33 @@ TEST(PowerBridge, FaultsOfTheBridge) {
               1e-12);
 }
 
+// The end of an on-phase comes late: so much more of the bus; a bridge that does not switch has no edge.
+TEST(PowerBridge, ALateEdgeLengthensTheOnPhase) {
+  const double T = 40e-6, U = 30, late = 0.2e-6;
+  BridgeImperfection bridge;
+  for (const double sign : {-1.0, 1.0}) {
+    bridge.late_edge = sign * late;
+    for (Modulation m : {Modulation::kBiState, Modulation::kTriState, Modulation::kChopper}) {
+      const AmplifierParameters p = Reference(m);
+      const CoilVoltage exact = PowerBridge(p).Pattern(0.7, {});
+      const double step = exact.gain[1] * U + exact.drop[1] - (exact.gain[2] * U + exact.drop[2]);
+      EXPECT_NEAR(Mean(PowerBridge(p).Pattern(0.7, bridge), U, T) - Mean(exact, U, T),
+                  step * sign * late / T, 1e-12);
+    }
+  }
+  const PowerBridge still(Reference());
+  for (const double duty : {0.0, 1.0})
+    EXPECT_EQ(still.Pattern(duty, bridge).t2, still.Pattern(duty, {}).t2);
+  EXPECT_EQ(PowerBridge(Reference(Modulation::kIdeal)).Pattern(0.5, bridge).t2, T);
+  bridge.off = true;
+  EXPECT_EQ(still.Pattern(0.7, bridge).t2, 0);
+  bridge = {};
+  bridge.late_edge = 1e-5;  // to the end of the period, no further
+  EXPECT_EQ(still.Pattern(0.9, bridge).t2, T);
+  bridge.late_edge = -1e-4;
+  EXPECT_EQ(still.Pattern(0.9, bridge).t2, 0);
+}
+
 // What detectors and designers compute with is the bridge without imperfections, bit by bit.
 TEST(PowerBridge, IdealOneIsTheSameForEveryModulation) {
   for (Modulation m :

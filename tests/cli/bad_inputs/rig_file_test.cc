@@ -63,7 +63,12 @@ struct RigText {
                  {"adc_bits", "12"},
                  {"adc_range", "10.0"},
                  {"current_noise", "0.004"},
-                 {"i_max", "6.0"}};
+                 {"i_max", "6.0"},
+                 {"adc_jitter", "2e-8"},
+                 {"edge_jitter", "2e-8"},
+                 {"edge_spread", "5e-8"},
+                 {"current_gain_spread", "0.005"},
+                 {"unit", "3"}};
   Keys pid{{"kp", "4.0e5"},
            {"kd", "900.0"},
            {"ki", "6.0e6"},
@@ -116,6 +121,7 @@ TEST(BadRigInputs, EveryNumberOfEveryTable) {
   };
   add("rotor", &RigText::rotor, kRotorFields);
   add("amplifier", &RigText::amplifier, kAmplifierFields);
+  add("amplifier", &RigText::amplifier, kAmplifierErrorFields);
   add("controller", &RigText::controller, kControllerFields);
   add("controller", &RigText::pid, kPidFields);
   add("bearings.A", &RigText::radial, kRadialStatorFields);

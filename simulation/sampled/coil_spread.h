@@ -1,0 +1,14 @@
+#pragma once
+/// What differs from coil to coil of one rig although its parts have the same name: the gains of the current
+/// measurements and the instants at which the bridges switch (dead times that are not known exactly).
+#include "actuators/electronics/amplifier_parameters.h"
+
+namespace ambrig {
+
+struct Plant;
+
+/// Draws every coil's errors from current_gain_spread, edge_spread and `unit`: the same rig has the same ones in
+/// every run. On top of those that effects have given it.
+void DrawCoilSpread(const AmplifierParameters& amplifier, Plant* plant);
+
+}  // namespace ambrig

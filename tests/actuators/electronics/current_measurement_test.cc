@@ -1,0 +1,96 @@
+/// What the ADC hands over of currents that run along a line.
+#include "actuators/electronics/current_measurement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/math/noise.h"
+
+namespace ambrig {
+namespace {
+
+constexpr int kSamples = 18, kCoils = 8;
+constexpr double kJitter = 0.01, kSlope = 0.4;  // of the time between samples; [A] per sample
+
+struct Measured {
+  Lane adc[kSamples];
+  CurrentStatistics statistics;
+};
+
+MeasurementSettings Settings(double noise, double jitter) {
+  return {kSamples, kCoils, true, true, noise, jitter, Quantiser(24, 20)};
+}
+
+/// Coil j rises by (1 + j) kSlope per sample from 1 A.
+Measured OfALine(const MeasurementSettings& s, std::uint64_t block) {
+  std::vector<float> normals(kSamples * kCoils + kSamples + 7);
+  FillNormals(1, 7, block, normals.data(), kSamples * kCoils + kSamples);
+  Lane truth[kSamples];
+  for (int k = 0; k < kSamples; ++k)
+    for (int j = 0; j < kCoils; ++j) truth[k][j] = 1 + kSlope * k * (1 + j) / kCoils;
+  const CurrentSensor sensors[kLanes] = {};
+  Measured m;
+  MeasureCurrents(s, truth, sensors, true, {normals.data(), normals.data() + kSamples * kCoils},
+                  m.adc, &m.statistics);
+  return m;
+}
+
+double Error(const Measured& m, int k, int j) {
+  return m.adc[k][j] - (1 + kSlope * k * (1 + j) / kCoils);
+}
+
+// A sample dt late reads slope dt more, at both ends of the period too; one clock serves all coils.
+TEST(CurrentMeasurement, JitterOfTheInstantsIsSlopeTimesDelay) {
+  constexpr int kBlocks = 400;
+  for (const int k : {0, 1, 9, kSamples - 1}) {
+    double square = 0;
+    for (int block = 0; block < kBlocks; ++block) {
+      const Measured m = OfALine(Settings(0, kJitter), static_cast<std::uint64_t>(block));
+      const double fast = Error(m, k, kCoils - 1);
+      square += fast * fast;
+      EXPECT_NEAR(Error(m, k, 3), 0.5 * fast, 5e-6);  // half the slope; codes of 2.4 uA
+    }
+    EXPECT_NEAR(std::sqrt(square / kBlocks), kJitter * kSlope,
+                4 * kJitter * kSlope / std::sqrt(2.0 * kBlocks))
+        << k;
+  }
+}
+
+TEST(CurrentMeasurement, JitterOfOneSampleSaysNothingOfTheNext) {
+  double sum = 0, square = 0;
+  int pairs = 0;
+  for (std::uint64_t block = 0; block < 200; ++block) {
+    const Measured m = OfALine(Settings(0, kJitter), block);
+    for (int k = 1; k < kSamples; ++k, ++pairs) {
+      sum += Error(m, k, 7) * Error(m, k - 1, 7);
+      square += Error(m, k, 7) * Error(m, k, 7);
+    }
+  }
+  EXPECT_LT(std::abs(sum / square), 4 / std::sqrt(pairs));
+}
+
+// The statistics that are not measured are of the true samples.
+TEST(CurrentMeasurement, JitterLeavesTheTrueStatisticsAlone) {
+  const Measured exact = OfALine(Settings(0.004, 0), 3),
+                 jittery = OfALine(Settings(0.004, kJitter), 3);
+  for (int j = 0; j < kCoils; ++j) {
+    EXPECT_EQ(exact.statistics.mean_square[j], jittery.statistics.mean_square[j]);
+    EXPECT_EQ(exact.statistics.largest[j], jittery.statistics.largest[j]);
+    EXPECT_NE(exact.statistics.mean[j], jittery.statistics.mean[j]);
+  }
+}
+
+// Close below the end of the range a late sample is clipped as every other.
+TEST(CurrentMeasurement, JitterIsClippedAtTheEndOfTheRange) {
+  MeasurementSettings s = Settings(0, 0.1);
+  s.quantiser = Quantiser(12, 1 + kSlope * (kSamples - 1) * 1.001);
+  for (std::uint64_t block = 0; block < 20; ++block) {
+    const Measured m = OfALine(s, block);
+    EXPECT_LE(m.adc[kSamples - 1][kCoils - 1], s.quantiser.high);
+  }
+}
+
+}  // namespace
+}  // namespace ambrig
