@@ -165,6 +165,9 @@ def check_program(program, scratch):
     body = "\n".join(line for line in body.split("\n") if not re.match(r"(kp|kd|ki|derivative_time_constant) =", line))
     if found != 1:
         fail("examples/reference/rig.toml: no [controller] kind to replace")
+    rest, detectors = re.subn(r"detection\]\n", 'detection]\nkind = "planted"\n', rest)
+    if detectors != 1:
+        fail("examples/reference/rig.toml: no [detection] to give a kind")
     (scratch / "rig.toml").write_text(head + "[controller]\n" + body + "\n[" + rest
                                       + (ROOT / "tests/planted/rig_additions.toml").read_text())
     shutil.copy(ROOT / "tests/planted/scenario.toml", scratch / "scenario.toml")

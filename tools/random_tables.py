@@ -34,7 +34,7 @@ class Tables:
             self.rigs = {name: Parts(answer("rig", PROJECT / name)) for name in RIGS}
         reference = (PROJECT / "scenarios/library/rigs/reference.toml").read_text()
         self.modulations = allowed(ambrig, reference.replace('"bi-state"', '"?"'))
-        self.detectors = allowed(ambrig, reference + '\n[detection]\nkind = "?"\n')
+        self.detectors = allowed(ambrig, reference.replace("[detection]\n", '[detection]\nkind = "?"\n'))
 
     def add_row(self, row):
         fault = re.match(r'\[\[fault\]\] kind = "(.*)"', row["section"])

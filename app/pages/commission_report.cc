@@ -111,6 +111,7 @@ Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
                        {"gain", b.coils.gain[j]},
                        {"leakage", b.coils.leakage[j]},
                        {"resistance", b.coils.resistance[j]},
+                       {"offset", b.coils.offset[j]},
                        {"ripple_inductance", L},
                        {"slope", rig.amplifier.bus_voltage / L},
                        {"time_constant", L / b.coils.resistance[j]},
@@ -191,14 +192,16 @@ void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& 
       rows.push_back({Cell(std::to_string(j + 1)), Cell(fmt::format("{:.3f}", L * 1e3)),
                       Cell(fmt::format("{:.0f}", rig.amplifier.bus_voltage / L)),
                       Cell(fmt::format("{:.3f}", b.coils.resistance[j])),
+                      Cell(fmt::format("{:.2f}", b.coils.offset[j])),
                       Cell(fmt::format("{:.4f}", b.largest[2][j])),
                       Cell(fmt::format("{:.1f}", 100 * d.smallest_short)),
                       Cell(Ms(d.smallest_delay)), Cell(Ms(d.tenth_delay)), Cell(Ms(d.open_delay))});
     }
-    report.Table({"coil", "ripple inductance [mH]", "slope at the nominal bus [A/s]", "R [ohm]",
-                  "largest healthy excess [-]", "smallest short [% of the turns]", "its delay [ms]",
-                  "10 % short [ms]", "open [ms]"},
-                 rows);
+    report.Table(
+        {"coil", "ripple inductance [mH]", "slope at the nominal bus [A/s]", "R [ohm]",
+         "voltage offset [V]", "largest healthy excess [-]", "smallest short [% of the turns]",
+         "its delay [ms]", "10 % short [ms]", "open [ms]"},
+        rows);
     for (const ExcessScatter& s : r.scatter[k]) {
       std::vector<std::vector<Cell>> bins;
       const DisplayUnit unit = ChooseUnit(s.bins.empty() ? 0 : s.bins.back().to, s.unit);

@@ -127,6 +127,7 @@ int CommissionedDetector::GrossCoils() const {
 }
 
 bool CommissionedDetector::Decided(int coil, double excess) const {
+  if (LessThanATurn(coil, excess)) return false;
   const bool gross =
       excess < -kGross || excess > (out_of_range_ ? gross_above_[coil] : kGrossAbove);
   if (Relies() && (!out_of_range_ || gross) && !Disturbed())

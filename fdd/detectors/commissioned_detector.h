@@ -174,6 +174,8 @@ class CommissionedDetector : public CoilDetector {
   /// Which coils have failed, all judged together: no current, or shares of their turns that explain
   /// all c. False: no such explanation.
   bool JudgedTogether(const MeasuredPeriod& in, Outcome* out) const;
+  /// So small an excess is of less than a turn, which no short bypasses.
+  bool LessThanATurn(int coil, double excess) const;
   /// Share of the turns that a coil must have lost to be one of several that failed; `per_excess` of
   /// JointShares.
   double LeastLost(int coil, double per_excess) const;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "fdd/detectors/commissioned_detector.h"
+#include "fdd/model/loss_excess.h"
 
 namespace ambrig {
 
@@ -14,6 +15,8 @@ constexpr int kMissedTwice = 2;        // periods in a row
 constexpr double kMostRegained = 0.9;  // |c|
 constexpr double kMoreThanAll = 1.07, kAsGoodAsAll = 0.95;  // of the turns
 constexpr double kLeastLost = 0.1;        // of the turns, for coils that fail at once
+constexpr double kLeastTurns = 0.95;      // of one turn: what a loss of it may be taken for
+constexpr double kCountedTurns = 10;      // a winding of fewer is known by its inductance alone
 constexpr long long kOnOneCore = 2500;    // periods after turns were lost on one core: more of them
 constexpr int kMostWaited = 10;           // periods, for another coil
 constexpr double kAboutToStandOut = 0.5;  // of its band
@@ -64,6 +67,13 @@ CommissionedDetector::Outcome CommissionedDetector::WithoutCurrent(double t) con
   out.excess = now_[failed[0].coil];
   out.Blame(failed);
   return out;
+}
+
+bool CommissionedDetector::LessThanATurn(int coil, double excess) const {
+  const LinkageModel& m = filter_.nominal();
+  const double turns = std::abs(m.n[coil]);
+  return turns >= kCountedTurns && excess > 0 &&
+         excess * turns < kLeastTurns * ExcessOfLoss(m, coil).own;
 }
 
 double CommissionedDetector::LeastLost(int coil, double per_excess) const {

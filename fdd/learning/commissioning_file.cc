@@ -67,6 +67,7 @@ CommissionedBearing ReadBearing(const TomlTable& t, const std::string& name) {
   ReadLane(t, "gain", coils, 1e-3, 1e3, &b.coils.gain);
   ReadLane(t, "leakage", coils, -1e3, 1e3, &b.coils.leakage);
   ReadLane(t, "resistance", coils, -1e4, 1e4, &b.coils.resistance);
+  if (t.Has("offset")) ReadLane(t, "offset", coils, -1e4, 1e4, &b.coils.offset);
   for (int w = 0; w < kExcessWindows; ++w)
     ReadLane(t, fmt::format("largest_{}", kExcessWindow[w]), coils, 0, 1e3, &b.largest[w]);
   ReadLane(t, "largest_flux", coils, 0, 1e6, &b.largest_flux);
@@ -96,9 +97,10 @@ std::string BearingText(const CommissionedBearing& b) {
       "at 100 Hz, 1.2, 12 and 120 kHz\nknee = [{}, {}]\n",
       c.dx, c.dy, c.path, c.fringing, Numbers(c.relaxation.data(), kRelaxations), c.knee7,
       c.knee15);
-  text += fmt::format("gain = {}\nleakage = {}    # H\nresistance = {}    # ohm\n",
-                      Numbers(b.coils.gain.v, n), Numbers(b.coils.leakage.v, n),
-                      Numbers(b.coils.resistance.v, n));
+  text +=
+      fmt::format("gain = {}\nleakage = {}    # H\nresistance = {}    # ohm\noffset = {}    # V\n",
+                  Numbers(b.coils.gain.v, n), Numbers(b.coils.leakage.v, n),
+                  Numbers(b.coils.resistance.v, n), Numbers(b.coils.offset.v, n));
   text += "# what healthy running reached: relative excess of the slope over so many periods\n";
   for (int w = 0; w < kExcessWindows; ++w)
     text += fmt::format("largest_{} = {}\n", kExcessWindow[w], Numbers(b.largest[w].v, n));

@@ -13,14 +13,16 @@ namespace {
 constexpr int kCircuit = 8, kWithKnee = 10;  // parameters of the circuit
 constexpr double kHuber = 2;                 // [expected sizes]
 constexpr double kKneePays = 0.98;           // of the cost
+// Offsets trade against resistances and slow relaxations: only for a model that does not express the plant without.
+constexpr double kOffsetPays = 0.7;
 constexpr double kWellFitted = 1.5;  // cost of a row, of a model that leaves little but scatter
 constexpr int kMostSteps = 25;
 // A row in so many counts once against the priors: rows repeat each other, and without the priors
 // the fit would follow what noise prefers.
 constexpr double kRowsPerPrior = 500;
 constexpr double kSettled = 1e-4;  // relative fall of the cost
-// priors of a coil: gain, and leakage and resistance relative to the nominal
-constexpr double kGainSd = 0.15, kLeakageSd = 0.3, kResistanceSd = 0.12;
+// priors of a coil: gain, leakage and resistance relative to the nominal, offset over the bus
+constexpr double kGainSd = 0.15, kLeakageSd = 0.3, kResistanceSd = 0.12, kOffsetSd = 0.02;
 // of dx/g0, dy/g0, path, fringing, residues, knee terms; and the steps of the differences
 constexpr double kSd[kWithKnee] = {0.1, 0.1, 0.3, 0.3, 30, 30, 30, 30, 1, 1};
 constexpr double kStep[kWithKnee] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-4, 1e-4};
@@ -67,10 +69,13 @@ class Fit {
       : nominal_(nominal),
         rows_(nominal, sampling, settings, log),
         inductance_(FluxFilter(nominal, sampling, {}).inductances()),
+        bus_(sampling.amplifier->bus_voltage),
         huber_(rows_.rows().size(), 1.0),
         prior_(static_cast<double>(size()) / kRowsPerPrior) {}
 
   std::size_t size() const { return rows_.rows().size(); }
+  /// From now on the bridges may have offsets.
+  void AllowOffsets() { offsets_ = true; }
 
   /// Coils fitted to this circuit; `z`: residuals over their expected size. Returns the cost.
   double Evaluate(const Parameters& p, std::vector<double>* z, CoilEquations* coils) {
@@ -87,7 +92,7 @@ class Fit {
       const CommissioningRow& r = rows_.rows()[n];
       const double e = coils->gain[r.coil] * inductance_[r.coil] * slopes_[n] +
                        coils->leakage[r.coil] * r.current + coils->resistance[r.coil] * r.mean -
-                       r.voltage;
+                       coils->offset[r.coil] - r.voltage;
       (*z)[n] = e * r.weight;
       cost += HuberCost((*z)[n]);
     }
@@ -142,14 +147,14 @@ class Fit {
   }
 
   CoilEquations SolveCoils() const {
-    Eigen::Matrix3d A[kLanes];
-    Eigen::Vector3d b[kLanes];
+    Eigen::Matrix4d A[kLanes];
+    Eigen::Vector4d b[kLanes];
     for (int j = 0; j < nominal_.coils; ++j) {
-      const double sd[3] = {kGainSd, kLeakageSd * nominal_.leakage[j],
-                            kResistanceSd * nominal_.resistance[j]};
-      const double at[3] = {1, nominal_.leakage[j], nominal_.resistance[j]};
+      const double sd[4] = {kGainSd, kLeakageSd * nominal_.leakage[j],
+                            kResistanceSd * nominal_.resistance[j], kOffsetSd * bus_};
+      const double at[4] = {1, nominal_.leakage[j], nominal_.resistance[j], 0};
       A[j].setZero();
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < 4; ++k) {
         A[j](k, k) = prior_ / (sd[k] * sd[k]);
         b[j][k] = A[j](k, k) * at[k];
       }
@@ -157,16 +162,18 @@ class Fit {
     for (std::size_t n = 0; n < size(); ++n) {
       const CommissioningRow& r = rows_.rows()[n];
       const double w = huber_[n] * r.weight * r.weight;
-      const Eigen::Vector3d x(inductance_[r.coil] * slopes_[n], r.current, r.mean);
+      const Eigen::Vector4d x(inductance_[r.coil] * slopes_[n], r.current, r.mean,
+                              offsets_ ? -1 : 0);
       A[r.coil] += w * x * x.transpose();
       b[r.coil] += w * r.voltage * x;
     }
     CoilEquations out;
     for (int j = 0; j < nominal_.coils; ++j) {
-      const Eigen::Vector3d found = A[j].ldlt().solve(b[j]);
+      const Eigen::Vector4d found = A[j].ldlt().solve(b[j]);
       out.gain[j] = found[0];
       out.leakage[j] = found[1];
       out.resistance[j] = found[2];
+      out.offset[j] = found[3];
     }
     return out;
   }
@@ -203,6 +210,8 @@ class Fit {
   const LinkageModel& nominal_;
   CommissioningRows rows_;
   Lane inductance_;
+  double bus_;  // [V]
+  bool offsets_ = false;
   std::vector<double> huber_, slopes_;
   double prior_;  // weight of the priors
   Eigen::MatrixXd normal_;
@@ -222,6 +231,16 @@ void TryKnees(Fit& fit, Found start, int first, int last, double promising, doub
   if (!(fit.Descend(&start.parameters, first, last, &start.coils) < promising)) return;
   start.cost = fit.Descend(&start.parameters, 0, kWithKnee, &start.coils);
   if (start.cost < std::min(most, found->cost)) *found = start;
+}
+
+/// Bridges that add a voltage of their own: again from the start's circuit and from the best found, with offsets.
+void TryOffsets(Fit& fit, const Found& straight, Found* found) {
+  fit.AllowOffsets();
+  const double most = kOffsetPays * found->cost;
+  for (Found from : {straight, *found}) {
+    from.cost = fit.Descend(&from.parameters, 0, kCircuit, &from.coils);
+    if (from.cost < std::min(most, found->cost)) *found = from;
+  }
 }
 
 }  // namespace
@@ -250,6 +269,7 @@ CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel
     for (const int knee : {kCircuit, kCircuit + 1})
       for (const Found& from : {straight, start})
         TryKnees(fit, from, knee, knee + 1, kInfinity, most, &found);
+  if (found.cost > kWellFitted * static_cast<double>(fit.size())) TryOffsets(fit, straight, &found);
   out.circuit = CircuitOf(found.parameters, nominal.gap_offset[0]);
   out.coils = found.coils;
   out.learnt = true;

@@ -15,7 +15,7 @@ template <class V>
   const V zero = 0.0, left = LoadAs<V>(share.v), mutual = LoadAs<V>(filter.inductances().v),
           main = left * LoadAs<V>(coils.gain.v) * mutual,
           leakage = left * left * LoadAs<V>(coils.leakage.v),
-          resistance = left * LoadAs<V>(coils.resistance.v);
+          resistance = left * LoadAs<V>(coils.resistance.v), offset = LoadAs<V>(coils.offset.v);
   const V noise = (main * left * LoadAs<V>(period.own.v) + leakage) * s.current_noise;
   const auto starts_at_zero = LoadAs<V>(period.least_on.v) < kConducts;
   V judged = Select(left > zero, 1, zero);
@@ -24,7 +24,7 @@ template <class V>
   for (int q = 0; q < 2; ++q) {
     const FluxPhase& p = period.phase[q];
     const V voltage = LoadAs<V>(p.voltage.v), mean = LoadAs<V>(p.mean.v);
-    const V drive = voltage - resistance * mean;
+    const V drive = voltage + offset - resistance * mean;
     const V e = main * LoadAs<V>(p.flux.v) + leakage * LoadAs<V>(p.current.v) - drive;
     V weight =
         judged / (noise * noise * LoadAs<V>(p.scale.v) + kVoltageError * kVoltageError) * drive;

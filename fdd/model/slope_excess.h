@@ -1,7 +1,7 @@
 #pragma once
 /// By how much the flux linkage of a coil moves more than its voltage accounts for, relative:
 ///
-///   e = gain M0 slope(s psi) + L slope(i) + R mean(i) - v [V],   d = v - R mean(i) [V]
+///   e = gain M0 slope(s psi) + L slope(i) - d [V],   d = v + v0 - R mean(i) [V]
 ///   c = sum w e d / sum w d^2,   1/w = variance of e by ADC noise + (0.3 V)^2
 ///
 /// over phases and periods. Errors that do not change sign with the voltage (R, drops, motion,
@@ -12,9 +12,10 @@
 
 namespace ambrig {
 
-/// A coil's own equation: v = gain M0 slope(s psi) + leakage slope(i) + resistance i.
+/// A coil's own equation: v + offset = gain M0 slope(s psi) + leakage slope(i) + resistance i.
 struct CoilEquations {
   Lane gain, leakage, resistance;  // [-], [H], [ohm]
+  Lane offset;                     // [V] that the bridge adds to the voltage of its duty
 };
 
 /// Sums of one period, both phases.

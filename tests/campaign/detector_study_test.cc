@@ -117,8 +117,7 @@ TEST(DetectorStudy, ABlindDetectorIsRankedLastAndByChanceAlone) {
     EXPECT_EQ(c.detected[nine], 1) << c.kind;
     EXPECT_LE(c.median[nine], 80e-6) << c.kind;
   }
-  // At equal false alarms limits that follow the gap can be less than 0.6 of the fixed ones, and
-  // find every short of 10 %, which the fixed ones do not.
+  // At equal false alarms limits that follow the gap can be less than 0.6 of the fixed ones.
   const DetectorCurves fixed = named("paper-every-period"), online = named("paper-online"),
                        known = named("paper-coupled");
   EXPECT_LT(ValueOf(online.budget_level), 0.6 * ValueOf(fixed.budget_level));
@@ -127,7 +126,6 @@ TEST(DetectorStudy, ABlindDetectorIsRankedLastAndByChanceAlone) {
                                  [](const FaultCurve& c) { return c.kind.starts_with("partial"); });
     return it->detected[static_cast<std::size_t>(d.budget_level)];
   };
-  EXPECT_LT(shorts_found(fixed), 1);
   EXPECT_EQ(shorts_found(online), 1);
   EXPECT_EQ(shorts_found(known), 1);
 }

@@ -47,7 +47,7 @@ struct SineRun {
     sine.stop = s.duration + 1;
     s.excitations.push_back(sine);
     EngineOptions options;
-    options.watch = false;
+    options.watch = options.coil_spread = false;
     const NominalRig known(drawing.bearings.empty() ? rig : drawing);
     options.nominal = &known;
     const ambrig::Record record = SwitchingEngine(rig, s, options).Run().record;

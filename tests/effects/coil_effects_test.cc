@@ -3,6 +3,7 @@
 
 #include "effects/coil_targets.h"
 #include "tests/effects/effect_rigs.h"
+#include "tests/rig/exact_coils.h"
 
 namespace ambrig {
 namespace {
@@ -159,7 +160,7 @@ TEST(CurrentSensor, GainAndOffsetReachTheirCoilsOnly) {
 // Settled, the supply delivers the copper loss and the drops: U = U_s - R i_drawn with
 // U i_drawn = power of the sixteen coils.
 TEST(BusImpedance, SettledBusCarriesTheCopperLoss) {
-  RigParameters rig = ReferenceRig();
+  RigParameters rig = WithExactCoils(ReferenceRig());
   rig.amplifier.switch_drop = rig.amplifier.diode_drop = 0;
   const double resistance = 0.3, high = 4;
   const RigParameters with =
@@ -194,7 +195,7 @@ TEST(DeadTime, LoopGivesTheDutyBack) {
 // R = R20 (1 + 0.00393 dT); with a time constant far below the record dT settles at rise R i².
 TEST(CopperHeating, DutyCarriesTheWarmResistance) {
   const double rise = 20, tau = 2e-3, high = 4;
-  const RigParameters rig = ReferenceRig(),
+  const RigParameters rig = WithExactCoils(ReferenceRig()),
                       with = WithEffect(rig, "copper-heating", "A",
                                         {{"rise_per_watt", rise}, {"time_constant", tau}});
   const std::string text = ClampedText(high, 0.08);

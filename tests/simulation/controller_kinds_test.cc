@@ -10,6 +10,7 @@
 #include "rig/rig_file.h"
 #include "simulation/simulate.h"
 #include "tests/cli/cli_run.h"
+#include "tests/rig/exact_coils.h"
 
 namespace ambrig {
 namespace {
@@ -22,7 +23,7 @@ std::string WithController(std::string text, const std::string& keys) {
 }
 
 RunResult Hover(const std::string& text, const std::string& more = "") {
-  const RigParameters rig = ReadRigText(text, "rig.toml");
+  const RigParameters rig = WithExactCoils(ReadRigText(text, "rig.toml"));
   return Simulate(rig,
                   ReadScenarioText("rig = \"rig.toml\"\nduration = 0.2\nrecord_rate = 12500.0\n"
                                    "noise = false\nfault_tolerance = false\n" +

@@ -11,6 +11,7 @@
 #include "rig/rig_assembly.h"
 #include "rig/rig_file.h"
 #include "scenarios/scenario.h"
+#include "tests/rig/exact_coils.h"
 
 namespace ambrig::testing {
 
@@ -36,10 +37,10 @@ inline std::string TumRigText(
 }
 
 inline RigParameters TumRig(const std::string& text) {
-  return ReadRigText(text, kTumFolder + "rig.toml");
+  return WithExactCoils(ReadRigText(text, kTumFolder + "rig.toml"));
 }
 
-inline RigParameters Mbtr() { return ReadRig(kTumFolder + "rig.toml"); }
+inline RigParameters Mbtr() { return WithExactCoils(ReadRig(kTumFolder + "rig.toml")); }
 
 /// Nothing recorded but the motion, at one speed [rad/s].
 inline Scenario Quiet(const RigParameters& rig, double duration, double speed) {

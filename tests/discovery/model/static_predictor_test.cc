@@ -112,7 +112,7 @@ TEST(StaticPredictor, LoadCellsOfAHeldSaturatedRotor) {
   e.amplitude = 3;
   s.excitations = {e};
   EngineOptions options;
-  options.watch = false;
+  options.watch = options.coil_spread = false;
   const Record r = SwitchingEngine(rig, s, options).Run().record;
   EXPECT_NEAR(r.Find("A.fx")->samples.back(), f[0][0], 0.005 * f[0][0]);
   EXPECT_NEAR(r.Find("A.fy")->samples.back(), f[1][0], 0.005 * f[0][0]);

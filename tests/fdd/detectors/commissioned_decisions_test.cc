@@ -65,6 +65,22 @@ TEST(CommissionedDecisions, ADeadAmplifierIsNamedAsSuchOrAsAnOpenCoil) {
   }
 }
 
+// Two volts that no duty shows are seven per cent of the slope: learnt, where the plant cannot be expressed without.
+TEST(CommissionedDecisions, BridgesThatAddAVoltageAreLearnt) {
+  for (const double offset : {2.0, -2.0}) {
+    const CommissionedRig plant(
+        WithEffect(ReferenceRig(), "amplifier-offset", "A", {{"offset", offset}}));
+    ASSERT_TRUE(plant.bearing.usable());
+    EXPECT_LT(plant.bearing.grade, 1.5);
+    for (int j = 0; j < 8; ++j)
+      EXPECT_NEAR(plant.bearing.coils.offset[j], offset, 0.2) << "coil " << j + 1;
+    EXPECT_TRUE(Concluded(plant.rig, &plant.bearing, Operation(""))->found.empty());
+    for (const FaultCase& c : kFaults)
+      if (std::string(c.kind) != "amplifier-off") ExpectFound(plant, c, 4);
+  }
+  for (int j = 0; j < 8; ++j) EXPECT_EQ(SlowIron().bearing.coils.offset[j], 0);
+}
+
 TEST(CommissionedDecisions, ShortsAreFoundWithTheirShareOfTheTurns) {
   for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()})
     for (const double share : {0.1, 0.2, 0.3, 0.5, 0.7}) {

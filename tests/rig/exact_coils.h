@@ -1,0 +1,13 @@
+#pragma once
+/// Rigs whose coils are all alike and whose edges and samples are on time: what closed forms are written for.
+#include "rig/rig_parameters.h"
+
+namespace ambrig {
+
+inline RigParameters WithExactCoils(RigParameters rig) {
+  AmplifierParameters& a = rig.amplifier;
+  a.adc_jitter = a.edge_jitter = a.edge_spread = a.current_gain_spread = 0;
+  return rig;
+}
+
+}  // namespace ambrig
