@@ -11,8 +11,8 @@
 #include "rig/rig_file.h"
 #include "simulation/switching/switching_engine.h"
 #include "tests/cli/cli_run.h"
-#include "tests/simulation/controlled_rig.h"
 #include "tests/rig/exact_coils.h"
+#include "tests/simulation/controlled_rig.h"
 
 namespace ambrig {
 namespace {

@@ -21,9 +21,8 @@ const std::string kTum = AMBRIG_SOURCE_DIR "/examples/tum_mbtr/";
 RigParameters Tum(const std::string& damping, const std::string& gravity) {
   std::string text =
       Replaced(ReadText(kTum + "rig.toml"), "modal_damping = 0.002", "modal_damping = " + damping);
-  return WithExactCoils(
-      ReadRigText(Replaced(text, "gravity = [0.0, -9.81, 0.0]", "gravity = " + gravity),
-                  kTum + "rig.toml"));
+  return WithExactCoils(ReadRigText(
+      Replaced(text, "gravity = [0.0, -9.81, 0.0]", "gravity = " + gravity), kTum + "rig.toml"));
 }
 
 ClosedLoopMode Made(Complex s, const Eigen::Vector2cd& q) {

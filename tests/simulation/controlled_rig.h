@@ -25,11 +25,10 @@ inline RigParameters RigWith(const std::string& controller) {
   const std::string text = ReferenceText();
   const auto begin = text.find("[controller]"), end = text.find("[bearings.A]");
   EXPECT_NE(begin, std::string::npos);
-  return WithExactCoils(
-      ReadRigText(text.substr(0, begin) +
-                      "[controller]\nrate = 12500.0\nbias_current = 2.0\nf_max = 60.0\n" +
-                      controller + "\n" + text.substr(end),
-                  "rig.toml"));
+  return WithExactCoils(ReadRigText(
+      text.substr(0, begin) + "[controller]\nrate = 12500.0\nbias_current = 2.0\nf_max = 60.0\n" +
+          controller + "\n" + text.substr(end),
+      "rig.toml"));
 }
 
 inline const std::string kPidGains =
