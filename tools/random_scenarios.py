@@ -90,7 +90,7 @@ def tags(rig, scenario):
     if rig["amplifier"].get("mode") == "voltage":
         found.add("mode voltage")
     if rig["amplifier"]["modulation"] in ("bi-state", "two-level") and scenario["fault_tolerance"]:
-        found.add("detector " + rig.get("detection", {"kind": "as nothing says"})["kind"])
+        found.add("detector " + rig.get("detection", {}).get("kind", "as nothing says"))
     for bearing in rig["bearings"].values():
         found.add("bearing " + bearing.get("kind", "radial") + " " + bearing.get("template", ""))
     for name, kind in (("fault", "kind"), ("excitation", "port"), ("effect", "name")):

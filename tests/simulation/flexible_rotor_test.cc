@@ -70,7 +70,7 @@ TEST(FlexibleRotor, WithoutModesItIsTheRigidRotor) {
   text = text.substr(0, text.find("[[effect]]"));  // a rigid rotor has no disk to put it on
   RigParameters without = beam;
   without.effects.clear();
-  const RigParameters rigid = ReadRigText(text, kTumFolder + "rig.toml");
+  const RigParameters rigid = TumRig(text);
   EngineOptions o;
   o.warm_up = 0.01;
   const Record a = SwitchingEngine(without, Quiet(without, 0.05, 300), o).Run().record;
