@@ -15,6 +15,8 @@ constexpr double kLeastPattern = 0.1;  // that is doubted
 // least band of c < 0: a reading that is low by less is no reason to give up a coil, and no turns are
 // lost that way
 constexpr double kLeastBelow = 0.08;
+// of a winding of a thrust side: where its iron saturates, turns lost by the partner make its c negative
+constexpr double kLeastBelowOnOneCore = 0.15;
 
 struct PeriodLimits {
   double gross;        // of |c|
@@ -59,13 +61,13 @@ AMBRIG_WIDE bool JudgePeriodInHalves(const SlopeExcess& e, const PeriodLimits& l
 
 /// The largest of the windows; coils apart keep their own.
 AMBRIG_WIDE void JudgeWindows(const Lane* used, const Lane* band, const Lane& apart,
-                              const Lane& level_now, Lane* ratio, Lane* level) {
+                              const Lane& level_now, double least_below, Lane* ratio, Lane* level) {
   const LaneVector zero;
   const auto counts = Load(apart.v) == zero;
   LaneVector most = Load(ratio->v);
   for (int w = 0; w < kExcessWindows; ++w) {
     const LaneVector c = Load(used[w].v), healthy = Load(band[w].v);
-    most = Max(most, Only(counts, Abs(c) / Select(c < zero, Max(healthy, kLeastBelow), healthy)));
+    most = Max(most, Only(counts, Abs(c) / Select(c < zero, Max(healthy, least_below), healthy)));
   }
   Store(ratio->v, most);
   Store(level->v, Select(counts, Abs(Load(level_now.v)), Load(level->v)));
@@ -133,7 +135,9 @@ void CommissionedDetector::Ratios() {
 void CommissionedDetector::RatiosOfWindows() {
   Lane used[kExcessWindows];
   windows_.UsedOfAll(kNoiseOfBand, used);
-  JudgeWindows(used, band_, apart_, used[kLevelWindow], &ratio_, &level_);
+  const double least_below =
+      filter_.nominal().coupling == Coupling::kSides ? kLeastBelowOnOneCore : kLeastBelow;
+  JudgeWindows(used, band_, apart_, used[kLevelWindow], least_below, &ratio_, &level_);
 }
 
 }  // namespace ambrig
