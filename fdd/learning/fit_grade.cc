@@ -6,7 +6,7 @@ namespace ambrig {
 
 namespace {
 
-constexpr std::size_t kFewestForPattern = 5;  // coils
+constexpr std::size_t kFewestBeside = 5;  // coils
 constexpr int kPattern = 3;                   // 1, cos, sin
 
 /// z of rows first to last - 1, which stand beside each other, without what they have in common.
@@ -15,7 +15,7 @@ Eigen::VectorXd OwnErrors(const LinkageModel& nominal, const CommissioningRows& 
                           std::size_t first, std::size_t last) {
   const auto count = static_cast<Eigen::Index>(last - first);
   const Eigen::VectorXd all = Eigen::Map<const Eigen::VectorXd>(z.data() + first, count);
-  if (last - first < kFewestForPattern) return all;
+  if (last - first < kFewestBeside) return all;
   Eigen::MatrixXd common(count, kPattern);
   for (Eigen::Index k = 0; k < count; ++k) {
     const CommissioningRow& r = rows.rows()[first + static_cast<std::size_t>(k)];
@@ -35,7 +35,7 @@ double FitGrade(const LinkageModel& nominal, const CommissioningRows& rows,
   for (std::size_t n = 0, end = 0; n < z.size(); n = end) {
     for (end = n + 1; end < z.size() && rows.Beside(end);) ++end;
     for (const double left : OwnErrors(nominal, rows, coils, z, n, end)) sum += HuberCost(left);
-    freedom += static_cast<double>(end - n) - (end - n < kFewestForPattern ? 0 : kPattern);
+    freedom += static_cast<double>(end - n) - (end - n < kFewestBeside ? 0 : kPattern);
   }
   return sum / freedom;
 }
