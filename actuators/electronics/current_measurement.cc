@@ -1,5 +1,7 @@
 #include "actuators/electronics/current_measurement.h"
 
+#include <algorithm>
+
 #include "actuators/magnetics/whole_lane_vector.h"
 
 namespace ambrig {
@@ -88,11 +90,11 @@ template <bool kClips, class V>
       adc, out);
 }
 
-/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells; from one sample to
-/// the next they change by less than it.
+/// Currents that flow `one_way` leave a converter's range upwards only, which their largest tells, at `per_ampere` of
+/// it: from one sample to the next they change by less than it.
 template <class V>
 [[gnu::always_inline]] inline void MeasureNoisily(const Lane* truth, const Sampling& sampling,
-                                                  double jitter, bool one_way,
+                                                  double per_ampere, bool one_way,
                                                   const Sensors& sensors, const float* normals,
                                                   int coils, double noise,
                                                   const Converter& converter, Lane* adc,
@@ -101,8 +103,7 @@ template <class V>
     return ConvertNoisily<true, V>(truth, sampling, sensors, normals, coils, noise, converter, adc,
                                    out);
   ConvertNoisily<false, V>(truth, sampling, sensors, normals, coils, noise, converter, adc, out);
-  if (!(Largest(LoadAs<V>(out->largest.v)) * (1 + kLargestNormal * jitter) +
-            kLargestNormal * noise + converter.step <
+  if (!(Largest(LoadAs<V>(out->largest.v)) * per_ampere + kLargestNormal * noise + converter.step <
         converter.high))
     ConvertNoisily<true, V>(truth, sampling, sensors, normals, coils, noise, converter, adc, out);
 }
@@ -113,18 +114,18 @@ AMBRIG_WIDE void MeasureIdeally(const Lane* truth, const Sampling& sampling, con
       truth, sampling, sensors,
       [](const LaneVector& value, int) __attribute__((always_inline)) { return value; }, adc, out);
 }
-AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, const Sampling& sampling, double jitter,
+AMBRIG_WHOLE void NoisilyWhole(const Lane* truth, const Sampling& sampling, double per_ampere,
                                bool one_way, const Sensors& sensors, const float* normals,
                                int coils, double noise, const Converter& converter, Lane* adc,
                                CurrentStatistics* out) {
-  MeasureNoisily<WholeLaneVector>(truth, sampling, jitter, one_way, sensors, normals, coils, noise,
-                                  converter, adc, out);
+  MeasureNoisily<WholeLaneVector>(truth, sampling, per_ampere, one_way, sensors, normals, coils,
+                                  noise, converter, adc, out);
 }
-AMBRIG_WIDE void NoisilyHalves(const Lane* truth, const Sampling& sampling, double jitter,
+AMBRIG_WIDE void NoisilyHalves(const Lane* truth, const Sampling& sampling, double per_ampere,
                                bool one_way, const Sensors& sensors, const float* normals,
                                int coils, double noise, const Converter& converter, Lane* adc,
                                CurrentStatistics* out) {
-  MeasureNoisily<LaneVector>(truth, sampling, jitter, one_way, sensors, normals, coils, noise,
+  MeasureNoisily<LaneVector>(truth, sampling, per_ampere, one_way, sensors, normals, coils, noise,
                              converter, adc, out);
 }
 
@@ -134,21 +135,25 @@ void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const Curr
                      bool plain, const MeasurementNormals& normals, Lane* adc,
                      CurrentStatistics* statistics) {
   Lane gain, offset;
+  double most = 1;        // gain
+  bool from_zero = true;  // readings of currents that are not below zero
   for (int j = 0; j < kLanes && !plain; ++j) {
     gain[j] = sensors[j].stuck ? 0 : sensors[j].gain;
     offset[j] = sensors[j].stuck ? sensors[j].stuck_at : sensors[j].offset;
+    from_zero = from_zero && gain[j] >= 0 && offset[j] == 0;
+    most = std::max(most, gain[j]);
   }
   const Sensors chain = plain ? Sensors{nullptr, nullptr} : Sensors{gain.v, offset.v};
   if (!s.noisy)
     return MeasureIdeally(truth, Sampling(s.samples, 0, nullptr), chain, adc, statistics);
-  const double lowest =
-      s.jitter * s.quantiser.high + s.noise;  // of currents that are not below zero
+  const double lowest = most * s.jitter * s.quantiser.high + s.noise;
   const bool one_way =
-      s.one_way && plain && kLargestNormal * lowest + s.quantiser.step < -s.quantiser.low;
+      s.one_way && from_zero && kLargestNormal * lowest + s.quantiser.step < -s.quantiser.low;
   const Converter converter{s.quantiser.step, s.quantiser.low, s.quantiser.high};
   (whole_lanes ? NoisilyWhole : NoisilyHalves)(
-      truth, Sampling(s.samples, s.jitter, normals.instants), s.jitter, one_way, chain,
-      normals.readings, s.coils, s.noise, converter, adc, statistics);
+      truth, Sampling(s.samples, s.jitter, normals.instants),
+      most * (1 + kLargestNormal * s.jitter), one_way, chain, normals.readings, s.coils, s.noise,
+      converter, adc, statistics);
 }
 
 }  // namespace ambrig

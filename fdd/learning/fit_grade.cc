@@ -7,7 +7,7 @@ namespace ambrig {
 namespace {
 
 constexpr std::size_t kFewestBeside = 5;  // coils
-constexpr int kPattern = 3;                   // 1, cos, sin
+constexpr int kPattern = 3;               // 1, cos, sin
 
 /// z of rows first to last - 1, which stand beside each other, without what they have in common.
 Eigen::VectorXd OwnErrors(const LinkageModel& nominal, const CommissioningRows& rows,

@@ -82,6 +82,32 @@ TEST(CurrentMeasurement, JitterLeavesTheTrueStatisticsAlone) {
   }
 }
 
+// A gain takes currents out of the range that are inside it, an offset below it.
+TEST(CurrentMeasurement, ReadingsThatAGainOrAnOffsetTakesOutOfTheRangeAreClipped) {
+  Lane truth[kSamples];
+  for (Lane& sample : truth) sample[2] = 7, sample[3] = 0.01;
+  CurrentSensor sensors[kLanes];
+  MeasurementSettings s = Settings(0.004, 1e-3);
+  s.quantiser = Quantiser(12, 10);
+  const std::vector<float> normals(kSamples * kCoils + kSamples + 7, 0.0F);
+  const auto measured = [&] {
+    Measured m;
+    MeasureCurrents(s, truth, sensors, false, {normals.data(), normals.data() + kSamples * kCoils},
+                    m.adc, &m.statistics);
+    return m;
+  };
+  sensors[2].gain = 1.3;
+  EXPECT_NEAR(measured().adc[4][2], 9.1, s.quantiser.step);
+  sensors[2].gain = 1.6;
+  EXPECT_EQ(measured().adc[4][2], s.quantiser.high);
+  EXPECT_NEAR(measured().adc[4][3], 0.01, s.quantiser.step);
+  sensors[3].offset = -11;
+  EXPECT_EQ(measured().adc[4][3], s.quantiser.low);
+  sensors[3] = {};
+  sensors[3].gain = -2000;
+  EXPECT_EQ(measured().adc[4][3], s.quantiser.low);
+}
+
 // Close below the end of the range a late sample is clipped as every other.
 TEST(CurrentMeasurement, JitterIsClippedAtTheEndOfTheRange) {
   MeasurementSettings s = Settings(0, 0.1);
