@@ -25,8 +25,8 @@ struct CurrentStatistics {
   Lane mean, mean_square, largest;
 };
 
-/// True samples -> what the ADC hands over, and the statistics of the period. `plain` says that every sensor is ideal (gain 1, no offset, not stuck). A sample that comes early or
-/// late is read on the line to its neighbour on that side.
+/// True samples -> what the ADC hands over, and the statistics of the period. `plain` says that every sensor is ideal
+/// (gain 1, no offset, not stuck). A sample that comes early or late is read on the line to its neighbour on that side.
 void MeasureCurrents(const MeasurementSettings& s, const Lane* truth, const CurrentSensor* sensors,
                      bool plain, const MeasurementNormals& normals, Lane* adc,
                      CurrentStatistics* statistics);
