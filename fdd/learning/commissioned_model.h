@@ -15,7 +15,8 @@ inline constexpr int kExcessWindow[kExcessWindows] = {1, 3, 10, 40, 160};
 inline constexpr double kExcessFloor[kExcessWindows] = {0.30, 0.15, 0.08, 0.05, 0.04};
 /// Bands stand at this many times what healthy running reached.
 inline constexpr double kBandOverHealthy = 1.5;
-/// Grade of a fit (fit_grade.h) above which the model does not express the plant and is refused.
+/// Mean square of the fit's residuals over their expected size, above which the model does not
+/// express the plant and is refused.
 inline constexpr double kWorstGrade = 3;
 
 struct CommissionedBearing {
@@ -25,7 +26,7 @@ struct CommissionedBearing {
   FluxCircuit circuit;
   CoilEquations coils;
   bool learnt = false;           // false: nominal values with wide bands
-  double grade = 0;              // of the fit [-]
+  double grade = 0;              // cost per row of the fit [-]
   long long rows = 0;            // of the fit
   Lane largest[kExcessWindows];  // |c| of healthy running, per coil and window [-]
   Lane largest_flux;             // |psi| [A]

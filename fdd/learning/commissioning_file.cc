@@ -88,7 +88,7 @@ std::string BearingText(const CommissionedBearing& b) {
   const FluxCircuit& c = b.circuit;
   std::string text = fmt::format(
       "\n[bearings.{}]\nlearnt_on = \"{}\"    # nominal values\ncoils = {}\ngrade = {}    # mean "
-      "square of what the residuals of a coil have of its own, over their "
+      "square of the residuals over their "
       "expected size; above {} it is refused\nrows = {}\n",
       b.name, b.learnt_on, n, b.grade, kWorstGrade, b.rows);
   text += fmt::format(

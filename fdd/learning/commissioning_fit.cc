@@ -5,13 +5,13 @@
 #include <cmath>
 
 #include "core/math/box_solver.h"
-#include "fdd/learning/fit_grade.h"
 
 namespace ambrig {
 
 namespace {
 
 constexpr int kCircuit = 8, kWithKnee = 10;  // parameters of the circuit
+constexpr double kHuber = 2;                 // [expected sizes]
 constexpr double kKneePays = 0.98;           // of the cost
 // Offsets trade against resistances and slow relaxations: only for a model that does not express the plant without.
 constexpr double kOffsetPays = 0.7;
@@ -57,6 +57,11 @@ Eigen::VectorXd LimitOf(const double* limits, const Parameters& p, int first, in
          p.segment(first, last - first);
 }
 
+double HuberCost(double z) {
+  const double a = std::abs(z);
+  return a < kHuber ? z * z : 2 * kHuber * a - kHuber * kHuber;
+}
+
 class Fit {
  public:
   Fit(const LinkageModel& nominal, const SamplingSettings& sampling, const ExcessSettings& settings,
@@ -71,13 +76,6 @@ class Fit {
   std::size_t size() const { return rows_.rows().size(); }
   /// From now on the bridges may have offsets.
   void AllowOffsets() { offsets_ = true; }
-
-  double Grade(const Parameters& p) {
-    std::vector<double> z;
-    CoilEquations coils;
-    Evaluate(p, &z, &coils);
-    return FitGrade(nominal_, rows_, coils, z);
-  }
 
   /// Coils fitted to this circuit; `z`: residuals over their expected size. Returns the cost.
   double Evaluate(const Parameters& p, std::vector<double>* z, CoilEquations* coils) {
@@ -276,7 +274,7 @@ CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel
   out.coils = found.coils;
   out.learnt = true;
   out.rows = static_cast<long long>(fit.size());
-  out.grade = fit.Grade(found.parameters);
+  out.grade = found.cost / static_cast<double>(fit.size());
   return out;
 }
 

@@ -21,11 +21,6 @@ class CommissioningRows {
                     const ExcessSettings& settings, const CommissioningLog& log);
 
   const std::vector<CommissioningRow>& rows() const { return rows_; }
-  /// Whether row n stands beside row n - 1: another coil in the same periods and phase.
-  bool Beside(std::size_t n) const {
-    return n > 0 && places_[n].block == places_[n - 1].block &&
-           places_[n].phase == places_[n - 1].phase;
-  }
   /// Slope of s psi of every row, with this circuit [A/s].
   void FluxSlopes(const FluxCircuit& circuit, std::vector<double>* out) const;
 

@@ -81,21 +81,6 @@ TEST(CommissionedDecisions, BridgesThatAddAVoltageAreLearnt) {
   for (int j = 0; j < 8; ++j) EXPECT_EQ(SlowIron().bearing.coils.offset[j], 0);
 }
 
-// Position sensors that see 20 um of run-out explain the fluxes badly, but alike in all coils, which no fault of one does:
-// the fit is good enough.
-TEST(CommissionedDecisions, RunOutIsNoReasonToRefuseAFit) {
-  const CommissionedRig plant(
-      WithEffect(ReferenceRig(), "sensor-runout", "A",
-                 {{"c1", -1.4e-5}, {"s1", 1.4e-5}, {"c2", 7e-6}, {"s2", 7e-6}}));
-  EXPECT_LT(plant.bearing.grade, 1.5);
-  EXPECT_TRUE(Concluded(plant.rig, &plant.bearing, Operation(""))->found.empty());
-  for (const FaultCase& c : kFaults)
-    if (const std::string parameters = c.parameters;
-        c.kind == std::string("open") || (c.kind == std::string("partial-short") &&
-                                          parameters.find("resistance") == parameters.npos))
-      ExpectFound(plant, c, 3);
-}
-
 TEST(CommissionedDecisions, ShortsAreFoundWithTheirShareOfTheTurns) {
   for (const CommissionedRig* plant : {&SlowIron(), &ThinSheets()})
     for (const double share : {0.1, 0.2, 0.3, 0.5, 0.7}) {
