@@ -167,7 +167,9 @@ void SampledDataLoop::CarryOut(long long n) {
         redistributed = true;
       }
     }
-  if (redistributed) Retune(measurement_.t + T);
+  // The instant of the event "redistributed", in the same order of additions.
+  const auto delay = static_cast<double>(computing_) * T;
+  if (redistributed) Retune(static_cast<double>(n - computing_) * T + T + delay);
 }
 
 void SampledDataLoop::Retune(double t) {

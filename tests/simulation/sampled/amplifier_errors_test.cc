@@ -22,6 +22,16 @@ RigParameters Imperfect() {
   return rig;
 }
 
+/// Nothing but the weight and the currents acts on the rotor.
+Scenario Undisturbed(const RigParameters& rig, double duration, bool noise) {
+  Scenario s = BaseScenario("steps", rig);
+  s.excitations.clear();
+  s.loads.clear();
+  s.duration = duration;
+  s.noise = noise;
+  return s;
+}
+
 Record Recorded(const RigParameters& rig, bool noise, bool coil_spread = true) {
   Scenario s = BaseScenario("steps", rig);
   s.duration = 0.01;
@@ -43,11 +53,7 @@ TEST(AmplifierErrors, TheReferenceHasTheSame) {
   RigParameters rig = Imperfect();
   rig.amplifier.adc_jitter = rig.amplifier.edge_jitter = 2e-7;
   rig.amplifier.edge_spread = 5e-7;
-  Scenario s = BaseScenario("steps", rig);
-  s.excitations.clear();
-  s.loads.clear();
-  s.duration = 0.004;
-  s.noise = true;
+  const Scenario s = Undisturbed(rig, 0.004, true);
   ReferenceOptions o;
   o.sampled.warm_up = 0.002;
   o.sampled.noise = true;
@@ -86,12 +92,8 @@ TEST(AmplifierErrors, TheCurrentLoopMakesUpForALateEdge) {
   const double T = 1 / rig.amplifier.switching_frequency;
   Plant plant = BuildPlant(TrueRig(rig));
   DrawCoilSpread(rig.amplifier, &plant);
-  Scenario s = BaseScenario("steps", rig);
-  s.excitations.clear();
-  s.loads.clear();
-  s.duration = 0.05;
-  s.noise = false;
-  EngineOptions o;
+  const Scenario s = Undisturbed(rig, 0.05, false);
+  const EngineOptions o;
   const Record with = SwitchingEngine(rig, s, o).Run().record;
   const Record without = SwitchingEngine(BaseRig(), s, o).Run().record;
   for (int j = 0; j < 8; ++j) {
