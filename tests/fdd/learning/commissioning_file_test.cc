@@ -27,6 +27,7 @@ CommissionedBearing Learnt() {
   b.pattern = 0.004;
   for (int j = 0; j < kLanes; ++j) {
     b.coils.gain[j] = 1 + (j % 2 ? -0.01 : 0.01) / (j + 3);
+    b.coils.offset[j] = 0.3 * (j - 2) / 7;
     b.largest_flux[j] = 3 + j;
     b.current_error[j] = 0.1 * j;
     for (int w = 0; w < kExcessWindows; ++w) b.largest[w][j] = 0.01 * w + 0.001 * j;
@@ -53,6 +54,7 @@ TEST(CommissioningFile, ComesBackAsItWasWritten) {
   for (int j = 0; j < kLanes; ++j) {
     EXPECT_EQ(c.coils.gain[j], b.coils.gain[j]);
     EXPECT_EQ(c.coils.leakage[j], b.coils.leakage[j]);
+    EXPECT_EQ(c.coils.offset[j], b.coils.offset[j]);
     EXPECT_EQ(c.largest_flux[j], b.largest_flux[j]);
     for (int w = 0; w < kExcessWindows; ++w) EXPECT_EQ(c.largest[w][j], b.largest[w][j]);
   }
