@@ -4,8 +4,7 @@
 ///
 /// ten corner frequencies half a decade apart, so that any lamination, plate or solid core is met
 /// within a few per cent; passive by construction, because every term is a resistance beside an
-/// inductance. At rest only `path` is left (the iron's own reluctance). For a flux linear over a
-/// step the relaxations are exact, as in effects/eddy_currents.cc.
+/// inductance. At rest only `path` is left (the iron's own reluctance). Steps: effects/relaxation_state.h.
 #include <cmath>
 #include <memory>
 
@@ -13,16 +12,27 @@
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 #include "effects/law_tables.h"
+#include "effects/relaxation_state.h"
 
 namespace ambrig {
 
 namespace {
 
-class RelaxationLaw final : public FluxLaw {
+using ImpedanceState = RelaxationState<kRelaxations>;
+template <class V>
+using ImpedanceKernel = RelaxationKernel<V, kRelaxations>;
+AMBRIG_LAW_LANES(Impedance)
+AMBRIG_LAW_COMMIT(Impedance)
+
+class ImpedanceLaw final : public FluxLaw {
  public:
   /// `residue`: kRelaxations numbers of the gap's reluctance `gap` [1/H]; `rest` [1/H].
-  RelaxationLaw(const double* residue, double gap, double rest) : rest_(rest) {
-    for (int k = 0; k < kRelaxations; ++k) weight_[k] = residue[k] * gap;
+  ImpedanceLaw(const double* residue, double gap, double rest) {
+    state_.rest = rest;
+    for (int k = 0; k < kRelaxations; ++k) {
+      pole_[k] = 2 * kPi * RelaxationFrequency(k);
+      weight_[k] = residue[k] * gap;
+    }
   }
 
   bool linear() const override { return true; }
@@ -30,58 +40,28 @@ class RelaxationLaw final : public FluxLaw {
   void SetStep(double h) override {
     if (h == h_) return;
     h_ = h;
-    slope_ = rest_;
-    for (int k = 0; k < kRelaxations; ++k) {
-      const double x = 2 * kPi * RelaxationFrequency(k) * h;
-      decay_[k] = std::exp(-x);
-      gain_[k] = weight_[k] * -std::expm1(-x) / x;
-      slope_ += gain_[k];
-    }
-    Rebase();
+    state_.SetStep(pole_, weight_, 0, h);
   }
 
   void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    for (int j = 0; j < kLanes; ++j) {
-      (*drop)[j] += base_[j] + slope_ * phi[j];
-      (*slope)[j] += slope_;
-    }
+    ImpedanceDrop(state_, phi, drop, slope);
   }
-
   void Steady(const Lane& phi, Lane* drop, Lane* slope) const override {
     for (int j = 0; j < kLanes; ++j) {
-      (*drop)[j] += rest_ * phi[j];
-      (*slope)[j] += rest_;
+      (*drop)[j] += state_.rest * phi[j];
+      (*slope)[j] += state_.rest;
     }
   }
-
-  void Commit(const Lane& phi) override {
-    for (int k = 0; k < kRelaxations; ++k)
-      for (int j = 0; j < kLanes; ++j)
-        state_[k][j] = decay_[k] * state_[k][j] + gain_[k] * (phi[j] - phi_[j]);
-    phi_ = phi;
-    Rebase();
+  void Commit(const Lane& phi) override { ImpedanceCommit(state_, phi); }
+  int RunSamples(const LawLoop& loop, int k, int count) override {
+    return ImpedanceLoop(state_, loop, k, count);
   }
-
-  void Settle(const Lane& phi) override {
-    for (Lane& e : state_) e = Lane{};
-    phi_ = phi;
-    Rebase();
-  }
+  void Settle(const Lane& phi) override { state_.Settle(phi); }
 
  private:
-  /// Drop of the next step less slope_ φ.
-  void Rebase() {
-    for (int j = 0; j < kLanes; ++j) {
-      double kept = (rest_ - slope_) * phi_[j];
-      for (int k = 0; k < kRelaxations; ++k) kept += decay_[k] * state_[k][j];
-      base_[j] = kept;
-    }
-  }
-
-  double weight_[kRelaxations] = {};                           // [1/H]
-  double decay_[kRelaxations] = {}, gain_[kRelaxations] = {};  // of a step
-  double rest_, slope_ = 0, h_ = 0;                            // [1/H], [1/H], [s]
-  Lane state_[kRelaxations], phi_, base_;                      // [A], [Wb], [A]
+  double pole_[kRelaxations] = {}, weight_[kRelaxations] = {};  // [rad/s], [1/H]
+  double h_ = 0;
+  ImpedanceState state_;
 };
 
 }  // namespace
@@ -109,7 +89,7 @@ EffectDescription EddyImpedance() {
   d.apply = [](const EffectInstance& e, Plant& plant) {
     if (e.IsNull()) return;
     BearingPlant& b = TargetBearing(e, plant);
-    b.laws.push_back(std::make_unique<RelaxationLaw>(
+    b.laws.push_back(std::make_unique<ImpedanceLaw>(
         e.values.data() + 1, GapReluctanceOf(b), e.Value("path") * b.lanes.reluctance.per_metre));
   };
   return d;

@@ -30,6 +30,9 @@ Json RankingJson(const std::vector<RankedEffect>& ranking) {
     j["probability"] = r.probability;
     j["ratio_fit"] = Number(r.fit.ratio_fit);
     j["ratio_validate"] = Number(r.fit.ratio_validate);
+    if (r.shaped)
+      j["shaped"] = {{"ratio_fit", Number(r.shaped->fit)},
+                     {"ratio_validate", Number(r.shaped->validate)}};
     j["converged"] = r.fit.converged;
     j["warnings"] = r.fit.warnings;
     all.push_back(j);

@@ -52,15 +52,29 @@ void SetsWith(Explanation& out, double named) {
 
 /// A name that explains a part only and that other names contest: what it may be expected to explain rightly, its
 /// probability times its share of the error, is too little. Other physics makes such names (docs/theory/discovery.md).
-bool IsDoubtfulPatch(const Explanation& out, double named) {
+bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
   constexpr double kMost = 0.75;  // share of the error from which a name stands whatever its rivals
   constexpr double kLeast = 0.4;  // of probability times share
-  if (out.closure.explained >= kMost) return false;
+  if (explained >= kMost) return false;
   const EffectInstance& first = out.adopted[0];
   for (const RankedEffect& r : out.ranking)
     if (r.effect.name == first.name && r.effect.target == first.target)
-      return named * r.probability * out.closure.explained < kLeast;
+      return named * r.probability * explained < kLeast;
   return false;
+}
+
+/// What the catalogue's law leaves and its free shape does not is a detail of the law.
+void SayShape(const FitResult& last, Explanation& out) {
+  const StageRatios& s = *out.shaped;
+  if (std::hypot(s.fit, s.validate) >= std::hypot(last.ratio_fit, last.ratio_validate) ||
+      out.remainder.kind == "none")
+    return;
+  out.remainder.kind = "law-variation";
+  out.remainder.text = fmt::format(
+      "{:.2f} times the noise stays with the catalogue's law; with its shape free {:.2f} (fitted "
+      "records) and {:.2f} "
+      "(unseen): ambrig refine writes it",
+      out.closure.floors_after, s.fit, s.validate);
 }
 
 /// The members of the set when no effect is named: the verdict itself and the best candidate.
@@ -77,13 +91,22 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
               const FitResult& last, Explanation& out) {
   const bool any = !out.adopted.empty();
   out.closure = ClosureOf(model, base.residual, last.residual);
-  const StageRatios first = RatiosOf(model, nominal), parameters = RatiosOf(model, base),
-                    end = RatiosOf(model, last);
+  const StageRatios first = RatiosOf(model, nominal), parameters = RatiosOf(model, base);
+  StageRatios end = RatiosOf(model, last);
+  double explained = out.closure.explained;
+  if (!any) out.shaped.reset();
+  if (out.shaped && out.shaped->Answered() < end.Answered()) {
+    end = *out.shaped;
+    explained = std::max(explained, ShareOfAllRecords(parameters, end));
+  }
   const double share = ShareOfAllRecords(parameters, end);
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
-  const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, named);
-  if (any && !established) out.adopted.clear();
+  const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, explained, named);
+  if (any && !established) {
+    out.adopted.clear();
+    out.shaped.reset();
+  }
   const ParameterNeed need =
       NeedOf(model, established ? last : base, out.effective_sample_size, out.warnings);
   out.verdict = VerdictOf(first, parameters, need,
@@ -95,6 +118,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);
+  if (out.shaped) SayShape(last, out);
 }
 
 void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out) {

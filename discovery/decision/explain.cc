@@ -123,7 +123,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   Polish(now);
   DropSizeless(base, now);
   DropNuisances(base, now);
-  if (TryNuisances(now, false)) {
+  if (!ShapeExplainsAll() && TryNuisances(now, false)) {
     if (options_.clocks && FindLateRows(now)) return;
     base = FitNow(base.hypothesis, nullptr);
     for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)

@@ -3,6 +3,7 @@
 /// unseen records, repetition, backward check, verdict. Method: docs/theory/discovery.md.
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,8 @@ struct Explanation {
   // of every further effect adopted, by its name: the same as ranking and set
   std::map<std::string, std::vector<RankedEffect>> beside;
   std::map<std::string, std::vector<SetMember>> further_sets;
+  // what the law of the first effect adopted leaves in a free shape (`ambrig refine`), where that was tried
+  std::optional<StageRatios> shaped;
   Closure closure;
   Remainder remainder;
   std::vector<DataFault> data;

@@ -62,6 +62,8 @@ class Explainer {
   /// The point itself, with its sensitivities.
   FitResult At(const Hypothesis& h) const;
   bool Finished(const FitResult& now) const;
+  /// One effect was adopted whose law in a free shape leaves the noise: what the catalogue's law leaves is its own.
+  bool ShapeExplainsAll() const;
   double ScoreOf(const FitResult& fit) const;
   double Gain(const FitResult& before, const FitResult& after) const;
   /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.

@@ -10,8 +10,14 @@
 #include "discovery/decision/where_it_acts.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
+#include "discovery/shape/shape_names.h"
 
 namespace ambrig {
+
+namespace {
+// Error over the noise that the free shape of one law leaves, below which no further effect is sought.
+constexpr double kShapeExplains = 1.08;
+}  // namespace
 
 /// An effect that the last fit leaves without a size goes again.
 void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
@@ -30,7 +36,12 @@ void Explainer::DropSizeless(const FitResult& base, FitResult& now) {
   DropSizeless(base, now);
 }
 
+bool Explainer::ShapeExplainsAll() const {
+  return out_.adopted.size() == 1 && out_.shaped && out_.shaped->Answered() < kShapeExplains;
+}
+
 bool Explainer::Finished(const FitResult& now) const {
+  if (ShapeExplainsAll()) return true;
   // Nothing that an effect could still win (see WorthAdopting), with parameters that can be
   // believed. An effect of one sensor shows in few channels of many; beside an effect, what is left
   // in some is a detail of its law.
@@ -45,25 +56,34 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   // what nuisances explain that nobody declared leaves a detail as a law does
   const bool differ = full_.nuisances.any() && !full_.data().nuisances.any();
   const double from = 0.08 + 0.3 * round;
-  EffectRound ranked =
-      RankEffects({full_, model_, bank_, out_.effective_sample_size, options_.candidates,
-                   [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }},
-                  now, round);
+  const RoundSetting setting = {
+      full_,
+      model_,
+      bank_,
+      out_.effective_sample_size,
+      options_.candidates,
+      [&](double f, const std::string& text) { Progress(from + 0.3 * f, text); }};
+  EffectRound ranked = RankEffects(setting, now, round);
+  JudgeByShape(setting, now, round, ranked.ranking);
   const std::vector<RankedEffect>& ranking = ranked.ranking;
   if (round == 0) out_.screened = std::move(ranked.screened);
   (round == 0 ? out_.ranking : out_.second_round) = ranking;
   rounds_.emplace_back();
   for (const RankedEffect& r : ranking)
-    rounds_.back().push_back({r.effect, r.probability, r.fit.ratio_fit});
+    rounds_.back().push_back({r.effect, r.probability, r.RatioFit()});
   bool worth = false;
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
     if (!HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return false;
-    const double gain = Gain(now, r.fit);
-    worth = WorthAdopting(now, r.fit, gain, round + (differ ? 1 : 0), first_fall_);
+    const double gain = ScoreOf(now) - r.score;
+    FitResult seen = r.fit;  // with what the shape of its law leaves
+    seen.ratio_fit = r.RatioFit();
+    seen.ratio_validate = r.RatioUnseen();
+    worth = WorthAdopting(now, seen, gain, round + (differ ? 1 : 0), first_fall_);
     return worth || ExplainsItsChannels(model_, now, r.fit, gain, round == 0);
   });
   if (best == ranking.end()) return false;
   if (!worth) of_own_channels_.push_back(Named(best->effect));
+  if (round == 0) out_.shaped = best->shaped;
   first_fall_ = std::max(first_fall_, now.ratio_validate * now.ratio_validate -
                                           best->fit.ratio_validate * best->fit.ratio_validate);
   // Only the best were fitted to the end.
@@ -90,7 +110,7 @@ void Explainer::Release(FitResult& now) {
 /// file's: what seems unexplained may be noise of the model found. True when the floor was
 /// renewed.
 bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult& now) {
-  if (out_.adopted.empty() || now.ratio_validate < 1.5 ||
+  if (out_.adopted.empty() || now.ratio_validate < 1.5 || ShapeExplainsAll() ||
       ExplainedShare(base.ratio_validate, now.ratio_validate) > 0.9)
     return false;
   Progress(0.86, "noise floor of the model found");

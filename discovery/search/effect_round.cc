@@ -26,9 +26,10 @@ bool Promising(const FitResult& now, const Candidate& c) {
 }
 
 /// Of fitted and unseen records alike.
-double BothRatios(const FitResult& fit) {
-  return std::hypot(fit.ratio_fit, fit.ratio_validate) / std::sqrt(2.0);
+double BothRatios(double fitted, double unseen) {
+  return std::hypot(fitted, unseen) / std::sqrt(2.0);
 }
+double BothRatios(const FitResult& fit) { return BothRatios(fit.ratio_fit, fit.ratio_validate); }
 
 /// The best fit so far explains nearly all, and this candidate promises far less.
 bool Decided(const FitResult& now, const std::vector<RankedEffect>& ranking,
@@ -198,7 +199,7 @@ void SetProbabilities(const FitResult& before, std::vector<RankedEffect>& rankin
   std::vector<double> scores, shares;
   for (const RankedEffect& r : ranking) {
     scores.push_back(r.score);
-    shares.push_back(ExplainedShare(BothRatios(before), BothRatios(r.fit)));
+    shares.push_back(ExplainedShare(BothRatios(before), BothRatios(r.RatioFit(), r.RatioUnseen())));
   }
   const std::vector<double> probability = Probabilities(scores, shares);
   for (std::size_t k = 0; k < ranking.size(); ++k) ranking[k].probability = probability[k];

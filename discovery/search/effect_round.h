@@ -2,9 +2,11 @@
 /// One round of explain: every effect screened linearly, the best fitted to the records, ranked by
 /// what they explain. Method: docs/theory/discovery.md.
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "discovery/decision/decide.h"
 #include "discovery/search/screen.h"
 
 namespace ambrig {
@@ -14,6 +16,12 @@ struct RankedEffect {
   EffectInstance effect;  // fitted values and sd
   double score = 0, probability = 0;
   double screened_ratio = 0;  // what the linear screening promised on unseen records
+  // what the law leaves in a free shape (discovery/shape/shape_names.h), where that was tried and is less
+  std::optional<StageRatios> shaped;
+
+  /// Errors over the noise that count for the name: of the free shape, else of the fit.
+  double RatioFit() const { return shaped ? shaped->fit : fit.ratio_fit; }
+  double RatioUnseen() const { return shaped ? shaped->validate : fit.ratio_validate; }
 };
 
 /// "eddy-currents at A"

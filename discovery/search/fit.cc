@@ -145,10 +145,7 @@ bool EvaluateAtPoint(const CaseModel& model, const QuickLook* look, FitResult& r
   result.ratio_fit = Ratio(model, result.residual, Which::kFit);
   result.ratio_validate = Ratio(model, result.residual, Which::kValidate);
   if (result.ratio_validate == 0) result.ratio_validate = result.ratio_fit;
-  result.penalty = 0;
-  for (std::size_t k = 0; k < result.hypothesis.free.size(); ++k)
-    if (result.hypothesis.free[k].sd > 0)
-      result.penalty += std::pow(PriorResidual(result.hypothesis.Coordinate(k)), 2);
+  result.penalty = PriorPenalty(result.hypothesis);
   return true;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The least-squares problem of a fit, without its solver. Internal to discovery/search/fit.cc.
+/// The least-squares problem of a fit, without its solver. Internal to discovery.
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +30,13 @@ inline double PriorResidual(double sds) {
   return sds + std::copysign((kBeyond - 1) * std::max(0.0, std::abs(sds) - kBelieved), sds);
 }
 inline double PriorSlope(double sds) { return std::abs(sds) > kBelieved ? kBeyond : 1; }
+/// Σ of their squares over the rig parameters of `h`.
+inline double PriorPenalty(const Hypothesis& h) {
+  double sum = 0;
+  for (std::size_t k = 0; k < h.free.size(); ++k)
+    if (h.free[k].sd > 0) sum += std::pow(PriorResidual(h.Coordinate(k)), 2);
+  return sum;
+}
 
 /// The fitted records, or those of them that the options name: unseen ones are simulated at the end.
 inline QuickLook FittedRecords(const CaseModel& model, const FitOptions& options) {

@@ -159,22 +159,26 @@ Shape EddyShape(const EffectInstance& named, const RigParameters& rig) {
 }
 
 Shape HysteresisShape(const EffectInstance& named, const ShapeReach& reach) {
+  constexpr double kOfWidestLoop =
+      3;  // times the law's: how far the operators reach, if any flux does
   Shape s;
   s.effect = MakeInstance(EffectNamed("play-hysteresis"), named.target);
-  const double width = std::min(reach.density, 2 * named.Value("width")),
+  const double of_law = named.Value("width"),
+               width = std::min(reach.density, kOfWidestLoop * of_law),
                coercive = named.Value("coercive");
   s.effect.Set("width", width);
   std::vector<double> sizes;
+  s.step = Eigen::VectorXd(kPlayOperators);
   for (int k = 1; k <= kPlayOperators; ++k) {
-    const double r = width * k / kPlayOperators;
+    const double r = width * PlayRadius(k), below = width * PlayRadius(k - 1);
     s.knots.push_back(r);
-    sizes.push_back(r - width / kPlayOperators < named.Value("width") ? 1 : 0);
+    // the law's radii are evenly spread up to its width
+    sizes.push_back(std::min(r, of_law) - std::min(below, of_law));
+    s.step(k - 1) = std::max(0.3 * coercive * std::sqrt(PlayRadius(k) - PlayRadius(k - 1)), 1e-6);
   }
-  double sum = 0;
-  for (const double c : sizes) sum += c;
+  const double sum = std::min(width, of_law);
   for (double& c : sizes) c *= coercive / sum;
   AddSizes(s, 1, sizes);
-  s.step = Eigen::VectorXd::Constant(kPlayOperators, std::max(0.3 * coercive / sum, 1e-6));
   s.roughness = Differences(kPlayOperators, 1);
   s.u_name = "flux density after leaving the virgin state";
   s.u_unit = "T";
@@ -184,7 +188,7 @@ Shape HysteresisShape(const EffectInstance& named, const ShapeReach& reach) {
   s.value = [width](const std::vector<double>& c, double u) {
     double value = 0;
     for (int k = 1; k <= kPlayOperators; ++k)
-      value += c[static_cast<std::size_t>(k) - 1] * std::min(1.0, u / (width * k / kPlayOperators));
+      value += c[static_cast<std::size_t>(k) - 1] * std::min(1.0, u / (width * PlayRadius(k)));
     return value;
   };
   return s;

@@ -152,8 +152,10 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
   out.target = named.target;
   progress(0.5, "where the records drive the law");
   out.shape = ShapeOf(named, c.rig, ReachOf(thin, law.fit.hypothesis, named));
-  out.fit = FitShape(thin, WithoutEffect(law.fit.hypothesis, law.index), out.shape, n,
-                     [&](double f, const std::string& t) { progress(0.55 + 0.35 * f, t); });
+  ShapeFitOptions shape_options;
+  shape_options.effective_sample_size = n;
+  shape_options.progress = [&](double f, const std::string& t) { progress(0.55 + 0.35 * f, t); };
+  out.fit = FitShape(thin, WithoutEffect(law.fit.hypothesis, law.index), out.shape, shape_options);
   if (!out.fit.fit.converged)
     throw InputError(
         fmt::format("{}: the shape that starts at the fitted {} loses the rotor", c.file, effect));

@@ -9,6 +9,7 @@
 #include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
+#include "discovery/search/fit_problem.h"
 #include "discovery/search/signature_bank.h"
 
 namespace ambrig {
@@ -18,6 +19,7 @@ using Eigen::Index;
 namespace {
 
 constexpr int kIterations = 6;
+constexpr double kOfRigSd = 0.3;     // of an sd, for sensitivities of the rig parameters
 constexpr double kDifference = 0.1;  // of a step, for sensitivities of the sizes
 constexpr double kSpread = 10;       // prior sd of a size, in steps: the roughness is the prior
 constexpr double kEnough = 1e-3;     // relative fall of the cost that ends the iteration
@@ -25,10 +27,16 @@ constexpr double kEnough = 1e-3;     // relative fall of the cost that ends the 
 /// Gauss-Newton about one point, in coordinates (steps).
 class ShapeProblem {
  public:
-  ShapeProblem(const CaseModel& model, const Hypothesis& base, const Shape& shape, double n)
-      : model_(model), shape_(shape), n_(n) {
+  ShapeProblem(const CaseModel& model, const Hypothesis& base, const Shape& shape,
+               const ShapeFitOptions& options)
+      : model_(model),
+        shape_(shape),
+        n_(options.effective_sample_size),
+        look_(FittedRecords(model, FitOptions())) {
     now_.hypothesis = base;
     first_ = static_cast<Index>(base.free.size());
+    if (options.base_jacobian && options.base_jacobian->cols() == first_)
+      rig_ = *options.base_jacobian;
     AddShape();
     all_ = static_cast<Index>(now_.hypothesis.free.size());
   }
@@ -40,6 +48,8 @@ class ShapeProblem {
     at.residual = Residual(model_, at.predicted);
     at.ratio_fit = Ratio(model_, at.residual, Which::kFit);
     at.ratio_validate = Ratio(model_, at.residual, Which::kValidate);
+    if (at.ratio_validate == 0) at.ratio_validate = at.ratio_fit;
+    at.penalty = PriorPenalty(at.hypothesis);
     at.converged = true;
     return true;
   }
@@ -50,13 +60,13 @@ class ShapeProblem {
     if (rig_.size() == 0 || fresh) {
       std::vector<std::size_t> own;
       for (Index k = 0; k < first_; ++k) own.push_back(static_cast<std::size_t>(k));
-      rig_ = Jacobian(model_, now_.hypothesis, own);
+      rig_ = Jacobian(model_, now_.hypothesis, own, kOfRigSd, &look_);
     }
     std::vector<std::size_t> sizes;
     for (Index k = first_; k < all_; ++k) sizes.push_back(static_cast<std::size_t>(k));
     columns.leftCols(first_) = rig_;
     columns.middleCols(first_, all_ - first_) =
-        Jacobian(model_, now_.hypothesis, sizes, kDifference);
+        Jacobian(model_, now_.hypothesis, sizes, kDifference, &look_);
     columns.col(all_) =
         Eigen::Map<const Eigen::VectorXd>(now_.residual.data(), static_cast<Index>(model_.size()));
     gram_ = RowProducts(model_, columns, columns).fit;
@@ -180,6 +190,7 @@ class ShapeProblem {
   const CaseModel& model_;
   const Shape& shape_;
   double n_, weight_ = 1;
+  const QuickLook look_;  // at the fitted records: the sensitivities need no others
   Index first_ = 0, all_ = 0;
   Eigen::MatrixXd rig_, gram_;
 };
@@ -225,9 +236,8 @@ double ShapeFit::Support(const Shape& shape, double u) const {
 }
 
 ShapeFit FitShape(const CaseModel& model, const Hypothesis& base, const Shape& shape,
-                  double effective_sample_size,
-                  const std::function<void(double, const std::string&)>& progress) {
-  ShapeProblem problem(model, base, shape, effective_sample_size);
+                  const ShapeFitOptions& options) {
+  ShapeProblem problem(model, base, shape, options);
   ShapeFit out;
   if (!problem.Evaluate(problem.now_)) {
     out.fit = problem.now_;
@@ -236,16 +246,18 @@ ShapeFit FitShape(const CaseModel& model, const Hypothesis& base, const Shape& s
   }
   double smoothing = 1;
   for (; out.iterations < kIterations; ++out.iterations) {
-    if (progress)
-      progress(static_cast<double>(out.iterations) / kIterations,
-               fmt::format("shape, step {}", out.iterations + 1));
-    problem.Linearise(out.iterations == 2);
+    if (options.progress)
+      options.progress(static_cast<double>(out.iterations) / kIterations,
+                       fmt::format("shape, step {}", out.iterations + 1));
+    problem.Linearise(out.iterations == 2 && !options.base_jacobian);
     const ShapeProblem::Step step = problem.BestStep();
     smoothing = step.smoothing;
     if (Follow(problem, step) < kEnough) break;
   }
-  problem.Linearise(false);
-  problem.Describe(smoothing, out);
+  if (options.describe) {
+    problem.Linearise(false);
+    problem.Describe(smoothing, out);
+  }
   out.fit = problem.now_;
   for (const std::size_t row : shape.rows)
     out.sizes.push_back(out.fit.hypothesis.rig.effects.back().values[row]);

@@ -24,10 +24,17 @@ struct ShapeFit {
   double Support(const Shape& shape, double u) const;
 };
 
+struct ShapeFitOptions {
+  double effective_sample_size = 1;  // independent numbers among the residuals
+  std::function<void(double, const std::string&)> progress = {};
+  // of the rig parameters and effects of the base, kept throughout; null: taken at the start and once more
+  const Eigen::MatrixXd* base_jacobian = nullptr;
+  bool describe = true;  // posterior, prior and influence of the sizes
+};
+
 /// `base`: what is believed, without the effect that the shape replaces.
 ShapeFit FitShape(const CaseModel& model, const Hypothesis& base, const Shape& shape,
-                  double effective_sample_size,
-                  const std::function<void(double, const std::string&)>& progress);
+                  const ShapeFitOptions& options);
 
 /// The hypothesis without effect number `index`.
 Hypothesis WithoutEffect(const Hypothesis& h, std::size_t index);

@@ -111,6 +111,8 @@ INSTANTIATE_TEST_SUITE_P(
                     OneLaw{"saturation", "A", {{"knee", 0.3}, {"path", 0.1}}},
                     OneLaw{"hysteresis", "A", {{"coercive", 0.2}, {"width", 0.1}}},
                     OneLaw{"eddy-currents", "A", {{"cutoff", 400}}},
+                    OneLaw{"eddy-impedance", "A", {{"path", 1e-5}, {"r4", 0.2}, {"r9", 5}}},
+                    OneLaw{"play-hysteresis", "A", {{"width", 0.2}, {"c3", 0.03}, {"c7", 0.1}}},
                     OneLaw{"hysteresis", "Z", {{"coercive", 0.2}, {"width", 0.1}}},
                     OneLaw{"eddy-currents", "Z", {{"cutoff", 400}, {"path", 3e-5}}}));
 

@@ -99,7 +99,7 @@ TEST(PlayHysteresis, EveryOperatorHasItsOwnLoop) {
         PlantWith("play-hysteresis", "A", {{"width", 0.4}, {"c" + std::to_string(k), 0.1}});
     FluxLaw& law = *plant.bearings[0].laws.at(0);
     const double per_tesla = 1 / DensityPerFlux(plant.bearings[0]),
-                 mmf = 0.1 * std::abs(plant.bearings[0].lanes.n[0]), r = 0.4 * k / 8, B = 0.7;
+                 mmf = 0.1 * std::abs(plant.bearings[0].lanes.n[0]), r = 0.4 * k * k / 64, B = 0.7;
     law.Settle(Lane{});
     double area = 0, last = 0, last_drop = 0;
     const int steps = 8000;

@@ -29,7 +29,7 @@ std::vector<EffectInstance> TwoWidths(LawSetting s) {
   const double width = s.draw.Log(0.3, 0.7), share_of_wide = s.draw.Between(0.3, 0.7);
   const auto wide = 5 + s.draw.Of(3);
   double share[kPlayOperators] = {};
-  share[s.draw.Of(2)] = 1 - share_of_wide;
+  share[2 + s.draw.Of(2)] = 1 - share_of_wide;  // a seventh or a quarter of the width
   share[wide] = share_of_wide;
   return {Operators(s, width, share, 0.05 * s.size)};
 }

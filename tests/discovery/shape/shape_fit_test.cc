@@ -6,48 +6,14 @@
 
 #include <cmath>
 
-#include "core/math/noise.h"
-#include "discovery/practice/examination.h"
 #include "discovery/shape/named_law.h"
 #include "effects/steel_curve.h"
-#include "tests/effects/effect_rigs.h"
+#include "tests/discovery/shape/held_case.h"
 
 namespace ambrig {
 namespace {
 
-constexpr double kFloorOfForce = 0.05, kFloorOfCurrent = 0.002;       // [N], [A]
 constexpr double kHeldKnee = 0.5, kSteel = 0.05, kHeldPath = 1.5e-5;  // [T], [m], [m]
-
-/// Bearing A held off centre, four coils ramped; `data` is filled by the caller.
-Case HeldCase() {
-  RigParameters rig = ReferenceRig();
-  rig.tolerances.clear();
-  std::string text =
-      "name = \"held\"\nrig = \"rig.toml\"\nduration = 0.02\nrecord_rate = 12500.0\nseed = 1\n"
-      "noise = false\nfault_tolerance = false\n[start]\nstate = \"clamped\"\n"
-      "position = { A = [3e-5, 0.0], B = [0.0, 0.0] }\n[speed]\nprofile = [[0.0, 0.0], [0.02, "
-      "0.0]]\n";
-  for (int j = 1; j <= 8; ++j) {
-    text += "[[excitation]]\ntarget = \"A.coil" + std::to_string(j) +
-            "\"\nport = \"current\"\nkind = \"step\"\nstart = 0.0\nstop = 0.02\namplitude = 1.0\n";
-    if (j < 3 || j > 6) continue;
-    text += "[[excitation]]\ntarget = \"A.coil" + std::to_string(j) +
-            "\"\nport = \"current\"\nkind = \"ramp\"\nstart = 0.001\nstop = 0.019\namplitude = " +
-            std::to_string(0.8 * rig.amplifier.i_max - 1) + "\n";
-  }
-  return EmptyCase(rig, {{"held", text, false, false}});
-}
-
-void Measure(const CaseModel& model, const Hypothesis& truth, Case& c) {
-  const Record run = model.Simulated(truth, 0, false, 1);
-  std::uint32_t stream = 0;
-  for (Channel& ch : c.records[0].data.channels) {
-    ++stream;
-    const double noise = ch.name.find(".f") != std::string::npos ? kFloorOfForce : kFloorOfCurrent;
-    for (std::size_t k = 0; k < ch.samples.size(); ++k)
-      ch.samples[k] = run.Find(ch.name)->samples[k] + noise * Normal(5, stream, k);
-  }
-}
 
 double TrueDrop(double B) {
   double H, slope;
@@ -55,37 +21,10 @@ double TrueDrop(double B) {
   return kSteel * H + kHeldPath * B / kMu0;
 }
 
-struct HeldShape {
-  HeldShape() : data(HeldCase()) {
-    const CaseModel empty(data);
-    truth = Hypothesis::Base(data.rig);
-    for (const EffectInstance& e :
-         {[] {
-            EffectInstance s = MakeInstance(EffectNamed("saturation"), "A");
-            s.Set("knee", kHeldKnee);
-            s.Set("path", kSteel);
-            return s;
-          }(),
-          [] {
-            EffectInstance s = MakeInstance(EffectNamed("iron-reluctance"), "A");
-            s.Set("path", kHeldPath);
-            return s;
-          }()})
-      truth.rig.effects.push_back(e);
-    Measure(empty, truth, data);
-    for (Channel& ch : data.records[0].data.channels)
-      if (ch.name[0] != 'A' || (ch.name[2] != 'i' && ch.name[2] != 'f'))
-        data.records[0]
-            .quality[static_cast<std::size_t>(&ch - data.records[0].data.channels.data())]
-            .use = false;
-    model = std::make_unique<CaseModel>(data);
-    for (Target& t : model->targets())
-      t.floor =
-          data.records[0].data.channels[t.channel].name[2] == 'f' ? kFloorOfForce : kFloorOfCurrent;
-  }
-  Case data;
-  Hypothesis truth;
-  std::unique_ptr<CaseModel> model;
+struct HeldShape : HeldIron {
+  HeldShape()
+      : HeldIron({IronAtA("saturation", {{"knee", kHeldKnee}, {"path", kSteel}}),
+                  IronAtA("iron-reluctance", {{"path", kHeldPath}})}) {}
 };
 
 TEST(ShapeFit, FindsACurveOfAnotherForm) {
@@ -103,7 +42,7 @@ TEST(ShapeFit, FindsACurveOfAnotherForm) {
   catalogue.rig.effects.push_back(named);
   const double before =
       Ratio(*held.model, Residual(*held.model, *held.model->Predict(catalogue)), Which::kFit);
-  const ShapeFit fit = FitShape(*held.model, Hypothesis::Base(held.data.rig), shape, 2000, nullptr);
+  const ShapeFit fit = FitShape(*held.model, Hypothesis::Base(held.data.rig), shape, {2000});
   ASSERT_TRUE(fit.fit.converged);
   EXPECT_GT(before, 2);
   EXPECT_LT(fit.fit.ratio_fit, 1.1);
@@ -128,7 +67,7 @@ TEST(ShapeFit, ClaimsNothingWhereNoRecordGoes) {
   named.Set("knee", 0.5);
   named.Set("path", 0.06);
   const Shape shape = ShapeOf(named, held.data.rig, {.density = 2 * reach});
-  const ShapeFit fit = FitShape(*held.model, Hypothesis::Base(held.data.rig), shape, 2000, nullptr);
+  const ShapeFit fit = FitShape(*held.model, Hypothesis::Base(held.data.rig), shape, {2000});
   EXPECT_LT(fit.influence.back(), 1);
   // Records only take away from what the penalty alone leaves, and at the end nearly nothing.
   ASSERT_EQ(fit.prior.rows(), static_cast<Eigen::Index>(fit.sizes.size()));

@@ -65,18 +65,20 @@ TEST(Shape, StartsAtTheDiffusionLaw) {
 TEST(Shape, HysteresisKeepsItsCoerciveCurrent) {
   const Shape s = ShapeOf(Named("hysteresis", {{"coercive", 0.08}, {"width", 0.2}}), ReferenceRig(),
                           {.density = 0.6});
-  EXPECT_NEAR(s.value(s.Sizes(), 0.4), 0.08, 1e-12);  // all operators slip beyond twice the width
+  EXPECT_NEAR(s.value(s.Sizes(), 0.6), 0.08,
+              1e-12);  // all operators slip beyond three times the width
 }
 
-// Operators narrower than the width share the coercive current, the wider ones start at nothing.
+// The law's radii are evenly spread up to its width: an operator stands for those next below its own radius.
 TEST(Shape, HysteresisStartsWithTheOperatorsOfItsWidth) {
   const Shape s = ShapeOf(Named("hysteresis", {{"coercive", 0.08}, {"width", 0.2}}), ReferenceRig(),
-                          {.density = 0.6});
-  const std::vector<double> sizes = s.Sizes();  // up to 0.4 T: half of them are narrower than 0.2 T
-  for (std::size_t k = 0; k < sizes.size(); ++k)
-    EXPECT_NEAR(sizes[k],
-                k < sizes.size() / 2 ? 0.08 / (0.5 * static_cast<double>(sizes.size())) : 0, 1e-12)
+                          {.density = 0.32});
+  const std::vector<double> sizes = s.Sizes();  // radii 0.32 T k²/64: the sixth is 0.18 T
+  for (int k = 1; k <= 6; ++k)
+    EXPECT_NEAR(sizes[static_cast<std::size_t>(k) - 1], 0.08 * (2 * k - 1) * 0.005 / 0.2, 1e-12)
         << k;
+  EXPECT_NEAR(sizes[6], 0.08 * (0.2 - 0.18) / 0.2, 1e-12);
+  EXPECT_EQ(sizes[7], 0);
   EXPECT_EQ(s.value_unit, "A");
   EXPECT_EQ(s.u_unit, "T");
 }

@@ -1,0 +1,107 @@
+#pragma once
+/// A sum of relaxations in series with a gap, for the lanes of a bearing (actuators/magnetics/law_loop.h):
+///
+///   M = Σ e_k + tail φ' + rest φ,   e_k' = w_k φ' - p_k e_k
+///
+/// With a flux linear over a step of h the relaxations are exact:
+///
+///   e_k <- a_k e_k + b_k Δφ,   a_k = exp(-p_k h),   b_k = w_k (1 - a_k)/(p_k h)
+///
+/// so that M is linear in the flux at the end of the step. At rest only `rest` is left.
+#include <cmath>
+
+#include "actuators/magnetics/law_loop.h"
+
+namespace ambrig {
+
+/// Coefficients of a step and what the flux has left behind.
+template <int kPoles>
+struct RelaxationState {
+  double a[kPoles] = {}, b[kPoles] = {};  // [-], [1/H]
+  double ab = 0;                          // Σ a_k b_k [1/H]
+  double moving = 0;                      // Σ b_k + tail/h: against a change of the flux [1/H]
+  double rest = 0;                        // [1/H]
+  double slope = 0;                       // moving + rest
+  Lane e[kPoles];                         // [A]
+  Lane phi;                               // committed [Wb]
+  Lane base;                              // drop of the next step less slope * φ [A]
+
+  /// `pole` [rad/s], `weight` [1/H], `tail` [s/H].
+  void SetStep(const double* pole, const double* weight, double tail, double h) {
+    moving = tail / h;
+    ab = 0;
+    for (int k = 0; k < kPoles; ++k) {
+      const double x = pole[k] * h;
+      a[k] = std::exp(-x);
+      b[k] = weight[k] * -std::expm1(-x) / x;
+      ab += a[k] * b[k];
+      moving += b[k];
+    }
+    slope = moving + rest;
+    Rebase();
+  }
+
+  void Settle(const Lane& at) {
+    for (Lane& one : e) one = Lane{};
+    phi = at;
+    Rebase();
+  }
+
+ private:
+  void Rebase() {
+    for (int j = 0; j < kLanes; ++j) {
+      double kept = 0;
+      for (int k = 0; k < kPoles; ++k) kept += a[k] * e[k][j];
+      base[j] = kept - moving * phi[j];
+    }
+  }
+};
+
+/// Σ x(k) over the poles, in pairs: no long chain of sums.
+template <int kPoles, class F>
+[[gnu::always_inline]] inline auto SumOverPoles(const F& x) {
+  static_assert(kPoles == 8 || kPoles == 10);
+  const auto eight = ((x(0) + x(1)) + (x(2) + x(3))) + ((x(4) + x(5)) + (x(6) + x(7)));
+  if constexpr (kPoles == 8)
+    return eight;
+  else
+    return decltype(eight)(eight + (x(8) + x(9)));
+}
+
+template <class V, int kPoles>
+class RelaxationKernel {
+ public:
+  static constexpr bool kLinear = true;
+  [[gnu::always_inline]] explicit RelaxationKernel(const RelaxationState<kPoles>& s)
+      : state_(s), phi_(LoadAs<V>(s.phi.v)), base_(LoadAs<V>(s.base.v)) {
+    for (int k = 0; k < kPoles; ++k) e_[k] = LoadAs<V>(s.e[k].v);
+  }
+  [[gnu::always_inline]] const V& Base() const { return base_; }
+  [[gnu::always_inline]] double Slope() const { return state_.slope; }
+  [[gnu::always_inline]] void Terms(const V& phi, V* drop, V* slope) const {
+    *drop = base_ + phi * state_.slope;
+    *slope = state_.slope;
+  }
+  [[gnu::always_inline]] void Commit(const V& phi) {
+    // Σ a_k e_k of the new e_k, in what is known before φ and what is not.
+    const auto& a = state_.a;
+    const V known = SumOverPoles<kPoles>([&](int k) __attribute__((always_inline)) {
+      return e_[k] * (a[k] * a[k]);
+    });
+    const V change = phi - phi_;
+    for (int k = 0; k < kPoles; ++k) e_[k] = e_[k] * a[k] + change * state_.b[k];
+    base_ = known + change * state_.ab - phi * state_.moving;
+    phi_ = phi;
+  }
+  [[gnu::always_inline]] void Keep(RelaxationState<kPoles>* s) const {
+    for (int k = 0; k < kPoles; ++k) Store(s->e[k].v, e_[k]);
+    Store(s->phi.v, phi_);
+    Store(s->base.v, base_);
+  }
+
+ private:
+  const RelaxationState<kPoles>& state_;
+  V e_[kPoles], phi_, base_;
+};
+
+}  // namespace ambrig

@@ -1,0 +1,74 @@
+// Iron whose law is of another form than the catalogue's keeps its name, because the law's shape is fitted.
+#include "discovery/shape/shape_names.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/discovery/shape/held_case.h"
+
+namespace ambrig {
+namespace {
+
+constexpr double kShapeN = 2000;
+
+struct Judged {
+  std::vector<RankedEffect> before, after;
+};
+
+Judged Judge(const std::vector<EffectInstance>& truth) {
+  const HeldIron held(truth);
+  FitOptions options;
+  options.effective_sample_size = kShapeN;
+  const FitResult base = Fit(*held.model, Hypothesis::Base(held.data.rig), options);
+  SignatureBank bank;
+  const RoundSetting setting = {*held.model, *held.model, bank,
+                                kShapeN,     3,           [](double, const std::string&) {}};
+  Judged out;
+  out.before = out.after = RankEffects(setting, base, 0).ranking;
+  JudgeByShape(setting, base, 0, out.after);
+  return out;
+}
+
+const RankedEffect* NamedIn(const std::vector<RankedEffect>& ranking, const std::string& name) {
+  for (const RankedEffect& r : ranking)
+    if (r.effect.name == name && r.effect.target == "A") return &r;
+  return nullptr;
+}
+
+// Neither law of the catalogue follows a ring that holds back a part of the flux; the free shape does.
+TEST(JudgeByShape, AClosedRingIsEddyCurrents) {
+  const Judged judged = Judge({IronAtA("eddy-impedance", {{"r3", 0.06}, {"r4", 0.04}})});
+  const RankedEffect& best = judged.after.at(0);
+  EXPECT_EQ(Named(best.effect), "eddy-currents at A");
+  EXPECT_GT(best.fit.ratio_fit, 1.5);
+  ASSERT_TRUE(best.shaped);
+  EXPECT_LT(best.RatioFit(), 1.05);
+  EXPECT_GT(best.probability, 0.95);
+}
+
+// Free relaxations come near to loops of two widths, nearer than the catalogue's diffusion by far; free operators are these
+// loops.
+TEST(JudgeByShape, LoopsOfTwoWidthsStayHysteresis) {
+  const Judged judged = Judge({IronAtA("hysteresis", {{"coercive", 0.05}, {"width", 0.02}}),
+                               IronAtA("hysteresis", {{"coercive", 0.08}, {"width", 0.25}})});
+  const RankedEffect& best = judged.after.at(0);
+  EXPECT_EQ(Named(best.effect), "hysteresis at A");
+  EXPECT_LT(best.RatioFit(), 1.03);
+  EXPECT_GT(best.probability, 0.99);
+  const RankedEffect* eddy = NamedIn(judged.after, "eddy-currents");
+  ASSERT_TRUE(eddy);
+  EXPECT_LT(eddy->RatioFit(), eddy->fit.ratio_fit - 0.2);
+}
+
+// A law that is exact and uncontested is not asked for its shape.
+TEST(JudgeByShape, LeavesAnExactLawAsItIs) {
+  const Judged judged = Judge({IronAtA("eddy-sleeve", {{"cutoff", 4000}})});
+  ASSERT_FALSE(judged.after.empty());
+  EXPECT_EQ(Named(judged.after[0].effect), "eddy-currents at A");
+  for (std::size_t k = 0; k < judged.after.size(); ++k) {
+    EXPECT_FALSE(judged.after[k].shaped);
+    EXPECT_EQ(judged.after[k].probability, judged.before[k].probability);
+  }
+}
+
+}  // namespace
+}  // namespace ambrig
