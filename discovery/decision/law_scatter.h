@@ -18,11 +18,11 @@ struct BlockValue {
 double VarianceBetween(const std::vector<BlockValue>& blocks);
 
 /// sd of the free parameters, their own units: that of the fit's covariance; where it is larger that of
-/// the scores summed block by block (White, 1980); and on top, in quadrature, the spread between blocks over the
-/// root of the number of records that have a say (of a rig parameter, the data's share of it, and never more than its drawing says). A block is
-/// one kind of channel in a third of a record, fitted or unseen. Of an effect's parameter that acts like a rig
-/// parameter, within what sensitivities err by, at least what the drawing leaves open of that one. `fit` with its sensitivities;
-/// `effective_sample_size` as in FitOptions.
+/// the scores summed block by block (White, 1980), of an effect's parameter that of a law whose error has 30
+/// independent numbers; and on top, in quadrature, the spread between blocks (of a rig parameter, the data's share of
+/// it, and never more than its drawing says). A block is one kind of channel in a third of a record, fitted or unseen.
+/// Of an effect's parameter that acts like a rig parameter, within what sensitivities err by, at least what the drawing
+/// leaves open of that one. `fit` with its sensitivities; `effective_sample_size` as in FitOptions.
 std::vector<double> SdUnderDoubt(const CaseModel& model, const FitResult& fit,
                                  double effective_sample_size);
 

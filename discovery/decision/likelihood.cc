@@ -7,7 +7,6 @@
 namespace ambrig {
 
 namespace {
-constexpr double kModelNumbers = 300;  // independent numbers in what a wrong law leaves
 // the floor comes from two runs with noise: known to about 1 % of its power
 constexpr double kFloorNumbers = 1e4;
 // price of one more kind of effect: the same cause twice is likelier than two
@@ -18,12 +17,13 @@ constexpr double kLawVariation = 0.35;
 
 int PricedParameters(int count) { return std::min(count, 6); }
 
-double MisfitWeight(double ratio, double n) {
-  return n / (1 + std::max(0.0, ratio * ratio - 1) * n / kModelNumbers);
+double MisfitWeight(double ratio, double n, double model_numbers) {
+  return n / (1 + std::max(0.0, ratio * ratio - 1) * n / model_numbers);
 }
 
-double RowWeight(const CaseModel& model, double ratio, double n) {
-  return MisfitWeight(ratio, n) / static_cast<double>(std::max<std::size_t>(1, model.size()));
+double RowWeight(const CaseModel& model, double ratio, double n, double model_numbers) {
+  return MisfitWeight(ratio, n, model_numbers) /
+         static_cast<double>(std::max<std::size_t>(1, model.size()));
 }
 
 double Misfit(double ratio, double n) {

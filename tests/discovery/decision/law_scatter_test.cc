@@ -67,12 +67,29 @@ TEST(SdUnderDoubt, OfAnotherLawHasTheSpreadOfWhatEachRecordAsksFor) {
       square += std::pow(weight * seen * (1 + o / kScatterX[r] - gain), 2);
     }
   const double sandwich = square / (information * information);
-  double sum = 0, squares = 0;  // what the records, the unseen one too, see of a gain
-  for (const double x : kScatterX) sum += x * x, squares += std::pow(x, 4);
-  const double of_law = VarianceBetween(blocks) * squares / (sum * sum);
-  const double expected = std::sqrt(std::max(fit.sd[0] * fit.sd[0], sandwich) + of_law);
+  const double of_law = VarianceBetween(blocks);
+  const double of_few =  // what the error of the law leaves of 30 independent numbers
+      fit.sd[0] * fit.sd[0] * weight * rows / MisfitWeight(fit.ratio_fit, kScatterN, 30);
+  const double expected = std::sqrt(std::max(of_few, sandwich) + of_law);
   EXPECT_NEAR(sd, expected, 0.02 * expected);
   EXPECT_GT(sd, 2 * fit.sd[0]);
+}
+
+// Where the parts of the records agree on a wrong value their spread says nothing: the error that the law leaves does.
+TEST(SdUnderDoubt, OfALawThatLeavesMuchIsThatOfFewNumbers) {
+  const LinearCase c(kScatterX, 1.08, 0);
+  FitResult fit = FittedGain(c);
+  constexpr double kMany = 1e4;
+  fit.ratio_fit = 1;
+  // at the noise: that of the fit, and what noise of so many numbers does not explain of the blocks' spread
+  const double between = std::pow(SdUnderDoubt(c.model, fit, kMany)[0], 2) - std::pow(fit.sd[0], 2);
+  EXPECT_GE(between, 0);
+  fit.ratio_fit = 1.3;
+  const double of_few =
+                   fit.sd[0] * std::sqrt(MisfitWeight(1.3, kMany) / MisfitWeight(1.3, kMany, 30)),
+               expected = std::sqrt(of_few * of_few + between);
+  EXPECT_GT(of_few, 3 * fit.sd[0]);
+  EXPECT_NEAR(SdUnderDoubt(c.model, fit, kMany)[0], expected, 0.02 * expected);
 }
 
 // What the drawing says is known from elsewhere and holds whatever the law.
