@@ -15,11 +15,14 @@ std::vector<EffectInstance> OffsetOfCurrent(LawSetting s) {
   // A junction's voltage grows with the logarithm of its current. The catalogue's law is a line: offset and resistance.
   const double u = s.draw.Sign() * 0.5 * s.size, share = s.draw.Between(0.3, 0.9),
                knee = s.draw.Log(0.3, 2);
-  // a formula of a whole bearing knows its coils by number
-  const char* current = s.target.find(".coil") == std::string::npos ? "i1" : "i";
-  return {FormulaAt(s.target,
-                    {{"voltage", fmt::format("{} * (1 + {} * ln(1 + abs({}) / {}))", Digits(u),
-                                             Digits(share), current, Digits(knee))}})};
+  const std::string law =
+      fmt::format("{} * (1 + {} * ln(1 + abs(i) / {}))", Digits(u), Digits(share), Digits(knee));
+  const BearingParameters* whole = s.rig.Find(s.target);
+  if (!whole) return {FormulaAt(s.target, {{"voltage", law}})};
+  std::vector<EffectInstance> out;  // each coil's own current
+  for (int j = 1; j <= whole->coils(); ++j)
+    out.push_back(FormulaAt(fmt::format("{}.coil{}", s.target, j), {{"voltage", law}}));
+  return out;
 }
 
 std::vector<EffectInstance> SensorOfTwoErrors(LawSetting s) {

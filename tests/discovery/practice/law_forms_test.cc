@@ -32,7 +32,7 @@ class LawForm : public ::testing::TestWithParam<std::uint64_t> {
   /// The formula of a quantity at named values, the others 0.
   static double At(const EffectInstance& e, const std::string& quantity,
                    const std::map<std::string, double>& values) {
-    std::vector<std::string> names = {"x", "y", "vx", "vy", "theta", "omega", "t", "bus"};
+    std::vector<std::string> names = {"x", "y", "vx", "vy", "theta", "omega", "t", "bus", "i"};
     std::vector<double> numbers;
     for (const std::string& name : names)
       numbers.push_back(values.contains(name) ? values.at(name) : 0);
@@ -130,6 +130,21 @@ TEST_P(LawForm, GainOfTwoSides) {
 }
 
 // Each axis turns by its own angle: 0.04 rad, and six to eight and a half tenths of it.
+// Of a whole bearing every coil's voltage follows the coil's own current: as the logarithm far above the knee.
+TEST_P(LawForm, OffsetOfEveryCoilsOwnCurrent) {
+  const std::vector<EffectInstance> all = Make("offset-of-current", "A");
+  ASSERT_EQ(all.size(), 8u);
+  for (std::size_t j = 0; j < all.size(); ++j) {
+    EXPECT_EQ(all[j].target, "A.coil" + std::to_string(j + 1));
+    const auto at = [&](double i) { return At(all[j], "voltage", {{"i", i}}); };
+    EXPECT_NEAR(std::abs(at(0)), 0.5, 1e-12);
+    EXPECT_GT(std::abs(at(2)), std::abs(at(1)));
+    EXPECT_EQ(at(2), at(-2));
+    EXPECT_NEAR((at(4e4) - at(2e4)) / (at(2e4) - at(1e4)), 1, 1e-3);
+  }
+  EXPECT_EQ(Make("offset-of-current", "A.coil3").size(), 1u);
+}
+
 TEST_P(LawForm, AxesThatAreNotSquare) {
   const EffectInstance e = Make("axes-skew", "A").at(0);
   const double a = std::atan2(At(e, "reading.x", {{"y", 1}}), At(e, "reading.x", {{"x", 1}})),
