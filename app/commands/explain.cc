@@ -54,6 +54,9 @@ void PrintRanking(const std::vector<RankedEffect>& ranking, std::size_t most, bo
                r.fit.ratio_fit, r.fit.ratio_validate);
     if (const std::string text = ShortParametersText(r.effect); !text.empty())
       PrintWrapped("       " + text, 7);
+    if (r.shaped)
+      fmt::print("{:<58}{:>8.3f} {:>8.3f}\n", "       with the shape of its law free",
+                 r.shaped->fit, r.shaped->validate);
   }
 }
 
@@ -107,6 +110,9 @@ void PrintNextCommand(const Explanation& e, const std::string& file) {
   if (count > 1) fmt::print("to tell them apart: ambrig plan {} --between{}\n", file, names);
   fmt::print("to add it to the rig file: ambrig adopt {} {} --target {}\n", file, e.adopted[0].name,
              e.adopted[0].target);
+  if (e.shaped && e.nuisances.empty())
+    fmt::print("to fit the shape of its law: ambrig refine {} {}@{}\n", file, e.adopted[0].name,
+               e.adopted[0].target);
 }
 
 void PrintExplanation(const Explanation& e, bool unseen) {

@@ -217,6 +217,11 @@ void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
                       "file and compares again.",
                       c.file, a.name, a.target));
     }
+    if (e.shaped && e.nuisances.empty())
+      next.push_back(fmt::format(
+          "The shape of its law leaves less than the catalogue's law: `ambrig refine {} "
+          "{}@{}` fits it and writes a new rig file.",
+          c.file, e.adopted[0].name, e.adopted[0].target));
   }
   if (e.verdict == "parameters")
     next.push_back("Correct the rig file: the table above says which numbers moved.");

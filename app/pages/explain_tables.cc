@@ -36,6 +36,8 @@ std::string SecondCaption(const Explanation& e) {
 
 void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,
                   const Explanation& e, bool first_round, bool unseen) {
+  const bool shapes =
+      std::ranges::any_of(ranking, [](const auto& r) { return r.shaped.has_value(); });
   std::vector<std::vector<Cell>> rows;
   for (std::size_t k = 0; k < ranking.size(); ++k) {
     const RankedEffect& r = ranking[k];
@@ -44,21 +46,29 @@ void RankingTable(HtmlReport& report, const std::vector<RankedEffect>& ranking,
                              fmt::format("{:.1f} %", 100 * r.probability)};
     if (first_round) row.push_back(fmt::format("{:.3f}", e.base_ratio_validate));
     const bool held = std::isfinite(r.fit.ratio_fit);
-    row.insert(row.end(),
-               {held ? fmt::format("{:.3f}", r.fit.ratio_validate) : "loses the rotor",
-                held ? fmt::format("{:.3f}", r.fit.ratio_fit) : "–", ParametersText(r.effect)});
+    row.insert(row.end(), {held ? fmt::format("{:.3f}", r.fit.ratio_validate) : "loses the rotor",
+                           held ? fmt::format("{:.3f}", r.fit.ratio_fit) : "–"});
+    if (shapes)
+      row.push_back(r.shaped ? fmt::format("{:.3f} / {:.3f}", r.shaped->validate, r.shaped->fit)
+                             : "");
+    row.push_back(ParametersText(r.effect));
     rows.push_back(row);
   }
   std::vector<std::string> columns = {"", "effect", "probability"};
   const std::string of = unseen ? "unseen" : "all";
   if (first_round) columns.push_back(of + ", before");
-  columns.insert(columns.end(), {of + (first_round ? ", with it" : ", with it too"),
-                                 "fitted, with it", "parameters ± sd"});
+  columns.insert(columns.end(),
+                 {of + (first_round ? ", with it" : ", with it too"), "fitted, with it"});
+  if (shapes) columns.push_back(of + " / fitted, free shape");
+  columns.push_back("parameters ± sd");
   report.Table(columns, rows,
                first_round
                    ? std::string("Candidates fitted in full, best first. *Before*: rig parameters "
                                  "fitted, no effect. Probabilities are relative to these "
                                  "candidates, with a penalty per parameter.") +
+                         (shapes ? " *Free shape*: with the shape of its law fitted too "
+                                   "(`ambrig refine`); that error counts for the name."
+                                 : "") +
                          (e.verdict == "unknown" ? " No candidate met the acceptance criterion: "
                                                    "the best one leaves too large a residual."
                                                  : "")
@@ -92,48 +102,6 @@ void AddRanking(HtmlReport& report, const Explanation& e, bool unseen) {
   std::set<std::string> told;
   for (const RankedEffect& r : e.ranking) AboutEffect(report, r, told);
   if (!e.second_round.empty()) AboutEffect(report, e.second_round.front(), told);
-}
-
-void AddScreening(HtmlReport& report, const Explanation& e, bool unseen) {
-  if (e.screened.empty()) return;
-  report.Heading("Screening of all effects", 3);
-  std::vector<std::string> names;
-  std::vector<double> ratios;
-  const std::string of = unseen ? "unseen records" : "all records";
-  for (std::size_t k = 0; k < e.screened.size() && k < 15; ++k) {
-    names.push_back(EffectName(e.screened[k].effect));
-    ratios.push_back(e.screened[k].ratio_validate);
-  }
-  Grid grid;
-  grid.panel_height = std::max(120, 22 * static_cast<int>(names.size()));
-  Figure figure = MakeFigure(
-      fmt::format("Screening: the error over noise that each effect at each target would leave on "
-                  "{}, estimated from a few simulations (linear). The best {} of {}, by {} "
-                  "and the number of their parameters. Dashed: without any effect.",
-                  of, names.size(), e.screened.size(), unseen ? "fit and unseen records" : "fit"),
-      grid);
-  figure.traces.push_back({{"type", "bar"},
-                           {"orientation", "h"},
-                           {"name", of},
-                           {"x", Numbers(ratios)},
-                           {"y", names},
-                           {"xaxis", "x"},
-                           {"yaxis", "y"},
-                           {"texttemplate", "%{x:.3~g}"},
-                           {"marker", {{"color", "@blue"}}}});
-  SetAxes(figure, 0, "error / noise on " + of, "");
-  figure.layout["yaxis"].update(
-      {{"autorange", "reversed"}, {"automargin", true}, {"type", "category"}});
-  figure.layout["shapes"].push_back(
-      {{"type", "line"},
-       {"xref", "x"},
-       {"yref", "y domain"},
-       {"x0", e.base_ratio_validate},
-       {"x1", e.base_ratio_validate},
-       {"y0", 0},
-       {"y1", 1},
-       {"line", {{"color", "@red"}, {"width", 1.4}, {"dash", "dash"}}}});
-  report.AddFigure(figure);
 }
 
 namespace {

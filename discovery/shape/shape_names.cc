@@ -29,7 +29,7 @@ bool IsIron(const EffectInstance& e) {
 }
 
 /// The effect of the usual size, its law in the free shape without any.
-EffectInstance UsualSize(const std::string& name, const std::string& target) {
+EffectInstance AtUsualSize(const std::string& name, const std::string& target) {
   EffectInstance e = MakeInstance(EffectNamed(name), target);
   for (std::size_t k = 0; k < e.table.size(); ++k)
     e.values[k] = std::sqrt(e.table[k].typical_lo * e.table[k].typical_hi);
@@ -97,7 +97,7 @@ class ShapeJudge {
     const bool ranked = known != ranking_.end();
     s_.progress(0.97, "shape of " + NameAtTarget(name, target_));
     const std::optional<ShapeFit> shaped =
-        FitFrom(ranked ? known->effect : UsualSize(name, target_), !ranked);
+        FitFrom(ranked ? known->effect : AtUsualSize(name, target_), !ranked);
     if (!shaped) return;
     const double score = Score(s_.model, shaped->fit, s_.effective_sample_size);
     const StageRatios ratios = {shaped->fit.ratio_fit, shaped->fit.ratio_validate,

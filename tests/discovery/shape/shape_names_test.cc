@@ -10,11 +10,11 @@ namespace {
 
 constexpr double kShapeN = 2000;
 
-struct Judged {
+struct RankedTwice {
   std::vector<RankedEffect> before, after;
 };
 
-Judged Judge(const std::vector<EffectInstance>& truth) {
+RankedTwice RankTwice(const std::vector<EffectInstance>& truth) {
   const HeldIron held(truth);
   FitOptions options;
   options.effective_sample_size = kShapeN;
@@ -22,7 +22,7 @@ Judged Judge(const std::vector<EffectInstance>& truth) {
   SignatureBank bank;
   const RoundSetting setting = {*held.model, *held.model, bank,
                                 kShapeN,     3,           [](double, const std::string&) {}};
-  Judged out;
+  RankedTwice out;
   out.before = out.after = RankEffects(setting, base, 0).ranking;
   JudgeByShape(setting, base, 0, out.after);
   return out;
@@ -36,7 +36,7 @@ const RankedEffect* NamedIn(const std::vector<RankedEffect>& ranking, const std:
 
 // Neither law of the catalogue follows a ring that holds back a part of the flux; the free shape does.
 TEST(JudgeByShape, AClosedRingIsEddyCurrents) {
-  const Judged judged = Judge({IronAtA("eddy-impedance", {{"r3", 0.06}, {"r4", 0.04}})});
+  const RankedTwice judged = RankTwice({IronAtA("eddy-impedance", {{"r3", 0.06}, {"r4", 0.04}})});
   const RankedEffect& best = judged.after.at(0);
   EXPECT_EQ(Named(best.effect), "eddy-currents at A");
   EXPECT_GT(best.fit.ratio_fit, 1.5);
@@ -48,8 +48,9 @@ TEST(JudgeByShape, AClosedRingIsEddyCurrents) {
 // Free relaxations come near to loops of two widths, nearer than the catalogue's diffusion by far; free operators are these
 // loops.
 TEST(JudgeByShape, LoopsOfTwoWidthsStayHysteresis) {
-  const Judged judged = Judge({IronAtA("hysteresis", {{"coercive", 0.05}, {"width", 0.02}}),
-                               IronAtA("hysteresis", {{"coercive", 0.08}, {"width", 0.25}})});
+  const RankedTwice judged =
+      RankTwice({IronAtA("hysteresis", {{"coercive", 0.05}, {"width", 0.02}}),
+                 IronAtA("hysteresis", {{"coercive", 0.08}, {"width", 0.25}})});
   const RankedEffect& best = judged.after.at(0);
   EXPECT_EQ(Named(best.effect), "hysteresis at A");
   EXPECT_LT(best.RatioFit(), 1.03);
@@ -61,7 +62,7 @@ TEST(JudgeByShape, LoopsOfTwoWidthsStayHysteresis) {
 
 // A law that is exact and uncontested is not asked for its shape.
 TEST(JudgeByShape, LeavesAnExactLawAsItIs) {
-  const Judged judged = Judge({IronAtA("eddy-sleeve", {{"cutoff", 4000}})});
+  const RankedTwice judged = RankTwice({IronAtA("eddy-sleeve", {{"cutoff", 4000}})});
   ASSERT_FALSE(judged.after.empty());
   EXPECT_EQ(Named(judged.after[0].effect), "eddy-currents at A");
   for (std::size_t k = 0; k < judged.after.size(); ++k) {
