@@ -94,6 +94,8 @@ TEST(JsonDocs, Explain) {
   e.final_fit.hypothesis.free = {
       {.path = "bearings.A.gap", .value = 4.1e-4, .start = 4e-4, .sd = 1e-5}};
   e.final_fit.sd = {4e-6};
+  e.ranking.resize(1);
+  e.ranking[0].shaped = StageRatios{1.01, 1.02, 1.03};
   ExpectDocumented("explain", ExplainJson(e));
 }
 
