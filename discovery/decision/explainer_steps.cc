@@ -17,6 +17,17 @@ namespace ambrig {
 namespace {
 // Error over the noise that the free shape of one law leaves, below which no further effect is sought.
 constexpr double kShapeExplains = 1.08;
+
+/// A fit as far as it is judged by, with the errors that the shape of its law leaves.
+FitResult ByItsShape(const RankedEffect& r) {
+  FitResult out;
+  out.hypothesis = r.fit.hypothesis;
+  out.converged = r.fit.converged;
+  out.penalty = r.fit.penalty;
+  out.ratio_fit = r.RatioFit();
+  out.ratio_validate = r.RatioUnseen();
+  return out;
+}
 }  // namespace
 
 /// An effect that the last fit leaves without a size goes again.
@@ -75,10 +86,7 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
     if (!HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return false;
     const double gain = ScoreOf(now) - r.score;
-    FitResult seen = r.fit;  // with what the shape of its law leaves
-    seen.ratio_fit = r.RatioFit();
-    seen.ratio_validate = r.RatioUnseen();
-    worth = WorthAdopting(now, seen, gain, round + (differ ? 1 : 0), first_fall_);
+    worth = WorthAdopting(now, ByItsShape(r), gain, round + (differ ? 1 : 0), first_fall_);
     return worth || ExplainsItsChannels(model_, now, r.fit, gain, round == 0);
   });
   if (best == ranking.end()) return false;

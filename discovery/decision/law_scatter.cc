@@ -17,7 +17,7 @@ using Eigen::Index;
 
 constexpr std::size_t kParts = 3;  // of a record over time
 // Independent numbers in what a wrong law leaves, as far as they bear on one parameter: fewer than tell names apart,
-// because the error of a law is most like the law's own signature. With 300 four of 29 parameters of the labelled cases stood beyond 3 sd.
+// because the error of a law is most like the law's own signature.
 constexpr double kNumbersOfParameter = 30;
 
 /// One kind of channel in one part of a record: its scores JᵀR and its JᵀJ.

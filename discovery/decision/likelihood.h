@@ -10,10 +10,10 @@
 
 namespace ambrig {
 
-/// -2 log likelihood of a ratio R to the floor, `n` independent numbers.
-double Misfit(double ratio, double n);
 inline constexpr double kModelNumbers = 300;  // independent numbers in what a wrong law leaves
 
+/// -2 log likelihood of a ratio R to the floor, `n` independent numbers.
+double Misfit(double ratio, double n);
 /// Its derivative to R².
 double MisfitWeight(double ratio, double n, double model_numbers = kModelNumbers);
 /// The weight of the square of one row over its floor, of a model that leaves `ratio`.
