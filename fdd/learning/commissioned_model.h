@@ -17,7 +17,7 @@ inline constexpr double kExcessFloor[kExcessWindows] = {0.30, 0.15, 0.08, 0.05, 
 inline constexpr double kBandOverHealthy = 1.5;
 /// Mean square of the fit's residuals over their expected size, above which the model does not
 /// express the plant and is refused.
-inline constexpr double kWorstGrade = 3;
+inline constexpr double kWorstGrade = 2.5;
 
 struct CommissionedBearing {
   std::string name;

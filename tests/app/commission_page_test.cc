@@ -114,7 +114,7 @@ TEST_F(CommissionPage, ABadModelIsRefused) {
   const std::string words = testing::Words(testing::Written(
       [&](const std::string& path) { WriteCommissionReport(rig_, result_, path); }));
   EXPECT_THAT(words, HasSubstr("refused: the model does not express this bearing"));
-  EXPECT_THAT(CommissionText(rig_, result_), HasSubstr("bearing A: grade 7.00 is above 3"));
+  EXPECT_THAT(CommissionText(rig_, result_), HasSubstr("bearing A: grade 7.00 is above 2.5"));
   EXPECT_EQ(CommissionJson(rig_, result_)["bearings"][0]["usable"], false);
   result_.model.bearings[0].grade = 1;
   EXPECT_THAT(CommissionText(rig_, result_), Not(HasSubstr("is above")));
