@@ -3,64 +3,19 @@
 ///
 ///   E(s) = R_gap T(s) φ(s),  so without static iron φ = φ_static / (1 + sqrt(j f/cutoff))
 ///
-/// T(s): effects/diffusion_fit.h, relaxations (effects/relaxation_state.h) that vanish at rest. With `path` 0 the half order holds at all frequencies: thick iron. A path gives the
+/// T(s): effects/diffusion_fit.h, relaxations (effects/relaxation_law.h) that vanish at rest. With `path` 0 the half order holds at all frequencies: thick iron. A path gives the
 /// laminations their thickness d: below 1/(2 pi τ) they no longer hold the flux back; conductivity
 /// σ and path = l_fe/mu_r give τ = σ mu0 mu_r d²/4 and cutoff = g0²/(2 pi τ path²). The MMF that
 /// the same iron needs at rest is the effect iron-reluctance. Source: published_values.md 7; Zhu &
 /// Knospe 2011 for the half order. Limit: linear iron.
 #include <cmath>
-#include <memory>
 
 #include "effects/coil_targets.h"
 #include "effects/diffusion_fit.h"
 #include "effects/effect.h"
-#include "effects/relaxation_state.h"
+#include "effects/relaxation_law.h"
 
 namespace ambrig {
-
-namespace {
-
-using EddyState = RelaxationState<kDiffusionPoles>;
-template <class V>
-using EddyKernel = RelaxationKernel<V, kDiffusionPoles>;
-AMBRIG_LAW_LANES(Eddy)
-AMBRIG_LAW_COMMIT(Eddy)
-
-class EddyLaw final : public FluxLaw {
- public:
-  /// `gap`: R_gap, rotor centred [1/H].
-  EddyLaw(double cutoff, double rho, double gap)
-      : fit_(FitDiffusion(cutoff, rho)), tail_(gap * fit_.tail) {
-    for (int k = 0; k < kDiffusionPoles; ++k) weight_[k] = gap * fit_.residue[k];
-  }
-
-  bool linear() const override { return true; }
-
-  void SetStep(double h) override {
-    if (h == h_) return;
-    h_ = h;
-    state_.SetStep(fit_.pole, weight_, tail_, h);
-  }
-
-  void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    EddyDrop(state_, phi, drop, slope);
-  }
-  void Steady(const Lane&, Lane*, Lane*) const override {}
-  void Commit(const Lane& phi) override { EddyCommit(state_, phi); }
-  int RunSamples(const LawLoop& loop, int k, int count) override {
-    return EddyLoop(state_, loop, k, count);
-  }
-  void Settle(const Lane& phi) override { state_.Settle(phi); }
-
- private:
-  DiffusionFit fit_;
-  double weight_[kDiffusionPoles] = {};  // of the relaxations [1/H]
-  double tail_;                          // [s/H]
-  double h_ = 0;
-  EddyState state_;
-};
-
-}  // namespace
 
 EffectDescription EddyCurrents() {
   EffectDescription d;
@@ -85,7 +40,14 @@ EffectDescription EddyCurrents() {
     if (!std::isfinite(e.Value("cutoff"))) return;
     BearingPlant& b = TargetBearing(e, plant);
     const double gap = GapReluctanceOf(b), path = e.Value("path") * b.lanes.reluctance.per_metre;
-    b.laws.push_back(std::make_unique<EddyLaw>(e.Value("cutoff"), path / gap, gap));
+    const DiffusionFit fit = FitDiffusion(e.Value("cutoff"), path / gap);
+    Relaxations<kDiffusionPoles> r;
+    for (int k = 0; k < kDiffusionPoles; ++k) {
+      r.pole[k] = fit.pole[k];
+      r.weight[k] = gap * fit.residue[k];
+    }
+    r.tail = gap * fit.tail;
+    b.laws.push_back(MakeRelaxationLaw(r));
   };
   return d;
 }

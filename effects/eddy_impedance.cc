@@ -4,67 +4,16 @@
 ///
 /// ten corner frequencies half a decade apart, so that any lamination, plate or solid core is met
 /// within a few per cent; passive by construction, because every term is a resistance beside an
-/// inductance. At rest only `path` is left (the iron's own reluctance). Steps: effects/relaxation_state.h.
+/// inductance. At rest only `path` is left (the iron's own reluctance). Steps: effects/relaxation_law.h.
 #include <cmath>
-#include <memory>
 
 #include "core/math/constants.h"
 #include "effects/coil_targets.h"
 #include "effects/effect.h"
 #include "effects/law_tables.h"
-#include "effects/relaxation_state.h"
+#include "effects/relaxation_law.h"
 
 namespace ambrig {
-
-namespace {
-
-using ImpedanceState = RelaxationState<kRelaxations>;
-template <class V>
-using ImpedanceKernel = RelaxationKernel<V, kRelaxations>;
-AMBRIG_LAW_LANES(Impedance)
-AMBRIG_LAW_COMMIT(Impedance)
-
-class ImpedanceLaw final : public FluxLaw {
- public:
-  /// `residue`: kRelaxations numbers of the gap's reluctance `gap` [1/H]; `rest` [1/H].
-  ImpedanceLaw(const double* residue, double gap, double rest) {
-    state_.rest = rest;
-    for (int k = 0; k < kRelaxations; ++k) {
-      pole_[k] = 2 * kPi * RelaxationFrequency(k);
-      weight_[k] = residue[k] * gap;
-    }
-  }
-
-  bool linear() const override { return true; }
-
-  void SetStep(double h) override {
-    if (h == h_) return;
-    h_ = h;
-    state_.SetStep(pole_, weight_, 0, h);
-  }
-
-  void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
-    ImpedanceDrop(state_, phi, drop, slope);
-  }
-  void Steady(const Lane& phi, Lane* drop, Lane* slope) const override {
-    for (int j = 0; j < kLanes; ++j) {
-      (*drop)[j] += state_.rest * phi[j];
-      (*slope)[j] += state_.rest;
-    }
-  }
-  void Commit(const Lane& phi) override { ImpedanceCommit(state_, phi); }
-  int RunSamples(const LawLoop& loop, int k, int count) override {
-    return ImpedanceLoop(state_, loop, k, count);
-  }
-  void Settle(const Lane& phi) override { state_.Settle(phi); }
-
- private:
-  double pole_[kRelaxations] = {}, weight_[kRelaxations] = {};  // [rad/s], [1/H]
-  double h_ = 0;
-  ImpedanceState state_;
-};
-
-}  // namespace
 
 EffectDescription EddyImpedance() {
   EffectDescription d;
@@ -89,8 +38,14 @@ EffectDescription EddyImpedance() {
   d.apply = [](const EffectInstance& e, Plant& plant) {
     if (e.IsNull()) return;
     BearingPlant& b = TargetBearing(e, plant);
-    b.laws.push_back(std::make_unique<ImpedanceLaw>(
-        e.values.data() + 1, GapReluctanceOf(b), e.Value("path") * b.lanes.reluctance.per_metre));
+    const double gap = GapReluctanceOf(b);
+    Relaxations<kRelaxations> r;
+    for (int k = 0; k < kRelaxations; ++k) {
+      r.pole[k] = 2 * kPi * RelaxationFrequency(k);
+      r.weight[k] = e.values[static_cast<std::size_t>(k) + 1] * gap;
+    }
+    r.rest = e.Value("path") * b.lanes.reluctance.per_metre;
+    b.laws.push_back(MakeRelaxationLaw(r));
   };
   return d;
 }

@@ -90,11 +90,12 @@ void AddCommission(CLI::App& app, Work& work) {
       ->check(NumberIn(0, 1, "of one"))
       ->capture_default_str();
   c->common.AddTo(*command);
-  command->footer(
+  command->footer(fmt::format(
       "Examples:\n"
       "  ambrig commission examples/reference/rig.toml -o learnt.toml\n"
       "  ambrig commission examples/reference/rig.toml -o learnt.toml --html seen.html\n"
-      "Exit code 1 when a bearing cannot be expressed by the model (grade above 3).");
+      "Exit code 1 when a bearing cannot be expressed by the model (grade above {}).",
+      kWorstGrade));
   command->callback([c, &work] { work = [c] { return RunCommission(*c); }; });
 }
 

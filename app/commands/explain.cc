@@ -110,7 +110,7 @@ void PrintNextCommand(const Explanation& e, const std::string& file) {
   if (count > 1) fmt::print("to tell them apart: ambrig plan {} --between{}\n", file, names);
   fmt::print("to add it to the rig file: ambrig adopt {} {} --target {}\n", file, e.adopted[0].name,
              e.adopted[0].target);
-  if (e.shaped && e.nuisances.empty())
+  if (e.RefineFollows())
     fmt::print("to fit the shape of its law: ambrig refine {} {}@{}\n", file, e.adopted[0].name,
                e.adopted[0].target);
 }

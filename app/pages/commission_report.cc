@@ -149,11 +149,12 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
                       b.coils.resistance[j], L / b.coils.resistance[j] * 1e3, b.largest[2][j],
                       100 * d.smallest_short, Ms(d.smallest_delay), Ms(d.tenth_delay));
     }
-  text +=
-      "grade: what the model leaves unexplained, above 3 it is not used; ripple L: of\n"
+  text += fmt::format(
+      "grade: what the model leaves unexplained, above {} it is not used; ripple L: of\n"
       "the current's ripple, with R and L/R; scatter: largest relative excess of the\n"
       "slope over ten healthy periods; least short: share of the turns that is\n"
-      "noticed, with its delay and that of a short of 10 %, by the learnt bands.\n";
+      "noticed, with its delay and that of a short of 10 %, by the learnt bands.\n",
+      kWorstGrade);
   for (const CommissionedBearing& b : r.model.bearings)
     if (!b.usable())
       text += fmt::format(
@@ -166,18 +167,19 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
 void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& r,
                            const std::string& file) {
   HtmlReport report("Commissioning of the fault detection", "rig " + rig.name);
-  report.Text(
+  report.Text(fmt::format(
       "The detector watched the healthy machine and learnt how the flux linkage of every coil "
       "follows its voltage. What remains in healthy running sets the bands; a fault must leave "
       "them.\n\n"
       "**Grade**: mean of what the learnt model leaves unexplained in a row, over its expected "
-      "size; above 3 the model is not used. **Row**: the slope of one coil in one phase of the "
+      "size; above {} the model is not used. **Row**: the slope of one coil in one phase of the "
       "switching period, averaged over eight periods. "
       "**Excess**: by how much the slope of a coil's flux linkage is larger than "
       "its voltage accounts for, as a share: 0 healthy, -1 no current. **Ripple inductance**: "
       "what the current's slope within a switching period shows, below that at rest where iron "
       "has eddy currents. **Smallest short**: share of the turns that leaves the bands, and after "
-      "which time; beside it the delays of a short of 10 % and of a broken coil.");
+      "which time; beside it the delays of a short of 10 % and of a broken coil.",
+      kWorstGrade));
   for (std::size_t k = 0; k < r.model.bearings.size(); ++k) {
     const CommissionedBearing& b = r.model.bearings[k];
     report.Heading("Bearing " + b.name);

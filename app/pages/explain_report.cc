@@ -217,7 +217,7 @@ void AddNext(HtmlReport& report, const Case& c, const Explanation& e) {
                       "file and compares again.",
                       c.file, a.name, a.target));
     }
-    if (e.shaped && e.nuisances.empty())
+    if (e.RefineFollows())
       next.push_back(fmt::format(
           "The shape of its law leaves less than the catalogue's law: `ambrig refine {} "
           "{}@{}` fits it and writes a new rig file.",

@@ -70,8 +70,7 @@ void SayShape(const FitResult& last, Explanation& out) {
       out.remainder.kind == "none")
     return;
   out.remainder.kind = "law-variation";
-  // refine fits without what was found to differ from record to record
-  const char* advice = out.nuisances.empty() ? ": ambrig refine writes it" : "";
+  const char* advice = out.RefineFollows() ? ": ambrig refine writes it" : "";
   out.remainder.text = fmt::format(
       "{:.2f} times the noise stays with the catalogue's law; with its shape free {:.2f} (fitted "
       "records) and {:.2f} "

@@ -62,6 +62,10 @@ struct Explanation {
   FitResult final_fit;
   double effective_sample_size = 0, seconds = 0;
   long runs = 0;
+
+  /// Whether `ambrig refine` of the first effect leaves what its free shape does: it fits without what was found to
+  /// differ from record to record.
+  bool RefineFollows() const { return shaped && nuisances.empty(); }
 };
 
 struct ExplainOptions {

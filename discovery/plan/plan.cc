@@ -11,6 +11,7 @@
 #include "discovery/practice/measured_case.h"
 #include "discovery/search/signature_bank.h"
 #include "discovery/shape/named_law.h"
+#include "effects/usual_size.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/rig_assembly.h"
 #include "rig/rig_channels.h"
@@ -51,20 +52,6 @@ Eigen::MatrixXd PriorPrecision(const Hypothesis& h, double sd) {
   for (std::size_t k = 0; k < h.free.size(); ++k)
     P(static_cast<Index>(k)) = h.free[k].sd > 0 ? 1 : 1 / (sd * sd);
   return P.asDiagonal();
-}
-
-/// The middle of what is usual, of the numbers that switch the effect on.
-EffectInstance UsualSize(const EffectDescription& d, const std::string& target) {
-  EffectInstance e = MakeInstance(d, target);
-  for (std::size_t k = 0; k < d.parameters.size(); ++k) {
-    const EffectParameter& p = d.parameters[k];
-    if (!d.Switches(p) && p.null_value != 0 && std::isfinite(p.null_value)) continue;
-    if (!d.Switches(p) && p.null_value == 0) continue;
-    const double size = p.typical_lo > 0 ? std::sqrt(p.typical_lo * p.typical_hi)
-                                         : 0.5 * (p.typical_lo + p.typical_hi);
-    e.values[k] = std::isinf(p.null_value) ? size : std::clamp(p.null_value + size, p.lo, p.hi);
-  }
-  return e;
 }
 
 }  // namespace
@@ -140,7 +127,7 @@ Plan PlanForRig(const RigParameters& rig, const EffectNames& effects, const Abil
       throw InputError(
           fmt::format("{}@{}: no such target, allowed: {}", effect, at, fmt::join(possible, ", ")));
     Hypothesis h = base;
-    h.AddEffect(UsualSize(d, at));
+    h.AddEffect(AtUsualSize(d, at));
     rivals.push_back(
         {effect, at, h, PriorPrecision(h, kUnknownSize), PriorPrecision(h, kDrawnSize)});
   }

@@ -39,12 +39,14 @@ bool IsRefinable(const std::string& effect) {
   return Holds(kIron, effect) || Holds(kMotion, effect);
 }
 
+bool IsIronLaw(const std::string& effect) { return Holds(kIron, effect); }
+
 bool DependsOnFlux(const std::string& effect) {
-  return Holds(kIron, effect) && effect != "eddy-currents";
+  return IsIronLaw(effect) && effect != "eddy-currents";
 }
 
 Shape ShapeOf(const EffectInstance& named, const RigParameters& rig, const ShapeReach& reach) {
-  if (Holds(kIron, named.name)) return IronShape(named, rig, reach);
+  if (IsIronLaw(named.name)) return IronShape(named, rig, reach);
   if (Holds(kMotion, named.name)) return MotionShape(named, reach);
   throw InputError(
       fmt::format("{} has no curve to refine, allowed: {}", named.name, RefinableEffects()));

@@ -37,6 +37,8 @@ struct ShapeReach {
 /// Effects of the catalogue whose law can be refined, "eddy-currents, saturation, ...".
 std::string RefinableEffects();
 bool IsRefinable(const std::string& effect);
+/// Whether the effect is a law of the iron.
+bool IsIronLaw(const std::string& effect);
 /// Whether the shape depends on the flux density of a bearing.
 bool DependsOnFlux(const std::string& effect);
 

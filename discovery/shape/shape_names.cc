@@ -1,7 +1,6 @@
 #include "discovery/shape/shape_names.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -11,6 +10,7 @@
 #include "discovery/shape/named_law.h"
 #include "discovery/shape/shape_fit.h"
 #include "effects/catalogue.h"
+#include "effects/usual_size.h"
 
 namespace ambrig {
 
@@ -21,20 +21,7 @@ constexpr double kNameContested = 0.02;  // probability of a second name of iron
 constexpr double kSomeOfError = 0.2;     // share of the error that a name of iron explains at least
 constexpr double kPlainGain = 20;        // of the score: what a free shape gains at least
 
-constexpr std::array<const char*, 4> kIronLaws = {"eddy-currents", "hysteresis", "saturation",
-                                                  "iron-reluctance"};
-
-bool IsIron(const EffectInstance& e) {
-  return std::find(kIronLaws.begin(), kIronLaws.end(), e.name) != kIronLaws.end();
-}
-
-/// The effect of the usual size, its law in the free shape without any.
-EffectInstance AtUsualSize(const std::string& name, const std::string& target) {
-  EffectInstance e = MakeInstance(EffectNamed(name), target);
-  for (std::size_t k = 0; k < e.table.size(); ++k)
-    e.values[k] = std::sqrt(e.table[k].typical_lo * e.table[k].typical_hi);
-  return e;
-}
+bool IsIron(const EffectInstance& e) { return IsIronLaw(e.name); }
 
 class ShapeJudge {
  public:
@@ -97,7 +84,7 @@ class ShapeJudge {
     const bool ranked = known != ranking_.end();
     s_.progress(0.97, "shape of " + NameAtTarget(name, target_));
     const std::optional<ShapeFit> shaped =
-        FitFrom(ranked ? known->effect : AtUsualSize(name, target_), !ranked);
+        FitFrom(ranked ? known->effect : AtUsualSize(EffectNamed(name), target_), !ranked);
     if (!shaped) return;
     const double score = Score(s_.model, shaped->fit, s_.effective_sample_size);
     const StageRatios ratios = {shaped->fit.ratio_fit, shaped->fit.ratio_validate,

@@ -1,18 +1,17 @@
-#pragma once
-/// A sum of relaxations in series with a gap, for the lanes of a bearing (actuators/magnetics/law_loop.h):
-///
-///   M = Σ e_k + tail φ' + rest φ,   e_k' = w_k φ' - p_k e_k
-///
 /// With a flux linear over a step of h the relaxations are exact:
 ///
 ///   e_k <- a_k e_k + b_k Δφ,   a_k = exp(-p_k h),   b_k = w_k (1 - a_k)/(p_k h)
 ///
-/// so that M is linear in the flux at the end of the step. At rest only `rest` is left.
+/// so that M is linear in the flux at the end of the step (one round of Newton).
+#include "effects/relaxation_law.h"
+
 #include <cmath>
 
 #include "actuators/magnetics/law_loop.h"
 
 namespace ambrig {
+
+namespace {
 
 /// Coefficients of a step and what the flux has left behind.
 template <int kPoles>
@@ -20,24 +19,22 @@ struct RelaxationState {
   double a[kPoles] = {}, b[kPoles] = {};  // [-], [1/H]
   double ab = 0;                          // Σ a_k b_k [1/H]
   double moving = 0;                      // Σ b_k + tail/h: against a change of the flux [1/H]
-  double rest = 0;                        // [1/H]
-  double slope = 0;                       // moving + rest
+  double slope = 0;                       // moving + the part at rest [1/H]
   Lane e[kPoles];                         // [A]
   Lane phi;                               // committed [Wb]
   Lane base;                              // drop of the next step less slope * φ [A]
 
-  /// `pole` [rad/s], `weight` [1/H], `tail` [s/H].
-  void SetStep(const double* pole, const double* weight, double tail, double h) {
-    moving = tail / h;
+  void SetStep(const Relaxations<kPoles>& r, double h) {
+    moving = r.tail / h;
     ab = 0;
     for (int k = 0; k < kPoles; ++k) {
-      const double x = pole[k] * h;
+      const double x = r.pole[k] * h;
       a[k] = std::exp(-x);
-      b[k] = weight[k] * -std::expm1(-x) / x;
+      b[k] = r.weight[k] * -std::expm1(-x) / x;
       ab += a[k] * b[k];
       moving += b[k];
     }
-    slope = moving + rest;
+    slope = moving + r.rest;
     Rebase();
   }
 
@@ -103,5 +100,61 @@ class RelaxationKernel {
   const RelaxationState<kPoles>& state_;
   V e_[kPoles], phi_, base_;
 };
+
+// The numbers of poles that there are.
+using EightState = RelaxationState<8>;
+using TenState = RelaxationState<10>;
+template <class V>
+using EightKernel = RelaxationKernel<V, 8>;
+template <class V>
+using TenKernel = RelaxationKernel<V, 10>;
+AMBRIG_LAW_LANES(Eight)
+AMBRIG_LAW_COMMIT(Eight)
+AMBRIG_LAW_LANES(Ten)
+AMBRIG_LAW_COMMIT(Ten)
+
+template <int kPoles, auto kDrop, auto kCommit, auto kLoop>
+class RelaxationLaw final : public FluxLaw {
+ public:
+  explicit RelaxationLaw(const Relaxations<kPoles>& r) : relaxations_(r) {}
+
+  bool linear() const override { return true; }
+
+  void SetStep(double h) override {
+    if (h == h_) return;
+    h_ = h;
+    state_.SetStep(relaxations_, h);
+  }
+
+  void Drop(const Lane& phi, Lane* drop, Lane* slope) const override {
+    kDrop(state_, phi, drop, slope);
+  }
+  void Steady(const Lane& phi, Lane* drop, Lane* slope) const override {
+    for (int j = 0; j < kLanes; ++j) {
+      (*drop)[j] += relaxations_.rest * phi[j];
+      (*slope)[j] += relaxations_.rest;
+    }
+  }
+  void Commit(const Lane& phi) override { kCommit(state_, phi); }
+  int RunSamples(const LawLoop& loop, int k, int count) override {
+    return kLoop(state_, loop, k, count);
+  }
+  void Settle(const Lane& phi) override { state_.Settle(phi); }
+
+ private:
+  Relaxations<kPoles> relaxations_;
+  double h_ = 0;
+  RelaxationState<kPoles> state_;
+};
+
+}  // namespace
+
+std::unique_ptr<FluxLaw> MakeRelaxationLaw(const Relaxations<8>& r) {
+  return std::make_unique<RelaxationLaw<8, EightDrop, EightCommit, EightLoop>>(r);
+}
+
+std::unique_ptr<FluxLaw> MakeRelaxationLaw(const Relaxations<10>& r) {
+  return std::make_unique<RelaxationLaw<10, TenDrop, TenCommit, TenLoop>>(r);
+}
 
 }  // namespace ambrig
