@@ -68,6 +68,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     if (!OverTime(model.data().records[r])) continue;
     std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
     CheckRange(model, r, columns, out);
+    CheckSpikes(model, r, columns, out);
     CheckHeld(model, r, columns, out);
     CheckSpeed(model, r, out);
     if (!Predicted(model, r)) continue;

@@ -1,4 +1,4 @@
-// Clocks and scenarios: records that come late, that lost a block, or that another command made.
+// Clocks: records and columns that come late, or that lost a block.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,16 +6,17 @@
 
 #include "core/math/constants.h"
 #include "core/record/channels.h"
-#include "discovery/data/data_gate.h"
+#include "discovery/data/gate_columns.h"
 
 namespace ambrig {
 
 namespace {
 
-constexpr double kMoves = 8;           // floors: a column that moves less tells no time
 constexpr double kLeastShift = 5e-4;   // [s]: a smaller shift is a matter of the fit
+constexpr double kLeastRows = 10;      // of a block that is lost
 constexpr double kLeastColumn = 1e-3;  // [s], of a single column: electronics delay too
 constexpr double kMostShift = 0.2;     // of the record
+constexpr double kNoWorse = 0.05;      // of what a shift gains: a shift of all rows gains as much
 constexpr double kEarly = 0.03;        // of the record: a shift from there on is one of all rows
 // A speed that is late by a clock has the profile's corners, one that lags behind by its drive has not: of a lag of at least
 // the first share of the largest speed a drive leaves a tenth of the error after the best shift.
@@ -31,20 +32,6 @@ MatchedColumn ThinnedColumn(const GateColumn& c, std::size_t step) {
     out.predicted.push_back(c.column.predicted[k] / c.match.predicted_move);
     out.ok.push_back(c.column.ok[k]);
   }
-  return out;
-}
-
-/// The columns that move most and have no fault of their own.
-std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& columns,
-                                             std::size_t most) {
-  std::vector<const GateColumn*> out;
-  for (const GateColumn& c : columns)
-    if (!c.explained && c.match.predicted_move > kMoves && c.match.measured_move > kMoves)
-      out.push_back(&c);
-  std::stable_sort(out.begin(), out.end(), [](const auto* a, const auto* b) {
-    return a->match.predicted_move > b->match.predicted_move;
-  });
-  if (out.size() > most) out.resize(most);
   return out;
 }
 
@@ -67,7 +54,9 @@ FoundShift ShiftOf(const std::vector<const GateColumn*>& columns, double rate) {
   f.late = static_cast<double>(s.late) * seconds;
   f.from = static_cast<double>(s.from) * seconds;
   f.left = s.before > 0 ? s.after / s.before : 1;
-  f.all_rows = f.from <= kEarly * static_cast<double>(rows) / rate;
+  // rows before it in which nothing moves tell no instant
+  f.all_rows = f.from <= kEarly * static_cast<double>(rows) / rate ||
+               s.at_once < s.after + kNoWorse * (s.before - s.after);
   return f;
 }
 
@@ -90,24 +79,113 @@ DataFault TimeFault(const CaseRecord& r, const std::string& channel, const Found
   return f;
 }
 
+/// A column beside a prediction that comes `late` rows later, from this row on.
+MatchedColumn LateBy(const MatchedColumn& c, long late, long first) {
+  MatchedColumn out = c;
+  const auto rows = static_cast<long>(c.size());
+  for (long k = first; k < rows; ++k) {
+    const long from = k - late;
+    const bool inside = from >= 0 && from < rows;
+    const auto row = static_cast<std::size_t>(k);
+    out.predicted[row] = c.predicted[static_cast<std::size_t>(std::clamp(from, 0L, rows - 1))];
+    out.ok[row] = inside ? c.ok[row] : 0;
+  }
+  return out;
+}
+
+/// Whether the prediction comes back to itself within the shifts that are tried: then a shift may be one of its periods,
+/// or the phase of a whirl.
+bool RepeatsItself(const std::vector<const GateColumn*>& columns) {
+  constexpr double kAway = 0.5, kBack = 0.8;  // correlation with itself
+  const std::size_t rows = columns[0]->column.size();
+  const std::size_t step = std::max<std::size_t>(1, rows / kGateRows);
+  std::vector<MatchedColumn> itself;
+  for (const GateColumn* c : columns) {
+    itself.push_back(ThinnedColumn(*c, step));
+    itself.back().measured = itself.back().predicted;
+  }
+  const auto most = static_cast<long>(kMostShift * static_cast<double>(itself[0].size()));
+  bool away = false;
+  for (long late = 1; late <= most; ++late) {
+    double correlation = 0;
+    for (const MatchedColumn& c : itself)
+      correlation += MatchOf(LateBy(c, late, 0)).correlation / static_cast<double>(itself.size());
+    away = away || correlation < kAway;
+    if (away && correlation > kBack) return true;
+  }
+  return !away;
+}
+
+/// Beside an effect a shift leaves much. It is believed where it is longer than anything in a rig delays, where the movements
+/// say clearly that it is right, and where the prediction does not repeat itself: the phase of a whirl is no clock.
+bool IsClear(const std::vector<const GateColumn*>& moving, const FoundShift& s, double rate) {
+  constexpr double kSurely = 4e-3;                                // [s]
+  constexpr double kLeft = 0.7, kBefore = 0.5, kAfter = 0.75;     // of all rows [-]
+  constexpr double kLeftFromThere = 0.5, kAfterFromThere = 0.85;  // an instant more to choose
+  if (std::abs(s.late) < kSurely || s.left > (s.all_rows ? kLeft : kLeftFromThere)) return false;
+  const auto rows = static_cast<long>(std::lround(s.late * rate));
+  const long from = s.all_rows ? 0 : static_cast<long>(std::lround(s.from * rate));
+  double before = 0, after = 0;
+  for (const GateColumn* c : moving) {
+    before += c->match.correlation / static_cast<double>(moving.size());
+    after +=
+        MatchOf(LateBy(c->column, rows, from)).correlation / static_cast<double>(moving.size());
+  }
+  const bool clear = s.all_rows ? before < kBefore && after > kAfter : after > kAfterFromThere;
+  return clear && !RepeatsItself(moving);
+}
+
+/// A clock that is wrong in all columns. Whether it is.
+bool FindLateRecord(const CaseRecord& r, const std::vector<GateColumn>& columns,
+                    std::vector<DataFault>& out) {
+  const std::vector<const GateColumn*> moving = MovingColumns(columns, kColumns);
+  const bool gross = std::any_of(moving.begin(), moving.end(), [](const GateColumn* c) {
+    return c->match.error > kGrossError && c->match.error > 0.1 * c->match.predicted_move;
+  });
+  if (!gross) return false;
+  const FoundShift s = ShiftOf(moving, r.data.rate);
+  const double most = s.all_rows ? 0.4 : 0.3;  // an instant more to choose
+  // what a fit may find is a shift of all rows
+  const double least = s.all_rows ? kLeastShift : kLeastRows / r.data.rate;
+  const bool believed =
+      (std::abs(s.late) >= least && s.left < most) || IsClear(moving, s, r.data.rate);
+  if (believed) out.push_back(TimeFault(r, "", s));
+  return believed;
+}
+
+/// The columns of one kind are late together and all others are not: they have a logger of their own.
+void FindLateKind(const CaseRecord& r, ChannelKind kind, std::vector<GateColumn>& columns,
+                  std::vector<DataFault>& out) {
+  constexpr double kLeast = 2e-3, kLeft = 0.75, kOnTime = 0.25;  // [s], of the error, of that time
+  std::vector<const GateColumn*> own, others;
+  for (const GateColumn* c : MovingColumns(columns, columns.size()))
+    (IsOfKind(c->name, kind) ? own : others).push_back(c);
+  if (own.size() < 2 || others.empty()) return;
+  const bool gross = std::any_of(own.begin(), own.end(), [](const GateColumn* c) {
+    return c->match.error > kGrossError && c->match.error > 0.1 * c->match.predicted_move;
+  });
+  if (!gross) return;
+  const FoundShift s = ShiftOf(own, r.data.rate);
+  if (std::abs(s.late) < kLeast || s.left > kLeft || !s.all_rows || RepeatsItself(own)) return;
+  if (others.size() > kColumns) others.resize(kColumns);
+  const FoundShift theirs = ShiftOf(others, r.data.rate);
+  if (theirs.left < kLeft && std::abs(theirs.late) > kOnTime * std::abs(s.late)) return;
+  for (GateColumn& c : columns) {
+    if (c.explained || !IsOfKind(c.name, kind)) continue;
+    out.push_back(TimeFault(r, c.name, s));
+    c.explained = true;
+  }
+}
+
 }  // namespace
 
 void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   if (r.scenario.start == StartState::kResting) return;
-  const std::vector<const GateColumn*> moving = MovingColumns(columns, kColumns);
-  const bool gross = std::any_of(moving.begin(), moving.end(), [](const GateColumn* c) {
-    return c->match.error > kGrossError && c->match.error > 0.1 * c->match.predicted_move;
-  });
-  if (gross) {
-    const FoundShift s = ShiftOf(moving, r.data.rate);
-    const double most = s.from > 0 ? 0.3 : 0.4;  // an instant more to choose
-    if (std::abs(s.late) >= kLeastShift && s.left < most) {
-      out.push_back(TimeFault(r, "", s));
-      for (GateColumn& c : columns) c.explained = true;
-      return;
-    }
+  if (FindLateRecord(r, columns, out)) {
+    for (GateColumn& c : columns) c.explained = true;
+    return;
   }
   std::vector<std::pair<GateColumn*, FoundShift>> late;
   for (GateColumn& c : columns) {
@@ -118,12 +196,14 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
     // rows are lost in all columns at once: what is late in one column is late from its first row on
     if (std::abs(s.late) >= kLeastColumn && s.left < 0.3 && s.all_rows) late.emplace_back(&c, s);
   }
-  // a rig that is late is so in all its columns; a logger's own delay is in one or two
-  if (late.size() > 2) return;
+  // a rig that is late is so in all its columns; a logger's own delay is in one or two, or in all of a kind
+  if (late.size() > 2) late.clear();
   for (const auto& [c, s] : late) {
     out.push_back(TimeFault(r, c->name, s));
     c->explained = true;
   }
+  for (const ChannelKind kind : {ChannelKind::kReading, ChannelKind::kCoilCurrent})
+    FindLateKind(r, kind, columns, out);
 }
 
 namespace {
@@ -195,80 +275,6 @@ void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFaul
   f.fault = "scenario";
   f.channel = "";
   out.push_back(f);
-}
-
-namespace {
-
-/// Error of the moving columns against predictions by name, over their movement.
-double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Record& other,
-                          std::size_t skip) {
-  double sum = 0, n = 0;
-  for (const GateColumn* c : moving) {
-    const Channel* p = other.Find(c->name);
-    if (!p) return kInfinity;
-    std::vector<double> predicted(c->column.size());
-    for (std::size_t k = 0; k < predicted.size(); ++k)
-      predicted[k] = p->samples[std::min(skip + k, p->samples.size() - 1)] / c->floor;
-    sum += std::pow(
-        ErrorAgainst(c->column.measured, predicted, c->column.ok) / c->match.measured_move, 2);
-    n += 1;
-  }
-  return n > 0 ? std::sqrt(sum / n) : kInfinity;
-}
-
-}  // namespace
-
-void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
-                   std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
-  const CaseRecord& r = model.data().records[record];
-  if (r.scenario.start == StartState::kResting) return;
-  std::vector<const GateColumn*> moving;
-  double correlation = 0, error = 0;
-  for (const GateColumn& c : columns)
-    if (!c.explained && c.match.measured_move > kMoves && c.match.error > kGrossError)
-      moving.push_back(&c);
-  if (moving.size() < 2) return;
-  for (const GateColumn* c : moving) {
-    correlation += c->match.correlation / static_cast<double>(moving.size());
-    error +=
-        std::pow(c->match.error / c->match.measured_move, 2) / static_cast<double>(moving.size());
-  }
-  error = std::sqrt(error);
-  if (correlation > 0.5 || error < 0.7) return;
-  DataFault f;
-  f.record = r.data_file;
-  f.fault = "scenario";
-  double least = 0.35 * error;
-  for (std::size_t k = 0; k < model.data().records.size(); ++k) {
-    const CaseRecord& o = model.data().records[k];
-    if (k == record || !OverTime(o) || o.scenario.start != r.scenario.start ||
-        o.scenario_file == r.scenario_file ||
-        std::abs(o.data.rate - r.data.rate) > 1e-6 * r.data.rate)
-      continue;
-    try {
-      const Record p = model.Simulated(h, k, false, 1);
-      if (std::abs(p.rate - r.data.rate) > 1e-6 * p.rate) continue;
-      const auto skip = static_cast<std::size_t>(std::lround(r.data.start * p.rate));
-      const double left = ErrorAgainstRecord(moving, p, skip);
-      if (left >= least) continue;
-      least = left;
-      f.with = o.scenario_file;
-      f.probability = std::clamp(1 - std::pow(left / error, 2), 0.5, 0.999);
-    } catch (const std::runtime_error&) {
-      continue;  // that scenario cannot be run
-    }
-  }
-  const bool strange = correlation < 0.15 && [&] {
-    const auto n = std::count_if(moving.begin(), moving.end(), [](const GateColumn* c) {
-      return c->match.predicted_move > 3 * kMoves;
-    });
-    return n >= 4 && 2 * n > static_cast<long>(columns.size());
-  }();
-  if (f.with.empty() && !strange) return;
-  if (f.with.empty()) f.probability = 0.9;
-  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", f.with);
-  out.push_back(f);
-  for (GateColumn& c : columns) c.explained = true;
 }
 
 }  // namespace ambrig

@@ -1,13 +1,14 @@
-// Units, signs and exchanged columns: what a factor or another column brings back to the model.
+// Units and signs: what a factor brings back to the model.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/math/constants.h"
 #include "core/record/channels.h"
-#include "discovery/data/data_gate.h"
+#include "discovery/data/gate_columns.h"
 #include "discovery/data/noise_estimate.h"
 
 namespace ambrig {
@@ -40,35 +41,19 @@ const std::vector<Mistake>& Mistakes() {
       {1 / 9.81, 0.15, 0.9, true},
       {25.4, 0.15, 0.9, true},
       {1 / 25.4, 0.15, 0.9, true},
-      {2, 0.08, 0.98, true},
-      {0.5, 0.08, 0.98, true},
+      {1 / 0.0254, 0.15, 0.9, true},
+      {0.0254, 0.15, 0.9, true},
+      {2, 0.08, 0.95, true},
+      {0.5, 0.08, 0.95, true},
       {std::sqrt(2.0), 0.05, 0.99, true},
       {std::sqrt(0.5), 0.05, 0.99, true},
   };
   return kAll;
 }
 
-constexpr double kZeroSds = 4;
-
-/// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by no
-/// more are not told apart.
-double MostZero(const CaseModel& model, const std::string& channel) {
-  const auto& declared = model.data().nuisances.sensor_zero;
-  const auto own = declared.find(channel);
-  const double usual = UsualZero(model.data().rig, channel);
-  return kZeroSds * (own == declared.end() ? usual : std::max(own->second, usual));
-}
-
-/// rms of measured minus predicted [floors], less a constant of at most `zero` [SI].
-double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero) {
-  double sum = 0, n = 0;
-  for (std::size_t k = 0; k < c.column.size(); ++k)
-    if (c.column.ok[k]) sum += c.column.measured[k] - predicted[k], n += 1;
-  const double most = zero / c.floor, mean = n > 0 ? std::clamp(sum / n, -most, most) : 0;
-  std::vector<double> shifted = predicted;
-  for (double& p : shifted) p += mean;
-  return ErrorAgainst(c.column.measured, shifted, c.column.ok);
-}
+constexpr double kMostGain = 1.6;  // that a sensor of the rig may have, or one over it
+constexpr double kLikeOthers = 2, kMostLeft = 0.25, kAlone = 0.3;
+constexpr double kLeftOfLevel = 0.05;  // a level is one number: it has to fit
 
 /// rms of measured/factor - predicted, over the error beside a zero of the sensor.
 double Left(const GateColumn& c, double factor, double error) {
@@ -83,15 +68,18 @@ bool NoiseTells(const GateColumn& c, double factor) {
   return WhiteNoiseOf(c.column.measured.data(), c.column.ok.data(), c.column.size()) > 0.3 * factor;
 }
 
-/// Median error of the record's other columns.
+/// Median error of the columns that a cause at this one would move first: the others of its bearing, where it has some.
 double OthersError(const std::vector<GateColumn>& columns, const GateColumn& of) {
-  std::vector<double> errors;
-  for (const GateColumn& c : columns)
-    if (&c != &of) errors.push_back(c.match.error);
-  if (errors.empty()) return 0;
-  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
-                   errors.end());
-  return errors[errors.size() / 2];
+  constexpr std::size_t kFew = 4;
+  const auto bearing = [](const std::string& name) { return name.substr(0, name.find('.')); };
+  std::vector<double> near, all;
+  for (const GateColumn& c : columns) {
+    if (&c == &of) continue;
+    all.push_back(c.match.error);
+    if (bearing(c.name) == bearing(of.name)) near.push_back(c.match.error);
+  }
+  if (all.empty()) return 0;
+  return MedianOf(std::move(near.size() < kFew ? all : near));
 }
 
 DataFault FaultOf(const CaseRecord& r, const std::string& channel, const char* fault, double left) {
@@ -103,28 +91,50 @@ DataFault FaultOf(const CaseRecord& r, const std::string& channel, const char* f
   return f;
 }
 
-/// A column that stands at a level and hardly moves (the bus): its movement is noise and has no
-/// correlation with the prediction, but the level itself shows the factor.
-bool LevelTells(const GateColumn& c) {
-  return c.match.predicted_rms > 20 * kGrossError &&
-         c.match.predicted_move < 0.05 * c.match.predicted_rms &&
-         c.match.measured_move < 0.05 * c.match.measured_rms;
+/// A column that stands at a level and hardly moves (the bus, a clamped shaft): its movement is noise and has no
+/// correlation with the prediction, but the level itself shows the factor, where it is far beyond any `zero` [SI].
+/// `movement`: the most that it may move, of its level.
+bool LevelTells(const GateColumn& c, double zero, double movement) {
+  constexpr double kFarFromZero = 6 * kGrossError;  // floors
+  return c.match.predicted_rms > std::max(kFarFromZero, 2 * zero / c.floor) &&
+         c.match.predicted_move < movement * c.match.predicted_rms &&
+         c.match.measured_move < movement * c.match.measured_rms;
 }
 
-const Mistake* BestMistake(const GateColumn& c, double error, double others, double* left) {
-  const Mistake* best = nullptr;
+/// What is known of a column and of those beside it.
+struct Suspect {
+  const GateColumn& column;
+  double error;   // beside a zero of the sensor [floors]
+  double others;  // median error of the other columns [floors]
+  bool level;     // its level tells
+};
+
+/// The share of the error that this mistake leaves; nothing where it is not believed.
+std::optional<double> LeftBy(const Mistake& m, const Suspect& s) {
+  const GateColumn& c = s.column;
+  const double rest = Left(c, m.factor, s.error);
+  // An effect in the rig leaves an error in every column: of one that stands alone no less is asked than of those.
+  const double usual = m.alone ? kLikeOthers * s.others / s.error : 0;
+  if (rest > std::max(m.left, std::min(usual, kMostLeft)) || !NoiseTells(c, m.factor)) return {};
+  if (s.level ? m.correlation > 0 && rest > kLeftOfLevel : c.match.correlation < m.correlation)
+    return {};
+  // divided by the factor the column must still show what the model expects, its noise at least:
+  // a movement that the model lacks is no unit
+  if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) return {};
+  if (m.alone && (s.error < 2 * kGrossError || s.others > kAlone * s.error)) return {};
+  return rest;
+}
+
+/// A mistake of the list, or else any factor of the movement that no sensor has.
+std::optional<Mistake> BestMistake(const Suspect& s, double* left) {
+  std::optional<Mistake> best;
   *left = 1;
-  for (const Mistake& m : Mistakes()) {
-    const double rest = Left(c, m.factor, error);
-    if (rest > m.left || rest >= *left || !NoiseTells(c, m.factor)) continue;
-    if (!LevelTells(c) && c.match.correlation < m.correlation) continue;
-    // divided by the factor the column must still show what the model expects, its noise at least:
-    // a movement that the model lacks is no unit
-    if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) continue;
-    if (m.alone && (error < 2 * kGrossError || others > 0.2 * error)) continue;
-    best = &m;
-    *left = rest;
-  }
+  for (const Mistake& m : Mistakes())
+    if (const auto rest = LeftBy(m, s); rest && *rest < *left) best = m, *left = *rest;
+  if (best || s.level) return best;
+  const Mistake own{s.column.match.gain, 0.08, 0.98, true};
+  if (own.factor > 0 && std::abs(std::log(own.factor)) > std::log(kMostGain))
+    if (const auto rest = LeftBy(own, s)) best = own, *left = *rest;
   return best;
 }
 
@@ -151,55 +161,23 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
     const double error = ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name));
     if (c.explained || error < kGrossError) continue;
     double left = 1;
-    const double others = OthersError(columns, c);
-    if (const Mistake* m = BestMistake(c, error, others, &left)) {
+    const double zero = MostZero(model, c.name), opposite = Left(c, -1, error);
+    const Suspect suspect{c, error, OthersError(columns, c), LevelTells(c, zero, 0.05)};
+    const bool opposite_level = LevelTells(c, zero, 0.3) && opposite < 0.1;
+    if (const auto m = BestMistake(suspect, &left)) {
       DataFault f = FaultOf(r, c.name, "unit", left);
       f.factor = m->factor;
       f.mend = UnitLine(r, c.name, m->factor);
       out.push_back(f);
       c.explained = true;
-    } else if (c.match.correlation < -0.7 && Left(c, -1, error) < 0.3) {
-      DataFault f = FaultOf(r, c.name, "sign", Left(c, -1, error));
+    } else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3)) {
+      DataFault f = FaultOf(r, c.name, "sign", opposite);
       f.factor = -1;
       f.mend = UnitLine(r, c.name, -1);
       out.push_back(f);
       c.explained = true;
     }
   }
-}
-
-void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
-                std::vector<DataFault>& out) {
-  const CaseRecord& r = model.data().records[record];
-  const auto kind = [](const GateColumn& c) {  // columns along the shaft are a kind of their own
-    const auto id = ParseChannel(c.name);
-    return std::pair(id->kind, id->row().scope == ChannelScope::kDirection && id->index == 2);
-  };
-  const auto against = [&](const GateColumn& a, const GateColumn& b) {  // a's data, b's prediction
-    std::vector<double> predicted = b.column.predicted;
-    for (double& p : predicted) p *= b.floor / a.floor;
-    return ErrorBesideZero(a, predicted, MostZero(model, a.name));
-  };
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    for (std::size_t j = i + 1; j < columns.size(); ++j) {
-      GateColumn &a = columns[i], &b = columns[j];
-      if (a.explained || b.explained) continue;
-      const double own_a = against(a, a), own_b = against(b, b), before = std::hypot(own_a, own_b);
-      if (std::min(own_a, own_b) < 0.7 * kGrossError || before < 1.5 * kGrossError) continue;
-      const double after = std::hypot(against(a, b), against(b, a));
-      // columns of different kinds: each must fit the other's prediction far better
-      if (after > (kind(a) == kind(b) ? 0.35 : 0.1) * before) continue;
-      DataFault f = FaultOf(r, a.name, "swap", after / before);
-      f.with = b.name;
-      const auto column = [&](const std::string& name) {
-        const auto it = r.sources.find(name);
-        return it == r.sources.end() ? name : it->second.column;
-      };
-      f.mend = fmt::format("channels = {{ \"{}\" = \"{}\", \"{}\" = \"{}\" }}", a.name,
-                           column(b.name), b.name, column(a.name));
-      out.push_back(f);
-      a.explained = b.explained = true;
-    }
 }
 
 }  // namespace ambrig

@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
 #include "core/record/channels.h"
 #include "discovery/data/data_gate.h"
 #include "discovery/data/held_values.h"
+#include "discovery/data/noise_estimate.h"
 #include "rig/clearance.h"
 
 namespace ambrig {
@@ -46,6 +48,42 @@ const Channel& ChannelOf(const CaseRecord& r, const std::string& name) {
   return *r.data.Find(name);
 }
 
+/// Rows that stand apart from the rows on both sides by more than `farthest`.
+std::vector<std::size_t> LonelyRows(const std::vector<double>& y, double farthest) {
+  std::vector<std::size_t> out;
+  for (std::size_t k = 2; k + 2 < y.size(); ++k) {
+    std::array<double, 4> beside{y[k - 2], y[k - 1], y[k + 1], y[k + 2]};
+    std::ranges::sort(beside);
+    if (std::max(y[k] - beside[3], beside[0] - y[k]) > farthest) out.push_back(k);
+  }
+  return out;
+}
+
+/// How far a column may come and go within one row at most; infinity where that is not known.
+double FarthestOf(const CaseModel& model, const CaseRecord& r, const GateColumn& c) {
+  constexpr double kFastest = 5;    // [m/s]: a shaft that falls into its stops is slower
+  constexpr double kOfRange = 0.5;  // of a converter's range
+  constexpr double kNoise = 50;     // times the noise
+  double possible = kInfinity;
+  if (IsOfKind(c.name, ChannelKind::kReading)) possible = kFastest / r.data.rate;
+  if (IsOfKind(c.name, ChannelKind::kCoilCurrent))
+    possible = kOfRange * model.data().rig.amplifier.adc_range;
+  const double noise = WhiteNoiseOf(c.column.measured.data(), c.column.ok.data(), c.column.size());
+  return std::max(possible, kNoise * c.floor * std::max(1.0, noise));
+}
+
+DataFault RangeFault(const CaseRecord& r, const std::string& channel, std::size_t first,
+                     std::size_t count) {
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = channel;
+  f.fault = "range";
+  f.seconds = static_cast<double>(count) / r.data.rate;
+  f.mend = LeaveOut(r, first, 1);
+  f.probability = 0.999;
+  return f;
+}
+
 }  // namespace
 
 void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
@@ -66,14 +104,26 @@ void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColu
     for (std::size_t k = 0; k < c.column.size(); ++k)
       if (std::abs(c.column.measured[k]) > most) c.column.ok[k] = 0, c.column.measured[k] = 0;
     c.match = MatchOf(c.column);
-    DataFault f;
-    f.record = r.data_file;
-    f.channel = c.name;
-    f.fault = "range";
-    f.seconds = static_cast<double>(beyond) / r.data.rate;
-    f.mend = LeaveOut(r, first, 1);
-    f.probability = 0.999;
-    out.push_back(f);
+    out.push_back(RangeFault(r, c.name, first, beyond));
+  }
+}
+
+void CheckSpikes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                 std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  for (GateColumn& c : columns) {
+    const std::vector<double>& y = ChannelOf(r, c.name).samples;
+    const bool told = std::ranges::any_of(
+        out, [&](const DataFault& f) { return f.record == r.data_file && f.channel == c.name; });
+    const bool whole = std::ranges::all_of(y, [](double v) { return std::isfinite(v); });
+    if (told || !whole || y.size() != c.column.size()) continue;
+    const std::vector<std::size_t> lonely = LonelyRows(y, FarthestOf(model, r, c));
+    if (lonely.empty() ||
+        static_cast<double>(lonely.size()) > kFewAbsurd * static_cast<double>(y.size()))
+      continue;
+    for (const std::size_t k : lonely) c.column.ok[k] = 0, c.column.measured[k] = 0;
+    c.match = MatchOf(c.column);
+    out.push_back(RangeFault(r, c.name, lonely.front(), lonely.size()));
   }
 }
 
@@ -99,6 +149,23 @@ std::size_t ClippedRows(const GateColumn& c, const std::vector<double>& y, std::
       beyond += sign * (c.column.predicted[k] - extreme / c.floor);
   }
   return rows > 0 && beyond > kBeyondFloors * static_cast<double>(rows) ? rows : 0;
+}
+
+/// Rows at the column's own extreme in stretches that no noise makes: of a column that never repeats a value elsewhere,
+/// far from the converter's own limits.
+std::size_t FlatTopRows(const CaseModel& model, const GateColumn& c, const std::vector<double>& y,
+                        double low, double high) {
+  constexpr std::size_t kRun = 8, kTimes = 3;
+  constexpr double kShare = 0.01;  // of the rows
+  const double limit = LimitOf(model.data().rig, c.name);
+  if (UsualHold(OffTheExtremes(y, low, high)) > 1) return 0;
+  std::size_t rows = 0, times = 0;
+  for (const HeldStretch& s : HeldStretches(y, kRun))
+    if ((s.value == high || s.value == low) && s.value != 0 && std::abs(s.value) < 0.95 * limit)
+      rows += s.count, ++times;
+  const double share = static_cast<double>(rows) / static_cast<double>(y.size());
+  // one that stands there once may have frozen
+  return times >= kTimes && share > kShare ? rows : 0;
 }
 
 /// Whether the prediction lies within the column's own extreme, at which it stands, by several floors for a part of the
@@ -151,7 +218,8 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
     if (UsualHold(OffTheExtremes(y, *low, *high)) > kCoarse * hold) continue;
     if (!set_point && *low < *high) {
       const std::size_t rows =
-          ClippedRows(c, y, hold, *high, 1) + ClippedRows(c, y, hold, *low, -1);
+          std::max(ClippedRows(c, y, hold, *high, 1) + ClippedRows(c, y, hold, *low, -1),
+                   FlatTopRows(model, c, y, *low, *high));
       if (static_cast<double>(rows) > kClipShare * static_cast<double>(y.size())) {
         DataFault f;
         f.record = r.data_file;

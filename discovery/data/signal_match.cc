@@ -96,16 +96,18 @@ Shift BestShift(const std::vector<MatchedColumn>& columns, long most) {
     return (row < best.from && !late_at_once) || (from >= 0 && from < static_cast<long>(rows));
   };
   SquaredErrors(columns, best.late, shifted);
-  double before = 0, after = 0, rows_inside = 0;
+  double before = 0, after = 0, at_once = 0, rows_inside = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     if (!inside(row)) continue;
     before += plain[row];
     after += row < best.from ? plain[row] : shifted[row];
+    at_once += shifted[row];
     rows_inside += 1;
   }
   const double share = rows_inside > 0 ? n * rows_inside / static_cast<double>(rows) : n;
   best.before = std::sqrt(before / share);
   best.after = std::sqrt(after / share);
+  best.at_once = std::sqrt(at_once / share);
   return best;
 }
 

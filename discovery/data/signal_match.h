@@ -32,6 +32,7 @@ struct Shift {
   std::size_t from = 0;  // first sample that is shifted
   double before = 0;     // rms error without the shift, of the rows that are predicted with it
   double after = 0;      // and with it
+  double at_once = 0;    // and with it in all of these rows, those before `from` too
 };
 /// The shift and its first sample that leave the least squared error of all columns together
 /// (exact search: every lag up to `most`, every instant). Edges repeat the prediction's first or

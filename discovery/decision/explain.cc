@@ -77,14 +77,6 @@ void Explainer::SetNuisances(const std::vector<NuisanceKind>& kinds) {
   bank_ = SignatureBank();
 }
 
-/// Wrong data: nothing is fitted to them.
-void Explainer::Stop(const FitResult& as_filed) {
-  out_.base_ratio_fit = out_.final_ratio_fit = as_filed.ratio_fit;
-  out_.base_ratio_validate = out_.final_ratio_validate = out_.nominal_ratio_validate;
-  out_.final_fit = as_filed;
-  ConcludeData(model_, as_filed, out_);
-}
-
 void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   Progress(0.03, "rig parameters");
   FitResult base = FitNow(nominal, &as_filed.jacobian);
@@ -129,6 +121,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
     for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
       if (!AdoptBest(now, round)) break;
   }
+  if (FindWrongData(base, now)) return;
   out_.final_fit = now;
   out_.final_ratio_fit = now.ratio_fit;
   out_.final_ratio_validate = now.ratio_validate;

@@ -1,6 +1,6 @@
 #pragma once
 /// The search behind Explain: its state and its steps. Steps that add, swap or remove effects stand in
-/// explainer_steps.cc, the rest in explain.cc.
+/// explainer_steps.cc, wrong data in explainer_data.cc, the rest in explain.cc.
 #include "discovery/decision/explain.h"
 
 namespace ambrig {
@@ -28,6 +28,8 @@ class Explainer {
   void SetNuisances(const std::vector<NuisanceKind>& kinds);
   /// Wrong data: nothing is fitted to them.
   void Stop(const FitResult& as_filed);
+  /// Errors of the data that show beside the effects found and did not beside the rig file's model; whether there are any.
+  bool FindWrongData(const FitResult& base, const FitResult& now);
   void Search(const Hypothesis& nominal, const FitResult& as_filed);
   /// Tries a fit without the rows where model and machine took different branches as the start of another one.
   void FitPastBursts(FitResult& now);

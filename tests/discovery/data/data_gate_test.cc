@@ -187,6 +187,34 @@ TEST(DataGate, AFrozenReadingIsFoundWhereEveryReadingIsRepeated) {
   }
 }
 
+// Single readings that no shaft and no converter can come and go to, and noise that only looks so.
+TEST(DataGate, LonelyReadingsCannotBe) {
+  for (const auto& [channel, size] : {std::pair{"A.x", 1.5e-3}, {"B.i4", 9.0}}) {
+    Case c = Measured();
+    std::vector<double>& y = SamplesOf(c, kStepRecord, channel);
+    for (const std::size_t k : {400U, 1300U, 2100U}) y[k] += size;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << channel;
+    EXPECT_EQ(faults[0].fault, "range") << FaultText(faults[0]);
+    EXPECT_EQ(faults[0].channel, channel);
+  }
+}
+
+// Flat tops are those of a converter also where the model does not reach them: beside an effect it may expect anything.
+TEST(DataGate, FlatTopsThatTheModelDoesNotReach) {
+  Case c = Measured();
+  std::vector<double>& y = SamplesOf(c, kStepRecord, "A.x");
+  const double top = *std::max_element(y.begin(), y.end());
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    y[k] += 0.8 * top * std::sin(2 * M_PI * 90 * static_cast<double>(k) / 12500.0);
+    y[k] = std::min(y[k], 1.2 * top);
+  }
+  const auto faults = FaultsOf(c);
+  ASSERT_FALSE(faults.empty());
+  EXPECT_EQ(faults[0].fault, "clip") << FaultText(faults[0]);
+  EXPECT_EQ(faults[0].channel, "A.x");
+}
+
 // The top of a ramp is the column's own extreme: a logger that freezes there does not stand at a limit.
 TEST(DataGate, AFreezeAtTheTopOfARampIsNoLimit) {
   Case c = Measured();

@@ -104,6 +104,35 @@ TEST(GateFactors, AMovingColumnShowsItsFactor) {
               {1e3, 1e-3, 180 / kPi, 9.81, 1 / 9.81, 25.4, 1 / 25.4, 2.0, 0.5});
 }
 
+// Factors that no list holds: an inch for a metre, a gain that was forgotten.
+TEST(GateFactors, AMovingColumnShowsAnyFactorThatNoSensorHas) {
+  ExpectUnits(kClampedRecord, "A.fx", {0.0254, 1 / 0.0254});
+  const Case sound = Measured();
+  for (const double factor : {0.3, 3.3}) {
+    Case c = sound;
+    for (double& v : SamplesOf(c, kStepRecord, "A.x")) v *= factor;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << factor;
+    EXPECT_EQ(faults[0].fault, "unit");
+    EXPECT_EQ(faults[0].channel, "A.x");
+    EXPECT_NEAR(faults[0].factor, factor, 0.05 * factor);
+  }
+}
+
+// A level has no movement that could be opposite: a clamped shaft, a coil's bias, the bus.
+TEST(GateFactors, ALevelShowsItsSign) {
+  const Case sound = Measured();
+  for (const auto& [record, channel] :
+       {std::pair{kStepRecord, "bus"}, {kStepRecord, "A.i2"}, {kClampedRecord, "A.i2"}}) {
+    Case c = sound;
+    for (double& v : SamplesOf(c, record, channel)) v = -v;
+    const auto faults = FaultsOf(c);
+    ASSERT_EQ(faults.size(), 1U) << channel;
+    EXPECT_EQ(faults[0].fault, "sign") << FaultText(faults[0]);
+    EXPECT_EQ(faults[0].channel, channel);
+  }
+}
+
 // A sensor that adds hum where the model expects nothing but noise: no factor of a thousand.
 TEST(GateFactors, HumIsNoUnit) {
   Case c = Measured();

@@ -50,6 +50,19 @@ TEST(BestShift, FindsWhereABlockIsMissing) {
   EXPECT_GT(s.before, 3);
 }
 
+// Rows before anything moves tell no instant: shifted from the first row on they agree as well.
+TEST(BestShift, SaysWhatAShiftOfAllRowsLeaves) {
+  const auto begins = [](long k) { return k < 700 ? 0.0 : Wave(static_cast<double>(k - 700)); };
+  MatchedColumn late = Column([&](long k) { return begins(k - 40); });
+  for (std::size_t k = 0; k < late.size(); ++k) late.predicted[k] = begins(static_cast<long>(k));
+  const Shift whole = BestShift({late}, 300);
+  EXPECT_EQ(whole.late, 40);
+  EXPECT_LT(whole.at_once, whole.after + 0.02 * whole.before);
+  const Shift block = BestShift(
+      {Column([](long k) { return Wave(static_cast<double>(k < 1200 ? k : k + 90)); })}, 300);
+  EXPECT_GT(block.at_once, block.after + 0.5 * (block.before - block.after));
+}
+
 // What stands still and agrees is not shifted, although any shift agrees as well.
 TEST(BestShift, LeavesAColumnThatStandsStillAlone) {
   MatchedColumn c;

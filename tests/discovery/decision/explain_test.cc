@@ -106,6 +106,34 @@ TEST(Explain, TwoEffectsAreNamedBesideEachOther) {
   }
 }
 
+// The sign of a reading at a level shows only where it is known how large it is: beside a gain of 1.3 it looks like no mistake.
+TEST(Explain, WrongDataThatAnEffectHidAreFoundBesideIt) {
+  std::vector<MeasuredPlace> places{{1.5e-5, 2e-5, 1.3}};
+  for (int r = 0; r < 9; ++r) places.push_back({(r % 2 ? -1e-5 : 1e-5) * (5 + r), 3e-5, 1.3});
+  for (const bool wrong : {false, true}) {
+    Case c = MeasuredCase(places);
+    c.nuisances.sensor_zero["B.y"] =
+        1e-9;  // declared: no zeros are sought that would take the gain's place
+    if (wrong)
+      for (double& v : c.records[0].data.channels[0].samples) v = -v;
+    const Explanation e = Explain(c, ShortSearch());
+    if (!wrong) {
+      EXPECT_EQ(e.verdict, "effect");
+      EXPECT_TRUE(e.data.empty());
+      continue;
+    }
+    EXPECT_EQ(e.verdict, "data");
+    ASSERT_EQ(e.data.size(), 1u);
+    EXPECT_EQ(e.data[0].record, c.records[0].data_file);
+    EXPECT_EQ(e.data[0].channel, "A.x");
+    EXPECT_EQ(e.data[0].fault, "sign");
+    EXPECT_TRUE(e.adopted.empty() && e.ranking.empty());
+    EXPECT_EQ(e.set[0].effect, "data");
+    EXPECT_THAT(e.warnings,
+                testing::Contains(testing::HasSubstr("show beside sensor-gain at A.x")));
+  }
+}
+
 // Zeros that follow no law are nuisances, not an effect.
 TEST(Explain, WhatDiffersFromRecordToRecordIsANuisance) {
   std::vector<MeasuredPlace> places = Places(1);

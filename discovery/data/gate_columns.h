@@ -1,0 +1,23 @@
+#pragma once
+/// What the checks of the data gate ask of the columns of a record.
+#include <string>
+#include <vector>
+
+#include "discovery/data/data_gate.h"
+
+namespace ambrig {
+
+/// The largest zero that the sensor of a channel may have [SI]: two that stand still and differ by no
+/// more are not told apart.
+double MostZero(const CaseModel& model, const std::string& channel);
+
+/// rms of measured minus predicted [floors], less a constant of at most `zero` [SI].
+double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted, double zero);
+
+/// The columns that move most, at most so many, of those that have no fault of their own.
+std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& columns,
+                                             std::size_t most);
+
+inline constexpr double kMoves = 8;  // floors: a column that moves less tells no time
+
+}  // namespace ambrig

@@ -1,0 +1,86 @@
+// Scenarios: records that another command made.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/record/channels.h"
+#include "discovery/data/gate_columns.h"
+
+namespace ambrig {
+
+namespace {
+
+/// Error of the moving columns against predictions by name, over their movement.
+double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Record& other,
+                          std::size_t skip) {
+  double sum = 0, n = 0;
+  for (const GateColumn* c : moving) {
+    const Channel* p = other.Find(c->name);
+    if (!p) return kInfinity;
+    std::vector<double> predicted(c->column.size());
+    for (std::size_t k = 0; k < predicted.size(); ++k)
+      predicted[k] = p->samples[std::min(skip + k, p->samples.size() - 1)] / c->floor;
+    sum += std::pow(
+        ErrorAgainst(c->column.measured, predicted, c->column.ok) / c->match.measured_move, 2);
+    n += 1;
+  }
+  return n > 0 ? std::sqrt(sum / n) : kInfinity;
+}
+
+}  // namespace
+
+void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
+                   std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  if (r.scenario.start == StartState::kResting) return;
+  std::vector<const GateColumn*> moving;
+  double correlation = 0, error = 0;
+  for (const GateColumn& c : columns)
+    if (!c.explained && c.match.measured_move > kMoves && c.match.error > kGrossError)
+      moving.push_back(&c);
+  if (moving.size() < 2) return;
+  for (const GateColumn* c : moving) {
+    correlation += c->match.correlation / static_cast<double>(moving.size());
+    error +=
+        std::pow(c->match.error / c->match.measured_move, 2) / static_cast<double>(moving.size());
+  }
+  error = std::sqrt(error);
+  if (correlation > 0.5 || error < 0.7) return;
+  DataFault f;
+  f.record = r.data_file;
+  f.fault = "scenario";
+  double least = 0.35 * error;
+  for (std::size_t k = 0; k < model.data().records.size(); ++k) {
+    const CaseRecord& o = model.data().records[k];
+    if (k == record || !OverTime(o) || o.scenario.start != r.scenario.start ||
+        o.scenario_file == r.scenario_file ||
+        std::abs(o.data.rate - r.data.rate) > 1e-6 * r.data.rate)
+      continue;
+    try {
+      const Record p = model.Simulated(h, k, false, 1);
+      if (std::abs(p.rate - r.data.rate) > 1e-6 * p.rate) continue;
+      const auto skip = static_cast<std::size_t>(std::lround(r.data.start * p.rate));
+      const double left = ErrorAgainstRecord(moving, p, skip);
+      if (left >= least) continue;
+      least = left;
+      f.with = o.scenario_file;
+      f.probability = std::clamp(1 - std::pow(left / error, 2), 0.5, 0.999);
+    } catch (const std::runtime_error&) {
+      continue;  // that scenario cannot be run
+    }
+  }
+  const bool strange = correlation < 0.15 && [&] {
+    const auto n = std::count_if(moving.begin(), moving.end(), [](const GateColumn* c) {
+      return c->match.predicted_move > 3 * kMoves;
+    });
+    return n >= 4 && 2 * n > static_cast<long>(columns.size());
+  }();
+  if (f.with.empty() && !strange) return;
+  if (f.with.empty()) f.probability = 0.9;
+  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", f.with);
+  out.push_back(f);
+  for (GateColumn& c : columns) c.explained = true;
+}
+
+}  // namespace ambrig

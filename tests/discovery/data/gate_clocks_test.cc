@@ -1,0 +1,123 @@
+// Clocks: of the record, of the columns of one kind, and blocks of rows that are missing, some of them beside an effect.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/record/channels.h"
+#include "tests/discovery/data/gate_case.h"
+
+namespace ambrig {
+namespace {
+
+using testing::FaultsOf;
+using testing::kStepRecord;
+using testing::Measured;
+using testing::RecordNamed;
+using testing::SamplesOf;
+
+constexpr const char* kMultisine = "multisine at 60 Hz";
+
+/// The column comes so many rows late; the rows before show its beginning.
+void Delay(std::vector<double>& y, std::ptrdiff_t rows) {
+  std::copy_backward(y.begin(), y.end() - rows, y.end());
+}
+
+std::vector<std::string> ReadingsOf(const CaseRecord& r) {
+  std::vector<std::string> out;
+  for (const Channel& c : r.data.channels)
+    if (IsOfKind(c.name, ChannelKind::kReading)) out.push_back(c.name);
+  return out;
+}
+
+// Positions of an instrument of its own come late together; the currents beside them are on time.
+TEST(GateClocks, TheColumnsOfOneInstrument) {
+  Case c = Measured({}, 0, kMultisine);
+  const std::size_t record = RecordNamed(c, kMultisine);
+  const std::vector<std::string> readings = ReadingsOf(c.records[record]);
+  ASSERT_EQ(readings.size(), 4U);
+  for (const std::string& name : readings) Delay(SamplesOf(c, kMultisine, name), 50);
+  const auto faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 4U);
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_EQ(faults[k].fault, "lag") << FaultText(faults[k]);
+    EXPECT_EQ(faults[k].record, kMultisine);
+    EXPECT_EQ(faults[k].channel, readings[k]);
+    EXPECT_NEAR(faults[k].seconds, 4e-3, 2e-4);
+    EXPECT_NE(faults[k].mend.find("late = 0.00"), std::string::npos) << faults[k].mend;
+  }
+}
+
+// A rig that answers late does so in all its columns: that is an effect.
+TEST(GateClocks, ADelayInTheLoopIsNoClock) {
+  EffectInstance e = MakeInstance(EffectNamed("loop-delay"), "rig");
+  e.Set("time", 3e-4);
+  EXPECT_TRUE(FaultsOf(Measured({e}, 0, kMultisine)).empty());
+}
+
+// A block of 0.5 ms is less than what a fit may find as a shift of all rows, but it is missing in the middle.
+TEST(GateClocks, AShortBlockThatIsMissing) {
+  Case c = Measured();
+  const std::size_t record = RecordNamed(c, testing::kClampedRecord);
+  CaseRecord& r = c.records[record];
+  const auto from = static_cast<std::ptrdiff_t>(r.data.rows() / 2);
+  const auto lost = static_cast<std::ptrdiff_t>(std::max(12L, std::lround(5e-4 * r.data.rate)));
+  for (Channel& ch : r.data.channels)
+    ch.samples.erase(ch.samples.begin() + from, ch.samples.begin() + from + lost);
+  for (ChannelQuality& q : r.quality) q.ok.resize(r.data.rows(), 1);
+  const auto faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 1U);
+  EXPECT_EQ(faults[0].fault, "lost") << FaultText(faults[0]);
+  EXPECT_NEAR(faults[0].seconds, static_cast<double>(lost) / r.data.rate, 2 / r.data.rate);
+}
+
+/// The step record with so much of another movement in every column that the rig file's model leaves a third of it.
+Case BesideAnotherMovement(double share) {
+  Case c = Measured({}, 0, kMultisine);
+  CaseRecord& r = c.records[RecordNamed(c, kMultisine)];
+  for (Channel& ch : r.data.channels) {
+    if (!IsOfKind(ch.name, ChannelKind::kReading) && !IsOfKind(ch.name, ChannelKind::kCoilCurrent))
+      continue;
+    const auto [low, high] = std::minmax_element(ch.samples.begin(), ch.samples.end());
+    const double size = share * (*high - *low);
+    for (std::size_t k = 0; k < ch.samples.size(); ++k)
+      ch.samples[k] += size * std::sin(2 * M_PI * 37 * static_cast<double>(k) / r.data.rate);
+  }
+  return c;
+}
+
+// What the model lacks leaves an error that no shift removes: a clock that is wrong by 12 ms is seen all the same.
+TEST(GateClocks, ALateRecordBesideAnEffect) {
+  for (const bool late : {false, true}) {
+    Case c = BesideAnotherMovement(0.1);
+    if (late)
+      for (Channel& ch : c.records[RecordNamed(c, kMultisine)].data.channels)
+        Delay(ch.samples, 150);
+    std::vector<DataFault> faults = FaultsOf(c);
+    if (!late) {
+      EXPECT_TRUE(faults.empty()) << FaultText(faults[0]);
+      continue;
+    }
+    ASSERT_EQ(faults.size(), 1U);
+    EXPECT_EQ(faults[0].fault, "lag") << FaultText(faults[0]);
+    EXPECT_EQ(faults[0].channel, "");
+    EXPECT_NEAR(faults[0].seconds, 0.012, 2e-4);
+  }
+}
+
+// Both axes of two bearings exchanged, beside what the model lacks.
+TEST(GateClocks, PlanesExchangedBesideAnEffect) {
+  Case c = BesideAnotherMovement(0.1);
+  for (const char* axis : {"x", "y"})
+    std::swap(SamplesOf(c, kMultisine, std::string("A.") + axis),
+              SamplesOf(c, kMultisine, std::string("B.") + axis));
+  const auto faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 2U);
+  for (const DataFault& f : faults) {
+    EXPECT_EQ(f.fault, "swap") << FaultText(f);
+    EXPECT_EQ(f.channel.substr(2), f.with.substr(2));
+    EXPECT_NE(f.channel.substr(0, 1), f.with.substr(0, 1));
+  }
+}
+
+}  // namespace
+}  // namespace ambrig
