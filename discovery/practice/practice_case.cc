@@ -13,8 +13,8 @@
 #include "discovery/practice/laws/practice_law.h"
 #include "discovery/practice/loop_margin.h"
 #include "discovery/practice/measured_case.h"
+#include "discovery/practice/mistake_draw.h"
 #include "discovery/practice/practice_surroundings.h"
-#include "discovery/practice/spoil.h"
 #include "effects/catalogue.h"
 #include "rig/bearing_kinds/bearing_kind.h"
 #include "rig/clearance.h"
@@ -29,16 +29,18 @@ constexpr int kAttempts = 12;
 constexpr double kMostNoise = 4;  // that laws may make of the noise of a channel, times
 
 /// Streams of random numbers of one case.
-enum PracticeStream : std::uint32_t { kChoice = 201, kLaw = 210, kMistake = 230 };
+enum PracticeStream : std::uint32_t {
+  kChoice = 201,
+  kLaw = 210,
+  kMistake = 230,
+  kMistakeSize = 231
+};
 
 // 9 one, 2 two, 1 three, 2 unknown, 2 nothing, 4 data
 const char* const kKinds[] = {"one", "two",   "data",    "one", "unknown", "one",     "nothing",
                               "one", "three", "data",    "one", "one",     "unknown", "one",
                               "two", "data",  "nothing", "one", "data",    "one"};
 constexpr std::size_t kPeriod = std::size(kKinds);
-const char* const kMistakes[] = {"unit",   "sign", "lag",   "swap",    "clip",
-                                 "freeze", "lost", "range", "scenario"};
-
 /// How many cases of its kind stand before number `number`.
 std::size_t Ordinal(std::size_t number) {
   std::size_t n = 0;
@@ -175,17 +177,22 @@ class PracticeMaker {
   }
 
   void Mistake() {
-    const char* fault = kMistakes[Ordinal(number_) % std::size(kMistakes)];
-    for (std::size_t k = 0; k < out_.data.records.size(); ++k) {
-      const std::size_t record = (PracticeDraw(seed_, kMistake).Of(out_.data.records.size()) + k) %
-                                 out_.data.records.size();
+    const Spoiling what = DrawMistake(Ordinal(number_), PracticeDraw(seed_, kMistakeSize));
+    const std::vector<CaseRecord> sound = out_.data.records;
+    const std::size_t first = PracticeDraw(seed_, kMistake).Of(sound.size());
+    for (std::size_t k = 0; k < sound.size(); ++k) {
+      const std::size_t record = (first + k) % sound.size();
       try {
-        out_.mistake = fmt::format("{}: {}", fault, Spoil(out_.data, record, {fault, ""}, seed_));
-        return;
-      } catch (const InputError&) {  // this record cannot show it: the next one
+        const std::string done = Spoil(out_.data, record, what, seed_);
+        if (ShowsMistake(sound[record], out_.data.records[record])) {
+          out_.mistake = fmt::format("{}: {}", what.fault, done);
+          return;
+        }
+      } catch (const InputError&) {  // this record cannot have it: the next one
       }
+      out_.data.records = sound;
     }
-    throw InputError(fmt::format("{}: no record can show the mistake {}", out_.name, fault));
+    throw InputError(fmt::format("{}: no record can show the mistake {}", out_.name, what.fault));
   }
 
   void Answers(bool exact) {

@@ -36,7 +36,7 @@ class SpoilTest : public ::testing::Test {
   }
 
   const Case clean_ = MeasuredCase({{2e-5, 1e-5}, {-4e-5, 3e-5}, {5e-5, -2e-5}});
-  Case case_ = clean_;
+  Case case_ = clean_, clean_with_current_ = clean_;
 };
 
 TEST_F(SpoilTest, UnitAndSignAreFactors) {
@@ -47,6 +47,39 @@ TEST_F(SpoilTest, UnitAndSignAreFactors) {
   Do("sign");
   for (std::size_t k = 0; k < 400; ++k) EXPECT_EQ(Now(0)[k], -Before(0)[k]);
   ExpectOthersUntouched(0);
+}
+
+TEST_F(SpoilTest, AnAmountTakesThePlaceOfTheUsualOne) {
+  EXPECT_EQ(Spoil(case_, 1, {"unit", "A.x", 25.4}, 5), "record-2.h5: unit of A.x");
+  for (std::size_t k = 0; k < 400; ++k) EXPECT_EQ(Now(0)[k], 25.4 * Before(0)[k]);
+  case_ = clean_;
+  Spoil(case_, 1, {"lost", "", 0.1}, 5);
+  EXPECT_EQ(Now(0).size(), 360U);
+}
+
+// The positions have an instrument of their own: nothing else is late.
+TEST_F(SpoilTest, AnInstrumentIsLateInItsColumns) {
+  clean_with_current_.records[1].data.channels.push_back(
+      {"A.i1", "A", std::vector<double>(Before(0).size(), 1.0)});
+  Case c = clean_with_current_;
+  for (std::size_t k = 0; k < 400; ++k)
+    c.records[1].data.channels[4].samples[k] = static_cast<double>(k);
+  const Case before = c;
+  EXPECT_EQ(Spoil(c, 1, {"instrument", "", 0.004}, 5), "record-2.h5: all positions 0.004 s late");
+  for (std::size_t ch = 0; ch < 5; ++ch) {
+    const auto &now = c.records[1].data.channels[ch].samples,
+               &was = before.records[1].data.channels[ch].samples;
+    for (std::size_t k = 60; k < 400; ++k)
+      EXPECT_EQ(now[k], ch < 4 ? was[k - 50] : was[k]) << ch << " " << k;
+  }
+}
+
+TEST_F(SpoilTest, WhatIsDoneShowsOrNot) {
+  EXPECT_FALSE(ShowsMistake(clean_.records[1], case_.records[1]));
+  Do("lag");  // of a shaft that is held
+  EXPECT_FALSE(ShowsMistake(clean_.records[1], case_.records[1]));
+  Do("sign");
+  EXPECT_TRUE(ShowsMistake(clean_.records[1], case_.records[1]));
 }
 
 TEST_F(SpoilTest, SwappedColumnsAreOfOneBearing) {
