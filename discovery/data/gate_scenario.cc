@@ -79,6 +79,10 @@ void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t reco
   if (f.with.empty() && !strange) return;
   if (f.with.empty()) f.probability = 0.9;
   f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", f.with);
+  // what its speed told already
+  std::erase_if(out, [&](const DataFault& told) {
+    return told.record == f.record && told.fault == f.fault && told.with.empty();
+  });
   out.push_back(f);
   for (GateColumn& c : columns) c.explained = true;
 }

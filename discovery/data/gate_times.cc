@@ -153,10 +153,23 @@ bool FindLateRecord(const CaseRecord& r, const std::vector<GateColumn>& columns,
   return believed;
 }
 
-/// The columns of one kind are late together and all others are not: they have a logger of their own.
+/// Whether columns agree with the prediction as it is rather than `late` seconds later.
+bool AreOnTime(const std::vector<const GateColumn*>& columns, double late, double rate) {
+  constexpr double kBetter = 0.9;
+  const auto rows = static_cast<long>(std::lround(late * rate));
+  double as_it_is = 0, later = 0;
+  for (const GateColumn* c : columns) {
+    const double size = c->match.predicted_move;
+    as_it_is += std::pow(c->match.error / size, 2);
+    later += std::pow(MatchOf(LateBy(c->column, rows, 0)).error / size, 2);
+  }
+  return std::sqrt(as_it_is) < kBetter * std::sqrt(later);
+}
+
+/// The columns of one kind are late together and all others are on time: they have an instrument of their own.
 void FindLateKind(const CaseRecord& r, ChannelKind kind, std::vector<GateColumn>& columns,
                   std::vector<DataFault>& out) {
-  constexpr double kLeast = 2e-3, kLeft = 0.75, kOnTime = 0.25;  // [s], of the error, of that time
+  constexpr double kLeast = 2e-3, kLeft = 0.75;  // [s], of the error
   std::vector<const GateColumn*> own, others;
   for (const GateColumn* c : MovingColumns(columns, columns.size()))
     (IsOfKind(c->name, kind) ? own : others).push_back(c);
@@ -166,10 +179,9 @@ void FindLateKind(const CaseRecord& r, ChannelKind kind, std::vector<GateColumn>
   });
   if (!gross) return;
   const FoundShift s = ShiftOf(own, r.data.rate);
-  if (std::abs(s.late) < kLeast || s.left > kLeft || !s.all_rows || RepeatsItself(own)) return;
-  if (others.size() > kColumns) others.resize(kColumns);
-  const FoundShift theirs = ShiftOf(others, r.data.rate);
-  if (theirs.left < kLeft && std::abs(theirs.late) > kOnTime * std::abs(s.late)) return;
+  if (std::abs(s.late) < kLeast || s.left > kLeft || !s.all_rows || RepeatsItself(own) ||
+      !AreOnTime(others, s.late, r.data.rate))
+    return;
   for (GateColumn& c : columns) {
     if (c.explained || !IsOfKind(c.name, kind)) continue;
     out.push_back(TimeFault(r, c.name, s));
@@ -183,6 +195,8 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   if (r.scenario.start == StartState::kResting) return;
+  for (const ChannelKind kind : {ChannelKind::kReading, ChannelKind::kCoilCurrent})
+    FindLateKind(r, kind, columns, out);
   if (FindLateRecord(r, columns, out)) {
     for (GateColumn& c : columns) c.explained = true;
     return;
@@ -202,8 +216,6 @@ void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColu
     out.push_back(TimeFault(r, c->name, s));
     c->explained = true;
   }
-  for (const ChannelKind kind : {ChannelKind::kReading, ChannelKind::kCoilCurrent})
-    FindLateKind(r, kind, columns, out);
 }
 
 namespace {
