@@ -135,15 +135,15 @@ export async function mendData(page, address) {
   await page.getByRole('link', {name: 'spoiled/case-0003/case.toml'}).click();
   const fault = page.locator('.faults li').first();
   await fault.waitFor({timeout: 120000});
-  assert.match(await fault.innerText(), /A\.i8: unit/);
+  assert.match(await fault.innerText(), /A\.i1: unit/);
   await check(page, 'data-fault');
   await page.getByRole('button', {name: 'Write this line into the case'}).click();
   await page.locator('.faults').waitFor({state: 'detached', timeout: 120000});
   const file = 'spoiled/case-0003/case.toml';
-  assert.match(text(file), /channels\."A\.i8" = \{ column = "A\.i8", unit = "mA" \}/);
+  assert.match(text(file), /channels\."A\.i1" = \{ column = "A\.i1", unit = "A", gain = 2 \}/);
   await page.getByRole('button', {name: 'Undo'}).click();
   await page.locator('.faults li').first().waitFor({timeout: 120000});
-  assert.doesNotMatch(text(file), /mA/);
+  assert.doesNotMatch(text(file), /gain = 2/);
   say('a wrong unit was mended and the mend undone');
 }
 
