@@ -49,7 +49,7 @@ std::string FaultText(const DataFault& fault);
 // The checks, one per kind; each marks the columns that it explains. `record`: number in the case.
 void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
-/// Readings of positions that stand alone among their neighbours.
+/// Positions and coil currents that stand alone among their neighbours.
 void CheckSpikes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                  std::vector<DataFault>& out);
 void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,

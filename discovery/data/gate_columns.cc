@@ -38,4 +38,14 @@ std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& colu
   return out;
 }
 
+DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,
+                       double left) {
+  DataFault f;
+  f.record = r.data_file;
+  f.channel = channel;
+  f.fault = fault;
+  f.probability = std::clamp(1 - left * left, 0.5, 0.999);
+  return f;
+}
+
 }  // namespace ambrig

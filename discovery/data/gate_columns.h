@@ -18,6 +18,10 @@ double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted
 std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& columns,
                                              std::size_t most);
 
+/// A fault of a column ("": of all) that is as probable as undoing it leaves little: `left`, a share of the error.
+DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,
+                       double left);
+
 inline constexpr double kMoves = 8;  // floors: a column that moves less tells no time
 
 }  // namespace ambrig

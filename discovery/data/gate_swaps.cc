@@ -11,8 +11,8 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kLeftOfKind = 0.35,
-                 kLeftOfOthers = 0.1;  // of the error, columns of one kind and of two
+// of the error, columns of one kind and of two
+constexpr double kLeftOfKind = 0.35, kLeftOfOthers = 0.1;
 // Beside an effect more may be left where the movements say clearly which column is which.
 constexpr double kLeftBesideEffect = 0.6, kOfItself = 0.5, kOfOther = 0.75;
 
@@ -40,17 +40,16 @@ Exchanged Against(const CaseModel& model, const GateColumn& a, const GateColumn&
           MatchOf(column).correlation};
 }
 
-/// The share of the error that an exchange leaves; 1 where it is not believed.
-double LeftByExchange(const CaseModel& model, const GateColumn& a, const GateColumn& b) {
-  if (std::min(a.match.error, b.match.error) < 0.7 * kGrossError) return 1;
-  const Exchanged own_a = Against(model, a, a), own_b = Against(model, b, b);
-  const double before = std::hypot(own_a.error, own_b.error);
-  if (std::min(own_a.error, own_b.error) < 0.7 * kGrossError || before < 1.5 * kGrossError)
-    return 1;
+/// The share of the error that an exchange leaves; 1 where it is not believed. `own_a`, `own_b`: errors of the columns
+/// beside a zero as they stand [floors].
+double LeftByExchange(const CaseModel& model, const GateColumn& a, double own_a,
+                      const GateColumn& b, double own_b) {
+  const double before = std::hypot(own_a, own_b);
+  if (std::min(own_a, own_b) < 0.7 * kGrossError || before < 1.5 * kGrossError) return 1;
   const Exchanged a_as_b = Against(model, a, b), b_as_a = Against(model, b, a);
   const double left = std::hypot(a_as_b.error, b_as_a.error) / before;
   const bool one_kind = KindOf(a) == KindOf(b);
-  const bool clear = one_kind && std::max(own_a.correlation, own_b.correlation) < kOfItself &&
+  const bool clear = one_kind && std::max(a.match.correlation, b.match.correlation) < kOfItself &&
                      std::min(a_as_b.correlation, b_as_a.correlation) > kOfOther;
   const double most = clear ? kLeftBesideEffect : one_kind ? kLeftOfKind : kLeftOfOthers;
   return left > most ? 1 : left;
@@ -65,18 +64,17 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
     const auto it = r.sources.find(name);
     return it == r.sources.end() ? name : it->second.column;
   };
+  std::vector<double> own;
+  for (const GateColumn& c : columns)
+    own.push_back(ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name)));
   for (std::size_t i = 0; i < columns.size(); ++i)
     for (std::size_t j = i + 1; j < columns.size(); ++j) {
       GateColumn &a = columns[i], &b = columns[j];
       if (a.explained || b.explained) continue;
-      const double left = LeftByExchange(model, a, b);
+      const double left = LeftByExchange(model, a, own[i], b, own[j]);
       if (left >= 1) continue;
-      DataFault f;
-      f.record = r.data_file;
-      f.channel = a.name;
-      f.fault = "swap";
+      DataFault f = FaultLeaving(r, a.name, "swap", left);
       f.with = b.name;
-      f.probability = std::clamp(1 - left * left, 0.5, 0.999);
       f.mend = fmt::format("channels = {{ \"{}\" = \"{}\", \"{}\" = \"{}\" }}", a.name,
                            column(b.name), b.name, column(a.name));
       out.push_back(f);

@@ -62,13 +62,9 @@ FoundShift ShiftOf(const std::vector<const GateColumn*>& columns, double rate) {
 
 DataFault TimeFault(const CaseRecord& r, const std::string& channel, const FoundShift& s) {
   const double length = static_cast<double>(r.data.rows()) / r.data.rate;
-  DataFault f;
-  f.record = r.data_file;
-  f.channel = channel;
   const bool lost = !s.all_rows && s.late < 0;
-  f.fault = lost ? "lost" : "lag";
+  DataFault f = FaultLeaving(r, channel, lost ? "lost" : "lag", s.left);
   f.seconds = lost ? -s.late : s.late;
-  f.probability = std::clamp(1 - s.left * s.left, 0.5, 0.999);
   if (lost)
     f.mend = fmt::format("leave_out = [[{:.6g}, {:.6g}]]", r.data.start + s.from - 2 / r.data.rate,
                          r.data.start + length);
@@ -77,6 +73,13 @@ DataFault TimeFault(const CaseRecord& r, const std::string& channel, const Found
   else
     f.mend = fmt::format("channels.\"{}\" = {{ late = {:.6g} }}", channel, s.late);
   return f;
+}
+
+/// Whether the error of any column is gross, also beside its movement.
+bool AnyGross(const std::vector<const GateColumn*>& columns) {
+  return std::ranges::any_of(columns, [](const GateColumn* c) {
+    return c->match.error > kGrossError && c->match.error > 0.1 * c->match.predicted_move;
+  });
 }
 
 /// A column beside a prediction that comes `late` rows later, from this row on.
@@ -139,10 +142,7 @@ bool IsClear(const std::vector<const GateColumn*>& moving, const FoundShift& s, 
 bool FindLateRecord(const CaseRecord& r, const std::vector<GateColumn>& columns,
                     std::vector<DataFault>& out) {
   const std::vector<const GateColumn*> moving = MovingColumns(columns, kColumns);
-  const bool gross = std::any_of(moving.begin(), moving.end(), [](const GateColumn* c) {
-    return c->match.error > kGrossError && c->match.error > 0.1 * c->match.predicted_move;
-  });
-  if (!gross) return false;
+  if (!AnyGross(moving)) return false;
   const FoundShift s = ShiftOf(moving, r.data.rate);
   const double most = s.all_rows ? 0.4 : 0.3;  // an instant more to choose
   // what a fit may find is a shift of all rows
@@ -174,13 +174,10 @@ void FindLateKind(const CaseRecord& r, ChannelKind kind, std::vector<GateColumn>
   for (const GateColumn* c : MovingColumns(columns, columns.size()))
     (IsOfKind(c->name, kind) ? own : others).push_back(c);
   if (own.size() < 2 || others.empty()) return;
-  const bool gross = std::any_of(own.begin(), own.end(), [](const GateColumn* c) {
-    return c->match.error > kGrossError && c->match.error > 0.1 * c->match.predicted_move;
-  });
-  if (!gross) return;
+  if (!AnyGross(own)) return;
   const FoundShift s = ShiftOf(own, r.data.rate);
-  if (std::abs(s.late) < kLeast || s.left > kLeft || !s.all_rows || RepeatsItself(own) ||
-      !AreOnTime(others, s.late, r.data.rate))
+  if (std::abs(s.late) < kLeast || s.left > kLeft || !s.all_rows ||
+      !AreOnTime(others, s.late, r.data.rate) || RepeatsItself(own))
     return;
   for (GateColumn& c : columns) {
     if (c.explained || !IsOfKind(c.name, kind)) continue;

@@ -82,15 +82,6 @@ double OthersError(const std::vector<GateColumn>& columns, const GateColumn& of)
   return MedianOf(std::move(near.size() < kFew ? all : near));
 }
 
-DataFault FaultOf(const CaseRecord& r, const std::string& channel, const char* fault, double left) {
-  DataFault f;
-  f.record = r.data_file;
-  f.channel = channel;
-  f.fault = fault;
-  f.probability = std::clamp(1 - left * left, 0.5, 0.999);
-  return f;
-}
-
 /// A column that stands at a level and hardly moves (the bus, a clamped shaft): its movement is noise and has no
 /// correlation with the prediction, but the level itself shows the factor, where it is far beyond any `zero` [SI].
 /// `movement`: the most that it may move, of its level.
@@ -158,20 +149,21 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   for (GateColumn& c : columns) {
-    const double error = ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name));
+    const double zero = MostZero(model, c.name);
+    const double error = ErrorBesideZero(c, c.column.predicted, zero);
     if (c.explained || error < kGrossError) continue;
     double left = 1;
-    const double zero = MostZero(model, c.name), opposite = Left(c, -1, error);
+    const double opposite = Left(c, -1, error);
     const Suspect suspect{c, error, OthersError(columns, c), LevelTells(c, zero, 0.05)};
     const bool opposite_level = LevelTells(c, zero, 0.3) && opposite < 0.1;
     if (const auto m = BestMistake(suspect, &left)) {
-      DataFault f = FaultOf(r, c.name, "unit", left);
+      DataFault f = FaultLeaving(r, c.name, "unit", left);
       f.factor = m->factor;
       f.mend = UnitLine(r, c.name, m->factor);
       out.push_back(f);
       c.explained = true;
     } else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3)) {
-      DataFault f = FaultOf(r, c.name, "sign", opposite);
+      DataFault f = FaultLeaving(r, c.name, "sign", opposite);
       f.factor = -1;
       f.mend = UnitLine(r, c.name, -1);
       out.push_back(f);

@@ -68,20 +68,26 @@ double FarthestOf(const CaseModel& model, const CaseRecord& r, const GateColumn&
   if (IsOfKind(c.name, ChannelKind::kReading)) possible = kFastest / r.data.rate;
   if (IsOfKind(c.name, ChannelKind::kCoilCurrent))
     possible = kOfRange * model.data().rig.amplifier.adc_range;
+  if (!std::isfinite(possible)) return possible;
   const double noise = WhiteNoiseOf(c.column.measured.data(), c.column.ok.data(), c.column.size());
   return std::max(possible, kNoise * c.floor * std::max(1.0, noise));
 }
 
-DataFault RangeFault(const CaseRecord& r, const std::string& channel, std::size_t first,
-                     std::size_t count) {
+/// Rows whose values cannot be, where they are few: they are told, and later checks leave them out.
+void TellRange(const CaseRecord& r, GateColumn& c, const std::vector<std::size_t>& rows,
+               std::vector<DataFault>& out) {
+  const auto count = static_cast<double>(rows.size());
+  if (rows.empty() || count > kFewAbsurd * static_cast<double>(c.column.size())) return;
+  for (const std::size_t k : rows) c.column.ok[k] = 0, c.column.measured[k] = 0;
+  c.match = MatchOf(c.column);
   DataFault f;
   f.record = r.data_file;
-  f.channel = channel;
+  f.channel = c.name;
   f.fault = "range";
-  f.seconds = static_cast<double>(count) / r.data.rate;
-  f.mend = LeaveOut(r, first, 1);
+  f.seconds = count / r.data.rate;
+  f.mend = LeaveOut(r, rows.front(), 1);
   f.probability = 0.999;
-  return f;
+  out.push_back(f);
 }
 
 }  // namespace
@@ -93,18 +99,10 @@ void CheckRange(const CaseModel& model, std::size_t record, std::vector<GateColu
     const double limit = kAbsurd * LimitOf(model.data().rig, c.name) / c.floor;
     const double usual = kAbsurd * 50 * (c.match.predicted_rms + 1);
     const double most = std::isfinite(limit) ? limit : usual;
-    std::size_t beyond = 0, first = 0;
+    std::vector<std::size_t> beyond;
     for (std::size_t k = 0; k < c.column.size(); ++k)
-      if (c.column.ok[k] && std::abs(c.column.measured[k]) > most) {
-        if (beyond++ == 0) first = k;
-      }
-    if (beyond == 0 ||
-        static_cast<double>(beyond) > kFewAbsurd * static_cast<double>(c.column.size()))
-      continue;
-    for (std::size_t k = 0; k < c.column.size(); ++k)
-      if (std::abs(c.column.measured[k]) > most) c.column.ok[k] = 0, c.column.measured[k] = 0;
-    c.match = MatchOf(c.column);
-    out.push_back(RangeFault(r, c.name, first, beyond));
+      if (c.column.ok[k] && std::abs(c.column.measured[k]) > most) beyond.push_back(k);
+    TellRange(r, c, beyond, out);
   }
 }
 
@@ -117,13 +115,8 @@ void CheckSpikes(const CaseModel& model, std::size_t record, std::vector<GateCol
         out, [&](const DataFault& f) { return f.record == r.data_file && f.channel == c.name; });
     const bool whole = std::ranges::all_of(y, [](double v) { return std::isfinite(v); });
     if (told || !whole || y.size() != c.column.size()) continue;
-    const std::vector<std::size_t> lonely = LonelyRows(y, FarthestOf(model, r, c));
-    if (lonely.empty() ||
-        static_cast<double>(lonely.size()) > kFewAbsurd * static_cast<double>(y.size()))
-      continue;
-    for (const std::size_t k : lonely) c.column.ok[k] = 0, c.column.measured[k] = 0;
-    c.match = MatchOf(c.column);
-    out.push_back(RangeFault(r, c.name, lonely.front(), lonely.size()));
+    const double farthest = FarthestOf(model, r, c);
+    if (std::isfinite(farthest)) TellRange(r, c, LonelyRows(y, farthest), out);
   }
 }
 

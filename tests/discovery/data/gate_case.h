@@ -1,5 +1,7 @@
 #pragma once
 /// Records of the reference rig for the data gate, "measured" by the model itself with noise of another seed.
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>
@@ -53,6 +55,14 @@ inline std::vector<DataFault> FaultsOf(const Case& c) {
   const Hypothesis h = Hypothesis::Base(c.rig);
   const NoiseFloor floor = FindFloor(model, h);
   return InspectData(model, floor.clean, h);
+}
+
+/// One fault in all, of this kind and column.
+inline void ExpectOnly(const std::vector<DataFault>& faults, const std::string& fault,
+                       const std::string& channel) {
+  ASSERT_EQ(faults.size(), 1U) << channel;
+  EXPECT_EQ(faults[0].fault, fault) << FaultText(faults[0]);
+  EXPECT_EQ(faults[0].channel, channel);
 }
 
 inline std::size_t RecordNamed(const Case& c, const std::string& title) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/record/channels.h"
+#include "discovery/practice/spoil.h"
 #include "tests/discovery/data/gate_case.h"
 
 namespace ambrig {
@@ -16,11 +17,6 @@ using testing::RecordNamed;
 using testing::SamplesOf;
 
 constexpr const char* kMultisine = "multisine at 60 Hz";
-
-/// The column comes so many rows late; the rows before show its beginning.
-void Delay(std::vector<double>& y, std::ptrdiff_t rows) {
-  std::copy_backward(y.begin(), y.end() - rows, y.end());
-}
 
 std::vector<std::string> ReadingsOf(const CaseRecord& r) {
   std::vector<std::string> out;
@@ -35,7 +31,7 @@ TEST(GateClocks, TheColumnsOfOneInstrument) {
   const std::size_t record = RecordNamed(c, kMultisine);
   const std::vector<std::string> readings = ReadingsOf(c.records[record]);
   ASSERT_EQ(readings.size(), 4U);
-  for (const std::string& name : readings) Delay(SamplesOf(c, kMultisine, name), 50);
+  Spoil(c, record, {"instrument", "", 4e-3}, 1);
   const auto faults = FaultsOf(c);
   ASSERT_EQ(faults.size(), 4U);
   for (std::size_t k = 0; k < 4; ++k) {
@@ -58,19 +54,17 @@ TEST(GateClocks, ADelayInTheLoopIsNoClock) {
 TEST(GateClocks, AShortBlockThatIsMissing) {
   Case c = Measured();
   const std::size_t record = RecordNamed(c, testing::kClampedRecord);
-  CaseRecord& r = c.records[record];
-  const auto from = static_cast<std::ptrdiff_t>(r.data.rows() / 2);
-  const auto lost = static_cast<std::ptrdiff_t>(std::max(12L, std::lround(5e-4 * r.data.rate)));
-  for (Channel& ch : r.data.channels)
-    ch.samples.erase(ch.samples.begin() + from, ch.samples.begin() + from + lost);
-  for (ChannelQuality& q : r.quality) q.ok.resize(r.data.rows(), 1);
+  const Record before = c.records[record].data;
+  const double rows = std::max(12.0, std::round(5e-4 * before.rate));
+  Spoil(c, record, {"lost", "", (rows + 0.5) / static_cast<double>(before.rows())}, 1);
+  ASSERT_EQ(static_cast<double>(before.rows() - c.records[record].data.rows()), rows);
   const auto faults = FaultsOf(c);
   ASSERT_EQ(faults.size(), 1U);
   EXPECT_EQ(faults[0].fault, "lost") << FaultText(faults[0]);
-  EXPECT_NEAR(faults[0].seconds, static_cast<double>(lost) / r.data.rate, 2 / r.data.rate);
+  EXPECT_NEAR(faults[0].seconds, rows / before.rate, 2 / before.rate);
 }
 
-/// The step record with so much of another movement in every column that the rig file's model leaves a third of it.
+/// A record whose positions and currents hold another movement, of this share of their own.
 Case BesideAnotherMovement(double share) {
   Case c = Measured({}, 0, kMultisine);
   CaseRecord& r = c.records[RecordNamed(c, kMultisine)];
@@ -89,9 +83,7 @@ Case BesideAnotherMovement(double share) {
 TEST(GateClocks, ALateRecordBesideAnEffect) {
   for (const bool late : {false, true}) {
     Case c = BesideAnotherMovement(0.1);
-    if (late)
-      for (Channel& ch : c.records[RecordNamed(c, kMultisine)].data.channels)
-        Delay(ch.samples, 150);
+    if (late) Spoil(c, RecordNamed(c, kMultisine), {"lag", "", 0.012}, 1);
     std::vector<DataFault> faults = FaultsOf(c);
     if (!late) {
       EXPECT_TRUE(faults.empty()) << FaultText(faults[0]);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/base/errors.h"
 #include "core/math/noise.h"
@@ -36,7 +37,7 @@ class SpoilTest : public ::testing::Test {
   }
 
   const Case clean_ = MeasuredCase({{2e-5, 1e-5}, {-4e-5, 3e-5}, {5e-5, -2e-5}});
-  Case case_ = clean_, clean_with_current_ = clean_;
+  Case case_ = clean_;
 };
 
 TEST_F(SpoilTest, UnitAndSignAreFactors) {
@@ -59,11 +60,10 @@ TEST_F(SpoilTest, AnAmountTakesThePlaceOfTheUsualOne) {
 
 // The positions have an instrument of their own: nothing else is late.
 TEST_F(SpoilTest, AnInstrumentIsLateInItsColumns) {
-  clean_with_current_.records[1].data.channels.push_back(
-      {"A.i1", "A", std::vector<double>(Before(0).size(), 1.0)});
-  Case c = clean_with_current_;
-  for (std::size_t k = 0; k < 400; ++k)
-    c.records[1].data.channels[4].samples[k] = static_cast<double>(k);
+  Case c = clean_;
+  std::vector<double> ramp(400);
+  std::iota(ramp.begin(), ramp.end(), 0.0);
+  c.records[1].data.channels.push_back({"A.i1", "A", ramp});
   const Case before = c;
   EXPECT_EQ(Spoil(c, 1, {"instrument", "", 0.004}, 5), "record-2.h5: all positions 0.004 s late");
   for (std::size_t ch = 0; ch < 5; ++ch) {
