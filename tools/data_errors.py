@@ -3,13 +3,14 @@ import math
 
 import numpy as np
 
-# kind of corruption: sizes, faults that name it, whether it is of one column
+# kind of corruption: sizes, faults that name it, whether single columns are named (or the whole record)
 KINDS = {
     "unit": ([1e3, 1e-3, 1e6, 25.4, math.pi / 180, 180 / math.pi], {"unit", "range"}, True),
-    "factor": ([2.0, 0.5, math.sqrt(2)], {"unit"}, True),
+    "factor": ([2.0, 0.5, math.sqrt(2), 0.3, 4.07], {"unit"}, True),
     "sign": ([-1.0], {"sign"}, True),
     "swap": ([0, 1], {"swap", "unit", "sign"}, True),        # 0: of one kind, 1: of different kinds
     "lag": ([1, 5, 50, 250], {"lag"}, False),                # rows, of the whole record
+    "instrument": ([0.004, 0.02], {"lag"}, True),            # s, of all positions
     "lag-column": ([5, 50, 250], {"lag"}, True),
     "clip": ([0.5, 0.8], {"clip"}, True),                    # of the largest movement
     "freeze": ([0.05, 0.15, 0.4], {"freeze", "lost"}, True),  # part of the record
@@ -23,6 +24,7 @@ KINDS = {
     "quantised": ([6], set(), True),                         # bits
     "hum": ([0.3], set(), True),                             # of the movement, 50 Hz
 }
+TOGETHER = {"lag", "instrument", "lost", "rate", "scenario"}  # the same change of many columns
 NOT_ASKED = {k for k, v in KINDS.items() if not v[1]}
 
 
@@ -62,13 +64,24 @@ def exchange(size, columns, name, rng):
     return [name, other]
 
 
-def change_whole_record(kind, size, columns, rng, others):
-    """Errors of the logger, which every column of the record has. Returns whether it can be done."""
+def late(y, rows):
+    """The column so many rows late; before its first row it did what it does at its start, backwards."""
+    return np.concatenate([y[1:1 + rows][::-1], y[:len(y) - rows]])
+
+
+def change_columns_together(kind, size, columns, rng, rate, others):
+    """Errors of the logger or of an instrument. Returns the columns that have it, None where it cannot be done."""
     rows = len(next(iter(columns.values()))[0])
     if kind == "lag":
         for n in columns:
-            v = columns[n][0]
-            put(columns, n, np.concatenate([v[1:1 + size][::-1], v[:rows - size]]))
+            put(columns, n, late(columns[n][0], size))
+    elif kind == "instrument":
+        readings = [n for n in columns if kind_of(n) == "reading" and movement(columns[n][0]) > 0]
+        if len(readings) < 2 or round(size * rate) >= rows // 2:
+            return None
+        for n in readings:
+            put(columns, n, late(columns[n][0], round(size * rate)))
+        return readings
     elif kind == "lost":
         count = int(size * rows)
         first = int(rng.integers(rows // 5, rows - count - rows // 5))
@@ -81,10 +94,10 @@ def change_whole_record(kind, size, columns, rng, others):
             put(columns, n, np.interp(at, np.arange(rows), columns[n][0]))
     elif kind == "scenario":
         if not others:
-            return False
+            return None
         columns.clear()
         columns.update(others[rng.integers(len(others))])
-    return True
+    return list(columns)
 
 
 def changed_column(kind, size, y, rng, rate):
@@ -93,7 +106,7 @@ def changed_column(kind, size, y, rng, rate):
     if kind in ("unit", "factor", "sign"):
         return y * size
     if kind == "lag-column":
-        return np.concatenate([y[1:1 + size][::-1], y[:rows - size]])
+        return late(y, size)
     if kind == "clip":
         middle = np.median(y)
         most = size * np.max(np.abs(y - middle))
@@ -120,8 +133,7 @@ def corrupt(kind, size, columns, name, rng, record, others):
     """Changes `columns` in place; returns the columns that may be named, None where this kind cannot be done here."""
     if kind == "swap":
         return exchange(size, columns, name, rng)
-    if KINDS[kind][2]:
-        put(columns, name, changed_column(kind, size, columns[name][0], rng, record["rate"]))
-    elif not change_whole_record(kind, size, columns, rng, others):
-        return None
+    if kind in TOGETHER:
+        return change_columns_together(kind, size, columns, rng, record["rate"], others)
+    put(columns, name, changed_column(kind, size, columns[name][0], rng, record["rate"]))
     return [name]

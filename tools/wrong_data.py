@@ -98,8 +98,7 @@ def prepare(folder, kind, size, draw, options, target):
     for r in keep[1:]:
         a, c = read_h5(folder / r["data"])
         if state[r["data"]] == state[chosen["data"]] and abs(a["rate"] - attributes["rate"]) < 1e-6:
-            n = min(len(next(iter(c.values()))[0]), len(right[name]))
-            others.append({k: (v[0][:n], v[1]) for k, v in c.items()})
+            others.append(c)
     done = {"case": str(folder), "kind": kind, "size": size, "draw": draw, "record": chosen["data"],
             "state": state[chosen["data"]]}
     target.mkdir(parents=True, exist_ok=True)

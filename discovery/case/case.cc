@@ -33,13 +33,11 @@ double LargestNoise(const std::string& unit) {
 }
 
 void CheckAgainstScenario(const CaseRecord& r, const TomlTable& t) {
-  const double length = static_cast<double>(r.data.rows()) / r.data.rate,
-               end = r.data.start + length;
+  if (r.data.start > r.scenario.duration)
+    t.Fail("data", fmt::format("starts at {:.6g} s, the scenario {} lasts {} s", r.data.start,
+                               r.scenario_file, r.scenario.duration));
   if (r.data.rows() < 8)
     t.Fail("data", fmt::format("has {}, allowed: at least 8", Counted(r.data.rows(), "row")));
-  if (end > r.scenario.duration * (1 + 1e-9) + 1.5 / r.data.rate)
-    t.Fail("data", fmt::format("ends at {:.6g} s, the scenario {} lasts {} s", end, r.scenario_file,
-                               r.scenario.duration));
   if (r.data.start < -1e-9)
     t.Fail("data", fmt::format("starts at {} s, before the scenario", r.data.start));
 }
@@ -64,12 +62,17 @@ void CutBefore(Record& data) {
   data.start += static_cast<double>(rows) / data.rate;
 }
 
-/// Rows behind the scenario's end, when the record was moved there.
-void CutBehind(Record& data, double duration) {
+/// Cuts off the rows behind the scenario's end. Returns how long they hold numbers [s].
+double CutBehind(Record& data, double duration) {
   const auto most = static_cast<std::size_t>(
-      std::max(0.0, std::floor((duration - data.start) * data.rate * (1 + 1e-12) + 1)));
-  for (Channel& ch : data.channels)
+      std::max(0.0, std::floor((duration - data.start) * data.rate * (1 + 1e-9) + 1)));
+  std::size_t behind = 0;
+  for (Channel& ch : data.channels) {
+    for (std::size_t k = most; k < ch.samples.size(); ++k)
+      if (std::isfinite(ch.samples[k])) behind = std::max(behind, k + 1 - most);
     if (ch.samples.size() > most) ch.samples.resize(most);
+  }
+  return static_cast<double>(behind) / data.rate;
 }
 
 /// Times that the case file leaves out: rows without a number.
@@ -214,11 +217,10 @@ CaseRecord ReadCaseRecord(const TomlTable& t, const std::map<std::string, std::s
   RejectReused(c, r, t);
   t.RejectUnknownKeys();
   r.data.start += r.time_offset;
-  if (r.time_offset != 0) {
-    CutBefore(r.data);
-    CutBehind(r.data, r.scenario.duration);
-  }
+  if (r.time_offset != 0) CutBefore(r.data);
   LeaveOutSpans(r.data, left_out, t);
+  const double behind = CutBehind(r.data, r.scenario.duration);
+  if (r.time_offset == 0) r.behind = behind;
   if (r.data.channels.empty())
     t.Fail("data", fmt::format("= {} contains no channel of this rig", r.data_file));
   CheckAgainstScenario(r, t);

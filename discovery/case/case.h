@@ -38,6 +38,7 @@ struct CaseRecord {
   std::vector<ChannelQuality> quality;  // one per channel of data
   std::map<std::string, ColumnSource> sources;
   double time_offset = 0;  // [s] scenario time of the logger's zero
+  double behind = 0;  // [s] of rows after the scenario's end, cut off; 0 where it has an offset
 };
 
 /// Standard deviations of what may differ from record to record; 0: it may not.

@@ -56,6 +56,7 @@ std::string Quantity(const DataFault& f) {
   if (f.fault == "freeze") return fmt::format("stands still for {:.4g} ms", 1e3 * f.seconds);
   if (f.fault == "lost") return fmt::format("lacks {:.4g} ms in the middle", 1e3 * f.seconds);
   if (f.fault == "range") return "holds values that cannot be";
+  if (f.seconds > 0) return fmt::format("lasts {:.4g} s longer than its scenario", f.seconds);
   return f.with.empty() ? "does not belong to its scenario" : "belongs to the scenario " + f.with;
 }
 
@@ -67,6 +68,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
     if (!OverTime(model.data().records[r])) continue;
     std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
+    CheckLength(model, r, out);
     CheckRange(model, r, columns, out);
     CheckSpikes(model, r, columns, out);
     CheckHeld(model, r, columns, out);
@@ -74,6 +76,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     if (!Predicted(model, r)) continue;
     CheckUnits(model, r, columns, out);
     CheckSwaps(model, r, columns, out);
+    CheckCurrentFactors(model, r, columns, out);
     CheckTimes(model, r, columns, out);
     CheckSpeedTime(model, r, columns, out);
     CheckScenario(model, h, r, columns, out);

@@ -56,6 +56,10 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
                std::vector<DataFault>& out);
 void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
+/// Any factor of one coil current with its level, after exchanges: a coil whose current were that far off would move the
+/// other columns of its bearing.
+void CheckCurrentFactors(const CaseModel& model, std::size_t record,
+                         std::vector<GateColumn>& columns, std::vector<DataFault>& out);
 void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
 void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
@@ -67,6 +71,8 @@ void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFaul
 /// Line of a case file that gives a column its right unit, or a gain where no unit does; `factor`:
 /// measured over what it should be.
 std::string UnitLine(const CaseRecord& r, const std::string& channel, double factor);
+/// A record that lasts longer than its scenario: of another one, or of a logger that was stopped late.
+void CheckLength(const CaseModel& model, std::size_t record, std::vector<DataFault>& out);
 /// Against the predictions of the other records' scenarios.
 void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
                    std::vector<GateColumn>& columns, std::vector<DataFault>& out);

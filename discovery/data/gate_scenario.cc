@@ -30,6 +30,20 @@ double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Re
 
 }  // namespace
 
+void CheckLength(const CaseModel& model, std::size_t record, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  if (r.behind < 2 / r.data.rate) return;
+  DataFault f;
+  f.record = r.data_file;
+  f.fault = "scenario";
+  f.seconds = r.behind;
+  const double end = r.data.TimeAt(r.data.rows() - 1);
+  f.mend = fmt::format("leave_out = [[{:.6g}, {:.6g}]]", end + 0.5 / r.data.rate,
+                       end + r.behind + 1 / r.data.rate);
+  f.probability = 0.9;
+  out.push_back(f);
+}
+
 void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t record,
                    std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];

@@ -68,8 +68,14 @@ bool NoiseTells(const GateColumn& c, double factor) {
   return WhiteNoiseOf(c.column.measured.data(), c.column.ok.data(), c.column.size()) > 0.3 * factor;
 }
 
-/// Median error of the columns that a cause at this one would move first: the others of its bearing, where it has some.
-double OthersError(const std::vector<GateColumn>& columns, const GateColumn& of) {
+/// The columns that a cause at one of them would move first.
+struct Others {
+  double error = 0;  // their median [floors]
+  bool bearing =
+      false;  // they are the others of its bearing; false: it has few, they are all of the record
+};
+
+Others OthersOf(const std::vector<GateColumn>& columns, const GateColumn& of) {
   constexpr std::size_t kFew = 4;
   const auto bearing = [](const std::string& name) { return name.substr(0, name.find('.')); };
   std::vector<double> near, all;
@@ -78,8 +84,9 @@ double OthersError(const std::vector<GateColumn>& columns, const GateColumn& of)
     all.push_back(c.match.error);
     if (bearing(c.name) == bearing(of.name)) near.push_back(c.match.error);
   }
-  if (all.empty()) return 0;
-  return MedianOf(std::move(near.size() < kFew ? all : near));
+  if (all.empty()) return {};
+  const bool few = near.size() < kFew;
+  return {MedianOf(std::move(few ? all : near)), !few};
 }
 
 /// A column that stands at a level and hardly moves (the bus, a clamped shaft): its movement is noise and has no
@@ -95,38 +102,74 @@ bool LevelTells(const GateColumn& c, double zero, double movement) {
 /// What is known of a column and of those beside it.
 struct Suspect {
   const GateColumn& column;
-  double error;   // beside a zero of the sensor [floors]
-  double others;  // median error of the other columns [floors]
-  bool level;     // its level tells
+  double error;  // beside a zero of the sensor [floors]
+  Others others;
+  bool level;  // its level tells
 };
+
+/// Least squares of measured about predicted, level and movement together.
+double WholeGain(const MatchedColumn& c) {
+  double mp = 0, pp = 0;
+  for (std::size_t k = 0; k < c.size(); ++k)
+    if (c.ok[k]) mp += c.measured[k] * c.predicted[k], pp += c.predicted[k] * c.predicted[k];
+  return pp > 0 ? mp / pp : 0;
+}
+
+/// Whether another factor leaves far less than the listed one, which then only comes near.
+bool OnlyNear(const Mistake& m, double rest, const Suspect& s) {
+  constexpr double kOther = 0.2, kFarLess = 0.3;
+  const double gain = WholeGain(s.column.column);
+  return gain > 0 && std::abs(std::log(gain / m.factor)) > kOther &&
+         Left(s.column, gain, s.error) < kFarLess * rest;
+}
 
 /// The share of the error that this mistake leaves; nothing where it is not believed.
 std::optional<double> LeftBy(const Mistake& m, const Suspect& s) {
   const GateColumn& c = s.column;
   const double rest = Left(c, m.factor, s.error);
   // An effect in the rig leaves an error in every column: of one that stands alone no less is asked than of those.
-  const double usual = m.alone ? kLikeOthers * s.others / s.error : 0;
+  const double usual = m.alone ? kLikeOthers * s.others.error / s.error : 0;
   if (rest > std::max(m.left, std::min(usual, kMostLeft)) || !NoiseTells(c, m.factor)) return {};
   if (s.level ? m.correlation > 0 && rest > kLeftOfLevel : c.match.correlation < m.correlation)
     return {};
   // divided by the factor the column must still show what the model expects, its noise at least:
   // a movement that the model lacks is no unit
   if (c.match.measured_rms / m.factor < 0.3 * std::max(1.0, c.match.predicted_rms)) return {};
-  if (m.alone && (s.error < 2 * kGrossError || s.others > kAlone * s.error)) return {};
+  if (m.correlation > 0 && OnlyNear(m, rest, s)) return {};
+  if (m.alone && (s.error < 2 * kGrossError || s.others.error > kAlone * s.error)) return {};
   return rest;
 }
 
-/// A mistake of the list, or else any factor of the movement that no sensor has.
-std::optional<Mistake> BestMistake(const Suspect& s, double* left) {
-  std::optional<Mistake> best;
-  *left = 1;
+/// The share of the error that a factor leaves which no list holds and no sensor has.
+std::optional<double> LeftByAny(double factor, double correlation, const Suspect& s) {
+  if (factor <= 0 || std::abs(std::log(factor)) < std::log(kMostGain)) return {};
+  return LeftBy({factor, 0.08, correlation, true}, s);
+}
+
+/// A factor, and the share of the error that it leaves.
+struct FoundFactor {
+  double factor, left;
+};
+
+/// A mistake of the list, or else any factor of the movement.
+std::optional<FoundFactor> BestFactor(const Suspect& s) {
+  std::optional<FoundFactor> best;
   for (const Mistake& m : Mistakes())
-    if (const auto rest = LeftBy(m, s); rest && *rest < *left) best = m, *left = *rest;
+    if (const auto rest = LeftBy(m, s); rest && (!best || *rest < best->left))
+      best = {m.factor, *rest};
   if (best || s.level) return best;
-  const Mistake own{s.column.match.gain, 0.08, 0.98, true};
-  if (own.factor > 0 && std::abs(std::log(own.factor)) > std::log(kMostGain))
-    if (const auto rest = LeftBy(own, s)) best = own, *left = *rest;
+  const double gain = s.column.match.gain;
+  if (const auto rest = LeftByAny(gain, 0.98, s)) best = {gain, *rest};
   return best;
+}
+
+void TellUnit(const CaseRecord& r, GateColumn& c, const FoundFactor& found,
+              std::vector<DataFault>& out) {
+  DataFault f = FaultLeaving(r, c.name, "unit", found.left);
+  f.factor = found.factor;
+  f.mend = UnitLine(r, c.name, found.factor);
+  out.push_back(f);
+  c.explained = true;
 }
 
 }  // namespace
@@ -152,16 +195,11 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
     const double zero = MostZero(model, c.name);
     const double error = ErrorBesideZero(c, c.column.predicted, zero);
     if (c.explained || error < kGrossError) continue;
-    double left = 1;
     const double opposite = Left(c, -1, error);
-    const Suspect suspect{c, error, OthersError(columns, c), LevelTells(c, zero, 0.05)};
+    const Suspect suspect{c, error, OthersOf(columns, c), LevelTells(c, zero, 0.05)};
     const bool opposite_level = LevelTells(c, zero, 0.3) && opposite < 0.1;
-    if (const auto m = BestMistake(suspect, &left)) {
-      DataFault f = FaultLeaving(r, c.name, "unit", left);
-      f.factor = m->factor;
-      f.mend = UnitLine(r, c.name, m->factor);
-      out.push_back(f);
-      c.explained = true;
+    if (const auto found = BestFactor(suspect)) {
+      TellUnit(r, c, *found, out);
     } else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3)) {
       DataFault f = FaultLeaving(r, c.name, "sign", opposite);
       f.factor = -1;
@@ -169,6 +207,21 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
       out.push_back(f);
       c.explained = true;
     }
+  }
+}
+
+void CheckCurrentFactors(const CaseModel& model, std::size_t record,
+                         std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
+  const CaseRecord& r = model.data().records[record];
+  for (GateColumn& c : columns) {
+    if (c.explained || !IsOfKind(c.name, ChannelKind::kCoilCurrent)) continue;
+    const double zero = MostZero(model, c.name);
+    const double error = ErrorBesideZero(c, c.column.predicted, zero);
+    const Others others = OthersOf(columns, c);
+    if (error < kGrossError || !others.bearing) continue;
+    const double gain = WholeGain(c.column);
+    if (const auto left = LeftByAny(gain, 0, {c, error, others, LevelTells(c, zero, 0.05)}))
+      TellUnit(r, c, {gain, *left}, out);
   }
 }
 

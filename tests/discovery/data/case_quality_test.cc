@@ -97,9 +97,30 @@ TEST_F(CaseQuality, AHoleInWhatWasCommandedIsRefused) {
   EXPECT_NE(text.find("4.99 s"), std::string::npos) << text;
 }
 
-TEST_F(CaseQuality, TimesThatContradictTheScenario) {
+// 12 s of a scenario, and 24 s of which nothing is known: of another scenario, or a logger that was stopped late.
+TEST_F(CaseQuality, ARecordLongerThanItsScenario) {
   Edit([](int, int column, const std::string& cell) {
     return column == kTime ? std::to_string(3 * std::stod(cell)) : cell;
+  });
+  const auto lengths = [](const Case& c) {
+    const CaseModel model(c);
+    std::vector<DataFault> out;
+    for (std::size_t r = 0; r < c.records.size(); ++r) CheckLength(model, r, out);
+    return out;
+  };
+  const std::vector<DataFault> told = lengths(Read());
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told[0].fault, "scenario");
+  EXPECT_TRUE(told[0].record.ends_with("inductance_em1_01.csv")) << told[0].record;
+  EXPECT_NEAR(told[0].seconds, 24, 0.02);
+  EXPECT_NE(FaultText(told[0]).find("s longer than its scenario"), std::string::npos);
+  EditCase("use = \"fit\"", "use = \"fit\"\n" + told[0].mend);
+  EXPECT_TRUE(lengths(Read()).empty()) << told[0].mend;
+}
+
+TEST_F(CaseQuality, ARecordAfterItsScenarioIsRefused) {
+  Edit([](int, int column, const std::string& cell) {
+    return column == kTime ? std::to_string(100 + std::stod(cell)) : cell;
   });
   EXPECT_NE(Complaint().find("steps-01.toml lasts 12 s"), std::string::npos) << Complaint();
 }
