@@ -88,6 +88,20 @@ BENCHMARK_CAPTURE(EngineWithIron, saturation, "saturation")->Unit(benchmark::kMi
 BENCHMARK_CAPTURE(EngineWithIron, hysteresis, "hysteresis")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(EngineWithIron, eddy_currents, "eddy-currents")->Unit(benchmark::kMillisecond);
 
+/// A stator that is a network of poles, without noise and detection.
+void EngineOfStator(benchmark::State& state, const std::string& name) {
+  const RigParameters rig =
+      ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/stators/" + name + ".toml");
+  Scenario scenario = ReadScenarioText(ScenarioText("r", kSeconds), "bench", rig);
+  scenario.noise = scenario.fault_tolerant = false;
+  double coils = 0;
+  for (const BearingParameters& b : rig.bearings) coils += b.coils();
+  for (auto _ : state) benchmark::DoNotOptimize(Simulate(rig, scenario, {}));
+  Count(state, kSeconds + kWarmUp, coils);
+}
+BENCHMARK_CAPTURE(EngineOfStator, six_poles, "six_poles")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(EngineOfStator, homopolar, "homopolar")->Unit(benchmark::kMillisecond);
+
 /// Everything on, as on a machine without registers of eight doubles (but for the noise).
 void EngineInHalves(benchmark::State& state) {
   whole_lanes = false;

@@ -22,7 +22,10 @@ using PartSources =
 
 PoleNetwork::PoleNetwork(std::vector<NetworkPole> poles, Eigen::MatrixXd turns,
                          std::vector<NetworkMagnet> magnets)
-    : poles_(std::move(poles)), turns_(std::move(turns)), magnets_(std::move(magnets)) {
+    : poles_(std::move(poles)),
+      turns_(std::move(turns)),
+      turns_of_(turns_.cwiseAbs().colwise().sum()),
+      magnets_(std::move(magnets)) {
   Require(!poles_.empty() && poles_.size() <= kMostPoles, "1 to 32 poles");
   Require(turns_.rows() == static_cast<Eigen::Index>(poles_.size()), "a row of turns per pole");
   Require(turns_.cols() >= 1 && turns_.cols() <= kMostWindings, "1 to 24 coils");

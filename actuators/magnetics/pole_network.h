@@ -62,7 +62,7 @@ class PoleNetwork {
   const NetworkPole& pole(int p) const { return poles_[static_cast<std::size_t>(p)]; }
   const Eigen::MatrixXd& turns() const { return turns_; }
   /// Σ |N_pc| over the poles.
-  double TurnsOf(int coil) const { return turns_.col(coil).cwiseAbs().sum(); }
+  double TurnsOf(int coil) const { return turns_of_[coil]; }
   double SmallestGap() const;
 
   NetworkFlux FluxAt(const Eigen::Vector3d& r, bool derivatives = false) const;
@@ -83,6 +83,7 @@ class PoleNetwork {
  private:
   std::vector<NetworkPole> poles_;
   Eigen::MatrixXd turns_;
+  Eigen::VectorXd turns_of_;
   std::vector<NetworkMagnet> magnets_;
   int parts_ = 0;
   bool has_magnets_ = false;

@@ -255,8 +255,7 @@ void StatorLanes::ShortTurns(int j, double s, double r, double x, double y) {
 void StatorLanes::Force(double x, double y, double* out_x, double* out_y) const {
   *out_x = *out_y = 0;
   if (coupling == Coupling::kNetwork) {
-    const PoleVector now = network->FluxAt({x, y, 0}).phi * NetworkCurrents();
-    const Eigen::Vector3d f = network->Force(now);
+    const Eigen::Vector2d f = PullUnder(PlaceOf(*network, x, y), AmpereTurns());
     *out_x = f.x(), *out_y = f.y();
     return;
   }

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "actuators/magnetics/flux_law.h"
+#include "actuators/magnetics/network_lanes.h"
 #include "actuators/magnetics/stator_geometry.h"
 #include "actuators/magnetics/stator_loop.h"
 #include "actuators/magnetics/stator_sample.h"
@@ -123,12 +124,10 @@ class StatorLanes : public StatorGeometry {
   void SolveGeneral(const StatorSample& sample, SampleWork* work);
   // Of any stator (coupling kNetwork): the same steps over its whole circuit, stator_lanes_network.cc.
   void BeginNetwork(double x0, double y0, double x1, double y1);
-  void SolveNetwork(const Lane& target, double h);
+  void PlaceNetwork(double fraction);
   void TakeNetwork();
   void SettleNetwork(double x, double y);
-  void PlaceNetwork(double fraction);
-  PoleVector NetworkFluxes() const;
-  WindingVector NetworkCurrents() const;
+  Lane AmpereTurns() const;
   StatorLoop LoopOver(const VoltagePattern& pattern, double bus);
   void RunChecked(const StatorLoop& loop);
   void OpenDriven(const VoltagePattern& pattern, double t);
@@ -144,9 +143,9 @@ class StatorLanes : public StatorGeometry {
   bool blocks_ = false;  // some diode blocked in the last period
   Lane rel_;
   bool affine_laws_ = true;  // one round of Newton is exact
-  // Of any stator: pole fluxes per ampere at both ends of the period and now; forces at its start, of
-  // its samples, and at its end [N].
-  PoleMatrix flux0_, flux1_, flux_;
+  // Of any stator: its circuit at both ends of the period and now; forces at its start, of its samples, and at its
+  // end [N].
+  NetworkPlace start_, end_, now_;
   Eigen::Vector2d force_start_ = Eigen::Vector2d::Zero(), force_sum_ = Eigen::Vector2d::Zero(),
                   force_end_ = Eigen::Vector2d::Zero();
 };

@@ -29,7 +29,6 @@ void StatorLanes::Converge(const StatorSample& sample, const SampleWork& work, L
 }
 
 void StatorLanes::SolveGeneral(const StatorSample& sample, SampleWork* work) {
-  if (coupling == Coupling::kNetwork) return SolveNetwork(work->target, sample.h);
   ShortedWindings shorted;
   const auto inverse = [&](const ShortedTurns& s) {
     return 1 / (s.leakage + s.theta * s.resistance * sample.h);
@@ -38,17 +37,25 @@ void StatorLanes::SolveGeneral(const StatorSample& sample, SampleWork* work) {
     shorted.mmf[s.coil] += s.n * inverse(s) * s.target;
     shorted.own[s.coil] += s.n * s.n * inverse(s);
   }
-  LawTerms terms;
-  AddLawTerms(&terms);
-  if (!FirstRoundTo(sample, shorts.empty() ? nullptr : &shorted, &terms, work) && !affine_laws_)
-    Converge(sample, *work, &terms);
+  if (coupling == Coupling::kNetwork) {
+    for (int j = 0; j < coils; ++j) {
+      shorted.mmf[j] += c_[j] * work->target[j];
+      shorted.own[j] += n[j] * c_[j];
+    }
+    phi = FluxOfSources(now_, shorted.mmf, shorted.own);
+  } else {
+    LawTerms terms;
+    AddLawTerms(&terms);
+    if (!FirstRoundTo(sample, shorts.empty() ? nullptr : &shorted, &terms, work) && !affine_laws_)
+      Converge(sample, *work, &terms);
+  }
   ComputeCurrents(sample, work->target);
   for (ShortedTurns& s : shorts) s.i = inverse(s) * (s.target - s.n * phi[s.coil]);
 }
 
 void StatorLanes::Refresh(double x, double y) {
   // Same as a solve with no voltage and no time: currents that carry the present linkages.
-  if (coupling == Coupling::kNetwork) flux_ = network->FluxAt({x, y, 0}).phi;
+  if (coupling == Coupling::kNetwork) now_ = PlaceOf(*network, x, y);
   for (int j = 0; j < kLanes; ++j) rel_[j] = reluctance.Value(GapAt(j, x, y));
   const Lane keep_half = half_rh_, keep_inverse = inverse_l_;
   for (int j = 0; j < kLanes; ++j) {
@@ -130,10 +137,8 @@ void StatorLanes::StepWithDiodes(const StatorSample& sample) {
       }
     if (!any) break;
   }
-  if (coupling == Coupling::kNetwork)
-    TakeNetwork();
-  else
-    TakeSample(sample);
+  TakeSample(sample);
+  if (coupling == Coupling::kNetwork) TakeNetwork();
   for (ShortedTurns& s : shorts) s.lambda = s.n * phi[s.coil] + s.leakage * s.i;
 }
 
