@@ -1,6 +1,7 @@
 #include "discovery/data/gate_columns.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ambrig {
 
@@ -46,6 +47,13 @@ DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const st
   f.fault = fault;
   f.probability = std::clamp(1 - left * left, 0.5, 0.999);
   return f;
+}
+
+void TellScenario(DataFault fault, std::vector<DataFault>& out) {
+  std::erase_if(out, [&](const DataFault& told) {
+    return told.record == fault.record && told.fault == fault.fault && told.with.empty();
+  });
+  out.push_back(std::move(fault));
 }
 
 }  // namespace ambrig

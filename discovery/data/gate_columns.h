@@ -22,6 +22,9 @@ std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& colu
 DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,
                        double left);
 
+/// Tells a fault "scenario", in place of those without a scenario that fits which were told of the record before.
+void TellScenario(DataFault fault, std::vector<DataFault>& out);
+
 inline constexpr double kMoves = 8;  // floors: a column that moves less tells no time
 
 }  // namespace ambrig

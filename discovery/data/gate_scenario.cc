@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/record/channels.h"
 #include "discovery/data/gate_columns.h"
@@ -26,6 +27,12 @@ double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Re
     n += 1;
   }
   return n > 0 ? std::sqrt(sum / n) : kInfinity;
+}
+
+/// A file as the case file names it: from its own folder.
+std::string InCase(const Case& c, const std::string& file) {
+  namespace fs = std::filesystem;
+  return fs::path(file).lexically_proximate(fs::path(c.file).parent_path()).string();
 }
 
 }  // namespace
@@ -92,12 +99,8 @@ void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t reco
   }();
   if (f.with.empty() && !strange) return;
   if (f.with.empty()) f.probability = 0.9;
-  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", f.with);
-  // what its speed told already
-  std::erase_if(out, [&](const DataFault& told) {
-    return told.record == f.record && told.fault == f.fault && told.with.empty();
-  });
-  out.push_back(f);
+  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", InCase(model.data(), f.with));
+  TellScenario(f, out);
   for (GateColumn& c : columns) c.explained = true;
 }
 

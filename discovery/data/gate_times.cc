@@ -283,7 +283,7 @@ void CheckSpeed(const CaseModel& model, std::size_t record, std::vector<DataFaul
   }
   f.fault = "scenario";
   f.channel = "";
-  out.push_back(f);
+  TellScenario(f, out);
 }
 
 }  // namespace ambrig

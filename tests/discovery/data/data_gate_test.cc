@@ -116,6 +116,11 @@ TEST(DataGate, DataOfAnotherScenarioAreNamedWithIt) {
             std::fill(ch.samples.begin(), ch.samples.end(), std::nan(""));
     ExpectExchanged(FaultsOf(c), kOther);
   }
+  // the line to paste names the file as the case file does
+  c.file = "bench/case.toml";
+  for (CaseRecord& r : c.records) r.scenario_file = "bench/" + r.scenario_file;
+  for (const DataFault& f : FaultsOf(c))
+    EXPECT_EQ(f.mend, "scenario = \"" + f.with.substr(6) + "\"");
 }
 
 // What the data-quality pass left out because it stands still is named too, but not of a clamped rotor, which may stand.
