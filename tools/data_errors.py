@@ -70,7 +70,8 @@ def late(y, rows):
 
 
 def change_columns_together(kind, size, columns, rng, rate, others):
-    """Errors of the logger or of an instrument. Returns the columns that have it, None where it cannot be done."""
+    """Errors of the logger or of an instrument. Returns the columns that have it ([]: all), None where it cannot be
+    done."""
     rows = len(next(iter(columns.values()))[0])
     if kind == "lag":
         for n in columns:
@@ -97,7 +98,7 @@ def change_columns_together(kind, size, columns, rng, rate, others):
             return None
         columns.clear()
         columns.update(others[rng.integers(len(others))])
-    return list(columns)
+    return []
 
 
 def changed_column(kind, size, y, rng, rate):
@@ -134,6 +135,7 @@ def corrupt(kind, size, columns, name, rng, record, others):
     if kind == "swap":
         return exchange(size, columns, name, rng)
     if kind in TOGETHER:
-        return change_columns_together(kind, size, columns, rng, record["rate"], others)
+        changed = change_columns_together(kind, size, columns, rng, record["rate"], others)
+        return [name] if changed == [] else changed
     put(columns, name, changed_column(kind, size, columns[name][0], rng, record["rate"]))
     return [name]

@@ -76,7 +76,7 @@ std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<dou
     if (!Predicted(model, r)) continue;
     CheckUnits(model, r, columns, out);
     CheckSwaps(model, r, columns, out);
-    CheckCurrentFactors(model, r, columns, out);
+    CheckLevelFactors(model, r, columns, out);
     CheckTimes(model, r, columns, out);
     CheckSpeedTime(model, r, columns, out);
     CheckScenario(model, h, r, columns, out);

@@ -56,10 +56,10 @@ void CheckHeld(const CaseModel& model, std::size_t record, std::vector<GateColum
                std::vector<DataFault>& out);
 void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
-/// Any factor of one coil current with its level, after exchanges: a coil whose current were that far off would move the
-/// other columns of its bearing.
-void CheckCurrentFactors(const CaseModel& model, std::size_t record,
-                         std::vector<GateColumn>& columns, std::vector<DataFault>& out);
+/// Any factor of a coil current, or of the bus, with its level, after exchanges: a coil whose current were that far off
+/// would move the other columns of its bearing, the bus those of all.
+void CheckLevelFactors(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                       std::vector<DataFault>& out);
 void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
                 std::vector<DataFault>& out);
 void CheckTimes(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,

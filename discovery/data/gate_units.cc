@@ -210,15 +210,18 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
   }
 }
 
-void CheckCurrentFactors(const CaseModel& model, std::size_t record,
-                         std::vector<GateColumn>& columns, std::vector<DataFault>& out) {
+void CheckLevelFactors(const CaseModel& model, std::size_t record, std::vector<GateColumn>& columns,
+                       std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   for (GateColumn& c : columns) {
-    if (c.explained || !IsOfKind(c.name, ChannelKind::kCoilCurrent)) continue;
+    const bool current = IsOfKind(c.name, ChannelKind::kCoilCurrent),
+               bus = IsOfKind(c.name, ChannelKind::kBus);
+    if (c.explained || !(current || bus)) continue;
     const double zero = MostZero(model, c.name);
     const double error = ErrorBesideZero(c, c.column.predicted, zero);
     const Others others = OthersOf(columns, c);
-    if (error < kGrossError || !others.bearing) continue;
+    const bool others_tell = current ? others.bearing : others.error < kGrossError;
+    if (error < kGrossError || !others_tell) continue;
     const double gain = WholeGain(c.column);
     if (const auto left = LeftByAny(gain, 0, {c, error, others, LevelTells(c, zero, 0.05)}))
       TellUnit(r, c, {gain, *left}, out);

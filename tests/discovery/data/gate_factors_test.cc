@@ -113,9 +113,10 @@ TEST(GateFactors, AMovingColumnShowsAnyFactorThatNoSensorHas) {
 }
 
 // A coil's bias with little movement, another one in each run: a coil that had such a current would move the others.
-TEST(GateFactors, ACurrentShowsAnyFactorThatNoSensorHas) {
+TEST(GateFactors, ALevelShowsAnyFactorThatNoSensorHas) {
   ExpectUnits(kStepRecord, "A.i2", {0.061, 4.07}, 0.02);
   ExpectUnits("multisine at 60 Hz", "A.i4", {0.3, 4.07}, 0.02);
+  ExpectUnits(kStepRecord, "bus", {0.3, 4.07}, 0.02);
 }
 
 // A level has no movement that could be opposite: a clamped shaft, a coil's bias, the bus.
