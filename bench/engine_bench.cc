@@ -41,8 +41,9 @@ std::string ScenarioText(const std::string& rig, double seconds) {
          "\n[speed]\nprofile = [[0.0, 157.0]]\n";
 }
 
-Scenario Healthy(bool noise, bool detection, double seconds = kSeconds) {
-  Scenario s = ReadScenarioText(ScenarioText("r", seconds), "bench", Rig());
+Scenario Healthy(bool noise, bool detection, double seconds = kSeconds,
+                 const RigParameters& rig = Rig()) {
+  Scenario s = ReadScenarioText(ScenarioText("r", seconds), "bench", rig);
   s.noise = noise;
   s.fault_tolerant = detection;
   return s;
@@ -92,8 +93,7 @@ BENCHMARK_CAPTURE(EngineWithIron, eddy_currents, "eddy-currents")->Unit(benchmar
 void EngineOfStator(benchmark::State& state, const std::string& name) {
   const RigParameters rig =
       ReadRig(std::string(AMBRIG_SOURCE_DIR) + "/examples/stators/" + name + ".toml");
-  Scenario scenario = ReadScenarioText(ScenarioText("r", kSeconds), "bench", rig);
-  scenario.noise = scenario.fault_tolerant = false;
+  const Scenario scenario = Healthy(false, false, kSeconds, rig);
   double coils = 0;
   for (const BearingParameters& b : rig.bearings) coils += b.coils();
   for (auto _ : state) benchmark::DoNotOptimize(Simulate(rig, scenario, {}));

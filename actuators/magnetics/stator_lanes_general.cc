@@ -38,11 +38,12 @@ void StatorLanes::SolveGeneral(const StatorSample& sample, SampleWork* work) {
     shorted.own[s.coil] += s.n * s.n * inverse(s);
   }
   if (coupling == Coupling::kNetwork) {
+    ShortedWindings all = shorted;  // and the driven ones
     for (int j = 0; j < coils; ++j) {
-      shorted.mmf[j] += c_[j] * work->target[j];
-      shorted.own[j] += n[j] * c_[j];
+      all.mmf[j] += c_[j] * work->target[j];
+      all.own[j] += n[j] * c_[j];
     }
-    phi = FluxOfSources(now_, shorted.mmf, shorted.own);
+    phi = FluxOfSources(now_, all.mmf, all.own);
   } else {
     LawTerms terms;
     AddLawTerms(&terms);

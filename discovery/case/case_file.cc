@@ -13,19 +13,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// How `file` is named in a text that stands in `folder`.
-std::string NameFrom(const fs::path& folder, const std::string& file) {
-  return fs::absolute(file).lexically_normal().lexically_relative(folder).string();
-}
+fs::path Whole(const std::string& path) { return (fs::current_path() / path).lexically_normal(); }
 
 }  // namespace
 
+std::string NameFrom(const std::string& folder, const std::string& file) {
+  return Whole(file).lexically_relative(Whole(folder)).string();
+}
+
 std::string CaseWithRig(const std::string& text, const std::string& file, const std::string& rig,
                         const std::string& output) {
-  const fs::path folder = fs::absolute(output).lexically_normal().parent_path();
+  const fs::path folder = Whole(output).parent_path();
   std::vector<TomlEdit> edits{{"rig", NameFrom(folder, rig)}};
   const TomlTable table = TomlTable::FromText(text, file);
-  const bool moved = fs::absolute(file).lexically_normal().parent_path() != folder;
+  const bool moved = Whole(file).parent_path() != folder;
   const std::vector<TomlTable> records = table.Tables("record");
   for (std::size_t k = 0; moved && k < records.size(); ++k)
     for (const char* key : {"scenario", "data"})

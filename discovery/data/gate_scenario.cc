@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/record/channels.h"
+#include "discovery/case/case_file.h"
 #include "discovery/data/gate_columns.h"
 
 namespace ambrig {
@@ -27,12 +28,6 @@ double ErrorAgainstRecord(const std::vector<const GateColumn*>& moving, const Re
     n += 1;
   }
   return n > 0 ? std::sqrt(sum / n) : kInfinity;
-}
-
-/// A file as the case file names it: from its own folder.
-std::string InCase(const Case& c, const std::string& file) {
-  namespace fs = std::filesystem;
-  return fs::path(file).lexically_proximate(fs::path(c.file).parent_path()).string();
 }
 
 }  // namespace
@@ -99,7 +94,8 @@ void CheckScenario(const CaseModel& model, const Hypothesis& h, std::size_t reco
   }();
   if (f.with.empty() && !strange) return;
   if (f.with.empty()) f.probability = 0.9;
-  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", InCase(model.data(), f.with));
+  const std::string folder = std::filesystem::path(model.data().file).parent_path().string();
+  f.mend = f.with.empty() ? "" : fmt::format("scenario = \"{}\"", NameFrom(folder, f.with));
   TellScenario(f, out);
   for (GateColumn& c : columns) c.explained = true;
 }

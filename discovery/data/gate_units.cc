@@ -107,6 +107,13 @@ struct Suspect {
   bool level;  // its level tells
 };
 
+Suspect SuspectOf(const CaseModel& model, const std::vector<GateColumn>& columns,
+                  const GateColumn& c) {
+  const double zero = MostZero(model, c.name);
+  return {c, ErrorBesideZero(c, c.column.predicted, zero), OthersOf(columns, c),
+          LevelTells(c, zero, 0.05)};
+}
+
 /// Least squares of measured about predicted, level and movement together.
 double WholeGain(const MatchedColumn& c) {
   double mp = 0, pp = 0;
@@ -163,9 +170,9 @@ std::optional<FoundFactor> BestFactor(const Suspect& s) {
   return best;
 }
 
-void TellUnit(const CaseRecord& r, GateColumn& c, const FoundFactor& found,
-              std::vector<DataFault>& out) {
-  DataFault f = FaultLeaving(r, c.name, "unit", found.left);
+void TellFactor(const CaseRecord& r, GateColumn& c, const FoundFactor& found,
+                std::vector<DataFault>& out) {
+  DataFault f = FaultLeaving(r, c.name, found.factor < 0 ? "sign" : "unit", found.left);
   f.factor = found.factor;
   f.mend = UnitLine(r, c.name, found.factor);
   out.push_back(f);
@@ -192,21 +199,14 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   for (GateColumn& c : columns) {
-    const double zero = MostZero(model, c.name);
-    const double error = ErrorBesideZero(c, c.column.predicted, zero);
-    if (c.explained || error < kGrossError) continue;
-    const double opposite = Left(c, -1, error);
-    const Suspect suspect{c, error, OthersOf(columns, c), LevelTells(c, zero, 0.05)};
-    const bool opposite_level = LevelTells(c, zero, 0.3) && opposite < 0.1;
-    if (const auto found = BestFactor(suspect)) {
-      TellUnit(r, c, *found, out);
-    } else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3)) {
-      DataFault f = FaultLeaving(r, c.name, "sign", opposite);
-      f.factor = -1;
-      f.mend = UnitLine(r, c.name, -1);
-      out.push_back(f);
-      c.explained = true;
-    }
+    const Suspect suspect = SuspectOf(model, columns, c);
+    if (c.explained || suspect.error < kGrossError) continue;
+    const double opposite = Left(c, -1, suspect.error);
+    const bool opposite_level = LevelTells(c, MostZero(model, c.name), 0.3) && opposite < 0.1;
+    if (const auto found = BestFactor(suspect))
+      TellFactor(r, c, *found, out);
+    else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3))
+      TellFactor(r, c, {-1, opposite}, out);
   }
 }
 
@@ -217,14 +217,11 @@ void CheckLevelFactors(const CaseModel& model, std::size_t record, std::vector<G
     const bool current = IsOfKind(c.name, ChannelKind::kCoilCurrent),
                bus = IsOfKind(c.name, ChannelKind::kBus);
     if (c.explained || !(current || bus)) continue;
-    const double zero = MostZero(model, c.name);
-    const double error = ErrorBesideZero(c, c.column.predicted, zero);
-    const Others others = OthersOf(columns, c);
-    const bool others_tell = current ? others.bearing : others.error < kGrossError;
-    if (error < kGrossError || !others_tell) continue;
+    const Suspect suspect = SuspectOf(model, columns, c);
+    const bool others_tell = current ? suspect.others.bearing : suspect.others.error < kGrossError;
+    if (suspect.error < kGrossError || !others_tell) continue;
     const double gain = WholeGain(c.column);
-    if (const auto left = LeftByAny(gain, 0, {c, error, others, LevelTells(c, zero, 0.05)}))
-      TellUnit(r, c, {gain, *left}, out);
+    if (const auto left = LeftByAny(gain, 0, suspect)) TellFactor(r, c, {gain, *left}, out);
   }
 }
 

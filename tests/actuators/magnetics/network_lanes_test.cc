@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "actuators/magnetics/stator_parameters.h"
 #include "core/math/noise.h"
+#include "tests/actuators/magnetics/template_stator.h"
 
 namespace ambrig {
 namespace {
@@ -12,15 +12,7 @@ namespace {
 constexpr double kAtX = 3e-5, kAtY = -5e-5;  // [m]
 
 std::shared_ptr<const PoleNetwork> Network(const std::string& pattern, int poles = 0) {
-  StatorParameters p;
-  p.pattern = pattern;
-  p.axial = FindStatorTemplate(pattern)->axial;
-  p.turns = 90;
-  p.pole_area = 2e-4;
-  p.gap = 4e-4;
-  p.leakage_inductance = 1e-3;
-  p.resistance = 1;
-  if (poles > 0) p.pole_count = poles;
+  StatorParameters p = testing::TemplateStator(pattern, {90, 2e-4, 4e-4, 1e-3}, poles);
   if (pattern == "homopolar-pm") p.bias = {900, 8e-3, 6e-4, 1.05};
   return NetworkOf(p);
 }

@@ -9,6 +9,7 @@
 #include "actuators/magnetics/radial_stator.h"
 #include "actuators/magnetics/stator_parameters.h"
 #include "core/math/constants.h"
+#include "tests/actuators/magnetics/template_stator.h"
 
 namespace ambrig {
 namespace {
@@ -18,15 +19,7 @@ const double kB0 = kMu0 * kTurns * kBias / kGap;                      // [T]
 constexpr double kClose = 1e-9;                                       // relative
 
 StatorParameters Of(const std::string& pattern) {
-  StatorParameters p;
-  p.pattern = pattern;
-  p.axial = FindStatorTemplate(pattern)->axial;
-  p.turns = kTurns;
-  p.pole_area = kArea;
-  p.gap = kGap;
-  p.leakage_inductance = 1e-3;
-  p.resistance = 1;
-  return p;
+  return testing::TemplateStator(pattern, {kTurns, kArea, kGap, 1e-3});
 }
 
 /// Four coils +x, +y, -x, -y: i0 + i, i0, i0 - i, i0.

@@ -7,25 +7,16 @@
 #include <cmath>
 #include <map>
 
-#include "actuators/magnetics/stator_parameters.h"
 #include "control/current/bias_linearisation.h"
 #include "core/math/constants.h"
 #include "faulttolerance/redistribution/stator_forms.h"
+#include "tests/actuators/magnetics/template_stator.h"
 
 namespace ambrig {
 namespace {
 
 StatorParameters Stator(const std::string& pattern, int poles) {
-  StatorParameters p;
-  p.pattern = pattern;
-  p.axial = FindStatorTemplate(pattern)->axial;
-  p.turns = 60;
-  p.pole_area = 1e-4;
-  p.gap = 3e-4;
-  p.pole_count = poles;
-  p.leakage_inductance = 3e-4;
-  p.resistance = 1;
-  return p;
+  return testing::TemplateStator(pattern, {60, 1e-4, 3e-4, 3e-4}, poles);
 }
 
 StatorProblem StatorProblemOf(const StatorParameters& s, double bias, bool unipolar) {
