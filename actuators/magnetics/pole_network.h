@@ -20,10 +20,9 @@
 namespace ambrig {
 
 inline constexpr int kMostPoles = 32;
-inline constexpr int kMostWindings = 24;  // of a network: coils, and loops of shorted turns
+inline constexpr int kMostWindings = 24;  // coils of a network
 
 using PoleVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPoles, 1>;
-using WindingVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostWindings + 1, 1>;
 using WindingMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostWindings + 1, kMostWindings + 1>;
 /// Rows: poles; columns: coils, then the magnets.
