@@ -138,7 +138,10 @@ bool CommissionedDetector::Decided(int coil, double excess) const {
   // What these throw at a healthy neighbour is smaller.
   if (Relies() && !out_of_range_ && gross)
     return PhasesAgree(coil) && std::abs(excess) > kOfTheLargest * LargestNow();
-  return gross && CurrentIsFalse(coil) &&
+  // A learnt model that was refused errs by a few tenths of c, and in its phases alike; not by half of the turns at once.
+  const bool witnessed =
+      CurrentIsFalse(coil) || (model_.learnt && jumped_[coil] > 0 && PhasesAgree(coil));
+  return gross && witnessed &&
          (excess < 0 || (GrossCoils() < kCoilsAtOnce && (Relies() || jumped_[coil] > 0)));
 }
 
