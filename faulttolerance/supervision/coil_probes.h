@@ -30,6 +30,7 @@ class CoilProbes {
   void GivenUp(int coil, FaultClass cls, double t);
   /// Whether a coil that works is asked for next to no current at t.
   void Idle(int coil, bool idle, double t);
+  bool idle(int coil) const { return idle_[static_cast<std::size_t>(coil)].idle; }
   /// The coil whose probe is due, -1: none.
   int Due(double t) const;
   /// Whether `coil` was given up because the reading of its current was wrong: a test current is a

@@ -21,6 +21,8 @@ constexpr double kBusUncertainty = 0.05, kBusNoise = 6;
 constexpr double kProbeCurrent = 0.4;  // of a coil's bias current
 constexpr double kCalm = 0.2;          // of the clearance: motion while idle coils are probed
 constexpr double kIdleCurrent = 0.15;  // of it: a coil that works, but shows nothing
+constexpr double kBusyCurrent =
+    0.25;  // of it, of a bearing that has lost turns: a coil that is idle no more
 constexpr double kTraceBefore = 5e-3, kTraceAfter = 10e-3;  // [s]
 
 std::string CoilName(const std::string& bearing, int coil) {
@@ -165,9 +167,12 @@ void FaultSupervisor::Probe(Watched& w, double t, const MeasuredPeriod& in, bool
                             const BearingControl& control, SupervisorOutput& out) {
   if (in.comparable) w.probes.Orbit(t, in.x1, in.y1);
   const bool calm = w.probes.Motion() < kCalm * ClearanceOf(*w.bearing);
+  const bool reduced = w.turns_left.minCoeff() < 1;
   for (int j = 0; j < control.coils; ++j) {
     const bool works = w.turns_left[j] > 0 && position_loop && !in.uncertainty.any();
-    w.probes.Idle(j, works && calm && control.commanded[j] < kIdleCurrent * w.bias, t);
+    // The noise of a command near the limit would put every probe off.
+    const double limit = reduced && w.probes.idle(j) ? kBusyCurrent : kIdleCurrent;
+    w.probes.Idle(j, works && calm && control.commanded[j] < limit * w.bias, t);
   }
   const int coil = w.probed;
   if (coil < 0) {
