@@ -205,6 +205,18 @@ TEST(CampaignCommand, SmallSurvivalCampaign) {
   EXPECT_NE(f.Read("out/report.html").find("Survival: open, 1500 rpm"), std::string::npos);
 }
 
+// Half of the turns of A7 go while it carries next to no current. Its command
+// (0.12 to 0.39 A, limit 0.3 A) crosses the limit of idle coils every few milliseconds; it is probed again all the same.
+TEST(CampaignCommand, AnIdleCoilWhoseCommandIsNearTheLimitIsProbedAgain) {
+  const CampaignFolder f;
+  const Outcome o = f.Ambrig("run --from-campaign " + std::string(AMBRIG_SOURCE_DIR) +
+                             "/scenarios/campaigns/survival.toml --row 6479 --out out");
+  ASSERT_EQ(o.exit, 0) << o.text;
+  for (const char* coil : {"A.coil1", "A.coil3", "A.coil4", "A.coil5", "A.coil7"})
+    EXPECT_NE(o.text.find(std::string("detected       ") + coil), std::string::npos) << coil;
+  EXPECT_NE(o.text.find("false alarms           0"), std::string::npos) << o.text;
+}
+
 TEST(CampaignFiles, AllOfTheRepositoryCanBeRead) {
   for (const char* name : {"single_coils", "survival", "survival_small", "false_alarms"})
     EXPECT_GT(

@@ -51,5 +51,24 @@ TEST(CommissionedRestraint, NothingIsConcludedOfAStrangerThatBounces) {
   }
 }
 
+// Sensors with run-out: the fit is refused. What half of the turns make of c is no error of a motion that is read wrong,
+// although the current keeps to its set-point.
+TEST(CommissionedRestraint, HalfOfTheTurnsAreMissedByAModelThatIsRefusedToo) {
+  const CommissionedRig plant(WithEffect(ReferenceRig(), "sensor-runout", "A",
+                                         {{"c1", 2e-5}, {"s1", 2e-5}, {"c2", 1e-5}, {"s2", 1e-5}}));
+  ASSERT_TRUE(plant.bearing.learnt);
+  ASSERT_FALSE(plant.bearing.usable()) << plant.bearing.grade;
+  const auto half = Concluded(plant.rig, &plant.bearing,
+                              Operation(FaultOf(3, "partial-short", "fraction = 0.5")));
+  ASSERT_FALSE(half->found.empty());
+  EXPECT_EQ(half->Coils(), std::set<int>{3});
+  EXPECT_EQ(half->found[0].cls, FaultClass::kPartialShort);
+  EXPECT_NEAR(half->found[0].fraction, 0.5, 0.05);
+  EXPECT_LT(half->found[0].time - kOnset, 0.25e-3);
+  const auto healthy = Concluded(plant.rig, &plant.bearing, Operation("", 0.08));
+  EXPECT_TRUE(healthy->found.empty());
+  EXPECT_TRUE(healthy->doubted);
+}
+
 }  // namespace
 }  // namespace ambrig
