@@ -2,7 +2,7 @@
 /// Errors of the data as hypotheses, tried before any fit: a wrong unit, sign, column, clock or
 /// scenario changes what a logger wrote and nothing else, so that undoing it brings the column back
 /// to the model's prediction. What the rig itself does differently changes other columns too and
-/// is left to the fits. Only gross errors are named; method: docs/theory/discovery.md.
+/// is left to the fits. Only gross errors are named; method: docs/theory/data_gate.md.
 #include <string>
 #include <vector>
 
