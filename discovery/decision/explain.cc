@@ -117,7 +117,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   DropNuisances(base, now);
   if (!ShapeExplainsAll() && TryNuisances(now, false)) {
     if (options_.clocks && FindLateRows(now)) return;
-    base = FitNow(base.hypothesis, nullptr);
+    if (!effect_instead_ || out_.adopted.empty()) base = FitNow(base.hypothesis, nullptr);
     for (int round = static_cast<int>(out_.adopted.size()); round < options_.rounds; ++round)
       if (!AdoptBest(now, round)) break;
   }

@@ -112,6 +112,8 @@ class Explainer {
       of_own_channels_;  // effects adopted for what they explain where they act
   RecordsSetRight set_right_;
   bool floor_renewed_ = false;
+  // An effect was sought in place of nuisances that explain as much: beside those nothing would be left for it.
+  bool effect_instead_ = false;
   // of the squared ratio on unseen records, by the first effect or by undeclared nuisances
   double first_fall_ = 0;
 };

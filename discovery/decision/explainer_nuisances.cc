@@ -16,6 +16,10 @@ namespace ambrig {
 namespace {
 
 constexpr long kMostRows = 4;  // by which a clock may be off; more is a matter of the data gate
+// Of what the nuisances explain, for one effect in their place: its law may have another form. Of fewer amounts that much
+// may follow a law by chance (eight: F = 63 on 1 and 7 degrees of freedom, p = 1e-4).
+constexpr double kMostOfNuisances = 0.9;
+constexpr std::size_t kManyAmounts = 8;
 
 }  // namespace
 
@@ -56,10 +60,19 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
 /// Whether one effect explains as much as the nuisances of every record together, which are many:
 /// they are then given up, and the search for effects starts from `bare`.
 bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances) {
+  const bool many = AmountsIn(with_nuisances).size() >= kManyAmounts;
   const Nuisances full = full_.nuisances, thinned = model_.nuisances;
   full_.nuisances = model_.nuisances = Nuisances();
   bank_ = SignatureBank();
-  const double reached = RatiosOf(model_, with_nuisances).Answered();
+  const double before = RatiosOf(model_, bare).Answered(),
+               reached = RatiosOf(model_, with_nuisances).Answered(),
+               of_nuisances = ExplainedShare(before, reached);
+  const auto explains_as_much = [&](const FitResult& fit) {
+    const double after = RatiosOf(model_, fit).Answered();
+    return fit.converged &&
+           (after < std::max(1.1, 1.03 * reached) ||
+            (many && ExplainedShare(before, after) > kMostOfNuisances * of_nuisances));
+  };
   ScreenOptions screen;
   screen.effective_sample_size = out_.effective_sample_size;
   const std::vector<Candidate> candidates = Screen(model_, bare, ResidualPeaks(), screen, bank_);
@@ -67,10 +80,10 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
   for (std::size_t k = 0; k < tried; ++k) {
     if (ExplainedShare(bare.ratio_fit, candidates[k].ratio_fit) < 0.6) break;
     Progress(0.07, Named(candidates[k].effect) + " in place of the nuisances");
-    const FitResult fit = FitBriefly(model_, bare, candidates[k], out_.effective_sample_size);
-    if (!fit.converged || RatiosOf(model_, fit).Answered() > std::max(1.1, 1.03 * reached))
+    if (!explains_as_much(FitBriefly(model_, bare, candidates[k], out_.effective_sample_size)))
       continue;
     out_.ladder.pop_back();
+    effect_instead_ = true;
     return true;
   }
   full_.nuisances = full;

@@ -81,6 +81,20 @@ TEST(Explain, OneEffectIsPreferredToAsManyZerosAsRecords) {
   EXPECT_TRUE(e.nuisances.empty());
 }
 
+// A gain that differs between the two directions is none of the catalogue's, but explains most of what as many zeros as
+// there are records do; the zeros take what it leaves.
+TEST(Explain, AnEffectWithALawOfAnotherFormIsPreferredToZeros) {
+  std::vector<MeasuredPlace> places = Places(1), more = Places(1);
+  for (MeasuredPlace& p : more) p.x *= 0.7, p.y *= -1.2;
+  places.insert(places.begin(), more.begin(), more.end());
+  for (MeasuredPlace& p : places) p.gain = p.x > 0 ? 1.08 : 1.06;
+  const Explanation e = Explain(MeasuredCase(places), ShortSearch());
+  EXPECT_EQ(e.verdict, "effect");
+  ASSERT_EQ(e.adopted.size(), 1u);
+  EXPECT_EQ(Named(e.adopted[0]), "sensor-gain at A.x");
+  EXPECT_NEAR(e.adopted[0].Value("gain"), 1.07, 0.01);
+}
+
 // A second effect hides nothing of the first any more: both have a set of their own.
 TEST(Explain, TwoEffectsAreNamedBesideEachOther) {
   Case c = MeasuredCase(Places(1.08));
