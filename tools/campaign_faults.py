@@ -5,9 +5,10 @@
 """
 import argparse
 import collections
-import csv
 import pathlib
 import statistics
+
+from campaign_table import rows_of
 
 HEAD = ("campaign", "fault", "runs: up, touched and rose, dropped", "faults detected, rightly classified, of all",
         "delay of the slowest coil: least, median, most", "false alarms in healthy coil-periods", "largest orbit")
@@ -26,7 +27,7 @@ def line(campaign, kind, rows):
     judged, detected, right = (int(sum(numbers(rows, c))) for c in ("judged", "detected", "right_class"))
     delays = numbers(rows, "detection_delay")
     up = [row for row in rows if row["verdict"] == "up"]
-    return (f"`{campaign}`", "none" if kind == "none" else kind,
+    return (f"`{campaign}`", kind,
             f"{len(rows)}: {ended['up']}, {ended['touchdown']}, {ended['drop']}",
             f"{detected}, {right} of {judged}" if judged else "-",
             ", ".join(map(duration, (min(delays), statistics.median(delays), max(delays)))) if delays else "-",
@@ -39,8 +40,7 @@ def main():
     parser.add_argument("campaigns", nargs="+", help="folders that ambrig campaign wrote")
     print("| " + " | ".join(HEAD) + " |\n" + "|---" * len(HEAD) + "|")
     for folder in map(pathlib.Path, parser.parse_args().campaigns):
-        with open(folder / "table.csv") as file:
-            rows = [{key.split(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
+        rows = rows_of(folder / "table.csv")
         for kind in dict.fromkeys(row["kind"] for row in rows):
             print("| " + " | ".join(line(folder.name, kind, [r for r in rows if r["kind"] == kind])) + " |")
 

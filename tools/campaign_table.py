@@ -9,6 +9,12 @@ import csv
 import statistics
 
 
+def rows_of(table):
+    """The rows of a table.csv, by the names of the columns without their units."""
+    with open(table) as file:
+        return [{key.split(" [")[0]: value for key, value in row.items()} for row in csv.DictReader(file)]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -18,11 +24,8 @@ def main():
     parser.add_argument("--of", required=True)
     parser.add_argument("--factor", type=float, default=1e6, help="e.g. 1e6: metres to um")
     options = parser.parse_args()
-    with open(options.table) as file:
-        rows = [{key.split(" [")[0]: value for key, value in row.items()}
-                for row in csv.DictReader(file)]
     values = collections.defaultdict(list)
-    for row in rows:
+    for row in rows_of(options.table):
         if row[options.of]:
             values[row[options.rows], row[options.columns]].append(
                 options.factor * float(row[options.of]))

@@ -69,9 +69,9 @@ def late(y, rows):
     return np.concatenate([y[1:1 + rows][::-1], y[:len(y) - rows]])
 
 
-def change_columns_together(kind, size, columns, rng, rate, others):
-    """Errors of the logger or of an instrument. Returns the columns that have it ([]: all), None where it cannot be
-    done."""
+def change_columns_together(kind, size, columns, name, rng, rate, others):
+    """Errors of the logger, which all columns have, or of an instrument. Returns the columns that may be named (`name`
+    where all have it), None where it cannot be done."""
     rows = len(next(iter(columns.values()))[0])
     if kind == "lag":
         for n in columns:
@@ -98,7 +98,7 @@ def change_columns_together(kind, size, columns, rng, rate, others):
             return None
         columns.clear()
         columns.update(others[rng.integers(len(others))])
-    return []
+    return [name]
 
 
 def changed_column(kind, size, y, rng, rate):
@@ -135,7 +135,6 @@ def corrupt(kind, size, columns, name, rng, record, others):
     if kind == "swap":
         return exchange(size, columns, name, rng)
     if kind in TOGETHER:
-        changed = change_columns_together(kind, size, columns, rng, record["rate"], others)
-        return [name] if changed == [] else changed
+        return change_columns_together(kind, size, columns, name, rng, record["rate"], others)
     put(columns, name, changed_column(kind, size, columns[name][0], rng, record["rate"]))
     return [name]

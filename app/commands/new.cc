@@ -17,6 +17,7 @@
 #include "core/base/atomic_file.h"
 #include "core/base/toml.h"
 #include "core/record/read_record.h"
+#include "discovery/case/case_file.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -141,11 +142,9 @@ using Files = std::vector<std::pair<std::string, std::string>>;
 
 /// How files of `folder` name the record: from there where it lies near, so that both may move together.
 std::string RecordName(const std::string& record, const std::filesystem::path& folder) {
-  namespace fs = std::filesystem;
-  const fs::path whole = fs::absolute(record).lexically_normal();
-  const std::string from =
-      whole.lexically_relative(fs::absolute(folder).lexically_normal()).string();
-  return from.starts_with("../..") ? whole.string() : from;
+  const std::string from = NameFrom(folder.string(), record);
+  return from.starts_with("../..") ? std::filesystem::absolute(record).lexically_normal().string()
+                                   : from;
 }
 
 /// Scenarios of the records, then the case. Returns what was taken for what.

@@ -17,6 +17,7 @@
 #include "core/base/toml.h"
 #include "core/base/toml_edit.h"
 #include "core/math/constants.h"
+#include "discovery/case/case_file.h"
 #include "rig/rig_file.h"
 
 namespace ambrig {
@@ -42,9 +43,8 @@ EffectNames EffectNamesOf(const std::vector<std::string>& texts, const std::stri
 
 /// The scenario beside the rig that it names.
 std::string ScenarioText(const Plan& plan, const std::string& rig, const std::string& output) {
-  namespace fs = std::filesystem;
-  const fs::path folder = fs::absolute(output).lexically_normal().parent_path();
-  const std::string path = fs::absolute(rig).lexically_normal().lexically_relative(folder).string();
+  const std::string folder = std::filesystem::path(output).parent_path().string(),
+                    path = NameFrom(folder, rig);
   return EditedToml(plan.toml, output, {{"rig", TomlLiteral{fmt::format("\"{}\"", path)}}});
 }
 

@@ -60,7 +60,7 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
 /// Whether one effect explains as much as the nuisances of every record together, which are many:
 /// they are then given up, and the search for effects starts from `bare`.
 bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances) {
-  const bool many = AmountsIn(with_nuisances).size() >= kManyAmounts;
+  const bool many = full_.nuisances.count() >= kManyAmounts;
   const Nuisances full = full_.nuisances, thinned = model_.nuisances;
   full_.nuisances = model_.nuisances = Nuisances();
   bank_ = SignatureBank();

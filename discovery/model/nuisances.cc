@@ -55,6 +55,12 @@ void Nuisances::Eliminate(Eigen::MatrixXd& columns) const {
              [&](std::size_t c) { Eliminate(columns.col(static_cast<Index>(c)).data()); });
 }
 
+std::size_t Nuisances::count() const {
+  std::size_t n = 0;
+  for (const OfRecord& r : records_) n += r.kinds.size();
+  return n;
+}
+
 std::vector<NuisanceFound> Nuisances::Amounts(const CaseModel& model,
                                               const std::vector<double>& residual) const {
   std::vector<NuisanceFound> out;

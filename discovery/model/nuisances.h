@@ -36,6 +36,8 @@ class Nuisances {
   /// `weight`: of a squared error over the floor, per row.
   void Use(const CaseModel& model, const std::vector<NuisanceKind>& kinds, double weight);
   bool any() const { return !records_.empty(); }
+  /// How many amounts there are, of all records.
+  std::size_t count() const;
   /// Takes off what the nuisances explain, record by record.
   void Eliminate(double* rows) const;
   void Eliminate(Eigen::MatrixXd& columns) const;

@@ -30,6 +30,7 @@ class CoilProbes {
   void GivenUp(int coil, FaultClass cls, double t);
   /// Whether a coil that works is asked for next to no current at t.
   void Idle(int coil, bool idle, double t);
+  /// What Idle was last told of `coil`.
   bool idle(int coil) const { return idle_[static_cast<std::size_t>(coil)].idle; }
   /// The coil whose probe is due, -1: none.
   int Due(double t) const;

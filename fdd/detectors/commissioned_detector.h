@@ -23,10 +23,10 @@
 /// once, or a pattern common to the coils beyond three times that of commissioning. Then a coil is
 /// blamed only where c < -0.5 or > 2; unless the flux alone is outside the range, also its current
 /// must be false, and fewer than three coils may have c > 0.5: what a nominal circuit does not know
-/// keeps flux out, which makes c positive in many coils alike. Where the fit was learnt and refused, phases that agree are
-/// enough if c came from below 0.5 to above 2 within two periods: its errors are tenths of c, and grow with the motion. Without commissioning no coil is blamed
-/// until 10 ms after the last possible contact, and for lost turns only where its c came from below 0.5 to above 2 within
-/// two periods: where iron that no model knows saturates, c grows over many.
+/// keeps flux out, which makes c positive in many coils alike. Where the fit was learnt and refused, phases that agree
+/// are enough for lost turns: its errors are tenths of c, and grow with the motion. Without a model that is relied on no
+/// coil is blamed until 10 ms after the last possible contact, and for lost turns only where its c came from below 0.5
+/// to above 2 within two periods: where iron that no model knows saturates, c grows over many.
 ///
 /// A coil without current is one that is asked for some, or whose linkage moves by less than a
 /// quarter of what its voltage would do: the diodes of a coil that is asked for none block. The c of a winding of a
