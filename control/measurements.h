@@ -22,6 +22,7 @@ struct PeriodMeasurement {
   const std::vector<double>* readings = nullptr;  // last noisy position readings per axis [m]
   double reading_time = 0;                        // [s]
   double speed = 0;                               // reading of the speed sensor [rad/s]
+  double angle = 0;                               // of the shaft at reading_time [rad]
   bool position_loop = true;                      // false: clamped, set-points come from outside
 };
 

@@ -51,6 +51,19 @@ Detectable DetectableOf(const RigParameters& rig, const CommissionedBearing& b, 
                       ExcessOfLoss(LinkageModelOf(*rig.Find(b.name)), coil).own);
 }
 
+/// Amplitudes of the larger axis.
+std::string RunOutText(const CommissionedBearing& b) {
+  const auto amplitude = [&](std::size_t order) {
+    const RunOut& r = b.circuit.run_out;
+    const std::size_t at = 2 * (order - 1);
+    return std::max(std::hypot(r.x[at], r.x[at + 1]), std::hypot(r.y[at], r.y[at + 1]));
+  };
+  return fmt::format(
+      "bearing {}: its position sensors read run-out, {:.1f} um once a turn and {:.1f} um\ntwice; "
+      "the detector takes it off",
+      b.name, 1e6 * amplitude(1), 1e6 * amplitude(2));
+}
+
 Json ScatterJson(const std::vector<ExcessScatter>& scatter) {
   Json out = Json::array();
   for (const ExcessScatter& s : scatter) {
@@ -126,6 +139,7 @@ Json CommissionJson(const RigParameters& rig, const CommissioningResult& r) {
                         {"grade", b.grade},
                         {"rows", b.rows},
                         {"sensor_zero", {b.circuit.dx, b.circuit.dy}},
+                        {"run_out", {{"x", b.circuit.run_out.x}, {"y", b.circuit.run_out.y}}},
                         {"relaxation", b.circuit.relaxation},
                         {"coils", coils},
                         {"scatter", ScatterJson(r.scatter[k])}});
@@ -155,6 +169,8 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
       "slope over ten healthy periods; least short: share of the turns that is\n"
       "noticed, with its delay and that of a short of 10 %, by the learnt bands.\n",
       kWorstGrade);
+  for (const CommissionedBearing& b : r.model.bearings)
+    if (!b.circuit.run_out.none()) text += RunOutText(b) + "\n";
   for (const CommissionedBearing& b : r.model.bearings)
     if (!b.usable())
       text += fmt::format(
@@ -187,6 +203,7 @@ void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& 
                    fmt::format("Grade {:.2f} over {} rows; {}", b.grade, b.rows,
                                b.usable() ? "the model expresses this bearing"
                                           : "refused: the model does not express this bearing"));
+    if (!b.circuit.run_out.none()) report.Text(RunOutText(b) + ".");
     std::vector<std::vector<Cell>> rows;
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
       const Detectable d = DetectableOf(rig, b, j);

@@ -29,10 +29,12 @@ double Movement(const Samples& y) {
   return y.empty() ? 0 : *high - *low;
 }
 
-/// Median difference from row to row.
+/// Median difference from row to row, of rows that do not repeat the one before: a record may be faster than the
+/// controller that takes the readings.
 double UsualStep(const Samples& y) {
   Samples steps;
-  for (std::size_t k = 1; k < y.size(); ++k) steps.push_back(std::abs(y[k] - y[k - 1]));
+  for (std::size_t k = 1; k < y.size(); ++k)
+    if (y[k] != y[k - 1]) steps.push_back(std::abs(y[k] - y[k - 1]));
   return steps.empty() ? 0 : MedianOf(std::move(steps));
 }
 

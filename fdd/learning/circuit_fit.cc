@@ -17,16 +17,35 @@ constexpr double kRowsPerPrior = 500;
 constexpr double kSettled = 1e-4;  // relative fall of the cost
 // priors of a coil: gain, leakage and resistance relative to the nominal, offset over the bus
 constexpr double kGainSd = 0.15, kLeakageSd = 0.3, kResistanceSd = 0.12, kOffsetSd = 0.02;
-// of dx/g0, dy/g0, path, fringing, residues, knee terms; and the steps of the differences
-constexpr double kSd[kWithKnees] = {0.1, 0.1, 0.3, 0.3, 30, 30, 30, 30, 1, 1};
-constexpr double kStep[kWithKnees] = {1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-4, 1e-4};
-constexpr double kLeast[kWithKnees] = {-0.25, -0.25, -0.2, -0.5, 0, 0, 0, 0, 0, 0};
-constexpr double kMost[kWithKnees] = {0.25, 0.25, 1, 2, 100, 100, 100, 100, 10, 10};
 
-/// How far parameters first .. last - 1 may move to this side.
-Eigen::VectorXd LimitOf(const double* limits, const CircuitParameters& p, int first, int last) {
-  return Eigen::Map<const Eigen::VectorXd>(limits + first, last - first) -
-         p.segment(first, last - first);
+/// Prior, step of the differences and limits of a parameter.
+struct ParameterRange {
+  double sd, step, least, most;
+};
+constexpr ParameterRange ParameterRangeOf(int k) {
+  if (k < 2 || k >= kFirstRunOut) return {0.1, 1e-3, -0.25, 0.25};  // zeros, run-out
+  if (k == 2) return {0.3, 1e-3, -0.2, 1};                          // path
+  if (k == 3) return {0.3, 1e-3, -0.5, 2};                          // fringing
+  if (k < kFirstKnee) return {30, 1e-3, 0, 100};                    // residues
+  return {1, 1e-4, 0, 10};                                          // knees
+}
+
+std::vector<int> MembersOf(ParameterSet set) {
+  std::vector<int> out;
+  for (int k = 0; k < kCircuitParameters; ++k)
+    if (set >> k & 1U) out.push_back(k);
+  return out;
+}
+
+/// How far the parameters may move to this side.
+Eigen::VectorXd LimitOf(double ParameterRange::*limit, const CircuitParameters& p,
+                        const std::vector<int>& moved) {
+  Eigen::VectorXd out(static_cast<Eigen::Index>(moved.size()));
+  for (Eigen::Index k = 0; k < out.size(); ++k) {
+    const int at = moved[static_cast<std::size_t>(k)];
+    out[k] = ParameterRangeOf(at).*limit - p[at];
+  }
+  return out;
 }
 
 double HuberCost(double z) {
@@ -49,8 +68,13 @@ FluxCircuit CircuitOf(const CircuitParameters& p, double gap) {
   c.path = p[2];
   c.fringing = p[3];
   for (int m = 0; m < kRelaxations; ++m) c.relaxation[static_cast<std::size_t>(m)] = p[4 + m];
-  c.knee7 = p[8];
-  c.knee15 = p[9];
+  c.knee7 = p[kFirstKnee];
+  c.knee15 = p[kFirstKnee + 1];
+  for (std::size_t k = 0; k < kRunOutTerms; ++k) {
+    const auto at = kFirstRunOut + static_cast<Eigen::Index>(k);
+    c.run_out.x[k] = p[at] * gap;
+    c.run_out.y[k] = p[at + static_cast<Eigen::Index>(kRunOutTerms)] * gap;
+  }
   return c;
 }
 
@@ -90,7 +114,8 @@ void CircuitFit::Reweight(const std::vector<double>& z) {
     huber_[n] = std::min(1.0, kHuber / std::max(std::abs(z[n]), 1e-12));
 }
 
-double CircuitFit::Descend(CircuitParameters* p, int first, int last, CoilEquations* coils) {
+double CircuitFit::Descend(CircuitParameters* p, ParameterSet set, CoilEquations* coils) {
+  const std::vector<int> moved = MembersOf(set);
   EvaluatedCircuit best = Evaluate(*p);
   double damping = 1e-3;
   for (int step = 0; step < kMostSteps; ++step) {
@@ -98,17 +123,21 @@ double CircuitFit::Descend(CircuitParameters* p, int first, int last, CoilEquati
     // With the coils of the new weights, as the points that the differences are taken to.
     best = FitCoils(*p);
     const double cost = best.cost;
-    Linearise(*p, best.z, first, last);
+    Linearise(*p, best.z, moved);
     for (int tries = 0; tries < 6; ++tries, damping *= 10) {
       CircuitParameters q = *p;
       Eigen::MatrixXd damped = normal_;
       damped.diagonal() *= 1 + damping;
       // A limit holds its parameter while the others move on: cut off one by one they would not
       // agree, and the descent would creep along the limit.
-      const Eigen::VectorXd move = SolveInBox(damped, -gradient_, LimitOf(kLeast, *p, first, last),
-                                              LimitOf(kMost, *p, first, last));
-      for (int k = first; k < last; ++k)
-        q[k] = std::clamp(q[k] + move[k - first], kLeast[k], kMost[k]);
+      const Eigen::VectorXd move =
+          SolveInBox(damped, -gradient_, LimitOf(&ParameterRange::least, *p, moved),
+                     LimitOf(&ParameterRange::most, *p, moved));
+      for (std::size_t k = 0; k < moved.size(); ++k) {
+        const ParameterRange range = ParameterRangeOf(moved[k]);
+        double& value = q[moved[k]];
+        value = std::clamp(value + move[static_cast<Eigen::Index>(k)], range.least, range.most);
+      }
       if (q == *p) break;
       EvaluatedCircuit tried = Evaluate(q);
       if (!(tried.cost < cost)) continue;
@@ -125,7 +154,7 @@ double CircuitFit::Descend(CircuitParameters* p, int first, int last, CoilEquati
 
 double CircuitFit::PriorOf(const CircuitParameters& p) const {
   double sum = 0;
-  for (int k = 0; k < kWithKnees; ++k) sum += std::pow(p[k] / kSd[k], 2);
+  for (int k = 0; k < kCircuitParameters; ++k) sum += std::pow(p[k] / ParameterRangeOf(k).sd, 2);
   return prior_ * sum;
 }
 
@@ -160,14 +189,15 @@ CoilEquations CircuitFit::SolveCoils() const {
   return out;
 }
 
-void CircuitFit::Linearise(const CircuitParameters& p, const std::vector<double>& z, int first,
-                           int last) {
-  const int count = last - first;
+void CircuitFit::Linearise(const CircuitParameters& p, const std::vector<double>& z,
+                           const std::vector<int>& moved) {
+  const int count = static_cast<int>(moved.size());
   std::vector<std::vector<double>> J(static_cast<std::size_t>(count));
   for (int k = 0; k < count; ++k) {
     CircuitParameters q = p;
-    const double h = kStep[first + k] * std::max(1.0, std::abs(p[first + k]));
-    q[first + k] += h;
+    const int at = moved[static_cast<std::size_t>(k)];
+    const double h = ParameterRangeOf(at).step * std::max(1.0, std::abs(p[at]));
+    q[at] += h;
     std::vector<double>& column = J[static_cast<std::size_t>(k)];
     column = Evaluate(q).z;
     for (std::size_t n = 0; n < size(); ++n) column[n] = (column[n] - z[n]) / h;
@@ -183,9 +213,10 @@ void CircuitFit::Linearise(const CircuitParameters& p, const std::vector<double>
       normal_(a, b) = normal_(b, a) = sum;
     }
     for (std::size_t n = 0; n < size(); ++n) gradient_[a] += huber_[n] * Ja[n] * z[n];
-    const double prior = prior_ / (kSd[first + a] * kSd[first + a]);
+    const int at = moved[static_cast<std::size_t>(a)];
+    const double prior = prior_ / (ParameterRangeOf(at).sd * ParameterRangeOf(at).sd);
     normal_(a, a) += prior;
-    gradient_[a] += prior * p[first + a];
+    gradient_[a] += prior * p[at];
   }
 }
 

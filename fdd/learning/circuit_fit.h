@@ -2,15 +2,21 @@
 /// Gauss-Newton descent over the circuit of a bearing, with its coils fitted to each circuit that is tried:
 /// the numerical part of commissioning_fit.h.
 #include <Eigen/Dense>
+#include <cstdint>
 #include <vector>
 
 #include "fdd/learning/commissioning_rows.h"
 
 namespace ambrig {
 
-inline constexpr int kCircuitParameters = 8;  // dx/g0, dy/g0, path, fringing, four residues
-inline constexpr int kWithKnees = 10;         // and two knee terms
-using CircuitParameters = Eigen::Matrix<double, kWithKnees, 1>;
+/// dx/g0, dy/g0, path, fringing, four residues; two knee terms; run-out over g0.
+inline constexpr int kFirstKnee = 8, kFirstRunOut = 10;
+inline constexpr int kCircuitParameters = kFirstRunOut + 2 * static_cast<int>(kRunOutTerms);
+using CircuitParameters = Eigen::Matrix<double, kCircuitParameters, 1>;
+/// Which of them a descent moves: bit k stands for parameter k.
+using ParameterSet = std::uint32_t;
+/// first, ..., end - 1.
+constexpr ParameterSet ParametersFrom(int first, int end) { return (1U << end) - (1U << first); }
 
 /// Residues of a half-order law whose drop equals the gap's at `cutoff` [Hz], else nothing.
 CircuitParameters StartAt(double cutoff);
@@ -35,8 +41,8 @@ class CircuitFit {
   void AllowOffsets() { offsets_ = true; }
 
   EvaluatedCircuit Evaluate(const CircuitParameters& p);
-  /// Descends from p along the parameters first .. last - 1; p becomes the best, its cost returned.
-  double Descend(CircuitParameters* p, int first, int last, CoilEquations* coils);
+  /// Descends from p along `moved`; p becomes the best, its cost returned.
+  double Descend(CircuitParameters* p, ParameterSet moved, CoilEquations* coils);
 
  private:
   FluxCircuit Circuit(const CircuitParameters& p) const;
@@ -45,7 +51,8 @@ class CircuitFit {
   CoilEquations SolveCoils() const;
   double PriorOf(const CircuitParameters& p) const;
   void Reweight(const std::vector<double>& z);
-  void Linearise(const CircuitParameters& p, const std::vector<double>& z, int first, int last);
+  void Linearise(const CircuitParameters& p, const std::vector<double>& z,
+                 const std::vector<int>& moved);
 
   const LinkageModel& nominal_;
   CommissioningRows rows_;

@@ -47,6 +47,15 @@ std::vector<double> Exactly(const TomlTable& t, const char* key, std::size_t n) 
   return v;
 }
 
+/// Files of bearings without run-out do not have it.
+void ReadRunOut(const TomlTable& t, RunOut* out) {
+  for (const auto& [key, terms] : {std::pair{"run_out_x", &out->x}, {"run_out_y", &out->y}}) {
+    if (!t.Has(key)) continue;
+    const auto v = Exactly(t, key, kRunOutTerms);
+    std::copy(v.begin(), v.end(), terms->begin());
+  }
+}
+
 CommissionedBearing ReadBearing(const TomlTable& t, const std::string& name) {
   CommissionedBearing b;
   b.name = name;
@@ -61,6 +70,7 @@ CommissionedBearing ReadBearing(const TomlTable& t, const std::string& name) {
   b.circuit.dy = zero[1];
   b.circuit.path = In(t, "iron_path", -1, 10);
   b.circuit.fringing = In(t, "fringing", -1, 10);
+  ReadRunOut(t, &b.circuit.run_out);
   b.circuit.knee7 = knee[0];
   b.circuit.knee15 = knee[1];
   for (std::size_t m = 0; m < kRelaxations; ++m) b.circuit.relaxation[m] = relaxation[m];
@@ -97,6 +107,12 @@ std::string BearingText(const CommissionedBearing& b) {
       "at 100 Hz, 1.2, 12 and 120 kHz\nknee = [{}, {}]\n",
       c.dx, c.dy, c.path, c.fringing, Numbers(c.relaxation.data(), kRelaxations), c.knee7,
       c.knee15);
+  if (!c.run_out.none())
+    text += fmt::format(
+        "# errors of the reading that turn with the shaft: cos and sin of its angle, of twice it, "
+        "m\n"
+        "run_out_x = {}\nrun_out_y = {}\n",
+        Numbers(c.run_out.x.data(), kRunOutTerms), Numbers(c.run_out.y.data(), kRunOutTerms));
   text +=
       fmt::format("gain = {}\nleakage = {}    # H\nresistance = {}    # ohm\noffset = {}    # V\n",
                   Numbers(b.coils.gain.v, n), Numbers(b.coils.leakage.v, n),

@@ -187,6 +187,8 @@ MeasuredPeriod DetectionFeed::Period(std::size_t bearing, const PeriodMeasuremen
       v, v.weights, [&](std::size_t axis) { return start_[axis]; }, &in.x0, &in.y0);
   Place(
       v, v.weights, [&](std::size_t axis) { return end_[axis]; }, &in.x1, &in.y1);
+  in.angle0 = m.angle + m.speed * (m.t - m.reading_time);
+  in.angle1 = in.angle0 + m.speed * T_;
   in.uncertainty = v.uncertainty;
   bool sensed = sensed_;
   for (std::size_t a = 0; a < axis_names_.size(); ++a)

@@ -38,6 +38,7 @@ struct MeasuredPeriod {
   const Lane* set_point = nullptr;        // that the current loops followed [A]; may be absent
   double bus = 0;                         // mean over the period [V]
   double x0 = 0, y0 = 0, x1 = 0, y1 = 0;  // [m]
+  double angle0 = 0, angle1 = 0;          // of the shaft at its start and end [rad]
   MotionUncertainty uncertainty;          // of these positions
   bool comparable = true;  // false: bus or position unknown, nothing can be concluded
 };

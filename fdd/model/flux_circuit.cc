@@ -50,7 +50,7 @@ AMBRIG_WIDE void FollowMotionHalves(const LinkageModel& m, const FluxCircuit& ci
 
 FluxFilter::FluxFilter(const LinkageModel& nominal, const SamplingSettings& sampling,
                        const FluxCircuit& circuit)
-    : model_(nominal), sampling_(sampling), circuit_(circuit) {
+    : model_(nominal), sampling_(sampling), circuit_(circuit), round_(circuit.run_out.none()) {
   const double h = sampling_.step;
   for (int m = 0; m < kRelaxations; ++m) {
     const double residue = circuit_.relaxation[static_cast<std::size_t>(m)];
@@ -80,6 +80,7 @@ void FluxFilter::Begin(const MeasuredPeriod& in, FluxPeriod* out) {
   MeasuredPeriod still = in;
   still.x1 = in.x0;
   still.y1 = in.y0;
+  still.angle1 = in.angle0;
   const Step kept = step_;
   for (int m = 0; m < kRelaxations; ++m) step_.decay[m] = step_.gain[m] = 0;
   step_.total = step_.of_last = 0;
@@ -109,10 +110,20 @@ void FluxFilter::SetBridge(const MeasuredPeriod& in, Lane* edge, FluxPeriod* out
   }
 }
 
-void FluxFilter::Period(const MeasuredPeriod& in, FluxPeriod* out) {
-  if (!started_) Begin(in, out);
+void FluxFilter::Follow(const MeasuredPeriod& in) {
   (whole_lanes ? FollowMotionWhole : FollowMotionHalves)(model_, circuit_, per_nominal_, in,
                                                          &step_);
+}
+
+void FluxFilter::Period(const MeasuredPeriod& in, FluxPeriod* out) {
+  if (!started_) Begin(in, out);
+  if (round_) {
+    Follow(in);
+  } else {
+    MeasuredPeriod corrected = in;
+    circuit_.run_out.TakeOff(&corrected);
+    Follow(corrected);
+  }
   Lane edge;
   SetBridge(in, &edge, out);
   RunFluxLoop(model_.coupling,

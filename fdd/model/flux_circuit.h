@@ -20,6 +20,7 @@
 #include <array>
 
 #include "fdd/measurement/period_slopes.h"
+#include "fdd/model/run_out.h"
 
 namespace ambrig {
 
@@ -34,6 +35,7 @@ struct FluxCircuit {
   double fringing = 0;                               // [-]
   std::array<double, kRelaxations> relaxation = {};  // r_m [-]
   double knee7 = 0, knee15 = 0;                      // sb, sa [-]
+  RunOut run_out;                                    // of the position sensors
 };
 
 /// One phase of a period. Lanes of a phase without three samples hold zeros.
@@ -96,11 +98,14 @@ class FluxFilter {
 
  private:
   void Begin(const MeasuredPeriod& in, FluxPeriod* out);
+  /// Takes the reluctances of a period's positions.
+  void Follow(const MeasuredPeriod& in);
   void SetBridge(const MeasuredPeriod& in, Lane* edge, FluxPeriod* out) const;
 
   LinkageModel model_;
   SamplingSettings sampling_;
   FluxCircuit circuit_;
+  bool round_;                                     // no run-out
   Lane turns_, sense_, inductance_, per_nominal_;  // per_nominal_: 1/R(g0) [H]
   Step step_;
   State state_;

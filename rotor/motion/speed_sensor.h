@@ -8,7 +8,8 @@
 ///
 /// with t_last and t_before the times of the last pulse now and at the reading before. Without a new
 /// pulse the reading stays, but never above what the time since the last one allows. Behind it
-/// stands a first-order lag. An ideal sensor (P = 0) reads the speed itself.
+/// stands a first-order lag. An ideal sensor (P = 0) reads the speed itself. A mark on the shaft tells
+/// the angle, without an error.
 #include <cstdint>
 
 #include "rotor/motion/force_term.h"
@@ -25,12 +26,14 @@ class SpeedSensor {
   void Start(const MotionState& s, std::uint64_t seed);
   /// Reads the shaft; called in order of time. Between two calls it turns evenly.
   void Read(const MotionState& s) {
+    angle_ = s.theta;
     if (p_.pulses_per_revolution == 0 && p_.lag == 0)
       reading_ = s.Omega;
     else
       ReadWheel(s);
   }
   double reading() const { return reading_; }  // [rad/s]
+  double angle() const { return angle_; }      // [rad]
 
  private:
   void ReadWheel(const MotionState& s);
@@ -46,6 +49,7 @@ class SpeedSensor {
   bool timed_ = false;        // pulse_time_ is that of a pulse
   double wheel_ = 0;          // speed by the pulses [rad/s]
   double reading_ = 0;        // [rad/s]
+  double angle_ = 0;          // [rad]
 };
 
 }  // namespace ambrig

@@ -63,6 +63,7 @@ double PositionLoop::Reading(std::size_t axis, long long n) {
 void PositionLoop::Sample(long long n, double t) {
   reading_time_ = t;
   speed_reading_ = plant_.speed_sensor.reading();
+  angle_reading_ = plant_.speed_sensor.angle();
   for (std::size_t a = 0; a < axes_.size(); ++a) {
     readings_[a] = Reading(a, n);
     SensorFault& fault = plant_.bearings[axes_[a].bearing].sensor.fault[axes_[a].side];

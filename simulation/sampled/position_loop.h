@@ -45,6 +45,7 @@ class PositionLoop {
   const std::vector<double>& readings() const { return readings_; }
   double reading_time() const { return reading_time_; }
   double speed_reading() const { return speed_reading_; }
+  double angle_reading() const { return angle_reading_; }
   std::size_t axes() const { return axes_.size(); }
 
  private:
@@ -68,7 +69,8 @@ class PositionLoop {
   std::unique_ptr<PositionController> controller_;
   ControllerSwitch* switch_ = nullptr;  // the same, when the scenario changes over
   std::vector<double> readings_, reference_, excitation_, force_;  // per axis
-  double reading_time_ = 0, speed_reading_ = 0;                    // [s], [rad/s]
+  // [s], [rad/s], [rad]
+  double reading_time_ = 0, speed_reading_ = 0, angle_reading_ = 0;
   std::vector<UnderWay> under_way_;
   UnderWay spare_;  // its memory: no allocation in the loop
 };

@@ -137,6 +137,7 @@ std::size_t SampledDataLoop::Supervise(long long n, RunResult& result) {
   m.readings = &loop_->readings();
   m.reading_time = loop_->reading_time();
   m.speed = loop_->speed_reading();
+  m.angle = loop_->angle_reading();
   m.position_loop = controller_on_;
   m.bearings.clear();
   // The bus at the period's end: the next one's first reading.

@@ -74,6 +74,15 @@ TEST_F(SpoilTest, AnInstrumentIsLateInItsColumns) {
   }
 }
 
+// A record that is faster than the controller shows every reading twice.
+TEST_F(SpoilTest, SignsOfNoiseDoNotShowInReadingsThatRepeat) {
+  for (std::size_t k = 0; k < 400; ++k)
+    case_.records[1].data.channels[0].samples[k] = 1e-7 * Normal(3, 0, k / 2);
+  const CaseRecord before = case_.records[1];
+  Do("sign");
+  EXPECT_FALSE(ShowsMistake(before, case_.records[1]));
+}
+
 TEST_F(SpoilTest, WhatIsDoneShowsOrNot) {
   EXPECT_FALSE(ShowsMistake(clean_.records[1], case_.records[1]));
   Do("lag");  // of a shaft that is held

@@ -51,11 +51,11 @@ TEST(CommissionedRestraint, NothingIsConcludedOfAStrangerThatBounces) {
   }
 }
 
-// Sensors with run-out: the fit is refused. What half of the turns make of c is no error of a motion that is read wrong,
+// Sensors that see three lobes, which no run-out of the circuit has: the fit is refused. What half of the turns make of c is no error of a motion that is read wrong,
 // although the current keeps to its set-point.
 TEST(CommissionedRestraint, HalfOfTheTurnsAreMissedByAModelThatIsRefusedToo) {
-  const CommissionedRig plant(WithEffect(ReferenceRig(), "sensor-runout", "A",
-                                         {{"c1", 2e-5}, {"s1", 2e-5}, {"c2", 1e-5}, {"s2", 1e-5}}));
+  const CommissionedRig plant(
+      WithEffect(ReferenceRig(), "sensor-runout", "A", {{"c3", 1.2e-5}, {"s3", 1.2e-5}}));
   ASSERT_TRUE(plant.bearing.learnt);
   ASSERT_FALSE(plant.bearing.usable()) << plant.bearing.grade;
   const auto half = Concluded(plant.rig, &plant.bearing,

@@ -23,6 +23,7 @@ CommissionedBearing Learnt() {
   b.rows = 17;
   b.learnt_on = ContentHashOf(m, testing_bench::Bridge());
   b.circuit.dx = 1.25e-6;
+  b.circuit.run_out = {{1e-6, -2e-6, 0, 1.0 / 3}, {0, 4e-6, 5e-7, 0}};
   b.circuit.relaxation = {0.1, 0.2, 0.3, 4.0 / 3};
   b.pattern = 0.004;
   for (int j = 0; j < kLanes; ++j) {
@@ -50,6 +51,8 @@ TEST(CommissioningFile, ComesBackAsItWasWritten) {
   EXPECT_TRUE(c.usable());
   EXPECT_EQ(c.circuit.dx, b.circuit.dx);
   EXPECT_EQ(c.circuit.relaxation, b.circuit.relaxation);
+  EXPECT_EQ(c.circuit.run_out.x, b.circuit.run_out.x);
+  EXPECT_EQ(c.circuit.run_out.y, b.circuit.run_out.y);
   EXPECT_EQ(c.pattern, b.pattern);
   for (int j = 0; j < kLanes; ++j) {
     EXPECT_EQ(c.coils.gain[j], b.coils.gain[j]);
@@ -88,6 +91,27 @@ TEST(CommissioningFile, MistakesAreNamedWithTheirPlace) {
     FAIL();
   } catch (const InputError& e) {
     EXPECT_THAT(e.what(), AllOf(HasSubstr("gain"), HasSubstr("has 9 numbers, allowed: 8")));
+  }
+}
+
+// Those of machines that are round do not have the keys, and neither had the files of earlier versions.
+TEST(CommissioningFile, WithoutRunOutIsRead) {
+  CommissionedBearing b = Learnt();
+  b.circuit.run_out = {};
+  const std::string text = CommissioningText({{b}});
+  EXPECT_EQ(text.find("run_out"), std::string::npos);
+  EXPECT_TRUE(ReadCommissioning(Written(text)).bearings[0].circuit.run_out.none());
+}
+
+TEST(CommissioningFile, RunOutOfOneOrderIsRefused) {
+  std::string text = CommissioningText({{Learnt()}});
+  const auto at = text.find("run_out_y = [") + 13;
+  text.replace(at, text.find(']', at) - at, "1e-6, 2e-6");
+  try {
+    ReadCommissioning(Written(text));
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_THAT(e.what(), AllOf(HasSubstr("run_out_y"), HasSubstr("has 2 numbers, allowed: 4")));
   }
 }
 

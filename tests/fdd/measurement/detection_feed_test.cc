@@ -26,6 +26,16 @@ class FeedBench {
     feed_.Read(m_);
     return feed_.Period(0, m_).uncertainty.position;
   }
+  /// Period n after a reading of a shaft that turns with `speed` [rad/s] and stood at `angle` then.
+  MeasuredPeriod After(int n, double angle, double speed) {
+    m_.angle = angle;
+    m_.speed = speed;
+    At(0);
+    m_.t += n / rig_->amplifier.switching_frequency;
+    feed_.Read(m_);
+    return feed_.Period(0, m_);
+  }
+  double period() const { return 1 / rig_->amplifier.switching_frequency; }
   double clearance() const { return rig_->bearings[0].auxiliary->clearance; }
 
  private:
@@ -53,6 +63,13 @@ TEST(DetectionFeed, NearTheStopTheShaftMayBeThrownBack) {
   feed.At(x);
   for (int n = 0; n < 8; ++n) feed.At(x -= step);
   EXPECT_LT(feed.At(x - step), 0.01 * step);
+}
+
+TEST(DetectionFeed, TheShaftTurnsOnBetweenReadings) {
+  FeedBench feed;
+  const MeasuredPeriod in = feed.After(1, 3, 500);
+  EXPECT_DOUBLE_EQ(in.angle0, 3 + 500 * feed.period());
+  EXPECT_DOUBLE_EQ(in.angle1, 3 + 1000 * feed.period());
 }
 
 }  // namespace

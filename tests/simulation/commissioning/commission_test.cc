@@ -139,5 +139,44 @@ TEST(Commission, AMachineThatTouchesInItsRunIsRefused) {
   EXPECT_THROW(Commission(ReferenceRig(), options), InputError);
 }
 
+/// c1, s1, c2 of a surface that is not round; y sees it a quarter of a turn later.
+constexpr double kC1 = 1.4e-5, kS1 = 1.4e-5, kC2 = 5e-6;
+
+RigParameters WithRunOut() {
+  return WithEffect(ReferenceRig(), "sensor-runout", "A", {{"c1", kC1}, {"s1", kS1}, {"c2", kC2}});
+}
+
+// Run-out of 20 um is 5 % of the gap and would be an error of 0.1 in the slopes.
+TEST(Commission, RunOutOfThePositionSensorsIsLearnt) {
+  const RigParameters rig = WithRunOut();
+  const CommissionedModel model = Commission(rig, {}).model;
+  const CommissionedBearing& a = *model.Find("A");
+  EXPECT_LT(a.grade, 1);
+  const double near = 1e-6, x[] = {kC1, -kS1, kC2, 0}, y[] = {kS1, kC1, -kC2, 0};
+  for (std::size_t k = 0; k < kRunOutTerms; ++k) {
+    EXPECT_NEAR(a.circuit.run_out.x[k], x[k], near) << k;
+    EXPECT_NEAR(a.circuit.run_out.y[k], y[k], near) << k;
+  }
+  EXPECT_TRUE(model.Find("B")->circuit.run_out.none());
+  EXPECT_EQ(Watched(rig, model, Operation())->decisions, 0);
+  const auto seen =
+      Watched(rig, model,
+              Operation(FaultText("kind = \"partial-short\"\nparameters = { fraction = 0.1 }\n")));
+  ASSERT_GT(seen->decisions, 0);
+  EXPECT_EQ(seen->first.coil, 2);
+  EXPECT_EQ(seen->first.cls, FaultClass::kPartialShort);
+  EXPECT_LT(seen->first.time - kFault, 0.5e-3);
+}
+
+// A shaft that stands still shows a zero of the sensors, no run-out.
+TEST(Commission, NoRunOutIsLearntOfAShaftThatDoesNotTurn) {
+  CommissioningOptions options;
+  options.plan.speed = 0;
+  const CommissionedBearing a = *Commission(WithRunOut(), options).model.Find("A");
+  EXPECT_TRUE(a.circuit.run_out.none());
+  EXPECT_NEAR(a.circuit.dx, kC1 + kC2, 3e-6);
+  EXPECT_NEAR(a.circuit.dy, kS1 - kC2, 3e-6);
+}
+
 }  // namespace
 }  // namespace ambrig
