@@ -59,9 +59,9 @@ std::string RunOutText(const CommissionedBearing& b) {
     return std::max(std::hypot(r.x[at], r.x[at + 1]), std::hypot(r.y[at], r.y[at + 1]));
   };
   return fmt::format(
-      "bearing {}: its position sensors read run-out, {:.1f} um once a turn and {:.1f} um\ntwice; "
-      "the detector takes it off",
-      b.name, 1e6 * amplitude(1), 1e6 * amplitude(2));
+      "the position sensors read run-out, {:.1f} um once a turn and\n{:.1f} um twice, which the "
+      "detector takes off",
+      1e6 * amplitude(1), 1e6 * amplitude(2));
 }
 
 Json ScatterJson(const std::vector<ExcessScatter>& scatter) {
@@ -170,7 +170,7 @@ std::string CommissionText(const RigParameters& rig, const CommissioningResult& 
       "noticed, with its delay and that of a short of 10 %, by the learnt bands.\n",
       kWorstGrade);
   for (const CommissionedBearing& b : r.model.bearings)
-    if (!b.circuit.run_out.none()) text += RunOutText(b) + "\n";
+    if (!b.circuit.run_out.none()) text += fmt::format("bearing {}: {}\n", b.name, RunOutText(b));
   for (const CommissionedBearing& b : r.model.bearings)
     if (!b.usable())
       text += fmt::format(
@@ -203,7 +203,7 @@ void WriteCommissionReport(const RigParameters& rig, const CommissioningResult& 
                    fmt::format("Grade {:.2f} over {} rows; {}", b.grade, b.rows,
                                b.usable() ? "the model expresses this bearing"
                                           : "refused: the model does not express this bearing"));
-    if (!b.circuit.run_out.none()) report.Text(RunOutText(b) + ".");
+    if (!b.circuit.run_out.none()) report.Text("Of this bearing " + RunOutText(b) + ".");
     std::vector<std::vector<Cell>> rows;
     for (int j = 0; j < CoilsOf(rig, b); ++j) {
       const Detectable d = DetectableOf(rig, b, j);

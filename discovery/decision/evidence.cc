@@ -12,6 +12,7 @@ namespace ambrig {
 
 namespace {
 
+constexpr double kOfUsual = 0.5;      // of the smallest usual size
 constexpr double kSeen = 3;           // sd from nothing
 constexpr double kSet = 0.95;         // probability of the set
 constexpr double kAboveFloor = 1.15;  // a channel's ratio that is worth a word
@@ -116,6 +117,20 @@ bool HasSize(const FitResult& fit, std::size_t effect) {
     if (p.effect == static_cast<int>(effect)) e.sd[p.row] = fit.size_sd[k];
   }
   return HasSize(e);
+}
+
+bool IsDetailOf(const std::vector<EffectInstance>& adopted, const EffectInstance& effect) {
+  const EffectDescription* d = FindEffect(effect.name);
+  if (!d || (d->target != TargetKind::kCoil && d->target != TargetKind::kAxis)) return false;
+  if (std::none_of(adopted.begin(), adopted.end(),
+                   [&](const EffectInstance& a) { return a.target == effect.target; }))
+    return false;
+  for (std::size_t k = 0; k < effect.table.size(); ++k) {
+    const EffectParameter& p = effect.table[k];
+    if (d->Switches(p) && std::abs(effect.values[k] - p.null_value) >= kOfUsual * p.typical_lo)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace ambrig

@@ -84,7 +84,8 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
     rounds_.back().push_back({r.effect, r.probability, r.RatioFit()});
   bool worth = false;
   const auto best = std::find_if(ranking.begin(), ranking.end(), [&](const RankedEffect& r) {
-    if (!HasSize(r.fit, r.fit.hypothesis.rig.effects.size() - 1)) return false;
+    const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;
+    if (!HasSize(r.fit, last) || IsDetailOf(out_.adopted, FittedEffect(r.fit, last))) return false;
     const double gain = ScoreOf(now) - r.score;
     worth = WorthAdopting(now, ByItsShape(r), gain, round + (differ ? 1 : 0), first_fall_);
     return worth || ExplainsItsChannels(model_, now, r.fit, gain, round == 0);

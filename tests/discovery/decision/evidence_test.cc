@@ -25,6 +25,25 @@ TEST(HasSize, NeedsThreeOfItsOwnSd) {
 }
 
 // Both sizes are within their sd of nothing.
+// A gain that differs between the two directions leaves a constant when one gain is fitted.
+TEST(IsDetailOf, TheSameSensorAndLessThanHalfOfAUsualSize) {
+  EffectInstance offset = MakeInstance(EffectNamed("sensor-offset"), "A.y");
+  offset.Set("offset", 4e-7);  // usual: 2e-6 and more
+  const std::vector<EffectInstance> gain = {MakeInstance(EffectNamed("sensor-gain"), "A.y")};
+  EXPECT_TRUE(IsDetailOf(gain, offset));
+  EXPECT_FALSE(IsDetailOf({}, offset));
+  EXPECT_FALSE(IsDetailOf({MakeInstance(EffectNamed("sensor-gain"), "A.x")}, offset));
+  offset.Set("offset", -1.2e-6);
+  EXPECT_FALSE(IsDetailOf(gain, offset));
+}
+
+// Effects of a whole bearing may be weak beside a strong one.
+TEST(IsDetailOf, OnlyOfCoilsAndSensors) {
+  EffectInstance weak = MakeInstance(EffectNamed("fringing"), "A");
+  weak.Set("coefficient", 1e-6);
+  EXPECT_FALSE(IsDetailOf({MakeInstance(EffectNamed("saturation"), "A")}, weak));
+}
+
 TEST(HasSize, AnOffsetWithinItsSdIsNothing) {
   EffectInstance e = MakeInstance(EffectNamed("amplifier-offset"), "B");
   e.Set("offset", -0.000694);
