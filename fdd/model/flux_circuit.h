@@ -9,8 +9,8 @@
 ///   rho = (R(g)/R(g0) + path)/(1 + fringing (g/g0 - 1)),   g = g0 - (x - dx) c - (y - dy) d
 ///   e_m <- a_m e_m + b_m (psi - last psi),  a_m = exp(-p_m h),  b_m = r_m (1 - a_m)/(p_m h)
 ///
-/// u: potential of the rotor, from sum psi = 0 (radial); on a thrust side both windings add up and
-/// u = 0. The four poles p_m are fixed (kRelaxationPoles), only their residues r_m are learned: a
+/// x, y: as measured, less the run-out. u: potential of the rotor, from sum psi = 0 (radial); on a
+/// thrust side both windings add up and u = 0. The four poles p_m are fixed (kRelaxationPoles), only their residues r_m are learned: a
 /// free pole sticks in local minima. Every relaxation of the iron, eddy currents first, is a sum of
 /// such terms. The powers of psi are a tangent at the last sample: no iteration.
 ///
