@@ -39,6 +39,12 @@ void TryKnees(CircuitFit& fit, Found start, ParameterSet knees, ParameterSet all
   if (start.cost < std::min(most, found->cost)) *found = start;
 }
 
+/// Both knees from the best circuit `straight`.
+void TryBothKnees(CircuitFit& fit, const Found& straight, ParameterSet all, Found* found) {
+  const double most = kKneePays * straight.cost;
+  TryKnees(fit, straight, kKnees, all, most, most, found);
+}
+
 /// Either knee alone from the best circuit `straight` and from where it started: both look much alike, and a step along
 /// both may leave one of them at its limit of 0.
 void TryEachKnee(CircuitFit& fit, const Found& straight, const Found& start, ParameterSet all,
@@ -65,9 +71,8 @@ OutOfRound FitRunOut(CircuitFit& fit, const Found& straight) {
 /// Run-out beside iron that bends.
 void TryRunOutWithKnees(CircuitFit& fit, const OutOfRound& round, Found* found) {
   constexpr ParameterSet kAll = kStraight | kKnees | kRunOut;
-  const double most = kKneePays * round.straight.cost;
   Found best = round.straight;
-  TryKnees(fit, round.straight, kKnees, kAll, most, most, &best);
+  TryBothKnees(fit, round.straight, kAll, &best);
   if (best.cost > WellFitted(fit)) TryEachKnee(fit, round.straight, round.start, kAll, &best);
   if (best.cost < kRunOutPays * found->cost) *found = best;
 }
@@ -86,8 +91,9 @@ void TryOffsets(CircuitFit& fit, const Found& straight, Found* found) {
 bool Turned(const CommissioningLog& log) {
   double least = kInfinity, most = -kInfinity;
   for (std::size_t n = 0; n < log.size(); ++n) {
-    least = std::min(least, log.At(n).angle0);
-    most = std::max(most, log.At(n).angle0);
+    const double angle = log.At(n).angle0;
+    least = std::min(least, angle);
+    most = std::max(most, angle);
   }
   return most - least > 2 * std::numbers::pi;
 }
@@ -125,8 +131,7 @@ CommissionedBearing FitCommissioning(const std::string& name, const LinkageModel
   Found straight = start;
   straight.cost = fit.Descend(&straight.parameters, kStraight, &straight.coils);
   Found found = straight;
-  const double most = kKneePays * straight.cost;
-  TryKnees(fit, straight, kKnees, kStraight | kKnees, most, most, &found);
+  TryBothKnees(fit, straight, kStraight | kKnees, &found);
   if (found.cost > WellFitted(fit)) TryMore(fit, start, straight, Turned(log), &found);
   out.circuit = CircuitOf(found.parameters, nominal.gap_offset[0]);
   out.coils = found.coils;

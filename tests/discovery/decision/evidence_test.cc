@@ -24,7 +24,6 @@ TEST(HasSize, NeedsThreeOfItsOwnSd) {
   EXPECT_FALSE(HasSize(Gain(1.0, 0)));
 }
 
-// Both sizes are within their sd of nothing.
 // A gain that differs between the two directions leaves a constant when one gain is fitted.
 TEST(IsDetailOf, TheSameSensorAndLessThanHalfOfAUsualSize) {
   EffectInstance offset = MakeInstance(EffectNamed("sensor-offset"), "A.y");
@@ -44,6 +43,7 @@ TEST(IsDetailOf, OnlyOfCoilsAndSensors) {
   EXPECT_FALSE(IsDetailOf({MakeInstance(EffectNamed("saturation"), "A")}, weak));
 }
 
+// Both sizes are within their sd of nothing.
 TEST(HasSize, AnOffsetWithinItsSdIsNothing) {
   EffectInstance e = MakeInstance(EffectNamed("amplifier-offset"), "B");
   e.Set("offset", -0.000694);

@@ -51,8 +51,8 @@ TEST(CommissionedRestraint, NothingIsConcludedOfAStrangerThatBounces) {
   }
 }
 
-// Sensors that see three lobes, which no run-out of the circuit has: the fit is refused. What half of the turns make of c is no error of a motion that is read wrong,
-// although the current keeps to its set-point.
+// Sensors that see three lobes, which no run-out of the circuit has: the fit is refused. What half of the turns make of
+// c is no error of a motion that is read wrong, although the current keeps to its set-point.
 TEST(CommissionedRestraint, HalfOfTheTurnsAreMissedByAModelThatIsRefusedToo) {
   const CommissionedRig plant(
       WithEffect(ReferenceRig(), "sensor-runout", "A", {{"c3", 1.2e-5}, {"s3", 1.2e-5}}));
