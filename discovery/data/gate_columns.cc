@@ -1,7 +1,11 @@
 #include "discovery/data/gate_columns.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "core/record/channels.h"
+#include "discovery/data/noise_estimate.h"
 
 namespace ambrig {
 
@@ -37,6 +41,34 @@ std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& colu
   });
   if (out.size() > most) out.resize(most);
   return out;
+}
+
+Others OthersOf(const std::vector<GateColumn>& columns, const GateColumn& of) {
+  constexpr std::size_t kFew = 4;
+  const auto bearing = [](const std::string& name) { return name.substr(0, name.find('.')); };
+  std::vector<double> near, all;
+  for (const GateColumn& c : columns) {
+    if (&c == &of) continue;
+    all.push_back(c.match.error);
+    if (bearing(c.name) == bearing(of.name)) near.push_back(c.match.error);
+  }
+  if (all.empty()) return {};
+  const bool few = near.size() < kFew;
+  return {MedianOf(std::move(few ? all : near)), !few};
+}
+
+bool BorneOut(const std::vector<GateColumn>& columns, const GateColumn& c) {
+  constexpr double kApart = 0.3;  // of the error of the column
+  auto id = ParseChannel(c.name);
+  if (!id || (id->kind != ChannelKind::kCoilCurrent && id->kind != ChannelKind::kSetPoint))
+    return false;
+  id->kind =
+      id->kind == ChannelKind::kSetPoint ? ChannelKind::kCoilCurrent : ChannelKind::kSetPoint;
+  const auto other = std::ranges::find(columns, id->name(), &GateColumn::name);
+  if (other == columns.end()) return false;
+  std::vector<double> shown = other->column.measured;
+  for (double& v : shown) v *= other->floor / c.floor;
+  return ErrorAgainst(c.column.measured, shown, c.column.ok) < kApart * c.match.error;
 }
 
 DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,

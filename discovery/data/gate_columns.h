@@ -18,6 +18,20 @@ double ErrorBesideZero(const GateColumn& c, const std::vector<double>& predicted
 std::vector<const GateColumn*> MovingColumns(const std::vector<GateColumn>& columns,
                                              std::size_t most);
 
+/// The columns that a cause at one of them would move first.
+struct Others {
+  double error = 0;  // their median [floors]
+  bool bearing =
+      false;  // they are those of its bearing; false: it has few, they are all of the record
+};
+Others OthersOf(const std::vector<GateColumn>& columns, const GateColumn& of);
+inline constexpr double kAlone =
+    0.3;  // of its own error that the others of a column in error may show
+
+/// Whether the current and the set-point of a coil show the same where the model expects something else of this one of
+/// them: an amplifier that follows its set-point bears the column out, since a mistake of a logger changes one of the two.
+bool BorneOut(const std::vector<GateColumn>& columns, const GateColumn& c);
+
 /// A fault of a column ("": of all) that is as probable as undoing it leaves little: `left`, a share of the error.
 DataFault FaultLeaving(const CaseRecord& r, const std::string& channel, const std::string& fault,
                        double left);

@@ -40,12 +40,19 @@ Exchanged Against(const CaseModel& model, const GateColumn& a, const GateColumn&
           MatchOf(column).correlation};
 }
 
+/// Whether a coil really carries what the column shows: its set-point asks for it, and the rest of its bearing errs too.
+/// A force of the other sign makes opposite coils look exchanged.
+bool CarriedInstead(const std::vector<GateColumn>& columns, const GateColumn& c, double error) {
+  return BorneOut(columns, c) && OthersOf(columns, c).error > std::min(kAlone * error, kGrossError);
+}
+
 /// The share of the error that an exchange leaves; 1 where it is not believed. `own_a`, `own_b`: errors of the columns
 /// beside a zero as they stand [floors].
-double LeftByExchange(const CaseModel& model, const GateColumn& a, double own_a,
-                      const GateColumn& b, double own_b) {
+double LeftByExchange(const CaseModel& model, const std::vector<GateColumn>& columns,
+                      const GateColumn& a, double own_a, const GateColumn& b, double own_b) {
   const double before = std::hypot(own_a, own_b);
   if (std::min(own_a, own_b) < 0.7 * kGrossError || before < 1.5 * kGrossError) return 1;
+  if (CarriedInstead(columns, a, own_a) && CarriedInstead(columns, b, own_b)) return 1;
   const Exchanged a_as_b = Against(model, a, b), b_as_a = Against(model, b, a);
   const double left = std::hypot(a_as_b.error, b_as_a.error) / before;
   const bool one_kind = KindOf(a) == KindOf(b);
@@ -71,7 +78,7 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
     for (std::size_t j = i + 1; j < columns.size(); ++j) {
       GateColumn &a = columns[i], &b = columns[j];
       if (a.explained || b.explained) continue;
-      const double left = LeftByExchange(model, a, own[i], b, own[j]);
+      const double left = LeftByExchange(model, columns, a, own[i], b, own[j]);
       if (left >= 1) continue;
       DataFault f = FaultLeaving(r, a.name, "swap", left);
       f.with = b.name;

@@ -52,7 +52,7 @@ const std::vector<Mistake>& Mistakes() {
 }
 
 constexpr double kMostGain = 1.6;  // that a sensor of the rig may have, or one over it
-constexpr double kLikeOthers = 2, kMostLeft = 0.25, kAlone = 0.3;
+constexpr double kLikeOthers = 2, kMostLeft = 0.25;
 constexpr double kLeftOfLevel = 0.05;  // a level is one number: it has to fit
 
 /// rms of measured/factor - predicted, over the error beside a zero of the sensor.
@@ -66,27 +66,6 @@ bool NoiseTells(const GateColumn& c, double factor) {
   constexpr double kNothing = 3;  // floors
   if (factor < 1 || c.match.predicted_rms > kNothing) return true;
   return WhiteNoiseOf(c.column.measured.data(), c.column.ok.data(), c.column.size()) > 0.3 * factor;
-}
-
-/// The columns that a cause at one of them would move first.
-struct Others {
-  double error = 0;  // their median [floors]
-  bool bearing =
-      false;  // they are the others of its bearing; false: it has few, they are all of the record
-};
-
-Others OthersOf(const std::vector<GateColumn>& columns, const GateColumn& of) {
-  constexpr std::size_t kFew = 4;
-  const auto bearing = [](const std::string& name) { return name.substr(0, name.find('.')); };
-  std::vector<double> near, all;
-  for (const GateColumn& c : columns) {
-    if (&c == &of) continue;
-    all.push_back(c.match.error);
-    if (bearing(c.name) == bearing(of.name)) near.push_back(c.match.error);
-  }
-  if (all.empty()) return {};
-  const bool few = near.size() < kFew;
-  return {MedianOf(std::move(few ? all : near)), !few};
 }
 
 /// A column that stands at a level and hardly moves (the bus, a clamped shaft): its movement is noise and has no
@@ -104,14 +83,15 @@ struct Suspect {
   const GateColumn& column;
   double error;  // beside a zero of the sensor [floors]
   Others others;
-  bool level;  // its level tells
+  bool level;      // its level tells
+  bool borne_out;  // the other column of its coil shows the same
 };
 
 Suspect SuspectOf(const CaseModel& model, const std::vector<GateColumn>& columns,
                   const GateColumn& c) {
   const double zero = MostZero(model, c.name);
   return {c, ErrorBesideZero(c, c.column.predicted, zero), OthersOf(columns, c),
-          LevelTells(c, zero, 0.05)};
+          LevelTells(c, zero, 0.05), BorneOut(columns, c)};
 }
 
 /// Least squares of measured about predicted, level and movement together.
@@ -133,6 +113,7 @@ bool OnlyNear(const Mistake& m, double rest, const Suspect& s) {
 /// The share of the error that this mistake leaves; nothing where it is not believed.
 std::optional<double> LeftBy(const Mistake& m, const Suspect& s) {
   const GateColumn& c = s.column;
+  if (m.alone && s.borne_out) return {};
   const double rest = Left(c, m.factor, s.error);
   // An effect in the rig leaves an error in every column: of one that stands alone no less is asked than of those.
   const double usual = m.alone ? kLikeOthers * s.others.error / s.error : 0;

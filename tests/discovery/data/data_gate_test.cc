@@ -176,6 +176,28 @@ TEST(DataGate, ZerosOfHeldSensorsAreNoExchange) {
   }
 }
 
+// A force that takes the weight off, or more, gives currents that look like others' or like their own with a factor. Their
+// set-points ask for what they show, and the rest of the bearing errs too.
+TEST(DataGate, AForceOfTheOtherSignIsNoMistake) {
+  for (const double force : {30.0, 36.0, 44.0, 48.0}) {
+    EffectInstance load = MakeInstance(EffectNamed("constant-load"), "A");
+    load.Set("fy", force);
+    const auto faults = FaultsOf(Measured({load}));
+    EXPECT_TRUE(faults.empty()) << force << ": " << FaultText(faults[0]);
+  }
+}
+
+// A logger that mixes up two coils, set-points included, changes nothing else of the bearing.
+TEST(DataGate, TwoCoilsExchangedWithTheirSetPoints) {
+  Case c = Measured();
+  for (const char* kind : {"i", "s"})
+    std::swap(SamplesOf(c, kStepRecord, std::string("A.") + kind + "3"),
+              SamplesOf(c, kStepRecord, std::string("A.") + kind + "7"));
+  const auto faults = FaultsOf(c);
+  ASSERT_EQ(faults.size(), 2U);
+  for (const DataFault& f : faults) EXPECT_EQ(f.fault, "swap") << FaultText(f);
+}
+
 // A logger loses rows of all columns at once. One column that runs ahead from some instant on shows what the machine
 // did, for example a load that a rub carries in the magnet's place.
 TEST(DataGate, OneColumnLosesNoRows) {
