@@ -100,7 +100,9 @@ struct EffectDescription {
   bool tone = false;           // one line of unknown frequency, not a resonance
   bool mains = false;          // that line is the mains' or a multiple
   bool switches_pair = false;  // its two switches act together, with equal or opposite sign
-  std::string whole_periods;   // parameter [s] that acts in whole switching periods; empty: none
+  std::string
+      positive;  // parameter that this physics never makes negative, though a fit may; empty: none
+  std::string whole_periods;  // parameter [s] that acts in whole switching periods; empty: none
   void (*apply)(const EffectInstance&, Plant&) = nullptr;
   // before planes exist: adds modes to the shaft
   void (*shape)(const EffectInstance&, Plant&) = nullptr;

@@ -21,6 +21,7 @@ EffectDescription SidePull() {
       {"ey", "m", 0, -1e-3, 1e-3, -3e-5, 3e-5, "centre of the motor beside the sensors' zero"}};
   d.at_stations = true;
   d.off_when_null = {"stiffness"};
+  d.positive = "stiffness";
   d.shows_in = "force excitation at low frequency; reference steps; static currents off centre";
   d.confused_with = "gap of that bearing (its negative stiffness grows with the bias), sensor-gain";
   d.apply = [](const EffectInstance& e, Plant& plant) {

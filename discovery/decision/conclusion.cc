@@ -7,6 +7,7 @@
 
 #include "discovery/decision/drift_test.h"
 #include "discovery/decision/likelihood.h"
+#include "effects/catalogue.h"
 
 namespace ambrig {
 
@@ -63,6 +64,14 @@ bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
   return false;
 }
 
+/// A law whose size came out with a sign that its physics cannot have, and which leaves more than noise: another force
+/// acts in that direction (a pull that holds the shaft back is a spring or a rub, no motor).
+bool HasImpossibleSign(const EffectInstance& e, const StageRatios& end) {
+  constexpr double kNoise = 1.05;
+  const std::string& positive = EffectNamed(e.name).positive;
+  return !positive.empty() && e.Value(positive) < 0 && end.Answered() > kNoise;
+}
+
 /// What the catalogue's law leaves and its free shape does not is a detail of the law.
 void SayShape(const FitResult& last, Explanation& out) {
   const StageRatios& s = *out.shaped;
@@ -103,7 +112,8 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   const double share = ShareOfAllRecords(parameters, end);
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
-  const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, explained, named);
+  const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, explained, named) &&
+                           !HasImpossibleSign(out.adopted[0], end);
   if (any && !established) {
     out.adopted.clear();
     out.shaped.reset();

@@ -43,6 +43,7 @@ Explanation Explainer::Run() {
     Stop(as_filed);
   for (const std::string& line : lost) out_.warnings.push_back(line);
   for (const std::string& line : NoiseRemarks(out_.noise)) out_.warnings.push_back(line);
+  for (const std::string& line : BranchRemarks(model_, branches_)) out_.warnings.push_back(line);
   out_.runs = full_.runs + model_.runs;
   out_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Progress(1.0, "done");
@@ -62,6 +63,9 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
   PassFloorsOn(full_, model_);
+  branches_ = FindBranches(model_, nominal);
+  full_.branches = RowsIn(full_, branches_);
+  model_.branches = RowsIn(model_, branches_);
   UseNuisances(nominal, floor.clean, true);
 }
 
@@ -131,6 +135,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
         "the loop of the model found passes more noise than the rig file's: the noise floor is "
         "the found model's");
   ReportNuisances(now);
+  StateSizes();
   Conclude(model_, as_filed, base, now, out_);
   NoteShifts(out_.verdict == "effect" ? now : base);
   if (out_.verdict == "unknown") out_.unexplained = Describe(full_, AllRows(now));

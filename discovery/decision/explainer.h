@@ -91,6 +91,8 @@ class Explainer {
   void NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking);
   /// The names that were open where an effect was judged best, and those nearly as good in another's place.
   std::vector<EffectInstance> RivalsOf(std::size_t adopted) const;
+  /// Values and sd of the ranked effects, as the report states them.
+  void StateSizes();
   /// A last fit with fresh sensitivities of everything.
   void Polish(FitResult& now);
   void NoteShifts(const FitResult& base);
@@ -102,6 +104,7 @@ class Explainer {
   RigParameters rig_;
   Explanation out_;
   SignatureBank bank_;
+  std::vector<BranchSpan> branches_;
   /// A name of a round, as it was fitted there.
   struct RankedName {
     EffectInstance effect;

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "discovery/decision/explainer.h"
+#include "discovery/decision/law_scatter.h"
 #include "discovery/decision/rejudge.h"
 
 namespace ambrig {
@@ -89,6 +90,23 @@ void Explainer::NoteNames(std::size_t adopted, std::vector<RankedEffect> ranking
     out_.ranking.push_back(r);
     out_.ranking.back().probability = 0;
   }
+}
+
+/// An adopted effect has one size, that of the last fit. The sd of others is stated under the same doubt.
+void Explainer::StateSizes() {
+  for (std::vector<RankedEffect>* list : {&out_.ranking, &out_.second_round})
+    for (RankedEffect& r : *list) {
+      const auto same = [&](const EffectInstance& e) { return IsSameName(e, r.effect); };
+      const auto adopted = std::ranges::find_if(out_.adopted, same);
+      const std::vector<EffectInstance>& fitted = r.fit.hypothesis.rig.effects;
+      const auto place = std::ranges::find_if(fitted, same);
+      if (adopted != out_.adopted.end()) {
+        r.effect = *adopted;
+      } else if (r.fit.jacobian.size() > 0 && place != fitted.end()) {
+        r.fit.sd = SdUnderDoubt(model_, r.fit, out_.effective_sample_size);
+        r.effect = FittedEffect(r.fit, static_cast<std::size_t>(place - fitted.begin()));
+      }
+    }
 }
 
 }  // namespace ambrig

@@ -226,7 +226,7 @@ void Explainer::Polish(FitResult& now) {
   if (out_.adopted.empty()) return;
   Progress(0.94, "final fit");
   FitOptions fine = Options(nullptr);
-  fine.iterations = 4;
+  fine.iterations = 8;  // steps that were too long count too
   fine.passes = 4;
   fine.trust_region = 1e4;
   fine.differences = DifferenceSides::kTwoSided;

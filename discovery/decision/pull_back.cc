@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
-#include "discovery/search/fit_problem.h"
+#include "discovery/search/fit_gram.h"
 
 namespace ambrig {
 

@@ -61,7 +61,9 @@ void FillColumn(const CaseModel& model, const Prediction& here, const Prediction
   for (const Target& t : model.targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
       if (model.ok()[k])
-        column(static_cast<Eigen::Index>(k)) = ((*moved)[k] - (*here)[k]) / t.floor / change;
+        column(static_cast<Eigen::Index>(k)) = ((*moved)[k] - (*here)[k]) / t.floor;
+  DropJumps(model, column.data());
+  column /= change;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "discovery/case/case.h"
+#include "discovery/model/branch_rows.h"
 #include "discovery/model/noise_model.h"
 #include "discovery/model/nuisances.h"
 #include "discovery/model/record_predictor.h"
@@ -115,6 +116,7 @@ class CaseModel {
 
   NoiseModel noise_model;             // as stated, until EstimateNoise
   Nuisances nuisances;                // eliminated from every residual; none at first
+  std::vector<RowRange> branches;     // rows whose errors count little (branch_rows.h); none at first
   mutable std::atomic<long> runs{0};  // record simulations so far
   const std::atomic<bool>* stop = nullptr;
   RunStore* store = nullptr;  // looked up before a record is simulated

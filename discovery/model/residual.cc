@@ -12,6 +12,7 @@ std::vector<double> Residual(const CaseModel& model, const std::vector<double>& 
   for (const Target& t : model.targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
       r[k] = model.ok()[k] ? (model.measured()[k] - predicted[k]) / t.floor : 0;
+  LimitInBranches(model, r.data());
   if (model.nuisances.any()) model.nuisances.Eliminate(r.data());
   return r;
 }

@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "core/math/linear_equations.h"
+#include "discovery/search/fit_gram.h"
 #include "discovery/search/fit_problem.h"
+#include "discovery/search/rig_prior.h"
 #include "discovery/search/size_sd.h"
 #include "effects/catalogue.h"
 

@@ -4,7 +4,7 @@
 
 #include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
-#include "discovery/search/fit_problem.h"
+#include "discovery/search/fit_gram.h"
 
 namespace ambrig {
 

@@ -1,7 +1,8 @@
 #include "discovery/search/posterior_draws.h"
 
 #include "core/math/noise.h"
-#include "discovery/search/fit_problem.h"
+#include "discovery/decision/likelihood.h"
+#include "discovery/search/fit_gram.h"
 
 namespace ambrig {
 

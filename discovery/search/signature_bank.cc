@@ -79,6 +79,7 @@ std::vector<std::vector<float>> SignatureBank::Signatures(const CaseModel& model
     for (const Target& t : model.targets())
       for (std::size_t row = t.first; row < t.first + t.count; ++row)
         if (model.ok()[row]) signature[row] = ((*runs[k])[row] - (*without)[row]) / t.floor;
+    DropJumps(model, signature.data());
     if (model.nuisances.any()) model.nuisances.Eliminate(signature.data());
     out[k].assign(signature.begin(), signature.end());
   }

@@ -9,7 +9,8 @@
 #include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
 #include "discovery/model/jacobian.h"
-#include "discovery/search/fit_problem.h"
+#include "discovery/search/fit_gram.h"
+#include "discovery/search/rig_prior.h"
 #include "discovery/search/signature_bank.h"
 
 namespace ambrig {

@@ -7,6 +7,7 @@
 
 #include "discovery/decision/drift_test.h"
 #include "discovery/decision/likelihood.h"
+#include "effects/catalogue.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
@@ -160,6 +161,23 @@ TEST_F(Conclusion, AContestedNameThatLeavesMuchIsWithdrawn) {
     EXPECT_EQ(out.verdict, probability > 0.9 ? "effect" : "unknown") << probability;
     EXPECT_EQ(out.adopted.empty(), probability < 0.9) << probability;
   }
+}
+
+// A pull that holds the shaft back is no motor's where something else stays too: a spring with play, a rub.
+TEST_F(Conclusion, APullOfTheWrongSignIsWithdrawnWhereMoreThanNoiseStays) {
+  for (const double stiffness : {-4e4, 4e4})
+    for (const double left : {1.0, 1.5}) {
+      EffectInstance pull = MakeInstance(EffectNamed("side-pull"), "A");
+      pull.Set("stiffness", stiffness);
+      Explanation out;
+      out.effective_sample_size = kN;
+      out.adopted = {pull};
+      out.ranking = {Ranked(pull, 1)};
+      Conclude(case_.model, Leaving(6), Leaving(5), Leaving(left), out);
+      const bool withdrawn = stiffness < 0 && left > 1.05;
+      EXPECT_EQ(out.verdict, withdrawn ? "unknown" : "effect") << stiffness << ", " << left;
+      EXPECT_EQ(out.adopted.empty(), withdrawn);
+    }
 }
 
 TEST_F(Conclusion, WithoutAnyMisfitTheSetHoldsNone) {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "discovery/search/fit_problem.h"
+#include "discovery/search/rig_prior.h"
 #include "tests/discovery/linear_case.h"
 
 namespace ambrig {
