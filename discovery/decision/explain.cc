@@ -137,6 +137,11 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   ReportNuisances(now);
   StateSizes();
   Conclude(model_, as_filed, base, now, out_);
+  AddToVerdict(base, now);
+}
+
+/// What a reader of this verdict asks next.
+void Explainer::AddToVerdict(const FitResult& base, const FitResult& now) {
   NoteShifts(out_.verdict == "effect" ? now : base);
   if (out_.verdict == "unknown") out_.unexplained = Describe(full_, AllRows(now));
   if (out_.verdict == "none" || out_.verdict == "parameters") FindHidden(now);

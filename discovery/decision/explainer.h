@@ -95,6 +95,8 @@ class Explainer {
   void StateSizes();
   /// A last fit with fresh sensitivities of everything.
   void Polish(FitResult& now);
+  /// What belongs to the verdict: shifts of parameters, what is unexplained, hidden or confusable.
+  void AddToVerdict(const FitResult& base, const FitResult& now);
   void NoteShifts(const FitResult& base);
   /// Pairs that these records leave open, and the record that would decide.
   void FindConfusable();

@@ -12,12 +12,12 @@ namespace ambrig {
 
 namespace {
 
-constexpr double kJump = 6;           // floors
-constexpr double kBelongsToJump = 1;  // floors, of the rows beside it
-constexpr double kMostOfRows = 0.3;   // of a channel
-constexpr double kMostError = 2;      // floors rms that a branch counts with
+constexpr double kJump = 6;             // floors
+constexpr double kBelongsToJump = 1;    // floors, of the rows beside it
+constexpr double kMostOfChannel = 0.3;  // of a channel
+constexpr double kMostError = 2;        // floors rms that a branch counts with
 // Lines through the drawing: points from -1.75 to 1.75 times a draw of the tolerances, half a draw apart.
-constexpr int kLines = 6, kPoints = 8;
+constexpr int kToleranceLines = 6, kPoints = 8;
 constexpr double kFirst = -1.75, kApart = 0.5;
 
 /// The records in which branches are sought.
@@ -68,7 +68,7 @@ void AddSpans(const CaseModel& model, const Target& t, const std::vector<char>& 
               std::vector<BranchSpan>& out) {
   const auto begin = marks.begin() + static_cast<std::ptrdiff_t>(t.first);
   const auto marked = std::count(begin, begin + static_cast<std::ptrdiff_t>(t.count), 1);
-  if (static_cast<double>(marked) > kMostOfRows * static_cast<double>(t.count)) return;
+  if (static_cast<double>(marked) > kMostOfChannel * static_cast<double>(t.count)) return;
   for (std::size_t k = t.first; k < t.first + t.count; ++k) {
     if (!marks[k]) continue;
     const std::size_t first = k;
@@ -91,8 +91,9 @@ std::vector<BranchSpan> FindBranches(const CaseModel& model, const Hypothesis& n
   std::vector<BranchSpan> out;
   if (nominal.free.empty() || std::ranges::count(look.records, 1) == 0) return out;
   std::vector<char> marks(model.size(), 0);
-  for (int line = 0; line < kLines; ++line) {
-    const auto runs = model.PredictAll(PointsOnLine(nominal, line), ModelFidelity::kAsSampled, &look);
+  for (int line = 0; line < kToleranceLines; ++line) {
+    const auto runs =
+        model.PredictAll(PointsOnLine(nominal, line), ModelFidelity::kAsSampled, &look);
     for (std::size_t i = 0; i + 3 < runs.size(); ++i) {
       std::vector<const std::vector<double>*> four;
       for (std::size_t k = i; k < i + 4; ++k)
