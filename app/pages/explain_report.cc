@@ -61,9 +61,12 @@ std::string WhyNot(const Explanation& e, bool unseen) {
         unseen ? fmt::format(" on the fitted and {:.2f} on the unseen records", best.ratio_validate)
                : "");
   return fmt::format(
-      "{} is not adopted: without it the rig file and its tolerances explain the records to {:.3f} "
-      "of the noise, with it to {:.3f}.",
-      name, e.base_ratio_validate, best.ratio_validate);
+      "{} is not adopted: without it the rig file{} explain the records to {:.3f} of the noise, "
+      "with it to {:.3f}.",
+      name,
+      e.nuisances.empty() ? " and its tolerances"
+                          : ", its tolerances and what differs from record to record",
+      e.final_ratio_validate, best.ratio_validate);
 }
 
 namespace {

@@ -13,7 +13,8 @@ constexpr double kCompelling = 200;  // gain of the score that no detail of anot
 constexpr double kDoubtfulShift = 3, kNeverParameter = 5;  // sd
 // what a law's own detail leaves of the squared ratio that it explains, and at most
 constexpr double kDetail = 0.02, kMostDetail = 0.1;
-constexpr double kMostExplained = 0.9;  // of the squared error above the floor
+constexpr double kIntegratorsDiffer = 0.015;  // of the squared ratio
+constexpr double kMostExplained = 0.9;        // of the squared error above the floor
 }  // namespace
 
 double ExplainedShare(double before, double after) {
@@ -62,11 +63,20 @@ bool WorthAdopting(const FitResult& before, const FitResult& after, double score
   // Unseen records decide: the error must fall by more than integrators differ (1 % of the floor's
   // power), and by a good part of what is left; a second effect by more than a law's own detail.
   const double fall = b * b - a * a;
-  if (fall < 0.015 + 0.01 * round) return false;
+  if (fall < kIntegratorsDiffer + 0.01 * round) return false;
   if (round > 0 && fall < std::min(kDetail * first_fall, kMostDetail)) return false;
   const double share = ExplainedShare(b, a);
   if (round == 0) return share > 0.25;
   return share > 0.75 || (share > 0.4 && (fall > 0.1 * first_fall || score_gain > kCompelling));
+}
+
+bool ClosesAlone(const FitResult& before, const FitResult& after, double score_gain,
+                 double next_gain) {
+  constexpr double kLeft = 1.01, kShare = 0.9, kGain = 100, kOfNext = 0.1;
+  const double b = before.ratio_validate, a = after.ratio_validate;
+  return after.converged && Believable(after) && std::max(after.ratio_fit, a) < kLeft &&
+         b * b - a * a > kIntegratorsDiffer && ExplainedShare(b, a) > kShare &&
+         score_gain > kGain && next_gain < kOfNext * score_gain;
 }
 
 double StageRatios::Answered() const { return std::max({fit, validate, worst_record / 1.1}); }

@@ -24,6 +24,12 @@ bool Possible(const FitResult& fit);
 bool WorthAdopting(const FitResult& before, const FitResult& after, double score_gain, int round,
                    double first_fall);
 
+/// Whether one effect leaves nothing but noise, on unseen records too, where no other candidate gains a tenth as much: what
+/// nuisances leave of their own kind is closed a little by several. Asked beside nuisances that nobody declared.
+/// `score_gain`, `next_gain`: of the score, by this candidate and by the best of the others.
+bool ClosesAlone(const FitResult& before, const FitResult& after, double score_gain,
+                 double next_gain);
+
 /// Errors over the noise of one stage of the search: fitted records, unseen ones, the worst record.
 struct StageRatios {
   double fit = 0, validate = 0, worst_record = 0;

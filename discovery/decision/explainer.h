@@ -68,6 +68,9 @@ class Explainer {
   bool ShapeExplainsAll() const;
   double ScoreOf(const FitResult& fit) const;
   double Gain(const FitResult& before, const FitResult& after) const;
+  /// The most that another candidate of the ranking than this one gains.
+  double GainOfOthers(const FitResult& now, const std::vector<RankedEffect>& ranking,
+                      const RankedEffect& than) const;
   /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
   bool AdoptBest(FitResult& now, int round);
   /// The model with the effect may hold a rotor that the rig file's loses: then all rows count.

@@ -61,6 +61,15 @@ bool Explainer::Finished(const FitResult& now) const {
          (!out_.adopted.empty() || WorstRatio(model_, now.residual, Which::kAll) < kChannelNoise);
 }
 
+/// The most that another candidate than this one gains over `now`.
+double Explainer::GainOfOthers(const FitResult& now, const std::vector<RankedEffect>& ranking,
+                               const RankedEffect& than) const {
+  double most = -kInfinity;
+  for (const RankedEffect& r : ranking)
+    if (&r != &than) most = std::max(most, ScoreOf(now) - r.score);
+  return most;
+}
+
 /// Adds the effect that explains most of what is left; false: nothing left, or none worth it.
 bool Explainer::AdoptBest(FitResult& now, int round) {
   if (Finished(now)) return false;
@@ -87,7 +96,8 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
     const std::size_t last = r.fit.hypothesis.rig.effects.size() - 1;
     if (!HasSize(r.fit, last) || IsDetailOf(out_.adopted, FittedEffect(r.fit, last))) return false;
     const double gain = ScoreOf(now) - r.score;
-    worth = WorthAdopting(now, ByItsShape(r), gain, round + (differ ? 1 : 0), first_fall_);
+    worth = WorthAdopting(now, ByItsShape(r), gain, round + (differ ? 1 : 0), first_fall_) ||
+            (differ && round == 0 && ClosesAlone(now, r.fit, gain, GainOfOthers(now, ranking, r)));
     return worth || ExplainsItsChannels(model_, now, r.fit, gain, round == 0);
   });
   if (best == ranking.end()) return false;

@@ -104,6 +104,17 @@ TEST(WorthAdopting, BringsParametersBackToWhereTheyMayBe) {
 }
 
 // A better fit of the unseen records, or a larger gain, never turns a yes into a no.
+// Beside nuisances that nobody declared: the noise is reached on all records, and no other candidate gains a tenth as much.
+TEST(ClosesAlone, NoiseIsLeftAndNoOtherCandidateComesNear) {
+  const FitResult before = FitWith(1.011, 1.028), after = FitWith(0.992, 1.001);
+  EXPECT_TRUE(ClosesAlone(before, after, 183, -2.4));
+  EXPECT_FALSE(ClosesAlone(before, after, 183, 19));   // another one explains it too
+  EXPECT_FALSE(ClosesAlone(before, after, 90, -2.4));  // too little to be more than chance
+  EXPECT_FALSE(ClosesAlone(before, FitWith(0.992, 1.012), 183, 0));  // something is left
+  EXPECT_FALSE(ClosesAlone(FitWith(1.011, 1.008), after, 183, 0));   // integrators differ by that
+  EXPECT_FALSE(ClosesAlone(before, FitWith(0.992, 1.001, 4, 9), 183, 0));  // impossible parameters
+}
+
 TEST(WorthAdopting, IsMonotonous) {
   const std::vector<double> ratios = {1.0, 1.05, 1.2, 1.6, 2.2, 3.0, 4.0};
   const std::vector<double> gains = {10, 25, 150, 250, 1e4};
