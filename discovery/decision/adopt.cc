@@ -9,6 +9,8 @@
 #include "core/base/read_file.h"
 #include "core/base/toml_edit.h"
 #include "discovery/case/effect_target.h"
+#include "discovery/decision/last_fit.h"
+#include "discovery/decision/prepared_models.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/screen.h"
 #include "effects/catalogue.h"
@@ -25,11 +27,12 @@ bool SameFolder(const std::string& a, const std::string& b) {
          fs::absolute(b).lexically_normal().parent_path();
 }
 
-/// @throws InputError when no record has a channel to fit to.
-Comparison CompareMeasured(CaseModel& model, const Hypothesis& nominal) {
-  Comparison before = Compare(model, nominal, false);
-  if (model.targets().empty())
-    throw InputError(model.data().file +
+/// The comparison with the rig file, and both models made ready for fits. @throws InputError when no record has a channel
+/// to fit to.
+Comparison CompareMeasured(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
+  Comparison before = PrepareModels(full, thin, nominal);
+  if (full.targets().empty())
+    throw InputError(full.data().file +
                      ": every channel of every record was left out (ambrig compare says why), "
                      "allowed: one channel or more that moves");
   return before;
@@ -55,12 +58,12 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
   if (!formula)
     RequireTarget(d, c.rig, target, fmt::format("--target = {}, allowed with {}:", target, d.id));
   Adoption a;
-  CaseModel model(c);
-  model.stop = options.stop;
+  CaseModel full(c), model(c, ThinningTo(c, kSearchRows));
+  full.stop = model.stop = options.stop;
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   const std::string rig_text = ReadFile(c.rig_file);
   AdoptedRigText(rig_text, nominal, c.rig.effects);  // can be written: known before the long work
-  a.before = CompareMeasured(model, nominal);
+  a.before = CompareMeasured(full, model, nominal);
   FitOptions fit;
   fit.effective_sample_size = a.before.effective_sample_size;
   progress(0.2, "rig parameters");
@@ -81,7 +84,8 @@ Adoption Adopt(const Case& c, const std::string& effect, const std::string& targ
       throw InputError(
           fmt::format("{}: the model loses levitation in every fit of {}", c.file, effect));
     progress(0.7, "final fit");
-    a.fit = Fit(model, a.fit.hypothesis, fit);
+    a.fit = LastFit(model, FitOn(model, base, a.fit.hypothesis, fit.effective_sample_size),
+                    fit.effective_sample_size);
     const EffectInstance& e = a.fit.hypothesis.rig.effects.back();
     a.ladder.push_back({NameAtTarget(e.name, e.target), a.fit.ratio_fit, a.fit.ratio_validate});
   }

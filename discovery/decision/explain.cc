@@ -14,15 +14,8 @@
 
 namespace ambrig {
 
-namespace {
-
-/// Rows that the search looks at: more would cost time and tell nothing new.
-constexpr std::size_t kRows = 150000;
-
-}  // namespace
-
 Explainer::Explainer(const Case& c, const ExplainOptions& options)
-    : options_(options), full_(c), model_(c, ThinningTo(c, kRows)), rig_(c.rig) {
+    : options_(options), full_(c), model_(c, ThinningTo(c, kSearchRows)), rig_(c.rig) {
   full_.stop = model_.stop = options.stop;
   full_.store = model_.store = options.store;
 }
@@ -63,9 +56,7 @@ void Explainer::PrepareNoise(const Hypothesis& nominal) {
   Progress(0.02, "are the data possible?");
   out_.data = InspectDataBelow(full_, floor.clean, nominal, stated);
   PassFloorsOn(full_, model_);
-  branches_ = FindBranches(model_, nominal);
-  full_.branches = RowsIn(full_, branches_);
-  model_.branches = RowsIn(model_, branches_);
+  branches_ = UseBranchesInBoth(full_, model_, nominal);
   UseNuisances(nominal, floor.clean, true);
 }
 

@@ -4,9 +4,8 @@
 
 #include "discovery/decision/conclusion.h"
 #include "discovery/decision/explainer.h"
-#include "discovery/decision/law_scatter.h"
+#include "discovery/decision/last_fit.h"
 #include "discovery/decision/likelihood.h"
-#include "discovery/decision/pull_back.h"
 #include "discovery/decision/where_it_acts.h"
 #include "discovery/search/candidate_fit.h"
 #include "discovery/search/linear_step.h"
@@ -235,21 +234,7 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
 void Explainer::Polish(FitResult& now) {
   if (out_.adopted.empty()) return;
   Progress(0.94, "final fit");
-  FitOptions fine = Options(nullptr);
-  fine.iterations = 8;  // steps that were too long count too
-  fine.passes = 4;
-  fine.trust_region = 1e4;
-  fine.differences = DifferenceSides::kTwoSided;
-  fine.tolerance = 1e-5;
-  fine.least_gain = 2;
-  FitResult polished = Fit(model_, now.hypothesis, fine);
-  if (polished.converged && polished.ratio_fit <= now.ratio_fit * 1.0005) now = std::move(polished);
-  PulledBack back = PullBack(model_, now, out_.effective_sample_size);
-  if (back.moved) {
-    polished = Fit(model_, back.fit.hypothesis, fine);
-    now = polished.converged ? std::move(polished) : std::move(back.fit);
-  }
-  now.sd = SdUnderDoubt(model_, now, out_.effective_sample_size);
+  now = LastFit(model_, now, out_.effective_sample_size);
   for (std::size_t k = 0; k < out_.adopted.size(); ++k)
     out_.adopted[k] = FittedEffect(now, rig_.effects.size() + k);
   out_.ladder.back().ratio_fit = now.ratio_fit;

@@ -23,11 +23,20 @@ void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<Nuis
                      independent / static_cast<double>(thin.size()));
 }
 
+std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
+                                          const Hypothesis& nominal) {
+  std::vector<BranchSpan> spans = FindBranches(thin, nominal);
+  full.branches = RowsIn(full, spans);
+  thin.branches = RowsIn(thin, spans);
+  return spans;
+}
+
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
   Comparison before = Compare(full, nominal, false);
   thin.noise_model = full.noise_model;
   thin.LimitAs(full);
   PassFloorsOn(full, thin);
+  UseBranchesInBoth(full, thin, nominal);
   if (!full.data().nuisances.any()) return before;
   UseNuisancesInBoth(full, thin, NuisanceKindsOf(full, nominal, before.predicted, true),
                      before.effective_sample_size);

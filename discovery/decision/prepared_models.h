@@ -4,6 +4,9 @@
 
 namespace ambrig {
 
+/// Rows that a search looks at: more would cost time and tell nothing new.
+inline constexpr std::size_t kSearchRows = 150000;
+
 /// The thinning (1: every row) with which a model of the case looks at no more than about `rows` rows, at most 12.
 std::size_t ThinningTo(const Case& c, std::size_t rows);
 
@@ -14,8 +17,12 @@ void PassFloorsOn(const CaseModel& full, CaseModel& thin);
 void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<NuisanceKind>& kinds,
                         double independent);
 
-/// Gives both the noise, horizons and floors of the comparison with `nominal`, which is returned, and the nuisances that the
-/// case declares.
+/// The branches of the rig's tolerances in both, which are returned. Floors are set.
+std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
+                                          const Hypothesis& nominal);
+
+/// Gives both the noise, horizons and floors of the comparison with `nominal`, which is returned, the branches of its
+/// tolerances, and the nuisances that the case declares.
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal);
 
 }  // namespace ambrig

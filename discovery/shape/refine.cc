@@ -20,8 +20,6 @@ namespace ambrig {
 
 namespace {
 
-constexpr std::size_t kRefineRows = 150000;  // that a fit looks at
-
 /// The number of independent residuals of both models. @throws InputError for wrong data
 double Prepare(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
   const Comparison before = PrepareModels(full, thin, nominal);
@@ -139,7 +137,7 @@ Refinement Refine(const Case& c, const std::string& effect, const std::string& t
         fmt::format("{} has no curve to refine, allowed: {}", effect, RefinableEffects()));
   Refinement out;
   out.model = std::make_unique<CaseModel>(c);
-  CaseModel thin(c, ThinningTo(c, kRefineRows));
+  CaseModel thin(c, ThinningTo(c, kSearchRows));
   out.model->stop = thin.stop = options.stop;
   const Hypothesis nominal = Hypothesis::Base(c.rig);
   AdoptedRigText(ReadFile(c.rig_file), nominal, c.rig.effects);  // known before the long work
