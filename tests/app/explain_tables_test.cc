@@ -194,8 +194,13 @@ TEST(ExplainText, WhyTheBestCandidateIsNotAdopted) {
             "counts only the candidates listed.");
   EXPECT_THAT(WhyNot(e, false), Not(HasSubstr("unseen")));
   e.verdict = "parameters";
-  e.base_ratio_validate = 1.031;
-  EXPECT_THAT(WhyNot(e, true), HasSubstr("explain the records to 1.031 of the noise, with it to"));
+  e.final_ratio_validate = 1.031;
+  EXPECT_THAT(
+      WhyNot(e, true),
+      HasSubstr("the rig file and its tolerances explain the records to 1.031 of the noise, "
+                "with it to"));
+  e.nuisances.emplace_back();
+  EXPECT_THAT(WhyNot(e, true), HasSubstr("tolerances and what differs from record to record"));
   e.verdict = "effect";
   e.adopted = {e.ranking[0].effect};
   EXPECT_EQ(WhyNot(e, true), "");
