@@ -13,6 +13,8 @@ namespace {
 
 // of the error, columns of one kind and of two
 constexpr double kLeftOfKind = 0.35, kLeftOfOthers = 0.1;
+// of columns that stand still: two numbers that agree by chance leave a third
+constexpr double kLeftOfHeld = 0.1;
 // Beside an effect more may be left where the movements say clearly which column is which.
 constexpr double kLeftBesideEffect = 0.6, kOfItself = 0.5, kOfOther = 0.75;
 
@@ -40,6 +42,20 @@ Exchanged Against(const CaseModel& model, const GateColumn& a, const GateColumn&
           MatchOf(column).correlation};
 }
 
+bool StandsStill(const GateColumn& c) {
+  return std::max(c.match.measured_move, c.match.predicted_move) < kMoves;
+}
+
+/// Whether a third column of their kind that stands still errs by more than so many floors beside its zero: the shaft is
+/// elsewhere, or bent, and two positions agree by chance.
+bool OtherErrs(const CaseModel& model, const std::vector<GateColumn>& columns, const GateColumn& a,
+               const GateColumn& b, double most) {
+  return std::ranges::any_of(columns, [&](const GateColumn& c) {
+    return c.name != a.name && c.name != b.name && KindOf(c) == KindOf(a) && StandsStill(c) &&
+           ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name)) > most;
+  });
+}
+
 /// Whether a coil really carries what the column shows: its set-point asks for it, and the rest of its bearing errs too.
 /// A force of the other sign makes opposite coils look exchanged.
 bool CarriedInstead(const std::vector<GateColumn>& columns, const GateColumn& c, double error) {
@@ -56,6 +72,9 @@ double LeftByExchange(const CaseModel& model, const std::vector<GateColumn>& col
   const Exchanged a_as_b = Against(model, a, b), b_as_a = Against(model, b, a);
   const double left = std::hypot(a_as_b.error, b_as_a.error) / before;
   const bool one_kind = KindOf(a) == KindOf(b);
+  if (StandsStill(a) && StandsStill(b) &&
+      (left > kLeftOfHeld || OtherErrs(model, columns, a, b, kAlone * before)))
+    return 1;
   const bool clear = one_kind && std::max(a.match.correlation, b.match.correlation) < kOfItself &&
                      std::min(a_as_b.correlation, b_as_a.correlation) > kOfOther;
   const double most = clear ? kLeftBesideEffect : one_kind ? kLeftOfKind : kLeftOfOthers;

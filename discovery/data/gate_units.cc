@@ -83,15 +83,34 @@ struct Suspect {
   const GateColumn& column;
   double error;  // beside a zero of the sensor [floors]
   Others others;
-  bool level;      // its level tells
-  bool borne_out;  // the other column of its coil shows the same
+  bool level;                            // its level tells
+  bool borne_out;                        // the other column of its coil shows the same
+  std::vector<const GateColumn*> cells;  // the other load cells of its bearing, of a load cell
 };
+
+/// The other load cells of the bearing, where `of` is one.
+std::vector<const GateColumn*> OtherCells(const std::vector<GateColumn>& columns,
+                                          const GateColumn& of) {
+  std::vector<const GateColumn*> out;
+  const auto id = ParseChannel(of.name);
+  if (!id || id->kind != ChannelKind::kLoadCell) return out;
+  for (const GateColumn& c : columns) {
+    const auto other = ParseChannel(c.name);
+    if (&c != &of && other && other->kind == id->kind && other->plane == id->plane)
+      out.push_back(&c);
+  }
+  return out;
+}
 
 Suspect SuspectOf(const CaseModel& model, const std::vector<GateColumn>& columns,
                   const GateColumn& c) {
   const double zero = MostZero(model, c.name);
-  return {c, ErrorBesideZero(c, c.column.predicted, zero), OthersOf(columns, c),
-          LevelTells(c, zero, 0.05), BorneOut(columns, c)};
+  return {c,
+          ErrorBesideZero(c, c.column.predicted, zero),
+          OthersOf(columns, c),
+          LevelTells(c, zero, 0.05),
+          BorneOut(columns, c),
+          OtherCells(columns, c)};
 }
 
 /// Least squares of measured about predicted, level and movement together.
@@ -110,10 +129,32 @@ bool OnlyNear(const Mistake& m, double rest, const Suspect& s) {
          Left(s.column, gain, s.error) < kFarLess * rest;
 }
 
+/// Whether a cause in the machine may have made such forces: the other load cell of the bearing errs too, and the factor is
+/// not one that both show and that no currents or gaps make.
+bool ForcesDiffer(double factor, const Suspect& s) {
+  constexpr double kOfMachine = 2.5, kSame = 0.1;
+  return std::ranges::any_of(s.cells, [&](const GateColumn* other) {
+    if (other->match.error <= kAlone * s.error) return false;
+    const double gain = WholeGain(other->column);
+    const bool same = gain > 0 && std::abs(std::log(gain / factor)) < kSame;
+    return !same || std::max(factor, 1 / factor) < kOfMachine;
+  });
+}
+
+/// Whether the machine itself may make such a factor: a coil whose set-point shows it too carries that current; the zero
+/// of a sensor makes any factor below three of a position that is held; forces differ in both directions, which no
+/// other column shows.
+bool MachineMakes(double factor, const Suspect& s) {
+  constexpr double kOfHeld = 3;
+  if (s.borne_out) return true;
+  if (s.level && IsOfKind(s.column.name, ChannelKind::kReading)) return factor < kOfHeld;
+  return ForcesDiffer(factor, s);
+}
+
 /// The share of the error that this mistake leaves; nothing where it is not believed.
 std::optional<double> LeftBy(const Mistake& m, const Suspect& s) {
   const GateColumn& c = s.column;
-  if (m.alone && s.borne_out) return {};
+  if ((m.alone || m.correlation > 0) && MachineMakes(m.factor, s)) return {};
   const double rest = Left(c, m.factor, s.error);
   // An effect in the rig leaves an error in every column: of one that stands alone no less is asked than of those.
   const double usual = m.alone ? kLikeOthers * s.others.error / s.error : 0;
@@ -183,7 +224,9 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
     const Suspect suspect = SuspectOf(model, columns, c);
     if (c.explained || suspect.error < kGrossError) continue;
     const double opposite = Left(c, -1, suspect.error);
-    const bool opposite_level = LevelTells(c, MostZero(model, c.name), 0.3) && opposite < 0.1;
+    const bool held = suspect.level && IsOfKind(c.name, ChannelKind::kReading);
+    const bool opposite_level =
+        !held && LevelTells(c, MostZero(model, c.name), 0.3) && opposite < 0.1;
     if (const auto found = BestFactor(suspect))
       TellFactor(r, c, *found, out);
     else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3))

@@ -130,6 +130,35 @@ TEST(GateFactors, ALevelShowsItsSign) {
   }
 }
 
+// The zero of a sensor makes any factor of a position that is held.
+TEST(GateFactors, AZeroOfAHeldSensorIsNoFactor) {
+  const Case sound = Measured();
+  for (const double factor : {0.5, std::sqrt(0.5), std::sqrt(2.0), 2.0, 1 / 25.4}) {
+    Case c = sound;
+    std::vector<double>& x = SamplesOf(c, kClampedRecord, "A.x");
+    const double zero = (factor - 1) * x[0];
+    for (double& v : x) v += zero;
+    const auto faults = FaultsOf(c);
+    EXPECT_TRUE(faults.empty()) << factor << ": " << FaultText(faults[0]);
+  }
+}
+
+// Currents that are larger by the root of two make twice the force in both directions, and no other column of a held shaft
+// shows it. One cell alone is wrong, and so are both with a factor that no machine makes.
+TEST(GateFactors, ForcesOfBothDirectionsAreTheMachines) {
+  const Case sound = Measured();
+  const auto faults_of = [&](double fx, double fy) {
+    Case c = sound;
+    for (double& v : SamplesOf(c, kClampedRecord, "A.fx")) v *= fx;
+    for (double& v : SamplesOf(c, kClampedRecord, "A.fy")) v *= fy;
+    return FaultsOf(c).size();
+  };
+  EXPECT_EQ(faults_of(2, 2), 0U);
+  EXPECT_EQ(faults_of(std::sqrt(0.5), std::sqrt(0.5)), 0U);
+  EXPECT_EQ(faults_of(2, 1), 1U);
+  EXPECT_EQ(faults_of(9.81, 9.81), 2U);
+}
+
 // A sensor that adds hum where the model expects nothing but noise: no factor of a thousand.
 TEST(GateFactors, HumIsNoUnit) {
   Case c = Measured();

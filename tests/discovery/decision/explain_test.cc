@@ -144,7 +144,7 @@ TEST(Explain, WrongDataThatAnEffectHidAreFoundBesideIt) {
     EXPECT_TRUE(e.adopted.empty() && e.ranking.empty());
     EXPECT_EQ(e.set[0].effect, "data");
     EXPECT_THAT(e.warnings,
-                testing::Contains(testing::HasSubstr("show beside sensor-gain at A.x")));
+                ::testing::Contains(::testing::HasSubstr("show beside sensor-gain at A.x")));
   }
 }
 
