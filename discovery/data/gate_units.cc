@@ -224,9 +224,7 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
     const Suspect suspect = SuspectOf(model, columns, c);
     if (c.explained || suspect.error < kGrossError) continue;
     const double opposite = Left(c, -1, suspect.error);
-    const bool held = suspect.level && IsOfKind(c.name, ChannelKind::kReading);
-    const bool opposite_level =
-        !held && LevelTells(c, MostZero(model, c.name), 0.3) && opposite < 0.1;
+    const bool opposite_level = LevelTells(c, MostZero(model, c.name), 0.3) && opposite < 0.1;
     if (const auto found = BestFactor(suspect))
       TellFactor(r, c, *found, out);
     else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3))

@@ -114,9 +114,9 @@ class CaseModel {
   /// Whether some record counts in part only.
   bool limited() const;
 
-  NoiseModel noise_model;             // as stated, until EstimateNoise
-  Nuisances nuisances;                // eliminated from every residual; none at first
-  std::vector<RowRange> branches;     // rows whose errors count little (branch_rows.h); none at first
+  NoiseModel noise_model;          // as stated, until EstimateNoise
+  Nuisances nuisances;             // eliminated from every residual; none at first
+  std::vector<RowRange> branches;  // rows whose errors count little (branch_rows.h); none at first
   mutable std::atomic<long> runs{0};  // record simulations so far
   const std::atomic<bool>* stop = nullptr;
   RunStore* store = nullptr;  // looked up before a record is simulated
