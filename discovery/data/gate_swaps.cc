@@ -11,6 +11,8 @@ namespace ambrig {
 
 namespace {
 
+// floors, of either column and of both together
+constexpr double kLeastOfOne = 0.7 * kGrossError, kLeastOfBoth = 1.5 * kGrossError;
 // of the error, columns of one kind and of two
 constexpr double kLeftOfKind = 0.35, kLeftOfOthers = 0.1;
 // of columns that stand still: two numbers that agree by chance leave a third
@@ -46,34 +48,45 @@ bool StandsStill(const GateColumn& c) {
   return std::max(c.match.measured_move, c.match.predicted_move) < kMoves;
 }
 
+/// What of a column does not depend on the other one of a pair.
+struct ExchangeSide {
+  GateColumn& column;
+  double error;  // beside a zero, as it stands [floors]
+  // The coil really carries what the column shows: its set-point asks for it, and the rest of its bearing errs too. A
+  // force of the other sign makes opposite coils look exchanged.
+  bool carried;
+};
+
+ExchangeSide ExchangeSideOf(const CaseModel& model, const std::vector<GateColumn>& columns,
+                            GateColumn& c) {
+  const double error = ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name));
+  return {
+      c, error,
+      BorneOut(columns, c) && OthersOf(columns, c).error > std::min(kAlone * error, kGrossError)};
+}
+
 /// Whether a third column of their kind that stands still errs by more than so many floors beside its zero: the shaft is
 /// elsewhere, or bent, and two positions agree by chance.
-bool OtherErrs(const CaseModel& model, const std::vector<GateColumn>& columns, const GateColumn& a,
-               const GateColumn& b, double most) {
-  return std::ranges::any_of(columns, [&](const GateColumn& c) {
-    return c.name != a.name && c.name != b.name && KindOf(c) == KindOf(a) && StandsStill(c) &&
-           ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name)) > most;
+bool OtherErrs(const std::vector<ExchangeSide>& all, const ExchangeSide& a, const ExchangeSide& b,
+               double most) {
+  return std::ranges::any_of(all, [&](const ExchangeSide& c) {
+    return &c != &a && &c != &b && KindOf(c.column) == KindOf(a.column) && StandsStill(c.column) &&
+           c.error > most;
   });
 }
 
-/// Whether a coil really carries what the column shows: its set-point asks for it, and the rest of its bearing errs too.
-/// A force of the other sign makes opposite coils look exchanged.
-bool CarriedInstead(const std::vector<GateColumn>& columns, const GateColumn& c, double error) {
-  return BorneOut(columns, c) && OthersOf(columns, c).error > std::min(kAlone * error, kGrossError);
-}
-
-/// The share of the error that an exchange leaves; 1 where it is not believed. `own_a`, `own_b`: errors of the columns
-/// beside a zero as they stand [floors].
-double LeftByExchange(const CaseModel& model, const std::vector<GateColumn>& columns,
-                      const GateColumn& a, double own_a, const GateColumn& b, double own_b) {
-  const double before = std::hypot(own_a, own_b);
-  if (std::min(own_a, own_b) < 0.7 * kGrossError || before < 1.5 * kGrossError) return 1;
-  if (CarriedInstead(columns, a, own_a) && CarriedInstead(columns, b, own_b)) return 1;
+/// The share of the error that an exchange of two of the columns leaves; 1 where it is not believed.
+double LeftByExchange(const CaseModel& model, const std::vector<ExchangeSide>& all,
+                      const ExchangeSide& first, const ExchangeSide& second) {
+  const GateColumn &a = first.column, &b = second.column;
+  const double before = std::hypot(first.error, second.error);
+  if (std::min(first.error, second.error) < kLeastOfOne || before < kLeastOfBoth) return 1;
+  if (first.carried && second.carried) return 1;
   const Exchanged a_as_b = Against(model, a, b), b_as_a = Against(model, b, a);
   const double left = std::hypot(a_as_b.error, b_as_a.error) / before;
   const bool one_kind = KindOf(a) == KindOf(b);
   if (StandsStill(a) && StandsStill(b) &&
-      (left > kLeftOfHeld || OtherErrs(model, columns, a, b, kAlone * before)))
+      (left > kLeftOfHeld || OtherErrs(all, first, second, kAlone * before)))
     return 1;
   const bool clear = one_kind && std::max(a.match.correlation, b.match.correlation) < kOfItself &&
                      std::min(a_as_b.correlation, b_as_a.correlation) > kOfOther;
@@ -90,14 +103,13 @@ void CheckSwaps(const CaseModel& model, std::size_t record, std::vector<GateColu
     const auto it = r.sources.find(name);
     return it == r.sources.end() ? name : it->second.column;
   };
-  std::vector<double> own;
-  for (const GateColumn& c : columns)
-    own.push_back(ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name)));
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    for (std::size_t j = i + 1; j < columns.size(); ++j) {
-      GateColumn &a = columns[i], &b = columns[j];
+  std::vector<ExchangeSide> all;
+  for (GateColumn& c : columns) all.push_back(ExchangeSideOf(model, columns, c));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      GateColumn &a = all[i].column, &b = all[j].column;
       if (a.explained || b.explained) continue;
-      const double left = LeftByExchange(model, columns, a, own[i], b, own[j]);
+      const double left = LeftByExchange(model, all, all[i], all[j]);
       if (left >= 1) continue;
       DataFault f = FaultLeaving(r, a.name, "swap", left);
       f.with = b.name;
