@@ -60,9 +60,9 @@ struct ExchangeSide {
 ExchangeSide ExchangeSideOf(const CaseModel& model, const std::vector<GateColumn>& columns,
                             GateColumn& c) {
   const double error = ErrorBesideZero(c, c.column.predicted, MostZero(model, c.name));
-  return {
-      c, error,
-      BorneOut(columns, c) && OthersOf(columns, c).error > std::min(kAlone * error, kGrossError)};
+  return {c, error,
+          error >= kLeastOfOne && BorneOut(columns, c) &&
+              OthersOf(columns, c).error > std::min(kAlone * error, kGrossError)};
 }
 
 /// Whether a third column of their kind that stands still errs by more than so many floors beside its zero: the shaft is
