@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+
+#include "discovery/model/in_parallel.h"
 
 namespace ambrig {
 
@@ -45,6 +48,26 @@ bool Predicted(const CaseModel& model, std::size_t record) {
   });
 }
 
+std::vector<DataFault> InspectRecord(const CaseModel& model, const std::vector<double>& predicted,
+                                     const Hypothesis& h, std::size_t r) {
+  std::vector<DataFault> out;
+  if (!OverTime(model.data().records[r])) return out;
+  std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
+  CheckLength(model, r, out);
+  CheckRange(model, r, columns, out);
+  CheckSpikes(model, r, columns, out);
+  CheckHeld(model, r, columns, out);
+  CheckSpeed(model, r, out);
+  if (!Predicted(model, r)) return out;
+  CheckUnits(model, r, columns, out);
+  CheckSwaps(model, r, columns, out);
+  CheckLevelFactors(model, r, columns, out);
+  CheckTimes(model, r, columns, out);
+  CheckSpeedTime(model, r, columns, out);
+  CheckScenario(model, h, r, columns, out);
+  return out;
+}
+
 std::string Quantity(const DataFault& f) {
   if (f.fault == "unit") return fmt::format("is {:.4g} times what it should be", f.factor);
   if (f.fault == "sign") return "has the wrong sign";
@@ -64,23 +87,12 @@ std::string Quantity(const DataFault& f) {
 
 std::vector<DataFault> InspectData(const CaseModel& model, const std::vector<double>& predicted,
                                    const Hypothesis& h) {
+  std::vector<std::vector<DataFault>> of_record(model.data().records.size());
+  InParallel(of_record.size(),
+             [&](std::size_t r) { of_record[r] = InspectRecord(model, predicted, h, r); });
   std::vector<DataFault> out;
-  for (std::size_t r = 0; r < model.data().records.size(); ++r) {
-    if (!OverTime(model.data().records[r])) continue;
-    std::vector<GateColumn> columns = ColumnsOf(model, predicted, r);
-    CheckLength(model, r, out);
-    CheckRange(model, r, columns, out);
-    CheckSpikes(model, r, columns, out);
-    CheckHeld(model, r, columns, out);
-    CheckSpeed(model, r, out);
-    if (!Predicted(model, r)) continue;
-    CheckUnits(model, r, columns, out);
-    CheckSwaps(model, r, columns, out);
-    CheckLevelFactors(model, r, columns, out);
-    CheckTimes(model, r, columns, out);
-    CheckSpeedTime(model, r, columns, out);
-    CheckScenario(model, h, r, columns, out);
-  }
+  for (std::vector<DataFault>& faults : of_record)
+    std::ranges::move(faults, std::back_inserter(out));
   return out;
 }
 

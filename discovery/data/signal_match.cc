@@ -49,14 +49,18 @@ namespace {
 void SquaredErrors(const std::vector<MatchedColumn>& columns, long late, std::vector<double>& out) {
   const auto rows = static_cast<long>(out.size());
   std::fill(out.begin(), out.end(), 0.0);
-  for (const MatchedColumn& c : columns)
-    for (long k = 0; k < rows; ++k) {
-      const auto row = static_cast<std::size_t>(k);
-      if (!c.ok[row]) continue;
-      const double e = c.measured[row] -
-                       c.predicted[static_cast<std::size_t>(std::clamp(k - late, 0L, rows - 1))];
-      out[row] += e * e;
-    }
+  for (const MatchedColumn& c : columns) {
+    const auto add = [&](long row, double predicted) {
+      const auto k = static_cast<std::size_t>(row);
+      const double e = c.ok[k] ? c.measured[k] - predicted : 0;
+      out[k] += e * e;
+    };
+    // Edges repeat the first or the last prediction; between them the loop has no branch.
+    const long first = std::clamp(late, 0L, rows), last = std::clamp(rows + late, 0L, rows);
+    for (long k = 0; k < first; ++k) add(k, c.predicted.front());
+    for (long k = first; k < last; ++k) add(k, c.predicted[static_cast<std::size_t>(k - late)]);
+    for (long k = last; k < rows; ++k) add(k, c.predicted.back());
+  }
 }
 
 }  // namespace

@@ -37,8 +37,8 @@ Gain GainOf(const CaseModel& model, const NuisanceKind& kind, const Eigen::Vecto
     for (const Target& t : model.targets()) {
       if (t.record != r) continue;
       const auto first = static_cast<Eigen::Index>(t.first), n = static_cast<Eigen::Index>(t.count);
-      square += kind.column.segment(first, n).squaredNorm();
-      product += kind.column.segment(first, n).dot(residual.segment(first, n));
+      square += kind.column.SquaredNorm(first, n);
+      product += kind.column.Dot(first, n, residual);
     }
     if (square * weight < 1e-4) continue;
     out.gain += weight * product * product / (square + 1 / weight);

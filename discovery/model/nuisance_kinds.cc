@@ -81,18 +81,25 @@ class Builder {
 
   NuisanceKind Kind(const std::string& name, const char* group, const std::string& unit,
                     double sd) const {
-    NuisanceKind k = {name, group, unit, sd,
-                      Eigen::VectorXd::Zero(static_cast<Index>(model_.size()))};
-    return k;
+    return {name, group, unit, sd, StretchColumn(static_cast<Index>(model_.size()))};
   }
 
-  /// The difference of a changed prediction, per sd of the change.
-  void Simulated(NuisanceKind kind, const std::optional<std::vector<double>>& changed, double sds) {
+  /// Appends the rows of a target; `value(k)` of its k-th row, asked for where that row counts.
+  template <class Value>
+  void AppendRows(NuisanceKind& kind, const Target& t, const Value& value) const {
+    Eigen::VectorXd rows = Eigen::VectorXd::Zero(static_cast<Index>(t.count));
+    for (std::size_t k = 0; k < t.count; ++k)
+      if (model_.ok()[t.first + k]) rows(static_cast<Index>(k)) = value(k);
+    kind.column.Append(static_cast<Index>(t.first), std::move(rows));
+  }
+
+  /// The difference of a changed prediction, which is that of one sd.
+  void Simulated(NuisanceKind kind, const std::optional<std::vector<double>>& changed) {
     if (!changed) return;
     for (const Target& t : model_.targets())
-      for (std::size_t k = t.first; k < t.first + t.count; ++k)
-        if (model_.ok()[k])
-          kind.column(static_cast<Index>(k)) = ((*changed)[k] - predicted_[k]) / t.floor / sds;
+      AppendRows(kind, t, [&](std::size_t k) {
+        return ((*changed)[t.first + k] - predicted_[t.first + k]) / t.floor;
+      });
     out_.push_back(std::move(kind));
   }
 
@@ -114,7 +121,7 @@ class Builder {
     EffectInstance e = MakeInstance(EffectNamed(effect), target);
     e.Set("offset", sd);
     moved.rig.effects.push_back(e);
-    Simulated(Kind("zero of " + channel, "sensor-zero", unit, sd), model_.Predict(moved), 1);
+    Simulated(Kind("zero of " + channel, "sensor-zero", unit, sd), model_.Predict(moved));
   }
 
   /// A zero of the logger alone, and its drift over the record.
@@ -124,13 +131,10 @@ class Builder {
     for (const Target& t : model_.targets()) {
       const CaseRecord& r = model_.data().records[t.record];
       if (!OverTime(r) || r.data.channels[t.channel].name != channel) continue;
-      for (std::size_t k = 0; k < t.count; ++k) {
-        if (!model_.ok()[t.first + k]) continue;
-        const auto row = static_cast<Index>(t.first + k);
-        zero.column(row) = sd / t.floor;
-        drift.column(row) =
-            sd / t.floor * (2 * static_cast<double>(k) / static_cast<double>(t.count) - 1);
-      }
+      AppendRows(zero, t, [&](std::size_t) { return sd / t.floor; });
+      AppendRows(drift, t, [&](std::size_t k) {
+        return sd / t.floor * (2 * static_cast<double>(k) / static_cast<double>(t.count) - 1);
+      });
     }
     out_.push_back(std::move(zero));
     out_.push_back(std::move(drift));
@@ -142,10 +146,12 @@ class Builder {
     for (const Target& t : model_.targets()) {
       if (!OverTime(model_.data().records[t.record])) continue;
       const double rate = model_.data().records[t.record].data.rate;
-      for (std::size_t k = t.first + 1; k + 1 < t.first + t.count; ++k)
-        if (model_.ok()[k] && model_.ok()[k - 1] && model_.ok()[k + 1])
-          kind.column(static_cast<Index>(k)) =
-              -sd * 0.5 * rate * (predicted_[k + 1] - predicted_[k - 1]) / t.floor;
+      AppendRows(kind, t, [&](std::size_t k) {
+        const std::size_t row = t.first + k;
+        if (k == 0 || k + 1 == t.count || !model_.ok()[row - 1] || !model_.ok()[row + 1])
+          return 0.0;
+        return -sd * 0.5 * rate * (predicted_[row + 1] - predicted_[row - 1]) / t.floor;
+      });
     }
     out_.push_back(std::move(kind));
   }
@@ -159,7 +165,7 @@ class Builder {
     const Case larger = WithInputs(model_.data(), std::vector<double>(records.size(), sd));
     CaseModel trial(larger);
     trial.stop = model_.stop;
-    Simulated(Kind(kInputGain, "input-gain", "-", sd), trial.Predict(h_), 1);
+    Simulated(Kind(kInputGain, "input-gain", "-", sd), trial.Predict(h_));
   }
 
   const CaseModel& model_;

@@ -27,12 +27,11 @@ void Nuisances::Use(const CaseModel& model, const std::vector<NuisanceKind>& kin
     o.count = end - first;
     o.record = r;
     for (std::size_t k = 0; k < kinds.size(); ++k)  // one that this record feels
-      if (kinds[k].column.segment(o.first, o.count).squaredNorm() * weight > 1e-4)
-        o.kinds.push_back(k);
+      if (kinds[k].column.SquaredNorm(o.first, o.count) * weight > 1e-4) o.kinds.push_back(k);
     if (o.kinds.empty()) continue;
     o.columns.resize(o.count, static_cast<Index>(o.kinds.size()));
     for (std::size_t k = 0; k < o.kinds.size(); ++k)
-      o.columns.col(static_cast<Index>(k)) = kinds[o.kinds[k]].column.segment(o.first, o.count);
+      o.columns.col(static_cast<Index>(k)) = kinds[o.kinds[k]].column.Segment(o.first, o.count);
     Eigen::MatrixXd normal = o.columns.transpose() * o.columns;
     normal.diagonal().array() += 1 / weight;
     o.solve.compute(normal);
@@ -80,15 +79,20 @@ std::vector<NuisanceFound> Nuisances::Amounts(const CaseModel& model,
 
 std::vector<NuisanceKind> Thinned(const std::vector<NuisanceKind>& kinds, const CaseModel& full,
                                   const CaseModel& thin) {
-  std::vector<NuisanceKind> out = kinds;
-  for (std::size_t k = 0; k < kinds.size(); ++k) {
-    out[k].column.resize(static_cast<Index>(thin.size()));
+  std::vector<NuisanceKind> out;
+  for (const NuisanceKind& kind : kinds) {
+    StretchColumn column(static_cast<Index>(thin.size()));
     for (std::size_t t = 0; t < thin.targets().size(); ++t) {
       const Target &few = thin.targets()[t], &all = full.targets()[t];
-      for (std::size_t row = few.first; row < few.first + few.count; ++row)
-        out[k].column(static_cast<Index>(row)) =
-            kinds[k].column(static_cast<Index>(all.first + thin.sample(row)));
+      const Eigen::VectorXd there =
+          kind.column.Segment(static_cast<Index>(all.first), static_cast<Index>(all.count));
+      if (there.isZero(0)) continue;
+      Eigen::VectorXd left(static_cast<Index>(few.count));
+      for (std::size_t k = 0; k < few.count; ++k)
+        left(static_cast<Index>(k)) = there(static_cast<Index>(thin.sample(few.first + k)));
+      column.Append(static_cast<Index>(few.first), std::move(left));
     }
+    out.push_back({kind.name, kind.group, kind.unit, kind.sd, std::move(column)});
   }
   return out;
 }

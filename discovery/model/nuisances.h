@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "discovery/model/stretch_column.h"
+
 namespace ambrig {
 
 class CaseModel;
@@ -17,8 +19,8 @@ struct RigParameters;
 struct NuisanceKind {
   std::string name, group;  // group: sensor-zero | logger-zero | drift | time-shift | input-gain
   std::string unit;
-  double sd = 0;           // prior, in `unit`
-  Eigen::VectorXd column;  // of one sd, all rows of a model, over the floor
+  double sd = 0;         // prior, in `unit`
+  StretchColumn column;  // of one sd, all rows of a model, over the floor
 };
 
 /// An amount found in one record.

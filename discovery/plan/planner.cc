@@ -64,7 +64,8 @@ void Planner::Prepare(TrialRecord* trial) const {
   trial->nuisances.resize(static_cast<Eigen::Index>(model.size()),
                           static_cast<Eigen::Index>(kinds.size()));
   for (std::size_t k = 0; k < kinds.size(); ++k)
-    trial->nuisances.col(static_cast<Eigen::Index>(k)) = kinds[k].column;
+    trial->nuisances.col(static_cast<Eigen::Index>(k)) =
+        kinds[k].column.Segment(0, kinds[k].column.rows());
 }
 
 bool Planner::View(const TrialRecord& trial, std::vector<RivalView>* views) const {

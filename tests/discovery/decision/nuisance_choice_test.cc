@@ -21,11 +21,11 @@ class NuisanceChoiceTest : public ::testing::Test {
     k.group = "sensor-zero";
     k.unit = "m";
     k.sd = size * LinearCase::kFloor;
-    k.column = Eigen::VectorXd::Zero(static_cast<Index>(case_.model.size()));
+    k.column = StretchColumn(static_cast<Index>(case_.model.size()));
     for (const Target& t : case_.model.targets())
       if (t.channel == channel)
-        k.column.segment(static_cast<Index>(t.first), static_cast<Index>(t.count))
-            .setConstant(size);
+        k.column.Append(static_cast<Index>(t.first),
+                        Eigen::VectorXd::Constant(static_cast<Index>(t.count), size));
     return k;
   }
   /// `of_record[r]` floors in A.x of record r.
@@ -82,21 +82,6 @@ TEST_F(NuisanceChoiceTest, WhatARecordDoesNotFeelIsLeftOut) {
   EXPECT_FALSE(n.any());
 }
 
-// Thinned kinds are the same numbers at the rows that remain.
-TEST_F(NuisanceChoiceTest, AThinnedModelSeesTheSameKinds) {
-  const CaseModel thin(case_.data, 5);
-  NuisanceKind k = Zero(0);
-  for (Index row = 0; row < k.column.size(); ++row) k.column(row) = static_cast<double>(row);
-  const auto few = Thinned({k}, case_.model, thin);
-  ASSERT_EQ(few[0].column.size(), static_cast<Index>(thin.size()));
-  for (std::size_t t = 0; t < thin.targets().size(); ++t)
-    for (std::size_t row = 0; row < thin.targets()[t].count; ++row) {
-      const std::size_t at = thin.targets()[t].first + row;
-      EXPECT_EQ(few[0].column(static_cast<Index>(at)),
-                static_cast<double>(case_.model.targets()[t].first + thin.sample(at)));
-    }
-}
-
 TEST_F(NuisanceChoiceTest, ZerosThatDifferFromRecordToRecordAreChosen) {
   const auto chosen =
       ChooseNuisances(case_.model, {Zero(1), Zero(0)}, Offsets({6, -6, 5, -4}), kWeight);
@@ -136,7 +121,7 @@ TEST_F(NuisanceChoiceTest, OfAGroupThatDiffersTheOthersFollow) {
       for (std::size_t k = t.first; k < t.first + t.count; ++k) left[k] = of_y[t.record];
   NuisanceKind third = Zero(0);
   third.name = "zero of B.x";
-  third.column.setZero();
+  third.column = StretchColumn(third.column.rows());
   const auto names = [&](const std::vector<NuisanceKind>& possible) {
     std::vector<std::string> out;
     for (const NuisanceKind& k : ChooseNuisances(case_.model, possible, left, kWeight))
@@ -145,12 +130,14 @@ TEST_F(NuisanceChoiceTest, OfAGroupThatDiffersTheOthersFollow) {
   };
   NuisanceKind second = Zero(0);  // another direction in the same channel
   second.name = "zero of B.y";
+  Eigen::VectorXd turning = Eigen::VectorXd::Zero(second.column.rows());
   for (const Target& t : case_.model.targets())
     if (t.channel == 0)
       for (std::size_t k = t.first; k < t.first + t.count; ++k) {
-        second.column(static_cast<Index>(k)) = k % 2 == 0 ? 10 : -10;
+        turning(static_cast<Index>(k)) = k % 2 == 0 ? 10 : -10;
         left[k] += (k % 2 == 0 ? 5.0 : -5.0) * (t.record % 2 == 0 ? 1 : -1);
       }
+  second.column = turning;
   EXPECT_THAT(names({Zero(1), Zero(0), second}),
               ::testing::UnorderedElementsAre("zero of A.x", "zero of A.y", "zero of B.y"));
   // one of three is not most of them
@@ -165,9 +152,11 @@ TEST_F(NuisanceChoiceTest, AmountsThatDifferMuchAboutAMeanAreChosen) {
 // One record that feels the kind far more than the others does not speak for them.
 TEST_F(NuisanceChoiceTest, APreciseRecordDoesNotDecideAlone) {
   NuisanceKind k = Zero(0);
+  Eigen::VectorXd column = k.column.Segment(0, k.column.rows());
   for (const Target& t : case_.model.targets())
     if (t.channel == 0 && t.record == 0)
-      k.column.segment(static_cast<Index>(t.first), static_cast<Index>(t.count)) *= 30;
+      column.segment(static_cast<Index>(t.first), static_cast<Index>(t.count)) *= 30;
+  k.column = column;
   // amounts of 0.2, -0.5, 0.6 and -0.4 sd; nearly all information stands in the first
   EXPECT_EQ(ChooseNuisances(case_.model, {k}, Offsets({60, -5, 6, -4}), kWeight).size(), 1u);
 }

@@ -125,19 +125,24 @@ TEST_F(NuisanceTest, TwoKindsOfOneShapeShareTheAmount) {
 TEST_F(NuisanceTest, ThinnedColumnsAreThoseOfTheRowsThatAreLeft) {
   const CaseModel thin(linear_.data, 5);
   NuisanceKind ramp = Zero();
-  for (Index k = 0; k < ramp.column.size(); ++k) ramp.column(k) = static_cast<double>(k);
+  const auto last = static_cast<double>(model().size() - 1);
+  ramp.column =
+      Eigen::VectorXd(Eigen::VectorXd::LinSpaced(static_cast<Index>(model().size()), 0, last));
   const auto thinned = Thinned({ramp}, model(), thin);
   ASSERT_EQ(thinned.size(), 1u);
   EXPECT_EQ(thinned[0].name, ramp.name);
   EXPECT_EQ(thinned[0].sd, ramp.sd);
-  ASSERT_EQ(static_cast<std::size_t>(thinned[0].column.size()), thin.size());
+  ASSERT_EQ(static_cast<std::size_t>(thinned[0].column.rows()), thin.size());
   ASSERT_LT(thin.size(), model().size());
   for (std::size_t t = 0; t < thin.targets().size(); ++t) {
     const Target &few = thin.targets()[t], &all = model().targets()[t];
     for (std::size_t row = few.first; row < few.first + few.count; ++row)
-      EXPECT_EQ(thinned[0].column(static_cast<Index>(row)),
-                static_cast<double>(all.first + thin.sample(row)));
+      EXPECT_NEAR(thinned[0].column.Segment(static_cast<Index>(row), 1)(0),
+                  static_cast<double>(all.first + thin.sample(row)), 1e-9);
   }
+  // what is zero stays so
+  EXPECT_EQ(Thinned({Zero()}, model(), thin)[0].column.SquaredNorm(0, thinned[0].column.rows()),
+            Zero().column.SquaredNorm(0, Zero().column.rows()) / 5);
 }
 
 /// Declared in the case file: the sd is the one that stands there, nothing else is added.

@@ -92,12 +92,12 @@ TEST(SignatureBank, NuisancesComeOffAfterwardsAsWhileSimulated) {
   SignatureBank later, at_once;
   later.Simulate(c.model, base, groups, nullptr);
   const Gram bare = later.Products(c.model);
-  NuisanceKind zero{"zero of A.x", "sensor-zero", "m", 1e-6, {}};
-  zero.column = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(c.model.size()));
+  NuisanceKind zero{"zero of A.x", "sensor-zero", "m", 1e-6, StretchColumn()};
+  zero.column = StretchColumn(static_cast<Eigen::Index>(c.model.size()));
   for (const Target& t : c.model.targets())
     if (t.channel == 0)
-      zero.column.segment(static_cast<Eigen::Index>(t.first), static_cast<Eigen::Index>(t.count))
-          .setOnes();
+      zero.column.Append(static_cast<Eigen::Index>(t.first),
+                         Eigen::VectorXd::Ones(static_cast<Eigen::Index>(t.count)));
   c.model.nuisances.Use(c.model, {zero}, 1);
   later.TakeOffNuisances(c.model);
   at_once.Simulate(c.model, base, groups, nullptr);
