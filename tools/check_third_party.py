@@ -13,6 +13,7 @@ Compared are the tables of the page with
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -58,13 +59,10 @@ def bundled():
             for path, entry in lock["packages"].items() if path and not entry.get("dev")}
 
 
-def output_of(*command):
-    done = subprocess.run(command, capture_output=True, text=True)
-    return done.stdout if done.returncode == 0 else ""
-
-
-def source_of(package):
-    return output_of("dpkg-query", "-W", "-f=${source:Package}\n", package).split("\n")[0]
+def sources_of(packages):
+    """The source package of every installed one, by its name; one call of dpkg-query for all."""
+    done = subprocess.run(["dpkg-query", "-W", "-f=${Package} ${source:Package}\n", *sorted(packages)], capture_output=True, text=True)
+    return dict(line.split() for line in done.stdout.splitlines() if len(line.split()) == 2)
 
 
 def licences_of(package):
@@ -91,13 +89,15 @@ def linked_libraries(build):
     return sorted({word for word in line[1].split() if word.startswith("/")})
 
 
-def owner_of(library):
-    path = pathlib.Path(library)
-    for candidate in (path, path.resolve()):
-        found = output_of("dpkg", "-S", str(candidate))
-        if found:
-            return found.split(":")[0].split(",")[0]
-    return ""
+def owners_of(libraries):
+    """The Debian package of every library, by the library's path; one call of dpkg for all."""
+    paths = {library: {library, str(pathlib.Path(library).resolve())} for library in libraries}
+    done = subprocess.run(["dpkg", "-S", *sorted(set().union(*paths.values()))], capture_output=True, text=True)
+    owners = {}
+    for line in done.stdout.splitlines():
+        packages, _, path = line.rpartition(": ")
+        owners[path] = packages.split(":")[0].split(",")[0]
+    return {library: next((owners[p] for p in sorted(both) if p in owners), "") for library, both in paths.items()}
 
 
 def compare(what, ours, theirs):
@@ -106,13 +106,14 @@ def compare(what, ours, theirs):
 
 
 def check_link_line(build, listed):
-    sources = {source_of(package) for package in listed} - {""}
+    owners = owners_of(linked_libraries(build))
+    sources = sources_of({*listed, *owners.values()} - {""})
+    known = {sources[package] for package in listed if package in sources}
     bad = []
-    for library in linked_libraries(build):
-        owner = owner_of(library)
+    for library, owner in owners.items():
         if not owner:
             bad.append(f"{library} is linked, but belongs to no Debian package")
-        elif source_of(owner) not in sources:
+        elif sources.get(owner) not in known:
             bad.append(f"docs/third_party.md does not list {owner}, which {library} belongs to")
     return bad
 
@@ -133,7 +134,7 @@ def main():
     for package, licence in bundled().items():
         if npm.get(package, licence) != licence:
             bad.append(f"{package}: licence {npm[package]}, web/package-lock.json has {licence}")
-    if len(sys.argv) > 1 and output_of("dpkg", "--version"):
+    if len(sys.argv) > 1 and shutil.which("dpkg"):
         bad += check_link_line(pathlib.Path(sys.argv[1]), debian)
     print("\n".join(bad))
     return bool(bad)

@@ -7,9 +7,9 @@ cd "$(dirname "$0")/.."
 tools/setup.sh --tests
 cmake --preset release
 cmake --build --preset release -j "$(tools/jobs.sh)"
-ctest --preset release -j2 "$@"
+ctest --preset release -j3 "$@"
 [ $# -eq 0 ] || exit 0
 echo "the tests of core under the sanitizers"
 cmake --preset asan
 cmake --build --preset asan --target fast_tests -j "$(tools/jobs.sh)"
-ctest --preset asan -L fast -j2
+ctest --preset asan -L fast -j3

@@ -82,20 +82,6 @@ bool AnyGross(const std::vector<const GateColumn*>& columns) {
   });
 }
 
-/// A column beside a prediction that comes `late` rows later, from this row on.
-MatchedColumn LateBy(const MatchedColumn& c, long late, long first) {
-  MatchedColumn out = c;
-  const auto rows = static_cast<long>(c.size());
-  for (long k = first; k < rows; ++k) {
-    const long from = k - late;
-    const bool inside = from >= 0 && from < rows;
-    const auto row = static_cast<std::size_t>(k);
-    out.predicted[row] = c.predicted[static_cast<std::size_t>(std::clamp(from, 0L, rows - 1))];
-    out.ok[row] = inside ? c.ok[row] : 0;
-  }
-  return out;
-}
-
 /// Whether the prediction comes back to itself within the shifts that are tried: then a shift may be one of its periods,
 /// or the phase of a whirl.
 bool RepeatsItself(const std::vector<const GateColumn*>& columns) {
@@ -112,7 +98,7 @@ bool RepeatsItself(const std::vector<const GateColumn*>& columns) {
   for (long late = 1; late <= most; ++late) {
     double correlation = 0;
     for (const MatchedColumn& c : itself)
-      correlation += MatchOf(LateBy(c, late, 0)).correlation / static_cast<double>(itself.size());
+      correlation += MatchLater(c, late, 0).correlation / static_cast<double>(itself.size());
     away = away || correlation < kAway;
     if (away && correlation > kBack) return true;
   }
@@ -131,8 +117,7 @@ bool IsClear(const std::vector<const GateColumn*>& moving, const FoundShift& s, 
   double before = 0, after = 0;
   for (const GateColumn* c : moving) {
     before += c->match.correlation / static_cast<double>(moving.size());
-    after +=
-        MatchOf(LateBy(c->column, rows, from)).correlation / static_cast<double>(moving.size());
+    after += MatchLater(c->column, rows, from).correlation / static_cast<double>(moving.size());
   }
   const bool clear = s.all_rows ? before < kBefore && after > kAfter : after > kAfterFromThere;
   return clear && !RepeatsItself(moving);
@@ -161,7 +146,7 @@ bool AreOnTime(const std::vector<const GateColumn*>& columns, double late, doubl
   for (const GateColumn* c : columns) {
     const double size = c->match.predicted_move;
     as_it_is += std::pow(c->match.error / size, 2);
-    later += std::pow(MatchOf(LateBy(c->column, rows, 0)).error / size, 2);
+    later += std::pow(MatchLater(c->column, rows, 0).error / size, 2);
   }
   return std::sqrt(as_it_is) < kBetter * std::sqrt(later);
 }

@@ -102,15 +102,18 @@ std::vector<const GateColumn*> OtherCells(const std::vector<GateColumn>& columns
   return out;
 }
 
-Suspect SuspectOf(const CaseModel& model, const std::vector<GateColumn>& columns,
-                  const GateColumn& c) {
-  const double zero = MostZero(model, c.name);
-  return {c,
-          ErrorBesideZero(c, c.column.predicted, zero),
-          OthersOf(columns, c),
-          LevelTells(c, zero, 0.05),
-          BorneOut(columns, c),
-          OtherCells(columns, c)};
+/// Nothing where a fault was found already, or where the error is not gross.
+std::optional<Suspect> SuspectOf(const CaseModel& model, const std::vector<GateColumn>& columns,
+                                 const GateColumn& c) {
+  if (c.explained) return {};
+  const double zero = MostZero(model, c.name), error = ErrorBesideZero(c, c.column.predicted, zero);
+  if (error < kGrossError) return {};
+  return Suspect{c,
+                 error,
+                 OthersOf(columns, c),
+                 LevelTells(c, zero, 0.05),
+                 BorneOut(columns, c),
+                 OtherCells(columns, c)};
 }
 
 /// Least squares of measured about predicted, level and movement together.
@@ -221,11 +224,11 @@ void CheckUnits(const CaseModel& model, std::size_t record, std::vector<GateColu
                 std::vector<DataFault>& out) {
   const CaseRecord& r = model.data().records[record];
   for (GateColumn& c : columns) {
-    const Suspect suspect = SuspectOf(model, columns, c);
-    if (c.explained || suspect.error < kGrossError) continue;
-    const double opposite = Left(c, -1, suspect.error);
+    const std::optional<Suspect> suspect = SuspectOf(model, columns, c);
+    if (!suspect) continue;
+    const double opposite = Left(c, -1, suspect->error);
     const bool opposite_level = LevelTells(c, MostZero(model, c.name), 0.3) && opposite < 0.1;
-    if (const auto found = BestFactor(suspect))
+    if (const auto found = BestFactor(*suspect))
       TellFactor(r, c, *found, out);
     else if (opposite_level || (c.match.correlation < -0.7 && opposite < 0.3))
       TellFactor(r, c, {-1, opposite}, out);
@@ -238,12 +241,14 @@ void CheckLevelFactors(const CaseModel& model, std::size_t record, std::vector<G
   for (GateColumn& c : columns) {
     const bool current = IsOfKind(c.name, ChannelKind::kCoilCurrent),
                bus = IsOfKind(c.name, ChannelKind::kBus);
-    if (c.explained || !(current || bus)) continue;
-    const Suspect suspect = SuspectOf(model, columns, c);
-    const bool others_tell = current ? suspect.others.bearing : suspect.others.error < kGrossError;
-    if (suspect.error < kGrossError || !others_tell) continue;
+    if (!current && !bus) continue;
+    const std::optional<Suspect> suspect = SuspectOf(model, columns, c);
+    if (!suspect) continue;
+    const bool others_tell =
+        current ? suspect->others.bearing : suspect->others.error < kGrossError;
+    if (!others_tell) continue;
     const double gain = WholeGain(c.column);
-    if (const auto left = LeftByAny(gain, 0, suspect)) TellFactor(r, c, {gain, *left}, out);
+    if (const auto left = LeftByAny(gain, 0, *suspect)) TellFactor(r, c, {gain, *left}, out);
   }
 }
 

@@ -5,11 +5,16 @@
 
 namespace ambrig {
 
-Match MatchOf(const MatchedColumn& c) {
+Match MatchOf(const MatchedColumn& c) { return MatchLater(c, 0, 0); }
+
+Match MatchLater(const MatchedColumn& c, long late, long first) {
   double n = 0, sy = 0, sp = 0, syy = 0, spp = 0, syp = 0, see = 0;
-  for (std::size_t k = 0; k < c.size(); ++k) {
-    if (!c.ok[k]) continue;
-    const double y = c.measured[k], p = c.predicted[k];
+  const auto rows = static_cast<long>(c.size());
+  for (long row = 0; row < rows; ++row) {
+    const long from = row < first ? row : row - late;
+    const auto k = static_cast<std::size_t>(row);
+    if (!c.ok[k] || from < 0 || from >= rows) continue;
+    const double y = c.measured[k], p = c.predicted[static_cast<std::size_t>(from)];
     n += 1;
     sy += y;
     sp += p;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
+#include "discovery/model/residual.h"
 #include "discovery/search/fit_gram.h"
 
 namespace ambrig {
@@ -56,10 +57,7 @@ class Puller {
     point_.sensitivities = false;
     point_.effective_sample_size = effective_sample_size;
     for (const Target& t : model.targets())
-      if (Counts(model, t, Which::kFit))
-        rows_ += static_cast<double>(
-            std::count(model.ok().begin() + static_cast<std::ptrdiff_t>(t.first),
-                       model.ok().begin() + static_cast<std::ptrdiff_t>(t.first + t.count), 1));
+      if (Counts(model, t, Which::kFit)) rows_ += CountedRows(model, t);
   }
 
   PulledBack Run() {

@@ -22,6 +22,11 @@ bool Counts(const CaseModel& model, const Target& t, Which which) {
   return model.data().records[t.record].validate == (which == Which::kValidate);
 }
 
+double CountedRows(const CaseModel& model, const Target& t) {
+  const auto first = model.ok().begin() + static_cast<std::ptrdiff_t>(t.first);
+  return static_cast<double>(std::count(first, first + static_cast<std::ptrdiff_t>(t.count), 1));
+}
+
 double TargetRatio(const CaseModel& model, const std::vector<double>& residual, const Target& t) {
   double sum = 0, n = 0;
   for (std::size_t k = t.first; k < t.first + t.count; ++k) {

@@ -12,6 +12,8 @@ std::vector<double> Residual(const CaseModel& model, const std::vector<double>& 
 
 enum class Which { kFit, kValidate, kAll };
 bool Counts(const CaseModel& model, const Target& t, Which which);
+/// The number of rows of a target that count.
+double CountedRows(const CaseModel& model, const Target& t);
 
 /// Root mean square of a residual over the chosen records: 1 means nothing is left but noise.
 double Ratio(const CaseModel& model, const std::vector<double>& residual, Which which);

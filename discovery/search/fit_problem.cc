@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "discovery/decision/likelihood.h"
+#include "discovery/model/residual.h"
 #include "discovery/search/fit_gram.h"
 #include "discovery/search/rig_prior.h"
 
@@ -51,10 +52,7 @@ void FitProblem::SetMisfitWeight(double ratio) {
 double FitProblem::MisfitBetween(double before, double after) const {
   double rows = 0;
   for (const Target& t : model_.targets())
-    if (look_.records[t.record])
-      rows += static_cast<double>(
-          std::count(model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first),
-                     model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first + t.count), 1));
+    if (look_.records[t.record]) rows += CountedRows(model_, t);
   return weight_ * weight_ * rows * (before * before - after * after);
 }
 

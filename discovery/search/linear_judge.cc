@@ -6,6 +6,7 @@
 
 #include "core/math/linear_equations.h"
 #include "discovery/decision/likelihood.h"
+#include "discovery/model/residual.h"
 
 namespace ambrig {
 
@@ -193,9 +194,7 @@ double LinearJudge::MotionShare(const SignatureBank::Entry& entry) const {
   for (const Target& t : model_.targets()) {
     if (!ShowsMotion(model_, t) && OverTime(model_.data().records[t.record])) continue;
     const auto first = static_cast<Index>(t.first), count = static_cast<Index>(t.count);
-    const double rows = static_cast<double>(
-        std::count(model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first),
-                   model_.ok().begin() + static_cast<std::ptrdiff_t>(t.first + t.count), 1));
+    const double rows = CountedRows(model_, t);
     const double excess = before.segment(first, count).squaredNorm() - rows;
     all += excess;
     if (!signatures_.LooksAt(t.record)) continue;

@@ -32,6 +32,24 @@ TEST(Match, GainAndCorrelation) {
   EXPECT_NEAR(none.gain, 0, 0.01);
 }
 
+// As a column whose prediction was moved by hand.
+TEST(Match, LaterIsThatOfAMovedPrediction) {
+  const MatchedColumn c = Column([](long k) { return Wave(static_cast<double>(k - 20)); }, 500);
+  for (const auto& [late, first] : {std::pair<long, long>{20, 0}, {20, 100}, {-7, 0}, {0, 0}}) {
+    MatchedColumn moved = c;
+    for (long k = first; k < 500; ++k) {
+      const bool inside = k - late >= 0 && k - late < 500;
+      const auto row = static_cast<std::size_t>(k);
+      moved.predicted[row] = inside ? c.predicted[static_cast<std::size_t>(k - late)] : 0;
+      moved.ok[row] = inside ? 1 : 0;
+    }
+    const Match expected = MatchOf(moved), found = MatchLater(c, late, first);
+    EXPECT_EQ(found.error, expected.error) << late << " from " << first;
+    EXPECT_EQ(found.correlation, expected.correlation);
+  }
+  EXPECT_LT(MatchLater(c, 20, 0).error, 0.35);  // the noise
+}
+
 TEST(BestShift, FindsALateRecord) {
   const auto column = Column([](long k) { return Wave(static_cast<double>(k - 137)); });
   const Shift s = BestShift({column}, 300);

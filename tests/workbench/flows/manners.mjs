@@ -126,7 +126,7 @@ export async function everyScreen(page, address) {
     await page.locator('main h1').first().waitFor({timeout: 30000});
     await page.locator('.running, [aria-busy="true"]').first().waitFor({state: 'detached', timeout: 60000});
     await page.waitForTimeout(300);  // what comes with the first answers
-    for (const [colorScheme, width, height] of [['light', 1280, 800], ['light', 1024, 768], ['dark', 1024, 768], ['dark', 1280, 800]]) {
+    for (const [colorScheme, width, height] of [['light', 1280, 800], ['dark', 1024, 768]]) {
       await page.emulateMedia({colorScheme});
       await page.setViewportSize({width, height});
       await page.waitForTimeout(100);
