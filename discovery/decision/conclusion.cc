@@ -39,6 +39,8 @@ ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effect
 
 namespace {
 
+constexpr double kNoiseLeft = 1.05;  // ratio up to which nothing but noise is left
+
 /// The sets of the first name and of the further ones that are still adopted.
 void SetsWith(Explanation& out, double named) {
   out.set = CredibleSet(out.ranking, named);
@@ -67,9 +69,23 @@ bool IsDoubtfulPatch(const Explanation& out, double explained, double named) {
 /// A law whose size came out with a sign that its physics cannot have, and which leaves more than noise: another force
 /// acts in that direction (a pull that holds the shaft back is a spring or a rub, no motor).
 bool HasImpossibleSign(const EffectInstance& e, const StageRatios& end) {
-  constexpr double kNoise = 1.05;
   const std::string& positive = EffectNamed(e.name).positive;
-  return !positive.empty() && e.Value(positive) < 0 && end.Answered() > kNoise;
+  return !positive.empty() && e.Value(positive) < 0 && end.Answered() > kNoiseLeft;
+}
+
+bool IsOfOneCoil(const EffectInstance& e) { return e.target.find(".coil") != std::string::npos; }
+
+/// An effect of one coil that leaves more than noise, in a machine whose coils all differ: it is the largest of their errors.
+bool IsOneOfManyCoils(const EffectInstance& e, const StageRatios& end) {
+  return IsOfOneCoil(e) && end.Answered() > kNoiseLeft;
+}
+
+std::string SaidOfUnits(double left, const UnitErrors& of_units) {
+  return fmt::format(
+      "{:.2f} times the noise stays, which the coils may differ by: other machines of this type, "
+      "with amplifier.current_gain_spread and amplifier.edge_spread of the rig file, show up to "
+      "{:.2f}",
+      left, std::max(of_units.stage.fit, of_units.stage.validate));
 }
 
 /// What the catalogue's law leaves and its free shape does not is a detail of the law.
@@ -98,7 +114,7 @@ void SetWithout(Explanation& out, double named) {
 }  // namespace
 
 void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult& base,
-              const FitResult& last, Explanation& out) {
+              const FitResult& last, const UnitErrors& of_units, Explanation& out) {
   const bool any = !out.adopted.empty();
   out.closure = ClosureOf(model, base.residual, last.residual);
   const StageRatios first = RatiosOf(model, nominal), parameters = RatiosOf(model, base);
@@ -109,11 +125,18 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
     end = *out.shaped;
     explained = std::max(explained, ShareOfAllRecords(parameters, end));
   }
+  const bool within_units = IsWithinUnits(model, nominal, of_units),
+             rest_within_units = !within_units && any && IsWithinUnits(model, last, of_units);
+  if (rest_within_units) {  // the coils differ by as much: nothing is left for another effect
+    end = {1, 1, 1};
+    explained = 1;
+  }
   const double share = ShareOfAllRecords(parameters, end);
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
   const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, explained, named) &&
-                           !HasImpossibleSign(out.adopted[0], end);
+                           !HasImpossibleSign(out.adopted[0], end) &&
+                           !(within_units && IsOneOfManyCoils(out.adopted[0], end));
   if (any && !established) {
     out.adopted.clear();
     out.shaped.reset();
@@ -124,11 +147,17 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
                           established ? FoundEffect::kEstablished
                           : any       ? FoundEffect::kDoubtful
                                       : FoundEffect::kNone);
+  if (within_units && out.verdict == "unknown") out.verdict = "parameters";
+  if (rest_within_units && established)  // beside the first name they are what the coils differ by
+    out.adopted.erase(std::remove_if(out.adopted.begin() + 1, out.adopted.end(), IsOfOneCoil),
+                      out.adopted.end());
   if (established)
     SetsWith(out, named);
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);
+  if ((within_units && out.verdict == "parameters") || (rest_within_units && established))
+    out.remainder = {"law-variation", {}, SaidOfUnits(out.closure.floors_after, of_units)};
   if (out.shaped) SayShape(last, out);
 }
 

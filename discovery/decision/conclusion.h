@@ -1,6 +1,7 @@
 #pragma once
 /// The verdict and what goes with it, from the stages of a search.
 #include "discovery/decision/explain.h"
+#include "discovery/decision/unit_errors.h"
 
 namespace ambrig {
 
@@ -14,8 +15,9 @@ ParameterNeed NeedOf(const CaseModel& model, const FitResult& fit, double effect
 
 /// Closure, remainder, probabilities and verdict. `nominal`: the rig file, `base`: rig parameters
 /// alone, `last`: with all that was adopted, which stays in out.adopted when it is established.
+/// `of_units`: what other units of this rig's type show (unit_errors.h).
 void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult& base,
-              const FitResult& last, Explanation& out);
+              const FitResult& last, const UnitErrors& of_units, Explanation& out);
 
 /// Verdict `data`: the faults that were found before any fit.
 void ConcludeData(const CaseModel& model, const FitResult& nominal, Explanation& out);

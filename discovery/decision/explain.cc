@@ -127,7 +127,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
         "the found model's");
   ReportNuisances(now);
   StateSizes();
-  Conclude(model_, as_filed, base, now, out_);
+  Conclude(model_, as_filed, base, now, ErrorsOfUnits(model_, as_filed.hypothesis), out_);
   AddToVerdict(base, now);
 }
 

@@ -145,7 +145,8 @@ Record CaseModel::Simulated(const Hypothesis& h, std::size_t record, bool noise,
   scenario.noise = noise;
   scenario.seed = seed;
   EngineOptions options;
-  options.coil_spread = false;
+  // Every coil as drawn, but in another unit of this type, which differs as the rig file states.
+  options.coil_spread = h.rig.amplifier.unit != case_.rig.amplifier.unit;
   options.commands = plans_[record].get();
   options.record_rate = RecordRateFor(h.rig, r.data.rate);
   options.recorded_channels = channels;

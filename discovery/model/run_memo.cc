@@ -53,6 +53,7 @@ std::string MemoKey(const RigParameters& rig, const CaseRecord& record, std::siz
   std::string bytes;
   Add(bytes, index);
   Add(bytes, rig.amplifier.adc_samples_per_period);
+  Add(bytes, rig.amplifier.unit);
   for (const Tolerance& t : rig.tolerances)
     if (const double* value = ParameterAt(rig, t.path))
       if (FeelsParameter(t.path, clamped, turns)) Add(bytes, *value);

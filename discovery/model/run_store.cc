@@ -35,6 +35,7 @@ std::string TextOf(const RunKey& key) {
     for (const Excitation& e : *key.inputs) AddBytes(bytes, e.amplitude);
   const RigParameters& rig = key.rig;
   AddBytes(bytes, rig.amplifier.adc_samples_per_period);
+  AddBytes(bytes, rig.amplifier.unit);
   for (const Tolerance& t : rig.tolerances)
     if (const double* value = ParameterAt(rig, t.path)) AddBytes(bytes, *value);
   for (const EffectInstance& e : rig.effects) {
@@ -59,7 +60,7 @@ std::string BeginOf(const Case& c) {
     for (const Excitation& e : r.scenario.excitations)
       for (const double v : e.samples) print = Fingerprint(fmt::format("{} ", v), print);
   }
-  return fmt::format("ambrig simulations 3 {:016x}", print);
+  return fmt::format("ambrig simulations 4 {:016x}", print);
 }
 
 }  // namespace

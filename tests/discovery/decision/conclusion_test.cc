@@ -16,6 +16,10 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr double kN = 300;
+const UnitErrors kNoUnits;  // the rig file states no spread of the coils
+
+/// Units that show so much in every channel of the four records.
+UnitErrors Units(double ratio) { return {{ratio, ratio, ratio}, std::vector<double>(8, ratio)}; }
 
 class Conclusion : public ::testing::Test {
  protected:
@@ -125,7 +129,7 @@ TEST_F(Conclusion, AnEffectThatClosesTheErrorIsTheVerdict) {
   out.effective_sample_size = kN;
   out.adopted = {LinearCase::Gain(1.08)};
   out.ranking = {Ranked(out.adopted[0], 0.98), Ranked(LinearCase::Offset(1e-6), 0.02)};
-  Conclude(case_.model, Leaving(6), Leaving(5), Leaving(1), out);
+  Conclude(case_.model, Leaving(6), Leaving(5), Leaving(1), kNoUnits, out);
   EXPECT_EQ(out.verdict, "effect");
   EXPECT_EQ(out.adopted.size(), 1u);
   EXPECT_NEAR(out.closure.explained, 1, 1e-12);
@@ -141,7 +145,7 @@ TEST_F(Conclusion, APatchIsWithdrawn) {
   out.effective_sample_size = kN;
   out.adopted = {LinearCase::Gain(1.08)};
   out.ranking = {Ranked(out.adopted[0], 1)};
-  Conclude(case_.model, Leaving(6), Leaving(5), Leaving(4.5), out);
+  Conclude(case_.model, Leaving(6), Leaving(5), Leaving(4.5), kNoUnits, out);
   EXPECT_EQ(out.verdict, "unknown");
   EXPECT_TRUE(out.adopted.empty());
   EXPECT_EQ(out.set[0].effect, "unknown");
@@ -156,7 +160,7 @@ TEST_F(Conclusion, AContestedNameThatLeavesMuchIsWithdrawn) {
     out.adopted = {LinearCase::Gain(1.08)};
     out.ranking = {Ranked(out.adopted[0], probability),
                    Ranked(LinearCase::Offset(1e-6), 1 - probability)};
-    Conclude(case_.model, Leaving(6), Leaving(5), Leaving(2.7), out);
+    Conclude(case_.model, Leaving(6), Leaving(5), Leaving(2.7), kNoUnits, out);
     EXPECT_NEAR(out.closure.explained, (25 - 2.7 * 2.7) / 24, 1e-9);
     EXPECT_EQ(out.verdict, probability > 0.9 ? "effect" : "unknown") << probability;
     EXPECT_EQ(out.adopted.empty(), probability < 0.9) << probability;
@@ -173,17 +177,64 @@ TEST_F(Conclusion, APullOfTheWrongSignIsWithdrawnWhereMoreThanNoiseStays) {
       out.effective_sample_size = kN;
       out.adopted = {pull};
       out.ranking = {Ranked(pull, 1)};
-      Conclude(case_.model, Leaving(6), Leaving(5), Leaving(left), out);
+      Conclude(case_.model, Leaving(6), Leaving(5), Leaving(left), kNoUnits, out);
       const bool withdrawn = stiffness < 0 && left > 1.05;
       EXPECT_EQ(out.verdict, withdrawn ? "unknown" : "effect") << stiffness << ", " << left;
       EXPECT_EQ(out.adopted.empty(), withdrawn);
     }
 }
 
+// What the coils of any machine of this type differ by is no effect, unless one of a whole bearing explains it or one of a
+// coil explains it all.
+TEST_F(Conclusion, WhatOtherUnitsShowTooIsOfTheParameters) {
+  for (const char* target : {"", "A.coil3", "A"})
+    for (const double units : {1.5, 2.0}) {
+      Explanation out;
+      out.effective_sample_size = kN;
+      if (*target) {
+        EffectInstance gain = MakeInstance(EffectNamed("current-sensor-gain"), target);
+        gain.Set("gain", 1.02);
+        out.adopted = {gain};
+        out.ranking = {Ranked(gain, 1)};
+      }
+      Conclude(case_.model, Leaving(1.4), Leaving(1.3), Leaving(*target ? 1.1 : 1.3), Units(units),
+               out);
+      // A.x leaves 1.4 times the root of two; a tenth more may be chance
+      const bool within = units > 1.8, named = *target && !(within && *(target + 1));
+      EXPECT_EQ(out.verdict, named    ? "effect"
+                             : within ? "parameters"
+                                      : "unknown")
+          << target << ", " << units;
+      EXPECT_EQ(out.adopted.empty(), !named);
+    }
+  Explanation out;
+  out.effective_sample_size = kN;
+  out.adopted = {MakeInstance(EffectNamed("current-sensor-gain"), "A.coil3")};
+  out.ranking = {Ranked(out.adopted[0], 1)};
+  Conclude(case_.model, Leaving(1.4), Leaving(1.3), Leaving(1), Units(2), out);
+  EXPECT_EQ(out.verdict, "effect");
+}
+
+// Beside an effect the coils still differ: what they may differ by is no reason to doubt its name.
+TEST_F(Conclusion, WhatOtherUnitsShowTooIsNotLeftUnexplained) {
+  for (const double units : {2.7, 4.0}) {
+    Explanation out;
+    out.effective_sample_size = kN;
+    out.adopted = {LinearCase::Gain(1.08),
+                   MakeInstance(EffectNamed("current-sensor-gain"), "A.coil3")};
+    out.ranking = {Ranked(out.adopted[0], 0.5), Ranked(LinearCase::Offset(1e-6), 0.5)};
+    Conclude(case_.model, Leaving(6), Leaving(5), Leaving(2.7), Units(units), out);
+    EXPECT_EQ(out.adopted.size(), units > 3 ? 1U : 0U);  // the coil is one of many
+    EXPECT_EQ(out.verdict, units > 3 ? "effect" : "unknown");
+    EXPECT_EQ(out.remainder.text.find("which the coils may differ by") != std::string::npos,
+              units > 3);
+  }
+}
+
 TEST_F(Conclusion, WithoutAnyMisfitTheSetHoldsNone) {
   Explanation out;
   out.effective_sample_size = kN;
-  Conclude(case_.model, Leaving(1), Leaving(1), Leaving(1), out);
+  Conclude(case_.model, Leaving(1), Leaving(1), Leaving(1), kNoUnits, out);
   EXPECT_EQ(out.verdict, "none");
   ASSERT_EQ(out.set.size(), 1u);
   EXPECT_EQ(out.set[0].effect, "none");

@@ -1,0 +1,72 @@
+#include "discovery/decision/unit_errors.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/record/channels.h"
+#include "discovery/model/residual.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr int kUnits = 12;
+constexpr double kMore = 1.25;  // of the squared error: a unit may lie beyond those that are drawn
+constexpr double kByChance = 1.1;  // of the rms of a noisy channel
+
+/// A record and a kind of channel: all coils of a machine differ alike.
+using Kind = std::pair<std::size_t, int>;
+Kind KindOf(const CaseModel& model, const Target& t) {
+  const auto id = ParseChannel(model.data().records[t.record].data.channels[t.channel].name);
+  return {t.record, id ? static_cast<int>(id->kind) : -1};
+}
+
+/// (prediction of a unit - of the drawing)/floor.
+std::vector<double> Difference(const CaseModel& model, const std::vector<double>& unit,
+                               const std::vector<double>& drawing) {
+  std::vector<double> difference(model.size(), 0.0);
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      if (model.ok()[k]) difference[k] = (unit[k] - drawing[k]) / t.floor;
+  LimitInBranches(model, difference.data());
+  return difference;
+}
+
+/// Takes over what is larger, the noise of a measurement on top.
+void TakeLarger(double& most, double ratio) {
+  most = std::max(most, std::sqrt(1 + kMore * ratio * ratio));
+}
+
+}  // namespace
+
+UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h) {
+  UnitErrors errors;
+  const AmplifierParameters& amplifier = h.rig.amplifier;
+  if (amplifier.current_gain_spread == 0 && amplifier.edge_spread == 0) return errors;
+  std::vector<Hypothesis> all(1 + kUnits, h);
+  for (int k = 1; k <= kUnits; ++k) all[static_cast<std::size_t>(k)].rig.amplifier.unit += k;
+  const auto predicted = model.PredictAll(all, ModelFidelity::kCoarse);
+  std::map<Kind, double> most;
+  for (std::size_t unit = 1; predicted[0] && unit < all.size(); ++unit) {
+    if (!predicted[unit]) continue;
+    const std::vector<double> d = Difference(model, *predicted[unit], *predicted[0]);
+    TakeLarger(errors.stage.fit, Ratio(model, d, Which::kFit));
+    TakeLarger(errors.stage.validate, Ratio(model, d, Which::kValidate));
+    TakeLarger(errors.stage.worst_record, WorstRecordRatio(model, d));
+    for (const Target& t : model.targets())
+      TakeLarger(most.try_emplace(KindOf(model, t), 1).first->second, TargetRatio(model, d, t));
+  }
+  if (!most.empty())
+    for (const Target& t : model.targets()) errors.most.push_back(most.at(KindOf(model, t)));
+  return errors;
+}
+
+bool IsWithinUnits(const CaseModel& model, const FitResult& fit, const UnitErrors& of_units) {
+  for (std::size_t t = 0; t < of_units.most.size(); ++t)
+    if (TargetRatio(model, fit.residual, model.targets()[t]) > kByChance * of_units.most[t])
+      return false;
+  return !of_units.most.empty();
+}
+
+}  // namespace ambrig

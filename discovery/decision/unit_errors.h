@@ -1,0 +1,20 @@
+#pragma once
+/// What the coils of a machine differ by although the rig file draws them alike: it states the size of these errors
+/// (amplifier.current_gain_spread, amplifier.edge_spread), not what each coil has. They are no effect to be named.
+#include "discovery/decision/decide.h"
+
+namespace ambrig {
+
+/// Errors over the noise of machines of one type, each compared with the drawing: the largest of some that are drawn.
+struct UnitErrors {
+  StageRatios stage = {1, 1, 1};
+  std::vector<double>
+      most;  // of each target: of any channel of its kind in its record; empty: no spread
+};
+
+UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h);
+
+/// Whether another unit of this type would leave as much as this fit does, in every channel of every record.
+bool IsWithinUnits(const CaseModel& model, const FitResult& fit, const UnitErrors& of_units);
+
+}  // namespace ambrig
