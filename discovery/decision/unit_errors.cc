@@ -16,15 +16,15 @@ constexpr double kMore = 1.25;  // of the squared error: a unit may lie beyond t
 constexpr double kByChance = 1.1;  // of the rms of a noisy channel
 
 /// A record and a kind of channel: all coils of a machine differ alike.
-using Kind = std::pair<std::size_t, int>;
-Kind KindOf(const CaseModel& model, const Target& t) {
+using RecordAndKind = std::pair<std::size_t, int>;
+RecordAndKind CoilKindOf(const CaseModel& model, const Target& t) {
   const auto id = ParseChannel(model.data().records[t.record].data.channels[t.channel].name);
   return {t.record, id ? static_cast<int>(id->kind) : -1};
 }
 
 /// (prediction of a unit - of the drawing)/floor.
-std::vector<double> Difference(const CaseModel& model, const std::vector<double>& unit,
-                               const std::vector<double>& drawing) {
+std::vector<double> UnitDifference(const CaseModel& model, const std::vector<double>& unit,
+                                   const std::vector<double>& drawing) {
   std::vector<double> difference(model.size(), 0.0);
   for (const Target& t : model.targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
@@ -47,18 +47,18 @@ UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h) {
   std::vector<Hypothesis> all(1 + kUnits, h);
   for (int k = 1; k <= kUnits; ++k) all[static_cast<std::size_t>(k)].rig.amplifier.unit += k;
   const auto predicted = model.PredictAll(all, ModelFidelity::kCoarse);
-  std::map<Kind, double> most;
+  std::map<RecordAndKind, double> most;
   for (std::size_t unit = 1; predicted[0] && unit < all.size(); ++unit) {
     if (!predicted[unit]) continue;
-    const std::vector<double> d = Difference(model, *predicted[unit], *predicted[0]);
+    const std::vector<double> d = UnitDifference(model, *predicted[unit], *predicted[0]);
     TakeLarger(errors.stage.fit, Ratio(model, d, Which::kFit));
     TakeLarger(errors.stage.validate, Ratio(model, d, Which::kValidate));
     TakeLarger(errors.stage.worst_record, WorstRecordRatio(model, d));
     for (const Target& t : model.targets())
-      TakeLarger(most.try_emplace(KindOf(model, t), 1).first->second, TargetRatio(model, d, t));
+      TakeLarger(most.try_emplace(CoilKindOf(model, t), 1).first->second, TargetRatio(model, d, t));
   }
   if (!most.empty())
-    for (const Target& t : model.targets()) errors.most.push_back(most.at(KindOf(model, t)));
+    for (const Target& t : model.targets()) errors.most.push_back(most.at(CoilKindOf(model, t)));
   return errors;
 }
 
