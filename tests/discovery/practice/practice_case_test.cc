@@ -111,12 +111,11 @@ TEST(PracticeSurroundings, AClockThatIsOffShiftsRowsByOne) {
   const PracticeRig rig = RadialReference()[0];
   Hypothesis truth;
   truth.rig = ReadRigText(rig.text, rig.file);
-  std::vector<ExaminationRecord> one;
-  for (const ExaminationRecord& r : Examination(truth.rig, 3))
-    if (r.title == "clamped, current pulses") one.push_back(r);
-  ASSERT_EQ(one.size(), 1U);
-  one[0].burst = false;
-  const std::vector<ExaminationRecord> records(200, one[0]);
+  const ExaminationRecord one = {
+      "clamped",
+      "name = \"clamped\"\nrig = \"rig.toml\"\nduration = 0.01\nrecord_rate = 12500.0\n\n"
+      "[start]\nstate = \"clamped\"\nposition = { A = [3e-5, 0.0], B = [0.0, -2e-5] }\n"};
+  const std::vector<ExaminationRecord> records(200, one);
   Surroundings s;
   Case right = EmptyCase(truth.rig, records), off = right;
   FillRecords(s, truth, 11, nullptr, right);
