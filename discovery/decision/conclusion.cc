@@ -82,8 +82,7 @@ bool IsOneOfManyCoils(const EffectInstance& e, const StageRatios& end) {
 
 std::string SaidOfUnits(double left, const UnitErrors& of_units) {
   return fmt::format(
-      "{:.2f} times the noise stays, which the coils may differ by: other machines of this type, "
-      "with amplifier.current_gain_spread and amplifier.edge_spread of the rig file, show up to "
+      "{:.2f} times the noise stays: the spread of the coils that the rig file states makes up to "
       "{:.2f}",
       left, std::max(of_units.stage.fit, of_units.stage.validate));
 }
