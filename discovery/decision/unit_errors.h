@@ -8,8 +8,8 @@ namespace ambrig {
 /// Errors over the noise of machines of one type, each compared with the drawing: the largest of some that are drawn.
 struct UnitErrors {
   StageRatios stage = {1, 1, 1};
-  std::vector<double>
-      most;  // of each target: of any channel of its kind in its record; empty: no spread
+  // of each target, by any channel of its kind in its record; empty where the rig file states no spread
+  std::vector<double> most;
 };
 
 UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h);
