@@ -73,7 +73,7 @@ bool HasImpossibleSign(const EffectInstance& e, const StageRatios& end) {
   return !positive.empty() && e.Value(positive) < 0 && end.Answered() > kNoiseLeft;
 }
 
-bool IsOfOneCoil(const EffectInstance& e) { return e.target.find(".coil") != std::string::npos; }
+bool IsOfOneCoil(const EffectInstance& e) { return IsCoil(e.target); }
 
 /// An effect of one coil that leaves more than noise, in a machine whose coils all differ: it is the largest of their errors.
 bool IsOneOfManyCoils(const EffectInstance& e, const StageRatios& end) {
@@ -84,7 +84,7 @@ std::string SaidOfUnits(double left, const UnitErrors& of_units) {
   return fmt::format(
       "{:.2f} times the noise stays: the spread of the coils that the rig file states makes up to "
       "{:.2f}",
-      left, std::max(of_units.stage.fit, of_units.stage.validate));
+      left, of_units.largest);
 }
 
 /// What the catalogue's law leaves and its free shape does not is a detail of the law.
@@ -124,8 +124,9 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
     end = *out.shaped;
     explained = std::max(explained, ShareOfAllRecords(parameters, end));
   }
-  const bool within_units = IsWithinUnits(model, nominal, of_units),
-             rest_within_units = !within_units && any && IsWithinUnits(model, last, of_units);
+  const bool within_units = IsWithinUnits(model, nominal.residual, of_units),
+             rest_within_units =
+                 !within_units && any && IsWithinUnits(model, last.residual, of_units);
   if (rest_within_units) {  // the coils differ by as much: nothing is left for another effect
     end = {1, 1, 1};
     explained = 1;

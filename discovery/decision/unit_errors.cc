@@ -22,17 +22,6 @@ RecordAndKind CoilKindOf(const CaseModel& model, const Target& t) {
   return {t.record, id ? static_cast<int>(id->kind) : -1};
 }
 
-/// (prediction of a unit - of the drawing)/floor.
-std::vector<double> UnitDifference(const CaseModel& model, const std::vector<double>& unit,
-                                   const std::vector<double>& drawing) {
-  std::vector<double> difference(model.size(), 0.0);
-  for (const Target& t : model.targets())
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      if (model.ok()[k]) difference[k] = (unit[k] - drawing[k]) / t.floor;
-  LimitInBranches(model, difference.data());
-  return difference;
-}
-
 /// Takes over what is larger, the noise of a measurement on top.
 void TakeLarger(double& most, double ratio) {
   most = std::max(most, std::sqrt(1 + kMore * ratio * ratio));
@@ -48,12 +37,13 @@ UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h) {
   for (int k = 1; k <= kUnits; ++k) all[static_cast<std::size_t>(k)].rig.amplifier.unit += k;
   const auto predicted = model.PredictAll(all, ModelFidelity::kCoarse);
   std::map<RecordAndKind, double> most;
+  std::vector<double> d(model.size());
   for (std::size_t unit = 1; predicted[0] && unit < all.size(); ++unit) {
     if (!predicted[unit]) continue;
-    const std::vector<double> d = UnitDifference(model, *predicted[unit], *predicted[0]);
-    TakeLarger(errors.stage.fit, Ratio(model, d, Which::kFit));
-    TakeLarger(errors.stage.validate, Ratio(model, d, Which::kValidate));
-    TakeLarger(errors.stage.worst_record, WorstRecordRatio(model, d));
+    ChangeOverFloor(model, *predicted[0], *predicted[unit], d.data());
+    LimitInBranches(model, d.data());
+    for (const Which records : {Which::kFit, Which::kValidate})
+      TakeLarger(errors.largest, Ratio(model, d, records));
     for (const Target& t : model.targets())
       TakeLarger(most.try_emplace(CoilKindOf(model, t), 1).first->second, TargetRatio(model, d, t));
   }
@@ -62,9 +52,10 @@ UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h) {
   return errors;
 }
 
-bool IsWithinUnits(const CaseModel& model, const FitResult& fit, const UnitErrors& of_units) {
+bool IsWithinUnits(const CaseModel& model, const std::vector<double>& residual,
+                   const UnitErrors& of_units) {
   for (std::size_t t = 0; t < of_units.most.size(); ++t)
-    if (TargetRatio(model, fit.residual, model.targets()[t]) > kByChance * of_units.most[t])
+    if (TargetRatio(model, residual, model.targets()[t]) > kByChance * of_units.most[t])
       return false;
   return !of_units.most.empty();
 }

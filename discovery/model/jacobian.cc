@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "discovery/model/in_parallel.h"
+#include "discovery/model/residual.h"
 
 namespace ambrig {
 
@@ -58,10 +59,7 @@ double ChangeOf(const CaseModel& model, const QuickLook* look, const Prediction&
 void FillColumn(const CaseModel& model, const Prediction& here, const Prediction& moved,
                 double change, Eigen::MatrixXd::ColXpr column) {
   if (!moved || change == 0) return;
-  for (const Target& t : model.targets())
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      if (model.ok()[k])
-        column(static_cast<Eigen::Index>(k)) = ((*moved)[k] - (*here)[k]) / t.floor;
+  ChangeOverFloor(model, *here, *moved, column.data());
   DropJumps(model, column.data());
   column /= change;
 }

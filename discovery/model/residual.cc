@@ -17,6 +17,13 @@ std::vector<double> Residual(const CaseModel& model, const std::vector<double>& 
   return r;
 }
 
+void ChangeOverFloor(const CaseModel& model, const std::vector<double>& from,
+                     const std::vector<double>& to, double* out) {
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      out[k] = model.ok()[k] ? (to[k] - from[k]) / t.floor : 0;
+}
+
 bool Counts(const CaseModel& model, const Target& t, Which which) {
   if (which == Which::kAll) return true;
   return model.data().records[t.record].validate == (which == Which::kValidate);

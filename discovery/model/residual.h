@@ -10,6 +10,10 @@ namespace ambrig {
 /// (measured - predicted)/floor; 0 where a sample does not count.
 std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted);
 
+/// (to - from)/floor of two predictions into all rows of `out`; 0 where a sample does not count.
+void ChangeOverFloor(const CaseModel& model, const std::vector<double>& from,
+                     const std::vector<double>& to, double* out);
+
 enum class Which { kFit, kValidate, kAll };
 bool Counts(const CaseModel& model, const Target& t, Which which);
 /// The number of rows of a target that count.

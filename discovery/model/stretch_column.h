@@ -9,7 +9,7 @@ class StretchColumn {
  public:
   explicit StretchColumn(Eigen::Index rows = 0) : rows_(rows) {}
   /// All rows in one stretch.
-  StretchColumn(Eigen::VectorXd values);  // NOLINT(google-explicit-constructor): the same column
+  explicit StretchColumn(Eigen::VectorXd values);
 
   Eigen::Index rows() const { return rows_; }
   /// `values` from row `first` on: behind every stretch that there is, and within the rows.

@@ -6,6 +6,7 @@
 #include "core/math/linear_equations.h"
 #include "core/math/normal_distribution.h"
 #include "discovery/model/jacobian.h"
+#include "discovery/model/residual.h"
 
 namespace ambrig {
 
@@ -19,9 +20,7 @@ constexpr double kRigDifference = 0.3, kEffectDifference = 0.05;  // of a natura
 Eigen::VectorXd Difference(const TrialRecord& trial, const std::vector<double>& a,
                            const std::vector<double>& b) {
   Eigen::VectorXd d = Eigen::VectorXd::Zero(static_cast<Index>(a.size()));
-  for (const Target& t : trial.model->targets())
-    for (std::size_t k = t.first; k < t.first + t.count; ++k)
-      if (trial.model->ok()[k]) d(static_cast<Index>(k)) = (a[k] - b[k]) / t.floor;
+  ChangeOverFloor(*trial.model, b, a, d.data());
   return d;
 }
 

@@ -80,8 +80,6 @@ std::vector<ProbeGroup> Scanned(const CaseModel& model, const FitResult& base,
 /// What is screened together: the dearer kinds only where the cheaper ones leave something open.
 enum class ScreenedKind { kOrdinary, kResonances, kCoils };
 
-bool IsCoil(const std::string& target) { return target.find(".coil") != std::string::npos; }
-
 /// Whether single coils were screened.
 bool HoldsCoils(const SignatureBank& bank) {
   return std::any_of(
@@ -191,6 +189,8 @@ std::vector<Candidate> Rank(const CaseModel& model, const FitResult& base, Signa
 }
 
 }  // namespace
+
+bool IsCoil(const std::string& target) { return target.find(".coil") != std::string::npos; }
 
 std::vector<Candidate> Screen(const CaseModel& model, const FitResult& base,
                               const ResidualPeaks& peaks, const ScreenOptions& options,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "discovery/model/in_parallel.h"
+#include "discovery/model/residual.h"
 
 namespace ambrig {
 
@@ -75,10 +76,7 @@ std::vector<std::vector<float>> SignatureBank::Signatures(const CaseModel& model
   std::vector<double> signature(model.size());
   for (std::size_t k = 0; without && k < probes.size(); ++k) {
     if (!runs[k]) continue;
-    std::fill(signature.begin(), signature.end(), 0.0);
-    for (const Target& t : model.targets())
-      for (std::size_t row = t.first; row < t.first + t.count; ++row)
-        if (model.ok()[row]) signature[row] = ((*runs[k])[row] - (*without)[row]) / t.floor;
+    ChangeOverFloor(model, *without, *runs[k], signature.data());
     DropJumps(model, signature.data());
     if (model.nuisances.any()) model.nuisances.Eliminate(signature.data());
     out[k].assign(signature.begin(), signature.end());

@@ -19,7 +19,7 @@ constexpr double kN = 300;
 const UnitErrors kNoUnits;  // the rig file states no spread of the coils
 
 /// Units that show so much in every channel of the four records.
-UnitErrors Units(double ratio) { return {{ratio, ratio, ratio}, std::vector<double>(8, ratio)}; }
+UnitErrors Units(double ratio) { return {ratio, std::vector<double>(8, ratio)}; }
 
 class Conclusion : public ::testing::Test {
  protected:

@@ -137,7 +137,7 @@ TEST_F(NuisanceChoiceTest, OfAGroupThatDiffersTheOthersFollow) {
         turning(static_cast<Index>(k)) = k % 2 == 0 ? 10 : -10;
         left[k] += (k % 2 == 0 ? 5.0 : -5.0) * (t.record % 2 == 0 ? 1 : -1);
       }
-  second.column = turning;
+  second.column = StretchColumn(turning);
   EXPECT_THAT(names({Zero(1), Zero(0), second}),
               ::testing::UnorderedElementsAre("zero of A.x", "zero of A.y", "zero of B.y"));
   // one of three is not most of them
@@ -156,7 +156,7 @@ TEST_F(NuisanceChoiceTest, APreciseRecordDoesNotDecideAlone) {
   for (const Target& t : case_.model.targets())
     if (t.channel == 0 && t.record == 0)
       column.segment(static_cast<Index>(t.first), static_cast<Index>(t.count)) *= 30;
-  k.column = column;
+  k.column = StretchColumn(column);
   // amounts of 0.2, -0.5, 0.6 and -0.4 sd; nearly all information stands in the first
   EXPECT_EQ(ChooseNuisances(case_.model, {k}, Offsets({60, -5, 6, -4}), kWeight).size(), 1u);
 }
