@@ -65,7 +65,10 @@ AMBRIG_INLINE Lane Eliminated(const NetworkPlace& place, const Lane& source, con
 #pragma GCC unroll 8
   for (int j = 0; j < N; ++j) {
     V one;
-    (j < 4 ? one.a[j] : one.b[j - 4]) = 1;
+    if (j < 4)
+      one.a[j] = 1;
+    else
+      one.b[j - 4] = 1;
     row[j] = Load(place.column[j].turn.v) * K + one;  // P is symmetric
     right[j] = start[j];
   }

@@ -88,7 +88,8 @@ void PrintFindings(const Explanation& e) {
   for (const std::string& s : e.parameter_shifts) PrintWrapped("  parameter " + s);
   for (const NuisanceFound& n : e.nuisances)
     if (std::abs(n.value) > 3 * n.sd)
-      PrintWrapped(fmt::format("  {} in {}: {:.3g} +- {:.2g}{}", n.name, n.record, n.value, n.sd,
+      PrintWrapped(fmt::format("  {}{}: {:.3g} +- {:.2g}{}", n.name,
+                               n.record.empty() ? "" : " in " + n.record, n.value, n.sd,
                                n.unit == "-" ? "" : " " + n.unit));
   for (std::size_t k = 0; k < e.hidden.size() && k < 6; ++k)
     PrintWrapped(fmt::format("  not seen: {} at {} up to {} = {:.3g} {}", e.hidden[k].effect,

@@ -64,8 +64,9 @@ std::string WhyNot(const Explanation& e, bool unseen) {
       "{} is not adopted: without it the rig file{} explain the records to {:.3f} of the noise, "
       "with it to {:.3f}.",
       name,
-      e.nuisances.empty() ? " and its tolerances"
-                          : ", its tolerances and what differs from record to record",
+      e.nuisances.empty()
+          ? " and its tolerances"
+          : ", its tolerances and what differs from record to record or coil to coil",
       e.final_ratio_validate, best.ratio_validate);
 }
 
@@ -115,10 +116,12 @@ void AddKnown(HtmlReport& report, const Explanation& e) {
   std::vector<std::vector<Cell>> rows;
   for (const NuisanceFound& n : e.nuisances)
     if (std::abs(n.value) > 2 * n.sd)
-      rows.push_back({n.record, n.name,
+      rows.push_back({n.record.empty() ? "all" : n.record, n.name,
                       fmt::format("{} ± {}", FormatSi(n.value, n.unit), FormatSi(n.sd, n.unit))});
-  report.Table({"record", "what differs", "amount"}, rows,
-               "What differs from record to record; fitted with everything else.");
+  report.Table(
+      {"record", "what differs", "amount"}, rows,
+      "What differs from record to record or, in all of them, from the machine that the rig file "
+      "draws; fitted with everything else.");
 }
 
 void AddExplanationVerdict(HtmlReport& report, const Explanation& e, bool unseen) {

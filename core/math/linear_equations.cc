@@ -28,6 +28,11 @@ Eigen::MatrixXd SolveSymmetricColumns(const Eigen::MatrixXd& A, const Eigen::Mat
   return A.ldlt().solve(B);
 }
 
+SymmetricEigen EigenOfSymmetric(const Eigen::MatrixXd& A) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
 Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& A) { return A.inverse(); }
 
 Eigen::MatrixXcd ComplexInverseOf(const Eigen::MatrixXcd& A) { return A.inverse(); }

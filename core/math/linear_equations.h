@@ -1,5 +1,5 @@
 #pragma once
-/// Linear equations A x = b with dense matrices of free size, inverses and pseudoinverses. Each is one call of Eigen's
+/// Linear equations A x = b with dense matrices of free size, inverses, pseudoinverses, eigenvalues of symmetric ones. Each is one call of Eigen's
 /// decomposition of that name; the templates are made here once, instead of in every source that solves an equation
 /// (docs/decisions/005-build-time.md). Equations of fixed size in a period of the controller call Eigen themselves.
 ///
@@ -20,6 +20,13 @@ Eigen::MatrixXcd SolveComplexColumns(const Eigen::MatrixXcd& A, const Eigen::Mat
 /// A⁻¹ b and A⁻¹ B of a symmetric A, by L D Lᵀ; only its lower triangle is read.
 Eigen::VectorXd SolveSymmetric(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 Eigen::MatrixXd SolveSymmetricColumns(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
+
+/// A = vectors diag(values) vectorsᵀ of a symmetric A, values rising; only its lower triangle is read.
+struct SymmetricEigen {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd vectors;  // (n x n), orthonormal columns
+};
+SymmetricEigen EigenOfSymmetric(const Eigen::MatrixXd& A);
 
 /// A⁻¹ by L U with partial pivoting.
 Eigen::MatrixXd InverseOf(const Eigen::MatrixXd& A);

@@ -73,17 +73,11 @@ bool HasImpossibleSign(const EffectInstance& e, const StageRatios& end) {
   return !positive.empty() && e.Value(positive) < 0 && end.Answered() > kNoiseLeft;
 }
 
-bool IsOfOneCoil(const EffectInstance& e) { return IsCoil(e.target); }
-
-/// An effect of one coil that leaves more than noise, in a machine whose coils all differ: it is the largest of their errors.
-bool IsOneOfManyCoils(const EffectInstance& e, const StageRatios& end) {
-  return IsOfOneCoil(e) && end.Answered() > kNoiseLeft;
-}
-
 std::string SaidOfUnits(double left, const UnitErrors& of_units) {
   return fmt::format(
-      "{:.2f} times the noise stays: the spread of the coils that the rig file states makes up to "
-      "{:.2f}",
+      "{:.2f} times the noise stays: the errors of the coils that the rig file allows, taken off "
+      "to "
+      "first order, leave up to {:.2f}",
       left, of_units.largest);
 }
 
@@ -124,10 +118,10 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
     end = *out.shaped;
     explained = std::max(explained, ShareOfAllRecords(parameters, end));
   }
-  const bool within_units = IsWithinUnits(model, nominal.residual, of_units),
+  const bool within_units = IsWithinUnits(model, base.residual, of_units),
              rest_within_units =
                  !within_units && any && IsWithinUnits(model, last.residual, of_units);
-  if (rest_within_units) {  // the coils differ by as much: nothing is left for another effect
+  if (rest_within_units) {  // nothing is left for another effect
     end = {1, 1, 1};
     explained = 1;
   }
@@ -135,8 +129,7 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
   const double named = any ? NameProbability(share, std::max(end.fit, end.validate)) : 0;
   // An effect that leaves more than it explains is a patch on something unknown.
   const bool established = any && named >= 0.5 && !IsDoubtfulPatch(out, explained, named) &&
-                           !HasImpossibleSign(out.adopted[0], end) &&
-                           !(within_units && IsOneOfManyCoils(out.adopted[0], end));
+                           !HasImpossibleSign(out.adopted[0], end);
   if (any && !established) {
     out.adopted.clear();
     out.shaped.reset();
@@ -148,15 +141,13 @@ void Conclude(const CaseModel& model, const FitResult& nominal, const FitResult&
                           : any       ? FoundEffect::kDoubtful
                                       : FoundEffect::kNone);
   if (within_units && out.verdict == "unknown") out.verdict = "parameters";
-  if (rest_within_units && established)  // beside the first name they are what the coils differ by
-    out.adopted.erase(std::remove_if(out.adopted.begin() + 1, out.adopted.end(), IsOfOneCoil),
-                      out.adopted.end());
   if (established)
     SetsWith(out, named);
   else
     SetWithout(out, any ? named : 0.2);
   out.remainder = RemainderOf(model, base.residual, last.residual, out.closure, established);
-  if ((within_units && out.verdict == "parameters") || (rest_within_units && established))
+  if (out.closure.floors_after > kNoiseLeft &&
+      ((within_units && out.verdict == "parameters") || (rest_within_units && established)))
     out.remainder = {"law-variation", {}, SaidOfUnits(out.closure.floors_after, of_units)};
   if (out.shaped) SayShape(last, out);
 }

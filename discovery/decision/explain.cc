@@ -68,7 +68,8 @@ void Explainer::UseNuisances(const Hypothesis& h, const std::vector<double>& pre
 }
 
 void Explainer::SetNuisances(const std::vector<NuisanceKind>& kinds) {
-  UseNuisancesInBoth(full_, model_, kinds, out_.effective_sample_size);
+  record_kinds_ = kinds;
+  ApplyNuisances();
   bank_ = SignatureBank();
 }
 
@@ -83,6 +84,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   out_.base_ratio_fit = base.ratio_fit;
   out_.base_ratio_validate = base.ratio_validate;
   out_.ladder.push_back({"parameters", base.ratio_fit, base.ratio_validate});
+  UseCoilErrors(as_filed, base);
   const FitResult bare = base;
   if (TryNuisances(base, true)) {
     if (OneEffectInstead(bare, base)) {
@@ -95,6 +97,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
   }
   if ((options_.clocks && FindLateRows(base)) || FindInputs(base)) return;
   FitResult now = base;
+  steps_before_effects_ = out_.ladder.size();
   for (int round = 0; round < options_.rounds; ++round)
     if (!AdoptBest(now, round)) break;
   TryPairs(base, now);
@@ -127,7 +130,7 @@ void Explainer::Search(const Hypothesis& nominal, const FitResult& as_filed) {
         "the found model's");
   ReportNuisances(now);
   StateSizes();
-  Conclude(model_, as_filed, base, now, ErrorsOfUnits(model_, as_filed.hypothesis), out_);
+  Conclude(model_, as_filed, base, now, of_units_, out_);
   AddToVerdict(base, now);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// From a misfit to the missing effect: base fit, screening, full fits of the best, decision on
 /// unseen records, repetition, backward check, verdict. Method: docs/theory/discovery.md.
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -65,7 +66,10 @@ struct Explanation {
 
   /// Whether `ambrig refine` of the first effect leaves what its free shape does: it fits without what was found to
   /// differ from record to record.
-  bool RefineFollows() const { return shaped && nuisances.empty(); }
+  bool RefineFollows() const {
+    return shaped && std::all_of(nuisances.begin(), nuisances.end(),
+                                 [](const NuisanceFound& n) { return n.record.empty(); });
+  }
 };
 
 struct ExplainOptions {

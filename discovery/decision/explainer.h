@@ -1,7 +1,8 @@
 #pragma once
 /// The search behind Explain: its state and its steps. Steps that add, swap or remove effects stand in
-/// explainer_steps.cc, wrong data in explainer_data.cc, the rest in explain.cc.
+/// explainer_steps.cc, wrong data in explainer_data.cc, errors of the coils in explainer_coils.cc, the rest in explain.cc.
 #include "discovery/decision/explain.h"
+#include "discovery/decision/unit_errors.h"
 
 namespace ambrig {
 
@@ -25,7 +26,29 @@ class Explainer {
   void PrepareNoise(const Hypothesis& nominal);
   /// The nuisances that the case declares, or those that usually are.
   void UseNuisances(const Hypothesis& h, const std::vector<double>& predicted, bool declared_only);
+  /// These nuisances of the records beside the errors of the coils.
   void SetNuisances(const std::vector<NuisanceKind>& kinds);
+  /// Both kinds in both models; the bank of signatures stays as it is.
+  void ApplyNuisances();
+  /// What stands in both models now, to be put back after a trial without it.
+  struct UsedNuisances {
+    std::vector<NuisanceKind> of_records, of_coils;
+    double coil_doubt = 1, coils_seen_at = 1;
+    UnitErrors of_units;
+    Nuisances full, thinned;
+  };
+  UsedNuisances Used() const;
+  void UseAgain(const UsedNuisances& used);
+  Eigen::MatrixXd BareSensitivities(const Hypothesis& h) const;
+  /// What the coils differ by, where the rig file states how much that may be: taken off everything from now on.
+  void UseCoilErrors(const FitResult& as_filed, FitResult& now);
+  /// Those that are believable beside the effects that are adopted, seen from `now`.
+  void AllowCoilErrors(const FitResult& now);
+  /// The same after an effect was adopted that explains much.
+  void RenewCoilErrors(FitResult& now);
+  /// Whether the errors that any coil may have explain as much as this adopted effect of one coil: then they are
+  /// used, and `without` is the fit beside them.
+  bool CoilErrorsExplain(std::size_t adopted, const FitResult& now, FitResult& without);
   /// Wrong data: nothing is fitted to them.
   void Stop(const FitResult& as_filed);
   /// Errors of the data that show beside the effects found and did not beside the rig file's model; whether there are any.
@@ -109,6 +132,13 @@ class Explainer {
   RigParameters rig_;
   Explanation out_;
   SignatureBank bank_;
+  std::vector<NuisanceKind> record_kinds_;              // in use, of all rows
+  std::vector<NuisanceKind> coil_errors_, coil_kinds_;  // possible; in use
+  double coil_doubt_ = 1;                               // by which they are weighed less
+  double coils_seen_at_ = 1;                            // what the model left when they were chosen
+  Eigen::MatrixXd as_filed_jacobian_;                   // before any error of a coil was taken off
+  std::vector<std::vector<double>> unit_changes_;       // of other machines of the type
+  UnitErrors of_units_;                                 // what the coils' errors leave of these
   std::vector<BranchSpan> branches_;
   /// A name of a round, as it was fitted there.
   struct RankedName {
@@ -119,6 +149,7 @@ class Explainer {
   std::vector<std::string>
       of_own_channels_;  // effects adopted for what they explain where they act
   RecordsSetRight set_right_;
+  std::size_t steps_before_effects_ = 0;  // of the ladder
   bool floor_renewed_ = false;
   // An effect was sought in place of nuisances that explain as much: beside those nothing would be left for it.
   bool effect_instead_ = false;

@@ -100,7 +100,7 @@ bool Explainer::PassOverBursts(FitResult& now) {
   if (open.empty()) return false;
   full_.LeaveOut(open);
   model_.LeaveOut(open);
-  bank_ = SignatureBank();
+  SetNuisances(record_kinds_);
   now = At(now.hypothesis);
   return true;
 }

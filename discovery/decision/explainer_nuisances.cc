@@ -27,7 +27,7 @@ constexpr std::size_t kManyAmounts = 8;
 /// `alone`: before any effect is sought, when they explain half of what is left.
 bool Explainer::TryNuisances(FitResult& now, bool alone) {
   const StageRatios before = RatiosOf(model_, now);
-  if (full_.data().nuisances.any() || full_.nuisances.any() || before.Answered() < 1.1)
+  if (full_.data().nuisances.any() || full_.nuisances.differ() || before.Answered() < 1.1)
     return false;
   Progress(0.05, "what may differ from record to record");
   const FitResult all = AllRows(now);
@@ -37,9 +37,10 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
       full_, NuisanceKindsOf(full_, now.hypothesis, all.predicted, false), all.residual, weight);
   if (chosen.empty()) return false;
   const SignatureBank bank = bank_;
+  const UsedNuisances used = Used();
   SetNuisances(chosen);
   const auto give_up = [&] {
-    full_.nuisances = model_.nuisances = Nuisances();
+    UseAgain(used);
     bank_ = bank;
     return false;
   };
@@ -61,9 +62,8 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
 /// they are then given up, and the search for effects starts from `bare`.
 bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nuisances) {
   const bool many = full_.nuisances.count() >= kManyAmounts;
-  const Nuisances full = full_.nuisances, thinned = model_.nuisances;
-  full_.nuisances = model_.nuisances = Nuisances();
-  bank_ = SignatureBank();
+  const UsedNuisances used = Used();
+  SetNuisances({});
   const double before = RatiosOf(model_, bare).Answered(),
                reached = RatiosOf(model_, with_nuisances).Answered(),
                of_nuisances = ExplainedShare(before, reached);
@@ -86,30 +86,27 @@ bool Explainer::OneEffectInstead(const FitResult& bare, const FitResult& with_nu
     effect_instead_ = true;
     return true;
   }
-  full_.nuisances = full;
-  model_.nuisances = thinned;
+  UseAgain(used);
   bank_.TakeOffNuisances(model_);
   return false;
 }
 
 /// Nuisances that the case does not declare go again when the effects found explain as much without.
 void Explainer::DropNuisances(FitResult& base, FitResult& now) {
-  if (full_.data().nuisances.any() || !full_.nuisances.any() || out_.adopted.empty()) return;
+  if (full_.data().nuisances.any() || !full_.nuisances.differ() || out_.adopted.empty()) return;
   Progress(0.93, "without zeros, clocks and inputs of each record");
-  const Nuisances full = full_.nuisances, thinned = model_.nuisances;
+  const UsedNuisances used = Used();
   const SignatureBank bank = bank_;
   const double with = RatiosOf(model_, now).Answered();
-  full_.nuisances = model_.nuisances = Nuisances();
+  SetNuisances({});
   FitResult without = FitNow(now.hypothesis, nullptr);
   if (without.converged && RatiosOf(model_, without).Answered() < std::max(1.05, 1.03 * with)) {
     now = std::move(without);
     base = FitNow(base.hypothesis, nullptr);
-    bank_ = SignatureBank();
     out_.ladder.push_back({"without differing zeros", now.ratio_fit, now.ratio_validate});
     return;
   }
-  full_.nuisances = full;
-  model_.nuisances = thinned;
+  UseAgain(used);
   bank_ = bank;
 }
 
@@ -130,7 +127,7 @@ void Explainer::ReportNuisances(const FitResult& now) {
 /// Records whose clock the nuisances find a row or more off, while others' is right: a delay of the
 /// rig would be the same in all.
 bool Explainer::FindLateRows(const FitResult& base) {
-  if (!full_.nuisances.any()) return false;
+  if (!full_.nuisances.differ()) return false;
   const std::vector<NuisanceFound> found = AmountsIn(base);
   std::vector<int> rows(full_.data().records.size(), 0);
   bool some = false, all = true;
@@ -157,7 +154,7 @@ bool Explainer::FindInputs(const FitResult& base) {
   constexpr double kKnown = 0.1;     // of the declared sd: the records tell the size, not the prior
   constexpr double kLeastGain = 10;  // of the score
   const double declared = full_.data().nuisances.input_gain;
-  if (options_.inputs <= 0 || declared <= 0 || !full_.nuisances.any()) return false;
+  if (options_.inputs <= 0 || declared <= 0 || !full_.nuisances.differ()) return false;
   const std::vector<CaseRecord>& records = full_.data().records;
   std::vector<double> larger(records.size(), 0);
   for (const NuisanceFound& f : AmountsIn(base))

@@ -51,7 +51,7 @@ bool Explainer::ShapeExplainsAll() const {
 }
 
 bool Explainer::Finished(const FitResult& now) const {
-  if (ShapeExplainsAll()) return true;
+  if (ShapeExplainsAll() || IsWithinUnits(model_, now.residual, of_units_)) return true;
   // Nothing that an effect could still win (see WorthAdopting), with parameters that can be
   // believed. An effect of one sensor shows in few channels of many; beside an effect, what is left
   // in some is a detail of its law.
@@ -73,7 +73,7 @@ double Explainer::GainOfOthers(const FitResult& now, const std::vector<RankedEff
 bool Explainer::AdoptBest(FitResult& now, int round) {
   if (Finished(now)) return false;
   // what nuisances explain that nobody declared leaves a detail as a law does
-  const bool differ = full_.nuisances.any() && !full_.data().nuisances.any();
+  const bool differ = full_.nuisances.differ() && !full_.data().nuisances.any();
   const double from = 0.08 + 0.3 * round;
   const RoundSetting setting = {
       full_,
@@ -111,6 +111,7 @@ bool Explainer::AdoptBest(FitResult& now, int round) {
   out_.adopted.push_back(FittedEffect(now, now.hypothesis.rig.effects.size() - 1));
   out_.ladder.push_back({Named(best->effect), now.ratio_fit, now.ratio_validate});
   Release(now);
+  RenewCoilErrors(now);
   if (options_.checkpoint) options_.checkpoint(out_);
   return true;
 }
@@ -193,7 +194,7 @@ void Explainer::TryPairs(const FitResult& base, FitResult& now) {
     now = std::move(fit);
     out_.adopted = {FittedEffect(now, rig_.effects.size()),
                     FittedEffect(now, rig_.effects.size() + 1)};
-    out_.ladder.resize(2);
+    out_.ladder.resize(steps_before_effects_);
     out_.ladder.push_back(
         {Named(p.first) + " and " + Named(p.second), now.ratio_fit, now.ratio_validate});
   }
@@ -218,8 +219,9 @@ void Explainer::Backward(const FitResult& base, FitResult& now) {
     Progress(0.9, "without " + out_.adopted[drop].name);
     FitResult without = FitOn(model_, base, h, out_.effective_sample_size);
     const double gain = Gain(without, now);
-    if (WorthAdopting(without, now, gain, 1, 0) ||
-        ExplainsItsChannels(model_, without, now, gain, false)) {
+    if (!CoilErrorsExplain(drop, now, without) &&
+        (WorthAdopting(without, now, gain, 1, 0) ||
+         ExplainsItsChannels(model_, without, now, gain, false))) {
       ++drop;
       continue;
     }

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "discovery/decision/coil_choice.h"
+#include "discovery/decision/likelihood.h"
+#include "discovery/model/coil_errors.h"
+
 namespace ambrig {
 
 std::size_t ThinningTo(const Case& c, std::size_t rows) {
@@ -17,10 +21,13 @@ void PassFloorsOn(const CaseModel& full, CaseModel& thin) {
 }
 
 void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<NuisanceKind>& kinds,
-                        double independent) {
-  full.nuisances.Use(full, kinds, independent / static_cast<double>(full.size()));
-  thin.nuisances.Use(thin, Thinned(kinds, full, thin),
-                     independent / static_cast<double>(thin.size()));
+                        double independent, double doubt) {
+  const auto use = [&](CaseModel& model, const std::vector<NuisanceKind>& own) {
+    const double weight = RowWeight(model, 1, independent);
+    model.nuisances.Use(model, own, weight, weight / doubt);
+  };
+  use(full, kinds);
+  use(thin, Thinned(kinds, full, thin));
 }
 
 std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
@@ -31,15 +38,38 @@ std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
   return spans;
 }
 
+namespace {
+
+/// What the coils of the machine differ by, beside these nuisances of its records: as Explain takes it off before any
+/// effect is sought.
+void AddCoilErrors(CaseModel& full, CaseModel& thin, const Hypothesis& nominal,
+                   std::vector<NuisanceKind> kinds, double independent) {
+  if (!CoilsDiffer(nominal.rig.amplifier)) return;
+  const std::vector<NuisanceKind> possible = CoilErrorKinds(full, nominal);
+  if (possible.empty()) return;
+  FitOptions here;
+  here.iterations = 0;
+  here.effective_sample_size = independent;
+  const CoilErrorChoice choice =
+      ChooseCoilErrors(thin, Thinned(possible, full, thin), Fit(thin, nominal, here), independent);
+  for (const std::size_t k : choice.chosen) kinds.push_back(possible[k]);
+  UseNuisancesInBoth(full, thin, kinds, independent, choice.doubt);
+}
+
+}  // namespace
+
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal) {
   Comparison before = Compare(full, nominal, false);
   thin.noise_model = full.noise_model;
   thin.LimitAs(full);
   PassFloorsOn(full, thin);
   UseBranchesInBoth(full, thin, nominal);
-  if (!full.data().nuisances.any()) return before;
-  UseNuisancesInBoth(full, thin, NuisanceKindsOf(full, nominal, before.predicted, true),
-                     before.effective_sample_size);
+  std::vector<NuisanceKind> declared;
+  if (full.data().nuisances.any()) {
+    declared = NuisanceKindsOf(full, nominal, before.predicted, true);
+    UseNuisancesInBoth(full, thin, declared, before.effective_sample_size);
+  }
+  AddCoilErrors(full, thin, nominal, declared, before.effective_sample_size);
   return before;
 }
 

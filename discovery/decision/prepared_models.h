@@ -13,16 +13,17 @@ std::size_t ThinningTo(const Case& c, std::size_t rows);
 /// The floors of `full` in the model of fewer rows.
 void PassFloorsOn(const CaseModel& full, CaseModel& thin);
 
-/// These nuisances, of all rows, in both. `independent`: how many of the residuals are.
+/// These nuisances, of all rows, in both. `independent`: how many of the residuals are; `doubt` divides their weight where
+/// amounts that all records share are estimated (discovery/decision/coil_choice.h).
 void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<NuisanceKind>& kinds,
-                        double independent);
+                        double independent, double doubt = 1);
 
 /// The branches of the rig's tolerances in both, which are returned. Floors are set.
 std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
                                           const Hypothesis& nominal);
 
 /// Gives both the noise, horizons and floors of the comparison with `nominal`, which is returned, the branches of its
-/// tolerances, and the nuisances that the case declares.
+/// tolerances, the nuisances that the case declares and the errors of the coils whose spread the rig file states.
 Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nominal);
 
 }  // namespace ambrig

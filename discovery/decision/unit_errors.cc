@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/record/channels.h"
+#include "discovery/model/coil_errors.h"
 #include "discovery/model/residual.h"
 
 namespace ambrig {
@@ -29,19 +30,26 @@ void TakeLarger(double& most, double ratio) {
 
 }  // namespace
 
-UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h) {
-  UnitErrors errors;
-  const AmplifierParameters& amplifier = h.rig.amplifier;
-  if (amplifier.current_gain_spread == 0 && amplifier.edge_spread == 0) return errors;
+std::vector<std::vector<double>> ChangesOfUnits(const CaseModel& model, const Hypothesis& h) {
+  std::vector<std::vector<double>> changes;
+  if (!CoilsDiffer(h.rig.amplifier)) return changes;
   std::vector<Hypothesis> all(1 + kUnits, h);
   for (int k = 1; k <= kUnits; ++k) all[static_cast<std::size_t>(k)].rig.amplifier.unit += k;
   const auto predicted = model.PredictAll(all, ModelFidelity::kCoarse);
-  std::map<RecordAndKind, double> most;
-  std::vector<double> d(model.size());
   for (std::size_t unit = 1; predicted[0] && unit < all.size(); ++unit) {
     if (!predicted[unit]) continue;
-    ChangeOverFloor(model, *predicted[0], *predicted[unit], d.data());
+    changes.emplace_back(model.size());
+    ChangeOverFloor(model, *predicted[0], *predicted[unit], changes.back().data());
+  }
+  return changes;
+}
+
+UnitErrors ErrorsOfUnits(const CaseModel& model, const std::vector<std::vector<double>>& changes) {
+  UnitErrors errors;
+  std::map<RecordAndKind, double> most;
+  for (std::vector<double> d : changes) {
     LimitInBranches(model, d.data());
+    if (model.nuisances.any()) model.nuisances.Eliminate(d.data());
     for (const Which records : {Which::kFit, Which::kValidate})
       TakeLarger(errors.largest, Ratio(model, d, records));
     for (const Target& t : model.targets())

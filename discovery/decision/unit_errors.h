@@ -1,20 +1,26 @@
 #pragma once
-/// What the coils of a machine differ by although the rig file draws them alike: it states the size of these errors
-/// (amplifier.current_gain_spread, amplifier.edge_spread), not what each coil has. They are no effect to be named.
+/// What is left of the errors of single coils (discovery/model/coil_errors.h) once they are taken off to first order: where
+/// a current loop is at its limits, a machine whose coils are a little different does not differ in proportion. That is no
+/// effect to be named.
 #include <vector>
 
 #include "discovery/model/model.h"
 
 namespace ambrig {
 
-/// Errors over the noise of machines of one type, each compared with the drawing: the largest of some that are drawn.
+/// Errors over the noise of machines of one type: the largest of some that are drawn.
 struct UnitErrors {
   double largest = 1;  // of all fitted records, or of all unseen ones
   // of each target, by any channel of its kind in its record; empty where the rig file states no spread
   std::vector<double> most;
 };
 
-UnitErrors ErrorsOfUnits(const CaseModel& model, const Hypothesis& h);
+/// Changes over the floor of some machines of the type from the drawing `h`, all rows of the model; nothing is taken off.
+/// Empty where the rig file states no spread or `h` loses the rotor.
+std::vector<std::vector<double>> ChangesOfUnits(const CaseModel& model, const Hypothesis& h);
+
+/// What the model's nuisances leave of such changes.
+UnitErrors ErrorsOfUnits(const CaseModel& model, const std::vector<std::vector<double>>& changes);
 
 /// Whether another unit of this type would leave a residual as large as this one, in every channel of every record.
 bool IsWithinUnits(const CaseModel& model, const std::vector<double>& residual,

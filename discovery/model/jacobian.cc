@@ -118,7 +118,7 @@ Eigen::MatrixXd Jacobian(const CaseModel& model, const Hypothesis& h,
     for (Eigen::Index row = 0; row < rows; ++row)
       J(row, i) = SmallerOfOneSign(J(row, i), back(row, 0));
   });
-  if (model.nuisances.any()) model.nuisances.Eliminate(J);
+  if (model.nuisances.any()) model.nuisances.Eliminate(J, look ? &look->records : nullptr);
   return J;
 }
 

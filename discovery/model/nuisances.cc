@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
+#include "core/math/linear_equations.h"
 #include "discovery/model/in_parallel.h"
 #include "discovery/model/model.h"
 
@@ -10,33 +13,113 @@ namespace ambrig {
 
 using Eigen::Index;
 
-void Nuisances::Use(const CaseModel& model, const std::vector<NuisanceKind>& kinds, double weight) {
+namespace {
+
+constexpr double kFelt = 1e-4;  // least information on an amount, in 1/sd^2, for it to count
+
+/// First row and number of rows of a record, whose targets lie together.
+std::pair<Index, Index> RowsOf(const CaseModel& model, std::size_t record) {
+  Index first = 0, count = 0;
+  for (const Target& t : model.targets()) {
+    if (t.record != record) continue;
+    if (count == 0) first = static_cast<Index>(t.first);
+    count += static_cast<Index>(t.count);
+  }
+  return {first, count};
+}
+
+/// The columns of these kinds in `count` rows from `first` on; zero where a row does not count.
+Eigen::MatrixXd Columns(const CaseModel& model, const std::vector<NuisanceKind>& kinds,
+                        const std::vector<std::size_t>& which, Index first, Index count) {
+  Eigen::MatrixXd out(count, static_cast<Index>(which.size()));
+  for (std::size_t k = 0; k < which.size(); ++k)
+    out.col(static_cast<Index>(k)) = kinds[which[k]].column.Segment(first, count);
+  for (Index row = 0; row < count; ++row)
+    if (!model.ok()[static_cast<std::size_t>(first + row)]) out.row(row).setZero();
+  return out;
+}
+
+}  // namespace
+
+void Nuisances::Use(const CaseModel& model, const std::vector<NuisanceKind>& kinds, double weight,
+                    double weight_in_all) {
   kinds_ = kinds;
   weight_ = weight;
+  weight_in_all_ = weight_in_all;
   records_.clear();
+  for (std::size_t r = 0; r < model.data().records.size(); ++r) UseRecord(model, r);
+  UseInAll(model);
+}
+
+void Nuisances::UseRecord(const CaseModel& model, std::size_t record) {
+  OfRecord o;
+  std::tie(o.first, o.count) = RowsOf(model, record);
+  if (o.count == 0) return;
+  o.record = record;
+  for (std::size_t k = 0; k < kinds_.size(); ++k)
+    if (!kinds_[k].in_all_records &&
+        kinds_[k].column.SquaredNorm(o.first, o.count) * weight_ > kFelt)
+      o.kinds.push_back(k);
+  if (o.kinds.empty()) return;
+  o.columns = Columns(model, kinds_, o.kinds, o.first, o.count);
+  Eigen::MatrixXd normal = o.columns.transpose() * o.columns;
+  normal.diagonal().array() += 1 / weight_;
+  o.solve.compute(normal);
+  records_.push_back(std::move(o));
+}
+
+void Nuisances::UseInAll(const CaseModel& model) {
+  in_all_ = InAll();
+  const auto rows = static_cast<Index>(model.size());
+  for (std::size_t k = 0; k < kinds_.size(); ++k)
+    if (kinds_[k].in_all_records && kinds_[k].column.SquaredNorm(0, rows) * weight_in_all_ > kFelt)
+      in_all_.kinds.push_back(k);
+  if (in_all_.kinds.empty()) return;
+  in_all_.columns = Columns(model, kinds_, in_all_.kinds, 0, rows);
+  for (Index k = 0; k < in_all_.columns.cols(); ++k)
+    EliminateRecords(in_all_.columns.col(k).data());
   for (std::size_t r = 0; r < model.data().records.size(); ++r) {
-    Index first = -1, end = 0;
-    for (const Target& t : model.targets())
-      if (t.record == r) {
-        if (first < 0) first = static_cast<Index>(t.first);
-        end = static_cast<Index>(t.first + t.count);
-      }
-    if (first < 0) continue;
-    OfRecord o;
-    o.first = first;
-    o.count = end - first;
-    o.record = r;
-    for (std::size_t k = 0; k < kinds.size(); ++k)  // one that this record feels
-      if (kinds[k].column.SquaredNorm(o.first, o.count) * weight > 1e-4) o.kinds.push_back(k);
-    if (o.kinds.empty()) continue;
-    o.columns.resize(o.count, static_cast<Index>(o.kinds.size()));
-    for (std::size_t k = 0; k < o.kinds.size(); ++k)
-      o.columns.col(static_cast<Index>(k)) = kinds[o.kinds[k]].column.Segment(o.first, o.count);
-    Eigen::MatrixXd normal = o.columns.transpose() * o.columns;
-    normal.diagonal().array() += 1 / weight;
-    o.solve.compute(normal);
-    records_.push_back(std::move(o));
+    const auto [first, count] = RowsOf(model, r);
+    if (count == 0) continue;
+    const auto part = in_all_.columns.middleRows(first, count);
+    in_all_.spans.push_back(
+        {first, count, r, !model.data().records[r].validate, part.transpose() * part});
   }
+  weighing_ = WeighingOf(nullptr);
+}
+
+Nuisances::Weighing Nuisances::WeighingOf(const std::vector<char>* records) const {
+  const Index n = in_all_.columns.cols();
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
+  for (const InAll::Span& span : in_all_.spans)
+    if (Tells(span, records)) normal += span.normal;
+  const SymmetricEigen modes = EigenOfSymmetric(normal);
+  // of a mode of squared length s: (1 - 1/sqrt(1 + weight s))/s, which is weight/2 where s is little
+  const Eigen::VectorXd share = modes.values.unaryExpr([&](double s) {
+    const double x = weight_in_all_ * std::max(0.0, s);
+    return x < 1e-6 ? 0.5 * weight_in_all_ : weight_in_all_ * (1 - 1 / std::sqrt(1 + x)) / x;
+  });
+  return {modes.vectors * share.asDiagonal() * modes.vectors.transpose(),
+          InverseOf(normal + Eigen::MatrixXd::Identity(n, n) / weight_in_all_)};
+}
+
+Eigen::VectorXd Nuisances::Product(const double* rows, const std::vector<char>* records) const {
+  Eigen::VectorXd product = Eigen::VectorXd::Zero(in_all_.columns.cols());
+  for (const InAll::Span& span : in_all_.spans)
+    if (Tells(span, records))
+      product.noalias() += in_all_.columns.middleRows(span.first, span.count).transpose() *
+                           Eigen::Map<const Eigen::VectorXd>(rows + span.first, span.count);
+  return product;
+}
+
+void Nuisances::EliminateInAll(double* rows, const std::vector<char>* records,
+                               const Weighing& weighing) const {
+  const Eigen::VectorXd product = Product(rows, records), shrunk = weighing.shrink * product,
+                        estimate = weighing.inverse * product;
+  for (const InAll::Span& span : in_all_.spans)
+    Eigen::Map<Eigen::VectorXd>(rows + span.first, span.count).noalias() -=
+        in_all_.columns.middleRows(span.first, span.count) *
+        (Tells(span, records) ? shrunk : estimate);
 }
 
 Eigen::VectorXd Nuisances::Fit(const OfRecord& r, const double* rows) const {
@@ -44,14 +127,24 @@ Eigen::VectorXd Nuisances::Fit(const OfRecord& r, const double* rows) const {
   return r.solve.solve(r.columns.transpose() * part);
 }
 
-void Nuisances::Eliminate(double* rows) const {
+void Nuisances::EliminateRecords(double* rows) const {
   for (const OfRecord& r : records_)
     Eigen::Map<Eigen::VectorXd>(rows + r.first, r.count) -= r.columns * Fit(r, rows);
 }
 
-void Nuisances::Eliminate(Eigen::MatrixXd& columns) const {
-  InParallel(static_cast<std::size_t>(columns.cols()),
-             [&](std::size_t c) { Eliminate(columns.col(static_cast<Index>(c)).data()); });
+void Nuisances::Eliminate(double* rows, const std::vector<char>* records) const {
+  EliminateRecords(rows);
+  if (!in_all_.kinds.empty())
+    EliminateInAll(rows, records, records ? WeighingOf(records) : weighing_);
+}
+
+void Nuisances::Eliminate(Eigen::MatrixXd& columns, const std::vector<char>* records) const {
+  const Weighing weighing = records && !in_all_.kinds.empty() ? WeighingOf(records) : weighing_;
+  InParallel(static_cast<std::size_t>(columns.cols()), [&](std::size_t c) {
+    double* rows = columns.col(static_cast<Index>(c)).data();
+    EliminateRecords(rows);
+    if (!in_all_.kinds.empty()) EliminateInAll(rows, records, weighing);
+  });
 }
 
 std::size_t Nuisances::count() const {
@@ -63,16 +156,28 @@ std::size_t Nuisances::count() const {
 std::vector<NuisanceFound> Nuisances::Amounts(const CaseModel& model,
                                               const std::vector<double>& residual) const {
   std::vector<NuisanceFound> out;
-  for (const OfRecord& r : records_) {
-    const Eigen::VectorXd amount = Fit(r, residual.data());
-    const Eigen::MatrixXd covariance =
-        r.solve.solve(Eigen::MatrixXd::Identity(amount.size(), amount.size())) / weight_;
-    for (std::size_t k = 0; k < r.kinds.size(); ++k) {
-      const NuisanceKind& kind = kinds_[r.kinds[k]];
+  const auto add = [&](const std::string& record, const std::vector<std::size_t>& kinds,
+                       const Eigen::VectorXd& amount, const Eigen::MatrixXd& covariance) {
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+      const NuisanceKind& kind = kinds_[kinds[k]];
       const auto i = static_cast<Index>(k);
-      out.push_back({model.data().records[r.record].data_file, kind.name, kind.unit,
-                     amount(i) * kind.sd, std::sqrt(covariance(i, i)) * kind.sd});
+      out.push_back({record, kind.name, kind.unit, amount(i) * kind.sd,
+                     std::sqrt(covariance(i, i)) * kind.sd});
     }
+  };
+  std::vector<double> rest = residual;
+  if (!in_all_.kinds.empty()) {
+    std::vector<double> left = residual;
+    EliminateRecords(left.data());
+    const Eigen::VectorXd amount = weighing_.inverse * Product(left.data(), nullptr);
+    add("", in_all_.kinds, amount, weighing_.inverse / weight_in_all_);
+    Eigen::Map<Eigen::VectorXd> all(rest.data(), static_cast<Index>(rest.size()));
+    all -= Columns(model, kinds_, in_all_.kinds, 0, all.size()) * amount;
+  }
+  for (const OfRecord& r : records_) {
+    const Index n = r.columns.cols();
+    add(model.data().records[r.record].data_file, r.kinds, Fit(r, rest.data()),
+        r.solve.solve(Eigen::MatrixXd::Identity(n, n)) / weight_);
   }
   return out;
 }
@@ -92,7 +197,8 @@ std::vector<NuisanceKind> Thinned(const std::vector<NuisanceKind>& kinds, const 
         left(static_cast<Index>(k)) = there(static_cast<Index>(thin.sample(few.first + k)));
       column.Append(static_cast<Index>(few.first), std::move(left));
     }
-    out.push_back({kind.name, kind.group, kind.unit, kind.sd, std::move(column)});
+    out.push_back(
+        {kind.name, kind.group, kind.unit, kind.sd, std::move(column), kind.in_all_records});
   }
   return out;
 }

@@ -7,13 +7,14 @@
 
 namespace ambrig {
 
-std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted) {
+std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted,
+                             const QuickLook* look) {
   std::vector<double> r(model.size());
   for (const Target& t : model.targets())
     for (std::size_t k = t.first; k < t.first + t.count; ++k)
       r[k] = model.ok()[k] ? (model.measured()[k] - predicted[k]) / t.floor : 0;
   LimitInBranches(model, r.data());
-  if (model.nuisances.any()) model.nuisances.Eliminate(r.data());
+  if (model.nuisances.any()) model.nuisances.Eliminate(r.data(), look ? &look->records : nullptr);
   return r;
 }
 

@@ -7,8 +7,9 @@
 
 namespace ambrig {
 
-/// (measured - predicted)/floor; 0 where a sample does not count.
-std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted);
+/// (measured - predicted)/floor; 0 where a sample does not count. With a `look` its records only were predicted.
+std::vector<double> Residual(const CaseModel& model, const std::vector<double>& predicted,
+                             const QuickLook* look = nullptr);
 
 /// (to - from)/floor of two predictions into all rows of `out`; 0 where a sample does not count.
 void ChangeOverFloor(const CaseModel& model, const std::vector<double>& from,

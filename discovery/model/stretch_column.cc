@@ -14,7 +14,7 @@ StretchColumn::StretchColumn(Eigen::VectorXd values) : rows_(values.size()) {
 void StretchColumn::Append(Index first, Eigen::VectorXd values) {
   assert(first + values.size() <= rows_);
   assert(stretches_.empty() || stretches_.back().end() <= first);
-  stretches_.push_back({first, std::move(values)});
+  stretches_.push_back({first, std::make_shared<const Eigen::VectorXd>(std::move(values))});
 }
 
 template <class Use>
@@ -24,7 +24,7 @@ void StretchColumn::ForEach(Index first, Index count, const Use& use) const {
       std::ranges::upper_bound(stretches_, first, {}, [](const Stretch& x) { return x.end(); });
   for (; s != stretches_.end() && s->first < end; ++s) {
     const Index from = std::max(s->first, first), to = std::min(s->end(), end);
-    use(from, s->values.segment(from - s->first, to - from));
+    use(from, s->values->segment(from - s->first, to - from));
   }
 }
 

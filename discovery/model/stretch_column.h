@@ -1,6 +1,7 @@
 #pragma once
-/// A column over all rows of a model that is zero except in some stretches of rows.
+/// A column over all rows of a model that is zero except in some stretches of rows. Copies share their values.
 #include <Eigen/Dense>
+#include <memory>
 #include <vector>
 
 namespace ambrig {
@@ -24,8 +25,8 @@ class StretchColumn {
  private:
   struct Stretch {
     Eigen::Index first = 0;
-    Eigen::VectorXd values;
-    Eigen::Index end() const { return first + values.size(); }
+    std::shared_ptr<const Eigen::VectorXd> values;
+    Eigen::Index end() const { return first + values->size(); }
   };
   /// Calls `use(row, values)` with the part of every stretch that lies in these rows.
   template <class Use>

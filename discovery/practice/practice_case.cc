@@ -26,6 +26,7 @@ namespace ambrig {
 namespace {
 
 constexpr int kAttempts = 12;
+constexpr std::uint64_t kUnitNumbers = 100000;
 constexpr double kMostNoise = 4;  // that laws may make of the noise of a channel, times
 
 /// Streams of random numbers of one case.
@@ -98,6 +99,8 @@ class PracticeMaker {
     out_.data = EmptyCase(believed_, out_.records);
     const bool exact = out_.kind == "nothing" && Ordinal(number_) % 2 == 1;
     truth_.rig = exact ? believed_ : DrawRig(believed_, seed_);
+    // another machine of the type: its coils differ as the rig file says
+    if (!exact) truth_.rig.amplifier.unit += 1 + static_cast<double>(seed_ % kUnitNumbers);
     RequireLoopMargin(truth_.rig);
     surroundings_ = DrawSurroundings(believed_, seed_);
     out_.noise = surroundings_.noise_mode;

@@ -143,7 +143,7 @@ bool EvaluateAtPoint(const CaseModel& model, const QuickLook* look, FitResult& r
   const auto predicted = model.PredictAll({result.hypothesis}, ModelFidelity::kAsSampled, look)[0];
   if (!predicted) return false;
   result.predicted = *predicted;
-  result.residual = Residual(model, result.predicted);
+  result.residual = Residual(model, result.predicted, look);
   result.ratio_fit = Ratio(model, result.residual, Which::kFit);
   result.ratio_validate = Ratio(model, result.residual, Which::kValidate);
   if (result.ratio_validate == 0) result.ratio_validate = result.ratio_fit;

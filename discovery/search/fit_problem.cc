@@ -78,7 +78,7 @@ bool FitProblem::Evaluate(double const* const* x, double* residuals, double** ja
   const Hypothesis h = At(x[0]);
   const auto predicted = model_.PredictAll({h}, ModelFidelity::kAsSampled, &look_)[0];
   if (!predicted) return false;
-  const std::vector<double> r = Residual(model_, *predicted);
+  const std::vector<double> r = Residual(model_, *predicted, &look_);
   std::fill_n(residuals, num_residuals(), 0.0);
   for (std::size_t k = 0; k < p_; ++k)
     residuals[p_ + 1 + k] = hypothesis_.free[k].sd > 0 ? PriorResidual(x[0][k]) : 0;

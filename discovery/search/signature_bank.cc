@@ -78,7 +78,8 @@ std::vector<std::vector<float>> SignatureBank::Signatures(const CaseModel& model
     if (!runs[k]) continue;
     ChangeOverFloor(model, *without, *runs[k], signature.data());
     DropJumps(model, signature.data());
-    if (model.nuisances.any()) model.nuisances.Eliminate(signature.data());
+    if (model.nuisances.any())
+      model.nuisances.Eliminate(signature.data(), look ? &look->records : nullptr);
     out[k].assign(signature.begin(), signature.end());
   }
   return out;

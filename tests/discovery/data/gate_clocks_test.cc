@@ -5,6 +5,7 @@
 
 #include "core/record/channels.h"
 #include "discovery/practice/spoil.h"
+#include "effects/catalogue.h"
 #include "tests/discovery/data/gate_case.h"
 
 namespace ambrig {

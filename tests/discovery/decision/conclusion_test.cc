@@ -184,40 +184,29 @@ TEST_F(Conclusion, APullOfTheWrongSignIsWithdrawnWhereMoreThanNoiseStays) {
     }
 }
 
-// What the coils of any machine of this type differ by is no effect, unless one of a whole bearing explains it or one of a
-// coil explains it all.
-TEST_F(Conclusion, WhatOtherUnitsShowTooIsOfTheParameters) {
-  for (const char* target : {"A", "A.coil3"})
-    for (const double units :
-         {1.5, 2.0})  // A.x leaves 1.4 times the root of two; a tenth more may be chance
-      for (const double left : {1.0, 1.1}) {
-        Explanation out;
-        out.effective_sample_size = kN;
-        out.adopted = {MakeInstance(EffectNamed("current-sensor-gain"), target)};
-        out.ranking = {Ranked(out.adopted[0], 1)};
-        Conclude(case_.model, Leaving(1.4), Leaving(1.3), Leaving(left), Units(units), out);
-        const bool of_the_spread = units > 1.8 && target[1] && left > 1;
-        EXPECT_EQ(out.verdict, of_the_spread ? "parameters" : "effect") << target << ", " << units;
-        EXPECT_EQ(out.adopted.empty(), of_the_spread);
-      }
-  Explanation nothing;
-  nothing.effective_sample_size = kN;
-  Conclude(case_.model, Leaving(1.4), Leaving(1.3), Leaving(1.3), Units(2), nothing);
-  EXPECT_EQ(nothing.verdict, "parameters");
+// What is left of the coils' errors in any machine of the type is nothing unknown.
+TEST_F(Conclusion, WhatOtherUnitsLeaveTooIsOfTheParameters) {
+  for (const double units :
+       {1.5, 2.0}) {  // A.x leaves 1.3 times the root of two; a tenth more may be chance
+    Explanation out;
+    out.effective_sample_size = kN;
+    Conclude(case_.model, Leaving(1.4), Leaving(1.3), Leaving(1.3), Units(units), out);
+    EXPECT_EQ(out.verdict, units > 1.6 ? "parameters" : "unknown");
+    EXPECT_EQ(out.remainder.text.find("errors of the coils") != std::string::npos, units > 1.6);
+  }
 }
 
-// Beside an effect the coils still differ: what they may differ by is no reason to doubt its name.
-TEST_F(Conclusion, WhatOtherUnitsShowTooIsNotLeftUnexplained) {
+// Nor beside an effect: it is no reason to doubt the name.
+TEST_F(Conclusion, WhatOtherUnitsLeaveTooIsNotLeftUnexplained) {
   for (const double units : {2.7, 4.0}) {
     Explanation out;
     out.effective_sample_size = kN;
-    out.adopted = {LinearCase::Gain(1.08),
-                   MakeInstance(EffectNamed("current-sensor-gain"), "A.coil3")};
+    out.adopted = {LinearCase::Gain(1.08)};
     out.ranking = {Ranked(out.adopted[0], 0.5), Ranked(LinearCase::Offset(1e-6), 0.5)};
     Conclude(case_.model, Leaving(6), Leaving(5), Leaving(2.7), Units(units), out);
-    EXPECT_EQ(out.adopted.size(), units > 3 ? 1U : 0U);  // the coil is one of many
+    EXPECT_EQ(out.adopted.size(), units > 3 ? 1U : 0U);
     EXPECT_EQ(out.verdict, units > 3 ? "effect" : "unknown");
-    EXPECT_EQ(out.remainder.text.find("the spread of the coils") != std::string::npos, units > 3);
+    EXPECT_EQ(out.remainder.text.find("errors of the coils") != std::string::npos, units > 3);
   }
 }
 

@@ -60,7 +60,7 @@ TEST(Explain, AnOffsetOfASensorIsFoundWithItsSize) {
   EXPECT_GT(e.closure.explained, 0.95);
   ASSERT_GE(e.ladder.size(), 3u);
   EXPECT_EQ(e.ladder[1].added, "parameters");
-  EXPECT_EQ(e.ladder[2].added, "sensor-offset at A.x");
+  EXPECT_EQ(e.ladder.back().added, "sensor-offset at A.x");
   double sum = 0;
   for (const RankedEffect& r : e.ranking) sum += r.probability;
   EXPECT_LE(sum, 1 + 1e-9);

@@ -33,7 +33,7 @@ class UnitErrorsTest : public ::testing::Test {
     CaseModel model(data);
     const Hypothesis drawing = Hypothesis::Base(data.rig);
     const Comparison compared = Compare(model, drawing, false);
-    const UnitErrors found = ErrorsOfUnits(model, drawing);
+    const UnitErrors found = ErrorsOfUnits(model, ChangesOfUnits(model, drawing));
     if (errors) *errors = found;
     return IsWithinUnits(model, compared.residual, found);
   }

@@ -122,6 +122,91 @@ TEST_F(NuisanceTest, TwoKindsOfOneShapeShareTheAmount) {
   EXPECT_GT(found[0].sd, 1e-6);  // of the sum the sd would be 0.1 µm
 }
 
+// One amount for all records, of which the last is unseen: from the n rows of each fitted one.
+TEST_F(NuisanceTest, AmountsOfAllRecordsAreEstimatedFromTheFittedOnes) {
+  const double w = 0.25, n = LinearCase::kRows;
+  NuisanceKind zero = Zero();
+  zero.in_all_records = true;
+  Nuisances nuisances;
+  nuisances.Use(model(), {zero}, 1, w);
+  EXPECT_TRUE(nuisances.any());
+  EXPECT_FALSE(nuisances.differ());
+  EXPECT_EQ(nuisances.count(), 0u);
+  const Eigen::VectorXd residual = RowsOfAx(model(), 0, 3) + RowsOfAx(model(), 1, 1);
+  const auto found = nuisances.Amounts(model(), NumbersOf(residual));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].record, "");
+  EXPECT_NEAR(found[0].value, (3 + 1) * 2 * n / (2 * 4 * n + 1 / w) * 2e-6, 1e-15);
+  EXPECT_NEAR(found[0].sd, 2e-6 / std::sqrt(w * 2 * 4 * n + 1), 1e-15);
+}
+
+// Fitted rows r along the column c keep r'(1 + w c c')⁻¹ r of their square, the price of the amount; from the unseen record
+// the estimate is taken off.
+TEST_F(NuisanceTest, WhatAllRecordsShareIsWeighedByItsCovariance) {
+  const double w = 0.01, n = LinearCase::kRows;
+  NuisanceKind zero = Zero();
+  zero.in_all_records = true;
+  Nuisances nuisances;
+  nuisances.Use(model(), {zero}, 1, w);
+  Eigen::VectorXd rows = RowsOfAx(model(), -1, 3);
+  nuisances.Eliminate(rows.data());
+  const double amount = 3 * 2 * 2 * n / (2 * 4 * n + 1 / w);
+  for (const Target& t : model().targets()) {
+    const double expected = t.channel == 1  ? 0
+                            : t.record == 2 ? 3 - 2 * amount
+                                            : 3 / std::sqrt(1 + w * 2 * 4 * n);
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      EXPECT_NEAR(rows(static_cast<Index>(k)), expected, 1e-12) << k;
+  }
+}
+
+TEST_F(NuisanceTest, RecordsThatAreNotKnownTellNothingOfWhatAllShare) {
+  const double w = 0.01, n = LinearCase::kRows;
+  NuisanceKind zero = Zero();
+  zero.in_all_records = true;
+  Nuisances nuisances;
+  nuisances.Use(model(), {zero}, 1, w);
+  const std::vector<char> first_only = {1, 0, 0};
+  for (const double of_second : {0.0, 1e6}) {
+    Eigen::VectorXd rows = RowsOfAx(model(), 0, 3) + RowsOfAx(model(), 1, of_second);
+    Eigen::MatrixXd columns = rows;
+    nuisances.Eliminate(rows.data(), &first_only);
+    EXPECT_NEAR(rows(0), 3 / std::sqrt(1 + w * 4 * n), 1e-12);
+    nuisances.Eliminate(columns, &first_only);
+    EXPECT_EQ(columns.col(0), rows);
+  }
+}
+
+// Zeros of each record and a zero of all: the shared amount is what the records' own ones, held back by their prior,
+// do not take.
+TEST_F(NuisanceTest, BothKindsOfAmountsStandBesideEachOther) {
+  NuisanceKind shared = Zero(), own = Zero();
+  shared.name = "zero of all";
+  shared.in_all_records = true;
+  own.column = StretchColumn(RowsOfAx(model(), -1, 0.02));  // a hundredth of the shared one
+  Nuisances nuisances;
+  nuisances.Use(model(), {own, shared}, 1);
+  EXPECT_TRUE(nuisances.differ());
+  const auto found = nuisances.Amounts(model(), NumbersOf(RowsOfAx(model(), -1, 2)));
+  ASSERT_EQ(found.size(), 4u);
+  EXPECT_EQ(found[0].name, "zero of all");
+  EXPECT_NEAR(found[0].value, 2e-6, 0.01e-6);
+  for (std::size_t k = 1; k < 4; ++k) EXPECT_LT(std::abs(found[k].value), 0.02e-6);
+}
+
+// Rows that do not count tell nothing of an amount.
+TEST_F(NuisanceTest, RowsThatAreLeftOutDoNotCount) {
+  const double n = LinearCase::kRows;
+  linear_.model.LeaveOut({{0, 0, LinearCase::kRows / 2 - 1}});
+  Nuisances nuisances;
+  nuisances.Use(model(), {Zero()}, 1);
+  Eigen::VectorXd rows = RowsOfAx(model(), 0, 3);
+  for (Index k = 0; k < static_cast<Index>(LinearCase::kRows / 2); ++k) rows(k) = 0;
+  const auto found = nuisances.Amounts(model(), NumbersOf(rows));
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_NEAR(found[0].value, 3 * 2 * n / 2 / (4 * n / 2 + 1) * 2e-6, 1e-15);
+}
+
 // A model with every fifth row sees the same columns at its rows.
 TEST_F(NuisanceTest, ThinnedColumnsAreThoseOfTheRowsThatAreLeft) {
   const CaseModel thin(linear_.data, 5);

@@ -1,0 +1,107 @@
+#include "discovery/decision/coil_choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "core/math/linear_equations.h"
+#include "discovery/decision/likelihood.h"
+
+namespace ambrig {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr double kBelievable =
+    3.5;  // sd: of forty errors one lies beyond by chance in fifty machines
+constexpr std::size_t kLeftOut = 2;  // errors that may be left out: gain and edge of one coil
+constexpr double kSds = 3;           // of the mean square of the amounts about 1
+constexpr double kStep = 3;          // of the doubt
+
+/// Least squares of the coils' errors (the first columns) and the free parameters of a fit, under their priors.
+class JointStep {
+ public:
+  JointStep(const CaseModel& model, const std::vector<NuisanceKind>& possible, const FitResult& now)
+      : coils_(static_cast<Index>(possible.size())), stay_(possible.size()) {
+    std::iota(stay_.begin(), stay_.end(), Index{0});
+    const Index free = now.jacobian.cols(), all = coils_ + free,
+                rows = static_cast<Index>(model.size());
+    Eigen::MatrixXd columns(rows, all);
+    for (Index k = 0; k < coils_; ++k) {
+      columns.col(k) = possible[static_cast<std::size_t>(k)].column.Segment(0, rows);
+      if (model.nuisances.any()) model.nuisances.Eliminate(columns.col(k).data());
+    }
+    columns.rightCols(free) = now.jacobian;
+    for (Index row = 0; row < rows; ++row)
+      if (!model.ok()[static_cast<std::size_t>(row)]) columns.row(row).setZero();
+    const Eigen::Map<const Eigen::VectorXd> residual(now.residual.data(), rows);
+    normal_ = columns.transpose() * columns;
+    product_ = columns.transpose() * residual;
+    prior_ = Eigen::VectorXd::Ones(all);
+    offset_ = Eigen::VectorXd::Zero(all);
+    for (Index k = 0; k < free; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const bool toleranced = now.hypothesis.free[i].sd > 0;
+      prior_(coils_ + k) = toleranced ? 1 : 1e-9;
+      if (toleranced) offset_(coils_ + k) = -now.hypothesis.Coordinate(i);
+      stay_.push_back(coils_ + k);
+    }
+  }
+
+  /// The errors of coils that are left, by number.
+  std::vector<Index> coils() const {
+    std::vector<Index> out;
+    std::copy_if(stay_.begin(), stay_.end(), std::back_inserter(out),
+                 [&](Index k) { return k < coils_; });
+    return out;
+  }
+
+  /// Takes the step with this weight of a squared error, without errors of coils that are not believable in it.
+  void Take(double weight) {
+    for (;;) {
+      Eigen::MatrixXd A = weight * normal_(stay_, stay_);
+      A.diagonal() += prior_(stay_);
+      const Eigen::VectorXd x = SolveSymmetric(A, weight * product_(stay_) + offset_(stay_));
+      amounts_ = x.head(static_cast<Index>(coils().size()));
+      Index worst = 0;
+      if (amounts_.size() == 0 || amounts_.cwiseAbs().maxCoeff(&worst) <= kBelievable) return;
+      stay_.erase(stay_.begin() + worst);
+    }
+  }
+
+  /// Whether the amounts of the step are what the coils of a machine differ by: all but those of one coil, and with the
+  /// spread that the rig file states.
+  bool IsBelievable() const {
+    const auto left = static_cast<std::size_t>(amounts_.size());
+    if (left == 0 || left + kLeftOut < static_cast<std::size_t>(coils_)) return false;
+    const double n = static_cast<double>(left);
+    return amounts_.squaredNorm() / n < 1 + kSds * std::sqrt(2 / n);
+  }
+
+ private:
+  Index coils_;
+  std::vector<Index> stay_;  // columns that take part, in order
+  Eigen::MatrixXd normal_;
+  Eigen::VectorXd product_, prior_, offset_, amounts_;
+};
+
+}  // namespace
+
+CoilErrorChoice ChooseCoilErrors(const CaseModel& model, const std::vector<NuisanceKind>& possible,
+                                 const FitResult& now, double effective_sample_size) {
+  const JointStep start(model, possible, now);
+  const double weight = RowWeight(model, 1, effective_sample_size),
+               least =
+                   RowWeight(model, Ratio(model, now.residual, Which::kAll), effective_sample_size);
+  CoilErrorChoice choice;
+  for (;; choice.doubt *= kStep) {
+    JointStep step = start;
+    step.Take(weight / choice.doubt);
+    if (!step.IsBelievable() && weight / choice.doubt > least) continue;
+    for (const Index k : step.coils()) choice.chosen.push_back(static_cast<std::size_t>(k));
+    return choice;
+  }
+}
+
+}  // namespace ambrig

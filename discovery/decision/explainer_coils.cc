@@ -1,0 +1,129 @@
+// Steps of the search: what the coils of any machine of the type differ by, as the rig file states, is no effect.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "discovery/decision/coil_choice.h"
+#include "discovery/decision/conclusion.h"
+#include "discovery/decision/explainer.h"
+#include "discovery/decision/prepared_models.h"
+#include "discovery/model/coil_errors.h"
+#include "discovery/model/residual.h"
+#include "discovery/search/linear_step.h"
+#include "discovery/search/screen.h"
+
+namespace ambrig {
+
+namespace {
+
+constexpr double kNoise = 1.02;  // error over the noise up to which nothing is to be explained
+constexpr double kFallen =
+    0.5;  // of the squared error beside the noise: then the amounts are seen better
+
+/// "A.i3" of "A.coil3"; empty: no coil.
+std::string CurrentOfCoil(const std::string& target) {
+  const std::size_t at = target.find(".coil");
+  return at == std::string::npos ? "" : target.substr(0, at) + ".i" + target.substr(at + 5);
+}
+
+}  // namespace
+
+void Explainer::ApplyNuisances() {
+  std::vector<NuisanceKind> kinds = record_kinds_;
+  kinds.insert(kinds.end(), coil_kinds_.begin(), coil_kinds_.end());
+  UseNuisancesInBoth(full_, model_, kinds, out_.effective_sample_size, coil_doubt_);
+}
+
+Explainer::UsedNuisances Explainer::Used() const {
+  return {record_kinds_, coil_kinds_,     coil_doubt_,     coils_seen_at_,
+          of_units_,     full_.nuisances, model_.nuisances};
+}
+
+void Explainer::UseAgain(const UsedNuisances& used) {
+  record_kinds_ = used.of_records;
+  coil_kinds_ = used.of_coils;
+  coil_doubt_ = used.coil_doubt;
+  coils_seen_at_ = used.coils_seen_at;
+  of_units_ = used.of_units;
+  full_.nuisances = used.full;
+  model_.nuisances = used.thinned;
+}
+
+void Explainer::UseCoilErrors(const FitResult& as_filed, FitResult& now) {
+  if (!CoilsDiffer(rig_.amplifier) || RatiosOf(model_, now).Answered() < kNoise) return;
+  Progress(0.04, "what the coils differ by");
+  coil_errors_ = CoilErrorKinds(full_, as_filed.hypothesis);
+  if (coil_errors_.empty()) return;
+  as_filed_jacobian_ = as_filed.jacobian;
+  unit_changes_ = ChangesOfUnits(model_, as_filed.hypothesis);
+  AllowCoilErrors(as_filed);
+  bank_ = SignatureBank();
+  const FitResult promised = LinearlyRefitted(model_, as_filed, out_.effective_sample_size);
+  now = FitNow(as_filed.hypothesis, &promised.jacobian);
+  out_.base_ratio_fit = now.ratio_fit;
+  out_.base_ratio_validate = now.ratio_validate;
+  out_.ladder.push_back({"errors of single coils", now.ratio_fit, now.ratio_validate});
+}
+
+/// From all of which no error of a coil was taken off: those of the rig file's parameters as they were there, those of
+/// the adopted effects here.
+Eigen::MatrixXd Explainer::BareSensitivities(const Hypothesis& h) const {
+  Eigen::MatrixXd all = as_filed_jacobian_;
+  if (model_.nuisances.any()) model_.nuisances.Eliminate(all);
+  std::vector<std::size_t> adopted(h.free.size() - static_cast<std::size_t>(all.cols()));
+  if (adopted.empty()) return all;
+  std::iota(adopted.begin(), adopted.end(), static_cast<std::size_t>(all.cols()));
+  all.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(h.free.size()));
+  all.rightCols(static_cast<Eigen::Index>(adopted.size())) = Jacobian(model_, h, adopted);
+  return all;
+}
+
+void Explainer::AllowCoilErrors(const FitResult& now) {
+  coil_kinds_.clear();
+  ApplyNuisances();
+  std::vector<NuisanceKind> possible = coil_errors_;
+  std::erase_if(possible, [&](const NuisanceKind& kind) {
+    return std::any_of(out_.adopted.begin(), out_.adopted.end(), [&](const EffectInstance& e) {
+      const std::string current = CurrentOfCoil(e.target);
+      return !current.empty() && kind.name.ends_with(" of " + current);
+    });
+  });
+  FitResult bare = now;
+  bare.residual = Residual(model_, now.predicted);
+  bare.jacobian = BareSensitivities(now.hypothesis);
+  const CoilErrorChoice choice =
+      ChooseCoilErrors(model_, Thinned(possible, full_, model_), bare, out_.effective_sample_size);
+  for (const std::size_t k : choice.chosen) coil_kinds_.push_back(possible[k]);
+  coil_doubt_ = choice.doubt;
+  coils_seen_at_ = now.ratio_fit;
+  ApplyNuisances();
+  of_units_ = ErrorsOfUnits(model_, unit_changes_);
+}
+
+void Explainer::RenewCoilErrors(FitResult& now) {
+  const auto excess = [](double ratio) { return std::max(0.0, ratio * ratio - 1); };
+  if (coil_errors_.empty() || excess(now.ratio_fit) > kFallen * excess(coils_seen_at_)) return;
+  AllowCoilErrors(now);
+  bank_.TakeOffNuisances(model_);
+  now = FitNow(now.hypothesis, nullptr);
+}
+
+bool Explainer::CoilErrorsExplain(std::size_t adopted, const FitResult& now, FitResult& without) {
+  if (coil_errors_.empty() || !IsCoil(out_.adopted[adopted].target)) return false;
+  const UsedNuisances used = Used();
+  const std::vector<EffectInstance> all = out_.adopted;
+  out_.adopted.erase(out_.adopted.begin() + static_cast<std::ptrdiff_t>(adopted));
+  AllowCoilErrors(without);
+  FitResult beside = FitNow(without.hypothesis, nullptr);
+  out_.adopted = all;
+  if (RatiosOf(model_, beside).Answered() <
+      std::max(kNoise, 1.03 * RatiosOf(model_, now).Answered())) {
+    without = std::move(beside);
+    return true;
+  }
+  UseAgain(used);
+  return false;
+}
+
+}  // namespace ambrig

@@ -1,0 +1,99 @@
+#include "discovery/model/coil_errors.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "discovery/model/branch_rows.h"
+#include "discovery/model/model.h"
+#include "discovery/model/residual.h"
+#include "effects/catalogue.h"
+
+namespace ambrig {
+
+using Eigen::Index;
+
+namespace {
+
+constexpr std::size_t kTogether = 8;  // predictions that are in memory together
+
+/// One error of one coil, as an effect of the size of one sd.
+struct CoilError {
+  std::string name, group, unit;
+  double sd = 0;
+  EffectInstance effect;
+};
+
+/// The mean voltage that a bridge gives too much when its on-phase ends late [V/s].
+double VoltsOfEdge(const AmplifierParameters& a) {
+  switch (a.modulation) {
+    case Modulation::kBiState:
+      return 2 * a.bus_voltage * a.switching_frequency;
+    case Modulation::kIdeal:
+      return 0;
+    default:
+      return a.bus_voltage * a.switching_frequency;
+  }
+}
+
+void AddErrorsOfCoil(const AmplifierParameters& a, const std::string& bearing, int coil,
+                     std::vector<CoilError>& out) {
+  const std::string target = fmt::format("{}.coil{}", bearing, coil),
+                    channel = fmt::format("{}.i{}", bearing, coil);
+  const auto add = [&](const char* what, const char* group, const char* unit, double sd,
+                       const char* effect, const char* parameter, double value) {
+    EffectInstance e = MakeInstance(EffectNamed(effect), target);
+    e.Set(parameter, value);
+    out.push_back({fmt::format("{} of {}", what, channel), group, unit, sd, e});
+  };
+  if (a.current_gain_spread > 0)
+    add("current gain", "coil-gain", "-", a.current_gain_spread, "current-sensor-gain", "gain",
+        1 + a.current_gain_spread);
+  if (a.edge_spread > 0 && VoltsOfEdge(a) > 0)
+    add("edge", "coil-edge", "s", a.edge_spread, "amplifier-offset", "offset",
+        VoltsOfEdge(a) * a.edge_spread);
+}
+
+/// The change over the floor as a column, without the stretches that it leaves as they are.
+StretchColumn ColumnOf(const CaseModel& model, const std::vector<double>& change) {
+  StretchColumn column(static_cast<Index>(model.size()));
+  for (const Target& t : model.targets()) {
+    Eigen::VectorXd rows =
+        Eigen::Map<const Eigen::VectorXd>(change.data() + t.first, static_cast<Index>(t.count));
+    if (!rows.isZero(0)) column.Append(static_cast<Index>(t.first), std::move(rows));
+  }
+  return column;
+}
+
+}  // namespace
+
+bool CoilsDiffer(const AmplifierParameters& amplifier) {
+  return amplifier.current_gain_spread > 0 || amplifier.edge_spread > 0;
+}
+
+std::vector<NuisanceKind> CoilErrorKinds(const CaseModel& model, const Hypothesis& h) {
+  std::vector<CoilError> errors;
+  if (CoilsDiffer(h.rig.amplifier))
+    for (const BearingParameters& b : h.rig.bearings)
+      for (int coil = 1; coil <= b.coils(); ++coil)
+        AddErrorsOfCoil(h.rig.amplifier, b.name, coil, errors);
+  std::vector<NuisanceKind> out;
+  std::vector<double> change(model.size());
+  for (std::size_t first = 0; first < errors.size(); first += kTogether) {
+    const std::size_t count = std::min(kTogether, errors.size() - first);
+    std::vector<Hypothesis> all(1 + count, h);
+    for (std::size_t k = 0; k < count; ++k)
+      all[1 + k].rig.effects.push_back(errors[first + k].effect);
+    const auto predicted = model.PredictAll(all, ModelFidelity::kCoarse);
+    for (std::size_t k = 0; predicted[0] && k < count; ++k) {
+      if (!predicted[1 + k]) continue;
+      ChangeOverFloor(model, *predicted[0], *predicted[1 + k], change.data());
+      DropJumps(model, change.data());
+      const CoilError& e = errors[first + k];
+      out.push_back({e.name, e.group, e.unit, e.sd, ColumnOf(model, change), true});
+    }
+  }
+  return out;
+}
+
+}  // namespace ambrig

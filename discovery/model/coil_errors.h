@@ -1,0 +1,22 @@
+#pragma once
+/// Errors of single coils whose size the rig file states and not what each coil has: the gains of the current
+/// measurements (amplifier.current_gain_spread) and the instants at which the bridges switch
+/// (amplifier.edge_spread). A model draws all coils alike; these are the columns of their errors.
+#include <string>
+#include <vector>
+
+#include "discovery/model/nuisances.h"
+
+namespace ambrig {
+
+struct AmplifierParameters;
+
+/// Whether the rig file says that the coils of a machine differ.
+bool CoilsDiffer(const AmplifierParameters& amplifier);
+
+/// A kind of nuisance for each error of each coil, the same in all records; one sd is the spread of the rig file.
+/// `model` holds all rows; its floors are set. Simulates every record once for each; empty where no spread is stated
+/// or `h` loses the rotor.
+std::vector<NuisanceKind> CoilErrorKinds(const CaseModel& model, const Hypothesis& h);
+
+}  // namespace ambrig

@@ -1,0 +1,77 @@
+// Which errors of the coils are taken for such, of columns that are written down.
+#include "discovery/decision/coil_choice.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/discovery/linear_case.h"
+
+namespace ambrig {
+namespace {
+
+using Eigen::Index;
+
+constexpr Index kErrors = 8, kRowsEach = 12;  // of A.x and A.y of the first record
+
+class CoilChoice : public ::testing::Test {
+ protected:
+  CoilChoice() : case_({1e-5, 2e-5}, 1, 0) {
+    for (Index k = 0; k < kErrors; ++k) {
+      Eigen::VectorXd column = Eigen::VectorXd::Zero(Rows());
+      column.segment(k * kRowsEach, kRowsEach).setConstant(3);
+      possible_.push_back(
+          {fmt::format("error {}", k), "coil-gain", "-", 0.005, StretchColumn(column), true});
+    }
+  }
+  Index Rows() const { return static_cast<Index>(case_.model.size()); }
+  /// A fit without free parameters that leaves these amounts of the errors.
+  FitResult Leaving(const std::vector<double>& amounts) const {
+    Eigen::VectorXd r = Eigen::VectorXd::Zero(Rows());
+    for (Index k = 0; k < kErrors; ++k)
+      r.segment(k * kRowsEach, kRowsEach).setConstant(3 * amounts[static_cast<std::size_t>(k)]);
+    FitResult fit;
+    fit.residual.assign(r.data(), r.data() + r.size());
+    fit.jacobian = Eigen::MatrixXd(Rows(), 0);
+    return fit;
+  }
+  CoilErrorChoice Choose(const FitResult& fit) const {
+    return ChooseCoilErrors(case_.model, possible_, fit, static_cast<double>(Rows()));
+  }
+  LinearCase case_;
+  std::vector<NuisanceKind> possible_;
+};
+
+TEST_F(CoilChoice, AmountsOfTheStatedSpreadAreTakenAsBesideNoise) {
+  const CoilErrorChoice choice = Choose(Leaving({1, -1, 0.5, 2, -1.5, 0.2, -0.7, 1.1}));
+  EXPECT_EQ(choice.chosen.size(), 8u);
+  EXPECT_EQ(choice.doubt, 1);
+}
+
+TEST_F(CoilChoice, OneCoilFarBeyondTheSpreadIsLeftToBeNamed) {
+  const CoilErrorChoice choice = Choose(Leaving({1, -1, 0.5, 6, -1.5, 0.2, -0.7, 1.1}));
+  EXPECT_EQ(choice.chosen, (std::vector<std::size_t>{0, 1, 2, 4, 5, 6, 7}));
+  EXPECT_EQ(choice.doubt, 1);
+}
+
+// All coils far off together are no errors of single coils: they are weighed so little that they take hardly any of it.
+TEST_F(CoilChoice, WhatLooksLikeAllCoilsFarOffIsNotBelieved) {
+  const CoilErrorChoice choice = Choose(Leaving({6, -6, 6, 6, -6, 6, 6, -6}));
+  EXPECT_GT(choice.doubt, 2);
+}
+
+// A free parameter of the rig that does the same has it where its tolerance allows it more easily.
+TEST_F(CoilChoice, ParametersOfTheRigStandBesideThem) {
+  FitResult fit = Leaving({3, 3, 3, 3, 3, 3, 3, 3});
+  EXPECT_GT(Choose(fit).doubt, 1);
+  FreeParameter gap;
+  gap.path = "bearings.A.gap";
+  gap.sd = gap.step = 1;
+  fit.hypothesis.free = {gap};
+  fit.jacobian = Eigen::Map<const Eigen::VectorXd>(fit.residual.data(), Rows());
+  EXPECT_EQ(Choose(fit).doubt, 1);
+}
+
+}  // namespace
+}  // namespace ambrig

@@ -1,0 +1,102 @@
+// The errors of single coils of a machine whose rig file states how large they are: the machine draws its own, of each coil at
+// once; a model that draws all alike finds each of them again.
+#include "discovery/model/coil_errors.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "actuators/electronics/amplifier_parameters.h"
+#include "core/base/read_file.h"
+#include "core/base/toml_edit.h"
+#include "discovery/decision/compare.h"
+#include "discovery/decision/explain.h"
+#include "discovery/decision/unit_errors.h"
+#include "discovery/model/residual.h"
+#include "discovery/practice/examination.h"
+#include "discovery/practice/practice_surroundings.h"
+#include "effects/plant.h"
+#include "rig/rig_assembly.h"
+#include "rig/rig_file.h"
+#include "rig/true_rig.h"
+#include "simulation/sampled/coil_spread.h"
+
+namespace ambrig {
+namespace {
+
+class CoilErrorsTest : public ::testing::Test {
+ protected:
+  CoilErrorsTest() {
+    const std::string file = std::string(AMBRIG_SOURCE_DIR) + "/examples/reference/rig.toml";
+    rig_ = ReadRigText(WithoutTomlTable(ReadFile(file), file, "bearings.Z"), file);
+    for (const ExaminationRecord& r : Examination(rig_, 3))
+      if (r.title.starts_with("clamped")) records_.push_back(r);
+    machine_.rig = rig_;
+    machine_.rig.amplifier.unit = 77;
+    data_ = EmptyCase(rig_, records_);
+    FillRecords(Surroundings(), machine_, 5, nullptr, data_);
+  }
+  RigParameters rig_;
+  std::vector<ExaminationRecord> records_;
+  Hypothesis machine_;
+  Case data_;
+};
+
+TEST_F(CoilErrorsTest, AreFoundAgainCoilByCoil) {
+  CaseModel model(data_);
+  const Hypothesis drawing = Hypothesis::Base(data_.rig);
+  const Comparison compared = Compare(model, drawing, false);
+  const auto kinds = CoilErrorKinds(model, drawing);
+  ASSERT_EQ(kinds.size(), 32u);  // gain and edge of sixteen coils
+  model.nuisances.Use(model, kinds, 1);
+  Plant plant = BuildPlant(TrueRig(rig_));
+  DrawCoilSpread(machine_.rig.amplifier, &plant);
+  const auto found = model.nuisances.Amounts(model, compared.residual);
+  for (std::size_t b = 0; b < 2; ++b)
+    for (std::size_t j = 0; j < 8; ++j) {
+      const std::string name =
+          "current gain of " + rig_.bearings[b].name + ".i" + std::to_string(j + 1);
+      const auto at = std::find_if(found.begin(), found.end(),
+                                   [&](const NuisanceFound& f) { return f.name == name; });
+      ASSERT_NE(at, found.end()) << name;
+      EXPECT_NEAR(at->value, plant.bearings[b].current_sensor[j].gain - 1, 0.0005) << name;
+      EXPECT_LT(at->sd, 0.0005);
+    }
+  const std::vector<double> left = Residual(model, compared.predicted);
+  EXPECT_GT(compared.ratio_fit, 1.3);
+  EXPECT_LT(Ratio(model, left, Which::kFit), 1.02);
+  EXPECT_LT(Ratio(model, left, Which::kValidate), 1.02);
+}
+
+// Taken off to first order they leave less of another machine than they make.
+TEST_F(CoilErrorsTest, LeaveLittleOfOtherMachines) {
+  CaseModel model(data_);
+  const Hypothesis drawing = Hypothesis::Base(data_.rig);
+  Compare(model, drawing, false);
+  const auto changes = ChangesOfUnits(model, drawing);
+  const double whole = ErrorsOfUnits(model, changes).largest;
+  model.nuisances.Use(model, CoilErrorKinds(model, drawing), 1);
+  EXPECT_LT(ErrorsOfUnits(model, changes).largest - 1, 0.2 * (whole - 1));
+}
+
+TEST_F(CoilErrorsTest, ExplainThemInTheVerdict) {
+  ExplainOptions options;
+  options.calibrate = false;
+  const Explanation e = Explain(data_, options);
+  EXPECT_EQ(e.verdict, "parameters");
+  EXPECT_TRUE(e.adopted.empty());
+  EXPECT_GT(e.nominal_ratio_validate, 1.2);
+  EXPECT_LT(e.final_ratio_validate - 1, 0.4 * (e.nominal_ratio_validate - 1));
+  ASSERT_FALSE(e.nuisances.empty());
+  for (const NuisanceFound& f : e.nuisances) EXPECT_EQ(f.record, "") << f.name;
+}
+
+TEST_F(CoilErrorsTest, AreNoneWhereTheRigFileStatesNoSpread) {
+  data_.rig.amplifier.current_gain_spread = data_.rig.amplifier.edge_spread = 0;
+  EXPECT_FALSE(CoilsDiffer(data_.rig.amplifier));
+  CaseModel model(data_);
+  EXPECT_TRUE(CoilErrorKinds(model, Hypothesis::Base(data_.rig)).empty());
+}
+
+}  // namespace
+}  // namespace ambrig
