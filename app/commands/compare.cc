@@ -13,6 +13,7 @@
 #include "app/pages/discovery_report.h"
 #include "core/record/hdf5.h"
 #include "discovery/decision/comparison_series.h"
+#include "discovery/decision/unit_errors.h"
 
 namespace ambrig {
 
@@ -66,6 +67,9 @@ int RunCompare(const CompareOptions& o) {
     Progress progress("compare");
     comparison = Compare(model, Hypothesis::Base(c.rig), !o.no_blocks,
                          [&](double f, const std::string& text) { progress.Update(f, text); });
+    progress.Update(0.99, "what coils differ by");
+    const std::string said = SaidOfCoils(model, Hypothesis::Base(c.rig), comparison.residual);
+    if (!said.empty()) comparison.words.push_back(said);
   }
   PrintComparison(comparison);
   o.common.WriteJson(CompareJson(comparison));

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include "app/commands/commands.h"
@@ -74,6 +75,27 @@ std::string NamesInLine(const std::vector<std::string>& names) {
   return text;
 }
 
+/// What differs from record to record, a line for each; errors of coils in a line for each kind.
+void PrintNuisances(const std::vector<NuisanceFound>& nuisances) {
+  constexpr double kSeen = 3;  // sd
+  std::map<std::string, std::string> of_coils;
+  for (const NuisanceFound& n : nuisances) {
+    if (std::abs(n.value) < kSeen * n.sd) continue;
+    const std::string unit = n.unit == "-" ? "" : " " + n.unit;
+    const std::size_t of = n.name.find(" of ");
+    if (n.record.empty() && of != std::string::npos) {
+      std::string& line = of_coils[n.name.substr(0, of)];
+      line += fmt::format("{}{} {:.2g}{}", line.empty() ? "" : ", ", n.name.substr(of + 4), n.value,
+                          unit);
+    } else {
+      PrintWrapped(
+          fmt::format("  {} in {}: {:.3g} +- {:.2g}{}", n.name, n.record, n.value, n.sd, unit));
+    }
+  }
+  for (const auto& [kind, line] : of_coils)
+    PrintWrapped(fmt::format("  {} of single coils: {}", kind, line));
+}
+
 void PrintFindings(const Explanation& e) {
   for (const DataFault& f : e.data) PrintWrapped("  data: " + FaultText(f));
   if (e.verdict == "effect")
@@ -86,11 +108,7 @@ void PrintFindings(const Explanation& e) {
   for (const EffectInstance& a : e.adopted)
     PrintWrapped(fmt::format("  adopted {} at {}: {}", a.name, a.target, ShortParametersText(a)));
   for (const std::string& s : e.parameter_shifts) PrintWrapped("  parameter " + s);
-  for (const NuisanceFound& n : e.nuisances)
-    if (std::abs(n.value) > 3 * n.sd)
-      PrintWrapped(fmt::format("  {}{}: {:.3g} +- {:.2g}{}", n.name,
-                               n.record.empty() ? "" : " in " + n.record, n.value, n.sd,
-                               n.unit == "-" ? "" : " " + n.unit));
+  PrintNuisances(e.nuisances);
   for (std::size_t k = 0; k < e.hidden.size() && k < 6; ++k)
     PrintWrapped(fmt::format("  not seen: {} at {} up to {} = {:.3g} {}", e.hidden[k].effect,
                              e.hidden[k].target, e.hidden[k].parameter, e.hidden[k].size,

@@ -1,5 +1,7 @@
 #include "discovery/decision/unit_errors.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -66,6 +68,21 @@ bool IsWithinUnits(const CaseModel& model, const std::vector<double>& residual,
     if (TargetRatio(model, residual, model.targets()[t]) > kByChance * of_units.most[t])
       return false;
   return !of_units.most.empty();
+}
+
+std::string SaidOfCoils(const CaseModel& model, const Hypothesis& h,
+                        const std::vector<double>& residual) {
+  constexpr double kNoiseAlone = 1.05;
+  if (!CoilsDiffer(h.rig.amplifier) || Ratio(model, residual, Which::kAll) < kNoiseAlone) return "";
+  const UnitErrors units = ErrorsOfUnits(model, ChangesOfUnits(model, h));
+  if (units.most.empty()) return "";
+  return fmt::format(
+      "the coils of machines of this type, which differ as the rig file states, make up to {:.2f} "
+      "times the noise: {}",
+      units.largest,
+      IsWithinUnits(model, residual, units)
+          ? "nothing here is more (ambrig explain estimates the error of each coil)"
+          : "some channels show more");
 }
 
 }  // namespace ambrig

@@ -2,6 +2,7 @@
 /// What is left of the errors of single coils (discovery/model/coil_errors.h) once they are taken off to first order: where
 /// a current loop is at its limits, a machine whose coils are a little different does not differ in proportion. That is no
 /// effect to be named.
+#include <string>
 #include <vector>
 
 #include "discovery/model/model.h"
@@ -25,5 +26,10 @@ UnitErrors ErrorsOfUnits(const CaseModel& model, const std::vector<std::vector<d
 /// Whether another unit of this type would leave a residual as large as this one, in every channel of every record.
 bool IsWithinUnits(const CaseModel& model, const std::vector<double>& residual,
                    const UnitErrors& of_units);
+
+/// What a comparison with the drawing `h` says of the coils: how much of its error those of any machine of the type make.
+/// Empty where the rig file states no spread or nothing but noise is left.
+std::string SaidOfCoils(const CaseModel& model, const Hypothesis& h,
+                        const std::vector<double>& residual);
 
 }  // namespace ambrig

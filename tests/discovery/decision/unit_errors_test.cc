@@ -25,7 +25,8 @@ class UnitErrorsTest : public ::testing::Test {
   }
 
   /// Whether the records of a machine are within what others of its type show, and the errors of these.
-  bool IsWithin(const RigParameters& machine, UnitErrors* errors = nullptr) const {
+  bool IsWithin(const RigParameters& machine, UnitErrors* errors = nullptr,
+                std::string* said = nullptr) const {
     Hypothesis truth;
     truth.rig = machine;
     Case data = EmptyCase(rig_, records_);
@@ -33,6 +34,7 @@ class UnitErrorsTest : public ::testing::Test {
     CaseModel model(data);
     const Hypothesis drawing = Hypothesis::Base(data.rig);
     const Comparison compared = Compare(model, drawing, false);
+    if (said) *said = SaidOfCoils(model, drawing, compared.residual);
     const UnitErrors found = ErrorsOfUnits(model, ChangesOfUnits(model, drawing));
     if (errors) *errors = found;
     return IsWithinUnits(model, compared.residual, found);
@@ -49,6 +51,22 @@ TEST_F(UnitErrorsTest, HoldAnotherMachineOfTheType) {
   EXPECT_TRUE(IsWithin(another, &errors));
   EXPECT_GT(errors.largest, 1.05);  // they show
   EXPECT_FALSE(errors.most.empty());
+}
+
+// A comparison tells how much of its error the coils may make.
+TEST_F(UnitErrorsTest, StandInTheWordsOfAComparison) {
+  RigParameters machine = rig_;
+  machine.amplifier.unit = 77;
+  std::string said;
+  IsWithin(machine, nullptr, &said);
+  EXPECT_NE(said.find("nothing here is more"), std::string::npos) << said;
+  EffectInstance gain = MakeInstance(EffectNamed("current-sensor-gain"), "A.coil3");
+  gain.Set("gain", 1 + 8 * rig_.amplifier.current_gain_spread);
+  machine.effects.push_back(gain);
+  IsWithin(machine, nullptr, &said);
+  EXPECT_NE(said.find("some channels show more"), std::string::npos) << said;
+  IsWithin(rig_, nullptr, &said);
+  EXPECT_EQ(said, "");  // nothing but noise is left
 }
 
 TEST_F(UnitErrorsTest, DoNotHoldAGainFarBeyondTheSpread) {
