@@ -13,11 +13,18 @@ using Eigen::Index;
 
 namespace {
 
-constexpr double kBelievable =
-    3.5;  // sd: of forty errors one lies beyond by chance in fifty machines
+constexpr double kBelievable = 3.5;  // sd: one of forty lies beyond by chance in fifty machines
 constexpr std::size_t kLeftOut = 2;  // errors that may be left out: gain and edge of one coil
 constexpr double kSds = 3;           // of the mean square of the amounts about 1
 constexpr double kStep = 3;          // of the doubt
+
+/// Zero where a row does not count or is of an unseen record.
+void LeaveOutUnseen(const CaseModel& model, Eigen::MatrixXd& columns) {
+  for (const Target& t : model.targets())
+    for (std::size_t k = t.first; k < t.first + t.count; ++k)
+      if (!model.ok()[k] || !Counts(model, t, Which::kFit))
+        columns.row(static_cast<Index>(k)).setZero();
+}
 
 /// Least squares of the coils' errors (the first columns) and the free parameters of a fit, under their priors.
 class JointStep {
@@ -33,8 +40,7 @@ class JointStep {
       if (model.nuisances.any()) model.nuisances.Eliminate(columns.col(k).data());
     }
     columns.rightCols(free) = now.jacobian;
-    for (Index row = 0; row < rows; ++row)
-      if (!model.ok()[static_cast<std::size_t>(row)]) columns.row(row).setZero();
+    LeaveOutUnseen(model, columns);
     const Eigen::Map<const Eigen::VectorXd> residual(now.residual.data(), rows);
     normal_ = columns.transpose() * columns;
     product_ = columns.transpose() * residual;
@@ -93,7 +99,7 @@ CoilErrorChoice ChooseCoilErrors(const CaseModel& model, const std::vector<Nuisa
   const JointStep start(model, possible, now);
   const double weight = RowWeight(model, 1, effective_sample_size),
                least =
-                   RowWeight(model, Ratio(model, now.residual, Which::kAll), effective_sample_size);
+                   RowWeight(model, Ratio(model, now.residual, Which::kFit), effective_sample_size);
   CoilErrorChoice choice;
   for (;; choice.doubt *= kStep) {
     JointStep step = start;

@@ -76,8 +76,7 @@ bool HasImpossibleSign(const EffectInstance& e, const StageRatios& end) {
 std::string SaidOfUnits(double left, const UnitErrors& of_units) {
   return fmt::format(
       "{:.2f} times the noise stays: the errors of the coils that the rig file allows, taken off "
-      "to "
-      "first order, leave up to {:.2f}",
+      "to first order, leave up to {:.2f}",
       left, of_units.largest);
 }
 

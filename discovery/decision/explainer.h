@@ -42,6 +42,10 @@ class Explainer {
   Eigen::MatrixXd BareSensitivities(const Hypothesis& h) const;
   /// What the coils differ by, where the rig file states how much that may be: taken off everything from now on.
   void UseCoilErrors(const FitResult& as_filed, FitResult& now);
+  /// The possible ones, with the floors as they are; `as_filed` beside none of them.
+  void FindCoilErrors(const FitResult& as_filed);
+  /// All of it after the floors have changed.
+  void RenewCoilFloors(const Hypothesis& as_filed, const FitResult& now);
   /// Those that are believable beside the effects that are adopted, seen from `now`.
   void AllowCoilErrors(const FitResult& now);
   /// The same after an effect was adopted that explains much.

@@ -18,8 +18,7 @@ namespace ambrig {
 namespace {
 
 constexpr double kNoise = 1.02;  // error over the noise up to which nothing is to be explained
-constexpr double kFallen =
-    0.5;  // of the squared error beside the noise: then the amounts are seen better
+constexpr double kFallen = 0.5;  // of the squared error beside the noise: they are then seen better
 
 /// "A.i3" of "A.coil3"; empty: no coil.
 std::string CurrentOfCoil(const std::string& target) {
@@ -53,10 +52,8 @@ void Explainer::UseAgain(const UsedNuisances& used) {
 void Explainer::UseCoilErrors(const FitResult& as_filed, FitResult& now) {
   if (!CoilsDiffer(rig_.amplifier) || RatiosOf(model_, now).Answered() < kNoise) return;
   Progress(0.04, "what the coils differ by");
-  coil_errors_ = CoilErrorKinds(full_, as_filed.hypothesis);
+  FindCoilErrors(as_filed);
   if (coil_errors_.empty()) return;
-  as_filed_jacobian_ = as_filed.jacobian;
-  unit_changes_ = ChangesOfUnits(model_, as_filed.hypothesis);
   AllowCoilErrors(as_filed);
   bank_ = SignatureBank();
   const FitResult promised = LinearlyRefitted(model_, as_filed, out_.effective_sample_size);
@@ -64,6 +61,19 @@ void Explainer::UseCoilErrors(const FitResult& as_filed, FitResult& now) {
   out_.base_ratio_fit = now.ratio_fit;
   out_.base_ratio_validate = now.ratio_validate;
   out_.ladder.push_back({"errors of single coils", now.ratio_fit, now.ratio_validate});
+}
+
+void Explainer::FindCoilErrors(const FitResult& as_filed) {
+  coil_errors_ = CoilErrorKinds(full_, as_filed.hypothesis);
+  unit_changes_ = ChangesOfUnits(model_, as_filed.hypothesis);
+  as_filed_jacobian_ = as_filed.jacobian;
+}
+
+void Explainer::RenewCoilFloors(const Hypothesis& as_filed, const FitResult& now) {
+  coil_kinds_.clear();
+  ApplyNuisances();
+  FindCoilErrors(At(as_filed));
+  AllowCoilErrors(now);
 }
 
 /// From all of which no error of a coil was taken off: those of the rig file's parameters as they were there, those of

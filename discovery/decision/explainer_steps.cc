@@ -155,6 +155,10 @@ bool Explainer::RenewFloor(const FitResult& as_filed, FitResult& base, FitResult
     return false;
   }
   base = renewed;
+  if (!coil_errors_.empty()) {
+    RenewCoilFloors(as_filed.hypothesis, now);
+    base = At(base.hypothesis);
+  }
   now = FitNow(now.hypothesis, nullptr);
   out_.nominal_ratio_validate = At(as_filed.hypothesis).ratio_validate;
   out_.base_ratio_fit = base.ratio_fit;
