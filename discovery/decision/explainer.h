@@ -76,6 +76,8 @@ class Explainer {
   /// Inputs whose size the case declares uncertain: where their simulation explains what the slope of the
   /// prediction does not.
   bool FindInputs(const FitResult& base);
+  std::vector<NuisanceKind> ChooseFrom(const std::vector<NuisanceKind>& kinds,
+                                       const FitResult& now) const;
   /// The amounts of the nuisances in what a fit leaves.
   std::vector<NuisanceFound> AmountsIn(const FitResult& fit);
   /// The amounts of the nuisances at the end.
@@ -137,7 +139,7 @@ class Explainer {
   Explanation out_;
   SignatureBank bank_;
   std::vector<NuisanceKind> record_kinds_;              // in use, of all rows
-  std::vector<NuisanceKind> coil_errors_, coil_kinds_;  // possible; in use
+  std::vector<NuisanceKind> coil_errors_, coil_kinds_;  // possible; in use; rows of model_
   double coil_doubt_ = 1;                               // by which they are weighed less
   double coils_seen_at_ = 1;                            // what the model left when they were chosen
   Eigen::MatrixXd as_filed_jacobian_;                   // before any error of a coil was taken off

@@ -29,9 +29,8 @@ std::string CurrentOfCoil(const std::string& target) {
 }  // namespace
 
 void Explainer::ApplyNuisances() {
-  std::vector<NuisanceKind> kinds = record_kinds_;
-  kinds.insert(kinds.end(), coil_kinds_.begin(), coil_kinds_.end());
-  UseNuisancesInBoth(full_, model_, kinds, out_.effective_sample_size, coil_doubt_);
+  UseNuisancesInBoth(full_, model_, record_kinds_, coil_kinds_, out_.effective_sample_size,
+                     coil_doubt_);
 }
 
 Explainer::UsedNuisances Explainer::Used() const {
@@ -64,7 +63,7 @@ void Explainer::UseCoilErrors(const FitResult& as_filed, FitResult& now) {
 }
 
 void Explainer::FindCoilErrors(const FitResult& as_filed) {
-  coil_errors_ = CoilErrorKinds(full_, as_filed.hypothesis);
+  coil_errors_ = CoilErrorKinds(model_, as_filed.hypothesis);
   unit_changes_ = ChangesOfUnits(model_, as_filed.hypothesis);
   as_filed_jacobian_ = as_filed.jacobian;
 }
@@ -103,7 +102,7 @@ void Explainer::AllowCoilErrors(const FitResult& now) {
   bare.residual = Residual(model_, now.predicted);
   bare.jacobian = BareSensitivities(now.hypothesis);
   const CoilErrorChoice choice =
-      ChooseCoilErrors(model_, Thinned(possible, full_, model_), bare, out_.effective_sample_size);
+      ChooseCoilErrors(model_, possible, bare, out_.effective_sample_size);
   for (const std::size_t k : choice.chosen) coil_kinds_.push_back(possible[k]);
   coil_doubt_ = choice.doubt;
   coils_seen_at_ = now.ratio_fit;

@@ -23,6 +23,17 @@ constexpr std::size_t kManyAmounts = 8;
 
 }  // namespace
 
+/// Those of these kinds, of all rows, that the errors of the thinned model ask for: errors of coils are taken off there.
+std::vector<NuisanceKind> Explainer::ChooseFrom(const std::vector<NuisanceKind>& kinds,
+                                                const FitResult& now) const {
+  std::vector<NuisanceKind> chosen;
+  for (const NuisanceKind& few :
+       ChooseNuisances(model_, Thinned(kinds, full_, model_), now.residual,
+                       RowWeight(model_, 1, out_.effective_sample_size)))
+    chosen.push_back(*std::ranges::find(kinds, few.name, &NuisanceKind::name));
+  return chosen;
+}
+
 /// Zeros, clocks and inputs that differ from record to record, where the case declares none.
 /// `alone`: before any effect is sought, when they explain half of what is left.
 bool Explainer::TryNuisances(FitResult& now, bool alone) {
@@ -32,9 +43,8 @@ bool Explainer::TryNuisances(FitResult& now, bool alone) {
   Progress(0.05, "what may differ from record to record");
   const FitResult all = AllRows(now);
   if (all.predicted.empty()) return false;
-  const double weight = RowWeight(full_, 1, out_.effective_sample_size);
-  const std::vector<NuisanceKind> chosen = ChooseNuisances(
-      full_, NuisanceKindsOf(full_, now.hypothesis, all.predicted, false), all.residual, weight);
+  const std::vector<NuisanceKind> chosen =
+      ChooseFrom(NuisanceKindsOf(full_, now.hypothesis, all.predicted, false), now);
   if (chosen.empty()) return false;
   const SignatureBank bank = bank_;
   const UsedNuisances used = Used();
@@ -112,16 +122,16 @@ void Explainer::DropNuisances(FitResult& base, FitResult& now) {
 
 /// The amounts of the nuisances in what a fit leaves.
 std::vector<NuisanceFound> Explainer::AmountsIn(const FitResult& fit) {
-  const Nuisances used = full_.nuisances;
-  full_.nuisances = Nuisances();
-  std::vector<NuisanceFound> found = used.Amounts(full_, AllRows(fit).residual);
-  full_.nuisances = used;
+  const Nuisances used = model_.nuisances;
+  model_.nuisances = Nuisances();
+  std::vector<NuisanceFound> found = used.Amounts(model_, Residual(model_, fit.predicted));
+  model_.nuisances = used;
   return found;
 }
 
 /// The amounts of the nuisances at the end.
 void Explainer::ReportNuisances(const FitResult& now) {
-  if (full_.nuisances.any()) out_.nuisances = AmountsIn(now);
+  if (model_.nuisances.any()) out_.nuisances = AmountsIn(now);
 }
 
 /// Records whose clock the nuisances find a row or more off, while others' is right: a delay of the

@@ -20,14 +20,15 @@ void PassFloorsOn(const CaseModel& full, CaseModel& thin) {
     thin.targets()[t].floor = full.targets()[t].floor;
 }
 
-void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<NuisanceKind>& kinds,
-                        double independent, double doubt) {
-  const auto use = [&](CaseModel& model, const std::vector<NuisanceKind>& own) {
-    const double weight = RowWeight(model, 1, independent);
-    model.nuisances.Use(model, own, weight, weight / doubt);
-  };
-  use(full, kinds);
-  use(thin, Thinned(kinds, full, thin));
+void UseNuisancesInBoth(CaseModel& full, CaseModel& thin,
+                        const std::vector<NuisanceKind>& of_records,
+                        const std::vector<NuisanceKind>& of_coils, double independent,
+                        double doubt) {
+  full.nuisances.Use(full, of_records, RowWeight(full, 1, independent));
+  std::vector<NuisanceKind> kinds = Thinned(of_records, full, thin);
+  kinds.insert(kinds.end(), of_coils.begin(), of_coils.end());
+  const double weight = RowWeight(thin, 1, independent);
+  thin.nuisances.Use(thin, kinds, weight, weight / doubt);
 }
 
 std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,
@@ -43,17 +44,18 @@ namespace {
 /// What the coils of the machine differ by, beside these nuisances of its records: as Explain takes it off before any
 /// effect is sought.
 void AddCoilErrors(CaseModel& full, CaseModel& thin, const Hypothesis& nominal,
-                   std::vector<NuisanceKind> kinds, double independent) {
+                   const std::vector<NuisanceKind>& of_records, double independent) {
   if (!CoilsDiffer(nominal.rig.amplifier)) return;
-  const std::vector<NuisanceKind> possible = CoilErrorKinds(full, nominal);
+  const std::vector<NuisanceKind> possible = CoilErrorKinds(thin, nominal);
   if (possible.empty()) return;
   FitOptions here;
   here.iterations = 0;
   here.effective_sample_size = independent;
   const CoilErrorChoice choice =
-      ChooseCoilErrors(thin, Thinned(possible, full, thin), Fit(thin, nominal, here), independent);
-  for (const std::size_t k : choice.chosen) kinds.push_back(possible[k]);
-  UseNuisancesInBoth(full, thin, kinds, independent, choice.doubt);
+      ChooseCoilErrors(thin, possible, Fit(thin, nominal, here), independent);
+  std::vector<NuisanceKind> of_coils;
+  for (const std::size_t k : choice.chosen) of_coils.push_back(possible[k]);
+  UseNuisancesInBoth(full, thin, of_records, of_coils, independent, choice.doubt);
 }
 
 }  // namespace
@@ -67,7 +69,7 @@ Comparison PrepareModels(CaseModel& full, CaseModel& thin, const Hypothesis& nom
   std::vector<NuisanceKind> declared;
   if (full.data().nuisances.any()) {
     declared = NuisanceKindsOf(full, nominal, before.predicted, true);
-    UseNuisancesInBoth(full, thin, declared, before.effective_sample_size);
+    UseNuisancesInBoth(full, thin, declared, {}, before.effective_sample_size, 1);
   }
   AddCoilErrors(full, thin, nominal, declared, before.effective_sample_size);
   return before;

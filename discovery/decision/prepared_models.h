@@ -13,10 +13,13 @@ std::size_t ThinningTo(const Case& c, std::size_t rows);
 /// The floors of `full` in the model of fewer rows.
 void PassFloorsOn(const CaseModel& full, CaseModel& thin);
 
-/// These nuisances, of all rows, in both. `independent`: how many of the residuals are; `doubt` divides their weight where
-/// amounts that all records share are estimated (discovery/decision/coil_choice.h).
-void UseNuisancesInBoth(CaseModel& full, CaseModel& thin, const std::vector<NuisanceKind>& kinds,
-                        double independent, double doubt = 1);
+/// Nuisances of the records, of all rows, in both; errors of the coils, of the rows of `thin`, in that one alone: forty columns of
+/// all rows would not fit into the memory. `independent`: how many of the residuals are; `doubt` divides the weight where
+/// errors of the coils are estimated (discovery/decision/coil_choice.h).
+void UseNuisancesInBoth(CaseModel& full, CaseModel& thin,
+                        const std::vector<NuisanceKind>& of_records,
+                        const std::vector<NuisanceKind>& of_coils, double independent,
+                        double doubt);
 
 /// The branches of the rig's tolerances in both, which are returned. Floors are set.
 std::vector<BranchSpan> UseBranchesInBoth(CaseModel& full, CaseModel& thin,

@@ -15,7 +15,7 @@ struct AmplifierParameters;
 bool CoilsDiffer(const AmplifierParameters& amplifier);
 
 /// A kind of nuisance for each error of each coil, the same in all records; one sd is the spread of the rig file.
-/// `model` holds all rows; its floors are set. Simulates every record once for each; empty where no spread is stated
+/// The floors of `model` are set. Simulates every record once for each; empty where no spread is stated
 /// or `h` loses the rotor.
 std::vector<NuisanceKind> CoilErrorKinds(const CaseModel& model, const Hypothesis& h);
 
