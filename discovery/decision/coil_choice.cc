@@ -76,6 +76,13 @@ class JointStep {
     }
   }
 
+  /// Sd of the errors of coils that are left, over that of their prior.
+  Eigen::VectorXd Sds(double weight) const {
+    Eigen::MatrixXd A = weight * normal_(stay_, stay_);
+    A.diagonal() += prior_(stay_);
+    return InverseOf(A).diagonal().head(static_cast<Index>(coils().size())).cwiseSqrt();
+  }
+
   /// Whether the amounts of the step are what the coils of a machine differ by: all but those of one coil, and with the
   /// spread that the rig file states.
   bool IsBelievable() const {
@@ -108,6 +115,17 @@ CoilErrorChoice ChooseCoilErrors(const CaseModel& model, const std::vector<Nuisa
     for (const Index k : step.coils()) choice.chosen.push_back(static_cast<std::size_t>(k));
     return choice;
   }
+}
+
+std::vector<double> SdOfCoilErrors(const CaseModel& model, const std::vector<NuisanceKind>& kinds,
+                                   const FitResult& now, double effective_sample_size,
+                                   double doubt) {
+  const Eigen::VectorXd sds =
+      JointStep(model, kinds, now).Sds(RowWeight(model, 1, effective_sample_size) / doubt);
+  std::vector<double> out;
+  for (std::size_t k = 0; k < kinds.size(); ++k)
+    out.push_back(kinds[k].sd * sds(static_cast<Index>(k)));
+  return out;
 }
 
 }  // namespace ambrig

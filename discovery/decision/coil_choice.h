@@ -20,4 +20,10 @@ struct CoilErrorChoice {
 CoilErrorChoice ChooseCoilErrors(const CaseModel& model, const std::vector<NuisanceKind>& possible,
                                  const FitResult& now, double effective_sample_size);
 
+/// The sd of the amounts of `kinds` beside the free parameters of `now`, which may do the same as all coils of a bearing
+/// together [the unit of each]. `now` as above.
+std::vector<double> SdOfCoilErrors(const CaseModel& model, const std::vector<NuisanceKind>& kinds,
+                                   const FitResult& now, double effective_sample_size,
+                                   double doubt);
+
 }  // namespace ambrig

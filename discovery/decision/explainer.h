@@ -40,6 +40,8 @@ class Explainer {
   UsedNuisances Used() const;
   void UseAgain(const UsedNuisances& used);
   Eigen::MatrixXd BareSensitivities(const Hypothesis& h) const;
+  /// Of the amounts reported, beside everything else that is free.
+  void StateSdOfCoilErrors(const FitResult& now);
   /// What the coils differ by, where the rig file states how much that may be: taken off everything from now on.
   void UseCoilErrors(const FitResult& as_filed, FitResult& now);
   /// The possible ones, with the floors as they are; `as_filed` beside none of them.

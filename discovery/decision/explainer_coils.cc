@@ -118,6 +118,22 @@ void Explainer::RenewCoilErrors(FitResult& now) {
   now = FitNow(now.hypothesis, nullptr);
 }
 
+void Explainer::StateSdOfCoilErrors(const FitResult& now) {
+  if (coil_kinds_.empty()) return;
+  const std::vector<NuisanceKind> kinds = coil_kinds_;
+  const UsedNuisances used = Used();
+  coil_kinds_.clear();
+  ApplyNuisances();
+  FitResult bare = now;
+  bare.jacobian = BareSensitivities(now.hypothesis);
+  const std::vector<double> sd =
+      SdOfCoilErrors(model_, kinds, bare, out_.effective_sample_size, coil_doubt_);
+  UseAgain(used);
+  for (NuisanceFound& f : out_.nuisances)
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      if (f.record.empty() && f.name == kinds[k].name) f.sd = sd[k];
+}
+
 bool Explainer::CoilErrorsExplain(std::size_t adopted, const FitResult& now, FitResult& without) {
   if (coil_errors_.empty() || !IsCoil(out_.adopted[adopted].target)) return false;
   const UsedNuisances used = Used();

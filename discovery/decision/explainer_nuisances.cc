@@ -131,7 +131,9 @@ std::vector<NuisanceFound> Explainer::AmountsIn(const FitResult& fit) {
 
 /// The amounts of the nuisances at the end.
 void Explainer::ReportNuisances(const FitResult& now) {
-  if (model_.nuisances.any()) out_.nuisances = AmountsIn(now);
+  if (!model_.nuisances.any()) return;
+  out_.nuisances = AmountsIn(now);
+  StateSdOfCoilErrors(now);
 }
 
 /// Records whose clock the nuisances find a row or more off, while others' is right: a delay of the

@@ -71,6 +71,16 @@ TEST_F(CoilChoice, ParametersOfTheRigStandBesideThem) {
   fit.hypothesis.free = {gap};
   fit.jacobian = Eigen::Map<const Eigen::VectorXd>(fit.residual.data(), Rows());
   EXPECT_EQ(Choose(fit).doubt, 1);
+  // What a parameter of no prior to speak of can do too is known of the coils together as well as their prior says, of a
+  // single one beside the others as well as its rows do.
+  const auto sds = [&](const FitResult& now) {
+    return SdOfCoilErrors(case_.model, possible_, now, static_cast<double>(Rows()), 1);
+  };
+  const double weight = 1, rows = 9.0 * kRowsEach, alone = 1 / std::sqrt(weight * rows + 1);
+  EXPECT_NEAR(sds(Leaving(std::vector<double>(8, 0)))[2], 0.005 * alone, 1e-9);
+  const double beside = sds(fit)[2] / 0.005;
+  EXPECT_GT(beside, 3 * alone);
+  EXPECT_LT(beside, 0.4);  // an eighth of the shared part
 }
 
 }  // namespace
